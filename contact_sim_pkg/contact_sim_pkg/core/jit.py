@@ -1,0 +1,80 @@
+"""The one place for compile options: every compiled function of the core is decorated here.
+
+`@kernel` marks a compiled helper that other compiled functions call, `@entry` a compiled function that Python calls.
+Both release the interpreter lock, follow the NumPy error model (1/0 is inf, never an exception half-way through an
+update), forbid `fastmath` (which removes guards against NaN) and are kept on disk (`core/kernel_cache.py`).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any, TypeVar
+
+import numba
+from numba.extending import overload
+
+from contact_sim_pkg.core.kernel_cache import attach_cache
+
+__all__ = ["COMPILE_OPTIONS", "compiled_functions", "entry", "freeze", "kernel", "kernel_overload", "thaw"]
+
+COMPILE_OPTIONS: dict[str, Any] = {"nopython": True, "nogil": True, "error_model": "numpy", "fastmath": False}
+
+Function = TypeVar("Function", bound=Callable[..., Any])
+
+_kernels: list[Any] = []
+_entries: list[Any] = []
+
+
+def kernel(function: Function) -> Function:
+    """Compile a helper that is called by other compiled functions only."""
+    compiled = _compile(function)
+    _kernels.append(compiled)
+    return compiled
+
+
+def entry(function: Function) -> Function:
+    """Compile a function that is called from Python; `freeze` closes it for argument types not seen before."""
+    compiled = _compile(function)
+    _entries.append(compiled)
+    return compiled
+
+
+def kernel_overload(function: Callable[..., Any]) -> Callable[[Function], Function]:
+    """Register a compiled implementation of `function`, chosen by argument types, with the compile options of kernels.
+
+    As `numba.extending.overload`: the decorated function receives the argument *types* and returns the implementation
+    or `None`. The body is compiled into its caller, so it is cached with the caller.
+    """
+    decorator: Callable[[Function], Function] = overload(function, jit_options=dict(COMPILE_OPTIONS))
+    return decorator
+
+
+def freeze() -> None:
+    """Close compilation: from now on an entry called with new argument types raises `TypeError` at once.
+
+    Entries that were never called stay closed as well: they raise instead of compiling in the middle of a run.
+    """
+    for function in _dispatchers(_entries):
+        function._can_compile = False  # disable_compile() refuses entries that have no compiled version yet
+
+
+def thaw() -> None:
+    """Open compilation again (tests, a second scene in the same process)."""
+    for function in _dispatchers(_entries):
+        function._can_compile = True
+
+
+def compiled_functions() -> list[Any]:
+    """Every decorated function of the process, entries first: for checks of options and of cache statistics."""
+    return [*_entries, *_kernels]
+
+
+def _compile(function: Function) -> Function:
+    compiled = numba.jit(**COMPILE_OPTIONS)(function)
+    attach_cache(compiled)
+    return compiled  # type: ignore[no-any-return]
+
+
+def _dispatchers(functions: list[Any]) -> list[Any]:
+    """Only compiled functions: with NUMBA_DISABLE_JIT=1 the decorators hand back plain Python functions."""
+    return [function for function in functions if hasattr(function, "overloads")]
