@@ -1,0 +1,1 @@
+"""Excitation: roads as heights over position, vibration as acceleration over time, both cut into numbered blocks."""

@@ -1,0 +1,153 @@
+"""Numbered blocks of excitation: what one message of road and of vibration carries, and how it is cut out.
+
+A block depends on its number alone, so it is the same whoever asks for it and in which order.
+"""
+
+from math import ceil, floor
+from typing import Any, NamedTuple, Protocol
+
+import numpy
+from numpy.typing import NDArray
+
+from .errors import ExcitationError
+from .travel import Travel
+
+LARGEST_PATCH = 4_000_000  # nodes of one block; 16 MB as float32, far above the widest tire at the highest speed
+
+
+class RoadPatch(NamedTuple):
+    """The strip of road that the tire can touch in one block.
+
+    Node (i, j) lies at x = (first_row + i) cell_x along the road and y = (j - (cols - 1) / 2) cell_y to the left.
+    """
+
+    block: int
+    travel_start: float  # [m] at the block's start
+    travel_end: float  # [m] at the block's end
+    first_row: int
+    cell_x: float  # [m]
+    cell_y: float  # [m]
+    height: NDArray[numpy.float32]  # [rows, cols], [m], up positive
+
+
+class VibrationBlock(NamedTuple):
+    """Acceleration over one block; the last sample lies at the block's end and is the first of the next block."""
+
+    block: int
+    sample_period: float  # [s]
+    acceleration_x: NDArray[numpy.float64]  # [samples], [m/s^2], forward positive
+    acceleration_z: NDArray[numpy.float64]  # [samples], [m/s^2], up positive
+
+
+class Surface(Protocol):
+    """A road: heights as a pure function of position."""
+
+    def heights(self, x: NDArray[numpy.float64], y: NDArray[numpy.float64]) -> NDArray[numpy.float64]:
+        """Heights in [m], [len(x), len(y)], at x along the road and y to the left, both in [m]."""
+
+    def describe(self) -> dict[str, Any]:
+        """What was found and what was done, for the report: plain values, units in the names, sentences in `notes`."""
+
+
+class Signal(Protocol):
+    """A vibration: acceleration as a pure function of time."""
+
+    def acceleration(self, t: NDArray[numpy.float64]) -> tuple[NDArray[numpy.float64], NDArray[numpy.float64]]:
+        """Acceleration forward (x) and up (z) in [m/s^2] at times t in [s]."""
+
+    def describe(self) -> dict[str, Any]:
+        """What was found and what was done, for the report: plain values, units in the names, sentences in `notes`."""
+
+
+class RoadBlocks:
+    """The strips of a surface that a rig passes, one a block.
+
+    A strip covers the travel of its block, half_length before and after it, and at least one node more on each side.
+    """
+
+    def __init__(
+        self, surface: Surface, travel: Travel, block_length: float, cell_x: float, cell_y: float, half_length: float, cols: int
+    ) -> None:
+        """Lay the lattice over the road.
+
+        Args:
+            surface: the road.
+            travel: travel of the wheel centre over time.
+            block_length: simulated time of a block, [s], > 0.
+            cell_x: lattice spacing along the road, [m], > 0.
+            cell_y: lattice spacing across the track, [m], > 0.
+            half_length: reach of the strip before and behind the wheel centre, [m], >= 0.
+            cols: lattice nodes across the track, >= 1.
+
+        Raises:
+            ExcitationError: a value out of range, or a strip of more than 4 million nodes at the programme's highest speed.
+        """
+        for name, value in (("block_length", block_length), ("cell_x", cell_x), ("cell_y", cell_y)):
+            if not 0.0 < value < float("inf"):
+                raise ExcitationError(f"{name} of the road blocks is {value}; it must be above 0 and finite")
+        if not 0.0 <= half_length < float("inf") or cols < 1:
+            raise ExcitationError(f"the road strip has half_length {half_length} m and {cols} cols; allowed: from 0 m, from 1 col")
+        longest = 2.0 * half_length + block_length * max(abs(speed) for speed in travel.speeds)
+        nodes = (longest / cell_x + 4.0) * cols
+        if nodes > LARGEST_PATCH:
+            raise ExcitationError(
+                f"a road strip would have {nodes:.3g} nodes ({longest:.3g} m in cells of {cell_x} m, {cols} cols), limit "
+                f"{LARGEST_PATCH}; use larger cells or shorter blocks"
+            )
+        self.surface, self.travel, self.block_length = surface, travel, block_length
+        self.cell_x, self.cell_y, self.half_length = cell_x, cell_y, half_length
+        self._y = (numpy.arange(cols) - 0.5 * (cols - 1)) * cell_y
+
+    def block(self, block: int) -> RoadPatch:
+        """The strip of block number `block`, from 0; ExcitationError where the surface has no height there."""
+        start, end = block * self.block_length, (block + 1) * self.block_length
+        lowest, highest = self.travel.extent(start, end)
+        first_row = floor((lowest - self.half_length) / self.cell_x) - 1
+        last_row = ceil((highest + self.half_length) / self.cell_x) + 1
+        x = numpy.arange(first_row, last_row + 1) * self.cell_x
+        height = self.surface.heights(x, self._y).astype(numpy.float32)
+        if not numpy.isfinite(height).all():
+            raise ExcitationError(f"block {block}: the road has no finite height between x = {x[0]:.6g} m and {x[-1]:.6g} m")
+        return RoadPatch(
+            block, self.travel.position(start), self.travel.position(end), first_row, self.cell_x, self.cell_y, height
+        )
+
+    def describe(self) -> dict[str, Any]:
+        """What the surface says about itself."""
+        return self.surface.describe()
+
+
+class VibrationBlocks:
+    """The samples of a signal, one row a block; sample i of block k lies at (k n + i) / sample_rate, n samples a block."""
+
+    def __init__(self, signal: Signal, block_length: float, sample_rate: float) -> None:
+        """Lay the sample times over the blocks.
+
+        Args:
+            signal: the vibration.
+            block_length: simulated time of a block, [s], > 0.
+            sample_rate: samples a second, [Hz]; block_length * sample_rate must be a whole number of samples.
+
+        Raises:
+            ExcitationError: a value out of range, or a block that is not a whole number of samples.
+        """
+        samples = block_length * sample_rate
+        if not 0.5 < samples < LARGEST_PATCH or abs(samples - round(samples)) > 1e-9 * samples:
+            raise ExcitationError(
+                f"a block of {block_length} s holds {samples:.9g} samples at {sample_rate} Hz; choose a sample rate that is a "
+                f"whole multiple of {1.0 / block_length if block_length else 0.0:.9g} Hz"
+            )
+        self.signal, self.sample_rate = signal, sample_rate
+        self.samples = round(samples)
+
+    def block(self, block: int) -> VibrationBlock:
+        """The samples of block number `block`, from 0; ExcitationError where the signal has no finite value there."""
+        times = numpy.arange(block * self.samples, (block + 1) * self.samples + 1) / self.sample_rate
+        acceleration_x, acceleration_z = self.signal.acceleration(times)
+        if not (numpy.isfinite(acceleration_x).all() and numpy.isfinite(acceleration_z).all()):
+            raise ExcitationError(f"block {block}: the vibration is not finite between {times[0]:.6g} s and {times[-1]:.6g} s")
+        return VibrationBlock(block, 1.0 / self.sample_rate, acceleration_x, acceleration_z)
+
+    def describe(self) -> dict[str, Any]:
+        """What the signal says about itself."""
+        return self.signal.describe()
