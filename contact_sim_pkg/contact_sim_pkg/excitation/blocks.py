@@ -80,7 +80,8 @@ class RoadBlocks:
             cols: lattice nodes across the track, >= 1.
 
         Raises:
-            ExcitationError: a value out of range, or a strip of more than 4 million nodes at the programme's highest speed.
+            ExcitationError: a value out of range, a strip of more than 4 million nodes at the programme's highest speed, or a
+                surface that has no height in block 0.
         """
         for name, value in (("block_length", block_length), ("cell_x", cell_x), ("cell_y", cell_y)):
             if not 0.0 < value < float("inf"):
@@ -97,6 +98,7 @@ class RoadBlocks:
         self.surface, self.travel, self.block_length = surface, travel, block_length
         self.cell_x, self.cell_y, self.half_length = cell_x, cell_y, half_length
         self._y = (numpy.arange(cols) - 0.5 * (cols - 1)) * cell_y
+        self.block(0)  # surfaces make their tables for this track now, and a track that they refuse is refused here
 
     def block(self, block: int) -> RoadPatch:
         """The strip of block number `block`, from 0; ExcitationError where the surface has no height there."""

@@ -1,5 +1,6 @@
 """The travel of the rig along the road: a speed programme and its exact integral."""
 
+import itertools
 from bisect import bisect_right
 from collections.abc import Sequence
 from math import isfinite
@@ -29,7 +30,7 @@ class Travel:
         self.speeds = [float(speed) for _, speed in points]
         self._check()
         self._positions = [0.0]
-        for (t0, v0), (t1, v1) in zip(points, points[1:], strict=False):
+        for (t0, v0), (t1, v1) in itertools.pairwise(points):
             self._positions.append(self._positions[-1] + 0.5 * (v0 + v1) * (t1 - t0))
         self._origin = 0.0
         self._origin = self.position(0.0)
