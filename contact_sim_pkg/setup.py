@@ -1,0 +1,63 @@
+"""Package description for colcon (ament_python) and for plain pip."""
+
+import re
+from glob import glob
+from pathlib import Path
+
+from setuptools import find_packages, setup
+
+PACKAGE = "contact_sim_pkg"
+HERE = Path(__file__).resolve().parent
+NODES = ("road_profile", "vibration", "contact_simulator", "bag_logger", "bag_replay")
+
+
+def version() -> str:
+    """The version written in the package, read without importing it."""
+    text = (HERE / PACKAGE / "__init__.py").read_text(encoding="utf-8")
+    return re.search(r'^__version__ = "(.+)"$', text, re.MULTILINE).group(1)
+
+
+setup(
+    name=PACKAGE,
+    version=version(),
+    description="Contact forces and pressure fields of simulated rigs, as ROS 2 topics and bags",
+    author="Contact Bench maintainers",
+    maintainer="Contact Bench maintainers",
+    maintainer_email="maintainers@users.noreply.h-seed-a20dd5ad.example",
+    license="Apache-2.0",
+    python_requires=">=3.10,<3.14",
+    packages=find_packages(include=[PACKAGE, f"{PACKAGE}.*"]),
+    package_data={
+        PACKAGE: ["msg/*.msg", "scenes/*.yaml", "scenes/**/*", "py.typed"],
+        f"{PACKAGE}.analysis": ["templates/*", "templates/**/*"],
+    },
+    data_files=[
+        ("share/ament_index/resource_index/packages", [f"resource/{PACKAGE}"]),
+        (f"share/{PACKAGE}", ["package.xml"]),
+        (f"share/{PACKAGE}/launch", sorted(glob("launch/*.launch.py"))),
+        (f"share/{PACKAGE}/config", sorted(glob("config/*.*"))),
+    ],
+    install_requires=[
+        "click>=8.1,<9",
+        "jinja2>=3.1,<4",
+        "matplotlib>=3.8,<4",
+        "mcap>=1.5,<2",
+        "numba>=0.61,<0.69",
+        "numpy>=1.26,<3",
+        "pydantic>=2.6,<3",
+        "rich>=13,<16",
+        "rocket-fft>=0.3,<0.5",
+        "rosbags>=0.11,<0.12",
+        "ruamel.yaml>=0.18,<0.20",
+        "scipy>=1.11,<2",
+        "zstandard>=0.22,<1",
+    ],
+    extras_require={"test": ["hypothesis", "mcap-ros2-support", "mpmath", "pytest"]},
+    entry_points={
+        "console_scripts": [
+            f"bench = {PACKAGE}.cli.main:main",
+            *(f"{node} = {PACKAGE}.nodes.{node}:main" for node in NODES),
+        ],
+    },
+    zip_safe=False,
+)
