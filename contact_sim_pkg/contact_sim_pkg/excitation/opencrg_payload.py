@@ -1,0 +1,110 @@
+"""The numbers of an OpenCRG file: big-endian binary (KRBI, KDBI) or fixed-width text (LRFI, LDFI)."""
+
+import numpy
+from numpy.typing import NDArray
+
+from .errors import ExcitationError
+from .opencrg_header import NUMBER, Header
+from .opencrg_layout import MOST_CELLS, Layout
+
+RECORD = 80  # [bytes] a record of the payload
+_BINARY = {"KRBI": numpy.dtype(">f4"), "KDBI": numpy.dtype(">f8")}
+_FIELD_WIDTH = {"LRFI": 10, "LDFI": 20}
+
+
+def read_payload(data: bytes, header: Header, layout: Layout) -> NDArray[numpy.float64]:
+    """All numbers, [rows, columns]; missing cells are NaN.
+
+    Raises:
+        ExcitationError: too few or too many bytes or lines, with both numbers; a field that is no number.
+    """
+    if header.format in _BINARY:
+        return _read_binary(data, header, layout, _BINARY[header.format])
+    return _read_text(data, header, layout, _FIELD_WIDTH[header.format])
+
+
+def _read_binary(data: bytes, header: Header, layout: Layout, number: "numpy.dtype[numpy.floating]") -> NDArray[numpy.float64]:
+    found = len(data) - header.payload_start
+    row_bytes = layout.columns * number.itemsize
+    rows = layout.rows if layout.rows is not None else _open_ended_rows(found, row_bytes)
+    expected = rows * row_bytes
+    padded = -(-expected // RECORD) * RECORD
+    if found not in (expected, padded) or rows < 2:
+        raise ExcitationError(
+            f"{header.file}, byte {header.payload_start}: the road data has {found} bytes, expected {expected} ({rows} rows of "
+            f"{layout.columns} numbers of {number.itemsize} bytes) or {padded} (filled to records of {RECORD}); "
+            + _cause(found, expected, number.itemsize)
+        )
+    if rows * layout.columns > MOST_CELLS:
+        raise ExcitationError(f"{header.file}: {rows} x {layout.columns} numbers are above the limit of {MOST_CELLS}; cut the road")
+    values = numpy.frombuffer(data, number, rows * layout.columns, header.payload_start).reshape(rows, layout.columns)
+    with numpy.errstate(invalid="ignore"):  # a signalling NaN is a missing cell like any other
+        values = values.astype(numpy.float64)
+    if layout.rows is None:
+        values = values[: rows - _filled_rows(values, row_bytes)]
+    return values
+
+
+def _open_ended_rows(found: int, row_bytes: int) -> int:
+    """Rows where the header gives no end: the payload is either whole rows, or whole rows filled up to the next record."""
+    if found % row_bytes == 0 or found % RECORD:
+        return max(found // row_bytes, 1)
+    return found // row_bytes
+
+
+def _filled_rows(values: NDArray[numpy.float64], row_bytes: int) -> int:
+    """Number of rows at the end that are only the fill of the last record."""
+    most = (RECORD - 1) // row_bytes
+    empty = numpy.isnan(values[len(values) - most :]).all(axis=1)[::-1] if most else numpy.zeros(0, dtype=bool)
+    return int(numpy.argmin(empty)) if empty.size and not empty.all() else int(empty.size)
+
+
+def _cause(found: int, expected: int, itemsize: int) -> str:
+    if found % itemsize:
+        return (
+            f"{found} is not a multiple of {itemsize}: bytes were lost or added, as line-ending conversion does (carriage returns); "
+            "take the original file"
+        )
+    return "the file is cut; take the whole file" if found < expected else "header and data do not belong together"
+
+
+def _read_text(data: bytes, header: Header, layout: Layout, width: int) -> NDArray[numpy.float64]:
+    lines = data[header.payload_start :].split(b"\n")
+    lines = [line.rstrip(b"\r") for line in lines]
+    while lines and not lines[-1].strip():
+        lines.pop()
+    per_line = RECORD // width
+    lines_per_row = -(-layout.columns // per_line)
+    rows = layout.rows if layout.rows is not None else max(-(-len(lines) // lines_per_row), 2)
+    if len(lines) != rows * lines_per_row:
+        raise ExcitationError(
+            f"{header.file}, line {header.payload_line}: the road data has {len(lines)} lines, expected {rows * lines_per_row} "
+            f"({rows} rows of {layout.columns} numbers, {per_line} a line); the file is cut or the header belongs to another file"
+        )
+    if rows * layout.columns > MOST_CELLS:
+        raise ExcitationError(f"{header.file}: {rows} x {layout.columns} numbers are above the limit of {MOST_CELLS}; cut the road")
+    values = numpy.empty((rows, lines_per_row, per_line))
+    for index, line in enumerate(lines):
+        row, part = divmod(index, lines_per_row)
+        fields = min(per_line, layout.columns - part * per_line)
+        values[row, part, :fields] = _fields(line, fields, width, header, index)
+    return values.reshape(rows, -1)[:, : layout.columns].copy()
+
+
+def _fields(line: bytes, count: int, width: int, header: Header, index: int) -> list[float]:
+    place = f"{header.file}, line {header.payload_line + index}"
+    text = line.decode("latin-1")
+    if len(text.rstrip()) > count * width or len(text) < count * width:
+        raise ExcitationError(
+            f"{place}: the line has {len(text.rstrip())} characters, expected {count * width} ({count} numbers of {width} characters)"
+        )
+    numbers = []
+    for position in range(0, count * width, width):
+        field = text[position : position + width].strip()
+        if field.startswith("*"):
+            numbers.append(float("nan"))
+        elif NUMBER.fullmatch(field):
+            numbers.append(float(field))
+        else:
+            raise ExcitationError(f"{place}: '{field}' in columns {position + 1} to {position + width} is no number")
+    return numbers
