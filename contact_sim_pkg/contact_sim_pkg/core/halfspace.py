@@ -1,0 +1,203 @@
+"""The elastic half-space on a grid: influence of a loaded cell, and the displacement field of a pressure field.
+
+The normal displacement of the surface under a pressure p is `u(x, y) = 1/(pi E*) * integral of p / distance`. With p
+constant in each cell this is a discrete convolution with Love's coefficients, done here as a *linear* convolution
+(zero-padded transforms: no periodic images). Because the coefficients are even in both directions their transform is
+real. Only the needed parts are transformed: loaded rows on the way in, grid rows on the way out.
+
+Sources: Love (1929), Phil. Trans. R. Soc. A 228, 377; Stanley and Kato (1997), J. Tribology 119, 481.
+"""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy
+import rocket_fft
+
+from contact_sim_pkg.core.jit import entry, kernel
+
+__all__ = ["HalfSpace", "Workspace", "displacement", "make_half_space", "make_workspace"]
+
+MINIMUM_CELLS = 1
+MAXIMUM_CELLS = 4096
+"""Cells along one side: 4096 x 4096 needs about 1.5 GB."""
+
+PRECONDITIONER_FLOOR = 1.0
+"""Wave number [1/extent of the grid] below which the preconditioner stays constant; chosen by iteration counts."""
+
+
+class HalfSpace(NamedTuple):
+    """A grid of `rows` x `cols` equal cells on a half-space; rows along x, cols along y; all arrays row-major."""
+
+    rows: int
+    cols: int
+    cell_x: float  # [m] length of a cell along x
+    cell_y: float  # [m] length of a cell along y
+    modulus: float  # [Pa] contact modulus E*, 1/E* = (1-nu1^2)/E1 + (1-nu2^2)/E2
+    influence: numpy.ndarray  # [rows, cols] [m/Pa] displacement i rows and j cols away from a cell under unit pressure
+    transfer: numpy.ndarray  # [padded rows, padded cols/2+1] real transform of `influence`, divided by the padded size
+    preconditioner: numpy.ndarray  # [rows', cols'/2+1] approximate inverse of `transfer` on the unpadded grid
+
+
+class Workspace(NamedTuple):
+    """Buffers of one solve at a time; a second solve in another thread needs its own."""
+
+    padded: numpy.ndarray  # [rows, padded cols] real rows, the right part stays zero
+    spectrum: numpy.ndarray  # [padded rows, padded cols/2+1] complex
+    plain: numpy.ndarray  # [rows', cols'] real, for the preconditioner
+    plain_spectrum: numpy.ndarray  # [rows', cols'/2+1] complex
+    surface: numpy.ndarray  # [rows, cols] gap + displacement
+    residual: numpy.ndarray  # [rows, cols] clearance on the free cells, else 0
+    residual_before: numpy.ndarray  # [rows, cols]
+    filtered: numpy.ndarray  # [rows, cols] preconditioned residual
+    direction: numpy.ndarray  # [rows, cols] search direction
+    response: numpy.ndarray  # [rows, cols] displacement of the search direction
+    clipped: numpy.ndarray  # [rows, cols] pressure that the bound p >= 0 added in the last step
+    clipped_cells: numpy.ndarray  # flat indices of the clipped cells, as far as they are handled one by one
+    row_axis: numpy.ndarray
+    col_axis: numpy.ndarray
+
+
+def make_half_space(rows: int, cols: int, cell_x: float, cell_y: float, modulus: float) -> HalfSpace:
+    """Influence coefficients and transforms of a grid.
+
+    rows, cols: number of cells along x and y; cell_x, cell_y: their size [m]; modulus: contact modulus E* [Pa].
+    Raises `ValueError` for sizes that are not positive and finite. A ratio cell_x/cell_y up to 100 either way is fine.
+    """
+    for name, count in (("rows", rows), ("cols", cols)):
+        if not MINIMUM_CELLS <= count <= MAXIMUM_CELLS:
+            raise ValueError(f"half-space: {name} = {count}, allowed are {MINIMUM_CELLS} to {MAXIMUM_CELLS} cells")
+    for name, value in (("cell_x [m]", cell_x), ("cell_y [m]", cell_y), ("modulus [Pa]", modulus)):
+        if not (numpy.isfinite(value) and value > 0.0):
+            raise ValueError(f"half-space: {name} = {value}, allowed are positive finite numbers")
+    influence = love_coefficients(rows, cols, cell_x, cell_y) / (numpy.pi * modulus)
+    return HalfSpace(
+        int(rows),
+        int(cols),
+        float(cell_x),
+        float(cell_y),
+        float(modulus),
+        influence,
+        _transfer(influence),
+        _preconditioner(rows, cols, cell_x, cell_y, modulus),
+    )
+
+
+def make_workspace(half_space: HalfSpace) -> Workspace:
+    """Buffers that fit a half-space; nothing is allocated while solving."""
+    rows, cols = half_space.rows, half_space.cols
+    padded_rows, padded_cols = _padded(rows), _padded(cols)
+    plain_rows, plain_cols = _good(rows), _good(cols)
+    fields = [numpy.zeros((rows, cols)) for _ in range(7)]
+    return Workspace(
+        numpy.zeros((rows, padded_cols)),
+        numpy.zeros((padded_rows, padded_cols // 2 + 1), dtype=numpy.complex128),
+        numpy.zeros((plain_rows, plain_cols)),
+        numpy.zeros((plain_rows, plain_cols // 2 + 1), dtype=numpy.complex128),
+        *fields,
+        numpy.zeros(rows * cols, dtype=numpy.int64),
+        numpy.array([0], dtype=numpy.int64),
+        numpy.array([1], dtype=numpy.int64),
+    )
+
+
+def love_coefficients(rows: int, cols: int, cell_x: float, cell_y: float) -> numpy.ndarray:
+    """Integral of 1/distance [m] over a cell whose centre is i cells along x and j along y away; shape [rows, cols].
+
+    With `f(x, y) = x asinh(y/|x|) + y asinh(x/|y|)` the sum of f over the four corners, signs + - - +. The edges lie
+    at odd multiples of half a cell, so no argument is zero.
+    """
+    x = (numpy.arange(rows)[:, None] + numpy.array([0.5, -0.5])[None, :]) * cell_x
+    y = (numpy.arange(cols)[:, None] + numpy.array([0.5, -0.5])[None, :]) * cell_y
+    total = numpy.zeros((rows, cols))
+    for a, b, sign in ((0, 0, 1.0), (1, 0, -1.0), (0, 1, -1.0), (1, 1, 1.0)):
+        along_x, along_y = x[:, a][:, None], y[:, b][None, :]
+        corner = along_x * numpy.arcsinh(along_y / abs(along_x)) + along_y * numpy.arcsinh(along_x / abs(along_y))
+        total += sign * corner
+    return total
+
+
+@entry
+def displacement(half_space: HalfSpace, workspace: Workspace, pressure: numpy.ndarray, result: numpy.ndarray) -> None:
+    """Surface displacement [m] under a pressure field [Pa], both float64 [rows, cols]; `result` is overwritten."""
+    convolve(half_space, workspace, pressure, result)
+
+
+@kernel
+def convolve(half_space: HalfSpace, workspace: Workspace, field: numpy.ndarray, result: numpy.ndarray) -> None:
+    """`result = K field` by one pruned, zero-padded transform pair; `result` may be `field` itself."""
+    first, last = loaded_rows(field)
+    if first >= last:
+        result[:] = 0.0
+        return
+    padded, spectrum = workspace.padded, workspace.spectrum
+    padded[first:last, : half_space.cols] = field[first:last]
+    spectrum[:first] = 0.0
+    spectrum[last:] = 0.0
+    rocket_fft.r2c(padded[first:last], spectrum[first:last], workspace.col_axis, True, 1.0, 1)
+    rocket_fft.c2c(spectrum, spectrum, workspace.row_axis, True, 1.0, 1)
+    spectrum *= half_space.transfer
+    rocket_fft.c2c(spectrum, spectrum, workspace.row_axis, False, 1.0, 1)
+    rocket_fft.c2r(spectrum[: half_space.rows], padded, workspace.col_axis, False, 1.0, 1)
+    result[:] = padded[:, : half_space.cols]
+    padded[:, half_space.cols :] = 0.0
+
+
+@kernel
+def precondition(half_space: HalfSpace, workspace: Workspace, field: numpy.ndarray, result: numpy.ndarray) -> None:
+    """`result = M field`, M an approximate inverse of K: the filter E* |q| / 2 on the unpadded grid."""
+    plain, spectrum = workspace.plain, workspace.plain_spectrum
+    rows, cols = half_space.rows, half_space.cols
+    plain[:rows, :cols] = field
+    plain[rows:] = 0.0
+    plain[:, cols:] = 0.0
+    rocket_fft.r2c(plain, spectrum, workspace.col_axis, True, 1.0, 1)
+    rocket_fft.c2c(spectrum, spectrum, workspace.row_axis, True, 1.0, 1)
+    spectrum *= half_space.preconditioner
+    rocket_fft.c2c(spectrum, spectrum, workspace.row_axis, False, 1.0, 1)
+    rocket_fft.c2r(spectrum, plain, workspace.col_axis, False, 1.0, 1)
+    result[:] = plain[:rows, :cols]
+
+
+@kernel
+def loaded_rows(field: numpy.ndarray) -> tuple[int, int]:
+    """First row that is not all zero and the row after the last such; equal when the field is zero."""
+    rows = field.shape[0]
+    first = 0
+    while first < rows and not field[first].any():
+        first += 1
+    last = rows
+    while last > first and not field[last - 1].any():
+        last -= 1
+    return first, last
+
+
+def _good(count: int) -> int:
+    """The next length that the transform is fast for."""
+    return int(rocket_fft.good_size(count, True)) if count > 1 else 2
+
+
+def _padded(count: int) -> int:
+    """Length of a linear convolution of `count` cells: at least 2 count - 1."""
+    return _good(2 * count)
+
+
+def _transfer(influence: numpy.ndarray) -> numpy.ndarray:
+    """Real transform of the even extension of the influence table, divided by the number of padded cells."""
+    rows, cols = influence.shape
+    even = numpy.zeros((_padded(rows), _padded(cols)))
+    even[:rows, :cols] = influence
+    even[even.shape[0] - rows + 1 :, :cols] = influence[:0:-1]
+    even[:, even.shape[1] - cols + 1 :] = even[:, cols - 1 : 0 : -1]
+    return numpy.ascontiguousarray(numpy.fft.rfft2(even).real / even.size)
+
+
+def _preconditioner(rows: int, cols: int, cell_x: float, cell_y: float, modulus: float) -> numpy.ndarray:
+    """`E* sqrt(|q|^2 + q0^2) / 2` on the unpadded grid, divided by its number of cells; q0 ~ 1/extent keeps it definite."""
+    plain_rows, plain_cols = _good(rows), _good(cols)
+    wave_x = 2.0 * numpy.pi * numpy.fft.fftfreq(plain_rows, cell_x)[:, None]
+    wave_y = 2.0 * numpy.pi * numpy.fft.rfftfreq(plain_cols, cell_y)[None, :]
+    floor = PRECONDITIONER_FLOOR * (1.0 / (plain_rows * cell_x) ** 2 + 1.0 / (plain_cols * cell_y) ** 2)
+    wave = numpy.sqrt(wave_x**2 + wave_y**2 + floor)
+    return numpy.ascontiguousarray(0.5 * modulus * wave / (plain_rows * plain_cols))
