@@ -97,7 +97,7 @@ class RoadBlocks:
             )
         self.surface, self.travel, self.block_length = surface, travel, block_length
         self.cell_x, self.cell_y, self.half_length = cell_x, cell_y, half_length
-        self._y = (numpy.arange(cols) - 0.5 * (cols - 1)) * cell_y
+        self._y = numpy.asarray((numpy.arange(cols) - 0.5 * (cols - 1)) * cell_y, dtype=numpy.float64)
         self.block(0)  # surfaces make their tables for this track now, and a track that they refuse is refused here
 
     def block(self, block: int) -> RoadPatch:
@@ -106,7 +106,7 @@ class RoadBlocks:
         lowest, highest = self.travel.extent(start, end)
         first_row = floor((lowest - self.half_length) / self.cell_x) - 1
         last_row = ceil((highest + self.half_length) / self.cell_x) + 1
-        x = numpy.arange(first_row, last_row + 1) * self.cell_x
+        x = numpy.arange(first_row, last_row + 1, dtype=numpy.float64) * self.cell_x
         height = self.surface.heights(x, self._y).astype(numpy.float32)
         if not numpy.isfinite(height).all():
             raise ExcitationError(f"block {block}: the road has no finite height between x = {x[0]:.6g} m and {x[-1]:.6g} m")

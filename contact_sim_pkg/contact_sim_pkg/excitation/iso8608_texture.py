@@ -65,7 +65,8 @@ class Texture:
         density[inside] = constant * q[inside] ** -(w + 1.0)
         generator = numpy.random.Generator(numpy.random.PCG64(numpy.random.SeedSequence(seed, spawn_key=(1,))))
         phase = 2.0 * pi * generator.random(q.shape)
-        return 2.0 * numpy.sqrt(density / (STRIP_LENGTH * STRIP_WIDTH)) * numpy.exp(1j * phase)
+        amplitude = 2.0 * numpy.sqrt(density / (STRIP_LENGTH * STRIP_WIDTH))
+        return numpy.asarray(amplitude * numpy.exp(1j * phase), dtype=numpy.complex128)
 
     def share(self, n: NDArray[numpy.float64]) -> NDArray[numpy.float64]:
         """Share of the spectrum scale n^-w along a line that the texture holds at wave numbers n in [cycles/m], 0 to 1."""

@@ -88,7 +88,7 @@ def _heading(header: Header, layout: Layout, values: NDArray[numpy.float64]) -> 
     start, end = _stated(header, "phi")
     column = _column(header, layout, values, "phi", 1)
     if column is None:
-        column = numpy.full(len(values), start if start is not None else 0.0)
+        column = numpy.full(len(values), start or 0.0)
     heading = numpy.unwrap(column)
     for place, stated, found in (("start", start, heading[0]), ("end", end, heading[-1])):
         if stated is not None:
@@ -107,7 +107,7 @@ def _banking(header: Header, layout: Layout, values: NDArray[numpy.float64]) -> 
     start, end = _stated(header, "b")
     column = _column(header, layout, values, "banking", 0)
     if column is None:
-        column = numpy.full(len(values), start if start is not None else 0.0)
+        column = numpy.full(len(values), start or 0.0)
     _agree(header, "b", "start", start, float(column[0]), 1e-4, "m/m")
     _agree(header, "b", "end", end, float(column[-1]), 1e-4, "m/m")
     return column
@@ -118,11 +118,12 @@ def _elevation(header: Header, layout: Layout, values: NDArray[numpy.float64]) -
     start, end = _stated(header, "s")
     column = _column(header, layout, values, "slope", 1)
     if column is None:
-        column = numpy.full(len(values), start if start is not None else 0.0)
+        column = numpy.full(len(values), start or 0.0)
     _agree(header, "s", "start", start, float(column[0]), 1e-4, "m/m")
     _agree(header, "s", "end", end, float(column[-1]), 1e-4, "m/m")
     start_z, end_z = _stated(header, "z")
-    elevation = (start_z or 0.0) + layout.u_increment * numpy.concatenate(([0.0], numpy.cumsum(column[1:])))
+    climbed = numpy.concatenate((numpy.zeros(1), numpy.cumsum(column[1:])))
+    elevation = numpy.asarray((start_z or 0.0) + layout.u_increment * climbed, dtype=numpy.float64)
     _agree(header, "z", "end", end_z, float(elevation[-1]), 0.01 + 1e-3 * layout.u_increment * len(values), "m")
     return elevation
 

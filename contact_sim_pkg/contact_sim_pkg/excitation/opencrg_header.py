@@ -23,6 +23,7 @@ OPTION_KEYS = frozenset({
     "refline_continuation", "refline_search_u", "refline_search_u_fraction", "refline_search_init_u",
     "refline_search_init_u_fraction", "refline_search_far", "refline_search_close", "warn_msgs", "warn_curv_local",
     "warn_curv_global", "log_msgs", "log_eval", "log_evalf", "log_hist", "log_stat", "log_statf",
+    "log_eval_freq", "log_stat_freq",
     "check_eps", "check_inc", "check_tol", "check_pro", "check_wgs",
 })  # fmt: skip
 MODIFIER_KEYS = frozenset({

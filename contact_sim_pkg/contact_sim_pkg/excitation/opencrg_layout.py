@@ -172,4 +172,4 @@ def _even_positions(header: Header, count: int) -> NDArray[numpy.float64]:
             f"the road parameters ask for {expected} long sections ({right:g} to {left:g} m in steps of {increment:g} m), "
             f"the channel definitions have {count}; they must agree",
         )
-    return numpy.linspace(right, left, count)
+    return numpy.linspace(right, left, count, dtype=numpy.float64)

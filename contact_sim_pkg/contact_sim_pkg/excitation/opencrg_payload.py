@@ -1,5 +1,7 @@
 """The numbers of an OpenCRG file: big-endian binary (KRBI, KDBI) or fixed-width text (LRFI, LDFI)."""
 
+from typing import Any
+
 import numpy
 from numpy.typing import NDArray
 
@@ -8,7 +10,7 @@ from .opencrg_header import NUMBER, Header
 from .opencrg_layout import MOST_CELLS, Layout
 
 RECORD = 80  # [bytes] a record of the payload
-_BINARY = {"KRBI": numpy.dtype(">f4"), "KDBI": numpy.dtype(">f8")}
+_BINARY = {"KRBI": ">f4", "KDBI": ">f8"}
 _FIELD_WIDTH = {"LRFI": 10, "LDFI": 20}
 
 
@@ -19,11 +21,11 @@ def read_payload(data: bytes, header: Header, layout: Layout) -> NDArray[numpy.f
         ExcitationError: too few or too many bytes or lines, with both numbers; a field that is no number.
     """
     if header.format in _BINARY:
-        return _read_binary(data, header, layout, _BINARY[header.format])
+        return _read_binary(data, header, layout, numpy.dtype(_BINARY[header.format]))
     return _read_text(data, header, layout, _FIELD_WIDTH[header.format])
 
 
-def _read_binary(data: bytes, header: Header, layout: Layout, number: "numpy.dtype[numpy.floating]") -> NDArray[numpy.float64]:
+def _read_binary(data: bytes, header: Header, layout: Layout, number: "numpy.dtype[Any]") -> NDArray[numpy.float64]:
     found = len(data) - header.payload_start
     row_bytes = layout.columns * number.itemsize
     rows = layout.rows if layout.rows is not None else _open_ended_rows(found, row_bytes)
@@ -37,9 +39,9 @@ def _read_binary(data: bytes, header: Header, layout: Layout, number: "numpy.dty
         )
     if rows * layout.columns > MOST_CELLS:
         raise ExcitationError(f"{header.file}: {rows} x {layout.columns} numbers are above the limit of {MOST_CELLS}; cut the road")
-    values = numpy.frombuffer(data, number, rows * layout.columns, header.payload_start).reshape(rows, layout.columns)
+    numbers = numpy.frombuffer(data, number, rows * layout.columns, header.payload_start)
     with numpy.errstate(invalid="ignore"):  # a signalling NaN is a missing cell like any other
-        values = values.astype(numpy.float64)
+        values = numbers.astype(numpy.float64).reshape(rows, layout.columns)
     if layout.rows is None:
         values = values[: rows - _filled_rows(values, row_bytes)]
     return values
@@ -55,8 +57,10 @@ def _open_ended_rows(found: int, row_bytes: int) -> int:
 def _filled_rows(values: NDArray[numpy.float64], row_bytes: int) -> int:
     """Number of rows at the end that are only the fill of the last record."""
     most = (RECORD - 1) // row_bytes
-    empty = numpy.isnan(values[len(values) - most :]).all(axis=1)[::-1] if most else numpy.zeros(0, dtype=bool)
-    return int(numpy.argmin(empty)) if empty.size and not empty.all() else int(empty.size)
+    count = 0
+    while count < most and numpy.isnan(values[-1 - count]).all():
+        count += 1
+    return count
 
 
 def _cause(found: int, expected: int, itemsize: int) -> str:

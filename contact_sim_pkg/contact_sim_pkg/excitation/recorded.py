@@ -1,0 +1,265 @@
+"""Recorded vibration: what a real accelerometer file carries is found, reported, and treated as the user says.
+
+Between samples the signal is band-limited: interpolation with 64 samples under a sinc windowed by the 4-term Blackman-Harris
+window. At the recorded instants it gives the samples themselves; up to 0.85 of half the recording rate it is exact to 1e-4.
+"""
+
+from math import acos, degrees, sqrt
+from pathlib import Path
+from typing import Any, NamedTuple
+
+import numpy
+from numpy.typing import NDArray
+
+from .errors import ExcitationError
+from .recorded_csv import Table, read_table
+
+STANDARD_GRAVITY = 9.80665  # [m/s^2] exact by definition
+RATE_AGREEMENT = 0.01  # stated and found rate may differ by this part
+HALF_WIDTH = 32  # samples on each side of the interpolated instant
+BEYOND = ("refuse", "zero", "repeat")
+
+Array = NDArray[numpy.float64]
+
+
+class Clipping(NamedTuple):
+    """Samples of one axis at the end of the sensor's range."""
+
+    samples: int
+    value: float  # [m/s^2] the full scale, as recorded
+    first_line: int
+    longest_run: int  # samples in a row
+
+
+class RecordedVibration:
+    """A recording as a function of time, gravity and bias removed, t = 0 at `start` seconds into it."""
+
+    def __init__(
+        self,
+        path: str | Path,
+        rate: float | None = None,
+        vertical: str = "z",
+        forward: str = "x",
+        lateral: str = "y",
+        time: str | None = None,
+        tilt: str = "keep",
+        clipped: str = "keep",
+        full_scale: float | None = None,
+        high_pass: float | None = None,
+        beyond: str = "refuse",
+        start: float = 0.0,
+        sample_rate: float | None = None,
+    ) -> None:
+        """Read, check and treat the recording.
+
+        Args:
+            path: text file, see recorded_csv.read_table; values in [m/s^2].
+            rate: sampling rate, [Hz]; None: from the time column. It is never guessed.
+            vertical: column that points up; "-z" turns it round.
+            forward: column that points forward; "-x" turns it round.
+            lateral: column to the left; needed only to correct the tilt, else used for the tilt angle where it exists.
+            time: time column, [s]; None: a column named time, t or time_s where there is one.
+            tilt: keep, or correct (turn the axes so that the mean lies along the vertical).
+            clipped: keep (samples at full scale stay as they are), or refuse.
+            full_scale: of the sensor, [m/s^2]; None: an extreme value that occurs at least twice.
+            high_pass: corner frequency, [Hz], of a zero-phase high-pass with the gain 1 / (1 + (corner / f)^8); None: no filter.
+            beyond: after the end of the recording: refuse, zero, or repeat.
+            start: time in the recording at t = 0, [s].
+            sample_rate: rate at which it will be sampled, [Hz]; below the recording's rate, frequencies above half of it are
+                removed first (cosine flank from 0.4 to 0.5 of it). None: as fast as recorded or faster.
+
+        Raises:
+            ExcitationError: bad file (with line), no rate, stated and found rate that differ by more than 1 %, a vertical
+                axis that points down, or by the choices above.
+        """
+        for name, choice, allowed in (
+            ("tilt", tilt, ("keep", "correct")), ("clipped", clipped, ("keep", "refuse")), ("beyond", beyond, BEYOND)
+        ):  # fmt: skip
+            if choice not in allowed:
+                raise ExcitationError(f"{path}: {name} is '{choice}'; allowed: {', '.join(allowed)}")
+        self.path, self.tilt, self.beyond, self.high_pass, self.start = Path(path), tilt, beyond, high_pass, start
+        self.sample_rate = sample_rate
+        self._notes: list[str] = []
+        table = read_table(self.path)
+        self.rate = self._settle_rate(table, rate, table.time(time))
+        names = {"x": forward, "y": lateral, "z": vertical}
+        if lateral.removeprefix("-").lower() not in table.columns and tilt == "keep":
+            del names["y"]
+        raw = {axis: _signed(table, name) for axis, name in names.items()}
+        self.samples = len(raw["z"])
+        self.duration = self.samples / self.rate
+        if not 0.0 <= start < self.duration:
+            raise ExcitationError(f"{path}: start is {start} s; allowed: 0 to below the recording's {self.duration:g} s")
+        self.clipping = {axis: _find_clipping(table, raw[axis], full_scale) for axis in ("x", "z")}
+        self._report_clipping(names, clipped)
+        self._remove_gravity(raw, names)
+
+    def _settle_rate(self, table: Table, stated: float | None, time: Array | None) -> float:
+        if stated is not None and not 1e-3 <= stated <= 1e6:
+            raise ExcitationError(f"{table.file}: the stated rate is {stated} Hz; allowed: 0.001 to 1e6 Hz")
+        if time is None:
+            if stated is None:
+                raise ExcitationError(f"{table.file}: the file has no time column, so its sampling rate must be stated; it is never guessed")
+            self._notes.append(f"The rate of {stated:g} Hz is as stated; the file has no time column to compare it with.")
+            return stated
+        found = _found_rate(table, time)
+        if stated is None:
+            self._notes.append(f"The rate of {found:.6g} Hz was derived from the time column.")
+            return found
+        if abs(stated - found) > RATE_AGREEMENT * found:
+            raise ExcitationError(f"{table.file}: the stated rate is {stated:g} Hz, the time column says {found:.6g} Hz; they must agree within 1 %")
+        self._notes.append(f"The rate of {stated:g} Hz is as stated; the time column says {found:.6g} Hz.")
+        return stated
+
+    def _report_clipping(self, names: dict[str, str], clipped: str) -> None:
+        for axis, clipping in self.clipping.items():
+            if clipping.samples == 0:
+                continue
+            sentence = (
+                f"{clipping.samples} of {self.samples} samples of {names[axis]} lie at the full scale of {clipping.value:.4g} m/s^2 (clipped; first "
+                f"in line {clipping.first_line}, at most {clipping.longest_run} in a row)"
+            )
+            if clipped == "refuse":
+                raise ExcitationError(f"{self.path}: {sentence}; keep them (clipped: keep) or take another recording")
+            self._notes.append(f"{sentence}; kept as recorded.")
+
+    def _remove_gravity(self, raw: dict[str, Array], names: dict[str, str]) -> None:
+        """Bias, gravity and tilt: what the mean says, and what is done about it."""
+        self.bias = {axis: float(values.mean()) for axis, values in raw.items()}
+        total = sqrt(sum(value**2 for value in self.bias.values()))
+        gravity = self.bias["z"] > 0.5 * STANDARD_GRAVITY
+        if self.bias["z"] < -0.5 * STANDARD_GRAVITY:
+            raise ExcitationError(
+                f"{self.path}: the mean of {names['z']} is {self.bias['z']:.4g} m/s^2, so this axis points down; name it with a minus sign or "
+                "name another vertical axis"
+            )
+        self.tilt_angle = acos(self.bias["z"] / total) if gravity else None
+        if self.tilt_angle is None:
+            self._notes.append(f"No gravity in {names['z']} (mean {self.bias['z']:.3g} m/s^2), so the sensor's tilt is unknown.")
+            if self.tilt == "correct":
+                raise ExcitationError(f"{self.path}: the tilt cannot be corrected, as {names['z']} holds no gravity (mean {self.bias['z']:.3g} m/s^2)")
+        else:
+            done = "corrected" if self.tilt == "correct" else "not corrected"
+            self._notes.append(
+                f"The mean is {total:.4g} m/s^2 (standard gravity {STANDARD_GRAVITY:.4g}) and {degrees(self.tilt_angle):.3g} degrees off the vertical "
+                f"axis; the tilt was {done}."
+            )
+        turned = _turn_upright(raw, self.bias) if self.tilt == "correct" else raw
+        self._notes.append("The mean of each axis (gravity and bias) was removed.")
+        self._acceleration = {axis: self._filtered(turned[axis] - turned[axis].mean()) for axis in ("x", "z")}
+        if self.high_pass is not None:
+            self._notes.append(f"Frequencies below about {self.high_pass:g} Hz were removed (zero-phase high-pass).")
+        if self.sample_rate is not None and self.sample_rate < self.rate:
+            self._notes.append(f"Frequencies above {0.4 * self.sample_rate:g} Hz were removed before sampling at {self.sample_rate:g} Hz.")
+
+    def _filtered(self, values: Array) -> Array:
+        """The record through its filters, zero-phase, mirrored at its ends."""
+        if self.high_pass is not None and not 0.0 < self.high_pass < 0.5 * self.rate:
+            raise ExcitationError(f"{self.path}: high_pass is {self.high_pass} Hz; allowed: above 0 and below half the rate, {0.5 * self.rate:g} Hz")
+        if self.sample_rate is not None and self.sample_rate < self.rate and not self.sample_rate > 0.0:
+            raise ExcitationError(f"{self.path}: sample_rate is {self.sample_rate} Hz; it must be above 0")
+        mirrored = numpy.concatenate((values, values[::-1]))
+        frequency = numpy.fft.rfftfreq(len(mirrored), 1.0 / self.rate)
+        gain = numpy.ones(len(frequency))
+        if self.high_pass is not None:
+            with numpy.errstate(divide="ignore"):
+                gain /= 1.0 + (self.high_pass / frequency) ** 8
+        if self.sample_rate is not None and self.sample_rate < self.rate:
+            flank = numpy.clip((frequency / self.sample_rate - 0.4) / 0.1, 0.0, 1.0)
+            gain *= 0.5 * (1.0 + numpy.cos(numpy.pi * flank))
+        if (gain == 1.0).all():
+            return values
+        return numpy.fft.irfft(gain * numpy.fft.rfft(mirrored), len(mirrored))[: len(values)]
+
+    def acceleration(self, t: Array) -> tuple[Array, Array]:
+        """See blocks.Signal; ExcitationError beyond the recording where that is refused."""
+        position = (t + self.start) * self.rate
+        outside = (position < -1e-6) | (position > self.samples - 1 + 1e-6)
+        if self.beyond == "refuse" and outside.any():
+            raise ExcitationError(
+                f"{self.path}: the recording ends after {(self.samples - 1) / self.rate - self.start:.6g} s, t = {t[outside][0]:.6g} s was asked for; "
+                "shorten the run or choose what comes after the recording (zero, repeat)"
+            )
+        index, weight = _interpolation(position)
+        index = index % self.samples if self.beyond == "repeat" else numpy.clip(index, 0, self.samples - 1)
+        x, z = (numpy.einsum("ij,ij->i", self._acceleration[axis][index], weight) for axis in ("x", "z"))
+        if self.beyond == "zero":
+            x[outside] = 0.0
+            z[outside] = 0.0
+        return x, z
+
+    def describe(self) -> dict[str, Any]:
+        """See blocks.Signal."""
+        axes = {
+            axis: {
+                "bias_m_per_s2": self.bias[axis],
+                "rms_m_per_s2": float(numpy.sqrt(numpy.mean(values**2))),
+                "peak_m_per_s2": float(numpy.abs(values).max()),
+                "clipped_samples": self.clipping[axis].samples,
+                "full_scale_m_per_s2": self.clipping[axis].value if self.clipping[axis].samples else None,
+            }
+            for axis, values in self._acceleration.items()
+        }
+        return {
+            "kind": "recorded", "file": self.path.name, "samples": self.samples, "rate_Hz": self.rate, "duration_s": self.duration,
+            "start_s": self.start, "axes": axes, "lateral_bias_m_per_s2": self.bias.get("y"),
+            "tilt_degrees": None if self.tilt_angle is None else degrees(self.tilt_angle), "tilt": self.tilt,
+            "high_pass_Hz": self.high_pass, "beyond_the_recording": self.beyond, "notes": list(self._notes),
+        }  # fmt: skip
+
+
+def _signed(table: Table, name: str) -> Array:
+    column = table.column(name.removeprefix("-").lower())
+    return -column if name.startswith("-") else column
+
+
+def _found_rate(table: Table, time: Array) -> float:
+    steps = numpy.diff(time)
+    mean = float(time[-1] - time[0]) / len(steps)
+    wrong = numpy.flatnonzero(~((steps > 0.5 * mean) & (steps < 1.5 * mean)))
+    if mean <= 0.0 or wrong.size:
+        index = int(wrong[0]) + 1 if wrong.size else 1
+        raise ExcitationError(
+            f"{table.file}, line {table.lines[index]}: time goes on by {steps[index - 1]:g} s, the mean step is {mean:g} s; samples must be evenly "
+            "spaced, without gaps"
+        )
+    return 1.0 / mean
+
+
+def _find_clipping(table: Table, values: Array, full_scale: float | None) -> Clipping:
+    if full_scale is not None:
+        at_limit = numpy.abs(values) >= full_scale
+        limit = full_scale
+    else:
+        extremes = [value for value in (values.max(), values.min()) if values.max() > values.min()]
+        repeated = [value for value in extremes if numpy.count_nonzero(values == value) > 1]
+        at_limit = numpy.isin(values, repeated)
+        limit = float(max(numpy.abs(repeated), default=0.0))
+    if not at_limit.any():
+        return Clipping(0, limit, 0, 0)
+    edges = numpy.flatnonzero(numpy.diff(numpy.concatenate(([False], at_limit, [False])).astype(numpy.int8)))
+    return Clipping(int(at_limit.sum()), limit, int(table.lines[numpy.argmax(at_limit)]), int((edges[1::2] - edges[::2]).max()))
+
+
+def _turn_upright(raw: dict[str, Array], bias: dict[str, float]) -> dict[str, Array]:
+    """The smallest rotation that puts the mean on the vertical axis (Rodrigues' formula), applied to every sample."""
+    mean = numpy.array([bias["x"], bias["y"], bias["z"]])
+    mean /= numpy.linalg.norm(mean)
+    cross = numpy.array([mean[1], -mean[0], 0.0])  # mean x up
+    skew = numpy.array([[0.0, -cross[2], cross[1]], [cross[2], 0.0, -cross[0]], [-cross[1], cross[0], 0.0]])
+    rotation = numpy.eye(3) + skew + skew @ skew / (1.0 + mean[2])
+    return {
+        axis: rotation[row, 0] * raw["x"] + rotation[row, 1] * raw["y"] + rotation[row, 2] * raw["z"] for row, axis in enumerate("xyz")
+    }
+
+
+def _interpolation(position: Array) -> tuple[NDArray[numpy.int64], Array]:
+    """Samples under the kernel and their weights, [len(position), 64]; weights sum to 1."""
+    base = numpy.floor(position).astype(numpy.int64)
+    offset = numpy.arange(1 - HALF_WIDTH, HALF_WIDTH + 1)
+    distance = (position - base)[:, None] - offset
+    angle = numpy.pi / HALF_WIDTH * distance
+    window = 0.35875 + 0.48829 * numpy.cos(angle) + 0.14128 * numpy.cos(2.0 * angle) + 0.01168 * numpy.cos(3.0 * angle)
+    weight = numpy.sinc(distance) * window
+    weight /= weight.sum(axis=1)[:, None]
+    return base[:, None] + offset, weight
