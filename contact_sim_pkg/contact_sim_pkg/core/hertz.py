@@ -1,0 +1,201 @@
+"""Elliptic Hertz contact of smooth bodies: load <-> approach, semi-axes, peak pressure, in closed form.
+
+Gap `A x^2 + B y^2`, 0 < A <= B. With m the parameter of the complete elliptic integrals (m = 1 - (b/a)^2), H = A + B:
+
+    Omega = (B - A) / (A + B) = ((2 - m) E - 2 (1 - m) K) / (m E)
+    delta = (9 P^2 H / (4 pi^2 E*^2))^(1/3) (1 - m)^(1/3) K E^(-1/3),     P = c delta^(3/2)
+    p0 = (3 P E*^2 H^2 / (2 pi))^(1/3) E^(-2/3) (1 - m)^(1/6),   b = p0 E / (E* H),   a = b / sqrt(1 - m)
+
+m is found from ln(1 - m), with K and E from 1 - m by the arithmetic-geometric mean, so that slender ellipses keep their
+digits: valid for Omega from 0 to 1 - 1e-12 (b/a down to 2e-7). Below Omega = 3e-4 the relation is 0/0 and its
+series is used. Source: Johnson (1985), Contact Mechanics, section 4.2.
+"""
+
+from __future__ import annotations
+
+import math
+from typing import NamedTuple
+
+import numpy
+
+from contact_sim_pkg.core.jit import entry, kernel
+
+__all__ = [
+    "EllipseShape",
+    "HertzContact",
+    "HertzError",
+    "contact_at_approach",
+    "contact_at_load",
+    "ellipse_shape",
+    "hertz_at_approach",
+    "hertz_at_load",
+    "power_law",
+]
+
+SERIES_BELOW = 3e-4
+"""Omega below which the series is used; both branches then give m to 1e-9 or better."""
+
+LARGEST_OMEGA = 1.0 - 1e-12
+
+
+class HertzError(ValueError):
+    """The surfaces have no elliptic point contact; the text says why."""
+
+
+class EllipseShape(NamedTuple):
+    """What depends on the ratio of curvatures alone."""
+
+    complement: float  # [-] 1 - m = (b/a)^2
+    integral_k: float  # [-] K(m)
+    integral_e: float  # [-] E(m)
+
+
+class HertzContact(NamedTuple):
+    load: float  # [N]
+    approach: float  # [m]
+    semi_axis_a: float  # [m] the larger, along the smaller curvature A
+    semi_axis_b: float  # [m] the smaller, along the larger curvature B
+    peak_pressure: float  # [Pa]
+
+
+def hertz_at_load(curvature_a: float, curvature_b: float, modulus: float, load: float) -> HertzContact:
+    """Contact under a load [N]; zeros for load <= 0.
+
+    curvature_a, curvature_b: A <= B of the gap A x^2 + B y^2 [1/m] (half the relative curvatures), modulus: E* [Pa].
+    Raises `HertzError` for conforming, saddle or line contact and for values that are not finite.
+    """
+    _refuse(curvature_a, curvature_b, modulus, load, "load [N]")
+    return contact_at_load(float(curvature_a), float(curvature_b), float(modulus), float(load))
+
+
+def hertz_at_approach(curvature_a: float, curvature_b: float, modulus: float, approach: float) -> HertzContact:
+    """Contact at an approach [m]; zeros for approach <= 0. Arguments and errors as `hertz_at_load`."""
+    _refuse(curvature_a, curvature_b, modulus, approach, "approach [m]")
+    return contact_at_approach(float(curvature_a), float(curvature_b), float(modulus), float(approach))
+
+
+def power_law(curvature_a: float, curvature_b: float, modulus: float) -> float:
+    """Coefficient c [N/m^1.5] of `P = c delta^1.5`. Arguments and errors as `hertz_at_load`."""
+    _refuse(curvature_a, curvature_b, modulus, 0.0, "load [N]")
+    return float(stiffness_coefficient(float(curvature_a), float(curvature_b), float(modulus)))
+
+
+def _refuse(curvature_a: float, curvature_b: float, modulus: float, value: float, name: str) -> None:
+    for label, number in (("curvature A [1/m]", curvature_a), ("curvature B [1/m]", curvature_b), ("E* [Pa]", modulus), (name, value)):
+        if not math.isfinite(number):
+            raise HertzError(f"Hertz contact: {label} is {number}, it must be a finite number")
+    if modulus <= 0.0:
+        raise HertzError(f"Hertz contact: E* is {modulus} Pa, it must be above 0")
+    if curvature_a + curvature_b <= 0.0:
+        raise HertzError(
+            f"Hertz contact: the surfaces conform (A + B = {curvature_a + curvature_b} 1/m, above 0 is allowed); use the pressure field"
+        )
+    if curvature_a > curvature_b:
+        raise HertzError(f"Hertz contact: A = {curvature_a} 1/m is above B = {curvature_b} 1/m; exchange the axes")
+    if curvature_a <= 0.0:
+        raise HertzError(f"Hertz contact: a line contact or a saddle (A = {curvature_a} 1/m, above 0 is allowed); use the pressure field")
+    if (curvature_b - curvature_a) / (curvature_a + curvature_b) > LARGEST_OMEGA:
+        raise HertzError(
+            f"Hertz contact: practically a line contact (A/B = {curvature_a / curvature_b:.3g}, allowed from 5e-13); use the pressure field"
+        )
+
+
+@entry
+def contact_at_load(curvature_a: float, curvature_b: float, modulus: float, load: float) -> HertzContact:
+    """`hertz_at_load` without its checks, for compiled callers."""
+    if not load > 0.0:
+        return HertzContact(0.0, 0.0, 0.0, 0.0, 0.0)
+    shape = ellipse_shape(curvature_a, curvature_b)
+    mean = curvature_a + curvature_b
+    peak = numpy.cbrt(1.5 * load * (modulus * mean) ** 2 / math.pi) * shape.complement ** (1.0 / 6.0) / numpy.cbrt(shape.integral_e) ** 2
+    semi_b = peak * shape.integral_e / (modulus * mean)
+    approach = peak * semi_b * shape.integral_k / modulus
+    return HertzContact(load, approach, semi_b / math.sqrt(shape.complement), semi_b, peak)
+
+
+@entry
+def contact_at_approach(curvature_a: float, curvature_b: float, modulus: float, approach: float) -> HertzContact:
+    """`hertz_at_approach` without its checks, for compiled callers."""
+    if not approach > 0.0:
+        return HertzContact(0.0, 0.0, 0.0, 0.0, 0.0)
+    contact = contact_at_load(
+        curvature_a, curvature_b, modulus, stiffness_coefficient(curvature_a, curvature_b, modulus) * approach * math.sqrt(approach)
+    )
+    return HertzContact(contact.load, approach, contact.semi_axis_a, contact.semi_axis_b, contact.peak_pressure)
+
+
+@entry
+def stiffness_coefficient(curvature_a: float, curvature_b: float, modulus: float) -> float:
+    """`c = (2 pi / 3) E* sqrt(E / (H (1 - m) K^3))` [N/m^1.5]."""
+    shape = ellipse_shape(curvature_a, curvature_b)
+    below = (curvature_a + curvature_b) * shape.complement * shape.integral_k**3
+    return 2.0 * math.pi / 3.0 * modulus * math.sqrt(shape.integral_e / below)
+
+
+@entry
+def ellipse_shape(curvature_a: float, curvature_b: float) -> EllipseShape:
+    """1 - m, K(m) and E(m) from 0 < A <= B by Newton steps in s = ln(1 - m), kept inside a bracket.
+
+    The relation of Omega and m, written for A/B and without loss of digits near a line contact, is
+    `A/B = (1 - m) (K - E) / (E - (1 - m) K)`, falling from 1 to 0 while m goes from 0 to 1.
+    """
+    omega = (curvature_b - curvature_a) / (curvature_a + curvature_b)
+    if omega < SERIES_BELOW:
+        parameter = omega * 8.0 / 3.0
+        for _ in range(8):
+            parameter = omega / (3.0 / 8.0 + parameter * (3.0 / 16.0 + parameter * 111.0 / 1024.0))
+        integral_k, integral_e, _ = elliptic_integrals(1.0 - parameter)
+        return EllipseShape(1.0 - parameter, integral_k, integral_e)
+    target = math.log(curvature_a / curvature_b)
+    low, high = -60.0, 0.0  # (b/a)^2 from 9e-27: beyond LARGEST_OMEGA
+    unknown = max(4.0 / 3.0 * target, low)  # b/a ~ (A/B)^(2/3)
+    for _ in range(60):
+        complement = math.exp(unknown)
+        integral_k, integral_e, difference = elliptic_integrals(complement)
+        ratio = complement * difference / (integral_e - complement * integral_k)
+        error = math.log(ratio) - target
+        if error > 0.0:
+            high = unknown
+        else:
+            low = unknown
+        moved = unknown - error / log_ratio_slope(complement, integral_k, integral_e, difference)
+        if not low < moved < high:
+            moved = 0.5 * (low + high)
+        if abs(moved - unknown) <= 4e-16 * abs(unknown):
+            break
+        unknown = moved
+    complement = math.exp(unknown)
+    integral_k, integral_e, _ = elliptic_integrals(complement)
+    return EllipseShape(complement, integral_k, integral_e)
+
+
+@kernel
+def log_ratio_slope(complement: float, integral_k: float, integral_e: float, difference: float) -> float:
+    """Derivative of `ln(A/B)` by `s = ln(1 - m)`, with D = K - E and N = E - (1-m) K.
+
+    `1 - (1-m) (D'/D - N'/N)`, where `D' = dD/dm = (N / (1-m) + D) / (2 m)` and `N' = K / 2`.
+    """
+    parameter = 1.0 - complement
+    below = integral_e - complement * integral_k
+    difference_slope = (below / complement + difference) / (2.0 * parameter)
+    below_slope = 0.5 * integral_k
+    return 1.0 - complement * (difference_slope / difference - below_slope / below)
+
+
+@kernel
+def elliptic_integrals(complement: float) -> tuple[float, float, float]:
+    """K(m), E(m) and K(m) - E(m) from 1 - m in (0, 1] by the arithmetic-geometric mean.
+
+    `K = pi / (2 agm)`, `K - E = K sum 2^(n-1) c_n^2`; the sum starts with c_0^2 = m.
+    """
+    mean, root, power = 1.0, math.sqrt(complement), 1.0
+    total = 0.5 * (1.0 - complement)
+    for _ in range(40):
+        difference = 0.5 * (mean - root)
+        mean, root = 0.5 * (mean + root), math.sqrt(mean * root)
+        total += power * difference * difference
+        power *= 2.0
+        if difference <= 1e-17 * mean:
+            break
+    integral_k = 0.5 * math.pi / mean
+    return integral_k, integral_k * (1.0 - total), integral_k * total

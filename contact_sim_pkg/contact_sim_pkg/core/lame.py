@@ -1,0 +1,213 @@
+"""Lame curves (superellipses) `|x/a|^n + |y/b|^n = 1`: area, second moments, and the fit to a contact patch.
+
+n = 2 is the ellipse, n = 1 the rhombus, n -> infinity the rectangle. The radial variable
+`rho = (|x/a|^n + |y/b|^n)^(1/n)` is computed through logarithms, so no power under- or overflows.
+"""
+
+from __future__ import annotations
+
+import math
+from typing import NamedTuple
+
+import numpy
+
+from contact_sim_pkg.core.jit import entry, kernel
+
+__all__ = ["LameFit", "fit_boundary", "fit_patch", "lame_area", "lame_second_moment"]
+
+SMALLEST_EXPONENT = 0.1
+"""Below it the curve is a cross of four needles."""
+
+FIT_EXPONENTS = (0.3, 20.0)
+FEWEST_CELLS = 8
+"""A patch of fewer cells says nothing about its exponent."""
+
+FIT_STEPS = 40
+SMALLEST_STEP = 1e-6
+"""Sum of the changes of ln a, ln b and ln n after which the fit has converged."""
+
+_TINY = 1e-300
+
+
+class LameFit(NamedTuple):
+    semi_axis_a: float  # [m] along x
+    semi_axis_b: float  # [m] along y
+    exponent: float  # [-] n; 2 when not fitted
+    centre_x: float  # [m] mean of the boundary points
+    centre_y: float  # [m]
+    deviation: float  # [-] root mean square of rho - 1 over the boundary
+    fitted: bool  # False: fewer than 8 cells; half extents and n = 2
+
+
+def lame_area(semi_axis_a: float, semi_axis_b: float, exponent: float) -> float:
+    """`4 a b Gamma(1 + 1/n)^2 / Gamma(1 + 2/n)` [m^2]; raises `ValueError` for n < 0.1."""
+    _refuse_exponent(exponent)
+    return 4.0 * semi_axis_a * semi_axis_b * math.exp(2.0 * math.lgamma(1.0 + 1.0 / exponent) - math.lgamma(1.0 + 2.0 / exponent))
+
+
+def lame_second_moment(semi_axis_a: float, semi_axis_b: float, exponent: float) -> float:
+    """Integral of x^2 over the domain, `(4 a^3 b / n) B(3/n, 1 + 1/n)` [m^4]; exchange a and b for y^2."""
+    _refuse_exponent(exponent)
+    first, second = 3.0 / exponent, 1.0 + 1.0 / exponent
+    log_beta = math.lgamma(first) + math.lgamma(second) - math.lgamma(first + second)
+    return 4.0 * semi_axis_a**3 * semi_axis_b / exponent * math.exp(log_beta)
+
+
+def _refuse_exponent(exponent: float) -> None:
+    if not exponent >= SMALLEST_EXPONENT:
+        raise ValueError(f"Lame curve: exponent n = {exponent}, allowed from {SMALLEST_EXPONENT}")
+
+
+@entry
+def fit_patch(pressure: numpy.ndarray, cell_x: float, cell_y: float, origin_x: float, origin_y: float) -> LameFit:
+    """Lame curve through the boundary of the cells under pressure.
+
+    pressure: float64 [rows, cols], rows along x; cell_x, cell_y [m]; origin_x, origin_y: centre of cell (0, 0) [m].
+    The boundary points are the midpoints of the edges between a cell inside and one outside. Zeros without contact.
+    """
+    rows, cols = pressure.shape
+    cells, points, low_row, high_row, low_col, high_col = extents(pressure)
+    if cells == 0:
+        centre_x, centre_y = origin_x + 0.5 * (rows - 1) * cell_x, origin_y + 0.5 * (cols - 1) * cell_y
+        return LameFit(0.0, 0.0, 2.0, centre_x, centre_y, 0.0, False)
+    half_x = 0.5 * (high_row - low_row + 1) * cell_x
+    half_y = 0.5 * (high_col - low_col + 1) * cell_y
+    if cells < FEWEST_CELLS:
+        centre_x = origin_x + 0.5 * (low_row + high_row) * cell_x
+        centre_y = origin_y + 0.5 * (low_col + high_col) * cell_y
+        return LameFit(half_x, half_y, 2.0, centre_x, centre_y, 0.0, False)
+    x, y = numpy.empty(points), numpy.empty(points)
+    boundary_points(pressure, cell_x, cell_y, x, y)
+    fit = fit_boundary(x, y, half_x, half_y)
+    return LameFit(
+        fit.semi_axis_a, fit.semi_axis_b, fit.exponent, fit.centre_x + origin_x, fit.centre_y + origin_y, fit.deviation, True
+    )
+
+
+@entry
+def fit_boundary(x: numpy.ndarray, y: numpy.ndarray, half_x: float, half_y: float) -> LameFit:
+    """Minimise `sum (rho - 1)^2` over ln a, ln b, ln n for points on a boundary; `x`, `y` [m] are overwritten.
+
+    Damped Gauss-Newton steps from the half extents [m] and n = 2, n kept within 0.3 to 20.
+    """
+    centre_x, centre_y = take_logarithms(x, y)
+    log_a, log_b, log_n = math.log(half_x), math.log(half_y), math.log(2.0)
+    normal, trial = numpy.empty((3, 4)), numpy.empty((3, 4))
+    cost = normal_equations(x, y, log_a, log_b, log_n, normal)
+    damping = 1e-3
+    for _ in range(FIT_STEPS):
+        step_a, step_b, step_n = damped_step(normal, damping)
+        trial_n = min(max(log_n + step_n, math.log(FIT_EXPONENTS[0])), math.log(FIT_EXPONENTS[1]))
+        trial_cost = normal_equations(x, y, log_a + step_a, log_b + step_b, trial_n, trial)
+        if not trial_cost <= cost:
+            damping *= 8.0
+            if damping > 1e8:
+                break
+            continue
+        moved = abs(step_a) + abs(step_b) + abs(trial_n - log_n)
+        log_a, log_b, log_n, cost = log_a + step_a, log_b + step_b, trial_n, trial_cost
+        normal, trial = trial, normal
+        damping *= 0.2
+        if moved < SMALLEST_STEP:
+            break
+    return LameFit(math.exp(log_a), math.exp(log_b), math.exp(log_n), centre_x, centre_y, math.sqrt(cost / x.size), True)
+
+
+@kernel
+def take_logarithms(x: numpy.ndarray, y: numpy.ndarray) -> tuple[float, float]:
+    """Replace the coordinates by the logarithms of their distances from their mean, which is returned."""
+    centre_x, centre_y = 0.0, 0.0
+    for k in range(x.size):
+        centre_x += x[k]
+        centre_y += y[k]
+    centre_x, centre_y = centre_x / x.size, centre_y / x.size
+    for k in range(x.size):
+        x[k] = math.log(max(abs(x[k] - centre_x), _TINY))
+        y[k] = math.log(max(abs(y[k] - centre_y), _TINY))
+    return centre_x, centre_y
+
+
+@kernel
+def extents(pressure: numpy.ndarray) -> tuple[int, int, int, int, int, int]:
+    """Number of cells in contact, number of their outer edges, first and last row, first and last column."""
+    rows, cols = pressure.shape
+    cells, edges, low_row, high_row, low_col, high_col = 0, 0, rows, -1, cols, -1
+    for i in range(rows):
+        for j in range(cols):
+            if pressure[i, j] > 0.0:
+                cells += 1
+                edges += 4 - neighbours(pressure, i, j)
+                low_row, high_row = min(low_row, i), max(high_row, i)
+                low_col, high_col = min(low_col, j), max(high_col, j)
+    return cells, edges, low_row, high_row, low_col, high_col
+
+
+@kernel
+def neighbours(pressure: numpy.ndarray, i: int, j: int) -> int:
+    return inside(pressure, i - 1, j) + inside(pressure, i + 1, j) + inside(pressure, i, j - 1) + inside(pressure, i, j + 1)
+
+
+@kernel
+def inside(pressure: numpy.ndarray, i: int, j: int) -> int:
+    rows, cols = pressure.shape
+    return 1 if 0 <= i < rows and 0 <= j < cols and pressure[i, j] > 0.0 else 0
+
+
+@kernel
+def boundary_points(pressure: numpy.ndarray, cell_x: float, cell_y: float, x: numpy.ndarray, y: numpy.ndarray) -> None:
+    """Midpoints [m] of the edges between a cell in contact and one without, from the centre of cell (0, 0)."""
+    rows, cols = pressure.shape
+    count = 0
+    for i in range(rows):
+        for j in range(cols):
+            if pressure[i, j] > 0.0:
+                for step_i, step_j in ((-1, 0), (1, 0), (0, -1), (0, 1)):
+                    if inside(pressure, i + step_i, j + step_j) == 0:
+                        x[count] = (i + 0.5 * step_i) * cell_x
+                        y[count] = (j + 0.5 * step_j) * cell_y
+                        count += 1
+
+
+@kernel
+def normal_equations(
+    log_x: numpy.ndarray, log_y: numpy.ndarray, log_a: float, log_b: float, log_n: float, normal: numpy.ndarray
+) -> float:
+    """`J^T J` and, in the last column, `-J^T (rho - 1)`, from ln|x| and ln|y|; returns the cost `sum (rho - 1)^2`.
+
+    With u = ln|x/a|, v = ln|y/b| and the share s = |x/a|^n / rho^n: `ln rho = max(u, v) + ln(1 + exp(-n |u-v|)) / n`,
+    its derivatives by ln a, ln b, ln n are `-s`, `-(1-s)` and `s u + (1-s) v - ln rho`.
+    """
+    normal[:] = 0.0
+    exponent, cost = math.exp(log_n), 0.0
+    for k in range(log_x.size):
+        u, v = log_x[k] - log_a, log_y[k] - log_b
+        smaller = math.exp(-exponent * abs(u - v))
+        larger_share = 1.0 / (1.0 + smaller)
+        share = larger_share if u >= v else smaller * larger_share
+        log_rho = max(u, v) + math.log1p(smaller) / exponent
+        rho = math.exp(log_rho)
+        error = rho - 1.0
+        by_a, by_b, by_n = -rho * share, rho * (share - 1.0), rho * (share * u + (1.0 - share) * v - log_rho)
+        cost += error * error
+        row = (by_a, by_b, by_n, -error)
+        for i in range(3):
+            for j in range(4):
+                normal[i, j] += row[i] * row[j]
+    return cost
+
+
+@kernel
+def damped_step(normal: numpy.ndarray, damping: float) -> tuple[float, float, float]:
+    """Solve `(J^T J + damping diag) step = -J^T error` (3 x 3, symmetric positive definite) by elimination."""
+    floor = 1e-14 * (normal[0, 0] + normal[1, 1] + normal[2, 2])
+    a00 = normal[0, 0] * (1.0 + damping) + floor
+    a11 = normal[1, 1] * (1.0 + damping) + floor
+    a22 = normal[2, 2] * (1.0 + damping) + floor
+    ratio_1, ratio_2 = normal[0, 1] / a00, normal[0, 2] / a00
+    b11, b12, b22 = a11 - ratio_1 * normal[0, 1], normal[1, 2] - ratio_1 * normal[0, 2], a22 - ratio_2 * normal[0, 2]
+    right_1, right_2 = normal[1, 3] - ratio_1 * normal[0, 3], normal[2, 3] - ratio_2 * normal[0, 3]
+    ratio = b12 / b11
+    step_n = (right_2 - ratio * right_1) / (b22 - ratio * b12)
+    step_b = (right_1 - b12 * step_n) / b11
+    step_a = (normal[0, 3] - normal[0, 1] * step_b - normal[0, 2] * step_n) / a00
+    return step_a, step_b, step_n
