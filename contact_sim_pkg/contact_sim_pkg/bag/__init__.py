@@ -1,0 +1,1 @@
+"""Messages, topics and bags, free of ROS: what is recorded, how it is encoded, written, read and recovered."""

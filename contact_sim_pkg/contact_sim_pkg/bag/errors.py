@@ -1,0 +1,26 @@
+"""What can go wrong with messages and bags. Each error is one sentence: what, where, the value, what is allowed, the cure."""
+
+
+class BagError(Exception):
+    """A bag, or something in it, is refused."""
+
+
+class MessageError(BagError):
+    """Bytes that do not hold the message they should hold, or values that do not fit the message."""
+
+
+class BagWriteError(BagError):
+    """The operating system refused a write; what was written before stays readable."""
+
+
+class RecordingStopped(BagError):
+    """The recording was closed properly because the disk has less free space than its reserve."""
+
+
+class CorruptChunk(BagError):
+    """A chunk fails its checksum or cannot be taken apart; `start` and `end` are its log times in [ns]."""
+
+    def __init__(self, sentence: str, start: int, end: int) -> None:
+        """Keep the time range beside the sentence."""
+        super().__init__(sentence)
+        self.start, self.end = start, end

@@ -1,0 +1,133 @@
+"""`metadata.yaml` as rosbag2 of Jazzy writes it (version 9), and what a bag says about the software that wrote it."""
+
+import platform
+from collections.abc import Mapping, Sequence
+from importlib.metadata import PackageNotFoundError, version
+from io import StringIO
+from typing import Any, NamedTuple
+
+from ruamel.yaml import YAML
+from ruamel.yaml.error import YAMLError
+
+from .errors import BagError
+from .topics import RECORDED, full_name, offered_qos, topic_of
+from .typestore import definition, type_hash
+
+RECORD = "contact_bench"  # name of the MCAP metadata record
+SCENE_KEY = "scene"
+
+
+class RecordedTopic(NamedTuple):
+    """One topic of a bag: `key` is what the writer is asked for, `name` what the bag shows."""
+
+    key: str
+    name: str
+    type: str
+    definition: str  # ros2msg text with dependencies
+    type_hash: str
+    offered_qos: str  # YAML list of profiles
+
+
+def recorded_topics(names: Sequence[str] = RECORDED, namespace: str = "") -> tuple[RecordedTopic, ...]:
+    """The given topics of the table, in order of rank, with the definitions installed; BagError for an unknown name."""
+    rows = sorted((topic_of(name) for name in names), key=lambda topic: topic.rank)
+    return tuple(
+        RecordedTopic(
+            row.name, full_name(row.name, namespace), row.type, definition(row.type), type_hash(row.type), offered_qos(row)
+        )
+        for row in rows
+    )
+
+
+class Extent(NamedTuple):
+    """First and last log time of a bag, [ns]; both 0 without messages."""
+
+    start: int
+    end: int
+
+
+def software_versions(kernel_fingerprint: str) -> dict[str, str]:
+    """Versions of the package and of what its numbers depend on; neither paths nor environment."""
+    names = {"package_version": "contact_sim_pkg", "numpy": "numpy", "numba": "numba"}
+    return {
+        **{key: _version(name) for key, name in names.items()},
+        "python": platform.python_version(),
+        "kernel_fingerprint": kernel_fingerprint,
+    }
+
+
+def _version(name: str) -> str:
+    try:
+        return version(name)
+    except PackageNotFoundError:
+        return "not installed"
+
+
+def metadata_text(
+    file_name: str, topics: Sequence[RecordedTopic], counts: Mapping[str, int], extent: Extent, custom: Mapping[str, str]
+) -> str:
+    """The text of `metadata.yaml` of a bag of one file; `counts` by key of the topic."""
+    information = _information(file_name, topics, counts, extent, custom)
+    return _dump({"rosbag2_bagfile_information": information})
+
+
+def serialized_metadata(
+    file_name: str, topics: Sequence[RecordedTopic], counts: Mapping[str, int], extent: Extent, custom: Mapping[str, str]
+) -> dict[str, str]:
+    """The MCAP metadata record `rosbag2`, from which `ros2 bag reindex` and `info` read a lone file."""
+    information = _information(file_name, topics, counts, extent, custom)
+    return {"serialized_metadata": _dump(information), "ROS_DISTRO": "jazzy"}
+
+
+def parse_metadata(text: str, where: str) -> dict[str, Any]:
+    """The mapping `rosbag2_bagfile_information` of a `metadata.yaml`; BagError where there is none."""
+    try:
+        information = YAML(typ="safe").load(text)["rosbag2_bagfile_information"]
+        information["relative_file_paths"]
+    except (YAMLError, KeyError, TypeError, ValueError) as error:
+        reason = str(error).splitlines()[0] if str(error) else type(error).__name__
+        raise BagError(f"{where} is no metadata of a bag: {reason}; give the .mcap file instead") from None
+    return dict(information)
+
+
+def _information(
+    file_name: str, topics: Sequence[RecordedTopic], counts: Mapping[str, int], extent: Extent, custom: Mapping[str, str]
+) -> dict[str, Any]:
+    duration = {"nanoseconds": extent.end - extent.start}
+    start = {"nanoseconds_since_epoch": extent.start}
+    total = sum(counts[topic.key] for topic in topics)
+    return {
+        "version": 9,
+        "storage_identifier": "mcap",
+        "duration": dict(duration),
+        "starting_time": dict(start),
+        "message_count": total,
+        "topics_with_message_count": [_topic(topic, counts[topic.key]) for topic in topics],
+        "compression_format": "",
+        "compression_mode": "",
+        "relative_file_paths": [file_name],
+        "files": [{"path": file_name, "starting_time": dict(start), "duration": dict(duration), "message_count": total}],
+        "custom_data": dict(custom) or None,
+        "ros_distro": "jazzy",
+    }
+
+
+def _topic(topic: RecordedTopic, count: int) -> dict[str, Any]:
+    return {
+        "topic_metadata": {
+            "name": topic.name,
+            "type": topic.type,
+            "serialization_format": "cdr",
+            "offered_qos_profiles": YAML(typ="safe").load(topic.offered_qos) or [],
+            "type_description_hash": topic.type_hash,
+        },
+        "message_count": count,
+    }
+
+
+def _dump(content: dict[str, Any]) -> str:
+    yaml = YAML()
+    yaml.width = 4096
+    text = StringIO()
+    yaml.dump(content, text)
+    return text.getvalue()

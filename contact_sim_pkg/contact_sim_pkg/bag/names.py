@@ -1,0 +1,24 @@
+"""Where a bag is put when the user did not say, and names that cannot leave that place."""
+
+import re
+import secrets
+from datetime import datetime, timezone
+from pathlib import Path
+
+LONGEST_NAME = 100  # characters of a bag's name
+_LONGEST_SCENE = 70  # leaves room for the time and the random suffix
+
+
+def safe_name(text: str, longest: int = LONGEST_NAME) -> str:
+    """One path component of `[A-Za-z0-9._-]` made from any text: not hidden, not `.` or `..`, never empty.
+
+    Every other character becomes `_`; leading dots and dashes go; what is longer than `longest` is cut.
+    """
+    name = re.sub(r"[^A-Za-z0-9._-]+", "_", text, flags=re.ASCII).lstrip(".-")[:longest]
+    return name if name.strip("_") else "bag"
+
+
+def default_directory(scene_name: str, root: Path = Path("bags"), now: datetime | None = None, token: str | None = None) -> Path:
+    """`root`/SCENE_UTCTIME_RANDOM: the scene's name made safe, time to the second, six random hexadecimal digits."""
+    moment = (now or datetime.now(timezone.utc)).strftime("%Y%m%dT%H%M%SZ")
+    return root / f"{safe_name(scene_name, _LONGEST_SCENE)}_{moment}_{token or secrets.token_hex(3)}"

@@ -1,0 +1,234 @@
+"""A bag as it was recorded, finished or not: topics, messages in file order, columns for plots and studies.
+
+Types come from the definitions in the bag, not from those installed. Nothing is ever changed on disk.
+"""
+
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any, NamedTuple
+
+import numpy
+from mcap.records import Channel, Message, Schema
+from rosbags.serde import SerdeError
+from rosbags.typesys.store import Typestore
+
+from .append_file import is_being_written
+from .columns import stacked
+from .encoding import deserialize
+from .errors import BagError, CorruptChunk
+from .layout import Layout, chunk_records, read_layout
+from .metadata import RECORD, SCENE_KEY, RecordedTopic, parse_metadata
+from .topics import TOPICS
+from .typestore import store_of_definitions, type_hash
+
+
+class BagMessage(NamedTuple):
+    """One recorded message; times in [ns], `data` as it was recorded."""
+
+    topic: str
+    type: str
+    log_time: int
+    data: bytes
+    publish_time: int
+    sequence: int
+
+
+class Bag:
+    """A bag that is read. `notes` says in one line each what is missing; `complete` is True where nothing is."""
+
+    def __init__(self, path: Path, layout: Layout, skip_bad: bool) -> None:
+        """Take a layout that was read from the MCAP file at `path`; `open_bag` does that."""
+        self.path, self._layout, self._skip_bad = path, layout, skip_bad
+        self.notes = [layout.note] if layout.note else []
+        if layout.note and is_being_written(path):
+            self.notes.append(f"{path.name} is being recorded at this moment")
+        self.topics = _topics(layout)
+        self._store: Typestore | None = None
+
+    @property
+    def complete(self) -> bool:
+        """True where the bag was finished and no damaged chunk has been skipped so far."""
+        return not self.notes
+
+    @property
+    def metadata(self) -> dict[str, str]:
+        """The texts kept at the start and at the end of the recording: scene, versions, how it ended."""
+        kept: dict[str, str] = {}
+        for record in self._layout.records:
+            if record.name in (RECORD, f"{RECORD}_outcome"):
+                kept.update(record.metadata)
+        return kept
+
+    @property
+    def scene(self) -> str | None:
+        """The resolved scene as YAML; None in a bag without one."""
+        kept = self.metadata.get(SCENE_KEY)
+        if kept is not None or "bench/scene" not in {_relative(name) for name in self.topics}:
+            return kept
+        first = next(self.messages("bench/scene"), None)
+        return None if first is None else str(deserialize("std_msgs/msg/String", first.data).data)
+
+    def topic(self, name: str) -> RecordedTopic:
+        """The topic that the bag shows as `name`, `/name`, or, alone, as `/namespace/name`; BagError where there is none."""
+        for candidate in (name, f"/{name}"):
+            if candidate in self.topics:
+                return self.topics[candidate]
+        fitting = [topic for full, topic in self.topics.items() if full.endswith(f"/{name}")]
+        if len(fitting) == 1:
+            return fitting[0]
+        many = f"{len(fitting)} topics called" if fitting else "no topic called"
+        raise BagError(f"{self.path} has {many} {name!r}; it has {', '.join(self.topics) or 'none at all'}")
+
+    def __contains__(self, name: str) -> bool:
+        """Whether the bag has the topic."""
+        try:
+            self.topic(name)
+        except BagError:
+            return False
+        return True
+
+    def count(self, topic: str | None = None) -> int:
+        """Messages on a topic, or on all; 0 for a topic that the bag does not have."""
+        wanted = None if topic is None else self.topic(topic).name if topic in self else ""
+        channels = self._layout.channels
+        return sum(
+            count for number, count in self._layout.counts.items() if number in channels and wanted in (None, channels[number].topic)
+        )
+
+    @property
+    def end(self) -> int:
+        """Latest log time in [ns]; 0 without messages."""
+        return max((chunk.end for chunk in self._layout.chunks), default=0)
+
+    def messages(self, topic: str | None = None) -> Iterator[BagMessage]:
+        """All messages, or those of one topic, in file order.
+
+        Raises CorruptChunk at a damaged chunk, which names its time range; with `skip_bad` a note is kept instead.
+        """
+        wanted = None if topic is None else self.topic(topic).name
+        numbers = {number for number, channel in self._layout.channels.items() if wanted in (None, channel.topic)}
+        with self.path.open("rb") as file:
+            for place in self._layout.chunks:
+                if place.channels is not None and place.channels.isdisjoint(numbers):
+                    continue
+                try:
+                    records = chunk_records(file, place, self.path.name)
+                except CorruptChunk as error:
+                    self._skip_or_raise(error)
+                    continue
+                yield from self._messages_of(records, numbers)
+
+    def decoded(self, topic: str) -> Iterator[tuple[int, Any]]:
+        """Log time in [ns] and message object of each message of a topic, by the bag's own definition of its type."""
+        row = self.topic(topic)
+        store = self._types()
+        for message in self.messages(topic):
+            try:
+                yield message.log_time, store.deserialize_cdr(message.data, row.type)
+            except (SerdeError, KeyError, AssertionError) as error:
+                raise BagError(
+                    f"{self.path}: a message of {row.name} at {message.log_time / 1e9:.6f} s does not fit its definition: {error}"
+                ) from None
+
+    def columns(self, topic: str, fields: tuple[str, ...] | None = None) -> dict[str, Any]:
+        """The fields of all messages of a topic as columns.
+
+        Args:
+            topic: name of the topic.
+            fields: names of the columns wanted; all where it is None.
+
+        Returns:
+            `log_time` and, with a header, `stamp` as int64 [ns] and `time`, the stamp in [s]; then one entry a field, nested
+            ones with dots (`wrench.force.z`): scalars as [messages], arrays of one length as [messages, length], arrays that
+            differ in length as a list.
+
+        Raises:
+            BagError: no such topic or field, or a message does not fit its definition.
+        """
+        row = self.topic(topic)
+        return stacked(self.decoded(topic), self._types(), row.type, fields)
+
+    def _types(self) -> Typestore:
+        if self._store is None:
+            self._store = store_of_definitions({topic.type: topic.definition for topic in self.topics.values()})
+        return self._store
+
+    def _messages_of(self, records: list[Any], numbers: set[int]) -> Iterator[BagMessage]:
+        channels = self._layout.channels
+        for record in records:
+            if isinstance(record, Message) and record.channel_id in numbers:
+                row = self.topics[channels[record.channel_id].topic]
+                yield BagMessage(row.name, row.type, record.log_time, record.data, record.publish_time, record.sequence)
+
+    def _skip_or_raise(self, error: CorruptChunk) -> None:
+        if not self._skip_bad:
+            raise error
+        note = str(error).replace("reading stops there unless bad chunks are skipped", "it was skipped")
+        if note not in self.notes:
+            self.notes.append(note)
+
+
+def open_bag(path: Path | str, *, skip_bad: bool = False) -> Bag:
+    """Open a bag for reading.
+
+    Args:
+        path: the bag's directory, or its `.mcap` file.
+        skip_bad: go on after a damaged chunk instead of stopping at it.
+
+    Raises:
+        BagError: there is no bag, it is of another storage, or it is spread over several files.
+    """
+    place = Path(path)
+    file_path = _file_of(place) if place.is_dir() else place
+    try:
+        with file_path.open("rb") as file:
+            layout = read_layout(file, file_path.name)
+    except OSError as error:
+        raise BagError(f"the bag {place} cannot be opened: {error.strerror}; give its directory or its .mcap file") from None
+    return Bag(file_path, layout, skip_bad)
+
+
+def version_differences(bag: Bag, current: dict[str, str]) -> list[str]:
+    """What differs between the bag and this installation, one sentence each: definitions, package, kernels.
+
+    Results of a bag with differences are not comparable without saying so. `current`: `metadata.software_versions`.
+    """
+    differences = [
+        f"{key} of the bag is {bag.metadata[key]}, here it is {here}"
+        for key, here in current.items()
+        if key in bag.metadata and bag.metadata[key] != here
+    ]
+    known = {topic.type for topic in TOPICS.values()}
+    for name, topic in bag.topics.items():
+        if topic.type in known and topic.type_hash and topic.type_hash != type_hash(topic.type):
+            differences.append(f"{name} was recorded with another definition of {topic.type} ({topic.type_hash[:15]}…)")
+    return differences
+
+
+def _file_of(directory: Path) -> Path:
+    """The one MCAP file of a bag's directory."""
+    metadata = directory / "metadata.yaml"
+    if metadata.is_file():
+        information = parse_metadata(metadata.read_text(encoding="utf-8", errors="replace"), str(metadata))
+        names = [Path(str(name)).name for name in information["relative_file_paths"]]
+    else:
+        names = sorted(entry.name for entry in directory.glob("*.mcap"))
+    if len(names) != 1 or not names[0].endswith(".mcap"):
+        raise BagError(f"{directory} holds {len(names)} bag files ({', '.join(names) or 'none'}); one .mcap file is needed, give it")
+    return directory / names[0]
+
+
+def _topics(layout: Layout) -> dict[str, RecordedTopic]:
+    return {channel.topic: _topic(channel, layout.schemas.get(channel.schema_id)) for channel in layout.channels.values()}
+
+
+def _topic(channel: Channel, schema: Schema | None) -> RecordedTopic:
+    type_name, text = (schema.name, schema.data.decode("utf-8", "replace")) if schema else ("", "")
+    kept = channel.metadata
+    return RecordedTopic(
+        channel.topic, channel.topic, type_name, text, kept.get("topic_type_hash", ""), kept.get("offered_qos_profiles", "")
+    )
+
+
+def _relative(name: str) -> str:
+    return "/".join(name.split("/")[-2:])
