@@ -1,0 +1,1 @@
+"""One physical effect a file: its neutral value, its force, its stored energy."""

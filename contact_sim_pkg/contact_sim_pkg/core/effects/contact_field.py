@@ -1,0 +1,106 @@
+"""The pressure field as the contact itself: what drives the bodies at a field instant is the integral of the field.
+
+At each field instant the half-space problem is solved for the rigid approach that the bodies have. Between two instants
+stands the field's tangent: the power law ``A x**n`` fitted to the field at its working load (``fit_tangent``), read at the
+approach plus an *offset* that makes it give exactly the field's force at the instant. The offset is a height, the
+effective road (or cushion) height; it changes linearly from instant to instant and is corrected by solving the field again at
+the new end state. What is left after the last correction is a jump at the instant, measured and published as ``field_jump``.
+"""
+
+from __future__ import annotations
+
+import math
+from typing import NamedTuple
+
+import numpy
+from numpy.typing import NDArray
+
+from ..field_solver import CONVERGED, NO_CONTACT, SENTENCES, FieldResult, solve_at_approach, solve_at_load
+from ..halfspace import HalfSpace, Workspace, make_half_space, make_workspace
+from ..parameters import NormalElastic
+from .normal_elastic import approach_of_force
+
+Field = NDArray[numpy.float64]
+TANGENT_LOAD_STEP = 1.05  # ratio of the two loads through which the tangent law is laid
+
+
+class FieldSettings(NamedTuple):
+    """Grid and accuracy of one pressure field."""
+
+    rows: int
+    cols: int
+    cell_x: float  # [m]
+    cell_y: float  # [m]
+    modulus: float  # [Pa], plane-strain contact modulus E*
+    tolerance: float  # complementarity residual asked of the solver
+    maximum_iterations: int
+    corrector_passes: int  # field solves at the end of an interval beyond the first
+
+
+class FieldError(RuntimeError):
+    """The field could not be solved: contact at the grid's edge, or no convergence. The message says which."""
+
+
+class PressureField:
+    """One pressure field that follows its contact: the solver's state, its last field and the tangent's offset."""
+
+    def __init__(self, settings: FieldSettings, contact: str) -> None:
+        """Make influence tables and buffers for ``settings``; ``contact`` names it in messages (``tire``, ``seat``)."""
+        self.settings = settings
+        self.contact = contact
+        self.half_space: HalfSpace = make_half_space(
+            settings.rows, settings.cols, settings.cell_x, settings.cell_y, settings.modulus
+        )
+        self._workspace: Workspace = make_workspace(self.half_space)
+        self.pressure: Field = numpy.zeros((settings.rows, settings.cols))
+        self.load = 0.0
+        self.iterations = 0
+        self.residual = 0.0
+
+    def solve(self, gap: Field, approach: float) -> float:
+        """Solve for ``gap`` [m] (undeformed, at zero approach) and ``approach`` [m]; returns the load in [N], 0 without contact.
+
+        Starts from the field of the last call. Raises FieldError where the contact reaches the edge or does not converge.
+        """
+        s = self.settings
+        result = solve_at_approach(
+            self.half_space, self._workspace, gap, approach, s.tolerance, s.maximum_iterations, self.pressure
+        )
+        self._accept(result)
+        return self.load
+
+    def solve_load(self, gap: Field, load: float) -> float:
+        """Solve for ``load`` [N]; returns the approach in [m]. Errors as in ``solve``."""
+        s = self.settings
+        result = solve_at_load(self.half_space, self._workspace, gap, load, s.tolerance, s.maximum_iterations, self.pressure)
+        self._accept(result)
+        return float(result.approach)
+
+    def _accept(self, result: FieldResult) -> None:
+        if result.status not in (CONVERGED, NO_CONTACT):
+            raise FieldError(
+                f"{self.contact}: {SENTENCES[result.status]} (load {result.load:.6g} N, residual {result.residual:.2g}, grid "
+                f"{self.settings.rows} x {self.settings.cols} over {self.settings.rows * self.settings.cell_x:.4g} m x "
+                f"{self.settings.cols * self.settings.cell_y:.4g} m; see effects.{self.contact}.contact_field)"
+            )
+        self.load = float(result.load)
+        self.iterations += int(result.iterations)
+        self.residual = float(result.residual)
+
+
+def fit_tangent(field: PressureField, gap: Field, load: float) -> NormalElastic:
+    """Power law through the field's approach at ``load`` [N] and at 5 % more: the tangent between field instants."""
+    first = field.solve_load(gap, load)
+    second = field.solve_load(gap, load * TANGENT_LOAD_STEP)
+    exponent = math.log(TANGENT_LOAD_STEP) / math.log(second / first)
+    return NormalElastic(load / first**exponent, exponent)
+
+
+def offset_of(elastic: NormalElastic, field: PressureField, gap: Field, approach: float, geometric: float) -> float:
+    """Height in [m] to add to the ``geometric`` approach [m] so that the tangent law gives the field's force.
+
+    ``approach`` [m] is what the field was solved at. Without contact the law's approach is minus the smallest distance.
+    """
+    if field.load > 0.0:
+        return float(approach_of_force(elastic, field.load)) - geometric
+    return min(0.0, approach - float(gap.min())) - geometric

@@ -1,0 +1,67 @@
+"""The height that a smooth tire sees: the road averaged with the pressure of the footprint.
+
+By the reciprocal theorem (Betti) a small roughness h(x, y) under a contact of fixed pressure p changes the approach by
+``integral(p h) / integral(p)``: exact to first order in h. The weights are the Hertz pressure ``sqrt(1 - (x/a)^2 - (y/b)^2)`` of
+the standing load. It drives the point contact everywhere, and between two field instants it tells how the effective
+height changes with the travel; at the instants the pressure field itself decides.
+"""
+
+from __future__ import annotations
+
+import math
+
+from ..jit import entry
+
+
+@entry
+def effective_heights(  # type: ignore[no-untyped-def]
+    height, first_row, cell_x, cell_y, semi_axis_x, semi_axis_y, travel, out
+):
+    """Weighted mean height in [m] for each wheel position ``travel`` [m], written into ``out``.
+
+    ``height`` [rows, cols] in [m] on the road lattice (node (i, j) at x = (first_row + i) cell_x, y = (j - (cols-1)/2) cell_y);
+    ``semi_axis_x``, ``semi_axis_y`` [m] of the footprint. Returns False where the lattice does not hold the footprint.
+    """
+    rows, cols = height.shape
+    middle = 0.5 * (cols - 1)
+    reach = int(semi_axis_x / cell_x) + 1
+    for k in range(travel.shape[0]):
+        centre = int(round(travel[k] / cell_x))
+        if centre - reach < first_row or centre + reach >= first_row + rows:
+            return False
+        total = 0.0
+        weight_sum = 0.0
+        for i in range(centre - reach, centre + reach + 1):
+            u = (i * cell_x - travel[k]) / semi_axis_x
+            left = 1.0 - u * u
+            if left <= 0.0:
+                continue
+            for j in range(cols):
+                v = (j - middle) * cell_y / semi_axis_y
+                inside = left - v * v
+                if inside > 0.0:
+                    weight = math.sqrt(inside)
+                    weight_sum += weight
+                    total += weight * height[i - first_row, j]
+        out[k] = total / weight_sum
+    return True
+
+
+@entry
+def tire_gap(height, first_row, cell_x, cell_y, radius_rolling, radius_lateral, first, travel, out):  # type: ignore[no-untyped-def]
+    """Undeformed gap in [m] of the tire whose lowest point stands at height 0 over the road, written into ``out`` [rows, cols].
+
+    ``g = x^2/(2 R_rolling) + y^2/(2 R_lateral) - h``; row 0 of ``out`` is lattice row ``first``, x counts from ``travel`` [m].
+    Cells coincide with road nodes, so no height is interpolated.
+    """
+    rows, cols = out.shape
+    if first < first_row or first + rows > first_row + height.shape[0]:
+        return False
+    middle = 0.5 * (cols - 1)
+    for i in range(rows):
+        x = (first + i) * cell_x - travel
+        crown = 0.5 * x * x / radius_rolling
+        for j in range(cols):
+            y = (j - middle) * cell_y
+            out[i, j] = crown + 0.5 * y * y / radius_lateral - height[first + i - first_row, j]
+    return True

@@ -1,0 +1,32 @@
+"""The lower surface of a seated occupant, as the gap over a flat cushion: two buttocks and two thighs.
+
+Each is a paraboloid (buttock: radius R_b about the tuberosity) or a parabolic cylinder (thigh: radius R_t, from below the
+tuberosity forwards), raised by ``thigh_rise``; the surface is the lower envelope. x forward, y left, z up.
+"""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy
+from numpy.typing import NDArray
+
+
+class SeatShape(NamedTuple):
+    """Sizes of the shape."""
+
+    buttock_spacing: float  # [m] between the lowest points of the two buttocks
+    buttock_radius: float  # [m]
+    thigh_radius: float  # [m]
+    thigh_length: float  # [m] forward of the lowest points
+    thigh_rise: float  # [m] of the thighs' lowest line over the buttocks' lowest points
+
+
+def seat_gap(shape: SeatShape, x: NDArray[numpy.float64], y: NDArray[numpy.float64]) -> NDArray[numpy.float64]:
+    """Height in [m] of the occupant's lower surface over its lowest point, [len(x), len(y)], at x and y in [m]."""
+    side = numpy.abs(y)[None, :] - 0.5 * shape.buttock_spacing
+    along = x[:, None]
+    buttock = (along**2 + side**2) / (2.0 * shape.buttock_radius)
+    beyond = numpy.maximum(along - shape.thigh_length, 0.0) + numpy.maximum(-along, 0.0)
+    thigh = shape.thigh_rise + (side**2 + beyond**2) / (2.0 * shape.thigh_radius)
+    return numpy.minimum(buttock, thigh)

@@ -1,0 +1,119 @@
+"""Parameter tuples of every effect and of the parts of a rig, in SI units.
+
+An effect that a scene does not call for is ``None`` in place of its tuple (decision 0001). All numbers are ``float``
+unless said otherwise; the tuples are built in ``scene/build.py`` only.
+"""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy
+from numpy.typing import NDArray
+
+Vector = NDArray[numpy.float64]
+
+
+class NormalElastic(NamedTuple):
+    """Elastic normal law F = coefficient * approach**exponent."""
+
+    coefficient: float  # [N/m^exponent], > 0
+    exponent: float  # 1 (linear) to 3; 3/2 is Hertz
+
+
+class NormalDissipative(NamedTuple):
+    """Hunt-Crossley loss: the elastic force is multiplied by 1 + damping * approach_rate, and never pulls."""
+
+    damping: float  # [s/m], >= 0
+
+
+class Friction(NamedTuple):
+    """Spring-damper that sticks, with a Coulomb limit."""
+
+    stiffness: float  # [N/m], > 0
+    damping: float  # [N s/m], >= 0
+    coefficient_static: float  # ratio of limit to normal force at which sticking ends, > 0
+    coefficient_kinetic: float  # ratio while slipping, <= coefficient_static
+
+
+class Contact(NamedTuple):
+    """One contact: the effects that act in it. ``elastic`` is always there, the others may be ``None``."""
+
+    elastic: NormalElastic
+    dissipative: NormalDissipative | None
+    friction: Friction | None
+
+
+class Tire(NamedTuple):
+    """Quarter vehicle on a tire; state [wheel_z, body_z, wheel_v, body_v], first in the state vector."""
+
+    wheel_mass: float  # [kg]
+    body_mass: float  # [kg]
+    suspension_stiffness: float  # [N/m]
+    suspension_damping: float  # [N s/m]
+
+
+class Seat(NamedTuple):
+    """Occupant on a cushion: a frame mass in contact, and masses that hang on it by spring and damper, in parallel.
+
+    State, from ``offset``: frame_z, masses_z..., frame_v, masses_v...; with friction also occupant_x, occupant_vx and
+    the deflection of the friction spring.
+    """
+
+    offset: int  # index of frame_z in the state vector
+    frame_mass: float  # [kg]
+    masses: Vector  # [kg], may be empty
+    stiffness: Vector  # [N/m], one a mass
+    damping: Vector  # [N s/m], one a mass
+
+
+class Vehicle(NamedTuple):
+    """Rig of seat and tire: each part and its contact may be absent (``None``), not both.
+
+    Without a tire the motion is relative to the floor, which is then an accelerated frame.
+    """
+
+    gravity: float  # [m/s^2], > 0
+    tire: Tire | None
+    tire_contact: Contact | None
+    seat: Seat | None
+    seat_contact: Contact | None
+
+
+class PointContact(NamedTuple):
+    """One mass above a support that moves as a sine: x = support - z is the approach. State [z, v].
+
+    The free impact (no gravity, no motion), the drop and the slap are its cases.
+    """
+
+    mass: float  # [kg]
+    gravity: float  # [m/s^2], >= 0
+    support_amplitude: float  # [m]
+    support_frequency: float  # [rad/s]
+    elastic: NormalElastic
+    dissipative: NormalDissipative | None
+
+
+class BeltSlider(NamedTuple):
+    """One mass on a spring, rubbed by a belt under a constant load. State [x, v, deflection of the friction spring]."""
+
+    mass: float  # [kg]
+    spring: float  # [N/m]
+    belt_speed: float  # [m/s]
+    load: float  # [N]
+    friction: Friction
+
+
+class Drive(NamedTuple):
+    """What moves a rig during one segment: values that change linearly from its start to its end."""
+
+    start: float  # [s]
+    length: float  # [s]
+    height_0: float  # [m] effective height of the road under the tire at the start
+    height_1: float  # [m] the same at the end
+    cushion_0: float  # [m] effective height of the unloaded cushion above the floor at the start
+    cushion_1: float  # [m]
+    acceleration_x_0: float  # [m/s^2] of the floor
+    acceleration_x_1: float
+    acceleration_z_0: float  # [m/s^2] of the floor (seat rig) or of the free body (car)
+    acceleration_z_1: float

@@ -1,0 +1,143 @@
+"""Compiled entries of the vehicle rig: advance over a row of segments with samples, and the energies of a state."""
+
+from __future__ import annotations
+
+from ..effects.friction import SLIP_BACKWARD, SLIP_FORWARD, following_deflection, friction_force
+from ..effects.normal_elastic import elastic_energy
+from ..jit import entry, kernel
+from ..parameters import Drive
+from ..results import DONE
+from ..solvers.dormand_prince import integrate, set_sides
+from . import vehicle
+from .interface import rate
+
+TIRE_NORMAL, TIRE_APPROACH, TIRE_HEIGHT, TIRE_RATE = 0, 1, 2, 3
+SEAT_NORMAL, SEAT_TANGENTIAL, SEAT_APPROACH, SEAT_HEIGHT, SEAT_RATE = 4, 5, 6, 7, 8
+FORCES = 9
+
+
+@kernel
+def _segment(start, length, i, height, cushion, acceleration_x, acceleration_z):  # type: ignore[no-untyped-def]
+    return Drive(
+        start + i * length, length, height[i], height[i + 1], cushion[i], cushion[i + 1],
+        acceleration_x[i], acceleration_x[i + 1], acceleration_z[i], acceleration_z[i + 1],
+    )  # fmt: skip
+
+
+@kernel
+def _tangential(friction, seat, mode, normal, state):  # type: ignore[no-untyped-def]
+    """Friction force on the occupant in [N]."""
+    if friction is None:
+        return 0.0
+    x = vehicle._slide_index(seat)
+    return -friction_force(friction, mode[0], normal, state[x + 2], state[x + 1])
+
+
+@kernel
+def _observe(rig, drive, mode, state, out):  # type: ignore[no-untyped-def]
+    """Forces, approaches and heights of both contacts at the start of the segment."""
+    height, height_rate, cushion, cushion_rate, _a_x, _a_z = vehicle.drive_at(drive, drive.start)
+    tire_x, tire_v = vehicle.tire_approach(rig.tire, height, height_rate, state)
+    seat_x, seat_v = vehicle.seat_approach(rig.tire, rig.seat, cushion, cushion_rate, state)
+    seat_normal = vehicle.normal_force(rig.seat_contact, seat_x, seat_v)
+    out[TIRE_NORMAL] = vehicle.normal_force(rig.tire_contact, tire_x, tire_v)
+    out[TIRE_APPROACH] = tire_x
+    out[TIRE_HEIGHT] = height
+    out[TIRE_RATE] = tire_v
+    out[SEAT_NORMAL] = seat_normal
+    out[SEAT_TANGENTIAL] = _tangential(vehicle._friction_of(rig.seat_contact), rig.seat, mode, seat_normal, state)
+    out[SEAT_APPROACH] = seat_x
+    out[SEAT_HEIGHT] = cushion
+    out[SEAT_RATE] = seat_v
+
+
+@entry
+def start(rig, mode, state, work, segment_length, height, cushion, acceleration_x, acceleration_z):  # type: ignore[no-untyped-def]
+    """Take the sides of the event functions at the start of a run (arrays hold the first segment's two ends)."""
+    drive = _segment(0.0, segment_length, 0, height, cushion, acceleration_x, acceleration_z)
+    set_sides(rig, drive, mode, 0.0, state, work)
+
+
+@entry
+def advance(  # type: ignore[no-untyped-def]
+    rig, mode, state, scale, work, start, segment_length, height, cushion, acceleration_x, acceleration_z,
+    sample_every, sampled_states, sampled_rates, sampled_forces,
+):  # fmt: skip
+    """Advance ``state`` over ``len(height) - 1`` segments of ``segment_length`` in [s] from time ``start``.
+
+    ``height``, ``cushion`` [m], ``acceleration_x``, ``acceleration_z`` [m/s^2]: values at the ends of the segments, linear
+    between. Every ``sample_every``-th segment's start is sampled: state, rates (seen from the right) and the columns
+    ``TIRE_NORMAL ...`` of the forces. Returns a status of ``core/results.py``; ``mode``, ``state`` and ``work`` change in place.
+    """
+    row = 0
+    for i in range(height.shape[0] - 1):
+        drive = _segment(start, segment_length, i, height, cushion, acceleration_x, acceleration_z)
+        if i % sample_every == 0:
+            sampled_states[row, :] = state
+            rate(rig, drive, mode, drive.start, state, sampled_rates[row])
+            _observe(rig, drive, mode, state, sampled_forces[row])
+            row += 1
+        status = integrate(rig, drive, mode, start + (i + 1) * segment_length, state, scale, work)
+        if status != DONE:
+            return status
+    return DONE
+
+
+@kernel
+def _tire_energies(tire, gravity, state):  # type: ignore[no-untyped-def]
+    if tire is None:
+        return 0.0, 0.0, 0.0
+    kinetic = 0.5 * (tire.wheel_mass * state[2] ** 2 + tire.body_mass * state[3] ** 2)
+    potential = gravity * (tire.wheel_mass * state[0] + tire.body_mass * state[1])
+    return kinetic, potential, 0.5 * tire.suspension_stiffness * (state[0] - state[1]) ** 2
+
+
+@kernel
+def _seat_energies(seat, gravity, state):  # type: ignore[no-untyped-def]
+    if seat is None:
+        return 0.0, 0.0, 0.0
+    count = seat.masses.shape[0]
+    z = seat.offset
+    v = seat.offset + 1 + count
+    kinetic = 0.5 * seat.frame_mass * state[v] ** 2
+    potential = gravity * seat.frame_mass * state[z]
+    stored = 0.0
+    for i in range(count):
+        kinetic += 0.5 * seat.masses[i] * state[v + 1 + i] ** 2
+        potential += gravity * seat.masses[i] * state[z + 1 + i]
+        stored += 0.5 * seat.stiffness[i] * (state[z + 1 + i] - state[z]) ** 2
+    return kinetic, potential, stored
+
+
+@kernel
+def _slide_energies(friction, seat, mode, normal, state):  # type: ignore[no-untyped-def]
+    if friction is None:
+        return 0.0, 0.0
+    x = vehicle._slide_index(seat)
+    deflection = state[x + 2]
+    if mode[0] == SLIP_FORWARD or mode[0] == SLIP_BACKWARD:
+        deflection = following_deflection(friction, mode[0], normal, state[x + 1])
+    return 0.5 * vehicle.seat_mass(seat) * state[x + 1] ** 2, 0.5 * friction.stiffness * deflection**2
+
+
+@kernel
+def _contact_energy(contact, approach):  # type: ignore[no-untyped-def]
+    if contact is None:
+        return 0.0
+    return elastic_energy(contact.elastic, approach)
+
+
+@entry
+def energies(rig, mode, state, height, cushion):  # type: ignore[no-untyped-def]
+    """Kinetic, potential, stored energy, work supplied, work dissipated, all in [J], of ``state`` at given heights in [m]."""
+    kinetic, potential, stored = _tire_energies(rig.tire, rig.gravity, state)
+    seat_kinetic, seat_potential, seat_stored = _seat_energies(rig.seat, rig.gravity, state)
+    tire_x, _tire_v = vehicle.tire_approach(rig.tire, height, 0.0, state)
+    seat_x, _seat_v = vehicle.seat_approach(rig.tire, rig.seat, cushion, 0.0, state)
+    normal = vehicle.normal_force(rig.seat_contact, seat_x, _seat_v)
+    slide_kinetic, spring = _slide_energies(vehicle._friction_of(rig.seat_contact), rig.seat, mode, normal, state)
+    stored += seat_stored + spring
+    stored += _contact_energy(rig.tire_contact, tire_x) + _contact_energy(rig.seat_contact, seat_x)
+    last = state.shape[0]
+    dissipated = state[last - 1] - spring
+    return kinetic + seat_kinetic + slide_kinetic, potential + seat_potential, stored, state[last - 2], dissipated

@@ -1,0 +1,47 @@
+"""One mass on a spring, rubbed by a belt: the classic stick-slip oscillator, yardstick of the friction effect.
+
+``m x'' = -k x + F_t``, F_t the friction of the belt on the mass under the constant load N, driven by v = v_b - x'.
+State [x, v_x, s]; event function: margin of stick or of slip, whichever holds.
+"""
+
+from __future__ import annotations
+
+from ..effects.friction import STICK, following_deflection, friction_force, slip_margin, stick_margin
+from ..jit import kernel
+from ..parameters import BeltSlider
+from .interface import register
+
+STATES = 3
+MARGINS = 1
+
+
+@kernel
+def _rate(rig, drive, mode, time, state, out):  # type: ignore[no-untyped-def]
+    velocity = rig.belt_speed - state[1]
+    out[0] = state[1]
+    out[1] = (friction_force(rig.friction, mode[0], rig.load, state[2], velocity) - rig.spring * state[0]) / rig.mass
+    out[2] = velocity if mode[0] == STICK else 0.0
+
+
+@kernel
+def _margins(rig, drive, mode, time, state, derivative, out):  # type: ignore[no-untyped-def]
+    velocity = rig.belt_speed - state[1]
+    if mode[0] == STICK:
+        out[0] = stick_margin(rig.friction, rig.load, state[2], velocity)
+    else:
+        out[0] = slip_margin(rig.friction, mode[0], velocity, -derivative[1], 0.0, False)
+
+
+@kernel
+def _switch(rig, drive, mode, time, state, event, side):  # type: ignore[no-untyped-def]
+    velocity = rig.belt_speed - state[1]
+    if mode[0] == STICK:
+        trial = rig.friction.stiffness * state[2] + rig.friction.damping * velocity
+        mode[0] = 1 if trial > 0.0 else -1
+    else:
+        state[2] = following_deflection(rig.friction, mode[0], rig.load, velocity)
+        mode[0] = STICK
+    return 1.0
+
+
+register(BeltSlider, _rate, _margins, _switch)

@@ -1,0 +1,52 @@
+"""One mass over a support that may move: free impact, drop, slap. The smallest rig, and the yardstick of the integrator.
+
+``m z'' = F(x, x') - m g``, ``x = A sin(w t) - z``. State [z, v]; event functions: the approach x, and the tension margin.
+"""
+
+from __future__ import annotations
+
+import math
+
+from ..effects.normal_dissipative import loss_factor, tension_margin
+from ..effects.normal_elastic import elastic_force
+from ..jit import kernel
+from ..parameters import PointContact
+from .interface import register
+
+STATES = 2
+MARGINS = 2
+
+
+@kernel
+def _approach(rig, time, state):  # type: ignore[no-untyped-def]
+    phase = rig.support_frequency * time
+    approach = rig.support_amplitude * math.sin(phase) - state[0]
+    approach_rate = rig.support_amplitude * rig.support_frequency * math.cos(phase) - state[1]
+    return approach, approach_rate
+
+
+@kernel
+def _contact_force(elastic, dissipative, approach, approach_rate):  # type: ignore[no-untyped-def]
+    return elastic_force(elastic, approach) * loss_factor(dissipative, approach_rate)
+
+
+@kernel
+def _rate(rig, drive, mode, time, state, out):  # type: ignore[no-untyped-def]
+    approach, approach_rate = _approach(rig, time, state)
+    out[0] = state[1]
+    out[1] = _contact_force(rig.elastic, rig.dissipative, approach, approach_rate) / rig.mass - rig.gravity
+
+
+@kernel
+def _margins(rig, drive, mode, time, state, derivative, out):  # type: ignore[no-untyped-def]
+    approach, approach_rate = _approach(rig, time, state)
+    out[0] = approach
+    out[1] = tension_margin(rig.dissipative, approach_rate)
+
+
+@kernel
+def _switch(rig, drive, mode, time, state, event, side):  # type: ignore[no-untyped-def]
+    return side
+
+
+register(PointContact, _rate, _margins, _switch)

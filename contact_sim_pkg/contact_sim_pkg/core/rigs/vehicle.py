@@ -1,0 +1,286 @@
+"""Seat rig, tire rig and car: road -> tire -> suspension -> floor -> seat -> occupant, with any part absent.
+
+Vertical motion (z up), and the occupant's sliding on the cushion (x forward) where the scene calls for friction.
+
+* wheel  ``m_w z_w'' = F_tire - m_w g - F_susp``, ``F_susp = k (z_w - z_b) + c (z_w' - z_b')``
+* body   ``m_b z_b'' = F_susp - m_b g - F_seat + m_b a_z(t)`` (a_z: what the drive line gives to the free body)
+* frame  ``m_0 z_0'' = F_seat - m_0 g + sum_i [k_i (z_i - z_0) + c_i (z_i' - z_0')]``
+* masses ``m_i z_i'' = -m_i g - k_i (z_i - z_0) - c_i (z_i' - z_0')``
+* slide  ``M x'' = -M a_x(t) - F_t`` relative to the seat, M the whole occupant
+
+Approaches: tire ``h(t) - z_w``, h the effective road height; seat ``z_floor + h_c(t) - z_0``, h_c that of the cushion.
+Without a tire the floor is the (accelerated) frame of reference: z_floor = 0 and every mass feels ``-m a_z(t)``.
+State: [z_w, z_b, v_w, v_b] [z_0 .. z_n, v_0 .. v_n] [x, v_x, s] [supplied, dissipated]; the last two are the works in [J]
+that the energy ledger needs. Work that friction takes up is counted whole; its spring's energy is taken off in
+``core/energy.py``.
+"""
+
+from __future__ import annotations
+
+from ..effects.friction import (
+    APART,
+    STICK,
+    following_deflection,
+    friction_force,
+    slip_margin,
+    stick_margin,
+)
+from ..effects.normal_dissipative import loss_factor, tension_margin
+from ..effects.normal_elastic import elastic_force, elastic_stiffness
+from ..jit import kernel
+from ..parameters import Vehicle
+from .interface import register
+
+TIRE_APPROACH, TIRE_TENSION, SEAT_APPROACH, SEAT_TENSION, SEAT_FRICTION, MARGINS = 0, 1, 2, 3, 4, 5
+
+
+@kernel
+def _between(start, end, part):  # type: ignore[no-untyped-def]
+    return start + (end - start) * part
+
+
+@kernel
+def drive_at(drive, time):  # type: ignore[no-untyped-def]
+    """Road height, its rate, cushion height, its rate, floor accelerations x and z at ``time``."""
+    part = (time - drive.start) / drive.length
+    return (
+        _between(drive.height_0, drive.height_1, part),
+        (drive.height_1 - drive.height_0) / drive.length,
+        _between(drive.cushion_0, drive.cushion_1, part),
+        (drive.cushion_1 - drive.cushion_0) / drive.length,
+        _between(drive.acceleration_x_0, drive.acceleration_x_1, part),
+        _between(drive.acceleration_z_0, drive.acceleration_z_1, part),
+    )
+
+
+@kernel
+def tire_approach(tire, height, height_rate, state):  # type: ignore[no-untyped-def]
+    """Approach in [m] and its rate in [m/s]; apart where there is no tire."""
+    if tire is None:
+        return -1.0, 0.0
+    return height - state[0], height_rate - state[2]
+
+
+@kernel
+def _floor(tire, state):  # type: ignore[no-untyped-def]
+    if tire is None:
+        return 0.0, 0.0
+    return state[1], state[3]
+
+
+@kernel
+def seat_approach(tire, seat, cushion, cushion_rate, state):  # type: ignore[no-untyped-def]
+    """Approach in [m] and its rate in [m/s]; apart where there is no seat."""
+    if seat is None:
+        return -1.0, 0.0
+    floor, floor_rate = _floor(tire, state)
+    frame = seat.offset
+    frame_rate = seat.offset + 1 + seat.masses.shape[0]
+    return floor + cushion - state[frame], floor_rate + cushion_rate - state[frame_rate]
+
+
+@kernel
+def normal_force(contact, approach, approach_rate):  # type: ignore[no-untyped-def]
+    """Normal force of a contact in [N], never negative; 0 where the contact is absent."""
+    if contact is None:
+        return 0.0
+    return elastic_force(contact.elastic, approach) * loss_factor(contact.dissipative, approach_rate)
+
+
+@kernel
+def _lost_power(contact, approach, approach_rate, force):  # type: ignore[no-untyped-def]
+    """Power in [W] that the loss of a contact takes: (F - F_elastic) x'."""
+    if contact is None:
+        return 0.0
+    return (force - elastic_force(contact.elastic, approach)) * approach_rate
+
+
+@kernel
+def _tire_rates(tire, gravity, force, seat_force, acceleration_z, state, out):  # type: ignore[no-untyped-def]
+    """Rates of wheel and body; returns the power that the suspension takes."""
+    if tire is None:
+        return 0.0
+    closing = state[2] - state[3]
+    suspension = tire.suspension_stiffness * (state[0] - state[1]) + tire.suspension_damping * closing
+    out[0] = state[2]
+    out[1] = state[3]
+    out[2] = (force - suspension) / tire.wheel_mass - gravity
+    out[3] = (suspension - seat_force) / tire.body_mass - gravity + acceleration_z
+    return tire.suspension_damping * closing * closing
+
+
+@kernel
+def _seat_rates(tire, seat, gravity, force, acceleration_z, state, out):  # type: ignore[no-untyped-def]
+    """Rates of frame and masses; returns the power that their links take and that the frame's inertia brings in."""
+    if seat is None:
+        return 0.0, 0.0
+    field = -gravity
+    if tire is None:
+        field -= acceleration_z
+    count = seat.masses.shape[0]
+    z = seat.offset
+    v = seat.offset + 1 + count
+    total = force
+    lost = 0.0
+    brought = seat.frame_mass * state[v]
+    for i in range(count):
+        closing = state[v + 1 + i] - state[v]
+        link = seat.stiffness[i] * (state[z + 1 + i] - state[z]) + seat.damping[i] * closing
+        total += link
+        lost += seat.damping[i] * closing * closing
+        brought += seat.masses[i] * state[v + 1 + i]
+        out[z + 1 + i] = state[v + 1 + i]
+        out[v + 1 + i] = field - link / seat.masses[i]
+    out[z] = state[v]
+    out[v] = field + total / seat.frame_mass
+    if tire is None:
+        return lost, -acceleration_z * brought
+    return lost, 0.0
+
+
+@kernel
+def seat_mass(seat):  # type: ignore[no-untyped-def]
+    """Mass of the whole occupant in [kg]."""
+    if seat is None:
+        return 0.0
+    total = seat.frame_mass
+    for i in range(seat.masses.shape[0]):
+        total += seat.masses[i]
+    return total
+
+
+@kernel
+def _slide_index(seat):  # type: ignore[no-untyped-def]
+    return seat.offset + 2 * (1 + seat.masses.shape[0])
+
+
+@kernel
+def _slide_rates(friction, seat, mode, normal, acceleration_x, state, out):  # type: ignore[no-untyped-def]
+    """Rates of the slide; returns the power that friction takes up and the power that the floor's x motion brings in."""
+    if friction is None:
+        return 0.0, 0.0
+    x = _slide_index(seat)
+    velocity = state[x + 1]
+    force = friction_force(friction, mode[0], normal, state[x + 2], velocity)
+    mass = seat_mass(seat)
+    out[x] = velocity
+    out[x + 1] = -acceleration_x - force / mass
+    out[x + 2] = velocity if mode[0] == STICK else 0.0
+    return force * velocity, -mass * acceleration_x * velocity
+
+
+@kernel
+def _friction_of(contact):  # type: ignore[no-untyped-def]
+    if contact is None:
+        return None
+    return contact.friction
+
+
+@kernel
+def _rate(rig, drive, mode, time, state, out):  # type: ignore[no-untyped-def]
+    height, height_rate, cushion, cushion_rate, a_x, a_z = drive_at(drive, time)
+    tire_x, tire_v = tire_approach(rig.tire, height, height_rate, state)
+    tire_force = normal_force(rig.tire_contact, tire_x, tire_v)
+    seat_x, seat_v = seat_approach(rig.tire, rig.seat, cushion, cushion_rate, state)
+    seat_force = normal_force(rig.seat_contact, seat_x, seat_v)
+    lost = _tire_rates(rig.tire, rig.gravity, tire_force, seat_force, a_z, state, out)
+    lost_in_links, brought = _seat_rates(rig.tire, rig.seat, rig.gravity, seat_force, a_z, state, out)
+    rubbed, brought_x = _slide_rates(_friction_of(rig.seat_contact), rig.seat, mode, seat_force, a_x, state, out)
+    lost += lost_in_links + rubbed
+    lost += _lost_power(rig.tire_contact, tire_x, tire_v, tire_force)
+    lost += _lost_power(rig.seat_contact, seat_x, seat_v, seat_force)
+    last = state.shape[0]
+    out[last - 2] = brought + brought_x + tire_force * height_rate + seat_force * cushion_rate
+    out[last - 2] += _body_power(rig.tire, a_z, state)
+    out[last - 1] = lost
+
+
+@kernel
+def _body_power(tire, acceleration_z, state):  # type: ignore[no-untyped-def]
+    if tire is None:
+        return 0.0
+    return tire.body_mass * acceleration_z * state[3]
+
+
+@kernel
+def _tension_of(contact, approach_rate):  # type: ignore[no-untyped-def]
+    if contact is None:
+        return 1.0
+    return tension_margin(contact.dissipative, approach_rate)
+
+
+@kernel
+def _normal_rate(contact, approach, approach_rate, approach_acceleration):  # type: ignore[no-untyped-def]
+    """Rate of the normal force in [N/s]."""
+    slope = elastic_stiffness(contact.elastic, approach) * loss_factor(contact.dissipative, approach_rate)
+    return slope * approach_rate + _loss_slope(contact.dissipative, contact.elastic, approach) * approach_acceleration
+
+
+@kernel
+def _loss_slope(dissipative, elastic, approach):  # type: ignore[no-untyped-def]
+    if dissipative is None:
+        return 0.0
+    return dissipative.damping * elastic_force(elastic, approach)
+
+
+@kernel
+def _friction_margin(friction, contact, tire, seat, mode, approach, approach_rate, state, derivative):  # type: ignore[no-untyped-def]
+    if friction is None:
+        return 1.0
+    if mode[0] == APART:
+        return 1.0
+    x = _slide_index(seat)
+    normal = normal_force(contact, approach, approach_rate)
+    if mode[0] == STICK:
+        return stick_margin(friction, normal, state[x + 2], state[x + 1])
+    floor_acceleration = 0.0
+    if tire is not None:
+        floor_acceleration = derivative[3]
+    frame_acceleration = derivative[seat.offset + 1 + seat.masses.shape[0]]
+    normal_rate = _normal_rate(contact, approach, approach_rate, floor_acceleration - frame_acceleration)
+    limit = friction.coefficient_kinetic * normal
+    limited = friction.damping * state[x + 1] * mode[0] <= 0.0 or friction.damping * abs(state[x + 1]) >= 2.0 * limit
+    return slip_margin(friction, mode[0], state[x + 1], derivative[x + 1], normal_rate, limited)
+
+
+@kernel
+def _margins(rig, drive, mode, time, state, derivative, out):  # type: ignore[no-untyped-def]
+    height, height_rate, cushion, cushion_rate, _a_x, _a_z = drive_at(drive, time)
+    tire_x, tire_v = tire_approach(rig.tire, height, height_rate, state)
+    seat_x, seat_v = seat_approach(rig.tire, rig.seat, cushion, cushion_rate, state)
+    out[TIRE_APPROACH] = tire_x
+    out[TIRE_TENSION] = _tension_of(rig.tire_contact, tire_v)
+    out[SEAT_APPROACH] = seat_x
+    out[SEAT_TENSION] = _tension_of(rig.seat_contact, seat_v)
+    out[SEAT_FRICTION] = _friction_margin(
+        _friction_of(rig.seat_contact), rig.seat_contact, rig.tire, rig.seat, mode, seat_x, seat_v, state, derivative
+    )
+
+
+@kernel
+def _switch_friction(friction, seat, mode, normal, state, event, side):  # type: ignore[no-untyped-def]
+    if friction is None:
+        return
+    x = _slide_index(seat)
+    velocity = state[x + 1]
+    if event == SEAT_APPROACH:
+        state[x + 2] = 0.0
+        mode[0] = APART if side < 0.0 else (STICK if velocity == 0.0 else (1 if velocity > 0.0 else -1))
+    elif event == SEAT_FRICTION:
+        if mode[0] == STICK:
+            mode[0] = 1 if friction.stiffness * state[x + 2] + friction.damping * velocity > 0.0 else -1
+        else:
+            state[x + 2] = following_deflection(friction, mode[0], normal, velocity)
+            mode[0] = STICK
+
+
+@kernel
+def _switch(rig, drive, mode, time, state, event, side):  # type: ignore[no-untyped-def]
+    _height, _height_rate, cushion, cushion_rate, _a_x, _a_z = drive_at(drive, time)
+    seat_x, seat_v = seat_approach(rig.tire, rig.seat, cushion, cushion_rate, state)
+    normal = normal_force(rig.seat_contact, seat_x, seat_v)
+    _switch_friction(_friction_of(rig.seat_contact), rig.seat, mode, normal, state, event, side)
+    return 1.0 if event == SEAT_FRICTION else side
+
+
+register(Vehicle, _rate, _margins, _switch)

@@ -1,0 +1,258 @@
+"""Dormand and Prince's pair of orders 5 and 4, with error control and located contact events; one for all rigs.
+
+Reference: Hairer, Norsett, Wanner, Solving Ordinary Differential Equations I, II.4-5. No step straddles an event: where
+an event function of the rig changes its sign within a trial step, the step is taken again up to the change, found by
+regula falsi (Illinois) on whole steps, so that the state at the event has the order of the method. Event functions are also
+looked at inside each step (cubic Hermite), so that a touch and release within one step is seen.
+"""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy
+
+from ..jit import kernel
+from ..parameters import Drive, Vector
+from ..results import DONE, NOT_FINITE, STEP_TOO_SMALL, TOO_MANY_EVENTS
+from ..rigs.interface import margins, rate, switch
+
+MAXIMUM_EVENTS = 10_000
+STATE_LIMIT = 1.0e10
+INSIDE_POINTS = 4  # event functions are looked at at 1/5 ... 4/5 of each step
+LOCATE_ITERATIONS = 60
+
+STEPS, REJECTED, EVENTS, COUNTERS = 0, 1, 2, 3
+
+
+class Workspace(NamedTuple):
+    """Arrays of the integrator, made once a run by ``make_workspace``."""
+
+    stages: Vector  # [7, states]
+    trial: Vector  # [states]
+    inside: Vector  # [states]
+    inside_rate: Vector  # [states]
+    side: Vector  # [margins], the sign on which each event function stands
+    margin: Vector  # [margins]
+    margin_inside: Vector  # [margins]
+    step: Vector  # [1], the step that the error control proposes; carried from segment to segment
+    counters: Vector  # [COUNTERS], accepted steps, rejected steps, events
+
+
+def make_workspace(states: int, margin_count: int) -> Workspace:
+    """Workspace for a rig with ``states`` state variables and ``margin_count`` event functions."""
+
+    def zeros(*shape: int) -> Vector:
+        return numpy.zeros(shape)
+
+    return Workspace(
+        zeros(7, states), zeros(states), zeros(states), zeros(states), zeros(margin_count), zeros(margin_count),
+        zeros(margin_count), zeros(1), zeros(COUNTERS),
+    )  # fmt: skip
+
+
+@kernel
+def _stages(rig, drive, mode, time, step, state, k, out):  # type: ignore[no-untyped-def]
+    """One step from ``state`` into ``out``; k[0] must hold the rate at the start, k[6] holds that at the end after it."""
+    n = state.shape[0]
+    for i in range(n):
+        out[i] = state[i] + step * (1.0 / 5.0) * k[0, i]
+    rate(rig, drive, mode, time + step / 5.0, out, k[1])
+    for i in range(n):
+        out[i] = state[i] + step * (3.0 / 40.0 * k[0, i] + 9.0 / 40.0 * k[1, i])
+    rate(rig, drive, mode, time + step * 0.3, out, k[2])
+    for i in range(n):
+        out[i] = state[i] + step * (44.0 / 45.0 * k[0, i] - 56.0 / 15.0 * k[1, i] + 32.0 / 9.0 * k[2, i])
+    rate(rig, drive, mode, time + step * 0.8, out, k[3])
+    for i in range(n):
+        out[i] = state[i] + step * (
+            19372.0 / 6561.0 * k[0, i] - 25360.0 / 2187.0 * k[1, i] + 64448.0 / 6561.0 * k[2, i] - 212.0 / 729.0 * k[3, i]
+        )
+    rate(rig, drive, mode, time + step * (8.0 / 9.0), out, k[4])
+    for i in range(n):
+        out[i] = state[i] + step * (
+            9017.0 / 3168.0 * k[0, i] - 355.0 / 33.0 * k[1, i] + 46732.0 / 5247.0 * k[2, i] + 49.0 / 176.0 * k[3, i]
+            - 5103.0 / 18656.0 * k[4, i]
+        )  # fmt: skip
+    rate(rig, drive, mode, time + step, out, k[5])
+    for i in range(n):
+        out[i] = state[i] + step * (
+            35.0 / 384.0 * k[0, i] + 500.0 / 1113.0 * k[2, i] + 125.0 / 192.0 * k[3, i] - 2187.0 / 6784.0 * k[4, i]
+            + 11.0 / 84.0 * k[5, i]
+        )  # fmt: skip
+    rate(rig, drive, mode, time + step, out, k[6])
+
+
+@kernel
+def _error(step, k, scale):  # type: ignore[no-untyped-def]
+    """Largest difference of the two orders over ``scale``, which is infinite for what is not controlled."""
+    worst = 0.0
+    for i in range(scale.shape[0]):
+        difference = step * (
+            71.0 / 57600.0 * k[0, i] - 71.0 / 16695.0 * k[2, i] + 71.0 / 1920.0 * k[3, i] - 17253.0 / 339200.0 * k[4, i]
+            + 22.0 / 525.0 * k[5, i] - 1.0 / 40.0 * k[6, i]
+        )  # fmt: skip
+        ratio = abs(difference) / scale[i]
+        if not ratio <= worst:  # also true for NaN
+            worst = ratio
+    return worst
+
+
+@kernel
+def _first_change(rig, drive, mode, time, step, state, work):  # type: ignore[no-untyped-def]
+    """Part of the step after which an event function has changed sign, 0 where none has: 1/5 ... 4/5, 1.
+
+    At step's end ``work.margin`` is filled.
+    """
+    k = work.stages
+    for point in range(1, INSIDE_POINTS + 1):
+        part = point / (INSIDE_POINTS + 1.0)
+        for i in range(state.shape[0]):
+            change = work.trial[i] - state[i]
+            start = step * k[0, i] - change
+            end = change - step * k[6, i]
+            work.inside[i] = state[i] + part * (change + (1.0 - part) * (start * (1.0 - part) + end * part))
+        rate(rig, drive, mode, time + part * step, work.inside, work.inside_rate)
+        margins(rig, drive, mode, time + part * step, work.inside, work.inside_rate, work.margin_inside)
+        for j in range(work.side.shape[0]):
+            if work.margin_inside[j] * work.side[j] < 0.0:
+                return part
+    margins(rig, drive, mode, time + step, work.trial, k[6], work.margin)
+    for j in range(work.side.shape[0]):
+        if work.margin[j] * work.side[j] < 0.0:
+            return 1.0
+    return 0.0
+
+
+@kernel
+def _worst_margin(work):  # type: ignore[no-untyped-def]
+    """Event function that lies farthest beyond its sign: its number, and its value counted negative when beyond."""
+    event = -1
+    value = numpy.inf
+    for j in range(work.side.shape[0]):
+        signed = work.margin[j] * work.side[j]
+        if signed < value:
+            value = signed
+            event = j
+    return event, value
+
+
+@kernel
+def _locate(rig, drive, mode, time, inner, outer, state, work):  # type: ignore[no-untyped-def]
+    """Shortest whole step after which an event function has changed sign, between ``inner`` (none has) and ``outer``.
+
+    Bisection on "has any changed", sped up by regula falsi on the one that is farthest beyond. Leaves the step's result in
+    ``work.trial``; returns the step, and the number of the event.
+    """
+    k = work.stages
+    low, high = inner, outer
+    low_value = numpy.nan
+    high_value = numpy.nan
+    event = -1
+    step = outer
+    repeated = 0
+    for _ in range(LOCATE_ITERATIONS):
+        _stages(rig, drive, mode, time, step, state, k, work.trial)
+        margins(rig, drive, mode, time + step, work.trial, k[6], work.margin)
+        number, value = _worst_margin(work)
+        if value < 0.0:
+            if number != event:
+                low_value = numpy.nan
+            high, high_value, event = step, value, number
+            if repeated == -1:
+                low_value *= 0.5
+            repeated = -1
+        else:
+            low = step
+            low_value = numpy.nan if event < 0 else work.margin[event] * work.side[event]
+            if repeated == 1:
+                high_value *= 0.5
+            repeated = 1
+        if high - low <= 4.0e-16 * (abs(time) + high) or high - low <= 1.0e-14 * outer:
+            break
+        if low_value == low_value and high_value == high_value and low_value > 0.0:
+            step = low + (high - low) * low_value / (low_value - high_value)
+            if not (low < step < high):
+                step = 0.5 * (low + high)
+        else:
+            step = 0.5 * (low + high)
+    _stages(rig, drive, mode, time, high, state, k, work.trial)
+    margins(rig, drive, mode, time + high, work.trial, k[6], work.margin)
+    if event < 0:
+        event, _value = _worst_margin(work)
+    return high, event
+
+
+@kernel
+def set_sides(rig, drive, mode, time, state, work):  # type: ignore[no-untyped-def]
+    """Take the sign of every event function as the one on which it stands; to be called once, at the start of a run."""
+    rate(rig, drive, mode, time, state, work.stages[0])
+    margins(rig, drive, mode, time, state, work.stages[0], work.margin)
+    for j in range(work.side.shape[0]):
+        work.side[j] = 1.0 if work.margin[j] >= 0.0 else -1.0
+
+
+@kernel
+def _pass_event(rig, drive, mode, time, state, event, work):  # type: ignore[no-untyped-def]
+    """Let the rig switch at event number ``event``, and take the rate on its new side."""
+    work.side[event] = switch(rig, drive, mode, time, state, event, -work.side[event])
+    rate(rig, drive, mode, time, state, work.stages[0])
+
+
+@kernel
+def integrate(rig, drive: Drive, mode, end, state, scale, work):  # type: ignore[no-untyped-def]
+    """Advance ``state`` from ``drive.start`` to ``end`` (within the segment); returns a status of ``core/results.py``.
+
+    ``scale`` [states]: error allowed per step, in the unit of each state; infinite for what is not controlled.
+    ``mode`` [int array of the rig] and ``state`` change in place. ``work.step`` carries the step size along.
+    """
+    time = drive.start
+    proposed = work.step[0] if work.step[0] > 0.0 else end - time
+    k = work.stages
+    rate(rig, drive, mode, time, state, k[0])
+    events = 0
+    while time < end:
+        remaining = end - time
+        last = proposed >= remaining * (1.0 - 1.0e-12)
+        step = remaining if last else min(proposed, 0.5 * remaining if proposed > 0.5 * remaining else proposed)
+        if step <= 1.0e-15 * max(1.0, abs(time)) and not last:
+            return STEP_TOO_SMALL
+        _stages(rig, drive, mode, time, step, state, k, work.trial)
+        error = _error(step, k, scale)
+        if not error <= 1.0:
+            if error != error or error == numpy.inf:
+                for i in range(state.shape[0]):
+                    if not abs(k[0, i]) < numpy.inf:
+                        return NOT_FINITE
+                proposed = 0.1 * step
+            else:
+                proposed = step * max(0.1, 0.9 * error**-0.2)
+            work.counters[REJECTED] += 1
+            continue
+        part = _first_change(rig, drive, mode, time, step, state, work)
+        event = -1
+        if part > 0.0:
+            inner = max(0.0, part - 1.0 / (INSIDE_POINTS + 1.0)) * step
+            step, event = _locate(rig, drive, mode, time, inner, part * step, state, work)
+            last = False
+        else:
+            factor = 5.0 if error < 1.0e-4 else min(5.0, 0.9 * error**-0.2)
+            if not last or step >= proposed:
+                proposed = step * max(0.2, factor)
+        for i in range(state.shape[0]):
+            state[i] = work.trial[i]
+            if not abs(state[i]) < STATE_LIMIT:
+                return NOT_FINITE
+        time = end if last else time + step
+        work.counters[STEPS] += 1
+        if event >= 0:
+            events += 1
+            work.counters[EVENTS] += 1
+            if events > MAXIMUM_EVENTS:
+                return TOO_MANY_EVENTS
+            _pass_event(rig, drive, mode, time, state, event, work)
+        else:
+            for i in range(state.shape[0]):
+                k[0, i] = k[6, i]
+    work.step[0] = proposed
+    return DONE

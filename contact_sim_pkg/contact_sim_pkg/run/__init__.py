@@ -1,0 +1,1 @@
+"""One run as a loop over numbered blocks, without ROS."""

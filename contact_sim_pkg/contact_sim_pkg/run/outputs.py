@@ -1,0 +1,221 @@
+"""What one block of the simulation says, as encoded messages in canonical order."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from typing import Any, NamedTuple
+
+import numpy
+from numpy.typing import NDArray
+
+from contact_sim_pkg.bag.messages import (
+    SEAT_FRAME,
+    TIRE_FRAME,
+    ContactForceBlock,
+    Cost,
+    Energy,
+    MotionBlock,
+    PatchField,
+    Wrench,
+    encode_contact_force,
+    encode_contact_patch,
+    encode_cost,
+    encode_energy,
+    encode_motion,
+    encode_wrench,
+)
+from contact_sim_pkg.bag.topics import TOPICS
+from contact_sim_pkg.core.effects.normal_dissipative import loss_factor
+from contact_sim_pkg.core.lame import fit_patch
+from contact_sim_pkg.core.patch import summarise
+from contact_sim_pkg.core.rigs import advance as columns
+from contact_sim_pkg.scene.build import Model, seat_cells
+
+Array = NDArray[numpy.float64]
+NANOSECONDS = 1_000_000_000
+
+
+class FieldRecord(NamedTuple):
+    """A pressure field at one instant, before the loss factor."""
+
+    pressure: Array  # [rows, cols], [Pa], elastic
+    origin_x: float  # [m] of the centre of cell (0, 0), where it follows the road; the seat's is fixed
+    approach: float  # [m]
+    load: float  # [N], elastic
+
+
+@dataclass
+class BlockRecord:
+    """Samples of one block, filled interval by interval."""
+
+    block: int
+    states: Array  # [samples, states]
+    rates: Array  # [samples, states]
+    forces: Array  # [samples, columns of rigs/advance.py]
+    floor: Array  # [samples, 2], [m/s^2] floor acceleration x, z
+    energy: Array = field(default_factory=lambda: numpy.zeros(5))
+    start_energy: Array = field(default_factory=lambda: numpy.zeros(5))
+    fields: list[tuple[int, FieldRecord | None, FieldRecord | None]] = field(default_factory=list)
+    counters: Array = field(default_factory=lambda: numpy.zeros(3))
+    field_iterations: int = 0
+    field_residual: float = 0.0
+    field_jump: float = 0.0
+
+    @classmethod
+    def empty(cls, model: Model, block: int) -> BlockRecord:
+        """Room for one block of ``model``."""
+        samples = model.timing.samples
+        return cls(
+            block,
+            numpy.zeros((samples, model.states)),
+            numpy.zeros((samples, model.states)),
+            numpy.zeros((samples, columns.FORCES)),
+            numpy.zeros((samples, 2)),
+        )
+
+    def take(
+        self,
+        interval: int,
+        sampled: tuple[Array, Array, Array],
+        energy: Array,
+        start_energy: Array | None,
+        a_x: Array,
+        a_z: Array,
+        fields: tuple[FieldRecord | None, FieldRecord | None],
+    ) -> None:
+        """Take the samples of interval number ``interval``, and the fields at its start."""
+        count = sampled[0].shape[0]
+        first = interval * count
+        rows = slice(first, first + count)
+        self.states[rows], self.rates[rows], self.forces[rows] = sampled
+        stride = (len(a_x) - 1) // count
+        self.floor[rows, 0], self.floor[rows, 1] = a_x[:-1:stride], a_z[:-1:stride]
+        if interval == 0:
+            self.energy[:] = energy
+            self.start_energy[:] = energy if start_energy is None else start_energy
+        self.fields.append((first, *fields))
+
+
+def encode_block(model: Model, record: BlockRecord, wall_time: float) -> tuple[list[tuple[str, int, bytes]], float, float]:
+    """Messages of a block in canonical order, largest normal force in [N] and largest pressure in [Pa]."""
+    encoder = _Encoder(model, record)
+    encoder.contacts()
+    encoder.motion()
+    encoder.ledger()
+    encoder.cost(wall_time)
+    encoder.messages.sort(key=lambda message: (message[1], TOPICS[message[0]].rank))
+    return encoder.messages, encoder.load, encoder.peak
+
+
+class _Encoder:
+    def __init__(self, model: Model, record: BlockRecord) -> None:
+        self.model, self.record = model, record
+        self.block_ns = round(model.timing.block_length * NANOSECONDS)
+        self.stamp = record.block * self.block_ns
+        self.period = model.timing.block_length / model.timing.samples
+        self.messages: list[tuple[str, int, bytes]] = []
+        self.load = 0.0
+        self.peak = 0.0
+
+    def _stamp_of(self, sample: int) -> int:
+        return self.stamp + sample * self.block_ns // self.model.timing.samples
+
+    def contacts(self) -> None:
+        """Forces and wrenches of each contact, and its fields."""
+        rig, force = self.model.rig, self.record.forces
+        if rig.tire_contact is not None:
+            tangential = numpy.zeros(len(force))
+            chosen = (columns.TIRE_NORMAL, columns.TIRE_APPROACH, columns.TIRE_HEIGHT)
+            self._contact("tire", TIRE_FRAME, tangential, *(force[:, column] for column in chosen))
+        if rig.seat_contact is not None:
+            chosen = (columns.SEAT_NORMAL, columns.SEAT_APPROACH, columns.SEAT_HEIGHT)
+            self._contact(
+                "seat", SEAT_FRAME, force[:, columns.SEAT_TANGENTIAL], *(force[:, column] for column in chosen)
+            )
+        for sample, tire, seat in self.record.fields:
+            if tire is not None:
+                self._field("tire", TIRE_FRAME, sample, tire, columns.TIRE_RATE)
+            if seat is not None:
+                self._field("seat", SEAT_FRAME, sample, seat, columns.SEAT_RATE)
+
+    def _contact(self, name: str, frame: str, tangential: Array, normal: Array, approach: Array, height: Array) -> None:
+        self.load = max(self.load, float(normal.max()))
+        value = ContactForceBlock(self.record.block, self.period, normal, tangential, approach, height)
+        self.messages.append((f"{name}/force", self.stamp, encode_contact_force(value, self.stamp, frame)))
+        displays = self.model.timing.displays
+        for i in range(displays):
+            sample = i * self.model.timing.samples // displays
+            wrench = Wrench((float(tangential[sample]), 0.0, float(normal[sample])), (0.0, 0.0, 0.0))
+            stamp = self._stamp_of(sample)
+            self.messages.append((f"{name}/wrench", stamp, encode_wrench(wrench, stamp, frame)))
+
+    def _field(self, name: str, frame: str, sample: int, found: FieldRecord, rate_column: int) -> None:
+        """The field with its loss, whose integral is the force at its instant."""
+        model = self.model
+        holder, contact = (
+            (model.tire_field, model.rig.tire_contact) if name == "tire" else (model.seat_field, model.rig.seat_contact)
+        )
+        assert holder is not None and contact is not None
+        settings = holder.settings
+        pressure = found.pressure * loss_factor(contact.dissipative, float(self.record.forces[sample, rate_column]))
+        origin_x, origin_y = found.origin_x, -0.5 * (settings.cols - 1) * settings.cell_y
+        if name == "seat":
+            origin_x = float(seat_cells(settings)[0][0])
+        total = summarise(pressure, settings.cell_x, settings.cell_y, origin_x, origin_y)
+        shape = fit_patch(pressure, settings.cell_x, settings.cell_y, origin_x, origin_y)
+        self.peak = max(self.peak, total.peak)
+        touching = total.load > 0.0
+        value = PatchField(
+            self.record.block, settings.cell_x, settings.cell_y, origin_x, origin_y, total.load, total.peak, total.mean,
+            total.area, total.centre_x if touching else 0.0, total.centre_y if touching else 0.0, found.approach,
+            shape.semi_axis_a, shape.semi_axis_b, shape.exponent, pressure.astype(numpy.float32),
+        )  # fmt: skip
+        stamp = self._stamp_of(sample)
+        self.messages.append((f"{name}/patch", stamp, encode_contact_patch(value, stamp, frame)))
+
+    def motion(self) -> None:
+        """Positions, velocities and accelerations of all bodies."""
+        value = MotionBlock(self.record.block, self.period, self.model.bodies, *_motion_rows(self.model, self.record))
+        self.messages.append(("bench/motion", self.stamp, encode_motion(value, self.stamp)))
+
+    def ledger(self) -> None:
+        """The energy ledger at the block's start."""
+        kinetic, potential, stored, supplied, dissipated = self.record.energy - self.record.start_energy
+        residual = supplied - kinetic - potential - stored - dissipated
+        value = Energy(self.record.block, *(float(v) for v in (kinetic, potential, stored, dissipated, supplied, residual)))
+        self.messages.append(("bench/energy", self.stamp, encode_energy(value, self.stamp)))
+
+    def cost(self, wall_time: float) -> None:
+        """What the block cost."""
+        record = self.record
+        steps, rejected, events = (int(value) for value in record.counters)
+        value = Cost(
+            record.block, wall_time, self.model.timing.block_length / wall_time, steps, rejected, events,
+            record.field_iterations, record.field_residual, record.field_jump,
+        )  # fmt: skip
+        self.messages.append(("bench/cost", self.stamp, encode_cost(value, self.stamp)))
+
+
+def _motion_rows(model: Model, record: BlockRecord) -> tuple[Any, Any, Any]:
+    """Rows of ``bench/motion`` in the order of ``model.bodies``: position, velocity, acceleration."""
+    rig, state, rate = model.rig, record.states, record.rates
+    indices: list[tuple[int, int]] = []
+    if rig.tire is not None:
+        indices += [(0, 2), (1, 3)]
+    if rig.seat is not None:
+        count = 1 + len(rig.seat.masses)
+        indices += [(rig.seat.offset + i, rig.seat.offset + count + i) for i in range(count)]
+        if "occupant_x" in model.bodies:
+            indices.append((rig.seat.offset + 2 * count, rig.seat.offset + 2 * count + 1))
+    position = numpy.array([state[:, p] for p, _ in indices])
+    velocity = numpy.array([state[:, v] for _, v in indices])
+    acceleration = numpy.array([rate[:, v] for _, v in indices])
+    if "occupant_x" in model.bodies:
+        acceleration[-1] += record.floor[:, 0]
+    if rig.tire is None:
+        vertical = slice(None, -1 if "occupant_x" in model.bodies else None)
+        acceleration[vertical] += record.floor[:, 1]
+        still = numpy.zeros((1, len(state)))
+        position, velocity = numpy.vstack([still, position]), numpy.vstack([still, velocity])
+        acceleration = numpy.vstack([record.floor[:, 1][None, :], acceleration])
+    return position, velocity, acceleration

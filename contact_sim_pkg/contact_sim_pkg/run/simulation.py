@@ -1,0 +1,328 @@
+"""The simulation of one scene, block by block: the one implementation behind the offline run and the simulator node."""
+
+from __future__ import annotations
+
+import time
+from typing import Any, NamedTuple
+
+import numpy
+from numpy.typing import NDArray
+
+from contact_sim_pkg.core.effects.contact_field import FieldError, PressureField, offset_of
+from contact_sim_pkg.core.effects.footprint import effective_heights, tire_gap
+from contact_sim_pkg.core.effects.normal_elastic import elastic_energy, elastic_force
+from contact_sim_pkg.core.jit import freeze
+from contact_sim_pkg.core.parameters import Vector
+from contact_sim_pkg.core.results import DONE, SENTENCES
+from contact_sim_pkg.core.rigs import advance as entries
+from contact_sim_pkg.core.rigs.vehicle import MARGINS
+from contact_sim_pkg.core.solvers.dormand_prince import make_workspace
+from contact_sim_pkg.excitation.blocks import RoadPatch, VibrationBlock
+from contact_sim_pkg.run.errors import RunError
+from contact_sim_pkg.run.outputs import BlockRecord, FieldRecord, encode_block
+from contact_sim_pkg.run.sources import make_travel
+from contact_sim_pkg.scene.build import Model, build, standing_state
+
+ROAD, VIBRATION = "road/patch", "platform/vibration"
+SETTLE_PASSES = 12  # field solves that bring the standing load into balance with a rough road before the start
+CORRECTED = 1.0e-9  # relative change of the force below which a further corrector pass would change nothing of use
+
+
+class BlockResult(NamedTuple):
+    """What one block gives."""
+
+    messages: list[tuple[str, int, bytes]]  # topic, stamp [ns], CDR; in canonical order
+    load: float  # [N] largest normal force
+    peak_pressure: float  # [Pa]; 0 where no field is computed
+    wall_time: float  # [s]
+
+
+class _Support:
+    """The effective height under one contact over the interval, and its field, if there is one."""
+
+    def __init__(self, field: PressureField | None) -> None:
+        self.field = field
+        self.offset = 0.0
+        self.pressure: NDArray[numpy.float64] | None = None
+        self.gap: NDArray[numpy.float64] | None = None
+        self.origin = 0.0
+        self.published: FieldRecord | None = None
+
+
+class Simulation:
+    """Owns the state of a run. ``prepare`` once, then ``advance`` block by block, in order from 0."""
+
+    def __init__(self, scene: Any) -> None:
+        """Build the parameters of a resolved scene (``scene.data`` is its plain dict)."""
+        self.scene = scene
+        self.model: Model = build(scene.data)
+        self.blocks = self.model.timing.blocks
+        inputs = [ROAD] if self.model.tire_geometry is not None else []
+        if scene.data.get("vibration"):
+            inputs.append(VIBRATION)
+        self.inputs = tuple(inputs)
+        self._travel = make_travel(scene.data) if self.model.tire_geometry is not None else None
+        self._tire = _Support(self.model.tire_field)
+        self._seat = _Support(self.model.seat_field)
+        self._next_block = 0
+        self._reset()
+
+    def _reset(self) -> None:
+        model, timing = self.model, self.model.timing
+        self.state: Vector = numpy.zeros(model.states)
+        self._mode = numpy.zeros(1, dtype=numpy.int64)
+        self._work = make_workspace(model.states, MARGINS)
+        points = timing.segments + 1
+        samples = timing.segments // timing.sample_every
+        self._sampled = (
+            numpy.zeros((samples, model.states)),
+            numpy.zeros((samples, model.states)),
+            numpy.zeros((samples, entries.FORCES)),
+        )
+        self._height = numpy.zeros(points)
+        self._cushion = numpy.zeros(points)
+        self._ramp = numpy.linspace(0.0, 1.0, points)
+        self._start_energy: Vector | None = None
+
+    def prepare(self) -> None:
+        """Compile or load every kernel that the scene needs, by one interval on a flat road; then close compilation."""
+        timing = self.model.timing
+        inputs: dict[str, RoadPatch | VibrationBlock] = {}
+        if ROAD in self.inputs:
+            inputs[ROAD] = self._flat_patch()
+        if VIBRATION in self.inputs:
+            count = timing.intervals * timing.segments // timing.vibration_stride + 1
+            period = timing.segment_length * timing.vibration_stride
+            inputs[VIBRATION] = VibrationBlock(0, period, numpy.zeros(count), numpy.zeros(count))
+        self.advance(0, inputs)
+        self._reset()
+        self._next_block = 0
+        for support in (self._tire, self._seat):
+            support.offset, support.published = 0.0, None
+            if support.field is not None:
+                support.field.pressure[:] = 0.0
+        freeze()
+
+    def _flat_patch(self) -> RoadPatch:
+        geometry, travel = self.model.tire_geometry, self._travel
+        assert geometry is not None and travel is not None
+        length = self.model.timing.block_length
+        low, high = travel.extent(0.0, length)
+        first = int(numpy.floor(low / geometry.cell_x)) - geometry.rows
+        rows = int(numpy.ceil((high - low) / geometry.cell_x)) + 2 * geometry.rows + 2
+        height = numpy.zeros((rows, geometry.cols), dtype=numpy.float32)
+        return RoadPatch(0, 0.0, travel.position(length), first, geometry.cell_x, geometry.cell_y, height)
+
+    def advance(self, block: int, inputs: dict[str, RoadPatch | VibrationBlock]) -> BlockResult:
+        """Advance block number ``block`` with the blocks of every input topic.
+
+        Raises RunError where a block is out of turn, does not fit the scene, or the physics ends in a named failure.
+        """
+        began = time.perf_counter()
+        if block != self._next_block:
+            raise RunError(f"block {block} came, block {self._next_block} was due")
+        road = inputs.get(ROAD)
+        vibration = inputs.get(VIBRATION)
+        record = BlockRecord.empty(self.model, block)
+        a_x, a_z = self._accelerations(block, vibration)
+        travel, smooth = self._smooth_road(block, road)
+        if block == 0:
+            self._start(road, travel, smooth, a_x, a_z)
+        self._work.counters[:] = 0.0
+        for interval in range(self.model.timing.intervals):
+            self._interval(block, interval, road, travel, smooth, a_x, a_z, record)
+        self._next_block = block + 1
+        record.counters[:] = self._work.counters
+        for support in (self._tire, self._seat):
+            if support.field is not None:
+                record.field_iterations += support.field.iterations
+                record.field_residual = max(record.field_residual, support.field.residual)
+                support.field.iterations = 0
+        wall = time.perf_counter() - began
+        messages, load, peak = encode_block(self.model, record, wall)
+        return BlockResult(messages, load, peak, time.perf_counter() - began)
+
+    def _accelerations(self, block: int, vibration: Any) -> tuple[Vector, Vector]:
+        """Floor accelerations at every segment's end, straight between the samples."""
+        timing = self.model.timing
+        points = timing.intervals * timing.segments + 1
+        if VIBRATION not in self.inputs:
+            zeros = numpy.zeros(points)
+            return zeros, zeros
+        samples = (points - 1) // timing.vibration_stride + 1
+        if vibration is None or vibration.block != block or len(vibration.acceleration_z) != samples:
+            found = "none" if vibration is None else f"block {vibration.block} with {len(vibration.acceleration_z)} samples"
+            raise RunError(f"{VIBRATION}: block {block} with {samples} samples was due, {found} came")
+        position = numpy.arange(points) / timing.vibration_stride
+        index = numpy.arange(samples)
+        return (
+            numpy.interp(position, index, vibration.acceleration_x),
+            numpy.interp(position, index, vibration.acceleration_z),
+        )
+
+    def _smooth_road(self, block: int, road: Any) -> tuple[Vector, Vector]:
+        """Travel of the wheel and the height that a smooth tire sees, at every segment's end."""
+        timing, geometry = self.model.timing, self.model.tire_geometry
+        points = timing.intervals * timing.segments + 1
+        if geometry is None or self._travel is None:
+            zeros = numpy.zeros(points)
+            return zeros, zeros
+        if road is None or road.block != block:
+            raise RunError(f"{ROAD}: block {block} was due, {'none' if road is None else f'block {road.block}'} came")
+        if road.height.shape[1] != geometry.cols or abs(road.cell_x / geometry.cell_x - 1.0) > 1e-12:
+            raise RunError(
+                f"{ROAD}: block {block} has {road.height.shape[1]} columns and cells of {road.cell_x} m, the scene needs "
+                f"{geometry.cols} columns and cells of {geometry.cell_x} m"
+            )
+        steps = timing.intervals * timing.segments
+        travel = numpy.array([self._travel.position((block * steps + i) * timing.segment_length) for i in range(points)])
+        smooth = numpy.empty(points)
+        inside = effective_heights(
+            road.height, road.first_row, geometry.cell_x, geometry.cell_y, geometry.semi_axis_x, geometry.semi_axis_y, travel,
+            smooth,
+        )  # fmt: skip
+        if not inside:
+            raise RunError(f"{ROAD}: block {block} does not reach over the footprint from {travel[0]:.6g} to {travel[-1]:.6g} m")
+        return travel, smooth
+
+    def _start(self, road: Any, travel: Vector, smooth: Vector, a_x: Vector, a_z: Vector) -> None:
+        """Let the rig stand in balance on the road at the start, with the fields that belong to it."""
+        self.state[:] = standing_state(self.model, float(smooth[0]))
+        for _ in range(SETTLE_PASSES):
+            self._tire.offset = self._solve_tire(road, float(travel[0]), float(smooth[0]))
+            self._seat.offset = self._solve_seat()
+            if self._tire.field is None:
+                break
+            self.state[:] = standing_state(self.model, float(smooth[0]) + self._tire.offset)
+        self._tire.offset = self._solve_tire(road, float(travel[0]), float(smooth[0]))
+        self._seat.offset = self._solve_seat()
+        height = numpy.array([smooth[0] + self._tire.offset, smooth[1] + self._tire.offset])
+        cushion = numpy.full(2, self._seat.offset)
+        length = self.model.timing.segment_length
+        entries.start(self.model.rig, self._mode, self.state, self._work, length, height, cushion, a_x[:2], a_z[:2])
+
+    def _interval(
+        self, block: int, interval: int, road: Any, travel: Vector, smooth: Vector, a_x: Vector, a_z: Vector, record: BlockRecord
+    ) -> None:
+        """One interval between field instants: predict, solve the fields at its end, correct."""
+        model, timing = self.model, self.model.timing
+        first = interval * timing.segments
+        part = slice(first, first + timing.segments + 1)
+        start = (block * timing.intervals * timing.segments + first) * timing.segment_length
+        saved = (self.state.copy(), self._mode.copy(), self._work.side.copy(), self._work.step.copy())
+        tire_end, seat_end = self._tire.offset, self._seat.offset
+        fields = self._published_fields()
+        for pass_number in range(model.corrector_passes + 1):
+            if pass_number:
+                self.state[:], self._mode[:], self._work.side[:], self._work.step[:] = saved
+            self._height[:] = smooth[part] + self._tire.offset + (tire_end - self._tire.offset) * self._ramp
+            self._cushion[:] = self._seat.offset + (seat_end - self._seat.offset) * self._ramp
+            if pass_number == 0:
+                start_energy = self._energies()
+            status = entries.advance(
+                model.rig, self._mode, self.state, model.scale, self._work, start, timing.segment_length, self._height,
+                self._cushion, a_x[part], a_z[part], timing.sample_every, *self._sampled,
+            )  # fmt: skip
+            if status != DONE:
+                raise RunError(f"block {block}, {start:.6g} s: {SENTENCES[status]}")
+            if self._tire.field is None and self._seat.field is None:
+                break
+            tire_next = self._solve_tire(road, float(travel[part][-1]), float(smooth[part][-1]), block)
+            seat_next = self._solve_seat(block)
+            if self._small_change(tire_end, tire_next, seat_end, seat_next):
+                break
+            if pass_number < model.corrector_passes:
+                tire_end, seat_end = tire_next, seat_next
+        record.take(interval, self._sampled, start_energy, self._start_energy, a_x[part], a_z[part], fields)
+        if self._tire.field is not None or self._seat.field is not None:
+            self._close_interval(tire_end, tire_next, seat_end, seat_next, record)
+
+    def _energies(self) -> Vector:
+        values = numpy.array(
+            entries.energies(self.model.rig, self._mode, self.state, float(self._height[0]), float(self._cushion[0]))
+        )
+        if self._start_energy is None:
+            self._start_energy = values
+        return values
+
+    def _approaches(self, tire_height: float, cushion: float) -> tuple[float, float]:
+        """Approaches of tire and seat at the present state for given heights in [m]."""
+        rig = self.model.rig
+        floor = self.state[1] if rig.tire is not None else 0.0
+        tire = tire_height - self.state[0] if rig.tire is not None else 0.0
+        seat = floor + cushion - self.state[rig.seat.offset] if rig.seat is not None else 0.0
+        return float(tire), float(seat)
+
+    def _solve_tire(self, road: Any, travel: float, smooth: float, block: int = 0) -> float:
+        """Solve the tire's field at the present state; returns the offset that belongs to it, 0 without a field."""
+        support, geometry, contact = self._tire, self.model.tire_geometry, self.model.rig.tire_contact
+        if support.field is None or geometry is None or contact is None:
+            return 0.0
+        if support.gap is None:
+            support.gap = numpy.empty((geometry.rows, geometry.cols))
+        first = round(travel / geometry.cell_x) - geometry.rows // 2
+        if not tire_gap(
+            road.height, road.first_row, geometry.cell_x, geometry.cell_y, geometry.radius_rolling, geometry.radius_lateral,
+            first, travel, support.gap,
+        ):  # fmt: skip
+            raise RunError(f"{ROAD}: block {block} does not reach over the pressure grid at {travel:.6g} m")
+        support.origin = first * geometry.cell_x - travel
+        approach = -float(self.state[0])
+        return self._solve(support, approach, smooth - float(self.state[0]), contact.elastic, block)
+
+    def _solve_seat(self, block: int = 0) -> float:
+        """Solve the seat's field at the present state; returns the offset that belongs to it, 0 without a field."""
+        support, contact = self._seat, self.model.rig.seat_contact
+        if support.field is None or contact is None:
+            return 0.0
+        support.gap = self.model.seat_gap
+        approach = self._approaches(0.0, 0.0)[1]
+        return self._solve(support, approach, approach, contact.elastic, block)
+
+    def _solve(self, support: _Support, approach: float, geometric: float, elastic: Any, block: int) -> float:
+        assert support.field is not None and support.gap is not None
+        try:
+            support.field.solve(support.gap, approach)
+        except FieldError as error:
+            raise RunError(f"block {block}: {error}") from None
+        support.published = FieldRecord(support.field.pressure, support.origin, approach, support.field.load)
+        return offset_of(elastic, support.field, support.gap, approach, geometric)
+
+    def _published_fields(self) -> tuple[FieldRecord | None, FieldRecord | None]:
+        """The fields that belong to the start of the interval, copied before the next solve overwrites them."""
+        return tuple(  # type: ignore[return-value]
+            None if s.published is None else s.published._replace(pressure=s.published.pressure.copy())
+            for s in (self._tire, self._seat)
+        )
+
+    def _small_change(self, tire_end: float, tire_next: float, seat_end: float, seat_next: float) -> bool:
+        """Whether the fields at the end of the interval agree with the forces that brought it there."""
+        rig = self.model.rig
+        for contact, end, after in ((rig.tire_contact, tire_end, tire_next), (rig.seat_contact, seat_end, seat_next)):
+            if contact is None or end == after:
+                continue
+            height = self._height[-1] if contact is rig.tire_contact else self._cushion[-1]
+            tire, seat = self._approaches(float(height), float(height))
+            approach = tire if contact is rig.tire_contact else seat
+            force = elastic_force(contact.elastic, approach)
+            if abs(elastic_force(contact.elastic, approach + after - end) - force) > CORRECTED * max(1.0, force):
+                return False
+        return True
+
+    def _close_interval(
+        self, tire_end: float, tire_next: float, seat_end: float, seat_next: float, record: BlockRecord
+    ) -> None:
+        """Take the fields' offsets over; the energy that the remaining jump brings in counts as supplied."""
+        rig = self.model.rig
+        tire, seat = self._approaches(float(self._height[-1]), float(self._cushion[-1]))
+        for contact, approach, change in (
+            (rig.tire_contact, tire, tire_next - tire_end),
+            (rig.seat_contact, seat, seat_next - seat_end),
+        ):
+            if contact is None or change == 0.0:
+                continue
+            law = contact.elastic
+            self.state[-2] += elastic_energy(law, approach + change) - elastic_energy(law, approach)
+            jump = abs(elastic_force(law, approach + change) - elastic_force(law, approach))
+            record.field_jump = max(record.field_jump, jump)
+        self._tire.offset, self._seat.offset = tire_next, seat_next

@@ -1,0 +1,112 @@
+"""The excitation of a scene as sources of numbered blocks: the one place where a scene's road and vibration are made."""
+
+from __future__ import annotations
+
+import math
+from typing import Any, Protocol
+
+from contact_sim_pkg.excitation.blocks import RoadBlocks, RoadPatch, Signal, Surface, VibrationBlock, VibrationBlocks
+from contact_sim_pkg.excitation.iso8608 import Iso8608Road, roughness_of_class
+from contact_sim_pkg.excitation.obstacles import FlatRoad, Obstacle
+from contact_sim_pkg.excitation.opencrg import OpenCrgRoad
+from contact_sim_pkg.excitation.recorded import RecordedVibration
+from contact_sim_pkg.excitation.signals import AxisSignal, HalfSine, Noise, Sine, Sweep
+from contact_sim_pkg.excitation.travel import Travel
+from contact_sim_pkg.scene.build import tire_lattice
+
+BORDER_NAMES = {"refuse": "none", "zero": "zero", "keep": "constant", "repeat": "repeat", "reflect": "reflect"}
+
+
+class Source(Protocol):
+    """Gives the block of one input topic by its number, and says what it is."""
+
+    def block(self, block: int) -> RoadPatch | VibrationBlock:
+        """Block number ``block``, from 0."""
+
+    def describe(self) -> dict[str, Any]:
+        """What was found and done, for the report."""
+
+
+def make_travel(scene: dict[str, Any]) -> Travel:
+    """Speed programme of a resolved scene."""
+    travel = scene["travel"]
+    points = travel.get("points") or [(0.0, travel["speed"])]
+    return Travel([(float(time), float(speed)) for time, speed in points])
+
+
+def make_sources(scene: dict[str, Any]) -> dict[str, Source]:
+    """Sources of the input topics that a resolved scene calls for.
+
+    Raises ExcitationError for a file that cannot be read or an excitation that cannot be made.
+    """
+    sources: dict[str, Source] = {}
+    if scene["rig"] in ("tire", "car"):
+        sources["road/patch"] = make_road(scene)
+    if scene.get("vibration"):
+        sources["platform/vibration"] = make_vibration(scene)
+    return sources
+
+
+def make_road(scene: dict[str, Any]) -> RoadBlocks:
+    """The road of a resolved scene, on the lattice of its tire."""
+    lattice = tire_lattice(scene)
+    half_length = (lattice.rows // 2 + 1) * lattice.cell_x
+    surface = _surface(scene, lattice.cell_x)
+    return RoadBlocks(
+        surface, make_travel(scene), scene["block_length"], lattice.cell_x, lattice.cell_y, half_length, lattice.cols
+    )
+
+
+def _surface(scene: dict[str, Any], cell: float) -> Surface:
+    road = scene["road"]
+    kind = road["kind"]
+    if kind == "flat":
+        return FlatRoad()
+    if kind == "iso8608":
+        roughness = roughness_of_class(road["roughness_class"]) if road.get("roughness_class") else road["roughness"]
+        texture = road.get("texture") or {}
+        return Iso8608Road(
+            roughness, scene["seed"], road["length"], road["exponent"], road["shortest_wavelength"],
+            road["longest_wavelength"], texture.get("shortest_wavelength"), cell,
+        )  # fmt: skip
+    if kind == "opencrg":
+        return OpenCrgRoad(
+            scene_file(road["file"]), road["start"], road["track_offset"], road["missing_cells"], road["hole_depth"],
+            BORDER_NAMES[road["border_u"]], BORDER_NAMES[road["border_v"]], "mean" if road["remove_mean"] else "origin",
+        )  # fmt: skip
+    height = road["depth"] if kind == "pothole" else road["height"]
+    return Obstacle(kind, road["position"], height, road["length"], road.get("edge") or 0.0, road.get("period"))
+
+
+def make_vibration(scene: dict[str, Any]) -> VibrationBlocks:
+    """The vibration of a resolved scene."""
+    vibration = scene["vibration"]
+    return VibrationBlocks(_signal(scene, vibration), scene["block_length"], vibration["sample_rate"])
+
+
+def _signal(scene: dict[str, Any], vibration: dict[str, Any]) -> Signal:
+    kind = vibration["kind"]
+    if kind == "recorded":
+        return RecordedVibration(
+            scene_file(vibration["file"]), vibration.get("rate"), vibration["vertical_column"],
+            vibration.get("forward_column") or "x", time=vibration.get("time_column"),
+            tilt="correct" if vibration["correct_tilt"] else "keep", start=vibration["start"],
+            sample_rate=vibration["sample_rate"],
+        )  # fmt: skip
+    wave = _wave(scene, vibration)
+    return AxisSignal(x=(wave,)) if vibration["axis"] == "x" else AxisSignal(z=(wave,))
+
+
+def _wave(scene: dict[str, Any], vibration: dict[str, Any]) -> Sine | Sweep | Noise | HalfSine:
+    kind = vibration["kind"]
+    if kind == "sine":
+        return Sine(vibration["amplitude"], vibration["frequency"])
+    if kind == "noise":
+        return Noise(vibration["rms"], vibration["low"], vibration["high"], scene["seed"])
+    if kind == "half_sine":
+        return HalfSine(vibration["amplitude"], vibration["start"], vibration["duration"])
+    start, end = vibration["start_frequency"], vibration["end_frequency"]
+    duration = vibration.get("duration")
+    if duration is None:
+        duration = 60.0 * abs(math.log2(end / start)) / vibration["octaves_per_minute"]
+    return Sweep(vibration["amplitude"], start, end, duration)
