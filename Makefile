@@ -1,0 +1,48 @@
+# The one entry: `make setup` makes what is missing, every other target calls it first.
+# PYTHON=/path/to/python3 chooses the interpreter (3.10 to 3.13) that the environment is made with.
+
+SHELL := /bin/bash
+.DEFAULT_GOAL := help
+.NOTPARALLEL:
+
+export PYTHON
+SET_UP := sh ros2_ws/set_up.sh
+ENTER := $(SET_UP) && . ros2_ws/setup.bash
+
+# Tests talk on a domain of their own, told apart by the project's folder, and on this host only.
+TEST_DOMAIN := $(shell printf '%s' '$(CURDIR)' | cksum | awk '{ print 1 + $$1 % 100 }')
+TEST_ENVIRONMENT := ROS_DOMAIN_ID=$(TEST_DOMAIN) ROS_AUTOMATIC_DISCOVERY_RANGE=LOCALHOST PYTEST_DISABLE_PLUGIN_AUTOLOAD=1
+
+# Ends a recipe: prints how long it took and hands the status on.
+REPORT_TIME = status=$$?; echo "make $@: $$SECONDS s in all"; exit $$status
+
+.PHONY: help setup run test lint bench hard clean
+
+help:  ## show this list
+	@awk -F ':.*## ' '/^[a-z]+:.*## / { printf "make %-8s %s\n", $$1, $$2 }' $(firstword $(MAKEFILE_LIST))
+
+setup:  ## make the environment in .ros2/ and build the workspace; does nothing where both are current
+	@$(SET_UP)
+
+run:  ## run the full bench on real nodes, record a bag, write its report
+	@SECONDS=0; bag="bags/car_full_bench_$$(date +%Y-%m-%d_%H-%M-%S)"; $(ENTER) && \
+	bench run car_full_bench --pace max --out "$$bag" && bench report "$$bag"; $(REPORT_TIME)
+
+test:  ## run the tests
+	@SECONDS=0; $(ENTER) && $(TEST_ENVIRONMENT) python -m pytest tests $(PYTEST_OPTIONS); $(REPORT_TIME)
+
+lint:  ## check style, format and types
+	@$(ENTER) && ruff check && ruff format --check && mypy
+
+bench:  ## measure start-up and real-time factor of the full bench, and what accuracy costs
+	@SECONDS=0; $(ENTER) && folder=$$(mktemp -d) && trap 'rm -rf "$$folder"' EXIT && \
+	bench run car_full_bench --pace max --out "$$folder/warm_up" --json >/dev/null && \
+	bench run car_full_bench --pace max --out "$$folder/measured" --json && \
+	bench accuracy tire_bump; $(REPORT_TIME)
+
+hard:  ## run the hard cases: value, expectation, margin, verdict
+	@$(ENTER) && bench hard
+
+clean:  ## remove the environment, the build and the caches of the tools; bags stay
+	rm -rf .ros2 ros2_ws/build ros2_ws/install ros2_ws/log .pytest_cache .mypy_cache .ruff_cache .hypothesis
+	find . -name __pycache__ -type d -prune -exec rm -rf {} +

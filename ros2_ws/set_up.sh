@@ -1,0 +1,35 @@
+#!/bin/sh
+# Finds a Python of 3.10 to 3.13 and runs the set-up with it. PYTHON names one; else the one that the
+# environment was made with, python3, python3.13 … python3.10.
+workspace=$(CDPATH='' cd -- "$(dirname -- "$0")" && pwd -P) || exit 1
+unset PYTHONHOME PYTHONSAFEPATH
+export _ROS_WHEELS_BOOTSTRAP_COMPLETE=1
+
+is_supported() {
+  "$1" -c 'import sys; sys.exit(not (3, 10) <= sys.version_info[:2] <= (3, 13))' >/dev/null 2>&1
+}
+
+if [ -n "${PYTHON:-}" ]; then
+  if ! is_supported "$PYTHON"; then
+    echo "set-up: PYTHON=$PYTHON is not a Python of 3.10 to 3.13: name one that is." >&2
+    exit 2
+  fi
+else
+  made_with=$(cat "$workspace/../.ros2/base_python" 2>/dev/null)
+  for candidate in $made_with python3 python3.13 python3.12 python3.11 python3.10 /usr/bin/python3; do
+    if is_supported "$candidate"; then
+      PYTHON=$candidate
+      break
+    fi
+  done
+  if [ -z "${PYTHON:-}" ]; then
+    echo "set-up: no Python of 3.10 to 3.13 found (looked for python3 and python3.13 to python3.10): install one" \
+      "(Debian, Ubuntu: sudo apt install python3 python3-venv python3-dev) or name it with make PYTHON=/path/to/python3." >&2
+    exit 2
+  fi
+fi
+
+case "$PYTHON" in
+  */*) PYTHON=$(CDPATH='' cd -- "$(dirname -- "$PYTHON")" && pwd)/$(basename -- "$PYTHON") ;;
+esac
+cd -- "$workspace" && exec "$PYTHON" -B -m set_up

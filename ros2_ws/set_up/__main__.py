@@ -1,0 +1,70 @@
+"""`make setup`: look whether the machine has what is needed, make the environment, build the workspace."""
+
+import fcntl
+import os
+import sys
+import time
+
+from . import preflight, stamps
+from .environment import make_environment
+from .errors import MISSING, SetUpError
+from .layout import ENVIRONMENT, WORKSPACE, environment_python
+from .underlay import Underlay, clean_environ, find_underlay
+from .workspace import build_workspace, is_built
+
+
+def set_up() -> None:
+    """Bring environment and workspace up to date; what is current is left alone."""
+    underlay = find_underlay(os.environ)
+    environ = clean_environ(os.environ, underlay)
+    key = stamps.environment_key(underlay)
+    build_key = stamps.workspace_key(key)
+    environment_is_current = environment_python().exists() and stamps.holds(stamps.ENVIRONMENT_STAMP, key)
+    if environment_is_current and is_built() and stamps.holds(stamps.WORKSPACE_STAMP, build_key):
+        return
+    _check_machine(underlay, environ)
+    if not environment_is_current:
+        source = "from PyPI" if underlay.prefix is None else f"in {underlay.prefix}"
+        _say(f"ROS 2 Jazzy {source}, {underlay.python}: making the environment {ENVIRONMENT} (some minutes)")
+        make_environment(underlay, environ)
+        stamps.write(stamps.ENVIRONMENT_STAMP, key)
+    _say("building contact_msgs_defs and contact_sim_pkg with colcon")
+    stamps.WORKSPACE_STAMP.unlink(missing_ok=True)
+    build_workspace(environ)
+    stamps.write(stamps.WORKSPACE_STAMP, build_key)
+    _say("done; `source ros2_ws/setup.bash` puts `bench` on the PATH")
+
+
+def main() -> int:
+    """Run the set-up under a lock; returns the exit status: 0, 1 failed, 2 something is missing, 130 interrupted."""
+    lock = os.open(WORKSPACE, os.O_RDONLY)
+    try:
+        fcntl.flock(lock, fcntl.LOCK_EX)
+        set_up()
+    except SetUpError as error:
+        for fault in error.faults:
+            _say(fault)
+        return error.status
+    except KeyboardInterrupt:
+        _say("interrupted; the next call starts over")
+        return 130
+    finally:
+        os.close(lock)
+    return 0
+
+
+def _check_machine(underlay: Underlay, environ: dict[str, str]) -> None:
+    facts = preflight.gather(underlay, environ)
+    found = preflight.faults(facts) or preflight.compiler_faults(facts, environ)
+    if found:
+        raise SetUpError(*found, status=MISSING)
+
+
+def _say(sentence: str) -> None:
+    print(f"set-up [{time.monotonic() - _START:3.0f} s]: {sentence}", file=sys.stderr, flush=True)
+
+
+_START = time.monotonic()
+
+if __name__ == "__main__":
+    sys.exit(main())
