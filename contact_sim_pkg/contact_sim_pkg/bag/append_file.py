@@ -1,7 +1,7 @@
 """A new file that only grows, in a new directory; every error of the operating system is one sentence.
 
-A write that fails is taken back, so the file always ends with a whole record. Nothing is buffered here: what `write` returned
-from survives the death of the process, what `sync` returned from survives the death of the machine.
+A write that fails is taken back, so the file always ends with a whole record. Nothing is buffered here: what `write`
+returned from survives the death of the process, what `sync` returned from survives the death of the machine.
 """
 
 import errno
@@ -55,7 +55,9 @@ class AppendFile:
             os.fdatasync(self._descriptor)
         except OSError as error:
             if error.errno not in (errno.EINVAL, errno.EROFS):  # a device or file system without sync
-                raise BagWriteError(f"{self._name} was not brought onto the disk: {error.strerror}; check the disk") from None
+                raise BagWriteError(
+                    f"{self._name} was not brought onto the disk: {error.strerror}; check the disk"
+                ) from None
         self._synced = size
 
     def free_bytes(self) -> int:
@@ -86,7 +88,9 @@ def create_directory(directory: Path) -> None:
         directory.parent.mkdir(parents=True, exist_ok=True)
         directory.mkdir()
     except FileExistsError:
-        raise BagError(f"{directory} exists already and is never overwritten; choose another name or remove it") from None
+        raise BagError(
+            f"{directory} exists already and is never overwritten; choose another name or remove it"
+        ) from None
     except (OSError, ValueError) as error:
         reason = error.strerror if isinstance(error, OSError) else error
         raise BagError(f"the bag directory {directory} cannot be created: {reason}; choose another place") from None
@@ -122,7 +126,9 @@ def write_whole(directory: Path, name: str, text: str) -> None:
     """Put a text file in place at once: all of it or nothing; BagWriteError where that fails."""
     draft = directory / f".{name}.new"
     try:
-        with open(os.open(draft, os.O_WRONLY | os.O_CREAT | os.O_EXCL | os.O_NOFOLLOW, 0o644), "w", encoding="utf-8") as file:
+        with open(
+            os.open(draft, os.O_WRONLY | os.O_CREAT | os.O_EXCL | os.O_NOFOLLOW, 0o644), "w", encoding="utf-8"
+        ) as file:
             file.write(text)
             file.flush()
             os.fsync(file.fileno())

@@ -6,7 +6,7 @@ import lz4.frame  # type: ignore[import-untyped]
 import zstandard
 from mcap.records import Chunk
 
-from .errors import CorruptChunk
+from .errors import CorruptChunkError
 
 LARGEST_RECORD = 256 << 20  # [bytes] of one record, packed or unpacked; our chunks are closed at 1 MiB
 
@@ -34,12 +34,12 @@ def _unpack(compression: str, data: bytes, size: int) -> bytes:
     raise ValueError(f"its compression {compression!r} is unknown; zstd, lz4 and none are known")
 
 
-def damaged(name: str, offset: int, start: int, end: int, error: Exception) -> CorruptChunk:
+def damaged(name: str, offset: int, start: int, end: int, error: Exception) -> CorruptChunkError:
     """The error of a damaged chunk: where it stands, which time it covers, why."""
     reason = str(error) or type(error).__name__
-    return CorruptChunk(
-        f"{name}: the chunk at byte {offset}, messages of {start / 1e9:.3f} s to {end / 1e9:.3f} s, is damaged ({reason}); "
-        "reading stops there unless bad chunks are skipped",
+    return CorruptChunkError(
+        f"{name}: the chunk at byte {offset}, messages of {start / 1e9:.3f} s to {end / 1e9:.3f} s, is damaged "
+        f"({reason}); reading stops there unless bad chunks are skipped",
         start,
         end,
     )

@@ -19,7 +19,7 @@ Getter = Callable[[Any], Any]
 def stacked(
     messages: Iterable[tuple[int, Any]], store: Typestore, type_name: str, fields: tuple[str, ...] | None
 ) -> dict[str, Any]:
-    """Columns of the messages (log time in [ns], object), as `Bag.columns` describes them; BagError for an unknown field."""
+    """Columns of the messages (log time in [ns], object) as `Bag.columns` describes them; BagError: unknown field."""
     getters = dict(_getters(store, type_name, "", lambda message: message))
     derived = {"log_time", "time"} if "stamp" in getters else {"log_time"}
     unknown = set(fields or ()) - set(getters) - derived

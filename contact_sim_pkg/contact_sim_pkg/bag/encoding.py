@@ -1,13 +1,12 @@
 """Message objects to CDR bytes and back, without a word about the fields of any message.
 
-The bytes are little-endian CDR with the header 00 01 00 00, filled up with zeros to a multiple of 4: what DDS delivers to a
-`raw` subscription when these bytes are given to `publisher.publish(bytes)`. Alignment gaps hold zeros, so equal values give
-equal bytes.
+The bytes are little-endian CDR with the header 00 01 00 00, filled up with zeros to a multiple of 4: what DDS
+delivers to a `raw` subscription when these bytes are given to `publisher.publish(bytes)`. Alignment gaps hold zeros,
+so equal values give equal bytes.
 """
 
+import struct
 from functools import cache
-from struct import error as StructError
-from struct import unpack_from
 from typing import Any
 
 import numpy
@@ -47,7 +46,7 @@ def serialize(type_name: str, *fields: Any) -> bytes:
     """
     try:
         data = installed_types().serialize_cdr(message_class(type_name)(*fields), type_name, little_endian=True)
-    except (StructError, TypeError, ValueError, AttributeError) as error:
+    except (struct.error, TypeError, ValueError, AttributeError) as error:
         raise MessageError(f"a {type_name} cannot be encoded: {error}") from None
     return b"".join((data, _FILL[len(data) % 4]))
 
@@ -56,7 +55,7 @@ def deserialize(type_name: str, data: bytes) -> Any:
     """The message that the bytes hold; its arrays are views of them. MessageError where they do not hold one."""
     try:
         return installed_types().deserialize_cdr(data, type_name)
-    except (SerdeError, StructError, ValueError, IndexError, AssertionError) as error:
+    except (SerdeError, struct.error, ValueError, IndexError, AssertionError) as error:
         raise MessageError(f"{len(data)} bytes do not hold a {type_name}: {error}") from None
 
 
@@ -64,7 +63,7 @@ def stamp_of(data: bytes) -> int:
     """The stamp in [ns] of an encoded message whose first field is a header or a stamp: 8 bytes at offset 4."""
     if len(data) < 12 or data[:2] not in (b"\0\1", b"\0\0"):
         raise MessageError(f"{len(data)} bytes that begin with {data[:4].hex(' ') or 'nothing'} hold no stamp")
-    seconds, nanoseconds = unpack_from("<iI" if data[1] else ">iI", data, 4)
+    seconds, nanoseconds = struct.unpack_from("<iI" if data[1] else ">iI", data, 4)
     return int(seconds * SECOND + nanoseconds)
 
 
@@ -82,7 +81,9 @@ def equal_lengths(type_name: str, **arrays: NDArray[numpy.float64]) -> None:
     """MessageError where the arrays of one message differ in length."""
     if len({len(array) for array in arrays.values()}) > 1:
         lengths = ", ".join(f"{name} has {len(array)}" for name, array in arrays.items())
-        raise MessageError(f"the arrays of a {type_name} differ in length: {lengths}; one value a sample is needed in each")
+        raise MessageError(
+            f"the arrays of a {type_name} differ in length: {lengths}; one value a sample is needed in each"
+        )
 
 
 def finite(type_name: str, block: int, **values: Any) -> None:
@@ -91,3 +92,17 @@ def finite(type_name: str, block: int, **values: Any) -> None:
         if not numpy.isfinite(value).all():
             bad = int(numpy.count_nonzero(~numpy.isfinite(value)))
             raise MessageError(f"{name} of {type_name}, block {block}, has {bad} value(s) that are NaN or infinite")
+
+
+def grid(type_name: str, block: int, rows: int, cols: int, values: NDArray[Any]) -> NDArray[Any]:
+    """A copy of the values as [rows, cols]; MessageError where there are more or fewer."""
+    if rows * cols != len(values):
+        raise MessageError(f"block {block} of {type_name} has {len(values)} values for a grid of {rows} x {cols}")
+    return numpy.array(values).reshape(rows, cols)
+
+
+def above_zero(type_name: str, block: int, **values: float) -> None:
+    """MessageError that names the first of the values that is not above 0 and finite."""
+    for name, value in values.items():
+        if not 0.0 < value < float("inf"):
+            raise MessageError(f"{name} of {type_name}, block {block}, is {value}; it must be above 0 and finite")

@@ -1,4 +1,4 @@
-"""What can go wrong with messages and bags. Each error is one sentence: what, where, the value, what is allowed, the cure."""
+"""What can go wrong with messages and bags; the text of each error is one sentence for a person."""
 
 
 class BagError(Exception):
@@ -13,11 +13,11 @@ class BagWriteError(BagError):
     """The operating system refused a write; what was written before stays readable."""
 
 
-class RecordingStopped(BagError):
+class RecordingStoppedError(BagError):
     """The recording was closed properly because the disk has less free space than its reserve."""
 
 
-class CorruptChunk(BagError):
+class CorruptChunkError(BagError):
     """A chunk fails its checksum or cannot be taken apart; `start` and `end` are its log times in [ns]."""
 
     def __init__(self, sentence: str, start: int, end: int) -> None:

@@ -1,15 +1,14 @@
 """Where the parts of an MCAP file stand: from its summary, or, where it was cut off, from a walk over its records.
 
-Nothing is believed before it was checked: a record is read when its length fits into the file and below a limit, a chunk
-is taken apart when its checksum holds. The file is never changed.
+Nothing is believed before it was checked: a record is read when its length fits into the file and below a limit, a
+chunk is taken apart when its checksum holds. The file is never changed.
 """
 
+import struct
 import zlib
 from collections import Counter
 from io import BytesIO
 from pathlib import Path
-from struct import error as StructError
-from struct import unpack
 from typing import IO, NamedTuple
 
 from mcap.data_stream import ReadDataStream
@@ -20,11 +19,11 @@ from mcap.records import Channel, Chunk, ChunkIndex, McapRecord, Message, Metada
 from mcap.stream_reader import breakup_chunk
 
 from .chunks import LARGEST_RECORD, damaged, decompressed
-from .errors import BagError, CorruptChunk
+from .errors import BagError, CorruptChunkError
 
 MAGIC = b"\x89MCAP0\r\n"
 _HEAD = 9  # opcode and length of a record
-_FAULTS = (McapError, StructError, ValueError, OSError, IndexError, KeyError, OverflowError)
+_FAULTS = (McapError, struct.error, ValueError, OSError, IndexError, KeyError, OverflowError)
 
 
 class ChunkPlace(NamedTuple):
@@ -54,7 +53,9 @@ def read_layout(file: IO[bytes], name: str) -> Layout:
     file.seek(0)
     magic = file.read(len(MAGIC))
     if magic != MAGIC:
-        raise BagError(f"{name} is no MCAP file: it begins with {magic.hex(' ') or 'nothing'}, not with {MAGIC.hex(' ')}")
+        raise BagError(
+            f"{name} is no MCAP file: it begins with {magic.hex(' ') or 'nothing'}, not with {MAGIC.hex(' ')}"
+        )
     return _from_summary(file, name) or _walk(file, name)
 
 
@@ -73,7 +74,7 @@ def counts_on_disk(path: Path) -> tuple[dict[str, int], bool]:
 
 
 def chunk_records(file: IO[bytes], place: ChunkPlace, name: str) -> list[McapRecord]:
-    """Schemas, channels and messages of one chunk in file order; CorruptChunk where it is damaged."""
+    """Schemas, channels and messages of one chunk in file order; CorruptChunkError where it is damaged."""
     try:
         opcode, length = _head(file, place.offset)
         if opcode != Opcode.CHUNK or length != place.length - _HEAD or length > LARGEST_RECORD:
@@ -104,7 +105,11 @@ def _from_summary(file: IO[bytes], name: str) -> Layout | None:
         file.seek(0)
         reader = SeekingReader(file, record_size_limit=LARGEST_RECORD)
         summary = reader.get_summary()
-        if summary is None or summary.statistics is None or (summary.statistics.message_count and not summary.chunk_indexes):
+        if (
+            summary is None
+            or summary.statistics is None
+            or (summary.statistics.message_count and not summary.chunk_indexes)
+        ):
             return None
         chunks = [_place(index) for index in sorted(summary.chunk_indexes, key=lambda index: index.chunk_start_offset)]
         counts = dict(summary.statistics.channel_message_counts)
@@ -121,16 +126,18 @@ def _summary_is_whole(file: IO[bytes]) -> bool:
     footer = file.read()
     if len(footer) < tail or footer[-len(MAGIC) :] != MAGIC or footer[0] != Opcode.FOOTER:
         return False
-    start, _, checksum = unpack("<QQI", footer[_HEAD : _HEAD + 20])
+    start, _, checksum = struct.unpack("<QQI", footer[_HEAD : _HEAD + 20])
     if not 0 < start <= end - tail or end - start > LARGEST_RECORD:
         return False
     file.seek(start)
-    return checksum == 0 or zlib.crc32(file.read(end - start - len(MAGIC) - 4)) == checksum
+    return bool(checksum == 0 or zlib.crc32(file.read(end - start - len(MAGIC) - 4)) == checksum)
 
 
 def _place(index: ChunkIndex) -> ChunkPlace:
     channels = frozenset(index.message_index_offsets) or None
-    return ChunkPlace(index.chunk_start_offset, index.chunk_length, index.message_start_time, index.message_end_time, channels)
+    return ChunkPlace(
+        index.chunk_start_offset, index.chunk_length, index.message_start_time, index.message_end_time, channels
+    )
 
 
 def _walk(file: IO[bytes], name: str) -> Layout:
@@ -156,14 +163,14 @@ def _why_not(opcode: int, length: int, left: int) -> str:
     if left < 0 or opcode in (0, Opcode.FOOTER):
         return "it was not finished"
     if length > LARGEST_RECORD:
-        return f"it was not finished or is damaged: a record of kind {opcode} claims {length} bytes, limit {LARGEST_RECORD}"
+        return f"it is damaged: a record of kind {opcode} claims {length} bytes, limit {LARGEST_RECORD}"
     if length > left:
         return f"it was not finished: a record of kind {opcode} is cut off after {left} of {length} bytes"
     return ""
 
 
 def _take(file: IO[bytes], place: ChunkPlace, opcode: int, found: Layout, name: str) -> bool:
-    """Add one record of the walk to what was found; False where it is damaged (a reader meets a damaged chunk again)."""
+    """Add one record of the walk; False where it is damaged (a chunk stays listed, so that a reader meets it)."""
     length = place.length - _HEAD
     try:
         if opcode == Opcode.CHUNK:
@@ -176,7 +183,7 @@ def _take(file: IO[bytes], place: ChunkPlace, opcode: int, found: Layout, name: 
             _count([Schema.read(_stream(file, length))], found)
         elif opcode == Opcode.CHANNEL:
             _count([Channel.read(_stream(file, length))], found)
-    except (CorruptChunk, *_FAULTS):
+    except (CorruptChunkError, *_FAULTS):
         return False
     return True
 

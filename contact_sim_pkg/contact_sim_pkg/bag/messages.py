@@ -13,11 +13,13 @@ from numpy.typing import NDArray
 from contact_sim_pkg.excitation.blocks import RoadPatch, VibrationBlock
 
 from .encoding import (
+    above_zero,
     deserialize,
     equal_lengths,
     finite,
     float32s,
     float64s,
+    grid,
     header,
     message_class,
     serialize,
@@ -72,7 +74,7 @@ class Wrench(NamedTuple):
 
 
 class PatchField(NamedTuple):
-    """The pressure of one contact at one instant; cell (i, j) at origin + (i cell_x, j cell_y) in the contact's frame."""
+    """The pressure of one contact at one instant; cell (i, j) at origin + (i cell_x, j cell_y) in its frame."""
 
     block: int
     cell_x: float  # [m]
@@ -156,15 +158,17 @@ class Recorded(NamedTuple):
 def encode_road_patch(value: RoadPatch, stamp_ns: int, frame_id: str = BENCH_FRAME) -> bytes:
     """One block of road; rows and cols are the shape of `height`."""
     rows, cols = value.height.shape
-    return serialize(_ROAD, header(stamp_ns, frame_id), *value[:4], rows, cols, value.cell_x, value.cell_y, float32s(value.height))
+    return serialize(
+        _ROAD, header(stamp_ns, frame_id), *value[:4], rows, cols, value.cell_x, value.cell_y, float32s(value.height)
+    )
 
 
 def decode_road_patch(data: bytes) -> RoadPatch:
-    """One block of road; MessageError where rows, cols and height disagree, a spacing is not above 0 or a value not finite."""
+    """One block of road; MessageError where the grid does not fit, a spacing is not above 0 or a value not finite."""
     message = deserialize(_ROAD, data)
-    height = _grid(_ROAD, message.block, message.rows, message.cols, message.height)
+    height = grid(_ROAD, message.block, message.rows, message.cols, message.height)
     finite(_ROAD, message.block, travel_start=message.travel_start, travel_end=message.travel_end, height=height)
-    _above_zero(_ROAD, message.block, cell_x=message.cell_x, cell_y=message.cell_y)
+    above_zero(_ROAD, message.block, cell_x=message.cell_x, cell_y=message.cell_y)
     travel = (message.travel_start, message.travel_end)
     return RoadPatch(message.block, *travel, message.first_row, message.cell_x, message.cell_y, height)
 
@@ -186,7 +190,7 @@ def decode_vibration(data: bytes) -> VibrationBlock:
             "allowed: one value a sample, from 2 samples"
         )
     finite(_VIBRATION, message.block, acceleration_x=x, acceleration_z=z)
-    _above_zero(_VIBRATION, message.block, sample_period=message.sample_period)
+    above_zero(_VIBRATION, message.block, sample_period=message.sample_period)
     return VibrationBlock(message.block, message.sample_period, x, z)
 
 
@@ -220,14 +224,17 @@ def decode_wrench(data: bytes) -> Wrench:
 def encode_contact_patch(value: PatchField, stamp_ns: int, frame_id: str) -> bytes:
     """A pressure field; rows and cols are the shape of `pressure`."""
     rows, cols = value.pressure.shape
-    return serialize(_PATCH, header(stamp_ns, frame_id), value.block, rows, cols, *value[1:-1], float32s(value.pressure))
+    return serialize(
+        _PATCH, header(stamp_ns, frame_id), value.block, rows, cols, *value[1:-1], float32s(value.pressure)
+    )
 
 
 def decode_contact_patch(data: bytes) -> PatchField:
     """A pressure field; MessageError where rows, cols and pressure disagree."""
     message = deserialize(_PATCH, data)
-    pressure = _grid(_PATCH, message.block, message.rows, message.cols, message.pressure)
-    return PatchField(*(getattr(message, name) for name in PatchField._fields[:-1]), pressure=pressure)
+    pressure = grid(_PATCH, message.block, message.rows, message.cols, message.pressure)
+    scalars = _scalars(message, PatchField._fields[:-1])
+    return PatchField._make((*scalars, pressure))
 
 
 def encode_motion(value: MotionBlock, stamp_ns: int, frame_id: str = BENCH_FRAME) -> bytes:
@@ -235,7 +242,9 @@ def encode_motion(value: MotionBlock, stamp_ns: int, frame_id: str = BENCH_FRAME
     shape = (len(value.bodies), *value.position.shape[1:])
     if any(array.shape != shape or len(shape) != 2 for array in value[3:]):
         shapes = ", ".join(f"{name} {getattr(value, name).shape}" for name in value._fields[3:])
-        raise MessageError(f"the arrays of a {_MOTION} must be [{len(value.bodies)} bodies, samples]; they are {shapes}")
+        raise MessageError(
+            f"the arrays of a {_MOTION} must be [{len(value.bodies)} bodies, samples]; they are {shapes}"
+        )
     fields = (value.block, value.sample_period, shape[1], list(value.bodies), *(float64s(array) for array in value[3:]))
     return serialize(_MOTION, header(stamp_ns, frame_id), *fields)
 
@@ -244,7 +253,7 @@ def decode_motion(data: bytes) -> MotionBlock:
     """Motion of all bodies in a block."""
     message = deserialize(_MOTION, data)
     shape = (len(message.bodies), message.samples)
-    arrays = (_grid(_MOTION, message.block, *shape, getattr(message, name)) for name in MotionBlock._fields[3:])
+    arrays = (grid(_MOTION, message.block, *shape, getattr(message, name)) for name in MotionBlock._fields[3:])
     return MotionBlock(message.block, message.sample_period, tuple(message.bodies), *arrays)
 
 
@@ -305,16 +314,3 @@ def encode_clock(stamp_ns: int) -> bytes:
 
 def _scalars(message: Any, names: tuple[str, ...]) -> tuple[Any, ...]:
     return tuple(getattr(message, name) for name in names)
-
-
-def _grid(type_name: str, block: int, rows: int, cols: int, values: NDArray[Any]) -> NDArray[Any]:
-    """A copy of the values as [rows, cols]; MessageError where there are more or fewer."""
-    if rows * cols != len(values):
-        raise MessageError(f"block {block} of {type_name} has {len(values)} values for a grid of {rows} x {cols}")
-    return numpy.array(values).reshape(rows, cols)
-
-
-def _above_zero(type_name: str, block: int, **values: float) -> None:
-    for name, value in values.items():
-        if not 0.0 < value < float("inf"):
-            raise MessageError(f"{name} of {type_name}, block {block}, is {value}; it must be above 0 and finite")

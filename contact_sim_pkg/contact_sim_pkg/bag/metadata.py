@@ -33,7 +33,12 @@ def recorded_topics(names: Sequence[str] = RECORDED, namespace: str = "") -> tup
     rows = sorted((topic_of(name) for name in names), key=lambda topic: topic.rank)
     return tuple(
         RecordedTopic(
-            row.name, full_name(row.name, namespace), row.type, definition(row.type), type_hash(row.type), offered_qos(row)
+            row.name,
+            full_name(row.name, namespace),
+            row.type,
+            definition(row.type),
+            type_hash(row.type),
+            offered_qos(row),
         )
         for row in rows
     )
@@ -64,7 +69,11 @@ def _version(name: str) -> str:
 
 
 def metadata_text(
-    file_name: str, topics: Sequence[RecordedTopic], counts: Mapping[str, int], extent: Extent, custom: Mapping[str, str]
+    file_name: str,
+    topics: Sequence[RecordedTopic],
+    counts: Mapping[str, int],
+    extent: Extent,
+    custom: Mapping[str, str],
 ) -> str:
     """The text of `metadata.yaml` of a bag of one file; `counts` by key of the topic."""
     information = _information(file_name, topics, counts, extent, custom)
@@ -72,7 +81,11 @@ def metadata_text(
 
 
 def serialized_metadata(
-    file_name: str, topics: Sequence[RecordedTopic], counts: Mapping[str, int], extent: Extent, custom: Mapping[str, str]
+    file_name: str,
+    topics: Sequence[RecordedTopic],
+    counts: Mapping[str, int],
+    extent: Extent,
+    custom: Mapping[str, str],
 ) -> dict[str, str]:
     """The MCAP metadata record `rosbag2`, from which `ros2 bag reindex` and `info` read a lone file."""
     information = _information(file_name, topics, counts, extent, custom)
@@ -91,7 +104,11 @@ def parse_metadata(text: str, where: str) -> dict[str, Any]:
 
 
 def _information(
-    file_name: str, topics: Sequence[RecordedTopic], counts: Mapping[str, int], extent: Extent, custom: Mapping[str, str]
+    file_name: str,
+    topics: Sequence[RecordedTopic],
+    counts: Mapping[str, int],
+    extent: Extent,
+    custom: Mapping[str, str],
 ) -> dict[str, Any]:
     duration = {"nanoseconds": extent.end - extent.start}
     start = {"nanoseconds_since_epoch": extent.start}
@@ -106,7 +123,9 @@ def _information(
         "compression_format": "",
         "compression_mode": "",
         "relative_file_paths": [file_name],
-        "files": [{"path": file_name, "starting_time": dict(start), "duration": dict(duration), "message_count": total}],
+        "files": [
+            {"path": file_name, "starting_time": dict(start), "duration": dict(duration), "message_count": total}
+        ],
         "custom_data": dict(custom) or None,
         "ros_distro": "jazzy",
     }

@@ -18,7 +18,9 @@ def safe_name(text: str, longest: int = LONGEST_NAME) -> str:
     return name if name.strip("_") else "bag"
 
 
-def default_directory(scene_name: str, root: Path = Path("bags"), now: datetime | None = None, token: str | None = None) -> Path:
+def default_directory(
+    scene_name: str, root: Path = Path("bags"), now: datetime | None = None, token: str | None = None
+) -> Path:
     """`root`/SCENE_UTCTIME_RANDOM: the scene's name made safe, time to the second, six random hexadecimal digits."""
     moment = (now or datetime.now(timezone.utc)).strftime("%Y%m%dT%H%M%SZ")
     return root / f"{safe_name(scene_name, _LONGEST_SCENE)}_{moment}_{token or secrets.token_hex(3)}"

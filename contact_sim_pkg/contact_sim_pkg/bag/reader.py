@@ -7,7 +7,6 @@ from collections.abc import Iterator
 from pathlib import Path
 from typing import Any, NamedTuple
 
-import numpy
 from mcap.records import Channel, Message, Schema
 from rosbags.serde import SerdeError
 from rosbags.typesys.store import Typestore
@@ -15,7 +14,7 @@ from rosbags.typesys.store import Typestore
 from .append_file import is_being_written
 from .columns import stacked
 from .encoding import deserialize
-from .errors import BagError, CorruptChunk
+from .errors import BagError, CorruptChunkError
 from .layout import Layout, chunk_records, read_layout
 from .metadata import RECORD, SCENE_KEY, RecordedTopic, parse_metadata
 from .topics import TOPICS
@@ -69,7 +68,7 @@ class Bag:
         return None if first is None else str(deserialize("std_msgs/msg/String", first.data).data)
 
     def topic(self, name: str) -> RecordedTopic:
-        """The topic that the bag shows as `name`, `/name`, or, alone, as `/namespace/name`; BagError where there is none."""
+        """The topic shown as `name`, `/name` or, where it is the only one, `/namespace/name`; BagError: none, many."""
         for candidate in (name, f"/{name}"):
             if candidate in self.topics:
                 return self.topics[candidate]
@@ -92,7 +91,9 @@ class Bag:
         wanted = None if topic is None else self.topic(topic).name if topic in self else ""
         channels = self._layout.channels
         return sum(
-            count for number, count in self._layout.counts.items() if number in channels and wanted in (None, channels[number].topic)
+            count
+            for number, count in self._layout.counts.items()
+            if number in channels and wanted in (None, channels[number].topic)
         )
 
     @property
@@ -103,7 +104,7 @@ class Bag:
     def messages(self, topic: str | None = None) -> Iterator[BagMessage]:
         """All messages, or those of one topic, in file order.
 
-        Raises CorruptChunk at a damaged chunk, which names its time range; with `skip_bad` a note is kept instead.
+        Raises CorruptChunkError at a damaged chunk, which names its time range; with `skip_bad` a note is kept instead.
         """
         wanted = None if topic is None else self.topic(topic).name
         numbers = {number for number, channel in self._layout.channels.items() if wanted in (None, channel.topic)}
@@ -113,7 +114,7 @@ class Bag:
                     continue
                 try:
                     records = chunk_records(file, place, self.path.name)
-                except CorruptChunk as error:
+                except CorruptChunkError as error:
                     self._skip_or_raise(error)
                     continue
                 yield from self._messages_of(records, numbers)
@@ -126,9 +127,8 @@ class Bag:
             try:
                 yield message.log_time, store.deserialize_cdr(message.data, row.type)
             except (SerdeError, KeyError, AssertionError) as error:
-                raise BagError(
-                    f"{self.path}: a message of {row.name} at {message.log_time / 1e9:.6f} s does not fit its definition: {error}"
-                ) from None
+                where = f"{self.path}: the message of {row.name} at {message.log_time / 1e9:.6f} s"
+                raise BagError(f"{where} does not fit the definition in the bag: {error}") from None
 
     def columns(self, topic: str, fields: tuple[str, ...] | None = None) -> dict[str, Any]:
         """The fields of all messages of a topic as columns.
@@ -138,9 +138,9 @@ class Bag:
             fields: names of the columns wanted; all where it is None.
 
         Returns:
-            `log_time` and, with a header, `stamp` as int64 [ns] and `time`, the stamp in [s]; then one entry a field, nested
-            ones with dots (`wrench.force.z`): scalars as [messages], arrays of one length as [messages, length], arrays that
-            differ in length as a list.
+            `log_time` and, with a header, `stamp` as int64 [ns] and `time`, the stamp in [s]; then one entry a field,
+            nested ones with dots (`wrench.force.z`): scalars as [messages], arrays of one length as [messages, length],
+            arrays that differ in length as a list.
 
         Raises:
             BagError: no such topic or field, or a message does not fit its definition.
@@ -160,7 +160,7 @@ class Bag:
                 row = self.topics[channels[record.channel_id].topic]
                 yield BagMessage(row.name, row.type, record.log_time, record.data, record.publish_time, record.sequence)
 
-    def _skip_or_raise(self, error: CorruptChunk) -> None:
+    def _skip_or_raise(self, error: CorruptChunkError) -> None:
         if not self._skip_bad:
             raise error
         note = str(error).replace("reading stops there unless bad chunks are skipped", "it was skipped")
@@ -184,7 +184,9 @@ def open_bag(path: Path | str, *, skip_bad: bool = False) -> Bag:
         with file_path.open("rb") as file:
             layout = read_layout(file, file_path.name)
     except OSError as error:
-        raise BagError(f"the bag {place} cannot be opened: {error.strerror}; give its directory or its .mcap file") from None
+        raise BagError(
+            f"the bag {place} cannot be opened: {error.strerror}; give its directory or its .mcap file"
+        ) from None
     return Bag(file_path, layout, skip_bad)
 
 
@@ -214,19 +216,28 @@ def _file_of(directory: Path) -> Path:
     else:
         names = sorted(entry.name for entry in directory.glob("*.mcap"))
     if len(names) != 1 or not names[0].endswith(".mcap"):
-        raise BagError(f"{directory} holds {len(names)} bag files ({', '.join(names) or 'none'}); one .mcap file is needed, give it")
+        raise BagError(
+            f"{directory} holds {len(names)} bag files ({', '.join(names) or 'none'}); give the one .mcap file to read"
+        )
     return directory / names[0]
 
 
 def _topics(layout: Layout) -> dict[str, RecordedTopic]:
-    return {channel.topic: _topic(channel, layout.schemas.get(channel.schema_id)) for channel in layout.channels.values()}
+    return {
+        channel.topic: _topic(channel, layout.schemas.get(channel.schema_id)) for channel in layout.channels.values()
+    }
 
 
 def _topic(channel: Channel, schema: Schema | None) -> RecordedTopic:
     type_name, text = (schema.name, schema.data.decode("utf-8", "replace")) if schema else ("", "")
     kept = channel.metadata
     return RecordedTopic(
-        channel.topic, channel.topic, type_name, text, kept.get("topic_type_hash", ""), kept.get("offered_qos_profiles", "")
+        channel.topic,
+        channel.topic,
+        type_name,
+        text,
+        kept.get("topic_type_hash", ""),
+        kept.get("offered_qos_profiles", ""),
     )
 
 

@@ -34,7 +34,11 @@ def recover(source: Path | str, target: Path) -> Recovery:
     with BagWriter(target, tuple(bag.topics.values()), bag.metadata) as writer:
         for message in bag.messages():
             writer.write(
-                message.topic, message.log_time, message.data, publish_time=message.publish_time, sequence=message.sequence
+                message.topic,
+                message.log_time,
+                message.data,
+                publish_time=message.publish_time,
+                sequence=message.sequence,
             )
         lost = "; ".join(bag.notes)
         summary = writer.close({"recovered": lost or "nothing was missing"})

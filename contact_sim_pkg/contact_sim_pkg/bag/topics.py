@@ -1,7 +1,7 @@
 """The table of topics: name, type, quality of service, and whether it is recorded.
 
-Names are relative (a namespace puts itself in front) except `/clock` and `/diagnostics`, which ROS shares between all nodes.
-The rank is the position in the table; at equal stamps, a bag holds the messages of a block in order of rank.
+Names are relative (a namespace puts itself in front) except `/clock` and `/diagnostics`, which ROS shares between all
+nodes. The rank is the position in the table; at equal stamps, a bag holds the messages of a block in order of rank.
 """
 
 from typing import Literal, NamedTuple
@@ -78,7 +78,8 @@ _FOREVER = "{sec: 9223372036, nsec: 854775807}"
 def offered_qos(topic: Topic) -> str:
     """The quality of service of a topic as rosbag2 stores it: a YAML list of one profile, names for the policies."""
     return (
-        f"- history: keep_last\n  depth: {topic.depth}\n  reliability: {topic.reliability}\n  durability: {topic.durability}\n"
+        f"- history: keep_last\n  depth: {topic.depth}\n"
+        f"  reliability: {topic.reliability}\n  durability: {topic.durability}\n"
         f"  deadline: {_FOREVER}\n  lifespan: {_FOREVER}\n  liveliness: automatic\n"
         f"  liveliness_lease_duration: {_FOREVER}\n  avoid_ros_namespace_conventions: false"
     )

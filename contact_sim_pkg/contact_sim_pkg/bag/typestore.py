@@ -44,7 +44,7 @@ def installed_types() -> Typestore:
 
 @cache
 def definition(type_name: str) -> str:
-    """The `ros2msg` text of a type: its own definition, then each dependency after a line of `=` and `MSG: package/Type`.
+    """The `ros2msg` text of a type: its definition, then each dependency after a line of `=` and `MSG: package/Type`.
 
     Ours are given with their comments, which hold unit, frame and order of each field.
     """

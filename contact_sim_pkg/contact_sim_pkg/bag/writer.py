@@ -1,8 +1,9 @@
 """A bag under construction: one MCAP file in a new directory, and `metadata.yaml` beside it when it is closed.
 
-A chunk is closed 0.1 s (steady clock) after its first message or at 1 MiB, and handed to the operating system at once, so
-`kill -9` loses at most 0.2 s of recording. The disk is synced at most once a second, outside the lock, by a thread of the
-writer's own, which also guards the disk's reserve; a caller that is busy with a block loses nothing by it.
+A chunk is closed 0.1 s (steady clock) after its first message or at 1 MiB, and handed to the operating system at
+once, so `kill -9` loses at most 0.2 s of recording. The disk is synced at most once a second, outside the lock, by a
+thread of the writer's own, which also guards the disk's reserve; a caller that is busy with a block loses nothing by
+it.
 """
 
 import threading
@@ -15,7 +16,7 @@ from typing import NamedTuple
 from mcap.writer import Writer
 
 from .append_file import AppendFile, create_directory, create_file, free_bytes_at, write_whole
-from .errors import BagError, BagWriteError, RecordingStopped
+from .errors import BagError, BagWriteError, RecordingStoppedError
 from .layout import counts_on_disk
 from .metadata import RECORD, Extent, RecordedTopic, metadata_text, recorded_topics, serialized_metadata
 
@@ -62,13 +63,13 @@ class BagWriter:
             background: run `maintain` every 0.05 s in a thread; without it the caller does.
 
         Raises:
-            BagError: the directory exists or cannot be created, or less than the reserve is free; nothing is left behind.
+            BagError: the directory exists or cannot be created, or less than the reserve is free; nothing is left.
         """
         free = free_bytes() if free_bytes else free_bytes_at(directory)
         if free < reserve_bytes:
             raise BagError(
-                f"{_mega(free)} are free for {directory}, below the reserve of {_mega(reserve_bytes)}; free some space, or "
-                "record to another disk"
+                f"{_mega(free)} are free for {directory}, below the reserve of {_mega(reserve_bytes)}; "
+                "free some space, or record to another disk"
             )
         self._topics = tuple(recorded_topics() if topics is None else topics)
         self._attachments = dict(attachments or {})
@@ -140,17 +141,21 @@ class BagWriter:
 
         Raises:
             BagError: the topic is not of this bag, or the bag is closed.
-            RecordingStopped: the disk went below its reserve; the bag was closed properly.
+            RecordingStoppedError: the disk went below its reserve; the bag was closed properly.
             BagWriteError: the disk refused a write; the bag ends with its last whole chunk.
         """
         with self._lock:
             self._refuse_if_ended()
             channel = self._channels.get(topic)
             if channel is None:
-                raise BagError(f"topic {topic!r} is not recorded in {self.path}; recorded are {', '.join(self._channels)}")
+                raise BagError(
+                    f"topic {topic!r} is not recorded in {self.path}; recorded are {', '.join(self._channels)}"
+                )
             number = self._counts[topic] if sequence is None else sequence
             try:
-                self._writer.add_message(channel, log_time, data, log_time if publish_time is None else publish_time, number)
+                self._writer.add_message(
+                    channel, log_time, data, log_time if publish_time is None else publish_time, number
+                )
                 self._counts[topic] += 1
                 self._start, self._end = min(self._start, log_time), max(self._end, log_time)
                 self._chunk_opened = self._clock() if self._chunk_opened is None else self._chunk_opened
@@ -185,8 +190,8 @@ class BagWriter:
             outcome: texts to keep beside the attachments: how the run ended, what was dropped.
 
         Returns:
-            What the bag holds. `complete` is False where a write failed, the disk's reserve was reached, or the file does not
-            hold what was written; `sentence` says which. A second call returns the same.
+            What the bag holds. `complete` is False where a write failed, the disk's reserve was reached, or the file
+            does not hold what was written; `sentence` says which. A second call returns the same.
         """
         self._closing.set()
         if self._thread.is_alive():
@@ -201,7 +206,9 @@ class BagWriter:
         """The writer itself."""
         return self
 
-    def __exit__(self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None) -> None:
+    def __exit__(
+        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
+    ) -> None:
         """Close the bag, also after an error."""
         self.close()
 
@@ -217,7 +224,7 @@ class BagWriter:
 
     def _close_chunk_if_due(self) -> None:
         if self._chunk_opened is not None and self._clock() - self._chunk_opened >= CHUNK_SECONDS:
-            self._writer.flush()
+            self._writer.flush()  # type: ignore[no-untyped-call]
             self._chunk_opened = None
 
     def _stop_if_below_reserve(self) -> None:
@@ -225,7 +232,7 @@ class BagWriter:
         if free < self._reserve:
             sentence = f"recording stopped: disk: {_mega(free)} are free, below the reserve of {_mega(self._reserve)}"
             self._finish({"stopped": sentence}, sentence)
-            self._fault = RecordingStopped(sentence)
+            self._fault = RecordingStoppedError(sentence)
 
     def _finish(self, outcome: dict[str, str], stopped: str = "") -> None:
         """Write the end, close the file, compare what it holds with the counts; called once, with the lock held."""
@@ -239,7 +246,8 @@ class BagWriter:
         found, finished = counts_on_disk(self.path / self._name)
         counts = {key: found.get(name, 0) for name, key in names.items()}
         if counts != self._counts or not finished:
-            reasons.append(f"the bag holds {sum(counts.values())} of {self.messages} messages{'' if finished else ', unfinished'}")
+            ending = "" if finished else " and was not finished"
+            reasons.append(f"the bag holds {sum(counts.values())} of {self.messages} messages{ending}")
         sentence = "; ".join(dict.fromkeys(reason for reason in reasons if reason))
         self._summary = BagSummary(self.path, sum(counts.values()), counts, not sentence, sentence)
 
@@ -252,7 +260,7 @@ class BagWriter:
             if outcome:
                 self._writer.add_metadata(f"{RECORD}_outcome", outcome)
             self._writer.add_metadata("rosbag2", serialized_metadata(*content))
-            self._writer.finish()
+            self._writer.finish()  # type: ignore[no-untyped-call]
             self._file.sync()
             write_whole(self.path, "metadata.yaml", metadata_text(*content))
         except BagWriteError as error:
