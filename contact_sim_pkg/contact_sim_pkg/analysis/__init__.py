@@ -1,0 +1,1 @@
+"""Reading recorded runs: series, metrics, summary numbers and the HTML report. Never imports ROS."""

@@ -1,0 +1,133 @@
+"""The series of a recorded run that summary and report are made of.
+
+What a bag does not hold is empty (no contact, no field) or None (no motion, no ledger, no cost).
+"""
+
+from __future__ import annotations
+
+from typing import Any, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+FloatArray = NDArray[np.float64]
+
+
+class ContactSeries(NamedTuple):
+    """Resultants of one contact at the full rate."""
+
+    time: FloatArray
+    """[s]"""
+    sample_period: float
+    """[s]"""
+    normal: FloatArray
+    """[N]"""
+    tangential: FloatArray
+    """[N]"""
+    approach: FloatArray
+    """[m]"""
+
+
+class PressureMap(NamedTuple):
+    """One pressure field with its grid, in the contact's frame."""
+
+    pressure: FloatArray
+    """[Pa] [rows, cols], rows along x (forward), cols along y (left)"""
+    cell_x: float
+    cell_y: float
+    """[m] cell size"""
+    origin_x: float
+    origin_y: float
+    """[m] centre of cell (0, 0)"""
+
+
+class FieldSeries(NamedTuple):
+    """Scalars of the pressure field of one contact, and three maps of it."""
+
+    time: FloatArray
+    """[s]"""
+    load: FloatArray
+    """[N]"""
+    peak: FloatArray
+    """[Pa]"""
+    area: FloatArray
+    """[m^2]"""
+    highest: PressureMap
+    """map at the instant of the largest peak"""
+    highest_time: float
+    """[s]"""
+    average: PressureMap
+    """mean over all recorded instants"""
+
+
+class MotionSeries(NamedTuple):
+    """Motion of the rig's bodies."""
+
+    time: FloatArray
+    """[s]"""
+    sample_period: float
+    """[s]"""
+    position: dict[str, FloatArray]
+    """[m] by body"""
+    acceleration: dict[str, FloatArray]
+    """[m/s^2] by body"""
+
+
+class LedgerSeries(NamedTuple):
+    """Energy ledger of the rig."""
+
+    time: FloatArray
+    """[s]"""
+    kinetic: FloatArray
+    potential: FloatArray
+    stored: FloatArray
+    dissipated: FloatArray
+    supplied: FloatArray
+    residual: FloatArray
+    """[J] each"""
+
+
+class CostSeries(NamedTuple):
+    """What each block cost."""
+
+    time: FloatArray
+    """[s] simulated time of the block's start"""
+    wall_time: FloatArray
+    """[s]"""
+    real_time_factor: FloatArray
+    steps: FloatArray
+    rejected_steps: FloatArray
+    events: FloatArray
+    field_iterations: FloatArray
+    field_residual: FloatArray
+    field_jump: FloatArray
+    """[N]"""
+
+
+class TopicCount(NamedTuple):
+    """One topic of the bag."""
+
+    name: str
+    type: str
+    messages: int
+
+
+class Recording(NamedTuple):
+    """Everything that the analysis uses from one bag."""
+
+    name: str
+    """of the bag's directory"""
+    scene: dict[str, Any]
+    """resolved scene; empty for a bag without one"""
+    notes: list[str]
+    """what the bag says is missing in it"""
+    metadata: dict[str, str]
+    """texts kept with the recording: versions, excitation, how the run ended; the scene is not among them"""
+    topics: list[TopicCount]
+    contacts: dict[str, ContactSeries]
+    fields: dict[str, FieldSeries]
+    motion: MotionSeries | None
+    ledger: LedgerSeries | None
+    cost: CostSeries | None
+    duration: float
+    """[s] simulated time of the blocks recorded"""

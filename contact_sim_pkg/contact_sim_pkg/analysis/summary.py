@@ -1,0 +1,127 @@
+"""The numbers of a run that a person or a script asks for first."""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+import numpy as np
+
+from contact_sim_pkg.bag.reader import Bag
+
+from .energy import relative_residual, throughput
+from .metrics import ride_metrics, seat_factor
+from .reading import read_recording
+from .ride import ride_signals
+from .series import ContactSeries, CostSeries, FieldSeries, LedgerSeries, Recording
+
+
+def summarise(bag: Bag) -> dict[str, Any]:
+    """Summary numbers of a bag; see `summarise_recording`. Raises BagError where the bag cannot be read."""
+    return summarise_recording(read_recording(bag))
+
+
+def summarise_recording(recording: Recording) -> dict[str, Any]:
+    """Summary numbers, ready for JSON: SI units in the names, None where a number is not defined.
+
+    Sections that the run does not have are absent: `seat_vibration` without a seat, `energy` without a ledger, `solver`
+    without cost messages, the pressure of a contact without a field.
+    """
+    summary: dict[str, Any] = {
+        "scene": recording.scene.get("name"),
+        "rig": recording.scene.get("rig"),
+        "simulated_s": round(recording.duration, 9),
+        "contacts": {
+            name: {**force_numbers(series), **field_numbers(recording.fields.get(name))}
+            for name, series in recording.contacts.items()
+        },
+    }
+    vibration = vibration_numbers(recording)
+    if vibration is not None:
+        summary["seat_vibration"] = vibration
+    if recording.ledger is not None:
+        summary["energy"] = energy_numbers(recording.ledger)
+    if recording.cost is not None:
+        summary["solver"] = solver_numbers(recording.cost)
+    summary["messages"] = {topic.name: topic.messages for topic in recording.topics}
+    defined: dict[str, Any] = _without_nan(summary)
+    return defined
+
+
+def force_numbers(contact: ContactSeries) -> dict[str, Any]:
+    """Load in [N], share of the time without contact (0 .. 1), number of lift-offs: from a load to none."""
+    apart = contact.normal <= 0.0
+    return {
+        "load_mean_N": float(contact.normal.mean()),
+        "load_min_N": float(contact.normal.min()),
+        "load_max_N": float(contact.normal.max()),
+        "lifted_share": float(apart.mean()),
+        "lift_offs": int(np.count_nonzero(apart[1:] & ~apart[:-1])),
+    }
+
+
+def field_numbers(field: FieldSeries | None) -> dict[str, Any]:
+    """Largest pressure and when, mean contact area over all recorded instants; empty without a field."""
+    if field is None:
+        return {}
+    return {
+        "peak_pressure_Pa": float(field.peak.max()),
+        "peak_pressure_time_s": field.highest_time,
+        "contact_area_mean_m2": float(field.area.mean()),
+    }
+
+
+def vibration_numbers(recording: Recording) -> dict[str, Any] | None:
+    """Floor and seat accelerations, plain and Wk-weighted, and SEAT in per cent; None without a seat."""
+    signals = ride_signals(recording.motion)
+    if signals is None:
+        return None
+    floor = ride_metrics(signals.floor, signals.sample_rate)
+    seat = ride_metrics(signals.seat, signals.sample_rate)
+    return {
+        "floor_rms_m_s2": floor.rms,
+        "floor_weighted_rms_m_s2": floor.weighted_rms,
+        "floor_dose_m_s1_75": floor.vibration_dose,
+        "floor_crest_factor": floor.crest_factor,
+        "seat_rms_m_s2": seat.rms,
+        "seat_weighted_rms_m_s2": seat.weighted_rms,
+        "seat_dose_m_s1_75": seat.vibration_dose,
+        "seat_crest_factor": seat.crest_factor,
+        "seat_factor_percent": seat_factor(seat.weighted_rms, floor.weighted_rms),
+        "seat_factor_dose_percent": seat_factor(seat.vibration_dose, floor.vibration_dose),
+    }
+
+
+def energy_numbers(ledger: LedgerSeries) -> dict[str, Any]:
+    """Work supplied and dissipated at the end in [J]; largest residual, plain and over the throughput."""
+    return {
+        "supplied_J": float(ledger.supplied[-1]),
+        "dissipated_J": float(ledger.dissipated[-1]),
+        "throughput_J": throughput(ledger),
+        "residual_max_J": float(np.abs(ledger.residual).max()),
+        "residual_relative": relative_residual(ledger),
+    }
+
+
+def solver_numbers(cost: CostSeries) -> dict[str, Any]:
+    """Steps, events and iterations over the run; wall time of the physics; largest field residual and jump."""
+    wall = float(cost.wall_time.sum())
+    simulated = float((cost.real_time_factor * cost.wall_time).sum())
+    return {
+        "blocks": int(cost.time.size),
+        "steps": int(cost.steps.sum()),
+        "rejected_steps": int(cost.rejected_steps.sum()),
+        "events": int(cost.events.sum()),
+        "field_iterations": int(cost.field_iterations.sum()),
+        "field_residual_max": float(cost.field_residual.max()),
+        "field_jump_max_N": float(cost.field_jump.max()),
+        "physics_wall_s": wall,
+        "physics_real_time_factor": simulated / wall if wall > 0.0 else math.nan,
+    }
+
+
+def _without_nan(value: Any) -> Any:
+    """The same tree with None for numbers that are not finite: JSON has no nan."""
+    if isinstance(value, dict):
+        return {key: _without_nan(item) for key, item in value.items()}
+    return None if isinstance(value, float) and not math.isfinite(value) else value

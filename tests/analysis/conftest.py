@@ -1,0 +1,23 @@
+"""Bags of closed forms, written once."""
+
+import pytest
+
+from . import synthetic_bag
+
+
+@pytest.fixture(scope="session")
+def car(tmp_path_factory):
+    """Ten seconds of the synthetic car."""
+    return synthetic_bag.car_bag(tmp_path_factory.mktemp("bags") / "car")
+
+
+@pytest.fixture(scope="session")
+def seat(tmp_path_factory):
+    """Two seconds of the synthetic seat."""
+    return synthetic_bag.seat_bag(tmp_path_factory.mktemp("bags") / "seat")
+
+
+@pytest.fixture(scope="session")
+def bare(tmp_path_factory):
+    """A bag of force messages alone."""
+    return synthetic_bag.bare_bag(tmp_path_factory.mktemp("bags") / "bare")
