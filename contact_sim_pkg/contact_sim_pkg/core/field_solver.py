@@ -23,8 +23,18 @@ from __future__ import annotations
 from typing import NamedTuple
 
 import numpy
+from numpy.typing import NDArray
 
-from contact_sim_pkg.core.halfspace import HalfSpace, Workspace, convolve, precondition
+from contact_sim_pkg.core.field_iteration import (
+    SolverWorkspace,
+    evaluate,
+    fresh_surface,
+    make_workspace,
+    rescale,
+    search,
+    step,
+)
+from contact_sim_pkg.core.halfspace import HalfSpace
 from contact_sim_pkg.core.jit import entry, kernel
 
 __all__ = [
@@ -32,122 +42,141 @@ __all__ = [
     "CONVERGED",
     "EDGE",
     "NOT_CONVERGED",
-    "NO_CONTACT",
     "SENTENCES",
     "FieldResult",
+    "SolverWorkspace",
     "first_bad_cell",
+    "make_workspace",
     "refuse_bad_gap",
+    "solve",
     "solve_at_approach",
     "solve_at_load",
 ]
 
 CONVERGED = 0
-NO_CONTACT = 1
-EDGE = 2
-NOT_CONVERGED = 3
-BAD_INPUT = 4
+EDGE = 1
+NOT_CONVERGED = 2
+BAD_INPUT = 3
 
 SENTENCES = {
     CONVERGED: "the pressure field is certified to the tolerance",
-    NO_CONTACT: "the surfaces do not touch: the pressure is zero everywhere",
     EDGE: "the contact reaches the edge of the grid, so load may be missing; enlarge the grid",
-    NOT_CONVERGED: "the residual is above the tolerance after the allowed iterations; it is returned with the field",
-    BAD_INPUT: "a value of the gap, the start pressure, the approach or the load is not finite, or a pressure or the load is negative",
+    NOT_CONVERGED: "the residual is above the tolerance after the allowed iterations; allow more or ask for less",
+    BAD_INPUT: "gap, approach or load is not a finite number, or the load or a pressure of the start is negative",
 }
 """What each status means, ready for a message."""
-
-ONE_BY_ONE = 12
-"""Clipped cells up to which their influence is summed directly: about the cost of one convolution at 64 x 48."""
 
 PATIENCE = 20
 """Iterations without a lower residual after which the direction starts again from the gradient."""
 
+Field = NDArray[numpy.float64]
+
 
 class FieldResult(NamedTuple):
-    status: int  # CONVERGED, NO_CONTACT, EDGE, NOT_CONVERGED or BAD_INPUT
+    status: int  # CONVERGED (also without contact: load 0), EDGE, NOT_CONVERGED or BAD_INPUT
     iterations: int  # conjugate gradient steps
     load: float  # [N] sum of the pressure times the cell area
     approach: float  # [m] rigid approach, against the same datum as the gap
     residual: float  # [-] certified on the returned field, see the module text
 
 
-class _State(NamedTuple):
-    """Sums over the field, from one pass."""
-
-    approach: float
-    residual: float
-
-
-@entry
 def solve_at_approach(
     half_space: HalfSpace,
-    workspace: Workspace,
-    gap: numpy.ndarray,
+    workspace: SolverWorkspace,
+    gap: Field,
     approach: float,
     tolerance: float,
     max_iterations: int,
-    pressure: numpy.ndarray,
+    pressure: Field,
 ) -> FieldResult:
     """Pressure field at a given approach.
 
     gap: height of the undeformed gap [m], float64 [rows, cols], any datum; approach: rigid approach [m] against that
     datum; tolerance: on the residual [-]; pressure: float64 [rows, cols] [Pa], in: start (zeros when nothing is known),
-    out: the field, exactly zero where there is no contact. Nothing is raised: see `status`; bad input leaves the
-    pressure untouched.
+    out: the field, exactly zero where there is no contact. Without contact the field and the load are zero and the
+    status is CONVERGED. With EDGE and NOT_CONVERGED the field is returned as it is; BAD_INPUT leaves it untouched.
+    Raises `ValueError` for arrays of the wrong shape.
     """
-    if not (numpy.isfinite(approach) and acceptable(gap, pressure)):
-        return FieldResult(BAD_INPUT, 0, 0.0, approach, numpy.inf)
-    if gap.min() >= approach:
-        pressure[:] = 0.0
-        return FieldResult(NO_CONTACT, 0, 0.0, approach, 0.0)
-    return iterate(half_space, workspace, gap, approach, -1.0, tolerance, max_iterations, pressure)
+    _refuse_shapes(half_space, gap, pressure)
+    return solve(  # type: ignore[no-any-return]
+        half_space, workspace, gap, float(approach), False, float(tolerance), int(max_iterations), pressure
+    )
 
 
-@entry
 def solve_at_load(
     half_space: HalfSpace,
-    workspace: Workspace,
-    gap: numpy.ndarray,
+    workspace: SolverWorkspace,
+    gap: Field,
     load: float,
     tolerance: float,
     max_iterations: int,
-    pressure: numpy.ndarray,
+    pressure: Field,
 ) -> FieldResult:
     """Pressure field that carries a given load [N] >= 0, and its approach; the rest as `solve_at_approach`.
 
     Zero load gives a zero field and the approach of first touch, the smallest gap.
     """
-    if not (numpy.isfinite(load) and load >= 0.0 and acceptable(gap, pressure)):
-        return FieldResult(BAD_INPUT, 0, 0.0, numpy.nan, numpy.inf)
-    if load == 0.0:
-        pressure[:] = 0.0
-        return FieldResult(NO_CONTACT, 0, 0.0, gap.min(), 0.0)
-    total = load / (half_space.cell_x * half_space.cell_y)
-    if pressure.sum() <= 0.0:
-        start_from_overlap(half_space, gap, load, pressure)
-    pressure *= total / pressure.sum()
-    return iterate(half_space, workspace, gap, 0.0, total, tolerance, max_iterations, pressure)
+    _refuse_shapes(half_space, gap, pressure)
+    return solve(  # type: ignore[no-any-return]
+        half_space, workspace, gap, float(load), True, float(tolerance), int(max_iterations), pressure
+    )
+
+
+def refuse_bad_gap(gap: Field, name: str = "gap") -> None:
+    """Raise `ValueError` naming the first cell whose height is not finite."""
+    cell = int(first_bad_cell(gap))
+    if cell >= 0:
+        row, col = divmod(cell, gap.shape[1])
+        raise ValueError(
+            f"{name}: the height of row {row}, column {col} is {gap[row, col]}, it must be finite; fill the cell"
+        )
+
+
+def _refuse_shapes(half_space: HalfSpace, gap: Field, pressure: Field) -> None:
+    """Compiled code does not check bounds, so shapes are checked before it."""
+    shape = (half_space.rows, half_space.cols)
+    if gap.shape != shape or pressure.shape != shape:
+        raise ValueError(f"pressure field: gap is {gap.shape} and pressure {pressure.shape}, both must be {shape}")
 
 
 @entry
-def first_bad_cell(gap: numpy.ndarray) -> int:
+def first_bad_cell(gap: Field) -> int:
     """Row-major index of the first cell that is not finite, or -1."""
-    for cell in range(gap.size):
-        if not numpy.isfinite(gap.flat[cell]):
-            return cell
+    rows, cols = gap.shape
+    for i in range(rows):
+        for j in range(cols):
+            if not numpy.isfinite(gap[i, j]):
+                return i * cols + j
     return -1
 
 
-def refuse_bad_gap(gap: numpy.ndarray, name: str = "gap") -> None:
-    """Raise `ValueError` naming the first cell whose height is not finite."""
-    cell = first_bad_cell(gap)
-    if cell >= 0:
-        row, col = divmod(int(cell), gap.shape[1])
-        raise ValueError(f"{name}: the height of row {row}, column {col} is {gap[row, col]}, it must be a finite number; fill or mask it")
+@entry
+def solve(
+    half_space: HalfSpace,
+    workspace: SolverWorkspace,
+    gap: Field,
+    given: float,
+    holds_load: bool,
+    tolerance: float,
+    max_iterations: int,
+    pressure: Field,
+) -> FieldResult:
+    """`solve_at_load` (holds_load: given is a load [N]) and `solve_at_approach` (given is an approach [m])."""
+    if not (numpy.isfinite(given) and (given >= 0.0 or not holds_load) and acceptable(gap, pressure)):
+        return FieldResult(BAD_INPUT, 0, 0.0, numpy.nan, numpy.inf)
+    touch = lowest(gap)
+    if given == 0.0 if holds_load else given <= touch:
+        pressure[:] = 0.0
+        return FieldResult(CONVERGED, 0, 0.0, touch if holds_load else given, 0.0)
+    total = -1.0
+    if holds_load:
+        total = given / (half_space.cell_x * half_space.cell_y)
+        start_at_load(half_space, gap, given, total, pressure)
+    return iterate(half_space, workspace, gap, given, total, tolerance, max_iterations, pressure)
 
 
 @kernel
-def acceptable(gap: numpy.ndarray, pressure: numpy.ndarray) -> bool:
+def acceptable(gap: Field, pressure: Field) -> bool:
     """All heights finite, all start pressures finite and not negative."""
     faults = 0
     rows, cols = gap.shape
@@ -159,232 +188,118 @@ def acceptable(gap: numpy.ndarray, pressure: numpy.ndarray) -> bool:
 
 
 @kernel
-def start_from_overlap(half_space: HalfSpace, gap: numpy.ndarray, load: float, pressure: numpy.ndarray) -> None:
-    """A first pressure proportional to the overlap at the approach whose overlap volume V and area A carry the load.
+def lowest(gap: Field) -> float:
+    rows, cols = gap.shape
+    least = numpy.inf
+    for i in range(rows):
+        for j in range(cols):
+            least = min(least, gap[i, j])
+    return least
 
-    `P = 0.6 E* V / sqrt(A / pi)`, exact for a sphere (4 sqrt(2) / (3 pi)); found by bisection. Beyond the highest gap
-    the whole grid is loaded.
+
+@kernel
+def total_of(pressure: Field) -> float:
+    """Sum over the cells, row by row."""
+    rows, cols = pressure.shape
+    total = 0.0
+    for i in range(rows):
+        row_total = 0.0
+        for j in range(cols):
+            row_total += pressure[i, j]
+        total += row_total
+    return total
+
+
+@kernel
+def start_at_load(half_space: HalfSpace, gap: Field, load: float, total: float, pressure: Field) -> None:
+    """Scale the start pressure to the load; without one, take a pressure proportional to an overlap that carries it.
+
+    The overlap's volume V and area A carry `0.6 E* V / sqrt(A / pi)`, exact for a sphere (4 sqrt(2) / (3 pi)); its
+    approach is found by bisection. Beyond the highest gap the whole grid is loaded.
     """
-    low, high = gap.min(), gap.max()
+    rows, cols = gap.shape
+    present = total_of(pressure)
+    if present <= 0.0:
+        approach = overlap_approach(half_space, gap, load)
+        for i in range(rows):
+            for j in range(cols):
+                pressure[i, j] = max(approach - gap[i, j], 0.0)
+        present = total_of(pressure)
+    for i in range(rows):
+        for j in range(cols):
+            pressure[i, j] = pressure[i, j] * (total / present) if present > 0.0 else total / (rows * cols)
+
+
+@kernel
+def overlap_approach(half_space: HalfSpace, gap: Field, load: float) -> float:
+    rows, cols = gap.shape
+    low = lowest(gap)
+    high = low
+    for i in range(rows):
+        for j in range(cols):
+            high = max(high, gap[i, j])
     cell = half_space.cell_x * half_space.cell_y
-    for _ in range(16):
+    for _ in range(12):
         middle = 0.5 * (low + high)
-        volume, area = 0.0, 0.0
-        for height in gap.flat:
-            overlap = max(middle - height, 0.0)
-            volume += overlap * cell
-            area += cell if overlap > 0.0 else 0.0
-        if 0.6 * half_space.modulus * volume >= load * numpy.sqrt(area / numpy.pi):
+        volume, cells = 0.0, 0.0
+        for i in range(rows):
+            for j in range(cols):
+                overlap = max(middle - gap[i, j], 0.0)
+                volume += overlap
+                cells += 1.0 if overlap > 0.0 else 0.0
+        if 0.6 * half_space.modulus * volume * cell >= load * numpy.sqrt(cells * cell / numpy.pi):
             high = middle
         else:
             low = middle
-    pressure[:] = numpy.maximum(high - gap, 0.0)
-    if pressure.sum() <= 0.0:
-        pressure[:] = 1.0
+    return high
 
 
 @kernel
 def iterate(
     half_space: HalfSpace,
-    workspace: Workspace,
-    gap: numpy.ndarray,
+    workspace: SolverWorkspace,
+    gap: Field,
     approach: float,
     total: float,
     tolerance: float,
     max_iterations: int,
-    pressure: numpy.ndarray,
+    pressure: Field,
 ) -> FieldResult:
     """Conjugate gradients from the given pressure; `total` [Pa] is the sum of p to hold, or -1 for a given approach."""
     holds_load = total > 0.0
-    fresh_surface(half_space, workspace, gap, pressure)
-    certified, best, stale, slope, iterations = True, numpy.inf, 0, 0.0, 0
-    state = evaluate(workspace, gap, pressure, approach, holds_load)
+    refresh, fresh, blocked = True, False, False
+    best, stale, slope, iterations = numpy.inf, 0, 0.0, 0
     while True:
-        if state.residual <= tolerance and not certified:
+        if refresh:
             fresh_surface(half_space, workspace, gap, pressure)
-            certified = True
-            state = evaluate(workspace, gap, pressure, approach, holds_load)
-        if state.residual <= tolerance or iterations >= max_iterations:
-            break
+            refresh, fresh = False, True
+        state = evaluate(workspace, gap, pressure, approach, holds_load)
+        if state.residual <= tolerance or iterations >= max_iterations or blocked:
+            if fresh:
+                break
+            refresh = True  # certify: evaluate once more, from the pressure alone
+            continue
         stale = 0 if state.residual < best else stale + 1
         best = min(best, state.residual)
-        if stale > PATIENCE:
-            slope, stale = 0.0, 0
-        slope = search(half_space, workspace, pressure, state.approach, slope, holds_load)
-        if not step(half_space, workspace, pressure):
-            break
+        slope = search(half_space, workspace, pressure, slope if stale < PATIENCE else 0.0, holds_load)
+        stale = stale if stale < PATIENCE else 0
+        blocked = not step(half_space, workspace, pressure)
         if holds_load:
             rescale(workspace, gap, pressure, total)
-        certified = False
+        fresh = False
         iterations += 1
-        state = evaluate(workspace, gap, pressure, approach, holds_load)
-    if not certified:
-        fresh_surface(half_space, workspace, gap, pressure)
-        state = evaluate(workspace, gap, pressure, approach, holds_load)
-    load = pressure.sum() * half_space.cell_x * half_space.cell_y
+    load = total_of(pressure) * half_space.cell_x * half_space.cell_y
     return FieldResult(verdict(pressure, state.residual, tolerance), iterations, load, state.approach, state.residual)
 
 
 @kernel
-def verdict(pressure: numpy.ndarray, residual: float, tolerance: float) -> int:
+def verdict(pressure: Field, residual: float, tolerance: float) -> int:
     if not residual <= tolerance:
         return NOT_CONVERGED
-    if pressure[0].any() or pressure[-1].any() or pressure[:, 0].any() or pressure[:, -1].any():
-        return EDGE
-    return CONVERGED if pressure.any() else NO_CONTACT
-
-
-@kernel
-def fresh_surface(half_space: HalfSpace, workspace: Workspace, gap: numpy.ndarray, pressure: numpy.ndarray) -> None:
-    """Deformed surface `u + g0` [m] from the pressure, by a convolution of its own."""
-    convolve(half_space, workspace, pressure, workspace.surface)
-    surface = workspace.surface
-    surface += gap
-
-
-@kernel
-def evaluate(workspace: Workspace, gap: numpy.ndarray, pressure: numpy.ndarray, approach: float, holds_load: bool) -> _State:
-    """Approach (for a given load: mean of u + g0 in contact) and residual; the clearance of free cells is stored."""
-    surface, residual, before = workspace.surface, workspace.residual, workspace.residual_before
     rows, cols = pressure.shape
-    if holds_load:
-        height, cells = 0.0, 0.0
-        for i in range(rows):
-            for j in range(cols):
-                touching = 1.0 if pressure[i, j] > 0.0 else 0.0
-                height += touching * surface[i, j]
-                cells += touching
-        approach = height / max(cells, 1.0)
-    complementarity, energy, pressure_sum, penetration = 0.0, 0.0, 0.0, 0.0
+    at_edge = 0
     for i in range(rows):
-        for j in range(cols):
-            p = pressure[i, j]
-            clearance = surface[i, j] - approach
-            before[i, j] = residual[i, j]
-            residual[i, j] = clearance if p > 0.0 or clearance < 0.0 else 0.0
-            complementarity += p * abs(clearance)
-            energy += p * (surface[i, j] - gap[i, j])
-            pressure_sum += p
-            penetration = max(penetration, -clearance if p == 0.0 else 0.0)
-    if penetration == 0.0 and complementarity == 0.0:
-        return _State(approach, 0.0)
-    if energy <= 0.0:
-        return _State(approach, numpy.inf)
-    return _State(approach, (complementarity + penetration * pressure_sum) / energy)
-
-
-@kernel
-def search(
-    half_space: HalfSpace, workspace: Workspace, pressure: numpy.ndarray, approach: float, slope_before: float, holds_load: bool
-) -> float:
-    """New search direction from the preconditioned clearance; returns `sum z r` (0 before the first direction)."""
-    residual, before, filtered, direction = workspace.residual, workspace.residual_before, workspace.filtered, workspace.direction
-    precondition(half_space, workspace, residual, filtered)
-    rows, cols = pressure.shape
-    slope, change, mean, free = 0.0, 0.0, 0.0, 0.0
-    for i in range(rows):
-        for j in range(cols):
-            is_free = pressure[i, j] > 0.0 or residual[i, j] != 0.0
-            value = filtered[i, j] if is_free else 0.0
-            filtered[i, j] = value
-            slope += value * residual[i, j]
-            change += value * (residual[i, j] - before[i, j])
-            mean += value
-            free += 1.0 if is_free else 0.0
-    mean = mean / max(free, 1.0) if holds_load else 0.0
-    momentum = max(change / slope_before, 0.0) if slope_before > 0.0 else 0.0
-    descent = advance_direction(workspace, pressure, momentum, mean, holds_load, free)
-    if descent >= 0.0:
-        descent = advance_direction(workspace, pressure, 0.0, mean, holds_load, free)
-    return slope
-
-
-@kernel
-def advance_direction(
-    workspace: Workspace, pressure: numpy.ndarray, momentum: float, mean: float, holds_load: bool, free: float
-) -> float:
-    """`t = -(z - mean) + momentum t` on the free cells, without net load if the load is held; returns `sum t r`."""
-    residual, filtered, direction = workspace.residual, workspace.filtered, workspace.direction
-    rows, cols = pressure.shape
-    net, descent = 0.0, 0.0
-    for i in range(rows):
-        for j in range(cols):
-            is_free = pressure[i, j] > 0.0 or residual[i, j] != 0.0
-            value = mean - filtered[i, j] + momentum * direction[i, j] if is_free else 0.0
-            direction[i, j] = value
-            net += value
-            descent += value * residual[i, j]
-    if holds_load and net != 0.0:
-        net /= max(free, 1.0)
-        descent = 0.0
-        for i in range(rows):
-            for j in range(cols):
-                if pressure[i, j] > 0.0 or residual[i, j] != 0.0:
-                    direction[i, j] -= net
-                    descent += direction[i, j] * residual[i, j]
-    return descent
-
-
-@kernel
-def step(half_space: HalfSpace, workspace: Workspace, pressure: numpy.ndarray) -> bool:
-    """Move to the minimum along the direction, clip p at zero, update the surface; False if no step is possible."""
-    direction, response, surface = workspace.direction, workspace.response, workspace.surface
-    residual, clipped = workspace.residual, workspace.clipped
-    convolve(half_space, workspace, direction, response)
-    rows, cols = pressure.shape
-    descent, curvature = 0.0, 0.0
-    for i in range(rows):
-        for j in range(cols):
-            descent += direction[i, j] * residual[i, j]
-            curvature += direction[i, j] * response[i, j]
-    if not (curvature > 0.0 and descent < 0.0):
-        return False
-    length, count = -descent / curvature, 0
-    for i in range(rows):
-        for j in range(cols):
-            p = pressure[i, j] + length * direction[i, j]
-            surface[i, j] += length * response[i, j]
-            clipped[i, j] = 0.0
-            if p < 0.0:
-                clipped[i, j] = -p
-                workspace.clipped_cells[count] = i * cols + j
-                count += 1
-                p = 0.0
-            pressure[i, j] = p
-    correct_for_clipping(half_space, workspace, count)
-    return True
-
-
-@kernel
-def correct_for_clipping(half_space: HalfSpace, workspace: Workspace, count: int) -> None:
-    """Add the displacement of the pressure that clipping added."""
-    surface, clipped, influence = workspace.surface, workspace.clipped, half_space.influence
-    rows, cols = surface.shape
-    if count > ONE_BY_ONE:
-        convolve(half_space, workspace, clipped, workspace.response)
-        surface += workspace.response
-        return
-    for k in range(count):
-        row, col = divmod(workspace.clipped_cells[k], cols)
-        value = clipped[row, col]
-        for i in range(rows):
-            table = influence[abs(i - row)]
-            for j in range(col):
-                surface[i, j] += value * table[col - j]
-            for j in range(col, cols):
-                surface[i, j] += value * table[j - col]
-
-
-@kernel
-def rescale(workspace: Workspace, gap: numpy.ndarray, pressure: numpy.ndarray, total: float) -> None:
-    """Scale pressure and displacement so that the pressures add up to `total` again."""
-    present = pressure.sum()
-    if present <= 0.0:
-        return
-    factor = total / present
-    surface = workspace.surface
-    rows, cols = pressure.shape
-    for i in range(rows):
-        for j in range(cols):
-            pressure[i, j] *= factor
-            surface[i, j] = gap[i, j] + factor * (surface[i, j] - gap[i, j])
+        at_edge += 1 if pressure[i, 0] > 0.0 or pressure[i, cols - 1] > 0.0 else 0
+    for j in range(cols):
+        at_edge += 1 if pressure[0, j] > 0.0 or pressure[rows - 1, j] > 0.0 else 0
+    return EDGE if at_edge > 0 else CONVERGED

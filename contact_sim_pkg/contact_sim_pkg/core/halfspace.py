@@ -17,7 +17,7 @@ import rocket_fft
 
 from contact_sim_pkg.core.jit import entry, kernel
 
-__all__ = ["HalfSpace", "Workspace", "displacement", "make_half_space", "make_workspace"]
+__all__ = ["Buffers", "HalfSpace", "displacement", "make_buffers", "make_half_space"]
 
 MINIMUM_CELLS = 1
 MAXIMUM_CELLS = 4096
@@ -40,21 +40,13 @@ class HalfSpace(NamedTuple):
     preconditioner: numpy.ndarray  # [rows', cols'/2+1] approximate inverse of `transfer` on the unpadded grid
 
 
-class Workspace(NamedTuple):
-    """Buffers of one solve at a time; a second solve in another thread needs its own."""
+class Buffers(NamedTuple):
+    """Scratch arrays of the transforms, for one thread at a time."""
 
-    padded: numpy.ndarray  # [rows, padded cols] real rows, the right part stays zero
+    padded: numpy.ndarray  # [rows, padded cols] real; the right part stays zero
     spectrum: numpy.ndarray  # [padded rows, padded cols/2+1] complex
     plain: numpy.ndarray  # [rows', cols'] real, for the preconditioner
     plain_spectrum: numpy.ndarray  # [rows', cols'/2+1] complex
-    surface: numpy.ndarray  # [rows, cols] gap + displacement
-    residual: numpy.ndarray  # [rows, cols] clearance on the free cells, else 0
-    residual_before: numpy.ndarray  # [rows, cols]
-    filtered: numpy.ndarray  # [rows, cols] preconditioned residual
-    direction: numpy.ndarray  # [rows, cols] search direction
-    response: numpy.ndarray  # [rows, cols] displacement of the search direction
-    clipped: numpy.ndarray  # [rows, cols] pressure that the bound p >= 0 added in the last step
-    clipped_cells: numpy.ndarray  # flat indices of the clipped cells, as far as they are handled one by one
     row_axis: numpy.ndarray
     col_axis: numpy.ndarray
 
@@ -84,19 +76,16 @@ def make_half_space(rows: int, cols: int, cell_x: float, cell_y: float, modulus:
     )
 
 
-def make_workspace(half_space: HalfSpace) -> Workspace:
-    """Buffers that fit a half-space; nothing is allocated while solving."""
+def make_buffers(half_space: HalfSpace) -> Buffers:
+    """Scratch arrays that fit a half-space."""
     rows, cols = half_space.rows, half_space.cols
     padded_rows, padded_cols = _padded(rows), _padded(cols)
     plain_rows, plain_cols = _good(rows), _good(cols)
-    fields = [numpy.zeros((rows, cols)) for _ in range(7)]
-    return Workspace(
+    return Buffers(
         numpy.zeros((rows, padded_cols)),
         numpy.zeros((padded_rows, padded_cols // 2 + 1), dtype=numpy.complex128),
         numpy.zeros((plain_rows, plain_cols)),
         numpy.zeros((plain_rows, plain_cols // 2 + 1), dtype=numpy.complex128),
-        *fields,
-        numpy.zeros(rows * cols, dtype=numpy.int64),
         numpy.array([0], dtype=numpy.int64),
         numpy.array([1], dtype=numpy.int64),
     )
@@ -119,58 +108,73 @@ def love_coefficients(rows: int, cols: int, cell_x: float, cell_y: float) -> num
 
 
 @entry
-def displacement(half_space: HalfSpace, workspace: Workspace, pressure: numpy.ndarray, result: numpy.ndarray) -> None:
+def displacement(half_space: HalfSpace, buffers: Buffers, pressure: numpy.ndarray, result: numpy.ndarray) -> None:
     """Surface displacement [m] under a pressure field [Pa], both float64 [rows, cols]; `result` is overwritten."""
-    convolve(half_space, workspace, pressure, result)
+    convolve(half_space, buffers, pressure, result)
 
 
 @kernel
-def convolve(half_space: HalfSpace, workspace: Workspace, field: numpy.ndarray, result: numpy.ndarray) -> None:
+def convolve(half_space: HalfSpace, buffers: Buffers, field: numpy.ndarray, result: numpy.ndarray) -> None:
     """`result = K field` by one pruned, zero-padded transform pair; `result` may be `field` itself."""
-    first, last = loaded_rows(field)
+    rows, cols = field.shape
+    padded, spectrum, transfer = buffers.padded, buffers.spectrum, half_space.transfer
+    first, last = load_padded(field, padded)
     if first >= last:
         result[:] = 0.0
         return
-    padded, spectrum = workspace.padded, workspace.spectrum
-    padded[first:last, : half_space.cols] = field[first:last]
     spectrum[:first] = 0.0
     spectrum[last:] = 0.0
-    rocket_fft.r2c(padded[first:last], spectrum[first:last], workspace.col_axis, True, 1.0, 1)
-    rocket_fft.c2c(spectrum, spectrum, workspace.row_axis, True, 1.0, 1)
-    spectrum *= half_space.transfer
-    rocket_fft.c2c(spectrum, spectrum, workspace.row_axis, False, 1.0, 1)
-    rocket_fft.c2r(spectrum[: half_space.rows], padded, workspace.col_axis, False, 1.0, 1)
-    result[:] = padded[:, : half_space.cols]
-    padded[:, half_space.cols :] = 0.0
+    rocket_fft.r2c(padded[first:last], spectrum[first:last], buffers.col_axis, True, 1.0, 1)
+    rocket_fft.c2c(spectrum, spectrum, buffers.row_axis, True, 1.0, 1)
+    multiply(spectrum, transfer)
+    rocket_fft.c2c(spectrum, spectrum, buffers.row_axis, False, 1.0, 1)
+    rocket_fft.c2r(spectrum[:rows], padded, buffers.col_axis, False, 1.0, 1)
+    for i in range(rows):
+        for j in range(cols):
+            result[i, j] = padded[i, j]
+        for j in range(cols, padded.shape[1]):
+            padded[i, j] = 0.0
 
 
 @kernel
-def precondition(half_space: HalfSpace, workspace: Workspace, field: numpy.ndarray, result: numpy.ndarray) -> None:
+def precondition(half_space: HalfSpace, buffers: Buffers, field: numpy.ndarray, result: numpy.ndarray) -> None:
     """`result = M field`, M an approximate inverse of K: the filter E* |q| / 2 on the unpadded grid."""
-    plain, spectrum = workspace.plain, workspace.plain_spectrum
-    rows, cols = half_space.rows, half_space.cols
-    plain[:rows, :cols] = field
-    plain[rows:] = 0.0
-    plain[:, cols:] = 0.0
-    rocket_fft.r2c(plain, spectrum, workspace.col_axis, True, 1.0, 1)
-    rocket_fft.c2c(spectrum, spectrum, workspace.row_axis, True, 1.0, 1)
-    spectrum *= half_space.preconditioner
-    rocket_fft.c2c(spectrum, spectrum, workspace.row_axis, False, 1.0, 1)
-    rocket_fft.c2r(spectrum, plain, workspace.col_axis, False, 1.0, 1)
-    result[:] = plain[:rows, :cols]
+    rows, cols = field.shape
+    plain, spectrum = buffers.plain, buffers.plain_spectrum
+    for i in range(plain.shape[0]):
+        for j in range(plain.shape[1]):
+            plain[i, j] = field[i, j] if i < rows and j < cols else 0.0
+    rocket_fft.r2c(plain, spectrum, buffers.col_axis, True, 1.0, 1)
+    rocket_fft.c2c(spectrum, spectrum, buffers.row_axis, True, 1.0, 1)
+    multiply(spectrum, half_space.preconditioner)
+    rocket_fft.c2c(spectrum, spectrum, buffers.row_axis, False, 1.0, 1)
+    rocket_fft.c2r(spectrum, plain, buffers.col_axis, False, 1.0, 1)
+    for i in range(rows):
+        for j in range(cols):
+            result[i, j] = plain[i, j]
 
 
 @kernel
-def loaded_rows(field: numpy.ndarray) -> tuple[int, int]:
-    """First row that is not all zero and the row after the last such; equal when the field is zero."""
-    rows = field.shape[0]
-    first = 0
-    while first < rows and not field[first].any():
-        first += 1
-    last = rows
-    while last > first and not field[last - 1].any():
-        last -= 1
+def load_padded(field: numpy.ndarray, padded: numpy.ndarray) -> tuple[int, int]:
+    """Copy a field into the padded rows; returns the first row that is not all zero and the row after the last such."""
+    rows, cols = field.shape
+    first, last = rows, 0
+    for i in range(rows):
+        loaded = 0
+        for j in range(cols):
+            padded[i, j] = field[i, j]
+            loaded += 1 if field[i, j] != 0.0 else 0
+        if loaded > 0:
+            first, last = min(first, i), i + 1
     return first, last
+
+
+@kernel
+def multiply(spectrum: numpy.ndarray, factor: numpy.ndarray) -> None:
+    """`spectrum *= factor`, complex by real."""
+    for i in range(spectrum.shape[0]):
+        for j in range(spectrum.shape[1]):
+            spectrum[i, j] = complex(spectrum[i, j].real * factor[i, j], spectrum[i, j].imag * factor[i, j])
 
 
 def _good(count: int) -> int:
@@ -194,7 +198,7 @@ def _transfer(influence: numpy.ndarray) -> numpy.ndarray:
 
 
 def _preconditioner(rows: int, cols: int, cell_x: float, cell_y: float, modulus: float) -> numpy.ndarray:
-    """`E* sqrt(|q|^2 + q0^2) / 2` on the unpadded grid, divided by its number of cells; q0 ~ 1/extent keeps it definite."""
+    """`E* sqrt(|q|^2 + q0^2) / 2` on the unpadded grid, divided by its number of cells; q0 keeps it definite."""
     plain_rows, plain_cols = _good(rows), _good(cols)
     wave_x = 2.0 * numpy.pi * numpy.fft.fftfreq(plain_rows, cell_x)[:, None]
     wave_y = 2.0 * numpy.pi * numpy.fft.rfftfreq(plain_cols, cell_y)[None, :]

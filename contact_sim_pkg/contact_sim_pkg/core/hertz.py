@@ -27,8 +27,8 @@ __all__ = [
     "contact_at_approach",
     "contact_at_load",
     "ellipse_shape",
-    "hertz_at_approach",
-    "hertz_at_load",
+    "hertz_contact",
+    "hertz_contact_at_approach",
     "power_law",
 ]
 
@@ -36,6 +36,8 @@ SERIES_BELOW = 3e-4
 """Omega below which the series is used; both branches then give m to 1e-9 or better."""
 
 LARGEST_OMEGA = 1.0 - 1e-12
+
+CURE = "use the pressure field (effect contact_field) instead"
 
 
 class HertzError(ValueError):
@@ -53,61 +55,64 @@ class EllipseShape(NamedTuple):
 class HertzContact(NamedTuple):
     load: float  # [N]
     approach: float  # [m]
-    semi_axis_a: float  # [m] the larger, along the smaller curvature A
-    semi_axis_b: float  # [m] the smaller, along the larger curvature B
+    a: float  # [m] the larger, along the smaller curvature A
+    b: float  # [m] the smaller, along the larger curvature B
     peak_pressure: float  # [Pa]
 
 
-def hertz_at_load(curvature_a: float, curvature_b: float, modulus: float, load: float) -> HertzContact:
+def hertz_contact(curvature_a: float, curvature_b: float, modulus: float, load: float) -> HertzContact:
     """Contact under a load [N]; zeros for load <= 0.
 
-    curvature_a, curvature_b: A <= B of the gap A x^2 + B y^2 [1/m] (half the relative curvatures), modulus: E* [Pa].
+    curvature_a, curvature_b: coefficients of the gap A x^2 + B y^2 [1/m] (half the relative curvatures), in either
+    order; a of the result lies along the smaller one. modulus: E* [Pa].
     Raises `HertzError` for conforming, saddle or line contact and for values that are not finite.
     """
-    _refuse(curvature_a, curvature_b, modulus, load, "load [N]")
-    return contact_at_load(float(curvature_a), float(curvature_b), float(modulus), float(load))
+    smaller, larger = _ordered(curvature_a, curvature_b, modulus, load, "load [N]")
+    return contact_at_load(smaller, larger, float(modulus), float(load))
 
 
-def hertz_at_approach(curvature_a: float, curvature_b: float, modulus: float, approach: float) -> HertzContact:
-    """Contact at an approach [m]; zeros for approach <= 0. Arguments and errors as `hertz_at_load`."""
-    _refuse(curvature_a, curvature_b, modulus, approach, "approach [m]")
-    return contact_at_approach(float(curvature_a), float(curvature_b), float(modulus), float(approach))
+def hertz_contact_at_approach(curvature_a: float, curvature_b: float, modulus: float, approach: float) -> HertzContact:
+    """Contact at an approach [m]; zeros for approach <= 0. Arguments and errors as `hertz_contact`."""
+    smaller, larger = _ordered(curvature_a, curvature_b, modulus, approach, "approach [m]")
+    return contact_at_approach(smaller, larger, float(modulus), float(approach))
 
 
 def power_law(curvature_a: float, curvature_b: float, modulus: float) -> float:
-    """Coefficient c [N/m^1.5] of `P = c delta^1.5`. Arguments and errors as `hertz_at_load`."""
-    _refuse(curvature_a, curvature_b, modulus, 0.0, "load [N]")
-    return float(stiffness_coefficient(float(curvature_a), float(curvature_b), float(modulus)))
+    """Coefficient c [N/m^1.5] of `P = c delta^1.5`. Arguments and errors as `hertz_contact`."""
+    smaller, larger = _ordered(curvature_a, curvature_b, modulus, 0.0, "load [N]")
+    return float(stiffness_coefficient(smaller, larger, float(modulus)))
 
 
-def _refuse(curvature_a: float, curvature_b: float, modulus: float, value: float, name: str) -> None:
-    for label, number in (("curvature A [1/m]", curvature_a), ("curvature B [1/m]", curvature_b), ("E* [Pa]", modulus), (name, value)):
+def _ordered(curvature_a: float, curvature_b: float, modulus: float, value: float, name: str) -> tuple[float, float]:
+    """The smaller and the larger curvature; raises `HertzError` where there is no elliptic contact."""
+    curvatures = (("curvature A [1/m]", curvature_a), ("curvature B [1/m]", curvature_b))
+    for label, number in (*curvatures, ("E* [Pa]", modulus), (name, value)):
         if not math.isfinite(number):
             raise HertzError(f"Hertz contact: {label} is {number}, it must be a finite number")
     if modulus <= 0.0:
         raise HertzError(f"Hertz contact: E* is {modulus} Pa, it must be above 0")
-    if curvature_a + curvature_b <= 0.0:
+    smaller, larger = sorted((float(curvature_a), float(curvature_b)))
+    total = smaller + larger
+    if total <= 0.0:
+        raise HertzError(f"Hertz contact: the surfaces conform (A + B = {total} 1/m, it must be above 0); {CURE}")
+    if smaller <= 0.0:
+        raise HertzError(f"Hertz contact: a line contact or a saddle (A = {smaller} 1/m, it must be above 0); {CURE}")
+    if (larger - smaller) / total > LARGEST_OMEGA:
         raise HertzError(
-            f"Hertz contact: the surfaces conform (A + B = {curvature_a + curvature_b} 1/m, above 0 is allowed); use the pressure field"
+            f"Hertz contact: practically a line (A/B = {smaller / larger:.3g}, allowed from 5e-13); {CURE}"
         )
-    if curvature_a > curvature_b:
-        raise HertzError(f"Hertz contact: A = {curvature_a} 1/m is above B = {curvature_b} 1/m; exchange the axes")
-    if curvature_a <= 0.0:
-        raise HertzError(f"Hertz contact: a line contact or a saddle (A = {curvature_a} 1/m, above 0 is allowed); use the pressure field")
-    if (curvature_b - curvature_a) / (curvature_a + curvature_b) > LARGEST_OMEGA:
-        raise HertzError(
-            f"Hertz contact: practically a line contact (A/B = {curvature_a / curvature_b:.3g}, allowed from 5e-13); use the pressure field"
-        )
+    return smaller, larger
 
 
 @entry
 def contact_at_load(curvature_a: float, curvature_b: float, modulus: float, load: float) -> HertzContact:
-    """`hertz_at_load` without its checks, for compiled callers."""
+    """`hertz_contact` without its checks, for compiled callers."""
     if not load > 0.0:
         return HertzContact(0.0, 0.0, 0.0, 0.0, 0.0)
     shape = ellipse_shape(curvature_a, curvature_b)
     mean = curvature_a + curvature_b
-    peak = numpy.cbrt(1.5 * load * (modulus * mean) ** 2 / math.pi) * shape.complement ** (1.0 / 6.0) / numpy.cbrt(shape.integral_e) ** 2
+    peak = numpy.cbrt(1.5 * load * (modulus * mean) ** 2 / math.pi) * shape.complement ** (1.0 / 6.0)
+    peak /= numpy.cbrt(shape.integral_e) ** 2
     semi_b = peak * shape.integral_e / (modulus * mean)
     approach = peak * semi_b * shape.integral_k / modulus
     return HertzContact(load, approach, semi_b / math.sqrt(shape.complement), semi_b, peak)
@@ -115,13 +120,12 @@ def contact_at_load(curvature_a: float, curvature_b: float, modulus: float, load
 
 @entry
 def contact_at_approach(curvature_a: float, curvature_b: float, modulus: float, approach: float) -> HertzContact:
-    """`hertz_at_approach` without its checks, for compiled callers."""
+    """`hertz_contact_at_approach` without its checks, for compiled callers."""
     if not approach > 0.0:
         return HertzContact(0.0, 0.0, 0.0, 0.0, 0.0)
-    contact = contact_at_load(
-        curvature_a, curvature_b, modulus, stiffness_coefficient(curvature_a, curvature_b, modulus) * approach * math.sqrt(approach)
-    )
-    return HertzContact(contact.load, approach, contact.semi_axis_a, contact.semi_axis_b, contact.peak_pressure)
+    load = stiffness_coefficient(curvature_a, curvature_b, modulus) * approach * math.sqrt(approach)
+    contact = contact_at_load(curvature_a, curvature_b, modulus, load)
+    return HertzContact(load, approach, contact.a, contact.b, contact.peak_pressure)
 
 
 @entry

@@ -37,7 +37,7 @@ _DIGEST_BYTES = hashlib.sha256().digest_size
 
 
 def fingerprint(source_root: Path) -> str:
-    """Name everything that machine code depends on: core sources, compiler and library versions, processor, switches."""
+    """Name everything that machine code depends on: core sources, versions of compiler and libraries, processor."""
     digest = hashlib.sha256()
     for path in sorted(source_root.rglob("*.py")):
         digest.update(str(path.relative_to(source_root)).encode() + b"\0")
@@ -60,8 +60,8 @@ def cache_root() -> Path:
     override = os.environ.get("CONTACT_BENCH_CACHE")
     if override:
         return Path(override).absolute()
-    base = os.environ.get("XDG_CACHE_HOME", "")
-    return (Path(base) if os.path.isabs(base) else Path.home() / ".cache") / "contact_bench"
+    base = Path(os.environ.get("XDG_CACHE_HOME", ""))
+    return (base if base.is_absolute() else Path.home() / ".cache") / "contact_bench"
 
 
 def open_cache_directory(name: str) -> Path:
@@ -89,9 +89,13 @@ def _require_trusted(path: Path, owners: tuple[int, ...], forbidden: int) -> Non
     if not stat.S_ISDIR(status.st_mode):
         raise PermissionError(f"{path} is not a directory of its own (a link or a file); remove it")
     if status.st_uid not in owners:
-        raise PermissionError(f"{path} belongs to user {status.st_uid}, not to user {os.getuid()}; remove it or set CONTACT_BENCH_CACHE")
+        raise PermissionError(
+            f"{path} belongs to user {status.st_uid}, not to user {os.getuid()}; remove it or set CONTACT_BENCH_CACHE"
+        )
     if mode & forbidden and not mode & stat.S_ISVTX:
-        raise PermissionError(f"{path} is open to other users (mode {mode:04o}); remove its content and run 'chmod 700 {path}'")
+        raise PermissionError(
+            f"{path} is open to other users (mode {mode:04o}); remove its content and run 'chmod 700 {path}'"
+        )
 
 
 def _prune(root: Path, keep: Path) -> None:
@@ -103,7 +107,7 @@ def _prune(root: Path, keep: Path) -> None:
 
 
 class _Session:
-    """The cache of this process: opened at the first decorated function, closed for good at the first write that fails."""
+    """The cache of this process: opened at the first decorated function, closed at the first write that fails."""
 
     def __init__(self) -> None:
         self.name = ""
@@ -131,7 +135,11 @@ class _Session:
     def rebuild(self, error: Exception) -> None:
         """Throw away a damaged cache; kernels are compiled again and kept anew."""
         if self.directory is not None:
-            _log.warning("the cache of compiled kernels in %s is damaged (%s); it is removed and compiled again", self.directory, error)
+            _log.warning(
+                "the cache of compiled kernels in %s is damaged (%s); it is removed and compiled again",
+                self.directory,
+                error,
+            )
             shutil.rmtree(self.directory, ignore_errors=True)
             self.directory.mkdir(mode=0o700, exist_ok=True)
 
@@ -179,7 +187,7 @@ class _Locator(_CacheLocator):  # type: ignore[misc]
 
 
 class _CheckedCacheImpl(CompileResultCacheImpl):  # type: ignore[misc]
-    _locator_classes = [_Locator]
+    _locator_classes = (_Locator,)
 
 
 class _CheckedFiles(IndexDataCacheFile):  # type: ignore[misc]
@@ -190,14 +198,14 @@ class _CheckedFiles(IndexDataCacheFile):  # type: ignore[misc]
             content = self._read(self._index_path)
         except FileNotFoundError:
             return {}
-        stamp, overloads = pickle.loads(content)
+        stamp, overloads = pickle.loads(content)  # noqa: S301 - own directory, hash checked
         return overloads if stamp == self._source_stamp else {}
 
     def _save_index(self, overloads: Any) -> None:
         self._write(self._index_path, self._dump((self._source_stamp, overloads)))
 
     def _load_data(self, name: str) -> Any:
-        return pickle.loads(self._read(self._data_path(name)))
+        return pickle.loads(self._read(self._data_path(name)))  # noqa: S301 - own directory, hash checked
 
     def _save_data(self, name: str, data: Any) -> None:
         self._write(self._data_path(name), self._dump(data))
@@ -228,7 +236,7 @@ class _CheckedCache(FunctionCache):  # type: ignore[misc]
             return None
         try:
             return super().load_overload(sig, target_context)
-        except Exception as error:  # whatever unpickling or linking damaged code may raise; answered by compiling
+        except Exception as error:  # noqa: BLE001 - whatever unpickling damaged code raises; answered by compiling
             _session.rebuild(error)
             return None
 
@@ -239,5 +247,5 @@ class _CheckedCache(FunctionCache):  # type: ignore[misc]
             super().save_overload(sig, data)
         except OSError as error:
             _session.close(error)
-        except Exception as error:
+        except Exception as error:  # noqa: BLE001 - a damaged index, read before it is written
             _session.rebuild(error)

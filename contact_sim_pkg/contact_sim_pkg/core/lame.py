@@ -42,7 +42,12 @@ class LameFit(NamedTuple):
 def lame_area(semi_axis_a: float, semi_axis_b: float, exponent: float) -> float:
     """`4 a b Gamma(1 + 1/n)^2 / Gamma(1 + 2/n)` [m^2]; raises `ValueError` for n < 0.1."""
     _refuse_exponent(exponent)
-    return 4.0 * semi_axis_a * semi_axis_b * math.exp(2.0 * math.lgamma(1.0 + 1.0 / exponent) - math.lgamma(1.0 + 2.0 / exponent))
+    return (
+        4.0
+        * semi_axis_a
+        * semi_axis_b
+        * math.exp(2.0 * math.lgamma(1.0 + 1.0 / exponent) - math.lgamma(1.0 + 2.0 / exponent))
+    )
 
 
 def lame_second_moment(semi_axis_a: float, semi_axis_b: float, exponent: float) -> float:
@@ -80,7 +85,13 @@ def fit_patch(pressure: numpy.ndarray, cell_x: float, cell_y: float, origin_x: f
     boundary_points(pressure, cell_x, cell_y, x, y)
     fit = fit_boundary(x, y, half_x, half_y)
     return LameFit(
-        fit.semi_axis_a, fit.semi_axis_b, fit.exponent, fit.centre_x + origin_x, fit.centre_y + origin_y, fit.deviation, True
+        fit.semi_axis_a,
+        fit.semi_axis_b,
+        fit.exponent,
+        fit.centre_x + origin_x,
+        fit.centre_y + origin_y,
+        fit.deviation,
+        True,
     )
 
 
@@ -110,7 +121,9 @@ def fit_boundary(x: numpy.ndarray, y: numpy.ndarray, half_x: float, half_y: floa
         damping *= 0.2
         if moved < SMALLEST_STEP:
             break
-    return LameFit(math.exp(log_a), math.exp(log_b), math.exp(log_n), centre_x, centre_y, math.sqrt(cost / x.size), True)
+    return LameFit(
+        math.exp(log_a), math.exp(log_b), math.exp(log_n), centre_x, centre_y, math.sqrt(cost / x.size), True
+    )
 
 
 @kernel
@@ -144,7 +157,12 @@ def extents(pressure: numpy.ndarray) -> tuple[int, int, int, int, int, int]:
 
 @kernel
 def neighbours(pressure: numpy.ndarray, i: int, j: int) -> int:
-    return inside(pressure, i - 1, j) + inside(pressure, i + 1, j) + inside(pressure, i, j - 1) + inside(pressure, i, j + 1)
+    return (
+        inside(pressure, i - 1, j)
+        + inside(pressure, i + 1, j)
+        + inside(pressure, i, j - 1)
+        + inside(pressure, i, j + 1)
+    )
 
 
 @kernel

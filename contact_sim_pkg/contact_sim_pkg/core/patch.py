@@ -41,7 +41,9 @@ def summarise(pressure: numpy.ndarray, cell_x: float, cell_y: float, origin_x: f
         moment_x += row_total * i
         moment_y += row_moment
     if total <= 0.0:
-        return PatchSummary(0.0, 0.0, 0.0, 0.0, origin_x + 0.5 * (rows - 1) * cell_x, origin_y + 0.5 * (cols - 1) * cell_y)
+        return PatchSummary(
+            0.0, 0.0, 0.0, 0.0, origin_x + 0.5 * (rows - 1) * cell_x, origin_y + 0.5 * (cols - 1) * cell_y
+        )
     centre_x = origin_x + moment_x / total * cell_x
     centre_y = origin_y + moment_y / total * cell_y
     return PatchSummary(total * cell_x * cell_y, peak, total / cells, cells * cell_x * cell_y, centre_x, centre_y)
