@@ -10,8 +10,8 @@ SET_UP := sh ros2_ws/set_up.sh
 ENTER := $(SET_UP) && . ros2_ws/setup.bash
 
 # Tests talk on a domain of their own, told apart by the project's folder, and on this host only.
-TEST_DOMAIN := $(shell printf '%s' '$(CURDIR)' | cksum | awk '{ print 1 + $$1 % 100 }')
-TEST_ENVIRONMENT := ROS_DOMAIN_ID=$(TEST_DOMAIN) ROS_AUTOMATIC_DISCOVERY_RANGE=LOCALHOST PYTEST_DISABLE_PLUGIN_AUTOLOAD=1
+TEST_DOMAIN = $(shell printf '%s' '$(CURDIR)' | cksum | awk '{ print 1 + $$1 % 100 }')
+TEST_ENVIRONMENT = ROS_DOMAIN_ID=$(TEST_DOMAIN) ROS_AUTOMATIC_DISCOVERY_RANGE=LOCALHOST PYTEST_DISABLE_PLUGIN_AUTOLOAD=1
 
 # Ends a recipe: prints how long it took and hands the status on.
 REPORT_TIME = status=$$?; echo "make $@: $$SECONDS s in all"; exit $$status

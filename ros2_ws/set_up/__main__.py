@@ -38,8 +38,10 @@ def set_up() -> None:
 def main() -> int:
     """Run the set-up under a lock; returns the exit status: 0, 1 failed, 2 something is missing, 130 interrupted."""
     lock = os.open(WORKSPACE, os.O_RDONLY)
+    # Programs started from here hold the lock too: if this one is killed, the next call waits until they have ended.
+    os.set_inheritable(lock, True)
     try:
-        fcntl.flock(lock, fcntl.LOCK_EX)
+        _wait_for(lock)
         set_up()
     except SetUpError as error:
         for fault in error.faults:
@@ -51,6 +53,14 @@ def main() -> int:
     finally:
         os.close(lock)
     return 0
+
+
+def _wait_for(lock: int) -> None:
+    try:
+        fcntl.flock(lock, fcntl.LOCK_EX | fcntl.LOCK_NB)
+    except BlockingIOError:
+        _say("another set-up of this project is at work; waiting for it")
+        fcntl.flock(lock, fcntl.LOCK_EX)
 
 
 def _check_machine(underlay: Underlay, environ: dict[str, str]) -> None:

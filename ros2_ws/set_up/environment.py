@@ -94,7 +94,7 @@ def _remove(folder: Path) -> None:
 
 
 def _run(command: list[str], environ: dict[str, str], what: str) -> None:
-    status = subprocess.run(command, env=environ, cwd="/", check=False).returncode
+    status = subprocess.run(command, env=environ, cwd="/", check=False, close_fds=False).returncode
     if status:
         raise SetUpError(
             f"{what} could not be made ({Path(command[0]).name} ended with {status}, its message stands above): "

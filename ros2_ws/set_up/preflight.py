@@ -95,7 +95,7 @@ def compiler_faults(facts: Facts, environ: Mapping[str, str]) -> list[str]:
 
 def _platform_faults(facts: Facts) -> list[str]:
     if facts.system != "Linux":
-        return [f"this system is {facts.system}: the ROS 2 nodes need Linux (offline use: pip install ./contact_sim_pkg)."]
+        return [f"this system is {facts.system}: the nodes need Linux: for offline use, pip install ./contact_sim_pkg."]
     if not facts.ros_from_pip:
         return []
     found = []
@@ -130,14 +130,14 @@ def _python_faults(facts: Facts) -> list[str]:
 
 def _compiler_faults(facts: Facts) -> list[str]:
     found = []
-    for language, compiler, package, tried in (
-        ("C", facts.c_compiler, "gcc", C_COMPILERS),
-        ("C++", facts.cxx_compiler, "g++", CXX_COMPILERS),
+    for language, compiler, debian, fedora, tried in (
+        ("C", facts.c_compiler, "gcc", "gcc", C_COMPILERS),
+        ("C++", facts.cxx_compiler, "g++", "gcc-c++", CXX_COMPILERS),
     ):
         if compiler is None:
             found.append(
                 f"no {language} compiler found (looked for {', '.join(tried)}): install one "
-                f"(Debian, Ubuntu: sudo apt install {package}; Fedora: sudo dnf install {package.replace('g++', 'gcc-c++')})."
+                f"(Debian, Ubuntu: sudo apt install {debian}; Fedora: sudo dnf install {fedora})."
             )
     return found
 

@@ -47,7 +47,7 @@ def relocate(prefix: Path, python: Path, environ: dict[str, str]) -> int:
 
 
 def relocated(text: str, target: Target) -> str:
-    """The text with the build machine's paths replaced; the longer patterns come first, since the last is their start."""
+    """The text with the build machine's paths replaced; the last pattern is the start of the first two."""
     for pattern, replacement in (
         (_PYTHON + r"/lib/python3\.\d+t?/site-packages/numpy/_?core/include", target.numpy_headers),
         (_PYTHON + r"/include/python3\.\d+t?", target.python_headers),
@@ -69,5 +69,6 @@ def _replace(path: Path, text: str) -> None:
     handle, name = tempfile.mkstemp(dir=path.parent)
     with os.fdopen(handle, "w", encoding="utf-8") as file:
         file.write(text)
-    os.chmod(name, path.stat().st_mode)
-    os.replace(name, path)
+    new = Path(name)
+    new.chmod(path.stat().st_mode)
+    new.replace(path)

@@ -1,11 +1,10 @@
 """Tells whether what was made still fits what it was made from, by a hash kept beside it."""
 
 import hashlib
-import os
 from collections.abc import Iterable
 from pathlib import Path
 
-from .layout import ENVIRONMENT, LOCK, PACKAGES, PROJECT, WORKSPACE, BUILD_TOOLS_LOCK, COLCON_DEFAULTS
+from .layout import BUILD_TOOLS_LOCK, COLCON_DEFAULTS, ENVIRONMENT, LOCK, PACKAGES, PROJECT, WORKSPACE
 from .underlay import Underlay
 
 ENVIRONMENT_STAMP = ENVIRONMENT / "environment.stamp"
@@ -42,7 +41,7 @@ def write(stamp: Path, key: str) -> None:
     """Write the stamp in one step, so that a kill leaves either none or a whole one."""
     new = stamp.with_suffix(".new")
     new.write_text(key + "\n", encoding="ascii")
-    os.replace(new, stamp)
+    new.replace(stamp)
 
 
 def _hash(texts: Iterable[str], files: Iterable[Path]) -> str:

@@ -20,7 +20,7 @@ def build_workspace(environ: dict[str, str]) -> None:
     environ = environ | {"COLCON_DEFAULTS_FILE": str(COLCON_DEFAULTS), "CMAKE_GENERATOR": _generator(environ)}
     colcon = [str(environment_python()), "-c", _COLCON, "build"]
     command = ["/bin/sh", "-c", _IN_ENVIRONMENT, "sh", str(ENVIRONMENT), *colcon]
-    status = subprocess.run(command, env=environ, cwd=WORKSPACE, check=False).returncode
+    status = subprocess.run(command, env=environ, cwd=WORKSPACE, check=False, close_fds=False).returncode
     if status:
         raise SetUpError(
             f"colcon build ended with {status} (its messages stand above and in {WORKSPACE / 'log' / 'latest_build'}): "

@@ -1,0 +1,143 @@
+"""Lists and numbers that stand in more than one file of the packaging agree."""
+
+import ast
+import re
+import xml.etree.ElementTree as ElementTree
+from pathlib import Path
+
+import pytest
+
+from set_up.environment import system_requirements
+
+PROJECT = Path(__file__).resolve().parents[2]
+MESSAGES = PROJECT / "contact_msgs_defs"
+PACKAGE = PROJECT / "contact_sim_pkg"
+LOCK = PROJECT / "ros2_ws" / "requirements.txt"
+PIN = re.compile(
+    r"(?P<name>[A-Za-z0-9._-]+)(\[[a-z]+\])?==(?P<version>[0-9][0-9a-z.]*)(; python_version (==|>=) \"3\.\d+\")?"
+)
+
+
+def pins() -> list[str]:
+    lines = [line.strip() for line in LOCK.read_text().splitlines()]
+    return [line for line in lines if line and not line.startswith("#")]
+
+
+def package_xml(folder: Path) -> ElementTree.Element:
+    return ElementTree.parse(folder / "package.xml").getroot()
+
+
+def test_every_name_in_the_lock_is_pinned_to_one_version():
+    unpinned = [line for line in pins() if not PIN.fullmatch(line)]
+    assert unpinned == []
+
+
+def test_no_name_is_locked_twice_for_the_same_python():
+    seen = [re.sub(r"==[^;]+", "", line).lower().replace("_", "-") for line in pins()]
+    assert sorted(seen) == sorted(set(seen))
+
+
+def test_the_lock_holds_all_102_wheels_of_ros():
+    assert sum(line.startswith("ros-") for line in pins()) == 102
+
+
+def test_every_dependency_of_setup_py_is_locked():
+    declared = [re.split(r"[<>=]", text)[0] for text in setup_py_list("install_requires")]
+    locked = {PIN.fullmatch(line)["name"].lower() for line in pins()}
+    assert len(declared) > 10
+    assert {name for name in declared if name not in locked} == set()
+
+
+def test_setuptools_is_older_than_the_one_that_breaks_symlink_installs():
+    (line,) = [line for line in pins() if line.startswith("setuptools==")]
+    assert int(line.removeprefix("setuptools==").split(".")[0]) < 80
+
+
+def test_cmake_lists_every_message_and_no_other():
+    listed = re.findall(r'"msg/(\w+)\.msg"', (MESSAGES / "CMakeLists.txt").read_text())
+    assert sorted(listed) == sorted(path.stem for path in (MESSAGES / "msg").glob("*.msg"))
+
+
+def test_message_dependencies_stand_in_cmake_and_package_xml():
+    used = set()
+    for path in (MESSAGES / "msg").glob("*.msg"):
+        used |= set(re.findall(r"^(\w+)/\w+", path.read_text(), re.MULTILINE))
+    cmake = (MESSAGES / "CMakeLists.txt").read_text()
+    declared = {node.text for node in package_xml(MESSAGES).findall("depend")}
+    assert used == declared == set(re.search(r"DEPENDENCIES (.+)\n", cmake)[1].split())
+
+
+def test_versions_are_the_same_everywhere():
+    written = re.search(r'^__version__ = "(.+)"$', (PACKAGE / "contact_sim_pkg/__init__.py").read_text(), re.MULTILINE)
+    versions = {package_xml(folder).findtext("version") for folder in (MESSAGES, PACKAGE)}
+    assert versions == {written[1]}
+
+
+def test_changelogs_start_with_forthcoming_or_the_version():
+    for folder in (MESSAGES, PACKAGE):
+        first = re.search(r"^(\S+).*\n-{5,}$", (folder / "CHANGELOG.rst").read_text(), re.MULTILINE)[1]
+        assert first in ("Forthcoming", package_xml(folder).findtext("version"))
+
+
+def test_every_ros_package_imported_by_the_nodes_is_declared():
+    declared = {node.text for node in package_xml(PACKAGE).findall("exec_depend")}
+    ros = {"rclpy", "std_msgs", "geometry_msgs", "sensor_msgs", "rosgraph_msgs", "contact_msgs_defs", "nav_msgs"}
+    imported = set()
+    for folder in ("contact_sim_pkg/nodes", "launch"):
+        for path in (PACKAGE / folder).rglob("*.py"):
+            imported |= {name for name in top_level_imports(path) if name in ros | {"launch", "launch_ros"}}
+    assert imported - declared == set()
+
+
+def test_every_console_script_names_a_module_that_exists():
+    text = (PACKAGE / "setup.py").read_text()
+    (nodes,) = [
+        ast.literal_eval(node.value)
+        for node in ast.parse(text).body
+        if isinstance(node, ast.Assign) and node.targets[0].id == "NODES"
+    ]
+    missing = [name for name in nodes if not (PACKAGE / "contact_sim_pkg" / "nodes" / f"{name}.py").exists()]
+    assert missing == []
+    assert (PACKAGE / "contact_sim_pkg" / "cli" / "main.py").exists()
+
+
+def test_the_message_folder_of_the_package_is_a_relative_link_to_the_definitions():
+    link = PACKAGE / "contact_sim_pkg" / "msg"
+    assert link.is_symlink()
+    assert not link.readlink().is_absolute()
+    assert link.resolve() == (MESSAGES / "msg").resolve()
+
+
+@pytest.mark.parametrize("package", ["contact_msgs_defs", "contact_sim_pkg"])
+def test_the_workspace_links_to_both_packages(package):
+    link = PROJECT / "ros2_ws" / "src" / package
+    assert not link.readlink().is_absolute()
+    assert link.resolve() == (PROJECT / package).resolve()
+
+
+def test_a_sourced_ros_keeps_its_own_numpy_and_generators():
+    lock = ["ros-rclpy==7.1.6", "numpy==2.2.6", "empy==4.2.1", "numba==0.68.1", "colcon-core==0.21.3"]
+    assert system_requirements(lock, system_has_colcon=True) == ["numba==0.68.1"]
+    assert system_requirements(lock, system_has_colcon=False) == ["numba==0.68.1", "colcon-core==0.21.3"]
+
+
+def test_no_unneeded_bag_or_build_product_is_tracked():
+    ignored = (PROJECT / ".gitignore").read_text().splitlines()
+    assert {"/.ros2/", "/ros2_ws/build/", "/ros2_ws/install/", "/ros2_ws/log/", "/bags/*"} <= set(ignored)
+
+
+def top_level_imports(path: Path) -> set[str]:
+    names = set()
+    for node in ast.walk(ast.parse(path.read_text())):
+        if isinstance(node, ast.Import):
+            names |= {alias.name.split(".")[0] for alias in node.names}
+        elif isinstance(node, ast.ImportFrom) and node.module and node.level == 0:
+            names.add(node.module.split(".")[0])
+    return names
+
+
+def setup_py_list(argument: str) -> list[str]:
+    for node in ast.walk(ast.parse((PACKAGE / "setup.py").read_text())):
+        if isinstance(node, ast.keyword) and node.arg == argument:
+            return ast.literal_eval(node.value)
+    raise AssertionError(f"setup.py has no {argument}")
