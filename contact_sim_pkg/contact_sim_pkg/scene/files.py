@@ -1,0 +1,55 @@
+"""Input files that a scene names: where they are found, and the checksum that ties a run to their content."""
+
+from __future__ import annotations
+
+import hashlib
+from pathlib import Path
+from typing import NamedTuple
+
+from contact_sim_pkg.scene.schema import Scene
+from contact_sim_pkg.scene.schema_road import OpenCrgRoad
+from contact_sim_pkg.scene.schema_vibration import Recorded
+
+SCENES = Path(__file__).resolve().parent.parent / "scenes"
+"""Folder of the shipped scenes; their input files are in `data/` below it."""
+PACKAGE_PREFIX = "data/"
+
+
+class InputFile(NamedTuple):
+    """A file that a scene names: the dotted path of the key, the name, the checksum if the scene states one."""
+
+    where: str
+    name: str
+    sha256: str | None
+
+
+def input_files(scene: Scene) -> list[InputFile]:
+    """The files that a scene names."""
+    named = []
+    if isinstance(scene.road, OpenCrgRoad):
+        named.append(InputFile("road.file", scene.road.file, scene.road.sha256))
+    if isinstance(scene.vibration, Recorded):
+        named.append(InputFile("vibration.file", scene.vibration.file, scene.vibration.sha256))
+    return named
+
+
+def candidates(name: str, folder: Path) -> list[Path]:
+    """Places where a file is looked for: from the folder, and for `data/…` also in the package."""
+    places = [folder / name]
+    if name.startswith(PACKAGE_PREFIX) and SCENES not in (folder, folder.resolve()):
+        places.append(SCENES / name)
+    return places
+
+
+def find_file(name: str, folder: Path) -> Path | None:
+    """The first candidate that is a file, absolute; None where there is none."""
+    return next((place.absolute() for place in candidates(name, folder) if place.is_file()), None)
+
+
+def sha256_of(path: Path) -> str:
+    """Checksum of the content, as 64 hexadecimal digits."""
+    digest = hashlib.sha256()
+    with path.open("rb") as stream:
+        while chunk := stream.read(1 << 20):
+            digest.update(chunk)
+    return digest.hexdigest()

@@ -1,0 +1,139 @@
+"""Caps on what a scene may ask of the machine, checked before anything is allocated."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Iterator
+from pathlib import Path
+from typing import NamedTuple
+
+from contact_sim_pkg.scene.errors import Breach
+from contact_sim_pkg.scene.files import InputFile, candidates, find_file, input_files, sha256_of
+from contact_sim_pkg.scene.schema import Scene
+from contact_sim_pkg.scene.schema_accuracy import Contact, cells_of
+from contact_sim_pkg.scene.schema_effect_rules import CONTACTS_OF_RIG
+from contact_sim_pkg.scene.schema_road import Iso8608Road
+
+GIBIBYTE = 1 << 30
+BYTES_PER_CELL = 256
+"""Influence tables, transforms and work arrays of a pressure field, a cell of its grid."""
+MOST_CELLS_A_SIDE = 4096
+BYTES_PER_ROAD_POINT = 16
+ROAD_POINTS_PER_WAVE = 48
+"""Height and slope of a random road, so many times on its shortest wave."""
+MOST_ROAD_POINTS = 1 << 24
+MOST_SAMPLES = 10**9
+"""Force samples of a run: 3600 s at 277 kHz."""
+LARGEST_ROAD_FILE = 512 << 20
+LARGEST_SIGNAL_FILE = 256 << 20
+BYTES_PER_FILE_BYTE = 4
+"""Memory that a file takes when it is read: its text or 32-bit numbers and the 64-bit arrays made of them."""
+
+
+class Need(NamedTuple):
+    """Memory that one part of a scene needs."""
+
+    where: str
+    what: str
+    bytes: int
+
+
+def limit_breaches(scene: Scene) -> Iterator[Breach]:
+    """Scenes that are too large: memory, samples, points of a random road, cells along a side of a field."""
+    yield from _samples(scene)
+    yield from _road_points(scene)
+    needs = list(memory_needs(scene))
+    total, limit = sum(need.bytes for need in needs), scene.limits.memory * GIBIBYTE
+    if total > limit:
+        yield _too_much(needs, total, scene.limits.memory)
+    else:
+        yield from _sides(scene)
+
+
+def memory_needs(scene: Scene) -> Iterator[Need]:
+    """Estimated memory of each part of a scene."""
+    for contact, rows, cols in _grids(scene):
+        yield Need(f"effects.{contact}.contact_field", f"{rows} × {cols} cells need", rows * cols * BYTES_PER_CELL)
+    points = _random_road_points(scene)
+    if 0 < points <= MOST_ROAD_POINTS:
+        yield Need("road", f"a random road of {points} points needs", points * BYTES_PER_ROAD_POINT)
+    for file in input_files(scene):
+        path = find_file(file.name, Path(scene.file).parent)
+        if path is not None:
+            yield Need(file.where, f"{file.name} needs", path.stat().st_size * BYTES_PER_FILE_BYTE)
+
+
+def file_breaches(scene: Scene) -> Iterator[Breach]:
+    """Input files that are missing, unreadable, too large, or have another content than the scene states."""
+    for file in input_files(scene):
+        sentence = _file_fault(file, Path(scene.file).parent)
+        if sentence:
+            yield Breach(file.where, sentence)
+
+
+def _file_fault(file: InputFile, folder: Path) -> str:
+    path = find_file(file.name, folder)
+    if path is None:
+        looked = " or ".join(str(place) for place in candidates(file.name, folder))
+        kind = "is a folder" if (folder / file.name).is_dir() else "is not there"
+        return f"the file {file.name!r} {kind}; looked for {looked}"
+    if not os.access(path, os.R_OK):
+        return f"the file {path} may not be read; check its permissions"
+    largest = LARGEST_ROAD_FILE if file.where == "road.file" else LARGEST_SIGNAL_FILE
+    size = path.stat().st_size
+    if size > largest:
+        return f"the file {path} has {size} bytes; at most {largest} are allowed"
+    if file.sha256 is not None:
+        found = sha256_of(path)
+        if found != file.sha256:
+            return f"the file {path} has another content than the scene states: sha256 {found}, stated {file.sha256}"
+    return ""
+
+
+def _too_much(needs: list[Need], total: int, limit: float) -> Breach:
+    largest = max(needs, key=lambda need: need.bytes)
+    together = f", all parts together {total / GIBIBYTE:.3g} GiB" if len(needs) > 1 else ""
+    sentence = f"{largest.what} {largest.bytes / GIBIBYTE:.3g} GiB{together}, limit {limit:g} GiB (limits.memory)"
+    return Breach(largest.where, sentence, ("limits.memory", "accuracy"))
+
+
+def _grids(scene: Scene) -> Iterator[tuple[str, int, int]]:
+    for contact in CONTACTS_OF_RIG[scene.rig]:
+        effects = getattr(scene.effects, contact)
+        field = None if effects is None else effects.contact_field
+        if field is not None:
+            name: Contact = "tire" if contact == "tire" else "seat"
+            yield contact, *cells_of(scene.accuracy, name, field.rows, field.cols)
+
+
+def _sides(scene: Scene) -> Iterator[Breach]:
+    for contact, rows, cols in _grids(scene):
+        for key, count in (("rows", rows), ("cols", cols)):
+            if count > MOST_CELLS_A_SIDE:
+                sentence = f"{count} cells are more than the {MOST_CELLS_A_SIDE} that one side of a field can have"
+                yield Breach(f"effects.{contact}.contact_field.{key}", sentence)
+
+
+def _samples(scene: Scene) -> Iterator[Breach]:
+    samples = scene.duration * scene.outputs.force_rate
+    if samples > MOST_SAMPLES:
+        sentence = f"{scene.duration:g} s at {scene.outputs.force_rate:g} Hz are {samples:.3g} samples, limit {MOST_SAMPLES:.3g}"
+        yield Breach("outputs.force_rate", sentence, ("duration",))
+
+
+def _random_road_points(scene: Scene) -> float:
+    road = scene.road
+    if not isinstance(road, Iso8608Road):
+        return 0
+    points = 1024 * -(-ROAD_POINTS_PER_WAVE * road.length / road.shortest_wavelength // 1024)
+    return int(points)
+
+
+def _road_points(scene: Scene) -> Iterator[Breach]:
+    points = _random_road_points(scene)
+    if points > MOST_ROAD_POINTS:
+        sentence = (
+            f"a road of {scene.road.length:g} m with waves down to {scene.road.shortest_wavelength:g} m needs {points} points, "  # type: ignore[union-attr]
+            f"limit {MOST_ROAD_POINTS}; shorten it (it repeats) or raise shortest_wavelength"
+        )
+        yield Breach("road.length", sentence, ("road.shortest_wavelength",))

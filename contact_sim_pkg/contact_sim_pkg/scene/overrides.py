@@ -1,0 +1,156 @@
+"""Values that command-line options put into a scene before it is validated; their faults name the option."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import dataclass
+from pathlib import Path
+
+from contact_sim_pkg.scene.errors import Fault, SceneError
+from contact_sim_pkg.scene.yaml_document import parse_value
+from contact_sim_pkg.scene.yaml_nodes import ListNode, MappingNode, Mark, Node, ScalarNode
+
+TIED_TO_FILE = {"road": ("start", "sha256"), "vibration": ("start", "sha256", "rate", "time_column")}
+"""Keys that say something about one file and go when another file takes its place."""
+FILE_KINDS = {"road": "opencrg", "vibration": "recorded"}
+
+
+@dataclass(frozen=True)
+class Override:
+    """One value of a scene from the command line.
+
+    Attributes:
+        option: the option as typed; stands for the file in faults.
+        path: keys from the root.
+        node: the value.
+        file_section: `road` or `vibration` where the value is a file that takes the place of this section.
+    """
+
+    option: str
+    path: tuple[str, ...]
+    node: Node
+    file_section: str = ""
+
+
+def set_value(assignment: str) -> Override:
+    """`--set a.b.c=value`; the value is read as YAML, items of lists are counted from 0.
+
+    Raises:
+        SceneError: no `=`, an empty key, or a value that is not YAML.
+    """
+    option = f"--set {assignment}"
+    dotted, equals, text = assignment.partition("=")
+    keys = tuple(key.strip() for key in dotted.split("."))
+    if not equals or not all(keys):
+        raise SceneError([Fault(option, 0, 0, "", "is not of the form a.b.c=value")])
+    return Override(option, keys, parse_value(text, option))
+
+
+def set_duration(text: str | float) -> Override:
+    """`--duration S`."""
+    return _option("--duration", ("duration",), text)
+
+
+def set_pace(text: str | float) -> Override:
+    """`--pace realtime|max|FACTOR`."""
+    return _option("--pace", ("pace",), text)
+
+
+def set_road(file: str | Path) -> Override:
+    """`--road FILE`: an OpenCRG file in place of the scene's road; the name counts from the current folder."""
+    return _file("--road", "road", file)
+
+
+def set_vibration(file: str | Path) -> Override:
+    """`--vibration FILE`: a recorded vibration in place of the scene's; give its rate with `set_rate` after it."""
+    return _file("--vibration", "vibration", file)
+
+
+def set_rate(text: str | float) -> Override:
+    """`--rate R`: sampling rate of the vibration file."""
+    return _option("--rate", ("vibration", "rate"), text)
+
+
+def apply(root: MappingNode, overrides: Iterable[Override]) -> list[Fault]:
+    """Put the values into the document, in order; later ones win. Returns the faults of paths that lead nowhere."""
+    faults = []
+    for override in overrides:
+        mark = Mark(override.option, 0, 0)
+        if override.file_section:
+            _replace_file(root, override, mark)
+            continue
+        sentence = _put(root, override.path, override.node, mark)
+        if sentence:
+            faults.append(mark.fault(".".join(override.path), sentence))
+    return faults
+
+
+def _option(name: str, path: tuple[str, ...], text: str | float) -> Override:
+    option = f"{name} {text}"
+    return Override(option, path, parse_value(str(text), option))
+
+
+def _file(name: str, section: str, file: str | Path) -> Override:
+    option = f"{name} {file}"
+    absolute = str(Path(file).absolute())
+    return Override(option, (section,), ScalarNode(Mark(option, 0, 0), absolute, absolute, quoted=True), section)
+
+
+def _replace_file(root: MappingNode, override: Override, mark: Mark) -> None:
+    section, kind = override.file_section, FILE_KINDS[override.file_section]
+    entries = {"kind": ScalarNode(mark, kind, kind), "file": override.node}
+    before = root.entries.get(section)
+    kept = MappingNode(mark)
+    if isinstance(before, MappingNode) and _kind(before) == kind:
+        kept = before
+        for key in TIED_TO_FILE[section]:
+            kept.entries.pop(key, None)
+    elif isinstance(before, MappingNode) and "sample_rate" in before.entries:
+        kept.entries["sample_rate"] = before.entries["sample_rate"]
+    kept.entries.update(entries)
+    for key in kept.entries:
+        kept.key_marks.setdefault(key, mark)
+    root.entries[section] = kept
+    root.key_marks.setdefault(section, mark)
+
+
+def _kind(section: MappingNode) -> str:
+    kind = section.entries.get("kind")
+    return kind.raw if isinstance(kind, ScalarNode) else ""
+
+
+def _put(root: MappingNode, path: tuple[str, ...], value: Node, mark: Mark) -> str:
+    """Put one value in, making sections on the way; the sentence of the fault where the path leads nowhere."""
+    node: Node = root
+    for depth, key in enumerate(path[:-1]):
+        if isinstance(node, MappingNode) and key not in node.entries:
+            node.entries[key] = MappingNode(mark)
+            node.key_marks[key] = mark
+        below = _below(node, key)
+        if below is None:
+            return _no_way(node, path[:depth], key)
+        node = below
+    if isinstance(node, MappingNode):
+        node.entries[path[-1]] = value
+        node.key_marks.setdefault(path[-1], mark)
+        return ""
+    if isinstance(node, ListNode) and _below(node, path[-1]) is not None:
+        node.items[int(path[-1])] = value
+        return ""
+    return _no_way(node, path[:-1], path[-1])
+
+
+def _below(node: Node, key: str) -> Node | None:
+    if isinstance(node, MappingNode):
+        return node.entries.get(key)
+    if isinstance(node, ListNode) and key.isdecimal() and int(key) < len(node.items):
+        return node.items[int(key)]
+    return None
+
+
+def _no_way(node: Node, path: tuple[str, ...], key: str) -> str:
+    place = ".".join(path)
+    if isinstance(node, ScalarNode):
+        return f"'{place}' is the value {node.raw!r} and has no keys"
+    count = len(node.items) if isinstance(node, ListNode) else 0
+    return f"'{key}' is not an item of the list '{place}', which has {count} items, counted from 0"

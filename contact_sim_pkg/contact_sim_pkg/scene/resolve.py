@@ -1,0 +1,158 @@
+"""Accuracy to explicit grids and tolerances: the resolved scene, which is stored in the bag and gives the same bits again.
+
+A resolved scene is itself a scene: the same keys, every default written out, nothing left to be taken from `accuracy`, and
+the checksum of each input file. Reading it back and resolving it once more changes nothing.
+"""
+
+from __future__ import annotations
+
+import copy
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from io import StringIO
+from pathlib import Path
+from typing import Any
+
+from ruamel.yaml import YAML
+
+from contact_sim_pkg.scene.errors import Fault, SceneError
+from contact_sim_pkg.scene.files import find_file, input_files, sha256_of
+from contact_sim_pkg.scene.schema import Scene
+from contact_sim_pkg.scene.schema_accuracy import Contact, cells_of, integration_tolerance, rung_for
+from contact_sim_pkg.scene.schema_effect_rules import CONTACTS_OF_RIG
+from contact_sim_pkg.scene.schema_rigs import Seat, Tire
+from contact_sim_pkg.scene.schema_validate import validate
+from contact_sim_pkg.scene.yaml_document import parse_document
+
+DEFAULT_DAMPING: dict[Contact, float] = {"tire": 0.06, "seat": 1.0}
+"""Hunt-Crossley damping in [s/m] where a scene names neither damping nor restitution, see `schema_effects.py`."""
+
+
+@dataclass(frozen=True)
+class ResolvedScene:
+    """A scene with nothing left open.
+
+    Attributes:
+        data: plain dict of dicts, lists, texts and numbers, in the keys of the scene schema.
+        files: where each input file was found, by the dotted path of its key; not part of the data and not compared.
+    """
+
+    data: dict[str, Any]
+    files: Mapping[str, Path] = field(default_factory=dict, compare=False)
+
+    def to_yaml(self) -> str:
+        """The data as YAML 1.2; `from_yaml` reads the same data from it, to the bit."""
+        writer = YAML(typ="safe", pure=True)
+        writer.default_flow_style = False
+        writer.sort_base_mapping_type_on_output = False  # type: ignore[assignment]
+        writer.allow_unicode = True
+        writer.width = 120
+        stream = StringIO()
+        writer.dump(self.data, stream)
+        return stream.getvalue()
+
+    @classmethod
+    def from_yaml(cls, text: str, files: Mapping[str, str | Path] | None = None, folder: str | Path = ".") -> ResolvedScene:
+        """Read what `to_yaml` wrote.
+
+        Args:
+            text: the YAML text.
+            files: where input files are, by the dotted path of the key; others are looked for from `folder` and in the package.
+            folder: where relative file names start.
+
+        Raises:
+            SceneError: the text is not a valid scene, or leaves something open. Input files are looked for, not required:
+                a bag can be read where they are not; `file_path` asks for them.
+        """
+        source = "resolved scene"
+        document = parse_document(text, source)
+        scene = validate(document.root, source, document.faults)
+        data = explicit(scene)
+        open_keys = [where for where, value in _leaves(data) if _at(_dump(scene), where) != value]
+        if open_keys:
+            sentence = "is left open in a resolved scene"
+            raise SceneError([Fault(source, 1, 1, ".".join(where), sentence) for where in open_keys])
+        found = {file.where: find_file(file.name, Path(folder)) for file in input_files(scene)}
+        given = {where: Path(path) for where, path in (files or {}).items()}
+        return cls(data, {**{where: path for where, path in found.items() if path is not None}, **given})
+
+    def file_path(self, where: str) -> Path:
+        """The input file of a key (`road.file`, `vibration.file`), its content checked against the checksum.
+
+        Raises:
+            SceneError: not found, or its content differs from the one that the scene was resolved with.
+        """
+        section = where.split(".")[0]
+        name, stated = self.data[section]["file"], self.data[section]["sha256"]
+        path = self.files.get(where)
+        if path is None or not path.is_file():
+            raise SceneError([Fault("resolved scene", 0, 0, where, f"the file {name!r} is not there; give its path")])
+        found = sha256_of(path)
+        if found != stated:
+            sentence = f"{path} has another content than the scene was resolved with: sha256 {found}, stated {stated}"
+            raise SceneError([Fault("resolved scene", 0, 0, where, sentence)])
+        return path
+
+
+def resolve(scene: Scene) -> ResolvedScene:
+    """Turn accuracy into explicit grids and tolerances, write out every default, take the checksums of input files.
+
+    Raises:
+        SceneError: an input file is not there.
+    """
+    data, files = explicit(scene), {}
+    for file in input_files(scene):
+        path = find_file(file.name, Path(scene.file).parent)
+        if path is None:
+            raise SceneError([Fault(scene.file, 1, 1, file.where, f"the file {file.name!r} is not there")])
+        section = data[file.where.split(".")[0]]
+        section["file"] = path.name if Path(file.name).is_absolute() else file.name
+        section["sha256"] = sha256_of(path)
+        files[file.where] = path
+    return ResolvedScene(_ordered(data), files)
+
+
+def explicit(scene: Scene) -> dict[str, Any]:
+    """The scene as a plain dict with every default and everything that follows from `accuracy` written out."""
+    data = _dump(scene)
+    contacts: list[Contact] = ["tire" if name == "tire" else "seat" for name in CONTACTS_OF_RIG[scene.rig]]
+    for contact in contacts:
+        default = Tire() if contact == "tire" else Seat()
+        data.setdefault(contact, default.model_dump(exclude_none=True))
+        _fill_effects(data["effects"][contact], scene.accuracy, contact)
+    data["integrator"].setdefault("relative_tolerance", integration_tolerance(scene.accuracy))
+    return _ordered(data)
+
+
+def _fill_effects(effects: dict[str, Any], accuracy: float | str, contact: Contact) -> None:
+    loss = effects.get("normal_dissipative")
+    if loss is not None and "restitution" not in loss:
+        loss.setdefault("damping", DEFAULT_DAMPING[contact])
+    grid = effects.get("contact_field")
+    if grid is not None:
+        rung = rung_for(accuracy)
+        grid["rows"], grid["cols"] = cells_of(accuracy, contact, grid.get("rows"), grid.get("cols"))
+        grid.setdefault("tolerance", rung.tolerance)
+        grid.setdefault("corrector_passes", rung.corrector_passes)
+
+
+def _dump(scene: Scene) -> dict[str, Any]:
+    return copy.deepcopy(scene.model_dump(exclude_none=True))
+
+
+def _ordered(data: dict[str, Any]) -> dict[str, Any]:
+    """The same data in the order of the schema, whatever was given and whatever was filled in."""
+    return _dump(Scene.model_validate(data))
+
+
+def _leaves(data: dict[str, Any], prefix: tuple[str, ...] = ()) -> list[tuple[tuple[str, ...], Any]]:
+    found: list[tuple[tuple[str, ...], Any]] = []
+    for key, value in data.items():
+        found += _leaves(value, (*prefix, key)) if isinstance(value, dict) else [((*prefix, key), value)]
+    return found
+
+
+def _at(data: Any, where: tuple[str, ...]) -> Any:
+    for key in where:
+        data = data.get(key) if isinstance(data, dict) else None
+    return data

@@ -1,0 +1,68 @@
+"""Which effects a contact offers, what each effect needs, and which exclude each other: one table."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from itertools import combinations
+from typing import NamedTuple
+
+from contact_sim_pkg.scene.errors import Breach
+from contact_sim_pkg.scene.schema import Scene
+
+CONTACTS_OF_RIG: dict[str, tuple[str, ...]] = {"tire": ("tire",), "seat": ("seat",), "car": ("tire", "seat")}
+"""Contacts of each rig; each needs an elastic force."""
+
+
+class EffectRule(NamedTuple):
+    """What holds for one effect."""
+
+    contacts: tuple[str, ...]
+    needs: tuple[str, ...] = ()
+    excludes: tuple[str, ...] = ()
+
+
+EFFECT_RULES: dict[str, EffectRule] = {
+    "normal_elastic": EffectRule(("tire", "seat")),
+    "normal_dissipative": EffectRule(("tire", "seat"), needs=("normal_elastic",)),
+    "friction": EffectRule(("seat",), needs=("normal_elastic",)),
+    "contact_field": EffectRule(("tire", "seat"), needs=("normal_elastic",)),
+}
+
+
+def effects_of(scene: Scene, contact: str) -> list[str]:
+    """Names of the effects that a scene calls for at a contact, in the order of the table."""
+    section = getattr(scene.effects, contact)
+    return [name for name in EFFECT_RULES if getattr(section, name, None) is not None]
+
+
+def effect_breaches(scene: Scene) -> Iterator[Breach]:
+    """Contacts that the rig lacks or leaves without elastic force; effects without what they need; pairs that exclude each other."""
+    contacts = CONTACTS_OF_RIG[scene.rig]
+    for contact in ("tire", "seat"):
+        where = f"effects.{contact}"
+        if contact not in contacts:
+            if getattr(scene.effects, contact) is not None:
+                yield Breach(where, f"the rig {scene.rig} has no contact {contact}; it has {' and '.join(contacts)}", ("rig",))
+            continue
+        named = effects_of(scene, contact)
+        if "normal_elastic" not in named:
+            yield Breach(f"{where}.normal_elastic", f"is missing: the contact {contact} carries no load without it; write {{}}", ("rig",))
+        yield from _between(where, named)
+
+
+def _between(where: str, named: list[str]) -> Iterator[Breach]:
+    for name in named:
+        for needed in EFFECT_RULES[name].needs:
+            if needed not in named:
+                yield Breach(f"{where}.{name}", f"{name} needs {needed}, which the scene does not name; add it or remove {name}")
+    for one, other in combinations(named, 2):
+        if other in EFFECT_RULES[one].excludes or one in EFFECT_RULES[other].excludes:
+            yield Breach(f"{where}.{other}", f"{one} and {other} exclude each other; remove one of them", (f"{where}.{one}",))
+
+
+def unavailable_effect(path: tuple[str | int, ...]) -> str:
+    """The sentence for an effect that exists, but not at this contact; empty for anything else."""
+    if len(path) != 3 or path[0] != "effects" or path[2] not in EFFECT_RULES:
+        return ""
+    contacts = EFFECT_RULES[str(path[2])].contacts
+    return f"the effect {path[2]} is not available at the contact {path[1]}, only at {' and '.join(contacts)}; remove it"

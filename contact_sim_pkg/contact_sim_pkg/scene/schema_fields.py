@@ -1,0 +1,52 @@
+"""Building stones of the scene schema: a section, and fields with unit, range, default and one line of help."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from pydantic import BaseModel, ConfigDict, Field
+
+
+class Section(BaseModel):
+    """A mapping of a scene: strict types, no unknown keys, no NaN, cannot be changed."""
+
+    model_config = ConfigDict(strict=True, extra="forbid", frozen=True, allow_inf_nan=False)
+
+
+def number(
+    low: float,
+    high: float,
+    unit: str,
+    help: str,
+    *,
+    default: Any = ...,
+    above: bool = False,
+    example: float | None = None,
+) -> Any:
+    """A number or whole number from low to high; `above`: low itself is not allowed.
+
+    `example` is a valid value of a field that has no default.
+    """
+    bounds: dict[str, Any] = {"gt" if above else "ge": low, "le": high}
+    return Field(default, description=help, json_schema_extra={"unit": unit, "example": example}, **bounds)
+
+
+def choice(help: str, *, default: Any = ..., example: Any = None) -> Any:
+    """A field that takes one of a few words, or a section; its type names them."""
+    return Field(default, description=help, json_schema_extra={"unit": "", "example": example})
+
+
+def text(help: str, *, default: Any = ..., pattern: str = r"^[^\x00-\x1f]*$", longest: int = 1000, example: str = "") -> Any:
+    """A text of at most `longest` characters that matches `pattern`."""
+    extra = {"unit": "", "example": example}
+    return Field(default, description=help, pattern=pattern, max_length=longest, json_schema_extra=extra)  # type: ignore[call-overload]
+
+
+def numbers(unit: str, help: str, allowed: str, *, default: Any = ..., shortest: int, longest: int, example: Any = None) -> Any:
+    """A list; `allowed` says in words what it may hold."""
+    extra = {"unit": unit, "allowed": allowed, "example": example}
+    if isinstance(default, list):
+        return Field(
+            default_factory=lambda: list(default), description=help, min_length=shortest, max_length=longest, json_schema_extra=extra
+        )
+    return Field(default, description=help, min_length=shortest, max_length=longest, json_schema_extra=extra)

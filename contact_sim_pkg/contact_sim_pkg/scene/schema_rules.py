@@ -1,0 +1,152 @@
+"""Rules that tie several keys of a scene together; a contradiction is a fault, never mended."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from itertools import chain, pairwise
+
+from contact_sim_pkg.scene.errors import Breach
+from contact_sim_pkg.scene.schema import Scene
+from contact_sim_pkg.scene.schema_catalog import show
+from contact_sim_pkg.scene.schema_clock import clock_breaches
+from contact_sim_pkg.scene.schema_road import BumpRoad, CleatRoad, Iso8608Road, PotholeRoad
+from contact_sim_pkg.scene.schema_vibration import HalfSine, Noise, Recorded, Sine, Sweep
+
+NEEDED: dict[str, tuple[str, ...]] = {"tire": ("travel", "road"), "seat": ("vibration",), "car": ("travel", "road")}
+"""Sections that a rig needs."""
+FORBIDDEN: dict[str, tuple[str, ...]] = {"tire": ("vibration", "seat"), "seat": ("travel", "road", "tire"), "car": ()}
+"""Sections that have no meaning for a rig."""
+
+
+def breaches(scene: Scene) -> Iterator[Breach]:
+    """All breaches of rules between keys; the rules of effects are in `schema_effect_rules.py`."""
+    return chain(
+        _sections(scene),
+        clock_breaches(scene),
+        _travel(scene),
+        _road(scene),
+        _vibration(scene),
+        _occupant(scene),
+        _contacts(scene),
+    )
+
+
+def _sections(scene: Scene) -> Iterator[Breach]:
+    for name in NEEDED[scene.rig]:
+        if getattr(scene, name) is None:
+            yield Breach(name, f"is missing; the rig {scene.rig} needs it", ("rig",))
+    for name in FORBIDDEN[scene.rig]:
+        if getattr(scene, name) is not None:
+            yield Breach(name, f"the rig {scene.rig} has no {name}; remove it or choose another rig", ("rig",))
+
+
+def _one_of(where: str, first: str, first_given: bool, second: str, second_given: bool) -> Iterator[Breach]:
+    if first_given and second_given:
+        yield Breach(f"{where}.{second}", f"{first} and {second} are both given; keep one", (f"{where}.{first}",))
+    elif not first_given and not second_given:
+        yield Breach(f"{where}.{first}", f"is missing; give {first} or {second}", (f"{where}.{second}",))
+
+
+def _travel(scene: Scene) -> Iterator[Breach]:
+    travel = scene.travel
+    if travel is None:
+        return
+    yield from _one_of("travel", "speed", travel.speed is not None, "points", travel.points is not None)
+    points = travel.points or []
+    if points and points[0][0] != 0.0:
+        yield Breach("travel.points.0.0", f"the first time is {show(points[0][0])} s; it must be 0", ("travel.points",))
+    for index, (before, after) in enumerate(pairwise(points), start=1):
+        if not after[0] > before[0]:
+            sentence = f"time {show(after[0])} s does not come after {show(before[0])} s; times must increase"
+            yield Breach(f"travel.points.{index}.0", sentence, ("travel.points",))
+    for index, (time, speed) in enumerate(points):
+        if not 0.0 <= time <= 3600.0:
+            yield Breach(f"travel.points.{index}.0", f"{show(time)} s is outside 0 to 3600 s", ("travel.points",))
+        if not 0.0 <= speed <= 100.0:
+            yield Breach(f"travel.points.{index}.1", f"{show(speed)} m/s is outside 0 to 100 m/s", ("travel.points",))
+
+
+def _road(scene: Scene) -> Iterator[Breach]:
+    road = scene.road
+    if isinstance(road, Iso8608Road):
+        yield from _one_of("road", "roughness_class", road.roughness_class is not None, "roughness", road.roughness is not None)
+        yield from _rising("road", "shortest_wavelength", road.shortest_wavelength, "longest_wavelength", road.longest_wavelength, "m")
+        yield from _rising("road", "shortest_wavelength", road.shortest_wavelength, "length", road.length, "m")
+        if road.texture is not None:
+            shortest = road.texture.shortest_wavelength
+            yield from _rising("road", "texture.shortest_wavelength", shortest, "shortest_wavelength", road.shortest_wavelength, "m")
+    elif isinstance(road, BumpRoad | CleatRoad | PotholeRoad):
+        if road.period is not None and road.period < road.length:
+            sentence = f"{show(road.period)} m is shorter than the obstacle's length of {show(road.length)} m"
+            yield Breach("road.period", sentence, ("road.length",))
+        if not isinstance(road, BumpRoad) and 2.0 * road.edge > road.length:
+            sentence = f"two edges of {show(road.edge)} m are longer than the obstacle's length of {show(road.length)} m"
+            yield Breach("road.edge", sentence, ("road.length",))
+
+
+def _rising(where: str, low_key: str, low: float, high_key: str, high: float, unit: str) -> Iterator[Breach]:
+    if not low < high:
+        sentence = f"{show(low)} {unit} is not below {high_key} ({show(high)} {unit})"
+        yield Breach(f"{where}.{low_key}", sentence, (f"{where}.{high_key}",))
+
+
+def _vibration(scene: Scene) -> Iterator[Breach]:
+    vibration = scene.vibration
+    if isinstance(vibration, Sine):
+        yield from _below_half_rate(vibration.sample_rate, "frequency", vibration.frequency)
+    elif isinstance(vibration, Sweep):
+        rate, duration = vibration.octaves_per_minute, vibration.duration
+        yield from _one_of("vibration", "octaves_per_minute", rate is not None, "duration", duration is not None)
+        yield from _below_half_rate(vibration.sample_rate, "start_frequency", vibration.start_frequency)
+        yield from _below_half_rate(vibration.sample_rate, "end_frequency", vibration.end_frequency)
+        if vibration.start_frequency == vibration.end_frequency:
+            sentence = f"is equal to start_frequency ({show(vibration.start_frequency)} Hz); take kind: sine"
+            yield Breach("vibration.end_frequency", sentence, ("vibration.start_frequency",))
+    elif isinstance(vibration, Noise):
+        yield from _rising("vibration", "low", vibration.low, "high", vibration.high, "Hz")
+        yield from _below_half_rate(vibration.sample_rate, "high", vibration.high)
+    elif isinstance(vibration, HalfSine):
+        if vibration.start >= scene.duration:
+            sentence = f"the shock at {show(vibration.start)} s lies behind the end of the run ({show(scene.duration)} s)"
+            yield Breach("vibration.start", sentence, ("duration",))
+    elif isinstance(vibration, Recorded) and vibration.rate is None and vibration.time_column is None:
+        sentence = "is missing; give the sampling rate of the file in Hz, or time_column where the file has one (it is never guessed)"
+        yield Breach("vibration.rate", sentence, ("vibration.time_column",))
+
+
+def _below_half_rate(sample_rate: float, key: str, frequency: float) -> Iterator[Breach]:
+    if not frequency < 0.5 * sample_rate:
+        sentence = f"{show(frequency)} Hz is not below half the sample rate ({show(sample_rate)} Hz)"
+        yield Breach(f"vibration.{key}", sentence, ("vibration.sample_rate",))
+
+
+def _occupant(scene: Scene) -> Iterator[Breach]:
+    if scene.seat is None:
+        return
+    occupant = scene.seat.occupant
+    for name, values in (("stiffness", occupant.stiffness), ("damping", occupant.damping)):
+        if len(values) != len(occupant.masses):
+            sentence = f"has {len(values)} values, masses has {len(occupant.masses)}; each mass needs one"
+            yield Breach(f"seat.occupant.{name}", sentence, ("seat.occupant.masses",))
+
+
+def _contacts(scene: Scene) -> Iterator[Breach]:
+    for contact in ("tire", "seat"):
+        effects, where = getattr(scene.effects, contact), f"effects.{contact}"
+        loss = getattr(effects, "normal_dissipative", None)
+        if loss is not None:
+            yield from _loss(f"{where}.normal_dissipative", loss.damping, loss.restitution, loss.reference_speed)
+        friction = getattr(effects, "friction", None)
+        if friction is not None and friction.coefficient_kinetic > friction.coefficient_static:
+            kinetic, static = show(friction.coefficient_kinetic), show(friction.coefficient_static)
+            sentence = f"{kinetic} is above coefficient_static ({static})"
+            yield Breach(f"{where}.friction.coefficient_kinetic", sentence, (f"{where}.friction.coefficient_static",))
+
+
+def _loss(where: str, damping: float | None, restitution: float | None, speed: float | None) -> Iterator[Breach]:
+    if damping is not None and restitution is not None:
+        yield Breach(f"{where}.restitution", "damping and restitution are both given; keep one", (f"{where}.damping",))
+    if restitution is not None and speed is None:
+        yield Breach(f"{where}.reference_speed", "is missing; restitution holds at one impact speed", (f"{where}.restitution",))
+    if restitution is None and speed is not None:
+        yield Breach(f"{where}.reference_speed", "has no meaning without restitution; remove it", (f"{where}.restitution",))
