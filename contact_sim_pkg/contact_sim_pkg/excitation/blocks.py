@@ -66,7 +66,14 @@ class RoadBlocks:
     """
 
     def __init__(
-        self, surface: Surface, travel: Travel, block_length: float, cell_x: float, cell_y: float, half_length: float, cols: int
+        self,
+        surface: Surface,
+        travel: Travel,
+        block_length: float,
+        cell_x: float,
+        cell_y: float,
+        half_length: float,
+        cols: int,
     ) -> None:
         """Lay the lattice over the road.
 
@@ -80,20 +87,22 @@ class RoadBlocks:
             cols: lattice nodes across the track, >= 1.
 
         Raises:
-            ExcitationError: a value out of range, a strip of more than 4 million nodes at the programme's highest speed, or a
-                surface that has no height in block 0.
+            ExcitationError: a value out of range, a strip of more than 4 million nodes at the programme's highest
+                speed, or a surface that has no height in block 0.
         """
         for name, value in (("block_length", block_length), ("cell_x", cell_x), ("cell_y", cell_y)):
             if not 0.0 < value < float("inf"):
                 raise ExcitationError(f"{name} of the road blocks is {value}; it must be above 0 and finite")
         if not 0.0 <= half_length < float("inf") or cols < 1:
-            raise ExcitationError(f"the road strip has half_length {half_length} m and {cols} cols; allowed: from 0 m, from 1 col")
+            raise ExcitationError(
+                f"the road strip has half_length {half_length} m and {cols} cols; allowed: from 0 m, from 1 col"
+            )
         longest = 2.0 * half_length + block_length * max(abs(speed) for speed in travel.speeds)
         nodes = (longest / cell_x + 4.0) * cols
         if nodes > LARGEST_PATCH:
             raise ExcitationError(
-                f"a road strip would have {nodes:.3g} nodes ({longest:.3g} m in cells of {cell_x} m, {cols} cols), limit "
-                f"{LARGEST_PATCH}; use larger cells or shorter blocks"
+                f"a road strip would have {nodes:.3g} nodes ({longest:.3g} m in cells of {cell_x} m, {cols} cols), "
+                f"limit {LARGEST_PATCH}; use larger cells or shorter blocks"
             )
         self.surface, self.travel, self.block_length = surface, travel, block_length
         self.cell_x, self.cell_y, self.half_length = cell_x, cell_y, half_length
@@ -109,7 +118,9 @@ class RoadBlocks:
         x = numpy.arange(first_row, last_row + 1, dtype=numpy.float64) * self.cell_x
         height = self.surface.heights(x, self._y).astype(numpy.float32)
         if not numpy.isfinite(height).all():
-            raise ExcitationError(f"block {block}: the road has no finite height between x = {x[0]:.6g} m and {x[-1]:.6g} m")
+            raise ExcitationError(
+                f"block {block}: the road has no finite height between x = {x[0]:.6g} m and {x[-1]:.6g} m"
+            )
         return RoadPatch(
             block, self.travel.position(start), self.travel.position(end), first_row, self.cell_x, self.cell_y, height
         )
@@ -120,7 +131,8 @@ class RoadBlocks:
 
 
 class VibrationBlocks:
-    """The samples of a signal, one row a block; sample i of block k lies at (k n + i) / sample_rate, n samples a block."""
+    """The samples of a signal, one row a block; sample i of block k lies at (k n + i) / sample_rate, n samples a
+    block."""
 
     def __init__(self, signal: Signal, block_length: float, sample_rate: float) -> None:
         """Lay the sample times over the blocks.
@@ -136,8 +148,8 @@ class VibrationBlocks:
         samples = block_length * sample_rate
         if not 0.5 < samples < LARGEST_PATCH or abs(samples - round(samples)) > 1e-9 * samples:
             raise ExcitationError(
-                f"a block of {block_length} s holds {samples:.9g} samples at {sample_rate} Hz; choose a sample rate that is a "
-                f"whole multiple of {1.0 / block_length if block_length else 0.0:.9g} Hz"
+                f"a block of {block_length} s holds {samples:.9g} samples at {sample_rate} Hz; choose a sample rate "
+                f"that is a whole multiple of {1.0 / block_length if block_length else 0.0:.9g} Hz"
             )
         self.signal, self.sample_rate = signal, sample_rate
         self.samples = round(samples)
@@ -147,7 +159,9 @@ class VibrationBlocks:
         times = numpy.arange(block * self.samples, (block + 1) * self.samples + 1) / self.sample_rate
         acceleration_x, acceleration_z = self.signal.acceleration(times)
         if not (numpy.isfinite(acceleration_x).all() and numpy.isfinite(acceleration_z).all()):
-            raise ExcitationError(f"block {block}: the vibration is not finite between {times[0]:.6g} s and {times[-1]:.6g} s")
+            raise ExcitationError(
+                f"block {block}: the vibration is not finite between {times[0]:.6g} s and {times[-1]:.6g} s"
+            )
         return VibrationBlock(block, 1.0 / self.sample_rate, acceleration_x, acceleration_z)
 
     def describe(self) -> dict[str, Any]:

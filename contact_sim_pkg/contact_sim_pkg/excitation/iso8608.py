@@ -45,8 +45,8 @@ class Iso8608Road:
     """A random road, the same across the track unless a texture is asked for; it repeats after its length.
 
     The texture continues the spectrum below the shortest wavelength of the profile with an isotropic fine surface, see
-    iso8608_texture.py. Its oblique waves also add to the spectrum of the longer waves along the road; the profile is lowered
-    by just that, so that the spectrum along any line of travel is G(n).
+    iso8608_texture.py. Its oblique waves also add to the spectrum of the longer waves along the road; the profile is
+    lowered by just that, so that the spectrum along any line of travel is G(n).
     """
 
     def __init__(
@@ -69,7 +69,8 @@ class Iso8608Road:
             exponent: w of the spectrum, 1 to 4.
             shortest_wavelength: of the profile, [m].
             longest_wavelength: [m]; the length where that is shorter.
-            texture_wavelength: shortest wavelength of the isotropic fine surface, [m], below shortest_wavelength; None: no texture.
+            texture_wavelength: shortest wavelength of the isotropic fine surface, [m], below shortest_wavelength; None:
+                no texture.
             lattice_cell: cell of the lattice that will carry the road, [m]; waves below two cells are left out.
 
         Raises:
@@ -81,7 +82,9 @@ class Iso8608Road:
         self.shortest = self._resolved(shortest_wavelength, lattice_cell, "profile")
         self.longest = min(longest_wavelength, length)
         if self.longest < longest_wavelength:
-            self._notes.append(f"Waves longer than the road ({length:g} m) are left out; {longest_wavelength:g} m was asked for.")
+            self._notes.append(
+                f"Waves longer than the road ({length:g} m) are left out; {longest_wavelength:g} m was asked for."
+            )
         if self.shortest >= self.longest:
             raise ExcitationError(
                 f"the road has no wave: its shortest wavelength is {self.shortest:g} m, its longest {self.longest:g} m"
@@ -92,7 +95,9 @@ class Iso8608Road:
 
     def _resolved(self, wavelength: float, cell: float, name: str) -> float:
         if wavelength < 2.0 * cell:
-            self._notes.append(f"Waves of the {name} below {2.0 * cell:g} m (two cells) are left out; {wavelength:g} m was asked for.")
+            self._notes.append(
+                f"Waves of the {name} below {2.0 * cell:g} m (two cells) are left out; {wavelength:g} m was asked for."
+            )
         return max(wavelength, 2.0 * cell)
 
     def _make_texture(self, wavelength: float | None, cell: float) -> Texture | None:
@@ -100,8 +105,8 @@ class Iso8608Road:
             return None
         if not 1e-3 <= wavelength < self.shortest:
             raise ExcitationError(
-                f"texture wavelength {wavelength} m is out of range; allowed: from 0.001 m to below the profile's shortest "
-                f"wavelength {self.shortest:g} m"
+                f"texture wavelength {wavelength} m is out of range; allowed: from 0.001 m to below the profile's "
+                f"shortest wavelength {self.shortest:g} m"
             )
         wavelength = self._resolved(wavelength, cell, "texture")
         if wavelength >= self.shortest:
@@ -113,8 +118,8 @@ class Iso8608Road:
         points = 1024 * ceil(POINTS_PER_WAVE * self.length / self.shortest / 1024)
         if points > MOST_POINTS:
             raise ExcitationError(
-                f"a road of {self.length:g} m with waves down to {self.shortest:g} m needs {points} points, limit {MOST_POINTS}; "
-                "use a shorter road (it repeats) or a longer shortest wavelength"
+                f"a road of {self.length:g} m with waves down to {self.shortest:g} m needs {points} points, limit "
+                f"{MOST_POINTS}; use a shorter road (it repeats) or a longer shortest wavelength"
             )
         harmonics = floor(self.length / self.shortest * (1.0 + 1e-12)) + 1
         variance = numpy.zeros(harmonics + 1)
@@ -175,6 +180,8 @@ def _check(roughness: float, seed: int, length: float, exponent: float, shortest
     )
     for name, value, low, high, unit in ranges:
         if not (isfinite(value) and low <= value <= high):
-            raise ExcitationError(f"{name} of the random road is {value} {unit}; allowed: {low:g} to {high:g} {unit}".rstrip())
+            raise ExcitationError(
+                f"{name} of the random road is {value} {unit}; allowed: {low:g} to {high:g} {unit}".rstrip()
+            )
     if not isinstance(seed, int) or seed < 0:
         raise ExcitationError(f"seed of the random road is {seed!r}; allowed: a whole number from 0")

@@ -4,9 +4,9 @@ Spectrum over the plane, q = sqrt(nx^2 + ny^2) in cycles a metre, within 1/longe
 
     S(q) = C q^-(w + 1),   C = scale gamma((w + 1) / 2) / (2 sqrt(pi) gamma(w / 2))
 
-Along any straight line an unlimited surface of this kind has the one-sided spectrum scale n^-w; the band limits leave the
-share I(1 - (n shortest)^2) - I(1 - (n longest)^2) of it (second term only for n < 1/longest), with I(z) the regularised
-incomplete beta function of (1/2, w/2). The share falls to 0 at the shortest wavelength.
+Along any straight line an unlimited surface of this kind has the one-sided spectrum scale n^-w; the band limits leave
+the share I(1 - (n shortest)^2) - I(1 - (n longest)^2) of it (second term only for n < 1/longest), with I(z) the
+regularised incomplete beta function of (1/2, w/2). The share falls to 0 at the shortest wavelength.
 The surface repeats after 8 m along the road and 4 m across.
 """
 
@@ -43,8 +43,8 @@ class Texture:
         """
         if longest > STRIP_WIDTH:
             raise ExcitationError(
-                f"a texture with waves up to {longest:g} m does not fit its strip of {STRIP_WIDTH:g} m; let the profile go down "
-                f"to {STRIP_WIDTH:g} m or less"
+                f"a texture with waves up to {longest:g} m does not fit its strip of {STRIP_WIDTH:g} m; let the "
+                f"profile go down to {STRIP_WIDTH:g} m or less"
             )
         self.longest, self.shortest, self.exponent = longest, shortest, exponent
         along = numpy.arange(int(STRIP_LENGTH / shortest) + 1)
@@ -69,7 +69,8 @@ class Texture:
         return numpy.asarray(amplitude * numpy.exp(1j * phase), dtype=numpy.complex128)
 
     def share(self, n: NDArray[numpy.float64]) -> NDArray[numpy.float64]:
-        """Share of the spectrum scale n^-w along a line that the texture holds at wave numbers n in [cycles/m], 0 to 1."""
+        """Share of the spectrum scale n^-w along a line that the texture holds at wave numbers n in [cycles/m], 0 to
+        1."""
         upper = numpy.clip(1.0 - (n * self.shortest) ** 2, 0.0, 1.0)
         lower = numpy.clip(1.0 - (n * self.longest) ** 2, 0.0, 1.0)
         return numpy.asarray(betainc(0.5, 0.5 * self.exponent, upper) - betainc(0.5, 0.5 * self.exponent, lower))
@@ -84,7 +85,9 @@ class Texture:
     def _tabulate(self, y: NDArray[numpy.float64]) -> PeriodicTable:
         """The strip's lines at these y: exact across the track, a fine lattice along it."""
         if float(numpy.ptp(y)) > STRIP_WIDTH:
-            raise ExcitationError(f"a track of {numpy.ptp(y):g} m is wider than the strip of texture, {STRIP_WIDTH:g} m")
+            raise ExcitationError(
+                f"a track of {numpy.ptp(y):g} m is wider than the strip of texture, {STRIP_WIDTH:g} m"
+            )
         points = 64 * (int(POINTS_PER_WAVE * STRIP_LENGTH / self.shortest / 64) + 1)
         if 2 * points * len(y) > LARGEST_TABLE:
             raise ExcitationError(
@@ -98,6 +101,7 @@ class Texture:
     def note(self) -> str:
         """What the texture is, for a person."""
         return (
-            f"Below {self.longest:g} m the spectrum goes on as an isotropic surface down to {self.shortest:g} m; it repeats after "
-            f"{STRIP_LENGTH:g} m along the road, and its spectrum along a line falls to 0 at the shortest wavelength."
+            f"Below {self.longest:g} m the spectrum goes on as an isotropic surface down to {self.shortest:g} m; it "
+            f"repeats after {STRIP_LENGTH:g} m along the road, and its spectrum along a line falls to 0 at the "
+            "shortest wavelength."
         )

@@ -57,10 +57,11 @@ class Obstacle:
         if self.shape not in SHAPES:
             raise ExcitationError(f"obstacle '{self.shape}' is unknown; allowed: {', '.join(SHAPES)}")
         step = self.shape == "step"
+        shortest = self.length >= 0.0 if step else self.length > 0.0
         rules = (
             ("position", self.position, isfinite(self.position), "a finite number of metres"),
             ("height", self.height, abs(self.height) <= TALLEST, f"within +-{TALLEST:g} m"),
-            ("length", self.length, (0.0 <= self.length if step else 0.0 < self.length) and isfinite(self.length), "above 0 m"),
+            ("length", self.length, shortest and isfinite(self.length), "above 0 m (a step: from 0 m)"),
             ("flank", self.flank, 0.0 <= self.flank <= 0.5 * self.length or self.flank == 0.0, "0 to half the length"),
             ("period", self.period, self.period is None or (not step and self.length <= self.period < float("inf")),
              "at least the length, and none for a step"),

@@ -1,7 +1,7 @@
 """Measured roads from OpenCRG files (ASAM OpenCRG 1.x, text and binary).
 
-The road is used in the coordinates of its reference line: x = u - start of the file - start, y = v - lateral_offset. A path
-beside a curved reference line is longer or shorter than its x by the part |curvature v|, which `describe` reports.
+The road is used in the coordinates of its reference line: x = u - start of the file - start, y = v - lateral_offset. A
+path beside a curved reference line is longer or shorter than its x by the part |curvature v|, which `describe` reports.
 Heights between the grid's nodes are bilinear.
 """
 
@@ -48,18 +48,19 @@ class OpenCrgRoad:
             path: of the .crg file.
             start: distance from the file's start to x = 0, [m].
             lateral_offset: v of the track's middle, left positive, [m].
-            missing: cells without a height: refuse (with their count), fill (linear along the cross section, its outermost
-                value kept to the edge), hole (the filled surface lowered by hole_depth).
+            missing: cells without a height: refuse (with their count), fill (linear along the cross section, its
+                outermost value kept to the edge), hole (the filled surface lowered by hole_depth).
             hole_depth: depth of such a hole, [m].
-            border_u: beyond the ends: none (an error), zero, constant (last cross section), repeat, reflect; None: as the
-                file asks for where its settings are applied, else constant.
+            border_u: beyond the ends: none (an error), zero, constant (the last cross section), repeat, reflect; None:
+                as the file asks for where its settings are applied, else constant, the default of the format.
             border_v: the same beyond the sides.
             level: origin (height 0 on the reference line at the file's start, as the reference library evaluates by
                 default), mean (mean of all cells 0), raw (as the file gives them).
             file_settings: the file's own options and modifiers, see opencrg_settings.read_settings.
 
         Raises:
-            ExcitationError: the file cannot be read or is malformed, with line or byte; an unknown choice; missing cells.
+            ExcitationError: the file cannot be read or is malformed, with line or byte; an unknown choice; missing
+                cells.
         """
         self.path, self.start, self.lateral_offset = Path(path), start, lateral_offset
         self.missing, self.hole_depth, self.level = missing, hole_depth, level
@@ -96,12 +97,15 @@ class OpenCrgRoad:
         """Treat the missing cells, set the level and keep the grid."""
         if grid.missing and self.missing == "refuse":
             raise ExcitationError(
-                f"{header.file}: {grid.missing} of {grid.height.size} cells have no height; say how they are treated (missing: fill or hole)"
+                f"{header.file}: {grid.missing} of {grid.height.size} cells have no height; say how they are treated "
+                "(missing: fill or hole)"
             )
         height = fill_missing(grid.height) if grid.missing else grid.height
         self.lowest, self.highest = float(height.min()), float(height.max())
         nearest = int(numpy.argmin(numpy.abs(grid.v)))
-        on_line = float(numpy.interp(0.0, grid.v, height[0])) if grid.v[0] <= 0.0 <= grid.v[-1] else float(height[0, nearest])
+        on_line = (
+            float(numpy.interp(0.0, grid.v, height[0])) if grid.v[0] <= 0.0 <= grid.v[-1] else float(height[0, nearest])
+        )
         self.removed = {"origin": on_line, "mean": float(height.mean()), "raw": 0.0}[self.level]
         if self.missing == "hole" and grid.missing:
             height = height - self.hole_depth * numpy.isnan(grid.height)
@@ -112,7 +116,9 @@ class OpenCrgRoad:
         """Heights in [m], [len(x), len(y)]; ExcitationError outside of the road where the border is 'none'."""
         grid = self._grid
         cells = len(grid.height) - 1
-        position, outside_u = self._inside((x + self.start) / grid.u_increment, 0.0, float(cells), self.border_u, "x", x)
+        position, outside_u = self._inside(
+            (x + self.start) / grid.u_increment, 0.0, float(cells), self.border_u, "x", x
+        )
         left = numpy.minimum(position.astype(numpy.int64), cells - 1)
         weight = (position - left)[:, None]
         table, first = self._lines(y, left)
@@ -126,7 +132,8 @@ class OpenCrgRoad:
         return height
 
     def _lines(self, y: Array, left: NDArray[numpy.int64]) -> tuple[Array, int]:
-        """The road resampled on the track's lines, and the number of its first row: all rows (kept), or those of a block."""
+        """The road resampled on the track's lines, and the number of its first row: all rows (kept), or those of a
+        block."""
         if len(self._height) * len(y) > LARGEST_TABLE:
             first = int(left.min())
             return self._across(self._height[first : int(left.max()) + 2], y), first
@@ -179,19 +186,26 @@ class OpenCrgRoad:
     def _notes(self) -> list[str]:
         grid, notes = self._grid, list(self._settings.notes)
         if grid.missing:
-            done = {"fill": "filled along their cross section", "hole": f"made holes of {self.hole_depth:g} m depth"}[self.missing]
+            done = {"fill": "filled along their cross section", "hole": f"made holes of {self.hole_depth:g} m depth"}[
+                self.missing
+            ]
             notes.append(f"{grid.missing} of {grid.height.size} cells have no measured height; {done}.")
         if self.removed:
-            what = {"origin": "the height on the reference line at the file's start", "mean": "the mean height"}[self.level]
+            what = {"origin": "the height on the reference line at the file's start", "mean": "the mean height"}[
+                self.level
+            ]
             notes.append(f"{self.removed:.6g} m, {what}, was taken off all heights.")
         if grid.largest_stretch > 1e-3:
             notes.append(
-                f"The reference line is curved (heading changes by {grid.heading_change:.3g} rad); a path at the road's edge is up to "
-                f"{100.0 * grid.largest_stretch:.2g} % longer or shorter than its x."
+                f"The reference line is curved (heading changes by {grid.heading_change:.3g} rad); a path at the "
+                f"road's edge is up to {100.0 * grid.largest_stretch:.2g} % longer or shorter than its x."
             )
         if self.border_u == "repeat":
             seam = float(numpy.abs(grid.height[-1] - grid.height[0]).max())
-            notes.append(f"The road repeats every {(len(grid.height) - 1) * grid.u_increment:g} m, with a step of up to {seam:.3g} m at the seam.")
+            notes.append(
+                f"The road repeats every {(len(grid.height) - 1) * grid.u_increment:g} m, with a step of up to "
+                f"{seam:.3g} m at the seam."
+            )
         return notes
 
 

@@ -1,4 +1,5 @@
-"""From the numbers of an OpenCRG file to a grid of heights over (u, v): reference line, banking, slope, missing cells."""
+"""From the numbers of an OpenCRG file to a grid of heights over (u, v): reference line, banking, slope, missing
+cells."""
 
 from typing import NamedTuple
 
@@ -30,8 +31,8 @@ def make_grid(header: Header, layout: Layout, values: NDArray[numpy.float64], sc
     height(u, v) = scale_z z(u, v) + banking(u) v + start_z + integral of slope du
 
     Raises:
-        ExcitationError: absurd heights, a reference line that bends so sharply that the grid overlaps itself, or an end of
-            the reference line that disagrees with the header.
+        ExcitationError: absurd heights, a reference line that bends so sharply that the grid overlaps itself, or an end
+            of the reference line that disagrees with the header.
     """
     height = values[:, list(layout.section_columns)]
     missing = int(numpy.isnan(height).sum())
@@ -52,12 +53,15 @@ def _refuse_absurd(header: Header, height: NDArray[numpy.float64]) -> None:
     if not numpy.nanmax(distance) <= TALLEST or abs(numpy.nanmedian(height)) > 1e5:
         row, section = divmod(int(numpy.nanargmax(distance)), height.shape[1])
         raise ExcitationError(
-            f"{header.file}: the height in row {row + 1}, long section {section + 1} is {height[row, section]:.6g} m, more than "
-            f"{TALLEST:g} m from the road's median {numpy.nanmedian(height):.6g} m; the data is damaged or in another unit"
+            f"{header.file}: the height in row {row + 1}, long section {section + 1} is {height[row, section]:.6g} m, "
+            f"more than {TALLEST:g} m from the road's median {numpy.nanmedian(height):.6g} m; the data is damaged or "
+            "in another unit"
         )
 
 
-def _column(header: Header, layout: Layout, values: NDArray[numpy.float64], name: str, first: int) -> NDArray[numpy.float64] | None:
+def _column(
+    header: Header, layout: Layout, values: NDArray[numpy.float64], name: str, first: int
+) -> NDArray[numpy.float64] | None:
     """A channel of the reference line; its rows before `first` are unused in the format."""
     if name not in layout.reference_columns:
         return None
@@ -65,7 +69,10 @@ def _column(header: Header, layout: Layout, values: NDArray[numpy.float64], name
     column[:first] = column[first]
     wrong = numpy.flatnonzero(~(numpy.abs(column) < 1e3))
     if wrong.size:
-        raise ExcitationError(f"{header.file}: {name} of the reference line in row {wrong[0] + 1} is {column[wrong[0]]}; a number was expected")
+        raise ExcitationError(
+            f"{header.file}: {name} of the reference line in row {wrong[0] + 1} is {column[wrong[0]]}; a number was "
+            "expected"
+        )
     return column
 
 
@@ -74,25 +81,36 @@ def _stated(header: Header, what: str) -> tuple[float | None, float | None]:
     return None if start is None else start.number, None if end is None else end.number
 
 
-def _agree(header: Header, what: str, place: str, stated: float | None, found: float, tolerance: float, unit: str) -> None:
+def _agree(
+    header: Header, what: str, place: str, stated: float | None, found: float, tolerance: float, unit: str
+) -> None:
     if stated is not None and abs(stated - found) > tolerance:
         key = f"reference_line_{place}_{what}"
         raise ExcitationError(
-            f"{header.file}, line {header.road[key].line}: {key.upper()} says {stated:.9g} {unit}, the data says {found:.9g} {unit}; "
-            f"they must agree within {tolerance:.2g} {unit}"
+            f"{header.file}, line {header.road[key].line}: {key.upper()} says {stated:.9g} {unit}, the data says "
+            f"{found:.9g} {unit}; they must agree within {tolerance:.2g} {unit}"
         )
 
 
 def _heading(header: Header, layout: Layout, values: NDArray[numpy.float64]) -> NDArray[numpy.float64]:
-    """Heading in [rad] of each piece of the reference line (piece i ends in row i), checked against the header's ends."""
+    """Heading in [rad] of each piece of the reference line (piece i ends in row i), checked against the header's
+    ends."""
     start, end = _stated(header, "phi")
     column = _column(header, layout, values, "phi", 1)
     if column is None:
         column = numpy.full(len(values), start or 0.0)
-    heading = numpy.unwrap(column)
+    heading = numpy.asarray(numpy.unwrap(column), dtype=numpy.float64)
     for place, stated, found in (("start", start, heading[0]), ("end", end, heading[-1])):
         if stated is not None:
-            _agree(header, "phi", place, stated, found - 2.0 * numpy.pi * round((found - stated) / (2.0 * numpy.pi)), 1e-3, "rad")
+            _agree(
+                header,
+                "phi",
+                place,
+                stated,
+                found - 2.0 * numpy.pi * round((found - stated) / (2.0 * numpy.pi)),
+                1e-3,
+                "rad",
+            )
     pieces = layout.u_increment * numpy.exp(1j * heading[1:])
     travelled = complex(pieces.sum())
     tolerance = 0.01 + 1e-3 * layout.u_increment * len(heading)
@@ -130,19 +148,22 @@ def _elevation(header: Header, layout: Layout, values: NDArray[numpy.float64]) -
 
 def _largest_stretch(header: Header, layout: Layout, heading: NDArray[numpy.float64]) -> float:
     curvature = numpy.diff(heading[1:], prepend=heading[1]) / layout.u_increment
-    reach = numpy.maximum(curvature * layout.v[0], curvature * layout.v[-1])  # 1 where the inner edge does not move forward
+    reach = numpy.maximum(
+        curvature * layout.v[0], curvature * layout.v[-1]
+    )  # 1 where the inner edge does not move forward
     worst = int(numpy.argmax(reach))
     if reach[worst] >= 1.0:
         raise ExcitationError(
-            f"{header.file}: in row {worst + 2} the reference line bends by {curvature[worst]:.4g} 1/m, so long sections up to "
-            f"{layout.v[0] if curvature[worst] < 0 else layout.v[-1]:g} m beside it overlap; the bend times the distance must stay below 1"
+            f"{header.file}: in row {worst + 2} the reference line bends by {curvature[worst]:.4g} 1/m, so long "
+            f"sections up to {layout.v[0] if curvature[worst] < 0 else layout.v[-1]:g} m beside it overlap; the bend "
+            "times the distance must stay below 1"
         )
     return float(numpy.abs(curvature).max(initial=0.0) * numpy.abs(layout.v).max())
 
 
 def fill_missing(height: NDArray[numpy.float64]) -> NDArray[numpy.float64]:
-    """Missing cells replaced: linear along each cross section, its outermost value kept to the edge; empty cross sections
-    linear along u between their neighbours."""
+    """Missing cells replaced: linear along each cross section, its outermost value kept to the edge; empty cross
+    sections linear along u between their neighbours."""
     filled = height.copy()
     sections = numpy.arange(height.shape[1])
     holes = numpy.isnan(height)

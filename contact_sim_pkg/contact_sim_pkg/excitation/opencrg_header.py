@@ -1,7 +1,7 @@
 """The text part of an OpenCRG file: named sections of `KEY = value` lines and the list of channels.
 
-Source: ASAM OpenCRG 1.2, chapter 3 (text in ISO 8859-1; `*` in column 1 and `!` start comments; `$NAME` opens and `$` closes
-a section; a line that starts with `$$$$` ends the header).
+Source: ASAM OpenCRG 1.2, chapter 3 (text in ISO 8859-1; `*` in column 1 and `!` start comments; `$NAME` opens and `$`
+closes a section; a line that starts with `$$$$` ends the header).
 """
 
 import re
@@ -15,7 +15,11 @@ NUMBER = re.compile(r"[+-]?(\d+\.?\d*|\.\d+)([eE][+-]?\d+)?")
 
 ROAD_KEYS = frozenset(
     ["reference_line_increment", "long_section_v_right", "long_section_v_left", "long_section_v_increment"]
-    + [f"reference_line_{end}_{what}" for end in ("start", "end") for what in ("u", "s", "b", "x", "y", "z", "phi", "lon", "lat", "alt")]
+    + [
+        f"reference_line_{end}_{what}"
+        for end in ("start", "end")
+        for what in ("u", "s", "b", "x", "y", "z", "phi", "lon", "lat", "alt")
+    ]
     + [f"reference_line_offset_{what}" for what in ("x", "y", "z", "phi")]
 )
 OPTION_KEYS = frozenset({
@@ -102,7 +106,10 @@ class _Parser:
                     raise self.fail("the file ends with the line of $ that should be followed by the road data")
                 break
             if end < 0:
-                raise self.fail("the header has no end: a line that starts with $$$$ was expected; the file is cut or no OpenCRG file")
+                raise self.fail(
+                    "the header has no end: a line that starts with $$$$ was expected; the file is cut or no OpenCRG "
+                    "file"
+                )
             self._read(data[start:end].rstrip(b"\r").decode("latin-1"))
             start = end + 1
         return self._finish(end + 1)
@@ -133,7 +140,9 @@ class _Parser:
             self.section = None
             return
         if self.section is not None:
-            raise self.fail(f"section ${name.upper()} opens inside section ${self.section.upper()}, which has no closing $ line")
+            raise self.fail(
+                f"section ${name.upper()} opens inside section ${self.section.upper()}, which has no closing $ line"
+            )
         if name == "road_crg_file":
             raise self.fail("the file refers to another file ($ROAD_CRG_FILE); give that file itself")
         if name not in SECTIONS:
@@ -168,7 +177,9 @@ class _Parser:
         elif kind == "U:" and self.virtual is None:
             self.virtual = Channel(name, tuple(fields), self.line)
         else:
-            raise self.fail(f"'{text[:60]}' is no channel definition; D:name,unit was expected, and #: and U: at most once")
+            raise self.fail(
+                f"'{text[:60]}' is no channel definition; D:name,unit was expected, and #: and U: at most once"
+            )
 
     def _finish(self, payload_start: int) -> Header:
         if self.section is not None:

@@ -38,7 +38,9 @@ def make_layout(header: Header) -> Layout:
     if increment is None:
         raise ExcitationError(f"{header.file}: the header gives no REFERENCE_LINE_INCREMENT")
     if not 1e-6 <= increment.number <= 1e4:
-        raise _fault(header, increment.line, f"REFERENCE_LINE_INCREMENT is {increment.number:g} m; allowed: 1e-6 to 1e4 m")
+        raise _fault(
+            header, increment.line, f"REFERENCE_LINE_INCREMENT is {increment.number:g} m; allowed: 1e-6 to 1e4 m"
+        )
     reference, sections = _sort_channels(header)
     u_start = _number(header, "reference_line_start_u", 0.0)
     _check_virtual(header, u_start, increment.number)
@@ -47,8 +49,8 @@ def make_layout(header: Header) -> Layout:
     columns = len(header.channels)
     if rows is not None and rows * columns > MOST_CELLS:
         raise ExcitationError(
-            f"{header.file}: the header asks for {rows} x {columns} numbers ({8e-9 * rows * columns:.3g} GB), limit {MOST_CELLS}; "
-            "cut the road or thin it out"
+            f"{header.file}: the header asks for {rows} x {columns} numbers ({8e-9 * rows * columns:.3g} GB), limit "
+            f"{MOST_CELLS}; cut the road or thin it out"
         )
     return Layout(u_start, increment.number, rows, v, tuple(index for index, _ in sections), reference, columns)
 
@@ -68,9 +70,13 @@ def _sort_channels(header: Header) -> tuple[dict[str, int], list[tuple[int, Chan
         is_section = channel.name.startswith("long section")
         unit = "m" if is_section else _UNITS.get(channel.name)
         if unit is None:
-            raise _fault(header, channel.line, f"channel '{channel.name}' is unknown; allowed: {', '.join(_UNITS)}, long section")
+            raise _fault(
+                header, channel.line, f"channel '{channel.name}' is unknown; allowed: {', '.join(_UNITS)}, long section"
+            )
         if channel.fields != (unit,):
-            raise _fault(header, channel.line, f"unit of '{channel.name}' is '{','.join(channel.fields)}'; only {unit} is read")
+            raise _fault(
+                header, channel.line, f"unit of '{channel.name}' is '{','.join(channel.fields)}'; only {unit} is read"
+            )
         if is_section:
             sections.append((index, channel))
             continue
@@ -87,14 +93,24 @@ def _check_virtual(header: Header, u_start: float, increment: float) -> None:
     if header.virtual is None:
         return
     line, fields = header.virtual.line, header.virtual.fields
-    if not re.fullmatch("reference line [ux]", header.virtual.name) or len(fields) != 3 or not all(NUMBER.fullmatch(part) for part in fields[1:]):
-        raise _fault(header, line, f"'U:{header.virtual.name},{','.join(fields)}' is no definition 'U:reference line u,m,START,INCREMENT'")
+    if (
+        not re.fullmatch("reference line [ux]", header.virtual.name)
+        or len(fields) != 3
+        or not all(NUMBER.fullmatch(part) for part in fields[1:])
+    ):
+        raise _fault(
+            header,
+            line,
+            f"'U:{header.virtual.name},{','.join(fields)}' is no definition 'U:reference line u,m,START,INCREMENT'",
+        )
     if fields[0] != "m":
         raise _fault(header, line, f"unit of the virtual channel is '{fields[0]}'; only m is read")
     for name, stated, found in (("START_U", u_start, float(fields[1])), ("INCREMENT", increment, float(fields[2]))):
         if abs(stated - found) > max(AGREEMENT * increment, 5.1e-4 if name == "START_U" else 0.0):
             raise _fault(
-                header, line, f"the channel definition says {found:g} m, REFERENCE_LINE_{name} says {stated:g} m; they must agree"
+                header,
+                line,
+                f"the channel definition says {found:g} m, REFERENCE_LINE_{name} says {stated:g} m; they must agree",
             )
 
 
@@ -107,8 +123,8 @@ def _count_rows(header: Header, u_start: float, increment: float) -> int | None:
         raise _fault(
             header,
             end.line,
-            f"REFERENCE_LINE_END_U {end.number:.9g} m is {steps:.9g} increments of {increment:g} m behind the start at {u_start:.9g} m; "
-            "a whole number from 1 was expected",
+            f"REFERENCE_LINE_END_U {end.number:.9g} m is {steps:.9g} increments of {increment:g} m behind the start "
+            f"at {u_start:.9g} m; a whole number from 1 was expected",
         )
     return round(steps) + 1
 
@@ -131,16 +147,22 @@ def _check_explicit(header: Header, sections: list[tuple[int, Channel]], v: NDAr
     if falling.size:
         index = int(falling[0]) + 1
         raise _fault(
-            header, sections[index][1].line, f"long section at v = {v[index]:g} m follows the one at {v[index - 1]:g} m; v must increase"
+            header,
+            sections[index][1].line,
+            f"long section at v = {v[index]:g} m follows the one at {v[index - 1]:g} m; v must increase",
         )
     if abs(v).max() > 1e4:
-        raise ExcitationError(f"{header.file}: a long section lies at v = {v[abs(v).argmax()]:g} m; allowed: within +-10000 m")
+        raise ExcitationError(
+            f"{header.file}: a long section lies at v = {v[abs(v).argmax()]:g} m; allowed: within +-10000 m"
+        )
     tolerance = 5.1e-4 + AGREEMENT * float(numpy.diff(v).min(initial=1.0))
     for key, found in (("long_section_v_right", v[0]), ("long_section_v_left", v[-1])):
         if key in header.road and abs(header.road[key].number - found) > tolerance:
             stated = header.road[key]
             raise _fault(
-                header, stated.line, f"{key.upper()} says {stated.number:g} m, the channel definitions say {found:g} m; they must agree"
+                header,
+                stated.line,
+                f"{key.upper()} says {stated.number:g} m, the channel definitions say {found:g} m; they must agree",
             )
 
 
@@ -155,13 +177,14 @@ def _even_positions(header: Header, count: int) -> NDArray[numpy.float64]:
         left = right + (count - 1) * increment
     if right is None or left is None:
         raise ExcitationError(
-            f"{header.file}: numbered long sections need LONG_SECTION_V_INCREMENT, or LONG_SECTION_V_RIGHT and LONG_SECTION_V_LEFT"
+            f"{header.file}: numbered long sections need LONG_SECTION_V_INCREMENT, or LONG_SECTION_V_RIGHT and "
+            "LONG_SECTION_V_LEFT"
         )
     width = left - right
     if max(abs(left), abs(right)) > 1e4 or width < 0.0 or (width == 0.0) != (count == 1):
         raise ExcitationError(
-            f"{header.file}: {count} long sections lie between v = {right:g} m (right) and {left:g} m (left); v must increase to the "
-            "left, within +-10000 m"
+            f"{header.file}: {count} long sections lie between v = {right:g} m (right) and {left:g} m (left); v must "
+            "increase to the left, within +-10000 m"
         )
     line = max(value.line for value in stated.values() if value is not None)
     if increment is not None and count > 1 and abs((count - 1) * increment - width) > AGREEMENT * abs(increment):
@@ -169,7 +192,7 @@ def _even_positions(header: Header, count: int) -> NDArray[numpy.float64]:
         raise _fault(
             header,
             line,
-            f"the road parameters ask for {expected} long sections ({right:g} to {left:g} m in steps of {increment:g} m), "
-            f"the channel definitions have {count}; they must agree",
+            f"the road parameters ask for {expected} long sections ({right:g} to {left:g} m in steps of {increment:g} "
+            f"m), the channel definitions have {count}; they must agree",
         )
     return numpy.linspace(right, left, count, dtype=numpy.float64)

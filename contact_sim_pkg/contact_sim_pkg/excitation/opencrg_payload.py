@@ -33,22 +33,23 @@ def _read_binary(data: bytes, header: Header, layout: Layout, number: "numpy.dty
     padded = -(-expected // RECORD) * RECORD
     if found not in (expected, padded) or rows < 2:
         raise ExcitationError(
-            f"{header.file}, byte {header.payload_start}: the road data has {found} bytes, expected {expected} ({rows} rows of "
-            f"{layout.columns} numbers of {number.itemsize} bytes) or {padded} (filled to records of {RECORD}); "
-            + _cause(found, expected, number.itemsize)
+            f"{header.file}, byte {header.payload_start}: the road data has {found} bytes, expected {expected} "
+            f"({rows} rows of {layout.columns} numbers of {number.itemsize} bytes) or {padded} (filled to records of "
+            f"{RECORD}); " + _cause(found, expected, number.itemsize)
         )
     if rows * layout.columns > MOST_CELLS:
-        raise ExcitationError(f"{header.file}: {rows} x {layout.columns} numbers are above the limit of {MOST_CELLS}; cut the road")
+        raise ExcitationError(
+            f"{header.file}: {rows} x {layout.columns} numbers are above the limit of {MOST_CELLS}; cut the road"
+        )
     numbers = numpy.frombuffer(data, number, rows * layout.columns, header.payload_start)
     with numpy.errstate(invalid="ignore"):  # a signalling NaN is a missing cell like any other
         values = numbers.astype(numpy.float64).reshape(rows, layout.columns)
-    if layout.rows is None:
-        values = values[: rows - _filled_rows(values, row_bytes)]
-    return values
+    return values[: rows - _filled_rows(values, row_bytes)] if layout.rows is None else values
 
 
 def _open_ended_rows(found: int, row_bytes: int) -> int:
-    """Rows where the header gives no end: the payload is either whole rows, or whole rows filled up to the next record."""
+    """Rows where the header gives no end: the payload is either whole rows, or whole rows filled up to the next
+    record."""
     if found % row_bytes == 0 or found % RECORD:
         return max(found // row_bytes, 1)
     return found // row_bytes
@@ -66,8 +67,8 @@ def _filled_rows(values: NDArray[numpy.float64], row_bytes: int) -> int:
 def _cause(found: int, expected: int, itemsize: int) -> str:
     if found % itemsize:
         return (
-            f"{found} is not a multiple of {itemsize}: bytes were lost or added, as line-ending conversion does (carriage returns); "
-            "take the original file"
+            f"{found} is not a multiple of {itemsize}: bytes were lost or added, as line-ending conversion does "
+            "(carriage returns); take the original file"
         )
     return "the file is cut; take the whole file" if found < expected else "header and data do not belong together"
 
@@ -82,11 +83,14 @@ def _read_text(data: bytes, header: Header, layout: Layout, width: int) -> NDArr
     rows = layout.rows if layout.rows is not None else max(-(-len(lines) // lines_per_row), 2)
     if len(lines) != rows * lines_per_row:
         raise ExcitationError(
-            f"{header.file}, line {header.payload_line}: the road data has {len(lines)} lines, expected {rows * lines_per_row} "
-            f"({rows} rows of {layout.columns} numbers, {per_line} a line); the file is cut or the header belongs to another file"
+            f"{header.file}, line {header.payload_line}: the road data has {len(lines)} lines, expected "
+            f"{rows * lines_per_row} ({rows} rows of {layout.columns} numbers, {per_line} a line); the file is cut "
+            "or the header belongs to another file"
         )
     if rows * layout.columns > MOST_CELLS:
-        raise ExcitationError(f"{header.file}: {rows} x {layout.columns} numbers are above the limit of {MOST_CELLS}; cut the road")
+        raise ExcitationError(
+            f"{header.file}: {rows} x {layout.columns} numbers are above the limit of {MOST_CELLS}; cut the road"
+        )
     values = numpy.empty((rows, lines_per_row, per_line))
     for index, line in enumerate(lines):
         row, part = divmod(index, lines_per_row)
@@ -100,7 +104,8 @@ def _fields(line: bytes, count: int, width: int, header: Header, index: int) -> 
     text = line.decode("latin-1")
     if len(text.rstrip()) > count * width or len(text) < count * width:
         raise ExcitationError(
-            f"{place}: the line has {len(text.rstrip())} characters, expected {count * width} ({count} numbers of {width} characters)"
+            f"{place}: the line has {len(text.rstrip())} characters, expected {count * width} ({count} numbers of "
+            f"{width} characters)"
         )
     numbers = []
     for position in range(0, count * width, width):

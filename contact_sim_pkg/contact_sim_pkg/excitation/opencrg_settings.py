@@ -1,4 +1,5 @@
-"""What an OpenCRG file itself asks an evaluator to do: its options and modifiers, as far as they touch heights over (u, v)."""
+"""What an OpenCRG file itself asks an evaluator to do: its options and modifiers, as far as they touch heights over (u,
+v)."""
 
 from typing import NamedTuple
 
@@ -10,7 +11,8 @@ POLICIES = ("refuse", "ignore", "apply")
 _NEUTRAL = {  # entries that change heights over (u, v), with the value that changes nothing
     "scale_z_grid": 1.0, "refline_offset_z": 0.0, "scale_slope": 1.0, "scale_banking": 1.0, "scale_length": 1.0,
     "scale_width": 1.0, "refpoint_u": None, "refpoint_u_fraction": 0.0, "refpoint_u_offset": 0.0, "refpoint_v": 0.0,
-    "refpoint_v_fraction": None, "refpoint_v_offset": 0.0, "refpoint_z": 0.0, "grid_nan_mode": None, "grid_nan_offset": 0.0,
+    "refpoint_v_fraction": None, "refpoint_v_offset": 0.0, "refpoint_z": 0.0, "grid_nan_mode": None,
+    "grid_nan_offset": 0.0,
     "border_mode_u": None, "border_mode_v": None, "border_offset_u": 0.0, "border_offset_v": 0.0,
     "border_smooth_ubeg": 0.0, "border_smooth_uend": 0.0,
 }  # fmt: skip
@@ -33,28 +35,36 @@ def read_settings(header: Header, policy: str) -> FileSettings:
     Args:
         header: the file's text part.
         policy: refuse: a file with settings that change heights is refused, so that the user decides; ignore: they are
-            left out and noted; apply: SCALE_Z_GRID, REFLINE_OFFSET_Z and the border modes are used, others refused by name.
+            left out and noted; apply: SCALE_Z_GRID, REFLINE_OFFSET_Z and the border modes are used, others refused by
+            name.
 
     Raises:
         ExcitationError: by the policy, or for a border mode that does not exist.
     """
     if policy not in POLICIES:
-        raise ExcitationError(f"{header.file}: policy '{policy}' for the file's own settings is unknown; allowed: {', '.join(POLICIES)}")
+        raise ExcitationError(
+            f"{header.file}: policy '{policy}' for the file's own settings is unknown; allowed: {', '.join(POLICIES)}"
+        )
     entries = {**header.options, **header.modifiers}
     active = {key: value for key, value in entries.items() if key in _NEUTRAL and value.number != _NEUTRAL[key]}
     names = ", ".join(f"{key.upper()} = {value.number:g} (line {value.line})" for key, value in active.items())
     if policy == "refuse" and active:
-        raise ExcitationError(f"{header.file}: the file asks for {names}; say whether to apply or to ignore the file's own settings")
+        raise ExcitationError(
+            f"{header.file}: the file asks for {names}; say whether to apply or to ignore the file's own settings"
+        )
     if policy != "apply":
         note = (f"Settings of the file that were not applied: {names}.",) if active else ()
         return FileSettings(1.0, 0.0, None, None, note)
     for key, value in active.items():
         if key not in _APPLICABLE:
             raise ExcitationError(
-                f"{header.file}, line {value.line}: {key.upper()} cannot be applied; ignore the file's settings and choose "
-                "missing, level and borders yourself"
+                f"{header.file}, line {value.line}: {key.upper()} cannot be applied; ignore the file's settings and "
+                "choose missing, level and borders yourself"
             )
-    scale, offset = (entries[key].number if key in entries else neutral for key, neutral in (("scale_z_grid", 1.0), ("refline_offset_z", 0.0)))
+    scale, offset = (
+        entries[key].number if key in entries else neutral
+        for key, neutral in (("scale_z_grid", 1.0), ("refline_offset_z", 0.0))
+    )
     note = (f"Settings of the file that were applied: {names}.",) if active else ()
     return FileSettings(scale, offset, _border(header, "border_mode_u"), _border(header, "border_mode_v"), note)
 

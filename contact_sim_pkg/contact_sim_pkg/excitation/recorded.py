@@ -1,7 +1,8 @@
 """Recorded vibration: what a real accelerometer file carries is found, reported, and treated as the user says.
 
-Between samples the signal is band-limited: interpolation with 64 samples under a sinc windowed by the 4-term Blackman-Harris
-window. At the recorded instants it gives the samples themselves; up to 0.85 of half the recording rate it is exact to 1e-4.
+Between samples the signal is band-limited: interpolation with 64 samples under a sinc windowed by the 4-term
+Blackman-Harris window. At the recorded instants it gives the samples themselves; up to 0.85 of half the recording rate
+it is exact to 1e-4.
 """
 
 from math import acos, degrees, sqrt
@@ -39,10 +40,11 @@ class RecordedVibration:
         path: str | Path,
         rate: float | None = None,
         vertical: str = "z",
-        forward: str = "x",
+        forward: str | None = "x",
         lateral: str = "y",
         time: str | None = None,
         tilt: str = "keep",
+        remove_bias: bool = True,
         clipped: str = "keep",
         full_scale: float | None = None,
         high_pass: float | None = None,
@@ -56,21 +58,23 @@ class RecordedVibration:
             path: text file, see recorded_csv.read_table; values in [m/s^2].
             rate: sampling rate, [Hz]; None: from the time column. It is never guessed.
             vertical: column that points up; "-z" turns it round.
-            forward: column that points forward; "-x" turns it round.
+            forward: column that points forward; "-x" turns it round. None: no forward acceleration.
             lateral: column to the left; needed only to correct the tilt, else used for the tilt angle where it exists.
             time: time column, [s]; None: a column named time, t or time_s where there is one.
             tilt: keep, or correct (turn the axes so that the mean lies along the vertical).
+            remove_bias: take the mean of each axis (gravity and bias) off.
             clipped: keep (samples at full scale stay as they are), or refuse.
             full_scale: of the sensor, [m/s^2]; None: an extreme value that occurs at least twice.
-            high_pass: corner frequency, [Hz], of a zero-phase high-pass with the gain 1 / (1 + (corner / f)^8); None: no filter.
+            high_pass: corner frequency, [Hz], of a zero-phase high-pass with the gain 1 / (1 + (corner / f)^8); None:
+                no filter.
             beyond: after the end of the recording: refuse, zero, or repeat.
             start: time in the recording at t = 0, [s].
-            sample_rate: rate at which it will be sampled, [Hz]; below the recording's rate, frequencies above half of it are
-                removed first (cosine flank from 0.4 to 0.5 of it). None: as fast as recorded or faster.
+            sample_rate: rate at which it will be sampled, [Hz]; below the recording's rate, frequencies above half of
+                it are removed first (cosine flank from 0.4 to 0.5 of it). None: as fast as recorded or faster.
 
         Raises:
-            ExcitationError: bad file (with line), no rate, stated and found rate that differ by more than 1 %, a vertical
-                axis that points down, or by the choices above.
+            ExcitationError: bad file (with line), no rate, stated and found rate that differ by more than 1 %, a
+                vertical axis that points down, or by the choices above.
         """
         for name, choice, allowed in (
             ("tilt", tilt, ("keep", "correct")), ("clipped", clipped, ("keep", "refuse")), ("beyond", beyond, BEYOND)
@@ -82,15 +86,16 @@ class RecordedVibration:
         self._notes: list[str] = []
         table = read_table(self.path)
         self.rate = self._settle_rate(table, rate, table.time(time))
-        names = {"x": forward, "y": lateral, "z": vertical}
-        if lateral.removeprefix("-").lower() not in table.columns and tilt == "keep":
-            del names["y"]
+        self.remove_bias = remove_bias
+        names = _columns(table, forward, lateral, vertical, needed=tilt == "correct")
         raw = {axis: _signed(table, name) for axis, name in names.items()}
         self.samples = len(raw["z"])
         self.duration = self.samples / self.rate
         if not 0.0 <= start < self.duration:
-            raise ExcitationError(f"{path}: start is {start} s; allowed: 0 to below the recording's {self.duration:g} s")
-        self.clipping = {axis: _find_clipping(table, raw[axis], full_scale) for axis in ("x", "z")}
+            raise ExcitationError(
+                f"{path}: start is {start} s; allowed: 0 to below the recording's {self.duration:g} s"
+            )
+        self.clipping = {axis: _find_clipping(table, raw[axis], full_scale) for axis in ("x", "z") if axis in raw}
         self._report_clipping(names, clipped)
         self._remove_gravity(raw, names)
 
@@ -99,15 +104,23 @@ class RecordedVibration:
             raise ExcitationError(f"{table.file}: the stated rate is {stated} Hz; allowed: 0.001 to 1e6 Hz")
         if time is None:
             if stated is None:
-                raise ExcitationError(f"{table.file}: the file has no time column, so its sampling rate must be stated; it is never guessed")
-            self._notes.append(f"The rate of {stated:g} Hz is as stated; the file has no time column to compare it with.")
+                raise ExcitationError(
+                    f"{table.file}: the file has no time column, so its sampling rate must be stated; it is never "
+                    "guessed"
+                )
+            self._notes.append(
+                f"The rate of {stated:g} Hz is as stated; the file has no time column to compare it with."
+            )
             return stated
         found = _found_rate(table, time)
         if stated is None:
             self._notes.append(f"The rate of {found:.6g} Hz was derived from the time column.")
             return found
         if abs(stated - found) > RATE_AGREEMENT * found:
-            raise ExcitationError(f"{table.file}: the stated rate is {stated:g} Hz, the time column says {found:.6g} Hz; they must agree within 1 %")
+            raise ExcitationError(
+                f"{table.file}: the stated rate is {stated:g} Hz, the time column says {found:.6g} Hz; they must "
+                "agree within 1 %"
+            )
         self._notes.append(f"The rate of {stated:g} Hz is as stated; the time column says {found:.6g} Hz.")
         return stated
 
@@ -116,7 +129,8 @@ class RecordedVibration:
             if clipping.samples == 0:
                 continue
             sentence = (
-                f"{clipping.samples} of {self.samples} samples of {names[axis]} lie at the full scale of {clipping.value:.4g} m/s^2 (clipped; first "
+                f"{clipping.samples} of {self.samples} samples of {names[axis]} lie at the full scale of "
+                f"{clipping.value:.4g} m/s^2 (clipped; first "
                 f"in line {clipping.first_line}, at most {clipping.longest_run} in a row)"
             )
             if clipped == "refuse":
@@ -130,32 +144,49 @@ class RecordedVibration:
         gravity = self.bias["z"] > 0.5 * STANDARD_GRAVITY
         if self.bias["z"] < -0.5 * STANDARD_GRAVITY:
             raise ExcitationError(
-                f"{self.path}: the mean of {names['z']} is {self.bias['z']:.4g} m/s^2, so this axis points down; name it with a minus sign or "
-                "name another vertical axis"
+                f"{self.path}: the mean of {names['z']} is {self.bias['z']:.4g} m/s^2, so this axis points down; name "
+                "it with a minus sign or name another vertical axis"
             )
         self.tilt_angle = acos(self.bias["z"] / total) if gravity else None
         if self.tilt_angle is None:
-            self._notes.append(f"No gravity in {names['z']} (mean {self.bias['z']:.3g} m/s^2), so the sensor's tilt is unknown.")
+            self._notes.append(
+                f"No gravity in {names['z']} (mean {self.bias['z']:.3g} m/s^2), so the sensor's tilt is unknown."
+            )
             if self.tilt == "correct":
-                raise ExcitationError(f"{self.path}: the tilt cannot be corrected, as {names['z']} holds no gravity (mean {self.bias['z']:.3g} m/s^2)")
+                raise ExcitationError(
+                    f"{self.path}: the tilt cannot be corrected, as {names['z']} holds no gravity (mean "
+                    f"{self.bias['z']:.3g} m/s^2)"
+                )
         else:
             done = "corrected" if self.tilt == "correct" else "not corrected"
             self._notes.append(
-                f"The mean is {total:.4g} m/s^2 (standard gravity {STANDARD_GRAVITY:.4g}) and {degrees(self.tilt_angle):.3g} degrees off the vertical "
-                f"axis; the tilt was {done}."
+                f"The mean is {total:.4g} m/s^2 (standard gravity {STANDARD_GRAVITY:.4g}) and "
+                f"{degrees(self.tilt_angle):.3g} degrees off the vertical axis; the tilt was {done}."
             )
         turned = _turn_upright(raw, self.bias) if self.tilt == "correct" else raw
-        self._notes.append("The mean of each axis (gravity and bias) was removed.")
-        self._acceleration = {axis: self._filtered(turned[axis] - turned[axis].mean()) for axis in ("x", "z")}
+        self._notes.append(
+            "The mean of each axis (gravity and bias) was " + ("removed." if self.remove_bias else "not removed.")
+        )
+        self._acceleration = {
+            axis: self._filtered(turned[axis] - self.remove_bias * turned[axis].mean())
+            for axis in ("x", "z")
+            if axis in turned
+        }
         if self.high_pass is not None:
             self._notes.append(f"Frequencies below about {self.high_pass:g} Hz were removed (zero-phase high-pass).")
         if self.sample_rate is not None and self.sample_rate < self.rate:
-            self._notes.append(f"Frequencies above {0.4 * self.sample_rate:g} Hz were removed before sampling at {self.sample_rate:g} Hz.")
+            self._notes.append(
+                f"Frequencies above {0.4 * self.sample_rate:g} Hz were removed before sampling at "
+                f"{self.sample_rate:g} Hz."
+            )
 
     def _filtered(self, values: Array) -> Array:
         """The record through its filters, zero-phase, mirrored at its ends."""
         if self.high_pass is not None and not 0.0 < self.high_pass < 0.5 * self.rate:
-            raise ExcitationError(f"{self.path}: high_pass is {self.high_pass} Hz; allowed: above 0 and below half the rate, {0.5 * self.rate:g} Hz")
+            raise ExcitationError(
+                f"{self.path}: high_pass is {self.high_pass} Hz; allowed: above 0 and below half the rate, "
+                f"{0.5 * self.rate:g} Hz"
+            )
         if self.sample_rate is not None and self.sample_rate < self.rate and not self.sample_rate > 0.0:
             raise ExcitationError(f"{self.path}: sample_rate is {self.sample_rate} Hz; it must be above 0")
         mirrored = numpy.concatenate((values, values[::-1]))
@@ -177,15 +208,20 @@ class RecordedVibration:
         outside = (position < -1e-6) | (position > self.samples - 1 + 1e-6)
         if self.beyond == "refuse" and outside.any():
             raise ExcitationError(
-                f"{self.path}: the recording ends after {(self.samples - 1) / self.rate - self.start:.6g} s, t = {t[outside][0]:.6g} s was asked for; "
+                f"{self.path}: the recording ends after {(self.samples - 1) / self.rate - self.start:.6g} s, t = "
+                f"{t[outside][0]:.6g} s was asked for; "
                 "shorten the run or choose what comes after the recording (zero, repeat)"
             )
         index, weight = _interpolation(position)
         index = index % self.samples if self.beyond == "repeat" else numpy.clip(index, 0, self.samples - 1)
-        x, z = (numpy.einsum("ij,ij->i", self._acceleration[axis][index], weight) for axis in ("x", "z"))
         if self.beyond == "zero":
-            x[outside] = 0.0
-            z[outside] = 0.0
+            weight[outside] = 0.0
+        x, z = (
+            numpy.einsum("ij,ij->i", self._acceleration[axis][index], weight)
+            if axis in self._acceleration
+            else numpy.zeros(len(t))
+            for axis in ("x", "z")
+        )
         return x, z
 
     def describe(self) -> dict[str, Any]:
@@ -201,11 +237,21 @@ class RecordedVibration:
             for axis, values in self._acceleration.items()
         }
         return {
-            "kind": "recorded", "file": self.path.name, "samples": self.samples, "rate_Hz": self.rate, "duration_s": self.duration,
-            "start_s": self.start, "axes": axes, "lateral_bias_m_per_s2": self.bias.get("y"),
+            "kind": "recorded", "file": self.path.name, "samples": self.samples, "rate_Hz": self.rate,
+            "duration_s": self.duration, "start_s": self.start, "axes": axes, "lateral_bias_m_per_s2": self.bias.get("y"),
             "tilt_degrees": None if self.tilt_angle is None else degrees(self.tilt_angle), "tilt": self.tilt,
             "high_pass_Hz": self.high_pass, "beyond_the_recording": self.beyond, "notes": list(self._notes),
         }  # fmt: skip
+
+
+def _columns(table: Table, forward: str | None, lateral: str, vertical: str, needed: bool) -> dict[str, str]:
+    """The column of each axis; the lateral one may be absent unless it is needed."""
+    names = {"x": forward, "y": lateral, "z": vertical}
+    if forward is None and needed:
+        raise ExcitationError(f"{table.file}: the tilt cannot be corrected without a forward column; name it")
+    if not needed and lateral.removeprefix("-").lower() not in table.columns:
+        names["y"] = None
+    return {axis: name for axis, name in names.items() if name is not None}
 
 
 def _signed(table: Table, name: str) -> Array:
@@ -220,8 +266,8 @@ def _found_rate(table: Table, time: Array) -> float:
     if mean <= 0.0 or wrong.size:
         index = int(wrong[0]) + 1 if wrong.size else 1
         raise ExcitationError(
-            f"{table.file}, line {table.lines[index]}: time goes on by {steps[index - 1]:g} s, the mean step is {mean:g} s; samples must be evenly "
-            "spaced, without gaps"
+            f"{table.file}, line {table.lines[index]}: time goes on by {steps[index - 1]:g} s, the mean step is "
+            f"{mean:g} s; samples must be evenly spaced, without gaps"
         )
     return 1.0 / mean
 
@@ -238,7 +284,9 @@ def _find_clipping(table: Table, values: Array, full_scale: float | None) -> Cli
     if not at_limit.any():
         return Clipping(0, limit, 0, 0)
     edges = numpy.flatnonzero(numpy.diff(numpy.concatenate(([False], at_limit, [False])).astype(numpy.int8)))
-    return Clipping(int(at_limit.sum()), limit, int(table.lines[numpy.argmax(at_limit)]), int((edges[1::2] - edges[::2]).max()))
+    return Clipping(
+        int(at_limit.sum()), limit, int(table.lines[numpy.argmax(at_limit)]), int((edges[1::2] - edges[::2]).max())
+    )
 
 
 def _turn_upright(raw: dict[str, Array], bias: dict[str, float]) -> dict[str, Array]:
@@ -249,7 +297,8 @@ def _turn_upright(raw: dict[str, Array], bias: dict[str, float]) -> dict[str, Ar
     skew = numpy.array([[0.0, -cross[2], cross[1]], [cross[2], 0.0, -cross[0]], [-cross[1], cross[0], 0.0]])
     rotation = numpy.eye(3) + skew + skew @ skew / (1.0 + mean[2])
     return {
-        axis: rotation[row, 0] * raw["x"] + rotation[row, 1] * raw["y"] + rotation[row, 2] * raw["z"] for row, axis in enumerate("xyz")
+        axis: rotation[row, 0] * raw["x"] + rotation[row, 1] * raw["y"] + rotation[row, 2] * raw["z"]
+        for row, axis in enumerate("xyz")
     }
 
 

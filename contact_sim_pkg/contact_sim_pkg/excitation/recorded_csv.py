@@ -26,13 +26,15 @@ class Table(NamedTuple):
     def column(self, name: str) -> NDArray[numpy.float64]:
         """One column; ExcitationError where it is absent or holds NaN or infinity (with the line)."""
         if name not in self.columns:
-            raise ExcitationError(f"{self.file}: there is no column '{name}'; the header names {', '.join(self.columns)}")
+            raise ExcitationError(
+                f"{self.file}: there is no column '{name}'; the header names {', '.join(self.columns)}"
+            )
         column = self.columns[name]
         wrong = numpy.flatnonzero(~numpy.isfinite(column))
         if wrong.size:
             raise ExcitationError(
-                f"{self.file}, line {self.lines[wrong[0]]}: column '{name}' is {column[wrong[0]]}; a finite number was expected "
-                f"({wrong.size} such samples)"
+                f"{self.file}, line {self.lines[wrong[0]]}: column '{name}' is {column[wrong[0]]}; a finite number "
+                f"was expected ({wrong.size} such samples)"
             )
         return column
 
@@ -47,16 +49,21 @@ class Table(NamedTuple):
 def read_table(path: Path) -> Table:
     """Read the file.
 
-    The first line that is neither empty nor a comment (#, %) names the columns; a unit in brackets after a name must be m/s^2
-    (s for time). Columns are separated by semicolon, tab, comma or spaces, whichever of them the header holds, in this order.
+    The first line that is neither empty nor a comment (#, %) names the columns; a unit in brackets after a name must be
+    m/s^2 (s for time). Columns are separated by semicolon, tab, comma or spaces, whichever of them the header holds, in
+    this order.
 
     Raises:
-        ExcitationError: with the line, for no header, ragged lines and fields that are no numbers; a file above 256 MiB.
+        ExcitationError: with the line, for no header, ragged lines and fields that are no numbers; a file above 256
+            MiB.
     """
     lines = _read_lines(path)
     numbered = [(number, line) for number, line in enumerate(lines, start=1) if line and line[0] not in "#%"]
     if len(numbered) < 3:
-        raise ExcitationError(f"{path}: the file has {max(len(numbered) - 1, 0)} samples; a line of column names and at least two were expected")
+        raise ExcitationError(
+            f"{path}: the file has {max(len(numbered) - 1, 0)} samples; a line of column names and at least two were "
+            "expected"
+        )
     separator = next((mark for mark in SEPARATORS if mark in numbered[0][1]), None)
     names = _names(path, *numbered[0], separator)
     rows = []
@@ -64,8 +71,8 @@ def read_table(path: Path) -> Table:
         fields = line.split(separator)
         if len(fields) != len(names):
             raise ExcitationError(
-                f"{path}, line {number}: {len(fields)} fields, expected {len(names)} ({', '.join(names)}), separated by "
-                f"{SEPARATORS.get(separator or '', 'space')}"
+                f"{path}, line {number}: {len(fields)} fields, expected {len(names)} ({', '.join(names)}), separated "
+                f"by {SEPARATORS.get(separator or '', 'space')}"
             )
         rows.append(fields)
     try:
@@ -86,7 +93,9 @@ def _read_lines(path: Path) -> list[str]:
     except OSError as error:
         raise ExcitationError(f"{path}: cannot be read: {error.strerror or error}") from error
     except UnicodeDecodeError as error:
-        raise ExcitationError(f"{path}, byte {error.start}: this is no text; a recording is a text file in UTF-8") from error
+        raise ExcitationError(
+            f"{path}, byte {error.start}: this is no text; a recording is a text file in UTF-8"
+        ) from error
     return [line.strip() for line in text.split("\n")]
 
 
@@ -95,9 +104,15 @@ def _names(path: Path, number: int, line: str, separator: str | None) -> list[st
     for field in line.split(separator):
         match = re.fullmatch(r'"?\s*([^\[("]*?)\s*(?:[\[(]([^\])]*)[\])])?\s*"?', field.strip())
         if match is None or not match.group(1) or _is_number(match.group(1)):
-            raise ExcitationError(f"{path}, line {number}: '{field.strip()[:40]}' is no column name; the first line must name the columns, such as x y z")
+            raise ExcitationError(
+                f"{path}, line {number}: '{field.strip()[:40]}' is no column name; the first line must name the "
+                "columns, such as x y z"
+            )
         if match.group(2) is not None and match.group(2).strip() not in UNITS:
-            raise ExcitationError(f"{path}, line {number}: unit '{match.group(2)}' of column '{match.group(1)}' is not read; convert to m/s^2")
+            raise ExcitationError(
+                f"{path}, line {number}: unit '{match.group(2)}' of column '{match.group(1)}' is not read; convert to "
+                "m/s^2"
+            )
         names.append(match.group(1).lower())
     for name in names:
         if names.count(name) > 1:
@@ -117,5 +132,8 @@ def _bad_field(path: Path, numbered: list[tuple[int, str]], rows: list[list[str]
     for (number, _), fields in zip(numbered, rows, strict=True):
         for name, field in zip(names, fields, strict=True):
             if not _is_number(field) or "_" in field:
-                return ExcitationError(f"{path}, line {number}: '{field[:40]}' in column '{name}' is no number (a decimal point is expected)")
+                return ExcitationError(
+                    f"{path}, line {number}: '{field[:40]}' in column '{name}' is no number (a decimal point is "
+                    "expected)"
+                )
     return ExcitationError(f"{path}: a field is no number")

@@ -1,6 +1,7 @@
 """Vibration given by formulas: rest, sine, sweep, band-limited noise, half-sine shock, and their sum on the two axes.
 
-A waveform is a pure function of time, values(t), in [m/s^2]; `AxisSignal` puts waveforms on the axes x (forward) and z (up).
+A waveform is a pure function of time, values(t), in [m/s^2]; `AxisSignal` puts waveforms on the axes x (forward) and z
+(up).
 """
 
 from collections.abc import Sequence
@@ -50,19 +51,22 @@ class Sine:
     def describe(self) -> dict[str, Any]:
         """See Waveform."""
         return {
-            "kind": "sine", "amplitude_m_per_s2": self.amplitude, "frequency_Hz": self.frequency, "phase_rad": self.phase
+            "kind": "sine", "amplitude_m_per_s2": self.amplitude, "frequency_Hz": self.frequency,
+            "phase_rad": self.phase,
         }  # fmt: skip
 
 
 class Sweep:
     """Sine of constant acceleration amplitude whose frequency runs from start to end over the duration, then 0.
 
-    logarithmic:  f = start (end/start)^(t/duration),  phase = 2 pi start duration / ln(end/start) ((end/start)^(t/duration) - 1)
+    logarithmic:  f = start (end/start)^(t/duration),  phase = 2 pi start duration / ln(end/start)
+        ((end/start)^(t/duration) - 1)
     linear:       f = start + (end - start) t/duration,  phase = 2 pi (start t + (end - start) t^2 / (2 duration))
     """
 
     def __init__(self, amplitude: float, start: float, end: float, duration: float, logarithmic: bool = True) -> None:
-        """Take amplitude [m/s^2], start and end frequency [Hz], duration [s]; ExcitationError for a value out of range."""
+        """Take amplitude [m/s^2], start and end frequency [Hz], duration [s]; ExcitationError for a value out of
+        range."""
         _require("sweep", "amplitude", amplitude, 0.0, LARGEST_ACCELERATION, "m/s^2")
         _require("sweep", "start frequency", start, 1e-6, HIGHEST_FREQUENCY, "Hz")
         _require("sweep", "end frequency", end, 1e-6, HIGHEST_FREQUENCY, "Hz")
@@ -121,9 +125,9 @@ class HalfSine:
 class Noise:
     """Gaussian noise with a flat spectrum between two frequencies, made of harmonics with random phases.
 
-    Harmonics of 1 / period inside [low, high], equal amplitudes, uniform random phases: the rms over one period is exactly the
-    rms asked for, the distribution Gaussian to within the number of harmonics (at least 16). It repeats after `period`.
-    Interpolated to 1e-6 of the rms, see periodic.py.
+    Harmonics of 1 / period inside [low, high], equal amplitudes, uniform random phases: the rms over one period is
+    exactly the rms asked for, the distribution Gaussian to within the number of harmonics (at least 16). It repeats
+    after `period`. Interpolated to 1e-6 of the rms, see periodic.py.
     """
 
     def __init__(self, rms: float, low: float, high: float, seed: int, period: float = 60.0) -> None:
@@ -148,8 +152,8 @@ class Noise:
         first, last = ceil(low * period * (1.0 - 1e-12)), floor(high * period * (1.0 + 1e-12))
         if last - first + 1 < 16:
             raise ExcitationError(
-                f"the noise band {low:g} to {high:g} Hz holds {max(last - first + 1, 0)} harmonics of a period of {period:g} s; at "
-                "least 16 are needed, use a longer period"
+                f"the noise band {low:g} to {high:g} Hz holds {max(last - first + 1, 0)} harmonics of a period of "
+                f"{period:g} s; at least 16 are needed, use a longer period"
             )
         self.rms, self.low, self.high, self.seed, self.period = rms, low, high, seed, period
         self.harmonics = last - first + 1
@@ -159,7 +163,8 @@ class Noise:
         points = 64 * ceil(48 * last / 64)
         if points > MOST_POINTS:
             raise ExcitationError(
-                f"noise up to {self.high:g} Hz over {self.period:g} s needs {points} points, limit {MOST_POINTS}; use a shorter period"
+                f"noise up to {self.high:g} Hz over {self.period:g} s needs {points} points, limit {MOST_POINTS}; use "
+                "a shorter period"
             )
         amplitude = numpy.zeros(last + 1, dtype=numpy.complex128)
         phase = 2.0 * pi * numpy.random.Generator(numpy.random.PCG64(self.seed)).random(self.harmonics)
@@ -173,8 +178,8 @@ class Noise:
     def describe(self) -> dict[str, Any]:
         """See Waveform."""
         return {
-            "kind": "noise", "rms_m_per_s2": self.rms, "lowest_frequency_Hz": self.low, "highest_frequency_Hz": self.high,
-            "seed": self.seed, "period_s": self.period, "harmonics": self.harmonics,
+            "kind": "noise", "rms_m_per_s2": self.rms, "lowest_frequency_Hz": self.low,
+            "highest_frequency_Hz": self.high, "seed": self.seed, "period_s": self.period, "harmonics": self.harmonics,
         }  # fmt: skip
 
 
@@ -195,7 +200,8 @@ class AxisSignal:
             f"The noise repeats after {wave.period:g} s." for wave in (*self.x, *self.z) if isinstance(wave, Noise)
         ]
         return {
-            "kind": "formulas", "x": [wave.describe() for wave in self.x], "z": [wave.describe() for wave in self.z], "notes": notes
+            "kind": "formulas", "x": [wave.describe() for wave in self.x], "z": [wave.describe() for wave in self.z],
+            "notes": notes,
         }  # fmt: skip
 
 

@@ -13,8 +13,8 @@ HIGHEST_SPEED = 150.0  # [m/s] 540 km/h, above every road vehicle
 class Travel:
     """Piecewise linear speed over time and the travel that follows from it.
 
-    Between two points (t0, v0), (t1, v1) the speed is v0 + (v1 - v0) (t - t0) / (t1 - t0); before the first and after the
-    last point it stays constant. The travel is the exact integral of the speed from t = 0, so position(0) = 0.
+    Between two points (t0, v0), (t1, v1) the speed is v0 + (v1 - v0) (t - t0) / (t1 - t0); before the first and after
+    the last point it stays constant. The travel is the exact integral of the speed from t = 0, so position(0) = 0.
     """
 
     def __init__(self, points: Sequence[tuple[float, float]]) -> None:
@@ -41,8 +41,8 @@ class Travel:
         for index, (time, speed) in enumerate(zip(self.times, self.speeds, strict=True)):
             if not (isfinite(time) and isfinite(speed)) or abs(speed) > HIGHEST_SPEED:
                 raise ExcitationError(
-                    f"point {index} of the speed programme is ({time} s, {speed} m/s); both must be finite and the speed "
-                    f"within +-{HIGHEST_SPEED:g} m/s"
+                    f"point {index} of the speed programme is ({time} s, {speed} m/s); both must be finite and the "
+                    f"speed within +-{HIGHEST_SPEED:g} m/s"
                 )
             if index and time <= self.times[index - 1]:
                 raise ExcitationError(
