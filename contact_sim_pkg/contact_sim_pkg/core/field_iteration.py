@@ -5,8 +5,9 @@ from __future__ import annotations
 from typing import NamedTuple
 
 import numpy
+from numpy.typing import NDArray
 
-from contact_sim_pkg.core.halfspace import Buffers, HalfSpace, convolve, make_buffers, precondition
+from contact_sim_pkg.core.halfspace import Buffers, Field, HalfSpace, convolve, make_buffers, precondition
 from contact_sim_pkg.core.jit import kernel
 
 __all__ = ["SolverWorkspace", "evaluate", "fresh_surface", "make_workspace", "rescale", "search", "step"]
@@ -19,14 +20,14 @@ class SolverWorkspace(NamedTuple):
     """Buffers of one solve at a time; a second solve in another thread needs its own. All fields are [rows, cols]."""
 
     buffers: Buffers
-    surface: numpy.ndarray  # [m] gap + displacement
-    residual: numpy.ndarray  # [m] clearance on the free cells, else 0
-    residual_before: numpy.ndarray  # [m] the same one iteration earlier
-    filtered: numpy.ndarray  # [Pa] preconditioned residual
-    direction: numpy.ndarray  # [Pa] search direction
-    response: numpy.ndarray  # [m] displacement of the search direction
-    clipped: numpy.ndarray  # [Pa] pressure that the bound p >= 0 added in the last step
-    clipped_cells: numpy.ndarray  # row-major indices of these cells
+    surface: Field  # [m] gap + displacement
+    residual: Field  # [m] clearance on the free cells, else 0
+    residual_before: Field  # [m] the same one iteration earlier
+    filtered: Field  # [Pa] preconditioned residual
+    direction: Field  # [Pa] search direction
+    response: Field  # [m] displacement of the search direction
+    clipped: Field  # [Pa] pressure that the bound p >= 0 added in the last step
+    clipped_cells: NDArray[numpy.int64]  # row-major indices of these cells
 
 
 class State(NamedTuple):
@@ -38,15 +39,22 @@ class State(NamedTuple):
 
 def make_workspace(half_space: HalfSpace) -> SolverWorkspace:
     """Buffers that fit a half-space; solving itself allocates nothing."""
-    rows, cols = half_space.rows, half_space.cols
-    fields = [numpy.zeros((rows, cols)) for _ in range(7)]
-    return SolverWorkspace(make_buffers(half_space), *fields, numpy.zeros(rows * cols, dtype=numpy.int64))
+    shape = (half_space.rows, half_space.cols)
+    return SolverWorkspace(
+        buffers=make_buffers(half_space),
+        surface=numpy.zeros(shape),
+        residual=numpy.zeros(shape),
+        residual_before=numpy.zeros(shape),
+        filtered=numpy.zeros(shape),
+        direction=numpy.zeros(shape),
+        response=numpy.zeros(shape),
+        clipped=numpy.zeros(shape),
+        clipped_cells=numpy.zeros(half_space.rows * half_space.cols, dtype=numpy.int64),
+    )
 
 
 @kernel
-def fresh_surface(
-    half_space: HalfSpace, workspace: SolverWorkspace, gap: numpy.ndarray, pressure: numpy.ndarray
-) -> None:
+def fresh_surface(half_space: HalfSpace, workspace: SolverWorkspace, gap: Field, pressure: Field) -> None:
     """Deformed surface `u + g0` [m] from the pressure, by a convolution of its own."""
     convolve(half_space, workspace.buffers, pressure, workspace.surface)
     surface = workspace.surface
@@ -57,7 +65,7 @@ def fresh_surface(
 
 
 @kernel
-def mean_height(surface: numpy.ndarray, pressure: numpy.ndarray) -> float:
+def mean_height(surface: Field, pressure: Field) -> float:
     """Mean of u + g0 [m] over the cells in contact: the approach of a field whose load is given."""
     rows, cols = pressure.shape
     height, cells = 0.0, 0.0
@@ -70,9 +78,7 @@ def mean_height(surface: numpy.ndarray, pressure: numpy.ndarray) -> float:
 
 
 @kernel
-def evaluate(
-    workspace: SolverWorkspace, gap: numpy.ndarray, pressure: numpy.ndarray, approach: float, holds_load: bool
-) -> State:
+def evaluate(workspace: SolverWorkspace, gap: Field, pressure: Field, approach: float, holds_load: bool) -> State:
     """Residual of a field (and its approach, if the load is given); stores the clearance of the free cells."""
     surface, residual, before = workspace.surface, workspace.residual, workspace.residual_before
     rows, cols = pressure.shape
@@ -98,7 +104,7 @@ def evaluate(
 
 @kernel
 def search(
-    half_space: HalfSpace, workspace: SolverWorkspace, pressure: numpy.ndarray, slope_before: float, holds_load: bool
+    half_space: HalfSpace, workspace: SolverWorkspace, pressure: Field, slope_before: float, holds_load: bool
 ) -> float:
     """New search direction from the preconditioned clearance z; returns `sum z r`, for the next call.
 
@@ -128,7 +134,7 @@ def search(
 @kernel
 def advance_direction(
     workspace: SolverWorkspace,
-    pressure: numpy.ndarray,
+    pressure: Field,
     momentum: float,
     mean: float,
     cells: float,
@@ -160,7 +166,7 @@ def advance_direction(
 
 
 @kernel
-def step(half_space: HalfSpace, workspace: SolverWorkspace, pressure: numpy.ndarray) -> bool:
+def step(half_space: HalfSpace, workspace: SolverWorkspace, pressure: Field) -> bool:
     """Move to the minimum along the direction, clip p at zero, update the surface; False if no step is possible."""
     direction, response, surface = workspace.direction, workspace.response, workspace.surface
     residual, clipped = workspace.residual, workspace.clipped
@@ -212,7 +218,7 @@ def correct_for_clipping(half_space: HalfSpace, workspace: SolverWorkspace, coun
 
 
 @kernel
-def rescale(workspace: SolverWorkspace, gap: numpy.ndarray, pressure: numpy.ndarray, total: float) -> None:
+def rescale(workspace: SolverWorkspace, gap: Field, pressure: Field, total: float) -> None:
     """Scale pressure and displacement so that the pressures add up to `total` again."""
     surface = workspace.surface
     rows, cols = pressure.shape

@@ -23,7 +23,6 @@ from __future__ import annotations
 from typing import NamedTuple
 
 import numpy
-from numpy.typing import NDArray
 
 from contact_sim_pkg.core.field_iteration import (
     SolverWorkspace,
@@ -34,7 +33,7 @@ from contact_sim_pkg.core.field_iteration import (
     search,
     step,
 )
-from contact_sim_pkg.core.halfspace import HalfSpace
+from contact_sim_pkg.core.halfspace import Field, HalfSpace
 from contact_sim_pkg.core.jit import entry, kernel
 
 __all__ = [
@@ -69,8 +68,6 @@ SENTENCES = {
 PATIENCE = 20
 """Iterations without a lower residual after which the direction starts again from the gradient."""
 
-Field = NDArray[numpy.float64]
-
 
 class FieldResult(NamedTuple):
     status: int  # CONVERGED (also without contact: load 0), EDGE, NOT_CONVERGED or BAD_INPUT
@@ -98,9 +95,7 @@ def solve_at_approach(
     Raises `ValueError` for arrays of the wrong shape.
     """
     _refuse_shapes(half_space, gap, pressure)
-    return solve(  # type: ignore[no-any-return]
-        half_space, workspace, gap, float(approach), False, float(tolerance), int(max_iterations), pressure
-    )
+    return solve(half_space, workspace, gap, float(approach), False, float(tolerance), int(max_iterations), pressure)
 
 
 def solve_at_load(
@@ -117,9 +112,7 @@ def solve_at_load(
     Zero load gives a zero field and the approach of first touch, the smallest gap.
     """
     _refuse_shapes(half_space, gap, pressure)
-    return solve(  # type: ignore[no-any-return]
-        half_space, workspace, gap, float(load), True, float(tolerance), int(max_iterations), pressure
-    )
+    return solve(half_space, workspace, gap, float(load), True, float(tolerance), int(max_iterations), pressure)
 
 
 def refuse_bad_gap(gap: Field, name: str = "gap") -> None:

@@ -14,10 +14,15 @@ from typing import NamedTuple
 
 import numpy
 import rocket_fft
+from numpy.typing import NDArray
 
 from contact_sim_pkg.core.jit import entry, kernel
 
 __all__ = ["Buffers", "HalfSpace", "displacement", "make_buffers", "make_half_space"]
+
+Field = NDArray[numpy.float64]
+Spectrum = NDArray[numpy.complex128]
+Axis = NDArray[numpy.int64]
 
 MINIMUM_CELLS = 1
 MAXIMUM_CELLS = 4096
@@ -35,20 +40,20 @@ class HalfSpace(NamedTuple):
     cell_x: float  # [m] length of a cell along x
     cell_y: float  # [m] length of a cell along y
     modulus: float  # [Pa] contact modulus E*, 1/E* = (1-nu1^2)/E1 + (1-nu2^2)/E2
-    influence: numpy.ndarray  # [rows, cols] [m/Pa] displacement i rows and j cols away from a cell under unit pressure
-    transfer: numpy.ndarray  # [padded rows, padded cols/2+1] real transform of `influence`, divided by the padded size
-    preconditioner: numpy.ndarray  # [rows', cols'/2+1] approximate inverse of `transfer` on the unpadded grid
+    influence: Field  # [rows, cols] [m/Pa] displacement i rows and j cols away from a cell under unit pressure
+    transfer: Field  # [padded rows, padded cols/2+1] real transform of `influence`, divided by the padded size
+    preconditioner: Field  # [rows', cols'/2+1] approximate inverse of `transfer` on the unpadded grid
 
 
 class Buffers(NamedTuple):
     """Scratch arrays of the transforms, for one thread at a time."""
 
-    padded: numpy.ndarray  # [rows, padded cols] real; the right part stays zero
-    spectrum: numpy.ndarray  # [padded rows, padded cols/2+1] complex
-    plain: numpy.ndarray  # [rows', cols'] real, for the preconditioner
-    plain_spectrum: numpy.ndarray  # [rows', cols'/2+1] complex
-    row_axis: numpy.ndarray
-    col_axis: numpy.ndarray
+    padded: Field  # [rows, padded cols] real; the right part stays zero
+    spectrum: Spectrum  # [padded rows, padded cols/2+1] complex
+    plain: Field  # [rows', cols'] real, for the preconditioner
+    plain_spectrum: Spectrum  # [rows', cols'/2+1] complex
+    row_axis: Axis
+    col_axis: Axis
 
 
 def make_half_space(rows: int, cols: int, cell_x: float, cell_y: float, modulus: float) -> HalfSpace:
@@ -91,7 +96,7 @@ def make_buffers(half_space: HalfSpace) -> Buffers:
     )
 
 
-def love_coefficients(rows: int, cols: int, cell_x: float, cell_y: float) -> numpy.ndarray:
+def love_coefficients(rows: int, cols: int, cell_x: float, cell_y: float) -> Field:
     """Integral of 1/distance [m] over a cell whose centre is i cells along x and j along y away; shape [rows, cols].
 
     With `f(x, y) = x asinh(y/|x|) + y asinh(x/|y|)` the sum of f over the four corners, signs + - - +. The edges lie
@@ -108,13 +113,13 @@ def love_coefficients(rows: int, cols: int, cell_x: float, cell_y: float) -> num
 
 
 @entry
-def displacement(half_space: HalfSpace, buffers: Buffers, pressure: numpy.ndarray, result: numpy.ndarray) -> None:
+def displacement(half_space: HalfSpace, buffers: Buffers, pressure: Field, result: Field) -> None:
     """Surface displacement [m] under a pressure field [Pa], both float64 [rows, cols]; `result` is overwritten."""
     convolve(half_space, buffers, pressure, result)
 
 
 @kernel
-def convolve(half_space: HalfSpace, buffers: Buffers, field: numpy.ndarray, result: numpy.ndarray) -> None:
+def convolve(half_space: HalfSpace, buffers: Buffers, field: Field, result: Field) -> None:
     """`result = K field` by one pruned, zero-padded transform pair; `result` may be `field` itself."""
     rows, cols = field.shape
     padded, spectrum, transfer = buffers.padded, buffers.spectrum, half_space.transfer
@@ -137,7 +142,7 @@ def convolve(half_space: HalfSpace, buffers: Buffers, field: numpy.ndarray, resu
 
 
 @kernel
-def precondition(half_space: HalfSpace, buffers: Buffers, field: numpy.ndarray, result: numpy.ndarray) -> None:
+def precondition(half_space: HalfSpace, buffers: Buffers, field: Field, result: Field) -> None:
     """`result = M field`, M an approximate inverse of K: the filter E* |q| / 2 on the unpadded grid."""
     rows, cols = field.shape
     plain, spectrum = buffers.plain, buffers.plain_spectrum
@@ -155,7 +160,7 @@ def precondition(half_space: HalfSpace, buffers: Buffers, field: numpy.ndarray, 
 
 
 @kernel
-def load_padded(field: numpy.ndarray, padded: numpy.ndarray) -> tuple[int, int]:
+def load_padded(field: Field, padded: Field) -> tuple[int, int]:
     """Copy a field into the padded rows; returns the first row that is not all zero and the row after the last such."""
     rows, cols = field.shape
     first, last = rows, 0
@@ -170,7 +175,7 @@ def load_padded(field: numpy.ndarray, padded: numpy.ndarray) -> tuple[int, int]:
 
 
 @kernel
-def multiply(spectrum: numpy.ndarray, factor: numpy.ndarray) -> None:
+def multiply(spectrum: Spectrum, factor: Field) -> None:
     """`spectrum *= factor`, complex by real."""
     for i in range(spectrum.shape[0]):
         for j in range(spectrum.shape[1]):
@@ -187,7 +192,7 @@ def _padded(count: int) -> int:
     return _good(2 * count)
 
 
-def _transfer(influence: numpy.ndarray) -> numpy.ndarray:
+def _transfer(influence: Field) -> Field:
     """Real transform of the even extension of the influence table, divided by the number of padded cells."""
     rows, cols = influence.shape
     even = numpy.zeros((_padded(rows), _padded(cols)))
@@ -197,7 +202,7 @@ def _transfer(influence: numpy.ndarray) -> numpy.ndarray:
     return numpy.ascontiguousarray(numpy.fft.rfft2(even).real / even.size)
 
 
-def _preconditioner(rows: int, cols: int, cell_x: float, cell_y: float, modulus: float) -> numpy.ndarray:
+def _preconditioner(rows: int, cols: int, cell_x: float, cell_y: float, modulus: float) -> Field:
     """`E* sqrt(|q|^2 + q0^2) / 2` on the unpadded grid, divided by its number of cells; q0 keeps it definite."""
     plain_rows, plain_cols = _good(rows), _good(cols)
     wave_x = 2.0 * numpy.pi * numpy.fft.fftfreq(plain_rows, cell_x)[:, None]

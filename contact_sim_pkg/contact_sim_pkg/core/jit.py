@@ -45,7 +45,10 @@ def kernel_overload(function: Callable[..., Any]) -> Callable[[Function], Functi
     As `numba.extending.overload`: the decorated function receives the argument *types* and returns the implementation
     or `None`. The body is compiled into its caller, so it is cached with the caller.
     """
-    decorator: Callable[[Function], Function] = overload(function, jit_options=dict(COMPILE_OPTIONS))
+    decorator: Callable[[Function], Function] = overload(
+        function,
+        jit_options=dict(COMPILE_OPTIONS),  # type: ignore[arg-type]
+    )
     return decorator
 
 

@@ -7,6 +7,9 @@ directory. Cache files are pickles, and loading a pickle can run code, so a dire
 not used. Each file starts with the hash of its content, which is checked before it is unpickled.
 """
 
+# numba.core.caching has no types.
+# mypy: disallow-untyped-calls=False
+
 from __future__ import annotations
 
 import hashlib
@@ -47,12 +50,17 @@ def fingerprint(source_root: Path) -> str:
         llvmlite.__version__,
         numpy.__version__,
         version("rocket-fft"),
-        numba.config.CPU_NAME or llvmlite.binding.get_host_cpu_name(),
+        _setting("CPU_NAME") or llvmlite.binding.get_host_cpu_name(),
         platform.python_version(),
-        f"boundscheck={numba.config.BOUNDSCHECK} opt={numba.config.OPT}",
+        f"boundscheck={_setting('BOUNDSCHECK')} opt={_setting('OPT')}",
     )
     digest.update("\0".join(parts).encode())
     return digest.hexdigest()[:20]
+
+
+def _setting(name: str) -> Any:
+    """A value of numba's configuration, which is made at run time and has no types."""
+    return getattr(numba.config, name)
 
 
 def cache_root() -> Path:
@@ -161,7 +169,7 @@ def attach_cache(dispatcher: Any) -> None:
             _session.close(error)
 
 
-class _Locator(_CacheLocator):  # type: ignore[misc]
+class _Locator(_CacheLocator):
     """Puts the files of a function into the session's directory; never into the source tree."""
 
     def __init__(self, py_func: Any, py_file: str) -> None:
@@ -186,11 +194,11 @@ class _Locator(_CacheLocator):  # type: ignore[misc]
         return f"{self._line}-{self._module}"
 
 
-class _CheckedCacheImpl(CompileResultCacheImpl):  # type: ignore[misc]
-    _locator_classes = (_Locator,)
+class _CheckedCacheImpl(CompileResultCacheImpl):
+    _locator_classes = [_Locator]  # noqa: RUF012 - as declared by numba
 
 
-class _CheckedFiles(IndexDataCacheFile):  # type: ignore[misc]
+class _CheckedFiles(IndexDataCacheFile):
     """numba's index and data files, each led by the hash of its content."""
 
     def _load_index(self) -> Any:
@@ -222,7 +230,7 @@ class _CheckedFiles(IndexDataCacheFile):  # type: ignore[misc]
             file.write(hashlib.sha256(payload).digest() + payload)
 
 
-class _CheckedCache(FunctionCache):  # type: ignore[misc]
+class _CheckedCache(FunctionCache):
     """numba's function cache; damage leads to a new compilation, a failed write to a run without cache."""
 
     _impl_class = _CheckedCacheImpl

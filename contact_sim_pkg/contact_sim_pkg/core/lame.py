@@ -10,10 +10,13 @@ import math
 from typing import NamedTuple
 
 import numpy
+from numpy.typing import NDArray
 
 from contact_sim_pkg.core.jit import entry, kernel
 
 __all__ = ["LameFit", "fit_boundary", "fit_patch", "lame_area", "lame_second_moment"]
+
+Field = NDArray[numpy.float64]
 
 SMALLEST_EXPONENT = 0.1
 """Below it the curve is a cross of four needles."""
@@ -64,7 +67,7 @@ def _refuse_exponent(exponent: float) -> None:
 
 
 @entry
-def fit_patch(pressure: numpy.ndarray, cell_x: float, cell_y: float, origin_x: float, origin_y: float) -> LameFit:
+def fit_patch(pressure: Field, cell_x: float, cell_y: float, origin_x: float, origin_y: float) -> LameFit:
     """Lame curve through the boundary of the cells under pressure.
 
     pressure: float64 [rows, cols], rows along x; cell_x, cell_y [m]; origin_x, origin_y: centre of cell (0, 0) [m].
@@ -96,7 +99,7 @@ def fit_patch(pressure: numpy.ndarray, cell_x: float, cell_y: float, origin_x: f
 
 
 @entry
-def fit_boundary(x: numpy.ndarray, y: numpy.ndarray, half_x: float, half_y: float) -> LameFit:
+def fit_boundary(x: Field, y: Field, half_x: float, half_y: float) -> LameFit:
     """Minimise `sum (rho - 1)^2` over ln a, ln b, ln n for points on a boundary; `x`, `y` [m] are overwritten.
 
     Damped Gauss-Newton steps from the half extents [m] and n = 2, n kept within 0.3 to 20.
@@ -127,7 +130,7 @@ def fit_boundary(x: numpy.ndarray, y: numpy.ndarray, half_x: float, half_y: floa
 
 
 @kernel
-def take_logarithms(x: numpy.ndarray, y: numpy.ndarray) -> tuple[float, float]:
+def take_logarithms(x: Field, y: Field) -> tuple[float, float]:
     """Replace the coordinates by the logarithms of their distances from their mean, which is returned."""
     centre_x, centre_y = 0.0, 0.0
     for k in range(x.size):
@@ -141,7 +144,7 @@ def take_logarithms(x: numpy.ndarray, y: numpy.ndarray) -> tuple[float, float]:
 
 
 @kernel
-def extents(pressure: numpy.ndarray) -> tuple[int, int, int, int, int, int]:
+def extents(pressure: Field) -> tuple[int, int, int, int, int, int]:
     """Number of cells in contact, number of their outer edges, first and last row, first and last column."""
     rows, cols = pressure.shape
     cells, edges, low_row, high_row, low_col, high_col = 0, 0, rows, -1, cols, -1
@@ -156,7 +159,7 @@ def extents(pressure: numpy.ndarray) -> tuple[int, int, int, int, int, int]:
 
 
 @kernel
-def neighbours(pressure: numpy.ndarray, i: int, j: int) -> int:
+def neighbours(pressure: Field, i: int, j: int) -> int:
     return (
         inside(pressure, i - 1, j)
         + inside(pressure, i + 1, j)
@@ -166,13 +169,13 @@ def neighbours(pressure: numpy.ndarray, i: int, j: int) -> int:
 
 
 @kernel
-def inside(pressure: numpy.ndarray, i: int, j: int) -> int:
+def inside(pressure: Field, i: int, j: int) -> int:
     rows, cols = pressure.shape
     return 1 if 0 <= i < rows and 0 <= j < cols and pressure[i, j] > 0.0 else 0
 
 
 @kernel
-def boundary_points(pressure: numpy.ndarray, cell_x: float, cell_y: float, x: numpy.ndarray, y: numpy.ndarray) -> None:
+def boundary_points(pressure: Field, cell_x: float, cell_y: float, x: Field, y: Field) -> None:
     """Midpoints [m] of the edges between a cell in contact and one without, from the centre of cell (0, 0)."""
     rows, cols = pressure.shape
     count = 0
@@ -187,9 +190,7 @@ def boundary_points(pressure: numpy.ndarray, cell_x: float, cell_y: float, x: nu
 
 
 @kernel
-def normal_equations(
-    log_x: numpy.ndarray, log_y: numpy.ndarray, log_a: float, log_b: float, log_n: float, normal: numpy.ndarray
-) -> float:
+def normal_equations(log_x: Field, log_y: Field, log_a: float, log_b: float, log_n: float, normal: Field) -> float:
     """`J^T J` and, in the last column, `-J^T (rho - 1)`, from ln|x| and ln|y|; returns the cost `sum (rho - 1)^2`.
 
     With u = ln|x/a|, v = ln|y/b| and the share s = |x/a|^n / rho^n: `ln rho = max(u, v) + ln(1 + exp(-n |u-v|)) / n`,
@@ -215,7 +216,7 @@ def normal_equations(
 
 
 @kernel
-def damped_step(normal: numpy.ndarray, damping: float) -> tuple[float, float, float]:
+def damped_step(normal: Field, damping: float) -> tuple[float, float, float]:
     """Solve `(J^T J + damping diag) step = -J^T error` (3 x 3, symmetric positive definite) by elimination."""
     floor = 1e-14 * (normal[0, 0] + normal[1, 1] + normal[2, 2])
     a00 = normal[0, 0] * (1.0 + damping) + floor

@@ -5,10 +5,14 @@ from __future__ import annotations
 from typing import NamedTuple
 
 import numpy
+from numpy.typing import NDArray
 
 from contact_sim_pkg.core.jit import entry
 
 __all__ = ["PatchSummary", "summarise"]
+
+
+Field = NDArray[numpy.float64]
 
 
 class PatchSummary(NamedTuple):
@@ -21,7 +25,7 @@ class PatchSummary(NamedTuple):
 
 
 @entry
-def summarise(pressure: numpy.ndarray, cell_x: float, cell_y: float, origin_x: float, origin_y: float) -> PatchSummary:
+def summarise(pressure: Field, cell_x: float, cell_y: float, origin_x: float, origin_y: float) -> PatchSummary:
     """Resultants of a pressure field.
 
     pressure: [Pa], float64 [rows, cols], rows along x; cell_x, cell_y: size of a cell [m]; origin_x, origin_y: centre
