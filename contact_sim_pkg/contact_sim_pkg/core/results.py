@@ -6,14 +6,10 @@ DONE = 0
 NOT_FINITE = 1
 STEP_TOO_SMALL = 2
 TOO_MANY_EVENTS = 3
-FIELD_NOT_CONVERGED = 4
-FIELD_AT_EDGE = 5
 
 SENTENCES = {
     DONE: "the interval was integrated to the asked tolerance",
     NOT_FINITE: "the state is not finite or beyond 1e10: the parameters or the excitation are outside the model",
     STEP_TOO_SMALL: "the time step that the asked tolerance needs is below the resolution of the clock; ask for less accuracy",
     TOO_MANY_EVENTS: "contact opened and closed more than 10000 times in one interval; the contact is too stiff for this excitation",
-    FIELD_NOT_CONVERGED: "the pressure field did not reach its tolerance in its iteration budget",
-    FIELD_AT_EDGE: "the contact reached the edge of the pressure grid; enlarge effects.*.contact_field.length and width",
 }

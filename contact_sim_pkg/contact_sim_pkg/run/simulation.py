@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from contact_sim_pkg.core.effects.contact_field import FieldError, PressureField, offset_of
 from contact_sim_pkg.core.effects.footprint import effective_heights, tire_gap
 from contact_sim_pkg.core.effects.normal_elastic import elastic_energy, elastic_force
-from contact_sim_pkg.core.jit import freeze
+from contact_sim_pkg.core.jit import freeze, thaw
 from contact_sim_pkg.core.parameters import Vector
 from contact_sim_pkg.core.results import DONE, SENTENCES
 from contact_sim_pkg.core.rigs import advance as entries
@@ -54,6 +54,7 @@ class Simulation:
 
     def __init__(self, scene: Any) -> None:
         """Build the parameters of a resolved scene (``scene.data`` is its plain dict)."""
+        thaw()
         self.scene = scene
         self.model: Model = build(scene.data)
         self.blocks = self.model.timing.blocks

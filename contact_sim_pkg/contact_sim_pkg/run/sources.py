@@ -13,6 +13,7 @@ from contact_sim_pkg.excitation.recorded import RecordedVibration
 from contact_sim_pkg.excitation.signals import AxisSignal, HalfSine, Noise, Sine, Sweep
 from contact_sim_pkg.excitation.travel import Travel
 from contact_sim_pkg.scene.build import tire_lattice
+from contact_sim_pkg.scene.resolve import ResolvedScene
 
 BORDER_NAMES = {"refuse": "none", "zero": "zero", "keep": "constant", "repeat": "repeat", "reflect": "reflect"}
 
@@ -34,31 +35,32 @@ def make_travel(scene: dict[str, Any]) -> Travel:
     return Travel([(float(time), float(speed)) for time, speed in points])
 
 
-def make_sources(scene: dict[str, Any]) -> dict[str, Source]:
+def make_sources(scene: ResolvedScene) -> dict[str, Source]:
     """Sources of the input topics that a resolved scene calls for.
 
     Raises ExcitationError for a file that cannot be read or an excitation that cannot be made.
     """
     sources: dict[str, Source] = {}
-    if scene["rig"] in ("tire", "car"):
+    if scene.data["rig"] in ("tire", "car"):
         sources["road/patch"] = make_road(scene)
-    if scene.get("vibration"):
+    if scene.data.get("vibration"):
         sources["platform/vibration"] = make_vibration(scene)
     return sources
 
 
-def make_road(scene: dict[str, Any]) -> RoadBlocks:
+def make_road(scene: ResolvedScene) -> RoadBlocks:
     """The road of a resolved scene, on the lattice of its tire."""
-    lattice = tire_lattice(scene)
+    data = scene.data
+    lattice = tire_lattice(data)
     half_length = (lattice.rows // 2 + 1) * lattice.cell_x
     surface = _surface(scene, lattice.cell_x)
     return RoadBlocks(
-        surface, make_travel(scene), scene["block_length"], lattice.cell_x, lattice.cell_y, half_length, lattice.cols
+        surface, make_travel(data), data["block_length"], lattice.cell_x, lattice.cell_y, half_length, lattice.cols
     )
 
 
-def _surface(scene: dict[str, Any], cell: float) -> Surface:
-    road = scene["road"]
+def _surface(scene: ResolvedScene, cell: float) -> Surface:
+    road = scene.data["road"]
     kind = road["kind"]
     if kind == "flat":
         return FlatRoad()
@@ -66,34 +68,34 @@ def _surface(scene: dict[str, Any], cell: float) -> Surface:
         roughness = roughness_of_class(road["roughness_class"]) if road.get("roughness_class") else road["roughness"]
         texture = road.get("texture") or {}
         return Iso8608Road(
-            roughness, scene["seed"], road["length"], road["exponent"], road["shortest_wavelength"],
+            roughness, scene.data["seed"], road["length"], road["exponent"], road["shortest_wavelength"],
             road["longest_wavelength"], texture.get("shortest_wavelength"), cell,
         )  # fmt: skip
     if kind == "opencrg":
         return OpenCrgRoad(
-            scene_file(road["file"]), road["start"], road["track_offset"], road["missing_cells"], road["hole_depth"],
+            scene.file_path("road.file"), road["start"], road["track_offset"], road["missing_cells"], road["hole_depth"],
             BORDER_NAMES[road["border_u"]], BORDER_NAMES[road["border_v"]], "mean" if road["remove_mean"] else "origin",
         )  # fmt: skip
     height = road["depth"] if kind == "pothole" else road["height"]
     return Obstacle(kind, road["position"], height, road["length"], road.get("edge") or 0.0, road.get("period"))
 
 
-def make_vibration(scene: dict[str, Any]) -> VibrationBlocks:
+def make_vibration(scene: ResolvedScene) -> VibrationBlocks:
     """The vibration of a resolved scene."""
-    vibration = scene["vibration"]
-    return VibrationBlocks(_signal(scene, vibration), scene["block_length"], vibration["sample_rate"])
+    vibration = scene.data["vibration"]
+    return VibrationBlocks(_signal(scene, vibration), scene.data["block_length"], vibration["sample_rate"])
 
 
-def _signal(scene: dict[str, Any], vibration: dict[str, Any]) -> Signal:
+def _signal(scene: ResolvedScene, vibration: dict[str, Any]) -> Signal:
     kind = vibration["kind"]
     if kind == "recorded":
         return RecordedVibration(
-            scene_file(vibration["file"]), vibration.get("rate"), vibration["vertical_column"],
+            scene.file_path("vibration.file"), vibration.get("rate"), vibration["vertical_column"],
             vibration.get("forward_column") or "x", time=vibration.get("time_column"),
             tilt="correct" if vibration["correct_tilt"] else "keep", start=vibration["start"],
             sample_rate=vibration["sample_rate"],
         )  # fmt: skip
-    wave = _wave(scene, vibration)
+    wave = _wave(scene.data, vibration)
     return AxisSignal(x=(wave,)) if vibration["axis"] == "x" else AxisSignal(z=(wave,))
 
 

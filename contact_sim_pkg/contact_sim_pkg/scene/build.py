@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from contact_sim_pkg.core.effects.contact_field import FieldSettings, PressureField, fit_tangent
 from contact_sim_pkg.core.effects.normal_elastic import approach_of_force
 from contact_sim_pkg.core.effects.seat_shape import SeatShape, seat_gap
-from contact_sim_pkg.core.hertz import HertzContact, hertz_at_load, power_law
+from contact_sim_pkg.core.hertz import HertzContact, hertz_contact, power_law
 from contact_sim_pkg.core.parameters import Contact, Friction, NormalDissipative, NormalElastic, Seat, Tire, Vector, Vehicle
 from contact_sim_pkg.core.restitution import damping_of_restitution
 
@@ -156,7 +156,7 @@ def _tire_part(
     settings = _field_settings(scene, "tire", modulus)
     curvatures = (0.5 / geometry.radius_rolling, 0.5 / geometry.radius_lateral)
     if settings is None:
-        law, field = NormalElastic(float(power_law(min(curvatures), max(curvatures), modulus)), 1.5), None
+        law, field = NormalElastic(float(power_law(*curvatures, modulus)), 1.5), None
     else:
         field = PressureField(settings, "tire")
         law = fit_tangent(field, _crown(geometry), load)
@@ -168,7 +168,7 @@ def _tire_geometry(
 ) -> TireGeometry:
     """Lattice of the field, or one that holds the standing footprint with a margin where there is none."""
     long_along_y = radius_y >= radius_x
-    semi_x, semi_y = (footprint.semi_axis_b, footprint.semi_axis_a)
+    semi_x, semi_y = (footprint.b, footprint.a)
     if not long_along_y:
         semi_x, semi_y = semi_y, semi_x
     if settings is not None:
@@ -186,7 +186,7 @@ def tire_lattice(scene: dict[str, Any]) -> TireGeometry:
     modulus = given["young_modulus"] / (1.0 - given["poisson_ratio"] ** 2)
     radius_x, radius_y = float(given["radius_rolling"]), float(given["radius_lateral"])
     curvatures = (0.5 / radius_x, 0.5 / radius_y)
-    footprint = hertz_at_load(min(curvatures), max(curvatures), modulus, mass * GRAVITY)
+    footprint = hertz_contact(*curvatures, modulus, mass * GRAVITY)
     return _tire_geometry(footprint, radius_x, radius_y, _field_settings(scene, "tire", modulus))
 
 

@@ -15,8 +15,8 @@ from typing import NamedTuple
 import numpy
 from numpy.typing import NDArray
 
-from ..field_solver import CONVERGED, NO_CONTACT, SENTENCES, FieldResult, solve_at_approach, solve_at_load
-from ..halfspace import HalfSpace, Workspace, make_half_space, make_workspace
+from ..field_solver import CONVERGED, SENTENCES, FieldResult, SolverWorkspace, make_workspace, solve_at_approach, solve_at_load
+from ..halfspace import HalfSpace, make_half_space
 from ..parameters import NormalElastic
 from .normal_elastic import approach_of_force
 
@@ -51,7 +51,7 @@ class PressureField:
         self.half_space: HalfSpace = make_half_space(
             settings.rows, settings.cols, settings.cell_x, settings.cell_y, settings.modulus
         )
-        self._workspace: Workspace = make_workspace(self.half_space)
+        self._workspace: SolverWorkspace = make_workspace(self.half_space)
         self.pressure: Field = numpy.zeros((settings.rows, settings.cols))
         self.load = 0.0
         self.iterations = 0
@@ -77,7 +77,7 @@ class PressureField:
         return float(result.approach)
 
     def _accept(self, result: FieldResult) -> None:
-        if result.status not in (CONVERGED, NO_CONTACT):
+        if result.status != CONVERGED:
             raise FieldError(
                 f"{self.contact}: {SENTENCES[result.status]} (load {result.load:.6g} N, residual {result.residual:.2g}, grid "
                 f"{self.settings.rows} x {self.settings.cols} over {self.settings.rows * self.settings.cell_x:.4g} m x "

@@ -1,0 +1,56 @@
+"""What the bag of a scene holds: its topics, and the texts kept with it. The same for the offline run and the logger node."""
+
+from __future__ import annotations
+
+import json
+from importlib.resources import files
+from pathlib import Path
+from typing import Any
+
+from contact_sim_pkg.bag.metadata import SCENE_KEY, RecordedTopic, recorded_topics, software_versions
+from contact_sim_pkg.scene.resolve import ResolvedScene
+
+EXCITATION_KEY = "excitation"
+
+
+def input_names(scene: ResolvedScene) -> list[str]:
+    """Excitation topics that the scene calls for."""
+    names = ["road/patch"] if scene.data["rig"] in ("tire", "car") else []
+    return names + (["platform/vibration"] if scene.data.get("vibration") else [])
+
+
+def result_names(scene: ResolvedScene) -> list[str]:
+    """Recorded topics that the simulator publishes for the scene."""
+    names = []
+    for contact in ("tire", "seat"):
+        if scene.data["rig"] in (contact, "car"):
+            names += [f"{contact}/force", f"{contact}/wrench"]
+            if (scene.data["effects"].get(contact) or {}).get("contact_field") is not None:
+                names.append(f"{contact}/patch")
+    return [*names, "bench/motion", "bench/energy", "bench/cost"]
+
+
+def recorded_names(scene: ResolvedScene) -> list[str]:
+    """Every topic of the scene's bag."""
+    return ["bench/scene", *input_names(scene), *result_names(scene)]
+
+
+def topics_of(names: list[str], namespace: str = "") -> tuple[RecordedTopic, ...]:
+    """Rows of the bag for ``names``, with definitions, hashes and quality of service."""
+    return recorded_topics(names, namespace)
+
+
+def attachments(scene: ResolvedScene, excitation: dict[str, dict[str, Any]]) -> dict[str, str]:
+    """Texts for the bag: resolved scene, versions, and what each excitation found and did (JSON by topic)."""
+    return {
+        SCENE_KEY: scene.to_yaml(),
+        **software_versions(_kernel_fingerprint()),
+        EXCITATION_KEY: json.dumps(excitation, sort_keys=True),
+    }
+
+
+def _kernel_fingerprint() -> str:
+    """Name of the compiled core; imported here because a logger that only writes needs no compiler before."""
+    from contact_sim_pkg.core.kernel_cache import fingerprint
+
+    return fingerprint(Path(str(files("contact_sim_pkg.core"))))

@@ -1,0 +1,111 @@
+"""A whole run without ROS: the same generators, simulation and bag as the nodes, in one loop."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Callable
+from pathlib import Path
+from typing import NamedTuple
+
+from contact_sim_pkg.bag.messages import encode_road_patch, encode_scene, encode_vibration
+from contact_sim_pkg.bag.topics import TOPICS
+from contact_sim_pkg.bag.writer import BagSummary, BagWriter
+from contact_sim_pkg.excitation.blocks import RoadPatch, VibrationBlock
+from contact_sim_pkg.run.bag_content import attachments, recorded_names, topics_of
+from contact_sim_pkg.run.errors import RunError
+from contact_sim_pkg.run.simulation import Simulation
+from contact_sim_pkg.run.sources import Source, make_sources
+from contact_sim_pkg.scene.resolve import ResolvedScene
+
+NANOSECONDS = 1_000_000_000
+
+
+class RunProgress(NamedTuple):
+    """Where a run stands."""
+
+    block: int  # blocks done
+    blocks: int
+    simulated: float  # [s]
+    real_time_factor: float
+    load: float  # [N] largest of the last block
+    peak_pressure: float  # [Pa] largest of the last block
+
+
+class RunOutcome(NamedTuple):
+    """How a run ended."""
+
+    blocks: int  # done
+    startup: float  # [s] from the call to the first block: building, compiling or loading kernels
+    wall: float  # [s] from the first block to the last message recorded
+    bag: BagSummary | None
+    stopped: bool  # ended by the user before the last block
+    failure: str  # sentence of the fault that ended it; empty where there is none
+
+
+def run_offline(
+    scene: ResolvedScene,
+    directory: Path | None,
+    on_progress: Callable[[RunProgress], None] | None = None,
+    stop: Callable[[], bool] | None = None,
+    sources: dict[str, Source] | None = None,
+) -> RunOutcome:
+    """Run ``scene`` and record it in ``directory``, which must not exist (None: no recording).
+
+    ``sources`` replaces the scene's own excitation (a bag's, for one). ``stop`` is asked before each block. A fault of the
+    physics ends the run: the bag is closed and the outcome names it. Raises what a bad scene, file or directory raises,
+    before anything is created.
+    """
+    began = time.perf_counter()
+    sources = make_sources(scene) if sources is None else sources
+    simulation = Simulation(scene)
+    simulation.prepare()
+    writer = None
+    if directory is not None:
+        names = recorded_names(scene)
+        writer = BagWriter(directory, topics_of(names), attachments(scene, {t: s.describe() for t, s in sources.items()}))
+    startup = time.perf_counter() - began
+    first = time.perf_counter()
+    done, failure, stopped = 0, "", False
+    try:
+        if writer is not None:
+            writer.write("bench/scene", 0, encode_scene(scene.to_yaml()))
+        for block in range(simulation.blocks):
+            if stop is not None and stop():
+                stopped = True
+                break
+            progress = _one_block(simulation, sources, block, writer, first)
+            done = block + 1
+            if on_progress is not None:
+                on_progress(progress)
+    except RunError as error:
+        failure = str(error)
+    finally:
+        summary = None if writer is None else writer.close(_outcome(done, simulation.blocks, failure, stopped, first))
+    return RunOutcome(done, startup, time.perf_counter() - first, summary, stopped, failure)
+
+
+def _outcome(done: int, blocks: int, failure: str, stopped: bool, first: float) -> dict[str, str]:
+    ended = "failed" if failure else "stopped" if stopped or done < blocks else "finished"
+    return {"ended": ended, "blocks_done": str(done), "failure": failure, "wall_s": repr(time.perf_counter() - first)}
+
+
+def _one_block(
+    simulation: Simulation, sources: dict[str, Source], block: int, writer: BagWriter | None, first: float
+) -> RunProgress:
+    length = simulation.model.timing.block_length
+    stamp = block * round(length * NANOSECONDS)
+    inputs = {topic: source.block(block) for topic, source in sources.items()}
+    result = simulation.advance(block, inputs)
+    if writer is not None:
+        for topic in sorted(inputs, key=lambda name: TOPICS[name].rank):
+            writer.write(topic, stamp, encode_input(inputs[topic], stamp))
+        for topic, message_stamp, data in result.messages:
+            writer.write(topic, message_stamp, data)
+    simulated = (block + 1) * length
+    elapsed = time.perf_counter() - first
+    return RunProgress(block + 1, simulation.blocks, simulated, simulated / elapsed, result.load, result.peak_pressure)
+
+
+def encode_input(value: RoadPatch | VibrationBlock, stamp: int) -> bytes:
+    """CDR bytes of an excitation block with ``stamp`` [ns]."""
+    return encode_road_patch(value, stamp) if isinstance(value, RoadPatch) else encode_vibration(value, stamp)
