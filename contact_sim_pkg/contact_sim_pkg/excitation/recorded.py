@@ -238,7 +238,8 @@ class RecordedVibration:
         }
         return {
             "kind": "recorded", "file": self.path.name, "samples": self.samples, "rate_Hz": self.rate,
-            "duration_s": self.duration, "start_s": self.start, "axes": axes, "lateral_bias_m_per_s2": self.bias.get("y"),
+            "duration_s": self.duration, "start_s": self.start, "axes": axes,
+            "lateral_bias_m_per_s2": self.bias.get("y"),
             "tilt_degrees": None if self.tilt_angle is None else degrees(self.tilt_angle), "tilt": self.tilt,
             "high_pass_Hz": self.high_pass, "beyond_the_recording": self.beyond, "notes": list(self._notes),
         }  # fmt: skip
