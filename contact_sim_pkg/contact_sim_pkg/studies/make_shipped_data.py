@@ -3,7 +3,7 @@
 Run by `python -m contact_sim_pkg.studies.make_shipped_data`; it writes
 
 stone_road.crg        10 m of stone setts, 0.64 m wide, on a curved reference line; repeats without a seam
-floor_vibration.csv   20 s of a city bus floor at 400 Hz, with gravity, bias, tilt, and shocks clipped at 2 g
+bus_like_floor.csv    20 s like the floor of a city bus at 476 Hz, with gravity, bias, tilt, and shocks clipped at 2 g
 """
 
 from pathlib import Path
@@ -12,7 +12,7 @@ import numpy
 from numpy.typing import NDArray
 
 DATA = Path(__file__).resolve().parent.parent / "scenes" / "data"
-ROAD_FILE, VIBRATION_FILE = "stone_road.crg", "floor_vibration.csv"
+ROAD_FILE, VIBRATION_FILE = "stone_road.crg", "bus_like_floor.csv"
 
 SEED = 20240601
 LENGTH, INCREMENT, HALF_WIDTH = 10.0, 0.01, 0.32  # [m]
@@ -22,7 +22,7 @@ JOINT_DEPTH = 0.012  # [m]
 SUBGRADE_RMS = 0.005  # [m] of the ground under the setts, harmonics 1 to 8 of the length
 HEADING_CHANGE = 0.2  # [rad] from start to end: a bend of 50 m radius
 
-RATE, DURATION = 400.0, 20.0  # [Hz], [s]
+RATE, DURATION = 476.0, 20.0  # [Hz], [s]
 FULL_SCALE = 19.613  # [m/s^2] 2 g
 TILT = 0.06  # [rad] of the sensor about the lateral axis
 BIAS = (0.03, -0.02, 0.25)  # [m/s^2]
