@@ -117,11 +117,12 @@ def _sides(scene: Scene) -> Iterator[Breach]:
 def _samples(scene: Scene) -> Iterator[Breach]:
     samples = scene.duration * scene.outputs.force_rate
     if samples > MOST_SAMPLES:
-        sentence = f"{scene.duration:g} s at {scene.outputs.force_rate:g} Hz are {samples:.3g} samples, limit {MOST_SAMPLES:.3g}"
+        rate = scene.outputs.force_rate
+        sentence = f"{scene.duration:g} s at {rate:g} Hz are {samples:.3g} samples, limit {MOST_SAMPLES:.3g}"
         yield Breach("outputs.force_rate", sentence, ("duration",))
 
 
-def _random_road_points(scene: Scene) -> float:
+def _random_road_points(scene: Scene) -> int:
     road = scene.road
     if not isinstance(road, Iso8608Road):
         return 0
@@ -130,10 +131,10 @@ def _random_road_points(scene: Scene) -> float:
 
 
 def _road_points(scene: Scene) -> Iterator[Breach]:
-    points = _random_road_points(scene)
-    if points > MOST_ROAD_POINTS:
+    road, points = scene.road, _random_road_points(scene)
+    if isinstance(road, Iso8608Road) and points > MOST_ROAD_POINTS:
         sentence = (
-            f"a road of {scene.road.length:g} m with waves down to {scene.road.shortest_wavelength:g} m needs {points} points, "  # type: ignore[union-attr]
+            f"a road of {road.length:g} m with waves down to {road.shortest_wavelength:g} m needs {points} points, "
             f"limit {MOST_ROAD_POINTS}; shorten it (it repeats) or raise shortest_wavelength"
         )
         yield Breach("road.length", sentence, ("road.shortest_wavelength",))

@@ -1,7 +1,7 @@
-"""Accuracy to explicit grids and tolerances: the resolved scene, which is stored in the bag and gives the same bits again.
+"""Accuracy to explicit grids and tolerances: the resolved scene, stored in the bag, gives the same bits again.
 
-A resolved scene is itself a scene: the same keys, every default written out, nothing left to be taken from `accuracy`, and
-the checksum of each input file. Reading it back and resolving it once more changes nothing.
+A resolved scene is itself a scene: the same keys, every default written out, nothing left to be taken from `accuracy`,
+and the checksum of each input file. Reading it back and resolving it once more changes nothing.
 """
 
 from __future__ import annotations
@@ -52,17 +52,20 @@ class ResolvedScene:
         return stream.getvalue()
 
     @classmethod
-    def from_yaml(cls, text: str, files: Mapping[str, str | Path] | None = None, folder: str | Path = ".") -> ResolvedScene:
+    def from_yaml(
+        cls, text: str, files: Mapping[str, str | Path] | None = None, folder: str | Path = "."
+    ) -> ResolvedScene:
         """Read what `to_yaml` wrote.
 
         Args:
             text: the YAML text.
-            files: where input files are, by the dotted path of the key; others are looked for from `folder` and in the package.
+            files: where input files are, by the dotted path of the key; others are looked for from `folder` and in the
+                package.
             folder: where relative file names start.
 
         Raises:
-            SceneError: the text is not a valid scene, or leaves something open. Input files are looked for, not required:
-                a bag can be read where they are not; `file_path` asks for them.
+            SceneError: the text is not a valid scene, or leaves something open. Input files are looked for, not
+                required: a bag can be read where they are not; `file_path` asks for them.
         """
         source = "resolved scene"
         document = parse_document(text, source)

@@ -1,6 +1,7 @@
 """The scene: every key with its type, unit, range, default and meaning.
 
-Rules that tie several keys together are in `schema_rules.py` and `schema_effect_rules.py`; `docs/scenes.md` is made from here.
+Rules that tie several keys together are in `schema_rules.py` and `schema_effect_rules.py`; `docs/scenes.md` is made
+from here.
 """
 
 from __future__ import annotations
@@ -39,7 +40,9 @@ class Integrator(Section):
 class Limits(Section):
     """Caps that a scene may raise for itself."""
 
-    memory: float = number(0.001, 1024.0, "GiB", "most memory that grids, roads and signals may need together", default=1.0)
+    memory: float = number(
+        0.001, 1024.0, "GiB", "most memory that grids, roads and signals may need together", default=1.0
+    )
 
 
 class Scene(Section):
@@ -56,10 +59,15 @@ class Scene(Section):
     duration: float = number(0.0, 3600.0, "s", "simulated time, a whole number of blocks", above=True, example=1.0)
     seed: int = number(0, 2**53 - 1, "", "of all random numbers; the same seed gives the same bits", default=1)
     pace: Pace = choice(
-        "how fast blocks are sent: as the clock runs, a factor of it, or as fast as it goes; acts on nodes", default="realtime"
+        "how fast blocks are sent: as the clock runs, a factor of it, or as fast as it goes; acts on nodes",
+        default="realtime",
     )
-    block_length: float = number(0.001, 0.1, "s", "simulated time of a block, a whole number of nanoseconds", default=0.01)
-    accuracy: Accuracy = choice("asked relative error of forces and pressures, or the best that keeps up with the clock", default=0.01)
+    block_length: float = number(
+        0.001, 0.1, "s", "simulated time of a block, a whole number of nanoseconds", default=0.01
+    )
+    accuracy: Accuracy = choice(
+        "asked relative error of forces and pressures, or the best that keeps up with the clock", default=0.01
+    )
     travel: Travel | None = choice("speed programme (rigs tire and car)", default=None, example={"speed": 10.0})
     road: Road | None = choice("road under the tire (rigs tire and car)", default=None, example={"kind": "flat"})
     vibration: Vibration | None = choice(

@@ -134,7 +134,8 @@ def _leaf(location: Location, annotation: Any, info: FieldInfo) -> Entry:
 
 
 def _bounds(metadata: list[Any]) -> tuple[float | None, float | None, bool]:
-    low = high = None
+    low: Any = None
+    high: Any = None
     above = False
     for item in metadata:
         if isinstance(item, annotated_types.Ge):
@@ -143,7 +144,7 @@ def _bounds(metadata: list[Any]) -> tuple[float | None, float | None, bool]:
             low, above = item.gt, True
         elif isinstance(item, annotated_types.Le):
             high = item.le
-    return low, high, above  # type: ignore[return-value]
+    return low, high, above
 
 
 def _without_none(annotation: Any) -> Any:

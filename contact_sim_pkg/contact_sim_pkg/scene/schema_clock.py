@@ -36,7 +36,10 @@ def clock_breaches(scene: Scene) -> Iterator[Breach]:
     if nanoseconds.denominator != 1:
         below = nanoseconds.numerator // nanoseconds.denominator
         near = " and ".join(_decimal(Fraction(n, NANOSECONDS)) for n in (below, below + 1))
-        yield Breach("block_length", f"{scene.block_length!r} s is not a whole number of nanoseconds; nearest allowed are {near} s")
+        yield Breach(
+            "block_length",
+            f"{scene.block_length!r} s is not a whole number of nanoseconds; nearest allowed are {near} s",
+        )
         return
     yield from _duration(scene)
     block = int(nanoseconds)

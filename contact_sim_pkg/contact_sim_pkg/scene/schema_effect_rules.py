@@ -36,17 +36,23 @@ def effects_of(scene: Scene, contact: str) -> list[str]:
 
 
 def effect_breaches(scene: Scene) -> Iterator[Breach]:
-    """Contacts that the rig lacks or leaves without elastic force; effects without what they need; pairs that exclude each other."""
+    """Contacts that the rig lacks or leaves without elastic force; effects without what they need, or that exclude."""
     contacts = CONTACTS_OF_RIG[scene.rig]
     for contact in ("tire", "seat"):
         where = f"effects.{contact}"
         if contact not in contacts:
             if getattr(scene.effects, contact) is not None:
-                yield Breach(where, f"the rig {scene.rig} has no contact {contact}; it has {' and '.join(contacts)}", ("rig",))
+                yield Breach(
+                    where, f"the rig {scene.rig} has no contact {contact}; it has {' and '.join(contacts)}", ("rig",)
+                )
             continue
         named = effects_of(scene, contact)
         if "normal_elastic" not in named:
-            yield Breach(f"{where}.normal_elastic", f"is missing: the contact {contact} carries no load without it; write {{}}", ("rig",))
+            yield Breach(
+                f"{where}.normal_elastic",
+                f"is missing: the contact {contact} carries no load without it; write {{}}",
+                ("rig",),
+            )
         yield from _between(where, named)
 
 
@@ -54,10 +60,14 @@ def _between(where: str, named: list[str]) -> Iterator[Breach]:
     for name in named:
         for needed in EFFECT_RULES[name].needs:
             if needed not in named:
-                yield Breach(f"{where}.{name}", f"{name} needs {needed}, which the scene does not name; add it or remove {name}")
+                yield Breach(
+                    f"{where}.{name}", f"{name} needs {needed}, which the scene does not name; add it or remove {name}"
+                )
     for one, other in combinations(named, 2):
         if other in EFFECT_RULES[one].excludes or one in EFFECT_RULES[other].excludes:
-            yield Breach(f"{where}.{other}", f"{one} and {other} exclude each other; remove one of them", (f"{where}.{one}",))
+            yield Breach(
+                f"{where}.{other}", f"{one} and {other} exclude each other; remove one of them", (f"{where}.{one}",)
+            )
 
 
 def unavailable_effect(path: tuple[str | int, ...]) -> str:
@@ -65,4 +75,6 @@ def unavailable_effect(path: tuple[str | int, ...]) -> str:
     if len(path) != 3 or path[0] != "effects" or path[2] not in EFFECT_RULES:
         return ""
     contacts = EFFECT_RULES[str(path[2])].contacts
-    return f"the effect {path[2]} is not available at the contact {path[1]}, only at {' and '.join(contacts)}; remove it"
+    return (
+        f"the effect {path[2]} is not available at the contact {path[1]}, only at {' and '.join(contacts)}; remove it"
+    )

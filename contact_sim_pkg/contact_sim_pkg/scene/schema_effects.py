@@ -11,21 +11,29 @@ ROWS_HELP = "cells along the field (forward); taken from accuracy when absent"
 COLS_HELP = "cells across the field (left); taken from accuracy when absent"
 
 
-def _cells(help: str) -> int | None:
-    cells: int | None = number(4, MOST_CELLS_A_SIDE, "", help, default=None)
+def _cells(meaning: str) -> int | None:
+    cells: int | None = number(4, MOST_CELLS_A_SIDE, "", meaning, default=None)
     return cells
 
 
 def _tolerance() -> float | None:
     tolerance: float | None = number(
-        1e-12, 0.1, "", "relative error of the pressure at which the solver stops; taken from accuracy when absent", default=None
+        1e-12,
+        0.1,
+        "",
+        "relative error of the pressure at which the solver stops; taken from accuracy when absent",
+        default=None,
     )
     return tolerance
 
 
 def _corrector_passes() -> int | None:
     passes: int | None = number(
-        0, 8, "", "repetitions of an interval with the field found at its end; taken from accuracy when absent", default=None
+        0,
+        8,
+        "",
+        "repetitions of an interval with the field found at its end; taken from accuracy when absent",
+        default=None,
     )
     return passes
 
@@ -60,15 +68,17 @@ class PowerElastic(Section):
 
 
 class TireLoss(Section):
-    """Hunt-Crossley loss: elastic force · (1 + damping · approach rate), never pulling. `damping`, or `restitution` at a speed."""
+    """Hunt-Crossley loss: elastic force · (1 + damping · approach rate), never pulling; or `restitution` at a speed."""
 
-    damping: float | None = number(0.0, 100.0, "s/m", "0.06 where none is given: 200 N s/m at 3335 N, ζ about 3 %", default=None)
+    damping: float | None = number(
+        0.0, 100.0, "s/m", "0.06 where none is given: 200 N s/m at 3335 N, ζ about 3 %", default=None
+    )
     restitution: float | None = _restitution()
     reference_speed: float | None = _reference_speed()
 
 
 class SeatLoss(Section):
-    """Hunt-Crossley loss: elastic force · (1 + damping · approach rate), never pulling. `damping`, or `restitution` at a speed."""
+    """Hunt-Crossley loss: elastic force · (1 + damping · approach rate), never pulling; or `restitution` at a speed."""
 
     damping: float | None = number(0.0, 100.0, "s/m", "1.0 where none is given: 500 N s/m at 498 N", default=None)
     restitution: float | None = _restitution()
@@ -78,8 +88,12 @@ class SeatLoss(Section):
 class Friction(Section):
     """Friction between occupant and cushion: a spring and damper that sticks, up to the Coulomb limit."""
 
-    coefficient_static: float = number(0.0, 5.0, "", "ratio at which sticking ends; cloth 0.3 to 0.6", above=True, default=0.4)
-    coefficient_kinetic: float = number(0.0, 5.0, "", "ratio while slipping, at most coefficient_static", above=True, default=0.35)
+    coefficient_static: float = number(
+        0.0, 5.0, "", "ratio at which sticking ends; cloth 0.3 to 0.6", above=True, default=0.4
+    )
+    coefficient_kinetic: float = number(
+        0.0, 5.0, "", "ratio while slipping, at most coefficient_static", above=True, default=0.35
+    )
     stiffness: float = number(1.0, 1e9, "N/m", "shear spring of the cushion while it sticks (choice)", default=2.0e4)
     damping: float = number(0.0, 1e6, "N s/m", "shear damper of the cushion while it sticks (choice)", default=200.0)
 
@@ -87,8 +101,8 @@ class Friction(Section):
 class TireField(Section):
     """Pressure field of the tire on a half-space; it is the contact, its integral drives the wheel."""
 
-    length: float = number(0.01, 2.0, "m", "extent along the road (forward)", default=0.20)
-    width: float = number(0.01, 2.0, "m", "extent across the track (left); 0.22 m are loaded at 4 kN", default=0.30)
+    length: float = number(0.01, 2.0, "m", "extent along the road (forward)", default=0.28)
+    width: float = number(0.01, 2.0, "m", "extent across the track (left); 0.22 m are loaded at 4 kN", default=0.44)
     rows: int | None = _cells(ROWS_HELP)
     cols: int | None = _cells(COLS_HELP)
     tolerance: float | None = _tolerance()
@@ -98,7 +112,7 @@ class TireField(Section):
 class SeatField(Section):
     """Pressure field of the cushion on a half-space; it is the contact, its integral carries the occupant."""
 
-    length: float = number(0.05, 5.0, "m", "extent forward", default=0.5)
+    length: float = number(0.05, 5.0, "m", "extent forward", default=0.6)
     width: float = number(0.05, 5.0, "m", "extent to the left", default=0.5)
     rows: int | None = _cells(ROWS_HELP)
     cols: int | None = _cells(COLS_HELP)

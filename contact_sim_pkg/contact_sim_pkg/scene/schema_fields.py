@@ -17,7 +17,7 @@ def number(
     low: float,
     high: float,
     unit: str,
-    help: str,
+    meaning: str,
     *,
     default: Any = ...,
     above: bool = False,
@@ -28,25 +28,33 @@ def number(
     `example` is a valid value of a field that has no default.
     """
     bounds: dict[str, Any] = {"gt" if above else "ge": low, "le": high}
-    return Field(default, description=help, json_schema_extra={"unit": unit, "example": example}, **bounds)
+    return Field(default, description=meaning, json_schema_extra={"unit": unit, "example": example}, **bounds)
 
 
-def choice(help: str, *, default: Any = ..., example: Any = None) -> Any:
+def choice(meaning: str, *, default: Any = ..., example: Any = None) -> Any:
     """A field that takes one of a few words, or a section; its type names them."""
-    return Field(default, description=help, json_schema_extra={"unit": "", "example": example})
+    return Field(default, description=meaning, json_schema_extra={"unit": "", "example": example})
 
 
-def text(help: str, *, default: Any = ..., pattern: str = r"^[^\x00-\x1f]*$", longest: int = 1000, example: str = "") -> Any:
+def text(
+    meaning: str, *, default: Any = ..., pattern: str = r"^[^\x00-\x1f]*$", longest: int = 1000, example: str = ""
+) -> Any:
     """A text of at most `longest` characters that matches `pattern`."""
-    extra = {"unit": "", "example": example}
-    return Field(default, description=help, pattern=pattern, max_length=longest, json_schema_extra=extra)  # type: ignore[call-overload]
+    extra: dict[str, Any] = {"unit": "", "example": example}
+    return Field(default, description=meaning, pattern=pattern, max_length=longest, json_schema_extra=extra)
 
 
-def numbers(unit: str, help: str, allowed: str, *, default: Any = ..., shortest: int, longest: int, example: Any = None) -> Any:
+def numbers(
+    unit: str, meaning: str, allowed: str, *, default: Any = ..., shortest: int, longest: int, example: Any = None
+) -> Any:
     """A list; `allowed` says in words what it may hold."""
-    extra = {"unit": unit, "allowed": allowed, "example": example}
+    extra: dict[str, Any] = {"unit": unit, "allowed": allowed, "example": example}
     if isinstance(default, list):
         return Field(
-            default_factory=lambda: list(default), description=help, min_length=shortest, max_length=longest, json_schema_extra=extra
+            default_factory=lambda: list(default),
+            description=meaning,
+            min_length=shortest,
+            max_length=longest,
+            json_schema_extra=extra,
         )
-    return Field(default, description=help, min_length=shortest, max_length=longest, json_schema_extra=extra)
+    return Field(default, description=meaning, min_length=shortest, max_length=longest, json_schema_extra=extra)

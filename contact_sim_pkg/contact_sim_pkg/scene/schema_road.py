@@ -10,7 +10,7 @@ from contact_sim_pkg.scene.schema_fields import Section, choice, number, numbers
 
 SpeedPoint: TypeAlias = Annotated[list[float], Field(min_length=2, max_length=2)]
 MissingCells: TypeAlias = Literal["refuse", "fill", "hole"]
-Border: TypeAlias = Literal["none", "zero", "constant", "repeat", "reflect"]
+Border: TypeAlias = Literal["refuse", "zero", "keep", "repeat", "reflect"]
 FileSettings: TypeAlias = Literal["refuse", "apply", "ignore"]
 RoughnessClass: TypeAlias = Literal["A", "B", "C", "D", "E", "F", "G", "H"]
 
@@ -42,23 +42,35 @@ class Texture(Section):
     """Fine surface below the shortest wavelength of an ISO 8608 profile, equal in all directions."""
 
     shortest_wavelength: float = number(
-        0.001, 1.0, "m", "shortest wavelength of the texture; at least two cells of the contact field are resolved", default=0.02
+        0.001,
+        1.0,
+        "m",
+        "shortest wavelength of the texture; at least two cells of the contact field are resolved",
+        default=0.02,
     )
 
 
 class Iso8608Road(Section):
-    """Random road with the displacement spectrum G(n) = roughness (n / 0.1 c/m)^-exponent; `roughness_class` or `roughness`."""
+    """Random road with the spectrum G(n) = roughness (n / 0.1 c/m)^-exponent; `roughness_class` or `roughness`."""
 
     kind: Literal["iso8608"]
     roughness_class: RoughnessClass | None = choice("ISO 8608 class, taken at its geometric mean", default=None)
-    roughness: float | None = number(0.0, 1.0, "m³", "spectral density at 0.1 cycles/m; class A is 16e-6, C is 256e-6", default=None)
+    roughness: float | None = number(
+        0.0, 1.0, "m³", "spectral density at 0.1 cycles/m; class A is 16e-6, C is 256e-6", default=None
+    )
     exponent: float = number(1.0, 4.0, "", "falling power of the spectrum; ISO 8608 takes 2", default=2.0)
     length: float = number(
         1.0, 1e6, "m", "the road repeats after this length; waves longer than it are left out", default=1000.0
     )
-    shortest_wavelength: float = number(0.001, 1000.0, "m", "shortest wave of the profile; ISO 8608 ends at 0.35 m", default=0.3)
-    longest_wavelength: float = number(0.001, 1e4, "m", "longest wave of the profile; ISO 8608 ends at 90.9 m", default=100.0)
-    texture: Texture | None = choice("fine surface that continues the spectrum; without it the road is even across", default=None)
+    shortest_wavelength: float = number(
+        0.001, 1000.0, "m", "shortest wave of the profile; ISO 8608 ends at 0.35 m", default=0.3
+    )
+    longest_wavelength: float = number(
+        0.001, 1e4, "m", "longest wave of the profile; ISO 8608 ends at 90.9 m", default=100.0
+    )
+    texture: Texture | None = choice(
+        "fine surface that continues the spectrum; without it the road is even across", default=None
+    )
 
 
 class BumpRoad(Section):
@@ -107,16 +119,28 @@ class OpenCrgRoad(Section):
     """A road from an ASAM OpenCRG file (text or binary)."""
 
     kind: Literal["opencrg"]
-    file: str = text("file name, from the scene file's folder; data/… also finds the files of the package", longest=500, example="road.crg")
-    sha256: str | None = text("checksum of the file; another content is then refused", default=None, pattern="^[0-9a-f]{64}$")
-    track_offset: float = number(-100.0, 100.0, "m", "line of travel, to the left of the reference line (v)", default=0.0)
+    file: str = text(
+        "file name, from the scene file's folder; data/… also finds the files of the package",
+        longest=500,
+        example="road.crg",
+    )
+    sha256: str | None = text(
+        "checksum of the file; another content is then refused", default=None, pattern="^[0-9a-f]{64}$"
+    )
+    track_offset: float = number(
+        -100.0, 100.0, "m", "line of travel, to the left of the reference line (v)", default=0.0
+    )
     start: float = number(-1e6, 1e6, "m", "where the wheel starts, from the beginning of the road (u)", default=0.0)
-    missing_cells: MissingCells = choice("cells without height: refuse the file, fill from their neighbours, or a hole", default="refuse")
+    missing_cells: MissingCells = choice(
+        "cells without height: refuse the file, fill from their neighbours, or a hole", default="refuse"
+    )
     hole_depth: float = number(0.0, 0.5, "m", "depth of a hole (missing_cells: hole)", default=0.05)
-    border_u: Border = choice("before the beginning and after the end of the road: none refuses to go there", default="none")
-    border_v: Border = choice("left and right of the road, likewise", default="constant")
+    border_u: Border = choice("before the beginning and after the end of the road", default="refuse")
+    border_v: Border = choice("left and right of the road, likewise", default="keep")
     remove_mean: bool = choice("move the road so that its mean height is 0, else so that it begins at 0", default=True)
-    file_settings: FileSettings = choice("options and modifiers that the file itself carries: refuse the file, apply, or ignore", default="refuse")
+    file_settings: FileSettings = choice(
+        "options and modifiers that the file itself carries: refuse the file, apply, or ignore", default="refuse"
+    )
 
 
 Road: TypeAlias = Annotated[

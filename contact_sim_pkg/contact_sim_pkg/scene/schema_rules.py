@@ -69,18 +69,26 @@ def _travel(scene: Scene) -> Iterator[Breach]:
 def _road(scene: Scene) -> Iterator[Breach]:
     road = scene.road
     if isinstance(road, Iso8608Road):
-        yield from _one_of("road", "roughness_class", road.roughness_class is not None, "roughness", road.roughness is not None)
-        yield from _rising("road", "shortest_wavelength", road.shortest_wavelength, "longest_wavelength", road.longest_wavelength, "m")
+        yield from _one_of(
+            "road", "roughness_class", road.roughness_class is not None, "roughness", road.roughness is not None
+        )
+        yield from _rising(
+            "road", "shortest_wavelength", road.shortest_wavelength, "longest_wavelength", road.longest_wavelength, "m"
+        )
         yield from _rising("road", "shortest_wavelength", road.shortest_wavelength, "length", road.length, "m")
         if road.texture is not None:
             shortest = road.texture.shortest_wavelength
-            yield from _rising("road", "texture.shortest_wavelength", shortest, "shortest_wavelength", road.shortest_wavelength, "m")
+            yield from _rising(
+                "road", "texture.shortest_wavelength", shortest, "shortest_wavelength", road.shortest_wavelength, "m"
+            )
     elif isinstance(road, BumpRoad | CleatRoad | PotholeRoad):
         if road.period is not None and road.period < road.length:
             sentence = f"{show(road.period)} m is shorter than the obstacle's length of {show(road.length)} m"
             yield Breach("road.period", sentence, ("road.length",))
         if not isinstance(road, BumpRoad) and 2.0 * road.edge > road.length:
-            sentence = f"two edges of {show(road.edge)} m are longer than the obstacle's length of {show(road.length)} m"
+            sentence = (
+                f"two edges of {show(road.edge)} m are longer than the obstacle's length of {show(road.length)} m"
+            )
             yield Breach("road.edge", sentence, ("road.length",))
 
 
@@ -107,10 +115,14 @@ def _vibration(scene: Scene) -> Iterator[Breach]:
         yield from _below_half_rate(vibration.sample_rate, "high", vibration.high)
     elif isinstance(vibration, HalfSine):
         if vibration.start >= scene.duration:
-            sentence = f"the shock at {show(vibration.start)} s lies behind the end of the run ({show(scene.duration)} s)"
+            sentence = (
+                f"the shock at {show(vibration.start)} s lies behind the end of the run ({show(scene.duration)} s)"
+            )
             yield Breach("vibration.start", sentence, ("duration",))
     elif isinstance(vibration, Recorded) and vibration.rate is None and vibration.time_column is None:
-        sentence = "is missing; give the sampling rate of the file in Hz, or time_column where the file has one (it is never guessed)"
+        sentence = (
+            "is missing; give the file's sampling rate in Hz, or its time_column where it has one (nothing is guessed)"
+        )
         yield Breach("vibration.rate", sentence, ("vibration.time_column",))
 
 
@@ -147,6 +159,10 @@ def _loss(where: str, damping: float | None, restitution: float | None, speed: f
     if damping is not None and restitution is not None:
         yield Breach(f"{where}.restitution", "damping and restitution are both given; keep one", (f"{where}.damping",))
     if restitution is not None and speed is None:
-        yield Breach(f"{where}.reference_speed", "is missing; restitution holds at one impact speed", (f"{where}.restitution",))
+        yield Breach(
+            f"{where}.reference_speed", "is missing; restitution holds at one impact speed", (f"{where}.restitution",)
+        )
     if restitution is None and speed is not None:
-        yield Breach(f"{where}.reference_speed", "has no meaning without restitution; remove it", (f"{where}.restitution",))
+        yield Breach(
+            f"{where}.reference_speed", "has no meaning without restitution; remove it", (f"{where}.restitution",)
+        )

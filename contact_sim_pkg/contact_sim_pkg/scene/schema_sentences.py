@@ -61,7 +61,8 @@ def raw_text(node: Node) -> str:
 def _bad_number(entry: Entry, node: ScalarNode) -> str:
     value = node.value
     if isinstance(value, bool) or not isinstance(value, int | float):
-        return f"{raw_text(node)} was read as {_type_name(node)}, a number is needed{_number_hint(node)}; {_allowed(entry)}"
+        needed = f"a number is needed{_number_hint(node)}"
+        return f"{raw_text(node)} was read as {_type_name(node)}, {needed}; {_allowed(entry)}"
     if entry.kind == "integer" and isinstance(value, float):
         return f"{node.raw} is not a whole number; {_allowed(entry)}"
     amount = f"{node.raw} {entry.unit}".rstrip()
@@ -74,7 +75,7 @@ def _bad_text(entry: Entry, node: ScalarNode) -> str:
     if not isinstance(node.value, str):
         return f"{raw_text(node)} was read as {_type_name(node)}; write it in quotes: '{node.raw}'"
     if entry.location[-1] == "name":
-        return f"{raw_text(node)} is not a name; allowed are 1 to 100 of A-Z a-z 0-9 . _ - beginning with a letter, digit or _"
+        return f"{raw_text(node)} is not a name; allowed are 1 to 100 of A-Z a-z 0-9 . _ - with no . or - in front"
     if entry.location[-1] == "sha256":
         return f"{raw_text(node)} is not a checksum; allowed are 64 of 0-9 a-f"
     return f"{raw_text(node)} is too long or holds control characters"

@@ -56,7 +56,7 @@ class _Validator:
         self._taken = {(fault.file, fault.line, fault.column, fault.where) for fault in faults}
 
     def types(self) -> Scene | None:
-        """The scene with faulty keys replaced by their defaults or examples, so that rules can still look at the rest."""
+        """The scene, faulty keys replaced by their defaults or examples so that rules can still look at the rest."""
         plain = to_plain(self._root)
         for _ in range(MOST_ROUNDS):
             try:
@@ -69,7 +69,9 @@ class _Validator:
     def take(self, found: Iterable[Breach]) -> None:
         """Take over the breaches whose keys are free of faults."""
         for breach in found:
-            used = any(_within(where, faulty) or _within(faulty, where) for where in breach.uses for faulty in self._faulty)
+            used = any(
+                _within(where, faulty) or _within(faulty, where) for where in breach.uses for faulty in self._faulty
+            )
             if not used and not any(_within(breach.where, faulty) for faulty in self._faulty):
                 self._add(tuple(breach.where.split(".")), breach.sentence)
 
