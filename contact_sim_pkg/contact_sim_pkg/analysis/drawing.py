@@ -1,0 +1,103 @@
+"""Drawing for the page: one style, and SVG that takes its colours from the page, so that it fits light, dark and print."""
+
+from __future__ import annotations
+
+import io
+import re
+from typing import NamedTuple
+
+import matplotlib
+from markupsafe import Markup
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+
+# Each colour stands for a variable of the page's style sheet; the value is what is seen where that is missing.
+INK = "#1c2126"
+MUTED = "#69727b"
+RULE = "#d9dee2"
+ACCENT = "#0a6c9e"
+SHADE = "#f1dfc6"
+VARIABLES = {INK: "--ink", MUTED: "--muted", RULE: "--rule", ACCENT: "--accent", SHADE: "--shade"}
+
+PRESSURE_COLOURS = "viridis"
+WIDTH = 7.4
+"""[inch] of a picture across the page's column"""
+
+STYLE = {
+    "font.size": 9.0,
+    "font.family": "DejaVu Sans",  # comes with matplotlib; the page replaces it by its own
+    "axes.edgecolor": MUTED,
+    "axes.labelcolor": INK,
+    "axes.titlecolor": INK,
+    "axes.titlesize": 9.5,
+    "axes.titlelocation": "left",
+    "axes.linewidth": 0.7,
+    "axes.spines.top": False,
+    "axes.spines.right": False,
+    "axes.grid": True,
+    "axes.axisbelow": True,
+    "axes.formatter.useoffset": False,
+    "grid.color": RULE,
+    "grid.linewidth": 0.6,
+    "xtick.color": MUTED,
+    "ytick.color": MUTED,
+    "xtick.labelcolor": INK,
+    "ytick.labelcolor": INK,
+    "text.color": INK,
+    "lines.linewidth": 1.1,
+    "lines.solid_joinstyle": "round",
+    "legend.frameon": False,
+    "legend.fontsize": 8.5,
+    "figure.facecolor": "none",
+    "axes.facecolor": "none",
+    "savefig.facecolor": "none",
+    "svg.fonttype": "none",
+    "svg.hashsalt": "contact bench",
+    "path.simplify": True,
+}
+
+_IDENTIFIER = re.compile(r'(\bid="|url\(#|href="#)')
+
+
+class Picture(NamedTuple):
+    """One picture of the page."""
+
+    svg: Markup
+    description: str
+    """read aloud in place of the picture"""
+    caption: str
+    """what one sees, with its numbers"""
+
+
+def new_figure(height: float, rows: int = 1, cols: int = 1, **options: object) -> tuple[Figure, list[Axes]]:
+    """A figure of the page's width and `height` [inch], and its axes, row by row. Call inside `style()`."""
+    figure = Figure(figsize=(WIDTH, height), layout="constrained")
+    axes = figure.subplots(rows, cols, squeeze=False, **options)  # type: ignore[arg-type]
+    return figure, [each for row in axes for each in row]
+
+
+def style() -> object:
+    """Context in which figures are made and rendered."""
+    return matplotlib.rc_context(STYLE)  # type: ignore[arg-type]
+
+
+def picture(name: str, figure: Figure, description: str, caption: str) -> Picture:
+    """Render a figure as inline SVG.
+
+    Args:
+        name: of the picture on its page; keeps the identifiers of several pictures apart.
+        figure: made with `new_figure`.
+        description: plain text for those who do not see the picture.
+        caption: plain text below the picture.
+    """
+    buffer = io.StringIO()
+    figure.savefig(buffer, format="svg", dpi=150, metadata={"Date": None, "Creator": None})
+    text = buffer.getvalue()
+    body = text[text.index("<svg") :]
+    body = re.sub(r"<metadata>.*?</metadata>", "", body, flags=re.DOTALL)
+    body = _IDENTIFIER.sub(rf"\g<1>{name}-", body)
+    for colour, variable in VARIABLES.items():
+        body = body.replace(colour, f"var({variable})")
+    body = body.replace("<svg ", '<svg aria-hidden="true" focusable="false" ', 1)
+    # Text in the figure went through matplotlib, which escapes it.
+    return Picture(Markup(body), description, caption)  # noqa: S704

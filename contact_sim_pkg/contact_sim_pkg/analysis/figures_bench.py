@@ -1,0 +1,58 @@
+"""Pictures of the bench itself: energy ledger and cost."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from .decimate import envelope
+from .drawing import ACCENT, INK, MUTED, Picture, new_figure, picture
+from .energy import relative_residual, throughput
+from .series import CostSeries, LedgerSeries
+
+
+def energy_balance(ledger: LedgerSeries) -> Picture:
+    """Work in, energy held and lost, and below them the residual over the throughput."""
+    figure, axes = new_figure(4.0, 2, sharex=True, height_ratios=[2, 1])
+    held = ledger.kinetic + ledger.potential + ledger.stored
+    axes[0].plot(*envelope(ledger.time, ledger.supplied), color=INK, label="supplied")
+    axes[0].plot(*envelope(ledger.time, ledger.dissipated), color=ACCENT, label="dissipated")
+    axes[0].plot(*envelope(ledger.time, held), color=MUTED, linestyle=(0, (4, 2)), label="kinetic + potential + stored")
+    axes[0].set_ylabel("energy, J")
+    axes[0].legend(loc="upper left")
+    scale = throughput(ledger) or 1.0
+    axes[1].plot(*envelope(ledger.time, ledger.residual / scale), color=ACCENT, linewidth=0.9)
+    axes[1].axhline(0.0, color=MUTED, linewidth=0.7)
+    axes[1].set_ylabel("residual /\nthroughput")
+    axes[1].ticklabel_format(axis="y", style="sci", scilimits=(-2, 3), useMathText=False)
+    axes[1].set_xlabel("simulated time, s")
+    caption = (
+        f"Energy since the start: {ledger.supplied[-1]:.4g} J supplied, {ledger.dissipated[-1]:.4g} J dissipated at the end. What "
+        f"does not add up is at most {np.abs(ledger.residual).max():.2g} J, {relative_residual(ledger):.1e} of the throughput "
+        f"({throughput(ledger):.4g} J, the largest entry of the ledger): the error of the time integration."
+    )
+    return picture("bench-energy", figure, "Energy ledger over time and its residual", caption)
+
+
+def real_time_factor(cost: CostSeries) -> Picture:
+    """Real-time factor of the blocks over time, and how often each wall time occurs."""
+    figure, axes = new_figure(2.7, 1, 2, width_ratios=[3, 2])
+    axes[0].plot(*envelope(cost.time, cost.real_time_factor), color=ACCENT, linewidth=0.8)
+    axes[0].axhline(1.0, color=INK, linewidth=0.9, linestyle=(0, (4, 3)))
+    axes[0].set_yscale("log")
+    axes[0].set_xlabel("simulated time, s")
+    axes[0].set_ylabel("real-time factor of a block")
+    milliseconds = cost.wall_time * 1e3
+    # The slowest hundredth is counted in the last bin, so that one slow first block does not squeeze the rest.
+    limit = float(np.percentile(milliseconds, 99.0)) * 1.1
+    axes[1].hist(np.minimum(milliseconds, limit), bins=40, color=ACCENT)
+    axes[1].set_xlabel("wall time of a block, ms")
+    axes[1].set_ylabel("blocks")
+    total = float(cost.wall_time.sum())
+    overall = float((cost.real_time_factor * cost.wall_time).sum()) / total
+    slow = float((cost.real_time_factor < 1.0).mean())
+    caption = (
+        f"{cost.time.size} blocks took {total:.3g} s of wall time for the physics: {overall:.3g} times as fast as the clock. "
+        f"Median {np.median(milliseconds):.3g} ms a block, slowest {milliseconds.max():.3g} ms; {slow:.1%} of the blocks were slower "
+        "than real time (dashed: 1). The last bar holds the slowest hundredth. Wall times differ from run to run."
+    )
+    return picture("bench-cost", figure, "Real-time factor over time and histogram of wall times", caption)

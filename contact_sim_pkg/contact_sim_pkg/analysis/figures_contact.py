@@ -1,0 +1,161 @@
+"""Pictures of one contact: load and approach over time, load over approach, pressure maps, peak and area.
+
+`key` is an identifier on the page, `name` what the contact is called in texts.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.collections import PolyCollection
+from numpy.typing import NDArray
+
+from .decimate import envelope
+from .drawing import ACCENT, INK, MUTED, PRESSURE_COLOURS, SHADE, WIDTH, Picture, new_figure, picture
+from .series import ContactSeries, FieldSeries, PressureMap
+from .summary import field_numbers, force_numbers
+
+LOOP_POINTS = 4000
+"""Most points of the curve of load over approach."""
+
+
+def lifted_intervals(contact: ContactSeries) -> NDArray[np.float64]:
+    """Start and end [s] of each stretch without load, [stretches, 2]; it ends at the first sample with load again."""
+    apart = np.concatenate([[False], contact.normal <= 0.0, [False]])
+    changes = np.flatnonzero(apart[1:] != apart[:-1]).reshape(-1, 2)
+    ends = np.append(contact.time, contact.time[-1] + contact.sample_period)
+    intervals: NDArray[np.float64] = ends[changes]
+    return intervals
+
+
+def load_over_time(key: str, name: str, contact: ContactSeries) -> Picture:
+    """Normal force with lift-off shaded, friction force where there is any, approach; common time axis."""
+    with_friction = bool(np.any(contact.tangential))
+    rows = 3 if with_friction else 2
+    figure, axes = new_figure(1.0 + 1.45 * rows, rows, sharex=True)
+    _line(axes[0], contact.time, contact.normal * 1e-3, "normal force, kN")
+    _shade(axes[0], lifted_intervals(contact))
+    axes[0].axhline(contact.normal.mean() * 1e-3, color=MUTED, linewidth=0.9, linestyle=(0, (4, 3)))
+    axes[0].set_ylim(bottom=0.0)
+    if with_friction:
+        _line(axes[1], contact.time, contact.tangential * 1e-3, "friction force, kN")
+    _line(axes[-1], contact.time, contact.approach * 1e3, "approach, mm")
+    axes[-1].axhline(0.0, color=MUTED, linewidth=0.7)
+    axes[-1].set_xlabel("simulated time, s")
+    axes[-1].set_xlim(contact.time[0], contact.time[-1] + contact.sample_period)
+    return picture(f"{key}-load", figure, f"Normal force and approach of the {name} contact over time", _load_caption(contact))
+
+
+def _load_caption(contact: ContactSeries) -> str:
+    numbers = force_numbers(contact)
+    text = (
+        f"Normal force between {numbers['load_min_N']:.4g} and {numbers['load_max_N']:.4g} N, mean "
+        f"{numbers['load_mean_N']:.4g} N (dashed). Approach between {contact.approach.min() * 1e3:.3g} and "
+        f"{contact.approach.max() * 1e3:.3g} mm, positive in compression. "
+    )
+    if not numbers["lifted_share"]:
+        return text + "The contact never opens."
+    times = "once" if numbers["lift_offs"] == 1 else f"{numbers['lift_offs']} times"
+    return text + f"It lifts off {times}; {numbers['lifted_share']:.2%} of the time (shaded) it carries no load."
+
+
+def load_over_approach(key: str, name: str, contact: ContactSeries) -> Picture:
+    """Load-deflection curve of the whole run; its opening is the loss."""
+    figure, (axes,) = new_figure(3.1)
+    stride = max(1, contact.normal.size // LOOP_POINTS)
+    axes.plot(
+        contact.approach[::stride] * 1e3, contact.normal[::stride] * 1e-3, color=ACCENT, linewidth=0.7, alpha=0.75
+    )  # fmt: skip
+    axes.set_xlabel("approach, mm")
+    axes.set_ylabel("normal force, kN")
+    axes.set_ylim(bottom=0.0)
+    sampled = f" Every {stride}th sample is drawn." if stride > 1 else ""
+    caption = (
+        f"Load over approach, {contact.normal.size} samples.{sampled} A single curve is an elastic contact on even ground; "
+        "loops show losses, a band shows uneven ground under the same approach."
+    )
+    return picture(f"{key}-loop", figure, f"Normal force of the {name} contact over its approach", caption)
+
+
+def pressure_maps(key: str, name: str, field: FieldSeries) -> Picture:
+    """The map with the largest peak and the mean map, one colour scale each, cells as they are."""
+    figure, axes = new_figure(_map_height(field.highest), 1, 2)
+    _map(axes[0], field.highest, f"largest peak, t = {field.highest_time:.3f} s")
+    _mark_peak(axes[0], field.highest)
+    _map(axes[1], field.average, "mean over the run")
+    rows, cols = field.highest.pressure.shape
+    caption = (
+        f"Pressure of the cells ({rows} × {cols} of {field.highest.cell_x * 1e3:.3g} × {field.highest.cell_y * 1e3:.3g} mm), "
+        f"not interpolated; cells without pressure are left blank. Left: the largest peak of the run, "
+        f"{field.highest.pressure.max() * 1e-3:.4g} kPa (cross) at {field.highest_time:.3f} s. Right: the mean of "
+        f"{field.time.size} fields, at most {field.average.pressure.max() * 1e-3:.4g} kPa. Forward is up; seen from above."
+    )
+    return picture(f"{key}-map", figure, f"Pressure maps of the {name} contact", caption)
+
+
+def peak_and_area(key: str, name: str, field: FieldSeries) -> Picture:
+    """Largest pressure and contact area over time."""
+    figure, axes = new_figure(3.4, 2, sharex=True)
+    _line(axes[0], field.time, field.peak * 1e-3, "peak pressure, kPa")
+    _line(axes[1], field.time, field.area * 1e4, "contact area, cm²")
+    axes[0].plot(
+        [field.highest_time], [field.peak.max() * 1e-3], marker="x", color=INK, markersize=6, linestyle="none", clip_on=False
+    )  # fmt: skip
+    for each in axes:
+        each.set_ylim(bottom=0.0)
+    axes[1].set_xlabel("simulated time, s")
+    numbers = field_numbers(field)
+    caption = (
+        f"Peak pressure up to {numbers['peak_pressure_Pa'] * 1e-3:.4g} kPa (cross, at {field.highest_time:.3f} s). Contact area "
+        f"{field.area.min() * 1e4:.4g} to {field.area.max() * 1e4:.4g} cm², mean {numbers['contact_area_mean_m2'] * 1e4:.4g} cm²: "
+        "all cells with a pressure above 0."
+    )
+    return picture(f"{key}-area", figure, f"Peak pressure and contact area of the {name} contact over time", caption)
+
+
+def _line(axes: Axes, time: NDArray[np.float64], values: NDArray[np.float64], label: str) -> None:
+    axes.plot(*envelope(time, values), color=ACCENT, linewidth=0.9)
+    axes.set_ylabel(label)
+
+
+def _shade(axes: Axes, intervals: NDArray[np.float64]) -> None:
+    """Bands over the whole height, all in one path."""
+    corners = [[(start, 0.0), (start, 1.0), (end, 1.0), (end, 0.0)] for start, end in intervals]
+    bands = PolyCollection(corners, transform=axes.get_xaxis_transform(), facecolor=SHADE, edgecolor=SHADE, linewidth=0.5, zorder=0)
+    axes.add_collection(bands, autolim=False)
+
+
+def _map(axes: Axes, field: PressureMap, title: str) -> None:
+    """Forward (x) up, left (y) to the left: the view of someone who looks down on the patch."""
+    rows, cols = field.pressure.shape
+    low_x, low_y = field.origin_x - field.cell_x / 2, field.origin_y - field.cell_y / 2
+    extent = np.array([low_y, low_y + cols * field.cell_y, low_x, low_x + rows * field.cell_x]) * 1e3
+    loaded = np.ma.masked_less_equal(field.pressure, 0.0) * 1e-3
+    image = axes.imshow(
+        loaded, origin="lower", extent=tuple(extent), cmap=PRESSURE_COLOURS, vmin=0.0, interpolation="nearest", aspect="equal"
+    )  # fmt: skip
+    axes.invert_xaxis()
+    axes.grid(visible=False)
+    axes.set_title(title)
+    axes.set_xlabel("y (left +), mm")
+    axes.set_ylabel("x (forward +), mm")
+    axes.annotate(
+        "forward", (0.04, 0.97), (0.04, 0.80), xycoords="axes fraction", textcoords="axes fraction", fontsize=8, color=MUTED,
+        ha="center", va="top", rotation=90, arrowprops={"arrowstyle": "-|>", "color": MUTED, "linewidth": 0.8},
+    )  # fmt: skip
+    bar = axes.figure.colorbar(image, ax=axes, label="kPa", shrink=0.85, pad=0.02)
+    bar.outline.set_visible(False)  # type: ignore[operator]
+
+
+def _mark_peak(axes: Axes, field: PressureMap) -> None:
+    row, col = np.unravel_index(int(field.pressure.argmax()), field.pressure.shape)
+    x, y = field.origin_x + row * field.cell_x, field.origin_y + col * field.cell_y
+    axes.plot([y * 1e3], [x * 1e3], marker="x", color="#ffffff", markersize=7, markeredgewidth=2.6, linestyle="none")
+    axes.plot([y * 1e3], [x * 1e3], marker="x", color="#b3202c", markersize=6.4, markeredgewidth=1.3, linestyle="none")
+
+
+def _map_height(field: PressureMap) -> float:
+    """[inch] that two maps side by side need at equal aspect."""
+    rows, cols = field.pressure.shape
+    aspect = rows * field.cell_x / (cols * field.cell_y)
+    return float(np.clip(0.9 + aspect * 0.33 * WIDTH, 2.4, 5.5))

@@ -1,0 +1,108 @@
+"""The report of a bag: one HTML page with every picture inside, without scripts and without anything to load."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import NamedTuple
+
+from jinja2 import Environment, PackageLoader, StrictUndefined
+
+from contact_sim_pkg.bag.reader import Bag
+
+from . import facts
+from .drawing import Picture, style
+from .figures_bench import energy_balance, real_time_factor
+from .figures_contact import load_over_approach, load_over_time, peak_and_area, pressure_maps
+from .figures_ride import seat_spectrum, seat_transmissibility
+from .reading import read_recording
+from .ride import ride_signals
+from .series import Recording
+from .summary import summarise_recording
+from .tiles import tiles
+
+TEMPLATE = "report.html.j2"
+FILE_NAME = "report.html"
+
+
+class Section(NamedTuple):
+    """One section of the page."""
+
+    key: str
+    title: str
+    pictures: list[Picture]
+
+
+def write_report(bag: Bag, out: Path | None = None) -> Path:
+    """Write the report of a bag.
+
+    Args:
+        bag: opened with `open_bag`; unfinished bags give a report of what they hold.
+        out: file to write, replaced if it exists; `report.html` in the bag's directory where it is None.
+
+    Returns:
+        Where the page is.
+
+    Raises:
+        BagError: the bag cannot be read.
+        OSError: the page cannot be written there.
+    """
+    path = bag.path.parent / FILE_NAME if out is None else out
+    path.write_text(render(read_recording(bag)), encoding="utf-8")
+    return path
+
+
+def render(recording: Recording) -> str:
+    """The page as text. Everything that comes from the bag is escaped."""
+    # Only names that this package gives go into a template's markup; pictures are the one thing marked as safe.
+    environment = Environment(
+        loader=PackageLoader(__package__, "templates"), autoescape=True, undefined=StrictUndefined, trim_blocks=True,
+        lstrip_blocks=True,
+    )  # fmt: skip
+    summary = summarise_recording(recording)
+    page: str = environment.get_template(TEMPLATE).render(
+        title=recording.scene.get("name") or recording.name,
+        description=recording.scene.get("description") or "",
+        bag_name=recording.name,
+        warnings=facts.warnings(recording),
+        tiles=tiles(summary),
+        run=facts.run_facts(recording),
+        effects=facts.effect_facts(recording),
+        excitations=facts.excitation_facts(recording),
+        versions=facts.version_facts(recording),
+        scene=facts.flat(recording.scene),
+        sections=sections(recording),
+        vibration=summary.get("seat_vibration"),
+        topics=recording.topics,
+        duration=recording.duration,
+    )
+    return page
+
+
+def sections(recording: Recording) -> list[Section]:
+    """Sections with pictures, in the order of the page; what the scene lacks has none."""
+    with style():
+        found = [_contact_section(number, name, recording) for number, name in enumerate(recording.contacts)]
+        found.append(Section("ride", "Seat vibration", _ride_pictures(recording)))
+        if recording.ledger is not None:
+            found.append(Section("energy", "Energy", [energy_balance(recording.ledger)]))
+        if recording.cost is not None:
+            found.append(Section("cost", "Cost", [real_time_factor(recording.cost)]))
+    return [section for section in found if section.pictures]
+
+
+def _contact_section(number: int, name: str, recording: Recording) -> Section:
+    contact, field = recording.contacts[name], recording.fields.get(name)
+    key = f"contact-{number}"
+    pictures = [load_over_time(key, name, contact)]
+    if field is not None:
+        pictures += [pressure_maps(key, name, field), peak_and_area(key, name, field)]
+    pictures.append(load_over_approach(key, name, contact))
+    return Section(key, f"{name.capitalize()} contact", pictures)
+
+
+def _ride_pictures(recording: Recording) -> list[Picture]:
+    signals = ride_signals(recording.motion)
+    if signals is None:
+        return []
+    found = [seat_spectrum(signals), seat_transmissibility(signals)]
+    return [each for each in found if each is not None]
