@@ -25,7 +25,6 @@ from contact_sim_pkg.scene.build import Model, build, standing_state
 
 ROAD, VIBRATION = "road/patch", "platform/vibration"
 SETTLE_PASSES = 12  # field solves that bring the standing load into balance with a rough road before the start
-CORRECTED = 1.0e-9  # relative change of the force below which a further corrector pass would change nothing of use
 
 
 class BlockResult(NamedTuple):
@@ -42,11 +41,21 @@ class _Support:
 
     def __init__(self, field: PressureField | None) -> None:
         self.field = field
-        self.offset = 0.0
-        self.pressure: NDArray[numpy.float64] | None = None
+        self.offset = 0.0  # [m] at the last field instant
+        self.change = 0.0  # [m] of the offset over the last interval, for the prediction of the next
         self.gap: NDArray[numpy.float64] | None = None
         self.origin = 0.0
         self.published: FieldRecord | None = None
+
+    def solves_in(self, passes_left: int) -> bool:
+        """Whether the field is solved in a pass that ``passes_left`` corrector passes follow; always in the last."""
+        return self.field is not None and self.field.settings.corrector_passes >= passes_left
+
+    def reset(self) -> None:
+        """Forget everything but the buffers."""
+        self.offset, self.change, self.published = 0.0, 0.0, None
+        if self.field is not None:
+            self.field.pressure[:] = 0.0
 
 
 class Simulation:
@@ -99,9 +108,7 @@ class Simulation:
         self._reset()
         self._next_block = 0
         for support in (self._tire, self._seat):
-            support.offset, support.published = 0.0, None
-            if support.field is not None:
-                support.field.pressure[:] = 0.0
+            support.reset()
         freeze()
 
     def _flat_patch(self) -> RoadPatch:
@@ -211,14 +218,15 @@ class Simulation:
         part = slice(first, first + timing.segments + 1)
         start = (block * timing.intervals * timing.segments + first) * timing.segment_length
         saved = (self.state.copy(), self._mode.copy(), self._work.side.copy(), self._work.step.copy())
-        tire_end, seat_end = self._tire.offset, self._seat.offset
+        tire_end, seat_end = (support.offset + support.change for support in (self._tire, self._seat))
+        tire_next, seat_next = tire_end, seat_end
         fields = self._published_fields()
-        for pass_number in range(model.corrector_passes + 1):
-            if pass_number:
+        for passes_left in range(model.corrector_passes, -1, -1):
+            if passes_left < model.corrector_passes:
                 self.state[:], self._mode[:], self._work.side[:], self._work.step[:] = saved
             self._height[:] = smooth[part] + self._tire.offset + (tire_end - self._tire.offset) * self._ramp
             self._cushion[:] = self._seat.offset + (seat_end - self._seat.offset) * self._ramp
-            if pass_number == 0:
+            if passes_left == model.corrector_passes:
                 start_energy = self._energies()
             status = entries.advance(
                 model.rig, self._mode, self.state, model.scale, self._work, start, timing.segment_length, self._height,
@@ -226,13 +234,11 @@ class Simulation:
             )  # fmt: skip
             if status != DONE:
                 raise RunError(f"block {block}, {start:.6g} s: {SENTENCES[status]}")
-            if self._tire.field is None and self._seat.field is None:
-                break
-            tire_next = self._solve_tire(road, float(travel[part][-1]), float(smooth[part][-1]), block)
-            seat_next = self._solve_seat(block)
-            if self._small_change(tire_end, tire_next, seat_end, seat_next):
-                break
-            if pass_number < model.corrector_passes:
+            if self._tire.solves_in(passes_left):
+                tire_next = self._solve_tire(road, float(travel[part][-1]), float(smooth[part][-1]), block)
+            if self._seat.solves_in(passes_left):
+                seat_next = self._solve_seat(block)
+            if passes_left:
                 tire_end, seat_end = tire_next, seat_next
         record.take(interval, self._sampled, start_energy, self._start_energy, a_x[part], a_z[part], fields)
         if self._tire.field is not None or self._seat.field is not None:
@@ -296,20 +302,6 @@ class Simulation:
             for s in (self._tire, self._seat)
         )
 
-    def _small_change(self, tire_end: float, tire_next: float, seat_end: float, seat_next: float) -> bool:
-        """Whether the fields at the end of the interval agree with the forces that brought it there."""
-        rig = self.model.rig
-        for contact, end, after in ((rig.tire_contact, tire_end, tire_next), (rig.seat_contact, seat_end, seat_next)):
-            if contact is None or end == after:
-                continue
-            height = self._height[-1] if contact is rig.tire_contact else self._cushion[-1]
-            tire, seat = self._approaches(float(height), float(height))
-            approach = tire if contact is rig.tire_contact else seat
-            force = elastic_force(contact.elastic, approach)
-            if abs(elastic_force(contact.elastic, approach + after - end) - force) > CORRECTED * max(1.0, force):
-                return False
-        return True
-
     def _close_interval(
         self, tire_end: float, tire_next: float, seat_end: float, seat_next: float, record: BlockRecord
     ) -> None:
@@ -326,4 +318,6 @@ class Simulation:
             self.state[-2] += elastic_energy(law, approach + change) - elastic_energy(law, approach)
             jump = abs(elastic_force(law, approach + change) - elastic_force(law, approach))
             record.field_jump = max(record.field_jump, jump)
-        self._tire.offset, self._seat.offset = tire_next, seat_next
+        for support, offset in ((self._tire, tire_next), (self._seat, seat_next)):
+            support.change = offset - support.offset
+            support.offset = offset

@@ -135,8 +135,8 @@ def _fill_effects(effects: dict[str, Any], accuracy: float | str, contact: Conta
     if grid is not None:
         rung = rung_for(accuracy)
         grid["rows"], grid["cols"] = cells_of(accuracy, contact, grid.get("rows"), grid.get("cols"))
-        grid.setdefault("tolerance", rung.tolerance)
-        grid.setdefault("corrector_passes", rung.corrector_passes)
+        grid.setdefault("tolerance", rung.field_tolerance(contact))
+        grid.setdefault("corrector_passes", rung.passes(contact))
 
 
 def _dump(scene: Scene) -> dict[str, Any]:

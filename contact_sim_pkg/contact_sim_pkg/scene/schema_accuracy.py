@@ -1,8 +1,8 @@
 """What an asked accuracy stands for: grids, tolerances, corrector passes. One table.
 
 The figures behind the rungs are those of `bench accuracy`, which measures each of them against a reference on the
-user's machine; the tiers of the tire's field are those of the model sheet (force 64 × 48 to 1e-2, field 128 × 96 to 1e-3,
-reference 256 × 192 to 1e-6).
+user's machine; the tiers of the tire's field are those of the model sheet (force 64 × 48 cells to 1e-2, field 128 × 96
+to 1e-3, reference 256 × 192 to 1e-6).
 """
 
 from __future__ import annotations
@@ -31,6 +31,14 @@ class Rung(NamedTuple):
     def cells(self, contact: Contact) -> tuple[int, int]:
         """Rows and cols of the field of a contact."""
         return self.tire_cells if contact == "tire" else self.seat_cells
+
+    def field_tolerance(self, contact: Contact) -> float:
+        """Tolerance of the field solver. The light frame of an occupant feels a tenth of what the wheel feels."""
+        return self.tolerance * (0.1 if contact == "seat" else 1.0)
+
+    def passes(self, contact: Contact) -> int:
+        """Corrector passes of the field of a contact: the cushion does not move under the body, so it needs one fewer."""
+        return self.corrector_passes - (1 if contact == "seat" else 0)
 
 
 RUNGS: tuple[Rung, ...] = (
