@@ -1,0 +1,172 @@
+"""The node of the recording: holds back what comes until a block is whole, writes it in canonical order, answers."""
+
+from __future__ import annotations
+
+import sys
+import time
+from collections.abc import Callable
+from pathlib import Path
+
+from rclpy.duration import Duration
+
+from contact_sim_pkg.bag.errors import BagError, MessageError
+from contact_sim_pkg.bag.messages import Recorded, decode_progress, encode_recorded, encode_scene
+from contact_sim_pkg.bag.names import default_directory
+from contact_sim_pkg.bag.writer import BagWriter
+from contact_sim_pkg.run.bag_content import attachments, input_names, recorded_names, result_names, topics_of
+
+from .bench_node import LifecycleBenchNode
+from .endpoints import publisher, subscription
+from .input_blocks import check_block
+from .parameters import declare, declare_input_timeout, declare_scene
+from .process import run
+from .protocol import DONE, FAULT, LOSS, Follower, State
+from .record_order import HeldMessage, RecordOrder
+from .scene_file import block_length_ns, count_blocks, queue_depth, read_descriptions, read_scene
+
+BAG_TEXT = "Directory of the bag, which must not exist. Empty: bags/SCENE_TIME_RANDOM of the current directory."
+STOP_SECONDS = 1.0  # that a signal waits for the simulator's last word
+SETTLE_SECONDS = 1.0  # for the last answer to be acknowledged
+
+
+class BagLoggerNode(LifecycleBenchNode):
+    """Takes every recorded topic of the scene as it came; answers on `bench/recorded`."""
+
+    def __init__(self) -> None:
+        """Declare the parameters; everything else is done in `configure`."""
+        super().__init__("bag_logger")
+        self._scene_name = declare_scene(self)
+        self._directory = declare(self, "bag", "", BAG_TEXT)
+        self._patience = declare_input_timeout(self)
+        self._writer: BagWriter | None = None
+        self._closed = False
+        self._leave_at = float("inf")
+        self._run = Follower()
+        self._block = -1
+
+    def configure(self) -> None:
+        """Subscribe to what the scene records. The bag is created when the run is ready, so a refused run leaves none."""
+        scene = read_scene(self._scene_name)
+        self._period_ns, self._blocks, depth = block_length_ns(scene), count_blocks(scene), queue_depth(scene)
+        self._path = Path(self._directory) if self._directory else default_directory(str(scene.data["name"]))
+        if self._path.exists() or self._path.is_symlink():
+            raise BagError(f"{self._path} exists already; a bag is never overwritten, give another directory")
+        self._scene = scene
+        self._order = RecordOrder(input_names(scene), self._period_ns)
+        self._dropped = dict.fromkeys(input_names(scene), 0)
+        self._answers = publisher(self, "bench/recorded")
+        kept = [subscription(self, name, self._keeper(name, self._hold), depth) for name in result_names(scene)]
+        kept += [subscription(self, name, self._keeper(name, self._hold_checked), depth) for name in input_names(scene)]
+        self._kept = [*kept, subscription(self, "bench/progress", self._on_progress)]
+        self._news = time.monotonic()
+
+    def _keeper(self, topic: str, hold: Callable[[str, bytes], None]) -> Callable[[bytes], None]:
+        return lambda data: hold(topic, data)
+
+    def _hold_checked(self, topic: str, data: bytes) -> None:
+        """Excitation is checked as the simulator checks it: what it drops is not recorded in place of a good block."""
+        try:
+            check_block(topic, data, self._period_ns, self._blocks)
+        except MessageError as error:
+            self._dropped[topic] += 1
+            self.get_logger().warning(f"{topic}: {error}; not recorded", throttle_duration_sec=1.0)
+            return
+        self._hold(topic, data)
+
+    def _hold(self, topic: str, data: bytes) -> None:
+        """Also before *ready* is heard: on the wire, block 0 may overtake it."""
+        if not self._closed and self._order.hold(topic, data):
+            self._write_whole()
+
+    def _on_progress(self, data: bytes) -> None:
+        progress = decode_progress(data)
+        if self._closed or not self._run.accept(progress):
+            return
+        self._news = time.monotonic()
+        if self._run.state >= State.READY and self._writer is None:
+            self._open()
+        self._order.on_progress(progress.block, progress.messages_sent)
+        self._write_whole()
+
+    def _open(self) -> None:
+        topics = topics_of(recorded_names(self._scene))
+        self._writer = BagWriter(self._path, topics, attachments(self._scene, read_descriptions(self._scene_name, self._scene)))
+        self._writer.write("bench/scene", 0, encode_scene(self._scene.to_yaml()))
+
+    def _write_whole(self) -> None:
+        self._write(self._order.take_whole())
+        if self._order.last_block > self._block:
+            self._block = self._order.last_block
+            self._answer()
+
+    def _write(self, messages: list[HeldMessage]) -> None:
+        if self._writer is not None:
+            for message in messages:
+                self._writer.write(message.topic, message.stamp, message.data)
+
+    def _answer(self, *, closed: bool = False, sentence: str = "") -> None:
+        stamp = (self._block + 1) * self._period_ns
+        held = self._order.given_out + (self._writer is not None)  # the scene's text is one message
+        self._answers.publish(encode_recorded(Recorded(self._block, held, closed, str(self._path), sentence), stamp))
+
+    def tick(self, now: float) -> float:
+        """Close when the run has ended and everything is here, when the wait for it is over, or when asked to."""
+        if not self.active or self._closed:
+            return 1.0
+        lacking = self._order.missing()
+        if self._run.state.ended and not lacking:
+            self._end(DONE, "")
+        elif now > self._leave_at:
+            self._end(DONE, "stopped")
+        elif self._run.state.ended and now - self._news > self._patience:
+            self._end(LOSS, f"{lacking} messages never came")
+        return 1.0
+
+    def _end(self, exit_status: int, sentence: str) -> None:
+        lost = self.close(sentence)
+        self.exit_status = LOSS if lost and exit_status == DONE else exit_status
+
+    def stop(self) -> None:
+        """Wait shortly for what the simulator has still sent, then close."""
+        if self._writer is None or self._leave_at < float("inf"):
+            self._leave_at = 0.0
+            self.close()
+            self.exit_status = DONE
+        else:
+            self._leave_at = time.monotonic() + STOP_SECONDS
+
+    def fault(self, sentence: str, exit_status: int) -> None:
+        """Say what failed, close the bag with what is whole, end the process."""
+        self.get_logger().error(sentence)
+        recording = self._writer is not None and not self._closed
+        self.close(sentence)
+        self.exit_status = LOSS if recording and exit_status == FAULT else exit_status
+
+    def close(self, sentence: str = "") -> bool:
+        """Close the bag, answer, and give the answer time to arrive; whether something was lost."""
+        if self._closed or self._writer is None:
+            self._closed = True
+            return False
+        self._closed = True
+        if self._run.state.ended:
+            self._write(self._order.take_rest())
+        ended = self._run.state.name.lower()
+        last = self._run.last
+        failure = last.message if last is not None and self._run.state is State.FAILED else ""
+        dropped = {f"dropped {topic}": str(count) for topic, count in self._dropped.items() if count}
+        summary = self._writer.close({"ended": ended, "blocks_done": str(self._block + 1), "failure": failure, **dropped})
+        reasons = "; ".join(text for text in (sentence, summary.sentence) if text)
+        self._answer(closed=True, sentence=reasons)
+        self._answers.wait_for_all_acked(Duration(seconds=SETTLE_SECONDS))
+        if not summary.complete:
+            self.get_logger().error(summary.sentence)
+        return not summary.complete
+
+
+def main() -> int:
+    """Run the node; returns the exit status."""
+    return run(BagLoggerNode)
+
+
+if __name__ == "__main__":
+    sys.exit(main())

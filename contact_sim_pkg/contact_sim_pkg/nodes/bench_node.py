@@ -1,0 +1,87 @@
+"""The base of the nodes with an expensive or failing set-up: lifecycle states, driven by the node itself unless told otherwise."""
+
+from __future__ import annotations
+
+import traceback
+
+from rclpy.lifecycle import LifecycleNode, LifecycleState, TransitionCallbackReturn
+
+from contact_sim_pkg.run.errors import RunError
+
+from .parameters import declare
+from .process import REFUSALS
+from .protocol import FAULT, REFUSED, NodeError
+
+SUPERVISOR_TEXT = "Process number of the supervisor that started this node; the node ends when it is gone. 0: none."
+
+
+class LifecycleBenchNode(LifecycleNode):
+    """A lifecycle node for `process.run`. A derived class writes `configure`, `tick`, `stop` and `close`.
+
+    Configure reads, loads, compiles and creates publishers; activate lets the run begin. With `autostart` both follow the
+    start of the process. A refusal is a log line and a FAILURE of the transition.
+    """
+
+    exit_status: int | None = None
+
+    def __init__(self, name: str) -> None:
+        """Declare what all of these nodes have."""
+        super().__init__(name)
+        self.supervisor = declare(self, "supervisor", 0, SUPERVISOR_TEXT)
+        self._autostart = declare(self, "autostart", True, "Configure and activate at the start of the process.")
+        self.active = False
+
+    def configure(self) -> None:
+        """Set up; a refusal raises."""
+        raise NotImplementedError
+
+    def close(self) -> None:
+        """Give back what `configure` opened; may be called more than once."""
+
+    def start(self) -> None:
+        """Go through the transitions, unless a manager does."""
+        if self._autostart and self.trigger_configure() == TransitionCallbackReturn.SUCCESS:
+            self.trigger_activate()
+
+    def fault(self, sentence: str, exit_status: int) -> None:
+        """Say what failed, close, and end the process with this status."""
+        self.get_logger().error(sentence)
+        self.close()
+        self.exit_status = exit_status
+
+    def on_configure(self, state: LifecycleState) -> TransitionCallbackReturn:
+        """Set up; FAILURE with the reason in the log where that is refused."""
+        try:
+            self.configure()
+        except (NodeError, RunError, *REFUSALS) as error:
+            refusal = getattr(error, "exit_status", FAULT if isinstance(error, RunError) else REFUSED)
+            self.get_logger().error(str(error))
+            self.close()
+            self.exit_status = refusal if self._autostart else None
+            return TransitionCallbackReturn.FAILURE
+        except Exception as error:  # noqa: BLE001  # the lifecycle would swallow it without a word
+            self.get_logger().error(traceback.format_exc())
+            self.fault(f"unexpected {type(error).__name__}: {error}", FAULT)
+            return TransitionCallbackReturn.FAILURE
+        return TransitionCallbackReturn.SUCCESS
+
+    def on_activate(self, state: LifecycleState) -> TransitionCallbackReturn:
+        """Let the run begin."""
+        self.active = True
+        return super().on_activate(state)
+
+    def on_deactivate(self, state: LifecycleState) -> TransitionCallbackReturn:
+        """Hold the run."""
+        self.active = False
+        return super().on_deactivate(state)
+
+    def on_cleanup(self, state: LifecycleState) -> TransitionCallbackReturn:
+        """Give back what `configure` opened."""
+        self.close()
+        return TransitionCallbackReturn.SUCCESS
+
+    def on_shutdown(self, state: LifecycleState) -> TransitionCallbackReturn:
+        """Give everything back and end the process."""
+        self.close()
+        self.exit_status = 0 if self.exit_status is None else self.exit_status
+        return TransitionCallbackReturn.SUCCESS

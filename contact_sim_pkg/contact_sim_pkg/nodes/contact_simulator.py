@@ -1,0 +1,167 @@
+"""The node of the simulation: takes a block of every input, advances, publishes what came of it, reports progress."""
+
+from __future__ import annotations
+
+import sys
+import time
+
+from contact_sim_pkg.bag.messages import decode_recorded, encode_clock, encode_scene
+from contact_sim_pkg.run.bag_content import result_names
+from contact_sim_pkg.run.simulation import BlockResult, Simulation
+
+from .bench_node import LifecycleBenchNode
+from .endpoints import publisher, subscription
+from .input_blocks import InputBlocks
+from .pacing import Pacer
+from .parameters import declare, declare_input_timeout, declare_pace, declare_record, declare_scene
+from .peers import Peers
+from .process import run
+from .progress_report import ProgressReport
+from .protocol import DONE, FAULT, LOSS, RecordedFollower, State
+from .scene_file import block_length_ns, queue_depth, read_scene
+from .window import Window
+
+PEERS_SECONDS = 0.01  # between two looks at the graph before ready
+SAY_SECONDS = 5.0  # between two log lines about who is missing
+CLOSE_SECONDS = 10.0  # for the logger to close its bag after the last block
+
+
+class ContactSimulatorNode(LifecycleBenchNode):
+    """Publishes the results of the scene, `bench/progress`, `bench/scene` and `/clock`; takes excitation and `bench/recorded`."""
+
+    def __init__(self) -> None:
+        """Declare the parameters; everything else is done in `configure`."""
+        super().__init__("contact_simulator")
+        self._scene_name = declare_scene(self)
+        self._logged = declare_record(self)
+        self._input_timeout = declare_input_timeout(self)
+        self._publish_clock = declare(self, "publish_clock", True, "Publish the simulated time on /clock after each block.")
+        self.ended_with = DONE
+        self._report: ProgressReport | None = None
+
+    def configure(self) -> None:
+        """Compile everything that the scene needs, and create publishers and subscriptions."""
+        scene = read_scene(self._scene_name)
+        self._period_ns, depth = block_length_ns(scene), queue_depth(scene)
+        pace = declare_pace(self, scene.data["pace"])
+        self._patience = self._input_timeout + scene.data["block_length"] / pace
+        self._report = ProgressReport(publisher(self, "bench/progress"), scene)
+        self._report.send(State.STARTING, "compiling")
+        self._publishers_by_topic = {name: publisher(self, name, depth) for name in result_names(scene)}
+        self._clock_publisher = publisher(self, "/clock") if self._publish_clock else None
+        self._scene_publisher = publisher(self, "bench/scene")
+        self._scene_publisher.publish(encode_scene(scene.to_yaml()))
+        self._simulation = Simulation(scene)
+        self._inputs = InputBlocks(self._simulation.inputs, self._period_ns, self._simulation.blocks)
+        self._window = Window(self._simulation.blocks, logged=self._logged)
+        self._pacer = Pacer(pace, scene.data["block_length"])
+        entries = {topic: subscription(self, topic, self._taker(topic), depth) for topic in self._simulation.inputs}
+        self._recorded = RecordedFollower()
+        answers = subscription(self, "bench/recorded", self._on_recorded) if self._logged else None
+        self._peers = Peers(self, entries, self._publishers_by_topic, self._report.publisher, answers)
+        self._simulation.prepare()
+        self._said = self._advanced = time.monotonic()
+
+    def tick(self, now: float) -> float:
+        """Before ready: look for peers. Then: advance; find out what is missing. At the end: wait for the logger."""
+        if self._report is None or not self.active:
+            return 1.0
+        if self._report.state is State.STARTING:
+            self._look_for_peers(now)
+            return PEERS_SECONDS
+        if self._report.state.ended:
+            self._wait_for_logger(now)
+            return 1.0
+        self._advance(now)
+        if time.monotonic() - self._advanced > self._patience and not self._report.state.ended:
+            self.fault(self._what_is_missing(), FAULT)
+        return self._pacer.wait(self._window.next_block, now) if self._window.open and not self._simulation.inputs else 1.0
+
+    def _look_for_peers(self, now: float) -> None:
+        absent = self._peers.missing()
+        if not absent:
+            self._advanced = now
+            self._pacer.start(now)
+            self._report.send(State.READY)
+        elif now - self._said > SAY_SECONDS:
+            self._said = now
+            self.get_logger().info(f"waiting for {', '.join(absent)}")
+
+    def _taker(self, topic: str):
+        def take(data: bytes) -> None:
+            reason = self._inputs.offer(topic, data)
+            if reason:
+                self.get_logger().warning(reason, throttle_duration_sec=1.0)
+
+        return take
+
+    def _advance(self, now: float) -> None:
+        """Do every block whose inputs are there; a scene without inputs is held back by the window and the pace alone."""
+        while not self._report.state.ended and self._may_begin(now):
+            blocks = self._inputs.take()
+            if blocks is None:
+                return
+            number = self._window.take()
+            self._publish(number, self._simulation.advance(number, blocks))
+
+    def _may_begin(self, now: float) -> bool:
+        return self._window.open and (bool(self._simulation.inputs) or self._pacer.wait(self._window.next_block, now) <= 0.0)
+
+    def _publish(self, number: int, result: BlockResult) -> None:
+        for topic, _, data in result.messages:
+            self._publishers_by_topic[topic].publish(data)
+        if self._clock_publisher is not None:
+            self._clock_publisher.publish(encode_clock((number + 1) * self._period_ns))
+        self._window.on_done(number)
+        self._advanced = time.monotonic()
+        self._report.block_done(number, result)
+
+    def _on_recorded(self, data: bytes) -> None:
+        recorded = decode_recorded(data)
+        if self._report is not None and self._report.state >= State.READY and self._recorded.accept(recorded):
+            self._window.on_recorded(recorded.block)
+            if recorded.closed and not self._report.state.ended:
+                self.get_logger().error(f"the logger closed its bag before the end: {recorded.message or 'no reason given'}")
+                self.ended_with = LOSS
+                self._report.send(State.STOPPED, recorded.message)
+
+    def _what_is_missing(self) -> str:
+        waited = f"after {self._patience:g} s"
+        if self._inputs.missing():
+            return f"{self._inputs.describe_missing()} {waited}"
+        return f"the logger has not answered for block {self._window.recorded + 1} {waited}"
+
+    def _wait_for_logger(self, now: float) -> None:
+        if not self._logged or self._recorded.closed:
+            self._report.settle()
+            self.exit_status = self.ended_with
+        elif now - self._advanced > CLOSE_SECONDS:
+            self.get_logger().error(f"the logger has not closed its bag {CLOSE_SECONDS:g} s after the end")
+            self.exit_status = self.ended_with or FAULT
+
+    def stop(self) -> None:
+        """End the run after the block that is done; a second signal does not wait for the logger."""
+        begun = self._report is not None and self._report.state in (State.READY, State.RUNNING)
+        if not begun:
+            self.exit_status = self.ended_with
+            return
+        self._advanced = time.monotonic()
+        self._report.send(State.STOPPED, "stopped by the user")
+
+    def fault(self, sentence: str, exit_status: int) -> None:
+        """End the run in the named state FAILED, so that the logger closes its bag; before ready, end the process."""
+        self.get_logger().error(sentence)
+        if self._report is None or self._report.state not in (State.READY, State.RUNNING):
+            self.exit_status = exit_status
+            return
+        self.ended_with, self._advanced = exit_status, time.monotonic()
+        self._report.send(State.FAILED, sentence)
+
+
+def main() -> int:
+    """Run the node; returns the exit status."""
+    return run(ContactSimulatorNode)
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,78 @@
+"""Publishers and subscriptions of the table of topics, on encoded bytes, and what the ROS graph says about them."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from functools import cache
+from importlib import import_module
+from typing import Any
+
+from rclpy.node import Node
+from rclpy.publisher import Publisher
+from rclpy.qos import DurabilityPolicy, HistoryPolicy, QoSProfile, ReliabilityPolicy
+from rclpy.subscription import Subscription
+
+from contact_sim_pkg.bag.topics import Topic, topic_of
+
+from .protocol import REFUSED, NodeError
+
+
+@cache
+def message_type(type_name: str) -> Any:
+    """The Python class of `package/msg/Type`; NodeError where the package is not installed."""
+    package, _, name = type_name.split("/")
+    try:
+        return getattr(import_module(f"{package}.msg"), name)
+    except (ImportError, AttributeError) as error:
+        raise NodeError(f"message type {type_name} cannot be imported ({error}); build and source its package", REFUSED) from None
+
+
+def profile_of(topic: Topic, least_depth: int = 0) -> QoSProfile:
+    """The quality of service of a row of the table; deeper where the scene sends many messages a block."""
+    latched = topic.durability == "transient_local"
+    return QoSProfile(
+        history=HistoryPolicy.KEEP_LAST,
+        depth=topic.depth if latched else max(topic.depth, least_depth),
+        reliability=ReliabilityPolicy.RELIABLE if topic.reliability == "reliable" else ReliabilityPolicy.BEST_EFFORT,
+        durability=DurabilityPolicy.TRANSIENT_LOCAL if latched else DurabilityPolicy.VOLATILE,
+    )
+
+
+def publisher(node: Node, name: str, least_depth: int = 0) -> Publisher:
+    """A publisher for encoded bytes on a topic of the table."""
+    topic = topic_of(name)
+    return node.create_publisher(message_type(topic.type), name, profile_of(topic, least_depth))
+
+
+def subscription(node: Node, name: str, callback: Callable[[bytes], None], least_depth: int = 0) -> Subscription:
+    """A subscription on a topic of the table that hands on the bytes as they came."""
+    topic = topic_of(name)
+    return node.create_subscription(message_type(topic.type), name, callback, profile_of(topic, least_depth), raw=True)
+
+
+def refuse_strangers(node: Node, name: str) -> None:
+    """Compare who publishes on a topic with what the bench allows: one publisher, of our message definition.
+
+    Raises NodeError (refused) that names the nodes where there are several, and both hashes where the definitions differ:
+    the wire matches topics by type name alone, and would misread the bytes.
+    """
+    publishers = node.get_publishers_info_by_topic(name)
+    if len(publishers) > 1:
+        names = ", ".join(sorted(_full_name(info.node_namespace, info.node_name) for info in publishers))
+        raise NodeError(
+            f"{name} has {len(publishers)} publishers ({names}), one is allowed: another bench or node is on the same topics; "
+            "end it, or give this bench a namespace or a ROS_DOMAIN_ID of its own",
+            REFUSED,
+        )
+    ours = {str(info.topic_type_hash) for info in node.get_subscriptions_info_by_topic(name) if info.node_name == node.get_name()}
+    for info in publishers:
+        if ours and str(info.topic_type_hash) not in ours:
+            raise NodeError(
+                f"{_full_name(info.node_namespace, info.node_name)} publishes {name} with another definition of {info.topic_type} "
+                f"({info.topic_type_hash}, ours is {', '.join(ours)}); build both from the same contact_msgs_defs",
+                REFUSED,
+            )
+
+
+def _full_name(namespace: str, name: str) -> str:
+    return f"{namespace.rstrip('/')}/{name}"

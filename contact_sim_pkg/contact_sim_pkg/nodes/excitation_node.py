@@ -1,0 +1,107 @@
+"""What the two excitation nodes share: they send numbered blocks as far as answers and pace allow."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+from rclpy.node import Node
+
+from contact_sim_pkg.bag.messages import decode_progress, decode_recorded
+from contact_sim_pkg.run.sources import Source
+from contact_sim_pkg.scene.resolve import ResolvedScene
+
+from .bench_node import SUPERVISOR_TEXT
+from .endpoints import publisher, subscription
+from .pacing import Pacer
+from .parameters import declare, declare_pace, declare_record, declare_scene
+from .protocol import REFUSED, Follower, NodeError, RecordedFollower, State
+from .scene_file import block_length_ns, count_blocks, queue_depth, read_scene, write_description
+from .window import Window
+
+FROM_BAG_TEXT = "Directory of a bag whose excitation is sent instead of the scene's own. Empty: the scene's own."
+MakeSource = Callable[[ResolvedScene], Source]
+
+
+class ExcitationNode(Node):
+    """Sends the blocks of one excitation topic, in order, and ends when the run has ended."""
+
+    exit_status: int | None = None
+
+    def __init__(self, name: str, topic: str, make_source: MakeSource, encode: Callable[[Any, int], bytes]) -> None:
+        """Make the source of the scene, or open the bag, and wait for the simulator."""
+        super().__init__(name)
+        self.supervisor = declare(self, "supervisor", 0, SUPERVISOR_TEXT)
+        scene_name = declare_scene(self)
+        scene = read_scene(scene_name)
+        bag = declare(self, "from_bag", "", FROM_BAG_TEXT)
+        self._source = _source_of_bag(topic, bag, scene) if bag else make_source(scene)
+        write_description(scene_name, topic, self._source.describe())
+        self._encode = encode
+        self._block_length_ns = block_length_ns(scene)
+        logged = declare_record(self)
+        self._listeners = 1 + logged  # simulator, logger
+        self._window = Window(count_blocks(scene), logged=logged)
+        self._pacer = Pacer(declare_pace(self, scene.data["pace"]), float(scene.data["block_length"]))
+        self._run, self._recorded = Follower(), RecordedFollower()
+        self._publisher = publisher(self, topic, queue_depth(scene))
+        self._subscriptions_kept = [subscription(self, "bench/progress", self._on_progress)]
+        if logged:
+            self._subscriptions_kept.append(subscription(self, "bench/recorded", self._on_recorded))
+
+    def start(self) -> None:
+        """Nothing is left to set up."""
+
+    def tick(self, now: float) -> float:
+        """Send what is due; end when every block is answered for, or the run was ended."""
+        wait = float("inf")
+        if self._run.state in (State.READY, State.RUNNING):
+            wait = self._send_due(now) if self._is_heard(now) else 0.005
+        if self._window.finished or self._run.state in (State.STOPPED, State.FAILED):
+            self.exit_status = 0
+        return wait
+
+    def _is_heard(self, now: float) -> bool:
+        """Whether everybody who needs block 0 is matched with this publisher; the simulator cannot see that."""
+        if self._window.next_block > 0 or self._publisher.get_subscription_count() >= self._listeners:
+            self._pacer.start(now)
+            return True
+        return False
+
+    def _send_due(self, now: float) -> float:
+        while self._window.open:
+            wait = self._pacer.wait(self._window.next_block, now)
+            if wait > 0.0:
+                return wait
+            number = self._window.take()
+            self._publisher.publish(self._encode(self._source.block(number), number * self._block_length_ns))
+        return float("inf")
+
+    def _on_progress(self, data: bytes) -> None:
+        progress = decode_progress(data)
+        if self._run.accept(progress):
+            self._window.on_done(progress.block)
+
+    def _on_recorded(self, data: bytes) -> None:
+        recorded = decode_recorded(data)
+        if self._run.state >= State.READY and self._recorded.accept(recorded):
+            self._window.on_recorded(recorded.block)
+
+    def stop(self) -> None:
+        """End at once: what was not sent will not be done."""
+        self.exit_status = 0
+
+    def fault(self, sentence: str, exit_status: int) -> None:
+        """Say what failed and end the process."""
+        self.get_logger().error(sentence)
+        self.exit_status = exit_status
+
+
+def _source_of_bag(topic: str, bag: str, scene: ResolvedScene) -> Source:
+    from contact_sim_pkg.run.from_bag import sources_from_bag
+
+    sources = sources_from_bag(Path(bag), scene)
+    if topic not in sources:
+        raise NodeError(f"bag {bag} holds no {topic}, which the scene calls for", REFUSED)
+    return sources[topic]

@@ -1,0 +1,117 @@
+"""Excitation blocks as they come in: checked against the protocol, held until their turn, without ROS.
+
+A block is never held over, ramped, clamped or invented: a bad one is dropped, counted and named, and the run waits for a good one.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable
+
+import numpy
+
+from contact_sim_pkg.bag.errors import MessageError
+from contact_sim_pkg.bag.messages import decode_road_patch, decode_vibration, stamp_of
+from contact_sim_pkg.excitation.blocks import RoadPatch, VibrationBlock
+
+Block = RoadPatch | VibrationBlock
+
+FARTHEST_AHEAD = 64  # blocks held per input; the window of a well-behaved source is 4
+LARGEST_HEIGHT = 1.0e3  # [m]
+LARGEST_ACCELERATION = 1.0e4  # [m/s^2]
+
+
+def check_road(data: bytes, block_length: float) -> RoadPatch:
+    """The strip that the bytes hold; MessageError where it is malformed or a height absurd."""
+    patch = decode_road_patch(data)
+    _within("height", patch.block, patch.height, LARGEST_HEIGHT, "m")
+    return patch
+
+
+def check_vibration(data: bytes, block_length: float) -> VibrationBlock:
+    """The samples that the bytes hold; MessageError where they are malformed, absurd or do not fill the block."""
+    vibration = decode_vibration(data)
+    intervals = len(vibration.acceleration_x) - 1
+    if abs(intervals * vibration.sample_period - block_length) > 1e-6 * block_length:
+        raise MessageError(
+            f"block {vibration.block} has {intervals + 1} samples every {vibration.sample_period} s, which do not fill a block "
+            f"of {block_length} s; its last sample lies at the block's end"
+        )
+    for name in ("acceleration_x", "acceleration_z"):
+        _within(name, vibration.block, getattr(vibration, name), LARGEST_ACCELERATION, "m/s^2")
+    return vibration
+
+
+_CHECKS: dict[str, Callable[[bytes, float], Block]] = {"road/patch": check_road, "platform/vibration": check_vibration}
+
+
+def _within(name: str, block: int, values: numpy.ndarray, bound: float, unit: str) -> None:
+    largest = float(numpy.abs(values).max(initial=0.0))
+    if largest > bound:
+        raise MessageError(f"{name} of block {block} reaches {largest:.6g} {unit}; allowed: up to {bound:.6g} {unit}")
+
+
+def check_block(topic: str, data: bytes, block_length_ns: int, blocks: int) -> Block:
+    """The block that the bytes hold.
+
+    Raises MessageError where they are malformed, a value is not finite or absurd, the number is not one of the scene, or
+    number and stamp disagree (stamp = number x block length).
+    """
+    block = _CHECKS[topic](data, block_length_ns * 1e-9)
+    stamp = stamp_of(data)
+    if not 0 <= block.block < blocks:
+        raise MessageError(f"block {block.block} is none of the scene's blocks 0 to {blocks - 1}")
+    if stamp != block.block * block_length_ns:
+        raise MessageError(f"block {block.block} is stamped {stamp} ns instead of {block.block * block_length_ns} ns")
+    return block
+
+
+class InputBlocks:
+    """The blocks of all inputs of one simulator, taken in order of their numbers."""
+
+    def __init__(self, topics: Iterable[str], block_length_ns: int, blocks: int) -> None:
+        """Nothing held; block 0 is next."""
+        self._held: dict[str, dict[int, Block]] = {topic: {} for topic in topics}
+        self._block_length_ns, self._blocks = block_length_ns, blocks
+        self._last = dict.fromkeys(self._held, -1)
+        self.dropped = dict.fromkeys(self._held, 0)
+        self.next_block = 0
+
+    def offer(self, topic: str, data: bytes) -> str:
+        """Hold a block until its turn; returns why it was dropped, or an empty text."""
+        try:
+            block = check_block(topic, data, self._block_length_ns, self._blocks)
+        except MessageError as error:
+            return self._drop(topic, str(error))
+        number, held = block.block, self._held[topic]
+        if number < self.next_block or number in held:
+            return self._drop(topic, f"block {number} came a second time")
+        if number >= self.next_block + FARTHEST_AHEAD:
+            return self._drop(topic, f"block {number} came while block {self.next_block} is due; at most {FARTHEST_AHEAD} ahead")
+        held[number] = block
+        self._last[topic] = max(self._last[topic], number)
+        return ""
+
+    def _drop(self, topic: str, reason: str) -> str:
+        self.dropped[topic] += 1
+        return f"{topic}: {reason}; dropped ({self.dropped[topic]} so far)"
+
+    def take(self) -> dict[str, Block] | None:
+        """The next block of every input, or None while one is missing."""
+        if self.missing():
+            return None
+        blocks = {topic: held.pop(self.next_block) for topic, held in self._held.items()}
+        self.next_block += 1
+        return blocks
+
+    def missing(self) -> tuple[str, ...]:
+        """The inputs that the next block is missing on."""
+        return tuple(topic for topic, held in self._held.items() if self.next_block not in held)
+
+    def describe_missing(self) -> str:
+        """Which input lacks which block, and what came last."""
+        parts = []
+        for topic in self.missing():
+            last = f"the last good one was block {self._last[topic]}" if self._last[topic] >= 0 else "no good block came at all"
+            dropped = f", {self.dropped[topic]} were dropped" if self.dropped[topic] else ""
+            parts.append(f"block {self.next_block} of {topic} is missing ({last}{dropped})")
+        return "; ".join(parts)

@@ -1,0 +1,44 @@
+"""When a block is due, by the steady clock."""
+
+from __future__ import annotations
+
+import math
+
+
+def parse_pace(pace: str | float) -> float:
+    """Simulated seconds per second: 1 for `realtime`, infinity for `max`, else the number itself; ValueError where it is none."""
+    if pace == "realtime":
+        return 1.0
+    if pace == "max":
+        return math.inf
+    try:
+        factor = float(pace)
+    except ValueError:
+        factor = math.nan
+    if not 0.001 <= factor <= 1000.0:
+        raise ValueError(f"pace {pace!r} is not known; allowed: realtime, max, or a factor from 0.001 to 1000")
+    return factor
+
+
+class Pacer:
+    """Block k is due k block_length / factor after the start. A late run catches up; simulated time is never skipped."""
+
+    def __init__(self, factor: float, block_length: float) -> None:
+        """Not started: nothing is due.
+
+        Args:
+            factor: simulated seconds per second, > 0; infinity: everything is due at once.
+            block_length: simulated time of a block, [s].
+        """
+        self.interval = block_length / factor
+        self._start: float | None = None
+
+    def start(self, now: float) -> None:
+        """Begin to count at this instant of the steady clock, [s]; a second call changes nothing."""
+        self._start = now if self._start is None else self._start
+
+    def wait(self, block: int, now: float) -> float:
+        """Seconds until the block is due: 0 when it is, infinity before the start."""
+        if self._start is None:
+            return math.inf
+        return max(0.0, self._start + block * self.interval - now)

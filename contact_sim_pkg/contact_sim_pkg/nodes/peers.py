@@ -1,0 +1,46 @@
+"""Who must be there before block 0 may be sent, and who must not."""
+
+from __future__ import annotations
+
+from rclpy.node import Node
+from rclpy.publisher import Publisher
+from rclpy.subscription import Subscription
+
+from .endpoints import refuse_strangers
+
+
+class Peers:
+    """The simulator's view of the other nodes of its run."""
+
+    def __init__(
+        self,
+        node: Node,
+        inputs: dict[str, Subscription],
+        outputs: dict[str, Publisher],
+        progress: Publisher,
+        recorded: Subscription | None,
+    ) -> None:
+        """Look from `node` at its own subscriptions and publishers; `recorded` is None where nothing is recorded."""
+        self._node, self._inputs, self._outputs = node, inputs, outputs
+        self._progress, self._recorded = progress, recorded
+
+    def missing(self) -> list[str]:
+        """What is not matched yet, one text each; empty when everybody is there.
+
+        Raises NodeError (refused) for a second publisher on an input, a second bench, or another message definition.
+        """
+        for topic in (*self._inputs, "bench/progress"):
+            refuse_strangers(self._node, topic)
+        absent = [f"a publisher of {topic}" for topic, entry in self._inputs.items() if _publishers(self._node, entry) < 1]
+        followers = len(self._inputs) + (self._recorded is not None)
+        if self._progress.get_subscription_count() < followers:
+            absent.append(f"{followers} subscribers of bench/progress")
+        if self._recorded is not None:
+            refuse_strangers(self._node, "bench/recorded")
+            absent += [] if _publishers(self._node, self._recorded) else ["a publisher of bench/recorded (bag_logger)"]
+            absent += [f"a recorder of {topic}" for topic, entry in self._outputs.items() if entry.get_subscription_count() < 1]
+        return absent
+
+
+def _publishers(node: Node, subscription: Subscription) -> int:
+    return int(node.count_publishers(subscription.topic_name))

@@ -1,0 +1,134 @@
+"""The life of a node's process: start, spin, signals, end. Exit status 0 on every signal, no traceback."""
+
+from __future__ import annotations
+
+import os
+import signal
+import time
+import traceback
+from collections.abc import Callable, Sequence
+from typing import Any, Protocol
+
+import rclpy
+from rclpy.executors import Executor, ExternalShutdownException, SingleThreadedExecutor
+from rclpy.impl.implementation_singleton import rclpy_implementation
+from rclpy.logging import get_logger
+from rclpy.signals import SignalHandlerOptions
+
+from contact_sim_pkg.bag.errors import BagError
+from contact_sim_pkg.excitation.errors import ExcitationError
+from contact_sim_pkg.run.errors import RunError
+from contact_sim_pkg.scene.errors import SceneError
+
+from .protocol import FAULT, REFUSED, NodeError
+
+REFUSALS = (SceneError, ExcitationError, BagError)
+LONGEST_WAIT = 0.05  # [s] between two looks at signals and at the parent
+
+
+class Interrupted(BaseException):
+    """A signal that came while the node was being set up."""
+
+
+class BenchNode(Protocol):
+    """What `run` asks of a node beside being one of rclpy."""
+
+    exit_status: int | None  # set when the process shall end
+
+    def start(self) -> None:
+        """Whatever takes long: compile, open; a signal may break it off."""
+
+    def tick(self, now: float) -> float:
+        """Look after what no message triggers; `now` is the steady clock, [s]. Returns how long to wait at most, [s]."""
+
+    def stop(self) -> None:
+        """The user wants the end: begin to end cleanly."""
+
+    def fault(self, sentence: str, exit_status: int) -> None:
+        """Something failed: say so, close what is open, set the exit status."""
+
+
+class StopSignals:
+    """SIGINT, SIGTERM and SIGHUP: a count that the spinning loop looks at."""
+
+    def __init__(self) -> None:
+        """Take the three signals over."""
+        self.count = 0
+        self.breaks_off = True  # a signal ends the set-up at once; later the node ends by itself
+        for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
+            signal.signal(number, self._on_signal)
+
+    def _on_signal(self, number: int, frame: Any) -> None:
+        self.count += 1
+        if self.breaks_off:
+            self.breaks_off = False
+            raise Interrupted
+
+
+def make_executor() -> Executor:
+    """The executor with the least cost per message (8 times less); the plain one where rclpy does not have it."""
+    try:
+        from rclpy.experimental import EventsExecutor
+    except ImportError:
+        return SingleThreadedExecutor()
+    return EventsExecutor()
+
+
+def run(make_node: Callable[[], Any], args: Sequence[str] | None = None) -> int:
+    """Run one node until it ends or a signal comes; returns the exit status of the process."""
+    signals = StopSignals()
+    node: Any = None
+    try:
+        rclpy.init(args=args, signal_handler_options=SignalHandlerOptions.NO)
+        node = make_node()
+        node.start()
+        signals.breaks_off = False
+        return _spin(node, signals)
+    except Interrupted:
+        return 0
+    except NodeError as error:
+        _say(node, str(error))
+        return error.exit_status
+    except REFUSALS as error:
+        _say(node, str(error))
+        return REFUSED
+    except rclpy_implementation.RCLError:
+        if rclpy.ok():
+            raise
+        return 0
+    finally:
+        signals.breaks_off = False
+        if node is not None:
+            node.destroy_node()
+        rclpy.try_shutdown()
+
+
+def _spin(node: Any, signals: StopSignals) -> int:
+    executor = make_executor()
+    executor.add_node(node)
+    supervisor, seen = node.supervisor, 0
+    while node.exit_status is None:
+        try:
+            wait = node.tick(time.monotonic())
+            if node.exit_status is None:
+                executor.spin_once(timeout_sec=min(wait, LONGEST_WAIT))
+        except ExternalShutdownException:
+            break
+        except (NodeError, RunError, *REFUSALS) as error:
+            node.fault(str(error), getattr(error, "exit_status", FAULT))
+        except rclpy_implementation.RCLError:
+            if rclpy.ok():
+                raise
+            break
+        except Exception as error:  # noqa: BLE001  # the boundary of a node: named once, the bag closed
+            node.get_logger().error(traceback.format_exc())
+            node.fault(f"unexpected {type(error).__name__}: {error}", FAULT)
+        orphaned = bool(supervisor) and os.getppid() != supervisor
+        if signals.count > seen or orphaned:
+            seen, supervisor = signals.count, 0 if orphaned else supervisor
+            node.stop()
+    return node.exit_status or 0
+
+
+def _say(node: Any, sentence: str) -> None:
+    (node.get_logger() if node is not None else get_logger("bench")).fatal(sentence)

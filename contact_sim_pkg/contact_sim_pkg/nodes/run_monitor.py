@@ -1,0 +1,62 @@
+"""The supervisor's own ears: what it hears on `bench/progress` and `bench/recorded`, with the steady clock beside it."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Sequence
+from types import TracebackType
+
+import rclpy
+from rclpy.node import Node
+from rclpy.signals import SignalHandlerOptions
+
+from contact_sim_pkg.bag.messages import decode_progress, decode_recorded
+
+from .endpoints import subscription
+from .process import make_executor
+from .protocol import Follower, RecordedFollower, State
+
+
+class RunMonitor:
+    """Follows one run; a context manager that starts and ends rclpy."""
+
+    def __init__(self, arguments: Sequence[str] = ()) -> None:
+        """Join the graph; `arguments` are those of ROS (`--ros-args …`)."""
+        rclpy.init(args=list(arguments), signal_handler_options=SignalHandlerOptions.NO)
+        self._node = Node("bench_run", start_parameter_services=False, enable_rosout=False)
+        self._executor = make_executor()
+        self._executor.add_node(self._node)
+        self.run, self.recorded = Follower(), RecordedFollower()
+        self.ready_at = self.done_at = self.recorded_at = 0.0  # steady clock, [s]; 0 before
+        self._kept = [
+            subscription(self._node, "bench/progress", self._on_progress),
+            subscription(self._node, "bench/recorded", self._on_recorded),
+        ]
+
+    def spin(self, seconds: float) -> None:
+        """Hear what comes, for at most this long."""
+        limit = time.monotonic() + seconds
+        while (left := limit - time.monotonic()) > 0.0:
+            self._executor.spin_once(timeout_sec=left)
+
+    def _on_progress(self, data: bytes) -> None:
+        if self.run.accept(decode_progress(data)):
+            now = time.monotonic()
+            if self.run.state >= State.READY and not self.ready_at:
+                self.ready_at = now
+            self.done_at = now
+
+    def _on_recorded(self, data: bytes) -> None:
+        recorded = decode_recorded(data)
+        if recorded.block > self.recorded.block:
+            self.recorded_at = time.monotonic()
+        self.recorded.accept(recorded)
+
+    def __enter__(self) -> RunMonitor:
+        """The monitor itself."""
+        return self
+
+    def __exit__(self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None) -> None:
+        """Leave the graph."""
+        self._node.destroy_node()
+        rclpy.try_shutdown()

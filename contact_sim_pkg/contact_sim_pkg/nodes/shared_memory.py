@@ -1,0 +1,49 @@
+"""Shared-memory segments of the middleware: a process that is killed leaves them behind, so whoever kills it removes them."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from pathlib import Path
+
+FOLDER = Path("/dev/shm")  # noqa: S108  # where the system keeps shared memory; nothing is created here
+PREFIXES = ("fastrtps_", "sem.fastrtps_", "fastdds_", "sem.fastdds_")
+COMPANION_ENDINGS = ("", "_el")  # segment, and the lock that its owner holds
+
+
+def mapped_segments(process: int) -> set[str]:
+    """Names of the middleware's segments that a process has mapped or open; empty where it is gone."""
+    names = {line.rsplit("/", 1)[-1] for line in _lines(Path(f"/proc/{process}/maps")) if str(FOLDER) in line}
+    names |= {Path(target).name for target in _open_files(process) if target.startswith(str(FOLDER))}
+    return {name for name in names if name.startswith(PREFIXES)}
+
+
+def remove_unused(names: Iterable[str]) -> list[str]:
+    """Remove those of the segments that no living process has mapped or open; returns what was removed."""
+    wanted = {name + ending for name in names for ending in COMPANION_ENDINGS}
+    if not wanted:
+        return []
+    used = set().union(*(mapped_segments(int(entry.name)) for entry in Path("/proc").iterdir() if entry.name.isdigit()))
+    kept = {name.removesuffix("_el") for name in used}
+    removed = []
+    for name in sorted(wanted):
+        if name.removesuffix("_el") not in kept and (FOLDER / name).exists():
+            (FOLDER / name).unlink(missing_ok=True)
+            removed.append(name)
+    return removed
+
+
+def _lines(path: Path) -> list[str]:
+    try:
+        return path.read_text(encoding="utf-8", errors="replace").splitlines()
+    except OSError:
+        return []  # gone, or of another user
+
+
+def _open_files(process: int) -> list[str]:
+    targets = []
+    try:
+        for entry in Path(f"/proc/{process}/fd").iterdir():
+            targets.append(str(entry.readlink()))
+    except OSError:
+        return targets  # gone meanwhile, or of another user
+    return targets

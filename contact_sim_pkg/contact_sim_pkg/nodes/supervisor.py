@@ -1,0 +1,178 @@
+"""Starts the processes that a scene needs, watches them, and ends them: a whole run without `ros2 launch`."""
+
+from __future__ import annotations
+
+import os
+import sys
+import tempfile
+import time
+from collections.abc import Callable, Mapping
+from pathlib import Path
+from typing import TYPE_CHECKING, NamedTuple
+
+from contact_sim_pkg.run.bag_content import input_names
+from contact_sim_pkg.scene.resolve import ResolvedScene
+
+from .children import Child, Children
+from .protocol import DONE, FAULT, REFUSED, NodeError, State
+from .scene_file import count_blocks, write_scene
+
+if TYPE_CHECKING:
+    from .run_monitor import RunMonitor
+
+NODE_OF_INPUT = {"road/patch": "road_profile", "platform/vibration": "vibration"}
+DEFAULT_ENVIRONMENT = {  # each only where the caller has not set it
+    "ROS_AUTOMATIC_DISCOVERY_RANGE": "LOCALHOST",
+    "NUMBA_NUM_THREADS": "1",
+    "OPENBLAS_NUM_THREADS": "1",
+    "RCUTILS_CONSOLE_OUTPUT_FORMAT": "{severity} {name}: {message}",
+}
+LOOK_SECONDS = 0.05  # between two looks at the processes
+SEGMENT_SECONDS = 1.0  # between two looks at their shared memory
+END_SECONDS = 15.0  # for the processes to end by themselves once the run has ended
+
+
+class Report(NamedTuple):
+    """Where a supervised run stands, for the display."""
+
+    state: str
+    block: int  # blocks done
+    blocks: int
+    simulated: float  # [s]
+    real_time_factor: float
+    load: float  # [N]
+    peak_pressure: float  # [Pa]
+
+
+class SupervisedRun(NamedTuple):
+    """How a supervised run ended."""
+
+    blocks: int  # done
+    startup: float  # [s] from the call to ready
+    wall: float  # [s] from ready to the last message recorded
+    bag: Path | None  # None where nothing was recorded
+    stopped: bool  # ended by the user before the last block
+    failure: str  # sentence of the fault that ended it; empty where there is none
+    exit_status: int
+
+
+class Supervisor:
+    """One run on nodes."""
+
+    def __init__(self, scene: ResolvedScene, directory: Path | None, *, from_bag: Path | None = None, pace: str = "") -> None:
+        """Prepare a run of `scene`, recorded in `directory` (None: not recorded), which must not exist.
+
+        Args:
+            scene: the scene.
+            directory: directory of the bag.
+            from_bag: bag whose excitation is sent instead of the scene's own.
+            pace: `realtime`, `max` or a factor; the scene's own where it is empty.
+        """
+        self._scene, self._directory, self._from_bag, self._pace = scene, directory, from_bag, pace
+        self._stop_count = 0
+        self._asked = 0
+        self._failure, self._exit_status = "", DONE
+
+    def stop(self) -> None:
+        """The user wants the end; may be called from a signal handler. The second call does not wait for the bag."""
+        self._stop_count += 1
+
+    def run(self, on_report: Callable[[Report], None], say: Callable[[str], None]) -> SupervisedRun:
+        """Run to the end; `on_report` hears where the run stands, `say` what the nodes say, a line at a time."""
+        began = time.monotonic()
+        os.environ.update({name: value for name, value in DEFAULT_ENVIRONMENT.items() if name not in os.environ})
+        say(f"ROS_DOMAIN_ID is {os.environ.get('ROS_DOMAIN_ID', '0')}, discovery {os.environ['ROS_AUTOMATIC_DISCOVERY_RANGE']}")
+        children = Children(os.environ, say)
+        with tempfile.TemporaryDirectory(prefix="contact_bench_") as folder:
+            try:
+                self._start_all(children, str(write_scene(self._scene, Path(folder))))
+                from .run_monitor import RunMonitor  # the nodes start while this process loads ROS
+
+                with RunMonitor() as monitor:
+                    self._watch(children, monitor, on_report)
+                    return self._outcome(monitor, began)
+            finally:
+                children.end()
+
+    def _start_all(self, children: Children, scene: str) -> None:
+        """The simulator first, since it takes longest."""
+        common = {"scene": scene, "supervisor": os.getpid(), "pace": self._pace, "record": self._directory is not None}
+        children.start("contact_simulator", node_command("contact_simulator", common))
+        if self._directory is not None:
+            bag = str(self._directory.absolute())
+            children.start("bag_logger", node_command("bag_logger", {"scene": scene, "supervisor": os.getpid(), "bag": bag}))
+        source = {} if self._from_bag is None else {"from_bag": str(self._from_bag.absolute())}
+        for topic in input_names(self._scene):
+            node = NODE_OF_INPUT[topic]
+            children.start(node, node_command(node, {**common, **source}))
+
+    def _watch(self, children: Children, monitor: RunMonitor, on_report: Callable[[Report], None]) -> None:
+        looked, ended_at = 0.0, 0.0
+        while not children.all_ended():
+            try:
+                monitor.spin(LOOK_SECONDS)
+            except NodeError as error:
+                self._failure, self._exit_status = str(error), error.exit_status
+                return
+            now = time.monotonic()
+            if now - looked > SEGMENT_SECONDS:
+                looked = now
+                children.look()
+            if monitor.run.last is not None:
+                on_report(self._report(monitor))
+            fallen = children.fallen()
+            if fallen is not None:
+                self._on_fallen(fallen, children, monitor)
+                return
+            if self._stop_count > self._asked:
+                self._asked = self._stop_count
+                children.ask(*(() if self._asked > 1 else ("contact_simulator",)))
+            ended_at = ended_at or (now if monitor.run.state.ended or self._asked else 0.0)
+            if ended_at and now - ended_at > END_SECONDS:
+                self._failure, self._exit_status = f"the nodes did not end {END_SECONDS:g} s after the run", FAULT
+                return
+        monitor.spin(0.0)
+        fallen = children.fallen()
+        if fallen is not None:
+            self._on_fallen(fallen, children, monitor)
+
+    def _on_fallen(self, fallen: Child, children: Children, monitor: RunMonitor) -> None:
+        """Name the node that ended badly, let the others end, keep the state that names the fault where there is one."""
+        status = fallen.status or 0
+        last = monitor.run.last
+        if monitor.run.state is State.FAILED and last is not None and last.message:
+            self._failure = last.message
+        else:
+            self._failure = fallen.describe_end()
+        self._exit_status = status if status in (REFUSED, 3) else FAULT
+
+    def _report(self, monitor: RunMonitor) -> Report:
+        last = monitor.run.last
+        assert last is not None
+        simulated = (last.block + 1) * float(self._scene.data["block_length"])
+        values = (last.real_time_factor, last.load, last.peak_pressure)
+        return Report(State(last.state).name.lower(), last.block + 1, last.blocks, simulated, *values)
+
+    def _outcome(self, monitor: RunMonitor, began: float) -> SupervisedRun:
+        ready = monitor.ready_at or time.monotonic()
+        last = monitor.recorded_at if self._directory is not None else monitor.done_at
+        bag = self._directory if self._directory is not None and self._directory.is_dir() else None
+        stopped = self._asked > 0 or monitor.run.state is State.STOPPED
+        done = monitor.run.block + 1
+        if not self._failure and not stopped and done < count_blocks(self._scene):
+            self._failure, self._exit_status = f"the run ended after {done} blocks without a word", FAULT
+        return SupervisedRun(done, ready - began, max(0.0, last - ready), bag, stopped, self._failure, self._exit_status)
+
+
+def node_command(node: str, parameters: Mapping[str, str | int | bool]) -> list[str]:
+    """How a node is started with these parameters; nothing is logged into the user's home."""
+    command = [sys.executable, "-m", f"contact_sim_pkg.nodes.{node}", "--ros-args", "--disable-external-lib-logs"]
+    for name, value in parameters.items():
+        command += ["-p", f"{name}:={_yaml(value)}"]
+    return command
+
+
+def _yaml(value: str | int | bool) -> str:
+    if isinstance(value, bool):
+        return str(value).lower()
+    return str(value) if isinstance(value, int) else "'" + value.replace("'", "''") + "'"

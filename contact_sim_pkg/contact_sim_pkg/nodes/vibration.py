@@ -1,0 +1,28 @@
+"""The node of the vibration: sends the acceleration samples of each block on `platform/vibration`."""
+
+from __future__ import annotations
+
+import sys
+
+from contact_sim_pkg.bag.messages import encode_vibration
+from contact_sim_pkg.run.sources import make_vibration
+
+from .excitation_node import ExcitationNode
+from .process import run
+
+
+class VibrationNode(ExcitationNode):
+    """Publishes `platform/vibration`; follows `bench/progress` and `bench/recorded`."""
+
+    def __init__(self) -> None:
+        """Make the vibration of the scene."""
+        super().__init__("vibration", "platform/vibration", make_vibration, encode_vibration)
+
+
+def main() -> int:
+    """Run the node; returns the exit status."""
+    return run(VibrationNode)
+
+
+if __name__ == "__main__":
+    sys.exit(main())
