@@ -41,7 +41,9 @@ effects:
   seat:
     normal_elastic: {coefficient: 273000.0, exponent: 1.5}
 """
-EXCITATION = {"platform/vibration": {"kind": "recorded", "notes": ["17 samples at full scale: clipped", "bias 0.21 m/s^2"]}}
+EXCITATION = {
+    "platform/vibration": {"kind": "recorded", "notes": ["17 samples at full scale: clipped", "bias 0.21 m/s^2"]}
+}
 CAR_TOPICS = (
     "bench/scene", "tire/force", "seat/force", "tire/patch", "bench/motion", "bench/energy", "bench/cost",
 )  # fmt: skip

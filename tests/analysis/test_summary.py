@@ -5,8 +5,9 @@ import math
 
 import pytest
 
-from . import synthetic_bag as known
 from contact_sim_pkg.analysis.summary import summarise
+
+from . import synthetic_bag as known
 
 
 @pytest.fixture(scope="module")

@@ -25,9 +25,7 @@ def test_gain_at_the_reference_frequency_of_100_radians_a_second(weighting, gain
     assert abs(response(weighting, np.array([100.0 / (2.0 * np.pi)]))[0]) == pytest.approx(gain, abs=5e-5)
 
 
-@pytest.mark.parametrize(
-    ("weighting", "gain", "at"), [(WK, 1.0545, 6.17), (WD, 1.0126, 1.09)], ids=["Wk", "Wd"]
-)
+@pytest.mark.parametrize(("weighting", "gain", "at"), [(WK, 1.0545, 6.17), (WD, 1.0126, 1.09)], ids=["Wk", "Wd"])
 def test_largest_gain_and_its_frequency(weighting, gain, at):
     frequency = np.linspace(0.5, 20.0, 195001)
     magnitude = np.abs(response(weighting, frequency))

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import io
 import re
-from typing import NamedTuple
+from contextlib import AbstractContextManager
+from typing import Any, NamedTuple
 
 import matplotlib
 from markupsafe import Markup
@@ -69,14 +70,14 @@ class Picture(NamedTuple):
     """what one sees, with its numbers"""
 
 
-def new_figure(height: float, rows: int = 1, cols: int = 1, **options: object) -> tuple[Figure, list[Axes]]:
+def new_figure(height: float, rows: int = 1, cols: int = 1, **options: Any) -> tuple[Figure, list[Axes]]:
     """A figure of the page's width and `height` [inch], and its axes, row by row. Call inside `style()`."""
     figure = Figure(figsize=(WIDTH, height), layout="constrained")
-    axes = figure.subplots(rows, cols, squeeze=False, **options)  # type: ignore[arg-type]
+    axes = figure.subplots(rows, cols, squeeze=False, **options)
     return figure, [each for row in axes for each in row]
 
 
-def style() -> object:
+def style() -> AbstractContextManager[None]:
     """Context in which figures are made and rendered."""
     return matplotlib.rc_context(STYLE)  # type: ignore[arg-type]
 

@@ -25,6 +25,7 @@ def energy_balance(ledger: LedgerSeries) -> Picture:
     axes[1].set_ylabel("residual /\nthroughput")
     axes[1].ticklabel_format(axis="y", style="sci", scilimits=(-2, 3), useMathText=False)
     axes[1].set_xlabel("simulated time, s")
+    axes[1].set_xlim(ledger.time[0], max(ledger.time[-1], ledger.time[0] + 1e-3))
     caption = (
         f"Energy since the start: {ledger.supplied[-1]:.4g} J supplied, {ledger.dissipated[-1]:.4g} J dissipated at the end. What "
         f"does not add up is at most {np.abs(ledger.residual).max():.2g} J, {relative_residual(ledger):.1e} of the throughput "

@@ -5,6 +5,8 @@
 
 from __future__ import annotations
 
+from typing import NamedTuple
+
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.collections import PolyCollection
@@ -17,6 +19,15 @@ from .summary import field_numbers, force_numbers
 
 LOOP_POINTS = 4000
 """Most points of the curve of load over approach."""
+
+
+class Window(NamedTuple):
+    """Part of the contact plane that maps show, [mm]."""
+
+    low_x: float
+    high_x: float
+    low_y: float
+    high_y: float
 
 
 def lifted_intervals(contact: ContactSeries) -> NDArray[np.float64]:
@@ -33,17 +44,21 @@ def load_over_time(key: str, name: str, contact: ContactSeries) -> Picture:
     with_friction = bool(np.any(contact.tangential))
     rows = 3 if with_friction else 2
     figure, axes = new_figure(1.0 + 1.45 * rows, rows, sharex=True)
-    _line(axes[0], contact.time, contact.normal * 1e-3, "normal force, kN")
+    unit, scale = force_unit(contact)
+    _line(axes[0], contact.time, contact.normal * scale, f"normal force, {unit}")
     _shade(axes[0], lifted_intervals(contact))
-    axes[0].axhline(contact.normal.mean() * 1e-3, color=MUTED, linewidth=0.9, linestyle=(0, (4, 3)))
+    axes[0].axhline(contact.normal.mean() * scale, color=INK, linewidth=0.9, linestyle=(0, (4, 3)))
     axes[0].set_ylim(bottom=0.0)
     if with_friction:
-        _line(axes[1], contact.time, contact.tangential * 1e-3, "friction force, kN")
+        _line(axes[1], contact.time, contact.tangential * scale, f"friction force, {unit}")
     _line(axes[-1], contact.time, contact.approach * 1e3, "approach, mm")
-    axes[-1].axhline(0.0, color=MUTED, linewidth=0.7)
+    if contact.approach.min() <= 0.0:
+        axes[-1].axhline(0.0, color=MUTED, linewidth=0.7)
     axes[-1].set_xlabel("simulated time, s")
     axes[-1].set_xlim(contact.time[0], contact.time[-1] + contact.sample_period)
-    return picture(f"{key}-load", figure, f"Normal force and approach of the {name} contact over time", _load_caption(contact))
+    return picture(
+        f"{key}-load", figure, f"Normal force and approach of the {name} contact over time", _load_caption(contact)
+    )
 
 
 def _load_caption(contact: ContactSeries) -> str:
@@ -59,34 +74,41 @@ def _load_caption(contact: ContactSeries) -> str:
     return text + f"It lifts off {times}; {numbers['lifted_share']:.2%} of the time (shaded) it carries no load."
 
 
+def force_unit(contact: ContactSeries) -> tuple[str, float]:
+    """Unit for an axis of forces, and the factor from [N] to it."""
+    return ("kN", 1e-3) if contact.normal.max() >= 2000.0 else ("N", 1.0)
+
+
 def load_over_approach(key: str, name: str, contact: ContactSeries) -> Picture:
     """Load-deflection curve of the whole run; its opening is the loss."""
     figure, (axes,) = new_figure(3.1)
     stride = max(1, contact.normal.size // LOOP_POINTS)
+    unit, scale = force_unit(contact)
     axes.plot(
-        contact.approach[::stride] * 1e3, contact.normal[::stride] * 1e-3, color=ACCENT, linewidth=0.7, alpha=0.75
-    )  # fmt: skip
+        contact.approach[::stride] * 1e3, contact.normal[::stride] * scale, color=ACCENT, linewidth=0.6, alpha=0.6
+    )
     axes.set_xlabel("approach, mm")
-    axes.set_ylabel("normal force, kN")
+    axes.set_ylabel(f"normal force, {unit}")
     axes.set_ylim(bottom=0.0)
-    sampled = f" Every {stride}th sample is drawn." if stride > 1 else ""
+    sampled = f" One in {stride} is drawn." if stride > 1 else ""
     caption = (
-        f"Load over approach, {contact.normal.size} samples.{sampled} A single curve is an elastic contact on even ground; "
-        "loops show losses, a band shows uneven ground under the same approach."
+        f"Normal force over approach, {contact.normal.size} samples.{sampled} One curve is an elastic contact on even ground; "
+        "loops are losses, a band is uneven ground at the same approach."
     )
     return picture(f"{key}-loop", figure, f"Normal force of the {name} contact over its approach", caption)
 
 
 def pressure_maps(key: str, name: str, field: FieldSeries) -> Picture:
     """The map with the largest peak and the mean map, one colour scale each, cells as they are."""
-    figure, axes = new_figure(_map_height(field.highest), 1, 2)
-    _map(axes[0], field.highest, f"largest peak, t = {field.highest_time:.3f} s")
+    window = _loaded_window(field.average)
+    figure, axes = new_figure(_map_height(window), 1, 2)
+    _map(axes[0], field.highest, window, f"largest peak, t = {field.highest_time:.3f} s")
     _mark_peak(axes[0], field.highest)
-    _map(axes[1], field.average, "mean over the run")
+    _map(axes[1], field.average, window, "mean over the run")
     rows, cols = field.highest.pressure.shape
     caption = (
         f"Pressure of the cells ({rows} × {cols} of {field.highest.cell_x * 1e3:.3g} × {field.highest.cell_y * 1e3:.3g} mm), "
-        f"not interpolated; cells without pressure are left blank. Left: the largest peak of the run, "
+        f"not interpolated; cells without pressure are blank, the grid is cut to what was ever loaded. Left: the largest peak of the run, "
         f"{field.highest.pressure.max() * 1e-3:.4g} kPa (cross) at {field.highest_time:.3f} s. Right: the mean of "
         f"{field.time.size} fields, at most {field.average.pressure.max() * 1e-3:.4g} kPa. Forward is up; seen from above."
     )
@@ -104,6 +126,7 @@ def peak_and_area(key: str, name: str, field: FieldSeries) -> Picture:
     for each in axes:
         each.set_ylim(bottom=0.0)
     axes[1].set_xlabel("simulated time, s")
+    axes[1].set_xlim(field.time[0], max(field.time[-1], field.time[0] + 1e-3))
     numbers = field_numbers(field)
     caption = (
         f"Peak pressure up to {numbers['peak_pressure_Pa'] * 1e-3:.4g} kPa (cross, at {field.highest_time:.3f} s). Contact area "
@@ -121,20 +144,23 @@ def _line(axes: Axes, time: NDArray[np.float64], values: NDArray[np.float64], la
 def _shade(axes: Axes, intervals: NDArray[np.float64]) -> None:
     """Bands over the whole height, all in one path."""
     corners = [[(start, 0.0), (start, 1.0), (end, 1.0), (end, 0.0)] for start, end in intervals]
-    bands = PolyCollection(corners, transform=axes.get_xaxis_transform(), facecolor=SHADE, edgecolor=SHADE, linewidth=0.5, zorder=0)
+    bands = PolyCollection(
+        corners, transform=axes.get_xaxis_transform(), facecolor=SHADE, edgecolor=SHADE, linewidth=0.5, zorder=0
+    )
     axes.add_collection(bands, autolim=False)
 
 
-def _map(axes: Axes, field: PressureMap, title: str) -> None:
+def _map(axes: Axes, field: PressureMap, window: Window, title: str) -> None:
     """Forward (x) up, left (y) to the left: the view of someone who looks down on the patch."""
     rows, cols = field.pressure.shape
     low_x, low_y = field.origin_x - field.cell_x / 2, field.origin_y - field.cell_y / 2
     extent = np.array([low_y, low_y + cols * field.cell_y, low_x, low_x + rows * field.cell_x]) * 1e3
-    loaded = np.ma.masked_less_equal(field.pressure, 0.0) * 1e-3
+    loaded = np.where(field.pressure > 0.0, field.pressure * 1e-3, np.nan)
     image = axes.imshow(
         loaded, origin="lower", extent=tuple(extent), cmap=PRESSURE_COLOURS, vmin=0.0, interpolation="nearest", aspect="equal"
     )  # fmt: skip
-    axes.invert_xaxis()
+    axes.set_xlim(window.high_y, window.low_y)
+    axes.set_ylim(window.low_x, window.high_x)
     axes.grid(visible=False)
     axes.set_title(title)
     axes.set_xlabel("y (left +), mm")
@@ -143,8 +169,8 @@ def _map(axes: Axes, field: PressureMap, title: str) -> None:
         "forward", (0.04, 0.97), (0.04, 0.80), xycoords="axes fraction", textcoords="axes fraction", fontsize=8, color=MUTED,
         ha="center", va="top", rotation=90, arrowprops={"arrowstyle": "-|>", "color": MUTED, "linewidth": 0.8},
     )  # fmt: skip
-    bar = axes.figure.colorbar(image, ax=axes, label="kPa", shrink=0.85, pad=0.02)
-    bar.outline.set_visible(False)  # type: ignore[operator]
+    bar = axes.figure.colorbar(image, cax=axes.inset_axes((1.04, 0.0, 0.045, 1.0)), label="kPa")
+    bar.outline.set_visible(False)
 
 
 def _mark_peak(axes: Axes, field: PressureMap) -> None:
@@ -154,8 +180,21 @@ def _mark_peak(axes: Axes, field: PressureMap) -> None:
     axes.plot([y * 1e3], [x * 1e3], marker="x", color="#b3202c", markersize=6.4, markeredgewidth=1.3, linestyle="none")
 
 
-def _map_height(field: PressureMap) -> float:
+def _loaded_window(average: PressureMap) -> Window:
+    """The cells that were ever loaded with two cells around them; the whole grid where none was."""
+    rows, cols = (np.flatnonzero(average.pressure.any(axis=axis)) for axis in (1, 0))
+    if not rows.size:
+        rows, cols = (np.arange(size) for size in average.pressure.shape)
+    low_x, high_x = (
+        average.origin_x + (row + side) * average.cell_x for row, side in ((rows[0], -2.5), (rows[-1], 2.5))
+    )
+    low_y, high_y = (
+        average.origin_y + (col + side) * average.cell_y for col, side in ((cols[0], -2.5), (cols[-1], 2.5))
+    )
+    return Window(low_x * 1e3, high_x * 1e3, low_y * 1e3, high_y * 1e3)
+
+
+def _map_height(window: Window) -> float:
     """[inch] that two maps side by side need at equal aspect."""
-    rows, cols = field.pressure.shape
-    aspect = rows * field.cell_x / (cols * field.cell_y)
-    return float(np.clip(0.9 + aspect * 0.33 * WIDTH, 2.4, 5.5))
+    aspect = (window.high_x - window.low_x) / (window.high_y - window.low_y)
+    return float(np.clip(0.85 + aspect * 0.34 * WIDTH, 2.0, 5.5))

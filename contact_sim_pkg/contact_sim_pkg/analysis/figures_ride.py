@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import numpy as np
+from matplotlib.axes import Axes
 from numpy.typing import NDArray
 
 from .drawing import ACCENT, INK, MUTED, Picture, new_figure, picture
@@ -11,6 +12,9 @@ from .spectrum import Density, Transmissibility, power_density, transmissibility
 
 HIGHEST_FREQUENCY = 80.0
 """[Hz] upper end of the range of whole-body vibration"""
+TRUSTED_COHERENCE = 0.9
+DRIVEN_SHARE = 1e-3
+"""Share of the floor's largest density below which its leakage, not its motion, is measured."""
 FLOOR_OF_POWER = 1e-9
 """Share of the largest density below which a spectrum is rounding and not drawn."""
 
@@ -41,23 +45,27 @@ def seat_transmissibility(signals: RideSignals) -> Picture | None:
     shown = band(result.frequency) & np.isfinite(result.magnitude)
     if not shown.any():
         return None
+    driven = power_density(signals.floor, signals.sample_rate).density
+    trusted = shown & (result.coherence >= TRUSTED_COHERENCE) & (driven >= DRIVEN_SHARE * driven[shown].max())
     figure, axes = new_figure(4.6, 3, sharex=True, height_ratios=[2, 1, 1])
     frequency = result.frequency[shown]
-    axes[0].semilogx(frequency, result.magnitude[shown], color=ACCENT)
+    for place, values in ((axes[0], result.magnitude), (axes[1], np.degrees(result.phase))):
+        place.semilogx(frequency, values[shown], color=MUTED, linewidth=0.6, alpha=0.6)
+        place.semilogx(frequency, np.where(trusted, values, np.nan)[shown], color=ACCENT, marker=".", markersize=3.5)
     axes[0].axhline(1.0, color=MUTED, linewidth=0.7)
     axes[0].set_ylabel("seat / floor")
-    axes[0].set_ylim(bottom=0.0)
-    axes[1].semilogx(frequency, np.degrees(result.phase[shown]), color=ACCENT)
+    axes[0].set_ylim(0.0, 1.25 * max(1.0, float(result.magnitude[trusted].max(initial=1.0))))
     axes[1].set_ylabel("phase, °")
     axes[1].set_yticks([-180, -90, 0, 90, 180])
     axes[2].semilogx(frequency, result.coherence[shown], color=INK, linewidth=0.9)
+    axes[2].axhline(TRUSTED_COHERENCE, color=MUTED, linewidth=0.7, linestyle=(0, (4, 3)))
     axes[2].set_ylabel("coherence")
     axes[2].set_ylim(0.0, 1.05)
     axes[2].set_xlabel("frequency, Hz")
     _frequency_axis(axes[2], result.frequency)
     return picture(
         "ride-transmissibility", figure, "Transmissibility from floor to seat: magnitude, phase, coherence",
-        _transmissibility_caption(result, shown),
+        _transmissibility_caption(result, trusted),
     )  # fmt: skip
 
 
@@ -67,15 +75,15 @@ def band(frequency: NDArray[np.float64]) -> NDArray[np.bool_]:
     return inside
 
 
-def _transmissibility_caption(result: Transmissibility, shown: NDArray[np.bool_]) -> str:
-    trusted = shown & (result.coherence > 0.9)
+def _transmissibility_caption(result: Transmissibility, trusted: NDArray[np.bool_]) -> str:
     text = f"Seat over floor, mean of {result.segments} segments. "
     if not trusted.any():
-        return text + "The coherence stays below 0.9: the record is too short or too noisy to read a resonance from it."
+        return text + "Nowhere is it coherent with enough excitation: no resonance can be read from this record."
     peak = int(np.flatnonzero(trusted)[result.magnitude[trusted].argmax()])
     return text + (
-        f"Largest where the coherence is above 0.9: {result.magnitude[peak]:.3g} at {result.frequency[peak]:.3g} Hz. Below a "
-        "coherence of about 0.9 neither magnitude nor phase should be read: little excitation there, or a non-linear seat."
+        f"Blue where the coherence is at least {TRUSTED_COHERENCE} (dashed) and the floor moves enough; largest there: "
+        f"{result.magnitude[peak]:.3g} at {result.frequency[peak]:.3g} Hz. Where it is grey, neither magnitude nor phase should be "
+        "read: little excitation, noise, or a non-linear seat."
     )
 
 
@@ -84,11 +92,11 @@ def _visible(spectrum: Density) -> NDArray[np.float64]:
     return np.where(spectrum.density > smallest, spectrum.density, np.nan)
 
 
-def _frequency_axis(axes: object, frequency: NDArray[np.float64]) -> None:
+def _frequency_axis(axes: Axes, frequency: NDArray[np.float64]) -> None:
     ticks = [tick for tick in (0.5, 1, 2, 5, 10, 20, 50, 80) if tick >= frequency[1]]
-    axes.set_xticks(ticks, [f"{tick:g}" for tick in ticks])  # type: ignore[attr-defined]
-    axes.minorticks_off()  # type: ignore[attr-defined]
-    axes.set_xlim(max(frequency[1], 0.1), HIGHEST_FREQUENCY)  # type: ignore[attr-defined]
+    axes.set_xticks(ticks, [f"{tick:g}" for tick in ticks])
+    axes.minorticks_off()
+    axes.set_xlim(max(frequency[1], 0.1), HIGHEST_FREQUENCY)
 
 
 def _top(spectrum: Density) -> float:

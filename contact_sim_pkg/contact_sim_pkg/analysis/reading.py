@@ -78,11 +78,10 @@ def parse_mapping(text: str) -> dict[str, Any]:
     return value if isinstance(value, dict) else {}
 
 
-def _duration(
-    contacts: dict[str, ContactSeries], motion: list[MotionSeries], scene: dict[str, Any], bag: Bag
-) -> float:
+def _duration(contacts: dict[str, ContactSeries], motion: list[MotionSeries], scene: dict[str, Any], bag: Bag) -> float:
     """End of the last sample; without samples the end of the last block, as far as the scene tells its length."""
-    ends = [float(series.time[-1]) + series.sample_period for series in (*contacts.values(), *motion)]
+    ends = [float(series.time[-1]) + series.sample_period for series in contacts.values()]
+    ends += [float(series.time[-1]) + series.sample_period for series in motion]
     block_length = scene.get("block_length")
     if not ends and isinstance(block_length, (int, float)):
         last_block = math.floor(bag.end * 1e-9 / block_length + 1e-9)

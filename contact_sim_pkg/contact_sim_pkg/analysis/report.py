@@ -16,6 +16,7 @@ from .figures_contact import load_over_approach, load_over_time, peak_and_area, 
 from .figures_ride import seat_spectrum, seat_transmissibility
 from .reading import read_recording
 from .ride import ride_signals
+from .rows import scene_rows
 from .series import Recording
 from .summary import summarise_recording
 from .tiles import tiles
@@ -53,7 +54,7 @@ def write_report(bag: Bag, out: Path | None = None) -> Path:
 
 def render(recording: Recording) -> str:
     """The page as text. Everything that comes from the bag is escaped."""
-    # Only names that this package gives go into a template's markup; pictures are the one thing marked as safe.
+    # Pictures are the one thing marked as safe markup.
     environment = Environment(
         loader=PackageLoader(__package__, "templates"), autoescape=True, undefined=StrictUndefined, trim_blocks=True,
         lstrip_blocks=True,
@@ -65,11 +66,11 @@ def render(recording: Recording) -> str:
         bag_name=recording.name,
         warnings=facts.warnings(recording),
         tiles=tiles(summary),
-        run=facts.run_facts(recording),
-        effects=facts.effect_facts(recording),
+        run=facts.run_rows(recording),
+        effects=facts.effect_rows(recording),
         excitations=facts.excitation_facts(recording),
-        versions=facts.version_facts(recording),
-        scene=facts.flat(recording.scene),
+        versions=facts.version_rows(recording),
+        scene=scene_rows(recording.scene),
         sections=sections(recording),
         vibration=summary.get("seat_vibration"),
         topics=recording.topics,

@@ -58,9 +58,7 @@ def power_density(values: NDArray[np.float64], sample_rate: float) -> Density:
     return Density(frequency, density, _count_segments(values.size, length))
 
 
-def transmissibility(
-    source: NDArray[np.float64], target: NDArray[np.float64], sample_rate: float
-) -> Transmissibility:
+def transmissibility(source: NDArray[np.float64], target: NDArray[np.float64], sample_rate: float) -> Transmissibility:
     """Magnitude, phase and coherence of `target` over `source`, both sampled at the same instants.
 
     Frequencies at which the source has no power have magnitude, phase and coherence nan.

@@ -66,17 +66,16 @@ def response(weighting: Weighting, frequency: NDArray[np.float64]) -> NDArray[np
         weighting: parameters.
         frequency: [Hz] >= 0, any shape.
     """
-    s = 2j * np.pi * np.asarray(frequency, dtype=np.float64)
+    s = (2j * np.pi * np.asarray(frequency, dtype=np.float64)).astype(np.complex128)
     omega_1, omega_2, omega_3, omega_4 = (2.0 * np.pi * corner for corner in weighting[1:5])
     high = s**2 / (s**2 + np.sqrt(2.0) * omega_1 * s + omega_1**2)
     low = omega_2**2 / (s**2 + np.sqrt(2.0) * omega_2 * s + omega_2**2)
     transition = (1.0 + s / omega_3) / _second_order(s, omega_4, weighting.transition_quality)
-    return high * low * transition * _step_response(weighting.step, s)
+    total: NDArray[np.complex128] = high * low * transition * _step_response(weighting.step, s)
+    return total
 
 
-def apply_weighting(
-    weighting: Weighting, acceleration: NDArray[np.float64], sample_rate: float
-) -> NDArray[np.float64]:
+def apply_weighting(weighting: Weighting, acceleration: NDArray[np.float64], sample_rate: float) -> NDArray[np.float64]:
     """Weighted acceleration [m/s^2], same shape as the input.
 
     The signal is taken as 0 outside the record and padded with zeros, so that its end does not leak into its start.
