@@ -60,17 +60,18 @@ def read_layout(file: IO[bytes], name: str) -> Layout:
 
 
 def counts_on_disk(path: Path) -> tuple[dict[str, int], bool]:
-    """Messages by topic that the file really lists, and whether it was finished; empty where it cannot be read."""
+    """Messages by topic that the file lists, and whether it is finished with each chunk in its place; else empty."""
     try:
         with path.open("rb") as file:
             layout = read_layout(file, path.name)
+            in_place = all(_head(file, place.offset) == (Opcode.CHUNK, place.length - _HEAD) for place in layout.chunks)
     except (BagError, OSError):
         return {}, False
     counts: Counter[str] = Counter()
     for channel, count in layout.counts.items():
         if channel in layout.channels:
             counts[layout.channels[channel].topic] += count
-    return dict(counts), layout.finished
+    return dict(counts), layout.finished and in_place
 
 
 def chunk_records(file: IO[bytes], place: ChunkPlace, name: str) -> list[McapRecord]:
@@ -143,17 +144,22 @@ def _place(index: ChunkIndex) -> ChunkPlace:
 def _walk(file: IO[bytes], name: str) -> Layout:
     """The layout from the records themselves, up to the first that is cut off or cannot be believed."""
     found = Layout([], {}, {}, {}, [], False, "")
-    end, damaged_chunks = file.seek(0, 2), 0
-    offset, reason = len(MAGIC), ""
+    end, damaged_records = file.seek(0, 2), 0
+    last_is_whole = True
+    offset, opcode, reason = len(MAGIC), 0, ""
     while offset < end:
         opcode, length = _head(file, offset)
         reason = _why_not(opcode, length, end - offset - _HEAD)
         if reason:
             break
-        damaged_chunks += not _take(file, ChunkPlace(offset, length + _HEAD, 0, 0, None), opcode, found, name)
+        whole = _take(file, ChunkPlace(offset, length + _HEAD, 0, 0, None), opcode, found, name)
+        damaged_records += not whole
+        last_is_whole = whole if opcode == Opcode.CHUNK else last_is_whole
         offset += length + _HEAD
+    if not last_is_whole and opcode != Opcode.DATA_END:
+        found.chunks.pop()  # torn by a power loss: its length reached the disk, its content did not
     lost = f"{reason}, the last {end - offset} bytes are not read" if reason else "it was not finished"
-    return found._replace(note=_note(name, found, lost, damaged_chunks))
+    return found._replace(note=_note(name, found, lost, damaged_records))
 
 
 def _why_not(opcode: int, length: int, left: int) -> str:
@@ -202,9 +208,9 @@ def _count(records: list[McapRecord], found: Layout) -> None:
             found.counts[record.channel_id] = found.counts.get(record.channel_id, 0) + 1
 
 
-def _note(name: str, found: Layout, lost: str, damaged_chunks: int) -> str:
+def _note(name: str, found: Layout, lost: str, damaged_records: int) -> str:
     held = f"{sum(found.counts.values())} messages"
     if found.counts:
         held += f" up to {max(chunk.end for chunk in found.chunks) / 1e9:.3f} s"
-    bad = f"; {damaged_chunks} of its records are damaged" if damaged_chunks else ""
+    bad = f"; {damaged_records} of its records are damaged" if damaged_records else ""
     return f"{name} holds {held}: {lost}{bad}"

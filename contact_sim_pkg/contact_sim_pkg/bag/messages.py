@@ -2,7 +2,8 @@
 
 `encode_*`(value, stamp in [ns], frame) gives CDR bytes, `decode_*`(bytes) the value; `stamp_of` reads the stamp alone.
 The `.msg` files state unit, frame, sign and order of each field; the tuples below hold the same values, grids as
-2-D arrays. Decoded arrays are copies: writable, aligned, contiguous.
+2-D arrays. Decoded arrays are copies: writable, aligned, contiguous. Longer than most files here, because
+the fields of all messages are to be known in one place.
 """
 
 from typing import Any, NamedTuple
@@ -23,19 +24,10 @@ from .encoding import (
     header,
     message_class,
     serialize,
-    stamp_of,
     time_of,
 )
+from .encoding import stamp_of as stamp_of
 from .errors import MessageError
-
-__all__ = [
-    "ContactForceBlock", "Cost", "Energy", "MotionBlock", "PatchField", "Progress", "Recorded", "Wrench",
-    "decode_contact_force", "decode_contact_patch", "decode_cost", "decode_energy", "decode_motion", "decode_progress",
-    "decode_recorded", "decode_road_patch", "decode_scene", "decode_vibration", "decode_wrench",
-    "encode_clock", "encode_contact_force", "encode_contact_patch", "encode_cost", "encode_energy", "encode_motion",
-    "encode_progress", "encode_recorded", "encode_road_patch", "encode_scene", "encode_vibration", "encode_wrench",
-    "stamp_of",
-]  # fmt: skip
 
 BENCH_FRAME = "bench"
 TIRE_FRAME = "tire_contact"

@@ -8,6 +8,7 @@ from typing import Any, NamedTuple
 
 from ruamel.yaml import YAML
 from ruamel.yaml.error import YAMLError
+from ruamel.yaml.scalarstring import DoubleQuotedScalarString
 
 from .errors import BagError
 from .topics import RECORDED, full_name, offered_qos, topic_of
@@ -126,7 +127,8 @@ def _information(
         "files": [
             {"path": file_name, "starting_time": dict(start), "duration": dict(duration), "message_count": total}
         ],
-        "custom_data": dict(custom) or None,
+        "custom_data": {DoubleQuotedScalarString(key): DoubleQuotedScalarString(text) for key, text in custom.items()}
+        or None,
         "ros_distro": "jazzy",
     }
 

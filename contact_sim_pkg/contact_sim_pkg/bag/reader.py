@@ -18,7 +18,7 @@ from .errors import BagError, CorruptChunkError
 from .layout import Layout, chunk_records, read_layout
 from .metadata import RECORD, SCENE_KEY, RecordedTopic, parse_metadata
 from .topics import TOPICS
-from .typestore import store_of_definitions, type_hash
+from .typestore import store_of_definition, type_hash
 
 
 class BagMessage(NamedTuple):
@@ -42,7 +42,10 @@ class Bag:
         if layout.note and is_being_written(path):
             self.notes.append(f"{path.name} is being recorded at this moment")
         self.topics = _topics(layout)
-        self._store: Typestore | None = None
+        unknown = sum(count for number, count in layout.counts.items() if number not in layout.channels)
+        if unknown:
+            self.notes.append(f"{unknown} messages of {path.name} cannot be read: what says their topic is damaged")
+        self._stores: dict[str, Typestore] = {}
 
     @property
     def complete(self) -> bool:
@@ -77,6 +80,11 @@ class Bag:
             return fitting[0]
         many = f"{len(fitting)} topics called" if fitting else "no topic called"
         raise BagError(f"{self.path} has {many} {name!r}; it has {', '.join(self.topics) or 'none at all'}")
+
+    def hash_of(self, topic: str) -> str:
+        """The hash `RIHS01_…` of the topic's type as the bag states it, or else by the definition in the bag."""
+        row = self.topic(topic)
+        return row.type_hash or self._types(row).hash_rihs01(row.type)
 
     def __contains__(self, name: str) -> bool:
         """Whether the bag has the topic."""
@@ -122,11 +130,11 @@ class Bag:
     def decoded(self, topic: str) -> Iterator[tuple[int, Any]]:
         """Log time in [ns] and message object of each message of a topic, by the bag's own definition of its type."""
         row = self.topic(topic)
-        store = self._types()
+        store = self._types(row)
         for message in self.messages(topic):
             try:
                 yield message.log_time, store.deserialize_cdr(message.data, row.type)
-            except (SerdeError, KeyError, AssertionError) as error:
+            except (SerdeError, AssertionError) as error:
                 where = f"{self.path}: the message of {row.name} at {message.log_time / 1e9:.6f} s"
                 raise BagError(f"{where} does not fit the definition in the bag: {error}") from None
 
@@ -146,12 +154,12 @@ class Bag:
             BagError: no such topic or field, or a message does not fit its definition.
         """
         row = self.topic(topic)
-        return stacked(self.decoded(topic), self._types(), row.type, fields)
+        return stacked(self.decoded(topic), self._types(row), row.type, fields)
 
-    def _types(self) -> Typestore:
-        if self._store is None:
-            self._store = store_of_definitions({topic.type: topic.definition for topic in self.topics.values()})
-        return self._store
+    def _types(self, row: RecordedTopic) -> Typestore:
+        if row.type not in self._stores:
+            self._stores[row.type] = store_of_definition(row.type, row.definition)
+        return self._stores[row.type]
 
     def _messages_of(self, records: list[Any], numbers: set[int]) -> Iterator[BagMessage]:
         channels = self._layout.channels
@@ -202,8 +210,8 @@ def version_differences(bag: Bag, current: dict[str, str]) -> list[str]:
     ]
     known = {topic.type for topic in TOPICS.values()}
     for name, topic in bag.topics.items():
-        if topic.type in known and topic.type_hash and topic.type_hash != type_hash(topic.type):
-            differences.append(f"{name} was recorded with another definition of {topic.type} ({topic.type_hash[:15]}…)")
+        if topic.type in known and bag.hash_of(name) != type_hash(topic.type):
+            differences.append(f"{name} was recorded with another definition of {topic.type} ({bag.hash_of(name)})")
     return differences
 
 

@@ -1,10 +1,9 @@
 """Message definitions: ours from the package data, the standard ones of ROS 2 Jazzy from rosbags.
 
 Nothing here needs ROS to be installed. A bag carries its definitions, so a reader builds its store from the bag
-(`store_of_definitions`); only what this version writes comes from the installed definitions.
+(`store_of_definition`); only what this version writes comes from the installed definitions.
 """
 
-from collections.abc import Mapping
 from functools import cache
 from importlib.resources import files
 
@@ -59,15 +58,16 @@ def type_hash(type_name: str) -> str:
     return installed_types().hash_rihs01(type_name)
 
 
-def store_of_definitions(definitions: Mapping[str, str]) -> Typestore:
-    """A store that knows the given types (name to `ros2msg` text with dependencies) and nothing installed.
+def store_of_definition(type_name: str, text: str) -> Typestore:
+    """A store that knows one type, from its `ros2msg` text with dependencies, and nothing installed.
 
-    Raises BagError where a text is no definition, or two texts define one dependency differently.
+    Raises BagError where the text is no definition, or one of its dependencies is missing.
     """
     store = get_typestore(Stores.EMPTY)
-    for name, text in definitions.items():
-        try:
-            store.register(get_types_from_msg(text, name))
-        except TypesysError as error:
-            raise BagError(f"the bag's definition of {name} cannot be used: {error}") from None
+    try:
+        store.register(get_types_from_msg(text, type_name))
+        store.get_msgdef(type_name)
+    except (TypesysError, KeyError) as error:
+        reason = f"{error.args[0]} is missing" if isinstance(error, KeyError) else error
+        raise BagError(f"the bag's definition of {type_name} cannot be used: {reason}") from None
     return store

@@ -243,10 +243,10 @@ class BagWriter:
         except BagWriteError as error:
             reasons.append(str(error))
         names = {topic.name: topic.key for topic in self._topics}
-        found, finished = counts_on_disk(self.path / self._name)
+        found, whole = counts_on_disk(self.path / self._name)
         counts = {key: found.get(name, 0) for name, key in names.items()}
-        if counts != self._counts or not finished:
-            ending = "" if finished else " and was not finished"
+        if counts != self._counts or not whole:
+            ending = "" if whole else " and is not whole"
             reasons.append(f"the bag holds {sum(counts.values())} of {self.messages} messages{ending}")
         sentence = "; ".join(dict.fromkeys(reason for reason in reasons if reason))
         self._summary = BagSummary(self.path, sum(counts.values()), counts, not sentence, sentence)
