@@ -20,7 +20,8 @@ class SolverWorkspace(NamedTuple):
     """Buffers of one solve at a time; a second solve in another thread needs its own. All fields are [rows, cols]."""
 
     buffers: Buffers
-    surface: Field  # [m] gap + displacement
+    height: Field  # [m] gap above its lowest cell: differences keep their digits whatever the datum is
+    surface: Field  # [m] height + displacement
     residual: Field  # [m] clearance on the free cells, else 0
     residual_before: Field  # [m] the same one iteration earlier
     filtered: Field  # [Pa] preconditioned residual
@@ -42,6 +43,7 @@ def make_workspace(half_space: HalfSpace) -> SolverWorkspace:
     shape = (half_space.rows, half_space.cols)
     return SolverWorkspace(
         buffers=make_buffers(half_space),
+        height=numpy.zeros(shape),
         surface=numpy.zeros(shape),
         residual=numpy.zeros(shape),
         residual_before=numpy.zeros(shape),
@@ -54,33 +56,34 @@ def make_workspace(half_space: HalfSpace) -> SolverWorkspace:
 
 
 @kernel
-def fresh_surface(half_space: HalfSpace, workspace: SolverWorkspace, gap: Field, pressure: Field) -> None:
-    """Deformed surface `u + g0` [m] from the pressure, by a convolution of its own."""
+def fresh_surface(half_space: HalfSpace, workspace: SolverWorkspace, pressure: Field) -> None:
+    """Deformed surface [m] from the pressure, by a convolution of its own."""
     convolve(half_space, workspace.buffers, pressure, workspace.surface)
     surface = workspace.surface
-    rows, cols = gap.shape
+    rows, cols = pressure.shape
     for i in range(rows):
         for j in range(cols):
-            surface[i, j] += gap[i, j]
+            surface[i, j] += workspace.height[i, j]
 
 
 @kernel
 def mean_height(surface: Field, pressure: Field) -> float:
-    """Mean of u + g0 [m] over the cells in contact: the approach of a field whose load is given."""
+    """Mean of the surface [m] over the cells in contact: the approach of a field whose load is given."""
     rows, cols = pressure.shape
-    height, cells = 0.0, 0.0
+    total, cells = 0.0, 0.0
     for i in range(rows):
         for j in range(cols):
             touching = 1.0 if pressure[i, j] > 0.0 else 0.0
-            height += touching * surface[i, j]
+            total += touching * surface[i, j]
             cells += touching
-    return height / max(cells, 1.0)
+    return total / max(cells, 1.0)
 
 
 @kernel
-def evaluate(workspace: SolverWorkspace, gap: Field, pressure: Field, approach: float, holds_load: bool) -> State:
+def evaluate(workspace: SolverWorkspace, pressure: Field, approach: float, holds_load: bool) -> State:
     """Residual of a field (and its approach, if the load is given); stores the clearance of the free cells."""
-    surface, residual, before = workspace.surface, workspace.residual, workspace.residual_before
+    surface, height = workspace.surface, workspace.height
+    residual, before = workspace.residual, workspace.residual_before
     rows, cols = pressure.shape
     if holds_load:
         approach = mean_height(surface, pressure)
@@ -92,7 +95,7 @@ def evaluate(workspace: SolverWorkspace, gap: Field, pressure: Field, approach: 
             before[i, j] = residual[i, j]
             residual[i, j] = clearance if p > 0.0 or clearance < 0.0 else 0.0
             complementarity += p * abs(clearance)
-            energy += p * (surface[i, j] - gap[i, j])
+            energy += p * (surface[i, j] - height[i, j])
             total += p
             penetration = max(penetration, -clearance if p == 0.0 else 0.0)
     if penetration == 0.0 and complementarity == 0.0:
@@ -150,7 +153,8 @@ def advance_direction(
     for i in range(rows):
         for j in range(cols):
             free = 1.0 if pressure[i, j] > 0.0 or residual[i, j] != 0.0 else 0.0
-            value = free * (mean - filtered[i, j] + momentum * direction[i, j])
+            kept = momentum * direction[i, j] if momentum > 0.0 else 0.0
+            value = free * (mean - filtered[i, j] + kept)
             direction[i, j] = value
             total += value
             descent += value * residual[i, j]
@@ -218,9 +222,9 @@ def correct_for_clipping(half_space: HalfSpace, workspace: SolverWorkspace, coun
 
 
 @kernel
-def rescale(workspace: SolverWorkspace, gap: Field, pressure: Field, total: float) -> None:
+def rescale(workspace: SolverWorkspace, pressure: Field, total: float) -> None:
     """Scale pressure and displacement so that the pressures add up to `total` again."""
-    surface = workspace.surface
+    surface, height = workspace.surface, workspace.height
     rows, cols = pressure.shape
     present = 0.0
     for i in range(rows):
@@ -232,4 +236,4 @@ def rescale(workspace: SolverWorkspace, gap: Field, pressure: Field, total: floa
     for i in range(rows):
         for j in range(cols):
             pressure[i, j] *= factor
-            surface[i, j] = gap[i, j] + factor * (surface[i, j] - gap[i, j])
+            surface[i, j] = height[i, j] + factor * (surface[i, j] - height[i, j])

@@ -161,11 +161,13 @@ def solve(
     if given == 0.0 if holds_load else given <= touch:
         pressure[:] = 0.0
         return FieldResult(CONVERGED, 0, 0.0, touch if holds_load else given, 0.0)
-    total = -1.0
+    total = given / (half_space.cell_x * half_space.cell_y) if holds_load else -1.0
+    heights_above(gap, touch, workspace.height)
     if holds_load:
-        total = given / (half_space.cell_x * half_space.cell_y)
-        start_at_load(half_space, gap, given, total, pressure)
-    return iterate(half_space, workspace, gap, given, total, tolerance, max_iterations, pressure)
+        start_at_load(half_space, workspace.height, given, total, pressure)
+    result = iterate(half_space, workspace, given - touch, total, tolerance, max_iterations, pressure)
+    approach = touch + result.approach if holds_load else given
+    return FieldResult(result.status, result.iterations, result.load, approach, result.residual)
 
 
 @kernel
@@ -191,6 +193,14 @@ def lowest(gap: Field) -> float:
 
 
 @kernel
+def heights_above(gap: Field, datum: float, height: Field) -> None:
+    rows, cols = gap.shape
+    for i in range(rows):
+        for j in range(cols):
+            height[i, j] = gap[i, j] - datum
+
+
+@kernel
 def total_of(pressure: Field) -> float:
     """Sum over the cells, row by row."""
     rows, cols = pressure.shape
@@ -204,19 +214,19 @@ def total_of(pressure: Field) -> float:
 
 
 @kernel
-def start_at_load(half_space: HalfSpace, gap: Field, load: float, total: float, pressure: Field) -> None:
+def start_at_load(half_space: HalfSpace, height: Field, load: float, total: float, pressure: Field) -> None:
     """Scale the start pressure to the load; without one, take a pressure proportional to an overlap that carries it.
 
     The overlap's volume V and area A carry `0.6 E* V / sqrt(A / pi)`, exact for a sphere (4 sqrt(2) / (3 pi)); its
-    approach is found by bisection. Beyond the highest gap the whole grid is loaded.
+    approach is found by bisection. Beyond the highest cell the whole grid is loaded.
     """
-    rows, cols = gap.shape
+    rows, cols = height.shape
     present = total_of(pressure)
     if present <= 0.0:
-        approach = overlap_approach(half_space, gap, load)
+        approach = overlap_approach(half_space, height, load)
         for i in range(rows):
             for j in range(cols):
-                pressure[i, j] = max(approach - gap[i, j], 0.0)
+                pressure[i, j] = max(approach - height[i, j], 0.0)
         present = total_of(pressure)
     for i in range(rows):
         for j in range(cols):
@@ -224,20 +234,19 @@ def start_at_load(half_space: HalfSpace, gap: Field, load: float, total: float, 
 
 
 @kernel
-def overlap_approach(half_space: HalfSpace, gap: Field, load: float) -> float:
-    rows, cols = gap.shape
-    low = lowest(gap)
-    high = low
+def overlap_approach(half_space: HalfSpace, height: Field, load: float) -> float:
+    rows, cols = height.shape
+    low, high = 0.0, 0.0
     for i in range(rows):
         for j in range(cols):
-            high = max(high, gap[i, j])
+            high = max(high, height[i, j])
     cell = half_space.cell_x * half_space.cell_y
     for _ in range(12):
         middle = 0.5 * (low + high)
         volume, cells = 0.0, 0.0
         for i in range(rows):
             for j in range(cols):
-                overlap = max(middle - gap[i, j], 0.0)
+                overlap = max(middle - height[i, j], 0.0)
                 volume += overlap
                 cells += 1.0 if overlap > 0.0 else 0.0
         if 0.6 * half_space.modulus * volume * cell >= load * numpy.sqrt(cells * cell / numpy.pi):
@@ -251,7 +260,6 @@ def overlap_approach(half_space: HalfSpace, gap: Field, load: float) -> float:
 def iterate(
     half_space: HalfSpace,
     workspace: SolverWorkspace,
-    gap: Field,
     approach: float,
     total: float,
     tolerance: float,
@@ -264,9 +272,9 @@ def iterate(
     best, stale, slope, iterations = numpy.inf, 0, 0.0, 0
     while True:
         if refresh:
-            fresh_surface(half_space, workspace, gap, pressure)
+            fresh_surface(half_space, workspace, pressure)
             refresh, fresh = False, True
-        state = evaluate(workspace, gap, pressure, approach, holds_load)
+        state = evaluate(workspace, pressure, approach, holds_load)
         if state.residual <= tolerance or iterations >= max_iterations or blocked:
             if fresh:
                 break
@@ -278,7 +286,7 @@ def iterate(
         stale = stale if stale < PATIENCE else 0
         blocked = not step(half_space, workspace, pressure)
         if holds_load:
-            rescale(workspace, gap, pressure, total)
+            rescale(workspace, pressure, total)
         fresh = False
         iterations += 1
     load = total_of(pressure) * half_space.cell_x * half_space.cell_y

@@ -33,8 +33,8 @@ _TINY = 1e-300
 
 
 class LameFit(NamedTuple):
-    semi_axis_a: float  # [m] along x
-    semi_axis_b: float  # [m] along y
+    a: float  # [m] along x
+    b: float  # [m] along y
     exponent: float  # [-] n; 2 when not fitted
     centre_x: float  # [m] mean of the boundary points
     centre_y: float  # [m]
@@ -42,23 +42,18 @@ class LameFit(NamedTuple):
     fitted: bool  # False: fewer than 8 cells; half extents and n = 2
 
 
-def lame_area(semi_axis_a: float, semi_axis_b: float, exponent: float) -> float:
+def lame_area(a: float, b: float, exponent: float) -> float:
     """`4 a b Gamma(1 + 1/n)^2 / Gamma(1 + 2/n)` [m^2]; raises `ValueError` for n < 0.1."""
     _refuse_exponent(exponent)
-    return (
-        4.0
-        * semi_axis_a
-        * semi_axis_b
-        * math.exp(2.0 * math.lgamma(1.0 + 1.0 / exponent) - math.lgamma(1.0 + 2.0 / exponent))
-    )
+    return 4.0 * a * b * math.exp(2.0 * math.lgamma(1.0 + 1.0 / exponent) - math.lgamma(1.0 + 2.0 / exponent))
 
 
-def lame_second_moment(semi_axis_a: float, semi_axis_b: float, exponent: float) -> float:
+def lame_second_moment(a: float, b: float, exponent: float) -> float:
     """Integral of x^2 over the domain, `(4 a^3 b / n) B(3/n, 1 + 1/n)` [m^4]; exchange a and b for y^2."""
     _refuse_exponent(exponent)
     first, second = 3.0 / exponent, 1.0 + 1.0 / exponent
     log_beta = math.lgamma(first) + math.lgamma(second) - math.lgamma(first + second)
-    return 4.0 * semi_axis_a**3 * semi_axis_b / exponent * math.exp(log_beta)
+    return 4.0 * a**3 * b / exponent * math.exp(log_beta)
 
 
 def _refuse_exponent(exponent: float) -> None:
@@ -88,8 +83,8 @@ def fit_patch(pressure: Field, cell_x: float, cell_y: float, origin_x: float, or
     boundary_points(pressure, cell_x, cell_y, x, y)
     fit = fit_boundary(x, y, half_x, half_y)
     return LameFit(
-        fit.semi_axis_a,
-        fit.semi_axis_b,
+        fit.a,
+        fit.b,
         fit.exponent,
         fit.centre_x + origin_x,
         fit.centre_y + origin_y,
