@@ -29,7 +29,7 @@ from contact_sim_pkg.core.effects.normal_dissipative import loss_factor
 from contact_sim_pkg.core.lame import fit_patch
 from contact_sim_pkg.core.patch import summarise
 from contact_sim_pkg.core.rigs import advance as columns
-from contact_sim_pkg.scene.build import Model, seat_cells
+from contact_sim_pkg.scene.build import Model
 
 Array = NDArray[numpy.float64]
 NANOSECONDS = 1_000_000_000
@@ -39,7 +39,8 @@ class FieldRecord(NamedTuple):
     """A pressure field at one instant, before the loss factor."""
 
     pressure: Array  # [rows, cols], [Pa], elastic
-    origin_x: float  # [m] of the centre of cell (0, 0), where it follows the road; the seat's is fixed
+    origin_x: float  # [m] of the centre of cell (0, 0)
+    origin_y: float  # [m]
     approach: float  # [m]
     load: float  # [N], elastic
 
@@ -152,15 +153,13 @@ class _Encoder:
     def _field(self, name: str, frame: str, sample: int, found: FieldRecord, rate_column: int) -> None:
         """The field with its loss, whose integral is the force at its instant."""
         model = self.model
-        holder, contact = (
+        grids, contact = (
             (model.tire_field, model.rig.tire_contact) if name == "tire" else (model.seat_field, model.rig.seat_contact)
         )
-        assert holder is not None and contact is not None
-        settings = holder.settings
+        assert grids is not None and contact is not None
+        settings = grids.usual.settings  # the wide grid has the same cells
+        origin_x, origin_y = found.origin_x, found.origin_y
         pressure = found.pressure * loss_factor(contact.dissipative, float(self.record.forces[sample, rate_column]))
-        origin_x, origin_y = found.origin_x, -0.5 * (settings.cols - 1) * settings.cell_y
-        if name == "seat":
-            origin_x = float(seat_cells(settings)[0][0])
         total = summarise(pressure, settings.cell_x, settings.cell_y, origin_x, origin_y)
         shape = fit_patch(pressure, settings.cell_x, settings.cell_y, origin_x, origin_y)
         self.peak = max(self.peak, total.peak)
@@ -168,7 +167,7 @@ class _Encoder:
         value = PatchField(
             self.record.block, settings.cell_x, settings.cell_y, origin_x, origin_y, total.load, total.peak, total.mean,
             total.area, total.centre_x if touching else 0.0, total.centre_y if touching else 0.0, found.approach,
-            shape.semi_axis_a, shape.semi_axis_b, shape.exponent, pressure.astype(numpy.float32),
+            shape.a, shape.b, shape.exponent, pressure.astype(numpy.float32),
         )  # fmt: skip
         stamp = self._stamp_of(sample)
         self.messages.append((f"{name}/patch", stamp, encode_contact_patch(value, stamp, frame)))

@@ -6,10 +6,8 @@ import time
 from typing import Any, NamedTuple
 
 import numpy
-from numpy.typing import NDArray
 
-from contact_sim_pkg.core.effects.contact_field import FieldError, PressureField, offset_of
-from contact_sim_pkg.core.effects.footprint import effective_heights, tire_gap
+from contact_sim_pkg.core.effects.footprint import effective_heights
 from contact_sim_pkg.core.effects.normal_elastic import elastic_energy, elastic_force
 from contact_sim_pkg.core.jit import freeze, thaw
 from contact_sim_pkg.core.parameters import Vector
@@ -19,12 +17,12 @@ from contact_sim_pkg.core.rigs.vehicle import MARGINS
 from contact_sim_pkg.core.solvers.dormand_prince import make_workspace
 from contact_sim_pkg.excitation.blocks import RoadPatch, VibrationBlock
 from contact_sim_pkg.run.errors import RunError
-from contact_sim_pkg.run.outputs import BlockRecord, FieldRecord, encode_block
+from contact_sim_pkg.run.outputs import BlockRecord, encode_block
 from contact_sim_pkg.run.sources import make_travel
+from contact_sim_pkg.run.support import CushionSupport, RoadSupport
 from contact_sim_pkg.scene.build import Model, build, standing_state
 
 ROAD, VIBRATION = "road/patch", "platform/vibration"
-SETTLE_PASSES = 12  # field solves that bring the standing load into balance with a rough road before the start
 
 
 class BlockResult(NamedTuple):
@@ -34,28 +32,6 @@ class BlockResult(NamedTuple):
     load: float  # [N] largest normal force
     peak_pressure: float  # [Pa]; 0 where no field is computed
     wall_time: float  # [s]
-
-
-class _Support:
-    """The effective height under one contact over the interval, and its field, if there is one."""
-
-    def __init__(self, field: PressureField | None) -> None:
-        self.field = field
-        self.offset = 0.0  # [m] at the last field instant
-        self.change = 0.0  # [m] of the offset over the last interval, for the prediction of the next
-        self.gap: NDArray[numpy.float64] | None = None
-        self.origin = 0.0
-        self.published: FieldRecord | None = None
-
-    def solves_in(self, passes_left: int) -> bool:
-        """Whether the field is solved in a pass that ``passes_left`` corrector passes follow; always in the last."""
-        return self.field is not None and self.field.settings.corrector_passes >= passes_left
-
-    def reset(self) -> None:
-        """Forget everything but the buffers."""
-        self.offset, self.change, self.published = 0.0, 0.0, None
-        if self.field is not None:
-            self.field.pressure[:] = 0.0
 
 
 class Simulation:
@@ -72,8 +48,9 @@ class Simulation:
             inputs.append(VIBRATION)
         self.inputs = tuple(inputs)
         self._travel = make_travel(scene.data) if self.model.tire_geometry is not None else None
-        self._tire = _Support(self.model.tire_field)
-        self._seat = _Support(self.model.seat_field)
+        rig = self.model.rig
+        self._tire = RoadSupport(self.model.tire_field, rig.tire_contact, self.model.tire_geometry)
+        self._seat = CushionSupport(self.model.seat_field, rig.seat_contact, self.model.seat_shape)
         self._next_block = 0
         self._reset()
 
@@ -116,9 +93,9 @@ class Simulation:
         assert geometry is not None and travel is not None
         length = self.model.timing.block_length
         low, high = travel.extent(0.0, length)
-        first = int(numpy.floor(low / geometry.cell_x)) - geometry.rows
-        rows = int(numpy.ceil((high - low) / geometry.cell_x)) + 2 * geometry.rows + 2
-        height = numpy.zeros((rows, geometry.cols), dtype=numpy.float32)
+        first = int(numpy.floor(low / geometry.cell_x)) - geometry.road_rows
+        rows = int(numpy.ceil((high - low) / geometry.cell_x)) + 2 * geometry.road_rows + 2
+        height = numpy.zeros((rows, geometry.road_cols), dtype=numpy.float32)
         return RoadPatch(0, 0.0, travel.position(length), first, geometry.cell_x, geometry.cell_y, height)
 
     def advance(self, block: int, inputs: dict[str, RoadPatch | VibrationBlock]) -> BlockResult:
@@ -142,10 +119,9 @@ class Simulation:
         self._next_block = block + 1
         record.counters[:] = self._work.counters
         for support in (self._tire, self._seat):
-            if support.field is not None:
-                record.field_iterations += support.field.iterations
-                record.field_residual = max(record.field_residual, support.field.residual)
-                support.field.iterations = 0
+            iterations, residual = support.take_cost()
+            record.field_iterations += iterations
+            record.field_residual = max(record.field_residual, residual)
         wall = time.perf_counter() - began
         messages, load, peak = encode_block(self.model, record, wall)
         return BlockResult(messages, load, peak, time.perf_counter() - began)
@@ -177,10 +153,10 @@ class Simulation:
             return zeros, zeros
         if road is None or road.block != block:
             raise RunError(f"{ROAD}: block {block} was due, {'none' if road is None else f'block {road.block}'} came")
-        if road.height.shape[1] != geometry.cols or abs(road.cell_x / geometry.cell_x - 1.0) > 1e-12:
+        if road.height.shape[1] != geometry.road_cols or abs(road.cell_x / geometry.cell_x - 1.0) > 1e-12:
             raise RunError(
                 f"{ROAD}: block {block} has {road.height.shape[1]} columns and cells of {road.cell_x} m, the scene needs "
-                f"{geometry.cols} columns and cells of {geometry.cell_x} m"
+                f"{geometry.road_cols} columns and cells of {geometry.cell_x} m"
             )
         steps = timing.intervals * timing.segments
         travel = numpy.array([self._travel.position((block * steps + i) * timing.segment_length) for i in range(points)])
@@ -196,18 +172,28 @@ class Simulation:
     def _start(self, road: Any, travel: Vector, smooth: Vector, a_x: Vector, a_z: Vector) -> None:
         """Let the rig stand in balance on the road at the start, with the fields that belong to it."""
         self.state[:] = standing_state(self.model, float(smooth[0]))
-        for _ in range(SETTLE_PASSES):
-            self._tire.offset = self._solve_tire(road, float(travel[0]), float(smooth[0]))
-            self._seat.offset = self._solve_seat()
-            if self._tire.field is None:
-                break
-            self.state[:] = standing_state(self.model, float(smooth[0]) + self._tire.offset)
+        if self._tire.grids is not None:
+            self._stand_on_road(road, float(travel[0]))
         self._tire.offset = self._solve_tire(road, float(travel[0]), float(smooth[0]))
         self._seat.offset = self._solve_seat()
         height = numpy.array([smooth[0] + self._tire.offset, smooth[1] + self._tire.offset])
         cushion = numpy.full(2, self._seat.offset)
         length = self.model.timing.segment_length
         entries.start(self.model.rig, self._mode, self.state, self._work, length, height, cushion, a_x[:2], a_z[:2])
+
+    def _stand_on_road(self, road: Any, travel: float) -> None:
+        """Shift the rig up or down so that the tire's field carries its weight on the road at the start."""
+        self._tire.place(road, travel)
+        rig = self.model.rig
+        assert rig.tire is not None
+        mass = rig.tire.wheel_mass + rig.tire.body_mass
+        if rig.seat is not None:
+            mass += rig.seat.frame_mass + float(rig.seat.masses.sum())
+        shift = -self._tire.stand(mass * rig.gravity) - float(self.state[0])
+        vertical = [0, 1]
+        if rig.seat is not None:
+            vertical += range(rig.seat.offset, rig.seat.offset + 1 + len(rig.seat.masses))
+        self.state[vertical] += shift
 
     def _interval(
         self, block: int, interval: int, road: Any, travel: Vector, smooth: Vector, a_x: Vector, a_z: Vector, record: BlockRecord
@@ -220,7 +206,7 @@ class Simulation:
         saved = (self.state.copy(), self._mode.copy(), self._work.side.copy(), self._work.step.copy())
         tire_end, seat_end = (support.offset + support.change for support in (self._tire, self._seat))
         tire_next, seat_next = tire_end, seat_end
-        fields = self._published_fields()
+        fields = (self._tire.copy_published(), self._seat.copy_published())
         for passes_left in range(model.corrector_passes, -1, -1):
             if passes_left < model.corrector_passes:
                 self.state[:], self._mode[:], self._work.side[:], self._work.step[:] = saved
@@ -241,7 +227,7 @@ class Simulation:
             if passes_left:
                 tire_end, seat_end = tire_next, seat_next
         record.take(interval, self._sampled, start_energy, self._start_energy, a_x[part], a_z[part], fields)
-        if self._tire.field is not None or self._seat.field is not None:
+        if self._tire.grids is not None or self._seat.grids is not None:
             self._close_interval(tire_end, tire_next, seat_end, seat_next, record)
 
     def _energies(self) -> Vector:
@@ -262,45 +248,14 @@ class Simulation:
 
     def _solve_tire(self, road: Any, travel: float, smooth: float, block: int = 0) -> float:
         """Solve the tire's field at the present state; returns the offset that belongs to it, 0 without a field."""
-        support, geometry, contact = self._tire, self.model.tire_geometry, self.model.rig.tire_contact
-        if support.field is None or geometry is None or contact is None:
-            return 0.0
-        if support.gap is None:
-            support.gap = numpy.empty((geometry.rows, geometry.cols))
-        first = round(travel / geometry.cell_x) - geometry.rows // 2
-        if not tire_gap(
-            road.height, road.first_row, geometry.cell_x, geometry.cell_y, geometry.radius_rolling, geometry.radius_lateral,
-            first, travel, support.gap,
-        ):  # fmt: skip
-            raise RunError(f"{ROAD}: block {block} does not reach over the pressure grid at {travel:.6g} m")
-        support.origin = first * geometry.cell_x - travel
+        self._tire.place(road, travel)
         approach = -float(self.state[0])
-        return self._solve(support, approach, smooth - float(self.state[0]), contact.elastic, block)
+        return self._tire.solve(approach, smooth + approach, block)
 
     def _solve_seat(self, block: int = 0) -> float:
         """Solve the seat's field at the present state; returns the offset that belongs to it, 0 without a field."""
-        support, contact = self._seat, self.model.rig.seat_contact
-        if support.field is None or contact is None:
-            return 0.0
-        support.gap = self.model.seat_gap
         approach = self._approaches(0.0, 0.0)[1]
-        return self._solve(support, approach, approach, contact.elastic, block)
-
-    def _solve(self, support: _Support, approach: float, geometric: float, elastic: Any, block: int) -> float:
-        assert support.field is not None and support.gap is not None
-        try:
-            support.field.solve(support.gap, approach)
-        except FieldError as error:
-            raise RunError(f"block {block}: {error}") from None
-        support.published = FieldRecord(support.field.pressure, support.origin, approach, support.field.load)
-        return offset_of(elastic, support.field, support.gap, approach, geometric)
-
-    def _published_fields(self) -> tuple[FieldRecord | None, FieldRecord | None]:
-        """The fields that belong to the start of the interval, copied before the next solve overwrites them."""
-        return tuple(  # type: ignore[return-value]
-            None if s.published is None else s.published._replace(pressure=s.published.pressure.copy())
-            for s in (self._tire, self._seat)
-        )
+        return self._seat.solve(approach, approach, block)
 
     def _close_interval(
         self, tire_end: float, tire_next: float, seat_end: float, seat_next: float, record: BlockRecord

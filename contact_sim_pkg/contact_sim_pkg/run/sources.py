@@ -52,10 +52,10 @@ def make_road(scene: ResolvedScene) -> RoadBlocks:
     """The road of a resolved scene, on the lattice of its tire."""
     data = scene.data
     lattice = tire_lattice(data)
-    half_length = (lattice.rows // 2 + 1) * lattice.cell_x
+    half_length = (lattice.road_rows // 2 + 1) * lattice.cell_x
     surface = _surface(scene, lattice.cell_x)
     return RoadBlocks(
-        surface, make_travel(data), data["block_length"], lattice.cell_x, lattice.cell_y, half_length, lattice.cols
+        surface, make_travel(data), data["block_length"], lattice.cell_x, lattice.cell_y, half_length, lattice.road_cols
     )
 
 
@@ -75,6 +75,7 @@ def _surface(scene: ResolvedScene, cell: float) -> Surface:
         return OpenCrgRoad(
             scene.file_path("road.file"), road["start"], road["track_offset"], road["missing_cells"], road["hole_depth"],
             BORDER_NAMES[road["border_u"]], BORDER_NAMES[road["border_v"]], "mean" if road["remove_mean"] else "origin",
+            road["file_settings"],
         )  # fmt: skip
     height = road["depth"] if kind == "pothole" else road["height"]
     return Obstacle(kind, road["position"], height, road["length"], road.get("edge") or 0.0, road.get("period"))
@@ -91,8 +92,8 @@ def _signal(scene: ResolvedScene, vibration: dict[str, Any]) -> Signal:
     if kind == "recorded":
         return RecordedVibration(
             scene.file_path("vibration.file"), vibration.get("rate"), vibration["vertical_column"],
-            vibration.get("forward_column") or "x", time=vibration.get("time_column"),
-            tilt="correct" if vibration["correct_tilt"] else "keep", start=vibration["start"],
+            vibration["forward_column"], time=vibration.get("time_column"),
+            tilt="correct" if vibration["correct_tilt"] else "keep", beyond=vibration["beyond"], start=vibration["start"],
             sample_rate=vibration["sample_rate"],
         )  # fmt: skip
     wave = _wave(scene.data, vibration)

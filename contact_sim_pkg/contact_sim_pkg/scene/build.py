@@ -9,7 +9,7 @@ from typing import Any
 import numpy
 from numpy.typing import NDArray
 
-from contact_sim_pkg.core.effects.contact_field import FieldSettings, PressureField, fit_tangent
+from contact_sim_pkg.core.effects.contact_field import FieldSettings, PressureField, fit_tangent, widened
 from contact_sim_pkg.core.effects.normal_elastic import approach_of_force
 from contact_sim_pkg.core.effects.seat_shape import SeatShape, seat_gap
 from contact_sim_pkg.core.hertz import HertzContact, hertz_contact, power_law
@@ -21,7 +21,7 @@ POSITION_SCALE = 0.01  # [m], size of the approaches; the integrator's tolerance
 VELOCITY_SCALE = 0.5  # [m/s], size of the velocities on a rough road
 DEFAULT_DAMPING = {"tire": 0.06, "seat": 1.0}  # [s/m], see scene/schema_effects.py
 FIELD_ITERATIONS = 400
-FALLBACK_GRID = {"tire": (64, 48)}  # road lattice of a tire without pressure field
+FALLBACK_GRID = (64, 48)  # road lattice of a tire without pressure field
 
 
 @dataclass(frozen=True)
@@ -59,6 +59,20 @@ class TireGeometry:
     cols: int
     cell_x: float
     cell_y: float
+    road_rows: int  # along, what a field instant may need of the road
+    road_cols: int
+
+
+@dataclass(frozen=True)
+class FieldGrids:
+    """The pressure field of one contact, and the wider one that takes over where the contact outgrows it."""
+
+    usual: PressureField
+    wide: PressureField
+
+    def both(self) -> tuple[PressureField, PressureField]:
+        """Usual grid first."""
+        return (self.usual, self.wide)
 
 
 @dataclass(frozen=True)
@@ -70,9 +84,9 @@ class Model:
     scale: Vector  # [states] error allowed per step
     bodies: tuple[str, ...]
     tire_geometry: TireGeometry | None
-    tire_field: PressureField | None
-    seat_field: PressureField | None
-    seat_gap: NDArray[numpy.float64] | None
+    tire_field: FieldGrids | None
+    seat_field: FieldGrids | None
+    seat_shape: SeatShape | None
     corrector_passes: int
 
     @property
@@ -85,12 +99,12 @@ def build(scene: dict[str, Any]) -> Model:
     """Parameters of a resolved scene. Raises FieldError where a pressure field cannot carry the standing load."""
     rig_name = scene["rig"]
     with_tire, with_seat = rig_name in ("tire", "car"), rig_name in ("seat", "car")
-    seat_field, gap = _seat_field(scene) if with_seat else (None, None)
+    seat_field, shape = _seat_field(scene) if with_seat else (None, None)
     tire, tire_contact, geometry, tire_field = (
         _tire_part(scene, _occupant_mass(scene) if with_seat else 0.0) if with_tire else (None, None, None, None)
     )
     seat = _seat(scene, offset=4 if with_tire else 0) if with_seat else None
-    seat_contact = _seat_contact(scene, seat_field, gap) if with_seat else None
+    seat_contact = _seat_contact(scene, seat_field, shape) if with_seat else None
     rig = Vehicle(GRAVITY, tire, tire_contact, seat, seat_contact)
     return Model(
         rig=rig,
@@ -100,9 +114,9 @@ def build(scene: dict[str, Any]) -> Model:
         tire_geometry=geometry,
         tire_field=tire_field,
         seat_field=seat_field,
-        seat_gap=gap,
+        seat_shape=shape,
         corrector_passes=max(
-            (field.settings.corrector_passes for field in (tire_field, seat_field) if field is not None), default=0
+            (field.usual.settings.corrector_passes for field in (tire_field, seat_field) if field is not None), default=0
         ),
     )
 
@@ -147,7 +161,7 @@ def _dissipative(scene: dict[str, Any], contact: str) -> NormalDissipative | Non
 
 def _tire_part(
     scene: dict[str, Any], carried_mass: float
-) -> tuple[Tire, Contact, TireGeometry, PressureField | None]:
+) -> tuple[Tire, Contact, TireGeometry, FieldGrids | None]:
     given = scene["tire"]
     tire = Tire(*(float(given[key]) for key in ("wheel_mass", "body_mass", "suspension_stiffness", "suspension_damping")))
     modulus = given["young_modulus"] / (1.0 - given["poisson_ratio"] ** 2)
@@ -158,8 +172,8 @@ def _tire_part(
     if settings is None:
         law, field = NormalElastic(float(power_law(*curvatures, modulus)), 1.5), None
     else:
-        field = PressureField(settings, "tire")
-        law = fit_tangent(field, _crown(geometry), load)
+        field = _grids(settings, "tire")
+        law = fit_tangent(field.usual, _crown(geometry), load)
     return tire, Contact(law, _dissipative(scene, "tire"), None), geometry, field
 
 
@@ -172,10 +186,11 @@ def _tire_geometry(
     if not long_along_y:
         semi_x, semi_y = semi_y, semi_x
     if settings is not None:
-        grid = (settings.rows, settings.cols, settings.cell_x, settings.cell_y)
+        wide = widened(settings)
+        grid = (settings.rows, settings.cols, settings.cell_x, settings.cell_y, wide.rows, wide.cols)
     else:
-        rows, cols = FALLBACK_GRID["tire"]
-        grid = (rows, cols, 3.0 * semi_x / rows, 3.0 * semi_y / cols)
+        rows, cols = FALLBACK_GRID
+        grid = (rows, cols, 3.0 * semi_x / rows, 3.0 * semi_y / cols, rows, cols)
     return TireGeometry(radius_x, radius_y, semi_x, semi_y, *grid)
 
 
@@ -208,14 +223,21 @@ def _seat(scene: dict[str, Any], offset: int) -> Seat:
     return Seat(offset, float(occupant["frame_mass"]), *arrays)
 
 
-def _seat_field(scene: dict[str, Any]) -> tuple[PressureField | None, NDArray[numpy.float64] | None]:
+def _grids(settings: FieldSettings, contact: str) -> FieldGrids:
+    return FieldGrids(PressureField(settings, contact), PressureField(widened(settings), contact))
+
+
+def _seat_field(scene: dict[str, Any]) -> tuple[FieldGrids | None, SeatShape | None]:
     seat = scene["seat"]
     settings = _field_settings(scene, "seat", seat["cushion_modulus"] / (1.0 - seat["cushion_poisson"] ** 2))
     if settings is None:
         return None, None
-    shape = SeatShape(*(float(seat["body"][key]) for key in SeatShape._fields))
-    x, y = seat_cells(settings)
-    return PressureField(settings, "seat"), seat_gap(shape, x, y)
+    return _grids(settings, "seat"), SeatShape(*(float(seat["body"][key]) for key in SeatShape._fields))
+
+
+def seat_gap_on(shape: SeatShape, settings: FieldSettings) -> NDArray[numpy.float64]:
+    """Gap of the occupant over the flat cushion on the cells of a grid, in [m]."""
+    return seat_gap(shape, *seat_cells(settings))
 
 
 def seat_cells(settings: FieldSettings) -> tuple[NDArray[numpy.float64], NDArray[numpy.float64]]:
@@ -226,11 +248,11 @@ def seat_cells(settings: FieldSettings) -> tuple[NDArray[numpy.float64], NDArray
 
 
 def _seat_contact(
-    scene: dict[str, Any], field: PressureField | None, gap: NDArray[numpy.float64] | None
+    scene: dict[str, Any], field: FieldGrids | None, shape: SeatShape | None
 ) -> Contact:
     elastic = _effects(scene, "seat")["normal_elastic"]
-    if field is not None and gap is not None:
-        law = fit_tangent(field, gap, _occupant_mass(scene) * GRAVITY)
+    if field is not None and shape is not None:
+        law = fit_tangent(field.usual, seat_gap_on(shape, field.usual.settings), _occupant_mass(scene) * GRAVITY)
     else:
         law = NormalElastic(float(elastic["coefficient"]), float(elastic["exponent"]))
     friction = _effects(scene, "seat").get("friction")

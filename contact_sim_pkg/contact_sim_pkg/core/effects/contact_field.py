@@ -15,7 +15,7 @@ from typing import NamedTuple
 import numpy
 from numpy.typing import NDArray
 
-from ..field_solver import CONVERGED, SENTENCES, FieldResult, SolverWorkspace, make_workspace, solve_at_approach, solve_at_load
+from ..field_solver import CONVERGED, EDGE, SENTENCES, FieldResult, SolverWorkspace, make_workspace, solve_at_approach, solve_at_load
 from ..halfspace import HalfSpace, make_half_space
 from ..parameters import NormalElastic
 from .normal_elastic import approach_of_force
@@ -41,8 +41,19 @@ class FieldError(RuntimeError):
     """The field could not be solved: contact at the grid's edge, or no convergence. The message says which."""
 
 
+class FieldEdgeError(FieldError):
+    """The contact reached the edge of the grid."""
+
+
+def widened(settings: FieldSettings) -> FieldSettings:
+    """The same cells on twice the extent: the grid that takes over where the contact outgrows the first."""
+    return settings._replace(
+        rows=settings.rows + 2 * (settings.rows // 2), cols=settings.cols + 2 * (settings.cols // 2)
+    )
+
+
 class PressureField:
-    """One pressure field that follows its contact: the solver's state, its last field and the tangent's offset."""
+    """One pressure field that follows its contact: influence tables, the solver's buffers and its last field."""
 
     def __init__(self, settings: FieldSettings, contact: str) -> None:
         """Make influence tables and buffers for ``settings``; ``contact`` names it in messages (``tire``, ``seat``)."""
@@ -78,7 +89,8 @@ class PressureField:
 
     def _accept(self, result: FieldResult) -> None:
         if result.status != CONVERGED:
-            raise FieldError(
+            kind = FieldEdgeError if result.status == EDGE else FieldError
+            raise kind(
                 f"{self.contact}: {SENTENCES[result.status]} (load {result.load:.6g} N, residual {result.residual:.2g}, grid "
                 f"{self.settings.rows} x {self.settings.cols} over {self.settings.rows * self.settings.cell_x:.4g} m x "
                 f"{self.settings.cols * self.settings.cell_y:.4g} m; see effects.{self.contact}.contact_field)"

@@ -52,16 +52,18 @@ def tire_gap(height, first_row, cell_x, cell_y, radius_rolling, radius_lateral, 
     """Undeformed gap in [m] of the tire whose lowest point stands at height 0 over the road, written into ``out`` [rows, cols].
 
     ``g = x^2/(2 R_rolling) + y^2/(2 R_lateral) - h``; row 0 of ``out`` is lattice row ``first``, x counts from ``travel`` [m].
-    Cells coincide with road nodes, so no height is interpolated.
+    Cells coincide with road nodes, so no height is interpolated; the road may be wider than ``out`` by an even number of
+    columns. Returns False where the lattice does not hold the grid.
     """
     rows, cols = out.shape
-    if first < first_row or first + rows > first_row + height.shape[0]:
+    if first < first_row or first + rows > first_row + height.shape[0] or cols > height.shape[1]:
         return False
+    margin = (height.shape[1] - cols) // 2
     middle = 0.5 * (cols - 1)
     for i in range(rows):
         x = (first + i) * cell_x - travel
         crown = 0.5 * x * x / radius_rolling
         for j in range(cols):
             y = (j - middle) * cell_y
-            out[i, j] = crown + 0.5 * y * y / radius_lateral - height[first + i - first_row, j]
+            out[i, j] = crown + 0.5 * y * y / radius_lateral - height[first + i - first_row, margin + j]
     return True

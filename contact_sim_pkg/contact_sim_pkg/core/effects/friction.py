@@ -47,15 +47,27 @@ def stick_margin(friction: Friction, normal: float, deflection: float, velocity:
 
 
 @kernel
-def slip_margin(
-    friction: Friction, mode: int, velocity: float, acceleration: float, normal_rate: float, deflection_limited: bool
-) -> float:
-    """``sigma (v - s')`` in [m/s] with ``C s' = sigma mu_k N' - D v'``: slipping lasts while it is positive.
+def spring_limit(friction: Friction, mode: int, normal: float, velocity: float) -> int:
+    """Where the following spring stands while slipping: 0 free, 1 at its limit ``mu_k N/C`` along the slip, -1 against it."""
+    dragged = mode * friction.damping * velocity
+    if dragged <= 0.0:
+        return 1
+    return -1 if dragged >= 2.0 * friction.coefficient_kinetic * normal else 0
 
-    ``normal_rate`` N' in [N/s], ``acceleration`` v' in [m/s^2]; where the spring stands at its limit its damper part does
-    not act (``deflection_limited``).
+
+@kernel
+def slip_margin(
+    friction: Friction, mode: int, velocity: float, acceleration: float, normal: float, normal_rate: float
+) -> float:
+    """``sigma (v - s')`` in [m/s]: slipping lasts while it is positive.
+
+    ``C s' = sigma mu_k N' - D v'`` where the spring is free, ``+-sigma mu_k N'`` where it stands at a limit; ``normal_rate`` N' in
+    [N/s], ``acceleration`` v' in [m/s^2].
     """
+    limit = spring_limit(friction, mode, normal, velocity)
     spring_rate = mode * friction.coefficient_kinetic * normal_rate
-    if not deflection_limited:
+    if limit == 0:
         spring_rate -= friction.damping * acceleration
+    elif limit < 0:
+        spring_rate = -spring_rate
     return mode * (velocity - spring_rate / friction.stiffness)

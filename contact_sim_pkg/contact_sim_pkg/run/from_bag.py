@@ -1,0 +1,89 @@
+"""The excitation of an earlier run: its recorded blocks drive the simulation again, with other effects or another accuracy."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+from contact_sim_pkg.bag.errors import BagError
+from contact_sim_pkg.bag.messages import decode_road_patch, decode_vibration
+from contact_sim_pkg.bag.reader import Bag, open_bag
+from contact_sim_pkg.excitation.blocks import RoadPatch, VibrationBlock
+from contact_sim_pkg.run.bag_content import EXCITATION_KEY, input_names
+from contact_sim_pkg.run.errors import RunError
+from contact_sim_pkg.run.sources import Source
+from contact_sim_pkg.scene.build import make_timing, tire_lattice
+from contact_sim_pkg.scene.resolve import ResolvedScene
+
+DECODERS: dict[str, Callable[[bytes], RoadPatch | VibrationBlock]] = {
+    "road/patch": decode_road_patch,
+    "platform/vibration": decode_vibration,
+}
+
+
+class BagSource:
+    """The blocks of one excitation topic of a bag, kept as recorded bytes."""
+
+    def __init__(self, bag: Bag, topic: str) -> None:
+        """Read the topic; BagError where the bag does not have it or skips a block."""
+        self._path, self._topic = bag.path, topic
+        self._messages = [message.data for message in bag.messages(topic)]
+        texts = json.loads(bag.metadata.get(EXCITATION_KEY, "{}"))
+        self._description: dict[str, Any] = texts.get(topic, {})
+        for expected, data in enumerate(self._messages):
+            found = DECODERS[topic](data).block
+            if found != expected:
+                raise BagError(f"{bag.path}: {topic} has block {found} where block {expected} was due; it cannot be run again")
+
+    def __len__(self) -> int:
+        return len(self._messages)
+
+    def block(self, block: int) -> RoadPatch | VibrationBlock:
+        """Block number ``block``; RunError beyond the recording."""
+        if block >= len(self._messages):
+            raise RunError(f"{self._path}: {self._topic} ends before block {block}; it holds {len(self._messages)}")
+        return DECODERS[self._topic](self._messages[block])
+
+    def describe(self) -> dict[str, Any]:
+        """What the excitation said of itself when it was recorded, and where it comes from now."""
+        notes = [*self._description.get("notes", []), f"replayed from the bag {self._path.name}"]
+        return {**self._description, "notes": notes}
+
+
+def sources_from_bag(path: Path, scene: ResolvedScene) -> dict[str, Source]:
+    """Sources of every input that ``scene`` calls for, from the bag at ``path``.
+
+    Raises BagError where the bag lacks a topic or blocks, or was recorded on another road lattice or sample rate.
+    """
+    bag = open_bag(path)
+    sources = {topic: BagSource(bag, topic) for topic in input_names(scene)}
+    blocks = make_timing(scene.data, True).blocks
+    for topic, source in sources.items():
+        if len(source) < blocks:
+            length = scene.data["block_length"]
+            raise BagError(
+                f"{path}: {topic} holds {len(source)} blocks, the scene needs {blocks}; ask for --duration {len(source) * length:g}"
+            )
+        _refuse_misfit(path, topic, source.block(0), scene)
+    return dict(sources)
+
+
+def _refuse_misfit(path: Path, topic: str, first: RoadPatch | VibrationBlock, scene: ResolvedScene) -> None:
+    if isinstance(first, RoadPatch):
+        lattice = tire_lattice(scene.data)
+        found = (first.height.shape[1], first.cell_x, first.cell_y)
+        needed = (lattice.road_cols, lattice.cell_x, lattice.cell_y)
+        if any(abs(a / b - 1.0) > 1e-12 for a, b in zip(found, needed, strict=True)):
+            raise BagError(
+                f"{path}: {topic} was recorded on {found[0]} columns of {found[1]:.6g} m x {found[2]:.6g} m, the scene needs "
+                f"{needed[0]} of {needed[1]:.6g} m x {needed[2]:.6g} m; keep effects.tire.contact_field as recorded"
+            )
+        return
+    samples = round(scene.data["block_length"] * scene.data["vibration"]["sample_rate"]) + 1
+    if len(first.acceleration_z) != samples:
+        raise BagError(
+            f"{path}: {topic} was recorded with {len(first.acceleration_z)} samples a block, the scene needs {samples}; keep "
+            "block_length and vibration.sample_rate as recorded"
+        )

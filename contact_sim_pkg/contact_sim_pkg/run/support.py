@@ -1,0 +1,156 @@
+"""What supports a body at one contact: the effective height of road or cushion, and the pressure field that sets it."""
+
+from __future__ import annotations
+
+from abc import ABC, abstractmethod
+from typing import Any
+
+import numpy
+from numpy.typing import NDArray
+
+from contact_sim_pkg.core.effects.contact_field import FieldEdgeError, FieldError, FieldSettings, PressureField, offset_of
+from contact_sim_pkg.core.effects.footprint import tire_gap
+from contact_sim_pkg.core.parameters import Contact
+from contact_sim_pkg.run.errors import RunError
+from contact_sim_pkg.run.outputs import FieldRecord
+from contact_sim_pkg.scene.build import FieldGrids, SeatShape, TireGeometry, seat_cells, seat_gap_on
+
+Gap = NDArray[numpy.float64]
+
+
+class Support(ABC):
+    """The support of one contact; ``offset`` [m] is what its field adds to the smooth height, 0 without a field."""
+
+    def __init__(self, grids: FieldGrids | None, contact: Contact | None) -> None:
+        """Take the pressure field (None: the smooth height is all there is) and the contact whose law it serves."""
+        self.grids, self.contact = grids, contact
+        self.offset = 0.0  # [m] at the last field instant
+        self.change = 0.0  # [m] of the offset over the last interval, for the prediction of the next
+        self.published: FieldRecord | None = None
+
+    def reset(self) -> None:
+        """Forget everything but the buffers."""
+        self.offset, self.change, self.published = 0.0, 0.0, None
+        for field in () if self.grids is None else self.grids.both():
+            field.pressure[:] = 0.0
+
+    def solves_in(self, passes_left: int) -> bool:
+        """Whether the field is solved in a pass that ``passes_left`` corrector passes follow; always in the last."""
+        return self.grids is not None and self.grids.usual.settings.corrector_passes >= passes_left
+
+    def solve(self, approach: float, geometric: float, block: int) -> float:
+        """Solve the field at ``approach`` [m]; returns the offset to the ``geometric`` approach [m] of the smooth height.
+
+        Where the contact outgrows the usual grid the wide one takes over. Raises RunError where that is too small as well.
+        """
+        if self.grids is None or self.contact is None:
+            return 0.0
+        try:
+            return self._solve_on(self.grids.usual, approach, geometric)
+        except FieldEdgeError:
+            self.grids.usual.pressure[:] = 0.0
+        except FieldError as error:
+            raise RunError(f"block {block}: {error}") from None
+        try:
+            return self._solve_on(self.grids.wide, approach, geometric)
+        except FieldError as error:
+            raise RunError(f"block {block}: {error}") from None
+
+    def stand(self, load: float) -> float:
+        """Approach in [m] at which the field carries ``load`` [N]; the start of a run. Errors as ``solve``."""
+        assert self.grids is not None
+        for field in self.grids.both():
+            try:
+                return field.solve_load(self.gap(field.settings), load)
+            except FieldEdgeError as error:
+                field.pressure[:] = 0.0
+                last = error
+            except FieldError as error:
+                raise RunError(f"block 0: {error}") from None
+        raise RunError(f"block 0: {last}")
+
+    def take_cost(self) -> tuple[int, float]:
+        """Iterations since the last call, and the residual of the last field."""
+        if self.grids is None:
+            return 0, 0.0
+        iterations = sum(field.iterations for field in self.grids.both())
+        for field in self.grids.both():
+            field.iterations = 0
+        return iterations, max(field.residual for field in self.grids.both())
+
+    def copy_published(self) -> FieldRecord | None:
+        """The last field, copied before the next solve overwrites it."""
+        return None if self.published is None else self.published._replace(pressure=self.published.pressure.copy())
+
+    def _solve_on(self, field: PressureField, approach: float, geometric: float) -> float:
+        assert self.contact is not None
+        gap = self.gap(field.settings)
+        field.solve(gap, approach)
+        self.published = FieldRecord(field.pressure, *self.origin(field.settings), approach, field.load)
+        return offset_of(self.contact.elastic, field, gap, approach, geometric)
+
+    @abstractmethod
+    def gap(self, settings: FieldSettings) -> Gap:
+        """Undeformed gap in [m] on the cells of a grid, at the present place."""
+
+    @abstractmethod
+    def origin(self, settings: FieldSettings) -> tuple[float, float]:
+        """Centre of cell (0, 0) in the contact's frame, x and y in [m]."""
+
+
+class RoadSupport(Support):
+    """The road under the tire; ``place`` says where the wheel stands before a field is solved."""
+
+    def __init__(self, grids: FieldGrids | None, contact: Contact | None, geometry: TireGeometry | None) -> None:
+        """As ``Support``; ``geometry`` gives radii and lattice."""
+        super().__init__(grids, contact)
+        self._geometry = geometry
+        self._road: Any = None
+        self._travel = 0.0
+        self._gaps = {} if grids is None else {
+            field.settings.rows: numpy.empty((field.settings.rows, field.settings.cols)) for field in grids.both()
+        }  # fmt: skip
+
+    def place(self, road: Any, travel: float) -> None:
+        """The block's road, and the travel of the wheel centre in [m]."""
+        self._road, self._travel = road, travel
+
+    def _first(self, settings: FieldSettings) -> int:
+        return round(self._travel / settings.cell_x) - settings.rows // 2
+
+    def gap(self, settings: FieldSettings) -> Gap:
+        """See Support; cells coincide with nodes of the road."""
+        geometry, road = self._geometry, self._road
+        assert geometry is not None
+        out = self._gaps[settings.rows]
+        inside = tire_gap(
+            road.height, road.first_row, settings.cell_x, settings.cell_y, geometry.radius_rolling,
+            geometry.radius_lateral, self._first(settings), self._travel, out,
+        )  # fmt: skip
+        if not inside:
+            raise RunError(f"road/patch: block {road.block} does not reach over the pressure grid at {self._travel:.6g} m")
+        return out
+
+    def origin(self, settings: FieldSettings) -> tuple[float, float]:
+        """See Support."""
+        return self._first(settings) * settings.cell_x - self._travel, -0.5 * (settings.cols - 1) * settings.cell_y
+
+
+class CushionSupport(Support):
+    """The cushion under the occupant, whose form does not change."""
+
+    def __init__(self, grids: FieldGrids | None, contact: Contact | None, shape: SeatShape | None) -> None:
+        """As ``Support``; ``shape`` is the occupant's lower surface."""
+        super().__init__(grids, contact)
+        self._gaps = {} if grids is None or shape is None else {
+            field.settings.rows: seat_gap_on(shape, field.settings) for field in grids.both()
+        }  # fmt: skip
+
+    def gap(self, settings: FieldSettings) -> Gap:
+        """See Support."""
+        return self._gaps[settings.rows]
+
+    def origin(self, settings: FieldSettings) -> tuple[float, float]:
+        """See Support."""
+        x, y = seat_cells(settings)
+        return float(x[0]), float(y[0])

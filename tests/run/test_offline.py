@@ -1,0 +1,65 @@
+"""The offline run: what it writes, how it ends, and running a bag's excitation again."""
+
+import pytest
+
+from contact_sim_pkg.bag.errors import BagError
+from contact_sim_pkg.bag.reader import open_bag
+from contact_sim_pkg.bag.topics import TOPICS
+from contact_sim_pkg.run.from_bag import sources_from_bag
+from contact_sim_pkg.run.offline import run_offline
+from tests.run.scenes import resolved
+
+
+def recorded(path):
+    """Everything that must be the same twice: topic, log time and bytes, in order."""
+    return [
+        (message.topic, message.log_time, message.data)
+        for message in open_bag(path).messages()
+        if not TOPICS[message.topic.lstrip("/")].wall_time
+    ]
+
+
+@pytest.fixture(scope="module")
+def bag(tmp_path_factory):
+    """Half a second of the full bench."""
+    directory = tmp_path_factory.mktemp("bags") / "first"
+    outcome = run_offline(resolved("car_full_bench", "duration=0.5"), directory)
+    assert outcome.failure == "" and outcome.blocks == 50
+    return directory
+
+
+def test_two_runs_write_the_same_messages_in_the_same_order(bag, tmp_path):
+    run_offline(resolved("car_full_bench", "duration=0.5"), tmp_path / "second")
+    assert recorded(bag) == recorded(tmp_path / "second")
+
+
+def test_the_bag_is_in_order_of_stamps_and_holds_its_scene(bag):
+    opened = open_bag(bag)
+    times = [message.log_time for message in opened.messages()]
+    assert times == sorted(times)
+    assert "car_full_bench" in (opened.scene or "")
+    assert opened.count("tire/patch") == 50 and opened.count("road/patch") == 50
+
+
+def test_a_bag_run_again_from_its_excitation_gives_the_same_messages(bag, tmp_path):
+    scene = resolved("car_full_bench", "duration=0.5")
+    run_offline(scene, tmp_path / "again", sources=sources_from_bag(bag, scene))
+    assert recorded(bag) == recorded(tmp_path / "again")
+
+
+def test_a_bag_that_is_too_short_for_the_scene_is_refused_with_the_duration_that_fits(bag):
+    with pytest.raises(BagError, match="--duration 0.5"):
+        sources_from_bag(bag, resolved("car_full_bench", "duration=1.0"))
+
+
+def test_a_bag_on_another_road_lattice_is_refused(bag):
+    with pytest.raises(BagError, match="keep effects.tire.contact_field as recorded"):
+        sources_from_bag(bag, resolved("car_full_bench", "duration=0.5", "accuracy=1e-3"))
+
+
+def test_a_run_that_is_stopped_leaves_a_whole_bag(tmp_path):
+    asked = iter([False] * 7 + [True])
+    outcome = run_offline(resolved("seat_ride"), tmp_path / "bag", stop=lambda: next(asked))
+    assert outcome.stopped and outcome.blocks == 7
+    assert open_bag(tmp_path / "bag").complete
+    assert open_bag(tmp_path / "bag").count("seat/force") == 7
