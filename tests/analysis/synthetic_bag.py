@@ -108,7 +108,8 @@ def _tire_patch(block: int, _blocks: int, stamp: int) -> bytes:
     area = LOADED_CELLS * CELL**2
     centre = (-(ROWS - 1) / 2 * CELL, -(COLS - 1) / 2 * CELL)
     field = messages.PatchField(
-        block, CELL, CELL, *centre, load, float(pressure.max()), load / area, area, 0.0, 0.0, 0.015, 0.03, 0.02, 6.0, pressure
+        block, CELL, CELL, *centre, load, float(pressure.max()), load / area, area, 0.0, 0.0, 0.015, 0.03,
+        0.02, 6.0, pressure,
     )  # fmt: skip
     return messages.encode_contact_patch(field, stamp, messages.TIRE_FRAME)
 

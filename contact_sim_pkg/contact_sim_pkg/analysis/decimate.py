@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from itertools import pairwise
+
 import numpy as np
 from numpy.typing import NDArray
 
@@ -26,7 +28,7 @@ def envelope(
         return time, values
     edges = np.linspace(0, values.size, columns + 1).astype(np.int64)
     picks = np.empty((columns, 2), dtype=np.int64)
-    for column, (start, stop) in enumerate(zip(edges[:-1], edges[1:], strict=True)):
+    for column, (start, stop) in enumerate(pairwise(edges)):
         stretch = values[start:stop]
         picks[column] = start + stretch.argmin(), start + stretch.argmax()
     order = np.sort(picks, axis=1).ravel()

@@ -1,4 +1,4 @@
-"""Drawing for the page: one style, and SVG that takes its colours from the page, so that it fits light, dark and print."""
+"""Drawing for the page: one style, and SVG that takes its colours from the page: light, dark or print."""
 
 from __future__ import annotations
 
@@ -57,6 +57,7 @@ STYLE = {
     "path.simplify": True,
 }
 
+_IMAGE_NUMBER = re.compile(r' id="image[0-9a-f]+"')  # of its content: the same colour bar twice would have one twice
 _IDENTIFIER = re.compile(r'(\bid="|url\(#|href="#)')
 
 
@@ -96,6 +97,7 @@ def picture(name: str, figure: Figure, description: str, caption: str) -> Pictur
     text = buffer.getvalue()
     body = text[text.index("<svg") :]
     body = re.sub(r"<metadata>.*?</metadata>", "", body, flags=re.DOTALL)
+    body = _IMAGE_NUMBER.sub("", body)
     body = _IDENTIFIER.sub(rf"\g<1>{name}-", body)
     for colour, variable in VARIABLES.items():
         body = body.replace(colour, f"var({variable})")

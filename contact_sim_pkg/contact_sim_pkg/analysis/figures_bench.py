@@ -27,9 +27,10 @@ def energy_balance(ledger: LedgerSeries) -> Picture:
     axes[1].set_xlabel("simulated time, s")
     axes[1].set_xlim(ledger.time[0], max(ledger.time[-1], ledger.time[0] + 1e-3))
     caption = (
-        f"Energy since the start: {ledger.supplied[-1]:.4g} J supplied, {ledger.dissipated[-1]:.4g} J dissipated at the end. What "
-        f"does not add up is at most {np.abs(ledger.residual).max():.2g} J, {relative_residual(ledger):.1e} of the throughput "
-        f"({throughput(ledger):.4g} J, the largest entry of the ledger): the error of the time integration."
+        f"Energy since the start: {ledger.supplied[-1]:.4g} J supplied, {ledger.dissipated[-1]:.4g} J dissipated at "
+        f"the end. What does not add up is at most {np.abs(ledger.residual).max():.2g} J, "
+        f"{relative_residual(ledger):.1e} of the throughput ({throughput(ledger):.4g} J, the largest entry of the "
+        "ledger): the error of the time integration."
     )
     return picture("bench-energy", figure, "Energy ledger over time and its residual", caption)
 
@@ -52,8 +53,9 @@ def real_time_factor(cost: CostSeries) -> Picture:
     overall = float((cost.real_time_factor * cost.wall_time).sum()) / total
     slow = float((cost.real_time_factor < 1.0).mean())
     caption = (
-        f"{cost.time.size} blocks took {total:.3g} s of wall time for the physics: {overall:.3g} times as fast as the clock. "
-        f"Median {np.median(milliseconds):.3g} ms a block, slowest {milliseconds.max():.3g} ms; {slow:.1%} of the blocks were slower "
-        "than real time (dashed: 1). The last bar holds the slowest hundredth. Wall times differ from run to run."
+        f"{cost.time.size} blocks took {total:.3g} s of wall time for the physics: {overall:.3g} times as fast as "
+        f"the clock. Median {np.median(milliseconds):.3g} ms a block, slowest {milliseconds.max():.3g} ms; {slow:.1%} "
+        "of the blocks were slower than real time (dashed: 1). The last bar holds the slowest hundredth. Wall times "
+        "differ from run to run."
     )
     return picture("bench-cost", figure, "Real-time factor over time and histogram of wall times", caption)

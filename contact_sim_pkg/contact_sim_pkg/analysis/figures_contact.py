@@ -92,8 +92,8 @@ def load_over_approach(key: str, name: str, contact: ContactSeries) -> Picture:
     axes.set_ylim(bottom=0.0)
     sampled = f" One in {stride} is drawn." if stride > 1 else ""
     caption = (
-        f"Normal force over approach, {contact.normal.size} samples.{sampled} One curve is an elastic contact on even ground; "
-        "loops are losses, a band is uneven ground at the same approach."
+        f"Normal force over approach, {contact.normal.size} samples.{sampled} One curve is an elastic contact on "
+        "even ground; loops are losses, a band is uneven ground at the same approach."
     )
     return picture(f"{key}-loop", figure, f"Normal force of the {name} contact over its approach", caption)
 
@@ -107,10 +107,11 @@ def pressure_maps(key: str, name: str, field: FieldSeries) -> Picture:
     _map(axes[1], field.average, window, "mean over the run")
     rows, cols = field.highest.pressure.shape
     caption = (
-        f"Pressure of the cells ({rows} × {cols} of {field.highest.cell_x * 1e3:.3g} × {field.highest.cell_y * 1e3:.3g} mm), "
-        f"not interpolated; cells without pressure are blank, the grid is cut to what was ever loaded. Left: the largest peak of the run, "
-        f"{field.highest.pressure.max() * 1e-3:.4g} kPa (cross) at {field.highest_time:.3f} s. Right: the mean of "
-        f"{field.time.size} fields, at most {field.average.pressure.max() * 1e-3:.4g} kPa. Forward is up; seen from above."
+        f"Pressure of the cells ({rows} × {cols} of {field.highest.cell_x * 1e3:.3g} × "
+        f"{field.highest.cell_y * 1e3:.3g} mm), not interpolated; cells without pressure are blank, the grid is cut to "
+        f"what was ever loaded. Left: the largest peak of the run, {field.highest.pressure.max() * 1e-3:.4g} kPa "
+        f"(cross) at {field.highest_time:.3f} s. Right: the mean of {field.time.size} fields, at most "
+        f"{field.average.pressure.max() * 1e-3:.4g} kPa. Seen from above, forward is up."
     )
     return picture(f"{key}-map", figure, f"Pressure maps of the {name} contact", caption)
 
@@ -121,7 +122,8 @@ def peak_and_area(key: str, name: str, field: FieldSeries) -> Picture:
     _line(axes[0], field.time, field.peak * 1e-3, "peak pressure, kPa")
     _line(axes[1], field.time, field.area * 1e4, "contact area, cm²")
     axes[0].plot(
-        [field.highest_time], [field.peak.max() * 1e-3], marker="x", color=INK, markersize=6, linestyle="none", clip_on=False
+        [field.highest_time], [field.peak.max() * 1e-3], marker="x", color=INK, markersize=6, linestyle="none",
+        clip_on=False,
     )  # fmt: skip
     for each in axes:
         each.set_ylim(bottom=0.0)
@@ -129,9 +131,9 @@ def peak_and_area(key: str, name: str, field: FieldSeries) -> Picture:
     axes[1].set_xlim(field.time[0], max(field.time[-1], field.time[0] + 1e-3))
     numbers = field_numbers(field)
     caption = (
-        f"Peak pressure up to {numbers['peak_pressure_Pa'] * 1e-3:.4g} kPa (cross, at {field.highest_time:.3f} s). Contact area "
-        f"{field.area.min() * 1e4:.4g} to {field.area.max() * 1e4:.4g} cm², mean {numbers['contact_area_mean_m2'] * 1e4:.4g} cm²: "
-        "all cells with a pressure above 0."
+        f"Peak pressure up to {numbers['peak_pressure_Pa'] * 1e-3:.4g} kPa (cross, at {field.highest_time:.3f} s). "
+        f"Contact area {field.area.min() * 1e4:.4g} to {field.area.max() * 1e4:.4g} cm², mean "
+        f"{numbers['contact_area_mean_m2'] * 1e4:.4g} cm²: all cells with a pressure above 0."
     )
     return picture(f"{key}-area", figure, f"Peak pressure and contact area of the {name} contact over time", caption)
 
@@ -151,24 +153,21 @@ def _shade(axes: Axes, intervals: NDArray[np.float64]) -> None:
 
 
 def _map(axes: Axes, field: PressureMap, window: Window, title: str) -> None:
-    """Forward (x) up, left (y) to the left: the view of someone who looks down on the patch."""
+    """Forward (x) up, left (y) to the left: as seen from above, facing forward."""
     rows, cols = field.pressure.shape
     low_x, low_y = field.origin_x - field.cell_x / 2, field.origin_y - field.cell_y / 2
     extent = np.array([low_y, low_y + cols * field.cell_y, low_x, low_x + rows * field.cell_x]) * 1e3
     loaded = np.where(field.pressure > 0.0, field.pressure * 1e-3, np.nan)
     image = axes.imshow(
-        loaded, origin="lower", extent=tuple(extent), cmap=PRESSURE_COLOURS, vmin=0.0, interpolation="nearest", aspect="equal"
+        loaded, origin="lower", extent=tuple(extent), cmap=PRESSURE_COLOURS, vmin=0.0, interpolation="nearest",
+        aspect="equal",
     )  # fmt: skip
     axes.set_xlim(window.high_y, window.low_y)
     axes.set_ylim(window.low_x, window.high_x)
     axes.grid(visible=False)
     axes.set_title(title)
-    axes.set_xlabel("y (left +), mm")
-    axes.set_ylabel("x (forward +), mm")
-    axes.annotate(
-        "forward", (0.04, 0.97), (0.04, 0.80), xycoords="axes fraction", textcoords="axes fraction", fontsize=8, color=MUTED,
-        ha="center", va="top", rotation=90, arrowprops={"arrowstyle": "-|>", "color": MUTED, "linewidth": 0.8},
-    )  # fmt: skip
+    axes.set_xlabel("← left, y, mm")
+    axes.set_ylabel("forward, x, mm →")
     bar = axes.figure.colorbar(image, cax=axes.inset_axes((1.04, 0.0, 0.045, 1.0)), label="kPa")
     bar.outline.set_visible(False)
 
@@ -176,8 +175,8 @@ def _map(axes: Axes, field: PressureMap, window: Window, title: str) -> None:
 def _mark_peak(axes: Axes, field: PressureMap) -> None:
     row, col = np.unravel_index(int(field.pressure.argmax()), field.pressure.shape)
     x, y = field.origin_x + row * field.cell_x, field.origin_y + col * field.cell_y
-    axes.plot([y * 1e3], [x * 1e3], marker="x", color="#ffffff", markersize=7, markeredgewidth=2.6, linestyle="none")
-    axes.plot([y * 1e3], [x * 1e3], marker="x", color="#b3202c", markersize=6.4, markeredgewidth=1.3, linestyle="none")
+    axes.plot([y * 1e3], [x * 1e3], marker="x", color="#ffffff", markersize=7, markeredgewidth=2.6, linestyle="")
+    axes.plot([y * 1e3], [x * 1e3], marker="x", color="#b3202c", markersize=6.4, markeredgewidth=1.3, linestyle="")
 
 
 def _loaded_window(average: PressureMap) -> Window:

@@ -32,9 +32,9 @@ def seat_spectrum(signals: RideSignals) -> Picture:
     _frequency_axis(axes, floor.frequency)
     axes.legend(loc="best")
     caption = (
-        f"Power spectral density of the vertical acceleration, Welch's method: {seat.segments} half-overlapping segments, "
-        f"{seat.frequency[1]:.3g} Hz resolution. The floor's power is largest at {_top(floor):.3g} Hz, the seat's at "
-        f"{_top(seat):.3g} Hz."
+        f"Power spectral density of the vertical acceleration, Welch's method: {seat.segments} half-overlapping "
+        f"segments, {seat.frequency[1]:.3g} Hz resolution. The floor's power is largest at {_top(floor):.3g} Hz, "
+        f"the seat's at {_top(seat):.3g} Hz."
     )
     return picture("ride-spectrum", figure, "Spectrum of the vertical acceleration of floor and seat", caption)
 
@@ -54,7 +54,7 @@ def seat_transmissibility(signals: RideSignals) -> Picture | None:
         place.semilogx(frequency, np.where(trusted, values, np.nan)[shown], color=ACCENT, marker=".", markersize=3.5)
     axes[0].axhline(1.0, color=MUTED, linewidth=0.7)
     axes[0].set_ylabel("seat / floor")
-    axes[0].set_ylim(0.0, 1.25 * max(1.0, float(result.magnitude[trusted].max(initial=1.0))))
+    axes[0].set_ylim(0.0, 1.5 * max(1.0, float(result.magnitude[trusted].max(initial=1.0))))
     axes[1].set_ylabel("phase, °")
     axes[1].set_yticks([-180, -90, 0, 90, 180])
     axes[2].semilogx(frequency, result.coherence[shown], color=INK, linewidth=0.9)
@@ -82,8 +82,8 @@ def _transmissibility_caption(result: Transmissibility, trusted: NDArray[np.bool
     peak = int(np.flatnonzero(trusted)[result.magnitude[trusted].argmax()])
     return text + (
         f"Blue where the coherence is at least {TRUSTED_COHERENCE} (dashed) and the floor moves enough; largest there: "
-        f"{result.magnitude[peak]:.3g} at {result.frequency[peak]:.3g} Hz. Where it is grey, neither magnitude nor phase should be "
-        "read: little excitation, noise, or a non-linear seat."
+        f"{result.magnitude[peak]:.3g} at {result.frequency[peak]:.3g} Hz. Where it is grey, neither magnitude nor "
+        "phase should be read: little excitation, noise, or a non-linear seat."
     )
 
 

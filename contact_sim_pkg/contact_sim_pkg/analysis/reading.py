@@ -9,6 +9,7 @@ import numpy as np
 from ruamel.yaml import YAML
 from ruamel.yaml.error import YAMLError
 
+from contact_sim_pkg.bag.errors import BagError
 from contact_sim_pkg.bag.reader import Bag
 
 from .series import (
@@ -148,7 +149,8 @@ def _read_field(bag: Bag, topic: str) -> FieldSeries:
         if total is None:
             total = np.zeros(len(message.pressure))
         total += message.pressure
-    assert total is not None and highest is not None  # only topics with messages are read
+    if total is None:
+        raise BagError(f"{topic} holds no pressure field")
     time, load, peak, area = np.array(scalars).T
     grid = highest[1]
     average = _pressure_map(grid, total / len(scalars))

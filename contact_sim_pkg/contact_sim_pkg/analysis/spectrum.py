@@ -9,7 +9,7 @@ import scipy.signal
 from numpy.typing import NDArray
 
 SEGMENT_TIME = 4.0
-"""[s] length of a segment of a long record: a resolution of 0.25 Hz, a fifth of a seat's half-power bandwidth at 4 Hz."""
+"""[s] a segment of a long record: 0.25 Hz resolution, fine for a seat's resonance at 4 Hz (1 Hz wide or more)."""
 LEAST_SEGMENTS = 8
 """Segments (half overlapping) that a shorter record is cut into; the coherence of one segment would always be 1."""
 

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from typing import Any, NamedTuple
 
+SUPERSCRIPT = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
+
 
 class Tile(NamedTuple):
     """One key number."""
@@ -23,7 +25,7 @@ def tiles(summary: dict[str, Any]) -> list[Tile]:
     energy = summary.get("energy", {})
     if energy.get("residual_relative") is not None:
         detail = f"{number(energy['residual_max_J'])} J of {number(energy['throughput_J'])} J"
-        found.append(Tile("energy that does not add up", f"{energy['residual_relative']:.1e}", "", detail))
+        found.append(Tile("energy that does not add up", number(energy["residual_relative"]), "", detail))
     solver = summary.get("solver", {})
     if solver.get("physics_real_time_factor") is not None:
         detail = f"physics alone; {solver['steps']} steps, {solver['events']} events"
@@ -32,9 +34,10 @@ def tiles(summary: dict[str, Any]) -> list[Tile]:
 
 
 def number(value: float) -> str:
-    """Three digits, without an exponent where a person would not write one."""
+    """Three digits; very small and large ones as 1.2·10⁻⁸."""
     if value != 0.0 and not 1e-3 <= abs(value) < 1e6:
-        return f"{value:.2e}"
+        mantissa, exponent = f"{value:.1e}".split("e")
+        return f"{mantissa}·10{str(int(exponent)).translate(SUPERSCRIPT)}"
     digits = f"{value:.3g}"
     return f"{value:.0f}" if "e" in digits else digits
 
