@@ -20,7 +20,7 @@ from .endpoints import publisher, subscription
 from .input_blocks import check_block
 from .parameters import declare, declare_input_timeout, declare_scene
 from .process import run
-from .protocol import DONE, FAULT, LOSS, Follower, State
+from .protocol import DONE, FAULT, LOSS, REFUSED, Follower, NodeError, State
 from .record_order import HeldMessage, RecordOrder
 from .scene_file import block_length_ns, count_blocks, queue_depth, read_descriptions, read_scene
 
@@ -90,7 +90,11 @@ class BagLoggerNode(LifecycleBenchNode):
 
     def _open(self) -> None:
         topics = topics_of(recorded_names(self._scene))
-        self._writer = BagWriter(self._path, topics, attachments(self._scene, read_descriptions(self._scene_name, self._scene)))
+        texts = attachments(self._scene, read_descriptions(self._scene_name, self._scene))
+        try:
+            self._writer = BagWriter(self._path, topics, texts)
+        except BagError as error:
+            raise NodeError(str(error), REFUSED) from None
         self._writer.write("bench/scene", 0, encode_scene(self._scene.to_yaml()))
 
     def _write_whole(self) -> None:

@@ -58,7 +58,10 @@ class ContactSimulatorNode(LifecycleBenchNode):
         entries = {topic: subscription(self, topic, self._taker(topic), depth) for topic in self._simulation.inputs}
         self._recorded = RecordedFollower()
         answers = subscription(self, "bench/recorded", self._on_recorded) if self._logged else None
-        self._peers = Peers(self, entries, self._publishers_by_topic, self._report.publisher, answers)
+        supervised = self.supervisor > 0
+        self._peers = Peers(
+            self, entries, self._publishers_by_topic, self._report.publisher, answers, supervised=supervised
+        )
         self._simulation.prepare()
         self._said = self._advanced = time.monotonic()
 

@@ -19,10 +19,16 @@ class Peers:
         outputs: dict[str, Publisher],
         progress: Publisher,
         recorded: Subscription | None,
+        *,
+        supervised: bool,
     ) -> None:
-        """Look from `node` at its own subscriptions and publishers; `recorded` is None where nothing is recorded."""
+        """Look from `node` at its own subscriptions and publishers; `recorded` is None where nothing is recorded.
+
+        A supervisor (`supervised`) must hear of the progress too, or it would take a short run for a silent one.
+        """
         self._node, self._inputs, self._outputs = node, inputs, outputs
         self._progress, self._recorded = progress, recorded
+        self._followers = len(inputs) + (recorded is not None) + supervised
 
     def missing(self) -> list[str]:
         """What is not matched yet, one text each; empty when everybody is there.
@@ -32,9 +38,8 @@ class Peers:
         for topic in (*self._inputs, "bench/progress"):
             refuse_strangers(self._node, topic)
         absent = [f"a publisher of {topic}" for topic, entry in self._inputs.items() if _publishers(self._node, entry) < 1]
-        followers = len(self._inputs) + (self._recorded is not None)
-        if self._progress.get_subscription_count() < followers:
-            absent.append(f"{followers} subscribers of bench/progress")
+        if self._progress.get_subscription_count() < self._followers:
+            absent.append(f"{self._followers} subscribers of bench/progress")
         if self._recorded is not None:
             refuse_strangers(self._node, "bench/recorded")
             absent += [] if _publishers(self._node, self._recorded) else ["a publisher of bench/recorded (bag_logger)"]

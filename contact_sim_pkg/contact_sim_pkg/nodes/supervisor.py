@@ -7,6 +7,7 @@ import sys
 import tempfile
 import time
 from collections.abc import Callable, Mapping
+from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, NamedTuple
 
@@ -80,7 +81,7 @@ class Supervisor:
     def run(self, on_report: Callable[[Report], None], say: Callable[[str], None]) -> SupervisedRun:
         """Run to the end; `on_report` hears where the run stands, `say` what the nodes say, a line at a time."""
         began = time.monotonic()
-        os.environ.update({name: value for name, value in DEFAULT_ENVIRONMENT.items() if name not in os.environ})
+        set_default_environment()
         say(f"ROS_DOMAIN_ID is {os.environ.get('ROS_DOMAIN_ID', '0')}, discovery {os.environ['ROS_AUTOMATIC_DISCOVERY_RANGE']}")
         children = Children(os.environ, say)
         with tempfile.TemporaryDirectory(prefix="contact_bench_") as folder:
@@ -97,14 +98,14 @@ class Supervisor:
     def _start_all(self, children: Children, scene: str) -> None:
         """The simulator first, since it takes longest."""
         common = {"scene": scene, "supervisor": os.getpid(), "pace": self._pace, "record": self._directory is not None}
-        children.start("contact_simulator", node_command("contact_simulator", common))
+        start = partial(_start_node, children)
+        start("contact_simulator", common)
         if self._directory is not None:
             bag = str(self._directory.absolute())
-            children.start("bag_logger", node_command("bag_logger", {"scene": scene, "supervisor": os.getpid(), "bag": bag}))
+            start("bag_logger", {"scene": scene, "supervisor": os.getpid(), "bag": bag})
         source = {} if self._from_bag is None else {"from_bag": str(self._from_bag.absolute())}
         for topic in input_names(self._scene):
-            node = NODE_OF_INPUT[topic]
-            children.start(node, node_command(node, {**common, **source}))
+            start(NODE_OF_INPUT[topic], {**common, **source})
 
     def _watch(self, children: Children, monitor: RunMonitor, on_report: Callable[[Report], None]) -> None:
         looked, ended_at = 0.0, 0.0
@@ -164,15 +165,25 @@ class Supervisor:
         return SupervisedRun(done, ready - began, max(0.0, last - ready), bag, stopped, self._failure, self._exit_status)
 
 
-def node_command(node: str, parameters: Mapping[str, str | int | bool]) -> list[str]:
-    """How a node is started with these parameters; nothing is logged into the user's home."""
-    command = [sys.executable, "-m", f"contact_sim_pkg.nodes.{node}", "--ros-args", "--disable-external-lib-logs"]
+def _start_node(children: Children, node: str, parameters: Mapping[str, str | float | bool]) -> None:
+    children.start(node, [sys.executable, "-m", f"contact_sim_pkg.nodes.{node}", *node_arguments(parameters)])
+
+
+def set_default_environment() -> None:
+    """What every process of the bench wants from its environment, where the caller has not set it."""
+    for name, value in DEFAULT_ENVIRONMENT.items():
+        os.environ.setdefault(name, value)
+
+
+def node_arguments(parameters: Mapping[str, str | float | bool]) -> list[str]:
+    """The ROS arguments that give a node these parameters; nothing is logged into the user's home."""
+    arguments = ["--ros-args", "--disable-external-lib-logs"]
     for name, value in parameters.items():
-        command += ["-p", f"{name}:={_yaml(value)}"]
-    return command
+        arguments += ["-p", f"{name}:={_yaml(value)}"]
+    return arguments
 
 
-def _yaml(value: str | int | bool) -> str:
+def _yaml(value: str | float | bool) -> str:
     if isinstance(value, bool):
         return str(value).lower()
-    return str(value) if isinstance(value, int) else "'" + value.replace("'", "''") + "'"
+    return "'" + value.replace("'", "''") + "'" if isinstance(value, str) else repr(value)

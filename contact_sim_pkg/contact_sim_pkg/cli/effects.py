@@ -1,0 +1,17 @@
+"""`bench effects`: what each effect costs and feeds."""
+
+from __future__ import annotations
+
+import click
+
+from .tables import json_option, show_rows
+
+
+@click.command("effects")
+@click.argument("scene")
+@json_option
+def command(scene: str, as_json: bool) -> None:
+    """Each effect of SCENE, on or off: its measured cost and the outputs that it feeds."""
+    from contact_sim_pkg.studies import ablation
+
+    show_rows(ablation.study(scene, lambda line: click.echo(line, err=True)), as_json)

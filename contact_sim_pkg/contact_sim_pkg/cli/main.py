@@ -1,0 +1,93 @@
+"""The `bench` command. Bad input ends here, and only here, as a sentence on standard error and an exit status."""
+
+from __future__ import annotations
+
+import os
+import sys
+import time
+from importlib import import_module
+
+import click
+
+BEGAN = time.monotonic()  # start of the process, near enough: what a run calls its start-up counts from here
+
+COMMANDS = {  # command -> its module
+    "list": "list_scenes",
+    "show": "show",
+    "run": "run",
+    "replay": "replay",
+    "report": "report",
+    "accuracy": "accuracy",
+    "effects": "effects",
+    "hard": "hard",
+    "recover": "recover",
+}
+ONE_THREAD = ("NUMBA_NUM_THREADS", "OPENBLAS_NUM_THREADS")  # the nodes share the cores; the same bits without nodes
+
+
+class LazyGroup(click.Group):
+    """A group whose commands are imported when they are asked for: `bench run` needs no plotting library."""
+
+    def list_commands(self, ctx: click.Context) -> list[str]:
+        """Names, in the order of use."""
+        return list(COMMANDS)
+
+    def get_command(self, ctx: click.Context, name: str) -> click.Command | None:
+        """The command of this name, imported now; None where there is none."""
+        if name not in COMMANDS:
+            return None
+        command: click.Command = import_module(f"contact_sim_pkg.cli.{COMMANDS[name]}").command
+        return command
+
+
+@click.group(cls=LazyGroup, context_settings={"help_option_names": ["-h", "--help"]})
+@click.version_option(package_name="contact_sim_pkg", prog_name="bench")
+def bench() -> None:
+    """Contact forces and pressure fields of simulated rigs, as ROS 2 topics and bags."""
+
+
+def main(arguments: list[str] | None = None) -> int:
+    """Run `bench`; returns 0 done, 1 fault, 2 refused, 3 done with loss."""
+    for name in ONE_THREAD:
+        os.environ.setdefault(name, "1")
+    try:
+        status = bench.main(arguments, prog_name="bench", standalone_mode=False)
+    except click.exceptions.Abort:
+        return 0
+    except click.ClickException as error:
+        error.show()
+        return error.exit_code
+    except KeyboardInterrupt:
+        return 0
+    except BrokenPipeError:
+        sys.stdout = open(os.devnull, "w")  # noqa: SIM115  # the reader has gone; nothing may be written at the end
+        return 0
+    except Exception as error:
+        known = refusal(error)
+        if known is None:
+            raise
+        print(f"bench: {known[0]}" if "\n" not in known[0] else known[0], file=sys.stderr)
+        return known[1]
+    return int(status or 0)
+
+
+def refusal(error: Exception) -> tuple[str, int] | None:
+    """Sentence and exit status of an error that stands for bad input or a named fault; None for any other."""
+    from contact_sim_pkg.bag.errors import BagError
+    from contact_sim_pkg.excitation.errors import ExcitationError
+    from contact_sim_pkg.run.errors import RunError
+    from contact_sim_pkg.scene.errors import SceneError
+
+    if isinstance(error, (SceneError, BagError, ExcitationError)):
+        return str(error), 2
+    if isinstance(error, RunError):
+        return str(error), 1
+    if isinstance(error, OSError):
+        return f"{error.strerror or error}{f': {error.filename}' if error.filename else ''}", 2
+    if isinstance(error, ModuleNotFoundError) and (error.name or "").partition(".")[0] in ("rclpy", "contact_msgs_defs"):
+        return f"{error.name} cannot be imported; source ros2_ws/setup.bash, or run with --offline, which needs no ROS", 2
+    return None
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,79 @@
+"""What came of a run, for scripts and for people."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, Protocol
+
+import click
+
+if TYPE_CHECKING:
+    from contact_sim_pkg.scene.resolve import ResolvedScene
+
+
+class Outcome(Protocol):
+    """What is asked of a finished run."""
+
+    @property
+    def blocks(self) -> int:
+        """Blocks done."""
+
+    @property
+    def startup(self) -> float:
+        """Start of the process to first block, [s]."""
+
+    @property
+    def wall(self) -> float:
+        """First block to last message recorded, [s]."""
+
+    @property
+    def bag(self) -> Path | None:
+        """Directory of the bag."""
+
+    @property
+    def stopped(self) -> bool:
+        """Ended by the user."""
+
+
+def describe(scene: ResolvedScene, outcome: Outcome) -> dict[str, Any]:
+    """The object that `--json` prints; `bag` is None and `summary` empty where nothing was recorded."""
+    simulated = round(outcome.blocks * float(scene.data["block_length"]), 9)
+    return {
+        "scene": scene.data["name"],
+        "effects": scene.data["effects"],
+        "accuracy": scene.data["accuracy"],
+        "simulated_s": simulated,
+        "startup_s": round(outcome.startup, 3),
+        "wall_s": round(outcome.wall, 6),
+        "real_time_factor": simulated / outcome.wall if outcome.wall > 0.0 else None,
+        "bag": None if outcome.bag is None else str(outcome.bag),
+        "summary": {} if outcome.bag is None or not outcome.blocks else _summary(outcome.bag),
+    }
+
+
+def _summary(bag: Path) -> dict[str, Any]:
+    from contact_sim_pkg.analysis.summary import summarise
+    from contact_sim_pkg.bag.reader import open_bag
+
+    return summarise(open_bag(bag))
+
+
+def print_outcome(facts: dict[str, Any], outcome: Outcome) -> None:
+    """A few lines for a person; the path of the bag last."""
+    factor = facts["real_time_factor"]
+    speed = "" if factor is None else f" in {facts['wall_s']:.3g} s: {factor:.3g}x real time"
+    state = "stopped after" if outcome.stopped else "simulated"
+    click.echo(f"{facts['scene']}: {state} {facts['simulated_s']:g} s{speed} (start-up {facts['startup_s']:.2f} s)")
+    summary = facts["summary"]
+    for contact, numbers in summary.get("contacts", {}).items():
+        click.echo(f"  {contact}: {_contact_line(numbers)}")
+    if "messages" in summary:
+        click.echo(f"  {sum(summary['messages'].values())} messages on {len(summary['messages'])} topics")
+    if facts["bag"] is not None:
+        click.echo(f"bag: {facts['bag']}")
+
+
+def _contact_line(numbers: dict[str, Any]) -> str:
+    line = f"load {numbers['load_mean_N']:.5g} N on average, {numbers['load_min_N']:.5g} to {numbers['load_max_N']:.5g} N"
+    peak = next((value for key, value in numbers.items() if "peak" in key and isinstance(value, float)), None)
+    return line if peak is None else f"{line}; peak pressure {peak / 1e3:.5g} kPa"

@@ -1,0 +1,71 @@
+"""Live progress of a run on standard error."""
+
+from __future__ import annotations
+
+import sys
+import time
+from types import TracebackType
+from typing import Protocol
+
+from rich.console import Console
+from rich.progress import BarColumn, Progress, TextColumn, TimeRemainingColumn
+
+PLAIN_SECONDS = 5.0  # between two lines where standard error is no terminal
+
+
+class Standing(Protocol):
+    """Where a run stands, on nodes or without."""
+
+    @property
+    def simulated(self) -> float:
+        """Simulated time, [s]."""
+
+    @property
+    def real_time_factor(self) -> float:
+        """Simulated time over wall time."""
+
+    @property
+    def load(self) -> float:
+        """Largest normal force of the last block, [N]."""
+
+    @property
+    def peak_pressure(self) -> float:
+        """Largest pressure of the last block, [Pa]."""
+
+
+class RunDisplay:
+    """A bar on a terminal, a line every five seconds elsewhere; lines of the nodes go above the bar."""
+
+    def __init__(self, duration: float) -> None:
+        """Prepare for a run of `duration` simulated seconds; nothing is shown before it is entered."""
+        self._duration = duration
+        self._console = Console(file=sys.stderr, highlight=False)
+        self._said = time.monotonic()
+        columns = (BarColumn(24), TextColumn("{task.description}"), TimeRemainingColumn())
+        self._bar = Progress(*columns, console=self._console, transient=True, disable=not self._console.is_terminal)
+        self._task = self._bar.add_task("starting", total=duration)
+
+    def show(self, standing: Standing) -> None:
+        """Show where the run stands."""
+        text = (
+            f"{standing.simulated:.2f} of {self._duration:g} s, {standing.real_time_factor:.2f}x real time, "
+            f"load {standing.load:.0f} N, peak {standing.peak_pressure / 1e3:.1f} kPa"
+        )
+        if self._console.is_terminal:
+            self._bar.update(self._task, completed=standing.simulated, description=text)
+        elif time.monotonic() - self._said > PLAIN_SECONDS:
+            self._said = time.monotonic()
+            self.say(text)
+
+    def say(self, line: str) -> None:
+        """One line from a node."""
+        self._console.print(line, markup=False, soft_wrap=True)
+
+    def __enter__(self) -> RunDisplay:
+        """Begin to show."""
+        self._bar.start()
+        return self
+
+    def __exit__(self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None) -> None:
+        """Take the bar away."""
+        self._bar.stop()

@@ -1,0 +1,20 @@
+"""`bench recover`: a whole bag from a cut one."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import click
+
+
+@click.command("recover")
+@click.argument("bag", type=click.Path(path_type=Path))
+@click.argument("target", type=click.Path(path_type=Path))
+@click.pass_context
+def command(context: click.Context, bag: Path, target: Path) -> None:
+    """Write what can be read of BAG into the new bag TARGET; ends 3 where something is lost."""
+    from contact_sim_pkg.bag.recover import recover
+
+    recovery = recover(bag, target)
+    click.echo(f"{recovery.path}: {recovery.messages} messages{f'; {recovery.sentence}' if recovery.sentence else ''}")
+    context.exit(0 if recovery.lossless else 3)

@@ -1,0 +1,28 @@
+"""`bench replay`: publishes a bag again."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import click
+
+
+@click.command("replay")
+@click.argument("bag", type=click.Path(path_type=Path))
+@click.option("--rate", default=1.0, show_default=True, help="Recorded seconds per second.")
+@click.option("--start-offset", default=0.0, show_default=True, metavar="S", help="Recorded time to begin at.")
+@click.option("--delay", default=0.5, show_default=True, metavar="S", help="Time before the first message.")
+@click.option("--topics", multiple=True, metavar="NAME", help="Replay only this topic; may be given several times.")
+@click.option("--clock", is_flag=True, help="Publish the recorded time on /clock.")
+@click.pass_context
+def command(
+    context: click.Context, bag: Path, rate: float, start_offset: float, delay: float, topics: tuple[str, ...], clock: bool
+) -> None:
+    """Publish the messages of BAG as they were recorded: bytes, spacing, quality of service."""
+    from contact_sim_pkg.nodes.supervisor import node_arguments, set_default_environment
+
+    set_default_environment()
+    from contact_sim_pkg.nodes.bag_replay import main
+
+    parameters = {"bag": str(bag), "rate": rate, "start_offset": start_offset, "delay": delay, "clock": clock}
+    context.exit(main(["bench", *node_arguments({**parameters, "topics": ",".join(topics)})]))

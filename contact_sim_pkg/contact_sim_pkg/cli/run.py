@@ -1,0 +1,33 @@
+"""`bench run`: one scene, on nodes or without ROS."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import click
+
+from .scene_options import SceneOptions, scene_options
+from .tables import json_option
+
+
+@click.command("run")
+@scene_options
+@click.option("--offline", is_flag=True, help="Without ROS, in this process, as fast as it goes; the same bits.")
+@click.option("--out", type=click.Path(path_type=Path), metavar="DIR", help="Directory of the bag, which must not exist.")
+@click.option("--from-bag", type=click.Path(path_type=Path), metavar="BAG", help="Excitation (and scene) of an earlier run.")
+@click.option("--no-record", is_flag=True, help="Write no bag.")
+@json_option
+@click.pass_context
+def command(
+    context: click.Context,
+    options: SceneOptions,
+    offline: bool,
+    out: Path | None,
+    from_bag: Path | None,
+    no_record: bool,
+    as_json: bool,
+) -> None:
+    """Run SCENE (a name or a YAML file), record it, and say what came of it."""
+    from .run_scene import run_scene
+
+    context.exit(run_scene(options, offline=offline, out=out, from_bag=from_bag, record=not no_record, as_json=as_json))

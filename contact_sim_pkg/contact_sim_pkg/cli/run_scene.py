@@ -1,0 +1,113 @@
+"""What `bench run` does: resolve, run on nodes or without, show progress, say what came of it."""
+
+from __future__ import annotations
+
+import signal
+import sys
+import time
+from collections.abc import Callable
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+from contact_sim_pkg.bag.errors import BagError
+from contact_sim_pkg.bag.names import default_directory
+
+from .main import BEGAN
+from .outcome import describe, print_outcome
+from .progress import RunDisplay
+from .scene_options import SceneOptions
+from .tables import print_json
+
+if TYPE_CHECKING:
+    from contact_sim_pkg.scene.resolve import ResolvedScene
+
+SIGNALS = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)
+
+
+class Ended(NamedTuple):
+    """How a run ended, on nodes or without."""
+
+    blocks: int
+    startup: float  # [s] from the start of the process to the first block
+    wall: float  # [s] from the first block to the last message recorded
+    bag: Path | None
+    stopped: bool
+    failure: str
+    exit_status: int
+
+
+def run_scene(
+    options: SceneOptions, *, offline: bool, out: Path | None, from_bag: Path | None, record: bool, as_json: bool
+) -> int:
+    """Run a scene; returns the exit status.
+
+    Raises:
+        SceneError, BagError, ExcitationError: refused; nothing was created.
+    """
+    scene = options.resolve(from_bag)
+    directory = _directory(scene, out) if record else None
+    run = _run_offline if offline else _run_on_nodes
+    with RunDisplay(float(scene.data["duration"])) as display:
+        ended = run(scene, directory, from_bag, display)
+    if ended.failure:
+        print(f"bench: {ended.failure}", file=sys.stderr)
+    if ended.exit_status == 2:
+        return 2
+    facts = describe(scene, ended)
+    if as_json:
+        print_json(facts)
+    else:
+        print_outcome(facts, ended)
+    return ended.exit_status
+
+
+def _directory(scene: ResolvedScene, out: Path | None) -> Path:
+    if out is not None and (out.exists() or out.is_symlink()):
+        raise BagError(f"{out} exists already; a bag is never overwritten, give another directory")
+    return out if out is not None else default_directory(str(scene.data["name"]))
+
+
+def _run_offline(scene: ResolvedScene, directory: Path | None, from_bag: Path | None, display: RunDisplay) -> Ended:
+    from contact_sim_pkg.run.offline import run_offline
+
+    sources = None
+    if from_bag is not None:
+        from contact_sim_pkg.run.from_bag import sources_from_bag
+
+        sources = sources_from_bag(from_bag, scene)
+    stops: list[int] = []
+    _on_signals(lambda: stops.append(1))
+    before = time.monotonic() - BEGAN
+    outcome = run_offline(scene, directory, display.show, lambda: bool(stops), sources)
+    lost = outcome.bag is not None and not outcome.bag.complete
+    failure = outcome.failure or (outcome.bag.sentence if outcome.bag is not None else "")
+    status = 1 if outcome.failure else 3 if lost else 0
+    bag = None if outcome.bag is None else outcome.bag.path
+    return Ended(outcome.blocks, before + outcome.startup, outcome.wall, bag, outcome.stopped, failure, status)
+
+
+def _run_on_nodes(scene: ResolvedScene, directory: Path | None, from_bag: Path | None, display: RunDisplay) -> Ended:
+    import rclpy  # noqa: F401  # refused here, with the cure, where ROS is not there
+    from contact_msgs_defs.msg import BenchProgress  # noqa: F401
+
+    from contact_sim_pkg.nodes.supervisor import Supervisor
+
+    supervisor = Supervisor(scene, directory, from_bag=from_bag)
+    _on_signals(supervisor.stop)
+    before = time.monotonic() - BEGAN
+    outcome = supervisor.run(display.show, display.say)
+    return Ended(
+        outcome.blocks,
+        before + outcome.startup,
+        outcome.wall,
+        outcome.bag,
+        outcome.stopped,
+        outcome.failure,
+        outcome.exit_status,
+    )
+
+
+def _on_signals(stop: Callable[[], Any]) -> None:
+    """The three signals ask for a clean end."""
+    for number in SIGNALS:
+        signal.signal(number, lambda *_: stop())

@@ -1,0 +1,98 @@
+"""The options that choose and change a scene, shared by the commands that take one."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from functools import wraps
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import click
+
+if TYPE_CHECKING:
+    from contact_sim_pkg.scene.overrides import Override
+    from contact_sim_pkg.scene.resolve import ResolvedScene
+
+_FILE = click.Path(path_type=Path)
+
+
+@dataclass(frozen=True)
+class SceneOptions:
+    """What the command line says about the scene."""
+
+    scene: str | None
+    assignments: tuple[str, ...]
+    duration: str | None
+    pace: str | None
+    road: Path | None
+    vibration: Path | None
+    rate: str | None
+
+    def overrides(self) -> list[Override]:
+        """The values to put into the scene; `--set` comes last and wins."""
+        from contact_sim_pkg.scene import overrides
+
+        made = (
+            (self.road, overrides.set_road),
+            (self.vibration, overrides.set_vibration),
+            (self.rate, overrides.set_rate),
+            (self.duration, overrides.set_duration),
+            (self.pace, overrides.set_pace),
+        )
+        chosen: list[Override] = [make(value) for value, make in made if value is not None]  # type: ignore[operator]
+        return chosen + [overrides.set_value(assignment) for assignment in self.assignments]
+
+    def resolve(self, bag: Path | None = None) -> ResolvedScene:
+        """The resolved scene: the one that was named, or that of the bag where none was.
+
+        Raises:
+            SceneError: faults of the scene or of the options. BagError: the bag cannot be read or holds no scene.
+        """
+        if self.scene is not None:
+            from contact_sim_pkg.scene.load import load_scene
+            from contact_sim_pkg.scene.resolve import resolve
+
+            return resolve(load_scene(self.scene, self.overrides()))
+        if bag is None:
+            raise click.UsageError("Missing argument 'SCENE' (or --from-bag BAG, whose scene is taken).")
+        return _scene_of_bag(bag, self.overrides())
+
+
+def _scene_of_bag(path: Path, overrides: list[Override]) -> ResolvedScene:
+    from contact_sim_pkg.bag.errors import BagError
+    from contact_sim_pkg.bag.reader import open_bag
+    from contact_sim_pkg.scene.overrides import apply
+    from contact_sim_pkg.scene.resolve import ResolvedScene, explicit
+    from contact_sim_pkg.scene.schema_validate import validate
+    from contact_sim_pkg.scene.yaml_document import parse_document
+
+    text = open_bag(path).scene
+    if text is None:
+        raise BagError(f"{path} holds no scene; name the scene to run with its excitation")
+    document = parse_document(text, f"scene of {path}")
+    faults = document.faults + apply(document.root, overrides)
+    return ResolvedScene(explicit(validate(document.root, f"scene of {path}", faults)))
+
+
+def scene_options(function: Callable[..., Any]) -> Callable[..., Any]:
+    """Adds SCENE and its options to a command, which gets them as `options`."""
+    decorators = (
+        click.argument("scene", required=False),
+        click.option("--set", "assignments", multiple=True, metavar="A.B.C=VALUE", help="Change one value of the scene."),
+        click.option("--duration", metavar="S", help="Simulated time, in s."),
+        click.option("--pace", metavar="realtime|max|FACTOR", help="How fast blocks are sent; acts on nodes."),
+        click.option("--road", type=_FILE, metavar="FILE", help="OpenCRG road in place of the scene's road."),
+        click.option("--vibration", type=_FILE, metavar="FILE", help="CSV file in place of the scene's vibration."),
+        click.option("--rate", metavar="HZ", help="Sampling rate of the vibration file."),
+    )
+
+    @wraps(function)
+    def collect(**values: Any) -> Any:
+        names = SceneOptions.__dataclass_fields__
+        options = SceneOptions(**{name: values.pop(name) for name in names})
+        return function(options=options, **values)
+
+    for decorate in reversed(decorators):
+        collect = decorate(collect)
+    return collect

@@ -1,0 +1,14 @@
+"""`bench show`: a scene with everything that was left open written out."""
+
+from __future__ import annotations
+
+import click
+
+from .scene_options import SceneOptions, scene_options
+
+
+@click.command("show")
+@scene_options
+def command(options: SceneOptions) -> None:
+    """The resolved SCENE: every default, grid and tolerance, as it is stored in a bag."""
+    click.echo(options.resolve().to_yaml(), nl=False)
