@@ -41,10 +41,22 @@ def _read_binary(data: bytes, header: Header, layout: Layout, number: "numpy.dty
         raise ExcitationError(
             f"{header.file}: {rows} x {layout.columns} numbers are above the limit of {MOST_CELLS}; cut the road"
         )
+    _check_fill(numpy.frombuffer(data, number, offset=header.payload_start + expected), header, rows)
     numbers = numpy.frombuffer(data, number, rows * layout.columns, header.payload_start)
     with numpy.errstate(invalid="ignore"):  # a signalling NaN is a missing cell like any other
         values = numbers.astype(numpy.float64).reshape(rows, layout.columns)
     return values[: rows - _filled_rows(values, row_bytes)] if layout.rows is None else values
+
+
+def _check_fill(fill: NDArray[Any], header: Header, rows: int) -> None:
+    """The rest of the last record holds no numbers."""
+    with numpy.errstate(invalid="ignore"):
+        held = int(numpy.count_nonzero(fill[~numpy.isnan(fill)]))
+    if held:
+        raise ExcitationError(
+            f"{header.file}: {held} numbers follow the {rows} rows that the header asks for, where only the fill of "
+            "the last record was expected; header and data do not belong together"
+        )
 
 
 def _open_ended_rows(found: int, row_bytes: int) -> int:

@@ -17,6 +17,8 @@ from .recorded_csv import Table, read_table
 
 STANDARD_GRAVITY = 9.80665  # [m/s^2] exact by definition
 RATE_AGREEMENT = 0.01  # stated and found rate may differ by this part
+USUAL_FULL_SCALES = (1.0, 1.5, 2.0, 3.0, 4.0, 6.0, 8.0, 16.0)  # [g] of accelerometers, data-sheet values
+SHORTEST_PLATEAU = 3  # equal extreme samples in a row that no unclipped vibration gives but by chance
 HALF_WIDTH = 32  # samples on each side of the interpolated instant
 BEYOND = ("refuse", "zero", "repeat")
 
@@ -64,7 +66,8 @@ class RecordedVibration:
             tilt: keep, or correct (turn the axes so that the mean lies along the vertical).
             remove_bias: take the mean of each axis (gravity and bias) off.
             clipped: keep (samples at full scale stay as they are), or refuse.
-            full_scale: of the sensor, [m/s^2]; None: an extreme value that occurs at least twice.
+            full_scale: of the sensor, [m/s^2]; None: an extreme value that occurs
+                three times in a row, or twice where it is a usual full scale (2, 4, 8, 16 g …).
             high_pass: corner frequency, [Hz], of a zero-phase high-pass with the gain 1 / (1 + (corner / f)^8); None:
                 no filter.
             beyond: after the end of the recording: refuse, zero, or repeat.
@@ -274,20 +277,33 @@ def _found_rate(table: Table, time: Array) -> float:
 
 
 def _find_clipping(table: Table, values: Array, full_scale: float | None) -> Clipping:
+    """Samples at the stated full scale; where none is stated, at an extreme value that looks like one."""
     if full_scale is not None:
-        at_limit = numpy.abs(values) >= full_scale
-        limit = full_scale
-    else:
-        extremes = [value for value in (values.max(), values.min()) if values.max() > values.min()]
-        repeated = [value for value in extremes if numpy.count_nonzero(values == value) > 1]
-        at_limit = numpy.isin(values, repeated)
-        limit = float(max(numpy.abs(repeated), default=0.0))
+        return _clipping_at(table, numpy.abs(values) >= full_scale, full_scale)
+    found = Clipping(0, 0.0, 0, 0)
+    for extreme in (float(values.max()), float(values.min())):
+        clipping = _clipping_at(table, values == extreme, abs(extreme))
+        plateau = clipping.longest_run >= SHORTEST_PLATEAU and clipping.samples < len(values)
+        if plateau or (clipping.samples > 1 and _is_usual_full_scale(extreme)):
+            found = Clipping(
+                found.samples + clipping.samples,
+                max(found.value, clipping.value),
+                min(found.first_line or clipping.first_line, clipping.first_line),
+                max(found.longest_run, clipping.longest_run),
+            )
+    return found
+
+
+def _is_usual_full_scale(value: float) -> bool:
+    return any(abs(abs(value) - scale * STANDARD_GRAVITY) < 2e-3 * abs(value) for scale in USUAL_FULL_SCALES)
+
+
+def _clipping_at(table: Table, at_limit: NDArray[numpy.bool_], limit: float) -> Clipping:
     if not at_limit.any():
         return Clipping(0, limit, 0, 0)
     edges = numpy.flatnonzero(numpy.diff(numpy.concatenate(([False], at_limit, [False])).astype(numpy.int8)))
-    return Clipping(
-        int(at_limit.sum()), limit, int(table.lines[numpy.argmax(at_limit)]), int((edges[1::2] - edges[::2]).max())
-    )
+    first = int(table.lines[numpy.argmax(at_limit)])
+    return Clipping(int(at_limit.sum()), limit, first, int((edges[1::2] - edges[::2]).max()))
 
 
 def _turn_upright(raw: dict[str, Array], bias: dict[str, float]) -> dict[str, Array]:

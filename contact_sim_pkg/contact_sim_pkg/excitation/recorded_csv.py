@@ -76,6 +76,8 @@ def read_table(path: Path) -> Table:
             )
         rows.append(fields)
     try:
+        if any("_" in line for _, line in numbered[1:]):  # Python reads 9_8 as 98; a file does not mean that
+            raise ValueError
         values = numpy.array(rows, dtype=numpy.float64)
     except ValueError:
         raise _bad_field(path, numbered[1:], rows, names) from None
