@@ -3,9 +3,15 @@
 import json
 import math
 
+import numpy as np
 import pytest
 
 from contact_sim_pkg.analysis.summary import summarise
+from contact_sim_pkg.bag import messages
+from contact_sim_pkg.bag.errors import BagError
+from contact_sim_pkg.bag.metadata import recorded_topics
+from contact_sim_pkg.bag.reader import open_bag
+from contact_sim_pkg.bag.writer import BagWriter
 
 from . import synthetic_bag as known
 
@@ -88,3 +94,14 @@ def test_what_a_scene_lacks_is_absent_from_its_summary(seat, bare):
     assert set(summarise(seat)["contacts"]) == {"seat"}
     assert set(summarise(bare)) == {"scene", "rig", "simulated_s", "contacts", "messages"}
     assert summarise(bare)["scene"] is None
+
+
+def test_fields_on_two_grids_in_one_topic_are_refused(tmp_path):
+    with BagWriter(tmp_path / "two", recorded_topics(("tire/patch",)), reserve_bytes=0, background=False) as writer:
+        for block, rows in enumerate((4, 5)):
+            ones = np.ones((rows, 3), dtype=np.float32)
+            field = messages.PatchField(block, *[0.01] * 14, pressure=ones)
+            writer.write("tire/patch", block, messages.encode_contact_patch(field, block, messages.TIRE_FRAME))
+
+    with pytest.raises(BagError, match="15 values for 5 x 3 cells, the first one has 12"):
+        summarise(open_bag(tmp_path / "two"))

@@ -56,7 +56,7 @@ def test_the_end_of_a_record_does_not_leak_into_its_start():
 
     weighted = apply_weighting(WK, pulse_at_the_end, 1000.0)
 
-    # The periodic sinc of the sampled response rings before the pulse; a wrapped record would give 5e-1 here.
+    # A record that wraps around gives 7.8 here.
     assert np.abs(weighted[:3000]).max() < 1e-3
 
 

@@ -6,11 +6,15 @@ import math
 from typing import Any
 
 import numpy as np
+from rosbags.serde import SerdeError
+from rosbags.typesys.store import Typestore
 from ruamel.yaml import YAML
 from ruamel.yaml.error import YAMLError
 
+from contact_sim_pkg.bag.columns import stacked
 from contact_sim_pkg.bag.errors import BagError
 from contact_sim_pkg.bag.reader import Bag
+from contact_sim_pkg.bag.typestore import store_of_definition
 
 from .series import (
     ContactSeries,
@@ -24,44 +28,70 @@ from .series import (
     TopicCount,
 )
 
-PACKAGE = "contact_msgs_defs/msg"
+FORCE = "contact_msgs_defs/msg/ContactForce"
+PATCH = "contact_msgs_defs/msg/ContactPatch"
+MOTION = "contact_msgs_defs/msg/BodyMotion"
+ENERGY = "contact_msgs_defs/msg/EnergyLedger"
+COST = "contact_msgs_defs/msg/SolverCost"
+SERIES_TYPES = (FORCE, MOTION, ENERGY, COST)
+CONTACT_COLUMNS = ("time", "sample_period", "normal", "tangential", "approach")
+MOTION_COLUMNS = ("time", "sample_period", "samples", "bodies", "position", "acceleration")
 SCENE_KEY = "scene"
 
 
 def read_recording(bag: Bag) -> Recording:
-    """Read every series once.
+    """Read every series, in one pass over the bag.
 
     Raises:
         BagError: a message does not fit its definition, or a chunk is damaged and bad chunks are not skipped.
     """
-    topics = [TopicCount(name, row.type, bag.count(name)) for name, row in bag.topics.items()]
-    recorded = [topic for topic in topics if topic.messages]
-    motion = [_read_motion(bag, topic.name) for topic in recorded if topic.type == f"{PACKAGE}/BodyMotion"]
-    ledger = [_read_ledger(bag, topic.name) for topic in recorded if topic.type == f"{PACKAGE}/EnergyLedger"]
-    cost = [_read_cost(bag, topic.name) for topic in recorded if topic.type == f"{PACKAGE}/SolverCost"]
-    contacts = {
-        contact_name(topic.name): _read_contact(bag, topic.name)
-        for topic in recorded
-        if topic.type == f"{PACKAGE}/ContactForce"
-    }
+    kinds = {row.type: row.definition for row in bag.topics.values() if row.type in (*SERIES_TYPES, PATCH)}
+    stores = {kind: store_of_definition(kind, definition) for kind, definition in kinds.items()}
+    decoded, fields = _decode(bag, stores)
+
+    def columns(topic: str, names: tuple[str, ...]) -> dict[str, Any]:
+        kind = bag.topics[topic].type
+        return stacked(decoded[topic], stores[kind], kind, names)
+
+    topics = {kind: [name for name in decoded if bag.topics[name].type == kind] for kind in SERIES_TYPES}
+    contacts = {contact_name(name): _contact(columns(name, CONTACT_COLUMNS)) for name in topics[FORCE]}
+    motion = next((_motion(columns(name, MOTION_COLUMNS)) for name in topics[MOTION]), None)
+    ledger = next((LedgerSeries(**columns(name, LedgerSeries._fields)) for name in topics[ENERGY]), None)
+    cost = next((_cost(columns(name, CostSeries._fields)) for name in topics[COST]), None)
     scene = parse_mapping(bag.scene or "")
     return Recording(
         name=bag.path.parent.name,
         scene=scene,
         notes=list(bag.notes),
         metadata={key: text for key, text in bag.metadata.items() if key != SCENE_KEY},
-        topics=topics,
+        topics=[TopicCount(name, row.type, bag.count(name)) for name, row in bag.topics.items()],
         contacts=contacts,
-        fields={
-            contact_name(topic.name): _read_field(bag, topic.name)
-            for topic in recorded
-            if topic.type == f"{PACKAGE}/ContactPatch"
-        },
-        motion=motion[0] if motion else None,
-        ledger=ledger[0] if ledger else None,
-        cost=cost[0] if cost else None,
-        duration=_duration(contacts, motion, scene, bag),
+        fields={contact_name(name): field.finish() for name, field in fields.items()},
+        motion=motion,
+        ledger=ledger,
+        cost=cost,
+        duration=_duration([*contacts.values(), *([motion] if motion else [])], scene, bag),
     )
+
+
+def _decode(bag: Bag, stores: dict[str, Typestore]) -> tuple[dict[str, list[tuple[int, Any]]], dict[str, FieldPass]]:
+    """Messages of the series by topic, and the fields by topic; fields are taken in one by one, for they are large."""
+    decoded: dict[str, list[tuple[int, Any]]] = {}
+    fields: dict[str, FieldPass] = {}
+    for message in bag.messages():
+        if message.type not in stores:
+            continue
+        seconds = message.log_time * 1e-9
+        try:
+            value = stores[message.type].deserialize_cdr(message.data, message.type)
+        except (SerdeError, AssertionError) as error:
+            where = f"{bag.path}: the message of {message.topic} at {seconds:.6f} s"
+            raise BagError(f"{where} does not fit the definition in the bag: {error}") from None
+        if message.type == PATCH:
+            fields.setdefault(message.topic, FieldPass()).take(seconds, value)
+        else:
+            decoded.setdefault(message.topic, []).append((message.log_time, value))
+    return decoded, fields
 
 
 def contact_name(topic: str) -> str:
@@ -79,82 +109,82 @@ def parse_mapping(text: str) -> dict[str, Any]:
     return value if isinstance(value, dict) else {}
 
 
-def _duration(contacts: dict[str, ContactSeries], motion: list[MotionSeries], scene: dict[str, Any], bag: Bag) -> float:
+class FieldPass:
+    """The fields of one topic, taken in one by one: a minute of them would not fit into a small memory."""
+
+    def __init__(self) -> None:
+        """Nothing taken in yet."""
+        self._scalars: list[tuple[float, float, float, float]] = []
+        self._total: FloatArray | None = None
+        self._highest: Any = None
+        self._highest_time = 0.0
+
+    def take(self, time: float, message: Any) -> None:
+        """Take in the field at `time` [s]. BagError for a field on another grid than the first one."""
+        if self._total is None:
+            self._total = np.zeros(len(message.pressure))
+        if not len(message.pressure) == self._total.size == message.rows * message.cols:
+            raise BagError(
+                f"the field at {time:.6f} s has {len(message.pressure)} values for {message.rows} x {message.cols} "
+                f"cells, the first one has {self._total.size}; the fields of a topic must lie on one grid"
+            )
+        self._total += message.pressure
+        self._scalars.append((time, message.load, message.peak, message.area))
+        if self._highest is None or message.peak > self._highest.peak:
+            self._highest, self._highest_time = message, time
+
+    def finish(self) -> FieldSeries:
+        """The series of all fields taken in; at least one."""
+        if self._total is None:
+            raise BagError("no field was taken in")
+        time, load, peak, area = np.array(self._scalars).T
+        highest, average = (
+            _pressure_map(self._highest, values) for values in (self._highest.pressure, self._total / time.size)
+        )
+        return FieldSeries(time, load, peak, area, highest, self._highest_time, average)
+
+
+def _duration(series: list[ContactSeries | MotionSeries], scene: dict[str, Any], bag: Bag) -> float:
     """End of the last sample; without samples the end of the last block, as far as the scene tells its length."""
-    ends = [float(series.time[-1]) + series.sample_period for series in contacts.values()]
-    ends += [float(series.time[-1]) + series.sample_period for series in motion]
+    if series:
+        return max(float(each.time[-1]) + each.sample_period for each in series)
     block_length = scene.get("block_length")
-    if not ends and isinstance(block_length, (int, float)):
-        last_block = math.floor(bag.end * 1e-9 / block_length + 1e-9)
-        ends = [(last_block + 1) * block_length if bag.count() else 0.0]
-    return max(ends, default=bag.end * 1e-9)
+    if isinstance(block_length, (int, float)) and bag.count():
+        return float((math.floor(bag.end * 1e-9 / block_length + 1e-9) + 1) * block_length)
+    return bag.end * 1e-9
 
 
-def _sample_times(stamps: FloatArray, period: float, samples: int) -> FloatArray:
-    times: FloatArray = (stamps[:, None] + period * np.arange(samples)).ravel()
+def _sample_times(columns: dict[str, Any], counts: list[int]) -> FloatArray:
+    """[s] of every sample, from the stamp of each message."""
+    period = float(columns["sample_period"][0])
+    starts = zip(columns["time"], counts, strict=True)
+    times: FloatArray = np.concatenate([start + period * np.arange(count) for start, count in starts])
     return times
 
 
-def _flat(rows: Any) -> FloatArray:
-    """[messages, samples], or a list of arrays of different lengths, as one series."""
-    joined: FloatArray = np.concatenate([np.asarray(row, dtype=np.float64) for row in rows])
-    return joined
+def _contact(columns: dict[str, Any]) -> ContactSeries:
+    time = _sample_times(columns, [len(row) for row in columns["normal"]])
+    joined = (np.concatenate([*columns[name]]).astype(np.float64) for name in ("normal", "tangential", "approach"))
+    return ContactSeries(time, float(columns["sample_period"][0]), *joined)
 
 
-def _read_contact(bag: Bag, topic: str) -> ContactSeries:
-    fields = ("time", "sample_period", "normal", "tangential", "approach")
-    columns = bag.columns(topic, fields)
-    period = float(columns["sample_period"][0])
-    counts = [len(row) for row in columns["normal"]]
-    time = np.concatenate([start + period * np.arange(n) for start, n in zip(columns["time"], counts, strict=True)])
-    return ContactSeries(time, period, *(_flat(columns[name]) for name in fields[2:]))
-
-
-def _read_motion(bag: Bag, topic: str) -> MotionSeries:
-    columns = bag.columns(topic, ("time", "sample_period", "bodies", "samples", "position", "acceleration"))
-    period, samples = float(columns["sample_period"][0]), int(columns["samples"][0])
+def _motion(columns: dict[str, Any]) -> MotionSeries:
+    counts = [int(count) for count in columns["samples"]]
     bodies = [str(name) for name in columns["bodies"][0]]
-    shape = (-1, len(bodies), samples)
     position, acceleration = (
-        np.asarray(columns[name], dtype=np.float64).reshape(shape).swapaxes(0, 1).reshape(len(bodies), -1)
+        np.concatenate([np.reshape(row, (len(bodies), -1)) for row in columns[name]], axis=1)
         for name in ("position", "acceleration")
     )
     return MotionSeries(
-        _sample_times(columns["time"], period, samples),
-        period,
+        _sample_times(columns, counts),
+        float(columns["sample_period"][0]),
         dict(zip(bodies, position, strict=True)),
         dict(zip(bodies, acceleration, strict=True)),
     )
 
 
-def _read_ledger(bag: Bag, topic: str) -> LedgerSeries:
-    columns = bag.columns(topic, LedgerSeries._fields)
-    return LedgerSeries(*(columns[name] for name in LedgerSeries._fields))
-
-
-def _read_cost(bag: Bag, topic: str) -> CostSeries:
-    columns = bag.columns(topic, CostSeries._fields)
-    return CostSeries(*(np.asarray(columns[name], dtype=np.float64) for name in CostSeries._fields))
-
-
-def _read_field(bag: Bag, topic: str) -> FieldSeries:
-    """One pass over the fields: a minute of them would not fit into memory on a small machine."""
-    scalars: list[tuple[float, float, float, float]] = []
-    total: FloatArray | None = None
-    highest: Any = None
-    for log_time, message in bag.decoded(topic):
-        scalars.append((log_time * 1e-9, message.load, message.peak, message.area))
-        if highest is None or message.peak > highest[1].peak:
-            highest = (log_time * 1e-9, message)
-        if total is None:
-            total = np.zeros(len(message.pressure))
-        total += message.pressure
-    if total is None:
-        raise BagError(f"{topic} holds no pressure field")
-    time, load, peak, area = np.array(scalars).T
-    grid = highest[1]
-    average = _pressure_map(grid, total / len(scalars))
-    return FieldSeries(time, load, peak, area, _pressure_map(grid, grid.pressure), highest[0], average)
+def _cost(columns: dict[str, Any]) -> CostSeries:
+    return CostSeries(**{name: np.asarray(column, dtype=np.float64) for name, column in columns.items()})
 
 
 def _pressure_map(message: Any, pressure: Any) -> PressureMap:
