@@ -29,7 +29,7 @@ def _margins(rig, drive, mode, time, state, derivative, out):  # type: ignore[no
     if mode[0] == STICK:
         out[0] = stick_margin(rig.friction, rig.load, state[2], velocity)
     else:
-        out[0] = slip_margin(rig.friction, mode[0], velocity, -derivative[1], 0.0, False)
+        out[0] = slip_margin(rig.friction, mode[0], velocity, -derivative[1], rig.load, 0.0)
 
 
 @kernel

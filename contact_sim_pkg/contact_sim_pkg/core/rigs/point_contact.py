@@ -15,6 +15,15 @@ from .interface import register
 
 STATES = 2
 MARGINS = 2
+PIECES_A_PERIOD = 16
+
+
+@kernel
+def longest_piece(rig):  # type: ignore[no-untyped-def]
+    """A 16th of the support's period in [s], so that no touch falls between the points where events are looked for."""
+    if rig.support_frequency == 0.0:
+        return math.inf
+    return 2.0 * math.pi / abs(rig.support_frequency) / PIECES_A_PERIOD
 
 
 @kernel

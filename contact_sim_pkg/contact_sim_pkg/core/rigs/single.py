@@ -4,12 +4,40 @@ from __future__ import annotations
 
 import numpy
 
-from ..jit import entry
-from ..parameters import Drive
+from typing import Any
+
+from ..jit import entry, kernel, kernel_overload
+from ..parameters import Drive, PointContact
 from ..solvers.dormand_prince import integrate, set_sides
 from . import belt_slider, point_contact
 
-__all__ = ["belt_slider", "point_contact", "run"]
+__all__ = ["belt_slider", "empty_mode", "longest_piece", "point_contact", "run"]
+
+
+def longest_piece(rig: Any) -> float:
+    """Longest stretch in [s] that is integrated at once: in free flight no error bounds a step, only the support does."""
+    return point_contact.longest_piece(rig) if isinstance(rig, PointContact) else numpy.inf
+
+
+@kernel_overload(longest_piece)
+def _longest_piece(rig):  # type: ignore[no-untyped-def]
+    if getattr(rig, "instance_class", None) is PointContact:
+        return lambda rig: point_contact.longest_piece(rig)
+    return lambda rig: numpy.inf
+
+
+@kernel
+def _run_piecewise(rig, mode, start, end, state, scale, work):  # type: ignore[no-untyped-def]
+    pieces = max(1, int(numpy.ceil((end - start) / longest_piece(rig))))
+    status = 0
+    for i in range(pieces):
+        first = start + (end - start) * i / pieces
+        last = end if i + 1 == pieces else start + (end - start) * (i + 1) / pieces
+        drive = Drive(first, last - first, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
+        status = integrate(rig, drive, mode, last, state, scale, work)
+        if status != 0:
+            break
+    return status
 
 
 @entry
@@ -24,8 +52,7 @@ def run(rig, mode, state, scale, work, times, out):  # type: ignore[no-untyped-d
     out[0, :] = state
     status = 0
     for i in range(times.shape[0] - 1):
-        piece = Drive(times[i], times[i + 1] - times[i], 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
-        status = integrate(rig, piece, mode, times[i + 1], state, scale, work)
+        status = _run_piecewise(rig, mode, times[i], times[i + 1], state, scale, work)
         if status != 0:
             return status
         out[i + 1, :] = state

@@ -211,7 +211,9 @@ def _tension_of(contact, approach_rate):  # type: ignore[no-untyped-def]
 
 @kernel
 def _normal_rate(contact, approach, approach_rate, approach_acceleration):  # type: ignore[no-untyped-def]
-    """Rate of the normal force in [N/s]."""
+    """Rate of the normal force in [N/s]; 0 where the bodies part faster than the material recovers."""
+    if tension_margin(contact.dissipative, approach_rate) <= 0.0:
+        return 0.0
     slope = elastic_stiffness(contact.elastic, approach) * loss_factor(contact.dissipative, approach_rate)
     return slope * approach_rate + _loss_slope(contact.dissipative, contact.elastic, approach) * approach_acceleration
 
@@ -238,9 +240,7 @@ def _friction_margin(friction, contact, tire, seat, mode, approach, approach_rat
         floor_acceleration = derivative[3]
     frame_acceleration = derivative[seat.offset + 1 + seat.masses.shape[0]]
     normal_rate = _normal_rate(contact, approach, approach_rate, floor_acceleration - frame_acceleration)
-    limit = friction.coefficient_kinetic * normal
-    limited = friction.damping * state[x + 1] * mode[0] <= 0.0 or friction.damping * abs(state[x + 1]) >= 2.0 * limit
-    return slip_margin(friction, mode[0], state[x + 1], derivative[x + 1], normal_rate, limited)
+    return slip_margin(friction, mode[0], state[x + 1], derivative[x + 1], normal, normal_rate)
 
 
 @kernel

@@ -155,7 +155,7 @@ def _locate(rig, drive, mode, time, inner, outer, state, work):  # type: ignore[
         _stages(rig, drive, mode, time, step, state, k, work.trial)
         margins(rig, drive, mode, time + step, work.trial, k[6], work.margin)
         number, value = _worst_margin(work)
-        if value < 0.0:
+        if value <= 0.0:  # zero counts as changed: an event function may jump, and be zero by chance beyond its jump
             if number != event:
                 low_value = numpy.nan
             high, high_value, event = step, value, number

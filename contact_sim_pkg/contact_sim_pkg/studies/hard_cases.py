@@ -1,0 +1,91 @@
+"""`bench hard`: the hard cases of the models that are built, each with value, expectation, margin and verdict.
+
+A case computes a value with the bench's own kernels and compares it with an expectation that shares no code with them: a
+closed form, multiple precision, scipy, or a plain count. The margin is the part of the allowance that is left: 1 where value
+and expectation agree, 0 at the limit, negative where the case fails.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from typing import Any, NamedTuple
+
+__all__ = ["Finding", "HardCase", "all_cases", "at_most", "close_to", "evaluate", "exactly", "failed", "study"]
+
+
+class Finding(NamedTuple):
+    """What a case found."""
+
+    value: float
+    expectation: str
+    margin: float  # part of the allowance that is left; the case holds where it is not negative
+
+
+class HardCase(NamedTuple):
+    """One row: the model, what is hard about it, and the function that finds out."""
+
+    model: str
+    case: str
+    find: Callable[[], Finding]
+
+
+def close_to(value: float, expected: float, allowed: float) -> Finding:
+    """`value` within `allowed` (absolute, same unit) of `expected`."""
+    error = abs(value - expected)
+    margin = 1.0 - error / allowed if math.isfinite(error) else -math.inf
+    return Finding(value, f"{expected:.10g} ± {allowed:.2g}", margin)
+
+
+def at_most(value: float, limit: float) -> Finding:
+    """`value`, a size that is not negative, at most `limit`."""
+    margin = 1.0 - value / limit if math.isfinite(value) else -math.inf
+    return Finding(value, f"≤ {limit:.3g}", margin)
+
+
+def exactly(value: float, expected: float) -> Finding:
+    """`value` equal to `expected` to the last bit, as for counts, codes and true zeros."""
+    return Finding(value, f"= {expected:.10g}", 1.0 if value == expected else -math.inf)
+
+
+def all_cases() -> list[HardCase]:
+    """Every case, by model."""
+    from contact_sim_pkg.studies import (
+        hard_cases_field,
+        hard_cases_friction,
+        hard_cases_geometry,
+        hard_cases_impact,
+        hard_cases_law,
+        hard_cases_scenes,
+    )
+
+    modules = (
+        hard_cases_law, hard_cases_impact, hard_cases_friction, hard_cases_geometry, hard_cases_field, hard_cases_scenes,
+    )  # fmt: skip
+    return [case for module in modules for case in module.CASES]
+
+
+def evaluate(case: HardCase) -> dict[str, Any]:
+    """One row of the table; a case that raises fails with its error as the expectation that was not met."""
+    try:
+        finding = case.find()
+    except Exception as error:  # noqa: BLE001 - a table of cases goes on past a broken one, and says so
+        finding = Finding(math.nan, f"an answer, not {type(error).__name__}: {error}", -math.inf)
+    verdict = "holds" if finding.margin >= 0.0 else "fails"
+    row = {"model": case.model, "case": case.case, "value": float(finding.value), "expectation": finding.expectation}
+    return {**row, "margin": float(finding.margin), "verdict": verdict}
+
+
+def study(progress: Callable[[str], None] | None = None) -> list[dict[str, Any]]:
+    """All rows: model, case, value, expectation, margin, verdict (`holds` or `fails`). Takes some 20 s."""
+    rows = []
+    for case in all_cases():
+        if progress is not None:
+            progress(f"{case.model}: {case.case}")
+        rows.append(evaluate(case))
+    return rows
+
+
+def failed(rows: list[dict[str, Any]]) -> bool:
+    """Whether a row fails: then `bench hard` ends with 1."""
+    return any(row["verdict"] != "holds" for row in rows)

@@ -1,0 +1,68 @@
+"""Runs of the one-mass rigs with one asked tolerance, for the studies: state at given times, and what it took."""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy
+
+from contact_sim_pkg.core.parameters import BeltSlider, NormalDissipative, NormalElastic, PointContact, Vector
+from contact_sim_pkg.core.results import DONE, SENTENCES
+from contact_sim_pkg.core.rigs.single import belt_slider, point_contact, run
+from contact_sim_pkg.core.solvers.dormand_prince import EVENTS, REJECTED, STEPS, make_workspace
+
+__all__ = ["Course", "RunFailure", "free_impact", "impact_speeds", "integrate", "seat_slap"]
+
+
+class RunFailure(RuntimeError):
+    """The integrator ended with a status other than DONE; the message is its sentence."""
+
+
+class Course(NamedTuple):
+    """States at the asked times, and the integrator's counts."""
+
+    states: Vector  # [times, states]
+    status: int
+    accepted: int
+    rejected: int
+    events: int
+
+
+def integrate(
+    rig: PointContact | BeltSlider, start: Vector, scale: Vector, times: Vector, mode: int = 0, strict: bool = True
+) -> Course:
+    """Integrate `rig` from `start` through `times` [s]; `scale` [states]: error allowed per step.
+
+    `mode`: friction mode at the start (0 sticks, 1 and -1 slip). Raises RunFailure where `strict` and the run fails.
+    """
+    margins = point_contact.MARGINS if isinstance(rig, PointContact) else belt_slider.MARGINS
+    state = numpy.array(start, dtype=float)
+    work = make_workspace(len(state), margins)
+    out = numpy.full((len(times), len(state)), numpy.nan)
+    status = run(rig, numpy.array([mode]), state, numpy.asarray(scale, dtype=float), work, numpy.asarray(times, float), out)
+    if strict and status != DONE:
+        raise RunFailure(SENTENCES[status])
+    counts = work.counters
+    return Course(out, int(status), int(counts[STEPS]), int(counts[REJECTED]), int(counts[EVENTS]))
+
+
+def free_impact(mass: float, elastic: NormalElastic, damping: float | None) -> PointContact:
+    """One mass against a support at rest, without gravity; `damping` [s/m] or None without loss."""
+    return PointContact(mass, 0.0, 0.0, 0.0, elastic, None if damping is None else NormalDissipative(damping))
+
+
+def impact_speeds(rig: PointContact, speed: float, depth: float, tolerance: float, gap: float, end: float) -> Course:
+    """Free impact at `speed` [m/s] from `gap` [m] above the support, to `end` [s]; tolerance relative to `depth` and `speed`."""
+    scale = numpy.array([depth, speed]) * tolerance
+    return integrate(rig, numpy.array([gap, -speed]), scale, numpy.array([0.0, end]))
+
+
+def seat_slap() -> tuple[PointContact, Vector, Vector]:
+    """60 kg on a one-sided foam law over a floor at 5 Hz and 1.3 g: rig, start, and the scales [m, m/s] of the motion."""
+    mass, gravity = 60.0, 9.81
+    frequency = 2.0 * numpy.pi * 5.0
+    amplitude = 1.3 * gravity / frequency**2
+    sunk = 1.5 * gravity / (2.0 * numpy.pi * 5.5) ** 2
+    law = NormalElastic(mass * gravity / sunk**1.5, 1.5)
+    rig = PointContact(mass, gravity, amplitude, frequency, law, NormalDissipative(1.0))
+    return rig, numpy.array([-sunk, amplitude * frequency]), numpy.array([0.05, 1.0])
