@@ -111,7 +111,7 @@ def _replace_file(root: MappingNode, override: Override, mark: Mark) -> None:
     for key in kept.entries:
         kept.key_marks.setdefault(key, mark)
     root.entries[section] = kept
-    root.key_marks.setdefault(section, mark)
+    root.key_marks[section] = mark
 
 
 def _kind(section: MappingNode) -> str:

@@ -37,7 +37,7 @@ class Rung(NamedTuple):
         return self.tolerance * (0.1 if contact == "seat" else 1.0)
 
     def passes(self, contact: Contact) -> int:
-        """Corrector passes of the field of a contact: the cushion does not move under the body, so it needs one fewer."""
+        """Corrector passes of a field: the cushion does not move under the body, so it needs one fewer."""
         return self.corrector_passes - (1 if contact == "seat" else 0)
 
 

@@ -94,9 +94,12 @@ def _near_multiples(step: int, rate: Fraction, block: int) -> list[str]:
 
 
 def _near(counts: list[int], samples: Fraction, block: int) -> list[str]:
-    below = [count for count in counts if count < samples][-1:]
-    above = [count for count in counts if count > samples][:1]
-    return [_decimal(Fraction(count * NANOSECONDS, block)) for count in (*below, *above)]
+    """The rates next below and above that can be written as a decimal number."""
+    rates = [(count, Fraction(count * NANOSECONDS, block)) for count in counts]
+    exact_rates = [(count, rate) for count, rate in rates if Fraction(_decimal(rate)) == rate]
+    below = [rate for count, rate in exact_rates if count < samples][-1:]
+    above = [rate for count, rate in exact_rates if count > samples][:1]
+    return [_decimal(rate) for rate in (*below, *above)]
 
 
 def divisors(number: int) -> list[int]:

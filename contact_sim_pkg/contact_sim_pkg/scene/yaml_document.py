@@ -106,7 +106,8 @@ def _compose(text: str, start: Mark, faults: list[Fault]) -> Node:
         line = text.count("\n", 0, error.position) + 1
         column = error.position - text.rfind("\n", 0, error.position)
         place = Mark(start.source, line * bool(start.line), column * bool(start.line))
-        sentence = f"the character U+{ord(str(error.character)[:1] or chr(0)):04X} is not allowed in YAML"
+        code = ord(text[error.position])
+        sentence = f"the character U+{code:04X} is not allowed in YAML"
         raise SceneError([place.fault("", sentence)]) from error
     except MarkedYAMLError as error:
         raise SceneError([_syntax_fault(error, start)]) from error

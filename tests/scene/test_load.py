@@ -1,0 +1,56 @@
+"""Scenes by name or path, and the shipped ones."""
+
+import pytest
+
+from contact_sim_pkg.scene.errors import SceneError
+from contact_sim_pkg.scene.files import SCENES
+from contact_sim_pkg.scene.load import ORDER, find_scene, list_scenes, load_scene, shipped_names
+
+
+def test_the_shipped_scenes_are_listed_smallest_first():
+    entries = list_scenes()
+    assert [entry.name for entry in entries] == list(ORDER) == shipped_names()
+    assert [entry.rig for entry in entries] == ["seat", "tire", "tire", "tire", "car"]
+    assert all(entry.description and entry.path.is_file() for entry in entries)
+
+
+@pytest.mark.parametrize("name", ORDER)
+def test_every_shipped_scene_starts_with_a_comment_and_needs_nothing_outside_the_package(name):
+    text = (SCENES / f"{name}.yaml").read_text(encoding="utf-8")
+    assert text.startswith("# ")
+    assert "shared" not in text
+    assert load_scene(name).name == name
+
+
+def test_a_scene_without_name_is_called_like_its_file(maker):
+    assert maker.load("seat").name == "seat"
+
+
+def test_a_file_name_that_cannot_be_a_name_asks_for_one(maker, tmp_path):
+    path = tmp_path / "my scene.yaml"
+    path.write_text(maker.write("seat").read_text())
+    with pytest.raises(SceneError, match="name: 'my scene' is not a name"):
+        load_scene(path)
+
+
+def test_an_unknown_name_is_told_the_nearest():
+    with pytest.raises(SceneError, match=r"did you mean tire_bump\?"):
+        load_scene("tire_bmp")
+
+
+def test_a_path_is_taken_as_a_path(tmp_path):
+    assert find_scene(tmp_path / "x.yaml") == tmp_path / "x.yaml"
+    with pytest.raises(SceneError, match="there is no such file"):
+        load_scene(tmp_path / "x.yaml")
+
+
+def test_faults_are_told_one_a_line_ordered_by_line_options_last(maker):
+    from contact_sim_pkg.scene.overrides import set_pace
+
+    file = maker.folder / "two.yaml"
+    file.write_text("rig: seat\nduration: -1\nseed: x\neffects: {seat: {normal_elastic: {}}}\n")
+    with pytest.raises(SceneError) as caught:
+        load_scene(file, [set_pace("x")])
+    assert [line.split(": ")[0] for line in str(caught.value).splitlines()] == [
+        f"{file}:1:1", f"{file}:2:11", f"{file}:3:7", "--pace x",
+    ]  # fmt: skip

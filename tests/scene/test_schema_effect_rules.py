@@ -1,0 +1,72 @@
+"""Which effects go together: all subsets, against a table that is written out here."""
+
+from itertools import combinations
+
+import pytest
+
+from contact_sim_pkg.scene import schema_effect_rules
+from contact_sim_pkg.scene.schema_effect_rules import EFFECT_RULES, EffectRule
+
+EFFECTS = ("normal_elastic", "normal_dissipative", "friction", "contact_field")
+ALLOWED = {
+    "tire": [
+        set(),
+        {"normal_dissipative"},
+        {"contact_field"},
+        {"normal_dissipative", "contact_field"},
+    ],
+    "seat": [
+        set(),
+        {"normal_dissipative"},
+        {"friction"},
+        {"contact_field"},
+        {"normal_dissipative", "friction"},
+        {"normal_dissipative", "contact_field"},
+        {"friction", "contact_field"},
+        {"normal_dissipative", "friction", "contact_field"},
+    ],
+}
+"""What may stand beside normal_elastic, which every contact needs."""
+SUBSETS = [set(chosen) for count in range(len(EFFECTS) + 1) for chosen in combinations(EFFECTS, count)]
+
+
+def test_the_table_knows_exactly_these_effects():
+    assert tuple(EFFECT_RULES) == EFFECTS
+
+
+@pytest.mark.parametrize("contact", ["tire", "seat"])
+@pytest.mark.parametrize("named", SUBSETS, ids=lambda named: "+".join(sorted(named)) or "none")
+def test_every_set_of_effects_is_allowed_or_refused_as_tabled(maker, contact, named):
+    faults = maker.faults(contact, {f"effects.{contact}": {name: {} for name in named}})
+    allowed = "normal_elastic" in named and (named - {"normal_elastic"}) in ALLOWED[contact]
+    assert (faults == []) == allowed
+
+
+@pytest.mark.parametrize("name", ["normal_dissipative", "friction", "contact_field"])
+def test_an_effect_without_what_it_needs_names_both(maker, name):
+    faults = maker.faults("seat", {"effects.seat": {name: {}}})
+    assert any(fault.startswith(f"effects.seat.{name}: {name} needs normal_elastic") for fault in faults)
+
+
+def test_friction_at_the_tire_is_refused_as_an_effect_not_as_a_misspelling(maker):
+    (fault,) = maker.faults("tire", {"effects.tire.friction": {}})
+    assert "the effect friction is not available at the contact tire, only at seat" in fault
+
+
+@pytest.mark.parametrize(("rig", "contact"), [("tire", "seat"), ("seat", "tire")])
+def test_a_contact_that_the_rig_lacks_is_refused(maker, rig, contact):
+    (fault,) = maker.faults(rig, {f"effects.{contact}": {"normal_elastic": {}}})
+    assert fault.startswith(f"effects.{contact}: the rig {rig} has no contact {contact}")
+
+
+@pytest.mark.parametrize(("rig", "contact"), [("tire", "tire"), ("seat", "seat"), ("car", "tire"), ("car", "seat")])
+def test_a_contact_of_the_rig_without_elastic_force_is_refused(maker, rig, contact):
+    (fault,) = maker.faults(rig, {f"effects.{contact}": ...})
+    assert fault.startswith(f"effects.{contact}.normal_elastic: is missing")
+
+
+def test_effects_that_exclude_each_other_are_both_named(maker, monkeypatch):
+    rules = {**EFFECT_RULES, "friction": EffectRule(("seat",), excludes=("contact_field",))}
+    monkeypatch.setattr(schema_effect_rules, "EFFECT_RULES", rules)
+    (fault,) = maker.faults("seat", {"effects.seat.friction": {}, "effects.seat.contact_field": {}})
+    assert "friction and contact_field exclude each other" in fault

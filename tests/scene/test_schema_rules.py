@@ -1,0 +1,125 @@
+"""Rules between keys: a contradiction is a fault at its key, and what is just allowed passes."""
+
+import pytest
+
+BUMP = {"kind": "bump", "position": 1.0, "height": 0.1, "length": 0.5}
+CLEAT = {"kind": "cleat", "position": 1.0, "height": 0.01, "length": 0.05}
+ISO = {"kind": "iso8608", "roughness_class": "C"}
+SWEEP = {"kind": "sweep", "start_frequency": 1.0, "end_frequency": 20.0, "amplitude": 1.0}
+SHOCK = {"kind": "half_sine", "amplitude": 10.0, "duration": 0.05}
+LOSS = "effects.seat.normal_dissipative"
+
+BREACHES = [
+    ("tire", {"travel": ...}, "travel", "the rig tire needs it"),
+    ("car", {"road": ...}, "road", "the rig car needs it"),
+    ("seat", {"vibration": ...}, "vibration", "the rig seat needs it"),
+    ("seat", {"road": {"kind": "flat"}}, "road", "the rig seat has no road"),
+    ("seat", {"tire": {}}, "tire", "the rig seat has no tire"),
+    ("tire", {"seat": {}}, "seat", "the rig tire has no seat"),
+    ("tire", {"vibration": SHOCK}, "vibration", "the rig tire has no vibration"),
+    ("tire", {"travel": {}}, "travel.speed", "give speed or points"),
+    ("tire", {"travel.points": [[0, 1]]}, "travel.points", "both given"),
+    ("tire", {"travel": {"points": [[1, 1]]}}, "travel.points.0.0", "it must be 0"),
+    ("tire", {"travel": {"points": [[0, 1], [2, 1], [2, 3]]}}, "travel.points.2.0", "times must increase"),
+    ("tire", {"travel": {"points": [[0, 1], [2, 101]]}}, "travel.points.1.1", "outside 0 to 100 m/s"),
+    ("tire", {"travel": {"points": [[0, 1], [3601, 1]]}}, "travel.points.1.0", "outside 0 to 3600 s"),
+    ("tire", {"road": {**BUMP, "period": 0.4}}, "road.period", "shorter than the obstacle"),
+    ("tire", {"road": {**CLEAT, "edge": 0.026}}, "road.edge", "longer than the obstacle"),
+    ("tire", {"road": {"kind": "iso8608"}}, "road.roughness_class", "give roughness_class or roughness"),
+    ("tire", {"road": {**ISO, "roughness": 1e-6}}, "road.roughness", "both given"),
+    (
+        "tire",
+        {"road": {**ISO, "shortest_wavelength": 5.0, "longest_wavelength": 5.0}},
+        "road.shortest_wavelength",
+        "not below",
+    ),
+    (
+        "tire",
+        {"road": {**ISO, "shortest_wavelength": 5.0, "length": 4.0}},
+        "road.shortest_wavelength",
+        "not below length",
+    ),
+    (
+        "tire",
+        {"road": {**ISO, "texture": {"shortest_wavelength": 0.5}}},
+        "road.texture.shortest_wavelength",
+        "not below",
+    ),
+    ("seat", {"vibration.frequency": 500.0}, "vibration.frequency", "half the sample rate"),
+    ("seat", {"vibration": SWEEP}, "vibration.octaves_per_minute", "give octaves_per_minute or duration"),
+    ("seat", {"vibration": {**SWEEP, "duration": 1.0, "octaves_per_minute": 1.0}}, "vibration.duration", "both given"),
+    (
+        "seat",
+        {"vibration": {**SWEEP, "duration": 1.0, "end_frequency": 1.0}},
+        "vibration.end_frequency",
+        "take kind: sine",
+    ),
+    (
+        "seat",
+        {"vibration": {**SWEEP, "duration": 1.0, "end_frequency": 600.0}},
+        "vibration.end_frequency",
+        "half the sample",
+    ),
+    (
+        "seat",
+        {"vibration": {"kind": "noise", "low": 9.0, "high": 8.0, "rms": 1.0}},
+        "vibration.low",
+        "9 Hz is not below high",
+    ),
+    ("seat", {"vibration": {**SHOCK, "start": 1.0}}, "vibration.start", "behind the end of the run"),
+    (
+        "seat",
+        {"seat": {"occupant": {"masses": [5.0], "damping": [9.0]}}},
+        "seat.occupant.stiffness",
+        "2 values, masses has 1",
+    ),
+    ("seat", {"seat": {"occupant": {"damping": []}}}, "seat.occupant.damping", "0 values, masses has 2"),
+    (
+        "seat",
+        {"effects.seat.friction": {"coefficient_kinetic": 0.41}},
+        "effects.seat.friction.coefficient_kinetic",
+        "above",
+    ),
+    ("seat", {LOSS: {"damping": 1.0, "restitution": 0.5, "reference_speed": 1.0}}, f"{LOSS}.restitution", "both given"),
+    ("seat", {LOSS: {"restitution": 0.5}}, f"{LOSS}.reference_speed", "holds at one impact speed"),
+    ("seat", {LOSS: {"reference_speed": 0.5}}, f"{LOSS}.reference_speed", "no meaning without restitution"),
+]
+
+
+@pytest.mark.parametrize(("base", "changes", "where", "told"), BREACHES)
+def test_a_contradiction_is_one_fault_at_its_key(maker, base, changes, where, told):
+    faults = maker.faults(base, changes)
+    assert len(faults) == 1
+    assert faults[0].startswith(f"{where}: ")
+    assert told in faults[0]
+
+
+@pytest.mark.parametrize(
+    ("base", "changes"),
+    [
+        ("tire", {"travel": {"points": [[0, 0], [1, 100]]}}),
+        ("tire", {"road": {**BUMP, "period": 0.5}}),
+        ("tire", {"road": {**CLEAT, "edge": 0.025}}),
+        ("tire", {"road": {"kind": "iso8608", "roughness": 0.0}}),
+        ("tire", {"road": {**ISO, "texture": {}}}),
+        ("tire", {"road": {"kind": "step", "position": 1, "height": -0.02}}),
+        ("tire", {"road": {"kind": "pothole", "position": 1, "depth": 0.05, "length": 0.3, "edge": 0.15}}),
+        ("seat", {"vibration.frequency": 499.9}),
+        ("seat", {"vibration": {**SWEEP, "duration": 1.0}}),
+        ("seat", {"vibration": {**SWEEP, "octaves_per_minute": 1.0, "axis": "x"}}),
+        ("seat", {"vibration": {**SHOCK, "start": 0.99, "axis": "x"}}),
+        ("seat", {"seat": {"occupant": {"masses": [], "stiffness": [], "damping": []}}}),
+        ("seat", {"effects.seat.friction": {"coefficient_kinetic": 0.4}}),
+        ("seat", {LOSS: {"restitution": 1.0, "reference_speed": 0.5}}),
+        ("car", {}),
+        ("car", {"vibration": SHOCK, "tire": {}, "seat": {}, "effects.tire.contact_field": {}}),
+    ],
+)
+def test_what_is_just_allowed_passes(maker, base, changes):
+    assert maker.faults(base, changes) == []
+
+
+def test_a_rule_does_not_speak_about_a_key_with_a_fault_of_its_own(maker):
+    faults = maker.faults("seat", {"vibration.sample_rate": "fast", "vibration.frequency": 600.0})
+    assert len(faults) == 1
+    assert faults[0].startswith("vibration.sample_rate: 'fast'")
