@@ -104,7 +104,7 @@ def test_each_picture_is_well_formed_svg(car_text):
     [
         "450 kPa (cross) at 0.570 s", "It lifts off 20 times", "mean 24 cm²", "17 samples at full scale: clipped",
         "closed forms, not a simulation", "rows 16, cols 12, tolerance 1e-06", "0.0-synthetic",
-        "5 times as fast as the clock",
+        "5 times as fast as the clock", "a force jumped by at most 2.5 N",
     ],
 )  # fmt: skip
 def test_captions_and_tables_state_the_numbers(car_text, expected):

@@ -8,6 +8,7 @@ from .decimate import envelope
 from .drawing import ACCENT, INK, MUTED, Picture, new_figure, picture
 from .energy import relative_residual, throughput
 from .series import CostSeries, LedgerSeries
+from .summary import solver_numbers
 
 
 def energy_balance(ledger: LedgerSeries) -> Picture:
@@ -49,13 +50,23 @@ def real_time_factor(cost: CostSeries) -> Picture:
     axes[1].hist(np.minimum(milliseconds, limit), bins=40, color=ACCENT)
     axes[1].set_xlabel("wall time of a block, ms")
     axes[1].set_ylabel("blocks")
-    total = float(cost.wall_time.sum())
-    overall = float((cost.real_time_factor * cost.wall_time).sum()) / total
-    slow = float((cost.real_time_factor < 1.0).mean())
-    caption = (
-        f"{cost.time.size} blocks took {total:.3g} s of wall time for the physics: {overall:.3g} times as fast as "
-        f"the clock. Median {np.median(milliseconds):.3g} ms a block, slowest {milliseconds.max():.3g} ms; {slow:.1%} "
-        "of the blocks were slower than real time (dashed: 1). The last bar holds the slowest hundredth. Wall times "
-        "differ from run to run."
+    return picture("bench-cost", figure, "Real-time factor over time and histogram of wall times", _cost_caption(cost))
+
+
+def _cost_caption(cost: CostSeries) -> str:
+    numbers = solver_numbers(cost)
+    milliseconds = cost.wall_time * 1e3
+    text = (
+        f"{numbers['blocks']} blocks took {numbers['physics_wall_s']:.3g} s of wall time for the physics: "
+        f"{numbers['physics_real_time_factor']:.3g} times as fast as the clock. Median {np.median(milliseconds):.3g} ms a "
+        f"block, slowest {milliseconds.max():.3g} ms; {(cost.real_time_factor < 1.0).mean():.1%} of the blocks were slower "
+        "than real time (dashed: 1). The last bar holds the slowest hundredth. Wall times differ from run to run. "
+        f"{numbers['steps']} time steps, {numbers['rejected_steps']} rejected, {numbers['events']} events."
     )
-    return picture("bench-cost", figure, "Real-time factor over time and histogram of wall times", caption)
+    if not numbers["field_iterations"]:
+        return text
+    return text + (
+        f" Pressure fields: {numbers['field_iterations']} iterations, largest relative residual "
+        f"{numbers['field_residual_max']:.1e}; at a field instant a force jumped by at most "
+        f"{numbers['field_jump_max_N']:.3g} N, which the tangent between the instants did not foresee."
+    )
