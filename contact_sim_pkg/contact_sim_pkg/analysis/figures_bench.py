@@ -56,11 +56,12 @@ def real_time_factor(cost: CostSeries) -> Picture:
 def _cost_caption(cost: CostSeries) -> str:
     numbers = solver_numbers(cost)
     milliseconds = cost.wall_time * 1e3
+    slow = float((cost.real_time_factor < 1.0).mean())
     text = (
         f"{numbers['blocks']} blocks took {numbers['physics_wall_s']:.3g} s of wall time for the physics: "
-        f"{numbers['physics_real_time_factor']:.3g} times as fast as the clock. Median {np.median(milliseconds):.3g} ms a "
-        f"block, slowest {milliseconds.max():.3g} ms; {(cost.real_time_factor < 1.0).mean():.1%} of the blocks were slower "
-        "than real time (dashed: 1). The last bar holds the slowest hundredth. Wall times differ from run to run. "
+        f"{numbers['physics_real_time_factor']:.3g} times as fast as the clock. Median "
+        f"{np.median(milliseconds):.3g} ms a block, slowest {milliseconds.max():.3g} ms; {slow:.1%} of the blocks were "
+        "slower than real time (dashed: 1). The last bar holds the slowest hundredth. Wall times differ from run to run. "
         f"{numbers['steps']} time steps, {numbers['rejected_steps']} rejected, {numbers['events']} events."
     )
     if not numbers["field_iterations"]:
