@@ -61,8 +61,8 @@ def _cost_caption(cost: CostSeries) -> str:
         f"{numbers['blocks']} blocks took {numbers['physics_wall_s']:.3g} s of wall time for the physics: "
         f"{numbers['physics_real_time_factor']:.3g} times as fast as the clock. Median "
         f"{np.median(milliseconds):.3g} ms a block, slowest {milliseconds.max():.3g} ms; {slow:.1%} of the blocks were "
-        "slower than real time (dashed: 1). The last bar holds the slowest hundredth. Wall times differ from run to run. "
-        f"{numbers['steps']} time steps, {numbers['rejected_steps']} rejected, {numbers['events']} events."
+        "slower than real time (dashed: 1). The last bar holds the slowest hundredth. Wall times differ "
+        f"from run to run. {numbers['steps']} time steps, {numbers['rejected_steps']} rejected, {numbers['events']} events."
     )
     if not numbers["field_iterations"]:
         return text
