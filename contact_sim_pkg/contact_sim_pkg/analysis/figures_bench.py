@@ -62,7 +62,8 @@ def _cost_caption(cost: CostSeries) -> str:
         f"{numbers['physics_real_time_factor']:.3g} times as fast as the clock. Median "
         f"{np.median(milliseconds):.3g} ms a block, slowest {milliseconds.max():.3g} ms; {slow:.1%} of the blocks were "
         "slower than real time (dashed: 1). The last bar holds the slowest hundredth. Wall times differ "
-        f"from run to run. {numbers['steps']} time steps, {numbers['rejected_steps']} rejected, {numbers['events']} events."
+        f"from run to run. {numbers['steps']} time steps, {numbers['rejected_steps']} rejected, "
+        f"{numbers['events']} events."
     )
     if not numbers["field_iterations"]:
         return text
