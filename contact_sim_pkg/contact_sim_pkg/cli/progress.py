@@ -47,6 +47,8 @@ class RunDisplay:
 
     def show(self, standing: Standing) -> None:
         """Show where the run stands."""
+        if standing.simulated <= 0.0:
+            return
         text = (
             f"{standing.simulated:.2f} of {self._duration:g} s, {standing.real_time_factor:.2f}x real time, "
             f"load {standing.load:.0f} N, peak {standing.peak_pressure / 1e3:.1f} kPa"

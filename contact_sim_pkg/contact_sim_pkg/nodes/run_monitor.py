@@ -36,8 +36,10 @@ class RunMonitor:
     def spin(self, seconds: float) -> None:
         """Hear what comes, for at most this long."""
         limit = time.monotonic() + seconds
-        while (left := limit - time.monotonic()) > 0.0:
+        left = seconds
+        while left >= 0.0:
             self._executor.spin_once(timeout_sec=left)
+            left = limit - time.monotonic()
 
     def _on_progress(self, data: bytes) -> None:
         if self.run.accept(decode_progress(data)):

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 from collections.abc import Iterable
 from pathlib import Path
 
@@ -18,11 +19,15 @@ def mapped_segments(process: int) -> set[str]:
 
 
 def remove_unused(names: Iterable[str]) -> list[str]:
-    """Remove those of the segments that no living process has mapped or open; returns what was removed."""
+    """Remove those of the segments that no other living process has mapped or open; returns what was removed.
+
+    This process does not count: the middleware keeps its mappings until the process ends, also after the last node.
+    """
     wanted = {name + ending for name in names for ending in COMPANION_ENDINGS}
     if not wanted:
         return []
-    used = set().union(*(mapped_segments(int(entry.name)) for entry in Path("/proc").iterdir() if entry.name.isdigit()))
+    others = [int(entry.name) for entry in Path("/proc").iterdir() if entry.name.isdigit()]
+    used = set().union(*(mapped_segments(process) for process in others if process != os.getpid()))
     kept = {name.removesuffix("_el") for name in used}
     removed = []
     for name in sorted(wanted):

@@ -7,7 +7,6 @@ import sys
 import tempfile
 import time
 from collections.abc import Callable, Mapping
-from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, NamedTuple
 
@@ -15,7 +14,7 @@ from contact_sim_pkg.run.bag_content import input_names
 from contact_sim_pkg.scene.resolve import ResolvedScene
 
 from .children import Child, Children
-from .protocol import DONE, FAULT, REFUSED, NodeError, State
+from .protocol import DONE, FAULT, LOSS, REFUSED, NodeError, State
 from .scene_file import count_blocks, write_scene
 
 if TYPE_CHECKING:
@@ -60,16 +59,15 @@ class SupervisedRun(NamedTuple):
 class Supervisor:
     """One run on nodes."""
 
-    def __init__(self, scene: ResolvedScene, directory: Path | None, *, from_bag: Path | None = None, pace: str = "") -> None:
+    def __init__(self, scene: ResolvedScene, directory: Path | None, *, from_bag: Path | None = None) -> None:
         """Prepare a run of `scene`, recorded in `directory` (None: not recorded), which must not exist.
 
         Args:
             scene: the scene.
             directory: directory of the bag.
             from_bag: bag whose excitation is sent instead of the scene's own.
-            pace: `realtime`, `max` or a factor; the scene's own where it is empty.
         """
-        self._scene, self._directory, self._from_bag, self._pace = scene, directory, from_bag, pace
+        self._scene, self._directory, self._from_bag = scene, directory, from_bag
         self._stop_count = 0
         self._asked = 0
         self._failure, self._exit_status = "", DONE
@@ -96,24 +94,25 @@ class Supervisor:
                 children.end()
 
     def _start_all(self, children: Children, scene: str) -> None:
-        """The simulator first, since it takes longest."""
-        common = {"scene": scene, "supervisor": os.getpid(), "pace": self._pace, "record": self._directory is not None}
-        start = partial(_start_node, children)
-        start("contact_simulator", common)
+        """The logger first, so that it is ended last; the simulator last, so that it is ended first."""
+        common = {"scene": scene, "supervisor": os.getpid()}
         if self._directory is not None:
-            bag = str(self._directory.absolute())
-            start("bag_logger", {"scene": scene, "supervisor": os.getpid(), "bag": bag})
+            _start_node(children, "bag_logger", {**common, "bag": str(self._directory.absolute())})
+        record = self._directory is not None
         source = {} if self._from_bag is None else {"from_bag": str(self._from_bag.absolute())}
         for topic in input_names(self._scene):
-            start(NODE_OF_INPUT[topic], {**common, **source})
+            _start_node(children, NODE_OF_INPUT[topic], {**common, "record": record, **source})
+        _start_node(children, "contact_simulator", {**common, "record": record})
 
     def _watch(self, children: Children, monitor: RunMonitor, on_report: Callable[[Report], None]) -> None:
-        looked, ended_at = 0.0, 0.0
-        while not children.all_ended():
+        """Until every process has ended, or one has ended badly."""
+        looked, ended_at = 0.0, float("inf")
+        fallen: Child | None = None
+        while fallen is None and not children.all_ended():
             try:
                 monitor.spin(LOOK_SECONDS)
             except NodeError as error:
-                self._failure, self._exit_status = str(error), error.exit_status
+                self._fail(str(error), error.exit_status)
                 return
             now = time.monotonic()
             if now - looked > SEGMENT_SECONDS:
@@ -121,31 +120,33 @@ class Supervisor:
                 children.look()
             if monitor.run.last is not None:
                 on_report(self._report(monitor))
+            self._hand_on_stop(children, monitor)
+            if monitor.run.state.ended or self._asked:
+                ended_at = min(ended_at, now)
+            if now - ended_at > END_SECONDS:
+                self._fail(f"the nodes did not end {END_SECONDS:g} s after the run", FAULT)
+                return
             fallen = children.fallen()
-            if fallen is not None:
-                self._on_fallen(fallen, children, monitor)
-                return
-            if self._stop_count > self._asked:
-                self._asked = self._stop_count
-                children.ask(*(() if self._asked > 1 else ("contact_simulator",)))
-            ended_at = ended_at or (now if monitor.run.state.ended or self._asked else 0.0)
-            if ended_at and now - ended_at > END_SECONDS:
-                self._failure, self._exit_status = f"the nodes did not end {END_SECONDS:g} s after the run", FAULT
-                return
-        monitor.spin(0.0)
-        fallen = children.fallen()
+        fallen = fallen or children.fallen()
         if fallen is not None:
-            self._on_fallen(fallen, children, monitor)
+            self._on_fallen(fallen, monitor)
 
-    def _on_fallen(self, fallen: Child, children: Children, monitor: RunMonitor) -> None:
-        """Name the node that ended badly, let the others end, keep the state that names the fault where there is one."""
-        status = fallen.status or 0
+    def _hand_on_stop(self, children: Children, monitor: RunMonitor) -> None:
+        """A run under way is ended by its simulator, so that the bag gets whole; otherwise every process is asked to end."""
+        if self._stop_count > self._asked:
+            self._asked = self._stop_count
+            under_way = monitor.run.state in (State.READY, State.RUNNING) and self._asked == 1
+            children.ask(*(("contact_simulator",) if under_way else ()))
+
+    def _fail(self, sentence: str, exit_status: int) -> None:
+        self._failure, self._exit_status = sentence, exit_status
+
+    def _on_fallen(self, fallen: Child, monitor: RunMonitor) -> None:
+        """Name the fault that the run reported, or else the process that ended badly."""
         last = monitor.run.last
-        if monitor.run.state is State.FAILED and last is not None and last.message:
-            self._failure = last.message
-        else:
-            self._failure = fallen.describe_end()
-        self._exit_status = status if status in (REFUSED, 3) else FAULT
+        reported = last.message if monitor.run.state is State.FAILED and last is not None else ""
+        status = fallen.status if fallen.status in (REFUSED, LOSS) else FAULT
+        self._fail(reported or fallen.describe_end(), status)
 
     def _report(self, monitor: RunMonitor) -> Report:
         last = monitor.run.last
@@ -161,7 +162,7 @@ class Supervisor:
         stopped = self._asked > 0 or monitor.run.state is State.STOPPED
         done = monitor.run.block + 1
         if not self._failure and not stopped and done < count_blocks(self._scene):
-            self._failure, self._exit_status = f"the run ended after {done} blocks without a word", FAULT
+            self._fail(f"the run ended after {done} blocks without a word", FAULT)
         return SupervisedRun(done, ready - began, max(0.0, last - ready), bag, stopped, self._failure, self._exit_status)
 
 

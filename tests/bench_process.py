@@ -1,0 +1,128 @@
+"""Runs of the bench in processes of their own, for the tests of nodes, faults and command line."""
+
+import importlib.util
+import os
+import signal
+import subprocess
+import sys
+import time
+from pathlib import Path
+
+import pytest
+
+from contact_sim_pkg.bag.reader import open_bag
+from contact_sim_pkg.bag.topics import TOPICS
+from contact_sim_pkg.nodes.children import Children
+from contact_sim_pkg.nodes.scene_file import write_scene
+from contact_sim_pkg.scene.load import load_scene
+from contact_sim_pkg.scene.overrides import set_value
+from contact_sim_pkg.scene.resolve import ResolvedScene, resolve
+
+HAS_ROS = all(importlib.util.find_spec(name) is not None for name in ("rclpy", "contact_msgs_defs"))
+needs_ros = pytest.mark.skipif(not HAS_ROS, reason="rclpy or contact_msgs_defs cannot be imported: ROS 2 is not sourced")
+
+PACKAGE = Path(__file__).resolve().parents[1] / "contact_sim_pkg"
+ENVIRONMENT = {
+    **os.environ,
+    "PYTHONPATH": os.pathsep.join([str(PACKAGE), os.environ.get("PYTHONPATH", "")]),
+    "RCUTILS_CONSOLE_OUTPUT_FORMAT": "{severity} {name}: {message}",
+}
+LONGEST = 120.0  # [s] for anything that a test waits for; kernels may have to be compiled
+
+
+def bench(*arguments: object, cwd: Path | None = None) -> subprocess.CompletedProcess[str]:
+    """`bench` with these arguments, to its end."""
+    return subprocess.run(_command(arguments), env=ENVIRONMENT, capture_output=True, text=True, timeout=LONGEST, cwd=cwd)
+
+
+def start_bench(*arguments: object, environment: dict[str, str] | None = None) -> subprocess.Popen[str]:
+    """`bench` with these arguments, in a session of its own."""
+    pipe = subprocess.PIPE
+    return subprocess.Popen(
+        _command(arguments), env=environment or ENVIRONMENT, stdout=pipe, stderr=pipe, text=True, start_new_session=True
+    )
+
+
+def _command(arguments: tuple[object, ...]) -> list[str]:
+    return [sys.executable, "-m", "contact_sim_pkg.cli.main", *map(str, arguments)]
+
+
+def resolved(name: str, *assignments: str) -> ResolvedScene:
+    """A shipped scene with some values set."""
+    return resolve(load_scene(name, [set_value(assignment) for assignment in assignments]))
+
+
+class Nodes:
+    """Nodes of one run, each in a process of its own; what they say is kept."""
+
+    def __init__(self, scene: ResolvedScene, folder: Path) -> None:
+        folder.mkdir(parents=True, exist_ok=True)
+        self.said: list[str] = []
+        self.bag = folder / "bag"
+        self._scene = str(write_scene(scene, folder))
+        self._children = Children(ENVIRONMENT, self.said.append)
+
+    def start(self, node: str, **parameters: object):
+        """Start one node."""
+        values = {"scene": self._scene, **({"bag": self.bag} if node == "bag_logger" else {}), **parameters}
+        arguments = [text for name, value in values.items() for text in ("-p", f"{name}:={value}")]
+        command = [sys.executable, "-m", f"contact_sim_pkg.nodes.{node}", "--ros-args", "--disable-external-lib-logs"]
+        return self._children.start(node, [*command, *arguments])
+
+    def wait(self, seconds: float = LONGEST) -> dict[str, int]:
+        """Exit status of each node, when all have ended."""
+        wait_until(self._children.all_ended, seconds)
+        return {child.name: child.status for child in self._children._children}
+
+    def end(self) -> None:
+        """End what still lives."""
+        self._children.end(grace=2.0)
+
+
+def wait_until(condition, seconds: float = LONGEST) -> None:
+    """Wait for a condition; fails after the time."""
+    limit = time.monotonic() + seconds
+    while not condition():
+        assert time.monotonic() < limit, "waited in vain"
+        time.sleep(0.02)
+
+
+def messages(bag: Path) -> list[tuple[str, int, bytes]]:
+    """Topic, log time and bytes of every message but those that report wall time, whose bytes are left out."""
+    wall = {f"/{name}" for name, topic in TOPICS.items() if topic.wall_time}
+    found = open_bag(bag).messages()
+    return [(each.topic, each.log_time, b"" if each.topic in wall else each.data) for each in found]
+
+
+def children_of(process: int) -> dict[str, int]:
+    """The nodes that a process has started: name -> process number."""
+    found = {}
+    for entry in Path("/proc").iterdir():
+        if entry.name.isdigit():
+            try:
+                parent = int((entry / "stat").read_text().rsplit(")", 1)[1].split()[1])
+                command = (entry / "cmdline").read_bytes().split(b"\0")
+            except (OSError, IndexError):
+                continue
+            names = [part.decode() for part in command if part.startswith(b"contact_sim_pkg.nodes.")]
+            if parent == process and names:
+                found[names[0].rsplit(".", 1)[1]] = int(entry.name)
+    return found
+
+
+def lives(process: int) -> bool:
+    """Whether a process is there."""
+    try:
+        os.kill(process, 0)
+    except ProcessLookupError:
+        return False
+    return True
+
+
+def end(process: subprocess.Popen[str]) -> None:
+    """Kill a process of a test that still lives, with its session."""
+    if process.poll() is None:
+        for child in children_of(process.pid).values():
+            os.kill(child, signal.SIGKILL)
+        process.kill()
+    process.communicate()

@@ -1,0 +1,81 @@
+"""The same scene gives the same bits offline and on nodes, whatever the scheduler and the order of the start do."""
+
+import subprocess
+import sys
+
+import pytest
+
+from contact_sim_pkg.bag.reader import open_bag
+from contact_sim_pkg.run.offline import run_offline
+
+from ..bench_process import Nodes, bench, messages, needs_ros, resolved
+
+pytestmark = needs_ros
+
+
+@pytest.fixture(scope="module")
+def seat():
+    return resolved("seat_ride", "duration=0.3", "pace=max")
+
+
+@pytest.fixture(scope="module")
+def offline_seat(seat, tmp_path_factory):
+    bag = tmp_path_factory.mktemp("offline") / "bag"
+    run_offline(seat, bag)
+    return messages(bag)
+
+
+@pytest.mark.parametrize(
+    "order",
+    [
+        ("bag_logger", "vibration", "contact_simulator"),
+        ("contact_simulator", "bag_logger", "vibration"),
+        ("vibration", "contact_simulator", "bag_logger"),
+    ],
+)
+def test_nodes_started_in_any_order_record_the_same_bits_as_offline(seat, offline_seat, tmp_path, order):
+    nodes = Nodes(seat, tmp_path)
+    try:
+        for node in order:
+            nodes.start(node)
+        assert nodes.wait() == dict.fromkeys(order, 0)
+    finally:
+        nodes.end()
+    assert messages(nodes.bag) == offline_seat
+    assert [line for line in nodes.said if "Traceback" in line or "ERROR" in line] == []
+
+
+def test_the_full_bench_on_five_processes_under_load_records_the_same_bits_as_offline(tmp_path):
+    load = [subprocess.Popen([sys.executable, "-c", "while True: pass"]) for _ in range(2)]
+    try:
+        ended = bench("run", "car_full_bench", "--pace", "max", "--duration", "0.3", "--out", tmp_path / "nodes")
+    finally:
+        for process in load:
+            process.kill()
+            process.wait()
+    assert ended.returncode == 0, ended.stderr
+    run_offline(resolved("car_full_bench", "duration=0.3", "pace=max"), tmp_path / "offline")
+    on_nodes, offline = messages(tmp_path / "nodes"), messages(tmp_path / "offline")
+    assert {topic for topic, _, _ in on_nodes} >= {"/road/patch", "/platform/vibration", "/tire/patch", "/seat/patch"}
+    assert on_nodes == offline
+    kept = open_bag(tmp_path / "nodes").metadata, open_bag(tmp_path / "offline").metadata
+    assert kept[0]["excitation"] == kept[1]["excitation"]
+    assert kept[0]["scene"] == kept[1]["scene"]
+
+
+def test_a_run_without_recording_ends_by_itself_and_leaves_nothing(seat, tmp_path):
+    nodes = Nodes(seat, tmp_path)
+    try:
+        nodes.start("contact_simulator", record="false")
+        nodes.start("vibration", record="false")
+        assert nodes.wait() == {"contact_simulator": 0, "vibration": 0}
+    finally:
+        nodes.end()
+    assert not nodes.bag.exists()
+
+
+def test_the_blocks_of_an_earlier_bag_drive_the_nodes_to_the_same_bits(offline_seat, tmp_path, seat):
+    run_offline(seat, tmp_path / "first")
+    ended = bench("run", "--from-bag", tmp_path / "first", "--out", tmp_path / "again")
+    assert ended.returncode == 0, ended.stderr
+    assert messages(tmp_path / "again") == offline_seat
