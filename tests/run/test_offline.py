@@ -1,13 +1,13 @@
 """The offline run: what it writes, how it ends, and running a bag's excitation again."""
 
 import pytest
+from tests.run.scenes import resolved
 
 from contact_sim_pkg.bag.errors import BagError
 from contact_sim_pkg.bag.reader import open_bag
 from contact_sim_pkg.bag.topics import TOPICS
 from contact_sim_pkg.run.from_bag import sources_from_bag
 from contact_sim_pkg.run.offline import run_offline
-from tests.run.scenes import resolved
 
 
 def recorded(path):

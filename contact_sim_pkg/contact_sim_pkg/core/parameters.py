@@ -117,3 +117,23 @@ class Drive(NamedTuple):
     acceleration_x_1: float
     acceleration_z_0: float  # [m/s^2] of the floor (seat rig) or of the free body (car)
     acceleration_z_1: float
+
+
+class FieldSettings(NamedTuple):
+    """Grid and accuracy of one pressure field."""
+
+    rows: int
+    cols: int
+    cell_x: float  # [m]
+    cell_y: float  # [m]
+    modulus: float  # [Pa], plane-strain contact modulus E*
+    tolerance: float  # complementarity residual asked of the solver
+    maximum_iterations: int
+    corrector_passes: int  # field solves at the end of an interval beyond the first
+
+
+def widened(settings: FieldSettings) -> FieldSettings:
+    """The same cells on twice the extent: the grid that takes over where the contact outgrows the first."""
+    return settings._replace(
+        rows=settings.rows + 2 * (settings.rows // 2), cols=settings.cols + 2 * (settings.cols // 2)
+    )

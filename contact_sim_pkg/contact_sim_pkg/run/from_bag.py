@@ -14,8 +14,9 @@ from contact_sim_pkg.excitation.blocks import RoadPatch, VibrationBlock
 from contact_sim_pkg.run.bag_content import EXCITATION_KEY, input_names
 from contact_sim_pkg.run.errors import RunError
 from contact_sim_pkg.run.sources import Source
-from contact_sim_pkg.scene.build import make_timing, tire_lattice
+from contact_sim_pkg.scene.lattice import tire_lattice
 from contact_sim_pkg.scene.resolve import ResolvedScene
+from contact_sim_pkg.scene.timing import make_timing
 
 DECODERS: dict[str, Callable[[bytes], RoadPatch | VibrationBlock]] = {
     "road/patch": decode_road_patch,
@@ -35,7 +36,9 @@ class BagSource:
         for expected, data in enumerate(self._messages):
             found = DECODERS[topic](data).block
             if found != expected:
-                raise BagError(f"{bag.path}: {topic} has block {found} where block {expected} was due; it cannot be run again")
+                raise BagError(
+                    f"{bag.path}: {topic} has block {found} where block {expected} was due; it cannot be run again"
+                )
 
     def __len__(self) -> int:
         return len(self._messages)

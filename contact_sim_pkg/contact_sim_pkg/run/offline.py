@@ -62,7 +62,9 @@ def run_offline(
     writer = None
     if directory is not None:
         names = recorded_names(scene)
-        writer = BagWriter(directory, topics_of(names), attachments(scene, {t: s.describe() for t, s in sources.items()}))
+        writer = BagWriter(
+            directory, topics_of(names), attachments(scene, {t: s.describe() for t, s in sources.items()})
+        )
     startup = time.perf_counter() - began
     first = time.perf_counter()
     done, failure, stopped = 0, "", False

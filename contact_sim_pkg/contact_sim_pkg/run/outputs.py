@@ -97,7 +97,9 @@ class BlockRecord:
         self.fields.append((first, *fields))
 
 
-def encode_block(model: Model, record: BlockRecord, wall_time: float) -> tuple[list[tuple[str, int, bytes]], float, float]:
+def encode_block(
+    model: Model, record: BlockRecord, wall_time: float
+) -> tuple[list[tuple[str, int, bytes]], float, float]:
     """Messages of a block in canonical order, largest normal force in [N] and largest pressure in [Pa]."""
     encoder = _Encoder(model, record)
     encoder.contacts()
@@ -181,7 +183,9 @@ class _Encoder:
         """The energy ledger at the block's start."""
         kinetic, potential, stored, supplied, dissipated = self.record.energy - self.record.start_energy
         residual = supplied - kinetic - potential - stored - dissipated
-        value = Energy(self.record.block, *(float(v) for v in (kinetic, potential, stored, dissipated, supplied, residual)))
+        value = Energy(
+            self.record.block, *(float(v) for v in (kinetic, potential, stored, dissipated, supplied, residual))
+        )
         self.messages.append(("bench/energy", self.stamp, encode_energy(value, self.stamp)))
 
     def cost(self, wall_time: float) -> None:

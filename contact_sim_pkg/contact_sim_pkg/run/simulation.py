@@ -93,10 +93,12 @@ class Simulation:
         assert geometry is not None and travel is not None
         length = self.model.timing.block_length
         low, high = travel.extent(0.0, length)
-        first = int(numpy.floor(low / geometry.cell_x)) - geometry.road_rows
-        rows = int(numpy.ceil((high - low) / geometry.cell_x)) + 2 * geometry.road_rows + 2
-        height = numpy.zeros((rows, geometry.road_cols), dtype=numpy.float32)
-        return RoadPatch(0, 0.0, travel.position(length), first, geometry.cell_x, geometry.cell_y, height)
+        first = int(numpy.floor(low / geometry.lattice.cell_x)) - geometry.lattice.road_rows
+        rows = int(numpy.ceil((high - low) / geometry.lattice.cell_x)) + 2 * geometry.lattice.road_rows + 2
+        height = numpy.zeros((rows, geometry.lattice.road_cols), dtype=numpy.float32)
+        return RoadPatch(
+            0, 0.0, travel.position(length), first, geometry.lattice.cell_x, geometry.lattice.cell_y, height
+        )
 
     def advance(self, block: int, inputs: dict[str, RoadPatch | VibrationBlock]) -> BlockResult:
         """Advance block number ``block`` with the blocks of every input topic.
@@ -135,7 +137,9 @@ class Simulation:
             return zeros, zeros
         samples = (points - 1) // timing.vibration_stride + 1
         if vibration is None or vibration.block != block or len(vibration.acceleration_z) != samples:
-            found = "none" if vibration is None else f"block {vibration.block} with {len(vibration.acceleration_z)} samples"
+            found = (
+                "none" if vibration is None else f"block {vibration.block} with {len(vibration.acceleration_z)} samples"
+            )
             raise RunError(f"{VIBRATION}: block {block} with {samples} samples was due, {found} came")
         position = numpy.arange(points) / timing.vibration_stride
         index = numpy.arange(samples)
@@ -153,20 +157,27 @@ class Simulation:
             return zeros, zeros
         if road is None or road.block != block:
             raise RunError(f"{ROAD}: block {block} was due, {'none' if road is None else f'block {road.block}'} came")
-        if road.height.shape[1] != geometry.road_cols or abs(road.cell_x / geometry.cell_x - 1.0) > 1e-12:
+        if (
+            road.height.shape[1] != geometry.lattice.road_cols
+            or abs(road.cell_x / geometry.lattice.cell_x - 1.0) > 1e-12
+        ):
             raise RunError(
                 f"{ROAD}: block {block} has {road.height.shape[1]} columns and cells of {road.cell_x} m, the scene needs "
-                f"{geometry.road_cols} columns and cells of {geometry.cell_x} m"
+                f"{geometry.lattice.road_cols} columns and cells of {geometry.lattice.cell_x} m"
             )
         steps = timing.intervals * timing.segments
-        travel = numpy.array([self._travel.position((block * steps + i) * timing.segment_length) for i in range(points)])
+        travel = numpy.array(
+            [self._travel.position((block * steps + i) * timing.segment_length) for i in range(points)]
+        )
         smooth = numpy.empty(points)
         inside = effective_heights(
-            road.height, road.first_row, geometry.cell_x, geometry.cell_y, geometry.semi_axis_x, geometry.semi_axis_y, travel,
+            road.height, road.first_row, geometry.lattice.cell_x, geometry.lattice.cell_y, geometry.semi_axis_x, geometry.semi_axis_y, travel,
             smooth,
         )  # fmt: skip
         if not inside:
-            raise RunError(f"{ROAD}: block {block} does not reach over the footprint from {travel[0]:.6g} to {travel[-1]:.6g} m")
+            raise RunError(
+                f"{ROAD}: block {block} does not reach over the footprint from {travel[0]:.6g} to {travel[-1]:.6g} m"
+            )
         return travel, smooth
 
     def _start(self, road: Any, travel: Vector, smooth: Vector, a_x: Vector, a_z: Vector) -> None:
@@ -196,7 +207,15 @@ class Simulation:
         self.state[vertical] += shift
 
     def _interval(
-        self, block: int, interval: int, road: Any, travel: Vector, smooth: Vector, a_x: Vector, a_z: Vector, record: BlockRecord
+        self,
+        block: int,
+        interval: int,
+        road: Any,
+        travel: Vector,
+        smooth: Vector,
+        a_x: Vector,
+        a_z: Vector,
+        record: BlockRecord,
     ) -> None:
         """One interval between field instants: predict, solve the fields at its end, correct."""
         model, timing = self.model, self.model.timing

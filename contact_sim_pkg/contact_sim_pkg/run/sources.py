@@ -1,19 +1,20 @@
-"""The excitation of a scene as sources of numbered blocks: the one place where a scene's road and vibration are made."""
+"""The excitation of a scene as sources of numbered blocks: the one place where a scene's road and vibration are made.
+
+Kinds of excitation are imported where they are made: a node that sends a sine starts without what a recording needs.
+"""
 
 from __future__ import annotations
 
 import math
-from typing import Any, Protocol
+from typing import TYPE_CHECKING, Any, Protocol
 
 from contact_sim_pkg.excitation.blocks import RoadBlocks, RoadPatch, Signal, Surface, VibrationBlock, VibrationBlocks
-from contact_sim_pkg.excitation.iso8608 import Iso8608Road, roughness_of_class
-from contact_sim_pkg.excitation.obstacles import FlatRoad, Obstacle
-from contact_sim_pkg.excitation.opencrg import OpenCrgRoad
-from contact_sim_pkg.excitation.recorded import RecordedVibration
-from contact_sim_pkg.excitation.signals import AxisSignal, HalfSine, Noise, Sine, Sweep
 from contact_sim_pkg.excitation.travel import Travel
-from contact_sim_pkg.scene.build import tire_lattice
+from contact_sim_pkg.scene.lattice import tire_lattice
 from contact_sim_pkg.scene.resolve import ResolvedScene
+
+if TYPE_CHECKING:
+    from contact_sim_pkg.excitation.signals import Waveform
 
 BORDER_NAMES = {"refuse": "none", "zero": "zero", "keep": "constant", "repeat": "repeat", "reflect": "reflect"}
 
@@ -62,9 +63,9 @@ def make_road(scene: ResolvedScene) -> RoadBlocks:
 def _surface(scene: ResolvedScene, cell: float) -> Surface:
     road = scene.data["road"]
     kind = road["kind"]
-    if kind == "flat":
-        return FlatRoad()
     if kind == "iso8608":
+        from contact_sim_pkg.excitation.iso8608 import Iso8608Road, roughness_of_class
+
         roughness = roughness_of_class(road["roughness_class"]) if road.get("roughness_class") else road["roughness"]
         texture = road.get("texture") or {}
         return Iso8608Road(
@@ -72,11 +73,17 @@ def _surface(scene: ResolvedScene, cell: float) -> Surface:
             road["longest_wavelength"], texture.get("shortest_wavelength"), cell,
         )  # fmt: skip
     if kind == "opencrg":
+        from contact_sim_pkg.excitation.opencrg import OpenCrgRoad
+
         return OpenCrgRoad(
             scene.file_path("road.file"), road["start"], road["track_offset"], road["missing_cells"], road["hole_depth"],
             BORDER_NAMES[road["border_u"]], BORDER_NAMES[road["border_v"]], "mean" if road["remove_mean"] else "origin",
             road["file_settings"],
         )  # fmt: skip
+    from contact_sim_pkg.excitation.obstacles import FlatRoad, Obstacle
+
+    if kind == "flat":
+        return FlatRoad()
     height = road["depth"] if kind == "pothole" else road["height"]
     return Obstacle(kind, road["position"], height, road["length"], road.get("edge") or 0.0, road.get("period"))
 
@@ -90,17 +97,23 @@ def make_vibration(scene: ResolvedScene) -> VibrationBlocks:
 def _signal(scene: ResolvedScene, vibration: dict[str, Any]) -> Signal:
     kind = vibration["kind"]
     if kind == "recorded":
+        from contact_sim_pkg.excitation.recorded import RecordedVibration
+
         return RecordedVibration(
             scene.file_path("vibration.file"), vibration.get("rate"), vibration["vertical_column"],
             vibration["forward_column"], time=vibration.get("time_column"),
             tilt="correct" if vibration["correct_tilt"] else "keep", beyond=vibration["beyond"], start=vibration["start"],
             sample_rate=vibration["sample_rate"],
         )  # fmt: skip
+    from contact_sim_pkg.excitation.signals import AxisSignal
+
     wave = _wave(scene.data, vibration)
     return AxisSignal(x=(wave,)) if vibration["axis"] == "x" else AxisSignal(z=(wave,))
 
 
-def _wave(scene: dict[str, Any], vibration: dict[str, Any]) -> Sine | Sweep | Noise | HalfSine:
+def _wave(scene: dict[str, Any], vibration: dict[str, Any]) -> Waveform:
+    from contact_sim_pkg.excitation.signals import HalfSine, Noise, Sine, Sweep
+
     kind = vibration["kind"]
     if kind == "sine":
         return Sine(vibration["amplitude"], vibration["frequency"])

@@ -8,12 +8,13 @@ from typing import Any
 import numpy
 from numpy.typing import NDArray
 
-from contact_sim_pkg.core.effects.contact_field import FieldEdgeError, FieldError, FieldSettings, PressureField, offset_of
+from contact_sim_pkg.core.effects.contact_field import FieldEdgeError, FieldError, PressureField, offset_of
 from contact_sim_pkg.core.effects.footprint import tire_gap
-from contact_sim_pkg.core.parameters import Contact
+from contact_sim_pkg.core.effects.seat_shape import SeatShape
+from contact_sim_pkg.core.parameters import Contact, FieldSettings
 from contact_sim_pkg.run.errors import RunError
 from contact_sim_pkg.run.outputs import FieldRecord
-from contact_sim_pkg.scene.build import FieldGrids, SeatShape, TireGeometry, seat_cells, seat_gap_on
+from contact_sim_pkg.scene.build import FieldGrids, TireGeometry, seat_cells, seat_gap_on
 
 Gap = NDArray[numpy.float64]
 
@@ -128,7 +129,9 @@ class RoadSupport(Support):
             geometry.radius_lateral, self._first(settings), self._travel, out,
         )  # fmt: skip
         if not inside:
-            raise RunError(f"road/patch: block {road.block} does not reach over the pressure grid at {self._travel:.6g} m")
+            raise RunError(
+                f"road/patch: block {road.block} does not reach over the pressure grid at {self._travel:.6g} m"
+            )
         return out
 
     def origin(self, settings: FieldSettings) -> tuple[float, float]:

@@ -2,49 +2,44 @@
 
 from __future__ import annotations
 
-import math
 from dataclasses import dataclass
 from typing import Any
 
 import numpy
 from numpy.typing import NDArray
 
-from contact_sim_pkg.core.effects.contact_field import FieldSettings, PressureField, fit_tangent, widened
+from contact_sim_pkg.core.effects.contact_field import PressureField, fit_tangent
 from contact_sim_pkg.core.effects.normal_elastic import approach_of_force
 from contact_sim_pkg.core.effects.seat_shape import SeatShape, seat_gap
-from contact_sim_pkg.core.hertz import HertzContact, hertz_contact, power_law
-from contact_sim_pkg.core.parameters import Contact, Friction, NormalDissipative, NormalElastic, Seat, Tire, Vector, Vehicle
+from contact_sim_pkg.core.hertz import hertz_contact, power_law
+from contact_sim_pkg.core.parameters import (
+    Contact,
+    FieldSettings,
+    Friction,
+    NormalDissipative,
+    NormalElastic,
+    Seat,
+    Tire,
+    Vector,
+    Vehicle,
+    widened,
+)
 from contact_sim_pkg.core.restitution import damping_of_restitution
+from contact_sim_pkg.scene.lattice import (
+    GRAVITY,
+    RoadLattice,
+    contact_modulus,
+    effects_at,
+    field_settings,
+    occupant_mass,
+    standing_load,
+    tire_lattice,
+)
+from contact_sim_pkg.scene.timing import Timing, make_timing
 
-GRAVITY = 9.81  # [m/s^2]
 POSITION_SCALE = 0.01  # [m], size of the approaches; the integrator's tolerance is relative to it
 VELOCITY_SCALE = 0.5  # [m/s], size of the velocities on a rough road
 DEFAULT_DAMPING = {"tire": 0.06, "seat": 1.0}  # [s/m], see scene/schema_effects.py
-FIELD_ITERATIONS = 400
-FALLBACK_GRID = (64, 48)  # road lattice of a tire without pressure field
-
-
-@dataclass(frozen=True)
-class Timing:
-    """How a block is cut: blocks into intervals (field instants), intervals into segments (linear drive) and samples."""
-
-    block_length: float  # [s]
-    blocks: int
-    intervals: int  # a block
-    segments: int  # an interval
-    sample_every: int  # segments a sample of the forces
-    vibration_stride: int  # segments a sample of the vibration
-    displays: int  # wrenches a block
-
-    @property
-    def segment_length(self) -> float:
-        """Length of a segment in [s]."""
-        return self.block_length / (self.intervals * self.segments)
-
-    @property
-    def samples(self) -> int:
-        """Samples of the forces in a block."""
-        return self.intervals * self.segments // self.sample_every
 
 
 @dataclass(frozen=True)
@@ -55,12 +50,7 @@ class TireGeometry:
     radius_lateral: float
     semi_axis_x: float
     semi_axis_y: float
-    rows: int
-    cols: int
-    cell_x: float
-    cell_y: float
-    road_rows: int  # along, what a field instant may need of the road
-    road_cols: int
+    lattice: RoadLattice
 
 
 @dataclass(frozen=True)
@@ -100,9 +90,7 @@ def build(scene: dict[str, Any]) -> Model:
     rig_name = scene["rig"]
     with_tire, with_seat = rig_name in ("tire", "car"), rig_name in ("seat", "car")
     seat_field, shape = _seat_field(scene) if with_seat else (None, None)
-    tire, tire_contact, geometry, tire_field = (
-        _tire_part(scene, _occupant_mass(scene) if with_seat else 0.0) if with_tire else (None, None, None, None)
-    )
+    tire, tire_contact, geometry, tire_field = _tire_part(scene) if with_tire else (None, None, None, None)
     seat = _seat(scene, offset=4 if with_tire else 0) if with_seat else None
     seat_contact = _seat_contact(scene, seat_field, shape) if with_seat else None
     rig = Vehicle(GRAVITY, tire, tire_contact, seat, seat_contact)
@@ -116,41 +104,14 @@ def build(scene: dict[str, Any]) -> Model:
         seat_field=seat_field,
         seat_shape=shape,
         corrector_passes=max(
-            (field.usual.settings.corrector_passes for field in (tire_field, seat_field) if field is not None), default=0
+            (field.usual.settings.corrector_passes for field in (tire_field, seat_field) if field is not None),
+            default=0,
         ),
     )
 
 
-def make_timing(scene: dict[str, Any], with_field: bool) -> Timing:
-    """Cut of a block; the loader has checked that every rate fits it."""
-    length = float(scene["block_length"])
-    samples = round(length * scene["outputs"]["force_rate"])
-    intervals = round(length * scene["outputs"]["field_rate"]) if with_field else 1
-    vibration = round(length * scene["vibration"]["sample_rate"]) if scene.get("vibration") else 1
-    segments = math.lcm(samples, intervals, vibration)
-    return Timing(
-        length, round(scene["duration"] / length), intervals, segments // intervals, segments // samples, segments // vibration,
-        round(length * scene["outputs"]["display_rate"]),
-    )
-
-
-def _effects(scene: dict[str, Any], contact: str) -> dict[str, Any]:
-    return scene["effects"].get(contact) or {}
-
-
-def _field_settings(scene: dict[str, Any], contact: str, modulus: float) -> FieldSettings | None:
-    field = _effects(scene, contact).get("contact_field")
-    if field is None:
-        return None
-    rows, cols = int(field["rows"]), int(field["cols"])
-    return FieldSettings(
-        rows, cols, float(field["length"]) / rows, float(field["width"]) / cols, modulus, float(field["tolerance"]),
-        FIELD_ITERATIONS, int(field["corrector_passes"]),
-    )  # fmt: skip
-
-
 def _dissipative(scene: dict[str, Any], contact: str) -> NormalDissipative | None:
-    loss = _effects(scene, contact).get("normal_dissipative")
+    loss = effects_at(scene, contact).get("normal_dissipative")
     if loss is None:
         return None
     if loss.get("restitution") is not None:
@@ -159,15 +120,14 @@ def _dissipative(scene: dict[str, Any], contact: str) -> NormalDissipative | Non
     return NormalDissipative(DEFAULT_DAMPING[contact] if damping is None else float(damping))
 
 
-def _tire_part(
-    scene: dict[str, Any], carried_mass: float
-) -> tuple[Tire, Contact, TireGeometry, FieldGrids | None]:
+def _tire_part(scene: dict[str, Any]) -> tuple[Tire, Contact, TireGeometry, FieldGrids | None]:
     given = scene["tire"]
-    tire = Tire(*(float(given[key]) for key in ("wheel_mass", "body_mass", "suspension_stiffness", "suspension_damping")))
-    modulus = given["young_modulus"] / (1.0 - given["poisson_ratio"] ** 2)
-    load = (tire.wheel_mass + tire.body_mass + carried_mass) * GRAVITY
-    geometry = tire_lattice(scene)
-    settings = _field_settings(scene, "tire", modulus)
+    tire = Tire(
+        *(float(given[key]) for key in ("wheel_mass", "body_mass", "suspension_stiffness", "suspension_damping"))
+    )
+    modulus, load = contact_modulus(given), standing_load(scene)
+    geometry = _tire_geometry(scene)
+    settings = field_settings(scene, "tire", modulus)
     curvatures = (0.5 / geometry.radius_rolling, 0.5 / geometry.radius_lateral)
     if settings is None:
         law, field = NormalElastic(float(power_law(*curvatures, modulus)), 1.5), None
@@ -177,44 +137,20 @@ def _tire_part(
     return tire, Contact(law, _dissipative(scene, "tire"), None), geometry, field
 
 
-def _tire_geometry(
-    footprint: HertzContact, radius_x: float, radius_y: float, settings: FieldSettings | None
-) -> TireGeometry:
-    """Lattice of the field, or one that holds the standing footprint with a margin where there is none."""
-    long_along_y = radius_y >= radius_x
-    semi_x, semi_y = (footprint.b, footprint.a)
-    if not long_along_y:
-        semi_x, semi_y = semi_y, semi_x
-    if settings is not None:
-        wide = widened(settings)
-        grid = (settings.rows, settings.cols, settings.cell_x, settings.cell_y, wide.rows, wide.cols)
-    else:
-        rows, cols = FALLBACK_GRID
-        grid = (rows, cols, 3.0 * semi_x / rows, 3.0 * semi_y / cols, rows, cols)
-    return TireGeometry(radius_x, radius_y, semi_x, semi_y, *grid)
-
-
-def tire_lattice(scene: dict[str, Any]) -> TireGeometry:
-    """Road lattice and footprint of a resolved scene's tire, without making its field."""
+def _tire_geometry(scene: dict[str, Any]) -> TireGeometry:
     given = scene["tire"]
-    mass = given["wheel_mass"] + given["body_mass"] + (_occupant_mass(scene) if scene["rig"] == "car" else 0.0)
-    modulus = given["young_modulus"] / (1.0 - given["poisson_ratio"] ** 2)
     radius_x, radius_y = float(given["radius_rolling"]), float(given["radius_lateral"])
-    curvatures = (0.5 / radius_x, 0.5 / radius_y)
-    footprint = hertz_contact(*curvatures, modulus, mass * GRAVITY)
-    return _tire_geometry(footprint, radius_x, radius_y, _field_settings(scene, "tire", modulus))
+    footprint = hertz_contact(0.5 / radius_x, 0.5 / radius_y, contact_modulus(given), standing_load(scene))
+    semi_x, semi_y = (footprint.b, footprint.a) if radius_y >= radius_x else (footprint.a, footprint.b)
+    return TireGeometry(radius_x, radius_y, semi_x, semi_y, tire_lattice(scene))
 
 
 def _crown(geometry: TireGeometry) -> NDArray[numpy.float64]:
     """Gap of the tire over a flat road in [m], [rows, cols]."""
-    x = (numpy.arange(geometry.rows) - geometry.rows // 2) * geometry.cell_x
-    y = (numpy.arange(geometry.cols) - 0.5 * (geometry.cols - 1)) * geometry.cell_y
+    lattice = geometry.lattice
+    x = (numpy.arange(lattice.rows) - lattice.rows // 2) * lattice.cell_x
+    y = (numpy.arange(lattice.cols) - 0.5 * (lattice.cols - 1)) * lattice.cell_y
     return 0.5 * x[:, None] ** 2 / geometry.radius_rolling + 0.5 * y[None, :] ** 2 / geometry.radius_lateral
-
-
-def _occupant_mass(scene: dict[str, Any]) -> float:
-    occupant = scene["seat"]["occupant"]
-    return float(occupant["frame_mass"] + sum(occupant["masses"]))
 
 
 def _seat(scene: dict[str, Any], offset: int) -> Seat:
@@ -229,7 +165,7 @@ def _grids(settings: FieldSettings, contact: str) -> FieldGrids:
 
 def _seat_field(scene: dict[str, Any]) -> tuple[FieldGrids | None, SeatShape | None]:
     seat = scene["seat"]
-    settings = _field_settings(scene, "seat", seat["cushion_modulus"] / (1.0 - seat["cushion_poisson"] ** 2))
+    settings = field_settings(scene, "seat", seat["cushion_modulus"] / (1.0 - seat["cushion_poisson"] ** 2))
     if settings is None:
         return None, None
     return _grids(settings, "seat"), SeatShape(*(float(seat["body"][key]) for key in SeatShape._fields))
@@ -247,15 +183,13 @@ def seat_cells(settings: FieldSettings) -> tuple[NDArray[numpy.float64], NDArray
     return x, y
 
 
-def _seat_contact(
-    scene: dict[str, Any], field: FieldGrids | None, shape: SeatShape | None
-) -> Contact:
-    elastic = _effects(scene, "seat")["normal_elastic"]
+def _seat_contact(scene: dict[str, Any], field: FieldGrids | None, shape: SeatShape | None) -> Contact:
+    elastic = effects_at(scene, "seat")["normal_elastic"]
     if field is not None and shape is not None:
-        law = fit_tangent(field.usual, seat_gap_on(shape, field.usual.settings), _occupant_mass(scene) * GRAVITY)
+        law = fit_tangent(field.usual, seat_gap_on(shape, field.usual.settings), occupant_mass(scene) * GRAVITY)
     else:
         law = NormalElastic(float(elastic["coefficient"]), float(elastic["exponent"]))
-    friction = _effects(scene, "seat").get("friction")
+    friction = effects_at(scene, "seat").get("friction")
     rubbing = (
         None
         if friction is None

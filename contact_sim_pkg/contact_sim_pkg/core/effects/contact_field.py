@@ -10,31 +10,26 @@ the new end state. What is left after the last correction is a jump at the insta
 from __future__ import annotations
 
 import math
-from typing import NamedTuple
 
 import numpy
 from numpy.typing import NDArray
 
-from ..field_solver import CONVERGED, EDGE, SENTENCES, FieldResult, SolverWorkspace, make_workspace, solve_at_approach, solve_at_load
+from ..field_solver import (
+    CONVERGED,
+    EDGE,
+    SENTENCES,
+    FieldResult,
+    SolverWorkspace,
+    make_workspace,
+    solve_at_approach,
+    solve_at_load,
+)
 from ..halfspace import HalfSpace, make_half_space
-from ..parameters import NormalElastic
+from ..parameters import FieldSettings, NormalElastic
 from .normal_elastic import approach_of_force
 
 Field = NDArray[numpy.float64]
 TANGENT_LOAD_STEP = 1.05  # ratio of the two loads through which the tangent law is laid
-
-
-class FieldSettings(NamedTuple):
-    """Grid and accuracy of one pressure field."""
-
-    rows: int
-    cols: int
-    cell_x: float  # [m]
-    cell_y: float  # [m]
-    modulus: float  # [Pa], plane-strain contact modulus E*
-    tolerance: float  # complementarity residual asked of the solver
-    maximum_iterations: int
-    corrector_passes: int  # field solves at the end of an interval beyond the first
 
 
 class FieldError(RuntimeError):
@@ -43,13 +38,6 @@ class FieldError(RuntimeError):
 
 class FieldEdgeError(FieldError):
     """The contact reached the edge of the grid."""
-
-
-def widened(settings: FieldSettings) -> FieldSettings:
-    """The same cells on twice the extent: the grid that takes over where the contact outgrows the first."""
-    return settings._replace(
-        rows=settings.rows + 2 * (settings.rows // 2), cols=settings.cols + 2 * (settings.cols // 2)
-    )
 
 
 class PressureField:
@@ -83,7 +71,9 @@ class PressureField:
     def solve_load(self, gap: Field, load: float) -> float:
         """Solve for ``load`` [N]; returns the approach in [m]. Errors as in ``solve``."""
         s = self.settings
-        result = solve_at_load(self.half_space, self._workspace, gap, load, s.tolerance, s.maximum_iterations, self.pressure)
+        result = solve_at_load(
+            self.half_space, self._workspace, gap, load, s.tolerance, s.maximum_iterations, self.pressure
+        )
         self._accept(result)
         return float(result.approach)
 

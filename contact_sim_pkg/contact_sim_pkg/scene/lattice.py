@@ -1,0 +1,75 @@
+"""Grids of a resolved scene: pressure fields, and the road lattice whose nodes are their cells. Knows no kernels, so that the
+node that sends the road starts without them.
+"""
+
+from __future__ import annotations
+
+from typing import Any, NamedTuple
+
+from contact_sim_pkg.core.parameters import FieldSettings, widened
+
+GRAVITY = 9.81  # [m/s^2]
+FIELD_ITERATIONS = 400
+FOLLOWER_CELLS = (64, 48)  # road lattice of a tire without pressure field
+FOLLOWER_REACH = 4.0  # its extent over the contact radius of a sphere with the tire's radius in that direction
+
+
+class RoadLattice(NamedTuple):
+    """Lattice of the road under a tire, and how much of it a field instant may need."""
+
+    rows: int  # of the usual grid, along the road
+    cols: int
+    cell_x: float  # [m]
+    cell_y: float  # [m]
+    road_rows: int  # of the wide grid
+    road_cols: int
+
+
+def effects_at(scene: dict[str, Any], contact: str) -> dict[str, Any]:
+    """Effects that a resolved scene names at a contact, with their parameters."""
+    return scene["effects"].get(contact) or {}
+
+
+def field_settings(scene: dict[str, Any], contact: str, modulus: float) -> FieldSettings | None:
+    """Grid and accuracy of the field of a contact; None where the scene calls for none."""
+    field = effects_at(scene, contact).get("contact_field")
+    if field is None:
+        return None
+    rows, cols = int(field["rows"]), int(field["cols"])
+    return FieldSettings(
+        rows, cols, float(field["length"]) / rows, float(field["width"]) / cols, modulus, float(field["tolerance"]),
+        FIELD_ITERATIONS, int(field["corrector_passes"]),
+    )  # fmt: skip
+
+
+def occupant_mass(scene: dict[str, Any]) -> float:
+    """Mass of the whole occupant in [kg]."""
+    occupant = scene["seat"]["occupant"]
+    return float(occupant["frame_mass"] + sum(occupant["masses"]))
+
+
+def contact_modulus(tire: dict[str, Any]) -> float:
+    """Plane-strain modulus E / (1 - nu^2) in [Pa] of the tire on a rigid road."""
+    return float(tire["young_modulus"] / (1.0 - tire["poisson_ratio"] ** 2))
+
+
+def standing_load(scene: dict[str, Any]) -> float:
+    """Load in [N] of the tire at rest."""
+    mass = scene["tire"]["wheel_mass"] + scene["tire"]["body_mass"]
+    return float((mass + (occupant_mass(scene) if scene["rig"] == "car" else 0.0)) * GRAVITY)
+
+
+def tire_lattice(scene: dict[str, Any]) -> RoadLattice:
+    """Lattice of a resolved scene's road: the cells of the tire's field, or cells that hold its footprint."""
+    tire = scene["tire"]
+    modulus = contact_modulus(tire)
+    settings = field_settings(scene, "tire", modulus)
+    if settings is not None:
+        wide = widened(settings)
+        return RoadLattice(settings.rows, settings.cols, settings.cell_x, settings.cell_y, wide.rows, wide.cols)
+    rows, cols = FOLLOWER_CELLS
+    radius_x, radius_y = (
+        (0.75 * standing_load(scene) * tire[key] / modulus) ** (1.0 / 3.0)
+        for key in ("radius_rolling", "radius_lateral")
+    )
+    return RoadLattice(rows, cols, FOLLOWER_REACH * radius_x / rows, FOLLOWER_REACH * radius_y / cols, rows, cols)

@@ -1,0 +1,48 @@
+"""How the blocks of a resolved scene are cut in time."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import Any
+
+
+@dataclass(frozen=True)
+class Timing:
+    """How a block is cut: blocks into intervals (field instants), intervals into segments (linear drive) and samples."""
+
+    block_length: float  # [s]
+    blocks: int
+    intervals: int  # a block
+    segments: int  # an interval
+    sample_every: int  # segments a sample of the forces
+    vibration_stride: int  # segments a sample of the vibration
+    displays: int  # wrenches a block
+
+    @property
+    def segment_length(self) -> float:
+        """Length of a segment in [s]."""
+        return self.block_length / (self.intervals * self.segments)
+
+    @property
+    def samples(self) -> int:
+        """Samples of the forces in a block."""
+        return self.intervals * self.segments // self.sample_every
+
+
+def make_timing(scene: dict[str, Any], with_field: bool) -> Timing:
+    """Cut of a block; the loader has checked that every rate fits it."""
+    length = float(scene["block_length"])
+    samples = round(length * scene["outputs"]["force_rate"])
+    intervals = round(length * scene["outputs"]["field_rate"]) if with_field else 1
+    vibration = round(length * scene["vibration"]["sample_rate"]) if scene.get("vibration") else 1
+    segments = math.lcm(samples, intervals, vibration)
+    return Timing(
+        length,
+        round(scene["duration"] / length),
+        intervals,
+        segments // intervals,
+        segments // samples,
+        segments // vibration,
+        round(length * scene["outputs"]["display_rate"]),
+    )
