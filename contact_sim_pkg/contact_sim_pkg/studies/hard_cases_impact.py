@@ -174,7 +174,7 @@ def thousand_bounces() -> Finding:
     rig = PointContact(1.0, 9.81, 0.0, 0.0, law, None)
     period = 2.0 * math.sqrt(2.0 * 0.05 / 9.81)
     end = 1000.0 * period
-    z, v = integrate(rig, numpy.array([0.05, 0.0]), numpy.array([1e-3, 1.0]) * 1e-13, numpy.array([0.0, end])).states[-1]
+    z, v = integrate(rig, numpy.array([0.05, 0.0]), numpy.array([1e-3, 1.0]) * 3e-14, numpy.array([0.0, end])).states[-1]
     energy = 9.81 * z + 0.5 * v * v + elastic_energy(law, -z)
     return at_most(abs(energy / (9.81 * 0.05) - 1.0), 1e-9)
 

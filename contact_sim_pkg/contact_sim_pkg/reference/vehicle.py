@@ -1,0 +1,161 @@
+"""Seat, tire and car rigs with point contacts, vertical motion, by scipy's DOP853 from event to event; free of kernel code.
+
+The drive (heights of road and cushion, acceleration of the floor) is linear in each segment, as in the rigs.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import NamedTuple
+
+import numpy
+from numpy.typing import NDArray
+from scipy.integrate import solve_ivp
+
+__all__ = ["Law", "Occupant", "Quarter", "normal_force", "states_at_segments"]
+
+State = NDArray[numpy.float64]
+Rate = Callable[[float, State], State]
+RELATIVE, ABSOLUTE = 1.0e-12, 1.0e-14
+
+
+class Law(NamedTuple):
+    """`F = coefficient x^exponent max(0, 1 + damping x')` for x > 0."""
+
+    coefficient: float
+    exponent: float
+    damping: float
+
+
+class Quarter(NamedTuple):
+    """Wheel and body [kg], suspension [N/m], [N s/m]; state [z_w, z_b, v_w, v_b]."""
+
+    wheel_mass: float
+    body_mass: float
+    stiffness: float
+    damping: float
+    law: Law
+
+
+class Occupant(NamedTuple):
+    """Frame mass in contact and masses that hang on it [kg], [N/m], [N s/m]; state [z_0 .. z_n, v_0 .. v_n]."""
+
+    frame_mass: float
+    masses: State
+    stiffness: State
+    damping: State
+    law: Law
+
+
+class _Drive(NamedTuple):
+    start: float
+    height: tuple[float, float]  # [m], [m/s]
+    cushion: tuple[float, float]
+    acceleration: tuple[float, float]  # [m/s^2], [m/s^3]
+
+
+def normal_force(law: Law, approach: float, rate: float) -> float:
+    """Normal force [N]."""
+    return law.coefficient * approach**law.exponent * max(0.0, 1.0 + law.damping * rate) if approach > 0.0 else 0.0
+
+
+def states_at_segments(
+    gravity: float, quarter: Quarter | None, occupant: Occupant | None, start: State, length: float,
+    height: State, cushion: State, acceleration: State,
+) -> State:  # fmt: skip
+    """States at the ends of all segments of `length` [s], [segments + 1, states]; the drive is given at the segments' ends."""
+    states = numpy.empty((len(height), len(start)))
+    states[0] = start
+    state, sides = numpy.array(start, dtype=float), None
+    for i in range(len(height) - 1):
+        pairs = ((values[i], (values[i + 1] - values[i]) / length) for values in (height, cushion, acceleration))
+        drive = _Drive(i * length, *pairs)
+        margins = _margins(quarter, occupant, drive)
+        if sides is None:
+            sides = [1.0 if margin(drive.start, state) >= 0.0 else -1.0 for margin in margins]
+        state = _segment(_rate(gravity, quarter, occupant, drive), margins, sides, drive.start, (i + 1) * length, state)
+        states[i + 1] = state
+    return states
+
+
+def _segment(
+    rate: Rate, margins: list[Callable[[float, State], float]], sides: list[float], time: float, end: float, state: State
+) -> State:
+    """One segment, from change of contact to change of contact; `sides` changes in place."""
+    while True:
+        for margin, side in zip(margins, sides, strict=True):
+            margin.terminal, margin.direction = True, -side  # type: ignore[attr-defined]
+        found = solve_ivp(rate, (time, end), state, "DOP853", events=margins, rtol=RELATIVE, atol=ABSOLUTE, first_step=end - time)
+        state = numpy.asarray(found.y[:, -1])
+        if found.status != 1:
+            return state
+        time = float(found.t[-1])
+        for i, times in enumerate(found.t_events):
+            if len(times):
+                sides[i] = -sides[i]
+        if time >= end:
+            return state
+
+
+def _at(pair: tuple[float, float], drive: _Drive, time: float) -> float:
+    return pair[0] + pair[1] * (time - drive.start)
+
+
+def _tire(drive: _Drive, time: float, state: State) -> tuple[float, float]:
+    return float(_at(drive.height, drive, time) - state[0]), float(drive.height[1] - state[2])
+
+
+def _cushion(quarter: Quarter | None, occupant: Occupant, drive: _Drive, time: float, state: State) -> tuple[float, float]:
+    first = 0 if quarter is None else 4
+    speed = first + 1 + len(occupant.masses)
+    floor, floor_speed = (0.0, 0.0) if quarter is None else (state[1], state[3])
+    return (
+        float(floor + _at(drive.cushion, drive, time) - state[first]),
+        float(floor_speed + drive.cushion[1] - state[speed]),
+    )
+
+
+def _margins(quarter: Quarter | None, occupant: Occupant | None, drive: _Drive) -> list[Callable[[float, State], float]]:
+    """Approach and recovery of each contact."""
+    margins: list[Callable[[float, State], float]] = []
+    if quarter is not None:
+        margins += [
+            lambda t, y: _tire(drive, t, y)[0],
+            lambda t, y: 1.0 + quarter.law.damping * _tire(drive, t, y)[1],
+        ]
+    if occupant is not None:
+        margins += [
+            lambda t, y: _cushion(quarter, occupant, drive, t, y)[0],
+            lambda t, y: 1.0 + occupant.law.damping * _cushion(quarter, occupant, drive, t, y)[1],
+        ]
+    return margins
+
+
+def _rate(gravity: float, quarter: Quarter | None, occupant: Occupant | None, drive: _Drive) -> Rate:
+    def rate(time: float, state: State) -> State:
+        out = numpy.empty_like(state)
+        shake = _at(drive.acceleration, drive, time)
+        carried = 0.0
+        if occupant is not None:
+            carried = normal_force(occupant.law, *_cushion(quarter, occupant, drive, time, state))
+            first = 0 if quarter is None else 4
+            weight = gravity + (shake if quarter is None else 0.0)
+            out[first:] = _occupant_rate(occupant, carried, weight, state[first:])
+        if quarter is not None:
+            z_w, z_b, v_w, v_b = state[:4]
+            link = quarter.stiffness * (z_w - z_b) + quarter.damping * (v_w - v_b)
+            force = normal_force(quarter.law, *_tire(drive, time, state))
+            out[:2] = v_w, v_b
+            out[2] = (force - link) / quarter.wheel_mass - gravity
+            out[3] = (link - carried) / quarter.body_mass - gravity + shake
+        return out
+
+    return rate
+
+
+def _occupant_rate(occupant: Occupant, carried: float, weight: float, state: State) -> State:
+    count = 1 + len(occupant.masses)
+    z, v = state[:count], state[count : 2 * count]
+    links = occupant.stiffness * (z[1:] - z[0]) + occupant.damping * (v[1:] - v[0])
+    frame = (carried + links.sum()) / occupant.frame_mass - weight
+    return numpy.concatenate([v, [frame], -links / occupant.masses - weight])
