@@ -52,6 +52,12 @@ class Child:
         """Exit status, negative for a signal; None while the process lives."""
         return self.process.poll()
 
+    @property
+    def fell(self) -> bool:
+        """Whether the process ended badly. One that was asked to end may do so before it has learnt to catch signals."""
+        asked_away = self.asked_to_end and self.status == -signal.SIGTERM
+        return self.status not in (None, 0) and not asked_away
+
     def look(self) -> None:
         """Keep in mind which shared memory the process has mapped, so that it can be removed if the process is killed."""
         if self.status is None:
@@ -98,8 +104,8 @@ class Children:
                 child.ask_to_end(again=True)
 
     def fallen(self) -> Child | None:
-        """A process that ended with another status than 0, the first one started of several."""
-        return next((child for child in self._children if child.status not in (None, 0)), None)
+        """A process that ended badly, the first one started of several."""
+        return next((child for child in self._children if child.fell), None)
 
     def all_ended(self) -> bool:
         """Whether no process lives any more."""

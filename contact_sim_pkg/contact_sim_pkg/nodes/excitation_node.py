@@ -10,7 +10,7 @@ from rclpy.node import Node
 
 from contact_sim_pkg.bag.messages import decode_progress, decode_recorded
 from contact_sim_pkg.run.sources import Source
-from contact_sim_pkg.scene.resolve import ResolvedScene
+from contact_sim_pkg.scene.resolved_scene import ResolvedScene
 
 from .bench_node import SUPERVISOR_TEXT
 from .endpoints import publisher, subscription

@@ -9,7 +9,7 @@ from rclpy.publisher import Publisher
 
 from contact_sim_pkg.bag.messages import Progress, encode_progress
 from contact_sim_pkg.run.simulation import BlockResult
-from contact_sim_pkg.scene.resolve import ResolvedScene
+from contact_sim_pkg.scene.resolved_scene import ResolvedScene
 
 from .protocol import State
 from .scene_file import block_length_ns, count_blocks

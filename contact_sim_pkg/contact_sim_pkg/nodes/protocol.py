@@ -6,6 +6,8 @@ from enum import IntEnum
 
 from contact_sim_pkg.bag.messages import Progress, Recorded
 
+from .window import AHEAD
+
 
 class NodeError(Exception):
     """What a node cannot go on with: one sentence, and the exit status that belongs to it."""
@@ -39,27 +41,32 @@ REFUSED, LOSS, FAULT, DONE = 2, 3, 1, 0  # exit statuses
 class Follower:
     """What a node knows of its run from `bench/progress`.
 
-    A node is a peer that *ready* waits for, so the first thing it sees of its own run lies before block 0. Whatever is
-    further on belongs to another bench. Later on, a report that lies behind what was already seen comes from another
-    bench that is starting on the same topics, and is passed over.
+    A node is a peer that *ready* waits for, and without its answers the run does not get further than the window. Whatever
+    is further on, before *ready* was seen, belongs to another bench. Later on, a report that lies behind what was already
+    seen comes from another bench that is starting on the same topics, and is passed over.
     """
 
-    def __init__(self) -> None:
-        """Nothing seen yet."""
+    def __init__(self, *, answers: bool = True) -> None:
+        """Nothing seen yet; `answers`: the run waits for this node's answers or blocks."""
         self.state = State.IDLE
         self.block = -1
         self.last: Progress | None = None
+        self._answers = answers
 
     def accept(self, progress: Progress) -> bool:
         """Whether this report belongs to the run and is news.
 
-        Raises NodeError (refused) where the first report is that of a run under way.
+        Raises NodeError (refused) where it is that of another bench's run under way.
         """
         state = State(progress.state)
-        if self.state is State.IDLE and (progress.block >= 0 or state > State.READY):
+        if self.state is State.IDLE:
+            foreign = progress.block >= 0 or state > State.READY
+        else:
+            foreign = self._answers and self.state is State.STARTING and progress.block >= AHEAD
+        if foreign:
             raise NodeError(
-                f"another bench (scene {progress.scene}, block {progress.block} of {progress.blocks}) runs on bench/progress; "
-                "end it, or give this one a namespace or a ROS_DOMAIN_ID of its own",
+                f"another bench (scene {progress.scene}, block {progress.block} of {progress.blocks}) runs on "
+                "bench/progress; end it, or give this one a namespace or a ROS_DOMAIN_ID of its own",
                 REFUSED,
             )
         if state < self.state or progress.block < self.block or self.state.ended:

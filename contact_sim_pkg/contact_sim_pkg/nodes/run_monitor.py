@@ -26,7 +26,7 @@ class RunMonitor:
         self._node = Node("bench_run", start_parameter_services=False, enable_rosout=False)
         self._executor = make_executor()
         self._executor.add_node(self._node)
-        self.run, self.recorded = Follower(), RecordedFollower()
+        self.run, self.recorded = Follower(answers=False), RecordedFollower()
         self.ready_at = self.done_at = self.recorded_at = 0.0  # steady clock, [s]; 0 before
         self._kept = [
             subscription(self._node, "bench/progress", self._on_progress),

@@ -7,7 +7,7 @@ import math
 from pathlib import Path
 from typing import Any
 
-from contact_sim_pkg.scene.resolve import ResolvedScene
+from contact_sim_pkg.scene.resolved_scene import ResolvedScene
 
 RESOLVED = ".resolved.yaml"  # ending of a scene that needs no resolving; its input files stand in the file below
 FILES = ".files.json"
@@ -33,7 +33,8 @@ def read_scene(scene: str) -> ResolvedScene:
     """
     if scene.endswith(RESOLVED):
         path = Path(scene)
-        return ResolvedScene.from_yaml(path.read_text(encoding="utf-8"), json.loads(_beside(path, FILES).read_text(encoding="utf-8")))
+        files = json.loads(_beside(path, FILES).read_text(encoding="utf-8"))
+        return ResolvedScene.from_own_yaml(path.read_text(encoding="utf-8"), files)
     from contact_sim_pkg.scene.load import load_scene
     from contact_sim_pkg.scene.resolve import resolve
 

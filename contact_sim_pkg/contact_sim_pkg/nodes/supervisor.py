@@ -11,7 +11,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, NamedTuple
 
 from contact_sim_pkg.run.bag_content import input_names
-from contact_sim_pkg.scene.resolve import ResolvedScene
+from contact_sim_pkg.scene.resolved_scene import ResolvedScene
 
 from .children import Child, Children
 from .protocol import DONE, FAULT, LOSS, REFUSED, NodeError, State

@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import Any
 
 from contact_sim_pkg.bag.metadata import SCENE_KEY, RecordedTopic, recorded_topics, software_versions
-from contact_sim_pkg.scene.resolve import ResolvedScene
+from contact_sim_pkg.scene.resolved_scene import ResolvedScene
 
 EXCITATION_KEY = "excitation"
 

@@ -15,7 +15,7 @@ from contact_sim_pkg.run.bag_content import EXCITATION_KEY, input_names
 from contact_sim_pkg.run.errors import RunError
 from contact_sim_pkg.run.sources import Source
 from contact_sim_pkg.scene.lattice import tire_lattice
-from contact_sim_pkg.scene.resolve import ResolvedScene
+from contact_sim_pkg.scene.resolved_scene import ResolvedScene
 from contact_sim_pkg.scene.timing import make_timing
 
 DECODERS: dict[str, Callable[[bytes], RoadPatch | VibrationBlock]] = {

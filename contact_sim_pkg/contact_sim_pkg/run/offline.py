@@ -15,7 +15,7 @@ from contact_sim_pkg.run.bag_content import attachments, recorded_names, topics_
 from contact_sim_pkg.run.errors import RunError
 from contact_sim_pkg.run.simulation import Simulation
 from contact_sim_pkg.run.sources import Source, make_sources
-from contact_sim_pkg.scene.resolve import ResolvedScene
+from contact_sim_pkg.scene.resolved_scene import ResolvedScene
 
 NANOSECONDS = 1_000_000_000
 

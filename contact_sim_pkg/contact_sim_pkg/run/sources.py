@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any, Protocol
 from contact_sim_pkg.excitation.blocks import RoadBlocks, RoadPatch, Signal, Surface, VibrationBlock, VibrationBlocks
 from contact_sim_pkg.excitation.travel import Travel
 from contact_sim_pkg.scene.lattice import tire_lattice
-from contact_sim_pkg.scene.resolve import ResolvedScene
+from contact_sim_pkg.scene.resolved_scene import ResolvedScene
 
 if TYPE_CHECKING:
     from contact_sim_pkg.excitation.signals import Waveform

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import hashlib
 from pathlib import Path
 from typing import NamedTuple
 
@@ -44,12 +43,3 @@ def candidates(name: str, folder: Path) -> list[Path]:
 def find_file(name: str, folder: Path) -> Path | None:
     """The first candidate that is a file, absolute; None where there is none."""
     return next((place.absolute() for place in candidates(name, folder) if place.is_file()), None)
-
-
-def sha256_of(path: Path) -> str:
-    """Checksum of the content, as 64 hexadecimal digits."""
-    digest = hashlib.sha256()
-    with path.open("rb") as stream:
-        while chunk := stream.read(1 << 20):
-            digest.update(chunk)
-    return digest.hexdigest()

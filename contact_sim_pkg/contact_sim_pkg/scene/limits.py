@@ -8,7 +8,8 @@ from pathlib import Path
 from typing import NamedTuple
 
 from contact_sim_pkg.scene.errors import Breach
-from contact_sim_pkg.scene.files import InputFile, candidates, find_file, input_files, sha256_of
+from contact_sim_pkg.scene.files import InputFile, candidates, find_file, input_files
+from contact_sim_pkg.scene.resolved_scene import sha256_of
 from contact_sim_pkg.scene.schema import Scene
 from contact_sim_pkg.scene.schema_accuracy import Contact, cells_of
 from contact_sim_pkg.scene.schema_effect_rules import CONTACTS_OF_RIG

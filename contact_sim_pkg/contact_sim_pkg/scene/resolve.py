@@ -8,15 +8,12 @@ from __future__ import annotations
 
 import copy
 from collections.abc import Mapping
-from dataclasses import dataclass, field
-from io import StringIO
 from pathlib import Path
 from typing import Any
 
-from ruamel.yaml import YAML
-
 from contact_sim_pkg.scene.errors import Fault, SceneError
-from contact_sim_pkg.scene.files import find_file, input_files, sha256_of
+from contact_sim_pkg.scene.files import find_file, input_files
+from contact_sim_pkg.scene.resolved_scene import ResolvedScene, sha256_of
 from contact_sim_pkg.scene.schema import Scene
 from contact_sim_pkg.scene.schema_accuracy import Contact, cells_of, integration_tolerance, rung_for
 from contact_sim_pkg.scene.schema_effect_rules import CONTACTS_OF_RIG
@@ -24,77 +21,10 @@ from contact_sim_pkg.scene.schema_rigs import Seat, Tire
 from contact_sim_pkg.scene.schema_validate import validate
 from contact_sim_pkg.scene.yaml_document import parse_document
 
+__all__ = ["ResolvedScene", "explicit", "read_resolved", "resolve"]
+
 DEFAULT_DAMPING: dict[Contact, float] = {"tire": 0.06, "seat": 1.0}
 """Hunt-Crossley damping in [s/m] where a scene names neither damping nor restitution, see `schema_effects.py`."""
-
-
-@dataclass(frozen=True)
-class ResolvedScene:
-    """A scene with nothing left open.
-
-    Attributes:
-        data: plain dict of dicts, lists, texts and numbers, in the keys of the scene schema.
-        files: where each input file was found, by the dotted path of its key; not part of the data and not compared.
-    """
-
-    data: dict[str, Any]
-    files: Mapping[str, Path] = field(default_factory=dict, compare=False)
-
-    def to_yaml(self) -> str:
-        """The data as YAML 1.2; `from_yaml` reads the same data from it, to the bit."""
-        writer = YAML(typ="safe", pure=True)
-        writer.default_flow_style = False
-        writer.sort_base_mapping_type_on_output = False  # type: ignore[assignment]
-        writer.allow_unicode = True
-        writer.width = 120
-        stream = StringIO()
-        writer.dump(self.data, stream)
-        return stream.getvalue()
-
-    @classmethod
-    def from_yaml(
-        cls, text: str, files: Mapping[str, str | Path] | None = None, folder: str | Path = "."
-    ) -> ResolvedScene:
-        """Read what `to_yaml` wrote.
-
-        Args:
-            text: the YAML text.
-            files: where input files are, by the dotted path of the key; others are looked for from `folder` and in the
-                package.
-            folder: where relative file names start.
-
-        Raises:
-            SceneError: the text is not a valid scene, or leaves something open. Input files are looked for, not
-                required: a bag can be read where they are not; `file_path` asks for them.
-        """
-        source = "resolved scene"
-        document = parse_document(text, source)
-        scene = validate(document.root, source, document.faults)
-        data = explicit(scene)
-        open_keys = [where for where, value in _leaves(data) if _at(_dump(scene), where) != value]
-        if open_keys:
-            sentence = "is left open in a resolved scene"
-            raise SceneError([Fault(source, 1, 1, ".".join(where), sentence) for where in open_keys])
-        found = {file.where: find_file(file.name, Path(folder)) for file in input_files(scene)}
-        given = {where: Path(path) for where, path in (files or {}).items()}
-        return cls(data, {**{where: path for where, path in found.items() if path is not None}, **given})
-
-    def file_path(self, where: str) -> Path:
-        """The input file of a key (`road.file`, `vibration.file`), its content checked against the checksum.
-
-        Raises:
-            SceneError: not found, or its content differs from the one that the scene was resolved with.
-        """
-        section = where.split(".")[0]
-        name, stated = self.data[section]["file"], self.data[section]["sha256"]
-        path = self.files.get(where)
-        if path is None or not path.is_file():
-            raise SceneError([Fault("resolved scene", 0, 0, where, f"the file {name!r} is not there; give its path")])
-        found = sha256_of(path)
-        if found != stated:
-            sentence = f"{path} has another content than the scene was resolved with: sha256 {found}, stated {stated}"
-            raise SceneError([Fault("resolved scene", 0, 0, where, sentence)])
-        return path
 
 
 def resolve(scene: Scene) -> ResolvedScene:
@@ -113,6 +43,34 @@ def resolve(scene: Scene) -> ResolvedScene:
         section["sha256"] = sha256_of(path)
         files[file.where] = path
     return ResolvedScene(_ordered(data), files)
+
+
+def read_resolved(
+    text: str, files: Mapping[str, str | Path] | None = None, folder: str | Path = "."
+) -> ResolvedScene:
+    """Read what `ResolvedScene.to_yaml` wrote.
+
+    Args:
+        text: the YAML text.
+        files: where input files are, by the dotted path of the key; others are looked for from `folder` and in the
+            package.
+        folder: where relative file names start.
+
+    Raises:
+        SceneError: the text is not a valid scene, or leaves something open. Input files are looked for, not
+            required: a bag can be read where they are not; `file_path` asks for them.
+    """
+    source = "resolved scene"
+    document = parse_document(text, source)
+    scene = validate(document.root, source, document.faults)
+    data = explicit(scene)
+    open_keys = [where for where, value in _leaves(data) if _at(_dump(scene), where) != value]
+    if open_keys:
+        sentence = "is left open in a resolved scene"
+        raise SceneError([Fault(source, 1, 1, ".".join(where), sentence) for where in open_keys])
+    found = {file.where: find_file(file.name, Path(folder)) for file in input_files(scene)}
+    given = {where: Path(path) for where, path in (files or {}).items()}
+    return ResolvedScene(data, {**{where: path for where, path in found.items() if path is not None}, **given})
 
 
 def explicit(scene: Scene) -> dict[str, Any]:
