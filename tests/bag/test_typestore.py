@@ -11,7 +11,7 @@ from rosbags.typesys import Stores, get_types_from_msg, get_typestore
 
 from contact_sim_pkg.bag.errors import BagError
 from contact_sim_pkg.bag.topics import TOPICS
-from contact_sim_pkg.bag.typestore import definition, store_of_definition, type_hash
+from contact_sim_pkg.bag.typestore import STANDARD, definition, store_of_definition, type_hash
 
 OURS = sorted({topic.type for topic in TOPICS.values() if topic.type.startswith("contact_msgs_defs")})
 
@@ -62,3 +62,8 @@ def test_a_hash_changes_with_the_definition() -> None:
 def test_a_definition_that_is_broken_or_lacks_a_part_is_refused_by_name(text: str) -> None:
     with pytest.raises(BagError, match=r"definition of a_pkg/msg/Bad cannot be used"):
         store_of_definition("a_pkg/msg/Bad", text)
+
+
+@pytest.mark.parametrize("name", sorted(STANDARD))
+def test_a_standard_type_is_the_one_of_jazzy(name):
+    assert type_hash(name) == get_typestore(Stores.ROS2_JAZZY).hash_rihs01(name)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import hashlib
 import json
 from importlib.resources import files
 from pathlib import Path
@@ -50,7 +51,9 @@ def attachments(scene: ResolvedScene, excitation: dict[str, dict[str, Any]]) -> 
 
 
 def _kernel_fingerprint() -> str:
-    """Name of the compiled core; imported here because a logger that only writes needs no compiler before."""
-    from contact_sim_pkg.core.kernel_cache import fingerprint
-
-    return fingerprint(Path(str(files("contact_sim_pkg.core"))))
+    """Name of the core's sources: what a result depends on beside the scene and the versions. Starts no compiler."""
+    root = files("contact_sim_pkg.core")
+    digest = hashlib.sha256()
+    for path in sorted(Path(str(root)).rglob("*.py")):
+        digest.update(path.name.encode() + hashlib.sha256(path.read_bytes()).digest())
+    return digest.hexdigest()[:20]
