@@ -25,8 +25,8 @@ FIT_EXPONENTS = (0.3, 20.0)
 FEWEST_CELLS = 8
 """A patch of fewer cells says nothing about its exponent."""
 
-FIT_STEPS = 40
-SMALLEST_STEP = 1e-6
+FIT_STEPS = 20
+SMALLEST_STEP = 1e-4
 """Sum of the changes of ln a, ln b and ln n after which the fit has converged."""
 
 _TINY = 1e-300
