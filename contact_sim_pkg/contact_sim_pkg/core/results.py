@@ -11,5 +11,5 @@ SENTENCES = {
     DONE: "the interval was integrated to the asked tolerance",
     NOT_FINITE: "the state is not finite or beyond 1e10: the parameters or the excitation are outside the model",
     STEP_TOO_SMALL: "the time step that the asked tolerance needs is below the resolution of the clock; ask for less accuracy",
-    TOO_MANY_EVENTS: "contact opened and closed more than 10000 times in one interval; the contact is too stiff for this excitation",
+    TOO_MANY_EVENTS: "contact opened and closed more than 10000 times in one interval; it is too stiff for this excitation",
 }

@@ -158,7 +158,8 @@ class _Encoder:
         grids, contact = (
             (model.tire_field, model.rig.tire_contact) if name == "tire" else (model.seat_field, model.rig.seat_contact)
         )
-        assert grids is not None and contact is not None
+        assert grids is not None
+        assert contact is not None
         settings = grids.usual.settings  # the wide grid has the same cells
         origin_x, origin_y = found.origin_x, found.origin_y
         pressure = found.pressure * loss_factor(contact.dissipative, float(self.record.forces[sample, rate_column]))

@@ -90,7 +90,8 @@ class Simulation:
 
     def _flat_patch(self) -> RoadPatch:
         geometry, travel = self.model.tire_geometry, self._travel
-        assert geometry is not None and travel is not None
+        assert geometry is not None
+        assert travel is not None
         length = self.model.timing.block_length
         low, high = travel.extent(0.0, length)
         first = int(numpy.floor(low / geometry.lattice.cell_x)) - geometry.lattice.road_rows
@@ -171,8 +172,8 @@ class Simulation:
         )
         smooth = numpy.empty(points)
         inside = effective_heights(
-            road.height, road.first_row, geometry.lattice.cell_x, geometry.lattice.cell_y, geometry.semi_axis_x, geometry.semi_axis_y, travel,
-            smooth,
+            road.height, road.first_row, geometry.lattice.cell_x, geometry.lattice.cell_y, geometry.semi_axis_x,
+            geometry.semi_axis_y, travel, smooth,
         )  # fmt: skip
         if not inside:
             raise RunError(

@@ -45,9 +45,7 @@ def resolve(scene: Scene) -> ResolvedScene:
     return ResolvedScene(_ordered(data), files)
 
 
-def read_resolved(
-    text: str, files: Mapping[str, str | Path] | None = None, folder: str | Path = "."
-) -> ResolvedScene:
+def read_resolved(text: str, files: Mapping[str, str | Path] | None = None, folder: str | Path = ".") -> ResolvedScene:
     """Read what `ResolvedScene.to_yaml` wrote.
 
     Args:

@@ -26,7 +26,7 @@ def effective_heights(  # type: ignore[no-untyped-def]
     middle = 0.5 * (cols - 1)
     reach = int(semi_axis_x / cell_x) + 1
     for k in range(travel.shape[0]):
-        centre = int(round(travel[k] / cell_x))
+        centre = int(round(travel[k] / cell_x))  # noqa: RUF046  # a float in compiled code
         if centre - reach < first_row or centre + reach >= first_row + rows:
             return False
         total = 0.0

@@ -66,7 +66,10 @@ def _stages(rig, drive, mode, time, step, state, k, out):  # type: ignore[no-unt
     rate(rig, drive, mode, time + step * 0.8, out, k[3])
     for i in range(n):
         out[i] = state[i] + step * (
-            19372.0 / 6561.0 * k[0, i] - 25360.0 / 2187.0 * k[1, i] + 64448.0 / 6561.0 * k[2, i] - 212.0 / 729.0 * k[3, i]
+            19372.0 / 6561.0 * k[0, i]
+            - 25360.0 / 2187.0 * k[1, i]
+            + 64448.0 / 6561.0 * k[2, i]
+            - 212.0 / 729.0 * k[3, i]
         )
     rate(rig, drive, mode, time + step * (8.0 / 9.0), out, k[4])
     for i in range(n):
@@ -200,7 +203,7 @@ def _pass_event(rig, drive, mode, time, state, event, work):  # type: ignore[no-
 
 
 @kernel
-def integrate(rig, drive: Drive, mode, end, state, scale, work):  # type: ignore[no-untyped-def]
+def integrate(rig, drive: Drive, mode, end, state, scale, work):  # type: ignore[no-untyped-def]  # noqa: C901
     """Advance ``state`` from ``drive.start`` to ``end`` (within the segment); returns a status of ``core/results.py``.
 
     ``scale`` [states]: error allowed per step, in the unit of each state; infinite for what is not controlled.
