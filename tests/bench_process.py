@@ -61,18 +61,25 @@ class Nodes:
         self.bag = folder / "bag"
         self._scene = str(write_scene(scene, folder))
         self._children = Children(ENVIRONMENT, self.said.append)
+        self._started = []
 
     def start(self, node: str, **parameters: object):
         """Start one node."""
-        values = {"scene": self._scene, **({"bag": self.bag} if node == "bag_logger" else {}), **parameters}
+        own = {"bag": self.bag} if node == "bag_logger" else {}
+        values = {**({} if node == "bag_replay" else {"scene": self._scene}), **own, **parameters}
         arguments = [text for name, value in values.items() for text in ("-p", f"{name}:={value}")]
         command = [sys.executable, "-m", f"contact_sim_pkg.nodes.{node}", "--ros-args", "--disable-external-lib-logs"]
-        return self._children.start(node, [*command, *arguments])
+        self._started.append(self._children.start(node, [*command, *arguments]))
+        return self._started[-1]
+
+    def started(self, node: str):
+        """The processes of a node that were started."""
+        return [child for child in self._started if child.name == node]
 
     def wait(self, seconds: float = LONGEST) -> dict[str, int]:
         """Exit status of each node, when all have ended."""
         wait_until(self._children.all_ended, seconds)
-        return {child.name: child.status for child in self._children._children}
+        return {child.name: child.status for child in self._started}
 
     def end(self) -> None:
         """End what still lives."""

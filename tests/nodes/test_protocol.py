@@ -23,6 +23,19 @@ def test_a_run_under_way_is_another_bench():
     assert refusal.value.exit_status == 2
 
 
+def test_a_run_that_got_further_than_the_window_without_this_node_is_another_bench():
+    follower = Follower()
+    follower.accept(report(State.STARTING, -1))
+    with pytest.raises(NodeError, match="another bench"):
+        follower.accept(report(State.RUNNING, 4))
+
+
+def test_ready_may_have_been_overwritten_by_the_first_blocks():
+    follower = Follower()
+    follower.accept(report(State.STARTING, -1))
+    assert follower.accept(report(State.RUNNING, 3))
+
+
 @pytest.mark.parametrize("state", [State.STARTING, State.READY, State.FAILED, State.STOPPED])
 def test_a_second_bench_that_starts_beside_a_run_is_passed_over(state):
     follower = Follower()

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any, Protocol
 import click
 
 if TYPE_CHECKING:
-    from contact_sim_pkg.scene.resolve import ResolvedScene
+    from contact_sim_pkg.scene.resolved_scene import ResolvedScene
 
 
 class Outcome(Protocol):

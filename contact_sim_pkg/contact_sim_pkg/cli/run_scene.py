@@ -19,7 +19,7 @@ from .scene_options import SceneOptions
 from .tables import print_json
 
 if TYPE_CHECKING:
-    from contact_sim_pkg.scene.resolve import ResolvedScene
+    from contact_sim_pkg.scene.resolved_scene import ResolvedScene
 
 SIGNALS = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)
 

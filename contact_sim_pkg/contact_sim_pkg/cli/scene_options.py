@@ -12,7 +12,7 @@ import click
 
 if TYPE_CHECKING:
     from contact_sim_pkg.scene.overrides import Override
-    from contact_sim_pkg.scene.resolve import ResolvedScene
+    from contact_sim_pkg.scene.resolved_scene import ResolvedScene
 
 _FILE = click.Path(path_type=Path)
 

@@ -11,10 +11,13 @@ from rclpy.node import Node
 from rclpy.publisher import Publisher
 from rclpy.qos import DurabilityPolicy, HistoryPolicy, QoSProfile, ReliabilityPolicy
 from rclpy.subscription import Subscription
+from rclpy.topic_endpoint_info import TopicEndpointInfo
 
 from contact_sim_pkg.bag.topics import Topic, topic_of
 
 from .protocol import REFUSED, NodeError
+
+UNKNOWN = "_NODE_NAME_UNKNOWN_"  # what the graph says before it has heard the node's name
 
 
 @cache
@@ -50,29 +53,47 @@ def subscription(node: Node, name: str, callback: Callable[[bytes], None], least
     return node.create_subscription(message_type(topic.type), name, callback, profile_of(topic, least_depth), raw=True)
 
 
-def refuse_strangers(node: Node, name: str) -> None:
+def refuse_strangers(node: Node, name: str, *, unnamed: bool = True) -> bool:
     """Compare who publishes on a topic with what the bench allows: one publisher, of our message definition.
 
-    Raises NodeError (refused) that names the nodes where there are several, and both hashes where the definitions differ:
-    the wire matches topics by type name alone, and would misread the bytes.
+    Args:
+        node: a node that has its own publisher or subscription of the topic.
+        name: name of the topic.
+        unnamed: refuse also where the graph does not know yet what the nodes are called.
+
+    Returns:
+        False where a refusal waits for the nodes' names, which the graph learns a moment after their publishers.
+
+    Raises:
+        NodeError: (refused) names the nodes where there are several, and both hashes where the definitions differ: the
+            wire matches topics by name alone, and would misread the bytes.
     """
     publishers = node.get_publishers_info_by_topic(name)
+    ours = {_hash(info) for info in node.get_subscriptions_info_by_topic(name) if info.node_name == node.get_name()}
+    others = [info for info in publishers if ours and _hash(info) not in ours]
+    if (others or len(publishers) > 1) and not unnamed and any(UNKNOWN in info.node_name for info in publishers):
+        return False
     if len(publishers) > 1:
         names = ", ".join(sorted(_full_name(info.node_namespace, info.node_name) for info in publishers))
         raise NodeError(
-            f"{name} has {len(publishers)} publishers ({names}), one is allowed: another bench or node is on the same topics; "
-            "end it, or give this bench a namespace or a ROS_DOMAIN_ID of its own",
+            f"{name} has {len(publishers)} publishers ({names}), one is allowed: another bench or node is on the same "
+            "topics; end it, or give this bench a namespace or a ROS_DOMAIN_ID of its own",
             REFUSED,
         )
-    ours = {str(info.topic_type_hash) for info in node.get_subscriptions_info_by_topic(name) if info.node_name == node.get_name()}
-    for info in publishers:
-        if ours and str(info.topic_type_hash) not in ours:
-            raise NodeError(
-                f"{_full_name(info.node_namespace, info.node_name)} publishes {name} with another definition of {info.topic_type} "
-                f"({info.topic_type_hash}, ours is {', '.join(ours)}); build both from the same contact_msgs_defs",
-                REFUSED,
-            )
+    for info in others:
+        raise NodeError(
+            f"{_full_name(info.node_namespace, info.node_name)} publishes {name} with another definition of "
+            f"{info.topic_type} ({_hash(info)}, ours is {', '.join(ours)}); build both from the same contact_msgs_defs",
+            REFUSED,
+        )
+    return True
+
+
+def _hash(info: TopicEndpointInfo) -> str:
+    return str(info.topic_type_hash)
 
 
 def _full_name(namespace: str, name: str) -> str:
+    if UNKNOWN in name:
+        return "a node whose name is not known"
     return f"{namespace.rstrip('/')}/{name}"

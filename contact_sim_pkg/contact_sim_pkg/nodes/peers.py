@@ -2,11 +2,15 @@
 
 from __future__ import annotations
 
+import time
+
 from rclpy.node import Node
 from rclpy.publisher import Publisher
 from rclpy.subscription import Subscription
 
 from .endpoints import refuse_strangers
+
+NAME_SECONDS = 3.0  # for the graph to learn a stranger's name before it is refused without one
 
 
 class Peers:
@@ -28,6 +32,7 @@ class Peers:
         """
         self._node, self._inputs, self._outputs = node, inputs, outputs
         self._progress, self._recorded = progress, recorded
+        self._began: float | None = None
         self._followers = len(inputs) + (recorded is not None) + supervised
 
     def missing(self) -> list[str]:
@@ -35,13 +40,14 @@ class Peers:
 
         Raises NodeError (refused) for a second publisher on an input, a second bench, or another message definition.
         """
-        for topic in (*self._inputs, "bench/progress"):
-            refuse_strangers(self._node, topic)
-        absent = [f"a publisher of {topic}" for topic, entry in self._inputs.items() if _publishers(self._node, entry) < 1]
+        self._began = time.monotonic() if self._began is None else self._began
+        checked = [*self._inputs, "bench/progress", *([] if self._recorded is None else ["bench/recorded"])]
+        unnamed = time.monotonic() - self._began > NAME_SECONDS
+        absent = [f"the names of {t}'s publishers" for t in checked if not refuse_strangers(self._node, t, unnamed=unnamed)]
+        absent += [f"a publisher of {topic}" for topic, entry in self._inputs.items() if _publishers(self._node, entry) < 1]
         if self._progress.get_subscription_count() < self._followers:
             absent.append(f"{self._followers} subscribers of bench/progress")
         if self._recorded is not None:
-            refuse_strangers(self._node, "bench/recorded")
             absent += [] if _publishers(self._node, self._recorded) else ["a publisher of bench/recorded (bag_logger)"]
             absent += [f"a recorder of {topic}" for topic, entry in self._outputs.items() if entry.get_subscription_count() < 1]
         return absent

@@ -65,13 +65,13 @@ class StopSignals:
             raise Interrupted
 
 
-def make_executor(context: rclpy.Context | None = None) -> Executor:
+def make_executor() -> Executor:
     """The executor with the least cost per message (8 times less); the plain one where rclpy does not have it."""
     try:
         from rclpy.experimental import EventsExecutor
     except ImportError:
-        return SingleThreadedExecutor(context=context)
-    return EventsExecutor(context=context)
+        return SingleThreadedExecutor()
+    return EventsExecutor()
 
 
 def run(make_node: Callable[[], Any], args: Sequence[str] | None = None) -> int:

@@ -1,0 +1,167 @@
+"""Bad, missing and foreign messages over the real middleware (FAULTS part B)."""
+
+import numpy
+import pytest
+
+from contact_sim_pkg.bag.messages import encode_vibration
+from contact_sim_pkg.bag.reader import open_bag
+from contact_sim_pkg.run.offline import run_offline
+from contact_sim_pkg.run.sources import make_vibration
+
+from ..bench_process import Nodes, messages, needs_ros, resolved, wait_until
+
+pytestmark = needs_ros
+
+BLOCK = 10_000_000  # [ns]
+BLOCKS = 20
+
+
+@pytest.fixture
+def scene():
+    return resolved("seat_ride", f"duration={BLOCKS * 0.01}", "pace=max")
+
+
+@pytest.fixture
+def nodes(scene, tmp_path):
+    started = Nodes(scene, tmp_path)
+    yield started
+    started.end()
+
+
+@pytest.fixture
+def stand_in():
+    from ..nodes.stand_in import StandIn
+
+    with StandIn("vibration") as node:
+        yield node
+
+
+def block_of(source, number: int, stamp: int | None = None) -> bytes:
+    return encode_vibration(source.block(number), number * BLOCK if stamp is None else stamp)
+
+
+def spoilt(source, number: int) -> bytes:
+    block = source.block(number)
+    values = numpy.array(block.acceleration_z)
+    values[3] = numpy.nan
+    return encode_vibration(block._replace(acceleration_z=values), number * BLOCK)
+
+
+def send(stand_in, source, numbers, *, before=lambda number: ()) -> None:
+    """Send each block when the one before is done; `before` gives what to send in front of it."""
+    for number in numbers:
+        stand_in.spin_until(lambda number=number: stand_in.progress.block >= number - 1)
+        for data in before(number):
+            stand_in.entry.publish(data)
+        stand_in.entry.publish(block_of(source, number))
+
+
+def test_a_missing_block_ends_the_run_by_name_with_its_bag_closed(scene, nodes, stand_in):
+    """B5 for numbered blocks: named after the input timeout, never invented; status 1."""
+    nodes.start("bag_logger")
+    nodes.start("contact_simulator", input_timeout=1.0)
+    source = make_vibration(scene)
+    stand_in.wait_ready(2)
+    send(stand_in, source, range(7))
+    for number in (8, 9):
+        stand_in.entry.publish(block_of(source, number))
+    stand_in.spin_until(lambda: stand_in.progress.message != "")
+    assert "block 7 of platform/vibration is missing (the last good one was block 9)" in stand_in.progress.message
+    assert nodes.wait() == {"bag_logger": 0, "contact_simulator": 1}
+    bag = open_bag(nodes.bag)
+    assert bag.complete
+    assert bag.count("platform/vibration") == bag.count("seat/force") == 7
+    assert (bag.metadata["ended"], bag.metadata["blocks_done"]) == ("failed", "7")
+    assert "block 7 of platform/vibration is missing" in bag.metadata["failure"]
+
+
+def test_bad_blocks_are_dropped_and_named_and_leave_the_bits_alone(scene, nodes, stand_in, tmp_path):
+    """B1, B2, B4: NaN, a wrong length, a wrong stamp, a repetition, in front of the good block."""
+    nodes.start("bag_logger")
+    nodes.start("contact_simulator")
+    source = make_vibration(scene)
+
+    def bad(number):
+        if number % 5:  # now and then, so that a queue of 10 holds what is not answered for
+            return []
+        block = source.block(number)
+        short = block._replace(acceleration_x=block.acceleration_x[:-1], acceleration_z=block.acceleration_z[:-1])
+        return [
+            spoilt(source, number),
+            encode_vibration(short, number * BLOCK),
+            block_of(source, number, stamp=number * BLOCK + 1),
+            *([block_of(source, number - 1)] if number else []),
+        ]
+
+    stand_in.wait_ready(2)
+    send(stand_in, source, range(BLOCKS), before=bad)
+    assert nodes.wait() == {"bag_logger": 0, "contact_simulator": 0}
+    assert any("NaN or infinite" in line and "dropped" in line for line in nodes.said)
+    run_offline(scene, tmp_path / "offline")
+    assert messages(nodes.bag) == messages(tmp_path / "offline")
+
+
+def test_a_run_that_gets_nothing_but_nan_ends_by_name(scene, nodes, stand_in):
+    """B1: the state is never touched by it."""
+    nodes.start("bag_logger")
+    nodes.start("contact_simulator", input_timeout=1.0)
+    stand_in.wait_ready(2)
+    stand_in.entry.publish(spoilt(make_vibration(scene), 0))
+    stand_in.spin_until(lambda: stand_in.progress.message != "")
+    expected = "block 0 of platform/vibration is missing (no good block came at all, 1 were dropped)"
+    assert expected in stand_in.progress.message
+    assert nodes.wait() == {"bag_logger": 0, "contact_simulator": 1}
+    assert open_bag(nodes.bag).count("seat/force") == 0
+
+
+def test_a_second_publisher_of_an_input_is_refused_before_ready(nodes, stand_in):
+    """B8: both nodes named, the cure given, status 2, nothing created."""
+    nodes.start("vibration")
+    nodes.start("contact_simulator")
+    wait_until(lambda: any(child.status is not None for child in nodes.started("contact_simulator")))
+    assert nodes.started("contact_simulator")[0].status == 2
+    refusal = next(line for line in nodes.said if "publishers" in line)
+    assert "platform/vibration has 2 publishers (/vibration, /vibration)" in refusal
+    assert "ROS_DOMAIN_ID" in refusal
+    assert not nodes.bag.exists()
+
+
+def test_an_input_of_another_message_definition_is_refused(nodes):
+    """B9: the wire would take another type for ours; here a publisher of another type on our topic's name."""
+    from ..nodes.stand_in import StandIn
+
+    with StandIn("vibration") as other:
+        other.node.destroy_publisher(other.entry)
+        message = pytest.importorskip("std_msgs.msg").String
+        other.entry = other.node.create_publisher(message, "platform/vibration", 10)
+        nodes.start("contact_simulator")
+        wait_until(lambda: nodes.started("contact_simulator")[0].status is not None)
+    assert nodes.started("contact_simulator")[0].status == 2
+    assert any("another definition" in line for line in nodes.said)
+
+
+def test_a_replayed_bag_brings_the_recorded_bytes_once_more(scene, tmp_path):
+    """Latched topics too; the node ends by itself with status 0."""
+    from ..nodes.stand_in import StandIn
+
+    bag = tmp_path / "bag"
+    run_offline(scene, bag)
+    got: list[bytes] = []
+    nodes = Nodes(scene, tmp_path / "nodes")
+    with StandIn("listener", topic="road/patch") as listener:
+        from contact_sim_pkg.nodes.endpoints import subscription
+
+        kept = [subscription(listener.node, "seat/force", got.append, 100)]
+        kept.append(subscription(listener.node, "bench/scene", got.append))
+        nodes.start("bag_replay", bag=bag, delay=2.0, rate=0.5)
+        try:
+            listener.spin_until(lambda: len(got) == BLOCKS + 1)
+            assert nodes.wait() == {"bag_replay": 0}
+        finally:
+            nodes.end()
+        assert len(kept) == 2
+    recorded = open_bag(bag)
+    forces = [message.data for message in recorded.messages("seat/force")]
+    scene_text = [message.data for message in recorded.messages("bench/scene")]
+    assert sorted(got) == sorted(scene_text + forces)
+    assert [data for data in got if data not in scene_text] == forces

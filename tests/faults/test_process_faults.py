@@ -1,0 +1,153 @@
+"""Signals, dead nodes, second benches (FAULTS part F; B5, B8, G1)."""
+
+import os
+import re
+import signal
+from pathlib import Path
+
+import pytest
+
+from contact_sim_pkg.bag.reader import open_bag
+from contact_sim_pkg.nodes.shared_memory import mapped_segments
+
+from ..bench_process import (
+    ENVIRONMENT,
+    LONGEST,
+    Nodes,
+    children_of,
+    end,
+    lives,
+    needs_ros,
+    resolved,
+    start_bench,
+    wait_until,
+)
+
+pytestmark = needs_ros
+
+LONG = ("run", "seat_ride", "--pace", "realtime", "--duration", "60", "--out")
+NODES = {"bag_logger", "contact_simulator", "vibration"}
+
+
+def recorded_bytes(bag: Path) -> int:
+    return sum(entry.stat().st_size for entry in bag.glob("*.mcap"))
+
+
+@pytest.fixture
+def running(tmp_path):
+    """A run under way: the process, its bag, and the shared memory of its nodes."""
+    bag = tmp_path / "bag"
+    process = start_bench(*LONG, bag)
+    try:
+        wait_until(lambda: process.poll() is not None or recorded_bytes(bag) > 30_000)
+        assert process.poll() is None, process.communicate()
+        yield process, bag
+    finally:
+        end(process)
+
+
+@pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM, signal.SIGHUP])
+def test_a_signal_ends_the_run_with_its_bag_closed_and_status_0(running, number):
+    """F1."""
+    process, bag = running
+    nodes = children_of(process.pid)
+    process.send_signal(number)
+    _, said = process.communicate(timeout=LONGEST)
+    assert process.returncode == 0, said
+    assert "Traceback" not in said
+    closed = open_bag(bag)
+    assert closed.complete
+    assert closed.metadata["ended"] == "stopped"
+    assert int(closed.metadata["blocks_done"]) == closed.count("platform/vibration") == closed.count("bench/energy")
+    assert not any(lives(node) for node in nodes.values())
+
+
+@pytest.mark.parametrize("victim", sorted(NODES))
+def test_a_killed_node_is_named_and_the_others_end(running, victim):
+    """F2, F3: status 1, no process and no shared memory left, what was recorded stays readable."""
+    process, bag = running
+    nodes = children_of(process.pid)
+    assert set(nodes) == NODES
+    segments = set().union(*(mapped_segments(node) for node in nodes.values())) - mapped_segments(os.getpid())
+    os.kill(nodes[victim], signal.SIGKILL)
+    _, said = process.communicate(timeout=LONGEST)
+    assert process.returncode == 1
+    assert f"{victim} was ended by SIGKILL" in said
+    assert "Traceback" not in said
+    assert not any(lives(node) for node in nodes.values())
+    assert open_bag(bag).complete == (victim != "bag_logger")
+    assert open_bag(bag).count("seat/force") > 0
+    left = {name for name in segments if re.fullmatch(r"fastrtps_[0-9a-f]+", name) and Path("/dev/shm", name).exists()}
+    assert left == set()
+
+
+def test_nodes_whose_supervisor_is_killed_end_by_themselves(running):
+    process, bag = running
+    nodes = children_of(process.pid)
+    process.kill()
+    process.wait()
+    wait_until(lambda: not any(lives(node) for node in nodes.values()), 20.0)
+    assert open_bag(bag).complete
+
+
+def test_a_second_bench_in_the_same_domain_is_refused_and_the_first_goes_on(running, tmp_path):
+    """B8: status 2, the cure named, nothing created."""
+    process, bag = running
+    second = start_bench(*LONG, tmp_path / "second")
+    try:
+        _, said = second.communicate(timeout=LONGEST)
+    finally:
+        end(second)
+    assert second.returncode == 2, said
+    assert "ROS_DOMAIN_ID" in said
+    assert not (tmp_path / "second").exists()
+    before = recorded_bytes(bag)
+    wait_until(lambda: recorded_bytes(bag) > before)
+    assert process.poll() is None
+
+
+def test_a_signal_while_the_nodes_start_ends_everything_with_status_0(tmp_path):
+    process = start_bench(*LONG, tmp_path / "bag")
+    try:
+        wait_until(lambda: set(children_of(process.pid)) == NODES)
+        nodes = children_of(process.pid)
+        process.send_signal(signal.SIGTERM)
+        _, said = process.communicate(timeout=LONGEST)
+    finally:
+        end(process)
+    assert process.returncode == 0, said
+    assert "Traceback" not in said
+    assert not any(lives(node) for node in nodes.values())
+
+
+def test_nodes_without_a_supervisor_close_the_bag_when_all_are_interrupted(tmp_path):
+    """F1 as a launch file does it: SIGINT to every process."""
+    nodes = Nodes(resolved("seat_ride", "duration=60", "pace=realtime"), tmp_path)
+    try:
+        started = {name: nodes.start(name) for name in sorted(NODES)}
+        wait_until(lambda: recorded_bytes(nodes.bag) > 30_000)
+        for child in started.values():
+            child.process.send_signal(signal.SIGINT)
+        assert nodes.wait() == dict.fromkeys(sorted(NODES), 0)
+    finally:
+        nodes.end()
+    assert open_bag(nodes.bag).complete
+    assert not [line for line in nodes.said if "Traceback" in line]
+
+
+def test_discovery_of_every_process_stays_on_this_host(tmp_path):
+    """G1: also where the caller has set nothing; the caller's domain is kept and printed."""
+    caller = {name: value for name, value in ENVIRONMENT.items() if name != "ROS_AUTOMATIC_DISCOVERY_RANGE"}
+    process = start_bench(*LONG, tmp_path / "bag", environment=caller)
+    try:
+        wait_until(lambda: set(children_of(process.pid)) == NODES)
+        found = [Path(f"/proc/{node}/environ").read_bytes().split(b"\0") for node in children_of(process.pid).values()]
+        process.send_signal(signal.SIGTERM)
+        _, said = process.communicate(timeout=LONGEST)
+    finally:
+        end(process)
+    domain = ENVIRONMENT["ROS_DOMAIN_ID"]
+    assert f"ROS_DOMAIN_ID is {domain}" in said
+    for environment in found:
+        assert b"ROS_AUTOMATIC_DISCOVERY_RANGE=LOCALHOST" in environment
+        assert f"ROS_DOMAIN_ID={domain}".encode() in environment

@@ -1,0 +1,49 @@
+"""A vibration node of the tests' own: sends what a test wants to send, through the real middleware."""
+
+import time
+
+import rclpy
+from rclpy.executors import SingleThreadedExecutor
+from rclpy.node import Node
+from rclpy.signals import SignalHandlerOptions
+
+from contact_sim_pkg.bag.messages import Progress, decode_progress
+from contact_sim_pkg.nodes.endpoints import publisher, subscription
+from contact_sim_pkg.nodes.protocol import State
+
+
+class StandIn:
+    """A node in the process of the test; a context manager."""
+
+    def __init__(self, name: str = "stand_in", topic: str = "platform/vibration") -> None:
+        self._context = rclpy.Context()
+        rclpy.init(context=self._context, signal_handler_options=SignalHandlerOptions.NO)
+        self.node = Node(name, context=self._context, start_parameter_services=False, enable_rosout=False)
+        self.progress: Progress | None = None
+        self.entry = publisher(self.node, topic)
+        self._kept = [subscription(self.node, "bench/progress", self._on_progress)]
+        self._executor = SingleThreadedExecutor(context=self._context)
+        self._executor.add_node(self.node)
+
+    def _on_progress(self, data: bytes) -> None:
+        self.progress = decode_progress(data)
+
+    def spin_until(self, condition, seconds: float = 40.0) -> None:
+        """Hear what comes until the condition holds; fails after the time."""
+        limit = time.monotonic() + seconds
+        while not condition():
+            assert time.monotonic() < limit, f"waited in vain; last heard {self.progress}"
+            self._executor.spin_once(timeout_sec=0.02)
+
+    def wait_ready(self, listeners: int) -> None:
+        """Until the run is ready and so many subscribers are matched."""
+        self.spin_until(lambda: self.progress is not None and self.progress.state >= State.READY)
+        self.spin_until(lambda: self.entry.get_subscription_count() >= listeners)
+
+    def __enter__(self):
+        return self
+
+    def __exit__(self, *_):
+        self._executor.shutdown()
+        self.node.destroy_node()
+        self._context.try_shutdown()
