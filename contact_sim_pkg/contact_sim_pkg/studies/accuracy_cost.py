@@ -14,10 +14,10 @@ from collections.abc import Callable
 from typing import Any
 
 from contact_sim_pkg.studies import accuracy_cost_field, accuracy_cost_integrator
-from contact_sim_pkg.studies.accuracy_cost_plot import plot
+from contact_sim_pkg.studies.accuracy_cost_plot import plot, write_plot
 from contact_sim_pkg.studies.scene_drive import load_resolved
 
-__all__ = ["first_call_times", "plot", "study"]
+__all__ = ["first_call_times", "plot", "study", "write_plot"]
 
 COLUMNS = (
     "quantity", "part", "rung", "grid", "tolerance", "error", "reference", "ms_per_simulated_s", "first_call_s",

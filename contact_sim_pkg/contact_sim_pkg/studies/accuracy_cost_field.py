@@ -20,7 +20,7 @@ from contact_sim_pkg.scene.lattice import GRAVITY, occupant_mass, standing_load
 from contact_sim_pkg.scene.resolved_scene import ResolvedScene
 from contact_sim_pkg.scene.schema_accuracy import RUNGS, Contact
 
-__all__ = ["field_rows", "first_solve"]
+__all__ = ["bench_solves", "field_rows", "first_solve"]
 
 Field = NDArray[numpy.float64]
 Cells = tuple[int, int]
@@ -69,6 +69,20 @@ def first_solve(scene: ResolvedScene) -> float | None:
     began = time.perf_counter()
     build(scene.data)  # fits the tangent: two solves
     return time.perf_counter() - began
+
+
+def bench_solves(scene: ResolvedScene, cells: Cells, tolerance: float) -> tuple[float, float, float]:
+    """The tire's field: ms of a solve from nothing and from the field before (medians), and its worst L2 error at 1e-10."""
+    problem = _problem(scene, "tire", cells, tolerance)
+    warm = _solve(problem)
+    walls = []
+    for gap in problem.gaps:
+        field = PressureField(problem.settings, "tire")
+        began = time.perf_counter()
+        field.solve_load(gap, problem.load)
+        walls.append(time.perf_counter() - began)
+    converged = _solve(_problem(scene, "tire", cells, CONVERGED_TOLERANCE))
+    return 1e3 * statistics.median(walls), 1e3 * warm.seconds, _errors(warm, converged)["pressure (L2)"]
 
 
 def _rungs(scene: ResolvedScene, contact: Contact, tell: Callable[[str], None]) -> list[dict[str, Any]]:

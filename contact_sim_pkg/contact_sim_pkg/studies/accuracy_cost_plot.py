@@ -10,10 +10,10 @@ import matplotlib
 matplotlib.use("Agg")
 from matplotlib import pyplot
 
-__all__ = ["plot"]
+__all__ = ["plot", "write_plot"]
 
 PANELS = (("integrator", "time integration"), ("corrector", "corrector passes"), ("field", "pressure field"))
-FLOOR = 1e-16
+SPAN = 10.0  # the time axis shows at least this ratio, so that noise does not look like a trend
 
 
 def plot(rows: list[dict[str, Any]], path: str | Path) -> Path:
@@ -32,12 +32,15 @@ def plot(rows: list[dict[str, Any]], path: str | Path) -> Path:
 def _panel(axis: Any, rows: list[dict[str, Any]]) -> None:
     for name in dict.fromkeys(_series(row) for row in rows):
         chosen = sorted((row for row in rows if _series(row) == name), key=lambda row: -row["tolerance"])
-        times = [row["ms_per_simulated_s"] for row in chosen]
-        errors = [max(row["error"], FLOOR) for row in chosen]
+        chosen = [row for row in chosen if row["error"] > 0.0]  # no error at all has no place on a logarithmic axis
+        times, errors = [row["ms_per_simulated_s"] for row in chosen], [row["error"] for row in chosen]
         dashed = "(grid)" in name
         axis.plot(times, errors, "--s" if dashed else "-o", markersize=4, linewidth=1.2, label=name)
     axis.set_xscale("log")
     axis.set_yscale("log")
+    times = [row["ms_per_simulated_s"] for row in rows]
+    middle, half = (min(times) * max(times)) ** 0.5, max(SPAN, 1.2 * max(times) / min(times)) ** 0.5
+    axis.set_xlim(middle / half, middle * half)
     axis.set_xlabel("ms per simulated second")
     axis.grid(visible=True, which="both", alpha=0.25)
     axis.legend(fontsize=7)
@@ -50,3 +53,6 @@ def _series(row: dict[str, Any]) -> str:
     kind = {"field grid": " (grid)", "field solver": " (solver)"}.get(row["part"], "")
     check = ", against NNLS" if row["rung"] == "check" else ""
     return f"{row['quantity']}{kind}{check}"
+
+
+write_plot = plot

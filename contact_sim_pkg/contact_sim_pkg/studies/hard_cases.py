@@ -14,6 +14,9 @@ from typing import Any, NamedTuple
 __all__ = ["Finding", "HardCase", "all_cases", "at_most", "close_to", "evaluate", "exactly", "failed", "study"]
 
 
+PASSED, FAILED = "pass", "fail"
+
+
 class Finding(NamedTuple):
     """What a case found."""
 
@@ -71,15 +74,17 @@ def evaluate(case: HardCase) -> dict[str, Any]:
         finding = case.find()
     except Exception as error:  # noqa: BLE001 - a table of cases goes on past a broken one, and says so
         finding = Finding(math.nan, f"an answer, not {type(error).__name__}: {error}", -math.inf)
-    verdict = "holds" if finding.margin >= 0.0 else "fails"
+    verdict = PASSED if finding.margin >= 0.0 else FAILED
     row = {"model": case.model, "case": case.case, "value": float(finding.value), "expectation": finding.expectation}
     return {**row, "margin": float(finding.margin), "verdict": verdict}
 
 
-def study(progress: Callable[[str], None] | None = None) -> list[dict[str, Any]]:
-    """All rows: model, case, value, expectation, margin, verdict (`holds` or `fails`). Takes some 20 s."""
+def study(model: str | None = None, progress: Callable[[str], None] | None = None) -> list[dict[str, Any]]:
+    """Rows of all cases, or of those of one `model`: model, case, value, expectation, margin, verdict (`pass` or `fail`)."""
     rows = []
     for case in all_cases():
+        if model is not None and case.model != model:
+            continue
         if progress is not None:
             progress(f"{case.model}: {case.case}")
         rows.append(evaluate(case))
@@ -88,4 +93,4 @@ def study(progress: Callable[[str], None] | None = None) -> list[dict[str, Any]]
 
 def failed(rows: list[dict[str, Any]]) -> bool:
     """Whether a row fails: then `bench hard` ends with 1."""
-    return any(row["verdict"] != "holds" for row in rows)
+    return any(row["verdict"] != PASSED for row in rows)

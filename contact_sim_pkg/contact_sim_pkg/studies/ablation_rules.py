@@ -1,0 +1,85 @@
+"""When an effect is needed: rules of thumb of the field, with what a run shows put in.
+
+* pressure field: road wavelengths below about three patch lengths (0.4 m), steps, cleats, stones; or pressure is asked for;
+* friction: fore-aft input, and a tangential demand above about 0.3 of mu N;
+* loss: the contact opens (an impact needs a restitution); otherwise there is no rule.
+"""
+
+from __future__ import annotations
+
+from typing import Any, NamedTuple
+
+import numpy
+
+from contact_sim_pkg.bag.messages import decode_contact_force
+from contact_sim_pkg.core.parameters import Vector
+from contact_sim_pkg.scene.resolve import ResolvedScene
+
+__all__ = ["Observed", "is_needed", "observe"]
+
+SHORT_WAVE = 0.4  # [m], three patch lengths
+DEMAND = 0.3  # of mu N
+SHARP_ROADS = ("step", "cleat", "pothole", "ramp", "bump")
+
+
+class Observed(NamedTuple):
+    """What a run shows: normal forces [N], samples without contact, largest fore-aft acceleration [m/s^2]."""
+
+    forces: dict[str, Vector]
+    opens: dict[str, bool]
+    forward: float
+
+
+def observe(messages: list[tuple[str, int, bytes]], inputs: list[dict[str, Any]]) -> Observed:
+    """Read a run's messages and its input blocks."""
+    parts: dict[str, list[Vector]] = {}
+    for topic, _stamp, data in messages:
+        contact, _, kind = topic.partition("/")
+        if kind == "force":
+            parts.setdefault(contact, []).append(decode_contact_force(data).normal)
+    forces = {contact: numpy.concatenate(found) for contact, found in parts.items()}
+    shaken = [numpy.abs(given["platform/vibration"].acceleration_x).max() for given in inputs if "platform/vibration" in given]
+    opens = {contact: bool((force <= 0.0).any()) for contact, force in forces.items()}
+    return Observed(forces, opens, float(max(shaken, default=0.0)))
+
+
+def is_needed(effect: str, contact: str, scene: ResolvedScene, observed: Observed) -> tuple[bool | None, str]:
+    """Whether the effect is needed (None: there is no rule), and the figures behind it."""
+    if effect == "contact_field":
+        return _field(contact, scene)
+    if effect == "friction":
+        return _friction(scene, observed, contact)
+    if effect == "normal_dissipative" and observed.opens[contact]:
+        return True, "the contact opens: an impact needs a loss to have a restitution"
+    return None, "the contact stays closed; how much it damps is a choice of the model"
+
+
+def _field(contact: str, scene: ResolvedScene) -> tuple[bool | None, str]:
+    if contact == "seat":
+        return None, "needed where the pressure under the occupant is asked for"
+    road = scene.data["road"]
+    kind = road["kind"]
+    if kind == "flat":
+        return False, "the road is flat: the point contact is exact"
+    if kind == "iso8608":
+        texture = road.get("texture") or {}
+        shortest = float(texture.get("shortest_wavelength") or road["shortest_wavelength"])
+        return shortest < SHORT_WAVE, f"shortest wave of the road {shortest:g} m, limit {SHORT_WAVE:g} m (three patch lengths)"
+    if kind == "opencrg":
+        return True, "a measured road holds waves down to its grid, below three patch lengths"
+    length = float(road.get("edge") or road["length"])
+    sharp = kind in SHARP_ROADS and (kind != "bump" or length < SHORT_WAVE)
+    why = f"{kind} of length {length:g} m, limit {SHORT_WAVE:g} m (three patch lengths), unless the pressure itself is asked for"
+    return sharp, why
+
+
+def _friction(scene: ResolvedScene, observed: Observed, contact: str) -> tuple[bool | None, str]:
+    if observed.forward == 0.0:
+        return False, "no fore-aft input"
+    occupant = scene.data["seat"]["occupant"]
+    mass = float(occupant["frame_mass"] + sum(occupant["masses"]))
+    friction = (scene.data["effects"].get(contact) or {}).get("friction") or {}
+    limit = float(friction.get("coefficient_static", 0.4)) * float(observed.forces[contact].min())
+    demand = mass * observed.forward
+    share = demand / limit if limit > 0.0 else float("inf")
+    return share > DEMAND, f"fore-aft demand up to {share:.2g} of mu N, limit {DEMAND:g}"

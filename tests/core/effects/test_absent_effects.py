@@ -1,0 +1,64 @@
+"""An absent effect changes nothing, to the last bit."""
+
+import numpy
+from contact_sim_pkg.core.parameters import (
+    Contact,
+    Friction,
+    NormalDissipative,
+    NormalElastic,
+    PointContact,
+    Seat,
+    Vehicle,
+)
+from contact_sim_pkg.core.rigs import advance as entries
+from contact_sim_pkg.core.rigs.vehicle import MARGINS
+from contact_sim_pkg.core.solvers.dormand_prince import make_workspace
+from contact_sim_pkg.studies.effect_cost import HandWritten, bounce, rigs
+from contact_sim_pkg.studies.one_mass import integrate
+
+
+def _shaken_seat(friction, count=1500):
+    """Vertical states of an occupant who is shaken until he leaves the cushion."""
+    masses = (numpy.array([33.4]), numpy.array([35776.0]), numpy.array([761.0]))
+    contact = Contact(NormalElastic(2.73e5, 1.5), NormalDissipative(1.0), friction)
+    rig = Vehicle(9.81, None, None, Seat(0, 6.7, *masses), contact)
+    states = 4 + (3 if friction else 0) + 2
+    times = numpy.arange(count + 1) * 1e-3
+    zeros, a_z = numpy.zeros(count + 1), 15.0 * numpy.sin(24.0 * times)
+    state = numpy.zeros(states)
+    state[0] = -((40.1 * 9.81 / 2.73e5) ** (2.0 / 3.0))
+    state[1] = state[0] - 33.4 * 9.81 / 35776.0
+    scale = numpy.array([1e-2, 1e-2, 0.5, 0.5, *([1e-2, 0.5, 1e-2] if friction else []), 1e6, 1e6]) * 1e-6
+    scale[-2:] = numpy.inf
+    work, mode = make_workspace(states, MARGINS), numpy.zeros(1, dtype=numpy.int64)
+    samples = (numpy.zeros((count, states)), numpy.zeros((count, states)), numpy.zeros((count, entries.FORCES)))
+    entries.start(rig, mode, state, work, 1e-3, zeros[:2], zeros[:2], zeros[:2], a_z[:2])
+    assert entries.advance(rig, mode, state, scale, work, 0.0, 1e-3, zeros, zeros, zeros, a_z, 1, *samples) == 0
+    return samples[0][:, :4], samples[2][:, entries.SEAT_NORMAL]
+
+
+def test_friction_without_fore_aft_input_leaves_the_vertical_motion_bit_identical():
+    with_friction, force = _shaken_seat(Friction(2.0e4, 200.0, 0.4, 0.35))
+    without, other = _shaken_seat(None)
+    assert (force == 0.0).any(), "the case does not reach lift-off"
+    assert with_friction.tobytes() == without.tobytes()
+    assert force.tobytes() == other.tobytes()
+
+
+def test_an_absent_loss_gives_the_bits_of_a_rig_written_by_hand_without_it():
+    _with_loss, absent, by_hand = rigs()
+    assert isinstance(by_hand, HandWritten)
+    assert bounce(absent)[0].tobytes() == bounce(by_hand)[0].tobytes()
+
+
+def test_a_loss_that_is_there_changes_the_motion():
+    with_loss, absent, _by_hand = rigs()
+    assert bounce(with_loss)[0].tobytes() != bounce(absent)[0].tobytes()
+
+
+def test_a_loss_of_strength_zero_gives_the_motion_without_loss():
+    law = NormalElastic(1.0e5, 1.5)
+    times, scale, start = numpy.linspace(0.0, 2.0, 21), numpy.array([1e-3, 1.0]) * 1e-9, numpy.array([0.02, 0.0])
+    absent = integrate(PointContact(1.0, 9.81, 0.0, 0.0, law, None), start, scale, times)
+    zero = integrate(PointContact(1.0, 9.81, 0.0, 0.0, law, NormalDissipative(0.0)), start, scale, times)
+    assert absent.states.tobytes() == zero.states.tobytes()

@@ -1,0 +1,28 @@
+"""The vehicle rig against a twin that shares no code with it, on the drives of the shipped scenes."""
+
+import numpy
+import pytest
+from contact_sim_pkg.studies.scene_drive import drive_of, fast_run, load_resolved, slow_run
+
+SCALE = {"tire_bump": 1.2, "seat_ride": 0.5, "car_full_bench": 0.5, "tire_rough_road": 0.3}
+
+
+@pytest.mark.parametrize("name", SCALE)
+def test_the_rig_follows_its_twin_to_the_asked_tolerance(name):
+    scene = load_resolved(name)
+    drive = drive_of(scene, SCALE[name])
+    asked = float(scene.data["integrator"]["relative_tolerance"])
+    exact = slow_run(drive)[:-1]
+    for tolerance in (1e-6, 1e-9):
+        states, _forces = fast_run(drive, drive.model.scale * (tolerance / asked))
+        error = numpy.abs(states[:, :-2] - exact).max(axis=0) / numpy.abs(exact - exact[0]).max(axis=0)
+        assert error.max() <= 10.0 * tolerance
+
+
+def test_the_rig_follows_its_twin_through_lift_off():
+    scene = load_resolved("tire_bump", "road.height=0.12")
+    drive = drive_of(scene, 1.4)
+    asked = float(scene.data["integrator"]["relative_tolerance"])
+    states, forces = fast_run(drive, drive.model.scale * (1e-10 / asked))
+    assert (forces[:, 0] == 0.0).any(), "the tire does not leave the road"
+    assert states[:, :-2] == pytest.approx(slow_run(drive)[:-1], abs=1e-8)

@@ -1,0 +1,61 @@
+import numpy
+import pytest
+from contact_sim_pkg.studies import ablation, accuracy_cost, accuracy_cost_field, accuracy_cost_integrator
+from contact_sim_pkg.studies.ablation_rules import Observed, is_needed
+from contact_sim_pkg.studies.scene_drive import load_resolved
+
+
+@pytest.fixture(scope="module")
+def tolerance_rows():
+    return accuracy_cost_integrator.tolerance_rows(load_resolved("tire_bump"), lambda text: None)
+
+
+def test_the_error_of_the_time_integration_falls_with_the_tolerance(tolerance_rows):
+    motion = {row["tolerance"]: row["error"] for row in tolerance_rows if row["quantity"] == "motion"}
+    assert len(motion) == 8
+    assert all(error <= 10.0 * tolerance for tolerance, error in motion.items())
+    assert min(motion.values()) < 1e-3 * max(motion.values())
+
+
+def test_the_plot_is_drawn_for_every_part_that_is_there(tolerance_rows, tmp_path):
+    path = accuracy_cost.write_plot(tolerance_rows, tmp_path / "plot.png")
+    assert path.read_bytes().startswith(b"\x89PNG")
+
+
+def test_means_over_coarser_cells_keep_the_integral_and_a_constant():
+    fine = numpy.random.default_rng(3).random((30, 42))
+    coarse = accuracy_cost_field._onto(fine, (20, 12))
+    assert coarse.shape == (20, 12)
+    assert coarse.mean() == pytest.approx(fine.mean(), rel=1e-13)
+    assert accuracy_cost_field._onto(numpy.full((30, 42), 2.5), (20, 12)) == pytest.approx(2.5)
+    assert accuracy_cost_field._onto(fine, (15, 21))[3, 4] == pytest.approx(fine[6:8, 8:10].mean())
+
+
+def test_every_effect_of_a_scene_has_a_row_with_its_topics():
+    rows = ablation.study("seat_ride")
+    assert {row["effect"] for row in rows} == {"normal_elastic", "normal_dissipative", "friction", "contact_field"}
+    assert all("seat/force" in row["topics"] for row in rows)
+    by_name = {row["effect"]: row for row in rows}
+    assert by_name["friction"]["on"] is False
+    assert by_name["friction"]["load_rms_change"] == 0.0, "friction does not act on the vertical force"
+    assert by_name["normal_dissipative"]["load_rms_change"] != 0.0
+
+
+@pytest.mark.parametrize(
+    ("scene", "values", "needed"),
+    [
+        ("tire_bump", ("road={kind: flat}",), False),
+        ("tire_bump", ("road.length=0.3",), True),
+        ("tire_bump", (), False),
+        ("tire_rough_road", (), True),
+    ],
+)
+def test_the_rule_for_the_pressure_field_looks_at_the_waves_of_the_road(scene, values, needed):
+    nothing = Observed({}, {}, 0.0)
+    assert is_needed("contact_field", "tire", load_resolved(scene, *values), nothing)[0] is needed
+
+
+@pytest.mark.parametrize(("forward", "needed"), [(0.0, False), (0.1, False), (5.0, True)])
+def test_the_rule_for_friction_looks_at_the_fore_aft_demand(forward, needed):
+    observed = Observed({"seat": numpy.array([450.0, 500.0])}, {"seat": False}, forward)
+    assert is_needed("friction", "seat", load_resolved("seat_ride"), observed)[0] is needed
