@@ -5,7 +5,8 @@ from __future__ import annotations
 import signal
 import sys
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, NamedTuple
 
@@ -76,9 +77,9 @@ def _run_offline(scene: ResolvedScene, directory: Path | None, from_bag: Path | 
 
         sources = sources_from_bag(from_bag, scene)
     stops: list[int] = []
-    _on_signals(lambda: stops.append(1))
     before = time.monotonic() - BEGAN
-    outcome = run_offline(scene, directory, display.show, lambda: bool(stops), sources)
+    with _signals_call(lambda: stops.append(1)):
+        outcome = run_offline(scene, directory, display.show, lambda: bool(stops), sources)
     lost = outcome.bag is not None and not outcome.bag.complete
     failure = outcome.failure or (outcome.bag.sentence if outcome.bag is not None else "")
     status = 1 if outcome.failure else 3 if lost else 0
@@ -93,9 +94,9 @@ def _run_on_nodes(scene: ResolvedScene, directory: Path | None, from_bag: Path |
     from contact_sim_pkg.nodes.supervisor import Supervisor
 
     supervisor = Supervisor(scene, directory, from_bag=from_bag)
-    _on_signals(supervisor.stop)
     before = time.monotonic() - BEGAN
-    outcome = supervisor.run(display.show, display.say)
+    with _signals_call(supervisor.stop):
+        outcome = supervisor.run(display.show, display.say)
     return Ended(
         outcome.blocks,
         before + outcome.startup,
@@ -107,7 +108,12 @@ def _run_on_nodes(scene: ResolvedScene, directory: Path | None, from_bag: Path |
     )
 
 
-def _on_signals(stop: Callable[[], Any]) -> None:
-    """The three signals ask for a clean end."""
-    for number in SIGNALS:
-        signal.signal(number, lambda *_: stop())
+@contextmanager
+def _signals_call(stop: Callable[[], Any]) -> Iterator[None]:
+    """While the run lasts, the three signals ask for a clean end."""
+    before = {number: signal.signal(number, lambda *_: stop()) for number in SIGNALS}
+    try:
+        yield
+    finally:
+        for number, handler in before.items():
+            signal.signal(number, handler)

@@ -10,17 +10,16 @@ from collections.abc import Callable, Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING, NamedTuple
 
-from contact_sim_pkg.run.bag_content import input_names
 from contact_sim_pkg.scene.resolved_scene import ResolvedScene
 
 from .children import Child, Children
 from .protocol import DONE, FAULT, LOSS, REFUSED, NodeError, State
+from .run_plan import planned_nodes
 from .scene_file import count_blocks, write_scene
 
 if TYPE_CHECKING:
     from .run_monitor import RunMonitor
 
-NODE_OF_INPUT = {"road/patch": "road_profile", "platform/vibration": "vibration"}
 DEFAULT_ENVIRONMENT = {  # each only where the caller has not set it
     "ROS_AUTOMATIC_DISCOVERY_RANGE": "LOCALHOST",
     "NUMBA_NUM_THREADS": "1",
@@ -84,7 +83,7 @@ class Supervisor:
         children = Children(os.environ, say)
         with tempfile.TemporaryDirectory(prefix="contact_bench_") as folder:
             try:
-                self._start_all(children, str(write_scene(self._scene, Path(folder))))
+                self._start_all(children, write_scene(self._scene, Path(folder)))
                 from .run_monitor import RunMonitor  # the nodes start while this process loads ROS
 
                 with RunMonitor() as monitor:
@@ -93,16 +92,10 @@ class Supervisor:
             finally:
                 children.end()
 
-    def _start_all(self, children: Children, scene: str) -> None:
-        """The logger first, so that it is ended last; the simulator last, so that it is ended first."""
-        common = {"scene": scene, "supervisor": os.getpid()}
-        if self._directory is not None:
-            _start_node(children, "bag_logger", {**common, "bag": str(self._directory.absolute())})
-        record = self._directory is not None
-        source = {} if self._from_bag is None else {"from_bag": str(self._from_bag.absolute())}
-        for topic in input_names(self._scene):
-            _start_node(children, NODE_OF_INPUT[topic], {**common, "record": record, **source})
-        _start_node(children, "contact_simulator", {**common, "record": record})
+    def _start_all(self, children: Children, scene: Path) -> None:
+        for node in planned_nodes(self._scene, scene, self._directory, self._from_bag):
+            arguments = node_arguments({**node.parameters, "supervisor": os.getpid()})
+            children.start(node.name, [sys.executable, "-m", f"contact_sim_pkg.nodes.{node.name}", *arguments])
 
     def _watch(self, children: Children, monitor: RunMonitor, on_report: Callable[[Report], None]) -> None:
         """Until every process has ended, or one has ended badly."""
@@ -164,10 +157,6 @@ class Supervisor:
         if not self._failure and not stopped and done < count_blocks(self._scene):
             self._fail(f"the run ended after {done} blocks without a word", FAULT)
         return SupervisedRun(done, ready - began, max(0.0, last - ready), bag, stopped, self._failure, self._exit_status)
-
-
-def _start_node(children: Children, node: str, parameters: Mapping[str, str | float | bool]) -> None:
-    children.start(node, [sys.executable, "-m", f"contact_sim_pkg.nodes.{node}", *node_arguments(parameters)])
 
 
 def set_default_environment() -> None:

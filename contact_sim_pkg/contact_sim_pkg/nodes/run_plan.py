@@ -1,0 +1,37 @@
+"""Which nodes a run of a scene has, and the parameters of each. Without ROS: the supervisor and the launch file read it."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import NamedTuple
+
+from contact_sim_pkg.run.bag_content import input_names
+from contact_sim_pkg.scene.resolved_scene import ResolvedScene
+
+NODE_OF_INPUT = {"road/patch": "road_profile", "platform/vibration": "vibration"}
+
+
+class PlannedNode(NamedTuple):
+    """One node of a run."""
+
+    name: str  # of the node, of its executable and of its module
+    parameters: dict[str, str | bool]
+
+
+def planned_nodes(
+    scene: ResolvedScene, scene_path: Path, directory: Path | None, from_bag: Path | None = None
+) -> list[PlannedNode]:
+    """The nodes of a run, in the order of their start: the logger first, to be ended last, the simulator last.
+
+    Args:
+        scene: the scene.
+        scene_path: what `write_scene` returned for it.
+        directory: directory of the bag; None: nothing is recorded and there is no logger.
+        from_bag: bag whose excitation is sent instead of the scene's own.
+    """
+    common: dict[str, str | bool] = {"scene": str(scene_path)}
+    record: dict[str, str | bool] = {"record": directory is not None}
+    source: dict[str, str | bool] = {} if from_bag is None else {"from_bag": str(from_bag.absolute())}
+    logger = [] if directory is None else [PlannedNode("bag_logger", {**common, "bag": str(directory.absolute())})]
+    sources = [PlannedNode(NODE_OF_INPUT[topic], {**common, **record, **source}) for topic in input_names(scene)]
+    return [*logger, *sources, PlannedNode("contact_simulator", {**common, **record})]

@@ -1,0 +1,69 @@
+"""One scene on nodes: the road and the vibration that it calls for, the simulator, the logger.
+
+    ros2 launch contact_sim_pkg bench.launch.py scene:=seat_ride duration:=10.0 pace:=max
+
+A node that ends badly ends the launch. `bench run` does the same where launch is not installed, and shows progress.
+"""
+
+import shutil
+import tempfile
+from pathlib import Path
+
+from launch import LaunchContext, LaunchDescription
+from launch.actions import DeclareLaunchArgument, OpaqueFunction, RegisterEventHandler, SetEnvironmentVariable, Shutdown
+from launch.event_handlers import OnShutdown
+from launch.substitutions import EnvironmentVariable, LaunchConfiguration
+from launch_ros.actions import Node
+
+from contact_sim_pkg.bag.names import default_directory
+from contact_sim_pkg.nodes.run_plan import planned_nodes
+from contact_sim_pkg.nodes.scene_file import write_scene
+from contact_sim_pkg.scene.load import load_scene
+from contact_sim_pkg.scene.overrides import set_duration, set_pace
+from contact_sim_pkg.scene.resolve import resolve
+
+ARGUMENTS = {
+    "scene": ("car_full_bench", "name of a shipped scene, or path of a scene file"),
+    "duration": ("", "simulated time in s; empty: what the scene says"),
+    "pace": ("", "realtime, max or a factor; empty: what the scene says"),
+    "record": ("true", "write a bag"),
+    "bag": ("", "directory of the bag, which must not exist; empty: bags/SCENE_TIME_RANDOM"),
+    "use_sim_time": ("false", "clock of the nodes; stamps are simulated time, pacing is the steady clock in any case"),
+    "namespace": ("", "namespace of all nodes and topics"),
+}
+DISCOVERY = "ROS_AUTOMATIC_DISCOVERY_RANGE"
+
+
+def start_nodes(context: LaunchContext) -> list[Node | RegisterEventHandler]:
+    """Resolve the scene once, and start the nodes that it needs; the first one that ends badly ends all."""
+    given = {name: LaunchConfiguration(name).perform(context) for name in ARGUMENTS}
+    changes = [make(given[name]) for name, make in (("duration", set_duration), ("pace", set_pace)) if given[name]]
+    scene = resolve(load_scene(given["scene"], changes))
+    folder = Path(tempfile.mkdtemp(prefix="contact_bench_"))
+    chosen = Path(given["bag"]) if given["bag"] else default_directory(str(scene.data["name"]))
+    directory = chosen if given["record"].lower() == "true" else None
+    nodes = [
+        Node(
+            package="contact_sim_pkg",
+            executable=node.name,
+            name=node.name,
+            namespace=given["namespace"],
+            parameters=[{**node.parameters, "use_sim_time": given["use_sim_time"].lower() == "true"}],
+            output="screen",
+            on_exit=end_if_failed,
+        )
+        for node in planned_nodes(scene, write_scene(scene, folder), directory)
+    ]
+    return [*nodes, RegisterEventHandler(OnShutdown(on_shutdown=lambda *_: shutil.rmtree(folder, ignore_errors=True)))]
+
+
+def end_if_failed(event, context: LaunchContext) -> list[Shutdown]:  # noqa: ANN001
+    """No node is started again: its state is gone, and the bits would differ."""
+    return [Shutdown(reason=f"{event.process_name} ended with status {event.returncode}")] if event.returncode else []
+
+
+def generate_launch_description() -> LaunchDescription:
+    """What `ros2 launch` asks for."""
+    declared = [DeclareLaunchArgument(name, default_value=value, description=text) for name, (value, text) in ARGUMENTS.items()]
+    local = SetEnvironmentVariable(DISCOVERY, EnvironmentVariable(DISCOVERY, default_value="LOCALHOST"))
+    return LaunchDescription([*declared, local, OpaqueFunction(function=start_nodes)])

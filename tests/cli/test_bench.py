@@ -1,0 +1,156 @@
+"""The command line: refusals, tables, one JSON object on standard output, exit statuses."""
+
+import json
+import signal
+
+import pytest
+
+from contact_sim_pkg.bag.reader import open_bag
+from contact_sim_pkg.cli.main import COMMANDS
+from contact_sim_pkg.cli.main import main as bench_main
+
+from ..bench_process import bench, end, start_bench, wait_until
+
+OFFLINE = ["--offline", "--duration", "0.2"]
+
+
+def refused(capsys, *arguments):
+    status = bench_main([str(argument) for argument in arguments])
+    out, said = capsys.readouterr()
+    assert out == ""
+    assert "Traceback" not in said
+    return status, said
+
+
+@pytest.mark.parametrize("command", COMMANDS)
+def test_every_command_says_what_it_does(capsys, command):
+    assert bench_main([command, "--help"]) == 0
+    assert "Usage: bench" in capsys.readouterr().out
+
+
+def test_list_gives_the_scenes_smallest_first(capsys):
+    assert bench_main(["list", "--json"]) == 0
+    rows = json.loads(capsys.readouterr().out)["rows"]
+    assert [row["scene"] for row in rows][:2] == ["seat_ride", "tire_bump"]
+    assert all(row["description"] for row in rows)
+
+
+def test_show_prints_a_scene_that_runs_again(capsys, tmp_path):
+    assert bench_main(["show", "seat_ride", "--duration", "0.2"]) == 0
+    text = capsys.readouterr().out
+    (tmp_path / "again.yaml").write_text(text)
+    assert bench_main(["show", str(tmp_path / "again.yaml")]) == 0
+    assert capsys.readouterr().out == text
+
+
+def test_a_run_with_json_prints_one_object_with_what_scripts_ask_for(capsys, tmp_path):
+    out = tmp_path / "bag"
+    assert bench_main(["run", "seat_ride", *OFFLINE, "--out", str(out), "--json"]) == 0
+    facts = json.loads(capsys.readouterr().out)
+    assert list(facts) == [
+        "scene", "effects", "accuracy", "simulated_s", "startup_s", "wall_s", "real_time_factor", "bag", "summary",
+    ]  # fmt: skip
+    assert (facts["scene"], facts["simulated_s"], facts["bag"]) == ("seat_ride", 0.2, str(out))
+    assert facts["real_time_factor"] == pytest.approx(facts["simulated_s"] / facts["wall_s"], rel=1e-3)
+    assert sum(facts["summary"]["messages"].values()) == open_bag(out).count()
+
+
+def test_a_run_without_recording_creates_nothing(capsys, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    assert bench_main(["run", "seat_ride", *OFFLINE, "--no-record", "--json"]) == 0
+    assert json.loads(capsys.readouterr().out)["bag"] is None
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_a_value_that_is_set_reaches_the_bag(capsys, tmp_path):
+    out = tmp_path / "bag"
+    assert bench_main(["run", "seat_ride", *OFFLINE, "--set", "seed=7", "--out", str(out)]) == 0
+    assert f"bag: {out}" in capsys.readouterr().out
+    assert "seed: 7" in open_bag(out).scene
+
+
+def test_the_scene_of_a_bag_runs_again_with_a_value_changed(capsys, tmp_path):
+    first, again = tmp_path / "first", tmp_path / "again"
+    bench_main(["run", "seat_ride", *OFFLINE, "--out", str(first)])
+    assert bench_main(["run", "--offline", "--from-bag", str(first), "--set", "seed=7", "--out", str(again)]) == 0
+    capsys.readouterr()
+    excitation = [[each.data for each in open_bag(bag).messages("platform/vibration")] for bag in (first, again)]
+    assert excitation[0] == excitation[1]
+
+
+@pytest.mark.parametrize(
+    ("arguments", "sentence"),
+    [
+        (["run", "seat_rid"], "did you mean seat_ride?"),
+        (["run", "seat_ride", "--set", "effects.seat.frcition=1"], "frcition"),
+        (["run", "seat_ride", "--set", "no equals sign"], "is not of the form a.b.c=value"),
+        (["run", "seat_ride", "--duration", "-1"], "duration"),
+        (["run", "seat_ride", "--pace", "fast"], "pace"),
+        (["run", "seat_ride", "--vibration", "no such file.csv", "--rate", "476"], "no such file.csv"),
+        (["run", "tire_bump", "--road", "no such file.crg"], "no such file.crg"),
+        (["run"], "Missing argument 'SCENE'"),
+        (["run", "--from-bag", "no such bag"], "no such bag"),
+        (["report", "no such bag"], "no such bag"),
+        (["recover", "no such bag", "target"], "no such bag"),
+        (["frobnicate"], "No such command 'frobnicate'"),
+    ],
+)
+def test_bad_input_is_refused_with_status_2_and_a_sentence_and_creates_nothing(
+    capsys, tmp_path, monkeypatch, arguments, sentence
+):
+    monkeypatch.chdir(tmp_path)
+    status, said = refused(capsys, *arguments, *(["--json"] if arguments[0] == "run" else []))
+    assert status == 2
+    assert sentence in said
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_a_directory_that_exists_is_never_written_to(capsys, tmp_path):
+    (tmp_path / "mine").write_text("mine")
+    status, said = refused(capsys, "run", "seat_ride", *OFFLINE, "--out", tmp_path)
+    assert status == 2
+    assert "exists already" in said
+    assert [entry.name for entry in tmp_path.iterdir()] == ["mine"]
+
+
+def test_a_report_is_written_and_its_path_printed(capsys, tmp_path):
+    bag = tmp_path / "bag"
+    bench_main(["run", "seat_ride", "--offline", "--duration", "1", "--out", str(bag)])
+    capsys.readouterr()
+    assert bench_main(["report", str(bag)]) == 0
+    assert capsys.readouterr().out == f"report: {bag / 'report.html'}\n"
+    assert "seat_ride" in (bag / "report.html").read_text(encoding="utf-8")
+
+
+def test_a_cut_bag_is_recovered_with_status_3(capsys, tmp_path):
+    bag = tmp_path / "bag"
+    bench_main(["run", "seat_ride", *OFFLINE, "--out", str(bag)])
+    capsys.readouterr()
+    assert bench_main(["recover", str(bag), str(tmp_path / "whole")]) == 0
+    file = next(bag.glob("*.mcap"))
+    file.write_bytes(file.read_bytes()[: file.stat().st_size // 2])
+    assert bench_main(["recover", str(bag), str(tmp_path / "half")]) == 3
+    assert open_bag(tmp_path / "half").complete
+
+
+def test_a_signal_ends_an_offline_run_with_its_bag_closed_and_status_0(tmp_path):
+    bag = tmp_path / "bag"
+    process = start_bench("run", "car_full_bench", "--offline", "--duration", "1000", "--out", bag)
+    try:
+        wait_until(lambda: process.poll() is not None or any(bag.glob("*.mcap")))
+        process.send_signal(signal.SIGTERM)
+        _, said = process.communicate(timeout=60)
+    finally:
+        end(process)
+    assert process.returncode == 0, said
+    assert open_bag(bag).metadata["ended"] == "stopped"
+    assert open_bag(bag).complete
+
+
+def test_a_run_on_nodes_says_where_ros_is_missing(tmp_path):
+    blocker = tmp_path / "rclpy.py"
+    blocker.write_text("raise ModuleNotFoundError(\"No module named 'rclpy'\", name='rclpy')\n")
+    ended = bench("run", "seat_ride", cwd=tmp_path)  # -m puts the current folder first on the path
+    assert ended.returncode == 2
+    assert "source ros2_ws/setup.bash, or run with --offline" in ended.stderr
+    assert ended.stdout == ""
