@@ -19,7 +19,9 @@ from contact_sim_pkg.scene.overrides import set_value
 from contact_sim_pkg.scene.resolve import ResolvedScene, resolve
 
 HAS_ROS = all(importlib.util.find_spec(name) is not None for name in ("rclpy", "contact_msgs_defs"))
-needs_ros = pytest.mark.skipif(not HAS_ROS, reason="rclpy or contact_msgs_defs cannot be imported: ROS 2 is not sourced")
+needs_ros = pytest.mark.skipif(
+    not HAS_ROS, reason="rclpy or contact_msgs_defs cannot be imported: ROS 2 is not sourced"
+)
 
 PACKAGE = Path(__file__).resolve().parents[1] / "contact_sim_pkg"
 ENVIRONMENT = {
@@ -32,7 +34,9 @@ LONGEST = 120.0  # [s] for anything that a test waits for; kernels may have to b
 
 def bench(*arguments: object, cwd: Path | None = None) -> subprocess.CompletedProcess[str]:
     """`bench` with these arguments, to its end."""
-    return subprocess.run(_command(arguments), env=ENVIRONMENT, capture_output=True, text=True, timeout=LONGEST, cwd=cwd)
+    return subprocess.run(
+        _command(arguments), env=ENVIRONMENT, capture_output=True, text=True, timeout=LONGEST, cwd=cwd
+    )
 
 
 def start_bench(*arguments: object, environment: dict[str, str] | None = None) -> subprocess.Popen[str]:

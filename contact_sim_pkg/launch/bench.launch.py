@@ -9,7 +9,6 @@ import shutil
 import tempfile
 from pathlib import Path
 
-from launch import LaunchContext, LaunchDescription
 from launch.actions import DeclareLaunchArgument, OpaqueFunction, RegisterEventHandler, SetEnvironmentVariable, Shutdown
 from launch.event_handlers import OnShutdown
 from launch.substitutions import EnvironmentVariable, LaunchConfiguration
@@ -21,6 +20,7 @@ from contact_sim_pkg.nodes.scene_file import write_scene
 from contact_sim_pkg.scene.load import load_scene
 from contact_sim_pkg.scene.overrides import set_duration, set_pace
 from contact_sim_pkg.scene.resolve import resolve
+from launch import LaunchContext, LaunchDescription
 
 ARGUMENTS = {
     "scene": ("car_full_bench", "name of a shipped scene, or path of a scene file"),
@@ -57,13 +57,15 @@ def start_nodes(context: LaunchContext) -> list[Node | RegisterEventHandler]:
     return [*nodes, RegisterEventHandler(OnShutdown(on_shutdown=lambda *_: shutil.rmtree(folder, ignore_errors=True)))]
 
 
-def end_if_failed(event, context: LaunchContext) -> list[Shutdown]:  # noqa: ANN001
+def end_if_failed(event, context: LaunchContext) -> list[Shutdown]:
     """No node is started again: its state is gone, and the bits would differ."""
     return [Shutdown(reason=f"{event.process_name} ended with status {event.returncode}")] if event.returncode else []
 
 
 def generate_launch_description() -> LaunchDescription:
     """What `ros2 launch` asks for."""
-    declared = [DeclareLaunchArgument(name, default_value=value, description=text) for name, (value, text) in ARGUMENTS.items()]
+    declared = [
+        DeclareLaunchArgument(name, default_value=value, description=text) for name, (value, text) in ARGUMENTS.items()
+    ]
     local = SetEnvironmentVariable(DISCOVERY, EnvironmentVariable(DISCOVERY, default_value="LOCALHOST"))
     return LaunchDescription([*declared, local, OpaqueFunction(function=start_nodes)])

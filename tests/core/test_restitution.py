@@ -1,6 +1,7 @@
 import math
 
 import pytest
+
 from contact_sim_pkg.core.restitution import damping_of_restitution
 from contact_sim_pkg.reference import impact
 

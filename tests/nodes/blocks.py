@@ -8,9 +8,13 @@ from contact_sim_pkg.excitation.blocks import RoadPatch, VibrationBlock
 LENGTH = 10_000_000  # [ns]
 
 
-def vibration(block: int, *, stamp: int | None = None, value: float = 1.0, samples: int = 11, period: float = 1e-3) -> bytes:
+def vibration(
+    block: int, *, stamp: int | None = None, value: float = 1.0, samples: int = 11, period: float = 1e-3
+) -> bytes:
     acceleration = numpy.full(samples, value)
-    return encode_vibration(VibrationBlock(block, period, acceleration, acceleration), block * LENGTH if stamp is None else stamp)
+    return encode_vibration(
+        VibrationBlock(block, period, acceleration, acceleration), block * LENGTH if stamp is None else stamp
+    )
 
 
 def road(block: int, *, height: float = 0.0) -> bytes:

@@ -46,7 +46,9 @@ def test_a_process_that_fails_is_named_with_its_status_and_its_last_line(childre
 
 
 def test_a_killed_process_is_named_with_its_signal(children):
-    child = children.start("vibration", [sys.executable, "-c", "import os, signal; os.kill(os.getpid(), signal.SIGKILL)"])
+    child = children.start(
+        "vibration", [sys.executable, "-c", "import os, signal; os.kill(os.getpid(), signal.SIGKILL)"]
+    )
     until(lambda: children.fallen() is not None)
     assert child.describe_end().startswith("vibration was ended by SIGKILL")
 
@@ -87,7 +89,11 @@ def test_only_the_segments_that_nobody_uses_are_removed(monkeypatch):
         assert shared_memory.mapped_segments(child.process.pid) == {"fastrtps_used"}
         assert shared_memory.remove_unused({"fastrtps_used", "fastrtps_left"}) == ["fastrtps_left", "fastrtps_left_el"]
         holder.end()
-        assert sorted(entry.name for entry in folder.iterdir()) == ["fastrtps_other", "fastrtps_used", "fastrtps_used_el"]
+        assert sorted(entry.name for entry in folder.iterdir()) == [
+            "fastrtps_other",
+            "fastrtps_used",
+            "fastrtps_used_el",
+        ]
     finally:
         for entry in folder.iterdir():
             entry.unlink()

@@ -18,7 +18,9 @@ def test_a_run_is_followed_from_its_start_to_its_end():
 
 
 def test_a_run_under_way_is_another_bench():
-    with pytest.raises(NodeError, match=r"another bench \(scene seat_ride, block 57 of 100\) .* ROS_DOMAIN_ID") as refusal:
+    with pytest.raises(
+        NodeError, match=r"another bench \(scene seat_ride, block 57 of 100\) .* ROS_DOMAIN_ID"
+    ) as refusal:
         Follower().accept(report(State.RUNNING, 57))
     assert refusal.value.exit_status == 2
 

@@ -86,11 +86,17 @@ def declared_parameters(node: str) -> dict:
     used = Path(module.__file__).read_text(encoding="utf-8")
     base = Path(module.__file__).with_name("excitation_node.py" if "ExcitationNode" in used else "bench_node.py")
     for source in (used, base.read_text(encoding="utf-8")):
-        scope = {**vars(parameters), **vars(module), **vars(__import__("contact_sim_pkg.nodes." + base.stem, fromlist=["x"]))}
+        scope = {
+            **vars(parameters),
+            **vars(module),
+            **vars(__import__("contact_sim_pkg.nodes." + base.stem, fromlist=["x"])),
+        }
         for call in (entry for entry in ast.walk(ast.parse(source)) if isinstance(entry, ast.Call)):
             name = getattr(call.func, "id", "")
             if name == "declare":
-                values = [eval(compile(ast.Expression(argument), "declare", "eval"), scope) for argument in call.args[1:]]
+                values = [
+                    eval(compile(ast.Expression(argument), "declare", "eval"), scope) for argument in call.args[1:]
+                ]
                 parameters.declare(recorder, *values)
             elif name in ("declare_record", "declare_input_timeout"):
                 getattr(parameters, name)(recorder)

@@ -1,5 +1,6 @@
 import numpy
 import pytest
+
 from contact_sim_pkg.studies import ablation, accuracy_cost, accuracy_cost_field, accuracy_cost_integrator
 from contact_sim_pkg.studies.ablation_rules import Observed, is_needed
 from contact_sim_pkg.studies.scene_drive import load_resolved

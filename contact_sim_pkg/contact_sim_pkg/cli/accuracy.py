@@ -11,7 +11,9 @@ from .tables import json_option, show_rows
 
 @click.command("accuracy")
 @click.argument("scene")
-@click.option("--plot", type=click.Path(path_type=Path), metavar="FILE", help="Error over time, both logarithmic, as a picture.")
+@click.option(
+    "--plot", type=click.Path(path_type=Path), metavar="FILE", help="Error over time, both logarithmic, as a picture."
+)
 @json_option
 def command(scene: str, plot: Path | None, as_json: bool) -> None:
     """For each rung, tolerance and grid of SCENE: error against a reference, time per simulated second, first call."""

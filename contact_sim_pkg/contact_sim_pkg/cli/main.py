@@ -84,8 +84,14 @@ def refusal(error: Exception) -> tuple[str, int] | None:
         return str(error), 1
     if isinstance(error, OSError):
         return f"{error.strerror or error}{f': {error.filename}' if error.filename else ''}", 2
-    if isinstance(error, ModuleNotFoundError) and (error.name or "").partition(".")[0] in ("rclpy", "contact_msgs_defs"):
-        return f"{error.name} cannot be imported; source ros2_ws/setup.bash, or run with --offline, which needs no ROS", 2
+    if isinstance(error, ModuleNotFoundError) and (error.name or "").partition(".")[0] in (
+        "rclpy",
+        "contact_msgs_defs",
+    ):
+        return (
+            f"{error.name} cannot be imported; source ros2_ws/setup.bash, or run with --offline, which needs no ROS",
+            2,
+        )
     return None
 
 

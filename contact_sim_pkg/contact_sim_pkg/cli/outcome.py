@@ -74,6 +74,8 @@ def print_outcome(facts: dict[str, Any], outcome: Outcome) -> None:
 
 
 def _contact_line(numbers: dict[str, Any]) -> str:
-    line = f"load {numbers['load_mean_N']:.5g} N on average, {numbers['load_min_N']:.5g} to {numbers['load_max_N']:.5g} N"
+    line = (
+        f"load {numbers['load_mean_N']:.5g} N on average, {numbers['load_min_N']:.5g} to {numbers['load_max_N']:.5g} N"
+    )
     peak = next((value for key, value in numbers.items() if "peak" in key and isinstance(value, float)), None)
     return line if peak is None else f"{line}; peak pressure {peak / 1e3:.5g} kPa"

@@ -16,7 +16,13 @@ import click
 @click.option("--clock", is_flag=True, help="Publish the recorded time on /clock.")
 @click.pass_context
 def command(
-    context: click.Context, bag: Path, rate: float, start_offset: float, delay: float, topics: tuple[str, ...], clock: bool
+    context: click.Context,
+    bag: Path,
+    rate: float,
+    start_offset: float,
+    delay: float,
+    topics: tuple[str, ...],
+    clock: bool,
 ) -> None:
     """Publish the messages of BAG as they were recorded: bytes, spacing, quality of service."""
     from contact_sim_pkg.nodes.supervisor import node_arguments, set_default_environment

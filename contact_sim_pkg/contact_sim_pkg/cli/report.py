@@ -9,7 +9,9 @@ import click
 
 @click.command("report")
 @click.argument("bag", type=click.Path(path_type=Path))
-@click.option("--out", type=click.Path(path_type=Path), metavar="FILE", help="The page; report.html in the bag otherwise.")
+@click.option(
+    "--out", type=click.Path(path_type=Path), metavar="FILE", help="The page; report.html in the bag otherwise."
+)
 @click.option("--skip-bad", is_flag=True, help="Go on after damaged chunks.")
 def command(bag: Path, out: Path | None, skip_bad: bool) -> None:
     """Write the page with the pictures that an engineer looks at, and print its path."""

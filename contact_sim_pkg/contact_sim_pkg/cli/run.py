@@ -13,8 +13,12 @@ from .tables import json_option
 @click.command("run")
 @scene_options
 @click.option("--offline", is_flag=True, help="Without ROS, in this process, as fast as it goes; the same bits.")
-@click.option("--out", type=click.Path(path_type=Path), metavar="DIR", help="Directory of the bag, which must not exist.")
-@click.option("--from-bag", type=click.Path(path_type=Path), metavar="BAG", help="Excitation (and scene) of an earlier run.")
+@click.option(
+    "--out", type=click.Path(path_type=Path), metavar="DIR", help="Directory of the bag, which must not exist."
+)
+@click.option(
+    "--from-bag", type=click.Path(path_type=Path), metavar="BAG", help="Excitation (and scene) of an earlier run."
+)
 @click.option("--no-record", is_flag=True, help="Write no bag.")
 @json_option
 @click.pass_context

@@ -79,7 +79,9 @@ def scene_options(function: Callable[..., Any]) -> Callable[..., Any]:
     """Adds SCENE and its options to a command, which gets them as `options`."""
     decorators = (
         click.argument("scene", required=False),
-        click.option("--set", "assignments", multiple=True, metavar="A.B.C=VALUE", help="Change one value of the scene."),
+        click.option(
+            "--set", "assignments", multiple=True, metavar="A.B.C=VALUE", help="Change one value of the scene."
+        ),
         click.option("--duration", metavar="S", help="Simulated time, in s."),
         click.option("--pace", metavar="realtime|max|FACTOR", help="How fast blocks are sent; acts on nodes."),
         click.option("--road", type=_FILE, metavar="FILE", help="OpenCRG road in place of the scene's road."),

@@ -8,7 +8,9 @@ from typing import Any
 
 import click
 
-json_option = click.option("--json", "as_json", is_flag=True, help="One JSON object on standard output, and nothing else.")
+json_option = click.option(
+    "--json", "as_json", is_flag=True, help="One JSON object on standard output, and nothing else."
+)
 
 
 def print_json(value: Mapping[str, Any]) -> None:

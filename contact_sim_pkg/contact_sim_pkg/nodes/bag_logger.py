@@ -158,7 +158,9 @@ class BagLoggerNode(LifecycleBenchNode):
         last = self._run.last
         failure = last.message if last is not None and self._run.state is State.FAILED else ""
         dropped = {f"dropped {topic}": str(count) for topic, count in self._dropped.items() if count}
-        summary = self._writer.close({"ended": ended, "blocks_done": str(self._block + 1), "failure": failure, **dropped})
+        summary = self._writer.close(
+            {"ended": ended, "blocks_done": str(self._block + 1), "failure": failure, **dropped}
+        )
         reasons = "; ".join(text for text in (sentence, summary.sentence) if text)
         self._answer(closed=True, sentence=reasons)
         self._answers.wait_for_all_acked(Duration(seconds=SETTLE_SECONDS))

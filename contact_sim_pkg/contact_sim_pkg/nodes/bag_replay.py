@@ -33,7 +33,9 @@ class BagReplayNode(LifecycleBenchNode):
         self._bag_name = declare(self, "bag", "", "Directory of the bag.")
         self._rate = declare(self, "rate", 1.0, "Recorded seconds per second.", (0.001, 1000.0))
         self._offset = declare(self, "start_offset", 0.0, "Recorded time to begin at, in s.", (0.0, 1e9))
-        self._delay = declare(self, "delay", 0.5, "Time before the first message, in s, for others to match.", (0.0, 3600.0))
+        self._delay = declare(
+            self, "delay", 0.5, "Time before the first message, in s, for others to match.", (0.0, 3600.0)
+        )
         self._chosen = declare(self, "topics", "", "Names of the topics to replay, separated by commas. Empty: all.")
         self._with_clock = declare(self, "clock", False, "Publish the recorded time on /clock, 40 times a second.")
         self._publishers_by_topic: dict[str, Publisher] = {}

@@ -16,7 +16,9 @@ KILL_SECONDS = 1.0
 class Child:
     """One process; what it writes on its standard error is handed on line by line, and the last line is kept."""
 
-    def __init__(self, name: str, command: Sequence[str], environment: Mapping[str, str], say: Callable[[str], None]) -> None:
+    def __init__(
+        self, name: str, command: Sequence[str], environment: Mapping[str, str], say: Callable[[str], None]
+    ) -> None:
         """Start the process."""
         self.name = name
         self.last_line = ""
@@ -72,7 +74,11 @@ class Child:
     def describe_end(self) -> str:
         """Exit status and last line, for a person."""
         status = self.status
-        how = f"was ended by {_signal_name(-status)}" if status is not None and status < 0 else f"ended with status {status}"
+        how = (
+            f"was ended by {_signal_name(-status)}"
+            if status is not None and status < 0
+            else f"ended with status {status}"
+        )
         self._reader.join(timeout=0.5)
         said = f"; it said last: {self.last_line}" if self.last_line else "; it said nothing"
         return f"{self.name} {how}{said}"

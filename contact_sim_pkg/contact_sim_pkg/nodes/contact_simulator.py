@@ -35,7 +35,9 @@ class ContactSimulatorNode(LifecycleBenchNode):
         self._scene_name = declare_scene(self)
         self._logged = declare_record(self)
         self._input_timeout = declare_input_timeout(self)
-        self._publish_clock = declare(self, "publish_clock", True, "Publish the simulated time on /clock after each block.")
+        self._publish_clock = declare(
+            self, "publish_clock", True, "Publish the simulated time on /clock after each block."
+        )
         self.ended_with = DONE
         self._report: ProgressReport | None = None
 
@@ -78,7 +80,9 @@ class ContactSimulatorNode(LifecycleBenchNode):
         self._advance(now)
         if time.monotonic() - self._advanced > self._patience and not self._report.state.ended:
             self.fault(self._what_is_missing(), FAULT)
-        return self._pacer.wait(self._window.next_block, now) if self._window.open and not self._simulation.inputs else 1.0
+        return (
+            self._pacer.wait(self._window.next_block, now) if self._window.open and not self._simulation.inputs else 1.0
+        )
 
     def _look_for_peers(self, now: float) -> None:
         absent = self._peers.missing()
@@ -108,7 +112,9 @@ class ContactSimulatorNode(LifecycleBenchNode):
             self._publish(number, self._simulation.advance(number, blocks))
 
     def _may_begin(self, now: float) -> bool:
-        return self._window.open and (bool(self._simulation.inputs) or self._pacer.wait(self._window.next_block, now) <= 0.0)
+        return self._window.open and (
+            bool(self._simulation.inputs) or self._pacer.wait(self._window.next_block, now) <= 0.0
+        )
 
     def _publish(self, number: int, result: BlockResult) -> None:
         for topic, _, data in result.messages:
@@ -124,7 +130,9 @@ class ContactSimulatorNode(LifecycleBenchNode):
         if self._report is not None and self._report.state >= State.READY and self._recorded.accept(recorded):
             self._window.on_recorded(recorded.block)
             if recorded.closed and not self._report.state.ended:
-                self.get_logger().error(f"the logger closed its bag before the end: {recorded.message or 'no reason given'}")
+                self.get_logger().error(
+                    f"the logger closed its bag before the end: {recorded.message or 'no reason given'}"
+                )
                 self.ended_with = LOSS
                 self._report.send(State.STOPPED, recorded.message)
 

@@ -27,7 +27,9 @@ def message_type(type_name: str) -> Any:
     try:
         return getattr(import_module(f"{package}.msg"), name)
     except (ImportError, AttributeError) as error:
-        raise NodeError(f"message type {type_name} cannot be imported ({error}); build and source its package", REFUSED) from None
+        raise NodeError(
+            f"message type {type_name} cannot be imported ({error}); build and source its package", REFUSED
+        ) from None
 
 
 def profile_of(topic: Topic, least_depth: int = 0) -> QoSProfile:

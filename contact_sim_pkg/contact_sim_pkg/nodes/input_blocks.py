@@ -86,7 +86,9 @@ class InputBlocks:
         if number < self.next_block or number in held:
             return self._drop(topic, f"block {number} came a second time")
         if number >= self.next_block + FARTHEST_AHEAD:
-            return self._drop(topic, f"block {number} came while block {self.next_block} is due; at most {FARTHEST_AHEAD} ahead")
+            return self._drop(
+                topic, f"block {number} came while block {self.next_block} is due; at most {FARTHEST_AHEAD} ahead"
+            )
         held[number] = block
         self._last[topic] = max(self._last[topic], number)
         return ""
@@ -111,7 +113,11 @@ class InputBlocks:
         """Which input lacks which block, and what came last."""
         parts = []
         for topic in self.missing():
-            last = f"the last good one was block {self._last[topic]}" if self._last[topic] >= 0 else "no good block came at all"
+            last = (
+                f"the last good one was block {self._last[topic]}"
+                if self._last[topic] >= 0
+                else "no good block came at all"
+            )
             dropped = f", {self.dropped[topic]} were dropped" if self.dropped[topic] else ""
             parts.append(f"block {self.next_block} of {topic} is missing ({last}{dropped})")
         return "; ".join(parts)

@@ -43,13 +43,19 @@ class Peers:
         self._began = time.monotonic() if self._began is None else self._began
         checked = [*self._inputs, "bench/progress", *([] if self._recorded is None else ["bench/recorded"])]
         unnamed = time.monotonic() - self._began > NAME_SECONDS
-        absent = [f"the names of {t}'s publishers" for t in checked if not refuse_strangers(self._node, t, unnamed=unnamed)]
-        absent += [f"a publisher of {topic}" for topic, entry in self._inputs.items() if _publishers(self._node, entry) < 1]
+        absent = [
+            f"the names of {t}'s publishers" for t in checked if not refuse_strangers(self._node, t, unnamed=unnamed)
+        ]
+        absent += [
+            f"a publisher of {topic}" for topic, entry in self._inputs.items() if _publishers(self._node, entry) < 1
+        ]
         if self._progress.get_subscription_count() < self._followers:
             absent.append(f"{self._followers} subscribers of bench/progress")
         if self._recorded is not None:
             absent += [] if _publishers(self._node, self._recorded) else ["a publisher of bench/recorded (bag_logger)"]
-            absent += [f"a recorder of {topic}" for topic, entry in self._outputs.items() if entry.get_subscription_count() < 1]
+            absent += [
+                f"a recorder of {topic}" for topic, entry in self._outputs.items() if entry.get_subscription_count() < 1
+            ]
         return absent
 
 

@@ -58,7 +58,9 @@ class RunMonitor:
         """The monitor itself."""
         return self
 
-    def __exit__(self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None) -> None:
+    def __exit__(
+        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
+    ) -> None:
         """Leave the graph."""
         self._node.destroy_node()
         rclpy.try_shutdown()

@@ -79,7 +79,9 @@ class Supervisor:
         """Run to the end; `on_report` hears where the run stands, `say` what the nodes say, a line at a time."""
         began = time.monotonic()
         set_default_environment()
-        say(f"ROS_DOMAIN_ID is {os.environ.get('ROS_DOMAIN_ID', '0')}, discovery {os.environ['ROS_AUTOMATIC_DISCOVERY_RANGE']}")
+        say(
+            f"ROS_DOMAIN_ID is {os.environ.get('ROS_DOMAIN_ID', '0')}, discovery {os.environ['ROS_AUTOMATIC_DISCOVERY_RANGE']}"
+        )
         children = Children(os.environ, say)
         with tempfile.TemporaryDirectory(prefix="contact_bench_") as folder:
             try:
@@ -156,7 +158,9 @@ class Supervisor:
         done = monitor.run.block + 1
         if not self._failure and not stopped and done < count_blocks(self._scene):
             self._fail(f"the run ended after {done} blocks without a word", FAULT)
-        return SupervisedRun(done, ready - began, max(0.0, last - ready), bag, stopped, self._failure, self._exit_status)
+        return SupervisedRun(
+            done, ready - began, max(0.0, last - ready), bag, stopped, self._failure, self._exit_status
+        )
 
 
 def set_default_environment() -> None:

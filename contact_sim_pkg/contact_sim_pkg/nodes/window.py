@@ -36,7 +36,9 @@ class Window:
     def take(self) -> int:
         """The number of the block to send now; the window must be open."""
         if not self.open:
-            raise ValueError(f"block {self.next_block} may not be sent: answered up to {self.answered}, {self.blocks} blocks")
+            raise ValueError(
+                f"block {self.next_block} may not be sent: answered up to {self.answered}, {self.blocks} blocks"
+            )
         self.next_block += 1
         return self.next_block - 1
 

@@ -79,13 +79,20 @@ def states_at_segments(
 
 
 def _segment(
-    rate: Rate, margins: list[Callable[[float, State], float]], sides: list[float], time: float, end: float, state: State
+    rate: Rate,
+    margins: list[Callable[[float, State], float]],
+    sides: list[float],
+    time: float,
+    end: float,
+    state: State,
 ) -> State:
     """One segment, from change of contact to change of contact; `sides` changes in place."""
     while True:
         for margin, side in zip(margins, sides, strict=True):
             margin.terminal, margin.direction = True, -side  # type: ignore[attr-defined]
-        found = solve_ivp(rate, (time, end), state, "DOP853", events=margins, rtol=RELATIVE, atol=ABSOLUTE, first_step=end - time)
+        found = solve_ivp(
+            rate, (time, end), state, "DOP853", events=margins, rtol=RELATIVE, atol=ABSOLUTE, first_step=end - time
+        )
         state = numpy.asarray(found.y[:, -1])
         if found.status != 1:
             return state
@@ -105,7 +112,9 @@ def _tire(drive: _Drive, time: float, state: State) -> tuple[float, float]:
     return float(_at(drive.height, drive, time) - state[0]), float(drive.height[1] - state[2])
 
 
-def _cushion(quarter: Quarter | None, occupant: Occupant, drive: _Drive, time: float, state: State) -> tuple[float, float]:
+def _cushion(
+    quarter: Quarter | None, occupant: Occupant, drive: _Drive, time: float, state: State
+) -> tuple[float, float]:
     first = 0 if quarter is None else 4
     speed = first + 1 + len(occupant.masses)
     floor, floor_speed = (0.0, 0.0) if quarter is None else (state[1], state[3])
@@ -115,7 +124,9 @@ def _cushion(quarter: Quarter | None, occupant: Occupant, drive: _Drive, time: f
     )
 
 
-def _margins(quarter: Quarter | None, occupant: Occupant | None, drive: _Drive) -> list[Callable[[float, State], float]]:
+def _margins(
+    quarter: Quarter | None, occupant: Occupant | None, drive: _Drive
+) -> list[Callable[[float, State], float]]:
     """Approach and recovery of each contact."""
     margins: list[Callable[[float, State], float]] = []
     if quarter is not None:

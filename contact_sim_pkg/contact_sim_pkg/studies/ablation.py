@@ -68,7 +68,13 @@ def _row(scene_name: str, scene: ResolvedScene, contact: str, effect: str) -> di
     row: dict[str, Any] = {"contact": contact, "effect": effect, "on": on, "topics": topics}
     if effect == ALWAYS:
         why = "without it the contact carries no load"
-        return {**row, **_measures(None, None, contact), "called_for": "needed", "verdict": "carries the load", "why": why}
+        return {
+            **row,
+            **_measures(None, None, contact),
+            "called_for": "needed",
+            "verdict": "carries the load",
+            "why": why,
+        }
     absent = without(scene, (contact, effect))
     present = scene if on else load_resolved(scene_name, f"effects.{contact}.{effect}={{}}")
     with_it, without_it = _paired(present, absent)

@@ -38,7 +38,9 @@ def observe(messages: list[tuple[str, int, bytes]], inputs: list[dict[str, Any]]
         if kind == "force":
             parts.setdefault(contact, []).append(decode_contact_force(data).normal)
     forces = {contact: numpy.concatenate(found) for contact, found in parts.items()}
-    shaken = [numpy.abs(given["platform/vibration"].acceleration_x).max() for given in inputs if "platform/vibration" in given]
+    shaken = [
+        numpy.abs(given["platform/vibration"].acceleration_x).max() for given in inputs if "platform/vibration" in given
+    ]
     opens = {contact: bool((force <= 0.0).any()) for contact, force in forces.items()}
     return Observed(forces, opens, float(max(shaken, default=0.0)))
 
@@ -64,7 +66,10 @@ def _field(contact: str, scene: ResolvedScene) -> tuple[bool | None, str]:
     if kind == "iso8608":
         texture = road.get("texture") or {}
         shortest = float(texture.get("shortest_wavelength") or road["shortest_wavelength"])
-        return shortest < SHORT_WAVE, f"shortest wave of the road {shortest:g} m, limit {SHORT_WAVE:g} m (three patch lengths)"
+        return (
+            shortest < SHORT_WAVE,
+            f"shortest wave of the road {shortest:g} m, limit {SHORT_WAVE:g} m (three patch lengths)",
+        )
     if kind == "opencrg":
         return True, "a measured road holds waves down to its grid, below three patch lengths"
     length = float(road.get("edge") or road["length"])

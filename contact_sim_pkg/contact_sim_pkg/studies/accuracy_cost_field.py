@@ -162,9 +162,7 @@ def _tire_gaps(scene: ResolvedScene, settings: FieldSettings) -> list[Field]:
     y = (numpy.arange(settings.cols) - 0.5 * (settings.cols - 1)) * settings.cell_y
     crown = 0.5 * x[:, None] ** 2 / tire["radius_rolling"] + 0.5 * y[None, :] ** 2 / tire["radius_lateral"]
     middle = min(MIDDLE, 0.5 * float(scene.data["duration"]))
-    return [
-        numpy.asarray(crown - surface.heights(x + travel.position(middle + i * step), y)) for i in range(INSTANTS)
-    ]
+    return [numpy.asarray(crown - surface.heights(x + travel.position(middle + i * step), y)) for i in range(INSTANTS)]
 
 
 def _solve(problem: Problem, count: int = INSTANTS) -> Solution:

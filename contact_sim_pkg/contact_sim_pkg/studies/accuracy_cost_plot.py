@@ -19,7 +19,9 @@ SPAN = 10.0  # the time axis shows at least this ratio, so that noise does not l
 def plot(rows: list[dict[str, Any]], path: str | Path) -> Path:
     """Draw the rows of `accuracy_cost.study`, one panel a part that is there; the ending of `path` names the format."""
     panels = [(key, title) for key, title in PANELS if any(row["part"].startswith(key) for row in rows)]
-    figure, axes = pyplot.subplots(1, len(panels), figsize=(5.2 * len(panels), 4.8), squeeze=False, layout="constrained")
+    figure, axes = pyplot.subplots(
+        1, len(panels), figsize=(5.2 * len(panels), 4.8), squeeze=False, layout="constrained"
+    )
     for axis, (key, title) in zip(axes[0], panels, strict=True):
         _panel(axis, [row for row in rows if row["part"].startswith(key)])
         axis.set_title(title)

@@ -102,7 +102,9 @@ def _impacts() -> list[Row]:
             errors.append(abs(hard_cases_impact.restitution_found(loss, tolerance, 0.001) - exact))
             walls.append(_impact_time(loss, tolerance))
         note = "worst error of e over 5 losses; time with the call from Python"
-        rows.append(_row(f"Hunt-Crossley impact, tolerance {tolerance:.0e}", max(errors), statistics.median(walls), "us", note))
+        rows.append(
+            _row(f"Hunt-Crossley impact, tolerance {tolerance:.0e}", max(errors), statistics.median(walls), "us", note)
+        )
     return rows
 
 

@@ -86,7 +86,11 @@ def equal_ratios() -> Finding:
     """Status after 200 slip reversals with mu_s = mu_k, where slip ends exactly on the limit of stick."""
     rig = BeltSlider(MASS, 1.0e4, 0.0, LOAD, Friction(1.0e6, 0.0, KINETIC, KINETIC))
     course = integrate(
-        rig, numpy.array([0.05, 0.0, 0.0]), numpy.array([0.05, 5.0, 1e-3]) * 1e-9, numpy.array([0.0, 10.0]), strict=False
+        rig,
+        numpy.array([0.05, 0.0, 0.0]),
+        numpy.array([0.05, 5.0, 1e-3]) * 1e-9,
+        numpy.array([0.0, 10.0]),
+        strict=False,
     )
     return exactly(course.status, DONE)
 
@@ -113,7 +117,9 @@ def slide_with_lift_off() -> tuple[numpy.ndarray, numpy.ndarray, float]:
     status = entries.advance(rig, mode, state, scale, work, 0.0, 1e-3, zeros, zeros, a_x, a_z, 1, *samples)
     if status != DONE:
         raise ArithmeticError(f"status {status}")
-    kinetic, potential, stored, supplied, dissipated = numpy.array(entries.energies(rig, mode, state, 0.0, 0.0)) - before
+    kinetic, potential, stored, supplied, dissipated = (
+        numpy.array(entries.energies(rig, mode, state, 0.0, 0.0)) - before
+    )
     return samples[2], samples[0], abs(supplied - kinetic - potential - stored - dissipated) / dissipated
 
 

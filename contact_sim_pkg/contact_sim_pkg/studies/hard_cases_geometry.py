@@ -29,7 +29,10 @@ def slender() -> Finding:
     worst = 0.0
     for gap in (1e-1, 1e-3, 1e-6, 1e-9, 2e-12):
         small, large = 0.5 * gap, 1.0 - 0.5 * gap
-        found, exact = hertz_contact(small, large, MODULUS, LOAD), reference.contact_at_load(small, large, MODULUS, LOAD)
+        found, exact = (
+            hertz_contact(small, large, MODULUS, LOAD),
+            reference.contact_at_load(small, large, MODULUS, LOAD),
+        )
         pairs = ((found.approach, exact.approach), (found.a, exact.a), (found.b, exact.b))
         worst = max(worst, *(abs(value / true - 1.0) for value, true in pairs))
     return at_most(worst, 1e-9)
@@ -38,7 +41,9 @@ def slender() -> Finding:
 def no_load() -> Finding:
     """Sum of all results at P = 0 and at a negative approach."""
     results = (hertz_contact(1.0, 2.0, MODULUS, 0.0), hertz_contact_at_approach(1.0, 2.0, MODULUS, -1e-3))
-    return exactly(sum(abs(r.load) + abs(r.approach if r.load else 0.0) + r.a + r.b + r.peak_pressure for r in results), 0.0)
+    return exactly(
+        sum(abs(r.load) + abs(r.approach if r.load else 0.0) + r.a + r.b + r.peak_pressure for r in results), 0.0
+    )
 
 
 def refused_surfaces() -> Finding:

@@ -63,9 +63,7 @@ def order_of_error() -> Finding:
     """Slope of log error over log tolerance, 1e-3 to 1e-10, from the worst of eight approach phases; at least 0.8."""
     exact = impact.restitution(0.5)
     powers = range(3, 11)
-    errors = [
-        max(abs(restitution_found(0.5, 10.0**-p, 0.002 * (i + 0.21)) - exact) for i in range(8)) for p in powers
-    ]
+    errors = [max(abs(restitution_found(0.5, 10.0**-p, 0.002 * (i + 0.21)) - exact) for i in range(8)) for p in powers]
     slope = -float(numpy.polyfit(list(powers), numpy.log10(errors), 1)[0])
     return Finding(slope, "≥ 0.8", slope - 0.8)
 
@@ -149,7 +147,9 @@ def pull_out() -> Finding:
 
 
 def _dropped() -> tuple[PointContact, Vector]:
-    return PointContact(1.0, 9.81, 0.0, 0.0, NormalElastic(1.0e5, 1.5), NormalDissipative(2.0)), numpy.array([0.05, 0.0])
+    return PointContact(1.0, 9.81, 0.0, 0.0, NormalElastic(1.0e5, 1.5), NormalDissipative(2.0)), numpy.array(
+        [0.05, 0.0]
+    )
 
 
 def comes_to_rest() -> Finding:
@@ -174,7 +174,9 @@ def thousand_bounces() -> Finding:
     rig = PointContact(1.0, 9.81, 0.0, 0.0, law, None)
     period = 2.0 * math.sqrt(2.0 * 0.05 / 9.81)
     end = 1000.0 * period
-    z, v = integrate(rig, numpy.array([0.05, 0.0]), numpy.array([1e-3, 1.0]) * 3e-14, numpy.array([0.0, end])).states[-1]
+    z, v = integrate(rig, numpy.array([0.05, 0.0]), numpy.array([1e-3, 1.0]) * 3e-14, numpy.array([0.0, end])).states[
+        -1
+    ]
     energy = 9.81 * z + 0.5 * v * v + elastic_energy(law, -z)
     return at_most(abs(energy / (9.81 * 0.05) - 1.0), 1e-9)
 

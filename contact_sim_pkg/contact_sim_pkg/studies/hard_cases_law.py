@@ -20,7 +20,9 @@ EXPONENTS = (1.0, 1.5, 2.7, 3.0)
 def without_indentation() -> Finding:
     """Largest force, slope and energy for x <= 0: none, and never NaN."""
     laws = [NormalElastic(1e5, n) for n in EXPONENTS]
-    values = [f(law, x) for law in laws for x in NOT_TOUCHING for f in (elastic_force, elastic_stiffness, elastic_energy)]
+    values = [
+        f(law, x) for law in laws for x in NOT_TOUCHING for f in (elastic_force, elastic_stiffness, elastic_energy)
+    ]
     return exactly(float(numpy.max(numpy.abs(values))), 0.0)
 
 

@@ -39,7 +39,9 @@ def integrate(
     state = numpy.array(start, dtype=float)
     work = make_workspace(len(state), margins)
     out = numpy.full((len(times), len(state)), numpy.nan)
-    status = run(rig, numpy.array([mode]), state, numpy.asarray(scale, dtype=float), work, numpy.asarray(times, float), out)
+    status = run(
+        rig, numpy.array([mode]), state, numpy.asarray(scale, dtype=float), work, numpy.asarray(times, float), out
+    )
     if strict and status != DONE:
         raise RunFailure(SENTENCES[status])
     counts = work.counters

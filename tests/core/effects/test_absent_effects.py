@@ -1,6 +1,7 @@
 """An absent effect changes nothing, to the last bit."""
 
 import numpy
+
 from contact_sim_pkg.core.parameters import (
     Contact,
     Friction,

@@ -1,6 +1,8 @@
 import math
 
+import numpy
 import pytest
+
 from contact_sim_pkg.core.effects.friction import (
     APART,
     STICK,
@@ -12,7 +14,6 @@ from contact_sim_pkg.core.effects.friction import (
 )
 from contact_sim_pkg.core.parameters import BeltSlider, Friction
 from contact_sim_pkg.studies.one_mass import integrate
-import numpy
 
 LAW = Friction(1.0e4, 50.0, 0.5, 0.4)
 

@@ -2,6 +2,7 @@
 
 import numpy
 import pytest
+
 from contact_sim_pkg.studies.scene_drive import drive_of, fast_run, load_resolved, slow_run
 
 SCALE = {"tire_bump": 1.2, "seat_ride": 0.5, "car_full_bench": 0.5, "tire_rough_road": 0.3}

@@ -2,6 +2,7 @@ import math
 
 import numpy
 import pytest
+
 from contact_sim_pkg.core.parameters import NormalElastic, PointContact
 from contact_sim_pkg.studies.one_mass import integrate
 

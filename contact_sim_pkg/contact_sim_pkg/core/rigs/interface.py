@@ -71,6 +71,4 @@ def _switch(rig, drive, mode, time, state, event, side):  # type: ignore[no-unty
     if kernels is None:
         return None
     implementation = kernels[2]
-    return lambda rig, drive, mode, time, state, event, side: implementation(
-        rig, drive, mode, time, state, event, side
-    )
+    return lambda rig, drive, mode, time, state, event, side: implementation(rig, drive, mode, time, state, event, side)

@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-import numpy
-
 from typing import Any
+
+import numpy
 
 from ..jit import entry, kernel, kernel_overload
 from ..parameters import Drive, PointContact
