@@ -4,7 +4,7 @@ import math
 
 import numpy
 import pytest
-from hypothesis import given, settings
+from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
 from contact_sim_pkg.core.parameters import (
@@ -73,6 +73,8 @@ def test_the_restitution_does_not_depend_on_stiffness_exponent_or_speed(coeffici
 
 
 @settings(max_examples=40, deadline=None, derandomize=True)
+@example(1e3, 0.0, 1.0, 1.0, 0.0, 17.0)  # parts faster than the material recovers, with nothing that moves fore and aft
+@example(1e4, 0.0, 0.5, 1.0, 2.0, 17.0)  # the same while it slips
 @given(
     st.floats(1e3, 1e6), st.floats(0.0, 1e3), st.floats(0.05, 1.0), st.floats(0.1, 1.0), st.floats(0.0, 12.0),
     st.floats(0.0, 25.0),

@@ -3,7 +3,7 @@
 * stick: ``F_t = C s + D v``, ``s' = v``;
 * slip: ``F_t = sigma mu_k N``, and the spring follows, ``C s = F_t - D v``, never beyond ``|s| = mu_k N / C``;
 * stick ends where ``|C s + D v|`` reaches ``mu_s N``; slip ends where the slip rate ``v - s'`` passes zero;
-* without contact ``F_t = 0``, ``s = 0``.
+* without a normal force (bodies apart, or parting faster than the material recovers) ``F_t = 0``, ``s = 0``.
 
 v is the velocity of the upper body relative to the lower, F_t the force on the lower body; on the upper body acts
 -F_t. The transitions are located events, not smoothed: no creep in stick.

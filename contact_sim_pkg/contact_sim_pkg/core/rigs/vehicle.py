@@ -258,28 +258,39 @@ def _margins(rig, drive, mode, time, state, derivative, out):  # type: ignore[no
 
 
 @kernel
-def _switch_friction(friction, seat, mode, normal, state, event, side):  # type: ignore[no-untyped-def]
+def _switch_friction(friction, contact, seat, mode, approach, approach_rate, state, event, side):  # type: ignore[no-untyped-def]
+    """Switch the friction of the seat where an event of this contact has changed its sign to ``side``.
+
+    Friction acts where the contact carries a load, not where bodies overlap: while they part faster than the material
+    recovers the load is zero, and stick and slip would both stand at their limit of zero, each ending the other at once.
+    """
     if friction is None:
         return
     x = _slide_index(seat)
     velocity = state[x + 1]
-    if event == SEAT_APPROACH:
-        state[x + 2] = 0.0
-        mode[0] = APART if side < 0.0 else (STICK if velocity == 0.0 else (1 if velocity > 0.0 else -1))
-    elif event == SEAT_FRICTION:
+    if event == SEAT_FRICTION:
+        normal = normal_force(contact, approach, approach_rate)
         if mode[0] == STICK:
             mode[0] = 1 if friction.stiffness * state[x + 2] + friction.damping * velocity > 0.0 else -1
         else:
             state[x + 2] = following_deflection(friction, mode[0], normal, velocity)
             mode[0] = STICK
+    elif event == SEAT_APPROACH or event == SEAT_TENSION:
+        other = tension_margin(contact.dissipative, approach_rate) if event == SEAT_APPROACH else approach
+        state[x + 2] = 0.0
+        if side > 0.0 and other > 0.0:
+            mode[0] = STICK if velocity == 0.0 else (1 if velocity > 0.0 else -1)
+        else:
+            mode[0] = APART
 
 
 @kernel
 def _switch(rig, drive, mode, time, state, event, side):  # type: ignore[no-untyped-def]
     _height, _height_rate, cushion, cushion_rate, _a_x, _a_z = drive_at(drive, time)
     seat_x, seat_v = seat_approach(rig.tire, rig.seat, cushion, cushion_rate, state)
-    normal = normal_force(rig.seat_contact, seat_x, seat_v)
-    _switch_friction(_friction_of(rig.seat_contact), rig.seat, mode, normal, state, event, side)
+    _switch_friction(
+        _friction_of(rig.seat_contact), rig.seat_contact, rig.seat, mode, seat_x, seat_v, state, event, side
+    )
     return 1.0 if event == SEAT_FRICTION else side
 
 
