@@ -127,7 +127,7 @@ class BagLoggerNode(LifecycleBenchNode):
         return 1.0
 
     def _end(self, exit_status: int, sentence: str) -> None:
-        lost = self.close(sentence)
+        lost = self._close_bag(sentence)
         self.exit_status = LOSS if lost and exit_status == DONE else exit_status
 
     def stop(self) -> None:
@@ -143,10 +143,14 @@ class BagLoggerNode(LifecycleBenchNode):
         """Say what failed, close the bag with what is whole, end the process."""
         self.get_logger().error(sentence)
         recording = self._writer is not None and not self._closed
-        self.close(sentence)
+        self._close_bag(sentence)
         self.exit_status = LOSS if recording and exit_status == FAULT else exit_status
 
-    def close(self, sentence: str = "") -> bool:
+    def close(self) -> None:
+        """Close the bag with what is whole; the second time nothing happens."""
+        self._close_bag("")
+
+    def _close_bag(self, sentence: str) -> bool:
         """Close the bag, answer, and give the answer time to arrive; whether something was lost."""
         if self._closed or self._writer is None:
             self._closed = True

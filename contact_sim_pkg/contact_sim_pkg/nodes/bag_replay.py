@@ -39,7 +39,7 @@ class BagReplayNode(LifecycleBenchNode):
         self._chosen = declare(self, "topics", "", "Names of the topics to replay, separated by commas. Empty: all.")
         self._with_clock = declare(self, "clock", False, "Publish the recorded time on /clock, 40 times a second.")
         self._publishers_by_topic: dict[str, Publisher] = {}
-        self._clock: Publisher | None = None
+        self._clock_publisher: Publisher | None = None
         self._began: float | None = None
         self._clock_due = 0.0
         self._checked = False
@@ -56,7 +56,7 @@ class BagReplayNode(LifecycleBenchNode):
             profile = profile_of_recorded(row.offered_qos)
             self._publishers_by_topic[name] = self.create_publisher(message_type(row.type), name.lstrip("/"), profile)
             self._refuse_other_definition(name, row.type_hash)
-        self._clock = publisher(self, "/clock") if self._with_clock else None
+        self._clock_publisher = publisher(self, "/clock") if self._with_clock else None
         self._start = round(self._offset * 1e9)
         self._messages: Iterator[BagMessage] = bag.messages()
         self._latched = {n for n in self._publishers_by_topic if "transient_local" in bag.topics[n].offered_qos}
@@ -95,9 +95,9 @@ class BagReplayNode(LifecycleBenchNode):
                 break
             self._publishers_by_topic[self._next.topic].publish(self._next.data)
             self._next = self._advance()
-        if self._clock is not None and now >= self._clock_due:
+        if self._clock_publisher is not None and now >= self._clock_due:
             self._clock_due = now + 1.0 / CLOCK_RATE
-            self._clock.publish(encode_clock(simulated))
+            self._clock_publisher.publish(encode_clock(simulated))
         if self._next is None:
             self._settle()
             return 0.0
@@ -109,7 +109,7 @@ class BagReplayNode(LifecycleBenchNode):
             return
         self._checked = True
         names = [name.lstrip("/") for name in self._publishers_by_topic]
-        for name in [*names, "/clock"] if self._clock is not None else names:
+        for name in [*names, "/clock"] if self._clock_publisher is not None else names:
             refuse_strangers(self, name)
 
     def _settle(self) -> None:

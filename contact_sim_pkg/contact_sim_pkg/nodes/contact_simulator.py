@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import sys
 import time
+from collections.abc import Callable
 
 from contact_sim_pkg.bag.messages import decode_recorded, encode_clock, encode_scene
 from contact_sim_pkg.run.bag_content import result_names
@@ -69,32 +70,33 @@ class ContactSimulatorNode(LifecycleBenchNode):
 
     def tick(self, now: float) -> float:
         """Before ready: look for peers. Then: advance; find out what is missing. At the end: wait for the logger."""
-        if self._report is None or not self.active:
+        report = self._report
+        if report is None or not self.active:
             return 1.0
-        if self._report.state is State.STARTING:
-            self._look_for_peers(now)
+        if report.state is State.STARTING:
+            self._look_for_peers(now, report)
             return PEERS_SECONDS
-        if self._report.state.ended:
-            self._wait_for_logger(now)
+        if report.state.ended:
+            self._wait_for_logger(now, report)
             return 1.0
-        self._advance(now)
-        if time.monotonic() - self._advanced > self._patience and not self._report.state.ended:
+        self._advance(now, report)
+        if time.monotonic() - self._advanced > self._patience and not report.state.ended:
             self.fault(self._what_is_missing(), FAULT)
         return (
             self._pacer.wait(self._window.next_block, now) if self._window.open and not self._simulation.inputs else 1.0
         )
 
-    def _look_for_peers(self, now: float) -> None:
+    def _look_for_peers(self, now: float, report: ProgressReport) -> None:
         absent = self._peers.missing()
         if not absent:
             self._advanced = now
             self._pacer.start(now)
-            self._report.send(State.READY)
+            report.send(State.READY)
         elif now - self._said > SAY_SECONDS:
             self._said = now
             self.get_logger().info(f"waiting for {', '.join(absent)}")
 
-    def _taker(self, topic: str):
+    def _taker(self, topic: str) -> Callable[[bytes], None]:
         def take(data: bytes) -> None:
             reason = self._inputs.offer(topic, data)
             if reason:
@@ -102,28 +104,28 @@ class ContactSimulatorNode(LifecycleBenchNode):
 
         return take
 
-    def _advance(self, now: float) -> None:
+    def _advance(self, now: float, report: ProgressReport) -> None:
         """Do every block whose inputs are there; a scene without inputs is held back by the window and the pace alone."""
-        while not self._report.state.ended and self._may_begin(now):
+        while not report.state.ended and self._may_begin(now):
             blocks = self._inputs.take()
             if blocks is None:
                 return
             number = self._window.take()
-            self._publish(number, self._simulation.advance(number, blocks))
+            self._publish(number, self._simulation.advance(number, blocks), report)
 
     def _may_begin(self, now: float) -> bool:
         return self._window.open and (
             bool(self._simulation.inputs) or self._pacer.wait(self._window.next_block, now) <= 0.0
         )
 
-    def _publish(self, number: int, result: BlockResult) -> None:
+    def _publish(self, number: int, result: BlockResult, report: ProgressReport) -> None:
         for topic, _, data in result.messages:
             self._publishers_by_topic[topic].publish(data)
         if self._clock_publisher is not None:
             self._clock_publisher.publish(encode_clock((number + 1) * self._period_ns))
         self._window.on_done(number)
         self._advanced = time.monotonic()
-        self._report.block_done(number, result)
+        report.block_done(number, result)
 
     def _on_recorded(self, data: bytes) -> None:
         recorded = decode_recorded(data)
@@ -142,9 +144,9 @@ class ContactSimulatorNode(LifecycleBenchNode):
             return f"{self._inputs.describe_missing()} {waited}"
         return f"the logger has not answered for block {self._window.recorded + 1} {waited}"
 
-    def _wait_for_logger(self, now: float) -> None:
+    def _wait_for_logger(self, now: float, report: ProgressReport) -> None:
         if not self._logged or self._recorded.closed:
-            self._report.settle()
+            report.settle()
             self.exit_status = self.ended_with
         elif now - self._advanced > CLOSE_SECONDS:
             self.get_logger().error(f"the logger has not closed its bag {CLOSE_SECONDS:g} s after the end")
@@ -152,8 +154,7 @@ class ContactSimulatorNode(LifecycleBenchNode):
 
     def stop(self) -> None:
         """End the run after the block that is done; a second signal does not wait for the logger."""
-        begun = self._report is not None and self._report.state in (State.READY, State.RUNNING)
-        if not begun:
+        if self._report is None or self._report.state not in (State.READY, State.RUNNING):
             self.exit_status = self.ended_with
             return
         self._advanced = time.monotonic()

@@ -8,6 +8,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable
 
 import numpy
+from numpy.typing import NDArray
 
 from contact_sim_pkg.bag.errors import MessageError
 from contact_sim_pkg.bag.messages import decode_road_patch, decode_vibration, stamp_of
@@ -44,7 +45,7 @@ def check_vibration(data: bytes, block_length: float) -> VibrationBlock:
 _CHECKS: dict[str, Callable[[bytes, float], Block]] = {"road/patch": check_road, "platform/vibration": check_vibration}
 
 
-def _within(name: str, block: int, values: numpy.ndarray, bound: float, unit: str) -> None:
+def _within(name: str, block: int, values: NDArray[numpy.floating], bound: float, unit: str) -> None:
     largest = float(numpy.abs(values).max(initial=0.0))
     if largest > bound:
         raise MessageError(f"{name} of block {block} reaches {largest:.6g} {unit}; allowed: up to {bound:.6g} {unit}")

@@ -17,7 +17,8 @@ def declare(node: Node, name: str, default: Value, text: str, allowed: tuple[flo
     """The value of a parameter that is fixed for the life of the node; `allowed` is the range of a number."""
     ranges = [FloatingPointRange(from_value=allowed[0], to_value=allowed[1], step=0.0)] if allowed else []
     descriptor = ParameterDescriptor(description=text, read_only=True, floating_point_range=ranges)
-    return node.declare_parameter(name, default, descriptor).value
+    value: Value = node.declare_parameter(name, default, descriptor).value
+    return value
 
 
 def declare_scene(node: Node) -> str:

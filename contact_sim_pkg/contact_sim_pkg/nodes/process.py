@@ -79,7 +79,7 @@ def run(make_node: Callable[[], Any], args: Sequence[str] | None = None) -> int:
     signals = StopSignals()
     node: Any = None
     try:
-        rclpy.init(args=args, signal_handler_options=SignalHandlerOptions.NO)
+        rclpy.init(args=None if args is None else list(args), signal_handler_options=SignalHandlerOptions.NO)
         node = make_node()
         node.start()
         signals.breaks_off = False

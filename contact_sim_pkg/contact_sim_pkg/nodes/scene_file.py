@@ -72,7 +72,8 @@ def count_blocks(scene: ResolvedScene) -> int:
 def queue_depth(scene: ResolvedScene) -> int:
     """Depth that holds what a topic carries in 8 blocks, twice the window of 4."""
     rates = scene.data["outputs"]
-    return 8 * math.ceil(max(rates["field_rate"], rates["display_rate"]) * scene.data["block_length"])
+    highest = max(float(rates["field_rate"]), float(rates["display_rate"]))
+    return 8 * math.ceil(highest * float(scene.data["block_length"]))
 
 
 def _beside(path: Path, ending: str) -> Path:
