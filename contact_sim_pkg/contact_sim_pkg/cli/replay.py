@@ -30,5 +30,8 @@ def command(
     set_default_environment()
     from contact_sim_pkg.nodes.bag_replay import main
 
-    parameters = {"bag": str(bag), "rate": rate, "start_offset": start_offset, "delay": delay, "clock": clock}
-    context.exit(main(["bench", *node_arguments({**parameters, "topics": ",".join(topics)})]))
+    parameters: dict[str, str | float | bool] = {
+        "bag": str(bag), "rate": rate, "start_offset": start_offset, "delay": delay, "clock": clock,
+        "topics": ",".join(topics),
+    }  # fmt: skip
+    context.exit(main(["bench", *node_arguments(parameters)]))

@@ -33,14 +33,14 @@ class SceneOptions:
         """The values to put into the scene; `--set` comes last and wins."""
         from contact_sim_pkg.scene import overrides
 
-        made = (
+        made: tuple[tuple[Any, Callable[[Any], Override]], ...] = (
             (self.road, overrides.set_road),
             (self.vibration, overrides.set_vibration),
             (self.rate, overrides.set_rate),
             (self.duration, overrides.set_duration),
             (self.pace, overrides.set_pace),
         )
-        chosen: list[Override] = [make(value) for value, make in made if value is not None]  # type: ignore[operator]
+        chosen = [make(value) for value, make in made if value is not None]
         return chosen + [overrides.set_value(assignment) for assignment in self.assignments]
 
     def resolve(self, bag: Path | None = None) -> ResolvedScene:

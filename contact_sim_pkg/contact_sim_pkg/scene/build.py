@@ -178,8 +178,9 @@ def seat_gap_on(shape: SeatShape, settings: FieldSettings) -> NDArray[numpy.floa
 
 def seat_cells(settings: FieldSettings) -> tuple[NDArray[numpy.float64], NDArray[numpy.float64]]:
     """Cell centres of the seat's grid in [m]; x counts forward from the tuberosities, which lie 0.3 of the length from its back."""
-    x = (numpy.arange(settings.rows) + 0.5) * settings.cell_x - 0.3 * settings.rows * settings.cell_x
-    y = (numpy.arange(settings.cols) - 0.5 * (settings.cols - 1)) * settings.cell_y
+    rows, cols = numpy.arange(settings.rows, dtype=float), numpy.arange(settings.cols, dtype=float)
+    x = (rows + 0.5) * settings.cell_x - 0.3 * settings.rows * settings.cell_x
+    y = (cols - 0.5 * (settings.cols - 1)) * settings.cell_y
     return x, y
 
 
