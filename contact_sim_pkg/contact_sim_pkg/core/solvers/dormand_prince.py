@@ -4,6 +4,10 @@ Reference: Hairer, Norsett, Wanner, Solving Ordinary Differential Equations I, I
 an event function of the rig changes its sign within a trial step, the step is taken again up to the change, found by
 regula falsi (Illinois) on whole steps, so that the state at the event has the order of the method. Event functions are also
 looked at inside each step (cubic Hermite), so that a touch and release within one step is seen.
+
+Behind a touch the force grows as a broken power t**p of the time since (p = 3/2 for Hertz), which no step size makes smooth, and
+there the pair's error estimate is too small: of one step from the touch the true error is 11 times the estimate for
+p = 3/2, 19 times for p towards 1, and equal to it once the touch lies half a step back. ``_underestimate`` makes up for that.
 """
 
 from __future__ import annotations
@@ -19,6 +23,7 @@ from ..rigs.interface import margins, rate, switch
 
 MAXIMUM_EVENTS = 10_000
 STATE_LIMIT = 1.0e10
+UNDERESTIMATE = 20.0  # true error over estimate of a step that starts at a touch, for any power of the force above 1
 INSIDE_POINTS = 4  # event functions are looked at at 1/5 ... 4/5 of each step
 LOCATE_ITERATIONS = 60
 
@@ -36,6 +41,7 @@ class Workspace(NamedTuple):
     margin: Vector  # [margins]
     margin_inside: Vector  # [margins]
     step: Vector  # [1], the step that the error control proposes; carried from segment to segment
+    last_event: Vector  # [1], time of the last event in [s]
     counters: Vector  # [COUNTERS], accepted steps, rejected steps, events
 
 
@@ -47,7 +53,7 @@ def make_workspace(states: int, margin_count: int) -> Workspace:
 
     return Workspace(
         zeros(7, states), zeros(states), zeros(states), zeros(states), zeros(margin_count), zeros(margin_count),
-        zeros(margin_count), zeros(1), zeros(COUNTERS),
+        zeros(margin_count), zeros(1), numpy.full(1, -numpy.inf), zeros(COUNTERS),
     )  # fmt: skip
 
 
@@ -99,6 +105,14 @@ def _error(step, k, scale):  # type: ignore[no-untyped-def]
         if not ratio <= worst:  # also true for NaN
             worst = ratio
     return worst
+
+
+@kernel
+def _underestimate(step, since):  # type: ignore[no-untyped-def]
+    """True error over estimated error, at most, of a step in [s] that starts ``since`` [s] > 0 after an event; 1 from half a step on."""
+    if 2.0 * since >= step:
+        return 1.0
+    return 1.0 + (UNDERESTIMATE - 1.0) * (1.0 - 2.0 * since / step) ** 3
 
 
 @kernel
@@ -221,7 +235,8 @@ def integrate(rig, drive: Drive, mode, end, state, scale, work):  # type: ignore
         if step <= 1.0e-15 * max(1.0, abs(time)) and not last:
             return STEP_TOO_SMALL
         _stages(rig, drive, mode, time, step, state, k, work.trial)
-        error = _error(step, k, scale)
+        care = _underestimate(step, time - work.last_event[0])
+        error = care * _error(step, k, scale)
         if not error <= 1.0:
             if error != error or error == numpy.inf:
                 for i in range(state.shape[0]):
@@ -229,7 +244,8 @@ def integrate(rig, drive: Drive, mode, end, state, scale, work):  # type: ignore
                         return NOT_FINITE
                 proposed = 0.1 * step
             else:
-                proposed = step * max(0.1, 0.9 * error**-0.2)
+                power = -0.2 if care == 1.0 else -0.4  # behind a touch the error goes with step**(1 + p)
+                proposed = step * max(0.1, 0.9 * error**power)
             work.counters[REJECTED] += 1
             continue
         part = _first_change(rig, drive, mode, time, step, state, work)
@@ -251,6 +267,7 @@ def integrate(rig, drive: Drive, mode, end, state, scale, work):  # type: ignore
         if event >= 0:
             events += 1
             work.counters[EVENTS] += 1
+            work.last_event[0] = time
             if events > MAXIMUM_EVENTS:
                 return TOO_MANY_EVENTS
             _pass_event(rig, drive, mode, time, state, event, work)
