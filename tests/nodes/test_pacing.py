@@ -14,7 +14,7 @@ def test_a_pace_is_a_word_or_a_factor(text, factor):
 
 @pytest.mark.parametrize("text", ["fast", "0", "-1", "nan", "inf", "1001"])
 def test_another_pace_is_refused_with_what_is_allowed(text):
-    with pytest.raises(ValueError, match="allowed: realtime, max, or a factor from 0.001 to 1000"):
+    with pytest.raises(ValueError, match=r"allowed: realtime, max, or a factor from 0.001 to 1000"):
         parse_pace(text)
 
 

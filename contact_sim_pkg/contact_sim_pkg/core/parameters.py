@@ -12,6 +12,7 @@ import numpy
 from numpy.typing import NDArray
 
 Vector = NDArray[numpy.float64]
+Modes = NDArray[numpy.int64]  # what each friction contact of a rig does: see effects/friction.py
 
 
 class NormalElastic(NamedTuple):

@@ -10,13 +10,20 @@ from __future__ import annotations
 
 import math
 
+import numpy
+from numpy.typing import NDArray
+
 from ..jit import entry
+from ..parameters import Vector
+
+Heights = NDArray[numpy.float32]
 
 
 @entry
-def effective_heights(  # type: ignore[no-untyped-def]
-    height, first_row, cell_x, cell_y, semi_axis_x, semi_axis_y, travel, out
-):
+def effective_heights(
+    height: Heights, first_row: int, cell_x: float, cell_y: float, semi_axis_x: float, semi_axis_y: float,
+    travel: Vector, out: Vector,
+) -> bool:  # fmt: skip
     """Weighted mean height in [m] for each wheel position ``travel`` [m], written into ``out``.
 
     ``height`` [rows, cols] in [m] on the road lattice (node (i, j) at x = (first_row + i) cell_x, y = (j - (cols-1)/2) cell_y);
@@ -48,7 +55,10 @@ def effective_heights(  # type: ignore[no-untyped-def]
 
 
 @entry
-def tire_gap(height, first_row, cell_x, cell_y, radius_rolling, radius_lateral, first, travel, out):  # type: ignore[no-untyped-def]
+def tire_gap(
+    height: Heights, first_row: int, cell_x: float, cell_y: float, radius_rolling: float, radius_lateral: float,
+    first: int, travel: float, out: Vector,
+) -> bool:  # fmt: skip
     """Undeformed gap in [m] of the tire whose lowest point stands at height 0 over the road, written into ``out`` [rows, cols].
 
     ``g = x^2/(2 R_rolling) + y^2/(2 R_lateral) - h``; row 0 of ``out`` is lattice row ``first``, x counts from ``travel`` [m].

@@ -61,9 +61,9 @@ def slip_margin(
 ) -> float:
     """``sigma (v - s')`` in [m/s]: slipping lasts while it is positive.
 
-    ``C s' = sigma mu_k N' - D v'`` where the spring is free, ``sigma mu_k N'`` where it stands at its limit along the slip. Where it
-    stands at the limit against the slip, the damper alone holds the trial force beyond the limit, and ``sigma v`` is
-    returned. ``normal_rate`` N' in [N/s], ``acceleration`` v' in [m/s^2].
+    ``C s' = sigma mu_k N' - D v'`` where the spring is free, ``sigma mu_k N'`` where it stands at its limit along the slip.
+    Where it stands at the limit against the slip, the damper alone holds the trial force beyond the limit, and ``sigma v``
+    is returned. ``normal_rate`` N' in [N/s], ``acceleration`` v' in [m/s^2].
     """
     limit = spring_limit(friction, mode, normal, velocity)
     if limit < 0:

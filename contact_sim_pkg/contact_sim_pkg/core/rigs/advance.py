@@ -5,9 +5,9 @@ from __future__ import annotations
 from ..effects.friction import SLIP_BACKWARD, SLIP_FORWARD, following_deflection, friction_force
 from ..effects.normal_elastic import elastic_energy
 from ..jit import entry, kernel
-from ..parameters import Drive
+from ..parameters import Drive, Modes, Vector, Vehicle
 from ..results import DONE
-from ..solvers.dormand_prince import integrate, set_sides
+from ..solvers.dormand_prince import Workspace, integrate, set_sides
 from . import vehicle
 from .interface import rate
 
@@ -17,7 +17,7 @@ FORCES = 9
 
 
 @kernel
-def _segment(start, length, i, height, cushion, acceleration_x, acceleration_z):  # type: ignore[no-untyped-def]
+def _segment(start, length, i, height, cushion, acceleration_x, acceleration_z):
     return Drive(
         start + i * length, length, height[i], height[i + 1], cushion[i], cushion[i + 1],
         acceleration_x[i], acceleration_x[i + 1], acceleration_z[i], acceleration_z[i + 1],
@@ -25,7 +25,7 @@ def _segment(start, length, i, height, cushion, acceleration_x, acceleration_z):
 
 
 @kernel
-def _tangential(friction, seat, mode, normal, state):  # type: ignore[no-untyped-def]
+def _tangential(friction, seat, mode, normal, state):
     """Friction force on the occupant in [N]."""
     if friction is None:
         return 0.0
@@ -34,7 +34,7 @@ def _tangential(friction, seat, mode, normal, state):  # type: ignore[no-untyped
 
 
 @kernel
-def _observe(rig, drive, mode, state, out):  # type: ignore[no-untyped-def]
+def _observe(rig, drive, mode, state, out):
     """Forces, approaches and heights of both contacts at the start of the segment."""
     height, height_rate, cushion, cushion_rate, _a_x, _a_z = vehicle.drive_at(drive, drive.start)
     tire_x, tire_v = vehicle.tire_approach(rig.tire, height, height_rate, state)
@@ -52,17 +52,21 @@ def _observe(rig, drive, mode, state, out):  # type: ignore[no-untyped-def]
 
 
 @entry
-def start(rig, mode, state, work, segment_length, height, cushion, acceleration_x, acceleration_z):  # type: ignore[no-untyped-def]
+def start(
+    rig: Vehicle, mode: Modes, state: Vector, work: Workspace, segment_length: float, height: Vector, cushion: Vector,
+    acceleration_x: Vector, acceleration_z: Vector,
+) -> None:  # fmt: skip
     """Take the sides of the event functions at the start of a run (arrays hold the first segment's two ends)."""
     drive = _segment(0.0, segment_length, 0, height, cushion, acceleration_x, acceleration_z)
     set_sides(rig, drive, mode, 0.0, state, work)
 
 
 @entry
-def advance(  # type: ignore[no-untyped-def]
-    rig, mode, state, scale, work, start, segment_length, height, cushion, acceleration_x, acceleration_z,
-    sample_every, sampled_states, sampled_rates, sampled_forces,
-):  # fmt: skip
+def advance(
+    rig: Vehicle, mode: Modes, state: Vector, scale: Vector, work: Workspace, start: float, segment_length: float,
+    height: Vector, cushion: Vector, acceleration_x: Vector, acceleration_z: Vector,
+    sample_every: int, sampled_states: Vector, sampled_rates: Vector, sampled_forces: Vector,
+) -> int:  # fmt: skip
     """Advance ``state`` over ``len(height) - 1`` segments of ``segment_length`` in [s] from time ``start``.
 
     ``height``, ``cushion`` [m], ``acceleration_x``, ``acceleration_z`` [m/s^2]: values at the ends of the segments, linear
@@ -84,7 +88,7 @@ def advance(  # type: ignore[no-untyped-def]
 
 
 @kernel
-def _tire_energies(tire, gravity, state):  # type: ignore[no-untyped-def]
+def _tire_energies(tire, gravity, state):
     if tire is None:
         return 0.0, 0.0, 0.0
     kinetic = 0.5 * (tire.wheel_mass * state[2] ** 2 + tire.body_mass * state[3] ** 2)
@@ -93,7 +97,7 @@ def _tire_energies(tire, gravity, state):  # type: ignore[no-untyped-def]
 
 
 @kernel
-def _seat_energies(seat, gravity, state):  # type: ignore[no-untyped-def]
+def _seat_energies(seat, gravity, state):
     if seat is None:
         return 0.0, 0.0, 0.0
     count = seat.masses.shape[0]
@@ -110,7 +114,7 @@ def _seat_energies(seat, gravity, state):  # type: ignore[no-untyped-def]
 
 
 @kernel
-def _slide_energies(friction, seat, mode, normal, state):  # type: ignore[no-untyped-def]
+def _slide_energies(friction, seat, mode, normal, state):
     if friction is None:
         return 0.0, 0.0
     x = vehicle._slide_index(seat)
@@ -121,14 +125,16 @@ def _slide_energies(friction, seat, mode, normal, state):  # type: ignore[no-unt
 
 
 @kernel
-def _contact_energy(contact, approach):  # type: ignore[no-untyped-def]
+def _contact_energy(contact, approach):
     if contact is None:
         return 0.0
     return elastic_energy(contact.elastic, approach)
 
 
 @entry
-def energies(rig, mode, state, height, cushion):  # type: ignore[no-untyped-def]
+def energies(
+    rig: Vehicle, mode: Modes, state: Vector, height: float, cushion: float
+) -> tuple[float, float, float, float, float]:
     """Kinetic, potential, stored energy, work supplied, work dissipated, all in [J], of ``state`` at given heights in [m]."""
     kinetic, potential, stored = _tire_energies(rig.tire, rig.gravity, state)
     seat_kinetic, seat_potential, seat_stored = _seat_energies(rig.seat, rig.gravity, state)

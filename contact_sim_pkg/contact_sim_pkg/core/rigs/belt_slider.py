@@ -16,7 +16,7 @@ MARGINS = 1
 
 
 @kernel
-def _rate(rig, drive, mode, time, state, out):  # type: ignore[no-untyped-def]
+def _rate(rig, drive, mode, time, state, out):
     velocity = rig.belt_speed - state[1]
     out[0] = state[1]
     out[1] = (friction_force(rig.friction, mode[0], rig.load, state[2], velocity) - rig.spring * state[0]) / rig.mass
@@ -24,7 +24,7 @@ def _rate(rig, drive, mode, time, state, out):  # type: ignore[no-untyped-def]
 
 
 @kernel
-def _margins(rig, drive, mode, time, state, derivative, out):  # type: ignore[no-untyped-def]
+def _margins(rig, drive, mode, time, state, derivative, out):
     velocity = rig.belt_speed - state[1]
     if mode[0] == STICK:
         out[0] = stick_margin(rig.friction, rig.load, state[2], velocity)
@@ -33,7 +33,7 @@ def _margins(rig, drive, mode, time, state, derivative, out):  # type: ignore[no
 
 
 @kernel
-def _switch(rig, drive, mode, time, state, event, side):  # type: ignore[no-untyped-def]
+def _switch(rig, drive, mode, time, state, event, side):
     velocity = rig.belt_speed - state[1]
     if mode[0] == STICK:
         trial = rig.friction.stiffness * state[2] + rig.friction.damping * velocity

@@ -46,7 +46,7 @@ def _kernels_of(rig_type: Any) -> tuple[Any, Any, Any] | None:
 
 
 @kernel_overload(rate)
-def _rate(rig, drive, mode, time, state, out):  # type: ignore[no-untyped-def]
+def _rate(rig, drive, mode, time, state, out):
     kernels = _kernels_of(rig)
     if kernels is None:
         return None
@@ -55,7 +55,7 @@ def _rate(rig, drive, mode, time, state, out):  # type: ignore[no-untyped-def]
 
 
 @kernel_overload(margins)
-def _margins(rig, drive, mode, time, state, derivative, out):  # type: ignore[no-untyped-def]
+def _margins(rig, drive, mode, time, state, derivative, out):
     kernels = _kernels_of(rig)
     if kernels is None:
         return None
@@ -66,7 +66,7 @@ def _margins(rig, drive, mode, time, state, derivative, out):  # type: ignore[no
 
 
 @kernel_overload(switch)
-def _switch(rig, drive, mode, time, state, event, side):  # type: ignore[no-untyped-def]
+def _switch(rig, drive, mode, time, state, event, side):
     kernels = _kernels_of(rig)
     if kernels is None:
         return None

@@ -19,7 +19,7 @@ PIECES_A_PERIOD = 16
 
 
 @kernel
-def longest_piece(rig):  # type: ignore[no-untyped-def]
+def longest_piece(rig):
     """A 16th of the support's period in [s], so that no touch falls between the points where events are looked for."""
     if rig.support_frequency == 0.0:
         return math.inf
@@ -27,7 +27,7 @@ def longest_piece(rig):  # type: ignore[no-untyped-def]
 
 
 @kernel
-def _approach(rig, time, state):  # type: ignore[no-untyped-def]
+def _approach(rig, time, state):
     phase = rig.support_frequency * time
     approach = rig.support_amplitude * math.sin(phase) - state[0]
     approach_rate = rig.support_amplitude * rig.support_frequency * math.cos(phase) - state[1]
@@ -35,26 +35,26 @@ def _approach(rig, time, state):  # type: ignore[no-untyped-def]
 
 
 @kernel
-def _contact_force(elastic, dissipative, approach, approach_rate):  # type: ignore[no-untyped-def]
+def _contact_force(elastic, dissipative, approach, approach_rate):
     return elastic_force(elastic, approach) * loss_factor(dissipative, approach_rate)
 
 
 @kernel
-def _rate(rig, drive, mode, time, state, out):  # type: ignore[no-untyped-def]
+def _rate(rig, drive, mode, time, state, out):
     approach, approach_rate = _approach(rig, time, state)
     out[0] = state[1]
     out[1] = _contact_force(rig.elastic, rig.dissipative, approach, approach_rate) / rig.mass - rig.gravity
 
 
 @kernel
-def _margins(rig, drive, mode, time, state, derivative, out):  # type: ignore[no-untyped-def]
+def _margins(rig, drive, mode, time, state, derivative, out):
     approach, approach_rate = _approach(rig, time, state)
     out[0] = approach
     out[1] = tension_margin(rig.dissipative, approach_rate)
 
 
 @kernel
-def _switch(rig, drive, mode, time, state, event, side):  # type: ignore[no-untyped-def]
+def _switch(rig, drive, mode, time, state, event, side):
     return side
 
 

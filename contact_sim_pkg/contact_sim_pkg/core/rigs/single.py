@@ -7,8 +7,8 @@ from typing import Any
 import numpy
 
 from ..jit import entry, kernel, kernel_overload
-from ..parameters import Drive, PointContact
-from ..solvers.dormand_prince import integrate, set_sides
+from ..parameters import Drive, Modes, PointContact, Vector
+from ..solvers.dormand_prince import Workspace, integrate, set_sides
 from . import belt_slider, point_contact
 
 __all__ = ["belt_slider", "empty_mode", "longest_piece", "point_contact", "run"]
@@ -20,14 +20,14 @@ def longest_piece(rig: Any) -> float:
 
 
 @kernel_overload(longest_piece)
-def _longest_piece(rig):  # type: ignore[no-untyped-def]
+def _longest_piece(rig):
     if getattr(rig, "instance_class", None) is PointContact:
         return lambda rig: point_contact.longest_piece(rig)
     return lambda rig: numpy.inf
 
 
 @kernel
-def _run_piecewise(rig, mode, start, end, state, scale, work):  # type: ignore[no-untyped-def]
+def _run_piecewise(rig, mode, start, end, state, scale, work):
     pieces = max(1, int(numpy.ceil((end - start) / longest_piece(rig))))
     status = 0
     for i in range(pieces):
@@ -41,11 +41,11 @@ def _run_piecewise(rig, mode, start, end, state, scale, work):  # type: ignore[n
 
 
 @entry
-def run(rig, mode, state, scale, work, times, out):  # type: ignore[no-untyped-def]
+def run(rig: Any, mode: Modes, state: Vector, scale: Vector, work: Workspace, times: Vector, out: Vector) -> int:
     """Integrate ``rig`` from ``times[0]`` through all ``times`` in [s]; row i of ``out`` is the state at ``times[i]``.
 
-    ``state`` [states] is the start and changes in place; ``scale`` [states] the error allowed per step. Returns the status of
-    ``core/results.py``; rows after a failure keep what they held.
+    ``rig``: any that is registered (``rigs/interface.py``). ``state`` [states] is the start and changes in place; ``scale``
+    [states] the error allowed per step. Returns the status of ``core/results.py``; rows after a failure keep what they held.
     """
     drive = Drive(times[0], times[-1] - times[0], 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
     set_sides(rig, drive, mode, times[0], state, work)
@@ -59,6 +59,6 @@ def run(rig, mode, state, scale, work, times, out):  # type: ignore[no-untyped-d
     return status
 
 
-def empty_mode() -> numpy.ndarray:
+def empty_mode() -> Modes:
     """Mode array of a rig with one friction contact, sticking."""
     return numpy.zeros(1, dtype=numpy.int64)

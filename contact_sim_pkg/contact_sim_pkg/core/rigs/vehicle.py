@@ -35,12 +35,12 @@ TIRE_APPROACH, TIRE_TENSION, SEAT_APPROACH, SEAT_TENSION, SEAT_FRICTION, MARGINS
 
 
 @kernel
-def _between(start, end, part):  # type: ignore[no-untyped-def]
+def _between(start, end, part):
     return start + (end - start) * part
 
 
 @kernel
-def drive_at(drive, time):  # type: ignore[no-untyped-def]
+def drive_at(drive, time):
     """Road height, its rate, cushion height, its rate, floor accelerations x and z at ``time``."""
     part = (time - drive.start) / drive.length
     return (
@@ -54,7 +54,7 @@ def drive_at(drive, time):  # type: ignore[no-untyped-def]
 
 
 @kernel
-def tire_approach(tire, height, height_rate, state):  # type: ignore[no-untyped-def]
+def tire_approach(tire, height, height_rate, state):
     """Approach in [m] and its rate in [m/s]; apart where there is no tire."""
     if tire is None:
         return -1.0, 0.0
@@ -62,14 +62,14 @@ def tire_approach(tire, height, height_rate, state):  # type: ignore[no-untyped-
 
 
 @kernel
-def _floor(tire, state):  # type: ignore[no-untyped-def]
+def _floor(tire, state):
     if tire is None:
         return 0.0, 0.0
     return state[1], state[3]
 
 
 @kernel
-def seat_approach(tire, seat, cushion, cushion_rate, state):  # type: ignore[no-untyped-def]
+def seat_approach(tire, seat, cushion, cushion_rate, state):
     """Approach in [m] and its rate in [m/s]; apart where there is no seat."""
     if seat is None:
         return -1.0, 0.0
@@ -80,7 +80,7 @@ def seat_approach(tire, seat, cushion, cushion_rate, state):  # type: ignore[no-
 
 
 @kernel
-def normal_force(contact, approach, approach_rate):  # type: ignore[no-untyped-def]
+def normal_force(contact, approach, approach_rate):
     """Normal force of a contact in [N], never negative; 0 where the contact is absent."""
     if contact is None:
         return 0.0
@@ -88,7 +88,7 @@ def normal_force(contact, approach, approach_rate):  # type: ignore[no-untyped-d
 
 
 @kernel
-def _lost_power(contact, approach, approach_rate, force):  # type: ignore[no-untyped-def]
+def _lost_power(contact, approach, approach_rate, force):
     """Power in [W] that the loss of a contact takes: (F - F_elastic) x'."""
     if contact is None:
         return 0.0
@@ -96,7 +96,7 @@ def _lost_power(contact, approach, approach_rate, force):  # type: ignore[no-unt
 
 
 @kernel
-def _tire_rates(tire, gravity, force, seat_force, acceleration_z, state, out):  # type: ignore[no-untyped-def]
+def _tire_rates(tire, gravity, force, seat_force, acceleration_z, state, out):
     """Rates of wheel and body; returns the power that the suspension takes."""
     if tire is None:
         return 0.0
@@ -110,7 +110,7 @@ def _tire_rates(tire, gravity, force, seat_force, acceleration_z, state, out):  
 
 
 @kernel
-def _seat_rates(tire, seat, gravity, force, acceleration_z, state, out):  # type: ignore[no-untyped-def]
+def _seat_rates(tire, seat, gravity, force, acceleration_z, state, out):
     """Rates of frame and masses; returns the power that their links take and that the frame's inertia brings in."""
     if seat is None:
         return 0.0, 0.0
@@ -139,7 +139,7 @@ def _seat_rates(tire, seat, gravity, force, acceleration_z, state, out):  # type
 
 
 @kernel
-def seat_mass(seat):  # type: ignore[no-untyped-def]
+def seat_mass(seat):
     """Mass of the whole occupant in [kg]."""
     if seat is None:
         return 0.0
@@ -150,12 +150,12 @@ def seat_mass(seat):  # type: ignore[no-untyped-def]
 
 
 @kernel
-def _slide_index(seat):  # type: ignore[no-untyped-def]
+def _slide_index(seat):
     return seat.offset + 2 * (1 + seat.masses.shape[0])
 
 
 @kernel
-def _slide_rates(friction, seat, mode, normal, acceleration_x, state, out):  # type: ignore[no-untyped-def]
+def _slide_rates(friction, seat, mode, normal, acceleration_x, state, out):
     """Rates of the slide; returns the power that friction takes up and the power that the floor's x motion brings in."""
     if friction is None:
         return 0.0, 0.0
@@ -170,14 +170,14 @@ def _slide_rates(friction, seat, mode, normal, acceleration_x, state, out):  # t
 
 
 @kernel
-def _friction_of(contact):  # type: ignore[no-untyped-def]
+def _friction_of(contact):
     if contact is None:
         return None
     return contact.friction
 
 
 @kernel
-def _rate(rig, drive, mode, time, state, out):  # type: ignore[no-untyped-def]
+def _rate(rig, drive, mode, time, state, out):
     height, height_rate, cushion, cushion_rate, a_x, a_z = drive_at(drive, time)
     tire_x, tire_v = tire_approach(rig.tire, height, height_rate, state)
     tire_force = normal_force(rig.tire_contact, tire_x, tire_v)
@@ -196,21 +196,21 @@ def _rate(rig, drive, mode, time, state, out):  # type: ignore[no-untyped-def]
 
 
 @kernel
-def _body_power(tire, acceleration_z, state):  # type: ignore[no-untyped-def]
+def _body_power(tire, acceleration_z, state):
     if tire is None:
         return 0.0
     return tire.body_mass * acceleration_z * state[3]
 
 
 @kernel
-def _tension_of(contact, approach_rate):  # type: ignore[no-untyped-def]
+def _tension_of(contact, approach_rate):
     if contact is None:
         return 1.0
     return tension_margin(contact.dissipative, approach_rate)
 
 
 @kernel
-def _normal_rate(contact, approach, approach_rate, approach_acceleration):  # type: ignore[no-untyped-def]
+def _normal_rate(contact, approach, approach_rate, approach_acceleration):
     """Rate of the normal force in [N/s]; 0 where the bodies part faster than the material recovers."""
     if tension_margin(contact.dissipative, approach_rate) <= 0.0:
         return 0.0
@@ -219,14 +219,14 @@ def _normal_rate(contact, approach, approach_rate, approach_acceleration):  # ty
 
 
 @kernel
-def _loss_slope(dissipative, elastic, approach):  # type: ignore[no-untyped-def]
+def _loss_slope(dissipative, elastic, approach):
     if dissipative is None:
         return 0.0
     return dissipative.damping * elastic_force(elastic, approach)
 
 
 @kernel
-def _friction_margin(friction, contact, tire, seat, mode, approach, approach_rate, state, derivative):  # type: ignore[no-untyped-def]
+def _friction_margin(friction, contact, tire, seat, mode, approach, approach_rate, state, derivative):
     if friction is None:
         return 1.0
     if mode[0] == APART:
@@ -244,7 +244,7 @@ def _friction_margin(friction, contact, tire, seat, mode, approach, approach_rat
 
 
 @kernel
-def _margins(rig, drive, mode, time, state, derivative, out):  # type: ignore[no-untyped-def]
+def _margins(rig, drive, mode, time, state, derivative, out):
     height, height_rate, cushion, cushion_rate, _a_x, _a_z = drive_at(drive, time)
     tire_x, tire_v = tire_approach(rig.tire, height, height_rate, state)
     seat_x, seat_v = seat_approach(rig.tire, rig.seat, cushion, cushion_rate, state)
@@ -258,7 +258,7 @@ def _margins(rig, drive, mode, time, state, derivative, out):  # type: ignore[no
 
 
 @kernel
-def _switch_friction(friction, contact, seat, mode, approach, approach_rate, state, event, side):  # type: ignore[no-untyped-def]
+def _switch_friction(friction, contact, seat, mode, approach, approach_rate, state, event, side):
     """Switch the friction of the seat where an event of this contact has changed its sign to ``side``.
 
     Friction acts where the contact carries a load, not where bodies overlap: while they part faster than the material
@@ -275,7 +275,7 @@ def _switch_friction(friction, contact, seat, mode, approach, approach_rate, sta
         else:
             state[x + 2] = following_deflection(friction, mode[0], normal, velocity)
             mode[0] = STICK
-    elif event == SEAT_APPROACH or event == SEAT_TENSION:
+    elif event in (SEAT_APPROACH, SEAT_TENSION):
         other = tension_margin(contact.dissipative, approach_rate) if event == SEAT_APPROACH else approach
         state[x + 2] = 0.0
         if side > 0.0 and other > 0.0:
@@ -285,7 +285,7 @@ def _switch_friction(friction, contact, seat, mode, approach, approach_rate, sta
 
 
 @kernel
-def _switch(rig, drive, mode, time, state, event, side):  # type: ignore[no-untyped-def]
+def _switch(rig, drive, mode, time, state, event, side):
     _height, _height_rate, cushion, cushion_rate, _a_x, _a_z = drive_at(drive, time)
     seat_x, seat_v = seat_approach(rig.tire, rig.seat, cushion, cushion_rate, state)
     _switch_friction(
