@@ -17,7 +17,7 @@ from typing import NamedTuple
 import numpy
 
 from ..jit import kernel
-from ..parameters import Drive, Vector
+from ..parameters import Vector
 from ..results import DONE, NOT_FINITE, STEP_TOO_SMALL, TOO_MANY_EVENTS
 from ..rigs.interface import margins, rate, switch
 
@@ -58,7 +58,7 @@ def make_workspace(states: int, margin_count: int) -> Workspace:
 
 
 @kernel
-def _stages(rig, drive, mode, time, step, state, k, out):  # type: ignore[no-untyped-def]
+def _stages(rig, drive, mode, time, step, state, k, out):
     """One step from ``state`` into ``out``; k[0] must hold the rate at the start, k[6] holds that at the end after it."""
     n = state.shape[0]
     for i in range(n):
@@ -93,7 +93,7 @@ def _stages(rig, drive, mode, time, step, state, k, out):  # type: ignore[no-unt
 
 
 @kernel
-def _error(step, k, scale):  # type: ignore[no-untyped-def]
+def _error(step, k, scale):
     """Largest difference of the two orders over ``scale``, which is infinite for what is not controlled."""
     worst = 0.0
     for i in range(scale.shape[0]):
@@ -108,15 +108,18 @@ def _error(step, k, scale):  # type: ignore[no-untyped-def]
 
 
 @kernel
-def _underestimate(step, since):  # type: ignore[no-untyped-def]
-    """True error over estimated error, at most, of a step in [s] that starts ``since`` [s] > 0 after an event; 1 from half a step on."""
+def _underestimate(step, since):
+    """True error over estimated error, at most, of a step in [s] that starts ``since`` [s] > 0 after an event.
+
+    1 from half a step on.
+    """
     if 2.0 * since >= step:
         return 1.0
     return 1.0 + (UNDERESTIMATE - 1.0) * (1.0 - 2.0 * since / step) ** 3
 
 
 @kernel
-def _first_change(rig, drive, mode, time, step, state, work):  # type: ignore[no-untyped-def]
+def _first_change(rig, drive, mode, time, step, state, work):
     """Part of the step after which an event function has changed sign, 0 where none has: 1/5 ... 4/5, 1.
 
     At step's end ``work.margin`` is filled.
@@ -142,7 +145,7 @@ def _first_change(rig, drive, mode, time, step, state, work):  # type: ignore[no
 
 
 @kernel
-def _worst_margin(work):  # type: ignore[no-untyped-def]
+def _worst_margin(work):
     """Event function that lies farthest beyond its sign: its number, and its value counted negative when beyond."""
     event = -1
     value = numpy.inf
@@ -155,7 +158,7 @@ def _worst_margin(work):  # type: ignore[no-untyped-def]
 
 
 @kernel
-def _locate(rig, drive, mode, time, inner, outer, state, work):  # type: ignore[no-untyped-def]
+def _locate(rig, drive, mode, time, inner, outer, state, work):
     """Shortest whole step after which an event function has changed sign, between ``inner`` (none has) and ``outer``.
 
     Bisection on "has any changed", sped up by regula falsi on the one that is farthest beyond. Leaves the step's result in
@@ -201,7 +204,7 @@ def _locate(rig, drive, mode, time, inner, outer, state, work):  # type: ignore[
 
 
 @kernel
-def set_sides(rig, drive, mode, time, state, work):  # type: ignore[no-untyped-def]
+def set_sides(rig, drive, mode, time, state, work):
     """Take the sign of every event function as the one on which it stands; to be called once, at the start of a run."""
     rate(rig, drive, mode, time, state, work.stages[0])
     margins(rig, drive, mode, time, state, work.stages[0], work.margin)
@@ -210,14 +213,14 @@ def set_sides(rig, drive, mode, time, state, work):  # type: ignore[no-untyped-d
 
 
 @kernel
-def _pass_event(rig, drive, mode, time, state, event, work):  # type: ignore[no-untyped-def]
+def _pass_event(rig, drive, mode, time, state, event, work):
     """Let the rig switch at event number ``event``, and take the rate on its new side."""
     work.side[event] = switch(rig, drive, mode, time, state, event, -work.side[event])
     rate(rig, drive, mode, time, state, work.stages[0])
 
 
 @kernel
-def integrate(rig, drive: Drive, mode, end, state, scale, work):  # type: ignore[no-untyped-def]  # noqa: C901
+def integrate(rig, drive, mode, end, state, scale, work):  # noqa: C901
     """Advance ``state`` from ``drive.start`` to ``end`` (within the segment); returns a status of ``core/results.py``.
 
     ``scale`` [states]: error allowed per step, in the unit of each state; infinite for what is not controlled.
