@@ -107,6 +107,7 @@ class RoadBlocks:
         self.surface, self.travel, self.block_length = surface, travel, block_length
         self.cell_x, self.cell_y, self.half_length = cell_x, cell_y, half_length
         self._y = numpy.asarray((numpy.arange(cols) - 0.5 * (cols - 1)) * cell_y, dtype=numpy.float64)
+        self._last: tuple[int, NDArray[numpy.float32]] = (0, numpy.empty((0, cols), dtype=numpy.float32))
         self.block(0)  # surfaces make their tables for this track now, and a track that they refuse is refused here
 
     def block(self, block: int) -> RoadPatch:
@@ -115,15 +116,28 @@ class RoadBlocks:
         lowest, highest = self.travel.extent(start, end)
         first_row = floor((lowest - self.half_length) / self.cell_x) - 1
         last_row = ceil((highest + self.half_length) / self.cell_x) + 1
-        x = numpy.arange(first_row, last_row + 1, dtype=numpy.float64) * self.cell_x
-        height = self.surface.heights(x, self._y).astype(numpy.float32)
+        height = self._strip(first_row, last_row)
         if not numpy.isfinite(height).all():
             raise ExcitationError(
-                f"block {block}: the road has no finite height between x = {x[0]:.6g} m and {x[-1]:.6g} m"
+                f"block {block}: the road has no finite height between x = {first_row * self.cell_x:.6g} m and "
+                f"{last_row * self.cell_x:.6g} m"
             )
+        self._last = (first_row, height)
         return RoadPatch(
             block, self.travel.position(start), self.travel.position(end), first_row, self.cell_x, self.cell_y, height
         )
+
+    def _strip(self, first_row: int, last_row: int) -> NDArray[numpy.float32]:
+        """Heights of these rows; those that the last strip ends with are taken from it, a strip moves on by few rows."""
+        held_first, held = self._last
+        kept = held[first_row - held_first :] if held_first <= first_row else held[:0]
+        if len(kept) > last_row + 1 - first_row:
+            kept = held[:0]
+        x = numpy.arange(first_row + len(kept), last_row + 1, dtype=numpy.float64) * self.cell_x
+        if len(x) == 0:
+            return kept.copy()
+        fresh = self.surface.heights(x, self._y).astype(numpy.float32)
+        return numpy.concatenate((kept, fresh)) if len(kept) else fresh
 
     def describe(self) -> dict[str, Any]:
         """What the surface says about itself."""

@@ -5,6 +5,7 @@ from __future__ import annotations
 import sys
 import time
 from collections.abc import Callable
+from contextlib import suppress
 from pathlib import Path
 
 from rclpy.duration import Duration
@@ -25,12 +26,15 @@ from .record_order import HeldMessage, RecordOrder
 from .scene_file import block_length_ns, count_blocks, queue_depth, read_descriptions, read_scene
 
 BAG_TEXT = "Directory of the bag, which must not exist. Empty: bags/SCENE_TIME_RANDOM of the current directory."
+GATHER_SECONDS = 0.002  # that messages gather for; the window leaves room for it
 STOP_SECONDS = 1.0  # that a signal waits for the simulator's last word
 SETTLE_SECONDS = 1.0  # for the last answer to be acknowledged
 
 
 class BagLoggerNode(LifecycleBenchNode):
     """Takes every recorded topic of the scene as it came; answers on `bench/recorded`."""
+
+    gather = GATHER_SECONDS
 
     def __init__(self) -> None:
         """Declare the parameters; everything else is done in `configure`."""
@@ -75,8 +79,8 @@ class BagLoggerNode(LifecycleBenchNode):
 
     def _hold(self, topic: str, data: bytes) -> None:
         """Also before *ready* is heard: on the wire, block 0 may overtake it."""
-        if not self._closed and self._order.hold(topic, data):
-            self._write_whole()
+        if not self._closed:
+            self._order.hold(topic, data)
 
     def _on_progress(self, data: bytes) -> None:
         progress = decode_progress(data)
@@ -86,7 +90,6 @@ class BagLoggerNode(LifecycleBenchNode):
         if self._run.state >= State.READY and self._writer is None:
             self._open()
         self._order.on_progress(progress.block, progress.messages_sent)
-        self._write_whole()
 
     def _open(self) -> None:
         topics = topics_of(recorded_names(self._scene))
@@ -114,9 +117,10 @@ class BagLoggerNode(LifecycleBenchNode):
         self._answers.publish(encode_recorded(Recorded(self._block, held, closed, str(self._path), sentence), stamp))
 
     def tick(self, now: float) -> float:
-        """Close when the run has ended and everything is here, when the wait for it is over, or when asked to."""
+        """Write what is whole. Close when the run has ended and all is here, when the wait for it is over, or when asked to."""
         if not self.active or self._closed:
             return 1.0
+        self._write_whole()
         lacking = self._order.missing()
         if self._run.state.ended and not lacking:
             self._end(DONE, "")
@@ -134,6 +138,7 @@ class BagLoggerNode(LifecycleBenchNode):
         """Wait shortly for what the simulator has still sent, then close."""
         if self._writer is None or self._leave_at < float("inf"):
             self._leave_at = 0.0
+            self._write_whole()
             self.close()
             self.exit_status = DONE
         else:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any
@@ -21,6 +22,7 @@ from .scene_file import block_length_ns, count_blocks, queue_depth, read_scene, 
 from .window import Window
 
 FROM_BAG_TEXT = "Directory of a bag whose excitation is sent instead of the scene's own. Empty: the scene's own."
+GATHER_SECONDS = 0.002  # that answers gather for at pace max; the window leaves room for it
 MakeSource = Callable[[ResolvedScene], Source]
 
 
@@ -43,7 +45,9 @@ class ExcitationNode(Node):
         logged = declare_record(self)
         self._listeners = 1 + logged  # simulator, logger
         self._window = Window(count_blocks(scene), logged=logged)
-        self._pacer = Pacer(declare_pace(self, scene.data["pace"]), float(scene.data["block_length"]))
+        pace = declare_pace(self, scene.data["pace"])
+        self._pacer = Pacer(pace, float(scene.data["block_length"]))
+        self.gather = GATHER_SECONDS if math.isinf(pace) else 0.0
         self._run, self._recorded = Follower(), RecordedFollower()
         self._publisher = publisher(self, topic, queue_depth(scene))
         self._subscriptions_kept = [subscription(self, "bench/progress", self._on_progress)]

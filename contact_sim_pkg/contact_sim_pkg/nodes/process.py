@@ -14,6 +14,7 @@ from rclpy.executors import Executor, ExternalShutdownException, SingleThreadedE
 from rclpy.impl.implementation_singleton import rclpy_implementation
 from rclpy.logging import get_logger
 from rclpy.signals import SignalHandlerOptions
+from rclpy.task import Future
 
 from contact_sim_pkg.bag.errors import BagError
 from contact_sim_pkg.excitation.errors import ExcitationError
@@ -24,6 +25,7 @@ from .protocol import FAULT, REFUSED, NodeError
 
 REFUSALS = (SceneError, ExcitationError, BagError)
 LONGEST_WAIT = 0.05  # [s] between two looks at signals and at the parent
+_NEVER = Future()  # what is waited for by who waits for nothing
 
 
 class Interrupted(BaseException):
@@ -34,6 +36,7 @@ class BenchNode(Protocol):
     """What `run` asks of a node beside being one of rclpy."""
 
     exit_status: int | None  # set when the process shall end
+    gather: float  # [s] that messages gather for before they are handled together; 0 handles each as it comes
 
     def start(self) -> None:
         """Whatever takes long: compile, open; a signal may break it off."""
@@ -74,6 +77,25 @@ def make_executor() -> Executor:
     return EventsExecutor()
 
 
+def hear(executor: Executor, wait: float, gather: float = 0.0) -> None:
+    """Run the callbacks of what has come.
+
+    A process that handles a few messages at a time is woken less often; with one core for each two processes that is time
+    which the simulation gets.
+
+    Args:
+        executor: as `make_executor` makes it.
+        wait: how long to wait for the first message, [s].
+        gather: how long others may gather after it, [s].
+    """
+    executor.spin_once(timeout_sec=wait)
+    if isinstance(executor, SingleThreadedExecutor):
+        return
+    if gather > 0.0:
+        time.sleep(gather)
+    executor.spin_until_future_complete(_NEVER, timeout_sec=0.0)  # all that is queued, where `spin_once` takes one
+
+
 def run(make_node: Callable[[], Any], args: Sequence[str] | None = None) -> int:
     """Run one node until it ends or a signal comes; returns the exit status of the process."""
     signals = StopSignals()
@@ -111,7 +133,7 @@ def _spin(node: Any, signals: StopSignals) -> int:
         try:
             wait = node.tick(time.monotonic())
             if node.exit_status is None:
-                executor.spin_once(timeout_sec=min(wait, LONGEST_WAIT))
+                hear(executor, min(wait, LONGEST_WAIT), node.gather)
         except ExternalShutdownException:
             break
         except (NodeError, RunError, *REFUSALS) as error:

@@ -13,8 +13,10 @@ from rclpy.signals import SignalHandlerOptions
 from contact_sim_pkg.bag.messages import decode_progress, decode_recorded
 
 from .endpoints import subscription
-from .process import make_executor
+from .process import hear, make_executor
 from .protocol import Follower, RecordedFollower, State
+
+GATHER_SECONDS = 0.005  # that reports gather for; what the times of a run are exact to
 
 
 class RunMonitor:
@@ -38,7 +40,7 @@ class RunMonitor:
         limit = time.monotonic() + seconds
         left = seconds
         while left >= 0.0:
-            self._executor.spin_once(timeout_sec=left)
+            hear(self._executor, left, GATHER_SECONDS)
             left = limit - time.monotonic()
 
     def _on_progress(self, data: bytes) -> None:
