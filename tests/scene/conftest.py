@@ -41,7 +41,7 @@ class SceneMaker:
             else:
                 section[last] = value
         file = self.folder / f"{base}.yaml"
-        file.write_text(json.dumps(data, indent=1), encoding="utf-8")
+        file.write_text(json.dumps(data, indent=1, ensure_ascii=False), encoding="utf-8")
         return file
 
     def load(self, base, changes=None, overrides=()):
