@@ -6,7 +6,7 @@ from pathlib import Path
 
 import click
 
-from .tables import json_option, show_rows
+from .tables import json_option, print_json_rows, show_sections
 
 
 @click.command("accuracy")
@@ -22,4 +22,7 @@ def command(scene: str, plot: Path | None, as_json: bool) -> None:
     rows = accuracy_cost.study(scene, lambda line: click.echo(line, err=True))
     if plot is not None:
         accuracy_cost.write_plot(rows, plot)
-    show_rows(rows, as_json)
+    if as_json:
+        print_json_rows(rows)
+    else:
+        show_sections(accuracy_cost.sections(rows))

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import click
 
-from .tables import json_option, show_rows
+from .tables import json_option, print_json_rows, show_sections
 
 
 @click.command("effects")
@@ -14,4 +14,8 @@ def command(scene: str, as_json: bool) -> None:
     """Each effect of SCENE, on or off: its measured cost and the outputs that it feeds."""
     from contact_sim_pkg.studies import ablation
 
-    show_rows(ablation.study(scene, lambda line: click.echo(line, err=True)), as_json)
+    rows = ablation.study(scene, lambda line: click.echo(line, err=True))
+    if as_json:
+        print_json_rows(rows)
+    else:
+        show_sections(ablation.sections(rows))

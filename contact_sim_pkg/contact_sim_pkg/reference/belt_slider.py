@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import math
-from typing import NamedTuple
+from collections.abc import Callable
+from typing import Any, NamedTuple
 
 import numpy
 from numpy.typing import NDArray
@@ -39,7 +40,8 @@ def slip_starts(case: StickSlip, count: int) -> list[float]:
 
     Stick: `F = C s + D v`, `s' = v = v_b - x'`, up to `|F| = mu_s N`. Slip: `F = mu_k N`, `C s = F - D v`, until `v = s'`.
     """
-    time, state, starts = 0.0, numpy.array([0.0, case.belt_speed, 0.0]), []
+    time, state = 0.0, numpy.array([0.0, case.belt_speed, 0.0])
+    starts: list[float] = []
     while len(starts) < count:
         time, state = _stick(case, time, state)
         starts.append(time)
@@ -71,14 +73,21 @@ def _slip(case: StickSlip, time: float, state: NDArray[numpy.float64]) -> tuple[
         return [y[1], acceleration(y), 0.0]
 
     def slip_rate(_t: float, y: NDArray[numpy.float64]) -> float:
-        return case.belt_speed - y[1] - case.damping * acceleration(y) / case.stiffness
+        return float(case.belt_speed - y[1] - case.damping * acceleration(y) / case.stiffness)
 
     time, state = _until(rate, slip_rate, time, state)
     state[2] = (force - case.damping * (case.belt_speed - state[1])) / case.stiffness
     return time, state
 
 
-def _until(rate, event, time, state):  # type: ignore[no-untyped-def]
+def _until(
+    rate: Callable[[float, NDArray[numpy.float64]], list[float]],
+    margin: Callable[[float, NDArray[numpy.float64]], float],
+    time: float,
+    state: NDArray[numpy.float64],
+) -> tuple[float, NDArray[numpy.float64]]:
+    """Time [s] and state where `margin` falls through zero."""
+    event: Any = margin  # scipy reads what to do from attributes of the function
     event.terminal, event.direction = True, -1.0
     found = solve_ivp(rate, (time, time + 10.0), state, "DOP853", events=event, rtol=RELATIVE, atol=ABSOLUTE)
     return float(found.t[-1]), numpy.array(found.y[:, -1])

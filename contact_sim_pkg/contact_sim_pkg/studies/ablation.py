@@ -19,8 +19,9 @@ from contact_sim_pkg.scene.resolve import ResolvedScene
 from contact_sim_pkg.scene.schema_effect_rules import CONTACTS_OF_RIG, EFFECT_RULES
 from contact_sim_pkg.studies.ablation_rules import Observed, is_needed, observe
 from contact_sim_pkg.studies.scene_drive import load_resolved, without
+from contact_sim_pkg.studies.section import Section
 
-__all__ = ["FEEDS", "study"]
+__all__ = ["FEEDS", "sections", "study"]
 
 DURATION = 1.0  # [s] simulated a run
 PAIRS = 3
@@ -33,6 +34,9 @@ FEEDS: dict[str, tuple[str, ...]] = {
 """Topics of the contact that an effect feeds; every effect also feeds `bench/motion` and `bench/energy`."""
 BENCH_TOPICS = ("bench/motion", "bench/energy")
 ALWAYS = "normal_elastic"
+MEASURES = (
+    "cost_with", "cost_without", "cost", "cost_noise", "cost_share", "load_mean_change", "load_rms_change",
+)  # fmt: skip
 
 
 class Run(NamedTuple):
@@ -46,7 +50,8 @@ class Run(NamedTuple):
 def study(scene_name: str, progress: Callable[[str], None] | None = None) -> list[dict[str, Any]]:
     """One row a contact and effect: contact, effect, on, topics, cost with and without, changes, called for.
 
-    `cost_with`, `cost_without` [ms per simulated second], `cost_share` (their difference over `cost_with`), `load_mean_change`
+    `cost_with`, `cost_without` [ms per simulated second], `cost` (median difference of the pairs), `cost_noise` (half the range
+    of these differences: a cost below it is none that was seen), `cost_share` (`cost` over `cost_with`), `load_mean_change`
     and `load_rms_change` (relative, of the normal force), `called_for` (`needed`, `not needed` or `no rule`), `verdict`
     (`as it should be`, `on but not needed`, `off but needed`, `carries the load`) and `why`. Raises what a bad scene raises.
     """
@@ -62,6 +67,38 @@ def study(scene_name: str, progress: Callable[[str], None] | None = None) -> lis
     return rows
 
 
+def sections(rows: list[dict[str, Any]]) -> list[Section]:
+    """The same rows as a person reads them."""
+    cost = [
+        {
+            "contact": row["contact"], "effect": row["effect"], "on": row["on"], "with": row["cost_with"],
+            "without": row["cost_without"], "cost": row["cost"], "±": row["cost_noise"],
+            "mean load": _percent(row["load_mean_change"]), "load rms": _percent(row["load_rms_change"]),
+        }
+        for row in rows
+    ]  # fmt: skip
+    reasons = [{name: row[name] for name in ("contact", "effect", "verdict", "why")} for row in rows]
+    feeds = [
+        {
+            "contact": row["contact"],
+            "effect": row["effect"],
+            "outputs": [t for t in row["topics"] if t not in BENCH_TOPICS],
+        }
+        for row in rows
+    ]
+    return [
+        Section(
+            "cost, and change of the normal force by the effect", cost, "with, without, cost ±: ms per simulated second"
+        ),
+        Section("called for by the scene?", reasons),
+        Section("outputs that the effect feeds", feeds, f"and each of them {' and '.join(BENCH_TOPICS)}"),
+    ]
+
+
+def _percent(change: float | None) -> str:
+    return "-" if change is None else f"{100.0 * change:+.2f} %"
+
+
 def _row(scene_name: str, scene: ResolvedScene, contact: str, effect: str) -> dict[str, Any]:
     on = (scene.data["effects"].get(contact) or {}).get(effect) is not None
     topics = [f"{contact}/{name}" for name in FEEDS[effect]] + list(BENCH_TOPICS)
@@ -70,45 +107,40 @@ def _row(scene_name: str, scene: ResolvedScene, contact: str, effect: str) -> di
         why = "without it the contact carries no load"
         return {
             **row,
-            **_measures(None, None, contact),
+            **dict.fromkeys(MEASURES),
             "called_for": "needed",
             "verdict": "carries the load",
             "why": why,
         }
     absent = without(scene, (contact, effect))
     present = scene if on else load_resolved(scene_name, f"effects.{contact}.{effect}={{}}")
-    with_it, without_it = _paired(present, absent)
+    with_it, without_it, differences = _paired(present, absent)
     needed, why = is_needed(effect, contact, present, with_it.observed)
     called_for = "no rule" if needed is None else "needed" if needed else "not needed"
     verdict = "as it should be"
     if needed is not None and needed != on:
         verdict = "on but not needed" if on else "off but needed"
-    return {**row, **_measures(with_it, without_it, contact), "called_for": called_for, "verdict": verdict, "why": why}
+    measures = _measures(with_it, without_it, differences, contact)
+    return {**row, **measures, "called_for": called_for, "verdict": verdict, "why": why}
 
 
-def _measures(with_it: Run | None, without_it: Run | None, contact: str) -> dict[str, float | None]:
-    if with_it is None or without_it is None:
-        names = ("cost_with", "cost_without", "cost_share", "load_mean_change", "load_rms_change")
-        return dict.fromkeys(names)
+def _measures(with_it: Run, without_it: Run, differences: list[float], contact: str) -> dict[str, float]:
     force, bare = with_it.forces[contact], without_it.forces[contact]
     spread, bare_spread = float(force.std()), float(bare.std())
-    return {
-        "cost_with": with_it.cost,
-        "cost_without": without_it.cost,
-        "cost_share": 1.0 - without_it.cost / with_it.cost,
-        "load_mean_change": float(force.mean() / bare.mean() - 1.0),
-        "load_rms_change": spread / bare_spread - 1.0 if bare_spread > 0.0 else 0.0,
-    }
+    cost = statistics.median(differences)
+    values = (
+        with_it.cost, without_it.cost, cost, 0.5 * (max(differences) - min(differences)), cost / with_it.cost,
+        float(force.mean() / bare.mean() - 1.0), spread / bare_spread - 1.0 if bare_spread > 0.0 else 0.0,
+    )  # fmt: skip
+    return dict(zip(MEASURES, values, strict=True))
 
 
-def _paired(first: ResolvedScene, second: ResolvedScene) -> tuple[Run, Run]:
-    """Both scenes by turns; the median costs of the pairs."""
-    runs: list[list[Run]] = [[], []]
-    for _ in range(PAIRS):
-        for place, scene in enumerate((first, second)):
-            runs[place].append(run_once(scene, DURATION))
-    costs = [statistics.median(run.cost for run in group) for group in runs]
-    return runs[0][0]._replace(cost=costs[0]), runs[1][0]._replace(cost=costs[1])
+def _paired(first: ResolvedScene, second: ResolvedScene) -> tuple[Run, Run, list[float]]:
+    """Both scenes by turns: a run of each with the median of its costs, and the differences of the costs of each pair."""
+    pairs = [(run_once(first, DURATION), run_once(second, DURATION)) for _ in range(PAIRS)]
+    costs = [statistics.median(pair[place].cost for pair in pairs) for place in (0, 1)]
+    differences = [one.cost - other.cost for one, other in pairs]
+    return pairs[0][0]._replace(cost=costs[0]), pairs[0][1]._replace(cost=costs[1]), differences
 
 
 def run_once(scene: ResolvedScene, duration: float) -> Run:

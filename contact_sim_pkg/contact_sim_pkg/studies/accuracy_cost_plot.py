@@ -2,59 +2,113 @@
 
 from __future__ import annotations
 
+import math
 from pathlib import Path
 from typing import Any
 
 import matplotlib
 
 matplotlib.use("Agg")
-from matplotlib import pyplot
+from matplotlib import pyplot, ticker
 
-__all__ = ["plot", "write_plot"]
+__all__ = ["write_plot"]
 
-PANELS = (("integrator", "time integration"), ("corrector", "corrector passes"), ("field", "pressure field"))
+PANELS = (  # part and contact -> title
+    ("integrator", "", "time integration, point contacts"),
+    ("corrector", "", "corrector passes, whole scene"),
+    ("field", "tire", "tire field"),
+    ("field", "seat", "seat field"),
+)
 SPAN = 10.0  # the time axis shows at least this ratio, so that noise does not look like a trend
 
 
-def plot(rows: list[dict[str, Any]], path: str | Path) -> Path:
+def write_plot(rows: list[dict[str, Any]], path: str | Path) -> Path:
     """Draw the rows of `accuracy_cost.study`, one panel a part that is there; the ending of `path` names the format."""
-    panels = [(key, title) for key, title in PANELS if any(row["part"].startswith(key) for row in rows)]
+    chosen = [(title, _of_panel(rows, part, contact)) for part, contact, title in PANELS]
+    panels = [(title, members) for title, members in chosen if members]
+    columns = min(2, len(panels))
+    lines = -(-len(panels) // columns)
     figure, axes = pyplot.subplots(
-        1, len(panels), figsize=(5.2 * len(panels), 4.8), squeeze=False, layout="constrained"
+        lines, columns, figsize=(6.2 * columns, 5.2 * lines), squeeze=False, layout="constrained"
     )
-    for axis, (key, title) in zip(axes[0], panels, strict=True):
-        _panel(axis, [row for row in rows if row["part"].startswith(key)])
+    for axis in axes.flat[len(panels) :]:
+        axis.set_visible(False)
+    for axis, (title, members) in zip(axes.flat, panels, strict=False):
+        _panel(axis, members)
         axis.set_title(title)
-    axes[0][0].set_ylabel("relative error")
     figure.savefig(path, dpi=120)
     pyplot.close(figure)
     return Path(path)
 
 
+def _of_panel(rows: list[dict[str, Any]], part: str, contact: str) -> list[dict[str, Any]]:
+    return [row for row in rows if row["part"].startswith(part) and row["quantity"].startswith(contact)]
+
+
 def _panel(axis: Any, rows: list[dict[str, Any]]) -> None:
-    for name in dict.fromkeys(_series(row) for row in rows):
-        chosen = sorted((row for row in rows if _series(row) == name), key=lambda row: -row["tolerance"])
+    names = list(dict.fromkeys(row["quantity"] for row in rows))
+    for label in dict.fromkeys(_series(row) for row in rows):
+        chosen = sorted((row for row in rows if _series(row) == label), key=_finer)
         chosen = [row for row in chosen if row["error"] > 0.0]  # no error at all has no place on a logarithmic axis
         times, errors = [row["ms_per_simulated_s"] for row in chosen], [row["error"] for row in chosen]
-        dashed = "(grid)" in name
-        axis.plot(times, errors, "--s" if dashed else "-o", markersize=4, linewidth=1.2, label=name)
+        first = next(row for row in rows if _series(row) == label)
+        style = "--s" if first["part"] == "field grid" else ":^" if first["rung"] == "check" else "-o"
+        colour = f"C{names.index(first['quantity'])}"
+        axis.plot(times, errors, style, color=colour, markersize=4, linewidth=1.3, label=label)
+    _name_points(axis, rows)
     axis.set_xscale("log")
     axis.set_yscale("log")
     times = [row["ms_per_simulated_s"] for row in rows]
-    middle, half = (min(times) * max(times)) ** 0.5, max(SPAN, 1.2 * max(times) / min(times)) ** 0.5
-    axis.set_xlim(middle / half, middle * half)
+    middle, half = (min(times) * max(times)) ** 0.5, max(SPAN, 2.0 * max(times) / min(times)) ** 0.5
+    axis.set_xlim(middle / half, 1.8 * middle * half)  # room for the names of the last points
+    axis.xaxis.set_major_locator(ticker.LogLocator(subs=(1.0, 2.0, 5.0)))
+    axis.xaxis.set_major_formatter(ticker.FuncFormatter(lambda value, _place: f"{value:g}"))
+    axis.xaxis.set_minor_formatter(ticker.NullFormatter())
+    axis.yaxis.set_minor_formatter(ticker.NullFormatter())
+    lowest, highest = axis.get_ylim()
+    if highest < 100.0 * lowest:
+        axis.set_ylim(10.0 ** math.floor(math.log10(lowest)), 10.0 ** math.ceil(math.log10(highest)))
     axis.set_xlabel("ms per simulated second")
-    axis.grid(visible=True, which="both", alpha=0.25)
-    axis.legend(fontsize=7)
+    axis.set_ylabel("relative error")
+    axis.grid(visible=True, which="major", alpha=0.4)
+    axis.grid(visible=True, which="minor", alpha=0.12)
+    axis.legend(fontsize=8, loc="upper center", bbox_to_anchor=(0.5, -0.13), ncols=2, frameon=False)
+
+
+def _finer(row: dict[str, Any]) -> tuple[float, float]:
+    return -row["tolerance"], row.get("passes") or 0
+
+
+def _name_points(axis: Any, rows: list[dict[str, Any]]) -> None:
+    """Say what was asked at the points of the first line of each part: tolerance, passes, or rung."""
+    for part in dict.fromkeys((row["part"], row["rung"] == "check") for row in rows):
+        if part[0] == "field grid":
+            continue  # the same rungs as those of the solver
+        members = [row for row in rows if (row["part"], row["rung"] == "check") == part]
+        line: dict[str, dict[str, Any]] = {}
+        for row in sorted(members, key=lambda row: row["error"]):
+            line[_asked(row)] = row  # the highest point of each
+        last = (0.0, 0.0)
+        for text, row in line.items():
+            place = (row["ms_per_simulated_s"], row["error"])
+            if not 0.9 < place[0] / max(last[0], 1e-300) < 1.1 or not 0.7 < place[1] / last[1] < 1.4:
+                axis.annotate(
+                    text, place, xytext=(5, 5), textcoords="offset points", fontsize=7, color="0.3", clip_on=True
+                )
+            last = place
+
+
+def _asked(row: dict[str, Any]) -> str:
+    if row["part"] == "corrector":
+        return f"{row['passes']} pass" if row["passes"] == 1 else f"{row['passes']} passes"
+    if row["part"] == "integrator" or row["rung"] == "check":
+        return f"{row['tolerance']:.0e}"
+    return f"{row['rung']} {row['grid']}"
 
 
 def _series(row: dict[str, Any]) -> str:
     """Rows of one line: the same quantity, and for fields the same kind of error."""
-    if row["part"] == "corrector":
-        return str(row["quantity"]).split(",")[0]
-    kind = {"field grid": " (grid)", "field solver": " (solver)"}.get(row["part"], "")
-    check = ", against NNLS" if row["rung"] == "check" else ""
-    return f"{row['quantity']}{kind}{check}"
-
-
-write_plot = plot
+    kind = {"field grid": ", grid", "field solver": ", solver"}.get(row["part"], "")
+    if row["rung"] == "check":
+        kind = f" on {row['grid']}, against NNLS"
+    return f"{row['quantity']}{kind}"

@@ -58,7 +58,7 @@ register(HandWritten, _rate, _margins, _switch)
 
 def bounce(rig: PointContact | HandWritten) -> tuple[Vector, float]:
     """States at 1001 instants of 20 s of bouncing from 5 cm, and ns a step."""
-    times = numpy.linspace(0.0, END, 1001)
+    times: Vector = numpy.linspace(0.0, END, 1001, dtype=numpy.float64)
     out, work, state = numpy.zeros((1001, 2)), make_workspace(2, 2), numpy.array([0.05, 0.0])
     began = time.perf_counter()
     run(rig, empty_mode(), state, numpy.array([1e-11, 1e-8]), work, times, out)
@@ -76,10 +76,11 @@ def rigs() -> tuple[PointContact, PointContact, HandWritten]:
 def absent_effect_cost() -> tuple[float, float, float]:
     """ns a step with the loss, with it absent, and by hand: medians of runs by turns."""
     costs: list[list[float]] = [[], [], []]
-    for rig in rigs():
+    cases: tuple[PointContact | HandWritten, ...] = rigs()
+    for rig in cases:
         bounce(rig)
     for _ in range(PAIRS):
-        for place, rig in enumerate(rigs()):
+        for place, rig in enumerate(cases):
             costs[place].append(bounce(rig)[1])
     with_effect, absent, by_hand = (statistics.median(group) for group in costs)
     return with_effect, absent, by_hand

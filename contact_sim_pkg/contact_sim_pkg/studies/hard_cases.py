@@ -11,7 +11,20 @@ import math
 from collections.abc import Callable
 from typing import Any, NamedTuple
 
-__all__ = ["Finding", "HardCase", "all_cases", "at_most", "close_to", "evaluate", "exactly", "failed", "study"]
+from contact_sim_pkg.studies.section import Section
+
+__all__ = [
+    "Finding",
+    "HardCase",
+    "all_cases",
+    "at_most",
+    "close_to",
+    "evaluate",
+    "exactly",
+    "failed",
+    "sections",
+    "study",
+]
 
 
 PASSED, FAILED = "pass", "fail"
@@ -91,6 +104,27 @@ def study(model: str | None = None, progress: Callable[[str], None] | None = Non
     return rows
 
 
+def sections(rows: list[dict[str, Any]]) -> list[Section]:
+    """The same rows as a person reads them: a section a model."""
+    found = []
+    for model in dict.fromkeys(row["model"] for row in rows):
+        lines = [
+            {
+                "case": row["case"], "value": _value(row), "expectation": row["expectation"],
+                "margin": f"{row['margin']:.3f}", "verdict": row["verdict"],
+            }
+            for row in rows
+            if row["model"] == model
+        ]  # fmt: skip
+        found.append(Section(model, lines))
+    return found
+
+
+def _value(row: dict[str, Any]) -> str:
+    """As many digits as the expectation has."""
+    return f"{row['value']:.10g}" if "±" in row["expectation"] else f"{row['value']:.4g}"
+
+
 def failed(rows: list[dict[str, Any]]) -> bool:
     """Whether a row fails: then `bench hard` ends with 1."""
-    return any(row["verdict"] != PASSED for row in rows)
+    return any(row["verdict"] == FAILED for row in rows)

@@ -13,6 +13,7 @@ from contact_sim_pkg.core.parameters import (
     NormalDissipative,
     NormalElastic,
     Seat,
+    Vector,
     Vehicle,
 )
 from contact_sim_pkg.core.results import DONE
@@ -95,7 +96,7 @@ def equal_ratios() -> Finding:
     return exactly(course.status, DONE)
 
 
-def slide_with_lift_off() -> tuple[numpy.ndarray, numpy.ndarray, float]:
+def slide_with_lift_off() -> tuple[Vector, Vector, float]:
     """Seat rig shaken in x and z until it leaves the cushion: forces, states, and the ledger's residual over its dissipation."""
     mass, gravity = 50.0, 9.81
     friction = Friction(2.0e4, 200.0, 0.4, 0.35)

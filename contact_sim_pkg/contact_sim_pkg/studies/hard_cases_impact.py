@@ -184,7 +184,7 @@ def thousand_bounces() -> Finding:
 def energy_never_rises() -> Finding:
     """Largest rise of the energy between samples with loss, relative to the start: at most 10 tolerances."""
     rig, start = _dropped()
-    times = numpy.linspace(0.0, 5.0, 5001)
+    times = numpy.linspace(0.0, 5.0, 5001, dtype=numpy.float64)
     states = integrate(rig, start, numpy.array([1e-3, 1.0]) * 1e-8, times).states
     stored = numpy.array([elastic_energy(rig.elastic, -z) for z in states[:, 0]])
     energy = rig.gravity * states[:, 0] + 0.5 * states[:, 1] ** 2 + stored

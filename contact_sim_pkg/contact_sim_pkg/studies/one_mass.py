@@ -11,10 +11,10 @@ from contact_sim_pkg.core.results import DONE, SENTENCES
 from contact_sim_pkg.core.rigs.single import belt_slider, point_contact, run
 from contact_sim_pkg.core.solvers.dormand_prince import EVENTS, REJECTED, STEPS, make_workspace
 
-__all__ = ["Course", "RunFailure", "free_impact", "impact_speeds", "integrate", "seat_slap"]
+__all__ = ["Course", "RunFailureError", "free_impact", "impact_speeds", "integrate", "seat_slap"]
 
 
-class RunFailure(RuntimeError):
+class RunFailureError(RuntimeError):
     """The integrator ended with a status other than DONE; the message is its sentence."""
 
 
@@ -33,7 +33,7 @@ def integrate(
 ) -> Course:
     """Integrate `rig` from `start` through `times` [s]; `scale` [states]: error allowed per step.
 
-    `mode`: friction mode at the start (0 sticks, 1 and -1 slip). Raises RunFailure where `strict` and the run fails.
+    `mode`: friction mode at the start (0 sticks, 1 and -1 slip). Raises RunFailureError where `strict` and the run fails.
     """
     margins = point_contact.MARGINS if isinstance(rig, PointContact) else belt_slider.MARGINS
     state = numpy.array(start, dtype=float)
@@ -43,7 +43,7 @@ def integrate(
         rig, numpy.array([mode]), state, numpy.asarray(scale, dtype=float), work, numpy.asarray(times, float), out
     )
     if strict and status != DONE:
-        raise RunFailure(SENTENCES[status])
+        raise RunFailureError(SENTENCES[status])
     counts = work.counters
     return Course(out, int(status), int(counts[STEPS]), int(counts[REJECTED]), int(counts[EVENTS]))
 

@@ -1,0 +1,72 @@
+"""The rows of an accuracy study as a person reads them: one line a tolerance, grid or rung, its errors side by side."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from contact_sim_pkg.studies.section import Section
+
+__all__ = ["sections"]
+
+Row = dict[str, Any]
+COST = "ms per simulated s"
+
+
+def sections(rows: list[Row]) -> list[Section]:
+    """Parts of the table, in the order of the study: integrator, corrector, then each contact's field."""
+    found = [_integrator(rows), _corrector(rows)]
+    for contact in ("tire", "seat"):
+        of_contact = [row for row in rows if row["part"].startswith("field") and row["quantity"].startswith(contact)]
+        on_rungs = [row for row in of_contact if row["rung"] != "check"]
+        solver = [row for row in on_rungs if row["part"] == "field solver"]
+        grid = [row for row in on_rungs if row["part"] == "field grid"]
+        check = [row for row in of_contact if row["rung"] == "check"]
+        found.append(_field(f"{contact} field, error of the solver", contact, solver))
+        found.append(_field(f"{contact} field, error of the grid", contact, grid))
+        found.append(_field(f"{contact} field, started from nothing, against another code", contact, check))
+    return [section for section in found if section.rows] + [_start_up(rows)]
+
+
+def _integrator(rows: list[Row]) -> Section:
+    chosen = [row for row in rows if row["part"] == "integrator"]
+    lines: dict[float, Row] = {}
+    for row in chosen:
+        line = lines.setdefault(row["tolerance"], {"tolerance": row["tolerance"]})
+        line[row["quantity"]] = row["error"]
+    for row in chosen:
+        lines[row["tolerance"]][COST] = row["ms_per_simulated_s"]
+    return Section("time integration, point contacts: error", list(lines.values()), _against(chosen))
+
+
+def _corrector(rows: list[Row]) -> Section:
+    chosen = [row for row in rows if row["part"] == "corrector"]
+    lines: dict[int, Row] = {}
+    for row in chosen:
+        line = lines.setdefault(row["passes"], {"passes": row["passes"]})
+        line[row["quantity"]] = row["error"]
+    for row in chosen:
+        lines[row["passes"]][COST] = row["ms_per_simulated_s"]
+    return Section("corrector passes between field instants: error", list(lines.values()), _against(chosen))
+
+
+def _field(title: str, contact: str, chosen: list[Row]) -> Section:
+    lines: dict[tuple[str, float], Row] = {}
+    for row in chosen:
+        head = {"rung": row["rung"], "grid": row["grid"], "tolerance": row["tolerance"]}
+        line = lines.setdefault((row["grid"], row["tolerance"]), head)
+        line[row["quantity"].removeprefix(f"{contact} ")] = row["error"]
+    for row in chosen:
+        lines[row["grid"], row["tolerance"]][COST] = row["ms_per_simulated_s"]
+    return Section(title, list(lines.values()), _against(chosen))
+
+
+def _against(rows: list[Row]) -> str:
+    return f"against: {rows[0]['reference']}" if rows else ""
+
+
+def _start_up(rows: list[Row]) -> Section:
+    lines: dict[str, Row] = {}
+    for row in rows:
+        what = "first field solve" if row["part"].startswith("field") else "first block of the scene"
+        lines[what] = {"until": what, "compiled anew [s]": row["first_call_s"], "from disk [s]": row["next_start_s"]}
+    return Section("start in a new process", list(lines.values()))
