@@ -23,7 +23,7 @@ setup(
     description="Contact forces and pressure fields of simulated rigs, as ROS 2 topics and bags",
     author="Contact Bench maintainers",
     maintainer="Contact Bench maintainers",
-    maintainer_email="maintainers@users.noreply.h-seed-a20dd5ad.example",
+    maintainer_email="maintainers@contact-bench.example",
     license="Apache-2.0",
     python_requires=">=3.10,<3.14",
     packages=find_packages(include=[PACKAGE, f"{PACKAGE}.*"]),
