@@ -223,13 +223,14 @@ class Simulation:
         first = interval * timing.segments
         part = slice(first, first + timing.segments + 1)
         start = (block * timing.intervals * timing.segments + first) * timing.segment_length
-        saved = (self.state.copy(), self._mode.copy(), self._work.side.copy(), self._work.step.copy())
+        work = self._work
+        saved = (self.state.copy(), self._mode.copy(), work.side.copy(), work.step.copy(), work.last_event.copy())
         tire_end, seat_end = (support.offset + support.change for support in (self._tire, self._seat))
         tire_next, seat_next = tire_end, seat_end
         fields = (self._tire.copy_published(), self._seat.copy_published())
         for passes_left in range(model.corrector_passes, -1, -1):
             if passes_left < model.corrector_passes:
-                self.state[:], self._mode[:], self._work.side[:], self._work.step[:] = saved
+                self.state[:], self._mode[:], work.side[:], work.step[:], work.last_event[:] = saved
             self._height[:] = smooth[part] + self._tire.offset + (tire_end - self._tire.offset) * self._ramp
             self._cushion[:] = self._seat.offset + (seat_end - self._seat.offset) * self._ramp
             if passes_left == model.corrector_passes:

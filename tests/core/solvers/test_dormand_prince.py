@@ -4,6 +4,9 @@ import numpy
 import pytest
 
 from contact_sim_pkg.core.parameters import NormalElastic, PointContact
+from contact_sim_pkg.core.results import DONE
+from contact_sim_pkg.core.rigs.single import empty_mode, run
+from contact_sim_pkg.core.solvers.dormand_prince import make_workspace
 from contact_sim_pkg.studies.one_mass import integrate
 
 SPRING = PointContact(1.0, 0.0, 0.0, 0.0, NormalElastic(100.0, 1.0), None)
@@ -27,6 +30,17 @@ def test_the_same_run_gives_the_same_bits():
     rig = PointContact(1.0, 9.81, 0.003, 90.0, NormalElastic(1e6, 1.5), None)
     runs = [integrate(rig, numpy.array([0.05, 0.0]), numpy.array([1e-9, 1e-7]), times).states for _ in range(2)]
     assert runs[0].tobytes() == runs[1].tobytes()
+
+
+def test_a_workspace_serves_a_second_run_from_an_earlier_time():
+    rig = PointContact(20.0, 0.0, 0.0, 0.0, NormalElastic(1e5, 1.5), None)
+    work, times, found = make_workspace(2, 2), numpy.array([0.0, 0.5]), []
+    for _ in range(2):
+        state, out = numpy.array([0.001, -0.5]), numpy.zeros((2, 2))
+        work.step[0] = 0.0
+        assert run(rig, empty_mode(), state, numpy.array([0.1, 1.0]) * 1e-9, work, times, out) == DONE
+        found.append(out.tobytes())
+    assert found[0] == found[1]
 
 
 def test_free_flight_is_exact_and_counts_no_event():

@@ -109,11 +109,11 @@ def _error(step, k, scale):
 
 @kernel
 def _underestimate(step, since):
-    """True error over estimated error, at most, of a step in [s] that starts ``since`` [s] > 0 after an event.
+    """True error over estimated error, at most, of a step in [s] that starts ``since`` [s] after an event.
 
-    1 from half a step on.
+    1 where the event lies half a step back or more.
     """
-    if 2.0 * since >= step:
+    if not 0.0 <= 2.0 * since < step:
         return 1.0
     return 1.0 + (UNDERESTIMATE - 1.0) * (1.0 - 2.0 * since / step) ** 3
 
@@ -188,12 +188,13 @@ def _locate(rig, drive, mode, time, inner, outer, state, work):
             if repeated == 1:
                 high_value *= 0.5
             repeated = 1
-        if high - low <= 4.0e-16 * (abs(time) + high) or high - low <= 1.0e-14 * outer:
+        resolution = max(4.0e-16 * (abs(time) + high), 1.0e-14 * outer)
+        if high - low <= resolution:
             break
         if low_value == low_value and high_value == high_value and low_value > 0.0:
             step = low + (high - low) * low_value / (low_value - high_value)
-            if not (low < step < high):
-                step = 0.5 * (low + high)
+            # never nearer to an end than is told apart: the other end follows in one step, not by halves
+            step = min(max(step, low + 0.5 * resolution), high - 0.5 * resolution)
         else:
             step = 0.5 * (low + high)
     _stages(rig, drive, mode, time, high, state, k, work.trial)
@@ -210,6 +211,7 @@ def set_sides(rig, drive, mode, time, state, work):
     margins(rig, drive, mode, time, state, work.stages[0], work.margin)
     for j in range(work.side.shape[0]):
         work.side[j] = 1.0 if work.margin[j] >= 0.0 else -1.0
+    work.last_event[0] = -numpy.inf
 
 
 @kernel
