@@ -130,9 +130,8 @@ class RoadBlocks:
     def _strip(self, first_row: int, last_row: int) -> NDArray[numpy.float32]:
         """Heights of these rows; those that the last strip ends with are taken from it, a strip moves on by few rows."""
         held_first, held = self._last
-        kept = held[first_row - held_first :] if held_first <= first_row else held[:0]
-        if len(kept) > last_row + 1 - first_row:
-            kept = held[:0]
+        offset = first_row - held_first
+        kept = held[offset : offset + last_row + 1 - first_row] if offset >= 0 else held[:0]
         x = numpy.arange(first_row + len(kept), last_row + 1, dtype=numpy.float64) * self.cell_x
         if len(x) == 0:
             return kept.copy()
