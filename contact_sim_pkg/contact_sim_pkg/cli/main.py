@@ -20,6 +20,7 @@ COMMANDS = {  # command -> its module
     "accuracy": "accuracy",
     "effects": "effects",
     "hard": "hard",
+    "goals": "goals",
     "recover": "recover",
 }
 ONE_THREAD = ("NUMBA_NUM_THREADS", "OPENBLAS_NUM_THREADS")  # the nodes share the cores; the same bits without nodes

@@ -1,0 +1,156 @@
+"""Goals of the integrator and of the contact laws: error and time of single contacts, beside scipy and closed forms."""
+
+from __future__ import annotations
+
+import math
+import statistics
+import time
+from functools import partial
+from typing import Any
+
+import numpy
+from numpy.typing import NDArray
+from scipy.integrate import solve_ivp
+
+from contact_sim_pkg.core.jit import entry
+from contact_sim_pkg.core.parameters import PointContact, Vector
+from contact_sim_pkg.core.rigs.point_contact import MARGINS, STATES
+from contact_sim_pkg.core.rigs.single import empty_mode, run
+from contact_sim_pkg.core.solvers.dormand_prince import Workspace, make_workspace
+from contact_sim_pkg.reference import impact
+from contact_sim_pkg.reference.belt_slider import period_of_rigid_law
+from contact_sim_pkg.studies import hard_cases_friction, one_mass
+from contact_sim_pkg.studies import hard_cases_impact as impacts_of
+from contact_sim_pkg.studies.benchmark_goal import Measured, median_time
+from contact_sim_pkg.studies.effect_cost import absent_effect_cost
+
+__all__ = ["absent_effect", "impacts", "seat_slap", "steel", "stick_slip"]
+
+SLAP_END = 4.0  # [s]
+SLAP_ERROR = 1e-8  # [m]
+TOLERANCES = tuple(10.0 ** (-0.25 * quarter) for quarter in range(16, 49))  # 1e-4 to 1e-12
+Modes = NDArray[numpy.int64]
+LOSSES = (0.05, 0.2, 0.5, 1.0, 3.0)
+IMPACTS = 200  # in one compiled loop
+
+
+def seat_slap() -> list[Measured]:
+    """Time to an error of 1e-8 m, and scipy's on the same equations: the cheapest tolerance of each that is good enough."""
+    rig, start, scales = one_mass.seat_slap()
+    exact = float(impacts_of.slap_reference(rig, start)[0])
+    times = numpy.array([0.0, SLAP_END])
+    for tolerance in TOLERANCES:
+        call = partial(one_mass.integrate, rig, start, scales * tolerance, times)
+        error = abs(float(call().states[-1, 0]) - exact)
+        if error <= SLAP_ERROR:
+            break
+    own = 1e6 * median_time(call) / SLAP_END
+    found = [Measured("seat slap to 1e-8 m", own, "µs per simulated s", most=100.0, note=f"tolerance {tolerance:.1e}")]
+    for method in ("LSODA", "DOP853"):
+        seconds = _slap_by_scipy(method, exact)
+        ratio = None if seconds is None else 1e6 * seconds / SLAP_END / own
+        note = "no tolerance from 1e-6 to 1e-12 reaches 1e-8 m" if ratio is None else "its right-hand side is Python"
+        found.append(Measured(f"seat slap: scipy {method} over ours", ratio, "times", note=note))
+    return found
+
+
+def _slap_by_scipy(method: str, exact: float) -> float | None:
+    """Wall time [s] at the loosest tolerance that is good enough; None where none is."""
+    rig, start, _scales = one_mass.seat_slap()
+    law, amplitude, frequency = rig.elastic, rig.support_amplitude, rig.support_frequency
+
+    def rate(t: float, y: Any) -> list[float]:
+        approach = amplitude * math.sin(frequency * t) - y[0]
+        if approach <= 0.0:
+            return [y[1], -rig.gravity]
+        closing = amplitude * frequency * math.cos(frequency * t) - y[1]
+        force = law.coefficient * approach**law.exponent * max(0.0, 1.0 + closing)
+        return [y[1], force / rig.mass - rig.gravity]
+
+    for power in range(6, 13):
+        began = time.perf_counter()
+        tolerance = 10.0**-power
+        found = solve_ivp(rate, (0.0, SLAP_END), start, method, rtol=tolerance, atol=1e-2 * tolerance, max_step=0.01)
+        seconds = time.perf_counter() - began
+        if abs(float(found.y[0, -1]) - exact) <= SLAP_ERROR:
+            return seconds
+    return None
+
+
+@entry
+def _many(
+    rig: PointContact,
+    mode: Modes,
+    start: Vector,
+    scale: Vector,
+    work: Workspace,
+    times: Vector,
+    out: Vector,
+    count: int,
+) -> None:
+    """The same impact `count` times over, so that the call from Python does not count."""
+    state = start.copy()
+    for _ in range(count):
+        state[:] = start
+        work.step[0] = 0.0
+        run(rig, mode, state, scale, work, times, out)
+
+
+def impacts() -> list[Measured]:
+    """Worst error of the restitution over five losses, and the median time of an impact, at the tolerance that is enough."""
+    found = []
+    for asked, most in ((1e-6, 6.0), (1e-9, 25.0)):
+        for tolerance in TOLERANCES:
+            if all(max(impacts_of.phase_errors(loss, tolerance)) <= asked for loss in LOSSES):
+                break
+        microseconds = statistics.median(_impact_time(loss, tolerance) for loss in LOSSES)
+        note = f"tolerance {tolerance:.1e}; worst of 5 losses and 20 approach phases"
+        found.append(Measured(f"impact, restitution to {asked:.0e}", microseconds, "µs", most=most, note=note))
+    worst = impacts_of.tolerance_is_met().value
+    return [*found, Measured("impact, error over asked tolerance", worst, "times", most=10.0, note="1e-3 to 1e-11")]
+
+
+def _impact_time(loss: float, tolerance: float) -> float:
+    """Microseconds of an impact."""
+    speed, law = impacts_of.SPEED, impacts_of.LAW
+    rig = one_mass.free_impact(impacts_of.MASS, law, loss / speed)
+    depth = impact.deepest_approach(impacts_of.MASS, speed, law.coefficient, law.exponent, loss / speed)
+    lasts = impact.elastic_impact(impacts_of.MASS, speed, law.coefficient, law.exponent)[0]
+    gap = 0.001
+    times, scale = numpy.array([0.0, gap / speed + lasts * (3.0 + 3.0 * loss)]), numpy.array([depth, speed]) * tolerance
+    start: Vector = numpy.array([gap, -speed])
+    out, work, mode = numpy.zeros((2, STATES)), make_workspace(STATES, MARGINS), empty_mode()
+    return 1e6 * median_time(lambda: _many(rig, mode, start, scale, work, times, out, IMPACTS)) / IMPACTS
+
+
+def steel() -> list[Measured]:
+    """A contact of 69 µs with an outer tick of 1 ms: worst error of duration, depth and force within 100 steps."""
+    for tolerance in TOLERANCES:
+        duration, depth, force, steps = impacts_of.steel_impact(tolerance)
+        worst = max(duration, depth, force)
+        if worst <= 1e-8:
+            break
+    note = f"tolerance {tolerance:.1e}"
+    return [
+        Measured("steel ball: worst error of duration, depth, force", worst, "", most=1e-8, note=note),
+        Measured("steel ball: steps for it", float(steps), "steps", most=100.0, note="rejected ones included"),
+    ]
+
+
+def stick_slip() -> list[Measured]:
+    """Period of the rigid law, extrapolated from stiff friction springs, against the closed form."""
+    exact = period_of_rigid_law(hard_cases_friction.stick_slip(1.0, 0.0)[1])
+    error = abs(hard_cases_friction.period_of_the_rigid_law().value / exact - 1.0)
+    return [Measured("stick-slip period: relative error", error, "", most=1e-9)]
+
+
+def absent_effect() -> list[Measured]:
+    """The rig with the loss left out, beside the same rig written by hand without it: at most 2 % or 1 ns a step."""
+    with_effect, absent, by_hand = absent_effect_cost()
+    allowed = max(2.0, 100.0 / by_hand)
+    return [
+        Measured("absent effect: extra time of a step", 100.0 * (absent / by_hand - 1.0), "%", most=allowed),
+        Measured("a step with the loss", with_effect, "ns"),
+        Measured("a step with the loss absent", absent, "ns"),
+        Measured("a step of the rig by hand", by_hand, "ns"),
+    ]
