@@ -8,6 +8,7 @@ from ..jit import entry, kernel
 from ..parameters import Drive, Modes, Vector, Vehicle
 from ..results import DONE
 from ..solvers.dormand_prince import Workspace, integrate, set_sides
+from ..vectors import copy_row
 from . import vehicle
 from .interface import rate
 
@@ -77,7 +78,7 @@ def advance(
     for i in range(height.shape[0] - 1):
         drive = _segment(start, segment_length, i, height, cushion, acceleration_x, acceleration_z)
         if i % sample_every == 0:
-            sampled_states[row, :] = state
+            copy_row(state, sampled_states[row])
             rate(rig, drive, mode, drive.start, state, sampled_rates[row])
             _observe(rig, drive, mode, state, sampled_forces[row])
             row += 1

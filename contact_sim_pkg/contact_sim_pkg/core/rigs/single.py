@@ -9,6 +9,7 @@ import numpy
 from ..jit import entry, kernel, kernel_overload
 from ..parameters import Drive, Modes, PointContact, Vector
 from ..solvers.dormand_prince import Workspace, integrate, set_sides
+from ..vectors import copy_row
 from . import belt_slider, point_contact
 
 __all__ = ["belt_slider", "empty_mode", "longest_piece", "point_contact", "run"]
@@ -49,13 +50,13 @@ def run(rig: Any, mode: Modes, state: Vector, scale: Vector, work: Workspace, ti
     """
     drive = Drive(times[0], times[-1] - times[0], 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
     set_sides(rig, drive, mode, times[0], state, work)
-    out[0, :] = state
+    copy_row(state, out[0])
     status = 0
     for i in range(times.shape[0] - 1):
         status = _run_piecewise(rig, mode, times[i], times[i + 1], state, scale, work)
         if status != 0:
             return status
-        out[i + 1, :] = state
+        copy_row(state, out[i + 1])
     return status
 
 
