@@ -53,7 +53,12 @@ def _switch(rig, drive, mode, time, state, event, side):  # type: ignore[no-unty
     return side
 
 
-register(HandWritten, _rate, _margins, _switch)
+@kernel
+def _need_rate(rig, mode):  # type: ignore[no-untyped-def]
+    return False
+
+
+register(HandWritten, _rate, _margins, _switch, _need_rate)
 
 
 def bounce(rig: PointContact | HandWritten) -> tuple[Vector, float]:

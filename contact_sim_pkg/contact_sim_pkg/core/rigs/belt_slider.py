@@ -44,4 +44,9 @@ def _switch(rig, drive, mode, time, state, event, side):
     return 1.0
 
 
-register(BeltSlider, _rate, _margins, _switch)
+@kernel
+def _need_rate(rig, mode):
+    return mode[0] != STICK
+
+
+register(BeltSlider, _rate, _margins, _switch, _need_rate)

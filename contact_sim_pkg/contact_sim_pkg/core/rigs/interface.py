@@ -1,7 +1,7 @@
-"""What every rig gives the integrator: three functions that numba picks by the class of the rig's parameter tuple.
+"""What every rig gives the integrator: four functions that numba picks by the class of the rig's parameter tuple.
 
-A rig's module registers its implementations with ``register``; the integrator calls ``rate``, ``margins`` and ``switch``
-and so is written, compiled and cached once per rig and combination of effects.
+A rig's module registers its implementations with ``register``; the integrator calls ``rate``, ``margins``, ``switch``,
+``margins_need_rate``, and so is written, compiled and cached once per rig and combination of effects.
 """
 
 from __future__ import annotations
@@ -12,7 +12,7 @@ from typing import Any
 from ..jit import kernel_overload
 from ..parameters import Drive, Vector
 
-_implementations: dict[type, tuple[Callable[..., Any], Callable[..., Any], Callable[..., Any]]] = {}
+_implementations: dict[type, tuple[Callable[..., Any], ...]] = {}
 
 
 def rate(rig: Any, drive: Drive, mode: Any, time: float, state: Vector, out: Vector) -> None:
@@ -34,14 +34,23 @@ def switch(rig: Any, drive: Drive, mode: Any, time: float, state: Vector, event:
     return _implementations[type(rig)][2](rig, drive, mode, time, state, event, side)
 
 
+def margins_need_rate(rig: Any, mode: Any) -> bool:
+    """Whether ``margins`` reads the derivative it is given, in this mode: where not, it need not be worked out."""
+    return bool(_implementations[type(rig)][3](rig, mode))
+
+
 def register(
-    rig_class: type, rate_of: Callable[..., Any], margins_of: Callable[..., Any], switch_of: Callable[..., Any]
+    rig_class: type,
+    rate_of: Callable[..., Any],
+    margins_of: Callable[..., Any],
+    switch_of: Callable[..., Any],
+    need_rate_of: Callable[..., Any],
 ) -> None:
-    """Give the integrator the three kernels of a rig."""
-    _implementations[rig_class] = (rate_of, margins_of, switch_of)
+    """Give the integrator the four kernels of a rig."""
+    _implementations[rig_class] = (rate_of, margins_of, switch_of, need_rate_of)
 
 
-def _kernels_of(rig_type: Any) -> tuple[Any, Any, Any] | None:
+def _kernels_of(rig_type: Any) -> tuple[Callable[..., Any], ...] | None:
     return _implementations.get(getattr(rig_type, "instance_class", None))  # type: ignore[arg-type]
 
 
@@ -72,3 +81,12 @@ def _switch(rig, drive, mode, time, state, event, side):
         return None
     implementation = kernels[2]
     return lambda rig, drive, mode, time, state, event, side: implementation(rig, drive, mode, time, state, event, side)
+
+
+@kernel_overload(margins_need_rate)
+def _margins_need_rate(rig, mode):
+    kernels = _kernels_of(rig)
+    if kernels is None:
+        return None
+    implementation = kernels[3]
+    return lambda rig, mode: implementation(rig, mode)

@@ -58,4 +58,9 @@ def _switch(rig, drive, mode, time, state, event, side):
     return side
 
 
-register(PointContact, _rate, _margins, _switch)
+@kernel
+def _need_rate(rig, mode):
+    return False
+
+
+register(PointContact, _rate, _margins, _switch, _need_rate)

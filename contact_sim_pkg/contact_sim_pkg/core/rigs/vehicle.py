@@ -294,4 +294,16 @@ def _switch(rig, drive, mode, time, state, event, side):
     return 1.0 if event == SEAT_FRICTION else side
 
 
-register(Vehicle, _rate, _margins, _switch)
+@kernel
+def _slips(friction, mode):
+    if friction is None:
+        return False
+    return mode[0] != STICK and mode[0] != APART
+
+
+@kernel
+def _need_rate(rig, mode):
+    return _slips(_friction_of(rig.seat_contact), mode)
+
+
+register(Vehicle, _rate, _margins, _switch, _need_rate)

@@ -19,7 +19,7 @@ import numpy
 from ..jit import kernel
 from ..parameters import Vector
 from ..results import DONE, NOT_FINITE, STEP_TOO_SMALL, TOO_MANY_EVENTS
-from ..rigs.interface import margins, rate, switch
+from ..rigs.interface import margins, margins_need_rate, rate, switch
 
 MAXIMUM_EVENTS = 10_000
 STATE_LIMIT = 1.0e10
@@ -125,6 +125,7 @@ def _first_change(rig, drive, mode, time, step, state, work):
     At step's end ``work.margin`` is filled.
     """
     k = work.stages
+    with_rate = margins_need_rate(rig, mode)
     for point in range(1, INSIDE_POINTS + 1):
         part = point / (INSIDE_POINTS + 1.0)
         for i in range(state.shape[0]):
@@ -132,7 +133,8 @@ def _first_change(rig, drive, mode, time, step, state, work):
             start = step * k[0, i] - change
             end = change - step * k[6, i]
             work.inside[i] = state[i] + part * (change + (1.0 - part) * (start * (1.0 - part) + end * part))
-        rate(rig, drive, mode, time + part * step, work.inside, work.inside_rate)
+        if with_rate:
+            rate(rig, drive, mode, time + part * step, work.inside, work.inside_rate)
         margins(rig, drive, mode, time + part * step, work.inside, work.inside_rate, work.margin_inside)
         for j in range(work.side.shape[0]):
             if work.margin_inside[j] * work.side[j] < 0.0:
