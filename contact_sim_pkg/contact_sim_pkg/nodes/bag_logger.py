@@ -138,7 +138,6 @@ class BagLoggerNode(LifecycleBenchNode):
         """Wait shortly for what the simulator has still sent, then close."""
         if self._writer is None or self._leave_at < float("inf"):
             self._leave_at = 0.0
-            self._write_whole()
             self.close()
             self.exit_status = DONE
         else:
@@ -161,8 +160,10 @@ class BagLoggerNode(LifecycleBenchNode):
             self._closed = True
             return False
         self._closed = True
-        if self._run.state.ended:
-            self._write(self._order.take_rest())
+        with suppress(BagError):  # where the bag itself is what failed; its summary says so
+            self._write_whole()
+            if self._run.state.ended:
+                self._write(self._order.take_rest())
         ended = self._run.state.name.lower()
         last = self._run.last
         failure = last.message if last is not None and self._run.state is State.FAILED else ""
