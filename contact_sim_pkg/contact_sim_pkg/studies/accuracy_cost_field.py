@@ -90,16 +90,16 @@ def _rungs(scene: ResolvedScene, contact: Contact, tell: Callable[[str], None]) 
     rows_of_rung, cols_of_rung = RUNGS[-1].cells(contact)
     finest = (2 * rows_of_rung, 2 * cols_of_rung)
     tell(f"{contact} field: reference grid {finest[0]}x{finest[1]}")
-    reference = _solve(_problem(scene, contact, finest, RUNGS[-1].tolerance), FEW)
+    reference = _solve(_problem(scene, contact, finest, RUNGS[-1].field_tolerance(contact)), FEW)
     rate = float(scene.data["outputs"]["field_rate"])
     rows = []
     for rung in RUNGS:
         cells = rung.cells(contact)
         tell(f"{contact} field: rung {rung.name}, {cells[0]}x{cells[1]}")
-        found = _solve(_problem(scene, contact, cells, rung.tolerance))
+        found = _solve(_problem(scene, contact, cells, rung.field_tolerance(contact)))
         converged = _solve(_problem(scene, contact, cells, CONVERGED_TOLERANCE))
         shared = {
-            "rung": rung.name, "grid": f"{cells[0]}x{cells[1]}", "tolerance": rung.tolerance,
+            "rung": rung.name, "grid": f"{cells[0]}x{cells[1]}", "tolerance": rung.field_tolerance(contact),
             "ms_per_simulated_s": 1e3 * found.seconds * rate,
         }  # fmt: skip
         for name, error in _errors(found, converged).items():

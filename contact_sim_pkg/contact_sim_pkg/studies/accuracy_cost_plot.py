@@ -60,7 +60,7 @@ def _panel(axis: Any, rows: list[dict[str, Any]]) -> None:
     axis.set_yscale("log")
     times = [row["ms_per_simulated_s"] for row in rows]
     middle, half = (min(times) * max(times)) ** 0.5, max(SPAN, 2.0 * max(times) / min(times)) ** 0.5
-    axis.set_xlim(middle / half, 1.8 * middle * half)  # room for the names of the last points
+    axis.set_xlim(middle / half, 2.6 * middle * half)  # room for the names of the last points
     axis.xaxis.set_major_locator(ticker.LogLocator(subs=(1.0, 2.0, 5.0)))
     axis.xaxis.set_major_formatter(ticker.FuncFormatter(lambda value, _place: f"{value:g}"))
     axis.xaxis.set_minor_formatter(ticker.NullFormatter())
