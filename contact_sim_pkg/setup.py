@@ -42,6 +42,7 @@ setup(
         "jinja2>=3.1,<4",
         "matplotlib>=3.8,<4",
         "mcap>=1.5,<2",
+        "mpmath>=1.3,<2",
         "numba>=0.61,<0.69",
         "numpy>=1.26,<3",
         "pydantic>=2.6,<3",
@@ -52,7 +53,7 @@ setup(
         "scipy>=1.11,<2",
         "zstandard>=0.22,<1",
     ],
-    extras_require={"test": ["hypothesis", "mcap-ros2-support", "mpmath", "pytest"]},
+    extras_require={"test": ["hypothesis", "mcap-ros2-support", "pytest"]},
     entry_points={
         "console_scripts": [
             f"bench = {PACKAGE}.cli.main:main",
