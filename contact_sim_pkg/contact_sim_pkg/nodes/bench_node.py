@@ -24,6 +24,7 @@ class LifecycleBenchNode(LifecycleNode):
 
     exit_status: int | None = None
     gather = 0.0
+    computes = False
 
     def __init__(self, name: str) -> None:
         """Declare what all of these nodes have."""

@@ -30,6 +30,8 @@ CLOSE_SECONDS = 10.0  # for the logger to close its bag after the last block
 class ContactSimulatorNode(LifecycleBenchNode):
     """Publishes the results of the scene, `bench/progress`, `bench/scene` and `/clock`; takes excitation and `bench/recorded`."""
 
+    computes = True
+
     def __init__(self) -> None:
         """Declare the parameters; everything else is done in `configure`."""
         super().__init__("contact_simulator")

@@ -30,6 +30,7 @@ class ExcitationNode(Node):
     """Sends the blocks of one excitation topic, in order, and ends when the run has ended."""
 
     exit_status: int | None = None
+    computes = False
 
     def __init__(self, name: str, topic: str, make_source: MakeSource, encode: Callable[[Any, int], bytes]) -> None:
         """Make the source of the scene, or open the bag, and wait for the simulator."""

@@ -7,6 +7,7 @@ import signal
 import time
 import traceback
 from collections.abc import Callable, Sequence
+from contextlib import suppress
 from typing import Any, Protocol
 
 import rclpy
@@ -36,7 +37,8 @@ class BenchNode(Protocol):
     """What `run` asks of a node beside being one of rclpy."""
 
     exit_status: int | None  # set when the process shall end
-    gather: float  # [s] that messages gather for before they are handled together; 0 handles each as it comes
+    gather: float  # [s] between two looks at what has come; 0 handles each message at once
+    computes: bool  # the others make way for this node's thread
 
     def start(self) -> None:
         """Whatever takes long: compile, open; a signal may break it off."""
@@ -80,20 +82,40 @@ def make_executor() -> Executor:
 def hear(executor: Executor, wait: float, gather: float = 0.0) -> None:
     """Run the callbacks of what has come.
 
-    A process that handles a few messages at a time is woken less often; with one core for each two processes that is time
-    which the simulation gets.
+    A process that handles several messages at a time is woken less often, which leaves the cores to the simulation.
 
     Args:
         executor: as `make_executor` makes it.
-        wait: how long to wait for the first message, [s].
-        gather: how long others may gather after it, [s].
+        wait: how long to wait for a message, [s].
+        gather: where above 0, sleep for that long, [s], and then handle all that has come, without waiting for more.
     """
-    executor.spin_once(timeout_sec=wait)
-    if isinstance(executor, SingleThreadedExecutor):
-        return
-    if gather > 0.0:
-        time.sleep(gather)
-    executor.spin_until_future_complete(_NEVER, timeout_sec=0.0)  # all that is queued, where `spin_once` takes one
+    plain = isinstance(executor, SingleThreadedExecutor)
+    if gather > 0.0 and not plain:
+        time.sleep(min(wait, gather))
+    else:
+        executor.spin_once(timeout_sec=wait)
+    if not plain:
+        executor.spin_until_future_complete(_NEVER, timeout_sec=0.0)  # all that is queued, where `spin_once` takes one
+
+
+def step_back() -> None:
+    """Let this thread, and those it starts, wait for its turn when it wakes instead of pushing another off its core.
+
+    DDS wakes threads some 20 times a block. Under the usual policy each of them interrupts the simulation where both cores are
+    busy. A policy that the caller chose is kept.
+    """
+    _change_policy(os.SCHED_OTHER, os.SCHED_BATCH)
+
+
+def step_forward() -> None:
+    """Take this thread, not those it has started, back to the usual policy."""
+    _change_policy(os.SCHED_BATCH, os.SCHED_OTHER)
+
+
+def _change_policy(usual: int, wanted: int) -> None:
+    with suppress(OSError):  # a system that forbids it runs a little slower
+        if os.sched_getscheduler(0) == usual:
+            os.sched_setscheduler(0, wanted, os.sched_param(0))
 
 
 def run(make_node: Callable[[], Any], args: Sequence[str] | None = None) -> int:
@@ -101,8 +123,11 @@ def run(make_node: Callable[[], Any], args: Sequence[str] | None = None) -> int:
     signals = StopSignals()
     node: Any = None
     try:
+        step_back()
         rclpy.init(args=None if args is None else list(args), signal_handler_options=SignalHandlerOptions.NO)
         node = make_node()
+        if node.computes:
+            step_forward()
         node.start()
         signals.breaks_off = False
         return _spin(node, signals)

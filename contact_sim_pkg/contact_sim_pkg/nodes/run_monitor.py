@@ -13,10 +13,10 @@ from rclpy.signals import SignalHandlerOptions
 from contact_sim_pkg.bag.messages import decode_progress, decode_recorded
 
 from .endpoints import subscription
-from .process import hear, make_executor
+from .process import hear, make_executor, step_back
 from .protocol import Follower, RecordedFollower, State
 
-GATHER_SECONDS = 0.005  # that reports gather for; what the times of a run are exact to
+GATHER_SECONDS = 0.01  # that reports gather for; what the times of a run are exact to
 
 
 class RunMonitor:
@@ -24,6 +24,7 @@ class RunMonitor:
 
     def __init__(self, arguments: Sequence[str] = ()) -> None:
         """Join the graph; `arguments` are those of ROS (`--ros-args …`)."""
+        step_back()
         rclpy.init(args=list(arguments), signal_handler_options=SignalHandlerOptions.NO)
         self._node = Node("bench_run", start_parameter_services=False, enable_rosout=False)
         self._executor = make_executor()

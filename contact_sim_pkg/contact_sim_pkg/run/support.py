@@ -148,6 +148,8 @@ class CushionSupport(Support):
         self._gaps = {} if grids is None or shape is None else {
             field.settings.rows: seat_gap_on(shape, field.settings) for field in grids.both()
         }  # fmt: skip
+        cells = {} if grids is None else {field.settings.rows: seat_cells(field.settings) for field in grids.both()}
+        self._origins = {rows: (float(x[0]), float(y[0])) for rows, (x, y) in cells.items()}
 
     def gap(self, settings: FieldSettings) -> Gap:
         """See Support."""
@@ -155,5 +157,4 @@ class CushionSupport(Support):
 
     def origin(self, settings: FieldSettings) -> tuple[float, float]:
         """See Support."""
-        x, y = seat_cells(settings)
-        return float(x[0]), float(y[0])
+        return self._origins[settings.rows]

@@ -14,16 +14,8 @@ import math
 import numpy
 from numpy.typing import NDArray
 
-from ..field_solver import (
-    CONVERGED,
-    EDGE,
-    SENTENCES,
-    FieldResult,
-    SolverWorkspace,
-    make_workspace,
-    solve_at_approach,
-    solve_at_load,
-)
+from ..field_solver import CONVERGED, EDGE, SENTENCES, FieldResult
+from ..field_window import WindowedSolver
 from ..halfspace import HalfSpace, make_half_space
 from ..parameters import FieldSettings, NormalElastic
 from .normal_elastic import approach_of_force
@@ -50,7 +42,7 @@ class PressureField:
         self.half_space: HalfSpace = make_half_space(
             settings.rows, settings.cols, settings.cell_x, settings.cell_y, settings.modulus
         )
-        self._workspace: SolverWorkspace = make_workspace(self.half_space)
+        self._solver = WindowedSolver(self.half_space)
         self.pressure: Field = numpy.zeros((settings.rows, settings.cols))
         self.load = 0.0
         self.iterations = 0
@@ -62,18 +54,14 @@ class PressureField:
         Starts from the field of the last call. Raises FieldError where the contact reaches the edge or does not converge.
         """
         s = self.settings
-        result = solve_at_approach(
-            self.half_space, self._workspace, gap, approach, s.tolerance, s.maximum_iterations, self.pressure
-        )
+        result = self._solver.solve_at_approach(gap, approach, s.tolerance, s.maximum_iterations, self.pressure)
         self._accept(result)
         return self.load
 
     def solve_load(self, gap: Field, load: float) -> float:
         """Solve for ``load`` [N]; returns the approach in [m]. Errors as in ``solve``."""
         s = self.settings
-        result = solve_at_load(
-            self.half_space, self._workspace, gap, load, s.tolerance, s.maximum_iterations, self.pressure
-        )
+        result = self._solver.solve_at_load(gap, load, s.tolerance, s.maximum_iterations, self.pressure)
         self._accept(result)
         return float(result.approach)
 
