@@ -13,10 +13,10 @@ from __future__ import annotations
 from typing import NamedTuple
 
 import numpy
-import rocket_fft
 from numpy.typing import NDArray
 
 from contact_sim_pkg.core.jit import entry, kernel
+from contact_sim_pkg.core.transforms import rocket_fft
 
 __all__ = ["Buffers", "HalfSpace", "displacement", "make_buffers", "make_half_space"]
 

@@ -1,0 +1,28 @@
+"""The fast Fourier transforms of compiled code: `rocket_fft`, imported without what it does for SciPy.
+
+Where SciPy is installed, `rocket_fft` imports `scipy.fft` to serve it too. The core calls its own functions only, and that
+import takes as long as a quarter of a node's start.
+"""
+
+from __future__ import annotations
+
+import importlib
+import sys
+from types import ModuleType
+
+__all__ = ["rocket_fft"]
+
+_SERVED = "scipy.fft"
+
+
+def _import_alone() -> ModuleType:
+    if _SERVED in sys.modules:
+        return importlib.import_module("rocket_fft")
+    sys.modules[_SERVED] = None  # type: ignore[assignment]  # the documented way to make an import fail
+    try:
+        return importlib.import_module("rocket_fft")
+    finally:
+        del sys.modules[_SERVED]
+
+
+rocket_fft = _import_alone()
