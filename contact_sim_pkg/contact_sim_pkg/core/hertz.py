@@ -214,7 +214,7 @@ def log_ratio_slope(complement: float, integral_k: float, integral_e: float, dif
     return 1.0 - complement * (difference_slope / difference - below_slope / below)
 
 
-@kernel
+@entry
 def elliptic_integrals(complement: float) -> tuple[float, float, float]:
     """K(m), E(m) and K(m) - E(m) from 1 - m in (0, 1] by the arithmetic-geometric mean.
 
