@@ -25,10 +25,15 @@ from typing import NamedTuple
 import numpy
 
 from contact_sim_pkg.core.field_iteration import (
+    ONE_BY_ONE,
     SolverWorkspace,
+    begin,
     evaluate,
     fresh_surface,
+    hold_load,
     make_workspace,
+    move_surface,
+    part,
     rescale,
     search,
     step,
@@ -163,9 +168,11 @@ def solve(
         return FieldResult(CONVERGED, 0, 0.0, touch if holds_load else given, 0.0)
     total = given / (half_space.cell_x * half_space.cell_y) if holds_load else -1.0
     heights_above(gap, touch, workspace.height)
+    heights_above(pressure, 0.0, workspace.pressure)
     if holds_load:
-        start_at_load(half_space, workspace.height, given, total, pressure)
-    result = iterate(half_space, workspace, given - touch, total, tolerance, max_iterations, pressure)
+        start_at_load(half_space, workspace.height, given, total, workspace.pressure)
+    result = iterate(half_space, workspace, given - touch, total, tolerance, max_iterations)
+    heights_above(workspace.pressure, 0.0, pressure)
     approach = touch + result.approach if holds_load else given
     return FieldResult(result.status, result.iterations, result.load, approach, result.residual)
 
@@ -264,31 +271,40 @@ def iterate(
     total: float,
     tolerance: float,
     max_iterations: int,
-    pressure: Field,
 ) -> FieldResult:
     """Conjugate gradients from the given pressure; `total` [Pa] is the sum of p to hold, or -1 for a given approach."""
     holds_load = total > 0.0
     refresh, fresh, blocked = True, False, False
     best, stale, slope, iterations = numpy.inf, 0, 0.0, 0
+    contact, left = begin(workspace), 0
     while True:
         if refresh:
-            fresh_surface(half_space, workspace, pressure)
+            if holds_load:
+                hold_load(workspace, contact, total)
+            fresh_surface(half_space, workspace)
             refresh, fresh = False, True
-        state = evaluate(workspace, pressure, approach, holds_load)
+        state = evaluate(workspace, contact, left, approach, holds_load)
         if state.residual <= tolerance or iterations >= max_iterations or blocked:
             if fresh:
                 break
             refresh = True  # certify: evaluate once more, from the pressure alone
+            contact, left = part(workspace, state.free, 0.0)
             continue
         stale = 0 if state.residual < best else stale + 1
         best = min(best, state.residual)
-        slope = search(half_space, workspace, pressure, slope if stale < PATIENCE else 0.0, holds_load)
+        slope, descent = search(half_space, workspace, state.free, slope if stale < PATIENCE else 0.0, holds_load)
         stale = stale if stale < PATIENCE else 0
-        blocked = not step(half_space, workspace, pressure)
-        if holds_load:
-            rescale(workspace, pressure, total)
-        fresh = False
+        length = step(half_space, workspace, state.free, descent)
+        blocked = length == 0.0
+        contact, left = part(workspace, state.free, length)
         iterations += 1
+        refresh = left > ONE_BY_ONE  # as dear as summing the clipped pressure, and what certifies as well
+        fresh = False
+        if not refresh:
+            move_surface(half_space, workspace, length, left)
+            if holds_load and left > 0:
+                rescale(workspace, hold_load(workspace, contact, total))
+    pressure = workspace.pressure
     load = total_of(pressure) * half_space.cell_x * half_space.cell_y
     return FieldResult(verdict(pressure, state.residual, tolerance), iterations, load, state.approach, state.residual)
 

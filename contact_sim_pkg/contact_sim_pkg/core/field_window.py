@@ -26,7 +26,7 @@ from contact_sim_pkg.core.field_solver import (
 from contact_sim_pkg.core.halfspace import Field, HalfSpace, make_half_space
 from contact_sim_pkg.core.jit import entry
 
-__all__ = ["Window", "WindowedSolver", "overlap_window"]
+__all__ = ["Part", "Window", "WindowedSolver", "make_part", "overlap_window", "put_back", "take"]
 
 STEP = 4
 """Sizes of windows are multiples of it [cells]; chosen by time on the tire's grid."""
@@ -41,7 +41,7 @@ class Window(NamedTuple):
     cols: int
 
 
-class _Part(NamedTuple):
+class Part(NamedTuple):
     """What solves windows of one size."""
 
     half_space: HalfSpace
@@ -57,7 +57,7 @@ class WindowedSolver:
         """Take the whole grid."""
         self.half_space = half_space
         self._whole = make_workspace(half_space)
-        self._parts: dict[tuple[int, int], _Part] = {}
+        self._parts: dict[tuple[int, int], Part] = {}
 
     def solve_at_approach(
         self, gap: Field, approach: float, tolerance: float, max_iterations: int, pressure: Field
@@ -84,14 +84,17 @@ class WindowedSolver:
         """As `field_solver.solve_at_load`, on the whole grid: without the approach no window is known to hold the contact."""
         return solve_at_load(self.half_space, self._whole, gap, load, tolerance, max_iterations, pressure)
 
-    def _part(self, rows: int, cols: int) -> _Part:
+    def _part(self, rows: int, cols: int) -> Part:
         part = self._parts.get((rows, cols))
         if part is None:
-            whole = self.half_space
-            half_space = make_half_space(rows, cols, whole.cell_x, whole.cell_y, whole.modulus)
-            part = _Part(half_space, make_workspace(half_space), numpy.zeros((rows, cols)), numpy.zeros((rows, cols)))
-            self._parts[rows, cols] = part
+            part = self._parts[rows, cols] = make_part(self.half_space, rows, cols)
         return part
+
+
+def make_part(whole: HalfSpace, rows: int, cols: int) -> Part:
+    """Tables and buffers for windows of one size of a grid."""
+    half_space = make_half_space(rows, cols, whole.cell_x, whole.cell_y, whole.modulus)
+    return Part(half_space, make_workspace(half_space), numpy.zeros((rows, cols)), numpy.zeros((rows, cols)))
 
 
 @entry

@@ -54,6 +54,7 @@ class Buffers(NamedTuple):
     plain_spectrum: Spectrum  # [rows', cols'/2+1] complex
     row_axis: Axis
     col_axis: Axis
+    convolutions: Axis  # [1] how many were done
 
 
 def make_half_space(rows: int, cols: int, cell_x: float, cell_y: float, modulus: float) -> HalfSpace:
@@ -93,6 +94,7 @@ def make_buffers(half_space: HalfSpace) -> Buffers:
         numpy.zeros((plain_rows, plain_cols // 2 + 1), dtype=numpy.complex128),
         numpy.array([0], dtype=numpy.int64),
         numpy.array([1], dtype=numpy.int64),
+        numpy.zeros(1, dtype=numpy.int64),
     )
 
 
@@ -123,6 +125,7 @@ def convolve(half_space: HalfSpace, buffers: Buffers, field: Field, result: Fiel
     """`result = K field` by one pruned, zero-padded transform pair; `result` may be `field` itself."""
     rows, cols = field.shape
     padded, spectrum, transfer = buffers.padded, buffers.spectrum, half_space.transfer
+    buffers.convolutions[0] += 1
     first, last = load_padded(field, padded)
     if first >= last:
         result[:] = 0.0
