@@ -100,8 +100,8 @@ def ansatz_of_curvatures(
     aspect = (-math.expm1(power)) ** (1.0 / exponent)
     unit_area = lame_area(1.0, aspect, exponent) * _mean_over_peak(exponent)
     a = math.sqrt(load / (hertz.peak_pressure * unit_area))
-    semi_axes = (a, aspect * a) if curvature_a <= curvature_b else (aspect * a, a)
-    return LamePressure(load, hertz.approach, *semi_axes, exponent, hertz.peak_pressure)
+    along_x, along_y = (a, aspect * a) if curvature_a <= curvature_b else (aspect * a, a)
+    return LamePressure(load, hertz.approach, along_x, along_y, exponent, hertz.peak_pressure)
 
 
 def equivalent_ellipse(a: float, b: float, exponent: float, modulus: float, load: float) -> LamePressure:

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import math
+
 import mpmath
 import scipy.integrate
 
@@ -16,14 +18,14 @@ def ansatz_load(a: float, b: float, exponent: float) -> float:
         return float((1.0 - x**n) ** (1.0 / n))
 
     value, _ = scipy.integrate.dblquad(
-        lambda y, x: max(1.0 - x**n - y**n, 0.0) ** 0.5, 0.0, 1.0, 0.0, width, epsabs=1e-9, epsrel=1e-9
+        lambda y, x: math.sqrt(max(1.0 - x**n - y**n, 0.0)), 0.0, 1.0, 0.0, width, epsabs=1e-9, epsrel=1e-9
     )
     return float(4.0 * a * b * value)
 
 
 def printed_eccentricity_power(a: float, b: float, exponent: float, radius_power: float) -> float:
     """`k^n = (n r^n - 2 b^n) / a^n`, printed below eq 7, with r^n given."""
-    return (exponent * radius_power - 2.0 * b**exponent) / a**exponent
+    return float((exponent * radius_power - 2.0 * b**exponent) / a**exponent)
 
 
 def printed_shape_load() -> float:
