@@ -1,0 +1,73 @@
+"""Stress in a half-space by cubature of the point-force solutions, and the closed forms on the axis of Hertz contacts."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+
+import scipy.integrate
+
+__all__ = ["circle_axis", "line_axis", "normal_point", "rectangle", "tangential_point"]
+
+Six = tuple[float, float, float, float, float, float]
+
+
+def normal_point(x: float, y: float, z: float, nu: float) -> Six:
+    """xx, yy, zz, xy, xz, yz of a unit force into the body (Boussinesq; Johnson 1985, eqs 3.18 in Cartesian form)."""
+    r = math.sqrt(x * x + y * y + z * z)
+    s, q = 1.0 - 2.0 * nu, r * (r + z)
+    bend = (2 * r + z) / (r**3 * (r + z) ** 2)
+    shear = 3 * x * y * z / r**5 - s * bend * x * y
+    k = -1.0 / (2.0 * math.pi)
+    xx = k * (3 * x * x * z / r**5 + s * (1.0 / q - z / r**3 - bend * x * x))
+    yy = k * (3 * y * y * z / r**5 + s * (1.0 / q - z / r**3 - bend * y * y))
+    return xx, yy, k * 3 * z**3 / r**5, k * shear, k * 3 * x * z * z / r**5, k * 3 * y * z * z / r**5
+
+
+def tangential_point(x: float, y: float, z: float, nu: float) -> Six:
+    """The same of a unit force along x (Cerruti; Johnson 1985, eqs 3.76)."""
+    r = math.sqrt(x * x + y * y + z * z)
+    s, g = 1.0 - 2.0 * nu, r + z
+    k = 1.0 / (2.0 * math.pi)
+    bend = 1.0 / (r**3 * g * g) + 2.0 / (r * r * g**3)
+    xx = k * (-3 * x**3 / r**5 + s * (x / r**3 - 3 * x / (r * g * g) + x**3 * bend))
+    yy = k * (-3 * x * y * y / r**5 + s * (x / r**3 - x / (r * g * g) + x * y * y * bend))
+    xy = k * (-3 * x * x * y / r**5 + s * (-y / (r * g * g) + x * x * y * bend))
+    return xx, yy, -k * 3 * x * z * z / r**5, xy, -k * 3 * x * x * z / r**5, -k * 3 * x * y * z / r**5
+
+
+def rectangle(
+    point_force: Callable[[float, float, float, float], Six],
+    load: Callable[[float, float], float],
+    half: tuple[float, float],
+    at: tuple[float, float, float],
+    nu: float,
+) -> list[float]:
+    """Stresses [Pa] at a point below the surface of `load(x, y)` [Pa] on |x| < half[0], |y| < half[1], by cubature."""
+    values = []
+    for component in range(6):
+        value, _ = scipy.integrate.dblquad(
+            lambda eta, xi: load(xi, eta) * point_force(at[0] - xi, at[1] - eta, at[2], nu)[component],  # noqa: B023
+            -half[0],
+            half[0],
+            -half[1],
+            half[1],
+            epsabs=1e-11,
+            epsrel=1e-10,
+        )
+        values.append(float(value))
+    return values
+
+
+def circle_axis(depth: float, nu: float) -> tuple[float, float]:
+    """zz and radial stress over p0 on the axis of a circular Hertz contact, depth over a (Johnson 1985, eq 3.45)."""
+    swing = math.atan(1.0 / depth) if depth > 0.0 else 0.5 * math.pi
+    zz = -1.0 / (1.0 + depth**2)
+    return zz, -(1.0 + nu) * (1.0 - depth * swing) - 0.5 * zz
+
+
+def line_axis(depth: float, nu: float) -> tuple[float, float, float]:
+    """xx (across), yy (along the line), zz over p0 on the axis of a Hertz line contact (Johnson 1985, eq 4.46)."""
+    root = math.sqrt(1.0 + depth**2)
+    xx, zz = -((1.0 + 2.0 * depth**2) / root - 2.0 * depth), -1.0 / root
+    return xx, nu * (xx + zz), zz
