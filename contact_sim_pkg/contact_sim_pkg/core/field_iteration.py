@@ -29,7 +29,7 @@ __all__ = [
     "step",
 ]
 
-ONE_BY_ONE = 32
+ONE_BY_ONE = 64
 """Clipped cells up to which their influence is summed directly: about the cost of one convolution."""
 
 Cells = NDArray[numpy.int64]
@@ -93,11 +93,17 @@ def begin(workspace: SolverWorkspace) -> int:
     rows, cols = pressure.shape
     count = 0
     for i in range(rows):
+        found = 0
         for j in range(cols):
             residual[i, j] = 0.0
             direction[i, j] = 0.0
-            free[count] = i * cols + j
-            count += 1 if pressure[i, j] > 0.0 else 0
+            found += 1 if pressure[i, j] > 0.0 else 0
+        if found == 0:
+            continue
+        for j in range(cols):
+            if pressure[i, j] > 0.0:
+                free[count] = i * cols + j
+                count += 1
     return count
 
 
@@ -272,7 +278,7 @@ def part(workspace: SolverWorkspace, count: int, length: float) -> tuple[int, in
 @kernel
 def move_surface(half_space: HalfSpace, workspace: SolverWorkspace, length: float, left: int) -> None:
     """Add the displacement of a step and of the pressure that clipping added, cell by cell."""
-    surface, response, influence = workspace.surface, workspace.response, half_space.influence
+    surface, response, mirrored = workspace.surface, workspace.response, half_space.mirrored
     rows, cols = surface.shape
     for i in range(rows):
         for j in range(cols):
@@ -281,11 +287,9 @@ def move_surface(half_space: HalfSpace, workspace: SolverWorkspace, length: floa
         row, col = divmod(workspace.cells.left[m], cols)
         value = workspace.clipped[m]
         for i in range(rows):
-            table = influence[abs(i - row)]
-            for j in range(col):
-                surface[i, j] += value * table[col - j]
-            for j in range(col, cols):
-                surface[i, j] += value * table[j - col]
+            table = mirrored[abs(i - row), cols - 1 - col :]
+            for j in range(cols):
+                surface[i, j] += value * table[j]
 
 
 @kernel

@@ -27,6 +27,9 @@ __all__ = ["RollingField"]
 BLOCK = 4
 """Cells along a side of a block; windows begin and end at blocks."""
 
+COARSE = 16
+"""Cells along a side of the larger blocks, which are tried first; a multiple of `BLOCK`."""
+
 Values = NDArray[numpy.float64]
 Places = NDArray[numpy.int64]
 
@@ -42,13 +45,17 @@ class Blocks(NamedTuple):
     pressures: Values  # [Pa] those that are not zero
     loaded: Places  # first row and column of these
     number: Places  # [1] how many they are
+    line: Values  # [Pa] [cols]
 
 
 def make_blocks(half_space: HalfSpace, side: int) -> Blocks:
     """Scratch for blocks of `side` x `side` cells."""
     rows, cols = -(-half_space.rows // side), -(-half_space.cols // side)
     places = numpy.zeros((rows * cols, 2), dtype=numpy.int64)
-    return Blocks(side, numpy.zeros((rows, cols)), numpy.zeros(rows * cols), places, numpy.zeros(1, dtype=numpy.int64))
+    number = numpy.zeros(1, dtype=numpy.int64)
+    return Blocks(
+        side, numpy.zeros((rows, cols)), numpy.zeros(rows * cols), places, number, numpy.zeros(half_space.cols)
+    )
 
 
 class RollingField:
@@ -62,8 +69,7 @@ class RollingField:
         self.half_space = half_space
         self.pressure: Field = numpy.zeros((half_space.rows, half_space.cols))
         self._before: Field = numpy.zeros((half_space.rows, half_space.cols))
-        coarse = BLOCK * -(-max(half_space.rows, half_space.cols) // (8 * BLOCK))
-        self._fine, self._coarse = make_blocks(half_space, BLOCK), make_blocks(half_space, coarse)
+        self._coarse, self._fine = make_blocks(half_space, COARSE), make_blocks(half_space, BLOCK)
         self._fields = 0  # known from before, at most 2
         self._cells = 0
         self._parts: dict[tuple[int, int], Part] = {}
@@ -216,12 +222,12 @@ def enclose(
         for j in range(0, cols, BLOCK):
             if first_row <= i < end_row and first_col <= j < end_col:
                 continue
-            depth = approach - lowest_of_block(gap, i, j)
+            depth = approach - lowest_of_block(gap, i, j, approach)
             if depth <= 0.0:
                 continue
             if not added:
-                add_up_blocks(pressure, coarse, first_row, first_col, end_row, end_col)
-                add_up_blocks(pressure, fine, first_row, first_col, end_row, end_col)
+                add_up_cells(pressure, fine)
+                add_up_blocks(fine, coarse)
                 added = True
             if displaced_by(half_space, coarse, i, j, BLOCK, depth) or displaced_by(
                 half_space, fine, i, j, BLOCK, depth
@@ -244,35 +250,59 @@ def enclose(
 
 
 @kernel
-def add_up_blocks(pressure: Field, blocks: Blocks, first_row: int, first_col: int, end_row: int, end_col: int) -> None:
-    """Sums of the pressure over blocks of cells, and a list of those that are loaded."""
-    side, sums = blocks.side, blocks.sums
+def add_up_cells(pressure: Field, blocks: Blocks) -> None:
+    """Sums of the pressure over blocks of cells."""
+    rows, cols = pressure.shape
+    side, sums, line = blocks.side, blocks.sums, blocks.line
     for a in range(sums.shape[0]):
+        for j in range(cols):
+            line[j] = pressure[a * side, j]
+        for i in range(a * side + 1, min((a + 1) * side, rows)):
+            for j in range(cols):
+                line[j] += pressure[i, j]
         for b in range(sums.shape[1]):
-            sums[a, b] = 0.0
-    for i in range(first_row, end_row):
-        row = i // side
-        for b in range(first_col // side, -(-end_col // side)):
             total = 0.0
-            for j in range(max(b * side, first_col), min((b + 1) * side, end_col)):
-                total += pressure[i, j]
-            sums[row, b] += total
+            for j in range(b * side, min((b + 1) * side, cols)):
+                total += line[j]
+            sums[a, b] = total
+    list_loaded(blocks)
+
+
+@kernel
+def add_up_blocks(fine: Blocks, coarse: Blocks) -> None:
+    """Sums over larger blocks from those over smaller ones."""
+    ratio = coarse.side // fine.side
+    for a in range(coarse.sums.shape[0]):
+        for b in range(coarse.sums.shape[1]):
+            coarse.sums[a, b] = 0.0
+    for a in range(fine.sums.shape[0]):
+        for b in range(fine.sums.shape[1]):
+            coarse.sums[a // ratio, b // ratio] += fine.sums[a, b]
+    list_loaded(coarse)
+
+
+@kernel
+def list_loaded(blocks: Blocks) -> None:
+    """List the blocks with pressure in them."""
     count = 0
-    for a in range(sums.shape[0]):
-        for b in range(sums.shape[1]):
-            if sums[a, b] > 0.0:
-                blocks.loaded[count, 0], blocks.loaded[count, 1] = a * side, b * side
-                blocks.pressures[count] = sums[a, b]
+    for a in range(blocks.sums.shape[0]):
+        for b in range(blocks.sums.shape[1]):
+            if blocks.sums[a, b] > 0.0:
+                blocks.loaded[count, 0], blocks.loaded[count, 1] = a * blocks.side, b * blocks.side
+                blocks.pressures[count] = blocks.sums[a, b]
                 count += 1
     blocks.number[0] = count
 
 
 @kernel
-def lowest_of_block(gap: Field, i: int, j: int) -> float:
-    least = numpy.inf
-    for row in range(i, min(i + BLOCK, gap.shape[0])):
-        for col in range(j, min(j + BLOCK, gap.shape[1])):
-            least = min(least, gap[row, col])
+def lowest_of_block(gap: Field, i: int, j: int, most: float) -> float:
+    """Lowest gap [m] of a block, or `most` where none is lower."""
+    end_row, end_col = min(i + BLOCK, gap.shape[0]), min(j + BLOCK, gap.shape[1])
+    least = most
+    for row in range(i, end_row):
+        for col in range(j, end_col):
+            if gap[row, col] < least:
+                least = gap[row, col]
     return least
 
 
@@ -289,7 +319,9 @@ def displaced_by(half_space: HalfSpace, blocks: Blocks, i: int, j: int, side: in
         away_x = max(i + side - 1 - loaded[k, 0], loaded[k, 0] + far - i)
         away_y = max(j + side - 1 - loaded[k, 1], loaded[k, 1] + far - j)
         total += blocks.pressures[k] * influence[min(away_x, last_row), min(away_y, last_col)]
-    return total >= depth
+        if total >= depth:
+            return True
+    return False
 
 
 @kernel

@@ -43,6 +43,7 @@ class HalfSpace(NamedTuple):
     influence: Field  # [rows, cols] [m/Pa] displacement i rows and j cols away from a cell under unit pressure
     transfer: Field  # [padded rows, padded cols/2+1] real transform of `influence`, divided by the padded size
     preconditioner: Field  # [rows', cols'/2+1] approximate inverse of `transfer` on the unpadded grid
+    mirrored: Field  # [rows, 2 cols - 1] `influence` from cols - 1 cells on one side to as many on the other
 
 
 class Buffers(NamedTuple):
@@ -79,6 +80,7 @@ def make_half_space(rows: int, cols: int, cell_x: float, cell_y: float, modulus:
         influence,
         _transfer(influence),
         _preconditioner(rows, cols, cell_x, cell_y, modulus),
+        numpy.ascontiguousarray(numpy.concatenate([influence[:, :0:-1], influence], axis=1)),
     )
 
 
