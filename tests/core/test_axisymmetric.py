@@ -96,20 +96,42 @@ def test_a_blunted_cone_with_a_break_equals_multiple_precision() -> None:
         assert load_at_radius(profile, MODULUS, a) == pytest.approx(reference.load(slope, MODULUS, a, (b,)), rel=1e-12)
 
 
-def test_the_load_is_the_integral_of_the_pressure() -> None:
-    cases = [(SlopeProfile(mixed_slope), 0.2), (SlopeProfile(lambda r: numpy.minimum(r / 0.04, 1.0), (0.04,)), 0.1)]
-    for profile, a in cases:
-        total = sum(
-            scipy.integrate.quad(
-                lambda t: 2 * math.pi * a**2 * math.sin(t) * math.cos(t) * pressure(profile, 1.0, a, a * math.sin(t)),  # noqa: B023
-                low,
-                high,
-                epsabs=1e-11,
-                epsrel=1e-9,
-            )[0]
-            for low, high in ((0.0, math.asin(0.4)), (math.asin(0.4), math.pi / 2))
-        )
-        assert total == pytest.approx(load_at_radius(profile, 1.0, a), rel=1e-7)
+def blunted_pressure(b: float, a: float, r: float) -> float:
+    """p / E* below the blunted cone: d(s) = s^2/b inside b, `s (s/b (1 - cos q) + pi/2 - q)`, q = asin(b/s) outside."""
+    with mpmath.workdps(30):
+        blunt, near, edge = mpmath.mpf(b), mpmath.mpf(r), mpmath.mpf(a)
+
+        def approach_slope(s: mpmath.mpf) -> mpmath.mpf:
+            if s <= blunt:
+                return 2 * s / blunt
+            q = mpmath.asin(blunt / s)
+            return 2 * s / blunt * (1 - mpmath.cos(q)) + mpmath.pi / 2 - q  # the terms of dq/ds cancel
+
+        if r == 0.0:
+            outside = mpmath.quad(lambda s: approach_slope(s) / s, [blunt, 2 * blunt, edge])
+            return float((2 + outside) / mpmath.pi)
+        edges = [mpmath.mpf(0), *([mpmath.acosh(blunt / near)] if r < b else []), mpmath.acosh(edge / near)]
+        return float(mpmath.quad(lambda u: approach_slope(near * mpmath.cosh(u)), edges) / mpmath.pi)
+
+
+@pytest.mark.parametrize("r", [0.0, 1e-5, 0.02, 0.0399, 0.039999, 0.04, 0.0401, 0.06, 0.0999])
+def test_the_pressure_of_a_blunted_cone_equals_multiple_precision(r: float) -> None:
+    profile = SlopeProfile(lambda x: numpy.minimum(x / 0.04, 1.0), (0.04,))
+    assert float(pressure(profile, 1.0, 0.1, r)) == pytest.approx(blunted_pressure(0.04, 0.1, r), rel=1e-9)
+
+
+@pytest.mark.parametrize(
+    ("profile", "a"),
+    [(SlopeProfile(mixed_slope), 0.2), (SlopeProfile(lambda r: numpy.minimum(r / 0.04, 1.0), (0.04,)), 0.1)],
+)
+def test_the_load_is_the_integral_of_the_pressure(profile: SlopeProfile, a: float) -> None:
+    def ring(angle: numpy.ndarray) -> numpy.ndarray:
+        r = a * numpy.sin(angle)
+        return 2.0 * math.pi * r * a * numpy.cos(angle) * pressure(profile, 1.0, a, r)
+
+    edge = math.asin(0.4)  # the break of the second profile
+    total = sum(scipy.integrate.fixed_quad(ring, *panel, n=40)[0] for panel in ((0.0, edge), (edge, math.pi / 2)))
+    assert total == pytest.approx(load_at_radius(profile, 1.0, a), rel=1e-6)
 
 
 @pytest.mark.parametrize(("k", "where"), [(3.0, None), (4.0, math.sqrt(0.5)), (6.0, None)])
@@ -192,6 +214,12 @@ def test_what_has_no_disc_contact_is_refused() -> None:
         load_at_radius(table, 0.0, 1.0)
     with pytest.raises(AxisymmetricError, match="load"):
         radius_at_load(table, MODULUS, math.nan)
+    with pytest.raises(AxisymmetricError, match="approach"):
+        radius_at_approach(PowerProfile(1.0, 2.0), math.inf)
+    with pytest.raises(AxisymmetricError, match="not one disc"):  # a ring-shaped groove
+        pressure(
+            SlopeProfile(lambda r: numpy.where(r < 1.0, r, 1.0 - 3.0 * r), (1.0,)), 1.0, 1.3, numpy.array([0.1, 1.2])
+        )
     with pytest.raises(AxisymmetricError, match="negative"):
         pressure(table, MODULUS, 1.0, numpy.array([-0.1]))
 

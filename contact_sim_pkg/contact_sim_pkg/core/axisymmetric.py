@@ -52,6 +52,10 @@ SHORT_RANGE = 0.1
 """In u, see above: r is within 0.5 % of the contact radius."""
 
 
+PULL = 1e-8
+"""Of E* approach / a: a negative pressure below it is rounding at the edge."""
+
+
 class AxisymmetricError(ValueError):
     """The profile, or what is asked of it, has no disc-shaped contact; the text says why."""
 
@@ -131,7 +135,7 @@ def pressure(profile: Profile, modulus: float, radius: float, r: Field) -> Field
     """Pressure [Pa] at the distances r [m] >= 0 from the axis (any shape); zero from r = a outwards.
 
     A slope that does not vanish at the tip gives an infinite pressure at r = 0. modulus: E* [Pa]; radius: a [m].
-    Raises `AxisymmetricError` as `load_at_radius` and for a negative r.
+    Raises `AxisymmetricError` as `load_at_radius`, for a negative r and where the pressure comes out negative.
     """
     _refuse_modulus(modulus)
     _refuse_radius(profile, radius)
@@ -139,12 +143,18 @@ def pressure(profile: Profile, modulus: float, radius: float, r: Field) -> Field
     if not numpy.all(distance >= 0.0):
         raise AxisymmetricError("axisymmetric contact: a distance r from the axis is negative or not a number")
     inside = [_pressure_integral(profile, radius, float(x)) if x < radius else 0.0 for x in distance.ravel()]
+    if min(inside, default=0.0) < -PULL * approach_at_radius(profile, radius) / max(radius, 1e-300):
+        raise AxisymmetricError(
+            f"axisymmetric contact: negative pressure within a = {radius} m: the contact is not one disc, the profile falls "
+            "or bends back there; use the pressure field (effect contact_field) instead"
+        )
     return numpy.asarray(modulus / math.pi * numpy.array(inside).reshape(distance.shape))
 
 
 def radius_at_approach(profile: Profile, approach: float) -> float:
     """Contact radius [m] at an approach [m]; 0 for approach <= 0. Raises `AxisymmetricError` beyond the reach."""
     _refuse_profile(profile)
+    _refuse_target(approach, "approach [m]")
     if isinstance(profile, PowerProfile):
         return float((max(approach, 0.0) / _power_factor(profile)) ** (1.0 / profile.exponent))
     return _rising_root(lambda a: approach_at_radius(profile, a), approach, profile, "approach [m]")
@@ -154,6 +164,7 @@ def radius_at_load(profile: Profile, modulus: float, load: float) -> float:
     """Contact radius [m] under a load [N]; 0 for load <= 0. Raises `AxisymmetricError` beyond the reach."""
     _refuse_profile(profile)
     _refuse_modulus(modulus)
+    _refuse_target(load, "load [N]")
     if isinstance(profile, PowerProfile):
         k = profile.exponent
         return float((max(load, 0.0) * (k + 1.0) / (2.0 * modulus * k * _power_factor(profile))) ** (1.0 / (k + 1.0)))
@@ -243,8 +254,6 @@ def _unit_gauss(nodes: int) -> tuple[Field, Field]:
 
 def _rising_root(function: Callable[[float], float], target: float, profile: SlopeProfile, name: str) -> float:
     """Radius where a rising function of it reaches the target: bracketed, then false position (Anderson, Bjorck 1973)."""
-    if not math.isfinite(target):
-        raise AxisymmetricError(f"axisymmetric contact: {name} is {target}, it must be a finite number")
     if target <= 0.0:
         return 0.0
     low, high = _bracket(function, target, profile, name)
@@ -302,6 +311,11 @@ def _refuse_radius(profile: Profile, radius: float) -> None:
 def _refuse_modulus(modulus: float) -> None:
     if not 0.0 < modulus < math.inf:
         raise AxisymmetricError(f"axisymmetric contact: E* is {modulus} Pa, it must be a finite number above 0")
+
+
+def _refuse_target(target: float, name: str) -> None:
+    if not math.isfinite(target):
+        raise AxisymmetricError(f"axisymmetric contact: {name} is {target}, it must be a finite number")
 
 
 def _refuse_table(radius: Field, height: Field) -> None:

@@ -92,6 +92,14 @@ def test_a_road_without_sites_pushes_nothing() -> None:
     assert asperity_force(make_asperities(1.0, 1.0, numpy.zeros(0), numpy.zeros(0)), 1.0) == 0.0
 
 
+def test_an_unknown_place_gives_an_unknown_force() -> None:
+    density = numpy.zeros(3)
+    asperity_density(three_sites(), math.nan, 0.0, 1.0, density)
+    assert math.isnan(asperity_force(three_sites(), math.nan))
+    assert numpy.all(numpy.isnan(density))
+    assert asperity_force(three_sites(), math.inf) == asperity_force(three_sites(), -math.inf) == 0.0
+
+
 def test_impossible_input_is_refused() -> None:
     one = numpy.ones(1)
     with pytest.raises(ValueError, match="spacing"):

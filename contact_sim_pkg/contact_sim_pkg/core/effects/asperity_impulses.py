@@ -83,7 +83,9 @@ def default_asperities(
 
 @entry
 def asperity_force(asperities: AsperityImpulses, travel: float) -> float:
-    """Resultant [N] with the contact centred at `travel` [m]; 0 where no site is under it."""
+    """Resultant [N] with the contact centred at `travel` [m]; 0 where no site is under it, NaN for NaN."""
+    if math.isnan(travel):
+        return math.nan
     first, last = active_sites(asperities, travel)
     total = 0.0
     for n in range(first, last):
@@ -95,10 +97,10 @@ def asperity_force(asperities: AsperityImpulses, travel: float) -> float:
 def asperity_density(asperities: AsperityImpulses, travel: float, start: float, cell: float, out: Vector) -> None:
     """Line density [N/m] on cells: `out[i]` is the mean of f over start + i cell to start + (i + 1) cell [m].
 
-    A site on the border of two cells counts to the right one. Sites outside the cells are left out.
+    A site on the border of two cells counts to the right one. Sites outside the cells are left out. cell > 0. NaN for NaN.
     """
     for i in range(out.shape[0]):
-        out[i] = 0.0
+        out[i] = math.nan if math.isnan(travel) else 0.0
     first, last = active_sites(asperities, travel)
     for n in range(first, last):
         i = math.floor((n * asperities.spacing - start) / cell + 1e-9)
@@ -111,6 +113,8 @@ def active_sites(asperities: AsperityImpulses, travel: float) -> tuple[int, int]
     """First site that may act, and the one after the last; those on the border are sorted out by the window."""
     half = 0.5 * asperities.contact_length
     sites = asperities.push.shape[0]
+    if math.isnan(travel):
+        return 1, 1
     first = math.floor(min(max((travel - half) / asperities.spacing, 1.0), sites + 1.0))
     last = math.ceil(min(max((travel + half) / asperities.spacing, 0.0), float(sites)))
     return first, last + 1
