@@ -48,7 +48,8 @@ def test_a_run_with_json_prints_one_object_with_what_scripts_ask_for(capsys, tmp
     assert bench_main(["run", "seat_ride", *OFFLINE, "--out", str(out), "--json"]) == 0
     facts = json.loads(capsys.readouterr().out)
     assert list(facts) == [
-        "scene", "effects", "accuracy", "simulated_s", "startup_s", "wall_s", "real_time_factor", "bag", "summary",
+        "scene", "effects", "accuracy", "simulated_s", "startup_s", "wall_s", "real_time_factor", "excitation", "bag",
+        "summary",
     ]  # fmt: skip
     assert (facts["scene"], facts["simulated_s"], facts["bag"]) == ("seat_ride", 0.2, str(out))
     assert facts["real_time_factor"] == pytest.approx(facts["simulated_s"] / facts["wall_s"], rel=1e-3)
@@ -60,6 +61,40 @@ def test_a_run_without_recording_creates_nothing(capsys, tmp_path, monkeypatch):
     assert bench_main(["run", "seat_ride", *OFFLINE, "--no-record", "--json"]) == 0
     assert json.loads(capsys.readouterr().out)["bag"] is None
     assert list(tmp_path.iterdir()) == []
+
+
+@pytest.fixture
+def clipped_recording(tmp_path):
+    """A recording at 476 Hz with bias on x, three samples in a row at 2 g on z."""
+    z = [9.81 + (index % 7 - 3.0) for index in range(476)]
+    z[100:103] = [19.61] * 3
+    rows = [f"{0.2 + 0.1 * (index % 5 - 2)},{value}" for index, value in enumerate(z)]
+    path = tmp_path / "floor.csv"
+    path.write_text("\n".join(["x,z", *rows]) + "\n")
+    return path
+
+
+@pytest.mark.parametrize("record", [True, False])
+def test_a_run_says_what_was_found_in_its_recording(capsys, tmp_path, clipped_recording, record):
+    kept = ["--out", str(tmp_path / "bag")] if record else ["--no-record"]
+    arguments = ["run", "seat_ride", "--vibration", str(clipped_recording), "--rate", "476", *OFFLINE, *kept]
+    assert bench_main(arguments) == 0
+    out, said = capsys.readouterr()
+    lines = [line for line in said.splitlines() if line.startswith("platform/vibration: ")]
+    assert any("3 of 476 samples of z lie at the full scale of 19.61 m/s^2" in line for line in lines)
+    assert any("degrees off the vertical axis; the tilt was not corrected" in line for line in lines)
+    assert "full scale" not in out
+
+
+def test_the_findings_of_a_recording_stand_in_the_json_object(capsys, clipped_recording):
+    vibration = ["--vibration", str(clipped_recording), "--rate", "476"]
+    assert bench_main(["run", "seat_ride", *vibration, *OFFLINE, "--no-record", "--json"]) == 0
+    out, said = capsys.readouterr()
+    found = json.loads(out)["excitation"]["platform/vibration"]
+    assert found["axes"]["z"]["clipped_samples"] == 3
+    assert found["axes"]["x"]["bias_m_per_s2"] == pytest.approx(0.2, abs=1e-3)
+    assert any("full scale" in note for note in found["notes"])
+    assert "full scale" not in said
 
 
 def test_a_value_that_is_set_reaches_the_bag(capsys, tmp_path):

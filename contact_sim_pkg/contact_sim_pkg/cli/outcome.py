@@ -34,6 +34,10 @@ class Outcome(Protocol):
     def stopped(self) -> bool:
         """Ended by the user."""
 
+    @property
+    def excitation(self) -> dict[str, dict[str, Any]]:
+        """By topic: what was found in the excitation and done about it."""
+
 
 def describe(scene: ResolvedScene, outcome: Outcome) -> dict[str, Any]:
     """The object that `--json` prints; `bag` is None and `summary` empty where nothing was recorded."""
@@ -46,6 +50,7 @@ def describe(scene: ResolvedScene, outcome: Outcome) -> dict[str, Any]:
         "startup_s": round(outcome.startup, 3),
         "wall_s": round(outcome.wall, 6),
         "real_time_factor": simulated / outcome.wall if outcome.wall > 0.0 else None,
+        "excitation": outcome.excitation,
         "bag": None if outcome.bag is None else str(outcome.bag),
         "summary": {} if outcome.bag is None or not outcome.blocks else _summary(outcome.bag),
     }
@@ -59,7 +64,10 @@ def _summary(bag: Path) -> dict[str, Any]:
 
 
 def print_outcome(facts: dict[str, Any], outcome: Outcome) -> None:
-    """A few lines for a person; the path of the bag last."""
+    """A few lines for a person, the path of the bag last; on standard error what was found in the excitation."""
+    for topic, description in facts["excitation"].items():
+        for note in description.get("notes", []):
+            click.echo(f"{topic}: {note}", err=True)
     factor = facts["real_time_factor"]
     speed = "" if factor is None else f" in {facts['wall_s']:.3g} s: {factor:.3g}x real time"
     state = "stopped after" if outcome.stopped else "simulated"

@@ -35,6 +35,7 @@ class Ended(NamedTuple):
     stopped: bool
     failure: str
     exit_status: int
+    excitation: dict[str, dict[str, Any]]  # by topic, what was found in it and done about it
 
 
 def run_scene(
@@ -84,7 +85,16 @@ def _run_offline(scene: ResolvedScene, directory: Path | None, from_bag: Path | 
     failure = outcome.failure or (outcome.bag.sentence if outcome.bag is not None else "")
     status = 1 if outcome.failure else 3 if lost else 0
     bag = None if outcome.bag is None else outcome.bag.path
-    return Ended(outcome.blocks, before + outcome.startup, outcome.wall, bag, outcome.stopped, failure, status)
+    return Ended(
+        outcome.blocks,
+        before + outcome.startup,
+        outcome.wall,
+        bag,
+        outcome.stopped,
+        failure,
+        status,
+        outcome.excitation,
+    )
 
 
 def _run_on_nodes(scene: ResolvedScene, directory: Path | None, from_bag: Path | None, display: RunDisplay) -> Ended:
@@ -105,6 +115,7 @@ def _run_on_nodes(scene: ResolvedScene, directory: Path | None, from_bag: Path |
         outcome.stopped,
         outcome.failure,
         outcome.exit_status,
+        outcome.excitation,
     )
 
 

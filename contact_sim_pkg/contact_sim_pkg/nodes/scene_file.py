@@ -50,13 +50,18 @@ def write_description(scene: str, topic: str, description: dict[str, Any]) -> No
 def read_descriptions(scene: str, resolved: ResolvedScene) -> dict[str, dict[str, Any]]:
     """What each excitation found and did: as its node left it, or found out here where there is no supervisor."""
     if scene.endswith(RESOLVED):
-        found: dict[str, dict[str, Any]] = {}
-        for path in sorted(Path(scene).parent.glob(f"*{DESCRIPTION}")):
-            found.update(json.loads(path.read_text(encoding="utf-8")))
-        return found
+        return descriptions_beside(Path(scene))
     from contact_sim_pkg.run.sources import make_sources
 
     return {topic: source.describe() for topic, source in make_sources(resolved).items()}
+
+
+def descriptions_beside(scene: Path) -> dict[str, dict[str, Any]]:
+    """What the excitation nodes have left beside a scene of the supervisor, by topic."""
+    found: dict[str, dict[str, Any]] = {}
+    for path in sorted(scene.parent.glob(f"*{DESCRIPTION}")):
+        found.update(json.loads(path.read_text(encoding="utf-8")))
+    return found
 
 
 def block_length_ns(scene: ResolvedScene) -> int:
@@ -81,4 +86,7 @@ def _beside(path: Path, ending: str) -> Path:
 
 
 def _write_beside(path: Path, ending: str, content: dict[str, Any]) -> None:
-    _beside(path, ending).write_text(json.dumps(content), encoding="utf-8")
+    """In one go: a reader finds the whole file or none."""
+    part = _beside(path, ending + ".part")
+    part.write_text(json.dumps(content), encoding="utf-8")
+    part.replace(_beside(path, ending))

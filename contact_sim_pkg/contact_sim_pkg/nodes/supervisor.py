@@ -8,14 +8,14 @@ import tempfile
 import time
 from collections.abc import Callable, Mapping
 from pathlib import Path
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 from contact_sim_pkg.scene.resolved_scene import ResolvedScene
 
 from .children import Child, Children
 from .protocol import DONE, FAULT, LOSS, REFUSED, NodeError, State
 from .run_plan import planned_nodes
-from .scene_file import count_blocks, write_scene
+from .scene_file import count_blocks, descriptions_beside, write_scene
 
 if TYPE_CHECKING:
     from .run_monitor import RunMonitor
@@ -53,6 +53,7 @@ class SupervisedRun(NamedTuple):
     stopped: bool  # ended by the user before the last block
     failure: str  # sentence of the fault that ended it; empty where there is none
     exit_status: int
+    excitation: dict[str, dict[str, Any]]  # by topic, what was found in it and done about it
 
 
 class Supervisor:
@@ -85,12 +86,13 @@ class Supervisor:
         children = Children(os.environ, say)
         with tempfile.TemporaryDirectory(prefix="contact_bench_") as folder:
             try:
-                self._start_all(children, write_scene(self._scene, Path(folder)))
+                scene = write_scene(self._scene, Path(folder))
+                self._start_all(children, scene)
                 from .run_monitor import RunMonitor  # the nodes start while this process loads ROS
 
                 with RunMonitor() as monitor:
                     self._watch(children, monitor, on_report)
-                    return self._outcome(monitor, began)
+                    return self._outcome(monitor, began, scene)
             finally:
                 children.end()
 
@@ -150,7 +152,7 @@ class Supervisor:
         values = (last.real_time_factor, last.load, last.peak_pressure)
         return Report(State(last.state).name.lower(), last.block + 1, last.blocks, simulated, *values)
 
-    def _outcome(self, monitor: RunMonitor, began: float) -> SupervisedRun:
+    def _outcome(self, monitor: RunMonitor, began: float, scene: Path) -> SupervisedRun:
         ready = monitor.ready_at or time.monotonic()
         last = monitor.recorded_at if self._directory is not None else monitor.done_at
         bag = self._directory if self._directory is not None and self._directory.is_dir() else None
@@ -159,8 +161,9 @@ class Supervisor:
         if not self._failure and not stopped and done < count_blocks(self._scene):
             self._fail(f"the run ended after {done} blocks without a word", FAULT)
         return SupervisedRun(
-            done, ready - began, max(0.0, last - ready), bag, stopped, self._failure, self._exit_status
-        )
+            done, ready - began, max(0.0, last - ready), bag, stopped, self._failure, self._exit_status,
+            descriptions_beside(scene),
+        )  # fmt: skip
 
 
 def set_default_environment() -> None:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import time
 from collections.abc import Callable
 from pathlib import Path
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 from contact_sim_pkg.bag.messages import encode_road_patch, encode_scene, encode_vibration
 from contact_sim_pkg.bag.topics import TOPICS
@@ -40,6 +40,7 @@ class RunOutcome(NamedTuple):
     bag: BagSummary | None
     stopped: bool  # ended by the user before the last block
     failure: str  # sentence of the fault that ended it; empty where there is none
+    excitation: dict[str, dict[str, Any]]  # by topic, what was found in it and done about it
 
 
 def run_offline(
@@ -59,12 +60,11 @@ def run_offline(
     sources = make_sources(scene) if sources is None else sources
     simulation = Simulation(scene)
     simulation.prepare()
+    descriptions = {topic: source.describe() for topic, source in sources.items()}
     writer = None
     if directory is not None:
         names = recorded_names(scene)
-        writer = BagWriter(
-            directory, topics_of(names), attachments(scene, {t: s.describe() for t, s in sources.items()})
-        )
+        writer = BagWriter(directory, topics_of(names), attachments(scene, descriptions))
     startup = time.perf_counter() - began
     first = time.perf_counter()
     done, failure, stopped = 0, "", False
@@ -83,7 +83,7 @@ def run_offline(
         failure = str(error)
     finally:
         summary = None if writer is None else writer.close(_outcome(done, simulation.blocks, failure, stopped, first))
-    return RunOutcome(done, startup, time.perf_counter() - first, summary, stopped, failure)
+    return RunOutcome(done, startup, time.perf_counter() - first, summary, stopped, failure, descriptions)
 
 
 def _outcome(done: int, blocks: int, failure: str, stopped: bool, first: float) -> dict[str, str]:
