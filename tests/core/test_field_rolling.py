@@ -14,7 +14,7 @@ from contact_sim_pkg.core.field_solver import (
 )
 from contact_sim_pkg.core.halfspace import make_half_space
 
-ROWS, COLS, CELL = 48, 40, 2e-3
+ROWS, COLS, CELL = 52, 48, 2e-3
 HALF_SPACE = make_half_space(ROWS, COLS, CELL, CELL, 6e6)
 X = (numpy.arange(ROWS)[:, None] - 23.0) * CELL
 Y = (numpy.arange(COLS)[None, :] - 19.0) * CELL
@@ -157,15 +157,38 @@ def test_the_same_sequence_gives_the_same_bits_whatever_was_solved_before():
         assert fresh.pressure.tobytes() == used.pressure.tobytes()
 
 
+@pytest.mark.parametrize("shape", [(52, 48), (51, 48), (30, 30), (1, 1)])
+def test_a_cold_start_on_any_grid_is_the_field_of_that_grid(shape):
+    half_space = make_half_space(*shape, CELL, CELL, 6e6)
+    gap = numpy.ascontiguousarray(gap_over(road(7), 0)[: shape[0], : shape[1]])
+    field, expected = RollingField(half_space), numpy.zeros(shape)
+    result = field.solve_at_load(gap, 30.0, TOLERANCE, 900)
+    reference = solve_at_load(half_space, make_workspace(half_space), gap, 30.0, TOLERANCE, 900, expected)
+    assert result.status == reference.status
+    assert result.approach == pytest.approx(reference.approach, rel=1e-8, abs=1e-12)
+    numpy.testing.assert_allclose(field.pressure, expected, atol=1e-6 * expected.max())
+
+
+def test_a_cold_start_finds_a_spot_that_the_coarser_grid_does_not_feel():
+    gap = BOWL.copy()
+    gap[4, 4] = -1e-5
+    field = RollingField(HALF_SPACE)
+    field.solve_at_load(gap, 150.0, TOLERANCE, 900)
+    expected, _ = whole(gap, 150.0)
+    assert expected[4, 4] > 0.0
+    numpy.testing.assert_allclose(field.pressure, expected, atol=1e-5 * expected.max())
+
+
 def test_a_prediction_saves_iterations_on_a_smooth_road():
     x = (numpy.arange(160)[:, None] * CELL) * numpy.ones((1, COLS))
     heights, field = 1e-4 * numpy.sin(300.0 * x) * numpy.cos(200.0 * Y), RollingField(HALF_SPACE)
-    cold = field.solve_at_load(gap_over(heights, 0), 150.0, 1e-3, 900).iterations
+    field.solve_at_load(gap_over(heights, 0), 150.0, 1e-3, 900)
+    from_nothing = whole(gap_over(heights, 0), 150.0, 1e-3)[1].iterations
     warm = []
     for step in range(1, 12):
         field.roll(1)
         warm.append(field.solve_at_load(gap_over(heights, step), 150.0, 1e-3, 900).iterations)
-    assert numpy.mean(warm[2:]) < 0.5 * cold
+    assert numpy.mean(warm[2:]) < 0.5 * from_nothing
 
 
 def test_contact_at_the_grid_s_edge_is_reported_and_at_the_window_s_edge_is_not():

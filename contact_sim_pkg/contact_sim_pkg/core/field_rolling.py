@@ -4,6 +4,8 @@ Prediction: the roughness of the road is carried through the contact, so the fie
 fields before, shifted by the cells travelled, are extrapolated linearly, `2 p1 - p2`, set to zero where that is negative or where
 p1 was zero, and scaled to the load where a load is given. The prediction is a start only: the answer is certified as ever.
 
+Where nothing is known the start is the field on a grid of half as many cells each way, itself started like that.
+
 Window: the solver works on the box of the predicted contact and a margin. A window is enough if no cell outside it
 penetrates. That is checked after each solve by bounds: the gap of a block of cells outside is not less than its lowest gap plus
 the displacement that the pressure of each block inside causes at the largest distance between the two. Only cells of blocks
@@ -19,7 +21,7 @@ from numpy.typing import NDArray
 
 from contact_sim_pkg.core.field_solver import BAD_INPUT, CONVERGED, EDGE, FieldResult, solve_at_approach, solve_at_load
 from contact_sim_pkg.core.field_window import Part, Window, make_part, put_back, take
-from contact_sim_pkg.core.halfspace import Field, HalfSpace
+from contact_sim_pkg.core.halfspace import Field, HalfSpace, make_half_space
 from contact_sim_pkg.core.jit import entry, kernel
 
 __all__ = ["RollingField"]
@@ -29,6 +31,12 @@ BLOCK = 4
 
 COARSE = 16
 """Cells along a side of the larger blocks, which are tried first; a multiple of `BLOCK`."""
+
+LEAST_OF_HALF = 24
+"""Rows and columns below which a coarser grid costs more than it saves."""
+
+TOLERANCE_OF_HALF = 1e-2
+"""Of the field on the coarser grid; the grids differ by more."""
 
 Values = NDArray[numpy.float64]
 Places = NDArray[numpy.int64]
@@ -73,10 +81,12 @@ class RollingField:
         self._fields = 0  # known from before, at most 2
         self._cells = 0
         self._parts: dict[tuple[int, int], Part] = {}
+        self._half = _half_of(half_space)
+        self._gap_of_half: Field = numpy.zeros((half_space.rows // 2, half_space.cols // 2))
 
     @property
     def convolutions(self) -> int:
-        """Done so far."""
+        """Done so far on this grid, coarser ones not counted."""
         return sum(int(part.workspace.buffers.convolutions[0]) for part in self._parts.values())
 
     def roll(self, cells: int) -> None:
@@ -105,6 +115,8 @@ class RollingField:
             return FieldResult(BAD_INPUT, 0, 0.0, numpy.nan, numpy.inf)
         window = Window(*predict(self.pressure, self._before, self._cells, self._fields))
         self._cells = 0
+        if window.rows == 0 and self._half is not None:
+            window = self._start(self._half, gap, given, holds_load, max_iterations)
         if window.rows == 0:
             window = Window(0, 0, whole.rows, whole.cols)
         result, iterations = self._solve_in(window, gap, given, holds_load, tolerance, max_iterations), 0
@@ -116,6 +128,14 @@ class RollingField:
             result = self._solve_in(window, gap, given, holds_load, tolerance, max_iterations - iterations)
         self._fields = min(self._fields + 1, 2) if result.load > 0.0 else 0
         return self._judged(result._replace(iterations=result.iterations + iterations))
+
+    def _start(self, half: RollingField, gap: Field, given: float, holds_load: bool, max_iterations: int) -> Window:
+        """Start from the field on a grid of half as many cells each way, itself started like that."""
+        half.forget()
+        halve(gap, self._gap_of_half)
+        solve = half.solve_at_load if holds_load else half.solve_at_approach
+        solve(self._gap_of_half, given, TOLERANCE_OF_HALF, max_iterations)
+        return Window(*double(half.pressure, self.pressure))
 
     def _solve_in(
         self, window: Window, gap: Field, given: float, holds_load: bool, tolerance: float, max_iterations: int
@@ -148,6 +168,47 @@ class RollingField:
         if part is None:
             part = self._parts[rows, cols] = make_part(self.half_space, rows, cols)
         return part
+
+
+def _half_of(whole: HalfSpace) -> RollingField | None:
+    """A grid with cells of twice the size; None where it would be too coarse to help."""
+    rows, cols = whole.rows, whole.cols
+    if min(rows, cols) < 2 * LEAST_OF_HALF or rows % 2 or cols % 2:
+        return None
+    return RollingField(make_half_space(rows // 2, cols // 2, 2.0 * whole.cell_x, 2.0 * whole.cell_y, whole.modulus))
+
+
+@entry
+def halve(gap: Field, out: Field) -> None:
+    """Means of two by two cells."""
+    for i in range(out.shape[0]):
+        for j in range(out.shape[1]):
+            out[i, j] = 0.25 * (
+                (gap[2 * i, 2 * j] + gap[2 * i, 2 * j + 1]) + (gap[2 * i + 1, 2 * j] + gap[2 * i + 1, 2 * j + 1])
+            )
+
+
+@entry
+def double(pressure: Field, out: Field) -> tuple[int, int, int, int]:
+    """Bilinear interpolation to two by two cells each, zero where `pressure` is; returns the window, or no rows."""
+    rows, cols = pressure.shape
+    top, bottom, left, right = rows, -1, cols, -1
+    for i in range(2 * rows):
+        row = i // 2
+        beside = min(max(row + 2 * (i % 2) - 1, 0), rows - 1)
+        for j in range(2 * cols):
+            col = j // 2
+            next_to = min(max(col + 2 * (j % 2) - 1, 0), cols - 1)
+            out[i, j] = 0.0
+            if pressure[row, col] > 0.0:
+                near = 0.75 * pressure[row, col] + 0.25 * pressure[row, next_to]
+                far = 0.75 * pressure[beside, col] + 0.25 * pressure[beside, next_to]
+                out[i, j] = 0.75 * near + 0.25 * far
+                top, bottom = min(top, row), max(bottom, row)
+                left, right = min(left, col), max(right, col)
+    if bottom < 0:
+        return 0, 0, 0, 0
+    return widened(2 * rows, 2 * cols, 2 * top, 2 * bottom + 1, 2 * left, 2 * right + 1)
 
 
 @entry
