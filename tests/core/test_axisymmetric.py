@@ -12,14 +12,16 @@ import scipy.interpolate
 import scipy.optimize
 
 from contact_sim_pkg.core.axisymmetric import (
-    AxisymmetricError,
-    PowerProfile,
-    SlopeProfile,
     approach_at_radius,
     load_at_radius,
     pressure,
     radius_at_approach,
     radius_at_load,
+)
+from contact_sim_pkg.core.axisymmetric_profile import (
+    AxisymmetricError,
+    PowerProfile,
+    SlopeProfile,
     tabulated_profile,
 )
 from contact_sim_pkg.core.hertz import hertz_contact
