@@ -120,6 +120,15 @@ def test_two_lone_samples_at_a_usual_full_scale_are_clipped(tmp_path, scale, sam
     assert RecordedVibration(path, RATE).clipping["z"].samples == samples
 
 
+@pytest.mark.parametrize("value", [9.81, 19.61, 3.0, -9.81])
+def test_a_constant_signal_is_not_clipped_unless_it_lies_at_a_stated_full_scale(tmp_path, value):
+    path = write(tmp_path / "a.csv", {"x": 0.0 * X + value, "z": Z + 9.81})
+    recording = RecordedVibration(path, RATE)
+    assert recording.clipping["x"].samples == 0
+    assert not any("full scale" in note for note in recording.describe()["notes"])
+    assert RecordedVibration(path, RATE, full_scale=abs(value)).clipping["x"].samples == len(X)
+
+
 def test_a_stated_full_scale_counts_what_lies_at_it(plain):
     raw = numpy.round(Z + 9.81, 9)
     found = RecordedVibration(plain, RATE, full_scale=11.0).clipping["z"].samples

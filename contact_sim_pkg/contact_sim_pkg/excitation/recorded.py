@@ -277,14 +277,18 @@ def _found_rate(table: Table, time: Array) -> float:
 
 
 def _find_clipping(table: Table, values: Array, full_scale: float | None) -> Clipping:
-    """Samples at the stated full scale; where none is stated, at an extreme value that looks like one."""
+    """Samples at the stated full scale; where none is stated, at an extreme value that looks like one.
+
+    A constant signal has no extremes: only a stated full scale tells that it is clipped.
+    """
     if full_scale is not None:
         return _clipping_at(table, numpy.abs(values) >= full_scale, full_scale)
     found = Clipping(0, 0.0, 0, 0)
+    if values.max() == values.min():
+        return found
     for extreme in (float(values.max()), float(values.min())):
         clipping = _clipping_at(table, values == extreme, abs(extreme))
-        plateau = clipping.longest_run >= SHORTEST_PLATEAU and clipping.samples < len(values)
-        if plateau or (clipping.samples > 1 and _is_usual_full_scale(extreme)):
+        if clipping.longest_run >= SHORTEST_PLATEAU or (clipping.samples > 1 and _is_usual_full_scale(extreme)):
             found = Clipping(
                 found.samples + clipping.samples,
                 max(found.value, clipping.value),
