@@ -110,38 +110,69 @@ def parse_mapping(text: str) -> dict[str, Any]:
 
 
 class FieldPass:
-    """The fields of one topic, taken in one by one: a minute of them would not fit into a small memory."""
+    """The fields of one topic, taken in one by one: a minute of them would not fit into a small memory.
+
+    A contact that outgrows its grid is solved on a wider one of the same cells, so fields of two sizes may come. The mean is
+    taken over the widest, cells laid over each other by their place in the contact's frame.
+    """
 
     def __init__(self) -> None:
         """Nothing taken in yet."""
         self._scalars: list[tuple[float, float, float, float]] = []
-        self._total: FloatArray | None = None
+        self._total: FloatArray = np.zeros((0, 0))
+        self._widest: Any = None
         self._highest: Any = None
         self._highest_time = 0.0
 
     def take(self, time: float, message: Any) -> None:
-        """Take in the field at `time` [s]. BagError for a field on another grid than the first one."""
-        if self._total is None:
-            self._total = np.zeros(len(message.pressure))
-        if not len(message.pressure) == self._total.size == message.rows * message.cols:
+        """Take in the field at `time` [s]. BagError for a field that does not fill its grid, or on cells of another size."""
+        if len(message.pressure) != message.rows * message.cols:
             raise BagError(
-                f"the field at {time:.6f} s has {len(message.pressure)} values for {message.rows} x {message.cols} "
-                f"cells, the first one has {self._total.size}; the fields of a topic must lie on one grid"
+                f"the field at {time:.6f} s has {len(message.pressure)} values for {message.rows} x {message.cols} cells"
             )
-        self._total += message.pressure
+        self._widen(time, message)
+        row, col = _place(message, self._widest)
+        pressure = np.reshape(message.pressure, (message.rows, message.cols))
+        self._total[row : row + message.rows, col : col + message.cols] += pressure
         self._scalars.append((time, message.load, message.peak, message.area))
         if self._highest is None or message.peak > self._highest.peak:
             self._highest, self._highest_time = message, time
 
+    def _widen(self, time: float, message: Any) -> None:
+        """Make room for a grid that is wider than all before."""
+        before, shape = self._widest, (message.rows, message.cols)
+        if before is None:
+            self._widest, self._total = message, np.zeros(shape)
+            return
+        same_cells = math.isclose(message.cell_x, before.cell_x) and math.isclose(message.cell_y, before.cell_y)
+        wider = message.rows >= before.rows and message.cols >= before.cols
+        if not same_cells or not (wider or (message.rows <= before.rows and message.cols <= before.cols)):
+            raise BagError(
+                f"the field at {time:.6f} s lies on {message.rows} x {message.cols} cells of {message.cell_x} x "
+                f"{message.cell_y} m, another one on {before.rows} x {before.cols} of {before.cell_x} x {before.cell_y} m; "
+                "one grid must hold the other, with the same cells"
+            )
+        if wider and shape != (before.rows, before.cols):
+            row, col = _place(before, message)
+            total = np.zeros(shape)
+            total[row : row + before.rows, col : col + before.cols] = self._total
+            self._widest, self._total = message, total
+
     def finish(self) -> FieldSeries:
         """The series of all fields taken in; at least one."""
-        if self._total is None:
+        if self._widest is None:
             raise BagError("no field was taken in")
         time, load, peak, area = np.array(self._scalars).T
-        highest, average = (
-            _pressure_map(self._highest, values) for values in (self._highest.pressure, self._total / time.size)
-        )
+        highest = _pressure_map(self._highest, self._highest.pressure)
+        average = _pressure_map(self._widest, self._total / time.size)
         return FieldSeries(time, load, peak, area, highest, self._highest_time, average)
+
+
+def _place(inner: Any, outer: Any) -> tuple[int, int]:
+    """Row and column of `outer` on which cell (0, 0) of `inner` lies, the nearest ones."""
+    row = round((inner.origin_x - outer.origin_x) / outer.cell_x)
+    col = round((inner.origin_y - outer.origin_y) / outer.cell_y)
+    return min(max(row, 0), outer.rows - inner.rows), min(max(col, 0), outer.cols - inner.cols)
 
 
 def _duration(series: list[ContactSeries | MotionSeries], scene: dict[str, Any], bag: Bag) -> float:

@@ -58,6 +58,11 @@ class WindowedSolver:
         self.half_space = half_space
         self._whole = make_workspace(half_space)
         self._parts: dict[tuple[int, int], Part] = {}
+        cell = numpy.zeros((1, 1))
+        take(
+            cell, 0, 0, cell
+        )  # compiled now: the first window that is not the whole grid may come in the middle of a run
+        put_back(cell, 0, 0, numpy.zeros((1, 1)))
 
     def solve_at_approach(
         self, gap: Field, approach: float, tolerance: float, max_iterations: int, pressure: Field

@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any
 
 import numpy
 from numpy.typing import NDArray
 
-from contact_sim_pkg.core.effects.contact_field import PressureField, fit_tangent
+from contact_sim_pkg.core.effects.contact_field import FieldError, PressureField, fit_tangent
 from contact_sim_pkg.core.effects.normal_elastic import approach_of_force
 from contact_sim_pkg.core.effects.seat_shape import SeatShape, seat_gap
 from contact_sim_pkg.core.hertz import hertz_contact, power_law
@@ -25,6 +26,7 @@ from contact_sim_pkg.core.parameters import (
     widened,
 )
 from contact_sim_pkg.core.restitution import damping_of_restitution
+from contact_sim_pkg.scene.errors import Fault, SceneError
 from contact_sim_pkg.scene.lattice import (
     GRAVITY,
     RoadLattice,
@@ -133,7 +135,7 @@ def _tire_part(scene: dict[str, Any]) -> tuple[Tire, Contact, TireGeometry, Fiel
         law, field = NormalElastic(float(power_law(*curvatures, modulus)), 1.5), None
     else:
         field = _grids(settings, "tire")
-        law = fit_tangent(field.usual, _crown(geometry), load)
+        law = _tangent(field, lambda grid: _crown(geometry, grid), load, "tire")
     return tire, Contact(law, _dissipative(scene, "tire"), None), geometry, field
 
 
@@ -145,11 +147,26 @@ def _tire_geometry(scene: dict[str, Any]) -> TireGeometry:
     return TireGeometry(radius_x, radius_y, semi_x, semi_y, tire_lattice(scene))
 
 
-def _crown(geometry: TireGeometry) -> NDArray[numpy.float64]:
-    """Gap of the tire over a flat road in [m], [rows, cols]."""
-    lattice = geometry.lattice
-    x = (numpy.arange(lattice.rows) - lattice.rows // 2) * lattice.cell_x
-    y = (numpy.arange(lattice.cols) - 0.5 * (lattice.cols - 1)) * lattice.cell_y
+def _tangent(
+    grids: FieldGrids, gap_on: Callable[[FieldSettings], NDArray[numpy.float64]], load: float, contact: str
+) -> NormalElastic:
+    """Tangent law at the standing load; on the wide grid where the usual one does not hold the contact."""
+    for field in grids.both():
+        try:
+            return fit_tangent(field, gap_on(field.settings), load)
+        except FieldError as error:
+            reason = error
+    where = f"effects.{contact}.contact_field"
+    sentence = (
+        f"the contact does not fit on its grid at the standing load of {load:.6g} N: {reason}; enlarge length and width"
+    )
+    raise SceneError([Fault("scene", 0, 0, where, sentence)])
+
+
+def _crown(geometry: TireGeometry, grid: FieldSettings) -> NDArray[numpy.float64]:
+    """Gap of the tire over a flat road in [m], on the cells of a grid."""
+    x = (numpy.arange(grid.rows) - grid.rows // 2) * grid.cell_x
+    y = (numpy.arange(grid.cols) - 0.5 * (grid.cols - 1)) * grid.cell_y
     return 0.5 * x[:, None] ** 2 / geometry.radius_rolling + 0.5 * y[None, :] ** 2 / geometry.radius_lateral
 
 
@@ -187,7 +204,7 @@ def seat_cells(settings: FieldSettings) -> tuple[NDArray[numpy.float64], NDArray
 def _seat_contact(scene: dict[str, Any], field: FieldGrids | None, shape: SeatShape | None) -> Contact:
     elastic = effects_at(scene, "seat")["normal_elastic"]
     if field is not None and shape is not None:
-        law = fit_tangent(field.usual, seat_gap_on(shape, field.usual.settings), occupant_mass(scene) * GRAVITY)
+        law = _tangent(field, lambda grid: seat_gap_on(shape, grid), occupant_mass(scene) * GRAVITY, "seat")
     else:
         law = NormalElastic(float(elastic["coefficient"]), float(elastic["exponent"]))
     friction = effects_at(scene, "seat").get("friction")
