@@ -107,10 +107,30 @@ def test_a_value_that_is_set_reaches_the_bag(capsys, tmp_path):
 def test_the_scene_of_a_bag_runs_again_with_a_value_changed(capsys, tmp_path):
     first, again = tmp_path / "first", tmp_path / "again"
     bench_main(["run", "seat_ride", *OFFLINE, "--out", str(first)])
-    assert bench_main(["run", "--offline", "--from-bag", str(first), "--set", "seed=7", "--out", str(again)]) == 0
+    assert bench_main(["run", "--offline", "--from-bag", str(first), "--set", "name=again", "--out", str(again)]) == 0
     capsys.readouterr()
     excitation = [[each.data for each in open_bag(bag).messages("platform/vibration")] for bag in (first, again)]
     assert excitation[0] == excitation[1]
+
+
+@pytest.mark.parametrize("assignment", ["seed=7", "vibration.sample_rate=500", "block_length=0.02"])
+def test_what_made_the_excitation_of_a_bag_cannot_be_changed(capsys, tmp_path, assignment):
+    first, again = tmp_path / "first", tmp_path / "again"
+    bench_main(["run", "seat_ride", *OFFLINE, "--out", str(first)])
+    capsys.readouterr()
+    status, said = refused(capsys, "run", "--offline", "--from-bag", first, "--set", assignment, "--out", again)
+    assert status == 2
+    assert f"the excitation comes from the bag, and {assignment.partition('=')[0]} is not as it was recorded" in said
+    assert not again.exists()
+
+
+def test_the_excitation_of_a_bag_does_not_drive_another_rig(capsys, tmp_path):
+    first = tmp_path / "first"
+    bench_main(["run", "seat_ride", *OFFLINE, "--out", str(first)])
+    capsys.readouterr()
+    status, said = refused(capsys, "run", "tire_bump", "--from-bag", first, "--out", tmp_path / "again")
+    assert status == 2
+    assert "the excitation comes from the bag, and rig, road" in said
 
 
 @pytest.mark.parametrize(

@@ -47,6 +47,10 @@ def run_scene(
         SceneError, BagError, ExcitationError: refused; nothing was created.
     """
     scene = options.resolve(from_bag)
+    if from_bag is not None:
+        from contact_sim_pkg.run.from_bag import refuse_other_scene
+
+        refuse_other_scene(from_bag, scene)
     directory = _directory(scene, out) if record else None
     run = _run_offline if offline else _run_on_nodes
     with RunDisplay(float(scene.data["duration"])) as display:

@@ -62,17 +62,12 @@ class SceneOptions:
 def _scene_of_bag(path: Path, overrides: list[Override]) -> ResolvedScene:
     from contact_sim_pkg.bag.errors import BagError
     from contact_sim_pkg.bag.reader import open_bag
-    from contact_sim_pkg.scene.overrides import apply
-    from contact_sim_pkg.scene.resolve import ResolvedScene, explicit
-    from contact_sim_pkg.scene.schema_validate import validate
-    from contact_sim_pkg.scene.yaml_document import parse_document
+    from contact_sim_pkg.scene.resolve import ResolvedScene, read_explicit
 
     text = open_bag(path).scene
     if text is None:
         raise BagError(f"{path} holds no scene; name the scene to run with its excitation")
-    document = parse_document(text, f"scene of {path}")
-    faults = document.faults + apply(document.root, overrides)
-    return ResolvedScene(explicit(validate(document.root, f"scene of {path}", faults)))
+    return ResolvedScene(read_explicit(text, f"scene of {path}", overrides))
 
 
 def scene_options(function: Callable[..., Any]) -> Callable[..., Any]:

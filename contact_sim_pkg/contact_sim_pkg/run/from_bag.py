@@ -7,6 +7,8 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
+from ruamel.yaml import YAML
+
 from contact_sim_pkg.bag.errors import BagError
 from contact_sim_pkg.bag.messages import decode_road_patch, decode_vibration
 from contact_sim_pkg.bag.reader import Bag, open_bag
@@ -18,6 +20,7 @@ from contact_sim_pkg.scene.lattice import tire_lattice
 from contact_sim_pkg.scene.resolved_scene import ResolvedScene
 from contact_sim_pkg.scene.timing import make_timing
 
+KEYS = ("rig", "road", "vibration", "travel", "seed", "block_length")  # of a scene, that make its excitation
 DECODERS: dict[str, Callable[[bytes], RoadPatch | VibrationBlock]] = {
     "road/patch": decode_road_patch,
     "platform/vibration": decode_vibration,
@@ -56,21 +59,58 @@ class BagSource:
 
 
 def sources_from_bag(path: Path, scene: ResolvedScene) -> dict[str, Source]:
-    """Sources of every input that ``scene`` calls for, from the bag at ``path``.
+    """Sources of every input that ``scene`` calls for, from the bag at ``path``; BagError as `refuse_other_scene`."""
+    refuse_other_scene(path, scene)
+    bag = open_bag(path)
+    return {topic: BagSource(bag, topic) for topic in input_names(scene)}
 
-    Raises BagError where the bag lacks a topic or blocks, or was recorded on another road lattice or sample rate.
+
+def refuse_other_scene(path: Path, scene: ResolvedScene) -> None:
+    """Raise BagError where the bag's excitation is not the one that ``scene`` describes, or does not fit it.
+
+    The bag lacks a topic or blocks, its own scene has another excitation, or it was recorded on another road lattice or
+    sample rate.
     """
     bag = open_bag(path)
-    sources = {topic: BagSource(bag, topic) for topic in input_names(scene)}
+    changed = _changed_keys(bag, scene)
+    if changed:
+        raise BagError(
+            f"{path}: the excitation comes from the bag, and {', '.join(changed)} {'is' if len(changed) == 1 else 'are'} not "
+            "as it was recorded with; leave these keys as they are in the bag's scene, or run without --from-bag"
+        )
     blocks = make_timing(scene.data, True).blocks
-    for topic, source in sources.items():
-        if len(source) < blocks:
-            length = scene.data["block_length"]
-            raise BagError(
-                f"{path}: {topic} holds {len(source)} blocks, the scene needs {blocks}; ask for --duration {len(source) * length:g}"
-            )
-        _refuse_misfit(path, topic, source.block(0), scene)
-    return dict(sources)
+    for topic in input_names(scene):
+        first, held = next(bag.messages(topic), None), bag.count(topic)
+        if first is None or held < blocks:
+            cure = f"; ask for --duration {held * scene.data['block_length']:g}" if held else ""
+            raise BagError(f"{path}: {topic} holds {held} blocks, the scene needs {blocks}{cure}")
+        _refuse_misfit(path, topic, DECODERS[topic](first.data), scene)
+
+
+def _changed_keys(bag: Bag, scene: ResolvedScene) -> list[str]:
+    """Dotted keys that made the recorded excitation and are another in ``scene``; none where the bag holds no scene."""
+    text = bag.scene
+    if text is None:
+        return []
+    recorded = YAML(typ="safe", pure=True).load(text)
+    changed = _differences(recorded, scene.data)
+    if changed:  # a bag of an earlier release may leave open what is written out today
+        from contact_sim_pkg.scene.resolve import read_explicit
+
+        changed = _differences(read_explicit(text, f"scene of {bag.path}"), scene.data)
+    return changed
+
+
+def _differences(recorded: dict[str, Any], data: dict[str, Any]) -> list[str]:
+    """Single keys where a section is of the same kind, else the section alone."""
+    changed = []
+    for key in KEYS:
+        before, now = recorded.get(key), data.get(key)
+        if isinstance(before, dict) and isinstance(now, dict) and before.get("kind") == now.get("kind"):
+            changed += [f"{key}.{inner}" for inner in {**before, **now} if before.get(inner) != now.get(inner)]
+        elif before != now:
+            changed.append(key)
+    return changed
 
 
 def _refuse_misfit(path: Path, topic: str, first: RoadPatch | VibrationBlock, scene: ResolvedScene) -> None:

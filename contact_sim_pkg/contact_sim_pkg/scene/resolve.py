@@ -7,12 +7,13 @@ and the checksum of each input file. Reading it back and resolving it once more 
 from __future__ import annotations
 
 import copy
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
 from contact_sim_pkg.scene.errors import Fault, SceneError
 from contact_sim_pkg.scene.files import find_file, input_files
+from contact_sim_pkg.scene.overrides import Override, apply
 from contact_sim_pkg.scene.resolved_scene import ResolvedScene, sha256_of
 from contact_sim_pkg.scene.schema import Scene
 from contact_sim_pkg.scene.schema_accuracy import Contact, cells_of, integration_tolerance, rung_for
@@ -21,7 +22,7 @@ from contact_sim_pkg.scene.schema_rigs import Seat, Tire
 from contact_sim_pkg.scene.schema_validate import validate
 from contact_sim_pkg.scene.yaml_document import parse_document
 
-__all__ = ["ResolvedScene", "explicit", "read_resolved", "resolve"]
+__all__ = ["ResolvedScene", "explicit", "read_explicit", "read_resolved", "resolve"]
 
 DEFAULT_DAMPING: dict[Contact, float] = {"tire": 0.06, "seat": 1.0}
 """Hunt-Crossley damping in [s/m] where a scene names neither damping nor restitution, see `schema_effects.py`."""
@@ -69,6 +70,13 @@ def read_resolved(text: str, files: Mapping[str, str | Path] | None = None, fold
     found = {file.where: find_file(file.name, Path(folder)) for file in input_files(scene)}
     given = {where: Path(path) for where, path in (files or {}).items()}
     return ResolvedScene(data, {**{where: path for where, path in found.items() if path is not None}, **given})
+
+
+def read_explicit(text: str, name: str, overrides: Sequence[Override] = ()) -> dict[str, Any]:
+    """The data of a resolved scene that stands in a bag, with ``overrides`` applied, made explicit and checked again."""
+    document = parse_document(text, name)
+    faults = document.faults + apply(document.root, overrides)
+    return explicit(validate(document.root, name, faults))
 
 
 def explicit(scene: Scene) -> dict[str, Any]:
