@@ -96,12 +96,12 @@ def test_what_a_scene_lacks_is_absent_from_its_summary(seat, bare):
     assert summarise(bare)["scene"] is None
 
 
-def test_fields_on_two_grids_in_one_topic_are_refused(tmp_path):
+def test_fields_on_cells_of_two_sizes_in_one_topic_are_refused(tmp_path):
     with BagWriter(tmp_path / "two", recorded_topics(("tire/patch",)), reserve_bytes=0, background=False) as writer:
         for block, rows in enumerate((4, 5)):
             ones = np.ones((rows, 3), dtype=np.float32)
-            field = messages.PatchField(block, *[0.01] * 14, pressure=ones)
+            field = messages.PatchField(block, *[0.01 * (1 + block)] * 14, pressure=ones)
             writer.write("tire/patch", block, messages.encode_contact_patch(field, block, messages.TIRE_FRAME))
 
-    with pytest.raises(BagError, match="15 values for 5 x 3 cells, the first one has 12"):
+    with pytest.raises(BagError, match="5 x 3 cells of 0.02 x 0.02 m, another one on 4 x 3 of 0.01 x 0.01 m"):
         summarise(open_bag(tmp_path / "two"))
