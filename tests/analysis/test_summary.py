@@ -6,6 +6,8 @@ import math
 import numpy as np
 import pytest
 
+from contact_sim_pkg.analysis.energy import relative_residual
+from contact_sim_pkg.analysis.series import LedgerSeries
 from contact_sim_pkg.analysis.summary import summarise
 from contact_sim_pkg.bag import messages
 from contact_sim_pkg.bag.errors import BagError
@@ -74,6 +76,19 @@ def test_the_residual_is_measured_by_the_throughput(summary):
     assert energy["supplied_J"] == pytest.approx(known.SUPPLIED)
     assert energy["dissipated_J"] == pytest.approx(known.DISSIPATED)
     assert energy["residual_relative"] == pytest.approx(known.RESIDUAL / known.SUPPLIED)
+
+
+@pytest.mark.parametrize(("supplied", "residual"), [(0.0, 0.0), (6e-29, 8e-29), (1.4e-12, 1.3e-13)])
+def test_round_off_of_a_rig_at_rest_is_no_residual_worth_a_percentage(supplied, residual):
+    still = np.zeros(3)
+    ledger = LedgerSeries(still, still, still, still, still, still + supplied, np.array([0.0, -residual, residual]))
+    assert relative_residual(ledger) == pytest.approx(residual / 1e-6)
+
+
+def test_energy_that_appears_in_a_rig_at_rest_is_a_residual():
+    still = np.zeros(3)
+    ledger = LedgerSeries(still, still, still, still, still, still, still - 0.5)
+    assert relative_residual(ledger) > 1.0
 
 
 def test_solver_counts_are_sums_over_the_blocks(summary):

@@ -6,7 +6,7 @@ import numpy as np
 
 from .decimate import envelope
 from .drawing import ACCENT, INK, MUTED, Picture, new_figure, picture
-from .energy import relative_residual, throughput
+from .energy import AT_REST, relative_residual, residual_scale, throughput
 from .series import CostSeries, LedgerSeries
 from .summary import solver_numbers
 
@@ -20,18 +20,23 @@ def energy_balance(ledger: LedgerSeries) -> Picture:
     axes[0].plot(*envelope(ledger.time, held), color=MUTED, linestyle=(0, (4, 2)), label="kinetic + potential + stored")
     axes[0].set_ylabel("energy, J")
     axes[0].legend(loc="upper left")
-    scale = throughput(ledger) or 1.0
+    scale = residual_scale(ledger)
+    at_rest = throughput(ledger) < AT_REST
+    named = (
+        f"{AT_REST:g} J (the rig was at rest)"
+        if at_rest
+        else f"the throughput ({scale:.4g} J, the largest entry of the ledger)"
+    )
     axes[1].plot(*envelope(ledger.time, ledger.residual / scale), color=ACCENT, linewidth=0.9)
     axes[1].axhline(0.0, color=MUTED, linewidth=0.7)
-    axes[1].set_ylabel("residual /\nthroughput")
+    axes[1].set_ylabel("residual / 1e-6 J" if at_rest else "residual /\nthroughput")
     axes[1].ticklabel_format(axis="y", style="sci", scilimits=(-2, 3), useMathText=False)
     axes[1].set_xlabel("simulated time, s")
     axes[1].set_xlim(ledger.time[0], max(ledger.time[-1], ledger.time[0] + 1e-3))
     caption = (
         f"Energy since the start: {ledger.supplied[-1]:.4g} J supplied, {ledger.dissipated[-1]:.4g} J dissipated at "
         f"the end. What does not add up is at most {np.abs(ledger.residual).max():.2g} J, "
-        f"{relative_residual(ledger):.1e} of the throughput ({throughput(ledger):.4g} J, the largest entry of the "
-        "ledger): the error of the time integration."
+        f"{relative_residual(ledger):.1e} of {named}: the error of the time integration."
     )
     return picture("bench-energy", figure, "Energy ledger over time and its residual", caption)
 
@@ -43,14 +48,16 @@ def real_time_factor(cost: CostSeries) -> Picture:
     axes[0].axhline(1.0, color=INK, linewidth=0.9, linestyle=(0, (4, 3)))
     axes[0].set_yscale("log")
     axes[0].set_xlabel("simulated time, s")
-    axes[0].set_ylabel("real-time factor of a block")
+    axes[0].set_ylabel("speed of the physics\n(times real time)")
     milliseconds = cost.wall_time * 1e3
     # The slowest hundredth is counted in the last bin, so that one slow first block does not squeeze the rest.
     limit = float(np.percentile(milliseconds, 99.0)) * 1.1
     axes[1].hist(np.minimum(milliseconds, limit), bins=40, color=ACCENT)
     axes[1].set_xlabel("wall time of a block, ms")
     axes[1].set_ylabel("blocks")
-    return picture("bench-cost", figure, "Real-time factor over time and histogram of wall times", _cost_caption(cost))
+    return picture(
+        "bench-cost", figure, "Speed of the physics over time and histogram of wall times", _cost_caption(cost)
+    )
 
 
 def _cost_caption(cost: CostSeries) -> str:

@@ -93,7 +93,7 @@ def vibration_numbers(recording: Recording) -> dict[str, Any] | None:
 
 
 def energy_numbers(ledger: LedgerSeries) -> dict[str, Any]:
-    """Work supplied and dissipated at the end in [J]; largest residual, plain and over the throughput."""
+    """Work supplied and dissipated at the end in [J]; largest residual, plain and over the throughput (at least 1e-6 J)."""
     return {
         "supplied_J": float(ledger.supplied[-1]),
         "dissipated_J": float(ledger.dissipated[-1]),

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from typing import Any, NamedTuple
 
+from .energy import AT_REST
+
 SUPERSCRIPT = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
 
 
@@ -24,12 +26,13 @@ def tiles(summary: dict[str, Any]) -> list[Tile]:
     found += _ride_tiles(summary.get("seat_vibration", {}))
     energy = summary.get("energy", {})
     if energy.get("residual_relative") is not None:
-        detail = f"{number(energy['residual_max_J'])} J of {number(energy['throughput_J'])} J"
+        scale = max(energy["throughput_J"], AT_REST)
+        detail = f"{number(energy['residual_max_J'])} J of {number(scale)} J"
         found.append(Tile("energy that does not add up", number(energy["residual_relative"]), "", detail))
     solver = summary.get("solver", {})
     if solver.get("physics_real_time_factor") is not None:
-        detail = f"physics alone; {solver['steps']} steps, {solver['events']} events"
-        found.append(Tile("real-time factor", number(solver["physics_real_time_factor"]), "×", detail))
+        detail = f"times real time, without recording and messages; {solver['steps']} steps, {solver['events']} events"
+        found.append(Tile("speed of the physics", number(solver["physics_real_time_factor"]), "×", detail))
     return found
 
 
