@@ -118,5 +118,5 @@ def test_fields_on_cells_of_two_sizes_in_one_topic_are_refused(tmp_path):
             field = messages.PatchField(block, *[0.01 * (1 + block)] * 14, pressure=ones)
             writer.write("tire/patch", block, messages.encode_contact_patch(field, block, messages.TIRE_FRAME))
 
-    with pytest.raises(BagError, match="5 x 3 cells of 0.02 x 0.02 m, another one on 4 x 3 of 0.01 x 0.01 m"):
+    with pytest.raises(BagError, match=r"5 x 3 cells of 0\.02 x 0\.02 m, another one on 4 x 3 of 0\.01 x 0\.01 m"):
         summarise(open_bag(tmp_path / "two"))

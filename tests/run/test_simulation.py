@@ -11,6 +11,7 @@ from contact_sim_pkg.bag.messages import (
     decode_motion,
 )
 from contact_sim_pkg.run.errors import RunError
+from contact_sim_pkg.run.offline import run_offline
 from contact_sim_pkg.run.simulation import Simulation
 from contact_sim_pkg.run.sources import make_sources
 
@@ -99,12 +100,11 @@ def test_a_missing_input_is_named():
         simulation.advance(0, {})
 
 
-def test_contact_beyond_the_grid_ends_the_run_with_its_cause():
-    scene = resolved("tire_bump", "duration=0.1", "effects.tire.contact_field.width=0.1")
-    from contact_sim_pkg.core.effects.contact_field import FieldError
-
-    with pytest.raises(FieldError, match="edge of the grid"):
-        Simulation(scene)
+def test_contact_beyond_both_grids_ends_the_run_with_its_cause():
+    outcome = run_offline(resolved("tire_bump", "duration=1.1", "effects.tire.contact_field.length=0.05"), None)
+    assert 0 < outcome.blocks < 110
+    assert "the contact reaches the edge of the grid" in outcome.failure
+    assert "see effects.tire.contact_field" in outcome.failure
 
 
 def test_an_effect_that_is_off_leaves_every_bit_of_the_others():
