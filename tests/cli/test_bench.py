@@ -9,7 +9,7 @@ from contact_sim_pkg.bag.reader import open_bag
 from contact_sim_pkg.cli.main import COMMANDS
 from contact_sim_pkg.cli.main import main as bench_main
 
-from ..bench_process import bench, end, start_bench, wait_until
+from ..bench_process import bench, end, needs_ros, start_bench, wait_until
 
 OFFLINE = ["--offline", "--duration", "0.2"]
 
@@ -146,6 +146,10 @@ def test_the_excitation_of_a_bag_does_not_drive_another_rig(capsys, tmp_path):
         (["run"], "Missing argument 'SCENE'"),
         (["run", "--from-bag", "no such bag"], "no such bag"),
         (["report", "no such bag"], "no such bag"),
+        (["replay", "no such bag", "--rate", "0"], "--rate"),
+        (["replay", "no such bag", "--rate", "-1"], "--rate"),
+        (["replay", "no such bag", "--rate", "nan"], "--rate"),
+        (["replay", "no such bag", "--start-offset", "-1"], "--start-offset"),
         (["recover", "no such bag", "target"], "no such bag"),
         (["frobnicate"], "No such command 'frobnicate'"),
     ],
@@ -200,6 +204,15 @@ def test_a_signal_ends_an_offline_run_with_its_bag_closed_and_status_0(tmp_path)
     assert process.returncode == 0, said
     assert open_bag(bag).metadata["ended"] == "stopped"
     assert open_bag(bag).complete
+
+
+@needs_ros
+def test_a_replay_that_would_begin_after_the_end_of_its_bag_is_refused(tmp_path):
+    bench_main(["run", "seat_ride", *OFFLINE, "--out", str(tmp_path / "bag")])
+    ended = bench("replay", tmp_path / "bag", "--start-offset", "5")
+    assert ended.returncode == 2
+    assert "start_offset is 5 s" in ended.stderr + ended.stdout
+    assert "begin before its end" in ended.stderr + ended.stdout
 
 
 def test_a_run_on_nodes_says_where_ros_is_missing(tmp_path):

@@ -100,6 +100,8 @@ def test_a_second_bench_in_the_same_domain_is_refused_and_the_first_goes_on(runn
         end(second)
     assert second.returncode == 2, said
     assert "ROS_DOMAIN_ID" in said
+    assert "Exception in" not in said
+    assert "namespace" not in said.replace("the launch file also takes a namespace", "")
     assert not (tmp_path / "second").exists()
     before = recorded_bytes(bag)
     wait_until(lambda: recorded_bytes(bag) > before)

@@ -49,6 +49,12 @@ class BagReplayNode(LifecycleBenchNode):
         if not self._bag_name:
             raise NodeError("parameter bag is empty; give the directory of a bag", REFUSED)
         bag = open_bag(Path(self._bag_name))
+        self._start = round(self._offset * 1e9)
+        if self._start > bag.end:
+            raise NodeError(
+                f"start_offset is {self._offset:g} s, {self._bag_name} ends at {bag.end * 1e-9:g} s; begin before its end",
+                REFUSED,
+            )
         for note in bag.notes:
             self.get_logger().warning(note)
         for name in _chosen_topics(bag, self._chosen):
@@ -57,7 +63,6 @@ class BagReplayNode(LifecycleBenchNode):
             self._publishers_by_topic[name] = self.create_publisher(message_type(row.type), name.lstrip("/"), profile)
             self._refuse_other_definition(name, row.type_hash)
         self._clock_publisher = publisher(self, "/clock") if self._with_clock else None
-        self._start = round(self._offset * 1e9)
         self._messages: Iterator[BagMessage] = bag.messages()
         self._latched = {n for n in self._publishers_by_topic if "transient_local" in bag.topics[n].offered_qos}
         self._next = self._advance()

@@ -17,6 +17,7 @@ from contact_sim_pkg.bag.topics import Topic, topic_of
 
 from .protocol import REFUSED, NodeError
 
+KEPT = "error_of_a_subscription"  # attribute of a node
 UNKNOWN = "_NODE_NAME_UNKNOWN_"  # what the graph says before it has heard the node's name
 
 
@@ -50,9 +51,28 @@ def publisher(node: Node, name: str, least_depth: int = 0) -> Publisher:
 
 
 def subscription(node: Node, name: str, callback: Callable[[bytes], None], least_depth: int = 0) -> Subscription:
-    """A subscription on a topic of the table that hands on the bytes as they came."""
+    """A subscription on a topic of the table that hands on the bytes as they came.
+
+    What `callback` raises is kept until `raise_kept`: the executor would print it before it passes it on.
+    """
     topic = topic_of(name)
-    return node.create_subscription(message_type(topic.type), name, callback, profile_of(topic, least_depth), raw=True)
+
+    def take(data: bytes) -> None:
+        try:
+            callback(data)
+        except Exception as error:  # noqa: BLE001  # raised again outside of the executor
+            if getattr(node, KEPT, None) is None:
+                setattr(node, KEPT, error)
+
+    return node.create_subscription(message_type(topic.type), name, take, profile_of(topic, least_depth), raw=True)
+
+
+def raise_kept(node: Node) -> None:
+    """Raise the first exception of the node's subscriptions since the last call, if there is one."""
+    error = getattr(node, KEPT, None)
+    if error is not None:
+        setattr(node, KEPT, None)
+        raise error
 
 
 def refuse_strangers(node: Node, name: str, *, unnamed: bool = True) -> bool:
@@ -79,7 +99,7 @@ def refuse_strangers(node: Node, name: str, *, unnamed: bool = True) -> bool:
         names = ", ".join(sorted(_full_name(info.node_namespace, info.node_name) for info in publishers))
         raise NodeError(
             f"{name} has {len(publishers)} publishers ({names}), one is allowed: another bench or node is on the same "
-            "topics; end it, or give this bench a namespace or a ROS_DOMAIN_ID of its own",
+            "topics; end it, or give this one a ROS_DOMAIN_ID of its own (the launch file also takes a namespace)",
             REFUSED,
         )
     for info in others:

@@ -22,6 +22,7 @@ from contact_sim_pkg.excitation.errors import ExcitationError
 from contact_sim_pkg.run.errors import RunError
 from contact_sim_pkg.scene.errors import SceneError
 
+from .endpoints import raise_kept
 from .protocol import FAULT, REFUSED, NodeError
 
 REFUSALS = (SceneError, ExcitationError, BagError)
@@ -159,6 +160,7 @@ def _spin(node: Any, signals: StopSignals) -> int:
             wait = node.tick(time.monotonic())
             if node.exit_status is None:
                 hear(executor, min(wait, LONGEST_WAIT), node.gather)
+                raise_kept(node)
         except ExternalShutdownException:
             break
         except (NodeError, RunError, *REFUSALS) as error:

@@ -66,7 +66,7 @@ class Follower:
         if foreign:
             raise NodeError(
                 f"another bench (scene {progress.scene}, block {progress.block} of {progress.blocks}) runs on "
-                "bench/progress; end it, or give this one a namespace or a ROS_DOMAIN_ID of its own",
+                "bench/progress; end it, or give this one a ROS_DOMAIN_ID of its own",
                 REFUSED,
             )
         if state < self.state or progress.block < self.block or self.state.ended:

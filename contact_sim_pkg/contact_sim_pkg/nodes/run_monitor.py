@@ -12,7 +12,7 @@ from rclpy.signals import SignalHandlerOptions
 
 from contact_sim_pkg.bag.messages import decode_progress, decode_recorded
 
-from .endpoints import subscription
+from .endpoints import raise_kept, subscription
 from .process import hear, make_executor, step_back
 from .protocol import Follower, RecordedFollower, State
 
@@ -37,11 +37,12 @@ class RunMonitor:
         ]
 
     def spin(self, seconds: float) -> None:
-        """Hear what comes, for at most this long."""
+        """Hear what comes, for at most this long; NodeError where another bench is heard."""
         limit = time.monotonic() + seconds
         left = seconds
         while left >= 0.0:
             hear(self._executor, left, GATHER_SECONDS)
+            raise_kept(self._node)
             left = limit - time.monotonic()
 
     def _on_progress(self, data: bytes) -> None:
