@@ -157,9 +157,11 @@ def test_beyond_the_sides_the_border_mode_decides(tmp_path, border, y, same_as):
 
 def test_border_none_refuses_with_the_place(tmp_path):
     surface = road(tmp_path, border_u="none", border_v="none")
-    with pytest.raises(ExcitationError, match=r"x = 2\.1 m lies outside .*zero, constant, repeat, reflect"):
+    with pytest.raises(
+        ExcitationError, match=r"x = 2\.1 m lies outside .*road\.border_u: zero, keep, repeat or reflect"
+    ):
         surface.heights(numpy.array([0.0, 2.1]), numpy.array([0.0]))
-    with pytest.raises(ExcitationError, match=r"y = -0\.5 m lies outside"):
+    with pytest.raises(ExcitationError, match=r"y = -0\.5 m lies outside .*road\.border_v: zero"):
         surface.heights(numpy.array([0.0]), numpy.array([-0.5]))
 
 
@@ -174,7 +176,7 @@ HOLES = {"phi": False, "v": (-0.3, -0.1, 0.1, 0.3)}
 
 
 def test_missing_cells_are_refused_with_their_count(tmp_path):
-    with pytest.raises(ExcitationError, match=r"6 of 20 cells have no height; .* fill or hole"):
+    with pytest.raises(ExcitationError, match=r"6 of 20 cells have no height; .*road\.missing_cells: fill or hole"):
         road(tmp_path, with_holes(), **HOLES)
 
 
@@ -201,7 +203,10 @@ MODIFIERS = [
 
 
 def test_settings_of_the_file_are_refused_until_the_user_decides(tmp_path):
-    with pytest.raises(ExcitationError, match=r"BORDER_MODE_U = 3 \(line \d+\), SCALE_Z_GRID = 2 .*apply or to ignore"):
+    with pytest.raises(
+        ExcitationError,
+        match=r"BORDER_MODE_U = 3 \(line \d+\), SCALE_Z_GRID = 2 .*road\.file_settings: apply or ignore",
+    ):
         road(tmp_path, extra=MODIFIERS)
 
 

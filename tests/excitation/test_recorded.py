@@ -150,7 +150,7 @@ def test_the_rate_is_derived_from_the_time_column_or_compared_with_it(tmp_path):
 
 
 def test_without_time_column_the_rate_must_be_stated(plain):
-    with pytest.raises(ExcitationError, match="must be stated; it is never guessed"):
+    with pytest.raises(ExcitationError, match=r"must be stated \(vibration\.rate, or --rate\); it is never guessed"):
         RecordedVibration(plain)
 
 

@@ -98,7 +98,7 @@ class OpenCrgRoad:
         if grid.missing and self.missing == "refuse":
             raise ExcitationError(
                 f"{header.file}: {grid.missing} of {grid.height.size} cells have no height; say how they are treated "
-                "(missing: fill or hole)"
+                "(road.missing_cells: fill or hole)"
             )
         height = fill_missing(grid.height) if grid.missing else grid.height
         self.lowest, self.highest = float(height.min()), float(height.max())
@@ -162,8 +162,8 @@ class OpenCrgRoad:
         if border == "none":
             worst = float(asked[outside][0])
             raise ExcitationError(
-                f"{self.path}: {name} = {worst:g} m lies outside of the road; shorten the run or choose a border "
-                f"({', '.join(BORDERS[1:])})"
+                f"{self.path}: {name} = {worst:g} m lies outside of the road; shorten the run or say how the road "
+                f"goes on (road.border_{'u' if name == 'x' else 'v'}: zero, keep, repeat or reflect)"
             )
         return numpy.clip(_BRING_INSIDE[border](value, low, high), low, high), outside if border == "zero" else None
 

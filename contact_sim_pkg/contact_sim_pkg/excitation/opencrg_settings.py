@@ -50,7 +50,7 @@ def read_settings(header: Header, policy: str) -> FileSettings:
     names = ", ".join(f"{key.upper()} = {value.number:g} (line {value.line})" for key, value in active.items())
     if policy == "refuse" and active:
         raise ExcitationError(
-            f"{header.file}: the file asks for {names}; say whether to apply or to ignore the file's own settings"
+            f"{header.file}: the file asks for {names}; say what is done with them (road.file_settings: apply or ignore)"
         )
     if policy != "apply":
         note = (f"Settings of the file that were not applied: {names}.",) if active else ()
@@ -58,8 +58,9 @@ def read_settings(header: Header, policy: str) -> FileSettings:
     for key, value in active.items():
         if key not in _APPLICABLE:
             raise ExcitationError(
-                f"{header.file}, line {value.line}: {key.upper()} cannot be applied; ignore the file's settings and "
-                "choose missing, level and borders yourself"
+                f"{header.file}, line {value.line}: {key.upper()} cannot be applied; leave the file's settings out "
+                "(road.file_settings: ignore) and choose road.missing_cells, road.remove_mean, road.border_u and "
+                "road.border_v yourself"
             )
     scale, offset = (
         entries[key].number if key in entries else neutral

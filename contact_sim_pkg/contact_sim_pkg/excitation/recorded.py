@@ -108,8 +108,8 @@ class RecordedVibration:
         if time is None:
             if stated is None:
                 raise ExcitationError(
-                    f"{table.file}: the file has no time column, so its sampling rate must be stated; it is never "
-                    "guessed"
+                    f"{table.file}: the file has no time column, so its sampling rate must be stated "
+                    "(vibration.rate, or --rate); it is never guessed"
                 )
             self._notes.append(
                 f"The rate of {stated:g} Hz is as stated; the file has no time column to compare it with."
@@ -213,7 +213,7 @@ class RecordedVibration:
             raise ExcitationError(
                 f"{self.path}: the recording ends after {(self.samples - 1) / self.rate - self.start:.6g} s, t = "
                 f"{t[outside][0]:.6g} s was asked for; "
-                "shorten the run or choose what comes after the recording (zero, repeat)"
+                "shorten the run or choose what comes after the recording (vibration.beyond: zero or repeat)"
             )
         index, weight = _interpolation(position)
         index = index % self.samples if self.beyond == "repeat" else numpy.clip(index, 0, self.samples - 1)
