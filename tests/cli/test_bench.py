@@ -5,9 +5,13 @@ import signal
 
 import pytest
 
+from contact_sim_pkg.bag.errors import BagWriteError
 from contact_sim_pkg.bag.reader import open_bag
+from contact_sim_pkg.bag.writer import BagWriter
 from contact_sim_pkg.cli.main import COMMANDS
 from contact_sim_pkg.cli.main import main as bench_main
+from contact_sim_pkg.run.errors import RunError
+from contact_sim_pkg.run.simulation import Simulation
 
 from ..bench_process import bench, end, needs_ros, start_bench, wait_until
 
@@ -48,12 +52,54 @@ def test_a_run_with_json_prints_one_object_with_what_scripts_ask_for(capsys, tmp
     assert bench_main(["run", "seat_ride", *OFFLINE, "--out", str(out), "--json"]) == 0
     facts = json.loads(capsys.readouterr().out)
     assert list(facts) == [
-        "scene", "effects", "accuracy", "simulated_s", "startup_s", "wall_s", "real_time_factor", "excitation", "bag",
-        "summary",
+        "scene", "effects", "accuracy", "ended", "failure", "simulated_s", "startup_s", "wall_s", "real_time_factor",
+        "excitation", "bag", "summary",
     ]  # fmt: skip
+    assert (facts["ended"], facts["failure"]) == ("finished", None)
     assert (facts["scene"], facts["simulated_s"], facts["bag"]) == ("seat_ride", 0.2, str(out))
     assert facts["real_time_factor"] == pytest.approx(facts["simulated_s"] / facts["wall_s"], rel=1e-3)
     assert sum(facts["summary"]["messages"].values()) == open_bag(out).count()
+
+
+def test_a_write_that_fails_during_a_run_ends_it_with_status_3_and_says_so(capsys, tmp_path, monkeypatch):
+    written = BagWriter.write
+
+    def write(self, topic, *arguments, **named):
+        if self.messages > 20:
+            raise BagWriteError("no space left on device")
+        written(self, topic, *arguments, **named)
+
+    monkeypatch.setattr(BagWriter, "write", write)
+    assert bench_main(["run", "seat_ride", *OFFLINE, "--out", str(tmp_path / "bag"), "--json"]) == 3
+    out, said = capsys.readouterr()
+    facts = json.loads(out)
+    assert (facts["ended"], facts["failure"]) == ("stopped", "no space left on device")
+    assert "no space left on device" in said
+
+
+def test_a_run_that_fails_says_so_in_its_json(capsys, tmp_path, monkeypatch):
+    advanced = Simulation.advance
+
+    def advance(self, block, inputs):
+        if block > 3:
+            raise RunError("the tire fell off")
+        return advanced(self, block, inputs)
+
+    monkeypatch.setattr(Simulation, "advance", advance)
+    assert bench_main(["run", "seat_ride", *OFFLINE, "--out", str(tmp_path / "bag"), "--json"]) == 1
+    facts = json.loads(capsys.readouterr().out)
+    assert (facts["ended"], facts["failure"]) == ("failed", "the tire fell off")
+
+
+def test_a_recorded_vibration_shorter_than_the_scene_is_refused_before_the_start(capsys, tmp_path):
+    rows = "".join(f"{0.01 * i:.2f},0,{i % 3},{9.8 + i % 2}\n" for i in range(50))
+    (tmp_path / "short.csv").write_text("time,x,y,z\n" + rows)
+    arguments = ["run", "seat_ride", "--offline", "--vibration", tmp_path / "short.csv", "--rate", "100"]
+    arguments += ["--out", tmp_path / "bag", "--duration", "2", "--set", "vibration.beyond=refuse"]
+    status, said = refused(capsys, *arguments)
+    assert status == 2
+    assert "the recording ends after 0.49 s, the scene lasts 2 s" in said
+    assert not (tmp_path / "bag").exists()
 
 
 def test_a_run_without_recording_creates_nothing(capsys, tmp_path, monkeypatch):

@@ -35,6 +35,14 @@ class Outcome(Protocol):
         """Ended by the user."""
 
     @property
+    def failure(self) -> str:
+        """Sentence of the fault or of the loss; empty where there is none."""
+
+    @property
+    def exit_status(self) -> int:
+        """0 done, 1 failed, 3 with loss."""
+
+    @property
     def excitation(self) -> dict[str, dict[str, Any]]:
         """By topic: what was found in the excitation and done about it."""
 
@@ -46,21 +54,39 @@ def describe(scene: ResolvedScene, outcome: Outcome) -> dict[str, Any]:
         "scene": scene.data["name"],
         "effects": scene.data["effects"],
         "accuracy": scene.data["accuracy"],
+        "ended": _ended(scene, outcome),
+        "failure": outcome.failure or None,
         "simulated_s": simulated,
         "startup_s": round(outcome.startup, 3),
         "wall_s": round(outcome.wall, 6),
         "real_time_factor": simulated / outcome.wall if outcome.wall > 0.0 else None,
         "excitation": outcome.excitation,
         "bag": None if outcome.bag is None else str(outcome.bag),
-        "summary": {} if outcome.bag is None or not outcome.blocks else _summary(outcome.bag),
+        "summary": {}
+        if outcome.bag is None or not outcome.blocks
+        else _summary(outcome.bag, lossy=outcome.exit_status != 0),
     }
 
 
-def _summary(bag: Path) -> dict[str, Any]:
+def _ended(scene: ResolvedScene, outcome: Outcome) -> str:
+    """`failed`, `stopped` (by the user, or by the end of the recording) or `finished`, as the bag says it."""
+    if outcome.exit_status == 1:
+        return "failed"
+    blocks = round(float(scene.data["duration"]) / float(scene.data["block_length"]))
+    return "stopped" if outcome.blocks < blocks else "finished"
+
+
+def _summary(bag: Path, *, lossy: bool) -> dict[str, Any]:
     from contact_sim_pkg.analysis.summary import summarise
+    from contact_sim_pkg.bag.errors import BagError
     from contact_sim_pkg.bag.reader import open_bag
 
-    return summarise(open_bag(bag))
+    try:
+        return summarise(open_bag(bag))
+    except BagError:
+        if not lossy:
+            raise
+        return {}  # the loss was named already
 
 
 def print_outcome(facts: dict[str, Any], outcome: Outcome) -> None:

@@ -85,8 +85,8 @@ def _run_offline(scene: ResolvedScene, directory: Path | None, from_bag: Path | 
     before = time.monotonic() - BEGAN
     with _signals_call(lambda: stops.append(1)):
         outcome = run_offline(scene, directory, display.show, lambda: bool(stops), sources)
-    lost = outcome.bag is not None and not outcome.bag.complete
-    failure = outcome.failure or (outcome.bag.sentence if outcome.bag is not None else "")
+    lost = bool(outcome.loss) or (outcome.bag is not None and not outcome.bag.complete)
+    failure = outcome.failure or (outcome.bag.sentence if outcome.bag is not None else "") or outcome.loss
     status = 1 if outcome.failure else 3 if lost else 0
     bag = None if outcome.bag is None else outcome.bag.path
     return Ended(

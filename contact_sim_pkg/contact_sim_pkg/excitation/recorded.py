@@ -205,6 +205,15 @@ class RecordedVibration:
             return values
         return numpy.fft.irfft(gain * numpy.fft.rfft(mirrored), len(mirrored))[: len(values)]
 
+    def refuse_longer_run(self, duration: float) -> None:
+        """Raise ExcitationError where a run of `duration`, [s], needs more than the recording and that is refused."""
+        length = (self.samples - 1) / self.rate - self.start
+        if self.beyond == "refuse" and (duration - length) * self.rate > 1e-6:
+            raise ExcitationError(
+                f"{self.path}: the recording ends after {length:.6g} s, the scene lasts {duration:.6g} s; "
+                "shorten the run or choose what comes after the recording (vibration.beyond: zero, repeat)"
+            )
+
     def acceleration(self, t: Array) -> tuple[Array, Array]:
         """See blocks.Signal; ExcitationError beyond the recording where that is refused."""
         position = (t + self.start) * self.rate

@@ -7,10 +7,12 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import Any, NamedTuple
 
+from contact_sim_pkg.bag.errors import BagWriteError, RecordingStoppedError
 from contact_sim_pkg.bag.messages import encode_road_patch, encode_scene, encode_vibration
 from contact_sim_pkg.bag.topics import TOPICS
 from contact_sim_pkg.bag.writer import BagSummary, BagWriter
 from contact_sim_pkg.excitation.blocks import RoadPatch, VibrationBlock
+from contact_sim_pkg.excitation.errors import ExcitationError
 from contact_sim_pkg.run.bag_content import attachments, recorded_names, topics_of
 from contact_sim_pkg.run.errors import RunError
 from contact_sim_pkg.run.simulation import Simulation
@@ -41,6 +43,7 @@ class RunOutcome(NamedTuple):
     stopped: bool  # ended by the user before the last block
     failure: str  # sentence of the fault that ended it; empty where there is none
     excitation: dict[str, dict[str, Any]]  # by topic, what was found in it and done about it
+    loss: str = ""  # sentence of the write that ended the recording, and the run with it
 
 
 def run_offline(
@@ -53,8 +56,8 @@ def run_offline(
     """Run ``scene`` and record it in ``directory``, which must not exist (None: no recording).
 
     ``sources`` replaces the scene's own excitation (a bag's, for one). ``stop`` is asked before each block. A fault of the
-    physics ends the run: the bag is closed and the outcome names it. Raises what a bad scene, file or directory raises,
-    before anything is created.
+    physics or of the excitation ends the run, as does a write that fails: the bag is closed and the outcome names it. Raises
+    what a bad scene, file or directory raises, before anything is created.
     """
     began = time.perf_counter()
     sources = make_sources(scene) if sources is None else sources
@@ -67,7 +70,7 @@ def run_offline(
         writer = BagWriter(directory, topics_of(names), attachments(scene, descriptions))
     startup = time.perf_counter() - began
     first = time.perf_counter()
-    done, failure, stopped = 0, "", False
+    done, failure, stopped, loss = 0, "", False, ""
     try:
         if writer is not None:
             writer.write("bench/scene", 0, encode_scene(scene.to_yaml()))
@@ -79,11 +82,13 @@ def run_offline(
             done = block + 1
             if on_progress is not None:
                 on_progress(progress)
-    except RunError as error:
+    except (RunError, ExcitationError) as error:
         failure = str(error)
+    except (BagWriteError, RecordingStoppedError) as error:
+        loss = str(error)
     finally:
         summary = None if writer is None else writer.close(_outcome(done, simulation.blocks, failure, stopped, first))
-    return RunOutcome(done, startup, time.perf_counter() - first, summary, stopped, failure, descriptions)
+    return RunOutcome(done, startup, time.perf_counter() - first, summary, stopped, failure, descriptions, loss)
 
 
 def _outcome(done: int, blocks: int, failure: str, stopped: bool, first: float) -> dict[str, str]:

@@ -99,12 +99,14 @@ def _signal(scene: ResolvedScene, vibration: dict[str, Any]) -> Signal:
     if kind == "recorded":
         from contact_sim_pkg.excitation.recorded import RecordedVibration
 
-        return RecordedVibration(
+        recording = RecordedVibration(
             scene.file_path("vibration.file"), vibration.get("rate"), vibration["vertical_column"],
             vibration["forward_column"], time=vibration.get("time_column"),
             tilt="correct" if vibration["correct_tilt"] else "keep", beyond=vibration["beyond"], start=vibration["start"],
             sample_rate=vibration["sample_rate"],
         )  # fmt: skip
+        recording.refuse_longer_run(float(scene.data["duration"]))
+        return recording
     from contact_sim_pkg.excitation.signals import AxisSignal
 
     wave = _wave(scene.data, vibration)
