@@ -45,6 +45,13 @@ def test_the_force_that_drives_the_bodies_is_the_integral_of_the_published_press
         assert patch.pressure.min() >= 0.0
 
 
+@pytest.mark.parametrize("contact", ["tire", "seat"])
+def test_the_approaches_of_force_and_field_differ_by_the_effective_height(car, contact):
+    for force_data, patch_data in zip(car[f"{contact}/force"], car[f"{contact}/patch"], strict=True):
+        force, patch = decode_contact_force(force_data), decode_contact_patch(patch_data)
+        assert patch.approach == pytest.approx(force.approach[0] - force.effective_height[0], abs=1e-15)
+
+
 def test_the_wheel_accelerates_by_the_published_forces_alone(car):
     """Newton's second law on the wheel from published numbers: m a = F_tire - m g - F_suspension."""
     for force_data, motion_data in zip(car["tire/force"], car["bench/motion"], strict=True):
