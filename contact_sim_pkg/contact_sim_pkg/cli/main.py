@@ -85,7 +85,7 @@ def refusal(error: Exception) -> tuple[str, int] | None:
         return str(error), 1
     if isinstance(error, OSError):
         return f"{error.strerror or error}{f': {error.filename}' if error.filename else ''}", 2
-    if isinstance(error, ModuleNotFoundError) and (error.name or "").partition(".")[0] in (
+    if isinstance(error, ImportError) and (error.name or "").partition(".")[0] in (
         "rclpy",
         "contact_msgs_defs",
     ):
