@@ -80,7 +80,7 @@ def new_figure(height: float, rows: int = 1, cols: int = 1, **options: Any) -> t
 
 def style() -> AbstractContextManager[None]:
     """Context in which figures are made and rendered."""
-    return matplotlib.rc_context(STYLE)  # type: ignore[arg-type]
+    return matplotlib.rc_context(dict(STYLE))
 
 
 def picture(name: str, figure: Figure, description: str, caption: str) -> Picture:

@@ -169,7 +169,7 @@ def _map(axes: Axes, field: PressureMap, window: Window, title: str) -> None:
     axes.set_xlabel("← left, y, mm")
     axes.set_ylabel("forward, x, mm →")
     bar = axes.figure.colorbar(image, cax=axes.inset_axes((1.04, 0.0, 0.045, 1.0)), label="kPa")
-    bar.outline.set_visible(False)
+    bar.ax.spines["outline"].set_visible(False)
 
 
 def _mark_peak(axes: Axes, field: PressureMap) -> None:
