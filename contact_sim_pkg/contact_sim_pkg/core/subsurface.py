@@ -88,15 +88,15 @@ def subsurface_stress(
     cell_x, cell_y = float(grid.cell_x), float(grid.cell_y)
     if pressure is not None:
         weight = _corner_weights(pressure, "pressure")
-        add_pressure(weight, cell_x, cell_y, float(start_x), float(start_y), float(poisson), points, stress)
+        add_stresses(weight, cell_x, cell_y, float(start_x), float(start_y), float(poisson), False, points, stress)
     if traction_x is not None:
         weight = _corner_weights(traction_x, "traction_x")
-        add_traction(weight, cell_x, cell_y, float(start_x), float(start_y), float(poisson), points, stress)
+        add_stresses(weight, cell_x, cell_y, float(start_x), float(start_y), float(poisson), True, points, stress)
     if traction_y is not None:
         # Along y: x and y change places, in the field, the points and the stresses.
         turned, out = numpy.ascontiguousarray(points[:, [1, 0, 2]]), numpy.zeros(stress.shape)
         weight = numpy.ascontiguousarray(_corner_weights(traction_y, "traction_y").T)
-        add_traction(weight, cell_y, cell_x, float(start_y), float(start_x), float(poisson), turned, out)
+        add_stresses(weight, cell_y, cell_x, float(start_y), float(start_x), float(poisson), True, turned, out)
         stress += out[:, [1, 0, 2, 3, 5, 4]]
     return stress
 
@@ -122,17 +122,21 @@ def max_shear(stress: Field) -> Field:
 
 
 @entry
-def add_pressure(
+def add_stresses(
     weight: Field,
     cell_x: float,
     cell_y: float,
     start_x: float,
     start_y: float,
     poisson: float,
+    tangential: bool,
     points: Field,
     stress: Field,
 ) -> None:
-    """Add the stresses of a pressure to `stress` [n, 6]; weight: second differences D [rows+1, cols+1]."""
+    """Add the stresses of a pressure, or of a traction along x (`tangential`), to `stress` [n, 6].
+
+    weight: second differences D [rows+1, cols+1].
+    """
     rows, cols = weight.shape
     cut = CUT * min(cell_x, cell_y)
     for k in range(points.shape[0]):
@@ -142,38 +146,10 @@ def add_pressure(
             for j in range(cols):
                 share = weight[i, j]
                 if share != 0.0:
-                    corner = pressure_corner(x - i * cell_x, y - j * cell_y, z, poisson, cut)
-                    xx += share * corner.xx
-                    yy += share * corner.yy
-                    zz += share * corner.zz
-                    xy += share * corner.xy
-                    xz += share * corner.xz
-                    yz += share * corner.yz
-        add_row(stress, k, Stress(xx, yy, zz, xy, xz, yz))
-
-
-@entry
-def add_traction(
-    weight: Field,
-    cell_x: float,
-    cell_y: float,
-    start_x: float,
-    start_y: float,
-    poisson: float,
-    points: Field,
-    stress: Field,
-) -> None:
-    """Add the stresses of a traction along x to `stress` [n, 6]; weight as in `add_pressure`."""
-    rows, cols = weight.shape
-    cut = CUT * min(cell_x, cell_y)
-    for k in range(points.shape[0]):
-        x, y, z = points[k, 0] - start_x, points[k, 1] - start_y, points[k, 2]
-        xx, yy, zz, xy, xz, yz = 0.0, 0.0, 0.0, 0.0, 0.0, 0.0
-        for i in range(rows):
-            for j in range(cols):
-                share = weight[i, j]
-                if share != 0.0:
-                    corner = traction_corner(x - i * cell_x, y - j * cell_y, z, poisson, cut)
+                    u, v = x - i * cell_x, y - j * cell_y
+                    corner = (
+                        traction_corner(u, v, z, poisson, cut) if tangential else pressure_corner(u, v, z, poisson, cut)
+                    )
                     xx += share * corner.xx
                     yy += share * corner.yy
                     zz += share * corner.zz
