@@ -229,7 +229,10 @@ def test_a_setting_that_cannot_be_applied_is_refused_by_name(tmp_path):
 
 def test_settings_that_leave_heights_alone_pass(tmp_path):
     extra = ["$ROAD_CRG_OPTS", "WARN_MSGS = 0", "$", "$ROAD_CRG_MODS", "REFPOINT_X = 12.5", "SCALE_Z_GRID = 1.0", "$"]
-    road(tmp_path, extra=extra)
+    x, y = numpy.linspace(0.0, 1.0, 7), numpy.linspace(-0.1, 0.1, 3)
+    plain = road(tmp_path).heights(x, y)
+    assert plain.any()
+    assert road(tmp_path, extra=extra).heights(x, y).tobytes() == plain.tobytes()
 
 
 def test_large_roads_are_evaluated_without_their_table_to_the_same_bits(tmp_path, monkeypatch):
