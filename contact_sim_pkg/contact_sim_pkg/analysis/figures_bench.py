@@ -48,7 +48,7 @@ def real_time_factor(cost: CostSeries) -> Picture:
     axes[0].axhline(1.0, color=INK, linewidth=0.9, linestyle=(0, (4, 3)))
     axes[0].set_yscale("log")
     axes[0].set_xlabel("simulated time, s")
-    axes[0].set_ylabel("speed of the physics\n(times real time)")
+    axes[0].set_ylabel("real-time factor\nof the physics")
     milliseconds = cost.wall_time * 1e3
     # The slowest hundredth is counted in the last bin, so that one slow first block does not squeeze the rest.
     limit = float(np.percentile(milliseconds, 99.0)) * 1.1

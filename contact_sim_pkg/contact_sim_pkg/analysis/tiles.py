@@ -31,8 +31,8 @@ def tiles(summary: dict[str, Any]) -> list[Tile]:
         found.append(Tile("energy that does not add up", number(energy["residual_relative"]), "", detail))
     solver = summary.get("solver", {})
     if solver.get("physics_real_time_factor") is not None:
-        detail = f"times real time, without recording and messages; {solver['steps']} steps, {solver['events']} events"
-        found.append(Tile("speed of the physics", number(solver["physics_real_time_factor"]), "×", detail))
+        detail = f"without recording and messages; {solver['steps']} steps, {solver['events']} events"
+        found.append(Tile("real-time factor of the physics", number(solver["physics_real_time_factor"]), "×", detail))
     return found
 
 
