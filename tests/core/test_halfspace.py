@@ -6,7 +6,14 @@ import numpy
 import pytest
 from scipy.signal import fftconvolve
 
-from contact_sim_pkg.core.halfspace import displacement, love_coefficients, make_buffers, make_half_space
+from contact_sim_pkg.core.halfspace import (
+    coarsened,
+    displacement,
+    love_coefficients,
+    make_buffers,
+    make_half_space,
+    part_of,
+)
 from contact_sim_pkg.reference import halfspace as reference
 
 MODULUS = 3.7e6
@@ -85,3 +92,33 @@ def test_displacement_of_uniform_pressure_at_the_centre_is_that_of_a_loaded_squa
 def test_impossible_grids_are_refused(arguments: tuple[int, int, float, float, float], fault: str) -> None:
     with pytest.raises(ValueError, match=fault):
         make_half_space(*arguments)
+
+
+def test_a_part_of_a_grid_is_the_grid_of_that_size() -> None:
+    part, alone = (
+        part_of(make_half_space(20, 14, 2e-3, 3e-3, MODULUS), 9, 5),
+        make_half_space(9, 5, 2e-3, 3e-3, MODULUS),
+    )
+    for one, other in zip(part, alone, strict=True):
+        assert numpy.array_equal(one, other)
+
+
+def test_a_coarse_cell_moves_as_the_mean_of_its_fine_cells() -> None:
+    shape = (12, 8)
+    coarse = coarsened(make_half_space(*shape, 2e-3, 3e-3, MODULUS))
+    pressure, result = numpy.random.default_rng(3).random((6, 4)), numpy.empty((6, 4))
+    displacement(coarse, make_buffers(coarse), pressure, result)
+    dense = reference.dense_influence(*shape, 2e-3, 3e-3, MODULUS)
+    fine = reference.displacement(dense, numpy.repeat(numpy.repeat(pressure, 2, axis=0), 2, axis=1))
+    assert result == pytest.approx(fine.reshape(6, 2, 4, 2).mean(axis=(1, 3)), rel=1e-12)
+
+
+def test_what_yields_further_adds_its_displacement() -> None:
+    further = 1e-9 / (1.0 + numpy.add.outer(numpy.arange(7.0), numpy.arange(6.0)))
+    both, plain = make_half_space(7, 6, 2e-3, 3e-3, MODULUS, further), make_half_space(7, 6, 2e-3, 3e-3, MODULUS)
+    pressure, with_it, without = numpy.random.default_rng(4).random((7, 6)), numpy.empty((7, 6)), numpy.empty((7, 6))
+    displacement(both, make_buffers(both), pressure, with_it)
+    displacement(plain, make_buffers(plain), pressure, without)
+    rows, cols = abs(numpy.arange(-6, 7)), abs(numpy.arange(-5, 6))
+    expected = fftconvolve(pressure, further[rows][:, cols], mode="full")[6:13, 5:11]
+    assert with_it - without == pytest.approx(expected, rel=1e-9)

@@ -21,7 +21,7 @@ from numpy.typing import NDArray
 
 from contact_sim_pkg.core.field_solver import BAD_INPUT, CONVERGED, EDGE, FieldResult, solve_at_approach, solve_at_load
 from contact_sim_pkg.core.field_window import Part, Window, make_part, put_back, take
-from contact_sim_pkg.core.halfspace import Field, HalfSpace, make_half_space
+from contact_sim_pkg.core.halfspace import Field, HalfSpace, coarsened
 from contact_sim_pkg.core.jit import entry, kernel
 
 __all__ = ["RollingField"]
@@ -175,7 +175,7 @@ def _half_of(whole: HalfSpace) -> RollingField | None:
     rows, cols = whole.rows, whole.cols
     if min(rows, cols) < 2 * LEAST_OF_HALF or rows % 2 or cols % 2:
         return None
-    return RollingField(make_half_space(rows // 2, cols // 2, 2.0 * whole.cell_x, 2.0 * whole.cell_y, whole.modulus))
+    return RollingField(coarsened(whole))
 
 
 @entry

@@ -23,7 +23,7 @@ from contact_sim_pkg.core.field_solver import (
     solve_at_approach,
     solve_at_load,
 )
-from contact_sim_pkg.core.halfspace import Field, HalfSpace, make_half_space
+from contact_sim_pkg.core.halfspace import Field, HalfSpace, part_of
 from contact_sim_pkg.core.jit import entry
 
 __all__ = ["Part", "Window", "WindowedSolver", "make_part", "overlap_window", "put_back", "take"]
@@ -98,7 +98,7 @@ class WindowedSolver:
 
 def make_part(whole: HalfSpace, rows: int, cols: int) -> Part:
     """Tables and buffers for windows of one size of a grid."""
-    half_space = make_half_space(rows, cols, whole.cell_x, whole.cell_y, whole.modulus)
+    half_space = part_of(whole, rows, cols)
     return Part(half_space, make_workspace(half_space), numpy.zeros((rows, cols)), numpy.zeros((rows, cols)))
 
 

@@ -18,7 +18,7 @@ from numpy.typing import NDArray
 from contact_sim_pkg.core.jit import entry, kernel
 from contact_sim_pkg.core.transforms import rocket_fft
 
-__all__ = ["Buffers", "HalfSpace", "displacement", "make_buffers", "make_half_space"]
+__all__ = ["Buffers", "HalfSpace", "coarsened", "displacement", "make_buffers", "make_half_space", "part_of"]
 
 Field = NDArray[numpy.float64]
 Spectrum = NDArray[numpy.complex128]
@@ -58,10 +58,14 @@ class Buffers(NamedTuple):
     convolutions: Axis  # [1] how many were done
 
 
-def make_half_space(rows: int, cols: int, cell_x: float, cell_y: float, modulus: float) -> HalfSpace:
+def make_half_space(
+    rows: int, cols: int, cell_x: float, cell_y: float, modulus: float, further: Field | None = None
+) -> HalfSpace:
     """Influence coefficients and transforms of a grid.
 
-    rows, cols: number of cells along x and y; cell_x, cell_y: their size [m]; modulus: contact modulus E* [Pa].
+    rows, cols: number of cells along x and y; cell_x, cell_y: their size [m]; modulus: contact modulus E* [Pa]; further:
+    influence [m/Pa] [rows, cols] of something else that yields under the pressure, in series with the half-space; it must
+    be positive and not grow with the distance, as that of a belt does (`effects/envelopment.py`).
     Raises `ValueError` for sizes that are not positive and finite. A ratio cell_x/cell_y up to 100 either way is fine.
     """
     for name, count in (("rows", rows), ("cols", cols)):
@@ -71,12 +75,39 @@ def make_half_space(rows: int, cols: int, cell_x: float, cell_y: float, modulus:
         if not (numpy.isfinite(value) and value > 0.0):
             raise ValueError(f"half-space: {name} = {value}, allowed are positive finite numbers")
     influence = love_coefficients(rows, cols, cell_x, cell_y) / (numpy.pi * modulus)
+    if further is not None:
+        influence += further
+    return _half_space(influence, float(cell_x), float(cell_y), float(modulus))
+
+
+def part_of(whole: HalfSpace, rows: int, cols: int) -> HalfSpace:
+    """A smaller grid of the same cells: what yields under them is the same."""
+    return _half_space(whole.influence[:rows, :cols], whole.cell_x, whole.cell_y, whole.modulus)
+
+
+def coarsened(fine: HalfSpace) -> HalfSpace:
+    """The same surface in cells of twice the size; rows and cols must be even.
+
+    A coarse cell spreads its pressure over its four fine cells and takes the mean of their displacements: of the pairs of fine
+    cells, 1, 2 and 1 of 4 lie one cell nearer, as far and one cell farther along each side.
+    """
+    far_rows, far_cols = numpy.arange(0, fine.rows, 2), numpy.arange(0, fine.cols, 2)
+    influence = numpy.zeros((len(far_rows), len(far_cols)))
+    for i, along_x in ((-1, 1.0), (0, 2.0), (1, 1.0)):
+        for j, along_y in ((-1, 1.0), (0, 2.0), (1, 1.0)):
+            influence += 0.25 * along_x * along_y * fine.influence[abs(far_rows + i)][:, abs(far_cols + j)]
+    return _half_space(influence, 2.0 * fine.cell_x, 2.0 * fine.cell_y, fine.modulus)
+
+
+def _half_space(influence: Field, cell_x: float, cell_y: float, modulus: float) -> HalfSpace:
+    influence = numpy.ascontiguousarray(influence)
+    rows, cols = influence.shape
     return HalfSpace(
-        int(rows),
-        int(cols),
-        float(cell_x),
-        float(cell_y),
-        float(modulus),
+        rows,
+        cols,
+        cell_x,
+        cell_y,
+        modulus,
         influence,
         _transfer(influence),
         _preconditioner(rows, cols, cell_x, cell_y, modulus),
