@@ -37,6 +37,15 @@ class Friction(NamedTuple):
     coefficient_kinetic: float  # ratio while slipping, <= coefficient_static
 
 
+class Brush(NamedTuple):
+    """Bristles of a rolling tread, one a cell of its pressure field, with a Coulomb limit of their own."""
+
+    stiffness_x: float  # [N/m^3] shear stress per deflection, along the travel, > 0
+    stiffness_y: float  # [N/m^3] sideways, > 0
+    coefficient_static: float  # ratio of shear stress to pressure at which sticking ends, > 0
+    coefficient_kinetic: float  # ratio while sliding, > 0, <= coefficient_static
+
+
 class Contact(NamedTuple):
     """One contact: the effects that act in it. ``elastic`` is always there, the others may be ``None``."""
 
