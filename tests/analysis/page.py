@@ -35,4 +35,13 @@ class Page(HTMLParser):
         return [value for _, attribute, value in self.attributes if attribute == name]
 
 
-HEADINGS = ("What was run", "Tire contact", "Seat contact", "Seat vibration", "Energy", "Cost", "Recording")
+HEADINGS = (
+    "What was run",
+    "Tire contact",
+    "Seat contact",
+    "Rolling tire",
+    "Seat vibration",
+    "Energy",
+    "Cost",
+    "Recording",
+)

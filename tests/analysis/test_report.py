@@ -24,9 +24,9 @@ def car_page(car_text):
 
 def test_a_car_with_a_tire_field_has_every_section(car_page):
     assert car_page.headings == [
-        "What was run", "Tire contact", "Seat contact", "Seat vibration", "Energy", "Cost", "Recording",
+        "What was run", "Tire contact", "Seat contact", "Rolling tire", "Seat vibration", "Energy", "Cost", "Recording",
     ]  # fmt: skip
-    assert car_page.tags.count("figure") == 4 + 2 + 2 + 1 + 1
+    assert car_page.tags.count("figure") == 4 + 2 + 2 + 2 + 1 + 1
 
 
 def test_a_seat_alone_has_no_tire_and_no_map(seat, tmp_path):
@@ -39,7 +39,7 @@ def test_a_seat_alone_has_no_tire_and_no_map(seat, tmp_path):
 def test_a_bag_of_forces_alone_still_gives_a_page(bare, tmp_path):
     page = Page(write_report(bare, tmp_path / "bare.html").read_text(encoding="utf-8"))
 
-    assert page.headings == ["What was run", "Tire contact", "Recording"]
+    assert page.headings == ["What was run", "Tire contact", "Rolling tire", "Recording"]
 
 
 def test_the_page_lies_in_the_bag_unless_told_otherwise(tmp_path):

@@ -46,7 +46,7 @@ def rendered(car, tmp_path_factory):
 def test_every_picture_is_drawn(rendered):
     pictures, width, height, texts, *_ = rendered
 
-    assert pictures == 10
+    assert pictures == 12
     assert width > 600
     assert height > 150
     assert texts > 100

@@ -21,6 +21,8 @@ SHADE = "#f1dfc6"
 VARIABLES = {INK: "--ink", MUTED: "--muted", RULE: "--rule", ACCENT: "--accent", SHADE: "--shade"}
 
 PRESSURE_COLOURS = "viridis"
+DISPLACEMENT_COLOURS = "cividis"
+STRESS_COLOURS = "magma"
 WIDTH = 7.4
 """[inch] of a picture across the page's column"""
 

@@ -5,38 +5,21 @@
 
 from __future__ import annotations
 
-from typing import NamedTuple
-
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.collections import PolyCollection
+from matplotlib.colors import Normalize
 from numpy.typing import NDArray
 
 from .decimate import envelope
 from .drawing import ACCENT, INK, MUTED, PRESSURE_COLOURS, SHADE, WIDTH, Picture, new_figure, picture
+from .lift_off import lifted_intervals
+from .maps import Window, draw_map, loaded_window, set_window
 from .series import ContactSeries, FieldSeries, PressureMap
 from .summary import field_numbers, force_numbers
 
 LOOP_POINTS = 4000
 """Most points of the curve of load over approach."""
-
-
-class Window(NamedTuple):
-    """Part of the contact plane that maps show, [mm]."""
-
-    low_x: float
-    high_x: float
-    low_y: float
-    high_y: float
-
-
-def lifted_intervals(contact: ContactSeries) -> NDArray[np.float64]:
-    """Start and end [s] of each stretch without load, [stretches, 2]; it ends at the first sample with load again."""
-    apart = np.concatenate([[False], contact.normal <= 0.0, [False]])
-    changes = np.flatnonzero(apart[1:] != apart[:-1]).reshape(-1, 2)
-    ends = np.append(contact.time, contact.time[-1] + contact.sample_period)
-    intervals: NDArray[np.float64] = ends[changes]
-    return intervals
 
 
 def load_over_time(key: str, name: str, contact: ContactSeries) -> Picture:
@@ -64,8 +47,8 @@ def load_over_time(key: str, name: str, contact: ContactSeries) -> Picture:
 def _load_caption(contact: ContactSeries) -> str:
     numbers = force_numbers(contact)
     text = (
-        f"Normal force between {numbers['load_min_N']:.4g} and {numbers['load_max_N']:.4g} N, mean "
-        f"{numbers['load_mean_N']:.4g} N (dashed). Approach between {contact.approach.min() * 1e3:.3g} and "
+        f"Normal force between {numbers['load_min_N']:.5g} and {numbers['load_max_N']:.5g} N, mean "
+        f"{numbers['load_mean_N']:.5g} N (dashed). Approach between {contact.approach.min() * 1e3:.3g} and "
         f"{contact.approach.max() * 1e3:.3g} mm, positive in compression. "
     )
     if not numbers["lifted_share"]:
@@ -100,7 +83,7 @@ def load_over_approach(key: str, name: str, contact: ContactSeries) -> Picture:
 
 def pressure_maps(key: str, name: str, field: FieldSeries) -> Picture:
     """The map with the largest peak and the mean map, one colour scale each, cells as they are."""
-    window = _loaded_window(field.average)
+    window = loaded_window(field.average)
     figure, axes = new_figure(_map_height(window), 1, 2)
     _map(axes[0], field.highest, window, f"largest peak, t = {field.highest_time:.3f} s")
     _mark_peak(axes[0], field.highest)
@@ -116,26 +99,59 @@ def pressure_maps(key: str, name: str, field: FieldSeries) -> Picture:
     return picture(f"{key}-map", figure, f"Pressure maps of the {name} contact", caption)
 
 
-def peak_and_area(key: str, name: str, field: FieldSeries) -> Picture:
-    """Largest pressure and contact area over time."""
-    figure, axes = new_figure(3.4, 2, sharex=True)
-    _line(axes[0], field.time, field.peak * 1e-3, "peak pressure, kPa")
-    _line(axes[1], field.time, field.area * 1e4, "contact area, cm²")
+def footprint_over_time(key: str, name: str, field: FieldSeries) -> Picture:
+    """Largest pressure, contact area, semi-axes and exponent of the contact's outline over time."""
+    figure, axes = new_figure(5.6, 4, sharex=True)
+    touching = field.area > 0.0
+    _line(axes[0], field.time, field.peak * 1e-3, "peak, kPa")
+    _line(axes[1], field.time, field.area * 1e4, "area, cm²")
+    for values, colour, label in ((field.lame_a, ACCENT, "a, along"), (field.lame_b, INK, "b, across")):
+        axes[2].plot(*_with_gaps(field.time, values * 1e3, touching), color=colour, linewidth=0.9, label=label)
+    axes[2].set_ylabel("semi-axes, mm")
+    axes[2].legend(loc="upper right", ncols=2)
+    usual = float(np.percentile([field.lame_a, field.lame_b], 99.0))
+    axes[2].set_ylim(top=1.5e3 * max(usual, 1e-3))
+    axes[3].plot(*_with_gaps(field.time, field.lame_n, touching), color=ACCENT, linewidth=0.9)
+    axes[3].axhline(2.0, color=MUTED, linewidth=0.7)
+    axes[3].set_ylabel("exponent n")
     axes[0].plot(
         [field.highest_time], [field.peak.max() * 1e-3], marker="x", color=INK, markersize=6, linestyle="none",
         clip_on=False,
     )  # fmt: skip
-    for each in axes:
+    for each in axes[:3]:
         each.set_ylim(bottom=0.0)
-    axes[1].set_xlabel("simulated time, s")
-    axes[1].set_xlim(field.time[0], max(field.time[-1], field.time[0] + 1e-3))
+    _exponent_axis(axes[3])
+    axes[-1].set_xlabel("simulated time, s")
+    axes[-1].set_xlim(field.time[0], max(field.time[-1], field.time[0] + 1e-3))
+    figure.align_ylabels(axes)
     numbers = field_numbers(field)
     caption = (
         f"Peak pressure up to {numbers['peak_pressure_Pa'] * 1e-3:.4g} kPa (cross, at {field.highest_time:.3f} s). "
         f"Contact area {field.area.min() * 1e4:.4g} to {field.area.max() * 1e4:.4g} cm², mean "
-        f"{numbers['contact_area_mean_m2'] * 1e4:.4g} cm²: all cells with a pressure above 0."
+        f"{numbers['contact_area_mean_m2'] * 1e4:.4g} cm²: all cells with a pressure above 0. Semi-axes and exponent of the "
+        "Lamé curve |x/a|ⁿ + |y/b|ⁿ = 1 through the boundary of these cells; n = 2 is an ellipse, larger is more like a "
+        "rectangle. A contact in several parts has no such outline: its values jump. Gaps: no contact."
     )
-    return picture(f"{key}-area", figure, f"Peak pressure and contact area of the {name} contact over time", caption)
+    return picture(f"{key}-area", figure, f"Peak pressure, area and shape of the {name} contact over time", caption)
+
+
+def _exponent_axis(axes: Axes) -> None:
+    """Exponents of the fit lie within 0.3 and 20."""
+    axes.set_yscale("log")
+    low, high = axes.get_ylim()
+    ticks = [0.5, 1, 2, 5, 10, 20]
+    axes.set_yticks(ticks, [f"{tick:g}" for tick in ticks])
+    axes.minorticks_off()
+    axes.set_ylim(min(low, 0.9), max(high, 5.5))
+
+
+def _with_gaps(
+    time: NDArray[np.float64], values: NDArray[np.float64], there: NDArray[np.bool_]
+) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """The envelope of values, nan where they are not there."""
+    times, drawn = envelope(time, np.where(there, values, 0.0))
+    present = np.interp(times, time, there.astype(np.float64)) > 0.5
+    return times, np.where(present, drawn, np.nan)
 
 
 def _line(axes: Axes, time: NDArray[np.float64], values: NDArray[np.float64], label: str) -> None:
@@ -153,18 +169,10 @@ def _shade(axes: Axes, intervals: NDArray[np.float64]) -> None:
 
 
 def _map(axes: Axes, field: PressureMap, window: Window, title: str) -> None:
-    """Forward (x) up, left (y) to the left: as seen from above, facing forward."""
-    rows, cols = field.pressure.shape
-    low_x, low_y = field.origin_x - field.cell_x / 2, field.origin_y - field.cell_y / 2
-    extent = np.array([low_y, low_y + cols * field.cell_y, low_x, low_x + rows * field.cell_x]) * 1e3
     loaded = np.where(field.pressure > 0.0, field.pressure * 1e-3, np.nan)
-    image = axes.imshow(
-        loaded, origin="lower", extent=tuple(extent), cmap=PRESSURE_COLOURS, vmin=0.0, interpolation="nearest",
-        aspect="equal",
-    )  # fmt: skip
-    axes.set_xlim(window.high_y, window.low_y)
-    axes.set_ylim(window.low_x, window.high_x)
-    axes.grid(visible=False)
+    highest = float(field.pressure.max()) * 1e-3
+    image = draw_map(axes, field, loaded, PRESSURE_COLOURS, Normalize(0.0, highest or 1.0))
+    set_window(axes, window)
     axes.set_title(title)
     axes.set_xlabel("← left, y, mm")
     axes.set_ylabel("forward, x, mm →")
@@ -179,21 +187,6 @@ def _mark_peak(axes: Axes, field: PressureMap) -> None:
     axes.plot([y * 1e3], [x * 1e3], marker="x", color="#b3202c", markersize=6.4, markeredgewidth=1.3, linestyle="")
 
 
-def _loaded_window(average: PressureMap) -> Window:
-    """The cells that were ever loaded with two cells around them; the whole grid where none was."""
-    rows, cols = (np.flatnonzero(average.pressure.any(axis=axis)) for axis in (1, 0))
-    if not rows.size:
-        rows, cols = (np.arange(size) for size in average.pressure.shape)
-    low_x, high_x = (
-        average.origin_x + (row + side) * average.cell_x for row, side in ((rows[0], -2.5), (rows[-1], 2.5))
-    )
-    low_y, high_y = (
-        average.origin_y + (col + side) * average.cell_y for col, side in ((cols[0], -2.5), (cols[-1], 2.5))
-    )
-    return Window(low_x * 1e3, high_x * 1e3, low_y * 1e3, high_y * 1e3)
-
-
 def _map_height(window: Window) -> float:
     """[inch] that two maps side by side need at equal aspect."""
-    aspect = (window.high_x - window.low_x) / (window.high_y - window.low_y)
-    return float(np.clip(0.85 + aspect * 0.34 * WIDTH, 2.0, 5.5))
+    return float(np.clip(0.85 + window.aspect * 0.34 * WIDTH, 2.0, 5.5))

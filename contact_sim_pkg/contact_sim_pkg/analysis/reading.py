@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 from rosbags.serde import SerdeError
@@ -16,25 +16,26 @@ from contact_sim_pkg.bag.errors import BagError
 from contact_sim_pkg.bag.reader import Bag
 from contact_sim_pkg.bag.typestore import store_of_definition
 
+from .field_pass import FieldPass
+from .road_pass import RoadPass
 from .series import (
     ContactSeries,
     CostSeries,
-    FieldSeries,
     FloatArray,
     LedgerSeries,
     MotionSeries,
-    PressureMap,
     Recording,
     TopicCount,
 )
 
 FORCE = "contact_msgs_defs/msg/ContactForce"
 PATCH = "contact_msgs_defs/msg/ContactPatch"
+ROAD = "contact_msgs_defs/msg/RoadPatch"
 MOTION = "contact_msgs_defs/msg/BodyMotion"
 ENERGY = "contact_msgs_defs/msg/EnergyLedger"
 COST = "contact_msgs_defs/msg/SolverCost"
 SERIES_TYPES = (FORCE, MOTION, ENERGY, COST)
-CONTACT_COLUMNS = ("time", "sample_period", "normal", "tangential", "approach")
+CONTACT_COLUMNS = ("time", "sample_period", "normal", "tangential", "approach", "effective_height")
 MOTION_COLUMNS = ("time", "sample_period", "samples", "bodies", "position", "acceleration")
 SCENE_KEY = "scene"
 
@@ -45,9 +46,9 @@ def read_recording(bag: Bag) -> Recording:
     Raises:
         BagError: a message does not fit its definition, or a chunk is damaged and bad chunks are not skipped.
     """
-    kinds = {row.type: row.definition for row in bag.topics.values() if row.type in (*SERIES_TYPES, PATCH)}
+    kinds = {row.type: row.definition for row in bag.topics.values() if row.type in (*SERIES_TYPES, PATCH, ROAD)}
     stores = {kind: store_of_definition(kind, definition) for kind, definition in kinds.items()}
-    decoded, fields = _decode(bag, stores)
+    decoded, fields, roads = _decode(bag, stores)
 
     def columns(topic: str, names: tuple[str, ...]) -> dict[str, Any]:
         kind = bag.topics[topic].type
@@ -71,13 +72,20 @@ def read_recording(bag: Bag) -> Recording:
         ledger=ledger,
         cost=cost,
         duration=_duration([*contacts.values(), *([motion] if motion else [])], scene, bag),
+        road=next((road.finish() for road in roads.values()), None),
     )
 
 
-def _decode(bag: Bag, stores: dict[str, Typestore]) -> tuple[dict[str, list[tuple[int, Any]]], dict[str, FieldPass]]:
-    """Messages of the series by topic, and the fields by topic; fields are taken in one by one, for they are large."""
-    decoded: dict[str, list[tuple[int, Any]]] = {}
-    fields: dict[str, FieldPass] = {}
+class Decoded(NamedTuple):
+    """Messages of the series by topic; fields and roads are taken in one by one, for they are large."""
+
+    series: dict[str, list[tuple[int, Any]]]
+    fields: dict[str, FieldPass]
+    roads: dict[str, RoadPass]
+
+
+def _decode(bag: Bag, stores: dict[str, Typestore]) -> Decoded:
+    decoded = Decoded({}, {}, {})
     for message in bag.messages():
         if message.type not in stores:
             continue
@@ -88,10 +96,12 @@ def _decode(bag: Bag, stores: dict[str, Typestore]) -> tuple[dict[str, list[tupl
             where = f"{bag.path}: the message of {message.topic} at {seconds:.6f} s"
             raise BagError(f"{where} does not fit the definition in the bag: {error}") from None
         if message.type == PATCH:
-            fields.setdefault(message.topic, FieldPass()).take(seconds, value)
+            decoded.fields.setdefault(message.topic, FieldPass()).take(seconds, value)
+        elif message.type == ROAD:
+            decoded.roads.setdefault(message.topic, RoadPass()).take(seconds, value)
         else:
-            decoded.setdefault(message.topic, []).append((message.log_time, value))
-    return decoded, fields
+            decoded.series.setdefault(message.topic, []).append((message.log_time, value))
+    return decoded
 
 
 def contact_name(topic: str) -> str:
@@ -107,72 +117,6 @@ def parse_mapping(text: str) -> dict[str, Any]:
     except (YAMLError, ValueError):
         return {}
     return value if isinstance(value, dict) else {}
-
-
-class FieldPass:
-    """The fields of one topic, taken in one by one: a minute of them would not fit into a small memory.
-
-    A contact that outgrows its grid is solved on a wider one of the same cells, so fields of two sizes may come. The mean is
-    taken over the widest, cells laid over each other by their place in the contact's frame.
-    """
-
-    def __init__(self) -> None:
-        """Nothing taken in yet."""
-        self._scalars: list[tuple[float, float, float, float]] = []
-        self._total: FloatArray = np.zeros((0, 0))
-        self._widest: Any = None
-        self._highest: Any = None
-        self._highest_time = 0.0
-
-    def take(self, time: float, message: Any) -> None:
-        """Take in the field at `time` [s]. BagError for a field that does not fill its grid, or on cells of another size."""
-        if len(message.pressure) != message.rows * message.cols:
-            raise BagError(
-                f"the field at {time:.6f} s has {len(message.pressure)} values for {message.rows} x {message.cols} cells"
-            )
-        self._widen(time, message)
-        row, col = _place(message, self._widest)
-        pressure = np.reshape(message.pressure, (message.rows, message.cols))
-        self._total[row : row + message.rows, col : col + message.cols] += pressure
-        self._scalars.append((time, message.load, message.peak, message.area))
-        if self._highest is None or message.peak > self._highest.peak:
-            self._highest, self._highest_time = message, time
-
-    def _widen(self, time: float, message: Any) -> None:
-        """Make room for a grid that is wider than all before."""
-        before, shape = self._widest, (message.rows, message.cols)
-        if before is None:
-            self._widest, self._total = message, np.zeros(shape)
-            return
-        same_cells = math.isclose(message.cell_x, before.cell_x) and math.isclose(message.cell_y, before.cell_y)
-        wider = message.rows >= before.rows and message.cols >= before.cols
-        if not same_cells or not (wider or (message.rows <= before.rows and message.cols <= before.cols)):
-            raise BagError(
-                f"the field at {time:.6f} s lies on {message.rows} x {message.cols} cells of {message.cell_x} x "
-                f"{message.cell_y} m, another one on {before.rows} x {before.cols} of {before.cell_x} x {before.cell_y} m; "
-                "one grid must hold the other, with the same cells"
-            )
-        if wider and shape != (before.rows, before.cols):
-            row, col = _place(before, message)
-            total = np.zeros(shape)
-            total[row : row + before.rows, col : col + before.cols] = self._total
-            self._widest, self._total = message, total
-
-    def finish(self) -> FieldSeries:
-        """The series of all fields taken in; at least one."""
-        if self._widest is None:
-            raise BagError("no field was taken in")
-        time, load, peak, area = np.array(self._scalars).T
-        highest = _pressure_map(self._highest, self._highest.pressure)
-        average = _pressure_map(self._widest, self._total / time.size)
-        return FieldSeries(time, load, peak, area, highest, self._highest_time, average)
-
-
-def _place(inner: Any, outer: Any) -> tuple[int, int]:
-    """Row and column of `outer` on which cell (0, 0) of `inner` lies, the nearest ones."""
-    row = round((inner.origin_x - outer.origin_x) / outer.cell_x)
-    col = round((inner.origin_y - outer.origin_y) / outer.cell_y)
-    return min(max(row, 0), outer.rows - inner.rows), min(max(col, 0), outer.cols - inner.cols)
 
 
 def _duration(series: list[ContactSeries | MotionSeries], scene: dict[str, Any], bag: Bag) -> float:
@@ -195,7 +139,7 @@ def _sample_times(columns: dict[str, Any], counts: list[int]) -> FloatArray:
 
 def _contact(columns: dict[str, Any]) -> ContactSeries:
     time = _sample_times(columns, [len(row) for row in columns["normal"]])
-    joined = (np.concatenate([*columns[name]]).astype(np.float64) for name in ("normal", "tangential", "approach"))
+    joined = (np.concatenate([*columns[name]]).astype(np.float64) for name in CONTACT_COLUMNS[2:])
     return ContactSeries(time, float(columns["sample_period"][0]), *joined)
 
 
@@ -216,8 +160,3 @@ def _motion(columns: dict[str, Any]) -> MotionSeries:
 
 def _cost(columns: dict[str, Any]) -> CostSeries:
     return CostSeries(**{name: np.asarray(column, dtype=np.float64) for name, column in columns.items()})
-
-
-def _pressure_map(message: Any, pressure: Any) -> PressureMap:
-    grid = np.array(pressure, dtype=np.float64).reshape(message.rows, message.cols)
-    return PressureMap(grid, message.cell_x, message.cell_y, message.origin_x, message.origin_y)

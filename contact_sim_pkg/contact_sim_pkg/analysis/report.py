@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from pathlib import Path
 from typing import NamedTuple
 
@@ -12,14 +13,16 @@ from contact_sim_pkg.bag.reader import Bag
 from . import facts
 from .drawing import Picture, style
 from .figures_bench import energy_balance, real_time_factor
-from .figures_contact import load_over_approach, load_over_time, peak_and_area, pressure_maps
+from .figures_contact import footprint_over_time, load_over_approach, load_over_time, pressure_maps
 from .figures_ride import seat_spectrum, seat_transmissibility
 from .reading import read_recording
 from .ride import ride_signals
 from .rows import scene_rows
 from .series import Recording
 from .summary import summarise_recording
+from .tables import Table
 from .tiles import tiles
+from .tire_section import KEY, tire_part
 
 TEMPLATE = "report.html.j2"
 FILE_NAME = "report.html"
@@ -31,6 +34,7 @@ class Section(NamedTuple):
     key: str
     title: str
     pictures: list[Picture]
+    tables: Sequence[Table] = ()
 
 
 def write_report(bag: Bag, out: Path | None = None) -> Path:
@@ -83,6 +87,8 @@ def sections(recording: Recording) -> list[Section]:
     """Sections with pictures, in the order of the page; what the scene lacks has none."""
     with style():
         found = [_contact_section(number, name, recording) for number, name in enumerate(recording.contacts)]
+        rolling = tire_part(recording)
+        found.append(Section(KEY, "Rolling tire", rolling.pictures, rolling.tables))
         found.append(Section("ride", "Seat vibration", _ride_pictures(recording)))
         if recording.ledger is not None:
             found.append(Section("energy", "Energy", [energy_balance(recording.ledger)]))
@@ -96,7 +102,7 @@ def _contact_section(number: int, name: str, recording: Recording) -> Section:
     key = f"contact-{number}"
     pictures = [load_over_time(key, name, contact)]
     if field is not None:
-        pictures += [pressure_maps(key, name, field), peak_and_area(key, name, field)]
+        pictures += [pressure_maps(key, name, field), footprint_over_time(key, name, field)]
     pictures.append(load_over_approach(key, name, contact))
     return Section(key, f"{name.capitalize()} contact", pictures)
 

@@ -26,6 +26,8 @@ class ContactSeries(NamedTuple):
     """[N]"""
     approach: FloatArray
     """[m]"""
+    effective_height: FloatArray
+    """[m] of the ground that a smooth contact would need for the same force"""
 
 
 class PressureMap(NamedTuple):
@@ -41,8 +43,18 @@ class PressureMap(NamedTuple):
     """[m] centre of cell (0, 0)"""
 
 
+class Snapshot(NamedTuple):
+    """One field, when it was and what it carries."""
+
+    time: float
+    """[s]"""
+    load: float
+    """[N]"""
+    field: PressureMap
+
+
 class FieldSeries(NamedTuple):
-    """Scalars of the pressure field of one contact, and three maps of it."""
+    """Scalars of the pressure field of one contact, and a few maps of it."""
 
     time: FloatArray
     """[s]"""
@@ -50,14 +62,63 @@ class FieldSeries(NamedTuple):
     """[N]"""
     peak: FloatArray
     """[Pa]"""
+    mean: FloatArray
+    """[Pa] load over area"""
     area: FloatArray
     """[m^2]"""
+    lame_a: FloatArray
+    lame_b: FloatArray
+    """[m] semi-axes along x and y of the Lame curve through the contact's boundary; 0 without contact"""
+    lame_n: FloatArray
+    """exponent of that curve"""
+    length: FloatArray
+    width: FloatArray
+    """[m] along x and y between the outermost loaded cells, these included; 0 without contact"""
     highest: PressureMap
     """map at the instant of the largest peak"""
     highest_time: float
     """[s]"""
     average: PressureMap
     """mean over all recorded instants"""
+    event: list[Snapshot]
+    """the field with the largest load, the fields before and after it, in the order of time"""
+    history_time: FloatArray
+    """[s] of the rows of `history`"""
+    history: FloatArray
+    """[N/m] [instants, rows] pressure integrated across the width, on the rows of `average`"""
+    history_group: int
+    """fields that one row of `history` is the mean of"""
+
+    @property
+    def heaviest(self) -> Snapshot:
+        """The field with the largest load."""
+        return max(self.event, key=lambda each: each.load)
+
+
+class Travel(NamedTuple):
+    """Way of the wheel centre over time, straight between its points."""
+
+    time: FloatArray
+    """[s] ascending"""
+    distance: FloatArray
+    """[m]"""
+
+    def at(self, time: FloatArray) -> FloatArray:
+        """[m] at the times [s]; its ends beyond them."""
+        return np.interp(time, self.time, self.distance)
+
+
+class RoadSeries(NamedTuple):
+    """What the wheel rolled over."""
+
+    travel: Travel
+    distance: FloatArray
+    """[m] of the heights"""
+    middle: FloatArray
+    """[m] height in the middle of the track"""
+    low: FloatArray
+    high: FloatArray
+    """[m] lowest and highest point of the strip around the middle"""
 
 
 class MotionSeries(NamedTuple):
@@ -131,3 +192,4 @@ class Recording(NamedTuple):
     cost: CostSeries | None
     duration: float
     """[s] simulated time of the blocks recorded"""
+    road: RoadSeries | None = None

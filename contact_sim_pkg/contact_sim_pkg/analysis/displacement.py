@@ -1,0 +1,26 @@
+"""Displacement of the surface under a recorded pressure field."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from contact_sim_pkg.core.halfspace import displacement, make_buffers, make_half_space
+
+from .series import FloatArray, PressureMap
+
+
+def surface_displacement(field: PressureMap, modulus: float) -> FloatArray:
+    """u(x, y) [m] = 1/(pi E*) integral of p / distance, on the cells of the field; positive into the body.
+
+    Args:
+        field: its pressure is all that acts.
+        modulus: contact modulus E* [Pa] of the half-space.
+
+    Raises:
+        ValueError: cells or modulus are not positive and finite.
+    """
+    rows, cols = field.pressure.shape
+    half_space = make_half_space(rows, cols, field.cell_x, field.cell_y, modulus)
+    result = np.zeros((rows, cols))
+    displacement(half_space, make_buffers(half_space), np.ascontiguousarray(field.pressure), result)
+    return result

@@ -1,0 +1,77 @@
+"""Pictures of the footprint through its heaviest moment."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from .drawing import MUTED, PRESSURE_COLOURS, WIDTH, Picture, new_figure, picture
+from .maps import Window, draw_map, loaded_window, robust_limits, set_window
+from .series import FieldSeries, PressureMap, Snapshot, Travel
+
+STAGES = 8
+COLUMNS = 4
+REACH = 0.5
+"""[m] of travel before and after the largest load that the stages span"""
+
+
+def chosen_stages(field: FieldSeries, travel: Travel | None) -> list[Snapshot]:
+    """At most `STAGES` fields around the largest load, evenly among those within `REACH` of it, the heaviest included."""
+    event, heaviest = field.event, field.heaviest
+    middle = next(number for number, each in enumerate(event) if each is heaviest)
+    reach = len(event)
+    if travel is not None:
+        way = np.abs(travel.at(np.array([each.time for each in event])) - travel.at(np.array([heaviest.time])))
+        reach = int(np.count_nonzero(way <= REACH)) // 2
+    stride = max(1, round(2 * reach / STAGES))
+    before = (STAGES - 1) // 2
+    numbers = [middle + stride * step for step in range(-before, STAGES - before)]
+    return [event[number] for number in numbers if 0 <= number < len(event)]
+
+
+def footprint_stages(key: str, name: str, field: FieldSeries, travel: Travel | None) -> Picture:
+    """Maps of the footprint at several instants, one colour scale."""
+    stages = chosen_stages(field, travel)
+    window = _common_window([each.field for each in stages])
+    rows = -(-len(stages) // COLUMNS)
+    height = float(np.clip(window.aspect * 0.2 * WIDTH, 0.5, 2.6)) + 0.34
+    figure, axes = new_figure(rows * height + 0.5, rows, COLUMNS, sharex=True, sharey=True)
+    limits = robust_limits(np.concatenate([each.field.pressure.ravel() for each in stages]) * 1e-3)
+    image = None
+    for place, each in zip(axes, stages, strict=False):
+        shown = np.where(each.field.pressure > 0.0, each.field.pressure * 1e-3, np.nan)
+        image = draw_map(place, each.field, shown, PRESSURE_COLOURS, limits)
+        place.set_title(_stage_title(each, travel), fontsize=8.5)
+        if each.load <= 0.0:
+            place.text(0.5, 0.5, "no contact", transform=place.transAxes, ha="center", va="center", color=MUTED)
+        set_window(place, window)
+    for place in axes[len(stages) :]:
+        place.set_axis_off()
+    assert image is not None  # a series holds at least one field
+    bar = figure.colorbar(image, ax=axes, label="pressure, kPa", pad=0.01, aspect=30, extend="max")
+    bar.ax.spines["outline"].set_visible(False)
+    figure.supxlabel("← left, y, mm", fontsize=9)
+    figure.supylabel("forward, x, mm →", fontsize=9)
+    caption = (
+        f"Footprint of the {name} before and after its largest load, {field.heaviest.load:.5g} N at "
+        f"{field.heaviest.time:.3f} s; cells without pressure are blank, one colour scale for all, "
+        f"up to {limits.vmax:.4g} kPa, which one cell in 200 exceeds (at most {_highest(stages):.4g} kPa). The maps move with the "
+        "wheel: x = 0 lies below its centre."
+    )
+    return picture(f"{key}-stages", figure, f"Footprint of the {name} at several instants", caption)
+
+
+def _highest(stages: list[Snapshot]) -> float:
+    return max(float(each.field.pressure.max()) for each in stages) * 1e-3
+
+
+def _stage_title(each: Snapshot, travel: Travel | None) -> str:
+    load = f"{each.load * 1e-3:.2f} kN" if each.load >= 1000.0 else f"{each.load:.0f} N"
+    if travel is None:
+        return f"{each.time:.3f} s, {load}"
+    return f"{float(travel.at(np.array([each.time]))[0]):.2f} m, {load}"
+
+
+def _common_window(fields: list[PressureMap]) -> Window:
+    loaded = [field for field in fields if field.pressure.any()] or fields[:1]
+    low_x, high_x, low_y, high_y = zip(*(loaded_window(field) for field in loaded), strict=True)
+    return Window(min(low_x), max(high_x), min(low_y), max(high_y))
