@@ -6,15 +6,17 @@ import numpy
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from scipy.optimize import brentq
 
 from contact_sim_pkg.core.effects.brush import (
     PatchGrid,
     RollingStep,
     advance_brush,
+    brush_state_on,
     make_brush_state,
     rolling_step,
 )
-from contact_sim_pkg.core.effects.brush_march import PAD
+from contact_sim_pkg.core.effects.brush_march import PAD, unit_slide
 from contact_sim_pkg.core.parameters import Brush
 from contact_sim_pkg.reference.brush import (
     follow_bristles,
@@ -386,6 +388,41 @@ def test_friction_dissipates_and_never_exceeds_the_static_limit(steps, ratios, s
         assert numpy.all(numpy.isfinite(result))
 
 
+def test_bristles_move_to_a_wider_grid_and_back():
+    stays, moves = (hertz_contact(STICKY, 30, 20, (0.08, 0.06), 0.4e6) for _ in range(2))
+    for contact in (stays, moves):
+        contact.roll(0.0137, 0.05, 0.05, 4)
+    (rows, cols), grid, pressure = stays.pressure.shape, moves.grid, moves.pressure
+    for more_rows, more_cols in ((7, 4), (0, 0)):
+        moves.state = brush_state_on(moves.state, rows + 2 * more_rows, cols + 2 * more_cols, grid.cell_x)
+        moves.pressure = numpy.pad(pressure, ((more_rows, more_rows), (more_cols, more_cols)))
+        moves.shear_x, moves.shear_y = numpy.zeros_like(moves.pressure), numpy.zeros_like(moves.pressure)
+        moves.grid = grid._replace(
+            origin_x=grid.origin_x - more_rows * grid.cell_x, origin_y=grid.origin_y - more_cols * grid.cell_y
+        )
+        expected, found = stays.roll(0.0111, 0.05, 0.05), moves.roll(0.0111, 0.05, 0.05)
+        assert found == pytest.approx(expected, rel=1e-9, abs=1e-9)
+
+
+@pytest.mark.parametrize("ratio", [0.01, 0.3, 1.0, 1.0001, 4.0])
+@pytest.mark.parametrize("limit", [1.0, 1e3, 9.9e4])
+def test_the_sliding_way_solves_coulombs_law(ratio, limit):
+    brush = Brush(2.0e7, ratio * 2.0e7, 1.0, 1.0)
+    trial = (6.0e4, 8.0e4)
+
+    def excess(way):
+        return math.hypot(trial[0] / (1.0 + way * 2.0e7), trial[1] / (1.0 + way * ratio * 2.0e7)) - limit
+
+    way = brentq(excess, 0.0, 1.0, xtol=1e-300, rtol=1e-14)
+    assert unit_slide(brush, *trial, limit) == pytest.approx(way, rel=1e-7)
+
+
+@pytest.mark.parametrize("bad", [math.nan, math.inf, -math.inf])
+def test_ways_that_are_not_finite_end_in_forces_that_are_not(bad):
+    result = strip_contact(STICKY, 20, parabola).step(RollingStep(0.01, bad, 0.0))
+    assert not math.isfinite(result.force_x)
+
+
 def test_bad_numbers_are_refused_by_name():
     with pytest.raises(ValueError, match="travel is nan, it must be a finite number"):
         rolling_step(math.nan, 0.0, 0.0)
@@ -393,3 +430,5 @@ def test_bad_numbers_are_refused_by_name():
         rolling_step(1.0, 0.0, 2.0)
     with pytest.raises(ValueError, match="grid of 0 x 4 cells"):
         make_brush_state(0, 4)
+    with pytest.raises(ValueError, match="from 4 to 7 columns, the two must differ by an even number"):
+        brush_state_on(make_brush_state(4, 4), 4, 7, 0.01)

@@ -26,7 +26,7 @@ Source: Pacejka, Tire and Vehicle Dynamics, ch. 3; Kalker, A fast algorithm for 
 from __future__ import annotations
 
 import math
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy
 from numpy.typing import NDArray
@@ -36,7 +36,19 @@ from ..parameters import Brush, Vector
 from .brush_lattice import blend, copy_field, loaded_window, place_on
 from .brush_march import PAD, Bristles, Field, Window, march, next_stretch
 
-__all__ = ["BrushResult", "BrushState", "PatchGrid", "RollingStep", "advance_brush", "make_brush_state", "rolling_step"]
+__all__ = [
+    "BrushResult",
+    "BrushState",
+    "PatchGrid",
+    "RollingStep",
+    "advance_brush",
+    "brush_state_on",
+    "make_brush_state",
+    "rolling_step",
+]
+
+LEAST_WAY = 1e-12
+"""Shorter ways of the belt [cells] in one step count as none: a locked wheel."""
 
 
 class BrushState(NamedTuple):
@@ -86,6 +98,31 @@ def make_brush_state(rows: int, cols: int) -> BrushState:
     return BrushState(bristles, numpy.zeros(shape), numpy.zeros(3))
 
 
+def brush_state_on(state: BrushState, rows: int, cols: int, cell_x: float) -> BrushState:
+    """The same bristles for fields of another size with the same cells and middle column; what does not fit is dropped.
+
+    Row 0 of the next field may lie anywhere: `advance_brush` finds it by its `origin_x`. Errors as in `make_brush_state`.
+    """
+    moved = make_brush_state(rows, cols)
+    old_rows, old_cols = state.before.shape[0] - 2 * PAD, state.before.shape[1]
+    if (cols - old_cols) % 2:
+        raise ValueError(f"brush: from {old_cols} to {cols} columns, the two must differ by an even number")
+    more_rows, more_cols = (rows - old_rows) // 2, (cols - old_cols) // 2
+    for source, target in zip(_remembered(state), _remembered(moved), strict=True):
+        row, col = max(0, -more_rows) + PAD, max(0, -more_cols)
+        part = source[row : row + min(rows, old_rows), col : col + min(cols, old_cols)]
+        row, col = max(0, more_rows) + PAD, max(0, more_cols)
+        target[row : row + part.shape[0], col : col + part.shape[1]] = part
+    moved.place[:] = state.place
+    moved.place[1] -= more_rows * cell_x
+    return moved
+
+
+def _remembered(state: BrushState) -> tuple[NDArray[Any], ...]:
+    bristles = state.bristles
+    return bristles.deflection_x, bristles.deflection_y, bristles.sliding, state.before
+
+
 def rolling_step(travel: float, slip: float, slip_angle: float) -> RollingStep:
     """Ways for a `travel` v dt [m] at the longitudinal slip kappa [-] and the slip angle alpha [rad].
 
@@ -109,7 +146,7 @@ def advance_brush(
 
     grid: where that field lies; cells must be those of the state's fields before. The first field of a state counts as
     having stood since before the step. shear_x, shear_y: stress on the tire [Pa], written, on the cells of `pressure`.
-    Cost: about one visit of each loaded cell for each cell of belt travel.
+    Ways that are not finite give forces that are not. Cost: about one visit of each loaded cell for each cell of belt travel.
     """
     first_field = state.place[2] == 0.0
     origin_before = grid.origin_x if first_field else state.place[1]
@@ -131,6 +168,8 @@ def march_all(
 ) -> tuple[float, float, float]:
     """March the whole step, stretch by stretch; returns the new phase, work of friction and released energy [J/m^2]."""
     cells = abs(step.belt) / cell_x
+    if not LEAST_WAY <= cells < math.inf:
+        cells = 0.0
     over = cells if cells > 0.0 else 1.0
     slide_x, slide_y = (step.belt - step.travel) / over, -step.drift / over
     remaining = cells
