@@ -2,7 +2,7 @@
 
 import pytest
 
-from . import synthetic_bag
+from . import rolling_bag, synthetic_bag
 
 
 @pytest.fixture(scope="session")
@@ -21,3 +21,9 @@ def seat(tmp_path_factory):
 def bare(tmp_path_factory):
     """A bag of force messages alone."""
     return synthetic_bag.bare_bag(tmp_path_factory.mktemp("bags") / "bare")
+
+
+@pytest.fixture(scope="session")
+def rolling(tmp_path_factory):
+    """One second of the synthetic rolling tire."""
+    return rolling_bag.rolling_bag(tmp_path_factory.mktemp("bags") / "rolling")

@@ -117,7 +117,9 @@ class _LargestLoad:
 
     def finish(self) -> list[Snapshot]:
         """In the order of time; fewer after the largest load where the recording ends."""
-        kept = list(self._recent) if self._wanted > 0 else self._kept
+        kept = self._kept
+        if self._wanted > 0:  # the recording ends less than that many fields after the largest load
+            kept = list(self._recent)[self._wanted - 2 * AROUND_LARGEST_LOAD - 1 :]
         return [Snapshot(time, float(each.load), pressure_map(each, each.pressure)) for time, each in kept]
 
 

@@ -14,6 +14,8 @@ from .metrics import ride_metrics, seat_factor
 from .reading import read_recording
 from .ride import ride_signals
 from .series import ContactSeries, CostSeries, FieldSeries, LedgerSeries, Recording
+from .tire_numbers import tire_numbers
+from .tire_reference import TIRE, tire_reference
 
 
 def summarise(bag: Bag) -> dict[str, Any]:
@@ -25,14 +27,22 @@ def summarise_recording(recording: Recording) -> dict[str, Any]:
     """Summary numbers, ready for JSON: SI units in the names, None where a number is not defined.
 
     Sections that the run does not have are absent: `seat_vibration` without a seat, `energy` without a ledger, `solver`
-    without cost messages, the pressure of a contact without a field.
+    without cost messages, the pressure of a contact without a field, ratios to the tire at rest without a tire.
     """
     summary: dict[str, Any] = {
         "scene": recording.scene.get("name"),
         "rig": recording.scene.get("rig"),
         "simulated_s": round(recording.duration, 9),
         "contacts": {
-            name: {**force_numbers(series), **field_numbers(recording.fields.get(name))}
+            name: {
+                **force_numbers(series),
+                **field_numbers(recording.fields.get(name)),
+                **(
+                    tire_numbers(series, recording.fields.get(name), tire_reference(recording.scene))
+                    if name == TIRE
+                    else {}
+                ),
+            }
             for name, series in recording.contacts.items()
         },
     }

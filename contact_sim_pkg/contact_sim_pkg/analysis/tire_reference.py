@@ -7,6 +7,9 @@ from typing import Any, NamedTuple
 from contact_sim_pkg.core.hertz import HertzError, hertz_contact
 from contact_sim_pkg.scene.lattice import contact_modulus, standing_load
 
+TIRE = "tire"
+"""Name of its contact."""
+
 
 class TireReference(NamedTuple):
     """Elliptic Hertz contact of the scene's radii and modulus under the standing load."""

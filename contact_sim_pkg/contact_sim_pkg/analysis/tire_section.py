@@ -12,10 +12,9 @@ from .figures_road import Rolling, along_the_road, stretches
 from .peaks import filtered_signals, peak_rows
 from .series import FieldSeries, Recording
 from .tables import Table
-from .tire_reference import TireReference, tire_reference
+from .tire_reference import TIRE, TireReference, tire_reference
 from .tire_tables import footprint_table, load_table, peak_table
 
-TIRE = "tire"
 KEY = "rolling"
 
 

@@ -1,0 +1,138 @@
+"""A bag of a tire that rolls on a flat road with one step: Hertz fields, forces and heights in closed form."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+import scipy.special
+
+from contact_sim_pkg.bag import messages
+from contact_sim_pkg.bag.metadata import recorded_topics
+from contact_sim_pkg.bag.reader import Bag, open_bag
+from contact_sim_pkg.bag.writer import BagWriter
+from contact_sim_pkg.excitation.blocks import RoadPatch
+
+BLOCK_NS, BLOCK_LENGTH, SAMPLES = 10_000_000, 0.01, 10
+SPEED = 10.0  # [m/s]
+RADIUS_X, RADIUS_Y = 0.3, 1.0  # [m]
+YOUNG, POISSON = 3e6, 0.5
+MODULUS = YOUNG / (1.0 - POISSON**2)
+MASS = 340.0  # [kg] wheel and body
+STANDING = MASS * 9.81  # [N]
+HEAVY_BLOCK, HEAVY = 60, 8.0  # eight times the standing load: twice the pressure
+LIFTED_BLOCKS = range(70, 73)
+STEP_AT, STEP = 5.0, 0.01  # [m]
+ROWS, COLS, CELL_X, CELL_Y = 64, 96, 0.004, 0.005  # [m]
+WHEEL_AMPLITUDE, WHEEL_FREQUENCY = 50.0, 10.0  # [m/s^2], [Hz]
+
+SCENE = f"""\
+name: synthetic_rolling
+rig: tire
+block_length: 0.01
+road: {{kind: cleat}}
+tire:
+  wheel_mass: 40.0
+  body_mass: {MASS - 40.0}
+  radius_rolling: {RADIUS_X}
+  radius_lateral: {RADIUS_Y}
+  young_modulus: {YOUNG}
+  poisson_ratio: {POISSON}
+effects:
+  tire:
+    contact_field: {{rows: {ROWS}, cols: {COLS}}}
+"""
+TOPICS = ("bench/scene", "road/patch", "tire/force", "tire/patch", "bench/motion")
+
+
+def ellipse(load: float) -> tuple[float, float, float, float]:
+    """Semi-axes along x and y, peak pressure and approach of the Hertz contact; m by bisection on Johnson's relation."""
+    a, b = 0.5 / RADIUS_Y, 0.5 / RADIUS_X  # smaller and larger curvature
+    low, high = 1e-9, 1.0 - 1e-9
+    for _ in range(200):
+        m = 0.5 * (low + high)
+        k, e = scipy.special.ellipk(m), scipy.special.ellipe(m)
+        ratio = (1.0 - m) * (k - e) / (e - (1.0 - m) * k)  # A / B, falls with m
+        low, high = (m, high) if ratio > a / b else (low, m)
+    mean = a + b
+    peak = np.cbrt(3.0 * load * MODULUS**2 * mean**2 / (2.0 * np.pi)) * e ** (-2.0 / 3.0) * (1.0 - m) ** (1.0 / 6.0)
+    short = peak * e / (MODULUS * mean)
+    return short, short / np.sqrt(1.0 - m), float(peak), float(peak * short * k / MODULUS)
+
+
+def cells() -> tuple[np.ndarray, np.ndarray]:
+    """Centres of the cells, [rows, 1] and [1, cols]; one cell lies in the middle along x, none across."""
+    x = (np.arange(ROWS) - ROWS // 2) * CELL_X
+    y = (np.arange(COLS) - 0.5 * (COLS - 1)) * CELL_Y
+    return x[:, None], y[None, :]
+
+
+def pressure(load: float) -> np.ndarray:
+    """Hertz pressure at the centres of the cells, zeros without load."""
+    if load <= 0.0:
+        return np.zeros((ROWS, COLS))
+    along, across, peak, _ = ellipse(load)
+    x, y = cells()
+    return peak * np.sqrt(np.maximum(1.0 - (x / along) ** 2 - (y / across) ** 2, 0.0))
+
+
+def load_of(block: int) -> float:
+    """[N] of one block."""
+    if block in LIFTED_BLOCKS:
+        return 0.0
+    return STANDING * (HEAVY if block == HEAVY_BLOCK else 1.0)
+
+
+def rolling_bag(directory: Path, blocks: int = 100, topics: tuple[str, ...] = TOPICS) -> Bag:
+    """One second of the rolling tire."""
+    with BagWriter(directory, recorded_topics(topics), {"scene": SCENE}, reserve_bytes=0, background=False) as writer:
+        for block in range(blocks):
+            stamp = block * BLOCK_NS
+            if block == 0:
+                writer.write("bench/scene", 0, messages.encode_scene(SCENE))
+            for topic in topics:
+                if topic in _ENCODERS:
+                    writer.write(topic, stamp, _ENCODERS[topic](block, stamp))
+    return open_bag(directory)
+
+
+def road(block: int) -> RoadPatch:
+    """Height 0 up to the step; neighbouring blocks overlap by half a metre."""
+    start = block * BLOCK_LENGTH * SPEED
+    first = int(np.floor((start - 0.2) / CELL_X))
+    x = (first + np.arange(150)) * CELL_X
+    height = np.where(x >= STEP_AT, STEP, 0.0)[:, None] * np.ones(COLS)
+    return RoadPatch(block, start, start + BLOCK_LENGTH * SPEED, first, CELL_X, CELL_Y, height.astype(np.float32))
+
+
+def _road(block: int, stamp: int) -> bytes:
+    return messages.encode_road_patch(road(block), stamp)
+
+
+def _force(block: int, stamp: int) -> bytes:
+    normal, zeros = np.full(SAMPLES, load_of(block)), np.zeros(SAMPLES)
+    force = messages.ContactForceBlock(block, BLOCK_LENGTH / SAMPLES, normal, zeros, zeros + 0.01, zeros)
+    return messages.encode_contact_force(force, stamp, messages.TIRE_FRAME)
+
+
+def _patch(block: int, stamp: int) -> bytes:
+    field = pressure(load_of(block)).astype(np.float32)
+    load, area = float(field.sum()) * CELL_X * CELL_Y, float((field > 0.0).sum()) * CELL_X * CELL_Y
+    along, across, _, approach = ellipse(load) if load > 0.0 else (0.0, 0.0, 0.0, 0.0)
+    x, y = cells()
+    value = messages.PatchField(
+        block, CELL_X, CELL_Y, float(x[0, 0]), float(y[0, 0]), load, float(field.max()), load / area if area else 0.0,
+        area, 0.0, 0.0, approach, along, across, 2.0, field,
+    )  # fmt: skip
+    return messages.encode_contact_patch(value, stamp, messages.TIRE_FRAME)
+
+
+def _motion(block: int, stamp: int) -> bytes:
+    times = block * BLOCK_LENGTH + np.arange(SAMPLES) * BLOCK_LENGTH / SAMPLES
+    wheel = WHEEL_AMPLITUDE * np.sin(2.0 * np.pi * WHEEL_FREQUENCY * times)
+    rows = np.stack([wheel, np.zeros(SAMPLES), np.zeros(SAMPLES)])
+    motion = messages.MotionBlock(block, BLOCK_LENGTH / SAMPLES, ("wheel_z", "body_z", "belt_z"), rows, rows, rows)
+    return messages.encode_motion(motion, stamp)
+
+
+_ENCODERS = {"road/patch": _road, "tire/force": _force, "tire/patch": _patch, "bench/motion": _motion}

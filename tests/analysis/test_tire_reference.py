@@ -1,0 +1,44 @@
+"""The state at rest, against the elliptic Hertz contact computed apart."""
+
+import pytest
+
+from contact_sim_pkg.analysis.tire_reference import tire_reference
+
+from . import rolling_bag as known
+
+TIRE = {
+    "wheel_mass": 40.0, "body_mass": known.MASS - 40.0, "radius_rolling": known.RADIUS_X,
+    "radius_lateral": known.RADIUS_Y, "young_modulus": known.YOUNG, "poisson_ratio": known.POISSON,
+}  # fmt: skip
+
+
+def test_reference_is_the_hertz_contact_under_the_standing_load():
+    along, across, peak, approach = known.ellipse(known.STANDING)
+
+    found = tire_reference({"rig": "tire", "tire": TIRE})
+
+    assert found.load == pytest.approx(known.STANDING)
+    assert found.modulus == pytest.approx(known.MODULUS)
+    expected = (along, across, peak, approach)
+    assert (found.semi_axis_x, found.semi_axis_y, found.peak_pressure, found.approach) == pytest.approx(expected)
+
+
+def test_a_crown_flatter_along_than_across_turns_the_ellipse():
+    turned = {**TIRE, "radius_rolling": known.RADIUS_Y, "radius_lateral": known.RADIUS_X}
+    along, across, *_ = known.ellipse(known.STANDING)
+
+    found = tire_reference({"rig": "tire", "tire": turned})
+
+    assert (found.semi_axis_x, found.semi_axis_y) == pytest.approx((across, along))
+
+
+@pytest.mark.parametrize(
+    "scene",
+    [
+        {}, {"rig": "seat", "tire": None}, {"rig": "tire", "tire": {**TIRE, "radius_rolling": 0.0}},
+        {"rig": "tire", "tire": {**TIRE, "young_modulus": "soft"}}, {"rig": "tire", "tire": {"wheel_mass": 40.0}},
+        {"rig": "tire", "tire": {**TIRE, "radius_lateral": -1.0}}, {"rig": "tire", "tire": {**TIRE, "poisson_ratio": 1.0}},
+    ],
+)  # fmt: skip
+def test_a_scene_without_an_elliptic_contact_has_no_reference(scene):
+    assert tire_reference(scene) is None
