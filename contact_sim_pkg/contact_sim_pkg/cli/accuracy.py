@@ -10,19 +10,36 @@ from .tables import json_option, print_json_rows, show_sections
 
 
 @click.command("accuracy")
-@click.argument("scene")
+@click.argument("what", metavar="SCENE|RIG")
 @click.option(
     "--plot", type=click.Path(path_type=Path), metavar="FILE", help="Error over time, both logarithmic, as a picture."
 )
 @json_option
-def command(scene: str, plot: Path | None, as_json: bool) -> None:
-    """For each rung, tolerance and grid of SCENE: error against a reference, time per simulated second, first call."""
-    from contact_sim_pkg.studies import accuracy_cost
+def command(what: str, plot: Path | None, as_json: bool) -> None:
+    """Error against a reference beside time, for each way to an answer.
 
-    rows = accuracy_cost.study(scene, lambda line: click.echo(line, err=True))
+    SCENE, a name or a path: each rung, tolerance and grid that it can be run with. RIG (tire): each quantity of its contact by
+    the cheap formulas and the dear ones, on the same input. A file that is named like a rig is meant by ./NAME.
+    """
+    from contact_sim_pkg.studies import ladder
+
+    if what in ladder.RIGS:
+        from contact_sim_pkg.studies import ladder_plot, ladder_table
+
+        rows = ladder.study(what, _tell)
+        draw, sections = ladder_plot.write_plot, ladder_table.sections
+    else:
+        from contact_sim_pkg.studies import accuracy_cost
+
+        rows = accuracy_cost.study(what, _tell)
+        draw, sections = accuracy_cost.write_plot, accuracy_cost.sections
     if plot is not None:
-        accuracy_cost.write_plot(rows, plot)
+        draw(rows, plot)
     if as_json:
         print_json_rows(rows)
     else:
-        show_sections(accuracy_cost.sections(rows))
+        show_sections(sections(rows))
+
+
+def _tell(line: str) -> None:
+    click.echo(line, err=True)

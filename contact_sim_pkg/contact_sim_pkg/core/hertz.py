@@ -130,8 +130,12 @@ def contact_at_load(curvature_a: float, curvature_b: float, modulus: float, load
     """`hertz_contact` without its checks, for compiled callers."""
     if not load > 0.0:
         return HertzContact(0.0, 0.0, 0.0, 0.0, 0.0)
-    shape = ellipse_shape(curvature_a, curvature_b)
-    mean = curvature_a + curvature_b
+    return contact_of_shape(ellipse_shape(curvature_a, curvature_b), curvature_a + curvature_b, modulus, load)
+
+
+@kernel
+def contact_of_shape(shape: EllipseShape, mean: float, modulus: float, load: float) -> HertzContact:
+    """The contact from 1 - m, K and E, and the mean curvature H = A + B [1/m]; load > 0."""
     peak = numpy.cbrt(1.5 * load * (modulus * mean) ** 2 / math.pi) * shape.complement ** (1.0 / 6.0)
     peak /= numpy.cbrt(shape.integral_e) ** 2
     semi_b = peak * shape.integral_e / (modulus * mean)

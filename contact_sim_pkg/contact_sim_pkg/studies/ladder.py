@@ -1,0 +1,58 @@
+"""`bench accuracy RIG`: the ladders of a rig: each quantity at several prices on the same input, error beside time.
+
+Columns of a row: `rig`, `part` (the ladder), `case` (the input), `quantity`, `rung`, `grid`, `tolerance`, `value` and `expected`
+(SI; null for an L2 distance), `error` (relative, against `reference`), and where a grid is solved its two parts: `solver_error`,
+against the same grid to 1e-10, and `grid_error`, of the converged grid against the reference; `ms_per_call` (median of many
+calls, compiled and warm, from nothing). How to read it: `docs/accuracy.md`.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any, NamedTuple
+
+from contact_sim_pkg.studies import (
+    ladder_area,
+    ladder_elliptic,
+    ladder_exponent,
+    ladder_force,
+    ladder_road,
+    ladder_rough,
+    ladder_smooth,
+)
+from contact_sim_pkg.studies.ladder_row import COLUMNS, Row
+
+__all__ = ["RIGS", "Ladder", "study"]
+
+
+class Ladder(NamedTuple):
+    """One quantity at several prices."""
+
+    part: str
+    rows: Callable[[], list[Row]]
+
+
+RIGS: dict[str, tuple[Ladder, ...]] = {
+    "tire": (
+        Ladder(ladder_elliptic.PART, ladder_elliptic.rows),
+        Ladder(ladder_force.PART, ladder_force.rows),
+        Ladder(ladder_smooth.PART, ladder_smooth.rows),
+        Ladder(ladder_rough.PART, ladder_rough.rows),
+        Ladder(ladder_rough.GRIDS_PART, ladder_rough.grid_rows),
+        Ladder(ladder_rough.CHECK_PART, ladder_rough.check_rows),
+        Ladder(ladder_area.PART, ladder_area.rows),
+        Ladder(ladder_exponent.PART, ladder_exponent.rows),
+        Ladder(ladder_road.PART, ladder_road.rows),
+    ),
+}
+"""Rig -> its ladders. A further rig is one more entry."""
+
+
+def study(rig: str, progress: Callable[[str], None] | None = None) -> list[dict[str, Any]]:
+    """All rows of a rig of `RIGS`; raises `KeyError` for another."""
+    found: list[dict[str, Any]] = []
+    for ladder in RIGS[rig]:
+        if progress is not None:
+            progress(f"{rig}: {ladder.part}")
+        found += [{"rig": rig, **row} for row in ladder.rows()]
+    return [{name: row.get(name) for name in COLUMNS} for row in found]

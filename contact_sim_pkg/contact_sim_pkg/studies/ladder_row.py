@@ -1,0 +1,71 @@
+"""Rows of a ladder, and the time of a call."""
+
+from __future__ import annotations
+
+import statistics
+import time
+from collections.abc import Callable
+from typing import Any, NamedTuple
+
+__all__ = ["COLUMNS", "Row", "Rung", "milliseconds", "relative", "row"]
+
+Row = dict[str, Any]
+
+COLUMNS = (
+    "rig", "part", "case", "quantity", "rung", "grid", "tolerance", "value", "expected", "error", "solver_error", "grid_error",
+    "reference", "ms_per_call",
+)  # fmt: skip
+
+SHORTEST_SAMPLE = 2e-4  # [s] shorter calls are timed in groups
+FEWEST, MOST = 5, 51  # samples
+BUDGET = 0.1  # [s] after which no further sample is begun
+
+
+class Rung(NamedTuple):
+    """One way to the answer, and what a call of it costs."""
+
+    name: str
+    ms: float
+    grid: str | None = None
+    tolerance: float | None = None
+
+
+def milliseconds(call: Callable[[], object]) -> float:
+    """Median time of a call in ms; the first call, which may compile, does not count."""
+    call()
+    began = time.perf_counter()
+    call()
+    group = max(1, int(SHORTEST_SAMPLE / max(time.perf_counter() - began, 1e-7)))
+    samples: list[float] = []
+    while len(samples) < FEWEST or (sum(samples) * group < BUDGET and len(samples) < MOST):
+        began = time.perf_counter()
+        for _ in range(group):
+            call()
+        samples.append((time.perf_counter() - began) / group)
+    return 1e3 * statistics.median(samples)
+
+
+def relative(value: float, expected: float) -> float:
+    """`|value / expected - 1|`."""
+    return abs(value / expected - 1.0)
+
+
+def row(
+    part: str,
+    case: str,
+    quantity: str,
+    rung: Rung,
+    reference: str,
+    error: float,
+    *,
+    value: float | None = None,
+    expected: float | None = None,
+    solver_error: float | None = None,
+    grid_error: float | None = None,
+) -> Row:
+    """One row of the study, without the rig."""
+    return {
+        "part": part, "case": case, "quantity": quantity, "rung": rung.name, "grid": rung.grid, "tolerance": rung.tolerance,
+        "value": value, "expected": expected, "error": error, "solver_error": solver_error, "grid_error": grid_error,
+        "reference": reference, "ms_per_call": rung.ms,
+    }  # fmt: skip
