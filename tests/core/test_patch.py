@@ -48,7 +48,7 @@ def test_an_edge_between_cells_gives_the_area_of_an_ellipse(semi_x: float, semi_
     exact = math.pi * semi_x * semi_y
     for cells in (40, 80, 160):
         pressure = hertz_disc(cells, semi_x, semi_y, shift)
-        assert contact_area(pressure, 1 / cells, 1 / cells) == pytest.approx(exact, rel=20.0 / cells**2)
+        assert contact_area(pressure, 1 / cells, 1 / cells) == pytest.approx(exact, rel=30.0 / cells**2)
 
 
 def test_the_solved_field_of_a_sphere_has_its_area_closer_than_its_cells_count() -> None:

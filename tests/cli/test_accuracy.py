@@ -1,0 +1,37 @@
+"""`bench accuracy` with the name of a rig."""
+
+import json
+
+import pytest
+from click.testing import CliRunner
+
+from contact_sim_pkg.cli.accuracy import command
+from contact_sim_pkg.scene.errors import SceneError
+from contact_sim_pkg.studies import ladder, ladder_road
+
+
+@pytest.fixture
+def one_ladder(monkeypatch):
+    monkeypatch.setitem(ladder.RIGS, "tire", (ladder.Ladder(ladder_road.PART, ladder_road.rows),))
+
+
+def test_a_rig_is_a_table_for_people_and_rows_for_scripts(one_ladder, tmp_path):
+    picture = tmp_path / "tire.png"
+    shown = CliRunner().invoke(command, ["tire", "--plot", str(picture)], catch_exceptions=False)
+    assert "road: class C" in shown.stdout
+    assert "ms a call" in shown.stdout
+    assert "error against: integral of ISO 8608's spectrum" in shown.stdout
+    assert picture.stat().st_size > 10_000
+    rows = json.loads(CliRunner().invoke(command, ["tire", "--json"], catch_exceptions=False).stdout)["rows"]
+    assert {"rig", "part", "quantity", "rung", "error", "solver_error", "grid_error", "ms_per_call"} <= set(rows[0])
+    assert {row["rung"] for row in rows} == {"20 sines", "400 sines", "inverse FFT"}
+
+
+def test_a_name_that_is_no_rig_is_taken_for_a_scene():
+    with pytest.raises(SceneError, match="tyre"):
+        CliRunner().invoke(command, ["tyre"], catch_exceptions=False)
+
+
+def test_each_row_of_the_tire_s_ladder_is_there():
+    parts = [entry.part for entry in ladder.RIGS["tire"]]
+    assert len(parts) == len(set(parts)) == 9
