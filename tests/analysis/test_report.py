@@ -24,7 +24,7 @@ def car_page(car_text):
 
 def test_a_car_with_a_tire_field_has_every_section(car_page):
     assert car_page.headings == [
-        "What was run", "Tire contact", "Seat contact", "Rolling tire", "Seat vibration", "Energy", "Cost", "Recording",
+        "What was run", "Tire contact", "Rolling tire", "Seat contact", "Seat vibration", "Energy", "Cost", "Recording",
     ]  # fmt: skip
     assert car_page.tags.count("figure") == 4 + 2 + 2 + 2 + 1 + 1
 

@@ -108,5 +108,5 @@ def _stress_caption(snapshot: Snapshot, plane: StressPlane, poisson_ratio: float
         f"{plane.von_mises[row, col] * 1e-3:.4g} kPa ({plane.von_mises[row, col] / peak:.3f} of the peak pressure) at x = "
         f"{plane.x[col] * 1e3:.3g} mm, {plane.z[row] * 1e3:.3g} mm deep (cross); largest shear "
         f"{plane.max_shear.max() * 1e-3:.4g} kPa, {plane.z[shear_row] * 1e3:.3g} mm deep. The first "
-        f"{plane.z[0] * 1e3:.2g} mm, half a cell, are left out."
+        f"{plane.z[0] * 1e3:.2g} mm, one cell, are left out."
     )

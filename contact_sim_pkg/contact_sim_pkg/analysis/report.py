@@ -22,6 +22,7 @@ from .series import Recording
 from .summary import summarise_recording
 from .tables import Table
 from .tiles import tiles
+from .tire_reference import TIRE
 from .tire_section import KEY, tire_part
 
 TEMPLATE = "report.html.j2"
@@ -86,9 +87,12 @@ def render(recording: Recording) -> str:
 def sections(recording: Recording) -> list[Section]:
     """Sections with pictures, in the order of the page; what the scene lacks has none."""
     with style():
-        found = [_contact_section(number, name, recording) for number, name in enumerate(recording.contacts)]
-        rolling = tire_part(recording)
-        found.append(Section(KEY, "Rolling tire", rolling.pictures, rolling.tables))
+        found: list[Section] = []
+        for number, name in enumerate(recording.contacts):
+            found.append(_contact_section(number, name, recording))
+            if name == TIRE:
+                rolling = tire_part(recording)
+                found.append(Section(KEY, "Rolling tire", rolling.pictures, rolling.tables))
         found.append(Section("ride", "Seat vibration", _ride_pictures(recording)))
         if recording.ledger is not None:
             found.append(Section("energy", "Energy", [energy_balance(recording.ledger)]))
