@@ -22,7 +22,7 @@ from .series import Recording
 from .summary import summarise_recording
 from .tables import Table
 from .tiles import tiles
-from .tire_reference import TIRE
+from .tire_numbers import TIRE
 from .tire_section import KEY, tire_part
 
 TEMPLATE = "report.html.j2"

@@ -14,8 +14,7 @@ from .metrics import ride_metrics, seat_factor
 from .reading import read_recording
 from .ride import ride_signals
 from .series import ContactSeries, CostSeries, FieldSeries, LedgerSeries, Recording
-from .tire_numbers import tire_numbers
-from .tire_reference import TIRE, tire_reference
+from .tire_numbers import TIRE, load_numbers, standing_load_of
 
 
 def summarise(bag: Bag) -> dict[str, Any]:
@@ -37,11 +36,7 @@ def summarise_recording(recording: Recording) -> dict[str, Any]:
             name: {
                 **force_numbers(series),
                 **field_numbers(recording.fields.get(name)),
-                **(
-                    tire_numbers(series, recording.fields.get(name), tire_reference(recording.scene))
-                    if name == TIRE
-                    else {}
-                ),
+                **(load_numbers(series, standing_load_of(recording.scene)) if name == TIRE else {}),
             }
             for name, series in recording.contacts.items()
         },

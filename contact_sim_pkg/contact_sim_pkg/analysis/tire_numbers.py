@@ -1,24 +1,37 @@
-"""A run's loads and pressures over those of the tire at rest."""
+"""Loads of a run over the load of the tire at rest."""
 
 from __future__ import annotations
 
 from typing import Any
 
-from .series import ContactSeries, FieldSeries
-from .tire_reference import TireReference
+from contact_sim_pkg.scene.lattice import standing_load
+
+from .series import ContactSeries
+
+TIRE = "tire"
+"""Name of its contact."""
 
 
-def tire_numbers(contact: ContactSeries, field: FieldSeries | None, reference: TireReference | None) -> dict[str, Any]:
-    """Ratios of a run, ready for JSON; those that need a field or a reference are absent without it.
+def standing_load_of(scene: dict[str, Any]) -> float | None:
+    """Load [N] of the tire at rest; None where the scene has no tire whose masses are known."""
+    if not isinstance(scene.get("tire"), dict):
+        return None
+    try:
+        load = standing_load(scene)
+    except (KeyError, TypeError):
+        return None  # a scene that this version does not know
+    return load if load > 0.0 else None
+
+
+def load_numbers(contact: ContactSeries, standing: float | None) -> dict[str, Any]:
+    """Ratios to the standing load [N], ready for JSON; empty without one.
 
     `dynamic_load_coefficient` is the standard deviation of the normal force over the standing load.
     """
-    numbers: dict[str, Any] = {}
-    if reference is not None:
-        numbers["standing_load_N"] = reference.load
-        numbers["load_max_over_standing"] = float(contact.normal.max()) / reference.load
-        numbers["dynamic_load_coefficient"] = float(contact.normal.std()) / reference.load
-    if reference is not None and field is not None:
-        numbers["reference_peak_pressure_Pa"] = reference.peak_pressure
-        numbers["peak_pressure_over_reference"] = float(field.peak.max()) / reference.peak_pressure
-    return numbers
+    if standing is None:
+        return {}
+    return {
+        "standing_load_N": standing,
+        "load_max_over_standing": float(contact.normal.max()) / standing,
+        "dynamic_load_coefficient": float(contact.normal.std()) / standing,
+    }

@@ -5,10 +5,9 @@ from __future__ import annotations
 from typing import Any, NamedTuple
 
 from contact_sim_pkg.core.hertz import HertzError, hertz_contact
-from contact_sim_pkg.scene.lattice import contact_modulus, standing_load
+from contact_sim_pkg.scene.lattice import contact_modulus
 
-TIRE = "tire"
-"""Name of its contact."""
+from .tire_numbers import standing_load_of
 
 
 class TireReference(NamedTuple):
@@ -33,12 +32,12 @@ class TireReference(NamedTuple):
 
 def tire_reference(scene: dict[str, Any]) -> TireReference | None:
     """Reference of a resolved scene; None where the scene has no tire or its numbers make no elliptic contact."""
-    tire = scene.get("tire")
-    if not isinstance(tire, dict):
+    tire, load = scene.get("tire"), standing_load_of(scene)
+    if not isinstance(tire, dict) or load is None:
         return None
     try:
         radius_x, radius_y = float(tire["radius_rolling"]), float(tire["radius_lateral"])
-        modulus, load, poisson = contact_modulus(tire), standing_load(scene), float(tire["poisson_ratio"])
+        modulus, poisson = contact_modulus(tire), float(tire["poisson_ratio"])
         contact = hertz_contact(0.5 / radius_x, 0.5 / radius_y, modulus, load)
     except (KeyError, TypeError, ZeroDivisionError, HertzError, ValueError):
         return None  # a scene that this version does not know: nothing to compare with

@@ -12,7 +12,8 @@ from .figures_road import Rolling, along_the_road, stretches
 from .peaks import filtered_signals, peak_rows
 from .series import FieldSeries, Recording
 from .tables import Table
-from .tire_reference import TIRE, TireReference, tire_reference
+from .tire_numbers import TIRE, standing_load_of
+from .tire_reference import TireReference, tire_reference
 from .tire_tables import footprint_table, load_table, peak_table
 
 KEY = "rolling"
@@ -42,7 +43,7 @@ def tire_part(recording: Recording) -> TirePart:
     if field is not None:
         pictures.append(footprint_stages(KEY, TIRE, field, travel))
     pictures += _under_load(field, reference)
-    tables = [load_table(contact, travel, reference)]
+    tables = [load_table(contact, travel, standing_load_of(recording.scene))]
     tables += [footprint_table(field, reference)] if field is not None else []
     tables += [peak_table(peak_rows(signals))] if signals else []
     return TirePart(pictures, tables)

@@ -12,7 +12,7 @@ from .peaks import PeakRow
 from .series import ContactSeries, FieldSeries, FloatArray, Travel
 from .tables import Table
 from .tiles import number
-from .tire_numbers import tire_numbers
+from .tire_numbers import load_numbers
 from .tire_reference import TireReference
 
 NAMED_LIFT_OFFS = 6
@@ -63,9 +63,9 @@ def _at_rest(reference: TireReference | None) -> list[float]:
     ]  # fmt: skip
 
 
-def load_table(contact: ContactSeries, travel: Travel | None, reference: TireReference | None) -> Table:
+def load_table(contact: ContactSeries, travel: Travel | None, standing: float | None) -> Table:
     """What the road did to the load: extremes, dynamic load coefficient, lift-offs and when they were."""
-    numbers = tire_numbers(contact, None, reference)
+    numbers = load_numbers(contact, standing)
     intervals = lifted_intervals(contact)
     rows = [
         ("standing load", _with("standing_load_N", numbers, " N")),
