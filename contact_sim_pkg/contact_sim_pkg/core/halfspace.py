@@ -118,7 +118,8 @@ def _half_space(influence: Field, cell_x: float, cell_y: float, modulus: float) 
 def make_buffers(half_space: HalfSpace) -> Buffers:
     """Scratch arrays that fit a half-space."""
     rows, cols = half_space.rows, half_space.cols
-    padded_rows, padded_cols = _padded(rows), _padded(cols)
+    padded_rows = half_space.transfer.shape[0]
+    padded_cols = cols if padded_rows == rows else _padded(cols)  # a periodic transfer has no padding
     plain_rows, plain_cols = _good(rows), _good(cols)
     return Buffers(
         numpy.zeros((rows, padded_cols)),
