@@ -1,0 +1,1 @@
+"""Comparisons with other codes. They are measured against, never depended on."""
