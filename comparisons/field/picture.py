@@ -15,6 +15,7 @@ matplotlib.use("Agg")
 from matplotlib import pyplot
 from matplotlib.axes import Axes
 from matplotlib.lines import Line2D
+from matplotlib.ticker import LogFormatter
 
 __all__ = ["draw"]
 
@@ -48,7 +49,9 @@ def _panel(panel: Axes, task: str, rows: list[Row]) -> None:
     panel.set_title(task, fontsize=9)
     panel.set_xlabel("ms a solve", fontsize=8)
     panel.set_ylabel("error of the field, L2", fontsize=8)
-    panel.tick_params(labelsize=7)
+    panel.tick_params(labelsize=7, which="both")
+    for formatter in (panel.xaxis.set_major_formatter, panel.xaxis.set_minor_formatter):
+        formatter(LogFormatter(minor_thresholds=(2.0, 0.5)))
     panel.grid(visible=True, which="major", linewidth=0.3)
 
 

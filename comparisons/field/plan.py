@@ -66,8 +66,9 @@ def _tire(grid: str, cells: int, seed: int) -> Problem:
 OURS_COLD = (1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 1e-7)
 OURS_ROLLING = (1e-1, 3e-2, 1e-2, 3e-3, 1e-3, 1e-4, 1e-5)
 ASPHER_COLD = (1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8)
-ASPHER_ROLLING = (1e-4, 1e-5, 1e-6, 1e-7)
+ASPHER_ROLLING = (1e-3, 1e-4, 1e-5, 1e-6, 1e-7)
 TAMAAS_COLD = (1e-3, 1e-4, 1e-5, 1e-6)
+TAMAAS_ROLLING = (1e-2, 1e-3, 1e-4, 1e-5)
 
 FULL = (
     _hertz(128, 9, 9),
@@ -75,7 +76,7 @@ FULL = (
     _rough(512, 0.0027, 9, 3),
     _rough(512, 0.018, 9, 3),
     _cold("128x96", (1e-3, 1e-5), Share(OURS_COLD, 5, 9), Share(ASPHER_COLD, 5, 9), Share(TAMAAS_COLD, 5, 3)),
-    _cold("256x192", (1e-3, 1e-5), Share(OURS_COLD, 5, 9), Share(ASPHER_COLD, 5, 9), Share(TAMAAS_COLD[:3], 2, 3)),
+    _cold("256x192", (1e-3, 1e-5), Share(OURS_COLD, 5, 9), Share(ASPHER_COLD, 5, 9), Share(TAMAAS_COLD, 2, 3)),
     _sequence(
         "128x96",
         1,
@@ -83,11 +84,11 @@ FULL = (
         {
             OURS: Share(OURS_ROLLING, 5, 200),
             "ASPHER": Share(ASPHER_ROLLING, 3, 200),
-            "tamaas": Share(TAMAAS_COLD[:3], 2, 40),
+            "tamaas": Share(TAMAAS_ROLLING, 2, 40),
         },
     ),
     _sequence("128x96", 2, (1e-2, 1.5e-3, 1e-4), {OURS: Share(OURS_ROLLING, 2, 200)}),
-    _sequence("256x192", 1, (1e-2, 1.5e-3, 3e-4), {OURS: Share(OURS_ROLLING[1:6], 2, 200)}),
+    _sequence("256x192", 1, (1e-2, 1.5e-3, 3e-4), {OURS: Share(OURS_ROLLING[1:], 2, 200)}),
 )
 
 QUICK = (
@@ -101,7 +102,7 @@ QUICK = (
         {
             OURS: Share(OURS_ROLLING, 1, 20),
             "ASPHER": Share(ASPHER_ROLLING, 1, 20),
-            "tamaas": Share(TAMAAS_COLD[:3], 1, 6),
+            "tamaas": Share(TAMAAS_ROLLING, 1, 6),
         },
     ),
 )

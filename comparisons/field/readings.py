@@ -23,6 +23,7 @@ class Reading(NamedTuple):
     solver: str
     ms: float | None
     ms_95: float | None
+    largest_error: float | None  # of a step, the worst seed; equal to the error where there is one field
     ratio: float | None  # its time over ours, median over the seeds that both solved
 
 
@@ -69,8 +70,17 @@ def readings(task: Task, rows: list[Row]) -> list[Reading]:
             times = _by_seed(rows, task.name, solver, asked, "ms")
             slowest = _by_seed(rows, task.name, solver, asked, "ms_95")
             ratios = [times[seed] / ours[seed] for seed in times if seed in ours]
+            largest = _by_seed(rows, task.name, solver, asked, "largest_error")
             found.append(
-                Reading(task.name, asked, solver, _median(times.values()), _median(slowest.values()), _median(ratios))
+                Reading(
+                    task.name,
+                    asked,
+                    solver,
+                    _median(times.values()),
+                    _median(slowest.values()),
+                    max(largest.values(), default=None),
+                    _median(ratios),
+                )
             )
     return found
 

@@ -15,8 +15,7 @@ __all__ = ["agreement_lines", "reading_lines", "row_lines", "set_up_lines", "ver
 
 def reading_lines(found: list[Reading]) -> list[str]:
     """Times at equal error."""
-    heads = ("problem", "error", "solver", "ms", "95 %", "theirs / ours")
-    return _table(heads, ((one.task, one.error, one.solver, one.ms, one.ms_95, one.ratio) for one in found))
+    return _table(("problem", "error", "solver", "ms", "95 %", "largest error", "theirs / ours"), found)
 
 
 def verdict_lines(found: list[Verdict]) -> list[str]:

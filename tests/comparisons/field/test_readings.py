@@ -13,7 +13,7 @@ TASK = Task(
 
 
 def row(solver, seed, error, ms):
-    return Row(AIM.task, solver, seed, 1.0, error, error, 0.0, ms, 2.0 * ms, ms, 9, None)
+    return Row(AIM.task, solver, seed, 1.0, error, 3.0 * error, 0.0, ms, 2.0 * ms, ms, 9, None)
 
 
 ROWS = [
@@ -32,6 +32,7 @@ def test_times_are_read_at_equal_error_and_ratios_are_those_of_the_same_seed():
     assert found["ASPHER", 1e-3].ms == pytest.approx(10.0)
     assert found["ASPHER", 1e-3].ms_95 == pytest.approx(20.0)
     assert found["ASPHER", 1e-3].ratio == pytest.approx(5.0)
+    assert found[OURS, 1e-3].largest_error == pytest.approx(3e-3)
     assert found["ASPHER", 1e-9].ms is None
     assert found["ASPHER", 1e-9].ratio is None
 
