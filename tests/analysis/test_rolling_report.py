@@ -165,3 +165,13 @@ def test_a_tire_that_never_touches_still_gives_a_page(tmp_path, monkeypatch):
 
     assert "Rolling tire" in text
     assert "Displacement of the tread" not in text
+
+
+def test_a_wheel_that_stands_has_no_picture_over_distance(tmp_path, monkeypatch):
+    monkeypatch.setattr(known, "SPEED", 0.0)
+
+    page = Page(write_report(known.rolling_bag(tmp_path / "still", 30)).read_text(encoding="utf-8"))
+
+    names = [value for value in page.values("aria-label") if value]
+    assert not any(name.startswith("Force, footprint and road") for name in names)
+    assert any(name.startswith("Displacement") for name in names)

@@ -3,9 +3,12 @@
 from __future__ import annotations
 
 import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.cm import ScalarMappable
+from matplotlib.colors import Normalize
 
 from .drawing import MUTED, PRESSURE_COLOURS, WIDTH, Picture, new_figure, picture
-from .maps import Window, draw_map, loaded_window, robust_limits, set_window
+from .maps import Window, draw_map, extension, loaded_window, robust_limits, set_window
 from .series import FieldSeries, PressureMap, Snapshot, Travel
 
 STAGES = 8
@@ -35,33 +38,34 @@ def footprint_stages(key: str, name: str, field: FieldSeries, travel: Travel | N
     rows = -(-len(stages) // COLUMNS)
     height = float(np.clip(window.aspect * 0.2 * WIDTH, 0.5, 2.6)) + 0.34
     figure, axes = new_figure(rows * height + 0.5, rows, COLUMNS, sharex=True, sharey=True)
-    limits = robust_limits(np.concatenate([each.field.pressure.ravel() for each in stages]) * 1e-3)
-    image = None
+    pressures = np.concatenate([each.field.pressure.ravel() for each in stages]) * 1e-3
+    limits = robust_limits(pressures, 0.02)
     for place, each in zip(axes, stages, strict=False):
-        shown = np.where(each.field.pressure > 0.0, each.field.pressure * 1e-3, np.nan)
-        image = draw_map(place, each.field, shown, PRESSURE_COLOURS, limits)
-        place.set_title(_stage_title(each, travel), fontsize=8.5)
-        if each.load <= 0.0:
-            place.text(0.5, 0.5, "no contact", transform=place.transAxes, ha="center", va="center", color=MUTED)
+        _draw_stage(place, each, travel, limits)
         set_window(place, window)
     for place in axes[len(stages) :]:
         place.set_axis_off()
-    assert image is not None  # a series holds at least one field
-    bar = figure.colorbar(image, ax=axes, label="pressure, kPa", pad=0.01, aspect=30, extend="max")
+    arrow = extension(pressures, limits)
+    scale = ScalarMappable(limits, PRESSURE_COLOURS)
+    bar = figure.colorbar(scale, ax=axes, label="pressure, kPa", pad=0.01, aspect=30, extend=arrow)
     bar.ax.spines["outline"].set_visible(False)
     figure.supxlabel("← left, y, mm", fontsize=9)
     figure.supylabel("forward, x, mm →", fontsize=9)
+    cut = f" One cell in 50 lies above the scale, at most {pressures.max():.4g} kPa." if arrow == "max" else ""
     caption = (
         f"Footprint of the {name} before and after its largest load, {field.heaviest.load:.5g} N at "
-        f"{field.heaviest.time:.3f} s; cells without pressure are blank, one colour scale for all, "
-        f"up to {limits.vmax:.4g} kPa, which one cell in 200 exceeds (at most {_highest(stages):.4g} kPa). The maps move with the "
-        "wheel: x = 0 lies below its centre."
+        f"{field.heaviest.time:.3f} s; cells without pressure are blank, one colour scale for all.{cut} The maps move with "
+        "the wheel: x = 0 lies below its centre."
     )
     return picture(f"{key}-stages", figure, f"Footprint of the {name} at several instants", caption)
 
 
-def _highest(stages: list[Snapshot]) -> float:
-    return max(float(each.field.pressure.max()) for each in stages) * 1e-3
+def _draw_stage(axes: Axes, stage: Snapshot, travel: Travel | None, limits: Normalize) -> None:
+    pressure = stage.field.pressure
+    draw_map(axes, stage.field, np.where(pressure > 0.0, pressure * 1e-3, np.nan), PRESSURE_COLOURS, limits)
+    axes.set_title(_stage_title(stage, travel), fontsize=8.5)
+    if stage.load <= 0.0:
+        axes.text(0.5, 0.5, "no contact", transform=axes.transAxes, ha="center", va="center", color=MUTED)
 
 
 def _stage_title(each: Snapshot, travel: Travel | None) -> str:

@@ -14,12 +14,16 @@ from .decimate import envelope
 from .drawing import ACCENT, INK, MUTED, PRESSURE_COLOURS, SHADE, Picture, new_figure, picture
 from .lift_off import lifted_intervals
 from .low_pass import low_pass
-from .maps import robust_limits
+from .maps import extension, robust_limits
 from .series import ContactSeries, FieldSeries, FloatArray, RoadSeries
 from .tire_reference import TireReference
 
 BEFORE, AFTER = (0.7, 0.1), (2.0, 0.3)
 """[m], [s] shown at least before and after the largest load"""
+
+
+LEAST_WAY = 0.01
+"""[m] that the wheel must travel for a picture over distance"""
 
 
 class Stretch(NamedTuple):
@@ -39,9 +43,14 @@ class Rolling(NamedTuple):
 
 
 def stretches(rolling: Rolling) -> list[Stretch]:
-    """The stretch around the largest load (of a field, where there are any), then the whole way where that is longer."""
+    """The stretch around the largest load (of a field, where there are any), then the whole way where that is longer.
+
+    None where the wheel stands.
+    """
     travel, contact = rolling.road.travel, rolling.contact
     whole = Stretch(*(float(end) for end in travel.at(contact.time[[0, -1]])))
+    if whole.end - whole.start < LEAST_WAY:
+        return []
     time = _focus(rolling)
     way, behind, ahead = travel.at(np.array([time, time - BEFORE[1], time + AFTER[1]]))
     start, end = min(way - BEFORE[0], behind), max(way + AFTER[0], ahead)
@@ -116,13 +125,16 @@ def _draw_line_load(figure: Figure, axes: Axes, field: FieldSeries, road: RoadSe
     loaded = np.flatnonzero(field.history[moving].any(axis=0))
     kept = slice(max(loaded[0] - 2, 0), loaded[-1] + 3) if loaded.size else slice(None)
     values = field.history[moving][:, kept].T * 1e-3
+    limits = robust_limits(values, 0.005)
     mesh = axes.pcolormesh(
-        distance[moving], x[kept], np.where(values > 0.0, values, np.nan), cmap=PRESSURE_COLOURS, norm=robust_limits(values),
+        distance[moving], x[kept], np.where(values > 0.0, values, np.nan), cmap=PRESSURE_COLOURS, norm=limits,
         shading="nearest", rasterized=True,
     )  # fmt: skip
     axes.grid(visible=False)
     axes.set_ylabel("in the footprint,\nx, mm")
-    bar = figure.colorbar(mesh, cax=axes.inset_axes((1.01, 0.0, 0.014, 1.0)), label="line load,\nN/mm", extend="max")
+    bar = figure.colorbar(
+        mesh, cax=axes.inset_axes((1.01, 0.0, 0.014, 1.0)), label="line load,\nN/mm", extend=extension(values, limits)
+    )
     bar.ax.spines["outline"].set_visible(False)
 
 

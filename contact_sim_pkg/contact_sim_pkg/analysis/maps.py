@@ -14,8 +14,8 @@ from matplotlib.image import AxesImage
 from .drawing import INK, MUTED, WIDTH
 from .series import FloatArray, PressureMap
 
-SPIKES = 0.005
-"""Share of the values that may lie above a colour scale."""
+FAR_HIGHER = 1.5
+"""A colour scale leaves out a few values if the largest is that many times what the others reach."""
 SURFACE_LINES = 64
 """Most lines of a surface picture in each direction."""
 
@@ -45,10 +45,18 @@ class Quantity(NamedTuple):
     """name of a colour map, perceptually uniform"""
 
 
-def robust_limits(values: FloatArray) -> Normalize:
-    """From 0 to what all but `SPIKES` of the values above 0 stay below: a few high cells do not darken all the others."""
+def robust_limits(values: FloatArray, few: float) -> Normalize:
+    """From 0 to the largest value; where the share `few` of those above 0 is far higher than the others, to what these reach."""
     above = values[values > 0.0]
-    return Normalize(0.0, float(np.quantile(above, 1.0 - SPIKES)) if above.size else 1.0)
+    if not above.size:
+        return Normalize(0.0, 1.0)
+    usual, highest = float(np.quantile(above, 1.0 - few)), float(above.max())
+    return Normalize(0.0, highest if highest <= FAR_HIGHER * usual else usual)
+
+
+def extension(values: FloatArray, limits: Normalize) -> str:
+    """How the colour bar of these values ends: with an arrow where some lie above it."""
+    return "max" if limits.vmax is not None and np.any(values > limits.vmax) else "neither"
 
 
 def loaded_window(field: PressureMap, margin: float = 2.0) -> Window:

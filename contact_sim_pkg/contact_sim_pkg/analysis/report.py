@@ -106,7 +106,9 @@ def _contact_section(number: int, name: str, recording: Recording) -> Section:
     key = f"contact-{number}"
     pictures = [load_over_time(key, name, contact)]
     if field is not None:
-        pictures += [pressure_maps(key, name, field), footprint_over_time(key, name, field)]
+        pictures.append(pressure_maps(key, name, field))
+    if field is not None and field.time.size > 1:
+        pictures.append(footprint_over_time(key, name, field))
     pictures.append(load_over_approach(key, name, contact))
     return Section(key, f"{name.capitalize()} contact", pictures)
 
