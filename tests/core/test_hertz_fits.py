@@ -28,6 +28,12 @@ def test_the_polynomial_has_the_errors_that_are_known_of_it(omega, aspect):
     assert (1.0 + b) / (1.0 + a) - 1.0 == pytest.approx(aspect, rel=0.05, abs=5e-6)
 
 
+@pytest.mark.parametrize("omega", [0.01, 0.05, 0.1, 0.2, 0.3])
+def test_the_polynomial_is_the_exact_relation_to_2e_4_up_to_omega_0_3(omega):
+    _approach, a, b, _peak = errors(POLYNOMIAL, omega)
+    assert abs((1.0 + b) / (1.0 + a) - 1.0) < 2e-4
+
+
 @pytest.mark.parametrize(("omega", "peak"), [(0.75, 1e-3), (0.93, 1e-2)])
 def test_the_polynomial_s_peak_pressure_is_good_as_far_as_announced(omega, peak):
     assert abs(errors(POLYNOMIAL, omega)[3]) == pytest.approx(peak, rel=0.1)

@@ -88,7 +88,8 @@ def test_a_surface_without_heights_is_refused_by_its_block():
             return numpy.where(x[:, None] > 1.0, numpy.nan, super().heights(x, y))
 
     blocks = RoadBlocks(Hole(), Travel([(0.0, 10.0)]), 0.01, 0.01, 0.01, 0.1, 3)
-    with pytest.raises(ExcitationError, match=r"block 12: .* no finite height"):
+    place = r"block 12: .* no finite height .*: it is nan at x = 1\.08 m, y = -0\.01 m"
+    with pytest.raises(ExcitationError, match=place):
         blocks.block(12)
 
 

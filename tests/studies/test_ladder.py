@@ -1,5 +1,6 @@
 """The ladders of the tire: cheap rungs have their known errors, dear ones converge, every row says what it is against."""
 
+import itertools
 import math
 
 import numpy
@@ -29,6 +30,9 @@ def few_samples():
     ladder_row.FEWEST, ladder_row.BUDGET = 1, 0.0
     yield
     ladder_row.FEWEST, ladder_row.BUDGET = kept
+
+
+ROUGH = dict(zip(GIVEN, (f"{given}{ladder_rough.WORST}" for given in GIVEN), strict=True))
 
 
 def error_of(rows, quantity, rung, case=None, grid=None, key="error"):
@@ -100,16 +104,16 @@ def test_on_a_smooth_road_the_closed_form_is_exact_and_the_field_converges_to_it
 
 def test_on_a_rough_road_the_winkler_bed_is_far_off_and_the_tiers_come_closer(rough_rows):
     for given in GIVEN:
-        errors = [error_of(rough_rows, FIELD, tier.name, given) for tier in ladder_smooth.TIERS]
-        assert error_of(rough_rows, FIELD, "Winkler bed", given) > 0.5 > errors[0]
+        errors = [error_of(rough_rows, FIELD, tier.name, ROUGH[given]) for tier in ladder_smooth.TIERS]
+        assert error_of(rough_rows, FIELD, "Winkler bed", ROUGH[given]) > 0.5 > errors[0]
         assert errors[-1] < errors[1] < 0.2
-        assert error_of(rough_rows, PEAK, "Winkler bed", given) > 0.5
+        assert error_of(rough_rows, PEAK, "Winkler bed", ROUGH[given]) > 0.5
 
 
 def test_what_is_given_comes_back_exactly(rough_rows):
     for tier in ladder_smooth.TIERS:
-        assert error_of(rough_rows, FORCE, tier.name, GIVEN[0]) < 1e-8
-        assert error_of(rough_rows, "approach", tier.name, GIVEN[1]) == 0.0
+        assert error_of(rough_rows, FORCE, tier.name, ROUGH[GIVEN[0]]) < 1e-8
+        assert error_of(rough_rows, "approach", tier.name, ROUGH[GIVEN[1]]) == 0.0
 
 
 def test_grid_error_stands_beside_solver_error_and_bounds_the_error_with_it(rough_rows):
@@ -122,8 +126,21 @@ def test_grid_error_stands_beside_solver_error_and_bounds_the_error_with_it(roug
         )
     last = ladder_smooth.TIERS[-1].name
     for given in GIVEN:
-        assert error_of(rough_rows, FIELD, last, given, key="solver_error") < 1e-4
-        assert error_of(rough_rows, FIELD, last, given, key="grid_error") > 1e-3
+        assert error_of(rough_rows, FIELD, last, ROUGH[given], key="solver_error") < 1e-4
+        assert error_of(rough_rows, FIELD, last, ROUGH[given], key="grid_error") > 1e-3
+
+
+@pytest.mark.parametrize("given", GIVEN)
+@pytest.mark.parametrize("seed", [21, 25])
+def test_two_tiers_differ_on_a_further_road_by_little_more_than_both_announce_at_most(rough_rows, seed, given):
+    assert seed not in ladder_rough.SEEDS
+    value = LOAD if given == GIVEN[0] else 7.6e-3
+    answers = [solve(patch_problem(tier.cells, seed), given, value, tier.tolerance) for tier in ladder_smooth.TIERS]
+    pairs = zip(ladder_smooth.TIERS, answers, strict=True)
+    for (coarse, one), (fine, other) in itertools.combinations(pairs, 2):
+        for quantity, difference in distances(one, other).items():
+            announced = [error_of(rough_rows, quantity, tier.name, ROUGH[given]) for tier in (coarse, fine)]
+            assert difference <= 1.25 * sum(announced) + 1e-12, (quantity, coarse, fine)
 
 
 def test_the_check_is_against_dense_least_squares_and_falls_with_the_tolerance():

@@ -87,11 +87,14 @@ def equal_lengths(type_name: str, **arrays: NDArray[numpy.float64]) -> None:
 
 
 def finite(type_name: str, block: int, **values: Any) -> None:
-    """MessageError that names the first of the values that is not finite, or holds one that is not."""
+    """MessageError that names the first of the values that is not finite, or the first place in it that is not."""
     for name, value in values.items():
         if not numpy.isfinite(value).all():
-            bad = int(numpy.count_nonzero(~numpy.isfinite(value)))
-            raise MessageError(f"{name} of {type_name}, block {block}, has {bad} value(s) that are NaN or infinite")
+            bad = numpy.argwhere(~numpy.isfinite(value))
+            where = ("", ", the first at number {}", ", the first at row {}, column {}")[bad.shape[1]].format(*bad[0])
+            raise MessageError(
+                f"{name} of {type_name}, block {block}, has {len(bad)} value(s) that are NaN or infinite{where}"
+            )
 
 
 def grid(type_name: str, block: int, rows: int, cols: int, values: NDArray[Any]) -> NDArray[Any]:

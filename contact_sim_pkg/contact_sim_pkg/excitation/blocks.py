@@ -118,9 +118,11 @@ class RoadBlocks:
         last_row = ceil((highest + self.half_length) / self.cell_x) + 1
         height = self._strip(first_row, last_row)
         if not numpy.isfinite(height).all():
+            row, col = numpy.argwhere(~numpy.isfinite(height))[0]
             raise ExcitationError(
                 f"block {block}: the road has no finite height between x = {first_row * self.cell_x:.6g} m and "
-                f"{last_row * self.cell_x:.6g} m"
+                f"{last_row * self.cell_x:.6g} m: it is {height[row, col]} at x = {(first_row + row) * self.cell_x:.6g} m, "
+                f"y = {(col - 0.5 * (height.shape[1] - 1)) * self.cell_y:.6g} m"
             )
         self._last = (first_row, height)
         return RoadPatch(

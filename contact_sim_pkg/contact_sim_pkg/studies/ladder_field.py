@@ -120,19 +120,44 @@ def rows_of(
     part: str, case: str, rung: Rung, reference: str, found: Answer, exact: Answer, converged: Answer | None = None
 ) -> list[Row]:
     """Rows of all quantities; `converged`: the same grid to 1e-10, which divides the error into solver's and grid's."""
-    total = distances(found, exact)
-    solver = {} if converged is None else distances(found, converged)
-    grid = {} if converged is None else distances(converged, exact)
-    values = (found.force, found.approach, found.peak, found.area)
-    expected = (exact.force, exact.approach, exact.peak, exact.area)
-    pairs = dict(zip(QUANTITIES, zip(values, expected, strict=True), strict=False))
-    rows = []
-    for quantity, error in total.items():
-        value, right = pairs.get(quantity, (None, None))
-        rows.append(
-            row(
-                part, case, quantity, rung, reference, error, value=value, expected=right, solver_error=solver.get(quantity),
-                grid_error=grid.get(quantity),
-            )
-        )  # fmt: skip
+    rows = rows_of_errors(part, case, rung, reference, [errors_of(found, exact, converged)])
+    values = dict(zip(QUANTITIES, zip(found[:4], exact[:4], strict=True), strict=False))
+    for line in rows:
+        line["value"], line["expected"] = values.get(line["quantity"], (None, None))
     return rows
+
+
+class Errors(NamedTuple):
+    """Of one answer, by quantity."""
+
+    total: dict[str, float]
+    solver: dict[str, float]
+    grid: dict[str, float]
+
+
+def errors_of(found: Answer, exact: Answer, converged: Answer | None = None) -> Errors:
+    """The whole error, and its two parts where the converged field of the same grid is given."""
+    if converged is None:
+        return Errors(distances(found, exact), {}, {})
+    return Errors(distances(found, exact), distances(found, converged), distances(converged, exact))
+
+
+def rows_of_errors(part: str, case: str, rung: Rung, reference: str, errors: list[Errors]) -> list[Row]:
+    """Rows of all quantities with the worst of several errors."""
+
+    def worst(quantity: str, which: int) -> float | None:
+        return max((each[which][quantity] for each in errors if quantity in each[which]), default=None)
+
+    return [
+        row(
+            part,
+            case,
+            quantity,
+            rung,
+            reference,
+            max(each.total[quantity] for each in errors),
+            solver_error=worst(quantity, 1),
+            grid_error=worst(quantity, 2),
+        )
+        for quantity in errors[0].total
+    ]

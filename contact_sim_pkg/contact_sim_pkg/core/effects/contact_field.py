@@ -14,7 +14,7 @@ import math
 import numpy
 from numpy.typing import NDArray
 
-from ..field_solver import CONVERGED, EDGE, SENTENCES, FieldResult
+from ..field_solver import BAD_INPUT, CONVERGED, EDGE, SENTENCES, FieldResult, refuse_bad_gap
 from ..field_window import WindowedSolver
 from ..halfspace import HalfSpace, make_half_space
 from ..parameters import FieldSettings, NormalElastic
@@ -55,17 +55,19 @@ class PressureField:
         """
         s = self.settings
         result = self._solver.solve_at_approach(gap, approach, s.tolerance, s.maximum_iterations, self.pressure)
-        self._accept(result)
+        self._accept(result, gap)
         return self.load
 
     def solve_load(self, gap: Field, load: float) -> float:
         """Solve for ``load`` [N]; returns the approach in [m]. Errors as in ``solve``."""
         s = self.settings
         result = self._solver.solve_at_load(gap, load, s.tolerance, s.maximum_iterations, self.pressure)
-        self._accept(result)
+        self._accept(result, gap)
         return float(result.approach)
 
-    def _accept(self, result: FieldResult) -> None:
+    def _accept(self, result: FieldResult, gap: Field) -> None:
+        if result.status == BAD_INPUT:
+            self._refuse_bad_cell(gap)
         if result.status != CONVERGED:
             kind = FieldEdgeError if result.status == EDGE else FieldError
             raise kind(
@@ -76,6 +78,13 @@ class PressureField:
         self.load = float(result.load)
         self.iterations += int(result.iterations)
         self.residual = float(result.residual)
+
+    def _refuse_bad_cell(self, gap: Field) -> None:
+        """Name the cell whose height is not finite, where that is the fault."""
+        try:
+            refuse_bad_gap(gap)
+        except ValueError as error:
+            raise FieldError(f"{self.contact}: {error}") from None
 
 
 def fit_tangent(field: PressureField, gap: Field, load: float) -> NormalElastic:
