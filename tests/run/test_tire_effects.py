@@ -27,10 +27,10 @@ def forces(found, field="normal"):
 
 @pytest.mark.parametrize("effects", [ALL[:1], ALL[1:2], ALL[2:], ALL], ids=lambda chosen: "+".join(chosen))
 def test_a_tire_on_a_flat_road_stands_still_under_its_weight(effects):
-    found = messages_of(resolved("tire_bump", *FLAT, *effects))
+    found = messages_of(resolved("tire_bump", *FLAT, "travel.speed=0", "accuracy=1e-3", *effects))
     assert forces(found) == pytest.approx(WEIGHT, rel=2e-3)
     motion = [decode_motion(data) for data in found["bench/motion"]]
-    assert max(abs(block.velocity).max() for block in motion) < 2e-3
+    assert max(abs(block.velocity).max() for block in motion) < 3e-3
 
 
 def test_the_belt_stands_between_road_and_wheel_as_two_springs_in_series():
@@ -60,7 +60,7 @@ def test_a_belt_softens_the_shock_of_a_bump():
 
 def test_impulses_carry_their_share_of_the_load_on_an_even_road():
     # 0.02 m apart under a footprint of 0.092 m: 4 or 5 sites act, on average contact length over spacing
-    scene = resolved("tire_bump", *FLAT, "effects.tire.asperity_impulses={share: 0.2}")
+    scene = resolved("tire_bump", *FLAT, "travel.speed=9.7", "effects.tire.asperity_impulses={share: 0.2}")
     found = messages_of(scene)
     impulses = forces(found, "impulses")
     step = 0.2 * WEIGHT * 0.02 / (2.0 * 0.0460556)  # Hertz: semi-axis along the road of 3335 N
@@ -71,9 +71,7 @@ def test_impulses_carry_their_share_of_the_load_on_an_even_road():
 
 
 def test_impulses_do_not_push_a_tire_that_is_off_the_road():
-    found = messages_of(
-        resolved("tire_bump", "duration=1.4", "road.height=0.1", "effects.tire.asperity_impulses={}")
-    )
+    found = messages_of(resolved("tire_bump", "duration=1.4", "road.height=0.1", "effects.tire.asperity_impulses={}"))
     normal, impulses = forces(found), forces(found, "impulses")
     assert (normal == 0.0).any()
     approach = forces(found, "approach")

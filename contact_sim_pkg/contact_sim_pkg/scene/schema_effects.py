@@ -165,9 +165,9 @@ class Brush(Section):
     """Bristles that stick to the road and slip, cell by cell: longitudinal and lateral force, aligning moment."""
 
     stiffness_x: float = number(
-        1e3, 1e12, "N/m^3", "shear stiffness of the tread per area, along the road (choice)", default=8e7
+        1e3, 1e12, "N/m^3", "shear stiffness of the tread per area, along the road (choice)", default=6e7
     )
-    stiffness_y: float = number(1e3, 1e12, "N/m^3", "the same across the track (choice)", default=5e7)
+    stiffness_y: float = number(1e3, 1e12, "N/m^3", "the same across the track; costs less where equal", default=6e7)
     coefficient_static: float = number(
         0.0, 5.0, "", "shear over pressure at which a bristle begins to slip; dry asphalt 0.9 to 1.1", above=True,
         default=1.0,

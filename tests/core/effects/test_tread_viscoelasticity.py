@@ -122,7 +122,9 @@ def test_rolling_follows_the_hereditary_integral_summed_over_the_whole_past() ->
         assert load == pytest.approx(pressure.sum() * 6e-3 * 9e-3, rel=1e-6)
         assert pressing.field.pressure == pytest.approx(pressure, abs=1e-6 * pressure.max())
     x = (numpy.arange(20) - 9.5) * 6e-3
-    assert 0.0 < (pressure * x[:, None]).sum() / pressure.sum() < 0.1 * length  # the contact carries more in front: drag
+    assert (
+        0.0 < (pressure * x[:, None]).sum() / pressure.sum() < 0.1 * length
+    )  # the contact carries more in front: drag
 
 
 def _hereditary(changes: list[Field], wide: Field, rows: slice, step: int) -> tuple[Field, float]:
