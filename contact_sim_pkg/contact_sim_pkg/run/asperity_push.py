@@ -21,7 +21,8 @@ def asperity_push(asperities: Asperities, geometry: TireGeometry, road: RoadPatc
     spacing, half = asperities.spacing, 0.5 * asperities.contact_length
     first = int(numpy.ceil((travel.min() - half) / spacing))
     last = int(numpy.floor((travel.max() + half) / spacing))
-    slope = _slopes(geometry, road, numpy.arange(first, last + 1) * spacing)
+    places = numpy.asarray(numpy.arange(first, last + 1) * spacing, dtype=numpy.float64)
+    slope = _slopes(geometry, road, places)
     load = asperities.load * asperities.share / FORCE_SHARE
     sites = default_asperities(load, spacing, asperities.contact_length, slope, asperities.raised_cosine)
     moved = travel - (first - 1) * spacing  # the kernel counts its sites from 1

@@ -143,16 +143,16 @@ class _Encoder:
         if rig.tire_contact is not None:
             chosen = (columns.TIRE_NORMAL, columns.TIRE_APPROACH, columns.TIRE_HEIGHT)
             impulses = NO_SAMPLES if self.model.asperities is None else force[:, columns.TIRE_PUSH]
-            self._contact("tire", TIRE_FRAME, self.friction, *(force[:, column] for column in chosen), impulses)
+            self._contact("tire", TIRE_FRAME, self.friction, force[:, chosen], impulses)
         if rig.seat_contact is not None:
             chosen = (columns.SEAT_NORMAL, columns.SEAT_APPROACH, columns.SEAT_HEIGHT)
             friction = numpy.zeros((len(force), 3))
             friction[:, 0] = force[:, columns.SEAT_TANGENTIAL]
-            self._contact("seat", SEAT_FRAME, friction, *(force[:, column] for column in chosen), NO_SAMPLES)
+            self._contact("seat", SEAT_FRAME, friction, force[:, chosen], NO_SAMPLES)
 
-    def _contact(
-        self, name: str, frame: str, friction: Array, normal: Array, approach: Array, height: Array, impulses: Array
-    ) -> None:
+    def _contact(self, name: str, frame: str, friction: Array, samples: Array, impulses: Array) -> None:
+        """Force and wrenches of a contact; ``samples``: normal force [N], approach and height [m]."""
+        normal, approach, height = samples.T
         self.load = max(self.load, float(normal.max()))
         value = ContactForceBlock(self.record.block, self.period, normal, friction[:, 0], approach, height, impulses)
         self.messages.append((f"{name}/force", self.stamp, encode_contact_force(value, self.stamp, frame)))

@@ -61,5 +61,5 @@ class RollingShear:
             friction.brush, self._bristles, grid, self._pressure, step, self._shear_x, self._shear_y, self._state
         )
         self._time, self._travel = time, travel
-        fields = (numpy.ascontiguousarray(field[part]) for field in (self._shear_x, self._shear_y, self._state))
-        return Sheared(*friction.slips_at(time), result, *fields)
+        shear_x, shear_y = self._shear_x[part].copy(), self._shear_y[part].copy()
+        return Sheared(*friction.slips_at(time), result, shear_x, shear_y, self._state[part].copy())

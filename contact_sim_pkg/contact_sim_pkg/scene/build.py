@@ -53,8 +53,9 @@ def build(scene: dict[str, Any]) -> Model:
     behind = 0 if tire is None else 4 if tire.carcass is None else 6
     seat = _seat(scene, offset=behind) if with_seat else None
     seat_contact = _seat_contact(scene, seat_field, shape) if with_seat else None
-    rolling = (None, None, None) if tire is None else (tire.tire, tire.carcass, tire.contact)
-    rig = Vehicle(GRAVITY, *rolling, seat, seat_contact)
+    rig = Vehicle(GRAVITY, None, None, None, seat, seat_contact)
+    if tire is not None:
+        rig = rig._replace(tire=tire.tire, carcass=tire.carcass, tire_contact=tire.contact)
     return Model(
         rig=rig,
         timing=make_timing(scene, tire_field is not None or seat_field is not None),
