@@ -93,7 +93,7 @@ def test_friction_never_chatters_nor_passes_its_limit_while_the_seat_shakes_and_
     contact = Contact(
         NormalElastic(2.73e5, 1.5), NormalDissipative(1.0), Friction(stiffness, damping, static, static * ratio)
     )
-    rig = Vehicle(9.81, None, None, Seat(0, 50.0, none, none, none), contact)
+    rig = Vehicle(9.81, None, None, None, Seat(0, 50.0, none, none, none), contact)
     count = 1000
     times = numpy.arange(count + 1) * 1e-3
     a_x, a_z = shake_x * numpy.sin(19.0 * times), shake_z * numpy.sin(25.0 * times)
@@ -102,8 +102,8 @@ def test_friction_never_chatters_nor_passes_its_limit_while_the_seat_shakes_and_
     work, mode = make_workspace(7, MARGINS), numpy.zeros(1, dtype=numpy.int64)
     samples = (numpy.zeros((count, 7)), numpy.zeros((count, 7)), numpy.zeros((count, entries.FORCES)))
     scale = numpy.array([1e-2, 0.5, 1e-2, 0.5, 1e-2, numpy.inf, numpy.inf]) * 1e-6
-    entries.start(rig, mode, state, work, 1e-3, zeros[:2], zeros[:2], a_x[:2], a_z[:2])
-    assert entries.advance(rig, mode, state, scale, work, 0.0, 1e-3, zeros, zeros, a_x, a_z, 1, *samples) == DONE
+    entries.start(rig, mode, state, work, 1e-3, zeros[:2], zeros[:2], a_x[:2], a_z[:2], None)
+    assert entries.advance(rig, mode, state, scale, work, 0.0, 1e-3, zeros, zeros, a_x, a_z, None, 1, *samples) == DONE
     normal, tangential = samples[2][:, entries.SEAT_NORMAL], samples[2][:, entries.SEAT_TANGENTIAL]
     assert normal.min() >= 0.0
     assert (numpy.abs(tangential) <= static * normal + 1e-3).all()

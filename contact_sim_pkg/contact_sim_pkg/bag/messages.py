@@ -37,6 +37,7 @@ _ROAD = "contact_msgs_defs/msg/RoadPatch"
 _VIBRATION = "contact_msgs_defs/msg/VibrationBlock"
 _FORCE = "contact_msgs_defs/msg/ContactForce"
 _PATCH = "contact_msgs_defs/msg/ContactPatch"
+_SHEAR = "contact_msgs_defs/msg/ContactShear"
 _MOTION = "contact_msgs_defs/msg/BodyMotion"
 _ENERGY = "contact_msgs_defs/msg/EnergyLedger"
 _COST = "contact_msgs_defs/msg/SolverCost"
@@ -45,6 +46,9 @@ _RECORDED = "contact_msgs_defs/msg/BenchRecorded"
 _WRENCH = "geometry_msgs/msg/WrenchStamped"
 
 Vector = tuple[float, float, float]
+
+
+NO_SAMPLES: NDArray[numpy.float64] = numpy.empty(0)
 
 
 class ContactForceBlock(NamedTuple):
@@ -56,6 +60,7 @@ class ContactForceBlock(NamedTuple):
     tangential: NDArray[numpy.float64]  # [samples], [N], forward positive
     approach: NDArray[numpy.float64]  # [samples], [m], positive in compression
     effective_height: NDArray[numpy.float64]  # [samples], [m]
+    impulses: NDArray[numpy.float64] = NO_SAMPLES  # [samples], [N], or empty
 
 
 class Wrench(NamedTuple):
@@ -84,6 +89,26 @@ class PatchField(NamedTuple):
     lame_b: float  # [m]
     lame_n: float
     pressure: NDArray[numpy.float32]  # [rows, cols], [Pa], >= 0
+
+
+class ShearField(NamedTuple):
+    """The shear of a rolling tire at one instant, on the cells of the PatchField of the same stamp."""
+
+    block: int
+    cell_x: float  # [m]
+    cell_y: float  # [m]
+    origin_x: float  # [m]
+    origin_y: float  # [m]
+    slip: float
+    slip_angle: float  # [rad]
+    force_x: float  # [N]
+    force_y: float  # [N]
+    moment_z: float  # [N m]
+    sliding_share: float
+    dissipated: float  # [J] since the field before
+    shear_x: NDArray[numpy.float32]  # [rows, cols], [Pa]
+    shear_y: NDArray[numpy.float32]  # [rows, cols], [Pa]
+    state: NDArray[numpy.uint8]  # [rows, cols], 0 apart, 1 sticks, 2 slips
 
 
 class MotionBlock(NamedTuple):
@@ -189,15 +214,15 @@ def decode_vibration(data: bytes) -> VibrationBlock:
 def encode_contact_force(value: ContactForceBlock, stamp_ns: int, frame_id: str) -> bytes:
     """All samples of one contact's resultant in a block."""
     arrays = {name: float64s(getattr(value, name)) for name in value._fields[2:]}
-    equal_lengths(_FORCE, **arrays)
+    _samples_agree(arrays)
     return serialize(_FORCE, header(stamp_ns, frame_id), value.block, value.sample_period, *arrays.values())
 
 
 def decode_contact_force(data: bytes) -> ContactForceBlock:
     """All samples of one contact's resultant in a block."""
     message = deserialize(_FORCE, data)
-    arrays = {name: numpy.array(getattr(message, name)) for name in ContactForceBlock._fields[2:]}
-    equal_lengths(_FORCE, **arrays)
+    arrays = {name: numpy.array(getattr(message, name, NO_SAMPLES)) for name in ContactForceBlock._fields[2:]}
+    _samples_agree(arrays)
     return ContactForceBlock(message.block, message.sample_period, **arrays)
 
 
@@ -227,6 +252,24 @@ def decode_contact_patch(data: bytes) -> PatchField:
     pressure = grid(_PATCH, message.block, message.rows, message.cols, message.pressure)
     scalars = _scalars(message, PatchField._fields[:-1])
     return PatchField._make((*scalars, pressure))
+
+
+def encode_contact_shear(value: ShearField, stamp_ns: int, frame_id: str) -> bytes:
+    """A shear field; rows and cols are the shape of `shear_x`. MessageError where the three fields differ in shape."""
+    rows, cols = value.shear_x.shape
+    if not value.shear_x.shape == value.shear_y.shape == value.state.shape:
+        shapes = ", ".join(f"{name} {getattr(value, name).shape}" for name in value._fields[-3:])
+        raise MessageError(f"the fields of a {_SHEAR} must have one shape; they are {shapes}")
+    fields = (float32s(value.shear_x), float32s(value.shear_y), numpy.ascontiguousarray(value.state).reshape(-1))
+    return serialize(_SHEAR, header(stamp_ns, frame_id), value.block, rows, cols, *value[1:-3], *fields)
+
+
+def decode_contact_shear(data: bytes) -> ShearField:
+    """A shear field; MessageError where rows, cols and the fields disagree."""
+    message = deserialize(_SHEAR, data)
+    names = ShearField._fields
+    fields = (grid(_SHEAR, message.block, message.rows, message.cols, getattr(message, name)) for name in names[-3:])
+    return ShearField._make((*_scalars(message, names[:-3]), *fields))
 
 
 def encode_motion(value: MotionBlock, stamp_ns: int, frame_id: str = BENCH_FRAME) -> bytes:
@@ -302,6 +345,11 @@ def decode_scene(data: bytes) -> str:
 def encode_clock(stamp_ns: int) -> bytes:
     """Simulated time for `/clock`."""
     return serialize("rosgraph_msgs/msg/Clock", time_of(stamp_ns))
+
+
+def _samples_agree(arrays: dict[str, NDArray[numpy.float64]]) -> None:
+    """Arrays of a ContactForce have one length; impulses may be left out."""
+    equal_lengths(_FORCE, **{name: array for name, array in arrays.items() if name != "impulses" or len(array)})
 
 
 def _scalars(message: Any, names: tuple[str, ...]) -> tuple[Any, ...]:

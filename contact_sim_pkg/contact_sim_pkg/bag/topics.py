@@ -43,6 +43,7 @@ _TABLE = (
     _samples("seat/wrench", "geometry_msgs/msg/WrenchStamped"),
     _samples("tire/patch", "contact_msgs_defs/msg/ContactPatch"),
     _samples("seat/patch", "contact_msgs_defs/msg/ContactPatch"),
+    _samples("tire/shear", "contact_msgs_defs/msg/ContactShear"),
     _samples("bench/motion", "contact_msgs_defs/msg/BodyMotion"),
     _samples("bench/energy", "contact_msgs_defs/msg/EnergyLedger"),
     _samples("bench/cost", "contact_msgs_defs/msg/SolverCost", "cost", wall_time=True),

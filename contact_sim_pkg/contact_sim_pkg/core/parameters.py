@@ -63,6 +63,18 @@ class Tire(NamedTuple):
     suspension_damping: float  # [N s/m]
 
 
+class Carcass(NamedTuple):
+    """Belt and tread as one rigid ring that the sidewalls carry; state [belt_z, belt_v] from ``offset``.
+
+    Without load the belt's height equals the wheel's. Tread contact and sidewalls then stand in series.
+    """
+
+    offset: int  # index of belt_z in the state vector
+    belt_mass: float  # [kg], not counted in Tire.wheel_mass
+    stiffness: float  # [N/m] of the sidewalls
+    damping: float  # [N s/m]
+
+
 class Seat(NamedTuple):
     """Occupant on a cushion: a frame mass in contact, and masses that hang on it by spring and damper, in parallel.
 
@@ -85,6 +97,7 @@ class Vehicle(NamedTuple):
 
     gravity: float  # [m/s^2], > 0
     tire: Tire | None
+    carcass: Carcass | None
     tire_contact: Contact | None
     seat: Seat | None
     seat_contact: Contact | None
@@ -127,6 +140,23 @@ class Drive(NamedTuple):
     acceleration_x_1: float
     acceleration_z_0: float  # [m/s^2] of the floor (seat rig) or of the free body (car)
     acceleration_z_1: float
+    push_0: float | None = None  # [N] that road asperities add to the tire's force while it is in contact
+    push_1: float | None = None
+
+
+class Belt(NamedTuple):
+    """A belt under tension on an elastic foundation, rigid across its width: what bends over an obstacle."""
+
+    tension: float  # [N], > 0
+    foundation: float  # [N/m^2] radial stiffness per length of circumference, > 0
+
+
+class TreadViscoelasticity(NamedTuple):
+    """Relaxation of the tread's modulus: ``E(t) / E_long = 1 + retardation_time dirac(t) + sum ratio exp(-t / time)``."""
+
+    retardation_time: float  # [s], >= 0; Kelvin-Voigt
+    ratios: Vector  # [branches] Maxwell modulus over the long-time modulus, >= 0
+    times: Vector  # [branches] [s] relaxation times, > 0
 
 
 class FieldSettings(NamedTuple):
@@ -140,6 +170,7 @@ class FieldSettings(NamedTuple):
     tolerance: float  # complementarity residual asked of the solver
     maximum_iterations: int
     corrector_passes: int  # field solves at the end of an interval beyond the first
+    belt: Belt | None = None  # yields in series with the half-space
 
 
 def widened(settings: FieldSettings) -> FieldSettings:

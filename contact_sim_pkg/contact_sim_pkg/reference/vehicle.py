@@ -27,6 +27,14 @@ class Law(NamedTuple):
     damping: float
 
 
+class Belt(NamedTuple):
+    """Belt ring [kg] on its sidewalls [N/m], [N s/m]; state [z_r, v_r] behind that of the quarter car."""
+
+    mass: float
+    stiffness: float
+    damping: float
+
+
 class Quarter(NamedTuple):
     """Wheel and body [kg], suspension [N/m], [N s/m]; state [z_w, z_b, v_w, v_b]."""
 
@@ -35,6 +43,12 @@ class Quarter(NamedTuple):
     stiffness: float
     damping: float
     law: Law
+    belt: Belt | None = None
+
+    @property
+    def states(self) -> int:
+        """Number of state variables."""
+        return 4 if self.belt is None else 6
 
 
 class Occupant(NamedTuple):
@@ -108,14 +122,15 @@ def _at(pair: tuple[float, float], drive: _Drive, time: float) -> float:
     return pair[0] + pair[1] * (time - drive.start)
 
 
-def _tire(drive: _Drive, time: float, state: State) -> tuple[float, float]:
-    return float(_at(drive.height, drive, time) - state[0]), float(drive.height[1] - state[2])
+def _tire(quarter: Quarter, drive: _Drive, time: float, state: State) -> tuple[float, float]:
+    tread, speed = (state[0], state[2]) if quarter.belt is None else (state[4], state[5])
+    return float(_at(drive.height, drive, time) - tread), float(drive.height[1] - speed)
 
 
 def _cushion(
     quarter: Quarter | None, occupant: Occupant, drive: _Drive, time: float, state: State
 ) -> tuple[float, float]:
-    first = 0 if quarter is None else 4
+    first = 0 if quarter is None else quarter.states
     speed = first + 1 + len(occupant.masses)
     floor, floor_speed = (0.0, 0.0) if quarter is None else (state[1], state[3])
     return (
@@ -131,8 +146,8 @@ def _margins(
     margins: list[Callable[[float, State], float]] = []
     if quarter is not None:
         margins += [
-            lambda t, y: _tire(drive, t, y)[0],
-            lambda t, y: 1.0 + quarter.law.damping * _tire(drive, t, y)[1],
+            lambda t, y: _tire(quarter, drive, t, y)[0],
+            lambda t, y: 1.0 + quarter.law.damping * _tire(quarter, drive, t, y)[1],
         ]
     if occupant is not None:
         margins += [
@@ -149,13 +164,18 @@ def _rate(gravity: float, quarter: Quarter | None, occupant: Occupant | None, dr
         carried = 0.0
         if occupant is not None:
             carried = normal_force(occupant.law, *_cushion(quarter, occupant, drive, time, state))
-            first = 0 if quarter is None else 4
+            first = 0 if quarter is None else quarter.states
             weight = gravity + (shake if quarter is None else 0.0)
             out[first:] = _occupant_rate(occupant, carried, weight, state[first:])
         if quarter is not None:
             z_w, z_b, v_w, v_b = state[:4]
             link = quarter.stiffness * (z_w - z_b) + quarter.damping * (v_w - v_b)
-            force = normal_force(quarter.law, *_tire(drive, time, state))
+            force = normal_force(quarter.law, *_tire(quarter, drive, time, state))
+            if quarter.belt is not None:
+                belt, (z_r, v_r) = quarter.belt, state[4:6]
+                sidewalls = belt.stiffness * (z_r - z_w) + belt.damping * (v_r - v_w)
+                out[4:6] = v_r, (force - sidewalls) / belt.mass - gravity
+                force = sidewalls
             out[:2] = v_w, v_b
             out[2] = (force - link) / quarter.wheel_mass - gravity
             out[3] = (link - carried) / quarter.body_mass - gravity + shake

@@ -12,6 +12,8 @@ from contact_sim_pkg.bag.metadata import SCENE_KEY, RecordedTopic, recorded_topi
 from contact_sim_pkg.scene.resolved_scene import ResolvedScene
 
 EXCITATION_KEY = "excitation"
+FIELD_TOPICS = {"contact_field": "patch", "brush": "shear"}
+"""Effects that publish a field, and their topics."""
 
 
 def input_names(scene: ResolvedScene) -> list[str]:
@@ -26,8 +28,8 @@ def result_names(scene: ResolvedScene) -> list[str]:
     for contact in ("tire", "seat"):
         if scene.data["rig"] in (contact, "car"):
             names += [f"{contact}/force", f"{contact}/wrench"]
-            if (scene.data["effects"].get(contact) or {}).get("contact_field") is not None:
-                names.append(f"{contact}/patch")
+            effects = scene.data["effects"].get(contact) or {}
+            names += [f"{contact}/{topic}" for effect, topic in FIELD_TOPICS.items() if effects.get(effect) is not None]
     return [*names, "bench/motion", "bench/energy", "bench/cost"]
 
 

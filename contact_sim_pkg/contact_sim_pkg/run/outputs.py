@@ -9,6 +9,7 @@ import numpy
 from numpy.typing import NDArray
 
 from contact_sim_pkg.bag.messages import (
+    NO_SAMPLES,
     SEAT_FRAME,
     TIRE_FRAME,
     ContactForceBlock,
@@ -16,9 +17,11 @@ from contact_sim_pkg.bag.messages import (
     Energy,
     MotionBlock,
     PatchField,
+    ShearField,
     Wrench,
     encode_contact_force,
     encode_contact_patch,
+    encode_contact_shear,
     encode_cost,
     encode_energy,
     encode_motion,
@@ -29,7 +32,9 @@ from contact_sim_pkg.core.effects.normal_dissipative import loss_factor
 from contact_sim_pkg.core.lame import fit_patch
 from contact_sim_pkg.core.patch import summarise
 from contact_sim_pkg.core.rigs import advance as columns
+from contact_sim_pkg.run.rolling_shear import RollingShear
 from contact_sim_pkg.scene.build import Model
+from contact_sim_pkg.scene.build_contact import FieldGrids
 
 Array = NDArray[numpy.float64]
 NANOSECONDS = 1_000_000_000
@@ -43,6 +48,7 @@ class FieldRecord(NamedTuple):
     origin_y: float  # [m]
     approach: float  # [m]
     load: float  # [N], elastic
+    travel: float  # [m] of the contact along the road
 
 
 @dataclass
@@ -98,10 +104,10 @@ class BlockRecord:
 
 
 def encode_block(
-    model: Model, record: BlockRecord, wall_time: float
+    model: Model, record: BlockRecord, shear: RollingShear | None, wall_time: float
 ) -> tuple[list[tuple[str, int, bytes]], float, float]:
     """Messages of a block in canonical order, largest normal force in [N] and largest pressure in [Pa]."""
-    encoder = _Encoder(model, record)
+    encoder = _Encoder(model, record, shear)
     encoder.contacts()
     encoder.motion()
     encoder.ledger()
@@ -111,8 +117,9 @@ def encode_block(
 
 
 class _Encoder:
-    def __init__(self, model: Model, record: BlockRecord) -> None:
-        self.model, self.record = model, record
+    def __init__(self, model: Model, record: BlockRecord, shear: RollingShear | None) -> None:
+        self.model, self.record, self.shear = model, record, shear
+        self.friction = numpy.zeros((len(record.forces), 3))  # Fx [N], Fy [N], Mz [N m] of the tire
         self.block_ns = round(model.timing.block_length * NANOSECONDS)
         self.stamp = record.block * self.block_ns
         self.period = model.timing.block_length / model.timing.samples
@@ -124,41 +131,63 @@ class _Encoder:
         return self.stamp + sample * self.block_ns // self.model.timing.samples
 
     def contacts(self) -> None:
-        """Forces and wrenches of each contact, and its fields."""
+        """Fields of each contact, its forces and wrenches."""
         rig, force = self.model.rig, self.record.forces
-        if rig.tire_contact is not None:
-            tangential = numpy.zeros(len(force))
-            chosen = (columns.TIRE_NORMAL, columns.TIRE_APPROACH, columns.TIRE_HEIGHT)
-            self._contact("tire", TIRE_FRAME, tangential, *(force[:, column] for column in chosen))
-        if rig.seat_contact is not None:
-            chosen = (columns.SEAT_NORMAL, columns.SEAT_APPROACH, columns.SEAT_HEIGHT)
-            self._contact(
-                "seat", SEAT_FRAME, force[:, columns.SEAT_TANGENTIAL], *(force[:, column] for column in chosen)
-            )
         for sample, tire, seat in self.record.fields:
             if tire is not None:
-                self._field("tire", TIRE_FRAME, sample, tire, columns.TIRE_RATE)
+                pressure = self._field("tire", TIRE_FRAME, sample, tire, columns.TIRE_RATE)
+                if self.shear is not None:
+                    self._sheared(self.shear, sample, tire, pressure)
             if seat is not None:
                 self._field("seat", SEAT_FRAME, sample, seat, columns.SEAT_RATE)
+        if rig.tire_contact is not None:
+            chosen = (columns.TIRE_NORMAL, columns.TIRE_APPROACH, columns.TIRE_HEIGHT)
+            impulses = NO_SAMPLES if self.model.asperities is None else force[:, columns.TIRE_PUSH]
+            self._contact("tire", TIRE_FRAME, self.friction, force[:, chosen], impulses)
+        if rig.seat_contact is not None:
+            chosen = (columns.SEAT_NORMAL, columns.SEAT_APPROACH, columns.SEAT_HEIGHT)
+            friction = numpy.zeros((len(force), 3))
+            friction[:, 0] = force[:, columns.SEAT_TANGENTIAL]
+            self._contact("seat", SEAT_FRAME, friction, force[:, chosen], NO_SAMPLES)
 
-    def _contact(self, name: str, frame: str, tangential: Array, normal: Array, approach: Array, height: Array) -> None:
+    def _contact(self, name: str, frame: str, friction: Array, samples: Array, impulses: Array) -> None:
+        """Force and wrenches of a contact; ``samples``: normal force [N], approach and height [m]."""
+        normal, approach, height = samples.T
         self.load = max(self.load, float(normal.max()))
-        value = ContactForceBlock(self.record.block, self.period, normal, tangential, approach, height)
+        value = ContactForceBlock(self.record.block, self.period, normal, friction[:, 0], approach, height, impulses)
         self.messages.append((f"{name}/force", self.stamp, encode_contact_force(value, self.stamp, frame)))
         displays = self.model.timing.displays
         for i in range(displays):
             sample = i * self.model.timing.samples // displays
-            wrench = Wrench((float(tangential[sample]), 0.0, float(normal[sample])), (0.0, 0.0, 0.0))
+            force_x, force_y, moment_z = (float(part) for part in friction[sample])
+            vertical = float(normal[sample]) + (float(impulses[sample]) if len(impulses) else 0.0)
+            wrench = Wrench((force_x, force_y, vertical), (0.0, 0.0, moment_z))
             stamp = self._stamp_of(sample)
             self.messages.append((f"{name}/wrench", stamp, encode_wrench(wrench, stamp, frame)))
 
-    def _field(self, name: str, frame: str, sample: int, found: FieldRecord, rate_column: int) -> None:
-        """The field with its loss, whose integral is the force at its instant."""
-        model = self.model
-        grids, contact = (
-            (model.tire_field, model.rig.tire_contact) if name == "tire" else (model.seat_field, model.rig.seat_contact)
-        )
+    def _sheared(self, shear: RollingShear, sample: int, found: FieldRecord, pressure: Array) -> None:
+        """The shear under a field; its resultants hold until the next."""
+        stamp, settings = self._stamp_of(sample), self._grids("tire").usual.settings
+        place = (found.origin_x, found.origin_y)
+        rolled = shear.advance(pressure, *place, found.travel, stamp / NANOSECONDS)
+        result = rolled.result
+        self.friction[sample:] = (result.force_x, result.force_y, result.moment_z)
+        value = ShearField(
+            self.record.block, settings.cell_x, settings.cell_y, *place, rolled.slip, rolled.slip_angle, result.force_x,
+            result.force_y, result.moment_z, result.sliding_share, result.dissipated + result.released,
+            rolled.shear_x.astype(numpy.float32), rolled.shear_y.astype(numpy.float32), rolled.state,
+        )  # fmt: skip
+        self.messages.append(("tire/shear", stamp, encode_contact_shear(value, stamp, TIRE_FRAME)))
+
+    def _grids(self, name: str) -> FieldGrids:
+        grids = self.model.tire_field if name == "tire" else self.model.seat_field
         assert grids is not None
+        return grids
+
+    def _field(self, name: str, frame: str, sample: int, found: FieldRecord, rate_column: int) -> Array:
+        """The field with its loss, whose integral is the force at its instant; returns the pressure."""
+        grids = self._grids(name)
+        contact = self.model.rig.tire_contact if name == "tire" else self.model.rig.seat_contact
         assert contact is not None
         settings = grids.usual.settings  # the wide grid has the same cells
         origin_x, origin_y = found.origin_x, found.origin_y
@@ -174,6 +203,7 @@ class _Encoder:
         )  # fmt: skip
         stamp = self._stamp_of(sample)
         self.messages.append((f"{name}/patch", stamp, encode_contact_patch(value, stamp, frame)))
+        return pressure
 
     def motion(self) -> None:
         """Positions, velocities and accelerations of all bodies."""
@@ -206,6 +236,8 @@ def _motion_rows(model: Model, record: BlockRecord) -> tuple[Any, Any, Any]:
     indices: list[tuple[int, int]] = []
     if rig.tire is not None:
         indices += [(0, 2), (1, 3)]
+    if rig.carcass is not None:
+        indices.append((rig.carcass.offset, rig.carcass.offset + 1))
     if rig.seat is not None:
         count = 1 + len(rig.seat.masses)
         indices += [(rig.seat.offset + i, rig.seat.offset + count + i) for i in range(count)]

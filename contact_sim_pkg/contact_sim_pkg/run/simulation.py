@@ -16,8 +16,10 @@ from contact_sim_pkg.core.rigs import advance as entries
 from contact_sim_pkg.core.rigs.vehicle import MARGINS
 from contact_sim_pkg.core.solvers.dormand_prince import make_workspace
 from contact_sim_pkg.excitation.blocks import RoadPatch, VibrationBlock
+from contact_sim_pkg.run.asperity_push import asperity_push
 from contact_sim_pkg.run.errors import RunError
 from contact_sim_pkg.run.outputs import BlockRecord, encode_block
+from contact_sim_pkg.run.rolling_shear import RollingShear
 from contact_sim_pkg.run.sources import make_travel
 from contact_sim_pkg.run.support import CushionSupport, RoadSupport
 from contact_sim_pkg.scene.build import Model, build, standing_state
@@ -49,8 +51,10 @@ class Simulation:
         self.inputs = tuple(inputs)
         self._travel = make_travel(scene.data) if self.model.tire_geometry is not None else None
         rig = self.model.rig
-        self._tire = RoadSupport(self.model.tire_field, rig.tire_contact, self.model.tire_geometry)
+        self._tire = RoadSupport(self.model.tire_field, rig.tire_contact, self.model.tire_geometry, self.model.tread)
         self._seat = CushionSupport(self.model.seat_field, rig.seat_contact, self.model.seat_shape)
+        friction, field = self.model.rolling_friction, self.model.tire_field
+        self._shear = None if friction is None or field is None else RollingShear(friction, field.wide.settings)
         self._next_block = 0
         self._reset()
 
@@ -86,6 +90,8 @@ class Simulation:
         self._next_block = 0
         for support in (self._tire, self._seat):
             support.reset()
+        if self._shear is not None:
+            self._shear.reset()
         freeze()
 
     def _flat_patch(self) -> RoadPatch:
@@ -114,11 +120,12 @@ class Simulation:
         record = BlockRecord.empty(self.model, block)
         a_x, a_z = self._accelerations(block, vibration)
         travel, smooth = self._smooth_road(block, road)
+        push = self._push(road, travel)
         if block == 0:
-            self._start(road, travel, smooth, a_x, a_z)
+            self._start(road, travel, smooth, a_x, a_z, push)
         self._work.counters[:] = 0.0
         for interval in range(self.model.timing.intervals):
-            self._interval(block, interval, road, travel, smooth, a_x, a_z, record)
+            self._interval(block, interval, road, travel, smooth, a_x, a_z, push, record)
         self._next_block = block + 1
         record.counters[:] = self._work.counters
         for support in (self._tire, self._seat):
@@ -126,7 +133,7 @@ class Simulation:
             record.field_iterations += iterations
             record.field_residual = max(record.field_residual, residual)
         wall = time.perf_counter() - began
-        messages, load, peak = encode_block(self.model, record, wall)
+        messages, load, peak = encode_block(self.model, record, self._shear, wall)
         return BlockResult(messages, load, peak, time.perf_counter() - began)
 
     def _accelerations(self, block: int, vibration: Any) -> tuple[Vector, Vector]:
@@ -181,7 +188,14 @@ class Simulation:
             )
         return travel, smooth
 
-    def _start(self, road: Any, travel: Vector, smooth: Vector, a_x: Vector, a_z: Vector) -> None:
+    def _push(self, road: Any, travel: Vector) -> Vector | None:
+        """Impulses of the road's asperities in [N] at every segment's end; None where the scene calls for none."""
+        model = self.model
+        if model.asperities is None or model.tire_geometry is None:
+            return None
+        return asperity_push(model.asperities, model.tire_geometry, road, travel)
+
+    def _start(self, road: Any, travel: Vector, smooth: Vector, a_x: Vector, a_z: Vector, push: Vector | None) -> None:
         """Let the rig stand in balance on the road at the start, with the fields that belong to it."""
         self.state[:] = standing_state(self.model, float(smooth[0]))
         if self._tire.grids is not None:
@@ -191,7 +205,10 @@ class Simulation:
         height = numpy.array([smooth[0] + self._tire.offset, smooth[1] + self._tire.offset])
         cushion = numpy.full(2, self._seat.offset)
         length = self.model.timing.segment_length
-        entries.start(self.model.rig, self._mode, self.state, self._work, length, height, cushion, a_x[:2], a_z[:2])
+        entries.start(
+            self.model.rig, self._mode, self.state, self._work, length, height, cushion, a_x[:2], a_z[:2],
+            None if push is None else push[:2],
+        )  # fmt: skip
 
     def _stand_on_road(self, road: Any, travel: float) -> None:
         """Shift the rig up or down so that the tire's field carries its weight on the road at the start."""
@@ -199,10 +216,12 @@ class Simulation:
         rig = self.model.rig
         assert rig.tire is not None
         mass = rig.tire.wheel_mass + rig.tire.body_mass
+        if rig.carcass is not None:
+            mass += rig.carcass.belt_mass
         if rig.seat is not None:
             mass += rig.seat.frame_mass + float(rig.seat.masses.sum())
-        shift = -self._tire.stand(mass * rig.gravity) - float(self.state[0])
-        vertical = [0, 1]
+        shift = -self._tire.stand(mass * rig.gravity) - self._tread()[0]
+        vertical = [0, 1] if rig.carcass is None else [0, 1, rig.carcass.offset]
         if rig.seat is not None:
             vertical += range(rig.seat.offset, rig.seat.offset + 1 + len(rig.seat.masses))
         self.state[vertical] += shift
@@ -216,6 +235,7 @@ class Simulation:
         smooth: Vector,
         a_x: Vector,
         a_z: Vector,
+        push: Vector | None,
         record: BlockRecord,
     ) -> None:
         """One interval between field instants: predict, solve the fields at its end, correct."""
@@ -237,7 +257,8 @@ class Simulation:
                 start_energy = self._energies()
             status = entries.advance(
                 model.rig, self._mode, self.state, model.scale, self._work, start, timing.segment_length, self._height,
-                self._cushion, a_x[part], a_z[part], timing.sample_every, *self._sampled,
+                self._cushion, a_x[part], a_z[part], None if push is None else push[part], timing.sample_every,
+                *self._sampled,
             )  # fmt: skip
             if status != DONE:
                 raise RunError(f"block {block}, {start:.6g} s: {SENTENCES[status]}")
@@ -263,14 +284,20 @@ class Simulation:
         """Approaches of tire and seat at the present state for given heights in [m]."""
         rig = self.model.rig
         floor = self.state[1] if rig.tire is not None else 0.0
-        tire = tire_height - self.state[0] if rig.tire is not None else 0.0
+        tire = tire_height - self._tread()[0] if rig.tire is not None else 0.0
         seat = floor + cushion - self.state[rig.seat.offset] if rig.seat is not None else 0.0
         return float(tire), float(seat)
+
+    def _tread(self) -> tuple[float, float]:
+        """Height in [m] and velocity in [m/s] of what touches the road."""
+        carcass = self.model.rig.carcass
+        height, velocity = (0, 2) if carcass is None else (carcass.offset, carcass.offset + 1)
+        return float(self.state[height]), float(self.state[velocity])
 
     def _solve_tire(self, road: Any, travel: float, smooth: float, block: int = 0) -> float:
         """Solve the tire's field at the present state; returns the offset that belongs to it, 0 without a field."""
         self._tire.place(road, travel)
-        approach = -float(self.state[0])
+        approach = -self._tread()[0]
         return self._tire.solve(approach, smooth + approach, block)
 
     def _solve_seat(self, block: int = 0) -> float:
@@ -281,8 +308,9 @@ class Simulation:
     def _close_interval(
         self, tire_end: float, tire_next: float, seat_end: float, seat_next: float, record: BlockRecord
     ) -> None:
-        """Take the fields' offsets over; the energy that the remaining jump brings in counts as supplied."""
+        """Take the fields and their offsets over; the energy that the remaining jump brings in counts as supplied."""
         rig = self.model.rig
+        self._tire.keep()
         tire, seat = self._approaches(float(self._height[-1]), float(self._cushion[-1]))
         for contact, approach, change in (
             (rig.tire_contact, tire, tire_next - tire_end),

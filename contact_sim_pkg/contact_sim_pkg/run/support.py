@@ -11,10 +11,13 @@ from numpy.typing import NDArray
 from contact_sim_pkg.core.effects.contact_field import FieldEdgeError, FieldError, PressureField, offset_of
 from contact_sim_pkg.core.effects.footprint import tire_gap
 from contact_sim_pkg.core.effects.seat_shape import SeatShape
+from contact_sim_pkg.core.effects.tread_viscoelasticity import TreadMemory
 from contact_sim_pkg.core.parameters import Contact, FieldSettings
 from contact_sim_pkg.run.errors import RunError
 from contact_sim_pkg.run.outputs import FieldRecord
-from contact_sim_pkg.scene.build import FieldGrids, TireGeometry, seat_cells, seat_gap_on
+from contact_sim_pkg.scene.build import seat_cells, seat_gap_on
+from contact_sim_pkg.scene.build_contact import FieldGrids
+from contact_sim_pkg.scene.build_tire import TireGeometry, Tread, relaxed_grids
 
 Gap = NDArray[numpy.float64]
 
@@ -28,6 +31,7 @@ class Support(ABC):
         self.offset = 0.0  # [m] at the last field instant
         self.change = 0.0  # [m] of the offset over the last interval, for the prediction of the next
         self.published: FieldRecord | None = None
+        self.travel = 0.0  # [m] of the contact along the road
 
     def reset(self) -> None:
         """Forget everything but the buffers."""
@@ -60,15 +64,22 @@ class Support(ABC):
     def stand(self, load: float) -> float:
         """Approach in [m] at which the field carries ``load`` [N]; the start of a run. Errors as ``solve``."""
         assert self.grids is not None
-        for field in self.grids.both():
+        return self._stand_on(self.grids, load)[0]
+
+    def _stand_on(self, grids: FieldGrids, load: float) -> tuple[float, PressureField]:
+        """Approach in [m] under ``load`` [N] and the field that carries it: the usual one, or the wide one."""
+        for field in grids.both():
             try:
-                return field.solve_load(self.gap(field.settings), load)
+                return field.solve_load(self.gap(field.settings), load), field
             except FieldEdgeError as error:
                 field.pressure[:] = 0.0
                 last = error
             except FieldError as error:
                 raise RunError(f"block 0: {error}") from None
         raise RunError(f"block 0: {last}")
+
+    def keep(self) -> None:  # noqa: B027  # most supports remember nothing
+        """The last field is the one of its instant: what remembers it takes it over."""
 
     def take_cost(self) -> tuple[int, float]:
         """Iterations since the last call, and the residual of the last field."""
@@ -87,7 +98,7 @@ class Support(ABC):
         assert self.contact is not None
         gap = self.gap(field.settings)
         field.solve(gap, approach)
-        self.published = FieldRecord(field.pressure, *self.origin(field.settings), approach, field.load)
+        self.published = FieldRecord(field.pressure, *self.origin(field.settings), approach, field.load, self.travel)
         return offset_of(self.contact.elastic, field, gap, approach, geometric)
 
     @abstractmethod
@@ -102,41 +113,84 @@ class Support(ABC):
 class RoadSupport(Support):
     """The road under the tire; ``place`` says where the wheel stands before a field is solved."""
 
-    def __init__(self, grids: FieldGrids | None, contact: Contact | None, geometry: TireGeometry | None) -> None:
-        """As ``Support``; ``geometry`` gives radii and lattice."""
+    def __init__(
+        self, grids: FieldGrids | None, contact: Contact | None, geometry: TireGeometry | None, tread: Tread | None
+    ) -> None:
+        """As ``Support``; ``geometry`` gives radii and lattice, ``tread`` the memory of the rubber (None: it has none)."""
         super().__init__(grids, contact)
-        self._geometry = geometry
+        self._geometry, self._tread = geometry, tread
         self._road: Any = None
-        self._travel = 0.0
         self._gaps = {} if grids is None else {
             field.settings.rows: numpy.empty((field.settings.rows, field.settings.cols)) for field in grids.both()
         }  # fmt: skip
+        self._memory: TreadMemory | None = None
+        if tread is not None and grids is not None:
+            wide = grids.wide.settings
+            self._memory = TreadMemory(wide, tread.relaxed_modulus, tread.viscoelasticity, tread.step)
+            self._pressed = numpy.zeros((wide.rows, wide.cols))
+
+    def reset(self) -> None:
+        """See Support."""
+        super().reset()
+        if self._memory is not None:
+            self._memory.reset()
 
     def place(self, road: Any, travel: float) -> None:
         """The block's road, and the travel of the wheel centre in [m]."""
-        self._road, self._travel = road, travel
+        self._road, self.travel = road, travel
+        if self._memory is not None and self.grids is not None:
+            self._memory.move_to(self._first(self.grids.wide.settings))
+
+    def stand(self, load: float) -> float:
+        """See Support; a tread with memory has stood there for long."""
+        if self._memory is None or self._tread is None or self.grids is None:
+            return super().stand(load)
+        self._memory.reset()
+        relaxed = relaxed_grids(self.grids, self._tread)
+        approach, field = self._stand_on(relaxed, load)
+        self._memory.settle(self._first(relaxed.wide.settings), self._on_wide(field.pressure))
+        return approach
+
+    def keep(self) -> None:
+        """The last field is the one of its instant: the tread remembers it."""
+        if self._memory is not None and self.published is not None:
+            self._memory.keep(self._on_wide(self.published.pressure))
+
+    def _on_wide(self, pressure: Gap) -> Gap:
+        """A pressure field on the wide grid, which both grids share their middle with."""
+        rows, cols = (wide - own for wide, own in zip(self._pressed.shape, pressure.shape, strict=True))
+        if rows == cols == 0:
+            return pressure
+        self._pressed.fill(0.0)
+        first_row, first_col = self._pressed.shape[0] // 2 - pressure.shape[0] // 2, cols // 2
+        self._pressed[first_row : first_row + pressure.shape[0], first_col : first_col + pressure.shape[1]] = pressure
+        return self._pressed
 
     def _first(self, settings: FieldSettings) -> int:
-        return round(self._travel / settings.cell_x) - settings.rows // 2
+        return round(self.travel / settings.cell_x) - settings.rows // 2
 
     def gap(self, settings: FieldSettings) -> Gap:
-        """See Support; cells coincide with nodes of the road."""
+        """See Support; cells coincide with nodes of the road. What the tread remembers is added."""
         geometry, road = self._geometry, self._road
         assert geometry is not None
         out = self._gaps[settings.rows]
         inside = tire_gap(
             road.height, road.first_row, settings.cell_x, settings.cell_y, geometry.radius_rolling,
-            geometry.radius_lateral, self._first(settings), self._travel, out,
+            geometry.radius_lateral, self._first(settings), self.travel, out,
         )  # fmt: skip
         if not inside:
             raise RunError(
-                f"road/patch: block {road.block} does not reach over the pressure grid at {self._travel:.6g} m"
+                f"road/patch: block {road.block} does not reach over the pressure grid at {self.travel:.6g} m"
             )
+        if self._memory is not None:
+            whole = self._memory.gap
+            row, col = whole.shape[0] // 2 - settings.rows // 2, (whole.shape[1] - settings.cols) // 2
+            out += whole[row : row + settings.rows, col : col + settings.cols]
         return out
 
     def origin(self, settings: FieldSettings) -> tuple[float, float]:
         """See Support."""
-        return self._first(settings) * settings.cell_x - self._travel, -0.5 * (settings.cols - 1) * settings.cell_y
+        return self._first(settings) * settings.cell_x - self.travel, -0.5 * (settings.cols - 1) * settings.cell_y
 
 
 class CushionSupport(Support):

@@ -6,7 +6,7 @@ from __future__ import annotations
 
 from typing import Any, NamedTuple
 
-from contact_sim_pkg.core.parameters import FieldSettings, widened
+from contact_sim_pkg.core.parameters import Belt, FieldSettings, widened
 
 GRAVITY = 9.81  # [m/s^2]
 FIELD_ITERATIONS = 400
@@ -32,13 +32,15 @@ def effects_at(scene: dict[str, Any], contact: str) -> dict[str, Any]:
 
 def field_settings(scene: dict[str, Any], contact: str, modulus: float) -> FieldSettings | None:
     """Grid and accuracy of the field of a contact; None where the scene calls for none."""
-    field = effects_at(scene, contact).get("contact_field")
+    effects = effects_at(scene, contact)
+    field, bend = effects.get("contact_field"), effects.get("envelopment")
     if field is None:
         return None
     rows, cols = int(field["rows"]), int(field["cols"])
+    belt = None if bend is None else Belt(float(bend["tension"]), float(bend["foundation"]))
     return FieldSettings(
         rows, cols, float(field["length"]) / rows, float(field["width"]) / cols, modulus, float(field["tolerance"]),
-        FIELD_ITERATIONS, int(field["corrector_passes"]),
+        FIELD_ITERATIONS, int(field["corrector_passes"]), belt,
     )  # fmt: skip
 
 

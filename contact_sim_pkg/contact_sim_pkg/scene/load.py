@@ -16,7 +16,16 @@ from contact_sim_pkg.scene.schema_validate import RULES, validate
 from contact_sim_pkg.scene.yaml_document import read_document
 from contact_sim_pkg.scene.yaml_nodes import MappingNode, Mark, ScalarNode
 
-ORDER = ("seat_ride", "tire_bump", "tire_rough_road", "tire_belgian_block", "car_full_bench")
+ORDER = (
+    "seat_ride",
+    "tire_bump",
+    "tire_cleat",
+    "tire_braking",
+    "tire_rough_road",
+    "tire_belgian_block",
+    "tire_texture",
+    "car_full_bench",
+)
 """Shipped scenes, smallest first; any others follow by name."""
 
 

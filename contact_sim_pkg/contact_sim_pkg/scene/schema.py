@@ -13,7 +13,7 @@ from pydantic import Field, PrivateAttr
 from contact_sim_pkg.scene.schema_effects import Effects
 from contact_sim_pkg.scene.schema_fields import Section, choice, number, text
 from contact_sim_pkg.scene.schema_rigs import Seat, Tire
-from contact_sim_pkg.scene.schema_road import Road, Travel
+from contact_sim_pkg.scene.schema_road import Road, Slip, Travel
 from contact_sim_pkg.scene.schema_vibration import Vibration
 
 Rig: TypeAlias = Literal["tire", "seat", "car"]
@@ -70,6 +70,7 @@ class Scene(Section):
     )
     travel: Travel | None = choice("speed programme (rigs tire and car)", default=None, example={"speed": 10.0})
     road: Road | None = choice("road under the tire (rigs tire and car)", default=None, example={"kind": "flat"})
+    slip: Slip | None = choice("slip programme of the tire, for the effect brush (rigs tire and car)", default=None)
     vibration: Vibration | None = choice(
         "acceleration of the floor (rig seat), or added to the floor of the car (rig car)", default=None
     )

@@ -26,7 +26,21 @@ EFFECT_RULES: dict[str, EffectRule] = {
     "normal_dissipative": EffectRule(("tire", "seat"), needs=("normal_elastic",)),
     "friction": EffectRule(("seat",), needs=("normal_elastic",)),
     "contact_field": EffectRule(("tire", "seat"), needs=("normal_elastic",)),
+    "carcass": EffectRule(("tire",), needs=("normal_elastic",)),
+    "envelopment": EffectRule(("tire",), needs=("contact_field",)),
+    "tread_viscoelasticity": EffectRule(("tire",), needs=("contact_field",)),
+    "brush": EffectRule(("tire",), needs=("contact_field",)),
+    "asperity_impulses": EffectRule(("tire",), needs=("normal_elastic",)),
 }
+
+
+def dependents_of(effect: str) -> set[str]:
+    """Effects that cannot act without ``effect``, those that need them included."""
+    found: set[str] = set()
+    for name, rule in EFFECT_RULES.items():
+        if effect in rule.needs:
+            found |= {name} | dependents_of(name)
+    return found
 
 
 def effects_of(scene: Scene, contact: str) -> list[str]:

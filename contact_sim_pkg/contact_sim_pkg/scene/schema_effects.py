@@ -2,9 +2,13 @@
 
 from __future__ import annotations
 
-from typing import TypeAlias
+from typing import Annotated, Literal, TypeAlias
 
-from contact_sim_pkg.scene.schema_fields import Section, choice, number
+from pydantic import Field
+
+from contact_sim_pkg.scene.schema_fields import Section, choice, number, numbers
+
+Branch: TypeAlias = Annotated[list[float], Field(min_length=2, max_length=2)]
 
 MOST_CELLS_A_SIDE = 65536
 ROWS_HELP = "cells along the field (forward); taken from accuracy when absent"
@@ -120,12 +124,82 @@ class SeatField(Section):
     corrector_passes: int | None = _corrector_passes()
 
 
+class Carcass(Section):
+    """Sidewalls and a rigid belt ring: spring and damper in series with the tread's contact."""
+
+    stiffness: float = number(
+        1e3, 1e9, "N/m", "of the sidewalls; with the default tread 200 kN/m at 3335 N in all (fitted)", default=3.1e5
+    )
+    damping: float = number(0.0, 1e6, "N s/m", "of the sidewalls; about 130 N s/m of the whole tire", default=300.0)
+    belt_mass: float = number(0.1, 1000.0, "kg", "belt and tread, a part of tire.wheel_mass", default=7.0)
+
+
+class TreadViscoelasticity(Section):
+    """Memory of the tread rubber: a Kelvin-Voigt element and Maxwell branches beside the modulus of `tire`, cell by cell."""
+
+    retardation_time: float = number(
+        0.0, 10.0, "s", "viscosity over the long-time modulus (Kelvin-Voigt); 0: none", default=0.0
+    )
+    branches: list[Branch] = numbers(
+        "",
+        "Maxwell branches: [modulus over the long-time modulus, relaxation time in s] each",
+        "0 to 8 pairs [ratio from 0 to 100, time from 1e-6 to 1e4 s]",
+        default=[[0.15, 0.1], [0.15, 0.01], [0.15, 0.001]],
+        shortest=0,
+        longest=8,
+    )
+
+
+class Envelopment(Section):
+    """A belt under tension on an elastic foundation yields under the pressure beside the tread, and bends over obstacles."""
+
+    tension: float = number(
+        1.0, 1e6, "N", "of the belt over its whole width; 220 kPa on 0.3 m by 0.15 m give 9900 N", default=9900.0
+    )
+    foundation: float = number(
+        1e3, 1e9, "N/m^2", "radial stiffness of the sidewalls per length of circumference (choice)", default=6.3e5
+    )
+
+
+class Brush(Section):
+    """Bristles that stick to the road and slip, cell by cell: longitudinal and lateral force, aligning moment."""
+
+    stiffness_x: float = number(
+        1e3, 1e12, "N/m^3", "shear stiffness of the tread per area, along the road (choice)", default=6e7
+    )
+    stiffness_y: float = number(1e3, 1e12, "N/m^3", "the same across the track; costs less where equal", default=6e7)
+    coefficient_static: float = number(
+        0.0, 5.0, "", "shear over pressure at which a bristle begins to slip; dry asphalt 0.9 to 1.1", above=True,
+        default=1.0,
+    )  # fmt: skip
+    coefficient_kinetic: float = number(
+        0.0, 5.0, "", "while it slips, at most coefficient_static; dry asphalt 0.7 to 0.8", above=True, default=0.75
+    )
+
+
+class AsperityImpulses(Section):
+    """Push of the road's asperities on the rolling tire, site by site; they act while the tire is in contact."""
+
+    spacing: float = number(1e-4, 10.0, "m", "distance of two sites along the road", default=0.02)
+    share: float = number(
+        0.0, 10.0, "", "of the standing load, carried together by the sites under the tire (choice)", default=0.1
+    )
+    window: Literal["rectangular", "raised_cosine"] = choice(
+        "how a site acts while it is under the tire; raised_cosine is smooth", default="rectangular"
+    )
+
+
 class TireEffects(Section):
     """Effects of the contact between tire and road."""
 
     normal_elastic: HertzElastic | None = choice("elastic force", default=None)
     normal_dissipative: TireLoss | None = choice("loss", default=None)
     contact_field: TireField | None = choice("pressure field", default=None)
+    carcass: Carcass | None = choice("sidewalls and belt ring", default=None)
+    envelopment: Envelopment | None = choice("belt that bends over obstacles", default=None)
+    tread_viscoelasticity: TreadViscoelasticity | None = choice("memory of the tread rubber", default=None)
+    brush: Brush | None = choice("friction of a rolling tire, stick and slip per cell", default=None)
+    asperity_impulses: AsperityImpulses | None = choice("impulses of the road's asperities", default=None)
 
 
 class SeatEffects(Section):

@@ -10,11 +10,16 @@ from contact_sim_pkg.scene.schema import Scene
 from contact_sim_pkg.scene.schema_catalog import show
 from contact_sim_pkg.scene.schema_clock import clock_breaches
 from contact_sim_pkg.scene.schema_road import BumpRoad, CleatRoad, Iso8608Road, PotholeRoad
+from contact_sim_pkg.scene.schema_tire_rules import slip_breaches, tire_effect_breaches
 from contact_sim_pkg.scene.schema_vibration import HalfSine, Noise, Recorded, Sine, Sweep
 
 NEEDED: dict[str, tuple[str, ...]] = {"tire": ("travel", "road"), "seat": ("vibration",), "car": ("travel", "road")}
 """Sections that a rig needs."""
-FORBIDDEN: dict[str, tuple[str, ...]] = {"tire": ("vibration", "seat"), "seat": ("travel", "road", "tire"), "car": ()}
+FORBIDDEN: dict[str, tuple[str, ...]] = {
+    "tire": ("vibration", "seat"),
+    "seat": ("travel", "road", "slip", "tire"),
+    "car": (),
+}
 """Sections that have no meaning for a rig."""
 
 
@@ -24,6 +29,8 @@ def breaches(scene: Scene) -> Iterator[Breach]:
         _sections(scene),
         clock_breaches(scene),
         _travel(scene),
+        slip_breaches(scene),
+        tire_effect_breaches(scene),
         _road(scene),
         _vibration(scene),
         _occupant(scene),

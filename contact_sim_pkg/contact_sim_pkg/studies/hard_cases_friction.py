@@ -102,7 +102,7 @@ def slide_with_lift_off() -> tuple[Vector, Vector, float]:
     friction = Friction(2.0e4, 200.0, 0.4, 0.35)
     contact = Contact(NormalElastic(2.73e5, 1.5), NormalDissipative(1.0), friction)
     none = numpy.zeros(0)
-    rig = Vehicle(gravity, None, None, Seat(0, mass, none, none, none), contact)
+    rig = Vehicle(gravity, None, None, None, Seat(0, mass, none, none, none), contact)
     count = 4000
     times = numpy.arange(count + 1) * 1e-3
     a_x, a_z = 6.0 * numpy.sin(2 * math.pi * 3.1 * times), 14.0 * numpy.sin(2 * math.pi * 4.0 * times)
@@ -114,8 +114,8 @@ def slide_with_lift_off() -> tuple[Vector, Vector, float]:
     samples = (numpy.zeros((count, 7)), numpy.zeros((count, 7)), numpy.zeros((count, entries.FORCES)))
     scale = numpy.array([1e-2, 0.5, 1e-2, 0.5, 1e-2, numpy.inf, numpy.inf]) * 1e-9
     before = numpy.array(entries.energies(rig, mode, state, 0.0, 0.0))
-    entries.start(rig, mode, state, work, 1e-3, zeros[:2], zeros[:2], a_x[:2], a_z[:2])
-    status = entries.advance(rig, mode, state, scale, work, 0.0, 1e-3, zeros, zeros, a_x, a_z, 1, *samples)
+    entries.start(rig, mode, state, work, 1e-3, zeros[:2], zeros[:2], a_x[:2], a_z[:2], None)
+    status = entries.advance(rig, mode, state, scale, work, 0.0, 1e-3, zeros, zeros, a_x, a_z, None, 1, *samples)
     if status != DONE:
         raise ArithmeticError(f"status {status}")
     kinetic, potential, stored, supplied, dissipated = (

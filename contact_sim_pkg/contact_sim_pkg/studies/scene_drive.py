@@ -13,12 +13,13 @@ from contact_sim_pkg.core.results import DONE, SENTENCES
 from contact_sim_pkg.core.rigs import advance as entries
 from contact_sim_pkg.core.rigs.vehicle import MARGINS
 from contact_sim_pkg.core.solvers.dormand_prince import make_workspace
-from contact_sim_pkg.reference.vehicle import Law, Occupant, Quarter, states_at_segments
+from contact_sim_pkg.reference.vehicle import Belt, Law, Occupant, Quarter, states_at_segments
 from contact_sim_pkg.run.sources import make_sources, make_travel
 from contact_sim_pkg.scene.build import Model, build, standing_state
 from contact_sim_pkg.scene.load import load_scene
 from contact_sim_pkg.scene.overrides import set_value
 from contact_sim_pkg.scene.resolve import ResolvedScene, resolve
+from contact_sim_pkg.scene.schema_effect_rules import dependents_of
 
 __all__ = ["SceneDrive", "drive_of", "fast_run", "load_resolved", "slow_run", "twin_laws", "without"]
 
@@ -40,16 +41,20 @@ def load_resolved(scene_name: str, *values: str) -> ResolvedScene:
 
 
 def without(scene: ResolvedScene, *effects: tuple[str, str]) -> ResolvedScene:
-    """The scene less some effects, each as (contact, effect); one that it does not name is passed over."""
+    """The scene less some effects, each as (contact, effect), and what needs them; one that it does not name is passed over."""
     data: dict[str, Any] = copy.deepcopy(scene.data)
     for contact, effect in effects:
-        (data["effects"].get(contact) or {}).pop(effect, None)
+        for name in (effect, *dependents_of(effect)):
+            (data["effects"].get(contact) or {}).pop(name, None)
+    if "brush" not in (data["effects"].get("tire") or {}):
+        data.pop("slip", None)
     return ResolvedScene(data, scene.files)
 
 
 def drive_of(scene: ResolvedScene, duration: float) -> SceneDrive:
-    """Drive of the scene's rig with point contacts over `duration` [s]; friction is left out, it does not act on z."""
-    effects = [(contact, effect) for contact in ("tire", "seat") for effect in ("contact_field", "friction")]
+    """Drive of the scene's rig with point contacts over `duration` [s], without friction (it does not act on z) and impulses."""
+    left_out = ("contact_field", "friction", "asperity_impulses")
+    effects = [(contact, effect) for contact in ("tire", "seat") for effect in left_out]
     plain = without(scene, *effects)
     model, sources = build(plain.data), make_sources(plain)
     timing = model.timing
@@ -88,9 +93,9 @@ def fast_run(drive: SceneDrive, scale: Vector) -> tuple[Vector, Vector]:
     state, mode = drive.start.copy(), numpy.zeros(1, dtype=numpy.int64)
     work, cushion = make_workspace(states, MARGINS), numpy.zeros(count + 1)
     rig, a_x, a_z = drive.model.rig, drive.acceleration_x, drive.acceleration_z
-    entries.start(rig, mode, state, work, drive.segment, drive.height[:2], cushion[:2], a_x[:2], a_z[:2])
+    entries.start(rig, mode, state, work, drive.segment, drive.height[:2], cushion[:2], a_x[:2], a_z[:2], None)
     status = entries.advance(
-        rig, mode, state, scale, work, 0.0, drive.segment, drive.height, cushion, a_x, a_z, 1, *samples
+        rig, mode, state, scale, work, 0.0, drive.segment, drive.height, cushion, a_x, a_z, None, 1, *samples
     )
     if status != DONE:
         raise ArithmeticError(SENTENCES[status])
@@ -121,6 +126,7 @@ def _law(contact: Contact | None) -> Law:
 
 
 def _twins(rig: Vehicle) -> tuple[Quarter | None, Occupant | None]:
-    quarter = None if rig.tire is None else Quarter(*rig.tire, _law(rig.tire_contact))
+    belt = None if rig.carcass is None else Belt(*rig.carcass[1:])
+    quarter = None if rig.tire is None else Quarter(*rig.tire, _law(rig.tire_contact), belt)
     occupant = None if rig.seat is None else Occupant(*rig.seat[1:], _law(rig.seat_contact))
     return quarter, occupant

@@ -22,7 +22,7 @@ def _shaken_seat(friction, count=1500):
     """Vertical states of an occupant who is shaken until he leaves the cushion."""
     masses = (numpy.array([33.4]), numpy.array([35776.0]), numpy.array([761.0]))
     contact = Contact(NormalElastic(2.73e5, 1.5), NormalDissipative(1.0), friction)
-    rig = Vehicle(9.81, None, None, Seat(0, 6.7, *masses), contact)
+    rig = Vehicle(9.81, None, None, None, Seat(0, 6.7, *masses), contact)
     states = 4 + (3 if friction else 0) + 2
     times = numpy.arange(count + 1) * 1e-3
     zeros, a_z = numpy.zeros(count + 1), 15.0 * numpy.sin(24.0 * times)
@@ -33,8 +33,8 @@ def _shaken_seat(friction, count=1500):
     scale[-2:] = numpy.inf
     work, mode = make_workspace(states, MARGINS), numpy.zeros(1, dtype=numpy.int64)
     samples = (numpy.zeros((count, states)), numpy.zeros((count, states)), numpy.zeros((count, entries.FORCES)))
-    entries.start(rig, mode, state, work, 1e-3, zeros[:2], zeros[:2], zeros[:2], a_z[:2])
-    assert entries.advance(rig, mode, state, scale, work, 0.0, 1e-3, zeros, zeros, zeros, a_z, 1, *samples) == 0
+    entries.start(rig, mode, state, work, 1e-3, zeros[:2], zeros[:2], zeros[:2], a_z[:2], None)
+    assert entries.advance(rig, mode, state, scale, work, 0.0, 1e-3, zeros, zeros, zeros, a_z, None, 1, *samples) == 0
     return samples[0][:, :4], samples[2][:, entries.SEAT_NORMAL]
 
 

@@ -40,13 +40,16 @@ class Contact:
         self.brush, self.pressure, self.grid = brush, numpy.array(pressure), grid
         self.state = make_brush_state(*self.pressure.shape)
         self.shear_x, self.shear_y = numpy.zeros_like(self.pressure), numpy.zeros_like(self.pressure)
+        self.mode = numpy.zeros(self.pressure.shape, dtype=numpy.uint8)
 
     def step(self, step, pressure=None, origin_x=None):
         if pressure is not None:
             self.pressure = pressure
         if origin_x is not None:
             self.grid = self.grid._replace(origin_x=origin_x)
-        self.result = advance_brush(self.brush, self.state, self.grid, self.pressure, step, self.shear_x, self.shear_y)
+        self.result = advance_brush(
+            self.brush, self.state, self.grid, self.pressure, step, self.shear_x, self.shear_y, self.mode
+        )
         return self.result
 
     def roll(self, travel, slip, slip_angle, steps=1):
@@ -397,6 +400,7 @@ def test_bristles_move_to_a_wider_grid_and_back():
         moves.state = brush_state_on(moves.state, rows + 2 * more_rows, cols + 2 * more_cols, grid.cell_x)
         moves.pressure = numpy.pad(pressure, ((more_rows, more_rows), (more_cols, more_cols)))
         moves.shear_x, moves.shear_y = numpy.zeros_like(moves.pressure), numpy.zeros_like(moves.pressure)
+        moves.mode = numpy.zeros(moves.pressure.shape, dtype=numpy.uint8)
         moves.grid = grid._replace(
             origin_x=grid.origin_x - more_rows * grid.cell_x, origin_y=grid.origin_y - more_cols * grid.cell_y
         )
@@ -432,3 +436,12 @@ def test_bad_numbers_are_refused_by_name():
         make_brush_state(0, 4)
     with pytest.raises(ValueError, match="from 4 to 7 columns, the two must differ by an even number"):
         brush_state_on(make_brush_state(4, 4), 4, 7, 0.01)
+
+
+def test_a_field_that_is_not_on_the_cells_of_the_bristles_is_refused():
+    state, grid = make_brush_state(6, 5), PatchGrid(0.0, 0.0, 0.01, 0.01)
+    right, wrong = numpy.zeros((6, 5)), numpy.zeros((5, 6))
+    mode = numpy.zeros((6, 5), dtype=numpy.uint8)
+    for fields in ((wrong, right, right, mode), (right, wrong, right, mode), (right, right, right, mode[:4].copy())):
+        with pytest.raises(ValueError, match="not on the cells of the bristles"):
+            advance_brush(COULOMB, state, grid, fields[0], rolling_step(0.01, 0.0, 0.0), *fields[1:])

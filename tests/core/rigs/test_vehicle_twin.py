@@ -5,13 +5,21 @@ import pytest
 
 from contact_sim_pkg.studies.scene_drive import drive_of, fast_run, load_resolved, slow_run
 
-SCALE = {"tire_bump": 1.2, "seat_ride": 0.5, "car_full_bench": 0.5, "tire_rough_road": 0.3}
+CASES = {
+    "tire_bump": (1.2,),
+    "tire_bump on its carcass": (1.2, "effects.tire.carcass={}"),
+    "seat_ride": (0.5,),
+    "car_full_bench": (0.5,),
+    "car_full_bench on its carcass": (0.3, "effects.tire.carcass={}"),
+    "tire_rough_road": (0.3,),
+}
 
 
-@pytest.mark.parametrize("name", SCALE)
+@pytest.mark.parametrize("name", CASES)
 def test_the_rig_follows_its_twin_to_the_asked_tolerance(name):
-    scene = load_resolved(name)
-    drive = drive_of(scene, SCALE[name])
+    duration, *values = CASES[name]
+    scene = load_resolved(name.split()[0], *values)
+    drive = drive_of(scene, duration)
     asked = float(scene.data["integrator"]["relative_tolerance"])
     exact = slow_run(drive)[:-1]
     for tolerance in (1e-6, 1e-9):

@@ -51,6 +51,10 @@ LEAST_WAY = 1e-12
 """Shorter ways of the belt [cells] in one step count as none: a locked wheel."""
 
 
+APART, STICKS, SLIPS = 0, 1, 2
+"""What the bristle of a cell does: it carries no pressure, its tip holds to the road, or slides over it."""
+
+
 class BrushState(NamedTuple):
     """What the bristles of one contact remember; written by `advance_brush`."""
 
@@ -140,14 +144,19 @@ def rolling_step(travel: float, slip: float, slip_angle: float) -> RollingStep:
 @entry
 def advance_brush(
     brush: Brush, state: BrushState, grid: PatchGrid, pressure: Field, step: RollingStep,
-    shear_x: NDArray[numpy.float64], shear_y: NDArray[numpy.float64],
+    shear_x: NDArray[numpy.float64], shear_y: NDArray[numpy.float64], mode: NDArray[numpy.uint8],
 ) -> BrushResult:  # fmt: skip
     """Carry the bristles through one step that ends with the field `pressure` [Pa] >= 0, float64 [rows, cols].
 
     grid: where that field lies; cells must be those of the state's fields before. The first field of a state counts as
-    having stood since before the step. shear_x, shear_y: stress on the tire [Pa], written, on the cells of `pressure`.
+    having stood since before the step. Written, on the cells of `pressure`: shear_x, shear_y, the stress on the tire [Pa], and
+    mode: APART, STICKS or SLIPS. Raises `ValueError` where a field is not on the cells of the state.
     Ways that are not finite give forces that are not. Cost: about one visit of each loaded cell for each cell of belt travel.
     """
+    rows, cols = state.before.shape[0] - 2 * PAD, state.before.shape[1]
+    for field_rows, field_cols in (pressure.shape, shear_x.shape, shear_y.shape, mode.shape):
+        if field_rows != rows or field_cols != cols:
+            raise ValueError("brush: a field is not on the cells of the bristles; move them with brush_state_on")
     first_field = state.place[2] == 0.0
     origin_before = grid.origin_x if first_field else state.place[1]
     phase = place_on(state.bristles, state.before, state.place[0], (grid.origin_x - origin_before) / grid.cell_x)
@@ -158,7 +167,9 @@ def advance_brush(
     copy_field(pressure, state.before)
     state.place[0], state.place[1], state.place[2] = phase, grid.origin_x, 1.0
     area = grid.cell_x * grid.cell_y
-    force_x, force_y, moment_z, share = write_shear(brush, state.bristles, grid, pressure, phase, shear_x, shear_y)
+    force_x, force_y, moment_z, share = write_shear(
+        brush, state.bristles, grid, pressure, phase, shear_x, shear_y, mode
+    )
     return BrushResult(force_x * area, force_y * area, moment_z * area, share, dissipated * area, released * area)
 
 
@@ -188,8 +199,9 @@ def march_all(
 
 @kernel
 def write_shear(
-    brush: Brush, bristles: Bristles, grid: PatchGrid, pressure: Field, phase: float, shear_x: Field, shear_y: Field
-) -> tuple[float, float, float, float]:
+    brush: Brush, bristles: Bristles, grid: PatchGrid, pressure: Field, phase: float, shear_x: Field, shear_y: Field,
+    mode: NDArray[numpy.uint8],
+) -> tuple[float, float, float, float]:  # fmt: skip
     """Shear [Pa] at the centres of the cells; returns its sums (x, y, moment) and the share of sliding cells.
 
     A centre lies between two bristles: deflections are interpolated, a bristle out of contact does not count; the nearer one
@@ -203,7 +215,7 @@ def write_shear(
         x = grid.origin_x + i * grid.cell_x
         beyond = i + far - near
         for j in range(cols):
-            shear_x[i, j], shear_y[i, j] = 0.0, 0.0
+            shear_x[i, j], shear_y[i, j], mode[i, j] = 0.0, 0.0, APART
             if not pressure[i, j] > 0.0:
                 continue
             counts = weight if 0 <= beyond < rows and pressure[beyond, j] > 0.0 else 0.0
@@ -213,7 +225,9 @@ def write_shear(
             sum_y += tau_y
             moment += x * tau_y - (grid.origin_y + j * grid.cell_y) * tau_x
             loaded += 1
-            sliding += bristles.sliding[PAD + i + near, j]
+            slips = bristles.sliding[PAD + i + near, j] != 0
+            mode[i, j] = SLIPS if slips else STICKS
+            sliding += 1 if slips else 0
     return sum_x, sum_y, moment, sliding / max(loaded, 1)
 
 

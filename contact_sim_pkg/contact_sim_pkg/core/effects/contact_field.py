@@ -18,6 +18,7 @@ from ..field_solver import BAD_INPUT, CONVERGED, EDGE, SENTENCES, FieldResult, r
 from ..field_window import WindowedSolver
 from ..halfspace import HalfSpace, make_half_space
 from ..parameters import FieldSettings, NormalElastic
+from .envelopment import belt_influence
 from .normal_elastic import approach_of_force
 
 Field = NDArray[numpy.float64]
@@ -32,6 +33,13 @@ class FieldEdgeError(FieldError):
     """The contact reached the edge of the grid."""
 
 
+def half_space_of(settings: FieldSettings) -> HalfSpace:
+    """Half-space of a field's grid, with the belt that yields beside it where there is one."""
+    size = (settings.rows, settings.cols, settings.cell_x, settings.cell_y)
+    belt = None if settings.belt is None else belt_influence(settings.belt, *size)
+    return make_half_space(*size, settings.modulus, belt)
+
+
 class PressureField:
     """One pressure field that follows its contact: influence tables, the solver's buffers and its last field."""
 
@@ -39,9 +47,7 @@ class PressureField:
         """Make influence tables and buffers for ``settings``; ``contact`` names it in messages (``tire``, ``seat``)."""
         self.settings = settings
         self.contact = contact
-        self.half_space: HalfSpace = make_half_space(
-            settings.rows, settings.cols, settings.cell_x, settings.cell_y, settings.modulus
-        )
+        self.half_space: HalfSpace = half_space_of(settings)
         self._solver = WindowedSolver(self.half_space)
         self.pressure: Field = numpy.zeros((settings.rows, settings.cols))
         self.load = 0.0

@@ -14,14 +14,23 @@ from .interface import rate
 
 TIRE_NORMAL, TIRE_APPROACH, TIRE_HEIGHT, TIRE_RATE = 0, 1, 2, 3
 SEAT_NORMAL, SEAT_TANGENTIAL, SEAT_APPROACH, SEAT_HEIGHT, SEAT_RATE = 4, 5, 6, 7, 8
-FORCES = 9
+TIRE_PUSH = 9
+FORCES = 10
 
 
 @kernel
-def _segment(start, length, i, height, cushion, acceleration_x, acceleration_z):
+def _value(values, i):
+    if values is None:
+        return None
+    return values[i]
+
+
+@kernel
+def _segment(start, length, i, height, cushion, acceleration_x, acceleration_z, push):
     return Drive(
         start + i * length, length, height[i], height[i + 1], cushion[i], cushion[i + 1],
         acceleration_x[i], acceleration_x[i + 1], acceleration_z[i], acceleration_z[i + 1],
+        _value(push, i), _value(push, i + 1),
     )  # fmt: skip
 
 
@@ -38,13 +47,14 @@ def _tangential(friction, seat, mode, normal, state):
 def _observe(rig, drive, mode, state, out):
     """Forces, approaches and heights of both contacts at the start of the segment."""
     height, height_rate, cushion, cushion_rate, _a_x, _a_z = vehicle.drive_at(drive, drive.start)
-    tire_x, tire_v = vehicle.tire_approach(rig.tire, height, height_rate, state)
+    tire_x, tire_v = vehicle.tire_approach(rig.tire, rig.carcass, height, height_rate, state)
     seat_x, seat_v = vehicle.seat_approach(rig.tire, rig.seat, cushion, cushion_rate, state)
     seat_normal = vehicle.normal_force(rig.seat_contact, seat_x, seat_v)
     out[TIRE_NORMAL] = vehicle.normal_force(rig.tire_contact, tire_x, tire_v)
     out[TIRE_APPROACH] = tire_x
     out[TIRE_HEIGHT] = height
     out[TIRE_RATE] = tire_v
+    out[TIRE_PUSH] = vehicle.push_at(drive, drive.start) if tire_x > 0.0 else 0.0
     out[SEAT_NORMAL] = seat_normal
     out[SEAT_TANGENTIAL] = _tangential(vehicle._friction_of(rig.seat_contact), rig.seat, mode, seat_normal, state)
     out[SEAT_APPROACH] = seat_x
@@ -55,28 +65,29 @@ def _observe(rig, drive, mode, state, out):
 @entry
 def start(
     rig: Vehicle, mode: Modes, state: Vector, work: Workspace, segment_length: float, height: Vector, cushion: Vector,
-    acceleration_x: Vector, acceleration_z: Vector,
+    acceleration_x: Vector, acceleration_z: Vector, push: Vector | None,
 ) -> None:  # fmt: skip
     """Take the sides of the event functions at the start of a run (arrays hold the first segment's two ends)."""
-    drive = _segment(0.0, segment_length, 0, height, cushion, acceleration_x, acceleration_z)
+    drive = _segment(0.0, segment_length, 0, height, cushion, acceleration_x, acceleration_z, push)
     set_sides(rig, drive, mode, 0.0, state, work)
 
 
 @entry
 def advance(
     rig: Vehicle, mode: Modes, state: Vector, scale: Vector, work: Workspace, start: float, segment_length: float,
-    height: Vector, cushion: Vector, acceleration_x: Vector, acceleration_z: Vector,
+    height: Vector, cushion: Vector, acceleration_x: Vector, acceleration_z: Vector, push: Vector | None,
     sample_every: int, sampled_states: Vector, sampled_rates: Vector, sampled_forces: Vector,
 ) -> int:  # fmt: skip
     """Advance ``state`` over ``len(height) - 1`` segments of ``segment_length`` in [s] from time ``start``.
 
-    ``height``, ``cushion`` [m], ``acceleration_x``, ``acceleration_z`` [m/s^2]: values at the ends of the segments, linear
-    between. Every ``sample_every``-th segment's start is sampled: state, rates (seen from the right) and the columns
-    ``TIRE_NORMAL ...`` of the forces. Returns a status of ``core/results.py``; ``mode``, ``state`` and ``work`` change in place.
+    ``height``, ``cushion`` [m], ``acceleration_x``, ``acceleration_z`` [m/s^2], ``push`` [N] (None: none): values at the
+    ends of the segments, linear between. Every ``sample_every``-th segment's start is sampled: state, rates (seen from the
+    right) and the columns ``TIRE_NORMAL ...`` of the forces. Returns a status of ``core/results.py``; ``mode``, ``state`` and
+    ``work`` change in place.
     """
     row = 0
     for i in range(height.shape[0] - 1):
-        drive = _segment(start, segment_length, i, height, cushion, acceleration_x, acceleration_z)
+        drive = _segment(start, segment_length, i, height, cushion, acceleration_x, acceleration_z, push)
         if i % sample_every == 0:
             copy_row(state, sampled_states[row])
             rate(rig, drive, mode, drive.start, state, sampled_rates[row])
@@ -95,6 +106,15 @@ def _tire_energies(tire, gravity, state):
     kinetic = 0.5 * (tire.wheel_mass * state[2] ** 2 + tire.body_mass * state[3] ** 2)
     potential = gravity * (tire.wheel_mass * state[0] + tire.body_mass * state[1])
     return kinetic, potential, 0.5 * tire.suspension_stiffness * (state[0] - state[1]) ** 2
+
+
+@kernel
+def _carcass_energies(carcass, gravity, state):
+    if carcass is None:
+        return 0.0, 0.0, 0.0
+    belt = carcass.offset
+    kinetic = 0.5 * carcass.belt_mass * state[belt + 1] ** 2
+    return kinetic, gravity * carcass.belt_mass * state[belt], 0.5 * carcass.stiffness * (state[belt] - state[0]) ** 2
 
 
 @kernel
@@ -138,8 +158,12 @@ def energies(
 ) -> tuple[float, float, float, float, float]:
     """Kinetic, potential, stored energy, work supplied, work dissipated, all in [J], of ``state`` at given heights in [m]."""
     kinetic, potential, stored = _tire_energies(rig.tire, rig.gravity, state)
+    belt_kinetic, belt_potential, belt_stored = _carcass_energies(rig.carcass, rig.gravity, state)
+    kinetic += belt_kinetic
+    potential += belt_potential
+    stored += belt_stored
     seat_kinetic, seat_potential, seat_stored = _seat_energies(rig.seat, rig.gravity, state)
-    tire_x, _tire_v = vehicle.tire_approach(rig.tire, height, 0.0, state)
+    tire_x, _tire_v = vehicle.tire_approach(rig.tire, rig.carcass, height, 0.0, state)
     seat_x, _seat_v = vehicle.seat_approach(rig.tire, rig.seat, cushion, 0.0, state)
     normal = vehicle.normal_force(rig.seat_contact, seat_x, _seat_v)
     slide_kinetic, spring = _slide_energies(vehicle._friction_of(rig.seat_contact), rig.seat, mode, normal, state)

@@ -2,16 +2,19 @@
 
 Vertical motion (z up), and the occupant's sliding on the cushion (x forward) where the scene calls for friction.
 
-* wheel  ``m_w z_w'' = F_tire - m_w g - F_susp``, ``F_susp = k (z_w - z_b) + c (z_w' - z_b')``
+* wheel  ``m_w z_w'' = F_tire - m_w g - F_susp``, ``F_susp = k (z_w - z_b) + c (z_w' - z_b')``; with a carcass the force of
+  its sidewalls takes the place of F_tire
+* belt   ``m_r z_r'' = F_tire - m_r g - F_side``, ``F_side = k (z_r - z_w) + c (z_r' - z_w')``
 * body   ``m_b z_b'' = F_susp - m_b g - F_seat + m_b a_z(t)`` (a_z: what the drive line gives to the free body)
 * frame  ``m_0 z_0'' = F_seat - m_0 g + sum_i [k_i (z_i - z_0) + c_i (z_i' - z_0')]``
 * masses ``m_i z_i'' = -m_i g - k_i (z_i - z_0) - c_i (z_i' - z_0')``
 * slide  ``M x'' = -M a_x(t) - F_t`` relative to the seat, M the whole occupant
 
-Approaches: tire ``h(t) - z_w``, h the effective road height; seat ``z_floor + h_c(t) - z_0``, h_c that of the cushion.
+Approaches: tire ``h(t) - z_w`` (belt: ``h(t) - z_r``), h the effective road height; seat ``z_floor + h_c(t) - z_0``, h_c that
+of the cushion.
 Without a tire the floor is the (accelerated) frame of reference: z_floor = 0 and every mass feels ``-m a_z(t)``.
-State: [z_w, z_b, v_w, v_b] [z_0 .. z_n, v_0 .. v_n] [x, v_x, s] [supplied, dissipated]; the last two are the works in [J]
-that the energy ledger needs. Work that friction takes up is counted whole; its spring's energy is taken off in
+State: [z_w, z_b, v_w, v_b] [z_r, v_r] [z_0 .. z_n, v_0 .. v_n] [x, v_x, s] [supplied, dissipated]; the last two are the works
+in [J] that the energy ledger needs. Work that friction takes up is counted whole; its spring's energy is taken off in
 ``core/energy.py``.
 """
 
@@ -40,6 +43,13 @@ def _between(start, end, part):
 
 
 @kernel
+def _push_between(start, end, part):
+    if start is None:
+        return 0.0
+    return _between(start, end, part)
+
+
+@kernel
 def drive_at(drive, time):
     """Road height, its rate, cushion height, its rate, floor accelerations x and z at ``time``."""
     part = (time - drive.start) / drive.length
@@ -54,11 +64,26 @@ def drive_at(drive, time):
 
 
 @kernel
-def tire_approach(tire, height, height_rate, state):
+def push_at(drive, time):
+    """Force in [N] that road asperities add at ``time``; 0 where the scene calls for none."""
+    return _push_between(drive.push_0, drive.push_1, (time - drive.start) / drive.length)
+
+
+@kernel
+def tread_motion(carcass, state):
+    """Height in [m] and velocity in [m/s] of what touches the road: the belt, or the wheel where there is no carcass."""
+    if carcass is None:
+        return state[0], state[2]
+    return state[carcass.offset], state[carcass.offset + 1]
+
+
+@kernel
+def tire_approach(tire, carcass, height, height_rate, state):
     """Approach in [m] and its rate in [m/s]; apart where there is no tire."""
     if tire is None:
         return -1.0, 0.0
-    return height - state[0], height_rate - state[2]
+    tread, tread_rate = tread_motion(carcass, state)
+    return height - tread, height_rate - tread_rate
 
 
 @kernel
@@ -93,6 +118,19 @@ def _lost_power(contact, approach, approach_rate, force):
     if contact is None:
         return 0.0
     return (force - elastic_force(contact.elastic, approach)) * approach_rate
+
+
+@kernel
+def _carcass_rates(carcass, gravity, force, state, out):
+    """Rates of the belt; returns the force on the wheel and the power that the sidewalls take."""
+    if carcass is None:
+        return force, 0.0
+    belt = carcass.offset
+    closing = state[belt + 1] - state[2]
+    sidewalls = carcass.stiffness * (state[belt] - state[0]) + carcass.damping * closing
+    out[belt] = state[belt + 1]
+    out[belt + 1] = (force - sidewalls) / carcass.belt_mass - gravity
+    return sidewalls, carcass.damping * closing * closing
 
 
 @kernel
@@ -179,11 +217,14 @@ def _friction_of(contact):
 @kernel
 def _rate(rig, drive, mode, time, state, out):
     height, height_rate, cushion, cushion_rate, a_x, a_z = drive_at(drive, time)
-    tire_x, tire_v = tire_approach(rig.tire, height, height_rate, state)
+    tire_x, tire_v = tire_approach(rig.tire, rig.carcass, height, height_rate, state)
     tire_force = normal_force(rig.tire_contact, tire_x, tire_v)
+    push = push_at(drive, time) if tire_x > 0.0 else 0.0
+    on_wheel, lost_in_sidewalls = _carcass_rates(rig.carcass, rig.gravity, tire_force + push, state, out)
     seat_x, seat_v = seat_approach(rig.tire, rig.seat, cushion, cushion_rate, state)
     seat_force = normal_force(rig.seat_contact, seat_x, seat_v)
-    lost = _tire_rates(rig.tire, rig.gravity, tire_force, seat_force, a_z, state, out)
+    lost = lost_in_sidewalls
+    lost += _tire_rates(rig.tire, rig.gravity, on_wheel, seat_force, a_z, state, out)
     lost_in_links, brought = _seat_rates(rig.tire, rig.seat, rig.gravity, seat_force, a_z, state, out)
     rubbed, brought_x = _slide_rates(_friction_of(rig.seat_contact), rig.seat, mode, seat_force, a_x, state, out)
     lost += lost_in_links + rubbed
@@ -191,7 +232,7 @@ def _rate(rig, drive, mode, time, state, out):
     lost += _lost_power(rig.seat_contact, seat_x, seat_v, seat_force)
     last = state.shape[0]
     out[last - 2] = brought + brought_x + tire_force * height_rate + seat_force * cushion_rate
-    out[last - 2] += _body_power(rig.tire, a_z, state)
+    out[last - 2] += _body_power(rig.tire, a_z, state) + push * _tread_velocity(rig.tire, rig.carcass, state)
     out[last - 1] = lost
 
 
@@ -200,6 +241,13 @@ def _body_power(tire, acceleration_z, state):
     if tire is None:
         return 0.0
     return tire.body_mass * acceleration_z * state[3]
+
+
+@kernel
+def _tread_velocity(tire, carcass, state):
+    if tire is None:
+        return 0.0
+    return tread_motion(carcass, state)[1]
 
 
 @kernel
@@ -246,7 +294,7 @@ def _friction_margin(friction, contact, tire, seat, mode, approach, approach_rat
 @kernel
 def _margins(rig, drive, mode, time, state, derivative, out):
     height, height_rate, cushion, cushion_rate, _a_x, _a_z = drive_at(drive, time)
-    tire_x, tire_v = tire_approach(rig.tire, height, height_rate, state)
+    tire_x, tire_v = tire_approach(rig.tire, rig.carcass, height, height_rate, state)
     seat_x, seat_v = seat_approach(rig.tire, rig.seat, cushion, cushion_rate, state)
     out[TIRE_APPROACH] = tire_x
     out[TIRE_TENSION] = _tension_of(rig.tire_contact, tire_v)

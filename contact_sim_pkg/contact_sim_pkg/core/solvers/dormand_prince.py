@@ -260,6 +260,11 @@ def integrate(rig, drive, mode, end, state, scale, work):  # noqa: C901
         if part > 0.0:
             inner = max(0.0, part - 1.0 / (INSIDE_POINTS + 1.0)) * step
             step, event = _locate(rig, drive, mode, time, inner, part * step, state, work)
+            error = UNDERESTIMATE * _error(step, k, scale)  # contact ends as it begins: mirrored in time
+            if error > 1.0:
+                proposed = step * max(0.1, 0.9 * error**-0.4)
+                work.counters[REJECTED] += 1
+                continue
             last = False
         else:
             factor = 5.0 if error < 1.0e-4 else min(5.0, 0.9 * error**-0.2)

@@ -1,0 +1,60 @@
+"""What a contact of either kind is built from: its loss, the grids of its field, and the tangent law between field instants."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Any
+
+import numpy
+from numpy.typing import NDArray
+
+from contact_sim_pkg.core.effects.contact_field import FieldError, PressureField, fit_tangent
+from contact_sim_pkg.core.parameters import FieldSettings, NormalDissipative, NormalElastic, widened
+from contact_sim_pkg.core.restitution import damping_of_restitution
+from contact_sim_pkg.scene.errors import Fault, SceneError
+from contact_sim_pkg.scene.lattice import effects_at
+
+DEFAULT_DAMPING = {"tire": 0.06, "seat": 1.0}  # [s/m], see scene/schema_effects.py
+
+
+@dataclass(frozen=True)
+class FieldGrids:
+    """The pressure field of one contact, and the wider one that takes over where the contact outgrows it."""
+
+    usual: PressureField
+    wide: PressureField
+
+    def both(self) -> tuple[PressureField, PressureField]:
+        """Usual grid first."""
+        return (self.usual, self.wide)
+
+
+def loss_of(scene: dict[str, Any], contact: str) -> NormalDissipative | None:
+    loss = effects_at(scene, contact).get("normalloss_of")
+    if loss is None:
+        return None
+    if loss.get("restitution") is not None:
+        return NormalDissipative(damping_of_restitution(float(loss["restitution"]), float(loss["reference_speed"])))
+    damping = loss.get("damping")
+    return NormalDissipative(DEFAULT_DAMPING[contact] if damping is None else float(damping))
+
+
+def make_grids(settings: FieldSettings, contact: str) -> FieldGrids:
+    return FieldGrids(PressureField(settings, contact), PressureField(widened(settings), contact))
+
+
+def tangent_law(
+    grids: FieldGrids, gap_on: Callable[[FieldSettings], NDArray[numpy.float64]], load: float, contact: str
+) -> NormalElastic:
+    """Tangent law at the standing load; on the wide grid where the usual one does not hold the contact."""
+    for field in grids.both():
+        try:
+            return fit_tangent(field, gap_on(field.settings), load)
+        except FieldError as error:
+            reason = error
+    where = f"effects.{contact}.contact_field"
+    sentence = (
+        f"the contact does not fit on its grid at the standing load of {load:.6g} N: {reason}; enlarge length and width"
+    )
+    raise SceneError([Fault("scene", 0, 0, where, sentence)])

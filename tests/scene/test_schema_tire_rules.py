@@ -1,0 +1,48 @@
+"""Rules between keys of the tire's effects: each fault names its place, its value and what is allowed."""
+
+import pytest
+
+FIELD = {"normal_elastic": {}, "contact_field": {}}
+
+
+def faults(maker, effects, **keys):
+    return maker.faults("tire", {"effects.tire": {**FIELD, **effects}, **keys})
+
+
+@pytest.mark.parametrize(
+    ("effects", "sentence"),
+    [
+        ({"carcass": {"belt_mass": 40}}, "belt_mass: 40 kg is not below tire.wheel_mass (40 kg)"),
+        ({"brush": {"coefficient_static": 0.5}}, "coefficient_kinetic: 0.75 is above coefficient_static (0.5)"),
+        ({"tread_viscoelasticity": {"branches": [[0.1, 0.0]]}}, "branches.0.1: 0 s is outside 1e-06 to 10000 s"),
+        ({"tread_viscoelasticity": {"branches": [[0.1, 1.0], [-1, 1.0]]}}, "branches.1.0: -1 is outside 0 to 100"),
+    ],
+)
+def test_values_of_an_effect_that_do_not_go_together_are_refused(maker, effects, sentence):
+    (fault,) = faults(maker, effects)
+    assert sentence in fault
+
+
+@pytest.mark.parametrize(
+    ("slip", "sentence"),
+    [
+        ({"points": [[1.0, 0, 0]]}, "slip.points.0.0: the first time is 1 s; it must be 0"),
+        ({"points": [[0, 0, 0], [0, 0, 0]]}, "slip.points.1.0: time 0 s does not come after 0 s"),
+        ({"points": [[0, -1.5, 0]]}, "slip.points.0.1: -1.5 is outside -1 to 10"),
+        ({"points": [[0, 0, 2]]}, "slip.points.0.2: 2 rad is outside -1.5 to 1.5 rad"),
+        ({"points": [[0, 0, 0]], "angle": 0.1}, "slip.angle: angle and points are both given"),
+    ],
+)
+def test_a_slip_programme_out_of_order_or_range_is_refused(maker, slip, sentence):
+    (fault,) = faults(maker, {"brush": {}}, slip=slip)
+    assert sentence in fault
+
+
+def test_a_slip_that_nothing_uses_is_refused(maker):
+    (fault,) = faults(maker, {}, slip={"angle": 0.1})
+    assert "acts through the effect brush" in fault
+
+
+def test_a_seat_has_no_slip(maker):
+    (fault,) = maker.faults("seat", {"slip": {"angle": 0.1}})
+    assert "the rig seat has no slip" in fault
