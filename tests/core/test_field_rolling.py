@@ -179,16 +179,51 @@ def test_a_cold_start_finds_a_spot_that_the_coarser_grid_does_not_feel():
     numpy.testing.assert_allclose(field.pressure, expected, atol=1e-5 * expected.max())
 
 
-def test_a_prediction_saves_iterations_on_a_smooth_road():
+def test_a_prediction_saves_convolutions_on_a_smooth_road():
     x = (numpy.arange(160)[:, None] * CELL) * numpy.ones((1, COLS))
     heights, field = 1e-4 * numpy.sin(300.0 * x) * numpy.cos(200.0 * Y), RollingField(HALF_SPACE)
     field.solve_at_load(gap_over(heights, 0), 150.0, 1e-3, 900)
-    from_nothing = whole(gap_over(heights, 0), 150.0, 1e-3)[1].iterations
-    warm = []
+    workspace, pressure = make_workspace(HALF_SPACE), numpy.zeros((ROWS, COLS))
+    solve_at_load(HALF_SPACE, workspace, gap_over(heights, 0), 150.0, 1e-3, 900, pressure)
+    from_nothing, before = int(workspace.buffers.convolutions[0]), field.convolutions
     for step in range(1, 12):
         field.roll(1)
-        warm.append(field.solve_at_load(gap_over(heights, step), 150.0, 1e-3, 900).iterations)
-    assert numpy.mean(warm[2:]) < 0.5 * from_nothing
+        field.solve_at_load(gap_over(heights, step), 150.0, 1e-3, 900)
+    assert (field.convolutions - before) / 11 < 0.6 * from_nothing
+
+
+def test_a_field_that_rolls_is_as_accurate_at_its_worst_as_elsewhere():
+    heights, field, errors = road(8), RollingField(HALF_SPACE), []
+    for step in range(40):
+        field.roll(1)
+        gap = gap_over(heights, step)
+        field.solve_at_load(gap, 150.0, 2e-3, 900)
+        expected, _ = whole(gap, 150.0)
+        errors.append(numpy.linalg.norm(field.pressure - expected) / numpy.linalg.norm(expected))
+    assert max(errors) <= 6.0 * 2e-3
+    assert max(errors[3:]) <= 3.0 * numpy.median(errors[3:])
+
+
+@pytest.mark.parametrize("holds_load", [True, False])
+def test_solving_an_instant_again_is_a_solve_at_the_same_place(holds_load):
+    heights, field, once = road(9), RollingField(HALF_SPACE), RollingField(HALF_SPACE)
+    for step in range(4):
+        gap = gap_over(heights, 2 * step)
+        given = 150.0 if holds_load else 9e-4
+        for each, shares in ((field, (0.9, 1.05, 1.0)), (once, (1.0,))):
+            each.roll(2)
+            solve = each.solve_at_load if holds_load else each.solve_at_approach
+            results = [solve(gap, share * given, TOLERANCE, 900) for share in shares]
+            must_agree(each, results[-1], gap, results[-1].load)
+    numpy.testing.assert_allclose(field.pressure, once.pressure, atol=1e-6 * once.pressure.max())
+
+
+def test_a_repeated_solve_starts_from_the_last():
+    heights, field = road(10), RollingField(HALF_SPACE)
+    field.solve_at_approach(gap_over(heights, 0), 9e-4, 1e-3, 900)
+    before = field.convolutions
+    result = field.solve_at_approach(gap_over(heights, 0), 9e-4 * (1.0 + 1e-5), 1e-3, 900)
+    assert (result.status, field.convolutions - before) == (CONVERGED, 1)
 
 
 def test_contact_at_the_grid_s_edge_is_reported_and_at_the_window_s_edge_is_not():

@@ -1,0 +1,130 @@
+"""One instant of a rolling pressure field in one compiled piece: predict, correct, certify, look outside the window, keep."""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy
+from numpy.typing import NDArray
+
+from contact_sim_pkg.core.field_follow import follow
+from contact_sim_pkg.core.field_iteration import SolverWorkspace
+from contact_sim_pkg.core.field_outside import BlockSums, enclose
+from contact_sim_pkg.core.field_prediction import Known, predict, remember, scale_to
+from contact_sim_pkg.core.field_solver import total_of
+from contact_sim_pkg.core.halfspace import Field, HalfSpace
+from contact_sim_pkg.core.jit import entry, kernel
+
+__all__ = ["Instant", "all_finite", "grown_window", "keep_window", "solve_instant"]
+
+Values = NDArray[numpy.float64]
+
+
+class Instant(NamedTuple):
+    """What a solve from a prediction came to."""
+
+    certified: bool  # otherwise the field on the whole grid is a start, and nothing else means anything
+    corrections: int
+    load: float  # [N]
+    approach: float  # [m]
+    residual: float  # [-]
+    window: tuple[int, int, int, int]  # first row, first column, rows, columns of the window that is needed
+    box: tuple[int, int, int, int]  # first and last row, first and last column of the contact
+
+
+@entry
+def all_finite(gap: Field) -> bool:
+    """Whether every height is a finite number."""
+    faults = 0
+    for i in range(gap.shape[0]):
+        for j in range(gap.shape[1]):
+            faults += 0 if abs(gap[i, j]) < numpy.inf else 1
+    return faults == 0
+
+
+@entry
+def solve_instant(
+    whole: HalfSpace,
+    part: HalfSpace,
+    workspace: SolverWorkspace,
+    gap: Field,
+    given: float,
+    holds_load: bool,
+    tolerance: float,
+    max_corrections: int,
+    first_row: int,
+    first_col: int,
+    last: Known,
+    before: Known,
+    keep: Known,
+    share: float,
+    lengths: Values,
+    blocks: BlockSums,
+    pressure: Field,
+) -> Instant:
+    """Solve on the window of the size of `part` at (first_row, first_col), from what is known; `pressure` is overwritten.
+
+    `keep` (`last` or `before`) takes the new field. A prediction that fails is put into `pressure` as a start.
+    """
+    rows, cols = part.rows, part.cols
+    window, cell = (first_row, first_col, rows, cols), whole.cell_x * whole.cell_y
+    datum = load_heights(gap, first_row, first_col, workspace.height, workspace.clipped)
+    predict(workspace, first_row, first_col, last, before, share)
+    total, approach = (given / cell, 0.0) if holds_load else (-1.0, given - datum)
+    if (holds_load or approach > 0.0) and scale_to(workspace, approach, total):
+        found = follow(part, workspace, approach, total, tolerance, max_corrections, lengths)
+        if found.certified:
+            box = remember(workspace, first_row, first_col, keep, pressure)
+            approach = found.approach + datum if holds_load else given
+            window = enclose(whole, gap, approach, pressure, blocks, *window)
+            load = total_of(workspace.pressure) * cell
+            return Instant(True, found.corrections, load, approach, found.residual, window, box)
+    put_start(workspace, first_row, first_col, pressure)
+    return Instant(False, 0, 0.0, given, numpy.inf, window, (0, 0, 0, 0))
+
+
+@entry
+def keep_window(
+    workspace: SolverWorkspace, first_row: int, first_col: int, keep: Known, pressure: Field
+) -> tuple[int, int, int, int]:
+    """Keep what another solver left in the workspace; as `remember`."""
+    return remember(workspace, first_row, first_col, keep, pressure)
+
+
+@entry
+def grown_window(
+    whole: HalfSpace, gap: Field, approach: float, pressure: Field, blocks: BlockSums,
+    first_row: int, first_col: int, rows: int, cols: int,
+) -> tuple[int, int, int, int]:  # fmt: skip
+    """See `enclose`."""
+    return enclose(whole, gap, approach, pressure, blocks, first_row, first_col, rows, cols)
+
+
+@kernel
+def load_heights(gap: Field, first_row: int, first_col: int, height: Field, line: Values) -> float:
+    """Gap of a window above its lowest cell, which is returned; `line` [cols] is scratch."""
+    rows, cols = height.shape
+    for j in range(cols):
+        line[j] = numpy.inf
+    for i in range(rows):
+        for j in range(cols):
+            line[j] = min(line[j], gap[first_row + i, first_col + j])
+    least = numpy.inf
+    for j in range(cols):
+        least = min(least, line[j])
+    for i in range(rows):
+        for j in range(cols):
+            height[i, j] = gap[first_row + i, first_col + j] - least
+    return least
+
+
+@kernel
+def put_start(workspace: SolverWorkspace, first_row: int, first_col: int, pressure: Field) -> None:
+    """What the corrections came to, as a start on the whole grid: positive and finite, zero elsewhere."""
+    rows, cols = workspace.pressure.shape
+    pressure[:] = 0.0
+    for i in range(rows):
+        for j in range(cols):
+            p = workspace.pressure[i, j]
+            if 0.0 < p < numpy.inf:
+                pressure[first_row + i, first_col + j] = p
