@@ -2,8 +2,8 @@
 
 Columns of a row: `rig`, `part` (the ladder), `case` (the input), `quantity`, `rung`, `grid`, `tolerance`, `value` and `expected`
 (SI; null for an L2 distance), `error` (relative, against `reference`), and where a grid is solved its two parts: `solver_error`,
-against the same grid to 1e-10, and `grid_error`, of the converged grid against the reference; `ms_per_call` (median of many
-calls, compiled and warm, from nothing). How to read it: `docs/accuracy.md`.
+against the same grid to 1e-10, and `grid_error`, of the converged grid against the reference; `ms_per_call` (processor time
+of one thread, median of many calls, compiled and warm, fields from nothing). How to read it: `docs/accuracy.md`.
 """
 
 from __future__ import annotations

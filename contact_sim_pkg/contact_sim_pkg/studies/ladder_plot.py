@@ -35,7 +35,7 @@ def write_plot(rows: list[Row], path: str | Path) -> Path:
     for axis, part in zip(axes.flat, parts, strict=False):
         _panel(axis, [row for row in rows if row["part"] == part])
         axis.set_title(part)
-    figure.savefig(path, dpi=110)
+    figure.savefig(path, dpi=80)
     pyplot.close(figure)
     return Path(path)
 
