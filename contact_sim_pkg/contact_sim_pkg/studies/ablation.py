@@ -30,6 +30,11 @@ FEEDS: dict[str, tuple[str, ...]] = {
     "normal_dissipative": ("force", "wrench", "patch"),
     "friction": ("force", "wrench"),
     "contact_field": ("patch", "force", "wrench"),
+    "carcass": ("force", "wrench", "patch"),
+    "envelopment": ("patch", "force", "wrench"),
+    "tread_viscoelasticity": ("patch", "force", "wrench"),
+    "brush": ("shear", "force", "wrench"),
+    "asperity_impulses": ("force", "wrench"),
 }
 """Topics of the contact that an effect feeds; every effect also feeds `bench/motion` and `bench/energy`."""
 BENCH_TOPICS = ("bench/motion", "bench/energy")
@@ -53,7 +58,8 @@ def study(scene_name: str, progress: Callable[[str], None] | None = None) -> lis
     `cost_with`, `cost_without` [ms per simulated second], `cost` (median difference of the pairs), `cost_noise` (half the range
     of these differences: a cost below it is none that was seen), `cost_share` (`cost` over `cost_with`), `load_mean_change`
     and `load_rms_change` (relative, of the normal force), `called_for` (`needed`, `not needed` or `no rule`), `verdict`
-    (`as it should be`, `on but not needed`, `off but needed`, `carries the load`) and `why`. Raises what a bad scene raises.
+    (`as it should be`, `on but not needed`, `off but needed`, `not available`, `carries the load`) and `why`. Raises what a
+    bad scene raises.
     """
     tell = progress or (lambda text: None)
     scene = load_resolved(scene_name)
@@ -112,6 +118,11 @@ def _row(scene_name: str, scene: ResolvedScene, contact: str, effect: str) -> di
             "verdict": "carries the load",
             "why": why,
         }
+    missing = _missing(scene, contact, effect)
+    if missing:
+        why = f"needs {missing}, which the scene does not name"
+        nothing = dict.fromkeys(MEASURES)
+        return {**row, **nothing, "called_for": "no rule", "verdict": "not available", "why": why}
     absent = without(scene, (contact, effect))
     present = scene if on else load_resolved(scene_name, f"effects.{contact}.{effect}={{}}")
     with_it, without_it, differences = _paired(present, absent)
@@ -122,6 +133,12 @@ def _row(scene_name: str, scene: ResolvedScene, contact: str, effect: str) -> di
         verdict = "on but not needed" if on else "off but needed"
     measures = _measures(with_it, without_it, differences, contact)
     return {**row, **measures, "called_for": called_for, "verdict": verdict, "why": why}
+
+
+def _missing(scene: ResolvedScene, contact: str, effect: str) -> str:
+    """What the effect needs and the scene does not name; empty where nothing is missing."""
+    named = scene.data["effects"].get(contact) or {}
+    return " and ".join(name for name in EFFECT_RULES[effect].needs if named.get(name) is None)
 
 
 def _measures(with_it: Run, without_it: Run, differences: list[float], contact: str) -> dict[str, float]:

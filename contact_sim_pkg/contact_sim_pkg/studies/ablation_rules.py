@@ -2,7 +2,10 @@
 
 * pressure field: road wavelengths below about three patch lengths (0.4 m), steps, cleats, stones; or pressure is asked for;
 * friction: fore-aft input, and a tangential demand above about 0.3 of mu N;
-* loss: the contact opens (an impact needs a restitution); otherwise there is no rule.
+* loss: the contact opens (an impact needs a restitution); otherwise there is no rule;
+* carcass: content above 30 Hz at the axle;
+* envelopment: as the pressure field, for obstacles shorter than the footprint bend the belt;
+* brush: the scene asks for slip.
 """
 
 from __future__ import annotations
@@ -18,7 +21,9 @@ from contact_sim_pkg.scene.resolve import ResolvedScene
 __all__ = ["Observed", "is_needed", "observe"]
 
 SHORT_WAVE = 0.4  # [m], three patch lengths
+FOOTPRINT = 0.13  # [m], one patch length
 DEMAND = 0.3  # of mu N
+AXLE_FREQUENCY, AXLE_SHARE = 30.0, 0.05  # [Hz], and the part of the force's variance above it that counts as content
 SHARP_ROADS = ("step", "cleat", "pothole", "ramp", "bump")
 
 
@@ -51,6 +56,8 @@ def is_needed(effect: str, contact: str, scene: ResolvedScene, observed: Observe
         return _field(contact, scene)
     if effect == "friction":
         return _friction(scene, observed, contact)
+    if effect in RULES_OF_TIRE:
+        return RULES_OF_TIRE[effect](scene, observed)
     if effect == "normal_dissipative" and observed.opens[contact]:
         return True, "the contact opens: an impact needs a loss to have a restitution"
     return None, "the contact stays closed; how much it damps is a choice of the model"
@@ -59,6 +66,12 @@ def is_needed(effect: str, contact: str, scene: ResolvedScene, observed: Observe
 def _field(contact: str, scene: ResolvedScene) -> tuple[bool | None, str]:
     if contact == "seat":
         return None, "needed where the pressure under the occupant is asked for"
+    short, why = _short_waves(scene, SHORT_WAVE, "three patch lengths")
+    return short, f"{why}, unless the pressure itself is asked for" if short is False else why
+
+
+def _short_waves(scene: ResolvedScene, limit: float, lengths: str) -> tuple[bool | None, str]:
+    """Whether the road holds waves or edges shorter than ``limit`` [m]."""
     road = scene.data["road"]
     kind = road["kind"]
     if kind == "flat":
@@ -67,15 +80,14 @@ def _field(contact: str, scene: ResolvedScene) -> tuple[bool | None, str]:
         texture = road.get("texture") or {}
         shortest = float(texture.get("shortest_wavelength") or road["shortest_wavelength"])
         return (
-            shortest < SHORT_WAVE,
-            f"shortest wave of the road {shortest:g} m, limit {SHORT_WAVE:g} m (three patch lengths)",
+            shortest < limit,
+            f"shortest wave of the road {shortest:g} m, limit {limit:g} m ({lengths})",
         )
     if kind == "opencrg":
-        return True, "a measured road holds waves down to its grid, below three patch lengths"
+        return True, f"a measured road holds waves down to its grid, below {lengths}"
     length = float(road.get("edge") or road["length"])
-    sharp = kind in SHARP_ROADS and (kind != "bump" or length < SHORT_WAVE)
-    why = f"{kind} of length {length:g} m, limit {SHORT_WAVE:g} m (three patch lengths), unless the pressure itself is asked for"
-    return sharp, why
+    sharp = kind in SHARP_ROADS and (kind != "bump" or length < limit)
+    return sharp, f"{kind} of length {length:g} m, limit {limit:g} m ({lengths})"
 
 
 def _friction(scene: ResolvedScene, observed: Observed, contact: str) -> tuple[bool | None, str]:
@@ -88,3 +100,36 @@ def _friction(scene: ResolvedScene, observed: Observed, contact: str) -> tuple[b
     demand = mass * observed.forward
     share = demand / limit if limit > 0.0 else float("inf")
     return share > DEMAND, f"fore-aft demand up to {share:.2g} of mu N, limit {DEMAND:g}"
+
+
+def _carcass(scene: ResolvedScene, observed: Observed) -> tuple[bool | None, str]:
+    force = observed.forces["tire"] - observed.forces["tire"].mean()
+    power = numpy.abs(numpy.fft.rfft(force)) ** 2
+    fast = numpy.fft.rfftfreq(len(force), 1.0 / float(scene.data["outputs"]["force_rate"])) > AXLE_FREQUENCY
+    share = float(power[fast].sum() / power.sum()) if power.sum() > 0.0 else 0.0
+    why = f"{100.0 * share:.2g} % of the force's variance above {AXLE_FREQUENCY:g} Hz, limit {100.0 * AXLE_SHARE:g} %"
+    return share > AXLE_SHARE, why
+
+
+def _envelopment(scene: ResolvedScene, _observed: Observed) -> tuple[bool | None, str]:
+    return _short_waves(scene, FOOTPRINT, "one patch length")
+
+
+def _brush(scene: ResolvedScene, _observed: Observed) -> tuple[bool | None, str]:
+    slip = scene.data.get("slip") or {}
+    points = slip.get("points") or [[0.0, slip.get("longitudinal", 0.0), slip.get("angle", 0.0)]]
+    largest = max(abs(float(value)) for point in points for value in point[1:])
+    return largest > 0.0, f"largest slip that the scene asks for: {largest:g}"
+
+
+def _no_rule(_scene: ResolvedScene, _observed: Observed) -> tuple[bool | None, str]:
+    return None, "whether it acts is a choice of the model"
+
+
+RULES_OF_TIRE = {
+    "carcass": _carcass,
+    "envelopment": _envelopment,
+    "brush": _brush,
+    "tread_viscoelasticity": _no_rule,
+    "asperity_impulses": _no_rule,
+}
