@@ -63,6 +63,18 @@ def test_the_full_bench_on_five_processes_under_load_records_the_same_bits_as_of
     assert kept[0]["scene"] == kept[1]["scene"]
 
 
+def test_a_tire_with_every_effect_records_the_same_bits_as_offline(tmp_path):
+    effects = ("envelopment", "tread_viscoelasticity", "asperity_impulses")
+    values = ("duration=0.2", "pace=max", *(f"effects.tire.{name}={{}}" for name in effects))
+    options = [part for value in values for part in ("--set", value)]
+    ended = bench("run", "tire_braking", *options, "--out", tmp_path / "nodes")
+    assert ended.returncode == 0, ended.stderr
+    run_offline(resolved("tire_braking", *values), tmp_path / "offline")
+    on_nodes = messages(tmp_path / "nodes")
+    assert {topic for topic, _, _ in on_nodes} >= {"/tire/shear", "/tire/patch", "/tire/wrench"}
+    assert on_nodes == messages(tmp_path / "offline")
+
+
 def test_a_run_without_recording_ends_by_itself_and_leaves_nothing(seat, tmp_path):
     nodes = Nodes(seat, tmp_path)
     try:
