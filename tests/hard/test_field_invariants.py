@@ -7,8 +7,10 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from contact_sim_pkg.core.effects.envelopment import belt_influence
 from contact_sim_pkg.core.field_solver import CONVERGED, EDGE
 from contact_sim_pkg.core.halfspace import make_half_space
+from contact_sim_pkg.core.parameters import Belt
 from contact_sim_pkg.reference import halfspace as reference
 from contact_sim_pkg.studies.field_entries import ENTRIES, Asked, holds_load
 
@@ -185,3 +187,22 @@ def test_more_approach_or_load_never_takes_load_or_approach_away(name, gap, firs
     results = [solve(name, gap, load, approach)[1] for load, approach in zip(loads, (low, high), strict=True)]
     assert results[1].load >= results[0].load * (1.0 - 1e-9)
     assert results[1].approach >= results[0].approach - 1e-9 * abs(high - gap.min())
+
+
+@every_entry
+@settings(max_examples=8, deadline=None, derandomize=True)
+@given(gap=gaps, share=shares, softness=st.floats(-2.0, 2.0), length=st.floats(2.0, 200.0))
+def test_with_a_belt_in_series_the_field_is_that_of_dense_least_squares(name, gap, share, softness, length):
+    """Softness: by powers of ten, of the belt against the half-space; length: relaxation length in cells."""
+    foundation = MODULUS * 10.0**-softness * CELLS[1]
+    belt = belt_influence(Belt((length * CELLS[0]) ** 2 * foundation, foundation), SIDE, SIDE, *CELLS)
+    half_space = make_half_space(SIDE, SIDE, *CELLS, MODULUS, belt)
+    row, col = numpy.divmod(numpy.arange(SIDE * SIDE), SIDE)
+    influence = dense() + belt[abs(row[:, None] - row), abs(col[:, None] - col)]
+    approach = approach_at(gap, share)
+    expected = reference.pressure_at_approach(influence, gap, approach)
+    load = float(expected.sum()) * AREA
+    pressure, result = solve(name, gap, load, approach, half_space)
+    assert result.status in (CONVERGED, EDGE)
+    assert result.load == pytest.approx(load, rel=1e-6)
+    numpy.testing.assert_allclose(pressure, expected, atol=1e-4 * expected.max())
