@@ -24,6 +24,7 @@ HEAVY_BLOCK, HEAVY = 60, 8.0  # eight times the standing load: twice the pressur
 LIFTED_BLOCKS = range(70, 73)
 STEP_AT, STEP = 5.0, 0.01  # [m]
 ROWS, COLS, CELL_X, CELL_Y = 64, 96, 0.004, 0.005  # [m]
+FRICTION = 0.6
 WHEEL_AMPLITUDE, WHEEL_FREQUENCY = 50.0, 10.0  # [m/s^2], [Hz]
 
 SCENE = f"""\
@@ -127,6 +128,26 @@ def _patch(block: int, stamp: int) -> bytes:
     return messages.encode_contact_patch(value, stamp, messages.TIRE_FRAME)
 
 
+def slip_of(block: int) -> float:
+    """Braking that grows to a locked wheel at block 80."""
+    return -min(block / 80, 1.0)
+
+
+def _shear(block: int, stamp: int) -> bytes:
+    """Shear of FRICTION times the pressure, backward; the rear half slips, from block 50 on all of it."""
+    field = pressure(load_of(block))
+    x, y = cells()
+    state = np.where(field > 0.0, np.where((x < 0.0) | (block >= 50), 2, 1), 0).astype(np.uint8)
+    shear_x = -FRICTION * field
+    force = float(shear_x.sum()) * CELL_X * CELL_Y
+    share = float((state == 2).sum() / max((state > 0).sum(), 1))
+    value = messages.ShearField(
+        block, CELL_X, CELL_Y, float(x[0, 0]), float(y[0, 0]), slip_of(block), 0.0, force, 0.0, 0.0, share, 2.0,
+        shear_x.astype(np.float32), np.zeros((ROWS, COLS), dtype=np.float32), state,
+    )  # fmt: skip
+    return messages.encode_contact_shear(value, stamp, messages.TIRE_FRAME)
+
+
 def _motion(block: int, stamp: int) -> bytes:
     times = block * BLOCK_LENGTH + np.arange(SAMPLES) * BLOCK_LENGTH / SAMPLES
     wheel = WHEEL_AMPLITUDE * np.sin(2.0 * np.pi * WHEEL_FREQUENCY * times)
@@ -135,4 +156,10 @@ def _motion(block: int, stamp: int) -> bytes:
     return messages.encode_motion(motion, stamp)
 
 
-_ENCODERS = {"road/patch": _road, "tire/force": _force, "tire/patch": _patch, "bench/motion": _motion}
+_ENCODERS = {
+    "road/patch": _road,
+    "tire/force": _force,
+    "tire/patch": _patch,
+    "tire/shear": _shear,
+    "bench/motion": _motion,
+}

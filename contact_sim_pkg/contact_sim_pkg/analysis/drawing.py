@@ -23,6 +23,7 @@ VARIABLES = {INK: "--ink", MUTED: "--muted", RULE: "--rule", ACCENT: "--accent",
 PRESSURE_COLOURS = "viridis"
 DISPLACEMENT_COLOURS = "cividis"
 STRESS_COLOURS = "magma"
+SHEAR_COLOURS = "inferno"
 WIDTH = 7.4
 """[inch] of a picture across the page's column"""
 

@@ -7,7 +7,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from matplotlib import colormaps
 from matplotlib.axes import Axes
-from matplotlib.colors import Normalize
+from matplotlib.colors import Colormap, Normalize
 from matplotlib.figure import Figure
 from matplotlib.image import AxesImage
 
@@ -85,7 +85,9 @@ def extent(field: PressureMap) -> tuple[float, float, float, float]:
     )  # fmt: skip
 
 
-def draw_map(axes: Axes, field: PressureMap, values: FloatArray, colours: str, limits: Normalize) -> AxesImage:
+def draw_map(
+    axes: Axes, field: PressureMap, values: FloatArray, colours: str | Colormap, limits: Normalize
+) -> AxesImage:
     """Values of the cells as they are, not interpolated; nan is blank."""
     image = axes.imshow(
         values, origin="lower", extent=extent(field), cmap=colours, norm=limits, interpolation="nearest", aspect="equal"

@@ -27,14 +27,17 @@ from .series import (
     Recording,
     TopicCount,
 )
+from .shear_pass import ShearPass
 
 FORCE = "contact_msgs_defs/msg/ContactForce"
 PATCH = "contact_msgs_defs/msg/ContactPatch"
 ROAD = "contact_msgs_defs/msg/RoadPatch"
+SHEAR = "contact_msgs_defs/msg/ContactShear"
 MOTION = "contact_msgs_defs/msg/BodyMotion"
 ENERGY = "contact_msgs_defs/msg/EnergyLedger"
 COST = "contact_msgs_defs/msg/SolverCost"
 SERIES_TYPES = (FORCE, MOTION, ENERGY, COST)
+READ_TYPES = (*SERIES_TYPES, PATCH, ROAD, SHEAR)
 CONTACT_COLUMNS = ("time", "sample_period", "normal", "tangential", "approach", "effective_height")
 MOTION_COLUMNS = ("time", "sample_period", "samples", "bodies", "position", "acceleration")
 SCENE_KEY = "scene"
@@ -46,9 +49,9 @@ def read_recording(bag: Bag) -> Recording:
     Raises:
         BagError: a message does not fit its definition, or a chunk is damaged and bad chunks are not skipped.
     """
-    kinds = {row.type: row.definition for row in bag.topics.values() if row.type in (*SERIES_TYPES, PATCH, ROAD)}
+    kinds = {row.type: row.definition for row in bag.topics.values() if row.type in READ_TYPES}
     stores = {kind: store_of_definition(kind, definition) for kind, definition in kinds.items()}
-    decoded, fields, roads = _decode(bag, stores)
+    decoded, fields, roads, shears = _decode(bag, stores)
 
     def columns(topic: str, names: tuple[str, ...]) -> dict[str, Any]:
         kind = bag.topics[topic].type
@@ -73,19 +76,21 @@ def read_recording(bag: Bag) -> Recording:
         cost=cost,
         duration=_duration([*contacts.values(), *([motion] if motion else [])], scene, bag),
         road=next((road.finish() for road in roads.values()), None),
+        shear=next((shear.finish() for shear in shears.values()), None),
     )
 
 
 class Decoded(NamedTuple):
-    """Messages of the series by topic; fields and roads are taken in one by one, for they are large."""
+    """Messages of the series by topic; fields, roads and shears are taken in one by one, for they are large."""
 
     series: dict[str, list[tuple[int, Any]]]
     fields: dict[str, FieldPass]
     roads: dict[str, RoadPass]
+    shears: dict[str, ShearPass]
 
 
 def _decode(bag: Bag, stores: dict[str, Typestore]) -> Decoded:
-    decoded = Decoded({}, {}, {})
+    decoded = Decoded({}, {}, {}, {})
     for message in bag.messages():
         if message.type not in stores:
             continue
@@ -99,6 +104,8 @@ def _decode(bag: Bag, stores: dict[str, Typestore]) -> Decoded:
             decoded.fields.setdefault(message.topic, FieldPass()).take(seconds, value)
         elif message.type == ROAD:
             decoded.roads.setdefault(message.topic, RoadPass()).take(seconds, value)
+        elif message.type == SHEAR:
+            decoded.shears.setdefault(message.topic, ShearPass()).take(seconds, value)
         else:
             decoded.series.setdefault(message.topic, []).append((message.log_time, value))
     return decoded

@@ -23,7 +23,7 @@ from .summary import summarise_recording
 from .tables import Table
 from .tiles import tiles
 from .tire_numbers import TIRE
-from .tire_section import KEY, tire_part
+from .tire_section import FRICTION_KEY, KEY, friction_pictures, tire_part
 
 TEMPLATE = "report.html.j2"
 FILE_NAME = "report.html"
@@ -93,6 +93,7 @@ def sections(recording: Recording) -> list[Section]:
             if name == TIRE:
                 rolling = tire_part(recording)
                 found.append(Section(KEY, "Rolling tire", rolling.pictures, rolling.tables))
+                found.append(Section(FRICTION_KEY, "Friction of the tire", friction_pictures(recording)))
         found.append(Section("ride", "Seat vibration", _ride_pictures(recording)))
         if recording.ledger is not None:
             found.append(Section("energy", "Energy", [energy_balance(recording.ledger)]))

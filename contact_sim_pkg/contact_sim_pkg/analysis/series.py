@@ -121,6 +121,53 @@ class RoadSeries(NamedTuple):
     """[m] lowest and highest point of the strip around the middle"""
 
 
+class ShearMap(NamedTuple):
+    """The shear on a rolling tire at one instant."""
+
+    time: float
+    """[s]"""
+    slip: float
+    """(omega R - v) / v"""
+    slip_angle: float
+    """[rad]"""
+    force_x: float
+    force_y: float
+    """[N] on the tire"""
+    moment_z: float
+    """[N m]"""
+    sliding_share: float
+    """slipping cells among those in contact"""
+    grid: PressureMap
+    """magnitude of the shear on its grid"""
+    shear_x: FloatArray
+    shear_y: FloatArray
+    """[Pa] [rows, cols] on the tire"""
+    state: NDArray[np.uint8]
+    """[rows, cols] 0 apart, 1 sticks, 2 slips"""
+
+
+class ShearSeries(NamedTuple):
+    """Friction of a rolling tire over time, and its shear where it is largest."""
+
+    time: FloatArray
+    """[s]"""
+    slip: FloatArray
+    """(omega R - v) / v"""
+    slip_angle: FloatArray
+    """[rad]"""
+    force_x: FloatArray
+    force_y: FloatArray
+    """[N] on the tire, forward and left positive"""
+    moment_z: FloatArray
+    """[N m] on the tire"""
+    sliding_share: FloatArray
+    """slipping cells among those in contact"""
+    dissipated: FloatArray
+    """[J] since the instant before"""
+    largest: list[ShearMap]
+    """where the force along, and where that across, is largest while some cells stick; one where the other is small"""
+
+
 class MotionSeries(NamedTuple):
     """Motion of the rig's bodies."""
 
@@ -193,3 +240,4 @@ class Recording(NamedTuple):
     duration: float
     """[s] simulated time of the blocks recorded"""
     road: RoadSeries | None = None
+    shear: ShearSeries | None = None

@@ -9,6 +9,7 @@ from .figures_field import displacement_picture, relative_pressure_picture, stre
 from .figures_footprint import footprint_stages
 from .figures_peaks import peak_curves
 from .figures_road import Rolling, along_the_road, stretches
+from .figures_shear import friction_over_slip, friction_over_time, shear_maps
 from .peaks import filtered_signals, peak_rows
 from .series import FieldSeries, Recording
 from .tables import Table
@@ -17,6 +18,7 @@ from .tire_reference import TireReference, tire_reference
 from .tire_tables import footprint_table, load_table, peak_table
 
 KEY = "rolling"
+FRICTION_KEY = "friction"
 
 
 class TirePart(NamedTuple):
@@ -47,6 +49,19 @@ def tire_part(recording: Recording) -> TirePart:
     tables += [footprint_table(field, reference)] if field is not None else []
     tables += [peak_table(peak_rows(signals))] if signals else []
     return TirePart(pictures, tables)
+
+
+def friction_pictures(recording: Recording) -> list[Picture]:
+    """Pictures of the friction of a rolling tire; call inside `drawing.style()`. Empty without shear in the bag."""
+    shear = recording.shear
+    if shear is None:
+        return []
+    found = [
+        friction_over_time(FRICTION_KEY, TIRE, shear),
+        friction_over_slip(FRICTION_KEY, TIRE, shear, recording.fields.get(TIRE)),
+        shear_maps(FRICTION_KEY, TIRE, shear),
+    ]
+    return [each for each in found if each is not None]
 
 
 def _under_load(field: FieldSeries | None, reference: TireReference | None) -> list[Picture]:
