@@ -75,7 +75,7 @@ def test_a_car_on_a_flat_road_stands_still_under_its_weight():
     found = messages_of(scene)
     weight = (40.0 + 300.0 + 6.7 + 33.4 + 10.7) * GRAVITY
     for data in found["tire/force"]:
-        assert decode_contact_force(data).normal == pytest.approx(numpy.full(10, weight), rel=1.5e-2)
+        assert decode_contact_force(data).normal == pytest.approx(numpy.full(10, weight), rel=1e-2)
     for data in found["bench/motion"]:
         assert numpy.abs(decode_motion(data).velocity).max() < 5e-3
 

@@ -31,7 +31,8 @@ class FieldGrids:
 
 
 def loss_of(scene: dict[str, Any], contact: str) -> NormalDissipative | None:
-    loss = effects_at(scene, contact).get("normalloss_of")
+    """Loss of a contact, from its damping or its restitution; None where the scene calls for none."""
+    loss = effects_at(scene, contact).get("normal_dissipative")
     if loss is None:
         return None
     if loss.get("restitution") is not None:
@@ -41,6 +42,7 @@ def loss_of(scene: dict[str, Any], contact: str) -> NormalDissipative | None:
 
 
 def make_grids(settings: FieldSettings, contact: str) -> FieldGrids:
+    """Field of a contact on its usual grid and on the wide one."""
     return FieldGrids(PressureField(settings, contact), PressureField(widened(settings), contact))
 
 
