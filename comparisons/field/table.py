@@ -57,8 +57,10 @@ def row_lines(found: list[Row]) -> list[str]:
 
 
 def _table(heads: tuple[str, ...], rows: Iterable[tuple[Any, ...]]) -> list[str]:
-    """A Markdown table, padded to be read as it is."""
+    """A Markdown table, padded to be read as it is; no lines where there are no rows."""
     lines = [heads, *(tuple(_text(value) for value in row) for row in rows)]
+    if len(lines) == 1:
+        return []
     widths = [max(len(line[column]) for line in lines) for column in range(len(heads))]
     return list(_padded(lines, widths))
 

@@ -60,3 +60,4 @@ def test_tables_are_markdown():
     head, rule, *lines = reading_lines(readings(TASK, ROWS))
     assert head.count("|") == rule.count("|") == lines[0].count("|")
     assert len(lines) == 4
+    assert verdict_lines([]) == []
