@@ -28,6 +28,9 @@ REFERENCE = 1e-12
 REFERENCE_REACHED = 1e-11
 """Residual at which a reference still counts: rounding stops some grids of 512 x 512 above 1e-12."""
 
+LARGEST = 3.0
+"""Times the median that the largest error of a sequence may be; a solver with a longer tail pays for it."""
+
 ROUNDS = 3
 SKIPPED = 2
 """Steps at the beginning of a sequence that do not count: the prediction needs two fields."""
@@ -55,6 +58,11 @@ class Row(NamedTuple):
     wall_ms: float  # wall time, median
     solves: int
     closed_form: float | None  # error against the closed form, where there is one
+
+    @property
+    def counted_error(self) -> float:
+        """The error that the row is compared at: the median, or a third of the largest where that is more."""
+        return max(self.error, self.largest_error / LARGEST)
 
 
 class SetUp(NamedTuple):

@@ -59,5 +59,5 @@ def _points(rows: list[Row]) -> numpy.ndarray[tuple[int, ...], numpy.dtype[numpy
     tolerances = sorted({row.tolerance for row in rows}, reverse=True)
     those = [[row for row in rows if row.tolerance == tolerance] for tolerance in tolerances]
     return numpy.array(
-        [[numpy.median([row.ms for row in some]), numpy.median([row.error for row in some])] for some in those]
+        [[numpy.median([row.ms for row in some]), numpy.median([row.counted_error for row in some])] for some in those]
     )

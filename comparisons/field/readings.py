@@ -104,15 +104,12 @@ def _reached(aim: Aim, wanted: float | None, measured: float | None) -> bool | N
 
 
 def _by_seed(rows: list[Row], task: str, solver: str, asked: float, column: str) -> dict[int, float]:
-    those = [row for row in rows if (row.task, row.solver) == (task, solver)]
-    read = {
-        seed: read_at([row._asdict() for row in those if row.seed == seed], asked, column) for seed in _seeds(those)
-    }
+    those: dict[int, list[dict[str, float]]] = {}
+    for row in rows:
+        if (row.task, row.solver) == (task, solver):
+            those.setdefault(row.seed, []).append({"error": row.counted_error, "value": getattr(row, column)})
+    read = {seed: read_at(points, asked, "value") for seed, points in those.items()}
     return {seed: value for seed, value in read.items() if value is not None}
-
-
-def _seeds(rows: list[Row]) -> list[int]:
-    return list(dict.fromkeys(row.seed for row in rows))
 
 
 def _median(values: Iterable[float]) -> float | None:

@@ -13,7 +13,8 @@ from __future__ import annotations
 
 import numpy
 
-from contact_sim_pkg.core.field_rolling import LEAST_OF_HALF, TOLERANCE_OF_HALF, double, halve
+from contact_sim_pkg.core.field_nested import double, halve
+from contact_sim_pkg.core.field_rolling import LEAST_OF_HALF, TOLERANCE_OF_HALF
 from contact_sim_pkg.core.field_solver import CONVERGED, EDGE, FieldResult, make_workspace, solve_at_load
 from contact_sim_pkg.core.halfspace import Field, HalfSpace, make_half_space
 

@@ -37,6 +37,14 @@ def test_times_are_read_at_equal_error_and_ratios_are_those_of_the_same_seed():
     assert found["ASPHER", 1e-9].ratio is None
 
 
+def test_a_long_tail_of_errors_counts():
+    assert row(OURS, 1, 1e-3, 1.0).counted_error == 1e-3
+    assert row(OURS, 1, 1e-3, 1.0)._replace(largest_error=6e-3).counted_error == pytest.approx(2e-3)
+    late = [one._replace(largest_error=30.0 * one.error) if one.solver == "ASPHER" else one for one in ROWS]
+    (found,) = (one for one in readings(TASK, late) if one.solver == "ASPHER" and one.error == 1e-3)
+    assert found.ms == pytest.approx(20.0)  # a tenth of the asked error at the median
+
+
 def test_verdicts_name_what_was_reached():
     (verdict,) = (one for one in verdicts(readings(TASK, ROWS)) if one.aim == AIM)
     assert verdict.measured == pytest.approx(5.0)
