@@ -42,3 +42,21 @@ def test_a_crown_flatter_along_than_across_turns_the_ellipse():
 )  # fmt: skip
 def test_a_scene_without_an_elliptic_contact_has_no_reference(scene):
     assert tire_reference(scene) is None
+
+
+def test_a_belt_makes_the_footprint_longer_and_the_pressure_lower_and_carries_the_same_load():
+    field = {"length": 0.3, "width": 0.44, "rows": 48, "cols": 64, "tolerance": 1e-6, "corrector_passes": 0}
+    stiff = {"tension": 9900.0, "foundation": 1e13}
+    soft = {"tension": 9900.0, "foundation": 6.3e5}
+
+    def reference(belt):
+        effects = {"tire": {"contact_field": field, "envelopment": belt}}
+        return tire_reference({"rig": "tire", "tire": TIRE, "effects": effects})
+
+    along, _across, peak, approach = known.ellipse(known.STANDING)
+    close, far = reference(stiff), reference(soft)
+    assert close.peak_pressure == pytest.approx(peak, rel=0.03)  # by cells
+    assert close.approach == pytest.approx(approach, rel=0.01)
+    assert far.peak_pressure < 0.9 * peak
+    assert far.semi_axis_x > 1.1 * along
+    assert far.approach > 1.5 * approach

@@ -4,13 +4,17 @@ from __future__ import annotations
 
 import numpy as np
 
+from contact_sim_pkg.core.effects.envelopment import belt_influence
 from contact_sim_pkg.core.halfspace import displacement, make_buffers, make_half_space
+from contact_sim_pkg.core.parameters import Belt
 
 from .series import FloatArray, PressureMap
 
 
-def surface_displacement(field: PressureMap, modulus: float) -> FloatArray:
+def surface_displacement(field: PressureMap, modulus: float, belt: Belt | None = None) -> FloatArray:
     """u(x, y) [m] = 1/(pi E*) integral of p / distance, on the cells of the field; positive into the body.
+
+    With a ``belt`` its deflection is added.
 
     Args:
         field: its pressure is all that acts.
@@ -20,7 +24,8 @@ def surface_displacement(field: PressureMap, modulus: float) -> FloatArray:
         ValueError: cells or modulus are not positive and finite.
     """
     rows, cols = field.pressure.shape
-    half_space = make_half_space(rows, cols, field.cell_x, field.cell_y, modulus)
+    size = (rows, cols, field.cell_x, field.cell_y)
+    half_space = make_half_space(*size, modulus, None if belt is None else belt_influence(belt, *size))
     result = np.zeros((rows, cols))
     displacement(half_space, make_buffers(half_space), np.ascontiguousarray(field.pressure), result)
     return result

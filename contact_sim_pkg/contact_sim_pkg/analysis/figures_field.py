@@ -26,18 +26,26 @@ from .tire_reference import TireReference
 def displacement_picture(key: str, snapshot: Snapshot, reference: TireReference) -> Picture:
     """Surface displacement u(x, y) under the field."""
     field = snapshot.field
-    raised = surface_displacement(field, reference.modulus) * 1e3
+    raised = surface_displacement(field, reference.modulus, reference.belt) * 1e3
     quantity = Quantity(raised, "displacement u, mm", DISPLACEMENT_COLOURS)
     figure = surface_and_map(field, quantity, whole_window(field), outline=True)
     inside = raised[field.pressure > 0.0]
     caption = (
         f"Displacement of the tread's surface at the largest load, {snapshot.load:.5g} N at {snapshot.time:.3f} s: "
         f"u = (1/πE*) ∬ p/r dA of the recorded pressure on its {raised.shape[0]} × {raised.shape[1]} cells, "
-        f"E* = {reference.modulus * 1e-6:.4g} MPa, positive into the tread. Largest {raised.max():.4g} mm, inside the "
+        f"E* = {reference.modulus * 1e-6:.4g} MPa{_with_belt(reference)}, positive into the tread. "
+        f"Largest {raised.max():.4g} mm, inside the "
         f"contact (white line) at least {inside.min():.4g} mm, at the edge of the grid still {_rim(raised):.3g} mm. The "
         "recorded pressure holds the share of the loss; it is taken as elastic here."
     )
     return picture(f"{key}-displacement", figure, "Displacement of the tread's surface at the largest load", caption)
+
+
+def _with_belt(reference: TireReference) -> str:
+    belt = reference.belt
+    if belt is None:
+        return ""
+    return f", and the deflection of the belt ({belt.tension:.4g} N on {belt.foundation * 1e-6:.4g} MN/m²)"
 
 
 def _rim(values: FloatArray) -> float:
@@ -52,7 +60,7 @@ def relative_pressure_picture(key: str, snapshot: Snapshot, reference: TireRefer
     figure = surface_and_map(field, quantity, loaded_window(field), outline=False)
     caption = (
         f"Pressure at the largest load, {snapshot.load:.5g} N at {snapshot.time:.3f} s, over the largest pressure of the "
-        f"tire at rest on a flat road, p_ref,max = {reference.peak_pressure * 1e-3:.4g} kPa (elliptic Hertz contact, "
+        f"tire at rest on a flat road, p_ref,max = {reference.peak_pressure * 1e-3:.4g} kPa ({reference.how}, "
         f"{reference.load:.5g} N, radii {reference.radius_rolling:.4g} and {reference.radius_lateral:.4g} m). Largest: "
         f"{relative.max():.3f}. A Hertz contact under this load on a flat road would have "
         f"{(snapshot.load / reference.load) ** (1.0 / 3.0):.3f}."

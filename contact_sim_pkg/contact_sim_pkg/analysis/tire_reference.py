@@ -1,17 +1,22 @@
-"""The state that a tire's contact is compared with: at rest on a flat road, in closed form."""
+"""The state that a tire's contact is compared with: at rest on a flat road, in closed form; with a belt, by its field."""
 
 from __future__ import annotations
 
 from typing import Any, NamedTuple
 
+import numpy as np
+
+from contact_sim_pkg.core.effects.contact_field import FieldError, PressureField
 from contact_sim_pkg.core.hertz import HertzError, hertz_contact
-from contact_sim_pkg.scene.lattice import contact_modulus
+from contact_sim_pkg.core.lame import fit_patch
+from contact_sim_pkg.core.parameters import Belt, widened
+from contact_sim_pkg.scene.lattice import contact_modulus, field_settings
 
 from .tire_numbers import standing_load_of
 
 
 class TireReference(NamedTuple):
-    """Elliptic Hertz contact of the scene's radii and modulus under the standing load."""
+    """Contact of the scene's radii and modulus under the standing load: elliptic Hertz, or the field of tread and belt."""
 
     load: float
     """[N]"""
@@ -28,6 +33,13 @@ class TireReference(NamedTuple):
     """[Pa]"""
     approach: float
     """[m]"""
+    belt: Belt | None = None
+    """what yields beside the tread; with it the contact is no ellipse, its semi-axes are those of the fitted curve"""
+
+    @property
+    def how(self) -> str:
+        """How the contact at rest was found."""
+        return "elliptic Hertz contact" if self.belt is None else "pressure field of tread and belt"
 
 
 def tire_reference(scene: dict[str, Any]) -> TireReference | None:
@@ -42,6 +54,31 @@ def tire_reference(scene: dict[str, Any]) -> TireReference | None:
     except (KeyError, TypeError, ZeroDivisionError, HertzError, ValueError):
         return None  # a scene that this version does not know: nothing to compare with
     semi_x, semi_y = (contact.b, contact.a) if radius_y >= radius_x else (contact.a, contact.b)
-    return TireReference(
+    reference = TireReference(
         load, modulus, poisson, radius_x, radius_y, semi_x, semi_y, contact.peak_pressure, contact.approach
     )
+    return _on_belt(scene, reference)
+
+
+def _on_belt(scene: dict[str, Any], reference: TireReference) -> TireReference | None:
+    """The reference of a tire whose belt yields beside the tread; as it was without a belt, None where no grid holds it."""
+    effects = (scene.get("effects") or {}).get("tire") or {}
+    if not effects.get("envelopment"):
+        return reference
+    settings = field_settings(scene, "tire", reference.modulus)
+    if settings is None:
+        return None
+    grid = widened(settings)
+    x = (np.arange(grid.rows) - 0.5 * (grid.rows - 1)) * grid.cell_x
+    y = (np.arange(grid.cols) - 0.5 * (grid.cols - 1)) * grid.cell_y
+    gap = 0.5 * (x[:, None] ** 2 / reference.radius_rolling + y[None, :] ** 2 / reference.radius_lateral)
+    field = PressureField(grid, "tire")
+    try:
+        approach = field.solve_load(gap, reference.load)
+    except FieldError:
+        return None
+    curve = fit_patch(field.pressure, grid.cell_x, grid.cell_y, float(x[0]), float(y[0]))
+    return reference._replace(
+        semi_axis_x=curve.a, semi_axis_y=curve.b, peak_pressure=float(field.pressure.max()), approach=approach,
+        belt=grid.belt,
+    )  # fmt: skip

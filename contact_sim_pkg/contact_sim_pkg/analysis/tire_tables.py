@@ -46,7 +46,8 @@ def footprint_table(field: FieldSeries, reference: TireReference | None) -> Tabl
         )
     ]  # fmt: skip
     caption = (
-        "At rest: elliptic Hertz contact on a flat road with the scene's radii and modulus. Run: the recorded fields, mean "
+        f"At rest: {'elliptic Hertz contact' if reference is None else reference.how} on a flat road with the scene's radii "
+        "and modulus. Run: the recorded fields, mean "
         "over those with load; length and width reach over the outermost loaded cells. "
         f"Largest load of a field: {field.load[heaviest]:.4g} N at {field.time[heaviest]:.3f} s."
     )
