@@ -14,6 +14,7 @@ from contact_sim_pkg.analysis.report import write_report
 from contact_sim_pkg.analysis.summary import summarise_recording
 from contact_sim_pkg.analysis.tire_reference import tire_reference
 from contact_sim_pkg.analysis.tire_tables import footprint_table, load_table
+from contact_sim_pkg.bag import messages
 
 from . import rolling_bag as known
 from .page import Page
@@ -175,3 +176,16 @@ def test_a_wheel_that_stands_has_no_picture_over_distance(tmp_path, monkeypatch)
     names = [value for value in page.values("aria-label") if value]
     assert not any(name.startswith("Force, footprint and road") for name in names)
     assert any(name.startswith("Displacement") for name in names)
+
+
+def test_asperities_have_a_curve_of_their_own(tmp_path, monkeypatch):
+    def force(block, stamp):
+        zeros = np.zeros(known.SAMPLES)
+        pushed = messages.ContactForceBlock(block, 1e-3, zeros + 3000.0, zeros, zeros, zeros, zeros + 10.0 * block)
+        return messages.encode_contact_force(pushed, stamp, messages.TIRE_FRAME)
+
+    monkeypatch.setitem(known._ENCODERS, "tire/force", force)
+    bag = known.rolling_bag(tmp_path / "asperities", 30, ("bench/scene", "tire/force"))
+
+    np.testing.assert_allclose(read_recording(bag).contacts["tire"].impulses[::10], 10.0 * np.arange(30))
+    assert "The road&#39;s asperities push with up to 290 N beside it." in write_report(bag).read_text(encoding="utf-8")

@@ -23,17 +23,19 @@ LOOP_POINTS = 4000
 
 
 def load_over_time(key: str, name: str, contact: ContactSeries) -> Picture:
-    """Normal force with lift-off shaded, friction force where there is any, approach; common time axis."""
-    with_friction = bool(np.any(contact.tangential))
-    rows = 3 if with_friction else 2
-    figure, axes = new_figure(1.0 + 1.45 * rows, rows, sharex=True)
+    """Normal force with lift-off shaded, other forces where there are any, approach; common time axis."""
     unit, scale = force_unit(contact)
+    others = [(f"friction force, {unit}", contact.tangential * scale)] if np.any(contact.tangential) else []
+    if contact.impulses.size == contact.time.size:
+        others.append(("asperities, N", contact.impulses))
+    rows = 2 + len(others)
+    figure, axes = new_figure(1.0 + 1.45 * rows, rows, sharex=True)
     _line(axes[0], contact.time, contact.normal * scale, f"normal force, {unit}")
     _shade(axes[0], lifted_intervals(contact))
     axes[0].axhline(contact.normal.mean() * scale, color=INK, linewidth=0.9, linestyle=(0, (4, 3)))
     axes[0].set_ylim(bottom=0.0)
-    if with_friction:
-        _line(axes[1], contact.time, contact.tangential * scale, f"friction force, {unit}")
+    for place, (label, values) in zip(axes[1:-1], others, strict=True):
+        _line(place, contact.time, values, label)
     _line(axes[-1], contact.time, contact.approach * 1e3, "approach, mm")
     if contact.approach.min() <= 0.0:
         axes[-1].axhline(0.0, color=MUTED, linewidth=0.7)
@@ -51,6 +53,8 @@ def _load_caption(contact: ContactSeries) -> str:
         f"{numbers['load_mean_N']:.5g} N (dashed). Approach between {contact.approach.min() * 1e3:.3g} and "
         f"{contact.approach.max() * 1e3:.3g} mm, positive in compression. "
     )
+    if contact.impulses.size:
+        text += f"The road's asperities push with up to {contact.impulses.max():.4g} N beside it. "
     if not numbers["lifted_share"]:
         return text + "The contact never opens."
     times = "once" if numbers["lift_offs"] == 1 else f"{numbers['lift_offs']} times"

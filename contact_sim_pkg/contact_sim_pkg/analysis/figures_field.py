@@ -114,8 +114,8 @@ def _stress_caption(snapshot: Snapshot, plane: StressPlane, poisson_ratio: float
         " The largest value lies at the upper edge of the picture: at an edge of the road it grows with finer cells."
     )
     return (
-        f"Elastic half-space with ν = {poisson_ratio:g} under the field at the largest load ({snapshot.time:.3f} s), no "
-        f"friction, plane y = {plane.y * 1e3:.3g} mm through the centre of pressure. Largest von Mises stress in the plane "
+        f"Elastic half-space with ν = {poisson_ratio:g} under the field at the largest load ({snapshot.time:.3f} s), "
+        f"without friction, plane y = {plane.y * 1e3:.3g} mm through the centre of pressure. Largest von Mises stress in the plane "
         f"{plane.von_mises[row, col] * 1e-3:.4g} kPa ({plane.von_mises[row, col] / peak:.3f} of the peak pressure) at x = "
         f"{plane.x[col] * 1e3:.3g} mm, {plane.z[row] * 1e3:.3g} mm deep (cross); largest shear "
         f"{plane.max_shear.max() * 1e-3:.4g} kPa, {plane.z[shear_row] * 1e3:.3g} mm deep. The first "

@@ -39,6 +39,7 @@ COST = "contact_msgs_defs/msg/SolverCost"
 SERIES_TYPES = (FORCE, MOTION, ENERGY, COST)
 READ_TYPES = (*SERIES_TYPES, PATCH, ROAD, SHEAR)
 CONTACT_COLUMNS = ("time", "sample_period", "normal", "tangential", "approach", "effective_height")
+IMPULSES = "impulses"  # absent from older bags
 MOTION_COLUMNS = ("time", "sample_period", "samples", "bodies", "position", "acceleration")
 SCENE_KEY = "scene"
 
@@ -58,7 +59,9 @@ def read_recording(bag: Bag) -> Recording:
         return stacked(decoded[topic], stores[kind], kind, names)
 
     topics = {kind: [name for name in decoded if bag.topics[name].type == kind] for kind in SERIES_TYPES}
-    contacts = {contact_name(name): _contact(columns(name, CONTACT_COLUMNS)) for name in topics[FORCE]}
+    known = {name for name, _ in stores[FORCE].fielddefs[FORCE][1]} if topics[FORCE] else set()
+    contact_columns = (*CONTACT_COLUMNS, IMPULSES) if IMPULSES in known else CONTACT_COLUMNS
+    contacts = {contact_name(name): _contact(columns(name, contact_columns)) for name in topics[FORCE]}
     motion = next((_motion(columns(name, MOTION_COLUMNS)) for name in topics[MOTION]), None)
     ledger = next((LedgerSeries(**columns(name, LedgerSeries._fields)) for name in topics[ENERGY]), None)
     cost = next((_cost(columns(name, CostSeries._fields)) for name in topics[COST]), None)
@@ -146,8 +149,11 @@ def _sample_times(columns: dict[str, Any], counts: list[int]) -> FloatArray:
 
 def _contact(columns: dict[str, Any]) -> ContactSeries:
     time = _sample_times(columns, [len(row) for row in columns["normal"]])
-    joined = (np.concatenate([*columns[name]]).astype(np.float64) for name in CONTACT_COLUMNS[2:])
-    return ContactSeries(time, float(columns["sample_period"][0]), *joined)
+    normal, tangential, approach, height = (
+        np.concatenate([*columns[name]]).astype(np.float64) for name in CONTACT_COLUMNS[2:]
+    )
+    impulses = np.concatenate([*columns[IMPULSES]]).astype(np.float64) if IMPULSES in columns else np.zeros(0)
+    return ContactSeries(time, float(columns["sample_period"][0]), normal, tangential, approach, height, impulses)
 
 
 def _motion(columns: dict[str, Any]) -> MotionSeries:

@@ -28,6 +28,8 @@ class ContactSeries(NamedTuple):
     """[m]"""
     effective_height: FloatArray
     """[m] of the ground that a smooth contact would need for the same force"""
+    impulses: FloatArray
+    """[N] of the road's asperities, beside `normal`; empty without any"""
 
 
 class PressureMap(NamedTuple):
