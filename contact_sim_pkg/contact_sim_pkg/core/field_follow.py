@@ -33,7 +33,7 @@ __all__ = ["FIRST_LENGTH", "MOST_CORRECTIONS", "follow"]
 CHANGE = 6.0
 """Largest last change of the field, over the tolerance."""
 
-MOST_CORRECTIONS = 12
+MOST_CORRECTIONS = 24
 """After so many the prediction was of no use, or the tolerance asks for lengths without guessing."""
 
 FIRST_LENGTH = 0.4

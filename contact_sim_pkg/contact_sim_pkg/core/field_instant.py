@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from contact_sim_pkg.core.field_follow import follow
 from contact_sim_pkg.core.field_iteration import SolverWorkspace
 from contact_sim_pkg.core.field_outside import BlockSums, enclose
-from contact_sim_pkg.core.field_prediction import Known, predict, remember, scale_to
+from contact_sim_pkg.core.field_prediction import Known, predict, remember, scale_to, start_from
 from contact_sim_pkg.core.field_solver import total_of
 from contact_sim_pkg.core.halfspace import Field, HalfSpace
 from contact_sim_pkg.core.jit import entry, kernel
@@ -62,14 +62,18 @@ def solve_instant(
     blocks: BlockSums,
     pressure: Field,
 ) -> Instant:
-    """Solve on the window of the size of `part` at (first_row, first_col), from what is known; `pressure` is overwritten.
+    """Solve on the window of the size of `part` at (first_row, first_col); `pressure` of the whole grid is overwritten.
 
-    `keep` (`last` or `before`) takes the new field. A prediction that fails is put into `pressure` as a start.
+    share: of extrapolation; negative: start from `pressure` instead of what is known. keep: what takes the new field, `last` or
+    `before`. What is not certified is put into `pressure` as a start.
     """
     rows, cols = part.rows, part.cols
     window, cell = (first_row, first_col, rows, cols), whole.cell_x * whole.cell_y
     datum = load_heights(gap, first_row, first_col, workspace.height, workspace.clipped)
-    predict(workspace, first_row, first_col, last, before, share)
+    if share >= 0.0:
+        predict(workspace, first_row, first_col, last, before, share)
+    else:
+        start_from(part, workspace, first_row, first_col, pressure)
     total, approach = (given / cell, 0.0) if holds_load else (-1.0, given - datum)
     if (holds_load or approach > 0.0) and scale_to(workspace, approach, total):
         found = follow(part, workspace, approach, total, tolerance, max_corrections, lengths)

@@ -17,10 +17,10 @@ import numpy
 from numpy.typing import NDArray
 
 from contact_sim_pkg.core.field_iteration import SolverWorkspace
-from contact_sim_pkg.core.halfspace import Field, HalfSpace
+from contact_sim_pkg.core.halfspace import Field, HalfSpace, convolve
 from contact_sim_pkg.core.jit import kernel
 
-__all__ = ["EXTRAPOLATION", "Known", "make_known", "predict", "remember", "scale_to"]
+__all__ = ["EXTRAPOLATION", "Known", "make_known", "predict", "remember", "scale_to", "start_from"]
 
 EXTRAPOLATION = 0.75
 """Full extrapolation, 1, carries more of the errors of the fields before into the next; chosen by error and convolutions."""
@@ -66,6 +66,18 @@ def predict(
             p, u = pressure[i, j], surface[i, j]
             surface[i, j] = u + share * (u - before.displacement[row, first_col + j])
             pressure[i, j] = p + share * (p - before.pressure[row, first_col + j]) if p > 0.0 else 0.0
+
+
+@kernel
+def start_from(
+    half_space: HalfSpace, workspace: SolverWorkspace, first_row: int, first_col: int, pressure: Field
+) -> None:
+    """In place of a prediction: the pressure of the whole grid, and u by a convolution."""
+    rows, cols = workspace.pressure.shape
+    for i in range(rows):
+        for j in range(cols):
+            workspace.pressure[i, j] = pressure[first_row + i, first_col + j]
+    convolve(half_space, workspace.buffers, workspace.pressure, workspace.surface)
 
 
 @kernel

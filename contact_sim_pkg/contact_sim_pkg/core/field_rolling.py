@@ -10,6 +10,8 @@ which is checked after each solve (`core/field_outside.py`). Where one penetrate
 
 from __future__ import annotations
 
+from functools import cache
+
 import numpy
 from numpy.typing import NDArray
 
@@ -20,20 +22,26 @@ from contact_sim_pkg.core.field_outside import make_block_sums, widened
 from contact_sim_pkg.core.field_prediction import EXTRAPOLATION, make_known
 from contact_sim_pkg.core.field_solver import BAD_INPUT, CONVERGED, EDGE, FieldResult, solve_at_approach, solve_at_load
 from contact_sim_pkg.core.field_window import Part, Window, make_part, put_back, take
-from contact_sim_pkg.core.halfspace import Field, HalfSpace, coarsened
+from contact_sim_pkg.core.halfspace import Field, HalfSpace, coarsened, make_half_space
 
 __all__ = ["RollingField"]
 
 LEAST_OF_HALF = 24
 """Rows and columns below which a coarser grid costs more than it saves."""
 
-TOLERANCE_OF_HALF = 1e-2
+TOLERANCE_OF_HALF = 1e-1
 """Of the field on the coarser grid; the grids differ by more."""
 
-MOST_TRAVEL = 0.25
+MOST_TRAVEL = 0.1
 """Of a window's rows: after more travel the field before is no start any more."""
 
 NOWHERE = (0, -1, 0, -1)
+
+NEW, REPEAT, START = 0, 1, 2
+"""Lengths of corrections are known apart for a new instant, another solve at the same, and a start from nothing."""
+
+FROM_PRESSURE = -1.0
+"""In place of a share of extrapolation: start from the pressure on the whole grid."""
 
 Values = NDArray[numpy.float64]
 Box = tuple[int, int, int, int]
@@ -54,11 +62,12 @@ class RollingField:
         self._instants = 0  # known, at most 2
         self._cells: int | None = None  # of travel since the last field, if a new instant began
         self._box: Box = NOWHERE  # of the last field's contact
-        self._lengths: Values = numpy.full((2, MOST_CORRECTIONS), FIRST_LENGTH)  # of a new instant, of a repeat
+        self._lengths: Values = numpy.full((3, MOST_CORRECTIONS), FIRST_LENGTH)
         self._blocks = make_block_sums(half_space)
         self._parts: dict[tuple[int, int], Part] = {}
         self._half = _half_of(half_space)
         self._gap_of_half: Field = numpy.zeros((half_space.rows // 2, half_space.cols // 2))
+        compile_now()
 
     @property
     def convolutions(self) -> int:
@@ -89,19 +98,21 @@ class RollingField:
             raise ValueError(f"pressure field: gap is {gap.shape}, it must be {(whole.rows, whole.cols)}")
         if not (numpy.isfinite(given) and (given >= 0.0 or not holds_load) and all_finite(gap)):
             return FieldResult(BAD_INPUT, 0, 0.0, numpy.nan, numpy.inf)
-        repeats = self._begin()
-        window, spent = self._expected(), 0
+        repeats, window, spent = self._begin(), self._expected(), 0
+        share, lengths = (0.0, REPEAT) if repeats else (EXTRAPOLATION if self._instants > 1 else 0.0, NEW)
         if window is None:
-            window = self._start(gap, given, holds_load, max_iterations)
-        else:
-            found = self._correct(window, gap, given, holds_load, tolerance, max_iterations, repeats)
-            if found.certified and found.window == window:
+            window, share, lengths = self._start(gap, given, holds_load, max_iterations), FROM_PRESSURE, START
+        while True:
+            found = self._correct(
+                window, gap, given, holds_load, tolerance, max_iterations - spent, repeats, share, lengths
+            )
+            spent += found.corrections
+            if not found.certified:
+                return self._settle(window, gap, given, holds_load, tolerance, max_iterations, spent, repeats)
+            if found.window == window:
                 self._end(repeats, found.box)
-                return self._judged(
-                    FieldResult(CONVERGED, found.corrections, found.load, found.approach, found.residual)
-                )
-            window, spent = Window(*found.window), found.corrections
-        return self._settle(window, gap, given, holds_load, tolerance, max_iterations, spent, repeats)
+                return self._judged(FieldResult(CONVERGED, spent, found.load, found.approach, found.residual))
+            window, share, lengths = Window(*found.window), FROM_PRESSURE, START
 
     def _begin(self) -> bool:
         """Carry what is known to where the road is now; whether this is another solve at the same instant."""
@@ -146,16 +157,16 @@ class RollingField:
         given: float,
         holds_load: bool,
         tolerance: float,
-        max_iterations: int,
+        max_corrections: int,
         repeats: bool,
+        share: float,
+        lengths: int,
     ) -> Instant:
-        part = self._part(window.rows, window.cols)
-        share = EXTRAPOLATION if self._instants > 1 and not repeats else 0.0
-        keep, lengths = (self._last, self._lengths[1]) if repeats else (self._before, self._lengths[0])
+        part, keep = self._part(window.rows, window.cols), self._last if repeats else self._before
         return solve_instant(
-            self.half_space, part.half_space, part.workspace, gap, given, holds_load, tolerance, max_iterations,
-            window.first_row, window.first_col, self._last, self._before, keep, share, lengths, self._blocks,
-            self.pressure,
+            self.half_space, part.half_space, part.workspace, gap, given, holds_load, tolerance, max_corrections,
+            window.first_row, window.first_col, self._last, self._before, keep, share, self._lengths[lengths],
+            self._blocks, self.pressure,
         )  # fmt: skip
 
     def _settle(
@@ -223,3 +234,24 @@ def _half_of(whole: HalfSpace) -> RollingField | None:
     if min(rows, cols) < 2 * LEAST_OF_HALF or rows % 2 or cols % 2:
         return None
     return RollingField(coarsened(whole))
+
+
+@cache
+def compile_now() -> None:
+    """Compile all of it on a grid of four cells: a path that was never taken may be needed in the middle of a run."""
+    half_space, field, wide = make_half_space(2, 2, 1.0, 1.0, 1.0), numpy.zeros((2, 2)), numpy.zeros((4, 4))
+    part, known, blocks = make_part(half_space, 2, 2), make_known(half_space), make_block_sums(half_space)
+    all_finite(field)
+    lengths = numpy.full(MOST_CORRECTIONS, FIRST_LENGTH)
+    solve_instant(
+        half_space, part.half_space, part.workspace, field, 1.0, True, 1.0, 1, 0, 0, known, known, known, FROM_PRESSURE,
+        lengths, blocks, field,
+    )  # fmt: skip
+    solve_at_load(half_space, part.workspace, field, 1.0, 1.0, 1, field)
+    keep_window(part.workspace, 0, 0, known, field)
+    grown_window(half_space, field, 1.0, field, blocks, 0, 0, 2, 2)
+    take(field, 0, 0, part.gap)
+    put_back(part.gap, 0, 0, field)
+    halve(wide, field)
+    double(field, wide)
+    widened(2, 2, 0, 1, 0, 1)

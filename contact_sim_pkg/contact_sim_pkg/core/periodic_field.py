@@ -14,11 +14,14 @@ from __future__ import annotations
 import numpy
 
 from contact_sim_pkg.core.field_nested import double, halve
-from contact_sim_pkg.core.field_rolling import LEAST_OF_HALF, TOLERANCE_OF_HALF
+from contact_sim_pkg.core.field_rolling import LEAST_OF_HALF
 from contact_sim_pkg.core.field_solver import CONVERGED, EDGE, FieldResult, make_workspace, solve_at_load
 from contact_sim_pkg.core.halfspace import Field, HalfSpace, make_half_space
 
 __all__ = ["PeriodicField", "make_periodic_half_space"]
+
+TOLERANCE_OF_HALF = 1e-2
+"""Of the field on the coarser grid; the grids differ by more."""
 
 
 def make_periodic_half_space(rows: int, cols: int, cell_x: float, cell_y: float, modulus: float) -> HalfSpace:

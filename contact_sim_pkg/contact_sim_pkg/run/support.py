@@ -37,7 +37,7 @@ class Support(ABC):
         """Forget everything but the buffers."""
         self.offset, self.change, self.published = 0.0, 0.0, None
         for field in () if self.grids is None else self.grids.both():
-            field.pressure[:] = 0.0
+            field.forget()
 
     def solves_in(self, passes_left: int) -> bool:
         """Whether the field is solved in a pass that ``passes_left`` corrector passes follow; always in the last."""
@@ -53,7 +53,7 @@ class Support(ABC):
         try:
             return self._solve_on(self.grids.usual, approach, geometric)
         except FieldEdgeError:
-            self.grids.usual.pressure[:] = 0.0
+            self.grids.usual.forget()
         except FieldError as error:
             raise RunError(f"block {block}: {error}") from None
         try:
@@ -70,9 +70,10 @@ class Support(ABC):
         """Approach in [m] under ``load`` [N] and the field that carries it: the usual one, or the wide one."""
         for field in grids.both():
             try:
+                field.roll_to(self.road_row(field.settings))
                 return field.solve_load(self.gap(field.settings), load), field
             except FieldEdgeError as error:
-                field.pressure[:] = 0.0
+                field.forget()
                 last = error
             except FieldError as error:
                 raise RunError(f"block 0: {error}") from None
@@ -97,9 +98,14 @@ class Support(ABC):
     def _solve_on(self, field: PressureField, approach: float, geometric: float) -> float:
         assert self.contact is not None
         gap = self.gap(field.settings)
+        field.roll_to(self.road_row(field.settings))
         field.solve(gap, approach)
         self.published = FieldRecord(field.pressure, *self.origin(field.settings), approach, field.load, self.travel)
         return offset_of(self.contact.elastic, field, gap, approach, geometric)
+
+    def road_row(self, settings: FieldSettings) -> int:
+        """Row of the road under the first row of a grid."""
+        return 0
 
     @abstractmethod
     def gap(self, settings: FieldSettings) -> Gap:
@@ -139,7 +145,7 @@ class RoadSupport(Support):
         """The block's road, and the travel of the wheel centre in [m]."""
         self._road, self.travel = road, travel
         if self._memory is not None and self.grids is not None:
-            self._memory.move_to(self._first(self.grids.wide.settings))
+            self._memory.move_to(self.road_row(self.grids.wide.settings))
 
     def stand(self, load: float) -> float:
         """See Support; a tread with memory has stood there for long."""
@@ -148,7 +154,7 @@ class RoadSupport(Support):
         self._memory.reset()
         relaxed = relaxed_grids(self.grids, self._tread)
         approach, field = self._stand_on(relaxed, load)
-        self._memory.settle(self._first(relaxed.wide.settings), self._on_wide(field.pressure))
+        self._memory.settle(self.road_row(relaxed.wide.settings), self._on_wide(field.pressure))
         return approach
 
     def keep(self) -> None:
@@ -166,7 +172,8 @@ class RoadSupport(Support):
         self._pressed[first_row : first_row + pressure.shape[0], first_col : first_col + pressure.shape[1]] = pressure
         return self._pressed
 
-    def _first(self, settings: FieldSettings) -> int:
+    def road_row(self, settings: FieldSettings) -> int:
+        """See Support."""
         return round(self.travel / settings.cell_x) - settings.rows // 2
 
     def gap(self, settings: FieldSettings) -> Gap:
@@ -176,7 +183,7 @@ class RoadSupport(Support):
         out = self._gaps[settings.rows]
         inside = tire_gap(
             road.height, road.first_row, settings.cell_x, settings.cell_y, geometry.radius_rolling,
-            geometry.radius_lateral, self._first(settings), self.travel, out,
+            geometry.radius_lateral, self.road_row(settings), self.travel, out,
         )  # fmt: skip
         if not inside:
             raise RunError(
@@ -190,7 +197,7 @@ class RoadSupport(Support):
 
     def origin(self, settings: FieldSettings) -> tuple[float, float]:
         """See Support."""
-        return self._first(settings) * settings.cell_x - self.travel, -0.5 * (settings.cols - 1) * settings.cell_y
+        return self.road_row(settings) * settings.cell_x - self.travel, -0.5 * (settings.cols - 1) * settings.cell_y
 
 
 class CushionSupport(Support):

@@ -14,8 +14,8 @@ import math
 import numpy
 from numpy.typing import NDArray
 
+from ..field_rolling import RollingField
 from ..field_solver import BAD_INPUT, CONVERGED, EDGE, SENTENCES, FieldResult, refuse_bad_gap
-from ..field_window import WindowedSolver
 from ..halfspace import HalfSpace, make_half_space
 from ..parameters import FieldSettings, NormalElastic
 from .envelopment import belt_influence
@@ -48,26 +48,41 @@ class PressureField:
         self.settings = settings
         self.contact = contact
         self.half_space: HalfSpace = half_space_of(settings)
-        self._solver = WindowedSolver(self.half_space)
-        self.pressure: Field = numpy.zeros((settings.rows, settings.cols))
+        self._field = RollingField(self.half_space)
+        self._row: int | None = None  # of the road under row 0, at the last solve
+        self.pressure: Field = self._field.pressure
         self.load = 0.0
         self.iterations = 0
         self.residual = 0.0
 
+    def forget(self) -> None:
+        """The next field starts from nothing."""
+        self._field.forget()
+        self._row = None
+
+    def roll_to(self, row: int) -> None:
+        """Row 0 of the grid lies on ``row`` of the road now. Call it before each solve; the same row again changes nothing.
+
+        What is known of the field moves with the road. Several solves at one row repeat the instant: the last one counts.
+        """
+        if self._row is not None and row != self._row:
+            self._field.roll(row - self._row)
+        self._row = row
+
     def solve(self, gap: Field, approach: float) -> float:
         """Solve for ``gap`` [m] (undeformed, at zero approach) and ``approach`` [m]; returns the load in [N], 0 without contact.
 
-        Starts from the field of the last call. Raises FieldError where the contact reaches the edge or does not converge.
+        Starts from what is known of the fields before. Raises FieldError where the contact reaches the edge or does not converge.
         """
         s = self.settings
-        result = self._solver.solve_at_approach(gap, approach, s.tolerance, s.maximum_iterations, self.pressure)
+        result = self._field.solve_at_approach(gap, approach, s.tolerance, s.maximum_iterations)
         self._accept(result, gap)
         return self.load
 
     def solve_load(self, gap: Field, load: float) -> float:
         """Solve for ``load`` [N]; returns the approach in [m]. Errors as in ``solve``."""
         s = self.settings
-        result = self._solver.solve_at_load(gap, load, s.tolerance, s.maximum_iterations, self.pressure)
+        result = self._field.solve_at_load(gap, load, s.tolerance, s.maximum_iterations)
         self._accept(result, gap)
         return float(result.approach)
 
