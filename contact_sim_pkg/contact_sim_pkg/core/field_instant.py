@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from contact_sim_pkg.core.field_follow import follow
 from contact_sim_pkg.core.field_iteration import SolverWorkspace
-from contact_sim_pkg.core.field_outside import BlockSums, enclose
+from contact_sim_pkg.core.field_outside import enclose
 from contact_sim_pkg.core.field_prediction import Known, predict, remember, scale_to, start_from
 from contact_sim_pkg.core.field_solver import total_of
 from contact_sim_pkg.core.halfspace import Field, HalfSpace
@@ -56,16 +56,15 @@ def solve_instant(
     first_col: int,
     last: Known,
     before: Known,
-    keep: Known,
+    repeats: bool,
     share: float,
     lengths: Values,
-    blocks: BlockSums,
     pressure: Field,
 ) -> Instant:
     """Solve on the window of the size of `part` at (first_row, first_col); `pressure` of the whole grid is overwritten.
 
-    share: of extrapolation; negative: start from `pressure` instead of what is known. keep: what takes the new field, `last` or
-    `before`. What is not certified is put into `pressure` as a start.
+    share: of extrapolation; negative: start from `pressure` instead of what is known. The new field is kept in
+    `last` if this repeats an instant, else in `before`. What is not certified is put into `pressure` as a start.
     """
     rows, cols = part.rows, part.cols
     window, cell = (first_row, first_col, rows, cols), whole.cell_x * whole.cell_y
@@ -76,11 +75,12 @@ def solve_instant(
         start_from(part, workspace, first_row, first_col, pressure)
     total, approach = (given / cell, 0.0) if holds_load else (-1.0, given - datum)
     if (holds_load or approach > 0.0) and scale_to(workspace, approach, total):
+        keep = last if repeats else before
         found = follow(part, workspace, approach, total, tolerance, max_corrections, lengths)
         if found.certified:
             box = remember(workspace, first_row, first_col, keep, pressure)
             approach = found.approach + datum if holds_load else given
-            window = enclose(whole, gap, approach, pressure, blocks, *window)
+            window = enclose(whole, gap, approach, pressure, *window)
             load = total_of(workspace.pressure) * cell
             return Instant(True, found.corrections, load, approach, found.residual, window, box)
     put_start(workspace, first_row, first_col, pressure)
@@ -97,11 +97,11 @@ def keep_window(
 
 @entry
 def grown_window(
-    whole: HalfSpace, gap: Field, approach: float, pressure: Field, blocks: BlockSums,
+    whole: HalfSpace, gap: Field, approach: float, pressure: Field,
     first_row: int, first_col: int, rows: int, cols: int,
 ) -> tuple[int, int, int, int]:  # fmt: skip
     """See `enclose`."""
-    return enclose(whole, gap, approach, pressure, blocks, first_row, first_col, rows, cols)
+    return enclose(whole, gap, approach, pressure, first_row, first_col, rows, cols)
 
 
 @kernel
@@ -112,7 +112,8 @@ def load_heights(gap: Field, first_row: int, first_col: int, height: Field, line
         line[j] = numpy.inf
     for i in range(rows):
         for j in range(cols):
-            line[j] = min(line[j], gap[first_row + i, first_col + j])
+            here = gap[first_row + i, first_col + j]
+            line[j] = here if here < line[j] else line[j]  # `min` minds NaN, which takes four times as long
     least = numpy.inf
     for j in range(cols):
         least = min(least, line[j])

@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 from contact_sim_pkg.core.halfspace import Field, HalfSpace
 from contact_sim_pkg.core.jit import kernel
 
-__all__ = ["BlockSums", "enclose", "make_block_sums", "widened"]
+__all__ = ["enclose", "widened"]
 
 BLOCK = 4
 """Cells along a side of a block."""
@@ -41,6 +41,7 @@ class Blocks(NamedTuple):
     line: Values  # [Pa] [cols]
 
 
+@kernel
 def make_blocks(half_space: HalfSpace, side: int) -> Blocks:
     """Scratch for blocks of `side` x `side` cells."""
     rows, cols = -(-half_space.rows // side), -(-half_space.cols // side)
@@ -59,9 +60,10 @@ class BlockSums(NamedTuple):
     coarse: Blocks
 
 
+@kernel
 def make_block_sums(half_space: HalfSpace) -> BlockSums:
-    """Scratch for a grid."""
-    return BlockSums(*(make_blocks(half_space, side) for side in (BLOCK, MIDDLE, COARSE)))
+    """Scratch for a grid; to hand it in from Python would take longer than to make it."""
+    return BlockSums(make_blocks(half_space, BLOCK), make_blocks(half_space, MIDDLE), make_blocks(half_space, COARSE))
 
 
 @kernel
@@ -95,17 +97,16 @@ def enclose(
     gap: Field,
     approach: float,
     pressure: Field,
-    blocks: BlockSums,
     first_row: int,
     first_col: int,
     window_rows: int,
     window_cols: int,
 ) -> tuple[int, int, int, int]:
-    """Smallest window that holds the given one and every cell outside it that penetrates; the blocks are scratch."""
+    """Smallest window that holds the given one and every cell outside it that penetrates."""
     rows, cols = gap.shape
     end_row, end_col = first_row + window_rows, first_col + window_cols
     top, bottom, left, right = rows, -1, cols, -1
-    added = False
+    blocks, added = make_block_sums(half_space), False
     for i in range(0, rows, BLOCK):
         for j in range(0, cols, BLOCK):
             inside_rows = first_row <= i and min(i + BLOCK, rows) <= end_row
@@ -150,8 +151,6 @@ def penetrating(
         for col in range(j, min(j + BLOCK, cols)):
             depth = approach - gap[row, col]
             if depth <= least or (first_row <= row < end_row and first_col <= col < end_col):
-                continue
-            if least_displacement(half_space, blocks, row, col, 1, depth) >= depth:
                 continue
             if displacement_at(half_space, pressure, blocks.fine.line, row, col, first_row, end_row) < depth:
                 top, bottom = min(top, row), max(bottom, row)

@@ -18,7 +18,7 @@ from numpy.typing import NDArray
 from contact_sim_pkg.core.field_follow import FIRST_LENGTH, MOST_CORRECTIONS
 from contact_sim_pkg.core.field_instant import Instant, all_finite, grown_window, keep_window, solve_instant
 from contact_sim_pkg.core.field_nested import double, halve
-from contact_sim_pkg.core.field_outside import make_block_sums, widened
+from contact_sim_pkg.core.field_outside import widened
 from contact_sim_pkg.core.field_prediction import EXTRAPOLATION, make_known
 from contact_sim_pkg.core.field_solver import BAD_INPUT, CONVERGED, EDGE, FieldResult, solve_at_approach, solve_at_load
 from contact_sim_pkg.core.field_window import Part, Window, make_part, put_back, take
@@ -63,7 +63,6 @@ class RollingField:
         self._cells: int | None = None  # of travel since the last field, if a new instant began
         self._box: Box = NOWHERE  # of the last field's contact
         self._lengths: Values = numpy.full((3, MOST_CORRECTIONS), FIRST_LENGTH)
-        self._blocks = make_block_sums(half_space)
         self._parts: dict[tuple[int, int], Part] = {}
         self._half = _half_of(half_space)
         self._gap_of_half: Field = numpy.zeros((half_space.rows // 2, half_space.cols // 2))
@@ -162,11 +161,11 @@ class RollingField:
         share: float,
         lengths: int,
     ) -> Instant:
-        part, keep = self._part(window.rows, window.cols), self._last if repeats else self._before
+        part = self._part(window.rows, window.cols)
         return solve_instant(
             self.half_space, part.half_space, part.workspace, gap, given, holds_load, tolerance, max_corrections,
-            window.first_row, window.first_col, self._last, self._before, keep, share, self._lengths[lengths],
-            self._blocks, self.pressure,
+            window.first_row, window.first_col, self._last, self._before, repeats, share, self._lengths[lengths],
+            self.pressure,
         )  # fmt: skip
 
     def _settle(
@@ -211,7 +210,7 @@ class RollingField:
         whole = self.half_space
         if (window.rows, window.cols) == (whole.rows, whole.cols):
             return window
-        return Window(*grown_window(whole, gap, approach, self.pressure, self._blocks, *window))
+        return Window(*grown_window(whole, gap, approach, self.pressure, *window))
 
     def _judged(self, result: FieldResult) -> FieldResult:
         """EDGE is about the whole grid's edge: the window's edge was checked."""
@@ -240,16 +239,16 @@ def _half_of(whole: HalfSpace) -> RollingField | None:
 def compile_now() -> None:
     """Compile all of it on a grid of four cells: a path that was never taken may be needed in the middle of a run."""
     half_space, field, wide = make_half_space(2, 2, 1.0, 1.0, 1.0), numpy.zeros((2, 2)), numpy.zeros((4, 4))
-    part, known, blocks = make_part(half_space, 2, 2), make_known(half_space), make_block_sums(half_space)
+    part, known = make_part(half_space, 2, 2), make_known(half_space)
     all_finite(field)
     lengths = numpy.full(MOST_CORRECTIONS, FIRST_LENGTH)
     solve_instant(
-        half_space, part.half_space, part.workspace, field, 1.0, True, 1.0, 1, 0, 0, known, known, known, FROM_PRESSURE,
-        lengths, blocks, field,
+        half_space, part.half_space, part.workspace, field, 1.0, True, 1.0, 1, 0, 0, known, known, False, FROM_PRESSURE,
+        lengths, field,
     )  # fmt: skip
     solve_at_load(half_space, part.workspace, field, 1.0, 1.0, 1, field)
     keep_window(part.workspace, 0, 0, known, field)
-    grown_window(half_space, field, 1.0, field, blocks, 0, 0, 2, 2)
+    grown_window(half_space, field, 1.0, field, 0, 0, 2, 2)
     take(field, 0, 0, part.gap)
     put_back(part.gap, 0, 0, field)
     halve(wide, field)

@@ -183,13 +183,20 @@ def precondition(half_space: HalfSpace, buffers: Buffers, field: Field, result: 
     """`result = M field`, M an approximate inverse of K: the filter E* |q| / 2 on the unpadded grid."""
     rows, cols = field.shape
     plain, spectrum = buffers.plain, buffers.plain_spectrum
-    for i in range(plain.shape[0]):
-        for j in range(plain.shape[1]):
-            plain[i, j] = field[i, j] if i < rows and j < cols else 0.0
-    rocket_fft.r2c(plain, spectrum, buffers.col_axis, True, 1.0, 1)
+    fits = plain.shape == field.shape
+    if fits:
+        rocket_fft.r2c(field, spectrum, buffers.col_axis, True, 1.0, 1)
+    else:
+        for i in range(plain.shape[0]):
+            for j in range(plain.shape[1]):
+                plain[i, j] = field[i, j] if i < rows and j < cols else 0.0
+        rocket_fft.r2c(plain, spectrum, buffers.col_axis, True, 1.0, 1)
     rocket_fft.c2c(spectrum, spectrum, buffers.row_axis, True, 1.0, 1)
     multiply(spectrum, half_space.preconditioner)
     rocket_fft.c2c(spectrum, spectrum, buffers.row_axis, False, 1.0, 1)
+    if fits:
+        rocket_fft.c2r(spectrum, result, buffers.col_axis, False, 1.0, 1)
+        return
     rocket_fft.c2r(spectrum, plain, buffers.col_axis, False, 1.0, 1)
     for i in range(rows):
         for j in range(cols):
