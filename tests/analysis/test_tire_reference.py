@@ -1,5 +1,7 @@
 """The state at rest, against the elliptic Hertz contact computed apart."""
 
+import math
+
 import pytest
 
 from contact_sim_pkg.analysis.tire_reference import tire_reference
@@ -60,3 +62,21 @@ def test_a_belt_makes_the_footprint_longer_and_the_pressure_lower_and_carries_th
     assert far.peak_pressure < 0.9 * peak
     assert far.semi_axis_x > 1.1 * along
     assert far.approach > 1.5 * approach
+
+
+def test_the_area_at_rest_is_that_of_the_ellipse():
+    along, across, *_ = known.ellipse(known.STANDING)
+
+    assert tire_reference({"rig": "tire", "tire": TIRE}).area == pytest.approx(math.pi * along * across)
+
+
+def test_the_state_at_rest_of_a_tire_with_a_belt_does_not_carry_the_tolerance_of_the_run():
+    def reference(tolerance):
+        field = {"length": 0.28, "width": 0.44, "rows": 48, "cols": 64, "tolerance": tolerance, "corrector_passes": 1}
+        effects = {"tire": {"contact_field": field, "envelopment": {"tension": 9900.0, "foundation": 1.5e6}}}
+        return tire_reference({"rig": "tire", "tire": {**TIRE, "young_modulus": 6e6}, "effects": effects})
+
+    coarse, fine = reference(1e-2), reference(1e-7)
+
+    assert coarse.peak_pressure == pytest.approx(fine.peak_pressure, rel=1e-6)
+    assert 2.0 * fine.semi_axis_x * fine.semi_axis_y < fine.area < 4.0 * fine.semi_axis_x * fine.semi_axis_y

@@ -62,9 +62,11 @@ def relative_pressure_picture(key: str, snapshot: Snapshot, reference: TireRefer
         f"Pressure at the largest load, {snapshot.load:.5g} N at {snapshot.time:.3f} s, over the largest pressure of the "
         f"tire at rest on a flat road, p_ref,max = {reference.peak_pressure * 1e-3:.4g} kPa ({reference.how}, "
         f"{reference.load:.5g} N, radii {reference.radius_rolling:.4g} and {reference.radius_lateral:.4g} m). Largest: "
-        f"{relative.max():.3f}. A Hertz contact under this load on a flat road would have "
-        f"{(snapshot.load / reference.load) ** (1.0 / 3.0):.3f}."
+        f"{relative.max():.3f}."
     )
+    if reference.belt is None:
+        flat = (snapshot.load / reference.load) ** (1.0 / 3.0)
+        caption += f" A Hertz contact under this load on a flat road would have {flat:.3f}."
     return picture(f"{key}-relative", figure, "Pressure over the reference maximum at the largest load", caption)
 
 

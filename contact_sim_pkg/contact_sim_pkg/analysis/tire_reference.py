@@ -2,17 +2,21 @@
 
 from __future__ import annotations
 
+import math
 from typing import Any, NamedTuple
 
 import numpy as np
 
 from contact_sim_pkg.core.effects.contact_field import FieldError, PressureField
 from contact_sim_pkg.core.hertz import HertzError, hertz_contact
-from contact_sim_pkg.core.lame import fit_patch
+from contact_sim_pkg.core.lame import fit_patch, lame_area
 from contact_sim_pkg.core.parameters import Belt, widened
 from contact_sim_pkg.scene.lattice import contact_modulus, field_settings
 
 from .tire_numbers import standing_load_of
+
+REFERENCE_TOLERANCE = 1e-6
+"""Of the field at rest: what a run is measured by must not carry the error of the run's own tolerance."""
 
 
 class TireReference(NamedTuple):
@@ -33,6 +37,8 @@ class TireReference(NamedTuple):
     """[Pa]"""
     approach: float
     """[m]"""
+    area: float
+    """[m^2]"""
     belt: Belt | None = None
     """what yields beside the tread; with it the contact is no ellipse, its semi-axes are those of the fitted curve"""
 
@@ -55,7 +61,16 @@ def tire_reference(scene: dict[str, Any]) -> TireReference | None:
         return None  # a scene that this version does not know: nothing to compare with
     semi_x, semi_y = (contact.b, contact.a) if radius_y >= radius_x else (contact.a, contact.b)
     reference = TireReference(
-        load, modulus, poisson, radius_x, radius_y, semi_x, semi_y, contact.peak_pressure, contact.approach
+        load,
+        modulus,
+        poisson,
+        radius_x,
+        radius_y,
+        semi_x,
+        semi_y,
+        contact.peak_pressure,
+        contact.approach,
+        math.pi * semi_x * semi_y,
     )
     return _on_belt(scene, reference)
 
@@ -68,7 +83,7 @@ def _on_belt(scene: dict[str, Any], reference: TireReference) -> TireReference |
     settings = field_settings(scene, "tire", reference.modulus)
     if settings is None:
         return None
-    grid = widened(settings)
+    grid = widened(settings)._replace(tolerance=REFERENCE_TOLERANCE)
     x = (np.arange(grid.rows) - 0.5 * (grid.rows - 1)) * grid.cell_x
     y = (np.arange(grid.cols) - 0.5 * (grid.cols - 1)) * grid.cell_y
     gap = 0.5 * (x[:, None] ** 2 / reference.radius_rolling + y[None, :] ** 2 / reference.radius_lateral)
@@ -80,5 +95,5 @@ def _on_belt(scene: dict[str, Any], reference: TireReference) -> TireReference |
     curve = fit_patch(field.pressure, grid.cell_x, grid.cell_y, float(x[0]), float(y[0]))
     return reference._replace(
         semi_axis_x=curve.a, semi_axis_y=curve.b, peak_pressure=float(field.pressure.max()), approach=approach,
-        belt=grid.belt,
+        area=lame_area(curve.a, curve.b, curve.exponent), belt=grid.belt,
     )  # fmt: skip

@@ -57,10 +57,9 @@ def footprint_table(field: FieldSeries, reference: TireReference | None) -> Tabl
 def _at_rest(reference: TireReference | None) -> list[float]:
     if reference is None:
         return [math.nan] * 7
-    area = math.pi * reference.semi_axis_x * reference.semi_axis_y
     return [
-        reference.load, reference.peak_pressure * 1e-3, 1.0, reference.load / area * 1e-3, reference.semi_axis_x * 2e3,
-        reference.semi_axis_y * 2e3, area * 1e4,
+        reference.load, reference.peak_pressure * 1e-3, 1.0, reference.load / reference.area * 1e-3, reference.semi_axis_x * 2e3,
+        reference.semi_axis_y * 2e3, reference.area * 1e4,
     ]  # fmt: skip
 
 
