@@ -55,6 +55,7 @@ class Sequence(NamedTuple):
 
     errors: list[float]  # [-]
     seconds: list[float]
+    processor_seconds: list[float]  # of this thread: less, where others take turns on its core
     convolutions: list[int]
 
 
@@ -80,17 +81,18 @@ def sequence(problem: RollingProblem, kind: str, tolerance: float, fields: list[
     if kind == ROLLING:  # tables of windows are made as they come: not counted
         for step in range(len(fields)):
             solve(problem.gap(step), problem.cells if step else len(fields[0]))
-    found = Sequence([], [], [])
+    found = Sequence([], [], [], [])
     for step, reference in enumerate(fields):
         gap = problem.gap(step)
-        before, began = count(), time.perf_counter()
+        before, began, began_on_processor = count(), time.perf_counter(), time.thread_time()
         pressure, result = solve(gap, problem.cells if step else len(reference))
-        seconds = time.perf_counter() - began
+        on_processor, seconds = time.thread_time() - began_on_processor, time.perf_counter() - began
         if not result.residual <= tolerance or abs(result.load / LOAD - 1.0) > 1e-8:
             raise RuntimeError(f"rolling problem: step {step} to {tolerance:g} ended with {result}")
         if step >= SKIPPED or kind in (COLD, NESTED):
             found.errors.append(float(numpy.linalg.norm(pressure - reference) / numpy.linalg.norm(reference)))
             found.seconds.append(seconds)
+            found.processor_seconds.append(on_processor)
             found.convolutions.append(count() - before)
     return found
 
@@ -170,6 +172,7 @@ def rows_of(
                 ]
             errors = numpy.concatenate([one.errors for one in found])
             seconds = numpy.concatenate([one.seconds for one in found])
+            on_processor = numpy.concatenate([one.processor_seconds for one in found])
             rows.append(
                 {
                     "grid": grid,
@@ -178,8 +181,10 @@ def rows_of(
                     "tolerance": tolerance,
                     "error": float(numpy.median(errors)),
                     "largest error": float(errors.max()),
+                    "largest/median": float(errors.max() / numpy.median(errors)),
                     "ms": 1e3 * float(numpy.median(seconds)),
                     "ms, 95 %": 1e3 * float(numpy.percentile(seconds, 95)),
+                    "processor ms": 1e3 * float(numpy.median(on_processor)),
                     "convolutions": float(numpy.mean(numpy.concatenate([one.convolutions for one in found]))),
                 }
             )
@@ -202,7 +207,7 @@ def readings(rows: list[dict[str, Any]]) -> list[dict[str, Any]]:
     for grid, kind in dict.fromkeys((row["grid"], row["solver"]) for row in rows):
         those = [row for row in rows if (row["grid"], row["solver"]) == (grid, kind)]
         for asked in ASKED.get(kind, ASKED[LAST]):
-            read = {name: read_at(those, asked, name) for name in ("ms", "ms, 95 %", "convolutions")}
+            read = {name: read_at(those, asked, name) for name in ("ms", "ms, 95 %", "processor ms", "convolutions")}
             goal = GOALS.get((grid, kind, asked))
             found.append(
                 {"grid": grid, "cells": those[0]["cells"], "solver": kind, "error": asked, **read, "goal": goal}
