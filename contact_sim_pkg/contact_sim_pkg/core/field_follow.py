@@ -71,6 +71,7 @@ def follow(
     approach: float,
     total: float,
     tolerance: float,
+    least_corrections: int,
     max_corrections: int,
     lengths: Values,
 ) -> Followed:
@@ -92,7 +93,8 @@ def follow(
         state = evaluate(workspace, contact, left, approach, holds_load)
         longer = lengths[correction] * math.sqrt(math.sqrt(change.factor))
         lengths[correction] = min(max(longer, LENGTHS[0]), LENGTHS[1])
-        if state.residual <= tolerance and change.size <= CHANGE * tolerance:
+        enough = correction + 1 >= least_corrections and change.size <= CHANGE * tolerance
+        if enough and state.residual <= tolerance:
             return Followed(True, correction + 1, state.approach, state.residual)
         contact, pulling = put_right(workspace, contact, state.free, left, change.factor)
         response_known = True

@@ -17,6 +17,9 @@ from contact_sim_pkg.core.jit import entry, kernel
 
 __all__ = ["Instant", "all_finite", "grown_window", "keep_window", "solve_instant"]
 
+LEAST_FROM_START = 2
+"""Corrections of a start that is no prediction: on a window that has grown the first moves the new cells by its length only."""
+
 Values = NDArray[numpy.float64]
 
 
@@ -76,7 +79,8 @@ def solve_instant(
     total, approach = (given / cell, 0.0) if holds_load else (-1.0, given - datum)
     if (holds_load or approach > 0.0) and scale_to(workspace, approach, total):
         keep = last if repeats else before
-        found = follow(part, workspace, approach, total, tolerance, max_corrections, lengths)
+        least = 1 if share >= 0.0 else LEAST_FROM_START
+        found = follow(part, workspace, approach, total, tolerance, least, max_corrections, lengths)
         if found.certified:
             box = remember(workspace, first_row, first_col, keep, pressure)
             approach = found.approach + datum if holds_load else given
