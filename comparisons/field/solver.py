@@ -27,7 +27,7 @@ class NotSolvedError(Exception):
 class Solver(Protocol):
     """Solves one problem, step by step."""
 
-    untimed: float  # [s] that the last solve spent on tables, which count as set-up
+    untimed: float  # [s] wall time that the last solve spent on tables, which count as set-up
 
     def forget(self) -> None:
         """The next field starts from nothing."""
