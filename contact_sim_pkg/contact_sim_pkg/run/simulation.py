@@ -7,7 +7,6 @@ from typing import Any, NamedTuple
 
 import numpy
 
-from contact_sim_pkg.core.effects.footprint import effective_heights
 from contact_sim_pkg.core.effects.normal_elastic import elastic_energy, elastic_force
 from contact_sim_pkg.core.jit import freeze, thaw
 from contact_sim_pkg.core.parameters import Vector
@@ -16,15 +15,13 @@ from contact_sim_pkg.core.rigs import advance as entries
 from contact_sim_pkg.core.rigs.vehicle import MARGINS
 from contact_sim_pkg.core.solvers.dormand_prince import make_workspace
 from contact_sim_pkg.excitation.blocks import RoadPatch, VibrationBlock
-from contact_sim_pkg.run.asperity_push import asperity_push
+from contact_sim_pkg.run.block_drive import ROAD, VIBRATION, BlockDrive, block_drive
 from contact_sim_pkg.run.errors import RunError
 from contact_sim_pkg.run.outputs import BlockRecord, encode_block
 from contact_sim_pkg.run.rolling_shear import RollingShear
 from contact_sim_pkg.run.sources import make_travel
 from contact_sim_pkg.run.support import CushionSupport, RoadSupport
 from contact_sim_pkg.scene.build import Model, build, standing_state
-
-ROAD, VIBRATION = "road/patch", "platform/vibration"
 
 
 class BlockResult(NamedTuple):
@@ -115,17 +112,13 @@ class Simulation:
         began = time.perf_counter()
         if block != self._next_block:
             raise RunError(f"block {block} came, block {self._next_block} was due")
-        road = inputs.get(ROAD)
-        vibration = inputs.get(VIBRATION)
         record = BlockRecord.empty(self.model, block)
-        a_x, a_z = self._accelerations(block, vibration)
-        travel, smooth = self._smooth_road(block, road)
-        push = self._push(road, travel)
+        drive = block_drive(self.model, self._travel, block, inputs.get(ROAD), inputs.get(VIBRATION))
         if block == 0:
-            self._start(road, travel, smooth, a_x, a_z, push)
+            self._start(drive)
         self._work.counters[:] = 0.0
         for interval in range(self.model.timing.intervals):
-            self._interval(block, interval, road, travel, smooth, a_x, a_z, push, record)
+            self._interval(block, interval, drive, record)
         self._next_block = block + 1
         record.counters[:] = self._work.counters
         for support in (self._tire, self._seat):
@@ -136,78 +129,20 @@ class Simulation:
         messages, load, peak = encode_block(self.model, record, self._shear, wall)
         return BlockResult(messages, load, peak, time.perf_counter() - began)
 
-    def _accelerations(self, block: int, vibration: Any) -> tuple[Vector, Vector]:
-        """Floor accelerations at every segment's end, straight between the samples."""
-        timing = self.model.timing
-        points = timing.intervals * timing.segments + 1
-        if VIBRATION not in self.inputs:
-            zeros = numpy.zeros(points)
-            return zeros, zeros
-        samples = (points - 1) // timing.vibration_stride + 1
-        if vibration is None or vibration.block != block or len(vibration.acceleration_z) != samples:
-            found = (
-                "none" if vibration is None else f"block {vibration.block} with {len(vibration.acceleration_z)} samples"
-            )
-            raise RunError(f"{VIBRATION}: block {block} with {samples} samples was due, {found} came")
-        position = numpy.arange(points) / timing.vibration_stride
-        index = numpy.arange(samples)
-        return (
-            numpy.interp(position, index, vibration.acceleration_x),
-            numpy.interp(position, index, vibration.acceleration_z),
-        )
-
-    def _smooth_road(self, block: int, road: Any) -> tuple[Vector, Vector]:
-        """Travel of the wheel and the height that a smooth tire sees, at every segment's end."""
-        timing, geometry = self.model.timing, self.model.tire_geometry
-        points = timing.intervals * timing.segments + 1
-        if geometry is None or self._travel is None:
-            zeros = numpy.zeros(points)
-            return zeros, zeros
-        if road is None or road.block != block:
-            raise RunError(f"{ROAD}: block {block} was due, {'none' if road is None else f'block {road.block}'} came")
-        if (
-            road.height.shape[1] != geometry.lattice.road_cols
-            or abs(road.cell_x / geometry.lattice.cell_x - 1.0) > 1e-12
-        ):
-            raise RunError(
-                f"{ROAD}: block {block} has {road.height.shape[1]} columns and cells of {road.cell_x} m, the scene needs "
-                f"{geometry.lattice.road_cols} columns and cells of {geometry.lattice.cell_x} m"
-            )
-        steps = timing.intervals * timing.segments
-        travel = numpy.array(
-            [self._travel.position((block * steps + i) * timing.segment_length) for i in range(points)]
-        )
-        smooth = numpy.empty(points)
-        inside = effective_heights(
-            road.height, road.first_row, geometry.lattice.cell_x, geometry.lattice.cell_y, geometry.semi_axis_x,
-            geometry.semi_axis_y, travel, smooth,
-        )  # fmt: skip
-        if not inside:
-            raise RunError(
-                f"{ROAD}: block {block} does not reach over the footprint from {travel[0]:.6g} to {travel[-1]:.6g} m"
-            )
-        return travel, smooth
-
-    def _push(self, road: Any, travel: Vector) -> Vector | None:
-        """Impulses of the road's asperities in [N] at every segment's end; None where the scene calls for none."""
-        model = self.model
-        if model.asperities is None or model.tire_geometry is None:
-            return None
-        return asperity_push(model.asperities, model.tire_geometry, road, travel)
-
-    def _start(self, road: Any, travel: Vector, smooth: Vector, a_x: Vector, a_z: Vector, push: Vector | None) -> None:
+    def _start(self, drive: BlockDrive) -> None:
         """Let the rig stand in balance on the road at the start, with the fields that belong to it."""
+        smooth, first = drive.smooth, drive.part(0, 1)
         self.state[:] = standing_state(self.model, float(smooth[0]))
         if self._tire.grids is not None:
-            self._stand_on_road(road, float(travel[0]))
-        self._tire.offset = self._solve_tire(road, float(travel[0]), float(smooth[0]))
+            self._stand_on_road(drive.road, float(drive.travel[0]))
+        self._tire.offset = self._solve_tire(drive.road, float(drive.travel[0]), float(smooth[0]))
         self._seat.offset = self._solve_seat()
-        height = numpy.array([smooth[0] + self._tire.offset, smooth[1] + self._tire.offset])
+        height = first.smooth + self._tire.offset
         cushion = numpy.full(2, self._seat.offset)
         length = self.model.timing.segment_length
         entries.start(
-            self.model.rig, self._mode, self.state, self._work, length, height, cushion, a_x[:2], a_z[:2],
-            None if push is None else push[:2],
+            self.model.rig, self._mode, self.state, self._work, length, height, cushion, first.acceleration_x,
+            first.acceleration_z, first.push,
         )  # fmt: skip
 
     def _stand_on_road(self, road: Any, travel: float) -> None:
@@ -226,22 +161,11 @@ class Simulation:
             vertical += range(rig.seat.offset, rig.seat.offset + 1 + len(rig.seat.masses))
         self.state[vertical] += shift
 
-    def _interval(
-        self,
-        block: int,
-        interval: int,
-        road: Any,
-        travel: Vector,
-        smooth: Vector,
-        a_x: Vector,
-        a_z: Vector,
-        push: Vector | None,
-        record: BlockRecord,
-    ) -> None:
+    def _interval(self, block: int, interval: int, whole: BlockDrive, record: BlockRecord) -> None:
         """One interval between field instants: predict, solve the fields at its end, correct."""
         model, timing = self.model, self.model.timing
         first = interval * timing.segments
-        part = slice(first, first + timing.segments + 1)
+        drive = whole.part(first, timing.segments)
         start = (block * timing.intervals * timing.segments + first) * timing.segment_length
         work = self._work
         saved = (self.state.copy(), self._mode.copy(), work.side.copy(), work.step.copy(), work.last_event.copy())
@@ -251,24 +175,24 @@ class Simulation:
         for passes_left in range(model.corrector_passes, -1, -1):
             if passes_left < model.corrector_passes:
                 self.state[:], self._mode[:], work.side[:], work.step[:], work.last_event[:] = saved
-            self._height[:] = smooth[part] + self._tire.offset + (tire_end - self._tire.offset) * self._ramp
+            self._height[:] = drive.smooth + self._tire.offset + (tire_end - self._tire.offset) * self._ramp
             self._cushion[:] = self._seat.offset + (seat_end - self._seat.offset) * self._ramp
             if passes_left == model.corrector_passes:
                 start_energy = self._energies()
             status = entries.advance(
                 model.rig, self._mode, self.state, model.scale, self._work, start, timing.segment_length, self._height,
-                self._cushion, a_x[part], a_z[part], None if push is None else push[part], timing.sample_every,
-                *self._sampled,
+                self._cushion, drive.acceleration_x, drive.acceleration_z, drive.push, timing.sample_every, *self._sampled,
             )  # fmt: skip
             if status != DONE:
                 raise RunError(f"block {block}, {start:.6g} s: {SENTENCES[status]}")
             if self._tire.solves_in(passes_left):
-                tire_next = self._solve_tire(road, float(travel[part][-1]), float(smooth[part][-1]), block)
+                tire_next = self._solve_tire(drive.road, float(drive.travel[-1]), float(drive.smooth[-1]), block)
             if self._seat.solves_in(passes_left):
                 seat_next = self._solve_seat(block)
             if passes_left:
                 tire_end, seat_end = tire_next, seat_next
-        record.take(interval, self._sampled, start_energy, self._start_energy, a_x[part], a_z[part], fields)
+        accelerations = drive.acceleration_x, drive.acceleration_z
+        record.take(interval, self._sampled, start_energy, self._start_energy, *accelerations, fields)
         if self._tire.grids is not None or self._seat.grids is not None:
             self._close_interval(tire_end, tire_next, seat_end, seat_next, record)
 

@@ -36,6 +36,7 @@ class Model:
     seat_field: FieldGrids | None
     seat_shape: SeatShape | None
     corrector_passes: int
+    shaken: bool  # whether the scene has a vibration
 
     @property
     def states(self) -> int:
@@ -72,6 +73,7 @@ def build(scene: dict[str, Any]) -> Model:
             (field.usual.settings.corrector_passes for field in (tire_field, seat_field) if field is not None),
             default=0,
         ),
+        shaken=bool(scene.get("vibration")),
     )
 
 
