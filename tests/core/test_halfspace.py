@@ -6,14 +6,18 @@ import numpy
 import pytest
 from scipy.signal import fftconvolve
 
+from contact_sim_pkg.core.effects.envelopment import belt_influence
 from contact_sim_pkg.core.halfspace import (
+    _nearest_circulant,
     coarsened,
     displacement,
     love_coefficients,
     make_buffers,
     make_half_space,
     part_of,
+    yields_further,
 )
+from contact_sim_pkg.core.parameters import Belt
 from contact_sim_pkg.reference import halfspace as reference
 
 MODULUS = 3.7e6
@@ -122,3 +126,28 @@ def test_what_yields_further_adds_its_displacement() -> None:
     rows, cols = abs(numpy.arange(-6, 7)), abs(numpy.arange(-5, 6))
     expected = fftconvolve(pressure, further[rows][:, cols], mode="full")[6:13, 5:11]
     assert with_it - without == pytest.approx(expected, rel=1e-9)
+
+
+def test_the_circulant_of_a_table_is_the_nearest_to_its_matrix() -> None:
+    rows, cols = 5, 4
+    table = numpy.exp(-0.4 * numpy.arange(rows))[:, None] / (1.0 + numpy.arange(cols))
+    row, col = numpy.divmod(numpy.arange(rows * cols), cols)
+    down, across = row[:, None] - row, col[:, None] - col
+    dense = table[abs(down), abs(across)]
+    nearest = numpy.array(  # in the Frobenius norm: the mean over all entries that a circulant has in common
+        [[dense[(down % rows == i) & (across % cols == j)].mean() for j in range(cols)] for i in range(rows)]
+    )
+    assert _nearest_circulant(table, rows, cols) == pytest.approx(numpy.fft.rfft2(nearest).real, abs=1e-12)
+
+
+def test_a_belt_is_seen_in_the_influence_and_coarser_cells_are_not_taken_for_one() -> None:
+    size = (48, 64, 6e-3, 7e-3)
+    plain = make_half_space(*size, MODULUS)
+    assert not yields_further(plain)
+    assert not yields_further(coarsened(plain))
+    assert not yields_further(part_of(plain, 20, 12))
+    for belt in (Belt(9900.0, 6.3e5), Belt(9900.0, 3e6)):
+        belted = make_half_space(*size, MODULUS, belt_influence(belt, *size))
+        assert yields_further(belted)
+        assert yields_further(part_of(belted, 24, 20))
+        assert yields_further(coarsened(belted))

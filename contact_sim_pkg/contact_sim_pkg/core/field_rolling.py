@@ -22,7 +22,7 @@ from contact_sim_pkg.core.field_outside import widened
 from contact_sim_pkg.core.field_prediction import EXTRAPOLATION, make_known
 from contact_sim_pkg.core.field_solver import BAD_INPUT, CONVERGED, EDGE, FieldResult, solve_at_approach, solve_at_load
 from contact_sim_pkg.core.field_window import Part, Window, make_part, put_back, take
-from contact_sim_pkg.core.halfspace import Field, HalfSpace, coarsened, make_half_space
+from contact_sim_pkg.core.halfspace import Field, HalfSpace, coarsened, make_half_space, yields_further
 
 __all__ = ["RollingField"]
 
@@ -39,6 +39,9 @@ NOWHERE = (0, -1, 0, -1)
 
 NEW, REPEAT, START = 0, 1, 2
 """Lengths of corrections are known apart for a new instant, another solve at the same, and a start from nothing."""
+
+FEW_CORRECTIONS = 2
+"""Of a grid where a belt yields beside the half-space: corrections of learned length do not converge there, gradients do."""
 
 FROM_PRESSURE = -1.0
 """In place of a share of extrapolation: start from the pressure on the whole grid."""
@@ -63,6 +66,7 @@ class RollingField:
         self._cells: int | None = None  # of travel since the last field, if a new instant began
         self._box: Box = NOWHERE  # of the last field's contact
         self._lengths: Values = numpy.full((3, MOST_CORRECTIONS), FIRST_LENGTH)
+        self._corrections = FEW_CORRECTIONS if yields_further(half_space) else MOST_CORRECTIONS
         self._parts: dict[tuple[int, int], Part] = {}
         self._half = _half_of(half_space)
         self._gap_of_half: Field = numpy.zeros((half_space.rows // 2, half_space.cols // 2))
@@ -103,8 +107,9 @@ class RollingField:
             window, share, lengths = self._start(gap, given, holds_load, max_iterations), FROM_PRESSURE, START
         while True:
             found = self._correct(
-                window, gap, given, holds_load, tolerance, max_iterations - spent, repeats, share, lengths
-            )
+                window, gap, given, holds_load, tolerance, min(max_iterations - spent, self._corrections), repeats,
+                share, lengths,
+            )  # fmt: skip
             spent += found.corrections
             if not found.certified:
                 return self._settle(window, gap, given, holds_load, tolerance, max_iterations, spent, repeats)

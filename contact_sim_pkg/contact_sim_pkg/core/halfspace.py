@@ -31,6 +31,9 @@ MAXIMUM_CELLS = 4096
 PRECONDITIONER_FLOOR = 1.0
 """Wave number [1/extent of the grid] below which the preconditioner stays constant; chosen by iteration counts."""
 
+LEAST_FURTHER = 1e-2
+"""Part of the influence on the farthest cell across above which something yields beside the half-space."""
+
 
 class HalfSpace(NamedTuple):
     """A grid of `rows` x `cols` equal cells on a half-space; rows along x, cols along y; all arrays row-major."""
@@ -110,7 +113,7 @@ def _half_space(influence: Field, cell_x: float, cell_y: float, modulus: float) 
         modulus,
         influence,
         _transfer(influence),
-        _preconditioner(rows, cols, cell_x, cell_y, modulus),
+        _preconditioner(influence, cell_x, cell_y, modulus),
         numpy.ascontiguousarray(numpy.concatenate([influence[:, :0:-1], influence], axis=1)),
     )
 
@@ -246,11 +249,40 @@ def _transfer(influence: Field) -> Field:
     return numpy.ascontiguousarray(numpy.fft.rfft2(even).real / even.size)
 
 
-def _preconditioner(rows: int, cols: int, cell_x: float, cell_y: float, modulus: float) -> Field:
-    """`E* sqrt(|q|^2 + q0^2) / 2` on the unpadded grid, divided by its number of cells; q0 keeps it definite."""
+def _preconditioner(influence: Field, cell_x: float, cell_y: float, modulus: float) -> Field:
+    """`E* sqrt(|q|^2 + q0^2) / 2` on the unpadded grid, divided by its number of cells; q0 keeps it definite.
+
+    What yields in series with the half-space adds the eigenvalues of its nearest circulant to the reciprocal.
+    """
+    rows, cols = influence.shape
     plain_rows, plain_cols = _good(rows), _good(cols)
     wave_x = 2.0 * numpy.pi * numpy.fft.fftfreq(plain_rows, cell_x)[:, None]
     wave_y = 2.0 * numpy.pi * numpy.fft.rfftfreq(plain_cols, cell_y)[None, :]
     floor = PRECONDITIONER_FLOOR * (1.0 / (plain_rows * cell_x) ** 2 + 1.0 / (plain_cols * cell_y) ** 2)
-    wave = numpy.sqrt(wave_x**2 + wave_y**2 + floor)
-    return numpy.ascontiguousarray(0.5 * modulus * wave / (plain_rows * plain_cols))
+    stiffness = 0.5 * modulus * numpy.sqrt(wave_x**2 + wave_y**2 + floor)
+    further = influence - love_coefficients(rows, cols, cell_x, cell_y) / (numpy.pi * modulus)
+    if _counts(further, influence):
+        stiffness /= 1.0 + stiffness * _nearest_circulant(further, plain_rows, plain_cols)
+    return numpy.ascontiguousarray(stiffness / (plain_rows * plain_cols))
+
+
+def yields_further(half_space: HalfSpace) -> bool:
+    """Whether something else yields in series with the half-space (`further` of `make_half_space`)."""
+    size = (half_space.rows, half_space.cols, half_space.cell_x, half_space.cell_y)
+    plain = love_coefficients(*size) / (numpy.pi * half_space.modulus)
+    return _counts(half_space.influence - plain, half_space.influence)
+
+
+def _counts(further: Field, influence: Field) -> bool:
+    return bool(further[0, -1] > LEAST_FURTHER * influence[0, -1])
+
+
+def _nearest_circulant(table: Field, rows: int, cols: int) -> Field:
+    """Eigenvalues of the circulant of `rows` x `cols` cells nearest to the convolution with an even table (T. Chan 1988)."""
+    for length in (rows, cols):
+        near = numpy.arange(length)
+        far = length - near
+        last = table.shape[0] - 1
+        weight = (near / length)[:, None]
+        table = ((1.0 - weight) * table[numpy.minimum(near, last)] + weight * table[numpy.minimum(far, last)]).T
+    return numpy.asarray(numpy.fft.rfft2(table).real)
