@@ -128,3 +128,12 @@ def test_what_is_off_changes_nothing():
     rubbing = messages_of(resolved("tire_bump", *FLAT, "effects.tire.brush={}"), 5)
     for topic in ("tire/patch", "bench/motion", "bench/energy"):
         assert plain[topic] == rubbing[topic]
+
+
+@pytest.mark.parametrize("height", [-0.5, -0.1])
+def test_a_wheel_that_rolls_off_an_edge_is_not_kicked(height):
+    road = f"road={{kind: step, position: 5, height: {height}}}"
+    coarse = forces(messages_of(resolved("tire_bump", "duration=1.2", road)))
+    fine = forces(messages_of(resolved("tire_bump", "duration=1.2", road, "outputs.field_rate=1000")))
+    assert coarse.max() == pytest.approx(fine.max(), rel=0.15)
+    assert numpy.argmax(coarse) == pytest.approx(numpy.argmax(fine), abs=20)  # [ms] when it lands, not when it leaves

@@ -15,7 +15,7 @@ from contact_sim_pkg.core.rigs import advance as entries
 from contact_sim_pkg.core.rigs.vehicle import MARGINS
 from contact_sim_pkg.core.solvers.dormand_prince import make_workspace
 from contact_sim_pkg.excitation.blocks import RoadPatch, VibrationBlock
-from contact_sim_pkg.run.block_drive import ROAD, VIBRATION, BlockDrive, block_drive
+from contact_sim_pkg.run.block_drive import ROAD, VIBRATION, BlockDrive, block_drive, effective_between
 from contact_sim_pkg.run.errors import RunError
 from contact_sim_pkg.run.outputs import BlockRecord, encode_block
 from contact_sim_pkg.run.rolling_shear import RollingShear
@@ -175,7 +175,7 @@ class Simulation:
         for passes_left in range(model.corrector_passes, -1, -1):
             if passes_left < model.corrector_passes:
                 self.state[:], self._mode[:], work.side[:], work.step[:], work.last_event[:] = saved
-            self._height[:] = drive.smooth + self._tire.offset + (tire_end - self._tire.offset) * self._ramp
+            self._height[:] = effective_between(drive.smooth, self._tire.offset, tire_end)
             self._cushion[:] = self._seat.offset + (seat_end - self._seat.offset) * self._ramp
             if passes_left == model.corrector_passes:
                 start_energy = self._energies()

@@ -85,9 +85,9 @@ def _short_waves(scene: ResolvedScene, limit: float, lengths: str) -> tuple[bool
         )
     if kind == "opencrg":
         return True, f"a measured road holds waves down to its grid, below {lengths}"
-    length = float(road.get("edge") or road["length"])
+    edge, length = road.get("edge"), float(road.get("edge") or road["length"])
     sharp = kind in SHARP_ROADS and (kind != "bump" or length < limit)
-    return sharp, f"{kind} of length {length:g} m, limit {limit:g} m ({lengths})"
+    return sharp, f"{kind} with {'edges' if edge else 'a length'} of {length:g} m, limit {limit:g} m ({lengths})"
 
 
 def _friction(scene: ResolvedScene, observed: Observed, contact: str) -> tuple[bool | None, str]:
