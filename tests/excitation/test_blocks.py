@@ -6,6 +6,7 @@ import pytest
 from contact_sim_pkg.excitation.blocks import RoadBlocks, VibrationBlocks
 from contact_sim_pkg.excitation.errors import ExcitationError
 from contact_sim_pkg.excitation.iso8608 import Iso8608Road
+from contact_sim_pkg.excitation.obstacles import Obstacle
 from contact_sim_pkg.excitation.signals import AxisSignal, Noise, Sine
 from contact_sim_pkg.excitation.travel import Travel
 
@@ -115,3 +116,10 @@ def test_vibration_blocks_are_the_same_bits_in_any_order():
 def test_a_rate_that_does_not_fit_the_block_is_refused():
     with pytest.raises(ExcitationError, match=r"4\.76 samples at 476"):
         VibrationBlocks(AxisSignal(), 0.01, 476.0)
+
+
+@pytest.mark.parametrize(("length", "noted"), [(0.005, True), (0.05, False)])
+def test_an_obstacle_that_can_fall_between_the_nodes_is_noted(length, noted):
+    road = RoadBlocks(Obstacle("cleat", 1.0, 0.02, length), Travel([(0.0, 5.0)]), 0.01, 0.006, 0.006, 0.2, 9)
+    notes = road.describe()["notes"]
+    assert any("falls between two nodes" in note for note in notes) == noted

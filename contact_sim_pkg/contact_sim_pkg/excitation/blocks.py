@@ -59,6 +59,11 @@ class Signal(Protocol):
         """What was found and what was done, for the report: plain values, units in the names, sentences in `notes`."""
 
 
+SHORT_KINDS = ("bump", "cleat", "pothole")
+LEAST_NODES = 3.0
+"""Cells along an obstacle below which a note is due."""
+
+
 class RoadBlocks:
     """The strips of a surface that a rig passes, one a block.
 
@@ -141,8 +146,16 @@ class RoadBlocks:
         return numpy.concatenate((kept, fresh)) if len(kept) else fresh
 
     def describe(self) -> dict[str, Any]:
-        """What the surface says about itself."""
-        return self.surface.describe()
+        """What the surface says about itself, and what its lattice may miss."""
+        described = self.surface.describe()
+        length = described.get("length_m")
+        if described["kind"] in SHORT_KINDS and length is not None and length < LEAST_NODES * self.cell_x:
+            note = (
+                f"The {described['kind']} of {length:g} m is shorter than {LEAST_NODES:g} cells of the road's lattice "
+                f"({self.cell_x:.3g} m each): its size is seen coarsely, or not at all where it falls between two nodes."
+            )
+            described = {**described, "notes": [*described["notes"], note]}
+        return described
 
 
 class VibrationBlocks:
