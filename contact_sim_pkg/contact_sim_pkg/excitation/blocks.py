@@ -149,7 +149,7 @@ class RoadBlocks:
         """What the surface says about itself, and what its lattice may miss."""
         described = self.surface.describe()
         length = described.get("length_m")
-        if described["kind"] in SHORT_KINDS and length is not None and length < LEAST_NODES * self.cell_x:
+        if described.get("kind") in SHORT_KINDS and length is not None and length < LEAST_NODES * self.cell_x:
             note = (
                 f"The {described['kind']} of {length:g} m is shorter than {LEAST_NODES:g} cells of the road's lattice "
                 f"({self.cell_x:.3g} m each): its size is seen coarsely, or not at all where it falls between two nodes."
