@@ -185,11 +185,13 @@ def test_a_prediction_saves_convolutions_on_a_smooth_road():
     field.solve_at_load(gap_over(heights, 0), 150.0, 1e-3, 900)
     workspace, pressure = make_workspace(HALF_SPACE), numpy.zeros((ROWS, COLS))
     solve_at_load(HALF_SPACE, workspace, gap_over(heights, 0), 150.0, 1e-3, 900, pressure)
-    from_nothing, before = int(workspace.buffers.convolutions[0]), field.convolutions
+    from_nothing, warm = int(workspace.buffers.convolutions[0]), []
     for step in range(1, 12):
+        before = field.convolutions
         field.roll(1)
         field.solve_at_load(gap_over(heights, step), 150.0, 1e-3, 900)
-    assert (field.convolutions - before) / 11 < 0.6 * from_nothing
+        warm.append(field.convolutions - before)
+    assert numpy.mean(warm[2:]) < 0.5 * from_nothing
 
 
 def test_a_field_that_rolls_is_as_accurate_at_its_worst_as_elsewhere():

@@ -57,7 +57,7 @@ def _panel(axis: Any, rows: list[Row]) -> None:
     axis.set_xscale("log")
     axis.set_yscale("log")
     for side in (axis.xaxis, axis.yaxis):
-        side.set_minor_formatter(ticker.NullFormatter())
+        side.set_minor_formatter(ticker.LogFormatterSciNotation(minor_thresholds=(1.5, 0.5)))
     axis.set_xlabel("ms a call")
     below = any(row["error"] < FLOOR for row in rows)
     axis.set_ylabel(f"relative error{f' (below {FLOOR:g} drawn there)' if below else ''}")

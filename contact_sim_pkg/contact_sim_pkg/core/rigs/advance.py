@@ -9,7 +9,7 @@ from ..parameters import Drive, Modes, Vector, Vehicle
 from ..results import DONE
 from ..solvers.dormand_prince import Workspace, integrate, set_sides
 from ..vectors import copy_row
-from . import vehicle
+from . import quarter_car, vehicle
 from .interface import rate
 
 TIRE_NORMAL, TIRE_APPROACH, TIRE_HEIGHT, TIRE_RATE = 0, 1, 2, 3
@@ -46,15 +46,15 @@ def _tangential(friction, seat, mode, normal, state):
 @kernel
 def _observe(rig, drive, mode, state, out):
     """Forces, approaches and heights of both contacts at the start of the segment."""
-    height, height_rate, cushion, cushion_rate, _a_x, _a_z = vehicle.drive_at(drive, drive.start)
-    tire_x, tire_v = vehicle.tire_approach(rig.tire, rig.carcass, height, height_rate, state)
+    height, height_rate, cushion, cushion_rate, _a_x, _a_z = quarter_car.drive_at(drive, drive.start)
+    tire_x, tire_v = quarter_car.tire_approach(rig.tire, rig.carcass, height, height_rate, state)
     seat_x, seat_v = vehicle.seat_approach(rig.tire, rig.seat, cushion, cushion_rate, state)
     seat_normal = vehicle.normal_force(rig.seat_contact, seat_x, seat_v)
     out[TIRE_NORMAL] = vehicle.normal_force(rig.tire_contact, tire_x, tire_v)
     out[TIRE_APPROACH] = tire_x
     out[TIRE_HEIGHT] = height
     out[TIRE_RATE] = tire_v
-    out[TIRE_PUSH] = vehicle.push_at(drive, drive.start) if tire_x > 0.0 else 0.0
+    out[TIRE_PUSH] = quarter_car.push_at(drive, drive.start) if tire_x > 0.0 else 0.0
     out[SEAT_NORMAL] = seat_normal
     out[SEAT_TANGENTIAL] = _tangential(vehicle._friction_of(rig.seat_contact), rig.seat, mode, seat_normal, state)
     out[SEAT_APPROACH] = seat_x
@@ -163,7 +163,7 @@ def energies(
     potential += belt_potential
     stored += belt_stored
     seat_kinetic, seat_potential, seat_stored = _seat_energies(rig.seat, rig.gravity, state)
-    tire_x, _tire_v = vehicle.tire_approach(rig.tire, rig.carcass, height, 0.0, state)
+    tire_x, _tire_v = quarter_car.tire_approach(rig.tire, rig.carcass, height, 0.0, state)
     seat_x, _seat_v = vehicle.seat_approach(rig.tire, rig.seat, cushion, 0.0, state)
     normal = vehicle.normal_force(rig.seat_contact, seat_x, _seat_v)
     slide_kinetic, spring = _slide_energies(vehicle._friction_of(rig.seat_contact), rig.seat, mode, normal, state)

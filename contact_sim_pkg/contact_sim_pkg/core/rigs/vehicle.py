@@ -33,57 +33,17 @@ from ..effects.normal_elastic import elastic_force, elastic_stiffness
 from ..jit import kernel
 from ..parameters import Vehicle
 from .interface import register
+from .quarter_car import (
+    body_power,
+    carcass_rates,
+    drive_at,
+    push_at,
+    tire_approach,
+    tire_rates,
+    tread_velocity,
+)
 
 TIRE_APPROACH, TIRE_TENSION, SEAT_APPROACH, SEAT_TENSION, SEAT_FRICTION, MARGINS = 0, 1, 2, 3, 4, 5
-
-
-@kernel
-def _between(start, end, part):
-    return start + (end - start) * part
-
-
-@kernel
-def _push_between(start, end, part):
-    if start is None:
-        return 0.0
-    return _between(start, end, part)
-
-
-@kernel
-def drive_at(drive, time):
-    """Road height, its rate, cushion height, its rate, floor accelerations x and z at ``time``."""
-    part = (time - drive.start) / drive.length
-    return (
-        _between(drive.height_0, drive.height_1, part),
-        (drive.height_1 - drive.height_0) / drive.length,
-        _between(drive.cushion_0, drive.cushion_1, part),
-        (drive.cushion_1 - drive.cushion_0) / drive.length,
-        _between(drive.acceleration_x_0, drive.acceleration_x_1, part),
-        _between(drive.acceleration_z_0, drive.acceleration_z_1, part),
-    )
-
-
-@kernel
-def push_at(drive, time):
-    """Force in [N] that road asperities add at ``time``; 0 where the scene calls for none."""
-    return _push_between(drive.push_0, drive.push_1, (time - drive.start) / drive.length)
-
-
-@kernel
-def tread_motion(carcass, state):
-    """Height in [m] and velocity in [m/s] of what touches the road: the belt, or the wheel where there is no carcass."""
-    if carcass is None:
-        return state[0], state[2]
-    return state[carcass.offset], state[carcass.offset + 1]
-
-
-@kernel
-def tire_approach(tire, carcass, height, height_rate, state):
-    """Approach in [m] and its rate in [m/s]; apart where there is no tire."""
-    if tire is None:
-        return -1.0, 0.0
-    tread, tread_rate = tread_motion(carcass, state)
-    return height - tread, height_rate - tread_rate
 
 
 @kernel
@@ -118,33 +78,6 @@ def _lost_power(contact, approach, approach_rate, force):
     if contact is None:
         return 0.0
     return (force - elastic_force(contact.elastic, approach)) * approach_rate
-
-
-@kernel
-def _carcass_rates(carcass, gravity, force, state, out):
-    """Rates of the belt; returns the force on the wheel and the power that the sidewalls take."""
-    if carcass is None:
-        return force, 0.0
-    belt = carcass.offset
-    closing = state[belt + 1] - state[2]
-    sidewalls = carcass.stiffness * (state[belt] - state[0]) + carcass.damping * closing
-    out[belt] = state[belt + 1]
-    out[belt + 1] = (force - sidewalls) / carcass.belt_mass - gravity
-    return sidewalls, carcass.damping * closing * closing
-
-
-@kernel
-def _tire_rates(tire, gravity, force, seat_force, acceleration_z, state, out):
-    """Rates of wheel and body; returns the power that the suspension takes."""
-    if tire is None:
-        return 0.0
-    closing = state[2] - state[3]
-    suspension = tire.suspension_stiffness * (state[0] - state[1]) + tire.suspension_damping * closing
-    out[0] = state[2]
-    out[1] = state[3]
-    out[2] = (force - suspension) / tire.wheel_mass - gravity
-    out[3] = (suspension - seat_force) / tire.body_mass - gravity + acceleration_z
-    return tire.suspension_damping * closing * closing
 
 
 @kernel
@@ -220,11 +153,11 @@ def _rate(rig, drive, mode, time, state, out):
     tire_x, tire_v = tire_approach(rig.tire, rig.carcass, height, height_rate, state)
     tire_force = normal_force(rig.tire_contact, tire_x, tire_v)
     push = push_at(drive, time) if tire_x > 0.0 else 0.0
-    on_wheel, lost_in_sidewalls = _carcass_rates(rig.carcass, rig.gravity, tire_force + push, state, out)
+    on_wheel, lost_in_sidewalls = carcass_rates(rig.carcass, rig.gravity, tire_force + push, state, out)
     seat_x, seat_v = seat_approach(rig.tire, rig.seat, cushion, cushion_rate, state)
     seat_force = normal_force(rig.seat_contact, seat_x, seat_v)
     lost = lost_in_sidewalls
-    lost += _tire_rates(rig.tire, rig.gravity, on_wheel, seat_force, a_z, state, out)
+    lost += tire_rates(rig.tire, rig.gravity, on_wheel, seat_force, a_z, state, out)
     lost_in_links, brought = _seat_rates(rig.tire, rig.seat, rig.gravity, seat_force, a_z, state, out)
     rubbed, brought_x = _slide_rates(_friction_of(rig.seat_contact), rig.seat, mode, seat_force, a_x, state, out)
     lost += lost_in_links + rubbed
@@ -232,22 +165,8 @@ def _rate(rig, drive, mode, time, state, out):
     lost += _lost_power(rig.seat_contact, seat_x, seat_v, seat_force)
     last = state.shape[0]
     out[last - 2] = brought + brought_x + tire_force * height_rate + seat_force * cushion_rate
-    out[last - 2] += _body_power(rig.tire, a_z, state) + push * _tread_velocity(rig.tire, rig.carcass, state)
+    out[last - 2] += body_power(rig.tire, a_z, state) + push * tread_velocity(rig.tire, rig.carcass, state)
     out[last - 1] = lost
-
-
-@kernel
-def _body_power(tire, acceleration_z, state):
-    if tire is None:
-        return 0.0
-    return tire.body_mass * acceleration_z * state[3]
-
-
-@kernel
-def _tread_velocity(tire, carcass, state):
-    if tire is None:
-        return 0.0
-    return tread_motion(carcass, state)[1]
 
 
 @kernel

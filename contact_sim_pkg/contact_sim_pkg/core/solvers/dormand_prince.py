@@ -255,8 +255,7 @@ def integrate(rig, drive, mode, end, state, scale, work):  # noqa: C901
                 proposed = step * max(0.1, 0.9 * error**power)
             work.counters[REJECTED] += 1
             continue
-        part = _first_change(rig, drive, mode, time, step, state, work)
-        event = -1
+        event, part = -1, _first_change(rig, drive, mode, time, step, state, work)
         if part > 0.0:
             inner = max(0.0, part - 1.0 / (INSIDE_POINTS + 1.0)) * step
             step, event = _locate(rig, drive, mode, time, inner, part * step, state, work)
