@@ -8,7 +8,8 @@ from collections.abc import Callable
 
 from contact_sim_pkg.bag.messages import decode_recorded, encode_clock, encode_scene
 from contact_sim_pkg.run.bag_content import result_names
-from contact_sim_pkg.run.simulation import BlockResult, Simulation
+from contact_sim_pkg.run.block_simulation import BlockResult
+from contact_sim_pkg.run.rigs import make_simulation
 
 from .bench_node import LifecycleBenchNode
 from .endpoints import publisher, subscription
@@ -56,7 +57,7 @@ class ContactSimulatorNode(LifecycleBenchNode):
         self._clock_publisher = publisher(self, "/clock") if self._publish_clock else None
         self._scene_publisher = publisher(self, "bench/scene")
         self._scene_publisher.publish(encode_scene(scene.to_yaml()))
-        self._simulation = Simulation(scene)
+        self._simulation = make_simulation(scene)
         self._inputs = InputBlocks(self._simulation.inputs, self._period_ns, self._simulation.blocks)
         self._window = Window(self._simulation.blocks, logged=self._logged)
         self._pacer = Pacer(pace, scene.data["block_length"])

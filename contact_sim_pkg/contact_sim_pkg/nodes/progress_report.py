@@ -8,7 +8,7 @@ from rclpy.duration import Duration
 from rclpy.publisher import Publisher
 
 from contact_sim_pkg.bag.messages import Progress, encode_progress
-from contact_sim_pkg.run.simulation import BlockResult
+from contact_sim_pkg.run.block_simulation import BlockResult
 from contact_sim_pkg.scene.resolved_scene import ResolvedScene
 
 from .protocol import State

@@ -9,28 +9,21 @@ from pathlib import Path
 from typing import Any
 
 from contact_sim_pkg.bag.metadata import SCENE_KEY, RecordedTopic, recorded_topics, software_versions
+from contact_sim_pkg.run.rigs import result_topics
 from contact_sim_pkg.scene.resolved_scene import ResolvedScene
 
 EXCITATION_KEY = "excitation"
-FIELD_TOPICS = {"contact_field": "patch", "brush": "shear"}
-"""Effects that publish a field, and their topics."""
 
 
 def input_names(scene: ResolvedScene) -> list[str]:
     """Excitation topics that the scene calls for."""
-    names = ["road/patch"] if scene.data["rig"] in ("tire", "car") else []
+    names = ["road/patch"] if scene.data.get("road") else []
     return names + (["platform/vibration"] if scene.data.get("vibration") else [])
 
 
 def result_names(scene: ResolvedScene) -> list[str]:
     """Recorded topics that the simulator publishes for the scene."""
-    names = []
-    for contact in ("tire", "seat"):
-        if scene.data["rig"] in (contact, "car"):
-            names += [f"{contact}/force", f"{contact}/wrench"]
-            effects = scene.data["effects"].get(contact) or {}
-            names += [f"{contact}/{topic}" for effect, topic in FIELD_TOPICS.items() if effects.get(effect) is not None]
-    return [*names, "bench/motion", "bench/energy", "bench/cost"]
+    return result_topics(scene)
 
 
 def recorded_names(scene: ResolvedScene) -> list[str]:

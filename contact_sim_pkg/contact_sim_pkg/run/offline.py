@@ -14,8 +14,9 @@ from contact_sim_pkg.bag.writer import BagSummary, BagWriter
 from contact_sim_pkg.excitation.blocks import RoadPatch, VibrationBlock
 from contact_sim_pkg.excitation.errors import ExcitationError
 from contact_sim_pkg.run.bag_content import attachments, recorded_names, topics_of
+from contact_sim_pkg.run.block_simulation import BlockSimulation
 from contact_sim_pkg.run.errors import RunError
-from contact_sim_pkg.run.simulation import Simulation
+from contact_sim_pkg.run.rigs import make_simulation
 from contact_sim_pkg.run.sources import Source, make_sources
 from contact_sim_pkg.scene.resolved_scene import ResolvedScene
 
@@ -61,7 +62,7 @@ def run_offline(
     """
     began = time.perf_counter()
     sources = make_sources(scene) if sources is None else sources
-    simulation = Simulation(scene)
+    simulation = make_simulation(scene)
     simulation.prepare()
     descriptions = {topic: source.describe() for topic, source in sources.items()}
     writer = None
@@ -78,7 +79,7 @@ def run_offline(
             if stop is not None and stop():
                 stopped = True
                 break
-            progress = _one_block(simulation, sources, block, writer, first)
+            progress = _one_block(simulation, sources, block, scene.data["block_length"], writer, first)
             done = block + 1
             if on_progress is not None:
                 on_progress(progress)
@@ -97,9 +98,13 @@ def _outcome(done: int, blocks: int, failure: str, stopped: bool, first: float) 
 
 
 def _one_block(
-    simulation: Simulation, sources: dict[str, Source], block: int, writer: BagWriter | None, first: float
+    simulation: BlockSimulation,
+    sources: dict[str, Source],
+    block: int,
+    length: float,
+    writer: BagWriter | None,
+    first: float,
 ) -> RunProgress:
-    length = simulation.model.timing.block_length
     stamp = block * round(length * NANOSECONDS)
     inputs = {topic: source.block(block) for topic, source in sources.items()}
     result = simulation.advance(block, inputs)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import time
-from typing import Any, NamedTuple
+from typing import Any
 
 import numpy
 
@@ -16,21 +16,13 @@ from contact_sim_pkg.core.rigs.vehicle import MARGINS
 from contact_sim_pkg.core.solvers.dormand_prince import make_workspace
 from contact_sim_pkg.excitation.blocks import RoadPatch, VibrationBlock
 from contact_sim_pkg.run.block_drive import ROAD, VIBRATION, BlockDrive, block_drive, effective_between
+from contact_sim_pkg.run.block_simulation import BlockResult
 from contact_sim_pkg.run.errors import RunError
 from contact_sim_pkg.run.outputs import BlockRecord, encode_block
 from contact_sim_pkg.run.rolling_shear import RollingShear
 from contact_sim_pkg.run.sources import make_travel
 from contact_sim_pkg.run.support import CushionSupport, RoadSupport
 from contact_sim_pkg.scene.build import Model, build, standing_state
-
-
-class BlockResult(NamedTuple):
-    """What one block gives."""
-
-    messages: list[tuple[str, int, bytes]]  # topic, stamp [ns], CDR; in canonical order
-    load: float  # [N] largest normal force
-    peak_pressure: float  # [Pa]; 0 where no field is computed
-    wall_time: float  # [s]
 
 
 class Simulation:

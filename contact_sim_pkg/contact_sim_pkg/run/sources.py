@@ -42,7 +42,7 @@ def make_sources(scene: ResolvedScene) -> dict[str, Source]:
     Raises ExcitationError for a file that cannot be read or an excitation that cannot be made.
     """
     sources: dict[str, Source] = {}
-    if scene.data["rig"] in ("tire", "car"):
+    if scene.data.get("road"):
         sources["road/patch"] = make_road(scene)
     if scene.data.get("vibration"):
         sources["platform/vibration"] = make_vibration(scene)

@@ -10,9 +10,9 @@ from typing import NamedTuple
 from contact_sim_pkg.scene.errors import Breach
 from contact_sim_pkg.scene.files import InputFile, candidates, find_file, input_files
 from contact_sim_pkg.scene.resolved_scene import sha256_of
+from contact_sim_pkg.scene.rigs import RIGS
 from contact_sim_pkg.scene.schema import Scene
 from contact_sim_pkg.scene.schema_accuracy import Contact, cells_of
-from contact_sim_pkg.scene.schema_effect_rules import CONTACTS_OF_RIG
 from contact_sim_pkg.scene.schema_road import Iso8608Road
 
 GIBIBYTE = 1 << 30
@@ -99,9 +99,9 @@ def _too_much(needs: list[Need], total: int, limit: float) -> Breach:
 
 
 def _grids(scene: Scene) -> Iterator[tuple[str, int, int]]:
-    for contact in CONTACTS_OF_RIG[scene.rig]:
+    for contact in RIGS[scene.rig].contacts:
         effects = getattr(scene.effects, contact)
-        field = None if effects is None else effects.contact_field
+        field = getattr(effects, "contact_field", None)
         if field is not None:
             name: Contact = "tire" if contact == "tire" else "seat"
             yield contact, *cells_of(scene.accuracy, name, field.rows, field.cols)

@@ -15,17 +15,17 @@ from contact_sim_pkg.scene.errors import Fault, SceneError
 from contact_sim_pkg.scene.files import find_file, input_files
 from contact_sim_pkg.scene.overrides import Override, apply
 from contact_sim_pkg.scene.resolved_scene import ResolvedScene, sha256_of
+from contact_sim_pkg.scene.rigs import RIGS
 from contact_sim_pkg.scene.schema import Scene
 from contact_sim_pkg.scene.schema_accuracy import Contact, cells_of, integration_tolerance, rung_for
-from contact_sim_pkg.scene.schema_effect_rules import CONTACTS_OF_RIG
-from contact_sim_pkg.scene.schema_rigs import Seat, Tire
 from contact_sim_pkg.scene.schema_validate import validate
 from contact_sim_pkg.scene.yaml_document import parse_document
 
 __all__ = ["ResolvedScene", "explicit", "read_explicit", "read_resolved", "resolve"]
 
-DEFAULT_DAMPING: dict[Contact, float] = {"tire": 0.06, "seat": 1.0}
+DEFAULT_DAMPING: dict[str, float] = {"tire": 0.06, "seat": 1.0}
 """Hunt-Crossley damping in [s/m] where a scene names neither damping nor restitution, see `schema_effects.py`."""
+_FIELD_CONTACTS: dict[str, Contact] = {"tire": "tire", "seat": "seat"}
 
 
 def resolve(scene: Scene) -> ResolvedScene:
@@ -82,25 +82,23 @@ def read_explicit(text: str, name: str, overrides: Sequence[Override] = ()) -> d
 def explicit(scene: Scene) -> dict[str, Any]:
     """The scene as a plain dict with every default and everything that follows from `accuracy` written out."""
     data = _dump(scene)
-    contacts: list[Contact] = ["tire" if name == "tire" else "seat" for name in CONTACTS_OF_RIG[scene.rig]]
-    for contact in contacts:
-        default = Tire() if contact == "tire" else Seat()
-        data.setdefault(contact, default.model_dump(exclude_none=True))
+    for contact in RIGS[scene.rig].contacts:
+        data.setdefault(contact, {})  # the schema fills in its defaults
         _fill_effects(data["effects"][contact], scene.accuracy, contact)
     data["integrator"].setdefault("relative_tolerance", integration_tolerance(scene.accuracy))
     return _ordered(data)
 
 
-def _fill_effects(effects: dict[str, Any], accuracy: float | str, contact: Contact) -> None:
+def _fill_effects(effects: dict[str, Any], accuracy: float | str, contact: str) -> None:
     loss = effects.get("normal_dissipative")
     if loss is not None and "restitution" not in loss:
         loss.setdefault("damping", DEFAULT_DAMPING[contact])
     grid = effects.get("contact_field")
     if grid is not None:
-        rung = rung_for(accuracy)
-        grid["rows"], grid["cols"] = cells_of(accuracy, contact, grid.get("rows"), grid.get("cols"))
-        grid.setdefault("tolerance", rung.field_tolerance(contact))
-        grid.setdefault("corrector_passes", rung.passes(contact))
+        rung, field = rung_for(accuracy), _FIELD_CONTACTS[contact]
+        grid["rows"], grid["cols"] = cells_of(accuracy, field, grid.get("rows"), grid.get("cols"))
+        grid.setdefault("tolerance", rung.field_tolerance(field))
+        grid.setdefault("corrector_passes", rung.passes(field))
 
 
 def _dump(scene: Scene) -> dict[str, Any]:

@@ -10,13 +10,13 @@ from typing import Annotated, Literal, TypeAlias
 
 from pydantic import Field, PrivateAttr
 
+from contact_sim_pkg.scene.rigs import RigName
 from contact_sim_pkg.scene.schema_effects import Effects
 from contact_sim_pkg.scene.schema_fields import Section, choice, number, text
 from contact_sim_pkg.scene.schema_rigs import Seat, Tire
 from contact_sim_pkg.scene.schema_road import Road, Slip, Travel
 from contact_sim_pkg.scene.schema_vibration import Vibration
 
-Rig: TypeAlias = Literal["tire", "seat", "car"]
 Accuracy: TypeAlias = Annotated[float, Field(ge=1e-8, le=0.1)] | Literal["realtime"]
 Pace: TypeAlias = Annotated[float, Field(ge=0.001, le=1000.0)] | Literal["realtime", "max"]
 
@@ -55,7 +55,7 @@ class Scene(Section):
         example="scene",
     )
     description: str = text("one line on what the scene shows", default="")
-    rig: Rig = choice("tire on a road, occupant on a seat, or both as a car", example="seat")
+    rig: RigName = choice("tire on a road, occupant on a seat, or both as a car", example="seat")
     duration: float = number(0.0, 3600.0, "s", "simulated time, a whole number of blocks", above=True, example=1.0)
     seed: int = number(0, 2**53 - 1, "", "of all random numbers; the same seed gives the same bits", default=1)
     pace: Pace = choice(

@@ -7,10 +7,8 @@ from itertools import combinations
 from typing import NamedTuple
 
 from contact_sim_pkg.scene.errors import Breach
+from contact_sim_pkg.scene.rigs import CONTACTS, RIGS
 from contact_sim_pkg.scene.schema import Scene
-
-CONTACTS_OF_RIG: dict[str, tuple[str, ...]] = {"tire": ("tire",), "seat": ("seat",), "car": ("tire", "seat")}
-"""Contacts of each rig; each needs an elastic force."""
 
 
 class EffectRule(NamedTuple):
@@ -51,8 +49,8 @@ def effects_of(scene: Scene, contact: str) -> list[str]:
 
 def effect_breaches(scene: Scene) -> Iterator[Breach]:
     """Contacts that the rig lacks or leaves without elastic force; effects without what they need, or that exclude."""
-    contacts = CONTACTS_OF_RIG[scene.rig]
-    for contact in ("tire", "seat"):
+    contacts = RIGS[scene.rig].contacts
+    for contact in CONTACTS:
         where = f"effects.{contact}"
         if contact not in contacts:
             if getattr(scene.effects, contact) is not None:

@@ -6,21 +6,13 @@ from collections.abc import Iterator
 from itertools import chain, pairwise
 
 from contact_sim_pkg.scene.errors import Breach
+from contact_sim_pkg.scene.rigs import CONTACTS, RIGS, refused_sections
 from contact_sim_pkg.scene.schema import Scene
 from contact_sim_pkg.scene.schema_catalog import show
 from contact_sim_pkg.scene.schema_clock import clock_breaches
 from contact_sim_pkg.scene.schema_road import BumpRoad, CleatRoad, Iso8608Road, PotholeRoad
 from contact_sim_pkg.scene.schema_tire_rules import slip_breaches, tire_effect_breaches
 from contact_sim_pkg.scene.schema_vibration import HalfSine, Noise, Recorded, Sine, Sweep
-
-NEEDED: dict[str, tuple[str, ...]] = {"tire": ("travel", "road"), "seat": ("vibration",), "car": ("travel", "road")}
-"""Sections that a rig needs."""
-FORBIDDEN: dict[str, tuple[str, ...]] = {
-    "tire": ("vibration", "seat"),
-    "seat": ("travel", "road", "slip", "tire"),
-    "car": (),
-}
-"""Sections that have no meaning for a rig."""
 
 
 def breaches(scene: Scene) -> Iterator[Breach]:
@@ -39,10 +31,10 @@ def breaches(scene: Scene) -> Iterator[Breach]:
 
 
 def _sections(scene: Scene) -> Iterator[Breach]:
-    for name in NEEDED[scene.rig]:
+    for name in RIGS[scene.rig].needs:
         if getattr(scene, name) is None:
             yield Breach(name, f"is missing; the rig {scene.rig} needs it", ("rig",))
-    for name in FORBIDDEN[scene.rig]:
+    for name in refused_sections(scene.rig):
         if getattr(scene, name) is not None:
             yield Breach(name, f"the rig {scene.rig} has no {name}; remove it or choose another rig", ("rig",))
 
@@ -150,7 +142,7 @@ def _occupant(scene: Scene) -> Iterator[Breach]:
 
 
 def _contacts(scene: Scene) -> Iterator[Breach]:
-    for contact in ("tire", "seat"):
+    for contact in CONTACTS:
         effects, where = getattr(scene.effects, contact), f"effects.{contact}"
         loss = getattr(effects, "normal_dissipative", None)
         if loss is not None:

@@ -13,10 +13,11 @@ from typing import Any, NamedTuple
 import numpy
 
 from contact_sim_pkg.core.parameters import Vector
-from contact_sim_pkg.run.simulation import Simulation
+from contact_sim_pkg.run.rigs import make_simulation
 from contact_sim_pkg.run.sources import make_sources
 from contact_sim_pkg.scene.resolve import ResolvedScene
-from contact_sim_pkg.scene.schema_effect_rules import CONTACTS_OF_RIG, EFFECT_RULES
+from contact_sim_pkg.scene.rigs import RIGS
+from contact_sim_pkg.scene.schema_effect_rules import EFFECT_RULES
 from contact_sim_pkg.studies.ablation_rules import Observed, is_needed, observe
 from contact_sim_pkg.studies.scene_drive import load_resolved, without
 from contact_sim_pkg.studies.section import Section
@@ -64,7 +65,7 @@ def study(scene_name: str, progress: Callable[[str], None] | None = None) -> lis
     tell = progress or (lambda text: None)
     scene = load_resolved(scene_name)
     rows = []
-    for contact in CONTACTS_OF_RIG[scene.data["rig"]]:
+    for contact in RIGS[scene.data["rig"]].contacts:
         for effect, rule in EFFECT_RULES.items():
             if contact not in rule.contacts:
                 continue
@@ -162,9 +163,9 @@ def _paired(first: ResolvedScene, second: ResolvedScene) -> tuple[Run, Run, list
 
 def run_once(scene: ResolvedScene, duration: float) -> Run:
     """One run of `duration` [s] without bag; the cost is that of the simulation alone."""
-    sources, simulation = make_sources(scene), Simulation(scene)
+    sources, simulation = make_sources(scene), make_simulation(scene)
     simulation.prepare()
-    length = simulation.model.timing.block_length
+    length = float(scene.data["block_length"])
     walls, messages, inputs = [], [], []
     for block in range(min(simulation.blocks, round(duration / length))):
         given = {topic: source.block(block) for topic, source in sources.items()}

@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import Any
 
 from contact_sim_pkg.bag.messages import decode_contact_force, decode_contact_patch, decode_energy
-from contact_sim_pkg.run.simulation import Simulation
+from contact_sim_pkg.run.rigs import make_simulation
 from contact_sim_pkg.run.sources import make_sources
 from contact_sim_pkg.scene.load import load_scene
 from contact_sim_pkg.scene.overrides import set_duration, set_value
@@ -19,7 +19,7 @@ def messages_of(scene_name: str, duration: float, *values: str) -> list[Message]
     """Recorded messages of a shipped scene, `values` as of `--set`, without the wall times of `bench/cost`."""
     overrides = [set_duration(duration), *(set_value(value) for value in values)]
     scene = resolve(load_scene(scene_name, overrides))
-    simulation, sources = Simulation(scene), make_sources(scene)
+    simulation, sources = make_simulation(scene), make_sources(scene)
     simulation.prepare()
     found: list[Message] = []
     for block in range(simulation.blocks):

@@ -1,0 +1,34 @@
+"""What every rig's simulation offers to the loop that drives it, offline or in a node."""
+
+from __future__ import annotations
+
+from typing import NamedTuple, Protocol, TypeAlias
+
+from contact_sim_pkg.excitation.blocks import RoadPatch, VibrationBlock
+
+InputBlock: TypeAlias = RoadPatch | VibrationBlock
+
+
+class BlockResult(NamedTuple):
+    """What one block gives."""
+
+    messages: list[tuple[str, int, bytes]]  # topic, stamp [ns], CDR; in canonical order
+    load: float  # [N] largest normal force
+    peak_pressure: float  # [Pa]; 0 where no field is computed
+    wall_time: float  # [s]
+
+
+class BlockSimulation(Protocol):
+    """The simulation of one scene, block by block. It owns the state of the run."""
+
+    inputs: tuple[str, ...]  # topics that it needs a block of
+    blocks: int  # number of blocks of the scene
+
+    def prepare(self) -> None:
+        """Compile or load every kernel that the scene needs, then close compilation."""
+
+    def advance(self, block: int, inputs: dict[str, InputBlock]) -> BlockResult:
+        """Advance block number ``block``, in order from 0, with the blocks of every input topic.
+
+        Raises RunError where a block is out of turn, does not fit the scene, or the physics ends in a named failure.
+        """

@@ -1,0 +1,50 @@
+"""The rigs as a run knows them: which simulation drives each, and which topics it publishes. A new rig is a row here.
+
+Simulations are named, not imported: a node that only records or only shakes starts without a compiler.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from importlib import import_module
+from typing import Any, NamedTuple
+
+from contact_sim_pkg.run.block_simulation import BlockSimulation
+from contact_sim_pkg.scene.resolved_scene import ResolvedScene
+from contact_sim_pkg.scene.rigs import RIGS, RigName
+
+FIELD_TOPICS = {"contact_field": "patch", "brush": "shear"}
+"""Effects of a vehicle's contacts that publish a field, and their topics."""
+
+
+class RigRun(NamedTuple):
+    """How a run treats one rig."""
+
+    simulation: str  # "module:class" of a BlockSimulation that takes a resolved scene
+    topics: Callable[[dict[str, Any]], list[str]]  # resolved scene -> topics of its contacts; those of `bench/` follow
+
+
+def _vehicle_topics(scene: dict[str, Any]) -> list[str]:
+    names = []
+    for contact in RIGS[scene["rig"]].contacts:
+        effects = scene["effects"].get(contact) or {}
+        names += [f"{contact}/force", f"{contact}/wrench"]
+        names += [f"{contact}/{topic}" for effect, topic in FIELD_TOPICS.items() if effects.get(effect) is not None]
+    return names
+
+
+_VEHICLE = RigRun("contact_sim_pkg.run.simulation:Simulation", _vehicle_topics)
+
+RIG_RUNS: dict[RigName, RigRun] = {"tire": _VEHICLE, "seat": _VEHICLE, "car": _VEHICLE}
+
+
+def make_simulation(scene: ResolvedScene) -> BlockSimulation:
+    """The simulation of a resolved scene's rig. Raises what its parts raise on a scene that cannot run."""
+    module, _, name = RIG_RUNS[scene.data["rig"]].simulation.partition(":")
+    simulation: BlockSimulation = getattr(import_module(module), name)(scene)
+    return simulation
+
+
+def result_topics(scene: ResolvedScene) -> list[str]:
+    """Recorded topics that the simulator publishes for the scene."""
+    return [*RIG_RUNS[scene.data["rig"]].topics(scene.data), "bench/motion", "bench/energy", "bench/cost"]
