@@ -14,7 +14,16 @@ from numpy.typing import NDArray
 
 from contact_sim_pkg.core.jit import entry, kernel
 
-__all__ = ["LameFit", "fit_boundary", "fit_patch", "lame_area", "lame_second_moment"]
+__all__ = [
+    "LameFit",
+    "fit_boundary",
+    "fit_centred",
+    "fit_patch",
+    "lame_area",
+    "lame_moment",
+    "lame_second_moment",
+    "refuse_exponent",
+]
 
 Field = NDArray[numpy.float64]
 
@@ -44,19 +53,29 @@ class LameFit(NamedTuple):
 
 def lame_area(a: float, b: float, exponent: float) -> float:
     """`4 a b Gamma(1 + 1/n)^2 / Gamma(1 + 2/n)` [m^2]; raises `ValueError` for n < 0.1."""
-    _refuse_exponent(exponent)
+    refuse_exponent(exponent)
     return 4.0 * a * b * math.exp(2.0 * math.lgamma(1.0 + 1.0 / exponent) - math.lgamma(1.0 + 2.0 / exponent))
 
 
 def lame_second_moment(a: float, b: float, exponent: float) -> float:
     """Integral of x^2 over the domain, `(4 a^3 b / n) B(3/n, 1 + 1/n)` [m^4]; exchange a and b for y^2."""
-    _refuse_exponent(exponent)
-    first, second = 3.0 / exponent, 1.0 + 1.0 / exponent
-    log_beta = math.lgamma(first) + math.lgamma(second) - math.lgamma(first + second)
-    return 4.0 * a**3 * b / exponent * math.exp(log_beta)
+    return lame_moment(a, b, exponent, 2.0, 0.0)
 
 
-def _refuse_exponent(exponent: float) -> None:
+def lame_moment(a: float, b: float, exponent: float, power_x: float, power_y: float) -> float:
+    """Integral of `|x|^i |y|^j` over the domain, powers i, j > -1 (Dirichlet's integral); i = j = 0 is the area.
+
+    `(4 a^(i+1) b^(j+1) / n^2) Gamma(u) Gamma(v) / Gamma(u + v + 1)`, u = (i+1)/n, v = (j+1)/n [m^(i+j+2)].
+    Raises `ValueError` for n < 0.1.
+    """
+    refuse_exponent(exponent)
+    u, v = (power_x + 1.0) / exponent, (power_y + 1.0) / exponent
+    gammas = math.exp(math.lgamma(u) + math.lgamma(v) - math.lgamma(u + v + 1.0))
+    return 4.0 * math.pow(a, power_x + 1.0) * math.pow(b, power_y + 1.0) / exponent**2 * gammas
+
+
+def refuse_exponent(exponent: float) -> None:
+    """Raises `ValueError` for n < 0.1."""
     if not exponent >= SMALLEST_EXPONENT:
         raise ValueError(f"Lame curve: exponent n = {exponent}, allowed from {SMALLEST_EXPONENT}")
 
@@ -95,11 +114,17 @@ def fit_patch(pressure: Field, cell_x: float, cell_y: float, origin_x: float, or
 
 @entry
 def fit_boundary(x: Field, y: Field, half_x: float, half_y: float) -> LameFit:
-    """Minimise `sum (rho - 1)^2` over ln a, ln b, ln n for points on a boundary; `x`, `y` [m] are overwritten.
+    """Minimise `sum (rho - 1)^2` over ln a, ln b, ln n for points about their mean; `x`, `y` [m] are overwritten.
 
     Damped Gauss-Newton steps from the half extents [m] and n = 2, n kept within 0.3 to 20.
     """
-    centre_x, centre_y = take_logarithms(x, y)
+    return fit_centred(x, y, half_x, half_y, mean_of(x), mean_of(y))
+
+
+@entry
+def fit_centred(x: Field, y: Field, half_x: float, half_y: float, centre_x: float, centre_y: float) -> LameFit:
+    """`fit_boundary` about a centre that is known [m]."""
+    take_logarithms(x, y, centre_x, centre_y)
     log_a, log_b, log_n = math.log(half_x), math.log(half_y), math.log(2.0)
     normal, trial = numpy.empty((3, 4)), numpy.empty((3, 4))
     cost = normal_equations(x, y, log_a, log_b, log_n, normal)
@@ -125,17 +150,19 @@ def fit_boundary(x: Field, y: Field, half_x: float, half_y: float) -> LameFit:
 
 
 @kernel
-def take_logarithms(x: Field, y: Field) -> tuple[float, float]:
-    """Replace the coordinates by the logarithms of their distances from their mean, which is returned."""
-    centre_x, centre_y = 0.0, 0.0
-    for k in range(x.size):
-        centre_x += x[k]
-        centre_y += y[k]
-    centre_x, centre_y = centre_x / x.size, centre_y / x.size
+def mean_of(values: Field) -> float:
+    total = 0.0
+    for k in range(values.size):
+        total += values[k]
+    return total / values.size
+
+
+@kernel
+def take_logarithms(x: Field, y: Field, centre_x: float, centre_y: float) -> None:
+    """Replace the coordinates by the logarithms of their distances from the centre."""
     for k in range(x.size):
         x[k] = math.log(max(abs(x[k] - centre_x), _TINY))
         y[k] = math.log(max(abs(y[k] - centre_y), _TINY))
-    return centre_x, centre_y
 
 
 @kernel

@@ -7,7 +7,7 @@ import numpy
 import scipy.optimize
 from numpy.typing import NDArray
 
-__all__ = ["area", "fit", "points", "second_moment"]
+__all__ = ["area", "fit", "moment", "perimeter", "points", "second_moment"]
 
 Points = NDArray[numpy.float64]
 
@@ -45,3 +45,24 @@ def fit(x: Points, y: Points, half_x: float, half_y: float) -> tuple[float, floa
     found = scipy.optimize.least_squares(deviation, start, bounds=bounds, xtol=1e-14, ftol=1e-14, gtol=1e-14)
     a, b, n = numpy.exp(found.x)
     return float(a), float(b), float(n)
+
+
+def perimeter(a: float, b: float, exponent: float) -> float:
+    """Length of the curve [m]: `y(x)` and `x(y)` up to the diagonal, by quadrature with 50 digits."""
+    with mpmath.workdps(50):
+        return float(4 * (_graph(a, b, mpmath.mpf(exponent)) + _graph(b, a, mpmath.mpf(exponent))))
+
+
+def _graph(along: float, across: float, n: mpmath.mpf) -> mpmath.mpf:
+    """Length of `across (1 - u^n)^(1/n)` over `along u`, u from 0 to the diagonal."""
+    slope, diagonal = mpmath.mpf(across) / along, mpmath.mpf(2) ** (-1 / n)
+    return along * mpmath.quad(
+        lambda u: mpmath.hypot(1, slope * u ** (n - 1) * (1 - u**n) ** (1 / n - 1)), [0, diagonal / 2, diagonal]
+    )
+
+
+def moment(a: float, b: float, exponent: float, power_x: float, power_y: float) -> float:
+    """Integral of `|x|^i |y|^j` over the domain, by quadrature in x [m^(i+j+2)]."""
+    n, i, j = (mpmath.mpf(value) for value in (exponent, power_x, power_y))
+    quarter = mpmath.quad(lambda u: u**i * (1 - u**n) ** ((j + 1) / n) / (j + 1), [0, 0.25, 0.5, 0.75, 0.9, 0.99, 1])
+    return float(4 * a ** (i + 1) * b ** (j + 1) * quarter)
