@@ -6,7 +6,7 @@ unless said otherwise; the tuples are built in ``scene/build.py`` only.
 
 from __future__ import annotations
 
-from typing import NamedTuple
+from typing import NamedTuple, TypeAlias
 
 import numpy
 from numpy.typing import NDArray
@@ -26,6 +26,21 @@ class NormalDissipative(NamedTuple):
     """Hunt-Crossley loss: the elastic force is multiplied by 1 + damping * approach_rate, and never pulls."""
 
     damping: float  # [s/m], >= 0
+
+
+class GeneralDissipative(NamedTuple):
+    """Loss of the general law: ``B x**p sgn(x') |x'|**q`` is added to the elastic force (``effects/general_dissipative.py``)."""
+
+    coefficient: float  # B [N/m^p/(m/s)^q], >= 0
+    approach_exponent: float  # p, 0 to 4; 0 is a plain damper
+    rate_exponent: float  # q, 0 to 3; 1 is linear, 0 dry friction
+    smoothing_speed: float  # [m/s], 0 for q >= 1; |x'|**(q-1) is evaluated at sqrt(x'^2 + smoothing_speed^2)
+    lowest_force: (
+        float  # [N], 0: contact is lost where the force reaches 0; -inf: it lasts, pulling, until the gap opens
+    )
+
+
+NormalLoss: TypeAlias = NormalDissipative | GeneralDissipative
 
 
 class Friction(NamedTuple):
@@ -50,7 +65,7 @@ class Contact(NamedTuple):
     """One contact: the effects that act in it. ``elastic`` is always there, the others may be ``None``."""
 
     elastic: NormalElastic
-    dissipative: NormalDissipative | None
+    dissipative: NormalLoss | None
     friction: Friction | None
 
 
@@ -114,7 +129,17 @@ class PointContact(NamedTuple):
     support_amplitude: float  # [m]
     support_frequency: float  # [rad/s]
     elastic: NormalElastic
-    dissipative: NormalDissipative | None
+    dissipative: NormalLoss | None
+
+
+class ImpactWorks(NamedTuple):
+    """A point contact whose force's works are integrated with it. State [z, v, work of closing, work of opening] in [m, m/s, J, J].
+
+    Both works are counted from the start of the run: ``W = -integral F x' dt``, the first over all closing phases (W_c <= 0), the
+    second over all opening ones (W_r >= 0 where the contact never pulls).
+    """
+
+    contact: PointContact
 
 
 class BeltSlider(NamedTuple):

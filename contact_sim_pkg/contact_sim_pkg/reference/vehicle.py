@@ -20,11 +20,27 @@ RELATIVE, ABSOLUTE = 1.0e-12, 1.0e-14
 
 
 class Law(NamedTuple):
-    """`F = coefficient x^exponent max(0, 1 + damping x')` for x > 0."""
+    """`F = coefficient x^exponent (1 + damping x') + B x^p sgn(x') |x'|^q` for x > 0, never below `lowest`."""
 
     coefficient: float
     exponent: float
     damping: float
+    loss: tuple[float, float, float] = (0.0, 0.0, 1.0)  # B, p, q
+    lowest: float = 0.0  # [N]; -inf where the contact may pull
+
+    def unlimited(self, approach: float, rate: float) -> float:
+        """The sum before it is limited, at an approach above 0."""
+        b, p, q = self.loss
+        viscous = b * approach**p * numpy.sign(rate) * abs(rate) ** q if b > 0.0 else 0.0
+        return float(self.coefficient * approach**self.exponent * (1.0 + self.damping * rate) + viscous)
+
+    def tension(self, approach: float, rate: float) -> float:
+        """Positive while the contact does not pull; 1 where it may."""
+        if self.lowest < 0.0:
+            return 1.0
+        if self.loss[0] == 0.0:
+            return 1.0 + self.damping * rate
+        return self.unlimited(max(approach, 1e-9), rate)
 
 
 class Belt(NamedTuple):
@@ -70,7 +86,7 @@ class _Drive(NamedTuple):
 
 def normal_force(law: Law, approach: float, rate: float) -> float:
     """Normal force [N]."""
-    return law.coefficient * approach**law.exponent * max(0.0, 1.0 + law.damping * rate) if approach > 0.0 else 0.0
+    return max(law.lowest, law.unlimited(approach, rate)) if approach > 0.0 else 0.0
 
 
 def states_at_segments(
@@ -147,12 +163,12 @@ def _margins(
     if quarter is not None:
         margins += [
             lambda t, y: _tire(quarter, drive, t, y)[0],
-            lambda t, y: 1.0 + quarter.law.damping * _tire(quarter, drive, t, y)[1],
+            lambda t, y: quarter.law.tension(*_tire(quarter, drive, t, y)),
         ]
     if occupant is not None:
         margins += [
             lambda t, y: _cushion(quarter, occupant, drive, t, y)[0],
-            lambda t, y: 1.0 + occupant.law.damping * _cushion(quarter, occupant, drive, t, y)[1],
+            lambda t, y: occupant.law.tension(*_cushion(quarter, occupant, drive, t, y)),
         ]
     return margins
 

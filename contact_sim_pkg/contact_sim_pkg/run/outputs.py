@@ -28,7 +28,7 @@ from contact_sim_pkg.bag.messages import (
     encode_wrench,
 )
 from contact_sim_pkg.bag.topics import TOPICS
-from contact_sim_pkg.core.effects.normal_dissipative import loss_factor
+from contact_sim_pkg.core.effects.normal_force import pressure_factor
 from contact_sim_pkg.core.lame import fit_patch
 from contact_sim_pkg.core.patch import summarise
 from contact_sim_pkg.core.rigs import advance as columns
@@ -135,11 +135,11 @@ class _Encoder:
         rig, force = self.model.rig, self.record.forces
         for sample, tire, seat in self.record.fields:
             if tire is not None:
-                pressure = self._field("tire", TIRE_FRAME, sample, tire, columns.TIRE_RATE)
+                pressure = self._field("tire", TIRE_FRAME, sample, tire, (columns.TIRE_APPROACH, columns.TIRE_RATE))
                 if self.shear is not None:
                     self._sheared(self.shear, sample, tire, pressure)
             if seat is not None:
-                self._field("seat", SEAT_FRAME, sample, seat, columns.SEAT_RATE)
+                self._field("seat", SEAT_FRAME, sample, seat, (columns.SEAT_APPROACH, columns.SEAT_RATE))
         if rig.tire_contact is not None:
             chosen = (columns.TIRE_NORMAL, columns.TIRE_APPROACH, columns.TIRE_HEIGHT)
             impulses = NO_SAMPLES if self.model.asperities is None else force[:, columns.TIRE_PUSH]
@@ -184,14 +184,15 @@ class _Encoder:
         assert grids is not None
         return grids
 
-    def _field(self, name: str, frame: str, sample: int, found: FieldRecord, rate_column: int) -> Array:
+    def _field(self, name: str, frame: str, sample: int, found: FieldRecord, motion: tuple[int, int]) -> Array:
         """The field with its loss, whose integral is the force at its instant; returns the pressure."""
         grids = self._grids(name)
         contact = self.model.rig.tire_contact if name == "tire" else self.model.rig.seat_contact
         assert contact is not None
         settings = grids.usual.settings  # the wide grid has the same cells
         origin_x, origin_y = found.origin_x, found.origin_y
-        pressure = found.pressure * loss_factor(contact.dissipative, float(self.record.forces[sample, rate_column]))
+        approach, rate = (float(self.record.forces[sample, column]) for column in motion)
+        pressure = found.pressure * pressure_factor(contact.elastic, contact.dissipative, approach, rate, 1.0)
         total = summarise(pressure, settings.cell_x, settings.cell_y, origin_x, origin_y)
         shape = fit_patch(pressure, settings.cell_x, settings.cell_y, origin_x, origin_y)
         self.peak = max(self.peak, total.peak)

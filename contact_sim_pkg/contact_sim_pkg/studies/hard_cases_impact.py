@@ -115,7 +115,7 @@ def slap_error(tolerance: float, phase: float = 0.0) -> float:
 
 def slap_reference(rig: PointContact, start: Vector, end: float = 4.0) -> Vector:
     """The same run by the slow twin."""
-    damping = 0.0 if rig.dissipative is None else rig.dissipative.damping
+    damping = rig.dissipative.damping if isinstance(rig.dissipative, NormalDissipative) else 0.0
     twin = Slap(
         rig.mass, rig.gravity, rig.support_amplitude, rig.support_frequency, rig.elastic.coefficient, rig.elastic.exponent,
         damping,

@@ -6,12 +6,26 @@ from typing import NamedTuple
 
 import numpy
 
-from contact_sim_pkg.core.parameters import BeltSlider, NormalDissipative, NormalElastic, PointContact, Vector
+from contact_sim_pkg.core.parameters import (
+    BeltSlider,
+    ImpactWorks,
+    NormalDissipative,
+    NormalElastic,
+    PointContact,
+    Vector,
+)
 from contact_sim_pkg.core.results import DONE, SENTENCES
-from contact_sim_pkg.core.rigs.single import belt_slider, point_contact, run
+from contact_sim_pkg.core.rigs.single import belt_slider, impact_works, point_contact, run
 from contact_sim_pkg.core.solvers.dormand_prince import EVENTS, REJECTED, STEPS, make_workspace
 
 __all__ = ["Course", "RunFailureError", "free_impact", "impact_speeds", "integrate", "seat_slap"]
+
+
+MARGINS = {
+    PointContact: point_contact.MARGINS,
+    ImpactWorks: impact_works.MARGINS,
+    BeltSlider: belt_slider.MARGINS,
+}
 
 
 class RunFailureError(RuntimeError):
@@ -29,13 +43,18 @@ class Course(NamedTuple):
 
 
 def integrate(
-    rig: PointContact | BeltSlider, start: Vector, scale: Vector, times: Vector, mode: int = 0, strict: bool = True
+    rig: PointContact | ImpactWorks | BeltSlider,
+    start: Vector,
+    scale: Vector,
+    times: Vector,
+    mode: int = 0,
+    strict: bool = True,
 ) -> Course:
     """Integrate `rig` from `start` through `times` [s]; `scale` [states]: error allowed per step.
 
     `mode`: friction mode at the start (0 sticks, 1 and -1 slip). Raises RunFailureError where `strict` and the run fails.
     """
-    margins = point_contact.MARGINS if isinstance(rig, PointContact) else belt_slider.MARGINS
+    margins = MARGINS[type(rig)]
     state = numpy.array(start, dtype=float)
     work = make_workspace(len(state), margins)
     out = numpy.full((len(times), len(state)), numpy.nan)

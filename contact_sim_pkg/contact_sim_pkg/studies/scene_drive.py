@@ -8,7 +8,7 @@ from typing import Any, NamedTuple
 import numpy
 
 from contact_sim_pkg.core.effects.footprint import effective_heights
-from contact_sim_pkg.core.parameters import Contact, Vector, Vehicle
+from contact_sim_pkg.core.parameters import Contact, GeneralDissipative, Vector, Vehicle
 from contact_sim_pkg.core.results import DONE, SENTENCES
 from contact_sim_pkg.core.rigs import advance as entries
 from contact_sim_pkg.core.rigs.vehicle import MARGINS
@@ -121,8 +121,11 @@ def twin_laws(rig: Vehicle) -> tuple[Law | None, Law | None]:
 
 def _law(contact: Contact | None) -> Law:
     assert contact is not None
-    damping = 0.0 if contact.dissipative is None else contact.dissipative.damping
-    return Law(contact.elastic.coefficient, contact.elastic.exponent, damping)
+    coefficient, exponent, loss = contact.elastic.coefficient, contact.elastic.exponent, contact.dissipative
+    if isinstance(loss, GeneralDissipative):
+        powers = loss.coefficient, loss.approach_exponent, loss.rate_exponent
+        return Law(coefficient, exponent, 0.0, powers, loss.lowest_force)
+    return Law(coefficient, exponent, 0.0 if loss is None else loss.damping)
 
 
 def _twins(rig: Vehicle) -> tuple[Quarter | None, Occupant | None]:

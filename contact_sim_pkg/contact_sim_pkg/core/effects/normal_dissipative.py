@@ -9,22 +9,47 @@ from __future__ import annotations
 
 from ..jit import kernel
 from ..parameters import NormalDissipative
+from .normal_elastic import elastic_force, elastic_stiffness
 
 
 @kernel
-def loss_factor(dissipative: NormalDissipative | None, approach_rate: float) -> float:
+def loss_factor(dissipative: NormalDissipative | None, approach_rate: float, memory_factor: float = 1.0) -> float:
     """Ratio of the contact force to the elastic force at ``approach_rate`` in [m/s] (closing positive), >= 0.
 
-    1 where the scene calls for no loss; 0 where the bodies part faster than the material recovers.
+    1 where the scene calls for no loss; 0 where the bodies part faster than the material recovers. ``memory_factor``: the ratio
+    that a loss without rate, as foam has, gives alone (``effects/foam_hysteresis.py``); 1 without it.
     """
     if dissipative is None:
-        return 1.0
-    return max(0.0, 1.0 + dissipative.damping * approach_rate)
+        return memory_factor
+    return max(0.0, memory_factor + dissipative.damping * approach_rate)
 
 
 @kernel
-def tension_margin(dissipative: NormalDissipative | None, approach_rate: float) -> float:
+def hunt_crossley_force(elastic, dissipative, approach, approach_rate, memory_factor):
+    """Contact force in [N]; ``dissipative`` may be ``None``."""
+    return elastic_force(elastic, approach) * loss_factor(dissipative, approach_rate, memory_factor)
+
+
+@kernel
+def hunt_crossley_tension_margin(dissipative, approach_rate, memory_factor):
     """The factor before it is limited: its sign change is the event "the material recovers slower than the bodies part"."""
     if dissipative is None:
-        return 1.0
-    return 1.0 + dissipative.damping * approach_rate
+        return memory_factor
+    return memory_factor + dissipative.damping * approach_rate
+
+
+@kernel
+def _damping_of(dissipative):
+    if dissipative is None:
+        return 0.0
+    return dissipative.damping
+
+
+@kernel
+def hunt_crossley_force_rate(elastic, dissipative, approach, approach_rate, approach_acceleration, memory_factor):
+    """dF/dt in [N/s], ``memory_factor`` held; 0 where the bodies part faster than the material recovers."""
+    if hunt_crossley_tension_margin(dissipative, approach_rate, memory_factor) <= 0.0:
+        return 0.0
+    slope = elastic_stiffness(elastic, approach) * loss_factor(dissipative, approach_rate, memory_factor)
+    loss = _damping_of(dissipative) * elastic_force(elastic, approach)
+    return slope * approach_rate + loss * approach_acceleration

@@ -19,6 +19,12 @@ def elastic_force(elastic: NormalElastic, approach: float) -> float:
 
 
 @kernel
+def elastic_order(elastic: NormalElastic) -> float:
+    """Power of the approach with which the force begins at first touch."""
+    return elastic.exponent
+
+
+@kernel
 def elastic_stiffness(elastic: NormalElastic, approach: float) -> float:
     """Slope dF/dx in [N/m] at ``approach`` in [m]; 0 for ``approach <= 0``."""
     if approach <= 0.0:

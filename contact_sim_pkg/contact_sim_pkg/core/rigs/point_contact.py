@@ -7,8 +7,7 @@ from __future__ import annotations
 
 import math
 
-from ..effects.normal_dissipative import loss_factor, tension_margin
-from ..effects.normal_elastic import elastic_force
+from ..effects.normal_force import normal_force, tension_margin
 from ..jit import kernel
 from ..parameters import PointContact
 from .interface import register
@@ -27,7 +26,7 @@ def longest_piece(rig):
 
 
 @kernel
-def _approach(rig, time, state):
+def approach_of(rig, time, state):
     phase = rig.support_frequency * time
     approach = rig.support_amplitude * math.sin(phase) - state[0]
     approach_rate = rig.support_amplitude * rig.support_frequency * math.cos(phase) - state[1]
@@ -35,22 +34,18 @@ def _approach(rig, time, state):
 
 
 @kernel
-def _contact_force(elastic, dissipative, approach, approach_rate):
-    return elastic_force(elastic, approach) * loss_factor(dissipative, approach_rate)
-
-
-@kernel
 def _rate(rig, drive, mode, time, state, out):
-    approach, approach_rate = _approach(rig, time, state)
+    approach, approach_rate = approach_of(rig, time, state)
     out[0] = state[1]
-    out[1] = _contact_force(rig.elastic, rig.dissipative, approach, approach_rate) / rig.mass - rig.gravity
+    force = normal_force(rig.elastic, rig.dissipative, approach, approach_rate, 1.0)
+    out[1] = force / rig.mass - rig.gravity
 
 
 @kernel
 def _margins(rig, drive, mode, time, state, derivative, out):
-    approach, approach_rate = _approach(rig, time, state)
+    approach, approach_rate = approach_of(rig, time, state)
     out[0] = approach
-    out[1] = tension_margin(rig.dissipative, approach_rate)
+    out[1] = tension_margin(rig.elastic, rig.dissipative, approach, approach_rate, 1.0)
 
 
 @kernel

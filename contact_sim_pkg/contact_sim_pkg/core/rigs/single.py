@@ -7,16 +7,18 @@ from typing import Any
 import numpy
 
 from ..jit import entry, kernel, kernel_overload
-from ..parameters import Drive, Modes, PointContact, Vector
+from ..parameters import Drive, ImpactWorks, Modes, PointContact, Vector
 from ..solvers.dormand_prince import Workspace, integrate, set_sides
 from ..vectors import copy_row
-from . import belt_slider, point_contact
+from . import belt_slider, impact_works, point_contact
 
-__all__ = ["belt_slider", "empty_mode", "longest_piece", "point_contact", "run"]
+__all__ = ["belt_slider", "empty_mode", "impact_works", "longest_piece", "point_contact", "run"]
 
 
 def longest_piece(rig: Any) -> float:
     """Longest stretch in [s] that is integrated at once: in free flight no error bounds a step, only the support does."""
+    if isinstance(rig, ImpactWorks):
+        return longest_piece(rig.contact)
     return point_contact.longest_piece(rig) if isinstance(rig, PointContact) else numpy.inf
 
 
@@ -24,6 +26,8 @@ def longest_piece(rig: Any) -> float:
 def _longest_piece(rig):
     if getattr(rig, "instance_class", None) is PointContact:
         return lambda rig: point_contact.longest_piece(rig)
+    if getattr(rig, "instance_class", None) is ImpactWorks:
+        return lambda rig: point_contact.longest_piece(rig.contact)
     return lambda rig: numpy.inf
 
 

@@ -20,6 +20,7 @@ in [J] that the energy ledger needs. Work that friction takes up is counted whol
 
 from __future__ import annotations
 
+from ..effects import normal_force as law
 from ..effects.friction import (
     APART,
     STICK,
@@ -28,8 +29,7 @@ from ..effects.friction import (
     slip_margin,
     stick_margin,
 )
-from ..effects.normal_dissipative import loss_factor, tension_margin
-from ..effects.normal_elastic import elastic_force, elastic_stiffness
+from ..effects.normal_elastic import elastic_force
 from ..jit import kernel
 from ..parameters import Vehicle
 from .interface import register
@@ -66,10 +66,10 @@ def seat_approach(tire, seat, cushion, cushion_rate, state):
 
 @kernel
 def normal_force(contact, approach, approach_rate):
-    """Normal force of a contact in [N], never negative; 0 where the contact is absent."""
+    """Normal force of a contact in [N]; 0 where the contact is absent."""
     if contact is None:
         return 0.0
-    return elastic_force(contact.elastic, approach) * loss_factor(contact.dissipative, approach_rate)
+    return law.normal_force(contact.elastic, contact.dissipative, approach, approach_rate, 1.0)
 
 
 @kernel
@@ -170,26 +170,18 @@ def _rate(rig, drive, mode, time, state, out):
 
 
 @kernel
-def _tension_of(contact, approach_rate):
+def _tension_of(contact, approach, approach_rate):
     if contact is None:
         return 1.0
-    return tension_margin(contact.dissipative, approach_rate)
+    return law.tension_margin(contact.elastic, contact.dissipative, approach, approach_rate, 1.0)
 
 
 @kernel
 def _normal_rate(contact, approach, approach_rate, approach_acceleration):
     """Rate of the normal force in [N/s]; 0 where the bodies part faster than the material recovers."""
-    if tension_margin(contact.dissipative, approach_rate) <= 0.0:
-        return 0.0
-    slope = elastic_stiffness(contact.elastic, approach) * loss_factor(contact.dissipative, approach_rate)
-    return slope * approach_rate + _loss_slope(contact.dissipative, contact.elastic, approach) * approach_acceleration
-
-
-@kernel
-def _loss_slope(dissipative, elastic, approach):
-    if dissipative is None:
-        return 0.0
-    return dissipative.damping * elastic_force(elastic, approach)
+    return law.normal_force_rate(
+        contact.elastic, contact.dissipative, approach, approach_rate, approach_acceleration, 1.0
+    )
 
 
 @kernel
@@ -216,9 +208,9 @@ def _margins(rig, drive, mode, time, state, derivative, out):
     tire_x, tire_v = tire_approach(rig.tire, rig.carcass, height, height_rate, state)
     seat_x, seat_v = seat_approach(rig.tire, rig.seat, cushion, cushion_rate, state)
     out[TIRE_APPROACH] = tire_x
-    out[TIRE_TENSION] = _tension_of(rig.tire_contact, tire_v)
+    out[TIRE_TENSION] = _tension_of(rig.tire_contact, tire_x, tire_v)
     out[SEAT_APPROACH] = seat_x
-    out[SEAT_TENSION] = _tension_of(rig.seat_contact, seat_v)
+    out[SEAT_TENSION] = _tension_of(rig.seat_contact, seat_x, seat_v)
     out[SEAT_FRICTION] = _friction_margin(
         _friction_of(rig.seat_contact), rig.seat_contact, rig.tire, rig.seat, mode, seat_x, seat_v, state, derivative
     )
@@ -243,7 +235,7 @@ def _switch_friction(friction, contact, seat, mode, approach, approach_rate, sta
             state[x + 2] = following_deflection(friction, mode[0], normal, velocity)
             mode[0] = STICK
     elif event in (SEAT_APPROACH, SEAT_TENSION):
-        other = tension_margin(contact.dissipative, approach_rate) if event == SEAT_APPROACH else approach
+        other = _tension_of(contact, approach, approach_rate) if event == SEAT_APPROACH else approach
         state[x + 2] = 0.0
         if side > 0.0 and other > 0.0:
             mode[0] = STICK if velocity == 0.0 else (1 if velocity > 0.0 else -1)
