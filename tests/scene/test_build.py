@@ -4,7 +4,8 @@ import numpy
 import pytest
 from tests.run.scenes import resolved
 
-from contact_sim_pkg.core.parameters import Belt, Brush, Carcass, NormalDissipative
+from contact_sim_pkg.core.parameters import Belt, Brush, Carcass, GeneralDissipative, NormalDissipative
+from contact_sim_pkg.reference import general_law
 from contact_sim_pkg.scene.build import build
 
 TIRE = "effects.tire"
@@ -59,3 +60,26 @@ def test_the_numbers_of_belt_brush_tread_and_asperities_arrive():
     assert settings.modulus == pytest.approx(4e6 * raised)
     assert (made.asperities.spacing, made.asperities.share, made.asperities.raised_cosine) == (0.03, 0.2, True)
     assert made.asperities.contact_length == pytest.approx(2.0 * 0.04605558, rel=1e-4)
+
+
+def seat_loss(*settings):
+    effects = f"effects.seat={{normal_elastic: {{}}, general_dissipative: {{{', '.join(settings)}}}}}"
+    return model(effects, name="seat_ride").rig.seat_contact.dissipative
+
+
+def test_the_general_law_takes_the_place_of_the_usual_loss():
+    assert seat_loss() == GeneralDissipative(2.73e5, 1.5, 1.0, 0.0, 0.0)
+    pulling = seat_loss("coefficient: 400", "approach_exponent: 0", "rate_exponent: 0.5", "end: gap")
+    assert pulling == GeneralDissipative(400.0, 0.0, 0.5, 0.5e-6, -numpy.inf)
+
+
+def test_the_general_law_delivers_the_asked_restitution_of_the_whole_occupant():
+    loss = seat_loss("restitution: 0.6", "reference_speed: 0.4", "approach_exponent: 0.5")
+    mass, stiffness, n = 50.8, 2.73e5, 1.5
+    length = (mass * 0.4**2 / stiffness) ** (1.0 / (n + 1.0))
+    severity = loss.coefficient * length ** (0.5 - n) * 0.4 / stiffness
+    assert general_law.restitution(severity, n, 0.5, 1.0, "force") == pytest.approx(0.6, abs=1e-9)
+
+
+def test_the_general_law_is_none_where_the_scene_does_not_name_it():
+    assert isinstance(model(name="seat_ride").rig.seat_contact.dissipative, NormalDissipative)

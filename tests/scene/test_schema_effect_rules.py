@@ -8,22 +8,25 @@ from contact_sim_pkg.scene import schema_effect_rules
 from contact_sim_pkg.scene.schema_effect_rules import EFFECT_RULES, EffectRule
 
 EFFECTS = (
-    "normal_elastic", "normal_dissipative", "friction", "contact_field", "carcass", "envelopment",
+    "normal_elastic", "normal_dissipative", "general_dissipative", "friction", "contact_field", "carcass", "envelopment",
     "tread_viscoelasticity", "brush", "asperity_impulses",
 )  # fmt: skip
 TIRE_ONLY = {"carcass", "envelopment", "tread_viscoelasticity", "brush", "asperity_impulses"}
+SEAT_ONLY = {"general_dissipative", "friction"}
 IN_THE_FIELD = {"envelopment", "tread_viscoelasticity", "brush"}
 """What acts cell by cell, and so needs the pressure field."""
 SUBSETS = {
     "tire": [set(chosen) for count in range(len(EFFECTS) + 1) for chosen in combinations(EFFECTS, count)],
-    "seat": [set(chosen) for count in range(5) for chosen in combinations(EFFECTS[:4], count)]
+    "seat": [set(chosen) for count in range(6) for chosen in combinations(EFFECTS[:5], count)]
     + [{"normal_elastic", "contact_field", name} for name in sorted(TIRE_ONLY)],
 }
 
 
 def allowed(contact, named):
     """Whether these effects may stand together, written out once more."""
-    if "normal_elastic" not in named or named & ({"friction"} if contact == "tire" else TIRE_ONLY):
+    if "normal_elastic" not in named or named & (SEAT_ONLY if contact == "tire" else TIRE_ONLY):
+        return False
+    if named >= {"normal_dissipative", "general_dissipative"}:
         return False
     return "contact_field" in named or not named & IN_THE_FIELD
 
@@ -39,7 +42,7 @@ def test_every_set_of_effects_is_allowed_or_refused_as_tabled(maker, contact):
         assert (faults == []) == allowed(contact, named), named
 
 
-@pytest.mark.parametrize("name", ["normal_dissipative", "friction", "contact_field"])
+@pytest.mark.parametrize("name", ["normal_dissipative", "general_dissipative", "friction", "contact_field"])
 def test_an_effect_without_what_it_needs_names_both(maker, name):
     faults = maker.faults("seat", {"effects.seat": {name: {}}})
     assert any(fault.startswith(f"effects.seat.{name}: {name} needs normal_elastic") for fault in faults)

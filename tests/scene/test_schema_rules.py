@@ -9,7 +9,17 @@ SWEEP = {"kind": "sweep", "start_frequency": 1.0, "end_frequency": 20.0, "amplit
 SHOCK = {"kind": "half_sine", "amplitude": 10.0, "duration": 0.05}
 LOSS = "effects.seat.normal_dissipative"
 
+GENERAL = "effects.seat.general_dissipative"
 BREACHES = [
+    (
+        "seat",
+        {GENERAL: {"coefficient": 1.0, "restitution": 0.5, "reference_speed": 0.5}},
+        f"{GENERAL}.restitution",
+        "both given",
+    ),
+    ("seat", {GENERAL: {"restitution": 0.5}}, f"{GENERAL}.reference_speed", "is missing"),
+    ("seat", {GENERAL: {"reference_speed": 0.5}}, f"{GENERAL}.reference_speed", "has no meaning"),
+    ("seat", {GENERAL: {"end": "gap"}, "effects.seat.friction": {}}, f"{GENERAL}.end", "no Coulomb limit"),
     ("tire", {"travel": ...}, "travel", "the rig tire needs it"),
     ("car", {"road": ...}, "road", "the rig car needs it"),
     ("seat", {"vibration": ...}, "vibration", "the rig seat needs it"),

@@ -118,7 +118,7 @@ def _seat_contact(scene: dict[str, Any], field: FieldGrids | None, shape: SeatSh
             *(float(friction[key]) for key in ("stiffness", "damping", "coefficient_static", "coefficient_kinetic"))
         )
     )
-    return Contact(law, loss_of(scene, "seat"), rubbing)
+    return Contact(law, loss_of(scene, "seat", law, occupant_mass(scene)), rubbing)
 
 
 def _scale(rig: Vehicle, tolerance: float) -> Vector:

@@ -10,8 +10,17 @@ import numpy
 from numpy.typing import NDArray
 
 from contact_sim_pkg.core.effects.contact_field import FieldError, PressureField, fit_tangent
-from contact_sim_pkg.core.parameters import FieldSettings, NormalDissipative, NormalElastic, widened
+from contact_sim_pkg.core.effects.general_dissipative import SMOOTHING
+from contact_sim_pkg.core.parameters import (
+    FieldSettings,
+    GeneralDissipative,
+    NormalDissipative,
+    NormalElastic,
+    NormalLoss,
+    widened,
+)
 from contact_sim_pkg.core.restitution import damping_of_restitution
+from contact_sim_pkg.core.restitution_law import NEVER_PULLS, PULLS, coefficient_of_restitution
 from contact_sim_pkg.scene.errors import Fault, SceneError
 from contact_sim_pkg.scene.lattice import effects_at
 
@@ -30,15 +39,36 @@ class FieldGrids:
         return (self.usual, self.wide)
 
 
-def loss_of(scene: dict[str, Any], contact: str) -> NormalDissipative | None:
-    """Loss of a contact, from its damping or its restitution; None where the scene calls for none."""
-    loss = effects_at(scene, contact).get("normal_dissipative")
+def loss_of(scene: dict[str, Any], contact: str, elastic: NormalElastic, mass: float) -> NormalLoss | None:
+    """Loss of a contact, from its damping or its restitution; None where the scene calls for none.
+
+    ``mass`` [kg] is what a free impact with the asked restitution moves. Raises SceneError where the law does not reach it.
+    """
+    effects = effects_at(scene, contact)
+    if effects.get("general_dissipative") is not None:
+        return _general_loss(effects["general_dissipative"], contact, elastic, mass)
+    loss = effects.get("normal_dissipative")
     if loss is None:
         return None
     if loss.get("restitution") is not None:
         return NormalDissipative(damping_of_restitution(float(loss["restitution"]), float(loss["reference_speed"])))
     damping = loss.get("damping")
     return NormalDissipative(DEFAULT_DAMPING[contact] if damping is None else float(damping))
+
+
+def _general_loss(loss: dict[str, Any], contact: str, elastic: NormalElastic, mass: float) -> GeneralDissipative:
+    p, q = float(loss["approach_exponent"]), float(loss["rate_exponent"])
+    lowest = NEVER_PULLS if loss["end"] == "force" else PULLS
+    smoothing = SMOOTHING * float(loss["reference_speed"]) if q < 1.0 else 0.0
+    if loss.get("restitution") is None:
+        return GeneralDissipative(float(loss["coefficient"]), p, q, smoothing, lowest)
+    asked, speed = float(loss["restitution"]), float(loss["reference_speed"])
+    try:
+        coefficient = coefficient_of_restitution(asked, speed, mass, elastic, p, q, lowest)
+    except ValueError as reason:
+        where = f"effects.{contact}.general_dissipative.restitution"
+        raise SceneError([Fault("scene", 0, 0, where, str(reason))]) from None
+    return GeneralDissipative(coefficient, p, q, smoothing, lowest)
 
 
 def make_grids(settings: FieldSettings, contact: str) -> FieldGrids:

@@ -22,6 +22,7 @@ from contact_sim_pkg.core.parameters import (
 )
 from contact_sim_pkg.scene.build_contact import FieldGrids, loss_of, make_grids, tangent_law
 from contact_sim_pkg.scene.lattice import (
+    GRAVITY,
     RoadLattice,
     contact_modulus,
     effects_at,
@@ -102,7 +103,7 @@ def build_tire(scene: dict[str, Any]) -> TireParts:
         *(float(given[key]) for key in ("body_mass", "suspension_stiffness", "suspension_damping")),
     )
     law, field = _elastic(scene, geometry, tread)
-    contact = Contact(law, loss_of(scene, "tire"), None)
+    contact = Contact(law, loss_of(scene, "tire", law, standing_load(scene) / GRAVITY), None)
     asperities = _asperities(scene, geometry)
     return TireParts(tire, carcass, contact, geometry, field, tread, _rolling_friction(scene), asperities)
 

@@ -27,6 +27,11 @@ DEFAULT_DAMPING: dict[str, float] = {"tire": 0.06, "seat": 1.0}
 """Hunt-Crossley damping in [s/m] where a scene names neither damping nor restitution, see `schema_effects.py`."""
 _FIELD_CONTACTS: dict[str, Contact] = {"tire": "tire", "seat": "seat"}
 
+DEFAULT_COEFFICIENT = 2.73e5
+"""Coefficient of the general law where a scene names neither coefficient nor restitution: the cushion's own, 1 s/m."""
+DEFAULT_SPEED = 0.5
+"""[m/s] that the smoothing of a rate exponent below 1 is relative to, where a scene names none."""
+
 
 def resolve(scene: Scene) -> ResolvedScene:
     """Turn accuracy into explicit grids and tolerances, write out every default, take the checksums of input files.
@@ -93,6 +98,12 @@ def _fill_effects(effects: dict[str, Any], accuracy: float | str, contact: str) 
     loss = effects.get("normal_dissipative")
     if loss is not None and "restitution" not in loss:
         loss.setdefault("damping", DEFAULT_DAMPING[contact])
+    general = effects.get("general_dissipative")
+    if general is not None:
+        if "restitution" not in general:
+            general.setdefault("coefficient", DEFAULT_COEFFICIENT)
+        if general["rate_exponent"] < 1.0:
+            general.setdefault("reference_speed", DEFAULT_SPEED)
     grid = effects.get("contact_field")
     if grid is not None:
         rung, field = rung_for(accuracy), _FIELD_CONTACTS[contact]

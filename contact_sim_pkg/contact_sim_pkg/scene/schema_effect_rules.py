@@ -22,6 +22,7 @@ class EffectRule(NamedTuple):
 EFFECT_RULES: dict[str, EffectRule] = {
     "normal_elastic": EffectRule(("tire", "seat")),
     "normal_dissipative": EffectRule(("tire", "seat"), needs=("normal_elastic",)),
+    "general_dissipative": EffectRule(("seat",), needs=("normal_elastic",), excludes=("normal_dissipative",)),
     "friction": EffectRule(("seat",), needs=("normal_elastic",)),
     "contact_field": EffectRule(("tire", "seat"), needs=("normal_elastic",)),
     "carcass": EffectRule(("tire",), needs=("normal_elastic",)),

@@ -89,6 +89,32 @@ class SeatLoss(Section):
     reference_speed: float | None = _reference_speed()
 
 
+class GeneralLoss(Section):
+    """General law: elastic force + coefficient · approach^approach_exponent · sgn(rate) |rate|^rate_exponent; in place of
+    normal_dissipative. Exponents 0 and 1 are a plain damper, the elastic exponent and 1 Hunt-Crossley, 0.5 and 1 Kuwabara-Kono."""
+
+    coefficient: float | None = number(
+        0.0, 1e12, "N/m^p/(m/s)^q", "2.73e5 where none is given: with the default exponents 500 N s/m at 498 N",
+        default=None,
+    )  # fmt: skip
+    approach_exponent: float = number(0.0, 4.0, "", "p, power of the approach", default=1.5)
+    rate_exponent: float = number(
+        0.0, 3.0, "", "q, power of the approach rate; below 1 smoothed over 1e-6 of reference_speed", default=1.0
+    )
+    restitution: float | None = number(
+        0.01, 1.0, "", "ratio of the speeds after and before a free impact of the whole occupant, instead of coefficient",
+        default=None,
+    )  # fmt: skip
+    reference_speed: float | None = number(
+        0.001, 100.0, "m/s", "impact speed at which the restitution holds; 0.5 where only rate_exponent below 1 needs it",
+        default=None,
+    )  # fmt: skip
+    end: Literal["force", "gap"] = choice(
+        "contact is lost where the force reaches zero (it never pulls), or where the gap opens (it may pull before)",
+        default="force",
+    )
+
+
 class Friction(Section):
     """Friction between occupant and cushion: a spring and damper that sticks, up to the Coulomb limit."""
 
@@ -207,6 +233,7 @@ class SeatEffects(Section):
 
     normal_elastic: PowerElastic | None = choice("elastic force", default=None)
     normal_dissipative: SeatLoss | None = choice("loss", default=None)
+    general_dissipative: GeneralLoss | None = choice("loss after the general law", default=None)
     friction: Friction | None = choice("friction with true stick", default=None)
     contact_field: SeatField | None = choice("pressure field", default=None)
 

@@ -147,6 +147,7 @@ def _contacts(scene: Scene) -> Iterator[Breach]:
         loss = getattr(effects, "normal_dissipative", None)
         if loss is not None:
             yield from _loss(f"{where}.normal_dissipative", loss.damping, loss.restitution, loss.reference_speed)
+        yield from _general(where, effects)
         friction = getattr(effects, "friction", None)
         if friction is not None and friction.coefficient_kinetic > friction.coefficient_static:
             kinetic, static = show(friction.coefficient_kinetic), show(friction.coefficient_static)
@@ -165,3 +166,22 @@ def _loss(where: str, damping: float | None, restitution: float | None, speed: f
         yield Breach(
             f"{where}.reference_speed", "has no meaning without restitution; remove it", (f"{where}.restitution",)
         )
+
+
+def _general(where: str, effects: object) -> Iterator[Breach]:
+    """The general law takes a coefficient or a restitution, and may pull only where nothing rubs."""
+    general, place = getattr(effects, "general_dissipative", None), f"{where}.general_dissipative"
+    if general is None:
+        return
+    if general.coefficient is not None and general.restitution is not None:
+        sentence = "coefficient and restitution are both given; keep one"
+        yield Breach(f"{place}.restitution", sentence, (f"{place}.coefficient",))
+    if general.restitution is not None and general.reference_speed is None:
+        sentence = "is missing; restitution holds at one impact speed"
+        yield Breach(f"{place}.reference_speed", sentence, (f"{place}.restitution",))
+    if general.restitution is None and general.reference_speed is not None and general.rate_exponent >= 1.0:
+        sentence = "has no meaning without restitution or a rate_exponent below 1; remove it"
+        yield Breach(f"{place}.reference_speed", sentence, (f"{place}.restitution", f"{place}.rate_exponent"))
+    if general.end == "gap" and getattr(effects, "friction", None) is not None:
+        sentence = "a contact that pulls has no Coulomb limit; take end: force or remove friction"
+        yield Breach(f"{place}.end", sentence, (f"{where}.friction",))

@@ -15,7 +15,8 @@ import numpy
 from contact_sim_pkg.core.parameters import Vector
 from contact_sim_pkg.run.rigs import make_simulation
 from contact_sim_pkg.run.sources import make_sources
-from contact_sim_pkg.scene.resolve import ResolvedScene
+from contact_sim_pkg.scene.overrides import set_value
+from contact_sim_pkg.scene.resolve import ResolvedScene, read_explicit
 from contact_sim_pkg.scene.rigs import RIGS
 from contact_sim_pkg.scene.schema_effect_rules import EFFECT_RULES
 from contact_sim_pkg.studies.ablation_rules import Observed, is_needed, observe
@@ -29,6 +30,7 @@ PAIRS = 3
 FEEDS: dict[str, tuple[str, ...]] = {
     "normal_elastic": ("force", "wrench"),
     "normal_dissipative": ("force", "wrench", "patch"),
+    "general_dissipative": ("force", "wrench", "patch"),
     "friction": ("force", "wrench"),
     "contact_field": ("patch", "force", "wrench"),
     "carcass": ("force", "wrench", "patch"),
@@ -124,8 +126,8 @@ def _row(scene_name: str, scene: ResolvedScene, contact: str, effect: str) -> di
         why = f"needs {missing}, which the scene does not name"
         nothing = dict.fromkeys(MEASURES)
         return {**row, **nothing, "called_for": "no rule", "verdict": "not available", "why": why}
-    absent = without(scene, (contact, effect))
-    present = scene if on else load_resolved(scene_name, f"effects.{contact}.{effect}={{}}")
+    present = scene if on else _with(scene, scene_name, contact, effect)
+    absent = without(present, (contact, effect))
     with_it, without_it, differences = _paired(present, absent)
     needed, why = is_needed(effect, contact, present, with_it.observed)
     called_for = "no rule" if needed is None else "needed" if needed else "not needed"
@@ -134,6 +136,16 @@ def _row(scene_name: str, scene: ResolvedScene, contact: str, effect: str) -> di
         verdict = "on but not needed" if on else "off but needed"
     measures = _measures(with_it, without_it, differences, contact)
     return {**row, **measures, "called_for": called_for, "verdict": verdict, "why": why}
+
+
+def _with(scene: ResolvedScene, scene_name: str, contact: str, effect: str) -> ResolvedScene:
+    """The scene with one more effect, all its defaults, in place of those that it excludes."""
+    excluded = [
+        name for name, rule in EFFECT_RULES.items() if name in EFFECT_RULES[effect].excludes or effect in rule.excludes
+    ]
+    bare = without(scene, *((contact, name) for name in excluded))
+    asked = set_value(f"effects.{contact}.{effect}={{}}")
+    return ResolvedScene(read_explicit(bare.to_yaml(), scene_name, [asked]), scene.files)
 
 
 def _missing(scene: ResolvedScene, contact: str, effect: str) -> str:

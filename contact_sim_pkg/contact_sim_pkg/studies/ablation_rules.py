@@ -58,7 +58,7 @@ def is_needed(effect: str, contact: str, scene: ResolvedScene, observed: Observe
         return _friction(scene, observed, contact)
     if effect in RULES_OF_TIRE:
         return RULES_OF_TIRE[effect](scene, observed)
-    if effect == "normal_dissipative" and observed.opens[contact]:
+    if effect in ("normal_dissipative", "general_dissipative") and observed.opens[contact]:
         return True, "the contact opens: an impact needs a loss to have a restitution"
     return None, "the contact stays closed; how much it damps is a choice of the model"
 

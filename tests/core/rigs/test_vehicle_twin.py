@@ -9,6 +9,10 @@ CASES = {
     "tire_bump": (1.2,),
     "tire_bump on its carcass": (1.2, "effects.tire.carcass={}"),
     "seat_ride": (0.5,),
+    "seat_ride on a viscoelastic cushion": (
+        0.5,
+        "effects.seat={normal_elastic: {}, general_dissipative: {coefficient: 8000, approach_exponent: 0.5}}",
+    ),
     "car_full_bench": (0.5,),
     "car_full_bench on its carcass": (0.3, "effects.tire.carcass={}"),
     "tire_rough_road": (0.3,),
@@ -35,3 +39,25 @@ def test_the_rig_follows_its_twin_through_lift_off():
     states, forces = fast_run(drive, drive.model.scale * (1e-10 / asked))
     assert (forces[:, 0] == 0.0).any(), "the tire does not leave the road"
     assert states[:, :-2] == pytest.approx(slow_run(drive)[:-1], abs=1e-8)
+
+
+SHAKEN = "vibration={kind: sine, frequency: 5.0, amplitude: 14.0}"
+
+
+@pytest.mark.parametrize(
+    "law",
+    [
+        "{coefficient: 8000, approach_exponent: 0.5}",
+        "{coefficient: 700, approach_exponent: 0}",
+        "{coefficient: 8000, approach_exponent: 0.5, end: gap}",
+    ],
+)
+def test_the_rig_follows_its_twin_where_the_general_law_ends_its_contacts(law):
+    effects = f"effects.seat={{normal_elastic: {{}}, general_dissipative: {law}}}"
+    scene = load_resolved("seat_ride", SHAKEN, effects)
+    drive = drive_of(scene, 1.0)
+    asked = float(scene.data["integrator"]["relative_tolerance"])
+    states, forces = fast_run(drive, drive.model.scale * (1e-10 / asked))
+    assert (forces[:, 4] == 0.0).any(), "the occupant does not leave the seat"
+    assert (forces[:, 4] < 0.0).any() == ("gap" in law)
+    assert states[:, :-2] == pytest.approx(slow_run(drive)[:-1], abs=1e-7)
