@@ -34,12 +34,15 @@ def test_means_over_coarser_cells_keep_the_integral_and_a_constant():
 
 def test_every_effect_of_a_scene_has_a_row_with_its_topics():
     rows = ablation.study("seat_ride")
-    assert {row["effect"] for row in rows} == {"normal_elastic", "normal_dissipative", "friction", "contact_field"}
+    losses = {"normal_dissipative", "general_dissipative"}
+    assert {row["effect"] for row in rows} == {"normal_elastic", *losses, "friction", "contact_field"}
     assert all("seat/force" in row["topics"] for row in rows)
     by_name = {row["effect"]: row for row in rows}
     assert by_name["friction"]["on"] is False
     assert by_name["friction"]["load_rms_change"] == 0.0, "friction does not act on the vertical force"
     assert by_name["normal_dissipative"]["load_rms_change"] != 0.0
+    changes = [by_name[name]["load_rms_change"] for name in sorted(losses)]
+    assert changes[0] == pytest.approx(changes[1], rel=1e-6), "by default the general law is the usual one"
 
 
 @pytest.mark.parametrize(
