@@ -22,7 +22,7 @@ from .solvers.dormand_prince import make_workspace
 
 TOLERANCE = 1.0e-13  # of the integrator, relative to L and v0; e is then good to 1e-11
 LONGEST = 1.0e3  # [L / v0]
-HIGHEST_SEVERITY = 1.0e6
+HIGHEST_SEVERITY = 1.0e8
 NEVER_PULLS, PULLS = 0.0, -math.inf
 
 

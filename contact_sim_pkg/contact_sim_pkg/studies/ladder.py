@@ -16,6 +16,7 @@ from contact_sim_pkg.studies import (
     ladder_elliptic,
     ladder_exponent,
     ladder_force,
+    ladder_restitution,
     ladder_road,
     ladder_rough,
     ladder_smooth,
@@ -44,6 +45,7 @@ RIGS: dict[str, tuple[Ladder, ...]] = {
         Ladder(ladder_exponent.PART, ladder_exponent.rows),
         Ladder(ladder_road.PART, ladder_road.rows),
     ),
+    "seat": (Ladder(ladder_restitution.PART, ladder_restitution.rows),),
 }
 """Rig -> its ladders. A further rig is one more entry."""
 
