@@ -133,7 +133,7 @@ def _energy(block: int, blocks: int, stamp: int) -> bytes:
 
 def _cost(block: int, _blocks: int, stamp: int) -> bytes:
     jump = 2.5 if block == PEAK_BLOCK % 20 else 0.5
-    cost = messages.Cost(block, WALL_TIME, BLOCK_LENGTH / WALL_TIME, 12, 1, 2, 30, 1e-7, jump)
+    cost = messages.Cost(block, WALL_TIME, BLOCK_LENGTH / WALL_TIME, 12, 1, 2, 30, 1e-7, jump, 4, 1, 2e-3)
     return messages.encode_cost(cost, stamp)
 
 

@@ -120,7 +120,12 @@ ROUND_TRIPS = {
         messages.decode_wrench,
         ("a",),
     ),
-    "cost": (messages.Cost(4, 0.01, 1.0, 5, 1, 2, 9, 1e-7, 0.5), messages.encode_cost, messages.decode_cost, ()),
+    "cost": (
+        messages.Cost(4, 0.01, 1.0, 5, 1, 2, 9, 1e-7, 0.5, 7, 2, 3e-3),
+        messages.encode_cost,
+        messages.decode_cost,
+        (),
+    ),
     "recorded": (
         messages.Recorded(-1, 7, True, "bags/a", "closed"),
         messages.encode_recorded,

@@ -76,6 +76,8 @@ def _cost_caption(cost: CostSeries) -> str:
         return text
     return text + (
         f" Pressure fields: {numbers['field_iterations']} iterations, largest relative residual "
-        f"{numbers['field_residual_max']:.1e}; at a field instant a force jumped by at most "
-        f"{numbers['field_jump_max_N']:.3g} N, which the tangent between the instants did not foresee."
+        f"{numbers['field_residual_max']:.1e}; they were solved for "
+        f"{numbers['stretches']} stretches of the run ({numbers['stretches_repeated']} taken again, shorter), on which a force is "
+        f"wrong by an estimated {numbers['coupling_error_max']:.2g} of its standing load at most; where two stretches meet a force "
+        f"jumped by at most {numbers['field_jump_max_N']:.3g} N."
     )

@@ -212,6 +212,10 @@ class CostSeries(NamedTuple):
     field_residual: FloatArray
     field_jump: FloatArray
     """[N]"""
+    stretches: FloatArray
+    stretches_repeated: FloatArray
+    coupling_error: FloatArray
+    """over the standing load"""
 
 
 class TopicCount(NamedTuple):

@@ -120,6 +120,9 @@ def solver_numbers(cost: CostSeries) -> dict[str, Any]:
         "field_iterations": int(cost.field_iterations.sum()),
         "field_residual_max": float(cost.field_residual.max()),
         "field_jump_max_N": float(cost.field_jump.max()),
+        "stretches": int(cost.stretches.sum()),
+        "stretches_repeated": int(cost.stretches_repeated.sum()),
+        "coupling_error_max": float(cost.coupling_error.max()),
         "physics_wall_s": wall,
         "physics_real_time_factor": simulated / wall if wall > 0.0 else math.nan,
     }

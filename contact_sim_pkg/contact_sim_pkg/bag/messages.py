@@ -146,6 +146,9 @@ class Cost(NamedTuple):
     field_iterations: int
     field_residual: float
     field_jump: float  # [N]
+    stretches: int
+    stretches_repeated: int
+    coupling_error: float  # over the standing load
 
 
 class Progress(NamedTuple):

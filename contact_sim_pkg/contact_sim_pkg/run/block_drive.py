@@ -46,19 +46,6 @@ def block_drive(model: Model, travel: Travel | None, block: int, road: Any, vibr
     return BlockDrive(road, places, smooth, a_x, a_z, push)
 
 
-def effective_between(smooth: Vector, offset: float, offset_end: float) -> Vector:
-    """Effective height of the road in [m] over an interval: the smooth height and an offset that goes straight to its end.
-
-    At an edge the smooth height falls in a curve where the offset rises straight, and their sum would stand out far above the
-    heights at both ends. So it keeps between them, but for what the smooth height itself stands out over its own ends.
-    """
-    height = smooth + offset + (offset_end - offset) * numpy.linspace(0.0, 1.0, len(smooth))
-    over = max(0.0, float(smooth.max()) - max(smooth[0], smooth[-1]))
-    under = max(0.0, min(smooth[0], smooth[-1]) - float(smooth.min()))
-    low, high = min(height[0], height[-1]) - under, max(height[0], height[-1]) + over
-    return numpy.asarray(numpy.clip(height, low, high), dtype=numpy.float64)
-
-
 def _accelerations(model: Model, block: int, vibration: Any) -> tuple[Vector, Vector]:
     """Floor accelerations, straight between the samples."""
     timing = model.timing

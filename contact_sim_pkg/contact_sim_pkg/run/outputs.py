@@ -67,6 +67,9 @@ class BlockRecord:
     field_iterations: int = 0
     field_residual: float = 0.0
     field_jump: float = 0.0
+    stretches: int = 0
+    stretches_repeated: int = 0
+    coupling_error: float = 0.0  # over the standing load
 
     @classmethod
     def empty(cls, model: Model, block: int) -> BlockRecord:
@@ -226,7 +229,8 @@ class _Encoder:
         steps, rejected, events = (int(value) for value in record.counters)
         value = Cost(
             record.block, wall_time, self.model.timing.block_length / wall_time, steps, rejected, events,
-            record.field_iterations, record.field_residual, record.field_jump,
+            record.field_iterations, record.field_residual, record.field_jump, record.stretches, record.stretches_repeated,
+            record.coupling_error,
         )  # fmt: skip
         self.messages.append(("bench/cost", self.stamp, encode_cost(value, self.stamp)))
 

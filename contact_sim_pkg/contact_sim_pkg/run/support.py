@@ -21,27 +21,57 @@ from contact_sim_pkg.scene.build_tire import TireGeometry, Tread, relaxed_grids
 
 Gap = NDArray[numpy.float64]
 
+CALM = 0.1
+"""Of the allowed height: an offset that differs by less from the expected one is as expected."""
+
 
 class Support(ABC):
     """The support of one contact; ``offset`` [m] is what its field adds to the smooth height, 0 without a field."""
 
+    still = False  # the support has always the same form
+
     def __init__(self, grids: FieldGrids | None, contact: Contact | None) -> None:
         """Take the pressure field (None: the smooth height is all there is) and the contact whose law it serves."""
         self.grids, self.contact = grids, contact
-        self.offset = 0.0  # [m] at the last field instant
-        self.change = 0.0  # [m] of the offset over the last interval, for the prediction of the next
+        self.offset = 0.0  # [m] at the end of the last stretch
+        self._solved = 0.0  # [m] offset at the last solution of the field
+        self._since = 0  # segments since then
+        self._slope = 0.0  # [m] of the offset a segment, between the last two solutions
+        self._count = 1  # segments between them
+        self.calm = False  # the last offset was as expected: between published fields it is not looked for
         self.published: FieldRecord | None = None
         self.travel = 0.0  # [m] of the contact along the road
 
     def reset(self) -> None:
         """Forget everything but the buffers."""
-        self.offset, self.change, self.published = 0.0, 0.0, None
+        self.begin(0.0)
+        self.published = None
         for field in () if self.grids is None else self.grids.both():
             field.forget()
 
-    def solves_in(self, passes_left: int) -> bool:
-        """Whether the field is solved in a pass that ``passes_left`` corrector passes follow; always in the last."""
-        return self.grids is not None and self.grids.usual.settings.corrector_passes >= passes_left
+    def begin(self, offset: float) -> None:
+        """A run starts with ``offset`` [m]."""
+        self.offset = self._solved = offset
+        self._slope, self._since, self._count, self.calm = 0.0, 0, 1, False
+
+    def expected(self, count: int) -> float:
+        """Offset in [m] after a stretch of ``count`` segments if it goes on as between the last two solutions."""
+        return self._solved + self._slope * (self._since + count)
+
+    def bend(self, offset: float, count: int) -> float:
+        """Largest distance in [m] of the straight line to ``offset`` [m], ``count`` segments on, from the parabola through the last three."""
+        span = self._since + count
+        slope = (offset - self._solved) / span
+        return abs(slope - self._slope) * span**2 / (4.0 * (self._count + span))
+
+    def take(self, offset: float, count: int, solved: bool, allowed: float) -> None:
+        """A stretch of ``count`` segments is done and led to ``offset`` [m], found there or expected; ``allowed`` [m]: its error."""
+        span = self._since + count
+        if solved:
+            self.calm = self.still and abs(offset - self.expected(count)) <= CALM * allowed
+            self._slope, self._count = (offset - self._solved) / span, span
+            self._solved, span = offset, 0
+        self._since, self.offset = span, offset
 
     def solve(self, approach: float, geometric: float, block: int) -> float:
         """Solve the field at ``approach`` [m]; returns the offset to the ``geometric`` approach [m] of the smooth height.
@@ -202,6 +232,8 @@ class RoadSupport(Support):
 
 class CushionSupport(Support):
     """The cushion under the occupant, whose form does not change."""
+
+    still = True
 
     def __init__(self, grids: FieldGrids | None, contact: Contact | None, shape: SeatShape | None) -> None:
         """As ``Support``; ``shape`` is the occupant's lower surface."""

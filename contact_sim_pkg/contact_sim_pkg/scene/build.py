@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 from typing import Any
 
@@ -12,9 +13,10 @@ from contact_sim_pkg.core.effects.normal_elastic import approach_of_force
 from contact_sim_pkg.core.effects.seat_shape import SeatShape, seat_gap
 from contact_sim_pkg.core.parameters import Contact, FieldSettings, Friction, NormalElastic, Seat, Vector, Vehicle
 from contact_sim_pkg.scene.build_contact import FieldGrids, loss_of, make_grids, tangent_law
+from contact_sim_pkg.scene.build_coupling import LONGEST, CouplingRule, allowed_height, coupled_timing, uniform_segments
 from contact_sim_pkg.scene.build_tire import Asperities, RollingFriction, TireGeometry, Tread, build_tire
-from contact_sim_pkg.scene.lattice import GRAVITY, effects_at, field_settings, occupant_mass
-from contact_sim_pkg.scene.timing import Timing, make_timing
+from contact_sim_pkg.scene.lattice import GRAVITY, effects_at, field_settings, occupant_mass, standing_load
+from contact_sim_pkg.scene.timing import Timing
 
 POSITION_SCALE = 0.01  # [m], size of the approaches; the integrator's tolerance is relative to it
 VELOCITY_SCALE = 0.5  # [m/s], size of the velocities on a rough road
@@ -36,6 +38,7 @@ class Model:
     seat_field: FieldGrids | None
     seat_shape: SeatShape | None
     corrector_passes: int
+    coupling: CouplingRule | None  # None without a pressure field
     shaken: bool  # whether the scene has a vibration
 
     @property
@@ -57,9 +60,11 @@ def build(scene: dict[str, Any]) -> Model:
     rig = Vehicle(GRAVITY, None, None, None, seat, seat_contact)
     if tire is not None:
         rig = rig._replace(tire=tire.tire, carcass=tire.carcass, tire_contact=tire.contact)
+    footprint = None if tire is None or tire_field is None else tire.footprint_length
+    timing = coupled_timing(scene, tire_field is not None or seat_field is not None, footprint)
     return Model(
         rig=rig,
-        timing=make_timing(scene, tire_field is not None or seat_field is not None),
+        timing=timing,
         scale=_scale(rig, float(scene["integrator"]["relative_tolerance"])),
         bodies=_bodies(rig),
         tire_geometry=None if tire is None else tire.geometry,
@@ -73,8 +78,25 @@ def build(scene: dict[str, Any]) -> Model:
             (field.usual.settings.corrector_passes for field in (tire_field, seat_field) if field is not None),
             default=0,
         ),
+        coupling=_coupling(scene, rig, footprint, timing, tire_field is not None or seat_field is not None),
         shaken=bool(scene.get("vibration")),
     )
+
+
+def _coupling(
+    scene: dict[str, Any], rig: Vehicle, footprint: float | None, timing: Timing, with_field: bool
+) -> CouplingRule | None:
+    """Rule for the stretches between two solutions of the fields; ``footprint`` [m] is None without a field on a road."""
+    if not with_field:
+        return None
+    tolerance = float(scene["integrator"]["coupling_tolerance"])
+    heights = (
+        math.inf if rig.tire is None else allowed_height(rig.tire_contact, standing_load(scene), tolerance),
+        math.inf if rig.seat is None else allowed_height(rig.seat_contact, occupant_mass(scene) * GRAVITY, tolerance),
+    )
+    uniform = footprint is not None and effects_at(scene, "tire").get("tread_viscoelasticity") is not None
+    segments = uniform_segments(scene, footprint, timing) if footprint is not None and uniform else None
+    return CouplingRule(tolerance, heights, math.inf if footprint is None else LONGEST * footprint, segments)
 
 
 def _seat(scene: dict[str, Any], offset: int) -> Seat:
@@ -107,7 +129,7 @@ def seat_cells(settings: FieldSettings) -> tuple[NDArray[numpy.float64], NDArray
 def _seat_contact(scene: dict[str, Any], field: FieldGrids | None, shape: SeatShape | None) -> Contact:
     elastic = effects_at(scene, "seat")["normal_elastic"]
     if field is not None and shape is not None:
-        law = tangent_law(field, lambda grid: seat_gap_on(shape, grid), occupant_mass(scene) * GRAVITY, "seat")
+        law, _length = tangent_law(field, lambda grid: seat_gap_on(shape, grid), occupant_mass(scene) * GRAVITY, "seat")
     else:
         law = NormalElastic(float(elastic["coefficient"]), float(elastic["exponent"]))
     friction = effects_at(scene, "seat").get("friction")

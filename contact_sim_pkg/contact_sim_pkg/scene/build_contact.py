@@ -78,11 +78,15 @@ def make_grids(settings: FieldSettings, contact: str) -> FieldGrids:
 
 def tangent_law(
     grids: FieldGrids, gap_on: Callable[[FieldSettings], NDArray[numpy.float64]], load: float, contact: str
-) -> NormalElastic:
-    """Tangent law at the standing load; on the wide grid where the usual one does not hold the contact."""
+) -> tuple[NormalElastic, float]:
+    """Tangent law at the standing load, and the length in [m] of the contact there along the rows.
+
+    On the wide grid where the usual one does not hold the contact. Raises SceneError where that does not either.
+    """
     for field in grids.both():
         try:
-            return fit_tangent(field, gap_on(field.settings), load)
+            law = fit_tangent(field, gap_on(field.settings), load)
+            return law, int((field.pressure > 0.0).any(axis=1).sum()) * field.settings.cell_x
         except FieldError as error:
             reason = error
     where = f"effects.{contact}.contact_field"

@@ -21,6 +21,7 @@ from contact_sim_pkg.core.parameters import (
     Vector,
 )
 from contact_sim_pkg.scene.build_contact import FieldGrids, loss_of, make_grids, tangent_law
+from contact_sim_pkg.scene.build_coupling import coupled_timing, uniform_segments
 from contact_sim_pkg.scene.lattice import (
     GRAVITY,
     RoadLattice,
@@ -42,6 +43,11 @@ class TireGeometry:
     semi_axis_y: float
     lattice: RoadLattice
 
+    @property
+    def footprint_length(self) -> float:
+        """Length in [m] along the travel of the footprint of the standing load."""
+        return 2.0 * self.semi_axis_x
+
 
 @dataclass(frozen=True)
 class Tread:
@@ -49,7 +55,7 @@ class Tread:
 
     viscoelasticity: TreadViscoelasticity
     relaxed_modulus: float  # [Pa] contact modulus at long times
-    step: float  # [s] between two field instants
+    step: float  # [s] from one solution of the field to the next
 
 
 @dataclass(frozen=True)
@@ -88,6 +94,7 @@ class TireParts:
     carcass: Carcass | None
     contact: Contact
     geometry: TireGeometry
+    footprint_length: float  # [m] along the travel under the standing load, by the field where there is one
     field: FieldGrids | None
     tread: Tread | None
     rolling_friction: RollingFriction | None
@@ -97,29 +104,31 @@ class TireParts:
 def build_tire(scene: dict[str, Any]) -> TireParts:
     """Parts of a resolved scene's tire. Raises SceneError where a pressure field cannot carry the standing load."""
     given = scene["tire"]
-    carcass, tread, geometry = _carcass(scene), _tread(scene), _geometry(scene)
+    carcass, geometry = _carcass(scene), _geometry(scene)
+    tread = _tread(scene, geometry)
     tire = Tire(
         float(given["wheel_mass"]) - (0.0 if carcass is None else carcass.belt_mass),
         *(float(given[key]) for key in ("body_mass", "suspension_stiffness", "suspension_damping")),
     )
-    law, field = _elastic(scene, geometry, tread)
+    law, length, field = _elastic(scene, geometry, tread)
     contact = Contact(law, loss_of(scene, "tire", law, standing_load(scene) / GRAVITY), None)
     asperities = _asperities(scene, geometry)
-    return TireParts(tire, carcass, contact, geometry, field, tread, _rolling_friction(scene), asperities)
+    return TireParts(tire, carcass, contact, geometry, length, field, tread, _rolling_friction(scene), asperities)
 
 
 def _elastic(
     scene: dict[str, Any], geometry: TireGeometry, tread: Tread | None
-) -> tuple[NormalElastic, FieldGrids | None]:
-    """Hertz's law of the point contact, or a field and its tangent law; a tread with memory is stiffer at once than for long."""
+) -> tuple[NormalElastic, float, FieldGrids | None]:
+    """Normal law, length in [m] of the standing footprint, and the field: Hertz's law of the point contact, or a field and its tangent law; a tread with memory is stiffer at once than for long."""
     modulus = contact_modulus(scene["tire"])
     raised = 1.0 if tread is None else stiffening(tread.viscoelasticity, tread.step)
     settings = field_settings(scene, "tire", modulus * raised)
     if settings is None:
         curvatures = (0.5 / geometry.radius_rolling, 0.5 / geometry.radius_lateral)
-        return NormalElastic(float(power_law(*curvatures, modulus)), 1.5), None
+        return NormalElastic(float(power_law(*curvatures, modulus)), 1.5), geometry.footprint_length, None
     field = make_grids(settings, "tire")
-    return tangent_law(field, lambda grid: _crown(geometry, grid), standing_load(scene), "tire"), field
+    law, length = tangent_law(field, lambda grid: _crown(geometry, grid), standing_load(scene), "tire")
+    return law, length, field
 
 
 def _carcass(scene: dict[str, Any]) -> Carcass | None:
@@ -129,13 +138,15 @@ def _carcass(scene: dict[str, Any]) -> Carcass | None:
     return Carcass(4, *(float(carcass[key]) for key in ("belt_mass", "stiffness", "damping")))
 
 
-def _tread(scene: dict[str, Any]) -> Tread | None:
+def _tread(scene: dict[str, Any], geometry: TireGeometry) -> Tread | None:
     memory = effects_at(scene, "tire").get("tread_viscoelasticity")
     if memory is None:
         return None
     pairs = numpy.array(memory["branches"], dtype=numpy.float64).reshape(-1, 2)
     tread = TreadViscoelasticity(float(memory["retardation_time"]), pairs[:, 0].copy(), pairs[:, 1].copy())
-    return Tread(tread, contact_modulus(scene["tire"]), 1.0 / float(scene["outputs"]["field_rate"]))
+    timing = coupled_timing(scene, True, geometry.footprint_length)
+    step = uniform_segments(scene, geometry.footprint_length, timing) * timing.segment_length
+    return Tread(tread, contact_modulus(scene["tire"]), step)
 
 
 def _rolling_friction(scene: dict[str, Any]) -> RollingFriction | None:
@@ -154,7 +165,7 @@ def _asperities(scene: dict[str, Any], geometry: TireGeometry) -> Asperities | N
     if given is None:
         return None
     return Asperities(
-        float(given["spacing"]), 2.0 * geometry.semi_axis_x, standing_load(scene), float(given["share"]),
+        float(given["spacing"]), geometry.footprint_length, standing_load(scene), float(given["share"]),
         given["window"] == "raised_cosine",
     )  # fmt: skip
 

@@ -17,7 +17,7 @@ from contact_sim_pkg.scene.overrides import Override, apply
 from contact_sim_pkg.scene.resolved_scene import ResolvedScene, sha256_of
 from contact_sim_pkg.scene.rigs import RIGS
 from contact_sim_pkg.scene.schema import Scene
-from contact_sim_pkg.scene.schema_accuracy import Contact, cells_of, integration_tolerance, rung_for
+from contact_sim_pkg.scene.schema_accuracy import Contact, asked, cells_of, integration_tolerance, rung_for
 from contact_sim_pkg.scene.schema_validate import validate
 from contact_sim_pkg.scene.yaml_document import parse_document
 
@@ -91,6 +91,8 @@ def explicit(scene: Scene) -> dict[str, Any]:
         data.setdefault(contact, {})  # the schema fills in its defaults
         _fill_effects(data["effects"][contact], scene.accuracy, contact)
     data["integrator"].setdefault("relative_tolerance", integration_tolerance(scene.accuracy))
+    if any((data["effects"][contact] or {}).get("contact_field") is not None for contact in RIGS[scene.rig].contacts):
+        data["integrator"].setdefault("coupling_tolerance", asked(scene.accuracy))
     return _ordered(data)
 
 

@@ -35,6 +35,14 @@ class Integrator(Section):
     relative_tolerance: float | None = number(
         1e-13, 1e-2, "", "local error of a step relative to the state; taken from accuracy when absent", default=None
     )
+    coupling_tolerance: float | None = number(
+        1e-8,
+        10.0,
+        "",
+        "error of a contact force between two solutions of its pressure field, relative to the standing load: it sets how often"
+        " the fields are solved; taken from accuracy when absent",
+        default=None,
+    )
 
 
 class Limits(Section):

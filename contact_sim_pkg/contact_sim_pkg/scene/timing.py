@@ -30,13 +30,13 @@ class Timing:
         return self.intervals * self.segments // self.sample_every
 
 
-def make_timing(scene: dict[str, Any], with_field: bool) -> Timing:
-    """Cut of a block; the loader has checked that every rate fits it."""
+def make_timing(scene: dict[str, Any], with_field: bool, parts: int = 1) -> Timing:
+    """Cut of a block into segments, at least ``parts`` a sample of the forces; the loader has checked that every rate fits it."""
     length = float(scene["block_length"])
     samples = round(length * scene["outputs"]["force_rate"])
     intervals = round(length * scene["outputs"]["field_rate"]) if with_field else 1
     vibration = round(length * scene["vibration"]["sample_rate"]) if scene.get("vibration") else 1
-    segments = math.lcm(samples, intervals, vibration)
+    segments = math.lcm(samples * parts, intervals, vibration)
     return Timing(
         length,
         round(scene["duration"] / length),

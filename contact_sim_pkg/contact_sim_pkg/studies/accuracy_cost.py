@@ -1,7 +1,7 @@
 """`bench accuracy SCENE`: what accuracy costs in time, for each tolerance, grid and rung that the scene can be run with.
 
-Columns of a row: `quantity`, `part` (integrator, corrector, field solver, field grid), `rung`, `grid`, `tolerance`, `passes`
-of the corrector (else null), `error` (relative), `reference` (what the error is against, and whether it is own code),
+Columns of a row: `quantity`, `part` (integrator, coupling, field solver, field grid), `rung`, `grid`, `tolerance`,
+`error` (relative), `reference` (what the error is against, and whether it is own code),
 `ms_per_simulated_s`, and in a new process the time to the first answer: `first_call_s`, with nothing compiled, and
 `next_start_s`, with the kernels on disk. How to read it: `docs/accuracy.md`.
 """
@@ -16,7 +16,7 @@ import tempfile
 from collections.abc import Callable
 from typing import Any
 
-from contact_sim_pkg.studies import accuracy_cost_field, accuracy_cost_integrator
+from contact_sim_pkg.studies import accuracy_cost_coupling, accuracy_cost_field, accuracy_cost_integrator
 from contact_sim_pkg.studies.accuracy_cost_plot import write_plot
 from contact_sim_pkg.studies.accuracy_cost_table import sections
 from contact_sim_pkg.studies.scene_drive import load_resolved
@@ -24,7 +24,7 @@ from contact_sim_pkg.studies.scene_drive import load_resolved
 __all__ = ["first_call_times", "sections", "study", "write_plot"]
 
 COLUMNS = (
-    "quantity", "part", "rung", "grid", "tolerance", "passes", "error", "reference", "ms_per_simulated_s", "first_call_s",
+    "quantity", "part", "rung", "grid", "tolerance", "error", "reference", "ms_per_simulated_s", "first_call_s",
     "next_start_s",
 )  # fmt: skip
 
@@ -36,7 +36,7 @@ def study(scene_name: str, progress: Callable[[str], None] | None = None) -> lis
     tell("first call in a new process: everything is compiled, then again from the disk")
     first, again = first_call_times(scene_name)
     rows = accuracy_cost_integrator.tolerance_rows(scene, tell)
-    rows += accuracy_cost_integrator.corrector_rows(scene_name, scene, tell)
+    rows += accuracy_cost_coupling.coupling_rows(scene_name, scene, tell)
     rows += accuracy_cost_field.field_rows(scene, tell)
     for row in rows:
         key = "field" if row["part"].startswith("field") else "simulation"

@@ -1,8 +1,7 @@
-"""Accuracy and cost of the time integration: the asked tolerance, and the corrector passes between field instants."""
+"""Accuracy and cost of the time integration, with point contacts: the asked tolerance."""
 
 from __future__ import annotations
 
-import statistics
 import time
 from collections.abc import Callable
 from functools import partial
@@ -10,20 +9,16 @@ from typing import Any
 
 import numpy
 
-from contact_sim_pkg.bag.messages import decode_contact_force
 from contact_sim_pkg.core.parameters import Vector
 from contact_sim_pkg.core.rigs import advance as columns
 from contact_sim_pkg.reference.vehicle import normal_force
-from contact_sim_pkg.run.simulation import Simulation
-from contact_sim_pkg.run.sources import make_sources
 from contact_sim_pkg.scene.resolved_scene import ResolvedScene
-from contact_sim_pkg.studies.scene_drive import SceneDrive, drive_of, fast_run, load_resolved, slow_run, twin_laws
+from contact_sim_pkg.studies.scene_drive import SceneDrive, drive_of, fast_run, slow_run, twin_laws
 
-__all__ = ["corrector_rows", "simulate", "tolerance_rows"]
+__all__ = ["tolerance_rows"]
 
 DURATION = 2.0  # [s] of the scene
 TOLERANCES = tuple(10.0**-power for power in range(3, 11))
-PASSES, REFERENCE_PASSES = range(4), 8
 REPEATS = 9
 TWIN = "scipy DOP853, no shared code"
 
@@ -47,47 +42,6 @@ def tolerance_rows(scene: ResolvedScene, tell: Callable[[str], None]) -> list[di
         }
         rows += [_row(name, "integrator", "", tolerance, error, TWIN, cost) for name, error in errors.items()]
     return rows
-
-
-def corrector_rows(scene_name: str, scene: ResolvedScene, tell: Callable[[str], None]) -> list[dict[str, Any]]:
-    """Normal force of each contact with a field for 0 to 3 corrector passes, at the grids that the scene asks for."""
-    contacts = [name for name, effects in scene.data["effects"].items() if effects and effects.get("contact_field")]
-    if not contacts:
-        return []
-    runs = {}
-    for passes in (*PASSES, REFERENCE_PASSES):
-        tell(f"corrector: {passes} passes")
-        values = [f"effects.{contact}.contact_field.corrector_passes={passes}" for contact in contacts]
-        runs[passes] = simulate(load_resolved(scene_name, *values), DURATION)
-    exact, _cost = runs[REFERENCE_PASSES]
-    rows = []
-    for contact in contacts:
-        field = scene.data["effects"][contact]["contact_field"]
-        grid, reference = f"{field['rows']}x{field['cols']}", f"own code, {REFERENCE_PASSES} passes"
-        for passes in PASSES:
-            forces, cost = runs[passes]
-            error = _largest([forces[contact]], [exact[contact]])
-            row = _row(f"{contact} force", "corrector", grid, float(field["tolerance"]), error, reference, cost)
-            rows.append({**row, "passes": passes})
-    return rows
-
-
-def simulate(scene: ResolvedScene, duration: float) -> tuple[dict[str, Vector], float]:
-    """Normal force [N] of each contact over `duration` [s], and ms per simulated second of the simulation alone."""
-    sources, simulation = make_sources(scene), Simulation(scene)
-    simulation.prepare()
-    length = simulation.model.timing.block_length
-    forces: dict[str, list[Vector]] = {"tire": [], "seat": []}
-    walls = []
-    for block in range(min(simulation.blocks, round(duration / length))):
-        result = simulation.advance(block, {topic: source.block(block) for topic, source in sources.items()})
-        walls.append(result.wall_time)
-        for topic, _stamp, data in result.messages:
-            contact, _, kind = topic.partition("/")
-            if kind == "force":
-                forces[contact].append(decode_contact_force(data).normal)
-    joined = {contact: numpy.concatenate(parts) for contact, parts in forces.items() if parts}
-    return joined, 1e3 * statistics.median(walls) / length
 
 
 def _row(

@@ -15,7 +15,7 @@ __all__ = ["write_plot"]
 
 PANELS = (  # part and contact -> title
     ("integrator", "", "time integration, point contacts"),
-    ("corrector", "", "corrector passes, whole scene"),
+    ("coupling", "", "coupling of bodies and fields, whole scene"),
     ("field", "tire", "tire field"),
     ("field", "seat", "seat field"),
 )
@@ -75,12 +75,12 @@ def _panel(axis: Any, rows: list[dict[str, Any]]) -> None:
     axis.legend(fontsize=8, loc="upper center", bbox_to_anchor=(0.5, -0.13), ncols=2, frameon=False)
 
 
-def _finer(row: dict[str, Any]) -> tuple[float, float]:
-    return -row["tolerance"], row.get("passes") or 0
+def _finer(row: dict[str, Any]) -> float:
+    return -float(row["tolerance"])
 
 
 def _name_points(axis: Any, rows: list[dict[str, Any]]) -> None:
-    """Say what was asked at the points of the first line of each part: tolerance, passes, or rung."""
+    """Say what was asked at the points of the first line of each part: tolerance or rung."""
     for part in dict.fromkeys((row["part"], row["rung"] == "check") for row in rows):
         if part[0] == "field grid":
             continue  # the same rungs as those of the solver
@@ -99,9 +99,7 @@ def _name_points(axis: Any, rows: list[dict[str, Any]]) -> None:
 
 
 def _asked(row: dict[str, Any]) -> str:
-    if row["part"] == "corrector":
-        return f"{row['passes']} pass" if row["passes"] == 1 else f"{row['passes']} passes"
-    if row["part"] == "integrator" or row["rung"] == "check":
+    if row["part"] in ("integrator", "coupling") or row["rung"] == "check":
         return f"{row['tolerance']:.0e}"
     return f"{row['rung']} {row['grid']}"
 

@@ -13,8 +13,8 @@ COST = "ms per simulated s"
 
 
 def sections(rows: list[Row]) -> list[Section]:
-    """Parts of the table, in the order of the study: integrator, corrector, then each contact's field."""
-    found = [_integrator(rows), _corrector(rows)]
+    """Parts of the table, in the order of the study: integrator, coupling, then each contact's field."""
+    found = [_integrator(rows), _coupling(rows)]
     for contact in ("tire", "seat"):
         of_contact = [row for row in rows if row["part"].startswith("field") and row["quantity"].startswith(contact)]
         on_rungs = [row for row in of_contact if row["rung"] != "check"]
@@ -28,25 +28,23 @@ def sections(rows: list[Row]) -> list[Section]:
 
 
 def _integrator(rows: list[Row]) -> Section:
-    chosen = [row for row in rows if row["part"] == "integrator"]
+    return _by_tolerance("time integration, point contacts: error", "integrator", rows)
+
+
+def _coupling(rows: list[Row]) -> Section:
+    return _by_tolerance("coupling of bodies and pressure fields: error", "coupling", rows)
+
+
+def _by_tolerance(title: str, part: str, rows: list[Row]) -> Section:
+    """One line a tolerance, the errors of its quantities side by side."""
+    chosen = [row for row in rows if row["part"] == part]
     lines: dict[float, Row] = {}
     for row in chosen:
         line = lines.setdefault(row["tolerance"], {"tolerance": row["tolerance"]})
         line[row["quantity"]] = row["error"]
     for row in chosen:
         lines[row["tolerance"]][COST] = row["ms_per_simulated_s"]
-    return Section("time integration, point contacts: error", list(lines.values()), _against(chosen))
-
-
-def _corrector(rows: list[Row]) -> Section:
-    chosen = [row for row in rows if row["part"] == "corrector"]
-    lines: dict[int, Row] = {}
-    for row in chosen:
-        line = lines.setdefault(row["passes"], {"passes": row["passes"]})
-        line[row["quantity"]] = row["error"]
-    for row in chosen:
-        lines[row["passes"]][COST] = row["ms_per_simulated_s"]
-    return Section("corrector passes between field instants: error", list(lines.values()), _against(chosen))
+    return Section(title, list(lines.values()), _against(chosen))
 
 
 def _field(title: str, contact: str, chosen: list[Row]) -> Section:

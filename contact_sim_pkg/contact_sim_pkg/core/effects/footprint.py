@@ -77,3 +77,23 @@ def tire_gap(
             y = (j - middle) * cell_y
             out[i, j] = crown + 0.5 * y * y / radius_lateral - height[first + i - first_row, margin + j]
     return True
+
+
+@entry
+def effective_between(smooth: Vector, offset: float, offset_end: float, out: Vector) -> None:
+    """Effective height of the road in [m] from one field to the next, written into ``out``: ``smooth`` [m] and an offset [m].
+
+    The offset goes straight to its end. At an edge the smooth height falls in a curve where the offset rises straight, and their
+    sum would stand out far above the heights at both ends. So it keeps between them, but for what the smooth height itself
+    stands out over its own ends.
+    """
+    last = smooth.shape[0] - 1
+    highest, lowest = max(smooth[0], smooth[last]), min(smooth[0], smooth[last])
+    over, under = 0.0, 0.0
+    for i in range(1, last):
+        over = max(over, smooth[i] - highest)
+        under = max(under, lowest - smooth[i])
+    start, end = smooth[0] + offset, smooth[last] + offset_end
+    low, high = min(start, end) - under, max(start, end) + over
+    for i in range(last + 1):
+        out[i] = min(max(smooth[i] + offset + (offset_end - offset) * (i / last), low), high)

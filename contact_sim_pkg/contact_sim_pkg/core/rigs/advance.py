@@ -76,19 +76,19 @@ def start(
 def advance(
     rig: Vehicle, mode: Modes, state: Vector, scale: Vector, work: Workspace, start: float, segment_length: float,
     height: Vector, cushion: Vector, acceleration_x: Vector, acceleration_z: Vector, push: Vector | None,
-    sample_every: int, sampled_states: Vector, sampled_rates: Vector, sampled_forces: Vector,
+    sample_every: int, behind_sample: int, sampled_states: Vector, sampled_rates: Vector, sampled_forces: Vector,
 ) -> int:  # fmt: skip
     """Advance ``state`` over ``len(height) - 1`` segments of ``segment_length`` in [s] from time ``start``.
 
     ``height``, ``cushion`` [m], ``acceleration_x``, ``acceleration_z`` [m/s^2], ``push`` [N] (None: none): values at the
-    ends of the segments, linear between. Every ``sample_every``-th segment's start is sampled: state, rates (seen from the
-    right) and the columns ``TIRE_NORMAL ...`` of the forces. Returns a status of ``core/results.py``; ``mode``, ``state`` and
+    ends of the segments, linear between. Every ``sample_every``-th segment's start is sampled, the first segment lying
+    ``behind_sample`` segments behind one: state, rates (seen from the right) and the columns ``TIRE_NORMAL ...`` of the forces. Returns a status of ``core/results.py``; ``mode``, ``state`` and
     ``work`` change in place.
     """
     row = 0
     for i in range(height.shape[0] - 1):
         drive = _segment(start, segment_length, i, height, cushion, acceleration_x, acceleration_z, push)
-        if i % sample_every == 0:
+        if (i + behind_sample) % sample_every == 0:
             copy_row(state, sampled_states[row])
             rate(rig, drive, mode, drive.start, state, sampled_rates[row])
             _observe(rig, drive, mode, state, sampled_forces[row])
