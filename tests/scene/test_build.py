@@ -55,7 +55,11 @@ def test_the_numbers_of_belt_brush_tread_and_asperities_arrive():
     assert made.rolling_friction.slips_at(1.0) == pytest.approx((-0.2, 0.05))
     assert made.rolling_friction.slips_at(9.0) == pytest.approx((-0.4, 0.1))
     assert made.tread.relaxed_modulus == pytest.approx(4e6)
-    step = 0.01  # [s], 100 Hz
+    step = made.tread.step
+    assert 0.01 / step == pytest.approx(round(0.01 / step))  # a field every 0.01 s is one of its instants
+    assert (
+        10.0 * step <= 0.125 * 2.0 * made.tire_geometry.semi_axis_x
+    )  # [m] at 10 m/s: an eighth of the footprint at most
     raised = 1.0 + 0.01 / step + 0.3 * (0.02 / step) * (1.0 - numpy.exp(-step / 0.02))
     assert settings.modulus == pytest.approx(4e6 * raised)
     assert (made.asperities.spacing, made.asperities.share, made.asperities.raised_cosine) == (0.03, 0.2, True)

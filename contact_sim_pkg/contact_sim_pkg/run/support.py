@@ -59,13 +59,13 @@ class Support(ABC):
         return self._solved + self._slope * (self._since + count)
 
     def bend(self, offset: float, count: int) -> float:
-        """Largest distance in [m] of the straight line to ``offset`` [m], ``count`` segments on, from the parabola through the last three."""
+        """Largest distance in [m] of the straight line to ``offset`` [m], ``count`` segments on, from a parabola through three."""
         span = self._since + count
         slope = (offset - self._solved) / span
         return abs(slope - self._slope) * span**2 / (4.0 * (self._count + span))
 
     def take(self, offset: float, count: int, solved: bool, allowed: float) -> None:
-        """A stretch of ``count`` segments is done and led to ``offset`` [m], found there or expected; ``allowed`` [m]: its error."""
+        """A stretch of ``count`` segments is done; ``offset`` [m] was found there, or expected; ``allowed`` [m] is its error."""
         span = self._since + count
         if solved:
             self.calm = self.still and abs(offset - self.expected(count)) <= CALM * allowed

@@ -43,7 +43,7 @@ def highest_speed(scene: dict[str, Any]) -> float:
 
 
 def coupled_timing(scene: dict[str, Any], with_field: bool, footprint: float | None) -> Timing:
-    """Cut of a block, with segments short enough for the shortest stretch over a ``footprint`` [m] long; None: no field on a road."""
+    """Cut of a block; segments fit the shortest stretch over a ``footprint`` [m], which is None without a field on a road."""
     if footprint is None:
         return make_timing(scene, with_field)
     way = highest_speed(scene) / float(scene["outputs"]["force_rate"])

@@ -119,7 +119,10 @@ def build_tire(scene: dict[str, Any]) -> TireParts:
 def _elastic(
     scene: dict[str, Any], geometry: TireGeometry, tread: Tread | None
 ) -> tuple[NormalElastic, float, FieldGrids | None]:
-    """Normal law, length in [m] of the standing footprint, and the field: Hertz's law of the point contact, or a field and its tangent law; a tread with memory is stiffer at once than for long."""
+    """Normal law, length in [m] of the standing footprint, and the field.
+
+    Hertz's law of the point contact, or a field's tangent law; a tread with memory is stiffer at once than for long.
+    """
     modulus = contact_modulus(scene["tire"])
     raised = 1.0 if tread is None else stiffening(tread.viscoelasticity, tread.step)
     settings = field_settings(scene, "tire", modulus * raised)

@@ -95,7 +95,7 @@ def fast_run(drive: SceneDrive, scale: Vector) -> tuple[Vector, Vector]:
     rig, a_x, a_z = drive.model.rig, drive.acceleration_x, drive.acceleration_z
     entries.start(rig, mode, state, work, drive.segment, drive.height[:2], cushion[:2], a_x[:2], a_z[:2], None)
     status = entries.advance(
-        rig, mode, state, scale, work, 0.0, drive.segment, drive.height, cushion, a_x, a_z, None, 1, *samples
+        rig, mode, state, scale, work, 0.0, drive.segment, drive.height, cushion, a_x, a_z, None, 1, 0, *samples
     )
     if status != DONE:
         raise ArithmeticError(SENTENCES[status])

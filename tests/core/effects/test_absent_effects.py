@@ -34,7 +34,9 @@ def _shaken_seat(friction, count=1500):
     work, mode = make_workspace(states, MARGINS), numpy.zeros(1, dtype=numpy.int64)
     samples = (numpy.zeros((count, states)), numpy.zeros((count, states)), numpy.zeros((count, entries.FORCES)))
     entries.start(rig, mode, state, work, 1e-3, zeros[:2], zeros[:2], zeros[:2], a_z[:2], None)
-    assert entries.advance(rig, mode, state, scale, work, 0.0, 1e-3, zeros, zeros, zeros, a_z, None, 1, *samples) == 0
+    assert (
+        entries.advance(rig, mode, state, scale, work, 0.0, 1e-3, zeros, zeros, zeros, a_z, None, 1, 0, *samples) == 0
+    )
     return samples[0][:, :4], samples[2][:, entries.SEAT_NORMAL]
 
 

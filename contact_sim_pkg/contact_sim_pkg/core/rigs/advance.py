@@ -82,8 +82,8 @@ def advance(
 
     ``height``, ``cushion`` [m], ``acceleration_x``, ``acceleration_z`` [m/s^2], ``push`` [N] (None: none): values at the
     ends of the segments, linear between. Every ``sample_every``-th segment's start is sampled, the first segment lying
-    ``behind_sample`` segments behind one: state, rates (seen from the right) and the columns ``TIRE_NORMAL ...`` of the forces. Returns a status of ``core/results.py``; ``mode``, ``state`` and
-    ``work`` change in place.
+    ``behind_sample`` segments behind one: state, rates (seen from the right) and the columns ``TIRE_NORMAL ...`` of the forces.
+    Returns a status of ``core/results.py``; ``mode``, ``state`` and ``work`` change in place.
     """
     row = 0
     for i in range(height.shape[0] - 1):

@@ -1,0 +1,94 @@
+"""How often the fields are solved: by the accuracy, the speed and the road, not by the rate of publishing.
+
+The reference of each case solves the fields ten times as often as they are published, by the rate of publishing itself.
+"""
+
+from functools import cache
+from itertools import pairwise
+
+import numpy
+import pytest
+from tests.run.scenes import resolved
+
+from contact_sim_pkg.bag.messages import decode_contact_force, decode_cost
+from contact_sim_pkg.run.simulation import Simulation
+from contact_sim_pkg.run.sources import make_sources
+
+STANDING = 3335.0  # [N]
+ROADS = {
+    "kerb": "road={kind: step, position: 3.0, height: -0.1}",
+    "pothole": "road={kind: pothole, position: 3.0, depth: 0.05, length: 0.3}",
+    "cleat": "road={kind: cleat, position: 3.0, height: 0.01, length: 0.05}",
+    "stones": "road={kind: cleat, position: 3.0, height: 0.01, length: 0.02, period: 0.1}",
+}
+
+
+@cache
+def run(*sets):
+    """Normal force of the tire at 1 kHz, and stretches, of 0.6 s of tire_bump with other values."""
+    scene = resolved("tire_bump", "duration=0.6", *sets)
+    simulation, sources = Simulation(scene), make_sources(scene)
+    simulation.prepare()
+    forces, costs = [], []
+    for block in range(simulation.blocks):
+        result = simulation.advance(block, {topic: source.block(block) for topic, source in sources.items()})
+        for topic, _stamp, data in result.messages:
+            if topic == "tire/force":
+                forces.append(decode_contact_force(data).normal)
+            elif topic == "bench/cost":
+                costs.append(decode_cost(data))
+    return numpy.concatenate(forces), costs
+
+
+@pytest.mark.parametrize("road", ROADS)
+def test_the_force_is_that_of_ten_times_as_many_fields(road):
+    force, _costs = run(ROADS[road])
+    often, _costs = run(ROADS[road], "outputs.field_rate=1000", "integrator.coupling_tolerance=1e-3")
+    assert (force - often).std() < 0.01 * STANDING
+    assert abs(force.max() / often.max() - 1.0) < 0.015
+    assert (force.min() == 0.0) == (often.min() == 0.0)  # lift-off is seen
+
+
+def test_the_rate_of_publishing_does_not_set_the_force():
+    seldom, _costs = run(ROADS["pothole"], "outputs.field_rate=100")
+    often, _costs = run(ROADS["pothole"], "outputs.field_rate=500")
+    assert (seldom - often).std() < 0.01 * STANDING
+
+
+def test_the_error_follows_the_tolerance():
+    passes = "effects.tire.contact_field.corrector_passes=6"
+    exact, _costs = run(ROADS["pothole"], "integrator.coupling_tolerance=1e-4", passes)
+    errors = [
+        (run(ROADS["pothole"], f"integrator.coupling_tolerance={tolerance}", passes)[0] - exact).std() / STANDING
+        for tolerance in (1.0, 1e-1, 1e-2, 1e-3)
+    ]
+    assert all(later < earlier for earlier, later in pairwise(errors))
+    assert errors[1] < 0.1
+    assert errors[2] < 0.01
+
+
+def test_a_flat_road_asks_for_no_more_than_the_footprint_does():
+    _force, costs = run("road={kind: flat}")
+    assert sum(cost.stretches_repeated for cost in costs) == 0
+    assert max(cost.coupling_error for cost in costs) < 5e-3  # what the field solver's tolerance of 1e-2 leaves
+    assert max(cost.stretches for cost in costs) == min(cost.stretches for cost in costs) <= 4
+
+
+def test_a_wheel_that_stands_is_solved_once_a_field():
+    _force, costs = run("travel={speed: 0.0}", ROADS["pothole"])
+    assert all(cost.stretches == 1 for cost in costs)
+
+
+def test_an_edge_is_taken_in_shorter_stretches():
+    _force, costs = run(ROADS["kerb"])
+    assert sum(cost.stretches_repeated for cost in costs) > 0
+    assert max(cost.stretches for cost in costs) > min(cost.stretches for cost in costs)
+
+
+def test_samples_keep_their_instants_where_stretches_end_between_them():
+    """At 40 m/s four segments make a sample; with 1000 fields a second each sample starts an interval of its own."""
+    fast = "travel={speed: 40.0}"
+    force, _costs = run(fast, ROADS["pothole"])
+    often, _costs = run(fast, ROADS["pothole"], "outputs.field_rate=1000")
+    assert len(force) == len(often) == 600
+    assert (force - often).std() < 0.01 * STANDING
