@@ -107,6 +107,16 @@ def test_a_missing_input_is_named():
         simulation.advance(0, {})
 
 
+def test_a_height_that_is_no_number_is_named_by_its_cell():
+    simulation, sources = Simulation(scene := resolved("tire_bump", "duration=0.1")), make_sources(scene)
+    simulation.prepare()
+    patch = sources["road/patch"].block(0)
+    height = patch.height.copy()
+    height[5, 7] = numpy.nan
+    with pytest.raises(RunError, match="road/patch: block 0 has the height nan at row 5, column 7"):
+        simulation.advance(0, {"road/patch": patch._replace(height=height)})
+
+
 def test_contact_beyond_both_grids_ends_the_run_with_its_cause():
     outcome = run_offline(resolved("tire_bump", "duration=1.1", "effects.tire.contact_field.length=0.05"), None)
     assert 0 < outcome.blocks < 110

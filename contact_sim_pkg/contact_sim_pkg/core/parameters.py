@@ -194,7 +194,7 @@ class FieldSettings(NamedTuple):
     modulus: float  # [Pa], plane-strain contact modulus E*
     tolerance: float  # complementarity residual asked of the solver
     maximum_iterations: int
-    corrector_passes: int  # field solves at the end of an interval beyond the first
+    corrector_passes: int  # most repetitions of a stretch with the field found at its end
     belt: Belt | None = None  # yields in series with the half-space
 
 

@@ -96,3 +96,8 @@ def _check_road(geometry: TireGeometry, block: int, road: Any) -> None:
             f"{ROAD}: block {block} has {road.height.shape[1]} columns and cells of {road.cell_x} m, the scene needs "
             f"{lattice.road_cols} columns and cells of {lattice.cell_x} m"
         )
+    if not numpy.isfinite(road.height).all():
+        row, col = (int(index) for index in numpy.argwhere(~numpy.isfinite(road.height))[0])
+        raise RunError(
+            f"{ROAD}: block {block} has the height {road.height[row, col]} at row {row}, column {col}; it must be finite"
+        )

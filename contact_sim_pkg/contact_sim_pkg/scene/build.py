@@ -13,7 +13,13 @@ from contact_sim_pkg.core.effects.normal_elastic import approach_of_force
 from contact_sim_pkg.core.effects.seat_shape import SeatShape, seat_gap
 from contact_sim_pkg.core.parameters import Contact, FieldSettings, Friction, NormalElastic, Seat, Vector, Vehicle
 from contact_sim_pkg.scene.build_contact import FieldGrids, loss_of, make_grids, tangent_law
-from contact_sim_pkg.scene.build_coupling import LONGEST, CouplingRule, allowed_height, coupled_timing, uniform_segments
+from contact_sim_pkg.scene.build_coupling import (
+    CouplingRule,
+    allowed_height,
+    coupled_timing,
+    longest_travel,
+    uniform_segments,
+)
 from contact_sim_pkg.scene.build_tire import Asperities, RollingFriction, TireGeometry, Tread, build_tire
 from contact_sim_pkg.scene.lattice import GRAVITY, effects_at, field_settings, occupant_mass, standing_load
 from contact_sim_pkg.scene.timing import Timing
@@ -96,7 +102,7 @@ def _coupling(
     )
     uniform = footprint is not None and effects_at(scene, "tire").get("tread_viscoelasticity") is not None
     segments = uniform_segments(scene, footprint, timing) if footprint is not None and uniform else None
-    return CouplingRule(tolerance, heights, math.inf if footprint is None else LONGEST * footprint, segments)
+    return CouplingRule(tolerance, heights, longest_travel(footprint, tolerance), segments)
 
 
 def _seat(scene: dict[str, Any], offset: int) -> Seat:

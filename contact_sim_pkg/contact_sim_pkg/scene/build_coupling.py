@@ -10,7 +10,10 @@ from contact_sim_pkg.core.parameters import Contact
 from contact_sim_pkg.scene.timing import Timing, make_timing
 
 LONGEST = 0.5
-"""Of the standing footprint's length, from one solution of the tire's field to the next: an obstacle cannot fall between."""
+"""Of the standing footprint's length, from one solution of the tire's field to the next: every obstacle is felt by two."""
+
+LONGEST_LOOSE, LOOSE = 1.0, 0.1
+"""The same where an error of `LOOSE` or more is allowed: every obstacle is felt by one."""
 
 LONGEST_UNIFORM = 0.125
 """The same where the stretches cannot be chosen by their error."""
@@ -33,6 +36,13 @@ def allowed_height(contact: Contact | None, load: float, tolerance: float) -> fl
     if contact is None:
         return math.inf
     return tolerance * approach_of_force(contact.elastic, load) / contact.elastic.exponent
+
+
+def longest_travel(footprint: float | None, tolerance: float) -> float:
+    """Longest way in [m] of a stretch over a ``footprint`` [m], which is None without a field on a road."""
+    if footprint is None:
+        return math.inf
+    return footprint * (LONGEST_LOOSE if tolerance >= LOOSE else LONGEST)
 
 
 def highest_speed(scene: dict[str, Any]) -> float:

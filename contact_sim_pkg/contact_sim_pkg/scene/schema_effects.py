@@ -36,7 +36,7 @@ def _corrector_passes() -> int | None:
         0,
         8,
         "",
-        "repetitions of an interval with the field found at its end; taken from accuracy when absent",
+        "most repetitions of a stretch of the run with the field found at its end; taken from accuracy when absent",
         default=None,
     )
     return passes

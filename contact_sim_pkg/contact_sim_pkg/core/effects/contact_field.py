@@ -1,6 +1,6 @@
 """The pressure field as the contact itself: what drives the bodies at a field instant is the integral of the field.
 
-At each field instant the half-space problem is solved for the rigid approach that the bodies have. Between two instants
+At instants of the run the half-space problem is solved for the rigid approach that the bodies have. Between two instants
 stands the field's tangent: the power law ``A x**n`` fitted to the field at its working load (``fit_tangent``), read at the
 approach plus an *offset* that makes it give exactly the field's force at the instant. The offset is a height, the
 effective road (or cushion) height; it changes linearly from instant to instant and is corrected by solving the field again at
