@@ -18,6 +18,12 @@ BASES = {
         "effects": {"seat": ELASTIC},
     },
     "tire": {"rig": "tire", **ROLLING, "effects": {"tire": ELASTIC}},
+    "backrest": {
+        "rig": "backrest",
+        "duration": 1.0,
+        "vibration": {"kind": "sine", "frequency": 5.0, "amplitude": 1.0, "axis": "x"},
+        "effects": {"backrest": ELASTIC},
+    },
     "car": {"rig": "car", **ROLLING, "effects": {"tire": ELASTIC, "seat": ELASTIC}},
 }
 

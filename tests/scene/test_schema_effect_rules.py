@@ -8,15 +8,23 @@ from contact_sim_pkg.scene import schema_effect_rules
 from contact_sim_pkg.scene.schema_effect_rules import EFFECT_RULES, EffectRule
 
 EFFECTS = (
-    "normal_elastic", "normal_dissipative", "general_dissipative", "friction", "contact_field", "carcass", "envelopment",
+    "normal_elastic", "normal_dissipative", "general_dissipative", "friction", "contact_field", "shell_modes", "carcass",
+    "envelopment",
     "tread_viscoelasticity", "brush", "asperity_impulses",
 )  # fmt: skip
 TIRE_ONLY = {"carcass", "envelopment", "tread_viscoelasticity", "brush", "asperity_impulses"}
 SEAT_ONLY = {"general_dissipative", "friction"}
+"""Of the vehicle's contacts."""
 IN_THE_FIELD = {"envelopment", "tread_viscoelasticity", "brush"}
 """What acts cell by cell, and so needs the pressure field."""
+OF_THE_BACK = ("normal_elastic", "normal_dissipative", "general_dissipative", "friction", "shell_modes")
+ELSEWHERE = set(EFFECTS) - set(OF_THE_BACK)
+OF_VEHICLES = tuple(name for name in EFFECTS if name != "shell_modes")
 SUBSETS = {
-    "tire": [set(chosen) for count in range(len(EFFECTS) + 1) for chosen in combinations(EFFECTS, count)],
+    "tire": [set(chosen) for count in range(len(OF_VEHICLES) + 1) for chosen in combinations(OF_VEHICLES, count)]
+    + [{"normal_elastic", "shell_modes"}],
+    "backrest": [set(chosen) for count in range(6) for chosen in combinations(OF_THE_BACK, count)]
+    + [{"normal_elastic", name} for name in sorted(ELSEWHERE)],
     "seat": [set(chosen) for count in range(6) for chosen in combinations(EFFECTS[:5], count)]
     + [{"normal_elastic", "contact_field", name} for name in sorted(TIRE_ONLY)],
 }
@@ -24,7 +32,8 @@ SUBSETS = {
 
 def allowed(contact, named):
     """Whether these effects may stand together, written out once more."""
-    if "normal_elastic" not in named or named & (SEAT_ONLY if contact == "tire" else TIRE_ONLY):
+    refused = {"tire": {*SEAT_ONLY, "shell_modes"}, "seat": {*TIRE_ONLY, "shell_modes"}, "backrest": ELSEWHERE}[contact]
+    if "normal_elastic" not in named or named & refused:
         return False
     if named >= {"normal_dissipative", "general_dissipative"}:
         return False
@@ -35,7 +44,7 @@ def test_the_table_knows_exactly_these_effects():
     assert tuple(EFFECT_RULES) == EFFECTS
 
 
-@pytest.mark.parametrize("contact", ["tire", "seat"])
+@pytest.mark.parametrize("contact", ["tire", "seat", "backrest"])
 def test_every_set_of_effects_is_allowed_or_refused_as_tabled(maker, contact):
     for named in SUBSETS[contact]:
         faults = maker.faults(contact, {f"effects.{contact}": {name: {} for name in named}})
@@ -50,7 +59,7 @@ def test_an_effect_without_what_it_needs_names_both(maker, name):
 
 def test_friction_at_the_tire_is_refused_as_an_effect_not_as_a_misspelling(maker):
     (fault,) = maker.faults("tire", {"effects.tire.friction": {}})
-    assert "the effect friction is not available at the contact tire, only at seat" in fault
+    assert "the effect friction is not available at the contact tire, only at seat and backrest" in fault
 
 
 @pytest.mark.parametrize(("rig", "contact"), [("tire", "seat"), ("seat", "tire")])

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -16,11 +17,13 @@ from contact_sim_pkg.bag.errors import BagError
 from contact_sim_pkg.bag.reader import Bag
 from contact_sim_pkg.bag.typestore import store_of_definition
 
+from .episodes import episode_series
 from .field_pass import FieldPass
 from .road_pass import RoadPass
 from .series import (
     ContactSeries,
     CostSeries,
+    EpisodeSeries,
     FloatArray,
     LedgerSeries,
     MotionSeries,
@@ -36,7 +39,8 @@ SHEAR = "contact_msgs_defs/msg/ContactShear"
 MOTION = "contact_msgs_defs/msg/BodyMotion"
 ENERGY = "contact_msgs_defs/msg/EnergyLedger"
 COST = "contact_msgs_defs/msg/SolverCost"
-SERIES_TYPES = (FORCE, MOTION, ENERGY, COST)
+EPISODES = "contact_msgs_defs/msg/ContactEpisodes"
+SERIES_TYPES = (FORCE, MOTION, ENERGY, COST, EPISODES)
 READ_TYPES = (*SERIES_TYPES, PATCH, ROAD, SHEAR)
 CONTACT_COLUMNS = ("time", "sample_period", "normal", "tangential", "approach", "effective_height")
 IMPULSES = "impulses"  # absent from older bags
@@ -65,6 +69,8 @@ def read_recording(bag: Bag) -> Recording:
     motion = next((_motion(columns(name, MOTION_COLUMNS)) for name in topics[MOTION]), None)
     ledger = next((LedgerSeries(**columns(name, LedgerSeries._fields)) for name in topics[ENERGY]), None)
     cost = next((_cost(columns(name, CostSeries._fields)) for name in topics[COST]), None)
+    listed = [name for name, row in bag.topics.items() if row.type == EPISODES]
+    episodes = next((_episodes(columns, name, name in decoded) for name in listed), None)
     scene = parse_mapping(bag.scene or "")
     return Recording(
         name=bag.path.parent.name,
@@ -80,6 +86,7 @@ def read_recording(bag: Bag) -> Recording:
         duration=_duration([*contacts.values(), *([motion] if motion else [])], scene, bag),
         road=next((road.finish() for road in roads.values()), None),
         shear=next((shear.finish() for shear in shears.values()), None),
+        episodes=episodes,
     )
 
 
@@ -169,6 +176,12 @@ def _motion(columns: dict[str, Any]) -> MotionSeries:
         dict(zip(bodies, position, strict=True)),
         dict(zip(bodies, acceleration, strict=True)),
     )
+
+
+def _episodes(columns: Callable[[str, tuple[str, ...]], dict[str, Any]], topic: str, held: bool) -> EpisodeSeries:
+    """Episodes of a topic; it carries nothing where none ended."""
+    names = EpisodeSeries._fields
+    return episode_series(columns(topic, names) if held else {name: [] for name in names})
 
 
 def _cost(columns: dict[str, Any]) -> CostSeries:

@@ -218,6 +218,36 @@ class CostSeries(NamedTuple):
     """over the standing load"""
 
 
+WHOLE_CONTACT = -1
+"""In place of the number of a point: all points of the contact together."""
+
+
+class EpisodeSeries(NamedTuple):
+    """Contact episodes in the order in which they ended."""
+
+    point: FloatArray
+    """number of the point; -1: all together"""
+    touched: FloatArray
+    """1: began with a touch; 0: was there from the start of the run"""
+    start: FloatArray
+    end: FloatArray
+    """[s]"""
+    compression_work: FloatArray
+    restitution_work: FloatArray
+    """[J] W_c <= 0 and W_r >= 0"""
+    restitution: FloatArray
+    """sqrt(W_r / -W_c)"""
+    peak_force: FloatArray
+    """[N]"""
+    largest_approach: FloatArray
+    """[m]"""
+
+    def slaps(self) -> EpisodeSeries:
+        """The episodes of the whole contact that began with a touch."""
+        chosen = (self.point == WHOLE_CONTACT) & (self.touched == 1)
+        return EpisodeSeries(*(column[chosen] for column in self))
+
+
 class TopicCount(NamedTuple):
     """One topic of the bag."""
 
@@ -247,3 +277,4 @@ class Recording(NamedTuple):
     """[s] simulated time of the blocks recorded"""
     road: RoadSeries | None = None
     shear: ShearSeries | None = None
+    episodes: EpisodeSeries | None = None

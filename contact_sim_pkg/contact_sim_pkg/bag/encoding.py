@@ -77,7 +77,7 @@ def float32s(values: ArrayLike) -> NDArray[numpy.float32]:
     return numpy.ascontiguousarray(values, dtype=numpy.float32).reshape(-1)
 
 
-def equal_lengths(type_name: str, **arrays: NDArray[numpy.float64]) -> None:
+def equal_lengths(type_name: str, **arrays: NDArray[Any]) -> None:
     """MessageError where the arrays of one message differ in length."""
     if len({len(array) for array in arrays.values()}) > 1:
         lengths = ", ".join(f"{name} has {len(array)}" for name, array in arrays.items())
@@ -109,3 +109,8 @@ def above_zero(type_name: str, block: int, **values: float) -> None:
     for name, value in values.items():
         if not 0.0 < value < float("inf"):
             raise MessageError(f"{name} of {type_name}, block {block}, is {value}; it must be above 0 and finite")
+
+
+def scalars(message: Any, names: tuple[str, ...]) -> tuple[Any, ...]:
+    """The fields of these names."""
+    return tuple(getattr(message, name) for name in names)

@@ -101,10 +101,18 @@ def print_outcome(facts: dict[str, Any], outcome: Outcome) -> None:
     summary = facts["summary"]
     for contact, numbers in summary.get("contacts", {}).items():
         click.echo(f"  {contact}: {_contact_line(numbers)}")
+    if "slaps" in summary:
+        click.echo(f"  {_slap_line(summary['slaps'])}")
     if "messages" in summary:
         click.echo(f"  {sum(summary['messages'].values())} messages on {len(summary['messages'])} topics")
     if facts["bag"] is not None:
         click.echo(f"bag: {facts['bag']}")
+
+
+def _slap_line(slaps: dict[str, Any]) -> str:
+    if not slaps["count"]:
+        return "no slaps"
+    return f"{slaps['count']} slaps, restitution {slaps['restitution_min']:.3f} to {slaps['restitution_max']:.3f}"
 
 
 def _contact_line(numbers: dict[str, Any]) -> str:

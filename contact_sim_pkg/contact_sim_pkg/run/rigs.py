@@ -33,9 +33,18 @@ def _vehicle_topics(scene: dict[str, Any]) -> list[str]:
     return names
 
 
+def _backrest_topics(scene: dict[str, Any]) -> list[str]:
+    return [*(f"backrest/{name}" for name in ("force", "wrench", "patch", "points")), "bench/episodes"]
+
+
 _VEHICLE = RigRun("contact_sim_pkg.run.simulation:Simulation", _vehicle_topics)
 
-RIG_RUNS: dict[RigName, RigRun] = {"tire": _VEHICLE, "seat": _VEHICLE, "car": _VEHICLE}
+RIG_RUNS: dict[RigName, RigRun] = {
+    "tire": _VEHICLE,
+    "seat": _VEHICLE,
+    "car": _VEHICLE,
+    "backrest": RigRun("contact_sim_pkg.run.backrest:BackrestSimulation", _backrest_topics),
+}
 
 
 def make_simulation(scene: ResolvedScene) -> BlockSimulation:

@@ -24,7 +24,7 @@ from contact_sim_pkg.core.restitution_law import NEVER_PULLS, PULLS, coefficient
 from contact_sim_pkg.scene.errors import Fault, SceneError
 from contact_sim_pkg.scene.lattice import effects_at
 
-DEFAULT_DAMPING = {"tire": 0.06, "seat": 1.0}  # [s/m], see scene/schema_effects.py
+DEFAULT_DAMPING = {"tire": 0.06, "seat": 1.0, "backrest": 1.949743421626532}  # [s/m], see scene/schema_effects.py
 
 
 @dataclass(frozen=True)

@@ -18,6 +18,9 @@ from contact_sim_pkg.scene.yaml_nodes import MappingNode, Mark, ScalarNode
 
 ORDER = (
     "seat_ride",
+    "seat_slap",
+    "seat_slip",
+    "seat_shock",
     "tire_bump",
     "tire_cleat",
     "tire_braking",

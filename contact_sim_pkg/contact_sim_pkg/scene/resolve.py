@@ -7,7 +7,7 @@ and the checksum of each input file. Reading it back and resolving it once more 
 from __future__ import annotations
 
 import copy
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -18,13 +18,16 @@ from contact_sim_pkg.scene.resolved_scene import ResolvedScene, sha256_of
 from contact_sim_pkg.scene.rigs import RIGS
 from contact_sim_pkg.scene.schema import Scene
 from contact_sim_pkg.scene.schema_accuracy import Contact, asked, cells_of, integration_tolerance, rung_for
+from contact_sim_pkg.scene.schema_backrest import complete_backrest
 from contact_sim_pkg.scene.schema_validate import validate
 from contact_sim_pkg.scene.yaml_document import parse_document
 
 __all__ = ["ResolvedScene", "explicit", "read_explicit", "read_resolved", "resolve"]
 
-DEFAULT_DAMPING: dict[str, float] = {"tire": 0.06, "seat": 1.0}
+DEFAULT_DAMPING: dict[str, float] = {"tire": 0.06, "seat": 1.0, "backrest": 1.949743421626532}
 """Hunt-Crossley damping in [s/m] where a scene names neither damping nor restitution, see `schema_effects.py`."""
+_COMPLETED: dict[str, Callable[[dict[str, Any]], None]] = {"backrest": complete_backrest}
+"""Rigs with keys whose default follows from others."""
 _FIELD_CONTACTS: dict[str, Contact] = {"tire": "tire", "seat": "seat"}
 
 DEFAULT_COEFFICIENT = 2.73e5
@@ -90,6 +93,8 @@ def explicit(scene: Scene) -> dict[str, Any]:
     for contact in RIGS[scene.rig].contacts:
         data.setdefault(contact, {})  # the schema fills in its defaults
         _fill_effects(data["effects"][contact], scene.accuracy, contact)
+    if scene.rig in _COMPLETED:
+        _COMPLETED[scene.rig](data)
     data["integrator"].setdefault("relative_tolerance", integration_tolerance(scene.accuracy))
     if any((data["effects"][contact] or {}).get("contact_field") is not None for contact in RIGS[scene.rig].contacts):
         data["integrator"].setdefault("coupling_tolerance", asked(scene.accuracy))

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from typing import Literal, NamedTuple, TypeAlias
 
-RigName: TypeAlias = Literal["tire", "seat", "car"]
+RigName: TypeAlias = Literal["tire", "seat", "car", "backrest"]
 
 
 class RigRule(NamedTuple):
@@ -23,6 +23,7 @@ RIGS: dict[RigName, RigRule] = {
     "tire": RigRule(("tire",), ("travel", "road"), ("slip", "tire")),
     "seat": RigRule(("seat",), ("vibration",), ("seat",)),
     "car": RigRule(("tire", "seat"), ("travel", "road"), ("slip", "vibration", "tire", "seat")),
+    "backrest": RigRule(("backrest",), ("vibration",), ("backrest",)),
 }
 
 CONTACTS: tuple[str, ...] = tuple(dict.fromkeys(name for rule in RIGS.values() for name in rule.contacts))

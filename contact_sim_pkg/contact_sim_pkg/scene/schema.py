@@ -11,6 +11,7 @@ from typing import Annotated, Literal, TypeAlias
 from pydantic import Field, PrivateAttr
 
 from contact_sim_pkg.scene.rigs import RigName
+from contact_sim_pkg.scene.schema_backrest import Backrest
 from contact_sim_pkg.scene.schema_effects import Effects
 from contact_sim_pkg.scene.schema_fields import Section, choice, number, text
 from contact_sim_pkg.scene.schema_rigs import Seat, Tire
@@ -63,7 +64,9 @@ class Scene(Section):
         example="scene",
     )
     description: str = text("one line on what the scene shows", default="")
-    rig: RigName = choice("tire on a road, occupant on a seat, or both as a car", example="seat")
+    rig: RigName = choice(
+        "tire on a road, occupant on a seat, both as a car, or occupant against a backrest", example="seat"
+    )
     duration: float = number(0.0, 3600.0, "s", "simulated time, a whole number of blocks", above=True, example=1.0)
     seed: int = number(0, 2**53 - 1, "", "of all random numbers; the same seed gives the same bits", default=1)
     pace: Pace = choice(
@@ -80,10 +83,14 @@ class Scene(Section):
     road: Road | None = choice("road under the tire (rigs tire and car)", default=None, example={"kind": "flat"})
     slip: Slip | None = choice("slip programme of the tire, for the effect brush (rigs tire and car)", default=None)
     vibration: Vibration | None = choice(
-        "acceleration of the floor (rig seat), or added to the floor of the car (rig car)", default=None
+        "acceleration of the floor (rig seat), of the seat back (backrest), or added to the floor of the car (car)",
+        default=None,
     )
     tire: Tire | None = choice("quarter car and tire (rigs tire and car); defaults where absent", default=None)
     seat: Seat | None = choice("occupant and cushion (rigs seat and car); defaults where absent", default=None)
+    backrest: Backrest | None = choice(
+        "occupant against a seat back (rig backrest); defaults where absent", default=None
+    )
     effects: Effects = choice("contact → effect → its parameters", example={"seat": {"normal_elastic": {}}})
     outputs: Outputs = Field(default_factory=Outputs, description="rates of the outputs")
     integrator: Integrator = Field(default_factory=Integrator, description="tolerance of the time integration")

@@ -20,11 +20,14 @@ class EffectRule(NamedTuple):
 
 
 EFFECT_RULES: dict[str, EffectRule] = {
-    "normal_elastic": EffectRule(("tire", "seat")),
-    "normal_dissipative": EffectRule(("tire", "seat"), needs=("normal_elastic",)),
-    "general_dissipative": EffectRule(("seat",), needs=("normal_elastic",), excludes=("normal_dissipative",)),
-    "friction": EffectRule(("seat",), needs=("normal_elastic",)),
+    "normal_elastic": EffectRule(("tire", "seat", "backrest")),
+    "normal_dissipative": EffectRule(("tire", "seat", "backrest"), needs=("normal_elastic",)),
+    "general_dissipative": EffectRule(
+        ("seat", "backrest"), needs=("normal_elastic",), excludes=("normal_dissipative",)
+    ),
+    "friction": EffectRule(("seat", "backrest"), needs=("normal_elastic",)),
     "contact_field": EffectRule(("tire", "seat"), needs=("normal_elastic",)),
+    "shell_modes": EffectRule(("backrest",), needs=("normal_elastic",)),
     "carcass": EffectRule(("tire",), needs=("normal_elastic",)),
     "envelopment": EffectRule(("tire",), needs=("contact_field",)),
     "tread_viscoelasticity": EffectRule(("tire",), needs=("contact_field",)),

@@ -238,11 +238,83 @@ class SeatEffects(Section):
     contact_field: SeatField | None = choice("pressure field", default=None)
 
 
+class BackElastic(Section):
+    """Elastic force of the back in the seat back: coefficient · approach^exponent, for the whole back."""
+
+    coefficient: float = number(
+        1.0, 1e12, "N/m^exponent", "447 N at 14.91 mm: 45.6 kg then resonate at 5 Hz", default=2.457e5
+    )
+    exponent: float = number(1.0, 3.0, "", "1 is linear, 1.5 is Hertz", default=1.5)
+
+
+class BackLoss(Section):
+    """Hunt-Crossley loss: elastic force · (1 + damping · approach rate), never pulling; or `restitution` at a speed."""
+
+    damping: float | None = number(
+        0.0, 100.0, "s/m", "1.9497 where none is given: restitution 0.6 at 0.5 m/s", default=None
+    )
+    restitution: float | None = _restitution()
+    reference_speed: float | None = _reference_speed()
+
+
+class BackFriction(Section):
+    """Friction between back and seat back: a spring and damper that sticks, up to the Coulomb limit; for the whole back."""
+
+    coefficient_static: float = number(
+        0.0, 5.0, "", "ratio at which sticking ends; cloth 0.3 to 0.6", above=True, default=0.4
+    )
+    coefficient_kinetic: float = number(
+        0.0, 5.0, "", "ratio while slipping, at most coefficient_static", above=True, default=0.4
+    )
+    stiffness: float = number(
+        1.0, 1e9, "N/m", "shear spring while it sticks; Mindlin's ratio at ν 0.45", default=3.19e4
+    )
+    damping: float = number(
+        0.0,
+        1e6,
+        "N s/m",
+        "shear damper while it sticks; the ratio to the spring that the normal loss has",
+        default=619.0,
+    )
+
+
+class ShellModes(Section):
+    """The back as a doubly curved shallow shell in modal form with candidate contact points, in place of one mass."""
+
+    modes: int = number(1, 25, "", "modes: 1, 4, 9 or 25 (m and n up to 1, 2, 3 or 5)", default=9)
+    points_up: int = number(1, 64, "", "candidate contact points up the back", default=20)
+    points_across: int = number(1, 64, "", "candidate contact points across the back", default=16)
+    thickness: float = number(1e-4, 1.0, "m", "of the shell, at most 0.1 of its shorter side", default=0.03)
+    density: float = number(1.0, 1e5, "kg/m^3", "of the shell", default=1050.0)
+    young_modulus: float = number(
+        1.0, 1e12, "Pa", "of the shell; puts the first mode at 5.49 Hz, inside the spine's band", default=6.0e5
+    )
+    poisson_ratio: float = number(0.0, 0.5, "", "of the shell", default=0.45)
+    damping_ratio: float = number(0.0, 2.0, "", "of every mode", default=0.1)
+    shaken_across: float = number(
+        0.0, 1.0, "", "place of the exciting force over the width, from the right edge", default=0.4
+    )
+    shaken_up: float = number(
+        0.0, 1.0, "", "place of the exciting force over the height, from the lower edge", default=0.35
+    )
+
+
+class BackrestEffects(Section):
+    """Effects of the contact between back and seat back."""
+
+    normal_elastic: BackElastic | None = choice("elastic force", default=None)
+    normal_dissipative: BackLoss | None = choice("loss", default=None)
+    general_dissipative: GeneralLoss | None = choice("loss after the general law", default=None)
+    friction: BackFriction | None = choice("friction with true stick", default=None)
+    shell_modes: ShellModes | None = choice("back as a shell with many contact points", default=None)
+
+
 class Effects(Section):
     """Contact → effects."""
 
     tire: TireEffects | None = choice("contact between tire and road", default=None)
     seat: SeatEffects | None = choice("contact between occupant and cushion", default=None)
+    backrest: BackrestEffects | None = choice("contact between back and seat back", default=None)
 
 
 ContactField: TypeAlias = TireField | SeatField

@@ -8,6 +8,7 @@ from itertools import chain, pairwise
 from contact_sim_pkg.scene.errors import Breach
 from contact_sim_pkg.scene.rigs import CONTACTS, RIGS, refused_sections
 from contact_sim_pkg.scene.schema import Scene
+from contact_sim_pkg.scene.schema_backrest_rules import backrest_breaches
 from contact_sim_pkg.scene.schema_catalog import show
 from contact_sim_pkg.scene.schema_clock import clock_breaches
 from contact_sim_pkg.scene.schema_road import BumpRoad, CleatRoad, Iso8608Road, PotholeRoad
@@ -23,6 +24,7 @@ def breaches(scene: Scene) -> Iterator[Breach]:
         _travel(scene),
         slip_breaches(scene),
         tire_effect_breaches(scene),
+        backrest_breaches(scene),
         _road(scene),
         _vibration(scene),
         _occupant(scene),

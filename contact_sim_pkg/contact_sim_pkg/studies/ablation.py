@@ -33,6 +33,7 @@ FEEDS: dict[str, tuple[str, ...]] = {
     "general_dissipative": ("force", "wrench", "patch"),
     "friction": ("force", "wrench"),
     "contact_field": ("patch", "force", "wrench"),
+    "shell_modes": ("force", "wrench", "patch", "points"),
     "carcass": ("force", "wrench", "patch"),
     "envelopment": ("patch", "force", "wrench"),
     "tread_viscoelasticity": ("patch", "force", "wrench"),

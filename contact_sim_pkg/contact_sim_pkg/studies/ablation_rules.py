@@ -5,6 +5,7 @@
 * loss: the contact opens (an impact needs a restitution); otherwise there is no rule;
 * carcass: content above 30 Hz at the axle;
 * envelopment: as the pressure field, for obstacles shorter than the footprint bend the belt;
+* friction of a back on its seat back: the scene asks for sliding;
 * brush: the scene asks for slip.
 """
 
@@ -56,6 +57,8 @@ def is_needed(effect: str, contact: str, scene: ResolvedScene, observed: Observe
         return _field(contact, scene)
     if effect == "friction":
         return _friction(scene, observed, contact)
+    if effect == "shell_modes":
+        return None, "whether the back bends is a choice of the model"
     if effect in RULES_OF_TIRE:
         return RULES_OF_TIRE[effect](scene, observed)
     if effect in ("normal_dissipative", "general_dissipative") and observed.opens[contact]:
@@ -91,6 +94,8 @@ def _short_waves(scene: ResolvedScene, limit: float, lengths: str) -> tuple[bool
 
 
 def _friction(scene: ResolvedScene, observed: Observed, contact: str) -> tuple[bool | None, str]:
+    if contact == "backrest":
+        return _friction_of_back(scene)
     if observed.forward == 0.0:
         return False, "no fore-aft input"
     occupant = scene.data["seat"]["occupant"]
@@ -100,6 +105,11 @@ def _friction(scene: ResolvedScene, observed: Observed, contact: str) -> tuple[b
     demand = mass * observed.forward
     share = demand / limit if limit > 0.0 else float("inf")
     return share > DEMAND, f"fore-aft demand up to {share:.2g} of mu N, limit {DEMAND:g}"
+
+
+def _friction_of_back(scene: ResolvedScene) -> tuple[bool | None, str]:
+    slides = float(scene.data["backrest"]["sliding"]["amplitude"])
+    return slides > 0.0, f"the back slides {slides:g} m along the seat back"
 
 
 def _carcass(scene: ResolvedScene, observed: Observed) -> tuple[bool | None, str]:

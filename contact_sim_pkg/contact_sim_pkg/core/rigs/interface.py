@@ -1,7 +1,9 @@
 """What every rig gives the integrator: four functions that numba picks by the class of the rig's parameter tuple.
 
-A rig's module registers its implementations with ``register``; the integrator calls ``rate``, ``margins``, ``switch``,
-``margins_need_rate``, and so is written, compiled and cached once per rig and combination of effects.
+``drive`` is what moves the rig during one segment: a tuple of the rig's own with ``start`` and ``length`` in [s]. ``mode`` is its
+discrete state, an array or a tuple of arrays. A rig's module registers its implementations with ``register``; the integrator
+calls ``rate``, ``margins``, ``switch``, ``margins_need_rate``, and so is written, compiled and cached once per rig and
+combination of effects.
 """
 
 from __future__ import annotations
@@ -10,22 +12,22 @@ from collections.abc import Callable
 from typing import Any
 
 from ..jit import kernel_overload
-from ..parameters import Drive, Vector
+from ..parameters import Vector
 
 _implementations: dict[type, tuple[Callable[..., Any], ...]] = {}
 
 
-def rate(rig: Any, drive: Drive, mode: Any, time: float, state: Vector, out: Vector) -> None:
+def rate(rig: Any, drive: Any, mode: Any, time: float, state: Vector, out: Vector) -> None:
     """Write the time derivative of ``state`` at ``time`` into ``out``."""
     _implementations[type(rig)][0](rig, drive, mode, time, state, out)
 
 
-def margins(rig: Any, drive: Drive, mode: Any, time: float, state: Vector, derivative: Vector, out: Vector) -> None:
+def margins(rig: Any, drive: Any, mode: Any, time: float, state: Vector, derivative: Vector, out: Vector) -> None:
     """Write the event functions into ``out``: an event is a change of sign of one of them."""
     _implementations[type(rig)][1](rig, drive, mode, time, state, derivative, out)
 
 
-def switch(rig: Any, drive: Drive, mode: Any, time: float, state: Vector, event: int, side: float) -> float:
+def switch(rig: Any, drive: Any, mode: Any, time: float, state: Vector, event: int, side: float) -> float:
     """Change ``mode`` and ``state`` where margin number ``event`` has just changed to sign ``side``.
 
     Returns the sign on which this margin stands from now on: ``side``, or 1 where the margin belongs to a mode that the

@@ -1,0 +1,6 @@
+"""Frames that messages are given in."""
+
+BENCH_FRAME = "bench"
+TIRE_FRAME = "tire_contact"
+SEAT_FRAME = "seat_contact"
+BACKREST_FRAME = "backrest_contact"

@@ -1,0 +1,157 @@
+"""Compiled entries of the backrest rig: start, advance over a row of segments with samples, energies of a state."""
+
+from __future__ import annotations
+
+import numpy
+
+from ..effects.friction import APART as UNLOADED
+from ..effects.friction import STICK, following_deflection, stick_margin
+from ..effects.normal_elastic import elastic_energy
+from ..jit import entry, kernel
+from ..parameters import Vector
+from ..results import DONE
+from ..solvers.dormand_prince import Workspace, integrate
+from ..vectors import copy_row
+from . import backrest
+from .backrest_episodes import open_episode
+from .backrest_parameters import APART, CLOSING, DEEPEST, OVERLAPPING, Backrest, BackrestDrive, BackrestMode
+from .interface import rate
+
+NORMAL, TANGENTIAL, APPROACH, FORCES = 0, 1, 2, 3  # columns of the whole contact
+POINT_APPROACH, POINT_NORMAL, POINT_TANGENTIAL, POINT_DISPLACEMENT, POINT_STATE, POINT_COLUMNS = 0, 1, 2, 3, 4, 5
+NO_CONTACT, FRICTIONLESS, STICKS, SLIPS = 0, 1, 2, 3  # values of POINT_STATE
+
+
+@kernel
+def _first_friction(friction, rig, mode, point, normal, state):
+    """Slip from the start where the sliding already exceeds what sticking can hold."""
+    if friction is None:
+        return
+    velocity = backrest.tangential_velocity(rig, 0.0, state, point)
+    if stick_margin(friction, normal, 0.0, velocity) < 0.0:
+        mode.friction[point] = 1 if velocity > 0.0 else -1
+
+
+@entry
+def start(rig: Backrest, mode: BackrestMode, state: Vector, work: Workspace) -> None:
+    """Take the discrete state that belongs to ``state`` at the start of a run, time 0."""
+    points = rig.gaps.shape[0]
+    mode.counts[OVERLAPPING] = 0
+    for c in range(points):
+        approach, approach_rate = backrest.approach_of(rig, state, c)
+        mode.contact[c] = CLOSING if approach > 0.0 else APART
+        mode.friction[c] = STICK if approach > 0.0 else UNLOADED
+        open_episode(rig, mode, c, 0.0, approach, state, 0.0)
+        if approach > 0.0:
+            mode.counts[OVERLAPPING] += 1
+            normal = backrest.unit_normal(rig, mode, c, approach, approach_rate)
+            _first_friction(rig.contact.friction, rig, mode, c, normal, state)
+    open_episode(rig, mode, points, 0.0, 0.0, state, 0.0)
+    for c in range(points):
+        mode.lasting[points, DEEPEST] = max(mode.lasting[points, DEEPEST], mode.lasting[c, DEEPEST])
+    for j in range(work.side.shape[0]):
+        work.side[j] = 1.0
+    work.last_event[0] = -numpy.inf
+
+
+@kernel
+def _state_of(friction, mode, point, normal):
+    if not normal > 0.0:
+        return NO_CONTACT
+    if friction is None:
+        return FRICTIONLESS
+    return STICKS if mode.friction[point] == STICK else SLIPS
+
+
+@kernel
+def _displacement_of(rig, time, state, point):
+    """Displacement of the back's face along the seat in [m], from rest."""
+    displacement, _velocity, _acceleration = backrest.slide_of(rig, time)
+    for i in range(rig.mass.shape[0]):
+        displacement -= rig.slopes[point, i] * state[i]
+    return displacement
+
+
+@kernel
+def _observe(rig, mode, time, state, whole, by_point):
+    """Forces of the whole contact and of every point, seen from the right."""
+    friction = rig.contact.friction
+    whole[NORMAL] = 0.0
+    whole[TANGENTIAL] = 0.0
+    whole[APPROACH] = -numpy.inf
+    for c in range(rig.gaps.shape[0]):
+        approach, approach_rate = backrest.approach_of(rig, state, c)
+        normal = backrest.unit_normal(rig, mode, c, approach, approach_rate)
+        tangential, _velocity = backrest.unit_friction(friction, rig, mode, c, time, normal, state)
+        row = by_point[c]
+        row[POINT_APPROACH] = approach
+        row[POINT_NORMAL] = rig.shares[c] * normal
+        row[POINT_TANGENTIAL] = -rig.shares[c] * tangential
+        row[POINT_DISPLACEMENT] = _displacement_of(rig, time, state, c)
+        row[POINT_STATE] = _state_of(friction, mode, c, normal)
+        whole[NORMAL] += row[POINT_NORMAL]
+        whole[TANGENTIAL] += row[POINT_TANGENTIAL]
+        whole[APPROACH] = max(whole[APPROACH], approach)
+
+
+@entry
+def advance(
+    rig: Backrest, mode: BackrestMode, state: Vector, scale: Vector, work: Workspace, begin: float, segment_length: float,
+    acceleration: Vector, sample_every: int, sampled_states: Vector, sampled_rates: Vector, sampled_forces: Vector,
+    sampled_points: Vector,
+) -> int:  # fmt: skip
+    """Advance ``state`` over ``len(acceleration) - 1`` segments of ``segment_length`` in [s] from time ``begin``.
+
+    ``acceleration`` [m/s^2]: of the seat back at the ends of the segments, linear between. Every ``sample_every``-th segment's
+    start is sampled: state, rates, forces of the whole contact (columns ``NORMAL ...``) and of the points (``[samples, points,
+    POINT_COLUMNS]``), on the back. Returns a status of ``core/results.py``; ``mode``, ``state``, ``work`` change in place.
+    """
+    row = 0
+    for i in range(acceleration.shape[0] - 1):
+        drive = BackrestDrive(begin + i * segment_length, segment_length, acceleration[i], acceleration[i + 1])
+        if i % sample_every == 0:
+            copy_row(state, sampled_states[row])
+            rate(rig, drive, mode, drive.start, state, sampled_rates[row])
+            _observe(rig, mode, drive.start, state, sampled_forces[row], sampled_points[row])
+            row += 1
+        status = integrate(rig, drive, mode, begin + (i + 1) * segment_length, state, scale, work)
+        if status != DONE:
+            return status
+    return DONE
+
+
+@kernel
+def _spring_energy(friction, rig, mode, point, time, approach, approach_rate, state):
+    """Energy in [J] of a point's friction spring, for the whole law."""
+    if friction is None:
+        return 0.0
+    doing = mode.friction[point]
+    if doing == UNLOADED:
+        return 0.0
+    deflection = state[2 * rig.mass.shape[0] + point]
+    if doing != STICK:
+        normal = backrest.unit_normal(rig, mode, point, approach, approach_rate)
+        deflection = following_deflection(
+            friction, doing, normal, backrest.tangential_velocity(rig, time, state, point)
+        )
+    return 0.5 * friction.stiffness * deflection**2
+
+
+@entry
+def energies(rig: Backrest, mode: BackrestMode, time: float, state: Vector) -> tuple[float, float, float, float, float]:
+    """Kinetic, potential (of the preload), stored energy, work supplied, work dissipated, all in [J], of ``state``."""
+    modes = rig.mass.shape[0]
+    kinetic, potential, stored, springs = 0.0, 0.0, 0.0, 0.0
+    for i in range(modes):
+        kinetic += 0.5 * rig.mass[i] * state[modes + i] ** 2
+        potential -= rig.preload[i] * state[i]
+        stored += 0.5 * rig.stiffness[i] * state[i] ** 2
+    for c in range(rig.gaps.shape[0]):
+        if mode.contact[c] == APART:
+            continue
+        approach, approach_rate = backrest.approach_of(rig, state, c)
+        spring = _spring_energy(rig.contact.friction, rig, mode, c, time, approach, approach_rate, state)
+        stored += rig.shares[c] * (elastic_energy(rig.contact.elastic, approach) + spring)
+        springs += rig.shares[c] * spring
+    last = state.shape[0]
+    return kinetic, potential, stored, state[last - 2], state[last - 1] - springs

@@ -1,0 +1,193 @@
+"""Resolved scene of the backrest rig -> parameters, start state, mat and timing."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import Any, NamedTuple
+
+import numpy
+from numpy.typing import NDArray
+
+from contact_sim_pkg.core.effects.normal_elastic import approach_of_force
+from contact_sim_pkg.core.effects.pressure_mat import paraboloid_gap
+from contact_sim_pkg.core.parameters import Contact, Friction, NormalElastic, Vector
+from contact_sim_pkg.core.rigs.backrest import state_count
+from contact_sim_pkg.core.rigs.backrest_parameters import Backrest
+from contact_sim_pkg.core.shell import ShallowShell, ShellModes, crown_gap, shell_modes
+from contact_sim_pkg.scene.build_contact import loss_of
+from contact_sim_pkg.scene.lattice import GRAVITY, effects_at
+from contact_sim_pkg.scene.timing import Timing, make_timing
+
+REFERENCE_SURFACE = 0.02  # [m^2] of the back to which the contact law belongs: a point has its part of it
+USUAL_FREQUENCY = 2.0 * math.pi * 5.0  # [rad/s] velocities over displacements, for the scale of the errors
+SMALLEST_SCALE = 1e-3  # [m] size of the motion where there is no preload
+NEWTON_STEPS = 100
+
+
+class Mat(NamedTuple):
+    """Cells of the pressure map, in the contact's frame: x up, y left, the crown at the origin."""
+
+    cell_x: float  # [m]
+    cell_y: float  # [m]
+    x: Vector  # [rows] [m] of the cells' centres
+    y: Vector  # [cols] [m]
+    gap: NDArray[numpy.float64]  # [rows, cols] [m]
+    by_points: bool  # each cell is that of one contact point
+
+
+@dataclass(frozen=True)
+class BackrestModel:
+    """Everything that the simulation of one backrest scene needs."""
+
+    rig: Backrest
+    timing: Timing
+    scale: Vector  # [states] error allowed per step
+    start: Vector  # [states] at rest under the preload
+    coordinates: tuple[str, ...]  # names of the forward coordinates of ``bench/motion``
+    motion: NDArray[numpy.float64]  # [coordinates, modes] how they follow from the modes, forward positive
+    mat: Mat
+    point_x: Vector  # [points] [m]
+    point_y: Vector  # [points] [m]
+
+
+class _Form(NamedTuple):
+    """The back in modal form, as one mass or as a shell."""
+
+    mass: Vector
+    stiffness: Vector
+    damping: Vector
+    at_preload: Vector  # [modes] shapes where the preload acts
+    at_shaking: Vector  # [modes] shapes where the exciting force acts
+    shapes: NDArray[numpy.float64]  # [points, modes]
+    slopes: NDArray[numpy.float64]  # [points, modes]
+    gaps: Vector  # [points]
+    shares: Vector  # [points]
+    point_x: Vector
+    point_y: Vector
+    names: tuple[str, ...]
+    motion: NDArray[numpy.float64]
+
+
+def build_backrest(scene: dict[str, Any]) -> BackrestModel:
+    """Parameters of a resolved scene. Raises ShellError for a shell that is not possible."""
+    backrest, effects = scene["backrest"], effects_at(scene, "backrest")
+    mat = _mat(backrest, effects.get("shell_modes"))
+    form = _one_mass(backrest) if effects.get("shell_modes") is None else _shell(backrest, effects["shell_modes"], mat)
+    preload = _preload(scene)
+    sliding = backrest["sliding"]
+    rig = Backrest(
+        form.mass, form.stiffness, form.damping, preload * form.at_preload, preload / GRAVITY * form.at_shaking,
+        form.shapes, form.slopes, form.gaps, form.shares, _contact(scene), float(sliding["amplitude"]),
+        2.0 * math.pi * float(sliding["frequency"]),
+    )  # fmt: skip
+    start = resting_state(rig)
+    approach = float((form.shapes @ start[: len(form.mass)] - form.gaps).max())
+    scale = _scale(rig, max(approach, SMALLEST_SCALE), preload, float(scene["integrator"]["relative_tolerance"]))
+    timing = make_timing(scene, True)
+    return BackrestModel(rig, timing, scale, start, form.names, form.motion, mat, form.point_x, form.point_y)
+
+
+def _contact(scene: dict[str, Any]) -> Contact:
+    effects = effects_at(scene, "backrest")
+    elastic, friction = effects["normal_elastic"], effects.get("friction")
+    keys = ("stiffness", "damping", "coefficient_static", "coefficient_kinetic")
+    rubbing = None if friction is None else Friction(*(float(friction[key]) for key in keys))
+    law = NormalElastic(float(elastic["coefficient"]), float(elastic["exponent"]))
+    moving = float(scene["backrest"]["mass"]) if effects.get("shell_modes") is None else _preload(scene) / GRAVITY
+    return Contact(law, loss_of(scene, "backrest", law, moving), rubbing)
+
+
+def _preload(scene: dict[str, Any]) -> float:
+    return float(scene["backrest"]["preload"])
+
+
+def _mat(backrest: dict[str, Any], shell: dict[str, Any] | None) -> Mat:
+    back, cells = backrest["back"], backrest["mat"]
+    rows = int(cells["rows"] if shell is None else shell["points_up"])
+    cols = int(cells["cols"] if shell is None else shell["points_across"])
+    cell_x, cell_y = float(back["height"]) / rows, float(back["width"]) / cols
+    x, y = (
+        (numpy.arange(n, dtype=numpy.float64) - 0.5 * (n - 1)) * cell for n, cell in ((rows, cell_x), (cols, cell_y))
+    )
+    gap = paraboloid_gap(x, y, float(back["radius_up"]), float(back["radius_across"]))
+    return Mat(cell_x, cell_y, x, y, gap, shell is not None)
+
+
+def _one_mass(backrest: dict[str, Any]) -> _Form:
+    one, none = numpy.ones(1), numpy.zeros(1)
+    mass = numpy.array([float(backrest["mass"])])
+    return _Form(
+        mass, none, none.copy(), one, one.copy(), numpy.ones((1, 1)), numpy.zeros((1, 1)), none.copy(), one.copy(),
+        none.copy(), none.copy(), ("occupant_x",), -numpy.ones((1, 1)),
+    )  # fmt: skip
+
+
+def _shell(backrest: dict[str, Any], effect: dict[str, Any], mat: Mat) -> _Form:
+    back = backrest["back"]
+    width, height = float(back["width"]), float(back["height"])
+    shell = ShallowShell(
+        width, height, float(effect["thickness"]), float(effect["young_modulus"]), float(effect["poisson_ratio"]),
+        float(effect["density"]), float(back["radius_across"]), float(back["radius_up"]),
+    )  # fmt: skip
+    point_x, point_y = (grid.ravel() for grid in numpy.meshgrid(mat.x, mat.y, indexing="ij"))
+    places = numpy.column_stack([point_y + 0.5 * width, point_x + 0.5 * height])
+    middle = (0.5 * width, 0.5 * height)
+    exciter = (float(effect["shaken_across"]) * width, float(effect["shaken_up"]) * height)
+    modes = shell_modes(shell, int(effect["modes"]), places)
+    at_middle, at_exciter = shell_modes(shell, int(effect["modes"]), numpy.array([middle, exciter])).shapes
+    share = mat.cell_x * mat.cell_y / REFERENCE_SURFACE
+    mass = numpy.full(len(modes.frequencies), modes.modal_mass)
+    return _Form(
+        mass, mass * modes.frequencies**2, 2.0 * float(effect["damping_ratio"]) * mass * modes.frequencies, at_middle,
+        at_exciter, modes.shapes, 0.5 * shell.thickness * modes.slopes_y, crown_gap(shell, places),
+        numpy.full(len(places), share), point_x, point_y, ("crown_x", *_mode_names(modes)),
+        -numpy.vstack([at_middle, numpy.eye(len(mass))]),
+    )  # fmt: skip
+
+
+def _mode_names(modes: ShellModes) -> tuple[str, ...]:
+    return tuple(f"mode_{m}_{n}_x" for m, n in modes.orders)
+
+
+def _scale(rig: Backrest, size: float, preload: float, tolerance: float) -> Vector:
+    """Error allowed per step and state: displacements relative to the approach at rest, works to that of the preload on it."""
+    modes, points = len(rig.mass), len(rig.gaps)
+    position, velocity = size * tolerance, size * USUAL_FREQUENCY * tolerance
+    kinetic = 0.5 * float(rig.mass.max()) * (size * USUAL_FREQUENCY) ** 2
+    work = max(preload * size, kinetic) * tolerance
+    spring = numpy.inf if rig.contact.friction is None else position
+    parts = [numpy.full(modes, position), numpy.full(modes, velocity), numpy.full(points, spring)]
+    return numpy.concatenate([*parts, numpy.full(2 * points + 2, work)])
+
+
+def resting_state(rig: Backrest) -> Vector:
+    """State at rest under the preload: the least of the convex energy ``q K q / 2 - P q + sum_c share A d**(n+1) / (n+1)``."""
+    modes, law = len(rig.mass), rig.contact.elastic
+    q = numpy.zeros(modes)
+    if not rig.stiffness.any():
+        q[0] = approach_of_force(law, float(rig.preload[0]))
+    for _ in range(NEWTON_STEPS):
+        slope, curvature, energy = _energy_at(rig, q)
+        if numpy.abs(slope).max() <= 1e-13 * numpy.abs(rig.preload).max():
+            break
+        step = numpy.linalg.solve(curvature, -slope)
+        part = 1.0
+        while part > 1e-6 and _energy_at(rig, q + part * step)[2] > energy + 1e-4 * part * float(slope @ step):
+            part *= 0.5
+        q = q + part * step
+    state = numpy.zeros(state_count(modes, len(rig.gaps)))
+    state[:modes] = q
+    return state
+
+
+def _energy_at(rig: Backrest, q: Vector) -> tuple[Vector, NDArray[numpy.float64], float]:
+    """Gradient [N], Hessian [N/m] and value [J] of the energy."""
+    law = rig.contact.elastic
+    depth = numpy.maximum(rig.shapes @ q - rig.gaps, 0.0)
+    force = rig.shares * law.coefficient * depth**law.exponent
+    stiffness = rig.shares * law.exponent * law.coefficient * depth ** (law.exponent - 1.0) * (depth > 0.0)
+    slope = rig.stiffness * q - rig.preload + rig.shapes.T @ force
+    curvature = numpy.diag(rig.stiffness) + rig.shapes.T @ (stiffness[:, None] * rig.shapes)
+    energy = 0.5 * rig.stiffness @ q**2 - rig.preload @ q + (force * depth).sum() / (law.exponent + 1.0)
+    return slope, curvature, float(energy)

@@ -1,0 +1,98 @@
+"""Runs of the backrest rig: what the bag of a scene holds, and that it adds up."""
+
+import numpy
+import pytest
+
+from contact_sim_pkg.bag.messages import (
+    decode_contact_force,
+    decode_contact_patch,
+    decode_contact_points,
+    decode_energy,
+    decode_episodes,
+)
+from contact_sim_pkg.run.errors import RunError
+from contact_sim_pkg.run.rigs import make_simulation, result_topics
+from contact_sim_pkg.run.sources import make_sources
+
+from .scenes import resolved
+
+SLAPPING = "vibration.amplitude=14.715"
+
+
+def run(name, *values):
+    scene = resolved(name, *values)
+    simulation, sources = make_simulation(scene), make_sources(scene)
+    simulation.prepare()
+    messages = []
+    for block in range(simulation.blocks):
+        messages += simulation.advance(
+            block, {topic: source.block(block) for topic, source in sources.items()}
+        ).messages
+    return scene, messages
+
+
+def of(messages, topic, decode):
+    return [decode(data) for name, _stamp, data in messages if name == topic]
+
+
+@pytest.fixture(scope="module")
+def slap_and_slip():
+    return run("seat_slip", SLAPPING, "duration=2.0")
+
+
+def test_a_run_says_what_its_scene_lists_and_nothing_else(slap_and_slip):
+    scene, messages = slap_and_slip
+    assert {name for name, _stamp, _data in messages} == set(result_topics(scene))
+
+
+def test_the_pressure_map_carries_the_force_to_a_millionth_and_never_pulls(slap_and_slip):
+    _scene, messages = slap_and_slip
+    forces = numpy.concatenate([block.normal for block in of(messages, "backrest/force", decode_contact_force)])
+    patches = of(messages, "backrest/patch", decode_contact_patch)
+    assert len(patches) * 10 == len(forces)
+    assert any(patch.load == 0.0 for patch in patches)
+    for patch, force in zip(patches, forces[::10], strict=True):
+        carried = patch.pressure.astype(float).sum() * patch.cell_x * patch.cell_y
+        assert carried == pytest.approx(force, rel=1e-6, abs=1e-9)
+        assert patch.pressure.min() >= 0.0
+
+
+def test_the_points_carry_the_force_and_keep_within_the_friction_cone(slap_and_slip):
+    _scene, messages = slap_and_slip
+    force = of(messages, "backrest/force", decode_contact_force)
+    for block, points in zip(force, of(messages, "backrest/points", decode_contact_points), strict=True):
+        assert points.normal.sum() == block.normal[0]
+        assert points.tangential.sum() == block.tangential[0]
+        assert (numpy.abs(points.tangential) <= 0.4 * points.normal + 1e-6).all()
+
+
+def test_slaps_and_slips_leave_the_energy_ledger_closed(slap_and_slip):
+    _scene, messages = slap_and_slip
+    ledger = of(messages, "bench/energy", decode_energy)
+    assert abs(ledger[-1].residual) <= 1e-5 * ledger[-1].supplied
+    assert numpy.all(numpy.diff([entry.dissipated for entry in ledger]) >= -1e-9)
+
+
+def test_every_slap_gives_back_less_work_than_it_took(slap_and_slip):
+    _scene, messages = slap_and_slip
+    blocks = of(messages, "bench/episodes", decode_episodes)
+    ratio = numpy.concatenate([block.restitution for block in blocks])
+    assert len(ratio) == 10, "one from the start, then one slap a period"
+    assert [touched for block in blocks for touched in block.touched] == [0, *[1] * 9]
+    assert numpy.all((ratio > 0.0) & (ratio < 1.0))
+    for block in blocks:
+        assert block.restitution == pytest.approx(numpy.sqrt(block.restitution_work / -block.compression_work))
+        assert numpy.all(block.end > block.start)
+
+
+def test_at_rest_nothing_moves():
+    _scene, messages = run("seat_slap", "vibration.amplitude=0", "duration=0.1")
+    forces = numpy.concatenate([block.normal for block in of(messages, "backrest/force", decode_contact_force)])
+    assert forces == pytest.approx(45.6 * 9.81, rel=1e-9)
+    assert of(messages, "bench/episodes", decode_episodes) == []
+
+
+def test_a_block_without_its_vibration_is_refused():
+    simulation = make_simulation(resolved("seat_slap", "duration=0.1"))
+    with pytest.raises(RunError, match="platform/vibration: block 0 with 11 samples was due, none came"):
+        simulation.advance(0, {})
