@@ -13,115 +13,82 @@ A tread with memory has one step for all its stretches: they are all of the same
 
 from __future__ import annotations
 
-from typing import Any, NamedTuple
+import math
+from typing import NamedTuple
 
 import numpy
 
-from contact_sim_pkg.core.effects.footprint import effective_between
 from contact_sim_pkg.core.effects.normal_elastic import elastic_energy, elastic_force
 from contact_sim_pkg.core.parameters import Vector
-from contact_sim_pkg.core.results import DONE, SENTENCES
-from contact_sim_pkg.core.rigs import advance as entries
-from contact_sim_pkg.core.rigs.vehicle import MARGINS
-from contact_sim_pkg.core.solvers.dormand_prince import make_workspace
+from contact_sim_pkg.core.rigs.advance import FORCES
 from contact_sim_pkg.run.block_drive import BlockDrive
+from contact_sim_pkg.run.bodies import Bodies, Offsets, Sampled, Saved, Stretch
 from contact_sim_pkg.run.errors import RunError
 from contact_sim_pkg.run.outputs import BlockRecord, FieldRecord
 from contact_sim_pkg.run.support import CushionSupport, RoadSupport, Support
-from contact_sim_pkg.scene.build import Model, standing_state
-
-Fields = tuple[FieldRecord | None, FieldRecord | None]
-Sampled = tuple[Vector, Vector, Vector]
+from contact_sim_pkg.scene.build import Model
 
 SHRINK, GROW = 0.25, 2.0  # least and largest ratio of a stretch to the one before
+AGAIN = 0.7  # largest ratio of a stretch that is taken again
 SAFETY = 0.8
 SETTLED = 0.5  # an offset that changes by this part of the allowed height is not corrected again
 
 
-class Stretch(NamedTuple):
-    """A row of segments from one solution of the fields to the next."""
+class Passed(NamedTuple):
+    """What a stretch came to."""
 
-    block: int
-    start: float  # [s]
-    drive: BlockDrive
-    last: bool  # of its interval: its fields are published
-    sampled: Sampled  # rows from the next sample on
-    behind_sample: int  # segments since the last sample
+    error: float  # estimated, over the allowed one
+    ends: Offsets  # [m] that the bodies moved on
+    found: Offsets  # [m] of the fields at the end
 
 
 class Coupling:
-    """State of the bodies and what supports them. ``start`` once, then ``advance`` interval by interval."""
+    """Bodies and what supports them; ``start`` once, then ``advance`` interval by interval. ``sampled``: the samples of one."""
 
     def __init__(self, model: Model) -> None:
         """Make buffers and supports of ``model``."""
         rig, timing = model.rig, model.timing
-        self.model = model
+        self.model, self.bodies = model, Bodies(model)
         self.tire = RoadSupport(model.tire_field, rig.tire_contact, model.tire_geometry, model.tread)
         self.seat = CushionSupport(model.seat_field, rig.seat_contact, model.seat_shape)
         self.supports: tuple[Support, Support] = (self.tire, self.seat)
-        samples = timing.segments // timing.sample_every
+        samples, states = timing.segments // timing.sample_every, model.states
         self.sampled: Sampled = (
-            numpy.zeros((samples, model.states)),
-            numpy.zeros((samples, model.states)),
-            numpy.zeros((samples, entries.FORCES)),
-        )
-        self._height = numpy.zeros(timing.segments + 1)
-        self._cushion = numpy.zeros(timing.segments + 1)
+            numpy.zeros((samples, states)), numpy.zeros((samples, states)), numpy.zeros((samples, FORCES))
+        )  # fmt: skip
+        rule = model.coupling
+        self._allowed: Offsets = (math.inf, math.inf) if rule is None else rule.heights
+        self._by_error = rule is not None and rule.segments is None
         self.reset()
 
     def reset(self) -> None:
         """Forget everything but the buffers."""
-        model = self.model
-        self.state: Vector = numpy.zeros(model.states)
-        self.mode = numpy.zeros(1, dtype=numpy.int64)
-        self.work = make_workspace(model.states, MARGINS)
-        self._proposed = float(model.timing.segments)  # length of the next stretch in segments
+        self.bodies.reset()
+        self._proposed = float(self.model.timing.segments)  # length of the next stretch in segments
         for support in self.supports:
             support.reset()
 
     def start(self, drive: BlockDrive) -> None:
         """Let the rig stand in balance on the road at the start, with the fields that belong to it."""
-        smooth, first = drive.smooth, drive.part(0, 1)
-        self.state[:] = standing_state(self.model, float(smooth[0]))
+        first, bodies = drive.part(0, 1), self.bodies
+        bodies.stand(float(first.smooth[0]))
         if self.tire.grids is not None:
-            self._stand_on_road(drive.road, float(drive.travel[0]))
+            self.tire.place(drive.road, float(drive.travel[0]))
+            bodies.lift(bodies.tire_approach(0.0) - self.tire.stand(bodies.weight()))
         self.tire.begin(self._solve_tire(first, 0, 0))
         self.seat.begin(self._solve_seat(0))
-        height = first.smooth + self.tire.offset
-        cushion = numpy.full(2, self.seat.offset)
-        length = self.model.timing.segment_length
-        entries.start(
-            self.model.rig, self.mode, self.state, self.work, length, height, cushion, first.acceleration_x,
-            first.acceleration_z, first.push,
-        )  # fmt: skip
-
-    def _stand_on_road(self, road: Any, travel: float) -> None:
-        """Shift the rig up or down so that the tire's field carries its weight on the road at the start."""
-        self.tire.place(road, travel)
-        rig = self.model.rig
-        assert rig.tire is not None
-        mass = rig.tire.wheel_mass + rig.tire.body_mass
-        if rig.carcass is not None:
-            mass += rig.carcass.belt_mass
-        if rig.seat is not None:
-            mass += rig.seat.frame_mass + float(rig.seat.masses.sum())
-        shift = -self.tire.stand(mass * rig.gravity) - self._tread_height()
-        vertical = [0, 1] if rig.carcass is None else [0, 1, rig.carcass.offset]
-        if rig.seat is not None:
-            vertical += range(rig.seat.offset, rig.seat.offset + 1 + len(rig.seat.masses))
-        self.state[vertical] += shift
+        bodies.start(first, self._offsets())
 
     def energies(self, smooth: float) -> Vector:
-        """Energies in [J] of the present state (columns of ``core/rigs/advance.energies``) over a ``smooth`` height in [m]."""
-        height, cushion = smooth + self.tire.offset, self.seat.offset
-        return numpy.array(entries.energies(self.model.rig, self.mode, self.state, height, cushion))
+        """Energies in [J] at the present instant, over a ``smooth`` height in [m] (order of ``core/rigs/advance.energies``)."""
+        return self.bodies.energies(smooth + self.tire.offset, self.seat.offset)
 
-    def copy_published(self) -> Fields:
+    def copy_published(self) -> tuple[FieldRecord | None, FieldRecord | None]:
         """The fields of the present instant."""
         return self.tire.copy_published(), self.seat.copy_published()
 
     def advance(self, block: int, interval: int, whole: BlockDrive, record: BlockRecord) -> None:
-        """One interval between published fields, in one or several stretches; ``sampled`` holds its samples.
+        """One interval between published fields, in one or several stretches.
 
         Raises RunError where the physics ends in a named failure.
         """
@@ -135,7 +102,7 @@ class Coupling:
                 block, (block * timing.intervals * timing.segments + first) * timing.segment_length, whole.part(first, count),
                 done + count == timing.segments, (states[row:], rates[row:], forces[row:]), done % timing.sample_every,
             )  # fmt: skip
-            if self._stretch(stretch, count, record):
+            if self._pass(stretch, record):
                 done += count
 
     def _count(self, whole: BlockDrive, first: int, left: int) -> int:
@@ -150,137 +117,90 @@ class Coupling:
         pieces = -(-left // max(1, int(longest)))
         return -(-left // pieces)
 
-    def _stretch(self, stretch: Stretch, count: int, record: BlockRecord) -> bool:
-        """Predict, solve the fields at the end, correct; False where a shorter stretch must be tried, with all as it was."""
-        work, rule = self.work, self.model.coupling
-        saved = (self.state.copy(), self.mode.copy(), work.side.copy(), work.step.copy(), work.last_event.copy())
-        free = rule is not None and rule.segments is None and count > 1
+    def _pass(self, stretch: Stretch, record: BlockRecord) -> bool:
+        """Pass a stretch; False where a shorter one must be tried, with all as it was."""
+        saved, count = self.bodies.save(), stretch.segments
+        shorter = self._by_error and count > 1
         try:
-            error, ends, found = self._corrected(stretch, count, saved, free)
+            passed = self._corrected(stretch, saved)
         except RunError:
-            if not free:
+            if not shorter:
                 raise
-            error, ends, found = numpy.inf, None, None
-        if rule is not None and rule.segments is None:
-            ratio = SAFETY / max(error, 1e-9) ** 0.5
-            self._proposed = max(1.0, count * min(max(ratio, SHRINK), GROW))
-        if ends is None or found is None:
-            self._proposed = min(self._proposed, 0.7 * count)
-            self._restore(saved)
+            passed = Passed(math.inf, self._offsets(), self._offsets())
+        ratio = min(max(SAFETY / max(passed.error, 1e-9) ** 0.5, SHRINK), GROW)
+        self._proposed = max(1.0, count * ratio)
+        if shorter and passed.error > 1.0:
+            self._proposed = min(self._proposed, AGAIN * count)
+            self.bodies.restore(saved)
             record.stretches_repeated += 1
             return False
         record.stretches += 1
-        if rule is not None:
-            record.coupling_error = max(record.coupling_error, error * rule.tolerance)
-        self._close(stretch, ends, found, count, record)
+        if self.model.coupling is not None:
+            record.coupling_error = max(record.coupling_error, passed.error * self.model.coupling.tolerance)
+        self._close(stretch, passed, record)
         return True
 
-    def _corrected(self, stretch: Stretch, count: int, saved: Any, free: bool) -> Any:
-        """Error over the allowed one, offsets at the end that the bodies moved on and those that were found there."""
-        passes = self.model.corrector_passes
+    def _corrected(self, stretch: Stretch, saved: Saved) -> Passed:
+        """Predict, solve the fields at the end, correct; an error that calls for a shorter stretch ends it early."""
+        most = self.model.corrector_passes
         solved = [stretch.last or not support.calm for support in self.supports]
-        ends = found = tuple(support.expected(count) for support in self.supports)
+        ends = found = (self.tire.expected(stretch.segments), self.seat.expected(stretch.segments))
         error = 0.0
-        for passes_left in range(passes, -1, -1):
-            if passes_left < passes:
-                self._restore(saved)
-            self._integrate(stretch, ends)
-            if passes_left or stretch.last or not passes:  # between published fields the last offsets stand as they are
+        for passes_left in range(most, -1, -1):
+            if passes_left < most:
+                self.bodies.restore(saved)
+            self.bodies.move(stretch, self._offsets(), ends)
+            if passes_left or stretch.last or not most:  # between published fields the last offsets stand as they are
                 found = self._solve(stretch, solved, ends)
-            if passes_left == passes:
-                error = self._error(found, count)
-                if free and error > 1.0:
-                    return error, None, None
-            if self._settled(ends, found):
+            if passes_left == most:
+                error = self._error(found, stretch.segments)
+                if self._by_error and stretch.segments > 1 and error > 1.0:
+                    break
+            settled = all(abs(a - b) <= SETTLED * h for a, b, h in zip(ends, found, self._allowed, strict=True))
+            if settled or not passes_left:
                 break
-            if passes_left:
-                ends = found
-        return error, ends, found
+            ends = found
+        return Passed(error, ends, found)
 
-    def _restore(self, saved: Any) -> None:
-        work = self.work
-        self.state[:], self.mode[:], work.side[:], work.step[:], work.last_event[:] = saved
+    def _offsets(self) -> Offsets:
+        return self.tire.offset, self.seat.offset
 
-    def _integrate(self, stretch: Stretch, ends: tuple[float, ...]) -> None:
-        timing, drive = self.model.timing, stretch.drive
-        points = len(drive.smooth)
-        height, cushion = self._height[:points], self._cushion[:points]
-        effective_between(drive.smooth, self.tire.offset, ends[0], height)
-        cushion[:] = numpy.linspace(self.seat.offset, ends[1], points)
-        status = entries.advance(
-            self.model.rig, self.mode, self.state, self.model.scale, self.work, stretch.start, timing.segment_length, height,
-            cushion, drive.acceleration_x, drive.acceleration_z, drive.push, timing.sample_every, stretch.behind_sample,
-            *stretch.sampled,
-        )  # fmt: skip
-        if status != DONE:
-            raise RunError(f"block {stretch.block}, {stretch.start:.6g} s: {SENTENCES[status]}")
-
-    def _solve(self, stretch: Stretch, solved: list[bool], expected: tuple[float, ...]) -> tuple[float, ...]:
+    def _solve(self, stretch: Stretch, solved: list[bool], expected: Offsets) -> Offsets:
         """Offsets that belong to the fields at the end of the stretch; those ``expected`` where none is solved."""
-        tire, seat = expected
-        if solved[0]:
-            tire = self._solve_tire(stretch.drive, -1, stretch.block)
-        if solved[1]:
-            seat = self._solve_seat(stretch.block)
-        return tire, seat
-
-    def _error(self, found: tuple[float, ...], count: int) -> float:
-        """Largest height that a straight offset misses, over the allowed one."""
-        rule = self.model.coupling
-        if rule is None:
-            return 0.0
-        pairs = zip(self.supports, found, rule.heights, strict=True)
-        return max(support.bend(offset, count) / height for support, offset, height in pairs)
-
-    def _settled(self, ends: tuple[float, ...], found: tuple[float, ...]) -> bool:
-        rule = self.model.coupling
-        if rule is None:
-            return True
-        return all(abs(a - b) <= SETTLED * h for a, b, h in zip(ends, found, rule.heights, strict=True))
-
-    def _tread_height(self) -> float:
-        """Height in [m] of what touches the road."""
-        carcass = self.model.rig.carcass
-        return float(self.state[0 if carcass is None else carcass.offset])
+        tire = self._solve_tire(stretch.drive, -1, stretch.block) if solved[0] else expected[0]
+        return tire, self._solve_seat(stretch.block) if solved[1] else expected[1]
 
     def _solve_tire(self, drive: BlockDrive, point: int, block: int) -> float:
         """Solve the tire's field at the present state; returns the offset that belongs to it, 0 without a field."""
-        if self.tire.contact is None:
+        if self.tire.grids is None:
             return 0.0
         self.tire.place(drive.road, float(drive.travel[point]))
-        approach = -self._tread_height()
-        return self.tire.solve(approach, float(drive.smooth[point]) + approach, block)
-
-    def _seat_approach(self, cushion: float) -> float:
-        """Approach in [m] of the seat over a cushion of height ``cushion`` [m]."""
-        rig = self.model.rig
-        if rig.seat is None:
-            return 0.0
-        floor = float(self.state[1]) if rig.tire is not None else 0.0
-        return floor + cushion - float(self.state[rig.seat.offset])
+        return self.tire.solve(
+            self.bodies.tire_approach(0.0), self.bodies.tire_approach(float(drive.smooth[point])), block
+        )
 
     def _solve_seat(self, block: int) -> float:
         """Solve the seat's field at the present state; returns the offset that belongs to it, 0 without a field."""
-        approach = self._seat_approach(0.0)
+        approach = self.bodies.seat_approach(0.0)
         return self.seat.solve(approach, approach, block)
 
-    def _close(
-        self, stretch: Stretch, ends: tuple[float, ...], found: tuple[float, ...], count: int, record: BlockRecord
-    ) -> None:
+    def _error(self, found: Offsets, count: int) -> float:
+        """Largest height that a straight offset misses, over the allowed one."""
+        pairs = zip(self.supports, found, self._allowed, strict=True)
+        return max(support.bend(offset, count) / height for support, offset, height in pairs)
+
+    def _close(self, stretch: Stretch, passed: Passed, record: BlockRecord) -> None:
         """Take the fields and their offsets over; the energy that the remaining jump brings in counts as supplied."""
         self.tire.keep()
-        tire = 0.0 if self.tire.contact is None else float(self._height[count]) - self._tread_height()
-        rule = self.model.coupling
-        allowed_heights = (0.0, 0.0) if rule is None else rule.heights
-        approaches = (tire, self._seat_approach(float(self._cushion[count])))
-        for support, approach, end, offset, allowed in zip(
-            self.supports, approaches, ends, found, allowed_heights, strict=True
-        ):
-            support.take(offset, count, stretch.last or not support.calm, allowed)
+        height, cushion = float(stretch.drive.smooth[-1]) + passed.ends[0], passed.ends[1]
+        approaches = (self.bodies.tire_approach(height), self.bodies.seat_approach(cushion))
+        pairs = zip(self.supports, approaches, passed.ends, passed.found, self._allowed, strict=True)
+        for support, approach, end, offset, allowed in pairs:
+            support.take(offset, stretch.segments, stretch.last or not support.calm, allowed)
             change = offset - end
             if support.contact is None or change == 0.0:
                 continue
             law = support.contact.elastic
-            self.state[-2] += elastic_energy(law, approach + change) - elastic_energy(law, approach)
+            self.bodies.supply(elastic_energy(law, approach + change) - elastic_energy(law, approach))
             jump = abs(elastic_force(law, approach + change) - elastic_force(law, approach))
             record.field_jump = max(record.field_jump, jump)

@@ -87,11 +87,11 @@ class Simulation:
         coupling = self._coupling
         if block == 0:
             coupling.start(drive)
-        coupling.work.counters[:] = 0.0
+        coupling.bodies.work.counters[:] = 0.0
         for interval in range(self.model.timing.intervals):
             self._interval(block, interval, drive, record)
         self._next_block = block + 1
-        record.counters[:] = coupling.work.counters
+        record.counters[:] = coupling.bodies.work.counters
         for support in coupling.supports:
             iterations, residual = support.take_cost()
             record.field_iterations += iterations
