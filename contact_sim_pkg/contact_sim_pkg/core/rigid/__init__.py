@@ -1,0 +1,1 @@
+"""Rigid bodies with frictional contact: impact laws, complementarity solvers, time stepping in the plane and in space."""

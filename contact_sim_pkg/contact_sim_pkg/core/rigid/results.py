@@ -1,0 +1,31 @@
+"""How a contact solve ended, and in which mode each contact is."""
+
+from __future__ import annotations
+
+SOLVED = 0
+RAY = 1
+NOT_CONVERGED = 2
+CONTACT_NOT_FINITE = 3
+TOO_MANY_IMPACTS = 4
+SPIN_TOO_FAST = 5
+
+SENTENCES = {
+    SOLVED: "the contact conditions hold",
+    RAY: "the contact conditions have no solution that pivoting can reach (a wedged body with restitution): state unchanged",
+    NOT_CONVERGED: "the iteration ended before the residual that was asked for; the residual is returned",
+    CONTACT_NOT_FINITE: "an input of the contact solve is not finite: state unchanged",
+    TOO_MANY_IMPACTS: "more than 100000 impacts in one call: raise the rest speed or lower the restitution",
+    SPIN_TOO_FAST: "the body turns by more than one radian in a step: take a shorter step",
+}
+
+# Mode of a contact over one solve.
+SEPARATE = 0
+STICK = 1
+SLIDE = 2  # keeps the direction of slip it came with
+REVERSE = 3  # slip stopped and started the other way
+MODE_NAMES = {SEPARATE: "separate", STICK: "stick", SLIDE: "slide", REVERSE: "reverse"}
+
+# Flags, added up: what a caller may want to know about a solved contact.
+UNIQUE = 0
+SPLIT_NOT_UNIQUE = 1  # the impulses share the load in more than one way; the one of least norm is returned
+JAM = 2  # Painleve: sliding on would push the bodies into each other; the slip stops at once
