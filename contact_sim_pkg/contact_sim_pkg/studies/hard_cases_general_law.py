@@ -53,7 +53,8 @@ def _end_of(elastic: NormalElastic, loss: GeneralDissipative, gravity: float = 0
     rig = ImpactWorks(PointContact(MASS, gravity, 0.0, 0.0, elastic, loss))
     energy = 0.5 * MASS * SPEED**2
     scale = numpy.array([depth, SPEED, energy, energy]) * 1e-12
-    return integrate(rig, numpy.array([1e-3, -SPEED, 0.0, 0.0]), scale, numpy.array([0.0, duration])).states[-1]
+    course = integrate(rig, numpy.array([1e-3, -SPEED, 0.0, 0.0]), scale, numpy.array([0.0, duration]))
+    return numpy.asarray(course.states[-1])
 
 
 def _damper(ratio: float, lowest: float) -> GeneralDissipative:

@@ -16,6 +16,8 @@ from contact_sim_pkg.studies import (
     ladder_elliptic,
     ladder_exponent,
     ladder_force,
+    ladder_modes,
+    ladder_periodic,
     ladder_restitution,
     ladder_road,
     ladder_rough,
@@ -45,7 +47,12 @@ RIGS: dict[str, tuple[Ladder, ...]] = {
         Ladder(ladder_exponent.PART, ladder_exponent.rows),
         Ladder(ladder_road.PART, ladder_road.rows),
     ),
-    "seat": (Ladder(ladder_restitution.PART, ladder_restitution.rows),),
+    "seat": (
+        Ladder(ladder_restitution.PART, ladder_restitution.rows),
+        Ladder(ladder_periodic.PART, ladder_periodic.rows),
+        Ladder(ladder_periodic.ANSATZ_PART, ladder_periodic.ansatz_rows),
+        Ladder(ladder_modes.PART, ladder_modes.rows),
+    ),
 }
 """Rig -> its ladders. A further rig is one more entry."""
 

@@ -5,11 +5,12 @@ from __future__ import annotations
 import statistics
 import time
 from collections.abc import Callable
-from typing import Any, NamedTuple
+from typing import Any, NamedTuple, TypeVar
 
-__all__ = ["COLUMNS", "Row", "Rung", "milliseconds", "relative", "row"]
+__all__ = ["COLUMNS", "Row", "Rung", "milliseconds", "relative", "row", "timed_once"]
 
 Row = dict[str, Any]
+Answer = TypeVar("Answer")
 
 COLUMNS = (
     "rig", "part", "case", "quantity", "rung", "grid", "tolerance", "value", "expected", "error", "solver_error", "grid_error",
@@ -46,6 +47,13 @@ def milliseconds(call: Callable[[], object]) -> float:
             call()
         samples.append((time.thread_time() - began) / group)
     return 1e3 * statistics.median(samples)
+
+
+def timed_once(call: Callable[[], Answer]) -> tuple[Answer, float]:
+    """The answer of a call that is too dear to repeat, and its processor time in ms."""
+    began = time.thread_time()
+    answer = call()
+    return answer, 1e3 * (time.thread_time() - began)
 
 
 def relative(value: float, expected: float) -> float:
