@@ -37,7 +37,8 @@ APPROACH_EVENT, TENSION_EVENT, TURN_EVENT, FRICTION_EVENT, EVENTS_A_POINT = (
     3,
     4,
 )  # each for all points in a row
-SIMULTANEOUS = 1.0e-12  # [m], [m/s]: points that symmetry lets touch or turn together do so in one event
+SIMULTANEOUS = 1.0e-12  # [m]: points that symmetry lets touch or leave together do so in one event
+AT_REST = 1.0e-9  # [m/s]: below, a point so near to contact may as well stay where it is
 
 
 def state_count(modes: int, points: int) -> int:
@@ -273,8 +274,10 @@ def _pass_kinematic(rig, mode, event_point, turns, time, state):
     for c in range(rig.gaps.shape[0]):
         approach, approach_rate = approach_of(rig, state, c)
         doing = mode.contact[c]
-        passes = abs(approach) <= SIMULTANEOUS and (approach_rate > 0.0) == (doing == APART)
-        turned = abs(approach_rate) <= SIMULTANEOUS and doing in (CLOSING, OPENING)
+        passes = (
+            abs(approach) <= SIMULTANEOUS and abs(approach_rate) > AT_REST and (approach_rate > 0.0) == (doing == APART)
+        )
+        turned = _turn_margin(doing, approach_rate) < 0.0
         if c == event_point:
             passes, turned = not turns, turns
         if passes:
