@@ -1,0 +1,1 @@
+"""Impact of a sphere on a viscoelastic half-space (Goloshchapov): contact, motion, waves, stresses, materials."""
