@@ -259,7 +259,10 @@ def equality_step(program: Program, point: Point, active: NDArray[numpy.int64]) 
 
 @kernel
 def conditions(program: Program, point: Point) -> float:
-    """Largest violation of stationarity, `g <= 0` (as a distance), `lambda >= 0` and `lambda g = 0`."""
+    """Largest violation: of stationarity, and for each constraint `|min(lambda |grad g|, -g / |grad g|)|`, both lengths.
+
+    The latter is zero where both are not negative and one of them is zero.
+    """
     worst = 0.0
     for part in stationarity(program, point):
         worst = max(worst, abs(part))
@@ -268,6 +271,5 @@ def conditions(program: Program, point: Point) -> float:
         for part in point.gradients[i]:
             slope += part * part
         slope = math.sqrt(slope)
-        worst = max(worst, point.values[i] / slope, -point.multipliers[i] * slope)
-        worst = max(worst, abs(point.multipliers[i] * point.values[i]))
+        worst = max(worst, abs(min(point.multipliers[i] * slope, -point.values[i] / slope)))
     return worst
