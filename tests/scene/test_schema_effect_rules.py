@@ -8,24 +8,26 @@ from contact_sim_pkg.scene import schema_effect_rules
 from contact_sim_pkg.scene.schema_effect_rules import EFFECT_RULES, EffectRule
 
 EFFECTS = (
-    "normal_elastic", "normal_dissipative", "general_dissipative", "friction", "contact_field", "shell_modes", "carcass",
+    "normal_elastic", "normal_dissipative", "general_dissipative", "foam", "foam_hysteresis", "friction", "contact_field",
+    "shell_modes", "carcass",
     "envelopment",
     "tread_viscoelasticity", "brush", "asperity_impulses",
 )  # fmt: skip
 TIRE_ONLY = {"carcass", "envelopment", "tread_viscoelasticity", "brush", "asperity_impulses"}
-SEAT_ONLY = {"general_dissipative", "friction"}
+SEAT_ONLY = {"general_dissipative", "foam", "foam_hysteresis", "friction"}
 """Of the vehicle's contacts."""
 IN_THE_FIELD = {"envelopment", "tread_viscoelasticity", "brush"}
 """What acts cell by cell, and so needs the pressure field."""
-OF_THE_BACK = ("normal_elastic", "normal_dissipative", "general_dissipative", "friction", "shell_modes")
+OF_THE_BACK = ("normal_elastic", "normal_dissipative", "general_dissipative", "foam", "friction", "shell_modes")
 ELSEWHERE = set(EFFECTS) - set(OF_THE_BACK)
-OF_VEHICLES = tuple(name for name in EFFECTS if name != "shell_modes")
+OF_FOAM = ("foam", "foam_hysteresis")
+OF_VEHICLES = tuple(name for name in EFFECTS if name not in ("shell_modes", *OF_FOAM))
 SUBSETS = {
     "tire": [set(chosen) for count in range(len(OF_VEHICLES) + 1) for chosen in combinations(OF_VEHICLES, count)]
-    + [{"normal_elastic", "shell_modes"}],
-    "backrest": [set(chosen) for count in range(6) for chosen in combinations(OF_THE_BACK, count)]
+    + [{"normal_elastic", name} for name in ("shell_modes", *OF_FOAM)],
+    "backrest": [set(chosen) for count in range(7) for chosen in combinations(OF_THE_BACK, count)]
     + [{"normal_elastic", name} for name in sorted(ELSEWHERE)],
-    "seat": [set(chosen) for count in range(6) for chosen in combinations(EFFECTS[:5], count)]
+    "seat": [set(chosen) for count in range(8) for chosen in combinations(EFFECTS[:7], count)]
     + [{"normal_elastic", "contact_field", name} for name in sorted(TIRE_ONLY)],
 }
 
@@ -36,6 +38,8 @@ def allowed(contact, named):
     if "normal_elastic" not in named or named & refused:
         return False
     if named >= {"normal_dissipative", "general_dissipative"}:
+        return False
+    if "contact_field" in named and named & {"foam", "foam_hysteresis"}:
         return False
     return "contact_field" in named or not named & IN_THE_FIELD
 

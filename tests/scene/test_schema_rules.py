@@ -19,6 +19,13 @@ BREACHES = [
     ),
     ("seat", {GENERAL: {"restitution": 0.5}}, f"{GENERAL}.reference_speed", "is missing"),
     ("seat", {GENERAL: {"reference_speed": 0.5}}, f"{GENERAL}.reference_speed", "has no meaning"),
+    ("seat", {"effects.seat.foam": {"plateau": 5e4}}, "effects.seat.foam.modulus", "not above plateau"),
+    (
+        "seat",
+        {GENERAL: {"restitution": 0.5, "reference_speed": 0.5}, "effects.seat.foam": {}},
+        f"{GENERAL}.restitution",
+        "holds for a power law",
+    ),
     ("seat", {GENERAL: {"end": "gap"}, "effects.seat.friction": {}}, f"{GENERAL}.end", "no Coulomb limit"),
     ("tire", {"travel": ...}, "travel", "the rig tire needs it"),
     ("car", {"road": ...}, "road", "the rig car needs it"),

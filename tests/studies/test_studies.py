@@ -35,7 +35,14 @@ def test_means_over_coarser_cells_keep_the_integral_and_a_constant():
 def test_every_effect_of_a_scene_has_a_row_with_its_topics():
     rows = ablation.study("seat_ride")
     losses = {"normal_dissipative", "general_dissipative"}
-    assert {row["effect"] for row in rows} == {"normal_elastic", *losses, "friction", "contact_field"}
+    assert {row["effect"] for row in rows} == {
+        "normal_elastic",
+        *losses,
+        "foam",
+        "foam_hysteresis",
+        "friction",
+        "contact_field",
+    }
     assert all("seat/force" in row["topics"] for row in rows)
     by_name = {row["effect"]: row for row in rows}
     assert by_name["friction"]["on"] is False

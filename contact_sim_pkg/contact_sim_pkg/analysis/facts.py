@@ -13,6 +13,8 @@ OUTCOME_KEYS = ("ended", "failure", "blocks_done", "wall_s", "stopped")
 EFFECT_NAMES = {
     "normal_elastic": "elastic normal force",
     "normal_dissipative": "loss in the normal direction",
+    "foam": "foam with plateau and densification",
+    "foam_hysteresis": "loss of foam without rate",
     "general_dissipative": "loss after the general law",
     "friction": "friction with true stick",
     "contact_field": "pressure field",

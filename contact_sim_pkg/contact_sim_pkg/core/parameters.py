@@ -22,6 +22,20 @@ class NormalElastic(NamedTuple):
     exponent: float  # 1 (linear) to 3; 3/2 is Hertz
 
 
+class FoamElastic(NamedTuple):
+    """Elastic law of a foam block with plateau and densification (``effects/foam_elastic.py``), in place of a power law."""
+
+    area: float  # S [m^2], > 0
+    thickness: float  # h [m], > 0
+    modulus: float  # E_0 [Pa] of the soft start, > plateau
+    plateau: float  # p_0 [Pa], > 0
+    densification: float  # p_d [Pa], >= 0
+    densification_exponent: float  # r, > 0
+
+
+ElasticLaw: TypeAlias = NormalElastic | FoamElastic
+
+
 class NormalDissipative(NamedTuple):
     """Hunt-Crossley loss: the elastic force is multiplied by 1 + damping * approach_rate, and never pulls."""
 
@@ -41,6 +55,14 @@ class GeneralDissipative(NamedTuple):
 
 
 NormalLoss: TypeAlias = NormalDissipative | GeneralDissipative
+
+
+class FoamHysteresis(NamedTuple):
+    """Loss of foam without rate: an internal variable that follows the loading (``effects/foam_hysteresis.py``)."""
+
+    offset: int  # of the internal variable in the state vector
+    share: float  # s, 0 to below 1: force over elastic force is 1 + s on a long loading, 1 - s on a long unloading
+    energy: float  # u_0 [J] over which a reversal is passed, > 0
 
 
 class Friction(NamedTuple):
@@ -64,9 +86,10 @@ class Brush(NamedTuple):
 class Contact(NamedTuple):
     """One contact: the effects that act in it. ``elastic`` is always there, the others may be ``None``."""
 
-    elastic: NormalElastic
+    elastic: ElasticLaw
     dissipative: NormalLoss | None
     friction: Friction | None
+    hysteresis: FoamHysteresis | None = None
 
 
 class Tire(NamedTuple):

@@ -29,6 +29,7 @@ from contact_sim_pkg.bag.messages import (
     encode_wrench,
 )
 from contact_sim_pkg.bag.topics import TOPICS
+from contact_sim_pkg.core.effects.elastic_law import elastic_order
 from contact_sim_pkg.core.effects.pressure_mat import spread_force
 from contact_sim_pkg.core.lame import fit_patch
 from contact_sim_pkg.core.patch import summarise
@@ -140,7 +141,7 @@ class _Encoder:
             normal = self.record.points[sample, :, columns.POINT_NORMAL]
             return numpy.ascontiguousarray(normal.reshape(mat.gap.shape)) / (mat.cell_x * mat.cell_y)
         force, approach = self.record.forces[sample, [columns.NORMAL, columns.APPROACH]]
-        exponent = model.rig.contact.elastic.exponent
+        exponent = elastic_order(model.rig.contact.elastic)
         return spread_force(float(force), float(approach), exponent, mat.gap, mat.cell_x * mat.cell_y)
 
     def _patch(self, sample: int) -> PatchField:

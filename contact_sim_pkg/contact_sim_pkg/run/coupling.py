@@ -18,7 +18,7 @@ from typing import NamedTuple
 
 import numpy
 
-from contact_sim_pkg.core.effects.normal_elastic import elastic_energy, elastic_force
+from contact_sim_pkg.core.effects.elastic_law import elastic_energy, elastic_force
 from contact_sim_pkg.core.parameters import Vector
 from contact_sim_pkg.core.rigs.advance import FORCES
 from contact_sim_pkg.run.block_drive import BlockDrive

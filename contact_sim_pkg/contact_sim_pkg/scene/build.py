@@ -9,10 +9,19 @@ from typing import Any
 import numpy
 from numpy.typing import NDArray
 
-from contact_sim_pkg.core.effects.normal_elastic import approach_of_force
+from contact_sim_pkg.core.effects.elastic_law import approach_of_force
 from contact_sim_pkg.core.effects.seat_shape import SeatShape, seat_gap
-from contact_sim_pkg.core.parameters import Contact, FieldSettings, Friction, NormalElastic, Seat, Vector, Vehicle
-from contact_sim_pkg.scene.build_contact import FieldGrids, loss_of, make_grids, tangent_law
+from contact_sim_pkg.core.parameters import (
+    Contact,
+    ElasticLaw,
+    FieldSettings,
+    FoamHysteresis,
+    Friction,
+    Seat,
+    Vector,
+    Vehicle,
+)
+from contact_sim_pkg.scene.build_contact import FieldGrids, elastic_of, loss_of, make_grids, tangent_law
 from contact_sim_pkg.scene.build_coupling import (
     CouplingRule,
     allowed_height,
@@ -62,7 +71,7 @@ def build(scene: dict[str, Any]) -> Model:
     tire_field = None if tire is None else tire.field
     behind = 0 if tire is None else 4 if tire.carcass is None else 6
     seat = _seat(scene, offset=behind) if with_seat else None
-    seat_contact = _seat_contact(scene, seat_field, shape) if with_seat else None
+    seat_contact = _seat_contact(scene, seat, seat_field, shape) if seat is not None else None
     rig = Vehicle(GRAVITY, None, None, None, seat, seat_contact)
     if tire is not None:
         rig = rig._replace(tire=tire.tire, carcass=tire.carcass, tire_contact=tire.contact)
@@ -132,13 +141,14 @@ def seat_cells(settings: FieldSettings) -> tuple[NDArray[numpy.float64], NDArray
     return x, y
 
 
-def _seat_contact(scene: dict[str, Any], field: FieldGrids | None, shape: SeatShape | None) -> Contact:
-    elastic = effects_at(scene, "seat")["normal_elastic"]
+def _seat_contact(scene: dict[str, Any], seat: Seat, field: FieldGrids | None, shape: SeatShape | None) -> Contact:
+    effects = effects_at(scene, "seat")
+    law: ElasticLaw
     if field is not None and shape is not None:
         law, _length = tangent_law(field, lambda grid: seat_gap_on(shape, grid), occupant_mass(scene) * GRAVITY, "seat")
     else:
-        law = NormalElastic(float(elastic["coefficient"]), float(elastic["exponent"]))
-    friction = effects_at(scene, "seat").get("friction")
+        law = elastic_of(effects)
+    friction = effects.get("friction")
     rubbing = (
         None
         if friction is None
@@ -146,7 +156,10 @@ def _seat_contact(scene: dict[str, Any], field: FieldGrids | None, shape: SeatSh
             *(float(friction[key]) for key in ("stiffness", "damping", "coefficient_static", "coefficient_kinetic"))
         )
     )
-    return Contact(law, loss_of(scene, "seat", law, occupant_mass(scene)), rubbing)
+    memory = effects.get("foam_hysteresis")
+    offset = seat.offset + 2 * (1 + len(seat.masses)) + (0 if rubbing is None else 3)
+    remembering = None if memory is None else FoamHysteresis(offset, float(memory["share"]), float(memory["energy"]))
+    return Contact(law, loss_of(scene, "seat", law, occupant_mass(scene)), rubbing, remembering)
 
 
 def _scale(rig: Vehicle, tolerance: float) -> Vector:
@@ -162,6 +175,8 @@ def _scale(rig: Vehicle, tolerance: float) -> Vector:
         scale += [position] * count + [velocity] * count
         if rig.seat_contact is not None and rig.seat_contact.friction is not None:
             scale += [position, velocity, position]
+        if rig.seat_contact is not None and rig.seat_contact.hysteresis is not None:
+            scale.append(tolerance)  # its internal variable runs from -1 to 1
     return numpy.array([*scale, numpy.inf, numpy.inf])
 
 

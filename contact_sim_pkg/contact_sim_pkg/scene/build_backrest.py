@@ -9,13 +9,18 @@ from typing import Any, NamedTuple
 import numpy
 from numpy.typing import NDArray
 
-from contact_sim_pkg.core.effects.normal_elastic import approach_of_force
+from contact_sim_pkg.core.effects.elastic_law import (
+    approach_of_force,
+    elastic_energy,
+    elastic_force,
+    elastic_stiffness,
+)
 from contact_sim_pkg.core.effects.pressure_mat import paraboloid_gap
-from contact_sim_pkg.core.parameters import Contact, Friction, NormalElastic, Vector
+from contact_sim_pkg.core.parameters import Contact, Friction, Vector
 from contact_sim_pkg.core.rigs.backrest import state_count
 from contact_sim_pkg.core.rigs.backrest_parameters import Backrest
 from contact_sim_pkg.core.shell import ShallowShell, ShellModes, crown_gap, shell_modes
-from contact_sim_pkg.scene.build_contact import loss_of
+from contact_sim_pkg.scene.build_contact import elastic_of, loss_of
 from contact_sim_pkg.scene.lattice import GRAVITY, effects_at
 from contact_sim_pkg.scene.timing import Timing, make_timing
 
@@ -90,10 +95,10 @@ def build_backrest(scene: dict[str, Any]) -> BackrestModel:
 
 def _contact(scene: dict[str, Any]) -> Contact:
     effects = effects_at(scene, "backrest")
-    elastic, friction = effects["normal_elastic"], effects.get("friction")
+    friction = effects.get("friction")
     keys = ("stiffness", "damping", "coefficient_static", "coefficient_kinetic")
     rubbing = None if friction is None else Friction(*(float(friction[key]) for key in keys))
-    law = NormalElastic(float(elastic["coefficient"]), float(elastic["exponent"]))
+    law = elastic_of(effects)
     moving = float(scene["backrest"]["mass"]) if effects.get("shell_modes") is None else _preload(scene) / GRAVITY
     return Contact(law, loss_of(scene, "backrest", law, moving), rubbing)
 
@@ -185,9 +190,11 @@ def _energy_at(rig: Backrest, q: Vector) -> tuple[Vector, NDArray[numpy.float64]
     """Gradient [N], Hessian [N/m] and value [J] of the energy."""
     law = rig.contact.elastic
     depth = numpy.maximum(rig.shapes @ q - rig.gaps, 0.0)
-    force = rig.shares * law.coefficient * depth**law.exponent
-    stiffness = rig.shares * law.exponent * law.coefficient * depth ** (law.exponent - 1.0) * (depth > 0.0)
+    force, stiffness, stored = (
+        rig.shares * numpy.array([part(law, x) for x in depth])
+        for part in (elastic_force, elastic_stiffness, elastic_energy)
+    )
     slope = rig.stiffness * q - rig.preload + rig.shapes.T @ force
     curvature = numpy.diag(rig.stiffness) + rig.shapes.T @ (stiffness[:, None] * rig.shapes)
-    energy = 0.5 * rig.stiffness @ q**2 - rig.preload @ q + (force * depth).sum() / (law.exponent + 1.0)
+    energy = 0.5 * rig.stiffness @ q**2 - rig.preload @ q + stored.sum()
     return slope, curvature, float(energy)

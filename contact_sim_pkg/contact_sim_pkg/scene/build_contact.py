@@ -12,7 +12,9 @@ from numpy.typing import NDArray
 from contact_sim_pkg.core.effects.contact_field import FieldError, PressureField, fit_tangent
 from contact_sim_pkg.core.effects.general_dissipative import SMOOTHING
 from contact_sim_pkg.core.parameters import (
+    ElasticLaw,
     FieldSettings,
+    FoamElastic,
     GeneralDissipative,
     NormalDissipative,
     NormalElastic,
@@ -39,7 +41,15 @@ class FieldGrids:
         return (self.usual, self.wide)
 
 
-def loss_of(scene: dict[str, Any], contact: str, elastic: NormalElastic, mass: float) -> NormalLoss | None:
+def elastic_of(effects: dict[str, Any]) -> ElasticLaw:
+    """Elastic law of a contact without pressure field: its foam where the scene names one, its power law otherwise."""
+    foam, power = effects.get("foam"), effects["normal_elastic"]
+    if foam is not None:
+        return FoamElastic(*(float(foam[key]) for key in FoamElastic._fields))
+    return NormalElastic(float(power["coefficient"]), float(power["exponent"]))
+
+
+def loss_of(scene: dict[str, Any], contact: str, elastic: ElasticLaw, mass: float) -> NormalLoss | None:
     """Loss of a contact, from its damping or its restitution; None where the scene calls for none.
 
     ``mass`` [kg] is what a free impact with the asked restitution moves. Raises SceneError where the law does not reach it.
@@ -56,13 +66,14 @@ def loss_of(scene: dict[str, Any], contact: str, elastic: NormalElastic, mass: f
     return NormalDissipative(DEFAULT_DAMPING[contact] if damping is None else float(damping))
 
 
-def _general_loss(loss: dict[str, Any], contact: str, elastic: NormalElastic, mass: float) -> GeneralDissipative:
+def _general_loss(loss: dict[str, Any], contact: str, elastic: ElasticLaw, mass: float) -> GeneralDissipative:
     p, q = float(loss["approach_exponent"]), float(loss["rate_exponent"])
     lowest = NEVER_PULLS if loss["end"] == "force" else PULLS
     smoothing = SMOOTHING * float(loss["reference_speed"]) if q < 1.0 else 0.0
     if loss.get("restitution") is None:
         return GeneralDissipative(float(loss["coefficient"]), p, q, smoothing, lowest)
     asked, speed = float(loss["restitution"]), float(loss["reference_speed"])
+    assert isinstance(elastic, NormalElastic)
     try:
         coefficient = coefficient_of_restitution(asked, speed, mass, elastic, p, q, lowest)
     except ValueError as reason:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from typing import Any, NamedTuple
 
-from contact_sim_pkg.core.effects.normal_elastic import approach_of_force
+from contact_sim_pkg.core.effects.elastic_law import approach_of_force, elastic_stiffness
 from contact_sim_pkg.core.parameters import Contact
 from contact_sim_pkg.scene.timing import Timing, make_timing
 
@@ -35,7 +35,7 @@ def allowed_height(contact: Contact | None, load: float, tolerance: float) -> fl
     """Height in [m] that changes the force of a contact under ``load`` [N] by the part ``tolerance`` of it."""
     if contact is None:
         return math.inf
-    return tolerance * approach_of_force(contact.elastic, load) / contact.elastic.exponent
+    return tolerance * load / elastic_stiffness(contact.elastic, approach_of_force(contact.elastic, load))
 
 
 def longest_travel(footprint: float | None, tolerance: float) -> float:

@@ -89,6 +89,32 @@ class SeatLoss(Section):
     reference_speed: float | None = _reference_speed()
 
 
+class Foam(Section):
+    """Foam block under an even load, with plateau and densification; its force takes the place of that of normal_elastic."""
+
+    area: float = number(1e-3, 10.0, "m^2", "that carries; under a sitter 0.10 to 0.15", default=0.12)
+    thickness: float = number(0.005, 2.0, "m", "of the unloaded block", default=0.08)
+    modulus: float = number(
+        100.0, 1e9, "Pa", "Young's modulus at first touch, above plateau; 20 to 100 kPa", default=4.0e4
+    )
+    plateau: float = number(
+        10.0, 1e8, "Pa", "stress of the plateau; with the other defaults 5.9 kPa at 40 % strain", default=3.0e3
+    )
+    densification: float = number(0.0, 1e8, "Pa", "stress scale of the densification (choice)", default=150.0)
+    densification_exponent: float = number(
+        0.1, 20.0, "", "r: stress grows as stretch^(-r-1); 3 bends up near 65 % strain (choice)", default=3.0
+    )
+
+
+class FoamHysteresis(Section):
+    """Loss without rate: the force is the elastic one times 1 + share · z, z between -1 and 1 follows the loading."""
+
+    share: float = number(0.0, 0.9, "", "s; of a long loading 2 s/(1 + s) is lost: 21 % with the default", default=0.12)
+    energy: float = number(
+        1e-6, 1e6, "J", "stored energy over which a reversal is passed (choice)", above=True, default=1.0
+    )
+
+
 class GeneralLoss(Section):
     """General law: elastic force + coefficient · approach^approach_exponent · sgn(rate) |rate|^rate_exponent; in place of
     normal_dissipative. Exponents 0 and 1 are a plain damper, the elastic exponent and 1 Hunt-Crossley, 0.5 and 1 Kuwabara-Kono."""
@@ -233,6 +259,8 @@ class SeatEffects(Section):
 
     normal_elastic: PowerElastic | None = choice("elastic force", default=None)
     normal_dissipative: SeatLoss | None = choice("loss", default=None)
+    foam: Foam | None = choice("foam with plateau and densification", default=None)
+    foam_hysteresis: FoamHysteresis | None = choice("loss of foam without rate", default=None)
     general_dissipative: GeneralLoss | None = choice("loss after the general law", default=None)
     friction: Friction | None = choice("friction with true stick", default=None)
     contact_field: SeatField | None = choice("pressure field", default=None)
@@ -304,6 +332,7 @@ class BackrestEffects(Section):
 
     normal_elastic: BackElastic | None = choice("elastic force", default=None)
     normal_dissipative: BackLoss | None = choice("loss", default=None)
+    foam: Foam | None = choice("foam with plateau and densification", default=None)
     general_dissipative: GeneralLoss | None = choice("loss after the general law", default=None)
     friction: BackFriction | None = choice("friction with true stick", default=None)
     shell_modes: ShellModes | None = choice("back as a shell with many contact points", default=None)

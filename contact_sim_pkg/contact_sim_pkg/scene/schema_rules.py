@@ -150,6 +150,7 @@ def _contacts(scene: Scene) -> Iterator[Breach]:
         if loss is not None:
             yield from _loss(f"{where}.normal_dissipative", loss.damping, loss.restitution, loss.reference_speed)
         yield from _general(where, effects)
+        yield from _foam(where, effects)
         friction = getattr(effects, "friction", None)
         if friction is not None and friction.coefficient_kinetic > friction.coefficient_static:
             kinetic, static = show(friction.coefficient_kinetic), show(friction.coefficient_static)
@@ -187,3 +188,16 @@ def _general(where: str, effects: object) -> Iterator[Breach]:
     if general.end == "gap" and getattr(effects, "friction", None) is not None:
         sentence = "a contact that pulls has no Coulomb limit; take end: force or remove friction"
         yield Breach(f"{place}.end", sentence, (f"{where}.friction",))
+
+
+def _foam(where: str, effects: object) -> Iterator[Breach]:
+    """Foam begins stiffer than its plateau; the general law's restitution is known for power laws only."""
+    foam, general = (getattr(effects, name, None) for name in ("foam", "general_dissipative"))
+    if foam is None:
+        return
+    if not foam.modulus > foam.plateau:
+        sentence = f"{show(foam.modulus)} Pa is not above plateau ({show(foam.plateau)} Pa)"
+        yield Breach(f"{where}.foam.modulus", sentence, (f"{where}.foam.plateau",))
+    if general is not None and general.restitution is not None:
+        sentence = "holds for a power law, not for foam; give a coefficient, or take normal_dissipative"
+        yield Breach(f"{where}.general_dissipative.restitution", sentence, (f"{where}.foam",))

@@ -30,6 +30,8 @@ PAIRS = 3
 FEEDS: dict[str, tuple[str, ...]] = {
     "normal_elastic": ("force", "wrench"),
     "normal_dissipative": ("force", "wrench", "patch"),
+    "foam": ("force", "wrench"),
+    "foam_hysteresis": ("force", "wrench"),
     "general_dissipative": ("force", "wrench", "patch"),
     "friction": ("force", "wrench"),
     "contact_field": ("patch", "force", "wrench"),

@@ -8,7 +8,7 @@ from typing import Any, NamedTuple
 import numpy
 
 from contact_sim_pkg.core.effects.footprint import effective_heights
-from contact_sim_pkg.core.parameters import Contact, GeneralDissipative, Vector, Vehicle
+from contact_sim_pkg.core.parameters import Contact, GeneralDissipative, NormalElastic, Vector, Vehicle
 from contact_sim_pkg.core.results import DONE, SENTENCES
 from contact_sim_pkg.core.rigs import advance as entries
 from contact_sim_pkg.core.rigs.vehicle import MARGINS
@@ -120,7 +120,8 @@ def twin_laws(rig: Vehicle) -> tuple[Law | None, Law | None]:
 
 
 def _law(contact: Contact | None) -> Law:
-    assert contact is not None
+    if contact is None or not isinstance(contact.elastic, NormalElastic) or contact.hysteresis is not None:
+        raise ValueError("the slow twin knows power laws without memory only; leave out foam and foam_hysteresis")
     coefficient, exponent, loss = contact.elastic.coefficient, contact.elastic.exponent, contact.dissipative
     if isinstance(loss, GeneralDissipative):
         powers = loss.coefficient, loss.approach_exponent, loss.rate_exponent

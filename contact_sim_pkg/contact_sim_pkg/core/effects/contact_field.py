@@ -17,9 +17,9 @@ from numpy.typing import NDArray
 from ..field_rolling import RollingField
 from ..field_solver import BAD_INPUT, CONVERGED, EDGE, SENTENCES, FieldResult, refuse_bad_gap
 from ..halfspace import HalfSpace, make_half_space
-from ..parameters import FieldSettings, NormalElastic
+from ..parameters import ElasticLaw, FieldSettings, NormalElastic
+from .elastic_law import approach_of_force
 from .envelopment import belt_influence
-from .normal_elastic import approach_of_force
 
 Field = NDArray[numpy.float64]
 TANGENT_LOAD_STEP = 1.05  # ratio of the two loads through which the tangent law is laid
@@ -116,7 +116,7 @@ def fit_tangent(field: PressureField, gap: Field, load: float) -> NormalElastic:
     return NormalElastic(load / first**exponent, exponent)
 
 
-def offset_of(elastic: NormalElastic, field: PressureField, gap: Field, approach: float, geometric: float) -> float:
+def offset_of(elastic: ElasticLaw, field: PressureField, gap: Field, approach: float, geometric: float) -> float:
     """Height in [m] to add to the ``geometric`` approach [m] so that the tangent law gives the field's force.
 
     ``approach`` [m] is what the field was solved at. Without contact the law's approach is minus the smallest distance.

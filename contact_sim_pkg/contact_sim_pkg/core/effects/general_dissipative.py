@@ -14,8 +14,8 @@ the reference speed: the force is wrong by less than 1e-6 of itself wherever |x'
 from __future__ import annotations
 
 from ..jit import kernel
-from ..parameters import GeneralDissipative, NormalElastic
-from .normal_elastic import elastic_force, elastic_order, elastic_stiffness
+from ..parameters import ElasticLaw, GeneralDissipative
+from .elastic_law import elastic_force, elastic_order, elastic_stiffness
 
 SMOOTHING = 1.0e-6  # smoothing speed over reference speed where q < 1 (SEEDS section 10)
 SMALLEST_APPROACH = 1.0e-60  # [m], below it the tension margin stands for its limit at first touch
@@ -43,7 +43,7 @@ def rate_power_slope(general: GeneralDissipative, approach_rate: float) -> float
 
 @kernel
 def general_force(
-    elastic: NormalElastic, general: GeneralDissipative, approach: float, approach_rate: float, memory_factor: float
+    elastic: ElasticLaw, general: GeneralDissipative, approach: float, approach_rate: float, memory_factor: float
 ) -> float:
     """Contact force in [N] at ``approach`` [m] and ``approach_rate`` [m/s]; the elastic part is multiplied by ``memory_factor``."""
     if approach <= 0.0:
@@ -54,7 +54,7 @@ def general_force(
 
 @kernel
 def general_tension_margin(
-    elastic: NormalElastic, general: GeneralDissipative, approach: float, approach_rate: float, memory_factor: float
+    elastic: ElasticLaw, general: GeneralDissipative, approach: float, approach_rate: float, memory_factor: float
 ) -> float:
     """Contact force over ``x**min(n, p)``, before it is limited: its sign change is the event "the force reaches zero".
 
@@ -70,7 +70,7 @@ def general_tension_margin(
 
 @kernel
 def general_force_rate(
-    elastic: NormalElastic,
+    elastic: ElasticLaw,
     general: GeneralDissipative,
     approach: float,
     approach_rate: float,

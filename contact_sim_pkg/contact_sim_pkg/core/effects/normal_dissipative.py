@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from ..jit import kernel
 from ..parameters import NormalDissipative
-from .normal_elastic import elastic_force, elastic_stiffness
+from .elastic_law import elastic_force, elastic_stiffness
 
 
 @kernel

@@ -11,10 +11,10 @@ from collections.abc import Callable
 from typing import Any
 
 from ..jit import kernel, kernel_overload
-from ..parameters import GeneralDissipative, NormalElastic, NormalLoss
+from ..parameters import ElasticLaw, GeneralDissipative, NormalLoss
+from .elastic_law import elastic_force
 from .general_dissipative import general_force, general_force_rate, general_tension_margin
 from .normal_dissipative import hunt_crossley_force, hunt_crossley_force_rate, hunt_crossley_tension_margin
-from .normal_elastic import elastic_force
 
 
 @kernel
@@ -30,7 +30,7 @@ _OF_LOSS: dict[Any, Kernels] = {
 
 
 def normal_force(
-    elastic: NormalElastic,
+    elastic: ElasticLaw,
     dissipative: NormalLoss | None,
     approach: float,
     approach_rate: float,
@@ -45,7 +45,7 @@ def normal_force(
 
 
 def tension_margin(
-    elastic: NormalElastic,
+    elastic: ElasticLaw,
     dissipative: NormalLoss | None,
     approach: float,
     approach_rate: float,
@@ -57,7 +57,7 @@ def tension_margin(
 
 
 def normal_force_rate(
-    elastic: NormalElastic,
+    elastic: ElasticLaw,
     dissipative: NormalLoss | None,
     approach: float,
     approach_rate: float,
@@ -70,7 +70,7 @@ def normal_force_rate(
 
 
 def pressure_factor(
-    elastic: NormalElastic, dissipative: NormalLoss | None, approach: float, approach_rate: float, memory_factor: float
+    elastic: ElasticLaw, dissipative: NormalLoss | None, approach: float, approach_rate: float, memory_factor: float
 ) -> float:
     """Ratio of the contact force to the elastic one: with it the elastic pressures add up to the force. 1 without contact."""
     if approach <= 0.0:

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
+from ..effects.elastic_law import elastic_energy
+from ..effects.foam_hysteresis import memory_energy
 from ..effects.friction import SLIP_BACKWARD, SLIP_FORWARD, following_deflection, friction_force
-from ..effects.normal_elastic import elastic_energy
 from ..jit import entry, kernel
 from ..parameters import Drive, Modes, Vector, Vehicle
 from ..results import DONE
@@ -49,8 +50,8 @@ def _observe(rig, drive, mode, state, out):
     height, height_rate, cushion, cushion_rate, _a_x, _a_z = quarter_car.drive_at(drive, drive.start)
     tire_x, tire_v = quarter_car.tire_approach(rig.tire, rig.carcass, height, height_rate, state)
     seat_x, seat_v = vehicle.seat_approach(rig.tire, rig.seat, cushion, cushion_rate, state)
-    seat_normal = vehicle.normal_force(rig.seat_contact, seat_x, seat_v)
-    out[TIRE_NORMAL] = vehicle.normal_force(rig.tire_contact, tire_x, tire_v)
+    seat_normal = vehicle.normal_force(rig.seat_contact, seat_x, seat_v, state)
+    out[TIRE_NORMAL] = vehicle.normal_force(rig.tire_contact, tire_x, tire_v, state)
     out[TIRE_APPROACH] = tire_x
     out[TIRE_HEIGHT] = height
     out[TIRE_RATE] = tire_v
@@ -152,6 +153,13 @@ def _contact_energy(contact, approach):
     return elastic_energy(contact.elastic, approach)
 
 
+@kernel
+def _memory_energy(contact, state):
+    if contact is None:
+        return 0.0
+    return memory_energy(contact.hysteresis, state)
+
+
 @entry
 def energies(
     rig: Vehicle, mode: Modes, state: Vector, height: float, cushion: float
@@ -165,10 +173,11 @@ def energies(
     seat_kinetic, seat_potential, seat_stored = _seat_energies(rig.seat, rig.gravity, state)
     tire_x, _tire_v = quarter_car.tire_approach(rig.tire, rig.carcass, height, 0.0, state)
     seat_x, _seat_v = vehicle.seat_approach(rig.tire, rig.seat, cushion, 0.0, state)
-    normal = vehicle.normal_force(rig.seat_contact, seat_x, _seat_v)
+    normal = vehicle.normal_force(rig.seat_contact, seat_x, _seat_v, state)
     slide_kinetic, spring = _slide_energies(vehicle._friction_of(rig.seat_contact), rig.seat, mode, normal, state)
-    stored += seat_stored + spring
+    remembered = _memory_energy(rig.seat_contact, state)
+    stored += seat_stored + spring + remembered
     stored += _contact_energy(rig.tire_contact, tire_x) + _contact_energy(rig.seat_contact, seat_x)
     last = state.shape[0]
-    dissipated = state[last - 1] - spring
+    dissipated = state[last - 1] - spring - remembered
     return kinetic + seat_kinetic + slide_kinetic, potential + seat_potential, stored, state[last - 2], dissipated

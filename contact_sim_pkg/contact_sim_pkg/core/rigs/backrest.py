@@ -21,9 +21,9 @@ from __future__ import annotations
 
 import math
 
+from ..effects.elastic_law import elastic_force
 from ..effects.friction import APART as UNLOADED
 from ..effects.friction import STICK, following_deflection, friction_force, slip_margin, stick_margin
-from ..effects.normal_elastic import elastic_force
 from ..effects.normal_force import normal_force, normal_force_rate, tension_margin
 from ..jit import kernel
 from .backrest_episodes import begin_episode, end_episode, note_loss, note_turn

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import numpy
 
+from ..effects.elastic_law import elastic_energy
 from ..effects.friction import APART as UNLOADED
 from ..effects.friction import STICK, following_deflection, stick_margin
-from ..effects.normal_elastic import elastic_energy
 from ..jit import entry, kernel
 from ..parameters import Vector
 from ..results import DONE

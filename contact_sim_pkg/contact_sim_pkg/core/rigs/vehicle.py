@@ -13,14 +13,16 @@ Vertical motion (z up), and the occupant's sliding on the cushion (x forward) wh
 Approaches: tire ``h(t) - z_w`` (belt: ``h(t) - z_r``), h the effective road height; seat ``z_floor + h_c(t) - z_0``, h_c that
 of the cushion.
 Without a tire the floor is the (accelerated) frame of reference: z_floor = 0 and every mass feels ``-m a_z(t)``.
-State: [z_w, z_b, v_w, v_b] [z_r, v_r] [z_0 .. z_n, v_0 .. v_n] [x, v_x, s] [supplied, dissipated]; the last two are the works
-in [J] that the energy ledger needs. Work that friction takes up is counted whole; its spring's energy is taken off in
-``core/energy.py``.
+State: [z_w, z_b, v_w, v_b] [z_r, v_r] [z_0 .. z_n, v_0 .. v_n] [x, v_x, s] [z] [supplied, dissipated]; z is what a cushion of foam
+remembers (``effects/foam_hysteresis.py``), the last two are the works in [J] that the energy ledger needs. Works of friction and
+foam are counted whole; what their springs hold is taken off in ``advance.energies``.
 """
 
 from __future__ import annotations
 
 from ..effects import normal_force as law
+from ..effects.elastic_law import elastic_force
+from ..effects.foam_hysteresis import factor_rate, memory_factor, memory_rate, turning_margin
 from ..effects.friction import (
     APART,
     STICK,
@@ -29,7 +31,6 @@ from ..effects.friction import (
     slip_margin,
     stick_margin,
 )
-from ..effects.normal_elastic import elastic_force
 from ..jit import kernel
 from ..parameters import Vehicle
 from .interface import register
@@ -43,7 +44,7 @@ from .quarter_car import (
     tread_velocity,
 )
 
-TIRE_APPROACH, TIRE_TENSION, SEAT_APPROACH, SEAT_TENSION, SEAT_FRICTION, MARGINS = 0, 1, 2, 3, 4, 5
+TIRE_APPROACH, TIRE_TENSION, SEAT_APPROACH, SEAT_TENSION, SEAT_FRICTION, SEAT_TURNING, MARGINS = 0, 1, 2, 3, 4, 5, 6
 
 
 @kernel
@@ -65,19 +66,22 @@ def seat_approach(tire, seat, cushion, cushion_rate, state):
 
 
 @kernel
-def normal_force(contact, approach, approach_rate):
+def normal_force(contact, approach, approach_rate, state):
     """Normal force of a contact in [N]; 0 where the contact is absent."""
     if contact is None:
         return 0.0
-    return law.normal_force(contact.elastic, contact.dissipative, approach, approach_rate, 1.0)
+    factor = memory_factor(contact.hysteresis, state)
+    return law.normal_force(contact.elastic, contact.dissipative, approach, approach_rate, factor)
 
 
 @kernel
-def _lost_power(contact, approach, approach_rate, force):
-    """Power in [W] that the loss of a contact takes: (F - F_elastic) x'."""
+def _lost_power(contact, approach, approach_rate, force, state, out):
+    """Power in [W] that the loss of a contact takes: (F - F_elastic) x'. Writes the rate of what the contact remembers."""
     if contact is None:
         return 0.0
-    return (force - elastic_force(contact.elastic, approach)) * approach_rate
+    carried = elastic_force(contact.elastic, approach)
+    memory_rate(contact.hysteresis, carried * approach_rate, state, out)
+    return (force - carried) * approach_rate
 
 
 @kernel
@@ -151,18 +155,18 @@ def _friction_of(contact):
 def _rate(rig, drive, mode, time, state, out):
     height, height_rate, cushion, cushion_rate, a_x, a_z = drive_at(drive, time)
     tire_x, tire_v = tire_approach(rig.tire, rig.carcass, height, height_rate, state)
-    tire_force = normal_force(rig.tire_contact, tire_x, tire_v)
+    tire_force = normal_force(rig.tire_contact, tire_x, tire_v, state)
     push = push_at(drive, time) if tire_x > 0.0 else 0.0
     on_wheel, lost_in_sidewalls = carcass_rates(rig.carcass, rig.gravity, tire_force + push, state, out)
     seat_x, seat_v = seat_approach(rig.tire, rig.seat, cushion, cushion_rate, state)
-    seat_force = normal_force(rig.seat_contact, seat_x, seat_v)
+    seat_force = normal_force(rig.seat_contact, seat_x, seat_v, state)
     lost = lost_in_sidewalls
     lost += tire_rates(rig.tire, rig.gravity, on_wheel, seat_force, a_z, state, out)
     lost_in_links, brought = _seat_rates(rig.tire, rig.seat, rig.gravity, seat_force, a_z, state, out)
     rubbed, brought_x = _slide_rates(_friction_of(rig.seat_contact), rig.seat, mode, seat_force, a_x, state, out)
     lost += lost_in_links + rubbed
-    lost += _lost_power(rig.tire_contact, tire_x, tire_v, tire_force)
-    lost += _lost_power(rig.seat_contact, seat_x, seat_v, seat_force)
+    lost += _lost_power(rig.tire_contact, tire_x, tire_v, tire_force, state, out)
+    lost += _lost_power(rig.seat_contact, seat_x, seat_v, seat_force, state, out)
     last = state.shape[0]
     out[last - 2] = brought + brought_x + tire_force * height_rate + seat_force * cushion_rate
     out[last - 2] += body_power(rig.tire, a_z, state) + push * tread_velocity(rig.tire, rig.carcass, state)
@@ -170,18 +174,28 @@ def _rate(rig, drive, mode, time, state, out):
 
 
 @kernel
-def _tension_of(contact, approach, approach_rate):
+def _tension_of(contact, approach, approach_rate, state):
     if contact is None:
         return 1.0
-    return law.tension_margin(contact.elastic, contact.dissipative, approach, approach_rate, 1.0)
+    factor = memory_factor(contact.hysteresis, state)
+    return law.tension_margin(contact.elastic, contact.dissipative, approach, approach_rate, factor)
 
 
 @kernel
-def _normal_rate(contact, approach, approach_rate, approach_acceleration):
+def _turning_of(contact, approach, approach_rate):
+    if contact is None:
+        return 1.0
+    return turning_margin(contact.hysteresis, approach, approach_rate)
+
+
+@kernel
+def _normal_rate(contact, approach, approach_rate, approach_acceleration, state, derivative):
     """Rate of the normal force in [N/s]; 0 where the bodies part faster than the material recovers."""
-    return law.normal_force_rate(
-        contact.elastic, contact.dissipative, approach, approach_rate, approach_acceleration, 1.0
+    factor = memory_factor(contact.hysteresis, state)
+    force_rate = law.normal_force_rate(
+        contact.elastic, contact.dissipative, approach, approach_rate, approach_acceleration, factor
     )
+    return force_rate + factor_rate(contact.hysteresis, derivative) * elastic_force(contact.elastic, approach)
 
 
 @kernel
@@ -191,14 +205,16 @@ def _friction_margin(friction, contact, tire, seat, mode, approach, approach_rat
     if mode[0] == APART:
         return 1.0
     x = _slide_index(seat)
-    normal = normal_force(contact, approach, approach_rate)
+    normal = normal_force(contact, approach, approach_rate, state)
     if mode[0] == STICK:
         return stick_margin(friction, normal, state[x + 2], state[x + 1])
     floor_acceleration = 0.0
     if tire is not None:
         floor_acceleration = derivative[3]
     frame_acceleration = derivative[seat.offset + 1 + seat.masses.shape[0]]
-    normal_rate = _normal_rate(contact, approach, approach_rate, floor_acceleration - frame_acceleration)
+    normal_rate = _normal_rate(
+        contact, approach, approach_rate, floor_acceleration - frame_acceleration, state, derivative
+    )
     return slip_margin(friction, mode[0], state[x + 1], derivative[x + 1], normal, normal_rate)
 
 
@@ -208,9 +224,10 @@ def _margins(rig, drive, mode, time, state, derivative, out):
     tire_x, tire_v = tire_approach(rig.tire, rig.carcass, height, height_rate, state)
     seat_x, seat_v = seat_approach(rig.tire, rig.seat, cushion, cushion_rate, state)
     out[TIRE_APPROACH] = tire_x
-    out[TIRE_TENSION] = _tension_of(rig.tire_contact, tire_x, tire_v)
+    out[TIRE_TENSION] = _tension_of(rig.tire_contact, tire_x, tire_v, state)
     out[SEAT_APPROACH] = seat_x
-    out[SEAT_TENSION] = _tension_of(rig.seat_contact, seat_x, seat_v)
+    out[SEAT_TENSION] = _tension_of(rig.seat_contact, seat_x, seat_v, state)
+    out[SEAT_TURNING] = _turning_of(rig.seat_contact, seat_x, seat_v)
     out[SEAT_FRICTION] = _friction_margin(
         _friction_of(rig.seat_contact), rig.seat_contact, rig.tire, rig.seat, mode, seat_x, seat_v, state, derivative
     )
@@ -228,14 +245,14 @@ def _switch_friction(friction, contact, seat, mode, approach, approach_rate, sta
     x = _slide_index(seat)
     velocity = state[x + 1]
     if event == SEAT_FRICTION:
-        normal = normal_force(contact, approach, approach_rate)
+        normal = normal_force(contact, approach, approach_rate, state)
         if mode[0] == STICK:
             mode[0] = 1 if friction.stiffness * state[x + 2] + friction.damping * velocity > 0.0 else -1
         else:
             state[x + 2] = following_deflection(friction, mode[0], normal, velocity)
             mode[0] = STICK
     elif event in (SEAT_APPROACH, SEAT_TENSION):
-        other = _tension_of(contact, approach, approach_rate) if event == SEAT_APPROACH else approach
+        other = _tension_of(contact, approach, approach_rate, state) if event == SEAT_APPROACH else approach
         state[x + 2] = 0.0
         if side > 0.0 and other > 0.0:
             mode[0] = STICK if velocity == 0.0 else (1 if velocity > 0.0 else -1)
