@@ -16,8 +16,10 @@ from contact_sim_pkg.core.effects.elastic_law import (
     elastic_stiffness,
 )
 from contact_sim_pkg.core.effects.foam_hysteresis import factor_rate, memory_energy, memory_factor, memory_rate
-from contact_sim_pkg.core.parameters import FoamElastic, FoamHysteresis, NormalElastic
+from contact_sim_pkg.core.parameters import FoamElastic, FoamHysteresis, NormalDissipative, NormalElastic, PointContact
 from contact_sim_pkg.core.rigs.advance import energies
+from contact_sim_pkg.reference import impact
+from contact_sim_pkg.studies.one_mass import integrate
 from contact_sim_pkg.studies.scene_drive import drive_of, fast_run, load_resolved
 
 FOAM = FoamElastic(0.12, 0.08, 4.0e4, 3.0e3, 150.0, 3.0)
@@ -186,3 +188,13 @@ def test_the_energy_balance_of_foam_closes_and_what_is_lost_never_decreases():
     assert numpy.abs(residual).max() < 1e-6 * lost[-1]
     assert lost[-1] > 1.0
     assert numpy.diff(lost).min() > -1e-8 * lost[-1]
+
+
+@pytest.mark.parametrize("loss", [0.3, 1.43275, 9.0])
+def test_the_restitution_of_hunt_crossley_holds_on_foam_as_on_any_elastic_law(loss):
+    """v dv/(1 + c v) = -F dx/m: what F is drops out of d (1 + e) = ln[(1 + d)/(1 - d e)]."""
+    speed, mass = 0.5, 30.0
+    rig = PointContact(mass, 0.0, 0.0, 0.0, FOAM, NormalDissipative(loss / speed))
+    scale = numpy.array([0.05, speed]) * 1e-12
+    end = integrate(rig, numpy.array([1e-3, -speed]), scale, numpy.array([0.0, 20.0])).states[-1]
+    assert end[1] / speed == pytest.approx(impact.restitution(loss), abs=1e-10)
