@@ -53,8 +53,9 @@ def test_bounds_stay_on_their_side_and_each_rung_of_the_search_is_better(search_
     for case, bound in (("apart", 0.0), ("overlapping", 1.0)):
         chosen = {row["rung"]: row for row in search_rows if row["case"] == case}
         errors = [chosen[name]["error"] for name in chosen]
-        assert errors == sorted(errors, reverse=True)
-        assert errors[-1] < 1e-12
+        assert errors[:3] == sorted(errors[:3], reverse=True)
+        assert errors[2] > 1e-9 > errors[3]
+        assert errors[4] < 1e-12
         assert errors[1] > 1e-2
         for name in ("bounding spheres", "support points along the centres"):
             value, expected = chosen[name]["value"], chosen[name]["expected"]
