@@ -13,6 +13,7 @@ from typing import Any, NamedTuple
 
 from contact_sim_pkg.studies import (
     ladder_area,
+    ladder_closest,
     ladder_elliptic,
     ladder_exponent,
     ladder_force,
@@ -21,6 +22,7 @@ from contact_sim_pkg.studies import (
     ladder_restitution,
     ladder_road,
     ladder_rough,
+    ladder_shell,
     ladder_smooth,
 )
 from contact_sim_pkg.studies.ladder_row import COLUMNS, Row
@@ -52,6 +54,8 @@ RIGS: dict[str, tuple[Ladder, ...]] = {
         Ladder(ladder_periodic.PART, ladder_periodic.rows),
         Ladder(ladder_periodic.ANSATZ_PART, ladder_periodic.ansatz_rows),
         Ladder(ladder_modes.PART, ladder_modes.rows),
+        Ladder(ladder_shell.PART, ladder_shell.rows),
+        Ladder(ladder_closest.PART, ladder_closest.rows),
     ),
 }
 """Rig -> its ladders. A further rig is one more entry."""
