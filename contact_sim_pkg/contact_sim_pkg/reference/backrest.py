@@ -40,7 +40,9 @@ class Slaps(NamedTuple):
 def slapping_mass(body: SlappingMass, duration: float, tolerance: float = 1e-12) -> Slaps:
     """Motion over ``duration`` [s] from rest under the preload."""
     state = numpy.array([(body.preload / body.coefficient) ** (1.0 / body.exponent), 0.0])
-    time, touching, touches, losses = 0.0, True, [], []
+    time, touching = 0.0, True
+    touches: list[float] = []
+    losses: list[float] = []
     while time < duration:
         part = _phase(body, touching, (time, duration), state, tolerance)
         time, state = float(part.t[-1]), part.y[:, -1]
@@ -54,7 +56,7 @@ def _phase(body: SlappingMass, touching: bool, span: tuple[float, float], state:
     """Until contact is lost or made, or to the end of ``span``."""
 
     def carried(w: float, v: float) -> float:
-        return max(w, 0.0) ** body.exponent * (1.0 + body.damping * v)
+        return float(max(w, 0.0) ** body.exponent * (1.0 + body.damping * v))
 
     def rates(t: float, y: Vector) -> tuple[float, float]:
         drive = body.preload / body.mass + body.amplitude * math.sin(2.0 * math.pi * body.frequency * t)
@@ -62,7 +64,7 @@ def _phase(body: SlappingMass, touching: bool, span: tuple[float, float], state:
         return y[1], drive - force / body.mass
 
     def over(t: float, y: Vector) -> float:
-        return min(y[0], (1.0 + body.damping * y[1]) * 0.01) if touching else min(y[0], 1.0 + body.damping * y[1])
+        return float(min(y[0], 0.01 * (1.0 + body.damping * y[1])))
 
     over.terminal = True  # type: ignore[attr-defined]
     over.direction = -1.0 if touching else 1.0  # type: ignore[attr-defined]
