@@ -35,3 +35,8 @@ def test_a_name_that_is_no_rig_is_taken_for_a_scene():
 def test_each_row_of_the_tire_s_ladder_is_there():
     parts = [entry.part for entry in ladder.RIGS["tire"]]
     assert len(parts) == len(set(parts)) == 9
+
+
+def test_a_scene_of_a_rig_that_is_not_measured_is_refused_with_the_way_out():
+    with pytest.raises(SceneError, match="not for backrest; compare runs with --set integrator.relative_tolerance"):
+        CliRunner().invoke(command, ["seat_slap"], catch_exceptions=False)

@@ -16,6 +16,7 @@ import tempfile
 from collections.abc import Callable
 from typing import Any
 
+from contact_sim_pkg.scene.errors import Fault, SceneError
 from contact_sim_pkg.studies import accuracy_cost_coupling, accuracy_cost_field, accuracy_cost_integrator
 from contact_sim_pkg.studies.accuracy_cost_plot import write_plot
 from contact_sim_pkg.studies.accuracy_cost_table import sections
@@ -23,6 +24,7 @@ from contact_sim_pkg.studies.scene_drive import load_resolved
 
 __all__ = ["first_call_times", "sections", "study", "write_plot"]
 
+MEASURED_RIGS = ("tire", "seat", "car")
 COLUMNS = (
     "quantity", "part", "rung", "grid", "tolerance", "error", "reference", "ms_per_simulated_s", "first_call_s",
     "next_start_s",
@@ -33,6 +35,12 @@ def study(scene_name: str, progress: Callable[[str], None] | None = None) -> lis
     """All rows for a scene by name or path. Takes 30 to 90 s. Raises what a bad scene raises."""
     tell = progress or (lambda text: None)
     scene = load_resolved(scene_name)
+    if scene.data["rig"] not in MEASURED_RIGS:
+        sentence = (
+            f"the cost of accuracy is measured for the rigs {', '.join(MEASURED_RIGS)}, not for {scene.data['rig']}; compare "
+            "runs with --set integrator.relative_tolerance=… instead"
+        )
+        raise SceneError([Fault(scene_name, 0, 0, "rig", sentence)])
     tell("first call in a new process: everything is compiled, then again from the disk")
     first, again = first_call_times(scene_name)
     rows = accuracy_cost_integrator.tolerance_rows(scene, tell)
