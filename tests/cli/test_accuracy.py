@@ -38,5 +38,5 @@ def test_each_row_of_the_tire_s_ladder_is_there():
 
 
 def test_a_scene_of_a_rig_that_is_not_measured_is_refused_with_the_way_out():
-    with pytest.raises(SceneError, match="not for backrest; compare runs with --set integrator.relative_tolerance"):
+    with pytest.raises(SceneError, match=r"not for backrest; compare runs with --set integrator\.relative_tolerance"):
         CliRunner().invoke(command, ["seat_slap"], catch_exceptions=False)
