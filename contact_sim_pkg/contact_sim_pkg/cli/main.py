@@ -17,6 +17,7 @@ COMMANDS = {  # command -> its module
     "run": "run",
     "replay": "replay",
     "report": "report",
+    "identify": "identify",
     "accuracy": "accuracy",
     "effects": "effects",
     "hard": "hard",
@@ -76,10 +77,11 @@ def refusal(error: Exception) -> tuple[str, int] | None:
     """Sentence and exit status of an error that stands for bad input or a named fault; None for any other."""
     from contact_sim_pkg.bag.errors import BagError
     from contact_sim_pkg.excitation.errors import ExcitationError
+    from contact_sim_pkg.identification.errors import IdentificationError
     from contact_sim_pkg.run.errors import RunError
     from contact_sim_pkg.scene.errors import SceneError
 
-    if isinstance(error, (SceneError, BagError, ExcitationError)):
+    if isinstance(error, (SceneError, BagError, ExcitationError, IdentificationError)):
         return str(error), 2
     if isinstance(error, RunError):
         return str(error), 1

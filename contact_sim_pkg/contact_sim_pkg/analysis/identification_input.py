@@ -1,0 +1,44 @@
+"""Shapes that a person hands to an identification."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy
+
+from contact_sim_pkg.identification.errors import IdentificationError
+from contact_sim_pkg.identification.geometry import Shape, hull
+
+__all__ = ["hull_of_file"]
+
+LARGEST = 1_000_000  # bytes
+
+
+def hull_of_file(path: Path) -> Shape:
+    """The hull of the points in a CSV file of three columns x, y, z in [m], body axes from the centre of mass.
+
+    Raises:
+        IdentificationError: a line that is not three finite numbers, or no line at all.
+        OSError: the file cannot be read.
+    """
+    if path.stat().st_size > LARGEST:
+        raise IdentificationError(f"{path} has {path.stat().st_size} bytes; a file of corners has at most {LARGEST}")
+    points = []
+    for number, line in enumerate(path.read_text(encoding="utf-8", errors="replace").splitlines(), start=1):
+        words = line.split("#")[0].replace(",", " ").split()
+        if not words:
+            continue
+        try:
+            point = [float(word) for word in words]
+        except ValueError:
+            raise IdentificationError(
+                f"{path}, line {number}: {line.strip()!r} is not three numbers x, y, z in m"
+            ) from None
+        if len(point) != 3 or not numpy.isfinite(point).all():
+            raise IdentificationError(
+                f"{path}, line {number}: {line.strip()!r} is not three finite numbers x, y, z in m"
+            )
+        points.append(point)
+    if not points:
+        raise IdentificationError(f"{path} holds no point; give one corner a line: x, y, z in m")
+    return hull(numpy.array(points))

@@ -1,0 +1,83 @@
+"""Picture of an identification: the motion with its contacts, the impulses over mass, the inertia that each impact tells."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+import numpy
+
+from contact_sim_pkg.identification.geometry import gaps
+from contact_sim_pkg.identification.identify import Identification
+
+from .drawing import ACCENT, MUTED, new_figure, style
+
+__all__ = ["write_plot"]
+
+COLOURS = {"stick": ACCENT, "slide": "#b8551b", "slide, reversed": "#7a3b9e"}
+
+
+def write_plot(found: Identification, path: str | Path) -> Path:
+    """Draw; the ending of `path` names the format."""
+    with style():
+        figure, axes = new_figure(7.0, 3)
+        figure.set_facecolor("white")
+        _height(axes[0], found)
+        _impulses(axes[1], found)
+        _inertia(axes[2], found)
+        figure.savefig(path, dpi=130, facecolor="white")
+    return Path(path)
+
+
+def _height(axis: Any, found: Identification) -> None:
+    states, problem = found.problem.states, found.problem
+    lifts = gaps(problem.shape, problem.ground, states.position, states.rotation).min(axis=1)
+    axis.plot(states.time, 1e3 * lifts, color=MUTED)
+    for contact in found.contacts:
+        mode = "" if contact.mode is None else contact.mode.mode
+        axis.axvspan(contact.begin, contact.end, color=COLOURS.get(mode, MUTED), alpha=0.6, linewidth=1.0)
+    axis.set_title("Gap of the lowest point; contacts marked")
+    axis.set_xlabel("time [s]")
+    axis.set_ylabel("gap [mm]")
+
+
+def _impulses(axis: Any, found: Identification) -> None:
+    used = [contact for contact in found.contacts if contact.mode is not None]
+    for mode, colour in COLOURS.items():
+        chosen = [contact for contact in used if contact.mode is not None and contact.mode.mode == mode]
+        if not chosen:
+            continue
+        time = [contact.begin for contact in chosen]
+        for name, marker, deviation in (
+            ("normal", "o", "normal_deviation"),
+            ("tangential", "s", "tangential_deviation"),
+        ):
+            values = [getattr(contact.mode, name) for contact in chosen]
+            spread = [2.0 * (getattr(contact, deviation) or 0.0) for contact in chosen]
+            axis.errorbar(time, values, spread, fmt=marker, color=colour, markersize=4, label=f"{name}, {mode}")
+    axis.set_title("Impulses over mass (bars: two standard deviations)")
+    axis.set_xlabel("time [s]")
+    axis.set_ylabel("c/m [m/s]")
+    if used:
+        axis.legend(ncols=3)
+
+
+def _inertia(axis: Any, found: Identification) -> None:
+    """Each parameter over its size, with the directions that are not identified named below."""
+    scale = found.estimate.scale
+    for place, parameter in enumerate(found.parameters):
+        value = parameter.value / scale[place]
+        if parameter.identified:
+            axis.errorbar(
+                [place], [value], [2.0 * parameter.deviation / scale[place]], fmt="o", color=ACCENT, markersize=5
+            )
+            axis.annotate(
+                f"{parameter.value:.5g}", (place, value), textcoords="offset points", xytext=(7, 4), fontsize=8
+            )
+        else:
+            axis.annotate("not identified", (place, 0.0), ha="center", fontsize=8, color=MUTED)
+    axis.set_xticks(numpy.arange(len(found.parameters)), [parameter.name for parameter in found.parameters])
+    axis.set_xlim(-0.6, len(found.parameters) - 0.4)
+    axis.margins(y=0.25)
+    axis.set_title("Parameters over the size of a homogeneous box (bars: two standard deviations)")
+    axis.set_ylabel("value / size")

@@ -1,0 +1,259 @@
+"""States of a rigid body from a bag: ours (`bench/motion`), or anyone's with Odometry, or PoseStamped and TwistStamped.
+
+Foreign bags are read by rosbags: MCAP or SQLite of ROS 2, and ROS 1. The twist of an Odometry is in body axes, as its
+definition says; that of a TwistStamped is in the frame that its header names.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any, Literal, NamedTuple
+
+import numpy
+from numpy.typing import NDArray
+from rosbags.highlevel import AnyReader, AnyReaderError
+from rosbags.interfaces import Connection
+from rosbags.typesys import Stores, get_typestore
+
+from contact_sim_pkg.identification.rotation import exponential, from_quaternion
+from contact_sim_pkg.identification.states import BodyStates
+
+from .encoding import SECOND
+from .errors import BagError
+from .messages import decode_motion, stamp_of
+from .reader import Bag, open_bag
+
+__all__ = [
+    "ODOMETRY",
+    "POSE",
+    "TWIST",
+    "WRENCH",
+    "RecordedStates",
+    "WrenchSamples",
+    "bench_states",
+    "read_body_states",
+    "read_wrench",
+]
+
+Array = NDArray[numpy.float64]
+TwistAxes = Literal["auto", "world", "body"]
+
+ODOMETRY, POSE = "nav_msgs/msg/Odometry", "geometry_msgs/msg/PoseStamped"
+TWIST, WRENCH = "geometry_msgs/msg/TwistStamped", "geometry_msgs/msg/WrenchStamped"
+MOTION = "bench/motion"
+SAME = 1_000  # [ns] between the stamps of a pose and of its twist
+NORM = 0.01  # allowed difference of a quaternion's length from 1
+XYZ = "xyz"
+
+
+class RecordedStates(NamedTuple):
+    """States, their time counted from the first sample: a float holds seconds since 1970 to 1e-7 only."""
+
+    states: BodyStates
+    origin: int  # [ns], stamp of the first sample
+
+
+class WrenchSamples(NamedTuple):
+    """A known wrench over time, in the axes of the pose's frame."""
+
+    time: Array  # [n], [s]
+    force: Array  # [n, 3], [N]
+    torque: Array  # [n, 3], [N m]
+
+
+def read_body_states(
+    path: Path, topic: str | None = None, twist_topic: str | None = None, twist_axes: TwistAxes = "auto"
+) -> RecordedStates:
+    """States of the body in world axes.
+
+    Args:
+        path: directory or file of the bag.
+        topic: of Odometry or PoseStamped; the only one of its kind where it is None, or `bench/motion` of a bag of ours.
+        twist_topic: of TwistStamped; the only one where it is None.
+        twist_axes: of the twist; `auto`: as the message says.
+
+    Raises:
+        BagError: no bag, no such topic, several to choose from, or stamps that do not fit.
+    """
+    own = _own(path)
+    if own is not None and topic in (None, MOTION, f"/{MOTION}"):
+        return bench_states(own)
+    try:
+        with AnyReader([path], default_typestore=get_typestore(Stores.ROS2_JAZZY)) as reader:
+            return _foreign(reader, path, topic, twist_topic, twist_axes)
+    except (AnyReaderError, FileNotFoundError) as error:
+        raise BagError(f"the bag {path} cannot be read: {error}; give its directory or file") from None
+
+
+def read_wrench(path: Path, topic: str, origin: int) -> WrenchSamples:
+    """The wrench of a WrenchStamped topic, its time counted from `origin` [ns]; BagError where there is none."""
+    try:
+        with AnyReader([path], default_typestore=get_typestore(Stores.ROS2_JAZZY)) as reader:
+            row = _choose(reader, path, topic, (WRENCH,), "--force-topic")
+            rows = [(_stamp(message), message.wrench) for message in _messages(reader, row)]
+    except (AnyReaderError, FileNotFoundError) as error:
+        raise BagError(f"the bag {path} cannot be read: {error}; give its directory or file") from None
+    time = (numpy.array([stamp for stamp, _ in rows], dtype=numpy.int64) - origin) / SECOND
+    return WrenchSamples(time, _vectors([w.force for _, w in rows]), _vectors([w.torque for _, w in rows]))
+
+
+def bench_states(bag: Bag) -> RecordedStates:
+    """States from `bench/motion`: coordinates that end in x, z and pitch (plane), or x, y, z and rotation_x, _y, _z.
+
+    Pitch is the angle about y; rotation_x to _z are a rotation vector, body to world, whose velocity is the angular
+    velocity in world axes.
+    """
+    blocks = [(message.data, decode_motion(message.data)) for message in bag.messages(MOTION)]
+    if not blocks:
+        raise BagError(f"{bag.path} holds no message on {MOTION}")
+    names = blocks[0][1].bodies
+    rows = _coordinates(names, bag.path)
+    origin = stamp_of(blocks[0][0])
+    time = numpy.concatenate(
+        [
+            (stamp_of(data) - origin) / SECOND + block.sample_period * numpy.arange(block.position.shape[1])
+            for data, block in blocks
+        ]
+    )
+    position = numpy.concatenate([block.position for _, block in blocks], axis=1)
+    velocity = numpy.concatenate([block.velocity for _, block in blocks], axis=1)
+    place, turn = _spread(position, rows[:3]), _spread(position, rows[3:])
+    kept = numpy.concatenate(
+        [[True], numpy.diff(time) > 0.0]
+    )  # the last sample of a block may be the first of the next
+    states = BodyStates(time, place, exponential(turn), _spread(velocity, rows[:3]), _spread(velocity, rows[3:]))
+    return RecordedStates(BodyStates(*(field[kept] for field in states)), origin)
+
+
+def _coordinates(names: tuple[str, ...], path: Path) -> list[int | None]:
+    """Rows of x, y, z and of the rotation about x, y, z; None where the body does not move."""
+    tails = {
+        "x": ("_x",), "y": ("_y",), "z": ("_z",), "rx": ("_rotation_x", "_roll"), "ry": ("_rotation_y", "_pitch"),
+        "rz": ("_rotation_z", "_yaw"),
+    }  # fmt: skip
+    turning = tails["rx"] + tails["ry"] + tails["rz"]
+    found: list[int | None] = []
+    for key, ends in tails.items():
+        rows = [
+            row for row, name in enumerate(names)
+            if name.endswith(ends) and (len(key) == 2 or not name.endswith(turning))
+        ]  # fmt: skip
+        if len(rows) > 1:
+            raise BagError(
+                f"{MOTION} of {path} moves more than one body ({', '.join(names)}); identify needs a single one"
+            )
+        found.append(rows[0] if rows else None)
+    if found[0] is None or found[2] is None or found[4] is None:
+        raise BagError(
+            f"{MOTION} of {path} holds {', '.join(names)}, which is no rigid body: it needs x, z and a rotation"
+        )
+    return found
+
+
+def _spread(values: Array, rows: list[int | None]) -> Array:
+    """Rows of coordinates as vectors [n, 3]; zero where there is no row."""
+    columns = [numpy.zeros(values.shape[1]) if row is None else values[row] for row in rows]
+    return numpy.stack(columns, axis=1)
+
+
+def _own(path: Path) -> Bag | None:
+    """The bag, if it is one of ours."""
+    if not path.exists():
+        raise BagError(f"there is no bag {path}; give the directory or the file of a bag")
+    try:
+        bag = open_bag(path)
+    except BagError:
+        return None
+    return bag if MOTION in bag else None
+
+
+def _foreign(
+    reader: AnyReader, path: Path, topic: str | None, twist_topic: str | None, twist_axes: TwistAxes
+) -> RecordedStates:
+    row = _choose(reader, path, topic, (ODOMETRY, POSE), "--topic")
+    messages = list(_messages(reader, row))
+    if not messages:
+        raise BagError(f"{row.topic} of {path} holds no message")
+    time = [_stamp(message) for message in messages]
+    if row.msgtype == ODOMETRY:
+        poses, twists = [message.pose.pose for message in messages], [message.twist.twist for message in messages]
+        turning = twist_axes != "world"
+    else:
+        poses = [message.pose for message in messages]
+        other = list(_messages(reader, _choose(reader, path, twist_topic, (TWIST,), "--twist-topic")))
+        pairs = _paired(time, [_stamp(message) for message in other], row.topic)
+        time, poses = [time[first] for first, _ in pairs], [poses[first] for first, _ in pairs]
+        twists = [other[second].twist for _, second in pairs]
+        named = other[0].header.frame_id != messages[0].header.frame_id
+        turning = twist_axes == "body" or (twist_axes == "auto" and named)
+    return _states(time, poses, twists, turning, row.topic)
+
+
+def _states(time: list[int], poses: list[Any], twists: list[Any], turning: bool, topic: str) -> RecordedStates:
+    """Poses and twists as states; a twist in body axes is turned into world axes."""
+    order = numpy.argsort(numpy.array(time), kind="stable")
+    seconds = (numpy.array(time, dtype=numpy.int64)[order] - min(time)) / SECOND
+    quaternions = numpy.array([[getattr(pose.orientation, name) for name in "wxyz"] for pose in poses])[order]
+    lengths = numpy.linalg.norm(quaternions, axis=1)
+    if not (abs(lengths - 1.0) < NORM).all():
+        place = int(abs(lengths - 1.0).argmax())
+        raise BagError(
+            f"the orientation of sample {place} of {topic} has the length {lengths[place]:.4g}; allowed: 1 (within {NORM:g})"
+        )
+    rotation = from_quaternion(quaternions)
+    velocity = _vectors([twist.linear for twist in twists])[order]
+    spin = _vectors([twist.angular for twist in twists])[order]
+    if turning:
+        velocity, spin = (numpy.einsum("nij,nj->ni", rotation, vectors) for vectors in (velocity, spin))
+    position = _vectors([pose.position for pose in poses])[order]
+    return RecordedStates(BodyStates(seconds, position, rotation, velocity, spin), min(time))
+
+
+def _paired(first: list[int], second: list[int], topic: str) -> list[tuple[int, int]]:
+    """Places of poses and twists of the same stamp."""
+    order = numpy.argsort(numpy.array(second), kind="stable")
+    stamps = numpy.array(second)[order]
+    near = numpy.clip(numpy.searchsorted(stamps, numpy.array(first) - SAME), 0, len(stamps) - 1)
+    pairs = [
+        (place, int(order[other])) for place, other in enumerate(near) if abs(stamps[other] - first[place]) <= SAME
+    ]
+    if len(pairs) < 0.5 * len(first):
+        raise BagError(
+            f"of {len(first)} poses on {topic} only {len(pairs)} have a twist of the same stamp (within 1 us); record both "
+            "with one stamp, or use Odometry"
+        )
+    return pairs
+
+
+def _choose(reader: AnyReader, path: Path, topic: str | None, types: tuple[str, ...], option: str) -> Connection:
+    """The connection of a topic, or the only one of the types; BagError with what the bag has."""
+    rows = {row.topic: row for row in reader.connections}
+    kinds = " or ".join(name.split("/")[-1] for name in types)
+    fitting = [name for name, row in rows.items() if row.msgtype in types]
+    if topic is not None:
+        name = topic if topic in rows else f"/{topic}"
+        if name not in rows:
+            raise BagError(f"{path} has no topic {topic}; of {kinds} it has {', '.join(fitting) or 'none'}")
+        if rows[name].msgtype not in types:
+            raise BagError(f"{name} of {path} is of {rows[name].msgtype}; {option} needs {kinds}")
+        return rows[name]
+    preferred = [name for name in fitting if rows[name].msgtype == types[0]] or fitting
+    if len(preferred) != 1:
+        what = f"several topics of {kinds} ({', '.join(preferred)}); choose one with {option}"
+        none = f"no topic of {kinds}, from which the motion of a body could be read"
+        raise BagError(f"{path} has {what if preferred else none}")
+    return rows[preferred[0]]
+
+
+def _messages(reader: AnyReader, row: Connection) -> Iterator[Any]:
+    for connection, _, data in reader.messages(connections=[row]):
+        yield reader.deserialize(data, connection.msgtype)
+
+
+def _stamp(message: Any) -> int:
+    return int(message.header.stamp.sec) * SECOND + int(message.header.stamp.nanosec)
+
+
+def _vectors(values: list[Any]) -> Array:
+    return numpy.array([[getattr(value, name) for name in XYZ] for value in values], dtype=numpy.float64).reshape(-1, 3)

@@ -1,0 +1,145 @@
+"""`bench identify`: inertia, impulses and what cannot be known, from the motion in a bag."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import click
+
+from .tables import json_option, print_json, show_sections
+
+if TYPE_CHECKING:
+    from contact_sim_pkg.bag.body_states import TwistAxes
+    from contact_sim_pkg.identification.geometry import Shape
+    from contact_sim_pkg.identification.identify import Identification
+    from contact_sim_pkg.identification.wrench import ExternalWrench
+    from contact_sim_pkg.studies.section import Section
+
+VECTOR = (float, float, float)
+FILE = click.Path(path_type=Path)
+
+
+@click.command("identify")
+@click.argument("bag", type=FILE)
+@click.option("--topic", metavar="NAME", help="Odometry or PoseStamped; found by type otherwise.")
+@click.option("--twist-topic", metavar="NAME", help="TwistStamped that goes with a PoseStamped.")
+@click.option(
+    "--twist-axes",
+    type=click.Choice(["auto", "world", "body"]),
+    default="auto",
+    help="Axes of the twist; auto: body for Odometry, the frame of the header for TwistStamped.",
+)
+@click.option("--box", type=VECTOR, metavar="X Y Z", help="The body is a box of these lengths [m].")
+@click.option("--sphere", type=float, metavar="R", help="The body is a sphere of this radius [m].")
+@click.option(
+    "--hull", type=FILE, metavar="FILE", help="The body is the hull of the points in a CSV file: x, y, z [m]."
+)
+@click.option("--ground", type=float, default=0.0, metavar="HEIGHT", help="Height of the ground along its normal [m].")
+@click.option("--normal", type=VECTOR, default=(0.0, 0.0, 1.0), metavar="X Y Z", help="Normal of the ground.")
+@click.option("--gravity", type=float, default=9.81, metavar="G", help="[m/s^2], downward; 9.81 otherwise.")
+@click.option(
+    "--force", type=VECTOR, metavar="X Y Z", help="Known constant force at the centre of mass [N], world axes."
+)
+@click.option("--torque", type=VECTOR, metavar="X Y Z", help="Known constant torque [N m], world axes.")
+@click.option("--force-topic", metavar="NAME", help="WrenchStamped: the known wrench over time, world axes.")
+@click.option(
+    "--noise",
+    type=(float, float, float, float),
+    metavar="X R V W",
+    help="Standard deviations of position [m], rotation [rad], velocity [m/s], angular velocity [rad/s]; "
+    "taken from the flights otherwise.",
+)
+@click.option("--plot", type=FILE, metavar="FILE", help="Motion, impulses and parameters as a picture.")
+@json_option
+def command(
+    bag: Path, topic: str | None, twist_topic: str | None, twist_axes: TwistAxes, box: tuple[float, float, float] | None,
+    sphere: float | None, hull: Path | None, ground: float, normal: tuple[float, float, float], gravity: float,
+    force: tuple[float, float, float] | None, torque: tuple[float, float, float] | None, force_topic: str | None,
+    noise: tuple[float, float, float, float] | None, plot: Path | None, as_json: bool,
+) -> None:  # fmt: skip
+    """Inertia and impulses of the rigid body whose motion BAG holds.
+
+    BAG: of the bench (bench/motion), or any with Odometry, or PoseStamped and TwistStamped, of the centre of mass. Contacts
+    and their modes are found. What the motion cannot tell, such as the mass without a known force, is named.
+    """
+    from contact_sim_pkg.analysis import identification_rows
+    from contact_sim_pkg.bag.body_states import read_body_states
+    from contact_sim_pkg.identification.geometry import plane
+    from contact_sim_pkg.identification.identify import Setup, identify
+    from contact_sim_pkg.identification.states import Noise
+
+    shape = _shape(box, sphere, hull)
+    recorded = read_body_states(bag, topic, twist_topic, twist_axes)
+    wrench = _wrench(bag, recorded.origin, force, torque, force_topic)
+    setup = Setup(shape, plane(normal, ground), wrench, gravity, None if noise is None else Noise(*noise))
+    found = identify(recorded.states, setup)
+    if plot is not None:
+        from contact_sim_pkg.analysis.identification_plot import write_plot
+
+        write_plot(found, plot)
+    if as_json:
+        print_json({"bag": str(bag), "first_stamp_ns": recorded.origin, **identification_rows.facts(found)})
+    else:
+        show_sections(_sections(found))
+
+
+def _shape(box: tuple[float, float, float] | None, sphere: float | None, hull: Path | None) -> Shape:
+    from contact_sim_pkg.analysis.identification_input import hull_of_file
+    from contact_sim_pkg.identification import geometry
+
+    if sum(each is not None for each in (box, sphere, hull)) != 1:
+        raise click.UsageError("the shape of the body is needed once: --box X Y Z, --sphere R or --hull FILE")
+    if box is not None:
+        return geometry.box(box)
+    return hull_of_file(hull) if hull is not None else geometry.sphere(float(sphere or 0.0))
+
+
+def _wrench(
+    bag: Path,
+    origin: int,
+    force: tuple[float, float, float] | None,
+    torque: tuple[float, float, float] | None,
+    topic: str | None,
+) -> ExternalWrench:
+    from contact_sim_pkg.bag.body_states import read_wrench
+    from contact_sim_pkg.identification import wrench
+
+    if topic is None:
+        return wrench.constant(force, torque)
+    if force is not None or torque is not None:
+        raise click.UsageError("give the known wrench once: --force-topic, or --force and --torque")
+    samples = read_wrench(bag, topic, origin)
+    return wrench.sampled(samples.time, samples.force, samples.torque)
+
+
+def _sections(found: Identification) -> list[Section]:
+    """Parameters, what cannot be known, contacts."""
+    from contact_sim_pkg.analysis.identification_rows import contact_rows, parameter_rows
+    from contact_sim_pkg.studies.section import Section
+
+    where = "motion in a plane" if found.axis is not None else "motion in space"
+    title = f"Parameters: {where}, {found.flights} flights, rank {found.rank} of {found.unknowns} unknowns"
+    note = "" if found.converged else "the search has not converged: the numbers are not to be trusted"
+    parts = [Section(title, [_digits(row) for row in parameter_rows(found)], note)]
+    if found.unobservable:
+        parts.append(Section("Not identifiable", [{"what and why": line} for line in found.unobservable]))
+    noise = found.noise
+    told = (
+        f"noise of the samples: position {noise.position:.2g} m, rotation {noise.rotation:.2g} rad, velocity "
+        f"{noise.velocity:.2g} m/s, angular velocity {noise.angular_velocity:.2g} rad/s"
+    )
+    parts.append(Section(f"Contacts: {len(found.contacts)}", [_digits(row) for row in contact_rows(found)], told))
+    return parts
+
+
+EXACT = ("value", "time [s]", "c_n/m [m/s]", "c_t/m [m/s]", "c_n [N s]", "c_t [N s]")
+DIGITS = 9
+
+
+def _digits(row: dict[str, Any]) -> dict[str, Any]:
+    """The row with more digits where a table's three are too few."""
+    return {
+        name: f"{value:.{DIGITS}g}" if name in EXACT and isinstance(value, float) else value
+        for name, value in row.items()
+    }

@@ -1,0 +1,97 @@
+"""What each contact of a motion was: instant, mode, impulses over mass with their standard deviations."""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy
+
+from .balance import Side, impulse
+from .geometry import arm
+from .modes import Mode, classify
+from .problem import Problem
+from .rotation import Array, cross_matrix
+from .segments import Segments
+from .stacked import Estimate
+
+__all__ = ["ContactFinding", "findings"]
+
+
+class ContactFinding(NamedTuple):
+    """One contact; `mode` and deviations are None where it was not used, and `note` says why."""
+
+    begin: float  # [s]
+    end: float  # [s]; equal to begin for a located impact
+    point: int | None  # of the shape
+    mode: Mode | None
+    normal_deviation: float | None  # of c_n/m, [m/s]
+    tangential_deviation: float | None  # of |c_t|/m, [m/s]
+    arm: Array | None  # [3], [m], world axes
+    push: Array | None  # impulse over mass, [3], [m/s], world axes
+    note: str
+
+
+def findings(
+    problem: Problem, found: Estimate, parts: Segments, places: list[int], notes: dict[int, str]
+) -> list[ContactFinding]:
+    """One entry for each contact of the motion, in the order of time."""
+    used = {place: number for number, place in enumerate(places)}
+    time, lines = problem.states.time, []
+    for place, (first, last) in enumerate(parts.contacts):
+        if place in used and place not in notes:
+            lines.append(_used(problem, found, used[place]))
+        else:
+            begin, end = float(time[first]), float(time[last + 1])
+            lines.append(ContactFinding(begin, end, None, None, None, None, None, None, notes.get(place, "")))
+    return lines
+
+
+def _used(problem: Problem, found: Estimate, number: int) -> ContactFinding:
+    contact, (before, after) = problem.contacts[number], found.sides[number]
+    inverse_mass = problem.model.inverse_mass(found.parameters)
+    push = impulse(before.state, after.state, inverse_mass, problem.model)
+    spread = _push_covariance(found, contact.before, contact.after, before, after)
+    middle = 0.5 * (before.state.rotation + after.state.rotation)
+    reach = arm(problem.shape, problem.ground, middle, contact.point)
+    normal, kept = problem.ground.normal, numpy.eye(3)
+    if problem.axis is not None:
+        kept = kept - numpy.outer(problem.axis, problem.axis)  # noise across the plane of motion is no slip
+    velocities = [side.state.velocity + numpy.cross(side.state.angular_velocity, reach) for side in (before, after)]
+    deviation = _slip_deviation(found, contact.after, after, reach, kept)
+    mode = classify(kept @ push, kept @ velocities[0], kept @ velocities[1], deviation, problem.ground)
+    along = push - (push @ normal) * normal
+    length = float(numpy.linalg.norm(along))
+    direction = along / length if length > 0.0 else numpy.zeros(3)
+    across = float(numpy.sqrt(direction @ spread @ direction if length > 0.0 else numpy.trace(spread) / 3.0))
+    return ContactFinding(
+        contact.begin,
+        contact.end,
+        contact.point,
+        mode,
+        float(numpy.sqrt(normal @ spread @ normal)),
+        across,
+        reach,
+        push,
+        "",
+    )
+
+
+def _push_covariance(found: Estimate, first: int, second: int, before: Side, after: Side) -> Array:
+    """Covariance [3, 3] of the impulse over mass: of the states, and of the parameters they depend on."""
+    jacobian = numpy.zeros((3, len(found.state_covariance)))
+    jacobian[:, 12 * first : 12 * first + 12] -= before.by_state[3:6]
+    jacobian[:, 12 * second : 12 * second + 12] += after.by_state[3:6]
+    shared = jacobian @ found.state_by_parameters + after.by_parameters[3:6] - before.by_parameters[3:6]
+    return numpy.asarray(jacobian @ found.state_covariance @ jacobian.T + shared @ found.covariance @ shared.T)
+
+
+def _slip_deviation(found: Estimate, flight: int, side: Side, reach: Array, kept: Array) -> float:
+    """Largest standard deviation of the contact point's velocity after along `kept` directions, [m/s]."""
+    block = slice(12 * flight, 12 * flight + 12)
+    turning = -cross_matrix(reach)
+    swung = cross_matrix(side.state.angular_velocity) @ turning  # w x (d x r) for a small rotation d
+    local = numpy.concatenate([numpy.zeros((3, 3)), numpy.eye(3), swung, turning], axis=1)
+    jacobian = kept @ local @ side.by_state
+    shared = jacobian @ found.state_by_parameters[block] + kept @ local @ side.by_parameters
+    spread = jacobian @ found.state_covariance[block, block] @ jacobian.T + shared @ found.covariance @ shared.T
+    return float(numpy.sqrt(numpy.linalg.eigvalsh(spread).max(initial=0.0)))

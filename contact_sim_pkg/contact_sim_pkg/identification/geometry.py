@@ -1,0 +1,120 @@
+"""Shape of the body and of the ground: gaps and arms of contact.
+
+A body is the convex hull of points in body axes (origin: centre of mass), grown by a radius: box, polygon, hull (radius 0),
+sphere (one point). The ground is a plane. Gap of point i: `phi_i = n.(x + R p_i) - radius - height`.
+"""
+
+from __future__ import annotations
+
+import itertools
+from typing import NamedTuple
+
+import numpy
+from numpy.typing import ArrayLike
+
+from .errors import IdentificationError
+from .rotation import Array
+
+__all__ = [
+    "UP",
+    "Ground",
+    "Shape",
+    "arm",
+    "box",
+    "flattened",
+    "gaps",
+    "hull",
+    "inertia_guess",
+    "plane",
+    "size",
+    "sphere",
+]
+
+UP = numpy.array([0.0, 0.0, 1.0])
+
+
+class Shape(NamedTuple):
+    """Points of the hull and the radius that it is grown by."""
+
+    points: Array  # [k, 3], [m], body axes
+    radius: float  # [m]
+
+
+class Ground(NamedTuple):
+    """The plane `n.x = height`; n points out of it."""
+
+    normal: Array  # [3], of length 1
+    height: float  # [m]
+
+
+def box(lengths: ArrayLike) -> Shape:
+    """Box of the lengths [3] in [m] along the body axes, its centre of mass in the middle."""
+    sides = numpy.asarray(lengths, dtype=numpy.float64)
+    if sides.shape != (3,) or not (numpy.isfinite(sides).all() and (sides > 0.0).all()):
+        raise IdentificationError(f"a box needs three lengths above 0 m, not {sides.tolist()}")
+    return Shape(0.5 * sides * numpy.array(list(itertools.product((-1.0, 1.0), repeat=3))), 0.0)
+
+
+def sphere(radius: float) -> Shape:
+    """Sphere of `radius` [m] about the centre of mass."""
+    if not (numpy.isfinite(radius) and radius > 0.0):
+        raise IdentificationError(f"a sphere needs a radius above 0 m, not {radius:g}")
+    return Shape(numpy.zeros((1, 3)), float(radius))
+
+
+def hull(points: ArrayLike, radius: float = 0.0) -> Shape:
+    """Hull of the points [k, 3] in [m], body axes from the centre of mass, grown by `radius` >= 0 [m]."""
+    corners = numpy.asarray(points, dtype=numpy.float64)
+    if corners.ndim != 2 or corners.shape[1:] != (3,) or not len(corners) or not numpy.isfinite(corners).all():
+        raise IdentificationError(f"a hull needs points of three finite coordinates, not an array of {corners.shape}")
+    if not (numpy.isfinite(radius) and radius >= 0.0):
+        raise IdentificationError(f"the radius of a hull must be 0 m or more, not {radius:g}")
+    return Shape(corners, float(radius))
+
+
+def plane(normal: ArrayLike = UP, height: float = 0.0) -> Ground:
+    """Ground with a normal of any length."""
+    direction = numpy.asarray(normal, dtype=numpy.float64)
+    length = float(numpy.linalg.norm(direction))
+    if direction.shape != (3,) or not (numpy.isfinite(length) and length > 0.0 and numpy.isfinite(height)):
+        raise IdentificationError(
+            f"the ground needs a normal that is not zero and a height, not {direction.tolist()}, {height}"
+        )
+    return Ground(direction / length, float(height))
+
+
+def gaps(shape: Shape, ground: Ground, position: Array, rotation: Array) -> Array:
+    """Gap of each point in [m], for positions [..., 3] and rotations [..., 3, 3]: [..., k]; negative inside the ground."""
+    heights = numpy.einsum("i,...ij,kj->...k", ground.normal, rotation, shape.points)
+    lift: Array = (position @ ground.normal)[..., None] + heights - shape.radius - ground.height
+    return lift
+
+
+def arm(shape: Shape, ground: Ground, rotation: Array, point: int) -> Array:
+    """From the centre of mass to the contact of `point`, [3] in [m], world axes."""
+    reach: Array = rotation @ shape.points[point] - shape.radius * ground.normal
+    return reach
+
+
+def size(shape: Shape) -> float:
+    """Largest distance of the surface from the centre of mass in [m]."""
+    return float(numpy.linalg.norm(shape.points, axis=1).max()) + shape.radius
+
+
+def flattened(shape: Shape, axis: Array, same: float = 1e-9) -> Shape:
+    """The same shape seen along `axis` (body axes): points in the plane through the centre of mass.
+
+    Of points closer than `same` times the size the first is kept.
+    """
+    flat = shape.points - (shape.points @ axis)[:, None] * axis
+    kept: list[Array] = []
+    for point in flat:
+        if all(float(numpy.linalg.norm(point - other)) > same * size(shape) for other in kept):
+            kept.append(point)
+    return Shape(numpy.array(kept), shape.radius)
+
+
+def inertia_guess(shape: Shape) -> Array:
+    """I0/m [3, 3] in [m^2] of a homogeneous box around the shape: where a search starts, and the size of its unknowns."""
+    sides = numpy.ptp(shape.points, axis=0) + 2.0 * shape.radius
+    return numpy.diag((numpy.sum(sides**2) - sides**2) / 12.0)

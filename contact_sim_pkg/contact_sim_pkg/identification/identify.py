@@ -1,0 +1,117 @@
+"""From sampled states to inertia, impulses and what cannot be known."""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy
+
+from .contacts import ContactFinding, findings
+from .errors import IdentificationError
+from .flight import Model
+from .geometry import Ground, Shape, flattened, gaps, plane
+from .naming import parameter_names, unobservable
+from .noise import first_guess, limited
+from .plane import body_axis, plane_of_motion
+from .problem import Problem, planar_basis, spatial_basis, starting_parameters
+from .rotation import Array
+from .search import Search
+from .segments import inverse_mass_guess, segments, velocity_noise
+from .stacked import Estimate
+from .states import BodyStates, Noise, checked
+from .wrench import NO_WRENCH, ExternalWrench
+
+__all__ = ["Identification", "Parameter", "Setup", "identify"]
+
+HIDDEN = 1e-6  # component of a parameter in what is not identified, above which it counts as not identified itself
+
+
+class Setup(NamedTuple):
+    """What is known besides the states."""
+
+    shape: Shape
+    ground: Ground = plane()
+    wrench: ExternalWrench = NO_WRENCH
+    gravity: float = 9.81  # [m/s^2]
+    noise: Noise | None = None  # None: taken from the flights
+    planar: bool | None = None  # None: found from the motion
+
+
+class Parameter(NamedTuple):
+    """One parameter."""
+
+    name: str
+    unit: str
+    value: float
+    deviation: float  # standard deviation, same unit
+    identified: bool
+
+
+class Identification(NamedTuple):
+    """What the motion tells."""
+
+    parameters: list[Parameter]
+    unobservable: list[str]
+    rank: int
+    unknowns: int
+    contacts: list[ContactFinding]
+    noise: Noise
+    flights: int
+    axis: Array | None  # normal of the plane of motion, None in space
+    converged: bool
+    estimate: Estimate
+    problem: Problem
+
+
+def identify(states: BodyStates, setup: Setup) -> Identification:
+    """Identify inertia over mass, impulses over mass and, with a known wrench, the mass.
+
+    Raises:
+        IdentificationError: states that cannot be used, a wrench that does not cover them, no flight, no contact.
+    """
+    states = checked(states)
+    _check_wrench(states, setup.wrench)
+    guess = setup.noise or first_guess(states)
+    axis = None if setup.planar is False else plane_of_motion(states, setup.ground, guess)
+    if setup.planar and axis is None:
+        raise IdentificationError("the motion is not planar: its spin changes axis, or it drifts out of the plane")
+    own_axis = None if axis is None else body_axis(states, axis, guess)
+    shape = setup.shape if own_axis is None else flattened(setup.shape, own_axis, max(1e-9, 5.0 * guess.rotation))
+    speed_noise = setup.noise.velocity if setup.noise else velocity_noise(states)
+    parts = segments(states, shape, setup.ground, setup.wrench, setup.gravity, speed_noise, guess.position)
+    basis = spatial_basis() if axis is None else planar_basis()
+    model = Model(basis, setup.wrench.present, setup.wrench, setup.gravity)
+    lifts = gaps(shape, setup.ground, states.position, states.rotation).min(axis=1)
+    inverse_mass = inverse_mass_guess(states, lifts, setup.wrench, setup.gravity)
+    start, scale = starting_parameters(shape, model, own_axis, inverse_mass)
+    problem = Problem(states, [], [], shape, setup.ground, model, limited(guess, states), axis)
+    search = Search(problem, parts, setup.noise, start, scale)
+    return _result(search.run(), search)
+
+
+def _check_wrench(states: BodyStates, wrench: ExternalWrench) -> None:
+    first, last = float(states.time[0]), float(states.time[-1])
+    slack = 2.0 * float(numpy.median(numpy.diff(states.time)))
+    if wrench.present and (first < wrench.begin - slack or last > wrench.end + slack):
+        raise IdentificationError(
+            f"the external wrench is known from {wrench.begin:.6g} to {wrench.end:.6g} s, the states go from {first:.6g} to "
+            f"{last:.6g} s; give a wrench that covers the states"
+        )
+
+
+def _result(found: Estimate, search: Search) -> Identification:
+    problem, missing = search.problem, found.directions.missing
+    spatial, model = problem.axis is None, problem.model
+    names = parameter_names(spatial, model.with_mass)
+    deviations = numpy.sqrt(numpy.diag(found.covariance))
+    hidden = abs(missing).max(axis=0, initial=0.0)
+    parameters = [
+        Parameter(name, "1/kg" if name == "1/m" else "m^2", float(value), float(deviation), bool(share < HIDDEN))
+        for name, value, deviation, share in zip(names, found.parameters, deviations, hidden, strict=True)
+    ]
+    words = unobservable(missing, found.parameters, found.scale, spatial, model.with_mass, model.wrench.present)
+    contacts = findings(problem, found, search.parts, search.places, search.notes)
+    return Identification(
+        parameters, words, found.directions.rank, model.unknowns, contacts, problem.noise, search.flights, problem.axis,
+        found.converged, found, problem,
+    )  # fmt: skip

@@ -1,0 +1,68 @@
+"""Instant and point of an impact: the first root of the gap on the incoming flight."""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy
+
+from .flight import FlightState, Model, plain_motion
+from .geometry import Ground, Shape, arm, gaps, size
+from .rotation import Array
+
+__all__ = ["Touch", "locate"]
+
+STEPS = 12
+SAME = 1e-7  # of the body's size: corners this close touch together
+
+
+class Touch(NamedTuple):
+    """Where and when a flight meets the ground."""
+
+    time: float  # [s]
+    point: int  # of the shape
+    together: int  # points that touch at once, this one included
+    found: bool  # whether the gap has a root in the interval; else `time` is the bound that is closer
+
+
+def locate(
+    flight: FlightState,
+    parameters: Array,
+    model: Model,
+    shape: Shape,
+    ground: Ground,
+    bounds: tuple[float, float],
+    deviation: float,
+) -> Touch:
+    """First touch on a flight within `bounds`, by Newton's method on the gap of the lowest point.
+
+    Args:
+        flight: the incoming flight.
+        parameters: of the model.
+        model: of flights.
+        shape: of the body.
+        ground: below it.
+        bounds: where to look, [s].
+        deviation: standard deviation of the gap, [m]: points within three of it touch together.
+    """  # fmt: skip
+    low, high = bounds
+    time, point = 0.5 * (low + high), 0
+    lifts: Array = numpy.zeros(1)
+    for _ in range(STEPS):
+        position, velocity, rotation, spin = (
+            field[0] for field in plain_motion(flight, parameters, model, numpy.array([time]))
+        )
+        lifts = gaps(shape, ground, position, rotation)
+        point = int(lifts.argmin())
+        rate = float(ground.normal @ (velocity + numpy.cross(spin, arm(shape, ground, rotation, point))))
+        if rate >= 0.0:
+            return Touch(time, point, _together(lifts, shape, deviation), False)
+        last, time = time, float(numpy.clip(time - lifts[point] / rate, low, high))
+        if abs(time - last) <= 1e-15 * max(1.0, abs(time)):
+            break
+    closed = abs(lifts[point]) <= max(6.0 * deviation, 1e-9 * size(shape))
+    return Touch(time, point, _together(lifts, shape, deviation), bool(closed))
+
+
+def _together(lifts: Array, shape: Shape, deviation: float) -> int:
+    return int(numpy.sum(lifts <= lifts.min() + max(3.0 * deviation, SAME * size(shape))))

@@ -1,0 +1,97 @@
+"""What is to be estimated from what: flights, contacts between them, parameters."""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy
+
+from .flight import FlightState, Model
+from .geometry import Ground, Shape, inertia_guess
+from .rotation import Array
+from .states import BodyStates, Noise
+
+__all__ = ["AXES", "Contact", "Problem", "planar_basis", "spatial_basis", "start_of", "starting_parameters"]
+
+AXES = "xyz"
+PAIRS = ((0, 0), (1, 1), (2, 2), (0, 1), (0, 2), (1, 2))
+
+
+class Contact(NamedTuple):
+    """One contact between two flights."""
+
+    before: int  # number of the flight
+    after: int
+    begin: float  # [s]; where the flight before ends
+    end: float  # [s]; equal to begin for an impact
+    point: int  # of the shape
+
+
+class Problem(NamedTuple):
+    """Samples, flights, contacts and model."""
+
+    states: BodyStates
+    flights: list[tuple[int, int]]  # first and last sample
+    contacts: list[Contact]
+    shape: Shape
+    ground: Ground
+    model: Model
+    noise: Noise
+    axis: Array | None  # normal of the plane of motion in world axes; None in space
+
+    @property
+    def rows(self) -> Array:
+        """What a balance is projected on: [1, 3] in the plane, [3, 3] in space."""
+        return numpy.eye(3) if self.axis is None else self.axis[None]
+
+
+def spatial_basis() -> Array:
+    """E_i of Ixx, Iyy, Izz, Ixy, Ixz, Iyz (elements of the matrix) over m, [6, 3, 3]."""
+    basis = numpy.zeros((6, 3, 3))
+    for place, (row, col) in enumerate(PAIRS):
+        basis[place, row, col] = basis[place, col, row] = 1.0
+    return basis
+
+
+def planar_basis() -> Array:
+    """One unknown, J/m about the normal of the plane; other axes never turn, so any value serves them: [1, 3, 3]."""
+    return numpy.eye(3)[None]
+
+
+def starting_parameters(shape: Shape, model: Model, axis: Array | None, inverse_mass: float) -> tuple[Array, Array]:
+    """A start [p] and the size of each parameter [p]: a homogeneous box, and 1/m as seen in the flights.
+
+    `axis`: normal of the plane of motion in body axes, None in space.
+    """
+    guess = inertia_guess(shape)
+    size = float(numpy.trace(guess)) / 3.0
+    if axis is not None:
+        start = [float(axis @ guess @ axis)]
+        sizes = list(start)
+    else:
+        start = [float(guess[row, col]) for row, col in PAIRS]
+        sizes = [size] * 6
+    if model.with_mass:
+        start.append(inverse_mass)
+        sizes.append(inverse_mass if inverse_mass > 0.0 else _usual_inverse_mass(model, size))
+    return numpy.array(start), numpy.array(sizes)
+
+
+def _usual_inverse_mass(model: Model, inertia: float) -> float:
+    """1/m in [1/kg] of a body that the wrench moves as gravity would."""
+    wrench = model.wrench
+    time = (
+        numpy.array([max(wrench.begin, -1e9), min(wrench.end, 1e9)]) if numpy.isfinite(wrench.begin) else numpy.zeros(1)
+    )
+    force = 0.0 if wrench.force is None else float(abs(numpy.asarray(wrench.force.value(time))).max())
+    torque = float(abs(wrench.torque_at(time)).max()) / numpy.sqrt(inertia)
+    return float(max(model.gravity, 1e-3) / max(force, torque, 1e-300))
+
+
+def start_of(states: BodyStates, flight: tuple[int, int]) -> FlightState:
+    """State of a flight at its first sample, as measured."""
+    first = flight[0]
+    return FlightState(
+        float(states.time[first]), states.position[first], states.velocity[first], states.rotation[first],
+        states.angular_velocity[first],
+    )  # fmt: skip

@@ -1,0 +1,162 @@
+"""The search behind an identification: locate the impacts, fit everything, take the noise from what is left, again."""
+
+from __future__ import annotations
+
+import numpy
+
+from .errors import IdentificationError
+from .geometry import size
+from .impacts import locate
+from .lasting import with_steps
+from .noise import from_residuals, limited
+from .problem import Contact, Problem
+from .rotation import Array
+from .segments import LONGEST_IMPACT, SHORTEST_FLIGHT, Segments
+from .stacked import Estimate, estimate
+from .states import Noise
+
+__all__ = ["Search"]
+
+ROUNDS = 5
+SETTLED = 0.01  # change of the noise that ends the rounds, relative
+MISSED = 0.05  # of the way of an interval: how far two flights may miss each other at their impact
+WORSE = 5.0  # times the noise of the others: what is no flight
+
+
+class Search:
+    """Rounds of: locate the impacts, fit everything, take the noise from what is left."""
+
+    def __init__(self, problem: Problem, parts: Segments, noise: Noise | None, start: Array, scale: Array) -> None:
+        self.noise = None if noise is None else limited(noise, problem.states)
+        self.start, self.scale, self.parts = start, scale, parts
+        whole = [flight for flight in parts.flights if flight[1] - flight[0] + 1 >= SHORTEST_FLIGHT]
+        self.problem = problem._replace(flights=whole, noise=self.noise or problem.noise)
+        self.notes: dict[int, str] = {}  # of contacts that are not used, by their place in parts.contacts
+        self.places: list[int] = []  # of the contacts that are used
+
+    def run(self) -> Estimate:
+        """All rounds."""
+        if not self.problem.flights:
+            raise IdentificationError(
+                f"there is no flight of {SHORTEST_FLIGHT} samples or more between contacts; record faster, or a motion that "
+                "leaves the ground"
+            )
+        found = estimate(self.problem, self.start, self.scale)
+        found = self._without_false_flights(found)
+        for _ in range(ROUNDS):
+            self._take_noise(found)
+            before = self.problem.noise
+            self._locate(found)
+            found = estimate(self.problem, found.parameters, self._scale(found), found.flights)
+            if self._drop_missed(found):
+                continue
+            if all(abs(new / old - 1.0) < SETTLED for new, old in zip(self._seen(found), before, strict=True)):
+                break
+        if found.directions.rank < self.problem.model.unknowns:
+            found = self._with_steps(found)
+        return found
+
+    @property
+    def flights(self) -> int:
+        """Flights of more than a sample."""
+        return sum(last > first for first, last in self.problem.flights)
+
+    def _seen(self, found: Estimate) -> Noise:
+        return self.noise or from_residuals(self._long(found), self.problem.states)
+
+    def _long(self, found: Estimate) -> list[Array]:
+        return [rest for rest in found.residuals if len(rest) >= SHORTEST_FLIGHT]
+
+    def _take_noise(self, found: Estimate) -> None:
+        self.problem = self.problem._replace(noise=self._seen(found))
+
+    def _scale(self, found: Estimate) -> Array:
+        """Sizes of the parameters; that of 1/m follows its estimate."""
+        scale = self.scale.copy()
+        if (
+            self.problem.model.with_mass
+            and not abs(found.directions.missing[:, -1:]).any()
+            and found.parameters[-1] > 0.0
+        ):
+            scale[-1] = found.parameters[-1]
+        return scale
+
+    def _without_false_flights(self, found: Estimate) -> Estimate:
+        """Leave out runs that no flight fits, such as a rest that hides in the noise."""
+        if len(self.problem.flights) < 2:
+            return found
+        spreads = numpy.array([float(numpy.sqrt(numpy.mean(rest[:, 3:6] ** 2))) for rest in found.residuals])
+        limit = WORSE * max(float(numpy.median(spreads)), self.problem.noise.velocity)
+        kept = [flight for flight, spread in zip(self.problem.flights, spreads, strict=True) if spread <= limit]
+        if len(kept) == len(self.problem.flights):
+            return found
+        self.problem = self.problem._replace(flights=kept)
+        return estimate(self.problem, self.start, self.scale)
+
+    def _locate(self, found: Estimate) -> None:
+        """Find instant and point of each impact on the flight before it."""
+        contacts, self.places = [], []
+        for place, (first, last) in enumerate(self.parts.contacts):
+            before, after = self._neighbours(first, last)
+            if place in self.notes and not self.notes[place].startswith("touches"):
+                continue
+            if last - first + 1 > LONGEST_IMPACT:
+                self.notes[place] = "lasting contact"
+            elif before is None or after is None:
+                self.notes[place] = f"no flight of {SHORTEST_FLIGHT} samples before or after it"
+            else:
+                contact = self._contact(found, place, before, after, (first, last))
+                if contact is not None:
+                    contacts.append(contact)
+                    self.places.append(place)
+        self.problem = self.problem._replace(contacts=contacts)
+
+    def _contact(
+        self, found: Estimate, place: int, before: int, after: int, interval: tuple[int, int]
+    ) -> Contact | None:
+        problem, time = self.problem, self.problem.states.time
+        step = float(time[interval[1] + 1] - time[interval[0]])
+        bounds = (float(time[interval[0]]) - 0.5 * step, float(time[interval[1] + 1]) + 0.5 * step)
+        touch = locate(
+            found.flights[before], found.parameters, problem.model, problem.shape, problem.ground, bounds,
+            self._gap_deviation(before),
+        )  # fmt: skip
+        if touch.together > 1:
+            self.notes[place] = f"touches with {touch.together} corners at once: where its impulse acts is not known"
+            return None
+        self.notes.pop(place, None)
+        return Contact(before, after, touch.time, touch.time, touch.point)
+
+    def _gap_deviation(self, flight: int) -> float:
+        """Standard deviation of the gap of a point on a fitted flight, [m]."""
+        noise, (first, last) = self.problem.noise, self.problem.flights[flight]
+        return 2.0 * (noise.position + size(self.problem.shape) * noise.rotation) / float(numpy.sqrt(last - first + 1))
+
+    def _neighbours(self, first: int, last: int) -> tuple[int | None, int | None]:
+        """Numbers of the flights that end and begin at a contact."""
+        ends = {flight[1]: number for number, flight in enumerate(self.problem.flights)}
+        begins = {flight[0]: number for number, flight in enumerate(self.problem.flights)}
+        return ends.get(first), begins.get(last + 1)
+
+    def _drop_missed(self, found: Estimate) -> bool:
+        """Leave out contacts whose flights do not meet: there was more than one impact between two samples."""
+        dropped = False
+        for contact, sides, place in zip(self.problem.contacts, found.sides, self.places, strict=True):
+            first, last = self.parts.contacts[place]
+            step = float(self.problem.states.time[last + 1] - self.problem.states.time[first])
+            miss = float(numpy.linalg.norm(sides[1].state.position - sides[0].state.position))
+            jump = float(numpy.linalg.norm(sides[1].state.velocity - sides[0].state.velocity))
+            if contact.begin == contact.end and miss > MISSED * jump * step + 12.0 * self.problem.noise.position:
+                self.notes[place] = (
+                    f"the flights before and after miss each other by {miss:.2g} m: more than one impact in between"
+                )
+                dropped = True
+        return dropped
+
+    def _with_steps(self, found: Estimate) -> Estimate:
+        """Add the steps of lasting contacts where impacts and flights do not tell everything."""
+        wider = with_steps(self.problem, self.parts)
+        if len(wider.contacts) == len(self.problem.contacts):
+            return found
+        self.problem = wider
+        return estimate(wider, found.parameters, self._scale(found))

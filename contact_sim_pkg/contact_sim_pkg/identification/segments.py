@@ -1,0 +1,112 @@
+"""Flights and contacts of a sampled motion.
+
+An interval between two samples holds a contact where `v2 - v1 + h g z - kappa int F dt` is larger than noise explains (the
+0.9999 quantile of chi-square) and the body is close enough to the ground. Neighbouring ones are one contact; more than
+three in a row are a lasting one.
+"""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy
+from scipy.stats import chi2
+
+from .geometry import UP, Ground, Shape, gaps
+from .rotation import Array
+from .states import BodyStates
+from .wrench import ExternalWrench
+
+__all__ = ["LONGEST_IMPACT", "SHORTEST_FLIGHT", "Segments", "inverse_mass_guess", "segments", "velocity_noise"]
+
+QUANTILE = 0.9999
+LONGEST_IMPACT = 3  # intervals
+SHORTEST_FLIGHT = 3  # samples
+FLOOR = 1e-9  # of the largest speed: what counts as noise at least
+MEDIAN_OF_GAUSS = 0.6744897501960817
+
+
+class Segments(NamedTuple):
+    """Runs of samples in flight, and of intervals in contact; both ends belong to the run."""
+
+    flights: list[tuple[int, int]]  # first and last sample
+    contacts: list[tuple[int, int]]  # first and last interval; interval i lies between samples i and i + 1
+
+
+def velocity_noise(states: BodyStates) -> float:
+    """Standard deviation of a velocity component in [m/s] from the median of second differences, which impacts do not move."""
+    if len(states.time) < 5 or numpy.ptp(numpy.diff(states.time)) > 1e-6 * float(numpy.diff(states.time).mean()):
+        return 0.0
+    second = numpy.diff(states.velocity, n=2, axis=0)
+    return float(numpy.median(abs(second), axis=0).max() / MEDIAN_OF_GAUSS / numpy.sqrt(6.0))
+
+
+def inverse_mass_guess(states: BodyStates, lifts: Array, wrench: ExternalWrench, gravity: float) -> float:
+    """1/m in [1/kg] from the intervals off the ground (`lifts` [n], smallest gaps): median of e.f/f.f; 0 without a force."""
+    pushes = _pushes(states, wrench)
+    strength = numpy.einsum("ni,ni->n", pushes, pushes)
+    free = numpy.minimum(lifts[1:], lifts[:-1]) > 0.02 * max(float(numpy.ptp(lifts)), 1e-300)
+    chosen = (strength > 0.0) & (free if free.any() else True)
+    if not chosen.any():
+        return 0.0
+    jumps = _jumps(states, gravity)
+    return max(0.0, float(numpy.median(numpy.einsum("ni,ni->n", jumps, pushes)[chosen] / strength[chosen])))
+
+
+def segments(
+    states: BodyStates,
+    shape: Shape,
+    ground: Ground,
+    wrench: ExternalWrench,
+    gravity: float,
+    noise: float,
+    position_noise: float = 0.0,
+) -> Segments:
+    """Split the motion.
+
+    Args:
+        states: the motion.
+        shape: of the body.
+        ground: below it.
+        wrench: known force and torque.
+        gravity: [m/s^2], downward.
+        noise: of one velocity component, [m/s].
+        position_noise: of one position component, [m].
+    """
+    lifts = gaps(shape, ground, states.position, states.rotation).min(axis=1)
+    inverse_mass = inverse_mass_guess(states, lifts, wrench, gravity)
+    jumps = _jumps(states, gravity) - inverse_mass * _pushes(states, wrench)
+    deviation = max(noise, FLOOR * float(abs(states.velocity).max()))
+    hit = numpy.einsum("ni,ni->n", jumps, jumps) > chi2.ppf(QUANTILE, 3) * 2.0 * deviation**2
+    return Segments(*_runs(hit & _near(states, lifts, ground, position_noise)))
+
+
+def _near(states: BodyStates, lifts: Array, ground: Ground, position_noise: float) -> Array:
+    """Intervals in which the body can reach the ground: the gap is within one interval's way."""
+    steps = numpy.diff(states.time)
+    rates = abs(numpy.diff(lifts)) / steps
+    fastest = numpy.maximum(abs(states.velocity @ ground.normal), 0.0)
+    reach = 2.0 * steps * (numpy.maximum(fastest[1:], fastest[:-1]) + rates) + 6.0 * position_noise + 1e-9
+    closest: Array = numpy.minimum(lifts[1:], lifts[:-1])
+    return closest <= reach
+
+
+def _runs(hit: Array) -> tuple[list[tuple[int, int]], list[tuple[int, int]]]:
+    """Runs of samples between hits, and runs of hits."""
+    edges = numpy.flatnonzero(numpy.diff(numpy.concatenate([[0], hit.astype(int), [0]])))
+    contacts = [(int(first), int(last) - 1) for first, last in edges.reshape(-1, 2)]
+    begins = [0, *(last + 1 for _, last in contacts)]
+    ends = [*(first for first, _ in contacts), len(hit)]
+    return list(zip(begins, ends, strict=True)), contacts
+
+
+def _jumps(states: BodyStates, gravity: float) -> Array:
+    falling = numpy.diff(states.time)[:, None] * gravity * UP
+    return numpy.asarray(numpy.diff(states.velocity, axis=0) + falling)
+
+
+def _pushes(states: BodyStates, wrench: ExternalWrench) -> Array:
+    if wrench.force is None:
+        return numpy.zeros((len(states.time) - 1, 3))
+    pushes: Array = numpy.diff(wrench.push(float(states.time[0]), states.time), axis=0)
+    return pushes

@@ -1,0 +1,64 @@
+"""Bags as other people's tools write them, by rosbags."""
+
+import numpy
+from rosbags.rosbag2 import StoragePlugin, Writer
+from rosbags.typesys import Stores, get_typestore
+from scipy.spatial.transform import Rotation
+
+STORE = get_typestore(Stores.ROS2_JAZZY)
+ORIGIN = 1_760_000_000 * 10**9  # [ns]
+
+
+def _type(name):
+    return STORE.types[name]
+
+
+def _header(time, frame):
+    stamp = ORIGIN + round(time * 1e9)
+    return _type("std_msgs/msg/Header")(_type("builtin_interfaces/msg/Time")(*divmod(stamp, 10**9)), frame)
+
+
+def _pose(position, rotation):
+    point, quaternion = _type("geometry_msgs/msg/Point"), _type("geometry_msgs/msg/Quaternion")
+    return _type("geometry_msgs/msg/Pose")(point(*position), quaternion(*Rotation.from_matrix(rotation).as_quat()))
+
+
+def _twist(velocity, spin):
+    vector = _type("geometry_msgs/msg/Vector3")
+    return _type("geometry_msgs/msg/Twist")(vector(*velocity), vector(*spin))
+
+
+def write_odometry(path, states, topic="/odom", storage=StoragePlugin.MCAP):
+    """Twist in body axes, as the definition of Odometry says."""
+    kind = "nav_msgs/msg/Odometry"
+    with Writer(path, version=9, storage_plugin=storage) as writer:
+        row = writer.add_connection(topic, kind, typestore=STORE)
+        for time, position, rotation, velocity, spin in zip(*states, strict=True):
+            pose = _type("geometry_msgs/msg/PoseWithCovariance")(_pose(position, rotation), numpy.zeros(36))
+            twist = _type("geometry_msgs/msg/TwistWithCovariance")(
+                _twist(rotation.T @ velocity, rotation.T @ spin), numpy.zeros(36)
+            )
+            message = _type(kind)(_header(time, "map"), "base_link", pose, twist)
+            writer.write(row, ORIGIN + round(time * 1e9), STORE.serialize_cdr(message, kind))
+
+
+def write_pose_and_twist(path, states, twist_frame="map", late=0.0, force=None):
+    """PoseStamped in `map` and TwistStamped in world or body axes, the twist's stamps `late` [s]; a wrench if asked."""
+    with Writer(path, version=9, storage_plugin=StoragePlugin.SQLITE3) as writer:
+        kinds = {"/pose": "geometry_msgs/msg/PoseStamped", "/twist": "geometry_msgs/msg/TwistStamped"}
+        if force is not None:
+            kinds["/push"] = "geometry_msgs/msg/WrenchStamped"
+        rows = {topic: writer.add_connection(topic, kind, typestore=STORE) for topic, kind in kinds.items()}
+        vector = _type("geometry_msgs/msg/Vector3")
+        for time, position, rotation, velocity, spin in zip(*states, strict=True):
+            axes = numpy.eye(3) if twist_frame == "map" else rotation.T
+            messages = {
+                "/pose": (_header(time, "map"), _pose(position, rotation)),
+                "/twist": (_header(time + late, twist_frame), _twist(axes @ velocity, axes @ spin)),
+            }
+            if force is not None:
+                wrench = _type("geometry_msgs/msg/Wrench")(vector(*force), vector(0.0, 0.0, 0.0))
+                messages["/push"] = (_header(time, "map"), wrench)
+            for topic, fields in messages.items():
+                data = STORE.serialize_cdr(_type(kinds[topic])(*fields), kinds[topic])
+                writer.write(rows[topic], ORIGIN + round(time * 1e9), data)

@@ -1,0 +1,181 @@
+"""Identification of whole motions against the parameters and impulses that made them."""
+
+import importlib.util
+from pathlib import Path
+
+import numpy
+import pytest
+
+from contact_sim_pkg.identification import geometry, wrench
+from contact_sim_pkg.identification.errors import IdentificationError
+from contact_sim_pkg.identification.identify import Setup, identify
+from contact_sim_pkg.identification.states import BodyStates
+
+_spec = importlib.util.spec_from_file_location("motions", Path(__file__).with_name("motions.py"))
+motions = importlib.util.module_from_spec(_spec)
+_spec.loader.exec_module(motions)
+
+SQUARE = Setup(geometry.box([motions.SIDE] * 3))
+BOX = Setup(geometry.box(motions.LENGTHS))
+FORCE, TORQUE = (1.3, 0.0, 0.7), (0.0, 0.004, 0.0)
+
+
+def values(found):
+    return {parameter.name: parameter for parameter in found.parameters}
+
+
+def used(found):
+    return [contact for contact in found.contacts if contact.mode is not None]
+
+
+def check_impacts(found, record):
+    """Instants, impulses over mass and modes of all impacts."""
+    assert len(used(found)) == len(found.contacts) == len(record.bounces) >= 3
+    for contact, bounce in zip(found.contacts, record.bounces, strict=True):
+        assert contact.begin == pytest.approx(bounce.time, abs=1e-12)
+        push = bounce.impulse / motions.MASS
+        assert contact.mode.normal == pytest.approx(push[2], rel=1e-9)
+        assert contact.mode.tangential == pytest.approx(numpy.hypot(*push[:2]), rel=1e-9, abs=1e-12)
+        assert (contact.mode.mode == "stick") == bounce.sticks
+        if not bounce.sticks:
+            assert contact.mode.friction == pytest.approx(0.3, rel=1e-9)
+        assert contact.arm == pytest.approx(bounce.arm, abs=1e-12)
+
+
+def test_planar_inertia_and_impulses_come_back_to_1e_9():
+    record = motions.planar()
+    found = identify(motions.states_of(record), SQUARE)
+    assert 1.0 / values(found)["J/m"].value == pytest.approx(6.0 / motions.SIDE**2, rel=1e-9)
+    assert found.rank == found.unknowns == 1
+    assert found.axis == pytest.approx([0.0, 1.0, 0.0])
+    check_impacts(found, record)
+
+
+def test_spatial_inertia_and_impulses_come_back_to_1e_9():
+    record = motions.spatial()
+    found = identify(motions.states_of(record), BOX)
+    inertia = found.problem.model.inertia(found.estimate.parameters)
+    assert inertia == pytest.approx(motions.SPATIAL_INERTIA, rel=1e-9, abs=1e-9 * numpy.trace(motions.SPATIAL_INERTIA))
+    assert found.rank == found.unknowns == 6
+    assert found.axis is None
+    check_impacts(found, record)
+
+
+@pytest.mark.parametrize("record", [motions.planar(), motions.spatial()], ids=["plane", "space"])
+def test_without_a_known_wrench_mass_is_named_as_not_identifiable(record):
+    found = identify(motions.states_of(record), SQUARE if record is motions.planar() else BOX)
+    assert any(line.startswith("mass is not identifiable without an external force") for line in found.unobservable)
+    assert "1/m" not in values(found)
+
+
+@pytest.mark.parametrize(("force", "torque"), [(FORCE, None), (None, TORQUE), (FORCE, TORQUE)])
+def test_a_known_force_or_torque_tells_the_mass(force, torque):
+    zero = (0.0, 0.0, 0.0)
+    record = motions.planar(0.6, force or zero, torque or zero)
+    found = identify(motions.states_of(record), SQUARE._replace(wrench=wrench.constant(force, torque)))
+    assert 1.0 / values(found)["1/m"].value == pytest.approx(motions.MASS, rel=1e-9)
+    assert values(found)["J/m"].value == pytest.approx(motions.SIDE**2 / 6.0, rel=1e-9)
+    assert found.unobservable == []
+
+
+def test_force_and_torque_in_space_tell_mass_and_all_six_moments():
+    force, torque = (1.0, 2.0, 0.3), (0.01, -0.005, 0.002)
+    record = motions.spatial(0.52, force, torque)
+    found = identify(motions.states_of(record), BOX._replace(wrench=wrench.constant(force, torque)))
+    assert 1.0 / values(found)["1/m"].value == pytest.approx(motions.MASS, rel=1e-9)
+    inertia = found.problem.model.inertia(found.estimate.parameters)
+    assert inertia == pytest.approx(motions.SPATIAL_INERTIA, rel=1e-9, abs=1e-11)
+    assert found.rank == 7
+
+
+def test_a_force_that_is_sampled_over_time_tells_the_mass_too():
+    record = motions.planar(0.6, FORCE)
+    time = numpy.linspace(0.0, 1.0, 11)
+    known = wrench.sampled(time, numpy.tile(FORCE, (11, 1)), None)
+    found = identify(motions.states_of(record), SQUARE._replace(wrench=known))
+    assert 1.0 / values(found)["1/m"].value == pytest.approx(motions.MASS, rel=1e-9)
+
+
+def test_one_spatial_impact_with_tumbling_flights_tells_all_six_moments():
+    record = motions.spatial()
+    end = 0.5 * (record.bounces[0].time + record.bounces[1].time)
+    found = identify(motions.states_of(record, end), BOX)
+    assert found.rank == 6
+    inertia = found.problem.model.inertia(found.estimate.parameters)
+    assert inertia == pytest.approx(motions.SPATIAL_INERTIA, rel=1e-7, abs=1e-9)
+
+
+def test_a_tumbling_flight_alone_tells_the_moments_up_to_their_size():
+    record = motions.spatial()
+    found = identify(motions.states_of(record, 0.9 * record.bounces[0].time), BOX)
+    assert found.rank == 5
+    assert any(line.startswith("the size of I0/m is not identifiable") for line in found.unobservable)
+    assert not any(parameter.identified for parameter in found.parameters[:3])
+
+
+def test_a_planar_flight_alone_tells_nothing_of_the_inertia():
+    record = motions.planar()
+    found = identify(motions.states_of(record, 0.2), SQUARE)
+    assert found.rank == 0
+    assert any(line.startswith("the moment of inertia is not identifiable") for line in found.unobservable)
+
+
+@pytest.mark.parametrize("seed", range(4))
+def test_noise_on_all_channels_leaves_the_truth_within_its_standard_deviations(seed):
+    states = motions.noisy(motions.states_of(motions.planar()), seed, 1e-4, 1e-3)
+    found = identify(states, SQUARE)
+    inertia = values(found)["J/m"]
+    assert abs(inertia.value - motions.SIDE**2 / 6.0) < 4.0 * inertia.deviation < 0.01 * inertia.value
+    assert found.noise == pytest.approx((1e-4, 1e-3, 1e-3, 1e-2), rel=0.1)
+    for contact, bounce in zip(found.contacts, motions.planar().bounces, strict=True):
+        if contact.mode is not None:
+            assert abs(contact.mode.normal - bounce.impulse[2] / motions.MASS) < 5.0 * contact.normal_deviation
+
+
+def test_noise_in_space_leaves_the_truth_within_its_standard_deviations():
+    found = identify(motions.noisy(motions.states_of(motions.spatial()), 3, 1e-4, 1e-3), BOX)
+    truth = [*numpy.diag(motions.SPATIAL_INERTIA), 0.0, 0.0, 0.0]
+    for parameter, expected in zip(found.parameters, truth, strict=True):
+        if parameter.identified:
+            assert abs(parameter.value - expected) < 4.5 * parameter.deviation
+
+
+def test_a_tilted_frame_changes_neither_inertia_nor_impulses():
+    """The whole scene turned about the vertical: the plane of motion is no longer x-z."""
+    record = motions.planar()
+    turn = numpy.array([[0.6, -0.8, 0.0], [0.8, 0.6, 0.0], [0.0, 0.0, 1.0]])
+    states = BodyStates(
+        record.time,
+        record.position @ turn.T,
+        turn @ record.rotation,
+        record.velocity @ turn.T,
+        record.angular_velocity @ turn.T,
+    )
+    found = identify(states, SQUARE)
+    assert found.axis == pytest.approx([-0.8, 0.6, 0.0]) or found.axis == pytest.approx([0.8, -0.6, 0.0])
+    assert values(found)["J/m"].value == pytest.approx(motions.SIDE**2 / 6.0, rel=1e-9)
+
+
+def test_times_that_start_late_change_nothing():
+    record = motions.planar()
+    states = motions.states_of(record)
+    found = identify(states._replace(time=states.time + 512.0), SQUARE)
+    assert values(found)["J/m"].value == pytest.approx(motions.SIDE**2 / 6.0, rel=1e-7)
+
+
+def test_refusals_are_sentences():
+    states = motions.states_of(motions.planar())
+    broken = states._replace(
+        velocity=states.velocity * numpy.where(numpy.arange(len(states.time)) == 7, numpy.nan, 1.0)[:, None]
+    )
+    with pytest.raises(IdentificationError, match="velocity of sample 7 is not finite"):
+        identify(broken, SQUARE)
+    with pytest.raises(IdentificationError, match="3 samples"):
+        identify(BodyStates(*(field[:3] for field in states)), SQUARE)
+    with pytest.raises(IdentificationError, match="time does not grow from sample"):
+        identify(states._replace(time=states.time[::-1]), SQUARE)
+    known = wrench.sampled(numpy.array([0.0, 0.1]), numpy.ones((2, 3)), None)
+    with pytest.raises(IdentificationError, match="wrench is known from"):
+        identify(states, SQUARE._replace(wrench=known))
+    with pytest.raises(IdentificationError, match="not planar"):
+        identify(motions.states_of(motions.spatial()), BOX._replace(planar=True))

@@ -1,0 +1,128 @@
+"""`bench identify` on bags of others and of ours."""
+
+import importlib.util
+import json
+from pathlib import Path
+
+import numpy
+import pytest
+
+from contact_sim_pkg.bag.messages import MotionBlock, encode_motion
+from contact_sim_pkg.bag.metadata import recorded_topics
+from contact_sim_pkg.bag.writer import BagWriter
+from contact_sim_pkg.cli.main import main
+
+
+def _beside(name):
+    spec = importlib.util.spec_from_file_location(name, Path(__file__).with_name(f"{name}.py"))
+    module = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(module)
+    return module
+
+
+motions, foreign_bag = _beside("motions"), _beside("foreign_bag")
+BOX = ["--box", "0.1", "0.1", "0.1"]
+
+
+def told(capsys, *arguments):
+    """What the command prints as JSON, its parameters by name."""
+    assert main(["identify", *map(str, arguments), *BOX, "--json"]) == 0
+    facts = json.loads(capsys.readouterr().out)
+    return facts, {row["parameter"]: row for row in facts["parameters"]}
+
+
+def refused(capsys, *arguments):
+    """The sentence with which the command ends with 2."""
+    assert main(["identify", *map(str, arguments)]) == 2
+    text = capsys.readouterr().err.strip()
+    assert "Traceback" not in text
+    return text
+
+
+def write_bench_motion(path, record):
+    """`bench/motion` in blocks of 10 ms: a planar body."""
+    with_pitch = numpy.arctan2(record.rotation[:, 0, 2], record.rotation[:, 0, 0])
+    rows = numpy.stack([record.position[:, 0], record.position[:, 2], numpy.unwrap(with_pitch)])
+    rates = numpy.stack([record.velocity[:, 0], record.velocity[:, 2], record.angular_velocity[:, 1]])
+    writer = BagWriter(path, recorded_topics(("bench/motion",)), {})
+    for block in range(len(record.time) // 10):
+        part = slice(10 * block, 10 * block + 10)
+        motion = MotionBlock(
+            block, 1e-3, ("block_x", "block_z", "block_pitch"), rows[:, part], rates[:, part], numpy.zeros((3, 10))
+        )
+        stamp = block * 10_000_000
+        writer.write("bench/motion", stamp, encode_motion(motion, stamp))
+    writer.close()
+
+
+def test_odometry_of_others_gives_inertia_impulses_and_what_cannot_be_known(tmp_path, capsys):
+    record = motions.planar()
+    foreign_bag.write_odometry(tmp_path / "bag", motions.states_of(record))
+    facts, rows = told(capsys, tmp_path / "bag", "--plot", tmp_path / "picture.png")
+    assert rows["m/J"]["value"] == pytest.approx(600.0, rel=1e-9)
+    assert rows["m/J"]["identified"] is True
+    assert "mass is not identifiable without an external force" in facts["not_identifiable"][0]
+    assert len(facts["contacts"]) == len(record.bounces)
+    for contact, bounce in zip(facts["contacts"], record.bounces, strict=True):
+        assert contact["normal_impulse_over_mass_m_s"] == pytest.approx(bounce.impulse[2] / motions.MASS, rel=1e-9)
+    assert (tmp_path / "picture.png").stat().st_size > 20_000
+
+
+@pytest.mark.parametrize("frame", ["map", "base_link"])
+def test_pose_and_twist_of_others_are_read_in_either_frame(tmp_path, capsys, frame):
+    foreign_bag.write_pose_and_twist(tmp_path / "bag", motions.states_of(motions.planar()), frame)
+    assert told(capsys, tmp_path / "bag")[1]["m/J"]["value"] == pytest.approx(600.0, rel=1e-9)
+
+
+def test_a_force_given_as_option_or_as_topic_tells_the_mass(tmp_path, capsys):
+    force = (1.3, 0.0, 0.7)
+    states = motions.states_of(motions.planar(0.6, force))
+    foreign_bag.write_pose_and_twist(tmp_path / "bag", states, force=force)
+    for known in (("--force", *force), ("--force-topic", "/push")):
+        rows = told(capsys, tmp_path / "bag", *known)[1]
+        assert rows["m"]["value"] == pytest.approx(motions.MASS, rel=1e-9)
+        assert rows["J"]["value"] == pytest.approx(motions.MASS * motions.SIDE**2 / 6.0, rel=1e-9)
+
+
+def test_a_bag_of_the_bench_is_read_without_naming_a_topic(tmp_path, capsys):
+    write_bench_motion(tmp_path / "bag", motions.planar())
+    assert told(capsys, tmp_path / "bag")[1]["m/J"]["value"] == pytest.approx(600.0, rel=1e-9)
+
+
+def test_the_table_names_modes_and_what_is_not_known(tmp_path, capsys):
+    foreign_bag.write_odometry(tmp_path / "bag", motions.states_of(motions.planar()))
+    assert main(["identify", str(tmp_path / "bag"), *BOX]) == 0
+    text = capsys.readouterr().out
+    for words in (
+        "m/J",
+        "600",
+        "Not identifiable",
+        "without an external force",
+        "stick",
+        "slide",
+        "noise of the samples",
+    ):
+        assert words in text
+
+
+def test_bad_input_ends_with_one_sentence(tmp_path, capsys):
+    states = motions.states_of(motions.planar())
+    bag = tmp_path / "bag"
+    foreign_bag.write_odometry(bag, states)
+    assert "there is no bag" in refused(capsys, tmp_path / "nowhere", *BOX)
+    assert "--box X Y Z" in refused(capsys, bag)
+    assert "has no topic /other; of Odometry or PoseStamped it has /odom" in refused(
+        capsys, bag, *BOX, "--topic", "/other"
+    )
+    assert "lengths above 0 m" in refused(capsys, bag, "--box", "0.1", "0", "0.1")
+    assert "is not a valid float" in refused(capsys, bag, *BOX, "--force", "a", "0", "0")
+    assert "normal that is not zero" in refused(capsys, bag, *BOX, "--normal", "0", "0", "0")
+    (tmp_path / "corners.csv").write_text("0, 0, 0\n1, two, 3\n")
+    assert "line 2" in refused(capsys, bag, "--hull", tmp_path / "corners.csv")
+    (tmp_path / "text.mcap").write_text("this is no bag")
+    assert "cannot be read" in refused(capsys, tmp_path / "text.mcap", *BOX)
+
+
+def test_a_pose_without_its_twist_is_refused(tmp_path, capsys):
+    foreign_bag.write_pose_and_twist(tmp_path / "bag", motions.states_of(motions.planar()), late=0.0004)
+    assert "twist of the same stamp" in refused(capsys, tmp_path / "bag", *BOX)
