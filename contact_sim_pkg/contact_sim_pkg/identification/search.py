@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy
 
 from .errors import IdentificationError
+from .flight import plain_motion
 from .geometry import size
 from .impacts import locate
 from .lasting import with_steps
@@ -48,8 +49,6 @@ class Search:
             before = self.problem.noise
             self._locate(found)
             found = estimate(self.problem, found.parameters, self._scale(found), found.flights)
-            if self._drop_missed(found):
-                continue
             if all(abs(new / old - 1.0) < SETTLED for new, old in zip(self._seen(found), before, strict=True)):
                 break
         if found.directions.rank < self.problem.model.unknowns:
@@ -124,8 +123,22 @@ class Search:
         if touch.together > 1:
             self.notes[place] = f"touches with {touch.together} corners at once: where its impulse acts is not known"
             return None
+        miss = self._miss(found, before, after, touch.time, step)
+        if miss:
+            self.notes[place] = (
+                f"the flights before and after miss each other by {miss:.2g} m: more than one impact in between"
+            )
+            return None
         self.notes.pop(place, None)
         return Contact(before, after, touch.time, touch.time, touch.point)
+
+    def _miss(self, found: Estimate, before: int, after: int, time: float, step: float) -> float:
+        """How far two flights miss each other at an impact, [m]; 0 where they meet as well as can be told."""
+        model, at = self.problem.model, numpy.array([time])
+        ends = [plain_motion(found.flights[number], found.parameters, model, at) for number in (before, after)]
+        miss = float(numpy.linalg.norm(ends[1][0] - ends[0][0]))
+        jump = float(numpy.linalg.norm(ends[1][1] - ends[0][1]))
+        return miss if miss > MISSED * jump * step + 12.0 * self.problem.noise.position else 0.0
 
     def _gap_deviation(self, flight: int) -> float:
         """Standard deviation of the gap of a point on a fitted flight, [m]."""
@@ -137,21 +150,6 @@ class Search:
         ends = {flight[1]: number for number, flight in enumerate(self.problem.flights)}
         begins = {flight[0]: number for number, flight in enumerate(self.problem.flights)}
         return ends.get(first), begins.get(last + 1)
-
-    def _drop_missed(self, found: Estimate) -> bool:
-        """Leave out contacts whose flights do not meet: there was more than one impact between two samples."""
-        dropped = False
-        for contact, sides, place in zip(self.problem.contacts, found.sides, self.places, strict=True):
-            first, last = self.parts.contacts[place]
-            step = float(self.problem.states.time[last + 1] - self.problem.states.time[first])
-            miss = float(numpy.linalg.norm(sides[1].state.position - sides[0].state.position))
-            jump = float(numpy.linalg.norm(sides[1].state.velocity - sides[0].state.velocity))
-            if contact.begin == contact.end and miss > MISSED * jump * step + 12.0 * self.problem.noise.position:
-                self.notes[place] = (
-                    f"the flights before and after miss each other by {miss:.2g} m: more than one impact in between"
-                )
-                dropped = True
-        return dropped
 
     def _with_steps(self, found: Estimate) -> Estimate:
         """Add the steps of lasting contacts where impacts and flights do not tell everything."""

@@ -85,10 +85,9 @@ def _near(states: BodyStates, lifts: Array, ground: Ground, position_noise: floa
     """Intervals in which the body can reach the ground: the gap is within one interval's way."""
     steps = numpy.diff(states.time)
     rates = abs(numpy.diff(lifts)) / steps
-    fastest = numpy.maximum(abs(states.velocity @ ground.normal), 0.0)
+    fastest = abs(states.velocity @ ground.normal)
     reach = 2.0 * steps * (numpy.maximum(fastest[1:], fastest[:-1]) + rates) + 6.0 * position_noise + 1e-9
-    closest: Array = numpy.minimum(lifts[1:], lifts[:-1])
-    return closest <= reach
+    return numpy.asarray(numpy.minimum(lifts[1:], lifts[:-1]) <= reach)
 
 
 def _runs(hit: Array) -> tuple[list[tuple[int, int]], list[tuple[int, int]]]:
