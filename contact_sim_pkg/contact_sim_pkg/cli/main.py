@@ -22,6 +22,7 @@ COMMANDS = {  # command -> its module
     "effects": "effects",
     "hard": "hard",
     "goals": "goals",
+    "material": "material",
     "recover": "recover",
 }
 ONE_THREAD = ("NUMBA_NUM_THREADS", "OPENBLAS_NUM_THREADS")  # the nodes share the cores; the same bits without nodes
@@ -75,13 +76,14 @@ def main(arguments: list[str] | None = None) -> int:
 
 def refusal(error: Exception) -> tuple[str, int] | None:
     """Sentence and exit status of an error that stands for bad input or a named fault; None for any other."""
+    from contact_sim_pkg.analysis.material.errors import MaterialError
     from contact_sim_pkg.bag.errors import BagError
     from contact_sim_pkg.excitation.errors import ExcitationError
     from contact_sim_pkg.identification.errors import IdentificationError
     from contact_sim_pkg.run.errors import RunError
     from contact_sim_pkg.scene.errors import SceneError
 
-    if isinstance(error, (SceneError, BagError, ExcitationError, IdentificationError)):
+    if isinstance(error, (SceneError, BagError, ExcitationError, IdentificationError, MaterialError)):
         return str(error), 2
     if isinstance(error, RunError):
         return str(error), 1

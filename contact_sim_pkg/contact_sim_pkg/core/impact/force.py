@@ -10,7 +10,15 @@ import math
 
 from ..parameters import GeneralDissipative, NormalElastic
 
-__all__ = ["elastic_coefficient", "elastic_force", "lowest_force", "normal_law", "viscous_coefficient", "viscous_force"]
+__all__ = [
+    "ENDS",
+    "elastic_coefficient",
+    "elastic_force",
+    "lowest_force",
+    "normal_law",
+    "viscous_coefficient",
+    "viscous_force",
+]
 
 ENDS = ("force", "gap")
 

@@ -1,0 +1,1 @@
+"""Materials from measured impacts: reading, each impact, repeated impacts, master curve."""

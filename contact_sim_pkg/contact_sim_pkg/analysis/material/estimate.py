@@ -1,0 +1,142 @@
+"""E', E'' and tan(beta) of each impact, and of repeated impacts with intervals.
+
+Every form of the inversion is ``E' = q h(k)``, ``tan(beta) = g(k)`` (`core/impact/inverse.py`). Repeated impacts: the means of
+ln q and of k are inverted, not the inverses averaged, so that noise that lifts single restitutions above 1 does no harm and the
+bias of the mean falls with 1/n. Intervals: Student's t on the linearised values of the single impacts, in which the common
+noise of k in E' and tan(beta) is counted; for E' in ln E'.
+"""
+
+from __future__ import annotations
+
+import math
+from typing import NamedTuple
+
+import numpy
+from numpy.typing import NDArray
+from scipy.special import stdtrit
+
+from contact_sim_pkg.analysis.material.errors import MaterialError
+from contact_sim_pkg.analysis.material.options import Options
+from contact_sim_pkg.analysis.material.reading import Impacts
+from contact_sim_pkg.core.impact.bodies import Sphere
+from contact_sim_pkg.core.impact.errors import ImpactError
+from contact_sim_pkg.core.impact.inverse import group_factor, material_of_impact, reading, shape_of_depth
+
+__all__ = ["Estimate", "Value", "each_impact", "repeated_impacts"]
+
+STEP = 1.0e-5  # of k, for the slopes of h and g
+Indices = NDArray[numpy.intp]
+
+
+class Value(NamedTuple):
+    """A value with its standard error and the interval of the asked confidence; None where a single impact tells none."""
+
+    value: float
+    error: float | None
+    low: float | None
+    high: float | None
+
+
+class Estimate(NamedTuple):
+    """What repeated impacts say of the material."""
+
+    impacts: int
+    temperature: float | None  # [K], mean
+    speed: float  # [m/s], geometric mean
+    restitution: float  # mean
+    storage_modulus: Value  # E' [Pa]
+    loss_modulus: Value  # E'' [Pa]
+    loss_tangent: Value
+
+
+class _Curve(NamedTuple):
+    """ln h and g at the mean restitution, with their slopes."""
+
+    log_factor: float
+    log_factor_slope: float
+    loss_tangent: float
+    loss_tangent_slope: float
+    depth_factor: float
+
+
+def each_impact(impacts: Impacts, options: Options) -> list[dict[str, float | int | str | None]]:
+    """One row an impact; a restitution that the form does not reach gives no material and a note in its place."""
+    rows: list[dict[str, float | int | str | None]] = []
+    for i in range(len(impacts.mass)):
+        row: dict[str, float | int | str | None] = {
+            "line": int(impacts.line[i]), "T": None if impacts.temperature is None else float(impacts.temperature[i]),
+            "V0": float(impacts.speed[i]), "tau": float(impacts.duration[i]), "k": float(impacts.restitution[i]),
+        }  # fmt: skip
+        sphere = Sphere(float(impacts.mass[i]), float(impacts.radius[i]))
+        speed, duration, k = (float(v[i]) for v in (impacts.speed, impacts.duration, impacts.restitution))
+        try:
+            found = material_of_impact(sphere, speed, duration, k, options.end, options.form, options.shape)
+        except ImpactError as error:
+            rows.append({**row, "E'": None, "E''": None, "tan_beta": None, "note": str(error)})
+            continue
+        parts = {"E'": found.storage_modulus, "E''": found.loss_modulus, "tan_beta": found.loss_tangent}
+        rows.append({**row, **parts, "note": None})
+    return rows
+
+
+def repeated_impacts(impacts: Impacts, chosen: Indices, options: Options) -> Estimate:
+    """The material from the impacts ``chosen``, taken as repeats of one state of it. Raises MaterialError where k tells none."""
+    k = impacts.restitution[chosen]
+    logs = numpy.array([math.log(_group_factor(impacts, int(i))) for i in chosen])
+    curve = _curve(float(k.mean()), impacts, chosen, options)
+    scale = impacts.speed[chosen] * impacts.duration[chosen] / impacts.radius[chosen]
+    shape = shape_of_depth(curve.depth_factor * float(scale.mean()), 1.0, options.shape)
+    storage = math.exp(float(logs.mean()) + curve.log_factor) / shape
+    tangent = curve.loss_tangent
+    deviation = k - k.mean()
+    log_storage = logs + curve.log_factor_slope * deviation
+    log_error, factor = _standard_error(log_storage), _student(len(chosen), options.confidence)
+    tangent_error = _standard_error(curve.loss_tangent_slope * deviation)
+    loss_error = _standard_error(storage * (tangent * log_storage + curve.loss_tangent_slope * deviation))
+    temperature = None if impacts.temperature is None else float(impacts.temperature[chosen].mean())
+    return Estimate(
+        len(chosen), temperature, math.exp(float(numpy.log(impacts.speed[chosen]).mean())), float(k.mean()),
+        _of_logarithm(storage, log_error, factor), _around(storage * tangent, loss_error, factor),
+        _around(tangent, tangent_error, factor),
+    )  # fmt: skip
+
+
+def _group_factor(impacts: Impacts, i: int) -> float:
+    sphere = Sphere(float(impacts.mass[i]), float(impacts.radius[i]))
+    return group_factor(sphere, float(impacts.speed[i]), float(impacts.duration[i]))
+
+
+def _curve(k: float, impacts: Impacts, chosen: Indices, options: Options) -> _Curve:
+    """At a mean restitution above 1 by noise, the limit without loss is taken, with the slopes from below."""
+    held = min(k, 1.0)
+    low, high = held - STEP, min(held + STEP, 1.0)
+    try:
+        at, below, above = (reading(value, options.end, options.form) for value in (held, low, high))
+    except ImpactError as error:
+        lines = f"lines {impacts.line[chosen[0]]} to {impacts.line[chosen[-1]]}"
+        raise MaterialError(f"{impacts.file}, {lines}: mean of the restitution: {error}") from error
+    width = high - low
+    return _Curve(
+        math.log(at.modulus_factor), math.log(above.modulus_factor / below.modulus_factor) / width,
+        at.loss_tangent, (above.loss_tangent - below.loss_tangent) / width, at.depth_factor,
+    )  # fmt: skip
+
+
+def _standard_error(values: NDArray[numpy.float64]) -> float | None:
+    return float(values.std(ddof=1)) / math.sqrt(len(values)) if len(values) > 1 else None
+
+
+def _student(count: int, confidence: float) -> float:
+    return float(stdtrit(count - 1, 0.5 + 0.5 * confidence)) if count > 1 else math.nan
+
+
+def _around(value: float, error: float | None, factor: float) -> Value:
+    if error is None:
+        return Value(value, None, None, None)
+    return Value(value, error, max(0.0, value - factor * error), value + factor * error)
+
+
+def _of_logarithm(value: float, error: float | None, factor: float) -> Value:
+    if error is None:
+        return Value(value, None, None, None)
+    return Value(value, value * error, value * math.exp(-factor * error), value * math.exp(factor * error))

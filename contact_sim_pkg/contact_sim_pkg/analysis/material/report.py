@@ -1,0 +1,106 @@
+"""All of `bench material`: from the file to rows of impacts, of groups and of the master curve."""
+
+from __future__ import annotations
+
+import csv
+from pathlib import Path
+from typing import Any, NamedTuple
+
+from contact_sim_pkg.analysis.material.errors import MaterialError
+from contact_sim_pkg.analysis.material.estimate import Estimate, Value, each_impact, repeated_impacts
+from contact_sim_pkg.analysis.material.groups import groups
+from contact_sim_pkg.analysis.material.master_curve import LAWS, MasterCurve, master_curve
+from contact_sim_pkg.analysis.material.options import Options
+from contact_sim_pkg.analysis.material.reading import Impacts, read_impacts
+from contact_sim_pkg.core.impact.force import ENDS
+from contact_sim_pkg.core.impact.inverse import FORMS
+from contact_sim_pkg.core.impact.motion import SHAPE_RULES
+from contact_sim_pkg.core.impact.shift import Wlf
+
+__all__ = ["MaterialReport", "group_rows", "master_row", "material_report", "write_csv"]
+
+
+class MaterialReport(NamedTuple):
+    """What a file of impacts says."""
+
+    impacts: Impacts
+    options: Options
+    rows: list[dict[str, Any]]  # an impact a row
+    estimates: list[Estimate]  # a group of repeats a row
+    master: MasterCurve | None
+
+
+def material_report(
+    path: Path, options: Options, law: str | None = None, parameter: float | None = None, reference: float | None = None
+) -> MaterialReport:
+    """Read and estimate; ``law`` `wlf` or `arrhenius` adds the master curve. Raises MaterialError with one sentence."""
+    _check(options, law)
+    impacts = read_impacts(path)
+    rows = each_impact(impacts, options)
+    estimates = [repeated_impacts(impacts, chosen, options) for chosen in groups(impacts, options)]
+    master = None if law is None else master_curve(estimates, law, parameter, reference)
+    return MaterialReport(impacts, options, rows, estimates, master)
+
+
+def group_rows(report: MaterialReport) -> list[dict[str, Any]]:
+    """One flat row a group: state, values, standard errors, intervals, and its place on the master curve."""
+    rows = []
+    for i, estimate in enumerate(report.estimates):
+        row: dict[str, Any] = {
+            "impacts": estimate.impacts, "T": estimate.temperature, "V0": estimate.speed, "k": estimate.restitution,
+            **_flat("E'", estimate.storage_modulus), **_flat("E''", estimate.loss_modulus),
+            **_flat("tan_beta", estimate.loss_tangent),
+        }  # fmt: skip
+        if report.master is not None:
+            row |= {"lg_aT": report.master.log_shift[i], "reduced_speed": report.master.reduced_speed[i]}
+        rows.append(row)
+    return rows
+
+
+def master_row(report: MaterialReport) -> dict[str, Any] | None:
+    """The law of the master curve, or None."""
+    if report.master is None:
+        return None
+    law = report.master.law
+    name = "Tg" if isinstance(law, Wlf) else "activation_energy"
+    value = law.glass_temperature if isinstance(law, Wlf) else law.activation_energy
+    return {
+        "law": "wlf" if isinstance(law, Wlf) else "arrhenius", name: value, "found": report.master.found is not None,
+        "standard_error": report.master.found_error, "reference_temperature": report.master.reference_temperature,
+        "scatter": report.master.scatter,
+    }  # fmt: skip
+
+
+def write_csv(report: MaterialReport, path: Path) -> None:
+    """Write the rows of the impacts; beside it, with `_groups` in its name, those of the groups. Raises MaterialError."""
+    for rows, target in ((report.rows, path), (group_rows(report), path.with_stem(f"{path.stem}_groups"))):
+        try:
+            with open(target, "w", newline="", encoding="utf-8") as stream:
+                writer = csv.DictWriter(stream, list(rows[0]))
+                writer.writeheader()
+                writer.writerows(rows)
+        except OSError as error:
+            raise MaterialError(f"{target}: cannot be written: {error.strerror or error}") from error
+
+
+def _flat(name: str, value: Value) -> dict[str, float | None]:
+    return {name: value.value, f"{name}_error": value.error, f"{name}_low": value.low, f"{name}_high": value.high}
+
+
+def _check(options: Options, law: str | None) -> None:
+    choices = (
+        ("end rule", options.end, ENDS),
+        ("form", options.form, FORMS),
+        ("shape factor", options.shape, SHAPE_RULES),
+    )
+    for name, value, allowed in choices:
+        if value not in allowed:
+            raise MaterialError(f"{name} '{value}': {', '.join(allowed)} are known")
+    if law is not None and law not in LAWS:
+        raise MaterialError(f"shift '{law}': {', '.join(LAWS)} are known")
+    if not 0.0 < options.confidence < 1.0:
+        raise MaterialError(f"confidence {options.confidence:g}: a number between 0 and 1 is needed, such as 0.95")
+    if not options.temperature_span >= 0.0:
+        raise MaterialError(f"temperature span {options.temperature_span:g} K: 0 or above is needed")
+    if not options.speed_ratio >= 1.0:
+        raise MaterialError(f"speed ratio {options.speed_ratio:g}: 1 or above is needed")

@@ -1,0 +1,85 @@
+"""The material of a measured impact: E' and tan(beta) from contact time, restitution and speed (Goloshchapov eqs 104, 105).
+
+Every form is ``E' = q h(k)``, ``tan(beta) = g(k)`` with ``q = m/(sqrt(V0 R) tau^(5/2))``. `exact` (default) inverts the
+integrated motion: zeta from k, ``L = V0 tau/T_c``, ``E' = 3 m V0^2/(4 k_p sqrt(R) L^(5/2))``, so ``h = 3 T_c^(5/2)/(4 k_p)``,
+and ``g = pi zeta/(3 T_c)``. `corrected` and `printed`: ``h = f (1 + k)^(5/2)/(k_p k^(3/2))``, f = 5.3033 and 5.03, ``g = pi/3
+(1 - k)/(1 + k)``; without loss they give 2.15 times the E' that the motion has.
+"""
+
+from __future__ import annotations
+
+import math
+from typing import NamedTuple
+
+from .bodies import Material, Sphere
+from .checks import check_positive
+from .errors import ImpactError
+from .geometry import SMALL_SHAPE_FACTOR, depth_note
+from .motion import SHAPE_RULES
+from .scaled_motion import scaled_impact
+from .severity import loss_tangent_of_severity, severity_of_restitution
+
+__all__ = ["FORMS", "Reading", "group_factor", "material_of_impact", "reading"]
+
+FORMS = ("exact", "corrected", "printed")
+FACTORS = {"corrected": 15.0 / 16.0 * 2.0**2.5, "printed": 5.03}
+
+
+class Reading(NamedTuple):
+    """What a restitution alone says."""
+
+    modulus_factor: float  # h k_p: E' = q (h k_p)/k_p
+    loss_tangent: float  # g
+    depth_factor: float  # x_m/(V0 tau)
+
+
+def material_of_impact(
+    sphere: Sphere,
+    speed: float,
+    duration: float,
+    restitution: float,
+    end: str = "force",
+    form: str = "exact",
+    shape: str = "small",
+) -> Material:
+    """E' and tan(beta) of an impact of ``sphere`` at ``speed`` [m/s] that lasts ``duration`` [s] and rebounds with ``restitution``.
+
+    ``end`` and ``shape`` as in `solve_impact`. Raises ImpactError for a restitution that the form does not reach and for x_m > R.
+    """
+    found = reading(restitution, end, form)
+    factor = shape_of_depth(found.depth_factor * speed * duration, sphere.radius, shape)
+    group = group_factor(sphere, speed, duration)
+    return Material(group * found.modulus_factor / factor, found.loss_tangent)
+
+
+def group_factor(sphere: Sphere, speed: float, duration: float) -> float:
+    """``q = m/(sqrt(V0 R) tau^(5/2))`` in [Pa]."""
+    check_positive("mass", sphere.mass, "kg")
+    check_positive("radius", sphere.radius, "m")
+    check_positive("impact speed", speed, "m/s")
+    check_positive("duration", duration, "s")
+    return float(sphere.mass / (math.sqrt(speed * sphere.radius) * duration**2.5))
+
+
+def reading(restitution: float, end: str = "force", form: str = "exact") -> Reading:
+    """h, g and the depth of a restitution k. Raises ImpactError outside the range of the form, ValueError for another form."""
+    if form == "exact":
+        severity = severity_of_restitution(restitution, end)
+        scaled = scaled_impact(severity, end)
+        factor = 0.75 * scaled.duration**2.5
+        return Reading(float(factor), loss_tangent_of_severity(severity, end), scaled.depth / scaled.duration)
+    if form not in FACTORS:
+        raise ValueError(f"form '{form}': {', '.join(FORMS)} are the forms")
+    if not 0.0 < restitution <= 1.0:
+        raise ImpactError(f"restitution {restitution:g}: a number above 0, at most 1, is needed")
+    k = restitution
+    factor = FACTORS[form] * (1.0 + k) ** 2.5 / k**1.5
+    return Reading(float(factor), math.pi / 3.0 * (1.0 - k) / (1.0 + k), 0.5 * k / (1.0 + k))
+
+
+def shape_of_depth(depth: float, radius: float, shape: str) -> float:
+    """k_p by the rule ``shape``; raises ImpactError for a depth above the radius."""
+    if shape not in SHAPE_RULES:
+        raise ValueError(f"shape factor '{shape}': small or iterate is needed")
+    depth_note(depth, radius)
+    return SMALL_SHAPE_FACTOR if shape == "small" else math.sqrt(2.0 - depth / radius)
