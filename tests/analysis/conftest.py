@@ -2,7 +2,7 @@
 
 import pytest
 
-from . import rolling_bag, synthetic_bag
+from . import backrest_bag, rolling_bag, synthetic_bag
 
 
 @pytest.fixture(scope="session")
@@ -27,3 +27,9 @@ def bare(tmp_path_factory):
 def rolling(tmp_path_factory):
     """One second of the synthetic rolling tire."""
     return rolling_bag.rolling_bag(tmp_path_factory.mktemp("bags") / "rolling")
+
+
+@pytest.fixture(scope="session")
+def backrest(tmp_path_factory):
+    """Two seconds of the synthetic backrest, which slaps, with six contact points."""
+    return backrest_bag.backrest_bag(tmp_path_factory.mktemp("bags") / "backrest", points=6)

@@ -36,6 +36,7 @@ class FieldPass:
         self._highest_time = 0.0
         self._history_time, self._history = ThinnedRows(HISTORY_ROWS), ThinnedRows(HISTORY_ROWS)
         self._event = _LargestLoad()
+        self._touch: tuple[float, Any] | None = None
 
     def take(self, time: float, message: Any) -> None:
         """Take in the field at `time` [s]. BagError for a field that does not fill its grid, or on cells of another size."""
@@ -48,6 +49,8 @@ class FieldPass:
         pressure = np.reshape(message.pressure, (message.rows, message.cols))
         self._total[row : row + message.rows, col : col + message.cols] += pressure
         size = _size(pressure, message)
+        if self._touch is None and message.load > 0.0 and self._scalars and self._scalars[-1][1] <= 0.0:
+            self._touch = time, message
         self._scalars.append((time, *(float(getattr(message, name)) for name in SCALARS), *size))
         line = np.zeros(self._widest.rows)
         line[row : row + message.rows] = pressure.sum(axis=1, dtype=np.float64) * message.cell_y
@@ -93,6 +96,7 @@ class FieldPass:
             history_time=self._history_time.finish()[:, 0],
             history=self._history.finish(),
             history_group=self._history.group,
+            touch=None if self._touch is None else _snapshot(*self._touch),
         )
 
 
@@ -120,7 +124,11 @@ class _LargestLoad:
         kept = self._kept
         if self._wanted > 0:  # the recording ends less than that many fields after the largest load
             kept = list(self._recent)[self._wanted - 2 * AROUND_LARGEST_LOAD - 1 :]
-        return [Snapshot(time, float(each.load), pressure_map(each, each.pressure)) for time, each in kept]
+        return [_snapshot(time, each) for time, each in kept]
+
+
+def _snapshot(time: float, message: Any) -> Snapshot:
+    return Snapshot(time, float(message.load), pressure_map(message, message.pressure))
 
 
 def _size(pressure: Any, message: Any) -> tuple[float, float]:

@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 from .decimate import envelope
 from .drawing import ACCENT, INK, MUTED, PRESSURE_COLOURS, SHADE, WIDTH, Picture, new_figure, picture
 from .lift_off import lifted_intervals
-from .maps import Window, draw_map, loaded_window, set_window
+from .maps import FROM_ABOVE, View, Window, draw_map, loaded_window, set_window
 from .series import ContactSeries, FieldSeries, PressureMap
 from .summary import field_numbers, force_numbers
 
@@ -31,7 +31,7 @@ def load_over_time(key: str, name: str, contact: ContactSeries) -> Picture:
     rows = 2 + len(others)
     figure, axes = new_figure(1.0 + 1.45 * rows, rows, sharex=True)
     _line(axes[0], contact.time, contact.normal * scale, f"normal force, {unit}")
-    _shade(axes[0], lifted_intervals(contact))
+    shade(axes[0], lifted_intervals(contact))
     axes[0].axhline(contact.normal.mean() * scale, color=INK, linewidth=0.9, linestyle=(0, (4, 3)))
     axes[0].set_ylim(bottom=0.0)
     for place, (label, values) in zip(axes[1:-1], others, strict=True):
@@ -85,20 +85,20 @@ def load_over_approach(key: str, name: str, contact: ContactSeries) -> Picture:
     return picture(f"{key}-loop", figure, f"Normal force of the {name} contact over its approach", caption)
 
 
-def pressure_maps(key: str, name: str, field: FieldSeries) -> Picture:
+def pressure_maps(key: str, name: str, field: FieldSeries, view: View = FROM_ABOVE) -> Picture:
     """The map with the largest peak and the mean map, one colour scale each, cells as they are."""
     window = loaded_window(field.average)
     figure, axes = new_figure(_map_height(window), 1, 2)
-    _map(axes[0], field.highest, window, f"largest peak, t = {field.highest_time:.3f} s")
+    _map(axes[0], field.highest, window, f"largest peak, t = {field.highest_time:.3f} s", view)
     _mark_peak(axes[0], field.highest)
-    _map(axes[1], field.average, window, "mean over the run")
+    _map(axes[1], field.average, window, "mean over the run", view)
     rows, cols = field.highest.pressure.shape
     caption = (
         f"Pressure of the cells ({rows} × {cols} of {field.highest.cell_x * 1e3:.3g} × "
         f"{field.highest.cell_y * 1e3:.3g} mm), not interpolated; cells without pressure are blank, the grid is cut to "
         f"what was ever loaded. Left: the largest peak of the run, {field.highest.pressure.max() * 1e-3:.4g} kPa "
         f"(cross) at {field.highest_time:.3f} s. Right: the mean of {field.time.size} fields, at most "
-        f"{field.average.pressure.max() * 1e-3:.4g} kPa. Seen from above, forward is up."
+        f"{field.average.pressure.max() * 1e-3:.4g} kPa. {view.seen}"
     )
     return picture(f"{key}-map", figure, f"Pressure maps of the {name} contact", caption)
 
@@ -163,7 +163,7 @@ def _line(axes: Axes, time: NDArray[np.float64], values: NDArray[np.float64], la
     axes.set_ylabel(label)
 
 
-def _shade(axes: Axes, intervals: NDArray[np.float64]) -> None:
+def shade(axes: Axes, intervals: NDArray[np.float64]) -> None:
     """Bands over the whole height, all in one path."""
     corners = [[(start, 0.0), (start, 1.0), (end, 1.0), (end, 0.0)] for start, end in intervals]
     bands = PolyCollection(
@@ -172,14 +172,14 @@ def _shade(axes: Axes, intervals: NDArray[np.float64]) -> None:
     axes.add_collection(bands, autolim=False)
 
 
-def _map(axes: Axes, field: PressureMap, window: Window, title: str) -> None:
+def _map(axes: Axes, field: PressureMap, window: Window, title: str, view: View) -> None:
     loaded = np.where(field.pressure > 0.0, field.pressure * 1e-3, np.nan)
     highest = float(field.pressure.max()) * 1e-3
     image = draw_map(axes, field, loaded, PRESSURE_COLOURS, Normalize(0.0, highest or 1.0))
     set_window(axes, window)
     axes.set_title(title)
-    axes.set_xlabel("← left, y, mm")
-    axes.set_ylabel("forward, x, mm →")
+    axes.set_xlabel(view.across)
+    axes.set_ylabel(view.along)
     bar = axes.figure.colorbar(image, cax=axes.inset_axes((1.04, 0.0, 0.045, 1.0)), label="kPa")
     bar.ax.spines["outline"].set_visible(False)
 

@@ -8,8 +8,8 @@ from matplotlib.cm import ScalarMappable
 from matplotlib.colors import Normalize
 
 from .drawing import MUTED, PRESSURE_COLOURS, WIDTH, Picture, new_figure, picture
-from .maps import Window, draw_map, extension, loaded_window, robust_limits, set_window
-from .series import FieldSeries, PressureMap, Snapshot, Travel
+from .maps import common_window, draw_map, extension, robust_limits, set_window
+from .series import FieldSeries, Snapshot, Travel
 
 STAGES = 8
 COLUMNS = 4
@@ -34,7 +34,7 @@ def chosen_stages(field: FieldSeries, travel: Travel | None) -> list[Snapshot]:
 def footprint_stages(key: str, name: str, field: FieldSeries, travel: Travel | None) -> Picture:
     """Maps of the footprint at several instants, one colour scale."""
     stages = chosen_stages(field, travel)
-    window = _common_window([each.field for each in stages])
+    window = common_window([each.field for each in stages])
     rows = -(-len(stages) // COLUMNS)
     height = float(np.clip(window.aspect * 0.2 * WIDTH, 0.5, 2.6)) + 0.34
     figure, axes = new_figure(rows * height + 0.5, rows, COLUMNS, sharex=True, sharey=True)
@@ -73,9 +73,3 @@ def _stage_title(each: Snapshot, travel: Travel | None) -> str:
     if travel is None:
         return f"{each.time:.3f} s, {load}"
     return f"{float(travel.at(np.array([each.time]))[0]):.2f} m, {load}"
-
-
-def _common_window(fields: list[PressureMap]) -> Window:
-    loaded = [field for field in fields if field.pressure.any()] or fields[:1]
-    low_x, high_x, low_y, high_y = zip(*(loaded_window(field) for field in loaded), strict=True)
-    return Window(min(low_x), max(high_x), min(low_y), max(high_y))

@@ -34,6 +34,18 @@ class Window(NamedTuple):
         return (self.high_x - self.low_x) / (self.high_y - self.low_y)
 
 
+class View(NamedTuple):
+    """How a map is looked at: labels of its axes, and a sentence for the caption."""
+
+    across: str
+    along: str
+    seen: str
+
+
+FROM_ABOVE = View("← left, y, mm", "forward, x, mm →", "Seen from above, forward is up.")
+AT_BACKREST = View("← left, y, mm", "up, x, mm →", "Seen from the front, as one looks at the seat back.")
+
+
 class Quantity(NamedTuple):
     """Values on the cells of a field, and how they are shown."""
 
@@ -68,6 +80,13 @@ def loaded_window(field: PressureMap, margin: float = 2.0) -> Window:
     low_x, high_x = (field.origin_x + row * field.cell_x for row in (rows[0] - side, rows[-1] + side))
     low_y, high_y = (field.origin_y + col * field.cell_y for col in (cols[0] - side, cols[-1] + side))
     return Window(low_x * 1e3, high_x * 1e3, low_y * 1e3, high_y * 1e3)
+
+
+def common_window(fields: list[PressureMap]) -> Window:
+    """What shows the loaded cells of all fields; the first grid where none is loaded."""
+    loaded = [field for field in fields if field.pressure.any()] or fields[:1]
+    low_x, high_x, low_y, high_y = zip(*(loaded_window(field) for field in loaded), strict=True)
+    return Window(min(low_x), max(high_x), min(low_y), max(high_y))
 
 
 def whole_window(field: PressureMap) -> Window:

@@ -19,6 +19,7 @@ from contact_sim_pkg.bag.typestore import store_of_definition
 
 from .episodes import episode_series
 from .field_pass import FieldPass
+from .point_pass import PointPass
 from .road_pass import RoadPass
 from .series import (
     ContactSeries,
@@ -40,8 +41,9 @@ MOTION = "contact_msgs_defs/msg/BodyMotion"
 ENERGY = "contact_msgs_defs/msg/EnergyLedger"
 COST = "contact_msgs_defs/msg/SolverCost"
 EPISODES = "contact_msgs_defs/msg/ContactEpisodes"
+POINTS = "contact_msgs_defs/msg/ContactPoints"
 SERIES_TYPES = (FORCE, MOTION, ENERGY, COST, EPISODES)
-READ_TYPES = (*SERIES_TYPES, PATCH, ROAD, SHEAR)
+READ_TYPES = (*SERIES_TYPES, PATCH, ROAD, SHEAR, POINTS)
 CONTACT_COLUMNS = ("time", "sample_period", "normal", "tangential", "approach", "effective_height")
 IMPULSES = "impulses"  # absent from older bags
 MOTION_COLUMNS = ("time", "sample_period", "samples", "bodies", "position", "acceleration")
@@ -56,7 +58,7 @@ def read_recording(bag: Bag) -> Recording:
     """
     kinds = {row.type: row.definition for row in bag.topics.values() if row.type in READ_TYPES}
     stores = {kind: store_of_definition(kind, definition) for kind, definition in kinds.items()}
-    decoded, fields, roads, shears = _decode(bag, stores)
+    decoded, fields, roads, shears, points = _decode(bag, stores)
 
     def columns(topic: str, names: tuple[str, ...]) -> dict[str, Any]:
         kind = bag.topics[topic].type
@@ -87,20 +89,22 @@ def read_recording(bag: Bag) -> Recording:
         road=next((road.finish() for road in roads.values()), None),
         shear=next((shear.finish() for shear in shears.values()), None),
         episodes=episodes,
+        points=next((each.finish() for each in points.values()), None),
     )
 
 
 class Decoded(NamedTuple):
-    """Messages of the series by topic; fields, roads and shears are taken in one by one, for they are large."""
+    """Messages of the series by topic; fields, roads, shears and points are taken in one by one, for they are large."""
 
     series: dict[str, list[tuple[int, Any]]]
     fields: dict[str, FieldPass]
     roads: dict[str, RoadPass]
     shears: dict[str, ShearPass]
+    points: dict[str, PointPass]
 
 
 def _decode(bag: Bag, stores: dict[str, Typestore]) -> Decoded:
-    decoded = Decoded({}, {}, {}, {})
+    decoded = Decoded({}, {}, {}, {}, {})
     for message in bag.messages():
         if message.type not in stores:
             continue
@@ -116,6 +120,8 @@ def _decode(bag: Bag, stores: dict[str, Typestore]) -> Decoded:
             decoded.roads.setdefault(message.topic, RoadPass()).take(seconds, value)
         elif message.type == SHEAR:
             decoded.shears.setdefault(message.topic, ShearPass()).take(seconds, value)
+        elif message.type == POINTS:
+            decoded.points.setdefault(message.topic, PointPass()).take(seconds, value)
         else:
             decoded.series.setdefault(message.topic, []).append((message.log_time, value))
     return decoded

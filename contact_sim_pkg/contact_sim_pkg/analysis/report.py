@@ -2,40 +2,29 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from pathlib import Path
-from typing import NamedTuple
-
-from jinja2 import Environment, PackageLoader, StrictUndefined
 
 from contact_sim_pkg.bag.reader import Bag
 
 from . import facts
+from .backrest_numbers import BACKREST
+from .backrest_section import backrest_parts
 from .drawing import Picture, style
 from .figures_bench import energy_balance, real_time_factor
 from .figures_contact import footprint_over_time, load_over_approach, load_over_time, pressure_maps
 from .figures_ride import seat_spectrum, seat_transmissibility
+from .page import Section, environment
 from .reading import read_recording
 from .ride import ride_signals
 from .rows import scene_rows
 from .series import Recording
 from .summary import summarise_recording
-from .tables import Table
 from .tiles import tiles
 from .tire_numbers import TIRE
 from .tire_section import FRICTION_KEY, KEY, friction_pictures, tire_part
 
 TEMPLATE = "report.html.j2"
 FILE_NAME = "report.html"
-
-
-class Section(NamedTuple):
-    """One section of the page."""
-
-    key: str
-    title: str
-    pictures: list[Picture]
-    tables: Sequence[Table] = ()
 
 
 def write_report(bag: Bag, out: Path | None = None) -> Path:
@@ -59,27 +48,26 @@ def write_report(bag: Bag, out: Path | None = None) -> Path:
 
 def render(recording: Recording) -> str:
     """The page as text. Everything that comes from the bag is escaped."""
-    # Pictures are the one thing marked as safe markup.
-    environment = Environment(
-        loader=PackageLoader(__package__, "templates"), autoescape=True, undefined=StrictUndefined, trim_blocks=True,
-        lstrip_blocks=True,
-    )  # fmt: skip
     summary = summarise_recording(recording)
-    page: str = environment.get_template(TEMPLATE).render(
-        title=recording.scene.get("name") or recording.name,
-        description=recording.scene.get("description") or "",
-        bag_name=recording.name,
-        warnings=facts.warnings(recording),
-        tiles=tiles(summary),
-        run=facts.run_rows(recording),
-        effects=facts.effect_rows(recording),
-        excitations=facts.excitation_facts(recording),
-        versions=facts.version_rows(recording),
-        scene=scene_rows(recording.scene),
-        sections=sections(recording),
-        vibration=summary.get("seat_vibration"),
-        topics=recording.topics,
-        duration=recording.duration,
+    page: str = (
+        environment()
+        .get_template(TEMPLATE)
+        .render(
+            title=recording.scene.get("name") or recording.name,
+            description=recording.scene.get("description") or "",
+            bag_name=recording.name,
+            warnings=facts.warnings(recording),
+            tiles=tiles(summary),
+            run=facts.run_rows(recording),
+            effects=facts.effect_rows(recording),
+            excitations=facts.excitation_facts(recording),
+            versions=facts.version_rows(recording),
+            scene=scene_rows(recording.scene),
+            sections=sections(recording),
+            vibration=summary.get("seat_vibration"),
+            topics=recording.topics,
+            duration=recording.duration,
+        )
     )
     return page
 
@@ -89,6 +77,9 @@ def sections(recording: Recording) -> list[Section]:
     with style():
         found: list[Section] = []
         for number, name in enumerate(recording.contacts):
+            if name == BACKREST:
+                found += [Section(*part) for part in backrest_parts(recording)]
+                continue
             found.append(_contact_section(number, name, recording))
             if name == TIRE:
                 rolling = tire_part(recording)

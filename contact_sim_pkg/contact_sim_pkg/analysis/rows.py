@@ -45,9 +45,14 @@ def scene_rows(value: Any, location: tuple[str, ...] = (), shown_from: int = 0) 
     return [
         Row(
             " · ".join(plain_name(key) for key in location[shown_from:]),
-            with_unit(value, _scene_units().get(location, "")),
+            scene_value(value, location),
         )
     ]
+
+
+def scene_value(value: Any, location: tuple[str, ...]) -> str:
+    """The value at `location`, keys from the scene's root, with the unit of the schema."""
+    return with_unit(value, _scene_units().get(location, ""))
 
 
 def described_rows(value: Any, label: str = "") -> list[Row]:

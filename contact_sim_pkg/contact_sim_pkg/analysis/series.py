@@ -10,6 +10,8 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from .point_series import PointSeries
+
 FloatArray = NDArray[np.float64]
 
 
@@ -90,6 +92,8 @@ class FieldSeries(NamedTuple):
     """[N/m] [instants, rows] pressure integrated across the width, on the rows of `average`"""
     history_group: int
     """fields that one row of `history` is the mean of"""
+    touch: Snapshot | None = None
+    """the first field with a load after one without; None where the contact never closes"""
 
     @property
     def heaviest(self) -> Snapshot:
@@ -278,3 +282,4 @@ class Recording(NamedTuple):
     road: RoadSeries | None = None
     shear: ShearSeries | None = None
     episodes: EpisodeSeries | None = None
+    points: PointSeries | None = None

@@ -23,6 +23,7 @@ def tiles(summary: dict[str, Any]) -> list[Tile]:
     found: list[Tile] = []
     for name, contact in summary["contacts"].items():
         found += _contact_tiles(name, contact)
+    found += _slap_tiles(summary.get("slaps", {}))
     found += _ride_tiles(summary.get("seat_vibration", {}))
     energy = summary.get("energy", {})
     if energy.get("residual_relative") is not None:
@@ -57,6 +58,15 @@ def _contact_tiles(name: str, contact: dict[str, Any]) -> list[Tile]:
         detail = f"lifted off {contact['lift_offs']} times"
         found.append(Tile(f"{name} without load", number(100.0 * contact["lifted_share"]), "%", detail))
     return found
+
+
+def _slap_tiles(slaps: dict[str, Any]) -> list[Tile]:
+    if not slaps:
+        return []
+    if not slaps["count"]:
+        return [Tile("slaps", "0", "", "no slap ended within the run")]
+    span = f"restitution {number(slaps['restitution_min'])} to {number(slaps['restitution_max'])}"
+    return [Tile("slaps", str(slaps["count"]), "", span)]
 
 
 def _ride_tiles(vibration: dict[str, Any]) -> list[Tile]:

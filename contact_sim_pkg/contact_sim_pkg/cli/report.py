@@ -1,4 +1,4 @@
-"""`bench report`: one HTML page on a bag."""
+"""`bench report`: one HTML page on a bag, or on several bags of one rig side by side."""
 
 from __future__ import annotations
 
@@ -8,17 +8,26 @@ import click
 
 
 @click.command("report")
-@click.argument("bag", type=click.Path(path_type=Path))
+@click.argument("bags", nargs=-1, required=True, metavar="BAG...", type=click.Path(path_type=Path))
 @click.option(
-    "--out", type=click.Path(path_type=Path), metavar="FILE", help="The page; report.html in the bag otherwise."
+    "--out",
+    type=click.Path(path_type=Path),
+    metavar="FILE",
+    help="The page; report.html in the bag otherwise, comparison.html here for several bags.",
 )
 @click.option("--skip-bad", is_flag=True, help="Go on after damaged chunks.")
-def command(bag: Path, out: Path | None, skip_bad: bool) -> None:
-    """Write the page with the pictures that an engineer looks at, and print its path."""
+def command(bags: tuple[Path, ...], out: Path | None, skip_bad: bool) -> None:
+    """Write the page with the pictures that an engineer looks at, and print its path.
+
+    Several bags of one rig are laid over each other on one page, called by what differs between their scenes.
+    """
+    from contact_sim_pkg.analysis.comparison import write_comparison
     from contact_sim_pkg.analysis.report import write_report
     from contact_sim_pkg.bag.reader import open_bag
 
-    recorded = open_bag(bag, skip_bad=skip_bad)
-    for note in recorded.notes:
-        click.echo(note, err=True)
-    click.echo(f"report: {write_report(recorded, out)}")
+    recorded = [open_bag(bag, skip_bad=skip_bad) for bag in bags]
+    for each in recorded:
+        for note in each.notes:
+            click.echo(note if len(bags) == 1 else f"{each.path.parent.name}: {note}", err=True)
+    page = write_report(recorded[0], out) if len(recorded) == 1 else write_comparison(recorded, out)
+    click.echo(f"report: {page}")

@@ -1,0 +1,88 @@
+"""One page on several bags."""
+
+import pytest
+from click.testing import CliRunner
+
+from contact_sim_pkg.analysis.comparison import render_comparison, write_comparison
+from contact_sim_pkg.analysis.comparison_tables import number_table
+from contact_sim_pkg.analysis.figures_comparison import COLOURS, make_runs
+from contact_sim_pkg.analysis.reading import read_recording
+from contact_sim_pkg.analysis.summary import summarise_recording
+from contact_sim_pkg.bag.errors import BagError
+from contact_sim_pkg.cli.report import command
+
+from . import backrest_bag as known
+from .page import Page
+from .synthetic_bag import seat_bag
+
+FREQUENCIES = (4.75, 5.25, 5.75, 6.25)
+
+
+@pytest.fixture(scope="module")
+def bags(tmp_path_factory):
+    folder = tmp_path_factory.mktemp("bags")
+    return [known.backrest_bag(folder / f"run_{each}", each) for each in FREQUENCIES]
+
+
+@pytest.fixture(scope="module")
+def page(bags):
+    return Page(render_comparison([read_recording(bag) for bag in bags]))
+
+
+def test_four_runs_lie_on_one_page_called_by_what_differs(page):
+    text = " ".join(page.texts)
+    assert "comparison of 4 bags" in text
+    assert page.tags.count("figure") == 4
+    for each in FREQUENCIES:
+        assert page.texts.count(f"{each} Hz") >= 1 + 1 + 4, "in both tables and every legend"
+
+
+def test_the_table_has_the_slaps_of_every_run(bags):
+    recordings = [read_recording(bag) for bag in bags]
+    runs = make_runs([str(each) for each in FREQUENCIES], recordings)
+    table = number_table(runs, [summarise_recording(each) for each in recordings])
+    rows = {row[0]: row[1:] for row in table.rows}
+    assert table.header[1:] == tuple(str(each) for each in FREQUENCIES)
+    assert rows["slaps"] == tuple(str(known.touches(each).size) for each in FREQUENCIES)
+    assert rows["restitution"] == ("0.5 to 0.5",) * 4
+    assert rows["largest area of the contact domain, S/S_ref"] == ("6",) * 4
+    assert rows["duration of a slap, ms"][0] == "105.3 to 105.3"
+
+
+def test_runs_without_slaps_are_compared_without_them(tmp_path):
+    kept = [known.backrest_bag(tmp_path / f"{each}", each, slaps=False) for each in (4.0, 5.0)]
+    page = Page(write_comparison(kept, tmp_path / "page.html").read_text(encoding="utf-8"))
+    assert page.tags.count("figure") == 3
+    assert "Work that the contact takes a cycle, and friction" in " ".join(page.texts)
+
+
+def test_other_rigs_are_compared_by_force_and_approach(seat, tmp_path):
+    page = Page(
+        write_comparison([seat, seat_bag(tmp_path / "other")], tmp_path / "page.html").read_text(encoding="utf-8")
+    )
+    assert page.tags.count("figure") == 2
+
+
+def test_more_runs_than_colours_begin_again():
+    runs = make_runs([str(k) for k in range(len(COLOURS) + 1)], [None] * (len(COLOURS) + 1))
+    assert runs[0].colour == runs[-1].colour
+
+
+def test_bags_of_two_rigs_are_refused(bags, seat):
+    with pytest.raises(BagError, match=r"run_4\.75 is of rig backrest .*, seat of rig seat .*one by one"):
+        write_comparison([bags[0], seat])
+
+
+def test_one_bag_is_no_comparison(bags):
+    with pytest.raises(BagError, match="at least two bags, 1 given"):
+        render_comparison([read_recording(bags[0])])
+
+
+def test_the_command_takes_one_bag_or_several(bags, tmp_path):
+    folders = [str(bag.path.parent) for bag in bags[:2]]
+    several = CliRunner().invoke(command, [*folders, "--out", str(tmp_path / "page.html")])
+    assert several.exit_code == 0
+    assert "comparison of 2 bags" in (tmp_path / "page.html").read_text(encoding="utf-8")
+    one = CliRunner().invoke(command, folders[:1])
+    assert one.output.strip() == f"report: {bags[0].path.parent / 'report.html'}"
+    assert CliRunner().invoke(command, []).exit_code == 2
