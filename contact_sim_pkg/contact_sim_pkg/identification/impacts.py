@@ -22,7 +22,8 @@ class Touch(NamedTuple):
     time: float  # [s]
     point: int  # of the shape
     together: int  # points that touch at once, this one included
-    found: bool  # whether the gap has a root in the interval; else `time` is the bound that is closer
+    found: bool  # whether the gap has a root in the interval
+    gap: float  # [m], at `time`
 
 
 def locate(
@@ -56,12 +57,12 @@ def locate(
         point = int(lifts.argmin())
         rate = float(ground.normal @ (velocity + numpy.cross(spin, arm(shape, ground, rotation, point))))
         if rate >= 0.0:
-            return Touch(time, point, _together(lifts, shape, deviation), False)
+            return Touch(time, point, _together(lifts, shape, deviation), False, float(lifts[point]))
         last, time = time, float(numpy.clip(time - lifts[point] / rate, low, high))
         if abs(time - last) <= 1e-15 * max(1.0, abs(time)):
             break
     closed = abs(lifts[point]) <= max(6.0 * deviation, 1e-9 * size(shape))
-    return Touch(time, point, _together(lifts, shape, deviation), bool(closed))
+    return Touch(time, point, _together(lifts, shape, deviation), bool(closed), float(lifts[point]))
 
 
 def _together(lifts: Array, shape: Shape, deviation: float) -> int:

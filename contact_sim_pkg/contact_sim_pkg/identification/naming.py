@@ -10,7 +10,8 @@ from .rotation import Array
 __all__ = ["parameter_names", "unobservable"]
 
 PART = 1e-6  # a component of a direction below this is none
-FLAT = 1e-6  # an eigenvalue below this part of the largest is zero
+FLAT = 0.02  # an eigenvalue below this part of the largest is zero: noise turns the directions a little
+ALIKE = 1e-3  # of 1 - |cos|: two directions that noise may tell apart
 
 
 def parameter_names(spatial: bool, with_mass: bool) -> list[str]:
@@ -123,7 +124,7 @@ def _single(matrix: Array, inertia: Array) -> str:
             f"the moment of inertia about the body axis {axis} is not identifiable: no impact turned the body about it"
         )
     ray = inertia / numpy.linalg.norm(inertia)
-    if abs(abs(numpy.sum(ray * matrix)) / numpy.linalg.norm(matrix) - 1.0) < 1e-6:
+    if abs(abs(numpy.sum(ray * matrix)) / numpy.linalg.norm(matrix) - 1.0) < ALIKE:
         return "the size of I0/m is not identifiable: free tumbling tells only the ratios of the moments of inertia"
     names = parameter_names(True, False)
     line = numpy.array([matrix[row, col] for row, col in PAIRS])

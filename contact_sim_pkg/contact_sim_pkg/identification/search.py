@@ -120,6 +120,9 @@ class Search:
             found.flights[before], found.parameters, problem.model, problem.shape, problem.ground, bounds,
             self._gap_deviation(before),
         )  # fmt: skip
+        if not touch.found:
+            self.notes[place] = f"touches nothing known: the lowest point is {touch.gap:.3g} m above the ground there"
+            return None
         if touch.together > 1:
             self.notes[place] = f"touches with {touch.together} corners at once: where its impulse acts is not known"
             return None

@@ -1,7 +1,7 @@
 """Flights and contacts of a sampled motion.
 
 An interval between two samples holds a contact where `v2 - v1 + h g z - kappa int F dt` is larger than noise explains (the
-0.9999 quantile of chi-square) and the body is close enough to the ground. Neighbouring ones are one contact; more than
+0.9999 quantile of chi-square) and the body is close to the ground, or is far larger. Neighbouring ones are one contact; more than
 three in a row are a lasting one.
 """
 
@@ -22,6 +22,7 @@ __all__ = ["LONGEST_IMPACT", "SHORTEST_FLIGHT", "Segments", "inverse_mass_guess"
 QUANTILE = 0.9999
 LONGEST_IMPACT = 3  # intervals
 SHORTEST_FLIGHT = 3  # samples
+CERTAIN = 25.0  # times the limit: a jump that counts as a contact wherever it is, so that no flight runs over it
 FLOOR = 1e-9  # of the largest speed: what counts as noise at least
 MEDIAN_OF_GAUSS = 0.6744897501960817
 
@@ -77,8 +78,9 @@ def segments(
     inverse_mass = inverse_mass_guess(states, lifts, wrench, gravity)
     jumps = _jumps(states, gravity) - inverse_mass * _pushes(states, wrench)
     deviation = max(noise, FLOOR * float(abs(states.velocity).max()))
-    hit = numpy.einsum("ni,ni->n", jumps, jumps) > chi2.ppf(QUANTILE, 3) * 2.0 * deviation**2
-    return Segments(*_runs(hit & _near(states, lifts, ground, position_noise)))
+    strength = numpy.einsum("ni,ni->n", jumps, jumps) / (chi2.ppf(QUANTILE, 3) * 2.0 * deviation**2 + 1e-300)
+    near = _near(states, lifts, ground, position_noise)
+    return Segments(*_runs((strength > 1.0) & (near | (strength > CERTAIN))))
 
 
 def _near(states: BodyStates, lifts: Array, ground: Ground, position_noise: float) -> Array:

@@ -24,7 +24,7 @@ from .rotation import Array, logarithm
 __all__ = ["Estimate", "estimate"]
 
 ITERATIONS = 40
-CONVERGED = 1e-13  # last change of a parameter over its size
+CONVERGED = 1e-12  # last change of a parameter over its size
 WHITE = 1e-13  # smallest pivot of a balance's covariance, relative
 
 
