@@ -84,7 +84,10 @@ def two_impacts_named() -> Finding:
     across = numpy.cross(*(turned.T @ change for turned, change in zip(table.rotation, changes, strict=True)))
     expected = numpy.outer(across, across)
     alike = numpy.sum(matrix * expected) / numpy.linalg.norm(matrix) / numpy.linalg.norm(expected)
-    named = any("body axis" in words for words in unobservable(found.directions.missing, found.parameters, found.scale, True, False, False))
+    named = any(
+        "body axis" in words
+        for words in unobservable(found.directions.missing, found.parameters, found.scale, True, False, False)
+    )
     return at_most(1.0 - abs(float(alike)) if named else numpy.inf, 1e-9)
 
 

@@ -17,6 +17,7 @@ from contact_sim_pkg.studies import (
     ladder_elliptic,
     ladder_exponent,
     ladder_force,
+    ladder_identification,
     ladder_modes,
     ladder_periodic,
     ladder_restitution,
@@ -57,6 +58,7 @@ RIGS: dict[str, tuple[Ladder, ...]] = {
         Ladder(ladder_shell.PART, ladder_shell.rows),
         Ladder(ladder_closest.PART, ladder_closest.rows),
     ),
+    "block": (Ladder(ladder_identification.PART, ladder_identification.rows),),
 }
 """Rig -> its ladders. A further rig is one more entry."""
 

@@ -49,7 +49,9 @@ def rows() -> list[Row]:
             error = float(numpy.median(abs(values / TRUTH - 1.0)))
             rung = Rung(name, milliseconds(lambda way=way, table=tables[0], noise=noise: way(table, noise)))  # type: ignore[misc]
             case = f"noise {noise:g} m/s, {SPIN_SHARE * noise:g} rad/s"
-            found.append(row(PART, case, QUANTITY, rung, REFERENCE, error, value=float(numpy.median(values)), expected=TRUTH))
+            found.append(
+                row(PART, case, QUANTITY, rung, REFERENCE, error, value=float(numpy.median(values)), expected=TRUTH)
+            )
     return found
 
 
@@ -58,7 +60,9 @@ def _tables(noise: float) -> list[ImpactTable]:
     for _ in range(DRAWS):
         exact = random_block_impacts(random, IMPACTS)
         spreads = (noise, noise, SPIN_SHARE * noise, SPIN_SHARE * noise)
-        fields = [field + spread * random.normal(size=field.shape) for field, spread in zip(exact[1:], spreads, strict=True)]
+        fields = [
+            field + spread * random.normal(size=field.shape) for field, spread in zip(exact[1:], spreads, strict=True)
+        ]
         found.append(ImpactTable(exact.rotation, *fields))
     return found
 
