@@ -12,7 +12,7 @@ import mpmath
 from scipy.integrate import solve_ivp
 from scipy.optimize import brentq
 
-__all__ = ["Reference", "elastic_limit", "impact", "severity"]
+__all__ = ["Reference", "elastic_limit", "front_time", "impact", "severity"]
 
 ACCURACY = {"method": "DOP853", "rtol": 1e-13, "atol": 1e-16}
 
@@ -56,6 +56,27 @@ def severity(loss_tangent: float, end: str) -> float:
     """zeta of the consistent impact: `tan(beta) = pi zeta/(3 T_c)`, by Brent's method."""
     high = 2.2353 if end == "gap" else 12.0
     return float(brentq(lambda z: math.pi * z / (3.0 * impact(z, end).duration) - loss_tangent, 1e-9, high, xtol=1e-14))
+
+
+def front_time(
+    mass: float, radius: float, elastic: float, viscous: float, speed: float, shape: float, shear_speed: float
+) -> float:
+    """Time [s] at which `(1 + sqrt 2)/4 k_p sqrt(R/x) x'` has come down to `shear_speed`, on `m x'' = -A x^1.5 - B x^0.5 x'`."""
+    factor = (1.0 + math.sqrt(2.0)) / 4.0 * shape * math.sqrt(radius)
+
+    def rate(_t: float, y: list[float]) -> list[float]:
+        root = math.sqrt(max(y[0], 0.0))
+        return [y[1], -root * (elastic * y[0] + viscous * y[1]) / mass]
+
+    def down(_t: float, y: list[float]) -> float:
+        return factor * y[1] - shear_speed * math.sqrt(max(y[0], 0.0))
+
+    down.terminal = True  # type: ignore[attr-defined]
+    first = (factor / shear_speed) ** 2 * speed
+    run = solve_ivp(
+        rate, (0.0, 10.0), [0.0, speed], events=down, first_step=1e-3 * first, max_step=0.1 * first, **ACCURACY
+    )
+    return float(run.t[-1])
 
 
 def elastic_limit() -> tuple[float, float]:

@@ -18,6 +18,8 @@ from contact_sim_pkg.studies import (
     ladder_exponent,
     ladder_force,
     ladder_identification,
+    ladder_impact,
+    ladder_impact_material,
     ladder_modes,
     ladder_periodic,
     ladder_restitution,
@@ -59,6 +61,11 @@ RIGS: dict[str, tuple[Ladder, ...]] = {
         Ladder(ladder_closest.PART, ladder_closest.rows),
     ),
     "block": (Ladder(ladder_identification.PART, ladder_identification.rows),),
+    "impact": (
+        Ladder(ladder_impact.PART, ladder_impact.rows),
+        Ladder(ladder_impact_material.PART, ladder_impact_material.rows),
+        Ladder(ladder_impact_material.FRONT_PART, ladder_impact_material.front_rows),
+    ),
 }
 """Rig -> its ladders. A further rig is one more entry."""
 

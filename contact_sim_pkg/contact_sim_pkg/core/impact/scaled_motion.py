@@ -6,7 +6,7 @@ and ``dt = 2 u ds`` the equation is a polynomial one,
     du/ds = v,   dv/ds = -2 u^2 (u^2 + zeta v),   dt/ds = 2 u,
 
 so that touch and lift-off, where x^(3/2) and x^(1/2) have no Taylor series in t, are regular points of it. It is solved by its
-own Taylor series of order 20 in about ten steps, to rounding; events are roots of the step's polynomials. Contact ends where
+own Taylor series of order 20 in about twenty steps, to rounding; events are roots of the step's polynomials. Contact ends where
 the force ``u (u^2 + zeta v)`` reaches 0 on the way out (end rule ``force``) or where u is back at 0 (``gap``).
 Method: Jorba and Zou, A software package for the numerical integration of ODEs by Taylor methods, Exp. Math. 14 (2005).
 """
@@ -114,7 +114,9 @@ def _locate(zeta, pulls, kind, u, v, step):
         s = 0.5 * (low + high)
         if low_value > 0.0 and i % 4 != 3:
             s = high - high_value * (high - low) / (high_value - low_value)
-        if not low < s < high or high - low <= 2.0e-16 * high:
+        if not low < s < high:  # an end is the root to rounding: the other one follows by halves
+            s = 0.5 * (low + high)
+        if not low < s < high:
             break
         value = _event(zeta, pulls, kind, _value(u, s), _value(v, s))
         if value > 0.0:
@@ -125,7 +127,7 @@ def _locate(zeta, pulls, kind, u, v, step):
             high, high_value = s, value
             low_value *= 0.5 if kept == -1 else 1.0
             kept = -1
-    return high
+    return high if -high_value < low_value else low
 
 
 @kernel
@@ -219,7 +221,7 @@ def _sample(zeta: float, times: Vector, depth: Vector, speed: Vector) -> int:
 
 
 def scaled_impact(severity: float, end: str) -> ScaledImpact:
-    """The impact at ``severity`` zeta, 0 to 1000, to a few units of rounding; ``end`` is ``force`` or ``gap``.
+    """The impact at ``severity`` zeta, 0 to 1000, to 1e-13; ``end`` is ``force`` or ``gap``.
 
     Raises ImpactError outside the range and, with ``gap``, where the mass does not come back (zeta above about 8).
     """
