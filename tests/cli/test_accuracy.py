@@ -7,7 +7,7 @@ from click.testing import CliRunner
 
 from contact_sim_pkg.cli.accuracy import command
 from contact_sim_pkg.scene.errors import SceneError
-from contact_sim_pkg.studies import ladder, ladder_road
+from contact_sim_pkg.studies import accuracy_cost, ladder, ladder_road
 
 
 @pytest.fixture
@@ -37,6 +37,7 @@ def test_each_row_of_the_tire_s_ladder_is_there():
     assert len(parts) == len(set(parts)) == 9
 
 
-def test_a_scene_of_a_rig_that_is_not_measured_is_refused_with_the_way_out():
+def test_a_scene_of_a_rig_that_is_not_measured_is_refused_with_the_way_out(monkeypatch):
+    monkeypatch.delitem(accuracy_cost.PARTS, "backrest")
     with pytest.raises(SceneError, match=r"not for backrest; compare runs with --set integrator\.relative_tolerance"):
         CliRunner().invoke(command, ["seat_slap"], catch_exceptions=False)

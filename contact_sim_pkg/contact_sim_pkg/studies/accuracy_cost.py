@@ -1,6 +1,6 @@
 """`bench accuracy SCENE`: what accuracy costs in time, for each tolerance, grid and rung that the scene can be run with.
 
-Columns of a row: `quantity`, `part` (integrator, coupling, field solver, field grid), `rung`, `grid`, `tolerance`,
+Columns of a row: `quantity`, `part` (integrator, coupling, field solver, field grid, modes), `rung`, `grid`, `tolerance`,
 `error` (relative), `reference` (what the error is against, and whether it is own code),
 `ms_per_simulated_s`, and in a new process the time to the first answer: `first_call_s`, with nothing compiled, and
 `next_start_s`, with the kernels on disk. How to read it: `docs/accuracy.md`.
@@ -17,6 +17,9 @@ from collections.abc import Callable
 from typing import Any
 
 from contact_sim_pkg.scene.errors import Fault, SceneError
+from contact_sim_pkg.scene.resolved_scene import ResolvedScene
+from contact_sim_pkg.scene.rigs import RigName
+from contact_sim_pkg.studies import accuracy_cost_backrest as backrest
 from contact_sim_pkg.studies import accuracy_cost_coupling, accuracy_cost_field, accuracy_cost_integrator
 from contact_sim_pkg.studies.accuracy_cost_plot import write_plot
 from contact_sim_pkg.studies.accuracy_cost_table import sections
@@ -24,7 +27,19 @@ from contact_sim_pkg.studies.scene_drive import load_resolved
 
 __all__ = ["first_call_times", "sections", "study", "write_plot"]
 
-MEASURED_RIGS = ("tire", "seat", "car")
+Part = Callable[[str, ResolvedScene, Callable[[str], None]], list[dict[str, Any]]]
+_VEHICLE: tuple[Part, ...] = (
+    lambda _name, scene, tell: accuracy_cost_integrator.tolerance_rows(scene, tell),
+    accuracy_cost_coupling.coupling_rows,
+    lambda _name, scene, tell: accuracy_cost_field.field_rows(scene, tell),
+)
+PARTS: dict[RigName, tuple[Part, ...]] = {
+    "tire": _VEHICLE,
+    "seat": _VEHICLE,
+    "car": _VEHICLE,
+    "backrest": (backrest.tolerance_rows, backrest.mode_rows),
+}
+"""Rig -> what is measured of it; each part gives its rows. A further rig is one more entry."""
 COLUMNS = (
     "quantity", "part", "rung", "grid", "tolerance", "error", "reference", "ms_per_simulated_s", "first_call_s",
     "next_start_s",
@@ -35,17 +50,16 @@ def study(scene_name: str, progress: Callable[[str], None] | None = None) -> lis
     """All rows for a scene by name or path. Takes 30 to 90 s. Raises what a bad scene raises."""
     tell = progress or (lambda text: None)
     scene = load_resolved(scene_name)
-    if scene.data["rig"] not in MEASURED_RIGS:
+    rig = scene.data["rig"]
+    if rig not in PARTS:
         sentence = (
-            f"the cost of accuracy is measured for the rigs {', '.join(MEASURED_RIGS)}, not for {scene.data['rig']}; compare "
+            f"the cost of accuracy is measured for the rigs {', '.join(PARTS)}, not for {rig}; compare "
             "runs with --set integrator.relative_tolerance=… instead"
         )
         raise SceneError([Fault(scene_name, 0, 0, "rig", sentence)])
     tell("first call in a new process: everything is compiled, then again from the disk")
     first, again = first_call_times(scene_name)
-    rows = accuracy_cost_integrator.tolerance_rows(scene, tell)
-    rows += accuracy_cost_coupling.coupling_rows(scene_name, scene, tell)
-    rows += accuracy_cost_field.field_rows(scene, tell)
+    rows = [row for part in PARTS[rig] for row in part(scene_name, scene, tell)]
     for row in rows:
         key = "field" if row["part"].startswith("field") else "simulation"
         row["first_call_s"], row["next_start_s"] = first[key], again[key]

@@ -16,6 +16,7 @@ __all__ = ["write_plot"]
 PANELS = (  # part and contact -> title
     ("integrator", "", "time integration, point contacts"),
     ("coupling", "", "coupling of bodies and fields, whole scene"),
+    ("modes", "", "modes of the shell, tolerance of the scene"),
     ("field", "tire", "tire field"),
     ("field", "seat", "seat field"),
 )
@@ -101,7 +102,7 @@ def _name_points(axis: Any, rows: list[dict[str, Any]]) -> None:
 def _asked(row: dict[str, Any]) -> str:
     if row["part"] in ("integrator", "coupling") or row["rung"] == "check":
         return f"{row['tolerance']:.0e}"
-    return f"{row['rung']} {row['grid']}"
+    return f"{row['rung']} {row['grid']}".strip()
 
 
 def _series(row: dict[str, Any]) -> str:

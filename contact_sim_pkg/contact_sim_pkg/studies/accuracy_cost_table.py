@@ -13,8 +13,8 @@ COST = "ms per simulated s"
 
 
 def sections(rows: list[Row]) -> list[Section]:
-    """Parts of the table, in the order of the study: integrator, coupling, then each contact's field."""
-    found = [_integrator(rows), _coupling(rows)]
+    """Parts of the table, in the order of the study: integrator, coupling, modes, then each contact's field."""
+    found = [_integrator(rows), _coupling(rows), _modes(rows)]
     for contact in ("tire", "seat"):
         of_contact = [row for row in rows if row["part"].startswith("field") and row["quantity"].startswith(contact)]
         on_rungs = [row for row in of_contact if row["rung"] != "check"]
@@ -33,6 +33,18 @@ def _integrator(rows: list[Row]) -> Section:
 
 def _coupling(rows: list[Row]) -> Section:
     return _by_tolerance("coupling of bodies and pressure fields: error", "coupling", rows)
+
+
+def _modes(rows: list[Row]) -> Section:
+    """One line a number of modes."""
+    chosen = [row for row in rows if row["part"] == "modes"]
+    lines: dict[str, Row] = {}
+    for row in chosen:
+        line = lines.setdefault(row["rung"], {"modes": row["rung"], "tolerance": row["tolerance"]})
+        line[row["quantity"]] = row["error"]
+    for row in chosen:
+        lines[row["rung"]][COST] = row["ms_per_simulated_s"]
+    return Section("modes of the shell: error", list(lines.values()), _against(chosen))
 
 
 def _by_tolerance(title: str, part: str, rows: list[Row]) -> Section:
@@ -59,7 +71,14 @@ def _field(title: str, contact: str, chosen: list[Row]) -> Section:
 
 
 def _against(rows: list[Row]) -> str:
-    return f"against: {rows[0]['reference']}" if rows else ""
+    """What the errors are against; where not all are against the same, which are."""
+    quantities: dict[str, list[str]] = {}
+    for row in rows:
+        named = quantities.setdefault(row["reference"], [])
+        named += [row["quantity"]] if row["quantity"] not in named else []
+    if len(quantities) < 2:
+        return f"against: {rows[0]['reference']}" if rows else ""
+    return "against: " + "; ".join(f"{reference} ({', '.join(named)})" for reference, named in quantities.items())
 
 
 def _start_up(rows: list[Row]) -> Section:
