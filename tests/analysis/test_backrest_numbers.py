@@ -125,3 +125,16 @@ def test_a_run_without_episodes_has_no_slaps(kept):
 )
 def test_the_drive_has_a_period_where_it_is_a_sine(scene, period):
     assert numbers.drive_period(scene) == period
+
+
+def test_a_coarse_loop_stands_for_the_second_half_of_the_run():
+    time = np.linspace(0.0, 4.0, 401)
+    fine, dots = numbers.Loop(*(np.linspace(0.0, 4.0, 4001),) * 3).steady(3.6)
+    assert not dots
+    assert fine.time[0] == pytest.approx(3.6)
+    coarse, dots = numbers.Loop(time, time, time).steady(3.6)
+    assert dots
+    assert coarse.time[0] == pytest.approx(2.0)
+    whole, dots = numbers.Loop(time[:50], time[:50], time[:50]).steady(0.0)
+    assert not dots
+    assert whole.time.size == 50

@@ -110,3 +110,11 @@ def test_a_real_run_gives_a_page(slapping, tmp_path):
     described = page.values("aria-label")
     assert len([text for text in described if "backrest" in text]) == 9
     assert len(set(described)) == len(described)
+
+
+def test_a_contact_that_is_kept_is_shown_at_its_very_start(tmp_path):
+    recording = read_recording(known.backrest_bag(tmp_path / "kept", slaps=False))
+    field = recording.fields["backrest"]
+    assert field.touch is None
+    assert field.first.time == recording.points.touch.time == 0.0
+    assert field.first.load == pytest.approx(known.forces(np.zeros(1), 5.0, known.KEPT)[0][0], rel=1e-6)

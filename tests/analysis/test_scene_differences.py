@@ -36,9 +36,11 @@ def test_what_a_scene_lacks_is_a_dash():
     assert found == ("effects.backrest.friction", ("–", "on"))
 
 
-def test_the_name_comes_last():
-    found = differences([SCENE, changed(name="seat_slip", vibration={"amplitude": 4.905})])
-    assert [each.key for each in found] == ["vibration.amplitude", "name"]
+def test_how_a_scene_is_run_comes_last():
+    first, second = {"duration": 4.0, **SCENE}, changed(name="seat_slip", duration=2.0, vibration={"amplitude": 4.905})
+    found = differences([first, second])
+    assert [each.key for each in found] == ["vibration.amplitude", "duration", "name"]
+    assert labels([recording(first), recording(second)]).title == "vibration.amplitude"
 
 
 def test_runs_are_called_by_the_first_value_that_tells_all_apart():

@@ -15,6 +15,8 @@ BACKREST = "backrest"
 """Name of the contact that these numbers belong to."""
 LAST_CYCLES = 2
 """Cycles of the drive at the end of a run that stand for its steady state."""
+FEW_INSTANTS = 100
+"""Fewer of them in the last cycles would make corners of a loop: it is shown as dots, over the second half of the run."""
 SHARE_ROWS = 200
 """Most stretches over which shares are taken where nothing drives in cycles."""
 
@@ -33,6 +35,13 @@ class Loop(NamedTuple):
         """The part from this time [s] on."""
         chosen = self.time >= time
         return Loop(*(column[chosen] for column in self))
+
+    def steady(self, begin: float) -> tuple[Loop, bool]:
+        """What stands for the steady state of a run whose last cycles begin at `begin` [s]; whether it is shown as dots."""
+        last = self.since(begin)
+        if begin <= 0.0 or last.time.size >= FEW_INSTANTS:
+            return last, False
+        return self.since(min(begin, 0.5 * float(self.time[-1]))), True
 
 
 class AreaRatio(NamedTuple):

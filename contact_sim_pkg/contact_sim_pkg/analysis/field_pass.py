@@ -36,6 +36,7 @@ class FieldPass:
         self._highest_time = 0.0
         self._history_time, self._history = ThinnedRows(HISTORY_ROWS), ThinnedRows(HISTORY_ROWS)
         self._event = _LargestLoad()
+        self._first: tuple[float, Any] | None = None
         self._touch: tuple[float, Any] | None = None
 
     def take(self, time: float, message: Any) -> None:
@@ -49,6 +50,7 @@ class FieldPass:
         pressure = np.reshape(message.pressure, (message.rows, message.cols))
         self._total[row : row + message.rows, col : col + message.cols] += pressure
         size = _size(pressure, message)
+        self._first = self._first or (time, message)
         if self._touch is None and message.load > 0.0 and self._scalars and self._scalars[-1][1] <= 0.0:
             self._touch = time, message
         self._scalars.append((time, *(float(getattr(message, name)) for name in SCALARS), *size))
@@ -83,7 +85,7 @@ class FieldPass:
 
     def finish(self) -> FieldSeries:
         """The series of all fields taken in; at least one."""
-        if self._widest is None:
+        if self._first is None:
             raise BagError("no field was taken in")
         time, *columns = np.array(self._scalars).T
         return FieldSeries(
@@ -96,6 +98,7 @@ class FieldPass:
             history_time=self._history_time.finish()[:, 0],
             history=self._history.finish(),
             history_group=self._history.group,
+            first=_snapshot(*self._first),
             touch=None if self._touch is None else _snapshot(*self._touch),
         )
 

@@ -41,7 +41,7 @@ def fit_of(field: PressureMap) -> LameFit:
 
 def contact_domain(key: str, name: str, field: FieldSeries, points: PointSeries | None) -> Picture:
     """Figure 3: contact points on the domain at first touch and at the largest force, with the fitted curve."""
-    pairs = [(field.touch or field.event[0], points.touch if points else None)]
+    pairs = [(field.touch or field.first, points.touch if points else None)]
     pairs.append((field.heaviest, points.heaviest if points else None))
     window = common_window([shown.field for shown, _ in pairs])
     height = float(np.clip(0.75 + window.aspect * 0.31 * WIDTH, 2.4, 5.2))
@@ -142,7 +142,7 @@ def slap_stages(key: str, name: str, field: FieldSeries) -> Picture:
 
 
 def chosen_stages(field: FieldSeries) -> list[Snapshot]:
-    """At most `STAGES` of the fields with load in a row around the largest one, evenly spread, the first and last among them."""
+    """At most `STAGES` of the fields with load in a row around the largest one, evenly spread, that one among them."""
     middle = next(number for number, each in enumerate(field.event) if each is field.heaviest)
     first = last = middle
     while first > 0 and field.event[first - 1].load > 0.0:
@@ -150,9 +150,8 @@ def chosen_stages(field: FieldSeries) -> list[Snapshot]:
     while last + 1 < len(field.event) and field.event[last + 1].load > 0.0:
         last += 1
     count = min(STAGES, last - first + 1)
-    numbers = sorted({round(number) for number in np.linspace(first, last, count)} | {middle})
-    while len(numbers) > STAGES:  # the heaviest one takes the place of its neighbour
-        numbers.remove(min((n for n in numbers[1:-1] if n != middle), key=lambda n: abs(n - middle)))
+    numbers = [round(number) for number in np.linspace(first, last, count)]
+    numbers[min(range(count), key=lambda place: abs(numbers[place] - middle))] = middle
     return [field.event[number] for number in numbers]
 
 

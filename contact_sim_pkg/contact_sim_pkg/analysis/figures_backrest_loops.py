@@ -21,8 +21,6 @@ from .series import ContactSeries, Recording
 
 LOOP_POINTS = 4000
 """Most points of the curve of a whole run."""
-FEW_INSTANTS = 100
-"""Fewer in the last cycles are drawn as dots."""
 
 
 def force_loops(key: str, name: str, recording: Recording) -> Picture:
@@ -50,40 +48,34 @@ def force_loops(key: str, name: str, recording: Recording) -> Picture:
 
 
 def _draw_loop(axes: Axes, loop: Loop, begin: float) -> None:
-    """The whole run in grey, the end of it in colour; dots where a line between the instants would cut corners."""
+    """The whole run in grey, its steady end in colour; all in colour where it has none."""
     stride = max(1, loop.force.size // LOOP_POINTS)
-    style: dict[str, Any] = {"linestyle": "", "marker": "."} if _coarse(loop, begin) else {}
-    axes.plot(
-        loop.displacement[::stride] * 1e3,
-        loop.force[::stride],
-        color=MUTED,
-        linewidth=0.5,
-        markersize=2.0,
-        alpha=0.5,
-        **style,
-    )
+    shown, dots = loop.steady(begin)
+    style: dict[str, Any] = {"linestyle": "", "marker": "."} if dots else {}
     if begin > 0.0:
-        last = loop.since(begin)
-        axes.plot(last.displacement * 1e3, last.force, color=ACCENT, linewidth=1.2, markersize=4.0, **style)
+        axes.plot(
+            loop.displacement[::stride] * 1e3, loop.force[::stride], color=MUTED, linewidth=0.5, markersize=2.0, alpha=0.5,
+            **style,
+        )  # fmt: skip
+    stride = max(1, shown.force.size // LOOP_POINTS)
+    axes.plot(
+        shown.displacement[::stride] * 1e3, shown.force[::stride], color=ACCENT, linewidth=1.2, markersize=3.5, **style
+    )
     axes.axhline(0.0, color=MUTED, linewidth=0.7)
     axes.axvline(0.0, color=MUTED, linewidth=0.7)
-
-
-def _coarse(loop: Loop, begin: float) -> bool:
-    return begin > 0.0 and loop.since(begin).time.size < FEW_INSTANTS
 
 
 def _caption(
     contact: ContactSeries, friction: Loop | None, begin: float, period: float | None, points: PointSeries | None
 ) -> str:
     text = (
-        f"Forces over the displacements they work on; positive approach is compression. Grey: the whole run. The normal force "
+        "Forces over the displacements they work on; positive approach is compression. The normal force "
         f"reaches {contact.normal.max():.4g} N at approaches up to {contact.approach.max() * 1e3:.4g} mm."
     )
     many = points is not None and points.points > 1
     if period is not None and begin > 0.0:
         cycles = (float(contact.time[-1]) + contact.sample_period - begin) / period
-        text += f" In colour: the last {cycles:.0f} cycles of {1.0 / period:.4g} Hz"
+        text += f" Grey: the whole run. In colour: the last {cycles:.0f} cycles of {1.0 / period:.4g} Hz"
         if not many:
             text += (
                 f", in which the contact takes {loop_work(normal_loop(contact).since(begin)) / cycles:.4g} J a cycle"
@@ -94,5 +86,8 @@ def _caption(
     if friction is not None:
         text += " Friction acts on the seat back, along the displacement of the back."
     if many:
-        text += " Forces of point 1 are recorded at the rate of the fields, which outputs.field_rate sets."
+        text += (
+            " Forces of point 1 are recorded at the rate of the fields, which outputs.field_rate sets; dots, where these are few, "
+            "are in colour over the second half of the run."
+        )
     return text

@@ -103,14 +103,16 @@ def restitution_over_time(key: str, name: str, slaps: EpisodeSeries) -> Picture 
 
 
 def share_over_time(key: str, name: str, recording: Recording) -> Picture | None:
-    """Shares of the states over the cycles of the drive, and the states through the last cycles; None without points."""
+    """Shares of the states over the cycles of the drive; None without points, and where they all do the same throughout."""
     points = recording.points
     if points is None:
         return None
     period = drive_period(recording.scene)
     shares = state_shares(points, period)
-    figure, (axes,) = new_figure(2.4)
     bands = [(label, values) for label, values in zip(STATE_COLOURS, shares[1:], strict=True) if values.any()]
+    if len(bands) < 2:
+        return None
+    figure, (axes,) = new_figure(2.4)
     base: FloatArray = np.zeros(shares.apart.size)
     for label, values in reversed(bands):
         axes.stairs(

@@ -120,13 +120,22 @@ def _friction_loop(name: str, recording: Recording) -> Loop | None:
 def _draw_loop(axes: Axes, run: Run, loop: Loop | None) -> None:
     if loop is None:
         return
-    last = loop.since(run.steady()[0])
-    stride = max(1, last.force.size // LOOP_POINTS)
-    axes.plot(last.displacement[::stride] * 1e3, last.force[::stride], color=run.colour, linewidth=0.9, label=run.label)
+    shown, dots = loop.steady(run.steady()[0])
+    style: dict[str, Any] = {"linestyle": "", "marker": "."} if dots else {}
+    stride = max(1, shown.force.size // LOOP_POINTS)
+    axes.plot(
+        shown.displacement[::stride] * 1e3, shown.force[::stride], color=run.colour, linewidth=0.9, markersize=3.0,
+        label=run.label, **style,
+    )  # fmt: skip
 
 
 def _loop_part(runs: list[Run]) -> str:
-    return "The last two cycles of the drive. " if all(run.steady()[1] for run in runs) else "The whole run. "
+    text = "The last two cycles of the drive. " if all(run.steady()[1] for run in runs) else "The whole run. "
+    if all(run.recording.points is None or run.recording.points.points == 1 for run in runs):
+        return text
+    return (
+        f"{text}Point 1 at the rate of the fields; dots, where these are few, are those of the second half of the run. "
+    )
 
 
 def _loop_works(name: str, runs: list[Run], *, friction: bool) -> str:

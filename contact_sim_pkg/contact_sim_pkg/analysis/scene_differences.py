@@ -9,8 +9,8 @@ from .rows import scene_value
 from .series import Recording
 
 UNIMPORTANT = ("description",)
-LAST = ("name",)
-"""Tells runs apart only where nothing else does."""
+LAST = ("duration", "block_length", "seed", "pace", "accuracy", "integrator", "outputs", "limits", "name")
+"""How a scene is run rather than what it is: tells runs apart only where nothing else does."""
 ABSENT = "–"
 
 
@@ -32,11 +32,11 @@ class Labels(NamedTuple):
 
 
 def differences(scenes: Sequence[dict[str, Any]]) -> list[Difference]:
-    """Values that are not the same in all scenes, in the order of the first scene that has them; `name` comes last."""
+    """Values that are not the same in all scenes, in the order of the first scene that has them; how it is run comes last."""
     flat = [dict(_leaves(scene)) for scene in scenes]
     keys = dict.fromkeys(key for each in flat for key in each)
     found = []
-    for key in sorted(keys, key=lambda key: key[0] in LAST):
+    for key in sorted(keys, key=lambda key: LAST.index(key[0]) + 1 if key[0] in LAST else 0):
         values = tuple(scene_value(each[key], key) if each.get(key) is not None else ABSENT for each in flat)
         if len(set(values)) > 1 and key[0] not in UNIMPORTANT:
             found.append(Difference(".".join(key), values))

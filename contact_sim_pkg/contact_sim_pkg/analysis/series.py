@@ -92,7 +92,9 @@ class FieldSeries(NamedTuple):
     """[N/m] [instants, rows] pressure integrated across the width, on the rows of `average`"""
     history_group: int
     """fields that one row of `history` is the mean of"""
-    touch: Snapshot | None = None
+    first: Snapshot
+    """the first field of all"""
+    touch: Snapshot | None
     """the first field with a load after one without; None where the contact never closes"""
 
     @property
