@@ -17,7 +17,7 @@ from contact_sim_pkg.core.impact.inverse import FORMS
 from contact_sim_pkg.core.impact.motion import SHAPE_RULES
 from contact_sim_pkg.core.impact.shift import Wlf
 
-__all__ = ["MaterialReport", "group_rows", "master_row", "material_report", "write_csv"]
+__all__ = ["MaterialReport", "group_rows", "master_row", "material_report", "report_of", "write_csv"]
 
 
 class MaterialReport(NamedTuple):
@@ -33,9 +33,23 @@ class MaterialReport(NamedTuple):
 def material_report(
     path: Path, options: Options, law: str | None = None, parameter: float | None = None, reference: float | None = None
 ) -> MaterialReport:
-    """Read and estimate; ``law`` `wlf` or `arrhenius` adds the master curve. Raises MaterialError with one sentence."""
+    """The report on a file of impacts. Raises MaterialError with one sentence."""
     _check(options, law)
-    impacts = read_impacts(path)
+    return report_of(read_impacts(path), options, law, parameter, reference)
+
+
+def report_of(
+    impacts: Impacts,
+    options: Options,
+    law: str | None = None,
+    parameter: float | None = None,
+    reference: float | None = None,
+) -> MaterialReport:
+    """The report on impacts, wherever they come from; ``law`` `wlf` or `arrhenius` adds the master curve.
+
+    ``parameter``: Tg [K] or activation energy [J/mol], found where None; ``reference`` [K]. Raises MaterialError.
+    """
+    _check(options, law)
     rows = each_impact(impacts, options)
     estimates = [repeated_impacts(impacts, chosen, options) for chosen in groups(impacts, options)]
     master = None if law is None else master_curve(estimates, law, parameter, reference)
