@@ -156,11 +156,37 @@ def test_a_tilted_frame_changes_neither_inertia_nor_impulses():
     assert values(found)["J/m"].value == pytest.approx(motions.SIDE**2 / 6.0, rel=1e-9)
 
 
+def test_contacts_with_something_unknown_are_listed_and_not_used():
+    states = motions.states_of(motions.planar())
+    found = identify(states._replace(position=states.position + numpy.array([0.0, 0.0, 5.0])), SQUARE)
+    assert found.rank == 0
+    assert len(found.contacts) == len(motions.planar().bounces)
+    assert all("m above the ground" in contact.note for contact in found.contacts)
+
+
 def test_times_that_start_late_change_nothing():
     record = motions.planar()
     states = motions.states_of(record)
     found = identify(states._replace(time=states.time + 512.0), SQUARE)
     assert values(found)["J/m"].value == pytest.approx(motions.SIDE**2 / 6.0, rel=1e-7)
+
+
+def sliding_ball(noise=0.0):
+    """A ball slides on level ground and is spun up: v' = -mu g, w' = mu g R m/J; it never leaves the ground."""
+    radius, friction, time = 0.05, 0.3, 1e-3 * numpy.arange(200)
+    zero, speed, rate = 0.0 * time, 2.0 - friction * 9.81 * time, friction * 9.81 / (0.4 * radius) * time
+    place, turned = 2.0 * time - 0.5 * friction * 9.81 * time**2, 0.5 * rate * time
+    vectors = [numpy.stack(rows, axis=1) for rows in ((place, zero, zero + radius), (zero, turned, zero))]
+    rates = [numpy.stack(rows, axis=1) for rows in ((speed, zero, zero), (zero, rate, zero))]
+    states = BodyStates(time, vectors[0], motions.exponential(vectors[1]), *rates)
+    return motions.noisy(states, 0, 0.1 * noise, noise, noise, 10.0 * noise) if noise else states
+
+
+@pytest.mark.parametrize(("noise", "allowed"), [(0.0, 1e-9), (1e-4, 0.05)])
+def test_a_lasting_contact_tells_the_inertia_step_by_step(noise, allowed):
+    found = identify(sliding_ball(noise), Setup(geometry.sphere(0.05)))
+    assert values(found)["J/m"].value == pytest.approx(0.4 * 0.05**2, rel=allowed)
+    assert found.contacts[0].note == "lasting contact, slides with friction 0.3"
 
 
 def test_refusals_are_sentences():
@@ -177,5 +203,9 @@ def test_refusals_are_sentences():
     known = wrench.sampled(numpy.array([0.0, 0.1]), numpy.ones((2, 3)), None)
     with pytest.raises(IdentificationError, match="wrench is known from"):
         identify(states, SQUARE._replace(wrench=known))
+    still = states._replace(velocity=0.0 * states.velocity, position=0.0 * states.position + [0.0, 0.0, 0.05])
+    still = still._replace(angular_velocity=0.0 * states.velocity, rotation=0.0 * states.rotation + numpy.eye(3))
+    with pytest.raises(IdentificationError, match="no flight of 3 samples"):
+        identify(still, SQUARE)
     with pytest.raises(IdentificationError, match="not planar"):
         identify(motions.states_of(motions.spatial()), BOX._replace(planar=True))

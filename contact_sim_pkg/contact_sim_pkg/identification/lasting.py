@@ -4,16 +4,19 @@ from __future__ import annotations
 
 import numpy
 
-from .geometry import gaps
+from .geometry import UP, arm, gaps, size
 from .problem import Contact, Problem
 from .rotation import Array
 from .segments import LONGEST_IMPACT, Segments
+from .states import Noise
 
-__all__ = ["with_steps"]
+__all__ = ["in_words", "with_steps"]
 
 MOST = 60  # steps taken, evenly spread
 APART = 1e-3  # of the body's size: the next corner must be this much higher
 SIGMAS = 6.0
+STILL = 1e-9  # of the largest speed: slip that counts as none
+FEW = 0.05  # share of the samples that is passed over
 
 
 def with_steps(problem: Problem, parts: Segments) -> Problem:
@@ -33,7 +36,49 @@ def with_steps(problem: Problem, parts: Segments) -> Problem:
                 flights.append((sample, sample))
         point = int(_heights(problem, step).argmin())
         contacts.append(Contact(numbers[step], numbers[step + 1], float(time[step]), float(time[step + 1]), point))
-    return problem._replace(flights=flights, contacts=contacts)
+    return problem._replace(flights=flights, contacts=contacts, step_noise=_step_noise(problem, steps))
+
+
+def in_words(problem: Problem, first: int, last: int) -> str:
+    """What a lasting contact over the intervals first to last does: sticks, slides (with which friction), or both."""
+    states, noise, ground = problem.states, problem.noise, problem.ground
+    samples = range(first + 1, last + 1)
+    limit = SIGMAS * (noise.velocity + size(problem.shape) * noise.angular_velocity)
+    slips = numpy.array([_slip(problem, sample) for sample in samples])
+    floor = STILL * float(abs(states.velocity).max() + size(problem.shape) * abs(states.angular_velocity).max())
+    share = float(numpy.mean(slips > max(limit, floor)))
+    if share < FEW:
+        return "lasting contact, sticks"
+    words = "lasting contact, slides" if share > 1.0 - FEW else f"lasting contact, slides {share:.0%} of the time"
+    pushes = numpy.diff(states.velocity[first + 1 : last + 1], axis=0)
+    pushes = pushes + numpy.diff(states.time[first + 1 : last + 1])[:, None] * problem.model.gravity * UP
+    normal = float(numpy.sum(pushes @ ground.normal))
+    along = numpy.linalg.norm(pushes - (pushes @ ground.normal)[:, None] * ground.normal, axis=1)
+    if problem.model.wrench.present or share < 1.0 - FEW or normal <= 0.0:
+        return words
+    return f"{words} with friction {float(numpy.sum(along)) / normal:.3g}"
+
+
+def _slip(problem: Problem, sample: int) -> float:
+    """Speed of the lowest point along the ground, [m/s]."""
+    states, normal = problem.states, problem.ground.normal
+    point = int(_heights(problem, sample).argmin())
+    reach = arm(problem.shape, problem.ground, states.rotation[sample], point)
+    velocity = states.velocity[sample] + numpy.cross(states.angular_velocity[sample], reach)
+    return float(numpy.linalg.norm(velocity - (velocity @ normal) * normal))
+
+
+def _step_noise(problem: Problem, steps: list[int]) -> Noise:
+    """Noise of the samples at the ends of steps: the error of the midpoint rule, from third differences, counts as noise."""
+    states, noise = problem.states, problem.noise
+    inner = [step for step in steps if 1 <= step < len(states.time) - 2]
+    errors = []
+    for values in (states.velocity, states.angular_velocity):
+        third = [values[k + 2] - 3.0 * values[k + 1] + 3.0 * values[k] - values[k - 1] for k in inner]
+        errors.append(float(abs(numpy.array(third)).max(initial=0.0)) / 12.0)
+    return noise._replace(
+        velocity=max(noise.velocity, errors[0]), angular_velocity=max(noise.angular_velocity, errors[1])
+    )
 
 
 def _heights(problem: Problem, sample: int) -> Array:
@@ -46,7 +91,7 @@ def _one_corner(problem: Problem, step: int) -> bool:
     ends = [_heights(problem, sample) for sample in (step, step + 1)]
     if len(ends[0]) == 1:
         return True
-    size = float(numpy.ptp(problem.shape.points))
+    length = float(numpy.ptp(problem.shape.points))
     second = min(float(numpy.partition(end, 1)[1] - end.min()) for end in ends)
     same = ends[0].argmin() == ends[1].argmin()
-    return bool(same and second > APART * size + SIGMAS * problem.noise.position)
+    return bool(same and second > APART * length + SIGMAS * problem.noise.position)

@@ -38,6 +38,7 @@ class Problem(NamedTuple):
     model: Model
     noise: Noise
     axis: Array | None  # normal of the plane of motion in world axes; None in space
+    step_noise: Noise | None = None  # of flights of one sample, where it differs: the error of a step counts as noise
 
     @property
     def rows(self) -> Array:

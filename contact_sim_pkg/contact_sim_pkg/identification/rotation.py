@@ -9,14 +9,13 @@ from scipy.spatial.transform import Rotation
 __all__ = ["Array", "angular_inertia", "cross_matrix", "exponential", "from_quaternion", "logarithm", "mean"]
 
 Array = NDArray[numpy.float64]
+LARGE = -0.4  # cosine of the largest angle taken from the antisymmetric part
 
 
 def cross_matrix(vector: Array) -> Array:
-    """`[v]` with `[v] w = v x w`, for vectors [..., 3]: [..., 3, 3]."""
-    x, y, z = numpy.moveaxis(numpy.asarray(vector), -1, 0)
-    zero = numpy.zeros_like(x)
-    rows = ((zero, -z, y), (z, zero, -x), (-y, x, zero))
-    return numpy.stack([numpy.stack(row, axis=-1) for row in rows], axis=-2)
+    """`[v]` with `[v] w = v x w`, [3, 3]."""
+    x, y, z = vector
+    return numpy.array([[0.0, -z, y], [z, 0.0, -x], [-y, x, 0.0]])
 
 
 def exponential(vector: Array) -> Array:
@@ -27,9 +26,17 @@ def exponential(vector: Array) -> Array:
 
 
 def logarithm(matrix: Array) -> Array:
-    """Rotation vectors in [rad], at most pi long, of rotations [..., 3, 3]: [..., 3]."""
-    vectors: Array = Rotation.from_matrix(matrix.reshape(-1, 3, 3)).as_rotvec()
-    return vectors.reshape(matrix.shape[:-1])
+    """Rotation vectors in [rad], at most pi long, of rotations [..., 3, 3]: [..., 3].
+
+    From the antisymmetric part up to 2 rad; scipy does the larger ones, where that part loses its digits.
+    """
+    sines = 0.5 * (matrix[..., [2, 0, 1], [1, 2, 0]] - matrix[..., [1, 2, 0], [2, 0, 1]])
+    sine, cosine = numpy.sqrt(numpy.sum(sines * sines, axis=-1)), 0.5 * (numpy.trace(matrix, axis1=-2, axis2=-1) - 1.0)
+    if numpy.min(cosine, initial=1.0) < LARGE:
+        vectors: Array = Rotation.from_matrix(matrix.reshape(-1, 3, 3)).as_rotvec()
+        return vectors.reshape(matrix.shape[:-1])
+    ratio = numpy.where(sine > 0.0, numpy.arctan2(sine, cosine) / numpy.where(sine > 0.0, sine, 1.0), 1.0)
+    return numpy.asarray(sines * ratio[..., None])
 
 
 def from_quaternion(quaternion: Array) -> Array:

@@ -8,7 +8,7 @@ from .errors import IdentificationError
 from .flight import plain_motion
 from .geometry import size
 from .impacts import locate
-from .lasting import with_steps
+from .lasting import in_words, with_steps
 from .noise import from_residuals, limited
 from .problem import Contact, Problem
 from .rotation import Array
@@ -37,11 +37,18 @@ class Search:
 
     def run(self) -> Estimate:
         """All rounds."""
+        for place, (first, last) in enumerate(self.parts.contacts):
+            if last - first + 1 > LONGEST_IMPACT:
+                self.notes[place] = in_words(self.problem, first, last)
+        if not self.problem.flights:
+            self.problem = with_steps(self.problem, self.parts)
         if not self.problem.flights:
             raise IdentificationError(
                 f"there is no flight of {SHORTEST_FLIGHT} samples or more between contacts; record faster, or a motion that "
                 "leaves the ground"
             )
+        if self.problem.contacts:
+            return estimate(self.problem, self.start, self.scale)
         found = estimate(self.problem, self.start, self.scale)
         found = self._without_false_flights(found)
         for _ in range(ROUNDS):
@@ -99,9 +106,7 @@ class Search:
             before, after = self._neighbours(first, last)
             if place in self.notes and not self.notes[place].startswith("touches"):
                 continue
-            if last - first + 1 > LONGEST_IMPACT:
-                self.notes[place] = "lasting contact"
-            elif before is None or after is None:
+            if before is None or after is None:
                 self.notes[place] = f"no flight of {SHORTEST_FLIGHT} samples before or after it"
             else:
                 contact = self._contact(found, place, before, after, (first, last))

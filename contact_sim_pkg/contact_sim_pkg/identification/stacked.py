@@ -151,21 +151,10 @@ class _Linear:
         count = last - first + 1
         rest = _measured(problem, first, last, whole)
         self.residuals.append(rest)
-        noise = problem.noise
+        noise = problem.step_noise if first == last and problem.step_noise is not None else problem.noise
         spreads = numpy.array([noise.position, noise.velocity, noise.rotation, noise.angular_velocity])
         weights = numpy.repeat(1.0 / spreads, 3)
-        rows = numpy.concatenate([whole.by_state[:count], whole.by_parameters[:count], rest[..., None]], axis=2)
-        triangle = _triangle((weights[:, None] * rows).reshape(12 * count, -1))
-        count_p = problem.model.unknowns
-        self._condensed.append(
-            _Condensed(
-                triangle[:12, :12],
-                triangle[:12, 12 : 12 + count_p],
-                triangle[:12, -1],
-                triangle[12:, 12 : 12 + count_p],
-                triangle[12:, -1],
-            )
-        )
+        self._condensed.append(_condensed(whole, rest, weights, standing=not (times != state.time).any()))
         return Motion(*(field[count:] for field in whole))
 
     def _balances(self) -> None:
@@ -197,6 +186,20 @@ class _Linear:
             errors[:, 12 * number : 12 * number + 12] += through
             regressor -= through @ flight.coupling
             rest -= through @ flight.rest
+
+
+def _condensed(whole: Motion, rest: Array, weights: Array, *, standing: bool) -> _Condensed:
+    """QR of a flight's samples; a single sample that is the state itself needs none."""
+    count, unknowns = len(rest), whole.by_parameters.shape[2]
+    if standing and count == 1:
+        nothing = numpy.zeros((0, unknowns))
+        return _Condensed(numpy.diag(weights), numpy.zeros((12, unknowns)), weights * rest[0], nothing, nothing[:, 0])
+    rows = numpy.concatenate([whole.by_state[:count], whole.by_parameters[:count], rest[..., None]], axis=2)
+    triangle = _triangle((weights[:, None] * rows).reshape(12 * count, -1))
+    return _Condensed(
+        triangle[:12, :12], triangle[:12, 12 : 12 + unknowns], triangle[:12, -1], triangle[12:, 12 : 12 + unknowns],
+        triangle[12:, -1],
+    )  # fmt: skip
 
 
 def _triangle(rows: Array) -> Array:

@@ -30,7 +30,7 @@ def random_block_impacts(
     random: numpy.random.Generator, count: int, side: float = 0.1, friction: float = 0.4
 ) -> BlockImpacts:
     """Impacts with angle 0.1 to 0.7 rad, v_x ±2 m/s, v_z -3 to -1 m/s, spin ±5 rad/s, of a homogeneous square."""
-    rows = []
+    rows: list[tuple[float, Array, Array]] = []
     while len(rows) < count:
         angle, forward = random.uniform(0.1, 0.7), random.uniform(-2.0, 2.0)
         before = numpy.array([forward, random.uniform(-3.0, -1.0), random.uniform(-5.0, 5.0)])
