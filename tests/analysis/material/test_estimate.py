@@ -82,3 +82,17 @@ def test_a_mean_that_tells_no_material_is_refused_with_its_lines():
     impacts = simulated.repeats(1e-3, 1e-4, SPEED, 3, 0.0, 0)
     with pytest.raises(MaterialError, match=r"simulated, lines 2 to 4.*restitution"):
         repeated_impacts(impacts, numpy.arange(3), Options())
+
+
+def test_a_mean_above_one_is_read_as_no_loss_and_noted():
+    impacts = simulated.repeats(1e-3, 1.01, SPEED, 4, 0.0, 0)
+    found = repeated_impacts(impacts, numpy.arange(4), Options())
+    assert found.loss_tangent.value == 0.0
+    assert "above 1" in found.note
+    assert of(0, 0.2).note is None
+
+
+def test_a_contact_so_long_that_the_sphere_would_sink_in_is_refused_with_its_lines():
+    impacts = simulated.repeats(0.1, 0.7, SPEED, 3, 0.0, 0)
+    with pytest.raises(MaterialError, match=r"simulated, lines 2 to 4: depth over radius"):
+        repeated_impacts(impacts, numpy.arange(3), Options())

@@ -25,6 +25,7 @@ from contact_sim_pkg.core.impact.inverse import group_factor, material_of_impact
 __all__ = ["Estimate", "Value", "each_impact", "repeated_impacts"]
 
 STEP = 1.0e-5  # of k, for the slopes of h and g
+ABOVE_ONE = "mean restitution above 1, by noise: read as no loss"
 Indices = NDArray[numpy.intp]
 
 
@@ -47,6 +48,7 @@ class Estimate(NamedTuple):
     storage_modulus: Value  # E' [Pa]
     loss_modulus: Value  # E'' [Pa]
     loss_tangent: Value
+    note: str | None = None  # what to mind
 
 
 class _Curve(NamedTuple):
@@ -85,7 +87,10 @@ def repeated_impacts(impacts: Impacts, chosen: Indices, options: Options) -> Est
     logs = numpy.array([math.log(_group_factor(impacts, int(i))) for i in chosen])
     curve = _curve(float(k.mean()), impacts, chosen, options)
     scale = impacts.speed[chosen] * impacts.duration[chosen] / impacts.radius[chosen]
-    shape = shape_of_depth(curve.depth_factor * float(scale.mean()), 1.0, options.shape)
+    try:
+        shape = shape_of_depth(curve.depth_factor * float(scale.mean()), 1.0, options.shape)
+    except ImpactError as error:
+        raise MaterialError(f"{_where(impacts, chosen)}: {error}") from error
     storage = math.exp(float(logs.mean()) + curve.log_factor) / shape
     tangent = curve.loss_tangent
     deviation = k - k.mean()
@@ -97,7 +102,7 @@ def repeated_impacts(impacts: Impacts, chosen: Indices, options: Options) -> Est
     return Estimate(
         len(chosen), temperature, math.exp(float(numpy.log(impacts.speed[chosen]).mean())), float(k.mean()),
         _of_logarithm(storage, log_error, factor), _around(storage * tangent, loss_error, factor),
-        _around(tangent, tangent_error, factor),
+        _around(tangent, tangent_error, factor), ABOVE_ONE if k.mean() > 1.0 else None,
     )  # fmt: skip
 
 
@@ -113,13 +118,16 @@ def _curve(k: float, impacts: Impacts, chosen: Indices, options: Options) -> _Cu
     try:
         at, below, above = (reading(value, options.end, options.form) for value in (held, low, high))
     except ImpactError as error:
-        lines = f"lines {impacts.line[chosen[0]]} to {impacts.line[chosen[-1]]}"
-        raise MaterialError(f"{impacts.file}, {lines}: mean of the restitution: {error}") from error
+        raise MaterialError(f"{_where(impacts, chosen)}: mean of the restitution: {error}") from error
     width = high - low
     return _Curve(
         math.log(at.modulus_factor), math.log(above.modulus_factor / below.modulus_factor) / width,
         at.loss_tangent, (above.loss_tangent - below.loss_tangent) / width, at.depth_factor,
     )  # fmt: skip
+
+
+def _where(impacts: Impacts, chosen: Indices) -> str:
+    return f"{impacts.file}, lines {impacts.line[chosen[0]]} to {impacts.line[chosen[-1]]}"
 
 
 def _standard_error(values: NDArray[numpy.float64]) -> float | None:

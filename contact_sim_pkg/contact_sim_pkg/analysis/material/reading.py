@@ -39,7 +39,10 @@ UNITS: dict[str, dict[str, float]] = {
 }
 CELSIUS = ("C", "°C", "degC")
 FREEZING = 273.15
-LARGEST_RESTITUTION = 1.5  # above, the column is another one
+RANGES = {
+    "m": (1e-12, 1e6), "R": (1e-9, 1e3), "V0": (1e-9, 1e4), "tau": (1e-12, 1e3), "k": (0.0, 1.5), "T": (1.0, 5000.0),
+}  # fmt: skip
+"""Column -> what is read, in SI; a value outside is another column or unit."""
 
 
 class Impacts(NamedTuple):
@@ -136,10 +139,9 @@ def _number(path: Path, line: int, name: str, field: str, factor: float, offset:
         raise MaterialError(
             f"{path}, line {line}: '{text[:40]}' in column '{name}' is no finite number (a decimal point is expected)"
         ) from None
-    if not value > 0.0:
-        raise MaterialError(f"{path}, line {line}: {value:g} in column '{name}'; a number above 0 is needed")
-    if name == "k" and value > LARGEST_RESTITUTION:
+    low, high = RANGES[name]
+    if not (value > 0.0 and low <= value <= high):
         raise MaterialError(
-            f"{path}, line {line}: restitution {value:g}; at most {LARGEST_RESTITUTION:g} is read, per cent are not"
+            f"{path}, line {line}: {value:g} in column '{name}'; a number above 0, {low:g} to {high:g} in SI units, is needed"
         )
     return value

@@ -67,7 +67,7 @@ def group_rows(report: MaterialReport) -> list[dict[str, Any]]:
         }  # fmt: skip
         if report.master is not None:
             row |= {"lg_aT": report.master.log_shift[i], "reduced_speed": report.master.reduced_speed[i]}
-        rows.append(row)
+        rows.append({**row, "note": estimate.note})
     return rows
 
 
