@@ -30,3 +30,16 @@ class PlanarImpulse(NamedTuple):
     normal: float  # c_n >= 0 in [N s]
     tangential: float  # c_t in [N s], |c_t| <= mu c_n in the one-step rules
     mode: int  # results.SEPARATE, STICK, SLIDE, REVERSE
+
+
+class ImpactPath(NamedTuple):
+    """One contact in space along its normal impulse: the symmetric ``A`` of normal (n) and tangents (1, 2), and friction."""
+
+    nn: float
+    n1: float
+    n2: float
+    t11: float
+    t12: float
+    t22: float
+    friction: float
+    restitution: float

@@ -1,0 +1,225 @@
+"""Solve a contact problem by a rung of the ladder, and name how it ended.
+
+Rungs: MODES (closed formulas, one contact in the plane), GAUSS_SEIDEL (cheap: a fixed number of sweeps), LEMKE (exact in the
+plane and for a polyhedral cone; for the true cone in space the start of Newton's method) and NEWTON (default): Newton's
+method from a few sweeps, certified by its residual, and LEMKE wherever it does not settle or the cone is polyhedral.
+"""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy
+
+from ..jit import entry, kernel
+from ..parameters import Vector
+from ..vectors import copy_row
+from .cone_newton import GOOD, NewtonWorkspace, make_newton_workspace, solve_by_newton
+from .gauss_seidel import gauss_seidel
+from .lemke_contact import ContactLemke, make_contact_lemke, solve_by_lemke
+from .load_split import SplitWorkspace, make_split_workspace, split_load
+from .parameters import PlanarContact
+from .planar_impact import contact_modes
+from .problem import DISC, PLANE, ContactProblem, residual, velocity_scale
+from .results import CONTACT_NOT_FINITE, NOT_CONVERGED, SOLVED, SPLIT_NOT_UNIQUE, UNIQUE
+
+MODES, GAUSS_SEIDEL, LEMKE, NEWTON = 0, 1, 2, 3
+SOLVER_NAMES = {"modes": MODES, "gauss_seidel": GAUSS_SEIDEL, "lemke": LEMKE, "newton": NEWTON}
+START_FACETS = 8  # of the polyhedral cone from which Newton's method starts on the true one
+TURNS = 30  # times the facets are turned to the slip where Newton's method alone does not settle
+SWEEPS = 20  # of Gauss-Seidel unless told
+FIRST_SWEEPS = 6  # before Newton's method
+PASS_WEIGHT = 1.0e-3  # of the proximal term, in A_nn of the contact
+PASS_END = 1.0e-16  # change of velocity, of the greatest, at which the passes end
+PASSES = 20
+
+
+class Solver(NamedTuple):
+    """Which rung, and its work space."""
+
+    rung: int
+    sweeps: int  # of Gauss-Seidel
+    lemke: ContactLemke
+    newton: NewtonWorkspace
+    split: SplitWorkspace
+    center: Vector  # [rows]
+    weight: Vector  # [rows]
+
+
+class Solution(NamedTuple):
+    """How a contact solve ended; the impulses are in the array that was handed in."""
+
+    status: int  # results.SOLVED ...
+    flags: int  # results.SPLIT_NOT_UNIQUE ...
+    residual: float  # of `problem.residual`
+    work: int  # sweeps of Gauss-Seidel
+
+
+def make_solver(
+    contacts: int, coordinates: int, width: int, facets: int = DISC, rung: int = NEWTON, sweeps: int = SWEEPS
+) -> Solver:
+    """Work space for problems of up to ``contacts`` contacts on bodies with ``coordinates`` coordinates."""
+    rows = contacts * width
+    lemke = make_contact_lemke(contacts, width, facets if facets != DISC else START_FACETS)
+    newton, split = make_newton_workspace(rows), make_split_workspace(rows, coordinates)
+    return Solver(rung, sweeps, lemke, newton, split, numpy.zeros(rows), numpy.zeros(rows))
+
+
+@kernel
+def _is_finite(problem):
+    finite = True
+    for i in range(problem.q.shape[0]):
+        finite = finite and abs(problem.q[i]) < numpy.inf and problem.A[i, i] < numpy.inf
+    return finite
+
+
+@kernel
+def _by_modes(problem, c):
+    contact = PlanarContact(problem.A[0, 0], problem.A[0, 1], problem.A[1, 1], problem.friction[0], 0.0)
+    impulse = contact_modes(contact, problem.q[0], problem.q[1], problem.floor[0])
+    c[0], c[1] = impulse.normal, impulse.tangential
+
+
+@kernel
+def _turn_facets(problem, work, u):
+    """Turn the friction directions of each contact so that one of them opposes its slip."""
+    for i in range(problem.friction.shape[0]):
+        row = i * problem.width
+        if u[row + 1] != 0.0 or u[row + 2] != 0.0:
+            work.turn[i] = numpy.arctan2(-u[row + 2], -u[row + 1])
+
+
+@kernel
+def _exactly(problem, solver, start, c):
+    """Newton's method from ``c`` (``start``) or a few sweeps; Lemke; on the true cone Newton from there, with facets turned.
+
+    The facets of a further attempt are turned to the slip that the last one found.
+    """
+    plane = problem.width == PLANE
+    on_disc = not plane and problem.facets == DISC
+    facets = 2 if plane else (START_FACETS if on_disc else problem.facets)
+    status = SOLVED
+    swept = solver.rung == NEWTON and (plane or on_disc)
+    for attempt in range(TURNS):
+        if swept and attempt == 0:
+            if not start:
+                gauss_seidel(problem, c, FIRST_SWEEPS, 0.0)
+        else:
+            status = solve_by_lemke(problem, solver.lemke, facets, c)
+            if status != SOLVED or not on_disc:
+                break
+        status, _residual = solve_by_newton(problem, solver.newton, c)
+        if status == SOLVED:
+            break
+        if on_disc:
+            residual(problem, c, solver.newton.velocity)
+            _turn_facets(problem, solver.lemke, solver.newton.velocity)
+    for i in range(problem.friction.shape[0]):
+        solver.lemke.turn[i] = 0.0
+    return status
+
+
+@kernel
+def may_share_load(problem):
+    """Whether the impulses of this problem can be shared in more than one way."""
+    contacts, rough = 0, False
+    for i in range(problem.friction.shape[0]):
+        contacts += 1 if problem.friction[i] >= 0.0 else 0
+        rough = rough or problem.friction[i] > 0.0
+    return contacts >= 4 or (contacts == 3 and problem.width == PLANE) or (contacts >= 2 and rough)
+
+
+@kernel
+def _about(problem, weight, sign, center):
+    """Add (sign 1) or take away (-1) the proximal terms: ``A + s I``, ``q - s center``, s of the row in ``weight``."""
+    for row in range(problem.q.shape[0]):
+        problem.A[row, row] += sign * weight[row]
+        problem.q[row] -= sign * weight[row] * center[row]
+
+
+@kernel
+def _by_passes(problem, solver, c):
+    """Redundant contacts: proximal point iteration from no load, each pass of which has one solution.
+
+    How the load is shared decides, where points slide in different directions, the friction and so the velocity: the answer
+    picked here does not depend on the order of the contacts. Source: Rockafellar 1976.
+    """
+    center, weight = solver.center, solver.weight
+    part = PASS_WEIGHT if solver.rung == NEWTON and may_share_load(problem) else 0.0
+    for row in range(c.shape[0]):
+        first = row - row % problem.width
+        center[row], c[row], weight[row] = 0.0, 0.0, part * problem.A[first, first]
+    status, attempt = SOLVED, 0 if part > 0.0 else PASSES
+    while attempt <= PASSES:
+        if (
+            attempt == PASSES
+        ):  # no proximal term: one contact, or no end in sight (stacks of great mass ratio, no solution)
+            for row in range(c.shape[0]):
+                center[row], c[row], weight[row] = 0.0, 0.0, 0.0
+        _about(problem, weight, 1.0, center)
+        status = _exactly(problem, solver, 0 < attempt < PASSES, c)
+        _about(problem, weight, -1.0, center)
+        change, scale = 0.0, velocity_scale(problem, c)
+        for row in range(c.shape[0]):
+            change = max(change, weight[row] * abs(c[row] - center[row]))
+            center[row] = c[row]
+        if status == SOLVED and change <= PASS_END * scale:
+            break
+        attempt = attempt + 1 if status == SOLVED or attempt == PASSES else PASSES
+    return status
+
+
+@kernel
+def _quiet(problem):
+    """No velocity and no floor for contacts that take no part."""
+    for i in range(problem.friction.shape[0]):
+        if problem.friction[i] < 0.0:
+            problem.floor[i] = 0.0
+            for row in range(i * problem.width, (i + 1) * problem.width):
+                problem.q[row] = 0.0
+
+
+@kernel
+def solve_contact(problem: ContactProblem, solver: Solver, c: Vector) -> Solution:
+    """Impulses of ``problem`` into ``c`` [rows]; zeros where the status is RAY or CONTACT_NOT_FINITE.
+
+    MODES needs one contact in the plane. Gauss-Seidel starts from the ``c`` that is given.
+    """
+    u = solver.newton.velocity
+    _quiet(problem)
+    status, swept = SOLVED, 0
+    if not _is_finite(problem):
+        status = CONTACT_NOT_FINITE
+    elif solver.rung == GAUSS_SEIDEL:
+        swept = gauss_seidel(problem, c, solver.sweeps, 0.0)
+    elif solver.rung == MODES and problem.q.shape[0] == PLANE and problem.width == PLANE:
+        _by_modes(problem, c)
+    else:
+        status = _by_passes(problem, solver, c)
+    if status != SOLVED and status != NOT_CONVERGED:
+        for i in range(c.shape[0]):
+            c[i] = 0.0
+        return Solution(status, UNIQUE, numpy.inf, swept)
+    return Solution(status, UNIQUE, residual(problem, c, u), swept)
+
+
+@kernel
+def solve_and_split(problem: ContactProblem, J: Vector, W: Vector, solver: Solver, c: Vector) -> Solution:
+    """`solve_contact`, then the least-norm split of the load; flagged where the split is a choice."""
+    found = solve_contact(problem, solver, c)
+    if found.status != SOLVED or not may_share_load(problem):
+        return found
+    u, kept = solver.newton.velocity, solver.newton.best
+    copy_row(c, kept)
+    split_load(problem, J, W, u, velocity_scale(problem, c), problem.facets, c, solver.split)
+    after = residual(problem, c, u)
+    if after > GOOD and after > found.residual:
+        copy_row(kept, c)
+        after = residual(problem, c, u)
+    return Solution(SOLVED, SPLIT_NOT_UNIQUE, after, found.work)
+
+
+@entry
+def contact_impulses(problem: ContactProblem, J: Vector, W: Vector, solver: Solver, c: Vector) -> Solution:
+    """`solve_and_split` for callers from Python. ``problem.A`` must be ``J W J'``."""
+    return solve_and_split(problem, J, W, solver, c)

@@ -1,0 +1,70 @@
+"""Ladders of rigid contact: the solver of the contact problem, and the facets of the friction cone.
+
+Times are calls from Python, with the set-up of arrays: what differs between rungs is the solve.
+"""
+
+from __future__ import annotations
+
+import math
+
+import numpy
+
+from contact_sim_pkg.core.parameters import Vector
+from contact_sim_pkg.core.rigid.contact_solver import GAUSS_SEIDEL, LEMKE, MODES, NEWTON
+from contact_sim_pkg.core.rigid.problem import PLANE, SPACE
+from contact_sim_pkg.reference.rigid_contact import planar_velocity_by_enumeration
+from contact_sim_pkg.studies.ladder_row import Row, Rung, milliseconds, row
+from contact_sim_pkg.studies.rigid_problem import Case, contact_rows, random_face, solve, stack
+
+__all__ = ["CONE_PART", "SOLVER_PART", "cone_rows", "solver_rows"]
+
+SOLVER_PART = "post-impact velocity: solver"
+CONE_PART = "friction cone in space"
+ENUMERATION = "all index sets, numpy, no shared code"
+POINT_MASS = "closed form of a sliding point"
+DIRECTIONS = 37  # of slip, over which the worst error is taken
+FACETS = (4, 8, 16, 32, 0)
+
+
+def _velocity_error(case: Case, c: Vector, expected: Vector) -> float:
+    """Greatest difference of the velocities after the impact, over the greatest velocity before."""
+    after = case.v + case.W @ case.J.T @ c
+    return float(numpy.abs(after - expected).max() / numpy.abs(case.v).max())
+
+
+def solver_rows() -> list[Row]:
+    """One and two contacts in the plane, and a stack of mass ratio 100, by every rung."""
+    cases = {
+        "one contact": random_face(1, 1, PLANE), "two contacts of a face": random_face(2, 2, PLANE),
+        "1 kg under 100 kg": stack(100.0),
+    }  # fmt: skip
+    found = []
+    for name, case in cases.items():
+        expected = planar_velocity_by_enumeration(case.J, case.W, case.v, case.friction)
+        rungs = [
+            ("Gauss-Seidel, 20 sweeps", GAUSS_SEIDEL, 20), ("Gauss-Seidel, 2000 sweeps", GAUSS_SEIDEL, 2000),
+            ("Lemke", LEMKE, 0), ("Newton, Lemke where it stalls", NEWTON, 0),
+        ]  # fmt: skip
+        if len(case.friction) == 1:
+            rungs.append(("closed modes", MODES, 0))
+        for rung, kind, sweeps in rungs:
+            ms = milliseconds(lambda case=case, kind=kind, sweeps=sweeps: solve(case, kind, 0, sweeps))  # type: ignore[misc]
+            error = _velocity_error(case, solve(case, kind, 0, sweeps)[0], expected)
+            found.append(row(SOLVER_PART, name, "velocity", Rung(rung, ms), ENUMERATION, error))
+    return found
+
+
+def cone_rows() -> list[Row]:
+    """A point that slides on in any direction: worst error of its velocity by number of facets; 0 is the true cone."""
+    J, W, friction = contact_rows(numpy.zeros((1, 3)), SPACE), numpy.diag([1.0, 1.0, 1.0, 2.0, 2.0, 2.0]), 0.5
+    found = []
+    for facets in FACETS:
+        worst, case = 0.0, Case(J, W, numpy.zeros(6), numpy.full(1, friction), SPACE)
+        for angle in numpy.linspace(0.0, math.pi, DIRECTIONS):
+            slip = numpy.array([math.cos(angle), math.sin(angle), 0.0, 0.0, 0.0, 0.0])
+            case = case._replace(v=3.0 * slip - numpy.eye(6)[2])
+            worst = max(worst, _velocity_error(case, solve(case, NEWTON, facets)[0], (3.0 - friction) * slip))
+        ms = milliseconds(lambda case=case, facets=facets: solve(case, NEWTON, facets))  # type: ignore[misc]
+        name = f"{facets} facets" if facets else "true cone"
+        found.append(row(CONE_PART, "sliding point, worst direction", "velocity", Rung(name, ms), POINT_MASS, worst))
+    return found

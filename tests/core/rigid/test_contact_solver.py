@@ -1,0 +1,164 @@
+"""Solvers of the contact problem: residuals, agreement with enumeration and with each other, redundancy, mass ratios, statuses."""
+
+import math
+
+import numpy
+import pytest
+from scipy.optimize import minimize
+from tests.core.rigid.contact_case import PLANE, SPACE, contact_rows, random_case, solve
+
+from contact_sim_pkg.core.rigid.contact_solver import GAUSS_SEIDEL, LEMKE, MODES, NEWTON
+from contact_sim_pkg.core.rigid.results import CONTACT_NOT_FINITE, RAY, SOLVED, SPLIT_NOT_UNIQUE, UNIQUE
+from contact_sim_pkg.reference.rigid_contact import (
+    coulomb_residual,
+    planar_velocity_by_enumeration,
+    planar_wrench_cone_split,
+)
+
+RESIDUAL = 1e-12
+
+
+def signorini_and_coulomb(J, W, q, c, friction, width, facets):
+    return coulomb_residual(J @ W @ J.T, q, c, friction, width, facets)
+
+
+@pytest.mark.parametrize("rung", [LEMKE, NEWTON])
+@pytest.mark.parametrize(("width", "facets"), [(PLANE, 0), (SPACE, 4), (SPACE, 10), (SPACE, 0)])
+@pytest.mark.parametrize("contacts", [1, 2, 4])
+def test_the_residual_of_signorini_and_coulomb_is_rounding(contacts, width, facets, rung):
+    generator = numpy.random.default_rng(contacts)
+    for _ in range(40):
+        J, W, v = random_case(generator, contacts, width)
+        friction = generator.uniform(0.0, 1.0, contacts)
+        c, solution = solve(J, W, J @ v, friction, width, facets, rung)
+        assert solution.status == SOLVED
+        assert signorini_and_coulomb(J, W, J @ v, c, friction, width, facets) <= RESIDUAL
+        assert solution.residual <= RESIDUAL
+
+
+def test_two_planar_contacts_give_the_velocity_of_the_index_sets():
+    generator = numpy.random.default_rng(7)
+    for _ in range(60):
+        J, W, v = random_case(generator, 2, PLANE)
+        friction = generator.uniform(0.0, 0.8, 2)
+        c, _solution = solve(J, W, J @ v, friction, PLANE, rung=LEMKE)
+        expected = planar_velocity_by_enumeration(J, W, v, friction)
+        assert numpy.abs(v + W @ J.T @ c - expected).max() <= 1e-11
+
+
+def test_the_rungs_agree_on_one_planar_contact():
+    generator = numpy.random.default_rng(8)
+    for _ in range(60):
+        J, W, v = random_case(generator, 1, PLANE)
+        by_rung = [solve(J, W, J @ v, 0.6, PLANE, rung=rung)[0] for rung in (MODES, LEMKE, NEWTON)]
+        swept, _solution = solve(J, W, J @ v, 0.6, PLANE, rung=GAUSS_SEIDEL, sweeps=2000)
+        for c in (*by_rung[1:], swept):
+            assert numpy.abs(c - by_rung[0]).max() <= 1e-10
+
+
+@pytest.mark.parametrize("width", [PLANE, SPACE])
+def test_sixteen_contacts_of_low_rank_are_solved_whatever_their_order(width):
+    generator = numpy.random.default_rng(9)
+    for _ in range(5):
+        J, W, v = random_case(generator, 16, width)
+        friction = generator.uniform(0.2, 0.8)
+        c, solution = solve(J, W, J @ v, friction, width)
+        order = generator.permutation(16)
+        rows = (order[:, None] * width + numpy.arange(width)).ravel()
+        shuffled, _solution = solve(J[rows], W, J[rows] @ v, friction, width)
+        assert solution.status == SOLVED
+        assert solution.flags == SPLIT_NOT_UNIQUE
+        assert signorini_and_coulomb(J, W, J @ v, c, friction, width, 0) <= RESIDUAL
+        assert numpy.abs(W @ J.T @ c - W @ J[rows].T @ shuffled).max() <= 1e-12 * numpy.abs(v).max()
+        assert numpy.abs(c[rows] - shuffled).max() <= 1e-9 * numpy.abs(c).max()
+
+
+@pytest.mark.parametrize("ratio", [1.0, 1e2, 1e4, 1e6])
+@pytest.mark.parametrize("rung", [LEMKE, NEWTON])
+def test_a_light_body_under_a_heavy_one_is_solved_at_every_mass_ratio(ratio, rung):
+    """Two bodies of one coordinate each, stacked: weights m g under gravity over one second."""
+    J = numpy.array([[1.0, 0.0], [0.0, 0.0], [-1.0, 1.0], [0.0, 0.0]])
+    J = numpy.hstack([J, numpy.array([[0.0, 0.0], [1.0, 0.0], [0.0, 0.0], [-1.0, 1.0]])])
+    W = numpy.diag([1.0, 1.0 / ratio, 1.0, 1.0 / ratio])
+    q = J @ numpy.array([-9.81, -9.81, 0.1, 0.3])
+    c, solution = solve(J, W, q, 0.5, PLANE, rung=rung)
+    assert solution.residual <= RESIDUAL
+    assert c[2] == pytest.approx(9.81 * ratio, rel=1e-9)  # condition number 4 ratio
+    assert c[0] == pytest.approx(9.81 * (1.0 + ratio), rel=1e-9)
+
+
+def test_a_box_on_four_corners_shares_its_weight_in_quarters():
+    corners = [[x, y, -0.1] for x in (-0.2, 0.2) for y in (-0.3, 0.3)]
+    J, W = contact_rows(corners, SPACE), numpy.diag([0.5, 0.5, 0.5, 8.0, 9.0, 7.0])
+    c, solution = solve(J, W, J @ numpy.array([0.0, 0.0, -9.81e-3, 0.0, 0.0, 0.0]), 0.3, SPACE)
+    assert solution.flags == SPLIT_NOT_UNIQUE
+    assert c.reshape(4, 3) == pytest.approx(numpy.tile([2.0 * 9.81e-3 / 4.0, 0.0, 0.0], (4, 1)), abs=1e-15)
+
+
+@pytest.mark.parametrize("friction", [0.0, 0.4])
+def test_the_split_is_the_one_of_least_norm_that_scipy_finds(friction):
+    """Two corners of a block that rests, pulled sideways and turned: all splits of one wrench inside the cones."""
+    J, W = contact_rows([[-0.1, -0.1], [0.2, -0.1], [0.05, -0.1]], PLANE), numpy.diag([1.0, 1.0, 30.0])
+    v = numpy.array([0.2 * friction, -1.0, 0.5])
+    c, _solution = solve(J, W, J @ v, friction, PLANE)
+    expected = planar_wrench_cone_split(J, J.T @ c, friction)
+    assert numpy.abs(c - expected).max() <= 1e-9 * numpy.abs(c).max()
+
+
+def test_the_split_on_the_true_cone_is_not_longer_than_that_of_a_general_optimizer():
+    corners = [[x, y, -0.1] for x in (-0.2, 0.3) for y in (-0.3, 0.2)]
+    J, W = contact_rows(corners, SPACE), numpy.diag([1.0, 1.0, 1.0, 20.0, 25.0, 22.0])
+    v = numpy.array([0.25, -0.1, -1.0, 0.1, 0.1, 0.02])
+    c, _solution = solve(J, W, J @ v, 0.5, SPACE)
+    wrench = J.T @ c
+    found = minimize(
+        lambda x: x @ x, c, jac=lambda x: 2.0 * x, method="SLSQP", options={"ftol": 1e-15, "maxiter": 500},
+        constraints=[
+            {"type": "eq", "fun": lambda x: J.T @ x - wrench},
+            *({"type": "ineq", "fun": lambda x, i=i: 0.5 * x[3 * i] - math.hypot(x[3 * i + 1], x[3 * i + 2])} for i in range(4)),
+        ],
+    )  # fmt: skip
+    assert c @ c <= found.fun * (1.0 + 1e-9)
+
+
+@pytest.mark.parametrize("facets", [4, 6, 8, 16])
+def test_a_polyhedral_cone_dissipates_at_least_its_inscribed_part_of_the_true_cone(facets):
+    J, W = contact_rows([[0.0, 0.0, 0.0]], SPACE), numpy.diag([1.0, 1.0, 1.0, 2.0, 2.0, 2.0])
+    for angle in numpy.linspace(0.0, 2.0 * math.pi, 25):
+        q = J @ numpy.array([3.0 * math.cos(angle), 3.0 * math.sin(angle), -1.0, 0.0, 0.0, 0.0])
+        c, _solution = solve(J, W, q, 0.5, SPACE, facets)
+        power = -(c[1] * q[1] + c[2] * q[2]) / (0.5 * c[0] * 3.0)
+        assert math.cos(math.pi / facets) - 1e-12 <= power <= 1.0 + 1e-12
+
+
+def test_without_friction_the_tangents_are_left_alone():
+    generator = numpy.random.default_rng(12)
+    J, W, v = random_case(generator, 2, SPACE)
+    c, solution = solve(J, W, J @ v, 0.0, SPACE)
+    assert (c.reshape(2, 3)[:, 1:] == 0.0).all()
+    assert solution.flags == UNIQUE
+
+
+def test_a_body_wedged_between_two_walls_that_both_bounce_ends_with_a_named_status():
+    """Two facing normals that both ask to separate: no impulse does that."""
+    J, W = numpy.array([[1.0, 0.0], [0.0, 1.0], [-1.0, 0.0], [0.0, 1.0]]), numpy.eye(2)
+    for rung in (LEMKE, NEWTON):
+        c, solution = solve(J, W, numpy.array([-1.0, 0.2, -1.0, 0.2]), 0.5, PLANE, rung=rung)
+        assert solution.status == RAY
+        assert (c == 0.0).all()
+
+
+@pytest.mark.parametrize("bad", [math.nan, math.inf])
+@pytest.mark.parametrize("rung", [MODES, LEMKE, NEWTON])
+def test_a_velocity_that_is_no_number_ends_with_a_named_status(bad, rung):
+    J, W = contact_rows([[0.1, -0.1]], PLANE), numpy.eye(3)
+    c, solution = solve(J, W, numpy.array([bad, 0.0]), 0.5, PLANE, rung=rung)
+    assert solution.status == CONTACT_NOT_FINITE
+    assert (c == 0.0).all()
+
+
+def test_gauss_seidel_reports_the_residual_that_it_left():
+    J, W = contact_rows([[-0.5, -1.0], [0.7, -1.0]], PLANE), numpy.diag([1.0, 1.0, 50.0])
+    v = numpy.array([0.1, -1.0, 0.4])
+    residuals = [solve(J, W, J @ v, 0.5, PLANE, rung=GAUSS_SEIDEL, sweeps=n)[1].residual for n in (2, 10, 40)]
+    assert residuals[0] > residuals[1] > residuals[2]
