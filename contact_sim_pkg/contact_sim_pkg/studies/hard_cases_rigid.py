@@ -24,7 +24,7 @@ ENERGY_IMPACTS, COMPARED_IMPACTS = 10_000, 300
 def _random_impacts(count: int, seed: int) -> list[tuple[Vector, Vector, Vector, PlanarContact]]:
     """J, inverse masses, velocity and contact of approaching random impacts of the block."""
     generator = numpy.random.default_rng(seed)
-    found = []
+    found: list[tuple[Vector, Vector, Vector, PlanarContact]] = []
     while len(found) < count:
         J, W = block_corner(generator.uniform(0.0, math.pi / 2))
         v = generator.uniform([-2.0, -3.0, -20.0], [2.0, 1.0, 20.0])

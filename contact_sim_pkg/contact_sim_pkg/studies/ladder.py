@@ -13,6 +13,7 @@ from typing import Any, NamedTuple
 
 from contact_sim_pkg.studies import (
     ladder_area,
+    ladder_block,
     ladder_closest,
     ladder_elliptic,
     ladder_exponent,
@@ -60,7 +61,11 @@ RIGS: dict[str, tuple[Ladder, ...]] = {
         Ladder(ladder_shell.PART, ladder_shell.rows),
         Ladder(ladder_closest.PART, ladder_closest.rows),
     ),
-    "block": (Ladder(ladder_identification.PART, ladder_identification.rows),),
+    "block": (
+        Ladder(ladder_block.SOLVER_PART, ladder_block.solver_rows),
+        Ladder(ladder_block.CONE_PART, ladder_block.cone_rows),
+        Ladder(ladder_identification.PART, ladder_identification.rows),
+    ),
     "impact": (
         Ladder(ladder_impact.PART, ladder_impact.rows),
         Ladder(ladder_impact_material.PART, ladder_impact_material.rows),
