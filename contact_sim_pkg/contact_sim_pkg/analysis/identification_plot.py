@@ -7,6 +7,7 @@ from typing import Any
 
 import numpy
 
+from contact_sim_pkg.identification.errors import IdentificationError
 from contact_sim_pkg.identification.geometry import gaps
 from contact_sim_pkg.identification.identify import Identification
 
@@ -18,9 +19,14 @@ COLOURS = {"stick": ACCENT, "slide": "#b8551b", "slide, reversed": "#7a3b9e"}
 
 
 def write_plot(found: Identification, path: str | Path) -> Path:
-    """Draw; the ending of `path` names the format."""
+    """Draw; the ending of `path` names the format. IdentificationError: an ending that no format has."""
     with style():
         figure, axes = new_figure(7.0, 3)
+        known = figure.canvas.get_supported_filetypes()
+        if Path(path).suffix.removeprefix(".") not in known:
+            raise IdentificationError(
+                f"a picture cannot be written as {path}; its name ends in one of {', '.join(sorted(known))}"
+            )
         figure.set_facecolor("white")
         _height(axes[0], found)
         _impulses(axes[1], found)

@@ -70,6 +70,7 @@ def identify(states: BodyStates, setup: Setup) -> Identification:
         IdentificationError: states that cannot be used, a wrench that does not cover them, no flight, no contact.
     """
     states = checked(states)
+    _check_setup(setup)
     _check_wrench(states, setup.wrench)
     guess = setup.noise or first_guess(states)
     axis = None if setup.planar is False else plane_of_motion(states, setup.ground, guess)
@@ -87,6 +88,14 @@ def identify(states: BodyStates, setup: Setup) -> Identification:
     problem = Problem(states, [], [], shape, setup.ground, model, limited(guess, states), axis)
     search = Search(problem, parts, setup.noise, start, scale)
     return _result(search.run(), search)
+
+
+def _check_setup(setup: Setup) -> None:
+    if not (numpy.isfinite(setup.gravity) and setup.gravity >= 0.0):
+        raise IdentificationError(f"gravity acts downward and is 0 m/s^2 or more, not {setup.gravity:g}")
+    for name, value in (setup.noise._asdict() if setup.noise else {}).items():
+        if not (numpy.isfinite(value) and value >= 0.0):
+            raise IdentificationError(f"the noise of the {name.replace('_', ' ')} is 0 or more, not {value:g}")
 
 
 def _check_wrench(states: BodyStates, wrench: ExternalWrench) -> None:

@@ -15,6 +15,7 @@ __all__ = ["in_words", "with_steps"]
 MOST = 60  # steps taken, evenly spread
 APART = 1e-3  # of the body's size: the next corner must be this much higher
 SIGMAS = 6.0
+HIGH = 0.1  # of the body's size: a gap that is no contact
 STILL = 1e-9  # of the largest speed: slip that counts as none
 FEW = 0.05  # share of the samples that is passed over
 
@@ -43,6 +44,9 @@ def in_words(problem: Problem, first: int, last: int) -> str:
     """What a lasting contact over the intervals first to last does: sticks, slides (with which friction), or both."""
     states, noise, ground = problem.states, problem.noise, problem.ground
     samples = range(first + 1, last + 1)
+    lift = float(numpy.median([_heights(problem, sample).min() for sample in samples]))
+    if lift > HIGH * size(problem.shape) + SIGMAS * noise.position:
+        return f"no flight, {lift:.3g} m above the ground: check gravity, the wrench, and the axes of the twist"
     limit = SIGMAS * (noise.velocity + size(problem.shape) * noise.angular_velocity)
     slips = numpy.array([_slip(problem, sample) for sample in samples])
     floor = STILL * float(abs(states.velocity).max() + size(problem.shape) * abs(states.angular_velocity).max())
@@ -89,6 +93,8 @@ def _heights(problem: Problem, sample: int) -> Array:
 def _one_corner(problem: Problem, step: int) -> bool:
     """Whether the same corner, and no other, is down at both ends of a step."""
     ends = [_heights(problem, sample) for sample in (step, step + 1)]
+    if max(end.min() for end in ends) > HIGH * size(problem.shape) + SIGMAS * problem.noise.position:
+        return False
     if len(ends[0]) == 1:
         return True
     length = float(numpy.ptp(problem.shape.points))

@@ -112,6 +112,11 @@ class _Linear:
         rests = [flight.tail_rest for flight in self._condensed]
         self._regressor = numpy.concatenate([self._white_regressor, *tails])
         self._rest = numpy.concatenate([self._white_rest, *rests])
+        if not (numpy.isfinite(self._regressor).all() and numpy.isfinite(self._rest).all()):
+            raise IdentificationError(
+                "the fit of the flights diverges: the states do not move as a free body; check gravity, wrench and the "
+                "axes of the twist"
+            )
         self.split = split(self._regressor * scale)
 
     def step(self) -> tuple[Array, Array]:
