@@ -30,8 +30,8 @@ _COMPLETED: dict[str, Callable[[dict[str, Any]], None]] = {"backrest": complete_
 """Rigs with keys whose default follows from others."""
 _FIELD_CONTACTS: dict[str, Contact] = {"tire": "tire", "seat": "seat"}
 
-DEFAULT_COEFFICIENT = 2.73e5
-"""Coefficient of the general law where a scene names neither coefficient nor restitution: the cushion's own, 1 s/m."""
+DEFAULT_COEFFICIENT: dict[str, float] = {"seat": 2.73e5, "backrest": 4.7905e5}
+"""Coefficient of the general law where a scene names neither coefficient nor restitution: elastic one times damping, by default."""
 DEFAULT_SPEED = 0.5
 """[m/s] that the smoothing of a rate exponent below 1 is relative to, where a scene names none."""
 
@@ -108,7 +108,7 @@ def _fill_effects(effects: dict[str, Any], accuracy: float | str, contact: str) 
     general = effects.get("general_dissipative")
     if general is not None:
         if "restitution" not in general:
-            general.setdefault("coefficient", DEFAULT_COEFFICIENT)
+            general.setdefault("coefficient", DEFAULT_COEFFICIENT[contact])
         if general["rate_exponent"] < 1.0:
             general.setdefault("reference_speed", DEFAULT_SPEED)
     grid = effects.get("contact_field")

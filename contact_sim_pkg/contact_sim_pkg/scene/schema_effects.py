@@ -285,6 +285,15 @@ class BackLoss(Section):
     reference_speed: float | None = _reference_speed()
 
 
+class BackGeneralLoss(GeneralLoss):
+    """General law of the back in the seat back: as that of the cushion, with a coefficient of its own."""
+
+    coefficient: float | None = number(
+        0.0, 1e12, "N/m^p/(m/s)^q", "4.7905e5 where none is given: with the default exponents restitution 0.6 at 0.5 m/s",
+        default=None,
+    )  # fmt: skip
+
+
 class BackFriction(Section):
     """Friction between back and seat back: a spring and damper that sticks, up to the Coulomb limit; for the whole back."""
 
@@ -333,7 +342,7 @@ class BackrestEffects(Section):
     normal_elastic: BackElastic | None = choice("elastic force", default=None)
     normal_dissipative: BackLoss | None = choice("loss", default=None)
     foam: Foam | None = choice("foam with plateau and densification", default=None)
-    general_dissipative: GeneralLoss | None = choice("loss after the general law", default=None)
+    general_dissipative: BackGeneralLoss | None = choice("loss after the general law", default=None)
     friction: BackFriction | None = choice("friction with true stick", default=None)
     shell_modes: ShellModes | None = choice("back as a shell with many contact points", default=None)
 

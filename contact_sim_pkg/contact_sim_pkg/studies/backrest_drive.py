@@ -38,6 +38,8 @@ class Motion(NamedTuple):
     normal: Vector  # [samples] [N] of the whole contact
     friction: Vector  # [samples] [N]
     touches: Vector  # [s] instants at which the first point touches
+    supplied: float = 0.0  # [J] work of the shaking and of the sliding
+    residual: float = 0.0  # [J] supplied less what is kinetic, potential, stored and dissipated
 
 
 def drive_of(scene: ResolvedScene, duration: float) -> BackrestDrive:
@@ -58,6 +60,7 @@ def fast_run(drive: BackrestDrive, scale: Vector) -> Motion:
     room = numpy.zeros((count, states)), numpy.zeros((count, states)), numpy.zeros((count, entries.FORCES))
     by_point = numpy.zeros((count, points, entries.POINT_COLUMNS))
     entries.start(model.rig, mode, state, work)
+    before = numpy.array(entries.energies(model.rig, mode, 0.0, state))
     status = entries.advance(
         model.rig, mode, state, scale, work, 0.0, drive.segment, drive.acceleration, 1, *room, by_point
     )
@@ -67,9 +70,13 @@ def fast_run(drive: BackrestDrive, scale: Vector) -> Motion:
     whole = numpy.append(mode.ended[: mode.counts[ENDED], PLACE] == points, True)
     touches = rows[whole & (rows[:, TOUCHED] > 0.0), START]
     forces = room[2]
+    kinetic, potential, stored, supplied, dissipated = (
+        numpy.array(entries.energies(model.rig, mode, count * drive.segment, state)) - before
+    )
     return Motion(
         by_point[:, :, entries.POINT_APPROACH].copy(), forces[:, entries.NORMAL], forces[:, entries.TANGENTIAL],
-        numpy.unique(touches),  # a point alone is also the whole; the last episode may have ended
+        numpy.unique(touches),  # the last episode may have ended
+        float(supplied), float(supplied - kinetic - potential - stored - dissipated),
     )  # fmt: skip
 
 
