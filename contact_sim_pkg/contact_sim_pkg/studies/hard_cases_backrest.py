@@ -36,6 +36,19 @@ def violent_slaps() -> Finding:
     return at_most(float(numpy.abs(found.approach - twin.approach).max() / numpy.abs(twin.approach).max()), 1e-6)
 
 
+def _periods(amplitude: float) -> int:
+    """Drive periods after which the motion repeats within 1e-5 m, 5 Hz at ``amplitude`` [g], behind 8 s; 0 for none up to 8."""
+    values = f"vibration.amplitude={GRAVITY * amplitude}", "vibration.frequency=5", "duration=12"
+    settled = _run("seat_slap", *values, TIGHT, duration=12.0).approach[8000:, 0]
+    shifts = (count for count in range(1, 9) if numpy.ptp(settled[200 * count :] - settled[: -200 * count]) < 1e-5)
+    return next(shifts, 0)
+
+
+def period_doubling() -> Finding:
+    """Periods of the motion in drive periods at 1.5, 3 and 5 g as one number: 1, 2, 4."""
+    return exactly(float(sum(_periods(g) * place for g, place in ((1.5, 100), (3.0, 10), (5.0, 1)))), 124.0)
+
+
 def chattering_touches() -> Finding:
     """Largest difference of an instant of touch from scipy's, [s], 2 s near the amplitude that lifts off, restitution 0.9."""
     found, twin = _against_twin(*CHATTER, duration=2.0)
@@ -91,6 +104,7 @@ def weight_of_kept_contact() -> Finding:
 
 CASES = (
     HardCase(MODEL, "6 g slaps, 2 s: approach against scipy", violent_slaps),
+    HardCase(MODEL, "period doubling: drive periods of the motion at 1.5, 3, 5 g, one digit each", period_doubling),
     HardCase(MODEL, "chatter at restitution 0.9: instants of touch against scipy [s]", chattering_touches),
     HardCase(MODEL, "not shaken: motion and touches", at_rest_under_nothing),
     HardCase(MODEL, "preload 0, not shaken: force of a grazing back [N]", grazing),
