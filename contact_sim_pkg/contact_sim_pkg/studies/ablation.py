@@ -7,12 +7,14 @@ kinds of run by turns, so that what else the machine does hits both alike; the m
 from __future__ import annotations
 
 import statistics
+import time
 from collections.abc import Callable
 from typing import Any, NamedTuple
 
 import numpy
 
 from contact_sim_pkg.core.parameters import Vector
+from contact_sim_pkg.run.block_simulation import BlockSimulation
 from contact_sim_pkg.run.rigs import make_simulation
 from contact_sim_pkg.run.sources import make_sources
 from contact_sim_pkg.scene.overrides import set_value
@@ -75,7 +77,7 @@ def study(scene_name: str, progress: Callable[[str], None] | None = None) -> lis
             if contact not in rule.contacts:
                 continue
             tell(f"{contact}: {effect}")
-            rows.append(_row(scene_name, scene, contact, effect))
+            rows.append(_row(scene_name, scene, contact, effect, tell))
     return rows
 
 
@@ -111,7 +113,9 @@ def _percent(change: float | None) -> str:
     return "-" if change is None else f"{100.0 * change:+.2f} %"
 
 
-def _row(scene_name: str, scene: ResolvedScene, contact: str, effect: str) -> dict[str, Any]:
+def _row(
+    scene_name: str, scene: ResolvedScene, contact: str, effect: str, tell: Callable[[str], None]
+) -> dict[str, Any]:
     on = (scene.data["effects"].get(contact) or {}).get(effect) is not None
     topics = [f"{contact}/{name}" for name in FEEDS[effect]] + list(BENCH_TOPICS)
     row: dict[str, Any] = {"contact": contact, "effect": effect, "on": on, "topics": topics}
@@ -131,7 +135,7 @@ def _row(scene_name: str, scene: ResolvedScene, contact: str, effect: str) -> di
         return {**row, **nothing, "called_for": "no rule", "verdict": "not available", "why": why}
     present = scene if on else _with(scene, scene_name, contact, effect)
     absent = without(present, (contact, effect))
-    with_it, without_it, differences = _paired(present, absent)
+    with_it, without_it, differences = _paired(present, absent, tell)
     needed, why = is_needed(effect, contact, present, with_it.observed)
     called_for = "no rule" if needed is None else "needed" if needed else "not needed"
     verdict = "as it should be"
@@ -168,18 +172,31 @@ def _measures(with_it: Run, without_it: Run, differences: list[float], contact: 
     return dict(zip(MEASURES, values, strict=True))
 
 
-def _paired(first: ResolvedScene, second: ResolvedScene) -> tuple[Run, Run, list[float]]:
-    """Both scenes by turns: a run of each with the median of its costs, and the differences of the costs of each pair."""
+def _paired(first: ResolvedScene, second: ResolvedScene, tell: Callable[[str], None]) -> tuple[Run, Run, list[float]]:
+    """Both scenes by turns: a run of each with the median of its costs, and the differences of the costs of each pair.
+
+    Compiled first: nearly all the time of a first study goes there, and it tells so.
+    """
+    began = time.process_time()
+    for name, scene in (("with", first), ("without", second)):
+        tell(f"  kernels {name} it: compiled, or from the disk")
+        _prepared(scene)
+    tell(f"  {PAIRS} runs of both by turns, behind {time.process_time() - began:.0f} s of preparation")
     pairs = [(run_once(first, DURATION), run_once(second, DURATION)) for _ in range(PAIRS)]
     costs = [statistics.median(pair[place].cost for pair in pairs) for place in (0, 1)]
     differences = [one.cost - other.cost for one, other in pairs]
     return pairs[0][0]._replace(cost=costs[0]), pairs[0][1]._replace(cost=costs[1]), differences
 
 
+def _prepared(scene: ResolvedScene) -> BlockSimulation:
+    simulation = make_simulation(scene)
+    simulation.prepare()
+    return simulation
+
+
 def run_once(scene: ResolvedScene, duration: float) -> Run:
     """One run of `duration` [s] without bag; the cost is that of the simulation alone."""
-    sources, simulation = make_sources(scene), make_simulation(scene)
-    simulation.prepare()
+    sources, simulation = make_sources(scene), _prepared(scene)
     length = float(scene.data["block_length"])
     walls, messages, inputs = [], [], []
     for block in range(min(simulation.blocks, round(duration / length))):
