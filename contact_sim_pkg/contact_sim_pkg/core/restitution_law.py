@@ -18,7 +18,7 @@ from .restitution import LOWEST_RESTITUTION, SLOWEST_IMPACT, damping_of_restitut
 from .results import DONE, SENTENCES
 from .rigs.point_contact import MARGINS
 from .rigs.single import empty_mode, run
-from .solvers.dormand_prince import make_workspace
+from .solvers.root_steps import make_workspace
 
 TOLERANCE = 1.0e-13  # of the integrator, relative to L and v0; e is then good to 1e-11
 LONGEST = 1.0e3  # [L / v0]

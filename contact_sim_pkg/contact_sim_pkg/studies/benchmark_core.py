@@ -2,31 +2,26 @@
 
 from __future__ import annotations
 
-import math
 import statistics
-import time
-from functools import partial
-from typing import Any
 
 import numpy
 from numpy.typing import NDArray
-from scipy.integrate import solve_ivp
 
 from contact_sim_pkg.core.jit import entry
 from contact_sim_pkg.core.parameters import PointContact, Vector
 from contact_sim_pkg.core.rigs.point_contact import MARGINS, STATES
 from contact_sim_pkg.core.rigs.single import empty_mode, run
-from contact_sim_pkg.core.solvers.dormand_prince import Workspace, make_workspace
+from contact_sim_pkg.core.solvers.root_steps import Workspace, make_workspace
 from contact_sim_pkg.reference import impact
 from contact_sim_pkg.reference.belt_slider import period_of_rigid_law
 from contact_sim_pkg.studies import hard_cases_friction, one_mass
 from contact_sim_pkg.studies import hard_cases_impact as impacts_of
+from contact_sim_pkg.studies import seat_slap as work_of
 from contact_sim_pkg.studies.benchmark_goal import Measured, median_time
 from contact_sim_pkg.studies.effect_cost import absent_effect_cost
 
 __all__ = ["absent_effect", "impacts", "seat_slap", "steel", "stick_slip"]
 
-SLAP_END = 4.0  # [s]
 SLAP_ERROR = 1e-8  # [m]
 TOLERANCES = tuple(10.0 ** (-0.25 * quarter) for quarter in range(16, 49))  # 1e-4 to 1e-12
 Modes = NDArray[numpy.int64]
@@ -35,46 +30,34 @@ IMPACTS = 200  # in one compiled loop
 
 
 def seat_slap() -> list[Measured]:
-    """Time to an error of 1e-8 m, and scipy's on the same equations: the cheapest tolerance of each that is good enough."""
-    rig, start, scales = one_mass.seat_slap()
-    exact = float(impacts_of.slap_reference(rig, start)[0])
-    times = numpy.array([0.0, SLAP_END])
-    for tolerance in TOLERANCES:
-        call = partial(one_mass.integrate, rig, start, scales * tolerance, times)
-        error = abs(float(call().states[-1, 0]) - exact)
-        if error <= SLAP_ERROR:
-            break
-    own = 1e6 * median_time(call) / SLAP_END
-    found = [Measured("seat slap to 1e-8 m", own, "µs per simulated s", most=100.0, note=f"tolerance {tolerance:.1e}")]
+    """Time to an error of 1e-8 m, and each solver's error and time over the tolerances, at equal error beside ours."""
+    own = work_of.own_work()
+    enough = work_of.cheapest(own, SLAP_ERROR)
+    cost, note = (
+        (None, "no tolerance reaches it") if enough is None else (enough.cost, f"tolerance {enough.tolerance:.1e}")
+    )
+    found = [Measured("seat slap to 1e-8 m", cost, "µs per simulated s", most=100.0, note=note)]
+    scale = one_mass.seat_slap()[2][0]
+    worst = max(run.error / scale / run.tolerance for run in own if run.tolerance >= 0.9e-11)
+    found.append(Measured("seat slap, error over asked tolerance", worst, "times", most=10.0, note="1e-4 to 1e-11"))
+    found += [_work_of(run) for run in own]
     for method in ("LSODA", "DOP853"):
-        seconds = _slap_by_scipy(method, exact)
-        ratio = None if seconds is None else 1e6 * seconds / SLAP_END / own
-        note = "no tolerance from 1e-6 to 1e-12 reaches 1e-8 m" if ratio is None else "its right-hand side is Python"
-        found.append(Measured(f"seat slap: scipy {method} over ours", ratio, "times", note=note))
+        peer = work_of.scipy_work(method)
+        best = work_of.cheapest(peer, SLAP_ERROR)
+        ratio = None if best is None or enough is None else best.cost / enough.cost
+        least = 50.0 if method == "LSODA" else None
+        found.append(Measured(f"seat slap to 1e-8 m: scipy {method} over ours", ratio, "times", least=least))
+        found += [_work_of(run, own) for run in peer]
     return found
 
 
-def _slap_by_scipy(method: str, exact: float) -> float | None:
-    """Wall time [s] at the loosest tolerance that is good enough; None where none is."""
-    rig, start, _scales = one_mass.seat_slap()
-    law, amplitude, frequency = rig.elastic, rig.support_amplitude, rig.support_frequency
-
-    def rate(t: float, y: Any) -> list[float]:
-        approach = amplitude * math.sin(frequency * t) - y[0]
-        if approach <= 0.0:
-            return [y[1], -rig.gravity]
-        closing = amplitude * frequency * math.cos(frequency * t) - y[1]
-        force = law.coefficient * approach**law.exponent * max(0.0, 1.0 + closing)
-        return [y[1], force / rig.mass - rig.gravity]
-
-    for power in range(6, 13):
-        began = time.perf_counter()
-        tolerance = 10.0**-power
-        found = solve_ivp(rate, (0.0, SLAP_END), start, method, rtol=tolerance, atol=1e-2 * tolerance, max_step=0.01)
-        seconds = time.perf_counter() - began
-        if abs(float(found.y[0, -1]) - exact) <= SLAP_ERROR:
-            return seconds
-    return None
+def _work_of(run: work_of.Work, own: list[work_of.Work] | None = None) -> Measured:
+    """One run as a row: its time, and in the note its error and how much cheaper ours is with an error as small."""
+    note = f"error {run.error:.1e} m"
+    equal = None if own is None else work_of.cheapest(own, run.error)
+    if equal is not None:
+        note += f", {run.cost / equal.cost:.0f} times ours with an error as small"
+    return Measured(f"seat slap, {run.solver} at {run.tolerance:.0e}", run.cost, "µs per simulated s", note=note)
 
 
 @entry
@@ -119,7 +102,7 @@ def _impact_time(loss: float, tolerance: float) -> float:
     gap = 0.001
     times, scale = numpy.array([0.0, gap / speed + lasts * (3.0 + 3.0 * loss)]), numpy.array([depth, speed]) * tolerance
     start: Vector = numpy.array([gap, -speed])
-    out, work, mode = numpy.zeros((2, STATES)), make_workspace(STATES, MARGINS), empty_mode()
+    out, work, mode = numpy.zeros((2, STATES)), make_workspace(STATES, MARGINS, one_mass.ORDER), empty_mode()
     return 1e6 * median_time(lambda: _many(rig, mode, start, scale, work, times, out, IMPACTS)) / IMPACTS
 
 

@@ -12,8 +12,9 @@ import numpy
 from contact_sim_pkg.core.jit import kernel
 from contact_sim_pkg.core.parameters import NormalDissipative, NormalElastic, PointContact, Vector
 from contact_sim_pkg.core.rigs.interface import register
+from contact_sim_pkg.core.rigs.point_contact import free_flight
 from contact_sim_pkg.core.rigs.single import empty_mode, run
-from contact_sim_pkg.core.solvers.dormand_prince import REJECTED, STEPS, make_workspace
+from contact_sim_pkg.core.solvers.root_steps import REJECTED, STEPS, make_workspace
 
 __all__ = ["HandWritten", "absent_effect_cost", "bounce"]
 
@@ -22,14 +23,13 @@ END = 20.0  # [s]
 
 
 class HandWritten(NamedTuple):
-    """`PointContact` as one would write it without any loss, the moving support included. State [z, v]."""
+    """`PointContact` as one would write it for a Hertz contact without any loss, the moving support included. State [z, v]."""
 
     mass: float
     gravity: float
     support_amplitude: float
     support_frequency: float
     coefficient: float
-    exponent: float
 
 
 @kernel
@@ -37,7 +37,7 @@ def _rate(rig, drive, mode, time, state, out):  # type: ignore[no-untyped-def]
     force = 0.0
     approach = rig.support_amplitude * math.sin(rig.support_frequency * time) - state[0]
     if approach > 0.0:
-        force = rig.coefficient * approach**rig.exponent
+        force = rig.coefficient * approach * math.sqrt(approach)
     out[0] = state[1]
     out[1] = force / rig.mass - rig.gravity
 
@@ -58,7 +58,7 @@ def _need_rate(rig, mode):  # type: ignore[no-untyped-def]
     return False
 
 
-register(HandWritten, _rate, _margins, _switch, _need_rate)
+register(HandWritten, _rate, _margins, _switch, _need_rate, free_flight)
 
 
 def bounce(rig: PointContact | HandWritten) -> tuple[Vector, float]:
@@ -75,7 +75,7 @@ def rigs() -> tuple[PointContact, PointContact, HandWritten]:
     """The same bounce with loss, with the loss absent, and by hand."""
     law = NormalElastic(1.0e6, 1.5)
     absent = PointContact(1.0, 9.81, 0.0, 0.0, law, None)
-    return absent._replace(dissipative=NormalDissipative(1e-3)), absent, HandWritten(1.0, 9.81, 0.0, 0.0, 1.0e6, 1.5)
+    return absent._replace(dissipative=NormalDissipative(1e-3)), absent, HandWritten(1.0, 9.81, 0.0, 0.0, 1.0e6)
 
 
 def absent_effect_cost() -> tuple[float, float, float]:

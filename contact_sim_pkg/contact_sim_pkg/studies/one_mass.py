@@ -16,11 +16,13 @@ from contact_sim_pkg.core.parameters import (
 )
 from contact_sim_pkg.core.results import DONE, SENTENCES
 from contact_sim_pkg.core.rigs.single import belt_slider, impact_works, point_contact, run
-from contact_sim_pkg.core.solvers.dormand_prince import EVENTS, REJECTED, STEPS, make_workspace
+from contact_sim_pkg.core.solvers.root_steps import EVENTS, REJECTED, STEPS, make_workspace
 
 __all__ = ["Course", "RunFailureError", "free_impact", "impact_speeds", "integrate", "seat_slap"]
 
-
+ORDER = (
+    8  # of the integrator: its steps are not cut short by a drive, and it is the cheaper one below a tolerance of 1e-4
+)
 MARGINS = {
     PointContact: point_contact.MARGINS,
     ImpactWorks: impact_works.MARGINS,
@@ -56,7 +58,7 @@ def integrate(
     """
     margins = MARGINS[type(rig)]
     state = numpy.array(start, dtype=float)
-    work = make_workspace(len(state), margins)
+    work = make_workspace(len(state), margins, ORDER)
     out = numpy.full((len(times), len(state)), numpy.nan)
     status = run(
         rig, numpy.array([mode]), state, numpy.asarray(scale, dtype=float), work, numpy.asarray(times, float), out

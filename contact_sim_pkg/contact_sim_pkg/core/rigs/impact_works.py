@@ -13,7 +13,7 @@ from ..jit import kernel
 from ..parameters import ImpactWorks
 from .interface import register
 from .point_contact import _margins as contact_margins
-from .point_contact import approach_of
+from .point_contact import approach_of, free_flight
 
 STATES = 4
 MARGINS = 3
@@ -48,4 +48,9 @@ def _need_rate(rig, mode):
     return False
 
 
-register(ImpactWorks, _rate, _margins, _switch, _need_rate)
+@kernel
+def _free_flight(rig, drive, mode, time, end, state, side):
+    return free_flight(rig.contact, drive, mode, time, end, state, side)
+
+
+register(ImpactWorks, _rate, _margins, _switch, _need_rate, _free_flight)

@@ -14,15 +14,8 @@ from .interface import register
 
 STATES = 2
 MARGINS = 2
-PIECES_A_PERIOD = 16
-
-
-@kernel
-def longest_piece(rig):
-    """A 16th of the support's period in [s], so that no touch falls between the points where events are looked for."""
-    if rig.support_frequency == 0.0:
-        return math.inf
-    return 2.0 * math.pi / abs(rig.support_frequency) / PIECES_A_PERIOD
+APPROACH, TENSION = 0, 1
+FLIGHT_ITERATIONS = 1000
 
 
 @kernel
@@ -58,4 +51,42 @@ def _need_rate(rig, mode):
     return False
 
 
-register(PointContact, _rate, _margins, _switch, _need_rate)
+@kernel
+def _time_to_zero(value, slope, bend):
+    """Time in [s] before which a function at ``value`` <= 0 with second derivative up to ``bend`` >= 0 cannot reach zero."""
+    root = math.sqrt(max(0.0, slope * slope - 2.0 * bend * value))
+    if slope > 0.0:
+        return -2.0 * value / (slope + root)
+    return (root - slope) / bend if bend > 0.0 else math.inf
+
+
+@kernel
+def free_flight(rig, drive, mode, time, end, state, side):
+    """Parabola of the mass, and the touch of the support's sine from below: by steps within which none can be, so none is missed.
+
+    The steps end as Newton's, from one side; the mass stands at the last instant before the touch.
+    """
+    if side[APPROACH] > 0.0:
+        return time, -1
+    height, velocity = state[0], state[1]
+    bend = abs(rig.support_amplitude) * rig.support_frequency * rig.support_frequency + rig.gravity
+    reached = time
+    event = -1
+    for _ in range(FLIGHT_ITERATIONS):
+        approach, approach_rate = approach_of(rig, reached, state)
+        ahead = _time_to_zero(approach, approach_rate, bend)
+        if (approach >= 0.0 and approach_rate > 0.0) or reached + ahead <= reached:
+            event = APPROACH
+            break
+        if not ahead > 0.0:  # not a number
+            break
+        reached = min(end, reached + ahead)
+        flown = reached - time
+        state[0] = height + (velocity - 0.5 * rig.gravity * flown) * flown
+        state[1] = velocity - rig.gravity * flown
+        if reached == end:
+            break
+    return reached, event
+
+
+register(PointContact, _rate, _margins, _switch, _need_rate, free_flight)

@@ -6,7 +6,7 @@ import pytest
 from contact_sim_pkg.core.parameters import NormalElastic, PointContact
 from contact_sim_pkg.core.results import DONE
 from contact_sim_pkg.core.rigs.single import empty_mode, run
-from contact_sim_pkg.core.solvers.dormand_prince import make_workspace
+from contact_sim_pkg.core.solvers.root_steps import make_workspace
 from contact_sim_pkg.studies.one_mass import integrate
 
 SPRING = PointContact(1.0, 0.0, 0.0, 0.0, NormalElastic(100.0, 1.0), None)
