@@ -15,8 +15,9 @@ from contact_sim_pkg.core.parameters import (
     Vector,
 )
 from contact_sim_pkg.core.results import DONE, SENTENCES
-from contact_sim_pkg.core.rigs.single import belt_slider, impact_works, point_contact, run
-from contact_sim_pkg.core.solvers.root_steps import EVENTS, REJECTED, STEPS, make_workspace
+from contact_sim_pkg.core.rigs.single import belt_slider, impact_works, point_contact, run, run_with_friction
+from contact_sim_pkg.core.solvers import dormand_prince
+from contact_sim_pkg.core.solvers.root_steps import EVENTS, REJECTED, STEPS, Workspace, make_workspace
 
 __all__ = ["Course", "RunFailureError", "free_impact", "impact_speeds", "integrate", "seat_slap"]
 
@@ -58,11 +59,16 @@ def integrate(
     """
     margins = MARGINS[type(rig)]
     state = numpy.array(start, dtype=float)
-    work = make_workspace(len(state), margins, ORDER)
     out = numpy.full((len(times), len(state)), numpy.nan)
-    status = run(
-        rig, numpy.array([mode]), state, numpy.asarray(scale, dtype=float), work, numpy.asarray(times, float), out
-    )
+    rest = (numpy.array([mode]), state, numpy.asarray(scale, dtype=float))
+    instants = numpy.asarray(times, float)
+    work: Workspace | dormand_prince.Workspace
+    if isinstance(rig, BeltSlider):
+        work = dormand_prince.make_workspace(len(state), margins)
+        status = run_with_friction(rig, *rest, work, instants, out)
+    else:
+        work = make_workspace(len(state), margins, ORDER)
+        status = run(rig, *rest, work, instants, out)
     if strict and status != DONE:
         raise RunFailureError(SENTENCES[status])
     counts = work.counters

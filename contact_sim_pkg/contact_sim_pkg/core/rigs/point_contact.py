@@ -75,10 +75,10 @@ def free_flight(rig, drive, mode, time, end, state, side):
     for _ in range(FLIGHT_ITERATIONS):
         approach, approach_rate = approach_of(rig, reached, state)
         ahead = _time_to_zero(approach, approach_rate, bend)
+        if approach != approach or ahead != ahead:  # not a number
+            break
         if (approach >= 0.0 and approach_rate > 0.0) or reached + ahead <= reached:
             event = APPROACH
-            break
-        if not ahead > 0.0:  # not a number
             break
         reached = min(end, reached + ahead)
         flown = reached - time

@@ -8,11 +8,12 @@ import numpy
 
 from ..jit import entry
 from ..parameters import Drive, Modes, Vector
+from ..solvers import dormand_prince
 from ..solvers.root_steps import Workspace, integrate, set_sides
 from ..vectors import copy_row
 from . import belt_slider, impact_works, point_contact
 
-__all__ = ["belt_slider", "empty_mode", "impact_works", "point_contact", "run"]
+__all__ = ["belt_slider", "empty_mode", "impact_works", "point_contact", "run", "run_with_friction"]
 
 
 @entry
@@ -29,6 +30,28 @@ def run(rig: Any, mode: Modes, state: Vector, scale: Vector, work: Workspace, ti
     for i in range(times.shape[0] - 1):
         drive = Drive(times[i], times[i + 1] - times[i], 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
         status = integrate(rig, drive, mode, times[i + 1], state, scale, work)
+        if status != 0:
+            return status
+        copy_row(state, out[i + 1])
+    return status
+
+
+_integrate_5 = dormand_prince.integrate
+_set_sides_5 = dormand_prince.set_sides
+
+
+@entry
+def run_with_friction(
+    rig: Any, mode: Modes, state: Vector, scale: Vector, work: dormand_prince.Workspace, times: Vector, out: Vector
+) -> int:
+    """As ``run``, by the integrator of the driven rigs: friction events have no root of time beside them that steps could use."""
+    drive = Drive(times[0], times[-1] - times[0], 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
+    _set_sides_5(rig, drive, mode, times[0], state, work)
+    copy_row(state, out[0])
+    status = 0
+    for i in range(times.shape[0] - 1):
+        drive = Drive(times[i], times[i + 1] - times[i], 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
+        status = _integrate_5(rig, drive, mode, times[i + 1], state, scale, work)
         if status != 0:
             return status
         copy_row(state, out[i + 1])
