@@ -92,3 +92,21 @@ def test_samples_keep_their_instants_where_stretches_end_between_them():
     often, _costs = run(fast, ROADS["pothole"], "outputs.field_rate=1000")
     assert len(force) == len(often) == 600
     assert (force - often).std() < 0.01 * STANDING
+
+
+@pytest.mark.parametrize("rate", [1000, 4000, 40000])
+def test_a_wall_before_the_usual_grid_is_felt_before_it_enters(rate):
+    """The far edge of a pothole 0.1 m deep is higher than the tire is at the end of its usual grid (33 mm at 0.14 m)."""
+    pothole = ("travel.speed=5", "road={kind: pothole, position: 1.5, depth: 0.1, length: 0.6}")
+    usual, costs = run(*pothole, f"outputs.force_rate={rate}")
+    large, _costs = run(*pothole, "effects.tire.contact_field.length=0.6", "effects.tire.contact_field.rows=96")
+    assert usual.max() == pytest.approx(large.max(), rel=0.02)
+    assert usual[:: rate // 1000] == pytest.approx(large, abs=0.1 * large.max())
+    assert max(cost.coupling_error for cost in costs) < 0.1
+
+
+def test_a_rate_of_the_forces_does_not_set_their_peak():
+    """At 40 kHz and 10 m/s a segment is 0.25 mm long: neither nodes nor the solver's error are felt as speeds."""
+    pothole = ("travel.speed=10", "road={kind: pothole, position: 1.5, depth: 0.1, length: 0.6}")
+    forces = [run(*pothole, f"outputs.force_rate={rate}")[0].max() for rate in (4000, 40000)]
+    assert forces[1] == pytest.approx(forces[0], rel=0.06)

@@ -9,7 +9,7 @@ import numpy
 from numpy.typing import NDArray
 
 from contact_sim_pkg.core.effects.contact_field import FieldEdgeError, FieldError, PressureField, offset_of
-from contact_sim_pkg.core.effects.footprint import tire_gap
+from contact_sim_pkg.core.effects.footprint import tire_gap, touches_beyond
 from contact_sim_pkg.core.effects.seat_shape import SeatShape
 from contact_sim_pkg.core.effects.tread_viscoelasticity import TreadMemory
 from contact_sim_pkg.core.parameters import Contact, FieldSettings
@@ -76,12 +76,15 @@ class Support(ABC):
     def solve(self, approach: float, geometric: float, block: int) -> float:
         """Solve the field at ``approach`` [m]; returns the offset to the ``geometric`` approach [m] of the smooth height.
 
-        Where the contact outgrows the usual grid the wide one takes over. Raises RunError where that is too small as well.
+        Where the contact outgrows the usual grid, or touches beyond it, the wide one takes over. Raises RunError where that is
+        too small as well.
         """
         if self.grids is None or self.contact is None:
             return 0.0
         try:
-            return self._solve_on(self.grids.usual, approach, geometric)
+            offset = self._solve_on(self.grids.usual, approach, geometric)
+            if not self.touches_beyond(self.grids, approach):
+                return offset
         except FieldEdgeError:
             self.grids.usual.forget()
         except FieldError as error:
@@ -101,7 +104,9 @@ class Support(ABC):
         for field in grids.both():
             try:
                 field.roll_to(self.road_row(field.settings))
-                return field.solve_load(self.gap(field.settings), load), field
+                approach = field.solve_load(self.gap(field.settings), load)
+                if field is grids.wide or not self.touches_beyond(grids, approach):
+                    return approach, field
             except FieldEdgeError as error:
                 field.forget()
                 last = error
@@ -127,15 +132,22 @@ class Support(ABC):
 
     def _solve_on(self, field: PressureField, approach: float, geometric: float) -> float:
         assert self.contact is not None
+        assert self.grids is not None
         gap = self.gap(field.settings)
         field.roll_to(self.road_row(field.settings))
         field.solve(gap, approach)
         self.published = FieldRecord(field.pressure, *self.origin(field.settings), approach, field.load, self.travel)
+        if field.load == 0.0:  # free: the nearest place may lie beyond the usual grid
+            gap = self.gap(self.grids.wide.settings)
         return offset_of(self.contact.elastic, field, gap, approach, geometric)
 
     def road_row(self, settings: FieldSettings) -> int:
         """Row of the road under the first row of a grid."""
         return 0
+
+    def touches_beyond(self, grids: FieldGrids, approach: float) -> bool:
+        """Whether the contact just solved on the usual grid at ``approach`` [m] goes on outside it: it stands before a wall."""
+        return False
 
     @abstractmethod
     def gap(self, settings: FieldSettings) -> Gap:
@@ -224,6 +236,15 @@ class RoadSupport(Support):
             row, col = whole.shape[0] // 2 - settings.rows // 2, (whole.shape[1] - settings.cols) // 2
             out += whole[row : row + settings.rows, col : col + settings.cols]
         return out
+
+    def touches_beyond(self, grids: FieldGrids, approach: float) -> bool:
+        """See Support."""
+        geometry, road, wide = self._geometry, self._road, grids.wide.settings
+        assert geometry is not None
+        return bool(touches_beyond(
+            road.height, road.first_row, geometry.radius_rolling, geometry.radius_lateral, self.road_row(wide), self.travel,
+            approach, wide.modulus, wide.cell_x, wide.cell_y, grids.usual.pressure, wide.rows, wide.cols,
+        ))  # fmt: skip
 
     def origin(self, settings: FieldSettings) -> tuple[float, float]:
         """See Support."""

@@ -38,7 +38,7 @@ class Integrator(Section):
     )
     coupling_tolerance: float | None = number(
         1e-8,
-        10.0,
+        1.0,
         "",
         "error of a contact force between two solutions of its pressure field, relative to the standing load: it sets how often"
         " the fields are solved; taken from accuracy when absent",

@@ -13,10 +13,11 @@ import math
 import numpy
 from numpy.typing import NDArray
 
-from ..jit import entry
+from ..jit import entry, kernel
 from ..parameters import Vector
 
 Heights = NDArray[numpy.float32]
+Pressures = NDArray[numpy.float64]
 
 
 @entry
@@ -27,31 +28,47 @@ def effective_heights(
     """Weighted mean height in [m] for each wheel position ``travel`` [m], written into ``out``.
 
     ``height`` [rows, cols] in [m] on the road lattice (node (i, j) at x = (first_row + i) cell_x, y = (j - (cols-1)/2) cell_y);
-    ``semi_axis_x``, ``semi_axis_y`` [m] of the footprint. Returns False where the lattice does not hold the footprint.
+    ``semi_axis_x``, ``semi_axis_y`` [m] of the footprint. The mean is taken with the wheel over a node and goes straight from node
+    to node: in between the steep edge of the weights would cross the nodes one by one, and each would show as a jerk.
+    Returns False where the lattice does not hold the footprint.
     """
-    rows, cols = height.shape
-    middle = 0.5 * (cols - 1)
-    reach = int(semi_axis_x / cell_x) + 1
+    weights = _weights(height.shape[1], cell_x, cell_y, semi_axis_x, semi_axis_y)
+    reach = weights.shape[0] // 2
+    place, here, ahead = 0, numpy.nan, numpy.nan  # node and the means there and at the next; none is known yet
     for k in range(travel.shape[0]):
-        centre = int(round(travel[k] / cell_x))  # noqa: RUF046  # a float in compiled code
-        if centre - reach < first_row or centre + reach >= first_row + rows:
+        node = int(math.floor(travel[k] / cell_x))  # noqa: RUF046  # a float in compiled code
+        if node - reach < first_row or node + 1 + reach >= first_row + height.shape[0]:
             return False
-        total = 0.0
-        weight_sum = 0.0
-        for i in range(centre - reach, centre + reach + 1):
-            u = (i * cell_x - travel[k]) / semi_axis_x
-            left = 1.0 - u * u
-            if left <= 0.0:
-                continue
-            for j in range(cols):
-                v = (j - middle) * cell_y / semi_axis_y
-                inside = left - v * v
-                if inside > 0.0:
-                    weight = math.sqrt(inside)
-                    weight_sum += weight
-                    total += weight * height[i - first_row, j]
-        out[k] = total / weight_sum
+        if not (node == place and here == here):
+            here = ahead if node == place + 1 and ahead == ahead else _mean(height, weights, node - reach - first_row)
+            ahead = _mean(height, weights, node + 1 - reach - first_row)
+            place = node
+        out[k] = here + (ahead - here) * (travel[k] / cell_x - node)
     return True
+
+
+@kernel
+def _weights(cols: int, cell_x: float, cell_y: float, semi_axis_x: float, semi_axis_y: float) -> Pressures:
+    """Hertz pressure of the footprint on the nodes around its middle, of sum 1."""
+    reach = int(semi_axis_x / cell_x) + 1
+    weights = numpy.zeros((2 * reach + 1, cols))
+    total = 0.0
+    for i in range(2 * reach + 1):
+        for j in range(cols):
+            u, v = (i - reach) * cell_x / semi_axis_x, (j - 0.5 * (cols - 1)) * cell_y / semi_axis_y
+            weights[i, j] = math.sqrt(max(0.0, 1.0 - u * u - v * v))
+            total += weights[i, j]
+    return weights / total
+
+
+@kernel
+def _mean(height: Heights, weights: Pressures, first: int) -> float:
+    """Mean of the rows from ``first`` on."""
+    total = 0.0
+    for i in range(weights.shape[0]):
+        for j in range(weights.shape[1]):
+            total += weights[i, j] * height[first + i, j]
+    return total
 
 
 @entry
@@ -77,6 +94,47 @@ def tire_gap(
             y = (j - middle) * cell_y
             out[i, j] = crown + 0.5 * y * y / radius_lateral - height[first + i - first_row, margin + j]
     return True
+
+
+@entry
+def touches_beyond(
+    height: Heights, first_row: int, radius_rolling: float, radius_lateral: float, first: int, travel: float,
+    approach: float, modulus: float, cell_x: float, cell_y: float, pressure: Pressures, rows: int, cols: int,
+) -> bool:  # fmt: skip
+    """Whether the road touches the tire outside the grid of ``pressure`` [Pa], on a larger one of ``rows`` x ``cols`` cells.
+
+    A cell outside touches where its gap (``tire_gap``) is less than ``approach`` [m] minus the displacement
+    ``sum(p cell_x cell_y / (pi E* r))`` that the pressure causes there; ``modulus`` is E* [Pa]. The larger grid has the same cells
+    and the same middle; its row 0 is lattice row ``first``. Cells that the lattice does not hold are taken not to touch. A belt
+    yields further and leaves more room, so with one this may say that a cell touches which does not.
+    """
+    own_rows, own_cols = pressure.shape
+    top, left = rows // 2 - own_rows // 2, (cols - own_cols) // 2
+    margin = (height.shape[1] - cols) // 2
+    middle = 0.5 * (cols - 1)
+    for i in range(max(0, first_row - first), min(rows, first_row + height.shape[0] - first)):
+        x = (first + i) * cell_x - travel
+        free = approach - 0.5 * x * x / radius_rolling
+        inside = top <= i < top + own_rows
+        for j in range(max(0, -margin), min(cols, height.shape[1] - margin)):
+            if inside and left <= j < left + own_cols:
+                continue
+            y = (j - middle) * cell_y
+            depth = free - 0.5 * y * y / radius_lateral + height[first + i - first_row, margin + j]
+            if depth > 0.0 and depth > _sunk(pressure, i - top, j - left, modulus, cell_x, cell_y):
+                return True
+    return False
+
+
+@kernel
+def _sunk(pressure: Pressures, row: int, col: int, modulus: float, cell_x: float, cell_y: float) -> float:
+    """Displacement in [m] at a cell outside the loaded ones, from point forces at their centres."""
+    total = 0.0
+    for i in range(pressure.shape[0]):
+        for j in range(pressure.shape[1]):
+            if pressure[i, j] > 0.0:
+                total += pressure[i, j] / math.hypot((row - i) * cell_x, (col - j) * cell_y)
+    return total * cell_x * cell_y / (math.pi * modulus)
 
 
 @entry
