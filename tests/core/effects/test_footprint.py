@@ -48,9 +48,7 @@ def test_a_lattice_that_does_not_hold_the_footprint_is_told():
 
 def beyond(road, approach, pressure):
     """On a grid of 40 x 20 cells around the wheel at 0.4 m, of which ``pressure`` holds the middle."""
-    return touches_beyond(
-        road.astype(numpy.float32), 0, 0.3, 0.5, 60, 0.4, approach, 2e6, CELL, CELL, pressure, 40, 20
-    )
+    return touches_beyond(road.astype(numpy.float32), 0, 0.3, 0.5, 60, 0.4, approach, 2e6, CELL, CELL, pressure, 40, 20)
 
 
 def test_a_wall_touches_beyond_the_grid_where_it_is_higher_than_the_tire():
