@@ -125,7 +125,7 @@ def _field_below(ground, width, x, y):
 
 
 @kernel
-def _surface(ground, width, x, y, z):
+def surface(ground, width, x, y, z):
     """Distance of a point above the ground, and the unit normal there; the second coordinate of the plane is ``z``."""
     if ground.heights.shape[0] == 0:
         if width == PLANE:
@@ -138,7 +138,7 @@ def _surface(ground, width, x, y, z):
 
 
 @kernel
-def _point_arm(body, rotation, i):
+def point_arm(body, rotation, i):
     """Point ``i`` from the centre of mass in world axes (x, y, z; the plane's second coordinate is z)."""
     points = body.points
     if body.width == PLANE:
@@ -169,10 +169,10 @@ def contact_rows(body, ground, motion, gap, J):
     """Gap of every point in [m], and the rows of its contact: normal, then tangent along x (and the one across in space)."""
     width = body.width
     for i in range(body.points.shape[0]):
-        r_x, r_y, r_z = _point_arm(body, motion.rotation, i)
+        r_x, r_y, r_z = point_arm(body, motion.rotation, i)
         x, z = motion.position[0] + r_x, motion.position[width - 1] + r_z
         y = motion.position[1] + r_y if width == SPACE else 0.0
-        distance, n_x, n_y, n_z = _surface(ground, width, x, y, z)
+        distance, n_x, n_y, n_z = surface(ground, width, x, y, z)
         gap[i] = distance - body.radius
         r_x, r_y, r_z = r_x - body.radius * n_x, r_y - body.radius * n_y, r_z - body.radius * n_z
         row = i * width

@@ -1,0 +1,153 @@
+"""Free flight of a rigid body to its first touch of the ground.
+
+The centre of mass moves exactly under a uniform load, the spin in space by a step of order 6; the touch is the root of a point's
+gap, whose change is summed free of cancellation, so that its time is as exact as the state. Source: SEEDS 7.2 (`located`).
+"""
+
+from __future__ import annotations
+
+import math
+
+from ..jit import entry, kernel
+from ..parameters import Vector
+from .body import Ground, Motion, RigidBody, surface
+from .motion import APART, TOUCHING, MotionWorkspace, commit, free_motion, look
+from .problem import PLANE
+
+ROOT_STEPS = 100
+PARTS = 4  # of a piece that are looked at, so that a point that dips and rises is seen
+TOUCH = 1.0e-9  # of the body's size: a second point this near takes part in the impact
+
+
+@kernel
+def body_size(body):
+    """Greatest distance of the surface from the centre of mass in [m]."""
+    size = body.radius
+    for i in range(body.points.shape[0]):
+        length = 0.0
+        for k in range(body.width):
+            length += body.points[i, k] ** 2
+        size = max(size, math.sqrt(length) + body.radius)
+    return size
+
+
+@kernel
+def _moved(body, motion, work, i, k):
+    """Displacement of point ``i`` along axis ``k``."""
+    points, R, turned = body.points, motion.rotation, work.turned
+    if body.width == PLANE:
+        half, sine = math.sin(0.5 * work.turn[0]), math.sin(work.turn[0])
+        less = -2.0 * half * half
+        x = R[0, 0] * points[i, 0] + R[0, 1] * points[i, 1]
+        y = R[1, 0] * points[i, 0] + R[1, 1] * points[i, 1]
+        return work.shift[k] + (less * x - sine * y if k == 0 else sine * x + less * y)
+    total = work.shift[k]
+    for m in range(3):
+        total += (turned[k, m] - R[k, m]) * points[i, m]
+    return total
+
+
+@kernel
+def _field_gap(body, ground, motion, work, i):
+    """Gap of point ``i`` over a height field after the displacement."""
+    width, points, turned = body.width, body.points, work.turned
+    x, y, z = motion.position[0] + work.shift[0], 0.0, motion.position[width - 1] + work.shift[width - 1]
+    for m in range(width):
+        x += turned[0, m] * points[i, m]
+        z += turned[width - 1, m] * points[i, m]
+    if width != PLANE:
+        y = motion.position[1] + work.shift[1]
+        for m in range(width):
+            y += turned[1, m] * points[i, m]
+    distance, _x, _y, _z = surface(ground, width, x, y, z)
+    return distance - body.radius
+
+
+@kernel
+def gap_change(body, ground, motion, work, i):
+    """Change of the gap of point ``i`` over the displacement; against a plane free of cancellation."""
+    if ground.heights.shape[0] > 0:
+        return _field_gap(body, ground, motion, work, i) - work.gap[i]
+    row, total = i * body.width, 0.0
+    for k in range(body.width):
+        total += work.J[row, k] * _moved(body, motion, work, i, k)
+    return total
+
+
+@kernel
+def _clearance(body, ground, motion, work, i, time):
+    """Gap of point ``i`` after ``time``, of which the displacement is known; over ``time`` where it starts on the ground."""
+    change = gap_change(body, ground, motion, work, i)
+    if work.flags[i] != APART:
+        return change / time
+    return max(work.gap[i], 0.0) + change
+
+
+@kernel
+def _root(body, ground, motion, work, i, low, high, above, below):
+    """Time of the touch of point ``i`` between ``low`` and ``high`` by regula falsi (Illinois)."""
+    side = 0
+    for _ in range(ROOT_STEPS):
+        if high - low <= 2.0e-16 * high:
+            break
+        time = low + (high - low) * above / (above - below)
+        if not low < time < high:
+            time = 0.5 * (low + high)
+        free_motion(body, motion, work, time)
+        value = _clearance(body, ground, motion, work, i, time)
+        if value > 0.0:
+            low, above = time, value
+            below = 0.5 * below if side == 1 else below
+            side = 1
+        elif value < 0.0:
+            high, below = time, value
+            above = 0.5 * above if side == -1 else above
+            side = -1
+        else:
+            return time
+    return high
+
+
+@kernel
+def _first_touch(body, ground, motion, work, piece, before, after):
+    """Time of the first touch within ``piece`` and its point, -1 where there is none."""
+    points = work.gap.shape[0]
+    for i in range(points):
+        before[i] = work.u[i * body.width] if work.flags[i] != APART else max(work.gap[i], 0.0)
+    low, first, point = 0.0, piece, -1
+    for part in range(1, PARTS + 1):
+        time = part * piece / PARTS
+        free_motion(body, motion, work, time)
+        for i in range(points):
+            after[i] = _clearance(body, ground, motion, work, i, time)
+        for i in range(points):
+            if after[i] < 0.0:
+                touch = low
+                if before[i] > 0.0:
+                    touch = _root(body, ground, motion, work, i, low, time, before[i], after[i])
+                if touch < first or point < 0:
+                    first, point = touch, i
+            before[i] = after[i]
+        if point >= 0:
+            break
+        low = time
+    return first, point
+
+
+@entry
+def fly(
+    body: RigidBody, ground: Ground, motion: Motion, work: MotionWorkspace, piece: float, before: Vector, after: Vector
+) -> tuple[float, int]:
+    """Free flight to the first touch or the end of ``piece`` [s]; returns the time flown and the point, -1: none.
+
+    ``before``, ``after`` [points] are work space.
+    """
+    size = body_size(body)
+    time, point = _first_touch(body, ground, motion, work, piece, before, after)
+    free_motion(body, motion, work, time)
+    commit(body, motion, work.free, work)
+    look(body, ground, motion, work)
+    for i in range(work.flags.shape[0]):
+        touches = point >= 0 and (i == point or abs(work.gap[i]) <= TOUCH * size)
+        work.flags[i] = TOUCHING if touches else APART
+    return time, point

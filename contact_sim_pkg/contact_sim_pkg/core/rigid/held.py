@@ -1,0 +1,209 @@
+"""Points that stay on the ground: when a rebound ends in rest, what holds them over a piece of time, where slip stops or a point lands.
+
+Each function is one step of `located.py`, which solves the contact problems between them. A rebound below the rest speed ends
+after ``2 u/(a (1 - e))``, the rest of the geometric series. Source: SEEDS 7.2 (`located`), 7.3.
+"""
+
+from __future__ import annotations
+
+import math
+
+from ..jit import entry, kernel
+from .body import Ground, Motion, RigidBody
+from .flight import TOUCH, gap_change
+from .motion import (
+    APART,
+    HELD,
+    STUCK,
+    TOUCHING,
+    MotionWorkspace,
+    apply_impulse,
+    carry_spin,
+    commit,
+    contact_velocities,
+    displace,
+    free_velocity,
+    look,
+    take_part,
+)
+
+STILL = 1.0e-13  # of the speed scale: below it a velocity is rounding
+LANDED = 1.0e-11  # of the size: a point this far below the ground has landed
+DRIFT = 1.0e-11  # of the size: a gap of a held point that is taken back, which turning bodies call for
+RETURN = 0.05  # of sqrt(L/g): the time in which it is
+HOLD_SWEEPS = 20
+SLOW = 1.0e-9  # of the slip before, squared: slip that ends there has stopped
+
+
+@entry
+def survey(body: RigidBody, ground: Ground, motion: Motion, work: MotionWorkspace, size: float, gravity: float) -> tuple[float, bool]:
+    """Gaps and contact velocities; returns the velocity [m/s] that counts as rounding, and whether a touching point approaches."""
+    look(body, ground, motion, work)
+    scale = math.sqrt(gravity * size)
+    for k in range(motion.velocity.shape[0]):
+        scale = max(scale, abs(motion.velocity[k]) * (1.0 if k < body.width else size))
+    still, found = STILL * scale, False
+    for i in range(work.flags.shape[0]):
+        found = found or (work.flags[i] >= TOUCHING and work.u[i * body.width] < -still)
+    return still, found
+
+
+@entry
+def prepare_impact(body: RigidBody, work: MotionWorkspace, rest_speed: float) -> None:
+    """The problem of all points on the ground; those slower than ``rest_speed`` do not bounce."""
+    for i in range(work.flags.shape[0]):
+        work.restitution[i] = body.restitution if work.u[i * body.width] < -rest_speed else 0.0
+    take_part(body, work, TOUCHING)
+
+
+@entry
+def finish_impact(body: RigidBody, motion: Motion, work: MotionWorkspace) -> None:
+    """Take the impulses."""
+    apply_impulse(work.J, work.W, work.impulse, motion.velocity)
+    contact_velocities(work.J, motion.velocity, work.u)
+
+
+@kernel
+def _normal_acceleration(body, work, i):
+    """Of a point without contact forces, from the load alone."""
+    total = 0.0
+    for k in range(body.load.shape[0]):
+        for m in range(body.load.shape[0]):
+            total += work.J[i * body.width, k] * work.W[k, m] * body.load[m]
+    return total
+
+
+@kernel
+def _hold(body, motion, work):
+    """Take the rest of the normal velocity from held points, one after the other (it is below the rest speed)."""
+    n = motion.velocity.shape[0]
+    for _ in range(HOLD_SWEEPS):
+        for i in range(work.flags.shape[0]):
+            if work.flags[i] < HELD:
+                continue
+            row, speed, weight = i * body.width, 0.0, 0.0
+            for k in range(n):
+                speed += work.J[row, k] * motion.velocity[k]
+                for m in range(n):
+                    weight += work.J[row, k] * work.W[k, m] * work.J[row, m]
+            if speed != 0.0:
+                for k in range(n):
+                    for m in range(n):
+                        motion.velocity[k] -= work.W[k, m] * work.J[row, m] * speed / weight
+
+
+@entry
+def settle(body: RigidBody, motion: Motion, work: MotionWorkspace, rest_speed: float, still: float) -> tuple[float, bool]:
+    """Hold the points whose rebound is below the rest speed and that the load presses down.
+
+    Returns the time in [s] that their last bounces take, and whether any point is held.
+    """
+    wait, held = 0.0, False
+    for i in range(work.flags.shape[0]):
+        speed = work.u[i * body.width]
+        if work.flags[i] >= HELD and speed > rest_speed:
+            work.flags[i] = TOUCHING
+        if work.flags[i] == APART or abs(speed) > rest_speed:
+            continue
+        acceleration = _normal_acceleration(body, work, i)
+        if acceleration < 0.0:
+            if speed > still and body.restitution < 1.0:
+                wait = max(wait, 2.0 * speed / (-acceleration * (1.0 - body.restitution)))
+            work.flags[i] = max(HELD, work.flags[i])
+        held = held or work.flags[i] >= HELD
+    if held:
+        _hold(body, motion, work)
+        take_part(body, work, HELD)
+    return wait, held
+
+
+@entry
+def prepare_attempt(body: RigidBody, motion: Motion, work: MotionWorkspace, time: float, size: float, gravity: float) -> None:
+    """The problem of the held points over ``time`` [s], without bounce; ``work.free`` is the velocity without them."""
+    free_velocity(body, motion, work, time)
+    q = work.problem.q
+    contact_velocities(work.J, work.free, q)
+    slowest = RETURN * math.sqrt(size / gravity)
+    for i in range(work.flags.shape[0]):
+        work.problem.floor[i] = 0.0
+        row = i * body.width
+        if work.flags[i] < HELD:
+            for k in range(row, row + body.width):
+                q[k] = 0.0
+        elif abs(work.gap[i]) > DRIFT * size:
+            q[row] += work.gap[i] / max(time, slowest)
+
+
+@kernel
+def _slip(body, work, velocity, i):
+    """Slip of point ``i`` at a velocity of the body: its two tangential parts."""
+    row, first, second = i * body.width, 0.0, 0.0
+    for k in range(velocity.shape[0]):
+        first += work.J[row + 1, k] * velocity[k]
+        if body.width == 3:
+            second += work.J[row + 2, k] * velocity[k]
+    return first, second
+
+
+@entry
+def finish_attempt(body: RigidBody, motion: Motion, work: MotionWorkspace, still: float) -> tuple[float, float]:
+    """Velocity at the end of the piece in ``work.free``; the part of the piece after which the first sliding point stops, 1: none,
+
+    and how many times the piece its slip would last at the deceleration of the piece.
+    """
+    apply_impulse(work.J, work.W, work.impulse, work.free)
+    for k in range(work.free.shape[0]):
+        if abs(work.free[k]) <= still:
+            work.free[k] = 0.0
+    part, stretch = 1.0, math.inf
+    for i in range(work.flags.shape[0]):
+        if work.flags[i] != HELD:
+            continue
+        a, b = _slip(body, work, motion.velocity, i)
+        c, d = _slip(body, work, work.free, i)
+        before, along = a * a + b * b, a * c + b * d
+        if before <= still * still:
+            continue
+        if along <= SLOW * before:
+            part = min(part, before / (before - along) if along < 0.0 else 0.999999)
+        if before > along:
+            stretch = min(stretch, before / (before - along))
+    return part, stretch
+
+
+@entry
+def landing(body: RigidBody, ground: Ground, motion: Motion, work: MotionWorkspace, time: float, size: float) -> float:
+    """Displacement over ``time`` [s]; the part of it after which the first free point is on the ground, 1: none lands."""
+    displace(body, motion, work.free, work, time)
+    part, near = 1.0, LANDED * size
+    for i in range(work.flags.shape[0]):
+        if work.flags[i] >= HELD:
+            continue
+        above = max(work.gap[i], 0.0)
+        change = gap_change(body, ground, motion, work, i)
+        if above + change >= -near:
+            continue
+        if above > near:
+            part = min(part, -above / change)
+        elif work.u[i * body.width] > 0.0:  # it leaves and comes back
+            part = min(part, work.u[i * body.width] / (work.u[i * body.width] - change / time))
+    return part
+
+
+@entry
+def finish_support(body: RigidBody, ground: Ground, motion: Motion, work: MotionWorkspace, size: float, still: float) -> None:
+    """Take the piece as the state; points whose slip has ended stick until friction gives way, points that left are let go."""
+    for i in range(work.flags.shape[0]):
+        if work.flags[i] >= HELD:
+            a, b = _slip(body, work, work.free, i)
+            work.flags[i] = STUCK if math.hypot(a, b) <= 10.0 * still else HELD
+    carry_spin(body, motion, work.free, work)
+    commit(body, motion, work.free, work)
+    look(body, ground, motion, work)
+    for i in range(work.flags.shape[0]):
+        speed = work.u[i * body.width]
+        if work.flags[i] >= HELD:
+            if speed > still and work.impulse[i * body.width] == 0.0:
+                work.flags[i] = APART
+        else:
+            work.flags[i] = TOUCHING if work.gap[i] <= TOUCH * size and speed < 0.0 else APART
