@@ -1,4 +1,4 @@
-"""Points that stay on the ground: when a rebound ends in rest, what holds them over a piece of time, where slip stops or a point lands.
+"""Points on the ground: when a rebound ends in rest, what holds them over a piece of time, where slip stops or a point lands.
 
 Each function is one step of `located.py`, which solves the contact problems between them. A rebound below the rest speed ends
 after ``2 u/(a (1 - e))``, the rest of the geometric series. Source: SEEDS 7.2 (`located`), 7.3.
@@ -36,7 +36,9 @@ SLOW = 1.0e-9  # of the slip before, squared: slip that ends there has stopped
 
 
 @entry
-def survey(body: RigidBody, ground: Ground, motion: Motion, work: MotionWorkspace, size: float, gravity: float) -> tuple[float, bool]:
+def survey(
+    body: RigidBody, ground: Ground, motion: Motion, work: MotionWorkspace, size: float, gravity: float
+) -> tuple[float, bool]:
     """Gaps and contact velocities; returns the velocity [m/s] that counts as rounding, and whether a touching point approaches."""
     look(body, ground, motion, work)
     scale = math.sqrt(gravity * size)
@@ -44,7 +46,7 @@ def survey(body: RigidBody, ground: Ground, motion: Motion, work: MotionWorkspac
         scale = max(scale, abs(motion.velocity[k]) * (1.0 if k < body.width else size))
     still, found = STILL * scale, False
     for i in range(work.flags.shape[0]):
-        found = found or (work.flags[i] >= TOUCHING and work.u[i * body.width] < -still)
+        found = found or (work.flags[i] == TOUCHING and work.u[i * body.width] < -still)
     return still, found
 
 
@@ -57,10 +59,13 @@ def prepare_impact(body: RigidBody, work: MotionWorkspace, rest_speed: float) ->
 
 
 @entry
-def finish_impact(body: RigidBody, motion: Motion, work: MotionWorkspace) -> None:
-    """Take the impulses."""
+def finish_impact(body: RigidBody, motion: Motion, work: MotionWorkspace, rest_speed: float) -> None:
+    """Take the impulses; held points that now leave faster than ``rest_speed`` are held no longer."""
     apply_impulse(work.J, work.W, work.impulse, motion.velocity)
     contact_velocities(work.J, motion.velocity, work.u)
+    for i in range(work.flags.shape[0]):
+        if work.flags[i] >= HELD and work.u[i * body.width] > rest_speed:
+            work.flags[i] = TOUCHING
 
 
 @kernel
@@ -93,7 +98,9 @@ def _hold(body, motion, work):
 
 
 @entry
-def settle(body: RigidBody, motion: Motion, work: MotionWorkspace, rest_speed: float, still: float) -> tuple[float, bool]:
+def settle(
+    body: RigidBody, motion: Motion, work: MotionWorkspace, rest_speed: float, still: float
+) -> tuple[float, bool]:
     """Hold the points whose rebound is below the rest speed and that the load presses down.
 
     Returns the time in [s] that their last bounces take, and whether any point is held.
@@ -101,16 +108,17 @@ def settle(body: RigidBody, motion: Motion, work: MotionWorkspace, rest_speed: f
     wait, held = 0.0, False
     for i in range(work.flags.shape[0]):
         speed = work.u[i * body.width]
-        if work.flags[i] >= HELD and speed > rest_speed:
-            work.flags[i] = TOUCHING
+        if work.flags[i] == HELD or work.flags[i] == STUCK:
+            held = True
+            continue
         if work.flags[i] == APART or abs(speed) > rest_speed:
             continue
         acceleration = _normal_acceleration(body, work, i)
         if acceleration < 0.0:
             if speed > still and body.restitution < 1.0:
                 wait = max(wait, 2.0 * speed / (-acceleration * (1.0 - body.restitution)))
-            work.flags[i] = max(HELD, work.flags[i])
-        held = held or work.flags[i] >= HELD
+            work.flags[i] = HELD
+            held = True
     if held:
         _hold(body, motion, work)
         take_part(body, work, HELD)
@@ -118,7 +126,9 @@ def settle(body: RigidBody, motion: Motion, work: MotionWorkspace, rest_speed: f
 
 
 @entry
-def prepare_attempt(body: RigidBody, motion: Motion, work: MotionWorkspace, time: float, size: float, gravity: float) -> None:
+def prepare_attempt(
+    body: RigidBody, motion: Motion, work: MotionWorkspace, time: float, size: float, gravity: float
+) -> None:
     """The problem of the held points over ``time`` [s], without bounce; ``work.free`` is the velocity without them."""
     free_velocity(body, motion, work, time)
     q = work.problem.q
@@ -191,7 +201,9 @@ def landing(body: RigidBody, ground: Ground, motion: Motion, work: MotionWorkspa
 
 
 @entry
-def finish_support(body: RigidBody, ground: Ground, motion: Motion, work: MotionWorkspace, size: float, still: float) -> None:
+def finish_support(
+    body: RigidBody, ground: Ground, motion: Motion, work: MotionWorkspace, size: float, still: float
+) -> None:
     """Take the piece as the state; points whose slip has ended stick until friction gives way, points that left are let go."""
     for i in range(work.flags.shape[0]):
         if work.flags[i] >= HELD:

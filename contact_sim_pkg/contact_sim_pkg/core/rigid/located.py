@@ -14,13 +14,13 @@ import numpy
 from ..parameters import Vector
 from . import held
 from .body import Ground, Motion, RigidBody
-from .contact_solver import contact_impulses
+from .contact_solver import GAUSS_SEIDEL, contact_impulses, make_solver
 from .flight import body_size, fly
 from .impact_law import impact_impulses, make_impact_workspace
 from .motion import STUCK, make_motion_workspace
 from .parameters import ENERGETIC
 from .problem import DISC, PLANE
-from .results import REVERSE, SEPARATE, SLIDE, SOLVED, STICK, TOO_MANY_IMPACTS
+from .results import CONTACT_NOT_FINITE, NOT_CONVERGED, REVERSE, SEPARATE, SLIDE, SOLVED, STICK, TOO_MANY_IMPACTS
 
 __all__ = ["Impact", "LocatedBody"]
 
@@ -31,6 +31,8 @@ LARGEST_TURN = 0.02  # [rad] of a piece of free flight in space, where the spin 
 LARGEST_PLANAR_TURN = 0.2  # [rad] of a piece of free flight in the plane, which is exact: it only has to find the touch
 LARGEST_SUPPORTED_TURN = 0.005  # [rad] of a piece while a point is held: there the position is of second order
 REST = 1.0e-6  # rest speed over sqrt(g L)
+ACCEPTED = 1.0e-6  # residual up to which a solve goes on: corners whose heights differ by rounding contradict each other a little
+SWEEPS = 2000  # of Gauss-Seidel where the exact solvers find that contradiction
 STICKS = 1.0e-9  # of the speed before the impact: slip below it counts as none
 
 
@@ -47,12 +49,15 @@ class Impact(NamedTuple):
 class LocatedBody:
     """One body over a ground, and where it stands. ``motion`` changes in place."""
 
-    def __init__(self, body: RigidBody, ground: Ground, motion: Motion, rule: int = ENERGETIC, facets: int = DISC) -> None:
+    def __init__(
+        self, body: RigidBody, ground: Ground, motion: Motion, rule: int = ENERGETIC, facets: int = DISC
+    ) -> None:
         """Take a body in the air or on the ground; ``motion`` is its state at the start, with no point below the ground."""
         self.body, self.ground, self.motion, self.rule = body, ground, motion, rule
         points, coordinates = len(body.points), len(body.load)
         self.work = make_motion_workspace(body, facets)
         self._impact = make_impact_workspace(points, coordinates, body.width, facets)
+        self._sweeps = make_solver(points, coordinates, body.width, facets, GAUSS_SEIDEL, SWEEPS)
         self._before, self._after = numpy.zeros(points), numpy.zeros(points)
         self.size = float(body_size(body))
         self.gravity = float(numpy.linalg.norm(body.load[: body.width]) / body.mass)
@@ -72,9 +77,7 @@ class LocatedBody:
         self.impulse[:] = 0.0
         time, status = 0.0, SOLVED
         while time < interval and status == SOLVED:
-            still, approaches = held.survey(
-                self.body, self.ground, self.motion, self.work, self.size, self.gravity
-            )
+            still, approaches = held.survey(self.body, self.ground, self.motion, self.work, self.size, self.gravity)
             if approaches:
                 status = self._collide(time)
                 if status != SOLVED:
@@ -88,7 +91,13 @@ class LocatedBody:
             else:
                 turn = LARGEST_PLANAR_TURN if self.body.width == PLANE else LARGEST_TURN
                 passed, point = fly(
-                    self.body, self.ground, self.motion, self.work, min(left, self._longest(turn)), self._before, self._after
+                    self.body,
+                    self.ground,
+                    self.motion,
+                    self.work,
+                    min(left, self._longest(turn)),
+                    self._before,
+                    self._after,
                 )
                 self.events += point >= 0
             time = interval if passed >= left else time + passed
@@ -115,9 +124,9 @@ class LocatedBody:
         found = impact_impulses(
             work.problem, work.J, work.W, work.u, work.restitution, self.rule, self._impact, work.impulse
         )
-        if found.status != SOLVED:
-            return int(found.status)
-        held.finish_impact(self.body, self.motion, work)
+        if not found.residual <= ACCEPTED:
+            return int(found.status) or NOT_CONVERGED
+        held.finish_impact(self.body, self.motion, work, self.rest_speed)
         points = tuple(int(i) for i in numpy.flatnonzero(work.impulse[::width]))
         modes = tuple(self._mode(before, i) for i in points)
         self.impacts.append(Impact(time, points, work.impulse.copy(), modes, energy - self.kinetic_energy()))
@@ -148,9 +157,11 @@ class LocatedBody:
         work = self.work
         held.prepare_attempt(self.body, self.motion, work, time, self.size, self.gravity)
         found = contact_impulses(work.problem, work.J, work.W, self._impact.solver, work.impulse)
+        if found.status not in (SOLVED, CONTACT_NOT_FINITE):
+            found = contact_impulses(work.problem, work.J, work.W, self._sweeps, work.impulse)
         self.solves += 1
-        if found.status != SOLVED:
-            return int(found.status), 1.0, math.inf
+        if not found.residual <= ACCEPTED:
+            return int(found.status) or NOT_CONVERGED, 1.0, math.inf
         self.residual = max(self.residual, float(found.residual))
         part, stretch = held.finish_attempt(self.body, self.motion, work, still)
         return SOLVED, part, stretch

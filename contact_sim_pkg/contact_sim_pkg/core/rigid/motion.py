@@ -15,7 +15,12 @@ from .problem import DISC, INACTIVE, PLANE, ContactProblem, fill_delassus, make_
 from .rotation import free_rotation, gyroscopic_step, rotate_by, spin_in_body
 
 Flags = numpy.typing.NDArray[numpy.int64]
-APART, TOUCHING, HELD, STUCK = 0, 1, 2, 3  # a point: in the air; on the ground for an instant; held, sliding; held, sticking
+APART, TOUCHING, HELD, STUCK = (
+    0,
+    1,
+    2,
+    3,
+)  # a point: in the air; on the ground for an instant; held, sliding; held, sticking
 
 
 class MotionWorkspace(NamedTuple):

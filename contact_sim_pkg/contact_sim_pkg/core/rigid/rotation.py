@@ -12,14 +12,19 @@ import math
 from ..jit import kernel
 
 NEWTON_STEPS = 8
-_OUTER = (0.39216144400731413927925056, 0.33259913678935943859974864, -0.70624617255763935980996482, 0.08221359629355080023149045)
+_OUTER = (
+    0.39216144400731413927925056,
+    0.33259913678935943859974864,
+    -0.70624617255763935980996482,
+    0.08221359629355080023149045,
+)
 STAGES = (*_OUTER, 1.0 - 2.0 * sum(_OUTER), *_OUTER[::-1])  # of a step of order 6, in parts of it
 
 
 @kernel
 def rotate_by(R, w_1, w_2, w_3, h):
     """``R <- R exp(h w x)``, w [3] the spin in body axes in [rad/s] (Rodrigues); ``R`` [3, 3] maps body to world."""
-    angle = h * math.sqrt(w_1 * w_1 + w_2 * w_2 + w_3 * w_3)
+    angle = abs(h) * math.sqrt(w_1 * w_1 + w_2 * w_2 + w_3 * w_3)
     half = math.sin(0.5 * angle)
     a = h * (math.sin(angle) / angle if angle > 1.0e-8 else 1.0)
     b = 0.5 * h * h * ((2.0 * half / angle) ** 2 if angle > 1.0e-8 else 1.0)

@@ -1,0 +1,128 @@
+"""A rigid body in time at a fixed step, of first order: contacts within reach are solved once a step, in velocities and impulses.
+
+A contact is in reach where its gap is closed or closes within the step. One that approaches faster than the rest speed 2 g h, with
+restitution, bounces by the impact law at once; the others meet ``gap/h + u_n+ >= 0``. Source: identifiability paper eqs 9, 14;
+Stewart and Trinkle 1996; SEEDS 7.2 (M4.6, `stepping`).
+"""
+
+from __future__ import annotations
+
+import math
+
+import numpy
+
+from ..jit import entry
+from .body import Ground, Motion, RigidBody
+from .contact_solver import NEWTON, contact_impulses, make_solver
+from .impact_law import impact_impulses, make_impact_workspace
+from .motion import (
+    APART,
+    HELD,
+    MotionWorkspace,
+    apply_impulse,
+    carry_spin,
+    commit,
+    contact_velocities,
+    displace,
+    free_velocity,
+    look,
+    make_motion_workspace,
+    take_part,
+)
+from .parameters import ENERGETIC
+from .problem import DISC
+from .results import SOLVED, SPIN_TOO_FAST
+
+__all__ = ["SteppedBody"]
+
+GAP_TOLERANCE = 1.0e-9  # [m]
+LARGEST_TURN = 1.0  # [rad] of a step
+
+
+@entry
+def begin_step(
+    body: RigidBody, ground: Ground, motion: Motion, work: MotionWorkspace, step: float, rest_speed: float
+) -> tuple[int, float]:
+    """Velocity without contact in ``work.free``, the contacts within reach and their problem.
+
+    Returns 0: none is in reach, 1: they are held, 2: one bounces; and the angle turned in [rad].
+    """
+    look(body, ground, motion, work)
+    free_velocity(body, motion, work, step)
+    contact_velocities(work.J, work.free, work.u)
+    turn, found = 0.0, 0
+    for k in range(body.width, work.free.shape[0]):
+        turn = max(turn, step * abs(work.free[k]))
+    for i in range(work.gap.shape[0]):
+        u_n, row = work.u[i * body.width], i * body.width
+        reached = work.gap[i] <= GAP_TOLERANCE or work.gap[i] + step * u_n <= 0.0
+        fast = u_n < -rest_speed and body.restitution > 0.0
+        work.flags[i] = HELD if reached else APART
+        work.restitution[i] = body.restitution if fast else 0.0
+        work.problem.floor[i] = 0.0
+        if reached:
+            found = max(found, 2 if fast else 1)
+        for k in range(row, row + body.width):
+            work.problem.q[k] = work.u[k] if reached else 0.0
+        work.problem.q[row] += work.gap[i] / step if reached else 0.0
+    if found > 0:
+        take_part(body, work, HELD)
+    return found, turn
+
+
+@entry
+def end_step(body: RigidBody, motion: Motion, work: MotionWorkspace, step: float) -> None:
+    """Take the impulses; the position follows from the velocity at the end of the step."""
+    apply_impulse(work.J, work.W, work.impulse, work.free)
+    for k in range(work.free.shape[0]):
+        motion.velocity[k] = work.free[k]
+    displace(body, motion, work.free, work, step)
+    carry_spin(body, motion, work.free, work)
+    commit(body, motion, work.free, work)
+
+
+class SteppedBody:
+    """One body over a ground, at a fixed step. ``motion`` changes in place."""
+
+    def __init__(
+        self, body: RigidBody, ground: Ground, motion: Motion, step: float, rule: int = ENERGETIC,
+        facets: int = DISC, rung: int = NEWTON, sweeps: int = 20,
+    ) -> None:  # fmt: skip
+        """``step`` in [s]; ``facets`` of the friction cone, ``rung`` and ``sweeps`` of the solver of held contacts."""
+        self.body, self.ground, self.motion, self.step, self.rule = body, ground, motion, step, rule
+        points, coordinates = len(body.points), len(body.load)
+        self.work = make_motion_workspace(body, facets)
+        self._solver = make_solver(points, coordinates, body.width, facets, rung, sweeps)
+        self._impact = make_impact_workspace(points, coordinates, body.width, facets)
+        weight = float(numpy.linalg.norm(body.load[: body.width]) / body.mass)
+        self.rest_speed = 2.0 * step * weight
+        self.residual = 0.0
+        self.impacts = 0
+
+    def advance(self, steps: int) -> int:
+        """``steps`` steps; returns a status of `results.py`."""
+        work = self.work
+        for _ in range(steps):
+            found, turn = begin_step(self.body, self.ground, self.motion, work, self.step, self.rest_speed)
+            if not turn <= LARGEST_TURN:
+                return SPIN_TOO_FAST
+            if found:
+                status = self._solve(bounces=found == 2)
+                if status != SOLVED:
+                    return status
+            else:
+                work.impulse[:] = 0.0
+            end_step(self.body, self.motion, work, self.step)
+        return SOLVED
+
+    def _solve(self, *, bounces: bool) -> int:
+        work = self.work
+        if bounces:
+            self.impacts += 1
+            found = impact_impulses(
+                work.problem, work.J, work.W, work.u, work.restitution, self.rule, self._impact, work.impulse
+            )
+        else:
+            found = contact_impulses(work.problem, work.J, work.W, self._solver, work.impulse)
+        self.residual = max(self.residual, float(found.residual)) if math.isfinite(found.residual) else math.inf
+        return int(found.status)

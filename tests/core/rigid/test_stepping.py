@@ -1,0 +1,50 @@
+"""Rigid bodies at a fixed step: first order against closed forms, restitution that the gap does not take away."""
+
+import math
+
+import numpy
+import pytest
+
+from contact_sim_pkg.core.rigid.body import placed, regular_block, slope, sphere
+from contact_sim_pkg.core.rigid.results import SOLVED, SPIN_TOO_FAST
+from contact_sim_pkg.core.rigid.stepping import SteppedBody
+
+
+def slid(step):
+    block = regular_block(0.1, 1.0, 0.3, 0.0)
+    motion = placed(block, [0.0, 0.05], [2.0, 0.0, 0.0])
+    assert SteppedBody(block, slope(2), motion, step).advance(round(1.0 / step)) == SOLVED
+    return motion.position[0] - 2.0**2 / (2.0 * 0.3 * 9.81)
+
+
+def test_the_error_of_the_sliding_distance_is_of_first_order():
+    coarse, fine = slid(1e-3), slid(2.5e-4)
+    assert abs(coarse) == pytest.approx(0.5 * 2.0 * 1e-3, rel=0.05)
+    assert coarse / fine == pytest.approx(4.0, rel=0.1)
+
+
+@pytest.mark.parametrize("step", [2e-3, 1e-3, 3e-4])
+def test_a_drop_comes_back_with_the_restitution_that_was_asked_for(step):
+    ball = sphere(0.05, 1.0, 0.3, 0.7)
+    motion = placed(ball, [0.0, 0.0, 0.25], numpy.zeros(6))
+    body = SteppedBody(ball, slope(3), motion, step)
+    before = 0.0
+    while body.impacts == 0:
+        before = motion.velocity[2]
+        assert body.advance(1) == SOLVED
+    assert motion.velocity[2] == pytest.approx(0.7 * (9.81 * step - before), rel=1e-12)
+
+
+def test_a_block_at_rest_on_a_slope_stays():
+    angle = math.radians(15.0)
+    block = regular_block(0.1, 1.0, 0.3, 0.3)
+    motion = placed(block, [-0.05 * math.sin(angle), 0.05 * math.cos(angle)], numpy.zeros(3), angle=angle)
+    start = motion.position.copy()
+    assert SteppedBody(block, slope(2, angle), motion, 1e-3).advance(1000) == SOLVED
+    assert numpy.abs(motion.position - start).max() <= 1e-15
+
+
+def test_a_step_in_which_the_body_turns_by_more_than_a_radian_is_refused():
+    block = regular_block(0.1, 1.0, 0.3, 0.3)
+    motion = placed(block, [0.0, 1.0], [0.0, 0.0, 2000.0])
+    assert SteppedBody(block, slope(2), motion, 1e-3).advance(1) == SPIN_TOO_FAST
