@@ -18,14 +18,16 @@ SEAT_ONLY = {"general_dissipative", "foam", "foam_hysteresis", "friction"}
 """Of the vehicle's contacts."""
 IN_THE_FIELD = {"envelopment", "tread_viscoelasticity", "brush"}
 """What acts cell by cell, and so needs the pressure field."""
-OF_THE_BACK = ("normal_elastic", "normal_dissipative", "general_dissipative", "foam", "friction", "shell_modes")
+OF_THE_BACK = (
+    "normal_elastic", "normal_dissipative", "general_dissipative", "foam", "foam_hysteresis", "friction", "shell_modes",
+)  # fmt: skip
 ELSEWHERE = set(EFFECTS) - set(OF_THE_BACK)
 OF_FOAM = ("foam", "foam_hysteresis")
 OF_VEHICLES = tuple(name for name in EFFECTS if name not in ("shell_modes", *OF_FOAM))
 SUBSETS = {
     "tire": [set(chosen) for count in range(len(OF_VEHICLES) + 1) for chosen in combinations(OF_VEHICLES, count)]
     + [{"normal_elastic", name} for name in ("shell_modes", *OF_FOAM)],
-    "backrest": [set(chosen) for count in range(7) for chosen in combinations(OF_THE_BACK, count)]
+    "backrest": [set(chosen) for count in range(8) for chosen in combinations(OF_THE_BACK, count)]
     + [{"normal_elastic", name} for name in sorted(ELSEWHERE)],
     "seat": [set(chosen) for count in range(8) for chosen in combinations(EFFECTS[:7], count)]
     + [{"normal_elastic", "contact_field", name} for name in sorted(TIRE_ONLY)],

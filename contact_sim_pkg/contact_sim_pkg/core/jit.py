@@ -1,6 +1,8 @@
 """The one place for compile options: every compiled function of the core is decorated here.
 
 `@kernel` marks a compiled helper that other compiled functions call, `@entry` a compiled function that Python calls.
+What stands between Python and machine code is compiled for calls from Python alone: with the wide parameter tuples of a rig
+it would take a third of the time to compile.
 Both release the interpreter lock, follow the NumPy error model (1/0 is inf, never an exception half-way through an
 update), forbid `fastmath` (which removes guards against NaN) and are kept on disk (`core/kernel_cache.py`).
 """
@@ -17,7 +19,9 @@ from contact_sim_pkg.core.kernel_cache import attach_cache
 
 __all__ = ["COMPILE_OPTIONS", "compiled_functions", "entry", "freeze", "kernel", "kernel_overload", "thaw"]
 
-COMPILE_OPTIONS: dict[str, Any] = {"nopython": True, "nogil": True, "error_model": "numpy", "fastmath": False}
+COMPILE_OPTIONS: dict[str, Any] = {
+    "nopython": True, "nogil": True, "error_model": "numpy", "fastmath": False, "no_cfunc_wrapper": True,
+}  # fmt: skip
 
 Function = TypeVar("Function", bound=Callable[..., Any])
 
@@ -26,10 +30,14 @@ _entries: list[Any] = []
 
 
 def kernel(function: Function) -> Function:
-    """Compile a helper that is called by other compiled functions only."""
-    compiled = _compile(function)
+    """Compile a helper that other compiled functions call; a call from Python compiles it once more, as an entry."""
+    compiled: Any = _compile(function)
     _kernels.append(compiled)
-    return compiled
+    if hasattr(compiled, "overloads"):  # with NUMBA_DISABLE_JIT=1 it is a plain Python function
+        bare: Any = _compile(function, "bare", no_cpython_wrapper=True)
+        compiled.get_call_template, compiled.get_overload = bare.get_call_template, bare.get_overload
+        _kernels.append(bare)
+    return compiled  # type: ignore[no-any-return]
 
 
 def entry(function: Function) -> Function:
@@ -72,9 +80,9 @@ def compiled_functions() -> list[Any]:
     return [*_entries, *_kernels]
 
 
-def _compile(function: Function) -> Function:
-    compiled = numba.jit(**COMPILE_OPTIONS)(function)
-    attach_cache(compiled)
+def _compile(function: Function, form: str = "", **options: Any) -> Function:
+    compiled = numba.jit(**COMPILE_OPTIONS, **options)(function)
+    attach_cache(compiled, form)
     return compiled  # type: ignore[no-any-return]
 
 

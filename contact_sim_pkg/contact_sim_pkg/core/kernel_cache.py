@@ -160,11 +160,14 @@ def cache_directory() -> Path | None:
     return _session.open()
 
 
-def attach_cache(dispatcher: Any) -> None:
-    """Let a freshly decorated function load its machine code from the cache and save it there."""
+def attach_cache(dispatcher: Any, form: str = "") -> None:
+    """Let a freshly decorated function load its machine code from the cache and save it there.
+
+    ``form``: tells apart the files of one function that is compiled in several ways.
+    """
     if hasattr(dispatcher, "overloads") and _session.open() is not None:
         try:
-            dispatcher._cache = _CheckedCache(dispatcher.py_func)
+            dispatcher._cache = _CheckedCache(dispatcher.py_func, form)
         except (OSError, RuntimeError) as error:
             _session.close(error)
 
@@ -235,9 +238,9 @@ class _CheckedCache(FunctionCache):
 
     _impl_class = _CheckedCacheImpl
 
-    def __init__(self, py_func: Any) -> None:
+    def __init__(self, py_func: Any, form: str) -> None:
         super().__init__(py_func)
-        self._cache_file = _CheckedFiles(self._cache_path, self._impl.filename_base, _session.name)
+        self._cache_file = _CheckedFiles(self._cache_path, self._impl.filename_base + form, _session.name)
 
     def load_overload(self, sig: Any, target_context: Any) -> Any:
         if _session.directory is None:

@@ -16,8 +16,8 @@ from contact_sim_pkg.core.effects.elastic_law import (
     elastic_stiffness,
 )
 from contact_sim_pkg.core.effects.pressure_mat import paraboloid_gap
-from contact_sim_pkg.core.parameters import Contact, Friction, Vector
-from contact_sim_pkg.core.rigs.backrest import state_count
+from contact_sim_pkg.core.parameters import Contact, FoamHysteresis, Friction, Vector
+from contact_sim_pkg.core.rigs.backrest import memory_offset, state_count
 from contact_sim_pkg.core.rigs.backrest_parameters import Backrest
 from contact_sim_pkg.core.shell import ShallowShell, ShellModes, crown_gap, shell_modes
 from contact_sim_pkg.scene.build_contact import elastic_of, loss_of
@@ -81,9 +81,10 @@ def build_backrest(scene: dict[str, Any]) -> BackrestModel:
     form = _one_mass(backrest) if effects.get("shell_modes") is None else _shell(backrest, effects["shell_modes"], mat)
     preload = _preload(scene)
     sliding = backrest["sliding"]
+    modal = [form.mass, form.stiffness, form.damping, preload * form.at_preload, preload / GRAVITY * form.at_shaking]
     rig = Backrest(
-        form.mass, form.stiffness, form.damping, preload * form.at_preload, preload / GRAVITY * form.at_shaking,
-        form.shapes, form.slopes, form.gaps, form.shares, _contact(scene), float(sliding["amplitude"]),
+        numpy.stack(modal), numpy.stack([form.shapes, form.slopes]), numpy.stack([form.gaps, form.shares]),
+        _contact(scene, len(form.mass), len(form.gaps)), float(sliding["amplitude"]),
         2.0 * math.pi * float(sliding["frequency"]),
     )  # fmt: skip
     start = resting_state(rig)
@@ -93,14 +94,16 @@ def build_backrest(scene: dict[str, Any]) -> BackrestModel:
     return BackrestModel(rig, timing, scale, start, form.names, form.motion, mat, form.point_x, form.point_y)
 
 
-def _contact(scene: dict[str, Any]) -> Contact:
+def _contact(scene: dict[str, Any], modes: int, points: int) -> Contact:
     effects = effects_at(scene, "backrest")
-    friction = effects.get("friction")
+    friction, memory = effects.get("friction"), effects.get("foam_hysteresis")
     keys = ("stiffness", "damping", "coefficient_static", "coefficient_kinetic")
     rubbing = None if friction is None else Friction(*(float(friction[key]) for key in keys))
+    offset = memory_offset(modes, points)
+    remembering = None if memory is None else FoamHysteresis(offset, float(memory["share"]), float(memory["energy"]))
     law = elastic_of(effects)
     moving = float(scene["backrest"]["mass"]) if effects.get("shell_modes") is None else _preload(scene) / GRAVITY
-    return Contact(law, loss_of(scene, "backrest", law, moving), rubbing)
+    return Contact(law, loss_of(scene, "backrest", law, moving), rubbing, remembering)
 
 
 def _preload(scene: dict[str, Any]) -> float:
@@ -163,7 +166,10 @@ def _scale(rig: Backrest, size: float, preload: float, tolerance: float) -> Vect
     work = max(preload * size, kinetic) * tolerance
     spring = numpy.inf if rig.contact.friction is None else position
     parts = [numpy.full(modes, position), numpy.full(modes, velocity), numpy.full(points, spring)]
-    return numpy.concatenate([*parts, numpy.full(2 * points + 2, work)])
+    parts.append(numpy.full(2 * points, work))
+    if rig.contact.hysteresis is not None:
+        parts.append(numpy.full(points, tolerance))  # what the foam remembers runs from -1 to 1
+    return numpy.concatenate([*parts, numpy.full(2, work)])
 
 
 def resting_state(rig: Backrest) -> Vector:
@@ -181,7 +187,7 @@ def resting_state(rig: Backrest) -> Vector:
         while part > 1e-6 and _energy_at(rig, q + part * step)[2] > energy + 1e-4 * part * float(slope @ step):
             part *= 0.5
         q = q + part * step
-    state = numpy.zeros(state_count(modes, len(rig.gaps)))
+    state = numpy.zeros(state_count(modes, len(rig.gaps), rig.contact.hysteresis is not None))
     state[:modes] = q
     return state
 

@@ -26,7 +26,7 @@ EFFECT_RULES: dict[str, EffectRule] = {
         ("seat", "backrest"), needs=("normal_elastic",), excludes=("normal_dissipative",)
     ),
     "foam": EffectRule(("seat", "backrest"), needs=("normal_elastic",), excludes=("contact_field",)),
-    "foam_hysteresis": EffectRule(("seat",), needs=("normal_elastic",), excludes=("contact_field",)),
+    "foam_hysteresis": EffectRule(("seat", "backrest"), needs=("normal_elastic",), excludes=("contact_field",)),
     "friction": EffectRule(("seat", "backrest"), needs=("normal_elastic",)),
     "contact_field": EffectRule(("tire", "seat"), needs=("normal_elastic",)),
     "shell_modes": EffectRule(("backrest",), needs=("normal_elastic",)),

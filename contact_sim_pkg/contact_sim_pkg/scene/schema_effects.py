@@ -342,6 +342,7 @@ class BackrestEffects(Section):
     normal_elastic: BackElastic | None = choice("elastic force", default=None)
     normal_dissipative: BackLoss | None = choice("loss", default=None)
     foam: Foam | None = choice("foam with plateau and densification", default=None)
+    foam_hysteresis: FoamHysteresis | None = choice("loss of foam without rate", default=None)
     general_dissipative: BackGeneralLoss | None = choice("loss after the general law", default=None)
     friction: BackFriction | None = choice("friction with true stick", default=None)
     shell_modes: ShellModes | None = choice("back as a shell with many contact points", default=None)

@@ -5,10 +5,10 @@ from typing import NamedTuple
 
 import numpy
 
-from contact_sim_pkg.core.parameters import Contact, Friction, NormalDissipative, NormalElastic
+from contact_sim_pkg.core.parameters import Contact, FoamHysteresis, Friction, NormalDissipative, NormalElastic
 from contact_sim_pkg.core.results import DONE
 from contact_sim_pkg.core.rigs import backrest_entries as entries
-from contact_sim_pkg.core.rigs.backrest import margin_count
+from contact_sim_pkg.core.rigs.backrest import margin_count, memory_offset
 from contact_sim_pkg.core.rigs.backrest_parameters import (
     CARRIED,
     CLOSING_WORK,
@@ -42,12 +42,12 @@ class Driven(NamedTuple):
     end: numpy.ndarray
 
 
-def one_mass(elastic=LAW, loss=LOSS, friction=None, amplitude=0.0, frequency=5.25, preload=MASS * GRAVITY):
-    one, zero = numpy.ones(1), numpy.zeros(1)
-    return Backrest(
-        MASS * one, zero, zero.copy(), preload * one, MASS * one, numpy.ones((1, 1)), numpy.zeros((1, 1)), zero.copy(),
-        one.copy(), Contact(elastic, loss, friction), amplitude, 2.0 * math.pi * frequency,
-    )  # fmt: skip
+def one_mass(elastic=LAW, loss=LOSS, friction=None, amplitude=0.0, frequency=5.25, preload=MASS * GRAVITY, memory=None):
+    modal = numpy.array([[MASS], [0.0], [0.0], [preload], [MASS]])
+    coupling, places = numpy.array([[[1.0]], [[0.0]]]), numpy.array([[0.0], [1.0]])
+    remembering = None if memory is None else FoamHysteresis(memory_offset(1, 1), *memory)
+    contact = Contact(elastic, loss, friction, remembering)
+    return Backrest(modal, coupling, places, contact, amplitude, 2.0 * math.pi * frequency)
 
 
 def driven(rig, acceleration, duration, tolerance=1e-9, start=None, size=0.015, rate=1000, sample_every=1):
@@ -58,6 +58,7 @@ def driven(rig, acceleration, duration, tolerance=1e-9, start=None, size=0.015, 
     scale = numpy.full(len(state), float(rig.preload.sum() + 1.0) * size * tolerance)
     scale[:modes], scale[modes : 2 * modes] = size * tolerance, 30.0 * size * tolerance
     scale[2 * modes : 2 * modes + points] = size * tolerance
+    scale[memory_offset(modes, points) : -2] = tolerance
     count = round(duration * rate)
     samples = count // sample_every
     room = (

@@ -7,6 +7,8 @@ closes: ``(F - F_el) x' = d/dt (1/2 s u_0 z^2) + s |u'| z^2``: stored beside u i
 
 Loaded from z = 0 to U and back: taken up ``U + s (U - u_0 (1 - E))``, given back ``U - s (U - (1 + z_1) u_0 (1 - E))`` with
 ``E = exp(-U/u_0)``, ``z_1 = 1 - E``. For U >> u_0 the share lost of what was taken up is 2 s/(1 + s). Out of contact z stays.
+
+Where many points remember, ``place`` is the number of the point: their variables stand in a row from ``offset`` on.
 """
 
 from __future__ import annotations
@@ -16,35 +18,37 @@ from ..parameters import FoamHysteresis, Vector
 
 
 @kernel
-def memory_factor(hysteresis: FoamHysteresis | None, state: Vector) -> float:
+def memory_factor(hysteresis: FoamHysteresis | None, state: Vector, place: int = 0) -> float:
     """Ratio of the force without rate to the elastic one, ``1 + s z``; 1 where the scene calls for none."""
     if hysteresis is None:
         return 1.0
-    return 1.0 + hysteresis.share * state[hysteresis.offset]
+    return 1.0 + hysteresis.share * state[hysteresis.offset + place]
 
 
 @kernel
-def memory_rate(hysteresis: FoamHysteresis | None, elastic_power: float, state: Vector, out: Vector) -> None:
+def memory_rate(
+    hysteresis: FoamHysteresis | None, elastic_power: float, state: Vector, out: Vector, place: int = 0
+) -> None:
     """Write z' for ``elastic_power`` u' in [W]."""
     if hysteresis is not None:
-        z = state[hysteresis.offset]
-        out[hysteresis.offset] = (elastic_power - abs(elastic_power) * z) / hysteresis.energy
+        z = state[hysteresis.offset + place]
+        out[hysteresis.offset + place] = (elastic_power - abs(elastic_power) * z) / hysteresis.energy
 
 
 @kernel
-def factor_rate(hysteresis: FoamHysteresis | None, derivative: Vector) -> float:
+def factor_rate(hysteresis: FoamHysteresis | None, derivative: Vector, place: int = 0) -> float:
     """Rate of ``memory_factor`` in [1/s], from the derivative of the state."""
     if hysteresis is None:
         return 0.0
-    return hysteresis.share * derivative[hysteresis.offset]
+    return hysteresis.share * derivative[hysteresis.offset + place]
 
 
 @kernel
-def memory_energy(hysteresis: FoamHysteresis | None, state: Vector) -> float:
+def memory_energy(hysteresis: FoamHysteresis | None, state: Vector, place: int = 0) -> float:
     """Energy stored beside the elastic law in [J]."""
     if hysteresis is None:
         return 0.0
-    return 0.5 * hysteresis.share * hysteresis.energy * state[hysteresis.offset] ** 2
+    return 0.5 * hysteresis.share * hysteresis.energy * state[hysteresis.offset + place] ** 2
 
 
 @kernel

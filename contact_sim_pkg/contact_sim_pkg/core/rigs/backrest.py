@@ -13,7 +13,8 @@ Touch, turning point, loss of contact (end rule ``force``: the material recovers
 slip of every point are located events. Works of closing and opening are integrated per point, so that an episode's restitution
 is ``sqrt(W_r / -W_c)``.
 
-State: [q, q'] [spring deflection of each point] [work of closing] [work of opening, of each point] [supplied, dissipated].
+State: [q, q'] [spring deflection of each point] [work of closing] [work of opening, of each point] [what the foam remembers at
+each point, where it does] [supplied, dissipated].
 Every event function is positive while the present mode of its point lasts.
 """
 
@@ -22,12 +23,30 @@ from __future__ import annotations
 import math
 
 from ..effects.elastic_law import elastic_force
+from ..effects.foam_hysteresis import factor_rate, memory_factor, memory_rate
 from ..effects.friction import APART as UNLOADED
 from ..effects.friction import STICK, following_deflection, friction_force, slip_margin, stick_margin
 from ..effects.normal_force import normal_force, normal_force_rate, tension_margin
 from ..jit import kernel
 from .backrest_episodes import begin_episode, end_episode, note_loss, note_turn
-from .backrest_parameters import APART, CLOSING, OPENING, RELEASED, Backrest
+from .backrest_parameters import (
+    APART,
+    CLOSING,
+    CONTACT,
+    DAMPING,
+    FRICTION,
+    GAP,
+    MASS,
+    OPENING,
+    PRELOAD,
+    RELEASED,
+    SHAKEN,
+    SHAPE,
+    SHARE,
+    SLOPE,
+    STIFFNESS,
+    Backrest,
+)
 from .interface import register
 
 APPROACH_EVENT, TENSION_EVENT, TURN_EVENT, FRICTION_EVENT, EVENTS_A_POINT = (
@@ -41,9 +60,14 @@ SIMULTANEOUS = 1.0e-12  # [m]: points that symmetry lets touch or leave together
 AT_REST = 1.0e-9  # [m/s]: below, a point so near to contact may as well stay where it is
 
 
-def state_count(modes: int, points: int) -> int:
+def memory_offset(modes: int, points: int) -> int:
+    """Where the variables of a foam that remembers stand in the state."""
+    return 2 * modes + 3 * points
+
+
+def state_count(modes: int, points: int, remembers: bool = False) -> int:
     """Number of state variables."""
-    return 2 * modes + 3 * points + 2
+    return memory_offset(modes, points) + (points if remembers else 0) + 2
 
 
 def margin_count(points: int) -> int:
@@ -54,12 +78,12 @@ def margin_count(points: int) -> int:
 @kernel
 def approach_of(rig, state, point):
     """Approach in [m] and its rate in [m/s]."""
-    modes = rig.mass.shape[0]
-    approach = -rig.gaps[point]
+    modes = rig.modal.shape[1]
+    approach = -rig.places[GAP, point]
     rate = 0.0
     for i in range(modes):
-        approach += rig.shapes[point, i] * state[i]
-        rate += rig.shapes[point, i] * state[modes + i]
+        approach += rig.coupling[SHAPE, point, i] * state[i]
+        rate += rig.coupling[SHAPE, point, i] * state[modes + i]
     return approach, rate
 
 
@@ -78,10 +102,10 @@ def slide_of(rig, time):
 @kernel
 def tangential_velocity(rig, time, state, point):
     """Velocity of the back's face along the seat in [m/s]."""
-    modes = rig.mass.shape[0]
+    modes = rig.modal.shape[1]
     _displacement, velocity, _acceleration = slide_of(rig, time)
     for i in range(modes):
-        velocity -= rig.slopes[point, i] * state[modes + i]
+        velocity -= rig.coupling[SLOPE, point, i] * state[modes + i]
     return velocity
 
 
@@ -93,11 +117,12 @@ def seat_acceleration(drive, time):
 
 
 @kernel
-def unit_normal(rig, mode, point, approach, approach_rate):
+def unit_normal(rig, mode, point, approach, approach_rate, state):
     """Normal force in [N] of the whole law at this approach; 0 where the point is apart or released."""
-    if mode.contact[point] == APART or mode.contact[point] == RELEASED:
+    if mode.doing[CONTACT, point] == APART or mode.doing[CONTACT, point] == RELEASED:
         return 0.0
-    return normal_force(rig.contact.elastic, rig.contact.dissipative, approach, approach_rate, 1.0)
+    factor = memory_factor(rig.contact.hysteresis, state, point)
+    return normal_force(rig.contact.elastic, rig.contact.dissipative, approach, approach_rate, factor)
 
 
 @kernel
@@ -106,22 +131,22 @@ def unit_friction(friction, rig, mode, point, time, normal, state):
     if friction is None:
         return 0.0, 0.0
     velocity = tangential_velocity(rig, time, state, point)
-    deflection = state[2 * rig.mass.shape[0] + point]
-    return friction_force(friction, mode.friction[point], normal, deflection, velocity), velocity
+    deflection = state[2 * rig.modal.shape[1] + point]
+    return friction_force(friction, mode.doing[FRICTION, point], normal, deflection, velocity), velocity
 
 
 @kernel
 def _free_rates(rig, acceleration, state, out):
     """Modal forces without contact, into the places of the accelerations; returns supplied and lost power."""
-    modes = rig.mass.shape[0]
+    modes = rig.modal.shape[1]
     supplied = 0.0
     lost = 0.0
     for i in range(modes):
         velocity = state[modes + i]
-        shaking = rig.shaken[i] * acceleration
-        damper = rig.damping[i] * velocity
+        shaking = rig.modal[SHAKEN, i] * acceleration
+        damper = rig.modal[DAMPING, i] * velocity
         out[i] = velocity
-        out[modes + i] = rig.preload[i] + shaking - rig.stiffness[i] * state[i] - damper
+        out[modes + i] = rig.modal[PRELOAD, i] + shaking - rig.modal[STIFFNESS, i] * state[i] - damper
         supplied += shaking * velocity
         lost += damper * velocity
     return supplied, lost
@@ -130,38 +155,41 @@ def _free_rates(rig, acceleration, state, out):
 @kernel
 def _point_rates(rig, mode, point, time, state, out):
     """Add a touching point's forces to the modal forces; returns supplied and lost power."""
-    modes, points = rig.mass.shape[0], rig.gaps.shape[0]
-    share = rig.shares[point]
+    modes, points = rig.modal.shape[1], rig.places.shape[1]
+    share = rig.places[SHARE, point]
     approach, approach_rate = approach_of(rig, state, point)
-    normal = unit_normal(rig, mode, point, approach, approach_rate)
+    normal = unit_normal(rig, mode, point, approach, approach_rate, state)
     tangential, velocity = unit_friction(rig.contact.friction, rig, mode, point, time, normal, state)
     for i in range(modes):
-        out[modes + i] += share * (rig.slopes[point, i] * tangential - rig.shapes[point, i] * normal)
+        out[modes + i] += share * (rig.coupling[SLOPE, point, i] * tangential - rig.coupling[SHAPE, point, i] * normal)
     power = share * normal * approach_rate
-    out[2 * modes + point] = velocity if mode.friction[point] == STICK else 0.0
-    out[2 * modes + points + point] = power if mode.contact[point] == CLOSING else 0.0
-    out[2 * modes + 2 * points + point] = -power if mode.contact[point] == OPENING else 0.0
+    out[2 * modes + point] = velocity if mode.doing[FRICTION, point] == STICK else 0.0
+    out[2 * modes + points + point] = power if mode.doing[CONTACT, point] == CLOSING else 0.0
+    out[2 * modes + 2 * points + point] = -power if mode.doing[CONTACT, point] == OPENING else 0.0
     _displacement, slide_velocity, _acceleration = slide_of(rig, time)
     rubbed = share * tangential * velocity
-    lost = power - share * elastic_force(rig.contact.elastic, approach) * approach_rate
+    elastic_power = elastic_force(rig.contact.elastic, approach) * approach_rate
+    memory_rate(rig.contact.hysteresis, elastic_power, state, out, point)
+    lost = power - share * elastic_power
     return share * tangential * slide_velocity, lost + rubbed
 
 
 @kernel
 def _rate(rig, drive, mode, time, state, out):
-    modes, points = rig.mass.shape[0], rig.gaps.shape[0]
+    modes, points = rig.modal.shape[1], rig.places.shape[1]
     supplied, lost = _free_rates(rig, seat_acceleration(drive, time), state, out)
     for c in range(points):
-        if mode.contact[c] == APART:
+        if mode.doing[CONTACT, c] == APART:
             out[2 * modes + c] = 0.0
             out[2 * modes + points + c] = 0.0
             out[2 * modes + 2 * points + c] = 0.0
+            memory_rate(rig.contact.hysteresis, 0.0, state, out, c)
             continue
         supplied_here, lost_here = _point_rates(rig, mode, c, time, state, out)
         supplied += supplied_here
         lost += lost_here
     for i in range(modes):
-        out[modes + i] /= rig.mass[i]
+        out[modes + i] /= rig.modal[MASS, i]
     out[state.shape[0] - 2] = supplied
     out[state.shape[0] - 1] = lost
 
@@ -170,31 +198,34 @@ def _rate(rig, drive, mode, time, state, out):
 def _friction_margin(friction, rig, mode, point, time, approach, approach_rate, state, derivative):
     if friction is None:
         return 1.0
-    doing = mode.friction[point]
+    doing = mode.doing[FRICTION, point]
     if doing == UNLOADED:
         return 1.0
-    modes = rig.mass.shape[0]
-    normal = unit_normal(rig, mode, point, approach, approach_rate)
+    modes = rig.modal.shape[1]
+    normal = unit_normal(rig, mode, point, approach, approach_rate, state)
     velocity = tangential_velocity(rig, time, state, point)
     if doing == STICK:
         return stick_margin(friction, normal, state[2 * modes + point], velocity)
     _displacement, _velocity, acceleration = slide_of(rig, time)
     approach_acceleration = 0.0
     for i in range(modes):
-        approach_acceleration += rig.shapes[point, i] * derivative[modes + i]
-        acceleration -= rig.slopes[point, i] * derivative[modes + i]
+        approach_acceleration += rig.coupling[SHAPE, point, i] * derivative[modes + i]
+        acceleration -= rig.coupling[SLOPE, point, i] * derivative[modes + i]
     contact = rig.contact
+    factor = memory_factor(contact.hysteresis, state, point)
     normal_rate = normal_force_rate(
-        contact.elastic, contact.dissipative, approach, approach_rate, approach_acceleration, 1.0
+        contact.elastic, contact.dissipative, approach, approach_rate, approach_acceleration, factor
     )
+    normal_rate += factor_rate(contact.hysteresis, derivative, point) * elastic_force(contact.elastic, approach)
     return slip_margin(friction, doing, velocity, acceleration, normal, normal_rate)
 
 
 @kernel
-def _tension_margin(rig, doing, approach, approach_rate):
+def _tension_margin(rig, doing, point, approach, approach_rate, state):
     if doing in (APART, CLOSING):
         return 1.0
-    margin = tension_margin(rig.contact.elastic, rig.contact.dissipative, approach, approach_rate, 1.0)
+    factor = memory_factor(rig.contact.hysteresis, state, point)
+    margin = tension_margin(rig.contact.elastic, rig.contact.dissipative, approach, approach_rate, factor)
     return -margin if doing == RELEASED else margin
 
 
@@ -207,12 +238,12 @@ def _turn_margin(doing, approach_rate):
 
 @kernel
 def _margins(rig, drive, mode, time, state, derivative, out):
-    points = rig.gaps.shape[0]
+    points = rig.places.shape[1]
     for c in range(points):
         approach, approach_rate = approach_of(rig, state, c)
-        doing = mode.contact[c]
+        doing = mode.doing[CONTACT, c]
         out[c] = -approach if doing == APART else approach
-        out[points + c] = _tension_margin(rig, doing, approach, approach_rate)
+        out[points + c] = _tension_margin(rig, doing, c, approach, approach_rate, state)
         out[2 * points + c] = _turn_margin(doing, approach_rate)
         out[3 * points + c] = _friction_margin(
             rig.contact.friction, rig, mode, c, time, approach, approach_rate, state, derivative
@@ -222,25 +253,25 @@ def _margins(rig, drive, mode, time, state, derivative, out):
 @kernel
 def _load(rig, mode, point, time, approach_rate, state):
     """A point begins to carry, and slips the way it moves."""
-    mode.contact[point] = CLOSING if approach_rate > 0.0 else OPENING
+    mode.doing[CONTACT, point] = CLOSING if approach_rate > 0.0 else OPENING
     velocity = tangential_velocity(rig, time, state, point)
-    mode.friction[point] = STICK if velocity == 0.0 else (1 if velocity > 0.0 else -1)
-    state[2 * rig.mass.shape[0] + point] = 0.0
+    mode.doing[FRICTION, point] = STICK if velocity == 0.0 else (1 if velocity > 0.0 else -1)
+    state[2 * rig.modal.shape[1] + point] = 0.0
 
 
 @kernel
 def _unload(rig, mode, point, time, state, becomes):
     """A point ceases to carry or to overlap, and its friction spring is free."""
-    if mode.contact[point] != RELEASED:
+    if mode.doing[CONTACT, point] != RELEASED:
         note_loss(mode, point, time)
-    mode.contact[point] = becomes
-    mode.friction[point] = UNLOADED
-    state[2 * rig.mass.shape[0] + point] = 0.0
+    mode.doing[CONTACT, point] = becomes
+    mode.doing[FRICTION, point] = UNLOADED
+    state[2 * rig.modal.shape[1] + point] = 0.0
 
 
 @kernel
 def _pass_approach(rig, mode, point, time, approach, approach_rate, state):
-    if mode.contact[point] == APART:
+    if mode.doing[CONTACT, point] == APART:
         begin_episode(rig, mode, point, time, approach, state)
         _load(rig, mode, point, time, approach_rate, state)
     else:
@@ -251,29 +282,29 @@ def _pass_approach(rig, mode, point, time, approach, approach_rate, state):
 @kernel
 def _pass_turn(mode, point, approach):
     note_turn(mode, point, approach)
-    mode.contact[point] = OPENING if mode.contact[point] == CLOSING else CLOSING
+    mode.doing[CONTACT, point] = OPENING if mode.doing[CONTACT, point] == CLOSING else CLOSING
 
 
 @kernel
 def _pass_friction(friction, rig, mode, point, time, approach, approach_rate, state):
     if friction is None:
         return
-    place = 2 * rig.mass.shape[0] + point
+    place = 2 * rig.modal.shape[1] + point
     velocity = tangential_velocity(rig, time, state, point)
-    if mode.friction[point] == STICK:
-        mode.friction[point] = 1 if friction.stiffness * state[place] + friction.damping * velocity > 0.0 else -1
+    if mode.doing[FRICTION, point] == STICK:
+        mode.doing[FRICTION, point] = 1 if friction.stiffness * state[place] + friction.damping * velocity > 0.0 else -1
     else:
-        normal = unit_normal(rig, mode, point, approach, approach_rate)
-        state[place] = following_deflection(friction, mode.friction[point], normal, velocity)
-        mode.friction[point] = STICK
+        normal = unit_normal(rig, mode, point, approach, approach_rate, state)
+        state[place] = following_deflection(friction, mode.doing[FRICTION, point], normal, velocity)
+        mode.doing[FRICTION, point] = STICK
 
 
 @kernel
 def _pass_kinematic(rig, mode, event_point, turns, time, state):
     """Let the event's point touch, leave or turn, and with it every other whose event falls on the same instant."""
-    for c in range(rig.gaps.shape[0]):
+    for c in range(rig.places.shape[1]):
         approach, approach_rate = approach_of(rig, state, c)
-        doing = mode.contact[c]
+        doing = mode.doing[CONTACT, c]
         passes = (
             abs(approach) <= SIMULTANEOUS and abs(approach_rate) > AT_REST and (approach_rate > 0.0) == (doing == APART)
         )
@@ -288,7 +319,7 @@ def _pass_kinematic(rig, mode, event_point, turns, time, state):
 
 @kernel
 def _switch(rig, drive, mode, time, state, event, side):
-    points = rig.gaps.shape[0]
+    points = rig.places.shape[1]
     point = event % points
     kind = event // points
     if kind in (APPROACH_EVENT, TURN_EVENT):
@@ -297,7 +328,7 @@ def _switch(rig, drive, mode, time, state, event, side):
     approach, approach_rate = approach_of(rig, state, point)
     if kind == FRICTION_EVENT:
         _pass_friction(rig.contact.friction, rig, mode, point, time, approach, approach_rate, state)
-    elif mode.contact[point] == RELEASED:
+    elif mode.doing[CONTACT, point] == RELEASED:
         _load(rig, mode, point, time, approach_rate, state)
     else:
         _unload(rig, mode, point, time, state, RELEASED)
@@ -309,8 +340,8 @@ def _slips(friction, mode):
     if friction is None:
         return False
     slipping = 0
-    for c in range(mode.friction.shape[0]):
-        slipping += 1 if mode.friction[c] != STICK and mode.friction[c] != UNLOADED else 0
+    for c in range(mode.doing.shape[1]):
+        slipping += 1 if mode.doing[FRICTION, c] != STICK and mode.doing[FRICTION, c] != UNLOADED else 0
     return slipping > 0
 
 

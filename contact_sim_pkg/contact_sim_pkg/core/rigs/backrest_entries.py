@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy
 
 from ..effects.elastic_law import elastic_energy
+from ..effects.foam_hysteresis import memory_energy
 from ..effects.friction import APART as UNLOADED
 from ..effects.friction import STICK, following_deflection, stick_margin
 from ..jit import entry, kernel
@@ -14,7 +15,22 @@ from ..solvers.dormand_prince import Workspace, integrate
 from ..vectors import copy_row
 from . import backrest
 from .backrest_episodes import open_episode
-from .backrest_parameters import APART, CLOSING, DEEPEST, OVERLAPPING, Backrest, BackrestDrive, BackrestMode
+from .backrest_parameters import (
+    APART,
+    CLOSING,
+    CONTACT,
+    DEEPEST,
+    FRICTION,
+    MASS,
+    OVERLAPPING,
+    PRELOAD,
+    SHARE,
+    SLOPE,
+    STIFFNESS,
+    Backrest,
+    BackrestDrive,
+    BackrestMode,
+)
 from .interface import rate
 
 NORMAL, TANGENTIAL, APPROACH, FORCES = 0, 1, 2, 3  # columns of the whole contact
@@ -29,22 +45,22 @@ def _first_friction(friction, rig, mode, point, normal, state):
         return
     velocity = backrest.tangential_velocity(rig, 0.0, state, point)
     if stick_margin(friction, normal, 0.0, velocity) < 0.0:
-        mode.friction[point] = 1 if velocity > 0.0 else -1
+        mode.doing[FRICTION, point] = 1 if velocity > 0.0 else -1
 
 
 @entry
 def start(rig: Backrest, mode: BackrestMode, state: Vector, work: Workspace) -> None:
     """Take the discrete state that belongs to ``state`` at the start of a run, time 0."""
-    points = rig.gaps.shape[0]
+    points = rig.places.shape[1]
     mode.counts[OVERLAPPING] = 0
     for c in range(points):
         approach, approach_rate = backrest.approach_of(rig, state, c)
-        mode.contact[c] = CLOSING if approach > 0.0 else APART
-        mode.friction[c] = STICK if approach > 0.0 else UNLOADED
+        mode.doing[CONTACT, c] = CLOSING if approach > 0.0 else APART
+        mode.doing[FRICTION, c] = STICK if approach > 0.0 else UNLOADED
         open_episode(rig, mode, c, 0.0, approach, state, 0.0)
         if approach > 0.0:
             mode.counts[OVERLAPPING] += 1
-            normal = backrest.unit_normal(rig, mode, c, approach, approach_rate)
+            normal = backrest.unit_normal(rig, mode, c, approach, approach_rate, state)
             _first_friction(rig.contact.friction, rig, mode, c, normal, state)
     open_episode(rig, mode, points, 0.0, 0.0, state, 0.0)
     for c in range(points):
@@ -60,15 +76,15 @@ def _state_of(friction, mode, point, normal):
         return NO_CONTACT
     if friction is None:
         return FRICTIONLESS
-    return STICKS if mode.friction[point] == STICK else SLIPS
+    return STICKS if mode.doing[FRICTION, point] == STICK else SLIPS
 
 
 @kernel
 def _displacement_of(rig, time, state, point):
     """Displacement of the back's face along the seat in [m], from rest."""
     displacement, _velocity, _acceleration = backrest.slide_of(rig, time)
-    for i in range(rig.mass.shape[0]):
-        displacement -= rig.slopes[point, i] * state[i]
+    for i in range(rig.modal.shape[1]):
+        displacement -= rig.coupling[SLOPE, point, i] * state[i]
     return displacement
 
 
@@ -79,14 +95,14 @@ def _observe(rig, mode, time, state, whole, by_point):
     whole[NORMAL] = 0.0
     whole[TANGENTIAL] = 0.0
     whole[APPROACH] = -numpy.inf
-    for c in range(rig.gaps.shape[0]):
+    for c in range(rig.places.shape[1]):
         approach, approach_rate = backrest.approach_of(rig, state, c)
-        normal = backrest.unit_normal(rig, mode, c, approach, approach_rate)
+        normal = backrest.unit_normal(rig, mode, c, approach, approach_rate, state)
         tangential, _velocity = backrest.unit_friction(friction, rig, mode, c, time, normal, state)
         row = by_point[c]
         row[POINT_APPROACH] = approach
-        row[POINT_NORMAL] = rig.shares[c] * normal
-        row[POINT_TANGENTIAL] = -rig.shares[c] * tangential
+        row[POINT_NORMAL] = rig.places[SHARE, c] * normal
+        row[POINT_TANGENTIAL] = -rig.places[SHARE, c] * tangential
         row[POINT_DISPLACEMENT] = _displacement_of(rig, time, state, c)
         row[POINT_STATE] = _state_of(friction, mode, c, normal)
         whole[NORMAL] += row[POINT_NORMAL]
@@ -125,12 +141,12 @@ def _spring_energy(friction, rig, mode, point, time, approach, approach_rate, st
     """Energy in [J] of a point's friction spring, for the whole law."""
     if friction is None:
         return 0.0
-    doing = mode.friction[point]
+    doing = mode.doing[FRICTION, point]
     if doing == UNLOADED:
         return 0.0
-    deflection = state[2 * rig.mass.shape[0] + point]
+    deflection = state[2 * rig.modal.shape[1] + point]
     if doing != STICK:
-        normal = backrest.unit_normal(rig, mode, point, approach, approach_rate)
+        normal = backrest.unit_normal(rig, mode, point, approach, approach_rate, state)
         deflection = following_deflection(
             friction, doing, normal, backrest.tangential_velocity(rig, time, state, point)
         )
@@ -140,18 +156,20 @@ def _spring_energy(friction, rig, mode, point, time, approach, approach_rate, st
 @entry
 def energies(rig: Backrest, mode: BackrestMode, time: float, state: Vector) -> tuple[float, float, float, float, float]:
     """Kinetic, potential (of the preload), stored energy, work supplied, work dissipated, all in [J], of ``state``."""
-    modes = rig.mass.shape[0]
-    kinetic, potential, stored, springs = 0.0, 0.0, 0.0, 0.0
+    modes = rig.modal.shape[1]
+    kinetic, potential, stored, returned = 0.0, 0.0, 0.0, 0.0
     for i in range(modes):
-        kinetic += 0.5 * rig.mass[i] * state[modes + i] ** 2
-        potential -= rig.preload[i] * state[i]
-        stored += 0.5 * rig.stiffness[i] * state[i] ** 2
-    for c in range(rig.gaps.shape[0]):
-        if mode.contact[c] == APART:
-            continue
-        approach, approach_rate = backrest.approach_of(rig, state, c)
-        spring = _spring_energy(rig.contact.friction, rig, mode, c, time, approach, approach_rate, state)
-        stored += rig.shares[c] * (elastic_energy(rig.contact.elastic, approach) + spring)
-        springs += rig.shares[c] * spring
+        kinetic += 0.5 * rig.modal[MASS, i] * state[modes + i] ** 2
+        potential -= rig.modal[PRELOAD, i] * state[i]
+        stored += 0.5 * rig.modal[STIFFNESS, i] * state[i] ** 2
+    for c in range(rig.places.shape[1]):
+        share = rig.places[SHARE, c]
+        held = memory_energy(rig.contact.hysteresis, state, c)
+        if mode.doing[CONTACT, c] != APART:
+            approach, approach_rate = backrest.approach_of(rig, state, c)
+            held += _spring_energy(rig.contact.friction, rig, mode, c, time, approach, approach_rate, state)
+            stored += share * elastic_energy(rig.contact.elastic, approach)
+        stored += share * held
+        returned += share * held  # counted as dissipated when it was put in
     last = state.shape[0]
-    return kinetic, potential, stored, state[last - 2], state[last - 1] - springs
+    return kinetic, potential, stored, state[last - 2], state[last - 1] - returned

@@ -25,7 +25,7 @@ from .backrest_parameters import (
 @kernel
 def _works(rig, state, point):
     """Works of closing and opening in [J] since the start of the run, of one point or (``point`` = points) of all."""
-    modes, points = rig.mass.shape[0], rig.gaps.shape[0]
+    modes, points = rig.modal.shape[1], rig.places.shape[1]
     closing, opening = 2 * modes + points, 2 * modes + 2 * points
     if point < points:
         return state[closing + point], state[opening + point]
@@ -53,7 +53,7 @@ def begin_episode(rig, mode, point, time, approach, state):
     """A point touches."""
     places = 2 if mode.counts[OVERLAPPING] == 0 else 1
     for k in range(places):
-        open_episode(rig, mode, point if k == 0 else rig.gaps.shape[0], time, approach, state, 1.0)
+        open_episode(rig, mode, point if k == 0 else rig.places.shape[1], time, approach, state, 1.0)
     mode.counts[OVERLAPPING] += 1
 
 
@@ -91,4 +91,4 @@ def end_episode(rig, mode, point, state):
     mode.counts[OVERLAPPING] -= 1
     places = 2 if mode.counts[OVERLAPPING] == 0 else 1
     for k in range(places):
-        _close_episode(rig, mode, point if k == 0 else rig.gaps.shape[0], state)
+        _close_episode(rig, mode, point if k == 0 else rig.places.shape[1], state)

@@ -5,12 +5,25 @@ from __future__ import annotations
 from typing import NamedTuple
 
 import numpy
-from numpy.typing import NDArray
 
 from ..parameters import Contact, Modes, Vector
 
 APART, CLOSING, OPENING, RELEASED = 0, 1, 2, 3  # what the normal contact of a point does
 MOST_EPISODES = 4096  # that can end within one block
+
+# Rows of Backrest.modal: mass [kg] > 0, stiffness [N/m], damping [N s/m], constant force towards the seat [N], and force over
+# forward acceleration of the seat back [kg]
+MASS, STIFFNESS, DAMPING, PRELOAD, SHAKEN, MODAL_ROWS = 0, 1, 2, 3, 4, 5
+
+# Rows of Backrest.coupling: approach over modal coordinate, and tangential velocity of the face, backwards, over modal velocity;
+# of a shell half the thickness times the slope of each mode along the slide
+SHAPE, SLOPE, COUPLING_ROWS = 0, 1, 2
+
+# Rows of Backrest.places: gap at rest [m], and the part of the contact law that each point carries
+GAP, SHARE, PLACE_ROWS = 0, 1, 2
+
+# Rows of BackrestMode.doing: APART, CLOSING, OPENING or RELEASED (overlap without force); friction, see effects/friction.py
+CONTACT, FRICTION, DOING_ROWS = 0, 1, 2
 
 # Columns of BackrestMode.lasting
 START, CARRIED, CLOSING_WORK, OPENING_WORK, DEEPEST, TOUCHED, LASTING_COLUMNS = 0, 1, 2, 3, 4, 5, 6
@@ -24,21 +37,45 @@ OVERLAPPING, ENDED = 0, 1  # entries of BackrestMode.counts
 class Backrest(NamedTuple):
     """A back in modal form with its candidate contact points; one mass is one mode with one point.
 
-    ``shapes`` may be those of a shell; then ``slopes`` are half the thickness times the slope of each mode along the slide.
+    Vectors of one length are the rows of one array: a kernel compiles the faster the fewer arrays it is handed.
     """
 
-    mass: Vector  # [modes] [kg], > 0
-    stiffness: Vector  # [modes] [N/m]
-    damping: Vector  # [modes] [N s/m]
-    preload: Vector  # [modes] [N], constant force towards the seat
-    shaken: Vector  # [modes] [kg], force over forward acceleration of the seat back
-    shapes: Vector  # [points, modes] approach over modal coordinate
-    slopes: Vector  # [points, modes] tangential velocity of the face, backwards, over modal velocity
-    gaps: Vector  # [points] [m] at rest
-    shares: Vector  # [points] part of the contact law that each point carries
+    modal: Vector  # [MODAL_ROWS, modes]
+    coupling: Vector  # [COUPLING_ROWS, points, modes]
+    places: Vector  # [PLACE_ROWS, points]
     contact: Contact  # the law of the whole back
     slide_amplitude: float  # [m] of the rigid sliding along the seat back
     slide_frequency: float  # [rad/s]
+
+    @property
+    def mass(self) -> Vector:
+        """[modes] [kg]."""
+        return self.modal[MASS]
+
+    @property
+    def stiffness(self) -> Vector:
+        """[modes] [N/m]."""
+        return self.modal[STIFFNESS]
+
+    @property
+    def preload(self) -> Vector:
+        """[modes] [N]."""
+        return self.modal[PRELOAD]
+
+    @property
+    def shapes(self) -> Vector:
+        """[points, modes]."""
+        return self.coupling[SHAPE]
+
+    @property
+    def gaps(self) -> Vector:
+        """[points] [m]."""
+        return self.places[GAP]
+
+    @property
+    def shares(self) -> Vector:
+        """[points]."""
+        return self.places[SHARE]
 
 
 class BackrestDrive(NamedTuple):
@@ -53,8 +90,7 @@ class BackrestDrive(NamedTuple):
 class BackrestMode(NamedTuple):
     """Discrete state of the rig, and its contact episodes: one a point, and one, the last, of the whole contact."""
 
-    contact: Modes  # [points] APART, CLOSING, OPENING or RELEASED (overlap without force)
-    friction: Modes  # [points] see effects/friction.py
+    doing: Modes  # [DOING_ROWS, points]
     lasting: Vector  # [points + 1, LASTING_COLUMNS] start [s], when the force was last lost [s], works of closing and opening
     #   at the start [J], largest approach at a turning point [m], whether it began with a touch
     ended: Vector  # [MOST_EPISODES, ENDED_COLUMNS]
@@ -64,8 +100,6 @@ class BackrestMode(NamedTuple):
 def make_mode(points: int) -> BackrestMode:
     """Discrete state of ``points`` points, all apart."""
 
-    def whole(size: int) -> NDArray[numpy.int64]:
-        return numpy.zeros(size, dtype=numpy.int64)
-
+    doing, counts = numpy.zeros((DOING_ROWS, points), dtype=numpy.int64), numpy.zeros(2, dtype=numpy.int64)
     lasting, ended = numpy.zeros((points + 1, LASTING_COLUMNS)), numpy.zeros((MOST_EPISODES, ENDED_COLUMNS))
-    return BackrestMode(whole(points), whole(points), lasting, ended, whole(2))
+    return BackrestMode(doing, lasting, ended, counts)

@@ -29,17 +29,28 @@ LOCATE_ITERATIONS = 60
 
 STEPS, REJECTED, EVENTS, COUNTERS = 0, 1, 2, 3
 
+STAGES = 7
+PARTS = numpy.array([0.0, 1.0 / 5.0, 3.0 / 10.0, 4.0 / 5.0, 8.0 / 9.0, 1.0, 1.0])  # of the step, where each stage lies
+WEIGHTS = numpy.array([
+    [0.0, 0.0, 0.0, 0.0, 0.0, 0.0],
+    [1.0 / 5.0, 0.0, 0.0, 0.0, 0.0, 0.0],
+    [3.0 / 40.0, 9.0 / 40.0, 0.0, 0.0, 0.0, 0.0],
+    [44.0 / 45.0, -56.0 / 15.0, 32.0 / 9.0, 0.0, 0.0, 0.0],
+    [19372.0 / 6561.0, -25360.0 / 2187.0, 64448.0 / 6561.0, -212.0 / 729.0, 0.0, 0.0],
+    [9017.0 / 3168.0, -355.0 / 33.0, 46732.0 / 5247.0, 49.0 / 176.0, -5103.0 / 18656.0, 0.0],
+    [35.0 / 384.0, 0.0, 500.0 / 1113.0, 125.0 / 192.0, -2187.0 / 6784.0, 11.0 / 84.0],
+])  # fmt: skip
+
 
 class Workspace(NamedTuple):
     """Arrays of the integrator, made once a run by ``make_workspace``."""
 
-    stages: Vector  # [7, states]
+    stages: Vector  # [STAGES, states]
     trial: Vector  # [states]
     inside: Vector  # [states]
     inside_rate: Vector  # [states]
     side: Vector  # [margins], the sign on which each event function stands
     margin: Vector  # [margins]
-    margin_inside: Vector  # [margins]
     step: Vector  # [1], the step that the error control proposes; carried from segment to segment
     last_event: Vector  # [1], time of the last event in [s]
     counters: Vector  # [COUNTERS], accepted steps, rejected steps, events
@@ -52,44 +63,21 @@ def make_workspace(states: int, margin_count: int) -> Workspace:
         return numpy.zeros(shape)
 
     return Workspace(
-        zeros(7, states), zeros(states), zeros(states), zeros(states), zeros(margin_count), zeros(margin_count),
-        zeros(margin_count), zeros(1), numpy.full(1, -numpy.inf), zeros(COUNTERS),
+        zeros(STAGES, states), zeros(states), zeros(states), zeros(states), zeros(margin_count), zeros(margin_count),
+        zeros(1), numpy.full(1, -numpy.inf), zeros(COUNTERS),
     )  # fmt: skip
 
 
 @kernel
 def _stages(rig, drive, mode, time, step, state, k, out):
     """One step from ``state`` into ``out``; k[0] must hold the rate at the start, k[6] holds that at the end after it."""
-    n = state.shape[0]
-    for i in range(n):
-        out[i] = state[i] + step * (1.0 / 5.0) * k[0, i]
-    rate(rig, drive, mode, time + step / 5.0, out, k[1])
-    for i in range(n):
-        out[i] = state[i] + step * (3.0 / 40.0 * k[0, i] + 9.0 / 40.0 * k[1, i])
-    rate(rig, drive, mode, time + step * 0.3, out, k[2])
-    for i in range(n):
-        out[i] = state[i] + step * (44.0 / 45.0 * k[0, i] - 56.0 / 15.0 * k[1, i] + 32.0 / 9.0 * k[2, i])
-    rate(rig, drive, mode, time + step * 0.8, out, k[3])
-    for i in range(n):
-        out[i] = state[i] + step * (
-            19372.0 / 6561.0 * k[0, i]
-            - 25360.0 / 2187.0 * k[1, i]
-            + 64448.0 / 6561.0 * k[2, i]
-            - 212.0 / 729.0 * k[3, i]
-        )
-    rate(rig, drive, mode, time + step * (8.0 / 9.0), out, k[4])
-    for i in range(n):
-        out[i] = state[i] + step * (
-            9017.0 / 3168.0 * k[0, i] - 355.0 / 33.0 * k[1, i] + 46732.0 / 5247.0 * k[2, i] + 49.0 / 176.0 * k[3, i]
-            - 5103.0 / 18656.0 * k[4, i]
-        )  # fmt: skip
-    rate(rig, drive, mode, time + step, out, k[5])
-    for i in range(n):
-        out[i] = state[i] + step * (
-            35.0 / 384.0 * k[0, i] + 500.0 / 1113.0 * k[2, i] + 125.0 / 192.0 * k[3, i] - 2187.0 / 6784.0 * k[4, i]
-            + 11.0 / 84.0 * k[5, i]
-        )  # fmt: skip
-    rate(rig, drive, mode, time + step, out, k[6])
+    for stage in range(1, STAGES):
+        for i in range(state.shape[0]):
+            change = 0.0
+            for earlier in range(stage):
+                change += WEIGHTS[stage, earlier] * k[earlier, i]
+            out[i] = state[i] + step * change
+        rate(rig, drive, mode, time + PARTS[stage] * step, out, k[stage])
 
 
 @kernel
@@ -119,30 +107,32 @@ def _underestimate(step, since):
 
 
 @kernel
-def _first_change(rig, drive, mode, time, step, state, work):
-    """Part of the step after which an event function has changed sign, 0 where none has: 1/5 ... 4/5, 1.
-
-    At step's end ``work.margin`` is filled.
-    """
+def _look_inside(step, part, state, work):
+    """State at ``part`` of the step just taken into ``work.inside`` (cubic Hermite); at 1 its end, and the rate there."""
     k = work.stages
+    for i in range(state.shape[0]):
+        change = work.trial[i] - state[i]
+        start = step * k[0, i] - change
+        end = change - step * k[6, i]
+        work.inside[i] = state[i] + part * (change + (1.0 - part) * (start * (1.0 - part) + end * part))
+        if part == 1.0:
+            work.inside[i] = work.trial[i]
+            work.inside_rate[i] = k[6, i]
+
+
+@kernel
+def _first_change(rig, drive, mode, time, step, state, work):
+    """Part of the step after which an event function has changed sign, 0 where none has: 1/5 ... 4/5, 1."""
     with_rate = margins_need_rate(rig, mode)
-    for point in range(1, INSIDE_POINTS + 1):
+    for point in range(1, INSIDE_POINTS + 2):
         part = point / (INSIDE_POINTS + 1.0)
-        for i in range(state.shape[0]):
-            change = work.trial[i] - state[i]
-            start = step * k[0, i] - change
-            end = change - step * k[6, i]
-            work.inside[i] = state[i] + part * (change + (1.0 - part) * (start * (1.0 - part) + end * part))
-        if with_rate:
+        _look_inside(step, part, state, work)
+        if with_rate and part < 1.0:
             rate(rig, drive, mode, time + part * step, work.inside, work.inside_rate)
-        margins(rig, drive, mode, time + part * step, work.inside, work.inside_rate, work.margin_inside)
+        margins(rig, drive, mode, time + part * step, work.inside, work.inside_rate, work.margin)
         for j in range(work.side.shape[0]):
-            if work.margin_inside[j] * work.side[j] < 0.0:
+            if work.margin[j] * work.side[j] < 0.0:
                 return part
-    margins(rig, drive, mode, time + step, work.trial, k[6], work.margin)
-    for j in range(work.side.shape[0]):
-        if work.margin[j] * work.side[j] < 0.0:
-            return 1.0
     return 0.0
 
 
@@ -173,10 +163,13 @@ def _locate(rig, drive, mode, time, inner, outer, state, work):
     event = -1
     step = outer
     repeated = 0
-    for _ in range(LOCATE_ITERATIONS):
+    found = False
+    for iteration in range(LOCATE_ITERATIONS + 1):
         _stages(rig, drive, mode, time, step, state, k, work.trial)
         margins(rig, drive, mode, time + step, work.trial, k[6], work.margin)
         number, value = _worst_margin(work)
+        if found:
+            return step, number if event < 0 else event
         if value <= 0.0:  # zero counts as changed: an event function may jump, and be zero by chance beyond its jump
             if number != event:
                 low_value = numpy.nan
@@ -191,18 +184,15 @@ def _locate(rig, drive, mode, time, inner, outer, state, work):
                 high_value *= 0.5
             repeated = 1
         resolution = max(4.0e-16 * (abs(time) + high), 1.0e-14 * outer)
-        if high - low <= resolution:
-            break
-        if low_value == low_value and high_value == high_value and low_value > 0.0:
+        found = high - low <= resolution or iteration == LOCATE_ITERATIONS - 1
+        if found:
+            step = high
+        elif low_value == low_value and high_value == high_value and low_value > 0.0:
             step = low + (high - low) * low_value / (low_value - high_value)
             # never nearer to an end than is told apart: the other end follows in one step, not by halves
             step = min(max(step, low + 0.5 * resolution), high - 0.5 * resolution)
         else:
             step = 0.5 * (low + high)
-    _stages(rig, drive, mode, time, high, state, k, work.trial)
-    margins(rig, drive, mode, time + high, work.trial, k[6], work.margin)
-    if event < 0:
-        event, _value = _worst_margin(work)
     return high, event
 
 
@@ -217,13 +207,6 @@ def set_sides(rig, drive, mode, time, state, work):
 
 
 @kernel
-def _pass_event(rig, drive, mode, time, state, event, work):
-    """Let the rig switch at event number ``event``, and take the rate on its new side."""
-    work.side[event] = switch(rig, drive, mode, time, state, event, -work.side[event])
-    rate(rig, drive, mode, time, state, work.stages[0])
-
-
-@kernel
 def integrate(rig, drive, mode, end, state, scale, work):  # noqa: C901
     """Advance ``state`` from ``drive.start`` to ``end`` (within the segment); returns a status of ``core/results.py``.
 
@@ -233,9 +216,12 @@ def integrate(rig, drive, mode, end, state, scale, work):  # noqa: C901
     time = drive.start
     proposed = work.step[0] if work.step[0] > 0.0 else end - time
     k = work.stages
-    rate(rig, drive, mode, time, state, k[0])
     events = 0
+    known = False  # whether k[0] holds the rate
     while time < end:
+        if not known:
+            rate(rig, drive, mode, time, state, k[0])
+            known = True
         remaining = end - time
         last = proposed >= remaining * (1.0 - 1.0e-12)
         step = remaining if last else min(proposed, 0.5 * remaining if proposed > 0.5 * remaining else proposed)
@@ -281,7 +267,8 @@ def integrate(rig, drive, mode, end, state, scale, work):  # noqa: C901
             work.last_event[0] = time
             if events > MAXIMUM_EVENTS:
                 return TOO_MANY_EVENTS
-            _pass_event(rig, drive, mode, time, state, event, work)
+            work.side[event] = switch(rig, drive, mode, time, state, event, -work.side[event])
+            known = False
         else:
             for i in range(state.shape[0]):
                 k[0, i] = k[6, i]
