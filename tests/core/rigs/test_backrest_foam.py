@@ -47,7 +47,8 @@ def test_a_back_on_foam_moves_as_its_slow_twin(amplitude):
     assert numpy.abs(found.states[:, 0] - expected[:, 0]).max() <= 1e-6
     memory = found.states[:, memory_offset(1, 1)]
     assert numpy.abs(memory - expected[:, 2]).max() <= 1e-4
-    assert memory.max() > 0.9 and memory.min() < -0.9
+    assert memory.max() > 0.9
+    assert memory.min() < -0.9
 
 
 def test_the_energy_of_a_back_on_foam_balances_with_loss_of_both_kinds():
