@@ -24,6 +24,7 @@ BASES = {
         "vibration": {"kind": "sine", "frequency": 5.0, "amplitude": 1.0, "axis": "x"},
         "effects": {"backrest": ELASTIC},
     },
+    "impact": {"rig": "impact", "duration": 1.0, "effects": {"impact": ELASTIC}},
     "car": {"rig": "car", **ROLLING, "effects": {"tire": ELASTIC, "seat": ELASTIC}},
 }
 

@@ -12,6 +12,7 @@ EFFECTS = (
     "shell_modes", "carcass",
     "envelopment",
     "tread_viscoelasticity", "brush", "asperity_impulses",
+    "shift", "contact_stress", "surface_waves", "micro_front", "thermal_volume", "history", "gauge_noise",
 )  # fmt: skip
 TIRE_ONLY = {"carcass", "envelopment", "tread_viscoelasticity", "brush", "asperity_impulses"}
 SEAT_ONLY = {"general_dissipative", "foam", "foam_hysteresis", "friction"}
@@ -22,13 +23,22 @@ OF_THE_BACK = (
     "normal_elastic", "normal_dissipative", "general_dissipative", "foam", "foam_hysteresis", "friction", "shell_modes",
 )  # fmt: skip
 ELSEWHERE = set(EFFECTS) - set(OF_THE_BACK)
+OF_THE_IMPACT = (
+    "shift", "contact_stress", "surface_waves", "micro_front", "thermal_volume", "history", "gauge_noise",
+)  # fmt: skip
 OF_FOAM = ("foam", "foam_hysteresis")
-OF_VEHICLES = tuple(name for name in EFFECTS if name not in ("shell_modes", *OF_FOAM))
+OF_VEHICLES = tuple(name for name in EFFECTS if name not in ("shell_modes", *OF_FOAM, *OF_THE_IMPACT))
 SUBSETS = {
     "tire": [set(chosen) for count in range(len(OF_VEHICLES) + 1) for chosen in combinations(OF_VEHICLES, count)]
-    + [{"normal_elastic", name} for name in ("shell_modes", *OF_FOAM)],
+    + [{"normal_elastic", name} for name in ("shell_modes", *OF_FOAM, *OF_THE_IMPACT)],
     "backrest": [set(chosen) for count in range(8) for chosen in combinations(OF_THE_BACK, count)]
     + [{"normal_elastic", name} for name in sorted(ELSEWHERE)],
+    "impact": [
+        set(chosen)
+        for count in (0, 1, 2, 3, 8, 9)
+        for chosen in combinations(("normal_elastic", "normal_dissipative", *OF_THE_IMPACT), count)
+    ]
+    + [{"normal_elastic", "friction"}, {"normal_elastic", "contact_field"}],
     "seat": [set(chosen) for count in range(8) for chosen in combinations(EFFECTS[:7], count)]
     + [{"normal_elastic", "contact_field", name} for name in sorted(TIRE_ONLY)],
 }
@@ -36,7 +46,12 @@ SUBSETS = {
 
 def allowed(contact, named):
     """Whether these effects may stand together, written out once more."""
-    refused = {"tire": {*SEAT_ONLY, "shell_modes"}, "seat": {*TIRE_ONLY, "shell_modes"}, "backrest": ELSEWHERE}[contact]
+    refused = {
+        "tire": {*SEAT_ONLY, "shell_modes", *OF_THE_IMPACT}, "seat": {*TIRE_ONLY, "shell_modes", *OF_THE_IMPACT},
+        "backrest": ELSEWHERE, "impact": set(EFFECTS) - {"normal_elastic", "normal_dissipative", *OF_THE_IMPACT},
+    }[contact]  # fmt: skip
+    if named & {"surface_waves", "history"} and "normal_dissipative" not in named:
+        return False
     if "normal_elastic" not in named or named & refused:
         return False
     if named >= {"normal_dissipative", "general_dissipative"}:
@@ -50,7 +65,7 @@ def test_the_table_knows_exactly_these_effects():
     assert tuple(EFFECT_RULES) == EFFECTS
 
 
-@pytest.mark.parametrize("contact", ["tire", "seat", "backrest"])
+@pytest.mark.parametrize("contact", ["tire", "seat", "backrest", "impact"])
 def test_every_set_of_effects_is_allowed_or_refused_as_tabled(maker, contact):
     for named in SUBSETS[contact]:
         faults = maker.faults(contact, {f"effects.{contact}": {name: {} for name in named}})

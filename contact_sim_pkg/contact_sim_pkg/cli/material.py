@@ -12,12 +12,18 @@ FILE = click.Path(path_type=Path)
 
 
 @click.command("material")
-@click.argument("impacts", type=FILE, metavar="IMPACTS.csv")
+@click.argument("impacts", type=FILE, metavar="IMPACTS.csv|BAG")
 @click.option(
     "--form", default="exact", show_default=True, help="exact, corrected or printed (the paper's eqs 104, 105)."
 )
-@click.option("--end", default="force", show_default=True, help="End of contact: force or gap.")
-@click.option("--shape", default="small", show_default=True, help="Shape factor of the contact: small or iterate.")
+@click.option("--end", help="End of contact: force or gap; of a bag its scene's, else force.")
+@click.option("--shape", help="Shape factor of the contact: small or iterate; of a bag its scene's, else small.")
+@click.option(
+    "--gravity",
+    type=click.FloatRange(0.0, 1e4),
+    metavar="M/S2",
+    help="Weight along the blow: 9.81 of a drop tower, 0 of a pendulum; of a bag, or with a column g, as it says; else 0.",
+)
 @click.option("--confidence", default=0.95, show_default=True, help="Of the intervals.")
 @click.option("--temperature-span", default=2.0, show_default=True, metavar="K", help="Impacts so close are repeats.")
 @click.option("--speed-ratio", default=1.3, show_default=True, help="Impacts so close in speed are repeats.")
@@ -31,15 +37,17 @@ FILE = click.Path(path_type=Path)
 @click.option("--plot", type=FILE, metavar="FILE", help="E' and tan beta as a picture.")
 @json_option
 def command(
-    impacts: Path, form: str, end: str, shape: str, confidence: float, temperature_span: float, speed_ratio: float,
-    shift: str | None, glass_temperature: float | None, activation_energy: float | None, reference: float | None,
-    table: Path | None, plot: Path | None, as_json: bool,
+    impacts: Path, form: str, end: str | None, shape: str | None, gravity: float | None, confidence: float,
+    temperature_span: float, speed_ratio: float, shift: str | None, glass_temperature: float | None,
+    activation_energy: float | None, reference: float | None, table: Path | None, plot: Path | None, as_json: bool,
 ) -> None:  # fmt: skip
     """The material that measured impacts of a sphere tell, with intervals from repeated impacts.
 
-    A line an impact, columns m, R, V0, tau, k and T (kg, m, m/s, s, 1, K; other units in brackets behind the name).
+    From a bag of the rig impact, or from a file with a line an impact: columns m, R, V0, tau, k and T (kg, m, m/s, s, 1, K; other
+    units in brackets behind the name), g (m/s^2) where the weight acts along the blow.
     """
     from contact_sim_pkg.analysis.material import figure
+    from contact_sim_pkg.analysis.material.bag_impacts import is_bag, rules_of_bag
     from contact_sim_pkg.analysis.material.options import Options
     from contact_sim_pkg.analysis.material.report import group_rows, master_row, material_report, write_csv
 
@@ -49,9 +57,10 @@ def command(
     ):
         if given is not None and shift != law:
             raise click.UsageError(f"{name} belongs to --shift {law}")
-    options = Options(end, form, shape, confidence, temperature_span, speed_ratio)
+    usual = rules_of_bag(impacts) if is_bag(impacts) else ("force", "small")
+    options = Options(end or usual[0], form, shape or usual[1], confidence, temperature_span, speed_ratio)
     parameter = glass_temperature if shift == "wlf" else activation_energy
-    report = material_report(impacts, options, shift, parameter, reference)
+    report = material_report(impacts, options, shift, parameter, reference, gravity)
     for note in report.impacts.notes:
         click.echo(note, err=True)
     if table is not None:

@@ -37,6 +37,22 @@ def _backrest_topics(scene: dict[str, Any]) -> list[str]:
     return [*(f"backrest/{name}" for name in ("force", "wrench", "patch", "points")), "bench/episodes"]
 
 
+IMPACT_TOPICS = {
+    "contact_stress": "stress", "surface_waves": "wave", "micro_front": "front", "thermal_volume": "position",
+    "history": "history",
+}  # fmt: skip
+"""Effects of the impact rig that publish something, and their topics."""
+
+
+def _impact_topics(scene: dict[str, Any]) -> list[str]:
+    effects = scene["effects"]["impact"]
+    names = ["force", "wrench", "events"] + (["course"] if scene["impact"]["course_samples"] else [])
+    return [
+        f"impact/{name}"
+        for name in (*names, *(topic for effect, topic in IMPACT_TOPICS.items() if effects.get(effect) is not None))
+    ]
+
+
 _VEHICLE = RigRun("contact_sim_pkg.run.simulation:Simulation", _vehicle_topics)
 
 RIG_RUNS: dict[RigName, RigRun] = {
@@ -44,6 +60,7 @@ RIG_RUNS: dict[RigName, RigRun] = {
     "seat": _VEHICLE,
     "car": _VEHICLE,
     "backrest": RigRun("contact_sim_pkg.run.backrest:BackrestSimulation", _backrest_topics),
+    "impact": RigRun("contact_sim_pkg.run.impact:ImpactSimulation", _impact_topics),
 }
 
 

@@ -19,6 +19,7 @@ from contact_sim_pkg.scene.rigs import RIGS
 from contact_sim_pkg.scene.schema import Scene
 from contact_sim_pkg.scene.schema_accuracy import Contact, asked, cells_of, integration_tolerance, rung_for
 from contact_sim_pkg.scene.schema_backrest import complete_backrest
+from contact_sim_pkg.scene.schema_impact import complete_impact
 from contact_sim_pkg.scene.schema_validate import validate
 from contact_sim_pkg.scene.yaml_document import parse_document
 
@@ -26,7 +27,7 @@ __all__ = ["ResolvedScene", "explicit", "read_explicit", "read_resolved", "resol
 
 DEFAULT_DAMPING: dict[str, float] = {"tire": 0.06, "seat": 1.0, "backrest": 1.949743421626532}
 """Hunt-Crossley damping in [s/m] where a scene names neither damping nor restitution, see `schema_effects.py`."""
-_COMPLETED: dict[str, Callable[[dict[str, Any]], None]] = {"backrest": complete_backrest}
+_COMPLETED: dict[str, Callable[[dict[str, Any]], None]] = {"backrest": complete_backrest, "impact": complete_impact}
 """Rigs with keys whose default follows from others."""
 _FIELD_CONTACTS: dict[str, Contact] = {"tire": "tire", "seat": "seat"}
 
@@ -103,7 +104,7 @@ def explicit(scene: Scene) -> dict[str, Any]:
 
 def _fill_effects(effects: dict[str, Any], accuracy: float | str, contact: str) -> None:
     loss = effects.get("normal_dissipative")
-    if loss is not None and "restitution" not in loss:
+    if loss is not None and contact in DEFAULT_DAMPING and "restitution" not in loss:
         loss.setdefault("damping", DEFAULT_DAMPING[contact])
     general = effects.get("general_dissipative")
     if general is not None:

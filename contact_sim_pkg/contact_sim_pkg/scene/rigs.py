@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from typing import Literal, NamedTuple, TypeAlias
 
-RigName: TypeAlias = Literal["tire", "seat", "car", "backrest"]
+RigName: TypeAlias = Literal["tire", "seat", "car", "backrest", "impact"]
 
 
 class RigRule(NamedTuple):
@@ -24,6 +24,7 @@ RIGS: dict[RigName, RigRule] = {
     "seat": RigRule(("seat",), ("vibration",), ("seat",)),
     "car": RigRule(("tire", "seat"), ("travel", "road"), ("slip", "vibration", "tire", "seat")),
     "backrest": RigRule(("backrest",), ("vibration",), ("backrest",)),
+    "impact": RigRule(("impact",), (), ("impact",)),
 }
 
 CONTACTS: tuple[str, ...] = tuple(dict.fromkeys(name for rule in RIGS.values() for name in rule.contacts))

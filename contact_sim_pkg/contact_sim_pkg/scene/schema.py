@@ -14,6 +14,7 @@ from contact_sim_pkg.scene.rigs import RigName
 from contact_sim_pkg.scene.schema_backrest import Backrest
 from contact_sim_pkg.scene.schema_effects import Effects
 from contact_sim_pkg.scene.schema_fields import Section, choice, number, text
+from contact_sim_pkg.scene.schema_impact import Impact
 from contact_sim_pkg.scene.schema_rigs import Seat, Tire
 from contact_sim_pkg.scene.schema_road import Road, Slip, Travel
 from contact_sim_pkg.scene.schema_vibration import Vibration
@@ -65,7 +66,8 @@ class Scene(Section):
     )
     description: str = text("one line on what the scene shows", default="")
     rig: RigName = choice(
-        "tire on a road, occupant on a seat, both as a car, or occupant against a backrest", example="seat"
+        "tire on a road, occupant on a seat, both as a car, occupant against a backrest, or sphere that strikes a sample",
+        example="seat",
     )
     duration: float = number(0.0, 3600.0, "s", "simulated time, a whole number of blocks", above=True, example=1.0)
     seed: int = number(0, 2**53 - 1, "", "of all random numbers; the same seed gives the same bits", default=1)
@@ -91,6 +93,7 @@ class Scene(Section):
     backrest: Backrest | None = choice(
         "occupant against a seat back (rig backrest); defaults where absent", default=None
     )
+    impact: Impact | None = choice("sphere that strikes a sample (rig impact); defaults where absent", default=None)
     effects: Effects = choice("contact → effect → its parameters", example={"seat": {"normal_elastic": {}}})
     outputs: Outputs = Field(default_factory=Outputs, description="rates of the outputs")
     integrator: Integrator = Field(default_factory=Integrator, description="tolerance of the time integration")

@@ -20,8 +20,8 @@ class EffectRule(NamedTuple):
 
 
 EFFECT_RULES: dict[str, EffectRule] = {
-    "normal_elastic": EffectRule(("tire", "seat", "backrest")),
-    "normal_dissipative": EffectRule(("tire", "seat", "backrest"), needs=("normal_elastic",)),
+    "normal_elastic": EffectRule(("tire", "seat", "backrest", "impact")),
+    "normal_dissipative": EffectRule(("tire", "seat", "backrest", "impact"), needs=("normal_elastic",)),
     "general_dissipative": EffectRule(
         ("seat", "backrest"), needs=("normal_elastic",), excludes=("normal_dissipative",)
     ),
@@ -35,6 +35,13 @@ EFFECT_RULES: dict[str, EffectRule] = {
     "tread_viscoelasticity": EffectRule(("tire",), needs=("contact_field",)),
     "brush": EffectRule(("tire",), needs=("contact_field",)),
     "asperity_impulses": EffectRule(("tire",), needs=("normal_elastic",)),
+    "shift": EffectRule(("impact",), needs=("normal_elastic",)),
+    "contact_stress": EffectRule(("impact",), needs=("normal_elastic",)),
+    "surface_waves": EffectRule(("impact",), needs=("normal_elastic", "normal_dissipative")),
+    "micro_front": EffectRule(("impact",), needs=("normal_elastic",)),
+    "thermal_volume": EffectRule(("impact",), needs=("normal_elastic",)),
+    "history": EffectRule(("impact",), needs=("normal_elastic", "normal_dissipative")),
+    "gauge_noise": EffectRule(("impact",), needs=("normal_elastic",)),
 }
 
 

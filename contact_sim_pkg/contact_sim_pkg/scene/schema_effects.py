@@ -7,6 +7,7 @@ from typing import Annotated, Literal, TypeAlias
 from pydantic import Field
 
 from contact_sim_pkg.scene.schema_fields import Section, choice, number, numbers
+from contact_sim_pkg.scene.schema_impact_effects import ImpactEffects
 
 Branch: TypeAlias = Annotated[list[float], Field(min_length=2, max_length=2)]
 
@@ -354,6 +355,7 @@ class Effects(Section):
     tire: TireEffects | None = choice("contact between tire and road", default=None)
     seat: SeatEffects | None = choice("contact between occupant and cushion", default=None)
     backrest: BackrestEffects | None = choice("contact between back and seat back", default=None)
+    impact: ImpactEffects | None = choice("contact between sphere and sample", default=None)
 
 
 ContactField: TypeAlias = TireField | SeatField

@@ -11,6 +11,7 @@ from contact_sim_pkg.scene.schema import Scene
 from contact_sim_pkg.scene.schema_backrest_rules import backrest_breaches
 from contact_sim_pkg.scene.schema_catalog import show
 from contact_sim_pkg.scene.schema_clock import clock_breaches
+from contact_sim_pkg.scene.schema_impact_rules import impact_breaches
 from contact_sim_pkg.scene.schema_road import BumpRoad, CleatRoad, Iso8608Road, PotholeRoad
 from contact_sim_pkg.scene.schema_tire_rules import slip_breaches, tire_effect_breaches
 from contact_sim_pkg.scene.schema_vibration import HalfSine, Noise, Recorded, Sine, Sweep
@@ -25,6 +26,7 @@ def breaches(scene: Scene) -> Iterator[Breach]:
         slip_breaches(scene),
         tire_effect_breaches(scene),
         backrest_breaches(scene),
+        impact_breaches(scene),
         _road(scene),
         _vibration(scene),
         _occupant(scene),
@@ -147,7 +149,7 @@ def _contacts(scene: Scene) -> Iterator[Breach]:
     for contact in CONTACTS:
         effects, where = getattr(scene.effects, contact), f"effects.{contact}"
         loss = getattr(effects, "normal_dissipative", None)
-        if loss is not None:
+        if hasattr(loss, "damping"):
             yield from _loss(f"{where}.normal_dissipative", loss.damping, loss.restitution, loss.reference_speed)
         yield from _general(where, effects)
         yield from _foam(where, effects)

@@ -43,6 +43,13 @@ FEEDS: dict[str, tuple[str, ...]] = {
     "tread_viscoelasticity": ("patch", "force", "wrench"),
     "brush": ("shear", "force", "wrench"),
     "asperity_impulses": ("force", "wrench"),
+    "shift": ("force", "wrench", "events"),
+    "contact_stress": ("stress",),
+    "surface_waves": ("wave",),
+    "micro_front": ("front",),
+    "thermal_volume": ("position",),
+    "history": ("history",),
+    "gauge_noise": ("events",),
 }
 """Topics of the contact that an effect feeds; every effect also feeds `bench/motion` and `bench/energy`."""
 BENCH_TOPICS = ("bench/motion", "bench/energy")

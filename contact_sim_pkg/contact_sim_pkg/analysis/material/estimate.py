@@ -72,7 +72,8 @@ def each_impact(impacts: Impacts, options: Options) -> list[dict[str, float | in
         sphere = Sphere(float(impacts.mass[i]), float(impacts.radius[i]))
         speed, duration, k = (float(v[i]) for v in (impacts.speed, impacts.duration, impacts.restitution))
         try:
-            found = material_of_impact(sphere, speed, duration, k, options.end, options.form, options.shape)
+            gravity = 0.0 if impacts.gravity is None else float(impacts.gravity[i])
+            found = material_of_impact(sphere, speed, duration, k, options.end, options.form, options.shape, gravity)
         except ImpactError as error:
             rows.append({**row, "E'": None, "E''": None, "tan_beta": None, "note": str(error)})
             continue
@@ -113,10 +114,10 @@ def _group_factor(impacts: Impacts, i: int) -> float:
 
 def _curve(k: float, impacts: Impacts, chosen: Indices, options: Options) -> _Curve:
     """At a mean restitution above 1 by noise, the limit without loss is taken, with the slopes from below."""
-    held = min(k, 1.0)
+    held, weight = min(k, 1.0), _weight(impacts, chosen)
     low, high = held - STEP, min(held + STEP, 1.0)
     try:
-        at, below, above = (reading(value, options.end, options.form) for value in (held, low, high))
+        at, below, above = (reading(value, options.end, options.form, weight) for value in (held, low, high))
     except ImpactError as error:
         raise MaterialError(f"{_where(impacts, chosen)}: mean of the restitution: {error}") from error
     width = high - low
@@ -124,6 +125,13 @@ def _curve(k: float, impacts: Impacts, chosen: Indices, options: Options) -> _Cu
         math.log(at.modulus_factor), math.log(above.modulus_factor / below.modulus_factor) / width,
         at.loss_tangent, (above.loss_tangent - below.loss_tangent) / width, at.depth_factor,
     )  # fmt: skip
+
+
+def _weight(impacts: Impacts, chosen: Indices) -> float:
+    """Mean of ``g tau/V0``; 0 where no weight acts along the blow."""
+    if impacts.gravity is None:
+        return 0.0
+    return float((impacts.gravity[chosen] * impacts.duration[chosen] / impacts.speed[chosen]).mean())
 
 
 def _where(impacts: Impacts, chosen: Indices) -> str:

@@ -1,4 +1,4 @@
-"""Reading a file of measured impacts: a line an impact, columns m, R, V0, tau, k and, where it was measured, T."""
+"""Reading a file of measured impacts: a line an impact, columns m, R, V0, tau, k and, where measured, T and g."""
 
 from __future__ import annotations
 
@@ -26,6 +26,7 @@ COLUMNS: dict[str, tuple[str, ...]] = {
     "tau": ("tau", "τ", "tau_x", "duration", "contact_time"),
     "k": ("k", "k_x", "e", "restitution"),
     "T": ("t", "temperature"),
+    "g": ("g", "gravity"),
 }
 """Column -> names that are read as it, in small letters."""
 
@@ -36,11 +37,14 @@ UNITS: dict[str, dict[str, float]] = {
     "tau": {"s": 1.0, "ms": 1e-3, "us": 1e-6, "µs": 1e-6, "μs": 1e-6},
     "k": {"1": 1.0, "-": 1.0},
     "T": {"K": 1.0, "C": 1.0, "°C": 1.0, "degC": 1.0},
+    "g": {"m/s^2": 1.0, "m/s2": 1.0, "m/s²": 1.0},
 }
+OPTIONAL = ("T", "g")
 CELSIUS = ("C", "°C", "degC")
 FREEZING = 273.15
 RANGES = {
     "m": (1e-12, 1e6), "R": (1e-9, 1e3), "V0": (1e-9, 1e4), "tau": (1e-12, 1e3), "k": (0.0, 1.5), "T": (1.0, 5000.0),
+    "g": (0.0, 1e4),
 }  # fmt: skip
 """Column -> what is read, in SI; a value outside is another column or unit."""
 
@@ -57,6 +61,7 @@ class Impacts(NamedTuple):
     restitution: Vector  # k; noise may lift single ones above 1
     temperature: Vector | None  # [K]
     notes: tuple[str, ...]
+    gravity: Vector | None = None  # [m/s^2] along the blow during the contact; None: none
 
 
 def read_impacts(path: Path) -> Impacts:
@@ -78,8 +83,9 @@ def read_impacts(path: Path) -> Impacts:
     notes = (f"columns not used: {', '.join(unused)}",) if unused else ()
     line = numpy.array([number for number, _ in rows[1:]], dtype=numpy.int64)
     return Impacts(
-        str(path), line, arrays["m"], arrays["R"], arrays["V0"], arrays["tau"], arrays["k"], arrays.get("T"), notes
-    )
+        str(path), line, arrays["m"], arrays["R"], arrays["V0"], arrays["tau"], arrays["k"], arrays.get("T"), notes,
+        arrays.get("g"),
+    )  # fmt: skip
 
 
 def _lines(path: Path) -> list[tuple[int, str]]:
@@ -121,7 +127,7 @@ def _header(path: Path, number: int, fields: list[str]) -> tuple[dict[str, tuple
                 f"{path}, line {number}: unit '{unit}' of column '{label}' is not read; {', '.join(UNITS[name])} are"
             )
         found[name] = (place, UNITS[name][unit] if unit else 1.0, FREEZING if unit in CELSIUS else 0.0)
-    missing = [name for name in COLUMNS if name not in found and name != "T"]
+    missing = [name for name in COLUMNS if name not in found and name not in OPTIONAL]
     if missing:
         raise MaterialError(
             f"{path}, line {number}: no column {', '.join(missing)}; the columns m, R, V0, tau, k and, where measured, T are read"
@@ -140,7 +146,7 @@ def _number(path: Path, line: int, name: str, field: str, factor: float, offset:
             f"{path}, line {line}: '{text[:40]}' in column '{name}' is no finite number (a decimal point is expected)"
         ) from None
     low, high = RANGES[name]
-    if not (value > 0.0 and low <= value <= high):
+    if not ((value > 0.0 or name == "g") and low <= value <= high):
         raise MaterialError(
             f"{path}, line {line}: {value:g} in column '{name}'; a number above 0, {low:g} to {high:g} in SI units, is needed"
         )

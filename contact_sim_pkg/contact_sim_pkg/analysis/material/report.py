@@ -6,6 +6,9 @@ import csv
 from pathlib import Path
 from typing import Any, NamedTuple
 
+import numpy
+
+from contact_sim_pkg.analysis.material.bag_impacts import impacts_of_bag, is_bag
 from contact_sim_pkg.analysis.material.errors import MaterialError
 from contact_sim_pkg.analysis.material.estimate import Estimate, Value, each_impact, repeated_impacts
 from contact_sim_pkg.analysis.material.groups import groups
@@ -13,7 +16,7 @@ from contact_sim_pkg.analysis.material.master_curve import LAWS, MasterCurve, ma
 from contact_sim_pkg.analysis.material.options import Options
 from contact_sim_pkg.analysis.material.reading import Impacts, read_impacts
 from contact_sim_pkg.core.impact.force import ENDS
-from contact_sim_pkg.core.impact.inverse import FORMS
+from contact_sim_pkg.core.impact.inverse import FORMS, HEAVIEST
 from contact_sim_pkg.core.impact.motion import SHAPE_RULES
 from contact_sim_pkg.core.impact.shift import Wlf
 
@@ -31,11 +34,19 @@ class MaterialReport(NamedTuple):
 
 
 def material_report(
-    path: Path, options: Options, law: str | None = None, parameter: float | None = None, reference: float | None = None
+    path: Path,
+    options: Options,
+    law: str | None = None,
+    parameter: float | None = None,
+    reference: float | None = None,
+    gravity: float | None = None,
 ) -> MaterialReport:
-    """The report on a file of impacts. Raises MaterialError with one sentence."""
+    """The report on a file of impacts, or on the impact events of a bag. Raises MaterialError or BagError with one sentence."""
     _check(options, law)
-    return report_of(read_impacts(path), options, law, parameter, reference)
+    impacts = impacts_of_bag(path) if is_bag(path) else read_impacts(path)
+    if gravity is not None:
+        impacts = impacts._replace(gravity=numpy.full(len(impacts.speed), gravity))
+    return report_of(impacts, options, law, parameter, reference)
 
 
 def report_of(
@@ -50,10 +61,28 @@ def report_of(
     ``parameter``: Tg [K] or activation energy [J/mol], found where None; ``reference`` [K]. Raises MaterialError.
     """
     _check(options, law)
+    impacts = _struck(impacts)
     rows = each_impact(impacts, options)
     estimates = [repeated_impacts(impacts, chosen, options) for chosen in groups(impacts, options)]
     master = None if law is None else master_curve(estimates, law, parameter, reference)
     return MaterialReport(impacts, options, rows, estimates, master)
+
+
+def _struck(impacts: Impacts) -> Impacts:
+    """Without the impacts in which the weight does more than the blow. Raises MaterialError where none is left."""
+    if impacts.gravity is None:
+        return impacts
+    kept = impacts.gravity * impacts.duration / impacts.speed <= HEAVIEST
+    if kept.all():
+        return impacts
+    count = int((~kept).sum())
+    note = f"{count} of {len(kept)} impacts left out: pressed by the weight rather than struck, g tau/V0 above {HEAVIEST:g}"
+    if not kept.any():
+        raise MaterialError(f"{impacts.file}: {note}; nothing is left")
+    columns: dict[str, Any] = {
+        name: value[kept] for name, value in impacts._asdict().items() if isinstance(value, numpy.ndarray)
+    }
+    return impacts._replace(**columns, notes=(*impacts.notes, note))
 
 
 def group_rows(report: MaterialReport) -> list[dict[str, Any]]:

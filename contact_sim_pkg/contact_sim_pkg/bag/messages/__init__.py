@@ -2,7 +2,7 @@
 
 `encode_*`(value, stamp in [ns], frame) gives CDR bytes, `decode_*`(bytes) the value; `stamp_of` reads the stamp alone.
 The `.msg` files state unit, frame, sign and order of each field; the tuples hold the same values, grids as 2-D arrays.
-Decoded arrays are copies: writable, aligned, contiguous. One file a group of topics: excitation, contact, points, bench.
+Decoded arrays are copies: writable, aligned, contiguous. One file a group of topics: excitation, contact, points, impact, bench.
 """
 
 from ..encoding import stamp_of
@@ -50,8 +50,22 @@ from .excitation import (
 from .frames import (
     BACKREST_FRAME,
     BENCH_FRAME,
+    IMPACT_FRAME,
     SEAT_FRAME,
     TIRE_FRAME,
+)
+from .impact import (
+    ImpactCourse,
+    ImpactEvents,
+    ImpactFront,
+    ImpactHistory,
+    ImpactPosition,
+    ImpactStress,
+    ImpactWave,
+    decode_impact,
+    decode_impact_events,
+    encode_impact,
+    encode_impact_events,
 )
 from .points import (
     WHOLE_CONTACT,
@@ -66,6 +80,7 @@ from .points import (
 __all__ = [
     "BACKREST_FRAME",
     "BENCH_FRAME",
+    "IMPACT_FRAME",
     "NO_SAMPLES",
     "SEAT_FRAME",
     "TIRE_FRAME",
@@ -74,6 +89,13 @@ __all__ = [
     "Cost",
     "Energy",
     "EpisodeBlock",
+    "ImpactCourse",
+    "ImpactEvents",
+    "ImpactFront",
+    "ImpactHistory",
+    "ImpactPosition",
+    "ImpactStress",
+    "ImpactWave",
     "MotionBlock",
     "PatchField",
     "PointField",
@@ -88,6 +110,8 @@ __all__ = [
     "decode_cost",
     "decode_energy",
     "decode_episodes",
+    "decode_impact",
+    "decode_impact_events",
     "decode_motion",
     "decode_progress",
     "decode_recorded",
@@ -103,6 +127,8 @@ __all__ = [
     "encode_cost",
     "encode_energy",
     "encode_episodes",
+    "encode_impact",
+    "encode_impact_events",
     "encode_motion",
     "encode_progress",
     "encode_recorded",

@@ -16,12 +16,15 @@ from .checks import check_positive
 from .errors import ImpactError
 from .geometry import SMALL_SHAPE_FACTOR, depth_note
 from .motion import SHAPE_RULES
-from .scaled_motion import scaled_impact
+from .roots import bracketed_root
+from .scaled_motion import ScaledImpact, scaled_impact
 from .severity import loss_tangent_of_severity, severity_of_restitution
 
-__all__ = ["FORMS", "Reading", "group_factor", "material_of_impact", "reading"]
+__all__ = ["FORMS", "HEAVIEST", "Reading", "group_factor", "material_of_impact", "reading"]
 
 FORMS = ("exact", "corrected", "printed")
+WEIGHT_ROUNDS = 60
+HEAVIEST = 0.5  # g tau/V0 up to which an impact under weight is inverted
 FACTORS = {"corrected": 15.0 / 16.0 * 2.0**2.5, "printed": 5.03}
 
 
@@ -30,7 +33,7 @@ class Reading(NamedTuple):
 
     modulus_factor: float  # h k_p: E' = q (h k_p)/k_p
     loss_tangent: float  # g
-    depth_factor: float  # x_m/(V0 tau)
+    depth_factor: float  # x_m/(V0 tau), x_m without weight
 
 
 def material_of_impact(
@@ -41,12 +44,14 @@ def material_of_impact(
     end: str = "force",
     form: str = "exact",
     shape: str = "small",
+    gravity: float = 0.0,
 ) -> Material:
     """E' and tan(beta) of an impact of ``sphere`` at ``speed`` [m/s] that lasts ``duration`` [s] and rebounds with ``restitution``.
 
-    ``end`` and ``shape`` as in `solve_impact`. Raises ImpactError for a restitution that the form does not reach and for x_m > R.
+    ``end`` and ``shape`` as in `solve_impact`. ``gravity`` [m/s^2] along the blow during the contact: that of a drop tower, 0 of a
+    pendulum; only the exact form knows it. Raises ImpactError for a restitution that the form does not reach and for x_m > R.
     """
-    found = reading(restitution, end, form)
+    found = reading(restitution, end, form, gravity * duration / speed)
     factor = shape_of_depth(found.depth_factor * speed * duration, sphere.radius, shape)
     group = group_factor(sphere, speed, duration)
     return Material(group * found.modulus_factor / factor, found.loss_tangent)
@@ -61,13 +66,20 @@ def group_factor(sphere: Sphere, speed: float, duration: float) -> float:
     return float(sphere.mass / (math.sqrt(speed * sphere.radius) * duration**2.5))
 
 
-def reading(restitution: float, end: str = "force", form: str = "exact") -> Reading:
-    """h, g and the depth of a restitution k. Raises ImpactError outside the range of the form, ValueError for another form."""
+def reading(restitution: float, end: str = "force", form: str = "exact", weight: float = 0.0) -> Reading:
+    """h, g and the depth of a restitution k; ``weight`` is ``g tau/V0``.
+
+    Raises ImpactError outside the range of the form, ValueError for another form.
+    """
+    if not 0.0 <= weight <= HEAVIEST:
+        raise ImpactError(
+            f"weight: g tau/V0 is {weight:.3g}; 0 to {HEAVIEST:g} is the range, above it the sphere is pressed rather than struck"
+        )
     if form == "exact":
-        severity = severity_of_restitution(restitution, end)
-        scaled = scaled_impact(severity, end)
+        severity, scaled = _severity_under_weight(restitution, end, weight)
         factor = 0.75 * scaled.duration**2.5
-        return Reading(float(factor), loss_tangent_of_severity(severity, end), scaled.depth / scaled.duration)
+        free = scaled_impact(severity, end)  # whose depth gives k_p, as in `solve_impact`
+        return Reading(float(factor), loss_tangent_of_severity(severity, end), free.depth / scaled.duration)
     if form not in FACTORS:
         raise ValueError(f"form '{form}': {', '.join(FORMS)} are the forms")
     if not 0.0 < restitution <= 1.0:
@@ -75,6 +87,36 @@ def reading(restitution: float, end: str = "force", form: str = "exact") -> Read
     k = restitution
     factor = FACTORS[form] * (1.0 + k) ** 2.5 / k**1.5
     return Reading(float(factor), math.pi / 3.0 * (1.0 - k) / (1.0 + k), 0.5 * k / (1.0 + k))
+
+
+def _severity_under_weight(restitution: float, end: str, weight: float) -> tuple[float, ScaledImpact]:
+    """zeta, and the impact at it under the weight; the frequency in its viscous force stays that of the impact without weight.
+
+    Weight lowers the restitution, so zeta lies below that of the same restitution without it.
+    """
+    severity = severity_of_restitution(restitution, end)
+    if weight == 0.0 or severity == 0.0:
+        return severity, _under_weight(severity, end, weight)
+
+    def excess(zeta: float) -> float:
+        try:
+            return _under_weight(zeta, end, weight).restitution - restitution
+        except ImpactError:  # the weight keeps the sphere on the sample
+            return -restitution
+
+    severity = bracketed_root(excess, 0.0, severity, 1.0e-14)
+    return severity, _under_weight(severity, end, weight)
+
+
+def _under_weight(severity: float, end: str, weight: float) -> ScaledImpact:
+    """The impact at ``severity`` with ``g tau/V0 = weight``: the weight in its own units is ``weight/T_c``, by iteration."""
+    found = scaled_impact(severity, end)
+    for _ in range(WEIGHT_ROUNDS):
+        before = found.duration
+        found = scaled_impact(severity, end, weight / before)
+        if abs(found.duration - before) <= 1.0e-14 * before:
+            break
+    return found
 
 
 def shape_of_depth(depth: float, radius: float, shape: str) -> float:

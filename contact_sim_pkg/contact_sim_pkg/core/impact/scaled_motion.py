@@ -3,11 +3,12 @@
 Units: length ``L = (m V0^2/c)^(2/5)``, ``c = 4/3 k_p E' sqrt(R)``, time ``L/V0``, force ``m V0^2/L``. With ``u = sqrt(X)``, v = X'
 and ``dt = 2 u ds`` the equation is a polynomial one,
 
-    du/ds = v,   dv/ds = -2 u^2 (u^2 + zeta v),   dt/ds = 2 u,
+    du/ds = v,   dv/ds = 2 u (weight - u (u^2 + zeta v)),   dt/ds = 2 u,   dh/ds = 2 zeta u^2 v^2,
 
-so that touch and lift-off, where x^(3/2) and x^(1/2) have no Taylor series in t, are regular points of it. It is solved by its
-own Taylor series of order 20 in about twenty steps, to rounding; events are roots of the step's polynomials. Contact ends where
-the force ``u (u^2 + zeta v)`` reaches 0 on the way out (end rule ``force``) or where u is back at 0 (``gap``).
+h the heat in units of ``m V0^2``, weight ``g L/V0^2`` (0 for the free impact of eq 54), so that touch and lift-off, where x^(3/2)
+and x^(1/2) have no Taylor series in t, are regular points of it. It is solved by its own Taylor series of order 20 in about twenty
+steps, to rounding; events are roots of the step's polynomials. Contact ends where the force ``u (u^2 + zeta v)`` reaches 0 on the
+way out (end rule ``force``) or where u is back at 0 (``gap``).
 Method: Jorba and Zou, A software package for the numerical integration of ODEs by Taylor methods, Exp. Math. 14 (2005).
 """
 
@@ -20,6 +21,7 @@ import numpy
 
 from ..jit import entry, kernel
 from ..parameters import Vector
+from .checks import check_not_negative
 from .errors import ImpactError
 from .force import lowest_force
 
@@ -29,9 +31,11 @@ ORDER = 20
 LARGEST_STEPS = 400
 LARGEST_SEVERITY = 1000.0
 LOCATE_ITERATIONS = 200
-SERIES = 5  # u, v, t, u^2, u^2 + zeta v
+SERIES = 7  # u, v, t, u^2, u^2 + zeta v, u v, heat
+HEAT = 6
 PEAK, TURNING, END = 0, 1, 2  # in the order in which they come
-DURATION, RESTITUTION, DEPTH, TURNING_TIME, PEAK_FORCE, PEAK_TIME, RESULTS = 0, 1, 2, 3, 4, 5, 6
+DURATION, RESTITUTION, DEPTH, TURNING_TIME, PEAK_FORCE, PEAK_TIME = 0, 1, 2, 3, 4, 5
+REACHED_ROOT, REACHED_SPEED, REACHED_TIME, LOST, RESULTS = 6, 7, 8, 9, 10  # where the march ended, and the heat by then
 
 
 class ScaledImpact(NamedTuple):
@@ -47,12 +51,13 @@ class ScaledImpact(NamedTuple):
 
 
 @kernel
-def _expand(zeta, series):
-    """Taylor coefficients of u, v, t in s from those in place 0 (rows 0 to 2); returns the step in s that they carry.
+def _expand(zeta, weight, series):
+    """Taylor coefficients of u, v, t, h in s from those in place 0; returns the step in s that they carry.
 
-    Rows 3 and 4 hold u^2 and u^2 + zeta v. Step: radius of convergence over e^2, where the tail is below rounding.
+    Rows: u, v, t, then u^2, u^2 + zeta v, u v and the heat. Step: radius of convergence over e^2, where the tail is
+    below rounding.
     """
-    u, v, squared, moment = series[0], series[1], series[3], series[4]
+    u, v, squared, moment, product = series[0], series[1], series[3], series[4], series[5]
     for k in range(ORDER):
         total = 0.0
         for i in range(k + 1):
@@ -60,11 +65,18 @@ def _expand(zeta, series):
         squared[k] = total
         moment[k] = total + zeta * v[k]
         total = 0.0
+        crossed = 0.0
         for i in range(k + 1):
             total += squared[i] * moment[k - i]
+            crossed += u[i] * v[k - i]
+        product[k] = crossed
+        lost = 0.0
+        for i in range(k + 1):
+            lost += product[i] * product[k - i]
         series[2, k + 1] = 2.0 * u[k] / (k + 1)
+        series[HEAT, k + 1] = 2.0 * zeta * lost / (k + 1)
         u[k + 1] = v[k] / (k + 1)
-        v[k + 1] = -2.0 * total / (k + 1)
+        v[k + 1] = 2.0 * (weight * u[k] - total) / (k + 1)
     radius = math.inf
     for k in range(ORDER - 1, ORDER + 1):
         size = max(abs(u[k]), abs(v[k]))
@@ -84,18 +96,20 @@ def _value(series, s):
 @kernel
 def _step(series, step):
     """Go on to the end of the step."""
-    u, v, time = _value(series[0], step), _value(series[1], step), _value(series[2], step)
+    u, v = _value(series[0], step), _value(series[1], step)
+    time, heat = _value(series[2], step), _value(series[HEAT], step)
     series[0, 0] = u
     series[1, 0] = v
     series[2, 0] = time
+    series[HEAT, 0] = heat
 
 
 @kernel
-def _event(zeta, pulls, kind, u, v):
+def _event(zeta, weight, pulls, kind, u, v):
     """Event functions, each positive before its event: largest total force, turning, end of contact."""
     moment = u * u + zeta * v
     if kind == PEAK:
-        return v * moment + 2.0 * u * u * v - 2.0 * zeta * u * u * u * moment
+        return v * moment + 2.0 * u * u * (v + zeta * (weight - u * moment))
     if kind == TURNING:
         return v
     if pulls or zeta == 0.0:
@@ -104,11 +118,11 @@ def _event(zeta, pulls, kind, u, v):
 
 
 @kernel
-def _locate(zeta, pulls, kind, u, v, step):
+def _locate(zeta, weight, pulls, kind, u, v, step):
     """Root of an event function within a step in s: regula falsi (Illinois), every fourth time by halves."""
     low, high = 0.0, step
-    low_value = _event(zeta, pulls, kind, u[0], v[0])
-    high_value = _event(zeta, pulls, kind, _value(u, step), _value(v, step))
+    low_value = _event(zeta, weight, pulls, kind, u[0], v[0])
+    high_value = _event(zeta, weight, pulls, kind, _value(u, step), _value(v, step))
     kept = 0
     for i in range(LOCATE_ITERATIONS):
         s = 0.5 * (low + high)
@@ -118,7 +132,7 @@ def _locate(zeta, pulls, kind, u, v, step):
             s = 0.5 * (low + high)
         if not low < s < high:
             break
-        value = _event(zeta, pulls, kind, _value(u, s), _value(v, s))
+        value = _event(zeta, weight, pulls, kind, _value(u, s), _value(v, s))
         if value > 0.0:
             low, low_value = s, value
             high_value *= 0.5 if kept == 1 else 1.0
@@ -131,11 +145,12 @@ def _locate(zeta, pulls, kind, u, v, step):
 
 
 @kernel
-def _start(series):
-    """Touch at unit speed."""
-    series[0, 0] = 0.0
-    series[1, 0] = 1.0
+def _start(u, v, series):
+    """From a root of the depth and a speed, at time 0."""
+    series[0, 0] = u
+    series[1, 0] = v
     series[2, 0] = 0.0
+    series[HEAT, 0] = 0.0
 
 
 @kernel
@@ -151,25 +166,40 @@ def _note(zeta, kind, series, s, out):
     else:
         out[DURATION] = time
         out[RESTITUTION] = -v
+        out[REACHED_ROOT] = u
+        out[REACHED_SPEED] = v
+        out[REACHED_TIME] = time
+        out[LOST] = _value(series[HEAT], s)
 
 
 @entry
-def _solve(zeta: float, pulls: bool, out: Vector) -> int:
-    """Fill ``out`` [RESULTS] with the impact at ``zeta``; returns the steps taken, 0 where they did not reach its end."""
+def solve_from(
+    zeta: float, weight: float, pulls: bool, u: float, v: float, kind: int, limit: float, out: Vector
+) -> int:
+    """Follow the contact from ``u``, ``v`` to its end; events from ``kind`` on are written into ``out`` [RESULTS].
+
+    Returns the steps taken; 0 where the contact has not ended by ``limit`` or within the largest number of steps: then the last
+    places of ``out`` hold how far it came.
+    """
     series = numpy.zeros((SERIES, ORDER + 1))
-    _start(series)
-    kind = PEAK
+    _start(u, v, series)
     for count in range(1, LARGEST_STEPS + 1):
-        step = _expand(zeta, series)
+        step = _expand(zeta, weight, series)
         while kind <= END:
-            if _event(zeta, pulls, kind, _value(series[0], step), _value(series[1], step)) > 0.0:
+            if _event(zeta, weight, pulls, kind, _value(series[0], step), _value(series[1], step)) > 0.0:
                 break
-            s = _locate(zeta, pulls, kind, series[0], series[1], step)
+            s = _locate(zeta, weight, pulls, kind, series[0], series[1], step)
             _note(zeta, kind, series, s, out)
             kind += 1
         if kind > END:
             return count
         _step(series, step)
+        if series[2, 0] >= limit:
+            break
+    out[REACHED_ROOT] = series[0, 0]
+    out[REACHED_SPEED] = series[1, 0]
+    out[REACHED_TIME] = series[2, 0]
+    out[LOST] = series[HEAT, 0]
     return 0
 
 
@@ -197,22 +227,25 @@ def _place(series, step, time):
 
 
 @entry
-def _sample(zeta: float, times: Vector, depth: Vector, speed: Vector) -> int:
-    """Depth and speed at rising ``times`` in contact; returns how many of them were reached."""
+def sample_from(
+    zeta: float, weight: float, u: float, v: float, times: Vector, depth: Vector, speed: Vector, heat: Vector
+) -> int:
+    """Depth, speed and heat at rising ``times`` in contact, from ``u``, ``v`` on; returns how many of them were reached."""
     series = numpy.zeros((SERIES, ORDER + 1))
-    _start(series)
+    _start(u, v, series)
     i = 0
     for _ in range(LARGEST_STEPS):
-        step = _expand(zeta, series)
+        step = _expand(zeta, weight, series)
         last = _value(series[0], step) <= 0.0
         if last:  # behind u = 0 the time would run backwards
-            step = _locate(zeta, True, END, series[0], series[1], step)
+            step = _locate(zeta, weight, True, END, series[0], series[1], step)
         end = _value(series[2], step)
         while i < times.shape[0] and (last or times[i] <= end):
             s = _place(series, step, times[i])
-            u = _value(series[0], s)
-            depth[i] = u * u
+            root = _value(series[0], s)
+            depth[i] = root * root
             speed[i] = _value(series[1], s)
+            heat[i] = _value(series[HEAT], s)
             i += 1
         if i == times.shape[0]:
             break
@@ -220,15 +253,16 @@ def _sample(zeta: float, times: Vector, depth: Vector, speed: Vector) -> int:
     return i
 
 
-def scaled_impact(severity: float, end: str) -> ScaledImpact:
-    """The impact at ``severity`` zeta, 0 to 1000, to 1e-13; ``end`` is ``force`` or ``gap``.
+def scaled_impact(severity: float, end: str, weight: float = 0.0) -> ScaledImpact:
+    """The impact at ``severity`` zeta, 0 to 1000, to 1e-13; ``end`` is ``force`` or ``gap``; ``weight`` ``g L/V0^2``, 0: none.
 
     Raises ImpactError outside the range and, with ``gap``, where the mass does not come back (zeta above about 8).
     """
     if not 0.0 <= severity <= LARGEST_SEVERITY:
         raise ImpactError(f"severity {severity:g}: a number from 0 to {LARGEST_SEVERITY:g} is needed")
+    check_not_negative("weight", weight)
     out = numpy.zeros(RESULTS)
-    steps = _solve(float(severity), lowest_force(end) < 0.0, out)
+    steps = solve_from(float(severity), float(weight), lowest_force(end) < 0.0, 0.0, 1.0, PEAK, math.inf, out)
     if steps == 0:
         raise ImpactError(f"severity {severity:g}: the mass does not leave within {LARGEST_STEPS} steps")
     return ScaledImpact(
@@ -242,8 +276,9 @@ def scaled_course(severity: float, times: Vector) -> tuple[Vector, Vector]:
 
     Raises ImpactError where a time is not reached.
     """
-    depth, speed = numpy.zeros(len(times)), numpy.zeros(len(times))
-    reached = _sample(float(severity), numpy.ascontiguousarray(times, dtype=numpy.float64), depth, speed)
+    depth, speed, heat = (numpy.zeros(len(times)) for _ in range(3))
+    scaled = numpy.ascontiguousarray(times, dtype=numpy.float64)
+    reached = sample_from(float(severity), 0.0, 0.0, 1.0, scaled, depth, speed, heat)
     if reached < len(times):
         raise ImpactError(f"time {times[reached]:g} in units of L/V0 lies behind the end of the contact")
     return depth, speed

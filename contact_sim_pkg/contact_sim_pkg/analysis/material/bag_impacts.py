@@ -1,0 +1,58 @@
+"""Impacts from a bag of the impact rig: what its gauges measured, and the rules that its scene was run with."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+import numpy
+
+from contact_sim_pkg.analysis.material.errors import MaterialError
+from contact_sim_pkg.analysis.material.reading import Impacts
+from contact_sim_pkg.analysis.reading import parse_mapping
+from contact_sim_pkg.bag.reader import Bag, open_bag
+
+__all__ = ["EVENTS", "impacts_of_bag", "is_bag", "rules_of_bag"]
+
+EVENTS = "contact_msgs_defs/msg/ImpactEvents"
+LAST_SUFFIX = ".mcap"
+
+
+def is_bag(path: Path) -> bool:
+    """Whether ``path`` is meant as a bag: a directory, or an MCAP file."""
+    return path.is_dir() or path.suffix == LAST_SUFFIX
+
+
+def impacts_of_bag(path: Path) -> Impacts:
+    """The measured impacts of a bag, in the order in which they ended; `line` is the number of the impact.
+
+    Raises BagError where it is none, MaterialError where no impact ended in it.
+    """
+    bag = open_bag(path)
+    topic = next((name for name, row in bag.topics.items() if row.type == EVENTS), None)
+    if topic is None or bag.count(topic) == 0:
+        what = "has no impact events; the rig impact records them" if topic is None else "holds no impact that ended"
+        raise MaterialError(f"{path}: the bag {what}")
+    columns = bag.columns(topic)
+
+    def column(name: str) -> Any:
+        return numpy.concatenate([*columns[name]]).astype(numpy.float64)
+
+    gravity = column("gravity")
+    return Impacts(
+        str(path), column("number").astype(numpy.int64), column("mass"), column("radius"), column("measured_speed"),
+        column("measured_duration"), column("measured_restitution"), column("temperature"), (),
+        gravity if gravity.any() else None,
+    )  # fmt: skip
+
+
+def rules_of_bag(path: Path) -> tuple[str, str]:
+    """End rule and shape factor of the bag's scene; the usual ones where it does not say."""
+    scene = _scene(open_bag(path))
+    effects = (scene.get("effects") or {}).get("impact") or {}
+    loss, impact = effects.get("normal_dissipative") or {}, scene.get("impact") or {}
+    return str(loss.get("end", "force")), str(impact.get("shape_factor", "small"))
+
+
+def _scene(bag: Bag) -> dict[str, Any]:
+    return parse_mapping(bag.scene or "")

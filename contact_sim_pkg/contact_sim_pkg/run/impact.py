@@ -1,0 +1,71 @@
+"""The simulation of an impact scene, block by block. It takes no excitation: the machine releases the sphere by its programme."""
+
+from __future__ import annotations
+
+import math
+import time
+
+import numpy
+
+from contact_sim_pkg.core.jit import freeze, thaw
+from contact_sim_pkg.core.parameters import Vector
+from contact_sim_pkg.run.block_simulation import BlockResult, InputBlock
+from contact_sim_pkg.run.errors import RunError
+from contact_sim_pkg.run.impact_motion import Ended, ImpactMotion
+from contact_sim_pkg.run.impact_outputs import encode_block, encode_impact_messages
+from contact_sim_pkg.scene.build_impact import build_impact
+from contact_sim_pkg.scene.resolved_scene import ResolvedScene
+
+PIECES_AHEAD = 4  # flight, contact, its end: enough to have met every kernel
+
+
+class ImpactSimulation:
+    """Owns the state of a run: a ``BlockSimulation`` (run/block_simulation.py)."""
+
+    inputs: tuple[str, ...] = ()
+
+    def __init__(self, scene: ResolvedScene) -> None:
+        """Build the model of a resolved scene; raises SceneError where a release is outside it."""
+        thaw()
+        self.scene = scene
+        self.model = build_impact(scene.data)
+        self.blocks = self.model.timing.blocks
+        self._reset()
+
+    def _reset(self) -> None:
+        self.motion = ImpactMotion(self.model)
+        self._next_block = 0
+
+    def prepare(self) -> None:
+        """Compile or load the kernels of a contact and its effects, by the first impact; then close compilation."""
+        for _ in range(PIECES_AHEAD):
+            end = self.motion.pieces[-1].end
+            if not math.isfinite(end):
+                break
+            for impact in self.motion.take_ended(end):
+                encode_impact_messages(self.model, 0, 0, impact)
+                break
+        self._reset()
+        freeze()
+
+    def advance(self, block: int, inputs: dict[str, InputBlock]) -> BlockResult:
+        """Advance block number ``block``; see ``BlockSimulation``."""
+        began = time.perf_counter()
+        if block != self._next_block:
+            raise RunError(f"block {block} came, block {self._next_block} was due")
+        timing = self.model.timing
+        period = timing.block_length / timing.samples
+        times: Vector = (block * timing.samples + numpy.arange(timing.samples, dtype=numpy.float64)) * period
+        made = self.motion.made
+        state = self.motion.state(times)
+        ended = self.motion.take_ended((block + 1) * timing.block_length)
+        self._next_block = block + 1
+        messages = encode_block(self.model, block, state, ended, self.motion.made - made, began)
+        self.motion.forget_before((block + 1) * timing.block_length)
+        largest = [float((state.elastic + state.viscous).max()), *(_peak(impact) for impact in ended)]
+        return BlockResult(messages, max(largest), 0.0, time.perf_counter() - began)
+
+
+def _peak(impact: Ended) -> float:
+    turns = impact.stretches[0].turns
+    return 0.0 if turns is None else turns.peak_force
