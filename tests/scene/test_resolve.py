@@ -76,8 +76,9 @@ def test_every_default_is_written_out(maker):
 
 def test_what_the_rig_lacks_is_not_there(maker, rig):
     data = data_of(maker, rig)
-    own = {"tire": {"tire"}, "seat": {"seat"}, "car": {"tire", "seat"}, "backrest": {"backrest"}}.get(rig, {rig})
-    assert {name for name in ("tire", "seat", "backrest", "impact") if name in data} == own == set(data["effects"])
+    own = {"tire", "seat"} if rig == "car" else {rig}
+    contacts = ("tire", "seat", "backrest", "impact", "block")
+    assert {name for name in contacts if name in data} == own == set(data["effects"])
     assert all("contact_field" not in effects for effects in data["effects"].values())
 
 

@@ -13,8 +13,11 @@ EFFECTS = (
     "envelopment",
     "tread_viscoelasticity", "brush", "asperity_impulses",
     "shift", "contact_stress", "surface_waves", "micro_front", "thermal_volume", "history", "gauge_noise",
+    "rigid_contact",
 )  # fmt: skip
 TIRE_ONLY = {"carcass", "envelopment", "tread_viscoelasticity", "brush", "asperity_impulses"}
+BODY_ONLY = ("rigid_contact",)
+"""Of the rigid body on the ground."""
 SEAT_ONLY = {"general_dissipative", "foam", "foam_hysteresis", "friction"}
 """Of the vehicle's contacts."""
 IN_THE_FIELD = {"envelopment", "tread_viscoelasticity", "brush"}
@@ -27,10 +30,10 @@ OF_THE_IMPACT = (
     "shift", "contact_stress", "surface_waves", "micro_front", "thermal_volume", "history", "gauge_noise",
 )  # fmt: skip
 OF_FOAM = ("foam", "foam_hysteresis")
-OF_VEHICLES = tuple(name for name in EFFECTS if name not in ("shell_modes", *OF_FOAM, *OF_THE_IMPACT))
+OF_VEHICLES = tuple(name for name in EFFECTS if name not in ("shell_modes", *OF_FOAM, *OF_THE_IMPACT, *BODY_ONLY))
 SUBSETS = {
     "tire": [set(chosen) for count in range(len(OF_VEHICLES) + 1) for chosen in combinations(OF_VEHICLES, count)]
-    + [{"normal_elastic", name} for name in ("shell_modes", *OF_FOAM, *OF_THE_IMPACT)],
+    + [{"normal_elastic", name} for name in ("shell_modes", *OF_FOAM, *OF_THE_IMPACT, *BODY_ONLY)],
     "backrest": [set(chosen) for count in range(8) for chosen in combinations(OF_THE_BACK, count)]
     + [{"normal_elastic", name} for name in sorted(ELSEWHERE)],
     "impact": [
@@ -47,7 +50,7 @@ SUBSETS = {
 def allowed(contact, named):
     """Whether these effects may stand together, written out once more."""
     refused = {
-        "tire": {*SEAT_ONLY, "shell_modes", *OF_THE_IMPACT}, "seat": {*TIRE_ONLY, "shell_modes", *OF_THE_IMPACT},
+        "tire": {*SEAT_ONLY, "shell_modes", *OF_THE_IMPACT, *BODY_ONLY}, "seat": {*TIRE_ONLY, "shell_modes", *OF_THE_IMPACT, *BODY_ONLY},
         "backrest": ELSEWHERE, "impact": set(EFFECTS) - {"normal_elastic", "normal_dissipative", *OF_THE_IMPACT},
     }[contact]  # fmt: skip
     if named & {"surface_waves", "history"} and "normal_dissipative" not in named:

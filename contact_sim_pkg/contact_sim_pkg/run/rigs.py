@@ -53,12 +53,17 @@ def _impact_topics(scene: dict[str, Any]) -> list[str]:
     ]
 
 
+def _block_topics(scene: dict[str, Any]) -> list[str]:
+    return [f"block/{name}" for name in ("force", "wrench", "points")]
+
+
 _VEHICLE = RigRun("contact_sim_pkg.run.simulation:Simulation", _vehicle_topics)
 
 RIG_RUNS: dict[RigName, RigRun] = {
     "tire": _VEHICLE,
     "seat": _VEHICLE,
     "car": _VEHICLE,
+    "block": RigRun("contact_sim_pkg.run.block:BlockBodySimulation", _block_topics),
     "backrest": RigRun("contact_sim_pkg.run.backrest:BackrestSimulation", _backrest_topics),
     "impact": RigRun("contact_sim_pkg.run.impact:ImpactSimulation", _impact_topics),
 }

@@ -18,6 +18,12 @@ from contact_sim_pkg.scene.yaml_nodes import MappingNode, Mark, ScalarNode
 
 ORDER = (
     "seat_ride",
+    "block_fall",
+    "block_slope",
+    "block_zeno",
+    "block_painleve",
+    "block_identify",
+    "box_3d_tumble",
     "seat_slap",
     "seat_slip",
     "seat_shock",

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from typing import Literal, NamedTuple, TypeAlias
 
-RigName: TypeAlias = Literal["tire", "seat", "car", "backrest", "impact"]
+RigName: TypeAlias = Literal["tire", "seat", "car", "backrest", "impact", "block"]
 
 
 class RigRule(NamedTuple):
@@ -25,6 +25,7 @@ RIGS: dict[RigName, RigRule] = {
     "car": RigRule(("tire", "seat"), ("travel", "road"), ("slip", "vibration", "tire", "seat")),
     "backrest": RigRule(("backrest",), ("vibration",), ("backrest",)),
     "impact": RigRule(("impact",), (), ("impact",)),
+    "block": RigRule(("block",), (), ("block",)),
 }
 
 CONTACTS: tuple[str, ...] = tuple(dict.fromkeys(name for rule in RIGS.values() for name in rule.contacts))

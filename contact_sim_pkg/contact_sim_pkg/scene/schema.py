@@ -12,6 +12,7 @@ from pydantic import Field, PrivateAttr
 
 from contact_sim_pkg.scene.rigs import RigName
 from contact_sim_pkg.scene.schema_backrest import Backrest
+from contact_sim_pkg.scene.schema_block import Block
 from contact_sim_pkg.scene.schema_effects import Effects
 from contact_sim_pkg.scene.schema_fields import Section, choice, number, text
 from contact_sim_pkg.scene.schema_impact import Impact
@@ -66,7 +67,8 @@ class Scene(Section):
     )
     description: str = text("one line on what the scene shows", default="")
     rig: RigName = choice(
-        "tire on a road, occupant on a seat, both as a car, occupant against a backrest, or sphere that strikes a sample",
+        "tire on a road, occupant on a seat, both as a car, occupant against a backrest, sphere that strikes a sample, "
+        "or rigid body on the ground",
         example="seat",
     )
     duration: float = number(0.0, 3600.0, "s", "simulated time, a whole number of blocks", above=True, example=1.0)
@@ -94,6 +96,7 @@ class Scene(Section):
         "occupant against a seat back (rig backrest); defaults where absent", default=None
     )
     impact: Impact | None = choice("sphere that strikes a sample (rig impact); defaults where absent", default=None)
+    block: Block | None = choice("rigid body over the ground (rig block); defaults where absent", default=None)
     effects: Effects = choice("contact → effect → its parameters", example={"seat": {"normal_elastic": {}}})
     outputs: Outputs = Field(default_factory=Outputs, description="rates of the outputs")
     integrator: Integrator = Field(default_factory=Integrator, description="tolerance of the time integration")

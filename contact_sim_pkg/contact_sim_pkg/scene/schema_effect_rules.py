@@ -42,7 +42,16 @@ EFFECT_RULES: dict[str, EffectRule] = {
     "thermal_volume": EffectRule(("impact",), needs=("normal_elastic",)),
     "history": EffectRule(("impact",), needs=("normal_elastic", "normal_dissipative")),
     "gauge_noise": EffectRule(("impact",), needs=("normal_elastic",)),
+    "rigid_contact": EffectRule(("block",)),
 }
+
+CARRIERS: dict[str, str] = {"block": "rigid_contact"}
+"""The effect that carries the load of a contact, where it is not `normal_elastic`."""
+
+
+def carrier_of(contact: str) -> str:
+    """The effect without which a contact carries no load."""
+    return CARRIERS.get(contact, "normal_elastic")
 
 
 def dependents_of(effect: str) -> set[str]:
@@ -72,9 +81,9 @@ def effect_breaches(scene: Scene) -> Iterator[Breach]:
                 )
             continue
         named = effects_of(scene, contact)
-        if "normal_elastic" not in named:
+        if carrier_of(contact) not in named:
             yield Breach(
-                f"{where}.normal_elastic",
+                f"{where}.{carrier_of(contact)}",
                 f"is missing: the contact {contact} carries no load without it; write {{}}",
                 ("rig",),
             )

@@ -6,6 +6,7 @@ from typing import Annotated, Literal, TypeAlias
 
 from pydantic import Field
 
+from contact_sim_pkg.scene.schema_block import BlockEffects
 from contact_sim_pkg.scene.schema_fields import Section, choice, number, numbers
 from contact_sim_pkg.scene.schema_impact_effects import ImpactEffects
 
@@ -356,6 +357,7 @@ class Effects(Section):
     seat: SeatEffects | None = choice("contact between occupant and cushion", default=None)
     backrest: BackrestEffects | None = choice("contact between back and seat back", default=None)
     impact: ImpactEffects | None = choice("contact between sphere and sample", default=None)
+    block: BlockEffects | None = choice("contact between a rigid body and the ground", default=None)
 
 
 ContactField: TypeAlias = TireField | SeatField

@@ -9,6 +9,7 @@ from contact_sim_pkg.scene.errors import Breach
 from contact_sim_pkg.scene.rigs import CONTACTS, RIGS, refused_sections
 from contact_sim_pkg.scene.schema import Scene
 from contact_sim_pkg.scene.schema_backrest_rules import backrest_breaches
+from contact_sim_pkg.scene.schema_block_rules import block_breaches
 from contact_sim_pkg.scene.schema_catalog import show
 from contact_sim_pkg.scene.schema_clock import clock_breaches
 from contact_sim_pkg.scene.schema_impact_rules import impact_breaches
@@ -27,6 +28,7 @@ def breaches(scene: Scene) -> Iterator[Breach]:
         tire_effect_breaches(scene),
         backrest_breaches(scene),
         impact_breaches(scene),
+        block_breaches(scene),
         _road(scene),
         _vibration(scene),
         _occupant(scene),

@@ -20,7 +20,7 @@ from contact_sim_pkg.run.sources import make_sources
 from contact_sim_pkg.scene.overrides import set_value
 from contact_sim_pkg.scene.resolve import ResolvedScene, read_explicit
 from contact_sim_pkg.scene.rigs import RIGS
-from contact_sim_pkg.scene.schema_effect_rules import EFFECT_RULES
+from contact_sim_pkg.scene.schema_effect_rules import EFFECT_RULES, carrier_of
 from contact_sim_pkg.studies.ablation_rules import Observed, is_needed, observe
 from contact_sim_pkg.studies.scene_drive import load_resolved, without
 from contact_sim_pkg.studies.section import Section
@@ -50,10 +50,10 @@ FEEDS: dict[str, tuple[str, ...]] = {
     "thermal_volume": ("position",),
     "history": ("history",),
     "gauge_noise": ("events",),
+    "rigid_contact": ("force", "wrench", "points"),
 }
 """Topics of the contact that an effect feeds; every effect also feeds `bench/motion` and `bench/energy`."""
 BENCH_TOPICS = ("bench/motion", "bench/energy")
-ALWAYS = "normal_elastic"
 MEASURES = (
     "cost_with", "cost_without", "cost", "cost_noise", "cost_share", "load_mean_change", "load_rms_change",
 )  # fmt: skip
@@ -126,7 +126,7 @@ def _row(
     on = (scene.data["effects"].get(contact) or {}).get(effect) is not None
     topics = [f"{contact}/{name}" for name in FEEDS[effect]] + list(BENCH_TOPICS)
     row: dict[str, Any] = {"contact": contact, "effect": effect, "on": on, "topics": topics}
-    if effect == ALWAYS:
+    if effect == carrier_of(contact):
         why = "without it the contact carries no load"
         return {
             **row,

@@ -51,6 +51,7 @@ from .frames import (
     BACKREST_FRAME,
     BENCH_FRAME,
     IMPACT_FRAME,
+    BLOCK_FRAME,
     SEAT_FRAME,
     TIRE_FRAME,
 )
@@ -81,6 +82,7 @@ __all__ = [
     "BACKREST_FRAME",
     "BENCH_FRAME",
     "IMPACT_FRAME",
+    "BLOCK_FRAME",
     "NO_SAMPLES",
     "SEAT_FRAME",
     "TIRE_FRAME",

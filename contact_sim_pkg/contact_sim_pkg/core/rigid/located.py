@@ -27,6 +27,9 @@ __all__ = ["Impact", "LocatedBody"]
 MOST_IMPACTS = 100_000  # in one interval
 STOP_HALVINGS = 60
 LANDING_STEPS = 30
+MOST_STOPS = (
+    20  # stops of slip that are located in one interval: an edge that pivots may slip back and forth without end
+)
 LARGEST_TURN = 0.02  # [rad] of a piece of free flight in space, where the spin is of order 6
 LARGEST_PLANAR_TURN = 0.2  # [rad] of a piece of free flight in the plane, which is exact: it only has to find the touch
 LARGEST_SUPPORTED_TURN = 0.005  # [rad] of a piece while a point is held: there the position is of second order
@@ -65,8 +68,10 @@ class LocatedBody:
         self.impacts: list[Impact] = []  # of the last interval
         self.events = 0  # located, in all
         self.solves = 0  # of contact problems, in all
+        self._stops = 0  # of slip, in the interval
         self.rested = math.nan  # [s] from the start of the interval: when the last bounce ended
         self.impulse = numpy.zeros(points * body.width)  # [rows] in [N s] over the last interval
+        self.dissipated = 0.0  # [J] by impacts and sliding, in all
         self.residual = 0.0  # largest of the contact solves of the last interval
         held.survey(body, ground, motion, self.work, self.size, self.gravity)
         self.work.flags[:] = numpy.where(self.work.gap <= 1e-9 * self.size, 1, 0)
@@ -75,6 +80,7 @@ class LocatedBody:
         """One interval in [s]; returns a status of `results.py`, whose sentence says what went wrong."""
         self.impacts, self.rested, self.residual = [], math.nan, 0.0
         self.impulse[:] = 0.0
+        self._stops = 0
         time, status = 0.0, SOLVED
         while time < interval and status == SOLVED:
             still, approaches = held.survey(self.body, self.ground, self.motion, self.work, self.size, self.gravity)
@@ -102,6 +108,19 @@ class LocatedBody:
                 self.events += point >= 0
             time = interval if passed >= left else time + passed
         return status
+
+    def warm_up(self) -> None:
+        """Call every compiled step once, so that none is compiled in the middle of a run; the state is spoiled."""
+        body, ground, motion, work = self.body, self.ground, self.motion, self.work
+        held.prepare_impact(body, work, self.rest_speed)
+        impact_impulses(work.problem, work.J, work.W, work.u, work.restitution, self.rule, self._impact, work.impulse)
+        held.finish_impact(body, motion, work, self.rest_speed)
+        held.settle(body, motion, work, self.rest_speed, 1e-9)
+        self._attempt(1e-3, 1e-9)
+        contact_impulses(work.problem, work.J, work.W, self._sweeps, work.impulse)
+        held.landing(body, ground, motion, work, 1e-3, self.size)
+        held.finish_support(body, ground, motion, work, self.size, 1e-9)
+        fly(body, ground, motion, work, 1e-6, self._before, self._after)
 
     def kinetic_energy(self) -> float:
         """In [J]."""
@@ -131,6 +150,7 @@ class LocatedBody:
         modes = tuple(self._mode(before, i) for i in points)
         self.impacts.append(Impact(time, points, work.impulse.copy(), modes, energy - self.kinetic_energy()))
         self.impulse += work.impulse
+        self.dissipated += self.impacts[-1].lost
         self.events += 1
         self.solves += 1
         self.residual = max(self.residual, float(found.residual))
@@ -170,7 +190,8 @@ class LocatedBody:
         """Held contacts over at most ``piece``, ended where a slip stops or a point lands; returns (status, time)."""
         status, part, _stretch = self._attempt(piece, still)
         time = piece
-        if status == SOLVED and part < 1.0:
+        if status == SOLVED and part < 1.0 and self._stops < MOST_STOPS:
+            self._stops += 1
             status, time = self._to_the_stop(piece, still)
             self.events += 1
         for _ in range(LANDING_STEPS):
@@ -182,6 +203,8 @@ class LocatedBody:
             time *= part
             status, _part, _stretch = self._attempt(time, still)
         self.impulse += self.work.impulse
+        means = 0.5 * (self.motion.velocity + self.work.free)
+        self.dissipated -= float(self.work.impulse @ (self.work.J @ means))
         held.finish_support(self.body, self.ground, self.motion, self.work, self.size, still)
         return status, time
 

@@ -96,12 +96,16 @@ class SteppedBody:
         self._impact = make_impact_workspace(points, coordinates, body.width, facets)
         weight = float(numpy.linalg.norm(body.load[: body.width]) / body.mass)
         self.rest_speed = 2.0 * step * weight
-        self.residual = 0.0
+        self.impulse = numpy.zeros(points * body.width)  # [rows] in [N s] over the last call
+        self.dissipated = 0.0  # [J] by contacts, in all
+        self.residual = 0.0  # largest of the last call
         self.impacts = 0
 
     def advance(self, steps: int) -> int:
         """``steps`` steps; returns a status of `results.py`."""
         work = self.work
+        self.impulse[:] = 0.0
+        self.residual = 0.0
         for _ in range(steps):
             found, turn = begin_step(self.body, self.ground, self.motion, work, self.step, self.rest_speed)
             if not turn <= LARGEST_TURN:
@@ -112,8 +116,16 @@ class SteppedBody:
                     return status
             else:
                 work.impulse[:] = 0.0
+            self.impulse += work.impulse
+            self.dissipated -= self._work_of_contacts()
             end_step(self.body, self.motion, work, self.step)
         return SOLVED
+
+    def _work_of_contacts(self) -> float:
+        """In [J], of the impulses on the velocities without them and with them."""
+        work = self.work
+        before = work.J @ work.free
+        return float(work.impulse @ (before + 0.5 * (work.J @ work.W @ work.J.T) @ work.impulse))
 
     def _solve(self, *, bounces: bool) -> int:
         work = self.work

@@ -1,0 +1,171 @@
+"""The simulation of a rigid body over the ground, block by block."""
+
+from __future__ import annotations
+
+import time
+
+import numpy
+from numpy.typing import NDArray
+
+from contact_sim_pkg.core.jit import freeze, thaw
+from contact_sim_pkg.core.parameters import Vector
+from contact_sim_pkg.core.rigid.body import Motion
+from contact_sim_pkg.core.rigid.located import LocatedBody
+from contact_sim_pkg.core.rigid.motion import HELD, STUCK
+from contact_sim_pkg.core.rigid.problem import PLANE
+from contact_sim_pkg.core.rigid.results import SENTENCES, SOLVED
+from contact_sim_pkg.core.rigid.stepping import SteppedBody
+from contact_sim_pkg.run.block_outputs import SLIPS, STICKS, BlockRecord, encode_block
+from contact_sim_pkg.run.block_simulation import BlockResult, InputBlock
+from contact_sim_pkg.run.errors import RunError
+from contact_sim_pkg.scene.build_block import BlockModel, build_block
+from contact_sim_pkg.scene.resolved_scene import ResolvedScene
+
+WARM_UP_IMPACT = 1e-4  # [m] above the ground, from which the warm-up drops the body
+
+
+class BlockBodySimulation:
+    """Owns the state of a run: a ``BlockSimulation`` (run/block_simulation.py). Nothing drives it but gravity and known forces."""
+
+    inputs: tuple[str, ...] = ()
+
+    def __init__(self, scene: ResolvedScene) -> None:
+        """Build the parameters of a resolved scene."""
+        thaw()
+        self.scene = scene
+        self.model = build_block(scene.data)
+        self.blocks = self.model.timing.blocks
+        self._reset()
+
+    def _reset(self) -> None:
+        self.body = _body_of(self.model, _copy(self.model.start))
+        self._next_block = 0
+        self._start = self._kinetic_potential()
+        self._supplied = 0.0
+
+    def prepare(self) -> None:
+        """Compile or load every kernel that the scene needs, by a drop onto all points at once; then close compilation."""
+        model = self.model
+        start = _copy(model.start)
+        for state in (_above(model, start, WARM_UP_IMPACT), _above(model, start, 0.0)):
+            body = _body_of(model, state)
+            state.velocity[:] = 0.0
+            state.velocity[model.body.width - 1] = -0.1
+            for _ in range(3):
+                _advance(body, model, 1e-3)
+        _warm_up_solvers(model)
+        freeze()
+
+    def advance(self, block: int, inputs: dict[str, InputBlock]) -> BlockResult:
+        """Advance block number ``block``; see ``BlockSimulation``."""
+        began = time.perf_counter()
+        if block != self._next_block:
+            raise RunError(f"block {block} came, block {self._next_block} was due")
+        timing = self.model.timing
+        record = BlockRecord.empty(self.model, block)
+        self._ledger(record)
+        interval = timing.block_length / timing.samples
+        events, solves = getattr(self.body, "events", 0), getattr(self.body, "solves", 0)
+        for sample in range(timing.samples):
+            self._sample(record, sample)
+            before = self.body.motion.position.copy(), self._angles()
+            status = _advance(self.body, self.model, interval)
+            if status != SOLVED:
+                at = block * timing.block_length + sample * interval
+                raise RunError(f"block {block}, {at:.6g} s: {SENTENCES[status]}")
+            record.take_impulse(self.model, sample, self.body.impulse / interval, self._states())
+            record.residual = max(record.residual, self.body.residual)
+            self._supplied += self._known_work(*before, interval)
+        self._sample(record, timing.samples)
+        record.events = getattr(self.body, "events", 0) - events
+        record.steps = getattr(self.body, "solves", 0) - solves or timing.samples
+        self._next_block = block + 1
+        messages, load = encode_block(self.model, record, time.perf_counter() - began)
+        return BlockResult(messages, load, 0.0, time.perf_counter() - began)
+
+    def _sample(self, record: BlockRecord, sample: int) -> None:
+        motion = self.body.motion
+        record.position[sample] = motion.position
+        record.angle[sample] = motion.angle[0]
+        record.rotation[sample] = motion.rotation
+        record.velocity[sample] = motion.velocity
+        if sample < len(record.gap):
+            arms = self.model.body.points @ motion.rotation.T
+            record.arms[sample] = arms
+            record.gap[sample] = float(_gaps(self.model, motion).min())
+
+    def _states(self) -> NDArray[numpy.int64]:
+        """Of every point, as `ContactPoints` numbers them: 0 apart, 2 sticks, 3 slips."""
+        pushed = self.body.impulse[:: self.model.body.width] > 0.0
+        sticks = self.body.work.flags == STUCK if isinstance(self.body, LocatedBody) else self._slow()
+        return numpy.where(pushed, numpy.where(sticks, STICKS, SLIPS), 0)
+
+    def _slow(self) -> NDArray[numpy.bool_]:
+        work, width = self.body.work, self.model.body.width
+        velocity = (work.J @ self.body.motion.velocity).reshape(-1, width)
+        scale = max(float(numpy.abs(self.body.motion.velocity).max()), 1e-9)
+        slow: NDArray[numpy.bool_] = (numpy.abs(velocity[:, 1:]).max(axis=1) <= 1e-9 * scale) & (work.flags >= HELD)
+        return slow
+
+    def _angles(self) -> Vector:
+        return self.body.motion.angle.copy()
+
+    def _known_work(self, position: Vector, angle: Vector, interval: float) -> float:
+        """Of the known force and torque over the last interval in [J]."""
+        model, motion = self.model, self.body.motion
+        moved = motion.position - position
+        if model.body.width == PLANE:
+            turned = float(motion.angle[0] - angle[0])
+            return float(model.force[0] * moved[0] + model.force[2] * moved[1] - model.torque[1] * turned)
+        return float(model.force @ moved + interval * model.torque @ motion.velocity[3:])
+
+    def _kinetic_potential(self) -> tuple[float, float]:
+        motion, body = self.body.motion, self.model.body
+        spin = motion.velocity[2:] if body.width == PLANE else motion.rotation.T @ motion.velocity[3:]
+        speed = motion.velocity[: body.width]
+        kinetic = 0.5 * body.mass * float(speed @ speed) + 0.5 * float(body.inertia @ spin**2)
+        return kinetic, body.mass * self.model.gravity * float(motion.position[-1])
+
+    def _ledger(self, record: BlockRecord) -> None:
+        kinetic, potential = self._kinetic_potential()
+        changes = (kinetic - self._start[0], potential - self._start[1])
+        record.energy[:] = (*changes, self.body.dissipated, self._supplied)
+
+
+def _advance(body: LocatedBody | SteppedBody, model: BlockModel, interval: float) -> int:
+    if isinstance(body, LocatedBody):
+        return body.advance(interval)
+    return body.advance(max(1, round(interval / model.step)))
+
+
+def _body_of(model: BlockModel, motion: Motion) -> LocatedBody | SteppedBody:
+    if model.scheme == "located":
+        return LocatedBody(model.body, model.ground, motion, model.rule, model.facets)
+    return SteppedBody(model.body, model.ground, motion, model.step, model.rule, model.facets)
+
+
+def _copy(motion: Motion) -> Motion:
+    return Motion(*(numpy.array(part) for part in motion))
+
+
+def _gaps(model: BlockModel, motion: Motion) -> Vector:
+    ground, corners = model.ground, model.body.points @ motion.rotation.T + motion.position
+    if len(ground.heights):
+        nodes = ground.origin_x + ground.cell * numpy.arange(len(ground.heights))
+        return numpy.asarray(
+            corners[:, -1] - numpy.interp(corners[:, 0], nodes, ground.heights[:, 0]) - model.body.radius
+        )
+    return numpy.asarray(corners @ ground.normal - ground.offset - model.body.radius)
+
+
+def _above(model: BlockModel, motion: Motion, height: float) -> Motion:
+    """The body so that its lowest point is ``height`` [m] over the ground."""
+    state = _copy(motion)
+    state.position[-1] += height - float(_gaps(model, state).min())
+    return state
+
+
+def _warm_up_solvers(model: BlockModel) -> None:
+    """Load the solvers that the drop did not call."""
+    body = LocatedBody(model.body, model.ground, _above(model, model.start, 0.0), model.rule, model.facets)
+    body.warm_up()

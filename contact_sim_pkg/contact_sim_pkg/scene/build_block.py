@@ -1,0 +1,132 @@
+"""Resolved scene of the block rig -> body, ground, start and timing."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import Any
+
+import numpy
+from numpy.typing import NDArray
+
+from contact_sim_pkg.core.parameters import Vector
+from contact_sim_pkg.core.rigid.body import Ground, Motion, RigidBody, height_field, placed, slope
+from contact_sim_pkg.core.rigid.parameters import RULE_NAMES
+from contact_sim_pkg.core.rigid.problem import PLANE, SPACE
+from contact_sim_pkg.scene.hull import homogeneous_hull
+from contact_sim_pkg.scene.lattice import effects_at
+from contact_sim_pkg.scene.timing import Timing, make_timing
+
+__all__ = ["BlockError", "BlockModel", "build_block"]
+
+BELOW = 1e-9  # of the body's size: a start this far below the ground is rounding
+Matrix = NDArray[numpy.float64]
+
+
+class BlockError(ValueError):
+    """A body that cannot start where the scene puts it."""
+
+
+@dataclass(frozen=True)
+class BlockModel:
+    """Everything that the simulation of one block scene needs."""
+
+    body: RigidBody
+    ground: Ground
+    start: Motion
+    axes: Matrix  # [3, 3] principal axes of the body in the axes of the scene
+    timing: Timing
+    rule: int
+    scheme: str
+    step: float  # [s] of the scheme stepping
+    facets: int
+    gravity: float  # [m/s^2]
+    force: Vector  # [3] known, in [N]
+    torque: Vector  # [3] known, in [N m]
+
+
+def build_block(scene: dict[str, Any]) -> BlockModel:
+    """Parameters of a resolved scene. Raises BlockError where the body would start inside the ground."""
+    block, law = scene["block"], effects_at(scene, "block")["rigid_contact"]
+    width = PLANE if block["motion"] == "plane" else SPACE
+    points, radius, inertia, axes = _shape(block, width)
+    mass = float(block["mass"])
+    vectors = {
+        name: numpy.array(block[name], float)
+        for name in ("position", "velocity", "rotation", "angular_velocity", "force", "torque")
+    }
+    weight = numpy.array([0.0, 0.0, -mass * float(block["gravity"])])
+    load = _generalised(vectors["force"] + weight, vectors["torque"], width)
+    body = RigidBody(width, mass, inertia, points, radius, float(law["friction"]), float(law["restitution"]), load)
+    ground = _ground(block["ground"], width)
+    start = _start(body, vectors, axes)
+    _require_above(body, ground, start)
+    return BlockModel(
+        body, ground, start, axes, make_timing(scene, True), RULE_NAMES[law["rule"]], str(law["scheme"]), float(law["step"]),
+        int(law["facets"]), float(block["gravity"]), vectors["force"], vectors["torque"],
+    )  # fmt: skip
+
+
+def _generalised(force: Vector, torque: Vector, width: int) -> Vector:
+    """(v, omega) parts: in the plane x, z and the angle from x to z, which is minus the pitch."""
+    return numpy.array([force[0], force[2], -torque[1]]) if width == PLANE else numpy.concatenate([force, torque])
+
+
+def _shape(block: dict[str, Any], width: int) -> tuple[Matrix, float, Vector, Matrix]:
+    """Points and radius in [m], inertia in [kg m^2], principal axes."""
+    mass, axes = float(block["mass"]), numpy.eye(3)
+    if block["shape"] == "sphere":
+        radius = float(block["radius"])
+        share = 0.4 * mass * radius**2
+        return numpy.zeros((1, width)), radius, numpy.full(1 if width == PLANE else 3, share), axes
+    if block["shape"] == "points":
+        hull = homogeneous_hull(block["points"], mass)
+        return numpy.ascontiguousarray(hull.corners), 0.0, hull.inertia, axes if width == PLANE else hull.axes
+    x, y, z = (float(side) for side in block["sides"])
+    if width == PLANE:
+        corners = 0.5 * numpy.array([[-x, -z], [x, -z], [x, z], [-x, z]])
+        return corners, 0.0, numpy.array([mass * (x * x + z * z) / 12.0]), axes
+    grid = numpy.array(numpy.meshgrid((-0.5, 0.5), (-0.5, 0.5), (-0.5, 0.5), indexing="ij")).reshape(3, -1).T
+    inertia = mass / 12.0 * numpy.array([y * y + z * z, x * x + z * z, x * x + y * y])
+    return numpy.ascontiguousarray(grid * numpy.array([x, y, z])), 0.0, inertia, axes
+
+
+def _ground(ground: dict[str, Any], width: int) -> Ground:
+    if ground.get("heights") is None:
+        return slope(width, float(ground["slope"]))
+    column = numpy.array(ground["heights"], float)[:, None]
+    heights = column if width == PLANE else numpy.repeat(column, 2, axis=1)
+    return height_field(width, heights, float(ground["start"]), -1.0, float(ground["distance"]))
+
+
+def rotation_of(vector: Vector) -> Matrix:
+    """Rotation matrix of a rotation vector in [rad] (Rodrigues)."""
+    angle = float(numpy.linalg.norm(vector))
+    if angle == 0.0:
+        return numpy.eye(3)
+    x, y, z = vector / angle
+    cross = numpy.array([[0.0, -z, y], [z, 0.0, -x], [-y, x, 0.0]])
+    return numpy.asarray(numpy.eye(3) + math.sin(angle) * cross + (1.0 - math.cos(angle)) * cross @ cross)
+
+
+def _start(body: RigidBody, vectors: dict[str, Vector], axes: Matrix) -> Motion:
+    place, velocity, spin = vectors["position"], vectors["velocity"], vectors["angular_velocity"]
+    if body.width == PLANE:
+        rates = numpy.array([velocity[0], velocity[2], -spin[1]])
+        return placed(body, place[[0, 2]], rates, angle=-float(vectors["rotation"][1]))
+    turned = rotation_of(vectors["rotation"]) @ axes
+    return placed(body, place, numpy.concatenate([velocity, spin]), rotation=turned)
+
+
+def _require_above(body: RigidBody, ground: Ground, start: Motion) -> None:
+    corners = body.points @ start.rotation.T + start.position
+    if len(ground.heights):
+        nodes = ground.origin_x + ground.cell * numpy.arange(len(ground.heights))
+        gaps = corners[:, -1] - numpy.interp(corners[:, 0], nodes, ground.heights[:, 0]) - body.radius
+    else:
+        gaps = corners @ ground.normal - ground.offset - body.radius
+    size = float(numpy.linalg.norm(body.points, axis=1).max()) + body.radius
+    if gaps.min() < -BELOW * size:
+        raise BlockError(
+            f"block.position puts the body {-gaps.min():.6g} m into the ground at the start; raise its z by that much"
+        )

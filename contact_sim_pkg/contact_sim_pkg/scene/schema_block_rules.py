@@ -1,0 +1,73 @@
+"""Rules that tie keys of the rigid body together."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+
+from contact_sim_pkg.scene.errors import Breach
+from contact_sim_pkg.scene.schema import Scene
+from contact_sim_pkg.scene.schema_block import Block
+from contact_sim_pkg.scene.schema_catalog import show
+
+FLAT = 1e-9  # volume of a hull over that of its box: below it has none
+
+
+def block_breaches(scene: Scene) -> Iterator[Breach]:
+    """A shape that has no volume, motion out of the plane, a friction cone without middle, a step that does not fit."""
+    if scene.rig != "block":
+        return
+    block = scene.block or Block()
+    yield from _shape(block)
+    if block.motion == "plane":
+        yield from _plane(block)
+    law = None if scene.effects.block is None else scene.effects.block.rigid_contact
+    if law is None:
+        return
+    if law.facets % 2 or law.facets == 2:
+        sentence = f"{law.facets} is odd or too few; take an even number from 4, or 0 for the true cone"
+        yield Breach("effects.block.rigid_contact.facets", sentence)
+    steps = 1.0 / (law.step * scene.outputs.force_rate)
+    if law.scheme == "stepping" and abs(steps - round(steps)) > 1e-9 * steps:
+        sentence = (
+            f"{show(law.step)} s does not fit a sample of the outputs ({show(1.0 / scene.outputs.force_rate)} s) a whole "
+            "number of times"
+        )
+        yield Breach("effects.block.rigid_contact.step", sentence, ("outputs.force_rate",))
+
+
+def _shape(block: Block) -> Iterator[Breach]:
+    if not all(1e-4 <= side <= 100.0 for side in block.sides):
+        yield Breach("block.sides", f"{block.sides} leaves 1e-4 to 100 m")
+    if (block.shape == "points") != (block.points is not None):
+        cure = "give points" if block.points is None else "take shape: points"
+        yield Breach("block.points", f"shape and points go together; {cure}", ("block.shape",))
+    elif block.points is not None:
+        size = 2 if block.motion == "plane" else 3
+        wrong = next((point for point in block.points if len(point) != size), None)
+        if wrong is not None:
+            yield Breach("block.points", f"{wrong} has {len(wrong)} numbers; motion in the {block.motion} needs {size}")
+        elif not _has_volume(block.points):
+            yield Breach("block.points", "the points span no volume; move one out of their line or plane")
+
+
+def _has_volume(points: list[list[float]]) -> bool:
+    from contact_sim_pkg.scene.hull import homogeneous_hull
+
+    try:
+        hull = homogeneous_hull(points, 1.0)
+    except ArithmeticError:
+        return False
+    return bool(math.isfinite(hull.volume) and hull.volume > 0.0)
+
+
+def _plane(block: Block) -> Iterator[Breach]:
+    for name in ("rotation", "angular_velocity", "torque"):
+        x, _y, z = getattr(block, name)
+        if x != 0.0 or z != 0.0:
+            sentence = f"{getattr(block, name)} turns out of the plane x, z; keep its y alone or take motion: space"
+            yield Breach(f"block.{name}", sentence, ("block.motion",))
+    for name in ("position", "velocity", "force"):
+        if getattr(block, name)[1] != 0.0:
+            sentence = f"{getattr(block, name)} leaves the plane x, z; make its y 0 or take motion: space"
+            yield Breach(f"block.{name}", sentence, ("block.motion",))

@@ -1,0 +1,153 @@
+"""Runs of the rig block: what the bag of a scene holds, that it adds up, and what its motion tells."""
+
+import json
+import math
+
+import numpy
+import pytest
+
+from contact_sim_pkg.bag.messages import (
+    decode_contact_force,
+    decode_contact_points,
+    decode_cost,
+    decode_energy,
+    decode_motion,
+    decode_wrench,
+)
+from contact_sim_pkg.cli.main import main
+from contact_sim_pkg.run.offline import run_offline
+from contact_sim_pkg.run.rigs import make_simulation, result_topics
+from contact_sim_pkg.scene.build_block import BlockError, build_block
+
+from .scenes import resolved
+
+GRAVITY = 9.81
+SCENES = ("block_fall", "block_slope", "block_zeno", "block_painleve", "block_identify")
+
+
+def run(name, *values):
+    scene = resolved(name, *values)
+    simulation = make_simulation(scene)
+    simulation.prepare()
+    messages = []
+    for block in range(simulation.blocks):
+        messages += simulation.advance(block, {}).messages
+    return scene, messages
+
+
+def of(messages, topic, decode):
+    return [decode(data) for name, _stamp, data in messages if name == topic]
+
+
+def rows(messages):
+    """Names, positions and velocities [coordinates, samples] of `bench/motion`."""
+    blocks = of(messages, "bench/motion", decode_motion)
+    parts = [numpy.concatenate([getattr(b, name) for b in blocks], axis=1) for name in ("position", "velocity")]
+    return blocks[0].bodies, *parts
+
+
+@pytest.mark.parametrize("name", SCENES)
+def test_a_run_says_what_its_scene_lists_and_loses_no_energy_unnoticed(name):
+    scene, messages = run(name)
+    assert {topic for topic, _stamp, _data in messages} == set(result_topics(scene))
+    ledgers = of(messages, "bench/energy", decode_energy)
+    totals = numpy.array([ledger.kinetic + ledger.potential for ledger in ledgers])
+    size = max(abs(totals).max(), 1e-3)
+    assert numpy.diff(totals).max() <= 1e-6 * size
+    assert max(abs(ledger.residual) for ledger in ledgers) <= 1e-3 * size
+    assert max(cost.field_residual for cost in of(messages, "bench/cost", decode_cost)) <= 1e-9
+
+
+def test_the_ball_rests_at_once_after_the_geometric_series_and_presses_with_its_weight():
+    _scene, messages = run("block_zeno")
+    names, position, velocity = rows(messages)
+    rest = math.ceil(1e3 * math.sqrt(2.0 / GRAVITY) * 9.0)
+    assert names[2] == "block_z"
+    assert not velocity[:, rest:].any()
+    assert position[2, rest:] == pytest.approx(numpy.full(position.shape[1] - rest, 0.05), abs=1e-12)
+    force = numpy.concatenate([block.normal for block in of(messages, "block/force", decode_contact_force)])
+    assert force[rest:] == pytest.approx(numpy.full(len(force) - rest, GRAVITY), rel=1e-9)
+    wrench = of(messages, "block/wrench", decode_wrench)[-1]
+    assert wrench.force == pytest.approx((0.0, 0.0, GRAVITY), abs=1e-9)
+
+
+def test_the_block_climbs_as_far_as_friction_and_weight_let_it_and_then_sticks():
+    _scene, messages = run("block_slope")
+    _names, position, velocity = rows(messages)
+    angle = math.radians(15.0)
+    climbed = 1.0 / (2.0 * GRAVITY * (math.sin(angle) + 0.3 * math.cos(angle)))
+    assert numpy.linalg.norm(position[:2, -1] - position[:2, 0]) == pytest.approx(climbed, rel=1e-9)
+    assert not velocity[:, -1].any()
+    points = of(messages, "block/points", decode_contact_points)
+    assert sorted(points[0].state) == [0, 0, 3, 3]
+    assert sorted(points[-1].state) == [0, 0, 2, 2]
+
+
+def test_the_steps_of_first_order_end_near_the_located_ones():
+    located, stepped = (
+        rows(run("block_slope", f"effects.block.rigid_contact.scheme={s}")[1]) for s in ("located", "stepping")
+    )
+    assert numpy.abs(located[1][:, -1] - stepped[1][:, -1]).max() < 2e-3
+
+
+def test_a_sphere_rolls_over_a_ground_of_heights():
+    heights = [0.0] * 20 + [0.0, 0.01, 0.02, 0.03] + [0.03] * 20
+    _scene, messages = run(
+        "block_zeno", f"block.ground.heights={heights}", "block.ground.start=-1.0", "block.position=[0.0,0,0.1]",
+        "block.velocity=[1.0,0,0]", "effects.block.rigid_contact.restitution=0", "duration=0.5",
+    )  # fmt: skip
+    _names, position, velocity = rows(messages)
+    assert position[2, -1] == pytest.approx(0.08, abs=1e-3)
+    assert 0.0 < velocity[0, -1] < 5.0 / 7.0
+
+
+def test_a_body_that_starts_in_the_ground_is_refused_with_the_depth():
+    with pytest.raises(BlockError, match=r"0\.05 m into the ground at the start; raise its z by that much"):
+        build_block(resolved("block_zeno", "block.position=[0,0,0]").data)
+
+
+def identified(capsys, folder, *values, options=()):
+    outcome = run_offline(resolved("block_identify", *values), folder)
+    assert outcome is not None
+    assert main(["identify", str(folder), "--box", "0.1", "0.1", "0.1", "--json", *options]) == 0
+    facts = json.loads(capsys.readouterr().out)
+    return facts, {row["parameter"]: row for row in facts["parameters"]}
+
+
+def test_the_bag_of_block_identify_tells_inertia_over_mass_and_names_the_mass(capsys, tmp_path):
+    facts, parameters = identified(capsys, tmp_path / "bag")
+    assert parameters["m/J"]["value"] == pytest.approx(6.0 / 0.1**2, rel=1e-9)
+    assert "m" not in parameters
+    assert any(
+        line.startswith("mass is not identifiable without an external force") for line in facts["not_identifiable"]
+    )
+
+
+def test_the_identified_impulses_are_those_that_the_contacts_gave(capsys, tmp_path):
+    facts, _parameters = identified(capsys, tmp_path / "bag")
+    _scene, messages = run("block_identify")
+    force = of(messages, "block/force", decode_contact_force)
+    normal, tangential = (
+        numpy.concatenate([getattr(b, name) for b in force]) * 1e-3 / 1.3 for name in ("normal", "tangential")
+    )
+    hits = numpy.flatnonzero(normal)
+    assert len(hits) == len(facts["contacts"])
+    for contact, sample in zip(facts["contacts"], hits, strict=True):
+        assert contact["normal_impulse_over_mass_m_s"] == pytest.approx(normal[sample], rel=1e-9)
+        assert contact["impulse_over_mass_m_s"][0] == pytest.approx(tangential[sample], rel=1e-9)
+
+
+def test_with_a_known_force_the_mass_is_identified(capsys, tmp_path):
+    _facts, parameters = identified(
+        capsys, tmp_path / "bag", "block.force=[1.3,0,0.7]", options=("--force", "1.3", "0", "0.7")
+    )
+    assert parameters["m"]["value"] == pytest.approx(1.3, rel=1e-9)
+
+
+def test_a_box_that_falls_in_space_tells_its_three_moments_over_mass(capsys, tmp_path):
+    run_offline(resolved("box_3d_tumble", "duration=0.65"), tmp_path / "bag")
+    assert main(["identify", str(tmp_path / "bag"), "--box", "0.2", "0.3", "0.1", "--json"]) == 0
+    found = {row["parameter"]: row for row in json.loads(capsys.readouterr().out)["parameters"]}
+    expected = sorted((0.09 + 0.01, 0.04 + 0.01, 0.04 + 0.09))
+    for name, value in zip(("smallest", "middle", "largest"), expected, strict=True):
+        assert found[f"{name} principal I0/m"]["value"] == pytest.approx(value / 12.0, rel=1e-7)
