@@ -50,7 +50,8 @@ SUBSETS = {
 def allowed(contact, named):
     """Whether these effects may stand together, written out once more."""
     refused = {
-        "tire": {*SEAT_ONLY, "shell_modes", *OF_THE_IMPACT, *BODY_ONLY}, "seat": {*TIRE_ONLY, "shell_modes", *OF_THE_IMPACT, *BODY_ONLY},
+        "tire": {*SEAT_ONLY, "shell_modes", *OF_THE_IMPACT, *BODY_ONLY},
+        "seat": {*TIRE_ONLY, "shell_modes", *OF_THE_IMPACT, *BODY_ONLY},
         "backrest": ELSEWHERE, "impact": set(EFFECTS) - {"normal_elastic", "normal_dissipative", *OF_THE_IMPACT},
     }[contact]  # fmt: skip
     if named & {"surface_waves", "history"} and "normal_dissipative" not in named:

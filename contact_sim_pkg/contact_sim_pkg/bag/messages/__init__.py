@@ -50,8 +50,8 @@ from .excitation import (
 from .frames import (
     BACKREST_FRAME,
     BENCH_FRAME,
-    IMPACT_FRAME,
     BLOCK_FRAME,
+    IMPACT_FRAME,
     SEAT_FRAME,
     TIRE_FRAME,
 )
@@ -81,8 +81,8 @@ from .points import (
 __all__ = [
     "BACKREST_FRAME",
     "BENCH_FRAME",
-    "IMPACT_FRAME",
     "BLOCK_FRAME",
+    "IMPACT_FRAME",
     "NO_SAMPLES",
     "SEAT_FRAME",
     "TIRE_FRAME",
