@@ -18,6 +18,13 @@ EFFECT_NAMES = {
     "general_dissipative": "loss after the general law",
     "friction": "friction with true stick",
     "contact_field": "pressure field",
+    "shift": "time-temperature shift",
+    "contact_stress": "stress over the contact",
+    "surface_waves": "circular surface wave",
+    "micro_front": "front of the micro-impact",
+    "thermal_volume": "position and volumes of the contact",
+    "history": "hereditary indentation",
+    "gauge_noise": "noise of the gauges",
 }
 
 

@@ -19,6 +19,7 @@ from contact_sim_pkg.bag.typestore import store_of_definition
 
 from .episodes import episode_series
 from .field_pass import FieldPass
+from .impact_pass import IMPACT_TYPES, ImpactPass
 from .point_pass import PointPass
 from .road_pass import RoadPass
 from .series import (
@@ -43,7 +44,7 @@ COST = "contact_msgs_defs/msg/SolverCost"
 EPISODES = "contact_msgs_defs/msg/ContactEpisodes"
 POINTS = "contact_msgs_defs/msg/ContactPoints"
 SERIES_TYPES = (FORCE, MOTION, ENERGY, COST, EPISODES)
-READ_TYPES = (*SERIES_TYPES, PATCH, ROAD, SHEAR, POINTS)
+READ_TYPES = (*SERIES_TYPES, PATCH, ROAD, SHEAR, POINTS, *IMPACT_TYPES)
 CONTACT_COLUMNS = ("time", "sample_period", "normal", "tangential", "approach", "effective_height")
 IMPULSES = "impulses"  # absent from older bags
 MOTION_COLUMNS = ("time", "sample_period", "samples", "bodies", "position", "acceleration")
@@ -58,7 +59,7 @@ def read_recording(bag: Bag) -> Recording:
     """
     kinds = {row.type: row.definition for row in bag.topics.values() if row.type in READ_TYPES}
     stores = {kind: store_of_definition(kind, definition) for kind, definition in kinds.items()}
-    decoded, fields, roads, shears, points = _decode(bag, stores)
+    decoded, fields, roads, shears, points, impacts = _decode(bag, stores)
 
     def columns(topic: str, names: tuple[str, ...]) -> dict[str, Any]:
         kind = bag.topics[topic].type
@@ -90,6 +91,7 @@ def read_recording(bag: Bag) -> Recording:
         shear=next((shear.finish() for shear in shears.values()), None),
         episodes=episodes,
         points=next((each.finish() for each in points.values()), None),
+        impacts=impacts.finish(),
     )
 
 
@@ -101,10 +103,11 @@ class Decoded(NamedTuple):
     roads: dict[str, RoadPass]
     shears: dict[str, ShearPass]
     points: dict[str, PointPass]
+    impacts: ImpactPass
 
 
 def _decode(bag: Bag, stores: dict[str, Typestore]) -> Decoded:
-    decoded = Decoded({}, {}, {}, {}, {})
+    decoded = Decoded({}, {}, {}, {}, {}, ImpactPass())
     for message in bag.messages():
         if message.type not in stores:
             continue
@@ -120,6 +123,8 @@ def _decode(bag: Bag, stores: dict[str, Typestore]) -> Decoded:
             decoded.roads.setdefault(message.topic, RoadPass()).take(seconds, value)
         elif message.type == SHEAR:
             decoded.shears.setdefault(message.topic, ShearPass()).take(seconds, value)
+        elif message.type in IMPACT_TYPES:
+            decoded.impacts.take(message.type, value)
         elif message.type == POINTS:
             decoded.points.setdefault(message.topic, PointPass()).take(seconds, value)
         else:

@@ -13,6 +13,7 @@ from .drawing import Picture, style
 from .figures_bench import energy_balance, real_time_factor
 from .figures_contact import footprint_over_time, load_over_approach, load_over_time, pressure_maps
 from .figures_ride import seat_spectrum, seat_transmissibility
+from .impact_section import IMPACT, impact_parts
 from .page import Section, environment
 from .reading import read_recording
 from .ride import ride_signals
@@ -77,6 +78,9 @@ def sections(recording: Recording) -> list[Section]:
     with style():
         found: list[Section] = []
         for number, name in enumerate(recording.contacts):
+            if name == IMPACT:
+                found += [Section(*part) for part in impact_parts(recording)]
+                continue
             if name == BACKREST:
                 found += [Section(*part) for part in backrest_parts(recording)]
                 continue

@@ -10,6 +10,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from .impact_pass import ImpactSeries
 from .point_series import PointSeries
 
 FloatArray = NDArray[np.float64]
@@ -285,3 +286,4 @@ class Recording(NamedTuple):
     shear: ShearSeries | None = None
     episodes: EpisodeSeries | None = None
     points: PointSeries | None = None
+    impacts: ImpactSeries | None = None

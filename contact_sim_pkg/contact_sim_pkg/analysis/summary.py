@@ -11,6 +11,7 @@ from contact_sim_pkg.bag.reader import Bag
 
 from .energy import relative_residual, throughput
 from .episodes import slap_numbers
+from .impact_numbers import impact_numbers
 from .metrics import ride_metrics, seat_factor
 from .reading import read_recording
 from .ride import ride_signals
@@ -26,9 +27,9 @@ def summarise(bag: Bag) -> dict[str, Any]:
 def summarise_recording(recording: Recording) -> dict[str, Any]:
     """Summary numbers, ready for JSON: SI units in the names, None where a number is not defined.
 
-    Sections that the run does not have are absent: `slaps` without contact episodes, `seat_vibration` without a seat, `energy`
-    without a ledger, `solver` without cost messages, the pressure of a contact without a field, ratios to the tire at rest
-    without a tire.
+    Sections that the run does not have are absent: `slaps` without contact episodes, `impacts` without impact events,
+    `seat_vibration` without a seat, `energy` without a ledger, `solver` without cost messages, the pressure of a contact without a
+    field, ratios to the tire at rest without a tire.
     """
     summary: dict[str, Any] = {
         "scene": recording.scene.get("name"),
@@ -45,6 +46,8 @@ def summarise_recording(recording: Recording) -> dict[str, Any]:
     }
     if recording.episodes is not None:
         summary["slaps"] = slap_numbers(recording.episodes)
+    if recording.impacts is not None:
+        summary["impacts"] = impact_numbers(recording.impacts)
     vibration = vibration_numbers(recording)
     if vibration is not None:
         summary["seat_vibration"] = vibration

@@ -24,6 +24,7 @@ def tiles(summary: dict[str, Any]) -> list[Tile]:
     for name, contact in summary["contacts"].items():
         found += _contact_tiles(name, contact)
     found += _slap_tiles(summary.get("slaps", {}))
+    found += _impact_tiles(summary.get("impacts", {}))
     found += _ride_tiles(summary.get("seat_vibration", {}))
     energy = summary.get("energy", {})
     if energy.get("residual_relative") is not None:
@@ -67,6 +68,18 @@ def _slap_tiles(slaps: dict[str, Any]) -> list[Tile]:
         return [Tile("slaps", "0", "", "no slap ended within the run")]
     span = f"restitution {number(slaps['restitution_min'])} to {number(slaps['restitution_max'])}"
     return [Tile("slaps", str(slaps["count"]), "", span)]
+
+
+def _impact_tiles(impacts: dict[str, Any]) -> list[Tile]:
+    if not impacts:
+        return []
+    span = f"restitution {number(impacts['restitution_min'])} to {number(impacts['restitution_max'])}"
+    found = [Tile("impacts", str(impacts["count"]), "", span)]
+    largest = f"depth {number(impacts['depth_max_m'] * 1e3)} mm"
+    found.append(Tile("largest force of an impact", number(impacts["peak_force_max_N"]), "N", largest))
+    longest = f"shortest {number(impacts['duration_min_s'] * 1e3)} ms"
+    found.append(Tile("longest contact", number(impacts["duration_max_s"] * 1e3), "ms", longest))
+    return found
 
 
 def _ride_tiles(vibration: dict[str, Any]) -> list[Tile]:

@@ -103,6 +103,8 @@ def print_outcome(facts: dict[str, Any], outcome: Outcome) -> None:
         click.echo(f"  {contact}: {_contact_line(numbers)}")
     if "slaps" in summary:
         click.echo(f"  {_slap_line(summary['slaps'])}")
+    if "impacts" in summary:
+        click.echo(f"  {_impact_line(summary['impacts'])}")
     if "messages" in summary:
         click.echo(f"  {sum(summary['messages'].values())} messages on {len(summary['messages'])} topics")
     if facts["bag"] is not None:
@@ -113,6 +115,14 @@ def _slap_line(slaps: dict[str, Any]) -> str:
     if not slaps["count"]:
         return "no slaps"
     return f"{slaps['count']} slaps, restitution {slaps['restitution_min']:.3f} to {slaps['restitution_max']:.3f}"
+
+
+def _impact_line(impacts: dict[str, Any]) -> str:
+    low, high = impacts["restitution_min"], impacts["restitution_max"]
+    return (
+        f"{impacts['count']} impacts, restitution {low:.3f} to {high:.3f}, {1e3 * impacts['duration_min_s']:.4g} to "
+        f"{1e3 * impacts['duration_max_s']:.4g} ms; largest force {impacts['peak_force_max_N']:.5g} N"
+    )
 
 
 def _contact_line(numbers: dict[str, Any]) -> str:

@@ -68,7 +68,7 @@ class SurfaceWaves(Section):
     """Ring and circular wave around each impact, as `impact/wave`."""
 
     spread: Literal["none", "cylindrical"] = choice("how its amplitude falls with the radius", default="none")
-    lengths: float = number(0.5, 1000.0, "", "wave lengths around the contact that are recorded", default=8.0)
+    lengths: float = number(0.5, 1000.0, "", "wave lengths around the contact that are recorded", default=3.0)
     times: float = number(1.0, 1000.0, "", "contact times that are recorded", default=6.0)
     places: int = number(3, 4001, "", "radii", default=161)
     instants: int = number(3, 4001, "", "instants of each impact", default=121)

@@ -29,6 +29,9 @@ __all__ = ["FEEDS", "sections", "study"]
 
 DURATION = 1.0  # [s] simulated a run
 PAIRS = 3
+PAIRS_OF_BURSTS = (
+    15  # of a rig without excitation, whose work falls into the few blocks with an impact, and whose runs are short
+)
 FEEDS: dict[str, tuple[str, ...]] = {
     "normal_elastic": ("force", "wrench"),
     "normal_dissipative": ("force", "wrench", "patch"),
@@ -203,6 +206,19 @@ def _prepared(scene: ResolvedScene) -> BlockSimulation:
 
 def run_once(scene: ResolvedScene, duration: float) -> Run:
     """One run of `duration` [s] without bag; the cost is that of the simulation alone."""
+    walls, messages, inputs = _walls(scene, duration)
+    cost = float(numpy.median(walls))
+    if not inputs[0]:
+        again = [_walls(scene, duration)[0] for _ in range(RUNS_OF_BURSTS - 1)]
+        cost = float(numpy.min([walls, *again], axis=0).mean())
+    observed = observe(messages, inputs)
+    return Run(1e3 * cost / float(scene.data["block_length"]), observed.forces, observed)
+
+
+def _walls(
+    scene: ResolvedScene, duration: float
+) -> tuple[list[float], list[tuple[str, int, bytes]], list[dict[str, Any]]]:
+    """Wall time of each block [s], all messages, all inputs."""
     sources, simulation = make_sources(scene), _prepared(scene)
     length = float(scene.data["block_length"])
     walls, messages, inputs = [], [], []
@@ -212,5 +228,4 @@ def run_once(scene: ResolvedScene, duration: float) -> Run:
         walls.append(result.wall_time)
         messages += result.messages
         inputs.append(given)
-    observed = observe(messages, inputs)
-    return Run(1e3 * float(numpy.median(walls)) / length, observed.forces, observed)
+    return walls, messages, inputs

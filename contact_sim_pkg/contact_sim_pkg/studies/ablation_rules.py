@@ -6,7 +6,8 @@
 * carcass: content above 30 Hz at the axle;
 * envelopment: as the pressure field, for obstacles shorter than the footprint bend the belt;
 * friction of a back on its seat back: the scene asks for sliding;
-* brush: the scene asks for slip.
+* brush: the scene asks for slip;
+* impact of a sphere: loss, for the contact opens; shift, where the sample's temperature changes.
 """
 
 from __future__ import annotations
@@ -59,6 +60,8 @@ def is_needed(effect: str, contact: str, scene: ResolvedScene, observed: Observe
         return _friction(scene, observed, contact)
     if effect == "shell_modes":
         return None, "whether the back bends is a choice of the model"
+    if contact == "impact":
+        return _of_impact(effect, scene)
     if effect in RULES_OF_TIRE:
         return RULES_OF_TIRE[effect](scene, observed)
     if effect in ("normal_dissipative", "general_dissipative") and observed.opens[contact]:
@@ -110,6 +113,19 @@ def _friction(scene: ResolvedScene, observed: Observed, contact: str) -> tuple[b
 def _friction_of_back(scene: ResolvedScene) -> tuple[bool | None, str]:
     slides = float(scene.data["backrest"]["sliding"]["amplitude"])
     return slides > 0.0, f"the back slides {slides:g} m along the seat back"
+
+
+def _of_impact(effect: str, scene: ResolvedScene) -> tuple[bool | None, str]:
+    if effect == "normal_dissipative":
+        return True, "the contact opens: an impact needs a loss to have a restitution"
+    if effect == "shift":
+        temperatures = scene.data["impact"]["temperatures"]
+        return min(temperatures) < max(
+            temperatures
+        ), f"the sample is {min(temperatures):g} to {max(temperatures):g} K warm"
+    if effect == "gauge_noise":
+        return None, "whether the gauges are noisy is a choice of the scene"
+    return None, "says more of the same impact, and changes no force"
 
 
 def _carcass(scene: ResolvedScene, observed: Observed) -> tuple[bool | None, str]:

@@ -67,6 +67,8 @@ from .impact import (
     decode_impact_events,
     encode_impact,
     encode_impact_events,
+    events_of_message,
+    impact_of_message,
 )
 from .points import (
     WHOLE_CONTACT,
@@ -138,5 +140,7 @@ __all__ = [
     "encode_scene",
     "encode_vibration",
     "encode_wrench",
+    "events_of_message",
+    "impact_of_message",
     "stamp_of",
 ]

@@ -147,7 +147,11 @@ def encode_impact_events(value: ImpactEvents, stamp_ns: int, frame_id: str = IMP
 
 def decode_impact_events(data: bytes) -> ImpactEvents:
     """The impacts that ended in a block."""
-    message = deserialize(_name(ImpactEvents), data)
+    return events_of_message(deserialize(_name(ImpactEvents), data))
+
+
+def events_of_message(message: Any) -> ImpactEvents:
+    """The same from a message that was read by the definition of its bag."""
     arrays = {name: numpy.array(getattr(message, name)) for name in ImpactEvents._fields[1:]}
     equal_lengths(_name(ImpactEvents), **arrays)
     return ImpactEvents(message.block, *arrays.values())
@@ -170,7 +174,11 @@ def encode_impact(value: Message, stamp_ns: int, frame_id: str = IMPACT_FRAME) -
 
 def decode_impact(kind: type[Message], data: bytes) -> Message:
     """What is said of one impact, of the given kind."""
-    message = deserialize(_name(kind), data)
+    return impact_of_message(kind, deserialize(_name(kind), data))
+
+
+def impact_of_message(kind: type[Message], message: Any) -> Message:
+    """The same from a message that was read by the definition of its bag."""
     found: list[Any] = []
     for name in kind._fields:
         field = getattr(message, name)

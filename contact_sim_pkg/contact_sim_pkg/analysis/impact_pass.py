@@ -1,0 +1,75 @@
+"""Messages of the impact rig, taken in one by one: all events, the courses of the first impacts, and the first of each effect."""
+
+from __future__ import annotations
+
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from contact_sim_pkg.bag.messages import (
+    ImpactCourse,
+    ImpactEvents,
+    ImpactFront,
+    ImpactHistory,
+    ImpactPosition,
+    ImpactStress,
+    ImpactWave,
+    events_of_message,
+    impact_of_message,
+)
+
+EVENTS = "contact_msgs_defs/msg/ImpactEvents"
+_KINDS: dict[str, type] = {
+    f"contact_msgs_defs/msg/{kind.__name__}": kind
+    for kind in (ImpactCourse, ImpactStress, ImpactWave, ImpactFront, ImpactPosition, ImpactHistory)
+}
+IMPACT_TYPES = (EVENTS, *_KINDS)
+MOST_COURSES = 12
+"""Impacts whose course is kept for the pictures."""
+
+
+class ImpactSeries(NamedTuple):
+    """The impacts of a run; what the scene does not record is None or empty."""
+
+    events: ImpactEvents
+    """of all blocks, in the order in which the impacts ended"""
+    courses: list[ImpactCourse]
+    """of the first impacts"""
+    stress: ImpactStress | None
+    wave: ImpactWave | None
+    front: ImpactFront | None
+    position: ImpactPosition | None
+    history: ImpactHistory | None
+    """of the first impact each"""
+
+
+class ImpactPass:
+    """Takes messages in the order of the bag."""
+
+    def __init__(self) -> None:
+        """Nothing taken."""
+        self._events: list[ImpactEvents] = []
+        self._courses: list[ImpactCourse] = []
+        self._first: dict[type, Any] = {}
+
+    def take(self, type_name: str, message: Any) -> None:
+        """Take a message of one of `IMPACT_TYPES`. Raises MessageError where its arrays do not fit."""
+        if type_name == EVENTS:
+            self._events.append(events_of_message(message))
+            return
+        kind: Any = _KINDS[type_name]
+        if kind is ImpactCourse:
+            if len(self._courses) < MOST_COURSES:
+                self._courses.append(impact_of_message(kind, message))
+        elif kind not in self._first:
+            self._first[kind] = impact_of_message(kind, message)
+
+    def finish(self) -> ImpactSeries | None:
+        """What was taken; None where no impact ended."""
+        if not self._events:
+            return None
+        columns = [np.concatenate(rows) for rows in zip(*(each[1:] for each in self._events), strict=True)]
+        rest = (
+            self._first.get(kind) for kind in (ImpactStress, ImpactWave, ImpactFront, ImpactPosition, ImpactHistory)
+        )
+        return ImpactSeries(ImpactEvents(0, *columns), self._courses, *rest)
