@@ -29,9 +29,8 @@ __all__ = ["FEEDS", "sections", "study"]
 
 DURATION = 1.0  # [s] simulated a run
 PAIRS = 3
-PAIRS_OF_BURSTS = (
-    15  # of a rig without excitation, whose work falls into the few blocks with an impact, and whose runs are short
-)
+RUNS_OF_BURSTS = 5
+"""Runs of a rig without excitation: its work falls into the few blocks with an impact, so each block's least time counts."""
 FEEDS: dict[str, tuple[str, ...]] = {
     "normal_elastic": ("force", "wrench"),
     "normal_dissipative": ("force", "wrench", "patch"),
