@@ -244,3 +244,10 @@ def test_a_bounce_outside_the_table_ends_the_run_with_its_impact_named():
 
     with pytest.raises(RunError, match=r"impact 1 at .* of the table of the shift"):
         whole_run()
+
+
+@pytest.mark.parametrize("loss_tangent", [0.0, 3.0, 100.0])
+def test_a_sample_without_loss_and_one_that_never_lets_go_run(loss_tangent):
+    _scene, messages = run("impact_rubber_drop", f"impact.sample.loss_tangent={loss_tangent}", "duration=0.5")
+    ledger = of(messages, "bench/energy", decode_energy)
+    assert max(abs(each.residual) for each in ledger) < 1e-12 * 0.04

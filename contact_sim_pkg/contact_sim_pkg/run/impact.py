@@ -2,21 +2,21 @@
 
 from __future__ import annotations
 
-import math
 import time
 
 import numpy
 
+from contact_sim_pkg.core.impact.contact import sample, touch
+from contact_sim_pkg.core.impact.creep import maxwell
+from contact_sim_pkg.core.impact.hereditary import hereditary_integral
 from contact_sim_pkg.core.jit import freeze, thaw
 from contact_sim_pkg.core.parameters import Vector
 from contact_sim_pkg.run.block_simulation import BlockResult, InputBlock
 from contact_sim_pkg.run.errors import RunError
 from contact_sim_pkg.run.impact_motion import Ended, ImpactMotion
-from contact_sim_pkg.run.impact_outputs import encode_block, encode_impact_messages
+from contact_sim_pkg.run.impact_outputs import encode_block
 from contact_sim_pkg.scene.build_impact import build_impact
 from contact_sim_pkg.scene.resolved_scene import ResolvedScene
-
-PIECES_AHEAD = 4  # flight, contact, its end: enough to have met every kernel
 
 
 class ImpactSimulation:
@@ -37,14 +37,11 @@ class ImpactSimulation:
         self._next_block = 0
 
     def prepare(self) -> None:
-        """Compile or load the kernels of a contact and its effects, by the first impact; then close compilation."""
-        for _ in range(PIECES_AHEAD):
-            end = self.motion.pieces[-1].end
-            if not math.isfinite(end):
-                break
-            for impact in self.motion.take_ended(end):
-                encode_impact_messages(self.model, 0, 0, impact)
-                break
+        """Compile or load the kernels of a contact and its effects; then close compilation."""
+        release, few = self.motion.release, numpy.linspace(0.0, 1.0e-9, 3, dtype=numpy.float64)
+        first = touch(self.model.touch(release.speed, release.temperature).law, release.speed)
+        sample(first, few)
+        hereditary_integral(maxwell(1.0, 1.0), few, few)
         self._reset()
         freeze()
 
