@@ -21,6 +21,7 @@ from contact_sim_pkg.studies import (
     ladder_identification,
     ladder_impact,
     ladder_impact_material,
+    ladder_impact_memory,
     ladder_modes,
     ladder_periodic,
     ladder_restitution,
@@ -70,6 +71,8 @@ RIGS: dict[str, tuple[Ladder, ...]] = {
         Ladder(ladder_impact.PART, ladder_impact.rows),
         Ladder(ladder_impact_material.PART, ladder_impact_material.rows),
         Ladder(ladder_impact_material.FRONT_PART, ladder_impact_material.front_rows),
+        Ladder(ladder_impact_memory.HISTORY_PART, ladder_impact_memory.history_rows),
+        Ladder(ladder_impact_memory.RESPONSE_PART, ladder_impact_memory.response_rows),
     ),
 }
 """Rig -> its ladders. A further rig is one more entry."""
