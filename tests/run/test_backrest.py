@@ -13,6 +13,7 @@ from contact_sim_pkg.bag.messages import (
 from contact_sim_pkg.run.errors import RunError
 from contact_sim_pkg.run.rigs import make_simulation, result_topics
 from contact_sim_pkg.run.sources import make_sources
+from contact_sim_pkg.scene.errors import SceneError
 
 from .scenes import resolved
 
@@ -96,3 +97,42 @@ def test_a_block_without_its_vibration_is_refused():
     simulation = make_simulation(resolved("seat_slap", "duration=0.1"))
     with pytest.raises(RunError, match="platform/vibration: block 0 with 11 samples was due, none came"):
         simulation.advance(0, {})
+
+
+def test_a_back_that_does_not_lean_is_struck_with_its_whole_mass():
+    """Without preload the momentum of the force over the closing phase is mass times the speed of the seat back."""
+    values = (
+        "vibration={kind: half_sine, axis: x, amplitude: 60, duration: 0.03, start: 0}",
+        "duration=0.5",
+        "accuracy=1e-6",
+    )
+    _scene, messages = run("seat_shock", "backrest.preload=0", "backrest.mass=20", *values, "outputs.force_rate=10000")
+    force = numpy.concatenate([block.normal for block in of(messages, "backrest/force", decode_contact_force)])
+    speed = 60.0 * 0.03 * 2.0 / numpy.pi
+    momentum = force.sum() / 10_000.0
+    assert 20.0 * speed < momentum < 2.0 * 20.0 * speed, "the mass ends between the seat back's speed and twice that"
+    (episodes,) = of(messages, "bench/episodes", decode_episodes)
+    assert len(episodes.restitution) == 1
+
+
+SEARCHED = ("effects.backrest.shell_modes={}", "effects.backrest.contact_search={}", "backrest.preload=20")
+
+
+def test_the_map_of_a_moving_point_carries_its_force_and_the_point_lies_on_the_back():
+    _scene, messages = run("seat_slap", *SEARCHED, "duration=0.5")
+    forces = numpy.concatenate([block.normal for block in of(messages, "backrest/force", decode_contact_force)])
+    patches = of(messages, "backrest/patch", decode_contact_patch)
+    assert (forces == 0.0).any()
+    for patch, force in zip(patches, forces[::10], strict=True):
+        carried = patch.pressure.astype(float).sum() * patch.cell_x * patch.cell_y
+        assert carried == pytest.approx(force, rel=1e-6, abs=1e-9)
+        assert patch.pressure.min() >= 0.0
+    points = of(messages, "backrest/points", decode_contact_points)
+    assert all(len(each.x) == 1 for each in points)
+    assert max(abs(each.x[0]) for each in points) <= 0.25
+    assert max(abs(each.y[0]) for each in points) <= 0.20
+
+
+def test_a_moving_point_is_refused_where_the_back_has_many_bumps():
+    with pytest.raises(SceneError, match="several bumps"):
+        resolved("seat_slap", *SEARCHED, "effects.backrest.shell_modes.modes=25")

@@ -10,7 +10,8 @@ from contact_sim_pkg.scene.load import ORDER, find_scene, list_scenes, load_scen
 def test_the_shipped_scenes_are_listed_smallest_first():
     entries = list_scenes()
     assert [entry.name for entry in entries] == list(ORDER) == shipped_names()
-    rigs = ["seat", *["block"] * 6, *["backrest"] * 3, *["impact"] * 4, *["tire"] * 6, "car"]
+    backs = [*["backrest"] * 4, "seat", "occupant"]
+    rigs = ["seat", *["block"] * 6, *backs, *["impact"] * 4, *["tire"] * 6, "car"]
     assert [entry.rig for entry in entries] == rigs
     assert all(entry.description and entry.path.is_file() for entry in entries)
 

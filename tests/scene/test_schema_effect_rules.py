@@ -9,7 +9,7 @@ from contact_sim_pkg.scene.schema_effect_rules import EFFECT_RULES, EffectRule
 
 EFFECTS = (
     "normal_elastic", "normal_dissipative", "general_dissipative", "foam", "foam_hysteresis", "friction", "contact_field",
-    "shell_modes", "carcass",
+    "pressure_mat", "shell_modes", "contact_search", "carcass",
     "envelopment",
     "tread_viscoelasticity", "brush", "asperity_impulses",
     "shift", "contact_stress", "surface_waves", "micro_front", "thermal_volume", "history", "gauge_noise",
@@ -18,23 +18,25 @@ EFFECTS = (
 TIRE_ONLY = {"carcass", "envelopment", "tread_viscoelasticity", "brush", "asperity_impulses"}
 BODY_ONLY = ("rigid_contact",)
 """Of the rigid body on the ground."""
-SEAT_ONLY = {"general_dissipative", "foam", "foam_hysteresis", "friction"}
+SEAT_ONLY = {"general_dissipative", "foam", "foam_hysteresis", "friction", "pressure_mat"}
 """Of the vehicle's contacts."""
 IN_THE_FIELD = {"envelopment", "tread_viscoelasticity", "brush"}
 """What acts cell by cell, and so needs the pressure field."""
 OF_THE_BACK = (
     "normal_elastic", "normal_dissipative", "general_dissipative", "foam", "foam_hysteresis", "friction", "shell_modes",
+    "contact_search",
 )  # fmt: skip
 ELSEWHERE = set(EFFECTS) - set(OF_THE_BACK)
 OF_THE_IMPACT = (
     "shift", "contact_stress", "surface_waves", "micro_front", "thermal_volume", "history", "gauge_noise",
 )  # fmt: skip
-OF_FOAM = ("foam", "foam_hysteresis")
-OF_VEHICLES = tuple(name for name in EFFECTS if name not in ("shell_modes", *OF_FOAM, *OF_THE_IMPACT, *BODY_ONLY))
+OF_FOAM = ("foam", "foam_hysteresis", "pressure_mat")
+SHELL = ("shell_modes", "contact_search")
+OF_VEHICLES = tuple(name for name in EFFECTS if name not in (*SHELL, *OF_FOAM, *OF_THE_IMPACT, *BODY_ONLY))
 SUBSETS = {
     "tire": [set(chosen) for count in range(len(OF_VEHICLES) + 1) for chosen in combinations(OF_VEHICLES, count)]
-    + [{"normal_elastic", name} for name in ("shell_modes", *OF_FOAM, *OF_THE_IMPACT, *BODY_ONLY)],
-    "backrest": [set(chosen) for count in range(8) for chosen in combinations(OF_THE_BACK, count)]
+    + [{"normal_elastic", name} for name in (*SHELL, *OF_FOAM, *OF_THE_IMPACT, *BODY_ONLY)],
+    "backrest": [set(chosen) for count in range(9) for chosen in combinations(OF_THE_BACK, count)]
     + [{"normal_elastic", name} for name in sorted(ELSEWHERE)],
     "impact": [
         set(chosen)
@@ -42,7 +44,7 @@ SUBSETS = {
         for chosen in combinations(("normal_elastic", "normal_dissipative", *OF_THE_IMPACT), count)
     ]
     + [{"normal_elastic", "friction"}, {"normal_elastic", "contact_field"}],
-    "seat": [set(chosen) for count in range(8) for chosen in combinations(EFFECTS[:7], count)]
+    "seat": [set(chosen) for count in range(9) for chosen in combinations(EFFECTS[:8], count)]
     + [{"normal_elastic", "contact_field", name} for name in sorted(TIRE_ONLY)],
 }
 
@@ -50,17 +52,19 @@ SUBSETS = {
 def allowed(contact, named):
     """Whether these effects may stand together, written out once more."""
     refused = {
-        "tire": {*SEAT_ONLY, "shell_modes", *OF_THE_IMPACT, *BODY_ONLY},
-        "seat": {*TIRE_ONLY, "shell_modes", *OF_THE_IMPACT, *BODY_ONLY},
+        "tire": {*SEAT_ONLY, *SHELL, *OF_THE_IMPACT, *BODY_ONLY},
+        "seat": {*TIRE_ONLY, *SHELL, *OF_THE_IMPACT, *BODY_ONLY},
         "backrest": ELSEWHERE, "impact": set(EFFECTS) - {"normal_elastic", "normal_dissipative", *OF_THE_IMPACT},
     }[contact]  # fmt: skip
     if named & {"surface_waves", "history"} and "normal_dissipative" not in named:
         return False
     if "normal_elastic" not in named or named & refused:
         return False
+    if "contact_search" in named and "shell_modes" not in named:
+        return False
     if named >= {"normal_dissipative", "general_dissipative"}:
         return False
-    if "contact_field" in named and named & {"foam", "foam_hysteresis"}:
+    if "contact_field" in named and named & {"foam", "foam_hysteresis", "pressure_mat"}:
         return False
     return "contact_field" in named or not named & IN_THE_FIELD
 

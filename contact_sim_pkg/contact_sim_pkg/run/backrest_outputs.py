@@ -29,13 +29,11 @@ from contact_sim_pkg.bag.messages import (
     encode_wrench,
 )
 from contact_sim_pkg.bag.topics import TOPICS
-from contact_sim_pkg.core.effects.elastic_law import elastic_order
 from contact_sim_pkg.core.effects.pressure_mat import spread_force
-from contact_sim_pkg.core.lame import fit_patch
-from contact_sim_pkg.core.patch import summarise
 from contact_sim_pkg.core.rigs import backrest_entries as columns
 from contact_sim_pkg.core.rigs import backrest_parameters as episode
 from contact_sim_pkg.core.rigs.backrest_parameters import BackrestMode
+from contact_sim_pkg.run.mat_field import mat_field
 from contact_sim_pkg.scene.build_backrest import BackrestModel
 
 Array = NDArray[numpy.float64]
@@ -140,27 +138,24 @@ class _Encoder:
         if mat.by_points:
             normal = self.record.points[sample, :, columns.POINT_NORMAL]
             return numpy.ascontiguousarray(normal.reshape(mat.gap.shape)) / (mat.cell_x * mat.cell_y)
-        force, approach = self.record.forces[sample, [columns.NORMAL, columns.APPROACH]]
-        exponent = elastic_order(model.rig.contact.elastic)
-        return spread_force(float(force), float(approach), exponent, mat.gap, mat.cell_x * mat.cell_y)
+        force, approach = (float(self.record.forces[sample, k]) for k in (columns.NORMAL, columns.APPROACH))
+        gap = mat.gap
+        if mat.bent is not None:  # the approach is that of the nearest point: over it the gap is none
+            gap = gap - (mat.bent @ self.record.states[sample, : len(model.rig.mass)]).reshape(gap.shape) + approach
+        return spread_force(force, approach, model.rig.contact.elastic, gap, mat.cell_x * mat.cell_y)
 
     def _patch(self, sample: int) -> PatchField:
         mat, pressure = self.model.mat, self._pressure(sample)
         grid = (mat.cell_x, mat.cell_y, float(mat.x[0]), float(mat.y[0]))
-        total, shape = summarise(pressure, *grid), fit_patch(pressure, *grid)
-        self.peak = max(self.peak, total.peak)
-        touching = total.load > 0.0
-        return PatchField(
-            self.record.block, *grid, total.load, total.peak, total.mean, total.area,
-            total.centre_x if touching else 0.0, total.centre_y if touching else 0.0,
-            float(self.record.forces[sample, columns.APPROACH]), shape.a, shape.b, shape.exponent,
-            pressure.astype(numpy.float32),
-        )  # fmt: skip
+        found = mat_field(self.record.block, grid, float(self.record.forces[sample, columns.APPROACH]), pressure)
+        self.peak = max(self.peak, found.peak)
+        return found
 
     def _points(self, sample: int) -> PointField:
         rows = self.record.points[sample]
         return PointField(
-            self.record.block, self.model.point_x, self.model.point_y, rows[:, columns.POINT_APPROACH],
+            self.record.block, self.model.point_x + rows[:, columns.POINT_UP],
+            self.model.point_y + rows[:, columns.POINT_ACROSS], rows[:, columns.POINT_APPROACH],
             rows[:, columns.POINT_NORMAL], rows[:, columns.POINT_TANGENTIAL], rows[:, columns.POINT_DISPLACEMENT],
             rows[:, columns.POINT_STATE].astype(numpy.uint8),
         )  # fmt: skip

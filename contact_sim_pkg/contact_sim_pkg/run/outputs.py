@@ -29,12 +29,16 @@ from contact_sim_pkg.bag.messages import (
 )
 from contact_sim_pkg.bag.topics import TOPICS
 from contact_sim_pkg.core.effects.normal_force import pressure_factor
+from contact_sim_pkg.core.effects.pressure_mat import spread_force
 from contact_sim_pkg.core.lame import fit_patch
+from contact_sim_pkg.core.parameters import ElasticLaw
 from contact_sim_pkg.core.patch import summarise
 from contact_sim_pkg.core.rigs import advance as columns
+from contact_sim_pkg.run.mat_field import mat_field
 from contact_sim_pkg.run.rolling_shear import RollingShear
 from contact_sim_pkg.scene.build import Model
 from contact_sim_pkg.scene.build_contact import FieldGrids
+from contact_sim_pkg.scene.build_mat import PanMat
 
 Array = NDArray[numpy.float64]
 NANOSECONDS = 1_000_000_000
@@ -152,6 +156,20 @@ class _Encoder:
             friction = numpy.zeros((len(force), 3))
             friction[:, 0] = force[:, columns.SEAT_TANGENTIAL]
             self._contact("seat", SEAT_FRAME, friction, force[:, chosen], NO_SAMPLES)
+            if self.model.seat_mat is not None:
+                self._mat(self.model.seat_mat, rig.seat_contact.elastic)
+
+    def _mat(self, mat: PanMat, elastic: ElasticLaw) -> None:
+        """Pressure maps of the seat's point contact."""
+        for i in range(mat.fields):
+            sample = i * self.model.timing.samples // mat.fields
+            force, approach = (
+                float(self.record.forces[sample, k]) for k in (columns.SEAT_NORMAL, columns.SEAT_APPROACH)
+            )
+            pressure = spread_force(force, approach, elastic, mat.gap, mat.cell_x * mat.cell_y)
+            found = mat_field(self.record.block, mat[:4], approach, pressure)
+            self.peak, stamp = max(self.peak, found.peak), self._stamp_of(sample)
+            self.messages.append(("seat/patch", stamp, encode_contact_patch(found, stamp, SEAT_FRAME)))
 
     def _contact(self, name: str, frame: str, friction: Array, samples: Array, impulses: Array) -> None:
         """Force and wrenches of a contact; ``samples``: normal force [N], approach and height [m]."""

@@ -13,7 +13,7 @@ from contact_sim_pkg.run.block_simulation import BlockSimulation
 from contact_sim_pkg.scene.resolved_scene import ResolvedScene
 from contact_sim_pkg.scene.rigs import RIGS, RigName
 
-FIELD_TOPICS = {"contact_field": "patch", "brush": "shear"}
+FIELD_TOPICS = {"contact_field": "patch", "pressure_mat": "patch", "brush": "shear"}
 """Effects of a vehicle's contacts that publish a field, and their topics."""
 
 
@@ -24,9 +24,9 @@ class RigRun(NamedTuple):
     topics: Callable[[dict[str, Any]], list[str]]  # resolved scene -> topics of its contacts; those of `bench/` follow
 
 
-def _vehicle_topics(scene: dict[str, Any]) -> list[str]:
+def _vehicle_topics(scene: dict[str, Any], contacts: tuple[str, ...] = ()) -> list[str]:
     names = []
-    for contact in RIGS[scene["rig"]].contacts:
+    for contact in contacts or RIGS[scene["rig"]].contacts:
         effects = scene["effects"].get(contact) or {}
         names += [f"{contact}/force", f"{contact}/wrench"]
         names += [f"{contact}/{topic}" for effect, topic in FIELD_TOPICS.items() if effects.get(effect) is not None]
@@ -57,6 +57,10 @@ def _block_topics(scene: dict[str, Any]) -> list[str]:
     return [f"block/{name}" for name in ("force", "wrench", "points")]
 
 
+def _occupant_topics(scene: dict[str, Any]) -> list[str]:
+    return [*_vehicle_topics(scene, ("seat",)), *_backrest_topics(scene)]
+
+
 _VEHICLE = RigRun("contact_sim_pkg.run.simulation:Simulation", _vehicle_topics)
 
 RIG_RUNS: dict[RigName, RigRun] = {
@@ -66,6 +70,7 @@ RIG_RUNS: dict[RigName, RigRun] = {
     "block": RigRun("contact_sim_pkg.run.block:BlockBodySimulation", _block_topics),
     "backrest": RigRun("contact_sim_pkg.run.backrest:BackrestSimulation", _backrest_topics),
     "impact": RigRun("contact_sim_pkg.run.impact:ImpactSimulation", _impact_topics),
+    "occupant": RigRun("contact_sim_pkg.run.occupant:OccupantSimulation", _occupant_topics),
 }
 
 

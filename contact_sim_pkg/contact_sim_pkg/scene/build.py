@@ -29,6 +29,7 @@ from contact_sim_pkg.scene.build_coupling import (
     longest_travel,
     uniform_segments,
 )
+from contact_sim_pkg.scene.build_mat import PanMat, build_pan_mat
 from contact_sim_pkg.scene.build_tire import Asperities, RollingFriction, TireGeometry, Tread, build_tire
 from contact_sim_pkg.scene.lattice import GRAVITY, effects_at, field_settings, occupant_mass, standing_load
 from contact_sim_pkg.scene.timing import Timing
@@ -52,6 +53,7 @@ class Model:
     asperities: Asperities | None
     seat_field: FieldGrids | None
     seat_shape: SeatShape | None
+    seat_mat: PanMat | None
     corrector_passes: int
     coupling: CouplingRule | None  # None without a pressure field
     shaken: bool  # whether the scene has a vibration
@@ -65,7 +67,7 @@ class Model:
 def build(scene: dict[str, Any]) -> Model:
     """Parameters of a resolved scene. Raises FieldError where a pressure field cannot carry the standing load."""
     rig_name = scene["rig"]
-    with_tire, with_seat = rig_name in ("tire", "car"), rig_name in ("seat", "car")
+    with_tire, with_seat = rig_name in ("tire", "car"), rig_name in ("seat", "car", "occupant")
     seat_field, shape = _seat_field(scene) if with_seat else (None, None)
     tire = build_tire(scene) if with_tire else None
     tire_field = None if tire is None else tire.field
@@ -89,6 +91,7 @@ def build(scene: dict[str, Any]) -> Model:
         asperities=None if tire is None else tire.asperities,
         seat_field=seat_field,
         seat_shape=shape,
+        seat_mat=None if seat is None else build_pan_mat(scene),
         corrector_passes=max(
             (field.usual.settings.corrector_passes for field in (tire_field, seat_field) if field is not None),
             default=0,

@@ -18,7 +18,8 @@ from contact_sim_pkg.core.effects.elastic_law import (
 from contact_sim_pkg.core.effects.pressure_mat import paraboloid_gap
 from contact_sim_pkg.core.parameters import Contact, FoamHysteresis, Friction, Vector
 from contact_sim_pkg.core.rigs.backrest import memory_offset, state_count
-from contact_sim_pkg.core.rigs.backrest_parameters import Backrest
+from contact_sim_pkg.core.rigs.backrest_entries import find_point
+from contact_sim_pkg.core.rigs.backrest_parameters import Backrest, ContactSearch
 from contact_sim_pkg.core.shell import ShallowShell, ShellModes, crown_gap, shell_modes
 from contact_sim_pkg.scene.build_contact import elastic_of, loss_of
 from contact_sim_pkg.scene.lattice import GRAVITY, effects_at
@@ -39,6 +40,9 @@ class Mat(NamedTuple):
     y: Vector  # [cols] [m]
     gap: NDArray[numpy.float64]  # [rows, cols] [m]
     by_points: bool  # each cell is that of one contact point
+    bent: NDArray[numpy.float64] | None = (
+        None  # [cells, modes] shapes of a shell with a moving point: the gap then follows them
+    )
 
 
 @dataclass(frozen=True)
@@ -79,16 +83,20 @@ def build_backrest(scene: dict[str, Any]) -> BackrestModel:
     backrest, effects = scene["backrest"], effects_at(scene, "backrest")
     mat = _mat(backrest, effects.get("shell_modes"))
     form = _one_mass(backrest) if effects.get("shell_modes") is None else _shell(backrest, effects["shell_modes"], mat)
+    search = None
+    if effects.get("contact_search") is not None:
+        search = _search(backrest, effects["shell_modes"], mat)
+        mat, form = mat._replace(by_points=False, bent=form.shapes), _with_one_point(form)
     preload = _preload(scene)
     sliding = backrest["sliding"]
-    modal = [form.mass, form.stiffness, form.damping, preload * form.at_preload, preload / GRAVITY * form.at_shaking]
+    modal = [form.mass, form.stiffness, form.damping, preload * form.at_preload, _moving_mass(scene) * form.at_shaking]
     rig = Backrest(
         numpy.stack(modal), numpy.stack([form.shapes, form.slopes]), numpy.stack([form.gaps, form.shares]),
         _contact(scene, len(form.mass), len(form.gaps)), float(sliding["amplitude"]),
-        2.0 * math.pi * float(sliding["frequency"]),
+        2.0 * math.pi * float(sliding["frequency"]), search,
     )  # fmt: skip
     start = resting_state(rig)
-    approach = float((form.shapes @ start[: len(form.mass)] - form.gaps).max())
+    approach = float((rig.shapes @ start[: len(form.mass)] - rig.gaps).max())
     scale = _scale(rig, max(approach, SMALLEST_SCALE), preload, float(scene["integrator"]["relative_tolerance"]))
     timing = make_timing(scene, True)
     return BackrestModel(rig, timing, scale, start, form.names, form.motion, mat, form.point_x, form.point_y)
@@ -102,8 +110,13 @@ def _contact(scene: dict[str, Any], modes: int, points: int) -> Contact:
     offset = memory_offset(modes, points)
     remembering = None if memory is None else FoamHysteresis(offset, float(memory["share"]), float(memory["energy"]))
     law = elastic_of(effects)
-    moving = float(scene["backrest"]["mass"]) if effects.get("shell_modes") is None else _preload(scene) / GRAVITY
-    return Contact(law, loss_of(scene, "backrest", law, moving), rubbing, remembering)
+    return Contact(law, loss_of(scene, "backrest", law, _moving_mass(scene)), rubbing, remembering)
+
+
+def _moving_mass(scene: dict[str, Any]) -> float:
+    """Mass in [kg] that the seat back's acceleration shakes: the occupant's, or the one that presses a shell with its weight."""
+    shell = effects_at(scene, "backrest").get("shell_modes")
+    return float(scene["backrest"]["mass"]) if shell is None else _preload(scene) / GRAVITY
 
 
 def _preload(scene: dict[str, Any]) -> float:
@@ -131,13 +144,17 @@ def _one_mass(backrest: dict[str, Any]) -> _Form:
     )  # fmt: skip
 
 
-def _shell(backrest: dict[str, Any], effect: dict[str, Any], mat: Mat) -> _Form:
+def _shallow_shell(backrest: dict[str, Any], effect: dict[str, Any]) -> ShallowShell:
     back = backrest["back"]
-    width, height = float(back["width"]), float(back["height"])
-    shell = ShallowShell(
-        width, height, float(effect["thickness"]), float(effect["young_modulus"]), float(effect["poisson_ratio"]),
-        float(effect["density"]), float(back["radius_across"]), float(back["radius_up"]),
+    return ShallowShell(
+        float(back["width"]), float(back["height"]), float(effect["thickness"]), float(effect["young_modulus"]),
+        float(effect["poisson_ratio"]), float(effect["density"]), float(back["radius_across"]), float(back["radius_up"]),
     )  # fmt: skip
+
+
+def _shell(backrest: dict[str, Any], effect: dict[str, Any], mat: Mat) -> _Form:
+    shell = _shallow_shell(backrest, effect)
+    width, height = shell.length_1, shell.length_2
     point_x, point_y = (grid.ravel() for grid in numpy.meshgrid(mat.x, mat.y, indexing="ij"))
     places = numpy.column_stack([point_y + 0.5 * width, point_x + 0.5 * height])
     middle = (0.5 * width, 0.5 * height)
@@ -151,6 +168,32 @@ def _shell(backrest: dict[str, Any], effect: dict[str, Any], mat: Mat) -> _Form:
         at_exciter, modes.shapes, 0.5 * shell.thickness * modes.slopes_y, crown_gap(shell, places),
         numpy.full(len(places), share), point_x, point_y, ("crown_x", *_mode_names(modes)),
         -numpy.vstack([at_middle, numpy.eye(len(mass))]),
+    )  # fmt: skip
+
+
+def _search(backrest: dict[str, Any], effect: dict[str, Any], mat: Mat) -> ContactSearch:
+    """Search over the cells' centres and the sides."""
+    shell = _shallow_shell(backrest, effect)
+    width, height = shell.length_1, shell.length_2
+    up, across = (
+        numpy.clip(numpy.concatenate([[0.0], middle + 0.5 * side, [side]]), 0.0, side)
+        for middle, side in ((mat.x, height), (mat.y, width))
+    )
+    places = numpy.stack(numpy.meshgrid(up, across, indexing="ij")[::-1], axis=-1).reshape(-1, 2)
+    modes = shell_modes(shell, int(effect["modes"]), places)
+    rim = numpy.full((len(up) + 2, len(across) + 2), -numpy.inf)
+    return ContactSearch(
+        width, height, 1.0 / shell.radius_1, 1.0 / shell.radius_2, 0.5 * shell.thickness,
+        math.isqrt(len(modes.frequencies)), places, modes.shapes, crown_gap(shell, places), rim,
+    )  # fmt: skip
+
+
+def _with_one_point(form: _Form) -> _Form:
+    """The shell with a point in its middle, which the search then moves; it carries the whole law."""
+    modes, origin = len(form.mass), numpy.zeros(1)
+    return form._replace(
+        shapes=form.at_preload.reshape(1, modes).copy(), slopes=numpy.zeros((1, modes)), gaps=origin, shares=numpy.ones(1),
+        point_x=origin, point_y=origin,
     )  # fmt: skip
 
 
@@ -195,6 +238,8 @@ def resting_state(rig: Backrest) -> Vector:
 def _energy_at(rig: Backrest, q: Vector) -> tuple[Vector, NDArray[numpy.float64], float]:
     """Gradient [N], Hessian [N/m] and value [J] of the energy."""
     law = rig.contact.elastic
+    if rig.search is not None:
+        find_point(rig, q)
     depth = numpy.maximum(rig.shapes @ q - rig.gaps, 0.0)
     force, stiffness, stored = (
         rig.shares * numpy.array([part(law, x) for x in depth])

@@ -27,7 +27,9 @@ __all__ = ["ResolvedScene", "explicit", "read_explicit", "read_resolved", "resol
 
 DEFAULT_DAMPING: dict[str, float] = {"tire": 0.06, "seat": 1.0, "backrest": 1.949743421626532}
 """Hunt-Crossley damping in [s/m] where a scene names neither damping nor restitution, see `schema_effects.py`."""
-_COMPLETED: dict[str, Callable[[dict[str, Any]], None]] = {"backrest": complete_backrest, "impact": complete_impact}
+_COMPLETED: dict[str, Callable[[dict[str, Any]], None]] = {
+    "backrest": complete_backrest, "impact": complete_impact, "occupant": complete_backrest,
+}  # fmt: skip
 """Rigs with keys whose default follows from others."""
 _FIELD_CONTACTS: dict[str, Contact] = {"tire": "tire", "seat": "seat"}
 

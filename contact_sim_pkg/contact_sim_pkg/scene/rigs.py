@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from typing import Literal, NamedTuple, TypeAlias
 
-RigName: TypeAlias = Literal["tire", "seat", "car", "backrest", "impact", "block"]
+RigName: TypeAlias = Literal["tire", "seat", "car", "backrest", "occupant", "impact", "block"]
 
 
 class RigRule(NamedTuple):
@@ -24,6 +24,7 @@ RIGS: dict[RigName, RigRule] = {
     "seat": RigRule(("seat",), ("vibration",), ("seat",)),
     "car": RigRule(("tire", "seat"), ("travel", "road"), ("slip", "vibration", "tire", "seat")),
     "backrest": RigRule(("backrest",), ("vibration",), ("backrest",)),
+    "occupant": RigRule(("seat", "backrest"), ("vibration",), ("seat", "backrest")),
     "impact": RigRule(("impact",), (), ("impact",)),
     "block": RigRule(("block",), (), ("block",)),
 }

@@ -67,8 +67,8 @@ class Scene(Section):
     )
     description: str = text("one line on what the scene shows", default="")
     rig: RigName = choice(
-        "tire on a road, occupant on a seat, both as a car, occupant against a backrest, sphere that strikes a sample, "
-        "or rigid body on the ground",
+        "tire on a road, occupant on a seat, both as a car, occupant against a backrest, on a seat and against its back, "
+        "sphere that strikes a sample, or rigid body on the ground",
         example="seat",
     )
     duration: float = number(0.0, 3600.0, "s", "simulated time, a whole number of blocks", above=True, example=1.0)

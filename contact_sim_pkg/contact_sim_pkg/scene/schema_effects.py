@@ -178,6 +178,15 @@ class SeatField(Section):
     corrector_passes: int | None = _corrector_passes()
 
 
+class PressureMat(Section):
+    """Pressure under the occupant of the point contact's force: spread over the cells as a bed of springs under the body would."""
+
+    length: float = number(0.05, 5.0, "m", "extent forward", default=0.6)
+    width: float = number(0.05, 5.0, "m", "extent to the left", default=0.5)
+    rows: int = number(4, 256, "", "cells forward", default=36)
+    cols: int = number(4, 256, "", "cells to the left", default=30)
+
+
 class Carcass(Section):
     """Sidewalls and a rigid belt ring: spring and damper in series with the tread's contact."""
 
@@ -266,6 +275,7 @@ class SeatEffects(Section):
     general_dissipative: GeneralLoss | None = choice("loss after the general law", default=None)
     friction: Friction | None = choice("friction with true stick", default=None)
     contact_field: SeatField | None = choice("pressure field", default=None)
+    pressure_mat: PressureMat | None = choice("pressure map of a point contact", default=None)
 
 
 class BackElastic(Section):
@@ -338,6 +348,11 @@ class ShellModes(Section):
     )
 
 
+class ContactSearch(Section):
+    """One contact point that moves: where the bent shell comes nearest to the seat back, searched at every step; it carries the
+    whole law, in place of candidate points with a share each."""
+
+
 class BackrestEffects(Section):
     """Effects of the contact between back and seat back."""
 
@@ -348,6 +363,7 @@ class BackrestEffects(Section):
     general_dissipative: BackGeneralLoss | None = choice("loss after the general law", default=None)
     friction: BackFriction | None = choice("friction with true stick", default=None)
     shell_modes: ShellModes | None = choice("back as a shell with many contact points", default=None)
+    contact_search: ContactSearch | None = choice("contact point that moves with the shell", default=None)
 
 
 class Effects(Section):

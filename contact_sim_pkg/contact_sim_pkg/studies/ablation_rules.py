@@ -56,10 +56,12 @@ def is_needed(effect: str, contact: str, scene: ResolvedScene, observed: Observe
     """Whether the effect is needed (None: there is no rule), and the figures behind it."""
     if effect == "contact_field":
         return _field(contact, scene)
+    if effect == "pressure_mat":
+        return None, "needed where a map of the pressure is asked for"
     if effect == "friction":
         return _friction(scene, observed, contact)
-    if effect == "shell_modes":
-        return None, "whether the back bends is a choice of the model"
+    if effect in ("shell_modes", "contact_search"):
+        return None, "whether the back bends, and where it touches then, is a choice of the model"
     if contact == "impact":
         return _of_impact(effect, scene)
     if effect in RULES_OF_TIRE:

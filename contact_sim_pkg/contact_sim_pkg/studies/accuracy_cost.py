@@ -38,6 +38,7 @@ PARTS: dict[RigName, tuple[Part, ...]] = {
     "seat": _VEHICLE,
     "car": _VEHICLE,
     "backrest": (backrest.tolerance_rows, backrest.mode_rows),
+    "occupant": (*_VEHICLE, backrest.tolerance_rows, backrest.mode_rows),
 }
 """Rig -> what is measured of it; each part gives its rows. A further rig is one more entry."""
 COLUMNS = (

@@ -47,6 +47,7 @@ from .backrest_parameters import (
     STIFFNESS,
     Backrest,
 )
+from .backrest_search import move_point
 from .interface import register
 
 APPROACH_EVENT, TENSION_EVENT, TURN_EVENT, FRICTION_EVENT, EVENTS_A_POINT = (
@@ -177,6 +178,7 @@ def _point_rates(rig, mode, point, time, state, out):
 @kernel
 def _rate(rig, drive, mode, time, state, out):
     modes, points = rig.modal.shape[1], rig.places.shape[1]
+    move_point(rig.search, rig, state)
     supplied, lost = _free_rates(rig, seat_acceleration(drive, time), state, out)
     for c in range(points):
         if mode.doing[CONTACT, c] == APART:
@@ -239,6 +241,7 @@ def _turn_margin(doing, approach_rate):
 @kernel
 def _margins(rig, drive, mode, time, state, derivative, out):
     points = rig.places.shape[1]
+    move_point(rig.search, rig, state)
     for c in range(points):
         approach, approach_rate = approach_of(rig, state, c)
         doing = mode.doing[CONTACT, c]
@@ -322,6 +325,7 @@ def _switch(rig, drive, mode, time, state, event, side):
     points = rig.places.shape[1]
     point = event % points
     kind = event // points
+    move_point(rig.search, rig, state)
     if kind in (APPROACH_EVENT, TURN_EVENT):
         _pass_kinematic(rig, mode, point, kind == TURN_EVENT, time, state)
         return 1.0

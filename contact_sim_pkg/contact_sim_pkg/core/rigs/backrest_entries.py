@@ -31,10 +31,12 @@ from .backrest_parameters import (
     BackrestDrive,
     BackrestMode,
 )
+from .backrest_search import move_point, place_of
 from .interface import rate
 
 NORMAL, TANGENTIAL, APPROACH, FORCES = 0, 1, 2, 3  # columns of the whole contact
-POINT_APPROACH, POINT_NORMAL, POINT_TANGENTIAL, POINT_DISPLACEMENT, POINT_STATE, POINT_COLUMNS = 0, 1, 2, 3, 4, 5
+POINT_APPROACH, POINT_NORMAL, POINT_TANGENTIAL, POINT_DISPLACEMENT, POINT_STATE = 0, 1, 2, 3, 4
+POINT_UP, POINT_ACROSS, POINT_COLUMNS = 5, 6, 7  # how far a moving point is from the shell's middle [m]
 NO_CONTACT, FRICTIONLESS, STICKS, SLIPS = 0, 1, 2, 3  # values of POINT_STATE
 
 
@@ -53,6 +55,7 @@ def start(rig: Backrest, mode: BackrestMode, state: Vector, work: Workspace) -> 
     """Take the discrete state that belongs to ``state`` at the start of a run, time 0."""
     points = rig.places.shape[1]
     mode.counts[OVERLAPPING] = 0
+    move_point(rig.search, rig, state)
     for c in range(points):
         approach, approach_rate = backrest.approach_of(rig, state, c)
         mode.doing[CONTACT, c] = CLOSING if approach > 0.0 else APART
@@ -68,6 +71,12 @@ def start(rig: Backrest, mode: BackrestMode, state: Vector, work: Workspace) -> 
     for j in range(work.side.shape[0]):
         work.side[j] = 1.0
     work.last_event[0] = -numpy.inf
+
+
+@entry
+def find_point(rig: Backrest, state: Vector) -> None:
+    """Let the moving point of ``rig`` be where ``state`` puts it."""
+    move_point(rig.search, rig, state)
 
 
 @kernel
@@ -95,6 +104,8 @@ def _observe(rig, mode, time, state, whole, by_point):
     whole[NORMAL] = 0.0
     whole[TANGENTIAL] = 0.0
     whole[APPROACH] = -numpy.inf
+    move_point(rig.search, rig, state)
+    across, up = place_of(rig.search, state)
     for c in range(rig.places.shape[1]):
         approach, approach_rate = backrest.approach_of(rig, state, c)
         normal = backrest.unit_normal(rig, mode, c, approach, approach_rate, state)
@@ -104,6 +115,8 @@ def _observe(rig, mode, time, state, whole, by_point):
         row[POINT_NORMAL] = rig.places[SHARE, c] * normal
         row[POINT_TANGENTIAL] = -rig.places[SHARE, c] * tangential
         row[POINT_DISPLACEMENT] = _displacement_of(rig, time, state, c)
+        row[POINT_UP] = up
+        row[POINT_ACROSS] = across
         row[POINT_STATE] = _state_of(friction, mode, c, normal)
         whole[NORMAL] += row[POINT_NORMAL]
         whole[TANGENTIAL] += row[POINT_TANGENTIAL]
@@ -157,6 +170,7 @@ def _spring_energy(friction, rig, mode, point, time, approach, approach_rate, st
 def energies(rig: Backrest, mode: BackrestMode, time: float, state: Vector) -> tuple[float, float, float, float, float]:
     """Kinetic, potential (of the preload), stored energy, work supplied, work dissipated, all in [J], of ``state``."""
     modes = rig.modal.shape[1]
+    move_point(rig.search, rig, state)
     kinetic, potential, stored, returned = 0.0, 0.0, 0.0, 0.0
     for i in range(modes):
         kinetic += 0.5 * rig.modal[MASS, i] * state[modes + i] ** 2

@@ -34,6 +34,21 @@ ENDED_COLUMNS = 7
 OVERLAPPING, ENDED = 0, 1  # entries of BackrestMode.counts
 
 
+class ContactSearch(NamedTuple):
+    """What the search for a shell's nearest point needs (``rigs/backrest_search.py``); it begins at candidate points."""
+
+    length_1: float  # [m] sides
+    length_2: float  # [m]
+    curvature_1: float  # [1/m]
+    curvature_2: float  # [1/m]
+    lever: float  # [m] half the thickness
+    side: int  # modes along each side: their number is its square
+    places: Vector  # [candidates, 2] [m] along the two sides, row by row of a grid
+    candidates: Vector  # [candidates, modes] shapes there
+    gaps: Vector  # [candidates] [m]
+    depths: Vector  # [rows + 2, cols + 2] [m] room for the depths of the grid, with a rim of -infinity
+
+
 class Backrest(NamedTuple):
     """A back in modal form with its candidate contact points; one mass is one mode with one point.
 
@@ -46,6 +61,7 @@ class Backrest(NamedTuple):
     contact: Contact  # the law of the whole back
     slide_amplitude: float  # [m] of the rigid sliding along the seat back
     slide_frequency: float  # [rad/s]
+    search: ContactSearch | None = None  # moves the one contact point; its shapes, slopes and gap then change in place
 
     @property
     def mass(self) -> Vector:
