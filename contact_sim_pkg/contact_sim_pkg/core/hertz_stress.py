@@ -1,7 +1,7 @@
-"""Stress inside an elastic half-space under a Hertz ellipse of pressure and tangential traction, by one smooth integral a point.
+"""Stress inside an elastic half-space under a Hertz ellipse of pressure and traction, by one smooth integral a point.
 
-The pressure is `p = p0 sqrt(1 - x^2/a^2 - y^2/b^2)`, the traction `q_x = f_x p`, `q_y = f_y p`. Boussinesq's and Cerruti's potentials
-of the ellipse are integrals over the confocal ellipsoids, from the one through the point to infinity. With
+The pressure is `p = p0 sqrt(1 - x^2/a^2 - y^2/b^2)`, the traction `q_x = f_x p`, `q_y = f_y p`. Boussinesq's and Cerruti's
+potentials of the ellipse are integrals over the confocal ellipsoids, from the one through the point to infinity. With
 
     P = 1/(a^2 + s),  Q = 1/(b^2 + s),  Z^2 = s (1 - x^2 P - y^2 Q),  dm = ds / sqrt((a^2 + s)(b^2 + s) s),  C = pi a b p0
 
@@ -22,8 +22,8 @@ each over 2 pi. The integral is taken in q with `s = lambda + (l sinh q)^2`, l t
 twelve Gauss points: 1e-8 of p0 in the stress at any depth, 1 to 2 us a point.
 
 Axes: x and y along the semi-axes a and b, z into the body; stresses are positive in tension and the surface has
-`zz = -p`, `xz = -q_x`, `yz = -q_y`. Sources: Johnson (1985), Contact Mechanics, sections 3.2 and 3.6, eqs 3.63; the swap of integrals
-behind psi1 and F is our own.
+`zz = -p`, `xz = -q_x`, `yz = -q_y`. Sources: Johnson (1985), Contact Mechanics, sections 3.2 and 3.6; psi1 and F come from
+psi by a change of the order of integration.
 """
 
 from __future__ import annotations

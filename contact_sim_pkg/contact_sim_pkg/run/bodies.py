@@ -25,10 +25,16 @@ class Stretch(NamedTuple):
 
     block: int
     start: float  # [s]
+    segment_length: float  # [s]
     drive: BlockDrive
     last: bool  # of its interval: its fields are published
     sampled: Sampled  # rows from the next sample on
     behind_sample: int  # segments since the last sample
+
+    @property
+    def duration(self) -> float:
+        """In [s]."""
+        return self.segments * self.segment_length
 
     @property
     def segments(self) -> int:
@@ -112,7 +118,7 @@ class Bodies:
         effective_between(drive.smooth, starts[0], ends[0], height)
         cushion[:] = numpy.linspace(starts[1], ends[1], points)
         status = entries.advance(
-            self.model.rig, self.mode, self.state, self.model.scale, self.work, stretch.start, timing.segment_length, height,
+            self.model.rig, self.mode, self.state, self.model.scale, self.work, stretch.start, stretch.segment_length, height,
             cushion, drive.acceleration_x, drive.acceleration_z, drive.push, timing.sample_every, stretch.behind_sample,
             *stretch.sampled,
         )  # fmt: skip

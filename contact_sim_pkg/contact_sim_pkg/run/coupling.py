@@ -6,6 +6,8 @@ A stretch is as long as that allows:
 * No longer than a part of the footprint, so that no obstacle that the tire passes falls between two fields.
 * The offset's slopes over this stretch, s1 over h1, and the one before, s0 over h0, tell its curvature; a straight line misses
   a parabola of it by ``|s1 - s0| h1**2 / (4 (h0 + h1))`` at most. Above the allowed height the stretch is taken again, shorter.
+* With a loss the rate of the height matters too: over this stretch it may err by ``|s1 - s0| h1 / (h0 + h1)``, less what the solver's
+  own error of the field looks like over so short a time.
 * Where the rig or its contact fails within a stretch, a shorter one is tried before that counts.
 
 A tread with memory has one step for all its stretches: they are all of the same length, and the error is only told.
@@ -31,7 +33,10 @@ from contact_sim_pkg.scene.build import Model
 SHRINK, GROW = 0.25, 2.0  # least and largest ratio of a stretch to the one before
 AGAIN = 0.7  # largest ratio of a stretch that is taken again
 SAFETY = 0.8
-SETTLED = 0.5  # an offset that changes by this part of the allowed height is not corrected again
+SLOPE = (
+    0.3  # part of the largest error of a rate that counts: it is that of an instant, the allowed one is of a stretch
+)
+SETTLED = 0.5  # an offset that changes by this part of what is allowed is not corrected again
 
 
 class Passed(NamedTuple):
@@ -58,6 +63,8 @@ class Coupling:
         )  # fmt: skip
         rule = model.coupling
         self._allowed: Offsets = (math.inf, math.inf) if rule is None else rule.heights
+        self._allowed_speed: Offsets = (math.inf, math.inf) if rule is None else rule.speeds
+        self._noise: Offsets = (0.0, 0.0) if rule is None else rule.noises
         self._by_error = rule is not None and rule.segments is None
         self.reset()
 
@@ -99,7 +106,8 @@ class Coupling:
             row = -(-done // timing.sample_every)
             states, rates, forces = self.sampled
             stretch = Stretch(
-                block, (block * timing.intervals * timing.segments + first) * timing.segment_length, whole.part(first, count),
+                block, (block * timing.intervals * timing.segments + first) * timing.segment_length,
+                timing.segment_length, whole.part(first, count),
                 done + count == timing.segments, (states[row:], rates[row:], forces[row:]), done % timing.sample_every,
             )  # fmt: skip
             if self._pass(stretch, record):
@@ -153,14 +161,20 @@ class Coupling:
             if passes_left or stretch.last or not most:  # between published fields the last offsets stand as they are
                 found = self._solve(stretch, solved, ends)
             if passes_left == most:
-                error = self._error(found, stretch.segments)
+                error = self._error(found, stretch)
                 if self._by_error and stretch.segments > 1 and error > 1.0:
                     break
-            settled = all(abs(a - b) <= SETTLED * h for a, b, h in zip(ends, found, self._allowed, strict=True))
-            if settled or not passes_left:
+            if not passes_left or self._settled(ends, found, stretch.duration):
                 break
             ends = found
         return Passed(error, ends, found)
+
+    def _settled(self, ends: Offsets, found: Offsets, duration: float) -> bool:
+        """Whether offsets found need no correction: small as heights, and as speeds over a stretch of ``duration`` [s]."""
+        return all(
+            abs(a - b) <= SETTLED * min(height, speed * duration)
+            for a, b, height, speed in zip(ends, found, self._allowed, self._allowed_speed, strict=True)
+        )
 
     def _offsets(self) -> Offsets:
         return self.tire.offset, self.seat.offset
@@ -184,10 +198,14 @@ class Coupling:
         approach = self.bodies.seat_approach(0.0)
         return self.seat.solve(approach, approach, block)
 
-    def _error(self, found: Offsets, count: int) -> float:
-        """Largest height that a straight offset misses, over the allowed one."""
-        pairs = zip(self.supports, found, self._allowed, strict=True)
-        return max(support.bend(offset, count) / height for support, offset, height in pairs)
+    def _error(self, found: Offsets, stretch: Stretch) -> float:
+        """Largest height, or rate of it, that a straight offset misses, over the allowed one."""
+        worst, count = 0.0, stretch.segments
+        limits = zip(self._allowed, self._allowed_speed, self._noise, strict=True)
+        for support, offset, (height, speed, noise) in zip(self.supports, found, limits, strict=True):
+            turned = (support.turn(offset, count) * count - noise) / stretch.duration
+            worst = max(worst, support.bend(offset, count) / height, SLOPE * turned / speed)
+        return worst
 
     def _close(self, stretch: Stretch, passed: Passed, record: BlockRecord) -> None:
         """Take the fields and their offsets over; the energy that the remaining jump brings in counts as supplied."""

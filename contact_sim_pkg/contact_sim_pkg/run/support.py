@@ -64,6 +64,11 @@ class Support(ABC):
         slope = (offset - self._solved) / span
         return abs(slope - self._slope) * span**2 / (4.0 * (self._count + span))
 
+    def turn(self, offset: float, count: int) -> float:
+        """Largest error in [m] a segment of the slope of that line against the parabola's."""
+        span = self._since + count
+        return abs((offset - self._solved) / span - self._slope) * span / (self._count + span)
+
     def take(self, offset: float, count: int, solved: bool, allowed: float) -> None:
         """A stretch of ``count`` segments is done; ``offset`` [m] was found there, or expected; ``allowed`` [m] is its error."""
         span = self._since + count
@@ -90,9 +95,11 @@ class Support(ABC):
         except FieldError as error:
             raise RunError(f"block {block}: {error}") from None
         try:
-            return self._solve_on(self.grids.wide, approach, geometric)
+            offset = self._solve_on(self.grids.wide, approach, geometric)
         except FieldError as error:
             raise RunError(f"block {block}: {error}") from None
+        self.refuse_beyond(self.grids, approach, block)
+        return offset
 
     def stand(self, load: float) -> float:
         """Approach in [m] at which the field carries ``load`` [N]; the start of a run. Errors as ``solve``."""
@@ -105,8 +112,11 @@ class Support(ABC):
             try:
                 field.roll_to(self.road_row(field.settings))
                 approach = field.solve_load(self.gap(field.settings), load)
-                if field is grids.wide or not self.touches_beyond(grids, approach):
-                    return approach, field
+                if field is grids.wide:
+                    self.refuse_beyond(grids, approach, 0)
+                elif self.touches_beyond(grids, approach):
+                    continue
+                return approach, field
             except FieldEdgeError as error:
                 field.forget()
                 last = error
@@ -148,6 +158,9 @@ class Support(ABC):
     def touches_beyond(self, grids: FieldGrids, approach: float) -> bool:
         """Whether the contact just solved on the usual grid at ``approach`` [m] goes on outside it: it stands before a wall."""
         return False
+
+    def refuse_beyond(self, grids: FieldGrids, approach: float, block: int) -> None:  # noqa: B027  # most have nothing there
+        """Raise RunError where the contact just solved on the wide grid at ``approach`` [m] goes on outside it."""
 
     @abstractmethod
     def gap(self, settings: FieldSettings) -> Gap:
@@ -239,11 +252,26 @@ class RoadSupport(Support):
 
     def touches_beyond(self, grids: FieldGrids, approach: float) -> bool:
         """See Support."""
-        geometry, road, wide = self._geometry, self._road, grids.wide.settings
+        return self._touches(grids.usual, approach)
+
+    def refuse_beyond(self, grids: FieldGrids, approach: float, block: int) -> None:
+        """See Support."""
+        wide = grids.wide.settings
+        if self._touches(grids.wide, approach):
+            raise RunError(
+                f"block {block}: tire: the road touches it beyond its pressure grid of {wide.rows * wide.cell_x:.4g} m, at "
+                f"{self.travel:.6g} m; enlarge effects.tire.contact_field.length and rows"
+            )
+
+    def _touches(self, field: PressureField, approach: float) -> bool:
+        """Whether the road touches the tire outside a field's grid, as far as a tire reaches."""
+        geometry, road, settings = self._geometry, self._road, field.settings
         assert geometry is not None
+        rows, cols = geometry.lattice.road_rows, geometry.lattice.road_cols
         return bool(touches_beyond(
-            road.height, road.first_row, geometry.radius_rolling, geometry.radius_lateral, self.road_row(wide), self.travel,
-            approach, wide.modulus, wide.cell_x, wide.cell_y, grids.usual.pressure, wide.rows, wide.cols,
+            road.height, road.first_row, geometry.radius_rolling, geometry.radius_lateral,
+            round(self.travel / settings.cell_x) - rows // 2, self.travel, approach, settings.modulus, settings.cell_x,
+            settings.cell_y, field.pressure, rows, cols,
         ))  # fmt: skip
 
     def origin(self, settings: FieldSettings) -> tuple[float, float]:

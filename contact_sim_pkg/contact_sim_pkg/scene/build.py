@@ -25,8 +25,11 @@ from contact_sim_pkg.scene.build_contact import FieldGrids, elastic_of, loss_of,
 from contact_sim_pkg.scene.build_coupling import (
     CouplingRule,
     allowed_height,
+    allowed_speed,
+    attainable,
     coupled_timing,
     longest_travel,
+    noise_of,
     uniform_segments,
 )
 from contact_sim_pkg.scene.build_mat import PanMat, build_pan_mat
@@ -36,6 +39,9 @@ from contact_sim_pkg.scene.timing import Timing
 
 POSITION_SCALE = 0.01  # [m], size of the approaches; the integrator's tolerance is relative to it
 VELOCITY_SCALE = 0.5  # [m/s], size of the velocities on a rough road
+
+
+Fields = tuple[FieldGrids | None, FieldGrids | None]  # of tire and seat
 
 
 @dataclass(frozen=True)
@@ -96,25 +102,30 @@ def build(scene: dict[str, Any]) -> Model:
             (field.usual.settings.corrector_passes for field in (tire_field, seat_field) if field is not None),
             default=0,
         ),
-        coupling=_coupling(scene, rig, footprint, timing, tire_field is not None or seat_field is not None),
+        coupling=_coupling(scene, rig, footprint, timing, (tire_field, seat_field)),
         shaken=bool(scene.get("vibration")),
     )
 
 
 def _coupling(
-    scene: dict[str, Any], rig: Vehicle, footprint: float | None, timing: Timing, with_field: bool
+    scene: dict[str, Any], rig: Vehicle, footprint: float | None, timing: Timing, fields: Fields
 ) -> CouplingRule | None:
     """Rule for the stretches between two solutions of the fields; ``footprint`` [m] is None without a field on a road."""
-    if not with_field:
+    if fields == (None, None):
         return None
     tolerance = float(scene["integrator"]["coupling_tolerance"])
-    heights = (
-        math.inf if rig.tire is None else allowed_height(rig.tire_contact, standing_load(scene), tolerance),
-        math.inf if rig.seat is None else allowed_height(rig.seat_contact, occupant_mass(scene) * GRAVITY, tolerance),
+    loads = (
+        0.0 if rig.tire is None else standing_load(scene),
+        0.0 if rig.seat is None else occupant_mass(scene) * GRAVITY,
     )
+    contacts = (rig.tire_contact, rig.seat_contact)
+    tolerances = tuple(attainable(field, tolerance) for field in fields)
+    heights = tuple(map(allowed_height, contacts, loads, tolerances))
+    speeds = tuple(map(allowed_speed, contacts, tolerances))
+    noises = tuple(map(noise_of, contacts, fields, loads))
     uniform = footprint is not None and effects_at(scene, "tire").get("tread_viscoelasticity") is not None
     segments = uniform_segments(scene, footprint, timing) if footprint is not None and uniform else None
-    return CouplingRule(tolerance, heights, longest_travel(footprint, tolerance), segments)
+    return CouplingRule(tolerance, heights, speeds, noises, longest_travel(footprint, tolerance), segments)
 
 
 def _seat(scene: dict[str, Any], offset: int) -> Seat:

@@ -6,7 +6,8 @@ import math
 from typing import Any, NamedTuple
 
 from contact_sim_pkg.core.effects.elastic_law import approach_of_force, elastic_stiffness
-from contact_sim_pkg.core.parameters import Contact
+from contact_sim_pkg.core.parameters import Contact, NormalDissipative
+from contact_sim_pkg.scene.build_contact import FieldGrids
 from contact_sim_pkg.scene.timing import Timing, make_timing
 
 LONGEST = 0.5
@@ -27,6 +28,8 @@ class CouplingRule(NamedTuple):
 
     tolerance: float  # error of a force over the standing load
     heights: tuple[float, float]  # [m] allowed error of the effective height of tire and seat
+    speeds: tuple[float, float]  # [m/s] allowed error of the rates of these heights
+    noises: tuple[float, float]  # [m] what the solver of the fields leaves in these heights
     longest_travel: float  # [m]
     segments: int | None  # of each stretch, where all must be equal; None: chosen by the error
 
@@ -36,6 +39,25 @@ def allowed_height(contact: Contact | None, load: float, tolerance: float) -> fl
     if contact is None:
         return math.inf
     return tolerance * load / elastic_stiffness(contact.elastic, approach_of_force(contact.elastic, load))
+
+
+def attainable(field: FieldGrids | None, tolerance: float) -> float:
+    """The tolerance, but not less than that of the ``field``: its own error would be taken for changes of the height."""
+    return tolerance if field is None else max(tolerance, field.usual.settings.tolerance)
+
+
+def allowed_speed(contact: Contact | None, tolerance: float) -> float:
+    """Speed in [m/s] that changes the force of a contact by the part ``tolerance`` of it, through a Hunt-Crossley loss."""
+    if contact is None or not isinstance(contact.dissipative, NormalDissipative) or contact.dissipative.damping == 0.0:
+        return math.inf
+    return tolerance / contact.dissipative.damping
+
+
+def noise_of(contact: Contact | None, field: FieldGrids | None, load: float) -> float:
+    """Height in [m] that the solver of a ``field`` leaves open under ``load`` [N]: its tolerance of the approach."""
+    if contact is None or field is None:
+        return 0.0
+    return field.usual.settings.tolerance * float(approach_of_force(contact.elastic, load))
 
 
 def longest_travel(footprint: float | None, tolerance: float) -> float:

@@ -4,6 +4,7 @@ node that sends the road starts without them.
 
 from __future__ import annotations
 
+import math
 from typing import Any, NamedTuple
 
 from contact_sim_pkg.core.parameters import Belt, FieldSettings, widened
@@ -14,6 +15,9 @@ FOLLOWER_CELLS = (64, 48)  # road lattice of a tire without pressure field
 FOLLOWER_REACH = 4.0  # its extent over the contact radius of a sphere with the tire's radius in that direction
 
 
+SIGHT = 1.1  # of the tire's radius: how far the road is looked at beyond the pressure grids
+
+
 class RoadLattice(NamedTuple):
     """Lattice of the road under a tire, and how much of it a field instant may need."""
 
@@ -21,7 +25,7 @@ class RoadLattice(NamedTuple):
     cols: int
     cell_x: float  # [m]
     cell_y: float  # [m]
-    road_rows: int  # of the wide grid
+    road_rows: int  # of the wide grid, or a tire's diameter and a little where that is more
     road_cols: int
 
 
@@ -68,7 +72,8 @@ def tire_lattice(scene: dict[str, Any]) -> RoadLattice:
     settings = field_settings(scene, "tire", modulus)
     if settings is not None:
         wide = widened(settings)
-        return RoadLattice(settings.rows, settings.cols, settings.cell_x, settings.cell_y, wide.rows, wide.cols)
+        road_rows = max(wide.rows, 2 * math.ceil(SIGHT * float(tire["radius_rolling"]) / settings.cell_x))
+        return RoadLattice(settings.rows, settings.cols, settings.cell_x, settings.cell_y, road_rows, wide.cols)
     rows, cols = FOLLOWER_CELLS
     radius_x, radius_y = (
         (0.75 * standing_load(scene) * tire[key] / modulus) ** (1.0 / 3.0)

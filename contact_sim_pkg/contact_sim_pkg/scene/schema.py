@@ -43,7 +43,7 @@ class Integrator(Section):
         1.0,
         "",
         "error of a contact force between two solutions of its pressure field, relative to the standing load: it sets how often"
-        " the fields are solved; taken from accuracy when absent",
+        " the fields are solved; less than the field's own tolerance counts as that; taken from accuracy when absent",
         default=None,
     )
 

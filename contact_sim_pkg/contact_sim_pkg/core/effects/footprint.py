@@ -28,23 +28,38 @@ def effective_heights(
     """Weighted mean height in [m] for each wheel position ``travel`` [m], written into ``out``.
 
     ``height`` [rows, cols] in [m] on the road lattice (node (i, j) at x = (first_row + i) cell_x, y = (j - (cols-1)/2) cell_y);
-    ``semi_axis_x``, ``semi_axis_y`` [m] of the footprint. The mean is taken with the wheel over a node and goes straight from node
-    to node: in between the steep edge of the weights would cross the nodes one by one, and each would show as a jerk.
-    Returns False where the lattice does not hold the footprint.
+    ``semi_axis_x``, ``semi_axis_y`` [m] of the footprint. The mean is taken with the wheel over a node and laid as a cubic with
+    continuous slope (Catmull-Rom) between the nodes: there the steep edge of the weights would cross the nodes one by one, and each
+    would show as a jerk. Returns False where the lattice does not hold the footprint.
     """
     weights = _weights(height.shape[1], cell_x, cell_y, semi_axis_x, semi_axis_y)
     reach = weights.shape[0] // 2
-    place, here, ahead = 0, numpy.nan, numpy.nan  # node and the means there and at the next; none is known yet
+    means = numpy.zeros(4)  # at the node before the one behind the wheel, at that, and at the two ahead
+    place, known = 0, False
     for k in range(travel.shape[0]):
         node = int(math.floor(travel[k] / cell_x))  # noqa: RUF046  # a float in compiled code
         if node - reach < first_row or node + 1 + reach >= first_row + height.shape[0]:
             return False
-        if not (node == place and here == here):
-            here = ahead if node == place + 1 and ahead == ahead else _mean(height, weights, node - reach - first_row)
-            ahead = _mean(height, weights, node + 1 - reach - first_row)
-            place = node
-        out[k] = here + (ahead - here) * (travel[k] / cell_x - node)
+        if not (known and node == place):
+            kept = 3 if known and node == place + 1 else 0
+            for i in range(kept):
+                means[i] = means[i + 1]
+            for i in range(kept, 4):
+                first = min(max(node - 1 + i - reach - first_row, 0), height.shape[0] - weights.shape[0])
+                means[i] = _mean(height, weights, first)
+            place, known = node, True
+        out[k] = _cubic(means, travel[k] / cell_x - node)
     return True
+
+
+@kernel
+def _cubic(means: Vector, part: float) -> float:
+    """Between the second and the third of four equal steps, with the slopes of their neighbours."""
+    slope, slope_end = 0.5 * (means[2] - means[0]), 0.5 * (means[3] - means[1])
+    rise = means[2] - means[1]
+    return means[1] + part * (
+        slope + part * (3.0 * rise - 2.0 * slope - slope_end + part * (slope + slope_end - 2.0 * rise))
+    )
 
 
 @kernel
@@ -141,17 +156,17 @@ def _sunk(pressure: Pressures, row: int, col: int, modulus: float, cell_x: float
 def effective_between(smooth: Vector, offset: float, offset_end: float, out: Vector) -> None:
     """Effective height of the road in [m] from one field to the next, written into ``out``: ``smooth`` [m] and an offset [m].
 
-    The offset goes straight to its end. At an edge the smooth height falls in a curve where the offset rises straight, and their
-    sum would stand out far above the heights at both ends. So it keeps between them, but for what the smooth height itself
-    stands out over its own ends.
+    The offset goes straight to its end. What the smooth height has beside a straight line is right to first order in the
+    roughness only: at an edge it falls in a curve where the tire, which stands on the edge, does not, and the offset takes
+    nearly all of it back. So it counts as far as the offset leaves the range of the smooth height alone: ``1 - |change of offset| / range``.
     """
     last = smooth.shape[0] - 1
-    highest, lowest = max(smooth[0], smooth[last]), min(smooth[0], smooth[last])
-    over, under = 0.0, 0.0
-    for i in range(1, last):
-        over = max(over, smooth[i] - highest)
-        under = max(under, lowest - smooth[i])
-    start, end = smooth[0] + offset, smooth[last] + offset_end
-    low, high = min(start, end) - under, max(start, end) + over
+    highest, lowest = smooth[0], smooth[0]
+    for i in range(1, last + 1):
+        highest, lowest = max(highest, smooth[i]), min(lowest, smooth[i])
+    span, change = highest - lowest, offset_end - offset
+    kept = max(0.0, 1.0 - abs(change) / span) if span > 0.0 else 0.0
     for i in range(last + 1):
-        out[i] = min(max(smooth[i] + offset + (offset_end - offset) * (i / last), low), high)
+        part = i / last
+        straight = smooth[0] + (smooth[last] - smooth[0]) * part
+        out[i] = straight + kept * (smooth[i] - straight) + offset + change * part
