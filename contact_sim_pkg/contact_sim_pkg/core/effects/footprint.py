@@ -158,7 +158,7 @@ def effective_between(smooth: Vector, offset: float, offset_end: float, out: Vec
 
     The offset goes straight to its end. What the smooth height has beside a straight line is right to first order in the
     roughness only: at an edge it falls in a curve where the tire, which stands on the edge, does not, and the offset takes
-    nearly all of it back. So it counts as far as the offset leaves the range of the smooth height alone: ``1 - |change of offset| / range``.
+    nearly all of it back. So it counts as far as the offset leaves it alone: ``1 - |change of offset| / range of smooth``.
     """
     last = smooth.shape[0] - 1
     highest, lowest = smooth[0], smooth[0]
