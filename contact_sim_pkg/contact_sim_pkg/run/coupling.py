@@ -6,8 +6,8 @@ A stretch is as long as that allows:
 * No longer than a part of the footprint, so that no obstacle that the tire passes falls between two fields.
 * The offset's slopes over this stretch, s1 over h1, and the one before, s0 over h0, tell its curvature; a straight line misses
   a parabola of it by ``|s1 - s0| h1**2 / (4 (h0 + h1))`` at most. Above the allowed height the stretch is taken again, shorter.
-* With a loss the rate of the height matters too: over this stretch it may err by ``|s1 - s0| h1 / (h0 + h1)``, less what the solver's
-  own error of the field looks like over so short a time.
+* With a loss the rate of the height matters too: over this stretch it may err by ``|s1 - s0| h1 / (h0 + h1)``, less what the
+  solver's own error of the field looks like over so short a time.
 * Where the rig or its contact fails within a stretch, a shorter one is tried before that counts.
 
 A tread with memory has one step for all its stretches: they are all of the same length, and the error is only told.
@@ -29,6 +29,7 @@ from contact_sim_pkg.run.errors import RunError
 from contact_sim_pkg.run.outputs import BlockRecord, FieldRecord
 from contact_sim_pkg.run.support import CushionSupport, RoadSupport, Support
 from contact_sim_pkg.scene.build import Model
+from contact_sim_pkg.scene.build_coupling import Allowance
 
 SHRINK, GROW = 0.25, 2.0  # least and largest ratio of a stretch to the one before
 AGAIN = 0.7  # largest ratio of a stretch that is taken again
@@ -62,9 +63,7 @@ class Coupling:
             numpy.zeros((samples, states)), numpy.zeros((samples, states)), numpy.zeros((samples, FORCES))
         )  # fmt: skip
         rule = model.coupling
-        self._allowed: Offsets = (math.inf, math.inf) if rule is None else rule.heights
-        self._allowed_speed: Offsets = (math.inf, math.inf) if rule is None else rule.speeds
-        self._noise: Offsets = (0.0, 0.0) if rule is None else rule.noises
+        self._allowances = (Allowance(), Allowance()) if rule is None else rule.allowances
         self._by_error = rule is not None and rule.segments is None
         self.reset()
 
@@ -172,8 +171,8 @@ class Coupling:
     def _settled(self, ends: Offsets, found: Offsets, duration: float) -> bool:
         """Whether offsets found need no correction: small as heights, and as speeds over a stretch of ``duration`` [s]."""
         return all(
-            abs(a - b) <= SETTLED * min(height, speed * duration)
-            for a, b, height, speed in zip(ends, found, self._allowed, self._allowed_speed, strict=True)
+            abs(a - b) <= SETTLED * min(allowed.height, allowed.speed * duration)
+            for a, b, allowed in zip(ends, found, self._allowances, strict=True)
         )
 
     def _offsets(self) -> Offsets:
@@ -201,10 +200,9 @@ class Coupling:
     def _error(self, found: Offsets, stretch: Stretch) -> float:
         """Largest height, or rate of it, that a straight offset misses, over the allowed one."""
         worst, count = 0.0, stretch.segments
-        limits = zip(self._allowed, self._allowed_speed, self._noise, strict=True)
-        for support, offset, (height, speed, noise) in zip(self.supports, found, limits, strict=True):
-            turned = (support.turn(offset, count) * count - noise) / stretch.duration
-            worst = max(worst, support.bend(offset, count) / height, SLOPE * turned / speed)
+        for support, offset, allowed in zip(self.supports, found, self._allowances, strict=True):
+            turned = (support.turn(offset, count) * count - allowed.noise) / stretch.duration
+            worst = max(worst, support.bend(offset, count) / allowed.height, SLOPE * turned / allowed.speed)
         return worst
 
     def _close(self, stretch: Stretch, passed: Passed, record: BlockRecord) -> None:
@@ -212,9 +210,9 @@ class Coupling:
         self.tire.keep()
         height, cushion = float(stretch.drive.smooth[-1]) + passed.ends[0], passed.ends[1]
         approaches = (self.bodies.tire_approach(height), self.bodies.seat_approach(cushion))
-        pairs = zip(self.supports, approaches, passed.ends, passed.found, self._allowed, strict=True)
+        pairs = zip(self.supports, approaches, passed.ends, passed.found, self._allowances, strict=True)
         for support, approach, end, offset, allowed in pairs:
-            support.take(offset, stretch.segments, stretch.last or not support.calm, allowed)
+            support.take(offset, stretch.segments, stretch.last or not support.calm, allowed.height)
             change = offset - end
             if support.contact is None or change == 0.0:
                 continue

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from dataclasses import dataclass
 from typing import Any
 
@@ -24,12 +23,9 @@ from contact_sim_pkg.core.parameters import (
 from contact_sim_pkg.scene.build_contact import FieldGrids, elastic_of, loss_of, make_grids, tangent_law
 from contact_sim_pkg.scene.build_coupling import (
     CouplingRule,
-    allowed_height,
-    allowed_speed,
-    attainable,
+    allowance_of,
     coupled_timing,
     longest_travel,
-    noise_of,
     uniform_segments,
 )
 from contact_sim_pkg.scene.build_mat import PanMat, build_pan_mat
@@ -114,18 +110,15 @@ def _coupling(
     if fields == (None, None):
         return None
     tolerance = float(scene["integrator"]["coupling_tolerance"])
-    loads = (
-        0.0 if rig.tire is None else standing_load(scene),
-        0.0 if rig.seat is None else occupant_mass(scene) * GRAVITY,
+    tire_load = 0.0 if rig.tire is None else standing_load(scene)
+    seat_load = 0.0 if rig.seat is None else occupant_mass(scene) * GRAVITY
+    allowances = (
+        allowance_of(rig.tire_contact, fields[0], tire_load, tolerance),
+        allowance_of(rig.seat_contact, fields[1], seat_load, tolerance),
     )
-    contacts = (rig.tire_contact, rig.seat_contact)
-    tolerances = tuple(attainable(field, tolerance) for field in fields)
-    heights = tuple(map(allowed_height, contacts, loads, tolerances))
-    speeds = tuple(map(allowed_speed, contacts, tolerances))
-    noises = tuple(map(noise_of, contacts, fields, loads))
     uniform = footprint is not None and effects_at(scene, "tire").get("tread_viscoelasticity") is not None
     segments = uniform_segments(scene, footprint, timing) if footprint is not None and uniform else None
-    return CouplingRule(tolerance, heights, speeds, noises, longest_travel(footprint, tolerance), segments)
+    return CouplingRule(tolerance, allowances, longest_travel(footprint, tolerance), segments)
 
 
 def _seat(scene: dict[str, Any], offset: int) -> Seat:

@@ -23,41 +23,40 @@ SHORTEST = 0.1
 """Of the standing footprint's length: a stretch may be as short as this."""
 
 
+class Allowance(NamedTuple):
+    """What a stretch may miss of the effective height of one contact."""
+
+    height: float = math.inf  # [m]
+    speed: float = math.inf  # [m/s] of its rate
+    noise: float = 0.0  # [m] left in it by the solver of the field
+
+
 class CouplingRule(NamedTuple):
-    """Lengths that a stretch between two solutions of the fields may have, and the height that it may miss."""
+    """Lengths that a stretch between two solutions of the fields may have, and what it may miss."""
 
     tolerance: float  # error of a force over the standing load
-    heights: tuple[float, float]  # [m] allowed error of the effective height of tire and seat
-    speeds: tuple[float, float]  # [m/s] allowed error of the rates of these heights
-    noises: tuple[float, float]  # [m] what the solver of the fields leaves in these heights
+    allowances: tuple[Allowance, Allowance]  # of tire and seat
     longest_travel: float  # [m]
     segments: int | None  # of each stretch, where all must be equal; None: chosen by the error
 
 
-def allowed_height(contact: Contact | None, load: float, tolerance: float) -> float:
-    """Height in [m] that changes the force of a contact under ``load`` [N] by the part ``tolerance`` of it."""
+def allowance_of(contact: Contact | None, field: FieldGrids | None, load: float, tolerance: float) -> Allowance:
+    """What changes the force of a contact under ``load`` [N] by the part ``tolerance`` of it: a height, or a speed through its
+    loss.
+
+    A field is solved to a tolerance of its own: its error would be taken for changes of the height, so less than that counts
+    as that.
+    """
     if contact is None:
-        return math.inf
-    return tolerance * load / elastic_stiffness(contact.elastic, approach_of_force(contact.elastic, load))
-
-
-def attainable(field: FieldGrids | None, tolerance: float) -> float:
-    """The tolerance, but not less than that of the ``field``: its own error would be taken for changes of the height."""
-    return tolerance if field is None else max(tolerance, field.usual.settings.tolerance)
-
-
-def allowed_speed(contact: Contact | None, tolerance: float) -> float:
-    """Speed in [m/s] that changes the force of a contact by the part ``tolerance`` of it, through a Hunt-Crossley loss."""
-    if contact is None or not isinstance(contact.dissipative, NormalDissipative) or contact.dissipative.damping == 0.0:
-        return math.inf
-    return tolerance / contact.dissipative.damping
-
-
-def noise_of(contact: Contact | None, field: FieldGrids | None, load: float) -> float:
-    """Height in [m] that the solver of a ``field`` leaves open under ``load`` [N]: its tolerance of the approach."""
-    if contact is None or field is None:
-        return 0.0
-    return field.usual.settings.tolerance * float(approach_of_force(contact.elastic, load))
+        return Allowance()
+    own = 0.0 if field is None else field.usual.settings.tolerance
+    tolerance, approach = max(tolerance, own), float(approach_of_force(contact.elastic, load))
+    loss = contact.dissipative
+    damping = loss.damping if isinstance(loss, NormalDissipative) else 0.0
+    return Allowance(
+        tolerance * load / float(elastic_stiffness(contact.elastic, approach)),
+        tolerance / damping if damping > 0.0 else math.inf, own * approach,
+    )  # fmt: skip
 
 
 def longest_travel(footprint: float | None, tolerance: float) -> float:
