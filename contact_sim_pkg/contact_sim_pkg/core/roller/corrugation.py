@@ -1,0 +1,134 @@
+"""The paper's interval procedure (figure 15): the track wears where its dangerous volume is large, and waves may grow from that.
+
+An interval is `turns` turns of the track. The roller rides it (`core/roller/heave.py`), the loads met give the share of
+dangerous volume `omega(F)` of each cell, and the track is lowered where it is above the mean:
+
+    w_j <- w_j - gamma delta(F_N) turns (omega_j - mean omega)
+
+The mean lowers the whole track and is told apart. W, which the roller rides, is the mean of w over the length of the contact.
+Small waves of n_w round the track, Omega_w = 2 pi n_w turns/s, grow by `growth_of_wave` a turn.
+"""
+
+from __future__ import annotations
+
+import math
+from typing import NamedTuple
+
+import numpy
+from numpy.typing import NDArray
+
+from contact_sim_pkg.core.jit import entry, kernel
+from contact_sim_pkg.core.roller.heave import Heave, linear_stiffness, natural_frequency, ride
+
+__all__ = ["Interval", "Track", "growth_of_wave", "make_track", "moving_mean", "run_intervals"]
+
+Values = NDArray[numpy.float64]
+
+STRAIN = 0.14
+"""Radial strain of the track at which the paper's specimen was used up."""
+
+
+class Track(NamedTuple):
+    """What a track feels and how it answers."""
+
+    turn_time: float  # [s] of one turn
+    contact_cells: int  # odd: cells of the moving mean
+    gain: float  # gamma [-]; 0: the track stays as it is
+    approach: float  # delta(F_N) [m]
+    table_loads: Values  # [n] [N], rising from 0
+    table_shares: Values  # [n] omega of these, [-]
+    largest_range: float  # [m]: a range above it ends the run
+
+
+class Interval(NamedTuple):
+    """What an interval came to."""
+
+    lowest_load: float  # [N] of the means of the cells
+    highest_load: float
+    range: float  # [m] max w - min w behind the interval
+    lowered: float  # [m] what the mean took off
+    free: float  # share of time without contact
+    ended: bool  # the range has passed its limit
+
+
+def make_track(
+    radius: float, turn_time: float, cells: int, contact_length: float, gain: float, approach: float,
+    table: tuple[Values, Values],
+) -> Track:  # fmt: skip
+    """Track of `radius` [m] cut into `cells`; `table`: loads [N], rising from 0, and the shares omega of these.
+
+    Raises `ValueError` for a table that does not rise from 0 N and values out of range.
+    """
+    loads, shares = (numpy.ascontiguousarray(part, dtype=float) for part in table)
+    if loads.shape != shares.shape or len(loads) < 2 or loads[0] != 0.0 or (numpy.diff(loads) <= 0.0).any():
+        raise ValueError("track: the table needs loads that rise from 0 N, and a share for each")
+    if turn_time <= 0.0 or cells < 8 or gain < 0.0:
+        raise ValueError(f"track: turn time {turn_time} s, {cells} cells, gain {gain}: above 0, at least 8, at least 0")
+    within = int(contact_length / (2.0 * math.pi * radius / cells))
+    return Track(turn_time, 2 * (within // 2) + 1, gain, approach, loads, shares, STRAIN * radius)
+
+
+@entry
+def run_intervals(
+    heave: Heave, track: Track, turns: int, intervals: int, heights: Values, state: Values, loads: Values
+) -> Interval:
+    """`intervals` intervals; `heights` [cells] [m], `state` (z, z') go on in place, `loads` [cells] [N] are the last ones."""
+    cells = heights.shape[0]
+    ridden, shares = numpy.zeros(cells), numpy.zeros(cells)
+    lowered, free = 0.0, 0.0
+    lowest, highest, width = numpy.inf, 0.0, 0.0
+    for n in range(intervals):
+        moving_mean(heights, track.contact_cells, ridden)
+        free += ride(heave, ridden, track.turn_time / cells, turns, state, loads)
+        mean = 0.0
+        for j in range(cells):
+            shares[j] = _read(track.table_loads, track.table_shares, loads[j])
+            mean += shares[j] / cells
+            lowest, highest = min(lowest, loads[j]), max(highest, loads[j])
+        step = track.gain * track.approach * turns
+        top, bottom = -numpy.inf, numpy.inf
+        for j in range(cells):
+            heights[j] -= step * (shares[j] - mean)
+            top, bottom = max(top, heights[j]), min(bottom, heights[j])
+        lowered += step * mean
+        width = top - bottom
+        if not width <= track.largest_range:
+            return Interval(lowest, highest, width, lowered, free / (n + 1), True)
+    return Interval(lowest, highest, width, lowered, free / max(1, intervals), False)
+
+
+@entry
+def moving_mean(heights: Values, width: int, out: Values) -> None:
+    """Mean of `heights` [cells] over `width` (odd) cells around each, round the track."""
+    cells, half = heights.shape[0], width // 2
+    for j in range(cells):
+        total = 0.0
+        for k in range(-half, half + 1):
+            total += heights[(j + k) % cells]
+        out[j] = total / width
+
+
+@kernel
+def _read(places: Values, values: Values, place: float) -> float:
+    """Straight between the rows of a table, and on beyond its end."""
+    low, high = 0, places.shape[0] - 1
+    while high - low > 1:
+        middle = (low + high) // 2
+        if places[middle] <= place:
+            low = middle
+        else:
+            high = middle
+    return float(values[low] + (values[high] - values[low]) * (place - places[low]) / (places[high] - places[low]))
+
+
+def growth_of_wave(heave: Heave, track: Track, waves: int, slope: float, cells: int) -> float:
+    """Growth of a small wave in a turn: `-gamma delta(F_N) F omega'(F) (k_lin / F_N) Re(1 - H)` and the moving mean's factor.
+
+    waves: n_w round the track; slope: `F d omega / dF` at F_N; `H = kappa^2 / (kappa^2 - Omega^2 + 2 i zeta kappa Omega)`.
+    Positive exactly below `kappa sqrt(1 - 4 zeta^2)` with a positive slope.
+    """
+    kappa, omega = natural_frequency(heave), 2.0 * math.pi * waves / track.turn_time
+    answer = kappa**2 / (kappa**2 - omega**2 + 2j * heave.damping_ratio * kappa * omega)
+    phase = math.pi * waves / cells
+    mean = math.sin(track.contact_cells * phase) / (track.contact_cells * math.sin(phase))
+    return -track.gain * track.approach * slope * linear_stiffness(heave) / heave.load * (1.0 - answer).real * mean

@@ -1,0 +1,102 @@
+"""The elliptic contact of two bodies turned against each other: semi-axes named by their direction, not by their size.
+
+The gap is `x^T G x` with `G = (Rot(yaw) diag(k11, k12) Rot(-yaw) + diag(k22, k21)) / 2`. Its principal curvatures are the A
+and B of `core/hertz.py`, its principal axes those of the ellipse: only one body turns with the yaw, so the ellipse turns by
+
+    tan 2 phi = (k11 - k12) sin 2 yaw / ((k11 - k12) cos 2 yaw + k22 - k21)
+
+The paper (eq 12) takes phi = yaw. The semi-axis `along_x` is the one nearer to x: it may be the smaller, and it does not
+change its name where the two grow past each other. Source: Johnson (1985), section 4.1.
+"""
+
+from __future__ import annotations
+
+import math
+from typing import NamedTuple
+
+from contact_sim_pkg.core.hertz import HertzError, contact_of_shape, ellipse_shape
+from contact_sim_pkg.core.hertz_fits import shape_of_polynomial
+from contact_sim_pkg.core.jit import entry, kernel
+from contact_sim_pkg.core.roller.parameters import Curvatures
+
+__all__ = ["EXACT", "POLYNOMIAL", "RollingContact", "contact_of_rollers", "principal_curvatures", "rolling_contact"]
+
+EXACT, POLYNOMIAL = 0, 1
+
+
+class RollingContact(NamedTuple):
+    """Zeros without load."""
+
+    along_x: float  # [m] semi-axis nearer to x
+    along_y: float  # [m] the other
+    angle: float  # [rad] of `along_x` from x about z, -pi/4 to pi/4
+    peak_pressure: float  # [Pa]
+    approach: float  # [m]
+    load: float  # [N]
+
+    @property
+    def area(self) -> float:
+        """S = pi a b [m^2]."""
+        return math.pi * self.along_x * self.along_y
+
+
+class PrincipalCurvatures(NamedTuple):
+    """Of the gap, [1/m]."""
+
+    near_x: float
+    near_y: float
+    angle: float  # [rad] of the first from x
+
+
+def contact_of_rollers(
+    curvatures: Curvatures, yaw: float, modulus: float, load: float, kind: int = EXACT
+) -> RollingContact:
+    """Contact under a load [N] at a yaw [rad]; modulus: E* [Pa]; kind: EXACT or POLYNOMIAL (the paper's eq 10).
+
+    Raises `HertzError` where the bodies do not touch in an ellipse, and for values that are not finite.
+    """
+    if not all(math.isfinite(value) for value in (*curvatures, yaw, modulus, load)) or modulus <= 0.0:
+        raise HertzError("roller contact: curvatures, yaw and load must be finite, E* above 0")
+    principal = principal_curvatures(curvatures, yaw)
+    smaller, larger = sorted(principal[:2])
+    if smaller <= 0.0 or smaller < 5e-13 * larger:
+        raise HertzError(
+            f"roller contact: the curvatures of the gap are {smaller:.6g} and {larger:.6g} 1/m at a yaw of {yaw:.6g} rad; both "
+            "must be above 0: bodies that conform, a saddle or a line are no elliptic contact"
+        )
+    return rolling_contact(curvatures, float(yaw), float(modulus), float(load), kind)
+
+
+@entry
+def principal_curvatures(curvatures: Curvatures, yaw: float) -> PrincipalCurvatures:
+    """Coefficients of the gap along its principal axes."""
+    differ = curvatures.roller_axial - curvatures.roller_rolling
+    mean = 0.25 * (
+        curvatures.roller_axial + curvatures.roller_rolling + curvatures.shaft_axial + curvatures.shaft_rolling
+    )
+    even = 0.25 * (differ * math.cos(2.0 * yaw) + curvatures.shaft_axial - curvatures.shaft_rolling)
+    odd = 0.25 * differ * math.sin(2.0 * yaw)
+    apart = math.hypot(even, odd)
+    if even >= 0.0:
+        return PrincipalCurvatures(mean + apart, mean - apart, 0.5 * math.atan2(odd, even))
+    return PrincipalCurvatures(mean - apart, mean + apart, 0.5 * math.atan2(-odd, -even))
+
+
+@entry
+def rolling_contact(curvatures: Curvatures, yaw: float, modulus: float, load: float, kind: int) -> RollingContact:
+    """`contact_of_rollers` without its checks, for compiled callers."""
+    if not load > 0.0:
+        return RollingContact(0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
+    principal = principal_curvatures(curvatures, yaw)
+    smaller, larger = min(principal.near_x, principal.near_y), max(principal.near_x, principal.near_y)
+    shape = shape_of_polynomial(smaller, larger) if kind == POLYNOMIAL else ellipse_shape(smaller, larger)
+    contact = contact_of_shape(shape, smaller + larger, modulus, load)
+    if principal.near_x <= principal.near_y:
+        return RollingContact(contact.a, contact.b, principal.angle, contact.peak_pressure, contact.approach, load)
+    return RollingContact(contact.b, contact.a, principal.angle, contact.peak_pressure, contact.approach, load)
+
+
+@kernel
+def approach_coefficient(curvatures: Curvatures, yaw: float, modulus: float) -> float:
+    """k_c of `approach = k_c F^(2/3)` [m/N^(2/3)]."""
+    return rolling_contact(curvatures, yaw, modulus, 1.0, EXACT).approach

@@ -1,0 +1,137 @@
+"""Tilt and yaw of a roller in time, by Gauss's implicit Runge-Kutta rules: they add no damping and take none away.
+
+    I_y psi'' + I_yz theta'' + G theta' + c_psi psi' + k_psi psi = M_psi,        G = i omega
+    I_yz psi'' + I_z theta'' - G psi' + c_theta theta' + k_theta theta = M_theta
+
+One stage is the implicit midpoint rule (order 2), two have order 4, three order 6. All are symplectic: without friction and damping
+the energy errs within a bound that does not grow. The load goes straight over a step. Sources: eqs 8 and 18 of the paper on rolling
+vibro-impact; Hairer, Lubich, Wanner (2006), Geometric Numerical Integration, II.1.3.
+"""
+
+from __future__ import annotations
+
+import math
+
+import numpy
+from numpy.typing import NDArray
+
+from contact_sim_pkg.core.jit import entry, kernel
+from contact_sim_pkg.core.roller.moments import moments
+from contact_sim_pkg.core.roller.parameters import Bending, Curvatures, Roller
+
+__all__ = ["DIVERGED", "DONE", "LARGEST_TILT", "energy", "gauss_rule", "march"]
+
+Values = NDArray[numpy.float64]
+
+DONE, DIVERGED, NO_CONVERGENCE = 0, 1, 2
+
+LARGEST_TILT = 0.2
+"""[rad]: beyond it the roller has tipped over."""
+
+ITERATIONS = 100
+
+
+def gauss_rule(stages: int) -> Values:
+    """Table of a Gauss rule, [stages + 1, stages + 1]: rows of `A | c`, the last row the weights. stages: 1 to 4."""
+    if not 1 <= stages <= 4:
+        raise ValueError(f"Gauss rule: {stages} stages, allowed are 1 to 4")
+    roots, sizes = numpy.polynomial.legendre.leggauss(stages)
+    nodes, weights = 0.5 * (roots + 1.0), 0.5 * sizes
+    powers = numpy.arange(stages)
+    vandermonde = nodes[:, None] ** powers
+    integrals = nodes[:, None] ** (powers + 1) / (powers + 1)
+    table = numpy.zeros((stages + 1, stages + 1))
+    table[:stages, :stages] = integrals @ numpy.linalg.inv(vandermonde)
+    table[:stages, stages] = nodes
+    table[stages, :stages] = weights
+    return table
+
+
+@entry
+def march(
+    roller: Roller, curvatures: Curvatures, bending: Bending | None, modulus: float, loads: Values, step: float,
+    table: Values, state: Values, record: Values,
+) -> int:  # fmt: skip
+    """Steps of `step` [s] over `loads` [steps + 1] [N]; `state` (psi, theta, psi', theta') changes in place.
+
+    `record` [rows, 4] takes the state at the start and after every `steps / (rows - 1)` steps. Returns DONE, DIVERGED where the
+    tilt passes `LARGEST_TILT`, NO_CONVERGENCE where the step is too long for its iteration; what is not reached is NaN.
+    """
+    stages, steps = table.shape[0] - 1, loads.shape[0] - 1
+    slopes, trial = numpy.zeros((stages, 4)), numpy.zeros(4)
+    _fill(roller, curvatures, bending, modulus, loads[0], state, slopes[0])
+    for i in range(1, stages):
+        _copy(slopes[0], slopes[i])
+    every = steps // max(1, record.shape[0] - 1)
+    record[:, :] = numpy.nan
+    _copy(state, record[0])
+    for n in range(steps):
+        if not _solve(roller, curvatures, bending, modulus, loads[n], loads[n + 1], step, table, state, slopes, trial):
+            return NO_CONVERGENCE
+        for j in range(4):
+            for i in range(stages):
+                state[j] += step * table[stages, i] * slopes[i, j]
+        if not abs(state[0]) <= LARGEST_TILT:
+            return DIVERGED
+        if (n + 1) % every == 0 and (n + 1) // every < record.shape[0]:
+            _copy(state, record[(n + 1) // every])
+    return DONE
+
+
+@kernel
+def _solve(
+    roller: Roller, curvatures: Curvatures, bending: Bending | None, modulus: float, load: float, load_end: float,
+    step: float, table: Values, state: Values, slopes: Values, trial: Values,
+) -> bool:  # fmt: skip
+    """Slopes of the stages by repeated substitution, from those of the step before."""
+    stages = table.shape[0] - 1
+    before = numpy.inf
+    for _ in range(ITERATIONS):
+        change = size = 0.0
+        for i in range(stages):
+            for j in range(4):
+                total = 0.0
+                for k in range(stages):
+                    total += table[i, k] * slopes[k, j]
+                trial[j] = state[j] + step * total
+            here = load + table[i, stages] * (load_end - load)
+            old_tilt, old_yaw = slopes[i, 2], slopes[i, 3]
+            _fill(roller, curvatures, bending, modulus, here, trial, slopes[i])
+            change = max(change, abs(slopes[i, 2] - old_tilt), abs(slopes[i, 3] - old_yaw))
+            size = max(size, abs(slopes[i, 2]), abs(slopes[i, 3]))
+        if change <= 4e-16 * size or (change <= 1e-12 * size and change >= before):
+            return True
+        before = change
+    return size == 0.0
+
+
+@kernel
+def _fill(
+    roller: Roller, curvatures: Curvatures, bending: Bending | None, modulus: float, load: float, state: Values,
+    slope: Values,
+) -> None:  # fmt: skip
+    """Time derivative of a state."""
+    tilt, yaw = state[0], state[1]
+    moment = moments(roller, curvatures, bending, modulus, load, tilt, yaw)
+    gyro = roller.inertia_spin * roller.spin
+    about_y = moment.tilt - roller.stiffness_tilt * tilt - roller.damping_tilt * state[2] - gyro * state[3]
+    about_z = moment.yaw - roller.stiffness_yaw * yaw - roller.damping_yaw * state[3] + gyro * state[2]
+    determinant = roller.inertia_tilt * roller.inertia_yaw - roller.inertia_product**2
+    slope[0], slope[1] = state[2], state[3]
+    slope[2] = (roller.inertia_yaw * about_y - roller.inertia_product * about_z) / determinant
+    slope[3] = (roller.inertia_tilt * about_z - roller.inertia_product * about_y) / determinant
+
+
+@kernel
+def _copy(values: Values, out: Values) -> None:
+    for j in range(4):
+        out[j] = values[j]
+
+
+@entry
+def energy(roller: Roller, load: float, state: Values) -> float:
+    """Kinetic and stored energy [J] of tilt and yaw under a constant `load` [N], without bending; conserved where f_r = 0."""
+    kinetic = 0.5 * (roller.inertia_tilt * state[2] ** 2 + roller.inertia_yaw * state[3] ** 2)
+    kinetic += roller.inertia_product * state[2] * state[3]
+    stored = 0.5 * (roller.stiffness_tilt * state[0] ** 2 + roller.stiffness_yaw * state[1] ** 2)
+    return float(kinetic + stored) - load * roller.radius * 2.0 * math.sin(0.5 * state[0]) ** 2

@@ -1,0 +1,100 @@
+"""Waves that grow on the track, or die out."""
+
+import math
+
+import numpy
+import pytest
+from tests.core.roller.test_heave import CELLS, HEAVE, TURN
+
+from contact_sim_pkg.core.roller.corrugation import growth_of_wave, make_track, moving_mean, run_intervals
+from contact_sim_pkg.core.roller.heave import natural_frequency
+
+APPROACH, WIDTH = 4.011056e-6, 2 * 1.168e-4
+LOADS = numpy.linspace(0.0, 400.0, 4001)
+
+
+def track(gain, shares=None, turn=TURN, width=WIDTH):
+    table = (LOADS, (LOADS / 100.0) ** 3 if shares is None else shares)
+    return make_track(0.005, turn, CELLS, width, gain, APPROACH, table)
+
+
+def growth(waves, gain=5e-3, turn=TURN, turns=200, width=WIDTH):
+    """Measured a turn, of a wave of 0.1 nm, after the heave has settled."""
+    heights = 1e-10 * numpy.cos(2.0 * math.pi * waves * numpy.arange(CELLS) / CELLS)
+    state, loads = numpy.zeros(2), numpy.zeros(CELLS)
+    run_intervals(HEAVE, track(0.0, turn=turn, width=width), 1, 200, heights, state, loads)
+    first = abs(numpy.fft.rfft(heights)[waves])
+    run_intervals(HEAVE, track(gain, turn=turn, width=width), 1, turns, heights, state, loads)
+    return math.log(abs(numpy.fft.rfft(heights)[waves]) / first) / turns
+
+
+@pytest.mark.parametrize(("waves", "sheet"), [(1, 0.00020), (2, 0.00264), (3, -0.00183)])
+def test_small_waves_grow_as_the_theory_says(waves, sheet):
+    """Sheet of the paper: share (F/F_N)^3, gain 5e-3, 200 turns a second."""
+    theory = growth_of_wave(HEAVE, track(5e-3), waves, 3.0, CELLS)
+    assert theory == pytest.approx(sheet, abs=1e-5)
+    assert growth(waves) == pytest.approx(theory, rel=0.01)
+
+
+@pytest.mark.parametrize("share", [0.95, 1.05])
+def test_a_wave_grows_if_it_is_slower_than_the_natural_frequency(share):
+    """Omega < kappa sqrt(1 - 4 zeta^2)."""
+    omega = share * natural_frequency(HEAVE) * math.sqrt(1.0 - 4.0 * 0.05**2)
+    turn = 2.0 * math.pi * 2 / omega
+    assert (growth_of_wave(HEAVE, track(5e-3, turn=turn), 2, 3.0, CELLS) > 0.0) is (share < 1.0)
+    assert (growth(2, turn=turn) > 0.0) is (share < 1.0)
+
+
+def test_the_moving_mean_takes_its_part():
+    """Over 21 cells the wave of 6 has the factor sin(21 pi 6/256) / (21 sin(6 pi/256)) = 0.64, in load and growth."""
+    wide = 21.5 * 2.0 * math.pi * 0.005 / CELLS
+    assert track(0.0, width=wide).contact_cells == 21
+    theory = growth_of_wave(HEAVE, track(5e-3, width=wide, turn=6 * TURN), 6, 3.0, CELLS)
+    narrow = growth_of_wave(HEAVE, track(5e-3, turn=6 * TURN), 6, 3.0, CELLS)
+    assert theory / narrow == pytest.approx(math.sin(21 * math.pi * 6 / 256) / (21 * math.sin(math.pi * 6 / 256)))
+    assert growth(6, width=wide, turn=6 * TURN) == pytest.approx(theory, rel=0.02)
+
+
+def test_the_mean_of_a_wave():
+    wave, out = numpy.cos(2.0 * math.pi * 3 * numpy.arange(60) / 60), numpy.empty(60)
+    moving_mean(wave, 7, out)
+    factor = math.sin(7 * math.pi * 3 / 60) / (7 * math.sin(math.pi * 3 / 60))
+    assert out == pytest.approx(factor * wave)
+
+
+def test_without_gain_the_track_stays_as_it_is():
+    heights = 1e-6 * numpy.random.default_rng(1).standard_normal(CELLS)
+    before, state, loads = heights.copy(), numpy.zeros(2), numpy.zeros(CELLS)
+    found = run_intervals(HEAVE, track(0.0), 1, 20, heights, state, loads)
+    assert (heights == before).all()
+    assert found.lowered == 0.0
+
+
+def test_a_share_that_is_even_lowers_the_whole_track_and_is_told_apart():
+    heights, state, loads = numpy.zeros(CELLS), numpy.zeros(2), numpy.zeros(CELLS)
+    found = run_intervals(HEAVE, track(0.05, numpy.full(4001, 0.5)), 3, 10, heights, state, loads)
+    assert abs(heights).max() < 1e-20
+    assert found.lowered == pytest.approx(0.05 * APPROACH * 30 * 0.5)
+
+
+def test_the_wave_saturates_where_the_roller_leaves_the_track():
+    heights = 1e-9 * numpy.random.default_rng(4).standard_normal(CELLS)
+    state, loads = numpy.zeros(2), numpy.zeros(CELLS)
+    found = run_intervals(HEAVE, track(2e-2), 1, 3000, heights, state, loads)
+    assert found.free > 0.0
+    assert found.lowest_load == 0.0
+    assert 1e-6 < found.range < 1e-4
+    assert not found.ended
+
+
+def test_a_track_that_is_used_up_ends_the_run():
+    heights, state, loads = numpy.zeros(CELLS), numpy.zeros(2), numpy.zeros(CELLS)
+    heights[0] = 0.2 * 0.005
+    assert run_intervals(HEAVE, track(1e-3), 1, 5, heights, state, loads).ended
+
+
+def test_a_table_that_does_not_rise_is_refused():
+    with pytest.raises(ValueError, match="rise from 0 N"):
+        make_track(0.005, TURN, CELLS, WIDTH, 0.1, APPROACH, (numpy.array([1.0, 2.0]), numpy.array([0.0, 1.0])))
+    with pytest.raises(ValueError, match="at least 8"):
+        make_track(0.005, TURN, 4, WIDTH, 0.1, APPROACH, (LOADS, LOADS))
