@@ -20,7 +20,12 @@ from contact_sim_pkg.scene.errors import Fault, SceneError
 from contact_sim_pkg.scene.resolved_scene import ResolvedScene
 from contact_sim_pkg.scene.rigs import RigName
 from contact_sim_pkg.studies import accuracy_cost_backrest as backrest
-from contact_sim_pkg.studies import accuracy_cost_coupling, accuracy_cost_field, accuracy_cost_integrator
+from contact_sim_pkg.studies import (
+    accuracy_cost_coupling,
+    accuracy_cost_field,
+    accuracy_cost_impact,
+    accuracy_cost_integrator,
+)
 from contact_sim_pkg.studies.accuracy_cost_plot import write_plot
 from contact_sim_pkg.studies.accuracy_cost_table import sections
 from contact_sim_pkg.studies.scene_drive import load_resolved
@@ -39,6 +44,7 @@ PARTS: dict[RigName, tuple[Part, ...]] = {
     "car": _VEHICLE,
     "backrest": (backrest.tolerance_rows, backrest.mode_rows),
     "occupant": (*_VEHICLE, backrest.tolerance_rows, backrest.mode_rows),
+    "impact": (accuracy_cost_impact.way_rows,),
 }
 """Rig -> what is measured of it; each part gives its rows. A further rig is one more entry."""
 COLUMNS = (

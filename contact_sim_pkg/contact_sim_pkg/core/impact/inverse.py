@@ -23,7 +23,6 @@ from .severity import loss_tangent_of_severity, severity_of_restitution
 __all__ = ["FORMS", "HEAVIEST", "Reading", "group_factor", "material_of_impact", "reading"]
 
 FORMS = ("exact", "corrected", "printed")
-WEIGHT_ROUNDS = 60
 HEAVIEST = 0.5  # g tau/V0 up to which an impact under weight is inverted
 FACTORS = {"corrected": 15.0 / 16.0 * 2.0**2.5, "printed": 5.03}
 
@@ -105,18 +104,42 @@ def _severity_under_weight(restitution: float, end: str, weight: float) -> tuple
             return -restitution
 
     severity = bracketed_root(excess, 0.0, severity, 1.0e-14)
-    return severity, _under_weight(severity, end, weight)
+    found = _under_weight(severity, end, weight)
+    if abs(found.restitution - restitution) > 1.0e-9:
+        raise ImpactError(
+            f"restitution {restitution:.6g} under g tau/V0 {weight:.3g}: so heavy a sphere would not rebound so"
+        )
+    return severity, found
 
 
 def _under_weight(severity: float, end: str, weight: float) -> ScaledImpact:
-    """The impact at ``severity`` with ``g tau/V0 = weight``: the weight in its own units is ``weight/T_c``, by iteration."""
-    found = scaled_impact(severity, end)
-    for _ in range(WEIGHT_ROUNDS):
-        before = found.duration
-        found = scaled_impact(severity, end, weight / before)
-        if abs(found.duration - before) <= 1.0e-14 * before:
-            break
-    return found
+    """The impact at ``severity`` with ``g tau/V0 = weight``; the weight in its own units is ``weight/T_c``, T_c its own.
+
+    That is a root between 0 and the value at the T_c without weight, for the product of both grows with the weight. Raises
+    ImpactError where the weight keeps the sphere on the sample.
+    """
+    free = scaled_impact(severity, end)
+    if weight == 0.0:
+        return free
+
+    def excess(own: float) -> float:
+        try:
+            return own * scaled_impact(severity, end, own).duration / weight - 1.0
+        except ImpactError:  # it does not leave: longer than any contact
+            return math.inf
+
+    low, high = 0.0, weight / free.duration
+    at_high = excess(high)
+    while at_high == math.inf:  # halve down to where it leaves
+        middle = 0.5 * (low + high)
+        if high - low <= 1.0e-12 * high:
+            raise ImpactError(f"weight: g tau/V0 {weight:.3g} keeps the sphere on the sample")
+        at_middle = excess(middle)
+        if at_middle < 0.0:
+            low = middle
+        else:
+            high, at_high = middle, at_middle
+    return scaled_impact(severity, end, bracketed_root(excess, low, high, 1.0e-15))
 
 
 def shape_of_depth(depth: float, radius: float, shape: str) -> float:
