@@ -17,6 +17,7 @@ PANELS = (  # part and contact -> title
     ("integrator", "", "time integration, point contacts"),
     ("coupling", "", "coupling of bodies and fields, whole scene"),
     ("modes", "", "modes of the shell, tolerance of the scene"),
+    ("first impact", "", "first impact of the scene"),
     ("field", "tire", "tire field"),
     ("field", "seat", "seat field"),
 )
@@ -77,7 +78,7 @@ def _panel(axis: Any, rows: list[dict[str, Any]]) -> None:
 
 
 def _finer(row: dict[str, Any]) -> float:
-    return -float(row["tolerance"])
+    return -float(row["tolerance"] or 0.0)
 
 
 def _name_points(axis: Any, rows: list[dict[str, Any]]) -> None:

@@ -13,8 +13,8 @@ COST = "ms per simulated s"
 
 
 def sections(rows: list[Row]) -> list[Section]:
-    """Parts of the table, in the order of the study: integrator, coupling, modes, then each contact's field."""
-    found = [_integrator(rows), _coupling(rows), _modes(rows)]
+    """Parts of the table, in the order of the study: integrator, coupling, modes, ways to an impact, then each contact's field."""
+    found = [_integrator(rows), _coupling(rows), _modes(rows), _ways(rows)]
     for contact in ("tire", "seat"):
         of_contact = [row for row in rows if row["part"].startswith("field") and row["quantity"].startswith(contact)]
         on_rungs = [row for row in of_contact if row["rung"] != "check"]
@@ -36,15 +36,24 @@ def _coupling(rows: list[Row]) -> Section:
 
 
 def _modes(rows: list[Row]) -> Section:
-    """One line a number of modes."""
-    chosen = [row for row in rows if row["part"] == "modes"]
+    return _by_rung("modes of the shell: error", "modes", "modes", rows)
+
+
+def _ways(rows: list[Row]) -> Section:
+    return _by_rung("first impact of the scene: error", "first impact", "way", rows)
+
+
+def _by_rung(title: str, part: str, name: str, rows: list[Row]) -> Section:
+    """One line a rung, the errors of its quantities side by side; its tolerance where it has one."""
+    chosen = [row for row in rows if row["part"] == part]
     lines: dict[str, Row] = {}
     for row in chosen:
-        line = lines.setdefault(row["rung"], {"modes": row["rung"], "tolerance": row["tolerance"]})
+        head = {name: row["rung"]} if row["tolerance"] is None else {name: row["rung"], "tolerance": row["tolerance"]}
+        line = lines.setdefault(row["rung"], head)
         line[row["quantity"]] = row["error"]
     for row in chosen:
         lines[row["rung"]][COST] = row["ms_per_simulated_s"]
-    return Section("modes of the shell: error", list(lines.values()), _against(chosen))
+    return Section(title, list(lines.values()), _against(chosen))
 
 
 def _by_tolerance(title: str, part: str, rows: list[Row]) -> Section:
