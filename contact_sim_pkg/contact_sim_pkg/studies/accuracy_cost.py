@@ -38,12 +38,27 @@ _VEHICLE: tuple[Part, ...] = (
     accuracy_cost_coupling.coupling_rows,
     lambda _name, scene, tell: accuracy_cost_field.field_rows(scene, tell),
 )
+
+
+def _named(contact: str, part: Part) -> Part:
+    """The rows of ``part`` under the name of a contact, where a rig has them of two."""
+
+    def rows(name: str, scene: ResolvedScene, tell: Callable[[str], None]) -> list[dict[str, Any]]:
+        return [{**row, "quantity": f"{contact}: {row['quantity']}"} for row in part(name, scene, tell)]
+
+    return rows
+
+
+_BACKREST: tuple[Part, ...] = (backrest.tolerance_rows, backrest.mode_rows)
 PARTS: dict[RigName, tuple[Part, ...]] = {
     "tire": _VEHICLE,
     "seat": _VEHICLE,
     "car": _VEHICLE,
-    "backrest": (backrest.tolerance_rows, backrest.mode_rows),
-    "occupant": (*_VEHICLE, backrest.tolerance_rows, backrest.mode_rows),
+    "backrest": _BACKREST,
+    "occupant": (
+        *(_named("seat", part) for part in _VEHICLE),
+        *(_named("backrest", part) for part in _BACKREST),
+    ),
     "impact": (accuracy_cost_impact.way_rows,),
 }
 """Rig -> what is measured of it; each part gives its rows. A further rig is one more entry."""

@@ -16,6 +16,7 @@ import numpy
 
 from contact_sim_pkg.core.shell import MODE_COUNTS
 from contact_sim_pkg.scene.resolved_scene import ResolvedScene
+from contact_sim_pkg.scene.schema_backrest_rules import MOST_SEARCHED
 from contact_sim_pkg.studies.backrest_drive import BackrestDrive, Motion, drive_of, fast_run, slow_run
 
 __all__ = ["mode_rows", "tolerance_rows"]
@@ -56,13 +57,15 @@ def mode_rows(_scene_name: str, scene: ResolvedScene, tell: Tell) -> list[Row]:
     """The same quantities for each number of modes of a shell, against the most modes at a tight tolerance."""
     if _shell(scene) is None:
         return []
-    most = f"{MODE_COUNTS[-1]} modes"
+    searched = scene.data["effects"]["backrest"].get("contact_search") is not None
+    counts = tuple(count for count in MODE_COUNTS if not searched or count <= MOST_SEARCHED)
+    most = f"{counts[-1]} modes"
     tell(f"modes: reference, {most}")
-    finest = drive_of(_with_modes(scene, MODE_COUNTS[-1]), SHELL_DURATION)
+    finest = drive_of(_with_modes(scene, counts[-1]), SHELL_DURATION)
     exact = fast_run(finest, _scale(scene, finest, TIGHT))
     tolerance = float(scene.data["integrator"]["relative_tolerance"])
     rows = []
-    for count in MODE_COUNTS:
+    for count in counts:
         tell(f"modes: {count}")
         drive = drive_of(_with_modes(scene, count), SHELL_DURATION)
         found, cost = _timed(drive, drive.model.scale)
