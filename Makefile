@@ -16,10 +16,10 @@ TEST_ENVIRONMENT = ROS_DOMAIN_ID=$(TEST_DOMAIN) ROS_AUTOMATIC_DISCOVERY_RANGE=LO
 # Ends a recipe: prints how long it took and hands the status on.
 REPORT_TIME = status=$$?; echo "make $@: $$SECONDS s in all"; exit $$status
 
-.PHONY: help setup run test lint bench hard compare-field clean
+.PHONY: help setup run test lint bench hard compare-field compare-dynamics clean
 
 help:  ## show this list
-	@awk -F ':.*## ' '/^[a-z-]+:.*## / { printf "make %-13s %s\n", $$1, $$2 }' $(firstword $(MAKEFILE_LIST))
+	@awk -F ':.*## ' '/^[a-z-]+:.*## / { printf "make %-17s %s\n", $$1, $$2 }' $(firstword $(MAKEFILE_LIST))
 
 setup:  ## make the environment in .ros2/ and build the workspace; does nothing where both are current
 	@$(SET_UP)
@@ -43,6 +43,9 @@ hard:  ## run the hard cases: value, expectation, margin, verdict
 compare-field:  ## solve the same pressure fields with tamaas and ASPHER, installed apart in .compare-field/, and compare
 	@SECONDS=0; $(ENTER) && python -m comparisons.field $(COMPARE_OPTIONS); $(REPORT_TIME)
 
+compare-dynamics:  ## run the same impacts, slides and rests with MuJoCo and PyBullet, installed apart in .compare-dynamics/
+	@SECONDS=0; $(ENTER) && python -m comparisons.dynamics $(COMPARE_OPTIONS); $(REPORT_TIME)
+
 clean:  ## remove the environments, the build and the caches of the tools; bags stay
-	rm -rf .ros2 .compare-field ros2_ws/build ros2_ws/install ros2_ws/log .pytest_cache .mypy_cache .ruff_cache .hypothesis
+	rm -rf .ros2 .compare-field .compare-dynamics ros2_ws/build ros2_ws/install ros2_ws/log .pytest_cache .mypy_cache .ruff_cache .hypothesis
 	find . -name __pycache__ -type d -prune -exec rm -rf {} +

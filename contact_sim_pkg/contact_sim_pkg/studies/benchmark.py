@@ -10,7 +10,7 @@ import os
 from collections.abc import Callable
 from typing import Any
 
-from contact_sim_pkg.studies import benchmark_core, benchmark_runs
+from contact_sim_pkg.studies import benchmark_core, benchmark_rigid, benchmark_runs
 from contact_sim_pkg.studies.benchmark_goal import Measured
 from contact_sim_pkg.studies.section import Section
 
@@ -32,6 +32,7 @@ PARTS: tuple[tuple[str, Callable[[], list[Measured]]], ...] = (
     ("steel ball", benchmark_core.steel),
     ("stick-slip", benchmark_core.stick_slip),
     ("absent effect", benchmark_core.absent_effect),
+    ("rigid contact", benchmark_rigid.goals),
     ("rigs with point contacts", benchmark_runs.rigs),
     ("tire field", benchmark_runs.fields),
 )

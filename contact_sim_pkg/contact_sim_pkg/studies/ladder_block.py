@@ -1,4 +1,4 @@
-"""Ladders of rigid contact: the solver of the contact problem, and the facets of the friction cone.
+"""Ladders of rigid contact: the solver of the contact problem, the facets of the friction cone, the step in time.
 
 Times are calls from Python, with the set-up of arrays: what differs between rungs is the solve.
 """
@@ -13,16 +13,20 @@ from contact_sim_pkg.core.parameters import Vector
 from contact_sim_pkg.core.rigid.contact_solver import GAUSS_SEIDEL, LEMKE, MODES, NEWTON
 from contact_sim_pkg.core.rigid.problem import PLANE, SPACE
 from contact_sim_pkg.reference.rigid_contact import planar_velocity_by_enumeration
+from contact_sim_pkg.studies import rigid_motion
 from contact_sim_pkg.studies.ladder_row import Row, Rung, milliseconds, row
 from contact_sim_pkg.studies.rigid_problem import Case, contact_rows, random_face, solve, stack
 
-__all__ = ["CONE_PART", "SOLVER_PART", "cone_rows", "solver_rows"]
+__all__ = ["CONE_PART", "SOLVER_PART", "STEP_PART", "cone_rows", "solver_rows", "step_rows"]
 
 SOLVER_PART = "post-impact velocity: solver"
 CONE_PART = "friction cone in space"
+STEP_PART = "rigid contact in time: end position"
+CLOSED = "closed form"
 ENUMERATION = "all index sets, numpy, no shared code"
 POINT_MASS = "closed form of a sliding point"
 DIRECTIONS = 37  # of slip, over which the worst error is taken
+STEPS = (1e-3, 1e-4, None)  # [s]; None: located
 FACETS = (4, 8, 16, 32, 0)
 
 
@@ -67,4 +71,18 @@ def cone_rows() -> list[Row]:
         ms = milliseconds(lambda case=case, facets=facets: solve(case, NEWTON, facets))  # type: ignore[misc]
         name = f"{facets} facets" if facets else "true cone"
         found.append(row(CONE_PART, "sliding point, worst direction", "velocity", Rung(name, ms), POINT_MASS, worst))
+    return found
+
+
+def step_rows() -> list[Row]:
+    """A block that slides to a stop, and a ball after two bounces, by fixed steps and located; times are of the whole run."""
+    cases = {
+        "block slides to a stop, 1 s": rigid_motion.slide_error, "ball after 1 s and two bounces": rigid_motion.bounced,
+    }  # fmt: skip
+    found = []
+    for name, run in cases.items():
+        for step in STEPS:
+            ms = milliseconds(lambda run=run, step=step: run(step))  # type: ignore[misc]
+            rung = "located" if step is None else f"stepping, {1e3 * step:g} ms"
+            found.append(row(STEP_PART, name, "position", Rung(rung, ms), CLOSED, run(step)))
     return found

@@ -12,7 +12,7 @@ from ..jit import kernel
 from ..parameters import Vector
 from .body import RigidBody, contact_rows, fill_inverse_inertia
 from .problem import DISC, INACTIVE, PLANE, ContactProblem, fill_delassus, make_problem
-from .rotation import free_rotation, gyroscopic_step, rotate_by, spin_in_body
+from .rotation import free_rotation, gyroscopic_step, rotate_by, spin_in_body, straighten
 
 Flags = numpy.typing.NDArray[numpy.int64]
 APART, TOUCHING, HELD, STUCK = (
@@ -188,5 +188,6 @@ def free_motion(body, motion, work, time):
         return
     w = spin_in_body(R, v)
     w = free_rotation(turned, body.inertia, load, w[0], w[1], w[2], time)
+    straighten(turned)
     for k in range(3):
         free[3 + k] = turned[k, 0] * w[0] + turned[k, 1] * w[1] + turned[k, 2] * w[2]

@@ -87,6 +87,23 @@ def spin_in_body(R, w):
 
 
 @kernel
+def straighten(R):
+    """Take rounding out of a rotation matrix: its rows to unit length and at right angles, one step towards the nearest orthogonal one."""
+    for i in range(3):
+        a, b, c = R[i, 0], R[i, 1], R[i, 2]
+        length = a * a + b * b + c * c
+        half = 0.5 * (3.0 - length)
+        R[i, 0], R[i, 1], R[i, 2] = half * a, half * b, half * c
+    for i in range(3):
+        j, k = (i + 1) % 3, (i + 2) % 3
+        mixed = R[j, 0] * R[k, 0] + R[j, 1] * R[k, 1] + R[j, 2] * R[k, 2]
+        for m in range(3):
+            first = R[j, m]
+            R[j, m] -= 0.5 * mixed * R[k, m]
+            R[k, m] -= 0.5 * mixed * first
+
+
+@kernel
 def _kick(R, inertia, load, h, w_1, w_2, w_3):
     """Spin after the torque of ``load`` [6], world axes, has acted for ``h`` [s] on a body that does not turn."""
     return (

@@ -1,0 +1,65 @@
+"""This project: events located in time; no step to choose, so the step is the interval between outputs."""
+
+from __future__ import annotations
+
+import math
+
+import numpy
+
+from comparisons.dynamics.problems import SIDE, Array, Start
+from contact_sim_pkg.core.rigid.body import box, placed, slope, sphere
+from contact_sim_pkg.core.rigid.located import LocatedBody
+from contact_sim_pkg.core.rigid.parameters import ENERGETIC
+from contact_sim_pkg.core.rigid.results import SENTENCES, SOLVED
+
+__all__ = ["SETTINGS", "STEPS", "Ours", "version"]
+
+SETTINGS = "located events, energetic restitution; the driver between events is Python"
+STEPS = (1e-2, 1e-3)
+RADIUS = 0.05
+
+
+def version() -> str:
+    """Of this project."""
+    return "this checkout"
+
+
+class Ours:
+    """One body."""
+
+    def __init__(self, step: float) -> None:
+        self._step = step
+
+    def place(self, start: Start) -> None:
+        """Make the world anew."""
+        shape = (
+            sphere(RADIUS, 1.0, start.friction, start.restitution)
+            if start.ball
+            else box((SIDE, SIDE, SIDE), 1.0, start.friction, start.restitution)
+        )
+        load = numpy.concatenate([numpy.array(start.gravity), numpy.zeros(3)])
+        if not any(start.gravity):
+            load[2] = -1e-12  # the speed that counts as rest is taken from the weight
+        cosine, sine = math.cos(start.pitch), math.sin(start.pitch)
+        turned = numpy.array([[cosine, 0.0, sine], [0.0, 1.0, 0.0], [-sine, 0.0, cosine]])
+        velocity = numpy.array([*start.velocity, 0.0, start.spin, 0.0])
+        motion = placed(shape, numpy.array([0.0, 0.0, start.height]), velocity, rotation=turned)
+        self._body = LocatedBody(shape._replace(load=load), slope(3), motion, ENERGETIC)
+
+    def run(self, seconds: float) -> None:
+        """Go on for a time."""
+        count = max(1, math.ceil(seconds / self._step - 1e-9))
+        for _ in range(count):
+            status = self._body.advance(seconds / count)
+            if status != SOLVED:
+                raise ArithmeticError(SENTENCES[status])
+
+    def state(self) -> tuple[Array, Array, Array]:
+        """Position, velocity and angular velocity in world axes."""
+        motion = self._body.motion
+        return motion.position.copy(), motion.velocity[:3].copy(), motion.velocity[3:].copy()
+
+    def loads(self) -> Array:
+        """Normal forces [N] over the last interval."""
+        normal = self._body.impulse[::3] / self._step
+        return numpy.asarray(normal[normal > 0.0])
