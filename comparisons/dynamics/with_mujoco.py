@@ -13,13 +13,14 @@ from comparisons.dynamics.problems import SIDE, Array, Start
 __all__ = ["SETTINGS", "STEPS", "MuJoCo", "version"]
 
 SETTINGS = (
-    "implicitfast, elliptic cone, impratio 100, Newton solver, tolerance 1e-12, 20 noslip iterations; contact stiffness "
-    "with 30 steps a period for bounces, 2 steps time constant and critical damping else; solimp 0.9999"
+    "implicitfast, elliptic cone, impratio 100, Newton solver, tolerance 1e-12, 20 noslip iterations, solimp 0.9999; "
+    "stiffness with 30 steps a period for bounces, else a time constant of 2 steps and critical damping"
 )
 STEPS = (2e-3, 1e-3, 1e-4, 1e-5)
 PERIOD_STEPS = 30.0
-WORLD = """<mujoco><option timestep="{step}" integrator="implicitfast" cone="elliptic" impratio="100" solver="Newton" tolerance="1e-12"
- iterations="100" noslip_iterations="20" gravity="{gravity}"/><worldbody><geom name="floor" type="plane" size="100 100 1" {contact}/>
+WORLD = """<mujoco><option timestep="{step}" integrator="implicitfast" cone="elliptic" impratio="100" solver="Newton"
+ tolerance="1e-12" iterations="100" noslip_iterations="20" gravity="{gravity}"/><worldbody>
+<geom name="floor" type="plane" size="100 100 1" {contact}/>
 <body name="body" pos="0 0 {height}" euler="0 {pitch} 0"><freejoint/><geom type="{kind}" size="{size}" mass="1" {contact}/></body>
 </worldbody></mujoco>"""
 

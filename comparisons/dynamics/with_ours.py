@@ -9,13 +9,13 @@ import numpy
 from comparisons.dynamics.problems import SIDE, Array, Start
 from contact_sim_pkg.core.rigid.body import box, placed, slope, sphere
 from contact_sim_pkg.core.rigid.located import LocatedBody
-from contact_sim_pkg.core.rigid.parameters import ENERGETIC
+from contact_sim_pkg.core.rigid.parameters import ENERGETIC, NEWTON
 from contact_sim_pkg.core.rigid.results import SENTENCES, SOLVED
 
 __all__ = ["SETTINGS", "STEPS", "Ours", "version"]
 
-SETTINGS = "located events, energetic restitution; the driver between events is Python"
-STEPS = (1e-2, 1e-3)
+SETTINGS = "located events; energetic restitution, that of Newton where e is 0, as the others; the driver between events is Python"
+STEPS = (5e-3, 1e-3)
 RADIUS = 0.05
 
 
@@ -44,7 +44,9 @@ class Ours:
         turned = numpy.array([[cosine, 0.0, sine], [0.0, 1.0, 0.0], [-sine, 0.0, cosine]])
         velocity = numpy.array([*start.velocity, 0.0, start.spin, 0.0])
         motion = placed(shape, numpy.array([0.0, 0.0, start.height]), velocity, rotation=turned)
-        self._body = LocatedBody(shape._replace(load=load), slope(3), motion, ENERGETIC)
+        self._body = LocatedBody(
+            shape._replace(load=load), slope(3), motion, NEWTON if start.restitution == 0.0 else ENERGETIC
+        )
 
     def run(self, seconds: float) -> None:
         """Go on for a time."""

@@ -12,11 +12,9 @@ from comparisons.dynamics.problems import SIDE, Array, Start
 __all__ = ["SETTINGS", "STEPS", "PyBullet", "version"]
 
 SETTINGS = (
-    "200 iterations, residual 0, no damping of motion, contact slop 0, restitution threshold 0, contact and friction ERP 0.2 and "
-    "0, cone friction, margin of box and ball 0"
+    "200 iterations, residual 0, no damping of motion, contact slop 0, restitution threshold 0, contact and friction ERP 0, "
+    "cone friction, margin of box and ball 0"
 )
-ERP = 0.2
-THRESHOLD = 0.0
 STEPS = (2e-3, 1e-3, 1e-4, 1e-5)
 
 
@@ -38,7 +36,7 @@ class PyBullet:
         pybullet.resetSimulation(physicsClientId=client)
         pybullet.setPhysicsEngineParameter(
             fixedTimeStep=self._step, numSolverIterations=200, numSubSteps=0, restitutionVelocityThreshold=0.0,
-            contactSlop=0.0, solverResidualThreshold=0.0, enableConeFriction=1, contactERP=ERP, frictionERP=0.0,
+            contactSlop=0.0, solverResidualThreshold=0.0, enableConeFriction=1, contactERP=0.0, frictionERP=0.0,
             physicsClientId=client,
         )  # fmt: skip
         pybullet.setGravity(*start.gravity, physicsClientId=client)
@@ -55,7 +53,7 @@ class PyBullet:
             pybullet.changeDynamics(
                 body, -1, lateralFriction=math.sqrt(start.friction), restitution=math.sqrt(start.restitution),
                 linearDamping=0.0, angularDamping=0.0, rollingFriction=0.0, spinningFriction=0.0,
-                collisionMargin=0.0, contactProcessingThreshold=THRESHOLD, activationState=pybullet.ACTIVATION_STATE_DISABLE_SLEEPING,
+                collisionMargin=0.0, contactProcessingThreshold=0.0, activationState=pybullet.ACTIVATION_STATE_DISABLE_SLEEPING,
                 physicsClientId=client,
             )  # fmt: skip
         pybullet.resetBaseVelocity(self._body, start.velocity, [0.0, start.spin, 0.0], physicsClientId=client)

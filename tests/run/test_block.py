@@ -17,7 +17,7 @@ from contact_sim_pkg.bag.messages import (
 from contact_sim_pkg.cli.main import main
 from contact_sim_pkg.run.offline import run_offline
 from contact_sim_pkg.run.rigs import make_simulation, result_topics
-from contact_sim_pkg.scene.build_block import BlockError, build_block
+from contact_sim_pkg.scene.errors import SceneError
 
 from .scenes import resolved
 
@@ -102,8 +102,10 @@ def test_a_sphere_rolls_over_a_ground_of_heights():
 
 
 def test_a_body_that_starts_in_the_ground_is_refused_with_the_depth():
-    with pytest.raises(BlockError, match=r"0\.05 m into the ground at the start; raise its z by that much"):
-        build_block(resolved("block_zeno", "block.position=[0,0,0]").data)
+    with pytest.raises(
+        SceneError, match=r"block\.position: puts the body 0\.05 m into the ground at the start; raise its z"
+    ):
+        resolved("block_zeno", "block.position=[0,0,0]")
 
 
 def identified(capsys, folder, *values, options=()):

@@ -17,14 +17,10 @@ from contact_sim_pkg.scene.hull import homogeneous_hull
 from contact_sim_pkg.scene.lattice import effects_at
 from contact_sim_pkg.scene.timing import Timing, make_timing
 
-__all__ = ["BlockError", "BlockModel", "build_block"]
+__all__ = ["BlockModel", "build_block", "depth_at_start"]
 
 BELOW = 1e-9  # of the body's size: a start this far below the ground is rounding
 Matrix = NDArray[numpy.float64]
-
-
-class BlockError(ValueError):
-    """A body that cannot start where the scene puts it."""
 
 
 @dataclass(frozen=True)
@@ -46,7 +42,7 @@ class BlockModel:
 
 
 def build_block(scene: dict[str, Any]) -> BlockModel:
-    """Parameters of a resolved scene. Raises BlockError where the body would start inside the ground."""
+    """Parameters of a resolved scene."""
     block, law = scene["block"], effects_at(scene, "block")["rigid_contact"]
     width = PLANE if block["motion"] == "plane" else SPACE
     points, radius, inertia, axes = _shape(block, width)
@@ -60,7 +56,6 @@ def build_block(scene: dict[str, Any]) -> BlockModel:
     body = RigidBody(width, mass, inertia, points, radius, float(law["friction"]), float(law["restitution"]), load)
     ground = _ground(block["ground"], width)
     start = _start(body, vectors, axes)
-    _require_above(body, ground, start)
     return BlockModel(
         body, ground, start, axes, make_timing(scene, True), RULE_NAMES[law["rule"]], str(law["scheme"]), float(law["step"]),
         int(law["facets"]), float(block["gravity"]), vectors["force"], vectors["torque"],
@@ -118,7 +113,14 @@ def _start(body: RigidBody, vectors: dict[str, Vector], axes: Matrix) -> Motion:
     return placed(body, place, numpy.concatenate([velocity, spin]), rotation=turned)
 
 
-def _require_above(body: RigidBody, ground: Ground, start: Motion) -> None:
+def depth_at_start(block: dict[str, Any]) -> float:
+    """How far in [m] a body of the plain data of a section `block` starts below its ground; 0 where it starts above or on it."""
+    width = PLANE if block["motion"] == "plane" else SPACE
+    points, radius, inertia, axes = _shape(block, width)
+    names = ("position", "velocity", "rotation", "angular_velocity")
+    body = RigidBody(width, 1.0, inertia, points, radius, 0.0, 0.0, numpy.zeros(3 * (width - 1)))
+    start = _start(body, {name: numpy.array(block[name], float) for name in names}, axes)
+    ground = _ground(block["ground"], width)
     corners = body.points @ start.rotation.T + start.position
     if len(ground.heights):
         nodes = ground.origin_x + ground.cell * numpy.arange(len(ground.heights))
@@ -126,7 +128,4 @@ def _require_above(body: RigidBody, ground: Ground, start: Motion) -> None:
     else:
         gaps = corners @ ground.normal - ground.offset - body.radius
     size = float(numpy.linalg.norm(body.points, axis=1).max()) + body.radius
-    if gaps.min() < -BELOW * size:
-        raise BlockError(
-            f"block.position puts the body {-gaps.min():.6g} m into the ground at the start; raise its z by that much"
-        )
+    return -float(gaps.min()) if gaps.min() < -BELOW * size else 0.0

@@ -18,7 +18,10 @@ def block_breaches(scene: Scene) -> Iterator[Breach]:
     if scene.rig != "block":
         return
     block = scene.block or Block()
-    yield from _shape(block)
+    faults = list(_shape(block))
+    yield from faults
+    if not faults:
+        yield from _above_ground(block)
     if block.motion == "plane":
         yield from _plane(block)
     law = None if scene.effects.block is None else scene.effects.block.rigid_contact
@@ -49,6 +52,15 @@ def _shape(block: Block) -> Iterator[Breach]:
             yield Breach("block.points", f"{wrong} has {len(wrong)} numbers; motion in the {block.motion} needs {size}")
         elif not _has_volume(block.points):
             yield Breach("block.points", "the points span no volume; move one out of their line or plane")
+
+
+def _above_ground(block: Block) -> Iterator[Breach]:
+    from contact_sim_pkg.scene.build_block import depth_at_start  # needs the compiled core, as this rig alone does
+
+    depth = depth_at_start(block.model_dump())
+    if depth > 0.0:
+        sentence = f"puts the body {show(depth)} m into the ground at the start; raise its z by that much"
+        yield Breach("block.position", sentence, ("block.ground",))
 
 
 def _has_volume(points: list[list[float]]) -> bool:

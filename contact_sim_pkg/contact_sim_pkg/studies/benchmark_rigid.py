@@ -44,14 +44,14 @@ def _solves(
     """Assembly and solve of one body's contacts for each of the velocities [n, coordinates]; the worst residual."""
     worst = 0.0
     for i in range(velocities.shape[0]):
-        fill_delassus(J, W, problem.A)
+        fill_delassus(J, W, problem.A)  # type: ignore[no-untyped-call]
         for row in range(J.shape[0]):
             total = 0.0
             for k in range(J.shape[1]):
                 total += J[row, k] * velocities[i, k]
             problem.q[row] = total
         worst = max(worst, solve_and_split(problem, J, W, solver, c).residual)
-    multiply_add(problem.A, c, problem.q, u)
+    multiply_add(problem.A, c, problem.q, u)  # type: ignore[no-untyped-call]
     return worst
 
 

@@ -26,6 +26,7 @@ from .motion import (
     look,
     take_part,
 )
+from .problem import PLANE
 
 STILL = 1.0e-13  # of the speed scale: below it a velocity is rounding
 LANDED = 1.0e-11  # of the size: a point this far below the ground has landed
@@ -69,9 +70,27 @@ def finish_impact(body: RigidBody, motion: Motion, work: MotionWorkspace, rest_s
 
 
 @kernel
-def _normal_acceleration(body, work, i):
-    """Of a point without contact forces, from the load alone."""
-    total = 0.0
+def _turning_acceleration(body, motion, work, i):
+    """Normal part of ``w x (w x r)`` of point ``i``, from the rows of its contact; the sphere about the point does not count."""
+    J, v, row = work.J, motion.velocity, i * body.width
+    if body.width == PLANE:
+        return v[2] * v[2] * (J[row + 1, 2] - body.radius)
+    along = body.radius  # r n, r t, r s of the arm, w n, w t, w s of the spin
+    r_t, r_s, w_n, w_t, w_s = 0.0, 0.0, 0.0, 0.0, 0.0
+    for k in range(3):
+        along += J[row + 1, 3 + k] * J[row + 2, k]
+        r_t += J[row + 2, 3 + k] * J[row, k]
+        r_s += J[row, 3 + k] * J[row + 1, k]
+        w_n += v[3 + k] * J[row, k]
+        w_t += v[3 + k] * J[row + 1, k]
+        w_s += v[3 + k] * J[row + 2, k]
+    return w_n * (w_t * r_t + w_s * r_s) - (w_t * w_t + w_s * w_s) * along
+
+
+@kernel
+def _normal_acceleration(body, motion, work, i):
+    """Of a point without contact forces: from the load, and from the turn of the arm."""
+    total = _turning_acceleration(body, motion, work, i)
     for k in range(body.load.shape[0]):
         for m in range(body.load.shape[0]):
             total += work.J[i * body.width, k] * work.W[k, m] * body.load[m]
@@ -113,7 +132,7 @@ def settle(
             continue
         if work.flags[i] == APART or abs(speed) > rest_speed:
             continue
-        acceleration = _normal_acceleration(body, work, i)
+        acceleration = _normal_acceleration(body, motion, work, i)
         if acceleration < 0.0:
             if speed > still and body.restitution < 1.0:
                 wait = max(wait, 2.0 * speed / (-acceleration * (1.0 - body.restitution)))

@@ -88,7 +88,7 @@ def spin_in_body(R, w):
 
 @kernel
 def straighten(R):
-    """Take rounding out of a rotation matrix: its rows to unit length and at right angles, one step towards the nearest orthogonal one."""
+    """Take rounding out of a rotation matrix: one step to rows of unit length and at right angles."""
     for i in range(3):
         a, b, c = R[i, 0], R[i, 1], R[i, 2]
         length = a * a + b * b + c * c
