@@ -86,6 +86,17 @@ def test_a_back_that_slaps_and_slips_records_the_same_bits_as_offline(tmp_path):
     assert on_nodes == messages(tmp_path / "offline")
 
 
+def test_a_rig_without_excitation_records_the_same_bits_as_offline(tmp_path):
+    values = ("duration=0.5", "pace=max")
+    options = [part for value in values for part in ("--set", value)]
+    ended = bench("run", "impact_rubber_drop", *options, "--out", tmp_path / "nodes")
+    assert ended.returncode == 0, ended.stderr
+    run_offline(resolved("impact_rubber_drop", *values), tmp_path / "offline")
+    on_nodes = messages(tmp_path / "nodes")
+    assert {topic for topic, _, _ in on_nodes} >= {"/impact/events", "/impact/course", "/impact/wave", "/impact/force"}
+    assert on_nodes == messages(tmp_path / "offline")
+
+
 def test_a_run_without_recording_ends_by_itself_and_leaves_nothing(seat, tmp_path):
     nodes = Nodes(seat, tmp_path)
     try:

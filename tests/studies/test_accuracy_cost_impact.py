@@ -2,8 +2,7 @@
 
 import pytest
 
-from contact_sim_pkg.studies import accuracy_cost_impact, hard_cases_impact_rig
-from contact_sim_pkg.studies.hard_cases import evaluate
+from contact_sim_pkg.studies import accuracy_cost_impact
 from contact_sim_pkg.studies.scene_drive import load_resolved
 
 
@@ -33,9 +32,3 @@ def test_a_pendulum_has_no_weight_along_the_blow():
 def test_a_way_without_an_answer_has_no_row():
     found = errors("impact_rubber_drop", "impact.sample.loss_tangent=3.0")
     assert {rung for rung, _quantity in found} == {"free impact", "as it is run, under weight"}
-
-
-@pytest.mark.parametrize("case", hard_cases_impact_rig.CASES, ids=lambda case: case.case)
-def test_hard_case_of_the_rig_holds(case):
-    row = evaluate(case)
-    assert row["verdict"] == "pass", row

@@ -27,7 +27,7 @@ from contact_sim_pkg.core.impact.motion import solve_impact
 from contact_sim_pkg.core.impact.table import look_up
 from contact_sim_pkg.reference.weighted_impact import impact_under_weight
 from contact_sim_pkg.run.impact_motion import ImpactMotion
-from contact_sim_pkg.scene.build_impact import Touch, build_impact
+from contact_sim_pkg.scene.build_impact import ImpactModel, Touch, build_impact
 from contact_sim_pkg.scene.resolved_scene import ResolvedScene
 
 __all__ = ["way_rows"]
@@ -50,7 +50,7 @@ def way_rows(_scene_name: str, scene: ResolvedScene, tell: Callable[[str], None]
     span = min(LONGEST, float(scene.data["duration"]))
     rate = len(ImpactMotion(model).take_ended(span)) / span
     rows = []
-    for name, way in _ways(found).items():
+    for name, way in _ways(model, found).items():
         tell(f"impact: {name}")
         try:
             answer = way()
@@ -65,13 +65,13 @@ def way_rows(_scene_name: str, scene: ResolvedScene, tell: Callable[[str], None]
     return rows
 
 
-def _ways(found: Touch) -> dict[str, Callable[[], Answer]]:
+def _ways(model: ImpactModel, found: Touch) -> dict[str, Callable[[], Answer]]:
     return {
         "closed forms": partial(_closed, found),
         "equivalent constants": partial(_constants, found),
         "table": partial(_table, found),
         "free impact": partial(_free, found),
-        "as it is run, under weight": partial(_run, found),
+        "as it is run, under weight": partial(_run, model),
     }
 
 
@@ -112,9 +112,10 @@ def _free(found: Touch) -> Answer:
     return again.restitution, again.duration, again.depth, again.peak_force
 
 
-def _run(found: Touch) -> Answer:
-    speed = found.impact.speed
-    stretch = touch(found.law, speed)
+def _run(model: ImpactModel) -> Answer:
+    """Law of the touch, and the contact by it."""
+    speed, temperature = model.releases[0].speed, model.releases[0].temperature
+    stretch = touch(model.touch(speed, temperature).law, speed)
     assert stretch.turns is not None
     return -stretch.last_speed / speed, stretch.duration, stretch.turns.depth, stretch.turns.peak_force
 
