@@ -26,6 +26,7 @@ from contact_sim_pkg.studies import (
     ladder_periodic,
     ladder_restitution,
     ladder_road,
+    ladder_roller,
     ladder_rough,
     ladder_shell,
     ladder_smooth,
@@ -74,6 +75,14 @@ RIGS: dict[str, tuple[Ladder, ...]] = {
         Ladder(ladder_impact_material.FRONT_PART, ladder_impact_material.front_rows),
         Ladder(ladder_impact_memory.HISTORY_PART, ladder_impact_memory.history_rows),
         Ladder(ladder_impact_memory.RESPONSE_PART, ladder_impact_memory.response_rows),
+    ),
+    "roller": (
+        Ladder(ladder_elliptic.PART, ladder_elliptic.rows),
+        Ladder(ladder_roller.STRESS_PART, ladder_roller.stress_rows),
+        Ladder(ladder_roller.VOLUME_PART, ladder_roller.volume_rows),
+        Ladder(ladder_roller.MOTION_PART, ladder_roller.motion_rows),
+        Ladder(ladder_roller.SPLIT_PART, ladder_roller.split_rows),
+        Ladder(ladder_roller.WAVE_PART, ladder_roller.wave_rows),
     ),
 }
 """Rig -> its ladders. A further rig is one more entry."""
