@@ -151,7 +151,7 @@ def _contacts(scene: Scene) -> Iterator[Breach]:
     for contact in CONTACTS:
         effects, where = getattr(scene.effects, contact), f"effects.{contact}"
         loss = getattr(effects, "normal_dissipative", None)
-        if hasattr(loss, "damping"):
+        if loss is not None and hasattr(loss, "damping"):
             yield from _loss(f"{where}.normal_dissipative", loss.damping, loss.restitution, loss.reference_speed)
         yield from _general(where, effects)
         yield from _foam(where, effects)
