@@ -53,7 +53,7 @@ def tunnelling() -> Finding:
     block = regular_block(0.001, 1e-3, 0.3, 0.5)
     motion = placed(block, numpy.array([0.0, 0.5]), numpy.array([0.0, -100.0, 0.0]), angle=0.3)
     body, lowest = LocatedBody(block, slope(2), motion), math.inf
-    for _ in range(20):
+    for _ in range(5):
         body.advance(0.01)
         lowest = min(lowest, float(body.work.gap.min()))
     return at_most(max(0.0, -lowest), 1e-12)
