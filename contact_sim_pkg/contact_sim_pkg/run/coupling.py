@@ -6,8 +6,8 @@ A stretch is as long as that allows:
 * No longer than a part of the footprint, so that no obstacle that the tire passes falls between two fields.
 * The offset's slopes over this stretch, s1 over h1, and the one before, s0 over h0, tell its curvature; a straight line misses
   a parabola of it by ``|s1 - s0| h1**2 / (4 (h0 + h1))`` at most. Above the allowed height the stretch is taken again, shorter.
-* With a loss the rate of the height matters too: over this stretch it may err by ``|s1 - s0| h1 / (h0 + h1)``, less what the
-  solver's own error of the field looks like over so short a time.
+* With a loss the rate of the height matters too: over this stretch it may err by ``|s1 - s0| h1 / (h0 + h1)``.
+* No error makes a stretch so short that the solver's own error of the field would be felt as a speed.
 * Where the rig or its contact fails within a stretch, a shorter one is tried before that counts.
 
 A tread with memory has one step for all its stretches: they are all of the same length, and the error is only told.
@@ -64,6 +64,7 @@ class Coupling:
         )  # fmt: skip
         rule = model.coupling
         self._allowances = (Allowance(), Allowance()) if rule is None else rule.allowances
+        self._shortest = 1 if rule is None else rule.shortest  # segments
         self._by_error = rule is not None and rule.segments is None
         self.reset()
 
@@ -127,17 +128,18 @@ class Coupling:
     def _pass(self, stretch: Stretch, record: BlockRecord) -> bool:
         """Pass a stretch; False where a shorter one must be tried, with all as it was."""
         saved, count = self.bodies.save(), stretch.segments
-        shorter = self._by_error and count > 1
+        least = self._shortest
         try:
             passed = self._corrected(stretch, saved)
         except RunError:
-            if not shorter:
+            if not self._by_error or count == 1:
                 raise
+            least = 1
             passed = Passed(math.inf, self._offsets(), self._offsets())
         ratio = min(max(SAFETY / max(passed.error, 1e-9) ** 0.5, SHRINK), GROW)
-        self._proposed = max(1.0, count * ratio)
-        if shorter and passed.error > 1.0:
-            self._proposed = min(self._proposed, AGAIN * count)
+        self._proposed = max(float(least), count * ratio)
+        if self._by_error and count > least and passed.error > 1.0:
+            self._proposed = max(float(least), min(self._proposed, AGAIN * count))
             self.bodies.restore(saved)
             record.stretches_repeated += 1
             return False
@@ -161,7 +163,7 @@ class Coupling:
                 found = self._solve(stretch, solved, ends)
             if passes_left == most:
                 error = self._error(found, stretch)
-                if self._by_error and stretch.segments > 1 and error > 1.0:
+                if self._by_error and stretch.segments > self._shortest and error > 1.0:
                     break
             if not passes_left or self._settled(ends, found, stretch.duration):
                 break
@@ -201,7 +203,7 @@ class Coupling:
         """Largest height, or rate of it, that a straight offset misses, over the allowed one."""
         worst, count = 0.0, stretch.segments
         for support, offset, allowed in zip(self.supports, found, self._allowances, strict=True):
-            turned = (support.turn(offset, count) * count - allowed.noise) / stretch.duration
+            turned = support.turn(offset, count) / stretch.segment_length
             worst = max(worst, support.bend(offset, count) / allowed.height, SLOPE * turned / allowed.speed)
         return worst
 

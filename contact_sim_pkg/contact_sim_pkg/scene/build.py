@@ -26,6 +26,7 @@ from contact_sim_pkg.scene.build_coupling import (
     allowance_of,
     coupled_timing,
     longest_travel,
+    shortest_time,
     uniform_segments,
 )
 from contact_sim_pkg.scene.build_mat import PanMat, build_pan_mat
@@ -118,7 +119,8 @@ def _coupling(
     )
     uniform = footprint is not None and effects_at(scene, "tire").get("tread_viscoelasticity") is not None
     segments = uniform_segments(scene, footprint, timing) if footprint is not None and uniform else None
-    return CouplingRule(tolerance, allowances, longest_travel(footprint, tolerance), segments)
+    shortest = max(1, round(max(map(shortest_time, allowances)) / timing.segment_length))
+    return CouplingRule(tolerance, allowances, longest_travel(footprint, tolerance), shortest, segments)
 
 
 def _seat(scene: dict[str, Any], offset: int) -> Seat:

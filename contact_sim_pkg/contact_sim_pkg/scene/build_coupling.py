@@ -23,6 +23,10 @@ SHORTEST = 0.1
 """Of the standing footprint's length: a stretch may be as short as this."""
 
 
+SHORTEST_FOR_NOISE = 1e-3
+"""[s]; a stretch may always be as short as this."""
+
+
 class Allowance(NamedTuple):
     """What a stretch may miss of the effective height of one contact."""
 
@@ -37,6 +41,7 @@ class CouplingRule(NamedTuple):
     tolerance: float  # error of a force over the standing load
     allowances: tuple[Allowance, Allowance]  # of tire and seat
     longest_travel: float  # [m]
+    shortest: int  # segments: no error alone makes a stretch shorter
     segments: int | None  # of each stretch, where all must be equal; None: chosen by the error
 
 
@@ -57,6 +62,11 @@ def allowance_of(contact: Contact | None, field: FieldGrids | None, load: float,
         tolerance * load / float(elastic_stiffness(contact.elastic, approach)),
         tolerance / damping if damping > 0.0 else math.inf, own * approach,
     )  # fmt: skip
+
+
+def shortest_time(allowance: Allowance) -> float:
+    """Time in [s] over which the solver's error of a height is no more than the allowed speed; at most `SHORTEST_FOR_NOISE`."""
+    return min(allowance.noise / allowance.speed, SHORTEST_FOR_NOISE)
 
 
 def longest_travel(footprint: float | None, tolerance: float) -> float:

@@ -15,7 +15,7 @@ FOLLOWER_CELLS = (64, 48)  # road lattice of a tire without pressure field
 FOLLOWER_REACH = 4.0  # its extent over the contact radius of a sphere with the tire's radius in that direction
 
 
-SIGHT = 1.1  # of the tire's radius: how far the road is looked at beyond the pressure grids
+SIGHT = 1.0  # of the tire's radius: how far the road is looked at beyond the pressure grids
 
 
 class RoadLattice(NamedTuple):
@@ -25,7 +25,7 @@ class RoadLattice(NamedTuple):
     cols: int
     cell_x: float  # [m]
     cell_y: float  # [m]
-    road_rows: int  # of the wide grid, or a tire's diameter and a little where that is more
+    road_rows: int  # of the wide grid, or the tire's diameter where that is more
     road_cols: int
 
 

@@ -158,14 +158,15 @@ def effective_between(smooth: Vector, offset: float, offset_end: float, out: Vec
 
     The offset goes straight to its end. What the smooth height has beside a straight line is right to first order in the
     roughness only: at an edge it falls in a curve where the tire, which stands on the edge, does not, and the offset takes
-    nearly all of it back. So it counts as far as the offset leaves it alone: ``1 - |change of offset| / range of smooth``.
+    nearly all of it back. So it counts as far as the offset leaves it alone: ``1 - 4 |change of offset| / range of smooth``,
+    and no more from a quarter on.
     """
     last = smooth.shape[0] - 1
     highest, lowest = smooth[0], smooth[0]
     for i in range(1, last + 1):
         highest, lowest = max(highest, smooth[i]), min(lowest, smooth[i])
     span, change = highest - lowest, offset_end - offset
-    kept = max(0.0, 1.0 - abs(change) / span) if span > 0.0 else 0.0
+    kept = max(0.0, 1.0 - 4.0 * abs(change) / span) if span > 0.0 else 0.0
     for i in range(last + 1):
         part = i / last
         straight = smooth[0] + (smooth[last] - smooth[0]) * part
