@@ -25,6 +25,7 @@ BASES = {
         "effects": {"backrest": ELASTIC},
     },
     "impact": {"rig": "impact", "duration": 1.0, "effects": {"impact": ELASTIC}},
+    "roller": {"rig": "roller", "duration": 1.0, "effects": {"roller": ELASTIC}},
     "block": {"rig": "block", "duration": 1.0, "effects": {"block": {"rigid_contact": {}}}},
     "car": {"rig": "car", **ROLLING, "effects": {"tire": ELASTIC, "seat": ELASTIC}},
 }

@@ -77,7 +77,7 @@ def test_every_default_is_written_out(maker):
 def test_what_the_rig_lacks_is_not_there(maker, rig):
     data = data_of(maker, rig)
     own = {"tire", "seat"} if rig == "car" else {rig}
-    contacts = ("tire", "seat", "backrest", "impact", "block")
+    contacts = ("tire", "seat", "backrest", "impact", "block", "roller")
     assert {name for name in contacts if name in data} == own == set(data["effects"])
     assert all("contact_field" not in effects for effects in data["effects"].values())
 

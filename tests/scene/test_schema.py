@@ -177,7 +177,7 @@ def test_every_key_says_what_it_is_and_every_required_key_has_an_example(entry):
         ("tire", "3", "'3' stands where a mapping"),
         ("name", "12", "in quotes: '12'"),
         ("name", "../x", "is not a name"),
-        ("rig", "yes", "'yes' is not allowed; allowed: tire, seat, car, backrest, occupant, impact, block"),
+        ("rig", "yes", "'yes' is not allowed; allowed: tire, seat, car, backrest, occupant, impact, block, roller"),
         ("seed", "1.5", "1.5 is not a whole number"),
         ("seat", "{occupant: {masses: [1, 2, 3, 4]}}", "0 to 3 numbers"),
         ("seat", "{occupant: {masses: [1, -2]}}", "each 0.05 to 1000 kg"),

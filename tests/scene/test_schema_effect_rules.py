@@ -14,10 +14,14 @@ EFFECTS = (
     "tread_viscoelasticity", "brush", "asperity_impulses",
     "shift", "contact_stress", "surface_waves", "micro_front", "thermal_volume", "history", "gauge_noise",
     "rigid_contact",
+    "tilt_yaw", "gyroscope", "rolling_friction", "shaft_bending", "track_waves", "subsurface", "damage",
 )  # fmt: skip
 TIRE_ONLY = {"carcass", "envelopment", "tread_viscoelasticity", "brush", "asperity_impulses"}
-BODY_ONLY = ("rigid_contact",)
-"""Of the rigid body on the ground."""
+OF_THE_ROLLER = (
+    "tilt_yaw", "gyroscope", "rolling_friction", "shaft_bending", "track_waves", "subsurface", "damage",
+)  # fmt: skip
+BODY_ONLY = ("rigid_contact", *OF_THE_ROLLER)
+"""Of the rigid body on the ground, and of the roller on its shaft."""
 SEAT_ONLY = {"general_dissipative", "foam", "foam_hysteresis", "friction", "pressure_mat"}
 """Of the vehicle's contacts."""
 IN_THE_FIELD = {"envelopment", "tread_viscoelasticity", "brush"}
@@ -44,6 +48,8 @@ SUBSETS = {
         for chosen in combinations(("normal_elastic", "normal_dissipative", *OF_THE_IMPACT), count)
     ]
     + [{"normal_elastic", "friction"}, {"normal_elastic", "contact_field"}],
+    "roller": [set(chosen) for count in range(9) for chosen in combinations(("normal_elastic", *OF_THE_ROLLER), count)]
+    + [{"normal_elastic", "friction"}, {"normal_elastic", "rigid_contact"}],
     "seat": [set(chosen) for count in range(9) for chosen in combinations(EFFECTS[:8], count)]
     + [{"normal_elastic", "contact_field", name} for name in sorted(TIRE_ONLY)],
 }
@@ -54,11 +60,16 @@ def allowed(contact, named):
     refused = {
         "tire": {*SEAT_ONLY, *SHELL, *OF_THE_IMPACT, *BODY_ONLY},
         "seat": {*TIRE_ONLY, *SHELL, *OF_THE_IMPACT, *BODY_ONLY},
-        "backrest": ELSEWHERE, "impact": set(EFFECTS) - {"normal_elastic", "normal_dissipative", *OF_THE_IMPACT},
+        "backrest": ELSEWHERE, "roller": set(EFFECTS) - {"normal_elastic", *OF_THE_ROLLER},
+        "impact": set(EFFECTS) - {"normal_elastic", "normal_dissipative", *OF_THE_IMPACT},
     }[contact]  # fmt: skip
     if named & {"surface_waves", "history"} and "normal_dissipative" not in named:
         return False
     if "normal_elastic" not in named or named & refused:
+        return False
+    if named & {"gyroscope", "rolling_friction"} and "tilt_yaw" not in named:
+        return False
+    if "damage" in named and not named >= {"track_waves", "subsurface"}:
         return False
     if "contact_search" in named and "shell_modes" not in named:
         return False
@@ -73,7 +84,7 @@ def test_the_table_knows_exactly_these_effects():
     assert tuple(EFFECT_RULES) == EFFECTS
 
 
-@pytest.mark.parametrize("contact", ["tire", "seat", "backrest", "impact"])
+@pytest.mark.parametrize("contact", ["tire", "seat", "backrest", "impact", "roller"])
 def test_every_set_of_effects_is_allowed_or_refused_as_tabled(maker, contact):
     for named in SUBSETS[contact]:
         faults = maker.faults(contact, {f"effects.{contact}": {name: {} for name in named}})

@@ -52,6 +52,7 @@ def run_scene(
 
         refuse_other_scene(from_bag, scene)
     directory = _directory(scene, out) if record else None
+    forecast = _forecast(scene)
     run = _run_offline if offline else _run_on_nodes
     with RunDisplay(float(scene.data["duration"])) as display:
         ended = run(scene, directory, from_bag, display)
@@ -59,12 +60,23 @@ def run_scene(
         print(f"bench: {ended.failure}", file=sys.stderr)
     if ended.exit_status == 2:
         return 2
-    facts = describe(scene, ended)
+    facts = describe(scene, ended) | forecast
     if as_json:
         print_json(facts)
     else:
         print_outcome(facts, ended)
     return ended.exit_status
+
+
+def _forecast(scene: ResolvedScene) -> dict[str, Any]:
+    """What the rig tells before the run: one line on standard error, and the numbers of `--json`."""
+    from contact_sim_pkg.run.rigs import forecast_of
+
+    found = forecast_of(scene)
+    if found is None:
+        return {}
+    print(f"{scene.data['name']}: {found.sentence}", file=sys.stderr)
+    return {"stability": found.facts}
 
 
 def _directory(scene: ResolvedScene, out: Path | None) -> Path:

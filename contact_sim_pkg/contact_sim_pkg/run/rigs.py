@@ -22,6 +22,8 @@ class RigRun(NamedTuple):
 
     simulation: str  # "module:class" of a BlockSimulation that takes a resolved scene
     topics: Callable[[dict[str, Any]], list[str]]  # resolved scene -> topics of its contacts; those of `bench/` follow
+    ledger: bool = True  # whether the rig keeps an energy ledger
+    forecast: str = ""  # "module": what is told before the run, by its `facts_before_run` and `sentence_before_run`
 
 
 def _vehicle_topics(scene: dict[str, Any], contacts: tuple[str, ...] = ()) -> list[str]:
@@ -57,6 +59,13 @@ def _block_topics(scene: dict[str, Any]) -> list[str]:
     return [f"block/{name}" for name in ("force", "wrench", "points")]
 
 
+def _roller_topics(scene: dict[str, Any]) -> list[str]:
+    effects = scene["effects"]["roller"]
+    topics = {"tilt_yaw": "stability", "track_waves": "track", "subsurface": "volumes"}
+    named = [topic for effect, topic in topics.items() if effects.get(effect) is not None]
+    return [f"roller/{name}" for name in ("force", "contact", *named)]
+
+
 def _occupant_topics(scene: dict[str, Any]) -> list[str]:
     return [*_vehicle_topics(scene, ("seat",)), *_backrest_topics(scene)]
 
@@ -70,6 +79,12 @@ RIG_RUNS: dict[RigName, RigRun] = {
     "block": RigRun("contact_sim_pkg.run.block:BlockBodySimulation", _block_topics),
     "backrest": RigRun("contact_sim_pkg.run.backrest:BackrestSimulation", _backrest_topics),
     "impact": RigRun("contact_sim_pkg.run.impact:ImpactSimulation", _impact_topics),
+    "roller": RigRun(
+        "contact_sim_pkg.run.roller:RollerSimulation",
+        _roller_topics,
+        ledger=False,
+        forecast="contact_sim_pkg.run.roller_forecast",
+    ),
     "occupant": RigRun("contact_sim_pkg.run.occupant:OccupantSimulation", _occupant_topics),
 }
 
@@ -83,4 +98,23 @@ def make_simulation(scene: ResolvedScene) -> BlockSimulation:
 
 def result_topics(scene: ResolvedScene) -> list[str]:
     """Recorded topics that the simulator publishes for the scene."""
-    return [*RIG_RUNS[scene.data["rig"]].topics(scene.data), "bench/motion", "bench/energy", "bench/cost"]
+    rig = RIG_RUNS[scene.data["rig"]]
+    ledger = ["bench/energy"] if rig.ledger else []
+    return [*rig.topics(scene.data), "bench/motion", *ledger, "bench/cost"]
+
+
+class Forecast(NamedTuple):
+    """What is told before a run."""
+
+    facts: dict[str, Any]
+    sentence: str
+
+
+def forecast_of(scene: ResolvedScene) -> Forecast | None:
+    """What the rig tells of the run before it; None where it tells nothing. Raises RunError where the scene cannot run."""
+    name = RIG_RUNS[scene.data["rig"]].forecast
+    if not name:
+        return None
+    module = import_module(name)
+    facts = module.facts_before_run(scene.data)
+    return Forecast(facts, module.sentence_before_run(facts)) if facts else None

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from typing import Literal, NamedTuple, TypeAlias
 
-RigName: TypeAlias = Literal["tire", "seat", "car", "backrest", "occupant", "impact", "block"]
+RigName: TypeAlias = Literal["tire", "seat", "car", "backrest", "occupant", "impact", "block", "roller"]
 
 
 class RigRule(NamedTuple):
@@ -27,6 +27,7 @@ RIGS: dict[RigName, RigRule] = {
     "occupant": RigRule(("seat", "backrest"), ("vibration",), ("seat", "backrest")),
     "impact": RigRule(("impact",), (), ("impact",)),
     "block": RigRule(("block",), (), ("block",)),
+    "roller": RigRule(("roller",), (), ("roller",)),
 }
 
 CONTACTS: tuple[str, ...] = tuple(dict.fromkeys(name for rule in RIGS.values() for name in rule.contacts))

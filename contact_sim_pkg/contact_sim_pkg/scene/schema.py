@@ -18,6 +18,7 @@ from contact_sim_pkg.scene.schema_fields import Section, choice, number, text
 from contact_sim_pkg.scene.schema_impact import Impact
 from contact_sim_pkg.scene.schema_rigs import Seat, Tire
 from contact_sim_pkg.scene.schema_road import Road, Slip, Travel
+from contact_sim_pkg.scene.schema_roller import RollerRig
 from contact_sim_pkg.scene.schema_vibration import Vibration
 
 Accuracy: TypeAlias = Annotated[float, Field(ge=1e-8, le=0.1)] | Literal["realtime"]
@@ -68,7 +69,7 @@ class Scene(Section):
     description: str = text("one line on what the scene shows", default="")
     rig: RigName = choice(
         "tire on a road, occupant on a seat, both as a car, occupant against a backrest, on a seat and against its back, "
-        "sphere that strikes a sample, or rigid body on the ground",
+        "sphere that strikes a sample, rigid body on the ground, or roller on a shaft",
         example="seat",
     )
     duration: float = number(0.0, 3600.0, "s", "simulated time, a whole number of blocks", above=True, example=1.0)
@@ -97,6 +98,7 @@ class Scene(Section):
     )
     impact: Impact | None = choice("sphere that strikes a sample (rig impact); defaults where absent", default=None)
     block: Block | None = choice("rigid body over the ground (rig block); defaults where absent", default=None)
+    roller: RollerRig | None = choice("roller on a rotating shaft (rig roller); defaults where absent", default=None)
     effects: Effects = choice("contact → effect → its parameters", example={"seat": {"normal_elastic": {}}})
     outputs: Outputs = Field(default_factory=Outputs, description="rates of the outputs")
     integrator: Integrator = Field(default_factory=Integrator, description="tolerance of the time integration")

@@ -20,7 +20,7 @@ class EffectRule(NamedTuple):
 
 
 EFFECT_RULES: dict[str, EffectRule] = {
-    "normal_elastic": EffectRule(("tire", "seat", "backrest", "impact")),
+    "normal_elastic": EffectRule(("tire", "seat", "backrest", "impact", "roller")),
     "normal_dissipative": EffectRule(("tire", "seat", "backrest", "impact"), needs=("normal_elastic",)),
     "general_dissipative": EffectRule(
         ("seat", "backrest"), needs=("normal_elastic",), excludes=("normal_dissipative",)
@@ -45,6 +45,13 @@ EFFECT_RULES: dict[str, EffectRule] = {
     "history": EffectRule(("impact",), needs=("normal_elastic", "normal_dissipative")),
     "gauge_noise": EffectRule(("impact",), needs=("normal_elastic",)),
     "rigid_contact": EffectRule(("block",)),
+    "tilt_yaw": EffectRule(("roller",), needs=("normal_elastic",)),
+    "gyroscope": EffectRule(("roller",), needs=("tilt_yaw",)),
+    "rolling_friction": EffectRule(("roller",), needs=("tilt_yaw",)),
+    "shaft_bending": EffectRule(("roller",), needs=("normal_elastic",)),
+    "track_waves": EffectRule(("roller",), needs=("normal_elastic",)),
+    "subsurface": EffectRule(("roller",), needs=("normal_elastic",)),
+    "damage": EffectRule(("roller",), needs=("track_waves", "subsurface")),
 }
 
 CARRIERS: dict[str, str] = {"block": "rigid_contact"}

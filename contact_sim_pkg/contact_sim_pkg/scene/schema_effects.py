@@ -9,6 +9,7 @@ from pydantic import Field
 from contact_sim_pkg.scene.schema_block import BlockEffects
 from contact_sim_pkg.scene.schema_fields import Section, choice, number, numbers
 from contact_sim_pkg.scene.schema_impact_effects import ImpactEffects
+from contact_sim_pkg.scene.schema_roller import RollerEffects
 
 Branch: TypeAlias = Annotated[list[float], Field(min_length=2, max_length=2)]
 
@@ -374,6 +375,7 @@ class Effects(Section):
     backrest: BackrestEffects | None = choice("contact between back and seat back", default=None)
     impact: ImpactEffects | None = choice("contact between sphere and sample", default=None)
     block: BlockEffects | None = choice("contact between a rigid body and the ground", default=None)
+    roller: RollerEffects | None = choice("contact between roller and shaft", default=None)
 
 
 ContactField: TypeAlias = TireField | SeatField

@@ -14,6 +14,7 @@ from contact_sim_pkg.scene.schema_catalog import show
 from contact_sim_pkg.scene.schema_clock import clock_breaches
 from contact_sim_pkg.scene.schema_impact_rules import impact_breaches
 from contact_sim_pkg.scene.schema_road import BumpRoad, CleatRoad, Iso8608Road, PotholeRoad
+from contact_sim_pkg.scene.schema_roller_rules import roller_breaches
 from contact_sim_pkg.scene.schema_tire_rules import slip_breaches, tire_effect_breaches
 from contact_sim_pkg.scene.schema_vibration import HalfSine, Noise, Recorded, Sine, Sweep
 
@@ -29,6 +30,7 @@ def breaches(scene: Scene) -> Iterator[Breach]:
         backrest_breaches(scene),
         impact_breaches(scene),
         block_breaches(scene),
+        roller_breaches(scene),
         _road(scene),
         _vibration(scene),
         _occupant(scene),

@@ -55,6 +55,13 @@ FEEDS: dict[str, tuple[str, ...]] = {
     "history": ("history",),
     "gauge_noise": ("events",),
     "rigid_contact": ("force", "wrench", "points"),
+    "tilt_yaw": ("contact", "stability"),
+    "gyroscope": ("contact", "stability"),
+    "rolling_friction": ("contact", "stability"),
+    "shaft_bending": ("contact", "force"),
+    "track_waves": ("track", "contact", "force"),
+    "subsurface": ("volumes",),
+    "damage": ("track", "contact", "force"),
 }
 """Topics of the contact that an effect feeds; every effect also feeds `bench/motion` and `bench/energy`."""
 BENCH_TOPICS = ("bench/motion", "bench/energy")

@@ -22,9 +22,9 @@ def growth(waves, gain=5e-3, turn=TURN, turns=200, width=WIDTH):
     """Measured a turn, of a wave of 0.1 nm, after the heave has settled."""
     heights = 1e-10 * numpy.cos(2.0 * math.pi * waves * numpy.arange(CELLS) / CELLS)
     state, loads = numpy.zeros(2), numpy.zeros(CELLS)
-    run_intervals(HEAVE, track(0.0, turn=turn, width=width), 1, 200, heights, state, loads)
+    run_intervals(HEAVE, track(0.0, turn=turn, width=width), 1, 200, heights, state, loads, numpy.zeros((CELLS, 2)))
     first = abs(numpy.fft.rfft(heights)[waves])
-    run_intervals(HEAVE, track(gain, turn=turn, width=width), 1, turns, heights, state, loads)
+    run_intervals(HEAVE, track(gain, turn=turn, width=width), 1, turns, heights, state, loads, numpy.zeros((CELLS, 2)))
     return math.log(abs(numpy.fft.rfft(heights)[waves]) / first) / turns
 
 
@@ -65,14 +65,16 @@ def test_the_mean_of_a_wave():
 def test_without_gain_the_track_stays_as_it_is():
     heights = 1e-6 * numpy.random.default_rng(1).standard_normal(CELLS)
     before, state, loads = heights.copy(), numpy.zeros(2), numpy.zeros(CELLS)
-    found = run_intervals(HEAVE, track(0.0), 1, 20, heights, state, loads)
+    found = run_intervals(HEAVE, track(0.0), 1, 20, heights, state, loads, numpy.zeros((CELLS, 2)))
     assert (heights == before).all()
     assert found.lowered == 0.0
 
 
 def test_a_share_that_is_even_lowers_the_whole_track_and_is_told_apart():
     heights, state, loads = numpy.zeros(CELLS), numpy.zeros(2), numpy.zeros(CELLS)
-    found = run_intervals(HEAVE, track(0.05, numpy.full(4001, 0.5)), 3, 10, heights, state, loads)
+    found = run_intervals(
+        HEAVE, track(0.05, numpy.full(4001, 0.5)), 3, 10, heights, state, loads, numpy.zeros((CELLS, 2))
+    )
     assert abs(heights).max() < 1e-20
     assert found.lowered == pytest.approx(0.05 * APPROACH * 30 * 0.5)
 
@@ -80,7 +82,7 @@ def test_a_share_that_is_even_lowers_the_whole_track_and_is_told_apart():
 def test_the_wave_saturates_where_the_roller_leaves_the_track():
     heights = 1e-9 * numpy.random.default_rng(4).standard_normal(CELLS)
     state, loads = numpy.zeros(2), numpy.zeros(CELLS)
-    found = run_intervals(HEAVE, track(2e-2), 1, 3000, heights, state, loads)
+    found = run_intervals(HEAVE, track(2e-2), 1, 3000, heights, state, loads, numpy.zeros((CELLS, 2)))
     assert found.free > 0.0
     assert found.lowest_load == 0.0
     assert 1e-6 < found.range < 1e-4
@@ -90,7 +92,7 @@ def test_the_wave_saturates_where_the_roller_leaves_the_track():
 def test_a_track_that_is_used_up_ends_the_run():
     heights, state, loads = numpy.zeros(CELLS), numpy.zeros(2), numpy.zeros(CELLS)
     heights[0] = 0.2 * 0.005
-    assert run_intervals(HEAVE, track(1e-3), 1, 5, heights, state, loads).ended
+    assert run_intervals(HEAVE, track(1e-3), 1, 5, heights, state, loads, numpy.zeros((CELLS, 2))).ended
 
 
 def test_a_table_that_does_not_rise_is_refused():

@@ -32,8 +32,8 @@ def test_small_waves_give_the_linear_load(waves):
     size = 1e-11
     phase = 2.0 * math.pi * waves * numpy.arange(CELLS) / CELLS
     state, loads = numpy.zeros(2), numpy.zeros(CELLS)
-    ride(HEAVE, size * numpy.cos(phase), TURN / CELLS, 100, state, loads)
-    ride(HEAVE, size * numpy.cos(phase), TURN / CELLS, 1, state, loads)
+    ride(HEAVE, size * numpy.cos(phase), TURN / CELLS, 100, state, loads, numpy.zeros((CELLS, 2)))
+    ride(HEAVE, size * numpy.cos(phase), TURN / CELLS, 1, state, loads, numpy.zeros((CELLS, 2)))
     kappa, omega = natural_frequency(HEAVE), 2.0 * math.pi * waves / TURN
     answer = 1.0 - kappa**2 / (kappa**2 - omega**2 + 2j * 0.05 * kappa * omega)
     expected = 100.0 + linear_stiffness(HEAVE) * size * (answer * numpy.exp(1j * phase)).real
@@ -45,7 +45,7 @@ def test_a_large_wave_throws_the_roller_off_as_scipy_says():
     """0.1 mm, two waves: separation and impact. Straight lines between the cells in both."""
     track = 1e-4 * numpy.cos(4.0 * math.pi * numpy.arange(CELLS) / CELLS)
     state, loads = numpy.zeros(2), numpy.zeros(CELLS)
-    free = ride(HEAVE, track, TURN / CELLS, 1, state, loads)
+    free = ride(HEAVE, track, TURN / CELLS, 1, state, loads, numpy.zeros((CELLS, 2)))
     kappa = natural_frequency(HEAVE)
 
     def force(approach):
@@ -68,7 +68,7 @@ def test_a_large_wave_throws_the_roller_off_as_scipy_says():
 
 def test_a_flat_track_leaves_the_roller_at_rest():
     state, loads = numpy.zeros(2), numpy.zeros(CELLS)
-    assert ride(HEAVE, numpy.zeros(CELLS), TURN / CELLS, 10, state, loads) == 0.0
+    assert ride(HEAVE, numpy.zeros(CELLS), TURN / CELLS, 10, state, loads, numpy.zeros((CELLS, 2))) == 0.0
     assert loads == pytest.approx(100.0, rel=1e-12)
 
 

@@ -2,7 +2,8 @@
 
 `encode_*`(value, stamp in [ns], frame) gives CDR bytes, `decode_*`(bytes) the value; `stamp_of` reads the stamp alone.
 The `.msg` files state unit, frame, sign and order of each field; the tuples hold the same values, grids as 2-D arrays.
-Decoded arrays are copies: writable, aligned, contiguous. One file a group of topics: excitation, contact, points, impact, bench.
+Decoded arrays are copies: writable, aligned, contiguous.
+One file a group of topics: excitation, contact, points, impact, roller, bench.
 """
 
 from ..encoding import stamp_of
@@ -52,6 +53,7 @@ from .frames import (
     BENCH_FRAME,
     BLOCK_FRAME,
     IMPACT_FRAME,
+    ROLLER_FRAME,
     SEAT_FRAME,
     TIRE_FRAME,
 )
@@ -79,6 +81,15 @@ from .points import (
     encode_contact_points,
     encode_episodes,
 )
+from .roller import (
+    RollerContact,
+    RollerStability,
+    RollerTrack,
+    RollerVolumes,
+    decode_roller,
+    encode_roller,
+    roller_of_message,
+)
 
 __all__ = [
     "BACKREST_FRAME",
@@ -86,6 +97,7 @@ __all__ = [
     "BLOCK_FRAME",
     "IMPACT_FRAME",
     "NO_SAMPLES",
+    "ROLLER_FRAME",
     "SEAT_FRAME",
     "TIRE_FRAME",
     "WHOLE_CONTACT",
@@ -105,6 +117,10 @@ __all__ = [
     "PointField",
     "Progress",
     "Recorded",
+    "RollerContact",
+    "RollerStability",
+    "RollerTrack",
+    "RollerVolumes",
     "ShearField",
     "Wrench",
     "decode_contact_force",
@@ -120,6 +136,7 @@ __all__ = [
     "decode_progress",
     "decode_recorded",
     "decode_road_patch",
+    "decode_roller",
     "decode_scene",
     "decode_vibration",
     "decode_wrench",
@@ -137,10 +154,12 @@ __all__ = [
     "encode_progress",
     "encode_recorded",
     "encode_road_patch",
+    "encode_roller",
     "encode_scene",
     "encode_vibration",
     "encode_wrench",
     "events_of_message",
     "impact_of_message",
+    "roller_of_message",
     "stamp_of",
 ]

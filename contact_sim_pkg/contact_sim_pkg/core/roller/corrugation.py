@@ -70,16 +70,19 @@ def make_track(
 
 @entry
 def run_intervals(
-    heave: Heave, track: Track, turns: int, intervals: int, heights: Values, state: Values, loads: Values
-) -> Interval:
-    """`intervals` intervals; `heights` [cells] [m], `state` (z, z') go on in place, `loads` [cells] [N] are the last ones."""
+    heave: Heave, track: Track, turns: int, intervals: int, heights: Values, state: Values, loads: Values,
+    motion: Values,
+) -> Interval:  # fmt: skip
+    """`intervals` intervals; `heights` [cells] [m], `state` (z, z') go on in place, `loads` [cells] [N] and
+    `motion` [cells, 2] are the last ones.
+    """
     cells = heights.shape[0]
     ridden, shares = numpy.zeros(cells), numpy.zeros(cells)
     lowered, free = 0.0, 0.0
     lowest, highest, width = numpy.inf, 0.0, 0.0
     for n in range(intervals):
         moving_mean(heights, track.contact_cells, ridden)
-        free += ride(heave, ridden, track.turn_time / cells, turns, state, loads)
+        free += ride(heave, ridden, track.turn_time / cells, turns, state, loads, motion)
         mean = 0.0
         for j in range(cells):
             shares[j] = _read(track.table_loads, track.table_shares, loads[j])

@@ -65,10 +65,13 @@ def natural_frequency(heave: Heave) -> float:
 
 
 @entry
-def ride(heave: Heave, track: Values, cell_time: float, turns: int, state: Values, loads: Values) -> float:
+def ride(
+    heave: Heave, track: Values, cell_time: float, turns: int, state: Values, loads: Values, motion: Values
+) -> float:
     """`turns` turns of the `track` [cells] [m], each cell in `cell_time` [s]; returns the share of time without contact.
 
-    `state` (z [m], z' [m/s]) goes on in place. `loads` [cells] [N] takes the mean over the turns of the contact load at each cell.
+    `state` (z [m], z' [m/s]) goes on in place. `loads` [cells] [N] takes the mean over the turns of the contact load at each cell,
+    `motion` [cells, 2] z and z' there in the last turn.
     """
     kappa = natural_frequency(heave)
     steps = max(1, int(math.ceil(kappa * cell_time / LARGEST_PHASE)))  # noqa: RUF046  # a float in compiled code
@@ -83,6 +86,7 @@ def ride(heave: Heave, track: Values, cell_time: float, turns: int, state: Value
             start, end = track[j], track[j + 1 if j + 1 < cells else 0]
             load = load_of_approach(heave.contact_coefficient, heave.bending_compliance, rest + start - z)
             loads[j] += load / turns
+            motion[j, 0], motion[j, 1] = z, v
             for i in range(steps):
                 free += 1 if load == 0.0 else 0
                 low, high = start + (end - start) * i / steps, start + (end - start) * (i + 1) / steps

@@ -1,0 +1,166 @@
+"""The simulation of a roller on a shaft, block by block."""
+
+from __future__ import annotations
+
+import time
+
+import numpy
+
+from contact_sim_pkg.bag.messages import RollerStability
+from contact_sim_pkg.core.jit import freeze, thaw
+from contact_sim_pkg.core.parameters import Vector
+from contact_sim_pkg.core.roller.ellipse import RollingContact
+from contact_sim_pkg.core.roller.moments import moments
+from contact_sim_pkg.core.roller.volumes import box_volume, dangerous_volumes
+from contact_sim_pkg.run.block_simulation import BlockResult, InputBlock
+from contact_sim_pkg.run.errors import RunError
+from contact_sim_pkg.run.roller_forecast import forecast
+from contact_sim_pkg.run.roller_motion import Matrix, Ridden, TiltYaw, TrackRide, volume_settings
+from contact_sim_pkg.run.roller_outputs import Measured, RollerRecord, encode_block
+from contact_sim_pkg.scene.build_roller import build_roller
+from contact_sim_pkg.scene.resolved_scene import ResolvedScene
+
+MOST_TRACKS = 200
+"""Heights of the track that a run records, about: one at every so many blocks, and one at its end."""
+
+
+class RollerSimulation:
+    """Owns the state of a run: a ``BlockSimulation`` (run/block_simulation.py). Only the shaft drives it."""
+
+    inputs: tuple[str, ...] = ()
+
+    def __init__(self, scene: ResolvedScene) -> None:
+        """Build the model of a resolved scene."""
+        thaw()
+        self.scene = scene
+        self.model = build_roller(scene.data)
+        self.blocks = self.model.timing.blocks
+        self._reset()
+
+    def _reset(self) -> None:
+        model = self.model
+        self._next_block = 0
+        self._ride = None if model.effects.get("track_waves") is None else TrackRide(model)
+        first = model.contact_load(float(model.programme.load[0]), model.programme.curvatures_at(0.0))
+        self._angles = None if model.effects.get("tilt_yaw") is None else TiltYaw(model, first)
+
+    def prepare(self) -> None:
+        """Compile or load every kernel that the scene needs, by a block; then close compilation."""
+        self._advance(0)
+        if self.model.effects.get("subsurface") is not None:
+            self._volumes(0.0, self.model.contact(1.0, 0.0, self.model.programme.curvatures_at(0.0)), (2, 2, 2))
+        self._reset()
+        freeze()
+
+    def advance(self, block: int, inputs: dict[str, InputBlock]) -> BlockResult:
+        """Advance block number ``block``; see ``BlockSimulation``."""
+        began = time.perf_counter()
+        if block != self._next_block:
+            raise RunError(f"block {block} came, block {self._next_block} was due")
+        record = self._advance(block)
+        self._next_block = block + 1
+        record.stability = self._forecast(block)
+        record.volumes = self._measured(block, record)
+        record.track = self._ride if self._ride is not None and self._track_due(block) else None
+        messages = encode_block(self.model, record, time.perf_counter() - began)
+        peak = max(contact.peak_pressure for contact in record.contacts)
+        return BlockResult(messages, float(record.load.max()), peak, time.perf_counter() - began)
+
+    def _advance(self, block: int) -> RollerRecord:
+        model, timing = self.model, self.model.timing
+        start, samples = block * timing.block_length, timing.samples
+        times: Vector = numpy.arange(samples + 1, dtype=numpy.float64) * (timing.block_length / samples)
+        ride = None if self._ride is None else self._ride.advance(block)
+        loads, heave = self._loads(start, times, ride)
+        angles = self._turned(start, times, loads, ride)
+        contacts = [
+            model.contact(float(loads[i]), float(angles[i, 1]), model.programme.curvatures_at(start + float(times[i])))
+            for i in range(samples)
+        ]
+        steps = samples if ride is None else len(ride.time) - 1
+        return RollerRecord(
+            block, timing.block_length / samples, loads[:-1], heave[:, :-1], angles[:-1],
+            self._acceleration(start, times, loads, angles, heave), contacts, steps,
+        )  # fmt: skip
+
+    def _loads(self, start: float, times: Vector, ride: Ridden | None) -> tuple[Vector, Matrix]:
+        """Loads [samples + 1] on the contact, and heave and its speed [2, samples + 1]."""
+        if ride is None:
+            programme = self.model.programme
+            pressed = programme.loads(start + times)
+            loads = numpy.array([
+                self.model.contact_load(float(load), programme.curvatures_at(start + float(time)))
+                for load, time in zip(pressed, times, strict=True)
+            ])  # fmt: skip
+            return loads, numpy.zeros((2, len(times)))
+        moved = [numpy.interp(times, ride.time, values) for values in (ride.heave, ride.speed)]
+        return numpy.interp(times, ride.time, ride.load), numpy.array(moved)
+
+    def _turned(self, start: float, times: Vector, loads: Vector, ride: Ridden | None) -> Matrix:
+        """Tilt, yaw and their rates [samples + 1, 4]."""
+        if self._angles is None:
+            held = numpy.zeros((len(times), 4))
+            held[:, :2] = self.model.start
+            return held
+        if ride is None:
+            return self._angles.advance(start, times, loads)
+        found = self._angles.advance(start, ride.time, ride.load)
+        return numpy.stack([numpy.interp(times, ride.time, column) for column in found.T], axis=1)
+
+    def _acceleration(self, start: float, times: Vector, loads: Vector, angles: Matrix, heave: Matrix) -> Matrix:
+        """Of heave, tilt and yaw [3, samples], from the equations of motion."""
+        model, roller = self.model, self.model.roller
+        found = numpy.zeros((3, len(times) - 1))
+        if self._ride is not None:
+            drag = 2.0 * self._ride.zeta * self._ride.frequency
+            found[0] = (loads[:-1] - self._ride.heave.load) / model.mass - drag * heave[1, :-1]
+        if self._angles is None:
+            return found
+        inertia = numpy.array(
+            [[roller.inertia_tilt, roller.inertia_product], [roller.inertia_product, roller.inertia_yaw]]
+        )
+        gyro = roller.inertia_spin * roller.spin
+        damping = numpy.array([[roller.damping_tilt, gyro], [-gyro, roller.damping_yaw]])
+        stiffness = numpy.array([roller.stiffness_tilt, roller.stiffness_yaw])
+        for i in range(len(times) - 1):
+            curvatures = model.programme.curvatures_at(start + float(times[i]))
+            tilt, yaw = float(angles[i, 0]), float(angles[i, 1])
+            pushed = moments(roller, curvatures, model.bending, model.modulus, float(loads[i]), tilt, yaw)
+            rest = numpy.array(pushed) - damping @ angles[i, 2:] - stiffness * angles[i, :2]
+            found[1:, i] = numpy.linalg.solve(inertia, rest)
+        return found
+
+    def _forecast(self, block: int) -> RollerStability | None:
+        programme = self.model.programme
+        if block > 0:
+            ends = numpy.array([block - 1, block]) * self.model.timing.block_length
+            before, now = programme.loads(ends)
+            if not programme.steps or before == now:
+                return None
+        return forecast(self.model, block)
+
+    def _measured(self, block: int, record: RollerRecord) -> list[Measured]:
+        below = self.model.effects.get("subsurface")
+        if below is None:
+            return []
+        found = []
+        for instant in below["instants"]:
+            place = round(float(instant) / record.period) - block * self.model.timing.samples
+            if 0 <= place < len(record.load):
+                found.append(self._volumes(float(instant), record.contacts[place]))
+        return found
+
+    def _volumes(self, instant: float, contact: RollingContact, cells: tuple[int, int, int] | None = None) -> Measured:
+        model, below = self.model, self.model.effects["subsurface"]
+        limits, usual, _none, traction = volume_settings(below)
+        cut = usual if cells is None else cells
+        own = dangerous_volumes(contact, model.poisson_ratio, limits, cut, None, traction)
+        bent = None
+        if model.bending is not None:
+            bent = dangerous_volumes(contact, model.poisson_ratio, limits, cut, model.bending, traction)
+        first = model.contact(float(model.programme.load[0]), 0.0, model.programme.curvatures_at(0.0))
+        return Measured(instant, contact, limits, box_volume(first), own, bent)
+
+    def _track_due(self, block: int) -> bool:
+        every = max(1, self.blocks // MOST_TRACKS)
+        return block % every == 0 or block == self.blocks - 1

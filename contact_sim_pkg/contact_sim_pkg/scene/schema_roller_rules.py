@@ -1,0 +1,75 @@
+"""Rules that tie keys of the roller rig together."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from fractions import Fraction
+from itertools import pairwise
+
+from contact_sim_pkg.scene.errors import Breach
+from contact_sim_pkg.scene.schema import Scene
+from contact_sim_pkg.scene.schema_catalog import show
+from contact_sim_pkg.scene.schema_clock import exact
+from contact_sim_pkg.scene.schema_roller import RollerProgramme, RollerRig
+
+COLUMNS = ("load", "profile_radius", "rolling_radius", "shaft_radius", "shaft_profile_radius")
+
+
+def roller_breaches(scene: Scene) -> Iterator[Breach]:
+    """Inertias that are none, columns of unequal length, turns that do not fit a block, instants outside the run."""
+    effects = scene.effects.roller
+    if scene.rig != "roller" or effects is None:
+        return
+    roller = scene.roller or RollerRig()
+    if not roller.inertia_product**2 < roller.inertia_tilt * roller.inertia_yaw:
+        sentence = f"{show(roller.inertia_product)} kg m^2 is too large: its square must be below I_y I_z"
+        yield Breach("roller.inertia_product", sentence, ("roller.inertia_tilt", "roller.inertia_yaw"))
+    if roller.programme is not None:
+        yield from _programme(roller.programme)
+    if effects.track_waves is not None:
+        yield from _track(scene, roller)
+    if effects.subsurface is not None:
+        for index, instant in enumerate(effects.subsurface.instants):
+            if instant >= scene.duration:
+                sentence = f"{show(instant)} s is not before the end of the run, {show(scene.duration)} s"
+                yield Breach(f"effects.roller.subsurface.instants.{index}", sentence, ("duration",))
+
+
+def _programme(programme: RollerProgramme) -> Iterator[Breach]:
+    where = "roller.programme"
+    for index, (before, after) in enumerate(pairwise(programme.time), start=1):
+        if not after > before:
+            yield Breach(
+                f"{where}.time.{index}", f"{show(after)} s does not come after {show(before)} s; times must rise"
+            )
+    rows = len(programme.time)
+    for name in COLUMNS:
+        column = getattr(programme, name)
+        if column is not None and len(column) != rows:
+            sentence = f"has {len(column)} numbers, time has {rows}; give one for each time"
+            yield Breach(f"{where}.{name}", sentence, (f"{where}.time",))
+
+
+def _track(scene: Scene, roller: RollerRig) -> Iterator[Breach]:
+    """A block holds whole turns of the shaft; over the heights of the track only the load may change."""
+    if roller.speed == 0.0:
+        yield Breach("roller.speed", "is 0 1/s: a roller that stands does not ride over the track")
+        return
+    law = scene.effects.roller and scene.effects.roller.normal_elastic
+    if law and law.split == "parallel":
+        sentence = "parallel is for a contact at rest; over the heights of the track the load goes in series"
+        yield Breach("effects.roller.normal_elastic.split", sentence, ("effects.roller.track_waves",))
+    turns = exact(roller.speed) * exact(roller.radius) / exact(roller.shaft_radius) * exact(scene.block_length)
+    if turns.denominator != 1:
+        whole = max(1, round(turns))
+        speed = Fraction(whole) * exact(roller.shaft_radius) / (exact(roller.radius) * exact(scene.block_length))
+        sentence = (
+            f"{show(roller.speed)} 1/s turns the shaft {float(turns):.6g} times in a block of {show(scene.block_length)} s; with "
+            f"track_waves it must be a whole number: take {float(speed):.10g} 1/s"
+        )
+        yield Breach("roller.speed", sentence, ("block_length", "roller.radius", "roller.shaft_radius"))
+    programme = roller.programme
+    for name in COLUMNS[1:]:
+        if programme is not None and getattr(programme, name) is not None:
+            sentence = "changes the radii while the roller rides over heights; leave it out, or the effect track_waves"
+            yield Breach(f"roller.programme.{name}", sentence, ("effects.roller.track_waves",))
