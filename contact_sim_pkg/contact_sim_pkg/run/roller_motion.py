@@ -127,7 +127,9 @@ def damage_table(model: RollerModel) -> tuple[Vector, Vector]:
     curvatures = model.programme.curvatures_at(0.0)
     first = float(model.programme.load[0])
     working = box_volume(model.contact(first, 0.0, curvatures))
-    loads = numpy.linspace(0.0, float(damage["largest_load"]) * model.largest_load, int(damage["table_rows"])).astype(numpy.float64)
+    loads = numpy.linspace(0.0, float(damage["largest_load"]) * model.largest_load, int(damage["table_rows"])).astype(
+        numpy.float64
+    )
     shares = [0.0]
     for load in loads[1:]:
         contact = model.contact(float(load), 0.0, curvatures)

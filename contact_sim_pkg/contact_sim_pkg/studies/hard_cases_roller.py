@@ -54,7 +54,7 @@ def separation_is_told() -> Finding:
     """A wave of 1 mm throws the roller off: share of the time without contact, all values finite."""
     track = 1e-3 * numpy.cos(4.0 * math.pi * numpy.arange(CELLS) / CELLS)
     state, loads = numpy.zeros(2), numpy.zeros(CELLS)
-    free = ride(_heave(), track, 1.0 / 200.0 / CELLS, 5, state, loads)
+    free = ride(_heave(), track, 1.0 / 200.0 / CELLS, 5, state, loads, numpy.zeros((CELLS, 2)))
     finite = bool(numpy.isfinite(state).all() and numpy.isfinite(loads).all() and (loads >= 0.0).all())
     return close_to(free if finite else math.nan, 0.75, 0.25)
 
@@ -107,7 +107,7 @@ def resonance() -> Finding:
     turn = 2.0 * math.pi * waves / natural_frequency(heave)
     track = size * numpy.cos(2.0 * math.pi * waves * numpy.arange(CELLS) / CELLS)
     state, loads = numpy.zeros(2), numpy.zeros(CELLS)
-    ride(heave, track, turn / CELLS, turns, state, loads)
+    ride(heave, track, turn / CELLS, turns, state, loads, numpy.zeros((CELLS, 2)))
     swing = math.hypot(float(state[0]), float(state[1]) / natural_frequency(heave))
     return close_to(swing / (0.5 * size * natural_frequency(heave) * turn * turns), 1.0, 5e-3)
 
@@ -130,7 +130,7 @@ def nothing_is_worn_below_the_limits() -> Finding:
     )
     heights, state, loads = 1e-9 * numpy.sin(numpy.arange(CELLS) / 5.0), numpy.zeros(2), numpy.zeros(CELLS)
     before = heights.copy()
-    run_intervals(_heave(), track, 1, 10, heights, state, loads)
+    run_intervals(_heave(), track, 1, 10, heights, state, loads, numpy.zeros((CELLS, 2)))
     return exactly(volume + float(abs(heights - before).max()), 0.0)
 
 

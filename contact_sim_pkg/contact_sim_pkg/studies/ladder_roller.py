@@ -222,12 +222,14 @@ def wave_rows() -> list[Row]:
         track = make_track(SHAFT_RADIUS, 1.0 / 200.0, cells, 0.0, 5e-3, contact.approach, (loads, (loads / LOAD) ** 3))
         right = growth_of_wave(heave, track, 2, 3.0, cells)
         heights = 1e-10 * numpy.cos(4.0 * math.pi * numpy.arange(cells) / cells)
-        state, mean = numpy.zeros(2), numpy.zeros(cells)
-        run_intervals(heave, track._replace(gain=0.0), 1, 200, heights, state, mean)
+        state, mean, moved = numpy.zeros(2), numpy.zeros(cells), numpy.zeros((cells, 2))
+        run_intervals(heave, track._replace(gain=0.0), 1, 200, heights, state, mean, moved)
         first, count = abs(numpy.fft.rfft(heights)[2]), 320 // turns
         _, cost = timed_once(
-            lambda track=track, turns=turns, count=count, heights=heights, state=state, mean=mean: run_intervals(  # type: ignore[misc]
-                heave, track, turns, count, heights, state, mean
+            lambda track=track, turns=turns, count=count, heights=heights, state=state, mean=mean, moved=moved: (
+                run_intervals(  # type: ignore[misc]
+                    heave, track, turns, count, heights, state, mean, moved
+                )
             )
         )
         value = math.log(abs(numpy.fft.rfft(heights)[2]) / first) / (count * turns)
