@@ -133,3 +133,20 @@ def test_a_roller_that_tips_over_ends_the_run_with_the_time():
 def test_a_track_that_does_not_turn_whole_times_in_a_block_is_refused_with_the_nearest_speed():
     with pytest.raises(SceneError, match=r"must be a whole number: take 50 1/s"):
         resolved("roller_corrugation", "roller.speed=50.3")
+
+
+def test_the_summary_and_the_page_show_what_the_scene_records(tmp_path):
+    from contact_sim_pkg.analysis.reading import read_recording
+    from contact_sim_pkg.analysis.report import sections
+    from contact_sim_pkg.analysis.summary import summarise_recording
+    from contact_sim_pkg.bag.reader import open_bag
+    from contact_sim_pkg.run.offline import run_offline
+
+    run_offline(resolved("roller_programme", *SHORT["roller_programme"]), tmp_path / "bag")
+    recording = read_recording(open_bag(tmp_path / "bag"))
+    numbers = summarise_recording(recording)["roller"]
+    assert numbers["track"]["time_acceleration"] == 1000.0
+    assert [each["load_N"] for each in numbers["stability"]] == [26.5]
+    assert 0.0 < numbers["dangerous_volumes"][0]["share"] < 1.0
+    keys = [section.key for section in sections(recording)]
+    assert keys[:4] == ["roller", "stability", "track", "stress"]

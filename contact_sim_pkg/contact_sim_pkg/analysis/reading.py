@@ -22,6 +22,7 @@ from .field_pass import FieldPass
 from .impact_pass import IMPACT_TYPES, ImpactPass
 from .point_pass import PointPass
 from .road_pass import RoadPass
+from .roller_pass import ROLLER_TYPES, RollerPass
 from .series import (
     ContactSeries,
     CostSeries,
@@ -44,7 +45,7 @@ COST = "contact_msgs_defs/msg/SolverCost"
 EPISODES = "contact_msgs_defs/msg/ContactEpisodes"
 POINTS = "contact_msgs_defs/msg/ContactPoints"
 SERIES_TYPES = (FORCE, MOTION, ENERGY, COST, EPISODES)
-READ_TYPES = (*SERIES_TYPES, PATCH, ROAD, SHEAR, POINTS, *IMPACT_TYPES)
+READ_TYPES = (*SERIES_TYPES, PATCH, ROAD, SHEAR, POINTS, *IMPACT_TYPES, *ROLLER_TYPES)
 CONTACT_COLUMNS = ("time", "sample_period", "normal", "tangential", "approach", "effective_height")
 IMPULSES = "impulses"  # absent from older bags
 MOTION_COLUMNS = ("time", "sample_period", "samples", "bodies", "position", "acceleration")
@@ -59,7 +60,7 @@ def read_recording(bag: Bag) -> Recording:
     """
     kinds = {row.type: row.definition for row in bag.topics.values() if row.type in READ_TYPES}
     stores = {kind: store_of_definition(kind, definition) for kind, definition in kinds.items()}
-    decoded, fields, roads, shears, points, impacts = _decode(bag, stores)
+    decoded, fields, roads, shears, points, impacts, roller = _decode(bag, stores)
 
     def columns(topic: str, names: tuple[str, ...]) -> dict[str, Any]:
         kind = bag.topics[topic].type
@@ -92,6 +93,7 @@ def read_recording(bag: Bag) -> Recording:
         episodes=episodes,
         points=next((each.finish() for each in points.values()), None),
         impacts=impacts.finish(),
+        roller=roller.finish(),
     )
 
 
@@ -104,10 +106,11 @@ class Decoded(NamedTuple):
     shears: dict[str, ShearPass]
     points: dict[str, PointPass]
     impacts: ImpactPass
+    roller: RollerPass
 
 
 def _decode(bag: Bag, stores: dict[str, Typestore]) -> Decoded:
-    decoded = Decoded({}, {}, {}, {}, {}, ImpactPass())
+    decoded = Decoded({}, {}, {}, {}, {}, ImpactPass(), RollerPass())
     for message in bag.messages():
         if message.type not in stores:
             continue
@@ -125,6 +128,8 @@ def _decode(bag: Bag, stores: dict[str, Typestore]) -> Decoded:
             decoded.shears.setdefault(message.topic, ShearPass()).take(seconds, value)
         elif message.type in IMPACT_TYPES:
             decoded.impacts.take(message.type, value)
+        elif message.type in ROLLER_TYPES:
+            decoded.roller.take(seconds, message.type, value)
         elif message.type == POINTS:
             decoded.points.setdefault(message.topic, PointPass()).take(seconds, value)
         else:

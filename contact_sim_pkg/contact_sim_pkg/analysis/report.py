@@ -17,6 +17,7 @@ from .impact_section import IMPACT, impact_parts
 from .page import Section, environment
 from .reading import read_recording
 from .ride import ride_signals
+from .roller_section import ROLLER, roller_parts
 from .rows import scene_rows
 from .series import Recording
 from .summary import summarise_recording
@@ -78,6 +79,9 @@ def sections(recording: Recording) -> list[Section]:
     with style():
         found: list[Section] = []
         for number, name in enumerate(recording.contacts):
+            if name == ROLLER and recording.roller is not None:
+                found += [Section(*part) for part in roller_parts(recording)]
+                continue
             if name == IMPACT:
                 found += [Section(*part) for part in impact_parts(recording)]
                 continue

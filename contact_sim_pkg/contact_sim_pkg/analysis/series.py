@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 
 from .impact_pass import ImpactSeries
 from .point_series import PointSeries
+from .roller_pass import RollerSeries
 
 FloatArray = NDArray[np.float64]
 
@@ -287,3 +288,4 @@ class Recording(NamedTuple):
     episodes: EpisodeSeries | None = None
     points: PointSeries | None = None
     impacts: ImpactSeries | None = None
+    roller: RollerSeries | None = None

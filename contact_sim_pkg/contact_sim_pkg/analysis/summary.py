@@ -15,6 +15,7 @@ from .impact_numbers import impact_numbers
 from .metrics import ride_metrics, seat_factor
 from .reading import read_recording
 from .ride import ride_signals
+from .roller_section import roller_numbers
 from .series import ContactSeries, CostSeries, FieldSeries, LedgerSeries, Recording
 from .tire_numbers import TIRE, load_numbers, standing_load_of
 
@@ -28,6 +29,7 @@ def summarise_recording(recording: Recording) -> dict[str, Any]:
     """Summary numbers, ready for JSON: SI units in the names, None where a number is not defined.
 
     Sections that the run does not have are absent: `slaps` without contact episodes, `impacts` without impact events,
+    `roller` without a roller,
     `seat_vibration` without a seat, `energy` without a ledger, `solver` without cost messages, the pressure of a contact without a
     field, ratios to the tire at rest without a tire.
     """
@@ -48,6 +50,8 @@ def summarise_recording(recording: Recording) -> dict[str, Any]:
         summary["slaps"] = slap_numbers(recording.episodes)
     if recording.impacts is not None:
         summary["impacts"] = impact_numbers(recording.impacts)
+    if recording.roller is not None:
+        summary["roller"] = roller_numbers(recording.roller)
     vibration = vibration_numbers(recording)
     if vibration is not None:
         summary["seat_vibration"] = vibration

@@ -1,0 +1,150 @@
+"""Pictures of the roller rig in time: contact, motion, track, spectrogram of the load, stability over load and speed."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+
+from contact_sim_pkg.core.roller.stability import RollerError, stability
+from contact_sim_pkg.scene.build_roller import build_roller
+
+from .decimate import envelope
+from .drawing import ACCENT, INK, MUTED, Picture, new_figure, picture
+from .roller_pass import RollerSeries
+
+OTHER = "#e08a2e"
+MAP_ROWS = 25
+SPECTRUM_PARTS = 60
+
+
+def contact_over_time(roller: RollerSeries) -> Picture:
+    """Semi-axes, area, pressure, approach and load over time: the paper's figure 10."""
+    c, time = roller.contact, roller.time
+    figure, axes = new_figure(6.2, 5, sharex=True)
+    for values, colour, label in ((c.along_x, ACCENT, "nearer to x"), (c.along_y, OTHER, "nearer to y")):
+        axes[0].plot(*envelope(time, values * 1e3), color=colour, label=label, linewidth=0.9)
+    axes[0].legend(loc="upper right", fontsize=7.5)
+    axes[0].set_ylabel("semi-axes, mm")
+    area = np.pi * c.along_x * c.along_y
+    rows = (
+        (area * 1e6, "S, mm²"),
+        (c.peak_pressure * 1e-6, "p₀, MPa"),
+        (c.approach * 1e6, "δ, µm"),
+        (c.load, "load, N"),
+    )
+    for place, (values, label) in zip(axes[1:], rows, strict=True):
+        place.plot(*envelope(time, values), color=ACCENT, linewidth=0.9)
+        place.set_ylabel(label)
+    axes[-1].set_xlabel("simulated time, s")
+    figure.align_ylabels(axes)
+    caption = (
+        f"Semi-axes of the contact, its area, largest pressure ({c.peak_pressure.max() * 1e-6:.5g} MPa at most), approach "
+        f"and the load on it ({c.load.min():.5g} to {c.load.max():.5g} N)."
+    )
+    return picture("roller-contact", figure, "Semi-axes, area, pressure, approach and load over time", caption)
+
+
+def motion_over_time(roller: RollerSeries) -> Picture | None:
+    """Tilt, yaw and heave; None where nothing moves."""
+    c = roller.contact
+    rows = [(c.tilt * 1e3, "tilt, mrad"), (c.yaw * 1e3, "yaw, mrad"), (c.heave * 1e6, "heave, µm")]
+    rows = [(values, label) for values, label in rows if np.ptp(values) > 0.0]
+    if not rows:
+        return None
+    figure, axes = new_figure(0.8 + 1.3 * len(rows), len(rows), sharex=True)
+    for place, (values, label) in zip(axes, rows, strict=True):
+        place.plot(*envelope(roller.time, values), color=ACCENT, linewidth=0.7)
+        place.set_ylabel(label)
+    axes[-1].set_xlabel("simulated time, s")
+    figure.align_ylabels(axes)
+    told = ""
+    if roller.stability:
+        first = roller.stability[0]
+        told = f" Told before the run: growth rate {first.growth_rate:+.4g} 1/s at {first.frequency:.5g} Hz."
+    return picture("roller-motion", figure, "Tilt, yaw and heave over time", f"Motion of the roller.{told}")
+
+
+def track_over_cycles(roller: RollerSeries) -> Picture | None:
+    """Heights round the circumference over cycles, and their range; None without a track."""
+    if len(roller.tracks) < 2:
+        return None
+    tracks = roller.tracks
+    cycles = np.array([each.cycles for each in tracks])
+    heights = np.array([each.height for each in tracks]) * 1e6
+    length = 2.0 * np.pi * tracks[0].radius * 1e3
+    figure, (left, right) = new_figure(3.2, 1, 2)
+    largest = float(np.abs(heights).max()) or 1.0
+    places = np.linspace(0.0, length, heights.shape[1])
+    image = left.pcolormesh(places, cycles, heights, cmap="RdBu_r", vmin=-largest, vmax=largest, rasterized=True)
+    figure.colorbar(image, ax=left, label="height, µm")
+    left.set_xlabel("along the circumference, mm")
+    left.set_ylabel("cycles")
+    right.semilogy(cycles, [each.range * 1e6 for each in tracks], color=ACCENT, label="range of heights")
+    right.semilogy(cycles, [each.lowered * 1e6 + 1e-12 for each in tracks], color=MUTED, label="lost by the mean")
+    right.set_xlabel("cycles")
+    right.set_ylabel("µm")
+    right.legend(loc="lower right", fontsize=7.5)
+    last = tracks[-1]
+    caption = (
+        f"Heights of the track round its circumference over {last.cycles:.6g} cycles, {last.turns:.6g} turns ridden: range "
+        f"{tracks[0].range * 1e6:.4g} to {last.range * 1e6:.4g} µm, contact lost for {100.0 * last.free:.3g} % of the last block. "
+        "The paper's own measured waves (figures 3 and 4) are drawn there without numbers; these are simulated."
+    )
+    return picture("roller-track", figure, "Track heights round the circumference over cycles", caption)
+
+
+def load_spectrogram(roller: RollerSeries) -> Picture | None:
+    """Amplitudes of the load over frequency and time; None where it does not change or the run is short."""
+    load, part = roller.contact.load, len(roller.contact.load) // SPECTRUM_PARTS
+    if part < 32 or np.ptp(load) <= 1e-9 * float(load.max()):
+        return None
+    pieces = load[: part * SPECTRUM_PARTS].reshape(SPECTRUM_PARTS, part)
+    window = np.hanning(part)
+    pieces = (pieces - pieces.mean(axis=1, keepdims=True)) * window
+    sizes = 2.0 * np.abs(np.fft.rfft(pieces, axis=1)) / window.sum()
+    frequency = np.fft.rfftfreq(part, roller.contact.period)
+    figure, (axes,) = new_figure(3.0)
+    levels = np.log10(np.maximum(sizes, 1e-9 * sizes.max()))
+    time = roller.time[::part][:SPECTRUM_PARTS] + 0.5 * part * roller.contact.period
+    image = axes.pcolormesh(time, frequency, levels.T, cmap="magma", vmin=levels.max() - 6.0, rasterized=True)
+    figure.colorbar(image, ax=axes, label="log₁₀ of the amplitude in N")
+    axes.set_xlabel("simulated time, s")
+    axes.set_ylabel("frequency, Hz")
+    strongest = frequency[int(sizes[-1].argmax())]
+    caption = f"Load on the contact by frequency; at the end strongest at {strongest:.5g} Hz ({sizes[-1].max():.3g} N)."
+    return picture("roller-spectrogram", figure, "Spectrogram of the load on the contact", caption)
+
+
+def stability_map(roller: RollerSeries, scene: dict[str, Any]) -> Picture | None:
+    """Growth rate of tilt and yaw over load and speed; None where they are held."""
+    if not roller.stability:
+        return None
+    model = build_roller(scene)
+    at = roller.stability[0]
+    curvatures = model.programme.curvatures_at(0.0)
+    loads = np.linspace(0.05, 2.0, MAP_ROWS) * model.largest_load
+    spins = np.linspace(0.0, 2.0, MAP_ROWS) * model.roller.spin
+    growth = np.full((MAP_ROWS, MAP_ROWS), np.nan)
+    for i, spin in enumerate(spins):
+        for j, load in enumerate(loads):
+            turned = model.roller._replace(spin=float(spin))
+            try:
+                growth[i, j] = stability(turned, curvatures, model.bending, model.modulus, float(load)).growth_rate
+            except RollerError:
+                continue
+    figure, (axes,) = new_figure(3.0)
+    largest = float(np.nanmax(np.abs(growth))) or 1.0
+    turns = spins / (2.0 * np.pi)
+    image = axes.pcolormesh(loads, turns, growth, cmap="RdBu_r", vmin=-largest, vmax=largest, rasterized=True)
+    if np.nanmin(growth) < 0.0 < np.nanmax(growth):
+        axes.contour(loads, turns, growth, levels=[0.0], colors=INK, linewidths=1.0)
+    figure.colorbar(image, ax=axes, label="growth rate, 1/s")
+    axes.plot(at.load, model.roller.spin / (2.0 * np.pi), marker="o", color=INK, markersize=4)
+    axes.set_xlabel("load, N")
+    axes.set_ylabel("turns of the roller, 1/s")
+    caption = (
+        f"Growth rate of the fastest growing motion of tilt and yaw; the line is its zero, the point the start of the run "
+        f"({at.growth_rate:+.4g} 1/s)."
+    )
+    return picture("roller-stability", figure, "Growth rate over load and speed", caption)

@@ -1,0 +1,61 @@
+"""What a bag of the roller rig holds, in one pass."""
+
+from __future__ import annotations
+
+from typing import Any, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from contact_sim_pkg.bag.messages import (
+    RollerContact,
+    RollerStability,
+    RollerTrack,
+    RollerVolumes,
+    roller_of_message,
+)
+
+FloatArray = NDArray[np.float64]
+
+KINDS: dict[str, Any] = {
+    f"contact_msgs_defs/msg/{kind.__name__}": kind
+    for kind in (RollerContact, RollerTrack, RollerVolumes, RollerStability)
+}
+ROLLER_TYPES = tuple(KINDS)
+
+
+class RollerSeries(NamedTuple):
+    """The roller of a run; what the scene does not record is empty."""
+
+    time: FloatArray  # [s] of the samples
+    contact: RollerContact  # of all blocks
+    tracks: list[RollerTrack]
+    volumes: list[RollerVolumes]
+    stability: list[RollerStability]
+
+
+class RollerPass:
+    """Takes messages in the order of the bag."""
+
+    def __init__(self) -> None:
+        """Nothing taken."""
+        self._taken: dict[Any, list[Any]] = {kind: [] for kind in KINDS.values()}
+        self._times: list[FloatArray] = []
+
+    def take(self, seconds: float, type_name: str, message: Any) -> None:
+        """Take a message of one of `ROLLER_TYPES`. Raises MessageError where its arrays do not fit."""
+        kind = KINDS[type_name]
+        value = roller_of_message(kind, message)
+        self._taken[kind].append(value)
+        if isinstance(value, RollerContact):
+            self._times.append(seconds + value.period * np.arange(len(value.load)))
+
+    def finish(self) -> RollerSeries | None:
+        """What was taken; None without a contact."""
+        blocks = self._taken[RollerContact]
+        if not blocks:
+            return None
+        columns = [np.concatenate(rows) for rows in zip(*(each[2:] for each in blocks), strict=True)]
+        contact = RollerContact(0, blocks[0].period, *columns)
+        rest = (self._taken[kind] for kind in (RollerTrack, RollerVolumes, RollerStability))
+        return RollerSeries(np.concatenate(self._times), contact, *rest)

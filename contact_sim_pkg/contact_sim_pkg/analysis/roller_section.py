@@ -1,0 +1,66 @@
+"""The part of the page on a roller on its shaft; what the run lacks is absent. And its numbers of the summary."""
+
+from __future__ import annotations
+
+from typing import Any, NamedTuple
+
+from contact_sim_pkg.run.roller_forecast import stability_facts
+
+from .drawing import Picture
+from .figures_roller import contact_over_time, load_spectrogram, motion_over_time, stability_map, track_over_cycles
+from .figures_roller_stress import stress_pictures
+from .roller_pass import RollerSeries
+from .series import Recording
+
+ROLLER = "roller"
+"""Name of the contact that this part belongs to."""
+
+
+class RollerPart(NamedTuple):
+    """Pictures of one section."""
+
+    key: str
+    title: str
+    pictures: list[Picture]
+
+
+def roller_parts(recording: Recording) -> list[RollerPart]:
+    """Call inside `drawing.style()`; empty where the bag holds no roller."""
+    roller = recording.roller
+    if roller is None:
+        return []
+    first = [contact_over_time(roller), motion_over_time(roller), load_spectrogram(roller)]
+    waves, stable = track_over_cycles(roller), stability_map(roller, recording.scene)
+    return [
+        RollerPart("roller", "Rolling contact", [each for each in first if each is not None]),
+        RollerPart("stability", "Stability of tilt and yaw", [stable] if stable else []),
+        RollerPart("track", "Track", [waves] if waves else []),
+        RollerPart("stress", "Stress and dangerous volumes", stress_pictures(roller, recording.scene)),
+    ]
+
+
+def roller_numbers(roller: RollerSeries) -> dict[str, Any]:
+    """Largest pressure, stability as told, track at the end, dangerous volumes; what the run lacks is absent."""
+    numbers: dict[str, Any] = {
+        "peak_pressure_max_Pa": float(roller.contact.peak_pressure.max()),
+        "tilt_max_rad": float(abs(roller.contact.tilt).max()),
+        "yaw_max_rad": float(abs(roller.contact.yaw).max()),
+    }
+    if roller.stability:
+        numbers["stability"] = [stability_facts(each) for each in roller.stability]
+    if roller.tracks:
+        last = roller.tracks[-1]
+        numbers["track"] = {
+            "turns": last.turns, "cycles": last.cycles, "time_acceleration": last.cycles / last.turns,
+            "range_m": last.range, "lowered_m": last.lowered, "free_share_last": last.free,
+        }  # fmt: skip
+    if roller.volumes:
+        numbers["dangerous_volumes"] = [
+            {
+                "time_s": each.time,
+                "any_m3": float(each.volume[-1]),
+                "share": float(each.volume[-1]) / each.working_volume,
+            }
+            for each in roller.volumes
+        ]
+    return numbers
