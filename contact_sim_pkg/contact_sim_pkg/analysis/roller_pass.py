@@ -48,7 +48,7 @@ class RollerPass:
         value = roller_of_message(kind, message)
         self._taken[kind].append(value)
         if isinstance(value, RollerContact):
-            self._times.append(seconds + value.period * np.arange(len(value.load)))
+            self._times.append(seconds + value.period * np.arange(len(value.load), dtype=np.float64))
 
     def finish(self) -> RollerSeries | None:
         """What was taken; None without a contact."""

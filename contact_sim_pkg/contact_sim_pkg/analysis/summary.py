@@ -29,9 +29,8 @@ def summarise_recording(recording: Recording) -> dict[str, Any]:
     """Summary numbers, ready for JSON: SI units in the names, None where a number is not defined.
 
     Sections that the run does not have are absent: `slaps` without contact episodes, `impacts` without impact events,
-    `roller` without a roller,
-    `seat_vibration` without a seat, `energy` without a ledger, `solver` without cost messages, the pressure of a contact without a
-    field, ratios to the tire at rest without a tire.
+    `roller` without a roller, `seat_vibration` without a seat, `energy` without a ledger, `solver` without cost messages, the
+    pressure of a contact without a field, ratios to the tire at rest without a tire.
     """
     summary: dict[str, Any] = {
         "scene": recording.scene.get("name"),
