@@ -137,14 +137,15 @@ def stability_map(roller: RollerSeries, scene: dict[str, Any]) -> Picture | None
     largest = float(np.nanmax(np.abs(growth))) or 1.0
     turns = spins / (2.0 * np.pi)
     image = axes.pcolormesh(loads, turns, growth, cmap="RdBu_r", vmin=-largest, vmax=largest, rasterized=True)
-    if np.nanmin(growth) < 0.0 < np.nanmax(growth):
+    zero = np.nanmin(growth) < -1e-6 * largest and np.nanmax(growth) > 1e-6 * largest
+    if zero:
         axes.contour(loads, turns, growth, levels=[0.0], colors=INK, linewidths=1.0)
     figure.colorbar(image, ax=axes, label="growth rate, 1/s")
     axes.plot(at.load, model.roller.spin / (2.0 * np.pi), marker="o", color=INK, markersize=4)
     axes.set_xlabel("load, N")
     axes.set_ylabel("turns of the roller, 1/s")
     caption = (
-        f"Growth rate of the fastest growing motion of tilt and yaw; the line is its zero, the point the start of the run "
-        f"({at.growth_rate:+.4g} 1/s)."
+        f"Growth rate of the fastest growing motion of tilt and yaw; {'the line is its zero, ' if zero else ''}the point the "
+        f"start of the run ({at.growth_rate:+.4g} 1/s)."
     )
     return picture("roller-stability", figure, "Growth rate over load and speed", caption)

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from typing import Any
+from collections.abc import Callable
+from typing import Any, TypeAlias
 
 import numpy as np
 
@@ -16,6 +17,10 @@ from .roller_pass import RollerSeries
 from .series import FloatArray
 
 CELLS = 61
+Place: TypeAlias = Callable[[FloatArray, FloatArray], tuple[FloatArray, FloatArray, FloatArray]]
+Plane: TypeAlias = tuple[str, FloatArray, FloatArray, str, Place]
+"""Name, places across and along, label of the second, and the points they stand for."""
+
 MAP = "RdBu_r"
 MOST = 4
 DEPTH = 0.3
@@ -33,7 +38,7 @@ def _stress_picture(found: RollerVolumes, scene: dict[str, Any]) -> Picture:
     contact = RollingContact(found.along_x, found.along_y, found.angle, found.peak_pressure, found.approach, found.load)
     a = max(found.along_x, found.along_y)
     side, down = np.linspace(-2.0, 2.0, CELLS) * a, np.linspace(1e-3, 3.0, CELLS) * a
-    planes = (
+    planes: tuple[Plane, ...] = (
         (f"z = {DEPTH} a", side, side, "y, mm", lambda u, v: (u, v, np.full_like(u, DEPTH * a))),
         ("y = 0", side, down, "z, mm", lambda u, v: (u, np.zeros_like(u), v)),
     )
