@@ -37,7 +37,8 @@ def _stress_picture(found: RollerVolumes, scene: dict[str, Any]) -> Picture:
     below = scene["effects"]["roller"]["subsurface"]
     contact = RollingContact(found.along_x, found.along_y, found.angle, found.peak_pressure, found.approach, found.load)
     a = max(found.along_x, found.along_y)
-    side, down = np.linspace(-2.0, 2.0, CELLS) * a, np.linspace(1e-3, 3.0, CELLS) * a
+    side: FloatArray = np.linspace(-2.0, 2.0, CELLS, dtype=np.float64) * a
+    down: FloatArray = np.linspace(1e-3, 3.0, CELLS, dtype=np.float64) * a
     planes: tuple[Plane, ...] = (
         (f"z = {DEPTH} a", side, side, "y, mm", lambda u, v: (u, v, np.full_like(u, DEPTH * a))),
         ("y = 0", side, down, "z, mm", lambda u, v: (u, np.zeros_like(u), v)),
