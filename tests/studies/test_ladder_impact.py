@@ -2,7 +2,7 @@
 
 import pytest
 
-from contact_sim_pkg.studies import ladder, ladder_impact, ladder_impact_material, ladder_row
+from contact_sim_pkg.studies import ladder, ladder_impact, ladder_impact_material, ladder_impact_memory, ladder_row
 
 
 @pytest.fixture(scope="module", autouse=True)
@@ -80,4 +80,6 @@ def test_the_rig_is_one_of_the_ladders():
         ladder_impact.PART,
         ladder_impact_material.PART,
         ladder_impact_material.FRONT_PART,
+        ladder_impact_memory.HISTORY_PART,
+        ladder_impact_memory.RESPONSE_PART,
     ]

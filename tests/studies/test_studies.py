@@ -42,9 +42,11 @@ def test_every_effect_of_a_scene_has_a_row_with_its_topics():
         "foam_hysteresis",
         "friction",
         "contact_field",
+        "pressure_mat",
     }
-    assert all("seat/force" in row["topics"] for row in rows)
     by_name = {row["effect"]: row for row in rows}
+    assert "seat/patch" in by_name["pressure_mat"]["topics"], "a mat shows the contact and does not act on it"
+    assert all("seat/force" in row["topics"] for name, row in by_name.items() if name != "pressure_mat")
     assert by_name["friction"]["on"] is False
     assert by_name["friction"]["load_rms_change"] == 0.0, "friction does not act on the vertical force"
     assert by_name["normal_dissipative"]["load_rms_change"] != 0.0
