@@ -10,7 +10,7 @@ import numpy
 import pytest
 from tests.run.scenes import resolved
 
-from contact_sim_pkg.bag.messages import decode_contact_force, decode_cost
+from contact_sim_pkg.bag.messages import decode_contact_force, decode_contact_patch, decode_cost
 from contact_sim_pkg.run.errors import RunError
 from contact_sim_pkg.run.simulation import Simulation
 from contact_sim_pkg.run.sources import make_sources
@@ -130,3 +130,14 @@ def test_a_wall_beyond_both_grids_is_refused_by_name(position):
         RunError, match=r"beyond its pressure grid of 0\.56 m, .* enlarge effects\.tire\.contact_field\.length"
     ):
         run("travel={speed: 0.0}", f"road={{kind: step, position: {position}, height: 0.3}}")
+
+
+def test_a_belt_that_yields_beside_the_footprint_keeps_the_usual_grid():
+    """The half-space alone would let the fine road touch beyond the grid: the wide one would be solved every time."""
+    scene = resolved("tire_texture", "duration=0.05")
+    simulation, sources = Simulation(scene), make_sources(scene)
+    simulation.prepare()
+    for block in range(simulation.blocks):
+        result = simulation.advance(block, {topic: source.block(block) for topic, source in sources.items()})
+        fields = [decode_contact_patch(data) for topic, _stamp, data in result.messages if topic == "tire/patch"]
+        assert {field.pressure.shape for field in fields} == {(128, 96)}

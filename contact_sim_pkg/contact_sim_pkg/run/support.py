@@ -12,6 +12,7 @@ from contact_sim_pkg.core.effects.contact_field import FieldEdgeError, FieldErro
 from contact_sim_pkg.core.effects.footprint import tire_gap, touches_beyond
 from contact_sim_pkg.core.effects.seat_shape import SeatShape
 from contact_sim_pkg.core.effects.tread_viscoelasticity import TreadMemory
+from contact_sim_pkg.core.field_instant import grown_window
 from contact_sim_pkg.core.parameters import Contact, FieldSettings
 from contact_sim_pkg.run.errors import RunError
 from contact_sim_pkg.run.outputs import FieldRecord
@@ -252,12 +253,24 @@ class RoadSupport(Support):
 
     def touches_beyond(self, grids: FieldGrids, approach: float) -> bool:
         """See Support."""
-        return self._touches(grids.usual, approach)
+        if not self._touches(grids.usual, approach):
+            return False
+        return grids.usual.settings.belt is None or self._touches_with_belt(grids, approach)
+
+    def _touches_with_belt(self, grids: FieldGrids, approach: float) -> bool:
+        """The same where a belt yields further than the half-space: by its own displacements on the wide grid."""
+        wide, pressure = grids.wide.settings, grids.usual.pressure
+        rows, cols = pressure.shape
+        first_row, first_col = wide.rows // 2 - rows // 2, (wide.cols - cols) // 2
+        pressed = numpy.zeros((wide.rows, wide.cols))
+        pressed[first_row : first_row + rows, first_col : first_col + cols] = pressure
+        window = (first_row, first_col, rows, cols)
+        return bool(grown_window(grids.wide.half_space, self.gap(wide), approach, pressed, *window) != window)
 
     def refuse_beyond(self, grids: FieldGrids, approach: float, block: int) -> None:
         """See Support."""
         wide = grids.wide.settings
-        if self._touches(grids.wide, approach):
+        if wide.belt is None and self._touches(grids.wide, approach):
             raise RunError(
                 f"block {block}: tire: the road touches it beyond its pressure grid of {wide.rows * wide.cell_x:.4g} m, at "
                 f"{self.travel:.6g} m; enlarge effects.tire.contact_field.length and rows"
