@@ -153,3 +153,19 @@ def test_a_box_that_falls_in_space_tells_its_three_moments_over_mass(capsys, tmp
     expected = sorted((0.09 + 0.01, 0.04 + 0.01, 0.04 + 0.09))
     for name, value in zip(("smallest", "middle", "largest"), expected, strict=True):
         assert found[f"{name} principal I0/m"]["value"] == pytest.approx(value / 12.0, rel=1e-7)
+
+
+def test_the_approach_of_a_falling_ball_is_minus_its_height():
+    """`-(h - g t^2 / 2)`, h = 1 m, until it touches; as in every rig negative apart."""
+    _scene, messages = run("block_zeno", "duration=0.4")
+    approach = numpy.concatenate([block.approach for block in of(messages, "block/force", decode_contact_force)])
+    times = 0.4 / len(approach) * numpy.arange(len(approach))
+    assert approach == pytest.approx(0.5 * GRAVITY * times**2 - 1.0, abs=1e-12)
+
+
+def test_the_page_of_a_rigid_contact_draws_no_force_over_its_approach(tmp_path):
+    run_offline(resolved("block_zeno", "duration=0.6"), tmp_path / "bag")
+    assert main(["report", str(tmp_path / "bag")]) == 0
+    page = (tmp_path / "bag" / "report.html").read_text()
+    assert "Normal force and approach of the block contact over time" in page
+    assert "Normal force of the block contact over its approach" not in page

@@ -22,6 +22,10 @@ LOOP_POINTS = 4000
 """Most points of the curve of load over approach."""
 
 
+LEAST_APPROACH = 1e-9
+"""[m]: a contact that never yields more is rigid."""
+
+
 def load_over_time(key: str, name: str, contact: ContactSeries) -> Picture:
     """Normal force with lift-off shaded, other forces where there are any, approach; common time axis."""
     unit, scale = force_unit(contact)
@@ -66,8 +70,10 @@ def force_unit(contact: ContactSeries) -> tuple[str, float]:
     return ("kN", 1e-3) if contact.normal.max() >= 2000.0 else ("N", 1.0)
 
 
-def load_over_approach(key: str, name: str, contact: ContactSeries) -> Picture:
-    """Load-deflection curve of the whole run; its opening is the loss."""
+def load_over_approach(key: str, name: str, contact: ContactSeries) -> Picture | None:
+    """Load-deflection curve of the whole run; its opening is the loss. None where nothing yields: the contact is rigid."""
+    if contact.approach.max() <= LEAST_APPROACH:
+        return None
     figure, (axes,) = new_figure(3.1)
     stride = max(1, contact.normal.size // LOOP_POINTS)
     unit, scale = force_unit(contact)

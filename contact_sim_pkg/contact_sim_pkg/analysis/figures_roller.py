@@ -14,6 +14,7 @@ from .drawing import ACCENT, INK, MUTED, Picture, new_figure, picture
 from .roller_pass import RollerSeries
 
 OTHER = "#e08a2e"
+LEAST_CHANGE = 1e-3  # of a value's mean: less is drawn as a level line
 MAP_ROWS = 25
 SPECTRUM_PARTS = 60
 
@@ -36,6 +37,8 @@ def contact_over_time(roller: RollerSeries) -> Picture:
     for place, (values, label) in zip(axes[1:], rows, strict=True):
         place.plot(*envelope(time, values), color=ACCENT, linewidth=0.9)
         place.set_ylabel(label)
+        if np.ptp(values) < LEAST_CHANGE * values.mean():
+            place.set_ylim(0.95 * values.mean(), 1.05 * values.mean())
     axes[-1].set_xlabel("simulated time, s")
     figure.align_ylabels(axes)
     caption = (

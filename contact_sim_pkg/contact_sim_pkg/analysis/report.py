@@ -109,7 +109,8 @@ def _contact_section(number: int, name: str, recording: Recording) -> Section:
         pictures.append(pressure_maps(key, name, field))
     if field is not None and field.time.size > 1:
         pictures.append(footprint_over_time(key, name, field))
-    pictures.append(load_over_approach(key, name, contact))
+    curve = load_over_approach(key, name, contact)
+    pictures += [] if curve is None else [curve]
     return Section(key, f"{name.capitalize()} contact", pictures)
 
 

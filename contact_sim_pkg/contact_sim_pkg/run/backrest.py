@@ -15,7 +15,7 @@ from contact_sim_pkg.core.rigs.backrest_parameters import ENDED, MOST_EPISODES, 
 from contact_sim_pkg.core.solvers.dormand_prince import make_workspace
 from contact_sim_pkg.excitation.blocks import VibrationBlock
 from contact_sim_pkg.run.backrest_outputs import BackrestRecord, encode_backrest
-from contact_sim_pkg.run.block_simulation import BlockResult, InputBlock
+from contact_sim_pkg.run.block_simulation import BlockResult, InputBlock, refuse_out_of_turn
 from contact_sim_pkg.run.errors import RunError
 from contact_sim_pkg.run.vibration_drive import VIBRATION, accelerations
 from contact_sim_pkg.scene.build_backrest import build_backrest
@@ -58,8 +58,7 @@ class BackrestSimulation:
     def advance(self, block: int, inputs: dict[str, InputBlock]) -> BlockResult:
         """Advance block number ``block``; see ``BlockSimulation``."""
         began = time.perf_counter()
-        if block != self._next_block:
-            raise RunError(f"block {block} came, block {self._next_block} was due")
+        refuse_out_of_turn(block, self._next_block)
         model, timing = self.model, self.model.timing
         forward, _upward = accelerations(timing, block, inputs.get(VIBRATION))
         start = block * timing.block_length

@@ -16,7 +16,7 @@ from contact_sim_pkg.core.rigid.problem import PLANE
 from contact_sim_pkg.core.rigid.results import SENTENCES, SOLVED
 from contact_sim_pkg.core.rigid.stepping import SteppedBody
 from contact_sim_pkg.run.block_outputs import SLIPS, STICKS, BlockRecord, encode_block
-from contact_sim_pkg.run.block_simulation import BlockResult, InputBlock
+from contact_sim_pkg.run.block_simulation import BlockResult, InputBlock, refuse_out_of_turn
 from contact_sim_pkg.run.errors import RunError
 from contact_sim_pkg.scene.build_block import BlockModel, build_block
 from contact_sim_pkg.scene.resolved_scene import ResolvedScene
@@ -59,8 +59,7 @@ class BlockBodySimulation:
     def advance(self, block: int, inputs: dict[str, InputBlock]) -> BlockResult:
         """Advance block number ``block``; see ``BlockSimulation``."""
         began = time.perf_counter()
-        if block != self._next_block:
-            raise RunError(f"block {block} came, block {self._next_block} was due")
+        refuse_out_of_turn(block, self._next_block)
         timing = self.model.timing
         record = BlockRecord.empty(self.model, block)
         self._ledger(record)

@@ -77,7 +77,7 @@ def encode_block(
     period = timing.block_length / timing.samples
     normal, tangential = record.force[:, :, 0].sum(axis=1), record.force[:, :, 1].sum(axis=1)
     zeros = numpy.zeros_like(normal)
-    value = ContactForceBlock(record.block, period, normal, tangential, numpy.maximum(-record.gap, 0.0), zeros)
+    value = ContactForceBlock(record.block, period, normal, tangential, -record.gap, zeros)
     messages = [("block/force", stamp, encode_contact_force(value, stamp, BLOCK_FRAME))]
     messages += _wrenches(model, record, stamp) + _points(model, record, stamp)
     messages += _bench(model, record, stamp, period, wall_time)

@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import NamedTuple, Protocol, TypeAlias
 
 from contact_sim_pkg.excitation.blocks import RoadPatch, VibrationBlock
+from contact_sim_pkg.run.errors import RunError
 
 InputBlock: TypeAlias = RoadPatch | VibrationBlock
 
@@ -16,6 +17,12 @@ class BlockResult(NamedTuple):
     load: float  # [N] largest normal force
     peak_pressure: float  # [Pa]; 0 where no field is computed
     wall_time: float  # [s]
+
+
+def refuse_out_of_turn(block: int, due: int) -> None:
+    """Raise RunError where block number ``block`` came and another was due."""
+    if block != due:
+        raise RunError(f"block {block} came, block {due} was due")
 
 
 class BlockSimulation(Protocol):

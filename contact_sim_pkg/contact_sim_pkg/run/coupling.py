@@ -27,7 +27,8 @@ from contact_sim_pkg.run.block_drive import BlockDrive
 from contact_sim_pkg.run.bodies import Bodies, Offsets, Sampled, Saved, Stretch
 from contact_sim_pkg.run.errors import RunError
 from contact_sim_pkg.run.outputs import BlockRecord, FieldRecord
-from contact_sim_pkg.run.support import CushionSupport, RoadSupport, Support
+from contact_sim_pkg.run.road_support import RoadSupport
+from contact_sim_pkg.run.support import CushionSupport, Support
 from contact_sim_pkg.scene.build import Model
 from contact_sim_pkg.scene.build_coupling import Allowance
 

@@ -11,8 +11,7 @@ from contact_sim_pkg.core.impact.creep import maxwell
 from contact_sim_pkg.core.impact.hereditary import hereditary_integral
 from contact_sim_pkg.core.jit import freeze, thaw
 from contact_sim_pkg.core.parameters import Vector
-from contact_sim_pkg.run.block_simulation import BlockResult, InputBlock
-from contact_sim_pkg.run.errors import RunError
+from contact_sim_pkg.run.block_simulation import BlockResult, InputBlock, refuse_out_of_turn
 from contact_sim_pkg.run.impact_motion import Ended, ImpactMotion
 from contact_sim_pkg.run.impact_outputs import encode_block
 from contact_sim_pkg.scene.build_impact import build_impact
@@ -48,8 +47,7 @@ class ImpactSimulation:
     def advance(self, block: int, inputs: dict[str, InputBlock]) -> BlockResult:
         """Advance block number ``block``; see ``BlockSimulation``."""
         began = time.perf_counter()
-        if block != self._next_block:
-            raise RunError(f"block {block} came, block {self._next_block} was due")
+        refuse_out_of_turn(block, self._next_block)
         timing = self.model.timing
         period = timing.block_length / timing.samples
         times: Vector = (block * timing.samples + numpy.arange(timing.samples, dtype=numpy.float64)) * period

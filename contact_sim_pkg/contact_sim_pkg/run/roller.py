@@ -12,8 +12,7 @@ from contact_sim_pkg.core.parameters import Vector
 from contact_sim_pkg.core.roller.ellipse import RollingContact
 from contact_sim_pkg.core.roller.moments import moments
 from contact_sim_pkg.core.roller.volumes import box_volume, dangerous_volumes
-from contact_sim_pkg.run.block_simulation import BlockResult, InputBlock
-from contact_sim_pkg.run.errors import RunError
+from contact_sim_pkg.run.block_simulation import BlockResult, InputBlock, refuse_out_of_turn
 from contact_sim_pkg.run.roller_forecast import forecast
 from contact_sim_pkg.run.roller_motion import Matrix, Ridden, TiltYaw, TrackRide, volume_settings
 from contact_sim_pkg.run.roller_outputs import Measured, RollerRecord, encode_block
@@ -55,8 +54,7 @@ class RollerSimulation:
     def advance(self, block: int, inputs: dict[str, InputBlock]) -> BlockResult:
         """Advance block number ``block``; see ``BlockSimulation``."""
         began = time.perf_counter()
-        if block != self._next_block:
-            raise RunError(f"block {block} came, block {self._next_block} was due")
+        refuse_out_of_turn(block, self._next_block)
         record = self._advance(block)
         self._next_block = block + 1
         record.stability = self._forecast(block)

@@ -11,9 +11,8 @@ from contact_sim_pkg.core.jit import freeze, thaw
 from contact_sim_pkg.core.parameters import Vector
 from contact_sim_pkg.excitation.blocks import RoadPatch, VibrationBlock
 from contact_sim_pkg.run.block_drive import ROAD, VIBRATION, BlockDrive, block_drive
-from contact_sim_pkg.run.block_simulation import BlockResult
+from contact_sim_pkg.run.block_simulation import BlockResult, refuse_out_of_turn
 from contact_sim_pkg.run.coupling import Coupling
-from contact_sim_pkg.run.errors import RunError
 from contact_sim_pkg.run.outputs import BlockRecord, encode_block
 from contact_sim_pkg.run.rolling_shear import RollingShear
 from contact_sim_pkg.run.sources import make_travel
@@ -80,8 +79,7 @@ class Simulation:
         Raises RunError where a block is out of turn, does not fit the scene, or the physics ends in a named failure.
         """
         began = time.perf_counter()
-        if block != self._next_block:
-            raise RunError(f"block {block} came, block {self._next_block} was due")
+        refuse_out_of_turn(block, self._next_block)
         record = BlockRecord.empty(self.model, block)
         drive = block_drive(self.model, self._travel, block, inputs.get(ROAD), inputs.get(VIBRATION))
         coupling = self._coupling
