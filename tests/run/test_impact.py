@@ -20,10 +20,12 @@ from contact_sim_pkg.bag.messages import (
     decode_impact_events,
 )
 from contact_sim_pkg.core.impact.bodies import Material, Sphere
+from contact_sim_pkg.core.impact.contact import static_depth
 from contact_sim_pkg.core.impact.motion import solve_impact
 from contact_sim_pkg.run.errors import RunError
 from contact_sim_pkg.run.offline import run_offline
 from contact_sim_pkg.run.rigs import make_simulation, result_topics
+from contact_sim_pkg.scene.build_impact import build_impact
 from contact_sim_pkg.scene.errors import SceneError
 
 from .scenes import resolved
@@ -167,11 +169,26 @@ def test_steel_is_the_free_impact_to_the_weight():
     assert events["peak_force"][0] == pytest.approx(free.peak_force, rel=1e-8)
 
 
-def test_restitution_of_a_pendulum_does_not_depend_on_speed_and_times_scale():
-    e = events_of(run("impact_pendulum")[1])
-    assert e["restitution"][:7] == pytest.approx(e["restitution"][0], rel=1e-9)
-    assert e["duration"][:7] * e["speed"][:7] ** 0.2 == pytest.approx(e["duration"][0] * e["speed"][0] ** 0.2, rel=1e-9)
-    assert e["depth"][:7] / e["speed"][:7] ** 0.8 == pytest.approx(e["depth"][0] / e["speed"][0] ** 0.8, rel=1e-9)
+def test_restitution_of_a_pendulum_does_not_depend_on_speed_and_times_scale_down_to_rest():
+    _scene, messages = run("impact_pendulum", "duration=30.0", "outputs.force_rate=100")
+    e = events_of(messages)
+    k = solve_impact(Sphere(0.2, 0.05), Material(2.0e5, 0.3), 1.0).restitution
+    assert e["speed"] == pytest.approx(k ** numpy.arange(27.0), rel=1e-9)
+    assert e["duration"] * e["speed"] ** 0.2 == pytest.approx(e["duration"][0] * e["speed"][0] ** 0.2, rel=1e-9)
+    assert e["depth"] / e["speed"] ** 0.8 == pytest.approx(e["depth"][0] / e["speed"][0] ** 0.8, rel=1e-9)
+    assert e["speed"][-1] > 1e-9 > k * e["speed"][-1]
+    assert of(messages, "bench/energy", decode_energy)[-1].dissipated == pytest.approx(0.1, rel=1e-12)
+
+
+def test_a_slow_touch_under_weight_swings_with_the_frequency_of_small_swings_at_rest():
+    model = build_impact(resolved("impact_rubber_drop").data)
+    fast, slow, slower = (model.touch(speed, 293.15) for speed in (0.032, 0.02, 1e-9))
+    static = static_depth(slow.law)
+    swing = numpy.sqrt(1.5 * slow.law.elastic * numpy.sqrt(static) / slow.law.mass)
+    assert slow.impact.frequency == pytest.approx(swing, rel=1e-12)
+    assert slower.law.viscous == pytest.approx(slow.law.viscous, rel=1e-12)
+    assert fast.impact.speed == 0.032
+    assert fast.impact.frequency > swing
 
 
 @pytest.mark.parametrize(

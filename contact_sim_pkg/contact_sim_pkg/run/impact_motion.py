@@ -31,6 +31,7 @@ from contact_sim_pkg.scene.build_impact import ImpactModel, Release, Touch
 AT_REST = (
     1.0e-12  # energy of a motion in contact, over that of the weight on the static depth, below which the sphere rests
 )
+STILL = 1.0e-9  # [m/s]: a pendulum that leaves the sample more slowly hangs at rest on it
 MOST_PIECES = 10_000  # a block
 
 
@@ -200,6 +201,9 @@ class ImpactMotion:
         if self.model.bounces and self._bounces >= self.model.bounces:
             held = self._held()
             self._append(held, last.end, heat, last.supplied + held.potential - 0.5 * mass * speed**2)
+            return
+        if stretch.law.gravity == 0.0 and speed < STILL:
+            self._append(Rest(stretch.law), last.end, heat + 0.5 * mass * speed**2, last.supplied)
             return
         self._append(rebound(self.model.machine, speed), last.end, heat, last.supplied)
 

@@ -19,9 +19,7 @@ from contact_sim_pkg.scene.errors import Fault, SceneError
 from contact_sim_pkg.scene.lattice import effects_at
 from contact_sim_pkg.scene.timing import Timing, make_timing
 
-SLOWEST = (
-    1.0e-3  # [m/s]: below, the law of a touch is that of this speed, for B grows without bound as the speed falls to 0
-)
+SLOWEST_STATE = 1.0e-3  # [m/s]: below, the sample's state by a shift is that of this speed
 ROUNDS = 200
 
 
@@ -88,10 +86,15 @@ class ImpactModel:
     seed: int
 
     def touch(self, speed: float, temperature: float) -> Touch:
-        """The contact of a touch at ``speed`` [m/s]. Raises ImpactError outside the model."""
-        held = max(speed, SLOWEST)
-        half_space, impact = self._impact(held, temperature)
+        """The contact of a touch at ``speed`` [m/s]. Raises ImpactError outside the model.
+
+        Frequency and viscous force are those of the free impact at that speed, or at ``_speed_of_weight`` where that is higher.
+        """
+        half_space, impact = self._impact(max(speed, SLOWEST_STATE), temperature)
         gravity = self.machine.gravity if isinstance(self.machine, Drop) else 0.0
+        held = max(speed, _speed_of_weight(impact, gravity))
+        if held != impact.speed:
+            impact = self._solve(half_space, held)
         law = ContactLaw(self.sphere.mass, gravity, impact.elastic, impact.viscous, self.end)
         return Touch(half_space, impact, law)
 
@@ -115,6 +118,18 @@ class ImpactModel:
         lossless = half_space if self.lossy else Material(half_space.storage_modulus, 0.0)
         body = self.body if self.lossy or self.body is None else Material(self.body.storage_modulus, 0.0)
         return solve_impact(self.sphere, pair(lossless, body), speed, self.end, self.shape)
+
+
+def _speed_of_weight(impact: Impact, gravity: float) -> float:
+    """Speed in [m/s] whose free impact has the frequency of the swing on the static depth x_s, ``w^2 = 3/2 g/x_s``.
+
+    A slower touch is a swing under the weight rather than a blow: it is no slower than that, and with the frequency of its free
+    impact the viscous force would grow without bound as the speed falls. 0 without weight. By ``tau ~ V^(-1/5)``.
+    """
+    if gravity == 0.0:
+        return 0.0
+    static = (impact.sphere.mass * gravity / impact.elastic) ** (2.0 / 3.0)
+    return float(impact.speed * (math.sqrt(1.5 * gravity / static) / impact.frequency) ** 5)
 
 
 def build_impact(scene: dict[str, Any]) -> ImpactModel:

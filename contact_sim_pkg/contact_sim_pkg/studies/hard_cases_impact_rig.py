@@ -99,6 +99,15 @@ def elastic_for_long() -> Finding:
     return at_most(float(abs(speeds / 0.05 - 1.0).max()) + (0.0 if len(speeds) > 100 else 1.0), 1e-11)
 
 
+def pendulum_to_rest() -> Finding:
+    """Largest change of k over the 27 impacts of a hammer on foam, 1 m/s to 1.4 nm/s; then it hangs at rest."""
+    found = messages_of("impact_pendulum", 30.0, BARE, "outputs.force_rate=100")
+    events = [decode_impact_events(data) for name, _stamp, data in found if name == "impact/events"]
+    k = numpy.concatenate([each.restitution for each in events])
+    rests = len(k) == 27 and not _forces(found)[-1].any()
+    return at_most(float(abs(k / k[0] - 1.0).max()) if rests else math.nan, 1e-9)
+
+
 def _refused(run: Callable[[], object], *words: str) -> int:
     try:
         run()
@@ -150,6 +159,7 @@ CASES = (
     HardCase(MODEL, "bounces to rest: energy not accounted for", ledger_of_a_bounce),
     HardCase(MODEL, "lifted out of contact, caught: energy not accounted for", ledger_of_releases),
     HardCase(MODEL, "100 impacts without loss: change of the speed", elastic_for_long),
+    HardCase(MODEL, "pendulum, 1 m/s to 1 nm/s and rest: change of k", pendulum_to_rest),
     HardCase(MODEL, "fold, too deep, pole, beyond table, short arm: refused by name", refusals),
     HardCase(MODEL, "tan β = 100: no number, impacts that end", never_lets_go),
     HardCase(MODEL, "steel, no loss, pendulum: τ, x_m, F", steel_without_weight),
