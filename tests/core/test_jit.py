@@ -345,3 +345,12 @@ def test_kernel_overloads_are_chosen_by_type() -> None:
         return weight(body)
 
     assert call(2.0) == pytest.approx(19.62)
+
+
+def test_a_kernel_that_borrows_its_arrays_may_not_make_one():
+    @jit.borrowing_kernel
+    def doubled(values):
+        return (2.0 * values)[0]
+
+    with pytest.raises(numba.core.errors.NumbaError, match="NRT required"):
+        doubled(numpy.ones(3))

@@ -1,6 +1,7 @@
 """The one place for compile options: every compiled function of the core is decorated here.
 
-`@kernel` marks a compiled helper that other compiled functions call, `@entry` a compiled function that Python calls.
+`@kernel` marks a compiled helper that other compiled functions call (`@borrowing_kernel` one that makes no array), `@entry` a
+compiled function that Python calls.
 What stands between Python and machine code is compiled for calls from Python alone: with the wide parameter tuples of a rig
 it would take a third of the time to compile.
 Both release the interpreter lock, follow the NumPy error model (1/0 is inf, never an exception half-way through an
@@ -17,7 +18,16 @@ from numba.extending import overload
 
 from contact_sim_pkg.core.kernel_cache import attach_cache
 
-__all__ = ["COMPILE_OPTIONS", "compiled_functions", "entry", "freeze", "kernel", "kernel_overload", "thaw"]
+__all__ = [
+    "COMPILE_OPTIONS",
+    "borrowing_kernel",
+    "compiled_functions",
+    "entry",
+    "freeze",
+    "kernel",
+    "kernel_overload",
+    "thaw",
+]
 
 COMPILE_OPTIONS: dict[str, Any] = {
     "nopython": True, "nogil": True, "error_model": "numpy", "fastmath": False, "no_cfunc_wrapper": True,
@@ -31,10 +41,23 @@ _entries: list[Any] = []
 
 def kernel(function: Function) -> Function:
     """Compile a helper that other compiled functions call; a call from Python compiles it once more, as an entry."""
-    compiled: Any = _compile(function)
+    return _kernel(function)
+
+
+def borrowing_kernel(function: Function) -> Function:
+    """As `kernel`, for a helper that makes no array and returns none: it works on arrays that its caller holds.
+
+    numba then counts no references to them, which otherwise costs two atomic operations for every array of every tuple at
+    every call: half the time of an integrator's step. A helper that makes an array is refused when it is compiled.
+    """
+    return _kernel(function, _nrt=False)
+
+
+def _kernel(function: Function, **options: Any) -> Function:
+    compiled: Any = _compile(function, **options)
     _kernels.append(compiled)
     if hasattr(compiled, "overloads"):  # with NUMBA_DISABLE_JIT=1 it is a plain Python function
-        bare: Any = _compile(function, "bare", no_cpython_wrapper=True)
+        bare: Any = _compile(function, "bare", no_cpython_wrapper=True, **options)
         compiled.get_call_template, compiled.get_overload = bare.get_call_template, bare.get_overload
         _kernels.append(bare)
     return compiled  # type: ignore[no-any-return]

@@ -5,7 +5,7 @@ from __future__ import annotations
 from ..effects.elastic_law import elastic_energy
 from ..effects.foam_hysteresis import memory_energy
 from ..effects.friction import SLIP_BACKWARD, SLIP_FORWARD, following_deflection, friction_force
-from ..jit import entry, kernel
+from ..jit import borrowing_kernel, entry
 from ..parameters import Drive, Modes, Vector, Vehicle
 from ..results import DONE
 from ..solvers.dormand_prince import Workspace, integrate, set_sides
@@ -19,14 +19,14 @@ TIRE_PUSH = 9
 FORCES = 10
 
 
-@kernel
+@borrowing_kernel
 def _value(values, i):
     if values is None:
         return None
     return values[i]
 
 
-@kernel
+@borrowing_kernel
 def _segment(start, length, i, height, cushion, acceleration_x, acceleration_z, push):
     return Drive(
         start + i * length, length, height[i], height[i + 1], cushion[i], cushion[i + 1],
@@ -35,7 +35,7 @@ def _segment(start, length, i, height, cushion, acceleration_x, acceleration_z, 
     )  # fmt: skip
 
 
-@kernel
+@borrowing_kernel
 def _tangential(friction, seat, mode, normal, state):
     """Friction force on the occupant in [N]."""
     if friction is None:
@@ -44,7 +44,7 @@ def _tangential(friction, seat, mode, normal, state):
     return -friction_force(friction, mode[0], normal, state[x + 2], state[x + 1])
 
 
-@kernel
+@borrowing_kernel
 def _observe(rig, drive, mode, state, out):
     """Forces, approaches and heights of both contacts at the start of the segment."""
     height, height_rate, cushion, cushion_rate, _a_x, _a_z = quarter_car.drive_at(drive, drive.start)
@@ -100,7 +100,7 @@ def advance(
     return DONE
 
 
-@kernel
+@borrowing_kernel
 def _tire_energies(tire, gravity, state):
     if tire is None:
         return 0.0, 0.0, 0.0
@@ -109,7 +109,7 @@ def _tire_energies(tire, gravity, state):
     return kinetic, potential, 0.5 * tire.suspension_stiffness * (state[0] - state[1]) ** 2
 
 
-@kernel
+@borrowing_kernel
 def _carcass_energies(carcass, gravity, state):
     if carcass is None:
         return 0.0, 0.0, 0.0
@@ -118,7 +118,7 @@ def _carcass_energies(carcass, gravity, state):
     return kinetic, gravity * carcass.belt_mass * state[belt], 0.5 * carcass.stiffness * (state[belt] - state[0]) ** 2
 
 
-@kernel
+@borrowing_kernel
 def _seat_energies(seat, gravity, state):
     if seat is None:
         return 0.0, 0.0, 0.0
@@ -135,7 +135,7 @@ def _seat_energies(seat, gravity, state):
     return kinetic, potential, stored
 
 
-@kernel
+@borrowing_kernel
 def _slide_energies(friction, seat, mode, normal, state):
     if friction is None:
         return 0.0, 0.0
@@ -146,14 +146,14 @@ def _slide_energies(friction, seat, mode, normal, state):
     return 0.5 * vehicle.seat_mass(seat) * state[x + 1] ** 2, 0.5 * friction.stiffness * deflection**2
 
 
-@kernel
+@borrowing_kernel
 def _contact_energy(contact, approach):
     if contact is None:
         return 0.0
     return elastic_energy(contact.elastic, approach)
 
 
-@kernel
+@borrowing_kernel
 def _memory_energy(contact, state):
     if contact is None:
         return 0.0

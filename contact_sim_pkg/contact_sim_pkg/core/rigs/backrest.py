@@ -27,7 +27,7 @@ from ..effects.foam_hysteresis import factor_rate, memory_factor, memory_rate
 from ..effects.friction import APART as UNLOADED
 from ..effects.friction import STICK, following_deflection, friction_force, slip_margin, stick_margin
 from ..effects.normal_force import normal_force, normal_force_rate, tension_margin
-from ..jit import kernel
+from ..jit import borrowing_kernel
 from .backrest_episodes import begin_episode, end_episode, note_loss, note_turn
 from .backrest_parameters import (
     APART,
@@ -76,7 +76,7 @@ def margin_count(points: int) -> int:
     return EVENTS_A_POINT * points
 
 
-@kernel
+@borrowing_kernel
 def approach_of(rig, state, point):
     """Approach in [m] and its rate in [m/s]."""
     modes = rig.modal.shape[1]
@@ -88,7 +88,7 @@ def approach_of(rig, state, point):
     return approach, rate
 
 
-@kernel
+@borrowing_kernel
 def slide_of(rig, time):
     """Displacement [m], velocity [m/s] and acceleration [m/s^2] of the rigid sliding."""
     phase = rig.slide_frequency * time
@@ -100,7 +100,7 @@ def slide_of(rig, time):
     )
 
 
-@kernel
+@borrowing_kernel
 def tangential_velocity(rig, time, state, point):
     """Velocity of the back's face along the seat in [m/s]."""
     modes = rig.modal.shape[1]
@@ -110,14 +110,14 @@ def tangential_velocity(rig, time, state, point):
     return velocity
 
 
-@kernel
+@borrowing_kernel
 def seat_acceleration(drive, time):
     """Forward acceleration of the seat back in [m/s^2]."""
     part = (time - drive.start) / drive.length
     return drive.acceleration_0 + part * (drive.acceleration_1 - drive.acceleration_0)
 
 
-@kernel
+@borrowing_kernel
 def unit_normal(rig, mode, point, approach, approach_rate, state):
     """Normal force in [N] of the whole law at this approach; 0 where the point is apart or released."""
     if mode.doing[CONTACT, point] == APART or mode.doing[CONTACT, point] == RELEASED:
@@ -126,7 +126,7 @@ def unit_normal(rig, mode, point, approach, approach_rate, state):
     return normal_force(rig.contact.elastic, rig.contact.dissipative, approach, approach_rate, factor)
 
 
-@kernel
+@borrowing_kernel
 def unit_friction(friction, rig, mode, point, time, normal, state):
     """Friction force in [N] of the whole law, and the velocity along the seat in [m/s]; 0 without friction."""
     if friction is None:
@@ -136,7 +136,7 @@ def unit_friction(friction, rig, mode, point, time, normal, state):
     return friction_force(friction, mode.doing[FRICTION, point], normal, deflection, velocity), velocity
 
 
-@kernel
+@borrowing_kernel
 def _free_rates(rig, acceleration, state, out):
     """Modal forces without contact, into the places of the accelerations; returns supplied and lost power."""
     modes = rig.modal.shape[1]
@@ -153,7 +153,7 @@ def _free_rates(rig, acceleration, state, out):
     return supplied, lost
 
 
-@kernel
+@borrowing_kernel
 def _point_rates(rig, mode, point, time, state, out):
     """Add a touching point's forces to the modal forces; returns supplied and lost power."""
     modes, points = rig.modal.shape[1], rig.places.shape[1]
@@ -175,7 +175,7 @@ def _point_rates(rig, mode, point, time, state, out):
     return share * tangential * slide_velocity, lost + rubbed
 
 
-@kernel
+@borrowing_kernel
 def _rate(rig, drive, mode, time, state, out):
     modes, points = rig.modal.shape[1], rig.places.shape[1]
     move_point(rig.search, rig, state)
@@ -196,7 +196,7 @@ def _rate(rig, drive, mode, time, state, out):
     out[state.shape[0] - 1] = lost
 
 
-@kernel
+@borrowing_kernel
 def _friction_margin(friction, rig, mode, point, time, approach, approach_rate, state, derivative):
     if friction is None:
         return 1.0
@@ -222,7 +222,7 @@ def _friction_margin(friction, rig, mode, point, time, approach, approach_rate, 
     return slip_margin(friction, doing, velocity, acceleration, normal, normal_rate)
 
 
-@kernel
+@borrowing_kernel
 def _tension_margin(rig, doing, point, approach, approach_rate, state):
     if doing in (APART, CLOSING):
         return 1.0
@@ -231,14 +231,14 @@ def _tension_margin(rig, doing, point, approach, approach_rate, state):
     return -margin if doing == RELEASED else margin
 
 
-@kernel
+@borrowing_kernel
 def _turn_margin(doing, approach_rate):
     if doing == CLOSING:
         return approach_rate
     return -approach_rate if doing == OPENING else 1.0
 
 
-@kernel
+@borrowing_kernel
 def _margins(rig, drive, mode, time, state, derivative, out):
     points = rig.places.shape[1]
     move_point(rig.search, rig, state)
@@ -253,7 +253,7 @@ def _margins(rig, drive, mode, time, state, derivative, out):
         )
 
 
-@kernel
+@borrowing_kernel
 def _load(rig, mode, point, time, approach_rate, state):
     """A point begins to carry, and slips the way it moves."""
     mode.doing[CONTACT, point] = CLOSING if approach_rate > 0.0 else OPENING
@@ -262,7 +262,7 @@ def _load(rig, mode, point, time, approach_rate, state):
     state[2 * rig.modal.shape[1] + point] = 0.0
 
 
-@kernel
+@borrowing_kernel
 def _unload(rig, mode, point, time, state, becomes):
     """A point ceases to carry or to overlap, and its friction spring is free."""
     if mode.doing[CONTACT, point] != RELEASED:
@@ -272,7 +272,7 @@ def _unload(rig, mode, point, time, state, becomes):
     state[2 * rig.modal.shape[1] + point] = 0.0
 
 
-@kernel
+@borrowing_kernel
 def _pass_approach(rig, mode, point, time, approach, approach_rate, state):
     if mode.doing[CONTACT, point] == APART:
         begin_episode(rig, mode, point, time, approach, state)
@@ -282,13 +282,13 @@ def _pass_approach(rig, mode, point, time, approach, approach_rate, state):
         end_episode(rig, mode, point, state)
 
 
-@kernel
+@borrowing_kernel
 def _pass_turn(mode, point, approach):
     note_turn(mode, point, approach)
     mode.doing[CONTACT, point] = OPENING if mode.doing[CONTACT, point] == CLOSING else CLOSING
 
 
-@kernel
+@borrowing_kernel
 def _pass_friction(friction, rig, mode, point, time, approach, approach_rate, state):
     if friction is None:
         return
@@ -302,7 +302,7 @@ def _pass_friction(friction, rig, mode, point, time, approach, approach_rate, st
         mode.doing[FRICTION, point] = STICK
 
 
-@kernel
+@borrowing_kernel
 def _pass_kinematic(rig, mode, event_point, turns, time, state):
     """Let the event's point touch, leave or turn, and with it every other whose event falls on the same instant."""
     for c in range(rig.places.shape[1]):
@@ -320,7 +320,7 @@ def _pass_kinematic(rig, mode, event_point, turns, time, state):
             _pass_turn(mode, c, approach)
 
 
-@kernel
+@borrowing_kernel
 def _switch(rig, drive, mode, time, state, event, side):
     points = rig.places.shape[1]
     point = event % points
@@ -339,7 +339,7 @@ def _switch(rig, drive, mode, time, state, event, side):
     return 1.0
 
 
-@kernel
+@borrowing_kernel
 def _slips(friction, mode):
     if friction is None:
         return False
@@ -349,7 +349,7 @@ def _slips(friction, mode):
     return slipping > 0
 
 
-@kernel
+@borrowing_kernel
 def _need_rate(rig, mode):
     return _slips(rig.contact.friction, mode)
 

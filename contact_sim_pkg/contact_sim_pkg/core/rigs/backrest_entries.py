@@ -8,7 +8,7 @@ from ..effects.elastic_law import elastic_energy
 from ..effects.foam_hysteresis import memory_energy
 from ..effects.friction import APART as UNLOADED
 from ..effects.friction import STICK, following_deflection, stick_margin
-from ..jit import entry, kernel
+from ..jit import borrowing_kernel, entry
 from ..parameters import Vector
 from ..results import DONE
 from ..solvers.dormand_prince import Workspace, integrate
@@ -40,7 +40,7 @@ POINT_UP, POINT_ACROSS, POINT_COLUMNS = 5, 6, 7  # how far a moving point is fro
 NO_CONTACT, FRICTIONLESS, STICKS, SLIPS = 0, 1, 2, 3  # values of POINT_STATE
 
 
-@kernel
+@borrowing_kernel
 def _first_friction(friction, rig, mode, point, normal, state):
     """Slip from the start where the sliding already exceeds what sticking can hold."""
     if friction is None:
@@ -79,7 +79,7 @@ def find_point(rig: Backrest, state: Vector) -> None:
     move_point(rig.search, rig, state)
 
 
-@kernel
+@borrowing_kernel
 def _state_of(friction, mode, point, normal):
     if not normal > 0.0:
         return NO_CONTACT
@@ -88,7 +88,7 @@ def _state_of(friction, mode, point, normal):
     return STICKS if mode.doing[FRICTION, point] == STICK else SLIPS
 
 
-@kernel
+@borrowing_kernel
 def _displacement_of(rig, time, state, point):
     """Displacement of the back's face along the seat in [m], from rest."""
     displacement, _velocity, _acceleration = backrest.slide_of(rig, time)
@@ -97,7 +97,7 @@ def _displacement_of(rig, time, state, point):
     return displacement
 
 
-@kernel
+@borrowing_kernel
 def _observe(rig, mode, time, state, whole, by_point):
     """Forces of the whole contact and of every point, seen from the right."""
     friction = rig.contact.friction
@@ -149,7 +149,7 @@ def advance(
     return DONE
 
 
-@kernel
+@borrowing_kernel
 def _spring_energy(friction, rig, mode, point, time, approach, approach_rate, state):
     """Energy in [J] of a point's friction spring, for the whole law."""
     if friction is None:

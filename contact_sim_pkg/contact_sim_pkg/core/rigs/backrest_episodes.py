@@ -7,7 +7,7 @@ carries. Works of closing and opening are integrated states, whose values at the
 
 from __future__ import annotations
 
-from ..jit import kernel
+from ..jit import borrowing_kernel
 from .backrest_parameters import (
     CARRIED,
     CLOSING_WORK,
@@ -22,7 +22,7 @@ from .backrest_parameters import (
 )
 
 
-@kernel
+@borrowing_kernel
 def _works(rig, state, point):
     """Works of closing and opening in [J] since the start of the run, of one point or (``point`` = points) of all."""
     modes, points = rig.modal.shape[1], rig.places.shape[1]
@@ -36,7 +36,7 @@ def _works(rig, state, point):
     return total_closing, total_opening
 
 
-@kernel
+@borrowing_kernel
 def open_episode(rig, mode, place, time, approach, state, touched):
     """Note the beginning of the episode of a point, or (``place`` = points) of the whole contact."""
     closing, opening = _works(rig, state, place)
@@ -48,7 +48,7 @@ def open_episode(rig, mode, place, time, approach, state, touched):
     lasting[place, TOUCHED] = touched
 
 
-@kernel
+@borrowing_kernel
 def begin_episode(rig, mode, point, time, approach, state):
     """A point touches."""
     places = 2 if mode.counts[OVERLAPPING] == 0 else 1
@@ -57,21 +57,21 @@ def begin_episode(rig, mode, point, time, approach, state):
     mode.counts[OVERLAPPING] += 1
 
 
-@kernel
+@borrowing_kernel
 def note_turn(mode, point, approach):
     """A point turns: its approach may be the largest so far."""
     for place in (point, mode.lasting.shape[0] - 1):
         mode.lasting[place, DEEPEST] = max(mode.lasting[place, DEEPEST], approach)
 
 
-@kernel
+@borrowing_kernel
 def note_loss(mode, point, time):
     """A point loses its force."""
     for place in (point, mode.lasting.shape[0] - 1):
         mode.lasting[place, CARRIED] = time
 
 
-@kernel
+@borrowing_kernel
 def _close_episode(rig, mode, place, state):
     number = mode.counts[ENDED]
     mode.counts[ENDED] += 1
@@ -85,7 +85,7 @@ def _close_episode(rig, mode, place, state):
     mode.ended[number, PLACE] = place
 
 
-@kernel
+@borrowing_kernel
 def end_episode(rig, mode, point, state):
     """A point is apart."""
     mode.counts[OVERLAPPING] -= 1

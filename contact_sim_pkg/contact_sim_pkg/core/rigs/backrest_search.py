@@ -10,7 +10,7 @@ from __future__ import annotations
 
 import math
 
-from ..jit import kernel
+from ..jit import borrowing_kernel
 from ..parameters import Vector
 from .backrest_parameters import GAP, SHAPE, SLOPE, ContactSearch
 
@@ -20,13 +20,13 @@ HALVINGS = 30
 CLOSE = 1.0e-13  # of a step over the side
 
 
-@kernel
+@borrowing_kernel
 def _turned(sine, cosine, first_sine, first_cosine):
     """Sine and cosine of the next multiple of an angle."""
     return sine * first_cosine + cosine * first_sine, cosine * first_cosine - sine * first_sine
 
 
-@kernel
+@borrowing_kernel
 def _depth(search, state, x, y):
     """Depth in [m] at a point, its gradient, and its second derivatives xx, xy, yy."""
     a, b = math.pi / search.length_1, math.pi / search.length_2
@@ -51,7 +51,7 @@ def _depth(search, state, x, y):
     return depth, d_x, d_y, d_xx, d_xy, d_yy
 
 
-@kernel
+@borrowing_kernel
 def _take_depths(search, state):
     """Depth at every candidate point into ``search.depths``, whose outermost rows and columns stay -infinity."""
     rows, cols = search.depths.shape[0] - 2, search.depths.shape[1] - 2
@@ -64,7 +64,7 @@ def _take_depths(search, state):
             search.depths[i + 1, j + 1] = depth
 
 
-@kernel
+@borrowing_kernel
 def _is_crest(depths, i, j):
     """Whether no neighbour of a candidate point is deeper."""
     for k in range(i - 1, i + 2):
@@ -74,19 +74,19 @@ def _is_crest(depths, i, j):
     return True
 
 
-@kernel
+@borrowing_kernel
 def _held(place, slope, length):
     """Whether a side holds the point, which would go on beyond it."""
     return (place <= 0.0 and slope < 0.0) or (place >= length and slope > 0.0)
 
 
-@kernel
+@borrowing_kernel
 def _uphill(slope, bend, length):
     """Step along one direction: to the crest of the parabola where there is one, else a part of the side uphill."""
     return -slope / bend if bend < 0.0 else math.copysign(0.05 * length, slope)
 
 
-@kernel
+@borrowing_kernel
 def _step_uphill(search, x, y, slopes):
     """Newton step towards the crest, within the directions in which no side holds the point."""
     _depth_here, d_x, d_y, d_xx, d_xy, d_yy = slopes
@@ -100,7 +100,7 @@ def _step_uphill(search, x, y, slopes):
     return _uphill(d_x, d_xx, search.length_1), _uphill(d_y, d_yy, search.length_2)
 
 
-@kernel
+@borrowing_kernel
 def _climbed(search, state, x, y):
     """Crest reached from a point: its place and depth."""
     slopes = _depth(search, state, x, y)
@@ -123,7 +123,7 @@ def _climbed(search, state, x, y):
     return x, y, slopes[0]
 
 
-@kernel
+@borrowing_kernel
 def nearest_point(search: ContactSearch, state: Vector) -> tuple[float, float]:
     """Place in [m] over the shell's sides at which the depth is largest; ``state`` begins with the modal coordinates [m]."""
     _take_depths(search, state)
@@ -138,7 +138,7 @@ def nearest_point(search: ContactSearch, state: Vector) -> tuple[float, float]:
     return best_x, best_y
 
 
-@kernel
+@borrowing_kernel
 def move_point(search, rig, state):
     """Write shapes, slopes and gap of the nearest point into the rig's one contact point; nothing where none is searched."""
     if search is None:
@@ -154,7 +154,7 @@ def move_point(search, rig, state):
     rig.places[GAP, 0] = 0.5 * (from_x * from_x * search.curvature_1 + from_y * from_y * search.curvature_2)
 
 
-@kernel
+@borrowing_kernel
 def place_of(search, state):
     """Place in [m] of the moving point from the shell's middle, along its two sides; 0, 0 where none is searched."""
     if search is None:

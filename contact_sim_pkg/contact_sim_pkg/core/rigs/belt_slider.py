@@ -7,7 +7,7 @@ State [x, v_x, s]; event function: margin of stick or of slip, whichever holds.
 from __future__ import annotations
 
 from ..effects.friction import STICK, following_deflection, friction_force, slip_margin, stick_margin
-from ..jit import kernel
+from ..jit import borrowing_kernel
 from ..parameters import BeltSlider
 from .interface import register
 
@@ -15,7 +15,7 @@ STATES = 3
 MARGINS = 1
 
 
-@kernel
+@borrowing_kernel
 def _rate(rig, drive, mode, time, state, out):
     velocity = rig.belt_speed - state[1]
     out[0] = state[1]
@@ -23,7 +23,7 @@ def _rate(rig, drive, mode, time, state, out):
     out[2] = velocity if mode[0] == STICK else 0.0
 
 
-@kernel
+@borrowing_kernel
 def _margins(rig, drive, mode, time, state, derivative, out):
     velocity = rig.belt_speed - state[1]
     if mode[0] == STICK:
@@ -32,7 +32,7 @@ def _margins(rig, drive, mode, time, state, derivative, out):
         out[0] = slip_margin(rig.friction, mode[0], velocity, -derivative[1], rig.load, 0.0)
 
 
-@kernel
+@borrowing_kernel
 def _switch(rig, drive, mode, time, state, event, side):
     velocity = rig.belt_speed - state[1]
     if mode[0] == STICK:
@@ -44,7 +44,7 @@ def _switch(rig, drive, mode, time, state, event, side):
     return 1.0
 
 
-@kernel
+@borrowing_kernel
 def _need_rate(rig, mode):
     return mode[0] != STICK
 

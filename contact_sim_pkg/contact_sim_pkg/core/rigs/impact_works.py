@@ -9,7 +9,7 @@ State [z, v, W_c, W_r]; event functions: the approach x, the tension margin, the
 from __future__ import annotations
 
 from ..effects.normal_force import normal_force
-from ..jit import kernel
+from ..jit import borrowing_kernel
 from ..parameters import ImpactWorks
 from .interface import register
 from .point_contact import _margins as contact_margins
@@ -19,7 +19,7 @@ STATES = 4
 MARGINS = 3
 
 
-@kernel
+@borrowing_kernel
 def _rate(rig, drive, mode, time, state, out):
     contact = rig.contact
     approach, approach_rate = approach_of(contact, time, state)
@@ -31,24 +31,24 @@ def _rate(rig, drive, mode, time, state, out):
     out[3] = power if approach_rate <= 0.0 else 0.0
 
 
-@kernel
+@borrowing_kernel
 def _margins(rig, drive, mode, time, state, derivative, out):
     contact_margins(rig.contact, drive, mode, time, state, derivative, out)
     _approach, approach_rate = approach_of(rig.contact, time, state)
     out[2] = approach_rate
 
 
-@kernel
+@borrowing_kernel
 def _switch(rig, drive, mode, time, state, event, side):
     return side
 
 
-@kernel
+@borrowing_kernel
 def _need_rate(rig, mode):
     return False
 
 
-@kernel
+@borrowing_kernel
 def _free_flight(rig, drive, mode, time, end, state, side):
     return free_flight(rig.contact, drive, mode, time, end, state, side)
 

@@ -8,7 +8,7 @@ from __future__ import annotations
 import math
 
 from ..effects.normal_force import normal_force, tension_margin
-from ..jit import kernel
+from ..jit import borrowing_kernel
 from ..parameters import PointContact
 from .interface import register
 
@@ -18,7 +18,7 @@ APPROACH, TENSION = 0, 1
 FLIGHT_ITERATIONS = 1000
 
 
-@kernel
+@borrowing_kernel
 def approach_of(rig, time, state):
     phase = rig.support_frequency * time
     approach = rig.support_amplitude * math.sin(phase) - state[0]
@@ -26,7 +26,7 @@ def approach_of(rig, time, state):
     return approach, approach_rate
 
 
-@kernel
+@borrowing_kernel
 def _rate(rig, drive, mode, time, state, out):
     approach, approach_rate = approach_of(rig, time, state)
     out[0] = state[1]
@@ -34,24 +34,24 @@ def _rate(rig, drive, mode, time, state, out):
     out[1] = force / rig.mass - rig.gravity
 
 
-@kernel
+@borrowing_kernel
 def _margins(rig, drive, mode, time, state, derivative, out):
     approach, approach_rate = approach_of(rig, time, state)
     out[0] = approach
     out[1] = tension_margin(rig.elastic, rig.dissipative, approach, approach_rate, 1.0)
 
 
-@kernel
+@borrowing_kernel
 def _switch(rig, drive, mode, time, state, event, side):
     return side
 
 
-@kernel
+@borrowing_kernel
 def _need_rate(rig, mode):
     return False
 
 
-@kernel
+@borrowing_kernel
 def _time_to_zero(value, slope, bend):
     """Time in [s] before which a function at ``value`` <= 0 with second derivative up to ``bend`` >= 0 cannot reach zero."""
     root = math.sqrt(max(0.0, slope * slope - 2.0 * bend * value))
@@ -60,7 +60,7 @@ def _time_to_zero(value, slope, bend):
     return (root - slope) / bend if bend > 0.0 else math.inf
 
 
-@kernel
+@borrowing_kernel
 def free_flight(rig, drive, mode, time, end, state, side):
     """Parabola of the mass, and the touch of the support's sine from below: by steps within which none can be, so none is missed.
 

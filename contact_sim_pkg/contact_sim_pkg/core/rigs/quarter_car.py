@@ -5,22 +5,22 @@ Equations and state are those of ``rigs/vehicle.py``; a part that the rig lacks 
 
 from __future__ import annotations
 
-from ..jit import kernel
+from ..jit import borrowing_kernel
 
 
-@kernel
+@borrowing_kernel
 def _between(start, end, part):
     return start + (end - start) * part
 
 
-@kernel
+@borrowing_kernel
 def _push_between(start, end, part):
     if start is None:
         return 0.0
     return _between(start, end, part)
 
 
-@kernel
+@borrowing_kernel
 def drive_at(drive, time):
     """Road height, its rate, cushion height, its rate, floor accelerations x and z at ``time``."""
     part = (time - drive.start) / drive.length
@@ -34,13 +34,13 @@ def drive_at(drive, time):
     )
 
 
-@kernel
+@borrowing_kernel
 def push_at(drive, time):
     """Force in [N] that road asperities add at ``time``; 0 where the scene calls for none."""
     return _push_between(drive.push_0, drive.push_1, (time - drive.start) / drive.length)
 
 
-@kernel
+@borrowing_kernel
 def tread_motion(carcass, state):
     """Height in [m] and velocity in [m/s] of what touches the road: the belt, or the wheel where there is no carcass."""
     if carcass is None:
@@ -48,7 +48,7 @@ def tread_motion(carcass, state):
     return state[carcass.offset], state[carcass.offset + 1]
 
 
-@kernel
+@borrowing_kernel
 def tire_approach(tire, carcass, height, height_rate, state):
     """Approach in [m] and its rate in [m/s]; apart where there is no tire."""
     if tire is None:
@@ -57,7 +57,7 @@ def tire_approach(tire, carcass, height, height_rate, state):
     return height - tread, height_rate - tread_rate
 
 
-@kernel
+@borrowing_kernel
 def carcass_rates(carcass, gravity, force, state, out):
     """Rates of the belt; returns the force on the wheel and the power that the sidewalls take."""
     if carcass is None:
@@ -70,7 +70,7 @@ def carcass_rates(carcass, gravity, force, state, out):
     return sidewalls, carcass.damping * closing * closing
 
 
-@kernel
+@borrowing_kernel
 def tire_rates(tire, gravity, force, seat_force, acceleration_z, state, out):
     """Rates of wheel and body; returns the power that the suspension takes."""
     if tire is None:
@@ -84,14 +84,14 @@ def tire_rates(tire, gravity, force, seat_force, acceleration_z, state, out):
     return tire.suspension_damping * closing * closing
 
 
-@kernel
+@borrowing_kernel
 def body_power(tire, acceleration_z, state):
     if tire is None:
         return 0.0
     return tire.body_mass * acceleration_z * state[3]
 
 
-@kernel
+@borrowing_kernel
 def tread_velocity(tire, carcass, state):
     if tire is None:
         return 0.0

@@ -31,7 +31,7 @@ from ..effects.friction import (
     slip_margin,
     stick_margin,
 )
-from ..jit import kernel
+from ..jit import borrowing_kernel
 from ..parameters import Vehicle
 from .interface import register
 from .quarter_car import (
@@ -47,14 +47,14 @@ from .quarter_car import (
 TIRE_APPROACH, TIRE_TENSION, SEAT_APPROACH, SEAT_TENSION, SEAT_FRICTION, SEAT_TURNING, MARGINS = 0, 1, 2, 3, 4, 5, 6
 
 
-@kernel
+@borrowing_kernel
 def _floor(tire, state):
     if tire is None:
         return 0.0, 0.0
     return state[1], state[3]
 
 
-@kernel
+@borrowing_kernel
 def seat_approach(tire, seat, cushion, cushion_rate, state):
     """Approach in [m] and its rate in [m/s]; apart where there is no seat."""
     if seat is None:
@@ -65,7 +65,7 @@ def seat_approach(tire, seat, cushion, cushion_rate, state):
     return floor + cushion - state[frame], floor_rate + cushion_rate - state[frame_rate]
 
 
-@kernel
+@borrowing_kernel
 def normal_force(contact, approach, approach_rate, state):
     """Normal force of a contact in [N]; 0 where the contact is absent."""
     if contact is None:
@@ -74,7 +74,7 @@ def normal_force(contact, approach, approach_rate, state):
     return law.normal_force(contact.elastic, contact.dissipative, approach, approach_rate, factor)
 
 
-@kernel
+@borrowing_kernel
 def _lost_power(contact, approach, approach_rate, force, state, out):
     """Power in [W] that the loss of a contact takes: (F - F_elastic) x'. Writes the rate of what the contact remembers."""
     if contact is None:
@@ -84,7 +84,7 @@ def _lost_power(contact, approach, approach_rate, force, state, out):
     return (force - carried) * approach_rate
 
 
-@kernel
+@borrowing_kernel
 def _seat_rates(tire, seat, gravity, force, acceleration_z, state, out):
     """Rates of frame and masses; returns the power that their links take and that the frame's inertia brings in."""
     if seat is None:
@@ -113,7 +113,7 @@ def _seat_rates(tire, seat, gravity, force, acceleration_z, state, out):
     return lost, 0.0
 
 
-@kernel
+@borrowing_kernel
 def seat_mass(seat):
     """Mass of the whole occupant in [kg]."""
     if seat is None:
@@ -124,12 +124,12 @@ def seat_mass(seat):
     return total
 
 
-@kernel
+@borrowing_kernel
 def _slide_index(seat):
     return seat.offset + 2 * (1 + seat.masses.shape[0])
 
 
-@kernel
+@borrowing_kernel
 def _slide_rates(friction, seat, mode, normal, acceleration_x, state, out):
     """Rates of the slide; returns the power that friction takes up and the power that the floor's x motion brings in."""
     if friction is None:
@@ -144,14 +144,14 @@ def _slide_rates(friction, seat, mode, normal, acceleration_x, state, out):
     return force * velocity, -mass * acceleration_x * velocity
 
 
-@kernel
+@borrowing_kernel
 def _friction_of(contact):
     if contact is None:
         return None
     return contact.friction
 
 
-@kernel
+@borrowing_kernel
 def _rate(rig, drive, mode, time, state, out):
     height, height_rate, cushion, cushion_rate, a_x, a_z = drive_at(drive, time)
     tire_x, tire_v = tire_approach(rig.tire, rig.carcass, height, height_rate, state)
@@ -173,7 +173,7 @@ def _rate(rig, drive, mode, time, state, out):
     out[last - 1] = lost
 
 
-@kernel
+@borrowing_kernel
 def _tension_of(contact, approach, approach_rate, state):
     if contact is None:
         return 1.0
@@ -181,14 +181,14 @@ def _tension_of(contact, approach, approach_rate, state):
     return law.tension_margin(contact.elastic, contact.dissipative, approach, approach_rate, factor)
 
 
-@kernel
+@borrowing_kernel
 def _turning_of(contact, approach, approach_rate):
     if contact is None:
         return 1.0
     return turning_margin(contact.hysteresis, approach, approach_rate)
 
 
-@kernel
+@borrowing_kernel
 def _normal_rate(contact, approach, approach_rate, approach_acceleration, state, derivative):
     """Rate of the normal force in [N/s]; 0 where the bodies part faster than the material recovers."""
     factor = memory_factor(contact.hysteresis, state)
@@ -198,7 +198,7 @@ def _normal_rate(contact, approach, approach_rate, approach_acceleration, state,
     return force_rate + factor_rate(contact.hysteresis, derivative) * elastic_force(contact.elastic, approach)
 
 
-@kernel
+@borrowing_kernel
 def _friction_margin(friction, contact, tire, seat, mode, approach, approach_rate, state, derivative):
     if friction is None:
         return 1.0
@@ -218,7 +218,7 @@ def _friction_margin(friction, contact, tire, seat, mode, approach, approach_rat
     return slip_margin(friction, mode[0], state[x + 1], derivative[x + 1], normal, normal_rate)
 
 
-@kernel
+@borrowing_kernel
 def _margins(rig, drive, mode, time, state, derivative, out):
     height, height_rate, cushion, cushion_rate, _a_x, _a_z = drive_at(drive, time)
     tire_x, tire_v = tire_approach(rig.tire, rig.carcass, height, height_rate, state)
@@ -233,7 +233,7 @@ def _margins(rig, drive, mode, time, state, derivative, out):
     )
 
 
-@kernel
+@borrowing_kernel
 def _switch_friction(friction, contact, seat, mode, approach, approach_rate, state, event, side):
     """Switch the friction of the seat where an event of this contact has changed its sign to ``side``.
 
@@ -260,7 +260,7 @@ def _switch_friction(friction, contact, seat, mode, approach, approach_rate, sta
             mode[0] = APART
 
 
-@kernel
+@borrowing_kernel
 def _switch(rig, drive, mode, time, state, event, side):
     _height, _height_rate, cushion, cushion_rate, _a_x, _a_z = drive_at(drive, time)
     seat_x, seat_v = seat_approach(rig.tire, rig.seat, cushion, cushion_rate, state)
@@ -270,14 +270,14 @@ def _switch(rig, drive, mode, time, state, event, side):
     return 1.0 if event == SEAT_FRICTION else side
 
 
-@kernel
+@borrowing_kernel
 def _slips(friction, mode):
     if friction is None:
         return False
     return mode[0] != STICK and mode[0] != APART
 
 
-@kernel
+@borrowing_kernel
 def _need_rate(rig, mode):
     return _slips(_friction_of(rig.seat_contact), mode)
 

@@ -16,7 +16,7 @@ from typing import NamedTuple
 
 import numpy
 
-from ..jit import kernel
+from ..jit import borrowing_kernel
 from ..parameters import Vector
 from ..results import DONE, NOT_FINITE, STEP_TOO_SMALL, TOO_MANY_EVENTS
 from ..rigs.interface import margins, margins_need_rate, rate, switch
@@ -68,7 +68,7 @@ def make_workspace(states: int, margin_count: int) -> Workspace:
     )  # fmt: skip
 
 
-@kernel
+@borrowing_kernel
 def _stages(rig, drive, mode, time, step, state, k, out):
     """One step from ``state`` into ``out``; k[0] must hold the rate at the start, k[6] holds that at the end after it."""
     for stage in range(1, STAGES):
@@ -80,7 +80,7 @@ def _stages(rig, drive, mode, time, step, state, k, out):
         rate(rig, drive, mode, time + PARTS[stage] * step, out, k[stage])
 
 
-@kernel
+@borrowing_kernel
 def _error(step, k, scale):
     """Largest difference of the two orders over ``scale``, which is infinite for what is not controlled."""
     worst = 0.0
@@ -95,7 +95,7 @@ def _error(step, k, scale):
     return worst
 
 
-@kernel
+@borrowing_kernel
 def _underestimate(step, since):
     """True error over estimated error, at most, of a step in [s] that starts ``since`` [s] after an event.
 
@@ -106,7 +106,7 @@ def _underestimate(step, since):
     return 1.0 + (UNDERESTIMATE - 1.0) * (1.0 - 2.0 * since / step) ** 3
 
 
-@kernel
+@borrowing_kernel
 def _look_inside(step, part, state, work):
     """State at ``part`` of the step just taken into ``work.inside`` (cubic Hermite); at 1 its end, and the rate there."""
     k = work.stages
@@ -120,7 +120,7 @@ def _look_inside(step, part, state, work):
             work.inside_rate[i] = k[6, i]
 
 
-@kernel
+@borrowing_kernel
 def _first_change(rig, drive, mode, time, step, state, work):
     """Part of the step after which an event function has changed sign, 0 where none has: 1/5 ... 4/5, 1."""
     with_rate = margins_need_rate(rig, mode)
@@ -136,7 +136,7 @@ def _first_change(rig, drive, mode, time, step, state, work):
     return 0.0
 
 
-@kernel
+@borrowing_kernel
 def _worst_margin(work):
     """Event function that lies farthest beyond its sign: its number, and its value counted negative when beyond."""
     event = -1
@@ -149,7 +149,7 @@ def _worst_margin(work):
     return event, value
 
 
-@kernel
+@borrowing_kernel
 def _locate(rig, drive, mode, time, inner, outer, state, work):
     """Shortest whole step after which an event function has changed sign, between ``inner`` (none has) and ``outer``.
 
@@ -196,7 +196,7 @@ def _locate(rig, drive, mode, time, inner, outer, state, work):
     return high, event
 
 
-@kernel
+@borrowing_kernel
 def set_sides(rig, drive, mode, time, state, work):
     """Take the sign of every event function as the one on which it stands; to be called once, at the start of a run."""
     rate(rig, drive, mode, time, state, work.stages[0])
@@ -206,7 +206,7 @@ def set_sides(rig, drive, mode, time, state, work):
     work.last_event[0] = -numpy.inf
 
 
-@kernel
+@borrowing_kernel
 def integrate(rig, drive, mode, end, state, scale, work):  # noqa: C901
     """Advance ``state`` from ``drive.start`` to ``end`` (within the segment); returns a status of ``core/results.py``.
 

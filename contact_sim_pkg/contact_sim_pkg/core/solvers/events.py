@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy
 
-from ..jit import kernel
+from ..jit import borrowing_kernel
 from ..rigs.interface import margins, margins_need_rate, rate
 from .step import error_of_step, state_inside, take_step
 from .time_map import place, time_map
@@ -16,7 +16,7 @@ INTERPOLATED_ITERATIONS = 12
 NEARBY = 1.0e-7  # part of the step over which the slope of an event function is taken
 
 
-@kernel
+@borrowing_kernel
 def _margins_inside(rig, drive, mode, course, part, state, work):
     """Event functions at ``part`` of the step just taken into ``work.margin_inside``, from the interpolated state."""
     time, _slope = place(course, part)
@@ -26,7 +26,7 @@ def _margins_inside(rig, drive, mode, course, part, state, work):
     margins(rig, drive, mode, time, work.inside, work.inside_rate, work.margin_inside)
 
 
-@kernel
+@borrowing_kernel
 def _farthest_beyond(margin, side):
     event = -1
     value = 0.0
@@ -38,7 +38,7 @@ def _farthest_beyond(margin, side):
     return event
 
 
-@kernel
+@borrowing_kernel
 def _stays_clear(work):
     """Whether parabolas through start, middle and end of a step keep away from zero by three times their own bend."""
     for j in range(work.side.shape[0]):
@@ -49,7 +49,7 @@ def _stays_clear(work):
     return True
 
 
-@kernel
+@borrowing_kernel
 def bracket_of_change(rig, drive, mode, course, error, state, work):
     """Parts of the step just taken between which an event function is seen to change its sign; 0, 0 where none does.
 
@@ -64,7 +64,7 @@ def bracket_of_change(rig, drive, mode, course, error, state, work):
     return _bracket_inside(rig, drive, mode, course, changed, state, work)
 
 
-@kernel
+@borrowing_kernel
 def _bracket_inside(rig, drive, mode, course, changed, state, work):
     """Neighbours of 0, 1/5 ... 4/5, 1 of the step between which an event function first changes its sign; 0, 0 where none does.
 
@@ -83,7 +83,7 @@ def _bracket_inside(rig, drive, mode, course, changed, state, work):
     return (before, 1.0) if changed else (0.0, 0.0)
 
 
-@kernel
+@borrowing_kernel
 def _interpolated_change(rig, drive, mode, course, low, high, state, work):
     """Part of the step at which the event function that has changed at ``high`` passes zero, from the interpolated states."""
     event = -1
@@ -112,14 +112,14 @@ def _interpolated_change(rig, drive, mode, course, low, high, state, work):
     return middle, event
 
 
-@kernel
+@borrowing_kernel
 def guess_of_change(rig, drive, mode, course, low, high, state, work):
     """Step in [s] after which an event function passes zero, by the interpolated states of the step just taken."""
     change, event = _interpolated_change(rig, drive, mode, course, low, high, state, work)
     return place(course, change)[0] - course.start, event
 
 
-@kernel
+@borrowing_kernel
 def _correction(rig, drive, mode, end, step, event, work):
     """Change of the step in [s] that brings event function ``event`` to zero, by its slope right before the step's ``end``.
 
@@ -137,7 +137,7 @@ def _correction(rig, drive, mode, end, step, event, work):
     return numpy.nan
 
 
-@kernel
+@borrowing_kernel
 def _nearest(work):
     """Event function that lies farthest beyond its sign, or nearest to zero; and whether it has changed, as zero has."""
     event = 0
@@ -150,7 +150,7 @@ def _nearest(work):
     return event, value <= 0.0
 
 
-@kernel
+@borrowing_kernel
 def locate(rig, drive, mode, time, inner, guess, outer, state, scale, work):
     """Shortest whole step, up to ``outer`` [s], after which an event function has changed its sign, begun at ``guess``.
 

@@ -7,7 +7,7 @@ from __future__ import annotations
 
 from typing import NamedTuple
 
-from ..jit import kernel
+from ..jit import borrowing_kernel
 from ..parameters import Vector
 from .stage import evaluate
 from .time_map import place
@@ -22,7 +22,7 @@ class Order5(NamedTuple):
     stages: Vector  # [7, states]
 
 
-@kernel
+@borrowing_kernel
 def step_of_order_5(stages, rig, drive, mode, course, state, out):
     """Step from ``state`` along ``course`` into ``out``; the first row of ``stages`` must hold the rate at its start."""
     k = stages
@@ -57,7 +57,7 @@ def step_of_order_5(stages, rig, drive, mode, course, state, out):
         )  # fmt: skip
 
 
-@kernel
+@borrowing_kernel
 def error_of_order_5(stages, course, end_rate, scale):
     """Largest difference of the two orders over ``scale``, with the rate at the step's end."""
     k = stages

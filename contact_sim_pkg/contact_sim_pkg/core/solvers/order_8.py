@@ -8,7 +8,7 @@ from __future__ import annotations
 import math
 from typing import NamedTuple
 
-from ..jit import kernel
+from ..jit import borrowing_kernel
 from ..parameters import Vector
 from .stage import evaluate
 
@@ -23,7 +23,7 @@ class Order8(NamedTuple):
     stages: Vector  # [12, states]
 
 
-@kernel
+@borrowing_kernel
 def step_of_order_8(stages, rig, drive, mode, course, state, out):  # noqa: C901 (a loop over the states a stage)
     """Step from ``state`` along ``course`` into ``out``; the first row of ``stages`` must hold the rate at its start."""
     k = stages
@@ -92,7 +92,7 @@ def step_of_order_8(stages, rig, drive, mode, course, state, out):  # noqa: C901
         )  # fmt: skip
 
 
-@kernel
+@borrowing_kernel
 def error_of_order_8(stages, course, scale):
     """Largest error of a state over ``scale``: that of order 5, corrected by that of order 3 to the power 8 of the step.
 

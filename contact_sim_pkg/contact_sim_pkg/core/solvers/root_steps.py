@@ -13,7 +13,7 @@ from __future__ import annotations
 
 import numpy
 
-from ..jit import kernel
+from ..jit import borrowing_kernel
 from ..results import DONE, NOT_FINITE, STEP_TOO_SMALL, TOO_MANY_EVENTS
 from ..rigs.interface import free_flight, margins, rate, switch
 from .events import bracket_of_change, guess_of_change, locate
@@ -31,14 +31,14 @@ GROWTH_BESIDE_EVENT = 1.6  # a longer step is rejected more often than not, meas
 NO_EVENT, PUT_OFF = -1, -2
 
 
-@kernel
+@borrowing_kernel
 def _take_sides(margin, side, but):
     for j in range(side.shape[0]):
         if j != but:
             side[j] = 1.0 if margin[j] >= 0.0 else -1.0
 
 
-@kernel
+@borrowing_kernel
 def set_sides(rig, drive, mode, time, state, work):
     """Take the sign of every event function as the one on which it stands; to be called once, at the start of a run."""
     rate(rig, drive, mode, time, state, work.rate_before)
@@ -49,7 +49,7 @@ def set_sides(rig, drive, mode, time, state, work):
     work.reach[:] = 0.0
 
 
-@kernel
+@borrowing_kernel
 def _land(rig, drive, mode, time, state, event, work):
     """Take rate and sides after a free flight, but the side of the event that ended it: that one is passed as any other."""
     rate(rig, drive, mode, time, state, work.rate_before)
@@ -58,13 +58,13 @@ def _land(rig, drive, mode, time, state, event, work):
     work.counters[STEPS] += 1
 
 
-@kernel
+@borrowing_kernel
 def _kind(event, side):
     """An event's kind: which function changes, to which sign."""
     return 2 * event + (1 if side > 0.0 else 0)
 
 
-@kernel
+@borrowing_kernel
 def _pass_event(rig, drive, mode, time, state, event, proposed, work):
     """Let the rig switch at event number ``event``, and take the rate on its new side; returns the step in [s] to try next."""
     work.counters[EVENTS] += 1
@@ -78,7 +78,7 @@ def _pass_event(rig, drive, mode, time, state, event, proposed, work):
     return work.first_step[kind] if work.first_step[kind] > 0.0 else proposed
 
 
-@kernel
+@borrowing_kernel
 def _planned_step(time, end, proposed, work):
     """Step in [s] to try: the proposed one, divided so that an expected event and the end are met by steps of some length."""
     remaining = end - time
@@ -91,14 +91,14 @@ def _planned_step(time, end, proposed, work):
     return min(proposed, 0.5 * remaining) if proposed > 0.5 * remaining else proposed
 
 
-@kernel
+@borrowing_kernel
 def _step_to_event(rig, drive, mode, time, inner, guess, outer, state, scale, work):
     step, event = locate(rig, drive, mode, time, inner, guess, outer, state, scale, work)
     course = time_map(time, step, work.last_event[0], True)
     return course, error_of_step(course, scale, work), event
 
 
-@kernel
+@borrowing_kernel
 def _try_step(rig, drive, mode, time, step, end, state, scale, work):
     """Step into ``work.trial``, cut off at the first event. Returns its course, its error over the allowed one, and the event.
 
@@ -126,7 +126,7 @@ def _try_step(rig, drive, mode, time, step, end, state, scale, work):
     return _step_to_event(rig, drive, mode, time, inner, guess, outer, state, scale, work)
 
 
-@kernel
+@borrowing_kernel
 def _factor(error, work):
     """Ratio of the step that meets the error allowed to the step whose ``error`` over it is given."""
     if not error < numpy.inf:
@@ -135,7 +135,7 @@ def _factor(error, work):
     return min(LARGEST_FACTOR, max(LEAST_FACTOR, wanted))
 
 
-@kernel
+@borrowing_kernel
 def _finite(values):
     finite = True
     for i in range(values.shape[0]):
@@ -143,7 +143,7 @@ def _finite(values):
     return finite
 
 
-@kernel
+@borrowing_kernel
 def _reject(course, error, event, proposed, work):
     """Step in [s] to try instead."""
     work.counters[REJECTED] += 1
@@ -158,7 +158,7 @@ def _reject(course, error, event, proposed, work):
     return proposed
 
 
-@kernel
+@borrowing_kernel
 def _following(course, error, event, last, proposed, work):
     """Step in [s] to try next, behind an accepted one; remembers what was right beside the event."""
     factor = _factor(error, work)
@@ -173,7 +173,7 @@ def _following(course, error, event, last, proposed, work):
     return min(following_step(course, factor), growth * course.step)
 
 
-@kernel
+@borrowing_kernel
 def _accept(time, state, work):
     """Take over the trial step, which ends at ``time``; whether it is finite."""
     finite = True
@@ -189,7 +189,7 @@ def _accept(time, state, work):
     return finite
 
 
-@kernel
+@borrowing_kernel
 def integrate(rig, drive, mode, end, state, scale, work):
     """Advance ``state`` from ``drive.start`` to ``end`` (within the segment); returns a status of ``core/results.py``.
 

@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-from ..jit import kernel
+from ..jit import borrowing_kernel
 from ..rigs.interface import rate
 from .time_map import place
 
 
-@kernel
+@borrowing_kernel
 def evaluate(rig, drive, mode, course, part, state, out):
     """Write the rate of ``state`` over the part of the step, at ``part`` of ``course``, into ``out``."""
     time, slope = place(course, part)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Any
 
-from ..jit import kernel, kernel_overload
+from ..jit import borrowing_kernel, kernel_overload
 from ..parameters import Vector
 from ..rigs.interface import rate
 from .order_5 import POWER as POWER_5
@@ -53,7 +53,7 @@ def _power_of(pair):
     return lambda pair: power
 
 
-@kernel
+@borrowing_kernel
 def take_step(rig, drive, mode, course, state, work):
     """Step from ``state`` along ``course`` into ``work.trial``, from ``work.rate_before``; fills ``work.rate_after``."""
     _start, slope = place(course, 0.0)
@@ -63,13 +63,13 @@ def take_step(rig, drive, mode, course, state, work):
     rate(rig, drive, mode, course.start + course.step, work.trial, work.rate_after)
 
 
-@kernel
+@borrowing_kernel
 def error_of_step(course, scale, work):
     """Largest error of a state over ``scale``, which is infinite for what is not controlled."""
     return estimate(work.pair, course, work.rate_after, scale)
 
 
-@kernel
+@borrowing_kernel
 def state_inside(course, part, state, work):
     """State at ``part`` of the step just taken into ``work.inside``: cubic Hermite."""
     _start, start_slope = place(course, 0.0)

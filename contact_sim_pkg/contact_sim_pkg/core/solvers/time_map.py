@@ -11,7 +11,7 @@ from __future__ import annotations
 import math
 from typing import NamedTuple
 
-from ..jit import kernel
+from ..jit import borrowing_kernel
 
 
 class TimeMap(NamedTuple):
@@ -25,7 +25,7 @@ class TimeMap(NamedTuple):
     ends_at_event: bool
 
 
-@kernel
+@borrowing_kernel
 def time_map(start, step, last_event, ends_at_event):
     """Map of a step from ``start``: even in the root of the time since ``last_event`` where that is less than the step."""
     since = start - last_event
@@ -35,7 +35,7 @@ def time_map(start, step, last_event, ends_at_event):
     return TimeMap(start, step, last_event, 0.0, 0.0, ends_at_event)
 
 
-@kernel
+@borrowing_kernel
 def place(course, part):
     """Time in [s] at ``part`` of the step, and its slope over the part."""
     slope = 1.0
@@ -48,7 +48,7 @@ def place(course, part):
     return course.start + course.step * part, slope * course.step
 
 
-@kernel
+@borrowing_kernel
 def scaled_step(course, factor):
     """Step in [s] from the same start, ``factor`` times as long in the variable in which the step is even."""
     if course.root_step > 0.0:
@@ -57,7 +57,7 @@ def scaled_step(course, factor):
     return factor * course.step
 
 
-@kernel
+@borrowing_kernel
 def following_step(course, factor):
     """Step in [s] from the end of this one, ``factor`` times as long in the variable in which the step is even."""
     if course.root_step > 0.0:
