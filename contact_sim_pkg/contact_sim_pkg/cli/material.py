@@ -49,7 +49,7 @@ def command(
     from contact_sim_pkg.analysis.material import figure
     from contact_sim_pkg.analysis.material.bag_impacts import is_bag, rules_of_bag
     from contact_sim_pkg.analysis.material.options import Options
-    from contact_sim_pkg.analysis.material.report import group_rows, master_row, material_report, write_csv
+    from contact_sim_pkg.analysis.material.report import group_rows, master_row, material_report, pooled_rows, write_csv
 
     for name, given, law in (
         ("--glass-temperature", glass_temperature, "wlf"),
@@ -68,9 +68,13 @@ def command(
     if plot is not None:
         figure.write_figure(report, plot)
     if as_json:
-        print_json({"impacts": report.rows, "groups": group_rows(report), "master_curve": master_row(report)})
+        parts = {"impacts": report.rows, "groups": group_rows(report), "all_speeds": pooled_rows(report)}
+        print_json({**parts, "master_curve": master_row(report)})
         return
     show_rows(group_rows(report), as_json=False)
+    if report.pooled:
+        click.echo("\nall speeds of a temperature together")
+        show_rows(pooled_rows(report), as_json=False)
     if report.master is not None:
         click.echo()
         show_rows([master_row(report) or {}], as_json=False)

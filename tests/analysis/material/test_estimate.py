@@ -39,6 +39,35 @@ def test_the_intervals_cover_the_truth_at_their_rate(loss_tangent, count, confid
     assert numpy.abs(hits / SEEDS - confidence).max() < 3.5 * spread
 
 
+@pytest.mark.parametrize("loss_tangent", [0.05, 0.2])
+def test_no_unbiased_reading_scatters_less(loss_tangent):
+    """Bound of Cramer and Rao: every true impact speed unknown, noise of 1 % each, derivatives from the slow reference."""
+    count, noise, seeds = 100, 0.01, 600
+    k = simulated.exact_impact(MODULUS, loss_tangent, SPEED)[1]
+    step = 0.01 * loss_tangent
+    ends = [simulated.exact_impact(MODULUS, loss_tangent + part * step, SPEED) for part in (-1.0, 1.0)]
+    slope_k = (ends[1][1] - ends[0][1]) / (2.0 * step)
+    slope_log_duration = numpy.log(ends[1][0] / ends[0][0]) / (2.0 * step)
+    # unknowns: ln E', tan(beta), then the logarithm of a speed; rows: V0, tau, k of one impact over their noise
+    rows = numpy.array([[0.0, 0.0, 1.0], [-0.4, slope_log_duration, -0.2], [0.0, slope_k / k, 0.0]]) / noise
+    whole = rows.T @ rows
+    information = whole[:2, :2] - numpy.outer(whole[:2, 2], whole[2, :2]) / whole[2, 2]
+    bound = numpy.sqrt(numpy.diag(numpy.linalg.inv(count * information)))
+    found = [of(7000 + seed, loss_tangent, count=count, noise=noise) for seed in range(seeds)]
+    errors = numpy.array(
+        [[numpy.log(e.storage_modulus.value / MODULUS), e.loss_tangent.value - loss_tangent] for e in found]
+    )
+    spread = errors.std(axis=0) / bound
+    assert numpy.abs(spread - 1.0).max() < 3.5 / numpy.sqrt(2.0 * seeds)
+    assert numpy.abs(errors.mean(axis=0) / bound).max() < 0.13
+    assert numpy.mean([e.loss_tangent.error for e in found]) == pytest.approx(bound[1], rel=0.02)
+
+
+def test_five_per_cent_noise_does_not_bias_a_thousand_repeats():
+    errors = [numpy.log(of(seed, 0.2, count=1000, noise=0.05).storage_modulus.value / MODULUS) for seed in range(40)]
+    assert numpy.mean(errors) == pytest.approx(0.0, abs=0.0015)
+
+
 def test_noise_above_one_in_single_restitutions_does_not_bias_the_mean():
     found = [of(seed, 0.005) for seed in range(60)]
     mean = numpy.mean([each.loss_tangent.value for each in found])

@@ -21,6 +21,8 @@ def write(tmp_path, text):
         "m,R,V0,tau,k,T\n0.02,0.01,2,0.001,0.7,293.15\n",
         "# ball 7\n\nm [g]; R [mm]; V0 [m/s]; tau [ms]; k; T [°C]; comment\n20; 10; 2; 1; 0.7; 20; a, b\n",
         "Mass [g]\tradius [mm]\tspeed\tcontact_time [us]\trestitution\ttemperature [C]\n20\t10\t2.0\t1e3\t.7\t20\n",
+        "tau [us];k;T [°F];m [g];R [mm];V0\n;;;;;\n1000;.7;68;20;10;2\n;;;;;\n",
+        "m\tR\tV0\ttau\tk\tT\tremark\n0.02\t0.01\t2\t0.001\t0.7\t293.15\t\n\t\t\t\t\t\t\n",
         "\ufeffT,k,tau,V0,R,m\r\n293.15,0.7,0.001,2,0.01,0.02\r\n",
     ],
 )

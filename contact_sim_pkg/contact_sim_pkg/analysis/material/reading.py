@@ -36,12 +36,13 @@ UNITS: dict[str, dict[str, float]] = {
     "V0": {"m/s": 1.0, "mm/s": 1e-3},
     "tau": {"s": 1.0, "ms": 1e-3, "us": 1e-6, "µs": 1e-6, "μs": 1e-6},
     "k": {"1": 1.0, "-": 1.0},
-    "T": {"K": 1.0, "C": 1.0, "°C": 1.0, "degC": 1.0},
+    "T": {"K": 1.0, "C": 1.0, "°C": 1.0, "degC": 1.0, "F": 5.0 / 9.0, "°F": 5.0 / 9.0, "degF": 5.0 / 9.0},
     "g": {"m/s^2": 1.0, "m/s2": 1.0, "m/s²": 1.0},
 }
 OPTIONAL = ("T", "g")
-CELSIUS = ("C", "°C", "degC")
 FREEZING = 273.15
+OFFSETS = dict.fromkeys(("C", "°C", "degC"), FREEZING) | dict.fromkeys(("F", "°F", "degF"), FREEZING - 160.0 / 9.0)
+"""Unit of a temperature -> its zero in [K]."""
 RANGES = {
     "m": (1e-12, 1e6), "R": (1e-9, 1e3), "V0": (1e-9, 1e4), "tau": (1e-12, 1e3), "k": (0.0, 1.5), "T": (1.0, 5000.0),
     "g": (0.0, 1e4),
@@ -67,7 +68,8 @@ class Impacts(NamedTuple):
 def read_impacts(path: Path) -> Impacts:
     """Read ``path``: the first line that is no comment (#) names the columns, with a unit in brackets where it is not SI.
 
-    Separated by semicolon, tab or comma. Further columns are left alone and noted. Raises MaterialError with the line.
+    Separated by semicolon, tab or comma. Rows without a value are passed over. Further columns are left
+    alone and noted. Raises MaterialError with the line.
     """
     lines = _lines(path)
     separator = next((mark for mark in SEPARATORS if mark in lines[0][1]), ",")
@@ -100,8 +102,8 @@ def _lines(path: Path) -> list[tuple[int, str]]:
         raise MaterialError(
             f"{path}, byte {error.start}: this is no text; impacts are read from a text file in UTF-8"
         ) from error
-    lines = [(number, line.strip()) for number, line in enumerate(text.splitlines(), start=1)]
-    kept = [(number, line) for number, line in lines if line and not line.startswith("#")]
+    lines = [(number, line.strip(" ")) for number, line in enumerate(text.splitlines(), start=1)]
+    kept = [(number, line) for number, line in lines if line.strip("".join(SEPARATORS) + '" ') and line[0] != "#"]
     if len(kept) < 2:
         raise MaterialError(
             f"{path}: a line of column names and at least one impact were expected, {len(kept)} lines were found"
@@ -126,7 +128,7 @@ def _header(path: Path, number: int, fields: list[str]) -> tuple[dict[str, tuple
             raise MaterialError(
                 f"{path}, line {number}: unit '{unit}' of column '{label}' is not read; {', '.join(UNITS[name])} are"
             )
-        found[name] = (place, UNITS[name][unit] if unit else 1.0, FREEZING if unit in CELSIUS else 0.0)
+        found[name] = (place, UNITS[name][unit] if unit else 1.0, OFFSETS.get(unit or "", 0.0))
     missing = [name for name in COLUMNS if name not in found and name not in OPTIONAL]
     if missing:
         raise MaterialError(

@@ -14,13 +14,14 @@ from contact_sim_pkg.analysis.material.estimate import Estimate, Value, each_imp
 from contact_sim_pkg.analysis.material.groups import groups
 from contact_sim_pkg.analysis.material.master_curve import LAWS, MasterCurve, master_curve
 from contact_sim_pkg.analysis.material.options import Options
+from contact_sim_pkg.analysis.material.pooled import Pooled, pooled_speeds
 from contact_sim_pkg.analysis.material.reading import Impacts, read_impacts
 from contact_sim_pkg.core.impact.force import ENDS
 from contact_sim_pkg.core.impact.inverse import FORMS, HEAVIEST
 from contact_sim_pkg.core.impact.motion import SHAPE_RULES
 from contact_sim_pkg.core.impact.shift import Wlf
 
-__all__ = ["MaterialReport", "group_rows", "master_row", "material_report", "report_of", "write_csv"]
+__all__ = ["MaterialReport", "group_rows", "master_row", "material_report", "pooled_rows", "report_of", "write_csv"]
 
 
 class MaterialReport(NamedTuple):
@@ -31,6 +32,7 @@ class MaterialReport(NamedTuple):
     rows: list[dict[str, Any]]  # an impact a row
     estimates: list[Estimate]  # a group of repeats a row
     master: MasterCurve | None
+    pooled: list[Pooled]  # a temperature with several speeds a row
 
 
 def material_report(
@@ -65,7 +67,7 @@ def report_of(
     rows = each_impact(impacts, options)
     estimates = [repeated_impacts(impacts, chosen, options) for chosen in groups(impacts, options)]
     master = None if law is None else master_curve(estimates, law, parameter, reference)
-    return MaterialReport(impacts, options, rows, estimates, master)
+    return MaterialReport(impacts, options, rows, estimates, master, pooled_speeds(estimates, options))
 
 
 def _struck(impacts: Impacts) -> Impacts:
@@ -98,6 +100,18 @@ def group_rows(report: MaterialReport) -> list[dict[str, Any]]:
             row |= {"lg_aT": report.master.log_shift[i], "reduced_speed": report.master.reduced_speed[i]}
         rows.append({**row, "note": estimate.note})
     return rows
+
+
+def pooled_rows(report: MaterialReport) -> list[dict[str, Any]]:
+    """One flat row a temperature at which there are several speeds: all its impacts as one material."""
+    return [
+        {
+            "T": each.temperature, "impacts": each.impacts, "groups": each.groups, "V0_low": each.slowest,
+            "V0_high": each.fastest, **_flat("E'", each.storage_modulus), **_flat("E''", each.loss_modulus),
+            **_flat("tan_beta", each.loss_tangent), "agreement": each.agreement, "note": each.note,
+        }
+        for each in report.pooled
+    ]  # fmt: skip
 
 
 def master_row(report: MaterialReport) -> dict[str, Any] | None:
