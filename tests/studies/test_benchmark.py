@@ -1,6 +1,6 @@
 import pytest
 
-from contact_sim_pkg.studies import benchmark, benchmark_core
+from contact_sim_pkg.studies import benchmark, benchmark_core, seat_slap
 from contact_sim_pkg.studies.benchmark_goal import Measured
 
 
@@ -35,3 +35,11 @@ def test_a_missed_goal_and_one_that_was_not_measured_are_shown(monkeypatch):
 def test_the_goals_of_error_are_reached():
     rows = [*benchmark_core.steel(), *benchmark_core.stick_slip()]
     assert all(row.reached for row in rows), rows
+
+
+def test_a_run_that_is_right_by_chance_is_not_the_cheapest():
+    errors = (1e-4, 1e-9, 1e-6, 2e-9, 1e-10)
+    work = [seat_slap.Work("a", 10.0**-i, error, float(i + 1)) for i, error in enumerate(errors)]
+    assert seat_slap.cheapest(work, 1e-8) == work[3]
+    assert seat_slap.cheapest(work, 1e-11) is None
+    assert seat_slap.cheapest(work, 1.0) == work[0]

@@ -62,8 +62,12 @@ def scipy_work(method: str) -> list[Work]:
 
 
 def cheapest(work: list[Work], error: float) -> Work | None:
-    """The cheapest run whose error is at most `error` [m]; None where none is."""
-    enough = [run for run in work if run.error <= error]
+    """The cheapest run whose error, and that of all tighter ones, is at most `error` [m]; None where none is.
+
+    `work` goes from loose to tight: one run that is right by chance does not count.
+    """
+    missed = [i for i, run in enumerate(work) if not run.error <= error]
+    enough = work[missed[-1] + 1 :] if missed else work
     return min(enough, key=lambda run: run.cost) if enough else None
 
 
