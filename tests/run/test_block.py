@@ -90,6 +90,38 @@ def test_the_steps_of_first_order_end_near_the_located_ones():
     assert numpy.abs(located[1][:, -1] - stepped[1][:, -1]).max() < 2e-3
 
 
+COMPLIANT = "effects.block.compliant_contact={}"
+
+
+@pytest.mark.parametrize("name", ["block_fall", "block_slope", "box_3d_tumble"])
+def test_the_compliant_twin_of_a_scene_says_the_same_topics_and_closes_its_ledger(name):
+    scene, messages = run(name, COMPLIANT, "duration=1.0")
+    assert {topic for topic, _stamp, _data in messages} == set(result_topics(scene))
+    ledgers = of(messages, "bench/energy", decode_energy)
+    totals = numpy.array([ledger.kinetic + ledger.potential + ledger.stored for ledger in ledgers])
+    size = abs(totals).max()
+    assert numpy.diff(totals).max() <= 1e-9 * size
+    assert max(abs(ledger.residual) for ledger in ledgers) <= 1e-4 * size
+
+
+def test_the_compliant_twin_tends_to_the_rigid_scene_as_it_gets_stiffer():
+    place = rows(run("block_slope")[1])[1][:2, -1]
+    errors = []
+    for stiffness in (1e4, 1e5, 1e6):
+        law = f"effects.block.compliant_contact={{stiffness: {stiffness:.0f}, tangential_stiffness: {stiffness:.0f}}}"
+        errors.append(float(numpy.linalg.norm(rows(run("block_slope", law)[1])[1][:2, -1] - place)))
+    assert errors[0] < 1e-2
+    assert errors[1] < 0.2 * errors[0]
+    assert errors[2] < 0.2 * errors[1]
+
+
+def test_a_compliant_contact_refuses_what_only_impulses_have():
+    with pytest.raises(SceneError, match=r"rule: newton has no meaning with compliant_contact.*take energetic"):
+        resolved("block_fall", COMPLIANT, "effects.block.rigid_contact.rule=newton")
+    with pytest.raises(SceneError, match=r"scheme: stepping has no meaning with compliant_contact.*take located"):
+        resolved("block_fall", COMPLIANT, "effects.block.rigid_contact.scheme=stepping")
+
+
 def test_a_sphere_rolls_over_a_ground_of_heights():
     heights = [0.0] * 20 + [0.0, 0.01, 0.02, 0.03] + [0.03] * 20
     _scene, messages = run(

@@ -13,14 +13,14 @@ EFFECTS = (
     "envelopment",
     "tread_viscoelasticity", "brush", "asperity_impulses",
     "shift", "contact_stress", "surface_waves", "micro_front", "thermal_volume", "history", "gauge_noise",
-    "rigid_contact",
+    "rigid_contact", "compliant_contact",
     "tilt_yaw", "gyroscope", "rolling_friction", "shaft_bending", "track_waves", "subsurface", "damage",
 )  # fmt: skip
 TIRE_ONLY = {"carcass", "envelopment", "tread_viscoelasticity", "brush", "asperity_impulses"}
 OF_THE_ROLLER = (
     "tilt_yaw", "gyroscope", "rolling_friction", "shaft_bending", "track_waves", "subsurface", "damage",
 )  # fmt: skip
-BODY_ONLY = ("rigid_contact", *OF_THE_ROLLER)
+BODY_ONLY = ("rigid_contact", "compliant_contact", *OF_THE_ROLLER)
 """Of the rigid body on the ground, and of the roller on its shaft."""
 SEAT_ONLY = {"general_dissipative", "foam", "foam_hysteresis", "friction", "pressure_mat"}
 """Of the vehicle's contacts."""

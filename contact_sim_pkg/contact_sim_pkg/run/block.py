@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import time
+from typing import TypeAlias
 
 import numpy
 from numpy.typing import NDArray
@@ -10,6 +11,7 @@ from numpy.typing import NDArray
 from contact_sim_pkg.core.jit import freeze, thaw
 from contact_sim_pkg.core.parameters import Vector
 from contact_sim_pkg.core.rigid.body import Motion
+from contact_sim_pkg.core.rigid.compliant import MovedBody, sentence_of
 from contact_sim_pkg.core.rigid.located import LocatedBody
 from contact_sim_pkg.core.rigid.motion import HELD, STUCK
 from contact_sim_pkg.core.rigid.problem import PLANE
@@ -21,6 +23,7 @@ from contact_sim_pkg.run.errors import RunError
 from contact_sim_pkg.scene.build_block import BlockModel, build_block
 from contact_sim_pkg.scene.resolved_scene import ResolvedScene
 
+Body: TypeAlias = LocatedBody | SteppedBody | MovedBody
 WARM_UP_IMPACT = 1e-4  # [m] above the ground, from which the warm-up drops the body
 
 
@@ -53,7 +56,8 @@ class BlockBodySimulation:
             state.velocity[model.body.width - 1] = -0.1
             for _ in range(3):
                 _advance(body, model, 1e-3)
-        _warm_up_solvers(model)
+        if model.contact is None:
+            _warm_up_solvers(model)
         freeze()
 
     def advance(self, block: int, inputs: dict[str, InputBlock]) -> BlockResult:
@@ -71,9 +75,10 @@ class BlockBodySimulation:
             status = _advance(self.body, self.model, interval)
             if status != SOLVED:
                 at = block * timing.block_length + sample * interval
-                raise RunError(f"block {block}, {at:.6g} s: {SENTENCES[status]}")
+                why = sentence_of(status) if isinstance(self.body, MovedBody) else SENTENCES[status]
+                raise RunError(f"block {block}, {at:.6g} s: {why}")
             record.take_impulse(self.model, sample, self.body.impulse / interval, self._states())
-            record.residual = max(record.residual, self.body.residual)
+            record.residual = max(record.residual, getattr(self.body, "residual", 0.0))
             self._supplied += self._known_work(*before, interval)
         self._sample(record, timing.samples)
         record.events = getattr(self.body, "events", 0) - events
@@ -96,11 +101,14 @@ class BlockBodySimulation:
     def _states(self) -> NDArray[numpy.int64]:
         """Of every point, as `ContactPoints` numbers them: 0 apart, 2 sticks, 3 slips."""
         pushed = self.body.impulse[:: self.model.body.width] > 0.0
-        sticks = self.body.work.flags == STUCK if isinstance(self.body, LocatedBody) else self._slow()
-        return numpy.where(pushed, numpy.where(sticks, STICKS, SLIPS), 0)
+        return numpy.where(pushed, numpy.where(self._sticks(), STICKS, SLIPS), 0)
 
-    def _slow(self) -> NDArray[numpy.bool_]:
+    def _sticks(self) -> NDArray[numpy.bool_]:
+        if isinstance(self.body, MovedBody):
+            return self.body.sticks()
         work, width = self.body.work, self.model.body.width
+        if isinstance(self.body, LocatedBody):
+            return numpy.asarray(work.flags == STUCK)
         velocity = (work.J @ self.body.motion.velocity).reshape(-1, width)
         scale = max(float(numpy.abs(self.body.motion.velocity).max()), 1e-9)
         slow: NDArray[numpy.bool_] = (numpy.abs(velocity[:, 1:]).max(axis=1) <= 1e-9 * scale) & (work.flags >= HELD)
@@ -128,16 +136,18 @@ class BlockBodySimulation:
     def _ledger(self, record: BlockRecord) -> None:
         kinetic, potential = self._kinetic_potential()
         changes = (kinetic - self._start[0], potential - self._start[1])
-        record.energy[:] = (*changes, self.body.dissipated, self._supplied)
+        record.energy[:] = (*changes, getattr(self.body, "stored", 0.0), self.body.dissipated, self._supplied)
 
 
-def _advance(body: LocatedBody | SteppedBody, model: BlockModel, interval: float) -> int:
-    if isinstance(body, LocatedBody):
+def _advance(body: Body, model: BlockModel, interval: float) -> int:
+    if not isinstance(body, SteppedBody):
         return body.advance(interval)
     return body.advance(max(1, round(interval / model.step)))
 
 
-def _body_of(model: BlockModel, motion: Motion) -> LocatedBody | SteppedBody:
+def _body_of(model: BlockModel, motion: Motion) -> Body:
+    if model.contact is not None:
+        return MovedBody(model.body, model.ground, motion, model.contact, model.tolerance)
     if model.scheme == "located":
         return LocatedBody(model.body, model.ground, motion, model.rule, model.facets)
     return SteppedBody(model.body, model.ground, motion, model.step, model.rule, model.facets)

@@ -46,7 +46,7 @@ class BlockRecord:
     gap: Array  # [samples], of the lowest point
     force: Array  # [samples, points, width], normal, then tangents
     states: NDArray[numpy.int64]  # [samples, points]
-    energy: Array = field(default_factory=lambda: numpy.zeros(4))  # kinetic, potential, dissipated, supplied
+    energy: Array = field(default_factory=lambda: numpy.zeros(5))  # kinetic, potential, stored, dissipated, supplied
     residual: float = 0.0
     events: int = 0
     steps: int = 0
@@ -138,9 +138,9 @@ def _bench(
     names, position, velocity = _coordinates(model, record)
     acceleration = numpy.diff(velocity, axis=1) / period
     motion = MotionBlock(record.block, period, names, position[:, :-1], velocity[:, :-1], acceleration)
-    kinetic, potential, dissipated, supplied = (float(value) for value in record.energy)
-    residual = supplied - kinetic - potential - dissipated
-    ledger = Energy(record.block, kinetic, potential, 0.0, dissipated, supplied, residual)
+    kinetic, potential, stored, dissipated, supplied = (float(value) for value in record.energy)
+    residual = supplied - kinetic - potential - stored - dissipated
+    ledger = Energy(record.block, kinetic, potential, stored, dissipated, supplied, residual)
     factor = model.timing.block_length / wall_time
     cost = Cost(record.block, wall_time, factor, record.steps, 0, record.events, 0, record.residual, 0.0, 0, 0, 0.0)
     return [

@@ -9,10 +9,12 @@ from typing import Any
 import numpy
 from numpy.typing import NDArray
 
-from contact_sim_pkg.core.parameters import Vector
+from contact_sim_pkg.core.parameters import NormalElastic, Vector
 from contact_sim_pkg.core.rigid.body import Ground, Motion, RigidBody, height_field, placed, slope
+from contact_sim_pkg.core.rigid.compliant import compliant_contact
 from contact_sim_pkg.core.rigid.parameters import RULE_NAMES
 from contact_sim_pkg.core.rigid.problem import PLANE, SPACE
+from contact_sim_pkg.core.rigs.compliant_body import CompliantContact
 from contact_sim_pkg.scene.hull import homogeneous_hull
 from contact_sim_pkg.scene.lattice import effects_at
 from contact_sim_pkg.scene.timing import Timing, make_timing
@@ -39,11 +41,14 @@ class BlockModel:
     gravity: float  # [m/s^2]
     force: Vector  # [3] known, in [N]
     torque: Vector  # [3] known, in [N m]
+    contact: CompliantContact | None  # in place of impulses; None: rigid
+    tolerance: float  # of the integration of a compliant contact
 
 
 def build_block(scene: dict[str, Any]) -> BlockModel:
     """Parameters of a resolved scene."""
-    block, law = scene["block"], effects_at(scene, "block")["rigid_contact"]
+    block, effects = scene["block"], effects_at(scene, "block")
+    law = effects["rigid_contact"]
     width = PLANE if block["motion"] == "plane" else SPACE
     points, radius, inertia, axes = _shape(block, width)
     mass = float(block["mass"])
@@ -59,7 +64,20 @@ def build_block(scene: dict[str, Any]) -> BlockModel:
     return BlockModel(
         body, ground, start, axes, make_timing(scene, True), RULE_NAMES[law["rule"]], str(law["scheme"]), float(law["step"]),
         int(law["facets"]), float(block["gravity"]), vectors["force"], vectors["torque"],
+        _compliant(body, effects.get("compliant_contact")), float(scene["integrator"]["relative_tolerance"]),
     )  # fmt: skip
+
+
+def _compliant(body: RigidBody, asked: dict[str, Any] | None) -> CompliantContact | None:
+    if asked is None:
+        return None
+    elastic, damping = (
+        NormalElastic(float(asked["stiffness"]), float(asked["exponent"])),
+        asked.get("tangential_damping"),
+    )
+    return compliant_contact(
+        body, elastic, float(asked["tangential_stiffness"]), None if damping is None else float(damping)
+    )
 
 
 def _generalised(force: Vector, torque: Vector, width: int) -> Vector:

@@ -74,7 +74,26 @@ class RigidContact(Section):
     facets: int = number(0, 64, "", "of the friction cone in space, even; 0: the true cone", default=0)
 
 
+class CompliantContact(Section):
+    """Compliant contact in place of the impulses: the points press into the ground. Friction and restitution are those of
+    rigid_contact.
+
+    Hunt-Crossley force in each point, its loss set at every touch so that it ends with the asked restitution (below 0.01: 0.01);
+    spring and damper along the ground that stick, with a Coulomb limit. Stiffer is nearer to rigid, and dearer.
+    """
+
+    stiffness: float = number(1.0, 1e12, "N/m^exponent", "of a point, normal to the ground", default=1e6)
+    exponent: float = number(1.0, 3.0, "", "of the depth; 1 is a spring, 1.5 is Hertz", default=1.0)
+    tangential_stiffness: float = number(1.0, 1e12, "N/m", "of a point that sticks, along the ground", default=1e6)
+    tangential_damping: float | None = number(
+        1e-6, 1e9, "N s/m", "of the same; critical for the whole mass when absent", default=None
+    )
+
+
 class BlockEffects(Section):
     """Effects of the contact between a rigid body and the ground."""
 
     rigid_contact: RigidContact | None = choice("rigid contact with friction", default=None)
+    compliant_contact: CompliantContact | None = choice(
+        "the same contact with springs and dampers in place of impulses", default=None
+    )

@@ -7,7 +7,7 @@ from collections.abc import Iterator
 
 from contact_sim_pkg.scene.errors import Breach
 from contact_sim_pkg.scene.schema import Scene
-from contact_sim_pkg.scene.schema_block import Block
+from contact_sim_pkg.scene.schema_block import Block, RigidContact
 from contact_sim_pkg.scene.schema_catalog import show
 
 FLAT = 1e-9  # volume of a hull over that of its box: below it has none
@@ -24,9 +24,26 @@ def block_breaches(scene: Scene) -> Iterator[Breach]:
         yield from _above_ground(block)
     if block.motion == "plane":
         yield from _plane(block)
-    law = None if scene.effects.block is None else scene.effects.block.rigid_contact
-    if law is None:
+    effects = scene.effects.block
+    if effects is None or effects.rigid_contact is None:
         return
+    yield from _scheme(scene, effects.rigid_contact)
+    if effects.compliant_contact is not None:
+        yield from _compliant(effects.rigid_contact)
+
+
+def _compliant(law: RigidContact) -> Iterator[Breach]:
+    """What only impulses have."""
+    for name, only in (("rule", "energetic"), ("scheme", "located"), ("facets", 0)):
+        if getattr(law, name) != only:
+            sentence = (
+                f"{getattr(law, name)} has no meaning with compliant_contact, which has no impulses; take {only} or remove "
+                "compliant_contact"
+            )
+            yield Breach(f"effects.block.rigid_contact.{name}", sentence, ("effects.block.compliant_contact",))
+
+
+def _scheme(scene: Scene, law: RigidContact) -> Iterator[Breach]:
     if law.facets % 2 or law.facets == 2:
         sentence = f"{law.facets} is odd or too few; take an even number from 4, or 0 for the true cone"
         yield Breach("effects.block.rigid_contact.facets", sentence)

@@ -45,6 +45,7 @@ EFFECT_RULES: dict[str, EffectRule] = {
     "history": EffectRule(("impact",), needs=("normal_elastic", "normal_dissipative")),
     "gauge_noise": EffectRule(("impact",), needs=("normal_elastic",)),
     "rigid_contact": EffectRule(("block",)),
+    "compliant_contact": EffectRule(("block",), needs=("rigid_contact",)),
     "tilt_yaw": EffectRule(("roller",), needs=("normal_elastic",)),
     "gyroscope": EffectRule(("roller",), needs=("tilt_yaw",)),
     "rolling_friction": EffectRule(("roller",), needs=("tilt_yaw",)),

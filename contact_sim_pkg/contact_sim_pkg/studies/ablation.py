@@ -55,6 +55,7 @@ FEEDS: dict[str, tuple[str, ...]] = {
     "history": ("history",),
     "gauge_noise": ("events",),
     "rigid_contact": ("force", "wrench", "points"),
+    "compliant_contact": ("force", "wrench", "points"),
     "tilt_yaw": ("contact", "stability"),
     "gyroscope": ("contact", "stability"),
     "rolling_friction": ("contact", "stability"),

@@ -62,6 +62,8 @@ def is_needed(effect: str, contact: str, scene: ResolvedScene, observed: Observe
         return _friction(scene, observed, contact)
     if effect in ("shell_modes", "contact_search"):
         return None, "whether the back bends, and where it touches then, is a choice of the model"
+    if contact == "block":
+        return None, "rigid or compliant is a choice of the model: stiffer is nearer to rigid, and dearer"
     if contact == "roller":
         return None, "what the roller does is the question of the scene"
     if contact == "impact":

@@ -1,0 +1,248 @@
+"""A rigid body on a ground that its points press into: the compliant twin of ``core/rigid/located.py``.
+
+Each point carries a Hunt and Crossley force ``A x**n (1 + lambda x')`` of its own depth x, and the friction of
+``effects/point_friction.py``. lambda is set at every touch from the speed of approach there, ``lambda = d/x'``, d the loss that
+delivers the asked restitution (``core/restitution.py``): then the ratio of speeds is the asked one at any speed and for
+any mass at the point. Below ``slowest`` the speed counts as that, so that a resting contact is damped.
+
+State: [place and turn] [v, omega] [spring deflection of each point] [impulse of each point, normal then tangents, in N s]
+[work dissipated or lent to friction springs, in J]. Place and turn: x, z and the angle in the plane; x, y, z and a quaternion
+in space. omega is in world axes in the plane, in body axes in space. Mode: lambda of each point.
+"""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy
+
+from ..effects.elastic_law import elastic_energy, elastic_force
+from ..effects.normal_force import normal_force, tension_margin
+from ..effects.point_friction import point_friction, point_stick_margin
+from ..jit import kernel
+from ..parameters import Friction, NormalDissipative, NormalElastic, Vector
+from ..rigid.body import Ground, Motion, RigidBody, contact_rows
+from ..rigid.motion import contact_velocities
+from ..rigid.problem import PLANE
+from .interface import register
+
+MARGINS_A_POINT = 3  # approach, tension, stick
+FREE = 0.0  # lambda of a point that has not touched
+
+
+class CompliantContact(NamedTuple):
+    """What acts at each point."""
+
+    elastic: NormalElastic
+    friction: Friction  # of one ratio; damping > 0
+    loss: float  # lambda x' at the touch, >= 0: `damping_of_restitution` at 1 m/s
+    slowest: float  # [m/s] approach that counts at least when lambda is set, > 0
+    touch: float  # [m] depth at which a touch begins and ends: above the rounding of a body that is laid on its ground
+
+
+class CompliantBody(NamedTuple):
+    """The body, its ground and contact, and arrays to work in."""
+
+    body: RigidBody
+    ground: Ground
+    contact: CompliantContact
+    motion: Motion  # of the state last looked at
+    gap: Vector  # [points]
+    J: Vector  # [rows, coordinates]
+    u: Vector  # [rows] velocities of the points, normal then tangents
+    push: Vector  # [coordinates] force and torque of all contacts and loads, world axes
+
+
+def make_rig(body: RigidBody, ground: Ground, contact: CompliantContact) -> CompliantBody:
+    """The rig, with its arrays."""
+    width, points, coordinates, zeros = body.width, len(body.points), len(body.load), numpy.zeros
+    motion = Motion(zeros(width), zeros(1), zeros((width, width)), zeros(coordinates))
+    rows = points * width
+    return CompliantBody(
+        body, ground, contact, motion, zeros(points), zeros((rows, coordinates)), zeros(rows), zeros(coordinates)
+    )
+
+
+def places_of(width: int) -> int:
+    """Number of state variables for place and turn."""
+    return 3 if width == PLANE else 7
+
+
+def state_count(body: RigidBody) -> int:
+    """Number of state variables."""
+    return places_of(body.width) + len(body.load) + len(body.points) * (2 * body.width - 1) + 1
+
+
+@kernel
+def _first_deflection(rig):
+    return (3 if rig.body.width == PLANE else 7) + rig.body.load.shape[0]
+
+
+@kernel
+def _fill_turn(motion, state):
+    """Rotation matrix of the quaternion in the state, whatever its length."""
+    w, x, y, z = state[3], state[4], state[5], state[6]
+    scale = 2.0 / (w * w + x * x + y * y + z * z)
+    R = motion.rotation
+    R[0, 0], R[0, 1], R[0, 2] = 1.0 - scale * (y * y + z * z), scale * (x * y - w * z), scale * (x * z + w * y)
+    R[1, 0], R[1, 1], R[1, 2] = scale * (x * y + w * z), 1.0 - scale * (x * x + z * z), scale * (y * z - w * x)
+    R[2, 0], R[2, 1], R[2, 2] = scale * (x * z - w * y), scale * (y * z + w * x), 1.0 - scale * (x * x + y * y)
+
+
+@kernel
+def look(rig, state):
+    """Motion, gaps, Jacobian and point velocities of a state, into the rig's arrays."""
+    motion, width = rig.motion, rig.body.width
+    for k in range(width):
+        motion.position[k] = state[k]
+    if width == PLANE:
+        motion.angle[0] = state[2]
+        cosine, sine = numpy.cos(state[2]), numpy.sin(state[2])
+        R = motion.rotation
+        R[0, 0], R[0, 1], R[1, 0], R[1, 1] = cosine, -sine, sine, cosine
+        for k in range(3):
+            motion.velocity[k] = state[3 + k]
+    else:
+        _fill_turn(motion, state)
+        for k in range(3):
+            motion.velocity[k] = state[7 + k]
+            R = motion.rotation
+            motion.velocity[3 + k] = R[k, 0] * state[10] + R[k, 1] * state[11] + R[k, 2] * state[12]
+    contact_rows(rig.body, rig.ground, motion, rig.gap, rig.J)
+    contact_velocities(rig.J, motion.velocity, rig.u)
+
+
+@kernel
+def _tangents(rig, state, point):
+    """Deflection of a point's spring and its slip velocity, two components each; the second is 0 in the plane."""
+    width = rig.body.width
+    place = _first_deflection(rig) + point * (width - 1)
+    if width == PLANE:
+        return state[place], 0.0, rig.u[2 * point + 1], 0.0
+    return state[place], state[place + 1], rig.u[3 * point + 1], rig.u[3 * point + 2]
+
+
+@kernel
+def _normal(rig, mode, point):
+    """Normal force of a point in [N]."""
+    loss = NormalDissipative(mode[point])
+    return normal_force(rig.contact.elastic, loss, -rig.gap[point], -rig.u[point * rig.body.width], 1.0)
+
+
+@kernel
+def _add_point(rig, mode, point, state, out):
+    """Add a touching point's forces to ``rig.push``; fills its rates and returns the lost power, or lent to the spring."""
+    width = rig.body.width
+    first = _first_deflection(rig)
+    row, place = point * width, first + point * (width - 1)
+    impulse = first + rig.gap.shape[0] * (width - 1) + row
+    normal = _normal(rig, mode, point)
+    s_1, s_2, v_1, v_2 = _tangents(rig, state, point)
+    force_1, force_2, rate_1, rate_2 = point_friction(rig.contact.friction, normal, s_1, s_2, v_1, v_2)
+    out[place], out[impulse], out[impulse + 1] = rate_1, normal, -force_1
+    for k in range(rig.push.shape[0]):
+        rig.push[k] += rig.J[row, k] * normal - rig.J[row + 1, k] * force_1
+    if width != PLANE:
+        out[place + 1], out[impulse + 2] = rate_2, -force_2
+        for k in range(rig.push.shape[0]):
+            rig.push[k] -= rig.J[row + 2, k] * force_2
+    elastic = elastic_force(rig.contact.elastic, -rig.gap[point])
+    return (elastic - normal) * rig.u[row] + force_1 * v_1 + force_2 * v_2
+
+
+@kernel
+def _accelerations(rig, state, out):
+    """Rates of place, turn and velocity under ``rig.push``."""
+    body, push = rig.body, rig.push
+    if body.width == PLANE:
+        for k in range(3):
+            out[k] = state[3 + k]
+            out[3 + k] = push[k] / (body.mass if k < 2 else body.inertia[0])
+        return
+    w, x, y, z = state[3], state[4], state[5], state[6]
+    a, b, c = state[10], state[11], state[12]
+    out[3] = -0.5 * (x * a + y * b + z * c)
+    out[4] = 0.5 * (w * a + y * c - z * b)
+    out[5] = 0.5 * (w * b + z * a - x * c)
+    out[6] = 0.5 * (w * c + x * b - y * a)
+    R, inertia = rig.motion.rotation, body.inertia
+    for k in range(3):
+        out[k] = state[7 + k]
+        out[7 + k] = push[k] / body.mass
+        out[10 + k] = R[0, k] * push[3] + R[1, k] * push[4] + R[2, k] * push[5]
+    out[10] = (out[10] + (inertia[1] - inertia[2]) * b * c) / inertia[0]
+    out[11] = (out[11] + (inertia[2] - inertia[0]) * c * a) / inertia[1]
+    out[12] = (out[12] + (inertia[0] - inertia[1]) * a * b) / inertia[2]
+
+
+@kernel
+def _rate(rig, drive, mode, time, state, out):
+    look(rig, state)
+    for i in range(_first_deflection(rig), state.shape[0]):
+        out[i] = 0.0
+    for k in range(rig.push.shape[0]):
+        rig.push[k] = rig.body.load[k]
+    lost = 0.0
+    for point in range(rig.gap.shape[0]):
+        if rig.gap[point] < 0.0:
+            lost += _add_point(rig, mode, point, state, out)
+    out[state.shape[0] - 1] = lost
+    _accelerations(rig, state, out)
+
+
+@kernel
+def _margins(rig, drive, mode, time, state, derivative, out):
+    look(rig, state)
+    points, width = rig.gap.shape[0], rig.body.width
+    for point in range(points):
+        out[point] = -rig.gap[point] - rig.contact.touch
+        out[points + point], out[2 * points + point] = 1.0, -1.0  # in the air, and slipping when it lands
+        if out[point] <= 0.0:
+            continue
+        loss = NormalDissipative(mode[point])
+        out[points + point] = tension_margin(rig.contact.elastic, loss, -rig.gap[point], -rig.u[point * width], 1.0)
+        normal = _normal(rig, mode, point)
+        if normal * rig.contact.friction.coefficient_kinetic > 0.0:
+            s_1, s_2, v_1, v_2 = _tangents(rig, state, point)
+            out[2 * points + point] = point_stick_margin(rig.contact.friction, normal, s_1, s_2, v_1, v_2)
+
+
+@kernel
+def set_loss(rig, mode, point):
+    """lambda of a point that touches, of the speed at which it does; the rig must have looked at the state."""
+    mode[point] = rig.contact.loss / max(-rig.u[point * rig.body.width], rig.contact.slowest)
+
+
+@kernel
+def _switch(rig, drive, mode, time, state, event, side):
+    points, width = rig.gap.shape[0], rig.body.width
+    if event >= points:
+        return side
+    look(rig, state)
+    if side > 0.0:
+        set_loss(rig, mode, event)
+    else:
+        place = _first_deflection(rig) + event * (width - 1)
+        for k in range(width - 1):
+            state[place + k] = 0.0
+    return side
+
+
+@kernel
+def _need_rate(rig, mode):
+    return False
+
+
+@kernel
+def stored_energy(rig, state):
+    """Energy of the contacts and of the friction springs, in [J]; looks at the state."""
+    look(rig, state)
+    normal, springs = 0.0, 0.0
+    for point in range(rig.gap.shape[0]):
+        normal += elastic_energy(rig.contact.elastic, -rig.gap[point])
+        s_1, s_2, _v_1, _v_2 = _tangents(rig, state, point)
+        springs += 0.5 * rig.contact.friction.stiffness * (s_1 * s_1 + s_2 * s_2)
+    return normal, springs
+
+
+register(CompliantBody, _rate, _margins, _switch, _need_rate)
