@@ -10,7 +10,7 @@ import numpy
 from numpy.typing import NDArray
 from scipy.integrate import solve_ivp
 
-__all__ = ["StickSlip", "period_of_rigid_law", "slip_starts"]
+__all__ = ["StickSlip", "period_of_rigid_law", "slip_starts", "state_at"]
 
 RELATIVE, ABSOLUTE = 1.0e-13, 1.0e-16
 
@@ -49,21 +49,34 @@ def slip_starts(case: StickSlip, count: int) -> list[float]:
     return starts
 
 
+def state_at(case: StickSlip, end: float) -> NDArray[numpy.float64]:
+    """Position [m], speed [m/s] and spring deflection [m] at `end` [s], from the same start; the deflection is that of stick."""
+    time, state, sticks = 0.0, numpy.array([0.0, case.belt_speed, 0.0]), True
+    while time < end:
+        time, state = (_stick if sticks else _slip)(case, time, state, end)
+        sticks = not sticks
+    return state
+
+
 def _trial(case: StickSlip, y: NDArray[numpy.float64]) -> float:
     return float(case.stiffness * y[2] + case.damping * (case.belt_speed - y[1]))
 
 
-def _stick(case: StickSlip, time: float, state: NDArray[numpy.float64]) -> tuple[float, NDArray[numpy.float64]]:
+def _stick(
+    case: StickSlip, time: float, state: NDArray[numpy.float64], end: float = math.inf
+) -> tuple[float, NDArray[numpy.float64]]:
     def rate(_t: float, y: NDArray[numpy.float64]) -> list[float]:
         return [y[1], (_trial(case, y) - case.spring * y[0]) / case.mass, case.belt_speed - y[1]]
 
     def breaks(_t: float, y: NDArray[numpy.float64]) -> float:
         return case.coefficient_static * case.load - _trial(case, y)
 
-    return _until(rate, breaks, time, state)
+    return _until(rate, breaks, time, state, end)
 
 
-def _slip(case: StickSlip, time: float, state: NDArray[numpy.float64]) -> tuple[float, NDArray[numpy.float64]]:
+def _slip(
+    case: StickSlip, time: float, state: NDArray[numpy.float64], end: float = math.inf
+) -> tuple[float, NDArray[numpy.float64]]:
     force = case.coefficient_kinetic * case.load
 
     def acceleration(y: NDArray[numpy.float64]) -> float:
@@ -75,7 +88,7 @@ def _slip(case: StickSlip, time: float, state: NDArray[numpy.float64]) -> tuple[
     def slip_rate(_t: float, y: NDArray[numpy.float64]) -> float:
         return float(case.belt_speed - y[1] - case.damping * acceleration(y) / case.stiffness)
 
-    time, state = _until(rate, slip_rate, time, state)
+    time, state = _until(rate, slip_rate, time, state, end)
     state[2] = (force - case.damping * (case.belt_speed - state[1])) / case.stiffness
     return time, state
 
@@ -85,9 +98,11 @@ def _until(
     margin: Callable[[float, NDArray[numpy.float64]], float],
     time: float,
     state: NDArray[numpy.float64],
+    end: float,
 ) -> tuple[float, NDArray[numpy.float64]]:
-    """Time [s] and state where `margin` falls through zero."""
+    """Time [s] and state where `margin` falls through zero, or `end` where that comes first."""
     event: Any = margin  # scipy reads what to do from attributes of the function
     event.terminal, event.direction = True, -1.0
-    found = solve_ivp(rate, (time, time + 10.0), state, "DOP853", events=event, rtol=RELATIVE, atol=ABSOLUTE)
+    span = (time, min(end, time + 10.0))
+    found = solve_ivp(rate, span, state, "DOP853", events=event, rtol=RELATIVE, atol=ABSOLUTE)
     return float(found.t[-1]), numpy.array(found.y[:, -1])

@@ -20,12 +20,13 @@ from contact_sim_pkg.core.results import DONE
 from contact_sim_pkg.core.rigs import advance as entries
 from contact_sim_pkg.core.rigs.vehicle import MARGINS
 from contact_sim_pkg.core.solvers.dormand_prince import make_workspace
-from contact_sim_pkg.reference.belt_slider import StickSlip, period_of_rigid_law, slip_starts
+from contact_sim_pkg.reference.belt_slider import StickSlip, period_of_rigid_law, slip_starts, state_at
 from contact_sim_pkg.studies.hard_cases import Finding, HardCase, at_most, close_to, exactly
 from contact_sim_pkg.studies.one_mass import integrate
 
 MASS, SPRING, BELT_SPEED, LOAD = 1.0, 100.0, 0.1, 9.81
 STATIC, KINETIC = 0.4, 0.3
+AT_REST_ON_BELT = numpy.array([0.0, BELT_SPEED, 0.0])
 
 
 def stick_slip(stiffness: float, damping: float) -> tuple[BeltSlider, StickSlip]:
@@ -34,14 +35,36 @@ def stick_slip(stiffness: float, damping: float) -> tuple[BeltSlider, StickSlip]
     return rig, StickSlip(MASS, SPRING, BELT_SPEED, LOAD, stiffness, damping, STATIC, KINETIC)
 
 
+def scale_of(stiffness: float) -> Vector:
+    """Position [m] and speed [m/s] of the motion, and the deflection [m] that the friction spring reaches."""
+    return numpy.array([0.05, 0.3, STATIC * LOAD / stiffness])
+
+
+def stick_slip_error(stiffness: float, damping: float, tolerance: float) -> float:
+    """Worst error of position and speed, over those of the motion, once in stick (3 s) and once in slip (3.3 s)."""
+    rig, case = stick_slip(stiffness, damping)
+    scale, ends = scale_of(stiffness), (3.0, 3.3)
+    found = [integrate(rig, AT_REST_ON_BELT, scale * tolerance, numpy.array([0.0, end])).states[-1] for end in ends]
+    return max(
+        float(numpy.max(numpy.abs(state - state_at(case, end))[:2] / scale[:2]))
+        for state, end in zip(found, ends, strict=True)
+    )
+
+
+def error_follows_the_tolerance() -> Finding:
+    """Largest error over asked tolerance, 1e-3 to 1e-11, friction springs of 1e4, 1e5 and 1e6 N/m."""
+    springs = ((1.0e4, 140.0), (1.0e5, 400.0), (1.0e6, 1.0e3))
+    return at_most(max(stick_slip_error(*spring, 10.0**-p) * 10.0**p for spring in springs for p in range(3, 12)), 10.0)
+
+
 def stick_slip_period(stiffness: float, damping: float, tolerance: float) -> float:
     """Period [s]: the state in stick one period of the rigid law later, set right by the speed in stick."""
     rig, case = stick_slip(stiffness, damping)
     period = period_of_rigid_law(case)
     stuck = 5.0 * period  # the first slip comes after 0.4 s, the stick that starts 4 periods later holds this instant
-    start = numpy.array([0.0, BELT_SPEED, 0.0])
-    scale = numpy.array([0.05, 0.3, 0.05]) * tolerance
-    states = integrate(rig, start, scale, numpy.array([0.0, stuck, stuck + period])).states
+    states = integrate(
+        rig, AT_REST_ON_BELT, scale_of(stiffness) * tolerance, numpy.array([0.0, stuck, stuck + period])
+    ).states
     return float(period - (states[2, 0] - states[1, 0]) / states[1, 1])
 
 
@@ -149,6 +172,7 @@ def ledger_with_friction() -> Finding:
 CASES = (
     HardCase("stick-slip", "period of the spring-damper law [s]", period_of_the_spring_law),
     HardCase("stick-slip", "period, friction stiffness → ∞ [s]", period_of_the_rigid_law),
+    HardCase("stick-slip", "error over asked tolerance, 1e-3 to 1e-11", error_follows_the_tolerance),
     HardCase("stick-slip", "no creep in stick at 80 % of the limit [m/s]", no_creep),
     HardCase("stick-slip", "2 m/s to rest: distance [m]", slide_to_rest),
     HardCase("stick-slip", "μs = μk, slip ends on the limit of stick: status", equal_ratios),
