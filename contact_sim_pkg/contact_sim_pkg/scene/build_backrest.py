@@ -201,13 +201,21 @@ def _mode_names(modes: ShellModes) -> tuple[str, ...]:
     return tuple(f"mode_{m}_{n}_x" for m, n in modes.orders)
 
 
+def _spring_scale(friction: Friction | None, size: float, preload: float) -> float:
+    """Deflection [m] of the friction spring: what it reaches under the preload, at most ``size``."""
+    if friction is None:
+        return numpy.inf
+    reached = friction.coefficient_static * preload / friction.stiffness
+    return min(size, reached) if reached > 0.0 else size
+
+
 def _scale(rig: Backrest, size: float, preload: float, tolerance: float) -> Vector:
     """Error allowed per step and state: displacements relative to the approach at rest, works to that of the preload on it."""
     modes, points = len(rig.mass), len(rig.gaps)
     position, velocity = size * tolerance, size * USUAL_FREQUENCY * tolerance
     kinetic = 0.5 * float(rig.mass.max()) * (size * USUAL_FREQUENCY) ** 2
     work = max(preload * size, kinetic) * tolerance
-    spring = numpy.inf if rig.contact.friction is None else position
+    spring = _spring_scale(rig.contact.friction, size, preload) * tolerance
     parts = [numpy.full(modes, position), numpy.full(modes, velocity), numpy.full(points, spring)]
     parts.append(numpy.full(2 * points, work))
     if rig.contact.hysteresis is not None:
