@@ -6,6 +6,7 @@ import numpy
 from scipy.optimize import minimize
 
 from contact_sim_pkg.core.parameters import Vector
+from contact_sim_pkg.core.rigs.backrest_parameters import ContactSearch
 from contact_sim_pkg.core.rigs.backrest_search import nearest_point
 from contact_sim_pkg.studies.backrest_drive import Motion, drive_of, fast_run
 from contact_sim_pkg.studies.hard_cases import Finding, HardCase, at_most, close_to, exactly
@@ -54,6 +55,12 @@ def foam_that_is_left() -> Finding:
     return exactly(int(wrong) if apart.any() else -1, 0)
 
 
+def _search() -> ContactSearch:
+    search = drive_of(load_resolved(*SHELL), 0.01).model.rig.search
+    assert search is not None
+    return search
+
+
 def _depth(shape: Vector, place: Vector) -> float:
     """Depth in [m] of the shell at a place, from the sines and the paraboloid: nothing of the search's."""
     orders = numpy.arange(1, round(len(shape) ** 0.5) + 1) * numpy.pi
@@ -74,7 +81,7 @@ def _deepest(shape: Vector) -> float:
 
 def nearest_of_many_crests() -> Finding:
     """Ten shells bent by 2 and by 50 mm in nine modes: by how much a place lies deeper than the one found [m]."""
-    search, random = drive_of(load_resolved(*SHELL), 0.01).model.rig.search, numpy.random.default_rng(7)
+    search, random = _search(), numpy.random.default_rng(7)
     short = 0.0
     for size in (0.002, 0.05) * 5:
         shape = size * random.normal(size=9) / numpy.arange(1, 10)
@@ -84,7 +91,7 @@ def nearest_of_many_crests() -> Finding:
 
 def nearest_on_the_rim() -> Finding:
     """A shell bent hollow by 1 m touches where its sines are zero: depth in the middle of its shorter gap, -L2^2/(8 R2) [m]."""
-    search = drive_of(load_resolved(*SHELL), 0.01).model.rig.search
+    search = _search()
     hollow = numpy.zeros(9)
     hollow[0] = -1.0
     found = _depth(hollow, numpy.array(nearest_point(search, hollow)))
