@@ -10,9 +10,11 @@ from contact_sim_pkg.bag.messages import (
     RollerStability,
     RollerTrack,
     RollerVolumes,
+    decode_energy,
     decode_motion,
     decode_roller,
 )
+from contact_sim_pkg.core.roller.motion import energies
 from contact_sim_pkg.run.errors import RunError
 from contact_sim_pkg.run.rigs import forecast_of, make_simulation, result_topics
 from contact_sim_pkg.scene.errors import SceneError
@@ -20,6 +22,7 @@ from contact_sim_pkg.scene.errors import SceneError
 from .scenes import resolved
 
 SHORT = {
+    "roller_hour": ("duration=0.1", "effects.roller.subsurface.instants=[0.0]", "effects.roller.damage.table_rows=3"),
     "roller_steady": ("duration=0.2", "effects.roller.subsurface.instants=[0.0,0.1]"),
     "roller_flutter": ("duration=0.1",),
     "roller_corrugation": ("duration=0.1", "effects.roller.damage.table_rows=3"),
@@ -135,6 +138,141 @@ def test_a_track_that_does_not_turn_whole_times_in_a_block_is_refused_with_the_n
         resolved("roller_corrugation", "roller.speed=50.3")
 
 
+def residual_share(messages):
+    """Largest residual over the largest entry."""
+    rows = numpy.array([decode_energy(data)[1:] for name, _stamp, data in messages if name == "bench/energy"])
+    return abs(rows[:, -1]).max() / abs(rows[:, :-1]).max()
+
+
+def test_without_friction_a_run_keeps_its_energy_over_ten_thousand_turns_of_the_roller():
+    """To 1e-6; nothing supplies, nothing dissipates, so what is left over is what the integrator adds."""
+    values = ("effects.roller.rolling_friction.coefficient=0", "roller.tilt=0.01", "duration=200.0", "block_length=0.1")
+    scene = resolved("roller_flutter", *values, "outputs.force_rate=1000", "roller.speed=50")
+    simulation = make_simulation(scene)
+    simulation.prepare()
+    held = simulation._angles
+    times, loads = numpy.linspace(0.0, 1.0, 1001), numpy.full(1001, 300.0)
+    first = energies(simulation.model.roller, 300.0, held.state)
+    for second in range(200):
+        held.advance(float(second), times, loads)
+    ledger = held.energies()
+    assert abs(ledger.supplied) < 1e-12 * first.stored
+    assert ledger.dissipated == 0.0
+    assert abs(ledger.residual) < 1e-6 * first.stored
+
+
+def test_the_ledger_closes_over_waves_wear_and_steps_of_the_load():
+    values = ("effects.roller.track_waves.cosines=[0,1e-6]", "effects.roller.damage.table_rows=3", "duration=0.2")
+    _scene, messages = run("roller_programme", *values, "effects.roller.subsurface.instants=[0.0]", *STEPPED)
+    assert residual_share(messages) < 1e-6
+    rows = numpy.array([decode_energy(data)[1:] for name, _stamp, data in messages if name == "bench/energy"])
+    assert rows[-1, 3] > 1e-9, "something was dissipated"
+    assert (numpy.diff(rows[:, 3]) > 0.0).all()
+
+
+STEPPED = ("roller.programme.time=[0.0,0.1]", "roller.programme.load=[50.0,100.0]", "effects.roller.damage.gain=1e-5")
+BARE = ("effects.roller.damage.gain=0", "effects.roller.track_waves.roughness=0", "duration=0.1")
+
+
+@pytest.mark.parametrize("track", ["shaft", "roller", "both"])
+def test_waves_of_either_body_move_the_roller_at_their_own_frequency(track):
+    """Two waves round the shaft pass at 400 Hz, two round the roller at 100 Hz; with both the roller's are rough only."""
+    values = ("effects.roller.track_waves.cosines=[0,1e-8]", f"effects.roller.track_waves.track={track}")
+    _scene, messages = run(
+        "roller_corrugation", *values, *BARE, "duration=0.5", "block_length=0.1", "outputs.force_rate=20000"
+    )
+    heave = column(messages, "heave")[-4000:]
+    strongest = numpy.fft.rfftfreq(4000, 1.0 / 20000.0)[abs(numpy.fft.rfft(heave)).argmax()]
+    assert strongest == (100.0 if track == "roller" else 400.0)
+    bodies = {each.body: each for each in of(messages, RollerTrack)}
+    assert set(bodies) == ({"shaft", "roller"} if track == "both" else {track})
+    for body, turns, radius in (("shaft", 100.0, 0.005), ("roller", 25.0, 0.02)):
+        if body in bodies:
+            assert (bodies[body].turns, bodies[body].radius) == (turns, radius)
+
+
+def test_both_bodies_wear_each_within_its_own_limits():
+    """Limits of the roller far above the stress: it stays as it is, while the shaft wears."""
+    values = ("effects.roller.track_waves.track=both", "effects.roller.subsurface.roller_normal_limit=1e12")
+    limit = (
+        "effects.roller.subsurface.roller_shear_limit=1e12",
+        "effects.roller.damage.table_rows=3",
+        "block_length=0.1",
+    )
+    _scene, messages = run("roller_corrugation", *values, *limit, "duration=0.2")
+    lowered = {each.body: each.lowered for each in of(messages, RollerTrack)}
+    assert lowered["roller"] == 0.0
+    assert lowered["shaft"] > 1e-6
+
+
+def test_the_roller_rides_a_road_beside_its_track():
+    """A bump of 0.2 m at 6.28 m/s is slow: the heave is its height, and the load its acceleration."""
+    road = ("road.kind=bump", "road.position=0.2", "road.height=1e-3", "road.length=0.2")
+    _scene, messages = run("roller_corrugation", *road, *BARE, "outputs.force_rate=20000")
+    heave, load = column(messages, "heave"), column(messages, "load")
+    x = 2.0 * math.pi * 0.02 * 50.0 * numpy.arange(len(heave)) / 20000.0
+    assert heave.max() == pytest.approx(1e-3, rel=0.02)
+    assert abs(x[heave.argmax()] - 0.2) < 0.02
+    assert heave[x < 0.09] == pytest.approx(0.0, abs=1e-12)
+    assert load.max() > 101.0
+
+
+def test_a_road_without_track_waves_is_refused():
+    with pytest.raises(SceneError, match="rides no heights"):
+        resolved("roller_flutter", "road.kind=flat")
+
+
+def test_the_softness_of_the_contact_follows_a_held_yaw():
+    """A roller held at 0.5 rad: kappa of the contact at that yaw, seen in the decay of its heave."""
+    from contact_sim_pkg.core.roller.heave import make_heave, natural_frequency
+
+    scene = resolved("roller_corrugation", *BARE, "roller.yaw=0.5", "effects.roller.damage.table_rows=2")
+    simulation = make_simulation(scene)
+    model = simulation.model
+    curvatures = model.programme.curvatures_at(0.0)
+    stiff = [
+        natural_frequency(
+            make_heave(0.175, 0.05, 100.0, model.contact(1.0, yaw, curvatures).approach, model.bending_compliance)
+        )
+        for yaw in (0.0, 0.5)
+    ]
+    assert simulation._ride.frequency == pytest.approx(stiff[1], rel=1e-12)
+    assert stiff[1] != pytest.approx(stiff[0], rel=1e-6)
+
+
+def test_the_track_s_own_curvature_stiffens_the_crests_no_more_than_the_theory_of_hertz():
+    """A deep wave of 4 cycles: W'' = 1e-6 (4 / 0.005)^2 = 0.64 1/m on 450; too deep a wave is refused."""
+    wave = ("effects.roller.track_waves.cosines=[0,0,0,1e-6]", *BARE)
+    loads = [
+        column(run("roller_corrugation", *wave, f"effects.roller.track_waves.local_curvature='{each}'")[1], "load")
+        for each in ("on", "off")
+    ]
+    assert 1e-6 < abs(loads[0] / loads[1] - 1.0).max() < 0.02
+    deep = ("effects.roller.track_waves.cosines=[0,0,0,0,0,0,0,2e-4]", *BARE)
+    with pytest.raises(RunError, match="the track is hollow by"):
+        run("roller_corrugation", *deep, "effects.roller.track_waves.local_curvature='on'")
+
+
+def test_the_time_acceleration_is_held_against_every_turn_ridden():
+    """Five turns in one are near to each of them ridden while the wave is small; nothing is looked at where each is ridden."""
+    _scene, messages = run("roller_corrugation", "duration=0.2", "effects.roller.damage.table_rows=4")
+    tracks = [each for each in of(messages, RollerTrack) if each.checked]
+    assert len(tracks) == 4
+    assert all(each.checked == 20.0 for each in tracks)
+    assert 0.0 < max(each.check_error for each in tracks) < 0.05
+    _scene, messages = run(
+        "roller_corrugation", "duration=0.1", "effects.roller.damage.table_rows=4", "roller.acceleration=1"
+    )
+    assert not any(each.checked for each in of(messages, RollerTrack))
+
+
+def test_radii_that_do_not_divide_are_refused_for_a_track_on_both():
+    with pytest.raises(SceneError, match=r"must be a whole number, take 0\.02 m for the larger"):
+        resolved(
+            "roller_corrugation", "effects.roller.track_waves.track=both", "roller.radius=0.021", "roller.speed=100"
+        )
+
+
 def test_the_summary_and_the_page_show_what_the_scene_records(tmp_path):
     from contact_sim_pkg.analysis.reading import read_recording
     from contact_sim_pkg.analysis.report import sections
@@ -145,7 +283,7 @@ def test_the_summary_and_the_page_show_what_the_scene_records(tmp_path):
     run_offline(resolved("roller_programme", *SHORT["roller_programme"]), tmp_path / "bag")
     recording = read_recording(open_bag(tmp_path / "bag"))
     numbers = summarise_recording(recording)["roller"]
-    assert numbers["track"]["time_acceleration"] == 1000.0
+    assert numbers["tracks"][0]["time_acceleration"] == 1000.0
     assert [each["load_N"] for each in numbers["stability"]] == [26.5]
     assert 0.0 < numbers["dangerous_volumes"][0]["share"] < 1.0
     keys = [section.key for section in sections(recording)]

@@ -6,6 +6,7 @@ from typing import Any
 
 import numpy as np
 
+from contact_sim_pkg.bag.messages import RollerTrack
 from contact_sim_pkg.core.roller.stability import RollerError, stability
 from contact_sim_pkg.scene.build_roller import build_roller
 
@@ -68,11 +69,16 @@ def motion_over_time(roller: RollerSeries) -> Picture | None:
     return picture("roller-motion", figure, "Tilt, yaw and heave over time", f"Motion of the roller.{told}")
 
 
-def track_over_cycles(roller: RollerSeries) -> Picture | None:
-    """Heights round the circumference over cycles, and their range; None without a track."""
-    if len(roller.tracks) < 2:
-        return None
-    tracks = roller.tracks
+def track_pictures(roller: RollerSeries) -> list[Picture]:
+    """Heights round each body's circumference over cycles, and the error of the time acceleration where it was looked at."""
+    bodies = dict.fromkeys(each.body for each in roller.tracks)
+    tracks = {body: [each for each in roller.tracks if each.body == body] for body in bodies}
+    found = [_track_over_cycles(body, rows) for body, rows in tracks.items() if len(rows) > 1]
+    checked = [each for each in next(iter(tracks.values()), []) if each.checked > 0.0]
+    return found + ([_acceleration_error(checked)] if checked else [])
+
+
+def _track_over_cycles(body: str, tracks: list[RollerTrack]) -> Picture:
     cycles = np.array([each.cycles for each in tracks])
     heights = np.array([each.height for each in tracks]) * 1e6
     length = 2.0 * np.pi * tracks[0].radius * 1e3
@@ -84,17 +90,38 @@ def track_over_cycles(roller: RollerSeries) -> Picture | None:
     left.set_xlabel("along the circumference, mm")
     left.set_ylabel("cycles")
     right.semilogy(cycles, [each.range * 1e6 for each in tracks], color=ACCENT, label="range of heights")
-    right.semilogy(cycles, [each.lowered * 1e6 + 1e-12 for each in tracks], color=MUTED, label="lost by the mean")
+    if tracks[-1].lowered > 0.0:
+        right.semilogy(cycles, [each.lowered * 1e6 for each in tracks], color=MUTED, label="lost by the mean")
     right.set_xlabel("cycles")
     right.set_ylabel("µm")
     right.legend(loc="lower right", fontsize=7.5)
     last = tracks[-1]
+    strength = np.abs(np.fft.rfft(last.height))
+    waves = int(strength[1:].argmax()) + 1
     caption = (
-        f"Heights of the track round its circumference over {last.cycles:.6g} cycles, {last.turns:.6g} turns ridden: range "
-        f"{tracks[0].range * 1e6:.4g} to {last.range * 1e6:.4g} µm, contact lost for {100.0 * last.free:.3g} % of the last block. "
+        f"Heights of the {body}'s track round its circumference over {last.cycles:.6g} cycles, {last.turns:.6g} turns ridden: "
+        f"range {tracks[0].range * 1e6:.4g} to {last.range * 1e6:.4g} µm, at the end strongest {waves} waves round it "
+        f"({length / waves:.4g} mm long); contact lost for {100.0 * last.free:.3g} % of the last turn. "
         "The paper's own measured waves (figures 3 and 4) are drawn there without numbers; these are simulated."
     )
-    return picture("roller-track", figure, "Track heights round the circumference over cycles", caption)
+    return picture(f"roller-track-{body}", figure, f"Heights round the {body} over cycles", caption)
+
+
+def _acceleration_error(checked: list[RollerTrack]) -> Picture:
+    figure, (axes,) = new_figure(2.4)
+    cycles, errors = [each.cycles for each in checked], [each.check_error for each in checked]
+    axes.semilogy(cycles, errors, color=ACCENT, marker="o", markersize=4, linewidth=0.9)
+    axes.set_xlabel("cycles")
+    axes.set_ylabel("error of the change")
+    told = [error for error in errors if np.isfinite(error)]
+    worst = f"{min(told):.2g} to {max(told):.2g}" if told else "none could be told"
+    first = checked[0]
+    caption = (
+        f"Each turn that is ridden stands for {first.cycles / first.turns:.6g}. At {len(checked)} places of the run the next "
+        f"{first.checked:.6g} turns were ridden by that time acceleration and turn by turn; the difference of the heights' "
+        f"change over the change turn by turn, rms: {worst}."
+    )
+    return picture("roller-acceleration", figure, "Interval procedure beside every turn ridden", caption)
 
 
 def load_spectrogram(roller: RollerSeries) -> Picture | None:

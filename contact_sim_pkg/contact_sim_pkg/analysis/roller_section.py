@@ -4,10 +4,13 @@ from __future__ import annotations
 
 from typing import Any, NamedTuple
 
+import numpy as np
+
+from contact_sim_pkg.bag.messages import RollerTrack
 from contact_sim_pkg.run.roller_forecast import stability_facts
 
 from .drawing import Picture
-from .figures_roller import contact_over_time, load_spectrogram, motion_over_time, stability_map, track_over_cycles
+from .figures_roller import contact_over_time, load_spectrogram, motion_over_time, stability_map, track_pictures
 from .figures_roller_stress import stress_pictures
 from .roller_pass import RollerSeries
 from .series import Recording
@@ -30,11 +33,11 @@ def roller_parts(recording: Recording) -> list[RollerPart]:
     if roller is None:
         return []
     first = [contact_over_time(roller), motion_over_time(roller), load_spectrogram(roller)]
-    waves, stable = track_over_cycles(roller), stability_map(roller, recording.scene)
+    stable = stability_map(roller, recording.scene)
     return [
         RollerPart("roller", "Rolling contact", [each for each in first if each is not None]),
         RollerPart("stability", "Stability of tilt and yaw", [stable] if stable else []),
-        RollerPart("track", "Track", [waves] if waves else []),
+        RollerPart("track", "Track", track_pictures(roller)),
         RollerPart("stress", "Stress and dangerous volumes", stress_pictures(roller, recording.scene)),
     ]
 
@@ -49,11 +52,8 @@ def roller_numbers(roller: RollerSeries) -> dict[str, Any]:
     if roller.stability:
         numbers["stability"] = [stability_facts(each) for each in roller.stability]
     if roller.tracks:
-        last = roller.tracks[-1]
-        numbers["track"] = {
-            "turns": last.turns, "cycles": last.cycles, "time_acceleration": last.cycles / last.turns,
-            "range_m": last.range, "lowered_m": last.lowered, "free_share_last": last.free,
-        }  # fmt: skip
+        bodies = dict.fromkeys(each.body for each in roller.tracks)
+        numbers["tracks"] = [_track_numbers([each for each in roller.tracks if each.body == body]) for body in bodies]
     if roller.volumes:
         numbers["dangerous_volumes"] = [
             {
@@ -64,3 +64,14 @@ def roller_numbers(roller: RollerSeries) -> dict[str, Any]:
             for each in roller.volumes
         ]
     return numbers
+
+
+def _track_numbers(tracks: list[RollerTrack]) -> dict[str, Any]:
+    """One body's track at the end, and how far the time acceleration was from every turn ridden."""
+    last, errors = tracks[-1], [each.check_error for each in tracks if each.checked > 0.0]
+    return {
+        "body": last.body, "turns": last.turns, "cycles": last.cycles, "time_acceleration": last.cycles / last.turns,
+        "range_m": last.range, "lowered_m": last.lowered, "free_share_last": last.free,
+        "waves": int(np.abs(np.fft.rfft(last.height))[1:].argmax()) + 1,
+        "time_acceleration_errors": [error if np.isfinite(error) else None for error in errors],
+    }  # fmt: skip

@@ -17,7 +17,7 @@ EXCITATION_KEY = "excitation"
 
 def input_names(scene: ResolvedScene) -> list[str]:
     """Excitation topics that the scene calls for."""
-    names = ["road/patch"] if scene.data.get("road") else []
+    names = ["road/patch"] if scene.data.get("road") and scene.data.get("travel") else []
     return names + (["platform/vibration"] if scene.data.get("vibration") else [])
 
 

@@ -22,7 +22,6 @@ class RigRun(NamedTuple):
 
     simulation: str  # "module:class" of a BlockSimulation that takes a resolved scene
     topics: Callable[[dict[str, Any]], list[str]]  # resolved scene -> topics of its contacts; those of `bench/` follow
-    ledger: bool = True  # whether the rig keeps an energy ledger
     forecast: str = ""  # "module": what is told before the run, by its `facts_before_run` and `sentence_before_run`
 
 
@@ -82,7 +81,6 @@ RIG_RUNS: dict[RigName, RigRun] = {
     "roller": RigRun(
         "contact_sim_pkg.run.roller:RollerSimulation",
         _roller_topics,
-        ledger=False,
         forecast="contact_sim_pkg.run.roller_forecast",
     ),
     "occupant": RigRun("contact_sim_pkg.run.occupant:OccupantSimulation", _occupant_topics),
@@ -99,8 +97,7 @@ def make_simulation(scene: ResolvedScene) -> BlockSimulation:
 def result_topics(scene: ResolvedScene) -> list[str]:
     """Recorded topics that the simulator publishes for the scene."""
     rig = RIG_RUNS[scene.data["rig"]]
-    ledger = ["bench/energy"] if rig.ledger else []
-    return [*rig.topics(scene.data), "bench/motion", *ledger, "bench/cost"]
+    return [*rig.topics(scene.data), "bench/motion", "bench/energy", "bench/cost"]
 
 
 class Forecast(NamedTuple):

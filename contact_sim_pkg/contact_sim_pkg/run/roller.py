@@ -13,14 +13,22 @@ from contact_sim_pkg.core.roller.ellipse import RollingContact
 from contact_sim_pkg.core.roller.moments import moments
 from contact_sim_pkg.core.roller.volumes import box_volume, dangerous_volumes
 from contact_sim_pkg.run.block_simulation import BlockResult, InputBlock, refuse_out_of_turn
+from contact_sim_pkg.run.roller_energy import Energies
 from contact_sim_pkg.run.roller_forecast import forecast
-from contact_sim_pkg.run.roller_motion import Matrix, Ridden, TiltYaw, TrackRide, volume_settings
+from contact_sim_pkg.run.roller_motion import Matrix, TiltYaw
 from contact_sim_pkg.run.roller_outputs import Measured, RollerRecord, encode_block
+from contact_sim_pkg.run.roller_ride import Ridden, TrackRide, joined
+from contact_sim_pkg.run.roller_wear import volume_settings
+from contact_sim_pkg.run.sources import make_surface
 from contact_sim_pkg.scene.build_roller import build_roller
 from contact_sim_pkg.scene.resolved_scene import ResolvedScene
 
 MOST_TRACKS = 200
 """Heights of the track that a run records, about: one at every so many blocks, and one at its end."""
+
+
+ROAD_CELL = 1e-3
+"""[m]: a road's texture holds waves down to two of them."""
 
 
 class RollerSimulation:
@@ -34,12 +42,14 @@ class RollerSimulation:
         self.scene = scene
         self.model = build_roller(scene.data)
         self.blocks = self.model.timing.blocks
+        road = make_surface(scene, ROAD_CELL) if scene.data.get("road") else None
+        self._first = None if self.model.effects.get("track_waves") is None else TrackRide(self.model, road)
         self._reset()
 
     def _reset(self) -> None:
         model = self.model
         self._next_block = 0
-        self._ride = None if model.effects.get("track_waves") is None else TrackRide(model)
+        self._ride = None if self._first is None else self._first.copy()
         first = model.contact_load(float(model.programme.load[0]), model.programme.curvatures_at(0.0))
         self._angles = None if model.effects.get("tilt_yaw") is None else TiltYaw(model, first)
 
@@ -59,7 +69,9 @@ class RollerSimulation:
         self._next_block = block + 1
         record.stability = self._forecast(block)
         record.volumes = self._measured(block, record)
-        record.track = self._ride if self._ride is not None and self._track_due(block) else None
+        if self._ride is not None and self._track_due(block):
+            record.track = self._ride
+            record.checked = self._ride.check() if self._check_due(block) else None
         messages = encode_block(self.model, record, time.perf_counter() - began)
         peak = max(contact.peak_pressure for contact in record.contacts)
         return BlockResult(messages, float(record.load.max()), peak, time.perf_counter() - began)
@@ -68,42 +80,64 @@ class RollerSimulation:
         model, timing = self.model, self.model.timing
         start, samples = block * timing.block_length, timing.samples
         times: Vector = numpy.arange(samples + 1, dtype=numpy.float64) * (timing.block_length / samples)
-        ride = None if self._ride is None else self._ride.advance(block)
-        loads, heave = self._loads(start, times, ride)
-        angles = self._turned(start, times, loads, ride)
+        energy = self._energy()
+        if self._ride is None:
+            loads = self._pressed(start, times)
+            heave: Matrix = numpy.zeros((2, len(times)))
+            angles = self._held(times) if self._angles is None else self._angles.advance(start, times, loads)
+            steps = samples
+        else:
+            ridden, turned = self._rolled(start)
+            loads = numpy.interp(times, ridden.time, ridden.load)
+            heave = numpy.stack([numpy.interp(times, ridden.time, values) for values in (ridden.heave, ridden.speed)])
+            angles = numpy.stack([numpy.interp(times, ridden.time, column) for column in turned.T], axis=1)
+            steps = len(ridden.time) - 1
         contacts = [
             model.contact(float(loads[i]), float(angles[i, 1]), model.programme.curvatures_at(start + float(times[i])))
             for i in range(samples)
         ]
-        steps = samples if ride is None else len(ride.time) - 1
         return RollerRecord(
             block, timing.block_length / samples, loads[:-1], heave[:, :-1], angles[:-1],
-            self._acceleration(start, times, loads, angles, heave), contacts, steps,
+            self._acceleration(start, times, loads, angles, heave), contacts, steps, energy,
         )  # fmt: skip
 
-    def _loads(self, start: float, times: Vector, ride: Ridden | None) -> tuple[Vector, Matrix]:
-        """Loads [samples + 1] on the contact, and heave and its speed [2, samples + 1]."""
-        if ride is None:
-            programme = self.model.programme
-            pressed = programme.loads(start + times)
-            loads = numpy.array([
-                self.model.contact_load(float(load), programme.curvatures_at(start + float(time)))
-                for load, time in zip(pressed, times, strict=True)
-            ])  # fmt: skip
-            return loads, numpy.zeros((2, len(times)))
-        moved = [numpy.interp(times, ride.time, values) for values in (ride.heave, ride.speed)]
-        return numpy.interp(times, ride.time, ride.load), numpy.array(moved)
+    def _energy(self) -> Energies:
+        parts = [part.energies() for part in (self._ride, self._angles) if part is not None]
+        return parts[0].plus(parts[1]) if len(parts) > 1 else parts[0] if parts else Energies()
 
-    def _turned(self, start: float, times: Vector, loads: Vector, ride: Ridden | None) -> Matrix:
-        """Tilt, yaw and their rates [samples + 1, 4]."""
-        if self._angles is None:
-            held = numpy.zeros((len(times), 4))
-            held[:, :2] = self.model.start
-            return held
-        if ride is None:
-            return self._angles.advance(start, times, loads)
-        found = self._angles.advance(start, ride.time, ride.load)
-        return numpy.stack([numpy.interp(times, ride.time, column) for column in found.T], axis=1)
+    def _pressed(self, start: float, times: Vector) -> Vector:
+        """Loads [times] on the contact at rest."""
+        programme = self.model.programme
+        pressed = programme.loads(start + times)
+        return numpy.array([
+            self.model.contact_load(float(load), programme.curvatures_at(start + float(time)))
+            for load, time in zip(pressed, times, strict=True)
+        ])  # fmt: skip
+
+    def _held(self, times: Vector) -> Matrix:
+        """Angles [times, 4] that do not move."""
+        held = numpy.zeros((len(times), 4))
+        held[:, :2] = self.model.start
+        return held
+
+    def _rolled(self, start: float) -> tuple[Ridden, Matrix]:
+        """All intervals of a block, and tilt, yaw and their rates [places, 4]. The load pressed on rests over an interval."""
+        ride = self._ride
+        assert ride is not None
+        parts, angles = [], []
+        for number in range(ride.intervals_a_block):
+            yaw = self.model.start[1] if self._angles is None else float(self._angles.state[1])
+            at = number * ride.interval_time
+            ride.press(float(self.model.programme.loads(numpy.array([start + at]))[0]), yaw)
+            part = ride.advance()
+            moved = (
+                self._held(part.time)
+                if self._angles is None
+                else self._angles.advance(start + at, part.time, part.load)
+            )
+            parts.append(part._replace(time=part.time + at))
+            angles.append(moved)
+        return joined(parts), numpy.vstack([angles[0], *(each[1:] for each in angles[1:])])
 
     def _acceleration(self, start: float, times: Vector, loads: Vector, angles: Matrix, heave: Matrix) -> Matrix:
         """Of heave, tilt and yaw [3, samples], from the equations of motion."""
@@ -160,5 +194,15 @@ class RollerSimulation:
         return Measured(instant, contact, limits, box_volume(first), own, bent)
 
     def _track_due(self, block: int) -> bool:
-        every = max(1, self.blocks // MOST_TRACKS)
-        return block % every == 0 or block == self.blocks - 1
+        return block % self._every == 0 or block == self.blocks - 1
+
+    @property
+    def _every(self) -> int:
+        """Blocks from one recorded track to the next."""
+        return max(1, self.blocks // MOST_TRACKS)
+
+    def _check_due(self, block: int) -> bool:
+        """Whether the time acceleration is looked at behind a block: at so many even places of the run."""
+        damage = self.model.effects.get("damage")
+        checks = 0 if damage is None else int(damage["checks"])
+        return block in {k * self.blocks // checks // self._every * self._every for k in range(checks)}

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass, field
 from typing import NamedTuple
 
@@ -12,6 +13,7 @@ from contact_sim_pkg.bag.messages import (
     ROLLER_FRAME,
     ContactForceBlock,
     Cost,
+    Energy,
     MotionBlock,
     RollerContact,
     RollerStability,
@@ -19,6 +21,7 @@ from contact_sim_pkg.bag.messages import (
     RollerVolumes,
     encode_contact_force,
     encode_cost,
+    encode_energy,
     encode_motion,
     encode_roller,
 )
@@ -26,7 +29,9 @@ from contact_sim_pkg.bag.topics import TOPICS
 from contact_sim_pkg.core.parameters import Vector
 from contact_sim_pkg.core.roller.ellipse import RollingContact
 from contact_sim_pkg.core.roller.volumes import Volumes
-from contact_sim_pkg.run.roller_motion import TrackRide
+from contact_sim_pkg.run.roller_energy import Energies
+from contact_sim_pkg.run.roller_ride import Checked, TrackRide
+from contact_sim_pkg.run.roller_wear import BodyTrack
 from contact_sim_pkg.scene.build_roller import RollerModel
 
 Matrix = NDArray[numpy.float64]
@@ -59,9 +64,11 @@ class RollerRecord:
     acceleration: Matrix  # [3, samples] of heave, tilt, yaw
     contacts: list[RollingContact]
     steps: int
+    energy: Energies  # at the start
     stability: RollerStability | None = None
     volumes: list[Measured] = field(default_factory=list)
     track: TrackRide | None = None
+    checked: Checked | None = None
 
 
 def encode_block(model: RollerModel, record: RollerRecord, wall_time: float) -> Messages:
@@ -71,7 +78,8 @@ def encode_block(model: RollerModel, record: RollerRecord, wall_time: float) -> 
     if record.stability is not None:
         messages.append(("roller/stability", stamp, encode_roller(record.stability, stamp)))
     if record.track is not None:
-        messages.append(("roller/track", stamp, encode_roller(_track(model, record.block, record.track), stamp)))
+        for track in record.track.tracks:
+            messages.append(("roller/track", stamp, encode_roller(_track(model, record, record.track, track), stamp)))
     for measured in record.volumes:
         messages.append(("roller/volumes", stamp, encode_roller(_volumes(record.block, measured), stamp)))
     messages += _bench(model, record, stamp, wall_time)
@@ -94,10 +102,12 @@ def _contact(record: RollerRecord, stamp: int) -> Messages:
     ]
 
 
-def _track(model: RollerModel, block: int, ride: TrackRide) -> RollerTrack:
+def _track(model: RollerModel, record: RollerRecord, ride: TrackRide, track: BodyTrack) -> RollerTrack:
+    checked = record.checked or Checked(0, math.nan)
     return RollerTrack(
-        block, float(ride.turns), ride.turns * model.acceleration, model.turn_time, model.shaft_radius,
-        ride.heights.copy(), ride.loads.copy(), ride.lowered, ride.range, ride.free,
+        record.block, track.body, float(track.turned), track.turned * model.acceleration, track.turn_time, track.radius,
+        track.heights.copy(), track.loads.copy(), track.lowered, track.range, ride.free, float(checked.intervals * track.turns),
+        checked.error,
     )  # fmt: skip
 
 
@@ -116,6 +126,8 @@ def _bench(model: RollerModel, record: RollerRecord, stamp: int, wall_time: floa
     motion = MotionBlock(record.block, record.period, BODIES, position, velocity, record.acceleration)
     factor = model.timing.block_length / wall_time
     cost = Cost(record.block, wall_time, factor, record.steps, 0, 0, 0, 0.0, 0.0, 0, 0, 0.0)
+    ledger = Energy(record.block, *record.energy, record.energy.residual)
     return [
-        ("bench/motion", stamp, encode_motion(motion, stamp)), ("bench/cost", stamp, encode_cost(cost, stamp)),
+        ("bench/motion", stamp, encode_motion(motion, stamp)), ("bench/energy", stamp, encode_energy(ledger, stamp)),
+        ("bench/cost", stamp, encode_cost(cost, stamp)),
     ]  # fmt: skip

@@ -37,12 +37,12 @@ def make_travel(scene: dict[str, Any]) -> Travel:
 
 
 def make_sources(scene: ResolvedScene) -> dict[str, Source]:
-    """Sources of the input topics that a resolved scene calls for.
+    """Sources of the input topics that a resolved scene calls for. A road without `travel` is no topic: the rig reads it itself.
 
     Raises ExcitationError for a file that cannot be read or an excitation that cannot be made.
     """
     sources: dict[str, Source] = {}
-    if scene.data.get("road"):
+    if scene.data.get("road") and scene.data.get("travel"):
         sources["road/patch"] = make_road(scene)
     if scene.data.get("vibration"):
         sources["platform/vibration"] = make_vibration(scene)
@@ -54,13 +54,14 @@ def make_road(scene: ResolvedScene) -> RoadBlocks:
     data = scene.data
     lattice = tire_lattice(data)
     half_length = (lattice.road_rows // 2 + 1) * lattice.cell_x
-    surface = _surface(scene, lattice.cell_x)
+    surface = make_surface(scene, lattice.cell_x)
     return RoadBlocks(
         surface, make_travel(data), data["block_length"], lattice.cell_x, lattice.cell_y, half_length, lattice.road_cols
     )
 
 
-def _surface(scene: ResolvedScene, cell: float) -> Surface:
+def make_surface(scene: ResolvedScene, cell: float) -> Surface:
+    """The surface of a resolved scene's road; `cell` [m] is the finest spacing at which it is asked. Raises ExcitationError."""
     road = scene.data["road"]
     kind = road["kind"]
     if kind == "iso8608":

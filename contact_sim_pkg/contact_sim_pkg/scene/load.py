@@ -27,6 +27,7 @@ ORDER = (
     "roller_flutter",
     "roller_steady",
     "roller_corrugation",
+    "roller_hour",
     "roller_programme",
     "seat_slap",
     "seat_slip",

@@ -27,7 +27,7 @@ RIGS: dict[RigName, RigRule] = {
     "occupant": RigRule(("seat", "backrest"), ("vibration",), ("seat", "backrest")),
     "impact": RigRule(("impact",), (), ("impact",)),
     "block": RigRule(("block",), (), ("block",)),
-    "roller": RigRule(("roller",), (), ("roller",)),
+    "roller": RigRule(("roller",), (), ("roller", "road")),
 }
 
 CONTACTS: tuple[str, ...] = tuple(dict.fromkeys(name for rule in RIGS.values() for name in rule.contacts))

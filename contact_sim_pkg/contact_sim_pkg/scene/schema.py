@@ -85,7 +85,11 @@ class Scene(Section):
         "asked relative error of forces and pressures, or the best that keeps up with the clock", default=0.01
     )
     travel: Travel | None = choice("speed programme (rigs tire and car)", default=None, example={"speed": 10.0})
-    road: Road | None = choice("road under the tire (rigs tire and car)", default=None, example={"kind": "flat"})
+    road: Road | None = choice(
+        "road under the tire (rigs tire and car), or ridden by the roller beside its track (roller)",
+        default=None,
+        example={"kind": "flat"},
+    )
     slip: Slip | None = choice("slip programme of the tire, for the effect brush (rigs tire and car)", default=None)
     vibration: Vibration | None = choice(
         "acceleration of the floor (rig seat), of the seat back (backrest), or added to the floor of the car (car)",

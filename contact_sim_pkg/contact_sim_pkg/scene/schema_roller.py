@@ -13,6 +13,7 @@ MOST_ROWS = 10000
 Instant: TypeAlias = Annotated[float, Field(ge=0.0, le=3600.0)]
 Length: TypeAlias = Annotated[float, Field(ge=0.0, le=100.0)]
 Newton: TypeAlias = Annotated[float, Field(gt=0.0, le=1e7)]
+Hardness: TypeAlias = Annotated[float, Field(ge=0.1, le=10.0)]
 Metre: TypeAlias = Annotated[float, Field(ge=-1e-3, le=1e-3)]
 
 
@@ -110,11 +111,15 @@ class ShaftBending(Section):
 class TrackWaves(Section):
     """The roller rides over the heights of the track: heave, load that changes, separation and impact."""
 
+    track: Literal["shaft", "roller", "both"] = choice("which body has the heights, and wears", default="shaft")
     damping_ratio: float = number(0.0, 10.0, "", "zeta of the heave", default=0.05)
-    cells: int = number(16, 65536, "", "round the track", default=256)
+    cells: int = number(16, 65536, "", "round the track; with both, round the smaller body", default=256)
+    local_curvature: Literal["off", "on"] = choice(
+        "whether the stiffness of the contact follows the track's own curvature, k21 - W''", default="off"
+    )
     roughness: float = number(0.0, 1e-3, "m", "half range of the random heights at the start", default=1e-9)
     cosines: list[Metre] = numbers(
-        "m", "heights added at the start, one amplitude for each number of waves round the track from 1",
+        "m", "heights added at the start, one amplitude for each number of waves round the track from 1; with both, the shaft's",
         "0 to 1000 numbers, each -0.001 to 0.001 m", default=[], shortest=0, longest=1000,
     )  # fmt: skip
     sines: list[Metre] = numbers(
@@ -127,6 +132,8 @@ class Subsurface(Section):
 
     normal_limit: float = number(1.0, 1e13, "Pa", "of xx, yy, zz", default=2.6e8)
     shear_limit: float = number(1.0, 1e13, "Pa", "of xy, xz, yz", default=1.5e8)
+    roller_normal_limit: float = number(1.0, 1e13, "Pa", "of the roller, where its track wears", default=5.7e8)
+    roller_shear_limit: float = number(1.0, 1e13, "Pa", "of the roller", default=3.3e8)
     traction_x: float = number(-2.0, 2.0, "", "traction over pressure, along the shaft", default=0.0)
     traction_y: float = number(-2.0, 2.0, "", "along rolling", default=0.0)
     cells_x: int = number(2, 512, "", "of the box under the contact, along the shaft", default=32)
@@ -142,12 +149,26 @@ class Subsurface(Section):
     )
 
 
+def _hardness(of: str) -> list[float]:
+    found: list[float] = numbers(
+        "", f"limits of {of} over those of subsurface, at places evenly round its track, straight between; none: 1",
+        "0 to 4096 numbers, each 0.1 to 10", default=[], shortest=0, longest=4096,
+    )  # fmt: skip
+    return found
+
+
 class Damage(Section):
     """The track wears where its dangerous volume is large; waves may grow."""
 
     gain: float = number(0.0, 1000.0, "", "gamma", default=0.05)
     table_rows: int = number(2, 1000, "", "loads at which the dangerous volume is measured before the run", default=16)
     largest_load: float = number(1.0, 100.0, "", "of them, over F_N; straight on beyond", default=3.0)
+    hardness: list[Hardness] = _hardness("the shaft")
+    roller_hardness: list[Hardness] = _hardness("the roller")
+    checks: int = number(
+        0, 1000, "",
+        "stretches of the run that are also ridden turn by turn, where the time acceleration is above 1: its error", default=10,
+    )  # fmt: skip
 
 
 class RollerEffects(Section):

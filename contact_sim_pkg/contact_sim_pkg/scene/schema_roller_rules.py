@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from fractions import Fraction
 from itertools import pairwise
 
 from contact_sim_pkg.scene.errors import Breach
@@ -28,6 +27,9 @@ def roller_breaches(scene: Scene) -> Iterator[Breach]:
         yield from _programme(roller.programme)
     if effects.track_waves is not None:
         yield from _track(scene, roller)
+    elif scene.road is not None:
+        sentence = "the roller rides no heights; add the effect track_waves, or leave the road out"
+        yield Breach("road", sentence, ("effects.roller",))
     if effects.subsurface is not None:
         for index, instant in enumerate(effects.subsurface.instants):
             if instant >= scene.duration:
@@ -59,17 +61,35 @@ def _track(scene: Scene, roller: RollerRig) -> Iterator[Breach]:
     if law and law.split == "parallel":
         sentence = "parallel is for a contact at rest; over the heights of the track the load goes in series"
         yield Breach("effects.roller.normal_elastic.split", sentence, ("effects.roller.track_waves",))
-    turns = exact(roller.speed) * exact(roller.radius) / exact(roller.shaft_radius) * exact(scene.block_length)
-    if turns.denominator != 1:
-        whole = max(1, round(turns))
-        speed = Fraction(whole) * exact(roller.shaft_radius) / (exact(roller.radius) * exact(scene.block_length))
-        sentence = (
-            f"{show(roller.speed)} 1/s turns the shaft {float(turns):.6g} times in a block of {show(scene.block_length)} s; with "
-            f"track_waves it must be a whole number: take {float(speed):.10g} 1/s"
-        )
-        yield Breach("roller.speed", sentence, ("block_length", "roller.radius", "roller.shaft_radius"))
+    track = scene.effects.roller.track_waves.track if scene.effects.roller and scene.effects.roller.track_waves else ""
+    yield from _whole_turns(scene, roller, track)
     programme = roller.programme
     for name in COLUMNS[1:]:
         if programme is not None and getattr(programme, name) is not None:
             sentence = "changes the radii while the roller rides over heights; leave it out, or the effect track_waves"
             yield Breach(f"roller.programme.{name}", sentence, ("effects.roller.track_waves",))
+
+
+def _whole_turns(scene: Scene, roller: RollerRig, track: str) -> Iterator[Breach]:
+    """Of the track, or of the larger body where both have one; that one is then a whole multiple of the other."""
+    radii = {"shaft": exact(roller.shaft_radius), "roller": exact(roller.radius)}
+    if track == "both":
+        ratio = max(radii.values()) / min(radii.values())
+        if ratio.denominator != 1:
+            sentence = (
+                f"the radii of roller and shaft are as {float(ratio):.6g} to 1; with a track on both it must be a whole number, "
+                f"take {show(float(round(ratio) * min(radii.values())))} m for the larger"
+            )
+            yield Breach("roller.radius", sentence, ("roller.shaft_radius", "effects.roller.track_waves.track"))
+            return
+    body = max(radii, key=lambda name: radii[name]) if track == "both" else track
+    rate = exact(roller.radius) / radii[body] * exact(scene.block_length)
+    turns = exact(roller.speed) * rate
+    if turns.denominator != 1:
+        speed = max(1, round(turns)) / rate
+        sentence = (
+            f"{show(roller.speed)} 1/s turns the {body} {float(turns):.6g} times in a block of {show(scene.block_length)} s; with "
+            f"track_waves it must be a whole number: take {float(speed):.10g} 1/s, or a block_length that is a multiple of "
+            f"{float(exact(scene.block_length) / turns.numerator * turns.denominator):.10g} s"
+        )
+        yield Breach("roller.speed", sentence, ("block_length", "roller.radius", "roller.shaft_radius"))

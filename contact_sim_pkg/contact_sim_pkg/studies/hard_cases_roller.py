@@ -9,7 +9,7 @@ import numpy
 from contact_sim_pkg.core.hertz_stress import EllipseLoad, ellipse_stress
 from contact_sim_pkg.core.roller.corrugation import make_track, run_intervals
 from contact_sim_pkg.core.roller.ellipse import contact_of_rollers
-from contact_sim_pkg.core.roller.heave import Heave, make_heave, natural_frequency, ride
+from contact_sim_pkg.core.roller.heave import Heave, closed_path, make_heave, natural_frequency, ride
 from contact_sim_pkg.core.roller.load_split import load_of_approach
 from contact_sim_pkg.core.roller.moments import moments
 from contact_sim_pkg.core.roller.motion import DIVERGED, LARGEST_TILT, energy, gauss_rule, march
@@ -54,7 +54,8 @@ def separation_is_told() -> Finding:
     """A wave of 1 mm throws the roller off: share of the time without contact, all values finite."""
     track = 1e-3 * numpy.cos(4.0 * math.pi * numpy.arange(CELLS) / CELLS)
     state, loads = numpy.zeros(2), numpy.zeros(CELLS)
-    free = ride(_heave(), track, 1.0 / 200.0 / CELLS, 5, state, loads, numpy.zeros((CELLS, 2)))
+    heave = _heave()
+    free = ride(heave, closed_path(heave, track), 1.0 / 200.0 / CELLS, 5, state, loads, numpy.zeros((CELLS, 2)))
     finite = bool(numpy.isfinite(state).all() and numpy.isfinite(loads).all() and (loads >= 0.0).all())
     return close_to(free if finite else math.nan, 0.75, 0.25)
 
@@ -107,7 +108,7 @@ def resonance() -> Finding:
     turn = 2.0 * math.pi * waves / natural_frequency(heave)
     track = size * numpy.cos(2.0 * math.pi * waves * numpy.arange(CELLS) / CELLS)
     state, loads = numpy.zeros(2), numpy.zeros(CELLS)
-    ride(heave, track, turn / CELLS, turns, state, loads, numpy.zeros((CELLS, 2)))
+    ride(heave, closed_path(heave, track), turn / CELLS, turns, state, loads, numpy.zeros((CELLS, 2)))
     swing = math.hypot(float(state[0]), float(state[1]) / natural_frequency(heave))
     return close_to(swing / (0.5 * size * natural_frequency(heave) * turn * turns), 1.0, 5e-3)
 

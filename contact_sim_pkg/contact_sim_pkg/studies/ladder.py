@@ -27,6 +27,7 @@ from contact_sim_pkg.studies import (
     ladder_restitution,
     ladder_road,
     ladder_roller,
+    ladder_roller_interval,
     ladder_rough,
     ladder_shell,
     ladder_smooth,
@@ -83,6 +84,7 @@ RIGS: dict[str, tuple[Ladder, ...]] = {
         Ladder(ladder_roller.MOTION_PART, ladder_roller.motion_rows),
         Ladder(ladder_roller.SPLIT_PART, ladder_roller.split_rows),
         Ladder(ladder_roller.WAVE_PART, ladder_roller.wave_rows),
+        Ladder(ladder_roller_interval.PART, ladder_roller_interval.rows),
     ),
 }
 """Rig -> its ladders. A further rig is one more entry."""

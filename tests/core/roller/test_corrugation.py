@@ -6,7 +6,7 @@ import numpy
 import pytest
 from tests.core.roller.test_heave import CELLS, HEAVE, TURN
 
-from contact_sim_pkg.core.roller.corrugation import growth_of_wave, make_track, moving_mean, run_intervals
+from contact_sim_pkg.core.roller.corrugation import growth_of_wave, make_track, moving_mean, run_intervals, wear
 from contact_sim_pkg.core.roller.heave import natural_frequency
 
 APPROACH, WIDTH = 4.011056e-6, 2 * 1.168e-4
@@ -100,3 +100,28 @@ def test_a_table_that_does_not_rise_is_refused():
         make_track(0.005, TURN, CELLS, WIDTH, 0.1, APPROACH, (numpy.array([1.0, 2.0]), numpy.array([0.0, 1.0])))
     with pytest.raises(ValueError, match="at least 8"):
         make_track(0.005, TURN, 4, WIDTH, 0.1, APPROACH, (LOADS, LOADS))
+
+
+def test_a_harder_cell_wears_as_a_body_with_higher_limits():
+    """By dangerous volumes with all limits twice as high, under 100 N and 200 N."""
+    from tests.core.roller.bench import CURVATURES, MODULUS
+
+    from contact_sim_pkg.core.roller.ellipse import contact_of_rollers
+    from contact_sim_pkg.core.roller.volumes import dangerous_volumes
+
+    def volume(load, hardness):
+        contact = contact_of_rollers(CURVATURES, 0.0, MODULUS, load)
+        limits = (2.6e8 * hardness, 1.5e8 * hardness)
+        return dangerous_volumes(contact, 0.3, limits, (12, 12, 10)).any / 1e-12
+
+    loads = numpy.array([0.0, 12.5, 25.0, 100.0, 200.0])
+    shares = numpy.array([0.0, *(volume(load, 1.0) for load in loads[1:])])
+    hardness = numpy.where(numpy.arange(CELLS) < 128, 1.0, 2.0)
+    hard = make_track(0.005, TURN, CELLS, WIDTH, 1.0, 1.0, (loads, shares), hardness)
+    for load in (100.0, 200.0):
+        heights = numpy.zeros(CELLS)
+        lowered = wear(hard, 1.0, numpy.full(CELLS, load), heights).lowered
+        assert lowered - heights[0] == pytest.approx(volume(load, 1.0))
+        assert lowered - heights[-1] == pytest.approx(volume(load, 2.0))
+    with pytest.raises(ValueError, match="256 numbers above 0"):
+        make_track(0.005, TURN, CELLS, WIDTH, 1.0, 1.0, (loads, shares), numpy.ones(3))

@@ -7,7 +7,7 @@ import pytest
 from tests.core.roller.bench import CURVATURES, MODULUS
 
 from contact_sim_pkg.core.hertz import HertzError, hertz_contact
-from contact_sim_pkg.core.roller.ellipse import EXACT, POLYNOMIAL, contact_of_rollers
+from contact_sim_pkg.core.roller.ellipse import EXACT, POLYNOMIAL, contact_of_rollers, local_coefficients
 from contact_sim_pkg.core.roller.parameters import Curvatures
 
 
@@ -102,3 +102,15 @@ def test_bodies_without_an_elliptic_contact_are_refused():
 
 def test_no_load_is_no_contact():
     assert contact_of_rollers(CURVATURES, 0.1, MODULUS, 0.0) == (0.0,) * 6
+
+
+def test_a_place_that_curves_otherwise_has_its_own_softness():
+    """k_c where the shaft curves by k21 - W'': the contact of that shaft; too hollow is told."""
+    bends, out = numpy.array([-30.0, 0.0, 60.0]), numpy.empty(3)
+    assert local_coefficients(CURVATURES, 0.2, MODULUS, EXACT, bends, out)
+    for bend, value in zip(bends, out, strict=True):
+        here = CURVATURES._replace(shaft_rolling=200.0 - bend)
+        assert value == pytest.approx(
+            contact_of_rollers(here, 0.2, MODULUS, 50.0).approach / 50.0 ** (2.0 / 3.0), rel=1e-12
+        )
+    assert not local_coefficients(CURVATURES, 0.0, MODULUS, EXACT, numpy.array([250.0]), out)

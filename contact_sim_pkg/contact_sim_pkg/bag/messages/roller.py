@@ -28,9 +28,10 @@ class RollerContact(NamedTuple):
 
 
 class RollerTrack(NamedTuple):
-    """The track behind a block."""
+    """The track of a body behind a block."""
 
     block: int
+    body: str  # "shaft" or "roller"
     turns: float  # ridden
     cycles: float  # turns of the rig that they stand for
     turn_time: float  # [s]
@@ -40,6 +41,8 @@ class RollerTrack(NamedTuple):
     lowered: float  # [m]
     range: float  # [m]
     free: float  # share of time without contact
+    checked: float  # turns that the time acceleration was held against; 0: not here
+    check_error: float  # of the change of heights over them; NaN: none
 
 
 class RollerVolumes(NamedTuple):

@@ -6,6 +6,8 @@ dangerous volume `omega(F)` of each cell, and the track is lowered where it is a
     w_j <- w_j - gamma delta(F_N) turns (omega_j - mean omega)
 
 The mean lowers the whole track and is told apart. W, which the roller rides, is the mean of w over the length of the contact.
+Where the hardness c of a cell raises the limits, `omega_c(F) = c^3 omega(F / c^3)`: stress goes with F^(1/3), the volume that bears
+it with F.
 Small waves of n_w round the track, Omega_w = 2 pi n_w turns/s, grow by `growth_of_wave` a turn.
 """
 
@@ -18,9 +20,9 @@ import numpy
 from numpy.typing import NDArray
 
 from contact_sim_pkg.core.jit import entry, kernel
-from contact_sim_pkg.core.roller.heave import Heave, linear_stiffness, natural_frequency, ride
+from contact_sim_pkg.core.roller.heave import Heave, Path, linear_stiffness, natural_frequency, ride
 
-__all__ = ["Interval", "Track", "growth_of_wave", "make_track", "moving_mean", "run_intervals"]
+__all__ = ["Interval", "Track", "Wear", "growth_of_wave", "make_track", "moving_mean", "run_intervals", "wear"]
 
 Values = NDArray[numpy.float64]
 
@@ -37,7 +39,15 @@ class Track(NamedTuple):
     approach: float  # delta(F_N) [m]
     table_loads: Values  # [n] [N], rising from 0
     table_shares: Values  # [n] omega of these, [-]
+    hardness: Values  # [cells] c: limits over those of the table
     largest_range: float  # [m]: a range above it ends the run
+
+
+class Wear(NamedTuple):
+    """What an interval took off."""
+
+    lowered: float  # [m] by the mean
+    range: float  # [m] max w - min w behind it
 
 
 class Interval(NamedTuple):
@@ -53,19 +63,22 @@ class Interval(NamedTuple):
 
 def make_track(
     radius: float, turn_time: float, cells: int, contact_length: float, gain: float, approach: float,
-    table: tuple[Values, Values],
+    table: tuple[Values, Values], hardness: Values | None = None,
 ) -> Track:  # fmt: skip
     """Track of `radius` [m] cut into `cells`; `table`: loads [N], rising from 0, and the shares omega of these.
 
-    Raises `ValueError` for a table that does not rise from 0 N and values out of range.
+    hardness: of each cell, 1 where None. Raises `ValueError` for a table that does not rise from 0 N and values out of range.
     """
     loads, shares = (numpy.ascontiguousarray(part, dtype=float) for part in table)
     if loads.shape != shares.shape or len(loads) < 2 or loads[0] != 0.0 or (numpy.diff(loads) <= 0.0).any():
         raise ValueError("track: the table needs loads that rise from 0 N, and a share for each")
     if turn_time <= 0.0 or cells < 8 or gain < 0.0:
         raise ValueError(f"track: turn time {turn_time} s, {cells} cells, gain {gain}: above 0, at least 8, at least 0")
+    hard = numpy.ones(cells) if hardness is None else numpy.ascontiguousarray(hardness, dtype=float)
+    if hard.shape != (cells,) or not (hard > 0.0).all():
+        raise ValueError(f"track: the hardness needs {cells} numbers above 0, one for each cell")
     within = int(contact_length / (2.0 * math.pi * radius / cells))
-    return Track(turn_time, 2 * (within // 2) + 1, gain, approach, loads, shares, STRAIN * radius)
+    return Track(turn_time, 2 * (within // 2) + 1, gain, approach, loads, shares, hard, STRAIN * radius)
 
 
 @entry
@@ -77,38 +90,54 @@ def run_intervals(
     `motion` [cells, 2] are the last ones.
     """
     cells = heights.shape[0]
-    ridden, shares = numpy.zeros(cells), numpy.zeros(cells)
+    path = Path(numpy.zeros(cells + 1), numpy.full(cells + 1, heave.contact_coefficient))
     lowered, free = 0.0, 0.0
     lowest, highest, width = numpy.inf, 0.0, 0.0
     for n in range(intervals):
-        moving_mean(heights, track.contact_cells, ridden)
-        free += ride(heave, ridden, track.turn_time / cells, turns, state, loads, motion)
-        mean = 0.0
+        moving_mean(heights, track.contact_cells, path.height)
+        free += ride(heave, path, track.turn_time / cells, turns, state, loads, motion)
         for j in range(cells):
-            shares[j] = _read(track.table_loads, track.table_shares, loads[j])
-            mean += shares[j] / cells
             lowest, highest = min(lowest, loads[j]), max(highest, loads[j])
-        step = track.gain * track.approach * turns
-        top, bottom = -numpy.inf, numpy.inf
-        for j in range(cells):
-            heights[j] -= step * (shares[j] - mean)
-            top, bottom = max(top, heights[j]), min(bottom, heights[j])
-        lowered += step * mean
-        width = top - bottom
+        worn = wear(track, turns, loads, heights)
+        lowered += worn.lowered
+        width = worn.range
         if not width <= track.largest_range:
             return Interval(lowest, highest, width, lowered, free / (n + 1), True)
     return Interval(lowest, highest, width, lowered, free / max(1, intervals), False)
 
 
 @entry
+def wear(track: Track, turns: float, loads: Values, heights: Values) -> Wear:
+    """Take off what `turns` turns under `loads` [cells] [N] cost; `heights` [cells] [m] change in place."""
+    cells, mean = heights.shape[0], 0.0
+    step = track.gain * track.approach * turns
+    for j in range(cells):
+        mean += _share(track, j, loads[j]) / cells
+    top, bottom = -numpy.inf, numpy.inf
+    for j in range(cells):
+        heights[j] -= step * (_share(track, j, loads[j]) - mean)
+        top, bottom = max(top, heights[j]), min(bottom, heights[j])
+    return Wear(step * mean, top - bottom)
+
+
+@kernel
+def _share(track: Track, cell: int, load: float) -> float:
+    """omega of a cell under a load [N]."""
+    harder = track.hardness[cell] ** 3
+    return float(harder * _read(track.table_loads, track.table_shares, load / harder))
+
+
+@entry
 def moving_mean(heights: Values, width: int, out: Values) -> None:
-    """Mean of `heights` [cells] over `width` (odd) cells around each, round the track."""
+    """Mean of `heights` [cells] over `width` (odd) cells around each, round the track; an `out` of one cell more is closed."""
     cells, half = heights.shape[0], width // 2
     for j in range(cells):
         total = 0.0
         for k in range(-half, half + 1):
             total += heights[(j + k) % cells]
         out[j] = total / width
+    if out.shape[0] > cells:
+        out[cells] = out[0]
 
 
 @kernel

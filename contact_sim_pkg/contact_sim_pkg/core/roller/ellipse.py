@@ -14,14 +14,30 @@ from __future__ import annotations
 import math
 from typing import NamedTuple
 
+import numpy
+from numpy.typing import NDArray
+
 from contact_sim_pkg.core.hertz import HertzError, contact_of_shape, ellipse_shape
 from contact_sim_pkg.core.hertz_fits import shape_of_polynomial
-from contact_sim_pkg.core.jit import entry, kernel
+from contact_sim_pkg.core.jit import entry
 from contact_sim_pkg.core.roller.parameters import Curvatures
 
-__all__ = ["EXACT", "POLYNOMIAL", "RollingContact", "contact_of_rollers", "principal_curvatures", "rolling_contact"]
+__all__ = [
+    "EXACT",
+    "POLYNOMIAL",
+    "RollingContact",
+    "contact_of_rollers",
+    "local_coefficients",
+    "principal_curvatures",
+    "rolling_contact",
+]
 
 EXACT, POLYNOMIAL = 0, 1
+
+Values = NDArray[numpy.float64]
+
+FLATTEST = 5e-13
+"""Of the larger curvature of the gap: a smaller one below it is a line."""
 
 
 class RollingContact(NamedTuple):
@@ -59,7 +75,7 @@ def contact_of_rollers(
         raise HertzError("roller contact: curvatures, yaw and load must be finite, E* above 0")
     principal = principal_curvatures(curvatures, yaw)
     smaller, larger = sorted(principal[:2])
-    if smaller <= 0.0 or smaller < 5e-13 * larger:
+    if smaller <= 0.0 or smaller < FLATTEST * larger:
         raise HertzError(
             f"roller contact: the curvatures of the gap are {smaller:.6g} and {larger:.6g} 1/m at a yaw of {yaw:.6g} rad; both "
             "must be above 0: bodies that conform, a saddle or a line are no elliptic contact"
@@ -96,7 +112,23 @@ def rolling_contact(curvatures: Curvatures, yaw: float, modulus: float, load: fl
     return RollingContact(contact.b, contact.a, principal.angle, contact.peak_pressure, contact.approach, load)
 
 
-@kernel
-def approach_coefficient(curvatures: Curvatures, yaw: float, modulus: float) -> float:
-    """k_c of `approach = k_c F^(2/3)` [m/N^(2/3)]."""
-    return rolling_contact(curvatures, yaw, modulus, 1.0, EXACT).approach
+@entry
+def local_coefficients(
+    curvatures: Curvatures, yaw: float, modulus: float, kind: int, bends: Values, out: Values
+) -> bool:
+    """k_c [n] where the shaft curves by `k21 - bend` along rolling, bends [n] [1/m]; False where a place is too hollow to touch in
+    an ellipse.
+    """
+    for i in range(bends.shape[0]):
+        here = Curvatures(
+            curvatures.roller_axial,
+            curvatures.roller_rolling,
+            curvatures.shaft_rolling - bends[i],
+            curvatures.shaft_axial,
+        )
+        principal = principal_curvatures(here, yaw)
+        smaller, larger = min(principal.near_x, principal.near_y), max(principal.near_x, principal.near_y)
+        if not (smaller > 0.0 and smaller >= FLATTEST * larger):
+            return False
+        out[i] = rolling_contact(here, yaw, modulus, 1.0, kind).approach
+    return True

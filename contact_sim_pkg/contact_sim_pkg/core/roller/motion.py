@@ -4,13 +4,18 @@
     I_yz psi'' + I_z theta'' - G psi' + c_theta theta' + k_theta theta = M_theta
 
 One stage is the implicit midpoint rule (order 2), two have order 4, three order 6. All are symplectic: without friction and damping
-the energy errs within a bound that does not grow. The load goes straight over a step. Sources: eqs 8 and 18 of the paper on rolling
-vibro-impact; Hairer, Lubich, Wanner (2006), Geometric Numerical Integration, II.1.3.
+the energy errs within a bound that does not grow. The load goes straight over a step.
+
+Energy: kinetic and stored in the suspension, of the pressure `-F R (1 - cos psi)`, conserved where f_r = 0, nothing is bent or
+damped and F rests. Rolling, bending and a changing load supply, damping takes; both are summed by the same rule.
+
+Sources: eqs 8 and 18 of the paper on rolling vibro-impact; Hairer, Lubich, Wanner (2006), Geometric Numerical Integration, II.1.3.
 """
 
 from __future__ import annotations
 
 import math
+from typing import NamedTuple
 
 import numpy
 from numpy.typing import NDArray
@@ -19,7 +24,7 @@ from contact_sim_pkg.core.jit import entry, kernel
 from contact_sim_pkg.core.roller.moments import moments
 from contact_sim_pkg.core.roller.parameters import Bending, Curvatures, Roller
 
-__all__ = ["DIVERGED", "DONE", "LARGEST_TILT", "energy", "gauss_rule", "march"]
+__all__ = ["DIVERGED", "DONE", "LARGEST_TILT", "Energies", "energies", "energy", "gauss_rule", "march"]
 
 Values = NDArray[numpy.float64]
 
@@ -52,7 +57,8 @@ def march(
     roller: Roller, curvatures: Curvatures, bending: Bending | None, modulus: float, loads: Values, step: float,
     table: Values, state: Values, record: Values,
 ) -> int:  # fmt: skip
-    """Steps of `step` [s] over `loads` [steps + 1] [N]; `state` (psi, theta, psi', theta') changes in place.
+    """Steps of `step` [s] over `loads` [steps + 1] [N]; `state` (psi, theta, psi', theta') changes in place; with two values more,
+    the energies [J] that were supplied and dissipated.
 
     `record` [rows, 4] takes the state at the start and after every `steps / (rows - 1)` steps. Returns DONE, DIVERGED where the
     tilt passes `LARGEST_TILT`, NO_CONVERGENCE where the step is too long for its iteration; what is not reached is NaN.
@@ -68,6 +74,8 @@ def march(
     for n in range(steps):
         if not _solve(roller, curvatures, bending, modulus, loads[n], loads[n + 1], step, table, state, slopes, trial):
             return NO_CONVERGENCE
+        if state.shape[0] > 4:
+            _sum_powers(roller, curvatures, bending, modulus, loads[n], loads[n + 1], step, table, state, slopes, trial)
         for j in range(4):
             for i in range(stages):
                 state[j] += step * table[stages, i] * slopes[i, j]
@@ -123,15 +131,55 @@ def _fill(
 
 
 @kernel
+def _sum_powers(
+    roller: Roller, curvatures: Curvatures, bending: Bending | None, modulus: float, load: float, load_end: float,
+    step: float, table: Values, state: Values, slopes: Values, trial: Values,
+) -> None:  # fmt: skip
+    """Add what a step supplies and dissipates, from its stages."""
+    stages, rise = table.shape[0] - 1, (load_end - load) / step
+    for i in range(stages):
+        for j in range(4):
+            trial[j] = state[j]
+            for k in range(stages):
+                trial[j] += step * table[i, k] * slopes[k, j]
+        here = load + table[i, stages] * (load_end - load)
+        moment = moments(roller, curvatures, bending, modulus, here, trial[0], trial[1])
+        about_y = moment.tilt - here * roller.radius * math.sin(trial[0])
+        supplied = about_y * trial[2] + moment.yaw * trial[3] - rise * _lowered(roller, trial[0])
+        dissipated = roller.damping_tilt * trial[2] ** 2 + roller.damping_yaw * trial[3] ** 2
+        state[4] += step * table[stages, i] * supplied
+        state[5] += step * table[stages, i] * dissipated
+
+
+@kernel
+def _lowered(roller: Roller, tilt: float) -> float:
+    """R (1 - cos psi) [m], by which a tilted roller gives way to the load."""
+    return roller.radius * 2.0 * math.sin(0.5 * tilt) ** 2
+
+
+@kernel
 def _copy(values: Values, out: Values) -> None:
     for j in range(4):
         out[j] = values[j]
 
 
+class Energies(NamedTuple):
+    """Of tilt and yaw [J]."""
+
+    kinetic: float
+    stored: float  # in the suspension
+    potential: float  # -F R (1 - cos psi)
+
+
 @entry
-def energy(roller: Roller, load: float, state: Values) -> float:
-    """Kinetic and stored energy [J] of tilt and yaw under a constant `load` [N], without bending; conserved where f_r = 0."""
+def energies(roller: Roller, load: float, state: Values) -> Energies:
+    """Under a load [N]; their sum is conserved where f_r = 0, nothing is bent, nothing damps and the load rests."""
     kinetic = 0.5 * (roller.inertia_tilt * state[2] ** 2 + roller.inertia_yaw * state[3] ** 2)
     kinetic += roller.inertia_product * state[2] * state[3]
     stored = 0.5 * (roller.stiffness_tilt * state[0] ** 2 + roller.stiffness_yaw * state[1] ** 2)
-    return float(kinetic + stored) - load * roller.radius * 2.0 * math.sin(0.5 * state[0]) ** 2
+    return Energies(kinetic, stored, -load * _lowered(roller, state[0]))
+
+
+def energy(roller: Roller, load: float, state: Values) -> float:
+    """Sum of `energies` [J]."""
+    return float(sum(energies(roller, load, state)))
