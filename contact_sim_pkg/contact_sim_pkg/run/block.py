@@ -41,7 +41,7 @@ class BlockBodySimulation:
         self._reset()
 
     def _reset(self) -> None:
-        self.body = _body_of(self.model, _copy(self.model.start))
+        self.body = body_of(self.model, _copy(self.model.start))
         self._next_block = 0
         self._start = self._kinetic_potential()
         self._supplied = 0.0
@@ -51,11 +51,11 @@ class BlockBodySimulation:
         model = self.model
         start = _copy(model.start)
         for state in (_above(model, start, WARM_UP_IMPACT), _above(model, start, 0.0)):
-            body = _body_of(model, state)
+            body = body_of(model, state)
             state.velocity[:] = 0.0
             state.velocity[model.body.width - 1] = -0.1
             for _ in range(3):
-                _advance(body, model, 1e-3)
+                move(body, model, 1e-3)
         if model.contact is None:
             _warm_up_solvers(model)
         freeze()
@@ -72,11 +72,8 @@ class BlockBodySimulation:
         for sample in range(timing.samples):
             self._sample(record, sample)
             before = self.body.motion.position.copy(), self._angles()
-            status = _advance(self.body, self.model, interval)
-            if status != SOLVED:
-                at = block * timing.block_length + sample * interval
-                why = sentence_of(status) if isinstance(self.body, MovedBody) else SENTENCES[status]
-                raise RunError(f"block {block}, {at:.6g} s: {why}")
+            at = block * timing.block_length + sample * interval
+            move(self.body, self.model, interval, f"block {block}, {at:.6g} s")
             record.take_impulse(self.model, sample, self.body.impulse / interval, self._states())
             record.residual = max(record.residual, getattr(self.body, "residual", 0.0))
             self._supplied += self._known_work(*before, interval)
@@ -139,13 +136,19 @@ class BlockBodySimulation:
         record.energy[:] = (*changes, getattr(self.body, "stored", 0.0), self.body.dissipated, self._supplied)
 
 
-def _advance(body: Body, model: BlockModel, interval: float) -> int:
-    if not isinstance(body, SteppedBody):
-        return body.advance(interval)
-    return body.advance(max(1, round(interval / model.step)))
+def move(body: Body, model: BlockModel, interval: float, where: str = "block") -> None:
+    """Move ``body`` by ``interval`` [s]. Raises RunError, which begins with ``where``, if it cannot be done."""
+    if isinstance(body, SteppedBody):
+        status = body.advance(max(1, round(interval / model.step)))
+    else:
+        status = body.advance(interval)
+    if status != SOLVED:
+        why = sentence_of(status) if isinstance(body, MovedBody) else SENTENCES[status]
+        raise RunError(f"{where}: {why}")
 
 
-def _body_of(model: BlockModel, motion: Motion) -> Body:
+def body_of(model: BlockModel, motion: Motion) -> Body:
+    """The body of a scene at ``motion``, which changes in place, under the scheme and contact of ``model``."""
     if model.contact is not None:
         return MovedBody(model.body, model.ground, motion, model.contact, model.tolerance)
     if model.scheme == "located":

@@ -1,6 +1,7 @@
 """`bench accuracy SCENE`: what accuracy costs in time, for each tolerance, grid and rung that the scene can be run with.
 
-Columns of a row: `quantity`, `part` (integrator, coupling, field solver, field grid, modes), `rung`, `grid`, `tolerance`,
+Columns of a row: `quantity`, `part` (integrator, coupling, field solver, field grid, modes,
+scheme in time, friction cone, contact model), `rung`, `grid`, `tolerance`,
 `error` (relative), `reference` (what the error is against, and whether it is own code),
 `ms_per_simulated_s`, and in a new process the time to the first answer: `first_call_s`, with nothing compiled, and
 `next_start_s`, with the kernels on disk. How to read it: `docs/accuracy.md`.
@@ -21,6 +22,7 @@ from contact_sim_pkg.scene.resolved_scene import ResolvedScene
 from contact_sim_pkg.scene.rigs import RigName
 from contact_sim_pkg.studies import accuracy_cost_backrest as backrest
 from contact_sim_pkg.studies import (
+    accuracy_cost_block,
     accuracy_cost_coupling,
     accuracy_cost_field,
     accuracy_cost_impact,
@@ -60,6 +62,7 @@ PARTS: dict[RigName, tuple[Part, ...]] = {
         *(_named("backrest", part) for part in _BACKREST),
     ),
     "impact": (accuracy_cost_impact.way_rows,),
+    "block": (accuracy_cost_block.scheme_rows, accuracy_cost_block.facet_rows, accuracy_cost_block.contact_rows),
 }
 """Rig -> what is measured of it; each part gives its rows. A further rig is one more entry."""
 COLUMNS = (

@@ -18,6 +18,9 @@ PANELS = (  # part and contact -> title
     ("coupling", "", "coupling of bodies and fields, whole scene"),
     ("modes", "", "modes of the shell, tolerance of the scene"),
     ("first impact", "", "first impact of the scene"),
+    ("scheme in time", "", "rigid contact, scheme in time"),
+    ("friction cone", "", "rigid contact, friction cone"),
+    ("contact model", "", "compliant against rigid contact"),
     ("field", "tire", "tire field"),
     ("field", "seat", "seat field"),
 )

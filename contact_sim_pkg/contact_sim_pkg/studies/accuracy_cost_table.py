@@ -13,8 +13,8 @@ COST = "ms per simulated s"
 
 
 def sections(rows: list[Row]) -> list[Section]:
-    """Parts of the table, in the order of the study: integrator, coupling, modes, ways to an impact, then each contact's field."""
-    found = [_integrator(rows), _coupling(rows), _modes(rows), _ways(rows)]
+    """Parts of the table, in the order of the study: integrator, coupling, modes, ways to an impact, those of a rigid body, then each contact's field."""
+    found = [_integrator(rows), _coupling(rows), _modes(rows), _ways(rows), *_of_block(rows)]
     for contact in ("tire", "seat"):
         of_contact = [row for row in rows if row["part"].startswith("field") and row["quantity"].startswith(contact)]
         on_rungs = [row for row in of_contact if row["rung"] != "check"]
@@ -41,6 +41,14 @@ def _modes(rows: list[Row]) -> Section:
 
 def _ways(rows: list[Row]) -> Section:
     return _by_rung("first impact of the scene: error", "first impact", "way", rows)
+
+
+def _of_block(rows: list[Row]) -> list[Section]:
+    return [
+        _by_rung("scheme in time: distance over the body's size, turn in rad", "scheme in time", "scheme", rows),
+        _by_rung("friction cone: the same", "friction cone", "cone", rows),
+        _by_rung("contact model: difference of the two, the same", "contact model", "contact", rows),
+    ]
 
 
 def _by_rung(title: str, part: str, name: str, rows: list[Row]) -> Section:
