@@ -207,7 +207,14 @@ def _states(time: list[int], poses: list[Any], twists: list[Any], turning: bool,
     if turning:
         velocity, spin = (numpy.einsum("nij,nj->ni", rotation, vectors) for vectors in (velocity, spin))
     position = _vectors([pose.position for pose in poses])[order]
-    return RecordedStates(BodyStates(seconds, position, rotation, velocity, spin), min(time))
+    return RecordedStates(_without_copies(BodyStates(seconds, position, rotation, velocity, spin)), min(time))
+
+
+def _without_copies(states: BodyStates) -> BodyStates:
+    """States without those that repeat the one before, stamp and all: a message that was recorded twice."""
+    rows = numpy.column_stack([field.reshape(len(states.time), -1) for field in states])
+    kept = numpy.concatenate([[True], (numpy.diff(rows, axis=0) != 0.0).any(axis=1)])
+    return BodyStates(*(field[kept] for field in states))
 
 
 def _paired(first: list[int], second: list[int], topic: str) -> list[tuple[int, int]]:

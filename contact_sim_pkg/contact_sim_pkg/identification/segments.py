@@ -35,11 +35,17 @@ class Segments(NamedTuple):
 
 
 def velocity_noise(states: BodyStates) -> float:
-    """Standard deviation of a velocity component in [m/s] from the median of second differences, which impacts do not move."""
-    if len(states.time) < 5 or numpy.ptp(numpy.diff(states.time)) > 1e-6 * float(numpy.diff(states.time).mean()):
+    """Standard deviation of a velocity component in [m/s], from the median change of the acceleration from one interval to the next.
+
+    Impacts do not move the median. Intervals may differ; stamps that are off count as noise of the velocity.
+    """
+    if len(states.time) < 5:
         return 0.0
-    second = numpy.diff(states.velocity, n=2, axis=0)
-    return float(numpy.median(abs(second), axis=0).max() / MEDIAN_OF_GAUSS / numpy.sqrt(6.0))
+    steps = numpy.diff(states.time)[:, None]
+    change = numpy.diff(numpy.diff(states.velocity, axis=0) / steps, axis=0)
+    share = 1.0 / steps[:-1] + 1.0 / steps[1:]
+    spread = numpy.sqrt(share**2 + 1.0 / steps[:-1] ** 2 + 1.0 / steps[1:] ** 2)
+    return float(numpy.median(abs(change) / spread, axis=0).max() / MEDIAN_OF_GAUSS)
 
 
 def inverse_mass_guess(states: BodyStates, lifts: Array, wrench: ExternalWrench, gravity: float) -> float:

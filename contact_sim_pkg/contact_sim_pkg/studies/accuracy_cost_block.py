@@ -98,13 +98,14 @@ def _rigid(scene: ResolvedScene) -> BlockModel:
 def _path(model: BlockModel, scene: ResolvedScene) -> tuple[tuple[Vector, Vector], float]:
     """Positions [ticks, width] with the orientation at the end, and the least time [ms] per simulated second."""
     duration = min(LONGEST, float(scene.data["duration"]))
-    costs, found = [], (numpy.zeros((0, 0)), numpy.zeros((0, 0)))
+    costs: list[float] = []
+    found: tuple[Vector, Vector] = (numpy.zeros((0, 0)), numpy.zeros((0, 0)))
     for _ in range(REPEATS + 1):  # the first compiles
         motion = Motion(*(numpy.array(part) for part in model.start))
         began = time.process_time()
         positions = numpy.array(list(_positions(model, motion, round(duration / TICK))))
         costs.append(time.process_time() - began)
-        found = positions, motion.rotation
+        found = (positions, numpy.asarray(motion.rotation))
         if sum(costs[1:]) > duration:
             break
     return found, 1e3 * min(costs[1:]) / duration

@@ -10,7 +10,13 @@ import os
 from collections.abc import Callable
 from typing import Any
 
-from contact_sim_pkg.studies import benchmark_core, benchmark_rigid, benchmark_roller, benchmark_runs
+from contact_sim_pkg.studies import (
+    benchmark_core,
+    benchmark_identification,
+    benchmark_rigid,
+    benchmark_roller,
+    benchmark_runs,
+)
 from contact_sim_pkg.studies.benchmark_goal import Measured
 from contact_sim_pkg.studies.section import Section
 
@@ -33,6 +39,7 @@ PARTS: tuple[tuple[str, Callable[[], list[Measured]]], ...] = (
     ("stick-slip", benchmark_core.stick_slip),
     ("absent effect", benchmark_core.absent_effect),
     ("rigid contact", benchmark_rigid.goals),
+    ("identification", benchmark_identification.goals),
     ("roller", benchmark_roller.goals),
     ("rigs with point contacts", benchmark_runs.rigs),
     ("tire field", benchmark_runs.fields),
