@@ -18,8 +18,8 @@ Matrix = NDArray[numpy.float64]
 
 LARGEST_PHASE = 0.15
 """[rad] of the fastest motion of tilt and yaw in a step of order 6."""
-SMALL_PHASE = 0.05
-"""[rad] up to which order 4 does."""
+SMALL_PHASE = 0.02
+"""[rad] up to which order 4 errs no more."""
 
 
 class TiltYaw:

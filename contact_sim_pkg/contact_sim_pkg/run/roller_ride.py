@@ -173,6 +173,13 @@ class TrackRide:
         )
         return now.less(self._start)
 
+    def accelerate(self, acceleration: float) -> None:
+        """Let each turn that is ridden stand for another number."""
+        self.acceleration = acceleration
+        pressed, self._pressed = self._pressed, None
+        if pressed is not None:
+            self.press(*pressed)
+
     def check(self) -> Checked | None:
         """A stretch from here by the time acceleration and one by one; None where none acts, or it is too long to ride."""
         jumps = min(JUMPS, int(MOST_CHECKED / self.acceleration))
@@ -180,10 +187,7 @@ class TrackRide:
             return None
         fast, slow = self.copy(), self.copy()
         count = round(jumps * self.acceleration)
-        slow.acceleration = jumps * self.acceleration / count
-        slow._pressed = None
-        assert self._pressed is not None
-        slow.press(*self._pressed)
+        slow.accelerate(jumps * self.acceleration / count)
         try:
             for _ in range(jumps):
                 fast.advance()

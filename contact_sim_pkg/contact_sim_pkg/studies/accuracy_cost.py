@@ -1,7 +1,7 @@
 """`bench accuracy SCENE`: what accuracy costs in time, for each tolerance, grid and rung that the scene can be run with.
 
 Columns of a row: `quantity`, `part` (integrator, coupling, field solver, field grid, modes,
-scheme in time, friction cone, contact model), `rung`, `grid`, `tolerance`,
+scheme in time, friction cone, contact model, those of the roller), `rung`, `grid`, `tolerance`,
 `error` (relative), `reference` (what the error is against, and whether it is own code),
 `ms_per_simulated_s`, and in a new process the time to the first answer: `first_call_s`, with nothing compiled, and
 `next_start_s`, with the kernels on disk. How to read it: `docs/accuracy.md`.
@@ -27,6 +27,7 @@ from contact_sim_pkg.studies import (
     accuracy_cost_field,
     accuracy_cost_impact,
     accuracy_cost_integrator,
+    accuracy_cost_roller,
 )
 from contact_sim_pkg.studies.accuracy_cost_plot import write_plot
 from contact_sim_pkg.studies.accuracy_cost_table import sections
@@ -63,6 +64,7 @@ PARTS: dict[RigName, tuple[Part, ...]] = {
     ),
     "impact": (accuracy_cost_impact.way_rows,),
     "block": (accuracy_cost_block.scheme_rows, accuracy_cost_block.facet_rows, accuracy_cost_block.contact_rows),
+    "roller": (accuracy_cost_roller.rows,),
 }
 """Rig -> what is measured of it; each part gives its rows. A further rig is one more entry."""
 COLUMNS = (

@@ -11,6 +11,8 @@ import matplotlib
 matplotlib.use("Agg")
 from matplotlib import pyplot, ticker
 
+from contact_sim_pkg.studies.accuracy_cost_roller import PARTS as ROLLER_PARTS
+
 __all__ = ["write_plot"]
 
 PANELS = (  # part and contact -> title
@@ -21,6 +23,7 @@ PANELS = (  # part and contact -> title
     ("scheme in time", "", "rigid contact, scheme in time"),
     ("friction cone", "", "rigid contact, friction cone"),
     ("contact model", "", "compliant against rigid contact"),
+    *((part, "", part) for part in ROLLER_PARTS),
     ("field", "tire", "tire field"),
     ("field", "seat", "seat field"),
 )

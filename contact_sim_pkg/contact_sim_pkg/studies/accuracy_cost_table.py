@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import Any
 
+from contact_sim_pkg.studies.accuracy_cost_roller import PARTS as ROLLER_PARTS
 from contact_sim_pkg.studies.section import Section
 
 __all__ = ["sections"]
@@ -13,8 +14,11 @@ COST = "ms per simulated s"
 
 
 def sections(rows: list[Row]) -> list[Section]:
-    """Parts of the table, in the order of the study: integrator, coupling, modes, ways to an impact, those of a rigid body, then each contact's field."""
+    """Parts of the table, in the order of the study: integrator, coupling, modes, ways to an impact, those of a rigid body and of the
+    roller, then each contact's field.
+    """
     found = [_integrator(rows), _coupling(rows), _modes(rows), _ways(rows), *_of_block(rows)]
+    found += [_by_rung(f"{part}: error", part, "way", rows) for part in ROLLER_PARTS]
     for contact in ("tire", "seat"):
         of_contact = [row for row in rows if row["part"].startswith("field") and row["quantity"].startswith(contact)]
         on_rungs = [row for row in of_contact if row["rung"] != "check"]

@@ -97,6 +97,17 @@ def test_the_other_spin_mirrors_the_yaw():
     assert other[-1] == pytest.approx(one[-1] * (1.0, -1.0, 1.0, -1.0), rel=1e-12)
 
 
+def test_a_bent_roller_comes_to_rest_at_its_static_angles():
+    """Where the moments cancel, the slopes are their rounding; the step goes on."""
+    from contact_sim_pkg.core.roller.stability import linearise
+
+    roller = ROLLER._replace(damping_tilt=1e-2, damping_yaw=1e-2)
+    rest = linearise(roller, CURVATURES, BENDING, MODULUS, 100.0)
+    status, record = run(roller, BENDING, numpy.full(20001, 100.0), 2e-5, start=(rest.tilt + 1e-4, rest.yaw, 0.0, 0.0))
+    assert status == DONE
+    assert record[-1, :2] == pytest.approx([rest.tilt, rest.yaw], abs=1e-13)
+
+
 def test_a_roller_that_tips_over_is_told():
     status, record = run(ROLLER, None, numpy.full(20001, 3500.0), 1e-5, rows=11)
     assert status == DIVERGED

@@ -91,11 +91,11 @@ def _solve(
     roller: Roller, curvatures: Curvatures, bending: Bending | None, modulus: float, load: float, load_end: float,
     step: float, table: Values, state: Values, slopes: Values, trial: Values,
 ) -> bool:  # fmt: skip
-    """Slopes of the stages by repeated substitution, from those of the step before."""
+    """Slopes of the stages by repeated substitution, from those of the step before; to rounding of the moments that make them."""
     stages = table.shape[0] - 1
-    before = numpy.inf
+    before, terms = numpy.inf, _largest_term(roller, load, state)
     for _ in range(ITERATIONS):
-        change = size = 0.0
+        change, size = 0.0, terms
         for i in range(stages):
             for j in range(4):
                 total = 0.0
@@ -111,6 +111,15 @@ def _solve(
             return True
         before = change
     return size == 0.0
+
+
+@kernel
+def _largest_term(roller: Roller, load: float, state: Values) -> float:
+    """[rad/s^2] of what cancels in a state near rest."""
+    about_y = max(roller.stiffness_tilt, load * roller.radius) * abs(state[0])
+    about_z = roller.stiffness_yaw * abs(state[1])
+    determinant = roller.inertia_tilt * roller.inertia_yaw - roller.inertia_product**2
+    return float(max(about_y * roller.inertia_yaw, about_z * roller.inertia_tilt) / determinant)
 
 
 @kernel
