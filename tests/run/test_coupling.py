@@ -56,6 +56,33 @@ def test_the_rate_of_publishing_does_not_set_the_force():
     assert (seldom - often).std() < 0.01 * STANDING
 
 
+SLOW_TREAD = (
+    "road={kind: step, position: 3.0, height: 0.04}",
+    "effects.tire.tread_viscoelasticity={retardation_time: 0.01, branches: []}",
+)
+
+
+@pytest.mark.parametrize(("force", "field"), [(1000, 100), (4000, 1000), (4000, 2000), (8000, 100)])
+def test_the_memory_of_the_tread_steps_as_its_stretches(force, field):
+    scene = resolved("tire_bump", *SLOW_TREAD, f"outputs.force_rate={force}", f"outputs.field_rate={field}")
+    model = Simulation(scene).model
+    assert model.tread.step == pytest.approx(model.coupling.segments * model.timing.segment_length, rel=1e-12)
+
+
+def test_a_tread_with_memory_meets_a_kerb_with_the_same_force_at_every_rate():
+    peaks = [run(*SLOW_TREAD, f"outputs.field_rate={rate}")[0].max() for rate in (100, 500, 1000)]
+    shorter = run(*SLOW_TREAD, "outputs.field_rate=4000", "outputs.force_rate=4000")[0].max()  # four times as short
+    assert peaks == pytest.approx([shorter] * 3, rel=0.06)
+
+
+def test_a_kerb_is_met_with_the_law_of_a_field_solved_tightly():
+    case = ("road={kind: step, position: 3.0, height: 0.08}", "travel={speed: 15}", "duration=0.4")
+    tight = ("effects.tire.contact_field.tolerance=1e-5", "integrator.coupling_tolerance=1e-3")
+    force, exact = run(*case)[0], run(*case, *tight)[0]
+    assert (force - exact).std() < 0.03 * STANDING
+    assert force.max() == pytest.approx(exact.max(), rel=0.03)
+
+
 def test_the_error_follows_the_tolerance():
     exactly = ("effects.tire.contact_field.corrector_passes=6", "effects.tire.contact_field.tolerance=1e-4")
     exact, _costs = run(ROADS["pothole"], "integrator.coupling_tolerance=1e-4", *exactly)

@@ -160,7 +160,8 @@ class Coupling:
             if passes_left < most:
                 self.bodies.restore(saved)
             self.bodies.move(stretch, self._offsets(), ends)
-            if passes_left or stretch.last or not most:  # between published fields the last offsets stand as they are
+            # between published fields the last offsets stand as they are, unless the field is remembered
+            if passes_left or stretch.last or not most or self.tire.remembers:
                 found = self._solve(stretch, solved, ends)
             if passes_left == most:
                 error = self._error(found, stretch)

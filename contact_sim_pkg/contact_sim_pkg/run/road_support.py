@@ -35,6 +35,7 @@ class RoadSupport(Support):
             wide = grids.wide.settings
             self._memory = TreadMemory(wide, tread.relaxed_modulus, tread.viscoelasticity, tread.step)
             self._pressed = numpy.zeros((wide.rows, wide.cols))
+            self.remembers = True
 
     def reset(self) -> None:
         """See Support."""

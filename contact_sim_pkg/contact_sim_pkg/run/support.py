@@ -25,6 +25,7 @@ class Support(ABC):
     """The support of one contact; ``offset`` [m] is what its field adds to the smooth height, 0 without a field."""
 
     still = False  # the support has always the same form
+    remembers = False  # the field of each stretch's end decides on those after it
 
     def __init__(self, grids: FieldGrids | None, contact: Contact | None) -> None:
         """Take the pressure field (None: the smooth height is all there is) and the contact whose law it serves."""

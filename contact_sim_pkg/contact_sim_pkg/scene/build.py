@@ -27,7 +27,6 @@ from contact_sim_pkg.scene.build_coupling import (
     coupled_timing,
     longest_travel,
     shortest_time,
-    uniform_segments,
 )
 from contact_sim_pkg.scene.build_mat import PanMat, build_pan_mat
 from contact_sim_pkg.scene.build_tire import Asperities, RollingFriction, TireGeometry, Tread, build_tire
@@ -99,15 +98,20 @@ def build(scene: dict[str, Any]) -> Model:
             (field.usual.settings.corrector_passes for field in (tire_field, seat_field) if field is not None),
             default=0,
         ),
-        coupling=_coupling(scene, rig, footprint, timing, (tire_field, seat_field)),
+        coupling=_coupling(
+            scene, rig, footprint, timing, (tire_field, seat_field), None if tire is None else tire.tread
+        ),
         shaken=bool(scene.get("vibration")),
     )
 
 
 def _coupling(
-    scene: dict[str, Any], rig: Vehicle, footprint: float | None, timing: Timing, fields: Fields
+    scene: dict[str, Any], rig: Vehicle, footprint: float | None, timing: Timing, fields: Fields, tread: Tread | None
 ) -> CouplingRule | None:
-    """Rule for the stretches between two solutions of the fields; ``footprint`` [m] is None without a field on a road."""
+    """Rule for the stretches between two solutions of the fields; ``footprint`` [m] is None without a field on a road.
+
+    The stretches of a ``tread`` with memory are its step.
+    """
     if fields == (None, None):
         return None
     tolerance = float(scene["integrator"]["coupling_tolerance"])
@@ -117,8 +121,7 @@ def _coupling(
         allowance_of(rig.tire_contact, fields[0], tire_load, tolerance),
         allowance_of(rig.seat_contact, fields[1], seat_load, tolerance),
     )
-    uniform = footprint is not None and effects_at(scene, "tire").get("tread_viscoelasticity") is not None
-    segments = uniform_segments(scene, footprint, timing) if footprint is not None and uniform else None
+    segments = None if tread is None else round(tread.step / timing.segment_length)
     shortest = max(1, round(max(map(shortest_time, allowances)) / timing.segment_length))
     return CouplingRule(tolerance, allowances, longest_travel(footprint, tolerance), shortest, segments)
 

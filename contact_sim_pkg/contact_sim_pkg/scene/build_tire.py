@@ -121,7 +121,8 @@ def _elastic(
 ) -> tuple[NormalElastic, float, FieldGrids | None]:
     """Normal law, length in [m] of the standing footprint, and the field.
 
-    Hertz's law of the point contact, or a field's tangent law; a tread with memory is stiffer at once than for long.
+    Hertz's law of the point contact, or a field's tangent law; a tread with memory is stiffer at once than for long, and its
+    footprint, which sets its step, is Hertz's for long.
     """
     modulus = contact_modulus(scene["tire"])
     raised = 1.0 if tread is None else stiffening(tread.viscoelasticity, tread.step)
@@ -131,7 +132,7 @@ def _elastic(
         return NormalElastic(float(power_law(*curvatures, modulus)), 1.5), geometry.footprint_length, None
     field = make_grids(settings, "tire")
     law, length = tangent_law(field, lambda grid: _crown(geometry, grid), standing_load(scene), "tire")
-    return law, length, field
+    return law, length if tread is None else geometry.footprint_length, field
 
 
 def _carcass(scene: dict[str, Any]) -> Carcass | None:

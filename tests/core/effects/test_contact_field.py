@@ -3,7 +3,7 @@
 import numpy
 import pytest
 
-from contact_sim_pkg.core.effects.contact_field import FieldEdgeError, PressureField
+from contact_sim_pkg.core.effects.contact_field import FieldEdgeError, PressureField, fit_tangent
 from contact_sim_pkg.core.field_solver import make_workspace, solve_at_approach
 from contact_sim_pkg.core.parameters import FieldSettings
 
@@ -66,3 +66,13 @@ def test_contact_at_the_edge_of_the_grid_is_an_error_and_the_field_is_usable_aft
         field.solve(gap_at(10), 1.0)
     field.forget()
     assert field.solve(gap_at(10), 1e-3) > 0.0
+
+
+@pytest.mark.parametrize("tolerance", [1e-1, 1e-2, 5e-3, 1e-6])
+@pytest.mark.parametrize("load", [300.0, 700.0])
+def test_the_tangent_of_a_sphere_is_hertz_law_whatever_the_field_is_solved_to(tolerance, load):
+    radius, modulus = 0.3, SETTINGS.modulus
+    law = fit_tangent(PressureField(SETTINGS._replace(tolerance=tolerance), "tire"), BOWL, load)
+    approach = (3.0 * load / (4.0 * modulus * radius**0.5)) ** (2.0 / 3.0)
+    assert law.exponent == pytest.approx(1.5, rel=0.01)
+    assert law.coefficient * approach**law.exponent == pytest.approx(load, rel=0.01)

@@ -23,6 +23,7 @@ from .envelopment import belt_influence
 
 Field = NDArray[numpy.float64]
 TANGENT_LOAD_STEP = 1.05  # ratio of the two loads through which the tangent law is laid
+TANGENT_TOLERANCE = 1e-7  # of these two solutions: their difference is a thirtieth of the approach
 
 
 class FieldError(RuntimeError):
@@ -79,10 +80,11 @@ class PressureField:
         self._accept(result, gap)
         return self.load
 
-    def solve_load(self, gap: Field, load: float) -> float:
-        """Solve for ``load`` [N]; returns the approach in [m]. Errors as in ``solve``."""
+    def solve_load(self, gap: Field, load: float, tolerance: float | None = None) -> float:
+        """Solve for ``load`` [N]; returns the approach in [m]. ``tolerance`` None: that of the settings. Errors as ``solve``."""
         s = self.settings
-        result = self._field.solve_at_load(gap, load, s.tolerance, s.maximum_iterations)
+        asked = s.tolerance if tolerance is None else tolerance
+        result = self._field.solve_at_load(gap, load, asked, s.maximum_iterations)
         self._accept(result, gap)
         return float(result.approach)
 
@@ -109,9 +111,13 @@ class PressureField:
 
 
 def fit_tangent(field: PressureField, gap: Field, load: float) -> NormalElastic:
-    """Power law through the field's approach at ``load`` [N] and at 5 % more: the tangent between field instants."""
-    first = field.solve_load(gap, load)
-    second = field.solve_load(gap, load * TANGENT_LOAD_STEP)
+    """Power law through the field's approach at ``load`` [N] and at 5 % more: the tangent between field instants.
+
+    Both are solved to 1e-7 whatever the field's own tolerance: the loss and the effective height are read from this law.
+    """
+    tolerance = min(TANGENT_TOLERANCE, field.settings.tolerance)
+    first = field.solve_load(gap, load, tolerance)
+    second = field.solve_load(gap, load * TANGENT_LOAD_STEP, tolerance)
     exponent = math.log(TANGENT_LOAD_STEP) / math.log(second / first)
     return NormalElastic(load / first**exponent, exponent)
 
