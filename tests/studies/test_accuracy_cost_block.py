@@ -1,5 +1,7 @@
 """Cost of accuracy of the block rig: steps, facets and the compliant contact against located rigid contact."""
 
+from itertools import pairwise
+
 import pytest
 
 from contact_sim_pkg.studies import accuracy_cost, accuracy_cost_block
@@ -29,7 +31,7 @@ def test_shorter_steps_come_nearer_to_located_events(slope_scene):
 def test_a_stiffer_contact_comes_nearer_to_the_rigid_one_that_slides_to_a_stop(slope_scene):
     end = list(errors(accuracy_cost_block.contact_rows("", slope_scene, quiet), "end").values())
     assert len(end) == 6
-    assert all(later < 0.2 * earlier for earlier, later in zip(end, end[1:], strict=False))
+    assert all(later < 0.2 * earlier for earlier, later in pairwise(end))
 
 
 def test_in_the_plane_there_is_no_cone_to_cut(slope_scene):

@@ -48,7 +48,7 @@ SERIES_TYPES = (FORCE, MOTION, ENERGY, COST, EPISODES)
 READ_TYPES = (*SERIES_TYPES, PATCH, ROAD, SHEAR, POINTS, *IMPACT_TYPES, *ROLLER_TYPES)
 CONTACT_COLUMNS = ("time", "sample_period", "normal", "tangential", "approach", "effective_height")
 IMPULSES = "impulses"  # absent from older bags
-MOTION_COLUMNS = ("time", "sample_period", "samples", "bodies", "position", "acceleration")
+MOTION_COLUMNS = ("time", "sample_period", "samples", "bodies", "position", "acceleration", "velocity")
 SCENE_KEY = "scene"
 
 
@@ -182,15 +182,16 @@ def _contact(columns: dict[str, Any]) -> ContactSeries:
 def _motion(columns: dict[str, Any]) -> MotionSeries:
     counts = [int(count) for count in columns["samples"]]
     bodies = [str(name) for name in columns["bodies"][0]]
-    position, acceleration = (
+    position, acceleration, velocity = (
         np.concatenate([np.reshape(row, (len(bodies), -1)) for row in columns[name]], axis=1)
-        for name in ("position", "acceleration")
+        for name in ("position", "acceleration", "velocity")
     )
     return MotionSeries(
         _sample_times(columns, counts),
         float(columns["sample_period"][0]),
         dict(zip(bodies, position, strict=True)),
         dict(zip(bodies, acceleration, strict=True)),
+        dict(zip(bodies, velocity, strict=True)),
     )
 
 

@@ -9,6 +9,8 @@ from contact_sim_pkg.bag.reader import Bag
 from . import facts
 from .backrest_numbers import BACKREST
 from .backrest_section import backrest_parts
+from .block_numbers import BLOCK
+from .block_section import block_parts
 from .drawing import Picture, style
 from .figures_bench import energy_balance, real_time_factor
 from .figures_contact import footprint_over_time, load_over_approach, load_over_time, pressure_maps
@@ -81,6 +83,9 @@ def sections(recording: Recording) -> list[Section]:
         for number, name in enumerate(recording.contacts):
             if name == ROLLER and recording.roller is not None:
                 found += [Section(*part) for part in roller_parts(recording)]
+                continue
+            if name == BLOCK and recording.motion is not None:
+                found += [Section(*part) for part in block_parts(number, recording)]
                 continue
             if name == IMPACT:
                 found += [Section(*part) for part in impact_parts(recording)]

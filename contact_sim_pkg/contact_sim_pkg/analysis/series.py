@@ -189,6 +189,8 @@ class MotionSeries(NamedTuple):
     """[m] by body"""
     acceleration: dict[str, FloatArray]
     """[m/s^2] by body"""
+    velocity: dict[str, FloatArray]
+    """[m/s] by body"""
 
 
 class LedgerSeries(NamedTuple):

@@ -9,6 +9,7 @@ import numpy as np
 
 from contact_sim_pkg.bag.reader import Bag
 
+from .block_numbers import BLOCK, block_numbers
 from .energy import relative_residual, throughput
 from .episodes import slap_numbers
 from .impact_numbers import impact_numbers
@@ -29,8 +30,8 @@ def summarise_recording(recording: Recording) -> dict[str, Any]:
     """Summary numbers, ready for JSON: SI units in the names, None where a number is not defined.
 
     Sections that the run does not have are absent: `slaps` without contact episodes, `impacts` without impact events,
-    `roller` without a roller, `seat_vibration` without a seat, `energy` without a ledger, `solver` without cost messages, the
-    pressure of a contact without a field, ratios to the tire at rest without a tire.
+    `block` without a rigid body, `roller` without a roller, `seat_vibration` without a seat, `energy` without a ledger,
+    `solver` without cost messages, the pressure of a contact without a field, ratios to the tire at rest without a tire.
     """
     summary: dict[str, Any] = {
         "scene": recording.scene.get("name"),
@@ -49,6 +50,8 @@ def summarise_recording(recording: Recording) -> dict[str, Any]:
         summary["slaps"] = slap_numbers(recording.episodes)
     if recording.impacts is not None:
         summary["impacts"] = impact_numbers(recording.impacts)
+    if BLOCK in recording.contacts and recording.motion is not None:
+        summary["block"] = block_numbers(recording)
     if recording.roller is not None:
         summary["roller"] = roller_numbers(recording.roller)
     vibration = vibration_numbers(recording)

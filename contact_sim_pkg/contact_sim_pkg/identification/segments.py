@@ -35,7 +35,7 @@ class Segments(NamedTuple):
 
 
 def velocity_noise(states: BodyStates) -> float:
-    """Standard deviation of a velocity component in [m/s], from the median change of the acceleration from one interval to the next.
+    """Standard deviation of a velocity component in [m/s], from the median change of the acceleration between intervals.
 
     Impacts do not move the median. Intervals may differ; stamps that are off count as noise of the velocity.
     """

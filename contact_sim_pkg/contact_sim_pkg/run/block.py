@@ -138,10 +138,8 @@ class BlockBodySimulation:
 
 def move(body: Body, model: BlockModel, interval: float, where: str = "block") -> None:
     """Move ``body`` by ``interval`` [s]. Raises RunError, which begins with ``where``, if it cannot be done."""
-    if isinstance(body, SteppedBody):
-        status = body.advance(max(1, round(interval / model.step)))
-    else:
-        status = body.advance(interval)
+    stepped = isinstance(body, SteppedBody)
+    status = body.advance(max(1, round(interval / model.step)) if stepped else interval)  # type: ignore[arg-type]
     if status != SOLVED:
         why = sentence_of(status) if isinstance(body, MovedBody) else SENTENCES[status]
         raise RunError(f"{where}: {why}")

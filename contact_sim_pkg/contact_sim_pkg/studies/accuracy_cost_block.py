@@ -1,8 +1,8 @@
 """Accuracy and cost of the block rig: scheme and step in time, facets of the friction cone, and the contact model.
 
 *path* is the largest distance of the centre of mass from where the reference has it at the same instant, over the size of the body;
-*end* is that distance at the end; *turn* is the angle between the two orientations at the end, in [rad]. The reference is the scene's
-own rigid contact with located events. Against it the compliant contact shows a difference of two models, not an error: they
+*end* is that distance at the end; *turn* is the angle between the two orientations at the end, in [rad]. The reference is the
+scene's own rigid contact with located events. Against it the compliant contact shows a difference of two models, not an error: they
 meet as the stiffness grows only where slip neither stops nor reverses within an impact. A way that ends without an answer has no
 row, and the study says why as it goes.
 """
