@@ -90,6 +90,14 @@ def test_the_steps_of_first_order_end_near_the_located_ones():
     assert numpy.abs(located[1][:, -1] - stepped[1][:, -1]).max() < 2e-3
 
 
+def test_a_point_that_sticks_in_its_impact_is_said_to():
+    """A ball that falls straight down sticks; one that moves on after its impact slips."""
+    for velocity, state in ((0.0, 2), (20.0, 3)):
+        _scene, messages = run("block_zeno", f"block.velocity=[{velocity},0,0]", "duration=0.5")
+        points = of(messages, "block/points", decode_contact_points)
+        assert {int(value) for each in points for value in each.state} == {0, state}
+
+
 COMPLIANT = "effects.block.compliant_contact={}"
 
 

@@ -15,7 +15,7 @@ from contact_sim_pkg.core.rigid.compliant import MovedBody, sentence_of
 from contact_sim_pkg.core.rigid.located import LocatedBody
 from contact_sim_pkg.core.rigid.motion import HELD, STUCK
 from contact_sim_pkg.core.rigid.problem import PLANE
-from contact_sim_pkg.core.rigid.results import SENTENCES, SOLVED
+from contact_sim_pkg.core.rigid.results import SENTENCES, SOLVED, STICK
 from contact_sim_pkg.core.rigid.stepping import SteppedBody
 from contact_sim_pkg.run.block_outputs import SLIPS, STICKS, BlockRecord, encode_block
 from contact_sim_pkg.run.block_simulation import BlockResult, InputBlock, refuse_out_of_turn
@@ -105,7 +105,10 @@ class BlockBodySimulation:
             return self.body.sticks()
         work, width = self.body.work, self.model.body.width
         if isinstance(self.body, LocatedBody):
-            return numpy.asarray(work.flags == STUCK)
+            stuck = numpy.asarray(work.flags == STUCK)
+            for impact in self.body.impacts:
+                stuck[list(impact.points)] |= numpy.array(impact.modes) == STICK
+            return stuck
         velocity = (work.J @ self.body.motion.velocity).reshape(-1, width)
         scale = max(float(numpy.abs(self.body.motion.velocity).max()), 1e-9)
         slow: NDArray[numpy.bool_] = (numpy.abs(velocity[:, 1:]).max(axis=1) <= 1e-9 * scale) & (work.flags >= HELD)

@@ -14,8 +14,8 @@ COST = "ms per simulated s"
 
 
 def sections(rows: list[Row]) -> list[Section]:
-    """Parts of the table, in the order of the study: integrator, coupling, modes, ways to an impact, those of a rigid body and of the
-    roller, then each contact's field.
+    """Parts of the table, in the order of the study: integrator, coupling, modes, ways to an impact, those of a rigid body and
+    of the roller, then each contact's field.
     """
     found = [_integrator(rows), _coupling(rows), _modes(rows), _ways(rows), *_of_block(rows)]
     found += [_by_rung(f"{part}: error", part, "way", rows) for part in ROLLER_PARTS]
