@@ -70,6 +70,7 @@ def all_cases() -> list[HardCase]:
     from contact_sim_pkg.studies import (
         hard_cases_back_surface,
         hard_cases_backrest,
+        hard_cases_block,
         hard_cases_closest,
         hard_cases_cnoidal,
         hard_cases_entries,
@@ -95,7 +96,8 @@ def all_cases() -> list[HardCase]:
         hard_cases_law, hard_cases_general_law, hard_cases_impact, hard_cases_sphere, hard_cases_friction, hard_cases_geometry,
         hard_cases_field, hard_cases_entries, hard_cases_shell, hard_cases_closest, hard_cases_cnoidal, hard_cases_foam,
         hard_cases_tire, hard_cases_scenes, hard_cases_identification,
-        hard_cases_rigid, hard_cases_motion, hard_cases_backrest, hard_cases_back_surface, hard_cases_impact_rig, hard_cases_roller,
+        hard_cases_rigid, hard_cases_motion, hard_cases_block, hard_cases_backrest,
+        hard_cases_back_surface, hard_cases_impact_rig, hard_cases_roller,
     )  # fmt: skip
     return [case for module in modules for case in module.CASES]
 
