@@ -266,6 +266,27 @@ def test_the_time_acceleration_is_held_against_every_turn_ridden():
     assert not any(each.checked for each in of(messages, RollerTrack))
 
 
+@pytest.mark.parametrize(
+    ("name", "values", "sentence"),
+    [
+        (
+            "roller_flutter",
+            ("roller.inertia_tilt=1e-15", "roller.inertia_yaw=1e-15"),
+            "give larger inertias or softer springs",
+        ),
+        ("roller_flutter", ("roller.load=1e7",), "the roller tips over"),
+        (
+            "roller_corrugation",
+            ("roller.mass=1e-9", "effects.roller.damage.table_rows=2"),
+            "give a larger mass, more cells",
+        ),
+    ],
+)
+def test_what_is_too_fast_or_tips_over_is_told_and_not_tried(name, values, sentence):
+    with pytest.raises(RunError, match=sentence):
+        run(name, "duration=0.1", *values)
+
+
 def test_radii_that_do_not_divide_are_refused_for_a_track_on_both():
     with pytest.raises(SceneError, match=r"must be a whole number, take 0\.02 m for the larger"):
         resolved(

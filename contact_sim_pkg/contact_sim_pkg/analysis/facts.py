@@ -92,7 +92,8 @@ def warnings(recording: Recording) -> list[str]:
 
 
 def _effect_row(contact: str, name: str, values: Any) -> Row:
-    settings = scene_rows(values, ("effects", contact, name), shown_from=3) if values != {} else []
+    given = {key: value for key, value in values.items() if value != []}
+    settings = scene_rows(given, ("effects", contact, name), shown_from=3) if given else []
     text = ", ".join(f"{row.label} {row.value}".strip() for row in settings)
     return Row(EFFECT_NAMES.get(name, plain_name(name)), text or "on")
 

@@ -18,6 +18,8 @@ Matrix = NDArray[numpy.float64]
 
 LARGEST_PHASE = 0.15
 """[rad] of the fastest motion of tilt and yaw in a step of order 6."""
+MOST_PARTS = 10000
+"""Steps from one given time to the next."""
 SMALL_PHASE = 0.02
 """[rad] up to which order 4 errs no more."""
 
@@ -34,7 +36,7 @@ class TiltYaw:
         self.state = numpy.array([tilt, yaw, 0.0, 0.0, 0.0, 0.0])
         self._load, self._shifted, self._start = load, 0.0, Energies()
         self._start = self.energies()
-        self.fastest = max(float(abs(found.roots.imag).max()), 1.0)
+        self.fastest = max(float(abs(found.roots).max()), 1.0)
 
     def advance(self, start: float, times: Vector, loads: Vector) -> Matrix:
         """States [times, 4] at even `times` [s] from `start` [s] on, under `loads` [N]."""
@@ -44,6 +46,11 @@ class TiltYaw:
         self._load = float(loads[-1])
         model, length = self.model, float(times[1] - times[0])
         parts = max(1, math.ceil(self.fastest * length / LARGEST_PHASE))
+        if parts > MOST_PARTS:
+            raise RunError(
+                f"{start:.6g} s: tilt and yaw move by {self.fastest:.3g} rad/s, which takes {parts:.3g} steps in {length:.3g} s; "
+                f"at most {MOST_PARTS} are taken: give larger inertias or softer springs, or leave tilt_yaw out"
+            )
         self.rule = self.rules[0 if self.fastest * length / parts <= SMALL_PHASE else 1]
         record = numpy.empty((len(times), 4))
         if model.programme.turns_bodies:

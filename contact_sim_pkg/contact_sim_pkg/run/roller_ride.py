@@ -11,7 +11,15 @@ import numpy
 from contact_sim_pkg.core.parameters import Vector
 from contact_sim_pkg.core.roller.corrugation import moving_mean, wear
 from contact_sim_pkg.core.roller.ellipse import local_coefficients
-from contact_sim_pkg.core.roller.heave import Heave, Path, contact_energy, make_heave, natural_frequency, ride
+from contact_sim_pkg.core.roller.heave import (
+    LARGEST_PHASE,
+    Heave,
+    Path,
+    contact_energy,
+    make_heave,
+    natural_frequency,
+    ride,
+)
 from contact_sim_pkg.core.roller.load_split import load_of_approach
 from contact_sim_pkg.excitation.blocks import Surface
 from contact_sim_pkg.run.errors import RunError
@@ -23,6 +31,8 @@ __all__ = ["Checked", "Ridden", "TrackRide", "joined"]
 
 JUMPS = 4
 """Accelerated intervals of a check, at most."""
+MOST_STEPS = 1000
+"""Steps of the heave in a cell."""
 MOST_CHECKED = 1000
 """Intervals that a check rides one by one, at most."""
 
@@ -104,6 +114,7 @@ class TrackRide:
 
     def advance(self) -> Ridden:
         """An interval. Raises RunError where the range of a track passes its limit, or a place is too hollow to touch."""
+        self._refuse_fast_heave()
         path = self._path()
         before = self._held()
         self._height, self._coefficient = float(path.height[0]), float(path.coefficient[0])
@@ -124,6 +135,15 @@ class TrackRide:
         heave, speed = numpy.vstack([self.motion, self.state[:2]]).T
         time: Vector = numpy.arange(self.cells + 1, dtype=numpy.float64) * cell_time
         return Ridden(time, numpy.append(self.loads, self._load()), heave, speed, self.free)
+
+    def _refuse_fast_heave(self) -> None:
+        phase = self.frequency * self.interval_time / self.cells
+        if not phase <= LARGEST_PHASE * MOST_STEPS:
+            at, most = self.intervals * self.interval_time, LARGEST_PHASE * MOST_STEPS
+            raise RunError(
+                f"{at:.6g} s: the heave swings by {self.frequency:.3g} rad/s, {phase:.3g} rad in a cell of the track; "
+                f"at most {most:g} are simulated: give a larger mass, more cells or a higher speed"
+            )
 
     def _path(self) -> Path:
         """Heights under the roller in the next interval, and k_c there."""

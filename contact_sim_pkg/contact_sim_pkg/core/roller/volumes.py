@@ -19,7 +19,7 @@ from contact_sim_pkg.core.roller.parameters import Bending
 from contact_sim_pkg.core.roller.stress import add_bending, bench_stress
 from contact_sim_pkg.core.subsurface import Stress
 
-__all__ = ["COUNTED", "MARCHED", "Volumes", "box_volume", "dangerous_volumes"]
+__all__ = ["COUNTED", "MARCHED", "Volumes", "box_volume", "dangerous_volumes", "fills_box"]
 
 Values = NDArray[numpy.float64]
 
@@ -44,6 +44,11 @@ def box_volume(contact: RollingContact) -> float:
     """Volume [m^3] of the box under a contact."""
     a, b = max(contact.along_x, contact.along_y), min(contact.along_x, contact.along_y)
     return 48.0 * a * a * b
+
+
+def fills_box(volumes: Volumes, contact: RollingContact) -> bool:
+    """Whether a dangerous volume has filled its box: the true one reaches farther, its limit is too low for the box."""
+    return contact.load > 0.0 and volumes.any > (1.0 - 1e-9) * box_volume(contact)
 
 
 def dangerous_volumes(
