@@ -26,6 +26,7 @@ __all__ = [
     "freeze",
     "kernel",
     "kernel_overload",
+    "piece",
     "thaw",
 ]
 
@@ -60,6 +61,15 @@ def _kernel(function: Function, **options: Any) -> Function:
         bare: Any = _compile(function, "bare", no_cpython_wrapper=True, **options)
         compiled.get_call_template, compiled.get_overload = bare.get_call_template, bare.get_overload
         _kernels.append(bare)
+    return compiled  # type: ignore[no-any-return]
+
+
+def piece(function: Function) -> Function:
+    """Compile a helper into its caller before types are known, so that it is optimised once: for what one or two kernels call.
+
+    A kernel is optimised by itself and once more inside each caller, at every level of calls; a piece in its caller alone.
+    """
+    compiled: Any = numba.jit(**COMPILE_OPTIONS, inline="always")(function)
     return compiled  # type: ignore[no-any-return]
 
 

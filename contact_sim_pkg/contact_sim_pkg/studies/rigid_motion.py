@@ -7,12 +7,15 @@ import math
 import numpy
 
 from contact_sim_pkg.core.parameters import Vector
-from contact_sim_pkg.core.rigid.body import placed, regular_block, slope, sphere
+from contact_sim_pkg.core.rigid.body import box, placed, regular_block, slope, sphere
 from contact_sim_pkg.core.rigid.located import LocatedBody
 from contact_sim_pkg.core.rigid.results import SENTENCES, SOLVED
 from contact_sim_pkg.core.rigid.stepping import SteppedBody
 
-__all__ = ["BOUNCE_TIME", "SLIDE", "bounce_to_rest", "bounced", "creep", "elastic_drift", "slide_error"]
+__all__ = [
+    "BOUNCE_TIME", "SLIDE", "SPEED", "bounce_to_rest", "bounced", "creep", "cube_for_a_second", "elastic_drift",
+    "slide_error",
+]  # fmt: skip
 
 GRAVITY, SIDE, RADIUS = 9.81, 0.1, 0.05
 SPEED, FRICTION = 2.0, 0.3
@@ -31,6 +34,13 @@ def _sliding(step: float | None) -> LocatedBody | SteppedBody:
     block = regular_block(SIDE, 1.0, FRICTION, 0.0)
     motion = placed(block, numpy.array([0.0, 0.5 * SIDE]), numpy.array([SPEED, 0.0, 0.0]))
     return LocatedBody(block, slope(2), motion) if step is None else SteppedBody(block, slope(2), motion, step)
+
+
+def cube_for_a_second(speed: float) -> None:
+    """A cube on a plane for 1 s with states at every tick; ``speed`` [m/s] along the plane at the start."""
+    cube = box((SIDE, SIDE, SIDE), 1.0, FRICTION, 0.0)
+    motion = placed(cube, numpy.array([0.0, 0.0, 0.5 * SIDE]), numpy.array([speed, 0.0, 0.0, 0.0, 0.0, 0.0]))
+    _checked(LocatedBody(cube, slope(3), motion).advance_over(TICK, round(1.0 / TICK))[0])
 
 
 def slide_error(step: float | None, tick: float = TICK) -> float:

@@ -11,7 +11,7 @@ from typing import NamedTuple
 
 import numpy
 
-from ..jit import entry, kernel
+from ..jit import entry, kernel, piece
 from ..parameters import Vector
 from ..vectors import copy_row
 from .cone_newton import GOOD, NewtonWorkspace, make_newton_workspace, solve_by_newton
@@ -65,7 +65,7 @@ def make_solver(
     return Solver(rung, sweeps, lemke, newton, split, numpy.zeros(rows), numpy.zeros(rows))
 
 
-@kernel
+@piece
 def _is_finite(problem):
     finite = True
     for i in range(problem.q.shape[0]):
@@ -73,14 +73,14 @@ def _is_finite(problem):
     return finite
 
 
-@kernel
+@piece
 def _by_modes(problem, c):
     contact = PlanarContact(problem.A[0, 0], problem.A[0, 1], problem.A[1, 1], problem.friction[0], 0.0)
     impulse = contact_modes(contact, problem.q[0], problem.q[1], problem.floor[0])
     c[0], c[1] = impulse.normal, impulse.tangential
 
 
-@kernel
+@piece
 def _turn_facets(problem, work, u):
     """Turn the friction directions of each contact so that one of them opposes its slip."""
     for i in range(problem.friction.shape[0]):
@@ -89,7 +89,7 @@ def _turn_facets(problem, work, u):
             work.turn[i] = numpy.arctan2(-u[row + 2], -u[row + 1])
 
 
-@kernel
+@piece
 def _exactly(problem, solver, start, c):
     """Newton's method from ``c`` (``start``) or a few sweeps; Lemke; on the true cone Newton from there, with facets turned.
 
@@ -129,7 +129,7 @@ def may_share_load(problem):
     return contacts >= 4 or (contacts == 3 and problem.width == PLANE) or (contacts >= 2 and rough)
 
 
-@kernel
+@piece
 def _about(problem, weight, sign, center):
     """Add (sign 1) or take away (-1) the proximal terms: ``A + s I``, ``q - s center``, s of the row in ``weight``."""
     for row in range(problem.q.shape[0]):
@@ -137,7 +137,7 @@ def _about(problem, weight, sign, center):
         problem.q[row] -= sign * weight[row] * center[row]
 
 
-@kernel
+@piece
 def _by_passes(problem, solver, c):
     """Redundant contacts: proximal point iteration from no load, each pass of which has one solution.
 
@@ -169,7 +169,7 @@ def _by_passes(problem, solver, c):
     return status
 
 
-@kernel
+@piece
 def _quiet(problem):
     """No velocity and no floor for contacts that take no part."""
     for i in range(problem.friction.shape[0]):
@@ -179,7 +179,7 @@ def _quiet(problem):
                 problem.q[row] = 0.0
 
 
-@kernel
+@piece
 def solve_contact(problem: ContactProblem, solver: Solver, c: Vector) -> Solution:
     """Impulses of ``problem`` into ``c`` [rows]; zeros where the status is RAY or CONTACT_NOT_FINITE.
 
@@ -203,7 +203,7 @@ def solve_contact(problem: ContactProblem, solver: Solver, c: Vector) -> Solutio
     return Solution(status, UNIQUE, residual(problem, c, u), swept)
 
 
-@kernel
+@piece
 def solve_and_split(problem: ContactProblem, J: Vector, W: Vector, solver: Solver, c: Vector) -> Solution:
     """`solve_contact`, then the least-norm split of the load; flagged where the split is a choice."""
     found = solve_contact(problem, solver, c)

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import math
 
-from ..jit import entry, kernel
+from ..jit import kernel
 from ..parameters import Vector
 from .body import Ground, Motion, RigidBody, surface
 from .motion import APART, TOUCHING, MotionWorkspace, commit, free_motion, look
@@ -109,12 +109,45 @@ def _root(body, ground, motion, work, i, low, high, above, below):
 
 
 @kernel
+def _stays_away(body, motion, work, time):
+    """Whether every point starts in the air, farther from the ground than the body can move in ``time`` [s]."""
+    v, load, width = motion.velocity, body.load, body.width
+    size, speed, push, spin, moment = body_size(body), 0.0, 0.0, 0.0, 0.0
+    for k in range(width):
+        speed, push = speed + abs(v[k]), push + abs(load[k])
+    for k in range(width, v.shape[0]):
+        spin, moment = spin + abs(v[k]), moment + abs(load[k])
+    lightest = body.inertia[0]
+    for k in range(body.inertia.shape[0]):
+        lightest = min(lightest, body.inertia[k])
+    reach = time * (speed + 0.5 * time * push / body.mass)
+    if spin + moment > 0.0:  # free spin keeps its energy: it grows at most by the root of the ratio of the inertias
+        grown = spin * math.sqrt(_greatest_inertia(body.inertia) / lightest) + time * moment / lightest
+        reach += time * size * grown
+    away = True
+    for i in range(work.gap.shape[0]):
+        away = away and work.flags[i] == APART and work.gap[i] > reach
+    return away
+
+
+@kernel
+def _greatest_inertia(inertia):
+    """Greatest of the principal inertias."""
+    greatest = 0.0
+    for k in range(inertia.shape[0]):
+        greatest = max(greatest, inertia[k])
+    return greatest
+
+
+@kernel
 def _first_touch(body, ground, motion, work, piece, before, after):
     """Time of the first touch within ``piece`` and its point, -1 where there is none."""
     points = work.gap.shape[0]
     for i in range(points):
         before[i] = work.u[i * body.width] if work.flags[i] != APART else max(work.gap[i], 0.0)
     low, first, point = 0.0, piece, -1
+    if ground.heights.shape[0] == 0 and _stays_away(body, motion, work, piece):
+        return first, point
     for part in range(1, PARTS + 1):
         time = part * piece / PARTS
         free_motion(body, motion, work, time)
@@ -134,8 +167,8 @@ def _first_touch(body, ground, motion, work, piece, before, after):
     return first, point
 
 
-@entry
-def fly(
+@kernel
+def fly_to_touch(
     body: RigidBody, ground: Ground, motion: Motion, work: MotionWorkspace, piece: float, before: Vector, after: Vector
 ) -> tuple[float, int]:
     """Free flight to the first touch or the end of ``piece`` [s]; returns the time flown and the point, -1: none.

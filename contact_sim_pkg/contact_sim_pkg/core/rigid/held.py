@@ -1,7 +1,7 @@
 """Points on the ground: when a rebound ends in rest, what holds them over a piece of time, where slip stops or a point lands.
 
-Each function is one step of `located.py`, which solves the contact problems between them. A rebound below the rest speed ends
-after ``2 u/(a (1 - e))``, the rest of the geometric series. Source: SEEDS 7.2 (`located`), 7.3.
+Each function is one step of `march.py` and `located.py`, which solve the contact problems between them. A rebound below the rest
+speed ends after ``2 u/(a (1 - e))``, the rest of the geometric series. Source: SEEDS 7.2 (`located`), 7.3.
 """
 
 from __future__ import annotations
@@ -30,14 +30,14 @@ from .problem import PLANE
 
 STILL = 1.0e-13  # of the speed scale: below it a velocity is rounding
 LANDED = 1.0e-11  # of the size: a point this far below the ground has landed
-DRIFT = 1.0e-11  # of the size: a gap of a held point that is taken back, which turning bodies call for
+DRIFT = 1.0e-10  # of the size: a gap of a held point that is taken back, which turning bodies call for
 RETURN = 0.05  # of sqrt(L/g): the time in which it is
 HOLD_SWEEPS = 20
 SLOW = 1.0e-9  # of the slip before, squared: slip that ends there has stopped
 
 
 @entry
-def survey(
+def survey_points(
     body: RigidBody, ground: Ground, motion: Motion, work: MotionWorkspace, size: float, gravity: float
 ) -> tuple[float, bool]:
     """Gaps and contact velocities; returns the velocity [m/s] that counts as rounding, and whether a touching point approaches."""
@@ -102,22 +102,27 @@ def _hold(body, motion, work):
     """Take the rest of the normal velocity from held points, one after the other (it is below the rest speed)."""
     n = motion.velocity.shape[0]
     for _ in range(HOLD_SWEEPS):
+        moved = False
         for i in range(work.flags.shape[0]):
-            if work.flags[i] < HELD:
-                continue
             row, speed, weight = i * body.width, 0.0, 0.0
+            if work.flags[i] >= HELD:
+                for k in range(n):
+                    speed += work.J[row, k] * motion.velocity[k]
+            if speed == 0.0:
+                continue
+            moved = True
             for k in range(n):
-                speed += work.J[row, k] * motion.velocity[k]
                 for m in range(n):
                     weight += work.J[row, k] * work.W[k, m] * work.J[row, m]
-            if speed != 0.0:
-                for k in range(n):
-                    for m in range(n):
-                        motion.velocity[k] -= work.W[k, m] * work.J[row, m] * speed / weight
+            for k in range(n):
+                for m in range(n):
+                    motion.velocity[k] -= work.W[k, m] * work.J[row, m] * speed / weight
+        if not moved:
+            break
 
 
-@entry
-def settle(
+@kernel
+def settle_points(
     body: RigidBody, motion: Motion, work: MotionWorkspace, rest_speed: float, still: float
 ) -> tuple[float, bool]:
     """Hold the points whose rebound is below the rest speed and that the load presses down.
@@ -140,7 +145,6 @@ def settle(
             held = True
     if held:
         _hold(body, motion, work)
-        take_part(body, work, HELD)
     return wait, held
 
 
@@ -149,6 +153,7 @@ def prepare_attempt(
     body: RigidBody, motion: Motion, work: MotionWorkspace, time: float, size: float, gravity: float
 ) -> None:
     """The problem of the held points over ``time`` [s], without bounce; ``work.free`` is the velocity without them."""
+    take_part(body, work, HELD)
     free_velocity(body, motion, work, time)
     q = work.problem.q
     contact_velocities(work.J, work.free, q)
@@ -175,7 +180,7 @@ def _slip(body, work, velocity, i):
 
 
 @entry
-def finish_attempt(body: RigidBody, motion: Motion, work: MotionWorkspace, still: float) -> tuple[float, float]:
+def stop_of_slip(body: RigidBody, motion: Motion, work: MotionWorkspace, still: float) -> tuple[float, float]:
     """Velocity at the end of the piece in ``work.free``; the part of the piece after which the first sliding point stops, 1: none,
 
     and how many times the piece its slip would last at the deceleration of the piece.
@@ -201,7 +206,9 @@ def finish_attempt(body: RigidBody, motion: Motion, work: MotionWorkspace, still
 
 
 @entry
-def landing(body: RigidBody, ground: Ground, motion: Motion, work: MotionWorkspace, time: float, size: float) -> float:
+def landing_part(
+    body: RigidBody, ground: Ground, motion: Motion, work: MotionWorkspace, time: float, size: float
+) -> float:
     """Displacement over ``time`` [s]; the part of it after which the first free point is on the ground, 1: none lands."""
     displace(body, motion, work.free, work, time)
     part, near = 1.0, LANDED * size
@@ -220,7 +227,7 @@ def landing(body: RigidBody, ground: Ground, motion: Motion, work: MotionWorkspa
 
 
 @entry
-def finish_support(
+def take_piece(
     body: RigidBody, ground: Ground, motion: Motion, work: MotionWorkspace, size: float, still: float
 ) -> None:
     """Take the piece as the state; points whose slip has ended stick until friction gives way, points that left are let go."""

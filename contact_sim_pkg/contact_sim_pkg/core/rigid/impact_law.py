@@ -2,27 +2,28 @@
 
 Energetic, several contacts: compression without bounce, then each contact gives back ``s e_i`` of its compression impulse, with
 the greatest s in [0, 1] for which the normal works give back at most ``e_i^2`` of what they took and no kinetic energy is gained.
-Source: SEEDS 7.3. Planar and one contact: `planar_impact.py`; one contact in space: `impact_path.py`.
+Several contacts are a row of contact solves, each compiled, called from Python. Source: SEEDS 7.3. Planar and one contact:
+`planar_impact.py`; one contact in space: `impact_path.py`.
 """
 
 from __future__ import annotations
 
+import math
 from typing import NamedTuple
 
 import numpy
 
-from ..jit import entry, kernel
 from ..parameters import Vector
-from ..vectors import copy_row
-from .contact_solver import Solution, Solver, make_solver, solve_and_split
-from .impact_path import FIRST, IMPULSE, SECOND, PathWorkspace, energetic_path, make_path_workspace
+from .contact_solver import Solution, Solver, contact_impulses, make_solver
+from .impact_path import FIRST, IMPULSE, SECOND, PathWorkspace, make_path_workspace, spatial_impact
 from .parameters import ENERGETIC, NEWTON, ImpactPath, PlanarContact
-from .planar_impact import impact_impulse
-from .problem import DISC, PLANE, SPACE, ContactProblem, multiply_add
+from .planar_impact import planar_impact
+from .problem import DISC, PLANE, SPACE, ContactProblem
 from .results import SOLVED, UNIQUE
 
-BISECTIONS = 40
+TRIALS = 60
 SLACK = 1.0e-12
+SHARE_FOUND = 1.0e-12  # of 1: a share this near to the greatest is taken
 
 
 class ImpactWorkspace(NamedTuple):
@@ -44,160 +45,115 @@ def make_impact_workspace(contacts: int, coordinates: int, width: int, facets: i
     return ImpactWorkspace(solver, make_path_workspace(), zeros(rows), zeros(rows), zeros(rows), zeros(rows))
 
 
-@kernel
-def _ask(problem, u, restitution, rule, work):
-    """First solve: without bounce, or with Newton's."""
-    copy_row(u, problem.q)
-    for i in range(restitution.shape[0]):
-        problem.floor[i] = 0.0
-        if rule == NEWTON:
-            problem.q[i * problem.width] += restitution[i] * min(0.0, u[i * problem.width])
-    for i in range(u.shape[0]):
-        work.compression[i] = 0.0
-
-
-@kernel
-def _give_back(problem, J, W, restitution, share, work):
-    """Second phase: at least ``share e_i`` of each compression impulse; velocities afterwards in ``work.after``."""
-    copy_row(work.compressed, problem.q)
-    for i in range(restitution.shape[0]):
-        problem.floor[i] = share * restitution[i] * work.compression[i * problem.width]
-    for i in range(work.restitution.shape[0]):
-        work.restitution[i] = 0.0
-    found = solve_and_split(problem, J, W, work.solver, work.restitution)
-    multiply_add(problem.A, work.restitution, work.compressed, work.after)
-    return found
-
-
-@kernel
-def _is_within(problem, u, restitution, work):
-    """Whether the works given back stay below ``e^2`` of those taken, and the kinetic energy below that before."""
-    returned, allowed, gained, size = 0.0, 0.0, 0.0, 0.0
-    for i in range(restitution.shape[0]):
-        row = i * problem.width
-        returned += 0.5 * work.restitution[row] * (work.compressed[row] + work.after[row])
-        taken = 0.5 * work.compression[row] * (u[row] + work.compressed[row])
-        allowed += restitution[i] ** 2 * max(0.0, -taken)
-        for k in range(row, row + problem.width):
-            work_done = 0.5 * (work.compression[k] + work.restitution[k]) * (u[k] + work.after[k])
-            gained += work_done
-            size += abs(work_done)
-    return returned <= allowed * (1.0 + SLACK) and gained <= SLACK * size
-
-
-@kernel
-def _any_bounce(restitution, work, width):
-    bounce = False
-    for i in range(restitution.shape[0]):
-        bounce = bounce or restitution[i] * work.compression[i * width] > 0.0
-    return bounce
-
-
-@kernel
-def _restore(problem, J, W, u, restitution, rule, work):
-    """Restitution phase: share 1; where that gives back too much, the greatest share that does not, by bisection."""
-    low, high, share = 0.0, 1.0, 1.0
-    found = Solution(SOLVED, UNIQUE, 0.0, 0)
-    for attempt in range(BISECTIONS + 2):
-        found = _give_back(problem, J, W, restitution, share, work)
-        if rule != ENERGETIC or attempt > BISECTIONS:
-            break
-        if found.status == SOLVED and _is_within(problem, u, restitution, work):
-            low = share
-            if attempt == 0:
-                break
-        else:
-            high = share
-        share = 0.5 * (low + high) if attempt + 1 < BISECTIONS + 1 else low
-    return found
-
-
-@kernel
-def _several(problem, J, W, u, restitution, rule, work, c):
-    _ask(problem, u, restitution, rule, work)
-    found = solve_and_split(problem, J, W, work.solver, work.compression)
-    copy_row(work.compression, c)
-    if found.status != SOLVED or rule == NEWTON or not _any_bounce(restitution, work, problem.width):
-        return found
-    multiply_add(problem.A, work.compression, u, work.compressed)
-    found = _restore(problem, J, W, u, restitution, rule, work)
-    for i in range(c.shape[0]):
-        c[i] = c[i] + work.restitution[i] if found.status == SOLVED else 0.0
-    return found
-
-
-@kernel
-def _one_in_the_plane(problem, i, u, restitution, rule, c):
-    A, row = problem.A, i * PLANE
-    contact = PlanarContact(A[row, row], A[row, row + 1], A[row + 1, row + 1], problem.friction[i], restitution[i])
-    impulse = impact_impulse(contact, rule, u[row], u[row + 1])
-    c[row], c[row + 1] = impulse.normal, impulse.tangential
-    return Solution(SOLVED, UNIQUE, 0.0, 0)
-
-
-@kernel
-def _one_in_space(problem, i, u, restitution, work, c):
-    A, n, s, t = problem.A, i * SPACE, i * SPACE + 1, i * SPACE + 2
-    contact = ImpactPath(A[n, n], A[n, s], A[n, t], A[s, s], A[s, t], A[t, t], problem.friction[i], restitution[i])
-    status = energetic_path(contact, u[n], u[s], u[t], work.path)
-    if status == SOLVED:
-        c[n], c[s], c[t] = work.path.state[IMPULSE], work.path.state[FIRST], work.path.state[SECOND]
-    return Solution(status, UNIQUE, 0.0, 0)
-
-
-@kernel
-def _touching(problem):
-    """Number of contacts that are not INACTIVE, and the last of them."""
-    count, last = 0, 0
-    for i in range(problem.friction.shape[0]):
-        if problem.friction[i] >= 0.0:
-            count, last = count + 1, i
-    return count, last
-
-
-@kernel
-def resolve_impact(
-    problem: ContactProblem,
-    J: Vector,
-    W: Vector,
-    u: Vector,
-    restitution: Vector,
-    rule: int,
-    work: ImpactWorkspace,
+def impact_impulses(
+    problem: ContactProblem, J: Vector, W: Vector, u: Vector, restitution: Vector, rule: int, work: ImpactWorkspace,
     c: Vector,
-) -> Solution:
+) -> Solution:  # fmt: skip
     """Impulses ``c`` [rows] of the impact from the contact velocities ``u`` [rows].
 
     ``problem.A`` must be ``J W J'`` and hold the friction; its ``q`` and ``floor`` are overwritten. ``restitution`` [contacts].
     Contacts that touch without approaching take part, else they would be driven in. The residual of an energetic impulse of one
     contact is 0: it obeys Coulomb's law along its path, not in the sum.
     """
-    contacts = restitution.shape[0]
-    approaching = False
-    for i in range(contacts):
-        approaching = approaching or (problem.friction[i] >= 0.0 and u[i * problem.width] < 0.0)
-    for i in range(c.shape[0]):
-        c[i] = 0.0
-    if not approaching:
+    touching = numpy.flatnonzero(problem.friction >= 0.0)
+    c[:] = 0.0
+    if not (u[touching * problem.width] < 0.0).any():
         return Solution(SOLVED, UNIQUE, 0.0, 0)
-    touching, only = _touching(problem)
-    if touching == 1 and problem.width == PLANE:
-        return _one_in_the_plane(problem, only, u, restitution, rule, c)
-    if touching == 1 and rule == ENERGETIC:
-        return _one_in_space(problem, only, u, restitution, work, c)
+    only = int(touching[0])
+    if len(touching) == 1 and problem.width == PLANE:
+        return _one_in_the_plane(problem, only, u, float(restitution[only]), rule, c)
+    if len(touching) == 1 and rule == ENERGETIC:
+        return _one_in_space(problem, only, u, float(restitution[only]), work, c)
     return _several(problem, J, W, u, restitution, rule, work, c)
 
 
-@entry
-def impact_impulses(
-    problem: ContactProblem,
-    J: Vector,
-    W: Vector,
-    u: Vector,
-    restitution: Vector,
-    rule: int,
-    work: ImpactWorkspace,
-    c: Vector,
+def _one_in_the_plane(problem: ContactProblem, i: int, u: Vector, restitution: float, rule: int, c: Vector) -> Solution:
+    A, row = problem.A, i * PLANE
+    contact = PlanarContact(
+        float(A[row, row]), float(A[row, row + 1]), float(A[row + 1, row + 1]), float(problem.friction[i]), restitution
+    )
+    impulse = planar_impact(contact, rule, float(u[row]), float(u[row + 1]))
+    c[row], c[row + 1] = impulse.normal, impulse.tangential
+    return Solution(SOLVED, UNIQUE, 0.0, 0)
+
+
+def _one_in_space(
+    problem: ContactProblem, i: int, u: Vector, restitution: float, work: ImpactWorkspace, c: Vector
 ) -> Solution:
-    """`resolve_impact` for callers from Python."""
-    return resolve_impact(problem, J, W, u, restitution, rule, work, c)
+    n, s, t = range(i * SPACE, (i + 1) * SPACE)
+    A = problem.A
+    parts = (A[n, n], A[n, s], A[n, t], A[s, s], A[s, t], A[t, t], problem.friction[i], restitution)
+    contact = ImpactPath(*(float(part) for part in parts))
+    status = spatial_impact(contact, float(u[n]), float(u[s]), float(u[t]), work.path)
+    if status == SOLVED:
+        c[n], c[s], c[t] = work.path.state[IMPULSE], work.path.state[FIRST], work.path.state[SECOND]
+    return Solution(status, UNIQUE, 0.0, 0)
+
+
+def _several(
+    problem: ContactProblem, J: Vector, W: Vector, u: Vector, restitution: Vector, rule: int, work: ImpactWorkspace,
+    c: Vector,
+) -> Solution:  # fmt: skip
+    problem.q[:], problem.floor[:], work.compression[:] = u, 0.0, 0.0
+    if rule == NEWTON:
+        problem.q[:: problem.width] += restitution * numpy.minimum(0.0, u[:: problem.width])
+    found = contact_impulses(problem, J, W, work.solver, work.compression)
+    c[:] = work.compression
+    bounces = (restitution * work.compression[:: problem.width] > 0.0).any()
+    if found.status != SOLVED or rule == NEWTON or not bounces:
+        return found
+    work.compressed[:] = u + problem.A @ work.compression
+    found = _restore(problem, J, W, u, restitution, rule, work)
+    c[:] = c + work.restitution if found.status == SOLVED else 0.0
+    return found
+
+
+def _give_back(
+    problem: ContactProblem, J: Vector, W: Vector, restitution: Vector, share: float, work: ImpactWorkspace
+) -> Solution:
+    """Second phase: at least ``share e_i`` of each compression impulse; velocities afterwards in ``work.after``."""
+    problem.q[:] = work.compressed
+    problem.floor[:] = share * restitution * work.compression[:: problem.width]
+    work.restitution[:] = 0.0
+    found = contact_impulses(problem, J, W, work.solver, work.restitution)
+    work.after[:] = work.compressed + problem.A @ work.restitution
+    return found
+
+
+def _left(problem: ContactProblem, u: Vector, restitution: Vector, work: ImpactWorkspace) -> float:
+    """Part left of the work that may be given back, or of the kinetic energy, whichever is smaller; below 0: too much came back."""
+    normal = slice(None, None, problem.width)
+    returned = 0.5 * float(work.restitution[normal] @ (work.compressed + work.after)[normal])
+    taken = 0.5 * work.compression[normal] * (u + work.compressed)[normal]
+    allowed = float(restitution**2 @ numpy.maximum(0.0, -taken))
+    works = 0.5 * (work.compression + work.restitution) * (u + work.after)
+    size = float(numpy.abs(works).sum())
+    left = min(allowed * (1.0 + SLACK) - returned, SLACK * size - float(works.sum()))
+    return left / size if size > 0.0 else 0.0
+
+
+def _restore(
+    problem: ContactProblem, J: Vector, W: Vector, u: Vector, restitution: Vector, rule: int, work: ImpactWorkspace
+) -> Solution:
+    """Restitution phase: share 1; where that gives back too much, the greatest share that does not, by regula falsi and halving."""
+    found = _give_back(problem, J, W, restitution, 1.0, work)
+    if rule != ENERGETIC:
+        return found
+    left = _left(problem, u, restitution, work) if found.status == SOLVED else -math.inf
+    if left >= 0.0:
+        return found
+    low, high, at_low, at_high = 0.0, 1.0, math.nan, left
+    for attempt in range(TRIALS):
+        share = 0.5 * (low + high)
+        if attempt % 3 and math.isfinite(at_low + at_high):
+            share = low + (high - low) * at_low / (at_low - at_high) - 0.25 * SHARE_FOUND
+            share = min(max(share, low), high)
+        found = _give_back(problem, J, W, restitution, share, work)
+        left = _left(problem, u, restitution, work) if found.status == SOLVED else -math.inf
+        if left >= 0.0:
+            low, at_low = share, left
+        else:
+            high, at_high = share, left
+        if high - low <= SHARE_FOUND or (left >= 0.0 and left <= SLACK):
+            break
+    return found if left >= 0.0 else _give_back(problem, J, W, restitution, low, work)

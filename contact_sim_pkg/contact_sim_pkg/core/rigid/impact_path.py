@@ -13,7 +13,7 @@ from typing import NamedTuple
 
 import numpy
 
-from ..jit import kernel
+from ..jit import entry, kernel
 from ..parameters import Drive, Modes, Vector
 from ..rigs.interface import register
 from ..solvers.dormand_prince import Workspace, integrate, make_workspace, set_sides
@@ -169,8 +169,8 @@ def _start(contact, u_n, u_1, u_2, speed, work):
     work.scale[SECOND] = TOLERANCE * impulse
 
 
-@kernel
-def energetic_path(contact, u_n, u_1, u_2, work):
+@entry
+def spatial_impact(contact: ImpactPath, u_n: float, u_1: float, u_2: float, work: PathWorkspace) -> int:
     """Run the path from the contact velocity (approaching, ``u_n < 0``) to its end; the impulses stand in ``work.state``."""
     speed = math.sqrt(u_n * u_n + u_1 * u_1 + u_2 * u_2)
     _start(contact, u_n, u_1, u_2, speed, work)

@@ -1,7 +1,8 @@
 """A rigid body in time with located events: flight to the first touch, impact at an instant, sliding and rest in between.
 
-The steps are compiled (`flight.py`, `held.py`, `contact_solver.py`, `impact_law.py`), each by itself: one function of them all
-takes minutes to compile, and between two events a call from Python costs microseconds. Source: SEEDS 7.2 (`located`), 7.3.
+`march.py` goes on by itself in compiled code, over all output samples of a call. What it cannot do, an impact or a piece of time
+that takes the general solvers or holds an event, is done here, by compiled steps (`held.py`, `contact_solver.py`, `impact_law.py`)
+called from Python: in one compiled function of all of them every solver would be compiled again. Source: SEEDS 7.2, 7.3.
 """
 
 from __future__ import annotations
@@ -15,14 +16,34 @@ from ..parameters import Vector
 from . import held
 from .body import Ground, Motion, RigidBody
 from .contact_solver import GAUSS_SEIDEL, contact_impulses, make_solver
-from .flight import body_size, fly
+from .flight import body_size
 from .impact_law import impact_impulses, make_impact_workspace
+from .march import (
+    COLLIDE,
+    COLLIDED,
+    DONE,
+    EVENTS,
+    INTERVAL,
+    LOST,
+    PIECE,
+    RESIDUAL,
+    RESTED,
+    SAMPLE,
+    SAMPLES,
+    SOLVES,
+    STILL,
+    STOPS,
+    TIME,
+    advance_samples,
+    make_march_workspace,
+    track_columns,
+)
 from .motion import STUCK, make_motion_workspace
 from .parameters import ENERGETIC
 from .problem import DISC, PLANE
 from .results import CONTACT_NOT_FINITE, NOT_CONVERGED, REVERSE, SEPARATE, SLIDE, SOLVED, STICK, TOO_MANY_IMPACTS
 
-__all__ = ["Impact", "LocatedBody"]
+__all__ = ["Impact", "LocatedBody", "Track"]
 
 MOST_IMPACTS = 100_000  # in one interval
 STOP_HALVINGS = 60
@@ -30,9 +51,6 @@ LANDING_STEPS = 30
 MOST_STOPS = (
     20  # stops of slip that are located in one interval: an edge that pivots may slip back and forth without end
 )
-LARGEST_TURN = 0.02  # [rad] of a piece of free flight in space, where the spin is of order 6
-LARGEST_PLANAR_TURN = 0.2  # [rad] of a piece of free flight in the plane, which is exact: it only has to find the touch
-LARGEST_SUPPORTED_TURN = 0.005  # [rad] of a piece while a point is held: there the position is of second order
 REST = 1.0e-6  # rest speed over sqrt(g L)
 ACCEPTED = 1.0e-6  # residual up to which a solve goes on: corners whose heights differ by rounding contradict each other a little
 SWEEPS = 2000  # of Gauss-Seidel where the exact solvers find that contradiction
@@ -49,6 +67,17 @@ class Impact(NamedTuple):
     lost: float  # kinetic energy in [J]
 
 
+class Track(NamedTuple):
+    """State at the end of each sample, and the impulses over it."""
+
+    position: Vector  # [samples, width] in [m]
+    angle: Vector  # [samples] in [rad], in the plane
+    rotation: Vector  # [samples, width, width]
+    velocity: Vector  # [samples, coordinates]
+    impulse: Vector  # [samples, rows] in [N s]
+    sticks: Vector  # [samples, points], 1 where a point sticks at the end
+
+
 class LocatedBody:
     """One body over a ground, and where it stands. ``motion`` changes in place."""
 
@@ -59,54 +88,88 @@ class LocatedBody:
         self.body, self.ground, self.motion, self.rule = body, ground, motion, rule
         points, coordinates = len(body.points), len(body.load)
         self.work = make_motion_workspace(body, facets)
+        self._march = make_march_workspace(points)
+        self._columns = track_columns(body)
         self._impact = make_impact_workspace(points, coordinates, body.width, facets)
         self._sweeps = make_solver(points, coordinates, body.width, facets, GAUSS_SEIDEL, SWEEPS)
-        self._before, self._after = numpy.zeros(points), numpy.zeros(points)
         self.size = float(body_size(body))
         self.gravity = float(numpy.linalg.norm(body.load[: body.width]) / body.mass)
         self.rest_speed = REST * math.sqrt(self.gravity * self.size)
-        self.impacts: list[Impact] = []  # of the last interval
-        self.events = 0  # located, in all
-        self.solves = 0  # of contact problems, in all
-        self._stops = 0  # of slip, in the interval
-        self.rested = math.nan  # [s] from the start of the interval: when the last bounce ended
-        self.impulse = numpy.zeros(points * body.width)  # [rows] in [N s] over the last interval
-        self.dissipated = 0.0  # [J] by impacts and sliding, in all
-        self.residual = 0.0  # largest of the contact solves of the last interval
-        held.survey(body, ground, motion, self.work, self.size, self.gravity)
+        self.impacts: list[Impact] = []  # of the last call
+        self.rested = math.nan  # [s] from the start of the call: when the last bounce ended
+        self.impulse = numpy.zeros(points * body.width)  # [rows] in [N s] over the last call
+        held.survey_points(body, ground, motion, self.work, self.size, self.gravity)
         self.work.flags[:] = numpy.where(self.work.gap <= 1e-9 * self.size, 1, 0)
+
+    @property
+    def events(self) -> int:
+        """Events located, in all."""
+        return int(self._march.count[EVENTS])
+
+    @property
+    def solves(self) -> int:
+        """Contact problems solved, in all."""
+        return int(self._march.count[SOLVES])
+
+    @property
+    def dissipated(self) -> float:
+        """Energy in [J] lost in impacts and by sliding, in all."""
+        return float(self._march.clock[LOST])
+
+    @property
+    def reached(self) -> float:
+        """Time in [s] from the start of the last call at which it stopped."""
+        return float(self._march.count[SAMPLE] * self._march.clock[INTERVAL] + self._march.clock[TIME])
+
+    @property
+    def residual(self) -> float:
+        """Greatest residual of the contact solves of the last call."""
+        return float(self._march.clock[RESIDUAL])
 
     def advance(self, interval: float) -> int:
         """One interval in [s]; returns a status of `results.py`, whose sentence says what went wrong."""
-        self.impacts, self.rested, self.residual = [], math.nan, 0.0
-        self.impulse[:] = 0.0
-        self._stops = 0
-        time, status = 0.0, SOLVED
-        while time < interval and status == SOLVED:
-            still, approaches = held.survey(self.body, self.ground, self.motion, self.work, self.size, self.gravity)
-            if approaches:
-                status = self._collide(time)
-                if status != SOLVED:
-                    break
-            wait, holds = held.settle(self.body, self.motion, self.work, self.rest_speed, still)
-            if wait > 0.0:
-                self.rested = time + wait
-            left = interval - time
-            if holds:
-                status, passed = self._support(min(left, self._longest(LARGEST_SUPPORTED_TURN)), still)
-            else:
-                turn = LARGEST_PLANAR_TURN if self.body.width == PLANE else LARGEST_TURN
-                passed, point = fly(
-                    self.body,
-                    self.ground,
-                    self.motion,
-                    self.work,
-                    min(left, self._longest(turn)),
-                    self._before,
-                    self._after,
-                )
-                self.events += point >= 0
-            time = interval if passed >= left else time + passed
+        return self.advance_over(interval, 1)[0]
+
+    def advance_over(self, interval: float, samples: int) -> tuple[int, Track]:
+        """``samples`` intervals in [s]; returns a status and the states at their ends (up to where it failed)."""
+        clock, count = self._march.clock, self._march.count
+        track = numpy.zeros((samples, self._columns[-1]))
+        self.impacts = []
+        clock[TIME], clock[INTERVAL], clock[RESTED], clock[RESIDUAL] = 0.0, interval, math.nan, 0.0
+        count[SAMPLE], count[SAMPLES], count[STOPS], count[COLLIDED] = 0, samples, 0, 0
+        status = SOLVED
+        while status == SOLVED:
+            request = advance_samples(
+                self.body, self.ground, self.motion, self.work, self._march, self.size, self.gravity, self.rest_speed,
+                self._columns[3], track,
+            )  # fmt: skip
+            if request == DONE:
+                break
+            status = self._collide(track) if request == COLLIDE else self._pass(track)
+        self.rested = float(clock[RESTED])
+        read = self._track(track)
+        self.impulse = read.impulse.sum(axis=0)
+        return status, read
+
+    def _track(self, track: Vector) -> Track:
+        angle, rotation, velocity, impulse, sticks, _length = self._columns
+        turned = track[:, rotation:velocity].reshape(len(track), self.body.width, self.body.width)
+        return Track(
+            track[:, :angle], track[:, angle], turned, track[:, velocity:impulse], track[:, impulse:sticks],
+            track[:, sticks:],
+        )  # fmt: skip
+
+    def _add_impulse(self, track: Vector) -> None:
+        track[self._march.count[SAMPLE], self._columns[3] : self._columns[4]] += self.work.impulse
+
+    def _pass(self, track: Vector) -> int:
+        """The piece of time that the march left, by the general solvers."""
+        clock = self._march.clock
+        status, passed = self._support(float(clock[PIECE]), float(clock[STILL]))
+        if status == SOLVED:
+            self._add_impulse(track)
+            left = clock[INTERVAL] - clock[TIME]
+            clock[TIME] = clock[INTERVAL] if passed >= left else clock[TIME] + passed
         return status
 
     def warm_up(self) -> None:
@@ -115,12 +178,11 @@ class LocatedBody:
         held.prepare_impact(body, work, self.rest_speed)
         impact_impulses(work.problem, work.J, work.W, work.u, work.restitution, self.rule, self._impact, work.impulse)
         held.finish_impact(body, motion, work, self.rest_speed)
-        held.settle(body, motion, work, self.rest_speed, 1e-9)
         self._attempt(1e-3, 1e-9)
         contact_impulses(work.problem, work.J, work.W, self._sweeps, work.impulse)
-        held.landing(body, ground, motion, work, 1e-3, self.size)
-        held.finish_support(body, ground, motion, work, self.size, 1e-9)
-        fly(body, ground, motion, work, 1e-6, self._before, self._after)
+        held.landing_part(body, ground, motion, work, 1e-3, self.size)
+        held.take_piece(body, ground, motion, work, self.size, 1e-9)
+        self.advance(1e-6)
 
     def kinetic_energy(self) -> float:
         """In [J]."""
@@ -128,16 +190,8 @@ class LocatedBody:
         spin = R.T @ v[3:] if body.width != PLANE else v[2:]
         return float(0.5 * body.mass * (v[: body.width] @ v[: body.width]) + 0.5 * (body.inertia @ spin**2))
 
-    def _longest(self, turn: float) -> float:
-        spin = float(numpy.abs(self.motion.velocity[self.body.width :]).sum())
-        longest = turn / spin if spin > 0.0 else math.inf
-        if self.ground.heights.size:  # the normal changes along the way
-            speed = float(numpy.abs(self.motion.velocity[: self.body.width]).max())
-            longest = min(longest, 0.1 * self.ground.cell / speed) if speed > 0.0 else longest
-        return longest
-
-    def _collide(self, time: float) -> int:
-        work, width = self.work, self.body.width
+    def _collide(self, track: Vector) -> int:
+        work, width, clock, count = self.work, self.body.width, self._march.clock, self._march.count
         energy, before = self.kinetic_energy(), work.u.copy()
         held.prepare_impact(self.body, work, self.rest_speed)
         found = impact_impulses(
@@ -148,12 +202,14 @@ class LocatedBody:
         held.finish_impact(self.body, self.motion, work, self.rest_speed)
         points = tuple(int(i) for i in numpy.flatnonzero(work.impulse[::width]))
         modes = tuple(self._mode(before, i) for i in points)
+        time = float(count[SAMPLE] * clock[INTERVAL] + clock[TIME])
         self.impacts.append(Impact(time, points, work.impulse.copy(), modes, energy - self.kinetic_energy()))
-        self.impulse += work.impulse
-        self.dissipated += self.impacts[-1].lost
-        self.events += 1
-        self.solves += 1
-        self.residual = max(self.residual, float(found.residual))
+        self._add_impulse(track)
+        clock[LOST] += self.impacts[-1].lost
+        count[EVENTS] += 1
+        count[SOLVES] += 1
+        count[COLLIDED] = 1
+        clock[RESIDUAL] = max(clock[RESIDUAL], float(found.residual))
         return SOLVED if len(self.impacts) < MOST_IMPACTS else TOO_MANY_IMPACTS
 
     def _mode(self, before: Vector, point: int) -> int:
@@ -179,33 +235,34 @@ class LocatedBody:
         found = contact_impulses(work.problem, work.J, work.W, self._impact.solver, work.impulse)
         if found.status not in (SOLVED, CONTACT_NOT_FINITE):
             found = contact_impulses(work.problem, work.J, work.W, self._sweeps, work.impulse)
-        self.solves += 1
+        self._march.count[SOLVES] += 1
         if not found.residual <= ACCEPTED:
             return int(found.status) or NOT_CONVERGED, 1.0, math.inf
-        self.residual = max(self.residual, float(found.residual))
-        part, stretch = held.finish_attempt(self.body, self.motion, work, still)
+        clock = self._march.clock
+        clock[RESIDUAL] = max(clock[RESIDUAL], float(found.residual))
+        part, stretch = held.stop_of_slip(self.body, self.motion, work, still)
         return SOLVED, part, stretch
 
     def _support(self, piece: float, still: float) -> tuple[int, float]:
         """Held contacts over at most ``piece``, ended where a slip stops or a point lands; returns (status, time)."""
         status, part, _stretch = self._attempt(piece, still)
         time = piece
-        if status == SOLVED and part < 1.0 and self._stops < MOST_STOPS:
-            self._stops += 1
+        count = self._march.count
+        if status == SOLVED and part < 1.0 and count[STOPS] < MOST_STOPS:
+            count[STOPS] += 1
             status, time = self._to_the_stop(piece, still)
-            self.events += 1
+            count[EVENTS] += 1
         for _ in range(LANDING_STEPS):
             if status != SOLVED:
                 return status, time
-            part = held.landing(self.body, self.ground, self.motion, self.work, time, self.size)
+            part = held.landing_part(self.body, self.ground, self.motion, self.work, time, self.size)
             if part == 1.0:
                 break
             time *= part
             status, _part, _stretch = self._attempt(time, still)
-        self.impulse += self.work.impulse
         means = 0.5 * (self.motion.velocity + self.work.free)
-        self.dissipated -= float(self.work.impulse @ (self.work.J @ means))
-        held.finish_support(self.body, self.ground, self.motion, self.work, self.size, still)
+        self._march.clock[LOST] -= float(self.work.impulse @ (self.work.J @ means))
+        held.take_piece(self.body, self.ground, self.motion, self.work, self.size, still)
         return status, time
 
     def _to_the_stop(self, piece: float, still: float) -> tuple[int, float]:

@@ -90,13 +90,12 @@ def take_part(body, work, least):
 def apply_impulse(J, W, c, velocity):
     """``v += W J' c``."""
     n = velocity.shape[0]
-    for k in range(n):
-        change = 0.0
-        for m in range(n):
-            if W[k, m] != 0.0:
-                for row in range(c.shape[0]):
-                    change += W[k, m] * J[row, m] * c[row]
-        velocity[k] += change
+    for row in range(c.shape[0]):
+        if c[row] != 0.0:
+            for m in range(n):
+                share = J[row, m] * c[row]
+                for k in range(n):
+                    velocity[k] += W[k, m] * share
 
 
 @kernel
@@ -187,6 +186,9 @@ def free_motion(body, motion, work, time):
         turn_in_plane(R, work.turn[0], turned)
         return
     w = spin_in_body(R, v)
+    if w[0] == 0.0 and w[1] == 0.0 and w[2] == 0.0 and load[3] == 0.0 and load[4] == 0.0 and load[5] == 0.0:
+        free[3], free[4], free[5] = 0.0, 0.0, 0.0
+        return
     w = free_rotation(turned, body.inertia, load, w[0], w[1], w[2], time)
     straighten(turned)
     for k in range(3):

@@ -1,0 +1,207 @@
+"""The located steps of a body between impacts, over any number of output samples in one compiled call.
+
+Flight, and held points that a closed form solves (a face, an edge in the plane, a point: `face.py`, `planar_pair.py`,
+`single.py`) with no event in the piece. For everything else, an impact or a piece that takes the general solvers or holds an
+event, the call returns and says what it asks for; `located.py` does that step and calls again. So the general solvers are
+compiled once, apart.
+"""
+
+from __future__ import annotations
+
+import math
+from typing import NamedTuple
+
+import numpy
+import numpy.typing
+
+from ..jit import entry, piece
+from ..parameters import Vector
+from .body import Ground, Motion, RigidBody
+from .face import FACE, face_impulses
+from .flight import fly_to_touch
+from .held import DRIFT, landing_part, settle_points, stop_of_slip, survey_points, take_piece
+from .motion import HELD, STUCK, MotionWorkspace, contact_velocities, free_velocity
+from .parameters import PlanarContact
+from .planar_impact import contact_modes
+from .planar_pair import PairWorkspace, make_pair_workspace, pair_impulses
+from .problem import INACTIVE, PLANE
+from .single import single_impulses
+
+DONE, COLLIDE, SUPPORT = 0, 1, 2  # what a call ends with
+TIME, INTERVAL, RESTED, LOST, RESIDUAL, PIECE, STILL, CLOCKS = 0, 1, 2, 3, 4, 5, 6, 7
+SAMPLE, SAMPLES, EVENTS, SOLVES, COLLIDED, STOPS, COUNTS = 0, 1, 2, 3, 4, 5, 6
+LARGEST_TURN = 0.02  # [rad] of a piece of free flight in space, where the spin is of order 6
+LARGEST_PLANAR_TURN = 0.2  # [rad] of a piece of free flight in the plane, which is exact: it only has to find the touch
+LARGEST_SUPPORTED_TURN = 0.005  # [rad] of a piece while a point is held: there the position is of second order
+GOOD = 1.0e-12  # residual of a closed form that is taken
+
+
+class MarchWorkspace(NamedTuple):
+    """Where a march stands, and its arrays."""
+
+    clock: Vector  # [CLOCKS]: time in the interval, interval, time of rest from the start, energy lost, residual, ...
+    count: numpy.typing.NDArray[numpy.int64]  # [COUNTS]
+    face: Vector  # [points + 3, FACE]
+    pair: PairWorkspace
+    before: Vector  # [points]
+    after: Vector  # [points]
+
+
+def make_march_workspace(points: int) -> MarchWorkspace:
+    """Work space of a body of ``points`` points."""
+    zeros = numpy.zeros
+    return MarchWorkspace(
+        zeros(CLOCKS), zeros(COUNTS, numpy.int64), zeros((points + 3, FACE)), make_pair_workspace(), zeros(points),
+        zeros(points),
+    )  # fmt: skip
+
+
+@piece
+def _longest(body, ground, motion, turn):
+    """Longest piece in [s] over which the body turns by at most ``turn`` [rad] and stays near one cell of the ground."""
+    spin, speed = 0.0, 0.0
+    for k in range(body.width, motion.velocity.shape[0]):
+        spin += abs(motion.velocity[k])
+    longest = turn / spin if spin > 0.0 else math.inf
+    if ground.heights.shape[0] > 0:
+        for k in range(body.width):
+            speed = max(speed, abs(motion.velocity[k]))
+        longest = min(longest, 0.1 * ground.cell / speed) if speed > 0.0 else longest
+    return longest
+
+
+@piece
+def _one_in_the_plane(work, i):
+    """Impulse of the one held point of a planar body by its closed modes."""
+    J, W, row = work.J, work.W, 2 * i
+    nn, nt, tt = 0.0, 0.0, 0.0
+    for k in range(3):
+        nn += W[k, k] * J[row, k] * J[row, k]
+        nt += W[k, k] * J[row, k] * J[row + 1, k]
+        tt += W[k, k] * J[row + 1, k] * J[row + 1, k]
+    contact = PlanarContact(nn, nt, tt, work.problem.friction[i], 0.0)
+    found = contact_modes(contact, work.problem.q[row], work.problem.q[row + 1], 0.0)
+    work.impulse[row], work.impulse[row + 1] = found.normal, found.tangential
+    return 0.0
+
+
+@piece
+def _attempt(body, motion, work, march, time, size):
+    """Closed form of the held points over ``time`` into ``work.impulse``; its residual, inf where there is none."""
+    free_velocity(body, motion, work, time)
+    friction, first, second, held, drifted = work.problem.friction, -1, -1, 0, False
+    for i in range(work.flags.shape[0]):
+        friction[i] = INACTIVE
+        if work.flags[i] >= HELD:
+            friction[i] = body.friction
+            first, second, held = (i if held == 0 else first), (i if held == 1 else second), held + 1
+            drifted = drifted or abs(work.gap[i]) > DRIFT * size
+    for row in range(work.impulse.shape[0]):
+        work.impulse[row] = 0.0
+    if drifted:
+        return numpy.inf
+    q = work.problem.q
+    contact_velocities(work.J, work.free, q)
+    if body.width == PLANE:
+        if held == 1:
+            return _one_in_the_plane(work, first)
+        return (
+            pair_impulses(work.J, work.W, q, friction, first, second, march.pair, work.impulse)
+            if held == 2
+            else numpy.inf
+        )
+    if held == 1:
+        return single_impulses(work.J, work.W, q, body.friction, first, work.impulse)
+    return face_impulses(work.J, work.W, work.free, friction, march.face, work.impulse)
+
+
+@piece
+def _support(body, ground, motion, work, march, time, size, still):
+    """Hold the points over ``time`` in closed form; False where that needs the general solvers or an event lies in it."""
+    residual = _attempt(body, motion, work, march, time, size)
+    if not residual <= GOOD:
+        return False
+    part, _stretch = stop_of_slip(body, motion, work, still)
+    if part < 1.0 or landing_part(body, ground, motion, work, time, size) < 1.0:
+        return False
+    clock = march.clock
+    clock[RESIDUAL] = max(clock[RESIDUAL], residual)
+    for row in range(work.impulse.shape[0]):
+        if work.impulse[row] != 0.0:
+            for k in range(work.free.shape[0]):
+                clock[LOST] -= 0.5 * work.impulse[row] * work.J[row, k] * (motion.velocity[k] + work.free[k])
+    return True
+
+
+@piece
+def _record(body, motion, work, row):
+    """State at the end of a sample and which points stick, into a row of the track (columns: `track_columns`)."""
+    place = 0
+    for k in range(body.width):
+        row[place] = motion.position[k]
+        place += 1
+    row[place] = motion.angle[0]
+    place += 1
+    for k in range(body.width):
+        for m in range(body.width):
+            row[place] = motion.rotation[k, m]
+            place += 1
+    for k in range(motion.velocity.shape[0]):
+        row[place] = motion.velocity[k]
+        place += 1
+    place += work.impulse.shape[0]
+    for i in range(work.flags.shape[0]):
+        row[place + i] = 1.0 if work.flags[i] == STUCK else 0.0
+
+
+def track_columns(body: RigidBody) -> tuple[int, int, int, int, int, int]:
+    """Where angle, rotation, velocity, impulse and sticking points start in a row of the track, and its length."""
+    width, points, coordinates = body.width, len(body.points), len(body.load)
+    rotation = width + 1
+    velocity = rotation + width * width
+    impulse = velocity + coordinates
+    sticks = impulse + points * width
+    return width, rotation, velocity, impulse, sticks, sticks + points
+
+
+@entry
+def advance_samples(
+    body: RigidBody, ground: Ground, motion: Motion, work: MotionWorkspace, march: MarchWorkspace, size: float,
+    gravity: float, rest_speed: float, impulse_column: int, track: Vector,
+) -> int:  # fmt: skip
+    """Go on from where ``march`` stands, up to the end of its samples (DONE) or to what it cannot do: COLLIDE, SUPPORT.
+
+    ``track`` [samples, columns]: the impulses of each sample are added up in it, the states written at its end.
+    """
+    clock, count = march.clock, march.count
+    while count[SAMPLE] < count[SAMPLES]:
+        while clock[TIME] < clock[INTERVAL]:
+            still, approaches = survey_points(body, ground, motion, work, size, gravity)
+            clock[STILL] = still
+            if approaches and count[COLLIDED] == 0:
+                return COLLIDE
+            count[COLLIDED] = 0
+            wait, holds = settle_points(body, motion, work, rest_speed, still)
+            if wait > 0.0:
+                clock[RESTED] = count[SAMPLE] * clock[INTERVAL] + clock[TIME] + wait
+            left = clock[INTERVAL] - clock[TIME]
+            if holds:
+                passed = min(left, _longest(body, ground, motion, LARGEST_SUPPORTED_TURN))
+                clock[PIECE] = passed
+                count[SOLVES] += 1
+                if not _support(body, ground, motion, work, march, passed, size, still):
+                    return SUPPORT
+                for row in range(work.impulse.shape[0]):
+                    track[count[SAMPLE], impulse_column + row] += work.impulse[row]
+                take_piece(body, ground, motion, work, size, still)
+            else:
+                turn = LARGEST_PLANAR_TURN if body.width == PLANE else LARGEST_TURN
+                passed = min(left, _longest(body, ground, motion, turn))
+                passed, point = fly_to_touch(body, ground, motion, work, passed, march.before, march.after)
+                count[EVENTS] += 1 if point >= 0 else 0
+            clock[TIME] = clock[INTERVAL] if passed >= left else clock[TIME] + passed
+        _record(body, motion, work, track[count[SAMPLE]])
+        count[SAMPLE] += 1
+        clock[TIME] = 0.0
+        count[STOPS] = 0
+    return DONE
