@@ -48,7 +48,7 @@ def _pairs(J: Vector, W: Vector, velocities: Vector, friction: Vector, work: Pai
     q, c = numpy.zeros(4), numpy.zeros(4)
     for i in range(velocities.shape[0]):
         contact_velocities(J, velocities[i], q)  # type: ignore[no-untyped-call]
-        worst = max(worst, pair_impulses(J, W, q, friction, 0, 1, work, c))
+        worst = max(worst, pair_impulses(J, W, q, friction, 0, 1, work, c))  # type: ignore[no-untyped-call]
         for k in range(3):
             out[i, k] = velocities[i, k]
         apply_impulse(J, W, c, out[i])  # type: ignore[no-untyped-call]
@@ -60,7 +60,7 @@ def _faces(J: Vector, W: Vector, velocities: Vector, friction: Vector, work: Vec
     """A box on four contacts, from velocity before [n, 6] to velocity after; the worst residual."""
     worst, c = 0.0, numpy.zeros(12)
     for i in range(velocities.shape[0]):
-        worst = max(worst, face_impulses(J, W, velocities[i], friction, work, c))
+        worst = max(worst, face_impulses(J, W, velocities[i], friction, work, c))  # type: ignore[no-untyped-call]
         for k in range(6):
             out[i, k] = velocities[i, k]
         apply_impulse(J, W, c, out[i])  # type: ignore[no-untyped-call]

@@ -104,12 +104,12 @@ class LocatedBody:
     @property
     def events(self) -> int:
         """Events located, in all."""
-        return int(self._march.count[EVENTS])
+        return int(self._march.counts[EVENTS])
 
     @property
     def solves(self) -> int:
         """Contact problems solved, in all."""
-        return int(self._march.count[SOLVES])
+        return int(self._march.counts[SOLVES])
 
     @property
     def dissipated(self) -> float:
@@ -119,7 +119,7 @@ class LocatedBody:
     @property
     def reached(self) -> float:
         """Time in [s] from the start of the last call at which it stopped."""
-        return float(self._march.count[SAMPLE] * self._march.clock[INTERVAL] + self._march.clock[TIME])
+        return float(self._march.counts[SAMPLE] * self._march.clock[INTERVAL] + self._march.clock[TIME])
 
     @property
     def residual(self) -> float:
@@ -132,7 +132,7 @@ class LocatedBody:
 
     def advance_over(self, interval: float, samples: int) -> tuple[int, Track]:
         """``samples`` intervals in [s]; returns a status and the states at their ends (up to where it failed)."""
-        clock, count = self._march.clock, self._march.count
+        clock, count = self._march.clock, self._march.counts
         track = numpy.zeros((samples, self._columns[-1]))
         self.impacts = []
         clock[TIME], clock[INTERVAL], clock[RESTED], clock[RESIDUAL] = 0.0, interval, math.nan, 0.0
@@ -160,7 +160,7 @@ class LocatedBody:
         )  # fmt: skip
 
     def _add_impulse(self, track: Vector) -> None:
-        track[self._march.count[SAMPLE], self._columns[3] : self._columns[4]] += self.work.impulse
+        track[self._march.counts[SAMPLE], self._columns[3] : self._columns[4]] += self.work.impulse
 
     def _pass(self, track: Vector) -> int:
         """The piece of time that the march left, by the general solvers."""
@@ -191,7 +191,7 @@ class LocatedBody:
         return float(0.5 * body.mass * (v[: body.width] @ v[: body.width]) + 0.5 * (body.inertia @ spin**2))
 
     def _collide(self, track: Vector) -> int:
-        work, width, clock, count = self.work, self.body.width, self._march.clock, self._march.count
+        work, width, clock, count = self.work, self.body.width, self._march.clock, self._march.counts
         energy, before = self.kinetic_energy(), work.u.copy()
         held.prepare_impact(self.body, work, self.rest_speed)
         found = impact_impulses(
@@ -235,7 +235,7 @@ class LocatedBody:
         found = contact_impulses(work.problem, work.J, work.W, self._impact.solver, work.impulse)
         if found.status not in (SOLVED, CONTACT_NOT_FINITE):
             found = contact_impulses(work.problem, work.J, work.W, self._sweeps, work.impulse)
-        self._march.count[SOLVES] += 1
+        self._march.counts[SOLVES] += 1
         if not found.residual <= ACCEPTED:
             return int(found.status) or NOT_CONVERGED, 1.0, math.inf
         clock = self._march.clock
@@ -247,7 +247,7 @@ class LocatedBody:
         """Held contacts over at most ``piece``, ended where a slip stops or a point lands; returns (status, time)."""
         status, part, _stretch = self._attempt(piece, still)
         time = piece
-        count = self._march.count
+        count = self._march.counts
         if status == SOLVED and part < 1.0 and count[STOPS] < MOST_STOPS:
             count[STOPS] += 1
             status, time = self._to_the_stop(piece, still)

@@ -40,7 +40,7 @@ class MarchWorkspace(NamedTuple):
     """Where a march stands, and its arrays."""
 
     clock: Vector  # [CLOCKS]: time in the interval, interval, time of rest from the start, energy lost, residual, ...
-    count: numpy.typing.NDArray[numpy.int64]  # [COUNTS]
+    counts: numpy.typing.NDArray[numpy.int64]  # [COUNTS]
     face: Vector  # [points + 3, FACE]
     pair: PairWorkspace
     before: Vector  # [points]
@@ -173,7 +173,7 @@ def advance_samples(
 
     ``track`` [samples, columns]: the impulses of each sample are added up in it, the states written at its end.
     """
-    clock, count = march.clock, march.count
+    clock, count = march.clock, march.counts
     while count[SAMPLE] < count[SAMPLES]:
         while clock[TIME] < clock[INTERVAL]:
             still, approaches = survey_points(body, ground, motion, work, size, gravity)

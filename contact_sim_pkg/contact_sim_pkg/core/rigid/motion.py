@@ -90,12 +90,12 @@ def take_part(body, work, least):
 def apply_impulse(J, W, c, velocity):
     """``v += W J' c``."""
     n = velocity.shape[0]
-    for row in range(c.shape[0]):
-        if c[row] != 0.0:
-            for m in range(n):
-                share = J[row, m] * c[row]
-                for k in range(n):
-                    velocity[k] += W[k, m] * share
+    for m in range(n):
+        wrench = 0.0
+        for row in range(c.shape[0]):
+            wrench += J[row, m] * c[row]
+        for k in range(n):
+            velocity[k] += W[k, m] * wrench
 
 
 @kernel
