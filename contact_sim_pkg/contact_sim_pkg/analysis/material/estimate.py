@@ -5,7 +5,7 @@ Every form of the inversion is ``E' = q h(k)``, ``tan(beta) = g(k)`` (`core/impa
 does no harm and the bias of the mean falls with 1/n. Intervals: Student's t on the linearised values of the single impacts, in
 which the common noise of k in E' and tan(beta) is counted; for E' in ln E'.
 
-With Gaussian noise these means are as narrow as any: k alone tells tan(beta), for what tau tells goes into E'. So no unbiased reading
+With Gaussian noise these means are as narrow as any: k alone tells tan(beta), for what tau tells goes into E'. No unbiased reading
 of n impacts scatters less than ``|g'(k)| sigma_k/sqrt(n)`` (bound of Cramer and Rao), and this one scatters so much.
 """
 
