@@ -19,7 +19,7 @@ def energy_balance(ledger: LedgerSeries) -> Picture:
     axes[0].plot(*envelope(ledger.time, ledger.dissipated), color=ACCENT, label="dissipated")
     axes[0].plot(*envelope(ledger.time, held), color=MUTED, linestyle=(0, (4, 2)), label="kinetic + potential + stored")
     axes[0].set_ylabel("energy, J")
-    axes[0].legend(loc="upper left")
+    axes[0].legend(loc="lower left", bbox_to_anchor=(0.0, 1.0), ncols=3)  # above the curves, which may run anywhere
     scale = residual_scale(ledger)
     at_rest = throughput(ledger) < AT_REST
     named = (

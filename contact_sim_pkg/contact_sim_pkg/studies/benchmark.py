@@ -13,6 +13,7 @@ from typing import Any
 from contact_sim_pkg.studies import (
     benchmark_core,
     benchmark_identification,
+    benchmark_impact,
     benchmark_rigid,
     benchmark_roller,
     benchmark_runs,
@@ -36,6 +37,7 @@ PARTS: tuple[tuple[str, Callable[[], list[Measured]]], ...] = (
     ("seat slap", benchmark_core.seat_slap),
     ("impacts", benchmark_core.impacts),
     ("steel ball", benchmark_core.steel),
+    ("sphere impact", benchmark_impact.goals),
     ("stick-slip", benchmark_core.stick_slip),
     ("absent effect", benchmark_core.absent_effect),
     ("rigid contact", benchmark_rigid.goals),

@@ -97,3 +97,11 @@ def test_a_loss_tangent_outside_the_range_is_refused(loss_tangent):
 def test_a_restitution_outside_the_range_is_refused(restitution):
     with pytest.raises(ImpactError, match="restitution"):
         loss_tangent_of_restitution(restitution, "force")
+
+
+@pytest.mark.parametrize("end", ["force", "gap"])
+def test_a_vanishing_loss_tangent_has_the_severity_of_the_elastic_duration(end):
+    duration = goloshchapov.elastic_limit()[0]
+    for loss_tangent in (5e-324, 1e-300, 1e-45, 1e-17, 1e-15, 3e-13, 1e-10, 9.9e-9, 1.01e-8):
+        found = severity_of_loss_tangent(loss_tangent, end)
+        assert found == pytest.approx(3.0 * loss_tangent * duration / 3.141592653589793, rel=4e-15 + 4 * loss_tangent)

@@ -25,6 +25,7 @@ __all__ = [
 
 LARGEST_LOSS_TANGENT = 100.0  # severity 72; what rebounds is far below
 ELASTIC_DURATION = 3.21806545971904  # T_c without loss: 4/5 B(2/5, 1/2) (5/4)^(2/5)
+NO_SEARCH_BELOW = 1.0e-8  # loss tangent: one round from the elastic impact is right to its square
 SEVEREST = 100.0  # severity up to which a restitution is inverted
 
 
@@ -65,6 +66,8 @@ def severity_of_loss_tangent(loss_tangent: float, end: str) -> float:
     elif loss_tangent > LARGEST_LOSS_TANGENT:
         raise ImpactError(f"loss tangent {loss_tangent:g}: 0 to {LARGEST_LOSS_TANGENT:g} is the range of the model")
     elastic = 3.0 * ELASTIC_DURATION / math.pi * loss_tangent  # T_c is shorter with loss (force), longer (gap)
+    if loss_tangent < NO_SEARCH_BELOW:
+        return 3.0 * loss_tangent / math.pi * scaled_impact(elastic, end).duration
     low, high = (0.0, min(high, elastic)) if end == "force" else (min(high, 0.9 * elastic), high)
     if end == "force":
         low = _bracket_below(loss_tangent, high)

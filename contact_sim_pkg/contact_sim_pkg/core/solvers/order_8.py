@@ -15,7 +15,7 @@ from .stage import evaluate
 STAGES = 12
 POWER = 8.0
 INSIDE_CONTACT = 0.2
-TOO_COARSE, FAR_ABOVE, TOO_LONG = 0.05, 500.0, 100.0  # an error of 100 halves the step
+TOO_COARSE, FAR_ABOVE, TOO_LONG = 0.03, 500.0, 100.0  # an error of 100 halves the step
 
 
 class Order8(NamedTuple):
@@ -107,11 +107,12 @@ def error_of_order_8(stages, course, scale):
 
     Inside a contact the true error lies 30 to 100 times below that estimate, towards an event 1.5 to 10 times (measured on the
     seat slap), so that ``INSIDE_CONTACT`` of it is returned but for the step that ends at an event.
-    ``TOO_LONG`` where that of order 3 is above a twentieth of the change over the step and far above what is allowed: on a step so
-    long that of order 5 can be small by chance (seen behind a first touch: 1e-3 off with 1e-6 asked).
+    A step that would pass while that of order 3 is above 3 % of the change over it, and far above what is allowed, is
+    ``TOO_LONG``: that of order 5 is small by chance there (seen behind a first touch: 1e-3 off with 1e-6 asked).
     """
     k = stages
     worst = 0.0
+    doubtful = False
     for i in range(scale.shape[0]):
         fine = (
             0.01312004499419488 * k[0, i] - 1.2251564463762044 * k[5, i] - 0.4957589496572502 * k[6, i]
@@ -123,11 +124,14 @@ def error_of_order_8(stages, course, scale):
             - 5.801203960010585 * k[7, i] - 0.4226823213237919 * k[8, i] - 0.1521609496625161 * k[9, i]
             + 0.20136540080403034 * k[10, i] + 0.02265179219836082 * k[11, i]
         )  # fmt: skip
-        if abs(coarse) > FAR_ABOVE * scale[i] and not course.ends_at_event and _too_long(k, i, coarse):
-            return TOO_LONG
+        if abs(coarse) > FAR_ABOVE * scale[i]:
+            doubtful = doubtful or _too_long(k, i, coarse)
         if coarse != 0.0:
             fine *= abs(fine) / math.sqrt(fine * fine + 0.01 * coarse * coarse)
         ratio = abs(fine) / scale[i]
         if not ratio <= worst:  # also true for NaN
             worst = ratio
-    return worst if course.ends_at_event else INSIDE_CONTACT * worst
+    if course.ends_at_event:
+        return worst
+    worst *= INSIDE_CONTACT
+    return TOO_LONG if doubtful and worst <= 1.0 else worst
