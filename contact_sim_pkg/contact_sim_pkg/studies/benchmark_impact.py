@@ -1,4 +1,4 @@
-"""Goals of the sphere's impact: steel to 1e-8 within 100 steps, rubber that follows the tolerance, the material from 100 impacts."""
+"""Goals of the sphere's impact: steel to 1e-8 within 100 steps, rubber that follows the tolerance, a material from 100 impacts."""
 
 from __future__ import annotations
 
