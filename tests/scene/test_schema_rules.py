@@ -84,6 +84,7 @@ BREACHES = [
         "9 Hz is not below high",
     ),
     ("seat", {"vibration": {**SHOCK, "start": 1.0}}, "vibration.start", "behind the end of the run"),
+    ("seat", {"vibration": {**SHOCK, "duration": 0.009}}, "vibration.duration", "hold 9 samples; a shock needs 10"),
     (
         "seat",
         {"seat": {"occupant": {"masses": [5.0], "damping": [9.0]}}},
@@ -125,6 +126,7 @@ def test_a_contradiction_is_one_fault_at_its_key(maker, base, changes, where, to
         ("seat", {"vibration": {**SWEEP, "duration": 1.0}}),
         ("seat", {"vibration": {**SWEEP, "octaves_per_minute": 1.0, "axis": "x"}}),
         ("seat", {"vibration": {**SHOCK, "start": 0.99, "axis": "x"}}),
+        ("seat", {"vibration": {**SHOCK, "duration": 0.01}}),
         ("seat", {"seat": {"occupant": {"masses": [], "stiffness": [], "damping": []}}}),
         ("seat", {"effects.seat.friction": {"coefficient_kinetic": 0.4}}),
         ("seat", {LOSS: {"restitution": 1.0, "reference_speed": 0.5}}),

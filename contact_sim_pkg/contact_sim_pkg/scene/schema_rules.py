@@ -18,6 +18,9 @@ from contact_sim_pkg.scene.schema_roller_rules import roller_breaches
 from contact_sim_pkg.scene.schema_tire_rules import slip_breaches, tire_effect_breaches
 from contact_sim_pkg.scene.schema_vibration import HalfSine, Noise, Recorded, Sine, Sweep
 
+SAMPLES_OF_A_SHOCK = 10
+"""At least; straight lines between as many samples keep its change of speed to 1 %."""
+
 
 def breaches(scene: Scene) -> Iterator[Breach]:
     """All breaches of rules between keys; the rules of effects are in `schema_effect_rules.py`."""
@@ -126,6 +129,12 @@ def _vibration(scene: Scene) -> Iterator[Breach]:
                 f"the shock at {show(vibration.start)} s lies behind the end of the run ({show(scene.duration)} s)"
             )
             yield Breach("vibration.start", sentence, ("duration",))
+        if vibration.duration * vibration.sample_rate < SAMPLES_OF_A_SHOCK * (1.0 - 1e-9):
+            sentence = (
+                f"{show(vibration.duration)} s hold {vibration.duration * vibration.sample_rate:.3g} samples; a shock needs "
+                f"{SAMPLES_OF_A_SHOCK}, so make it longer, or the sample rate {show(SAMPLES_OF_A_SHOCK / vibration.duration)} Hz"
+            )
+            yield Breach("vibration.duration", sentence, ("vibration.sample_rate",))
     elif isinstance(vibration, Recorded) and vibration.rate is None and vibration.time_column is None:
         sentence = (
             "is missing; give the file's sampling rate in Hz, or its time_column where it has one (nothing is guessed)"
