@@ -24,7 +24,7 @@ from .motion import HELD, STUCK, MotionWorkspace, contact_velocities, free_veloc
 from .parameters import PlanarContact
 from .planar_impact import contact_modes
 from .planar_pair import PairWorkspace, make_pair_workspace, pair_impulses
-from .problem import INACTIVE, PLANE
+from .problem import DISC, INACTIVE, PLANE
 from .single import single_impulses
 
 DONE, COLLIDE, SUPPORT = 0, 1, 2  # what a call ends with
@@ -110,6 +110,8 @@ def _attempt(body, motion, work, march, time, size):
             if held == 2
             else numpy.inf
         )
+    if work.problem.facets != DISC:
+        return numpy.inf  # the closed forms in space are those of the true cone
     if held == 1:
         return single_impulses(work.J, work.W, q, body.friction, first, work.impulse)
     return face_impulses(work.J, work.W, work.free, friction, march.face, work.impulse)
