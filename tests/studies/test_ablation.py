@@ -1,0 +1,39 @@
+"""`bench effects`: what stands in the table of a scene, and what an effect is said to change."""
+
+import numpy
+import pytest
+
+from contact_sim_pkg.bag.messages import RollerContact, encode_roller
+from contact_sim_pkg.studies import ablation
+from contact_sim_pkg.studies.ablation_changes import Change, changes_of
+
+
+def contact(**values):
+    columns = {name: numpy.ones(4) for name in RollerContact._fields[2:]}
+    columns.update(values)
+    return [("roller/contact", 0, encode_roller(RollerContact(0, 0.01, *columns.values()), 0))]
+
+
+def test_the_change_is_that_of_the_field_that_changes_most():
+    """rms of (1, -1, 0, 0) over that of (2, 0, 1, 1): sqrt(2 / 6)."""
+    with_it = contact(tilt=numpy.array([2.0, 0.0, 1.0, 1.0]), yaw=numpy.full(4, 1.1))
+    [found] = changes_of(with_it, contact(), ["roller/contact"])
+    assert found.field == "tilt"
+    assert found.change == pytest.approx((2.0 / 6.0) ** 0.5, rel=1e-12)
+
+
+def test_nothing_changes_between_two_equal_runs_and_what_one_lacks_is_told():
+    assert changes_of(contact(), contact(), ["roller/contact", "roller/track"]) == [
+        Change("roller/contact", "unchanged", 0.0)
+    ]
+    assert changes_of(contact(), [], ["roller/contact"])[0] == Change("roller/contact", "only with it", None)
+    assert changes_of([], contact(), ["roller/contact"])[0] == Change("roller/contact", "only without it", None)
+
+
+def test_an_effect_that_the_scene_cannot_take_has_a_row_with_the_reason():
+    """Radii that change and heights of the track do not go together: the table stands all the same."""
+    rows = {row["effect"]: row for row in ablation.study("roller_steady")}
+    assert rows["track_waves"]["verdict"] == "not available"
+    assert "the scene does not take it: roller." in rows["track_waves"]["why"]
+    assert rows["subsurface"]["cost"] > 0.0
+    assert {"topic": "roller/volumes", "field": "only with it", "change": None} in rows["subsurface"]["changes"]
