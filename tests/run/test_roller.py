@@ -68,6 +68,12 @@ def test_the_stability_is_that_of_the_sheet():
     assert "stable: decays" in damped.sentence
 
 
+def test_a_roller_without_friction_and_damping_is_said_to_be_neutral():
+    facts = forecast_of(resolved("roller_flutter", "effects.roller.rolling_friction.coefficient=0"))
+    assert (facts.facts["growth_rate_1_s"], facts.facts["critical_damping_N_m_s"]) == (0.0, 0.0)
+    assert "neutral: neither grows nor decays; critical load 3000 N, critical damping 0 N m s" in facts.sentence
+
+
 def test_the_amplitude_grows_at_the_rate_that_was_told():
     """A straight line through the logarithm of an amplitude from energy-like squares, both motions of the start included."""
     _scene, messages = run("roller_flutter", "duration=4.0", "roller.tilt=1e-6")

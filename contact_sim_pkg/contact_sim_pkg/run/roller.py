@@ -9,8 +9,8 @@ import numpy
 from contact_sim_pkg.bag.messages import RollerStability
 from contact_sim_pkg.core.jit import freeze, thaw
 from contact_sim_pkg.core.parameters import Vector
-from contact_sim_pkg.core.roller.ellipse import RollingContact
-from contact_sim_pkg.core.roller.moments import moments
+from contact_sim_pkg.core.roller.ellipse import RollingContact, rolling_contacts
+from contact_sim_pkg.core.roller.motion import accelerations
 from contact_sim_pkg.core.roller.volumes import box_volume, dangerous_volumes
 from contact_sim_pkg.run.block_simulation import BlockResult, InputBlock, refuse_out_of_turn
 from contact_sim_pkg.run.roller_energy import Energies
@@ -29,6 +29,9 @@ MOST_TRACKS = 200
 
 ROAD_CELL = 1e-3
 """[m]: a road's texture holds waves down to two of them."""
+
+
+PEAK_PRESSURE = RollingContact._fields.index("peak_pressure")
 
 
 class RollerSimulation:
@@ -73,7 +76,7 @@ class RollerSimulation:
             record.track = self._ride
             record.checked = self._ride.check() if self._check_due(block) else None
         messages = encode_block(self.model, record, time.perf_counter() - began)
-        peak = max(contact.peak_pressure for contact in record.contacts)
+        peak = float(record.contacts[:, PEAK_PRESSURE].max())
         return BlockResult(messages, float(record.load.max()), peak, time.perf_counter() - began)
 
     def _advance(self, block: int) -> RollerRecord:
@@ -92,13 +95,12 @@ class RollerSimulation:
             heave = numpy.stack([numpy.interp(times, ridden.time, values) for values in (ridden.heave, ridden.speed)])
             angles = numpy.stack([numpy.interp(times, ridden.time, column) for column in turned.T], axis=1)
             steps = len(ridden.time) - 1
-        contacts = [
-            model.contact(float(loads[i]), float(angles[i, 1]), model.programme.curvatures_at(start + float(times[i])))
-            for i in range(samples)
-        ]
+        curvatures, contacts = model.programme.curvatures_over(start + times[:-1]), numpy.zeros((samples, 6))
+        angles = numpy.ascontiguousarray(angles[:-1])
+        rolling_contacts(curvatures, angles[:, 1].copy(), model.modulus, loads[:-1], model.kind, contacts)
         return RollerRecord(
-            block, timing.block_length / samples, loads[:-1], heave[:, :-1], angles[:-1],
-            self._acceleration(start, times, loads, angles, heave), contacts, steps, energy,
+            block, timing.block_length / samples, loads[:-1], heave[:, :-1], angles,
+            self._acceleration(curvatures, loads[:-1], angles, heave[1, :-1]), contacts, steps, energy,
         )  # fmt: skip
 
     def _energy(self) -> Energies:
@@ -109,6 +111,8 @@ class RollerSimulation:
         """Loads [times] on the contact at rest."""
         programme = self.model.programme
         pressed = programme.loads(start + times)
+        if not self.model.parallel:
+            return pressed
         return numpy.array([
             self.model.contact_load(float(load), programme.curvatures_at(start + float(time)))
             for load, time in zip(pressed, times, strict=True)
@@ -139,27 +143,16 @@ class RollerSimulation:
             angles.append(moved)
         return joined(parts), numpy.vstack([angles[0], *(each[1:] for each in angles[1:])])
 
-    def _acceleration(self, start: float, times: Vector, loads: Vector, angles: Matrix, heave: Matrix) -> Matrix:
+    def _acceleration(self, curvatures: Matrix, loads: Vector, angles: Matrix, speed: Vector) -> Matrix:
         """Of heave, tilt and yaw [3, samples], from the equations of motion."""
-        model, roller = self.model, self.model.roller
-        found = numpy.zeros((3, len(times) - 1))
+        model, found = self.model, numpy.zeros((3, len(loads)))
         if self._ride is not None:
             drag = 2.0 * self._ride.zeta * self._ride.frequency
-            found[0] = (loads[:-1] - self._ride.heave.load) / model.mass - drag * heave[1, :-1]
-        if self._angles is None:
-            return found
-        inertia = numpy.array(
-            [[roller.inertia_tilt, roller.inertia_product], [roller.inertia_product, roller.inertia_yaw]]
-        )
-        gyro = roller.inertia_spin * roller.spin
-        damping = numpy.array([[roller.damping_tilt, gyro], [-gyro, roller.damping_yaw]])
-        stiffness = numpy.array([roller.stiffness_tilt, roller.stiffness_yaw])
-        for i in range(len(times) - 1):
-            curvatures = model.programme.curvatures_at(start + float(times[i]))
-            tilt, yaw = float(angles[i, 0]), float(angles[i, 1])
-            pushed = moments(roller, curvatures, model.bending, model.modulus, float(loads[i]), tilt, yaw)
-            rest = numpy.array(pushed) - damping @ angles[i, 2:] - stiffness * angles[i, :2]
-            found[1:, i] = numpy.linalg.solve(inertia, rest)
+            found[0] = (loads - self._ride.heave.load) / model.mass - drag * speed
+        if self._angles is not None:
+            turned = numpy.zeros((len(loads), 2))
+            accelerations(model.roller, curvatures, model.bending, model.modulus, loads, angles, turned)
+            found[1:] = turned.T
         return found
 
     def _forecast(self, block: int) -> RollerStability | None:
@@ -179,7 +172,8 @@ class RollerSimulation:
         for instant in below["instants"]:
             place = round(float(instant) / record.period) - block * self.model.timing.samples
             if 0 <= place < len(record.load):
-                found.append(self._volumes(float(instant), record.contacts[place]))
+                contact = RollingContact(*(float(value) for value in record.contacts[place]))
+                found.append(self._volumes(float(instant), contact))
         return found
 
     def _volumes(self, instant: float, contact: RollingContact, cells: tuple[int, int, int] | None = None) -> Measured:

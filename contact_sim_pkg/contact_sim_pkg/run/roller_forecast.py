@@ -64,9 +64,13 @@ def sentence_before_run(facts: dict[str, Any]) -> str:
     """The forecast in one line."""
     rate, frequency = facts["growth_rate_1_s"], facts["frequency_Hz"]
     how = "diverges" if frequency == 0.0 else f"flutters at {frequency:.5g} Hz"
-    motion = f"stable: decays at {rate:.4g} 1/s" if facts["stable"] else f"unstable: {how}, growth rate {rate:+.4g} 1/s"
+    motion = (
+        f"stable: decays at {-rate:.4g} 1/s" if facts["stable"] else f"unstable: {how}, growth rate {rate:+.4g} 1/s"
+    )
+    if rate == 0.0:
+        motion = "neutral: neither grows nor decays"
     load, damping = facts["critical_load_N"], facts["critical_damping_N_m_s"]
-    loads = "none found" if load is None else "none: any load" if load < 1e-6 * facts["load_N"] else f"{load:.5g} N"
+    loads = "none found" if load is None else "none: any load" if load < 1e-5 * facts["load_N"] else f"{load:.5g} N"
     dampings = "none" if damping is None else f"{damping:.5g} N m s"
     return f"under {facts['load_N']:.5g} N {motion}; critical load {loads}, critical damping {dampings}"
 

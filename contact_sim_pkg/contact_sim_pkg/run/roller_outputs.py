@@ -62,7 +62,7 @@ class RollerRecord:
     heave: Matrix  # [2, samples] and its speed
     angles: Matrix  # [samples, 4] tilt, yaw and their rates
     acceleration: Matrix  # [3, samples] of heave, tilt, yaw
-    contacts: list[RollingContact]
+    contacts: Matrix  # [samples, 6], columns as `RollingContact`
     steps: int
     energy: Energies  # at the start
     stability: RollerStability | None = None
@@ -88,7 +88,7 @@ def encode_block(model: RollerModel, record: RollerRecord, wall_time: float) -> 
 
 
 def _contact(record: RollerRecord, stamp: int) -> Messages:
-    columns = numpy.array(record.contacts).T.copy()
+    columns = record.contacts.T.copy()
     along_x, along_y, angle, peak, approach = columns[:5]
     zeros = numpy.zeros_like(record.load)
     force = ContactForceBlock(record.block, record.period, record.load, zeros, approach, zeros)

@@ -44,6 +44,12 @@ class Programme:
             return Curvatures(*(float(value) for value in self.curvatures[self._rows(numpy.array([time]))[0]]))
         return Curvatures(*(_straight(time, self.time, column) for column in self.curvatures.T))
 
+    def curvatures_over(self, times: Vector) -> NDArray[numpy.float64]:
+        """At many times [s], [times, 4], columns as `Curvatures`."""
+        if not self.turns_bodies:
+            return numpy.tile(self.curvatures[0], (len(times), 1))
+        return numpy.array([self.curvatures_at(float(time)) for time in times])
+
     @property
     def turns_bodies(self) -> bool:
         """Whether the curvatures change."""

@@ -36,6 +36,15 @@ def test_without_friction_the_roots_come_in_pairs_and_nothing_grows():
     assert sorted(found.roots.imag) == pytest.approx(sorted(-found.roots.imag))
 
 
+@pytest.mark.parametrize("speed", [0.0, 1.0, 50.0, 5000.0])
+def test_an_undamped_motion_without_friction_is_neutral_and_needs_no_damping(speed):
+    """Roots on the imaginary axis: what rounding puts beside it is none."""
+    roller = ROLLER._replace(rolling_friction=0.0, spin=2.0 * math.pi * speed)
+    assert stability(roller, CURVATURES, None, MODULUS, LOAD).growth_rate == 0.0
+    assert critical_damping(roller, CURVATURES, None, MODULUS, LOAD) == 0.0
+    assert critical_load(roller, CURVATURES, None, MODULUS, 10000.0) == pytest.approx(3000.0, rel=1e-6)
+
+
 @pytest.mark.parametrize(("friction", "damping", "load"), [(0.01, 1.562e-5, 380.0), (-0.01, 2.188e-5, 275.0)])
 def test_damping_sets_the_threshold(friction, damping, load):
     """Sheet of the paper; the load is that which damping of 2e-5 N m s bears."""

@@ -30,6 +30,7 @@ __all__ = [
     "local_coefficients",
     "principal_curvatures",
     "rolling_contact",
+    "rolling_contacts",
 ]
 
 EXACT, POLYNOMIAL = 0, 1
@@ -110,6 +111,18 @@ def rolling_contact(curvatures: Curvatures, yaw: float, modulus: float, load: fl
     if principal.near_x <= principal.near_y:
         return RollingContact(contact.a, contact.b, principal.angle, contact.peak_pressure, contact.approach, load)
     return RollingContact(contact.b, contact.a, principal.angle, contact.peak_pressure, contact.approach, load)
+
+
+@entry
+def rolling_contacts(
+    curvatures: Values, yaws: Values, modulus: float, loads: Values, kind: int, out: Values
+) -> None:  # fmt: skip
+    """`rolling_contact` of many instants into `out` [rows, 6], columns as its fields; curvatures [rows, 4] as `Curvatures`."""
+    for i in range(yaws.shape[0]):
+        here = Curvatures(curvatures[i, 0], curvatures[i, 1], curvatures[i, 2], curvatures[i, 3])
+        contact = rolling_contact(here, yaws[i], modulus, loads[i], kind)
+        out[i, 0], out[i, 1], out[i, 2] = contact.along_x, contact.along_y, contact.angle
+        out[i, 3], out[i, 4], out[i, 5] = contact.peak_pressure, contact.approach, contact.load
 
 
 @entry

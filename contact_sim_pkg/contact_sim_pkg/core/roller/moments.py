@@ -16,11 +16,13 @@ from __future__ import annotations
 import math
 from typing import NamedTuple
 
-from contact_sim_pkg.core.jit import entry
-from contact_sim_pkg.core.roller.ellipse import EXACT, rolling_contact
-from contact_sim_pkg.core.roller.parameters import Bending, Curvatures, Roller
+import numpy
 
-__all__ = ["Moments", "moments"]
+from contact_sim_pkg.core.jit import entry, kernel
+from contact_sim_pkg.core.roller.parameters import Bending, Curvatures, Roller
+from contact_sim_pkg.core.roller.yaw_ellipse import YawEllipse, exact_ellipse
+
+__all__ = ["Moments", "moments", "moments_of_bent", "moments_of_straight"]
 
 
 class Moments(NamedTuple):
@@ -41,16 +43,25 @@ def moments(
     yaw: float,
 ) -> Moments:
     """Moments of a contact under `load` [N] at angles [rad]; modulus: E* [Pa]. All are 0 without load."""
-    if not load > 0.0:
-        return Moments(0.0, 0.0)
-    arm = roller.radius * math.sin(tilt)
-    about_y, about_z = load * arm, roller.rolling_friction * load * arm
-    if bending is not None:
-        contact = rolling_contact(curvatures, yaw, modulus, load, EXACT)
-        a, b = contact.along_x, contact.along_y
-        pull = bending.friction * bending.load * math.pi * a * b * (bending.radius - contact.approach)
-        pull /= bending.second_moment
-        distance = bending.contact_distance - bending.load_distance + arm
-        about_y -= pull * roller.radius * math.cos(tilt) * distance
-        about_z += 0.125 * pull * (a * a - b * b) * math.sin(2.0 * contact.angle)
-    return Moments(about_y, about_z)
+    if bending is None or not load > 0.0:
+        return moments_of_straight(roller, load, tilt)
+    return moments_of_bent(roller, bending, load, tilt, exact_ellipse(curvatures, modulus, yaw))
+
+
+@kernel
+def moments_of_straight(roller: Roller, load: float, tilt: float) -> Moments:
+    """Of pressure and rolling alone."""
+    about_y = max(load, 0.0) * roller.radius * math.sin(tilt)
+    return Moments(about_y, roller.rolling_friction * about_y)
+
+
+@kernel
+def moments_of_bent(roller: Roller, bending: Bending, load: float, tilt: float, ellipse: YawEllipse) -> Moments:
+    """With the friction of the bent shaft, from the ellipse under 1 N at the yaw; load > 0."""
+    straight, arm = moments_of_straight(roller, load, tilt), roller.radius * math.sin(tilt)
+    grown = numpy.cbrt(load) ** 2
+    pull = bending.friction * bending.load * math.pi * grown * ellipse.product / bending.second_moment
+    pull *= bending.radius - grown * ellipse.approach
+    distance = bending.contact_distance - bending.load_distance + arm
+    about_y = straight.tilt - pull * roller.radius * math.cos(tilt) * distance
+    return Moments(about_y, straight.yaw + 0.125 * pull * grown * ellipse.turned)

@@ -21,10 +21,11 @@ import numpy
 from numpy.typing import NDArray
 
 from contact_sim_pkg.core.jit import entry, kernel
-from contact_sim_pkg.core.roller.moments import moments
+from contact_sim_pkg.core.roller.moments import Moments, moments_of_bent, moments_of_straight
 from contact_sim_pkg.core.roller.parameters import Bending, Curvatures, Roller
+from contact_sim_pkg.core.roller.yaw_ellipse import ellipse_at_yaw, empty_fit
 
-__all__ = ["DIVERGED", "DONE", "LARGEST_TILT", "Energies", "energies", "energy", "gauss_rule", "march"]
+__all__ = ["DIVERGED", "DONE", "LARGEST_TILT", "Energies", "accelerations", "energies", "energy", "gauss_rule", "march"]
 
 Values = NDArray[numpy.float64]
 
@@ -64,18 +65,19 @@ def march(
     tilt passes `LARGEST_TILT`, NO_CONVERGENCE where the step is too long for its iteration; what is not reached is NaN.
     """
     stages, steps = table.shape[0] - 1, loads.shape[0] - 1
-    slopes, trial = numpy.zeros((stages, 4)), numpy.zeros(4)
-    _fill(roller, curvatures, bending, modulus, loads[0], state, slopes[0])
+    slopes, trial, fit = numpy.zeros((stages, 4)), numpy.zeros(4), empty_fit()
+    _fill(roller, curvatures, bending, modulus, loads[0], state, slopes[0], fit)
     for i in range(1, stages):
         _copy(slopes[0], slopes[i])
     every = steps // max(1, record.shape[0] - 1)
     record[:, :] = numpy.nan
     _copy(state, record[0])
     for n in range(steps):
-        if not _solve(roller, curvatures, bending, modulus, loads[n], loads[n + 1], step, table, state, slopes, trial):
+        case = (roller, curvatures, bending, modulus, loads[n], loads[n + 1], step, table, state, slopes, trial, fit)
+        if not _solve(*case):
             return NO_CONVERGENCE
         if state.shape[0] > 4:
-            _sum_powers(roller, curvatures, bending, modulus, loads[n], loads[n + 1], step, table, state, slopes, trial)
+            _sum_powers(*case)
         for j in range(4):
             for i in range(stages):
                 state[j] += step * table[stages, i] * slopes[i, j]
@@ -89,7 +91,7 @@ def march(
 @kernel
 def _solve(
     roller: Roller, curvatures: Curvatures, bending: Bending | None, modulus: float, load: float, load_end: float,
-    step: float, table: Values, state: Values, slopes: Values, trial: Values,
+    step: float, table: Values, state: Values, slopes: Values, trial: Values, fit: Values,
 ) -> bool:  # fmt: skip
     """Slopes of the stages by repeated substitution, from those of the step before; to rounding of the moments that make them."""
     stages = table.shape[0] - 1
@@ -104,7 +106,7 @@ def _solve(
                 trial[j] = state[j] + step * total
             here = load + table[i, stages] * (load_end - load)
             old_tilt, old_yaw = slopes[i, 2], slopes[i, 3]
-            _fill(roller, curvatures, bending, modulus, here, trial, slopes[i])
+            _fill(roller, curvatures, bending, modulus, here, trial, slopes[i], fit)
             change = max(change, abs(slopes[i, 2] - old_tilt), abs(slopes[i, 3] - old_yaw))
             size = max(size, abs(slopes[i, 2]), abs(slopes[i, 3]))
         if change <= 4e-16 * size or (change <= 1e-12 * size and change >= before):
@@ -125,11 +127,11 @@ def _largest_term(roller: Roller, load: float, state: Values) -> float:
 @kernel
 def _fill(
     roller: Roller, curvatures: Curvatures, bending: Bending | None, modulus: float, load: float, state: Values,
-    slope: Values,
+    slope: Values, fit: Values,
 ) -> None:  # fmt: skip
     """Time derivative of a state."""
     tilt, yaw = state[0], state[1]
-    moment = moments(roller, curvatures, bending, modulus, load, tilt, yaw)
+    moment = _moments(roller, curvatures, bending, modulus, load, tilt, yaw, fit)
     gyro = roller.inertia_spin * roller.spin
     about_y = moment.tilt - roller.stiffness_tilt * tilt - roller.damping_tilt * state[2] - gyro * state[3]
     about_z = moment.yaw - roller.stiffness_yaw * yaw - roller.damping_yaw * state[3] + gyro * state[2]
@@ -140,9 +142,20 @@ def _fill(
 
 
 @kernel
+def _moments(
+    roller: Roller, curvatures: Curvatures, bending: Bending | None, modulus: float, load: float, tilt: float, yaw: float,
+    fit: Values,
+) -> Moments:  # fmt: skip
+    """`moments`, with the ellipse from its series over the yaw."""
+    if bending is not None and load > 0.0:
+        return moments_of_bent(roller, bending, load, tilt, ellipse_at_yaw(curvatures, modulus, yaw, fit))
+    return moments_of_straight(roller, load, tilt)
+
+
+@kernel
 def _sum_powers(
     roller: Roller, curvatures: Curvatures, bending: Bending | None, modulus: float, load: float, load_end: float,
-    step: float, table: Values, state: Values, slopes: Values, trial: Values,
+    step: float, table: Values, state: Values, slopes: Values, trial: Values, fit: Values,
 ) -> None:  # fmt: skip
     """Add what a step supplies and dissipates, from its stages."""
     stages, rise = table.shape[0] - 1, (load_end - load) / step
@@ -152,7 +165,7 @@ def _sum_powers(
             for k in range(stages):
                 trial[j] += step * table[i, k] * slopes[k, j]
         here = load + table[i, stages] * (load_end - load)
-        moment = moments(roller, curvatures, bending, modulus, here, trial[0], trial[1])
+        moment = _moments(roller, curvatures, bending, modulus, here, trial[0], trial[1], fit)
         about_y = moment.tilt - here * roller.radius * math.sin(trial[0])
         supplied = about_y * trial[2] + moment.yaw * trial[3] - rise * _lowered(roller, trial[0])
         dissipated = roller.damping_tilt * trial[2] ** 2 + roller.damping_yaw * trial[3] ** 2
@@ -170,6 +183,28 @@ def _lowered(roller: Roller, tilt: float) -> float:
 def _copy(values: Values, out: Values) -> None:
     for j in range(4):
         out[j] = values[j]
+
+
+@entry
+def accelerations(
+    roller: Roller, curvatures: Values, bending: Bending | None, modulus: float, loads: Values, states: Values, out: Values
+) -> None:  # fmt: skip
+    """psi'' and theta'' [rows, 2] [rad/s^2] of states [rows, 4] under loads [rows] [N]; curvatures [rows, 4] as `Curvatures`."""
+    slope, fit = numpy.zeros(4), empty_fit()
+    for i in range(loads.shape[0]):
+        here = Curvatures(curvatures[i, 0], curvatures[i, 1], curvatures[i, 2], curvatures[i, 3])
+        if i > 0 and not _equal(curvatures[i], curvatures[i - 1]):
+            fit[0, 1] = -1.0
+        _fill(roller, here, bending, modulus, loads[i], states[i], slope, fit)
+        out[i, 0], out[i, 1] = slope[2], slope[3]
+
+
+@kernel
+def _equal(values: Values, others: Values) -> bool:
+    equal = True
+    for j in range(values.shape[0]):
+        equal = equal and values[j] == others[j]
+    return equal
 
 
 class Energies(NamedTuple):

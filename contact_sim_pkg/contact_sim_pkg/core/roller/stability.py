@@ -25,6 +25,9 @@ Roots = NDArray[numpy.complex128]
 ANGLE_STEP = 1e-4
 """[rad] of the differences that give slopes of moments; of fourth order: 1e-11 of the slope."""
 
+ROUNDING = 1e-12
+"""Of a root's size: a growth rate below it is none. The roots of an undamped motion lie on the axis but for rounding."""
+
 
 class RollerError(ValueError):
     """The roller has no static angles, or its inertias are none; the text says why."""
@@ -44,7 +47,9 @@ class Stability(NamedTuple):
     """What the roots say."""
 
     roots: Roots  # [4] [1/s]
-    growth_rate: float  # [1/s] of the fastest growing motion, negative where all decay
+    growth_rate: (
+        float  # [1/s] of the fastest growing motion, negative where all decay, 0 where one neither grows nor decays
+    )
     frequency: float  # [Hz] of that motion; 0: divergence
     linear: Linear
 
@@ -102,7 +107,8 @@ def stability(
     ])  # fmt: skip
     roots = numpy.linalg.eigvals(first_order).astype(complex)
     fastest = roots[roots.real.argmax()]
-    return Stability(roots, float(fastest.real), float(abs(fastest.imag) / (2.0 * numpy.pi)), linear)
+    growth = float(fastest.real) if abs(fastest.real) > ROUNDING * abs(fastest) else 0.0
+    return Stability(roots, growth, float(abs(fastest.imag) / (2.0 * numpy.pi)), linear)
 
 
 def critical_load(
@@ -112,7 +118,7 @@ def critical_load(
 
     def grows(load: float) -> bool:
         try:
-            return stability(roller, curvatures, bending, modulus, load).growth_rate > 1e-9
+            return stability(roller, curvatures, bending, modulus, load).growth_rate > 0.0
         except RollerError:
             return True
 
@@ -126,12 +132,17 @@ def critical_load(
 def critical_damping(
     roller: Roller, curvatures: Curvatures, bending: Bending | None, modulus: float, load: float
 ) -> float:
-    """Equal damping [N m s] of tilt and yaw at which no motion grows any more. Raises `RollerError` where none does it."""
+    """Equal damping [N m s] of tilt and yaw at which no motion grows any more, 0 where none does undamped.
+
+    Raises `RollerError` where no damping does it.
+    """
 
     def decays(damping: float) -> bool:
         damped = roller._replace(damping_tilt=damping, damping_yaw=damping)
         return stability(damped, curvatures, bending, modulus, load).growth_rate <= 0.0
 
+    if decays(0.0):
+        return 0.0
     high = 1e-9
     while not decays(high):
         high *= 2.0
