@@ -5,7 +5,8 @@ dangerous volume `omega(F)` of each cell, and the track is lowered where it is a
 
     w_j <- w_j - gamma delta(F_N) turns (omega_j - mean omega)
 
-The mean lowers the whole track and is told apart. W, which the roller rides, is the mean of w over the length of the contact.
+The mean lowers the whole track and is told apart. W, which the roller rides, is the mean of w over the length of the contact,
+straight between the cells; the length need not be whole cells.
 Where the hardness c of a cell raises the limits, `omega_c(F) = c^3 omega(F / c^3)`: stress goes with F^(1/3), the volume that bears
 it with F.
 Small waves of n_w round the track, Omega_w = 2 pi n_w turns/s, grow by `growth_of_wave` a turn.
@@ -22,7 +23,17 @@ from numpy.typing import NDArray
 from contact_sim_pkg.core.jit import entry, kernel
 from contact_sim_pkg.core.roller.heave import Heave, Path, linear_stiffness, natural_frequency, ride
 
-__all__ = ["Interval", "Track", "Wear", "growth_of_wave", "make_track", "moving_mean", "run_intervals", "wear"]
+__all__ = [
+    "Interval",
+    "Track",
+    "Wear",
+    "growth_of_wave",
+    "make_track",
+    "mean_weights",
+    "moving_mean",
+    "run_intervals",
+    "wear",
+]
 
 Values = NDArray[numpy.float64]
 
@@ -34,7 +45,7 @@ class Track(NamedTuple):
     """What a track feels and how it answers."""
 
     turn_time: float  # [s] of one turn
-    contact_cells: int  # odd: cells of the moving mean
+    contact_cells: float  # of the moving mean: length of the contact over that of a cell
     gain: float  # gamma [-]; 0: the track stays as it is
     approach: float  # delta(F_N) [m]
     table_loads: Values  # [n] [N], rising from 0
@@ -77,8 +88,8 @@ def make_track(
     hard = numpy.ones(cells) if hardness is None else numpy.ascontiguousarray(hardness, dtype=float)
     if hard.shape != (cells,) or not (hard > 0.0).all():
         raise ValueError(f"track: the hardness needs {cells} numbers above 0, one for each cell")
-    within = int(contact_length / (2.0 * math.pi * radius / cells))
-    return Track(turn_time, 2 * (within // 2) + 1, gain, approach, loads, shares, hard, STRAIN * radius)
+    within = contact_length / (2.0 * math.pi * radius / cells)
+    return Track(turn_time, within, gain, approach, loads, shares, hard, STRAIN * radius)
 
 
 @entry
@@ -128,14 +139,36 @@ def _share(track: Track, cell: int, load: float) -> float:
 
 
 @entry
-def moving_mean(heights: Values, width: int, out: Values) -> None:
-    """Mean of `heights` [cells] over `width` (odd) cells around each, round the track; an `out` of one cell more is closed."""
-    cells, half = heights.shape[0], width // 2
+def mean_weights(width: float) -> Values:
+    """Weights of a place itself and of each place k cells before and behind it, in the mean over `width` cells about it.
+
+    Heights go straight from place to place. width: any number not below 0; 0 takes the height of the place.
+    """
+    half = 0.5 * width
+    whole = int(half)
+    rest = half - whole
+    weights = numpy.zeros(whole + 2)
+    if width <= 0.0:
+        weights[0] = 1.0
+        return weights
+    for k in range(whole):
+        weights[k] += 0.5
+        weights[k + 1] += 0.5
+    weights[whole] += rest - 0.5 * rest * rest
+    weights[whole + 1] += 0.5 * rest * rest
+    weights[0] *= 2.0  # it stands at the end of both sides
+    return weights / width
+
+
+@entry
+def moving_mean(heights: Values, width: float, out: Values) -> None:
+    """Mean of `heights` [cells] over `width` cells about each, round the track; an `out` of one cell more is closed."""
+    cells, weights = heights.shape[0], mean_weights(width)
     for j in range(cells):
-        total = 0.0
-        for k in range(-half, half + 1):
-            total += heights[(j + k) % cells]
-        out[j] = total / width
+        total = weights[0] * heights[j]
+        for k in range(1, weights.shape[0]):
+            total += weights[k] * (heights[(j + k) % cells] + heights[(j - k) % cells])
+        out[j] = total
     if out.shape[0] > cells:
         out[cells] = out[0]
 
@@ -161,6 +194,7 @@ def growth_of_wave(heave: Heave, track: Track, waves: int, slope: float, cells: 
     """
     kappa, omega = natural_frequency(heave), 2.0 * math.pi * waves / track.turn_time
     answer = kappa**2 / (kappa**2 - omega**2 + 2j * heave.damping_ratio * kappa * omega)
-    phase = math.pi * waves / cells
-    mean = math.sin(track.contact_cells * phase) / (track.contact_cells * math.sin(phase))
+    weights = mean_weights(track.contact_cells)
+    places = 2.0 * math.pi * waves / cells * numpy.arange(len(weights))
+    mean = float(2.0 * weights @ numpy.cos(places) - weights[0])
     return -track.gain * track.approach * slope * linear_stiffness(heave) / heave.load * (1.0 - answer).real * mean
