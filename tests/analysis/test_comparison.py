@@ -5,7 +5,9 @@ from click.testing import CliRunner
 
 from contact_sim_pkg.analysis.comparison import render_comparison, write_comparison
 from contact_sim_pkg.analysis.comparison_tables import number_table
+from contact_sim_pkg.analysis.drawing import style
 from contact_sim_pkg.analysis.figures_comparison import COLOURS, make_runs
+from contact_sim_pkg.analysis.figures_comparison_domain import domain_comparison
 from contact_sim_pkg.analysis.reading import read_recording
 from contact_sim_pkg.analysis.summary import summarise_recording
 from contact_sim_pkg.bag.errors import BagError
@@ -32,7 +34,7 @@ def page(bags):
 def test_four_runs_lie_on_one_page_called_by_what_differs(page):
     text = " ".join(page.texts)
     assert "comparison of 4 bags" in text
-    assert page.tags.count("figure") == 4
+    assert page.tags.count("figure") == 5
     for each in FREQUENCIES:
         assert page.texts.count(f"{each} Hz") >= 1 + 1 + 4, "in both tables and every legend"
 
@@ -52,8 +54,23 @@ def test_the_table_has_the_slaps_of_every_run(bags):
 def test_runs_without_slaps_are_compared_without_them(tmp_path):
     kept = [known.backrest_bag(tmp_path / f"{each}", each, slaps=False) for each in (4.0, 5.0)]
     page = Page(write_comparison(kept, tmp_path / "page.html").read_text(encoding="utf-8"))
-    assert page.tags.count("figure") == 3
+    assert page.tags.count("figure") == 4
     assert "Work that the contact takes a cycle, and friction" in " ".join(page.texts)
+
+
+def test_the_contact_domain_of_every_run_is_told_with_its_axes(page):
+    (caption,) = [each for each in page.texts if each.startswith("Above at first touch")]
+    assert all(f"{each} Hz: " in caption for each in FREQUENCIES)
+
+
+@pytest.mark.parametrize("count", [2, 5])
+def test_any_number_of_domains_is_drawn(bags, count):
+    recordings = [read_recording(bag) for bag in (bags * 2)[:count]]
+    runs = make_runs([str(number) for number in range(count)], recordings)
+    with style():
+        drawn = domain_comparison("key", "backrest", runs)
+    assert drawn is not None
+    assert all(f"{number}: " in drawn.caption for number in range(count))
 
 
 def test_other_rigs_are_compared_by_force_and_approach(seat, tmp_path):

@@ -7,7 +7,7 @@ from contact_sim_pkg.bag.messages import decode_contact_force, decode_contact_pa
 from contact_sim_pkg.run.rigs import make_simulation, result_topics
 from contact_sim_pkg.run.sources import make_sources
 
-from .scenes import resolved
+from .scenes import FRICTIONLESS, resolved
 
 FORWARD = ("vibration={kind: sine, axis: x, frequency: 5.25, amplitude: 25}", "duration=0.6")
 DROP = ("vibration={kind: half_sine, axis: z, amplitude: -40, duration: 0.1, start: 0.05}", "duration=0.6")
@@ -66,7 +66,12 @@ def test_the_back_leaves_a_seat_shaken_forward_and_the_pan_keeps_its_load(shaken
 def test_each_contact_does_what_it_does_in_its_own_rig(shaken):
     effects = resolved("seat_ride_full").data["effects"]
     back = resolved(
-        "seat_slap", *FORWARD, "backrest.mass=20", "backrest.preload=80", f"effects.backrest={effects['backrest']}"
+        "seat_slap",
+        *FRICTIONLESS,
+        *FORWARD,
+        "backrest.mass=20",
+        "backrest.preload=80",
+        f"effects.backrest={effects['backrest']}",
     )
     assert messages_of(back)["backrest/force"] == shaken["backrest/force"]
 

@@ -26,6 +26,19 @@ def test_one_value_is_changed(maker, assignment, read):
     assert read(scene)
 
 
+def test_null_takes_a_key_out(maker):
+    given = {"effects": {"seat": {"normal_elastic": {}, "contact_field": {}, "friction": {"coefficient_static": 0.5}}}}
+    scene = maker.load("seat", given, [set_value("effects.seat.friction=null"), set_value("duration=2")])
+    assert scene.effects.seat.friction is None
+    assert scene.effects.seat.contact_field is not None
+    assert scene.duration == 2.0
+
+
+def test_null_for_a_key_that_is_needed_says_that_it_is_missing(maker):
+    with pytest.raises(SceneError, match="rig: is missing"):
+        maker.load("seat", overrides=[set_value("rig=null")])
+
+
 def test_the_last_of_equal_options_wins(maker):
     assert maker.load("seat", overrides=[set_duration("2"), set_value("duration=3")]).duration == 3.0
 
@@ -45,6 +58,14 @@ def test_pace_is_a_word_or_a_factor(maker, pace, value):
         (
             lambda: set_value("duration.x=3"),
             "--set duration.x=3: duration.x: 'duration' is the value '1.0' and has no keys",
+        ),
+        (
+            lambda: set_value("effects.seat.frcition=null"),
+            "--set effects.seat.frcition=null: effects.seat.frcition: null removes a key, and the scene does not give this",
+        ),
+        (
+            lambda: set_value("a.b=null"),
+            "--set a.b=null: a.b: null removes a key, and the scene does not give this one",
         ),
         (lambda: set_duration("1_0"), "--duration 1_0: duration: '1_0' was read as text, a number is needed, write 10"),
         (lambda: set_duration("-1"), "--duration -1: duration: -1 s is not above 0 s"),

@@ -33,10 +33,12 @@ def slap_rows():
 
 def test_a_slap_s_error_falls_with_the_asked_tolerance(slap_rows):
     quantities = by_quantity(slap_rows)
-    assert set(quantities) == {"motion", "normal force", "instants of touch"}
-    for rows in quantities.values():
+    assert set(quantities) == {"motion", "normal force", "friction", "instants of touch"}
+    for name, rows in quantities.items():
         assert [row["tolerance"] for row in rows] == pytest.approx([10.0**-k for k in range(3, 12)])
-        assert all("scipy" in row["reference"] for row in rows)
+        assert all(
+            "own code" in row["reference"] if name == "friction" else "scipy" in row["reference"] for row in rows
+        )
         assert all(row["error"] <= row["tolerance"] for row in rows[:7])
         assert rows[6]["error"] < 0.05 * rows[0]["error"]
 
@@ -45,7 +47,9 @@ def test_the_plot_and_the_table_take_the_rows_of_a_back(slap_rows, tmp_path):
     rows = [{**row, "first_call_s": None, "next_start_s": None} for row in slap_rows]
     assert accuracy_cost.write_plot(rows, tmp_path / "slap.png").stat().st_size > 10_000
     table = accuracy_cost.sections(rows)[0]
-    assert set(table.rows[0]) == {"tolerance", "motion", "normal force", "instants of touch", "ms per simulated s"}
+    assert set(table.rows[0]) == {
+        "tolerance", "motion", "normal force", "friction", "instants of touch", "ms per simulated s",
+    }  # fmt: skip
 
 
 def test_the_twin_of_the_study_touches_when_the_mass_under_a_true_sine_does():

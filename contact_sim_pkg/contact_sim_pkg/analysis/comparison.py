@@ -19,6 +19,7 @@ from .figures_comparison import (
     make_runs,
     slap_comparison,
 )
+from .figures_comparison_domain import domain_comparison
 from .page import Section, environment
 from .reading import read_recording
 from .scene_differences import differences, labels
@@ -94,6 +95,7 @@ def _sections(runs: list[Run], title: str) -> list[Section]:
             key = f"contact-{number}"
             made: list[Picture | None] = [
                 force_comparison(key, name, runs, title),
+                domain_comparison(key, name, runs),
                 loop_comparison(key, name, runs, title),
             ]
             made += [area_comparison(key, name, runs, title), slap_comparison(key, name, runs, title)]

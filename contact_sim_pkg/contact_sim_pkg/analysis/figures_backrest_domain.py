@@ -6,6 +6,7 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.cm import ScalarMappable
 from matplotlib.colors import Normalize
+from matplotlib.image import AxesImage
 
 from contact_sim_pkg.core.lame import LameFit, fit_patch
 
@@ -48,7 +49,7 @@ def contact_domain(key: str, name: str, field: FieldSeries, points: PointSeries 
     figure, axes = new_figure(height, 1, 2)
     first = "first touch" if field.touch is not None else "start"
     for place, (shown, snapshot), label in zip(axes, pairs, (first, "largest force"), strict=True):
-        _draw_domain(place, shown, snapshot, window)
+        _draw_with_scale(place, shown, snapshot, window)
         place.set_title(f"{label}, t = {shown.time:.3f} s, {shown.load:.4g} N")
     if points is not None:
         for place in axes:
@@ -64,14 +65,28 @@ def contact_domain(key: str, name: str, field: FieldSeries, points: PointSeries 
     return picture(f"{key}-domain", figure, f"Contact points on the contact domain of the {name}", caption)
 
 
-def _draw_domain(axes: Axes, shown: Snapshot, points: PointSnapshot | None, window: Window) -> None:
-    loaded = np.where(shown.field.pressure > 0.0, shown.field.pressure * 1e-3, np.nan)
-    image = draw_map(
-        axes, shown.field, loaded, PRESSURE_COLOURS, Normalize(0.0, float(np.nanmax(loaded, initial=0.0)) or 1.0)
-    )
-    draw_outline(axes, shown.field)
+def _draw_with_scale(axes: Axes, shown: Snapshot, points: PointSnapshot | None, window: Window) -> None:
+    image = draw_domain(axes, shown.field, points, window, Normalize(0.0, highest_kilopascals([shown.field])))
+    axes.set_xlabel(AT_BACKREST.across)
+    axes.set_ylabel(AT_BACKREST.along)
+    bar = axes.figure.colorbar(image, cax=axes.inset_axes((1.04, 0.0, 0.045, 1.0)), label="kPa")
+    bar.ax.spines["outline"].set_visible(False)
+
+
+def highest_kilopascals(fields: list[PressureMap]) -> float:
+    """[kPa] largest pressure of all fields; 1 where none carries."""
+    return max(float(field.pressure.max()) for field in fields) * 1e-3 or 1.0
+
+
+def draw_domain(
+    axes: Axes, field: PressureMap, points: PointSnapshot | None, window: Window, limits: Normalize
+) -> AxesImage:
+    """Pressure [kPa] of the loaded cells, their edge, the Lamé curve through it, and the points that carry."""
+    loaded = np.where(field.pressure > 0.0, field.pressure * 1e-3, np.nan)
+    image = draw_map(axes, field, loaded, PRESSURE_COLOURS, limits)
+    draw_outline(axes, field)
     if np.isfinite(loaded).any():
-        x, y = lame_curve(fit_of(shown.field))
+        x, y = lame_curve(fit_of(field))
         axes.plot(y * 1e3, x * 1e3, color=CURVE, linewidth=1.4)
     if points is not None and points.x.size > 1:
         for state, (label, colour) in STATES.items():
@@ -81,10 +96,7 @@ def _draw_domain(axes: Axes, shown: Snapshot, points: PointSnapshot | None, wind
                 markeredgecolor="#000000", markeredgewidth=0.35, label=label if these.any() else None,
             )  # fmt: skip
     set_window(axes, window)
-    axes.set_xlabel(AT_BACKREST.across)
-    axes.set_ylabel(AT_BACKREST.along)
-    bar = axes.figure.colorbar(image, cax=axes.inset_axes((1.04, 0.0, 0.045, 1.0)), label="kPa")
-    bar.ax.spines["outline"].set_visible(False)
+    return image
 
 
 def _mark_first(axes: Axes, points: PointSeries) -> None:

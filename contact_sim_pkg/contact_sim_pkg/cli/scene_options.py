@@ -75,7 +75,11 @@ def scene_options(function: Callable[..., Any]) -> Callable[..., Any]:
     decorators = (
         click.argument("scene", required=False),
         click.option(
-            "--set", "assignments", multiple=True, metavar="A.B.C=VALUE", help="Change one value of the scene."
+            "--set",
+            "assignments",
+            multiple=True,
+            metavar="A.B.C=VALUE",
+            help="Change one value of the scene; null removes the key.",
         ),
         click.option("--duration", metavar="S", help="Simulated time, in s."),
         click.option("--pace", metavar="realtime|max|FACTOR", help="How fast blocks are sent; acts on nodes."),

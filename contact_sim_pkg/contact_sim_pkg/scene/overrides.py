@@ -12,6 +12,8 @@ from contact_sim_pkg.scene.yaml_nodes import ListNode, MappingNode, Mark, Node, 
 
 TIED_TO_FILE = {"road": ("start", "sha256"), "vibration": ("start", "sha256", "rate", "time_column")}
 """Keys that say something about one file and go when another file takes its place."""
+REMOVED = "null"
+"""Value of `--set` that takes a key out of the scene, an effect for instance."""
 FILE_KINDS = {"road": "opencrg", "vibration": "recorded"}
 
 
@@ -22,18 +24,18 @@ class Override:
     Attributes:
         option: the option as typed; stands for the file in faults.
         path: keys from the root.
-        node: the value.
+        node: the value; None removes the key.
         file_section: `road` or `vibration` where the value is a file that takes the place of this section.
     """
 
     option: str
     path: tuple[str, ...]
-    node: Node
+    node: Node | None
     file_section: str = ""
 
 
 def set_value(assignment: str) -> Override:
-    """`--set a.b.c=value`; the value is read as YAML, items of lists are counted from 0.
+    """`--set a.b.c=value`; the value is read as YAML, items of lists are counted from 0. `null` removes the key.
 
     Raises:
         SceneError: no `=`, an empty key, or a value that is not YAML.
@@ -43,7 +45,8 @@ def set_value(assignment: str) -> Override:
     keys = tuple(key.strip() for key in dotted.split("."))
     if not equals or not all(keys):
         raise SceneError([Fault(option, 0, 0, "", "is not of the form a.b.c=value")])
-    return Override(option, keys, parse_value(text, option))
+    node = None if text.strip() == REMOVED else parse_value(text, option)
+    return Override(option, keys, node)
 
 
 def set_duration(text: str | float) -> Override:
@@ -76,10 +79,12 @@ def apply(root: MappingNode, overrides: Iterable[Override]) -> list[Fault]:
     faults = []
     for override in overrides:
         mark = Mark(override.option, 0, 0)
-        if override.file_section:
-            _replace_file(root, override, mark)
-            continue
-        sentence = _put(root, override.path, override.node, mark)
+        if override.node is None:
+            sentence = _remove(root, override.path)
+        elif override.file_section:
+            sentence = _replace_file(root, override.file_section, override.node, mark)
+        else:
+            sentence = _put(root, override.path, override.node, mark)
         if sentence:
             faults.append(mark.fault(".".join(override.path), sentence))
     return faults
@@ -96,9 +101,10 @@ def _file(name: str, section: str, file: str | Path) -> Override:
     return Override(option, (section,), ScalarNode(Mark(option, 0, 0), absolute, absolute, quoted=True), section)
 
 
-def _replace_file(root: MappingNode, override: Override, mark: Mark) -> None:
-    section, kind = override.file_section, FILE_KINDS[override.file_section]
-    entries = {"kind": ScalarNode(mark, kind, kind), "file": override.node}
+def _replace_file(root: MappingNode, section: str, file: Node, mark: Mark) -> str:
+    """Let the file take the place of the section; there is no fault."""
+    kind = FILE_KINDS[section]
+    entries = {"kind": ScalarNode(mark, kind, kind), "file": file}
     before = root.entries.get(section)
     kept = MappingNode(mark)
     if isinstance(before, MappingNode) and _kind(before) == kind:
@@ -112,6 +118,7 @@ def _replace_file(root: MappingNode, override: Override, mark: Mark) -> None:
         kept.key_marks.setdefault(key, mark)
     root.entries[section] = kept
     root.key_marks[section] = mark
+    return ""
 
 
 def _kind(section: MappingNode) -> str:
@@ -138,6 +145,18 @@ def _put(root: MappingNode, path: tuple[str, ...], value: Node, mark: Mark) -> s
         node.items[int(path[-1])] = value
         return ""
     return _no_way(node, path[:-1], path[-1])
+
+
+def _remove(root: MappingNode, path: tuple[str, ...]) -> str:
+    """Take one key out; the sentence of the fault where the scene does not give it."""
+    node: Node | None = root
+    for key in path[:-1]:
+        node = None if node is None else _below(node, key)
+    if not isinstance(node, MappingNode) or path[-1] not in node.entries:
+        return "null removes a key, and the scene does not give this one"
+    del node.entries[path[-1]]
+    node.key_marks.pop(path[-1], None)
+    return ""
 
 
 def _below(node: Node, key: str) -> Node | None:

@@ -11,7 +11,7 @@ from contact_sim_pkg.core.rigs import backrest_entries as columns
 from contact_sim_pkg.reference.backrest import SlappingMass, SlappingPoints, slapping_mass, slapping_points
 from contact_sim_pkg.scene.build_backrest import build_backrest, resting_state
 
-from ...run.scenes import resolved
+from ...run.scenes import FRICTIONLESS, resolved
 from .backrest_runs import FRICTION, GRAVITY, LAW, LOSS, MASS, driven, one_mass, sine
 
 SPINE = (4.75, 5.25, 5.75, 6.25)  # [Hz]
@@ -27,7 +27,8 @@ def transmissibility(frequency):
 
 
 def shell(*values):
-    scene = resolved("seat_slap", "effects.backrest.shell_modes={}", "backrest.preload=20", *values)
+    """The scene's back as a shell, without friction."""
+    scene = resolved("seat_slap", *FRICTIONLESS, "effects.backrest.shell_modes={}", "backrest.preload=20", *values)
     return build_backrest(scene.data).rig
 
 

@@ -9,14 +9,19 @@ from contact_sim_pkg.core.rigs import backrest_entries as columns
 from contact_sim_pkg.core.rigs.backrest_search import nearest_point
 from contact_sim_pkg.scene.build_backrest import build_backrest, resting_state
 
-from ...run.scenes import resolved
+from ...run.scenes import FRICTIONLESS, resolved
 from .backrest_runs import GRAVITY, LAW, LOSS, driven, sine
 
 WIDTH, HEIGHT, RADII = 0.40, 0.50, (0.6, 1.5)
 
 
 def shell(modes, *values):
-    common = ("effects.backrest.shell_modes={}", "effects.backrest.contact_search={}", "backrest.preload=20")
+    common = (
+        *FRICTIONLESS,
+        "effects.backrest.shell_modes={}",
+        "effects.backrest.contact_search={}",
+        "backrest.preload=20",
+    )
     scene = resolved("seat_slap", *common, f"effects.backrest.shell_modes.modes={modes}", *values)
     return build_backrest(scene.data).rig
 
