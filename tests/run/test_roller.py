@@ -17,6 +17,7 @@ from contact_sim_pkg.bag.messages import (
 from contact_sim_pkg.core.roller.motion import energies
 from contact_sim_pkg.run.errors import RunError
 from contact_sim_pkg.run.rigs import forecast_of, make_simulation, result_topics
+from contact_sim_pkg.scene.build_roller import build_roller
 from contact_sim_pkg.scene.errors import SceneError
 
 from .scenes import resolved
@@ -280,7 +281,17 @@ def test_the_time_acceleration_is_held_against_every_turn_ridden():
             ("roller.inertia_tilt=1e-15", "roller.inertia_yaw=1e-15"),
             "give larger inertias or softer springs",
         ),
-        ("roller_flutter", ("roller.load=1e7",), "the roller tips over"),
+        ("roller_flutter", ("roller.load=1e7",), r"more than 0\.5 of the radius of 0\.01 m .* give a lower load"),
+        (
+            "roller_flutter",
+            ("roller.stiffness_yaw=0",),
+            r"stiffness_yaw 0 N m/rad: neither may be 0; give stiffer springs",
+        ),
+        ("roller_flutter", ("roller.profile_radius=0",), "give profile_radius or shaft_profile_radius a value"),
+        ("roller_flutter", ("roller.inertia_product=2e-5",), "give one between -2e-05 and 2e-05"),
+        ("roller_flutter", ("effects.roller.normal_elastic.split=parallel",), "add shaft_bending, or take series"),
+        ("roller_corrugation", ("roller.speed=0",), "give a speed above 0 or leave track_waves out"),
+        ("roller_corrugation", ("effects.roller.subsurface.instants=[7]",), "leave it out or take a longer duration"),
         (
             "roller_corrugation",
             ("roller.mass=1e-9", "effects.roller.damage.table_rows=2"),
@@ -288,9 +299,23 @@ def test_the_time_acceleration_is_held_against_every_turn_ridden():
         ),
     ],
 )
-def test_what_is_too_fast_or_tips_over_is_told_and_not_tried(name, values, sentence):
-    with pytest.raises(RunError, match=sentence):
-        run(name, "duration=0.1", *values)
+def test_what_cannot_run_is_refused_before_the_run_with_a_cure(name, values, sentence):
+    with pytest.raises(SceneError, match=sentence):
+        make_simulation(resolved(name, "duration=0.1", *values))
+
+
+def test_a_roller_that_tips_over_under_its_load_is_told():
+    with pytest.raises(RunError, match=r"the roller tips over, .* a lower load"):
+        run("roller_flutter", "duration=0.1", "roller.load=5000")
+
+
+def test_the_traction_along_rolling_is_that_of_the_friction_where_none_is_given():
+    friction = "effects.roller.rolling_friction.coefficient=0.02"
+    model = build_roller(resolved("roller_hour", friction).data)
+    assert model.traction == (0.0, 0.02)
+    own = build_roller(resolved("roller_hour", friction, "effects.roller.subsurface.traction_y=0.1").data)
+    assert own.traction == (0.0, 0.1)
+    assert build_roller(resolved("roller_steady").data).traction == (0.0, 0.0)
 
 
 def test_radii_that_do_not_divide_are_refused_for_a_track_on_both():

@@ -12,6 +12,7 @@ from contact_sim_pkg.core.jit import thaw
 from contact_sim_pkg.core.roller.ellipse import RollingContact
 from contact_sim_pkg.core.roller.stress import bench_stresses
 from contact_sim_pkg.core.roller.volumes import Volumes, fills_box
+from contact_sim_pkg.scene.build_roller import RollerModel, build_roller
 
 from .drawing import Picture, new_figure, picture
 from .roller_pass import RollerSeries
@@ -35,7 +36,7 @@ def stress_pictures(roller: RollerSeries, scene: dict[str, Any]) -> list[Picture
 
 
 def _stress_picture(found: RollerVolumes, scene: dict[str, Any]) -> Picture:
-    below = scene["effects"]["roller"]["subsurface"]
+    model = build_roller(scene)
     contact = RollingContact(found.along_x, found.along_y, found.angle, found.peak_pressure, found.approach, found.load)
     a = max(found.along_x, found.along_y)
     side: FloatArray = np.linspace(-2.0, 2.0, CELLS, dtype=np.float64) * a
@@ -49,7 +50,7 @@ def _stress_picture(found: RollerVolumes, scene: dict[str, Any]) -> Picture:
     for row, (name, across, along, label, place) in enumerate(planes):
         u, v = (part.ravel() for part in np.meshgrid(across, along))
         points = np.ascontiguousarray(np.stack(place(u, v), axis=1))
-        stress = _stresses(contact, below, float(scene["roller"]["poisson_ratio"]), points)
+        stress = _stresses(contact, model, points)
         limits = np.array([found.normal_limit] * 3 + [found.shear_limit] * 3)
         over = (np.abs(stress) > limits).any(axis=1).astype(float)
         if row == 1:
@@ -85,7 +86,8 @@ def _stress_picture(found: RollerVolumes, scene: dict[str, Any]) -> Picture:
     return picture(name, figure, "Normal and shear stress and dangerous volume in two planes", caption)
 
 
-def _stresses(contact: RollingContact, below: dict[str, Any], poisson: float, points: FloatArray) -> FloatArray:
+def _stresses(contact: RollingContact, model: RollerModel, points: FloatArray) -> FloatArray:
+    """Of contact and traction."""
     out = np.zeros((len(points), 6))
-    bench_stresses(contact, None, float(below["traction_x"]), float(below["traction_y"]), poisson, points, out)
+    bench_stresses(contact, None, *model.traction, model.poisson_ratio, points, out)
     return out

@@ -13,6 +13,7 @@ from contact_sim_pkg.core.roller.ellipse import RollingContact, rolling_contacts
 from contact_sim_pkg.core.roller.motion import accelerations
 from contact_sim_pkg.core.roller.volumes import box_volume, dangerous_volumes
 from contact_sim_pkg.run.block_simulation import BlockResult, InputBlock, refuse_out_of_turn
+from contact_sim_pkg.run.errors import RunError
 from contact_sim_pkg.run.roller_energy import Energies
 from contact_sim_pkg.run.roller_forecast import forecast
 from contact_sim_pkg.run.roller_motion import Matrix, TiltYaw
@@ -21,6 +22,7 @@ from contact_sim_pkg.run.roller_ride import Ridden, TrackRide, joined
 from contact_sim_pkg.run.roller_wear import volume_settings
 from contact_sim_pkg.run.sources import make_surface
 from contact_sim_pkg.scene.build_roller import build_roller
+from contact_sim_pkg.scene.build_roller_checks import refused
 from contact_sim_pkg.scene.resolved_scene import ResolvedScene
 
 MOST_TRACKS = 200
@@ -48,6 +50,19 @@ class RollerSimulation:
         road = make_surface(scene, ROAD_CELL) if scene.data.get("road") else None
         self._first = None if self.model.effects.get("track_waves") is None else TrackRide(self.model, road)
         self._reset()
+        self._refuse_too_fast()
+
+    def _refuse_too_fast(self) -> None:
+        """SceneError for a motion at the start that no step resolves."""
+        timing = self.model.timing
+        samples = self._ride.cells / self._ride.interval_time if self._ride else timing.samples / timing.block_length
+        try:
+            if self._ride is not None:
+                self._ride.refuse_fast_heave()
+            if self._angles is not None:
+                self._angles.parts(0.0, 1.0 / samples)
+        except RunError as error:
+            raise refused(str(error)) from None
 
     def _reset(self) -> None:
         model = self.model
@@ -177,8 +192,8 @@ class RollerSimulation:
         return found
 
     def _volumes(self, instant: float, contact: RollingContact, cells: tuple[int, int, int] | None = None) -> Measured:
-        model, below = self.model, self.model.effects["subsurface"]
-        limits, usual, _none, traction = volume_settings(below)
+        model = self.model
+        limits, usual, _none, traction = volume_settings(model)
         cut = usual if cells is None else cells
         own = dangerous_volumes(contact, model.poisson_ratio, limits, cut, None, traction)
         bent = None

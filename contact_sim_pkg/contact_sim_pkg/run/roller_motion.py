@@ -45,12 +45,7 @@ class TiltYaw:
         self._shifted += self._held() - before
         self._load = float(loads[-1])
         model, length = self.model, float(times[1] - times[0])
-        parts = max(1, math.ceil(self.fastest * length / LARGEST_PHASE))
-        if parts > MOST_PARTS:
-            raise RunError(
-                f"{start:.6g} s: tilt and yaw move by {self.fastest:.3g} rad/s, which takes {parts:.3g} steps in {length:.3g} s; "
-                f"at most {MOST_PARTS} are taken: give larger inertias or softer springs, or leave tilt_yaw out"
-            )
+        parts = self.parts(start, length)
         self.rule = self.rules[0 if self.fastest * length / parts <= SMALL_PHASE else 1]
         record = numpy.empty((len(times), 4))
         if model.programme.turns_bodies:
@@ -60,6 +55,16 @@ class TiltYaw:
                 record[i : i + 2] = pair
             return record
         return self._march(start, _finer(loads, parts), length / parts, len(times), start)
+
+    def parts(self, start: float, length: float) -> int:
+        """Steps in a `length` [s] from `start` [s] on. Raises RunError where they are too many."""
+        parts = max(1, math.ceil(self.fastest * length / LARGEST_PHASE))
+        if parts > MOST_PARTS:
+            raise RunError(
+                f"{start:.6g} s: tilt and yaw move by {self.fastest:.3g} rad/s, which takes {parts:.3g} steps in {length:.3g} s; "
+                f"at most {MOST_PARTS} are taken: give larger inertias or softer springs, or leave tilt_yaw out"
+            )
+        return parts
 
     def _held(self) -> float:
         return float(energies(self.model.roller, self._load, self.state).potential)
@@ -84,7 +89,10 @@ class TiltYaw:
             place = start + step * float(numpy.flatnonzero(numpy.isnan(record[:, 0]))[0]) * (len(loads) - 1) / (
                 rows - 1
             )
-            raise RunError(f"{place:.6g} s: the roller tips over, its tilt passes {LARGEST_TILT:g} rad")
+            raise RunError(
+                f"{place:.6g} s: the roller tips over, its tilt passes {LARGEST_TILT:g} rad; a lower load, "
+                "stiffer springs or more damping hold it"
+            )
         raise RunError(f"{start:.6g} s: tilt and yaw are too fast for their steps of {step:.3g} s")
 
 

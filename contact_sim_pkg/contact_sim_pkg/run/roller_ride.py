@@ -114,7 +114,7 @@ class TrackRide:
 
     def advance(self) -> Ridden:
         """An interval. Raises RunError where the range of a track passes its limit, or a place is too hollow to touch."""
-        self._refuse_fast_heave()
+        self.refuse_fast_heave()
         path = self._path()
         before = self._held()
         self._height, self._coefficient = float(path.height[0]), float(path.coefficient[0])
@@ -130,13 +130,15 @@ class TrackRide:
             if not each.range <= each.track.largest_range:
                 raise RunError(
                     f"{self.intervals * self.interval_time:.6g} s: the track of the {each.body} is {each.range:.4g} m deep after "
-                    f"{each.turned * self.acceleration:.6g} cycles, more than {each.track.largest_range:.4g} m: used up"
+                    f"{each.turned * self.acceleration:.6g} cycles, more than {each.track.largest_range:.4g} m: used up; a lower "
+                    "damage.gain or roller.acceleration, or a shorter duration, ends before"
                 )
         heave, speed = numpy.vstack([self.motion, self.state[:2]]).T
         time: Vector = numpy.arange(self.cells + 1, dtype=numpy.float64) * cell_time
         return Ridden(time, numpy.append(self.loads, self._load()), heave, speed, self.free)
 
-    def _refuse_fast_heave(self) -> None:
+    def refuse_fast_heave(self) -> None:
+        """Raise RunError where the roller swings too fast for the steps of a cell."""
         phase = self.frequency * self.interval_time / self.cells
         if not phase <= LARGEST_PHASE * MOST_STEPS:
             at, most = self.intervals * self.interval_time, LARGEST_PHASE * MOST_STEPS

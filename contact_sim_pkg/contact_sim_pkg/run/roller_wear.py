@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass, replace
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy
 
@@ -115,15 +115,23 @@ def _damage_table(model: RollerModel, prefix: str) -> Table:
     shares = [0.0]
     for load in loads[1:]:
         contact = model.contact(float(load), 0.0, curvatures)
-        volumes = dangerous_volumes(contact, model.poisson_ratio, *volume_settings(below, prefix))
+        volumes = dangerous_volumes(contact, model.poisson_ratio, *volume_settings(model, prefix))
         shares.append(volumes.any / working)
     return loads, numpy.array(shares, dtype=numpy.float64)
 
 
-def volume_settings(
-    below: dict[str, float], prefix: str = ""
-) -> tuple[tuple[float, float], tuple[int, int, int], None, tuple[float, float]]:
-    """Limits, cells, no bending, traction of the effect `subsurface`, as `dangerous_volumes` takes them."""
+class VolumeSettings(NamedTuple):
+    """As `dangerous_volumes` takes them."""
+
+    limits: tuple[float, float]  # [Pa] normal, shear
+    cells: tuple[int, int, int]
+    bending: None
+    traction: tuple[float, float]
+
+
+def volume_settings(model: RollerModel, prefix: str = "") -> VolumeSettings:
+    """Of the effect `subsurface`, which the scene has; prefix: of a body's limits."""
+    below = model.effects["subsurface"]
     limits = (float(below[f"{prefix}normal_limit"]), float(below[f"{prefix}shear_limit"]))
     cells = (int(below["cells_x"]), int(below["cells_y"]), int(below["cells_z"]))
-    return limits, cells, None, (float(below["traction_x"]), float(below["traction_y"]))
+    return VolumeSettings(limits, cells, None, model.traction)

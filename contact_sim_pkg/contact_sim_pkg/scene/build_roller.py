@@ -9,12 +9,11 @@ from typing import Any
 import numpy
 from numpy.typing import NDArray
 
-from contact_sim_pkg.core.hertz import HertzError
 from contact_sim_pkg.core.parameters import Vector
 from contact_sim_pkg.core.roller.ellipse import EXACT, POLYNOMIAL, RollingContact, contact_of_rollers
 from contact_sim_pkg.core.roller.load_split import parallel_contact_load
 from contact_sim_pkg.core.roller.parameters import Bending, Curvatures, Roller
-from contact_sim_pkg.scene.errors import Fault, SceneError
+from contact_sim_pkg.scene.build_roller_checks import refuse_impossible
 from contact_sim_pkg.scene.lattice import effects_at
 from contact_sim_pkg.scene.timing import Timing, make_timing
 
@@ -98,13 +97,20 @@ class RollerModel:
         return contact_of_rollers(curvatures, yaw, self.modulus, load, self.kind)
 
     @property
+    def traction(self) -> tuple[float, float]:
+        """Over the pressure, along x and y: as `subsurface` says; along rolling by default that of the rolling friction."""
+        below = self.effects.get("subsurface") or {"traction_x": 0.0}
+        along = below.get("traction_y")
+        return float(below["traction_x"]), self.roller.rolling_friction if along is None else float(along)
+
+    @property
     def largest_load(self) -> float:
         """[N] pressed on over the run."""
         return float(self.programme.load.max())
 
 
 def build_roller(scene: dict[str, Any]) -> RollerModel:
-    """Model of a resolved scene. Raises SceneError where the bodies do not touch in an ellipse."""
+    """Model of a resolved scene. Raises SceneError where it cannot run (`build_roller_checks`)."""
     rig, effects = scene["roller"], effects_at(scene, "roller")
     bending, compliance = _bending(rig, effects.get("shaft_bending"))
     law = effects["normal_elastic"]
@@ -117,11 +123,7 @@ def build_roller(scene: dict[str, Any]) -> RollerModel:
         POLYNOMIAL if law["ellipse"] == "polynomial" else EXACT, law["split"] == "parallel" and compliance > 0.0,
         (float(rig["tilt"]), float(rig["yaw"])), float(rig["acceleration"]), effects, int(scene["seed"]),
     )  # fmt: skip
-    try:
-        for row in model.programme.curvatures:
-            model.contact(1.0, 0.0, Curvatures(*row))
-    except HertzError as error:
-        raise SceneError([Fault("scene", 0, 0, "roller", f"{error}; give a radius that is not 0")]) from None
+    refuse_impossible(model)
     return model
 
 

@@ -135,7 +135,9 @@ class Subsurface(Section):
     roller_normal_limit: float = number(1.0, 1e13, "Pa", "of the roller, where its track wears", default=5.7e8)
     roller_shear_limit: float = number(1.0, 1e13, "Pa", "of the roller", default=3.3e8)
     traction_x: float = number(-2.0, 2.0, "", "traction over pressure, along the shaft", default=0.0)
-    traction_y: float = number(-2.0, 2.0, "", "along rolling", default=0.0)
+    traction_y: float | None = number(
+        -2.0, 2.0, "", "along rolling; where none is given, the coefficient of rolling_friction", default=None
+    )
     cells_x: int = number(2, 512, "", "of the box under the contact, along the shaft", default=32)
     cells_y: int = number(2, 512, "", "of the box, along rolling", default=40)
     cells_z: int = number(2, 512, "", "of the box, in depth", default=16)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator
 from itertools import pairwise
 
@@ -21,8 +22,16 @@ def roller_breaches(scene: Scene) -> Iterator[Breach]:
         return
     roller = scene.roller or RollerRig()
     if not roller.inertia_product**2 < roller.inertia_tilt * roller.inertia_yaw:
-        sentence = f"{show(roller.inertia_product)} kg m^2 is too large: its square must be below I_y I_z"
+        most = math.sqrt(roller.inertia_tilt * roller.inertia_yaw)
+        sentence = (
+            f"{show(roller.inertia_product)} kg m^2 is too large: its square must be below I_y I_z, give one between "
+            f"-{most:.6g} and {most:.6g} kg m^2"
+        )
         yield Breach("roller.inertia_product", sentence, ("roller.inertia_tilt", "roller.inertia_yaw"))
+    law = effects.normal_elastic
+    if law and law.split == "parallel" and effects.shaft_bending is None:
+        sentence = "parallel takes part of the load through a bent shaft; add shaft_bending, or take series"
+        yield Breach("effects.roller.normal_elastic.split", sentence, ("effects.roller.shaft_bending",))
     if roller.programme is not None:
         yield from _programme(roller.programme)
     if effects.track_waves is not None:
@@ -33,7 +42,8 @@ def roller_breaches(scene: Scene) -> Iterator[Breach]:
     if effects.subsurface is not None:
         for index, instant in enumerate(effects.subsurface.instants):
             if instant >= scene.duration:
-                sentence = f"{show(instant)} s is not before the end of the run, {show(scene.duration)} s"
+                sentence = f"{show(instant)} s is not before the end of the run, {show(scene.duration)} s; "
+                sentence += "leave it out or take a longer duration"
                 yield Breach(f"effects.roller.subsurface.instants.{index}", sentence, ("duration",))
 
 
@@ -42,7 +52,8 @@ def _programme(programme: RollerProgramme) -> Iterator[Breach]:
     for index, (before, after) in enumerate(pairwise(programme.time), start=1):
         if not after > before:
             yield Breach(
-                f"{where}.time.{index}", f"{show(after)} s does not come after {show(before)} s; times must rise"
+                f"{where}.time.{index}",
+                f"{show(after)} s does not come after {show(before)} s; times must rise, change it or leave it out",
             )
     rows = len(programme.time)
     for name in COLUMNS:
@@ -55,11 +66,17 @@ def _programme(programme: RollerProgramme) -> Iterator[Breach]:
 def _track(scene: Scene, roller: RollerRig) -> Iterator[Breach]:
     """A block holds whole turns of the shaft; over the heights of the track only the load may change."""
     if roller.speed == 0.0:
-        yield Breach("roller.speed", "is 0 1/s: a roller that stands does not ride over the track")
+        yield Breach(
+            "roller.speed",
+            "is 0 1/s: a roller that stands does not ride over the track; give a speed above 0 or leave track_waves out",
+        )
         return
     law = scene.effects.roller and scene.effects.roller.normal_elastic
     if law and law.split == "parallel":
-        sentence = "parallel is for a contact at rest; over the heights of the track the load goes in series"
+        sentence = (
+            "parallel is for a contact at rest; over the heights of the track the load goes in series; take series, or "
+        )
+        sentence += "leave track_waves out"
         yield Breach("effects.roller.normal_elastic.split", sentence, ("effects.roller.track_waves",))
     track = scene.effects.roller.track_waves.track if scene.effects.roller and scene.effects.roller.track_waves else ""
     yield from _whole_turns(scene, roller, track)

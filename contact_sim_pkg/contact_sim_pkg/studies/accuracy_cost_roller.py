@@ -166,7 +166,7 @@ def _volumes(model: RollerModel) -> Rows:
     curvatures = model.programme.curvatures_at(at)
     load = model.contact_load(float(model.programme.loads(numpy.array([at]))[0]), curvatures)
     contact = model.contact(load, model.start[1], curvatures)
-    limits, cells, _none, traction = volume_settings(below)
+    limits, cells, _none, traction = volume_settings(model)
 
     def measure(share: float) -> Volumes:
         cut = tuple(max(2, round(share * number)) for number in cells)
