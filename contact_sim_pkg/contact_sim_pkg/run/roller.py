@@ -19,7 +19,7 @@ from contact_sim_pkg.run.roller_forecast import forecast
 from contact_sim_pkg.run.roller_motion import Matrix, TiltYaw
 from contact_sim_pkg.run.roller_outputs import Measured, RollerRecord, encode_block
 from contact_sim_pkg.run.roller_ride import Ridden, TrackRide, joined
-from contact_sim_pkg.run.roller_wear import volume_settings
+from contact_sim_pkg.run.roller_settings import volume_settings
 from contact_sim_pkg.run.sources import make_surface
 from contact_sim_pkg.scene.build_roller import build_roller
 from contact_sim_pkg.scene.build_roller_checks import refused
@@ -75,7 +75,9 @@ class RollerSimulation:
         """Compile or load every kernel that the scene needs, by a block; then close compilation."""
         self._advance(0)
         if self.model.effects.get("subsurface") is not None:
-            self._volumes(0.0, self.model.contact(1.0, 0.0, self.model.programme.curvatures_at(0.0)), (2, 2, 2))
+            self._volumes(
+                0.0, self.model.contact(1.0, self.model.held_yaw, self.model.programme.curvatures_at(0.0)), (2, 2, 2)
+            )
         self._reset()
         freeze()
 
@@ -199,7 +201,7 @@ class RollerSimulation:
         bent = None
         if model.bending is not None:
             bent = dangerous_volumes(contact, model.poisson_ratio, limits, cut, model.bending, traction)
-        first = model.contact(float(model.programme.load[0]), 0.0, model.programme.curvatures_at(0.0))
+        first = model.contact(float(model.programme.load[0]), model.held_yaw, model.programme.curvatures_at(0.0))
         return Measured(instant, contact, limits, box_volume(first), own, bent)
 
     def _track_due(self, block: int) -> bool:

@@ -4,22 +4,20 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass, replace
-from typing import Any, NamedTuple
+from typing import Any
 
 import numpy
 
 from contact_sim_pkg.core.parameters import Vector
 from contact_sim_pkg.core.roller.corrugation import Track, make_track, moving_mean
 from contact_sim_pkg.core.roller.ellipse import RollingContact
-from contact_sim_pkg.core.roller.volumes import box_volume, dangerous_volumes
+from contact_sim_pkg.run.roller_damage import Table, damage_table
 from contact_sim_pkg.scene.build_roller import RollerModel
 
-__all__ = ["BodyTrack", "make_tracks", "track_under", "volume_settings"]
+__all__ = ["BodyTrack", "make_tracks", "track_under"]
 
 PREFIX = {"shaft": "", "roller": "roller_"}
 """Of a body's keys in the scene."""
-
-Table = tuple[Vector, Vector]
 
 
 @dataclass
@@ -65,7 +63,7 @@ def make_tracks(model: RollerModel) -> list[BodyTrack]:
     for body in bodies:
         number = cells * round(radii[body] / least)
         heights = _first_heights(effect, [model.seed, 1] if found else model.seed, number, waves=not found)
-        table = _damage_table(model, PREFIX[body])
+        table = damage_table(model, PREFIX[body])
         turn_time = model.turn_time * radii[body] / model.shaft_radius
         hardness = _hardness(model, PREFIX[body], number)
         track = make_track(radii[body], turn_time, number, 0.0, 0.0, 0.0, table, hardness)
@@ -100,38 +98,3 @@ def _hardness(model: RollerModel, prefix: str, cells: int) -> Vector:
     places = numpy.arange(cells, dtype=numpy.float64) / cells * len(given)
     hardness: Vector = numpy.interp(places, numpy.arange(len(given) + 1), [*given, given[0]])
     return hardness
-
-
-def _damage_table(model: RollerModel, prefix: str) -> Table:
-    """Loads [N] from 0, and the dangerous share of the working volume under each; two rows of zeros without damage."""
-    damage, below = model.effects.get("damage"), model.effects.get("subsurface")
-    if damage is None or below is None:
-        return numpy.array([0.0, 1.0]), numpy.zeros(2)
-    curvatures = model.programme.curvatures_at(0.0)
-    first = float(model.programme.load[0])
-    working = box_volume(model.contact(first, 0.0, curvatures))
-    largest, rows = float(damage["largest_load"]) * model.largest_load, int(damage["table_rows"])
-    loads = numpy.linspace(0.0, largest, rows).astype(numpy.float64)
-    shares = [0.0]
-    for load in loads[1:]:
-        contact = model.contact(float(load), 0.0, curvatures)
-        volumes = dangerous_volumes(contact, model.poisson_ratio, *volume_settings(model, prefix))
-        shares.append(volumes.any / working)
-    return loads, numpy.array(shares, dtype=numpy.float64)
-
-
-class VolumeSettings(NamedTuple):
-    """As `dangerous_volumes` takes them."""
-
-    limits: tuple[float, float]  # [Pa] normal, shear
-    cells: tuple[int, int, int]
-    bending: None
-    traction: tuple[float, float]
-
-
-def volume_settings(model: RollerModel, prefix: str = "") -> VolumeSettings:
-    """Of the effect `subsurface`, which the scene has; prefix: of a body's limits."""
-    below = model.effects["subsurface"]
-    limits = (float(below[f"{prefix}normal_limit"]), float(below[f"{prefix}shear_limit"]))
-    cells = (int(below["cells_x"]), int(below["cells_y"]), int(below["cells_z"]))
-    return VolumeSettings(limits, cells, None, model.traction)

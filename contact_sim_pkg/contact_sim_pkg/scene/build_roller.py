@@ -89,12 +89,17 @@ class RollerModel:
         """F_c [N] of the load pressed on."""
         if not self.parallel:
             return load
-        coefficient = contact_of_rollers(curvatures, 0.0, self.modulus, 1.0, self.kind).approach
+        coefficient = contact_of_rollers(curvatures, self.held_yaw, self.modulus, 1.0, self.kind).approach
         return parallel_contact_load(coefficient, self.bending_compliance, load)
 
     def contact(self, load: float, yaw: float, curvatures: Curvatures) -> RollingContact:
         """Contact under a load [N] on it, at a yaw [rad]."""
         return contact_of_rollers(curvatures, yaw, self.modulus, load, self.kind)
+
+    @property
+    def held_yaw(self) -> float:
+        """[rad] where the roller does not yaw; 0, about its place at rest, where it does."""
+        return 0.0 if self.effects.get("tilt_yaw") is not None else self.start[1]
 
     @property
     def traction(self) -> tuple[float, float]:

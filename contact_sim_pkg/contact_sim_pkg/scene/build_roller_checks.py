@@ -5,6 +5,8 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from contact_sim_pkg.core.hertz import HertzError
+from contact_sim_pkg.core.roller.ellipse import principal_curvatures
+from contact_sim_pkg.core.roller.motion import LARGEST_TILT
 from contact_sim_pkg.core.roller.parameters import Curvatures
 from contact_sim_pkg.core.roller.stability import RollerError, linearise
 from contact_sim_pkg.scene.errors import Fault, SceneError
@@ -35,21 +37,19 @@ def refuse_impossible(model: RollerModel) -> None:
 
 def _refuse_no_ellipse(model: RollerModel, curvatures: Curvatures) -> None:
     try:
-        model.contact(1.0, 0.0, curvatures)
+        model.contact(1.0, model.held_yaw, curvatures)
     except HertzError as error:
         raise refused(f"{error}; give profile_radius or shaft_profile_radius a value that is not 0") from None
 
 
 def _refuse_large_contact(model: RollerModel, curvatures: Curvatures, load: float) -> None:
-    contact = model.contact(load, 0.0, curvatures)
-    bends = (
-        ("x", contact.along_x, curvatures.roller_axial + curvatures.shaft_axial),
-        ("y", contact.along_y, curvatures.roller_rolling + curvatures.shaft_rolling),
-    )
+    contact = model.contact(load, model.held_yaw, curvatures)
+    gap = principal_curvatures(curvatures, model.held_yaw)
+    bends = (("x", contact.along_x, 2.0 * gap.near_x), ("y", contact.along_y, 2.0 * gap.near_y))
     for axis, semi_axis, curvature in bends:
         if not semi_axis * curvature <= LARGEST_SLOPE:
             raise refused(
-                f"under {load:.6g} N the contact reaches {semi_axis:.4g} m along {axis}, more than {LARGEST_SLOPE:g} of the "
+                f"under {load:.6g} N the contact reaches {semi_axis:.4g} m nearly along {axis}, more than {LARGEST_SLOPE:g} of the "
                 f"radius of {1.0 / curvature:.4g} m that both bodies have there together: no contact of nearly flat bodies; give "
                 "a lower load, larger radii or a larger young_modulus"
             )
@@ -60,7 +60,7 @@ def _refuse_no_static_angles(model: RollerModel) -> None:
     curvatures = Curvatures(*(float(value) for value in model.programme.curvatures[0]))
     load = model.contact_load(float(model.programme.load[0]), curvatures)
     try:
-        linearise(model.roller, curvatures, model.bending, model.modulus, load)
+        linear = linearise(model.roller, curvatures, model.bending, model.modulus, load)
     except RollerError as error:
         about_y = model.roller.stiffness_tilt - load * model.roller.radius
         raise refused(
@@ -68,3 +68,8 @@ def _refuse_no_static_angles(model: RollerModel) -> None:
             f"{model.roller.stiffness_yaw:.6g} N m/rad: neither may be 0; give stiffer springs or another load, or "
             "leave tilt_yaw out"
         ) from None
+    if not abs(linear.tilt) <= LARGEST_TILT:
+        raise refused(
+            f"under {load:.6g} N the static tilt is {linear.tilt:.4g} rad, the roller tips over at {LARGEST_TILT:g} rad; give a "
+            "stiffer stiffness_tilt, a lower load or less bending, or leave tilt_yaw out"
+        )

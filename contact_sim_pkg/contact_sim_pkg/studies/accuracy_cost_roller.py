@@ -24,7 +24,7 @@ from contact_sim_pkg.core.roller.volumes import MARCHED, Volumes, dangerous_volu
 from contact_sim_pkg.reference import hertz as reference
 from contact_sim_pkg.run.roller_motion import TiltYaw
 from contact_sim_pkg.run.roller_ride import TrackRide
-from contact_sim_pkg.run.roller_wear import volume_settings
+from contact_sim_pkg.run.roller_settings import volume_settings
 from contact_sim_pkg.scene.build_roller import RollerModel, build_roller
 from contact_sim_pkg.scene.resolved_scene import ResolvedScene
 from contact_sim_pkg.studies.ladder_row import milliseconds, timed_once

@@ -102,6 +102,17 @@ def test_volumes_grow_when_limits_fall_and_end_with_the_box():
     assert sizes[-1] == pytest.approx(box_volume(contact), rel=1e-12)
 
 
+@pytest.mark.parametrize(("limits", "traction", "error"), [
+    ((2.6e8, 1.5e8), (0.0, 0.0), 0.002), ((2.6e8, 1.5e8), (0.0, 0.3), 0.005), ((1.5e9, 6e8), (0.0, 0.3), 0.03),
+])  # fmt: skip
+def test_a_dangerous_layer_at_the_surface_is_seen(limits, traction, error):
+    """Traction takes the largest stress to the surface; beside cells counted one by one, 80 x 80 x 200."""
+    contact = contact_of_rollers(CURVATURES, 0.0, MODULUS, 100.0)
+    fine = dangerous_volumes(contact, 0.3, limits, (80, 80, 200), None, traction, COUNTED)
+    found = dangerous_volumes(contact, 0.3, limits, (32, 40, 16), None, traction, MARCHED)
+    assert found.any == pytest.approx(fine.any, rel=error)
+
+
 def test_they_scale_with_the_contact():
     """Same pressure, twice the size: eight times the volume."""
     double = RollingContact(2.0, 2.0, 0.0, 1.0, 1.0, 1.0)

@@ -2,8 +2,9 @@
 
 `V_ij` is the volume with `|sigma_ij| > limit`, that of normal stress for i = j, of shear for i != j; `V_T` that of the union. The
 print has `sigma - limit > 0`, which is empty for the pressure. They are measured in the box `4 a x 4 b x 3 a` under the contact
-(a the larger semi-axis), on columns of cells: in each column the stress is known at the cells' middles, and the depth at which it
-passes the limit is laid straight between two of them (`MARCHED`), or whole cells are counted (`COUNTED`).
+(a the larger semi-axis), on columns of cells. In each column the stress is known at depths that draw closer to the surface, from
+the surface itself on, and the depth at which it passes the limit is laid straight between two of them (`MARCHED`); or the stress
+is known at the middles of even cells, and whole cells are counted (`COUNTED`).
 """
 
 from __future__ import annotations
@@ -19,13 +20,16 @@ from contact_sim_pkg.core.roller.parameters import Bending
 from contact_sim_pkg.core.roller.stress import add_bending, bench_stress
 from contact_sim_pkg.core.subsurface import Stress
 
-__all__ = ["COUNTED", "MARCHED", "Volumes", "box_volume", "dangerous_volumes", "fills_box"]
+__all__ = ["COUNTED", "MARCHED", "Volumes", "box_volume", "dangerous_volumes", "fills_box", "largest_ratio"]
 
 Values = NDArray[numpy.float64]
 
 COUNTED, MARCHED = 0, 1
 
 COMPONENTS = 6
+
+GRADING = 2.0
+"""Depths of a column go with this power of their number."""
 
 
 class Volumes(NamedTuple):
@@ -82,19 +86,51 @@ def _measure(
 ) -> None:  # fmt: skip
     length, width = 4.0 * contact.along_x, 4.0 * contact.along_y
     depth = 3.0 * max(contact.along_x, contact.along_y)
-    cell = length * width * depth / (nx * ny * nz)
+    ground = length * width / (nx * ny)
     now, above = numpy.zeros(COMPONENTS + 1), numpy.zeros(COMPONENTS + 1)
     for i in range(nx):
         x = ((i + 0.5) / nx - 0.5) * length
         for j in range(ny):
             y = ((j + 0.5) / ny - 0.5) * width
-            for k in range(nz):
-                z = (k + 0.5) / nz * depth
+            before = 0.0
+            for k in range(nz + 1 if kind == MARCHED else nz):
+                z = depth * (k / nz) ** GRADING if kind == MARCHED else depth * (k + 0.5) / nz
                 stress = add_bending(bench_stress(contact, traction_x, traction_y, poisson, x, y, z), bending, x, z)
                 _excess(stress, normal, shear, now)
                 for c in range(COMPONENTS + 1):
-                    out[c] += cell * _share(now[c], above[c], k, nz, kind)
+                    if kind == COUNTED:
+                        out[c] += ground * depth / nz if now[c] > 0.0 else 0.0
+                    elif k > 0:
+                        out[c] += ground * (z - before) * _share(now[c], above[c])
                     above[c] = now[c]
+                before = z
+
+
+def largest_ratio(
+    contact: RollingContact, poisson: float, limits: tuple[float, float], cells: tuple[int, int, int],
+    bending: Bending | None = None, traction: tuple[float, float] = (0.0, 0.0),
+) -> float:  # fmt: skip
+    """Largest stress over its limit at the places where `dangerous_volumes` looks; without bending it grows as load^(1/3)."""
+    normal, shear = float(limits[0]), float(limits[1])
+    return float(_largest(contact, bending, float(traction[0]), float(traction[1]), poisson, normal, shear, *cells))
+
+
+@entry
+def _largest(
+    contact: RollingContact, bending: Bending | None, traction_x: float, traction_y: float, poisson: float,
+    normal: float, shear: float, nx: int, ny: int, nz: int,
+) -> float:  # fmt: skip
+    largest, now = -1.0, numpy.zeros(COMPONENTS + 1)
+    for i in range(nx):
+        x = ((i + 0.5) / nx - 0.5) * 4.0 * contact.along_x
+        for j in range(ny):
+            y = ((j + 0.5) / ny - 0.5) * 4.0 * contact.along_y
+            for k in range(nz + 1):
+                z = 3.0 * max(contact.along_x, contact.along_y) * (k / nz) ** GRADING
+                stress = add_bending(bench_stress(contact, traction_x, traction_y, poisson, x, y, z), bending, x, z)
+                _excess(stress, normal, shear, now)
+                largest = max(largest, now[COMPONENTS])
+    return 1.0 + largest
 
 
 @kernel
@@ -110,15 +146,10 @@ def _excess(stress: Stress, normal: float, shear: float, out: Values) -> None:
 
 
 @kernel
-def _share(now: float, above: float, k: int, nz: int, kind: int) -> float:
-    """Of a cell: counted, or the part of the way from the middle above to this one; half cells at both ends of the column."""
-    if kind == COUNTED:
-        return 1.0 if now > 0.0 else 0.0
-    if k == 0:
-        return 0.5 if now > 0.0 else 0.0
-    end = 0.5 if k == nz - 1 and now > 0.0 else 0.0
+def _share(now: float, above: float) -> float:
+    """Of the way between two depths: the part on which the excess, laid straight between them, is above 0."""
     if now > 0.0 and above > 0.0:
-        return 1.0 + end
+        return 1.0
     if now <= 0.0 and above <= 0.0:
         return 0.0
-    return max(now, above) / abs(now - above) + end
+    return float(max(now, above) / abs(now - above))
