@@ -178,6 +178,27 @@ def test_without_forward_column_there_is_no_forward_acceleration(plain):
     assert z.any()
 
 
+@pytest.mark.parametrize(("axis", "wave", "other"), [("x", X, "z"), ("z", Z, "x")])
+def test_the_column_of_an_axis_that_is_not_used_may_be_absent(tmp_path, axis, wave, other):
+    path = write(tmp_path / "one.csv", {"time": TIME, axis: wave})
+    found = dict(zip("xz", RecordedVibration(path, unused=other).acceleration(TIME), strict=True))
+    numpy.testing.assert_allclose(found[axis], wave - wave.mean(), atol=2e-9)
+    assert not found[other].any()
+    with pytest.raises(ExcitationError, match=f"there is no column '{other}'"):
+        RecordedVibration(path)
+    with pytest.raises(ExcitationError, match=f"there is no column '{axis}'"):
+        RecordedVibration(write(tmp_path / "none.csv", {"time": TIME, "w": wave}), unused=other)
+
+
+def test_without_a_vertical_column_the_tilt_is_unknown_and_not_corrected(tmp_path):
+    path = write(tmp_path / "forward.csv", {"x": X, "y": 0.0 * X})
+    assert any(
+        "No column is vertical" in note for note in RecordedVibration(path, RATE, unused="z").describe()["notes"]
+    )
+    with pytest.raises(ExcitationError, match="there is no column 'z'"):
+        RecordedVibration(path, RATE, tilt="correct", unused="z")
+
+
 def test_a_kept_bias_stays(plain):
     z = RecordedVibration(plain, RATE, remove_bias=False).acceleration(TIME)[1]
     numpy.testing.assert_allclose(z, Z + 9.81, atol=2e-9)

@@ -53,6 +53,7 @@ class RecordedVibration:
         beyond: str = "refuse",
         start: float = 0.0,
         sample_rate: float | None = None,
+        unused: str = "",
     ) -> None:
         """Read, check and treat the recording.
 
@@ -74,6 +75,7 @@ class RecordedVibration:
             start: time in the recording at t = 0, [s].
             sample_rate: rate at which it will be sampled, [Hz]; below the recording's rate, frequencies above half of
                 it are removed first (cosine flank from 0.4 to 0.5 of it). None: as fast as recorded or faster.
+            unused: axes, of x and z, whose column the file may lack: there is no acceleration along them then.
 
         Raises:
             ExcitationError: bad file (with line), no rate, stated and found rate that differ by more than 1 %, a
@@ -90,9 +92,9 @@ class RecordedVibration:
         table = read_table(self.path)
         self.rate = self._settle_rate(table, rate, table.time(time))
         self.remove_bias = remove_bias
-        names = _columns(table, forward, lateral, vertical, needed=tilt == "correct")
+        names = _columns(table, {"x": forward, "y": lateral, "z": vertical}, needed=tilt == "correct", unused=unused)
         raw = {axis: _signed(table, name) for axis, name in names.items()}
-        self.samples = len(raw["z"])
+        self.samples = len(table.lines)
         self.duration = self.samples / self.rate
         if not 0.0 <= start < self.duration:
             raise ExcitationError(
@@ -144,22 +146,15 @@ class RecordedVibration:
         """Bias, gravity and tilt: what the mean says, and what is done about it."""
         self.bias = {axis: float(values.mean()) for axis, values in raw.items()}
         total = sqrt(sum(value**2 for value in self.bias.values()))
-        gravity = self.bias["z"] > 0.5 * STANDARD_GRAVITY
-        if self.bias["z"] < -0.5 * STANDARD_GRAVITY:
+        mean = self.bias.get("z", 0.0)
+        if mean < -0.5 * STANDARD_GRAVITY:
             raise ExcitationError(
-                f"{self.path}: the mean of {names['z']} is {self.bias['z']:.4g} m/s^2, so this axis points down; name "
+                f"{self.path}: the mean of {names['z']} is {mean:.4g} m/s^2, so this axis points down; name "
                 "it with a minus sign or name another vertical axis"
             )
-        self.tilt_angle = acos(self.bias["z"] / total) if gravity else None
+        self.tilt_angle = acos(mean / total) if mean > 0.5 * STANDARD_GRAVITY else None
         if self.tilt_angle is None:
-            self._notes.append(
-                f"No gravity in {names['z']} (mean {self.bias['z']:.3g} m/s^2), so the sensor's tilt is unknown."
-            )
-            if self.tilt == "correct":
-                raise ExcitationError(
-                    f"{self.path}: the tilt cannot be corrected, as {names['z']} holds no gravity (mean "
-                    f"{self.bias['z']:.3g} m/s^2)"
-                )
+            self._no_gravity(names.get("z"), mean)
         else:
             done = "corrected" if self.tilt == "correct" else "not corrected"
             self._notes.append(
@@ -182,6 +177,12 @@ class RecordedVibration:
                 f"Frequencies above {0.4 * self.sample_rate:g} Hz were removed before sampling at "
                 f"{self.sample_rate:g} Hz."
             )
+
+    def _no_gravity(self, vertical: str | None, mean: float) -> None:
+        found = "no column is vertical" if vertical is None else f"{vertical} holds no gravity (mean {mean:.3g} m/s^2)"
+        if self.tilt == "correct":
+            raise ExcitationError(f"{self.path}: the tilt cannot be corrected, as {found}")
+        self._notes.append(f"{found[0].upper()}{found[1:]}, so the sensor's tilt is unknown.")
 
     def _filtered(self, values: Array) -> Array:
         """The record through its filters, zero-phase, mirrored at its ends."""
@@ -257,14 +258,15 @@ class RecordedVibration:
         }  # fmt: skip
 
 
-def _columns(table: Table, forward: str | None, lateral: str, vertical: str, needed: bool) -> dict[str, str]:
-    """The column of each axis; the lateral one may be absent unless it is needed."""
-    names = {"x": forward, "y": lateral, "z": vertical}
-    if forward is None and needed:
+def _columns(table: Table, names: dict[str, str | None], needed: bool, unused: str) -> dict[str, str]:
+    """The column of each axis; the lateral one and those of unused axes may be absent unless all are needed."""
+    if names["x"] is None and needed:
         raise ExcitationError(f"{table.file}: the tilt cannot be corrected without a forward column; name it")
-    if not needed and lateral.removeprefix("-").lower() not in table.columns:
-        names["y"] = None
-    return {axis: name for axis, name in names.items() if name is not None}
+    named = {axis: name for axis, name in names.items() if name is not None}
+    if needed:
+        return named
+    absent = {axis for axis, name in named.items() if name.removeprefix("-").lower() not in table.columns}
+    return {axis: name for axis, name in named.items() if axis not in absent or axis not in f"y{unused}"}
 
 
 def _signed(table: Table, name: str) -> Array:

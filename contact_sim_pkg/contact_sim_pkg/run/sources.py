@@ -104,7 +104,7 @@ def _signal(scene: ResolvedScene, vibration: dict[str, Any]) -> Signal:
             scene.file_path("vibration.file"), vibration.get("rate"), vibration["vertical_column"],
             vibration["forward_column"], time=vibration.get("time_column"),
             tilt="correct" if vibration["correct_tilt"] else "keep", beyond=vibration["beyond"], start=vibration["start"],
-            sample_rate=vibration["sample_rate"],
+            sample_rate=vibration["sample_rate"], unused=_unused_axes(scene.data),
         )  # fmt: skip
         recording.refuse_longer_run(float(scene.data["duration"]))
         return recording
@@ -112,6 +112,13 @@ def _signal(scene: ResolvedScene, vibration: dict[str, Any]) -> Signal:
 
     wave = _wave(scene.data, vibration)
     return AxisSignal(x=(wave,)) if vibration["axis"] == "x" else AxisSignal(z=(wave,))
+
+
+def _unused_axes(scene: dict[str, Any]) -> str:
+    """Axes whose acceleration moves nothing in this scene, so that a recording need not have them."""
+    if scene["rig"] == "backrest":
+        return "z"
+    return "x" if scene["rig"] == "seat" and scene["effects"]["seat"].get("friction") is None else ""
 
 
 def _wave(scene: dict[str, Any], vibration: dict[str, Any]) -> Waveform:
