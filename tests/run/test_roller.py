@@ -69,6 +69,17 @@ def test_the_stability_is_that_of_the_sheet():
     assert "stable: decays" in damped.sentence
 
 
+def test_the_worst_row_of_a_programme_is_told_before_the_run():
+    """With damping 2e-5 the motion is lost above 380 N (sheet); a ramp from 80 to 400 N passes it, one to 300 N does not."""
+    damped = ("roller.damping_tilt=2e-5", "roller.damping_yaw=2e-5", "roller.load=80")
+    ramp = "roller.programme={{time: [0, 1], load: [80, {}]}}"
+    beyond, below = (forecast_of(resolved("roller_flutter", *damped, ramp.format(end))) for end in (400, 300))
+    assert beyond.facts["stable"]
+    assert (beyond.facts["worst"]["time_s"], beyond.facts["worst"]["stable"]) == (1.0, False)
+    assert "worst at 1 s: under 400 N unstable: flutters" in beyond.sentence
+    assert below.facts["worst"]["stable"]
+
+
 def test_a_roller_without_friction_and_damping_is_said_to_be_neutral():
     facts = forecast_of(resolved("roller_flutter", "effects.roller.rolling_friction.coefficient=0"))
     assert (facts.facts["growth_rate_1_s"], facts.facts["critical_damping_N_m_s"]) == (0.0, 0.0)
