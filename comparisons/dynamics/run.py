@@ -12,9 +12,9 @@ from typing import Any
 
 import click
 
-from comparisons.dynamics.environment import ENVIRONMENT, LEFT_OUT
 from comparisons.dynamics.picture import draw
 from comparisons.dynamics.problems import PROBLEMS, measure
+from comparisons.environment import left_out
 
 __all__ = ["main"]
 
@@ -35,12 +35,12 @@ def main(quick: bool, as_json: bool, plot: Path) -> None:
     rows: list[dict[str, Any]] = []
     about: dict[str, str] = {}
     missing: dict[str, str] = {}
-    reasons = _reasons()
+    reasons = left_out()
     for name, (module_name, class_name) in SOLVERS.items():
         try:
             module = import_module(f"comparisons.dynamics.{module_name}")
         except ImportError as error:
-            missing[name] = reasons.get(name.lower(), str(error))
+            missing[name] = reasons.get(name, str(error))
             continue
         about[name] = f"{module.version()}: {module.SETTINGS}"
         for step in module.STEPS:
@@ -52,12 +52,6 @@ def main(quick: bool, as_json: bool, plot: Path) -> None:
     )
     draw(rows, plot)
     click.echo(f"picture: {plot}", err=True)
-
-
-def _reasons() -> dict[str, str]:
-    path = ENVIRONMENT / LEFT_OUT
-    found: dict[str, str] = json.loads(path.read_text(encoding="utf-8")) if path.is_file() else {}
-    return found
 
 
 def _rows(name: str, engine: Any, step: float) -> list[dict[str, Any]]:

@@ -2,27 +2,9 @@
 
 from __future__ import annotations
 
-import os
-import subprocess
 import sys
 
-from comparisons.field.environment import ROOT, SetUpError, clean, environment_python, make_current
-
-
-def main() -> int:
-    """Hands its arguments to `comparisons.field.run`; the status of that."""
-    try:
-        make_current(_tell)
-    except SetUpError as error:
-        _tell(f"compare-field: {error}")
-        return 2
-    command = [str(environment_python()), "-m", "comparisons.field.run", *sys.argv[1:]]
-    return subprocess.run(command, env=clean(dict(os.environ)), cwd=ROOT, check=False).returncode
-
-
-def _tell(text: str) -> None:
-    sys.stderr.write(f"{text}\n")
-
+from comparisons.field.environment import ENVIRONMENT
 
 if __name__ == "__main__":
-    sys.exit(main())
+    sys.exit(ENVIRONMENT.run("comparisons.field.run", sys.argv[1:]))

@@ -12,8 +12,8 @@ from typing import Any, NamedTuple
 
 import click
 
+from comparisons.environment import ONE_THREAD
 from comparisons.field.agreement import Agreement, agreements
-from comparisons.field.environment import ONE_THREAD
 from comparisons.field.measure import Row, SetUp, measure
 from comparisons.field.picture import draw
 from comparisons.field.plan import FULL, QUICK, Task

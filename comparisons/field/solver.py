@@ -2,16 +2,13 @@
 
 from __future__ import annotations
 
-import json
-import sys
 from collections.abc import Callable
 from importlib import import_module
-from pathlib import Path
 from typing import NamedTuple, Protocol
 
 import numpy
 
-from comparisons.field.environment import LEFT_OUT
+from comparisons.environment import left_out
 from comparisons.field.problems import Field, Problem
 
 __all__ = ["OURS", "Candidate", "NotSolvedError", "Solver", "candidates", "rolled"]
@@ -52,8 +49,7 @@ def candidates() -> tuple[list[Candidate], dict[str, str]]:
     """The solvers that are installed, ours first; and the names of the others with the reason."""
     found: list[Candidate] = []
     missing: dict[str, str] = {}
-    why = Path(sys.prefix) / LEFT_OUT
-    reasons: dict[str, str] = json.loads(why.read_text(encoding="utf-8")) if why.is_file() else {}
+    reasons = left_out()
     for name, module in _MODULES.items():
         try:
             adapter = import_module(f"comparisons.field.{module}")

@@ -88,8 +88,10 @@ class HalfSine(Section):
 
 
 class Recorded(Section):
-    """A recorded acceleration (CSV), its mean (gravity, bias) taken off; give `rate` or `time_column`. An axis that moves nothing in the
-    scene (upwards at a seat back, forward under a seat without friction) needs no column."""
+    """A recorded acceleration (CSV), its mean (gravity, bias) taken off; give `rate` or `time_column`.
+
+    An axis that moves nothing in the scene (upwards at a seat back, forward under a seat without friction) needs no column.
+    """
 
     kind: Literal["recorded"]
     file: str = text(
