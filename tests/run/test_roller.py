@@ -298,6 +298,11 @@ def test_the_time_acceleration_is_held_against_every_turn_ridden():
             ("roller.stiffness_yaw=0",),
             r"stiffness_yaw 0 N m/rad: neither may be 0; give stiffer springs",
         ),
+        (
+            "roller_flutter",
+            ("roller.load=280", "effects.roller.shaft_bending={load: 4e4}"),
+            r"the static tilt is 0\.2143 rad, the roller tips over at 0\.2 rad",
+        ),
         ("roller_flutter", ("roller.profile_radius=0",), "give profile_radius or shaft_profile_radius a value"),
         ("roller_flutter", ("roller.inertia_product=2e-5",), "give one between -2e-05 and 2e-05"),
         ("roller_flutter", ("effects.roller.normal_elastic.split=parallel",), "add shaft_bending, or take series"),
@@ -313,6 +318,13 @@ def test_the_time_acceleration_is_held_against_every_turn_ridden():
 def test_what_cannot_run_is_refused_before_the_run_with_a_cure(name, values, sentence):
     with pytest.raises(SceneError, match=sentence):
         make_simulation(resolved(name, "duration=0.1", *values))
+
+
+def test_a_roller_that_tips_over_at_once_is_prepared_and_fails_in_its_run():
+    simulation = make_simulation(resolved("roller_flutter", "duration=0.1", "roller.load=5000"))
+    simulation.prepare()
+    with pytest.raises(RunError, match="tips over"):
+        simulation.advance(0, {})
 
 
 def test_a_roller_that_tips_over_under_its_load_is_told():

@@ -75,7 +75,9 @@ class RollerElastic(Section):
     """Contact of an ellipse that follows load, curvatures and yaw."""
 
     ellipse: Literal["exact", "polynomial"] = choice(
-        "shape of the ellipse by elliptic integrals, or by the polynomial of the paper's eq 10", default="exact"
+        "shape of the ellipse by elliptic integrals, or by the polynomial of the paper's eq 10, which holds up to Omega 0.85; "
+        "exact beyond it, and in the moments",
+        default="exact",
     )
     split: Literal["series", "parallel"] = choice(
         "all of the load goes through the contact, or part of it on a second path that bends the shaft",

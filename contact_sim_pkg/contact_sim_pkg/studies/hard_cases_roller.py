@@ -14,8 +14,8 @@ from contact_sim_pkg.core.roller.load_split import load_of_approach
 from contact_sim_pkg.core.roller.moments import moments
 from contact_sim_pkg.core.roller.motion import DIVERGED, LARGEST_TILT, energy, gauss_rule, march
 from contact_sim_pkg.core.roller.parameters import Bending, Curvatures
-from contact_sim_pkg.core.roller.stability import RollerError, stability
-from contact_sim_pkg.core.roller.volumes import box_volume, dangerous_volumes, fills_box
+from contact_sim_pkg.core.roller.stability import RollerError, critical_damping, stability
+from contact_sim_pkg.core.roller.volumes import box_volume, dangerous_volumes, fills_box, leaves_box
 from contact_sim_pkg.studies.hard_cases import Finding, HardCase, at_most, close_to, exactly
 from contact_sim_pkg.studies.roller_bench import (
     BENDING_COMPLIANCE,
@@ -160,6 +160,39 @@ def towards_the_surface() -> Finding:
     return at_most(worst if numpy.isfinite(surface).all() else math.inf, 1.0)
 
 
+def slender_volumes() -> Finding:
+    """Profile radii up to 10 m, b/a down to 0.009: V_T of the usual cells over that of cells counted one by one, worst."""
+    worst = 0.0
+    for curvature in (10.0, 1.0, 0.1):
+        contact = contact_of_rollers(CURVATURES._replace(roller_axial=curvature), 0.0, MODULUS, LOAD)
+        usual = dangerous_volumes(contact, POISSON, LIMITS).any
+        fine = dangerous_volumes(contact, POISSON, LIMITS, (40, 40, 100)).any
+        worst = max(worst, abs(usual / fine - 1.0))
+    return at_most(worst, 0.03)
+
+
+def damage_at_the_surface() -> Finding:
+    """Traction 0.4, limits that the surface alone passes: V_T over that of four times as many depths."""
+    contact, limits, pulled = contact_of_rollers(CURVATURES, 0.0, MODULUS, LOAD), (2.2e9, 6.5e8), (0.0, 0.4)
+    usual = dangerous_volumes(contact, POISSON, limits, (32, 40, 16), None, pulled).any
+    return close_to(usual / dangerous_volumes(contact, POISSON, limits, (32, 40, 64), None, pulled).any, 1.0, 0.05)
+
+
+def a_volume_that_leaves_its_box() -> Finding:
+    """Told where a side or the floor of the box is dangerous, and not where none is: answers that are right, of two."""
+    contact = contact_of_rollers(CURVATURES, 0.0, MODULUS, 300.0)
+    told = leaves_box(contact, POISSON, (1e8, 3e7)) and not leaves_box(contact, POISSON, (2e9, 1e9))
+    return exactly(float(told), 1.0)
+
+
+def neutral_without_damping() -> Finding:
+    """No friction, no damping, any spin: growth rate and damping asked for, largest."""
+    still = [ROLLER._replace(rolling_friction=0.0, spin=spin) for spin in (0.0, 10.0, 300.0, 3e4)]
+    rates = [abs(stability(each, CURVATURES, None, MODULUS, 300.0).growth_rate) for each in still]
+    dampings = [critical_damping(each, CURVATURES, None, MODULUS, 300.0) for each in still]
+    return exactly(max(*rates, *dampings), 0.0)
+
+
 def slender_ellipse() -> Finding:
     """b/a = 1e-6: orthogonal shear at 0.866 b and 0.5 b over p0 against the line's 0.25."""
     load = EllipseLoad(1.0, 1e-6, 1.0, 0.0, 0.0)
@@ -182,12 +215,16 @@ CASES = [
     HardCase(ROLLING, "F R above the tilt stiffness", divergence_is_told),
     HardCase(ROLLING, "1e4 spin periods without friction", energy_is_kept),
     HardCase(ROLLING, "flutter without damping", flutter_grows_as_its_root),
+    HardCase(ROLLING, "neither friction nor damping: growth and damping asked for", neutral_without_damping),
     HardCase(ROLLING, "inertia that is no mass matrix", singular_inertia_is_refused),
     HardCase(ROLLING, "track wave at the natural frequency", resonance),
     HardCase(ROLLING, "the ellipse's axes swap their size", axes_keep_their_names),
     HardCase(ROLLING, "pressure below both limits", nothing_is_worn_below_the_limits),
     HardCase(BELOW, "limits next to 0, and above the pressure", everything_is_dangerous),
+    HardCase(BELOW, "a volume that leaves its box", a_volume_that_leaves_its_box),
     HardCase(BELOW, "z to 0", towards_the_surface),
+    HardCase(BELOW, "damage in a layer at the surface", damage_at_the_surface),
+    HardCase(BELOW, "volumes under b/a down to 0.009", slender_volumes),
     HardCase(BELOW, "b/a = 1e-6", slender_ellipse),
     HardCase(BELOW, "1e4 radii away", far_away),
 ]

@@ -11,7 +11,7 @@ from tests.core.roller.bench import BENDING, CURVATURES, MODULUS
 from contact_sim_pkg.core.hertz_stress import EllipseLoad, ellipse_stress
 from contact_sim_pkg.core.roller.ellipse import RollingContact, contact_of_rollers
 from contact_sim_pkg.core.roller.stress import bench_stresses
-from contact_sim_pkg.core.roller.volumes import COUNTED, MARCHED, box_volume, dangerous_volumes
+from contact_sim_pkg.core.roller.volumes import COUNTED, MARCHED, box_volume, dangerous_volumes, leaves_box
 
 CIRCLE = RollingContact(1.0, 1.0, 0.0, 1.0, 1.0, 1.0)  # a unit circle of unit pressure
 NEVER = 1e300
@@ -111,6 +111,30 @@ def test_a_dangerous_layer_at_the_surface_is_seen(limits, traction, error):
     fine = dangerous_volumes(contact, 0.3, limits, (80, 80, 200), None, traction, COUNTED)
     found = dangerous_volumes(contact, 0.3, limits, (32, 40, 16), None, traction, MARCHED)
     assert found.any == pytest.approx(fine.any, rel=error)
+
+
+@pytest.mark.parametrize("profile", [0.1, 0.5, 2.0])
+def test_a_slender_ellipse_keeps_its_volume(profile):
+    """The stress lives within the smaller axis; beside counted cells that are even over what is dangerous: b/a 0.13 to 0.02."""
+    contact = contact_of_rollers(CURVATURES._replace(roller_axial=1.0 / profile), 0.0, MODULUS, 100.0)
+    fine = dangerous_volumes(contact, 0.3, (2.6e8, 1.5e8), (32, 40, 600), kind=COUNTED)
+    found = dangerous_volumes(contact, 0.3, (2.6e8, 1.5e8), (32, 40, 16), kind=MARCHED)
+    assert found.any == pytest.approx(fine.any, rel=0.03)
+    assert found.zz == pytest.approx(fine.zz, rel=0.03)
+
+
+@pytest.mark.parametrize(("limits", "leaves"), [((2.6e8, 1.5e8), False), ((1e8, 3e7), True), ((1e12, 1e12), False)])
+def test_a_volume_that_leaves_its_box_is_told(limits, leaves):
+    """Beside a box that is three times as large each way."""
+    contact = contact_of_rollers(CURVATURES, 0.0, MODULUS, 100.0)
+    wide = numpy.linspace(-6.0, 6.0, 61)
+    x, y, z = numpy.meshgrid(contact.along_x * wide, contact.along_y * wide, 9.0 * contact.along_x * wide[31:] / 6.0)
+    points = numpy.ascontiguousarray(numpy.stack([x.ravel(), y.ravel(), z.ravel()], axis=1))
+    a, b = contact.along_x, contact.along_y
+    outside = (abs(points[:, 0]) > 2.0 * a) | (abs(points[:, 1]) > 2.0 * b) | (points[:, 2] > 3.0 * a)
+    over = abs(stresses(contact, None, (0.0, 0.0), points[outside])) > numpy.repeat(limits, 3)
+    assert bool(over.any()) is leaves
+    assert leaves_box(contact, 0.3, limits) is leaves
 
 
 def test_they_scale_with_the_contact():

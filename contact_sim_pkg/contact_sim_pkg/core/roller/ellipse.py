@@ -37,6 +37,9 @@ EXACT, POLYNOMIAL = 0, 1
 
 Values = NDArray[numpy.float64]
 
+POLYNOMIAL_TO = 0.85
+"""Omega up to which POLYNOMIAL takes the polynomial, whose b/a is then 1 % high; beyond, the exact root."""
+
 FLATTEST = 5e-13
 """Of the larger curvature of the gap: a smaller one below it is a line."""
 
@@ -106,7 +109,9 @@ def rolling_contact(curvatures: Curvatures, yaw: float, modulus: float, load: fl
         return RollingContact(0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
     principal = principal_curvatures(curvatures, yaw)
     smaller, larger = min(principal.near_x, principal.near_y), max(principal.near_x, principal.near_y)
-    shape = shape_of_polynomial(smaller, larger) if kind == POLYNOMIAL else ellipse_shape(smaller, larger)
+    round_enough = larger - smaller <= POLYNOMIAL_TO * (larger + smaller)
+    fitted = kind == POLYNOMIAL and round_enough
+    shape = shape_of_polynomial(smaller, larger) if fitted else ellipse_shape(smaller, larger)
     contact = contact_of_shape(shape, smaller + larger, modulus, load)
     if principal.near_x <= principal.near_y:
         return RollingContact(contact.a, contact.b, principal.angle, contact.peak_pressure, contact.approach, load)

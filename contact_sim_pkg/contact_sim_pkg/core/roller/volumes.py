@@ -9,6 +9,7 @@ is known at the middles of even cells, and whole cells are counted (`COUNTED`).
 
 from __future__ import annotations
 
+import math
 from typing import NamedTuple
 
 import numpy
@@ -17,10 +18,19 @@ from numpy.typing import NDArray
 from contact_sim_pkg.core.jit import entry, kernel
 from contact_sim_pkg.core.roller.ellipse import RollingContact
 from contact_sim_pkg.core.roller.parameters import Bending
-from contact_sim_pkg.core.roller.stress import add_bending, bench_stress
+from contact_sim_pkg.core.roller.stress import add_bending, bench_stress, bench_stresses
 from contact_sim_pkg.core.subsurface import Stress
 
-__all__ = ["COUNTED", "MARCHED", "Volumes", "box_volume", "dangerous_volumes", "fills_box", "largest_ratio"]
+__all__ = [
+    "COUNTED",
+    "MARCHED",
+    "Volumes",
+    "box_volume",
+    "dangerous_volumes",
+    "fills_box",
+    "largest_ratio",
+    "leaves_box",
+]
 
 Values = NDArray[numpy.float64]
 
@@ -28,8 +38,11 @@ COUNTED, MARCHED = 0, 1
 
 COMPONENTS = 6
 
-GRADING = 2.0
-"""Depths of a column go with this power of their number."""
+EDGE_PLACES = 33
+"""Each way on a side of the box, where it is asked whether a volume leaves it."""
+
+GRADING = 0.4
+"""Of the smaller semi-axis: down to about it the depths of a column are even, below they grow by a factor."""
 
 
 class Volumes(NamedTuple):
@@ -94,7 +107,7 @@ def _measure(
             y = ((j + 0.5) / ny - 0.5) * width
             before = 0.0
             for k in range(nz + 1 if kind == MARCHED else nz):
-                z = depth * (k / nz) ** GRADING if kind == MARCHED else depth * (k + 0.5) / nz
+                z = _depth(contact, k, nz) if kind == MARCHED else depth * (k + 0.5) / nz
                 stress = add_bending(bench_stress(contact, traction_x, traction_y, poisson, x, y, z), bending, x, z)
                 _excess(stress, normal, shear, now)
                 for c in range(COMPONENTS + 1):
@@ -104,6 +117,24 @@ def _measure(
                         out[c] += ground * (z - before) * _share(now[c], above[c])
                     above[c] = now[c]
                 before = z
+
+
+def leaves_box(
+    contact: RollingContact, poisson: float, limits: tuple[float, float], traction: tuple[float, float] = (0.0, 0.0)
+) -> bool:
+    """Whether a place on a side or the floor of the box is dangerous: the true volume is larger than the one in the box."""
+    if not contact.load > 0.0:
+        return False
+    a, b, deepest = contact.along_x, contact.along_y, 3.0 * max(contact.along_x, contact.along_y)
+    across, depths = numpy.linspace(-2.0, 2.0, EDGE_PLACES), deepest * numpy.linspace(0.0, 1.0, EDGE_PLACES) ** 2
+    u, v = (part.ravel() for part in numpy.meshgrid(across, across))
+    s, z = (part.ravel() for part in numpy.meshgrid(across, depths))
+    sides = [numpy.stack([sign * 2.0 * a + 0.0 * s, b * s, z], axis=1) for sign in (-1.0, 1.0)]
+    sides += [numpy.stack([a * s, sign * 2.0 * b + 0.0 * s, z], axis=1) for sign in (-1.0, 1.0)]
+    points = numpy.concatenate([numpy.stack([a * u, b * v, numpy.full_like(u, deepest)], axis=1), *sides])
+    stress = numpy.zeros((len(points), COMPONENTS))
+    bench_stresses(contact, None, *traction, poisson, points, stress)
+    return bool((abs(stress) > numpy.repeat(limits, 3)).any())
 
 
 def largest_ratio(
@@ -126,7 +157,7 @@ def _largest(
         for j in range(ny):
             y = ((j + 0.5) / ny - 0.5) * 4.0 * contact.along_y
             for k in range(nz + 1):
-                z = 3.0 * max(contact.along_x, contact.along_y) * (k / nz) ** GRADING
+                z = _depth(contact, k, nz)
                 stress = add_bending(bench_stress(contact, traction_x, traction_y, poisson, x, y, z), bending, x, z)
                 _excess(stress, normal, shear, now)
                 largest = max(largest, now[COMPONENTS])
@@ -143,6 +174,14 @@ def _excess(stress: Stress, normal: float, shear: float, out: Values) -> None:
         out[c] -= 1.0
         largest = out[c] if c == 0 else max(largest, out[c])
     out[COMPONENTS] = largest
+
+
+@kernel
+def _depth(contact: RollingContact, k: int, nz: int) -> float:
+    """Of place k of nz, from 0 to that of the box: however slender the ellipse, its smaller axis is resolved."""
+    scale = GRADING * min(contact.along_x, contact.along_y)
+    deepest = 3.0 * max(contact.along_x, contact.along_y)
+    return scale * math.sinh(k / nz * math.asinh(deepest / scale))
 
 
 @kernel
