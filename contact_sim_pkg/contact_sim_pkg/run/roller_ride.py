@@ -22,6 +22,7 @@ from contact_sim_pkg.core.roller.heave import (
 )
 from contact_sim_pkg.core.roller.load_split import load_of_approach
 from contact_sim_pkg.excitation.blocks import Surface
+from contact_sim_pkg.excitation.errors import ExcitationError
 from contact_sim_pkg.run.errors import RunError
 from contact_sim_pkg.run.roller_energy import Energies
 from contact_sim_pkg.run.roller_wear import make_tracks, track_under
@@ -159,7 +160,8 @@ class TrackRide:
         speed = 2.0 * math.pi * self.model.shaft_radius / self.model.turn_time
         if self.road is not None:
             x: Vector = speed * (self.intervals * self.interval_time + cell_time * places.astype(numpy.float64))
-            heights += self.road.heights(x, numpy.zeros(1))[:, 0] - self._road_start
+            ahead = numpy.maximum(x, 0.0)  # no road lies behind its start
+            heights += self.road.heights(ahead, numpy.zeros(1))[:, 0] - self._road_start
         coefficient = numpy.full(self.cells + 1, self.heave.contact_coefficient)
         if self.local:
             bends = numpy.diff(heights, 2) / (speed * cell_time) ** 2
@@ -215,7 +217,7 @@ class TrackRide:
                 fast.advance()
             for _ in range(count):
                 slow.advance()
-        except RunError:
+        except (RunError, ExcitationError):  # worn out, or the road ends in the stretch
             return Checked(count, math.nan)
         starts, ends, others = (
             numpy.concatenate([each.heights for each in side.tracks]) for side in (self, slow, fast)
