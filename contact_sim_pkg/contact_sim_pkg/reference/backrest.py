@@ -1,6 +1,7 @@
 """Slow twins of the backrest rig, integrated by scipy; they share no code with the kernels.
 
 ``slapping_mass``: one mass on a Hunt-Crossley seat back under preload and a sine, phase by phase with located events.
+``slapping_normal``: the force of that mass at given instants. ``sliding_friction``: friction under a given force, step by step.
 ``slapping_points``: modal coordinates with many contact points, in one go at a tight tolerance.
 """
 
@@ -39,17 +40,59 @@ class Slaps(NamedTuple):
 
 def slapping_mass(body: SlappingMass, duration: float, tolerance: float = 1e-12) -> Slaps:
     """Motion over ``duration`` [s] from rest under the preload."""
+    parts = _phases(body, duration, tolerance)
+    ends = [(float(part.t[-1]), touching) for touching, part in parts if part.status == 1]
+    touches = numpy.array([time for time, touching in ends if not touching])
+    losses = numpy.array([time for time, touching in ends if touching])
+    return Slaps(touches, losses, parts[-1][1].y[:, -1])
+
+
+def slapping_normal(body: SlappingMass, times: Vector, tolerance: float = 1e-12) -> Vector:
+    """Contact force [N] of the motion of ``slapping_mass`` at ascending ``times`` [s] from 0."""
+    force = numpy.zeros(len(times))
+    for touching, part in _phases(body, float(times[-1]), tolerance):
+        if touching:
+            during = (times >= part.t[0]) & (times <= part.t[-1])
+            w, v = part.sol(times[during])
+            force[during] = body.coefficient * numpy.maximum(w, 0.0) ** body.exponent * (1.0 + body.damping * v)
+    return numpy.maximum(force, 0.0)
+
+
+def sliding_friction(
+    normal: Vector, velocity: Vector, step: float, ratio: float, stiffness: float, damping: float
+) -> Vector:
+    """Friction [N] of a spring-damper within ``ratio`` times ``normal`` [N], sampled each ``step`` [s] as ``velocity`` [m/s] is.
+
+    The law of SEEDS 2.6 in steps, of first order: trial ``C (s + v h) + D v``; beyond the limit the force is the limit and
+    ``C s = F - D v``, at most the limit against the slip; without normal force ``s = 0``.
+    """
+    force, s = numpy.zeros(len(normal)), 0.0
+    for k in range(1, len(normal)):
+        limit, v = ratio * float(normal[k]), float(velocity[k])
+        if limit <= 0.0:
+            s = 0.0
+            continue
+        trial = stiffness * (s + v * step) + damping * v
+        if abs(trial) <= limit:
+            s, force[k] = s + v * step, trial
+        else:
+            sign = math.copysign(1.0, trial)
+            force[k] = sign * limit
+            s = sign * max(limit - sign * damping * v, -limit) / stiffness
+    return force
+
+
+def _phases(body: SlappingMass, duration: float, tolerance: float) -> list[tuple[bool, Any]]:
+    """From loss to touch to loss: whether it touches, and scipy's solution."""
     state = numpy.array([(body.preload / body.coefficient) ** (1.0 / body.exponent), 0.0])
     time, touching = 0.0, True
-    touches: list[float] = []
-    losses: list[float] = []
+    parts: list[tuple[bool, Any]] = []
     while time < duration:
         part = _phase(body, touching, (time, duration), state, tolerance)
+        parts.append((touching, part))
         time, state = float(part.t[-1]), part.y[:, -1]
-        if part.status == 1:
-            touching = not touching
-            (touches if touching else losses).append(time)
-    return Slaps(numpy.array(touches), numpy.array(losses), state)
+        touching = touching != (part.status == 1)
+    return parts
 
 
 def _phase(body: SlappingMass, touching: bool, span: tuple[float, float], state: Vector, tolerance: float) -> Any:
@@ -77,6 +120,7 @@ def _phase(body: SlappingMass, touching: bool, span: tuple[float, float], state:
         rtol=tolerance,
         atol=1e-14,
         max_step=0.25 / body.frequency / 8.0,
+        dense_output=True,
     )
 
 

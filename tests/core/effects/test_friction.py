@@ -9,7 +9,7 @@ from contact_sim_pkg.core.effects.friction import (
     following_deflection,
     friction_force,
     slip_margin,
-    spring_limit,
+    spring_is_held,
     stick_margin,
 )
 from contact_sim_pkg.core.parameters import BeltSlider, Friction
@@ -33,16 +33,23 @@ def test_without_contact_there_is_no_friction():
 
 
 @pytest.mark.parametrize(
-    ("velocity", "deflection"), [(0.0, 4e-3), (0.4, 2e-3), (1.6, -4e-3), (9.0, -4e-3), (-2.0, 4e-3)]
+    ("velocity", "deflection"), [(0.0, 4e-3), (0.4, 2e-3), (1.6, -4e-3), (9.0, -4e-3), (-2.0, 1.4e-2)]
 )
-def test_the_spring_follows_the_slip_within_its_limit(velocity, deflection):
+def test_the_spring_follows_the_slip_and_gives_way_no_more_than_its_limit(velocity, deflection):
     assert following_deflection(LAW, 1, 100.0, velocity) == pytest.approx(deflection, rel=1e-14)
+    assert following_deflection(LAW, -1, 100.0, -velocity) == pytest.approx(-deflection, rel=1e-14)
 
 
-@pytest.mark.parametrize(("velocity", "side"), [(-0.1, 1), (0.0, 1), (0.5, 0), (1.6, -1), (3.0, -1)])
-def test_the_place_of_the_spring_is_told_for_both_directions(velocity, side):
-    assert spring_limit(LAW, 1, 100.0, velocity) == side
-    assert spring_limit(LAW, -1, 100.0, -velocity) == side
+@pytest.mark.parametrize("velocity", [-2.0, -0.01, 0.0, 0.4, 1.59])
+def test_the_force_is_continuous_where_slip_ends(velocity):
+    deflection = following_deflection(LAW, 1, 100.0, velocity)
+    assert friction_force(LAW, STICK, 100.0, deflection, velocity) == pytest.approx(40.0, rel=1e-13)
+
+
+@pytest.mark.parametrize(("velocity", "held"), [(-0.1, False), (0.0, False), (0.5, False), (1.6, True), (3.0, True)])
+def test_the_spring_is_held_where_the_damper_alone_carries_twice_the_limit(velocity, held):
+    assert spring_is_held(LAW, 1, 100.0, velocity) == held
+    assert spring_is_held(LAW, -1, 100.0, -velocity) == held
 
 
 def test_sticking_ends_at_the_static_limit():
@@ -52,6 +59,7 @@ def test_sticking_ends_at_the_static_limit():
 
 def test_the_slip_rate_counts_the_following_spring():
     assert slip_margin(LAW, 1, 0.5, -3.0, 100.0, 0.0) == pytest.approx(0.5 - 50.0 * 3.0 / 1e4)
+    assert slip_margin(LAW, 1, -0.1, -3.0, 100.0, -5000.0) == pytest.approx(-0.1 + (0.4 * 5000.0 - 50.0 * 3.0) / 1e4)
     assert slip_margin(LAW, 1, -0.1, 0.0, 100.0, -5000.0) == pytest.approx(-0.1 + 0.4 * 5000.0 / 1e4)
     assert slip_margin(LAW, 1, 3.0, -1e9, 100.0, -1e9) == 3.0, "held beyond the limit by the damper alone"
 

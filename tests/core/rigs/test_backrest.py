@@ -8,7 +8,14 @@ import pytest
 from contact_sim_pkg.core.parameters import Friction, GeneralDissipative, NormalElastic
 from contact_sim_pkg.core.restitution import damping_of_restitution
 from contact_sim_pkg.core.rigs import backrest_entries as columns
-from contact_sim_pkg.reference.backrest import SlappingMass, SlappingPoints, slapping_mass, slapping_points
+from contact_sim_pkg.reference.backrest import (
+    SlappingMass,
+    SlappingPoints,
+    slapping_mass,
+    slapping_normal,
+    slapping_points,
+    sliding_friction,
+)
 from contact_sim_pkg.scene.build_backrest import build_backrest, resting_state
 
 from ...run.scenes import FRICTIONLESS, resolved
@@ -30,6 +37,22 @@ def shell(*values):
     """The scene's back as a shell, without friction."""
     scene = resolved("seat_slap", *FRICTIONLESS, "effects.backrest.shell_modes={}", "backrest.preload=20", *values)
     return build_backrest(scene.data).rig
+
+
+@pytest.mark.parametrize(("frequency", "amplitude"), [(4.75, 1.5), (5.75, 1.5), (6.25, 1.5), (6.25, 0.9)])
+def test_friction_at_a_slapping_back_is_that_of_small_steps(frequency, amplitude):
+    """The load falls while the sliding turns round: the force passes from one side of the limit to the other without a jump."""
+    drive, speed = amplitude * GRAVITY, 2.0 * math.pi * frequency
+    body = SlappingMass(MASS, MASS * GRAVITY, drive, frequency, LAW.coefficient, LAW.exponent, LOSS.damping)
+    step = 2e-6
+    times = numpy.arange(250_001) * step
+    normal = slapping_normal(body, times)
+    velocity = 0.01 * speed * numpy.cos(speed * times)
+    law = (FRICTION.coefficient_kinetic, FRICTION.stiffness, FRICTION.damping)
+    expected = sliding_friction(normal, velocity, step, *law)[100::100]  # each 0.2 ms, without the first instant
+    rig = one_mass(friction=FRICTION, amplitude=0.01, frequency=frequency)
+    found = driven(rig, sine(drive, frequency), 0.5, 1e-9, rate=20_000, sample_every=4).forces[:, columns.TANGENTIAL]
+    assert found[1:] == pytest.approx(-expected[: len(found) - 1], abs=0.15)
 
 
 @pytest.mark.parametrize("frequency", SPINE)

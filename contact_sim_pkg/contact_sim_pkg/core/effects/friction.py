@@ -1,12 +1,14 @@
 """Friction with true stick: a spring-damper that sticks, limited by Coulomb's law (SEEDS 2.6, P0 eq 9).
 
 * stick: ``F_t = C s + D v``, ``s' = v``;
-* slip: ``F_t = sigma mu_k N``, and the spring follows, ``C s = F_t - D v``, never beyond ``|s| = mu_k N / C``;
+* slip: ``F_t = sigma mu_k N``, and the spring follows, ``C s = F_t - D v``, never beyond ``mu_k N / C`` against the slip;
 * stick ends where ``|C s + D v|`` reaches ``mu_s N``; slip ends where the slip rate ``v - s'`` passes zero;
 * without a normal force (bodies apart, or parting faster than the material recovers) ``F_t = 0``, ``s = 0``.
 
 v is the velocity of the upper body relative to the lower, F_t the force on the lower body; on the upper body acts
--F_t. The transitions are located events, not smoothed: no creep in stick.
+-F_t. The transitions are located events, not smoothed: no creep in stick. F_t is continuous where slip ends, also where v has
+turned round before: a load that falls fast keeps the slip alive a little longer. (SEEDS 2.6 holds s below mu_k N / C along the
+slip too: then the force jumps by D v there, again and again, at instants that the step decides.)
 """
 
 from __future__ import annotations
@@ -34,10 +36,10 @@ def friction_force(friction: Friction | None, mode: int, normal: float, deflecti
 
 @kernel
 def following_deflection(friction: Friction, mode: int, normal: float, velocity: float) -> float:
-    """Deflection of the spring in [m] while slipping: ``(F_t - D v)/C`` within ``+-mu_k N/C``."""
+    """Deflection of the spring in [m] while slipping: ``(F_t - D v)/C``, at most ``mu_k N/C`` against the slip."""
     limit = friction.coefficient_kinetic * normal / friction.stiffness
-    free = mode * limit - friction.damping * velocity / friction.stiffness
-    return min(max(free, -limit), limit)
+    along = limit - mode * friction.damping * velocity / friction.stiffness
+    return mode * max(along, -limit)
 
 
 @kernel
@@ -47,12 +49,9 @@ def stick_margin(friction: Friction, normal: float, deflection: float, velocity:
 
 
 @kernel
-def spring_limit(friction: Friction, mode: int, normal: float, velocity: float) -> int:
-    """Where the following spring stands while slipping: 0 free, 1 at its limit ``mu_k N/C`` along the slip, -1 against it."""
-    dragged = mode * friction.damping * velocity
-    if dragged <= 0.0:
-        return 1
-    return -1 if dragged >= 2.0 * friction.coefficient_kinetic * normal else 0
+def spring_is_held(friction: Friction, mode: int, normal: float, velocity: float) -> bool:
+    """Whether the following spring stands at its limit ``mu_k N/C`` against the slip."""
+    return mode * friction.damping * velocity >= 2.0 * friction.coefficient_kinetic * normal
 
 
 @kernel
@@ -61,14 +60,10 @@ def slip_margin(
 ) -> float:
     """``sigma (v - s')`` in [m/s]: slipping lasts while it is positive.
 
-    ``C s' = sigma mu_k N' - D v'`` where the spring is free, ``sigma mu_k N'`` where it stands at its limit along the slip.
-    Where it stands at the limit against the slip, the damper alone holds the trial force beyond the limit, and ``sigma v``
-    is returned. ``normal_rate`` N' in [N/s], ``acceleration`` v' in [m/s^2].
+    ``C s' = sigma mu_k N' - D v'``. Where the spring is held against the slip, the damper alone holds the trial force beyond
+    the limit, and ``sigma v`` is returned. ``normal_rate`` N' in [N/s], ``acceleration`` v' in [m/s^2].
     """
-    limit = spring_limit(friction, mode, normal, velocity)
-    if limit < 0:
+    if spring_is_held(friction, mode, normal, velocity):
         return mode * velocity
-    spring_rate = mode * friction.coefficient_kinetic * normal_rate
-    if limit == 0:
-        spring_rate -= friction.damping * acceleration
+    spring_rate = mode * friction.coefficient_kinetic * normal_rate - friction.damping * acceleration
     return mode * (velocity - spring_rate / friction.stiffness)
