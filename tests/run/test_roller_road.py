@@ -14,7 +14,7 @@ SPEED = 2.0 * math.pi * 0.02 * 50.0  # [m/s] of the roller on the shaft
 
 @pytest.mark.parametrize("local_curvature", ["off", "on"])
 def test_an_opencrg_road_moves_the_roller_as_a_harmonic_base(tmp_path, local_curvature):
-    """Waves of 0.1 m at 6.28 m/s, 62.8 Hz, under a natural frequency of 447 Hz: 1 / (1 - r^2) as high, the load m z'' + 2 zeta kappa m z'."""
+    """0.1 m at 6.28 m/s, 62.8 Hz, below a natural frequency of 447 Hz: 1 / (1 - r^2) as high, the load of mass and drag."""
     rows = 1201
     heights = AMPLITUDE * numpy.sin(2.0 * math.pi * SPACING * numpy.arange(rows) / WAVE)
     numbers = numpy.repeat(heights[:, None], 3, axis=1).tolist()

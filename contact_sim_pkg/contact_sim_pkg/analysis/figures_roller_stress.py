@@ -11,7 +11,7 @@ from contact_sim_pkg.bag.messages import RollerVolumes
 from contact_sim_pkg.core.jit import thaw
 from contact_sim_pkg.core.roller.ellipse import RollingContact
 from contact_sim_pkg.core.roller.stress import bench_stresses
-from contact_sim_pkg.core.roller.volumes import Volumes, fills_box
+from contact_sim_pkg.core.roller.volumes import leaves_box
 from contact_sim_pkg.scene.build_roller import RollerModel, build_roller
 
 from .drawing import Picture, new_figure, picture
@@ -80,8 +80,8 @@ def _stress_picture(found: RollerVolumes, scene: dict[str, Any]) -> Picture:
         f"MPa; limits {found.normal_limit * 1e-6:.4g} MPa (normal) and {found.shear_limit * 1e-6:.4g} MPa (shear), dangerous "
         f"volume {found.volume[-1] * 1e9:.4g} mm³, {100.0 * found.volume[-1] / found.working_volume:.4g} % of the working volume."
     )
-    if fills_box(Volumes(*found.volume), contact):
-        caption += " All of the box is dangerous: the true volume reaches farther, higher limits tell more."
+    if leaves_box(contact, model.poisson_ratio, (found.normal_limit, found.shear_limit), model.traction):
+        caption += " The true volume reaches beyond the box in which it is measured; higher limits tell more."
     name = f"roller-stress-{round(found.time * 1e6)}"
     return picture(name, figure, "Normal and shear stress and dangerous volume in two planes", caption)
 
