@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.spatial import ConvexHull
 
+from contact_sim_pkg.core.rigid.profile import heights_at
 from contact_sim_pkg.scene.build_block import BlockModel, build_block, rotation_of
 
 from .series import MotionSeries
@@ -91,9 +92,10 @@ def chosen(poses: BlockPoses) -> NDArray[np.int64]:
 def ground_line(poses: BlockPoses, first: float, last: float) -> tuple[FloatArray, FloatArray]:
     """Heights of the ground in [m] between two places x in [m]."""
     ground = poses.model.ground
-    if len(ground.heights) == 0:
+    profile = ground.profile
+    if len(profile.nodes) == 0:
         x = np.array([first, last])
         return x, -ground.normal[0] / ground.normal[-1] * x
-    nodes = ground.origin_x + ground.cell * np.arange(len(ground.heights))
+    nodes = profile.origin + profile.cell * np.arange(len(profile.nodes))
     x = np.union1d(nodes[(nodes > first) & (nodes < last)], [first, last])
-    return x, np.interp(x, nodes, ground.heights[:, 0])
+    return x, heights_at(profile, x)

@@ -9,15 +9,15 @@ import numpy
 from numpy.typing import NDArray
 
 from contact_sim_pkg.core.jit import freeze, thaw
-from contact_sim_pkg.core.parameters import Vector
-from contact_sim_pkg.core.rigid.body import Motion
+from contact_sim_pkg.core.rigid.body import Motion, least_gap
 from contact_sim_pkg.core.rigid.compliant import MovedBody, sentence_of
 from contact_sim_pkg.core.rigid.located import LocatedBody
-from contact_sim_pkg.core.rigid.motion import HELD, STUCK
+from contact_sim_pkg.core.rigid.motion import HELD
 from contact_sim_pkg.core.rigid.problem import PLANE
 from contact_sim_pkg.core.rigid.results import SENTENCES, SOLVED, STICK
 from contact_sim_pkg.core.rigid.stepping import SteppedBody
-from contact_sim_pkg.run.block_outputs import SLIPS, STICKS, BlockRecord, encode_block
+from contact_sim_pkg.run.block_geometry import contact_arms
+from contact_sim_pkg.run.block_outputs import BlockRecord, encode_block
 from contact_sim_pkg.run.block_simulation import BlockResult, InputBlock, refuse_out_of_turn
 from contact_sim_pkg.run.errors import RunError
 from contact_sim_pkg.scene.build_block import BlockModel, build_block
@@ -41,7 +41,7 @@ class BlockBodySimulation:
         self._reset()
 
     def _reset(self) -> None:
-        self.body = body_of(self.model, _copy(self.model.start))
+        self.body: Body = body_of(self.model, _copy(self.model.start))
         self._next_block = 0
         self._start = self._kinetic_potential()
         self._supplied = 0.0
@@ -58,6 +58,7 @@ class BlockBodySimulation:
                 move(body, model, 1e-3)
         if model.contact is None:
             _warm_up_solvers(model)
+        contact_arms(model, model.start.position, model.start.rotation)
         freeze()
 
     def advance(self, block: int, inputs: dict[str, InputBlock]) -> BlockResult:
@@ -67,64 +68,71 @@ class BlockBodySimulation:
         timing = self.model.timing
         record = BlockRecord.empty(self.model, block)
         self._ledger(record)
-        interval = timing.block_length / timing.samples
         events, solves = getattr(self.body, "events", 0), getattr(self.body, "solves", 0)
-        for sample in range(timing.samples):
-            self._sample(record, sample)
-            before = self.body.motion.position.copy(), self._angles()
-            at = block * timing.block_length + sample * interval
-            move(self.body, self.model, interval, f"block {block}, {at:.6g} s")
-            record.take_impulse(self.model, sample, self.body.impulse / interval, self._states())
-            record.residual = max(record.residual, getattr(self.body, "residual", 0.0))
-            self._supplied += self._known_work(*before, interval)
-        self._sample(record, timing.samples)
+        if isinstance(self.body, LocatedBody):
+            self._run_located(self.body, record, block)
+        else:
+            self._run_samples(record, block)
+        record.look(self.model)
+        self._supplied += self._known_work(record)
         record.events = getattr(self.body, "events", 0) - events
         record.steps = getattr(self.body, "solves", 0) - solves or timing.samples
         self._next_block = block + 1
         messages, load = encode_block(self.model, record, time.perf_counter() - began)
         return BlockResult(messages, load, 0.0, time.perf_counter() - began)
 
-    def _sample(self, record: BlockRecord, sample: int) -> None:
-        motion = self.body.motion
-        record.position[sample] = motion.position
-        record.angle[sample] = motion.angle[0]
-        record.rotation[sample] = motion.rotation
-        record.velocity[sample] = motion.velocity
-        if sample < len(record.gap):
-            arms = self.model.body.points @ motion.rotation.T
-            record.arms[sample] = arms
-            record.gap[sample] = float(_gaps(self.model, motion).min())
+    def _run_located(self, body: LocatedBody, record: BlockRecord, block: int) -> None:
+        """All samples of a block in one call."""
+        timing = self.model.timing
+        interval = timing.block_length / timing.samples
+        record.take_start(body.motion)
+        status, track = body.advance_over(interval, timing.samples)
+        if status != SOLVED:
+            at = block * timing.block_length + body.reached
+            raise RunError(f"block {block}, {at:.6g} s: {SENTENCES[status]}")
+        record.position[1:], record.angle[1:], record.rotation[1:] = track.position, track.angle, track.rotation
+        record.velocity[1:], record.residual = track.velocity, body.residual
+        stuck = track.sticks > 0.0
+        for impact in body.impacts:
+            sample = min(int(impact.time / interval), timing.samples - 1)
+            stuck[sample, list(impact.points)] |= numpy.array(impact.modes) == STICK
+        record.take_impulses(self.model, track.impulse / interval, stuck)
 
-    def _states(self) -> NDArray[numpy.int64]:
-        """Of every point, as `ContactPoints` numbers them: 0 apart, 2 sticks, 3 slips."""
-        pushed = self.body.impulse[:: self.model.body.width] > 0.0
-        return numpy.where(pushed, numpy.where(self._sticks(), STICKS, SLIPS), 0)
+    def _run_samples(self, record: BlockRecord, block: int) -> None:
+        """One call a sample."""
+        timing = self.model.timing
+        interval = timing.block_length / timing.samples
+        rows = len(self.body.impulse)
+        force, stuck = (
+            numpy.zeros((timing.samples, rows)),
+            numpy.zeros((timing.samples, rows // self.model.body.width), bool),
+        )
+        record.take_start(self.body.motion)
+        for sample in range(timing.samples):
+            at = block * timing.block_length + sample * interval
+            move(self.body, self.model, interval, f"block {block}, {at:.6g} s")
+            record.take_state(sample + 1, self.body.motion)
+            force[sample], stuck[sample] = self.body.impulse / interval, self._sticks()
+            record.residual = max(record.residual, getattr(self.body, "residual", 0.0))
+        record.take_impulses(self.model, force, stuck)
 
     def _sticks(self) -> NDArray[numpy.bool_]:
         if isinstance(self.body, MovedBody):
             return self.body.sticks()
         work, width = self.body.work, self.model.body.width
-        if isinstance(self.body, LocatedBody):
-            stuck = numpy.asarray(work.flags == STUCK)
-            for impact in self.body.impacts:
-                stuck[list(impact.points)] |= numpy.array(impact.modes) == STICK
-            return stuck
         velocity = (work.J @ self.body.motion.velocity).reshape(-1, width)
         scale = max(float(numpy.abs(self.body.motion.velocity).max()), 1e-9)
         slow: NDArray[numpy.bool_] = (numpy.abs(velocity[:, 1:]).max(axis=1) <= 1e-9 * scale) & (work.flags >= HELD)
         return slow
 
-    def _angles(self) -> Vector:
-        return self.body.motion.angle.copy()
-
-    def _known_work(self, position: Vector, angle: Vector, interval: float) -> float:
-        """Of the known force and torque over the last interval in [J]."""
-        model, motion = self.model, self.body.motion
-        moved = motion.position - position
+    def _known_work(self, record: BlockRecord) -> float:
+        """Of the known force and torque over a block in [J]."""
+        model, moved = self.model, record.position[-1] - record.position[0]
         if model.body.width == PLANE:
-            turned = float(motion.angle[0] - angle[0])
+            turned = float(record.angle[-1] - record.angle[0])
             return float(model.force[0] * moved[0] + model.force[2] * moved[1] - model.torque[1] * turned)
-        return float(model.force @ moved + interval * model.torque @ motion.velocity[3:])
+        interval = model.timing.block_length / model.timing.samples
+        return float(model.force @ moved + interval * model.torque @ record.velocity[1:, 3:].sum(axis=0))
 
     def _kinetic_potential(self) -> tuple[float, float]:
         motion, body = self.body.motion, self.model.body
@@ -161,20 +169,10 @@ def _copy(motion: Motion) -> Motion:
     return Motion(*(numpy.array(part) for part in motion))
 
 
-def _gaps(model: BlockModel, motion: Motion) -> Vector:
-    ground, corners = model.ground, model.body.points @ motion.rotation.T + motion.position
-    if len(ground.heights):
-        nodes = ground.origin_x + ground.cell * numpy.arange(len(ground.heights))
-        return numpy.asarray(
-            corners[:, -1] - numpy.interp(corners[:, 0], nodes, ground.heights[:, 0]) - model.body.radius
-        )
-    return numpy.asarray(corners @ ground.normal - ground.offset - model.body.radius)
-
-
 def _above(model: BlockModel, motion: Motion, height: float) -> Motion:
     """The body so that its lowest point is ``height`` [m] over the ground."""
     state = _copy(motion)
-    state.position[-1] += height - float(_gaps(model, state).min())
+    state.position[-1] += height - least_gap(model.body, model.ground, state)
     return state
 
 

@@ -23,7 +23,9 @@ from contact_sim_pkg.bag.messages import (
     encode_wrench,
 )
 from contact_sim_pkg.bag.topics import TOPICS
+from contact_sim_pkg.core.rigid.body import Motion, contact_count
 from contact_sim_pkg.core.rigid.problem import PLANE
+from contact_sim_pkg.run.block_geometry import contact_arms, gaps, in_ground_axes
 from contact_sim_pkg.scene.build_block import BlockModel
 
 Array = NDArray[numpy.float64]
@@ -42,10 +44,9 @@ class BlockRecord:
     angle: Array  # [samples + 1]
     rotation: Array  # [samples + 1, width, width]
     velocity: Array  # [samples + 1, coordinates]
-    arms: Array  # [samples, points, width] of the points from the centre of mass
-    gap: Array  # [samples], of the lowest point
-    force: Array  # [samples, points, width], normal, then tangents
-    states: NDArray[numpy.int64]  # [samples, points]
+    gap: Array  # [samples], of the lowest contact
+    force: Array  # [samples, contacts, width], normal, then tangents
+    states: NDArray[numpy.int64]  # [samples, contacts]
     energy: Array = field(default_factory=lambda: numpy.zeros(5))  # kinetic, potential, stored, dissipated, supplied
     residual: float = 0.0
     events: int = 0
@@ -54,18 +55,30 @@ class BlockRecord:
     @classmethod
     def empty(cls, model: BlockModel, block: int) -> BlockRecord:
         """Room for one block of ``model``."""
-        samples, width, points = model.timing.samples, model.body.width, len(model.body.points)
+        samples, width, contacts = model.timing.samples, model.body.width, contact_count(model.body, model.ground)
         zeros, ends = numpy.zeros, samples + 1
         return cls(
             block, zeros((ends, width)), zeros(ends), zeros((ends, width, width)), zeros((ends, len(model.body.load))),
-            zeros((samples, points, width)), zeros(samples), zeros((samples, points, width)),
-            zeros((samples, points), numpy.int64),
+            zeros(samples), zeros((samples, contacts, width)), zeros((samples, contacts), numpy.int64),
         )  # fmt: skip
 
-    def take_impulse(self, model: BlockModel, sample: int, force: Array, states: NDArray[numpy.int64]) -> None:
-        """Mean forces over a sample, [rows] in [N], and the states of the points."""
-        self.force[sample] = force.reshape(-1, model.body.width)
-        self.states[sample] = states
+    def take_start(self, motion: Motion) -> None:
+        """State at the start of the block."""
+        self.take_state(0, motion)
+
+    def take_state(self, sample: int, motion: Motion) -> None:
+        """State at the start of a sample."""
+        self.position[sample], self.angle[sample] = motion.position, motion.angle[0]
+        self.rotation[sample], self.velocity[sample] = motion.rotation, motion.velocity
+
+    def take_impulses(self, model: BlockModel, force: Array, stuck: NDArray[numpy.bool_]) -> None:
+        """Mean forces over all samples, [samples, rows] in [N], and which contacts stick, [samples, contacts]."""
+        self.force[:] = force.reshape(self.force.shape)
+        self.states[:] = numpy.where(self.force[:, :, 0] > 0.0, numpy.where(stuck, STICKS, SLIPS), 0)
+
+    def look(self, model: BlockModel) -> None:
+        """Gaps of the states that were taken."""
+        self.gap[:] = gaps(model, self.position[:-1], self.rotation[:-1])
 
 
 def encode_block(
@@ -94,11 +107,11 @@ def _wrenches(model: BlockModel, record: BlockRecord, stamp: int) -> list[tuple[
     timing, found = model.timing, []
     for display in range(timing.displays):
         first, last = (place * timing.samples // timing.displays for place in (display, display + 1))
-        force = record.force[first:last].mean(axis=0)  # [points, width]
-        arms = record.arms[first]
+        force = record.force[first:last].mean(axis=0)  # [contacts, width]
+        arms = contact_arms(model, record.position[first], record.rotation[first])
         across = force[:, 2].sum() if model.body.width != PLANE else 0.0
         total = (float(force[:, 1].sum()), float(across), float(force[:, 0].sum()))
-        torque = numpy.cross(_in_space(arms), _forces_in_space(force)).sum(axis=0)
+        torque = numpy.cross(in_ground_axes(model, _in_space(arms)), _forces_in_space(force)).sum(axis=0)
         at = _stamp_of(model, stamp, first)
         wrench = Wrench(total, (float(torque[0]), float(torque[1]), float(torque[2])))
         found.append(("block/wrench", at, encode_wrench(wrench, at, BLOCK_FRAME)))
@@ -110,17 +123,17 @@ def _in_space(arms: Array) -> Array:
 
 
 def _forces_in_space(force: Array) -> Array:
-    """Rows (x, y, z) of forces (normal, tangents) on level ground."""
+    """Rows (along, across, normal) of forces (normal, tangents) in the axes of the ground."""
     across = force[:, 2] if force.shape[1] == 3 else numpy.zeros(len(force))
     return numpy.column_stack([force[:, 1], across, force[:, 0]])
 
 
 def _points(model: BlockModel, record: BlockRecord, stamp: int) -> list[tuple[str, int, bytes]]:
-    """The candidate points at the field rate, forces as means from one field to the next."""
+    """The candidate contacts at the field rate, forces as means from one field to the next."""
     timing, found = model.timing, []
     for interval in range(timing.intervals):
         first, last = (place * timing.samples // timing.intervals for place in (interval, interval + 1))
-        arms = _in_space(record.arms[first])
+        arms = _in_space(contact_arms(model, record.position[first], record.rotation[first]))
         force = record.force[first:last].mean(axis=0)
         at = _stamp_of(model, stamp, first)
         value = PointField(

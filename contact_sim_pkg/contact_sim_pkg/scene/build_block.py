@@ -10,7 +10,16 @@ import numpy
 from numpy.typing import NDArray
 
 from contact_sim_pkg.core.parameters import NormalElastic, Vector
-from contact_sim_pkg.core.rigid.body import Ground, Motion, RigidBody, height_field, placed, slope
+from contact_sim_pkg.core.rigid.body import (
+    Ground,
+    Motion,
+    RigidBody,
+    height_field,
+    laid_under,
+    least_gap,
+    placed,
+    slope,
+)
 from contact_sim_pkg.core.rigid.compliant import compliant_contact
 from contact_sim_pkg.core.rigid.parameters import RULE_NAMES
 from contact_sim_pkg.core.rigid.problem import PLANE, SPACE
@@ -59,7 +68,7 @@ def build_block(scene: dict[str, Any]) -> BlockModel:
     weight = numpy.array([0.0, 0.0, -mass * float(block["gravity"])])
     load = _generalised(vectors["force"] + weight, vectors["torque"], width)
     body = RigidBody(width, mass, inertia, points, radius, float(law["friction"]), float(law["restitution"]), load)
-    ground = _ground(block["ground"], width)
+    ground = laid_under(body, _ground(block["ground"], width))
     start = _start(body, vectors, axes)
     return BlockModel(
         body, ground, start, axes, make_timing(scene, True), RULE_NAMES[law["rule"]], str(law["scheme"]), float(law["step"]),
@@ -107,9 +116,7 @@ def _shape(block: dict[str, Any], width: int) -> tuple[Matrix, float, Vector, Ma
 def _ground(ground: dict[str, Any], width: int) -> Ground:
     if ground.get("heights") is None:
         return slope(width, float(ground["slope"]))
-    column = numpy.array(ground["heights"], float)[:, None]
-    heights = column if width == PLANE else numpy.repeat(column, 2, axis=1)
-    return height_field(width, heights, float(ground["start"]), -1.0, float(ground["distance"]))
+    return height_field(width, numpy.array(ground["heights"], float), float(ground["start"]), float(ground["distance"]))
 
 
 def rotation_of(vector: Vector) -> Matrix:
@@ -138,12 +145,6 @@ def depth_at_start(block: dict[str, Any]) -> float:
     names = ("position", "velocity", "rotation", "angular_velocity")
     body = RigidBody(width, 1.0, inertia, points, radius, 0.0, 0.0, numpy.zeros(3 * (width - 1)))
     start = _start(body, {name: numpy.array(block[name], float) for name in names}, axes)
-    ground = _ground(block["ground"], width)
-    corners = body.points @ start.rotation.T + start.position
-    if len(ground.heights):
-        nodes = ground.origin_x + ground.cell * numpy.arange(len(ground.heights))
-        gaps = corners[:, -1] - numpy.interp(corners[:, 0], nodes, ground.heights[:, 0]) - body.radius
-    else:
-        gaps = corners @ ground.normal - ground.offset - body.radius
+    gap = least_gap(body, laid_under(body, _ground(block["ground"], width)), start)
     size = float(numpy.linalg.norm(body.points, axis=1).max()) + body.radius
-    return -float(gaps.min()) if gaps.min() < -BELOW * size else 0.0
+    return -gap if gap < -BELOW * size else 0.0

@@ -141,7 +141,7 @@ def _tumble():
 def _bowl():
     body, motion = ball(0.7, height=0.1, velocity=(0.5, 0.0, 0.0))
     heights = 0.02 * (numpy.arange(-20, 21) / 4.0) ** 2
-    return body, height_field(3, numpy.repeat(heights[:, None], 2, axis=1), -1.0, -1.0, 0.05), motion
+    return body, height_field(3, heights, -1.0, 0.05), motion
 
 
 @pytest.mark.parametrize("case", [_fall, _tumble])

@@ -136,7 +136,7 @@ def test_corner_impacts_stick_slide_or_reverse_as_the_friction_says():
 def test_a_sphere_on_a_height_field_that_is_a_plane_moves_as_on_that_plane():
     angle, radius = 0.2, 0.05
     nodes = numpy.linspace(-2.0, 2.0, 41)
-    field = height_field(3, numpy.outer(math.tan(angle) * nodes, numpy.ones(41)), -2.0, -2.0, 0.1)
+    field = height_field(3, math.tan(angle) * nodes, -2.0, 0.1)
     positions = []
     for ground in (slope(3, angle), field):
         body = sphere(radius, 1.0, 0.3, 0.5)

@@ -1,8 +1,9 @@
 """A rigid body of points with a radius (block, polygon, box, convex hull, sphere) over a ground: gaps and Jacobians.
 
 Every shape is the hull of spheres of one radius about its points: radius 0 for polygons and hulls, one point for a sphere. Against
-a plane that is exact; against a height field the contact lies below each point, so ridges narrower than the spacing of the
-points go unseen. Coordinates: plane (x, y, angle), space (x, y, z and a rotation matrix); velocities (v, omega) in world axes.
+a plane that is exact, and in the plane against heights along x (`profile.py`); in space the points of a hull alone meet heights,
+so that peaks narrower than their spacing go unseen. Coordinates: plane (x, y, angle), space (x, y, z and a rotation matrix);
+velocities (v, omega) in world axes.
 Source: identifiability paper eqs 10, 11, 40-42; SEEDS 7.2 (M4.7).
 """
 
@@ -14,9 +15,10 @@ from typing import NamedTuple
 
 import numpy
 
-from ..jit import kernel
+from ..jit import entry, kernel
 from ..parameters import Vector
 from .problem import PLANE, SPACE
+from .profile import Profile, clearance, fitted, flat, make_profile, point_on_profile, ridge_on_polygon
 
 
 class RigidBody(NamedTuple):
@@ -33,14 +35,11 @@ class RigidBody(NamedTuple):
 
 
 class Ground(NamedTuple):
-    """A plane ``n x = offset``, or a height field over the first coordinates where it has cells."""
+    """A plane ``n x = offset``, or heights along x where its profile has nodes."""
 
     normal: Vector  # [width], unit
     offset: float  # [m]
-    heights: Vector  # [nodes x, nodes y] in [m], 1 column in the plane; (0, 0): the plane alone
-    origin_x: float  # [m] of node 0
-    origin_y: float
-    cell: float  # [m]
+    profile: Profile
 
 
 class Motion(NamedTuple):
@@ -84,14 +83,30 @@ def slope(width: int, angle: float = 0.0) -> Ground:
     """A plane through the origin that rises along x by ``angle`` in [rad]."""
     normal = numpy.zeros(width)
     normal[0], normal[-1] = -math.sin(angle), math.cos(angle)
-    return Ground(normal, 0.0, numpy.zeros((0, 0)), 0.0, 0.0, 1.0)
+    return Ground(normal, 0.0, flat())
 
 
-def height_field(width: int, heights: Vector, origin_x: float, origin_y: float, cell: float) -> Ground:
-    """Bilinear ground over a grid of ``heights`` [nodes x, nodes y]; in the plane [nodes x, 1]."""
-    return slope(width)._replace(
-        heights=numpy.ascontiguousarray(heights, float), origin_x=origin_x, origin_y=origin_y, cell=cell
-    )
+def height_field(width: int, heights: Vector, origin: float, cell: float) -> Ground:
+    """Ground through ``heights`` [nodes] at ``origin``, ``origin + cell``, ... along x in [m]: straight between them and beyond."""
+    return slope(width)._replace(profile=make_profile(heights, origin, cell))
+
+
+def laid_under(body: RigidBody, ground: Ground) -> Ground:
+    """The ground, with room for all contacts that ``body`` can have with it."""
+    return ground._replace(profile=fitted(ground.profile, body.width, body.points, body.radius))
+
+
+def contact_count(body: RigidBody, ground: Ground) -> int:
+    """Number of contacts of a body with a ground that was laid under it."""
+    return len(body.points) * ground.profile.reach + ground.profile.ridges
+
+
+def least_gap(body: RigidBody, ground: Ground, motion: Motion) -> float:
+    """Least distance in [m] of the body from a ground that was laid under it; negative below it."""
+    corners = body.points @ motion.rotation.T + motion.position
+    if len(ground.profile.nodes):
+        return clearance(ground.profile, numpy.ascontiguousarray(corners[:, [0, -1]]), body.radius)
+    return float((corners @ ground.normal).min()) - ground.offset - body.radius
 
 
 def placed(
@@ -102,39 +117,6 @@ def placed(
     if body.width == PLANE:
         turn = numpy.array([[math.cos(angle), -math.sin(angle)], [math.sin(angle), math.cos(angle)]])
     return Motion(numpy.array(position, float), numpy.array([float(angle)]), turn, numpy.array(velocity, float))
-
-
-@kernel
-def _field_below(ground, width, x, y):
-    """Height and slopes of the height field at (x, y), bilinear; beyond its edge the edge goes on."""
-    heights = ground.heights
-    along = min(max((x - ground.origin_x) / ground.cell, 0.0), heights.shape[0] - 1.0)
-    i = min(int(along), heights.shape[0] - 2)
-    a = along - i
-    if width == PLANE:
-        first, second = heights[i, 0], heights[i + 1, 0]
-        return first + a * (second - first), (second - first) / ground.cell, 0.0
-    across = min(max((y - ground.origin_y) / ground.cell, 0.0), heights.shape[1] - 1.0)
-    j = min(int(across), heights.shape[1] - 2)
-    b = across - j
-    h_00, h_10, h_01, h_11 = heights[i, j], heights[i + 1, j], heights[i, j + 1], heights[i + 1, j + 1]
-    height = (1.0 - a) * (1.0 - b) * h_00 + a * (1.0 - b) * h_10 + (1.0 - a) * b * h_01 + a * b * h_11
-    slope_x = ((1.0 - b) * (h_10 - h_00) + b * (h_11 - h_01)) / ground.cell
-    slope_y = ((1.0 - a) * (h_01 - h_00) + a * (h_11 - h_10)) / ground.cell
-    return height, slope_x, slope_y
-
-
-@kernel
-def surface(ground, width, x, y, z):
-    """Distance of a point above the ground, and the unit normal there; the second coordinate of the plane is ``z``."""
-    if ground.heights.shape[0] == 0:
-        if width == PLANE:
-            return ground.normal[0] * x + ground.normal[1] * z - ground.offset, ground.normal[0], 0.0, ground.normal[1]
-        distance = ground.normal[0] * x + ground.normal[1] * y + ground.normal[2] * z - ground.offset
-        return distance, ground.normal[0], ground.normal[1], ground.normal[2]
-    height, slope_x, slope_y = _field_below(ground, width, x, y)
-    length = math.sqrt(1.0 + slope_x * slope_x + slope_y * slope_y)
-    return (z - height) / length, -slope_x / length, -slope_y / length, 1.0 / length
 
 
 @kernel
@@ -165,16 +147,52 @@ def _fill_row(J, row, width, a_x, a_y, a_z, r_x, r_y, r_z):
 
 
 @kernel
+def is_ridge(body, ground, i):
+    """Whether contact ``i`` is one of a peak with the edges of the body."""
+    return i >= body.points.shape[0] * ground.profile.reach
+
+
+@kernel
+def _on_plane(body, ground, rotation, x, y, z, i):
+    """Contact ``i`` with a plane: gap, normal, arm of the place of contact."""
+    r_x, r_y, r_z = point_arm(body, rotation, i)
+    n_x, n_z, n_y = ground.normal[0], ground.normal[body.width - 1], ground.normal[1]
+    if body.width == PLANE:
+        n_y = 0.0
+        distance = n_x * (x + r_x) + n_z * (z + r_z) - ground.offset
+    else:
+        distance = n_x * (x + r_x) + n_y * (y + r_y) + n_z * (z + r_z) - ground.offset
+    radius = body.radius
+    return distance - radius, n_x, n_y, n_z, r_x - radius * n_x, r_y - radius * n_y, r_z - radius * n_z
+
+
+@kernel
+def on_profile(body, ground, rotation, x, z, i):
+    """Contact ``i`` with the heights: gap in [m], normal (x, z), arm (x, y, z), curvature in [1/m], and its face or edge."""
+    profile, radius = ground.profile, body.radius
+    if is_ridge(body, ground, i):
+        slot, size = i - body.points.shape[0] * profile.reach, 0.0
+        for k in range(body.points.shape[0]):
+            size = max(size, math.sqrt(body.points[k, 0] ** 2 + body.points[k, 1] ** 2))
+        gap, n_x, n_z, r_x, r_z, feature = ridge_on_polygon(profile, slot, body.points, rotation, x, z, size)
+        return gap, n_x, n_z, r_x, 0.0, r_z, 0.0, feature
+    r_x, r_y, r_z = point_arm(body, rotation, i // profile.reach)
+    gap, n_x, n_z, curvature, feature = point_on_profile(profile, i % profile.reach, x + r_x, z + r_z, radius)
+    return gap, n_x, n_z, r_x - radius * n_x, r_y, r_z - radius * n_z, curvature, feature
+
+
+@kernel
 def contact_rows(body, ground, motion, gap, J):
-    """Gap of every point in [m], and the rows of its contact: normal, then tangent along x (and the one across in space)."""
-    width = body.width
-    for i in range(body.points.shape[0]):
-        r_x, r_y, r_z = point_arm(body, motion.rotation, i)
-        x, z = motion.position[0] + r_x, motion.position[width - 1] + r_z
-        y = motion.position[1] + r_y if width == SPACE else 0.0
-        distance, n_x, n_y, n_z = surface(ground, width, x, y, z)
-        gap[i] = distance - body.radius
-        r_x, r_y, r_z = r_x - body.radius * n_x, r_y - body.radius * n_y, r_z - body.radius * n_z
+    """Gap of every contact in [m], and its rows: normal, then tangent along x (and the one across in space)."""
+    width, position = body.width, motion.position
+    x, z = position[0], position[width - 1]
+    y = position[1] if width == SPACE else 0.0
+    for i in range(gap.shape[0]):
+        if ground.profile.nodes.shape[0] == 0:
+            gap[i], n_x, n_y, n_z, r_x, r_y, r_z = _on_plane(body, ground, motion.rotation, x, y, z, i)
+        else:
+            gap[i], n_x, n_z, r_x, r_y, r_z, _c, _f = on_profile(body, ground, motion.rotation, x, z, i)
+            n_y = 0.0
         row = i * width
         length = math.sqrt(n_x * n_x + n_z * n_z)
         t_x, t_z = n_z / length, -n_x / length
@@ -183,6 +201,12 @@ def contact_rows(body, ground, motion, gap, J):
         if width == SPACE:
             s_x, s_y, s_z = n_y * t_z, n_z * t_x - n_x * t_z, -n_y * t_x
             _fill_row(J, row + 2, width, s_x, s_y, s_z, r_x, r_y, r_z)
+
+
+@entry
+def look_at_contacts(body: RigidBody, ground: Ground, motion: Motion, gap: Vector, jacobian: Vector) -> None:
+    """`contact_rows` for callers from Python."""
+    contact_rows(body, ground, motion, gap, jacobian)
 
 
 @kernel

@@ -23,7 +23,7 @@ from ..rigs.compliant_body import (
     stored_energy,
 )
 from ..solvers.dormand_prince import EVENTS, REJECTED, STEPS, Workspace, integrate, make_workspace, set_sides
-from .body import Ground, Motion, RigidBody
+from .body import Ground, Motion, RigidBody, contact_count, laid_under
 from .flight import body_size
 from .problem import PLANE
 
@@ -104,14 +104,15 @@ class MovedBody:
         self, body: RigidBody, ground: Ground, motion: Motion, contact: CompliantContact, tolerance: float
     ) -> None:
         """Take a body at the start; ``tolerance`` is the error a step may make, relative to depth and speed of an impact."""
-        self.body, self.ground, self.motion = body, ground, motion
+        ground = laid_under(body, ground)
+        self.body, self.ground, self.motion, self.contacts = body, ground, motion, contact_count(body, ground)
         self.rig = make_rig(body, ground, contact)
-        self.state, self.mode = _state_of(body, motion), numpy.zeros(len(body.points))
+        self.state, self.mode = _state_of(body, motion, self.contacts), numpy.zeros(self.contacts)
         self.size = float(body_size(body))
         self.scale = tolerance * self._scales()
-        self.work = make_workspace(len(self.state), MARGINS_A_POINT * len(body.points))
+        self.work = make_workspace(len(self.state), MARGINS_A_POINT * self.contacts)
         self.time = 0.0
-        rows = len(body.points) * body.width
+        rows = self.contacts * body.width
         self._impulses = slice(len(self.state) - 1 - rows, len(self.state) - 1)
         self.impulse = numpy.zeros(rows)  # [N s] over the last interval: normal, then tangents, of each point
         self.stored = 0.0  # [J] in contacts and friction springs
@@ -150,9 +151,8 @@ class MovedBody:
 
     def sticks(self) -> numpy.typing.NDArray[numpy.bool_]:
         """Which points stick at the end of the last interval."""
-        points = len(self.body.points)
         touches = self.rig.gap < 0.0
-        return numpy.asarray(touches & (self.work.side[2 * points :] > 0.0))
+        return numpy.asarray(touches & (self.work.side[2 * self.contacts :] > 0.0))
 
     def _scales(self) -> Vector:
         """Size of each state: depth and speed of the swing of the body at rest on one point.
@@ -162,7 +162,7 @@ class MovedBody:
         """
         body, width = self.body, self.body.width
         depth, frequency = resting_swing(body, self.rig.contact.elastic)
-        speed, springs = depth * frequency, len(body.points) * (width - 1)
+        speed, springs = depth * frequency, self.contacts * (width - 1)
         sizes = [depth] * width + [depth / self.size] * (places_of(width) - width) + [speed] * width
         sizes += [speed / self.size] * (len(body.load) - width) + [depth] * springs
         return numpy.array(sizes + [math.inf] * (len(self.state) - len(sizes)))
@@ -173,8 +173,8 @@ def sentence_of(status: int) -> str:
     return SENTENCES[status]
 
 
-def _state_of(body: RigidBody, motion: Motion) -> Vector:
-    state, width = numpy.zeros(state_count(body)), body.width
+def _state_of(body: RigidBody, motion: Motion, contacts: int) -> Vector:
+    state, width = numpy.zeros(state_count(body, contacts)), body.width
     state[:width] = motion.position
     if width == PLANE:
         state[2], state[3:6] = motion.angle[0], motion.velocity

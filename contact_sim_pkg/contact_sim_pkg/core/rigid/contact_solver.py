@@ -32,6 +32,7 @@ FIRST_SWEEPS = 6  # before Newton's method
 PASS_WEIGHT = 1.0e-3  # of the proximal term, in A_nn of the contact
 PASS_END = 1.0e-16  # change of velocity, of the greatest, at which the passes end
 PASSES = 20
+NEAREST = 1.0e-6  # residual of the last pass up to which it stands where contradicting contacts have no answer
 
 
 class Solver(NamedTuple):
@@ -44,6 +45,7 @@ class Solver(NamedTuple):
     split: SplitWorkspace
     center: Vector  # [rows]
     weight: Vector  # [rows]
+    passed: Vector  # [rows], answer of the last pass
 
 
 class Solution(NamedTuple):
@@ -62,7 +64,7 @@ def make_solver(
     rows = contacts * width
     lemke = make_contact_lemke(contacts, width, facets if facets != DISC else START_FACETS)
     newton, split = make_newton_workspace(rows), make_split_workspace(rows, coordinates)
-    return Solver(rung, sweeps, lemke, newton, split, numpy.zeros(rows), numpy.zeros(rows))
+    return Solver(rung, sweeps, lemke, newton, split, numpy.zeros(rows), numpy.zeros(rows), numpy.zeros(rows))
 
 
 @piece
@@ -143,13 +145,15 @@ def _by_passes(problem, solver, c):
 
     How the load is shared decides, where points slide in different directions, the friction and so the velocity: the answer
     picked here does not depend on the order of the contacts. Source: Rockafellar 1976.
+    Gaps or arms that differ by rounding can ask redundant contacts for what no motion of the body meets; the passes then end at
+    the nearest answer, which is taken, and the residual says how near.
     """
     center, weight = solver.center, solver.weight
     part = PASS_WEIGHT if solver.rung == NEWTON and may_share_load(problem) else 0.0
     for row in range(c.shape[0]):
         first = row - row % problem.width
         center[row], c[row], weight[row] = 0.0, 0.0, part * problem.A[first, first]
-    status, attempt = SOLVED, 0 if part > 0.0 else PASSES
+    status, attempt, passed = SOLVED, 0 if part > 0.0 else PASSES, False
     while attempt <= PASSES:
         if (
             attempt == PASSES
@@ -159,6 +163,9 @@ def _by_passes(problem, solver, c):
         _about(problem, weight, 1.0, center)
         status = _exactly(problem, solver, 0 < attempt < PASSES, c)
         _about(problem, weight, -1.0, center)
+        if status == SOLVED and attempt < PASSES:
+            copy_row(c, solver.passed)
+            passed = True
         change, scale = 0.0, velocity_scale(problem, c)
         for row in range(c.shape[0]):
             change = max(change, weight[row] * abs(c[row] - center[row]))
@@ -166,6 +173,9 @@ def _by_passes(problem, solver, c):
         if status == SOLVED and change <= PASS_END * scale:
             break
         attempt = attempt + 1 if status == SOLVED or attempt == PASSES else PASSES
+    if status != SOLVED and passed and residual(problem, solver.passed, solver.newton.velocity) <= NEAREST:
+        copy_row(solver.passed, c)
+        status = SOLVED
     return status
 
 

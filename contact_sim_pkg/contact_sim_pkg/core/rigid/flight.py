@@ -10,7 +10,7 @@ import math
 
 from ..jit import kernel
 from ..parameters import Vector
-from .body import Ground, Motion, RigidBody, surface
+from .body import Ground, Motion, RigidBody, on_profile
 from .motion import APART, TOUCHING, MotionWorkspace, commit, free_motion, look
 from .problem import PLANE
 
@@ -33,7 +33,7 @@ def body_size(body):
 
 @kernel
 def _moved(body, motion, work, i, k):
-    """Displacement of point ``i`` along axis ``k``."""
+    """Displacement of the point of contact ``i`` along axis ``k``."""
     points, R, turned = body.points, motion.rotation, work.turned
     if body.width == PLANE:
         half, sine = math.sin(0.5 * work.turn[0]), math.sin(work.turn[0])
@@ -48,26 +48,11 @@ def _moved(body, motion, work, i, k):
 
 
 @kernel
-def _field_gap(body, ground, motion, work, i):
-    """Gap of point ``i`` over a height field after the displacement."""
-    width, points, turned = body.width, body.points, work.turned
-    x, y, z = motion.position[0] + work.shift[0], 0.0, motion.position[width - 1] + work.shift[width - 1]
-    for m in range(width):
-        x += turned[0, m] * points[i, m]
-        z += turned[width - 1, m] * points[i, m]
-    if width != PLANE:
-        y = motion.position[1] + work.shift[1]
-        for m in range(width):
-            y += turned[1, m] * points[i, m]
-    distance, _x, _y, _z = surface(ground, width, x, y, z)
-    return distance - body.radius
-
-
-@kernel
 def gap_change(body, ground, motion, work, i):
-    """Change of the gap of point ``i`` over the displacement; against a plane free of cancellation."""
-    if ground.heights.shape[0] > 0:
-        return _field_gap(body, ground, motion, work, i) - work.gap[i]
+    """Change of the gap of contact ``i`` over the displacement; against a plane free of cancellation."""
+    if ground.profile.nodes.shape[0] > 0:
+        x, z = motion.position[0] + work.shift[0], motion.position[body.width - 1] + work.shift[body.width - 1]
+        return on_profile(body, ground, work.turned, x, z, i)[0] - work.gap[i]
     row, total = i * body.width, 0.0
     for k in range(body.width):
         total += work.J[row, k] * _moved(body, motion, work, i, k)
@@ -76,7 +61,7 @@ def gap_change(body, ground, motion, work, i):
 
 @kernel
 def _clearance(body, ground, motion, work, i, time):
-    """Gap of point ``i`` after ``time``, of which the displacement is known; over ``time`` where it starts on the ground."""
+    """Gap of contact ``i`` after ``time``, of which the displacement is known; over ``time`` where it starts on the ground."""
     change = gap_change(body, ground, motion, work, i)
     if work.flags[i] != APART:
         return change / time
@@ -109,8 +94,8 @@ def _root(body, ground, motion, work, i, low, high, above, below):
 
 
 @kernel
-def _stays_away(body, motion, work, time):
-    """Whether every point starts in the air, farther from the ground than the body can move in ``time`` [s]."""
+def travel_bound(body, motion, time):
+    """How far in [m] a point of the body can move in ``time`` [s] of flight, at most."""
     v, load, width = motion.velocity, body.load, body.width
     size, speed, push, spin, moment = body_size(body), 0.0, 0.0, 0.0, 0.0
     for k in range(width):
@@ -124,10 +109,25 @@ def _stays_away(body, motion, work, time):
     if spin + moment > 0.0:  # free spin keeps its energy: it grows at most by the root of the ratio of the inertias
         grown = spin * math.sqrt(_greatest_inertia(body.inertia) / lightest) + time * moment / lightest
         reach += time * size * grown
-    away = True
+    return reach
+
+
+@kernel
+def is_clear(body, ground, motion, time):
+    """Whether a body in the air stays above the greatest height in ``time`` [s], and within the heights."""
+    profile, reach = ground.profile, travel_bound(body, motion, time) + body_size(body)
+    x, last = motion.position[0], profile.nodes.shape[0] - 1
+    inside = x - reach > profile.origin and x + reach < profile.origin + last * profile.cell
+    return inside and motion.position[body.width - 1] - reach > profile.top
+
+
+@kernel
+def _stays_away(body, ground, motion, work, time):
+    """Whether every point starts in the air, farther from the ground than the body can move in ``time`` [s]."""
+    away, reach = True, travel_bound(body, motion, time)
     for i in range(work.gap.shape[0]):
         away = away and work.flags[i] == APART and work.gap[i] > reach
-    return away
+    return away if ground.profile.nodes.shape[0] == 0 else away and is_clear(body, ground, motion, time)
 
 
 @kernel
@@ -146,7 +146,7 @@ def _first_touch(body, ground, motion, work, piece, before, after):
     for i in range(points):
         before[i] = work.u[i * body.width] if work.flags[i] != APART else max(work.gap[i], 0.0)
     low, first, point = 0.0, piece, -1
-    if ground.heights.shape[0] == 0 and _stays_away(body, motion, work, piece):
+    if _stays_away(body, ground, motion, work, piece):
         return first, point
     for part in range(1, PARTS + 1):
         time = part * piece / PARTS
@@ -181,6 +181,6 @@ def fly_to_touch(
     commit(body, motion, work.free, work)
     look(body, ground, motion, work)
     for i in range(work.flags.shape[0]):
-        touches = point >= 0 and (i == point or abs(work.gap[i]) <= TOUCH * size)
+        touches = i == point or work.gap[i] <= TOUCH * size
         work.flags[i] = TOUCHING if touches else APART
     return time, point

@@ -9,7 +9,7 @@ from __future__ import annotations
 import math
 
 from ..jit import entry, kernel
-from .body import Ground, Motion, RigidBody
+from .body import Ground, Motion, RigidBody, contact_rows, is_ridge, on_profile
 from .flight import TOUCH, gap_change
 from .motion import (
     APART,
@@ -24,14 +24,17 @@ from .motion import (
     displace,
     free_velocity,
     look,
+    set_turn,
     take_part,
 )
 from .problem import PLANE
+from .profile import time_to_kink
+from .rotation import rotate_by, spin_in_body
 
 STILL = 1.0e-13  # of the speed scale: below it a velocity is rounding
 LANDED = 1.0e-11  # of the size: a point this far below the ground has landed
 DRIFT = 1.0e-10  # of the size: a gap of a held point that is taken back, which turning bodies call for
-RETURN = 0.05  # of sqrt(L/g): the time in which it is
+LIFTS = 10  # times that the held points are put back on the ground after a piece
 HOLD_SWEEPS = 20
 SLOW = 1.0e-9  # of the slip before, squared: slip that ends there has stopped
 
@@ -88,9 +91,24 @@ def _turning_acceleration(body, motion, work, i):
 
 
 @kernel
-def _normal_acceleration(body, motion, work, i):
-    """Of a point without contact forces: from the load, and from the turn of the arm."""
-    total = _turning_acceleration(body, motion, work, i)
+def path_acceleration(body, ground, motion, work, i):
+    """Acceleration of the gap of contact ``i`` in [m/s^2] at constant velocities: its arm turns, the ground is curved."""
+    if ground.profile.nodes.shape[0] == 0:
+        return _turning_acceleration(body, motion, work, i)
+    J, v, row, width = work.J, motion.velocity, i * body.width, body.width
+    if is_ridge(body, ground, i):  # the normal turns with the body
+        along = v[0] * J[row + 1, 0] + v[1] * J[row + 1, 1]
+        return -v[2] * v[2] * J[row + 1, 2] - 2.0 * v[2] * along
+    x, z = motion.position[0], motion.position[width - 1]
+    _gap, n_x, n_z, _x, _y, _z, curvature, _feature = on_profile(body, ground, motion.rotation, x, z, i)
+    along = v[0] * n_z - v[width - 1] * n_x
+    return _turning_acceleration(body, motion, work, i) + curvature * along * along
+
+
+@kernel
+def _normal_acceleration(body, ground, motion, work, i):
+    """Of a point without contact forces: from the load, and from its path."""
+    total = path_acceleration(body, ground, motion, work, i)
     for k in range(body.load.shape[0]):
         for m in range(body.load.shape[0]):
             total += work.J[i * body.width, k] * work.W[k, m] * body.load[m]
@@ -123,7 +141,7 @@ def _hold(body, motion, work):
 
 @kernel
 def settle_points(
-    body: RigidBody, motion: Motion, work: MotionWorkspace, rest_speed: float, still: float
+    body: RigidBody, ground: Ground, motion: Motion, work: MotionWorkspace, rest_speed: float, still: float
 ) -> tuple[float, bool]:
     """Hold the points whose rebound is below the rest speed and that the load presses down.
 
@@ -137,7 +155,7 @@ def settle_points(
             continue
         if work.flags[i] == APART or abs(speed) > rest_speed:
             continue
-        acceleration = _normal_acceleration(body, motion, work, i)
+        acceleration = _normal_acceleration(body, ground, motion, work, i)
         if acceleration < 0.0:
             if speed > still and body.restitution < 1.0:
                 wait = max(wait, 2.0 * speed / (-acceleration * (1.0 - body.restitution)))
@@ -149,23 +167,20 @@ def settle_points(
 
 
 @entry
-def prepare_attempt(
-    body: RigidBody, motion: Motion, work: MotionWorkspace, time: float, size: float, gravity: float
-) -> None:
+def prepare_attempt(body: RigidBody, ground: Ground, motion: Motion, work: MotionWorkspace, time: float) -> None:
     """The problem of the held points over ``time`` [s], without bounce; ``work.free`` is the velocity without them."""
     take_part(body, work, HELD)
     free_velocity(body, motion, work, time)
     q = work.problem.q
     contact_velocities(work.J, work.free, q)
-    slowest = RETURN * math.sqrt(size / gravity)
     for i in range(work.flags.shape[0]):
         work.problem.floor[i] = 0.0
         row = i * body.width
         if work.flags[i] < HELD:
             for k in range(row, row + body.width):
                 q[k] = 0.0
-        elif abs(work.gap[i]) > DRIFT * size:
-            q[row] += work.gap[i] / max(time, slowest)
+            continue
+        q[row] += time * path_acceleration(body, ground, motion, work, i)
 
 
 @kernel
@@ -208,22 +223,86 @@ def stop_of_slip(body: RigidBody, motion: Motion, work: MotionWorkspace, still: 
 @entry
 def landing_part(
     body: RigidBody, ground: Ground, motion: Motion, work: MotionWorkspace, time: float, size: float
-) -> float:
-    """Displacement over ``time`` [s]; the part of it after which the first free point is on the ground, 1: none lands."""
+) -> tuple[float, int]:
+    """Displacement over ``time`` [s]; the part of it after which the first free contact lands, and which (1, -1: none does)."""
     displace(body, motion, work.free, work, time)
-    part, near = 1.0, LANDED * size
+    part, first, near = 1.0, -1, LANDED * size
     for i in range(work.flags.shape[0]):
         if work.flags[i] >= HELD:
             continue
-        above = max(work.gap[i], 0.0)
+        above, speed = max(work.gap[i], 0.0), work.u[i * body.width]
         change = gap_change(body, ground, motion, work, i)
         if above + change >= -near:
             continue
+        share = 1.0
         if above > near:
-            part = min(part, -above / change)
-        elif work.u[i * body.width] > 0.0:  # it leaves and comes back
-            part = min(part, work.u[i * body.width] / (work.u[i * body.width] - change / time))
-    return part
+            share = -above / change
+        elif speed > 0.0:  # it leaves and comes back
+            share = speed / (speed - change / time)
+        if share < part:
+            part, first = share, i
+    return part, first
+
+
+@entry
+def gap_after(body: RigidBody, ground: Ground, motion: Motion, work: MotionWorkspace, time: float, i: int) -> float:
+    """Gap in [m] of contact ``i`` after the piece of ``time`` [s] whose velocity at its end is in ``work.free``."""
+    displace(body, motion, work.free, work, time)
+    return max(work.gap[i], 0.0) + gap_change(body, ground, motion, work, i)
+
+
+@kernel
+def _lift(body, ground, motion, work, size):
+    """Put held contacts back on the ground: the curved paths of turning bodies leave them beside it by errors of third order."""
+    W, J, R = work.W, work.J, motion.rotation
+    for _ in range(LIFTS):
+        moved = False
+        for i in range(work.flags.shape[0]):
+            row, weight = i * body.width, 0.0
+            if work.flags[i] < HELD or abs(work.gap[i]) <= DRIFT * size:
+                continue
+            moved = True
+            for k in range(work.free.shape[0]):
+                work.free[k] = 0.0
+                for m in range(work.free.shape[0]):
+                    work.free[k] += W[k, m] * J[row, m]
+                weight += J[row, k] * work.free[k]
+            part = -work.gap[i] / weight
+            for k in range(body.width):
+                motion.position[k] += part * work.free[k]
+            if body.width == PLANE:
+                motion.angle[0] += part * work.free[2]
+                set_turn(R, motion.angle[0])
+            else:
+                w = spin_in_body(R, work.free)
+                rotate_by(R, w[0], w[1], w[2], part)
+            contact_rows(body, ground, motion, work.gap, J)
+        if not moved:
+            break
+    for k in range(work.free.shape[0]):
+        work.free[k] = motion.velocity[k]
+
+
+@kernel
+def _feature(body, ground, motion, i):
+    """Face or edge that contact ``i`` lies on: where it changes the contact goes over a peak, which it leaves."""
+    if ground.profile.nodes.shape[0] == 0:
+        return -1
+    return on_profile(body, ground, motion.rotation, motion.position[0], motion.position[body.width - 1], i)[7]
+
+
+@kernel
+def time_to_peak(body, ground, motion, work):
+    """Time in [s] until the first sliding contact goes over a peak, at the slip that it has now."""
+    profile, width, least = ground.profile, body.width, math.inf
+    x, z = motion.position[0], motion.position[width - 1]
+    for i in range(work.flags.shape[0]):
+        if work.flags[i] >= HELD:
+            _gap, _n_x, n_z, r_x, _y, r_z, _c, feature = on_profile(body, ground, motion.rotation, x, z, i)
+            ridge, slip = is_ridge(body, ground, i), work.u[i * width + 1]
+            time = time_to_kink(profile, body.points, motion.rotation, feature, ridge, x + r_x, r_x, r_z, n_z, slip)
+            least = min(least, time)
+    return least
 
 
 @entry
@@ -235,13 +314,19 @@ def take_piece(
         if work.flags[i] >= HELD:
             a, b = _slip(body, work, work.free, i)
             work.flags[i] = STUCK if math.hypot(a, b) <= 10.0 * still else HELD
+            work.feature[i] = _feature(body, ground, motion, i)
     carry_spin(body, motion, work.free, work)
     commit(body, motion, work.free, work)
     look(body, ground, motion, work)
     for i in range(work.flags.shape[0]):
         speed = work.u[i * body.width]
         if work.flags[i] >= HELD:
-            if speed > still and work.impulse[i * body.width] == 0.0:
-                work.flags[i] = APART
+            over = work.feature[i] != _feature(body, ground, motion, i)
+            if over or (speed > still and work.impulse[i * body.width] == 0.0):
+                work.flags[i] = APART if speed > still else TOUCHING
         else:
-            work.flags[i] = TOUCHING if work.gap[i] <= TOUCH * size and speed < 0.0 else APART
+            work.flags[i] = TOUCHING if work.gap[i] <= TOUCH * size else APART
+    _lift(body, ground, motion, work, size)
+    look(body, ground, motion, work)
+    _hold(body, motion, work)
+    contact_velocities(work.J, motion.velocity, work.u)

@@ -14,22 +14,24 @@ import numpy
 
 from ..parameters import Vector
 from . import held
-from .body import Ground, Motion, RigidBody
-from .contact_solver import GAUSS_SEIDEL, contact_impulses, make_solver
+from .body import Ground, Motion, RigidBody, contact_count, laid_under
 from .flight import body_size
-from .impact_law import impact_impulses, make_impact_workspace
 from .march import (
+    BRIEF,
     COLLIDE,
     COLLIDED,
     DONE,
     EVENTS,
     INTERVAL,
     LOST,
+    MOST_SHORT,
+    PAUSE,
     PIECE,
     RESIDUAL,
     RESTED,
     SAMPLE,
     SAMPLES,
+    SHORT,
     SOLVES,
     STILL,
     STOPS,
@@ -38,10 +40,20 @@ from .march import (
     make_march_workspace,
     track_columns,
 )
-from .motion import STUCK, make_motion_workspace
+from .motion import APART, STUCK, TOUCHING, make_motion_workspace
+from .packed import PackedSolver
 from .parameters import ENERGETIC
 from .problem import DISC, PLANE
-from .results import CONTACT_NOT_FINITE, NOT_CONVERGED, REVERSE, SEPARATE, SLIDE, SOLVED, STICK, TOO_MANY_IMPACTS
+from .results import (
+    NOT_CONVERGED,
+    REVERSE,
+    SEPARATE,
+    SLIDE,
+    SOLVED,
+    STICK,
+    TOO_MANY_EVENTS,
+    TOO_MANY_IMPACTS,
+)
 
 __all__ = ["Impact", "LocatedBody", "Track"]
 
@@ -53,7 +65,6 @@ MOST_STOPS = (
 )
 REST = 1.0e-6  # rest speed over sqrt(g L)
 ACCEPTED = 1.0e-6  # residual up to which a solve goes on: corners whose heights differ by rounding contradict each other a little
-SWEEPS = 2000  # of Gauss-Seidel where the exact solvers find that contradiction
 STICKS = 1.0e-9  # of the speed before the impact: slip below it counts as none
 
 
@@ -85,13 +96,13 @@ class LocatedBody:
         self, body: RigidBody, ground: Ground, motion: Motion, rule: int = ENERGETIC, facets: int = DISC
     ) -> None:
         """Take a body in the air or on the ground; ``motion`` is its state at the start, with no point below the ground."""
+        ground = laid_under(body, ground)
         self.body, self.ground, self.motion, self.rule = body, ground, motion, rule
-        points, coordinates = len(body.points), len(body.load)
-        self.work = make_motion_workspace(body, facets)
+        points, coordinates = contact_count(body, ground), len(body.load)
+        self.work = make_motion_workspace(body, ground, facets)
         self._march = make_march_workspace(points)
-        self._columns = track_columns(body)
-        self._impact = make_impact_workspace(points, coordinates, body.width, facets)
-        self._sweeps = make_solver(points, coordinates, body.width, facets, GAUSS_SEIDEL, SWEEPS)
+        self._columns = track_columns(body, points)
+        self._solver = PackedSolver(coordinates, body.width, facets)
         self.size = float(body_size(body))
         self.gravity = float(numpy.linalg.norm(body.load[: body.width]) / body.mass)
         self.rest_speed = REST * math.sqrt(self.gravity * self.size)
@@ -136,7 +147,7 @@ class LocatedBody:
         track = numpy.zeros((samples, self._columns[-1]))
         self.impacts = []
         clock[TIME], clock[INTERVAL], clock[RESTED], clock[RESIDUAL] = 0.0, interval, math.nan, 0.0
-        count[SAMPLE], count[SAMPLES], count[STOPS], count[COLLIDED] = 0, samples, 0, 0
+        count[SAMPLE], count[SAMPLES], count[STOPS], count[COLLIDED], count[SHORT] = 0, samples, 0, 0, 0
         status = SOLVED
         while status == SOLVED:
             request = advance_samples(
@@ -145,7 +156,10 @@ class LocatedBody:
             )  # fmt: skip
             if request == DONE:
                 break
-            status = self._collide(track) if request == COLLIDE else self._pass(track)
+            if count[SHORT] > MOST_SHORT:
+                status = TOO_MANY_EVENTS
+            elif request != PAUSE:
+                status = self._collide(track) if request == COLLIDE else self._pass(track)
         self.rested = float(clock[RESTED])
         read = self._track(track)
         self.impulse = read.impulse.sum(axis=0)
@@ -169,17 +183,21 @@ class LocatedBody:
         if status == SOLVED:
             self._add_impulse(track)
             left = clock[INTERVAL] - clock[TIME]
+            self._march.counts[SHORT] += int(passed < BRIEF * min(left, clock[PIECE]))
             clock[TIME] = clock[INTERVAL] if passed >= left else clock[TIME] + passed
         return status
 
     def warm_up(self) -> None:
         """Call every compiled step once, so that none is compiled in the middle of a run; the state is spoiled."""
         body, ground, motion, work = self.body, self.ground, self.motion, self.work
-        held.prepare_impact(body, work, self.rest_speed)
-        impact_impulses(work.problem, work.J, work.W, work.u, work.restitution, self.rule, self._impact, work.impulse)
+        for contacts in (len(work.flags), 1):  # an impact of several, and of one
+            work.flags[:], work.u[:: body.width] = APART, -self.rest_speed
+            work.flags[:contacts] = TOUCHING
+            held.prepare_impact(body, work, 0.0)
+            self._solver.collide(work, self.rule)
         held.finish_impact(body, motion, work, self.rest_speed)
         self._attempt(1e-3, 1e-9)
-        contact_impulses(work.problem, work.J, work.W, self._sweeps, work.impulse)
+        held.gap_after(body, ground, motion, work, 1e-3, 0)
         held.landing_part(body, ground, motion, work, 1e-3, self.size)
         held.take_piece(body, ground, motion, work, self.size, 1e-9)
         self.advance(1e-6)
@@ -194,9 +212,7 @@ class LocatedBody:
         work, width, clock, count = self.work, self.body.width, self._march.clock, self._march.counts
         energy, before = self.kinetic_energy(), work.u.copy()
         held.prepare_impact(self.body, work, self.rest_speed)
-        found = impact_impulses(
-            work.problem, work.J, work.W, work.u, work.restitution, self.rule, self._impact, work.impulse
-        )
+        found = self._solver.collide(work, self.rule)
         if not found.residual <= ACCEPTED:
             return int(found.status) or NOT_CONVERGED
         held.finish_impact(self.body, self.motion, work, self.rest_speed)
@@ -231,10 +247,8 @@ class LocatedBody:
     def _attempt(self, time: float, still: float) -> tuple[int, float, float]:
         """Status, part of ``time`` after which slip stops, and how many times ``time`` it lasts."""
         work = self.work
-        held.prepare_attempt(self.body, self.motion, work, time, self.size, self.gravity)
-        found = contact_impulses(work.problem, work.J, work.W, self._impact.solver, work.impulse)
-        if found.status not in (SOLVED, CONTACT_NOT_FINITE):
-            found = contact_impulses(work.problem, work.J, work.W, self._sweeps, work.impulse)
+        held.prepare_attempt(self.body, self.ground, self.motion, work, time)
+        found = self._solver.hold(work)
         self._march.counts[SOLVES] += 1
         if not found.residual <= ACCEPTED:
             return int(found.status) or NOT_CONVERGED, 1.0, math.inf
@@ -252,18 +266,39 @@ class LocatedBody:
             count[STOPS] += 1
             status, time = self._to_the_stop(piece, still)
             count[EVENTS] += 1
-        for _ in range(LANDING_STEPS):
-            if status != SOLVED:
-                return status, time
-            part = held.landing_part(self.body, self.ground, self.motion, self.work, time, self.size)
-            if part == 1.0:
-                break
-            time *= part
-            status, _part, _stretch = self._attempt(time, still)
-        means = 0.5 * (self.motion.velocity + self.work.free)
-        self._march.clock[LOST] -= float(self.work.impulse @ (self.work.J @ means))
+        if status == SOLVED:
+            status, time = self._to_the_landing(time, still)
+        if status != SOLVED:
+            return status, time
+        means, friction = 0.5 * (self.motion.velocity + self.work.free), self.work.impulse.copy()
+        friction[:: self.body.width] = 0.0  # what holds a body up does no work
+        self._march.clock[LOST] -= float(friction @ (self.work.J @ means))
         held.take_piece(self.body, self.ground, self.motion, self.work, self.size, still)
         return status, time
+
+    def _to_the_landing(self, time: float, still: float) -> tuple[int, float]:
+        """The time, up to ``time``, at which the first free contact is on the ground; the piece up to it is in the work space."""
+        parts = (self.body, self.ground, self.motion, self.work)
+        for _ in range(LANDING_STEPS):
+            part, first = held.landing_part(*parts, time, self.size)
+            if first < 0:
+                return SOLVED, time
+            high, below = time, held.gap_after(*parts, time, first)
+            low, above, near = 0.0, max(float(self.work.gap[first]), 0.0), held.LANDED * self.size
+            side = 0
+            for _ in range(LANDING_STEPS):
+                time = low + (high - low) * above / (above - below) if above > near else part * high
+                status, _part, _stretch = self._attempt(time, still)
+                if status != SOLVED:
+                    return status, time
+                gap = held.gap_after(*parts, time, first)
+                if abs(gap) <= near:
+                    break
+                if gap < 0.0:
+                    high, below, above, side = time, gap, above * (0.5 if side < 0 else 1.0), -1
+                else:
+                    low, above, below, side = time, gap, below * (0.5 if side > 0 else 1.0), 1
+        return SOLVED, time
 
     def _to_the_stop(self, piece: float, still: float) -> tuple[int, float]:
         """The time at which the first sliding point stops: a piece in which it still slides gives its deceleration."""

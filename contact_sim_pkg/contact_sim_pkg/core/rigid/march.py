@@ -18,8 +18,16 @@ from ..jit import entry, piece
 from ..parameters import Vector
 from .body import Ground, Motion, RigidBody
 from .face import FACE, face_impulses
-from .flight import fly_to_touch
-from .held import DRIFT, landing_part, settle_points, stop_of_slip, survey_points, take_piece
+from .flight import fly_to_touch, is_clear
+from .held import (
+    landing_part,
+    path_acceleration,
+    settle_points,
+    stop_of_slip,
+    survey_points,
+    take_piece,
+    time_to_peak,
+)
 from .motion import HELD, STUCK, MotionWorkspace, contact_velocities, free_velocity
 from .parameters import PlanarContact
 from .planar_impact import contact_modes
@@ -27,12 +35,16 @@ from .planar_pair import PairWorkspace, make_pair_workspace, pair_impulses
 from .problem import DISC, INACTIVE, PLANE
 from .single import single_impulses
 
-DONE, COLLIDE, SUPPORT = 0, 1, 2  # what a call ends with
+DONE, COLLIDE, SUPPORT, PAUSE = 0, 1, 2, 3  # what a call ends with
 TIME, INTERVAL, RESTED, LOST, RESIDUAL, PIECE, STILL, CLOCKS = 0, 1, 2, 3, 4, 5, 6, 7
-SAMPLE, SAMPLES, EVENTS, SOLVES, COLLIDED, STOPS, COUNTS = 0, 1, 2, 3, 4, 5, 6
+SAMPLE, SAMPLES, EVENTS, SOLVES, COLLIDED, STOPS, SHORT, COUNTS = 0, 1, 2, 3, 4, 5, 6, 7
 LARGEST_TURN = 0.02  # [rad] of a piece of free flight in space, where the spin is of order 6
 LARGEST_PLANAR_TURN = 0.2  # [rad] of a piece of free flight in the plane, which is exact: it only has to find the touch
 LARGEST_SUPPORTED_TURN = 0.005  # [rad] of a piece while a point is held: there the position is of second order
+CELL_PART = 0.1  # of a cell of the ground that a body passes in a piece
+BRIEF = 1.0e-3  # of the time left or of the longest piece: a piece below it was cut short by an event
+MOST_SHORT = 100_000  # such pieces in one sample: there is no end
+PAUSE_AFTER = 10_000  # pieces, so that a run can be broken off
 GOOD = 1.0e-12  # residual of a closed form that is taken
 
 
@@ -48,7 +60,7 @@ class MarchWorkspace(NamedTuple):
 
 
 def make_march_workspace(points: int) -> MarchWorkspace:
-    """Work space of a body of ``points`` points."""
+    """Work space of a body of ``points`` contacts."""
     zeros = numpy.zeros
     return MarchWorkspace(
         zeros(CLOCKS), zeros(COUNTS, numpy.int64), zeros((points + 3, FACE)), make_pair_workspace(), zeros(points),
@@ -57,16 +69,35 @@ def make_march_workspace(points: int) -> MarchWorkspace:
 
 
 @piece
-def _longest(body, ground, motion, turn):
-    """Longest piece in [s] over which the body turns by at most ``turn`` [rad] and stays near one cell of the ground."""
-    spin, speed = 0.0, 0.0
+def _spin(body, motion):
+    spin = 0.0
     for k in range(body.width, motion.velocity.shape[0]):
         spin += abs(motion.velocity[k])
+    return spin
+
+
+@piece
+def _longest(body, ground, motion, turn, size):
+    """Longest piece in [s] over which the body turns by at most ``turn`` [rad] and stays near one cell of the ground."""
+    spin, speed = _spin(body, motion), 0.0
     longest = turn / spin if spin > 0.0 else math.inf
-    if ground.heights.shape[0] > 0:
+    if ground.profile.nodes.shape[0] > 0:
         for k in range(body.width):
             speed = max(speed, abs(motion.velocity[k]))
-        longest = min(longest, 0.1 * ground.cell / speed) if speed > 0.0 else longest
+        speed += spin * size
+        longest = min(longest, CELL_PART * ground.profile.cell / speed) if speed > 0.0 else longest
+    return longest
+
+
+@piece
+def _longest_flight(body, ground, motion, size, left):
+    """Longest piece in [s] of the flight of the next ``left`` [s]."""
+    turn = LARGEST_PLANAR_TURN if body.width == PLANE else LARGEST_TURN
+    longest = _longest(body, ground, motion, turn, size)
+    if longest < left and ground.profile.nodes.shape[0] > 0:
+        spin = _spin(body, motion)
+        free = turn / spin if spin > 0.0 else math.inf
+        return free if is_clear(body, ground, motion, min(left, free)) else longest
     return longest
 
 
@@ -86,22 +117,32 @@ def _one_in_the_plane(work, i):
 
 
 @piece
-def _attempt(body, motion, work, march, time, size):
-    """Closed form of the held points over ``time`` into ``work.impulse``; its residual, inf where there is none."""
+def _free_contacts(body, ground, motion, work, time, still):
+    """Velocities ``q`` of the contacts after ``time`` without impulses, and who takes part.
+
+    Returns the first two held contacts, how many are held, and whether the path of one bends.
+    """
     free_velocity(body, motion, work, time)
-    friction, first, second, held, drifted = work.problem.friction, -1, -1, 0, False
+    contact_velocities(work.J, work.free, work.problem.q)
+    first, second, held, bent = -1, -1, 0, False
     for i in range(work.flags.shape[0]):
-        friction[i] = INACTIVE
+        work.problem.friction[i] = INACTIVE
         if work.flags[i] >= HELD:
-            friction[i] = body.friction
+            work.problem.friction[i] = body.friction
             first, second, held = (i if held == 0 else first), (i if held == 1 else second), held + 1
-            drifted = drifted or abs(work.gap[i]) > DRIFT * size
+            gain = time * path_acceleration(body, ground, motion, work, i)
+            work.problem.q[i * body.width] += gain
+            bent = bent or abs(gain) > still
+    return first, second, held, bent
+
+
+@piece
+def _attempt(body, ground, motion, work, march, time, still):
+    """Closed form of the held contacts over ``time`` into ``work.impulse``; its residual, inf where there is none."""
+    first, second, held, bent = _free_contacts(body, ground, motion, work, time, still)
     for row in range(work.impulse.shape[0]):
         work.impulse[row] = 0.0
-    if drifted:
-        return numpy.inf
-    q = work.problem.q
-    contact_velocities(work.J, work.free, q)
+    q, friction = work.problem.q, work.problem.friction
     if body.width == PLANE:
         if held == 1:
             return _one_in_the_plane(work, first)
@@ -114,22 +155,22 @@ def _attempt(body, motion, work, march, time, size):
         return numpy.inf  # the closed forms in space are those of the true cone
     if held == 1:
         return single_impulses(work.J, work.W, q, body.friction, first, work.impulse)
-    return face_impulses(work.J, work.W, work.free, friction, march.face, work.impulse)
+    return numpy.inf if bent else face_impulses(work.J, work.W, work.free, friction, march.face, work.impulse)
 
 
 @piece
 def _support(body, ground, motion, work, march, time, size, still):
     """Hold the points over ``time`` in closed form; False where that needs the general solvers or an event lies in it."""
-    residual = _attempt(body, motion, work, march, time, size)
+    residual = _attempt(body, ground, motion, work, march, time, still)
     if not residual <= GOOD:
         return False
     part, _stretch = stop_of_slip(body, motion, work, still)
-    if part < 1.0 or landing_part(body, ground, motion, work, time, size) < 1.0:
+    if part < 1.0 or landing_part(body, ground, motion, work, time, size)[1] >= 0:
         return False
     clock = march.clock
     clock[RESIDUAL] = max(clock[RESIDUAL], residual)
     for row in range(work.impulse.shape[0]):
-        if work.impulse[row] != 0.0:
+        if row % body.width != 0 and work.impulse[row] != 0.0:  # what holds a body up does no work
             for k in range(work.free.shape[0]):
                 clock[LOST] -= 0.5 * work.impulse[row] * work.J[row, k] * (motion.velocity[k] + work.free[k])
     return True
@@ -156,14 +197,14 @@ def _record(body, motion, work, row):
         row[place + i] = 1.0 if work.flags[i] == STUCK else 0.0
 
 
-def track_columns(body: RigidBody) -> tuple[int, int, int, int, int, int]:
+def track_columns(body: RigidBody, contacts: int) -> tuple[int, int, int, int, int, int]:
     """Where angle, rotation, velocity, impulse and sticking points start in a row of the track, and its length."""
-    width, points, coordinates = body.width, len(body.points), len(body.load)
+    width, coordinates = body.width, len(body.load)
     rotation = width + 1
     velocity = rotation + width * width
     impulse = velocity + coordinates
-    sticks = impulse + points * width
-    return width, rotation, velocity, impulse, sticks, sticks + points
+    sticks = impulse + contacts * width
+    return width, rotation, velocity, impulse, sticks, sticks + contacts
 
 
 @entry
@@ -173,9 +214,11 @@ def advance_samples(
 ) -> int:  # fmt: skip
     """Go on from where ``march`` stands, up to the end of its samples (DONE) or to what it cannot do: COLLIDE, SUPPORT.
 
+    PAUSE: so many pieces are done, or too many short ones, that the caller should look.
+
     ``track`` [samples, columns]: the impulses of each sample are added up in it, the states written at its end.
     """
-    clock, count = march.clock, march.counts
+    clock, count, pieces = march.clock, march.counts, 0
     while count[SAMPLE] < count[SAMPLES]:
         while clock[TIME] < clock[INTERVAL]:
             still, approaches = survey_points(body, ground, motion, work, size, gravity)
@@ -183,12 +226,15 @@ def advance_samples(
             if approaches and count[COLLIDED] == 0:
                 return COLLIDE
             count[COLLIDED] = 0
-            wait, holds = settle_points(body, motion, work, rest_speed, still)
+            wait, holds = settle_points(body, ground, motion, work, rest_speed, still)
             if wait > 0.0:
                 clock[RESTED] = count[SAMPLE] * clock[INTERVAL] + clock[TIME] + wait
             left = clock[INTERVAL] - clock[TIME]
             if holds:
-                passed = min(left, _longest(body, ground, motion, LARGEST_SUPPORTED_TURN))
+                longest = min(left, _longest(body, ground, motion, LARGEST_SUPPORTED_TURN, size))
+                passed = longest
+                if ground.profile.nodes.shape[0] > 0:
+                    passed = min(longest, time_to_peak(body, ground, motion, work))
                 clock[PIECE] = passed
                 count[SOLVES] += 1
                 if not _support(body, ground, motion, work, march, passed, size, still):
@@ -197,13 +243,16 @@ def advance_samples(
                     track[count[SAMPLE], impulse_column + row] += work.impulse[row]
                 take_piece(body, ground, motion, work, size, still)
             else:
-                turn = LARGEST_PLANAR_TURN if body.width == PLANE else LARGEST_TURN
-                passed = min(left, _longest(body, ground, motion, turn))
-                passed, point = fly_to_touch(body, ground, motion, work, passed, march.before, march.after)
+                longest = min(left, _longest_flight(body, ground, motion, size, left))
+                passed, point = fly_to_touch(body, ground, motion, work, longest, march.before, march.after)
                 count[EVENTS] += 1 if point >= 0 else 0
+            count[SHORT] += 1 if passed < BRIEF * longest else 0
             clock[TIME] = clock[INTERVAL] if passed >= left else clock[TIME] + passed
+            pieces += 1
+            if pieces > PAUSE_AFTER or count[SHORT] > MOST_SHORT:
+                return PAUSE
         _record(body, motion, work, track[count[SAMPLE]])
         count[SAMPLE] += 1
         clock[TIME] = 0.0
-        count[STOPS] = 0
+        count[STOPS], count[SHORT] = 0, 0
     return DONE

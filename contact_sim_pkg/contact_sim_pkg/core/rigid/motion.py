@@ -10,7 +10,7 @@ import numpy.typing
 
 from ..jit import kernel
 from ..parameters import Vector
-from .body import RigidBody, contact_rows, fill_inverse_inertia
+from .body import Ground, RigidBody, contact_count, contact_rows, fill_inverse_inertia
 from .problem import DISC, INACTIVE, PLANE, ContactProblem, fill_delassus, make_problem
 from .rotation import free_rotation, gyroscopic_step, rotate_by, spin_in_body, straighten
 
@@ -37,17 +37,18 @@ class MotionWorkspace(NamedTuple):
     shift: Vector  # [width], displacement of the centre of mass over the piece
     turned: Vector  # [width, width], rotation at its end
     turn: Vector  # [1], angle turned, in the plane
-    flags: Flags  # [points]
+    flags: Flags  # [contacts]
+    feature: Flags  # [contacts], face or edge that each lies on
 
 
-def make_motion_workspace(body: RigidBody, facets: int = DISC) -> MotionWorkspace:
-    """Work space of ``body``."""
-    points, width = len(body.points), body.width
+def make_motion_workspace(body: RigidBody, ground: Ground, facets: int = DISC) -> MotionWorkspace:
+    """Work space of ``body`` over a ground that was laid under it."""
+    points, width = contact_count(body, ground), body.width
     coordinates, rows, zeros = len(body.load), points * width, numpy.zeros
     return MotionWorkspace(
         make_problem(points, width, facets), zeros((rows, coordinates)), zeros((coordinates, coordinates)), zeros(points),
         zeros(rows), zeros(rows), zeros(points), zeros(coordinates), zeros(width), zeros((width, width)), zeros(1),
-        zeros(points, numpy.int64),
+        zeros(points, numpy.int64), zeros(points, numpy.int64),
     )  # fmt: skip
 
 
@@ -144,6 +145,13 @@ def turn_in_plane(R, angle, turned):
 
 
 @kernel
+def set_turn(R, angle):
+    """Rotation by ``angle`` [rad] into ``R`` (plane)."""
+    cosine, sine = math.cos(angle), math.sin(angle)
+    R[0, 0], R[0, 1], R[1, 0], R[1, 1] = cosine, -sine, sine, cosine
+
+
+@kernel
 def commit(body, motion, end, work):
     """Take the displacement and the velocity ``end`` as the state."""
     R = motion.rotation
@@ -155,8 +163,7 @@ def commit(body, motion, end, work):
             R[k, m] = work.turned[k, m]
     if body.width == PLANE:
         motion.angle[0] += work.turn[0]
-        cosine, sine = math.cos(motion.angle[0]), math.sin(motion.angle[0])
-        R[0, 0], R[0, 1], R[1, 0], R[1, 1] = cosine, -sine, sine, cosine
+        set_turn(R, motion.angle[0])
 
 
 @kernel

@@ -8,6 +8,7 @@ NOT_CONVERGED = 2
 CONTACT_NOT_FINITE = 3
 TOO_MANY_IMPACTS = 4
 SPIN_TOO_FAST = 5
+TOO_MANY_EVENTS = 6
 
 SENTENCES = {
     SOLVED: "the contact conditions hold",
@@ -15,6 +16,8 @@ SENTENCES = {
     NOT_CONVERGED: "the iteration ended before the residual that was asked for; the residual is returned",
     CONTACT_NOT_FINITE: "an input of the contact solve is not finite: state unchanged",
     TOO_MANY_IMPACTS: "more than 100000 impacts in one call: raise the rest speed or lower the restitution",
+    TOO_MANY_EVENTS: "more than 100000 events in one output sample hardly bring the motion on: take scheme: stepping or "
+    "compliant_contact, or a ground with fewer heights",
     SPIN_TOO_FAST: "the body turns by more than one radian in a step: take a shorter step",
 }
 

@@ -12,9 +12,8 @@ import math
 import numpy
 
 from ..jit import entry
-from .body import Ground, Motion, RigidBody
-from .contact_solver import NEWTON, contact_impulses, make_solver
-from .impact_law import impact_impulses, make_impact_workspace
+from .body import Ground, Motion, RigidBody, contact_count, laid_under
+from .contact_solver import NEWTON
 from .motion import (
     APART,
     HELD,
@@ -29,6 +28,7 @@ from .motion import (
     make_motion_workspace,
     take_part,
 )
+from .packed import PackedSolver
 from .parameters import ENERGETIC
 from .problem import DISC
 from .results import SOLVED, SPIN_TOO_FAST
@@ -89,11 +89,11 @@ class SteppedBody:
         facets: int = DISC, rung: int = NEWTON, sweeps: int = 20,
     ) -> None:  # fmt: skip
         """``step`` in [s]; ``facets`` of the friction cone, ``rung`` and ``sweeps`` of the solver of held contacts."""
+        ground = laid_under(body, ground)
         self.body, self.ground, self.motion, self.step, self.rule = body, ground, motion, step, rule
-        points, coordinates = len(body.points), len(body.load)
-        self.work = make_motion_workspace(body, facets)
-        self._solver = make_solver(points, coordinates, body.width, facets, rung, sweeps)
-        self._impact = make_impact_workspace(points, coordinates, body.width, facets)
+        points, coordinates = contact_count(body, ground), len(body.load)
+        self.work = make_motion_workspace(body, ground, facets)
+        self._solver = PackedSolver(coordinates, body.width, facets, rung, sweeps)
         weight = float(numpy.linalg.norm(body.load[: body.width]) / body.mass)
         self.rest_speed = 2.0 * step * weight
         self.impulse = numpy.zeros(points * body.width)  # [rows] in [N s] over the last call
@@ -131,10 +131,8 @@ class SteppedBody:
         work = self.work
         if bounces:
             self.impacts += 1
-            found = impact_impulses(
-                work.problem, work.J, work.W, work.u, work.restitution, self.rule, self._impact, work.impulse
-            )
+            found = self._solver.collide(work, self.rule)
         else:
-            found = contact_impulses(work.problem, work.J, work.W, self._solver, work.impulse)
+            found = self._solver.hold(work)
         self.residual = max(self.residual, float(found.residual)) if math.isfinite(found.residual) else math.inf
         return int(found.status)

@@ -21,7 +21,7 @@ from ..effects.normal_force import normal_force, tension_margin
 from ..effects.point_friction import point_friction, point_stick_margin
 from ..jit import kernel
 from ..parameters import Friction, NormalDissipative, NormalElastic, Vector
-from ..rigid.body import Ground, Motion, RigidBody, contact_rows
+from ..rigid.body import Ground, Motion, RigidBody, contact_count, contact_rows
 from ..rigid.motion import contact_velocities
 from ..rigid.problem import PLANE
 from .interface import register
@@ -55,7 +55,7 @@ class CompliantBody(NamedTuple):
 
 def make_rig(body: RigidBody, ground: Ground, contact: CompliantContact) -> CompliantBody:
     """The rig, with its arrays."""
-    width, points, coordinates, zeros = body.width, len(body.points), len(body.load), numpy.zeros
+    width, points, coordinates, zeros = body.width, contact_count(body, ground), len(body.load), numpy.zeros
     motion = Motion(zeros(width), zeros(1), zeros((width, width)), zeros(coordinates))
     rows = points * width
     return CompliantBody(
@@ -68,9 +68,9 @@ def places_of(width: int) -> int:
     return 3 if width == PLANE else 7
 
 
-def state_count(body: RigidBody) -> int:
+def state_count(body: RigidBody, contacts: int) -> int:
     """Number of state variables."""
-    return places_of(body.width) + len(body.load) + len(body.points) * (2 * body.width - 1) + 1
+    return places_of(body.width) + len(body.load) + contacts * (2 * body.width - 1) + 1
 
 
 @kernel

@@ -1,0 +1,172 @@
+"""Bodies over heights along x: gaps at peaks and in valleys, rest where two faces meet, what never ends is refused by name."""
+
+import math
+
+import numpy
+import pytest
+
+from contact_sim_pkg.core.rigid import located as located_module
+from contact_sim_pkg.core.rigid.body import (
+    RigidBody,
+    box,
+    contact_count,
+    height_field,
+    laid_under,
+    least_gap,
+    look_at_contacts,
+    placed,
+    regular_block,
+    sphere,
+)
+from contact_sim_pkg.core.rigid.located import LocatedBody
+from contact_sim_pkg.core.rigid.problem import PLANE
+from contact_sim_pkg.core.rigid.results import SOLVED, TOO_MANY_EVENTS
+
+GRAVITY = 9.81
+VALLEY = [1.0, 0.0, 1.0]  # faces of 45 degrees from x = -1 to 1
+ROOF = [0.0, 1.0, 0.0]
+
+
+def ball(radius, friction, restitution):
+    """A ball in the plane."""
+    return RigidBody(
+        PLANE, 1.0, numpy.array([0.4 * radius**2]), numpy.zeros((1, 2)), radius, friction, restitution,
+        numpy.array([0.0, -GRAVITY, 0.0]),
+    )  # fmt: skip
+
+
+def polygon(random, friction, restitution):
+    """Five corners on a circle of 0.08 m."""
+    angles = numpy.sort(random.random(5)) * 2.0 * math.pi
+    points = 0.08 * numpy.column_stack([numpy.cos(angles), numpy.sin(angles)])
+    points -= points.mean(axis=0)
+    inertia = numpy.array([float((points**2).sum(axis=1).mean())])
+    return RigidBody(PLANE, 1.0, inertia, points, 0.0, friction, restitution, numpy.array([0.0, -GRAVITY, 0.0]))
+
+
+def energy(located):
+    return located.kinetic_energy() + GRAVITY * located.body.mass * float(located.motion.position[-1])
+
+
+def gaps_of(body, ground, motion):
+    ground = laid_under(body, ground)
+    contacts = contact_count(body, ground)
+    gap, rows = numpy.zeros(contacts), numpy.zeros((contacts * body.width, len(body.load)))
+    look_at_contacts(body, ground, motion, gap, rows)
+    return gap, rows
+
+
+def run(located, duration, interval=0.01):
+    """Advance; energy may not grow, the body may not go below the ground by more than a billionth of its size."""
+    last = energy(located)
+    scale = abs(last) + located.body.mass * GRAVITY * located.size
+    for _ in range(round(duration / interval)):
+        assert located.advance(interval) == SOLVED
+        now = energy(located)
+        assert now <= last + 1e-6 * scale
+        last = now
+        assert least_gap(located.body, located.ground, located.motion) >= -1e-9 * located.size
+
+
+@pytest.mark.parametrize(
+    ("x", "z", "expected"), [(0.0, 2.0, 1.0), (0.5, 1.5, math.sqrt(0.5)), (1.5, 0.5, math.sqrt(0.5))]
+)
+def test_the_gap_of_a_ball_over_a_roof_is_its_distance_from_the_ridge_or_a_face(x, z, expected):
+    body = ball(0.1, 0.3, 0.5)
+    gap, rows = gaps_of(body, height_field(PLANE, ROOF, -1.0, 1.0), placed(body, [x, z], numpy.zeros(3)))
+    nearest = int(numpy.argmin(gap))
+    assert gap[nearest] == pytest.approx(expected - 0.1, rel=1e-14)
+    assert numpy.linalg.norm(rows[2 * nearest, :2]) == pytest.approx(1.0, rel=1e-14)
+
+
+def test_the_normal_rows_are_the_rates_of_the_gaps_over_a_roof():
+    ground = height_field(PLANE, ROOF, -1.0, 1.0)
+    rate = numpy.array([0.3, -0.2, 1.1])
+    for body, place in ((ball(0.1, 0.3, 0.5), [0.04, 1.2]), (regular_block(0.4, 1.0, 0.3, 0.5), [0.05, 1.3])):
+        motions = [
+            placed(body, numpy.array(place) + t * rate[:2], rate, angle=0.3 + t * rate[2]) for t in (-1e-6, 0.0, 1e-6)
+        ]
+        before, (gap, rows), after = (gaps_of(body, ground, motion) for motion in motions)
+        near = gap < 0.3
+        assert near.any()
+        assert (rows[0::2] @ rate)[near] == pytest.approx((after[0] - before[0])[near] / 2e-6, abs=1e-7)
+
+
+def test_a_ball_rests_in_a_valley_on_both_faces():
+    radius = 0.05
+    body = ball(radius, 0.3, 0.5)
+    located = LocatedBody(body, height_field(PLANE, VALLEY, -1.0, 1.0), placed(body, [0.3, 1.0], numpy.zeros(3)))
+    run(located, 6.0)
+    assert located.motion.position == pytest.approx([0.0, radius * math.sqrt(2.0)], abs=1e-9)
+    assert not located.motion.velocity.any()
+    assert located.impulse[0::2] == pytest.approx([0.01 * GRAVITY / math.sqrt(2.0)] * 2, rel=1e-9)
+
+
+def test_a_sphere_that_slides_along_a_valley_rolls_there():
+    """No slip at either face: speed over spin is the arm of the axis through both contacts, r/sqrt(2)."""
+    radius = 0.05
+    body = sphere(radius, 1.0, 0.3, 0.5)
+    motion = placed(body, [0.3, 0.0, 1.0], [0.0, 0.1, 0.0, 0.0, 0.0, 0.0])
+    located = LocatedBody(body, height_field(3, VALLEY, -1.0, 1.0), motion)
+    run(located, 6.0)
+    assert motion.position[[0, 2]] == pytest.approx([0.0, radius * math.sqrt(2.0)], abs=1e-9)
+    assert motion.velocity[1] == pytest.approx(-motion.velocity[3] * radius / math.sqrt(2.0), rel=1e-9)
+    assert motion.velocity[1] > 0.01
+
+
+def test_a_block_balances_with_its_edge_on_a_peak_between_its_corners():
+    side = 0.1
+    block = regular_block(side, 1.0, 0.5, 0.3)
+    ground = height_field(PLANE, [0.0, 0.0, 0.05, 0.0, 0.0], -1.0, 0.5)
+    located = LocatedBody(block, ground, placed(block, [0.0, 0.2], numpy.zeros(3)))
+    run(located, 3.0)
+    assert located.motion.position == pytest.approx([0.0, 0.05 + 0.5 * side], abs=1e-12)
+    assert not located.motion.velocity.any()
+
+
+def test_a_corner_that_slides_over_a_peak_leaves_the_ground_as_a_ballistic_point():
+    """A point without friction: behind the ridge of a ramp it flies on a parabola."""
+    angle, speed, start, passed = math.atan(0.5), 4.0, 0.5, 0.05
+    point = ball(0.0, 0.0, 0.0)._replace(inertia=numpy.array([1e-3]))
+    motion = placed(point, [start, 0.5 * start], [speed * math.cos(angle), speed * math.sin(angle), 0.0])
+    located = LocatedBody(point, height_field(PLANE, [0.0, 0.5, -5.0], 0.0, 1.0), motion)
+    slowing = GRAVITY * math.sin(angle)
+    off = math.sqrt(speed**2 - 2.0 * slowing * (1.0 - start) / math.cos(angle))
+    assert located.advance((speed - off) / slowing + passed) == SOLVED
+    expected = [1.0 + off * math.cos(angle) * passed, 0.5 + off * math.sin(angle) * passed - 0.5 * GRAVITY * passed**2]
+    assert motion.position == pytest.approx(expected, abs=1e-8)
+
+
+@pytest.mark.parametrize("seed", range(12))
+def test_bodies_come_to_rest_or_go_on_over_random_heights_without_gain_or_penetration(seed):
+    random = numpy.random.default_rng(seed)
+    cell = float(random.choice([0.02, 0.05, 0.1, 0.25]))
+    heights = random.random(round(4.0 / cell)) * cell * random.choice([0.3, 1.0])
+    restitution, friction = float(random.choice([0.0, 0.3, 0.8])), float(random.choice([0.0, 0.1, 0.5, 5.0]))
+    bodies = (
+        ball(0.05, friction, restitution),
+        regular_block(0.1, 1.0, friction, restitution),
+        polygon(random, friction, restitution),
+    )
+    body, spin = bodies[seed % 3], 5.0 * random.normal()
+    motion = placed(body, [0.0, heights.max() + 0.3], [random.normal(), 0.0, spin], angle=random.random())
+    run(LocatedBody(body, height_field(PLANE, heights, -2.0, cell), motion), 2.0)
+
+
+@pytest.mark.parametrize("seed", range(4))
+def test_bodies_in_space_go_over_random_heights_without_gain_or_penetration(seed):
+    random = numpy.random.default_rng(seed)
+    heights = random.random(40) * 0.05
+    body = sphere(0.05, 1.0, 0.5, 0.5) if seed % 2 else box((0.1, 0.15, 0.08), 1.0, 0.5, 0.3)
+    motion = placed(body, [0.0, 0.0, 0.5], random.normal(size=6))
+    run(LocatedBody(body, height_field(3, heights, -2.0, 0.1), motion), 1.0)
+
+
+def test_what_brings_the_motion_no_further_is_refused_and_not_run_for_ever(monkeypatch):
+    monkeypatch.setattr(located_module, "MOST_SHORT", -1)
+    block = regular_block(0.1, 1.0, 0.3, 0.3)
+    located = LocatedBody(block, height_field(PLANE, VALLEY, -1.0, 1.0), placed(block, [0.3, 1.0], numpy.zeros(3)))
+    status = SOLVED
+    for _ in range(100):
+        status = status or located.advance(0.01)
+    assert status == TOO_MANY_EVENTS
