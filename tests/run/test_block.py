@@ -209,3 +209,38 @@ def test_the_page_of_a_rigid_contact_draws_no_force_over_its_approach(tmp_path):
     page = (tmp_path / "bag" / "report.html").read_text()
     assert "Normal force and approach of the block contact over time" in page
     assert "Normal force of the block contact over its approach" not in page
+
+
+VALLEYS = ("block.ground.heights=[0.1,0,0.1,0.3,0.2,0]", "block.ground.start=-0.5", "block.ground.distance=0.25")
+
+
+@pytest.mark.parametrize("scheme", ["located", "stepping"])
+def test_a_ball_that_falls_into_a_valley_of_heights_ends_its_run(scheme):
+    values = (*VALLEYS, "duration=2", "block.velocity=[0.3,0.1,0]", f"effects.block.rigid_contact.scheme={scheme}")
+    _scene, messages = run("block_zeno", *values)
+    ledgers = of(messages, "bench/energy", decode_energy)
+    totals = numpy.array([ledger.kinetic + ledger.potential for ledger in ledgers])
+    assert numpy.diff(totals).max() <= (1e-9 if scheme == "located" else 0.05)
+
+
+@pytest.mark.parametrize(
+    "values",
+    [
+        ("block.motion=plane", "block.shape=box"),
+        ("block.motion=plane", "block.shape=points", "block.points=[[-0.05,-0.04],[0.05,-0.04],[0,0.06]]"),
+        ("block.motion=plane", "block.shape=sphere"),
+        ("block.motion=space", "block.shape=box"),
+        ("block.motion=space", "block.shape=points", "block.points=[[0,0,0],[0.1,0,0],[0,0.1,0],[0,0,0.1]]"),
+        ("block.motion=space", "block.shape=sphere"),
+    ],
+)
+@pytest.mark.parametrize("ground", [(), ("block.ground.slope=0.2",), VALLEYS])
+def test_every_body_runs_over_every_ground(values, ground):
+    _scene, messages = run(
+        "block_fall", *values, *ground, "duration=0.75", "block.position=[0,0,0.5]", "block.rotation=[0,0.2,0]"
+    )
+    ledgers = of(messages, "bench/energy", decode_energy)
+    totals = numpy.array([ledger.kinetic + ledger.potential for ledger in ledgers])
+    assert numpy.diff(totals).max() <= 1e-6
+    depth = max(block.approach.max() for block in of(messages, "block/force", decode_contact_force))
+    assert depth <= 1e-7 or values[0] == "block.motion=space"

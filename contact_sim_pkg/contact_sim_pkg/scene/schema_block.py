@@ -20,12 +20,15 @@ def _vector(unit: str, meaning: str, default: list[float]) -> list[float]:
 
 
 class BlockGround(Section):
-    """Ground: a plane that rises along x, or heights at even distances along x, the same across."""
+    """Ground: a plane that rises along x, or heights at even distances along x, the same across and straight on beyond the ends.
+
+    In the plane corners and edges of the body meet the heights; in space its corners alone, so peaks between them go unseen.
+    """
 
     slope: float = number(-1.4, 1.4, "rad", "angle at which the plane rises along x", default=0.0)
     heights: list[float] | None = numbers(
-        "m", "heights at even distances along x, in place of the plane; straight between them", "2 to 10000 numbers",
-        default=None, shortest=2, longest=10000,
+        "m", "heights at even distances along x, in place of the plane; straight between them and on beyond the ends",
+        "2 to 10000 numbers", default=None, shortest=2, longest=10000,
     )  # fmt: skip
     start: float = number(-1e4, 1e4, "m", "x of the first height", default=0.0)
     distance: float = number(1e-4, 1e3, "m", "between heights", default=0.05)

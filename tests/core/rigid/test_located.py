@@ -9,7 +9,7 @@ from scipy.spatial.transform import Rotation
 
 from contact_sim_pkg.core.rigid.body import box, height_field, placed, regular_block, slope, sphere
 from contact_sim_pkg.core.rigid.located import LocatedBody
-from contact_sim_pkg.core.rigid.results import REVERSE, SLIDE, SOLVED, STICK
+from contact_sim_pkg.core.rigid.results import REVERSE, SEPARATE, SLIDE, SOLVED, STICK
 
 GRAVITY = 9.81
 
@@ -120,6 +120,39 @@ def test_no_impact_of_a_falling_box_gains_kinetic_energy_and_the_box_comes_to_re
     assert not motion.velocity.any()
     heights = motion.position[2] + (body.points @ motion.rotation.T)[:, 2]
     assert numpy.sort(heights)[:4] == pytest.approx(numpy.zeros(4), abs=1e-8)
+    assert sorted(located.modes()) == [SEPARATE] * 4 + [STICK] * 4
+    assert sorted(located.impulse[::3])[4:] == pytest.approx([1e-3 * 2.0 * GRAVITY / 4.0] * 4, rel=1e-6)
+
+
+@pytest.mark.parametrize("seed", range(3))
+def test_a_box_thrown_at_random_comes_to_rest_and_does_not_creep(seed):
+    random = numpy.random.default_rng(seed)
+    body = box((0.2, 0.15, 0.1), 1.0, 0.5, 0.3)
+    turned = Rotation.random(random_state=seed).as_matrix()
+    motion = placed(body, [0.0, 0.0, 0.4], random.normal(size=6) * [1.0, 1.0, 1.0, 4.0, 4.0, 4.0], rotation=turned)
+    located = LocatedBody(body, slope(3), motion)
+    energy = math.inf
+    for _ in range(60):
+        assert located.advance(0.05) == SOLVED
+        now = located.kinetic_energy() + GRAVITY * float(motion.position[2])
+        assert now <= energy + 1e-9
+        energy = now
+    assert not motion.velocity.any()
+    place = motion.position.copy()
+    run(located, 1.0, 0.05)
+    assert numpy.abs(motion.position - place).max() <= 1e-15
+
+
+def test_a_rod_that_pivots_fast_lifts_off_where_its_end_would_be_pulled():
+    """Its end stays down while ``m (g + path) >= 0``: a body turning at w about its end needs ``w^2 r`` from its weight."""
+    rod = regular_block(0.1, 1.0, 5.0, 0.0)._replace(
+        points=numpy.array([[-0.5, 0.0], [0.5, 0.0]]), inertia=numpy.array([1.0 / 12.0])
+    )
+    for rate, leaves in ((4.0, False), (5.0, True)):  # upright, w^2 r = g at sqrt(2 g) = 4.43 rad/s
+        motion = placed(rod, [0.0, 0.5], [-0.5 * rate, 0.0, rate], angle=0.5 * math.pi)
+        located = LocatedBody(rod, slope(2), motion)
+        assert located.advance(1e-3) == SOLVED
+        assert (located.impulse[::2].max() == 0.0) == leaves
 
 
 def test_corner_impacts_stick_slide_or_reverse_as_the_friction_says():

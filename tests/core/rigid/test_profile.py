@@ -63,7 +63,7 @@ def run(located, duration, interval=0.01):
     for _ in range(round(duration / interval)):
         assert located.advance(interval) == SOLVED
         now = energy(located)
-        assert now <= last + 1e-6 * scale
+        assert now <= last + 1e-5 * scale
         last = now
         assert least_gap(located.body, located.ground, located.motion) >= -1e-9 * located.size
 
@@ -93,13 +93,14 @@ def test_the_normal_rows_are_the_rates_of_the_gaps_over_a_roof():
 
 
 def test_a_ball_rests_in_a_valley_on_both_faces():
+    """The split of least norm lets friction carry what it can: ``N (1 + mu) sqrt(2) = W``."""
     radius = 0.05
     body = ball(radius, 0.3, 0.5)
     located = LocatedBody(body, height_field(PLANE, VALLEY, -1.0, 1.0), placed(body, [0.3, 1.0], numpy.zeros(3)))
     run(located, 6.0)
     assert located.motion.position == pytest.approx([0.0, radius * math.sqrt(2.0)], abs=1e-9)
     assert not located.motion.velocity.any()
-    assert located.impulse[0::2] == pytest.approx([0.01 * GRAVITY / math.sqrt(2.0)] * 2, rel=1e-9)
+    assert located.impulse[0::2] == pytest.approx([0.01 * GRAVITY / (1.3 * math.sqrt(2.0))] * 2, rel=1e-9)
 
 
 def test_a_sphere_that_slides_along_a_valley_rolls_there():

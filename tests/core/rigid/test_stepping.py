@@ -4,8 +4,9 @@ import math
 
 import numpy
 import pytest
+from scipy.spatial.transform import Rotation
 
-from contact_sim_pkg.core.rigid.body import placed, regular_block, slope, sphere
+from contact_sim_pkg.core.rigid.body import box, placed, regular_block, slope, sphere
 from contact_sim_pkg.core.rigid.results import SOLVED, SPIN_TOO_FAST
 from contact_sim_pkg.core.rigid.stepping import SteppedBody
 
@@ -48,3 +49,23 @@ def test_a_step_in_which_the_body_turns_by_more_than_a_radian_is_refused():
     block = regular_block(0.1, 1.0, 0.3, 0.3)
     motion = placed(block, [0.0, 1.0], [0.0, 0.0, 2000.0])
     assert SteppedBody(block, slope(2), motion, 1e-3).advance(1) == SPIN_TOO_FAST
+
+
+@pytest.mark.parametrize("step", [1e-3, 2e-4])
+def test_a_tumbling_box_comes_to_rest_on_four_corners(step):
+    """On an edge and on a face the contacts contradict each other by rounding; the nearest answer is taken."""
+    body = box((0.2, 0.3, 0.1), 2.0, 0.4, 0.5)
+    turned = Rotation.from_rotvec([0.3, -0.2, 0.7]).as_matrix()
+    motion = placed(body, [0.0, 0.0, 0.5], [1.0, 0.0, 0.0, 3.0, 5.0, 0.3], rotation=turned)
+    stepped = SteppedBody(body, slope(3), motion, step)
+    energy = math.inf
+    for _ in range(30):
+        assert stepped.advance(round(0.1 / step)) == SOLVED
+        assert stepped.residual <= 1e-6
+        v, spin = motion.velocity[:3], motion.rotation.T @ motion.velocity[3:]
+        now = float(v @ v + 0.5 * body.inertia @ spin**2 + 2.0 * 9.81 * motion.position[2])
+        assert now <= energy * (1.0 + 1e-9)
+        energy = now
+    assert numpy.abs(motion.velocity).max() <= 1e-12
+    assert stepped.impulse[::3].sum() == pytest.approx(0.1 * 2.0 * 9.81, rel=1e-9)
+    assert sorted(stepped.impulse[::3] > 0.0) == [False] * 4 + [True] * 4

@@ -9,8 +9,8 @@ from __future__ import annotations
 import math
 
 from ..jit import entry, kernel
-from .body import Ground, Motion, RigidBody, contact_rows, is_ridge, on_profile
-from .flight import TOUCH, gap_change
+from .body import Ground, Motion, RigidBody, is_ridge, on_profile, point_arm
+from .flight import gap_change
 from .motion import (
     APART,
     HELD,
@@ -18,23 +18,18 @@ from .motion import (
     TOUCHING,
     MotionWorkspace,
     apply_impulse,
-    carry_spin,
-    commit,
     contact_velocities,
     displace,
     free_velocity,
     look,
-    set_turn,
     take_part,
 )
 from .problem import PLANE
 from .profile import time_to_kink
-from .rotation import rotate_by, spin_in_body
 
 STILL = 1.0e-13  # of the speed scale: below it a velocity is rounding
 LANDED = 1.0e-11  # of the size: a point this far below the ground has landed
 DRIFT = 1.0e-10  # of the size: a gap of a held point that is taken back, which turning bodies call for
-LIFTS = 10  # times that the held points are put back on the ground after a piece
 HOLD_SWEEPS = 20
 SLOW = 1.0e-9  # of the slip before, squared: slip that ends there has stopped
 
@@ -73,42 +68,44 @@ def finish_impact(body: RigidBody, motion: Motion, work: MotionWorkspace, rest_s
 
 
 @kernel
-def _turning_acceleration(body, motion, work, i):
-    """Normal part of ``w x (w x r)`` of point ``i``, from the rows of its contact; the sphere about the point does not count."""
-    J, v, row = work.J, motion.velocity, i * body.width
-    if body.width == PLANE:
-        return v[2] * v[2] * (J[row + 1, 2] - body.radius)
-    along = body.radius  # r n, r t, r s of the arm, w n, w t, w s of the spin
-    r_t, r_s, w_n, w_t, w_s = 0.0, 0.0, 0.0, 0.0, 0.0
-    for k in range(3):
-        along += J[row + 1, 3 + k] * J[row + 2, k]
-        r_t += J[row + 2, 3 + k] * J[row, k]
-        r_s += J[row, 3 + k] * J[row + 1, k]
-        w_n += v[3 + k] * J[row, k]
-        w_t += v[3 + k] * J[row + 1, k]
-        w_s += v[3 + k] * J[row + 2, k]
-    return w_n * (w_t * r_t + w_s * r_s) - (w_t * w_t + w_s * w_s) * along
+def _turning_acceleration(body, ground, motion, work, i):
+    """``w x (w x r)`` of the point of contact ``i`` along its rows; the sphere about the point rolls and does not count."""
+    v, R, row, width = motion.velocity, motion.rotation, i * body.width, body.width
+    x, y, z = point_arm(body, R, i // ground.profile.reach)
+    if width == PLANE:
+        a_x, a_z = -v[2] * v[2] * x, -v[2] * v[2] * z
+        return work.J[row, 0] * a_x + work.J[row, 1] * a_z, work.J[row + 1, 0] * a_x + work.J[row + 1, 1] * a_z, 0.0
+    along, square = v[3] * x + v[4] * y + v[5] * z, v[3] * v[3] + v[4] * v[4] + v[5] * v[5]
+    a_x, a_y, a_z = v[3] * along - square * x, v[4] * along - square * y, v[5] * along - square * z
+    J = work.J
+    return (
+        J[row, 0] * a_x + J[row, 1] * a_y + J[row, 2] * a_z,
+        J[row + 1, 0] * a_x + J[row + 1, 1] * a_y + J[row + 1, 2] * a_z,
+        J[row + 2, 0] * a_x + J[row + 2, 1] * a_y + J[row + 2, 2] * a_z,
+    )
 
 
 @kernel
 def path_acceleration(body, ground, motion, work, i):
-    """Acceleration of the gap of contact ``i`` in [m/s^2] at constant velocities: its arm turns, the ground is curved."""
+    """Accelerations of contact ``i`` along its rows in [m/s^2] at constant velocities: its arm turns, the ground is curved."""
     if ground.profile.nodes.shape[0] == 0:
-        return _turning_acceleration(body, motion, work, i)
+        return _turning_acceleration(body, ground, motion, work, i)
     J, v, row, width = work.J, motion.velocity, i * body.width, body.width
-    if is_ridge(body, ground, i):  # the normal turns with the body
+    if is_ridge(body, ground, i):  # its axes turn with the body
+        away = v[0] * J[row, 0] + v[1] * J[row, 1]
         along = v[0] * J[row + 1, 0] + v[1] * J[row + 1, 1]
-        return -v[2] * v[2] * J[row + 1, 2] - 2.0 * v[2] * along
+        return -v[2] * v[2] * J[row + 1, 2] - 2.0 * v[2] * along, v[2] * away, 0.0
     x, z = motion.position[0], motion.position[width - 1]
     _gap, n_x, n_z, _x, _y, _z, curvature, _feature = on_profile(body, ground, motion.rotation, x, z, i)
     along = v[0] * n_z - v[width - 1] * n_x
-    return _turning_acceleration(body, motion, work, i) + curvature * along * along
+    normal, first, second = _turning_acceleration(body, ground, motion, work, i)
+    return normal + curvature * along * along, first, second
 
 
 @kernel
 def _normal_acceleration(body, ground, motion, work, i):
     """Of a point without contact forces: from the load, and from its path."""
-    total = path_acceleration(body, ground, motion, work, i)
+    total = path_acceleration(body, ground, motion, work, i)[0]
     for k in range(body.load.shape[0]):
         for m in range(body.load.shape[0]):
             total += work.J[i * body.width, k] * work.W[k, m] * body.load[m]
@@ -116,7 +113,7 @@ def _normal_acceleration(body, ground, motion, work, i):
 
 
 @kernel
-def _hold(body, motion, work):
+def hold_back(body, motion, work):
     """Take the rest of the normal velocity from held points, one after the other (it is below the rest speed)."""
     n = motion.velocity.shape[0]
     for _ in range(HOLD_SWEEPS):
@@ -162,7 +159,7 @@ def settle_points(
             work.flags[i] = HELD
             held = True
     if held:
-        _hold(body, motion, work)
+        hold_back(body, motion, work)
     return wait, held
 
 
@@ -180,11 +177,15 @@ def prepare_attempt(body: RigidBody, ground: Ground, motion: Motion, work: Motio
             for k in range(row, row + body.width):
                 q[k] = 0.0
             continue
-        q[row] += time * path_acceleration(body, ground, motion, work, i)
+        gain = path_acceleration(body, ground, motion, work, i)
+        q[row] += time * gain[0]
+        q[row + 1] += time * gain[1]
+        if body.width != PLANE:
+            q[row + 2] += time * gain[2]
 
 
 @kernel
-def _slip(body, work, velocity, i):
+def slip_of(body, work, velocity, i):
     """Slip of point ``i`` at a velocity of the body: its two tangential parts."""
     row, first, second = i * body.width, 0.0, 0.0
     for k in range(velocity.shape[0]):
@@ -195,7 +196,9 @@ def _slip(body, work, velocity, i):
 
 
 @entry
-def stop_of_slip(body: RigidBody, motion: Motion, work: MotionWorkspace, still: float) -> tuple[float, float]:
+def stop_of_slip(
+    body: RigidBody, ground: Ground, motion: Motion, work: MotionWorkspace, time: float, still: float
+) -> tuple[float, float]:
     """Velocity at the end of the piece in ``work.free``; the part of the piece after which the first sliding point stops, 1: none,
 
     and how many times the piece its slip would last at the deceleration of the piece.
@@ -208,8 +211,10 @@ def stop_of_slip(body: RigidBody, motion: Motion, work: MotionWorkspace, still: 
     for i in range(work.flags.shape[0]):
         if work.flags[i] != HELD:
             continue
-        a, b = _slip(body, work, motion.velocity, i)
-        c, d = _slip(body, work, work.free, i)
+        a, b = slip_of(body, work, motion.velocity, i)
+        c, d = slip_of(body, work, work.free, i)
+        gain = path_acceleration(body, ground, motion, work, i)
+        c, d = c + time * gain[1], d + time * gain[2]
         before, along = a * a + b * b, a * c + b * d
         if before <= still * still:
             continue
@@ -252,46 +257,6 @@ def gap_after(body: RigidBody, ground: Ground, motion: Motion, work: MotionWorks
 
 
 @kernel
-def _lift(body, ground, motion, work, size):
-    """Put held contacts back on the ground: the curved paths of turning bodies leave them beside it by errors of third order."""
-    W, J, R = work.W, work.J, motion.rotation
-    for _ in range(LIFTS):
-        moved = False
-        for i in range(work.flags.shape[0]):
-            row, weight = i * body.width, 0.0
-            if work.flags[i] < HELD or abs(work.gap[i]) <= DRIFT * size:
-                continue
-            moved = True
-            for k in range(work.free.shape[0]):
-                work.free[k] = 0.0
-                for m in range(work.free.shape[0]):
-                    work.free[k] += W[k, m] * J[row, m]
-                weight += J[row, k] * work.free[k]
-            part = -work.gap[i] / weight
-            for k in range(body.width):
-                motion.position[k] += part * work.free[k]
-            if body.width == PLANE:
-                motion.angle[0] += part * work.free[2]
-                set_turn(R, motion.angle[0])
-            else:
-                w = spin_in_body(R, work.free)
-                rotate_by(R, w[0], w[1], w[2], part)
-            contact_rows(body, ground, motion, work.gap, J)
-        if not moved:
-            break
-    for k in range(work.free.shape[0]):
-        work.free[k] = motion.velocity[k]
-
-
-@kernel
-def _feature(body, ground, motion, i):
-    """Face or edge that contact ``i`` lies on: where it changes the contact goes over a peak, which it leaves."""
-    if ground.profile.nodes.shape[0] == 0:
-        return -1
-    return on_profile(body, ground, motion.rotation, motion.position[0], motion.position[body.width - 1], i)[7]
-
-
-@kernel
 def time_to_peak(body, ground, motion, work):
     """Time in [s] until the first sliding contact goes over a peak, at the slip that it has now."""
     profile, width, least = ground.profile, body.width, math.inf
@@ -303,30 +268,3 @@ def time_to_peak(body, ground, motion, work):
             time = time_to_kink(profile, body.points, motion.rotation, feature, ridge, x + r_x, r_x, r_z, n_z, slip)
             least = min(least, time)
     return least
-
-
-@entry
-def take_piece(
-    body: RigidBody, ground: Ground, motion: Motion, work: MotionWorkspace, size: float, still: float
-) -> None:
-    """Take the piece as the state; points whose slip has ended stick until friction gives way, points that left are let go."""
-    for i in range(work.flags.shape[0]):
-        if work.flags[i] >= HELD:
-            a, b = _slip(body, work, work.free, i)
-            work.flags[i] = STUCK if math.hypot(a, b) <= 10.0 * still else HELD
-            work.feature[i] = _feature(body, ground, motion, i)
-    carry_spin(body, motion, work.free, work)
-    commit(body, motion, work.free, work)
-    look(body, ground, motion, work)
-    for i in range(work.flags.shape[0]):
-        speed = work.u[i * body.width]
-        if work.flags[i] >= HELD:
-            over = work.feature[i] != _feature(body, ground, motion, i)
-            if over or (speed > still and work.impulse[i * body.width] == 0.0):
-                work.flags[i] = APART if speed > still else TOUCHING
-        else:
-            work.flags[i] = TOUCHING if work.gap[i] <= TOUCH * size else APART
-    _lift(body, ground, motion, work, size)
-    look(body, ground, motion, work)
-    _hold(body, motion, work)
-    contact_velocities(work.J, motion.velocity, work.u)

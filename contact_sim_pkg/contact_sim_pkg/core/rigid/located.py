@@ -43,6 +43,7 @@ from .march import (
 from .motion import APART, STUCK, TOUCHING, make_motion_workspace
 from .packed import PackedSolver
 from .parameters import ENERGETIC
+from .piece_end import take_piece
 from .problem import DISC, PLANE
 from .results import (
     NOT_CONVERGED,
@@ -199,7 +200,7 @@ class LocatedBody:
         self._attempt(1e-3, 1e-9)
         held.gap_after(body, ground, motion, work, 1e-3, 0)
         held.landing_part(body, ground, motion, work, 1e-3, self.size)
-        held.take_piece(body, ground, motion, work, self.size, 1e-9)
+        take_piece(body, ground, motion, work, self.size, 1e-9)
         self.advance(1e-6)
 
     def kinetic_energy(self) -> float:
@@ -254,7 +255,7 @@ class LocatedBody:
             return int(found.status) or NOT_CONVERGED, 1.0, math.inf
         clock = self._march.clock
         clock[RESIDUAL] = max(clock[RESIDUAL], float(found.residual))
-        part, stretch = held.stop_of_slip(self.body, self.motion, work, still)
+        part, stretch = held.stop_of_slip(self.body, self.ground, self.motion, work, time, still)
         return SOLVED, part, stretch
 
     def _support(self, piece: float, still: float) -> tuple[int, float]:
@@ -273,7 +274,7 @@ class LocatedBody:
         means, friction = 0.5 * (self.motion.velocity + self.work.free), self.work.impulse.copy()
         friction[:: self.body.width] = 0.0  # what holds a body up does no work
         self._march.clock[LOST] -= float(friction @ (self.work.J @ means))
-        held.take_piece(self.body, self.ground, self.motion, self.work, self.size, still)
+        take_piece(self.body, self.ground, self.motion, self.work, self.size, still)
         return status, time
 
     def _to_the_landing(self, time: float, still: float) -> tuple[int, float]:

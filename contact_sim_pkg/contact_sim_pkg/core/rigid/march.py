@@ -25,11 +25,11 @@ from .held import (
     settle_points,
     stop_of_slip,
     survey_points,
-    take_piece,
     time_to_peak,
 )
 from .motion import HELD, STUCK, MotionWorkspace, contact_velocities, free_velocity
 from .parameters import PlanarContact
+from .piece_end import take_piece
 from .planar_impact import contact_modes
 from .planar_pair import PairWorkspace, make_pair_workspace, pair_impulses
 from .problem import DISC, INACTIVE, PLANE
@@ -130,9 +130,12 @@ def _free_contacts(body, ground, motion, work, time, still):
         if work.flags[i] >= HELD:
             work.problem.friction[i] = body.friction
             first, second, held = (i if held == 0 else first), (i if held == 1 else second), held + 1
-            gain = time * path_acceleration(body, ground, motion, work, i)
-            work.problem.q[i * body.width] += gain
-            bent = bent or abs(gain) > still
+            gain, row = path_acceleration(body, ground, motion, work, i), i * body.width
+            work.problem.q[row] += time * gain[0]
+            work.problem.q[row + 1] += time * gain[1]
+            if body.width != PLANE:
+                work.problem.q[row + 2] += time * gain[2]
+            bent = bent or time * abs(gain[0]) > still
     return first, second, held, bent
 
 
@@ -164,7 +167,7 @@ def _support(body, ground, motion, work, march, time, size, still):
     residual = _attempt(body, ground, motion, work, march, time, still)
     if not residual <= GOOD:
         return False
-    part, _stretch = stop_of_slip(body, motion, work, still)
+    part, _stretch = stop_of_slip(body, ground, motion, work, time, still)
     if part < 1.0 or landing_part(body, ground, motion, work, time, size)[1] >= 0:
         return False
     clock = march.clock

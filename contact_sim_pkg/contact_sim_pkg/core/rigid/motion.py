@@ -38,6 +38,7 @@ class MotionWorkspace(NamedTuple):
     turned: Vector  # [width, width], rotation at its end
     turn: Vector  # [1], angle turned, in the plane
     flags: Flags  # [contacts]
+    push: Vector  # [coordinates], momentum
     feature: Flags  # [contacts], face or edge that each lies on
 
 
@@ -48,7 +49,8 @@ def make_motion_workspace(body: RigidBody, ground: Ground, facets: int = DISC) -
     return MotionWorkspace(
         make_problem(points, width, facets), zeros((rows, coordinates)), zeros((coordinates, coordinates)), zeros(points),
         zeros(rows), zeros(rows), zeros(points), zeros(coordinates), zeros(width), zeros((width, width)), zeros(1),
-        zeros(points, numpy.int64), zeros(points, numpy.int64),
+        zeros(points, numpy.int64), zeros(coordinates),
+        zeros(points, numpy.int64),
     )  # fmt: skip
 
 
