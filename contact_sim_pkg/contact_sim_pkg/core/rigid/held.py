@@ -164,8 +164,13 @@ def settle_points(
 
 
 @entry
-def prepare_attempt(body: RigidBody, ground: Ground, motion: Motion, work: MotionWorkspace, time: float) -> None:
-    """The problem of the held points over ``time`` [s], without bounce; ``work.free`` is the velocity without them."""
+def prepare_attempt(
+    body: RigidBody, ground: Ground, motion: Motion, work: MotionWorkspace, time: float, bend: float
+) -> None:
+    """The problem of the held points over ``time`` [s], without bounce; ``work.free`` is the velocity without them.
+
+    ``bend`` 1 takes the turn of arms and normals over the piece along, 0 leaves it out.
+    """
     take_part(body, work, HELD)
     free_velocity(body, motion, work, time)
     q = work.problem.q
@@ -178,10 +183,10 @@ def prepare_attempt(body: RigidBody, ground: Ground, motion: Motion, work: Motio
                 q[k] = 0.0
             continue
         gain = path_acceleration(body, ground, motion, work, i)
-        q[row] += time * gain[0]
-        q[row + 1] += time * gain[1]
+        q[row] += bend * time * gain[0]
+        q[row + 1] += bend * time * gain[1]
         if body.width != PLANE:
-            q[row + 2] += time * gain[2]
+            q[row + 2] += bend * time * gain[2]
 
 
 @kernel

@@ -248,9 +248,15 @@ class LocatedBody:
     def _attempt(self, time: float, still: float) -> tuple[int, float, float]:
         """Status, part of ``time`` after which slip stops, and how many times ``time`` it lasts."""
         work = self.work
-        held.prepare_attempt(self.body, self.ground, self.motion, work, time)
-        found = self._solver.hold(work)
-        self._march.counts[SOLVES] += 1
+        for bend in (
+            1.0,
+            0.0,
+        ):  # points that come to stick within the piece contradict each other where their paths bend
+            held.prepare_attempt(self.body, self.ground, self.motion, work, time, bend)
+            found = self._solver.hold(work)
+            self._march.counts[SOLVES] += 1
+            if found.residual <= ACCEPTED:
+                break
         if not found.residual <= ACCEPTED:
             return int(found.status) or NOT_CONVERGED, 1.0, math.inf
         clock = self._march.clock
