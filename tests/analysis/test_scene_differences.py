@@ -56,5 +56,15 @@ def test_runs_that_no_single_value_tells_apart_are_called_by_all():
     assert called.names[1] == "4 Hz, 2 m/s²"
 
 
+def test_runs_that_differ_in_much_are_called_by_their_bags():
+    runs = [
+        changed(vibration={"frequency": f, "amplitude": a, "low": f + a, "high": f - a})
+        for f in (4.0, 5.0)
+        for a in (1.0, 2.0)
+    ]
+    called = labels([recording(each, f"run_{number}") for number, each in enumerate(runs)])
+    assert called == ("bag", ("run_0", "run_1", "run_2", "run_3"))
+
+
 def test_equal_scenes_are_called_by_their_bags():
     assert labels([recording(SCENE, "a"), recording(SCENE, "b")]) == ("bag", ("a", "b"))

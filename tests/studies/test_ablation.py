@@ -6,6 +6,7 @@ import pytest
 from contact_sim_pkg.bag.messages import RollerContact, encode_roller
 from contact_sim_pkg.studies import ablation
 from contact_sim_pkg.studies.ablation_changes import Change, changes_of
+from contact_sim_pkg.studies.ablation_rules import Observed, is_needed
 
 
 def contact(**values):
@@ -28,6 +29,27 @@ def test_nothing_changes_between_two_equal_runs_and_what_one_lacks_is_told():
     ]
     assert changes_of(contact(), [], ["roller/contact"])[0] == Change("roller/contact", "only with it", None)
     assert changes_of([], contact(), ["roller/contact"])[0] == Change("roller/contact", "only without it", None)
+
+
+def test_rounding_in_both_runs_is_no_change():
+    tiny = contact(tilt=numpy.full(4, 1e-17))
+    assert changes_of(tiny, contact(tilt=numpy.full(4, -2e-17)), ["roller/contact"])[0].field == "unchanged"
+
+
+def test_another_number_of_values_is_told():
+    """A shell has 320 points in place of one."""
+    [found] = changes_of(contact() * 2, contact(), ["roller/contact"])
+    assert found.field.startswith("of another length: ")
+    assert found.change is None
+
+
+@pytest.mark.parametrize(
+    ("effect", "opens", "needed"),
+    [("normal_dissipative", True, True), ("normal_dissipative", False, None), ("foam_hysteresis", True, None)],
+)
+def test_a_contact_that_opens_needs_a_loss(effect, opens, needed):
+    observed = Observed({"backrest": numpy.ones(1)}, {"backrest": opens}, 0.0)
+    assert is_needed(effect, "backrest", None, observed)[0] is needed
 
 
 def test_an_effect_that_the_scene_cannot_take_has_a_row_with_the_reason():

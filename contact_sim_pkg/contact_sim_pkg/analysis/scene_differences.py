@@ -11,6 +11,8 @@ from .series import Recording
 UNIMPORTANT = ("description",)
 LAST = ("duration", "block_length", "seed", "pace", "accuracy", "integrator", "outputs", "limits", "name")
 """How a scene is run rather than what it is: tells runs apart only where nothing else does."""
+MOST_TOGETHER = 3
+"""Values that a legend can take."""
 ABSENT = "–"
 
 
@@ -44,13 +46,13 @@ def differences(scenes: Sequence[dict[str, Any]]) -> list[Difference]:
 
 
 def labels(recordings: Sequence[Recording]) -> Labels:
-    """The first value that alone tells all runs apart; else all of them together; else the names of the bags."""
+    """The first value that alone tells all runs apart; else all of them together, if few; else the names of the bags."""
     found = differences([each.scene for each in recordings])
     for each in found:
         if len(set(each.values)) == len(recordings):
             return Labels(each.key, each.values)
     joined = tuple(", ".join(values) for values in zip(*(each.values for each in found), strict=True))
-    if len(set(joined)) == len(recordings):
+    if len(found) <= MOST_TOGETHER and len(set(joined)) == len(recordings):
         return Labels(", ".join(each.key for each in found), joined)
     return Labels("bag", tuple(each.name for each in recordings))
 

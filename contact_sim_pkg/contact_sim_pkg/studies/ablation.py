@@ -30,7 +30,7 @@ FEEDS: dict[str, tuple[str, ...]] = {
     "foam": ("force", "wrench"),
     "foam_hysteresis": ("force", "wrench"),
     "general_dissipative": ("force", "wrench", "patch"),
-    "friction": ("force", "wrench"),
+    "friction": ("force", "wrench", "points"),
     "contact_field": ("patch", "force", "wrench"),
     "pressure_mat": ("patch",),
     "shell_modes": ("force", "wrench", "patch", "points"),
@@ -160,7 +160,12 @@ def _row(
         pair = paired(present, without(present, (contact, effect)), tell)
     except (SceneError, RunError) as error:
         return {**row, **NOTHING, "called_for": "no rule", "verdict": "not available", "why": _reason(error)}
-    needed, why = is_needed(effect, contact, present, pair.with_it.observed)
+    replaced = [] if on else _excluded(scene, contact, effect)
+    needed, why = (
+        (None, f"a choice of the model in place of {' and '.join(replaced)}")
+        if replaced
+        else is_needed(effect, contact, present, pair.with_it.observed)
+    )
     called_for = "no rule" if needed is None else "needed" if needed else "not needed"
     verdict = "as it should be"
     if needed is not None and needed != on:
@@ -178,12 +183,18 @@ def _reason(error: SceneError | RunError) -> str:
 
 def _with(scene: ResolvedScene, scene_name: str, contact: str, effect: str) -> ResolvedScene:
     """The scene with one more effect, all its defaults, in place of those that it excludes."""
-    excluded = [
-        name for name, rule in EFFECT_RULES.items() if name in EFFECT_RULES[effect].excludes or effect in rule.excludes
-    ]
-    bare = without(scene, *((contact, name) for name in excluded))
+    bare = without(scene, *((contact, name) for name in _excluded(scene, contact, effect)))
     asked = set_value(f"effects.{contact}.{effect}={{}}")
     return ResolvedScene(read_explicit(bare.to_yaml(), scene_name, [asked]), scene.files)
+
+
+def _excluded(scene: ResolvedScene, contact: str, effect: str) -> list[str]:
+    """What the scene names and the effect would take the place of."""
+    named = scene.data["effects"].get(contact) or {}
+    return [
+        name for name, rule in EFFECT_RULES.items()
+        if named.get(name) is not None and (name in EFFECT_RULES[effect].excludes or effect in rule.excludes)
+    ]  # fmt: skip
 
 
 def _missing(scene: ResolvedScene, contact: str, effect: str) -> str:

@@ -2,7 +2,7 @@
 
 The change of a field is the root mean square of its difference between the run with the effect and the one without it, over the
 larger root mean square of the two: 0 where nothing changes, 1 where one of them is zero throughout, 1.4 where they have nothing
-to do with each other.
+to do with each other. What is rounding in both is no change.
 """
 
 from __future__ import annotations
@@ -22,10 +22,19 @@ __all__ = ["Change", "changes_of"]
 Messages = list[tuple[str, int, bytes]]
 
 NOT_PHYSICS = ("time", "log_time", "stamp")
+ROUNDING = 1e-15  # in SI units: a root mean square below it is rounding, of the middle of a symmetric map for instance
+
+
+NAMED = 3  # most fields of another length that are named
+NONE = numpy.zeros((0, 0))
 
 
 class Change(NamedTuple):
-    """Of a topic's field that changes most; `change` None where the topic is in one run alone, `field` says in which."""
+    """Of a topic's field that changes most; `change` None where no number says it: `field` then has the reason.
+
+    The topic is in one run alone; or its fields have other lengths (points, bodies, events), and those that can be compared do
+    not differ.
+    """
 
     topic: str
     field: str
@@ -33,7 +42,7 @@ class Change(NamedTuple):
 
 
 def changes_of(with_it: Messages, without_it: Messages, topics: Iterable[str]) -> list[Change]:
-    """One for each of the topics that is in one of the runs, as named; fields whose lengths differ are left out."""
+    """One for each of the topics that is in one of the runs, as named."""
     found = []
     for topic in topics:
         sides = [[(stamp, data) for name, stamp, data in run if name == topic] for run in (with_it, without_it)]
@@ -46,11 +55,14 @@ def changes_of(with_it: Messages, without_it: Messages, topics: Iterable[str]) -
 
 def _largest(topic: str, fields: dict[str, Vector], others: dict[str, Vector]) -> Change:
     largest = Change(topic, "unchanged", 0.0)
-    for name, values in fields.items():
-        if name in others and others[name].shape == values.shape:
-            change = _relative(values, others[name])
-            if change > (largest.change or 0.0):
-                largest = Change(topic, name, change)
+    other = [name for name in {**fields, **others} if fields.get(name, NONE).shape != others.get(name, NONE).shape]
+    for name in fields.keys() - set(other):
+        change = _relative(fields[name], others[name])
+        if change > (largest.change or 0.0):
+            largest = Change(topic, name, change)
+    if largest.change == 0.0 and other:
+        further = f" and {len(other) - NAMED} more" if len(other) > NAMED else ""
+        return Change(topic, f"of another length: {', '.join(other[:NAMED])}{further}", None)
     return largest
 
 
@@ -58,7 +70,7 @@ def _relative(values: Vector, others: Vector) -> float:
     known = numpy.isfinite(values) & numpy.isfinite(others)
     values, others = values[known], others[known]
     size = max(float(numpy.linalg.norm(values)), float(numpy.linalg.norm(others)))
-    return float(numpy.linalg.norm(values - others)) / size if size > 0.0 else 0.0
+    return float(numpy.linalg.norm(values - others)) / size if size > ROUNDING * values.size**0.5 else 0.0
 
 
 def _fields(topic: str, messages: list[tuple[int, bytes]]) -> dict[str, Vector]:

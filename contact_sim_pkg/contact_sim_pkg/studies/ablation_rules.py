@@ -26,6 +26,7 @@ SHORT_WAVE = 0.4  # [m], three patch lengths
 FOOTPRINT = 0.13  # [m], one patch length
 DEMAND = 0.3  # of mu N
 AXLE_FREQUENCY, AXLE_SHARE = 30.0, 0.05  # [Hz], and the part of the force's variance above it that counts as content
+LOSSES = ("normal_dissipative", "general_dissipative")
 SHARP_ROADS = ("step", "cleat", "pothole", "ramp", "bump")
 
 
@@ -70,7 +71,13 @@ def is_needed(effect: str, contact: str, scene: ResolvedScene, observed: Observe
         return _of_impact(effect, scene)
     if effect in RULES_OF_TIRE:
         return RULES_OF_TIRE[effect](scene, observed)
-    if effect in ("normal_dissipative", "general_dissipative") and observed.opens[contact]:
+    if effect in LOSSES:
+        return _loss(observed.opens[contact])
+    return None, "which law carries the load, and what it loses without rate, is a choice of the model"
+
+
+def _loss(opens: bool) -> tuple[bool | None, str]:
+    if opens:
         return True, "the contact opens: an impact needs a loss to have a restitution"
     return None, "the contact stays closed; how much it damps is a choice of the model"
 
