@@ -41,6 +41,14 @@ def slap_and_slip():
     return run("seat_slip", SLAPPING, "duration=2.0")
 
 
+def test_a_preload_that_presses_deeper_than_the_back_is_round_is_refused():
+    """(1e6 N / 2.457e5 N/m^1.5)^(2/3) = 2.55 m, and the smaller radius is 0.6 m."""
+    with pytest.raises(
+        SceneError, match=r"backrest\.preload: 1e\+06 N press the back 2\.55 m .*smaller radius of 0\.6 m; lower"
+    ):
+        make_simulation(resolved("seat_slap", "backrest.preload=1e6"))
+
+
 def test_a_run_says_what_its_scene_lists_and_nothing_else(slap_and_slip):
     scene, messages = slap_and_slip
     assert {name for name, _stamp, _data in messages} == set(result_topics(scene))

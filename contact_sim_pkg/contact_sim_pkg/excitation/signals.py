@@ -186,9 +186,9 @@ class Noise:
 class AxisSignal:
     """Sum of waveforms on each axis; an axis without a waveform rests."""
 
-    def __init__(self, x: Sequence[Waveform] = (), z: Sequence[Waveform] = ()) -> None:
-        """Take the waveforms of the axes x (forward) and z (up)."""
-        self.x, self.z = tuple(x), tuple(z)
+    def __init__(self, x: Sequence[Waveform] = (), z: Sequence[Waveform] = (), notes: Sequence[str] = ()) -> None:
+        """Take the waveforms of the axes x (forward) and z (up), and what else is to be told of them."""
+        self.x, self.z, self.notes = tuple(x), tuple(z), tuple(notes)
 
     def acceleration(self, t: NDArray[numpy.float64]) -> tuple[NDArray[numpy.float64], NDArray[numpy.float64]]:
         """See blocks.Signal."""
@@ -198,7 +198,7 @@ class AxisSignal:
         """See blocks.Signal."""
         notes = [
             f"The noise repeats after {wave.period:g} s." for wave in (*self.x, *self.z) if isinstance(wave, Noise)
-        ]
+        ] + list(self.notes)
         return {
             "kind": "formulas", "x": [wave.describe() for wave in self.x], "z": [wave.describe() for wave in self.z],
             "notes": notes,

@@ -17,6 +17,8 @@ if TYPE_CHECKING:
     from contact_sim_pkg.excitation.signals import Waveform
 
 BORDER_NAMES = {"refuse": "none", "zero": "zero", "keep": "constant", "repeat": "repeat", "reflect": "reflect"}
+USUAL_RATES = (1000, 2000, 2500, 4000, 5000, 10_000, 12_500, 20_000, 25_000, 40_000, 50_000, 100_000)
+"""[Hz] of samples, a whole number of nanoseconds apart."""
 
 
 class Source(Protocol):
@@ -110,8 +112,23 @@ def _signal(scene: ResolvedScene, vibration: dict[str, Any]) -> Signal:
         return recording
     from contact_sim_pkg.excitation.signals import AxisSignal
 
-    wave = _wave(scene.data, vibration)
-    return AxisSignal(x=(wave,)) if vibration["axis"] == "x" else AxisSignal(z=(wave,))
+    wave, notes = _wave(scene.data, vibration), _notes(vibration, float(scene.data["accuracy"]))
+    return AxisSignal(x=(wave,), notes=notes) if vibration["axis"] == "x" else AxisSignal(z=(wave,), notes=notes)
+
+
+def _notes(vibration: dict[str, Any], accuracy: float) -> list[str]:
+    """Where the straight lines between samples are further off than the asked accuracy: ``1 - cos(pi f / rate)`` of a sine."""
+    fastest = max(float(vibration.get(key, 0.0)) for key in ("frequency", "start_frequency", "end_frequency"))
+    rate = float(vibration["sample_rate"])
+    off = 1.0 - math.cos(math.pi * fastest / rate)
+    if off <= accuracy:
+        return []
+    needed = math.pi * fastest / math.acos(1.0 - accuracy)
+    enough = next((each for each in USUAL_RATES if each >= needed), USUAL_RATES[-1])
+    return [
+        f"The excitation is straight between its {rate:g} samples a second, at {fastest:g} Hz up to {off:.2g} of its amplitude "
+        f"off; vibration.sample_rate: {enough} leaves {1.0 - math.cos(math.pi * fastest / enough):.2g}."
+    ]
 
 
 def _unused_axes(scene: dict[str, Any]) -> str:

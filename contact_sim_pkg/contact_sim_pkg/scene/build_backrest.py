@@ -22,6 +22,7 @@ from contact_sim_pkg.core.rigs.backrest_entries import find_point
 from contact_sim_pkg.core.rigs.backrest_parameters import Backrest, ContactSearch
 from contact_sim_pkg.core.shell import ShallowShell, ShellModes, crown_gap, shell_modes
 from contact_sim_pkg.scene.build_contact import elastic_of, loss_of
+from contact_sim_pkg.scene.errors import Fault, SceneError
 from contact_sim_pkg.scene.lattice import GRAVITY, effects_at
 from contact_sim_pkg.scene.timing import Timing, make_timing
 
@@ -79,7 +80,7 @@ class _Form(NamedTuple):
 
 
 def build_backrest(scene: dict[str, Any]) -> BackrestModel:
-    """Parameters of a resolved scene. Raises ShellError for a shell that is not possible."""
+    """Parameters of a resolved scene. Raises ShellError for a shell that is not possible, SceneError for too deep a rest."""
     backrest, effects = scene["backrest"], effects_at(scene, "backrest")
     mat = _mat(backrest, effects.get("shell_modes"))
     form = _one_mass(backrest) if effects.get("shell_modes") is None else _shell(backrest, effects["shell_modes"], mat)
@@ -97,9 +98,21 @@ def build_backrest(scene: dict[str, Any]) -> BackrestModel:
     )  # fmt: skip
     start = resting_state(rig)
     approach = float((rig.shapes @ start[: len(form.mass)] - rig.gaps).max())
+    _refuse_deep(backrest["back"], preload, approach)
     scale = _scale(rig, max(approach, SMALLEST_SCALE), preload, float(scene["integrator"]["relative_tolerance"]))
     timing = make_timing(scene, True)
     return BackrestModel(rig, timing, scale, start, form.names, form.motion, mat, form.point_x, form.point_y)
+
+
+def _refuse_deep(back: dict[str, Any], preload: float, approach: float) -> None:
+    """A preload that presses the back in deeper than its smaller radius: no contact law of a curved body reaches there."""
+    radius = min(float(back["radius_up"]), float(back["radius_across"]))
+    if approach > radius:
+        sentence = (
+            f"{preload:g} N press the back {approach:.3g} m into the seat back, deeper than its smaller radius of {radius:g} m; "
+            "lower the preload or make the contact stiffer"
+        )
+        raise SceneError([Fault("scene", 0, 0, "backrest.preload", sentence)])
 
 
 def _contact(scene: dict[str, Any], modes: int, points: int) -> Contact:
