@@ -125,10 +125,11 @@ def _notes(vibration: dict[str, Any], accuracy: float) -> list[str]:
         return []
     needed = math.pi * fastest / math.acos(1.0 - accuracy)
     enough = next((each for each in USUAL_RATES if each >= needed), USUAL_RATES[-1])
-    return [
+    sentence = (
         f"The excitation is straight between its {rate:g} samples a second, at {fastest:g} Hz up to {off:.2g} of its amplitude "
         f"off; vibration.sample_rate: {enough} leaves {1.0 - math.cos(math.pi * fastest / enough):.2g}."
-    ]
+    )
+    return [sentence]
 
 
 def _unused_axes(scene: dict[str, Any]) -> str:
