@@ -13,6 +13,7 @@ from contact_sim_pkg.scene.build_roller import build_roller
 from .decimate import envelope
 from .drawing import ACCENT, INK, MUTED, Picture, new_figure, picture
 from .roller_pass import RollerSeries
+from .roller_warnings import LARGEST_ERROR
 
 OTHER = "#e08a2e"
 LEAST_CHANGE = 1e-3  # of a value's mean: less is drawn as a level line
@@ -92,6 +93,7 @@ def _track_over_cycles(body: str, tracks: list[RollerTrack]) -> Picture:
     right.semilogy(cycles, [each.range * 1e6 for each in tracks], color=ACCENT, label="range of heights")
     if tracks[-1].lowered > 0.0:
         right.semilogy(cycles, [each.lowered * 1e6 for each in tracks], color=MUTED, label="lost by the mean")
+    right.locator_params(axis="x", nbins=4)
     right.set_xlabel("cycles")
     right.set_ylabel("µm")
     right.legend(loc="lower right", fontsize=7.5)
@@ -111,6 +113,8 @@ def _acceleration_error(checked: list[RollerTrack]) -> Picture:
     figure, (axes,) = new_figure(2.4)
     cycles, errors = [each.cycles for each in checked], [each.check_error for each in checked]
     axes.semilogy(cycles, errors, color=ACCENT, marker="o", markersize=4, linewidth=0.9)
+    axes.axhline(LARGEST_ERROR, color=MUTED, linestyle=(0, (4, 3)), linewidth=0.8, label="warned beyond")
+    axes.legend(loc="lower left", bbox_to_anchor=(0.0, 1.0), fontsize=7.5)
     axes.set_xlabel("cycles")
     axes.set_ylabel("error of the change")
     told = [error for error in errors if np.isfinite(error)]
@@ -119,7 +123,7 @@ def _acceleration_error(checked: list[RollerTrack]) -> Picture:
     caption = (
         f"Each turn that is ridden stands for {first.cycles / first.turns:.6g}. At {len(checked)} places of the run the next "
         f"{first.checked:.6g} turns were ridden by that time acceleration and turn by turn; the difference of the heights' "
-        f"change over the change turn by turn, rms: {worst}."
+        f"change over the change turn by turn, rms: {worst}. While waves grow, the errors of the stretches add up over the run."
     )
     return picture("roller-acceleration", figure, "Interval procedure beside every turn ridden", caption)
 
@@ -142,7 +146,11 @@ def load_spectrogram(roller: RollerSeries) -> Picture | None:
     axes.set_xlabel("simulated time, s")
     axes.set_ylabel("frequency, Hz")
     strongest = frequency[int(sizes[-1].argmax())]
-    caption = f"Load on the contact by frequency; at the end strongest at {strongest:.5g} Hz ({sizes[-1].max():.3g} N)."
+    width = float(frequency[1])
+    caption = (
+        f"Load on the contact by frequency, in steps of {width:.3g} Hz; at the end strongest at {strongest:.0f} ± {0.5 * width:.2g} "
+        f"Hz ({sizes[-1].max():.3g} N). Samples of the load at instants: what is faster than {frequency[-1]:.6g} Hz appears below it."
+    )
     return picture("roller-spectrogram", figure, "Spectrogram of the load on the contact", caption)
 
 

@@ -20,6 +20,7 @@ from .page import Section, environment
 from .reading import read_recording
 from .ride import ride_signals
 from .roller_section import ROLLER, roller_parts
+from .roller_warnings import roller_warnings
 from .rows import scene_rows
 from .series import Recording
 from .summary import summarise_recording
@@ -60,7 +61,7 @@ def render(recording: Recording) -> str:
             title=recording.scene.get("name") or recording.name,
             description=recording.scene.get("description") or "",
             bag_name=recording.name,
-            warnings=facts.warnings(recording),
+            warnings=facts.warnings(recording) + roller_warnings(recording.roller),
             tiles=tiles(summary),
             run=facts.run_rows(recording),
             effects=facts.effect_rows(recording),

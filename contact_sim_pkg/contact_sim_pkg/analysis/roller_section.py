@@ -11,20 +11,25 @@ from contact_sim_pkg.run.roller_forecast import stability_facts
 
 from .drawing import Picture
 from .figures_roller import contact_over_time, load_spectrogram, motion_over_time, stability_map, track_pictures
+from .figures_roller_programme import programme_over_time
 from .figures_roller_stress import stress_pictures
 from .roller_pass import RollerSeries
+from .roller_tables import stability_table, volume_facts, volume_tables
+from .roller_warnings import roller_warnings
 from .series import Recording
+from .tables import Table
 
 ROLLER = "roller"
 """Name of the contact that this part belongs to."""
 
 
 class RollerPart(NamedTuple):
-    """Pictures of one section."""
+    """Pictures and tables of one section."""
 
     key: str
     title: str
     pictures: list[Picture]
+    tables: list[Table]
 
 
 def roller_parts(recording: Recording) -> list[RollerPart]:
@@ -32,13 +37,18 @@ def roller_parts(recording: Recording) -> list[RollerPart]:
     roller = recording.roller
     if roller is None:
         return []
-    first = [contact_over_time(roller), motion_over_time(roller), load_spectrogram(roller)]
-    stable = stability_map(roller, recording.scene)
+    scene = recording.scene
+    first = [
+        programme_over_time(roller, scene), contact_over_time(roller), motion_over_time(roller), load_spectrogram(roller),
+    ]  # fmt: skip
+    stable, told = stability_map(roller, scene), stability_table(roller.stability, float(scene["block_length"]))
     return [
-        RollerPart("roller", "Rolling contact", [each for each in first if each is not None]),
-        RollerPart("stability", "Stability of tilt and yaw", [stable] if stable else []),
-        RollerPart("track", "Track", track_pictures(roller)),
-        RollerPart("stress", "Stress and dangerous volumes", stress_pictures(roller, recording.scene)),
+        RollerPart("roller", "Rolling contact", [each for each in first if each is not None], []),
+        RollerPart("stability", "Stability of tilt and yaw", [stable] if stable else [], [told] if told else []),
+        RollerPart("track", "Track", track_pictures(roller), []),
+        RollerPart(
+            "stress", "Stress and dangerous volumes", stress_pictures(roller, scene), volume_tables(roller.volumes)
+        ),
     ]
 
 
@@ -55,14 +65,9 @@ def roller_numbers(roller: RollerSeries) -> dict[str, Any]:
         bodies = dict.fromkeys(each.body for each in roller.tracks)
         numbers["tracks"] = [_track_numbers([each for each in roller.tracks if each.body == body]) for body in bodies]
     if roller.volumes:
-        numbers["dangerous_volumes"] = [
-            {
-                "time_s": each.time,
-                "any_m3": float(each.volume[-1]),
-                "share": float(each.volume[-1]) / each.working_volume,
-            }
-            for each in roller.volumes
-        ]
+        numbers["dangerous_volumes"] = [volume_facts(each) for each in roller.volumes]
+    if warned := roller_warnings(roller):
+        numbers["warnings"] = warned
     return numbers
 
 
@@ -71,7 +76,8 @@ def _track_numbers(tracks: list[RollerTrack]) -> dict[str, Any]:
     last, errors = tracks[-1], [each.check_error for each in tracks if each.checked > 0.0]
     return {
         "body": last.body, "turns": last.turns, "cycles": last.cycles, "time_acceleration": last.cycles / last.turns,
-        "range_m": last.range, "lowered_m": last.lowered, "free_share_last": last.free,
+        "load_max_N": max(float(each.load.max()) for each in tracks), "range_m": last.range,
+        "lowered_m": last.lowered, "free_share_last": last.free,
         "waves": int(np.abs(np.fft.rfft(last.height))[1:].argmax()) + 1,
         "time_acceleration_errors": [error if np.isfinite(error) else None for error in errors],
     }  # fmt: skip

@@ -18,8 +18,8 @@ from .tables import json_option, print_json_rows, show_sections
 def command(what: str, plot: Path | None, as_json: bool) -> None:
     """Error against a reference beside time, for each way to an answer.
 
-    SCENE, a name or a path: each rung, tolerance and grid that it can be run with. RIG (tire, seat, block, impact): each quantity
-    of its contact by the cheap formulas and the dear ones, on the same input. A file named like a rig is meant by ./NAME.
+    SCENE, a name or a path: each rung, tolerance and grid that it can be run with. RIG (tire, seat, block, impact, roller): each
+    quantity of its contact by the cheap formulas and the dear ones, on the same input. A file named like a rig is meant by ./NAME.
     """
     from contact_sim_pkg.studies import ladder
 
