@@ -148,8 +148,9 @@ def load_spectrogram(roller: RollerSeries) -> Picture | None:
     strongest = frequency[int(sizes[-1].argmax())]
     width = float(frequency[1])
     caption = (
-        f"Load on the contact by frequency, in steps of {width:.3g} Hz; at the end strongest at {strongest:.0f} ± {0.5 * width:.2g} "
-        f"Hz ({sizes[-1].max():.3g} N). Samples of the load at instants: what is faster than {frequency[-1]:.6g} Hz appears below it."
+        f"Load on the contact by frequency, in steps of {width:.3g} Hz; at the end strongest at {strongest:.0f} ± "
+        f"{0.5 * width:.2g} Hz ({sizes[-1].max():.3g} N). Samples of the load at instants: what is faster than "
+        f"{frequency[-1]:.6g} Hz appears below it."
     )
     return picture("roller-spectrogram", figure, "Spectrogram of the load on the contact", caption)
 
