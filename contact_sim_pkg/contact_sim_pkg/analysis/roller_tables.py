@@ -7,6 +7,7 @@ from collections.abc import Callable
 from typing import Any
 
 from contact_sim_pkg.bag.messages import RollerStability, RollerVolumes
+from contact_sim_pkg.run.roller_forecast import ANY_LOAD
 
 from .tables import Table
 
@@ -24,7 +25,7 @@ def stability_table(told: list[RollerStability], block_length: float) -> Table |
     rows = [
         (
             f"{each.block * block_length:.5g}", f"{each.load:.5g}", f"{each.growth_rate:+.4g}", f"{each.frequency:.5g}",
-            f"{each.tilt * 1e3:.4g}", f"{each.yaw * 1e3:.4g}", _or_none(each.critical_load), _or_none(each.critical_damping),
+            f"{each.tilt * 1e3:.4g}", f"{each.yaw * 1e3:.4g}", _critical_load(each), _or_none(each.critical_damping),
         )
         for each in told[:MOST_ROWS]
     ]  # fmt: skip
@@ -70,6 +71,10 @@ def volume_facts(each: RollerVolumes) -> dict[str, Any]:
 
 def _named(values: Any) -> dict[str, float]:
     return {name: float(value) for name, value in zip(COMPONENTS, values, strict=True)}
+
+
+def _critical_load(each: RollerStability) -> str:
+    return "any" if each.critical_load < ANY_LOAD * each.load else _or_none(each.critical_load)
 
 
 def _or_none(value: float) -> str:
