@@ -63,6 +63,7 @@ LEDGER = "bench/energy"
 MEASURES = (
     "duration", "cost_with", "cost_without", "cost", "cost_noise", "cost_share", "load_mean_change", "load_rms_change",
 )  # fmt: skip
+STEADY = 1.0e-9  # of the greatest force: a spread of it below this is rounding, which has no ratio
 NOTHING: dict[str, Any] = {**dict.fromkeys(MEASURES), "changes": []}
 """Measures of an effect that is not measured."""
 
@@ -206,11 +207,12 @@ def _missing(scene: ResolvedScene, contact: str, effect: str) -> str:
 def _measures(pair: Pair, contact: str, topics: list[str]) -> dict[str, Any]:
     force, bare = pair.with_it.forces[contact], pair.without_it.forces[contact]
     spread, bare_spread = float(force.std()), float(bare.std())
+    least = STEADY * float(abs(bare).max())
     cost = statistics.median(pair.differences)
     values = (
         pair.duration, pair.with_it.cost, pair.without_it.cost, cost,
         0.5 * (max(pair.differences) - min(pair.differences)), cost / pair.with_it.cost,
-        float(force.mean() / bare.mean() - 1.0), spread / bare_spread - 1.0 if bare_spread > 0.0 else 0.0,
+        float(force.mean() / bare.mean() - 1.0), spread / bare_spread - 1.0 if bare_spread > least else 0.0,
     )  # fmt: skip
     seen = [topic for topic in topics if topic != LEDGER]
     changes = changes_of(pair.with_it.messages, pair.without_it.messages, seen)

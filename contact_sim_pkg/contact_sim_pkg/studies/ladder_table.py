@@ -8,7 +8,7 @@ from contact_sim_pkg.studies.section import Section
 __all__ = ["ROUNDING", "sections"]
 
 ROUNDING = 1e-11
-"""A quantity that is given comes back to rounding; it has no column."""
+"""A quantity that is given comes back to rounding; beside another it has no column."""
 
 COST = "ms a call"
 
@@ -24,11 +24,8 @@ def sections(rows: list[Row]) -> list[Section]:
 
 def _lines(rows: list[Row]) -> list[Row]:
     """One line a rung, grid and tolerance: errors by quantity, whole or as solver and grid, then the time."""
-    shown = [
-        name
-        for name in dict.fromkeys(row["quantity"] for row in rows)
-        if any(row["error"] > ROUNDING for row in rows if row["quantity"] == name)
-    ]
+    names = list(dict.fromkeys(row["quantity"] for row in rows))
+    shown = [name for name in names if any(row["error"] > ROUNDING for row in rows if row["quantity"] == name)] or names
     divided = all(row["solver_error"] is not None for row in rows)
     on_grids = any(row["grid"] is not None for row in rows)
     lines: dict[tuple[object, ...], Row] = {}

@@ -148,6 +148,19 @@ def test_a_body_wedged_between_two_walls_that_both_bounce_ends_with_a_named_stat
         assert (c == 0.0).all()
 
 
+@pytest.mark.parametrize("approach", [1e-9, 1e-11, 1e-12, 3e-13, 1e-13, 0.0])
+@pytest.mark.parametrize("friction", [3.0, 5.0])
+def test_a_contact_that_jams_stands_or_slides_on_but_never_sinks_or_ends_without_answer(approach, friction):
+    J = numpy.array([[-0.55706, 0.83047, 0.0042642], [0.83047, 0.55706, 0.0023716]])
+    W = numpy.diag([92.132, 92.132, 1.1609549e7])
+    A, q = J @ W @ J.T, numpy.array([-approach, 1.0])
+    c, found = solve(J, W, q, numpy.full(1, friction), PLANE, 0, NEWTON)
+    u = q + A @ c
+    assert found.status == SOLVED
+    assert u[0] >= -1e-11
+    assert abs(u[1]) <= 1e-10 or abs(c).max() <= 1e-10 / A[0, 0], "it stands, or nothing holds it"
+
+
 @pytest.mark.parametrize("bad", [math.nan, math.inf])
 @pytest.mark.parametrize("rung", [MODES, LEMKE, NEWTON])
 def test_a_velocity_that_is_no_number_ends_with_a_named_status(bad, rung):

@@ -21,6 +21,7 @@ from .results import RAY, SOLVED
 
 NORMAL, TANGENT, BOUND = 0, 1, 2  # kinds of rows
 GOOD = 1.0e-13  # residual of a solution, in rows of order 1
+ROUNDING = 1.0e-11  # normal velocity of a scaled row that can count as none
 PROXIMAL_SHIFT = 1.0e-3  # of the scaled rows, whose diagonal is 1
 PROXIMAL_PASSES = 40
 PROXIMAL_END = 1.0e-16  # change of velocity at which the passes end
@@ -194,8 +195,22 @@ def _solve(work, n):
 
 
 @kernel
+def _still_normals(work, n):
+    """Take normal velocities that are rounding as 0; whether there are any."""
+    q, found = work.lemke.q, False
+    for i in range(n):
+        if work.kind[i] == NORMAL and q[i] != 0.0 and abs(q[i]) <= ROUNDING:
+            q[i], found = 0.0, True
+    return found
+
+
+@kernel
 def solve_by_lemke(problem, work, facets, c):
-    """Impulses ``c`` [rows] of the problem with ``facets`` friction directions a contact (plane: 2); returns a status."""
+    """Impulses ``c`` [rows] of the problem with ``facets`` friction directions a contact (plane: 2); returns a status.
+
+    A contact in a Painleve state answers an approach of any size, rounding as well, with a jam: where the pivots cannot tell
+    it from 0, it is 0.
+    """
     scale = _scale(problem)
     if scale == 0.0:
         for i in range(c.shape[0]):
@@ -205,6 +220,8 @@ def solve_by_lemke(problem, work, facets, c):
     _fill_velocities(problem, work, n, scale, work.lemke.M, work.lemke.q)
     _fill_bounds(problem, work, n, scale, work.lemke.M, work.lemke.q)
     status = _solve(work, n)
+    if status == RAY and _still_normals(work, n):
+        status = _solve(work, n)
     if status == SOLVED:
         _read(problem, work, n, scale, c)
     return status
