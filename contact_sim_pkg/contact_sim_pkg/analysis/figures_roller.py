@@ -96,7 +96,7 @@ def _track_over_cycles(body: str, tracks: list[RollerTrack]) -> Picture:
     right.locator_params(axis="x", nbins=4)
     right.set_xlabel("cycles")
     right.set_ylabel("µm")
-    right.legend(loc="lower right", fontsize=7.5)
+    right.legend(loc="lower left", bbox_to_anchor=(-0.12, 1.0), ncols=2, fontsize=7.5, handlelength=1.2)
     last = tracks[-1]
     strength = np.abs(np.fft.rfft(last.height))
     waves = int(strength[1:].argmax()) + 1

@@ -207,7 +207,7 @@ def _acceleration(model: RollerModel) -> Rows:
         against = f"own code, every one of {checked.intervals} turns ridden"
         found.append(
             _row(
-                "change of the track, a second of the rig",
+                "change of the track from its start, a second of the rig",
                 f"a turn stands for {ride_on.acceleration:g}",
                 checked.error,
                 against,
