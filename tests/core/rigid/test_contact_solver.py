@@ -36,6 +36,22 @@ def test_the_residual_of_signorini_and_coulomb_is_rounding(contacts, width, face
         assert solution.residual <= RESIDUAL
 
 
+def test_one_contact_of_a_body_of_any_shape_is_solved():
+    """Arms and inertias over four decades, friction up to 5; Newton's method alone turns round and round in 0.4 % of them."""
+    generator = numpy.random.default_rng(7)
+    for _ in range(1200):
+        J = contact_rows(generator.normal(size=(1, 3)) * 10.0 ** generator.uniform(-1.0, 1.0), SPACE)
+        W = numpy.diag([1.0, 1.0, 1.0, *10.0 ** generator.uniform(-2.0, 2.0, 3)])
+        turned = numpy.linalg.qr(generator.normal(size=(3, 3)))[0]
+        W[3:, 3:] = turned @ W[3:, 3:] @ turned.T
+        q = J @ generator.normal(size=6)
+        q[0] = -abs(q[0])
+        friction = float(generator.choice([0.1, 0.3, 0.8, 2.0, 5.0]))
+        c, solution = solve(J, W, q, friction, SPACE)
+        assert solution.status == SOLVED
+        assert signorini_and_coulomb(J, W, q, c, friction, SPACE, 0) <= 2.0 * RESIDUAL
+
+
 def test_two_planar_contacts_give_the_velocity_of_the_index_sets():
     generator = numpy.random.default_rng(7)
     for _ in range(60):

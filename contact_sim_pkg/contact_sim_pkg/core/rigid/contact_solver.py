@@ -22,6 +22,7 @@ from .parameters import PlanarContact
 from .planar_impact import contact_modes
 from .problem import DISC, PLANE, ContactProblem, residual, velocity_scale
 from .results import CONTACT_NOT_FINITE, NOT_CONVERGED, SOLVED, SPLIT_NOT_UNIQUE, UNIQUE
+from .slide_direction import slide_in_one_direction
 
 MODES, GAUSS_SEIDEL, LEMKE, NEWTON = 0, 1, 2, 3
 SOLVER_NAMES = {"modes": MODES, "gauss_seidel": GAUSS_SEIDEL, "lemke": LEMKE, "newton": NEWTON}
@@ -32,6 +33,7 @@ FIRST_SWEEPS = 6  # before Newton's method
 PASS_WEIGHT = 1.0e-3  # of the proximal term, in A_nn of the contact
 PASS_END = 1.0e-16  # change of velocity, of the greatest, at which the passes end
 PASSES = 20
+NEAR_ENOUGH = 1.0e-12  # residual of a direction of slip
 NEAREST = 1.0e-6  # residual of the last pass up to which it stands where contradicting contacts have no answer
 
 
@@ -92,6 +94,17 @@ def _turn_facets(problem, work, u):
 
 
 @piece
+def _by_direction(problem, solver, c):
+    """One contact that slides; ``c`` is kept where there is none."""
+    found = solver.newton.best
+    slides = slide_in_one_direction(problem.A, problem.q, problem.friction[0], problem.floor[0], found)
+    if not (slides and residual(problem, found, solver.newton.velocity) <= NEAR_ENOUGH):
+        return NOT_CONVERGED
+    copy_row(found, c)
+    return SOLVED
+
+
+@piece
 def _exactly(problem, solver, start, c):
     """Newton's method from ``c`` (``start``) or a few sweeps; Lemke; on the true cone Newton from there, with facets turned.
 
@@ -111,6 +124,8 @@ def _exactly(problem, solver, start, c):
             if status != SOLVED or not on_disc:
                 break
         status, _residual = solve_by_newton(problem, solver.newton, c)
+        if status != SOLVED and on_disc and problem.friction.shape[0] == 1:
+            status = _by_direction(problem, solver, c)
         if status == SOLVED:
             break
         if on_disc:
