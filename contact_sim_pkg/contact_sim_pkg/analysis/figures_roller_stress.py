@@ -38,7 +38,7 @@ def stress_pictures(roller: RollerSeries, scene: dict[str, Any]) -> list[Picture
     loaded = [each for each in roller.volumes if each.load > 0.0]
     found = [_stress_picture(each, scene) for each in loaded[:MOST]]
     if len(loaded) > MOST:
-        more = f" The other {len(loaded) - MOST} instants have no picture; the table has their volumes."
+        more = f" Without a picture, in the table alone: {len(loaded) - MOST} more."
         found[-1] = found[-1]._replace(caption=found[-1].caption + more)
     return found
 

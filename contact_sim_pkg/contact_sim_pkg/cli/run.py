@@ -19,7 +19,7 @@ from .tables import json_option
 @click.option(
     "--from-bag", type=click.Path(path_type=Path), metavar="BAG", help="Excitation (and scene) of an earlier run."
 )
-@click.option("--no-record", is_flag=True, help="Write no bag.")
+@click.option("--no-record", is_flag=True, help="Write no bag; the summary, which is read from it, is empty.")
 @json_option
 @click.pass_context
 def command(
