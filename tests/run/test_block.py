@@ -243,4 +243,6 @@ def test_every_body_runs_over_every_ground(values, ground):
     totals = numpy.array([ledger.kinetic + ledger.potential for ledger in ledgers])
     assert numpy.diff(totals).max() <= 1e-6
     depth = max(block.approach.max() for block in of(messages, "block/force", decode_contact_force))
-    assert depth <= 1e-7 or values[0] == "block.motion=space"
+    if ground == VALLEYS and "block.motion=space" in values and "block.shape=sphere" not in values:
+        return  # in space the corners alone of a box or hull meet heights, so that a peak goes into its faces
+    assert depth <= 1e-7

@@ -52,7 +52,7 @@ def test_friction_at_a_slapping_back_is_that_of_small_steps(frequency, amplitude
     expected = sliding_friction(normal, velocity, step, *law)[100::100]  # each 0.2 ms, without the first instant
     rig = one_mass(friction=FRICTION, amplitude=0.01, frequency=frequency)
     found = driven(rig, sine(drive, frequency), 0.5, 1e-9, rate=20_000, sample_every=4).forces[:, columns.TANGENTIAL]
-    assert found[1:] == pytest.approx(-expected[: len(found) - 1], abs=0.15)
+    assert found[1:] == pytest.approx(-expected[: len(found) - 1], abs=0.05)
 
 
 @pytest.mark.parametrize("frequency", SPINE)
