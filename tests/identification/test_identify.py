@@ -9,6 +9,7 @@ import pytest
 from contact_sim_pkg.identification import geometry, wrench
 from contact_sim_pkg.identification.errors import IdentificationError
 from contact_sim_pkg.identification.identify import Setup, identify
+from contact_sim_pkg.identification.modes import REVERSED
 from contact_sim_pkg.identification.states import BodyStates
 
 _spec = importlib.util.spec_from_file_location("motions", Path(__file__).with_name("motions.py"))
@@ -38,7 +39,8 @@ def check_impacts(found, record):
         assert contact.mode.tangential == pytest.approx(numpy.hypot(*push[:2]), rel=1e-9, abs=1e-12)
         assert (contact.mode.mode == "stick") == bounce.sticks
         if not bounce.sticks:
-            assert contact.mode.friction == pytest.approx(0.3, rel=1e-9)
+            assert contact.mode.friction_at_least == pytest.approx(0.3, rel=1e-9)
+            assert (contact.mode.friction is None) == (contact.mode.mode == REVERSED)
         assert contact.arm == pytest.approx(bounce.arm, abs=1e-12)
 
 

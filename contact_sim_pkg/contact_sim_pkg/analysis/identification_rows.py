@@ -9,6 +9,7 @@ import numpy
 
 from contact_sim_pkg.identification.contacts import ContactFinding
 from contact_sim_pkg.identification.identify import Identification, Parameter
+from contact_sim_pkg.identification.modes import Mode
 
 __all__ = ["contact_rows", "derived", "facts", "parameter_rows"]
 
@@ -77,13 +78,21 @@ def _contact(contact: ContactFinding, mass: float | None) -> dict[str, Any]:
     row["± c_n/m"] = contact.normal_deviation
     row["c_t/m [m/s]"] = None if mode is None else mode.tangential
     row["± c_t/m"] = contact.tangential_deviation
-    row["friction"] = None if mode is None else mode.friction
-    row["restitution"] = None if mode is None else mode.restitution
+    row["friction"] = None if mode is None else _friction(mode)
+    row["± friction"] = contact.friction_deviation
+    row["Newton's e"] = None if mode is None else mode.newton_restitution
     if mass is not None:
         row["c_n [N s]"] = None if mode is None else mass * mode.normal
         row["c_t [N s]"] = None if mode is None else mass * mode.tangential
     row["note"] = contact.note
     return row
+
+
+def _friction(mode: Mode) -> float | str | None:
+    """mu where the contact slid straight on, else the bound that the impulse leaves."""
+    if mode.friction is not None or mode.friction_at_least is None:
+        return mode.friction
+    return f">= {mode.friction_at_least:.3g}"
 
 
 def facts(found: Identification) -> dict[str, Any]:
@@ -118,6 +127,8 @@ def _contact_facts(contact: ContactFinding) -> dict[str, Any]:
         "impulse_over_mass_m_s": None if contact.push is None else [float(value) for value in contact.push],
         "arm_m": None if contact.arm is None else [float(value) for value in contact.arm],
         "friction": None if mode is None else mode.friction,
-        "restitution": None if mode is None else mode.restitution,
+        "friction_at_least": None if mode is None else mode.friction_at_least,
+        "friction_standard_deviation": contact.friction_deviation,
+        "newton_restitution": None if mode is None else mode.newton_restitution,
         "note": contact.note,
     }

@@ -62,6 +62,10 @@ def command(
 
     BAG: of the bench (bench/motion), or any with Odometry, or PoseStamped and TwistStamped, of the centre of mass. Contacts
     and their modes are found. What the motion cannot tell, such as the mass without a known force, is named.
+
+    Of each contact: c_n/m, c_t/m; friction, mu where it slid straight on, else the lower bound that a contact that stuck,
+    reversed or turned leaves (JSON: friction, friction_at_least); Newton's e, the ratio -u_n+/u_n- of normal speeds (JSON:
+    newton_restitution), which is not the e of an energetic or Poisson rule where there is friction.
     """
     from contact_sim_pkg.analysis import identification_rows
     from contact_sim_pkg.bag.body_states import read_body_states
@@ -129,10 +133,16 @@ def _sections(found: Identification) -> list[Section]:
         f"noise of the samples: position {noise.position:.2g} m, rotation {noise.rotation:.2g} rad, velocity "
         f"{noise.velocity:.2g} m/s, angular velocity {noise.angular_velocity:.2g} rad/s"
     )
-    parts.append(Section(f"Contacts: {len(found.contacts)}", [_digits(row) for row in contact_rows(found)], told))
+    parts.append(
+        Section(f"Contacts: {len(found.contacts)}", [_digits(row) for row in contact_rows(found)], f"{HEADS}; {told}")
+    )
     return parts
 
 
+HEADS = (
+    "friction: |c_t|/c_n, which is mu where the slip kept its direction and a lower bound (>=) where it stuck, reversed or "
+    "turned; Newton's e: ratio -u_n+/u_n- of normal speeds, not the e of an energetic or Poisson rule where there is friction"
+)
 EXACT = ("value", "time [s]", "c_n/m [m/s]", "c_t/m [m/s]", "c_n [N s]", "c_t [N s]")
 DIGITS = 9
 

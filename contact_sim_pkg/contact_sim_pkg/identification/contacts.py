@@ -26,6 +26,7 @@ class ContactFinding(NamedTuple):
     mode: Mode | None
     normal_deviation: float | None  # of c_n/m, [m/s]
     tangential_deviation: float | None  # of |c_t|/m, [m/s]
+    friction_deviation: float | None  # of |c_t|/c_n
     arm: Array | None  # [3], [m], world axes
     push: Array | None  # impulse over mass, [3], [m/s], world axes
     note: str
@@ -42,7 +43,7 @@ def findings(
             lines.append(_used(problem, found, used[place]))
         else:
             begin, end = float(time[first]), float(time[last + 1])
-            lines.append(ContactFinding(begin, end, None, None, None, None, None, None, notes.get(place, "")))
+            lines.append(ContactFinding(begin, end, None, None, None, None, None, None, None, notes.get(place, "")))
     return lines
 
 
@@ -58,22 +59,19 @@ def _used(problem: Problem, found: Estimate, number: int) -> ContactFinding:
         kept = kept - numpy.outer(problem.axis, problem.axis)  # noise across the plane of motion is no slip
     velocities = [side.state.velocity + numpy.cross(side.state.angular_velocity, reach) for side in (before, after)]
     deviation = _slip_deviation(found, contact.after, after, reach, kept)
-    mode = classify(kept @ push, kept @ velocities[0], kept @ velocities[1], deviation, problem.ground)
     along = push - (push @ normal) * normal
     length = float(numpy.linalg.norm(along))
     direction = along / length if length > 0.0 else numpy.zeros(3)
     across = float(numpy.sqrt(direction @ spread @ direction if length > 0.0 else numpy.trace(spread) / 3.0))
+    mode = classify(kept @ push, kept @ velocities[0], kept @ velocities[1], deviation, problem.ground, across)
+    ratio = None
+    if mode.friction_at_least is not None:
+        slope = (direction - mode.friction_at_least * normal) / mode.normal
+        ratio = float(numpy.sqrt(slope @ spread @ slope))
+    upward = float(numpy.sqrt(normal @ spread @ normal))
     return ContactFinding(
-        contact.begin,
-        contact.end,
-        contact.point,
-        mode,
-        float(numpy.sqrt(normal @ spread @ normal)),
-        across,
-        reach,
-        push,
-        "",
-    )
+        contact.begin, contact.end, contact.point, mode, upward, across, ratio, reach, push, ""
+    )  # fmt: skip
 
 
 def _push_covariance(found: Estimate, first: int, second: int, before: Side, after: Side) -> Array:
