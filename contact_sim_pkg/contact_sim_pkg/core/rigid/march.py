@@ -17,6 +17,7 @@ import numpy.typing
 from ..jit import entry, piece
 from ..parameters import Vector
 from .body import Ground, Motion, RigidBody
+from .coast import NO_FACE, rests, slide_straight, straight_face
 from .face import FACE, face_impulses
 from .flight import fly_to_touch, is_clear
 from .held import (
@@ -37,7 +38,7 @@ from .single import single_impulses
 
 DONE, COLLIDE, SUPPORT, PAUSE = 0, 1, 2, 3  # what a call ends with
 TIME, INTERVAL, RESTED, LOST, RESIDUAL, PIECE, STILL, CLOCKS = 0, 1, 2, 3, 4, 5, 6, 7
-SAMPLE, SAMPLES, EVENTS, SOLVES, COLLIDED, STOPS, SHORT, COUNTS = 0, 1, 2, 3, 4, 5, 6, 7
+SAMPLE, SAMPLES, EVENTS, SOLVES, COLLIDED, STOPS, SHORT, RESTS, COUNTS = 0, 1, 2, 3, 4, 5, 6, 7, 8
 LARGEST_TURN = 0.02  # [rad] of a piece of free flight in space, where the spin is of order 6
 LARGEST_PLANAR_TURN = 0.2  # [rad] of a piece of free flight in the plane, which is exact: it only has to find the touch
 LARGEST_SUPPORTED_TURN = 0.005  # [rad] of a piece while a point is held: there the position is of second order
@@ -200,6 +201,22 @@ def _record(body, motion, work, row):
         row[place + i] = 1.0 if work.flags[i] == STUCK else 0.0
 
 
+@piece
+def _add_impulse(work, row, column):
+    """The impulses of a piece to those of its sample."""
+    for k in range(work.impulse.shape[0]):
+        row[column + k] += work.impulse[k]
+
+
+@piece
+def _repeat_to_the_end(count, track):
+    """The last sample over and over: nothing moved in it, and nothing will."""
+    for sample in range(count[SAMPLE], count[SAMPLES]):
+        for k in range(track.shape[1]):
+            track[sample, k] = track[sample - 1, k]
+    count[SAMPLE] = count[SAMPLES]
+
+
 def track_columns(body: RigidBody, contacts: int) -> tuple[int, int, int, int, int, int]:
     """Where angle, rotation, velocity, impulse and sticking points start in a row of the track, and its length."""
     width, coordinates = body.width, len(body.load)
@@ -222,8 +239,19 @@ def advance_samples(
     ``track`` [samples, columns]: the impulses of each sample are added up in it, the states written at its end.
     """
     clock, count, pieces = march.clock, march.counts, 0
+    points = NO_FACE
     while count[SAMPLE] < count[SAMPLES]:
         while clock[TIME] < clock[INTERVAL]:
+            left = clock[INTERVAL] - clock[TIME]
+            if points.held > 0:
+                lost = slide_straight(body, motion, work, march.face, points, left, clock[STILL])
+                if lost >= 0.0:
+                    clock[LOST] += lost
+                    clock[TIME] = clock[INTERVAL]
+                    count[SOLVES] += 1
+                    _add_impulse(work, track[count[SAMPLE]], impulse_column)
+                    continue
+                points = NO_FACE
             still, approaches = survey_points(body, ground, motion, work, size, gravity)
             clock[STILL] = still
             if approaches and count[COLLIDED] == 0:
@@ -232,19 +260,23 @@ def advance_samples(
             wait, holds = settle_points(body, ground, motion, work, rest_speed, still)
             if wait > 0.0:
                 clock[RESTED] = count[SAMPLE] * clock[INTERVAL] + clock[TIME] + wait
-            left = clock[INTERVAL] - clock[TIME]
             if holds:
+                resting = rests(motion, work, size)
+                if resting and count[RESTS] > 0 and count[RESTS] == count[SAMPLE]:
+                    _repeat_to_the_end(count, track)
+                    return DONE
                 longest = min(left, _longest(body, ground, motion, LARGEST_SUPPORTED_TURN, size))
                 passed = longest
                 if ground.profile.nodes.shape[0] > 0:
                     passed = min(longest, time_to_peak(body, ground, motion, work))
                 clock[PIECE] = passed
+                count[RESTS] = count[SAMPLE] + 1 if resting and passed >= clock[INTERVAL] else 0
                 count[SOLVES] += 1
                 if not _support(body, ground, motion, work, march, passed, size, still):
                     return SUPPORT
-                for row in range(work.impulse.shape[0]):
-                    track[count[SAMPLE], impulse_column + row] += work.impulse[row]
+                _add_impulse(work, track[count[SAMPLE]], impulse_column)
                 take_piece(body, ground, motion, work, size, still)
+                points = straight_face(body, ground, motion, work, march.face)
             else:
                 longest = min(left, _longest_flight(body, ground, motion, size, left))
                 passed, point = fly_to_touch(body, ground, motion, work, longest, march.before, march.after)
