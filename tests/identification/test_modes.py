@@ -86,7 +86,9 @@ def test_in_the_plane_an_energetic_slide_that_keeps_its_direction_gives_mu():
 
 def test_a_reversed_slip_gives_no_friction_but_a_bound():
     """Friction 0.3 over the first 0.7 of c_n one way, over the last 0.3 the other way: |c_t|/c_n = 0.12."""
-    mode = classify(numpy.array([-0.12, 0.0, 1.0]), numpy.array([0.5, 0, -1.0]), numpy.array([-0.2, 0, 0.5]), 1e-9, FLAT)
+    mode = classify(
+        numpy.array([-0.12, 0.0, 1.0]), numpy.array([0.5, 0, -1.0]), numpy.array([-0.2, 0, 0.5]), 1e-9, FLAT
+    )
     assert mode.mode == REVERSED
     assert mode.friction is None
     assert mode.friction_at_least == pytest.approx(0.12)

@@ -50,7 +50,7 @@ def spatial_estimate(table):
 
 
 def words(found, spatial=True):
-    return unobservable(found.directions.missing, found.parameters, found.scale, spatial, False, False)
+    return unobservable(found.directions.missing, found.parameters, found.scale, spatial, False)
 
 
 def test_ten_impacts_at_1_mm_s_give_the_inertia_to_0_15_percent_and_say_so():

@@ -44,6 +44,12 @@ FILE = click.Path(path_type=Path)
 @click.option("--torque", type=VECTOR, metavar="X Y Z", help="Known constant torque [N m], world axes.")
 @click.option("--force-topic", metavar="NAME", help="WrenchStamped: the known wrench over time, world axes.")
 @click.option(
+    "--friction",
+    type=float,
+    metavar="MU",
+    help="Known friction coefficient: a slide under a known force then tells the mass. A result otherwise.",
+)
+@click.option(
     "--noise",
     type=(float, float, float, float),
     metavar="X R V W",
@@ -56,7 +62,7 @@ def command(
     bag: Path, topic: str | None, twist_topic: str | None, twist_axes: TwistAxes, box: tuple[float, float, float] | None,
     sphere: float | None, hull: Path | None, ground: float, normal: tuple[float, float, float], gravity: float,
     force: tuple[float, float, float] | None, torque: tuple[float, float, float] | None, force_topic: str | None,
-    noise: tuple[float, float, float, float] | None, plot: Path | None, as_json: bool,
+    friction: float | None, noise: tuple[float, float, float, float] | None, plot: Path | None, as_json: bool,
 ) -> None:  # fmt: skip
     """Inertia and impulses of the rigid body whose motion BAG holds.
 
@@ -76,7 +82,8 @@ def command(
     shape = _shape(box, sphere, hull)
     recorded = read_body_states(bag, topic, twist_topic, twist_axes)
     wrench = _wrench(bag, recorded.origin, force, torque, force_topic)
-    setup = Setup(shape, plane(normal, ground), wrench, gravity, None if noise is None else Noise(*noise))
+    spreads = None if noise is None else Noise(*noise)
+    setup = Setup(shape, plane(normal, ground), wrench, gravity, spreads, friction=friction)
     found = identify(recorded.states, setup)
     if plot is not None:
         from contact_sim_pkg.analysis.identification_plot import write_plot

@@ -7,6 +7,7 @@ from typing import NamedTuple
 import numpy
 
 from .contacts import ContactFinding, findings
+from .coulomb import along_the_cone
 from .errors import IdentificationError
 from .flight import Model
 from .geometry import Ground, Shape, flattened, gaps, plane
@@ -16,7 +17,8 @@ from .plane import body_axis, plane_of_motion
 from .problem import Problem, planar_basis, spatial_basis, starting_parameters
 from .rotation import Array
 from .search import Search
-from .segments import inverse_mass_guess, segments, velocity_noise
+from .segments import gap_doubt, inverse_mass_guess, segments, velocity_noise
+from .slides import slides_of
 from .stacked import Estimate
 from .states import BodyStates, Noise, checked
 from .wrench import NO_WRENCH, ExternalWrench
@@ -35,6 +37,7 @@ class Setup(NamedTuple):
     gravity: float = 9.81  # [m/s^2]
     noise: Noise | None = None  # None: taken from the flights
     planar: bool | None = None  # None: found from the motion
+    friction: float | None = None  # known coefficient; None: unknown, a result
 
 
 class Parameter(NamedTuple):
@@ -79,13 +82,13 @@ def identify(states: BodyStates, setup: Setup) -> Identification:
     own_axis = None if axis is None else body_axis(states, axis, guess)
     shape = setup.shape if own_axis is None else flattened(setup.shape, own_axis, max(1e-9, 5.0 * guess.rotation))
     speed_noise = setup.noise.velocity if setup.noise else velocity_noise(states)
-    parts = segments(states, shape, setup.ground, setup.wrench, setup.gravity, speed_noise, guess.position)
+    parts = segments(states, shape, setup.ground, setup.wrench, setup.gravity, speed_noise, guess[:2])
     basis = spatial_basis() if axis is None else planar_basis()
     model = Model(basis, setup.wrench.present, setup.wrench, setup.gravity)
     lifts = gaps(shape, setup.ground, states.position, states.rotation).min(axis=1)
-    inverse_mass = inverse_mass_guess(states, lifts, setup.wrench, setup.gravity)
+    inverse_mass = inverse_mass_guess(states, lifts, setup.wrench, setup.gravity, gap_doubt(shape, guess[:2]))
     start, scale = starting_parameters(shape, model, own_axis, inverse_mass)
-    problem = Problem(states, [], [], shape, setup.ground, model, limited(guess, states), axis)
+    problem = Problem(states, [], [], shape, setup.ground, model, limited(guess, states), axis, friction=setup.friction)
     search = Search(problem, parts, setup.noise, start, scale)
     return _result(search.run(), search)
 
@@ -93,6 +96,8 @@ def identify(states: BodyStates, setup: Setup) -> Identification:
 def _check_setup(setup: Setup) -> None:
     if not (numpy.isfinite(setup.gravity) and setup.gravity >= 0.0):
         raise IdentificationError(f"gravity acts downward and is 0 m/s^2 or more, not {setup.gravity:g}")
+    if setup.friction is not None and not (numpy.isfinite(setup.friction) and setup.friction >= 0.0):
+        raise IdentificationError(f"a friction coefficient is 0 or more, not {setup.friction:g}")
     for name, value in (setup.noise._asdict() if setup.noise else {}).items():
         if not (numpy.isfinite(value) and value >= 0.0):
             raise IdentificationError(f"the noise of the {name.replace('_', ' ')} is 0 or more, not {value:g}")
@@ -108,6 +113,20 @@ def _check_wrench(states: BodyStates, wrench: ExternalWrench) -> None:
         )
 
 
+def _why_no_mass(search: Search, found: Estimate) -> str:
+    """What a slide under a known force lacks to tell the mass; empty where there is none, or it tells it."""
+    problem = search.problem
+    if problem.model.wrench.force is None:
+        return ""
+    pairs = zip(problem.contacts, found.sides, strict=True)
+    edges = [along_the_cone(problem, contact, sides) for contact, sides in pairs if contact.slides]
+    if edges and all(edges):
+        return "the known force lies along the edge of the friction cone, where it looks like more contact"
+    if not edges and slides_of(problem, search.parts):
+        return "a slide under a known force tells it only where the friction coefficient is known too"
+    return ""
+
+
 def _result(found: Estimate, search: Search) -> Identification:
     problem, missing = search.problem, found.directions.missing
     spatial, model = problem.axis is None, problem.model
@@ -118,7 +137,7 @@ def _result(found: Estimate, search: Search) -> Identification:
         Parameter(name, "1/kg" if name == "1/m" else "m^2", float(value), float(deviation), bool(share < HIDDEN))
         for name, value, deviation, share in zip(names, found.parameters, deviations, hidden, strict=True)
     ]
-    words = unobservable(missing, found.parameters, found.scale, spatial, model.with_mass, model.wrench.present)
+    words = unobservable(missing, found.parameters, found.scale, spatial, model.with_mass, _why_no_mass(search, found))
     contacts = findings(problem, found, search.parts, search.places, search.notes)
     return Identification(
         parameters, words, found.directions.rank, model.unknowns, contacts, problem.noise, search.flights, problem.axis,

@@ -11,6 +11,7 @@ __all__ = ["parameter_names", "unobservable"]
 
 PART = 1e-6  # a component of a direction below this is none
 FLAT = 0.02  # an eigenvalue below this part of the largest is zero: noise turns the directions a little
+NO_TRACE = "the known wrench leaves no trace in the motion that is large against the noise"
 ALIKE = 1e-3  # of 1 - |cos|: two directions that noise may tell apart
 
 
@@ -21,7 +22,7 @@ def parameter_names(spatial: bool, with_mass: bool) -> list[str]:
 
 
 def unobservable(
-    missing: Array, parameters: Array, scale: Array, spatial: bool, with_mass: bool, wrench: bool
+    missing: Array, parameters: Array, scale: Array, spatial: bool, with_mass: bool, reason: str = ""
 ) -> list[str]:
     """One sentence for each thing that is not identified.
 
@@ -31,7 +32,7 @@ def unobservable(
         scale: size of each parameter, [p].
         spatial: six inertia parameters, else one.
         with_mass: 1/m is the last parameter.
-        wrench: an external force or torque is known.
+        reason: why the mass is not identified, where more is known of it than that.
     """
     found = [] if with_mass else [_no_wrench()]
     if not len(missing):
@@ -42,10 +43,10 @@ def unobservable(
         mass[-1] = 1.0
         rest, only = _without(missing, mass)
         if only:
-            found.append(_mass_unknown(wrench))
+            found.append(f"mass is not identifiable: {reason or NO_TRACE}")
             missing = rest
     if with_mass and len(missing) and abs(missing[:, -1]).max() > PART:
-        return [*found, *_mixed(missing, parameters, scale, spatial)]
+        return [*found, *_mixed(missing, parameters, scale, spatial, reason)]
     inertia = missing[:, :inertia_count] * scale[:inertia_count]
     return [*found, *(_inertia_sentences(inertia, parameters[:inertia_count]) if len(inertia) else [])] if spatial else [
         *found,
@@ -61,15 +62,6 @@ def _no_wrench() -> str:
     )
 
 
-def _mass_unknown(wrench: bool) -> str:
-    reason = (
-        "the known wrench leaves no trace in the motion that is large against the noise"
-        if wrench
-        else "no wrench is known"
-    )
-    return f"mass is not identifiable: {reason}"
-
-
 def _without(missing: Array, direction: Array) -> tuple[Array, bool]:
     """The directions without a given one, and whether it lay among them."""
     inside = missing.T @ (missing @ direction)
@@ -80,7 +72,7 @@ def _without(missing: Array, direction: Array) -> tuple[Array, bool]:
     return right[values > 0.5], True
 
 
-def _mixed(missing: Array, parameters: Array, scale: Array, spatial: bool) -> list[str]:
+def _mixed(missing: Array, parameters: Array, scale: Array, spatial: bool, reason: str) -> list[str]:
     """Directions in which mass and inertia move together."""
     ray = parameters / scale
     inside = missing.T @ (missing @ ray)
@@ -89,8 +81,9 @@ def _mixed(missing: Array, parameters: Array, scale: Array, spatial: bool) -> li
             "mass is not identifiable: the torque tells I0 = m (I0/m) alone, and neither a force nor an impact tells the mass"
         ]
     names = parameter_names(spatial, with_mass=True)
+    why = f"; {reason}" if reason else ""
     return [
-        f"mass and inertia cannot be told apart: {_combination(line, names)} is free (one equation for two unknowns)"
+        f"mass and inertia cannot be told apart: {_combination(line, names)} is free (one equation for two unknowns{why})"
         for line in missing
     ]
 

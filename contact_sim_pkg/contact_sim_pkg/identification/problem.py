@@ -25,6 +25,8 @@ class Contact(NamedTuple):
     begin: float  # [s]; where the flight before ends
     end: float  # [s]; equal to begin for an impact
     point: int  # of the shape
+    turns: bool = True  # its moment counts: it acts at this point alone
+    slides: bool = False  # the known friction counts
 
 
 class Problem(NamedTuple):
@@ -39,11 +41,20 @@ class Problem(NamedTuple):
     noise: Noise
     axis: Array | None  # normal of the plane of motion in world axes; None in space
     step_noise: Noise | None = None  # of flights of one sample, where it differs: the error of a step counts as noise
+    friction: float | None = None  # known coefficient
 
     @property
     def rows(self) -> Array:
         """What a balance is projected on: [1, 3] in the plane, [3, 3] in space."""
         return numpy.eye(3) if self.axis is None else self.axis[None]
+
+    @property
+    def tangents(self) -> Array:
+        """Directions along the ground, of length 1: [1, 3] in the plane of motion, [2, 3] in space."""
+        normal = self.ground.normal
+        first = numpy.cross(numpy.eye(3)[abs(normal).argmin()] if self.axis is None else self.axis, normal)
+        first = first / numpy.linalg.norm(first)
+        return first[None] if self.axis is not None else numpy.stack([first, numpy.cross(normal, first)])
 
 
 def spatial_basis() -> Array:

@@ -13,6 +13,7 @@ from .noise import from_residuals, limited
 from .problem import Contact, Problem
 from .rotation import Array
 from .segments import LONGEST_IMPACT, SHORTEST_FLIGHT, Segments
+from .slides import with_slides
 from .stacked import Estimate, estimate
 from .states import Noise
 
@@ -41,11 +42,11 @@ class Search:
             if last - first + 1 > LONGEST_IMPACT:
                 self.notes[place] = in_words(self.problem, first, last)
         if not self.problem.flights:
-            self.problem = with_steps(self.problem, self.parts)
+            self.problem = with_slides(with_steps(self.problem, self.parts), self.parts)
         if not self.problem.flights:
             raise IdentificationError(
                 f"there is no flight of {SHORTEST_FLIGHT} samples or more between contacts; record faster, or a motion that "
-                "leaves the ground"
+                "leaves the ground, or give the friction coefficient and the force of a slide"
             )
         if self.problem.contacts:
             return estimate(self.problem, self.start, self.scale)
@@ -160,8 +161,8 @@ class Search:
         return ends.get(first), begins.get(last + 1)
 
     def _with_steps(self, found: Estimate) -> Estimate:
-        """Add the steps of lasting contacts where impacts and flights do not tell everything."""
-        wider = with_steps(self.problem, self.parts)
+        """Add steps of lasting contacts, and of slides with known friction, where impacts and flights do not tell all."""
+        wider = with_slides(with_steps(self.problem, self.parts), self.parts)
         if len(wider.contacts) == len(self.problem.contacts):
             return found
         self.problem = wider

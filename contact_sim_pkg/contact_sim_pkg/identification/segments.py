@@ -1,8 +1,8 @@
 """Flights and contacts of a sampled motion.
 
 An interval between two samples holds a contact where `v2 - v1 + h g z - kappa int F dt` is larger than noise explains (the
-0.9999 quantile of chi-square) and the body is close to the ground, or is far larger. Neighbouring ones are one contact; more than
-three in a row are a lasting one.
+0.9999 quantile of chi-square) and the body is close to the ground, or is far larger; or where the body stays on the ground.
+Neighbouring ones are one contact; more than three in a row are a lasting one.
 """
 
 from __future__ import annotations
@@ -12,17 +12,27 @@ from typing import NamedTuple
 import numpy
 from scipy.stats import chi2
 
-from .geometry import UP, Ground, Shape, gaps
+from .geometry import UP, Ground, Shape, gaps, size
 from .rotation import Array
 from .states import BodyStates
 from .wrench import ExternalWrench
 
-__all__ = ["LONGEST_IMPACT", "SHORTEST_FLIGHT", "Segments", "inverse_mass_guess", "segments", "velocity_noise"]
+__all__ = [
+    "LONGEST_IMPACT",
+    "SHORTEST_FLIGHT",
+    "Segments",
+    "gap_doubt",
+    "inverse_mass_guess",
+    "segments",
+    "velocity_noise",
+]
 
 QUANTILE = 0.9999
 LONGEST_IMPACT = 3  # intervals
 SHORTEST_FLIGHT = 3  # samples
 CERTAIN = 25.0  # times the limit: a jump that counts as a contact wherever it is, so that no flight runs over it
+SIGMAS = 6.0
+TOUCH = 1e-9  # of the body's size: a gap that counts as none
 FLOOR = 1e-9  # of the largest speed: what counts as noise at least
 MEDIAN_OF_GAUSS = 0.6744897501960817
 
@@ -48,12 +58,16 @@ def velocity_noise(states: BodyStates) -> float:
     return float(numpy.median(abs(change) / spread, axis=0).max() / MEDIAN_OF_GAUSS)
 
 
-def inverse_mass_guess(states: BodyStates, lifts: Array, wrench: ExternalWrench, gravity: float) -> float:
-    """1/m in [1/kg] from the intervals off the ground (`lifts` [n], smallest gaps): median of e.f/f.f; 0 without a force."""
+def inverse_mass_guess(
+    states: BodyStates, lifts: Array, wrench: ExternalWrench, gravity: float, doubt: float = 0.0
+) -> float:
+    """1/m in [1/kg] from the intervals off the ground: median of e.f/f.f; 0 without a force, or where all are on the ground.
+
+    `lifts` [n]: smallest gaps, known to `doubt`, in [m].
+    """
     pushes = _pushes(states, wrench)
     strength = numpy.einsum("ni,ni->n", pushes, pushes)
-    free = numpy.minimum(lifts[1:], lifts[:-1]) > 0.02 * max(float(numpy.ptp(lifts)), 1e-300)
-    chosen = (strength > 0.0) & (free if free.any() else True)
+    chosen = (strength > 0.0) & (numpy.minimum(lifts[1:], lifts[:-1]) > max(doubt, 0.02 * float(numpy.ptp(lifts))))
     if not chosen.any():
         return 0.0
     jumps = _jumps(states, gravity)
@@ -67,7 +81,7 @@ def segments(
     wrench: ExternalWrench,
     gravity: float,
     noise: float,
-    position_noise: float = 0.0,
+    place_noise: tuple[float, float] = (0.0, 0.0),
 ) -> Segments:
     """Split the motion.
 
@@ -78,15 +92,33 @@ def segments(
         wrench: known force and torque.
         gravity: [m/s^2], downward.
         noise: of one velocity component, [m/s].
-        position_noise: of one position component, [m].
+        place_noise: of one component of position [m] and of rotation [rad].
     """
     lifts = gaps(shape, ground, states.position, states.rotation).min(axis=1)
-    inverse_mass = inverse_mass_guess(states, lifts, wrench, gravity)
+    doubt = gap_doubt(shape, place_noise)
+    inverse_mass = inverse_mass_guess(states, lifts, wrench, gravity, doubt)
     jumps = _jumps(states, gravity) - inverse_mass * _pushes(states, wrench)
     deviation = max(noise, FLOOR * float(abs(states.velocity).max()))
     strength = numpy.einsum("ni,ni->n", jumps, jumps) / (chi2.ppf(QUANTILE, 3) * 2.0 * deviation**2 + 1e-300)
-    near = _near(states, lifts, ground, position_noise)
-    return Segments(*_runs((strength > 1.0) & (near | (strength > CERTAIN))))
+    near = _near(states, lifts, ground, place_noise[0])
+    return Segments(*_runs((strength > 1.0) & (near | (strength > CERTAIN)) | _down(states, lifts, gravity, doubt)))
+
+
+def gap_doubt(shape: Shape, place_noise: tuple[float, float]) -> float:
+    """How large a gap noise can feign, [m]."""
+    length = size(shape)
+    return SIGMAS * (place_noise[0] + length * place_noise[1]) + TOUCH * length
+
+
+def _down(states: BodyStates, lifts: Array, gravity: float, doubt: float) -> Array:
+    """Intervals in which the body stays on the ground for longer than a hop that noise could hide would last."""
+    low = lifts <= doubt
+    joined = low[1:] & low[:-1]
+    edges = numpy.flatnonzero(numpy.diff(numpy.concatenate([[0], joined.astype(int), [0]])))
+    longest = numpy.sqrt(8.0 * doubt / gravity) if gravity > 0.0 else numpy.inf
+    for first, last in edges.reshape(-1, 2):
+        joined[first:last] = states.time[last] - states.time[first] > longest
+    return numpy.asarray(joined)
 
 
 def _near(states: BodyStates, lifts: Array, ground: Ground, position_noise: float) -> Array:

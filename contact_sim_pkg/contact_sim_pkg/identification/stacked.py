@@ -15,6 +15,7 @@ import numpy
 from scipy.linalg import block_diag, cholesky, solve_triangular
 
 from .balance import Balance, Side, balance
+from .coulomb import friction_balance
 from .errors import IdentificationError
 from .flight import FlightState, Motion, motion, moved
 from .problem import Contact, Problem, start_of
@@ -165,14 +166,17 @@ class _Linear:
     def _balances(self) -> None:
         """Whiten the balances of all contacts: `white e + regressor dp = rest`, rows of `white` orthonormal."""
         problem = self.problem
-        rows, width = len(problem.rows), 12 * len(self._condensed)
-        total = rows * len(problem.contacts)
+        balances = [
+            _balance(problem, contact, sides, self.parameters)
+            for contact, sides in zip(problem.contacts, self.sides, strict=True)
+        ]
+        total, width = sum(len(found.value) for found in balances), 12 * len(self._condensed)
         errors, regressor = numpy.zeros((total, width)), numpy.zeros((total, problem.model.unknowns))
-        rest = numpy.zeros(total)
-        for place, (contact, sides) in enumerate(zip(problem.contacts, self.sides, strict=True)):
-            found = balance(*sides, self.parameters, problem.model, problem.shape, problem.ground, contact.point)
-            lines = slice(rows * place, rows * (place + 1))
+        rest, place = numpy.zeros(total), 0
+        for contact, found in zip(problem.contacts, balances, strict=True):
+            lines = slice(place, place + len(found.value))
             self._eliminate(contact, found, errors[lines], regressor[lines], rest[lines])
+            place = lines.stop
         if total:
             gram = errors @ errors.T
             sizes = numpy.sqrt(numpy.diag(gram))
@@ -182,15 +186,25 @@ class _Linear:
 
     def _eliminate(self, contact: Contact, found: Balance, errors: Array, regressor: Array, rest: Array) -> None:
         """Put one balance into its rows, the states replaced by those of the flights."""
-        project = self.problem.rows
-        regressor += project @ found.by_parameters
-        rest -= project @ found.value
+        regressor += found.by_parameters
+        rest -= found.value
         for number, by_state in ((contact.before, found.by_before), (contact.after, found.by_after)):
             flight = self._condensed[number]
-            through = solve_triangular(flight.triangle, (project @ by_state).T, trans="T").T
+            through = solve_triangular(flight.triangle, by_state.T, trans="T").T
             errors[:, 12 * number : 12 * number + 12] += through
             regressor -= through @ flight.coupling
             rest -= through @ flight.rest
+
+
+def _balance(problem: Problem, contact: Contact, sides: tuple[Side, Side], parameters: Array) -> Balance:
+    """What a contact says: of the moment, of the known friction, or of both, one below the other."""
+    parts = []
+    if contact.turns:
+        found = balance(*sides, parameters, problem.model, problem.shape, problem.ground, contact.point)
+        parts.append(Balance(*(problem.rows @ field for field in found)))
+    if contact.slides:
+        parts.append(friction_balance(problem, contact, sides, parameters))
+    return Balance(*(numpy.concatenate(fields) for fields in zip(*parts, strict=True)))
 
 
 def _condensed(whole: Motion, rest: Array, weights: Array, *, standing: bool) -> _Condensed:

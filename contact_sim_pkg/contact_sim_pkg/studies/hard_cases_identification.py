@@ -86,7 +86,7 @@ def two_impacts_named() -> Finding:
     alike = numpy.sum(matrix * expected) / numpy.linalg.norm(matrix) / numpy.linalg.norm(expected)
     named = any(
         "body axis" in words
-        for words in unobservable(found.directions.missing, found.parameters, found.scale, True, False, False)
+        for words in unobservable(found.directions.missing, found.parameters, found.scale, True, False)
     )
     return at_most(1.0 - abs(float(alike)) if named else numpy.inf, 1e-9)
 
