@@ -8,7 +8,7 @@ import numpy
 
 from contact_sim_pkg.core.jit import entry
 from contact_sim_pkg.core.parameters import Vector
-from contact_sim_pkg.core.rigid.face import FACE, face_impulses
+from contact_sim_pkg.core.rigid.face import face_impulses, make_face_workspace
 from contact_sim_pkg.core.rigid.motion import apply_impulse, contact_velocities
 from contact_sim_pkg.core.rigid.parameters import RULE_NAMES, PlanarContact
 from contact_sim_pkg.core.rigid.planar_impact import impact_impulse
@@ -99,7 +99,7 @@ def _solve_times() -> list[Measured]:
         lambda: _pairs(face.J, face.W, falling, numpy.full(2, 0.5), work, planar), SOLVES, 0.6,
     )  # fmt: skip
     J = contact_rows(numpy.array([[x, y, -0.05] for x in (-0.1, 0.1) for y in (-0.1, 0.1)]), SPACE)
-    W, room, after = numpy.diag([1.0, 1.0, 1.0, 240.0, 240.0, 150.0]), numpy.zeros((7, FACE)), numpy.zeros((SOLVES, 6))
+    W, room, after = numpy.diag([1.0, 1.0, 1.0, 240.0, 240.0, 150.0]), make_face_workspace(4), numpy.zeros((SOLVES, 6))
     for name, least, most in (("resting", 0.0, 0.002), ("sliding", 0.01, 0.02)):
         before = numpy.zeros((SOLVES, 6))
         angle, slip = generator.uniform(0.0, 2.0 * numpy.pi, SOLVES), generator.uniform(least, most, SOLVES)

@@ -8,7 +8,7 @@ from tests.core.rigid.contact_case import PLANE, SPACE, contact_rows, random_cas
 
 from contact_sim_pkg.core.jit import entry
 from contact_sim_pkg.core.rigid.contact_solver import NEWTON
-from contact_sim_pkg.core.rigid.face import FACE, face_impulses
+from contact_sim_pkg.core.rigid.face import face_impulses, make_face_workspace
 from contact_sim_pkg.core.rigid.planar_pair import make_pair_workspace, pair_impulses
 from contact_sim_pkg.core.rigid.problem import INACTIVE
 from contact_sim_pkg.core.rigid.single import single_impulses
@@ -29,7 +29,7 @@ def closed_forms(kind, J, W, velocity, q, friction, face, pair, c):
 def closed(kind, J, W, v, friction):
     contacts = len(friction)
     c = numpy.zeros(len(J))
-    residual = closed_forms(kind, J, W, v, J @ v, friction, numpy.zeros((contacts + 3, FACE)), make_pair_workspace(), c)
+    residual = closed_forms(kind, J, W, v, J @ v, friction, make_face_workspace(contacts), make_pair_workspace(), c)
     return c, residual
 
 

@@ -18,7 +18,7 @@ from ..jit import entry, piece
 from ..parameters import Vector
 from .body import Ground, Motion, RigidBody
 from .coast import NO_FACE, rests, slide_straight, straight_face
-from .face import FACE, face_impulses
+from .face import face_impulses, make_face_workspace
 from .flight import fly_to_touch, is_clear
 from .held import (
     landing_part,
@@ -54,7 +54,7 @@ class MarchWorkspace(NamedTuple):
 
     clock: Vector  # [CLOCKS]: time in the interval, interval, time of rest from the start, energy lost, residual, ...
     counts: numpy.typing.NDArray[numpy.int64]  # [COUNTS]
-    face: Vector  # [points + 3, FACE]
+    face: Vector  # `make_face_workspace`
     pair: PairWorkspace
     before: Vector  # [points]
     after: Vector  # [points]
@@ -64,7 +64,7 @@ def make_march_workspace(points: int) -> MarchWorkspace:
     """Work space of a body of ``points`` contacts."""
     zeros = numpy.zeros
     return MarchWorkspace(
-        zeros(CLOCKS), zeros(COUNTS, numpy.int64), zeros((points + 3, FACE)), make_pair_workspace(), zeros(points),
+        zeros(CLOCKS), zeros(COUNTS, numpy.int64), make_face_workspace(points), make_pair_workspace(), zeros(points),
         zeros(points),
     )  # fmt: skip
 

@@ -8,7 +8,7 @@ from typing import NamedTuple
 import numpy
 import numpy.typing
 
-from ..jit import kernel
+from ..jit import kernel, piece
 from ..parameters import Vector
 from .body import Ground, RigidBody, contact_count, contact_rows, fill_inverse_inertia
 from .problem import DISC, INACTIVE, PLANE, ContactProblem, fill_delassus, make_problem
@@ -89,16 +89,35 @@ def take_part(body, work, least):
             A[row, row] = 1.0
 
 
+@piece
+def _push_in_plane(J, W, c, velocity):
+    """`apply_impulse` of one body in the plane."""
+    x, y, turn = 0.0, 0.0, 0.0
+    for row in range(c.shape[0]):
+        x, y, turn = x + J[row, 0] * c[row], y + J[row, 1] * c[row], turn + J[row, 2] * c[row]
+    for k in range(3):
+        velocity[k] = velocity[k] + W[k, 0] * x + W[k, 1] * y + W[k, 2] * turn
+
+
+@piece
+def _push_in_space(J, W, c, velocity):
+    """`apply_impulse` of one body in space."""
+    x, y, z, a, b, d = 0.0, 0.0, 0.0, 0.0, 0.0, 0.0
+    for row in range(c.shape[0]):
+        p = c[row]
+        x, y, z = x + J[row, 0] * p, y + J[row, 1] * p, z + J[row, 2] * p
+        a, b, d = a + J[row, 3] * p, b + J[row, 4] * p, d + J[row, 5] * p
+    for k in range(6):
+        velocity[k] = velocity[k] + W[k, 0] * x + W[k, 1] * y + W[k, 2] * z + W[k, 3] * a + W[k, 4] * b + W[k, 5] * d
+
+
 @kernel
 def apply_impulse(J, W, c, velocity):
-    """``v += W J' c``."""
-    n = velocity.shape[0]
-    for m in range(n):
-        wrench = 0.0
-        for row in range(c.shape[0]):
-            wrench += J[row, m] * c[row]
-        for k in range(n):
-            velocity[k] += W[k, m] * wrench
+    """``v += W J' c`` of one body."""
+    if velocity.shape[0] == 3:
+        _push_in_plane(J, W, c, velocity)
+    else:
+        _push_in_space(J, W, c, velocity)
 
 
 @kernel
