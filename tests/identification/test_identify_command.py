@@ -124,6 +124,8 @@ def test_bad_input_ends_with_one_sentence(tmp_path, capsys):
     assert "line 2" in refused(capsys, bag, "--hull", tmp_path / "corners.csv")
     (tmp_path / "text.mcap").write_text("this is no bag")
     assert "cannot be read" in refused(capsys, tmp_path / "text.mcap", *BOX)
+    (tmp_path / "folder").mkdir()
+    assert "no metadata.yaml and 0 files" in refused(capsys, tmp_path / "folder", *BOX)
 
 
 def test_a_pose_without_its_twist_is_refused(tmp_path, capsys):

@@ -13,6 +13,8 @@ from contact_sim_pkg.identification.modes import Mode
 
 __all__ = ["contact_rows", "derived", "facts", "parameter_rows"]
 
+SIGMAS = 3.0  # a bound of friction below this many standard deviations says nothing
+
 
 def parameter_rows(found: Identification) -> list[dict[str, Any]]:
     """Name, value, standard deviation, unit and whether it is identified; what follows from the parameters comes last."""
@@ -78,7 +80,7 @@ def _contact(contact: ContactFinding, mass: float | None) -> dict[str, Any]:
     row["± c_n/m"] = contact.normal_deviation
     row["c_t/m [m/s]"] = None if mode is None else mode.tangential
     row["± c_t/m"] = contact.tangential_deviation
-    row["friction"] = None if mode is None else _friction(mode)
+    row["friction"] = None if mode is None else _friction(mode, contact)
     row["± friction"] = contact.friction_deviation
     row["Newton's e"] = None if mode is None else mode.newton_restitution
     if mass is not None:
@@ -88,11 +90,12 @@ def _contact(contact: ContactFinding, mass: float | None) -> dict[str, Any]:
     return row
 
 
-def _friction(mode: Mode) -> float | str | None:
-    """mu where the contact slid straight on, else the bound that the impulse leaves."""
-    if mode.friction is not None or mode.friction_at_least is None:
+def _friction(mode: Mode, contact: ContactFinding) -> float | str | None:
+    """mu where the contact slid straight on, else the bound that the impulse leaves, if it says anything."""
+    bound, spread = mode.friction_at_least, contact.friction_deviation or 0.0
+    if mode.friction is not None or bound is None or bound <= SIGMAS * spread:
         return mode.friction
-    return f">= {mode.friction_at_least:.3g}"
+    return f">= {bound:.3g}"
 
 
 def facts(found: Identification) -> dict[str, Any]:
@@ -105,6 +108,8 @@ def facts(found: Identification) -> dict[str, Any]:
         "converged": found.converged,
         "parameters": parameter_rows(found),
         "not_identifiable": found.unobservable,
+        "doubts": found.doubts,
+        "misfit": found.estimate.misfit,
         "contacts": [_contact_facts(contact) for contact in found.contacts],
         "noise": {
             "position_m": found.noise.position, "rotation_rad": found.noise.rotation,

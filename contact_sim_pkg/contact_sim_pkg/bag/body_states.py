@@ -1,24 +1,21 @@
 """States of a rigid body from a bag: ours (`bench/motion`), or anyone's with Odometry, or PoseStamped and TwistStamped.
 
-Foreign bags are read by rosbags: MCAP or SQLite of ROS 2, and ROS 1. The twist of an Odometry is in body axes, as its
+Foreign bags are read as `any_bag.py` says. The twist of an Odometry is in body axes, as its
 definition says; that of a TwistStamped is in the frame that its header names.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 from pathlib import Path
 from typing import Any, Literal, NamedTuple
 
 import numpy
 from numpy.typing import NDArray
-from rosbags.highlevel import AnyReader, AnyReaderError
-from rosbags.interfaces import Connection
-from rosbags.typesys import Stores, get_typestore
 
 from contact_sim_pkg.identification.rotation import exponential, from_quaternion
 from contact_sim_pkg.identification.states import BodyStates
 
+from .any_bag import AnyBag, use_bag
 from .encoding import SECOND
 from .errors import BagError
 from .messages import decode_motion, stamp_of
@@ -52,6 +49,7 @@ class RecordedStates(NamedTuple):
 
     states: BodyStates
     origin: int  # [ns], stamp of the first sample
+    notes: tuple[str, ...] = ()  # what of the bag could not be read, one line each
 
 
 class WrenchSamples(NamedTuple):
@@ -79,21 +77,17 @@ def read_body_states(
     own = _own(path)
     if own is not None and topic in (None, MOTION, f"/{MOTION}"):
         return bench_states(own)
-    try:
-        with AnyReader([path], default_typestore=get_typestore(Stores.ROS2_JAZZY)) as reader:
-            return _foreign(reader, path, topic, twist_topic, twist_axes)
-    except (AnyReaderError, FileNotFoundError) as error:
-        raise BagError(f"the bag {path} cannot be read: {error}; give its directory or file") from None
+    return use_bag(path, lambda bag: _foreign(bag, topic, twist_topic, twist_axes))
 
 
 def read_wrench(path: Path, topic: str, origin: int) -> WrenchSamples:
     """The wrench of a WrenchStamped topic, its time counted from `origin` [ns]; BagError where there is none."""
-    try:
-        with AnyReader([path], default_typestore=get_typestore(Stores.ROS2_JAZZY)) as reader:
-            row = _choose(reader, path, topic, (WRENCH,), "--force-topic")
-            rows = [(_stamp(message), message.wrench) for message in _messages(reader, row)]
-    except (AnyReaderError, FileNotFoundError) as error:
-        raise BagError(f"the bag {path} cannot be read: {error}; give its directory or file") from None
+    rows = use_bag(
+        path,
+        lambda bag: [
+            (_stamp(message), message.wrench) for message in bag.read(_choose(bag, topic, (WRENCH,), "--force-topic"))
+        ],
+    )
     time = (numpy.array([stamp for stamp, _ in rows], dtype=numpy.int64) - origin) / SECOND
     return WrenchSamples(time, _vectors([w.force for _, w in rows]), _vectors([w.torque for _, w in rows]))
 
@@ -123,7 +117,7 @@ def bench_states(bag: Bag) -> RecordedStates:
         [[True], numpy.diff(time) > 0.0]
     )  # the last sample of a block may be the first of the next
     states = BodyStates(time, place, exponential(turn), _spread(velocity, rows[:3]), _spread(velocity, rows[3:]))
-    return RecordedStates(BodyStates(*(field[kept] for field in states)), origin)
+    return RecordedStates(BodyStates(*(field[kept] for field in states)), origin, tuple(bag.notes))
 
 
 def _coordinates(names: tuple[str, ...], path: Path) -> list[int | None]:
@@ -159,35 +153,36 @@ def _spread(values: Array, rows: list[int | None]) -> Array:
 
 def _own(path: Path) -> Bag | None:
     """The bag, if it is one of ours."""
-    if not path.exists():
-        raise BagError(f"there is no bag {path}; give the directory or the file of a bag")
     try:
-        bag = open_bag(path)
+        bag = open_bag(path, skip_bad=True)
     except BagError:
         return None
     return bag if MOTION in bag else None
 
 
-def _foreign(
-    reader: AnyReader, path: Path, topic: str | None, twist_topic: str | None, twist_axes: TwistAxes
-) -> RecordedStates:
-    row = _choose(reader, path, topic, (ODOMETRY, POSE), "--topic")
-    messages = list(_messages(reader, row))
-    if not messages:
-        raise BagError(f"{row.topic} of {path} holds no message")
+def _foreign(bag: AnyBag, topic: str | None, twist_topic: str | None, twist_axes: TwistAxes) -> RecordedStates:
+    name = _choose(bag, topic, (ODOMETRY, POSE), "--topic")
+    messages = _all(bag, name)
     time = [_stamp(message) for message in messages]
-    if row.msgtype == ODOMETRY:
+    if bag.topics[name] == ODOMETRY:
         poses, twists = [message.pose.pose for message in messages], [message.twist.twist for message in messages]
         turning = twist_axes != "world"
     else:
         poses = [message.pose for message in messages]
-        other = list(_messages(reader, _choose(reader, path, twist_topic, (TWIST,), "--twist-topic")))
-        pairs = _paired(time, [_stamp(message) for message in other], row.topic)
+        other = _all(bag, _choose(bag, twist_topic, (TWIST,), "--twist-topic"))
+        pairs = _paired(time, [_stamp(message) for message in other], name)
         time, poses = [time[first] for first, _ in pairs], [poses[first] for first, _ in pairs]
         twists = [other[second].twist for _, second in pairs]
         named = other[0].header.frame_id != messages[0].header.frame_id
         turning = twist_axes == "body" or (twist_axes == "auto" and named)
-    return _states(time, poses, twists, turning, row.topic)
+    return _states(time, poses, twists, turning, name)._replace(notes=tuple(bag.notes))
+
+
+def _all(bag: AnyBag, topic: str) -> list[Any]:
+    messages = list(bag.read(topic))
+    if not messages:
+        raise BagError(f"{topic} of {bag.path} holds no message")
+    return messages
 
 
 def _states(time: list[int], poses: list[Any], twists: list[Any], turning: bool, topic: str) -> RecordedStates:
@@ -233,29 +228,23 @@ def _paired(first: list[int], second: list[int], topic: str) -> list[tuple[int, 
     return pairs
 
 
-def _choose(reader: AnyReader, path: Path, topic: str | None, types: tuple[str, ...], option: str) -> Connection:
-    """The connection of a topic, or the only one of the types; BagError with what the bag has."""
-    rows = {row.topic: row for row in reader.connections}
+def _choose(bag: AnyBag, topic: str | None, types: tuple[str, ...], option: str) -> str:
+    """The name of a topic, or the only one of the types; BagError with what the bag has."""
     kinds = " or ".join(name.split("/")[-1] for name in types)
-    fitting = [name for name, row in rows.items() if row.msgtype in types]
+    fitting = [name for name, kind in bag.topics.items() if kind in types]
     if topic is not None:
-        name = topic if topic in rows else f"/{topic}"
-        if name not in rows:
-            raise BagError(f"{path} has no topic {topic}; of {kinds} it has {', '.join(fitting) or 'none'}")
-        if rows[name].msgtype not in types:
-            raise BagError(f"{name} of {path} is of {rows[name].msgtype}; {option} needs {kinds}")
-        return rows[name]
-    preferred = [name for name in fitting if rows[name].msgtype == types[0]] or fitting
+        name = topic if topic in bag.topics else f"/{topic}"
+        if name not in bag.topics:
+            raise BagError(f"{bag.path} has no topic {topic}; of {kinds} it has {', '.join(fitting) or 'none'}")
+        if bag.topics[name] not in types:
+            raise BagError(f"{name} of {bag.path} is of {bag.topics[name]}; {option} needs {kinds}")
+        return name
+    preferred = [name for name in fitting if bag.topics[name] == types[0]] or fitting
     if len(preferred) != 1:
         what = f"several topics of {kinds} ({', '.join(preferred)}); choose one with {option}"
         none = f"no topic of {kinds}, from which the motion of a body could be read"
-        raise BagError(f"{path} has {what if preferred else none}")
-    return rows[preferred[0]]
-
-
-def _messages(reader: AnyReader, row: Connection) -> Iterator[Any]:
-    for connection, _, data in reader.messages(connections=[row]):
-        yield reader.deserialize(data, connection.msgtype)
+        raise BagError(f"{bag.path} has {what if preferred else none}")
+    return preferred[0]
 
 
 def _stamp(message: Any) -> int:

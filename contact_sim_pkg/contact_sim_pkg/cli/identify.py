@@ -84,6 +84,8 @@ def command(
     wrench = _wrench(bag, recorded.origin, force, torque, force_topic)
     spreads = None if noise is None else Noise(*noise)
     setup = Setup(shape, plane(normal, ground), wrench, gravity, spreads, friction=friction)
+    for note in recorded.notes:
+        click.echo(f"bench: {note}", err=True)
     found = identify(recorded.states, setup)
     if plot is not None:
         from contact_sim_pkg.analysis.identification_plot import write_plot
@@ -131,8 +133,9 @@ def _sections(found: Identification) -> list[Section]:
 
     where = "motion in a plane" if found.axis is not None else "motion in space"
     title = f"Parameters: {where}, {found.flights} flights, rank {found.rank} of {found.unknowns} unknowns"
-    note = "" if found.converged else "the search has not converged: the numbers are not to be trusted"
-    parts = [Section(title, [_digits(row) for row in parameter_rows(found)], note)]
+    parts = [Section(title, [_digits(row) for row in parameter_rows(found)])]
+    if found.doubts:
+        parts.append(Section("Doubts", [{"what speaks against the numbers": line} for line in found.doubts]))
     if found.unobservable:
         parts.append(Section("Not identifiable", [{"what and why": line} for line in found.unobservable]))
     noise = found.noise

@@ -8,6 +8,7 @@ import numpy
 
 from .contacts import ContactFinding, findings
 from .coulomb import along_the_cone
+from .doubts import doubts
 from .errors import IdentificationError
 from .flight import Model
 from .geometry import Ground, Shape, flattened, gaps, plane
@@ -55,6 +56,7 @@ class Identification(NamedTuple):
 
     parameters: list[Parameter]
     unobservable: list[str]
+    doubts: list[str]  # what speaks against the numbers
     rank: int
     unknowns: int
     contacts: list[ContactFinding]
@@ -139,7 +141,8 @@ def _result(found: Estimate, search: Search) -> Identification:
     ]
     words = unobservable(missing, found.parameters, found.scale, spatial, model.with_mass, _why_no_mass(search, found))
     contacts = findings(problem, found, search.parts, search.places, search.notes)
+    told = doubts(found, search.notes.values())
     return Identification(
-        parameters, words, found.directions.rank, model.unknowns, contacts, problem.noise, search.flights, problem.axis,
+        parameters, words, told, found.directions.rank, model.unknowns, contacts, problem.noise, search.flights, problem.axis,
         found.converged, found, problem,
     )  # fmt: skip

@@ -10,13 +10,14 @@ from .rotation import Array
 from .segments import LONGEST_IMPACT, Segments
 from .states import Noise
 
-__all__ = ["in_words", "with_steps"]
+__all__ = ["NO_FLIGHT", "in_words", "with_steps"]
 
 MOST = 60  # steps taken, evenly spread
 APART = 1e-3  # of the body's size: the next corner must be this much higher
 SIGMAS = 6.0
 HIGH = 0.1  # of the body's size: a gap that is no contact
 STILL = 1e-9  # of the largest speed: slip that counts as none
+NO_FLIGHT = "no flight"  # how a note begins on what cannot be a contact
 FEW = 0.05  # share of the samples that is passed over
 
 
@@ -45,8 +46,11 @@ def in_words(problem: Problem, first: int, last: int) -> str:
     states, noise, ground = problem.states, problem.noise, problem.ground
     samples = range(first + 1, last + 1)
     lift = float(numpy.median([_heights(problem, sample).min() for sample in samples]))
-    if lift > HIGH * size(problem.shape) + SIGMAS * noise.position:
-        return f"no flight, {lift:.3g} m above the ground: check gravity, the wrench, and the axes of the twist"
+    high = HIGH * size(problem.shape) + SIGMAS * noise.position
+    if lift < -high:
+        return f"{NO_FLIGHT}, {-lift:.3g} m below the ground: check the shape, its axes, and the ground"
+    if lift > high:
+        return f"{NO_FLIGHT}, {lift:.3g} m above the ground: check gravity, the wrench, and the axes of the twist"
     limit = SIGMAS * (noise.velocity + size(problem.shape) * noise.angular_velocity)
     slips = numpy.array([_slip(problem, sample) for sample in samples])
     floor = STILL * float(abs(states.velocity).max() + size(problem.shape) * abs(states.angular_velocity).max())

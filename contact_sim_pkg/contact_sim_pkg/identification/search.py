@@ -17,11 +17,13 @@ from .slides import with_slides
 from .stacked import Estimate, estimate
 from .states import Noise
 
-__all__ = ["Search"]
+__all__ = ["TOUCHES_NOTHING", "Search"]
 
 ROUNDS = 5
 SETTLED = 0.01  # change of the noise that ends the rounds, relative
 MISSED = 0.05  # of the way of an interval: how far two flights may miss each other at their impact
+TOUCHES = "touches"  # how a note begins on a contact that another round may use
+TOUCHES_NOTHING = f"{TOUCHES} nothing known"
 WORSE = 5.0  # times the noise of the others: what is no flight
 
 
@@ -105,7 +107,7 @@ class Search:
         contacts, self.places = [], []
         for place, (first, last) in enumerate(self.parts.contacts):
             before, after = self._neighbours(first, last)
-            if place in self.notes and not self.notes[place].startswith("touches"):
+            if place in self.notes and not self.notes[place].startswith(TOUCHES):
                 continue
             if before is None or after is None:
                 self.notes[place] = f"no flight of {SHORTEST_FLIGHT} samples before or after it"
@@ -127,10 +129,10 @@ class Search:
             self._gap_deviation(before),
         )  # fmt: skip
         if not touch.found:
-            self.notes[place] = f"touches nothing known: the lowest point is {touch.gap:.3g} m above the ground there"
+            self.notes[place] = f"{TOUCHES_NOTHING}: the lowest point is {touch.gap:.3g} m above the ground there"
             return None
         if touch.together > 1:
-            self.notes[place] = f"touches with {touch.together} corners at once: where its impulse acts is not known"
+            self.notes[place] = f"{TOUCHES} with {touch.together} corners at once: where its impulse acts is not known"
             return None
         miss = self._miss(found, before, after, touch.time, step)
         if miss:

@@ -112,7 +112,7 @@ def gap_doubt(shape: Shape, place_noise: tuple[float, float]) -> float:
 
 def _down(states: BodyStates, lifts: Array, gravity: float, doubt: float) -> Array:
     """Intervals in which the body stays on the ground for longer than a hop that noise could hide would last."""
-    low = lifts <= doubt
+    low = abs(lifts) <= doubt
     joined = low[1:] & low[:-1]
     edges = numpy.flatnonzero(numpy.diff(numpy.concatenate([[0], joined.astype(int), [0]])))
     longest = numpy.sqrt(8.0 * doubt / gravity) if gravity > 0.0 else numpy.inf

@@ -43,6 +43,10 @@ class Estimate(NamedTuple):
     residuals: list[Array]  # of each flight, unweighted: [n, 12]
     iterations: int
     converged: bool
+    misfit: (
+        float  # how far contacts and flights contradict each other, root mean square in standard deviations: about 1
+    )
+    freedom: int  # equations beyond the unknowns, of which `misfit` is the mean
 
 
 class _Condensed(NamedTuple):
@@ -84,7 +88,7 @@ def estimate(problem: Problem, start: Array, scale: Array, flights: list[FlightS
     spread, sensitivity = linear.state_covariance()
     return Estimate(
         parameters, linear.covariance(), linear.split, scale, states, linear.sides, spread, sensitivity,
-        linear.residuals, iterations, change < 1e-6,
+        linear.residuals, iterations, change < 1e-6, *linear.misfit(),
     )  # fmt: skip
 
 
@@ -144,6 +148,18 @@ class _Linear:
         kept = numpy.eye(len(inverse)) - self._white.T @ self._white
         coupling = numpy.concatenate([flight.coupling for flight in self._condensed])
         return inverse @ kept @ inverse.T, -inverse @ (coupling + self._white.T @ self._white_regressor)
+
+    def misfit(self) -> tuple[float, int]:
+        """Root mean square of what the parameters leave of all balances and flights, and how many equations are left over.
+
+        The last row of a flight's triangle is the noise of its samples, whatever the parameters are: it does not count.
+        """
+        squares, rows = float(self._white_rest @ self._white_rest), len(self._white_rest)
+        for flight in self._condensed:
+            squares += float(numpy.sum(flight.tail_rest[:-1] ** 2))
+            rows += max(0, len(flight.tail_rest) - 1)
+        freedom = max(0, rows - self.split.rank)
+        return float(numpy.sqrt(squares / freedom)) if freedom else 0.0, freedom
 
     def _flight(self, number: int, state: FlightState, links: Array) -> Motion:
         """Condense a flight; its motion at the times of its contacts."""

@@ -1,0 +1,43 @@
+"""What speaks against the numbers of an identification: contradictions that noise does not explain, contacts that make no sense."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+
+import numpy
+from scipy.stats import chi2
+
+from .lasting import NO_FLIGHT
+from .search import TOUCHES_NOTHING
+from .stacked import Estimate
+
+__all__ = ["doubts"]
+
+QUANTILE = 0.9999
+SLIGHT = 1e-6  # standard deviation over the size of a parameter, contradictions counted, below which they do not matter
+
+
+def doubts(found: Estimate, notes: Iterable[str]) -> list[str]:
+    """One sentence each; none where everything fits.
+
+    Args:
+        found: the estimate.
+        notes: of the contacts that are not used.
+    """
+    told, notes = [], list(notes)
+    if not found.converged:
+        told.append("the search has not converged: the numbers are not to be trusted")
+    spread = numpy.sqrt(numpy.diag(found.covariance)) / found.scale
+    limit = float(numpy.sqrt(chi2.ppf(QUANTILE, found.freedom) / found.freedom)) if found.freedom else numpy.inf
+    if found.misfit > limit and found.misfit * float(spread.max(initial=0.0)) > SLIGHT:
+        told.append(
+            f"contacts and flights contradict each other by {found.misfit:.3g} times what the noise explains: check the shape, the "
+            "ground, gravity, the wrench and the noise; the standard deviations are too small"
+        )
+    nothing = sum(note.startswith(TOUCHES_NOTHING) for note in notes)
+    if nothing:
+        told.append(f"{nothing} contacts touch nothing known: check the shape, its axes, and the ground")
+    strange = sum(note.startswith(NO_FLIGHT) for note in notes)
+    if strange:
+        told.append("the body does not move as a free one where it is off the ground: see the notes of the contacts")
+    return told
