@@ -155,6 +155,21 @@ def test_without_friction_the_tangents_are_left_alone():
     assert solution.flags == UNIQUE
 
 
+@pytest.mark.parametrize(("width", "facets", "seed"), [(PLANE, 0, 1), (SPACE, 4, 2), (SPACE, 8, 3)])
+def test_eight_contacts_at_any_height_are_solved_with_a_polyhedral_cone(width, facets, seed):
+    """Normals alike, so that a solution exists; one way of pivoting ends on a ray by rounding in some of a thousand."""
+    generator = numpy.random.default_rng(seed)
+    coordinates = 3 if width == PLANE else 6
+    for _ in range(400 if width == PLANE else 60):
+        J = contact_rows(generator.uniform(-1.0, 1.0, (8, width)) * 10.0 ** generator.uniform(-1.0, 1.0), width)
+        W = numpy.diag([1.0] * width + list(10.0 ** generator.uniform(-2.0, 2.0, coordinates - width)))
+        q = J @ generator.normal(size=coordinates)
+        friction = generator.choice([0.8, 5.0])
+        c, solution = solve(J, W, q, friction, width, facets)
+        assert solution.status == SOLVED
+        assert signorini_and_coulomb(J, W, q, c, friction, width, facets) <= RESIDUAL
+
+
 def test_a_body_wedged_between_two_walls_that_both_bounce_ends_with_a_named_status():
     """Two facing normals that both ask to separate: no impulse does that."""
     J, W = numpy.array([[1.0, 0.0], [0.0, 1.0], [-1.0, 0.0], [0.0, 1.0]]), numpy.eye(2)

@@ -69,3 +69,22 @@ def test_a_tumbling_box_comes_to_rest_on_four_corners(step):
     assert numpy.abs(motion.velocity).max() <= 1e-12
     assert stepped.impulse[::3].sum() == pytest.approx(0.1 * 2.0 * 9.81, rel=1e-9)
     assert sorted(stepped.impulse[::3] > 0.0) == [False] * 4 + [True] * 4
+
+
+@pytest.mark.parametrize("seed", [3, 8, 18, 30])
+def test_a_box_with_friction_of_one_and_more_tumbles_on_the_true_cone_to_the_end(seed):
+    """Edges whose ends drift apart by rounding squeeze themselves up to the cone: every step has a solution on a plane."""
+    generator = numpy.random.default_rng(seed)
+    friction, sides = float(generator.choice([1.0, 2.0, 5.0])), generator.uniform(0.05, 0.4, 3)
+    body = box(tuple(sides), 1.0, friction, float(generator.choice([0.0, 0.5])))
+    velocity = [*generator.normal(size=2), 0.0, *(5.0 * generator.normal(size=3))]
+    motion = placed(body, [0.0, 0.0, 0.5], velocity, rotation=Rotation.random(random_state=seed).as_matrix())
+    stepped = SteppedBody(body, slope(3), motion, 1e-3)
+    energy = math.inf
+    for _ in range(14):
+        assert stepped.advance(50) == SOLVED
+        assert stepped.residual <= 1e-10
+        v, spin = motion.velocity[:3], motion.rotation.T @ motion.velocity[3:]
+        now = float(v @ v + body.inertia @ spin**2 + 2.0 * 9.81 * motion.position[2])
+        assert now <= energy * (1.0 + 1e-3), "a fixed step keeps energy to first order"
+        energy = now

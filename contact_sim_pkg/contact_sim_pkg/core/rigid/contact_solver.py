@@ -15,16 +15,18 @@ from ..jit import entry, kernel, piece
 from ..parameters import Vector
 from ..vectors import copy_row
 from .cone_newton import GOOD, NewtonWorkspace, make_newton_workspace, solve_by_newton
+from .cone_path import candidates_by_path
 from .gauss_seidel import gauss_seidel
 from .lemke_contact import ContactLemke, make_contact_lemke, solve_by_lemke
 from .load_split import SplitWorkspace, make_split_workspace, split_load
 from .parameters import PlanarContact
 from .planar_impact import contact_modes
-from .problem import DISC, PLANE, ContactProblem, residual, velocity_scale
+from .problem import DISC, PLANE, SPACE, ContactProblem, residual, velocity_scale
 from .results import CONTACT_NOT_FINITE, NOT_CONVERGED, SOLVED, SPLIT_NOT_UNIQUE, UNIQUE
 from .slide_direction import slide_in_one_direction
 
 MODES, GAUSS_SEIDEL, LEMKE, NEWTON = 0, 1, 2, 3
+REFINE = 4  # Newton's method alone, from the impulses that are given
 SOLVER_NAMES = {"modes": MODES, "gauss_seidel": GAUSS_SEIDEL, "lemke": LEMKE, "newton": NEWTON}
 START_FACETS = 8  # of the polyhedral cone from which Newton's method starts on the true one
 TURNS = 30  # times the facets are turned to the slip where Newton's method alone does not settle
@@ -219,6 +221,8 @@ def solve_contact(problem: ContactProblem, solver: Solver, c: Vector) -> Solutio
         swept = gauss_seidel(problem, c, solver.sweeps, 0.0)
     elif solver.rung == MODES and problem.q.shape[0] == PLANE and problem.width == PLANE:
         _by_modes(problem, c)
+    elif solver.rung == REFINE:
+        status, _residual = solve_by_newton(problem, solver.newton, c)
     else:
         status = _by_passes(problem, solver, c)
     if status != SOLVED and status != NOT_CONVERGED:
@@ -245,6 +249,29 @@ def solve_and_split(problem: ContactProblem, J: Vector, W: Vector, solver: Solve
 
 
 @entry
-def contact_impulses(problem: ContactProblem, J: Vector, W: Vector, solver: Solver, c: Vector) -> Solution:
-    """`solve_and_split` for callers from Python. ``problem.A`` must be ``J W J'``."""
+def _solve_and_split(problem: ContactProblem, J: Vector, W: Vector, solver: Solver, c: Vector) -> Solution:
     return solve_and_split(problem, J, W, solver, c)
+
+
+def contact_impulses(problem: ContactProblem, J: Vector, W: Vector, solver: Solver, c: Vector) -> Solution:
+    """Impulses of ``problem`` into ``c`` [rows], with the least-norm split of the load.
+
+    ``problem.A`` must be ``J W J'``. Where NEWTON on the true cone in space misses a residual of 1e-12, `cone_path.py` goes on.
+    """
+    found = _solve_and_split(problem, J, W, solver, c)
+    on_disc = problem.width == SPACE and problem.facets == DISC
+    if found.residual <= GOOD or solver.rung != NEWTON or not on_disc or found.status == CONTACT_NOT_FINITE:
+        return found
+    return _by_path(problem, J, W, solver, c, found)
+
+
+def _by_path(problem: ContactProblem, J: Vector, W: Vector, solver: Solver, c: Vector, best: Solution) -> Solution:
+    """The first end of a path that Newton's method brings to 1e-12, else the best of all and of ``best``, the answer in ``c``."""
+    refining = solver._replace(rung=REFINE)
+    for candidate in candidates_by_path(problem):
+        found = _solve_and_split(problem, J, W, refining, candidate)
+        if found.residual < best.residual:
+            c[:], best = candidate, found
+        if best.residual <= GOOD:
+            break
+    return best

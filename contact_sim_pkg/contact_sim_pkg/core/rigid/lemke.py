@@ -1,8 +1,8 @@
 """Lemke's method for the linear complementarity problem ``0 <= z _|_ w = M z + q >= 0``, lexicographic against cycling.
 
-Tableau ``w - M z - d z0 = q``, d all ones: columns w, z, z0, q. The columns of w hold the inverse of the basis: with them
-ties are broken lexicographically, and the end result is refined against the problem as it was given. Source: Cottle, Pang,
-Stone, The Linear Complementarity Problem, 4.4 and 4.9.
+Tableau ``w - M z - d z0 = q``, d > 0 the covering vector, ones unless set: columns w, z, z0, q. The columns of w hold the
+inverse of the basis: with them ties are broken lexicographically, and the end result is refined against the problem as it was
+given. Source: Cottle, Pang, Stone, The Linear Complementarity Problem, 4.4 and 4.9.
 """
 
 from __future__ import annotations
@@ -28,6 +28,7 @@ class LemkeWorkspace(NamedTuple):
 
     M: Vector  # [size, size]
     q: Vector  # [size]
+    cover: Vector  # [size], d: greater than 0
     z: Vector  # [size]
     tableau: Vector  # [size, 2 size + 2]
     basis: numpy.typing.NDArray[numpy.int64]  # [size]; w_i: i, z_i: size + i, z0: 2 size
@@ -38,8 +39,8 @@ def make_lemke_workspace(size: int) -> LemkeWorkspace:
     """Work space for problems of up to ``size`` unknowns."""
     zeros = numpy.zeros
     return LemkeWorkspace(
-        zeros((size, size)), zeros(size), zeros(size), zeros((size, 2 * size + 2)), zeros(size, numpy.int64),
-        zeros(size),
+        zeros((size, size)), zeros(size), numpy.ones(size), zeros(size), zeros((size, 2 * size + 2)),
+        zeros(size, numpy.int64), zeros(size),
     )  # fmt: skip
 
 
@@ -52,7 +53,7 @@ def _set_up(work, n):
             tableau[i, j] = 0.0
             tableau[i, n + j] = -M[i, j]
         tableau[i, i] = 1.0
-        tableau[i, 2 * n] = -1.0
+        tableau[i, 2 * n] = -work.cover[i]
         tableau[i, 2 * n + 1] = q[i]
 
 
@@ -184,7 +185,7 @@ def lemke(work: LemkeWorkspace, n: int) -> int:
         z[i] = 0.0
         if not abs(q[i]) < numpy.inf:
             return CONTACT_NOT_FINITE
-        if q[i] <= q[row]:
+        if q[i] * work.cover[row] <= q[row] * work.cover[i]:
             row = i
     if q[row] >= 0.0:
         return SOLVED

@@ -25,6 +25,8 @@ ROUNDING = 1.0e-11  # normal velocity of a scaled row that can count as none
 PROXIMAL_SHIFT = 1.0e-3  # of the scaled rows, whose diagonal is 1
 PROXIMAL_PASSES = 40
 PROXIMAL_END = 1.0e-16  # change of velocity at which the passes end
+WAYS = 6  # covering vectors that are tried
+GOLDEN = 0.6180339887498949
 PROXIMAL_LIMIT = 1.0e9  # impulse beyond which there is no solution
 
 
@@ -195,6 +197,26 @@ def _solve(work, n):
 
 
 @kernel
+def _cover(work, n, attempt):
+    """Covering vector of an attempt: ones, then other ways to the solution, between 1 and 2 by the golden ratio."""
+    for i in range(n):
+        part = GOLDEN * (i + 1) * attempt
+        work.lemke.cover[i] = 1.0 + part - math.floor(part)
+
+
+@kernel
+def _solve_by_ways(work, n):
+    """`_solve`, by another way where rounding ends one on a ray."""
+    status = RAY
+    for attempt in range(WAYS):
+        _cover(work, n, attempt)
+        status = _solve(work, n)
+        if status == SOLVED:
+            break
+    return status
+
+
+@kernel
 def _still_normals(work, n):
     """Take normal velocities that are rounding as 0; whether there are any."""
     q, found = work.lemke.q, False
@@ -219,9 +241,9 @@ def solve_by_lemke(problem, work, facets, c):
     n = _lay_out(problem, work, facets)
     _fill_velocities(problem, work, n, scale, work.lemke.M, work.lemke.q)
     _fill_bounds(problem, work, n, scale, work.lemke.M, work.lemke.q)
-    status = _solve(work, n)
+    status = _solve_by_ways(work, n)
     if status == RAY and _still_normals(work, n):
-        status = _solve(work, n)
+        status = _solve_by_ways(work, n)
     if status == SOLVED:
         _read(problem, work, n, scale, c)
     return status

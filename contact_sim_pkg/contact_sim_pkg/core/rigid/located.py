@@ -41,7 +41,7 @@ from .march import (
     track_columns,
 )
 from .motion import APART, STUCK, TOUCHING, make_motion_workspace
-from .packed import PackedSolver
+from .packed import ACCEPTED, PackedSolver
 from .parameters import ENERGETIC
 from .piece_end import take_piece
 from .problem import DISC, PLANE
@@ -65,7 +65,6 @@ MOST_STOPS = (
     20  # stops of slip that are located in one interval: an edge that pivots may slip back and forth without end
 )
 REST = 1.0e-6  # rest speed over sqrt(g L)
-ACCEPTED = 1.0e-6  # residual up to which a solve goes on: corners whose heights differ by rounding contradict each other a little
 STICKS = 1.0e-9  # of the speed before the impact: slip below it counts as none
 
 

@@ -16,7 +16,9 @@ from .motion import MotionWorkspace
 from .problem import DISC, ContactProblem, make_problem
 from .results import SOLVED, UNIQUE
 
-__all__ = ["PackedSolver"]
+__all__ = ["ACCEPTED", "PackedSolver"]
+
+ACCEPTED = 1.0e-6  # residual up to which a run goes on: corners whose heights differ by rounding contradict each other a little
 
 
 class _Room(NamedTuple):
