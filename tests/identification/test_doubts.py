@@ -70,6 +70,15 @@ def test_wrong_gravity_leaves_no_flight_and_says_so():
     ]
 
 
+def test_contacts_without_a_flight_beside_them_are_no_reason_to_doubt():
+    """The last of the bounces leave no flight of three samples between them: noted, and nothing speaks against the rest."""
+    states = motions.states_of(motions.planar())
+    thin = [field[::12] for field in states]
+    found = identify(type(states)(*thin), Setup(geometry.box([0.1] * 3)))
+    assert any(contact.note.startswith("no flight of 3 samples") for contact in found.contacts)
+    assert found.doubts == []
+
+
 def test_a_body_that_rests_below_the_ground_told_is_no_contact():
     states = motions.states_of(motions.planar())
     low = states._replace(position=states.position - [0.0, 0.0, 5.0])

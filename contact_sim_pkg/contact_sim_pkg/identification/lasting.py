@@ -17,7 +17,7 @@ APART = 1e-3  # of the body's size: the next corner must be this much higher
 SIGMAS = 6.0
 HIGH = 0.1  # of the body's size: a gap that is no contact
 STILL = 1e-9  # of the largest speed: slip that counts as none
-NO_FLIGHT = "no flight"  # how a note begins on what cannot be a contact
+NO_FLIGHT = "no free motion"  # how a note begins on what cannot be a contact
 FEW = 0.05  # share of the samples that is passed over
 
 
