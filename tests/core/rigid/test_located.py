@@ -177,3 +177,29 @@ def test_a_sphere_on_a_height_field_that_is_a_plane_moves_as_on_that_plane():
         run(LocatedBody(body, ground, motion), 0.5)
         positions.append(motion.position.copy())
     assert positions[1] == pytest.approx(positions[0], abs=1e-7)
+
+
+@pytest.mark.parametrize("pressed", [True, False])
+def test_a_corner_is_held_where_the_spin_that_changes_by_itself_presses_it_down(pressed):
+    """Without ``dw/dt = -I^-1 (w x Iw)`` in it the acceleration of the corner has the other sign: held or free turns round."""
+    generator = numpy.random.default_rng(5)
+    body, found = box((0.3, 0.2, 0.05), 1.0, 0.5, 0.0), 0
+    while found < 5:
+        R, w = (
+            Rotation.random(random_state=int(generator.integers(1 << 30))).as_matrix(),
+            12.0 * generator.normal(size=3),
+        )
+        arms = body.points @ R.T
+        arm = arms[arms[:, 2].argmin()]
+        own = R.T @ w
+        gain = R @ (-numpy.cross(own, body.inertia * own) / body.inertia)
+        path = -9.81 + numpy.cross(w, numpy.cross(w, arm))[2]
+        whole = path + numpy.cross(gain, arm)[2]
+        if not (min(abs(path), abs(whole)) > 2.0 and path * whole < 0.0 and (whole < 0.0) == pressed):
+            continue
+        found += 1
+        motion = placed(body, [0.0, 0.0, -arm[2]], [0.0, 0.0, -numpy.cross(w, arm)[2], *w], rotation=R)
+        located = LocatedBody(body, slope(3), motion)
+        assert located.advance(1e-5) == SOLVED
+        assert (located.impulse[::3].max() > 0.0) == pressed
+        assert located.events <= 2
