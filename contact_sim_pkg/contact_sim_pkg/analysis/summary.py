@@ -1,4 +1,7 @@
-"""The numbers of a run that a person or a script asks for first."""
+"""The numbers of a run that a person or a script asks for first.
+
+A run that a signal ends still prints them, so what only one rig needs and takes long to load is loaded there.
+"""
 
 from __future__ import annotations
 
@@ -12,11 +15,9 @@ from contact_sim_pkg.bag.reader import Bag
 from .block_numbers import BLOCK, block_numbers
 from .energy import relative_residual, throughput
 from .episodes import slap_numbers
-from .impact_numbers import impact_numbers
 from .metrics import ride_metrics, seat_factor
 from .reading import read_recording
 from .ride import ride_signals
-from .roller_section import roller_numbers
 from .series import ContactSeries, CostSeries, FieldSeries, LedgerSeries, Recording
 from .tire_numbers import TIRE, load_numbers, standing_load_of
 
@@ -49,10 +50,14 @@ def summarise_recording(recording: Recording) -> dict[str, Any]:
     if recording.episodes is not None:
         summary["slaps"] = slap_numbers(recording.episodes)
     if recording.impacts is not None:
+        from .impact_numbers import impact_numbers  # loads the fits of materials
+
         summary["impacts"] = impact_numbers(recording.impacts)
     if BLOCK in recording.contacts and recording.motion is not None:
         summary["block"] = block_numbers(recording)
     if recording.roller is not None:
+        from .roller_section import roller_numbers  # loads the drawing of pictures
+
         summary["roller"] = roller_numbers(recording.roller)
     vibration = vibration_numbers(recording)
     if vibration is not None:
