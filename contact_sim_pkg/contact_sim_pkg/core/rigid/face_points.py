@@ -5,6 +5,8 @@ Axes (normal, tangents) of the contacts, which all have the same; arms r about t
 
 from __future__ import annotations
 
+import numpy
+
 from ..jit import piece
 from .problem import INACTIVE, SPACE
 
@@ -28,7 +30,7 @@ def _arm_of(J, row):
 @piece
 def read_face(J, friction, face):
     """Arms and rows of the active contacts, one a row of ``face``; their number, 0 where axes or friction differ."""
-    first, count = -1, 0
+    first, count = -1, numpy.int64(0)  # a literal 0 would compile what takes the count once more, for that number
     for i in range(friction.shape[0]):
         if friction[i] == INACTIVE:
             continue

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import math
 
-from ..jit import piece
+from ..jit import kernel, piece
 from .face_points import D_S, D_T, R_S, R_T, ROW, A, B
 
 TURNS = 15  # of the directions of slip
@@ -107,9 +107,15 @@ def _slide_straight(mu, face, count, mean, spread, F, v, light, c):
 
 @piece
 def slide_on_face(mu, face, count, mean, spread, F, v, w, light, inertia, c):
-    """Impulses of a face that slides on; whether they were found and all press. The motion in the plane by Broyden's method."""
+    """Impulses of a face that slides on; whether they were found and all press."""
     if w[0] == 0.0 and w[1] == 0.0 and w[2] == 0.0 and _slide_straight(mu, face, count, mean, spread, F, v, light, c):
         return True
+    return _slide_and_turn(mu, face, count, mean, spread, F, v, w, light, inertia, c)
+
+
+@kernel
+def _slide_and_turn(mu, face, count, mean, spread, F, v, w, light, inertia, c):
+    """The motion in the plane by Broyden's method, and its impulses."""
     top, size = face.shape[0] - 3, math.sqrt(spread[0] + spread[2])
     speed = abs(v[1]) + abs(v[2]) + size * abs(w[0])
     v_t, v_s, w_n = v[1], v[2], w[0]

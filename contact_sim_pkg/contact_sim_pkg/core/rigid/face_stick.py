@@ -49,7 +49,7 @@ def stick_on_face(mu, face, count, mean, spread, F, T, c):
     return _within_cones(mu, face, count, size, wrench, (F_n, F_t, F_s, size * y_n, size * y_t, size * y_s), c)
 
 
-@piece
+@kernel
 def _within_cones(mu, face, count, size, wrench, z, c):
     """Newton's method from the multipliers ``z`` (moments over ``size`` [m]); whether the wrench is met."""
     load = wrench[0]

@@ -125,7 +125,12 @@ def _free_contacts(body, ground, motion, work, time, still):
     """
     free_velocity(body, motion, work, time)
     contact_velocities(work.J, work.free, work.problem.q)
-    first, second, held, bent = -1, -1, 0, False
+    none, held, bent = (
+        numpy.int64(-1),
+        0,
+        False,
+    )  # a literal -1 would compile the closed forms once more, for that number
+    first, second = none, none
     for i in range(work.flags.shape[0]):
         work.problem.friction[i] = INACTIVE
         if work.flags[i] >= HELD:
