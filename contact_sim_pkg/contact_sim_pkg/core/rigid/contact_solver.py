@@ -256,11 +256,12 @@ def _solve_and_split(problem: ContactProblem, J: Vector, W: Vector, solver: Solv
 def contact_impulses(problem: ContactProblem, J: Vector, W: Vector, solver: Solver, c: Vector) -> Solution:
     """Impulses of ``problem`` into ``c`` [rows], with the least-norm split of the load.
 
-    ``problem.A`` must be ``J W J'``. Where NEWTON on the true cone in space misses a residual of 1e-12, `cone_path.py` goes on.
+    ``problem.A`` must be ``J W J'``. Where NEWTON on the true cone in space ends without an answer, `cone_path.py` goes on; the
+    nearest answer of contacts that contradict each other by rounding (residual up to 1e-6) stands, since a path takes long.
     """
     found = _solve_and_split(problem, J, W, solver, c)
     on_disc = problem.width == SPACE and problem.facets == DISC
-    if found.residual <= GOOD or solver.rung != NEWTON or not on_disc or found.status == CONTACT_NOT_FINITE:
+    if found.status in (SOLVED, CONTACT_NOT_FINITE) or solver.rung != NEWTON or not on_disc:
         return found
     return _by_path(problem, J, W, solver, c, found)
 
