@@ -11,13 +11,13 @@ from ..jit import entry
 from ..parameters import Drive, Friction, NormalElastic, Vector
 from ..restitution import LOWEST_RESTITUTION, damping_of_restitution
 from ..results import DONE, SENTENCES
+from ..rigs.body_state import places_of
 from ..rigs.compliant_body import (
     MARGINS_A_POINT,
     CompliantBody,
     CompliantContact,
     look,
     make_rig,
-    places_of,
     set_loss,
     state_count,
     stored_energy,

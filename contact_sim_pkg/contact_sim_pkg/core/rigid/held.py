@@ -69,16 +69,15 @@ def finish_impact(body: RigidBody, motion: Motion, work: MotionWorkspace, rest_s
 
 
 @kernel
-def _turning_acceleration(body, ground, motion, work, i):
+def _turning_acceleration(body, ground, motion, J, i):
     """``w x (w x r)`` of the point of contact ``i`` along its rows; the sphere about the point rolls and does not count."""
     v, R, row, width = motion.velocity, motion.rotation, i * body.width, body.width
     x, y, z = point_arm(body, R, i // ground.profile.reach)
     if width == PLANE:
         a_x, a_z = -v[2] * v[2] * x, -v[2] * v[2] * z
-        return work.J[row, 0] * a_x + work.J[row, 1] * a_z, work.J[row + 1, 0] * a_x + work.J[row + 1, 1] * a_z, 0.0
+        return J[row, 0] * a_x + J[row, 1] * a_z, J[row + 1, 0] * a_x + J[row + 1, 1] * a_z, 0.0
     along, square = v[3] * x + v[4] * y + v[5] * z, v[3] * v[3] + v[4] * v[4] + v[5] * v[5]
     a_x, a_y, a_z = v[3] * along - square * x, v[4] * along - square * y, v[5] * along - square * z
-    J = work.J
     return (
         J[row, 0] * a_x + J[row, 1] * a_y + J[row, 2] * a_z,
         J[row + 1, 0] * a_x + J[row + 1, 1] * a_y + J[row + 1, 2] * a_z,
@@ -87,11 +86,11 @@ def _turning_acceleration(body, ground, motion, work, i):
 
 
 @kernel
-def path_acceleration(body, ground, motion, work, i):
+def path_acceleration(body, ground, motion, J, i):
     """Accelerations of contact ``i`` along its rows in [m/s^2] at constant velocities: its arm turns, the ground is curved."""
     if ground.profile.nodes.shape[0] == 0:
-        return _turning_acceleration(body, ground, motion, work, i)
-    J, v, row, width = work.J, motion.velocity, i * body.width, body.width
+        return _turning_acceleration(body, ground, motion, J, i)
+    v, row, width = motion.velocity, i * body.width, body.width
     if is_ridge(body, ground, i):  # its axes turn with the body
         away = v[0] * J[row, 0] + v[1] * J[row, 1]
         along = v[0] * J[row + 1, 0] + v[1] * J[row + 1, 1]
@@ -99,7 +98,7 @@ def path_acceleration(body, ground, motion, work, i):
     x, z = motion.position[0], motion.position[width - 1]
     _gap, n_x, n_z, _x, _y, _z, curvature, _feature = on_profile(body, ground, motion.rotation, x, z, i)
     along = v[0] * n_z - v[width - 1] * n_x
-    normal, first, second = _turning_acceleration(body, ground, motion, work, i)
+    normal, first, second = _turning_acceleration(body, ground, motion, J, i)
     return normal + curvature * along * along, first, second
 
 
@@ -122,7 +121,7 @@ def _gyroscopic_acceleration(body, motion, work, row):
 @kernel
 def _normal_acceleration(body, ground, motion, work, i):
     """Of a point without contact forces: from the load, from its path, and from the gyroscopic term."""
-    total = path_acceleration(body, ground, motion, work, i)[0]
+    total = path_acceleration(body, ground, motion, work.J, i)[0]
     if body.width != PLANE:
         total += _gyroscopic_acceleration(body, motion, work, i * body.width)
     for k in range(body.load.shape[0]):
@@ -201,7 +200,7 @@ def prepare_attempt(
             for k in range(row, row + body.width):
                 q[k] = 0.0
             continue
-        gain = path_acceleration(body, ground, motion, work, i)
+        gain = path_acceleration(body, ground, motion, work.J, i)
         q[row] += bend * time * gain[0]
         q[row + 1] += bend * time * gain[1]
         if body.width != PLANE:
@@ -237,7 +236,7 @@ def stop_of_slip(
             continue
         a, b = slip_of(body, work, motion.velocity, i)
         c, d = slip_of(body, work, work.free, i)
-        gain = path_acceleration(body, ground, motion, work, i)
+        gain = path_acceleration(body, ground, motion, work.J, i)
         c, d = c + time * gain[1], d + time * gain[2]
         before, along = a * a + b * b, a * c + b * d
         if before <= still * still:

@@ -43,7 +43,7 @@ from .march import (
 from .motion import APART, STUCK, TOUCHING, make_motion_workspace
 from .packed import ACCEPTED, PackedSolver
 from .parameters import ENERGETIC
-from .piece_end import take_piece
+from .piece_end import list_features, stay_on_the_ground, take_piece
 from .problem import DISC, PLANE
 from .results import (
     NOT_CONVERGED,
@@ -55,6 +55,7 @@ from .results import (
     TOO_MANY_EVENTS,
     TOO_MANY_IMPACTS,
 )
+from .turning import INSTANT, make_turn_workspace, turn_held, turns
 
 __all__ = ["Impact", "LocatedBody", "Track"]
 
@@ -65,6 +66,8 @@ MOST_STOPS = (
     20  # stops of slip that are located in one interval: an edge that pivots may slip back and forth without end
 )
 REST = 1.0e-6  # rest speed over sqrt(g L)
+TOLERANCE = 1.0e-10
+LARGEST_SUPPORTED_TURN = 0.005  # [rad] of a piece of the general solvers
 STICKS = 1.0e-9  # of the speed before the impact: slip below it counts as none
 
 
@@ -93,9 +96,19 @@ class LocatedBody:
     """One body over a ground, and where it stands. ``motion`` changes in place."""
 
     def __init__(
-        self, body: RigidBody, ground: Ground, motion: Motion, rule: int = ENERGETIC, facets: int = DISC
+        self,
+        body: RigidBody,
+        ground: Ground,
+        motion: Motion,
+        rule: int = ENERGETIC,
+        facets: int = DISC,
+        tolerance: float = TOLERANCE,
     ) -> None:
-        """Take a body in the air or on the ground; ``motion`` is its state at the start, with no point below the ground."""
+        """Take a body in the air or on the ground; ``motion`` is its state at the start, with no point below the ground.
+
+        ``tolerance``: the error that a step may make while the body turns on held points, relative to its size and the speed of
+        a fall by it. Flight, rest and sliding without turning are exact whatever it is.
+        """
         ground = laid_under(body, ground)
         self.body, self.ground, self.motion, self.rule = body, ground, motion, rule
         points, coordinates = contact_count(body, ground), len(body.load)
@@ -105,6 +118,7 @@ class LocatedBody:
         self._solver = PackedSolver(coordinates, body.width, facets)
         self.size = float(body_size(body))
         self.gravity = float(numpy.linalg.norm(body.load[: body.width]) / body.mass)
+        self._turning = make_turn_workspace(body, ground, self.size, self.gravity, tolerance)
         self.rest_speed = REST * math.sqrt(self.gravity * self.size)
         self.impacts: list[Impact] = []  # of the last call
         self.rested = math.nan  # [s] from the start of the call: when the last bounce ended
@@ -177,15 +191,43 @@ class LocatedBody:
         track[self._march.counts[SAMPLE], self._columns[3] : self._columns[4]] += self.work.impulse
 
     def _pass(self, track: Vector) -> int:
-        """The piece of time that the march left, by the general solvers."""
+        """The piece of time that the march left: a body that turns on held contacts, or what takes the general solvers."""
         clock = self._march.clock
-        status, passed = self._support(float(clock[PIECE]), float(clock[STILL]))
+        piece, still = float(clock[PIECE]), float(clock[STILL])
+        passed = self._turn(piece, still)
+        status = SOLVED
+        if passed == 0.0:
+            status, passed = self._support(min(piece, self._longest_support()), still)
         if status == SOLVED:
             self._add_impulse(track)
             left = clock[INTERVAL] - clock[TIME]
-            self._march.counts[SHORT] += int(passed < BRIEF * min(left, clock[PIECE]))
+            self._march.counts[SHORT] += int(passed < BRIEF * min(left, piece))
             clock[TIME] = clock[INTERVAL] if passed >= left else clock[TIME] + passed
         return status
+
+    def _longest_support(self) -> float:
+        """Longest piece in [s] of the general solvers, whose positions are of second order."""
+        spin = float(numpy.abs(self.motion.velocity[self.body.width :]).sum())
+        return LARGEST_SUPPORTED_TURN / spin if spin > 0.0 else math.inf
+
+    def _turn(self, piece: float, still: float) -> float:
+        """Time that the body turned on on its held contacts, up to ``piece``; 0 where it does not turn or no mode fits."""
+        parts = (self.body, self.ground, self.motion, self.work)
+        if not turns(*parts, self.motion.velocity, self.size):
+            status, _part, _stretch = self._attempt(piece, still)
+            if status != SOLVED or not turns(*parts, self.work.free, self.size):
+                return 0.0
+        status, _part, _stretch = self._attempt(INSTANT * math.sqrt(self.size / self.gravity), still)
+        if status != SOLVED:
+            return 0.0
+        list_features(*parts)
+        time, lost = turn_held(self.body, self.motion, self.work, self._turning, piece, still)
+        if time == 0.0:
+            return 0.0
+        stay_on_the_ground(*parts, self.size, still)
+        self._march.clock[LOST] += lost
+        self._march.counts[EVENTS] += int(time < piece)
+        return float(time)
 
     def warm_up(self) -> None:
         """Call every compiled step once, so that none is compiled in the middle of a run; the state is spoiled."""

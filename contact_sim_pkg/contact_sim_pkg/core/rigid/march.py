@@ -35,13 +35,13 @@ from .planar_impact import contact_modes
 from .planar_pair import PairWorkspace, make_pair_workspace, pair_impulses
 from .problem import DISC, INACTIVE, PLANE
 from .single import single_impulses
+from .turning import turns
 
 DONE, COLLIDE, SUPPORT, PAUSE = 0, 1, 2, 3  # what a call ends with
 TIME, INTERVAL, RESTED, LOST, RESIDUAL, PIECE, STILL, CLOCKS = 0, 1, 2, 3, 4, 5, 6, 7
 SAMPLE, SAMPLES, EVENTS, SOLVES, COLLIDED, STOPS, SHORT, RESTS, COUNTS = 0, 1, 2, 3, 4, 5, 6, 7, 8
 LARGEST_TURN = 0.02  # [rad] of a piece of free flight in space, where the spin is of order 6
 LARGEST_PLANAR_TURN = 0.2  # [rad] of a piece of free flight in the plane, which is exact: it only has to find the touch
-LARGEST_SUPPORTED_TURN = 0.005  # [rad] of a piece while a point is held: there the position is of second order
 CELL_PART = 0.1  # of a cell of the ground that a body passes in a piece
 BRIEF = 1.0e-3  # of the time left or of the longest piece: a piece below it was cut short by an event
 MOST_SHORT = 100_000  # such pieces in one sample: there is no end
@@ -136,7 +136,7 @@ def _free_contacts(body, ground, motion, work, time, still):
         if work.flags[i] >= HELD:
             work.problem.friction[i] = body.friction
             first, second, held = (i if held == 0 else first), (i if held == 1 else second), held + 1
-            gain, row = path_acceleration(body, ground, motion, work, i), i * body.width
+            gain, row = path_acceleration(body, ground, motion, work.J, i), i * body.width
             work.problem.q[row] += time * gain[0]
             work.problem.q[row + 1] += time * gain[1]
             if body.width != PLANE:
@@ -169,11 +169,15 @@ def _attempt(body, ground, motion, work, march, time, still):
 
 @piece
 def _support(body, ground, motion, work, march, time, size, still):
-    """Hold the points over ``time`` in closed form; False where that needs the general solvers or an event lies in it."""
+    """Hold the points over ``time`` in closed form; False where it turns, and for general solvers or an event."""
+    if turns(body, ground, motion, work, motion.velocity, size):
+        return False
     residual = _attempt(body, ground, motion, work, march, time, still)
     if not residual <= GOOD:
         return False
     part, _stretch = stop_of_slip(body, ground, motion, work, time, still)
+    if turns(body, ground, motion, work, work.free, size):
+        return False
     if part < 1.0 or landing_part(body, ground, motion, work, time, size)[1] >= 0:
         return False
     clock = march.clock
@@ -270,7 +274,7 @@ def advance_samples(
                 if resting and count[RESTS] > 0 and count[RESTS] == count[SAMPLE]:
                     _repeat_to_the_end(count, track)
                     return DONE
-                longest = min(left, _longest(body, ground, motion, LARGEST_SUPPORTED_TURN, size))
+                longest = min(left, _longest(body, ground, motion, math.inf, size))
                 passed = longest
                 if ground.profile.nodes.shape[0] > 0:
                     passed = min(longest, time_to_peak(body, ground, motion, work))

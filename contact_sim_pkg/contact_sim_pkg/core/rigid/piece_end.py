@@ -152,20 +152,19 @@ def _sticks(body, work, i, still):
 
 
 @entry
-def take_piece(
-    body: RigidBody, ground: Ground, motion: Motion, work: MotionWorkspace, size: float, still: float
-) -> None:
-    """Take the piece as the state; points whose slip has ended stick until friction gives way, points that left are let go."""
+def list_features(body: RigidBody, ground: Ground, motion: Motion, work: MotionWorkspace) -> None:
+    """Face or edge of every held contact, into ``work.feature``."""
     for i in range(work.flags.shape[0]):
         if work.flags[i] >= HELD:
-            work.flags[i] = STUCK if _sticks(body, work, i, still) else HELD
             work.feature[i] = _feature(body, ground, motion, i)
-    _fill_push(body, work, -0.5)
-    energy = _mechanical_energy(body, motion) + _friction_work(body, motion, work)
-    carry_spin(body, motion, work.free, work)
-    commit(body, motion, work.free, work)
+
+
+@entry
+def stay_on_the_ground(
+    body: RigidBody, ground: Ground, motion: Motion, work: MotionWorkspace, size: float, still: float
+) -> None:
+    """Let contacts go that left the ground or went over a peak, put the others back on it, normal velocities to 0."""
     look(body, ground, motion, work)
-    _turn_push(body, motion, work)
     for i in range(work.flags.shape[0]):
         speed = work.u[i * body.width]
         if work.flags[i] >= HELD:
@@ -177,5 +176,24 @@ def take_piece(
     _lift(body, ground, motion, work, size)
     look(body, ground, motion, work)
     hold_back(body, motion, work)
+    contact_velocities(work.J, motion.velocity, work.u)
+
+
+@entry
+def take_piece(
+    body: RigidBody, ground: Ground, motion: Motion, work: MotionWorkspace, size: float, still: float
+) -> None:
+    """Take the piece as the state; points whose slip has ended stick until friction gives way, points that left are let go."""
+    list_features(body, ground, motion, work)
+    for i in range(work.flags.shape[0]):
+        if work.flags[i] >= HELD:
+            work.flags[i] = STUCK if _sticks(body, work, i, still) else HELD
+    _fill_push(body, work, -0.5)
+    energy = _mechanical_energy(body, motion) + _friction_work(body, motion, work)
+    carry_spin(body, motion, work.free, work)
+    commit(body, motion, work.free, work)
+    look(body, ground, motion, work)
+    _turn_push(body, motion, work)
+    stay_on_the_ground(body, ground, motion, work, size, still)
     _keep_energy(body, motion, energy)
     contact_velocities(work.J, motion.velocity, work.u)

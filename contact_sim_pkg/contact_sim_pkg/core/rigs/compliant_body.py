@@ -5,9 +5,8 @@ Each point carries a Hunt and Crossley force ``A x**n (1 + lambda x')`` of its o
 delivers the asked restitution (``core/restitution.py``): then the ratio of speeds is the asked one at any speed and for
 any mass at the point. Below ``slowest`` the speed counts as that, so that a resting contact is damped.
 
-State: [place and turn] [v, omega] [spring deflection of each point] [impulse of each point, normal then tangents, in N s]
-[work dissipated or lent to friction springs, in J]. Place and turn: x, z and the angle in the plane; x, y, z and a quaternion
-in space. omega is in world axes in the plane, in body axes in space. Mode: lambda of each point.
+State: [place and turn] [v, omega] (`body_state.py`) [spring deflection of each point] [impulse of each point, normal then
+tangents, in N s] [work dissipated or lent to friction springs, in J]. Mode: lambda of each point.
 """
 
 from __future__ import annotations
@@ -24,6 +23,7 @@ from ..parameters import Friction, NormalDissipative, NormalElastic, Vector
 from ..rigid.body import Ground, Motion, RigidBody, contact_count, contact_rows
 from ..rigid.motion import contact_velocities
 from ..rigid.problem import PLANE
+from .body_state import fill_motion, fill_rates, fill_turn, places_of
 from .interface import register
 
 MARGINS_A_POINT = 3  # approach, tension, stick
@@ -63,11 +63,6 @@ def make_rig(body: RigidBody, ground: Ground, contact: CompliantContact) -> Comp
     )
 
 
-def places_of(width: int) -> int:
-    """Number of state variables for place and turn."""
-    return 3 if width == PLANE else 7
-
-
 def state_count(body: RigidBody, contacts: int) -> int:
     """Number of state variables."""
     return places_of(body.width) + len(body.load) + contacts * (2 * body.width - 1) + 1
@@ -79,35 +74,11 @@ def _first_deflection(rig):
 
 
 @kernel
-def _fill_turn(motion, state):
-    """Rotation matrix of the quaternion in the state, whatever its length."""
-    w, x, y, z = state[3], state[4], state[5], state[6]
-    scale = 2.0 / (w * w + x * x + y * y + z * z)
-    R = motion.rotation
-    R[0, 0], R[0, 1], R[0, 2] = 1.0 - scale * (y * y + z * z), scale * (x * y - w * z), scale * (x * z + w * y)
-    R[1, 0], R[1, 1], R[1, 2] = scale * (x * y + w * z), 1.0 - scale * (x * x + z * z), scale * (y * z - w * x)
-    R[2, 0], R[2, 1], R[2, 2] = scale * (x * z - w * y), scale * (y * z + w * x), 1.0 - scale * (x * x + y * y)
-
-
-@kernel
 def look(rig, state):
     """Motion, gaps, Jacobian and point velocities of a state, into the rig's arrays."""
-    motion, width = rig.motion, rig.body.width
-    for k in range(width):
-        motion.position[k] = state[k]
-    if width == PLANE:
-        motion.angle[0] = state[2]
-        cosine, sine = numpy.cos(state[2]), numpy.sin(state[2])
-        R = motion.rotation
-        R[0, 0], R[0, 1], R[1, 0], R[1, 1] = cosine, -sine, sine, cosine
-        for k in range(3):
-            motion.velocity[k] = state[3 + k]
-    else:
-        _fill_turn(motion, state)
-        for k in range(3):
-            motion.velocity[k] = state[7 + k]
-            R = motion.rotation
-            motion.velocity[3 + k] = R[k, 0] * state[10] + R[k, 1] * state[11] + R[k, 2] * state[12]
+    motion = rig.motion
+    fill_turn(motion.rotation, state)
+    fill_motion(motion, state)
     contact_rows(rig.body, rig.ground, motion, rig.gap, rig.J)
     contact_velocities(rig.J, motion.velocity, rig.u)
 
@@ -151,31 +122,6 @@ def _add_point(rig, mode, point, state, out):
 
 
 @kernel
-def _accelerations(rig, state, out):
-    """Rates of place, turn and velocity under ``rig.push``."""
-    body, push = rig.body, rig.push
-    if body.width == PLANE:
-        for k in range(3):
-            out[k] = state[3 + k]
-            out[3 + k] = push[k] / (body.mass if k < 2 else body.inertia[0])
-        return
-    w, x, y, z = state[3], state[4], state[5], state[6]
-    a, b, c = state[10], state[11], state[12]
-    out[3] = -0.5 * (x * a + y * b + z * c)
-    out[4] = 0.5 * (w * a + y * c - z * b)
-    out[5] = 0.5 * (w * b + z * a - x * c)
-    out[6] = 0.5 * (w * c + x * b - y * a)
-    R, inertia = rig.motion.rotation, body.inertia
-    for k in range(3):
-        out[k] = state[7 + k]
-        out[7 + k] = push[k] / body.mass
-        out[10 + k] = R[0, k] * push[3] + R[1, k] * push[4] + R[2, k] * push[5]
-    out[10] = (out[10] + (inertia[1] - inertia[2]) * b * c) / inertia[0]
-    out[11] = (out[11] + (inertia[2] - inertia[0]) * c * a) / inertia[1]
-    out[12] = (out[12] + (inertia[0] - inertia[1]) * a * b) / inertia[2]
-
-
-@kernel
 def _rate(rig, drive, mode, time, state, out):
     look(rig, state)
     for i in range(_first_deflection(rig), state.shape[0]):
@@ -187,7 +133,7 @@ def _rate(rig, drive, mode, time, state, out):
         if rig.gap[point] < 0.0:
             lost += _add_point(rig, mode, point, state, out)
     out[state.shape[0] - 1] = lost
-    _accelerations(rig, state, out)
+    fill_rates(rig.body, rig.motion.rotation, rig.push, state, out)
 
 
 @kernel

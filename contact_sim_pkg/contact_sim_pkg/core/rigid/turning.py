@@ -1,0 +1,196 @@
+"""A piece of time with held contacts in which the body turns: the path of `rigs/held_body.py`, integrated with error control.
+
+Which contacts stick, slide or part is what the contact problem over an instant says; the piece ends where one of these modes does.
+Source: SEEDS 7.2 (`located`); Hairer and Wanner, Solving Ordinary Differential Equations II, VII.2 (index reduction, projection).
+"""
+
+from __future__ import annotations
+
+import math
+from typing import NamedTuple
+
+import numpy
+
+from ..jit import entry, piece
+from ..parameters import Drive, Modes, Vector
+from ..results import DONE
+from ..rigs.body_state import places_of
+from ..rigs.held_body import (
+    FIRST,
+    FREE,
+    GOING,
+    MARGINS_A_CONTACT,
+    SECOND,
+    SLIDES,
+    SPEED,
+    STICKS,
+    VELOCITY,
+    HeldBody,
+    first_of_time,
+    held_states,
+    make_held_body,
+    stop_rows,
+)
+from ..rigs.interface import rate
+from ..solvers.dormand_prince import Workspace, integrate, make_workspace
+from .body import Ground, Motion, RigidBody, contact_count
+from .held import LANDED, path_acceleration, slip_of
+from .motion import HELD, STUCK, MotionWorkspace
+from .problem import PLANE
+from .rotation import spin_in_body, straighten
+
+INSTANT = 1.0e-6  # of the time in which a body falls by its size: over it the contact problem tells the modes
+FULL = 1.0e-9  # of a force or a speed: nearer than that to its limit counts as at it
+BEYOND = 1.0e-6  # of the unit of force: so far beyond its limit a mode may start
+STOPPED = 1.0e-5  # of the unit of speed: slip of a contact that shall stick at the start
+PROGRESS = 1.0e-9  # of the piece: less is no progress
+
+
+class TurnWorkspace(NamedTuple):
+    """The rig, and where the integrator keeps its state."""
+
+    rig: HeldBody
+    mode: Modes  # [contacts + 1]
+    state: Vector  # [states]
+    scale: Vector  # [states]
+    integrator: Workspace
+
+
+def make_turn_workspace(
+    body: RigidBody, ground: Ground, size: float, gravity: float, tolerance: float
+) -> TurnWorkspace:
+    """Work space; ``tolerance``: the error a step may make, relative to the body's size and the speed of a fall from it."""
+    contacts, rig = contact_count(body, ground), make_held_body(body, ground)
+    size = size if size > 0.0 else 1.0  # a point does not turn
+    states, places, speed = held_states(body, contacts), places_of(body.width), math.sqrt(gravity * size)
+    width, turns = body.width, places_of(body.width) - body.width
+    scale = numpy.full(states, math.inf)
+    scale[:places] = [size] * width + [1.0] * turns
+    scale[places : places + len(body.load)] = [speed] * width + [speed / size] * (len(body.load) - width)
+    rig.unit[:] = speed, body.mass * gravity, LANDED * size
+    workspace = make_workspace(states, MARGINS_A_CONTACT * contacts)
+    return TurnWorkspace(rig, numpy.zeros(contacts + 1, numpy.int64), numpy.zeros(states), tolerance * scale, workspace)
+
+
+@entry
+def turns(
+    body: RigidBody, ground: Ground, motion: Motion, work: MotionWorkspace, velocity: Vector, size: float
+) -> bool:
+    """Whether rows of held contacts turn or bend at ``velocity``: a body with an extent spins, or a contact's path is curved."""
+    if size > body.radius:
+        for k in range(body.width, velocity.shape[0]):
+            if velocity[k] != 0.0:
+                return True
+    for i in range(work.flags.shape[0]):
+        if work.flags[i] >= HELD and path_acceleration(body, ground, motion, work.J, i)[0] != 0.0:
+            return True
+    return False
+
+
+@piece
+def _set_modes(body, work, turn):
+    """Modes from the impulses of an instant; ``work.free`` is the velocity at its end."""
+    rig, mode = turn.rig, turn.mode
+    contacts = mode.shape[0] - 1
+    mode[contacts] = GOING
+    for i in range(contacts):
+        row = i * body.width
+        normal, mode[i] = work.impulse[row], FREE
+        if work.flags[i] < HELD or normal <= 0.0:
+            continue
+        across = work.impulse[row + 2] if body.width != PLANE else 0.0
+        first, second = slip_of(body, work, work.free, i)
+        slip = math.hypot(first, second)
+        full = math.hypot(work.impulse[row + 1], across) >= body.friction * normal * (1.0 - FULL)
+        mode[i] = SLIDES if full and slip > 0.0 else STICKS
+        if mode[i] == SLIDES:
+            rig.contacts[FIRST, i], rig.contacts[SECOND, i] = first / slip, second / slip
+
+
+@piece
+def _set_start(body, motion, turn):
+    """The motion as the state of the rig."""
+    rig, state, v = turn.rig, turn.state, motion.velocity
+    for i in range(state.shape[0]):
+        state[i] = 0.0
+    for k in range(body.width):
+        state[k] = motion.position[k]
+        for m in range(body.width):
+            rig.start[k, m] = motion.rotation[k, m]
+    if body.width == PLANE:
+        state[2] = motion.angle[0]
+        for k in range(3):
+            state[3 + k] = v[k]
+        return
+    w = spin_in_body(motion.rotation, v)
+    state[3] = 1.0
+    for k in range(3):
+        state[7 + k], state[10 + k] = v[k], w[k]
+
+
+@piece
+def _starts_well(body, drive, turn):
+    """Whether the modes hold at the start: what shall stick does not slip, forces are within their limits."""
+    rig, mode, integrator = turn.rig, turn.mode, turn.integrator
+    values = integrator.inside_rate
+    rate(rig, drive, mode, 0.0, turn.state, values)
+    good = True
+    for margin in range(values.shape[0] - integrator.margin.shape[0], values.shape[0]):
+        good = good and values[margin] > -BEYOND
+    for i in range(mode.shape[0] - 1):
+        row, u = i * body.width, rig.rows[VELOCITY]
+        if mode[i] == STICKS:
+            across = u[row + 2] if body.width != PLANE else 0.0
+            good = good and math.hypot(u[row + 1], across) <= STOPPED * rig.unit[SPEED]
+    return good
+
+
+@piece
+def _take_end(body, motion, work, turn, drive, still):
+    """The end of the path as the motion; its impulses into ``work.impulse``. Velocities that the modes forbid are taken out."""
+    rig, state = turn.rig, turn.state
+    place = first_of_time(rig) + 2
+    turn.mode[turn.mode.shape[0] - 1] = GOING
+    rate(rig, drive, turn.mode, 0.0, state, turn.integrator.inside_rate)
+    for row in range(work.impulse.shape[0]):
+        work.impulse[row] = state[place + row]
+    if body.width != PLANE:
+        straighten(rig.motion.rotation)
+    stop_rows(rig, turn.mode)
+    for k in range(body.width):
+        motion.position[k] = rig.motion.position[k]
+        for m in range(body.width):
+            motion.rotation[k, m] = rig.motion.rotation[k, m]
+    motion.angle[0] = rig.motion.angle[0]
+    for k in range(motion.velocity.shape[0]):
+        motion.velocity[k] = rig.motion.velocity[k] if abs(rig.motion.velocity[k]) > still else 0.0
+
+
+@entry
+def turn_held(
+    body: RigidBody, motion: Motion, work: MotionWorkspace, turn: TurnWorkspace, longest: float, still: float
+) -> tuple[float, float]:
+    """Bring a body whose held contacts turn on by ``longest`` [s] or to the end of a mode; returns the time, the energy lost [J].
+
+    ``work.impulse`` and ``work.free`` are those of an instant with the contacts as they are; the impulses of the piece follow in
+    ``work.impulse``, and what each contact does in ``work.flags``. Time 0: the modes do not fit, nothing was changed.
+    """
+    rig, integrator = turn.rig, turn.integrator
+    _set_modes(body, work, turn)
+    _set_start(body, motion, turn)
+    drive = Drive(0.0, longest, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
+    if not _starts_well(body, drive, turn):
+        return 0.0, 0.0
+    for margin in range(integrator.side.shape[0]):
+        integrator.side[margin] = 1.0
+    integrator.last_event[0] = -math.inf
+    status = integrate(rig, drive, turn.mode, longest, turn.state, turn.scale, integrator)
+    place = first_of_time(rig)
+    time, ended = turn.state[place], turn.mode[turn.mode.shape[0] - 1] != GOING
+    if status != DONE or not time > PROGRESS * longest:
+        return 0.0, 0.0
+    _take_end(body, motion, work, turn, drive, still)
+    for i in range(work.flags.shape[0]):
+        if work.flags[i] >= HELD:
+            work.flags[i] = STUCK if turn.mode[i] == STICKS else HELD
+    return (time if ended else longest), -turn.state[place + 1]

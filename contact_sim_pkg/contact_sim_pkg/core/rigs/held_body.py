@@ -1,0 +1,316 @@
+"""A rigid body whose contacts are held on the ground, each in a mode that lasts: it sticks, or it slides; what a turn calls for.
+
+The forces f of the contacts keep them there: ``J a + b = 0`` for the normal row of each held contact and for the tangents of those
+that stick, with ``a = W (load + gyroscopic torque + J' f)`` and b the acceleration that the contact has at constant velocities
+(`rigid/held.py`); a sliding contact has ``f_t = -mu f_n s``, s the direction of slip. Where the rows are dependent the forces of
+least norm are taken. A mode ends where a normal force or a slip comes to 0, a sticking force leaves its cone or a free contact
+lands.
+
+State: [place and turn] [v, omega] (`body_state.py`) [time in s] [work of friction in J] [impulse of each row in N s]
+[integral of each event function: so the rate of a state holds all that is asked of it].
+Source: identifiability paper eqs 12-18 and 32-38 at the level of accelerations; SEEDS 7.2 (`located`).
+"""
+
+from __future__ import annotations
+
+import math
+from typing import NamedTuple
+
+import numpy
+
+from ..jit import borrowing_kernel
+from ..parameters import Modes, Vector
+from ..rigid.body import Ground, Motion, RigidBody, contact_count, contact_rows, fill_inverse_inertia
+from ..rigid.held import path_acceleration
+from ..rigid.linear import solve_consistent
+from ..rigid.motion import contact_velocities
+from ..rigid.problem import PLANE
+from .body_state import fill_motion, fill_rates, fill_turn, places_of
+from .interface import register
+
+FREE, SLIDES, STICKS = 0, 1, 2  # modes of a contact
+GOING, ENDED = 0, 1  # the last of the modes: whether every mode still lasts
+GAP, FIRST, SECOND = 0, 1, 2  # rows of `contacts`: gap in [m], direction of slip at the start
+VELOCITY, FORCE, RIGHT, ANSWER = 0, 1, 2, 3  # rows of `rows`
+SPEED, NEWTONS, NEAR = 0, 1, 2  # entries of `unit`
+MARGINS_A_CONTACT = 2
+SLIGHT_SLIP = 1.0e-9  # of the speed: below it slip has the direction that it starts with
+
+
+class HeldBody(NamedTuple):
+    """The body, its ground, and arrays to work in."""
+
+    body: RigidBody
+    ground: Ground
+    start: Vector  # [width, width], rotation at the start; the quaternion of the state turns on from there
+    motion: Motion  # of the state last looked at
+    J: Vector  # [rows, coordinates]
+    W: Vector  # [coordinates, coordinates]
+    contacts: Vector  # [3, contacts]
+    rows: Vector  # [4, rows]
+    matrices: Vector  # [3, rows, rows]
+    columns: Vector  # [coordinates, rows], accelerations by a unit of each unknown force
+    push: Vector  # [2, coordinates]: acceleration without contact, then force and torque of everything
+    order: Modes  # [2, rows]: the rows that are held, and work space
+    unit: Vector  # [3]: speed in [m/s], force in [N], gap in [m] at which a contact has landed
+
+
+def make_held_body(body: RigidBody, ground: Ground) -> HeldBody:
+    """The rig over a ground that was laid under ``body``."""
+    width, contacts, coordinates, zeros = body.width, contact_count(body, ground), len(body.load), numpy.zeros
+    motion, rows = Motion(zeros(width), zeros(1), zeros((width, width)), zeros(coordinates)), contacts * width
+    return HeldBody(
+        body, ground, zeros((width, width)), motion, zeros((rows, coordinates)), zeros((coordinates, coordinates)),
+        zeros((3, contacts)), zeros((4, rows)), zeros((3, rows, rows)), zeros((coordinates, rows)), zeros((2, coordinates)),
+        zeros((2, rows), numpy.int64), zeros(3),
+    )  # fmt: skip
+
+
+def held_states(body: RigidBody, contacts: int) -> int:
+    """Number of state variables."""
+    return places_of(body.width) + len(body.load) + 2 + contacts * (body.width + MARGINS_A_CONTACT)
+
+
+@borrowing_kernel
+def first_of_time(rig):
+    """Place of the time in the state; the work of friction follows it, then the impulses."""
+    return (3 if rig.body.width == PLANE else 7) + rig.body.load.shape[0]
+
+
+@borrowing_kernel
+def look(rig, state):
+    """Motion, gaps, rows, inertia and contact velocities of a state, into the rig's arrays."""
+    motion, R, start = rig.motion, rig.motion.rotation, rig.start
+    fill_turn(R, state)
+    if rig.body.width != PLANE:
+        for j in range(3):
+            a, b, c = R[0, j], R[1, j], R[2, j]
+            for i in range(3):
+                R[i, j] = start[i, 0] * a + start[i, 1] * b + start[i, 2] * c
+    fill_motion(motion, state)
+    contact_rows(rig.body, rig.ground, rig.motion, rig.contacts[GAP], rig.J)
+    fill_inverse_inertia(rig.body, rig.motion.rotation, rig.W)
+    contact_velocities(rig.J, rig.motion.velocity, rig.rows[VELOCITY])
+
+
+@borrowing_kernel
+def slip_direction(rig, i):
+    """Unit direction of the slip of contact ``i``: that of the start where it hardly slips, and always in the plane."""
+    first, second = rig.contacts[FIRST, i], rig.contacts[SECOND, i]
+    if rig.body.width == PLANE:
+        return first, second
+    u, row = rig.rows[VELOCITY], i * rig.body.width
+    length = math.hypot(u[row + 1], u[row + 2])
+    if length <= SLIGHT_SLIP * rig.unit[SPEED]:
+        return first, second
+    return u[row + 1] / length, u[row + 2] / length
+
+
+@borrowing_kernel
+def _list_rows(rig, mode):
+    """The rows that are held, into ``rig.order``; returns how many."""
+    width, count = rig.body.width, 0
+    for i in range(mode.shape[0] - 1):
+        if mode[i] == FREE:
+            continue
+        for row in range(i * width, (i + 1) * width if mode[i] == STICKS else i * width + 1):
+            rig.order[0, count] = row
+            count += 1
+    return count
+
+
+@borrowing_kernel
+def _pattern(rig, mode, row, part):
+    """How much of row ``part`` of its contact belongs to the unknown force of ``row``: 1 and 0, or a unit along the cone's edge."""
+    width = rig.body.width
+    i = row // width
+    if mode[i] == STICKS:
+        return 1.0 if row == i * width + part else 0.0
+    friction = rig.body.friction
+    length = math.sqrt(1.0 + friction * friction)
+    if part == 0:
+        return 1.0 / length
+    first, second = slip_direction(rig, i)
+    return -friction * (first if part == 1 else second) / length
+
+
+@borrowing_kernel
+def _fill_system(rig, mode, count):
+    """Accelerations by the unknown forces, and of the held rows by them."""
+    J, W, width, matrix = rig.J, rig.W, rig.body.width, rig.matrices[0]
+    n = W.shape[0]
+    for place in range(count):
+        row = rig.order[0, place]
+        base = row // width * width
+        for k in range(n):
+            rig.columns[k, place] = 0.0
+        for part in range(width):
+            share = _pattern(rig, mode, row, part)
+            if share != 0.0:
+                for k in range(n):
+                    for m in range(n):
+                        rig.columns[k, place] += share * W[k, m] * J[base + part, m]
+    for i in range(count):
+        row = rig.order[0, i]
+        for place in range(count):
+            total = 0.0
+            for k in range(n):
+                total += J[row, k] * rig.columns[k, place]
+            matrix[i, place] = total
+
+
+@borrowing_kernel
+def _solve(rig, count):
+    """Forces of least norm with ``matrices[0] f = RIGHT``, into ``ANSWER``."""
+    matrix, copy, square = rig.matrices[0], rig.matrices[1], rig.matrices[2]
+    right, answer, order = rig.rows[RIGHT], rig.rows[ANSWER], rig.order[1]
+    for i in range(count):
+        answer[i] = right[i]
+        for j in range(count):
+            copy[i, j] = matrix[i, j]
+    if solve_consistent(copy, answer, rig.rows[FORCE], order, count) == count:
+        for i in range(count):
+            answer[i] = rig.rows[FORCE, i]
+        return
+    for i in range(count):
+        answer[i] = right[i]
+        for j in range(count):
+            square[i, j] = 0.0
+            for k in range(count):
+                square[i, j] += matrix[i, k] * matrix[j, k]
+    solve_consistent(square, answer, rig.rows[FORCE], order, count)
+    for j in range(count):
+        answer[j] = 0.0
+        for i in range(count):
+            answer[j] += matrix[i, j] * rig.rows[FORCE, i]
+
+
+@borrowing_kernel
+def _fill_free_acceleration(rig):
+    """Acceleration by load and spin, without contact."""
+    body, motion, W, gain = rig.body, rig.motion, rig.W, rig.push[0]
+    for k in range(body.width):
+        gain[k] = body.load[k] / body.mass
+    if body.width == PLANE:
+        gain[2] = body.load[2] / body.inertia[0]
+        return
+    R, v, inertia = motion.rotation, motion.velocity, body.inertia
+    a = R[0, 0] * v[3] + R[1, 0] * v[4] + R[2, 0] * v[5]
+    b = R[0, 1] * v[3] + R[1, 1] * v[4] + R[2, 1] * v[5]
+    c = R[0, 2] * v[3] + R[1, 2] * v[4] + R[2, 2] * v[5]
+    x = (inertia[1] - inertia[2]) * b * c / inertia[0]
+    y = (inertia[2] - inertia[0]) * c * a / inertia[1]
+    z = (inertia[0] - inertia[1]) * a * b / inertia[2]
+    for k in range(3):
+        gain[3 + k] = R[k, 0] * x + R[k, 1] * y + R[k, 2] * z
+        for m in range(3):
+            gain[3 + k] += W[3 + k, 3 + m] * body.load[3 + m]
+
+
+@borrowing_kernel
+def _fill_forces(rig, mode):
+    """Forces of all contacts at the state looked at, into ``FORCE``."""
+    _fill_free_acceleration(rig)
+    J, width, right, force = rig.J, rig.body.width, rig.rows[RIGHT], rig.rows[FORCE]
+    count = _list_rows(rig, mode)
+    for place in range(count):
+        row = rig.order[0, place]
+        i = row // width
+        normal, first, second = path_acceleration(rig.body, rig.ground, rig.motion, J, i)
+        part = row - i * width
+        right[place] = -(normal if part == 0 else (first if part == 1 else second))
+        for k in range(J.shape[1]):
+            right[place] -= J[row, k] * rig.push[0, k]
+    _fill_system(rig, mode, count)
+    _solve(rig, count)
+    for row in range(force.shape[0]):
+        force[row] = 0.0
+    for place in range(count):
+        row = rig.order[0, place]
+        base = row // width * width
+        for part in range(width):
+            force[base + part] += _pattern(rig, mode, row, part) * rig.rows[ANSWER, place]
+
+
+@borrowing_kernel
+def stop_rows(rig, mode):
+    """Take the rest of the velocity from the held rows of ``rig.motion``, which was looked at, by impulses along their forces."""
+    count, velocity = _list_rows(rig, mode), rig.motion.velocity
+    for place in range(count):
+        rig.rows[RIGHT, place] = -rig.rows[VELOCITY, rig.order[0, place]]
+    _fill_system(rig, mode, count)
+    _solve(rig, count)
+    for place in range(count):
+        for k in range(velocity.shape[0]):
+            velocity[k] += rig.columns[k, place] * rig.rows[ANSWER, place]
+
+
+@borrowing_kernel
+def _rate(rig, drive, mode, time, state, out):
+    for i in range(out.shape[0]):
+        out[i] = 0.0
+    if mode[mode.shape[0] - 1] == ENDED:
+        for margin in range(out.shape[0] - MARGINS_A_CONTACT * (mode.shape[0] - 1), out.shape[0]):
+            out[margin] = 1.0
+        return
+    look(rig, state)
+    _fill_forces(rig, mode)
+    place, body, force, push = first_of_time(rig), rig.body, rig.rows[FORCE], rig.push[1]
+    for k in range(push.shape[0]):
+        push[k] = body.load[k]
+        for row in range(force.shape[0]):
+            push[k] += rig.J[row, k] * force[row]
+    fill_rates(body, rig.motion.rotation, push, state, out)
+    out[place] = 1.0
+    for row in range(force.shape[0]):
+        out[place + 2 + row] = force[row]
+        if row % body.width != 0:
+            out[place + 1] += force[row] * rig.rows[VELOCITY, row]
+    _fill_margins(rig, mode, out)
+
+
+@borrowing_kernel
+def _fill_margins(rig, mode, out):
+    """The event functions at the state looked at, into the last entries of ``out``."""
+    contacts, width, force, u = mode.shape[0] - 1, rig.body.width, rig.rows[FORCE], rig.rows[VELOCITY]
+    place = out.shape[0] - MARGINS_A_CONTACT * contacts
+    for i in range(contacts):
+        row, end, extent = i * width, place + i, place + contacts + i
+        out[end], out[extent] = rig.contacts[GAP, i] / rig.unit[NEAR] + 1.0, 1.0
+        if mode[i] == FREE:
+            continue
+        across = force[row + 2] if width != PLANE else 0.0
+        out[end] = force[row] / rig.unit[NEWTONS]
+        if mode[i] == STICKS:
+            out[extent] = (rig.body.friction * force[row] - math.hypot(force[row + 1], across)) / rig.unit[NEWTONS]
+        else:
+            along = u[row + 1] * rig.contacts[FIRST, i]
+            along += u[row + 2] * rig.contacts[SECOND, i] if width != PLANE else 0.0
+            out[extent] = along / rig.unit[SPEED]
+
+
+@borrowing_kernel
+def _margins(rig, drive, mode, time, state, derivative, out):
+    place = derivative.shape[0] - out.shape[0]
+    for margin in range(out.shape[0]):
+        out[margin] = derivative[place + margin]
+
+
+@borrowing_kernel
+def _switch(rig, drive, mode, time, state, event, side):
+    contacts = mode.shape[0] - 1
+    mode[contacts] = ENDED
+    if event >= contacts:
+        i = event - contacts
+        mode[i] = STICKS if mode[i] == SLIDES else mode[i]
+    elif mode[event] != FREE:
+        mode[event] = FREE
+    return 1.0
+
+
+@borrowing_kernel
+def _need_rate(rig, mode):
+    return True
+
+
+register(HeldBody, _rate, _margins, _switch, _need_rate)
