@@ -161,7 +161,7 @@ def body_of(model: BlockModel, motion: Motion) -> Body:
     if model.contact is not None:
         return MovedBody(model.body, model.ground, motion, model.contact, model.tolerance)
     if model.scheme == "located":
-        return LocatedBody(model.body, model.ground, motion, model.rule, model.facets)
+        return LocatedBody(model.body, model.ground, motion, model.rule, model.facets, model.tolerance)
     return SteppedBody(model.body, model.ground, motion, model.step, model.rule, model.facets)
 
 

@@ -51,7 +51,7 @@ class BlockModel:
     force: Vector  # [3] known, in [N]
     torque: Vector  # [3] known, in [N m]
     contact: CompliantContact | None  # in place of impulses; None: rigid
-    tolerance: float  # of the integration of a compliant contact
+    tolerance: float  # of the integration of a compliant contact, and of a body that turns on held points
 
 
 def build_block(scene: dict[str, Any]) -> BlockModel:

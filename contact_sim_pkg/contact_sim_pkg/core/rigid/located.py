@@ -16,30 +16,7 @@ from ..parameters import Vector
 from . import held
 from .body import Ground, Motion, RigidBody, contact_count, laid_under
 from .flight import body_size
-from .march import (
-    BRIEF,
-    COLLIDE,
-    COLLIDED,
-    DONE,
-    EVENTS,
-    INTERVAL,
-    LOST,
-    MOST_SHORT,
-    PAUSE,
-    PIECE,
-    RESIDUAL,
-    RESTED,
-    SAMPLE,
-    SAMPLES,
-    SHORT,
-    SOLVES,
-    STILL,
-    STOPS,
-    TIME,
-    advance_samples,
-    make_march_workspace,
-    track_columns,
-)
+from .march import COLLIDE, DONE, MOST_SHORT, PAUSE, advance_samples, make_march_workspace
 from .motion import APART, STUCK, TOUCHING, make_motion_workspace
 from .packed import ACCEPTED, PackedSolver
 from .parameters import ENERGETIC
@@ -54,6 +31,24 @@ from .results import (
     STICK,
     TOO_MANY_EVENTS,
     TOO_MANY_IMPACTS,
+)
+from .track import (
+    BRIEF,
+    COLLIDED,
+    EVENTS,
+    INTERVAL,
+    LOST,
+    PIECE,
+    RESIDUAL,
+    RESTED,
+    SAMPLE,
+    SAMPLES,
+    SHORT,
+    SOLVES,
+    STILL,
+    STOPS,
+    TIME,
+    track_columns,
 )
 from .turning import INSTANT, make_turn_workspace, turn_held, turns
 
@@ -191,13 +186,12 @@ class LocatedBody:
         track[self._march.counts[SAMPLE], self._columns[3] : self._columns[4]] += self.work.impulse
 
     def _pass(self, track: Vector) -> int:
-        """The piece of time that the march left: a body that turns on held contacts, or what takes the general solvers."""
+        """The time that the march left: a body that turns on held contacts, or a piece that takes the general solvers."""
         clock = self._march.clock
         piece, still = float(clock[PIECE]), float(clock[STILL])
-        passed = self._turn(piece, still)
-        status = SOLVED
-        if passed == 0.0:
-            status, passed = self._support(min(piece, self._longest_support()), still)
+        if self._turn(piece, still, track):
+            return SOLVED
+        status, passed = self._support(min(piece, self._longest_support()), still)
         if status == SOLVED:
             self._add_impulse(track)
             left = clock[INTERVAL] - clock[TIME]
@@ -210,24 +204,24 @@ class LocatedBody:
         spin = float(numpy.abs(self.motion.velocity[self.body.width :]).sum())
         return LARGEST_SUPPORTED_TURN / spin if spin > 0.0 else math.inf
 
-    def _turn(self, piece: float, still: float) -> float:
-        """Time that the body turned on on its held contacts, up to ``piece``; 0 where it does not turn or no mode fits."""
+    def _turn(self, piece: float, still: float, track: Vector) -> bool:
+        """Turn the body on its held contacts for as long as they keep their modes; False where it does not turn or no mode fits."""
         parts = (self.body, self.ground, self.motion, self.work)
         if not turns(*parts, self.motion.velocity, self.size):
             status, _part, _stretch = self._attempt(piece, still)
             if status != SOLVED or not turns(*parts, self.work.free, self.size):
-                return 0.0
+                return False
         status, _part, _stretch = self._attempt(INSTANT * math.sqrt(self.size / self.gravity), still)
-        if status != SOLVED:
-            return 0.0
+        return status == SOLVED and self._turn_on(still, track)
+
+    def _turn_on(self, still: float, track: Vector) -> bool:
+        """With what each held contact does at this instant in the work space."""
+        parts, march = (self.body, self.ground, self.motion, self.work), self._march
         list_features(*parts)
-        time, lost = turn_held(self.body, self.motion, self.work, self._turning, piece, still)
-        if time == 0.0:
-            return 0.0
-        stay_on_the_ground(*parts, self.size, still)
-        self._march.clock[LOST] += lost
-        self._march.counts[EVENTS] += int(time < piece)
-        return float(time)
+        moved = turn_held(self.body, self.motion, self.work, self._turning, march.clock, march.counts, track, still)
+        if moved:
+            stay_on_the_ground(*parts, self.size, still)
+        return bool(moved)
 
     def warm_up(self) -> None:
         """Call every compiled step once, so that none is compiled in the middle of a run; the state is spoiled."""
@@ -242,6 +236,9 @@ class LocatedBody:
         held.gap_after(body, ground, motion, work, 1e-3, 0)
         held.landing_part(body, ground, motion, work, 1e-3, self.size)
         take_piece(body, ground, motion, work, self.size, 1e-9)
+        turns(body, ground, motion, work, motion.velocity, self.size)
+        self._turn_on(1e-9, numpy.zeros((1, self._columns[-1])))
+        stay_on_the_ground(body, ground, motion, work, self.size, 1e-9)
         self.advance(1e-6)
 
     def kinetic_energy(self) -> float:

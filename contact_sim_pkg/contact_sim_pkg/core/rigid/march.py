@@ -28,22 +28,42 @@ from .held import (
     survey_points,
     time_to_peak,
 )
-from .motion import HELD, STUCK, MotionWorkspace, contact_velocities, free_velocity
+from .motion import HELD, MotionWorkspace, contact_velocities, free_velocity
 from .parameters import PlanarContact
 from .piece_end import take_piece
 from .planar_impact import contact_modes
 from .planar_pair import PairWorkspace, make_pair_workspace, pair_impulses
 from .problem import DISC, INACTIVE, PLANE
 from .single import single_impulses
+from .track import (
+    BRIEF,
+    CLOCKS,
+    COLLIDED,
+    COUNTS,
+    EVENTS,
+    INTERVAL,
+    LOST,
+    PIECE,
+    RESIDUAL,
+    RESTED,
+    RESTS,
+    SAMPLE,
+    SAMPLES,
+    SHORT,
+    SOLVES,
+    STILL,
+    STOPS,
+    TIME,
+    add_impulse,
+    record_sample,
+    repeat_to_the_end,
+)
 from .turning import turns
 
 DONE, COLLIDE, SUPPORT, PAUSE = 0, 1, 2, 3  # what a call ends with
-TIME, INTERVAL, RESTED, LOST, RESIDUAL, PIECE, STILL, CLOCKS = 0, 1, 2, 3, 4, 5, 6, 7
-SAMPLE, SAMPLES, EVENTS, SOLVES, COLLIDED, STOPS, SHORT, RESTS, COUNTS = 0, 1, 2, 3, 4, 5, 6, 7, 8
 LARGEST_TURN = 0.02  # [rad] of a piece of free flight in space, where the spin is of order 6
 LARGEST_PLANAR_TURN = 0.2  # [rad] of a piece of free flight in the plane, which is exact: it only has to find the touch
 CELL_PART = 0.1  # of a cell of the ground that a body passes in a piece
-BRIEF = 1.0e-3  # of the time left or of the longest piece: a piece below it was cut short by an event
 MOST_SHORT = 100_000  # such pieces in one sample: there is no end
 PAUSE_AFTER = 10_000  # pieces, so that a run can be broken off
 GOOD = 1.0e-12  # residual of a closed form that is taken
@@ -189,53 +209,6 @@ def _support(body, ground, motion, work, march, time, size, still):
     return True
 
 
-@piece
-def _record(body, motion, work, row):
-    """State at the end of a sample and which points stick, into a row of the track (columns: `track_columns`)."""
-    place = 0
-    for k in range(body.width):
-        row[place] = motion.position[k]
-        place += 1
-    row[place] = motion.angle[0]
-    place += 1
-    for k in range(body.width):
-        for m in range(body.width):
-            row[place] = motion.rotation[k, m]
-            place += 1
-    for k in range(motion.velocity.shape[0]):
-        row[place] = motion.velocity[k]
-        place += 1
-    place += work.impulse.shape[0]
-    for i in range(work.flags.shape[0]):
-        row[place + i] = 1.0 if work.flags[i] == STUCK else 0.0
-
-
-@piece
-def _add_impulse(work, row, column):
-    """The impulses of a piece to those of its sample."""
-    for k in range(work.impulse.shape[0]):
-        row[column + k] += work.impulse[k]
-
-
-@piece
-def _repeat_to_the_end(count, track):
-    """The last sample over and over: nothing moved in it, and nothing will."""
-    for sample in range(count[SAMPLE], count[SAMPLES]):
-        for k in range(track.shape[1]):
-            track[sample, k] = track[sample - 1, k]
-    count[SAMPLE] = count[SAMPLES]
-
-
-def track_columns(body: RigidBody, contacts: int) -> tuple[int, int, int, int, int, int]:
-    """Where angle, rotation, velocity, impulse and sticking points start in a row of the track, and its length."""
-    width, coordinates = body.width, len(body.load)
-    rotation = width + 1
-    velocity = rotation + width * width
-    impulse = velocity + coordinates
-    sticks = impulse + contacts * width
-    return width, rotation, velocity, impulse, sticks, sticks + contacts
-
-
 @entry
 def advance_samples(
     body: RigidBody, ground: Ground, motion: Motion, work: MotionWorkspace, march: MarchWorkspace, size: float,
@@ -258,7 +231,7 @@ def advance_samples(
                     clock[LOST] += lost
                     clock[TIME] = clock[INTERVAL]
                     count[SOLVES] += 1
-                    _add_impulse(work, track[count[SAMPLE]], impulse_column)
+                    add_impulse(work, track[count[SAMPLE]], impulse_column)
                     continue
                 points = NO_FACE
             still, approaches = survey_points(body, ground, motion, work, size, gravity)
@@ -272,7 +245,7 @@ def advance_samples(
             if holds:
                 resting = rests(motion, work, size)
                 if resting and count[RESTS] > 0 and count[RESTS] == count[SAMPLE]:
-                    _repeat_to_the_end(count, track)
+                    repeat_to_the_end(count, track)
                     return DONE
                 longest = min(left, _longest(body, ground, motion, math.inf, size))
                 passed = longest
@@ -283,7 +256,7 @@ def advance_samples(
                 count[SOLVES] += 1
                 if not _support(body, ground, motion, work, march, passed, size, still):
                     return SUPPORT
-                _add_impulse(work, track[count[SAMPLE]], impulse_column)
+                add_impulse(work, track[count[SAMPLE]], impulse_column)
                 take_piece(body, ground, motion, work, size, still)
                 points = straight_face(body, ground, motion, work, march.face)
             else:
@@ -295,7 +268,7 @@ def advance_samples(
             pieces += 1
             if pieces > PAUSE_AFTER or count[SHORT] > MOST_SHORT:
                 return PAUSE
-        _record(body, motion, work, track[count[SAMPLE]])
+        record_sample(body, motion, work, track[count[SAMPLE]])
         count[SAMPLE] += 1
         clock[TIME] = 0.0
         count[STOPS], count[SHORT] = 0, 0

@@ -35,14 +35,30 @@ from ..rigs.interface import rate
 from ..solvers.dormand_prince import Workspace, integrate, make_workspace
 from .body import Ground, Motion, RigidBody, contact_count
 from .held import LANDED, path_acceleration, slip_of
-from .motion import HELD, STUCK, MotionWorkspace
+from .motion import HELD, STUCK, TOUCHING, MotionWorkspace
 from .problem import PLANE
 from .rotation import spin_in_body, straighten
+from .track import (
+    BRIEF,
+    EVENTS,
+    INTERVAL,
+    LOST,
+    PIECE,
+    SAMPLE,
+    SAMPLES,
+    SHORT,
+    SOLVES,
+    STOPS,
+    TIME,
+    add_impulse,
+    record_sample,
+)
 
 INSTANT = 1.0e-6  # of the time in which a body falls by its size: over it the contact problem tells the modes
 FULL = 1.0e-9  # of a force or a speed: nearer than that to its limit counts as at it
 BEYOND = 1.0e-6  # of the unit of force: so far beyond its limit a mode may start
 STOPPED = 1.0e-5  # of the unit of speed: slip of a contact that shall stick at the start
+MOST_SAMPLES = 1000  # of one call, so that a run can be broken off
 PROGRESS = 1.0e-9  # of the piece: less is no progress
 
 
@@ -108,6 +124,15 @@ def _set_modes(body, work, turn):
 
 
 @piece
+def _set_flags(work, turn):
+    """Which held contacts stick, which slide, and which are held no longer."""
+    for i in range(work.flags.shape[0]):
+        if work.flags[i] >= HELD:
+            mode = turn.mode[i]
+            work.flags[i] = STUCK if mode == STICKS else (HELD if mode == SLIDES else TOUCHING)
+
+
+@piece
 def _set_start(body, motion, turn):
     """The motion as the state of the rig."""
     rig, state, v = turn.rig, turn.state, motion.velocity
@@ -166,31 +191,58 @@ def _take_end(body, motion, work, turn, drive, still):
         motion.velocity[k] = rig.motion.velocity[k] if abs(rig.motion.velocity[k]) > still else 0.0
 
 
-@entry
-def turn_held(
-    body: RigidBody, motion: Motion, work: MotionWorkspace, turn: TurnWorkspace, longest: float, still: float
-) -> tuple[float, float]:
-    """Bring a body whose held contacts turn on by ``longest`` [s] or to the end of a mode; returns the time, the energy lost [J].
-
-    ``work.impulse`` and ``work.free`` are those of an instant with the contacts as they are; the impulses of the piece follow in
-    ``work.impulse``, and what each contact does in ``work.flags``. Time 0: the modes do not fit, nothing was changed.
-    """
-    rig, integrator = turn.rig, turn.integrator
-    _set_modes(body, work, turn)
+@piece
+def _move(body, motion, work, turn, left, still):
+    """Integrate over ``left`` [s] or to the end of a mode: the time, 0 where nothing was changed, and whether a mode ended."""
+    rig, integrator, last = turn.rig, turn.integrator, turn.mode.shape[0] - 1
+    drive = Drive(0.0, left, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
     _set_start(body, motion, turn)
-    drive = Drive(0.0, longest, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
     if not _starts_well(body, drive, turn):
-        return 0.0, 0.0
+        return 0.0, False
     for margin in range(integrator.side.shape[0]):
         integrator.side[margin] = 1.0
     integrator.last_event[0] = -math.inf
-    status = integrate(rig, drive, turn.mode, longest, turn.state, turn.scale, integrator)
-    place = first_of_time(rig)
-    time, ended = turn.state[place], turn.mode[turn.mode.shape[0] - 1] != GOING
-    if status != DONE or not time > PROGRESS * longest:
-        return 0.0, 0.0
+    status = integrate(rig, drive, turn.mode, left, turn.state, turn.scale, integrator)
+    time, ended = turn.state[first_of_time(rig)], turn.mode[last] != GOING
+    if status != DONE or not time > PROGRESS * left:
+        return 0.0, False
     _take_end(body, motion, work, turn, drive, still)
-    for i in range(work.flags.shape[0]):
-        if work.flags[i] >= HELD:
-            work.flags[i] = STUCK if turn.mode[i] == STICKS else HELD
-    return (time if ended else longest), -turn.state[place + 1]
+    return (time if ended else left), ended
+
+
+@entry
+def turn_held(
+    body: RigidBody, motion: Motion, work: MotionWorkspace, turn: TurnWorkspace, clock: Vector, count: Modes, track: Vector,
+    still: float,
+) -> bool:  # fmt: skip
+    """Bring a body whose held contacts turn on to the end of a mode or of the piece, on a plane through all samples up to there.
+
+    ``work.impulse`` and ``work.free`` are those of an instant with the contacts as they are; what each then does is left in
+    ``work.flags``. Clock, counts and track go on as in `march.py`. False: the modes do not fit, nothing was changed.
+    """
+    column, moved, going, samples = track.shape[1] - work.impulse.shape[0] - work.flags.shape[0], False, True, 0
+    _set_modes(body, work, turn)
+    while going:
+        left = clock[INTERVAL] - clock[TIME]
+        left = left if moved else min(left, clock[PIECE])
+        time, ended = _move(body, motion, work, turn, left, still)
+        if time == 0.0:
+            break
+        moved = True
+        _set_flags(work, turn)
+        add_impulse(work, track[count[SAMPLE]], column)
+        clock[LOST] -= turn.state[first_of_time(turn.rig) + 1]
+        count[SOLVES] += 1
+        count[EVENTS] += 1 if ended else 0
+        count[SHORT] += 1 if time < BRIEF * left else 0
+        whole = not ended and clock[TIME] + left >= clock[INTERVAL]
+        clock[TIME] = clock[INTERVAL] if whole else clock[TIME] + time
+        samples += 1
+        flat = turn.rig.ground.profile.nodes.shape[0] == 0
+        going = whole and flat and count[SAMPLE] + 1 < count[SAMPLES] and samples < MOST_SAMPLES
+        if going:
+            record_sample(body, motion, work, track[count[SAMPLE]])
+            count[SAMPLE] += 1
+            clock[TIME] = 0.0
+            count[STOPS], count[SHORT] = 0, 0
+    return moved

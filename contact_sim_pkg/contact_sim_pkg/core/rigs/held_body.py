@@ -34,6 +34,7 @@ GAP, FIRST, SECOND = 0, 1, 2  # rows of `contacts`: gap in [m], direction of sli
 VELOCITY, FORCE, RIGHT, ANSWER = 0, 1, 2, 3  # rows of `rows`
 SPEED, NEWTONS, NEAR = 0, 1, 2  # entries of `unit`
 MARGINS_A_CONTACT = 2
+LARGEST_MARGIN = 1.0e3  # of a gap, so that its integral stays small
 SLIGHT_SLIP = 1.0e-9  # of the speed: below it slip has the direction that it starts with
 
 
@@ -276,7 +277,7 @@ def _fill_margins(rig, mode, out):
     place = out.shape[0] - MARGINS_A_CONTACT * contacts
     for i in range(contacts):
         row, end, extent = i * width, place + i, place + contacts + i
-        out[end], out[extent] = rig.contacts[GAP, i] / rig.unit[NEAR] + 1.0, 1.0
+        out[end], out[extent] = min(rig.contacts[GAP, i] / rig.unit[NEAR], LARGEST_MARGIN) + 1.0, 1.0
         if mode[i] == FREE:
             continue
         across = force[row + 2] if width != PLANE else 0.0
@@ -297,14 +298,29 @@ def _margins(rig, drive, mode, time, state, derivative, out):
 
 
 @borrowing_kernel
+def _goes_round(rig, i):
+    """Whether the slip of contact ``i`` has come at right angles to where it went and goes on; it then counts from there."""
+    if rig.body.width == PLANE:
+        return False
+    u, row = rig.rows[VELOCITY], i * rig.body.width
+    length = math.hypot(u[row + 1], u[row + 2])
+    if length <= SLIGHT_SLIP * rig.unit[SPEED]:
+        return False
+    rig.contacts[FIRST, i], rig.contacts[SECOND, i] = u[row + 1] / length, u[row + 2] / length
+    return True
+
+
+@borrowing_kernel
 def _switch(rig, drive, mode, time, state, event, side):
     contacts = mode.shape[0] - 1
+    i = event - contacts if event >= contacts else event
+    if event >= contacts and mode[i] == SLIDES:
+        if _goes_round(rig, i):
+            return 1.0
+        mode[i] = STICKS
+    elif event < contacts:
+        mode[i] = FREE
     mode[contacts] = ENDED
-    if event >= contacts:
-        i = event - contacts
-        mode[i] = STICKS if mode[i] == SLIDES else mode[i]
-    elif mode[event] != FREE:
-        mode[event] = FREE
     return 1.0
 
 
