@@ -13,7 +13,7 @@ import numpy
 
 from ..jit import entry, piece
 from ..parameters import Drive, Modes, Vector
-from ..results import DONE
+from ..results import DONE, NOT_FINITE
 from ..rigs.body_state import places_of
 from ..rigs.held_body import (
     FIRST,
@@ -21,6 +21,7 @@ from ..rigs.held_body import (
     GOING,
     MARGINS_A_CONTACT,
     SECOND,
+    SECONDS,
     SLIDES,
     SPEED,
     STICKS,
@@ -59,7 +60,10 @@ FULL = 1.0e-9  # of a force or a speed: nearer than that to its limit counts as 
 BEYOND = 1.0e-6  # of the unit of force: so far beyond its limit a mode may start
 STOPPED = 1.0e-5  # of the unit of speed: slip of a contact that shall stick at the start
 MOST_SAMPLES = 1000  # of one call, so that a run can be broken off
-PROGRESS = 1.0e-9  # of the piece: less is no progress
+PROGRESS = 1.0e-9  # of the piece: less is no progress to the end of a mode
+PART = 0.1  # of the piece: less is not worth a start
+SHORTEST = 2.0e-3  # of the piece: no step is shorter
+SHORTENED = 0.01  # of the piece: a step as short as that was cut by an event
 
 
 class TurnWorkspace(NamedTuple):
@@ -83,7 +87,7 @@ def make_turn_workspace(
     scale = numpy.full(states, math.inf)
     scale[:places] = [size] * width + [1.0] * turns
     scale[places : places + len(body.load)] = [speed] * width + [speed / size] * (len(body.load) - width)
-    rig.unit[:] = speed, body.mass * gravity, LANDED * size
+    rig.unit[:] = speed, body.mass * gravity, LANDED * size, math.sqrt(size / gravity)
     workspace = make_workspace(states, MARGINS_A_CONTACT * contacts)
     return TurnWorkspace(rig, numpy.zeros(contacts + 1, numpy.int64), numpy.zeros(states), tolerance * scale, workspace)
 
@@ -193,7 +197,10 @@ def _take_end(body, motion, work, turn, drive, still):
 
 @piece
 def _move(body, motion, work, turn, left, still):
-    """Integrate over ``left`` [s] or to the end of a mode: the time, 0 where nothing was changed, and whether a mode ended."""
+    """Integrate over ``left`` [s] or to the end of a mode: the time, 0 where nothing was changed, and whether a mode ended.
+
+    Where slip comes near 0 without stopping, its direction whirls ever faster: the path ends before, if it has come that far.
+    """
     rig, integrator, last = turn.rig, turn.integrator, turn.mode.shape[0] - 1
     drive = Drive(0.0, left, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
     _set_start(body, motion, turn)
@@ -202,12 +209,16 @@ def _move(body, motion, work, turn, left, still):
     for margin in range(integrator.side.shape[0]):
         integrator.side[margin] = 1.0
     integrator.last_event[0] = -math.inf
+    integrator.step[1] = SHORTEST * min(left, rig.unit[SECONDS])
+    if integrator.step[0] < SHORTENED * left:
+        integrator.step[0] = left
     status = integrate(rig, drive, turn.mode, left, turn.state, turn.scale, integrator)
     time, ended = turn.state[first_of_time(rig)], turn.mode[last] != GOING
-    if status != DONE or not time > PROGRESS * left:
+    least = PROGRESS if status == DONE else PART
+    if status == NOT_FINITE or not time > least * left:
         return 0.0, False
     _take_end(body, motion, work, turn, drive, still)
-    return (time if ended else left), ended
+    return (left if status == DONE and not ended else time), ended
 
 
 @entry
@@ -235,7 +246,7 @@ def turn_held(
         count[SOLVES] += 1
         count[EVENTS] += 1 if ended else 0
         count[SHORT] += 1 if time < BRIEF * left else 0
-        whole = not ended and clock[TIME] + left >= clock[INTERVAL]
+        whole = time == left and clock[TIME] + left >= clock[INTERVAL]
         clock[TIME] = clock[INTERVAL] if whole else clock[TIME] + time
         samples += 1
         flat = turn.rig.ground.profile.nodes.shape[0] == 0

@@ -32,7 +32,7 @@ FREE, SLIDES, STICKS = 0, 1, 2  # modes of a contact
 GOING, ENDED = 0, 1  # the last of the modes: whether every mode still lasts
 GAP, FIRST, SECOND = 0, 1, 2  # rows of `contacts`: gap in [m], direction of slip at the start
 VELOCITY, FORCE, RIGHT, ANSWER = 0, 1, 2, 3  # rows of `rows`
-SPEED, NEWTONS, NEAR = 0, 1, 2  # entries of `unit`
+SPEED, NEWTONS, NEAR, SECONDS = 0, 1, 2, 3  # entries of `unit`
 MARGINS_A_CONTACT = 2
 LARGEST_MARGIN = 1.0e3  # of a gap, so that its integral stays small
 SLIGHT_SLIP = 1.0e-9  # of the speed: below it slip has the direction that it starts with
@@ -53,7 +53,7 @@ class HeldBody(NamedTuple):
     columns: Vector  # [coordinates, rows], accelerations by a unit of each unknown force
     push: Vector  # [2, coordinates]: acceleration without contact, then force and torque of everything
     order: Modes  # [2, rows]: the rows that are held, and work space
-    unit: Vector  # [3]: speed in [m/s], force in [N], gap in [m] at which a contact has landed
+    unit: Vector  # [4]: speed in [m/s], force in [N], gap in [m] at which a contact has landed, time in [s]
 
 
 def make_held_body(body: RigidBody, ground: Ground) -> HeldBody:
@@ -63,7 +63,7 @@ def make_held_body(body: RigidBody, ground: Ground) -> HeldBody:
     return HeldBody(
         body, ground, zeros((width, width)), motion, zeros((rows, coordinates)), zeros((coordinates, coordinates)),
         zeros((3, contacts)), zeros((4, rows)), zeros((3, rows, rows)), zeros((coordinates, rows)), zeros((2, coordinates)),
-        zeros((2, rows), numpy.int64), zeros(3),
+        zeros((2, rows), numpy.int64), zeros(4),
     )  # fmt: skip
 
 

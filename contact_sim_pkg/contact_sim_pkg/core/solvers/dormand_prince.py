@@ -51,7 +51,7 @@ class Workspace(NamedTuple):
     inside_rate: Vector  # [states]
     side: Vector  # [margins], the sign on which each event function stands
     margin: Vector  # [margins]
-    step: Vector  # [1], the step that the error control proposes; carried from segment to segment
+    step: Vector  # [2], the step that the error control proposes, carried from segment to segment; the least it may be, 0: any
     last_event: Vector  # [1], time of the last event in [s]
     counters: Vector  # [COUNTERS], accepted steps, rejected steps, events
 
@@ -64,7 +64,7 @@ def make_workspace(states: int, margin_count: int) -> Workspace:
 
     return Workspace(
         zeros(STAGES, states), zeros(states), zeros(states), zeros(states), zeros(margin_count), zeros(margin_count),
-        zeros(1), numpy.full(1, -numpy.inf), zeros(COUNTERS),
+        zeros(2), numpy.full(1, -numpy.inf), zeros(COUNTERS),
     )  # fmt: skip
 
 
@@ -225,7 +225,7 @@ def integrate(rig, drive, mode, end, state, scale, work):  # noqa: C901
         remaining = end - time
         last = proposed >= remaining * (1.0 - 1.0e-12)
         step = remaining if last else min(proposed, 0.5 * remaining if proposed > 0.5 * remaining else proposed)
-        if step <= 1.0e-15 * max(1.0, abs(time)) and not last:
+        if step <= max(work.step[1], 1.0e-15 * max(1.0, abs(time))) and not last:
             return STEP_TOO_SMALL
         _stages(rig, drive, mode, time, step, state, k, work.trial)
         care = _underestimate(step, time - work.last_event[0])
