@@ -206,6 +206,8 @@ class LocatedBody:
 
     def _turn(self, piece: float, still: float, track: Vector) -> bool:
         """Turn the body on its held contacts for as long as they keep their modes; False where it does not turn or no mode fits."""
+        if self._march.counts[STOPS] >= MOST_STOPS:
+            return False
         parts = (self.body, self.ground, self.motion, self.work)
         if not turns(*parts, self.motion.velocity, self.size):
             status, _part, _stretch = self._attempt(piece, still)

@@ -16,6 +16,7 @@ from ..parameters import Drive, Modes, Vector
 from ..results import DONE, NOT_FINITE
 from ..rigs.body_state import places_of
 from ..rigs.held_body import (
+    DEEP,
     FIRST,
     FREE,
     GOING,
@@ -57,12 +58,13 @@ from .track import (
 
 INSTANT = 1.0e-6  # of the time in which a body falls by its size: over it the contact problem tells the modes
 FULL = 1.0e-9  # of a force or a speed: nearer than that to its limit counts as at it
+SLIPS = 1.0e-9  # of the unit of speed, after the instant: less slip is rounding
 BEYOND = 1.0e-6  # of the unit of force: so far beyond its limit a mode may start
 STOPPED = 1.0e-5  # of the unit of speed: slip of a contact that shall stick at the start
 MOST_SAMPLES = 1000  # of one call, so that a run can be broken off
 PROGRESS = 1.0e-9  # of the piece: less is no progress to the end of a mode
 PART = 0.1  # of the piece: less is not worth a start
-SHORTEST = 2.0e-3  # of the piece: no step is shorter
+MOST_STEPS = 500.0  # of a piece, and again for every time in which a body falls by its size
 SHORTENED = 0.01  # of the piece: a step as short as that was cut by an event
 
 
@@ -122,7 +124,7 @@ def _set_modes(body, work, turn):
         first, second = slip_of(body, work, work.free, i)
         slip = math.hypot(first, second)
         full = math.hypot(work.impulse[row + 1], across) >= body.friction * normal * (1.0 - FULL)
-        mode[i] = SLIDES if full and slip > 0.0 else STICKS
+        mode[i] = SLIDES if full and slip > SLIPS * rig.unit[SPEED] else STICKS
         if mode[i] == SLIDES:
             rig.contacts[FIRST, i], rig.contacts[SECOND, i] = first / slip, second / slip
 
@@ -137,11 +139,13 @@ def _set_flags(work, turn):
 
 
 @piece
-def _set_start(body, motion, turn):
+def _set_start(body, motion, work, turn):
     """The motion as the state of the rig."""
     rig, state, v = turn.rig, turn.state, motion.velocity
     for i in range(state.shape[0]):
         state[i] = 0.0
+    for i in range(work.gap.shape[0]):
+        rig.contacts[DEEP, i] = min(work.gap[i], 0.0)
     for k in range(body.width):
         state[k] = motion.position[k]
         for m in range(body.width):
@@ -203,13 +207,13 @@ def _move(body, motion, work, turn, left, still):
     """
     rig, integrator, last = turn.rig, turn.integrator, turn.mode.shape[0] - 1
     drive = Drive(0.0, left, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
-    _set_start(body, motion, turn)
+    _set_start(body, motion, work, turn)
     if not _starts_well(body, drive, turn):
         return 0.0, False
     for margin in range(integrator.side.shape[0]):
         integrator.side[margin] = 1.0
     integrator.last_event[0] = -math.inf
-    integrator.step[1] = SHORTEST * min(left, rig.unit[SECONDS])
+    integrator.step[1] = MOST_STEPS * (1.0 + left / rig.unit[SECONDS])
     if integrator.step[0] < SHORTENED * left:
         integrator.step[0] = left
     status = integrate(rig, drive, turn.mode, left, turn.state, turn.scale, integrator)
@@ -245,6 +249,7 @@ def turn_held(
         clock[LOST] -= turn.state[first_of_time(turn.rig) + 1]
         count[SOLVES] += 1
         count[EVENTS] += 1 if ended else 0
+        count[STOPS] += 1 if ended else 0
         count[SHORT] += 1 if time < BRIEF * left else 0
         whole = time == left and clock[TIME] + left >= clock[INTERVAL]
         clock[TIME] = clock[INTERVAL] if whole else clock[TIME] + time

@@ -20,7 +20,15 @@ import numpy
 
 from ..jit import borrowing_kernel
 from ..parameters import Modes, Vector
-from ..rigid.body import Ground, Motion, RigidBody, contact_count, contact_rows, fill_inverse_inertia
+from ..rigid.body import (
+    Ground,
+    Motion,
+    RigidBody,
+    contact_count,
+    contact_rows,
+    fill_inverse_inertia,
+    point_arm,
+)
 from ..rigid.held import path_acceleration
 from ..rigid.linear import solve_consistent
 from ..rigid.motion import contact_velocities
@@ -30,12 +38,18 @@ from .interface import register
 
 FREE, SLIDES, STICKS = 0, 1, 2  # modes of a contact
 GOING, ENDED = 0, 1  # the last of the modes: whether every mode still lasts
-GAP, FIRST, SECOND = 0, 1, 2  # rows of `contacts`: gap in [m], direction of slip at the start
+GAP, FIRST, SECOND, DEEP, SPARE = (
+    0,
+    1,
+    2,
+    3,
+    4,
+)  # rows of `contacts`: gap [m], slip's direction and depth at the start, friction left
 VELOCITY, FORCE, RIGHT, ANSWER = 0, 1, 2, 3  # rows of `rows`
 SPEED, NEWTONS, NEAR, SECONDS = 0, 1, 2, 3  # entries of `unit`
 MARGINS_A_CONTACT = 2
 LARGEST_MARGIN = 1.0e3  # of a gap, so that its integral stays small
-SLIGHT_SLIP = 1.0e-9  # of the speed: below it slip has the direction that it starts with
+SLIGHT_SLIP = 1.0e-7  # of the speed: below it slip has the direction that it starts with
 
 
 class HeldBody(NamedTuple):
@@ -47,7 +61,7 @@ class HeldBody(NamedTuple):
     motion: Motion  # of the state last looked at
     J: Vector  # [rows, coordinates]
     W: Vector  # [coordinates, coordinates]
-    contacts: Vector  # [3, contacts]
+    contacts: Vector  # [5, contacts]
     rows: Vector  # [4, rows]
     matrices: Vector  # [3, rows, rows]
     columns: Vector  # [coordinates, rows], accelerations by a unit of each unknown force
@@ -62,7 +76,7 @@ def make_held_body(body: RigidBody, ground: Ground) -> HeldBody:
     motion, rows = Motion(zeros(width), zeros(1), zeros((width, width)), zeros(coordinates)), contacts * width
     return HeldBody(
         body, ground, zeros((width, width)), motion, zeros((rows, coordinates)), zeros((coordinates, coordinates)),
-        zeros((3, contacts)), zeros((4, rows)), zeros((3, rows, rows)), zeros((coordinates, rows)), zeros((2, coordinates)),
+        zeros((5, contacts)), zeros((4, rows)), zeros((3, rows, rows)), zeros((coordinates, rows)), zeros((2, coordinates)),
         zeros((2, rows), numpy.int64), zeros(4),
     )  # fmt: skip
 
@@ -209,6 +223,60 @@ def _fill_free_acceleration(rig):
 
 
 @borrowing_kernel
+def _line(rig, i, j):
+    """Direction of the line from contact ``i`` to ``j`` along the tangents of both, on a plane."""
+    J, R, row = rig.J, rig.motion.rotation, 3 * i
+    x_i, y_i, z_i = point_arm(rig.body, R, i)
+    x_j, y_j, z_j = point_arm(rig.body, R, j)
+    x, y, z = x_j - x_i, y_j - y_i, z_j - z_i
+    first = J[row + 1, 0] * x + J[row + 1, 1] * y + J[row + 1, 2] * z
+    second = J[row + 2, 0] * x + J[row + 2, 1] * y + J[row + 2, 2] * z
+    length = math.hypot(first, second)
+    return first / length, second / length
+
+
+@borrowing_kernel
+def _share_friction(rig, i, j):
+    """Friction of two sticking contacts along the line through them, of which only the sum is known.
+
+    As little as can be is moved from one to the other so that both stay in their cones; what is spare is that of both.
+    """
+    force, spare, a, b = rig.rows[FORCE], rig.contacts[SPARE], 3 * i, 3 * j
+    first, second = _line(rig, i, j)
+    along_i, along_j = force[a + 1] * first + force[a + 2] * second, force[b + 1] * first + force[b + 2] * second
+    over_i, over_j = force[a + 1] * second - force[a + 2] * first, force[b + 1] * second - force[b + 2] * first
+    full_i, full_j = rig.body.friction * force[a], rig.body.friction * force[b]
+    across = min(full_i - abs(over_i), full_j - abs(over_j))
+    spare[i], spare[j] = across, across
+    if across < 0.0:
+        return
+    room_i, room_j = math.sqrt(full_i**2 - over_i**2), math.sqrt(full_j**2 - over_j**2)
+    low, high = max(-room_i - along_i, along_j - room_j), min(room_i - along_i, along_j + room_j)
+    spare[i] = min(across, 0.5 * (high - low))
+    spare[j] = spare[i]
+    moved = min(max(0.0, low), high) if low <= high else 0.5 * (low + high)
+    force[a + 1] += moved * first
+    force[a + 2] += moved * second
+    force[b + 1] -= moved * first
+    force[b + 2] -= moved * second
+
+
+@borrowing_kernel
+def _fill_spare_friction(rig, mode):
+    """Friction that sticking contacts have left, in [N], into ``SPARE``."""
+    force, width, count, last, other = rig.rows[FORCE], rig.body.width, 0, -1, -1
+    for i in range(mode.shape[0] - 1):
+        row = i * width
+        across = force[row + 2] if width != PLANE else 0.0
+        rig.contacts[SPARE, i] = rig.body.friction * force[row] - math.hypot(force[row + 1], across)
+        if mode[i] != FREE:
+            count += 1
+            other, last = (last, i) if mode[i] == STICKS else (other, last)
+    if width != PLANE and count == 2 and other >= 0 and rig.ground.profile.nodes.shape[0] == 0:
+        _share_friction(rig, other, last)
+
+
+@borrowing_kernel
 def _fill_forces(rig, mode):
     """Forces of all contacts at the state looked at, into ``FORCE``."""
     _fill_free_acceleration(rig)
@@ -231,6 +299,7 @@ def _fill_forces(rig, mode):
         base = row // width * width
         for part in range(width):
             force[base + part] += _pattern(rig, mode, row, part) * rig.rows[ANSWER, place]
+    _fill_spare_friction(rig, mode)
 
 
 @borrowing_kernel
@@ -277,13 +346,13 @@ def _fill_margins(rig, mode, out):
     place = out.shape[0] - MARGINS_A_CONTACT * contacts
     for i in range(contacts):
         row, end, extent = i * width, place + i, place + contacts + i
-        out[end], out[extent] = min(rig.contacts[GAP, i] / rig.unit[NEAR], LARGEST_MARGIN) + 1.0, 1.0
+        gap = rig.contacts[GAP, i] - rig.contacts[DEEP, i]
+        out[end], out[extent] = min(gap / rig.unit[NEAR], LARGEST_MARGIN) + 1.0, 1.0
         if mode[i] == FREE:
             continue
-        across = force[row + 2] if width != PLANE else 0.0
         out[end] = force[row] / rig.unit[NEWTONS]
         if mode[i] == STICKS:
-            out[extent] = (rig.body.friction * force[row] - math.hypot(force[row + 1], across)) / rig.unit[NEWTONS]
+            out[extent] = rig.contacts[SPARE, i] / rig.unit[NEWTONS]
         else:
             along = u[row + 1] * rig.contacts[FIRST, i]
             along += u[row + 2] * rig.contacts[SECOND, i] if width != PLANE else 0.0

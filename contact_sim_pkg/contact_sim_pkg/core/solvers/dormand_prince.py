@@ -51,7 +51,7 @@ class Workspace(NamedTuple):
     inside_rate: Vector  # [states]
     side: Vector  # [margins], the sign on which each event function stands
     margin: Vector  # [margins]
-    step: Vector  # [2], the step that the error control proposes, carried from segment to segment; the least it may be, 0: any
+    step: Vector  # [2], the step that the error control proposes, carried from segment to segment; most steps of a call, 0: any
     last_event: Vector  # [1], time of the last event in [s]
     counters: Vector  # [COUNTERS], accepted steps, rejected steps, events
 
@@ -217,15 +217,17 @@ def integrate(rig, drive, mode, end, state, scale, work):  # noqa: C901
     proposed = work.step[0] if work.step[0] > 0.0 else end - time
     k = work.stages
     events = 0
+    tries = 0
     known = False  # whether k[0] holds the rate
     while time < end:
         if not known:
             rate(rig, drive, mode, time, state, k[0])
             known = True
+        tries += 1
         remaining = end - time
         last = proposed >= remaining * (1.0 - 1.0e-12)
         step = remaining if last else min(proposed, 0.5 * remaining if proposed > 0.5 * remaining else proposed)
-        if step <= max(work.step[1], 1.0e-15 * max(1.0, abs(time))) and not last:
+        if (step <= 1.0e-15 * max(1.0, abs(time)) and not last) or 0.0 < work.step[1] < tries:
             return STEP_TOO_SMALL
         _stages(rig, drive, mode, time, step, state, k, work.trial)
         care = _underestimate(step, time - work.last_event[0])
