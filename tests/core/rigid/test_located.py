@@ -40,6 +40,16 @@ def test_a_sphere_bounces_to_rest_at_the_time_of_the_geometric_series(height, re
     assert motion.position[2] == pytest.approx(radius, abs=1e-12)
 
 
+@pytest.mark.parametrize("restitution", [0.3, 0.8])
+def test_the_impulses_of_a_bouncing_body_carry_its_weight_to_rounding(restitution):
+    """From rest to rest the ground gives m g t, the last bounces that are taken as one included."""
+    body = sphere(0.05, 2.0, 0.3, restitution)
+    located = LocatedBody(body, slope(3), placed(body, [0.0, 0.0, 1.05], numpy.zeros(6)))
+    status, track = located.advance_over(1e-2, 500)
+    assert (status, located.motion.velocity.any()) == (SOLVED, False)
+    assert track.impulse[:, 0].sum() == pytest.approx(2.0 * GRAVITY * 5.0, rel=1e-13)
+
+
 def test_a_block_slides_to_a_stop_after_the_distance_of_coulombs_law():
     block = regular_block(0.1, 1.0, 0.3, 0.0)
     motion = placed(block, [0.0, 0.05], [2.0, 0.0, 0.0])

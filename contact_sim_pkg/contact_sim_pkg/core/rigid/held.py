@@ -132,7 +132,10 @@ def _normal_acceleration(body, ground, motion, work, i):
 
 @kernel
 def hold_back(body, motion, work):
-    """Take the rest of the normal velocity from held points, one after the other (it is below the rest speed)."""
+    """Take the rest of the normal velocity from held points, one after the other (it is below the rest speed).
+
+    The impulses that this takes, towards the ground, are added to ``work.impulse``.
+    """
     n = motion.velocity.shape[0]
     for _ in range(HOLD_SWEEPS):
         moved = False
@@ -147,6 +150,7 @@ def hold_back(body, motion, work):
             for k in range(n):
                 for m in range(n):
                     weight += work.J[row, k] * work.W[k, m] * work.J[row, m]
+            work.impulse[row] -= speed / weight
             for k in range(n):
                 for m in range(n):
                     motion.velocity[k] -= work.W[k, m] * work.J[row, m] * speed / weight
@@ -160,9 +164,12 @@ def settle_points(
 ) -> tuple[float, bool]:
     """Hold the points whose rebound is below the rest speed and that the load presses down.
 
-    Returns the time in [s] that their last bounces take, and whether any point is held.
+    Returns the time in [s] that their last bounces take, and whether any point is held. ``work.impulse`` is what takes the
+    speed of their rebound from them: the weight carries them over the last bounces, and this much less.
     """
     wait, held = 0.0, False
+    for row in range(work.impulse.shape[0]):
+        work.impulse[row] = 0.0
     for i in range(work.flags.shape[0]):
         speed = work.u[i * body.width]
         if work.flags[i] == HELD or work.flags[i] == STUCK:

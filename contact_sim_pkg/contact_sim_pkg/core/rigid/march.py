@@ -243,6 +243,7 @@ def advance_samples(
             if wait > 0.0:
                 clock[RESTED] = count[SAMPLE] * clock[INTERVAL] + clock[TIME] + wait
             if holds:
+                add_impulse(work, track[count[SAMPLE]], impulse_column)
                 resting = rests(motion, work, size)
                 if resting and count[RESTS] > 0 and count[RESTS] == count[SAMPLE]:
                     repeat_to_the_end(count, track)
