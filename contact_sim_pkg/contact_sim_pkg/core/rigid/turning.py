@@ -110,10 +110,13 @@ def turns(
 
 
 @piece
-def _set_modes(body, work, turn):
-    """Modes from the impulses of an instant; ``work.free`` is the velocity at its end."""
+def _set_modes(body, motion, work, turn, gives_way):
+    """Modes from the impulses of an instant; ``work.free`` is the velocity at its end. Slip counts the turn of arms over it.
+
+    ``gives_way``: a contact that has used up its friction starts to slide against it. Returns whether there is one.
+    """
     rig, mode = turn.rig, turn.mode
-    contacts = mode.shape[0] - 1
+    contacts, instant, found = mode.shape[0] - 1, INSTANT * rig.unit[SECONDS], False
     mode[contacts] = GOING
     for i in range(contacts):
         row = i * body.width
@@ -122,11 +125,19 @@ def _set_modes(body, work, turn):
             continue
         across = work.impulse[row + 2] if body.width != PLANE else 0.0
         first, second = slip_of(body, work, work.free, i)
+        _normal, bend, across_bend = path_acceleration(body, rig.ground, motion, work.J, i)
+        first, second = first + instant * bend, second + instant * across_bend
         slip = math.hypot(first, second)
-        full = math.hypot(work.impulse[row + 1], across) >= body.friction * normal * (1.0 - FULL)
-        mode[i] = SLIDES if full and slip > SLIPS * rig.unit[SPEED] else STICKS
-        if mode[i] == SLIDES:
+        push = math.hypot(work.impulse[row + 1], across)
+        full = push >= body.friction * normal * (1.0 - FULL)
+        slides = full and slip > SLIPS * rig.unit[SPEED]
+        if gives_way and full and not slides and push > 0.0:
+            first, second, slip = -work.impulse[row + 1], -across, push
+            slides, found = True, True
+        mode[i] = SLIDES if slides else STICKS
+        if slides:
             rig.contacts[FIRST, i], rig.contacts[SECOND, i] = first / slip, second / slip
+    return found
 
 
 @piece
@@ -236,11 +247,13 @@ def turn_held(
     ``work.flags``. Clock, counts and track go on as in `march.py`. False: the modes do not fit, nothing was changed.
     """
     column, moved, going, samples = track.shape[1] - work.impulse.shape[0] - work.flags.shape[0], False, True, 0
-    _set_modes(body, work, turn)
+    _set_modes(body, motion, work, turn, False)
     while going:
         left = clock[INTERVAL] - clock[TIME]
         left = left if moved else min(left, clock[PIECE])
         time, ended = _move(body, motion, work, turn, left, still)
+        if time == 0.0 and not moved and _set_modes(body, motion, work, turn, True):
+            time, ended = _move(body, motion, work, turn, left, still)
         if time == 0.0:
             break
         moved = True
