@@ -99,6 +99,8 @@ def path_acceleration(body, ground, motion, J, i):
     _gap, n_x, n_z, _x, _y, _z, curvature, _feature = on_profile(body, ground, motion.rotation, x, z, i)
     along = v[0] * n_z - v[width - 1] * n_x
     normal, first, second = _turning_acceleration(body, ground, motion, J, i)
+    if width != PLANE:  # over a peak the arm of a sphere turns with the normal, about which it spins
+        second -= body.radius * curvature * along * (v[3] * n_x + v[5] * n_z)
     return normal + curvature * along * along, first, second
 
 
