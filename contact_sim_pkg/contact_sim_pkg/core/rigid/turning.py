@@ -21,6 +21,7 @@ from ..rigs.held_body import (
     FREE,
     GOING,
     MARGINS_A_CONTACT,
+    PLACE,
     SECOND,
     SECONDS,
     SLIDES,
@@ -156,7 +157,7 @@ def _set_start(body, motion, work, turn):
     for i in range(state.shape[0]):
         state[i] = 0.0
     for i in range(work.gap.shape[0]):
-        rig.contacts[DEEP, i] = min(work.gap[i], 0.0)
+        rig.contacts[DEEP, i], rig.contacts[PLACE, i] = min(work.gap[i], 0.0), work.feature[i]
     for k in range(body.width):
         state[k] = motion.position[k]
         for m in range(body.width):

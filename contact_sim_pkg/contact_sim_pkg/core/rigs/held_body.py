@@ -3,8 +3,8 @@
 The forces f of the contacts keep them there: ``J a + b = 0`` for the normal row of each held contact and for the tangents of those
 that stick, with ``a = W (load + gyroscopic torque + J' f)`` and b the acceleration that the contact has at constant velocities
 (`rigid/held.py`); a sliding contact has ``f_t = -mu f_n s``, s the direction of slip. Where the rows are dependent the forces of
-least norm are taken. A mode ends where a normal force or a slip comes to 0, a sticking force leaves its cone or a free contact
-lands.
+least norm are taken. A mode ends where a normal force or a slip comes to 0, a sticking force leaves its cone, a free
+contact lands, or a held one comes to the end of a face of the ground.
 
 State: [place and turn] [v, omega] (`body_state.py`) [time in s] [work of friction in J] [impulse of each row in N s]
 [integral of each event function: so the rate of a state holds all that is asked of it].
@@ -27,6 +27,7 @@ from ..rigid.body import (
     contact_count,
     contact_rows,
     fill_inverse_inertia,
+    on_profile,
     point_arm,
 )
 from ..rigid.held import path_acceleration
@@ -38,13 +39,7 @@ from .interface import register
 
 FREE, SLIDES, STICKS = 0, 1, 2  # modes of a contact
 GOING, ENDED = 0, 1  # the last of the modes: whether every mode still lasts
-GAP, FIRST, SECOND, DEEP, SPARE = (
-    0,
-    1,
-    2,
-    3,
-    4,
-)  # rows of `contacts`: gap [m], slip's direction and depth at the start, friction left
+GAP, FIRST, SECOND, DEEP, SPARE, PLACE = 0, 1, 2, 3, 4, 5  # rows of `contacts`
 VELOCITY, FORCE, RIGHT, ANSWER = 0, 1, 2, 3  # rows of `rows`
 SPEED, NEWTONS, NEAR, SECONDS = 0, 1, 2, 3  # entries of `unit`
 MARGINS_A_CONTACT = 2
@@ -61,7 +56,9 @@ class HeldBody(NamedTuple):
     motion: Motion  # of the state last looked at
     J: Vector  # [rows, coordinates]
     W: Vector  # [coordinates, coordinates]
-    contacts: Vector  # [5, contacts]
+    contacts: (
+        Vector  # [6, contacts]: gap in [m], slip's direction and depth at the start, friction left, face at the start
+    )
     rows: Vector  # [4, rows]
     matrices: Vector  # [3, rows, rows]
     columns: Vector  # [coordinates, rows], accelerations by a unit of each unknown force
@@ -76,7 +73,7 @@ def make_held_body(body: RigidBody, ground: Ground) -> HeldBody:
     motion, rows = Motion(zeros(width), zeros(1), zeros((width, width)), zeros(coordinates)), contacts * width
     return HeldBody(
         body, ground, zeros((width, width)), motion, zeros((rows, coordinates)), zeros((coordinates, coordinates)),
-        zeros((5, contacts)), zeros((4, rows)), zeros((3, rows, rows)), zeros((coordinates, rows)), zeros((2, coordinates)),
+        zeros((6, contacts)), zeros((4, rows)), zeros((3, rows, rows)), zeros((coordinates, rows)), zeros((2, coordinates)),
         zeros((2, rows), numpy.int64), zeros(4),
     )  # fmt: skip
 
@@ -340,6 +337,16 @@ def _rate(rig, drive, mode, time, state, out):
 
 
 @borrowing_kernel
+def lies_on(rig, i):
+    """Face or edge that contact ``i`` lies on; where it changes the contact comes to a valley or goes over a peak."""
+    if rig.ground.profile.nodes.shape[0] == 0:
+        return -1
+    position = rig.motion.position
+    place = on_profile(rig.body, rig.ground, rig.motion.rotation, position[0], position[rig.body.width - 1], i)
+    return place[7]
+
+
+@borrowing_kernel
 def _fill_margins(rig, mode, out):
     """The event functions at the state looked at, into the last entries of ``out``."""
     contacts, width, force, u = mode.shape[0] - 1, rig.body.width, rig.rows[FORCE], rig.rows[VELOCITY]
@@ -350,7 +357,7 @@ def _fill_margins(rig, mode, out):
         out[end], out[extent] = min(gap / rig.unit[NEAR], LARGEST_MARGIN) + 1.0, 1.0
         if mode[i] == FREE:
             continue
-        out[end] = force[row] / rig.unit[NEWTONS]
+        out[end] = force[row] / rig.unit[NEWTONS] if lies_on(rig, i) == rig.contacts[PLACE, i] else -1.0
         if mode[i] == STICKS:
             out[extent] = rig.contacts[SPARE, i] / rig.unit[NEWTONS]
         else:
