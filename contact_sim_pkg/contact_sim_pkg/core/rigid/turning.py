@@ -11,7 +11,7 @@ from typing import NamedTuple
 
 import numpy
 
-from ..jit import entry, piece
+from ..jit import entry, kernel, piece
 from ..parameters import Drive, Modes, Vector
 from ..results import DONE, NOT_FINITE
 from ..rigs.body_state import places_of
@@ -110,7 +110,7 @@ def turns(
     return False
 
 
-@piece
+@kernel
 def _set_modes(body, motion, work, turn, gives_way):
     """Modes from the impulses of an instant; ``work.free`` is the velocity at its end. Slip counts the turn of arms over it.
 
@@ -232,7 +232,7 @@ def _move(body, motion, work, turn, left, still):
     time, ended = turn.state[first_of_time(rig)], turn.mode[last] != GOING
     least = PROGRESS if status == DONE else PART
     if status == NOT_FINITE or not time > least * left:
-        return 0.0, False
+        return 0.0, ended
     _take_end(body, motion, work, turn, drive, still)
     return (left if status == DONE and not ended else time), ended
 
@@ -248,13 +248,17 @@ def turn_held(
     ``work.flags``. Clock, counts and track go on as in `march.py`. False: the modes do not fit, nothing was changed.
     """
     column, moved, going, samples = track.shape[1] - work.impulse.shape[0] - work.flags.shape[0], False, True, 0
+    again = True
     _set_modes(body, motion, work, turn, False)
     while going:
         left = clock[INTERVAL] - clock[TIME]
         left = left if moved else min(left, clock[PIECE])
         time, ended = _move(body, motion, work, turn, left, still)
-        if time == 0.0 and not moved and _set_modes(body, motion, work, turn, True):
-            time, ended = _move(body, motion, work, turn, left, still)
+        if time == 0.0 and again and not moved:  # a stick or a slip had just come to its end: on with what follows it
+            again = False
+            if ended or _set_modes(body, motion, work, turn, True):
+                turn.mode[turn.mode.shape[0] - 1] = GOING
+                continue
         if time == 0.0:
             break
         moved = True

@@ -43,6 +43,7 @@ GAP, FIRST, SECOND, DEEP, SPARE, PLACE = 0, 1, 2, 3, 4, 5  # rows of `contacts`
 VELOCITY, FORCE, RIGHT, ANSWER = 0, 1, 2, 3  # rows of `rows`
 SPEED, NEWTONS, NEAR, SECONDS = 0, 1, 2, 3  # entries of `unit`
 MARGINS_A_CONTACT = 2
+SLACK = 1.0e-10  # of the speed: so far back slip may go, as its start and its end are known to rounding alone
 LARGEST_MARGIN = 1.0e3  # of a gap, so that its integral stays small
 SLIGHT_SLIP = 1.0e-7  # of the speed: below it slip has the direction that it starts with
 
@@ -57,7 +58,7 @@ class HeldBody(NamedTuple):
     J: Vector  # [rows, coordinates]
     W: Vector  # [coordinates, coordinates]
     contacts: (
-        Vector  # [6, contacts]: gap in [m], slip's direction and depth at the start, friction left, face at the start
+        Vector  # [6, contacts]: gap in [m], slip's direction, depth at the start, friction left, face at the start
     )
     rows: Vector  # [4, rows]
     matrices: Vector  # [3, rows, rows]
@@ -363,7 +364,7 @@ def _fill_margins(rig, mode, out):
         else:
             along = u[row + 1] * rig.contacts[FIRST, i]
             along += u[row + 2] * rig.contacts[SECOND, i] if width != PLANE else 0.0
-            out[extent] = along / rig.unit[SPEED]
+            out[extent] = along / rig.unit[SPEED] + SLACK
 
 
 @borrowing_kernel
@@ -387,6 +388,16 @@ def _goes_round(rig, i):
 
 
 @borrowing_kernel
+def _give_way(rig, i):
+    """Slip of contact ``i`` begins against its friction."""
+    force, row = rig.rows[FORCE], i * rig.body.width
+    first, second = force[row + 1], force[row + 2] if rig.body.width != PLANE else 0.0
+    push = math.hypot(first, second)
+    if push > 0.0:
+        rig.contacts[FIRST, i], rig.contacts[SECOND, i] = -first / push, -second / push
+
+
+@borrowing_kernel
 def _switch(rig, drive, mode, time, state, event, side):
     contacts = mode.shape[0] - 1
     i = event - contacts if event >= contacts else event
@@ -394,7 +405,10 @@ def _switch(rig, drive, mode, time, state, event, side):
         if _goes_round(rig, i):
             return 1.0
         mode[i] = STICKS
-    elif event < contacts:
+    elif event >= contacts:
+        _give_way(rig, i)
+        mode[i] = SLIDES
+    else:
         mode[i] = FREE
     mode[contacts] = ENDED
     return 1.0
