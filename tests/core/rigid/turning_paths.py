@@ -12,7 +12,9 @@ STICKS = 0  # a corner; +1 and -1: it slides along x or against it
 
 def corner_arm(body, corner, angle):
     """From the centre of mass to a corner (plane)."""
-    return numpy.array([[numpy.cos(angle), -numpy.sin(angle)], [numpy.sin(angle), numpy.cos(angle)]]) @ body.points[corner]
+    return (
+        numpy.array([[numpy.cos(angle), -numpy.sin(angle)], [numpy.sin(angle), numpy.cos(angle)]]) @ body.points[corner]
+    )
 
 
 def corner_force(body, corner, mode, angle, spin):

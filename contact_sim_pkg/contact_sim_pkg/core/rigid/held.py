@@ -94,7 +94,7 @@ def path_acceleration(body, ground, motion, J, i):
     if is_ridge(body, ground, i):  # its axes turn with the body
         away = v[0] * J[row, 0] + v[1] * J[row, 1]
         along = v[0] * J[row + 1, 0] + v[1] * J[row + 1, 1]
-        return -v[2] * v[2] * J[row + 1, 2] - 2.0 * v[2] * along, v[2] * away, 0.0
+        return -v[2] * v[2] * J[row + 1, 2] - 2.0 * v[2] * along, v[2] * (v[2] * J[row, 2] + 2.0 * away), 0.0
     x, z = motion.position[0], motion.position[width - 1]
     _gap, n_x, n_z, _x, _y, _z, curvature, _feature = on_profile(body, ground, motion.rotation, x, z, i)
     along = v[0] * n_z - v[width - 1] * n_x
