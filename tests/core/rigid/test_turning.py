@@ -78,6 +78,18 @@ def test_a_block_that_falls_about_a_sticking_corner_is_a_compound_pendulum(sampl
     assert planar_state(located)[2] < start - 0.05
 
 
+def test_a_load_that_changes_between_two_calls_is_felt_by_a_body_that_turns():
+    block = regular_block(0.1, 1.0, 1.0, 0.0)
+    pushed = block._replace(load=block.load * 2.0 + numpy.array([1.0, 0.0, 0.0]))
+    state = on_corner(block, CORNER, STICKS, 0.3)
+    located, _track = carried(block, planar_motion(block, state), 0.02)
+    located.body = pushed
+    assert located.advance(0.02) == SOLVED
+    _time, middle = planar_path(block, CORNER, STICKS, state, 0.02)
+    _time, expected = planar_path(pushed, CORNER, STICKS, middle[: len(state)], 0.02)
+    assert planar_state(located) == pytest.approx(expected[:6], abs=1e-9)
+
+
 @pytest.mark.parametrize("tolerance", [1e-4, 1e-7, 1e-10])
 def test_the_error_of_a_pivot_falls_with_the_tolerance(tolerance):
     block = regular_block(0.1, 1.0, 1.0, 0.0)

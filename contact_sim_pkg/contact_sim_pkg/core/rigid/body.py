@@ -182,6 +182,14 @@ def on_profile(body, ground, rotation, x, z, i):
 
 
 @kernel
+def lies_on(body, ground, motion, i):
+    """Face or edge that contact ``i`` lies on, -1 on a plane; it changes in valleys and over peaks."""
+    if ground.profile.nodes.shape[0] == 0:
+        return -1
+    return on_profile(body, ground, motion.rotation, motion.position[0], motion.position[body.width - 1], i)[7]
+
+
+@kernel
 def contact_rows(body, ground, motion, gap, J):
     """Gap of every contact in [m], and its rows: normal, then tangent along x (and the one across in space)."""
     width, position = body.width, motion.position

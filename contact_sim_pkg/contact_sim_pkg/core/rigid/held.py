@@ -26,7 +26,7 @@ from .motion import (
 )
 from .problem import PLANE
 from .profile import time_to_kink
-from .rotation import spin_in_body
+from .rotation import gyroscopic_rate, spin_in_body
 
 STILL = 1.0e-13  # of the speed scale: below it a velocity is rounding
 LANDED = 1.0e-11  # of the size: a point this far below the ground has landed
@@ -107,13 +107,9 @@ def path_acceleration(body, ground, motion, J, i):
 @kernel
 def _gyroscopic_acceleration(body, motion, work, row):
     """Along ``row`` of a contact, from the spin that a body in space changes by itself: ``I dw/dt = -w x Iw``."""
-    R, inertia = motion.rotation, body.inertia
+    R = motion.rotation
     w = spin_in_body(R, motion.velocity)
-    gain = (
-        (inertia[1] - inertia[2]) / inertia[0] * w[1] * w[2],
-        (inertia[2] - inertia[0]) / inertia[1] * w[2] * w[0],
-        (inertia[0] - inertia[1]) / inertia[2] * w[0] * w[1],
-    )
+    gain = gyroscopic_rate(body.inertia, w[0], w[1], w[2])
     total = 0.0
     for k in range(3):
         total += work.J[row, 3 + k] * (R[k, 0] * gain[0] + R[k, 1] * gain[1] + R[k, 2] * gain[2])

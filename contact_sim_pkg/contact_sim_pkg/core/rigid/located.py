@@ -32,6 +32,7 @@ from .results import (
     TOO_MANY_EVENTS,
     TOO_MANY_IMPACTS,
 )
+from .supported import MOST_STOPS, SupportedPieces
 from .track import (
     BRIEF,
     COLLIDED,
@@ -55,14 +56,8 @@ from .turning import INSTANT, make_turn_workspace, turn_held, turns
 __all__ = ["Impact", "LocatedBody", "Track"]
 
 MOST_IMPACTS = 100_000  # in one interval
-STOP_HALVINGS = 60
-LANDING_STEPS = 30
-MOST_STOPS = (
-    20  # stops of slip that are located in one interval: an edge that pivots may slip back and forth without end
-)
 REST = 1.0e-6  # rest speed over sqrt(g L)
 TOLERANCE = 1.0e-10
-LARGEST_SUPPORTED_TURN = 0.005  # [rad] of a piece of the general solvers
 STICKS = 1.0e-9  # of the speed before the impact: slip below it counts as none
 
 
@@ -105,7 +100,7 @@ class LocatedBody:
         a fall by it. Flight, rest and sliding without turning are exact whatever it is.
         """
         ground = laid_under(body, ground)
-        self.body, self.ground, self.motion, self.rule = body, ground, motion, rule
+        self._body, self.ground, self.motion, self.rule = body, ground, motion, rule
         points, coordinates = contact_count(body, ground), len(body.load)
         self.work = make_motion_workspace(body, ground, facets)
         self._march = make_march_workspace(points)
@@ -118,8 +113,21 @@ class LocatedBody:
         self.impacts: list[Impact] = []  # of the last call
         self.rested = math.nan  # [s] from the start of the call: when the last bounce ended
         self.impulse = numpy.zeros(points * body.width)  # [rows] in [N s] over the last call
+        self._pieces = SupportedPieces(
+            body, ground, motion, self.work, self._solver, self._march.clock, self._march.counts, self.size
+        )
         held.survey_points(body, ground, motion, self.work, self.size, self.gravity)
         self.work.flags[:] = numpy.where(self.work.gap <= 1e-9 * self.size, 1, 0)
+
+    @property
+    def body(self) -> RigidBody:
+        """The body; one of another load, mass, friction or restitution may take its place between two calls."""
+        return self._body
+
+    @body.setter
+    def body(self, body: RigidBody) -> None:
+        self._body = self._pieces.body = body
+        self._turning = self._turning._replace(rig=self._turning.rig._replace(body=body))
 
     @property
     def events(self) -> int:
@@ -187,33 +195,29 @@ class LocatedBody:
 
     def _pass(self, track: Vector) -> int:
         """The time that the march left: a body that turns on held contacts, or a piece that takes the general solvers."""
-        clock = self._march.clock
+        clock, pieces, parts = self._march.clock, self._pieces, (self.body, self.ground, self.motion, self.work)
         piece, still = float(clock[PIECE]), float(clock[STILL])
-        if self._turn(piece, still, track):
-            return SOLVED
-        status, passed = self._support(min(piece, self._longest_support()), still)
+        over, turning = None, turns(*parts, self.motion.velocity, self.size)
+        if not turning:
+            over = pieces.attempt(piece, still)
+            turning = over[0] == SOLVED and turns(*parts, self.work.free, self.size)
+        if turning:
+            if self._turn(still, track):
+                return SOLVED
+            piece, over = min(piece, pieces.longest()), None
+        status, passed = pieces.hold(piece, still, over)
         if status == SOLVED:
             self._add_impulse(track)
             left = clock[INTERVAL] - clock[TIME]
-            self._march.counts[SHORT] += int(passed < BRIEF * min(left, piece))
+            self._march.counts[SHORT] += int(passed < BRIEF * min(left, clock[PIECE]))
             clock[TIME] = clock[INTERVAL] if passed >= left else clock[TIME] + passed
         return status
 
-    def _longest_support(self) -> float:
-        """Longest piece in [s] of the general solvers, whose positions are of second order."""
-        spin = float(numpy.abs(self.motion.velocity[self.body.width :]).sum())
-        return LARGEST_SUPPORTED_TURN / spin if spin > 0.0 else math.inf
-
-    def _turn(self, piece: float, still: float, track: Vector) -> bool:
-        """Turn the body on its held contacts for as long as they keep their modes; False where it does not turn or no mode fits."""
+    def _turn(self, still: float, track: Vector) -> bool:
+        """Turn the body on its held contacts for as long as they keep their modes; False where no mode fits."""
         if self._march.counts[STOPS] >= MOST_STOPS:
             return False
-        parts = (self.body, self.ground, self.motion, self.work)
-        if not turns(*parts, self.motion.velocity, self.size):
-            status, _part, _stretch = self._attempt(piece, still)
-            if status != SOLVED or not turns(*parts, self.work.free, self.size):
-                return False
-        status, _part, _stretch = self._attempt(INSTANT * math.sqrt(self.size / self.gravity), still)
+        status, _part, _stretch = self._pieces.attempt(INSTANT * math.sqrt(self.size / self.gravity), still)
         return status == SOLVED and self._turn_on(still, track)
 
     def _turn_on(self, still: float, track: Vector) -> bool:
@@ -234,7 +238,7 @@ class LocatedBody:
             held.prepare_impact(body, work, 0.0)
             self._solver.collide(work, self.rule)
         held.finish_impact(body, motion, work, self.rest_speed)
-        self._attempt(1e-3, 1e-9)
+        self._pieces.attempt(1e-3, 1e-9)
         held.gap_after(body, ground, motion, work, 1e-3, 0)
         held.landing_part(body, ground, motion, work, 1e-3, self.size)
         take_piece(body, ground, motion, work, self.size, 1e-9)
@@ -284,78 +288,3 @@ class LocatedBody:
         return [
             SEPARATE if not pushed[i] else (STICK if self.work.flags[i] == STUCK else SLIDE) for i in range(len(pushed))
         ]
-
-    def _attempt(self, time: float, still: float) -> tuple[int, float, float]:
-        """Status, part of ``time`` after which slip stops, and how many times ``time`` it lasts."""
-        work = self.work
-        for bend in (
-            1.0,
-            0.0,
-        ):  # points that come to stick within the piece contradict each other where their paths bend
-            held.prepare_attempt(self.body, self.ground, self.motion, work, time, bend)
-            found = self._solver.hold(work)
-            self._march.counts[SOLVES] += 1
-            if found.residual <= ACCEPTED:
-                break
-        if not found.residual <= ACCEPTED:
-            return int(found.status) or NOT_CONVERGED, 1.0, math.inf
-        clock = self._march.clock
-        clock[RESIDUAL] = max(clock[RESIDUAL], float(found.residual))
-        part, stretch = held.stop_of_slip(self.body, self.ground, self.motion, work, time, still)
-        return SOLVED, part, stretch
-
-    def _support(self, piece: float, still: float) -> tuple[int, float]:
-        """Held contacts over at most ``piece``, ended where a slip stops or a point lands; returns (status, time)."""
-        status, part, _stretch = self._attempt(piece, still)
-        time = piece
-        count = self._march.counts
-        if status == SOLVED and part < 1.0 and count[STOPS] < MOST_STOPS:
-            count[STOPS] += 1
-            status, time = self._to_the_stop(piece, still)
-            count[EVENTS] += 1
-        if status == SOLVED:
-            status, time = self._to_the_landing(time, still)
-        if status != SOLVED:
-            return status, time
-        means, friction = 0.5 * (self.motion.velocity + self.work.free), self.work.impulse.copy()
-        friction[:: self.body.width] = 0.0  # what holds a body up does no work
-        self._march.clock[LOST] -= float(friction @ (self.work.J @ means))
-        take_piece(self.body, self.ground, self.motion, self.work, self.size, still)
-        return status, time
-
-    def _to_the_landing(self, time: float, still: float) -> tuple[int, float]:
-        """The time, up to ``time``, at which the first free contact is on the ground; the piece up to it is in the work space."""
-        parts = (self.body, self.ground, self.motion, self.work)
-        for _ in range(LANDING_STEPS):
-            part, first = held.landing_part(*parts, time, self.size)
-            if first < 0:
-                return SOLVED, time
-            high, below = time, held.gap_after(*parts, time, first)
-            low, above, near = 0.0, max(float(self.work.gap[first]), 0.0), held.LANDED * self.size
-            side = 0
-            for _ in range(LANDING_STEPS):
-                time = low + (high - low) * above / (above - below) if above > near else part * high
-                status, _part, _stretch = self._attempt(time, still)
-                if status != SOLVED:
-                    return status, time
-                gap = held.gap_after(*parts, time, first)
-                if abs(gap) <= near:
-                    break
-                if gap < 0.0:
-                    high, below, above, side = time, gap, above * (0.5 if side < 0 else 1.0), -1
-                else:
-                    low, above, below, side = time, gap, below * (0.5 if side > 0 else 1.0), 1
-        return SOLVED, time
-
-    def _to_the_stop(self, piece: float, still: float) -> tuple[int, float]:
-        """The time at which the first sliding point stops: a piece in which it still slides gives its deceleration."""
-        probe, stretch, status = piece, math.inf, SOLVED
-        for _ in range(STOP_HALVINGS):
-            probe *= 0.5
-            status, part, stretch = self._attempt(probe, still)
-            if status != SOLVED or part == 1.0:
-                break
-        time = min(piece, probe * stretch)
-        if status == SOLVED:
-            status, _part, _stretch = self._attempt(time, still)
-        return status, time

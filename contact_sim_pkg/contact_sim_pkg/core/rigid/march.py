@@ -145,17 +145,15 @@ def _free_contacts(body, ground, motion, work, time, still):
     """
     free_velocity(body, motion, work, time)
     contact_velocities(work.J, work.free, work.problem.q)
-    none, held, bent = (
-        numpy.int64(-1),
-        0,
-        False,
-    )  # a literal -1 would compile the closed forms once more, for that number
+    held, bent = 0, False
+    none = numpy.int64(-1)  # a literal -1 would compile the closed forms once more, for that number
     first, second = none, none
     for i in range(work.flags.shape[0]):
         work.problem.friction[i] = INACTIVE
         if work.flags[i] >= HELD:
             work.problem.friction[i] = body.friction
-            first, second, held = (i if held == 0 else first), (i if held == 1 else second), held + 1
+            place = numpy.int64(i)
+            first, second, held = (place if held == 0 else first), (place if held == 1 else second), held + 1
             gain, row = path_acceleration(body, ground, motion, work.J, i), i * body.width
             work.problem.q[row] += time * gain[0]
             work.problem.q[row + 1] += time * gain[1]

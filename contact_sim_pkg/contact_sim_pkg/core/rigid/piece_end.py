@@ -10,7 +10,7 @@ from __future__ import annotations
 import math
 
 from ..jit import entry, kernel
-from .body import Ground, Motion, RigidBody, contact_rows, on_profile
+from .body import Ground, Motion, RigidBody, contact_rows, lies_on
 from .flight import TOUCH
 from .held import DRIFT, hold_back, slip_of
 from .motion import (
@@ -134,14 +134,6 @@ def _keep_energy(body, motion, energy):
 
 
 @kernel
-def _feature(body, ground, motion, i):
-    """Face or edge that contact ``i`` lies on: where it changes the contact goes over a peak, which it leaves."""
-    if ground.profile.nodes.shape[0] == 0:
-        return -1
-    return on_profile(body, ground, motion.rotation, motion.position[0], motion.position[body.width - 1], i)[7]
-
-
-@kernel
 def _sticks(body, work, i, still):
     """Whether contact ``i`` ends the piece without slip: none is left, or friction is not used up."""
     row = i * body.width
@@ -156,7 +148,7 @@ def list_features(body: RigidBody, ground: Ground, motion: Motion, work: MotionW
     """Face or edge of every held contact, into ``work.feature``."""
     for i in range(work.flags.shape[0]):
         if work.flags[i] >= HELD:
-            work.feature[i] = _feature(body, ground, motion, i)
+            work.feature[i] = lies_on(body, ground, motion, i)
 
 
 @entry
@@ -168,7 +160,7 @@ def stay_on_the_ground(
     for i in range(work.flags.shape[0]):
         speed = work.u[i * body.width]
         if work.flags[i] >= HELD:
-            over = work.feature[i] != _feature(body, ground, motion, i)
+            over = work.feature[i] != lies_on(body, ground, motion, i)
             if over or (speed > still and work.impulse[i * body.width] == 0.0):
                 work.flags[i] = APART if speed > still else TOUCHING
         else:

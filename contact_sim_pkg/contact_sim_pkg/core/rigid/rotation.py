@@ -87,6 +87,16 @@ def spin_in_body(R, w):
 
 
 @kernel
+def gyroscopic_rate(inertia, w_1, w_2, w_3):
+    """Rate of the spin of a free body in body axes in [rad/s^2], ``I0 dw/dt = -w x I0 w``; ``inertia`` [3] in [kg m^2]."""
+    return (
+        (inertia[1] - inertia[2]) * w_2 * w_3 / inertia[0],
+        (inertia[2] - inertia[0]) * w_3 * w_1 / inertia[1],
+        (inertia[0] - inertia[1]) * w_1 * w_2 / inertia[2],
+    )
+
+
+@kernel
 def straighten(R):
     """Take rounding out of a rotation matrix: one step to rows of unit length and at right angles."""
     for i in range(3):

@@ -15,12 +15,11 @@ from ..jit import entry, kernel, piece
 from ..parameters import Drive, Modes, Vector
 from ..results import DONE, NOT_FINITE
 from ..rigs.body_state import places_of
-from ..rigs.held_body import (
+from ..rigs.held_body import GOING, MARGINS_A_CONTACT, first_of_time, held_states
+from ..rigs.held_forces import (
     DEEP,
     FIRST,
     FREE,
-    GOING,
-    MARGINS_A_CONTACT,
     PLACE,
     SECOND,
     SECONDS,
@@ -29,8 +28,6 @@ from ..rigs.held_body import (
     STICKS,
     VELOCITY,
     HeldBody,
-    first_of_time,
-    held_states,
     make_held_body,
     stop_rows,
 )

@@ -9,6 +9,7 @@ import math
 
 from ..jit import borrowing_kernel
 from ..rigid.problem import PLANE
+from ..rigid.rotation import gyroscopic_rate
 
 
 def places_of(width: int) -> int:
@@ -61,10 +62,8 @@ def fill_rates(body, R, push, state, out):
     out[5] = 0.5 * (w * b + z * a - x * c)
     out[6] = 0.5 * (w * c + x * b - y * a)
     inertia = body.inertia
+    gain = gyroscopic_rate(inertia, a, b, c)
     for k in range(3):
         out[k] = state[7 + k]
         out[7 + k] = push[k] / body.mass
-        out[10 + k] = R[0, k] * push[3] + R[1, k] * push[4] + R[2, k] * push[5]
-    out[10] = (out[10] + (inertia[1] - inertia[2]) * b * c) / inertia[0]
-    out[11] = (out[11] + (inertia[2] - inertia[0]) * c * a) / inertia[1]
-    out[12] = (out[12] + (inertia[0] - inertia[1]) * a * b) / inertia[2]
+        out[10 + k] = gain[k] + (R[0, k] * push[3] + R[1, k] * push[4] + R[2, k] * push[5]) / inertia[k]

@@ -1,0 +1,128 @@
+"""Pieces of time with held contacts by the general solvers: what no closed form and no path of `turning.py` takes.
+
+A velocity step with contact impulses, exact where the body does not turn; it ends where the first slip stops or the first free
+contact lands. Source: SEEDS 7.2 (`located`).
+"""
+
+from __future__ import annotations
+
+import math
+from typing import TypeAlias
+
+import numpy
+import numpy.typing
+
+from ..parameters import Vector
+from . import held
+from .body import Ground, Motion, RigidBody
+from .motion import MotionWorkspace
+from .packed import ACCEPTED, PackedSolver
+from .piece_end import take_piece
+from .results import NOT_CONVERGED, SOLVED
+from .track import EVENTS, LOST, RESIDUAL, SOLVES, STOPS
+
+__all__ = ["MOST_STOPS", "Attempt", "SupportedPieces"]
+
+Attempt: TypeAlias = tuple[
+    int, float, float
+]  # status, part of the piece after which slip stops, how many pieces it lasts
+
+LARGEST_TURN = 0.005  # [rad] of a piece, whose position is of second order
+STOP_HALVINGS = 60
+LANDING_STEPS = 30
+MOST_STOPS = 20  # that are located in one interval: an edge that pivots may slip back and forth without end
+
+
+class SupportedPieces:
+    """Of one body, which changes in place; ``clock`` and ``counts`` are those of its march (`track.py`)."""
+
+    def __init__(
+        self, body: RigidBody, ground: Ground, motion: Motion, work: MotionWorkspace, solver: PackedSolver, clock: Vector,
+        counts: numpy.typing.NDArray[numpy.int64], size: float,
+    ) -> None:  # fmt: skip
+        """``size`` of the body in [m]."""
+        self.body, self.ground, self.motion, self.work, self._solver = body, ground, motion, work, solver
+        self.clock, self.counts, self.size = clock, counts, size
+
+    def longest(self) -> float:
+        """Longest piece in [s] of a body that spins as it does now."""
+        spin = float(numpy.abs(self.motion.velocity[self.body.width :]).sum())
+        return LARGEST_TURN / spin if spin > 0.0 else math.inf
+
+    def attempt(self, time: float, still: float) -> Attempt:
+        """Status, part of ``time`` after which slip stops, and how many times ``time`` it lasts."""
+        work = self.work
+        for bend in (
+            1.0,
+            0.0,
+        ):  # points that come to stick within the piece contradict each other where their paths bend
+            held.prepare_attempt(self.body, self.ground, self.motion, work, time, bend)
+            found = self._solver.hold(work)
+            self.counts[SOLVES] += 1
+            if found.residual <= ACCEPTED:
+                break
+        if not found.residual <= ACCEPTED:
+            return int(found.status) or NOT_CONVERGED, 1.0, math.inf
+        clock = self.clock
+        clock[RESIDUAL] = max(clock[RESIDUAL], float(found.residual))
+        part, stretch = held.stop_of_slip(self.body, self.ground, self.motion, work, time, still)
+        return SOLVED, part, stretch
+
+    def hold(self, piece: float, still: float, found: Attempt | None = None) -> tuple[int, float]:
+        """Held contacts over at most ``piece`` [s], ended where a slip stops or a point lands; returns (status, time).
+
+        ``found``: the attempt over ``piece``, where it stands in the work space.
+        """
+        status, part, _stretch = self.attempt(piece, still) if found is None else found
+        time = piece
+        count = self.counts
+        if status == SOLVED and part < 1.0 and count[STOPS] < MOST_STOPS:
+            count[STOPS] += 1
+            status, time = self._to_the_stop(piece, still)
+            count[EVENTS] += 1
+        if status == SOLVED:
+            status, time = self._to_the_landing(time, still)
+        if status != SOLVED:
+            return status, time
+        means, friction = 0.5 * (self.motion.velocity + self.work.free), self.work.impulse.copy()
+        friction[:: self.body.width] = 0.0  # what holds a body up does no work
+        self.clock[LOST] -= float(friction @ (self.work.J @ means))
+        take_piece(self.body, self.ground, self.motion, self.work, self.size, still)
+        return status, time
+
+    def _to_the_landing(self, time: float, still: float) -> tuple[int, float]:
+        """The time, up to ``time``, at which the first free contact is on the ground; the piece up to it is in the work space."""
+        parts = (self.body, self.ground, self.motion, self.work)
+        for _ in range(LANDING_STEPS):
+            part, first = held.landing_part(*parts, time, self.size)
+            if first < 0:
+                return SOLVED, time
+            high, below = time, held.gap_after(*parts, time, first)
+            low, above, near = 0.0, max(float(self.work.gap[first]), 0.0), held.LANDED * self.size
+            side = 0
+            for _ in range(LANDING_STEPS):
+                time = low + (high - low) * above / (above - below) if above > near else part * high
+                status, _part, _stretch = self.attempt(time, still)
+                if status != SOLVED:
+                    return status, time
+                gap = held.gap_after(*parts, time, first)
+                if abs(gap) <= near:
+                    break
+                if gap < 0.0:
+                    high, below, above, side = time, gap, above * (0.5 if side < 0 else 1.0), -1
+                else:
+                    low, above, below, side = time, gap, below * (0.5 if side > 0 else 1.0), 1
+        return SOLVED, time
+
+    def _to_the_stop(self, piece: float, still: float) -> tuple[int, float]:
+        """The time at which the first sliding point stops: a piece in which it still slides gives its deceleration."""
+        probe, stretch, status = piece, math.inf, SOLVED
+        for _ in range(STOP_HALVINGS):
+            probe *= 0.5
+            status, part, stretch = self.attempt(probe, still)
+            if status != SOLVED or part == 1.0:
+                break
+        time = min(piece, probe * stretch)
+        if status == SOLVED:
+            status, _part, _stretch = self.attempt(time, still)
+        return status, time

@@ -1,0 +1,287 @@
+"""Forces of held contacts, each in its mode: it sticks, it slides, or it is free.
+
+They keep the contacts on the ground: ``J a + b = 0`` for the normal row of each held contact and for the tangents of those that
+stick, with ``a = W (load + gyroscopic torque + J' f)`` and b the acceleration of the contact at constant velocities
+(`rigid/held.py`); a sliding contact has ``f_t = -mu f_n s``, s the direction of slip. Where the rows are dependent the forces of
+least norm are taken.
+Source: identifiability paper eqs 12-18 and 32-38 at the level of accelerations.
+"""
+
+from __future__ import annotations
+
+import math
+from typing import NamedTuple
+
+import numpy
+
+from ..jit import borrowing_kernel
+from ..parameters import Modes, Vector
+from ..rigid.body import (
+    Ground,
+    Motion,
+    RigidBody,
+    contact_count,
+    contact_rows,
+    fill_inverse_inertia,
+    point_arm,
+)
+from ..rigid.held import path_acceleration
+from ..rigid.linear import solve_consistent
+from ..rigid.motion import contact_velocities
+from ..rigid.problem import PLANE
+from ..rigid.rotation import gyroscopic_rate, spin_in_body
+from .body_state import fill_motion, fill_turn
+
+FREE, SLIDES, STICKS = 0, 1, 2  # modes of a contact
+GAP, FIRST, SECOND, DEEP, SPARE, PLACE = 0, 1, 2, 3, 4, 5  # rows of `contacts`
+VELOCITY, FORCE, RIGHT, ANSWER = 0, 1, 2, 3  # rows of `rows`
+SPEED, NEWTONS, NEAR, SECONDS = 0, 1, 2, 3  # entries of `unit`
+SLIGHT_SLIP = 1.0e-7  # of the speed: below it slip has the direction that it starts with
+
+
+class HeldBody(NamedTuple):
+    """The body, its ground, and arrays to work in."""
+
+    body: RigidBody
+    ground: Ground
+    start: Vector  # [width, width], rotation at the start; the quaternion of the state turns on from there
+    motion: Motion  # of the state last looked at
+    J: Vector  # [rows, coordinates]
+    W: Vector  # [coordinates, coordinates]
+    contacts: Vector  # [6, contacts]: gap [m], slip's direction, depth at the start, friction left, face at the start
+    rows: Vector  # [4, rows]
+    matrices: Vector  # [3, rows, rows]
+    columns: Vector  # [coordinates, rows], accelerations by a unit of each unknown force
+    push: Vector  # [2, coordinates]: acceleration without contact, then force and torque of everything
+    order: Modes  # [2, rows]: the rows that are held, and work space
+    unit: Vector  # [4]: speed in [m/s], force in [N], gap in [m] at which a contact has landed, time in [s]
+
+
+def make_held_body(body: RigidBody, ground: Ground) -> HeldBody:
+    """The rig over a ground that was laid under ``body``."""
+    width, contacts, coordinates, zeros = body.width, contact_count(body, ground), len(body.load), numpy.zeros
+    motion, rows = Motion(zeros(width), zeros(1), zeros((width, width)), zeros(coordinates)), contacts * width
+    return HeldBody(
+        body, ground, zeros((width, width)), motion, zeros((rows, coordinates)), zeros((coordinates, coordinates)),
+        zeros((6, contacts)), zeros((4, rows)), zeros((3, rows, rows)), zeros((coordinates, rows)), zeros((2, coordinates)),
+        zeros((2, rows), numpy.int64), zeros(4),
+    )  # fmt: skip
+
+
+@borrowing_kernel
+def look(rig, state):
+    """Motion, gaps, rows, inertia and contact velocities of a state, into the rig's arrays."""
+    motion, R, start = rig.motion, rig.motion.rotation, rig.start
+    fill_turn(R, state)
+    if rig.body.width != PLANE:
+        for j in range(3):
+            a, b, c = R[0, j], R[1, j], R[2, j]
+            for i in range(3):
+                R[i, j] = start[i, 0] * a + start[i, 1] * b + start[i, 2] * c
+    fill_motion(motion, state)
+    contact_rows(rig.body, rig.ground, rig.motion, rig.contacts[GAP], rig.J)
+    fill_inverse_inertia(rig.body, rig.motion.rotation, rig.W)
+    contact_velocities(rig.J, rig.motion.velocity, rig.rows[VELOCITY])
+
+
+@borrowing_kernel
+def slip_direction(rig, i):
+    """Unit direction of the slip of contact ``i``: that of the start where it hardly slips, and always in the plane."""
+    first, second = rig.contacts[FIRST, i], rig.contacts[SECOND, i]
+    if rig.body.width == PLANE:
+        return first, second
+    u, row = rig.rows[VELOCITY], i * rig.body.width
+    length = math.hypot(u[row + 1], u[row + 2])
+    if length <= SLIGHT_SLIP * rig.unit[SPEED]:
+        return first, second
+    return u[row + 1] / length, u[row + 2] / length
+
+
+@borrowing_kernel
+def _list_rows(rig, mode):
+    """The rows that are held, into ``rig.order``; returns how many."""
+    width, count = rig.body.width, 0
+    for i in range(mode.shape[0] - 1):
+        if mode[i] == FREE:
+            continue
+        for row in range(i * width, (i + 1) * width if mode[i] == STICKS else i * width + 1):
+            rig.order[0, count] = row
+            count += 1
+    return count
+
+
+@borrowing_kernel
+def _pattern(rig, mode, row, part):
+    """How much of row ``part`` of its contact belongs to the unknown force of ``row``: 1 and 0, or a unit along the cone's edge."""
+    width = rig.body.width
+    i = row // width
+    if mode[i] == STICKS:
+        return 1.0 if row == i * width + part else 0.0
+    friction = rig.body.friction
+    length = math.sqrt(1.0 + friction * friction)
+    if part == 0:
+        return 1.0 / length
+    first, second = slip_direction(rig, i)
+    return -friction * (first if part == 1 else second) / length
+
+
+@borrowing_kernel
+def _fill_system(rig, mode, count):
+    """Accelerations by the unknown forces, and of the held rows by them."""
+    J, W, width, matrix = rig.J, rig.W, rig.body.width, rig.matrices[0]
+    n = W.shape[0]
+    for place in range(count):
+        row = rig.order[0, place]
+        base = row // width * width
+        for k in range(n):
+            rig.columns[k, place] = 0.0
+        for part in range(width):
+            share = _pattern(rig, mode, row, part)
+            if share != 0.0:
+                for k in range(n):
+                    for m in range(n):
+                        rig.columns[k, place] += share * W[k, m] * J[base + part, m]
+    for i in range(count):
+        row = rig.order[0, i]
+        for place in range(count):
+            total = 0.0
+            for k in range(n):
+                total += J[row, k] * rig.columns[k, place]
+            matrix[i, place] = total
+
+
+@borrowing_kernel
+def _solve(rig, count):
+    """Forces of least norm with ``matrices[0] f = RIGHT``, into ``ANSWER``."""
+    matrix, copy, square = rig.matrices[0], rig.matrices[1], rig.matrices[2]
+    right, answer, order = rig.rows[RIGHT], rig.rows[ANSWER], rig.order[1]
+    for i in range(count):
+        answer[i] = right[i]
+        for j in range(count):
+            copy[i, j] = matrix[i, j]
+    if solve_consistent(copy, answer, rig.rows[FORCE], order, count) == count:
+        for i in range(count):
+            answer[i] = rig.rows[FORCE, i]
+        return
+    for i in range(count):
+        answer[i] = right[i]
+        for j in range(count):
+            square[i, j] = 0.0
+            for k in range(count):
+                square[i, j] += matrix[i, k] * matrix[j, k]
+    solve_consistent(square, answer, rig.rows[FORCE], order, count)
+    for j in range(count):
+        answer[j] = 0.0
+        for i in range(count):
+            answer[j] += matrix[i, j] * rig.rows[FORCE, i]
+
+
+@borrowing_kernel
+def _fill_free_acceleration(rig):
+    """Acceleration by load and spin, without contact."""
+    body, motion, W, gain = rig.body, rig.motion, rig.W, rig.push[0]
+    for k in range(body.width):
+        gain[k] = body.load[k] / body.mass
+    if body.width == PLANE:
+        gain[2] = body.load[2] / body.inertia[0]
+        return
+    R = motion.rotation
+    w = spin_in_body(R, motion.velocity)
+    x, y, z = gyroscopic_rate(body.inertia, w[0], w[1], w[2])
+    for k in range(3):
+        gain[3 + k] = R[k, 0] * x + R[k, 1] * y + R[k, 2] * z
+        for m in range(3):
+            gain[3 + k] += W[3 + k, 3 + m] * body.load[3 + m]
+
+
+@borrowing_kernel
+def _line(rig, i, j):
+    """Direction of the line from contact ``i`` to ``j`` along the tangents of both, on a plane."""
+    J, R, row = rig.J, rig.motion.rotation, 3 * i
+    x_i, y_i, z_i = point_arm(rig.body, R, i)
+    x_j, y_j, z_j = point_arm(rig.body, R, j)
+    x, y, z = x_j - x_i, y_j - y_i, z_j - z_i
+    first = J[row + 1, 0] * x + J[row + 1, 1] * y + J[row + 1, 2] * z
+    second = J[row + 2, 0] * x + J[row + 2, 1] * y + J[row + 2, 2] * z
+    length = math.hypot(first, second)
+    return first / length, second / length
+
+
+@borrowing_kernel
+def _share_friction(rig, i, j):
+    """Friction of two sticking contacts along the line through them, of which only the sum is known.
+
+    As little as can be is moved from one to the other so that both stay in their cones; what is spare is that of both.
+    """
+    force, spare, a, b = rig.rows[FORCE], rig.contacts[SPARE], 3 * i, 3 * j
+    first, second = _line(rig, i, j)
+    along_i, along_j = force[a + 1] * first + force[a + 2] * second, force[b + 1] * first + force[b + 2] * second
+    over_i, over_j = force[a + 1] * second - force[a + 2] * first, force[b + 1] * second - force[b + 2] * first
+    full_i, full_j = rig.body.friction * force[a], rig.body.friction * force[b]
+    across = min(full_i - abs(over_i), full_j - abs(over_j))
+    spare[i], spare[j] = across, across
+    if across < 0.0:
+        return
+    room_i, room_j = math.sqrt(full_i**2 - over_i**2), math.sqrt(full_j**2 - over_j**2)
+    low, high = max(-room_i - along_i, along_j - room_j), min(room_i - along_i, along_j + room_j)
+    spare[i] = min(across, 0.5 * (high - low))
+    spare[j] = spare[i]
+    moved = min(max(0.0, low), high) if low <= high else 0.5 * (low + high)
+    force[a + 1] += moved * first
+    force[a + 2] += moved * second
+    force[b + 1] -= moved * first
+    force[b + 2] -= moved * second
+
+
+@borrowing_kernel
+def _fill_spare_friction(rig, mode):
+    """Friction that sticking contacts have left, in [N], into ``SPARE``."""
+    force, width, count, last, other = rig.rows[FORCE], rig.body.width, 0, -1, -1
+    for i in range(mode.shape[0] - 1):
+        row = i * width
+        across = force[row + 2] if width != PLANE else 0.0
+        rig.contacts[SPARE, i] = rig.body.friction * force[row] - math.hypot(force[row + 1], across)
+        if mode[i] != FREE:
+            count += 1
+            other, last = (last, i) if mode[i] == STICKS else (other, last)
+    if width != PLANE and count == 2 and other >= 0 and rig.ground.profile.nodes.shape[0] == 0:
+        _share_friction(rig, other, last)
+
+
+@borrowing_kernel
+def fill_forces(rig, mode):
+    """Forces of all contacts at the state looked at, into ``FORCE``."""
+    _fill_free_acceleration(rig)
+    J, width, right, force = rig.J, rig.body.width, rig.rows[RIGHT], rig.rows[FORCE]
+    count = _list_rows(rig, mode)
+    for place in range(count):
+        row = rig.order[0, place]
+        i = row // width
+        normal, first, second = path_acceleration(rig.body, rig.ground, rig.motion, J, i)
+        part = row - i * width
+        right[place] = -(normal if part == 0 else (first if part == 1 else second))
+        for k in range(J.shape[1]):
+            right[place] -= J[row, k] * rig.push[0, k]
+    _fill_system(rig, mode, count)
+    _solve(rig, count)
+    for row in range(force.shape[0]):
+        force[row] = 0.0
+    for place in range(count):
+        row = rig.order[0, place]
+        base = row // width * width
+        for part in range(width):
+            force[base + part] += _pattern(rig, mode, row, part) * rig.rows[ANSWER, place]
+    _fill_spare_friction(rig, mode)
+
+
+@borrowing_kernel
+def stop_rows(rig, mode):
+    """Take the rest of the velocity from the held rows of ``rig.motion``, which was looked at, by impulses along their forces."""
+    count, velocity = _list_rows(rig, mode), rig.motion.velocity
+    for place in range(count):
+        rig.rows[RIGHT, place] = -rig.rows[VELOCITY, rig.order[0, place]]
+    _fill_system(rig, mode, count)
+    _solve(rig, count)
+    for place in range(count):
+        for k in range(velocity.shape[0]):
+            velocity[k] += rig.columns[k, place] * rig.rows[ANSWER, place]
