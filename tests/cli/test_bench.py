@@ -13,7 +13,7 @@ from contact_sim_pkg.cli.main import main as bench_main
 from contact_sim_pkg.run.errors import RunError
 from contact_sim_pkg.run.simulation import Simulation
 
-from ..bench_process import bench, end, needs_ros, start_bench, wait_until
+from ..bench_process import ENVIRONMENT, bench, end, needs_ros, start_bench, wait_until
 
 OFFLINE = ["--offline", "--duration", "0.2"]
 
@@ -252,6 +252,24 @@ def test_a_signal_ends_an_offline_run_with_its_bag_closed_and_status_0(tmp_path)
     assert process.returncode == 0, said
     assert open_bag(bag).metadata["ended"] == "stopped"
     assert open_bag(bag).complete
+
+
+def test_a_signal_breaks_off_the_set_up_of_an_offline_run_before_anything_is_created(tmp_path):
+    """Its kernels take a minute and more to compile, in some 190 files; it does not wait for them."""
+    cache, bag = tmp_path / "cache", tmp_path / "bag"
+    environment = {**ENVIRONMENT, "CONTACT_BENCH_CACHE": str(cache)}
+    process = start_bench("run", "box_3d_tumble", "--offline", "--out", bag, environment=environment)
+    try:
+        wait_until(lambda: process.poll() is not None or any(cache.rglob("*.nbi")))
+        process.send_signal(signal.SIGINT)
+        out, said = process.communicate(timeout=60)
+    finally:
+        end(process)
+    assert process.returncode == 0, said
+    assert "stopped after 0 s" in out
+    assert "Traceback" not in said
+    assert not bag.exists()
+    assert len(list(cache.rglob("*.nbi"))) < 50
 
 
 @needs_ros

@@ -25,6 +25,30 @@ if TYPE_CHECKING:
 SIGNALS = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)
 
 
+class SetUpInterrupted(BaseException):
+    """A signal broke the set-up off, before anything was created."""
+
+
+class StopRequest:
+    """Whether a signal came: it breaks the set-up off at once, and is asked for between two blocks once they are computed."""
+
+    def __init__(self) -> None:
+        """Nothing is computed yet."""
+        self._heard = False
+        self._computes = False
+
+    def hear(self) -> None:
+        """A signal came. Raises `SetUpInterrupted` as long as nobody has asked."""
+        self._heard = True
+        if not self._computes:
+            raise SetUpInterrupted
+
+    def __call__(self) -> bool:
+        """Whether one came; the run asks, so it has begun."""
+        self._computes = True
+        return self._heard
+
+
 class Ended(NamedTuple):
     """How a run ended, on nodes or without."""
 
@@ -93,10 +117,13 @@ def _run_offline(scene: ResolvedScene, directory: Path | None, from_bag: Path | 
         from contact_sim_pkg.run.from_bag import sources_from_bag
 
         sources = sources_from_bag(from_bag, scene)
-    stops: list[int] = []
+    stop = StopRequest()
     before = time.monotonic() - BEGAN
-    with _signals_call(lambda: stops.append(1)):
-        outcome = run_offline(scene, directory, display.show, lambda: bool(stops), sources)
+    with _signals_call(stop.hear):
+        try:
+            outcome = run_offline(scene, directory, display.show, stop, sources)
+        except SetUpInterrupted:
+            return Ended(0, time.monotonic() - BEGAN, 0.0, None, True, "", 0, {})
     lost = bool(outcome.loss) or (outcome.bag is not None and not outcome.bag.complete)
     failure = outcome.failure or (outcome.bag.sentence if outcome.bag is not None else "") or outcome.loss
     status = 1 if outcome.failure else 3 if lost else 0

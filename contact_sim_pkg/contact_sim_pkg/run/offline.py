@@ -56,7 +56,8 @@ def run_offline(
 ) -> RunOutcome:
     """Run ``scene`` and record it in ``directory``, which must not exist (None: no recording).
 
-    ``sources`` replaces the scene's own excitation (a bag's, for one). ``stop`` is asked before each block. A fault of the
+    ``sources`` replaces the scene's own excitation (a bag's, for one). ``stop`` is asked once all is compiled, where nothing has
+    been created yet, and before each block. A fault of the
     physics or of the excitation ends the run, as does a write that fails: the bag is closed and the outcome names it. Raises
     what a bad scene, file or directory raises, before anything is created.
     """
@@ -65,6 +66,8 @@ def run_offline(
     simulation = make_simulation(scene)
     simulation.prepare()
     descriptions = {topic: source.describe() for topic, source in sources.items()}
+    if stop is not None and stop():
+        return RunOutcome(0, time.perf_counter() - began, 0.0, None, True, "", descriptions)
     writer = None
     if directory is not None:
         names = recorded_names(scene)
