@@ -4,7 +4,7 @@ import math
 
 import numpy
 import pytest
-from scipy.integrate import quad
+from scipy.integrate import quad, solve_ivp
 from scipy.spatial.transform import Rotation
 from tests.core.rigid.turning_paths import (
     STICKS,
@@ -18,7 +18,16 @@ from tests.core.rigid.turning_paths import (
     top_path,
 )
 
-from contact_sim_pkg.core.rigid.body import Motion, RigidBody, box, placed, regular_block, slope
+from contact_sim_pkg.core.rigid.body import (
+    Motion,
+    RigidBody,
+    box,
+    height_field,
+    least_gap,
+    placed,
+    regular_block,
+    slope,
+)
 from contact_sim_pkg.core.rigid.located import LocatedBody
 from contact_sim_pkg.core.rigid.problem import PLANE, SPACE
 from contact_sim_pkg.core.rigid.results import SOLVED
@@ -287,3 +296,38 @@ def test_turning_keeps_energy_and_momentum_and_does_not_depend_on_the_output(bod
     push = numpy.column_stack([*rows.T[1:], rows[:, 0]]) + duration / 1000.0 * body.load[: body.width]
     gains = numpy.diff(numpy.vstack([start, track.velocity])[:, : body.width], axis=0)
     assert body.mass * gains == pytest.approx(push, abs=1e-10)
+
+
+def test_an_end_of_a_rod_that_only_the_force_on_the_other_presses_down_stays_on_its_wall():
+    """Between two smooth walls at right angles: ``(1 + k) f'' = -(sqrt(2) g/l)(cos f - sin f)``, k = 4 I/(m l^2), f from one wall.
+
+    At first the spin alone would lift the second end, by 0.1 g/sqrt(2), while the force on the first lets it press on its wall.
+    """
+    length, share, start = 0.2, 0.3, math.radians(30.0)
+    half, pull = 0.5 * length, GRAVITY / math.sqrt(2.0)
+    rate = math.sqrt(1.1 * pull / (half * math.cos(start)))
+
+    def motion_of(_time, state):
+        return state[1], -pull / (half * (1.0 + share)) * (math.cos(state[0]) - math.sin(state[0]))
+
+    def pressures(state):
+        f, speed, gain = *state, motion_of(0.0, state)[1]
+        on_first = pull + half * (math.cos(f) * gain - math.sin(f) * speed**2)
+        return on_first, pull - half * (math.sin(f) * gain + math.cos(f) * speed**2)
+
+    load = numpy.array([0.0, -GRAVITY, 0.0])
+    ends = numpy.array([[-half, 0.0], [half, 0.0]])
+    rod = RigidBody(PLANE, 1.0, numpy.array([share * half**2]), ends, 0.0, 0.0, 0.0, load)
+    along = numpy.array([[1.0, -1.0], [1.0, 1.0]]) / math.sqrt(2.0)  # columns: up the walls
+    place = along @ [half * math.cos(start), half * math.sin(start)]
+    velocity = along @ [-half * math.sin(start) * rate, half * math.cos(start) * rate]
+    motion = placed(rod, place, [*velocity, -rate], angle=1.25 * math.pi - start)
+    located = LocatedBody(rod, height_field(PLANE, numpy.array([2.0, 0.0, 2.0]), -2.0, 2.0), motion, tolerance=1e-12)
+    for sample in range(1, 11):
+        located.advance(1e-3)
+        span = (0.0, 1e-3 * sample)
+        truth = solve_ivp(motion_of, span, (start, rate), method="DOP853", rtol=1e-12, atol=1e-14).y[:, -1]
+        assert min(pressures(truth)) > 0.0
+        assert least_gap(located.body, located.ground, motion) >= -1e-12
+        assert motion.angle[0] == pytest.approx(1.25 * math.pi - truth[0], abs=1e-10)
+        assert motion.velocity[2] == pytest.approx(-truth[1], rel=1e-9)

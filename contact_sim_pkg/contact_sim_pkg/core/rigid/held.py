@@ -160,7 +160,7 @@ def hold_back(body, motion, work):
 def settle_points(
     body: RigidBody, ground: Ground, motion: Motion, work: MotionWorkspace, rest_speed: float, still: float
 ) -> tuple[float, bool]:
-    """Hold the points whose rebound is below the rest speed and that the load presses down.
+    """Hold the points whose rebound is below the rest speed and that the load presses down, or may be by what holds the others.
 
     Returns the time in [s] that their last bounces take, and whether any point is held. ``work.impulse`` is what takes the
     speed of their rebound from them: the weight carries them over the last bounces, and this much less.
@@ -182,6 +182,9 @@ def settle_points(
             work.flags[i] = HELD
             held = True
     if held:
+        for i in range(work.flags.shape[0]):
+            if work.flags[i] == TOUCHING and abs(work.u[i * body.width]) <= rest_speed:
+                work.flags[i] = HELD
         hold_back(body, motion, work)
     return wait, held
 
