@@ -2,7 +2,9 @@
 
 `f = A2 w2 - A1 w1 - r x pi - h kappa tau`, A = R S R^T, `pi = v2 - v1 + h g z - h kappa F` the contact's impulse over the
 mass, r from the centre of mass to the contact. Impact: h = 0. Lasting contact: one step of length h; R1 and R2 are half
-a step before and after the mean rotation. Source: identifiability paper, eqs 19-31 and 39, corrected: linear in S and kappa.
+a step before and after the mean rotation. A contact that lasts over several samples takes both rotations as they are and the
+moment of its impulses from `sweep.py`: `f = A2 w2 - A1 w1 - r2 x pi + int r' x pi dt - h kappa tau`.
+Source: identifiability paper, eqs 19-31 and 39, corrected: linear in S and kappa.
 """
 
 from __future__ import annotations
@@ -13,9 +15,10 @@ import numpy
 
 from .flight import FlightState, Model
 from .geometry import UP, Ground, Shape, arm
+from .problem import Sweep
 from .rotation import Array, angular_inertia, cross_matrix, exponential, mean
 
-__all__ = ["Balance", "Side", "balance", "impulse"]
+__all__ = ["Balance", "Side", "balance", "impulse", "lasting_balance"]
 
 
 class Side(NamedTuple):
@@ -65,6 +68,44 @@ def balance(
         direct[:, -1] = numpy.cross(reach, model.wrench.push(first.time, second.time)) - twist
     by_parameters = direct + locals_[0] @ before.by_parameters + locals_[1] @ after.by_parameters
     return Balance(value, locals_[0] @ before.by_state, locals_[1] @ after.by_state, by_parameters)
+
+
+def lasting_balance(
+    before: Side, after: Side, parameters: Array, model: Model, shape: Shape, ground: Ground, point: int, swept: Sweep
+) -> Balance:
+    """The balance of one contact at `point` that lasts from `before` to `after`."""
+    first, second = before.state, after.state
+    inertia, inverse_mass = model.inertia(parameters), model.inverse_mass(parameters)
+    inertias = [angular_inertia(state.rotation, inertia) for state in (first, second)]
+    spins = (first.angular_velocity, second.angular_velocity)
+    reaches = [arm(shape, ground, state.rotation, point) for state in (first, second)]
+    push, twist = impulse(first, second, inverse_mass, model), model.wrench.twist(first.time, second.time)
+    late = numpy.cross(reaches[1] - reaches[0], first.velocity - swept.velocity)
+    rest = swept.moment - inverse_mass * (swept.by_inverse_mass + twist) - late
+    value = inertias[1] @ spins[1] - inertias[0] @ spins[0] - numpy.cross(reaches[1], push) + rest
+    direct = numpy.zeros((3, model.unknowns))
+    for place, part in enumerate(model.basis):
+        turned = [angular_inertia(state.rotation, part) @ state.angular_velocity for state in (first, second)]
+        direct[:, place] = turned[1] - turned[0]
+    if model.with_mass:
+        pushed = model.wrench.push(first.time, second.time)
+        direct[:, -1] = numpy.cross(reaches[1], pushed) - swept.by_inverse_mass - twist
+    lever = second.rotation @ shape.points[point]
+    turnings = [numpy.zeros((3, 3)), cross_matrix(push) @ -cross_matrix(lever)]
+    blocks = [
+        _of_motion(sign, inertias[k], spins[k], reaches[k], turnings[k]) for k, sign in enumerate((-1.0, 1.0))
+    ]  # fmt: skip
+    by_parameters = direct + blocks[0] @ before.by_parameters + blocks[1] @ after.by_parameters
+    return Balance(value, blocks[0] @ before.by_state, blocks[1] @ after.by_state, by_parameters)
+
+
+def _of_motion(sign: float, inertia: Array, spin: Array, reach: Array, turning: Array) -> Array:
+    """Derivative [3, 12] by the motion at one end, whose angular momentum and impulse count `sign`."""
+    block = numpy.zeros((3, 12))
+    block[:, 3:6] = -sign * cross_matrix(reach)
+    block[:, 6:9] = turning + sign * (inertia @ cross_matrix(spin) - cross_matrix(inertia @ spin))
+    block[:, 9:] = sign * inertia
+    return block
 
 
 def _by_motion(

@@ -9,8 +9,8 @@ import numpy
 from .balance import Side, impulse
 from .geometry import arm
 from .modes import Mode, classify
-from .problem import Problem
-from .rotation import Array, cross_matrix
+from .problem import Contact, Problem
+from .rotation import Array, cross_matrix, logarithm
 from .segments import Segments
 from .stacked import Estimate
 
@@ -52,13 +52,18 @@ def _used(problem: Problem, found: Estimate, number: int) -> ContactFinding:
     inverse_mass = problem.model.inverse_mass(found.parameters)
     push = impulse(before.state, after.state, inverse_mass, problem.model)
     spread = _push_covariance(found, contact.before, contact.after, before, after)
-    middle = 0.5 * (before.state.rotation + after.state.rotation)
-    reach = arm(problem.shape, problem.ground, middle, contact.point)
+    turned = [side.state.rotation for side in (before, after)]
+    if contact.sweep is None:
+        turned = [0.5 * (turned[0] + turned[1])] * 2
+    reaches = [arm(problem.shape, problem.ground, rotation, contact.point) for rotation in turned]
     normal, kept = problem.ground.normal, numpy.eye(3)
     if problem.axis is not None:
         kept = kept - numpy.outer(problem.axis, problem.axis)  # noise across the plane of motion is no slip
-    velocities = [side.state.velocity + numpy.cross(side.state.angular_velocity, reach) for side in (before, after)]
-    deviation = _slip_deviation(found, contact.after, after, reach, kept)
+    velocities = [
+        side.state.velocity + numpy.cross(side.state.angular_velocity, reach)
+        for side, reach in zip((before, after), reaches, strict=True)
+    ]
+    deviation = _slip_deviation(found, contact.after, after, reaches[1], kept)
     along = push - (push @ normal) * normal
     length = float(numpy.linalg.norm(along))
     direction = along / length if length > 0.0 else numpy.zeros(3)
@@ -70,8 +75,16 @@ def _used(problem: Problem, found: Estimate, number: int) -> ContactFinding:
         ratio = float(numpy.sqrt(slope @ spread @ slope))
     upward = float(numpy.sqrt(normal @ spread @ normal))
     return ContactFinding(
-        contact.begin, contact.end, contact.point, mode, upward, across, ratio, reach, push, ""
+        contact.begin, contact.end, contact.point, mode, upward, across, ratio, 0.5 * (reaches[0] + reaches[1]), push,
+        "" if contact.sweep is None else _course(contact, turned),
     )  # fmt: skip
+
+
+def _course(contact: Contact, turned: list[Array]) -> str:
+    """How long a contact lasted, and how far the body turned meanwhile."""
+    angle = float(numpy.linalg.norm(logarithm(turned[1] @ turned[0].T)))
+    samples = 0 if contact.sweep is None else contact.sweep.samples
+    return f"lasted {1e3 * (contact.end - contact.begin):.3g} ms over {samples} samples; the body turned by {angle:.2g} rad"
 
 
 def _push_covariance(found: Estimate, first: int, second: int, before: Side, after: Side) -> Array:

@@ -7,9 +7,12 @@ from collections.abc import Iterable
 import numpy
 from scipy.stats import chi2
 
+from .geometry import size
 from .lasting import NO_FLIGHT
+from .problem import Contact, Problem
 from .search import TOUCHES_NOTHING
 from .stacked import Estimate
+from .sweep import FEW
 
 __all__ = ["doubts"]
 
@@ -17,12 +20,13 @@ QUANTILE = 0.9999
 SLIGHT = 1e-6  # standard deviation over the size of a parameter, contradictions counted, below which they do not matter
 
 
-def doubts(found: Estimate, notes: Iterable[str]) -> list[str]:
+def doubts(found: Estimate, notes: Iterable[str], problem: Problem) -> list[str]:
     """One sentence each; none where everything fits.
 
     Args:
         found: the estimate.
         notes: of the contacts that are not used.
+        problem: that it answers.
     """
     told, notes = [], list(notes)
     if not found.converged:
@@ -34,6 +38,13 @@ def doubts(found: Estimate, notes: Iterable[str]) -> list[str]:
             f"contacts and flights contradict each other by {found.misfit:.3g} times what the noise explains: check the shape, the "
             "ground, gravity, the wrench and the noise; the standard deviations are too small"
         )
+    short = [contact for contact in problem.contacts if _hidden(contact, problem)]
+    if short:
+        longest = 1e3 * max(contact.end - contact.begin for contact in short)
+        told.append(
+            f"{len(short)} contacts last up to {longest:.2g} ms with fewer than {len(FEW)} samples each, so that the course of "
+            "their force is open: record faster if the contact is soft, check ground and shape if it is not"
+        )
     nothing = sum(note.startswith(TOUCHES_NOTHING) for note in notes)
     if nothing:
         told.append(f"{nothing} contacts touch nothing known: check the shape, its axes, and the ground")
@@ -41,3 +52,11 @@ def doubts(found: Estimate, notes: Iterable[str]) -> list[str]:
     if strange:
         told.append("the body does not move as a free one where it is off the ground: see the notes of the contacts")
     return told
+
+
+def _hidden(contact: Contact, problem: Problem) -> bool:
+    """Whether a contact lasts, and too few samples tell how."""
+    swept = contact.sweep
+    if swept is None or swept.samples >= len(FEW):
+        return False
+    return swept.quadrature > SLIGHT * size(problem.shape) * float(abs(problem.states.velocity).max())

@@ -15,7 +15,7 @@ from .rotation import Array, exponential, logarithm
 from .spin import turn
 from .wrench import ExternalWrench
 
-__all__ = ["FlightState", "Model", "Motion", "motion", "moved", "plain_motion"]
+__all__ = ["FlightState", "Model", "Motion", "motion", "moved", "plain_motion", "state_at"]
 
 STEP = 1e-5  # of the central differences, in [rad] and relative: errors of 1e-10, below what the rank test asks for
 
@@ -83,6 +83,12 @@ def plain_motion(
         numpy.array([model.inverse_mass(parameters)]), model.wrench, state.time, times,
     )  # fmt: skip
     return position, velocity, rotation[0], angular_velocity[0]
+
+
+def state_at(state: FlightState, parameters: Array, model: Model, time: float) -> FlightState:
+    """The state of a flight at another instant."""
+    position, velocity, rotation, spin = plain_motion(state, parameters, model, numpy.array([time]))
+    return FlightState(time, position[0], velocity[0], rotation[0], spin[0])
 
 
 def motion(state: FlightState, parameters: Array, scale: Array, model: Model, times: Array) -> Motion:

@@ -141,7 +141,7 @@ def _result(found: Estimate, search: Search) -> Identification:
     ]
     words = unobservable(missing, found.parameters, found.scale, spatial, model.with_mass, _why_no_mass(search, found))
     contacts = findings(problem, found, search.parts, search.places, search.notes)
-    told = doubts(found, search.notes.values())
+    told = doubts(found, search.notes.values(), problem)
     return Identification(
         parameters, words, told, found.directions.rank, model.unknowns, contacts, problem.noise, search.flights, problem.axis,
         found.converged, found, problem,

@@ -1,4 +1,4 @@
-"""Instant and point of an impact: the first root of the gap on the incoming flight."""
+"""Instant and point of an impact: the root of the gap on the incoming flight, and on the outgoing one where it lasts."""
 
 from __future__ import annotations
 
@@ -33,9 +33,12 @@ def locate(
     shape: Shape,
     ground: Ground,
     bounds: tuple[float, float],
+    start: float,
     deviation: float,
+    *,
+    leaving: bool = False,
 ) -> Touch:
-    """First touch on a flight within `bounds`, by Newton's method on the gap of the lowest point.
+    """Touch on a flight within `bounds`, by Newton's method on the gap of the lowest point.
 
     Args:
         flight: the incoming flight.
@@ -44,10 +47,12 @@ def locate(
         shape: of the body.
         ground: below it.
         bounds: where to look, [s].
+        start: where to begin with it, [s].
         deviation: standard deviation of the gap, [m]: points within three of it touch together.
+        leaving: the flight comes after the contact, and the root is where it leaves the ground.
     """  # fmt: skip
     low, high = bounds
-    time, point = 0.5 * (low + high), 0
+    time, point = start, 0
     lifts: Array = numpy.zeros(1)
     for _ in range(STEPS):
         position, velocity, rotation, spin = (
@@ -56,7 +61,7 @@ def locate(
         lifts = gaps(shape, ground, position, rotation)
         point = int(lifts.argmin())
         rate = float(ground.normal @ (velocity + numpy.cross(spin, arm(shape, ground, rotation, point))))
-        if rate >= 0.0:
+        if (rate <= 0.0) if leaving else (rate >= 0.0):
             return Touch(time, point, _together(lifts, shape, deviation), False, float(lifts[point]))
         last, time = time, float(numpy.clip(time - lifts[point] / rate, low, high))
         if abs(time - last) <= 1e-15 * max(1.0, abs(time)):

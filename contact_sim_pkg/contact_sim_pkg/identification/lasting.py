@@ -95,13 +95,15 @@ def _heights(problem: Problem, sample: int) -> Array:
 
 
 def _one_corner(problem: Problem, step: int) -> bool:
-    """Whether the same corner, and no other, is down at both ends of a step."""
+    """Whether the same corner, and no other, is down at both ends of a step; a soft ground lets it in."""
     ends = [_heights(problem, sample) for sample in (step, step + 1)]
     if max(end.min() for end in ends) > HIGH * size(problem.shape) + SIGMAS * problem.noise.position:
         return False
     if len(ends[0]) == 1:
         return True
     length = float(numpy.ptp(problem.shape.points))
-    second = min(float(numpy.partition(end, 1)[1] - end.min()) for end in ends)
+    pressed = -size(problem.shape)  # deeper than that is no soft ground, but another one than told
+    levels = [max(end.min(), 0.0) if end.min() > pressed else end.min() for end in ends]
+    second = min(float(numpy.partition(end, 1)[1] - level) for end, level in zip(ends, levels, strict=True))
     same = ends[0].argmin() == ends[1].argmin()
     return bool(same and second > APART * length + SIGMAS * problem.noise.position)

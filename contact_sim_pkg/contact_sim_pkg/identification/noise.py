@@ -40,13 +40,13 @@ def from_residuals(residuals: Sequence[Array], states: BodyStates) -> Noise:
     return limited(Noise(position, rotation, velocity, angular_velocity), states)
 
 
-def limited(noise: Noise, states: BodyStates) -> Noise:
-    """Not below rounding of the largest value of each channel."""
+def limited(noise: Noise, states: BodyStates, floor: float = FLOOR) -> Noise:
+    """Not below `floor` times the largest value of each channel: that of rounding."""
     largest = (
         float(abs(states.position).max()), 1.0, float(abs(states.velocity).max()),
         float(abs(states.angular_velocity).max()) + 1e-3,
     )  # fmt: skip
-    return Noise(*(max(value, FLOOR * (size + 1e-3)) for value, size in zip(noise, largest, strict=True)))
+    return Noise(*(max(value, floor * (size + 1e-3)) for value, size in zip(noise, largest, strict=True)))
 
 
 def _spread(differences: Array) -> float:

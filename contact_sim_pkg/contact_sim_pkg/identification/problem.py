@@ -11,10 +11,23 @@ from .geometry import Ground, Shape, inertia_guess
 from .rotation import Array
 from .states import BodyStates, Noise
 
-__all__ = ["AXES", "Contact", "Problem", "planar_basis", "spatial_basis", "start_of", "starting_parameters"]
+__all__ = ["AXES", "Contact", "Problem", "Sweep", "planar_basis", "spatial_basis", "start_of", "starting_parameters"]
 
 AXES = "xyz"
 PAIRS = ((0, 0), (1, 1), (2, 2), (0, 1), (0, 2), (1, 2))
+
+
+class Sweep(NamedTuple):
+    """Moment of the impulses of a contact from t0 to t1 (`sweep.py`): `int r' x (pi - pi(t0)) dt`, r' the rate of the arm.
+
+    It is moment - kappa by_inverse_mass - (r1 - r0) x (v0 - velocity)`, v0 the velocity at t0."""
+
+    moment: Array  # [3], [m^2/s], at `velocity` and kappa = 0
+    by_inverse_mass: Array  # [3], [kg m^2/s]
+    velocity: Array  # [3], [m/s]
+    deviation: float  # standard deviation of a component, [m^2/s]: of the quadrature and of the samples
+    quadrature: float  # the share of the quadrature in it
+    samples: int  # while the contact lasts
 
 
 class Contact(NamedTuple):
@@ -27,6 +40,7 @@ class Contact(NamedTuple):
     point: int  # of the shape
     turns: bool = True  # its moment counts: it acts at this point alone
     slides: bool = False  # the known friction counts
+    sweep: Sweep | None = None  # of a contact that lasts: the moment of its impulses
 
 
 class Problem(NamedTuple):

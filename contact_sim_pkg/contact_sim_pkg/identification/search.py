@@ -5,25 +5,31 @@ from __future__ import annotations
 import numpy
 
 from .errors import IdentificationError
-from .flight import plain_motion
+from .flight import plain_motion, state_at
 from .geometry import size
-from .impacts import locate
-from .lasting import in_words, with_steps
+from .impacts import Touch, locate
+from .lasting import NO_FLIGHT, in_words, with_steps
 from .noise import from_residuals, limited
 from .problem import Contact, Problem
 from .rotation import Array
-from .segments import LONGEST_IMPACT, SHORTEST_FLIGHT, Segments
+from .segments import LONGEST_IMPACT, SHORTEST_FLIGHT, Segments, gap_doubt
 from .slides import with_slides
 from .stacked import Estimate, estimate
 from .states import Noise
+from .sweep import pressed, sweep
 
 __all__ = ["TOUCHES_NOTHING", "Search"]
 
 ROUNDS = 5
 SETTLED = 0.01  # change of the noise that ends the rounds, relative
-MISSED = 0.05  # of the way of an interval: how far two flights may miss each other at their impact
+MISSED = 3.0  # times the deviations of the two: how far two flights may miss each other at an impact
+BESIDE_SOFT = (
+    1e-9  # of the largest value: noise beside contacts that last, so that what these tell is not lost in the rank
+)
+CLEAR = 5.0  # times its deviation: a miss against the impulse, of an impact that lasts
 TOUCHES = "touches"  # how a note begins on a contact that another round may use
 TOUCHES_NOTHING = f"{TOUCHES} nothing known"
+DOUBLE = "the flights before and after miss each other: more than one impact in between"
 WORSE = 5.0  # times the noise of the others: what is no flight
 
 
@@ -37,12 +43,13 @@ class Search:
         self.problem = problem._replace(flights=whole, noise=self.noise or problem.noise)
         self.notes: dict[int, str] = {}  # of contacts that are not used, by their place in parts.contacts
         self.places: list[int] = []  # of the contacts that are used
+        self.lasting: dict[int, str] = {}  # what contacts of many intervals do, by place
 
     def run(self) -> Estimate:
         """All rounds."""
         for place, (first, last) in enumerate(self.parts.contacts):
             if last - first + 1 > LONGEST_IMPACT:
-                self.notes[place] = in_words(self.problem, first, last)
+                self.notes[place] = self.lasting[place] = in_words(self.problem, first, last)
         if not self.problem.flights:
             self.problem = with_slides(with_steps(self.problem, self.parts), self.parts)
         if not self.problem.flights:
@@ -107,49 +114,101 @@ class Search:
         contacts, self.places = [], []
         for place, (first, last) in enumerate(self.parts.contacts):
             before, after = self._neighbours(first, last)
-            if place in self.notes and not self.notes[place].startswith(TOUCHES):
-                continue
             if before is None or after is None:
-                self.notes[place] = f"no flight of {SHORTEST_FLIGHT} samples before or after it"
+                if before is not None and place in self.lasting:
+                    self._touch(found, place, before, (first, last))
+                self._refuse(place, f"no flight of {SHORTEST_FLIGHT} samples before or after it")
             else:
                 contact = self._contact(found, place, before, after, (first, last))
                 if contact is not None:
                     contacts.append(contact)
                     self.places.append(place)
+        contacts = self._without_doubles(contacts)
         self.problem = self.problem._replace(contacts=contacts)
+        if any(contact.sweep is not None for contact in contacts):
+            noise = limited(self.problem.noise, self.problem.states, BESIDE_SOFT)
+            self.problem = self.problem._replace(noise=noise)
+
+    def _without_doubles(self, contacts: list[Contact]) -> list[Contact]:
+        """Where most contacts are instants, one that seems to last between two samples is more than one impact."""
+        lasting = sum(contact.sweep is not None for contact in contacts)
+        if not 0 < lasting < len(contacts) - lasting:
+            return contacts
+        kept = [contact.sweep is None or contact.sweep.samples > 0 for contact in contacts]
+        for place, keeps in zip(self.places, kept, strict=True):
+            if not keeps:
+                self._refuse(place, DOUBLE)
+        self.places = [place for place, keeps in zip(self.places, kept, strict=True) if keeps]
+        return [contact for contact, keeps in zip(contacts, kept, strict=True) if keeps]
 
     def _contact(
         self, found: Estimate, place: int, before: int, after: int, interval: tuple[int, int]
     ) -> Contact | None:
-        problem, time = self.problem, self.problem.states.time
-        step = float(time[interval[1] + 1] - time[interval[0]])
-        bounds = (float(time[interval[0]]) - 0.5 * step, float(time[interval[1] + 1]) + 0.5 * step)
-        touch = locate(
-            found.flights[before], found.parameters, problem.model, problem.shape, problem.ground, bounds,
-            self._gap_deviation(before),
-        )  # fmt: skip
+        """One contact between two flights, or None and a note: at an instant where they meet, else as one that lasts."""
+        touch = self._touch(found, place, before, interval)
         if not touch.found:
-            self.notes[place] = f"{TOUCHES_NOTHING}: the lowest point is {touch.gap:.3g} m above the ground there"
+            self._refuse(place, f"{TOUCHES_NOTHING}: the lowest point is {touch.gap:.3g} m above the ground there")
             return None
         if touch.together > 1:
-            self.notes[place] = f"{TOUCHES} with {touch.together} corners at once: where its impulse acts is not known"
+            self._refuse(place, f"{TOUCHES} with {touch.together} corners at once: where its impulse acts is not known")
             return None
-        miss = self._miss(found, before, after, touch.time, step)
-        if miss:
-            self.notes[place] = (
-                f"the flights before and after miss each other by {miss:.2g} m: more than one impact in between"
+        miss = self._miss(found, before, after, touch.time)
+        if not miss and place not in self.lasting:
+            self.notes.pop(place, None)
+            return Contact(before, after, touch.time, touch.time, touch.point)
+        release = self._root(found, after, interval, leaving=True)
+        doubt = gap_doubt(self.problem.shape, (self.problem.noise.position, self.problem.noise.rotation))
+        lasts = release.found and release.point == touch.point and release.together == 1 and release.time > touch.time
+        if not (lasts and pressed(self.problem, touch.point, touch.time, release.time, doubt)):
+            self._refuse(
+                place,
+                f"the flights before and after miss each other by {miss:.2g} m, and between them more than one corner touches, or "
+                "one more than once",
             )
             return None
         self.notes.pop(place, None)
-        return Contact(before, after, touch.time, touch.time, touch.point)
+        ends = [
+            state_at(found.flights[number], found.parameters, self.problem.model, root.time)
+            for number, root in ((before, touch), (after, release))
+        ]
+        swept = sweep(self.problem, touch.point, *ends)
+        return Contact(before, after, touch.time, release.time, touch.point, sweep=swept)
 
-    def _miss(self, found: Estimate, before: int, after: int, time: float, step: float) -> float:
-        """How far two flights miss each other at an impact, [m]; 0 where they meet as well as can be told."""
+    def _touch(self, found: Estimate, place: int, flight: int, interval: tuple[int, int]) -> Touch:
+        """Where a contact begins: found, what goes below the ground there presses into it."""
+        touch = self._root(found, flight, interval, leaving=False)
+        if touch.found and self.lasting.get(place, "").startswith(NO_FLIGHT):
+            self.lasting[place] = "lasting contact, presses into the ground"
+        return touch
+
+    def _refuse(self, place: int, why: str) -> None:
+        """Note why a contact is not used; what is known of a lasting one stays."""
+        self.notes[place] = self.lasting.get(place, why)
+
+    def _root(self, found: Estimate, flight: int, interval: tuple[int, int], *, leaving: bool) -> Touch:
+        """Where a flight meets the ground at a contact."""
+        problem, time = self.problem, self.problem.states.time
+        begin, end, count = float(time[interval[0]]), float(time[interval[1] + 1]), interval[1] - interval[0] + 1
+        slack = (end - begin) * min(0.5, LONGEST_IMPACT / count)
+        start = 0.5 * (begin + end) if count <= LONGEST_IMPACT else end if leaving else begin
+        return locate(
+            found.flights[flight], found.parameters, problem.model, problem.shape, problem.ground,
+            (begin - slack, end + slack), start, self._gap_deviation(flight), leaving=leaving,
+        )  # fmt: skip
+
+    def _miss(self, found: Estimate, before: int, after: int, time: float) -> float:
+        """How far two flights miss each other at an impact, [m]; 0 where they meet as well as can be told.
+
+        One that lasts parts them against its impulse, by half the way of that meanwhile: a far smaller miss tells it.
+        """
         model, at = self.problem.model, numpy.array([time])
         ends = [plain_motion(found.flights[number], found.parameters, model, at) for number in (before, after)]
-        miss = float(numpy.linalg.norm(ends[1][0] - ends[0][0]))
-        jump = float(numpy.linalg.norm(ends[1][1] - ends[0][1]))
-        return miss if miss > MISSED * jump * step + 12.0 * self.problem.noise.position else 0.0
+        apart, push = (ends[1][place][0] - ends[0][place][0] for place in (0, 1))
+        miss, back = float(numpy.linalg.norm(apart)), -float(apart @ push) / float(numpy.linalg.norm(push))
+        lengths = [last - first + 1 for first, last in (self.problem.flights[number] for number in (before, after))]
+        spread = 2.0 * self.problem.noise.position * float(numpy.sqrt(numpy.sum(1.0 / numpy.array(lengths))))
+        doubt = 12.0 * self.problem.noise.position + MISSED * sum(self._gap_deviation(each) for each in (before, after))
+        return miss if miss > doubt or back > CLEAR * spread else 0.0
 
     def _gap_deviation(self, flight: int) -> float:
         """Standard deviation of the gap of a point on a fitted flight, [m]."""

@@ -101,7 +101,8 @@ def segments(
     deviation = max(noise, FLOOR * float(abs(states.velocity).max()))
     strength = numpy.einsum("ni,ni->n", jumps, jumps) / (chi2.ppf(QUANTILE, 3) * 2.0 * deviation**2 + 1e-300)
     near = _near(states, lifts, ground, place_noise[0])
-    return Segments(*_runs((strength > 1.0) & (near | (strength > CERTAIN)) | _down(states, lifts, gravity, doubt)))
+    hit = (strength > 1.0) & (near | (strength > CERTAIN)) | _down(states, lifts, gravity, doubt)
+    return Segments(*_runs(hit | _pressed_in(jumps, lifts < -doubt, deviation)))
 
 
 def gap_doubt(shape: Shape, place_noise: tuple[float, float]) -> float:
@@ -119,6 +120,20 @@ def _down(states: BodyStates, lifts: Array, gravity: float, doubt: float) -> Arr
     for first, last in edges.reshape(-1, 2):
         joined[first:last] = states.time[last] - states.time[first] > longest
     return numpy.asarray(joined)
+
+
+def _pressed_in(jumps: Array, below: Array, deviation: float) -> Array:
+    """Intervals of soft contacts: the body comes from above, is below the ground, and is pushed more than noise explains.
+
+    A push of many short intervals may hide in the noise of each.
+    """
+    found = numpy.zeros(len(jumps), dtype=bool)
+    edges = numpy.flatnonzero(numpy.diff(numpy.concatenate([[0], below.astype(int), [0]])))
+    for first, last in edges.reshape(-1, 2):
+        run = slice(max(first - 1, 0), min(last, len(jumps)))
+        pushed = float(numpy.linalg.norm(numpy.sum(jumps[run], axis=0)))
+        found[run] = first > 0 and pushed**2 > chi2.ppf(QUANTILE, 3) * 2.0 * deviation**2
+    return found
 
 
 def _near(states: BodyStates, lifts: Array, ground: Ground, position_noise: float) -> Array:

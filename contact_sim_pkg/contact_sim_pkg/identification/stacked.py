@@ -14,7 +14,7 @@ from typing import NamedTuple
 import numpy
 from scipy.linalg import block_diag, cholesky, solve_triangular
 
-from .balance import Balance, Side, balance
+from .balance import Balance, Side, balance, lasting_balance
 from .coulomb import friction_balance
 from .errors import IdentificationError
 from .flight import FlightState, Motion, motion, moved
@@ -129,7 +129,7 @@ class _Linear:
         kept = self.split
         scaled = kept.identified.T @ ((kept.left.T @ self._rest) / kept.values)
         step = scaled * self.scale
-        errors = self._white.T @ (self._white_rest - self._white_regressor @ step)
+        errors = self._white.T @ (self._white_rest - self._white_regressor @ step)  # those of sweeps come last
         moves = numpy.empty((len(self._condensed), 12))
         for number, flight in enumerate(self._condensed):
             right = flight.rest - flight.coupling @ step + errors[12 * number : 12 * number + 12]
@@ -145,9 +145,10 @@ class _Linear:
     def state_covariance(self) -> tuple[Array, Array]:
         """Covariance of all states at given parameters, and how an error of the parameters moves them."""
         inverse = block_diag(*(numpy.linalg.inv(flight.triangle) for flight in self._condensed))
-        kept = numpy.eye(len(inverse)) - self._white.T @ self._white
+        white = self._white[:, : len(inverse)]
+        kept = numpy.eye(len(inverse)) - white.T @ white
         coupling = numpy.concatenate([flight.coupling for flight in self._condensed])
-        return inverse @ kept @ inverse.T, -inverse @ (coupling + self._white.T @ self._white_regressor)
+        return inverse @ kept @ inverse.T, -inverse @ (coupling + white.T @ self._white_regressor)
 
     def misfit(self) -> tuple[float, int]:
         """Root mean square of what the parameters leave of all balances and flights, and how many equations are left over.
@@ -180,18 +181,25 @@ class _Linear:
         return Motion(*(field[count:] for field in whole))
 
     def _balances(self) -> None:
-        """Whiten the balances of all contacts: `white e + regressor dp = rest`, rows of `white` orthonormal."""
+        """Whiten the balances of all contacts: `white e + regressor dp = rest`, rows of `white` orthonormal.
+
+        e are the errors of all states, then those of each balance whose contact lasts.
+        """
         problem = self.problem
         balances = [
             _balance(problem, contact, sides, self.parameters)
             for contact, sides in zip(problem.contacts, self.sides, strict=True)
         ]
-        total, width = sum(len(found.value) for found in balances), 12 * len(self._condensed)
+        total, states = sum(len(found.value) for found in balances), 12 * len(self._condensed)
+        width = states + total * any(contact.sweep is not None for contact in problem.contacts)
         errors, regressor = numpy.zeros((total, width)), numpy.zeros((total, problem.model.unknowns))
         rest, place = numpy.zeros(total), 0
         for contact, found in zip(problem.contacts, balances, strict=True):
             lines = slice(place, place + len(found.value))
             self._eliminate(contact, found, errors[lines], regressor[lines], rest[lines])
+            if contact.sweep is not None:
+                own = slice(states + place, states + lines.stop)
+                errors[lines, own] = contact.sweep.deviation * numpy.eye(lines.stop - place)
             place = lines.stop
         if total:
             gram = errors @ errors.T
@@ -216,7 +224,8 @@ def _balance(problem: Problem, contact: Contact, sides: tuple[Side, Side], param
     """What a contact says: of the moment, of the known friction, or of both, one below the other."""
     parts = []
     if contact.turns:
-        found = balance(*sides, parameters, problem.model, problem.shape, problem.ground, contact.point)
+        known = (*sides, parameters, problem.model, problem.shape, problem.ground, contact.point)
+        found = balance(*known) if contact.sweep is None else lasting_balance(*known, contact.sweep)
         parts.append(Balance(*(problem.rows @ field for field in found)))
     if contact.slides:
         parts.append(friction_balance(problem, contact, sides, parameters))
