@@ -5,7 +5,7 @@ import pytest
 
 from contact_sim_pkg.bag.messages import RollerContact, encode_roller
 from contact_sim_pkg.studies import ablation
-from contact_sim_pkg.studies.ablation_changes import Change, changes_of
+from contact_sim_pkg.studies.ablation_changes import Change, changes_of, unit_of
 from contact_sim_pkg.studies.ablation_rules import Observed, is_needed
 
 
@@ -36,6 +36,28 @@ def test_rounding_in_both_runs_is_no_change():
     assert changes_of(tiny, contact(tilt=numpy.full(4, -2e-17)), ["roller/contact"])[0].field == "unchanged"
 
 
+def test_a_field_that_is_zero_in_one_run_is_told_with_its_unit_and_not_as_a_ratio():
+    """rms of (3, 4, 0, 0) is 2.5; what changes by ratio is told beside it."""
+    rounding = contact(tilt=numpy.full(4, 1e-12))
+    large = contact(tilt=numpy.array([3.0, 4.0, 0.0, 0.0]), yaw=numpy.full(4, 1.25))
+    for runs in ((rounding, large), (large, rounding)):
+        by_ratio, alone = changes_of(*runs, ["roller/contact"])
+        assert (by_ratio.field, by_ratio.change) == ("yaw", pytest.approx(0.2, rel=1e-12))
+        assert (alone.field, alone.change, alone.unit) == ("tilt", None, "rad")
+        assert alone.size == pytest.approx(2.5, rel=1e-12)
+
+
+@pytest.mark.parametrize(
+    ("topic", "field", "unit"),
+    [
+        ("block/force", "approach", "m"), ("block/wrench", "wrench.torque.y", "N m"), ("block/wrench", "wrench.force.x", "N"),
+        ("bench/motion", "velocity of block_pitch", "rad/s"), ("bench/motion", "velocity of block_x", "m/s"),
+    ],
+)  # fmt: skip
+def test_the_unit_of_a_field_is_that_of_its_message(topic, field, unit):
+    assert unit_of(topic, field) == unit
+
+
 def test_another_number_of_values_is_told():
     """A shell has 320 points in place of one."""
     [found] = changes_of(contact() * 2, contact(), ["roller/contact"])
@@ -58,4 +80,4 @@ def test_an_effect_that_the_scene_cannot_take_has_a_row_with_the_reason():
     assert rows["track_waves"]["verdict"] == "not available"
     assert "the scene does not take it: roller." in rows["track_waves"]["why"]
     assert rows["subsurface"]["cost"] > 0.0
-    assert {"topic": "roller/volumes", "field": "only with it", "change": None} in rows["subsurface"]["changes"]
+    assert Change("roller/volumes", "only with it", None)._asdict() in rows["subsurface"]["changes"]

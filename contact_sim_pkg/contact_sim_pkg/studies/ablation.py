@@ -121,7 +121,8 @@ def sections(rows: list[dict[str, Any]]) -> list[Section]:
         Section(
             "what the effect changes",
             changes,
-            "of each output the field that changes most: rms of the difference over the larger rms",
+            "of each output the field that changes most: rms of the difference over the larger rms; of what is 0 in one run the "
+            "rms in the other",
         ),
         Section("called for by the scene?", reasons),
         Section("outputs that the effect feeds", feeds, f"and each of them {' and '.join(BENCH_TOPICS)}"),
@@ -130,6 +131,8 @@ def sections(rows: list[dict[str, Any]]) -> list[Section]:
 
 def _change(change: dict[str, Any]) -> str:
     text = f"{change['topic']} {change['field']}"
+    if change["size"] is not None:
+        return f"{text} {change['size']:.2g} {change['unit']} in one run, 0 in the other"
     return f"{text} {100.0 * change['change']:.3g} %" if change["change"] else text
 
 
