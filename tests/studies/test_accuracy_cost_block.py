@@ -34,6 +34,24 @@ def test_a_stiffer_contact_comes_nearer_to_the_rigid_one_that_slides_to_a_stop(s
     assert all(later < 0.2 * earlier for earlier, later in pairwise(end))
 
 
+def test_turning_on_a_held_corner_follows_the_tolerance(slope_scene):
+    rows = accuracy_cost_block.turn_rows("", slope_scene, quiet)
+    found = {row["tolerance"]: row["error"] for row in rows}
+    assert float(slope_scene.data["integrator"]["relative_tolerance"]) in found
+    assert all(error <= 10.0 * tolerance for tolerance, error in found.items())
+    assert found[1e-4] > 100.0 * found[1e-8] > 0.0
+    assert all(row["ms_per_simulated_s"] > 0.0 for row in rows)
+
+
+def test_a_box_of_a_scene_turns_on_an_edge_and_a_ball_on_none():
+    box, ball = (
+        accuracy_cost_block.turn_rows("", load_resolved(name), quiet) for name in ("box_3d_tumble", "block_zeno")
+    )
+    assert len(box) >= 6
+    assert all(row["error"] <= 10.0 * row["tolerance"] for row in box)
+    assert ball == []
+
+
 def test_in_the_plane_there_is_no_cone_to_cut(slope_scene):
     assert accuracy_cost_block.facet_rows("", slope_scene, quiet) == []
 

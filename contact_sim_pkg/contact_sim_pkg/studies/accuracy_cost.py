@@ -1,7 +1,7 @@
 """`bench accuracy SCENE`: what accuracy costs in time, for each tolerance, grid and rung that the scene can be run with.
 
 Columns of a row: `quantity`, `part` (integrator, coupling, field solver, field grid, modes,
-scheme in time, friction cone, contact model, those of the roller), `rung`, `grid`, `tolerance`,
+scheme in time, turning on held contacts, friction cone, contact model, those of the roller), `rung`, `grid`, `tolerance`,
 `error` (relative), `reference` (what the error is against, and whether it is own code),
 `ms_per_simulated_s`, and in a new process the time to the first answer: `first_call_s`, with nothing compiled, and
 `next_start_s`, with the kernels on disk. How to read it: `docs/accuracy.md`.
@@ -63,7 +63,12 @@ PARTS: dict[RigName, tuple[Part, ...]] = {
         *(_named("backrest", part) for part in _BACKREST),
     ),
     "impact": (accuracy_cost_impact.way_rows,),
-    "block": (accuracy_cost_block.scheme_rows, accuracy_cost_block.facet_rows, accuracy_cost_block.contact_rows),
+    "block": (
+        accuracy_cost_block.scheme_rows,
+        accuracy_cost_block.turn_rows,
+        accuracy_cost_block.facet_rows,
+        accuracy_cost_block.contact_rows,
+    ),
     "roller": (accuracy_cost_roller.rows,),
 }
 """Rig -> what is measured of it; each part gives its rows. A further rig is one more entry."""

@@ -24,10 +24,17 @@ from contact_sim_pkg.run.block import body_of, move
 from contact_sim_pkg.run.errors import RunError
 from contact_sim_pkg.scene.build_block import BlockModel, build_block
 from contact_sim_pkg.scene.resolved_scene import ResolvedScene
+from contact_sim_pkg.studies.ladder_row import milliseconds
+from contact_sim_pkg.studies.tipping_body import REFERENCE, tip, tip_error, tipping
 
-__all__ = ["COMPLIANT_PART", "CONE_PART", "SCHEME_PART", "contact_rows", "facet_rows", "scheme_rows"]
+__all__ = [
+    "COMPLIANT_PART", "CONE_PART", "SCHEME_PART", "TURN_PART", "contact_rows", "facet_rows", "scheme_rows", "turn_rows",
+]  # fmt: skip
 
-SCHEME_PART, CONE_PART, COMPLIANT_PART = "scheme in time", "friction cone", "contact model"
+SCHEME_PART, CONE_PART, COMPLIANT_PART, TURN_PART = (
+    "scheme in time", "friction cone", "contact model", "turning on held contacts",
+)  # fmt: skip
+TOLERANCES = (1e-3, 1e-4, 1e-6, 1e-8, 1e-10, 1e-12)
 LONGEST = 1.0  # [s] of the scene
 TICK = 1e-3  # [s]
 STEPS = (1e-3, 5e-4, 1e-4)  # [s]
@@ -65,6 +72,27 @@ def facet_rows(_scene_name: str, scene: ResolvedScene, tell: Tell) -> list[Row]:
         way = dataclasses.replace(model, facets=facets)
         rows += _compared(CONE_PART, f"{facets} facets", OWN, way, scene, exact, tell)
     return rows + _rows(CONE_PART, "true cone", cost, OWN, exact, exact, model)
+
+
+def turn_rows(_scene_name: str, scene: ResolvedScene, tell: Tell) -> list[Row]:
+    """The body of the scene, tipping over on a corner or an edge that holds, by tolerance; that of the scene is one of them."""
+    case = tipping(_rigid(scene).body)
+    if case is None:
+        return []
+    rows: list[Row] = []
+    for tolerance in sorted({*TOLERANCES, float(scene.data["integrator"]["relative_tolerance"])}, reverse=True):
+        tell(f"turning on held contacts: tolerance {tolerance:g}")
+        try:
+            error = tip_error(case, tolerance)
+        except ArithmeticError as failure:
+            tell(f"{TURN_PART}: tolerance {tolerance:g} has no answer: {failure}")
+            continue
+        cost = milliseconds(lambda tolerance=tolerance: tip(case, tolerance)) / case.duration  # type: ignore[misc]
+        rows.append({
+            "quantity": "position", "part": TURN_PART, "rung": f"{tolerance:g}", "grid": "", "tolerance": tolerance,
+            "error": error, "reference": REFERENCE, "ms_per_simulated_s": cost,
+        })  # fmt: skip
+    return rows
 
 
 def contact_rows(_scene_name: str, scene: ResolvedScene, tell: Tell) -> list[Row]:

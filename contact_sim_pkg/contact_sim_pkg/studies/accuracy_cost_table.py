@@ -50,6 +50,9 @@ def _ways(rows: list[Row]) -> Section:
 def _of_block(rows: list[Row]) -> list[Section]:
     return [
         _by_rung("scheme in time: distance over the body's size, turn in rad", "scheme in time", "scheme", rows),
+        _by_tolerance(
+            "body that turns on held contacts: distance over that from the corner", "turning on held contacts", rows
+        ),
         _by_rung("friction cone: the same", "friction cone", "cone", rows),
         _by_rung("contact model: difference of the two, the same", "contact model", "contact", rows),
     ]

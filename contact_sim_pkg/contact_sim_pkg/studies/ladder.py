@@ -68,6 +68,7 @@ RIGS: dict[str, tuple[Ladder, ...]] = {
         Ladder(ladder_block.SOLVER_PART, ladder_block.solver_rows),
         Ladder(ladder_block.CONE_PART, ladder_block.cone_rows),
         Ladder(ladder_block.STEP_PART, ladder_block.step_rows),
+        Ladder(ladder_block.TURN_PART, ladder_block.turn_rows),
         Ladder(ladder_identification.PART, ladder_identification.rows),
     ),
     "impact": (

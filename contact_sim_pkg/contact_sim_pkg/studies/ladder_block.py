@@ -1,4 +1,5 @@
-"""Ladders of rigid contact: the solver of the contact problem, the facets of the friction cone, the step in time.
+"""Ladders of rigid contact: the solver of the contact problem, the facets of the friction cone, the step in time, the tolerance
+of a body that turns on held contacts.
 
 Times are calls from Python, with the set-up of arrays: what differs between rungs is the solve.
 """
@@ -10,24 +11,29 @@ import math
 import numpy
 
 from contact_sim_pkg.core.parameters import Vector
+from contact_sim_pkg.core.rigid.body import box
 from contact_sim_pkg.core.rigid.contact_solver import GAUSS_SEIDEL, LEMKE, MODES, NEWTON
 from contact_sim_pkg.core.rigid.problem import PLANE, SPACE
 from contact_sim_pkg.reference.rigid_contact import planar_velocity_by_enumeration
-from contact_sim_pkg.studies import rigid_motion
+from contact_sim_pkg.studies import rigid_motion, tipping_body
 from contact_sim_pkg.studies.ladder_row import Row, Rung, milliseconds, row
 from contact_sim_pkg.studies.rigid_problem import Case, contact_rows, random_face, solve, stack
 
-__all__ = ["CONE_PART", "SOLVER_PART", "STEP_PART", "cone_rows", "solver_rows", "step_rows"]
+__all__ = [
+    "CONE_PART", "SOLVER_PART", "STEP_PART", "TURN_PART", "cone_rows", "solver_rows", "step_rows", "turn_rows",
+]  # fmt: skip
 
 SOLVER_PART = "post-impact velocity: solver"
 CONE_PART = "friction cone in space"
 STEP_PART = "rigid contact in time: end position"
+TURN_PART = "body that turns on held contacts: end position"
 CLOSED = "closed form"
 ENUMERATION = "all index sets, numpy, no shared code"
 POINT_MASS = "closed form of a sliding point"
 DIRECTIONS = 37  # of slip, over which the worst error is taken
 STEPS = (1e-3, 1e-4, None)  # [s]; None: located
 FACETS = (4, 8, 16, 32, 0)
+TOLERANCES = (1e-3, 1e-4, 1e-6, 1e-8, 1e-10, 1e-12)
 
 
 def _velocity_error(case: Case, c: Vector, expected: Vector) -> float:
@@ -85,4 +91,22 @@ def step_rows() -> list[Row]:
             ms = milliseconds(lambda run=run, step=step: run(step))  # type: ignore[misc]
             rung = "located" if step is None else f"stepping, {1e3 * step:g} ms"
             found.append(row(STEP_PART, name, "position", Rung(rung, ms), CLOSED, run(step)))
+    return found
+
+
+def turn_rows() -> list[Row]:
+    """A block and a box that tip over on a corner and on an edge, by the tolerance of their integration; times of the whole run."""
+    block = tipping_body.standard_tipping()
+    on_edge = tipping_body.tipping(box((0.1, 0.14, 0.2), 1.0, 1.0, 0.0))
+    found = []
+    for name, case in (("block on a corner", block), ("box on an edge", on_edge)):
+        if case is None:
+            continue
+        for tolerance in TOLERANCES:
+            ms = milliseconds(lambda case=case, tolerance=tolerance: tipping_body.tip(case, tolerance))  # type: ignore[misc]
+            rung, error = (
+                Rung(f"located, {tolerance:g}", ms, tolerance=tolerance),
+                tipping_body.tip_error(case, tolerance),
+            )
+            found.append(row(TURN_PART, name, "position", rung, tipping_body.REFERENCE, error))
     return found
