@@ -8,7 +8,8 @@ from functools import cache
 import numpy
 
 from contact_sim_pkg.core.parameters import Vector
-from contact_sim_pkg.core.rigid.contact_solver import LEMKE, contact_impulses, make_solver
+from contact_sim_pkg.core.rigid.contact_answers import contact_impulses
+from contact_sim_pkg.core.rigid.contact_solver import LEMKE, make_solver
 from contact_sim_pkg.core.rigid.parameters import ENERGETIC, NEWTON, PlanarContact
 from contact_sim_pkg.core.rigid.planar_impact import planar_impact
 from contact_sim_pkg.core.rigid.problem import PLANE, SPACE, make_problem

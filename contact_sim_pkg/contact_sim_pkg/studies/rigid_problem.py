@@ -9,7 +9,8 @@ import numpy
 
 from contact_sim_pkg.core.parameters import Vector
 from contact_sim_pkg.core.rigid import problem as contact_problem
-from contact_sim_pkg.core.rigid.contact_solver import NEWTON, Solution, contact_impulses, make_solver
+from contact_sim_pkg.core.rigid.contact_answers import contact_impulses
+from contact_sim_pkg.core.rigid.contact_solver import NEWTON, Solution, make_solver
 
 __all__ = ["Case", "block_corner", "contact_rows", "random_face", "solve", "stack"]
 

@@ -3,7 +3,8 @@
 import numpy
 
 from contact_sim_pkg.core.rigid import problem as contact_problem
-from contact_sim_pkg.core.rigid.contact_solver import NEWTON, contact_impulses, make_solver
+from contact_sim_pkg.core.rigid.contact_answers import contact_impulses
+from contact_sim_pkg.core.rigid.contact_solver import NEWTON, make_solver
 
 PLANE, SPACE = contact_problem.PLANE, contact_problem.SPACE
 COORDINATES = {PLANE: 3, SPACE: 6}

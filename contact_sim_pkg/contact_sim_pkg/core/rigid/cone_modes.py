@@ -43,7 +43,7 @@ class ContactModes:
         """``shift`` of the diagonal of the scaled A; ``way`` picks one of many covers."""
         contacts = len(problem.friction)
         own = numpy.sqrt(numpy.diag(problem.A)[::SPACE])
-        self._own = numpy.repeat(own, SPACE)
+        self._own, self.shift = numpy.repeat(own, SPACE), shift
         self.A = problem.A / numpy.outer(self._own, self._own) + shift * numpy.eye(len(self._own))
         q, floor = problem.q / self._own, problem.floor * own
         self._scale = max(float(numpy.abs(q).max()), float(floor.max())) or 1.0
@@ -64,21 +64,25 @@ class ContactModes:
         self._lay_out()
 
     def _lay_out(self) -> None:
-        """Column of the first unknown of each contact, and the rows that are equations."""
+        """Contacts of each mode, the columns of their unknowns, and the rows that are equations."""
         counts = self.touching + 2 * self.rubbing
-        self._first = numpy.cumsum(counts) - counts
-        equations = numpy.stack([self.touching, self.rubbing, self.rubbing], axis=1)
-        self._rows = numpy.flatnonzero(equations)
+        first = numpy.cumsum(counts) - counts
+        self._unknowns = int(counts.sum()) + 1
+        self._rows = numpy.flatnonzero(numpy.stack([self.touching, self.rubbing, self.rubbing], axis=1))
+        self._held = numpy.flatnonzero(self.touching)
+        self._slid = numpy.flatnonzero(self.rubbing & self.sliding)
+        self._stuck = numpy.flatnonzero(self.rubbing & ~self.sliding)
+        self._normal, second = first[self._held], first + self.touching
+        self._turn, self._along = second[self._slid], second[self._stuck]  # of the angle; of the first tangent
+        self._place = numpy.searchsorted(self._rows, SPACE * self._slid + 1)  # of their first equation of slip
 
     def unknowns(self) -> Vector:
         """Of all contacts in their modes, and t."""
-        x: list[float] = []
-        for i in range(len(self.friction)):
-            if self.touching[i]:
-                x.append(self._impulse[i, 0])
-            if self.rubbing[i]:
-                x += [self._angle[i], self._slip[i]] if self.sliding[i] else list(self._impulse[i, 1:])
-        return numpy.array([*x, self._t])
+        x = numpy.full(self._unknowns, self._t)
+        x[self._normal] = self._impulse[self._held, 0]
+        x[self._turn], x[self._turn + 1] = self._angle[self._slid], self._slip[self._slid]
+        x[self._along], x[self._along + 1] = self._impulse[self._stuck, 1], self._impulse[self._stuck, 2]
+        return x
 
     def evaluate(self, x: Vector) -> State:
         """Values and slopes of the equations, impulses, velocities and margins at the unknowns ``x``."""
@@ -86,55 +90,44 @@ class ContactModes:
         u = self.q + x[-1] * self.cover + self.A @ c
         values, gradient = u[self._rows], self.A[self._rows] @ slopes
         gradient[:, -1] += self.cover[self._rows]
-        for i in numpy.flatnonzero(self.rubbing & self.sliding):
-            place = int(numpy.searchsorted(self._rows, SPACE * i + 1))
-            column = self._first[i] + int(self.touching[i])
-            d, slip = _direction(x[column]), x[column + 1]
-            values[place : place + 2] -= slip * d
-            gradient[place : place + 2, column] -= slip * numpy.array([-d[1], d[0]])
-            gradient[place : place + 2, column + 1] -= d
+        place, turn, slip = self._place, self._turn, x[self._turn + 1]
+        for a, part, change in zip((0, 1), *_direction(x[turn]), strict=True):
+            values[place + a] -= slip * part
+            gradient[place + a, turn] -= slip * change
+            gradient[place + a, turn + 1] -= part
         return State(x, values, gradient, c, u, self._margins(x, c, u))
 
     def _impulses(self, x: Vector) -> tuple[Vector, Vector]:
         """Impulses [rows] and their slopes [rows, unknowns]."""
         c, slopes = numpy.zeros(len(self.q)), numpy.zeros((len(self.q), len(x)))
-        for i, friction in enumerate(self.friction):
-            row, column = SPACE * i, self._first[i]
-            if self.touching[i]:
-                c[row], slopes[row, column] = x[column], 1.0
-                column += 1
-            else:
-                c[row], slopes[row, -1] = self._floor(i, x[-1]), -self.floor[i] / self.begin
-            if self.rubbing[i] and self.sliding[i]:
-                d = _direction(x[column])
-                c[row + 1 : row + 3] = -friction * c[row] * d
-                slopes[row + 1 : row + 3] = -friction * numpy.outer(d, slopes[row])
-                slopes[row + 1 : row + 3, column] -= friction * c[row] * numpy.array([-d[1], d[0]])
-            elif self.rubbing[i]:
-                c[row + 1 : row + 3] = x[column : column + 2]
-                slopes[row + 1, column] = slopes[row + 2, column + 1] = 1.0
+        c[::SPACE], slopes[::SPACE, -1] = self._floor(x[-1]), -self.floor / self.begin
+        held, stuck, slid = SPACE * self._held, SPACE * self._stuck, SPACE * self._slid
+        c[held], slopes[held, -1] = x[self._normal], 0.0
+        slopes[held, self._normal] = 1.0
+        friction = self.friction[self._slid]
+        for a, part, change in zip((0, 1), *_direction(x[self._turn]), strict=True):
+            c[slid + 1 + a] = -friction * c[slid] * part
+            slopes[slid + 1 + a] = -(friction * part)[:, None] * slopes[slid]
+            slopes[slid + 1 + a, self._turn] -= friction * c[slid] * change
+            c[stuck + 1 + a] = x[self._along + a]
+            slopes[stuck + 1 + a, self._along + a] = 1.0
         return c, slopes
 
-    def _floor(self, i: int, t: float) -> float:
-        return float(self.floor[i] * (1.0 - t / self.begin))
+    def _floor(self, t: float) -> Vector:
+        return self.floor * (1.0 - t / self.begin)
 
     def _margins(self, x: Vector, c: Vector, u: Vector) -> Vector:
         margins = numpy.full((len(self.friction), 2), math.inf)
-        for i, friction in enumerate(self.friction):
-            row = SPACE * i
-            margins[i, NORMAL] = c[row] - self._floor(i, x[-1]) if self.touching[i] else u[row]
-            if self.rubbing[i] and self.sliding[i]:
-                margins[i, TANGENTIAL] = x[self._first[i] + int(self.touching[i]) + 1]
-            elif self.rubbing[i]:
-                margins[i, TANGENTIAL] = friction * c[row] - math.hypot(c[row + 1], c[row + 2])
+        margins[:, NORMAL] = numpy.where(self.touching, c[::SPACE] - self._floor(x[-1]), u[::SPACE])
+        margins[self._slid, TANGENTIAL] = x[self._turn + 1]
+        row = SPACE * self._stuck
+        margins[self._stuck, TANGENTIAL] = self.friction[self._stuck] * c[row] - numpy.hypot(c[row + 1], c[row + 2])
         return margins
 
     def switch(self, state: State, contact: int, kind: int) -> None:
         """Contact ``contact`` leaves its mode at ``state``, for the one beside it."""
         self._t, self._impulse = state.unknowns[-1], state.impulse.reshape(-1, SPACE).copy()
-        for i in numpy.flatnonzero(self.rubbing & self.sliding):
-            column = self._first[i] + int(self.touching[i])
-            self._angle[i], self._slip[i] = state.unknowns[column], state.unknowns[column + 1]
+        self._angle[self._slid], self._slip[self._slid] = state.unknowns[self._turn], state.unknowns[self._turn + 1]
         if kind == NORMAL:
             self._switch_normal(state, contact)
         else:
@@ -159,8 +152,10 @@ class ContactModes:
         return state.impulse * self._scale / self._own
 
 
-def _direction(angle: float) -> Vector:
-    return numpy.array([math.cos(angle), math.sin(angle)])
+def _direction(angle: Vector) -> tuple[tuple[Vector, Vector], tuple[Vector, Vector]]:
+    """Both parts of the directions at these angles, and their changes with the angle."""
+    cosine, sine = numpy.cos(angle), numpy.sin(angle)
+    return (cosine, sine), (-sine, cosine)
 
 
 def _cover(friction: Vector, way: int) -> Vector:

@@ -3,13 +3,14 @@
 The problem is covered as in Lemke's method, ``q + t d``: for great t nothing but ``c = 0`` solves it, and from there the solutions
 form a path that, where the normals of the contacts are alike (a plane), is bounded and so ends at ``t = 0``, however it turns in
 between. With the true cone it is smooth but for the points where a contact changes its mode, instead of straight between pivots:
-it is followed by tangent and Newton's method, and what goes on at a change is the mode beside. Plain numpy: it is called seldom,
-and nothing needs to be compiled for it. Source: Cottle, Pang, Stone, The Linear Complementarity Problem, 4.4; Allgower, Georg,
-Numerical Continuation Methods, 2 and 6.
+it is followed by tangent and Newton's method, and what goes on at a change is the mode beside. Plain numpy: one in a hundred of
+random problems asks for it, and nothing needs to be compiled for it. Source: Cottle, Pang, Stone, The Linear Complementarity
+Problem, 4.4; Allgower, Georg, Numerical Continuation Methods, 2 and 6.
 """
 
 from __future__ import annotations
 
+import itertools
 from collections.abc import Iterator
 
 import numpy
@@ -21,13 +22,10 @@ from .problem import ContactProblem
 
 __all__ = ["candidates_by_path"]
 
-SHIFTS = (
-    1.0e-10,
-    1.0e-8,
-    1.0e-12,
-)  # of the diagonal: redundant contacts have one answer; Newton's method takes it away
-WAYS = 3  # covers that are tried with each shift
-STEPS = 1000
+SHIFTS = (1.0e-10, 1.0e-8)  # of the diagonal: redundant contacts have one answer; Newton's method takes it away
+WAYS = 8  # covers that are tried with each shift
+STEPS = 300  # of one path; most that end take 15 to 120
+ALL_STEPS = 2000
 SHORTEST = 1.0e-12  # step, and the margin that is 0
 ENTERED = 1.0e-12  # margin of a mode that has just begun
 MET = 1.0e-13  # margin at an end
@@ -36,7 +34,9 @@ SOLVED_TO, GOOD_ENOUGH = 1.0e-13, 1.0e-10  # equations, of 1 and the greatest un
 LONGER, SHORTER = 1.7, 0.3
 STRAIGHT = 0.8  # least cosine between the tangents of a step
 TRIALS = 60
-GREATEST = 1.0e6  # impulse, in the greatest of a step without friction: the path goes off
+GREATEST = (
+    1.0e-2  # impulse, in the greatest of a step without friction, over 1 / shift: an answer at infinity ends there
+)
 PROBE = 1.0e-7
 
 
@@ -49,6 +49,13 @@ def _tangent(state: State) -> Vector:
     if len(state.values) == 0:
         return numpy.ones(1)
     tangent: Vector = numpy.linalg.svd(state.slopes)[2][-1]
+    return tangent
+
+
+def _next_tangent(state: State, before: Vector) -> Vector:
+    """Unit vector along the path in the sense of the tangent ``before``."""
+    along = numpy.linalg.solve(numpy.vstack([state.slopes, before]), numpy.append(numpy.zeros(len(state.values)), 1.0))
+    tangent: Vector = along / numpy.linalg.norm(along)
     return tangent
 
 
@@ -116,27 +123,26 @@ def _forward(modes: ContactModes, state: State, tangent: Vector, length: float) 
     found = _corrected(modes, state.unknowns + length * tangent, tangent)
     if found is None:
         return None
-    after = _tangent(found[0])
-    cosine = float(after @ tangent)
+    after = _next_tangent(found[0], tangent)
     entered = (state.margins <= ENTERED) & (found[0].margins < 0.0)
-    if abs(cosine) < STRAIGHT or entered.any():
+    if not after @ tangent >= STRAIGHT or entered.any():
         return None
-    return found[0], after if cosine > 0.0 else -after, found[1]
+    return found[0], after, found[1]
 
 
-def follow(modes: ContactModes) -> Vector:
-    """Impulses [rows] in [N s] at the end of the path; raises `PathLostError`."""
+def follow(modes: ContactModes, steps: Iterator[int]) -> Vector:
+    """Impulses [rows] in [N s] at the end of the path; takes its ``steps`` from what is left; raises `PathLostError`."""
     state = modes.evaluate(modes.unknowns())
     tangent, length = _tangent(state), 1.0
     if tangent[-1] > 0.0:  # t falls
         tangent = -tangent
-    for _ in range(STEPS):
+    for _ in steps:
         step = _forward(modes, state, tangent, length)
         watched = state.margins > ENTERED
         ends = step is not None and _crossed(step[0], watched).min() < 0.0
         event = _event(modes, state, step[0], tangent, length) if step is not None and ends else None
         size = 1.0 + float(numpy.abs(state.unknowns).max())
-        if size > GREATEST or length < SHORTEST:
+        if size * modes.shift > GREATEST or state.unknowns[-1] > modes.begin or length < SHORTEST:
             raise PathLostError
         if step is None or (ends and event is None):
             length *= SHORTER
@@ -154,9 +160,10 @@ def follow(modes: ContactModes) -> Vector:
 
 def candidates_by_path(problem: ContactProblem) -> Iterator[Vector]:
     """Impulses [rows] near a solution of ``problem`` (in space, true cone), one for each way that leads to one."""
+    steps = iter(range(ALL_STEPS))
     for way in range(WAYS):
         for shift in SHIFTS:
             try:
-                yield follow(ContactModes(problem, shift, way))
+                yield follow(ContactModes(problem, shift, way), itertools.islice(steps, STEPS))
             except PathLostError:
                 continue

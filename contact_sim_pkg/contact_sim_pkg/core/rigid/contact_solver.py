@@ -11,17 +11,16 @@ from typing import NamedTuple
 
 import numpy
 
-from ..jit import entry, kernel, piece
+from ..jit import kernel, piece
 from ..parameters import Vector
 from ..vectors import copy_row
 from .cone_newton import GOOD, NewtonWorkspace, make_newton_workspace, solve_by_newton
-from .cone_path import candidates_by_path
 from .gauss_seidel import gauss_seidel
 from .lemke_contact import ContactLemke, make_contact_lemke, solve_by_lemke
 from .load_split import SplitWorkspace, make_split_workspace, split_load
 from .parameters import PlanarContact
 from .planar_impact import contact_modes
-from .problem import DISC, PLANE, SPACE, ContactProblem, residual, velocity_scale
+from .problem import DISC, PLANE, ContactProblem, residual, velocity_scale
 from .results import CONTACT_NOT_FINITE, NOT_CONVERGED, SOLVED, SPLIT_NOT_UNIQUE, UNIQUE
 from .slide_direction import slide_in_one_direction
 
@@ -35,8 +34,8 @@ FIRST_SWEEPS = 6  # before Newton's method
 PASS_WEIGHT = 1.0e-3  # of the proximal term, in A_nn of the contact
 PASS_END = 1.0e-16  # change of velocity, of the greatest, at which the passes end
 PASSES = 20
-NEAR_ENOUGH = 1.0e-12  # residual of a direction of slip
-NEAREST = 1.0e-6  # residual of the last pass up to which it stands where contradicting contacts have no answer
+POLISH, ALONE = PASSES, PASSES + 1  # what follows the passes
+NEAREST = 1.0e-6  # of the greatest velocity: conditions that contradict each other by no more do so by rounding of their velocities
 
 
 class Solver(NamedTuple):
@@ -100,24 +99,24 @@ def _by_direction(problem, solver, c):
     """One contact that slides; ``c`` is kept where there is none."""
     found = solver.newton.best
     slides = slide_in_one_direction(problem.A, problem.q, problem.friction[0], problem.floor[0], found)
-    if not (slides and residual(problem, found, solver.newton.velocity) <= NEAR_ENOUGH):
+    if not (slides and residual(problem, found, solver.newton.velocity) <= GOOD):
         return NOT_CONVERGED
     copy_row(found, c)
     return SOLVED
 
 
 @piece
-def _exactly(problem, solver, start, c):
+def _exactly(problem, solver, start, attempts, c):
     """Newton's method from ``c`` (``start``) or a few sweeps; Lemke; on the true cone Newton from there, with facets turned.
 
-    The facets of a further attempt are turned to the slip that the last one found.
+    At most ``attempts`` times: the facets of a further one are turned to the slip that the last one found.
     """
     plane = problem.width == PLANE
     on_disc = not plane and problem.facets == DISC
     facets = 2 if plane else (START_FACETS if on_disc else problem.facets)
     status = SOLVED
     swept = solver.rung == NEWTON and (plane or on_disc)
-    for attempt in range(TURNS):
+    for attempt in range(attempts):
         if swept and attempt == 0:
             if not start:
                 gauss_seidel(problem, c, FIRST_SWEEPS, 0.0)
@@ -157,42 +156,59 @@ def _about(problem, weight, sign, center):
 
 
 @piece
+def _begin(solver, attempt, c):
+    """What an attempt starts from: a pass from the one before, POLISH from the last pass, ALONE from no impulse."""
+    if attempt < POLISH:
+        copy_row(c, solver.center)
+        return
+    for row in range(c.shape[0]):
+        c[row] = solver.passed[row] if attempt == POLISH else 0.0
+        solver.center[row], solver.weight[row] = 0.0, 0.0
+
+
+@piece
+def _change(problem, solver, c):
+    """Greatest change of velocity by the last pass, of the greatest velocity."""
+    change = 0.0
+    for row in range(c.shape[0]):
+        change = max(change, solver.weight[row] * abs(c[row] - solver.center[row]))
+    return change / velocity_scale(problem, c) if change > 0.0 else 0.0
+
+
+@piece
 def _by_passes(problem, solver, c):
     """Redundant contacts: proximal point iteration from no load, each pass of which has one solution.
 
     How the load is shared decides, where points slide in different directions, the friction and so the velocity: the answer
     picked here does not depend on the order of the contacts. Source: Rockafellar 1976.
-    Gaps or arms that differ by rounding can ask redundant contacts for what no motion of the body meets; the passes then end at
-    the nearest answer, which is taken, and the residual says how near.
+    Passes go on without end where redundant contacts contradict each other by rounding of gaps or arms, and squeeze each other
+    until one slips: Newton's method then goes on from the last, without the proximal term. One contact, and what has no pass, is
+    solved ALONE.
     """
-    center, weight = solver.center, solver.weight
     part = PASS_WEIGHT if solver.rung == NEWTON and may_share_load(problem) else 0.0
     for row in range(c.shape[0]):
         first = row - row % problem.width
-        center[row], c[row], weight[row] = 0.0, 0.0, part * problem.A[first, first]
-    status, attempt, passed = SOLVED, 0 if part > 0.0 else PASSES, False
-    while attempt <= PASSES:
-        if (
-            attempt == PASSES
-        ):  # no proximal term: one contact, or no end in sight (stacks of great mass ratio, no solution)
-            for row in range(c.shape[0]):
-                center[row], c[row], weight[row] = 0.0, 0.0, 0.0
-        _about(problem, weight, 1.0, center)
-        status = _exactly(problem, solver, 0 < attempt < PASSES, c)
-        _about(problem, weight, -1.0, center)
-        if status == SOLVED and attempt < PASSES:
-            copy_row(c, solver.passed)
-            passed = True
-        change, scale = 0.0, velocity_scale(problem, c)
-        for row in range(c.shape[0]):
-            change = max(change, weight[row] * abs(c[row] - center[row]))
-            center[row] = c[row]
-        if status == SOLVED and change <= PASS_END * scale:
+        c[row], solver.weight[row] = 0.0, part * problem.A[first, first]
+    status, attempt, passed = NOT_CONVERGED, 0 if part > 0.0 else ALONE, False
+    while attempt <= ALONE:
+        _begin(solver, attempt, c)
+        _about(problem, solver.weight, 1.0, solver.center)
+        status = _exactly(problem, solver, 0 < attempt < ALONE, 1 if attempt == POLISH else TURNS, c)
+        _about(problem, solver.weight, -1.0, solver.center)
+        if attempt >= POLISH:
+            attempt = ALONE if attempt == POLISH and status != SOLVED else ALONE + 1
+            continue
+        if status != SOLVED:
+            attempt = POLISH if passed else ALONE
+            continue
+        copy_row(c, solver.passed)
+        passed = True
+        attempt = attempt + 1 if _change(problem, solver, c) > PASS_END else POLISH
+        if attempt == POLISH and residual(problem, c, solver.newton.velocity) <= GOOD:
             break
-        attempt = attempt + 1 if status == SOLVED or attempt == PASSES else PASSES
     if status != SOLVED and passed and residual(problem, solver.passed, solver.newton.velocity) <= NEAREST:
         copy_row(solver.passed, c)
-        status = SOLVED
+        status = NOT_CONVERGED
     return status
 
 
@@ -246,33 +262,3 @@ def solve_and_split(problem: ContactProblem, J: Vector, W: Vector, solver: Solve
         copy_row(kept, c)
         after = residual(problem, c, u)
     return Solution(SOLVED, SPLIT_NOT_UNIQUE, after, found.work)
-
-
-@entry
-def _solve_and_split(problem: ContactProblem, J: Vector, W: Vector, solver: Solver, c: Vector) -> Solution:
-    return solve_and_split(problem, J, W, solver, c)
-
-
-def contact_impulses(problem: ContactProblem, J: Vector, W: Vector, solver: Solver, c: Vector) -> Solution:
-    """Impulses of ``problem`` into ``c`` [rows], with the least-norm split of the load.
-
-    ``problem.A`` must be ``J W J'``. Where NEWTON on the true cone in space ends without an answer, `cone_path.py` goes on; the
-    nearest answer of contacts that contradict each other by rounding (residual up to 1e-6) stands, since a path takes long.
-    """
-    found = _solve_and_split(problem, J, W, solver, c)
-    on_disc = problem.width == SPACE and problem.facets == DISC
-    if found.status in (SOLVED, CONTACT_NOT_FINITE) or solver.rung != NEWTON or not on_disc:
-        return found
-    return _by_path(problem, J, W, solver, c, found)
-
-
-def _by_path(problem: ContactProblem, J: Vector, W: Vector, solver: Solver, c: Vector, best: Solution) -> Solution:
-    """The first end of a path that Newton's method brings to 1e-12, else the best of all and of ``best``, the answer in ``c``."""
-    refining = solver._replace(rung=REFINE)
-    for candidate in candidates_by_path(problem):
-        found = _solve_and_split(problem, J, W, refining, candidate)
-        if found.residual < best.residual:
-            c[:], best = candidate, found
-        if best.residual <= GOOD:
-            break
-    return best

@@ -14,7 +14,8 @@ from typing import NamedTuple
 import numpy
 
 from ..parameters import Vector
-from .contact_solver import Solution, Solver, contact_impulses, make_solver
+from .contact_answers import contact_impulses
+from .contact_solver import Solution, Solver, make_solver
 from .impact_path import FIRST, IMPULSE, SECOND, PathWorkspace, make_path_workspace, spatial_impact
 from .parameters import ENERGETIC, NEWTON, ImpactPath, PlanarContact
 from .planar_impact import planar_impact

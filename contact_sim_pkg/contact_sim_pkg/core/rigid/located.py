@@ -18,12 +18,11 @@ from .body import Ground, Motion, RigidBody, contact_count, laid_under
 from .flight import body_size
 from .march import COLLIDE, DONE, MOST_SHORT, PAUSE, advance_samples, make_march_workspace
 from .motion import APART, STUCK, TOUCHING, make_motion_workspace
-from .packed import ACCEPTED, PackedSolver
+from .packed import PackedSolver
 from .parameters import ENERGETIC
 from .piece_end import list_features, stay_on_the_ground, take_piece
 from .problem import DISC, PLANE
 from .results import (
-    NOT_CONVERGED,
     REVERSE,
     SEPARATE,
     SLIDE,
@@ -258,8 +257,8 @@ class LocatedBody:
         energy, before = self.kinetic_energy(), work.u.copy()
         held.prepare_impact(self.body, work, self.rest_speed)
         found = self._solver.collide(work, self.rule)
-        if not found.residual <= ACCEPTED:
-            return int(found.status) or NOT_CONVERGED
+        if found.status != SOLVED:
+            return int(found.status)
         held.finish_impact(self.body, self.motion, work, self.rest_speed)
         points = tuple(int(i) for i in numpy.flatnonzero(work.impulse[::width]))
         modes = tuple(self._mode(before, i) for i in points)

@@ -10,15 +10,14 @@ from typing import NamedTuple
 import numpy
 
 from ..parameters import Vector
-from .contact_solver import NEWTON, SWEEPS, Solution, Solver, contact_impulses, make_solver
+from .contact_answers import contact_impulses
+from .contact_solver import NEWTON, SWEEPS, Solution, Solver, make_solver
 from .impact_law import ImpactWorkspace, impact_impulses, make_impact_workspace
 from .motion import MotionWorkspace
 from .problem import DISC, ContactProblem, make_problem
 from .results import SOLVED, UNIQUE
 
-__all__ = ["ACCEPTED", "PackedSolver"]
-
-ACCEPTED = 1.0e-6  # residual up to which a run goes on: corners whose heights differ by rounding contradict each other a little
+__all__ = ["PackedSolver"]
 
 
 class _Room(NamedTuple):

@@ -28,7 +28,7 @@ from .motion import (
     make_motion_workspace,
     take_part,
 )
-from .packed import ACCEPTED, PackedSolver
+from .packed import PackedSolver
 from .parameters import ENERGETIC
 from .problem import DISC
 from .results import SOLVED, SPIN_TOO_FAST
@@ -102,7 +102,7 @@ class SteppedBody:
         self.impacts = 0
 
     def advance(self, steps: int) -> int:
-        """``steps`` steps; returns a status of `results.py`; a solve with a residual of at most ``ACCEPTED`` counts as solved."""
+        """``steps`` steps; returns a status of `results.py`."""
         work = self.work
         self.impulse[:] = 0.0
         self.residual = 0.0
@@ -135,4 +135,4 @@ class SteppedBody:
         else:
             found = self._solver.hold(work)
         self.residual = max(self.residual, float(found.residual)) if math.isfinite(found.residual) else math.inf
-        return SOLVED if found.residual <= ACCEPTED else int(found.status)
+        return int(found.status)

@@ -16,9 +16,9 @@ from ..parameters import Vector
 from . import held
 from .body import Ground, Motion, RigidBody
 from .motion import MotionWorkspace
-from .packed import ACCEPTED, PackedSolver
+from .packed import PackedSolver
 from .piece_end import take_piece
-from .results import NOT_CONVERGED, SOLVED
+from .results import SOLVED
 from .track import EVENTS, LOST, RESIDUAL, SOLVES, STOPS
 
 __all__ = ["MOST_STOPS", "Attempt", "SupportedPieces"]
@@ -59,10 +59,10 @@ class SupportedPieces:
             held.prepare_attempt(self.body, self.ground, self.motion, work, time, bend)
             found = self._solver.hold(work)
             self.counts[SOLVES] += 1
-            if found.residual <= ACCEPTED:
+            if found.status == SOLVED:
                 break
-        if not found.residual <= ACCEPTED:
-            return int(found.status) or NOT_CONVERGED, 1.0, math.inf
+        if found.status != SOLVED:
+            return int(found.status), 1.0, math.inf
         clock = self.clock
         clock[RESIDUAL] = max(clock[RESIDUAL], float(found.residual))
         part, stretch = held.stop_of_slip(self.body, self.ground, self.motion, work, time, still)

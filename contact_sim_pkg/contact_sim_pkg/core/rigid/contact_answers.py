@@ -1,0 +1,67 @@
+"""Contact impulses as Python asks for them: the ladder of `contact_solver.py`, and what goes on where it ends without an answer.
+
+A second solve at velocities that rounding has not put out of reach, then Lemke's path on the true cone in space (`cone_path.py`).
+"""
+
+from __future__ import annotations
+
+import numpy
+
+from ..jit import entry
+from ..parameters import Vector
+from .cone_path import candidates_by_path
+from .contact_solver import NEAREST, NEWTON, REFINE, Solution, Solver, solve_and_split
+from .problem import DISC, SPACE, ContactProblem, residual
+from .results import CONTACT_NOT_FINITE, SOLVED
+
+__all__ = ["contact_impulses"]
+
+
+@entry
+def _solve_and_split(problem: ContactProblem, J: Vector, W: Vector, solver: Solver, c: Vector) -> Solution:
+    return solve_and_split(problem, J, W, solver, c)
+
+
+def contact_impulses(problem: ContactProblem, J: Vector, W: Vector, solver: Solver, c: Vector) -> Solution:
+    """Impulses of ``problem`` into ``c`` [rows], with the least-norm split of the load; ``problem.A`` must be ``J W J'``.
+
+    SOLVED: the residual is at most 1e-12 on the true cone; or conditions that contradict each other by rounding are met as nearly
+    as the residual says, up to NEAREST.
+    """
+    found = _solve_and_split(problem, J, W, solver, c)
+    if found.status not in (SOLVED, CONTACT_NOT_FINITE):
+        found = _by_nearest_motion(problem, J, W, solver, c, found)
+    on_disc = problem.width == SPACE and problem.facets == DISC
+    if found.status not in (SOLVED, CONTACT_NOT_FINITE) and solver.rung == NEWTON and on_disc:
+        found = _by_path(problem, J, W, solver, c, found)
+    return found._replace(status=SOLVED) if found.residual <= NEAREST else found
+
+
+def _by_nearest_motion(
+    problem: ContactProblem, J: Vector, W: Vector, solver: Solver, c: Vector, found: Solution
+) -> Solution:
+    """The answer at the contact velocities nearest to ``q`` that a motion of the bodies gives, where only rounding lies between.
+
+    Contacts that are wedged in meet any approach ``J v`` with finite impulses, but none that no motion gives, however small. A
+    body that moves at 1 m/s and approaches at 1e-10 m/s has rounding of 1e-6 in its approach.
+    """
+    near = J @ numpy.linalg.lstsq(J, problem.q)[0]
+    if not numpy.abs(near - problem.q).max() <= NEAREST * numpy.abs(problem.q).max():
+        return found
+    trial = numpy.zeros_like(c)
+    ended = _solve_and_split(problem._replace(q=near), J, W, solver, trial)
+    if ended.status != SOLVED:
+        return found
+    c[:] = trial
+    return ended._replace(residual=float(residual(problem, c, solver.newton.velocity)))
+
+
+def _by_path(problem: ContactProblem, J: Vector, W: Vector, solver: Solver, c: Vector, found: Solution) -> Solution:
+    """The first end of a path that Newton's method brings to an answer, into ``c``; else ``found``, and ``c`` as it is."""
+    refining = solver._replace(rung=REFINE)
+    for candidate in candidates_by_path(problem):
+        ended = _solve_and_split(problem, J, W, refining, candidate)
+        if ended.status == SOLVED:
+            c[:] = candidate
+            return ended
+    return found
