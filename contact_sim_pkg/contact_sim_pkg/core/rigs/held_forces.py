@@ -23,8 +23,8 @@ from ..rigid.body import (
     contact_count,
     contact_rows,
     fill_inverse_inertia,
-    point_arm,
 )
+from ..rigid.contact_line import contact_arm, reach_in_cone
 from ..rigid.held import path_acceleration
 from ..rigid.linear import solve_consistent
 from ..rigid.motion import contact_velocities
@@ -195,42 +195,33 @@ def _fill_free_acceleration(rig):
 
 
 @borrowing_kernel
-def _line(rig, i, j):
-    """Direction of the line from contact ``i`` to ``j`` along the tangents of both, on a plane."""
-    J, R, row = rig.J, rig.motion.rotation, 3 * i
-    x_i, y_i, z_i = point_arm(rig.body, R, i)
-    x_j, y_j, z_j = point_arm(rig.body, R, j)
-    x, y, z = x_j - x_i, y_j - y_i, z_j - z_i
-    first = J[row + 1, 0] * x + J[row + 1, 1] * y + J[row + 1, 2] * z
-    second = J[row + 2, 0] * x + J[row + 2, 1] * y + J[row + 2, 2] * z
-    length = math.hypot(first, second)
-    return first / length, second / length
-
-
-@borrowing_kernel
 def _share_friction(rig, i, j):
-    """Friction of two sticking contacts along the line through them, of which only the sum is known.
+    """Forces of two sticking contacts along the line through them, of which only the sum is known.
 
     As little as can be is moved from one to the other so that both stay in their cones; what is spare is that of both.
     """
     force, spare, a, b = rig.rows[FORCE], rig.contacts[SPARE], 3 * i, 3 * j
-    first, second = _line(rig, i, j)
-    along_i, along_j = force[a + 1] * first + force[a + 2] * second, force[b + 1] * first + force[b + 2] * second
-    over_i, over_j = force[a + 1] * second - force[a + 2] * first, force[b + 1] * second - force[b + 2] * first
-    full_i, full_j = rig.body.friction * force[a], rig.body.friction * force[b]
-    across = min(full_i - abs(over_i), full_j - abs(over_j))
-    spare[i], spare[j] = across, across
-    if across < 0.0:
+    x_i, y_i, z_i = contact_arm(rig.J, a)
+    x, y, z = contact_arm(rig.J, b)
+    x, y, z = x - x_i, y - y_i, z - z_i
+    length = math.sqrt(x * x + y * y + z * z)
+    x, y, z = x / length, y / length, z / length
+    room_i, low, high = reach_in_cone(rig.J, force, rig.body.friction, a, x, y, z)
+    room_j, low_j, high_j = reach_in_cone(rig.J, force, rig.body.friction, b, -x, -y, -z)
+    room = min(room_i, room_j)
+    if room < 0.0:
+        spare[i], spare[j] = room, room
+    if room < 0.0 or max(room_i, room_j) == math.inf:
         return
-    room_i, room_j = math.sqrt(full_i**2 - over_i**2), math.sqrt(full_j**2 - over_j**2)
-    low, high = max(-room_i - along_i, along_j - room_j), min(room_i - along_i, along_j + room_j)
-    spare[i] = min(across, 0.5 * (high - low))
+    low, high = max(low, low_j), min(high, high_j)
+    spare[i] = min(room, 0.5 * (high - low))
     spare[j] = spare[i]
     moved = min(max(0.0, low), high) if low <= high else 0.5 * (low + high)
-    force[a + 1] += moved * first
-    force[a + 2] += moved * second
-    force[b + 1] -= moved * first
-    force[b + 2] -= moved * second
+    for part in range(3):
+        along_i = rig.J[a + part, 0] * x + rig.J[a + part, 1] * y + rig.J[a + part, 2] * z
+        along_j = rig.J[b + part, 0] * x + rig.J[b + part, 1] * y + rig.J[b + part, 2] * z
+        force[a + part] += moved * along_i
+        force[b + part] -= moved * along_j
 
 
 @borrowing_kernel
@@ -244,7 +235,7 @@ def _fill_spare_friction(rig, mode):
         if mode[i] != FREE:
             count += 1
             other, last = (last, i) if mode[i] == STICKS else (other, last)
-    if width != PLANE and count == 2 and other >= 0 and rig.ground.profile.nodes.shape[0] == 0:
+    if width != PLANE and count == 2 and other >= 0:
         _share_friction(rig, other, last)
 
 
