@@ -17,7 +17,7 @@ from . import held
 from .body import Ground, Motion, RigidBody, contact_count, laid_under
 from .flight import body_size
 from .march import COLLIDE, DONE, MOST_SHORT, PAUSE, advance_samples, make_march_workspace
-from .motion import APART, STUCK, TOUCHING, make_motion_workspace
+from .motion import APART, HELD, STUCK, TOUCHING, make_motion_workspace
 from .packed import PackedSolver
 from .parameters import ENERGETIC
 from .piece_end import list_features, stay_on_the_ground, take_piece
@@ -57,6 +57,7 @@ __all__ = ["Impact", "LocatedBody", "Track"]
 MOST_IMPACTS = 100_000  # in one interval
 REST = 1.0e-6  # rest speed over sqrt(g L)
 TOLERANCE = 1.0e-10
+LANDS = 3.0  # times the speed of a fall by `held.LANDED`: slower landings beside held points do not bounce
 STICKS = 1.0e-9  # of the speed before the impact: slip below it counts as none
 
 
@@ -109,6 +110,7 @@ class LocatedBody:
         self.gravity = float(numpy.linalg.norm(body.load[: body.width]) / body.mass)
         self._turning = make_turn_workspace(body, ground, self.size, self.gravity, tolerance)
         self.rest_speed = REST * math.sqrt(self.gravity * self.size)
+        self.landing_speed = max(self.rest_speed, LANDS * math.sqrt(2.0 * held.LANDED * self.gravity * self.size))
         self.impacts: list[Impact] = []  # of the last call
         self.rested = math.nan  # [s] from the start of the call: when the last bounce ended
         self.impulse = numpy.zeros(points * body.width)  # [rows] in [N s] over the last call
@@ -255,7 +257,8 @@ class LocatedBody:
     def _collide(self, track: Vector) -> int:
         work, width, clock, count = self.work, self.body.width, self._march.clock, self._march.counts
         energy, before = self.kinetic_energy(), work.u.copy()
-        held.prepare_impact(self.body, work, self.rest_speed)
+        supported = bool((work.flags >= HELD).any())
+        held.prepare_impact(self.body, work, self.landing_speed if supported else self.rest_speed)
         found = self._solver.collide(work, self.rule)
         if found.status != SOLVED:
             return int(found.status)
