@@ -16,6 +16,8 @@ from .results import CONTACT_NOT_FINITE, SOLVED
 
 __all__ = ["contact_impulses"]
 
+CLOSE = 1.0e-10  # residual for which no path is asked: that of a slip of 1e-13 m/s, say, which neither ends nor goes on
+
 
 @entry
 def _solve_and_split(problem: ContactProblem, J: Vector, W: Vector, solver: Solver, c: Vector) -> Solution:
@@ -25,14 +27,15 @@ def _solve_and_split(problem: ContactProblem, J: Vector, W: Vector, solver: Solv
 def contact_impulses(problem: ContactProblem, J: Vector, W: Vector, solver: Solver, c: Vector) -> Solution:
     """Impulses of ``problem`` into ``c`` [rows], with the least-norm split of the load; ``problem.A`` must be ``J W J'``.
 
-    SOLVED: the residual is at most 1e-12 on the true cone; or conditions that contradict each other by rounding are met as nearly
-    as the residual says, up to NEAREST.
+    SOLVED: the residual is at most 1e-12 on the true cone, up to CLOSE where a slip comes to nothing at the edge of the cone; or
+    conditions that contradict each other by rounding are met as nearly as the residual says, up to NEAREST.
     """
     found = _solve_and_split(problem, J, W, solver, c)
-    if found.status not in (SOLVED, CONTACT_NOT_FINITE):
-        found = _by_nearest_motion(problem, J, W, solver, c, found)
+    if found.status in (SOLVED, CONTACT_NOT_FINITE):
+        return found
+    found = _by_nearest_motion(problem, J, W, solver, c, found)
     on_disc = problem.width == SPACE and problem.facets == DISC
-    if found.status not in (SOLVED, CONTACT_NOT_FINITE) and solver.rung == NEWTON and on_disc:
+    if found.status != SOLVED and found.residual > CLOSE and solver.rung == NEWTON and on_disc:
         found = _by_path(problem, J, W, solver, c, found)
     return found._replace(status=SOLVED) if found.residual <= NEAREST else found
 
