@@ -37,7 +37,15 @@ def test_a_force_reaches_the_edge_of_its_cone_at_both_ends(seed):
 
     room, low, high = reach_in_cone(J, force, friction, 0, *line)
     if friction * abs(gain[0]) >= math.hypot(gain[1], gain[2]):
-        assert room == math.inf
+        end, other = (low, high) if gain[0] > 0.0 else (high, low)
+        assert (room, other) == (math.inf, math.copysign(math.inf, gain[0]))
+        scale = 1.0 + abs(end)
+        assert abs(inside(end)) <= 1e-12 * scale**2
+        assert (
+            inside(end + math.copysign(1e-3 * scale, gain[0]))
+            > 0.0
+            > inside(end - math.copysign(1e-3 * scale, gain[0]))
+        )
         return
     best = minimize_scalar(lambda way: -inside(way), bracket=(-1.0, 1.0), options={"xtol": 1e-12})
     assert room == pytest.approx(-best.fun, abs=1e-9)

@@ -22,23 +22,23 @@ def contact_arm(J, row):
 def reach_in_cone(J, force, friction, row, x, y, z):
     """A force that moves along the unit vector (x, y, z), in the cone of the contact whose rows start at ``row``.
 
-    Returns how far from the edge of the cone it can come in [N], and the least and the greatest distance that it may move in
-    [N], no numbers (`nan`) where the line runs within a cone. With the force's part c along the tangent of the line and o
-    across, ``k = mu a_n/a_t`` and ``m = mu f_n - k c``: ``(m + k s)^2 = s^2 + o^2`` at both ends, s from c on.
+    Returns how far from the edge of the cone it can come in [N], and the least and the greatest distance in [N] that it may move
+    (`nan` where it never comes into the cone). With ``f + s a`` the roots of ``(mu f_n + s mu a_n)^2 = |f_t + s a_t|^2`` are both
+    ends; where the line itself runs within a cone (``mu |a_n| >= |a_t|``) there is one end, and no limit to the first number.
     """
     n = J[row, 0] * x + J[row, 1] * y + J[row, 2] * z
     first = J[row + 1, 0] * x + J[row + 1, 1] * y + J[row + 1, 2] * z
     second = J[row + 2, 0] * x + J[row + 2, 1] * y + J[row + 2, 2] * z
-    share = math.hypot(first, second)
-    k = friction * n
-    if not abs(k) < share:
-        return math.inf, math.nan, math.nan
-    k, first, second = k / share, first / share, second / share
-    along = force[row + 1] * first + force[row + 2] * second
-    across = abs(force[row + 1] * second - force[row + 2] * first)
-    limit, square = friction * force[row] - k * along, 1.0 - k * k
-    room = limit - across * math.sqrt(square)
+    square, steep, limit = first * first + second * second, friction * n, friction * force[row]
+    along, across = force[row + 1] * first + force[row + 2] * second, force[row + 1] * second - force[row + 2] * first
+    opening, middle = steep * steep - square, limit * steep - along
+    root = limit * limit * square - 2.0 * limit * steep * along - across * across
+    root += steep * steep * (force[row + 1] * force[row + 1] + force[row + 2] * force[row + 2])
+    if opening >= 0.0:
+        end = (-middle + math.copysign(math.sqrt(max(root, 0.0)), n)) / opening
+        return math.inf, end if n > 0.0 else -math.inf, math.inf if n > 0.0 else end
+    room = ((limit * square - steep * along) - abs(across) * math.sqrt(-opening)) / square
     if room < 0.0:
         return room, math.nan, math.nan
-    half = math.sqrt(limit**2 - square * across**2)
-    return room, ((limit * k - half) / square - along) / share, ((limit * k + half) / square - along) / share
+    half = math.sqrt(max(root, 0.0))
+    return room, (-middle + half) / opening, (-middle - half) / opening

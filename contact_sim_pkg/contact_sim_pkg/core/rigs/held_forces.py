@@ -36,6 +36,7 @@ FREE, SLIDES, STICKS = 0, 1, 2  # modes of a contact
 GAP, FIRST, SECOND, DEEP, SPARE, PLACE = 0, 1, 2, 3, 4, 5  # rows of `contacts`
 VELOCITY, FORCE, RIGHT, ANSWER = 0, 1, 2, 3  # rows of `rows`
 SPEED, NEWTONS, NEAR, SECONDS = 0, 1, 2, 3  # entries of `unit`
+PLENTY = 1.0e3  # times the weight: of friction left, where contacts may squeeze each other without end
 SLIGHT_SLIP = 1.0e-7  # of the speed: below it slip has the direction that it starts with
 
 
@@ -211,10 +212,10 @@ def _share_friction(rig, i, j):
     room = min(room_i, room_j)
     if room < 0.0:
         spare[i], spare[j] = room, room
-    if room < 0.0 or max(room_i, room_j) == math.inf:
+    if room < 0.0 or math.isnan(low + high) or math.isnan(low_j + high_j):
         return
     low, high = max(low, low_j), min(high, high_j)
-    spare[i] = min(room, 0.5 * (high - low))
+    spare[i] = min(room, 0.5 * (high - low), PLENTY * rig.unit[NEWTONS])
     spare[j] = spare[i]
     moved = min(max(0.0, low), high) if low <= high else 0.5 * (low + high)
     for part in range(3):
