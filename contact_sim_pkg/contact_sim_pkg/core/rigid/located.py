@@ -58,6 +58,7 @@ MOST_IMPACTS = 100_000  # in one interval
 REST = 1.0e-6  # rest speed over sqrt(g L)
 TOLERANCE = 1.0e-10
 LANDS = 3.0  # times the speed of a fall by `held.LANDED`: slower landings beside held points do not bounce
+LONGER = 4.0
 STICKS = 1.0e-9  # of the speed before the impact: slip below it counts as none
 
 
@@ -205,7 +206,7 @@ class LocatedBody:
         if turning:
             if self._turn(still, track):
                 return SOLVED
-            piece, over = min(piece, pieces.longest()), None
+            piece, over = min(piece, pieces.longest(), self._next_try()), None
         status, passed = pieces.hold(piece, still, over)
         if status == SOLVED:
             self._add_impulse(track)
@@ -213,6 +214,12 @@ class LocatedBody:
             self._march.counts[SHORT] += int(passed < BRIEF * min(left, clock[PIECE]))
             clock[TIME] = clock[INTERVAL] if passed >= left else clock[TIME] + passed
         return status
+
+    def _next_try(self) -> float:
+        """Time in [s] after which modes may fit again, where slip goes through 0: ever longer within a sample, so that it ends."""
+        stops = self._march.counts[STOPS]
+        self._march.counts[STOPS] += 1
+        return INSTANT * math.sqrt(self.size / self.gravity) * LONGER**stops if stops < MOST_STOPS else math.inf
 
     def _turn(self, still: float, track: Vector) -> bool:
         """Turn the body on its held contacts for as long as they keep their modes; False where no mode fits."""
