@@ -254,6 +254,14 @@ def test_a_signal_ends_an_offline_run_with_its_bag_closed_and_status_0(tmp_path)
     assert open_bag(bag).complete
 
 
+@pytest.mark.parametrize("motion", ["block.velocity=[1,0,0]", "block.angular_velocity=[0,20,0]"])
+def test_a_ball_that_is_on_the_ground_from_the_start_runs(motion):
+    """All that it calls is compiled before the run, in a process that has compiled nothing else."""
+    placed = ("--set", "block.position=[0,0,0.05]", "--set", motion)
+    ended = bench("run", "block_zeno", "--offline", "--no-record", "--duration", "0.05", *placed)
+    assert ended.returncode == 0, ended.stderr
+
+
 def test_a_signal_breaks_off_the_set_up_of_an_offline_run_before_anything_is_created(tmp_path):
     """Its kernels take a minute and more to compile, in some 190 files; it does not wait for them."""
     cache, bag = tmp_path / "cache", tmp_path / "bag"

@@ -58,6 +58,13 @@ def test_a_run_says_what_its_scene_lists_and_loses_no_energy_unnoticed(name):
     assert max(cost.field_residual for cost in of(messages, "bench/cost", decode_cost)) <= 1e-9
 
 
+def test_the_ledger_holds_the_work_of_a_known_torque_on_a_box_in_flight():
+    _scene, messages = run("box_3d_tumble", "duration=0.5", "block.position=[0,0,20]", "block.torque=[0.5,0,0.3]")
+    ledgers = of(messages, "bench/energy", decode_energy)
+    assert abs(ledgers[-1].supplied) > 0.1
+    assert max(abs(ledger.residual) for ledger in ledgers) <= 1e-5 * abs(ledgers[-1].supplied)
+
+
 def test_the_ball_rests_at_once_after_the_geometric_series_and_presses_with_its_weight():
     _scene, messages = run("block_zeno")
     names, position, velocity = rows(messages)

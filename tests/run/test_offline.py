@@ -58,8 +58,14 @@ def test_a_bag_on_another_road_lattice_is_refused(bag):
 
 
 def test_a_run_that_is_stopped_leaves_a_whole_bag(tmp_path):
-    asked = iter([False] * 7 + [True])
+    asked = iter([False] * 8 + [True])  # before anything is created, and before each block
     outcome = run_offline(resolved("seat_ride"), tmp_path / "bag", stop=lambda: next(asked))
     assert (outcome.stopped, outcome.blocks) == (True, 7)
     assert open_bag(tmp_path / "bag").complete
     assert open_bag(tmp_path / "bag").count("seat/force") == 7
+
+
+def test_a_run_that_is_stopped_while_it_is_set_up_creates_nothing(tmp_path):
+    outcome = run_offline(resolved("seat_ride"), tmp_path / "bag", stop=lambda: True)
+    assert (outcome.stopped, outcome.blocks, outcome.bag) == (True, 0, None)
+    assert not (tmp_path / "bag").exists()

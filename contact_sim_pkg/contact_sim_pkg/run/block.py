@@ -7,6 +7,7 @@ from typing import TypeAlias
 
 import numpy
 from numpy.typing import NDArray
+from scipy.spatial.transform import Rotation
 
 from contact_sim_pkg.core.jit import freeze, thaw
 from contact_sim_pkg.core.rigid.body import Motion, least_gap
@@ -126,13 +127,15 @@ class BlockBodySimulation:
         return slow
 
     def _known_work(self, record: BlockRecord) -> float:
-        """Of the known force and torque over a block in [J]."""
+        """Of the known force and torque over a block in [J]; the turn in space is the sum of those from sample to sample."""
         model, moved = self.model, record.position[-1] - record.position[0]
         if model.body.width == PLANE:
             turned = float(record.angle[-1] - record.angle[0])
             return float(model.force[0] * moved[0] + model.force[2] * moved[1] - model.torque[1] * turned)
-        interval = model.timing.block_length / model.timing.samples
-        return float(model.force @ moved + interval * model.torque @ record.velocity[1:, 3:].sum(axis=0))
+        if not model.torque.any():
+            return float(model.force @ moved)
+        turns = Rotation.from_matrix(record.rotation[1:] @ record.rotation[:-1].transpose(0, 2, 1)).as_rotvec()
+        return float(model.force @ moved + model.torque @ turns.sum(axis=0))
 
     def _kinetic_potential(self) -> tuple[float, float]:
         motion, body = self.body.motion, self.model.body

@@ -91,6 +91,32 @@ def test_a_sphere_that_lands_with_slip_rolls_with_five_sevenths_of_its_speed():
     assert motion.velocity[4] == pytest.approx(5.0 / 7.0 / 0.05, rel=1e-9)
 
 
+@pytest.mark.parametrize("interval", [1e-3, 0.1])
+@pytest.mark.parametrize("angle", [0.0, 0.3])
+def test_a_ball_that_rolls_or_slides_keeps_its_side_spin_and_its_line_at_any_interval(angle, interval):
+    """Slip keeps its direction and falls by 7/2 mu g, the ball ends at 5/7 of its speed; across a slope it gains 5/7 g sin(angle).
+
+    The spin about the normal has no torque.
+    """
+    radius, side, friction, duration = 0.05, 50.0, 0.3, 0.4
+    up = numpy.array([-math.sin(angle), 0.0, math.cos(angle)])
+    down = numpy.array([-math.cos(angle), 0.0, -math.sin(angle)]) * math.sin(angle)
+    start = numpy.array([0.0, 1.0, 0.0])
+    spin = side * up + (numpy.cross(up, start) / radius if angle else 0.0)
+    motion = placed(sphere(radius, 1.0, friction, 0.0), radius * up, [*start, *spin])
+    run(LocatedBody(sphere(radius, 1.0, friction, 0.0), slope(3, angle), motion), duration, interval)
+    if angle:
+        gain = 5.0 / 7.0 * GRAVITY * down
+        way, velocity = start * duration + 0.5 * gain * duration**2, start + gain * duration
+    else:
+        slides = 2.0 / (7.0 * friction * GRAVITY)
+        way = start * (slides - 0.5 * friction * GRAVITY * slides**2 + 5.0 / 7.0 * (duration - slides))
+        velocity = 5.0 / 7.0 * start
+    assert motion.position == pytest.approx(radius * up + way, abs=1e-12)
+    assert motion.velocity[:3] == pytest.approx(velocity, abs=1e-12)
+    assert motion.velocity[3:] == pytest.approx(side * up + numpy.cross(up, velocity) / radius, abs=1e-10)
+
+
 def test_a_box_tumbles_in_the_air_as_the_equations_of_euler_say():
     body = box((0.2, 0.3, 0.1), 2.0, 0.4, 0.5)
     turned = Rotation.from_euler("xyz", [0.3, -0.2, 0.7]).as_matrix()

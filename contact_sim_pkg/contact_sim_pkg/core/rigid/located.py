@@ -246,6 +246,7 @@ class LocatedBody:
             held.prepare_impact(body, work, 0.0)
             self._solver.collide(work, self.rule)
         held.finish_impact(body, motion, work, self.rest_speed)
+        work.flags[:] = HELD
         self._pieces.attempt(1e-3, 1e-9)
         held.gap_after(body, ground, motion, work, 1e-3, 0)
         held.landing_part(body, ground, motion, work, 1e-3, self.size)

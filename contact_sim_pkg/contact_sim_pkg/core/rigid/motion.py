@@ -188,9 +188,21 @@ def commit(body, motion, end, work):
 
 
 @kernel
+def turns_alike(body):
+    """Whether the moments of inertia are equal: the inverse inertia then does not turn with the body."""
+    alike = True
+    for k in range(body.inertia.shape[0]):
+        alike = alike and body.inertia[k] == body.inertia[0]
+    return alike
+
+
+@kernel
 def carry_spin(body, motion, end, work):
-    """Turn the spin of ``end`` from the axes of the start of the piece to those of its end (space)."""
-    if body.width == PLANE:
+    """Turn the spin of ``end`` from the axes of the start of the piece to those of its end (space).
+
+    That keeps the angular momentum in the axes of the body; one of equal moments of inertia keeps its spin in space.
+    """
+    if body.width == PLANE or turns_alike(body):
         return
     w, turned = spin_in_body(motion.rotation, end), work.turned
     for k in range(3):

@@ -35,7 +35,7 @@ from ..rigs.interface import rate
 from ..solvers.dormand_prince import Workspace, integrate, make_workspace
 from .body import Ground, Motion, RigidBody, contact_count
 from .held import LANDED, path_acceleration, slip_of
-from .motion import HELD, STUCK, TOUCHING, MotionWorkspace
+from .motion import HELD, STUCK, TOUCHING, MotionWorkspace, turns_alike
 from .problem import PLANE
 from .rotation import spin_in_body, straighten
 from .track import (
@@ -96,8 +96,11 @@ def make_turn_workspace(
 def turns(
     body: RigidBody, ground: Ground, motion: Motion, work: MotionWorkspace, velocity: Vector, size: float
 ) -> bool:
-    """Whether rows of held contacts turn or bend at ``velocity``: a body with an extent spins, or a contact's path is curved."""
-    if size > body.radius:
+    """Whether rows of held contacts turn or bend at ``velocity``: a body with an extent spins, or a contact's path is curved.
+
+    A ball of unequal moments of inertia turns too.
+    """
+    if size > body.radius or not turns_alike(body):
         for k in range(body.width, velocity.shape[0]):
             if velocity[k] != 0.0:
                 return True
