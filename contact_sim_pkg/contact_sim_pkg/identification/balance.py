@@ -25,7 +25,7 @@ class Side(NamedTuple):
     """The motion at one end of a contact, and its derivatives by the flight's state and by the parameters."""
 
     state: FlightState
-    by_state: Array  # [12, 12]
+    by_state: Array  # [12, 12], or [12, k] by any other k numbers
     by_parameters: Array  # [12, p]
 
 

@@ -7,7 +7,9 @@ from typing import NamedTuple
 import numpy
 
 from .balance import Side, impulse
+from .flight import rates
 from .geometry import arm
+from .instant import instant
 from .modes import Mode, classify
 from .problem import Contact, Problem
 from .rotation import Array, cross_matrix, logarithm
@@ -63,7 +65,7 @@ def _used(problem: Problem, found: Estimate, number: int) -> ContactFinding:
         side.state.velocity + numpy.cross(side.state.angular_velocity, reach)
         for side, reach in zip((before, after), reaches, strict=True)
     ]
-    deviation = _slip_deviation(found, contact.after, after, reaches[1], kept)
+    deviation = _slip_deviation(problem, found, number, reaches[1], kept)
     along = push - (push @ normal) * normal
     length = float(numpy.linalg.norm(along))
     direction = along / length if length > 0.0 else numpy.zeros(3)
@@ -92,17 +94,27 @@ def _push_covariance(found: Estimate, first: int, second: int, before: Side, aft
     jacobian = numpy.zeros((3, len(found.state_covariance)))
     jacobian[:, 12 * first : 12 * first + 12] -= before.by_state[3:6]
     jacobian[:, 12 * second : 12 * second + 12] += after.by_state[3:6]
-    shared = jacobian @ found.state_by_parameters + after.by_parameters[3:6] - before.by_parameters[3:6]
-    return numpy.asarray(jacobian @ found.state_covariance @ jacobian.T + shared @ found.covariance @ shared.T)
+    return _covariance(found, jacobian, after.by_parameters[3:6] - before.by_parameters[3:6])
 
 
-def _slip_deviation(found: Estimate, flight: int, side: Side, reach: Array, kept: Array) -> float:
+def _slip_deviation(problem: Problem, found: Estimate, number: int, reach: Array, kept: Array) -> float:
     """Largest standard deviation of the contact point's velocity after along `kept` directions, [m/s]."""
-    block = slice(12 * flight, 12 * flight + 12)
+    contact, (before, after) = problem.contacts[number], found.sides[number]
     turning = -cross_matrix(reach)
-    swung = cross_matrix(side.state.angular_velocity) @ turning  # w x (d x r) for a small rotation d
-    local = numpy.concatenate([numpy.zeros((3, 3)), numpy.eye(3), swung, turning], axis=1)
-    jacobian = kept @ local @ side.by_state
-    shared = jacobian @ found.state_by_parameters[block] + kept @ local @ side.by_parameters
-    spread = jacobian @ found.state_covariance[block, block] @ jacobian.T + shared @ found.covariance @ shared.T
-    return float(numpy.sqrt(numpy.linalg.eigvalsh(spread).max(initial=0.0)))
+    swung = cross_matrix(after.state.angular_velocity) @ turning  # w x (d x r) for a small rotation d
+    local = kept @ numpy.concatenate([numpy.zeros((3, 3)), numpy.eye(3), swung, turning], axis=1)
+    jacobian = numpy.zeros((3, len(found.state_covariance)))
+    jacobian[:, 12 * contact.after : 12 * contact.after + 12] += local @ after.by_state
+    direct = local @ after.by_parameters
+    if contact.located:  # the slip changes until another instant
+        root = instant(before, problem.shape, problem.ground, contact.point)
+        slope = local @ rates(after.state, found.parameters, problem.model)
+        jacobian[:, 12 * contact.before : 12 * contact.before + 12] += numpy.outer(slope, root.by_state)
+        direct = direct + numpy.outer(slope, root.by_parameters)
+    return float(numpy.sqrt(numpy.linalg.eigvalsh(_covariance(found, jacobian, direct)).max(initial=0.0)))
+
+
+def _covariance(found: Estimate, jacobian: Array, direct: Array) -> Array:
+    """Covariance [3, 3] of what depends on all states by `jacobian` and on the parameters by `direct` besides."""
+    shared = jacobian @ found.state_by_parameters + direct
+    return numpy.asarray(jacobian @ found.state_covariance @ jacobian.T + shared @ found.covariance @ shared.T)

@@ -12,10 +12,10 @@ import numpy
 
 from .geometry import UP
 from .rotation import Array, exponential, logarithm
-from .spin import turn
+from .spin import spin_rate, turn
 from .wrench import ExternalWrench
 
-__all__ = ["FlightState", "Model", "Motion", "motion", "moved", "plain_motion", "state_at"]
+__all__ = ["FlightState", "Model", "Motion", "motion", "moved", "plain_motion", "rates", "state_at"]
 
 STEP = 1e-5  # of the central differences, in [rad] and relative: errors of 1e-10, below what the rank test asks for
 
@@ -89,6 +89,16 @@ def state_at(state: FlightState, parameters: Array, model: Model, time: float) -
     """The state of a flight at another instant."""
     position, velocity, rotation, spin = plain_motion(state, parameters, model, numpy.array([time]))
     return FlightState(time, position[0], velocity[0], rotation[0], spin[0])
+
+
+def rates(state: FlightState, parameters: Array, model: Model) -> Array:
+    """How fast a flight changes at its state: (v, kappa F - g z, w, w'), [12] per second, in the order of a change."""
+    wrench, inverse_mass, at = model.wrench, model.inverse_mass(parameters), numpy.array([state.time])
+    force = numpy.zeros(3) if wrench.force is None else numpy.asarray(wrench.force.value(at))[0]
+    moment = inverse_mass * wrench.torque_at(at)[0]
+    turning = spin_rate(state.rotation, state.angular_velocity, model.inertia(parameters), moment)
+    fall = inverse_mass * force - model.gravity * UP
+    return numpy.concatenate([state.velocity, fall, state.angular_velocity, turning])
 
 
 def motion(state: FlightState, parameters: Array, scale: Array, model: Model, times: Array) -> Motion:

@@ -41,6 +41,7 @@ class Contact(NamedTuple):
     turns: bool = True  # its moment counts: it acts at this point alone
     slides: bool = False  # the known friction counts
     sweep: Sweep | None = None  # of a contact that lasts: the moment of its impulses
+    located: bool = False  # an impact whose instant is no more than the root of the gap on the flight before
 
 
 class Problem(NamedTuple):

@@ -155,7 +155,7 @@ class Search:
         miss = self._miss(found, before, after, touch.time)
         if not miss and place not in self.lasting:
             self.notes.pop(place, None)
-            return Contact(before, after, touch.time, touch.time, touch.point)
+            return Contact(before, after, touch.time, touch.time, touch.point, located=True)
         release = self._root(found, after, interval, leaving=True)
         doubt = gap_doubt(self.problem.shape, (self.problem.noise.position, self.problem.noise.rotation))
         lasts = release.found and release.point == touch.point and release.together == 1 and release.time > touch.time

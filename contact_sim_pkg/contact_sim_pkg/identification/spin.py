@@ -14,7 +14,7 @@ import numpy
 from .rotation import Array, exponential
 from .wrench import ExternalWrench
 
-__all__ = ["turn"]
+__all__ = ["spin_rate", "turn"]
 
 NODES = 20
 TURN = 0.5  # [rad] a stretch
@@ -57,6 +57,15 @@ def turn(
             found[:, side] = _march(start, begin, times[side], model)
     matrices = _matrix(found[..., :4])
     return matrices, numpy.einsum("cnij,cnj->cni", matrices, found[..., 4:])
+
+
+def spin_rate(rotation: Array, angular_velocity: Array, inertia: Array, moment: Array) -> Array:
+    """`w' = R S^-1 (R^T k - W x S W)`, W = R^T w, of one body: [3] in [rad/s^2], world axes.
+
+    `moment` is k = kappa tau, torque over mass, [3] in [m^2/s^2], world axes; `w' = R W'` since `w x w = 0`.
+    """
+    spin, own = rotation.T @ angular_velocity, rotation.T @ moment
+    return rotation @ numpy.linalg.solve(inertia, own - numpy.cross(spin, inertia @ spin))
 
 
 _Model = tuple[Array, Array, Array, ExternalWrench]

@@ -18,6 +18,7 @@ from .balance import Balance, Side, balance, lasting_balance
 from .coulomb import friction_balance
 from .errors import IdentificationError
 from .flight import FlightState, Motion, motion, moved
+from .instant import impact_balance
 from .problem import Contact, Problem, start_of
 from .rank import Split, split
 from .rotation import Array, logarithm
@@ -225,7 +226,8 @@ def _balance(problem: Problem, contact: Contact, sides: tuple[Side, Side], param
     parts = []
     if contact.turns:
         known = (*sides, parameters, problem.model, problem.shape, problem.ground, contact.point)
-        found = balance(*known) if contact.sweep is None else lasting_balance(*known, contact.sweep)
+        law = impact_balance if contact.located else balance
+        found = law(*known) if contact.sweep is None else lasting_balance(*known, contact.sweep)
         parts.append(Balance(*(problem.rows @ field for field in found)))
     if contact.slides:
         parts.append(friction_balance(problem, contact, sides, parameters))
