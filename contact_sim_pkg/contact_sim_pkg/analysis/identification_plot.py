@@ -30,6 +30,7 @@ def write_plot(found: Identification, path: str | Path) -> Path:
         figure.set_facecolor("white")
         _height(axes[0], found)
         _impulses(axes[1], found)
+        axes[1].set_xlim(axes[0].get_xlim())
         _inertia(axes[2], found)
         figure.savefig(path, dpi=130, facecolor="white")
     return Path(path)
