@@ -9,6 +9,7 @@ from scipy.stats import chi2
 
 from .geometry import size
 from .lasting import NO_FLIGHT
+from .possible import impossible
 from .problem import Contact, Problem
 from .search import TOUCHES_NOTHING
 from .stacked import Estimate
@@ -38,6 +39,7 @@ def doubts(found: Estimate, notes: Iterable[str], problem: Problem) -> list[str]
             f"contacts and flights contradict each other by {found.misfit:.3g} times what the noise explains: check the shape, the "
             "ground, gravity, the wrench and the noise; the standard deviations are too small"
         )
+    told += impossible(found, problem)
     short = [contact for contact in problem.contacts if _hidden(contact, problem)]
     if short:
         longest = 1e3 * max(contact.end - contact.begin for contact in short)

@@ -12,9 +12,10 @@ from .doubts import doubts
 from .errors import IdentificationError
 from .flight import Model
 from .geometry import Ground, Shape, flattened, gaps, plane
-from .naming import parameter_names, unobservable
+from .naming import hidden_by_noise, parameter_names, unobservable
 from .noise import first_guess, limited
 from .plane import body_axis, plane_of_motion
+from .possible import HIDDEN, made_up
 from .problem import Problem, planar_basis, spatial_basis, starting_parameters
 from .rotation import Array
 from .search import Search
@@ -25,8 +26,6 @@ from .states import BodyStates, Noise, checked
 from .wrench import NO_WRENCH, ExternalWrench
 
 __all__ = ["Identification", "Parameter", "Setup", "identify"]
-
-HIDDEN = 1e-6  # component of a parameter in what is not identified, above which it counts as not identified itself
 
 
 class Setup(NamedTuple):
@@ -134,12 +133,13 @@ def _result(found: Estimate, search: Search) -> Identification:
     spatial, model = problem.axis is None, problem.model
     names = parameter_names(spatial, model.with_mass)
     deviations = numpy.sqrt(numpy.diag(found.covariance))
-    hidden = abs(missing).max(axis=0, initial=0.0)
+    hidden, unsure = abs(missing).max(axis=0, initial=0.0) >= HIDDEN, made_up(found, problem)
     parameters = [
-        Parameter(name, "1/kg" if name == "1/m" else "m^2", float(value), float(deviation), bool(share < HIDDEN))
-        for name, value, deviation, share in zip(names, found.parameters, deviations, hidden, strict=True)
+        Parameter(name, "1/kg" if name == "1/m" else "m^2", float(value), float(deviation), not lost)
+        for name, value, deviation, lost in zip(names, found.parameters, deviations, hidden | unsure, strict=True)
     ]
     words = unobservable(missing, found.parameters, found.scale, spatial, model.with_mass, _why_no_mass(search, found))
+    words += hidden_by_noise([name for name, lost in zip(names, unsure & ~hidden, strict=True) if lost])
     contacts = findings(problem, found, search.parts, search.places, search.notes)
     told = doubts(found, search.notes.values(), problem)
     return Identification(

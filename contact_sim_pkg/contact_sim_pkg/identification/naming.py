@@ -7,7 +7,7 @@ import numpy
 from .problem import AXES, PAIRS
 from .rotation import Array
 
-__all__ = ["parameter_names", "unobservable"]
+__all__ = ["hidden_by_noise", "parameter_names", "unobservable"]
 
 PART = 1e-6  # a component of a direction below this is none
 FLAT = 0.02  # an eigenvalue below this part of the largest is zero: noise turns the directions a little
@@ -53,6 +53,16 @@ def unobservable(
         *(["the moment of inertia is not identifiable: no impact changed the spin by a moment about the centre of mass"]
           if len(missing) else []),
     ]  # fmt: skip
+
+
+def hidden_by_noise(names: list[str]) -> list[str]:
+    """One sentence for each parameter that equations tell, but not above their noise."""
+    return [
+        f"mass is not identifiable: {NO_TRACE}"
+        if name == "1/m"
+        else f"{name} is not identifiable: noise could have made up its value"
+        for name in names
+    ]
 
 
 def _no_wrench() -> str:

@@ -30,6 +30,7 @@ CLEAR = 5.0  # times its deviation: a miss against the impulse, of an impact tha
 TOUCHES = "touches"  # how a note begins on a contact that another round may use
 TOUCHES_NOTHING = f"{TOUCHES} nothing known"
 DOUBLE = "the flights before and after miss each other: more than one impact in between"
+FAINT = 1e3  # times its size: standard deviation of 1/m up to which it is fitted, though it is not told
 WORSE = 5.0  # times the noise of the others: what is no flight
 
 
@@ -70,7 +71,7 @@ class Search:
                 break
         if found.directions.rank < self.problem.model.unknowns:
             found = self._with_steps(found)
-        return found
+        return self._with_faint_mass(found)
 
     @property
     def flights(self) -> int:
@@ -96,6 +97,18 @@ class Search:
         ):
             scale[-1] = found.parameters[-1]
         return scale
+
+    def _with_faint_mass(self, found: Estimate) -> Estimate:
+        """Fit a mass that noise hides along with the rest, so that what is known besides keeps its number.
+
+        Its size is taken FAINT times as large; where it is still not told, all stays as it is.
+        """
+        if not self.problem.model.with_mass or not abs(found.directions.missing[:, -1:]).any():
+            return found
+        scale = found.scale.copy()
+        scale[-1] *= FAINT
+        wider = estimate(self.problem, found.parameters, scale, found.flights)
+        return wider if wider.converged and wider.directions.rank > found.directions.rank else found
 
     def _without_false_flights(self, found: Estimate) -> Estimate:
         """Leave out runs that no flight fits, such as a rest that hides in the noise."""
