@@ -2,6 +2,7 @@
 
 import json
 import math
+import re
 
 import numpy
 import pytest
@@ -148,11 +149,30 @@ def test_a_sphere_rolls_over_a_ground_of_heights():
     assert 0.0 < velocity[0, -1] < 5.0 / 7.0
 
 
-def test_a_body_that_starts_in_the_ground_is_refused_with_the_depth():
-    with pytest.raises(
-        SceneError, match=r"block\.position: puts the body 0\.05 m into the ground at the start; raise its z"
-    ):
+def test_a_body_that_starts_in_the_ground_is_refused_with_the_rise():
+    told = r"block\.position: puts the body into the ground at the start; raise its z by 0\.05 m"
+    with pytest.raises(SceneError, match=told):
         resolved("block_zeno", "block.position=[0,0,0]")
+
+
+@pytest.mark.parametrize("ground", ["{slope: 1.2}", "{heights: [-0.3, 0, -0.2, 0.1], start: -0.05}"])
+@pytest.mark.parametrize("scene", ["block_fall", "block_zeno", "box_3d_tumble"])
+def test_a_body_raised_by_what_the_refusal_tells_is_accepted_and_by_less_is_not(scene, ground):
+    def placed_at(z):
+        resolved(scene, f"block.ground={ground}", f"block.position=[0, 0, {z!r}]")
+
+    with pytest.raises(SceneError, match="into the ground") as caught:
+        placed_at(-0.1)
+    rise = float(re.search(r"raise its z by (\S+) m", str(caught.value)).group(1))
+    placed_at(-0.1 + rise)
+    with pytest.raises(SceneError, match="into the ground"):
+        placed_at(-0.1 + 0.999 * rise)
+
+
+@pytest.mark.parametrize("key", ["position", "rotation", "velocity", "angular_velocity", "force", "torque"])
+def test_a_vector_beyond_all_sense_is_refused(key):
+    with pytest.raises(SceneError, match=rf"block\.{key}.*1e\+300.*1e"):
+        resolved("block_fall", f"block.{key}=[0, 1e+300, 0]")
 
 
 def identified(capsys, folder, *values, options=()):

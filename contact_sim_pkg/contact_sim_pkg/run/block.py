@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from scipy.spatial.transform import Rotation
 
 from contact_sim_pkg.core.jit import freeze, thaw
-from contact_sim_pkg.core.rigid.body import Motion, least_gap
+from contact_sim_pkg.core.rigid.body import Motion, rise_to_ground
 from contact_sim_pkg.core.rigid.compliant import MovedBody, sentence_of
 from contact_sim_pkg.core.rigid.located import LocatedBody
 from contact_sim_pkg.core.rigid.motion import HELD
@@ -173,9 +173,9 @@ def _copy(motion: Motion) -> Motion:
 
 
 def _above(model: BlockModel, motion: Motion, height: float) -> Motion:
-    """The body so that its lowest point is ``height`` [m] over the ground."""
+    """The body raised or lowered along z until it is ``height`` [m] over the ground."""
     state = _copy(motion)
-    state.position[-1] += height - least_gap(model.body, model.ground, state)
+    state.position[-1] += height + rise_to_ground(model.body, model.ground, state)
     return state
 
 

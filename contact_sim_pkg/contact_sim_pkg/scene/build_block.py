@@ -16,8 +16,8 @@ from contact_sim_pkg.core.rigid.body import (
     RigidBody,
     height_field,
     laid_under,
-    least_gap,
     placed,
+    rise_to_ground,
     slope,
 )
 from contact_sim_pkg.core.rigid.compliant import compliant_contact
@@ -28,7 +28,7 @@ from contact_sim_pkg.scene.hull import homogeneous_hull
 from contact_sim_pkg.scene.lattice import effects_at
 from contact_sim_pkg.scene.timing import Timing, make_timing
 
-__all__ = ["BlockModel", "build_block", "depth_at_start"]
+__all__ = ["BlockModel", "build_block", "rise_at_start"]
 
 BELOW = 1e-9  # of the body's size: a start this far below the ground is rounding
 Matrix = NDArray[numpy.float64]
@@ -138,13 +138,17 @@ def _start(body: RigidBody, vectors: dict[str, Vector], axes: Matrix) -> Motion:
     return placed(body, place, numpy.concatenate([velocity, spin]), rotation=turned)
 
 
-def depth_at_start(block: dict[str, Any]) -> float:
-    """How far in [m] a body of the plain data of a section `block` starts below its ground; 0 where it starts above or on it."""
+def rise_at_start(block: dict[str, Any]) -> float:
+    """How far in [m] the z of a body of the plain data of a section `block` has to rise out of its ground; 0 above or on it.
+
+    The rise tells more than the gap: of a polygon that a peak pierces from below and leaves again, no corner lies below the ground.
+    """
     width = PLANE if block["motion"] == "plane" else SPACE
     points, radius, inertia, axes = _shape(block, width)
     names = ("position", "velocity", "rotation", "angular_velocity")
     body = RigidBody(width, 1.0, inertia, points, radius, 0.0, 0.0, numpy.zeros(3 * (width - 1)))
     start = _start(body, {name: numpy.array(block[name], float) for name in names}, axes)
-    gap = least_gap(body, laid_under(body, _ground(block["ground"], width)), start)
+    ground = laid_under(body, _ground(block["ground"], width))
+    rise = rise_to_ground(body, ground, start)
     size = float(numpy.linalg.norm(body.points, axis=1).max()) + body.radius
-    return -gap if gap < -BELOW * size else 0.0
+    return rise if rise > BELOW * size else 0.0

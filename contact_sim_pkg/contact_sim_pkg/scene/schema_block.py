@@ -8,14 +8,16 @@ from pydantic import Field
 
 from contact_sim_pkg.scene.schema_fields import Section, choice, number, numbers
 
-Three: TypeAlias = Annotated[list[float], Field(min_length=3, max_length=3)]
+Bounded: TypeAlias = Annotated[float, Field(ge=-1e6, le=1e6)]
+Load: TypeAlias = Annotated[float, Field(ge=-1e12, le=1e12)]
 Point: TypeAlias = Annotated[list[float], Field(min_length=2, max_length=3)]
 
 MOST_POINTS = 64
 
 
-def _vector(unit: str, meaning: str, default: list[float]) -> list[float]:
-    found: list[float] = numbers(unit, meaning, "three numbers", default=default, shortest=3, longest=3)
+def _vector(unit: str, meaning: str, default: list[float], most: str = "") -> list[float]:
+    allowed = f"three numbers, each -{most} to {most} {unit}" if most else "three numbers"
+    found: list[float] = numbers(unit, meaning, allowed, default=default, shortest=3, longest=3)
     return found
 
 
@@ -26,9 +28,9 @@ class BlockGround(Section):
     """
 
     slope: float = number(-1.4, 1.4, "rad", "angle at which the plane rises along x", default=0.0)
-    heights: list[float] | None = numbers(
+    heights: list[Bounded] | None = numbers(
         "m", "heights at even distances along x, in place of the plane; straight between them and on beyond the ends",
-        "2 to 10000 numbers", default=None, shortest=2, longest=10000,
+        "2 to 10000 numbers, each -1e6 to 1e6 m", default=None, shortest=2, longest=10000,
     )  # fmt: skip
     start: float = number(-1e4, 1e4, "m", "x of the first height", default=0.0)
     distance: float = number(1e-4, 1e3, "m", "between heights", default=0.05)
@@ -49,15 +51,17 @@ class Block(Section):
         "3 to 64 points", default=None, shortest=3, longest=MOST_POINTS,
     )  # fmt: skip
     mass: float = number(1e-6, 1e6, "kg", "of the body", default=1.0)
-    position: list[float] = _vector("m", "x, y, z of the centre of mass at the start", [0.0, 0.0, 0.2])
-    rotation: list[float] = _vector(
-        "rad", "rotation vector at the start, body to world; in the plane only y", [0.0] * 3
+    position: list[Bounded] = _vector("m", "x, y, z of the centre of mass at the start", [0.0, 0.0, 0.2], "1e6")
+    rotation: list[Bounded] = _vector(
+        "rad", "rotation vector at the start, body to world; in the plane only y", [0.0] * 3, "1e6"
     )
-    velocity: list[float] = _vector("m/s", "at the start", [0.0, 0.0, 0.0])
-    angular_velocity: list[float] = _vector("rad/s", "at the start, world axes; in the plane only y", [0.0] * 3)
+    velocity: list[Bounded] = _vector("m/s", "at the start", [0.0, 0.0, 0.0], "1e6")
+    angular_velocity: list[Bounded] = _vector(
+        "rad/s", "at the start, world axes; in the plane only y", [0.0] * 3, "1e6"
+    )
     gravity: float = number(0.1, 1000.0, "m/s^2", "downward", default=9.81)
-    force: list[float] = _vector("N", "known force at the centre of mass, world axes", [0.0] * 3)
-    torque: list[float] = _vector("N m", "known torque, world axes; in the plane only y", [0.0] * 3)
+    force: list[Load] = _vector("N", "known force at the centre of mass, world axes", [0.0] * 3, "1e12")
+    torque: list[Load] = _vector("N m", "known torque, world axes; in the plane only y", [0.0] * 3, "1e12")
     ground: BlockGround = Field(default_factory=BlockGround, description="ground under the body")
 
 

@@ -72,11 +72,11 @@ def _shape(block: Block) -> Iterator[Breach]:
 
 
 def _above_ground(block: Block) -> Iterator[Breach]:
-    from contact_sim_pkg.scene.build_block import depth_at_start  # needs the compiled core, as this rig alone does
+    from contact_sim_pkg.scene.build_block import rise_at_start  # needs the compiled core, as this rig alone does
 
-    depth = depth_at_start(block.model_dump())
-    if depth > 0.0:
-        sentence = f"puts the body {show(depth)} m into the ground at the start; raise its z by that much"
+    rise = rise_at_start(block.model_dump())
+    if rise > 0.0:
+        sentence = f"puts the body into the ground at the start; raise its z by {show(rise)} m"
         yield Breach("block.position", sentence, ("block.ground",))
 
 

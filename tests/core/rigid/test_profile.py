@@ -16,6 +16,8 @@ from contact_sim_pkg.core.rigid.body import (
     look_at_contacts,
     placed,
     regular_block,
+    rise_to_ground,
+    slope,
     sphere,
 )
 from contact_sim_pkg.core.rigid.located import LocatedBody
@@ -77,6 +79,81 @@ def test_the_gap_of_a_ball_over_a_roof_is_its_distance_from_the_ridge_or_a_face(
     nearest = int(numpy.argmin(gap))
     assert gap[nearest] == pytest.approx(expected - 0.1, rel=1e-14)
     assert numpy.linalg.norm(rows[2 * nearest, :2]) == pytest.approx(1.0, rel=1e-14)
+
+
+def distance_to_heights(heights, origin, cell, x, z):
+    """True distance to the polyline, which goes on beyond its ends; negative below it."""
+    before, after = 20.0 * numpy.diff(heights)[[0, -1]]
+    nodes = origin + cell * numpy.array([-20.0, *range(len(heights)), len(heights) + 19.0])
+    corners = numpy.column_stack([nodes, [heights[0] - before, *heights, heights[-1] + after]])
+    along = numpy.diff(corners, axis=0)
+    share = (((numpy.array([x, z]) - corners[:-1]) * along).sum(axis=1) / (along**2).sum(axis=1)).clip(0.0, 1.0)
+    away = numpy.linalg.norm(corners[:-1] + share[:, None] * along - (x, z), axis=1).min()
+    return math.copysign(away, z - numpy.interp(x, *corners.T))
+
+
+@pytest.mark.parametrize("steepness", [0.4, 2.0, 6.0])
+def test_the_gap_of_a_ball_over_heights_is_its_true_distance(steepness):
+    """Where the ball is nearer than a cell, and its middle not deeper than its radius."""
+    random, seen = numpy.random.default_rng(7), 0
+    for radius in (0.02, 0.05, 0.12):
+        heights = random.random(12) * steepness * 0.05
+        ground = height_field(PLANE, heights, -0.3, 0.05)
+        body = ball(radius, 0.0, 0.3)
+        for x in numpy.linspace(-0.35, 0.35, 29):
+            for z in numpy.linspace(-0.1, heights.max() + 0.15, 25):
+                expected = distance_to_heights(heights, -0.3, 0.05, x, z) - radius
+                motion = placed(body, [x, z], numpy.zeros(3))
+                assert least_gap(body, laid_under(body, ground), motion) == pytest.approx(expected, abs=1e-13)
+                if abs(expected) < min(0.045, radius):
+                    seen += 1
+                    assert gaps_of(body, ground, motion)[0].min() == pytest.approx(expected, abs=1e-13)
+    assert seen > 300
+
+
+@pytest.mark.parametrize("heights", [[-0.11, 0.0, -0.07], [-0.5, -0.11, 0.0, -0.11, -0.5], [-0.05, 0.0, -0.2]])
+@pytest.mark.parametrize("width", [2, 3])
+def test_a_ball_does_not_fall_through_a_steep_peak(heights, width):
+    body = ball(0.05, 0.0, 0.3) if width == PLANE else sphere(0.05, 1.0, 0.0, 0.3)
+    start = [0.0, 0.1] if width == PLANE else [0.0, 0.0, 0.1]
+    motion = placed(body, start, numpy.zeros(len(body.load)))
+    run(LocatedBody(body, height_field(width, heights, 0.0, 0.05), motion), 0.6)
+
+
+def test_a_ball_is_seen_wherever_it_lies_on_heights_of_one_slope():
+    """Also where rounding lets its foot fall between two faces that are one."""
+    random, body = numpy.random.default_rng(3), ball(0.05, 0.0, 0.3)
+    for origin in random.uniform(-2.0, 0.0, 8):
+        for rise, cell in ((0.0, 0.05), (0.0, 0.07), (0.37, 0.1)):
+            ground, across = height_field(PLANE, rise * cell * numpy.arange(40), origin, cell), math.hypot(1.0, rise)
+            for node in range(3, 36, 4):
+                x = origin + node * cell - 0.05 * rise / across
+                for ulp in range(-4, 5):
+                    place = [x + ulp * numpy.spacing(x), rise * cell * node + 0.05 / across]
+                    assert abs(gaps_of(body, ground, placed(body, place, numpy.zeros(3)))[0].min()) <= 1e-13
+
+
+def test_a_body_in_the_heights_is_told_how_far_to_rise():
+    """Against bisection of its least gap; a ball on a face of slope s: its depth times ``sqrt(1 + s^2)``."""
+    random = numpy.random.default_rng(5)
+    for _ in range(20):
+        for body in (ball(0.12, 0.3, 0.3), polygon(random, 0.3, 0.3)):
+            ground = laid_under(body, height_field(PLANE, random.uniform(-0.2, 0.0, 12), -0.3, 0.05))
+            motion = placed(body, random.uniform(-0.3, 0.3, 2), numpy.zeros(3))
+            low, high = -3.0, 3.0
+            for _ in range(60):
+                middle = 0.5 * (low + high)
+                raised = motion._replace(position=motion.position + numpy.array([0.0, middle]))
+                low, high = (low, middle) if least_gap(body, ground, raised) >= 0.0 else (middle, high)
+            assert rise_to_ground(body, ground, motion) == pytest.approx(high, abs=1e-13)
+    body = ball(0.1, 0.3, 0.3)
+    ground = laid_under(body, height_field(PLANE, [0.0, 2.0], 0.0, 1.0))
+    rise = rise_to_ground(body, ground, placed(body, [0.3, 0.6], numpy.zeros(3)))
+    assert rise == pytest.approx(0.1 * math.sqrt(5.0), rel=1e-14)
+    for width in (2, 3):
+        body = sphere(0.1, 1.0, 0.3, 0.3) if width == 3 else body
+        place = placed(body, numpy.zeros(width), numpy.zeros(len(body.load)))
+        assert rise_to_ground(body, slope(width, 1.2), place) == pytest.approx(0.1 / math.cos(1.2), rel=1e-14)
 
 
 def test_the_normal_rows_are_the_rates_of_the_gaps_over_a_roof():

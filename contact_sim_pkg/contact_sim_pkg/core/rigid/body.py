@@ -18,7 +18,7 @@ import numpy
 from ..jit import entry, kernel
 from ..parameters import Vector
 from .problem import PLANE, SPACE
-from .profile import Profile, clearance, fitted, flat, make_profile, point_on_profile, ridge_on_polygon
+from .profile import Profile, clearance, fitted, flat, make_profile, point_on_profile, ridge_on_polygon, rise_needed
 
 
 class RigidBody(NamedTuple):
@@ -107,6 +107,14 @@ def least_gap(body: RigidBody, ground: Ground, motion: Motion) -> float:
     if len(ground.profile.nodes):
         return clearance(ground.profile, numpy.ascontiguousarray(corners[:, [0, -1]]), body.radius)
     return float((corners @ ground.normal).min()) - ground.offset - body.radius
+
+
+def rise_to_ground(body: RigidBody, ground: Ground, motion: Motion) -> float:
+    """How far in [m] the body has to be raised along z to lie on a ground that was laid under it; negative above it."""
+    if len(ground.profile.nodes) == 0:
+        return -least_gap(body, ground, motion) / float(ground.normal[-1])
+    corners = body.points @ motion.rotation.T + motion.position
+    return rise_needed(ground.profile, numpy.ascontiguousarray(corners[:, [0, -1]]), body.radius)
 
 
 def placed(

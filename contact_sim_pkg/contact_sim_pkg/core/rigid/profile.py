@@ -88,26 +88,54 @@ def clearance(profile: Profile, corners: Vector, radius: float) -> float:
 
     Of a fitted profile the peaks under the polygon of the corners count too. Below the ground it is negative.
     """
-    x_0 = profile.origin + profile.cell * numpy.arange(len(profile.nodes))
-    z_0 = profile.nodes[:, HEIGHT]
-    low, high = x_0[:-1].copy(), x_0[1:].copy()
-    low[0], high[-1] = -math.inf, math.inf
-    slopes = numpy.diff(z_0) / profile.cell
+    x_0, z_0, low, high, slopes = _faces(profile)
     x, z = corners[:, :1], corners[:, 1:]
     rise = z - z_0[:-1] - slopes * (x - x_0[:-1])
     foot = numpy.clip(x + rise * slopes / (1.0 + slopes**2), low, high)
     away = numpy.hypot(x - foot, z - z_0[:-1] - slopes * (foot - x_0[:-1])).min(axis=1)
     below = (numpy.where((x >= low) & (x <= high), rise, math.inf) < 0.0).any(axis=1)
     gap = float((numpy.where(below, -away, away) - radius).min())
-    tops = profile.nodes[:, PEAK] >= 0.0
-    if profile.ridges == 0 or not tops.any():
+    if profile.ridges == 0:
         return gap
-    start = corners[profile.order]
-    edges = numpy.roll(start, -1, axis=0) - start
+    peaks, start, edges = _peaks_and_edges(profile, corners)
     outward = numpy.column_stack([edges[:, 1], -edges[:, 0]]) / numpy.linalg.norm(edges, axis=1)[:, None]
-    peaks = numpy.column_stack([x_0, z_0])[tops]
     depths = ((peaks[:, None, :] - start) * outward).sum(axis=2).max(axis=1)
-    return min(gap, float(depths.min()))
+    return min(gap, float(depths.min(initial=math.inf)))
+
+
+def rise_needed(profile: Profile, corners: Vector, radius: float) -> float:
+    """How far in [m] the body of `clearance` has to be raised along z to lie on the ground; negative above it.
+
+    The ground at x' asks for a middle ``sqrt(r^2 - (x' - x)^2)`` above it: most where a face is tangent, or at its end beside that.
+    """
+    x_0, z_0, low, high, slopes = _faces(profile)
+    x, z = corners[:, :1], corners[:, 1:]
+    place = numpy.clip(x + radius * slopes / numpy.sqrt(1.0 + slopes**2), low, high)
+    under = radius**2 - (place - x) ** 2
+    asked = z_0[:-1] + slopes * (place - x_0[:-1]) + numpy.sqrt(numpy.maximum(under, 0.0)) - z
+    rise = float(asked[under >= 0.0].max())
+    if profile.ridges == 0:
+        return rise
+    peaks, start, edges = _peaks_and_edges(profile, corners)
+    start, edges = start[edges[:, 0] != 0.0], edges[edges[:, 0] != 0.0]
+    share = (peaks[:, :1] - start[:, 0]) / edges[:, 0]
+    lowest = numpy.where((share >= 0.0) & (share <= 1.0), start[:, 1] + share * edges[:, 1], math.inf).min(axis=1)
+    return max(rise, float((peaks[:, 1] - lowest).max(initial=-math.inf)))
+
+
+def _faces(profile: Profile) -> tuple[Vector, Vector, Vector, Vector, Vector]:
+    """Nodes (x, z); of each face where it begins and ends along x, and its slope."""
+    x = numpy.array(profile.origin + profile.cell * numpy.arange(len(profile.nodes)), float)
+    low, high = x[:-1].copy(), x[1:].copy()
+    low[0], high[-1] = -math.inf, math.inf
+    return x, profile.nodes[:, HEIGHT], low, high, numpy.diff(profile.nodes[:, HEIGHT]) / profile.cell
+
+
+def _peaks_and_edges(profile: Profile, corners: Vector) -> tuple[Vector, Vector, Vector]:
+    """Peaks (x, z); starts of the edges of the polygon of ``corners``, once round, and the edges."""
+    x, z, _low, _high, _slopes = _faces(profile)
+    start = corners[profile.order]
+    return numpy.column_stack([x, z])[profile.nodes[:, PEAK] >= 0.0], start, numpy.roll(start, -1, axis=0) - start
 
 
 @kernel
@@ -125,11 +153,10 @@ def _face(profile, j):
 
 
 @kernel
-def _gap_of_corner(profile, slot, x, z):
-    """Gap of a point without radius to a piece: the greatest of the distances from its faces nearby; normal, face."""
-    own, faces = _face_at(profile, x), profile.nodes.shape[0] - 1
+def _gap_of_corner(profile, slot, x, z, first, last):
+    """Gap of a point without radius to a piece: the greatest of the distances from its faces first to last; normal, face."""
     gap, n_x, n_z, feature = -math.inf, 0.0, 1.0, -1
-    for j in range(max(own - 1, 0), min(own + 2, faces)):
+    for j in range(max(first, 0), min(last + 1, profile.nodes.shape[0] - 1)):
         if int(profile.nodes[j, PIECE]) % profile.reach != slot:
             continue
         x_0, z_0, t_x, t_z = _face(profile, j)
@@ -142,27 +169,46 @@ def _gap_of_corner(profile, slot, x, z):
 
 
 @kernel
+def _lies_below(profile, slot, x, z):
+    """Whether (x, z) lies below a face of the piece of a slot."""
+    j = _face_at(profile, x)
+    x_0, z_0, t_x, t_z = _face(profile, j)
+    return int(profile.nodes[j, PIECE]) % profile.reach == slot and t_x * (z - z_0) <= t_z * (x - x_0)
+
+
+@kernel
 def _gap_of_sphere(profile, slot, x, z, radius):
-    """Gap of a sphere to a piece, its normal, and the curvature 1/distance where a peak touches it."""
-    first, faces = max(_face_at(profile, x - radius) - 1, 0), profile.nodes.shape[0] - 1
+    """Gap of a sphere to a piece, its normal, and the curvature 1/distance where a peak touches it.
+
+    From a middle outside the piece the nearest of the faces that look at it and of the peaks counts: below the plane of a face lies
+    all that is behind a sharp peak. Inside it is the nearest plane of a face.
+    """
+    first, last = _face_at(profile, x - radius) - 1, _face_at(profile, x + radius) + 1
+    if _lies_below(profile, slot, x, z):
+        gap, n_x, n_z, _feature = _gap_of_corner(profile, slot, x, z, first, last)
+        return gap - radius, n_x, n_z, 0.0
+    faces = profile.nodes.shape[0] - 1
     gap, n_x, n_z, curvature = math.inf, 0.0, 1.0, 0.0
-    for j in range(first, min(_face_at(profile, x + radius) + 2, faces)):
+    for j in range(max(first, 0), min(last + 1, faces)):
         if int(profile.nodes[j, PIECE]) % profile.reach != slot:
             continue
         x_0, z_0, t_x, t_z = _face(profile, j)
         along, distance = t_x * (x - x_0) + t_z * (z - z_0), t_x * (z - z_0) - t_z * (x - x_0)
         length = profile.cell / t_x
         if (along >= 0.0 or j == 0) and (along <= length or j == faces - 1):
-            if distance < gap:
+            if 0.0 <= distance < gap:
                 gap, n_x, n_z, curvature = distance, -t_z, t_x, 0.0
             continue
         node = j if along < 0.0 else j + 1
-        if profile.nodes[node, PEAK] < 0.0:  # a valley is met by the faces beside it
+        if profile.nodes[node - 1, PIECE] != profile.nodes[node, PIECE]:  # a valley is met by the faces beside it
             continue
         beyond = along if along < 0.0 else along - length
         away = math.sqrt(beyond * beyond + distance * distance)
-        if away < gap and away > 0.0:
-            gap, curvature = away, 1.0 / away
+        if away >= gap or away == 0.0:
+            continue
+        gap, n_x, n_z, curvature = away, -t_z, t_x, 0.0
+        if profile.nodes[node, PEAK] >= 0.0:  # where two faces are one, rounding alone lies between them
+            curvature = 1.0 / away
             n_x, n_z = (beyond * t_x - distance * t_z) / away, (beyond * t_z + distance * t_x) / away
     if gap == math.inf:
         return profile.cell, 0.0, 1.0, 0.0
@@ -175,7 +221,8 @@ def point_on_profile(profile, slot, x, z, radius):
     if radius > 0.0:
         gap, n_x, n_z, curvature = _gap_of_sphere(profile, slot, x, z, radius)
         return gap, n_x, n_z, curvature, -1
-    gap, n_x, n_z, feature = _gap_of_corner(profile, slot, x, z)
+    own = _face_at(profile, x)
+    gap, n_x, n_z, feature = _gap_of_corner(profile, slot, x, z, own - 1, own + 1)
     return gap, n_x, n_z, 0.0, feature
 
 

@@ -12,7 +12,8 @@ TOO_MANY_EVENTS = 6
 
 SENTENCES = {
     SOLVED: "the contact conditions hold",
-    RAY: "the contact conditions have no solution that pivoting can reach (a wedged body with restitution): state unchanged",
+    RAY: "the contact conditions have no solution that pivoting can reach (as of a body wedged by friction or by restitution): "
+    "state unchanged",
     NOT_CONVERGED: "the iteration ended before the residual that was asked for; the residual is returned",
     CONTACT_NOT_FINITE: "an input of the contact solve is not finite: state unchanged",
     TOO_MANY_IMPACTS: "more than 100000 impacts in one call: raise the rest speed or lower the restitution",
