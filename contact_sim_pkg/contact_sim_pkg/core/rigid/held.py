@@ -230,10 +230,7 @@ def slip_of(body, work, velocity, i):
 def stop_of_slip(
     body: RigidBody, ground: Ground, motion: Motion, work: MotionWorkspace, time: float, still: float
 ) -> tuple[float, float]:
-    """Velocity at the end of the piece in ``work.free``; the part of the piece after which the first sliding point stops, 1: none,
-
-    and how many times the piece its slip would last at the deceleration of the piece.
-    """
+    """Velocity at the end of the piece in ``work.free``; part of it after which slip first stops, and how many pieces it lasts."""
     apply_impulse(work.J, work.W, work.impulse, work.free)
     for k in range(work.free.shape[0]):
         if abs(work.free[k]) <= still:

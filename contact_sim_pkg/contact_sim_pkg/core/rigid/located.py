@@ -58,7 +58,7 @@ MOST_IMPACTS = 100_000  # in one interval
 REST = 1.0e-6  # rest speed over sqrt(g L)
 TOLERANCE = 1.0e-10
 LANDS = 3.0  # times the speed of a fall by `held.LANDED`: slower landings beside held points do not bounce
-LONGER = 4.0
+LONGER = 4.0  # times, from one try for modes that fit to the next
 STICKS = 1.0e-9  # of the speed before the impact: slip below it counts as none
 
 
