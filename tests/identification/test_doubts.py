@@ -7,7 +7,7 @@ from pathlib import Path
 import numpy
 import pytest
 
-from contact_sim_pkg.identification import geometry, wrench
+from contact_sim_pkg.identification import free_fall, geometry, wrench
 from contact_sim_pkg.identification.identify import Setup, identify
 
 _spec = importlib.util.spec_from_file_location("motions", Path(__file__).with_name("motions.py"))
@@ -101,3 +101,81 @@ def test_a_body_that_rests_below_the_ground_told_is_no_contact():
     found = identify(low, Setup(geometry.box([0.1] * 3), gravity=9.0))
     assert "m below the ground" in found.contacts[0].note
     assert found.doubts
+
+
+NOISES = {
+    "exact": None,
+    "fine": (1e-5, 1e-4, 1e-4, 1e-3),
+    "middle": (1e-4, 1e-3, 1e-3, 1e-2),
+    "coarse": (1e-3, 1e-3, 1e-3, 1e-2),
+}
+
+
+def square(noise, force=(0.0, 0.0, 0.0), **known):
+    """Identification of the square of the tests; `known` is what the user says of it."""
+    states = motions.states_of(motions.planar(0.6 if any(force) else 0.75, force))
+    if NOISES[noise] is not None:
+        states = motions.noisy(states, 0, *NOISES[noise])
+    return identify(states, Setup(**{"shape": geometry.box([motions.SIDE] * 3), **known}))
+
+
+@pytest.mark.parametrize("noise", NOISES)
+def test_the_square_raises_no_doubt_where_all_is_right(noise):
+    assert square(noise).doubts == []
+
+
+@pytest.mark.parametrize("noise", NOISES)
+@pytest.mark.parametrize("share", [0.9, 0.98, 1.02, 1.1])
+def test_a_shape_told_too_small_or_too_large_is_doubted(noise, share):
+    """One too large goes into the ground before its impact: where one interval holds all of the push, that is no soft contact."""
+    found = square(noise, shape=geometry.box([share * motions.SIDE] * 3))
+    assert any("check the shape" in line for line in found.doubts)
+
+
+def test_impacts_that_happen_below_the_ground_by_less_than_one_tells_are_told_by_their_mean():
+    """The box is 2 % too large: its corners lie 1 mm times cos and sin of the pitch further out, under 1 mm of noise."""
+    found = square("coarse", shape=geometry.box([1.02 * motions.SIDE] * 3))
+    (line,) = [line for line in found.doubts if line.startswith("impacts happen")]
+    assert "below the ground in the mean" in line
+
+
+@pytest.mark.parametrize("noise", ["middle", "coarse"])
+@pytest.mark.parametrize("gravity", [0.0, 1.62, 9.8, 20.0])
+def test_under_noise_a_gravity_that_is_wrong_is_told_with_the_acceleration_that_is_missing(noise, gravity):
+    found = square(noise, gravity=gravity)
+    missing = free_fall.missing_acceleration(found.estimate, found.problem)
+    assert any(line.startswith("the flights accelerate by") for line in found.doubts)
+    assert abs(missing.value - [0.0, 0.0, gravity - 9.81]).max() < 4.5 * missing.deviation
+
+
+@pytest.mark.parametrize("noise", ["middle", "coarse"])
+def test_a_force_that_is_not_told_is_seen_as_the_acceleration_it_gives(noise):
+    force = (1.3, 0.0, 0.7)
+    found = square(noise, force)
+    missing = free_fall.missing_acceleration(found.estimate, found.problem)
+    assert any(line.startswith("the flights accelerate by") for line in found.doubts)
+    assert abs(missing.value - numpy.array(force) / motions.MASS).max() < 4.0 * missing.deviation < 0.1
+
+
+def test_the_deviation_of_the_missing_acceleration_is_that_of_many_draws():
+    """Of the right gravity: its mean square over its variance is 1 within four of its deviations, of 20 draws in 3 directions."""
+    states, setup = motions.states_of(motions.planar()), Setup(geometry.box([motions.SIDE] * 3))
+    squares = []
+    for seed in range(20):
+        found = identify(motions.noisy(states, seed, 1e-4, 1e-3), setup)
+        missing = free_fall.missing_acceleration(found.estimate, found.problem)
+        squares.append(float(numpy.mean((missing.value / missing.deviation) ** 2)))
+    assert numpy.mean(squares) == pytest.approx(1.0, abs=4.0 * numpy.sqrt(2.0 / 60.0))
+
+
+def test_a_force_that_swings_faster_than_the_flights_last_is_told_by_what_they_leave():
+    """200 rad/s: no mean acceleration, but the velocities swing by far more than neighbouring samples differ."""
+    states = motions.noisy(motions.states_of(motions.planar()), 0, 1e-5, 1e-4, 1e-4, 1e-3)
+    swing = 0.05 * numpy.sin(200.0 * states.time)
+    way = 0.05 / 200.0 * (1.0 - numpy.cos(200.0 * states.time))
+    shaken = states._replace(
+        velocity=states.velocity + numpy.outer(swing, [0.0, 1.0, 0.0]),
+        position=states.position + numpy.outer(way, [0.0, 1.0, 0.0]),
+    )
+    found = identify(shaken, Setup(geometry.box([motions.SIDE] * 3), planar=False))
+    assert any("times what neighbouring samples differ by" in line for line in found.doubts)

@@ -118,7 +118,7 @@ def test_bad_input_ends_with_one_sentence(tmp_path, capsys):
     assert "is not a valid float" in refused(capsys, bag, *BOX, "--force", "a", "0", "0")
     assert "normal that is not zero" in refused(capsys, bag, *BOX, "--normal", "0", "0", "0")
     assert "gravity acts downward" in refused(capsys, bag, *BOX, "--gravity", "-9.81")
-    assert "noise of the rotation is 0 or more" in refused(capsys, bag, *BOX, "--noise", "1", "-1", "1", "1")
+    assert "noise of the rotation is 0 to 1e+06" in refused(capsys, bag, *BOX, "--noise", "1", "-1", "1", "1")
     assert "cannot be written as" in refused(capsys, bag, *BOX, "--plot", tmp_path / "picture.qqq")
     (tmp_path / "corners.csv").write_text("0, 0, 0\n1, two, 3\n")
     assert "line 2" in refused(capsys, bag, "--hull", tmp_path / "corners.csv")
@@ -126,6 +126,29 @@ def test_bad_input_ends_with_one_sentence(tmp_path, capsys):
     assert "cannot be read" in refused(capsys, tmp_path / "text.mcap", *BOX)
     (tmp_path / "folder").mkdir()
     assert "no metadata.yaml and 0 files" in refused(capsys, tmp_path / "folder", *BOX)
+
+
+@pytest.mark.parametrize(
+    ("options", "said"),
+    [
+        (["--sphere", "1e300"], "from its centre of mass, not 1e+300 m"),
+        (["--box", "1e-300", "1e-300", "1e-300"], "from its centre of mass, not 5e-301 m"),
+        ([*BOX, "--force", "1e300", "0", "0"], "the external force needs three components of at most 1e+12"),
+        ([*BOX, "--ground", "1e300"], "a height of at most 1e+09 m"),
+        ([*BOX, "--gravity", "1e300"], "gravity acts downward and is 0 to 1e+06"),
+        ([*BOX, "--friction", "inf"], "a friction coefficient is 0 to 1e+06"),
+    ],
+)
+@pytest.mark.filterwarnings("error")
+def test_numbers_beyond_all_bodies_are_refused_before_anything_overflows(bag_of_a_square, capsys, options, said):
+    assert said in refused(capsys, bag_of_a_square, *options)
+
+
+@pytest.fixture(scope="module")
+def bag_of_a_square(tmp_path_factory):
+    path = tmp_path_factory.mktemp("square") / "bag"
+    foreign_bag.write_odometry(path, motions.states_of(motions.planar()))
+    return path
 
 
 def test_a_pose_without_its_twist_is_refused(tmp_path, capsys):

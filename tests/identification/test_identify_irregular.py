@@ -62,12 +62,26 @@ def test_a_message_that_was_recorded_twice_counts_once(states, tmp_path, capsys)
     assert inertia_of(tmp_path / "bag", capsys)[0] == pytest.approx(INERTIA, rel=1e-9)
 
 
-def test_two_states_at_one_stamp_are_refused_with_the_time(states, tmp_path, capsys):
+def test_of_two_states_at_one_stamp_the_first_is_used_and_it_is_told(states, tmp_path, capsys):
     time = states[0].copy()
     time[50] = time[49]
     foreign_bag.write_odometry(tmp_path / "bag", (time, *states[1:]))
+    assert main(["identify", str(tmp_path / "bag"), "--box", "0.1", "0.1", "0.1", "--json"]) == 0
+    out, err = capsys.readouterr()
+    assert "1 messages on /odom have the stamp of another one and other values: the first of each stamp is used" in err
+    (row,) = [row for row in json.loads(out)["parameters"] if row["parameter"] == "m/J"]
+    assert row["value"] == pytest.approx(INERTIA, rel=1e-9)
+
+
+def test_a_bag_that_was_recorded_twice_over_counts_once(states, tmp_path, capsys):
+    foreign_bag.write_odometry(tmp_path / "bag", kept(states, numpy.repeat(numpy.arange(len(states[0])), 2)))
+    assert inertia_of(tmp_path / "bag", capsys)[0] == pytest.approx(INERTIA, rel=1e-9)
+
+
+def test_messages_without_stamps_are_refused(states, tmp_path, capsys):
+    foreign_bag.write_odometry(tmp_path / "bag", (0.0 * states[0], *states[1:]))
     assert main(["identify", str(tmp_path / "bag"), "--box", "0.1", "0.1", "0.1"]) == 2
-    assert "time does not grow from sample 49 to 50 (0.049 s to 0.049 s)" in capsys.readouterr().err
+    assert f"the {len(states[0])} messages on /odom have 1 stamps" in capsys.readouterr().err
 
 
 def test_stamps_that_are_late_by_chance_spoil_no_more_than_is_reported(states, tmp_path, capsys):

@@ -40,6 +40,7 @@ ODOMETRY, POSE = "nav_msgs/msg/Odometry", "geometry_msgs/msg/PoseStamped"
 TWIST, WRENCH = "geometry_msgs/msg/TwistStamped", "geometry_msgs/msg/WrenchStamped"
 MOTION = "bench/motion"
 SAME = 1_000  # [ns] between the stamps of a pose and of its twist
+FEWEST_STAMPS = 3  # messages a stamp in the mean, beyond which a topic is not stamped
 NORM = 0.01  # allowed difference of a quaternion's length from 1
 XYZ = "xyz"
 
@@ -175,7 +176,8 @@ def _foreign(bag: AnyBag, topic: str | None, twist_topic: str | None, twist_axes
         twists = [other[second].twist for _, second in pairs]
         named = other[0].header.frame_id != messages[0].header.frame_id
         turning = twist_axes == "body" or (twist_axes == "auto" and named)
-    return _states(time, poses, twists, turning, name)._replace(notes=tuple(bag.notes))
+    found = _states(time, poses, twists, turning, name)
+    return found._replace(notes=(*bag.notes, *found.notes))
 
 
 def _all(bag: AnyBag, topic: str) -> list[Any]:
@@ -202,14 +204,29 @@ def _states(time: list[int], poses: list[Any], twists: list[Any], turning: bool,
     if turning:
         velocity, spin = (numpy.einsum("nij,nj->ni", rotation, vectors) for vectors in (velocity, spin))
     position = _vectors([pose.position for pose in poses])[order]
-    return RecordedStates(_without_copies(BodyStates(seconds, position, rotation, velocity, spin)), min(time))
+    states, note = _one_a_stamp(BodyStates(seconds, position, rotation, velocity, spin), topic)
+    return RecordedStates(states, min(time), note)
 
 
-def _without_copies(states: BodyStates) -> BodyStates:
-    """States without those that repeat the one before, stamp and all: a message that was recorded twice."""
-    rows = numpy.column_stack([field.reshape(len(states.time), -1) for field in states])
-    kept = numpy.concatenate([[True], (numpy.diff(rows, axis=0) != 0.0).any(axis=1)])
-    return BodyStates(*(field[kept] for field in states))
+def _one_a_stamp(states: BodyStates, topic: str) -> tuple[BodyStates, tuple[str, ...]]:
+    """The first state of each stamp; what others of it were, unless they repeat the first: a message recorded twice.
+
+    Raises:
+        BagError: there are far fewer stamps than messages.
+    """
+    first = numpy.concatenate([[True], numpy.diff(states.time) > 0.0])
+    if FEWEST_STAMPS * first.sum() < len(first):
+        raise BagError(
+            f"the {len(first)} messages on {topic} have {first.sum()} stamps; allowed: one stamp each. Let the publisher fill in "
+            "header.stamp"
+        )
+    of_stamp = numpy.maximum.accumulate(numpy.where(first, numpy.arange(len(first)), 0))
+    rows = numpy.column_stack([field.reshape(len(first), -1) for field in states])
+    other = int((rows != rows[of_stamp]).any(axis=1).sum())
+    note = (
+        f"{other} messages on {topic} have the stamp of another one and other values: the first of each stamp is used"
+    )
+    return BodyStates(*(field[first] for field in states)), (note,) if other else ()
 
 
 def _paired(first: list[int], second: list[int], topic: str) -> list[tuple[int, int]]:

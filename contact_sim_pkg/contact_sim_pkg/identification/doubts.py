@@ -7,8 +7,11 @@ from collections.abc import Iterable
 import numpy
 from scipy.stats import chi2
 
+from .free_fall import missing_acceleration
 from .geometry import size
+from .heights import mean_gap
 from .lasting import NO_FLIGHT
+from .noise import first_guess, from_residuals
 from .possible import impossible
 from .problem import Contact, Problem
 from .search import TOUCHES_NOTHING
@@ -18,6 +21,8 @@ from .sweep import FEW
 __all__ = ["doubts"]
 
 QUANTILE = 0.9999
+SIGMAS = 5.0  # how far from zero a mean of all flights or impacts
+SMOOTH = 5.0  # times the noise of neighbouring samples: what flights leave is no noise
 SLIGHT = 1e-6  # standard deviation over the size of a parameter, contradictions counted, below which they do not matter
 
 
@@ -40,6 +45,7 @@ def doubts(found: Estimate, notes: Iterable[str], problem: Problem) -> list[str]
             "ground, gravity, the wrench and the noise; the standard deviations are too small"
         )
     told += impossible(found, problem)
+    told += [*_falling(found, problem), *_above(found, problem)]
     short = [contact for contact in problem.contacts if _hidden(contact, problem)]
     if short:
         longest = 1e3 * max(contact.end - contact.begin for contact in short)
@@ -54,6 +60,41 @@ def doubts(found: Estimate, notes: Iterable[str], problem: Problem) -> list[str]
     if strange:
         told.append("the body does not move as a free one where it is off the ground: see the notes of the contacts")
     return told
+
+
+def _falling(found: Estimate, problem: Problem) -> list[str]:
+    """Flights that do not fall as gravity and wrench say: all of them by the same, or by more than neighbouring samples differ."""
+    fastest = float(abs(problem.states.velocity).max())
+    missing = missing_acceleration(found, problem)
+    length = float(numpy.linalg.norm(missing.value))
+    if length > SIGMAS * missing.deviation and length * missing.longest > SLIGHT * fastest:
+        x, y, z = missing.value
+        line = (
+            f"the flights accelerate by ({x:.3g}, {y:.3g}, {z:.3g}) m/s^2 more than gravity and the known wrench make them "
+            f"(standard deviation {missing.deviation:.2g}): check gravity, its direction, and the wrench"
+        )
+        return [line]
+    left, rough = from_residuals(found.residuals, problem.states).velocity, first_guess(problem.states).velocity
+    if left > SMOOTH * rough and left > SLIGHT * fastest:
+        line = (
+            f"the flights leave {left:.2g} m/s of the velocities, {left / rough:.2g} times what neighbouring samples differ by: "
+            "check gravity, the wrench and the axes of the twist; of filtered samples the standard deviations are too small"
+        )
+        return [line]
+    return []
+
+
+def _above(found: Estimate, problem: Problem) -> list[str]:
+    """Impacts that happen above or below the ground."""
+    gap = mean_gap(found, problem)
+    if abs(gap.value) <= SIGMAS * gap.deviation:
+        return []
+    side = "above" if gap.value > 0.0 else "below"
+    line = (
+        f"impacts happen {abs(gap.value):.2g} m {side} the ground in the mean (standard deviation {gap.deviation:.1g} m): check "
+        "the shape, its axes, and the ground"
+    )
+    return [line]
 
 
 def _hidden(contact: Contact, problem: Problem) -> bool:

@@ -30,6 +30,8 @@ __all__ = [
     "sphere",
 ]
 
+SMALLEST, LARGEST = 1e-9, 1e6  # [m], size of a body
+FARTHEST = 1e9  # [m], height of the ground
 UP = numpy.array([0.0, 0.0, 1.0])
 
 
@@ -52,14 +54,14 @@ def box(lengths: ArrayLike) -> Shape:
     sides = numpy.asarray(lengths, dtype=numpy.float64)
     if sides.shape != (3,) or not (numpy.isfinite(sides).all() and (sides > 0.0).all()):
         raise IdentificationError(f"a box needs three lengths above 0 m, not {sides.tolist()}")
-    return Shape(0.5 * sides * numpy.array(list(itertools.product((-1.0, 1.0), repeat=3))), 0.0)
+    return _of_a_size(0.5 * sides * numpy.array(list(itertools.product((-1.0, 1.0), repeat=3))), 0.0)
 
 
 def sphere(radius: float) -> Shape:
     """Sphere of `radius` [m] about the centre of mass."""
     if not (numpy.isfinite(radius) and radius > 0.0):
         raise IdentificationError(f"a sphere needs a radius above 0 m, not {radius:g}")
-    return Shape(numpy.zeros((1, 3)), float(radius))
+    return _of_a_size(numpy.zeros((1, 3)), float(radius))
 
 
 def hull(points: ArrayLike, radius: float = 0.0) -> Shape:
@@ -69,16 +71,27 @@ def hull(points: ArrayLike, radius: float = 0.0) -> Shape:
         raise IdentificationError(f"a hull needs points of three finite coordinates, not an array of {corners.shape}")
     if not (numpy.isfinite(radius) and radius >= 0.0):
         raise IdentificationError(f"the radius of a hull must be 0 m or more, not {radius:g}")
-    return Shape(corners, float(radius))
+    return _of_a_size(corners, float(radius))
+
+
+def _of_a_size(points: Array, radius: float) -> Shape:
+    """The shape; IdentificationError where its size is none of a body."""
+    largest = float(abs(points).max()) + radius
+    if not SMALLEST <= largest <= LARGEST:
+        raise IdentificationError(
+            f"the surface of a body lies {SMALLEST:g} m to {LARGEST:g} m from its centre of mass, not {largest:.3g} m: give metres"
+        )
+    return Shape(points, radius)
 
 
 def plane(normal: ArrayLike = UP, height: float = 0.0) -> Ground:
     """Ground with a normal of any length."""
     direction = numpy.asarray(normal, dtype=numpy.float64)
     length = float(numpy.linalg.norm(direction))
-    if direction.shape != (3,) or not (numpy.isfinite(length) and length > 0.0 and numpy.isfinite(height)):
+    if direction.shape != (3,) or not (numpy.isfinite(length) and length > 0.0 and abs(height) <= FARTHEST):
         raise IdentificationError(
-            f"the ground needs a normal that is not zero and a height, not {direction.tolist()}, {height}"
+            f"the ground needs a normal that is not zero and a height of at most {FARTHEST:g} m, not {direction.tolist()} and "
+            f"{height:g}"
         )
     return Ground(direction / length, float(height))
 

@@ -28,6 +28,9 @@ from .wrench import NO_WRENCH, ExternalWrench
 __all__ = ["Identification", "Parameter", "Setup", "identify"]
 
 
+LARGEST = 1e6  # gravity, friction coefficient, noise: beyond it a number is a mistake
+
+
 class Setup(NamedTuple):
     """What is known besides the states."""
 
@@ -95,13 +98,13 @@ def identify(states: BodyStates, setup: Setup) -> Identification:
 
 
 def _check_setup(setup: Setup) -> None:
-    if not (numpy.isfinite(setup.gravity) and setup.gravity >= 0.0):
-        raise IdentificationError(f"gravity acts downward and is 0 m/s^2 or more, not {setup.gravity:g}")
-    if setup.friction is not None and not (numpy.isfinite(setup.friction) and setup.friction >= 0.0):
-        raise IdentificationError(f"a friction coefficient is 0 or more, not {setup.friction:g}")
+    if not 0.0 <= setup.gravity <= LARGEST:
+        raise IdentificationError(f"gravity acts downward and is 0 to {LARGEST:g} m/s^2, not {setup.gravity:g}")
+    if setup.friction is not None and not 0.0 <= setup.friction <= LARGEST:
+        raise IdentificationError(f"a friction coefficient is 0 to {LARGEST:g}, not {setup.friction:g}")
     for name, value in (setup.noise._asdict() if setup.noise else {}).items():
-        if not (numpy.isfinite(value) and value >= 0.0):
-            raise IdentificationError(f"the noise of the {name.replace('_', ' ')} is 0 or more, not {value:g}")
+        if not 0.0 <= value <= LARGEST:
+            raise IdentificationError(f"the noise of the {name.replace('_', ' ')} is 0 to {LARGEST:g}, not {value:g}")
 
 
 def _check_wrench(states: BodyStates, wrench: ExternalWrench) -> None:

@@ -6,7 +6,7 @@ import numpy
 
 from .errors import IdentificationError
 from .flight import plain_motion, state_at
-from .geometry import size
+from .heights import gap_deviation
 from .impacts import Touch, locate
 from .lasting import NO_FLIGHT, in_words, with_steps
 from .noise import from_residuals, limited
@@ -55,8 +55,7 @@ class Search:
             self.problem = with_slides(with_steps(self.problem, self.parts), self.parts)
         if not self.problem.flights:
             raise IdentificationError(
-                f"there is no flight of {SHORTEST_FLIGHT} samples or more between contacts; record faster, or a motion that "
-                "leaves the ground, or give the friction coefficient and the force of a slide"
+                f"there is no flight of {SHORTEST_FLIGHT} samples or more between contacts; {self._cure()}"
             )
         if self.problem.contacts:
             return estimate(self.problem, self.start, self.scale)
@@ -72,6 +71,13 @@ class Search:
         if found.directions.rank < self.problem.model.unknowns:
             found = self._with_steps(found)
         return self._with_faint_mass(found)
+
+    def _cure(self) -> str:
+        """What helps where no flight and no slide tells anything."""
+        record = "record faster, or a motion that leaves the ground"
+        if self.problem.friction is None or self.problem.model.wrench.force is None:
+            return f"{record}, or give the friction coefficient and the force of a slide"
+        return f"{record}; no slide of the body on the ground as told was found either: check the shape, its axes, and the ground"
 
     @property
     def flights(self) -> int:
@@ -206,7 +212,7 @@ class Search:
         start = 0.5 * (begin + end) if count <= LONGEST_IMPACT else end if leaving else begin
         return locate(
             found.flights[flight], found.parameters, problem.model, problem.shape, problem.ground,
-            (begin - slack, end + slack), start, self._gap_deviation(flight), leaving=leaving,
+            (begin - slack, end + slack), start, gap_deviation(self.problem, flight), leaving=leaving,
         )  # fmt: skip
 
     def _miss(self, found: Estimate, before: int, after: int, time: float) -> float:
@@ -220,13 +226,10 @@ class Search:
         miss, back = float(numpy.linalg.norm(apart)), -float(apart @ push) / float(numpy.linalg.norm(push))
         lengths = [last - first + 1 for first, last in (self.problem.flights[number] for number in (before, after))]
         spread = 2.0 * self.problem.noise.position * float(numpy.sqrt(numpy.sum(1.0 / numpy.array(lengths))))
-        doubt = 12.0 * self.problem.noise.position + MISSED * sum(self._gap_deviation(each) for each in (before, after))
+        doubt = 12.0 * self.problem.noise.position + MISSED * sum(
+            gap_deviation(self.problem, each) for each in (before, after)
+        )
         return miss if miss > doubt or back > CLEAR * spread else 0.0
-
-    def _gap_deviation(self, flight: int) -> float:
-        """Standard deviation of the gap of a point on a fitted flight, [m]."""
-        noise, (first, last) = self.problem.noise, self.problem.flights[flight]
-        return 2.0 * (noise.position + size(self.problem.shape) * noise.rotation) / float(numpy.sqrt(last - first + 1))
 
     def _neighbours(self, first: int, last: int) -> tuple[int | None, int | None]:
         """Numbers of the flights that end and begin at a contact."""

@@ -125,15 +125,24 @@ def _down(states: BodyStates, lifts: Array, gravity: float, doubt: float) -> Arr
 def _pressed_in(jumps: Array, below: Array, deviation: float) -> Array:
     """Intervals of soft contacts: the body comes from above, is below the ground, and is pushed more than noise explains.
 
-    A push of many short intervals may hide in the noise of each.
+    A push of many short intervals may hide in the noise of each. Where one interval holds all of it, it was an impact.
     """
     found = numpy.zeros(len(jumps), dtype=bool)
     edges = numpy.flatnonzero(numpy.diff(numpy.concatenate([[0], below.astype(int), [0]])))
+    limit = chi2.ppf(QUANTILE, 3) * 2.0 * deviation**2
     for first, last in edges.reshape(-1, 2):
         run = slice(max(first - 1, 0), min(last, len(jumps)))
-        pushed = float(numpy.linalg.norm(numpy.sum(jumps[run], axis=0)))
-        found[run] = first > 0 and pushed**2 > chi2.ppf(QUANTILE, 3) * 2.0 * deviation**2
+        pushed = numpy.sum(jumps[run], axis=0)
+        found[run] = first > 0 and float(pushed @ pushed) > limit and not _at_once(jumps[run], limit)
     return found
+
+
+def _at_once(jumps: Array, limit: float) -> bool:
+    """Whether one interval holds all of a push: it was an impact, and the ground or the shape is not where it is told to be."""
+    sizes = numpy.einsum("ni,ni->n", jumps, jumps)
+    largest = int(sizes.argmax())
+    rest = numpy.sum(jumps, axis=0) - jumps[largest]
+    return bool(sizes[largest] > limit >= 0.5 * float(rest @ rest))
 
 
 def _near(states: BodyStates, lifts: Array, ground: Ground, position_noise: float) -> Array:

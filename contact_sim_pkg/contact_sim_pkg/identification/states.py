@@ -12,6 +12,7 @@ from .rotation import Array
 __all__ = ["BodyStates", "Noise", "checked"]
 
 FEWEST = 4  # samples
+LARGEST = 1e12  # SI value of a sample
 ORTHOGONAL = 1e-6  # allowed |R^T R - 1|
 
 
@@ -44,9 +45,12 @@ def checked(states: BodyStates) -> BodyStates:
         if found != (samples, *shape):
             raise IdentificationError(f"{name} has the shape {found}; allowed: {(samples, *shape)}, one entry a sample")
     for name, values in states._asdict().items():
-        if not numpy.isfinite(values).all():
-            place = int(numpy.argwhere(~numpy.isfinite(values))[0][0])
-            raise IdentificationError(f"{name} of sample {place} is not finite; take the sample out of the motion")
+        wild = ~(abs(values) <= LARGEST)
+        if wild.any():
+            raise IdentificationError(
+                f"{name} of sample {int(numpy.argwhere(wild)[0][0])} is not finite or beyond {LARGEST:g}; take the sample out of "
+                "the motion"
+            )
     steps = numpy.diff(states.time)
     if not (steps > 0.0).all():
         place = int(numpy.argmin(steps))

@@ -14,6 +14,9 @@ from .rotation import Array
 __all__ = ["NO_WRENCH", "ExternalWrench", "constant", "sampled"]
 
 
+LARGEST = 1e12  # component of a wrench, [N] or [N m]
+
+
 class _Course(NamedTuple):
     """One vector over time with its first and second integral."""
 
@@ -84,8 +87,10 @@ def sampled(time: Array, force: Array | None, torque: Array | None) -> ExternalW
 def _course(time: Array, values: Array | None, name: str) -> _Course | None:
     if values is None or not numpy.any(values):
         return None
-    if values.shape != (len(time), 3) or not numpy.isfinite(values).all():
-        raise IdentificationError(f"the external {name} needs three finite components, not {values.tolist()[0]}")
+    if values.shape != (len(time), 3) or not (abs(values) <= LARGEST).all():
+        raise IdentificationError(
+            f"the external {name} needs three components of at most {LARGEST:g} (N, N m), not {values.tolist()[0]}"
+        )
     value = make_interp_spline(time, values, k=1)
     return _Course(value, value.antiderivative(1), value.antiderivative(2))
 
