@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterable
 
 import numpy
-from scipy.stats import chi2
 
+from .agreement import SLIGHT, contradicts
 from .free_fall import missing_acceleration
 from .geometry import size
 from .heights import mean_gap
@@ -14,16 +14,14 @@ from .lasting import NO_FLIGHT
 from .noise import first_guess, from_residuals
 from .possible import impossible
 from .problem import Contact, Problem
-from .search import TOUCHES_NOTHING
+from .search import DISAGREES, TOUCHES_NOTHING
 from .stacked import Estimate
 from .sweep import FEW
 
 __all__ = ["doubts"]
 
-QUANTILE = 0.9999
 SIGMAS = 5.0  # how far from zero a mean of all flights or impacts
 SMOOTH = 5.0  # times the noise of neighbouring samples: what flights leave is no noise
-SLIGHT = 1e-6  # standard deviation over the size of a parameter, contradictions counted, below which they do not matter
 
 
 def doubts(found: Estimate, notes: Iterable[str], problem: Problem) -> list[str]:
@@ -37,9 +35,7 @@ def doubts(found: Estimate, notes: Iterable[str], problem: Problem) -> list[str]
     told, notes = [], list(notes)
     if not found.converged:
         told.append("the search has not converged: the numbers are not to be trusted")
-    spread = numpy.sqrt(numpy.diag(found.covariance)) / found.scale
-    limit = float(numpy.sqrt(chi2.ppf(QUANTILE, found.freedom) / found.freedom)) if found.freedom else numpy.inf
-    if found.misfit > limit and found.misfit * float(spread.max(initial=0.0)) > SLIGHT:
+    if contradicts(found):
         told.append(
             f"contacts and flights contradict each other by {found.misfit:.3g} times what the noise explains: check the shape, the "
             "ground, gravity, the wrench and the noise; the standard deviations are too small"
@@ -56,6 +52,11 @@ def doubts(found: Estimate, notes: Iterable[str], problem: Problem) -> list[str]
     nothing = sum(note.startswith(TOUCHES_NOTHING) for note in notes)
     if nothing:
         told.append(f"{nothing} contacts touch nothing known: check the shape, its axes, and the ground")
+    alone = sum(note.startswith(DISAGREES) for note in notes)
+    if alone:
+        told.append(
+            f"{alone} contacts contradict the others and are left out: two impacts taken as one? See their notes"
+        )
     strange = sum(note.startswith(NO_FLIGHT) for note in notes)
     if strange:
         told.append("the body does not move as a free one where it is off the ground: see the notes of the contacts")

@@ -20,6 +20,7 @@ __all__ = [
     "Ground",
     "Shape",
     "arm",
+    "arms",
     "box",
     "flattened",
     "gaps",
@@ -107,6 +108,12 @@ def arm(shape: Shape, ground: Ground, rotation: Array, point: int) -> Array:
     """From the centre of mass to the contact of `point`, [3] in [m], world axes."""
     reach: Array = rotation @ shape.points[point] - shape.radius * ground.normal
     return reach
+
+
+def arms(shape: Shape, ground: Ground, rotation: Array) -> Array:
+    """`arm` of all points, [k, 3] in [m]."""
+    reaches: Array = shape.points @ rotation.T - shape.radius * ground.normal
+    return reaches
 
 
 def size(shape: Shape) -> float:

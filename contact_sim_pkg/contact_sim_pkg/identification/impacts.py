@@ -7,7 +7,7 @@ from typing import NamedTuple
 import numpy
 
 from .flight import FlightState, Model, plain_motion
-from .geometry import Ground, Shape, arm, gaps, size
+from .geometry import Ground, Shape, arms, gaps, size
 from .rotation import Array
 
 __all__ = ["Touch", "locate"]
@@ -38,7 +38,7 @@ def locate(
     *,
     leaving: bool = False,
 ) -> Touch:
-    """Touch on a flight within `bounds`, by Newton's method on the gap of the lowest point.
+    """Touch on a flight within `bounds`, by Newton's method on the gap of the point that touches first.
 
     Args:
         flight: the incoming flight.
@@ -51,7 +51,6 @@ def locate(
         deviation: standard deviation of the gap, [m]: points within three of it touch together.
         leaving: the flight comes after the contact, and the root is where it leaves the ground.
     """  # fmt: skip
-    low, high = bounds
     time, point = start, 0
     lifts: Array = numpy.zeros(1)
     for _ in range(STEPS):
@@ -59,15 +58,29 @@ def locate(
             field[0] for field in plain_motion(flight, parameters, model, numpy.array([time]))
         )
         lifts = gaps(shape, ground, position, rotation)
-        point = int(lifts.argmin())
-        rate = float(ground.normal @ (velocity + numpy.cross(spin, arm(shape, ground, rotation, point))))
+        rates = ground.normal @ velocity + numpy.cross(spin, arms(shape, ground, rotation)) @ ground.normal
+        point = _next(lifts, rates, time, bounds, leaving=leaving)
+        rate = float(rates[point])
         if (rate <= 0.0) if leaving else (rate >= 0.0):
             return Touch(time, point, _together(lifts, shape, deviation), False, float(lifts[point]))
-        last, time = time, float(numpy.clip(time - lifts[point] / rate, low, high))
+        last, time = time, float(numpy.clip(time - lifts[point] / rate, *bounds))
         if abs(time - last) <= 1e-15 * max(1.0, abs(time)):
             break
     closed = abs(lifts[point]) <= max(6.0 * deviation, 1e-9 * size(shape))
     return Touch(time, point, _together(lifts, shape, deviation), bool(closed), float(lifts[point]))
+
+
+def _next(lifts: Array, rates: Array, time: float, bounds: tuple[float, float], *, leaving: bool) -> int:
+    """The point whose gap closes first within the bounds, or opens last; the lowest where none does.
+
+    The lowest may be one that has just touched and goes up, while another comes down.
+    """
+    turned = rates > 0.0 if leaving else rates < 0.0
+    roots = time - lifts / numpy.where(turned, rates, 1.0)
+    within = numpy.flatnonzero(turned & (roots >= bounds[0]) & (roots <= bounds[1]))
+    if not len(within):
+        return int(lifts.argmin())
+    return int(within[roots[within].argmax() if leaving else roots[within].argmin()])
 
 
 def _together(lifts: Array, shape: Shape, deviation: float) -> int:

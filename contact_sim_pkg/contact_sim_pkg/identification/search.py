@@ -4,11 +4,13 @@ from __future__ import annotations
 
 import numpy
 
+from .agreement import agreeing, contradicts
 from .errors import IdentificationError
 from .flight import plain_motion, state_at
 from .heights import gap_deviation
 from .impacts import Touch, locate
 from .lasting import NO_FLIGHT, in_words, with_steps
+from .linearised import Linearised
 from .noise import from_residuals, limited
 from .problem import Contact, Problem
 from .rotation import Array
@@ -18,7 +20,7 @@ from .stacked import Estimate, estimate
 from .states import Noise
 from .sweep import pressed, sweep
 
-__all__ = ["TOUCHES_NOTHING", "Search"]
+__all__ = ["DISAGREES", "TOUCHES_NOTHING", "Search"]
 
 ROUNDS = 5
 SETTLED = 0.01  # change of the noise that ends the rounds, relative
@@ -30,6 +32,9 @@ CLEAR = 5.0  # times its deviation: a miss against the impulse, of an impact tha
 TOUCHES = "touches"  # how a note begins on a contact that another round may use
 TOUCHES_NOTHING = f"{TOUCHES} nothing known"
 DOUBLE = "the flights before and after miss each other: more than one impact in between"
+UNSURE = "the flight before does not come down: too short to tell where it touches"
+FAR = 6.0  # times its deviation: a gap that is one
+DISAGREES = "contradicts the other contacts by more than noise explains: more than one impact in between?"
 FAINT = 1e3  # times its size: standard deviation of 1/m up to which it is fitted, though it is not told
 WORSE = 5.0  # times the noise of the others: what is no flight
 
@@ -44,6 +49,7 @@ class Search:
         self.problem = problem._replace(flights=whole, noise=self.noise or problem.noise)
         self.notes: dict[int, str] = {}  # of contacts that are not used, by their place in parts.contacts
         self.places: list[int] = []  # of the contacts that are used
+        self.contradicting: set[int] = set()  # places of contacts that contradict the others
         self.lasting: dict[int, str] = {}  # what contacts of many intervals do, by place
 
     def run(self) -> Estimate:
@@ -60,12 +66,12 @@ class Search:
         if self.problem.contacts:
             return estimate(self.problem, self.start, self.scale)
         found = estimate(self.problem, self.start, self.scale)
-        found = self._without_false_flights(found)
+        found = self.free = self._without_false_flights(found)
         for _ in range(ROUNDS):
             self._take_noise(found)
             before = self.problem.noise
             self._locate(found)
-            found = estimate(self.problem, found.parameters, self._scale(found), found.flights)
+            found = self._fitted(found)
             if all(abs(new / old - 1.0) < SETTLED for new, old in zip(self._seen(found), before, strict=True)):
                 break
         if found.directions.rank < self.problem.model.unknowns:
@@ -83,6 +89,33 @@ class Search:
     def flights(self) -> int:
         """Flights of more than a sample."""
         return sum(last > first for first, last in self.problem.flights)
+
+    def _fitted(self, found: Estimate) -> Estimate:
+        """Fit to the contacts; where they contradict each other, to those that agree."""
+        scale = self._scale(found)
+        try:
+            fit = estimate(self.problem, found.parameters, scale, found.flights)
+        except IdentificationError:
+            if not self._without_contradicting():
+                raise
+        else:
+            if not (contradicts(fit) and self._without_contradicting()):
+                return fit
+        return estimate(self.problem, self.free.parameters, scale, self.free.flights)
+
+    def _without_contradicting(self) -> bool:
+        """Leave out contacts that contradict the others, judged where the flights alone are; whether there are any."""
+        linear = Linearised(self.problem, self.free.parameters, self.free.flights, self.scale)
+        kept = agreeing(linear)
+        if len(kept) == len(self.places):
+            return False
+        out = [place for number, place in enumerate(self.places) if number not in kept]
+        for place in out:
+            self._refuse(place, DISAGREES)
+        self.contradicting.update(out)
+        self.places = [self.places[number] for number in kept]
+        self.problem = self.problem._replace(contacts=[self.problem.contacts[number] for number in kept])
+        return True
 
     def _seen(self, found: Estimate) -> Noise:
         return self.noise or from_residuals(self._long(found), self.problem.states)
@@ -132,6 +165,8 @@ class Search:
         """Find instant and point of each impact on the flight before it."""
         contacts, self.places = [], []
         for place, (first, last) in enumerate(self.parts.contacts):
+            if place in self.contradicting:
+                continue
             before, after = self._neighbours(first, last)
             if before is None or after is None:
                 if before is not None and place in self.lasting:
@@ -166,6 +201,9 @@ class Search:
         """One contact between two flights, or None and a note: at an instant where they meet, else as one that lasts."""
         touch = self._touch(found, place, before, interval)
         if not touch.found:
+            if abs(touch.gap) <= FAR * gap_deviation(self.problem, before):
+                self._refuse(place, UNSURE)
+                return None
             self._refuse(place, f"{TOUCHES_NOTHING}: the lowest point is {touch.gap:.3g} m above the ground there")
             return None
         if touch.together > 1:

@@ -1,0 +1,47 @@
+"""Contacts that agree with each other: the sum of squares that the best parameters leave, against its chi-square distribution.
+
+Where all contacts together leave more than noise explains, those are left out, one after the other, without which the least is
+left, until the others agree. More than half stay, with more equations than unknowns: where more would have to go, all
+are used, and the contradiction is told.
+One impact that was two within a sample is such a contact. Source: data snooping of geodesy, W. Baarda, A testing procedure for
+use in geodetic networks, 1968.
+"""
+
+from __future__ import annotations
+
+import numpy
+from scipy.stats import chi2
+
+from .linearised import Linearised
+from .stacked import Estimate
+
+__all__ = ["SLIGHT", "agreeing", "contradicts"]
+
+QUANTILE = 0.9999
+SLIGHT = 1e-6  # standard deviation over the size of a parameter, contradictions counted, below which they do not matter
+
+
+def contradicts(found: Estimate) -> bool:
+    """Whether contacts and flights contradict each other by more than noise explains, and by so much that it matters."""
+    if not found.freedom:
+        return False
+    spread = float((numpy.sqrt(numpy.diag(found.covariance)) / found.scale).max(initial=0.0))
+    limit = float(numpy.sqrt(chi2.ppf(QUANTILE, found.freedom) / found.freedom))
+    return found.misfit > limit and found.misfit * spread > SLIGHT
+
+
+def agreeing(linear: Linearised) -> list[int]:
+    """Numbers of the contacts that agree; all where no more than half of them do."""
+    everyone = list(range(len(linear.problem.contacts)))
+    kept = everyone
+    while not _agree(linear, kept):
+        without = [[each for each in kept if each != number] for number in kept]
+        kept = min(without, key=lambda contacts: linear.contradiction(contacts)[0])
+        if 2 * len(kept) <= len(everyone) or linear.equations(kept) <= linear.problem.model.unknowns:
+            return everyone
+    return kept
+
+
+def _agree(linear: Linearised, contacts: list[int]) -> bool:
+    square, freedom = linear.contradiction(contacts)
+    return freedom == 0 or square <= float(chi2.ppf(QUANTILE, freedom))
