@@ -24,9 +24,15 @@ def block_breaches(scene: Scene) -> Iterator[Breach]:
         yield from _above_ground(block)
     if block.motion == "plane":
         yield from _plane(block)
+    if block.ground.heights is not None and block.ground.slope != 0.0:
+        sentence = f"{show(block.ground.slope)} rad has no meaning beside heights; put the slope into them or remove one"
+        yield Breach("block.ground.slope", sentence, ("block.ground.heights",))
     effects = scene.effects.block
     if effects is None or effects.rigid_contact is None:
         return
+    if block.motion == "plane" and effects.rigid_contact.facets:
+        sentence = f"{effects.rigid_contact.facets} has no meaning in the plane, whose cone has two edges; take 0 or motion: space"
+        yield Breach("effects.block.rigid_contact.facets", sentence, ("block.motion",))
     yield from _scheme(scene, effects.rigid_contact)
     if effects.compliant_contact is not None:
         yield from _compliant(effects.rigid_contact)

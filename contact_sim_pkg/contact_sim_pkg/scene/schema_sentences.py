@@ -15,7 +15,8 @@ LONGEST_SHOWN = 60
 def bad_value(entry: Entry, node: Node) -> str:
     """Why the value of `node` cannot stand for the key `entry`; shows it as it was written."""
     if entry.kind == "list":
-        return f"{raw_text(node)} cannot stand here; allowed are {entry.allowed}"
+        what = f"a list of {len(node.items)}" if isinstance(node, ListNode) else raw_text(node)
+        return f"{what} cannot stand here; allowed are {entry.allowed}"
     if entry.kind in ("section", "kinds"):
         return f"{raw_text(node)} stands where a mapping of keys to values is needed"
     if not isinstance(node, ScalarNode):

@@ -110,10 +110,13 @@ def sections(rows: list[dict[str, Any]]) -> list[Section]:
         for row in rows
     ]
     changes = [
-        {"contact": row["contact"], "effect": row["effect"], "changes most": "; ".join(map(_change, row["changes"]))}
+        {
+            "contact": row["contact"], "effect": row["effect"], "output": change["topic"], "changes most": change["field"],
+            "by": _change(change),
+        }
         for row in rows
-        if row["changes"]
-    ]
+        for change in row["changes"]
+    ]  # fmt: skip
     return [
         Section(
             "cost, and change of the normal force by the effect", cost, "with, without, cost ±: ms per simulated second"
@@ -130,10 +133,9 @@ def sections(rows: list[dict[str, Any]]) -> list[Section]:
 
 
 def _change(change: dict[str, Any]) -> str:
-    text = f"{change['topic']} {change['field']}"
     if change["size"] is not None:
-        return f"{text} {change['size']:.2g} {change['unit']} in one run, 0 in the other"
-    return f"{text} {100.0 * change['change']:.3g} %" if change["change"] else text
+        return f"{change['size']:.2g} {change['unit']} in one run, 0 in the other"
+    return f"{100.0 * change['change']:.3g} %" if change["change"] else "-"
 
 
 def _percent(change: float | None) -> str:
