@@ -25,7 +25,9 @@ def block_breaches(scene: Scene) -> Iterator[Breach]:
     if block.motion == "plane":
         yield from _plane(block)
     if block.ground.heights is not None and block.ground.slope != 0.0:
-        sentence = f"{show(block.ground.slope)} rad has no meaning beside heights; put the slope into them or remove one"
+        sentence = (
+            f"{show(block.ground.slope)} rad has no meaning beside heights; put the slope into them or remove one"
+        )
         yield Breach("block.ground.slope", sentence, ("block.ground.heights",))
     effects = scene.effects.block
     if effects is None or effects.rigid_contact is None:

@@ -8,7 +8,7 @@ from scipy.spatial.transform import Rotation
 
 from contact_sim_pkg.core.rigid.body import RigidBody, height_field, least_gap, placed
 from contact_sim_pkg.core.rigid.located import LocatedBody
-from contact_sim_pkg.core.rigid.problem import SPACE
+from contact_sim_pkg.core.rigid.problem import PLANE, SPACE
 from contact_sim_pkg.core.rigid.results import SOLVED
 
 GRAVITY = 9.81
@@ -53,3 +53,47 @@ def test_a_point_that_lands_beside_a_held_one_comes_to_rest():
     for _ in range(1300):
         assert located.advance(1e-3) == SOLVED
         assert len(located.impacts) < 100
+
+
+@pytest.mark.parametrize("cell", [0.05, 0.1, 0.13, 0.2])
+@pytest.mark.parametrize("rise", [0.1, 0.3, 0.7])
+@pytest.mark.parametrize("friction", [0.0, 0.05])
+def test_faces_in_one_line_are_one(friction, rise, cell):
+    """A box slides down heights of one slope as down a plane: g (sin - mu cos) t."""
+    angle, side, duration = math.atan(rise), 0.1, 0.3
+    places = cell * numpy.arange(int(4.0 / cell)) - 2.0
+    corners = 0.5 * side * numpy.array([[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]])
+    load = numpy.array([0.0, -GRAVITY, 0.0])
+    box = RigidBody(PLANE, 1.0, numpy.array([side**2 / 6.0]), corners, 0.0, friction, 0.0, load)
+    up = numpy.array([math.sin(angle), math.cos(angle)])
+    motion = placed(box, 0.5 * side * up, numpy.zeros(3), -angle)
+    located = LocatedBody(box, height_field(PLANE, -rise * places, -2.0, cell), motion)
+    assert located.advance_over(1e-3, round(duration / 1e-3))[0] == SOLVED
+    speed = GRAVITY * (math.sin(angle) - friction * math.cos(angle)) * duration
+    assert math.hypot(*motion.velocity[:2]) == pytest.approx(speed, rel=1e-12)
+
+
+def kerb():
+    """A flat triangle that slides off a kerb on its long edge: the kerb's edge passes from one edge of the triangle to the next."""
+    points = numpy.array([[-0.139, 0.0195], [0.228, -0.0567], [-0.089, 0.0372]])
+    points -= points.mean(axis=0)
+    load = numpy.array([0.0, -3.6 * GRAVITY, 0.0])
+    triangle = RigidBody(PLANE, 3.6, numpy.array([0.03]), points, 0.0, 0.1, 0.0, load)
+    heights = 0.054 * ((numpy.arange(64) // 4) % 2)
+    motion = placed(triangle, [1.3, 0.2], [2.7, -0.4, 0.4], math.pi + 0.2)
+    return LocatedBody(triangle, height_field(PLANE, heights, -3.3, 0.109), motion)
+
+
+def test_a_body_that_goes_over_kerbs_loses_no_momentum_that_is_not_recorded():
+    """Momentum over each sample is that of the weight and of the recorded impulses at most; energy that of the ledger."""
+    located = kerb()
+    body, motion = located.body, located.motion
+    energy = located.kinetic_energy() - body.load[1] * motion.position[1]
+    for _ in range(1500):
+        before, lost = motion.velocity[:2].copy(), located.dissipated
+        assert located.advance(1e-3) == SOLVED
+        pushed = body.mass * (motion.velocity[:2] - before) - body.load[:2] * 1e-3
+        assert numpy.linalg.norm(pushed) <= numpy.abs(located.impulse).sum() * (1.0 + 1e-6) + 1e-9
+        assert located.dissipated >= lost - 1e-9
+    now = located.kinetic_energy() - body.load[1] * motion.position[1] + located.dissipated
+    assert now == pytest.approx(energy, abs=1e-7 * abs(energy))

@@ -13,9 +13,10 @@ import math
 from typing import NamedTuple
 
 from ..jit import piece
-from .held import DRIFT, SLOW
+from .held import DRIFT
 from .motion import APART, HELD, STUCK
 from .problem import PLANE, SPACE
+from .slip import SLOW, SWERVE
 
 NARROW = 1.0e-9  # of the size of the face, to the power 3: points this near to a line are no face
 SLIPS = 10.0  # times what counts as rounding: a slower body is left to the solvers
@@ -149,6 +150,8 @@ def slide_straight(body, motion, work, face, points, time, still):
     d_t, d_s = w_t / speed, w_s / speed
     along = v_t * d_t + v_s * d_s
     if not (press > 0.0 and left > SLIPS * still and left * along > SLOW * before and before > still * still):
+        return -1.0
+    if abs(v_t * d_s - v_s * d_t) > SWERVE * math.sqrt(before):
         return -1.0
     if not _press(body, face, points, body.mass * press, d_t, d_s, work.impulse):
         return -1.0

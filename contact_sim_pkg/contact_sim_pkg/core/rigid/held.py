@@ -1,4 +1,4 @@
-"""Points on the ground: when a rebound ends in rest, what holds them over a piece of time, where slip stops or a point lands.
+"""Points on the ground: when a rebound ends in rest, what holds them over a piece of time, where a point lands.
 
 Each function is one step of `march.py` and `located.py`, which solve the contact problems between them. A rebound below the rest
 speed ends after ``2 u/(a (1 - e))``, the rest of the geometric series. Source: SEEDS 7.2 (`located`), 7.3.
@@ -32,7 +32,6 @@ STILL = 1.0e-13  # of the speed scale: below it a velocity is rounding
 LANDED = 1.0e-11  # of the size: a point this far below the ground has landed
 DRIFT = 1.0e-10  # of the size: a gap of a held point that is taken back, which turning bodies call for
 HOLD_SWEEPS = 20
-SLOW = 1.0e-9  # of the slip before, squared: slip that ends there has stopped
 
 
 @entry
@@ -213,44 +212,6 @@ def prepare_attempt(
         q[row + 1] += bend * time * gain[1]
         if body.width != PLANE:
             q[row + 2] += bend * time * gain[2]
-
-
-@kernel
-def slip_of(body, work, velocity, i):
-    """Slip of point ``i`` at a velocity of the body: its two tangential parts."""
-    row, first, second = i * body.width, 0.0, 0.0
-    for k in range(velocity.shape[0]):
-        first += work.J[row + 1, k] * velocity[k]
-        if body.width == 3:
-            second += work.J[row + 2, k] * velocity[k]
-    return first, second
-
-
-@entry
-def stop_of_slip(
-    body: RigidBody, ground: Ground, motion: Motion, work: MotionWorkspace, time: float, still: float
-) -> tuple[float, float]:
-    """Velocity at the end of the piece in ``work.free``; part of it after which slip first stops, and how many pieces it lasts."""
-    apply_impulse(work.J, work.W, work.impulse, work.free)
-    for k in range(work.free.shape[0]):
-        if abs(work.free[k]) <= still:
-            work.free[k] = 0.0
-    part, stretch = 1.0, math.inf
-    for i in range(work.flags.shape[0]):
-        if work.flags[i] != HELD:
-            continue
-        a, b = slip_of(body, work, motion.velocity, i)
-        c, d = slip_of(body, work, work.free, i)
-        gain = path_acceleration(body, ground, motion, work.J, i)
-        c, d = c + time * gain[1], d + time * gain[2]
-        before, along = a * a + b * b, a * c + b * d
-        if before <= still * still:
-            continue
-        if along <= SLOW * before:
-            part = min(part, before / (before - along) if along < 0.0 else 0.999999)
-        if before > along:
-            stretch = min(stretch, before / (before - along))
-    return part, stretch
 
 
 @entry

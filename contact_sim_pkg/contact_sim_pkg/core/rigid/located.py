@@ -27,10 +27,12 @@ from .results import (
     SEPARATE,
     SLIDE,
     SOLVED,
+    SPIN_TOO_FAST,
     STICK,
     TOO_MANY_EVENTS,
     TOO_MANY_IMPACTS,
 )
+from .slip import turns
 from .supported import MOST_STOPS, SupportedPieces
 from .track import (
     BRIEF,
@@ -48,9 +50,11 @@ from .track import (
     STILL,
     STOPS,
     TIME,
+    Track,
+    read_track,
     track_columns,
 )
-from .turning import INSTANT, make_turn_workspace, turn_held, turns
+from .turning import INSTANT, make_turn_workspace, turn_held
 
 __all__ = ["Impact", "LocatedBody", "Track"]
 
@@ -58,6 +62,7 @@ MOST_IMPACTS = 100_000  # in one interval
 REST = 1.0e-6  # rest speed over sqrt(g L)
 TOLERANCE = 1.0e-10
 LANDS = 3.0  # times the speed of a fall by `held.LANDED`: slower landings beside held points do not bounce
+LARGEST_TURN = 1.0e5  # [rad] in one interval: more are pieces without end
 LONGER = 4.0  # times, from one try for modes that fit to the next
 STICKS = 1.0e-9  # of the speed before the impact: slip below it counts as none
 
@@ -70,17 +75,6 @@ class Impact(NamedTuple):
     impulse: Vector  # [rows] in [N s]: normal, then tangents, of each point
     modes: tuple[int, ...]  # of `points`: results.STICK, SLIDE, REVERSE
     lost: float  # kinetic energy in [J]
-
-
-class Track(NamedTuple):
-    """State at the end of each sample, and the impulses over it."""
-
-    position: Vector  # [samples, width] in [m]
-    angle: Vector  # [samples] in [rad], in the plane
-    rotation: Vector  # [samples, width, width]
-    velocity: Vector  # [samples, coordinates]
-    impulse: Vector  # [samples, rows] in [N s]
-    sticks: Vector  # [samples, points], 1 where a point sticks at the end
 
 
 class LocatedBody:
@@ -177,20 +171,18 @@ class LocatedBody:
                 break
             if count[SHORT] > MOST_SHORT:
                 status = TOO_MANY_EVENTS
+            elif request == PAUSE and self._spin() * interval > LARGEST_TURN:
+                status = SPIN_TOO_FAST
             elif request != PAUSE:
                 status = self._collide(track) if request == COLLIDE else self._pass(track)
         self.rested = float(clock[RESTED])
-        read = self._track(track)
+        read = read_track(track, self._columns, self.body.width)
         self.impulse = read.impulse.sum(axis=0)
         return status, read
 
-    def _track(self, track: Vector) -> Track:
-        angle, rotation, velocity, impulse, sticks, _length = self._columns
-        turned = track[:, rotation:velocity].reshape(len(track), self.body.width, self.body.width)
-        return Track(
-            track[:, :angle], track[:, angle], turned, track[:, velocity:impulse], track[:, impulse:sticks],
-            track[:, sticks:],
-        )  # fmt: skip
+    def _spin(self) -> float:
+        """In [rad/s]."""
+        return float(numpy.linalg.norm(self.motion.velocity[self.body.width :]))
 
     def _add_impulse(self, track: Vector) -> None:
         track[self._march.counts[SAMPLE], self._columns[3] : self._columns[4]] += self.work.impulse
@@ -203,6 +195,9 @@ class LocatedBody:
         if not turning:
             over = pieces.attempt(piece, still)
             turning = over[0] == SOLVED and turns(*parts, self.work.free, self.size)
+            if over[0] == SOLVED and not turning and self.body.width != PLANE:
+                turning = pieces.slip_turns(piece, still, over)
+                over = over if over[1] == 1.0 else None
         if turning:
             if self._turn(still, track):
                 return SOLVED
@@ -250,7 +245,7 @@ class LocatedBody:
         self._pieces.attempt(1e-3, 1e-9)
         held.gap_after(body, ground, motion, work, 1e-3, 0)
         held.landing_part(body, ground, motion, work, 1e-3, self.size)
-        take_piece(body, ground, motion, work, self.size, 1e-9)
+        take_piece(body, ground, motion, work, 1e-3, self.size, 1e-9)
         turns(body, ground, motion, work, motion.velocity, self.size)
         self._turn_on(1e-9, numpy.zeros((1, self._columns[-1])))
         stay_on_the_ground(body, ground, motion, work, self.size, 1e-9)

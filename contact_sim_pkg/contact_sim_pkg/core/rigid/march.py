@@ -24,7 +24,6 @@ from .held import (
     landing_part,
     path_acceleration,
     settle_points,
-    stop_of_slip,
     survey_points,
     time_to_peak,
 )
@@ -35,6 +34,7 @@ from .planar_impact import contact_modes
 from .planar_pair import PairWorkspace, make_pair_workspace, pair_impulses
 from .problem import DISC, INACTIVE, PLANE
 from .single import single_impulses
+from .slip import slip_turns, stop_of_slip, turns
 from .track import (
     BRIEF,
     CLOCKS,
@@ -58,7 +58,6 @@ from .track import (
     record_sample,
     repeat_to_the_end,
 )
-from .turning import turns
 
 DONE, COLLIDE, SUPPORT, PAUSE = 0, 1, 2, 3  # what a call ends with
 LARGEST_TURN = 0.02  # [rad] of a piece of free flight in space, where the spin is of order 6
@@ -194,16 +193,12 @@ def _support(body, ground, motion, work, march, time, size, still):
     if not residual <= GOOD:
         return False
     part, _stretch = stop_of_slip(body, ground, motion, work, time, still)
-    if turns(body, ground, motion, work, work.free, size):
+    if turns(body, ground, motion, work, work.free, size) or slip_turns(body, motion, work, still):
         return False
     if part < 1.0 or landing_part(body, ground, motion, work, time, size)[1] >= 0:
         return False
     clock = march.clock
     clock[RESIDUAL] = max(clock[RESIDUAL], residual)
-    for row in range(work.impulse.shape[0]):
-        if row % body.width != 0 and work.impulse[row] != 0.0:  # what holds a body up does no work
-            for k in range(work.free.shape[0]):
-                clock[LOST] -= 0.5 * work.impulse[row] * work.J[row, k] * (motion.velocity[k] + work.free[k])
     return True
 
 
@@ -256,7 +251,7 @@ def advance_samples(
                 if not _support(body, ground, motion, work, march, passed, size, still):
                     return SUPPORT
                 add_impulse(work, track[count[SAMPLE]], impulse_column)
-                take_piece(body, ground, motion, work, size, still)
+                clock[LOST] += take_piece(body, ground, motion, work, passed, size, still)
                 points = straight_face(body, ground, motion, work, march.face)
             else:
                 longest = min(left, _longest_flight(body, ground, motion, size, left))

@@ -12,7 +12,7 @@ import math
 from ..jit import entry, kernel
 from .body import Ground, Motion, RigidBody, contact_rows, lies_on
 from .flight import TOUCH
-from .held import DRIFT, hold_back, slip_of
+from .held import DRIFT, hold_back, path_acceleration
 from .motion import (
     APART,
     HELD,
@@ -27,6 +27,7 @@ from .motion import (
 )
 from .problem import PLANE
 from .rotation import rotate_by, spin_in_body
+from .slip import slip_of
 
 USED_UP = 1.0e-9  # of the friction: less left than that counts as slip
 LIFTS = 10  # times that the held points are put back on the ground after a piece
@@ -108,13 +109,18 @@ def _mechanical_energy(body, motion):
 
 
 @kernel
-def _friction_work(body, motion, work):
-    """Of the tangential impulses on the mean slip of the piece, in [J]."""
+def _friction_work(body, ground, motion, work, time):
+    """Of the tangential impulses on the mean slip of a piece of ``time`` [s], in [J]; arms and normals turn meanwhile."""
     total = 0.0
-    for row in range(work.impulse.shape[0]):
-        if row % body.width != 0 and work.impulse[row] != 0.0:
-            for k in range(work.free.shape[0]):
-                total += 0.5 * work.impulse[row] * work.J[row, k] * (motion.velocity[k] + work.free[k])
+    for i in range(work.flags.shape[0]):
+        row = i * body.width
+        first, second = work.impulse[row + 1], work.impulse[row + 2] if body.width != PLANE else 0.0
+        if first == 0.0 and second == 0.0:
+            continue
+        _normal, bend, across_bend = path_acceleration(body, ground, motion, work.J, i)
+        a, b = slip_of(body, work, motion.velocity, i)
+        c, d = slip_of(body, work, work.free, i)
+        total += 0.5 * first * (a + c + time * bend) + 0.5 * second * (b + d + time * across_bend)
     return total
 
 
@@ -173,15 +179,19 @@ def stay_on_the_ground(
 
 @entry
 def take_piece(
-    body: RigidBody, ground: Ground, motion: Motion, work: MotionWorkspace, size: float, still: float
-) -> None:
-    """Take the piece as the state; points whose slip has ended stick until friction gives way, points that left are let go."""
+    body: RigidBody, ground: Ground, motion: Motion, work: MotionWorkspace, time: float, size: float, still: float
+) -> float:
+    """Take the piece of ``time`` [s] as the state; returns the energy lost in [J].
+
+    Points whose slip has ended stick until friction gives way, points that left are let go.
+    """
     list_features(body, ground, motion, work)
     for i in range(work.flags.shape[0]):
         if work.flags[i] >= HELD:
             work.flags[i] = STUCK if _sticks(body, work, i, still) else HELD
     _fill_push(body, work, -0.5)
-    energy = _mechanical_energy(body, motion) + _friction_work(body, motion, work)
+    done = _friction_work(body, ground, motion, work, time)
+    energy = _mechanical_energy(body, motion) + done
     carry_spin(body, motion, work.free, work)
     commit(body, motion, work.free, work)
     look(body, ground, motion, work)
@@ -189,3 +199,4 @@ def take_piece(
     stay_on_the_ground(body, ground, motion, work, size, still)
     _keep_energy(body, motion, energy)
     contact_velocities(work.J, motion.velocity, work.u)
+    return -done

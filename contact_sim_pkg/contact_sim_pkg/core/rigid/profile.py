@@ -21,14 +21,15 @@ from .problem import PLANE
 Numbers = numpy.typing.NDArray[numpy.int64]
 STRAIGHT = 1.0e-9  # change of slope below which two faces are one
 PAST = 1.0e-9  # of a face or an edge: how far past its end a piece of time goes
-HEIGHT, PIECE, PEAK = 0, 1, 2  # columns of the nodes
+HEIGHT, PIECE, PEAK, RUN, END = 0, 1, 2, 3, 4  # columns of the nodes
 
 
 class Profile(NamedTuple):
     """Heights, and what of them a body can touch at once."""
 
     nodes: (
-        Vector  # [nodes, 3]: height in [m], convex piece of the face that starts there, number of its peak (-1: none)
+        Vector  # [nodes, 5]: height in [m]; of the face that starts there its convex piece; number of its peak (-1: none); of the
+        # straight run of faces that it belongs to the first node and the last
     )
     origin: float  # [m], x of node 0
     cell: float  # [m]
@@ -40,14 +41,16 @@ class Profile(NamedTuple):
 
 def flat() -> Profile:
     """No heights: the ground is a plane."""
-    return Profile(numpy.zeros((0, 3)), 0.0, 1.0, numpy.zeros(0, numpy.int64), 0.0, 1, 0)
+    return Profile(numpy.zeros((0, 5)), 0.0, 1.0, numpy.zeros(0, numpy.int64), 0.0, 1, 0)
 
 
 def make_profile(heights: Vector, origin: float, cell: float) -> Profile:
     """Ground through ``heights`` [m] (two or more) at ``origin``, ``origin + cell``, ... along x in [m]."""
     z = numpy.array(heights, float)
     bend = numpy.diff(numpy.diff(z) / cell)
-    nodes = numpy.column_stack([z, numpy.zeros(len(z)), numpy.full(len(z), -1.0)])
+    ends = numpy.array([0, *(numpy.flatnonzero(abs(bend) > STRAIGHT) + 1), len(z) - 1])
+    run = numpy.minimum(numpy.searchsorted(ends, numpy.arange(len(z)), side="right") - 1, len(ends) - 2)
+    nodes = numpy.column_stack([z, numpy.zeros(len(z)), numpy.full(len(z), -1.0), ends[run], ends[run + 1]])
     nodes[1:-1, PIECE] = numpy.cumsum(bend > STRAIGHT)
     nodes[-1, PIECE] = nodes[-2, PIECE]
     tops = numpy.flatnonzero(bend < -STRAIGHT) + 1
@@ -154,7 +157,7 @@ def _face(profile, j):
 
 @kernel
 def _gap_of_corner(profile, slot, x, z, first, last):
-    """Gap of a point without radius to a piece: the greatest of the distances from its faces first to last; normal, face."""
+    """Gap of a point without radius to a piece: the greatest distance from its faces first to last; its normal and run of faces."""
     gap, n_x, n_z, feature = -math.inf, 0.0, 1.0, -1
     for j in range(max(first, 0), min(last + 1, profile.nodes.shape[0] - 1)):
         if int(profile.nodes[j, PIECE]) % profile.reach != slot:
@@ -162,7 +165,7 @@ def _gap_of_corner(profile, slot, x, z, first, last):
         x_0, z_0, t_x, t_z = _face(profile, j)
         distance = t_x * (z - z_0) - t_z * (x - x_0)
         if distance > gap:
-            gap, n_x, n_z, feature = distance, -t_z, t_x, j
+            gap, n_x, n_z, feature = distance, -t_z, t_x, int(profile.nodes[j, RUN])
     if feature < 0:
         return profile.cell, 0.0, 1.0, feature
     return gap, n_x, n_z, feature
@@ -217,7 +220,7 @@ def _gap_of_sphere(profile, slot, x, z, radius):
 
 @kernel
 def point_on_profile(profile, slot, x, z, radius):
-    """Gap in [m] of a sphere about (x, z) to the piece of a slot; normal (x, z), curvature in [1/m], and the face of a corner."""
+    """Gap in [m] of a sphere about (x, z) to the piece of a slot; normal (x, z), curvature in [1/m], and the run of a corner."""
     if radius > 0.0:
         gap, n_x, n_z, curvature = _gap_of_sphere(profile, slot, x, z, radius)
         return gap, n_x, n_z, curvature, -1
@@ -278,8 +281,13 @@ def time_to_kink(profile, points, rotation, feature, is_ridge, x, r_x, r_z, alon
         rate = -slip  # the normal is the direction of the edge turned to the left, so both point alike
         left = length - place if rate > 0.0 else place
     else:
-        place, rate, length = (x - profile.origin) - feature * profile.cell, slip * along, profile.cell
-        if profile.nodes[feature + 1 if rate > 0.0 else feature, PEAK] < 0.0:
+        last = int(profile.nodes[feature, END])
+        place, rate, length = (
+            (x - profile.origin) - feature * profile.cell,
+            slip * along,
+            (last - feature) * profile.cell,
+        )
+        if profile.nodes[last if rate > 0.0 else feature, PEAK] < 0.0:
             return math.inf
         left = length - place if rate > 0.0 else place
     return max(PAST * length, (1.0 + PAST) * left) / abs(rate)

@@ -19,6 +19,7 @@ from .motion import MotionWorkspace
 from .packed import PackedSolver
 from .piece_end import take_piece
 from .results import SOLVED
+from .slip import slip_turns, stop_of_slip
 from .track import EVENTS, LOST, RESIDUAL, SOLVES, STOPS
 
 __all__ = ["MOST_STOPS", "Attempt", "SupportedPieces"]
@@ -65,8 +66,18 @@ class SupportedPieces:
             return int(found.status), 1.0, math.inf
         clock = self.clock
         clock[RESIDUAL] = max(clock[RESIDUAL], float(found.residual))
-        part, stretch = held.stop_of_slip(self.body, self.ground, self.motion, work, time, still)
+        part, stretch = stop_of_slip(self.body, self.ground, self.motion, work, time, still)
         return SOLVED, part, stretch
+
+    def slip_turns(self, time: float, still: float, found: Attempt) -> bool:
+        """Whether a slip turns over ``time`` [s], or before it stops where it stops by then: the last attempt is ``found``."""
+        part = found[1]
+        for _ in range(STOP_HALVINGS):
+            if part == 1.0:
+                break
+            time *= 0.5
+            _status, part, _stretch = self.attempt(time, still)
+        return bool(slip_turns(self.body, self.motion, self.work, still))
 
     def hold(self, piece: float, still: float, found: Attempt | None = None) -> tuple[int, float]:
         """Held contacts over at most ``piece`` [s], ended where a slip stops or a point lands; returns (status, time).
@@ -84,10 +95,7 @@ class SupportedPieces:
             status, time = self._to_the_landing(time, still)
         if status != SOLVED:
             return status, time
-        means, friction = 0.5 * (self.motion.velocity + self.work.free), self.work.impulse.copy()
-        friction[:: self.body.width] = 0.0  # what holds a body up does no work
-        self.clock[LOST] -= float(friction @ (self.work.J @ means))
-        take_piece(self.body, self.ground, self.motion, self.work, self.size, still)
+        self.clock[LOST] += take_piece(self.body, self.ground, self.motion, self.work, time, self.size, still)
         return status, time
 
     def _to_the_landing(self, time: float, still: float) -> tuple[int, float]:

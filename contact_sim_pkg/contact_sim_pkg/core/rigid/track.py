@@ -2,13 +2,27 @@
 
 from __future__ import annotations
 
+from typing import NamedTuple
+
 from ..jit import piece
+from ..parameters import Vector
 from .body import RigidBody
 from .motion import STUCK
 
 TIME, INTERVAL, RESTED, LOST, RESIDUAL, PIECE, STILL, CLOCKS = 0, 1, 2, 3, 4, 5, 6, 7  # entries of the clock
 SAMPLE, SAMPLES, EVENTS, SOLVES, COLLIDED, STOPS, SHORT, RESTS, COUNTS = 0, 1, 2, 3, 4, 5, 6, 7, 8  # and of the counts
 BRIEF = 1.0e-3  # of the time left or of the longest piece: a piece below it was cut short by an event
+
+
+class Track(NamedTuple):
+    """State at the end of each sample, and the impulses over it."""
+
+    position: Vector  # [samples, width] in [m]
+    angle: Vector  # [samples] in [rad], in the plane
+    rotation: Vector  # [samples, width, width]
+    velocity: Vector  # [samples, coordinates]
+    impulse: Vector  # [samples, rows] in [N s]
+    sticks: Vector  # [samples, points], 1 where a point sticks at the end
 
 
 def track_columns(body: RigidBody, contacts: int) -> tuple[int, int, int, int, int, int]:
@@ -19,6 +33,16 @@ def track_columns(body: RigidBody, contacts: int) -> tuple[int, int, int, int, i
     impulse = velocity + coordinates
     sticks = impulse + contacts * width
     return width, rotation, velocity, impulse, sticks, sticks + contacts
+
+
+def read_track(track: Vector, columns: tuple[int, int, int, int, int, int], width: int) -> Track:
+    """The rows of a track by `track_columns`."""
+    angle, rotation, velocity, impulse, sticks, _length = columns
+    turned = track[:, rotation:velocity].reshape(len(track), width, width)
+    return Track(
+        track[:, :angle], track[:, angle], turned, track[:, velocity:impulse], track[:, impulse:sticks],
+        track[:, sticks:],
+    )  # fmt: skip
 
 
 @piece

@@ -34,10 +34,11 @@ from ..rigs.held_forces import (
 from ..rigs.interface import rate
 from ..solvers.dormand_prince import Workspace, integrate, make_workspace
 from .body import Ground, Motion, RigidBody, contact_count
-from .held import LANDED, path_acceleration, slip_of
-from .motion import HELD, STUCK, TOUCHING, MotionWorkspace, turns_alike
+from .held import LANDED, path_acceleration
+from .motion import HELD, STUCK, TOUCHING, MotionWorkspace, contact_velocities
 from .problem import PLANE
 from .rotation import spin_in_body, straighten
+from .slip import slip_of
 from .track import (
     BRIEF,
     EVENTS,
@@ -92,24 +93,6 @@ def make_turn_workspace(
     return TurnWorkspace(rig, numpy.zeros(contacts + 1, numpy.int64), numpy.zeros(states), tolerance * scale, workspace)
 
 
-@entry
-def turns(
-    body: RigidBody, ground: Ground, motion: Motion, work: MotionWorkspace, velocity: Vector, size: float
-) -> bool:
-    """Whether rows of held contacts turn or bend at ``velocity``: a body with an extent spins, or a contact's path is curved.
-
-    A ball of unequal moments of inertia turns too.
-    """
-    if size > body.radius or not turns_alike(body):
-        for k in range(body.width, velocity.shape[0]):
-            if velocity[k] != 0.0:
-                return True
-    for i in range(work.flags.shape[0]):
-        if work.flags[i] >= HELD and path_acceleration(body, ground, motion, work.J, i)[0] != 0.0:
-            return True
-    return False
-
-
 @kernel
 def _set_modes(body, motion, work, turn, gives_way):
     """Modes from the impulses of an instant; ``work.free`` is the velocity at its end. Slip counts the turn of arms over it.
@@ -153,7 +136,7 @@ def _set_flags(work, turn):
 @piece
 def _set_start(body, motion, work, turn):
     """The motion as the state of the rig."""
-    rig, state, v = turn.rig, turn.state, motion.velocity
+    rig, state = turn.rig, turn.state
     for i in range(state.shape[0]):
         state[i] = 0.0
     for i in range(work.gap.shape[0]):
@@ -164,11 +147,20 @@ def _set_start(body, motion, work, turn):
             rig.start[k, m] = motion.rotation[k, m]
     if body.width == PLANE:
         state[2] = motion.angle[0]
+    else:
+        state[3] = 1.0
+    _put_velocity(motion, state)
+
+
+@piece
+def _put_velocity(motion, state):
+    """The velocities of a motion into the state."""
+    v = motion.velocity
+    if motion.position.shape[0] == PLANE:
         for k in range(3):
             state[3 + k] = v[k]
         return
     w = spin_in_body(motion.rotation, v)
-    state[3] = 1.0
     for k in range(3):
         state[7 + k], state[10 + k] = v[k], w[k]
 
@@ -191,6 +183,22 @@ def _starts_well(body, drive, turn):
 
 
 @piece
+def _stop_at_the_start(turn):
+    """Take what the modes forbid from the velocities of the state, which was looked at; its impulses and their work stand there."""
+    rig, state, u = turn.rig, turn.state, turn.rig.rows[VELOCITY]
+    first = first_of_time(rig) + 2
+    impulse, done = state[first : first + u.shape[0]], 0.0
+    stop_rows(rig, turn.mode, impulse)
+    for row in range(u.shape[0]):
+        done += 0.5 * impulse[row] * u[row]
+    contact_velocities(rig.J, rig.motion.velocity, u)
+    for row in range(u.shape[0]):
+        done += 0.5 * impulse[row] * u[row]
+    state[first - 1] = done
+    _put_velocity(rig.motion, state)
+
+
+@piece
 def _take_end(body, motion, work, turn, drive, still):
     """The end of the path as the motion; its impulses into ``work.impulse``. Velocities that the modes forbid are taken out."""
     rig, state = turn.rig, turn.state
@@ -201,7 +209,7 @@ def _take_end(body, motion, work, turn, drive, still):
         work.impulse[row] = state[place + row]
     if body.width != PLANE:
         straighten(rig.motion.rotation)
-    stop_rows(rig, turn.mode)
+    stop_rows(rig, turn.mode, work.impulse)
     for k in range(body.width):
         motion.position[k] = rig.motion.position[k]
         for m in range(body.width):
@@ -222,6 +230,7 @@ def _move(body, motion, work, turn, left, still):
     _set_start(body, motion, work, turn)
     if not _starts_well(body, drive, turn):
         return 0.0, False
+    _stop_at_the_start(turn)
     for margin in range(integrator.side.shape[0]):
         integrator.side[margin] = 1.0
     integrator.last_event[0] = -math.inf

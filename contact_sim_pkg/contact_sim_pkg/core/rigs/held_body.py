@@ -40,7 +40,7 @@ from .interface import register
 GOING, ENDED = 0, 1  # the last of the modes: whether every mode still lasts
 MARGINS_A_CONTACT = 2
 SLACK = 1.0e-10  # of the speed: so far back slip may go, as its start and its end are known to rounding alone
-LARGEST_MARGIN = 1.0e3  # of a gap, so that its integral stays small
+LARGEST_MARGIN = 1.0e3  # of a gap, so that its integral stays small and regula falsi finds where it closes
 
 
 def held_states(body: RigidBody, contacts: int) -> int:
@@ -86,11 +86,14 @@ def _fill_margins(rig, mode, out):
     for i in range(contacts):
         row, end, extent = i * width, place + i, place + contacts + i
         gap = rig.contacts[GAP, i] - rig.contacts[DEEP, i]
-        out[end], out[extent] = min(gap / rig.unit[NEAR], LARGEST_MARGIN) + 1.0, 1.0
+        out[end] = max(min(gap / rig.unit[NEAR], LARGEST_MARGIN), -LARGEST_MARGIN) + 1.0
+        out[extent] = 1.0
         if mode[i] == FREE:
             continue
-        there = lies_on(rig.body, rig.ground, rig.motion, i) == rig.contacts[PLACE, i]
-        out[end] = force[row] / rig.unit[NEWTONS] if there else -1.0
+        out[end] = -1.0
+        if lies_on(rig.body, rig.ground, rig.motion, i) != rig.contacts[PLACE, i]:
+            continue  # beyond the end of a face the axes of the contact are others: neither its force nor its slip counts
+        out[end] = force[row] / rig.unit[NEWTONS]
         if mode[i] == STICKS:
             out[extent] = rig.contacts[SPARE, i] / rig.unit[NEWTONS]
         else:

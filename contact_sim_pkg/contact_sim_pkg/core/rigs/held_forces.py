@@ -267,8 +267,11 @@ def fill_forces(rig, mode):
 
 
 @borrowing_kernel
-def stop_rows(rig, mode):
-    """Take the rest of the velocity from the held rows of ``rig.motion``, which was looked at, by impulses along their forces."""
+def stop_rows(rig, mode, impulse):
+    """Take the rest of the velocity from the held rows of ``rig.motion``, which was looked at, by impulses along their forces.
+
+    They are added to ``impulse`` [rows] in [N s].
+    """
     count, velocity = _list_rows(rig, mode), rig.motion.velocity
     for place in range(count):
         rig.rows[RIGHT, place] = -rig.rows[VELOCITY, rig.order[0, place]]
@@ -277,3 +280,7 @@ def stop_rows(rig, mode):
     for place in range(count):
         for k in range(velocity.shape[0]):
             velocity[k] += rig.columns[k, place] * rig.rows[ANSWER, place]
+        row = rig.order[0, place]
+        base = row // rig.body.width * rig.body.width
+        for part in range(rig.body.width):
+            impulse[base + part] += _pattern(rig, mode, row, part) * rig.rows[ANSWER, place]

@@ -25,7 +25,8 @@ MAXIMUM_EVENTS = 10_000
 STATE_LIMIT = 1.0e10
 UNDERESTIMATE = 20.0  # true error over estimate of a step that starts at a touch, for any power of the force above 1
 INSIDE_POINTS = 4  # event functions are looked at at 1/5 ... 4/5 of each step
-LOCATE_ITERATIONS = 60
+LOCATE_ITERATIONS = 100
+ONE_SIDED = 4  # times in a row that regula falsi may stay on one side
 
 STEPS, REJECTED, EVENTS, COUNTERS = 0, 1, 2, 3
 
@@ -153,8 +154,9 @@ def _worst_margin(work):
 def _locate(rig, drive, mode, time, inner, outer, state, work):
     """Shortest whole step after which an event function has changed sign, between ``inner`` (none has) and ``outer``.
 
-    Bisection on "has any changed", sped up by regula falsi on the one that is farthest beyond. Leaves the step's result in
-    ``work.trial``; returns the step, and the number of the event.
+    Bisection on "has any changed", sped up by regula falsi on the one that is farthest beyond; by halves again where that stays on
+    one side. Leaves the step's result in ``work.trial``; returns the step, and the number of the event, -1 where none has changed
+    after ``outer``: the look inside the step is an interpolation.
     """
     k = work.stages
     low, high = inner, outer
@@ -169,30 +171,31 @@ def _locate(rig, drive, mode, time, inner, outer, state, work):
         margins(rig, drive, mode, time + step, work.trial, k[6], work.margin)
         number, value = _worst_margin(work)
         if found:
-            return step, number if event < 0 else event
+            return step, number if event < 0 and value <= 0.0 else event
         if value <= 0.0:  # zero counts as changed: an event function may jump, and be zero by chance beyond its jump
             if number != event:
                 low_value = numpy.nan
             high, high_value, event = step, value, number
-            if repeated == -1:
+            if repeated < 0:
                 low_value *= 0.5
-            repeated = -1
+            repeated = min(repeated, 0) - 1
         else:
             low = step
             low_value = numpy.nan if event < 0 else work.margin[event] * work.side[event]
-            if repeated == 1:
+            if repeated > 0:
                 high_value *= 0.5
-            repeated = 1
+            repeated = max(repeated, 0) + 1
         resolution = max(4.0e-16 * (abs(time) + high), 1.0e-14 * outer)
         found = high - low <= resolution or iteration == LOCATE_ITERATIONS - 1
         if found:
             step = high
-        elif low_value == low_value and high_value == high_value and low_value > 0.0:
+        elif low_value == low_value and high_value == high_value and low_value > 0.0 and abs(repeated) < ONE_SIDED:
             step = low + (high - low) * low_value / (low_value - high_value)
             # never nearer to an end than is told apart: the other end follows in one step, not by halves
             step = min(max(step, low + 0.5 * resolution), high - 0.5 * resolution)
         else:
             step = 0.5 * (low + high)
+            repeated = 0
     return high, event
 
 
