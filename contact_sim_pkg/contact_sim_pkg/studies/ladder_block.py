@@ -1,7 +1,7 @@
 """Ladders of rigid contact: the solver of the contact problem, the facets of the friction cone, the step in time, the tolerance
 of a body that turns on held contacts.
 
-Times are calls from Python, with the set-up of arrays: what differs between rungs is the solve.
+Times of a contact problem are those of one solve in a compiled loop; of a motion, those of the whole run.
 """
 
 from __future__ import annotations
@@ -17,7 +17,7 @@ from contact_sim_pkg.core.rigid.problem import PLANE, SPACE
 from contact_sim_pkg.reference.rigid_contact import planar_velocity_by_enumeration
 from contact_sim_pkg.studies import rigid_motion, tipping_body
 from contact_sim_pkg.studies.ladder_row import Row, Rung, milliseconds, row
-from contact_sim_pkg.studies.rigid_problem import Case, contact_rows, random_face, solve, stack
+from contact_sim_pkg.studies.rigid_problem import Case, contact_rows, milliseconds_of_a_solve, random_face, solve, stack
 
 __all__ = [
     "CONE_PART", "SOLVER_PART", "STEP_PART", "TURN_PART", "cone_rows", "solver_rows", "step_rows", "turn_rows",
@@ -58,7 +58,7 @@ def solver_rows() -> list[Row]:
         if len(case.friction) == 1:
             rungs.append(("closed modes", MODES, 0))
         for rung, kind, sweeps in rungs:
-            ms = milliseconds(lambda case=case, kind=kind, sweeps=sweeps: solve(case, kind, 0, sweeps))  # type: ignore[misc]
+            ms = milliseconds_of_a_solve(case, kind, 0, sweeps)
             error = _velocity_error(case, solve(case, kind, 0, sweeps)[0], expected)
             found.append(row(SOLVER_PART, name, "velocity", Rung(rung, ms), ENUMERATION, error))
     return found
@@ -74,7 +74,7 @@ def cone_rows() -> list[Row]:
             slip = numpy.array([math.cos(angle), math.sin(angle), 0.0, 0.0, 0.0, 0.0])
             case = case._replace(v=3.0 * slip - numpy.eye(6)[2])
             worst = max(worst, _velocity_error(case, solve(case, NEWTON, facets)[0], (3.0 - friction) * slip))
-        ms = milliseconds(lambda case=case, facets=facets: solve(case, NEWTON, facets))  # type: ignore[misc]
+        ms = milliseconds_of_a_solve(case, NEWTON, facets)
         name = f"{facets} facets" if facets else "true cone"
         found.append(row(CONE_PART, "sliding point, worst direction", "velocity", Rung(name, ms), POINT_MASS, worst))
     return found

@@ -9,11 +9,13 @@ import numpy
 
 from contact_sim_pkg.core.parameters import Vector
 from contact_sim_pkg.core.rigid import problem as contact_problem
-from contact_sim_pkg.core.rigid.contact_answers import contact_impulses
-from contact_sim_pkg.core.rigid.contact_solver import NEWTON, Solution, make_solver
+from contact_sim_pkg.core.rigid.contact_answers import contact_impulses, solve_over_and_over
+from contact_sim_pkg.core.rigid.contact_solver import NEWTON, Solution, Solver, make_solver
+from contact_sim_pkg.studies.ladder_row import milliseconds
 
-__all__ = ["Case", "block_corner", "contact_rows", "random_face", "solve", "stack"]
+__all__ = ["Case", "block_corner", "contact_rows", "milliseconds_of_a_solve", "random_face", "solve", "stack"]
 
+SOLVES = 200  # in a compiled loop, whose time is that of one so many times
 SIDE = 0.1  # [m] of the block of the identifiability paper
 
 
@@ -66,13 +68,28 @@ def stack(ratio: float) -> Case:
     return Case(J, W, v, numpy.full(2, 0.5), contact_problem.PLANE)
 
 
+def milliseconds_of_a_solve(case: Case, rung: int = NEWTON, facets: int = 0, sweeps: int = 20) -> float:
+    """Of one solve in [ms], within a compiled loop: neither the call from Python nor the set-up of arrays counts."""
+    problem, solver = _set_up(case, rung, facets, sweeps)
+    c = numpy.zeros(len(case.J))
+
+    def over_and_over(times: int) -> float:
+        return milliseconds(lambda: solve_over_and_over(problem, case.J, case.W, solver, c, times))
+
+    return max(0.0, over_and_over(SOLVES + 1) - over_and_over(1)) / SOLVES
+
+
 def solve(case: Case, rung: int = NEWTON, facets: int = 0, sweeps: int = 20) -> tuple[Vector, Solution]:
     """Impulses of a case without restitution, and how the solve ended."""
+    problem, solver = _set_up(case, rung, facets, sweeps)
+    c = numpy.zeros(len(case.J))
+    return c, contact_impulses(problem, case.J, case.W, solver, c)
+
+
+def _set_up(case: Case, rung: int, facets: int, sweeps: int) -> tuple[contact_problem.ContactProblem, Solver]:
     contacts = len(case.friction)
     problem = contact_problem.make_problem(contacts, case.width, facets)
     problem.A[:] = case.J @ case.W @ case.J.T
     problem.q[:] = case.J @ case.v
     problem.friction[:] = case.friction
-    c = numpy.zeros(len(case.J))
-    solver = make_solver(contacts, case.J.shape[1], case.width, facets, rung, sweeps)
-    return c, contact_impulses(problem, case.J, case.W, solver, c)
+    return problem, make_solver(contacts, case.J.shape[1], case.width, facets, rung, sweeps)
