@@ -6,16 +6,18 @@ Times of a contact problem are those of one solve in a compiled loop; of a motio
 
 from __future__ import annotations
 
+import functools
 import math
+from collections.abc import Callable
 
 import numpy
 
 from contact_sim_pkg.core.parameters import Vector
-from contact_sim_pkg.core.rigid.body import box
+from contact_sim_pkg.core.rigid.body import box, regular_block
 from contact_sim_pkg.core.rigid.contact_solver import GAUSS_SEIDEL, LEMKE, MODES, NEWTON
 from contact_sim_pkg.core.rigid.problem import PLANE, SPACE
 from contact_sim_pkg.reference.rigid_contact import planar_velocity_by_enumeration
-from contact_sim_pkg.studies import rigid_motion, tipping_body
+from contact_sim_pkg.studies import crossing_body, rigid_motion, tipping_body
 from contact_sim_pkg.studies.ladder_row import Row, Rung, milliseconds, row
 from contact_sim_pkg.studies.rigid_problem import Case, contact_rows, milliseconds_of_a_solve, random_face, solve, stack
 
@@ -95,18 +97,26 @@ def step_rows() -> list[Row]:
 
 
 def turn_rows() -> list[Row]:
-    """A block and a box that tip over on a corner and on an edge, by the tolerance of their integration; times of the whole run."""
-    block = tipping_body.standard_tipping()
-    on_edge = tipping_body.tipping(box((0.1, 0.14, 0.2), 1.0, 1.0, 0.0))
+    """Bodies that tip over on a corner and on an edge, and one whose slip turns, by the tolerance of their integration."""
     found = []
-    for name, case in (("block on a corner", block), ("box on an edge", on_edge)):
-        if case is None:
-            continue
-        for tolerance in TOLERANCES:
-            ms = milliseconds(lambda case=case, tolerance=tolerance: tipping_body.tip(case, tolerance))  # type: ignore[misc]
-            rung, error = (
-                Rung(f"located, {tolerance:g}", ms, tolerance=tolerance),
-                tipping_body.tip_error(case, tolerance),
-            )
-            found.append(row(TURN_PART, name, "position", rung, tipping_body.REFERENCE, error))
+    for name, case in (
+        ("block on a corner", regular_block(0.1, 1.0, 1.0, 0.0)),
+        ("box on an edge", box((0.1, 0.14, 0.2), 1.0, 1.0, 0.0)),
+    ):
+        tips = tipping_body.tipping(case)
+        if tips is not None:
+            run, error = functools.partial(tipping_body.tip, tips), functools.partial(tipping_body.tip_error, tips)
+            found += _by_tolerance(name, run, error, tipping_body.REFERENCE)
+    across = "box that slides across a slope"
+    return found + _by_tolerance(across, crossing_body.cross, crossing_body.cross_error, crossing_body.REFERENCE)
+
+
+def _by_tolerance(
+    name: str, run: Callable[[float], object], error_of: Callable[[float], float], reference: str
+) -> list[Row]:
+    """A row for each tolerance; times of the whole run."""
+    found = []
+    for tolerance in TOLERANCES:
+        rung = Rung(f"located, {tolerance:g}", milliseconds(lambda at=tolerance: run(at)), tolerance=tolerance)  # type: ignore[misc]
+        found.append(row(TURN_PART, name, "position", rung, reference, error_of(tolerance)))
     return found

@@ -13,12 +13,12 @@ import numpy
 from scipy.integrate import solve_ivp
 
 from contact_sim_pkg.core.parameters import Vector
-from contact_sim_pkg.core.rigid.body import RigidBody, placed, regular_block, slope
+from contact_sim_pkg.core.rigid.body import RigidBody, placed, slope
 from contact_sim_pkg.core.rigid.located import LocatedBody
 from contact_sim_pkg.core.rigid.problem import PLANE
 from contact_sim_pkg.core.rigid.results import SENTENCES, SOLVED
 
-__all__ = ["REFERENCE", "Tipping", "standard_tipping", "tip", "tip_error", "tipping"]
+__all__ = ["REFERENCE", "Tipping", "tip", "tip_error", "tipping"]
 
 REFERENCE = "scipy DOP853 at 1e-13 on the equation of a pendulum, no shared code"
 FIRST, LAST = 0.1, 0.5  # [rad] of phi; less where another corner comes down before
@@ -75,13 +75,6 @@ def _pendulum(body: RigidBody, reach: float, first: float, last: float) -> tuple
         "DOP853", rtol=1e-13, atol=1e-15, events=arrived, max_step=0.02 / math.sqrt(strength),
     )  # fmt: skip
     return float(path.t[-1]), float(path.y[0, -1])
-
-
-def standard_tipping() -> Tipping:
-    """A square block of 0.1 m."""
-    found = tipping(regular_block(0.1, 1.0, GRIP, 0.0))
-    assert found is not None
-    return found
 
 
 def tip(case: Tipping, tolerance: float) -> LocatedBody:
