@@ -11,6 +11,7 @@ from contact_sim_pkg.identification.errors import IdentificationError
 from contact_sim_pkg.identification.identify import Setup, identify
 from contact_sim_pkg.identification.modes import REVERSED
 from contact_sim_pkg.identification.states import BodyStates
+from contact_sim_pkg.reference.falling_body import FallingBody, fall
 
 _spec = importlib.util.spec_from_file_location("motions", Path(__file__).with_name("motions.py"))
 motions = importlib.util.module_from_spec(_spec)
@@ -211,3 +212,50 @@ def test_refusals_are_sentences():
         identify(still, SQUARE)
     with pytest.raises(IdentificationError, match="not planar"):
         identify(motions.states_of(motions.spatial()), BOX._replace(planar=True))
+
+
+def test_a_drop_on_an_edge_tells_its_impulses_though_not_where_they_act():
+    """Without spin no corner of the two is the one: c_n/m is the change of speed, (1 + e) sqrt(2 g h), all the same."""
+    rate, height, restitution = 1000, 0.3, 0.6
+    side = motions.SIDE / numpy.sqrt(2.0)
+    fallen = numpy.sqrt(2.0 * (height - side) / 9.81)
+    time = numpy.arange(400) / rate
+    after, back = time - fallen, restitution * 9.81 * fallen
+    down = time < fallen
+    z = numpy.where(down, height - 0.5 * 9.81 * time**2, side + back * after - 0.5 * 9.81 * after**2)
+    speed = numpy.where(down, -9.81 * time, back - 9.81 * after)
+    zero = numpy.zeros_like(time)
+    turned = numpy.tile(motions.exponential(numpy.array([0.0, numpy.pi / 4, 0.0])), (len(time), 1, 1))
+    vectors = [numpy.stack(rows, axis=1) for rows in ((zero, zero, z), (zero, zero, speed))]
+    found = identify(BodyStates(time, vectors[0], turned, vectors[1], 0.0 * vectors[1]), SQUARE)
+    (contact,) = found.contacts
+    assert contact.mode is None
+    assert contact.normal == pytest.approx((1.0 + restitution) * 9.81 * fallen, rel=1e-9)
+    assert contact.tangential == pytest.approx(0.0, abs=1e-9)
+    assert contact.normal_deviation < 1e-9
+
+
+@pytest.mark.parametrize("rotation", [2e-3, 5e-3])
+def test_the_edges_of_a_thin_plate_are_two_under_noise_of_the_rotation(rotation):
+    """0.3 x 0.002 m: noise of 3 mrad times its length is more than its thickness, but its axis is a mean over all samples."""
+    sides = numpy.array([0.3, 0.2, 0.002])
+    corners = 0.5 * numpy.array([[x, 0.0, z] for x in (-0.3, 0.3) for z in (-0.002, 0.002)])
+    inertia = (sides[0] ** 2 + sides[2] ** 2) / 12.0
+    body = FallingBody(1.0, inertia * numpy.eye(3), corners, 0.3, 0.6)
+    record = fall(body, numpy.array([0, 0, 0.3]), motions.exponential(numpy.array([0, 2.8, 0])), numpy.array([0.5, 0, 0]),
+                  numpy.array([0, 2.0, 0]), 0.6)  # fmt: skip
+    for seed in range(3):
+        states = motions.noisy(motions.states_of(record), seed, 1e-4, rotation)
+        found = identify(states, Setup(geometry.box(sides)))
+        assert found.doubts == []
+        assert abs(found.parameters[0].value - inertia) < 4.5 * found.parameters[0].deviation
+
+
+def test_points_behind_each_other_are_one_and_those_beside_each_other_are_not():
+    plate = geometry.box([0.3, 0.2, 0.002])
+    flat = geometry.flattened(plate, numpy.array([0.0, 1.0, 0.0]), 1e-4)
+    assert sorted(map(tuple, flat.points.round(12).tolist())) == sorted(
+        (x, 0.0, z) for x in (-0.15, 0.15) for z in (-0.001, 0.001)
+    )
+    leaning = numpy.array([0.0, 1.0, 1e-5])
+    assert len(geometry.flattened(plate, leaning / numpy.linalg.norm(leaning), 1e-4).points) == 4

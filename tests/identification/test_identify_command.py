@@ -134,6 +134,10 @@ def test_bad_input_ends_with_one_sentence(tmp_path, capsys):
         (["--sphere", "1e300"], "from its centre of mass, not 1e+300 m"),
         (["--box", "1e-300", "1e-300", "1e-300"], "from its centre of mass, not 5e-301 m"),
         ([*BOX, "--force", "1e300", "0", "0"], "the external force needs three components of at most 1e+12"),
+        (
+            [*BOX, "--force", "1e-300", "0", "0"],
+            "the external force is at most 1e-300 (N, N m): give one of 1e-09 or more",
+        ),
         ([*BOX, "--ground", "1e300"], "a height of at most 1e+09 m"),
         ([*BOX, "--gravity", "1e300"], "gravity acts downward and is 0 to 1e+06"),
         ([*BOX, "--friction", "inf"], "a friction coefficient is 0 to 1e+06"),

@@ -106,3 +106,38 @@ def test_noise_leaves_the_truth_within_what_is_reported(states, tmp_path, capsys
     value, spread = inertia_of(tmp_path / "bag", capsys)
     assert abs(value - INERTIA) < 4.0 * spread
     assert spread < 0.01 * INERTIA
+
+
+@pytest.mark.parametrize("step", [1e-3, 1e-4, 1e-6])
+def test_samples_that_were_rounded_still_show_their_impacts(states, tmp_path, capsys, step):
+    """Most second differences of rounded samples are 0: the rounding is the noise all the same."""
+    time, position, rotation, velocity, spin = states
+    rounded = [numpy.round(values / step) * step for values in (position, velocity, spin)]
+    foreign_bag.write_pose_and_twist(tmp_path / "bag", (time, rounded[0], rotation, rounded[1], rounded[2]))
+    assert main(["identify", str(tmp_path / "bag"), "--box", "0.1", "0.1", "0.1", "--json"]) == 0
+    found = json.loads(capsys.readouterr().out)
+    assert len(found["contacts"]) == len(motions.planar().bounces)
+    (row,) = [row for row in found["parameters"] if row["parameter"] == "m/J"]
+    assert row["value"] == pytest.approx(INERTIA, rel=0.02 if step == 1e-3 else 2e-3)
+    assert found["noise"]["velocity_m_s"] >= 0.99 * step / numpy.sqrt(12.0)
+
+
+def test_samples_in_single_precision_show_no_impacts_that_are_none(states, tmp_path, capsys):
+    single = [field.astype(numpy.float32).astype(float) for field in (states[1], states[3], states[4])]
+    foreign_bag.write_pose_and_twist(tmp_path / "bag", (states[0], single[0], states[2], single[1], single[2]))
+    assert main(["identify", str(tmp_path / "bag"), "--box", "0.1", "0.1", "0.1", "--json"]) == 0
+    found = json.loads(capsys.readouterr().out)
+    assert len(found["contacts"]) == len(motions.planar().bounces)
+    assert found["doubts"] == []
+    (row,) = [row for row in found["parameters"] if row["parameter"] == "m/J"]
+    assert row["value"] == pytest.approx(INERTIA, rel=1e-5)
+
+
+def test_a_value_that_is_no_number_is_told_as_that_alone(states, tmp_path, capsys):
+    broken = states[4].copy()
+    broken[100] = numpy.nan
+    foreign_bag.write_odometry(tmp_path / "bag", (*states[:4], broken))
+    assert main(["identify", str(tmp_path / "bag"), "--box", "0.1", "0.1", "0.1"]) == 2
+    error = capsys.readouterr().err
+    assert "angular_velocity of sample 100 is not finite" in error
+    assert "stamp of another" not in error

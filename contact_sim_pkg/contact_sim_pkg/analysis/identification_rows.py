@@ -76,16 +76,16 @@ def contact_rows(found: Identification) -> list[dict[str, Any]]:
 def _contact(contact: ContactFinding, mass: float | None) -> dict[str, Any]:
     mode = contact.mode
     row: dict[str, Any] = {"time [s]": round(contact.begin, 9), "mode": None if mode is None else mode.mode}
-    row["c_n/m [m/s]"] = None if mode is None else mode.normal
+    row["c_n/m [m/s]"] = contact.normal
     row["± c_n/m"] = contact.normal_deviation
-    row["c_t/m [m/s]"] = None if mode is None else mode.tangential
+    row["c_t/m [m/s]"] = contact.tangential
     row["± c_t/m"] = contact.tangential_deviation
     row["friction"] = None if mode is None else _friction(mode, contact)
     row["± friction"] = contact.friction_deviation
     row["Newton's e"] = None if mode is None else mode.newton_restitution
     if mass is not None:
-        row["c_n [N s]"] = None if mode is None else mass * mode.normal
-        row["c_t [N s]"] = None if mode is None else mass * mode.tangential
+        row["c_n [N s]"] = None if contact.normal is None else mass * contact.normal
+        row["c_t [N s]"] = None if contact.tangential is None else mass * contact.tangential
     row["note"] = contact.note
     return row
 
@@ -125,9 +125,9 @@ def _contact_facts(contact: ContactFinding) -> dict[str, Any]:
         "end_s": contact.end,
         "used": mode is not None,
         "mode": None if mode is None else mode.mode,
-        "normal_impulse_over_mass_m_s": None if mode is None else mode.normal,
+        "normal_impulse_over_mass_m_s": contact.normal,
         "normal_standard_deviation_m_s": contact.normal_deviation,
-        "tangential_impulse_over_mass_m_s": None if mode is None else mode.tangential,
+        "tangential_impulse_over_mass_m_s": contact.tangential,
         "tangential_standard_deviation_m_s": contact.tangential_deviation,
         "impulse_over_mass_m_s": None if contact.push is None else [float(value) for value in contact.push],
         "arm_m": None if contact.arm is None else [float(value) for value in contact.arm],

@@ -222,7 +222,7 @@ def _one_a_stamp(states: BodyStates, topic: str) -> tuple[BodyStates, tuple[str,
         )
     of_stamp = numpy.maximum.accumulate(numpy.where(first, numpy.arange(len(first)), 0))
     rows = numpy.column_stack([field.reshape(len(first), -1) for field in states])
-    other = int((rows != rows[of_stamp]).any(axis=1).sum())
+    other = int(((rows != rows[of_stamp]).any(axis=1) & ~first).sum())
     note = (
         f"{other} messages on {topic} have the stamp of another one and other values: the first of each stamp is used"
     )

@@ -34,7 +34,7 @@ def agreeing(linear: Linearised) -> list[int]:
     """Numbers of the contacts that agree; all where no more than half of them do."""
     everyone = list(range(len(linear.problem.contacts)))
     kept = everyone
-    while not _agree(linear, kept):
+    while kept and not _agree(linear, kept):
         without = [[each for each in kept if each != number] for number in kept]
         kept = min(without, key=lambda contacts: linear.contradiction(contacts)[0])
         if 2 * len(kept) <= len(everyone) or linear.equations(kept) <= linear.problem.model.unknowns:

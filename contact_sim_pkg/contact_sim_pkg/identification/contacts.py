@@ -7,12 +7,13 @@ from typing import NamedTuple
 import numpy
 
 from .balance import Side, impulse
-from .flight import rates
+from .flight import FlightState, motion, rates
 from .geometry import arm
 from .instant import instant
 from .modes import Mode, classify
 from .problem import Contact, Problem
 from .rotation import Array, cross_matrix, logarithm
+from .search import SEVERAL
 from .segments import Segments
 from .stacked import Estimate
 
@@ -20,12 +21,14 @@ __all__ = ["ContactFinding", "findings"]
 
 
 class ContactFinding(NamedTuple):
-    """One contact; `mode` and deviations are None where it was not used, and `note` says why."""
+    """One contact; `mode` is None where it was not used, and `note` says why; its impulse stands there if two flights tell it."""
 
     begin: float  # [s]
     end: float  # [s]; equal to begin for a located impact
     point: int | None  # of the shape
     mode: Mode | None
+    normal: float | None  # c_n/m, [m/s]
+    tangential: float | None  # |c_t|/m, [m/s]
     normal_deviation: float | None  # of c_n/m, [m/s]
     tangential_deviation: float | None  # of |c_t|/m, [m/s]
     friction_deviation: float | None  # of |c_t|/c_n
@@ -39,14 +42,55 @@ def findings(
 ) -> list[ContactFinding]:
     """One entry for each contact of the motion, in the order of time."""
     used = {place: number for number, place in enumerate(places)}
-    time, lines = problem.states.time, []
+    lines = []
     for place, (first, last) in enumerate(parts.contacts):
         if place in used and place not in notes:
             lines.append(_used(problem, found, used[place]))
         else:
-            begin, end = float(time[first]), float(time[last + 1])
-            lines.append(ContactFinding(begin, end, None, None, None, None, None, None, None, notes.get(place, "")))
+            lines.append(_unused(problem, found, (first, last), notes.get(place, "")))
     return lines
+
+
+def _unused(problem: Problem, found: Estimate, interval: tuple[int, int], note: str) -> ContactFinding:
+    """A contact of the intervals first to last; with its impulse where it is one impact of several corners at once.
+
+    Where the impulse acts is not known then, but its size follows from the velocities of the centre of mass alone.
+    """
+    begin, end = float(problem.states.time[interval[0]]), float(problem.states.time[interval[1] + 1])
+    nothing = ContactFinding(begin, end, None, None, None, None, None, None, None, None, None, note)
+    numbers = [number for number, (_first, last) in enumerate(problem.flights) if last == interval[0]]
+    later = [number for number, (first, _last) in enumerate(problem.flights) if first == interval[1] + 1]
+    if not (note.startswith(SEVERAL) and numbers and later):
+        return nothing
+    sides = [_side(problem, found, number, 0.5 * (begin + end)) for number in (numbers[0], later[0])]
+    push = impulse(sides[0].state, sides[1].state, problem.model.inverse_mass(found.parameters), problem.model)
+    spread, normal = _push_covariance(found, numbers[0], later[0], *sides), problem.ground.normal
+    along = push - (push @ normal) * normal
+    across = _deviation_along(along, spread)
+    return nothing._replace(
+        normal=float(push @ normal), tangential=float(numpy.linalg.norm(along)), push=push, tangential_deviation=across,
+        normal_deviation=float(numpy.sqrt(normal @ spread @ normal)),
+    )  # fmt: skip
+
+
+def _side(problem: Problem, found: Estimate, number: int, time: float) -> Side:
+    """A flight at an instant."""
+    state = found.flights[number]
+    at = motion(state, found.parameters, found.scale, problem.model, numpy.array([time]))
+    there = FlightState(time, at.position[0], at.velocity[0], at.rotation[0], at.angular_velocity[0])
+    return Side(there, at.by_state[0], at.by_parameters[0])
+
+
+def _deviation_along(vector: Array, spread: Array) -> float:
+    """Standard deviation along a vector; the mean of all directions where it has none."""
+    direction = _along(vector)
+    return float(numpy.sqrt(direction @ spread @ direction if vector.any() else numpy.trace(spread) / 3.0))
+
+
+def _along(vector: Array) -> Array:
+    """Its direction; zero where it has none."""
+    length = float(numpy.linalg.norm(vector))
+    return vector / length if length > 0.0 else vector
 
 
 def _used(problem: Problem, found: Estimate, number: int) -> ContactFinding:
@@ -67,9 +111,7 @@ def _used(problem: Problem, found: Estimate, number: int) -> ContactFinding:
     ]
     deviation = _slip_deviation(problem, found, number, reaches[1], kept)
     along = push - (push @ normal) * normal
-    length = float(numpy.linalg.norm(along))
-    direction = along / length if length > 0.0 else numpy.zeros(3)
-    across = float(numpy.sqrt(direction @ spread @ direction if length > 0.0 else numpy.trace(spread) / 3.0))
+    direction, across = _along(along), _deviation_along(along, spread)
     mode = classify(kept @ push, kept @ velocities[0], kept @ velocities[1], deviation, problem.ground, across)
     ratio = None
     if mode.friction_at_least is not None:
@@ -77,8 +119,8 @@ def _used(problem: Problem, found: Estimate, number: int) -> ContactFinding:
         ratio = float(numpy.sqrt(slope @ spread @ slope))
     upward = float(numpy.sqrt(normal @ spread @ normal))
     return ContactFinding(
-        contact.begin, contact.end, contact.point, mode, upward, across, ratio, 0.5 * (reaches[0] + reaches[1]), push,
-        "" if contact.sweep is None else _course(contact, turned),
+        contact.begin, contact.end, contact.point, mode, mode.normal, mode.tangential, upward, across, ratio,
+        0.5 * (reaches[0] + reaches[1]), push, "" if contact.sweep is None else _course(contact, turned),
     )  # fmt: skip
 
 

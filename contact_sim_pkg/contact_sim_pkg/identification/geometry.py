@@ -32,6 +32,7 @@ __all__ = [
 ]
 
 SMALLEST, LARGEST = 1e-9, 1e6  # [m], size of a body
+SAME = 1e-9  # of the size: points closer than that are one
 FARTHEST = 1e9  # [m], height of the ground
 UP = numpy.array([0.0, 0.0, 1.0])
 
@@ -121,17 +122,30 @@ def size(shape: Shape) -> float:
     return float(numpy.linalg.norm(shape.points, axis=1).max()) + shape.radius
 
 
-def flattened(shape: Shape, axis: Array, same: float = 1e-9) -> Shape:
+def flattened(shape: Shape, axis: Array, doubt: float = 0.0) -> Shape:
     """The same shape seen along `axis` (body axes): points in the plane through the centre of mass.
 
-    Of points closer than `same` times the size the first is kept.
+    Points that lie behind each other are one, in their middle: an axis that is wrong by `doubt` [rad] parts them by that times
+    their distance along it.
     """
-    flat = shape.points - (shape.points @ axis)[:, None] * axis
-    kept: list[Array] = []
-    for point in flat:
-        if all(float(numpy.linalg.norm(point - other)) > same * size(shape) for other in kept):
-            kept.append(point)
-    return Shape(numpy.array(kept), shape.radius)
+    depths = shape.points @ axis
+    flat = shape.points - depths[:, None] * axis
+    groups: list[list[int]] = []
+    for place in range(len(flat)):
+        group = next(
+            (each for each in groups if _behind(flat, depths, each[0], place, doubt, SAME * size(shape))), None
+        )
+        if group is None:
+            groups.append([place])
+        else:
+            group.append(place)
+    return Shape(numpy.array([flat[group].mean(axis=0) for group in groups]), shape.radius)
+
+
+def _behind(flat: Array, depths: Array, first: int, second: int, doubt: float, same: float) -> bool:
+    """Whether two points are one, seen along the axis."""
+    apart = float(numpy.linalg.norm(flat[second] - flat[first]))
+    return apart <= same + doubt * abs(float(depths[second] - depths[first]))
 
 
 def inertia_guess(shape: Shape) -> Array:

@@ -13,7 +13,7 @@ from .errors import IdentificationError
 from .flight import Model
 from .geometry import Ground, Shape, flattened, gaps, plane
 from .naming import hidden_by_noise, parameter_names, unobservable
-from .noise import first_guess, limited
+from .noise import first_guess, limited, rounding_of
 from .plane import body_axis, plane_of_motion
 from .possible import HIDDEN, made_up
 from .problem import Problem, planar_basis, spatial_basis, starting_parameters
@@ -23,11 +23,13 @@ from .segments import gap_doubt, inverse_mass_guess, segments, velocity_noise
 from .slides import slides_of
 from .stacked import Estimate
 from .states import BodyStates, Noise, checked
+from .tumbling import tumbling_start
 from .wrench import NO_WRENCH, ExternalWrench
 
 __all__ = ["Identification", "Parameter", "Setup", "identify"]
 
 
+AXIS = 5.0  # times its deviation: how far the axis of the plane, a mean over all samples, may be wrong
 LARGEST = 1e6  # gravity, friction coefficient, noise: beyond it a number is a mistake
 
 
@@ -84,8 +86,10 @@ def identify(states: BodyStates, setup: Setup) -> Identification:
     if setup.planar and axis is None:
         raise IdentificationError("the motion is not planar: its spin changes axis, or it drifts out of the plane")
     own_axis = None if axis is None else body_axis(states, axis, guess)
-    shape = setup.shape if own_axis is None else flattened(setup.shape, own_axis, max(1e-9, 5.0 * guess.rotation))
-    speed_noise = setup.noise.velocity if setup.noise else velocity_noise(states)
+    doubt = AXIS * guess.rotation / float(numpy.sqrt(len(states.time)))
+    shape = setup.shape if own_axis is None else flattened(setup.shape, own_axis, doubt)
+    rounding = rounding_of(states.velocity)
+    speed_noise = max(setup.noise.velocity if setup.noise else velocity_noise(states), rounding)
     parts = segments(states, shape, setup.ground, setup.wrench, setup.gravity, speed_noise, guess[:2])
     basis = spatial_basis() if axis is None else planar_basis()
     model = Model(basis, setup.wrench.present, setup.wrench, setup.gravity)
@@ -93,7 +97,11 @@ def identify(states: BodyStates, setup: Setup) -> Identification:
     inverse_mass = inverse_mass_guess(states, lifts, setup.wrench, setup.gravity, gap_doubt(shape, guess[:2]))
     start, scale = starting_parameters(shape, model, own_axis, inverse_mass)
     problem = Problem(states, [], [], shape, setup.ground, model, limited(guess, states), axis, friction=setup.friction)
-    search = Search(problem, parts, setup.noise, start, scale)
+    starts = [start]
+    if axis is None:
+        tumbling = tumbling_start(states, parts.flights, model, limited(guess, states), start)
+        starts = [start] if tumbling is None else [tumbling, start]
+    search = Search(problem, parts, setup.noise, starts, scale)
     return _result(search.run(), search)
 
 

@@ -94,8 +94,22 @@ def _mixed(missing: Array, parameters: Array, scale: Array, spatial: bool, reaso
     why = f"; {reason}" if reason else ""
     return [
         f"mass and inertia cannot be told apart: {_combination(line, names)} is free (one equation for two unknowns{why})"
-        for line in missing
+        for line in _fewest(missing)
     ]
+
+
+def _fewest(missing: Array) -> Array:
+    """Other directions of the same space, each with a parameter of its own and as few others as that leaves: Gauss and Jordan."""
+    rows = missing.copy()
+    for place in range(len(rows)):
+        left = abs(rows[place:])  # 0 in the columns of earlier ones
+        row, column = divmod(int(left.argmax()), left.shape[1])
+        rows[[place, place + row]] = rows[[place + row, place]]
+        rows[place] /= rows[place, column]
+        others = numpy.arange(len(rows)) != place
+        rows[others] -= numpy.outer(rows[others, column], rows[place])
+        rows[others, column], rows[place, column] = 0.0, 1.0
+    return rows
 
 
 def _inertia_sentences(missing: Array, inertia: Array) -> list[str]:
@@ -114,7 +128,7 @@ def _inertia_sentences(missing: Array, inertia: Array) -> list[str]:
             f"of I0/m only the column of the body axis {axis}, about which the spin changed, is identifiable; the rest is not"
         ]
     names = parameter_names(True, False)
-    return [f"not identifiable: {_combination(line, names)}" for line in missing]
+    return [f"not identifiable: {_combination(line, names)}" for line in _fewest(missing)]
 
 
 def _single(matrix: Array, inertia: Array) -> str:
@@ -150,7 +164,8 @@ def _axis(vector: Array) -> str:
 
 
 def _combination(line: Array, names: list[str]) -> str:
-    parts = [
-        f"{value:+.3g} {name}" for value, name in zip(line, names, strict=True) if abs(value) > PART * abs(line).max()
-    ]
+    kept = [(value, name) for value, name in zip(line, names, strict=True) if abs(value) > PART * abs(line).max()]
+    if len(kept) == 1:
+        return kept[0][1]
+    parts = [f"{value:+.3g} {name}" for value, name in kept]
     return " ".join(parts).removeprefix("+")

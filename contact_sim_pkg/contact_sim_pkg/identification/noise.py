@@ -10,9 +10,13 @@ from .rotation import Array, logarithm
 from .segments import MEDIAN_OF_GAUSS
 from .states import BodyStates, Noise
 
-__all__ = ["first_guess", "from_residuals", "limited"]
+__all__ = ["first_guess", "from_residuals", "limited", "rounding_of"]
 
 FLOOR = 1e-13  # of the largest value of a channel: rounding
+ROUNDED = float(numpy.sqrt(12.0))  # step of a rounding over its standard deviation
+STEPS = 10.0 ** numpy.arange(0.0, -10.0, -1.0)  # decimals that samples are rounded to
+NEARLY = 1e-6  # of a step
+FEWEST = 20  # different values
 SECOND = numpy.sqrt(6.0)  # noise of a second difference over that of a value
 
 
@@ -25,17 +29,19 @@ def first_guess(states: BodyStates) -> Noise:
         numpy.diff(states.position, n=2, axis=0), numpy.diff(turns, axis=0), numpy.diff(states.velocity, n=2, axis=0),
         numpy.diff(states.angular_velocity, n=2, axis=0),
     )  # fmt: skip
-    return limited(Noise(*(_spread(channel) for channel in channels)), states)
+    steps = (_step(states.position), 0.0, _step(states.velocity), _step(states.angular_velocity))
+    spreads = [max(_spread(channel), step / ROUNDED) for channel, step in zip(channels, steps, strict=True)]
+    return limited(Noise(*spreads), states)
 
 
 def from_residuals(residuals: Sequence[Array], states: BodyStates) -> Noise:
-    """From what flights leave of their samples: [n, 12] a flight, in the order dx, dv, rotation, dw."""
-    spreads = []
+    """From what flights leave of their samples, [n, 12] in the order dx, dv, rotation, dw, and not less than their rounding."""
+    spreads, steps = [], (_step(states.position), _step(states.velocity), 0.0, _step(states.angular_velocity))
     for channel in range(4):
         parts = [rest[:, 3 * channel : 3 * channel + 3] for rest in residuals]
         free = sum(3.0 * max(len(part) - 1.0, 0.0) for part in parts)
         total = sum(float(numpy.sum(part**2)) for part in parts)
-        spreads.append(float(numpy.sqrt(total / free)) if free else 0.0)
+        spreads.append(max(float(numpy.sqrt(total / free)) if free else 0.0, steps[channel] / ROUNDED))
     position, velocity, rotation, angular_velocity = spreads
     return limited(Noise(position, rotation, velocity, angular_velocity), states)
 
@@ -47,6 +53,32 @@ def limited(noise: Noise, states: BodyStates, floor: float = FLOOR) -> Noise:
         float(abs(states.angular_velocity).max()) + 1e-3,
     )  # fmt: skip
     return Noise(*(max(value, floor * (size + 1e-3)) for value, size in zip(noise, largest, strict=True)))
+
+
+def rounding_of(values: Array) -> float:
+    """Standard deviation of the rounding of samples [n, k], stored with few decimals or in single precision; 0 otherwise."""
+    return _step(values) / ROUNDED
+
+
+def _step(values: Array) -> float:
+    """Step of which all values are multiples: a power of ten, or that of single precision; 0 where there is none.
+
+    A channel counts that takes FEWEST values or more: of a constant anything is a multiple.
+    """
+    found = 0.0
+    for channel in values.T:
+        distinct = len(numpy.unique(channel))
+        if distinct < FEWEST:
+            continue
+        largest = float(abs(channel).max())
+        if (channel == channel.astype(numpy.float32)).all():
+            found = max(found, float(numpy.spacing(numpy.float32(largest))))
+        for step in STEPS:
+            share = channel / step
+            if (abs(share - numpy.round(share)) <= NEARLY * numpy.maximum(1.0, abs(share) * 1e-9)).all():
+                found = max(found, step)
+                break
+    return found
 
 
 def _spread(differences: Array) -> float:

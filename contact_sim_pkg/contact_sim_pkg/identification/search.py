@@ -20,7 +20,7 @@ from .stacked import Estimate, estimate
 from .states import Noise
 from .sweep import pressed, sweep
 
-__all__ = ["DISAGREES", "TOUCHES_NOTHING", "Search"]
+__all__ = ["DISAGREES", "SEVERAL", "TOUCHES_NOTHING", "Search"]
 
 ROUNDS = 5
 SETTLED = 0.01  # change of the noise that ends the rounds, relative
@@ -30,6 +30,7 @@ BESIDE_SOFT = (
 )
 CLEAR = 5.0  # times its deviation: a miss against the impulse, of an impact that lasts
 TOUCHES = "touches"  # how a note begins on a contact that another round may use
+SEVERAL = f"{TOUCHES} with"
 TOUCHES_NOTHING = f"{TOUCHES} nothing known"
 DOUBLE = "the flights before and after miss each other: more than one impact in between"
 UNSURE = "the flight before does not come down: too short to tell where it touches"
@@ -42,9 +43,13 @@ WORSE = 5.0  # times the noise of the others: what is no flight
 class Search:
     """Rounds of: locate the impacts, fit everything, take the noise from what is left."""
 
-    def __init__(self, problem: Problem, parts: Segments, noise: Noise | None, start: Array, scale: Array) -> None:
+    def __init__(
+        self, problem: Problem, parts: Segments, noise: Noise | None, starts: list[Array], scale: Array
+    ) -> None:
+        """``starts``: parameters to begin with, of which those that the flights follow best are taken; ``scale``: their sizes."""
         self.noise = None if noise is None else limited(noise, problem.states)
-        self.start, self.scale, self.parts = start, scale, parts
+        self.starts, self.scale, self.parts = starts, scale, parts
+        self.start = starts[-1]
         whole = [flight for flight in parts.flights if flight[1] - flight[0] + 1 >= SHORTEST_FLIGHT]
         self.problem = problem._replace(flights=whole, noise=self.noise or problem.noise)
         self.notes: dict[int, str] = {}  # of contacts that are not used, by their place in parts.contacts
@@ -65,8 +70,7 @@ class Search:
             )
         if self.problem.contacts:
             return estimate(self.problem, self.start, self.scale)
-        found = estimate(self.problem, self.start, self.scale)
-        found = self.free = self._without_false_flights(found)
+        found = self.free = self._without_false_flights(self._flights_alone())
         for _ in range(ROUNDS):
             self._take_noise(found)
             before = self.problem.noise
@@ -81,14 +85,36 @@ class Search:
     def _cure(self) -> str:
         """What helps where no flight and no slide tells anything."""
         record = "record faster, or a motion that leaves the ground"
-        if self.problem.friction is None or self.problem.model.wrench.force is None:
-            return f"{record}, or give the friction coefficient and the force of a slide"
+        no_friction, no_force = self.problem.friction is None, self.problem.model.wrench.force is None
+        if no_friction or no_force:
+            missing = " and ".join(
+                name
+                for name, lacks in (("the friction coefficient", no_friction), ("the known force", no_force))
+                if lacks
+            )
+            return f"{record}, or give {missing} of a slide"
         return f"{record}; no slide of the body on the ground as told was found either: check the shape, its axes, and the ground"
 
     @property
     def flights(self) -> int:
         """Flights of more than a sample."""
         return sum(last > first for first, last in self.problem.flights)
+
+    def _flights_alone(self) -> Estimate:
+        """The fit of the flights without contacts from the start that serves it best, which is kept."""
+        best, least, failure = None, numpy.inf, None
+        for start in self.starts:
+            try:
+                found = estimate(self.problem, start, self.scale)
+            except IdentificationError as error:
+                failure = error
+                continue
+            left = sum(float(numpy.sum(rest[:, 3:] ** 2)) for rest in found.residuals)
+            if best is None or (found.converged and left < least):
+                best, least, self.start = found, left, start
+        if best is None:
+            raise failure or IdentificationError("there is nothing to begin with")
+        return best
 
     def _fitted(self, found: Estimate) -> Estimate:
         """Fit to the contacts; where they contradict each other, to those that agree."""
@@ -207,7 +233,7 @@ class Search:
             self._refuse(place, f"{TOUCHES_NOTHING}: the lowest point is {touch.gap:.3g} m above the ground there")
             return None
         if touch.together > 1:
-            self._refuse(place, f"{TOUCHES} with {touch.together} corners at once: where its impulse acts is not known")
+            self._refuse(place, f"{SEVERAL} {touch.together} corners at once: where its impulse acts is not known")
             return None
         miss = self._miss(found, before, after, touch.time)
         if not miss and place not in self.lasting:

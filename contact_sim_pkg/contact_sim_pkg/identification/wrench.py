@@ -14,7 +14,7 @@ from .rotation import Array
 __all__ = ["NO_WRENCH", "ExternalWrench", "constant", "sampled"]
 
 
-LARGEST = 1e12  # component of a wrench, [N] or [N m]
+SMALLEST, LARGEST = 1e-9, 1e12  # component of a wrench, [N] or [N m]
 
 
 class _Course(NamedTuple):
@@ -90,6 +90,10 @@ def _course(time: Array, values: Array | None, name: str) -> _Course | None:
     if values.shape != (len(time), 3) or not (abs(values) <= LARGEST).all():
         raise IdentificationError(
             f"the external {name} needs three components of at most {LARGEST:g} (N, N m), not {values.tolist()[0]}"
+        )
+    if abs(values).max() < SMALLEST:
+        raise IdentificationError(
+            f"the external {name} is at most {abs(values).max():.3g} (N, N m): give one of {SMALLEST:g} or more, or none"
         )
     value = make_interp_spline(time, values, k=1)
     return _Course(value, value.antiderivative(1), value.antiderivative(2))

@@ -109,6 +109,9 @@ class LocatedBody:
         self.impacts: list[Impact] = []  # of the last call
         self.rested = math.nan  # [s] from the start of the call: when the last bounce ended
         self.impulse = numpy.zeros(points * body.width)  # [rows] in [N s] over the last call
+        self._on_the_true_cone = (
+            body.width != PLANE and facets == DISC
+        )  # where the direction of friction turns with the slip
         self._pieces = SupportedPieces(
             body, ground, motion, self.work, self._solver, self._march.clock, self._march.counts, self.size
         )
@@ -195,7 +198,7 @@ class LocatedBody:
         if not turning:
             over = pieces.attempt(piece, still)
             turning = over[0] == SOLVED and turns(*parts, self.work.free, self.size)
-            if over[0] == SOLVED and not turning and self.body.width != PLANE:
+            if over[0] == SOLVED and not turning and self._on_the_true_cone:
                 turning = pieces.slip_turns(piece, still, over)
                 over = over if over[1] == 1.0 else None
         if turning:
