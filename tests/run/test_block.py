@@ -169,6 +169,27 @@ def test_a_body_raised_by_what_the_refusal_tells_is_accepted_and_by_less_is_not(
         placed_at(-0.1 + 0.999 * rise)
 
 
+@pytest.mark.parametrize(
+    ("name", "value", "told"),
+    [
+        (
+            "block_slope",
+            "block.ground={slope: 0.1, heights: [0, 0]}",
+            r"block\.ground\.slope: 0\.1 rad has no meaning beside heights",
+        ),
+        ("block_fall", "effects.block.rigid_contact.facets=8", r"facets: 8 has no meaning in the plane"),
+        (
+            "block_fall",
+            "block.position=[0, 0]",
+            r"block\.position: a list of 2 cannot stand here; allowed are three numbers",
+        ),
+    ],
+)
+def test_keys_without_meaning_and_lists_of_another_length_are_refused(name, value, told):
+    with pytest.raises(SceneError, match=told):
+        resolved(name, value)
+
+
 @pytest.mark.parametrize("key", ["position", "rotation", "velocity", "angular_velocity", "force", "torque"])
 def test_a_vector_beyond_all_sense_is_refused(key):
     with pytest.raises(SceneError, match=rf"block\.{key}.*1e\+300.*1e"):
@@ -273,3 +294,22 @@ def test_every_body_runs_over_every_ground(values, ground):
     if ground == VALLEYS and "block.motion=space" in values and "block.shape=sphere" not in values:
         return  # in space the corners alone of a box or hull meet heights, so that a peak goes into its faces
     assert depth <= 1e-7
+
+
+def test_a_compliant_ball_bounces_on_a_peak_sharper_than_a_right_angle():
+    """A mass on a spring while it touches, `y = g/w^2 (cos wt - 1) - v/w sin wt`; it rises at the speed that it came with."""
+    drop, stiffness, duration = 0.1, 1e5, 0.25
+    _scene, messages = run(
+        "block_zeno", "block.ground={heights: [0, 0.2, 0], start: -0.1, distance: 0.1}", f"block.position=[0, 0, {0.25 + drop}]",
+        "effects.block.rigid_contact.restitution=1", "effects.block.rigid_contact.friction=0",
+        f"effects.block.compliant_contact={{stiffness: {stiffness}}}", f"duration={duration}", "accuracy=1e-6",
+    )  # fmt: skip
+    _names, position, velocity = rows(messages)
+    speed, swing = math.sqrt(2.0 * GRAVITY * drop), math.sqrt(stiffness)
+    pressed = 2.0 * (math.pi - math.atan(speed * swing / GRAVITY)) / swing
+    rising = numpy.arange(position.shape[1]) * duration / position.shape[1] - speed / GRAVITY - pressed
+    after = rising > 0.0
+    assert 20 < after.sum()
+    height = 0.25 + speed * rising[after] - 0.5 * GRAVITY * rising[after] ** 2
+    assert position[2, after] == pytest.approx(height, abs=1e-9)
+    assert abs(position[0]).max() < 1e-9
