@@ -304,7 +304,7 @@ def test_a_compliant_ball_bounces_on_a_peak_sharper_than_a_right_angle():
         "effects.block.rigid_contact.restitution=1", "effects.block.rigid_contact.friction=0",
         f"effects.block.compliant_contact={{stiffness: {stiffness}}}", f"duration={duration}", "accuracy=1e-6",
     )  # fmt: skip
-    _names, position, velocity = rows(messages)
+    _names, position, _velocity = rows(messages)
     speed, swing = math.sqrt(2.0 * GRAVITY * drop), math.sqrt(stiffness)
     pressed = 2.0 * (math.pi - math.atan(speed * swing / GRAVITY)) / swing
     rising = numpy.arange(position.shape[1]) * duration / position.shape[1] - speed / GRAVITY - pressed
