@@ -8,6 +8,7 @@ import numpy
 import pytest
 
 from contact_sim_pkg.cli.main import main
+from contact_sim_pkg.identification.noise import rounding_of
 
 
 def _beside(name):
@@ -141,3 +142,12 @@ def test_a_value_that_is_no_number_is_told_as_that_alone(states, tmp_path, capsy
     error = capsys.readouterr().err
     assert "angular_velocity of sample 100 is not finite" in error
     assert "stamp of another" not in error
+
+
+def test_rounding_is_not_taken_from_values_that_hardly_change():
+    """Rounding of 1e-16 about 0 is no multiple of 1 m/s, and a constant none of anything."""
+    random = numpy.random.default_rng(0)
+    small, constant = 1e-16 * random.normal(size=100), numpy.full(100, 0.5)
+    decimals = numpy.round(random.normal(size=100), 3)
+    assert rounding_of(numpy.column_stack([small, constant, random.normal(size=100)])) == 0.0
+    assert rounding_of(numpy.column_stack([small, constant, decimals])) == pytest.approx(1e-3 / numpy.sqrt(12.0))

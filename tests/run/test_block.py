@@ -309,7 +309,7 @@ def test_a_compliant_ball_bounces_on_a_peak_sharper_than_a_right_angle():
     pressed = 2.0 * (math.pi - math.atan(speed * swing / GRAVITY)) / swing
     rising = numpy.arange(position.shape[1]) * duration / position.shape[1] - speed / GRAVITY - pressed
     after = rising > 0.0
-    assert 20 < after.sum()
+    assert after.sum() > 20
     height = 0.25 + speed * rising[after] - 0.5 * GRAVITY * rising[after] ** 2
     assert position[2, after] == pytest.approx(height, abs=1e-9)
     assert abs(position[0]).max() < 1e-9

@@ -49,24 +49,23 @@ def _height(axis: Any, found: Identification) -> None:
 
 
 def _impulses(axis: Any, found: Identification) -> None:
-    used = [contact for contact in found.contacts if contact.mode is not None]
-    for mode, colour in COLOURS.items():
-        chosen = [contact for contact in used if contact.mode is not None and contact.mode.mode == mode]
+    """Normal impulses as circles, tangential ones as squares, in the colour of the mode; grey where its point is not known."""
+    told = [contact for contact in found.contacts if contact.normal is not None]
+    for mode, colour in (*COLOURS.items(), (None, MUTED)):
+        chosen = [contact for contact in told if (None if contact.mode is None else contact.mode.mode) == mode]
         if not chosen:
             continue
         time = [contact.begin for contact in chosen]
-        for name, marker, deviation in (
-            ("normal", "o", "normal_deviation"),
-            ("tangential", "s", "tangential_deviation"),
-        ):
-            values = [getattr(contact.mode, name) for contact in chosen]
-            spread = [2.0 * (getattr(contact, deviation) or 0.0) for contact in chosen]
-            axis.errorbar(time, values, spread, fmt=marker, color=colour, markersize=4, label=f"{name}, {mode}")
-    axis.set_title("Impulses over mass (bars: two standard deviations)")
+        for name, marker in (("normal", "o"), ("tangential", "s")):
+            values = [getattr(contact, name) for contact in chosen]
+            spread = [2.0 * (getattr(contact, f"{name}_deviation") or 0.0) for contact in chosen]
+            label = None if name == "tangential" else mode or "corner not known"
+            axis.errorbar(time, values, spread, fmt=marker, color=colour, markersize=4, label=label)
+    axis.set_title("Impulses over mass: ● normal, ■ tangential")
     axis.set_xlabel("time [s]")
-    axis.set_ylabel("c/m [m/s]")
-    if used:
-        axis.legend(ncols=3)
+    axis.set_ylabel("c/m ± 2σ [m/s]")
+    if told:
+        axis.legend(ncols=4, loc="lower right", bbox_to_anchor=(1.0, 1.0), fontsize=8, borderaxespad=0.2)
 
 
 def _inertia(axis: Any, found: Identification) -> None:
@@ -78,9 +77,11 @@ def _inertia(axis: Any, found: Identification) -> None:
             axis.errorbar(
                 [place], [value], [2.0 * parameter.deviation / scale[place]], fmt="o", color=ACCENT, markersize=5
             )
+            last = place > 0 and place == len(found.parameters) - 1
             axis.annotate(
-                f"{parameter.value:.5g}", (place, value), textcoords="offset points", xytext=(7, 4), fontsize=8
-            )
+                f"{parameter.value:.5g}", (place, value), textcoords="offset points", xytext=(-7 if last else 7, 4),
+                ha="right" if last else "left", fontsize=8,
+            )  # fmt: skip
         else:
             axis.annotate("not identified", (place, 0.0), ha="center", fontsize=8, color=MUTED)
     axis.set_xticks(numpy.arange(len(found.parameters)), [parameter.name for parameter in found.parameters])

@@ -67,15 +67,14 @@ def _step(values: Array) -> float:
     """
     found = 0.0
     for channel in values.T:
-        distinct = len(numpy.unique(channel))
-        if distinct < FEWEST:
+        if len(numpy.unique(channel)) < FEWEST:
             continue
-        largest = float(abs(channel).max())
         if (channel == channel.astype(numpy.float32)).all():
-            found = max(found, float(numpy.spacing(numpy.float32(largest))))
+            found = max(found, float(numpy.spacing(numpy.float32(abs(channel).max()))))
         for step in STEPS:
-            share = channel / step
-            if (abs(share - numpy.round(share)) <= NEARLY * numpy.maximum(1.0, abs(share) * 1e-9)).all():
+            places = numpy.round(channel / step)
+            near = abs(channel / step - places) <= NEARLY * numpy.maximum(1.0, 1e-9 * abs(places))
+            if near.all() and len(numpy.unique(places)) >= FEWEST:
                 found = max(found, step)
                 break
     return found
