@@ -11,9 +11,9 @@ from .flight import FlightState, motion, rates
 from .geometry import arm
 from .instant import instant
 from .modes import Mode, classify
+from .notes import SEVERAL
 from .problem import Contact, Problem
 from .rotation import Array, cross_matrix, logarithm
-from .search import SEVERAL
 from .segments import Segments
 from .stacked import Estimate
 

@@ -12,9 +12,9 @@ from .geometry import size
 from .heights import mean_gap
 from .lasting import NO_FLIGHT
 from .noise import first_guess, from_residuals
+from .notes import DISAGREES, TOUCHES_NOTHING
 from .possible import impossible
 from .problem import Contact, Problem
-from .search import DISAGREES, TOUCHES_NOTHING
 from .stacked import Estimate
 from .sweep import FEW
 

@@ -12,6 +12,7 @@ from .impacts import Touch, locate
 from .lasting import NO_FLIGHT, in_words, with_steps
 from .linearised import Linearised
 from .noise import from_residuals, limited
+from .notes import DISAGREES, DOUBLE, SEVERAL, TOUCHES_NOTHING, UNSURE
 from .problem import Contact, Problem
 from .rotation import Array
 from .segments import LONGEST_IMPACT, SHORTEST_FLIGHT, Segments, gap_doubt
@@ -20,7 +21,7 @@ from .stacked import Estimate, estimate
 from .states import Noise
 from .sweep import pressed, sweep
 
-__all__ = ["DISAGREES", "SEVERAL", "TOUCHES_NOTHING", "Search"]
+__all__ = ["Search"]
 
 ROUNDS = 5
 SETTLED = 0.01  # change of the noise that ends the rounds, relative
@@ -29,13 +30,7 @@ BESIDE_SOFT = (
     1e-9  # of the largest value: noise beside contacts that last, so that what these tell is not lost in the rank
 )
 CLEAR = 5.0  # times its deviation: a miss against the impulse, of an impact that lasts
-TOUCHES = "touches"  # how a note begins on a contact that another round may use
-SEVERAL = f"{TOUCHES} with"
-TOUCHES_NOTHING = f"{TOUCHES} nothing known"
-DOUBLE = "the flights before and after miss each other: more than one impact in between"
-UNSURE = "the flight before does not come down: too short to tell where it touches"
 FAR = 6.0  # times its deviation: a gap that is one
-DISAGREES = "contradicts the other contacts by more than noise explains: more than one impact in between?"
 FAINT = 1e3  # times its size: standard deviation of 1/m up to which it is fitted, though it is not told
 WORSE = 5.0  # times the noise of the others: what is no flight
 
