@@ -208,8 +208,15 @@ def test_refusals_are_sentences():
         identify(states, SQUARE._replace(wrench=known))
     still = states._replace(velocity=0.0 * states.velocity, position=0.0 * states.position + [0.0, 0.0, 0.05])
     still = still._replace(angular_velocity=0.0 * states.velocity, rotation=0.0 * states.rotation + numpy.eye(3))
-    with pytest.raises(IdentificationError, match="no flight of 3 samples"):
-        identify(still, SQUARE)
+    push = wrench.constant(FORCE)
+    for setup, cure in (
+        (SQUARE, "give the friction coefficient and the known force of a slide"),
+        (SQUARE._replace(friction=0.3), "give the known force of a slide"),
+        (SQUARE._replace(wrench=push), "give the friction coefficient of a slide"),
+        (SQUARE._replace(friction=0.3, wrench=push), "no slide of the body on the ground as told was found"),
+    ):
+        with pytest.raises(IdentificationError, match=f"no flight of 3 samples.*{cure}"):
+            identify(still, setup)
     with pytest.raises(IdentificationError, match="not planar"):
         identify(motions.states_of(motions.spatial()), BOX._replace(planar=True))
 

@@ -42,10 +42,8 @@ def mean_gap(found: Estimate, problem: Problem) -> MeanGap:
         begin, end = problem.flights[contact.before][1], problem.flights[contact.after][0]
         if end == begin + 1:
             weight = (gap_deviation(problem, contact.before) ** 2 + least**2) ** -1.0
-            weights, total = (
-                weights + weight,
-                total + weight * _gap(found, problem, contact, problem.states.time[[begin, end]]),
-            )
+            gap = _gap(found, problem, contact, problem.states.time[[begin, end]])
+            weights, total = weights + weight, total + weight * gap
     if weights == 0.0:
         return MeanGap(0.0, numpy.inf)
     return MeanGap(total / weights, 1.0 / float(numpy.sqrt(weights)))

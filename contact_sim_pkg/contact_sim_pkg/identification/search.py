@@ -12,7 +12,7 @@ from .impacts import Touch, locate
 from .lasting import NO_FLIGHT, in_words, with_steps
 from .linearised import Linearised
 from .noise import from_residuals, limited
-from .notes import DISAGREES, DOUBLE, SEVERAL, TOUCHES_NOTHING, UNSURE
+from .notes import DISAGREES, DOUBLE, SEVERAL, TOUCHES_NOTHING, UNSURE, cure_without_flights
 from .problem import Contact, Problem
 from .rotation import Array
 from .segments import LONGEST_IMPACT, SHORTEST_FLIGHT, Segments, gap_doubt
@@ -60,8 +60,10 @@ class Search:
         if not self.problem.flights:
             self.problem = with_slides(with_steps(self.problem, self.parts), self.parts)
         if not self.problem.flights:
+            no_force = self.problem.model.wrench.force is None
+            cure = cure_without_flights(no_friction=self.problem.friction is None, no_force=no_force)
             raise IdentificationError(
-                f"there is no flight of {SHORTEST_FLIGHT} samples or more between contacts; {self._cure()}"
+                f"there is no flight of {SHORTEST_FLIGHT} samples or more between contacts; {cure}"
             )
         if self.problem.contacts:
             return estimate(self.problem, self.start, self.scale)
@@ -76,19 +78,6 @@ class Search:
         if found.directions.rank < self.problem.model.unknowns:
             found = self._with_steps(found)
         return self._with_faint_mass(found)
-
-    def _cure(self) -> str:
-        """What helps where no flight and no slide tells anything."""
-        record = "record faster, or a motion that leaves the ground"
-        no_friction, no_force = self.problem.friction is None, self.problem.model.wrench.force is None
-        if no_friction or no_force:
-            missing = " and ".join(
-                name
-                for name, lacks in (("the friction coefficient", no_friction), ("the known force", no_force))
-                if lacks
-            )
-            return f"{record}, or give {missing} of a slide"
-        return f"{record}; no slide of the body on the ground as told was found either: check the shape, its axes, and the ground"
 
     @property
     def flights(self) -> int:

@@ -23,7 +23,10 @@ CLOSE = 1.0e-10  # residual for which no path is asked: that of a slip of 1e-13 
 def solve_over_and_over(
     problem: ContactProblem, J: Vector, W: Vector, solver: Solver, c: Vector, times: int
 ) -> Solution:
-    """`solve_and_split` as often as asked, again from no load: what one solve costs, without the call from Python."""
+    """`solve_and_split`, ``times`` times, each again from no load: the ladder's time of one solve is without the call from Python.
+
+    An entry of its own for that would compile all solvers once more.
+    """
     found = Solution(NOT_CONVERGED, UNIQUE, numpy.inf, 0)
     for solve in range(times):
         for row in range(c.shape[0] if solve > 0 else 0):

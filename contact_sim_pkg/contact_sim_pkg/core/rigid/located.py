@@ -92,7 +92,7 @@ class LocatedBody:
         """Take a body in the air or on the ground; ``motion`` is its state at the start, with no point below the ground.
 
         ``tolerance``: the error that a step may make while the body turns on held points, relative to its size and the speed of
-        a fall by it. Flight, rest and sliding without turning are exact whatever it is.
+        a fall by it, or slides round a bend. Flight, rest and sliding straight on are exact whatever it is.
         """
         ground = laid_under(body, ground)
         self._body, self.ground, self.motion, self.rule = body, ground, motion, rule
@@ -109,9 +109,7 @@ class LocatedBody:
         self.impacts: list[Impact] = []  # of the last call
         self.rested = math.nan  # [s] from the start of the call: when the last bounce ended
         self.impulse = numpy.zeros(points * body.width)  # [rows] in [N s] over the last call
-        self._on_the_true_cone = (
-            body.width != PLANE and facets == DISC
-        )  # where the direction of friction turns with the slip
+        self._friction_turns = body.width != PLANE and facets == DISC  # with the slip
         self._pieces = SupportedPieces(
             body, ground, motion, self.work, self._solver, self._march.clock, self._march.counts, self.size
         )
@@ -198,7 +196,7 @@ class LocatedBody:
         if not turning:
             over = pieces.attempt(piece, still)
             turning = over[0] == SOLVED and turns(*parts, self.work.free, self.size)
-            if over[0] == SOLVED and not turning and self._on_the_true_cone:
+            if over[0] == SOLVED and not turning and self._friction_turns:
                 turning = pieces.slip_turns(piece, still, over)
                 over = over if over[1] == 1.0 else None
         if turning:

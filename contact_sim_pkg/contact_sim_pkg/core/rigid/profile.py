@@ -282,11 +282,8 @@ def time_to_kink(profile, points, rotation, feature, is_ridge, x, r_x, r_z, alon
         left = length - place if rate > 0.0 else place
     else:
         last = int(profile.nodes[feature, END])
-        place, rate, length = (
-            (x - profile.origin) - feature * profile.cell,
-            slip * along,
-            (last - feature) * profile.cell,
-        )
+        place, rate = (x - profile.origin) - feature * profile.cell, slip * along
+        length = (last - feature) * profile.cell
         if profile.nodes[last if rate > 0.0 else feature, PEAK] < 0.0:
             return math.inf
         left = length - place if rate > 0.0 else place
