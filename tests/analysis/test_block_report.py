@@ -76,6 +76,21 @@ def test_the_numbers_are_those_of_the_bounces(recorded):
     assert numbers["impulse_total_Ns"] == pytest.approx(GRAVITY * 5.0, rel=1e-6)
 
 
+def test_a_body_that_rests_up_to_rounding_rests(tmp_path):
+    """A block thrown along the ground at 1 m/s with friction 0.3 stops after v/(μg), at a fixed step within two of them."""
+    values = "scheme=stepping", "friction=0.3"
+    changed = [set_value(f"effects.block.rigid_contact.{value}") for value in values]
+    start = [
+        set_value("block.position=[0,0,0.05]"),
+        set_value("block.rotation=[0,0,0]"),
+        set_value("block.velocity=[1,0,0]"),
+    ]
+    run_offline(resolve(load_scene("block_fall", [*changed, *start])), tmp_path / "bag")
+    recording = read_recording(open_bag(tmp_path / "bag"))
+    assert abs(recording.motion.velocity["block_x"][-1]) > 0.0
+    assert summarise_recording(recording)["block"]["at_rest_from_s"] == pytest.approx(1.0 / (0.3 * GRAVITY), abs=2e-3)
+
+
 @pytest.mark.parametrize("name", ["block_slope", "block_zeno", "box_3d_tumble"])
 def test_the_page_shows_way_motion_modes_and_impulse(recorded, name):
     page = render(recorded(name))

@@ -11,13 +11,16 @@ from .series import ContactSeries, Recording
 BLOCK = "block"
 """Name of the contact."""
 
+REST_SPEED = 1.0e-12
+"""In [m/s] and [rad/s]: a slower body rests. The scheme `stepping` leaves its rounding, some 1e-17, where a body has come to rest."""
+
 
 def block_numbers(recording: Recording) -> dict[str, Any]:
     """Runs of samples in contact, largest impulse of one, when the body moved last, where it ends; speeds at the end."""
     contact, moving = recording.contacts[BLOCK], recording.motion
     assert moving is not None
     bursts = _bursts(contact)
-    moves = np.flatnonzero(np.any([values != 0.0 for values in moving.velocity.values()], axis=0))
+    moves = np.flatnonzero(np.any([np.abs(values) > REST_SPEED for values in moving.velocity.values()], axis=0))
     resting = len(moves) == 0 or moves[-1] < len(moving.time) - 1
     return {
         "contacts": len(bursts),

@@ -1,7 +1,8 @@
 """A rigid body in time at a fixed step, of first order: contacts within reach are solved once a step, in velocities and impulses.
 
-A contact is in reach where its gap is closed or closes within the step. One that approaches faster than the rest speed 2 g h, with
-restitution, bounces by the impact law at once; the others meet ``gap/h + u_n+ >= 0``. Source: identifiability paper eqs 9, 14;
+A contact is in reach where its gap is closed or closes within the step; all in reach meet ``gap/h + u_n+ >= 0``. Where one approaches
+faster than the rest speed 2 g h, with restitution, the step ends on the ground by the same rows, and the velocity after it is that of
+the impact law: a bounce above the ground would gain height, and a body that bounces would never rest. Source: identifiability paper eqs 9, 14;
 Stewart and Trinkle 1996; SEEDS 7.2 (M4.6, `stepping`).
 """
 
@@ -12,6 +13,7 @@ import math
 import numpy
 
 from ..jit import entry
+from ..parameters import Vector
 from .body import Ground, Motion, RigidBody, contact_count, laid_under
 from .contact_solver import NEWTON
 from .motion import (
@@ -71,12 +73,13 @@ def begin_step(
 
 
 @entry
-def end_step(body: RigidBody, motion: Motion, work: MotionWorkspace, step: float) -> None:
-    """Take the impulses; the position follows from the velocity at the end of the step."""
-    apply_impulse(work.J, work.W, work.impulse, work.free)
+def end_step(body: RigidBody, motion: Motion, work: MotionWorkspace, landing: Vector, step: float) -> None:
+    """Take the impulses; the position follows from the velocity that those of ``landing`` [rows] would give."""
     for k in range(work.free.shape[0]):
         motion.velocity[k] = work.free[k]
-    displace(body, motion, work.free, work, step)
+    apply_impulse(work.J, work.W, landing, motion.velocity)
+    displace(body, motion, motion.velocity, work, step)
+    apply_impulse(work.J, work.W, work.impulse, work.free)
     carry_spin(body, motion, work.free, work)
     commit(body, motion, work.free, work)
 
@@ -97,6 +100,7 @@ class SteppedBody:
         weight = float(numpy.linalg.norm(body.load[: body.width]) / body.mass)
         self.rest_speed = 2.0 * step * weight
         self.impulse = numpy.zeros(points * body.width)  # [rows] in [N s] over the last call
+        self._landing = numpy.zeros(points * body.width)  # [rows] in [N s] of a step, without bounce
         self.dissipated = 0.0  # [J] by contacts, in all
         self.residual = 0.0  # largest of the last call
         self.impacts = 0
@@ -115,10 +119,10 @@ class SteppedBody:
                 if status != SOLVED:
                     return status
             else:
-                work.impulse[:] = 0.0
+                work.impulse[:], self._landing[:] = 0.0, 0.0
             self.impulse += work.impulse
             self.dissipated -= self._work_of_contacts()
-            end_step(self.body, self.motion, work, self.step)
+            end_step(self.body, self.motion, work, self._landing, self.step)
         return SOLVED
 
     def _work_of_contacts(self) -> float:
@@ -129,10 +133,10 @@ class SteppedBody:
 
     def _solve(self, *, bounces: bool) -> int:
         work = self.work
-        if bounces:
+        found = self._solver.hold(work)
+        self._landing[:] = work.impulse
+        if bounces and found.status == SOLVED:
             self.impacts += 1
             found = self._solver.collide(work, self.rule)
-        else:
-            found = self._solver.hold(work)
         self.residual = max(self.residual, float(found.residual)) if math.isfinite(found.residual) else math.inf
         return int(found.status)
