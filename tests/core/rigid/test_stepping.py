@@ -55,7 +55,7 @@ def test_a_step_in_which_the_body_turns_by_more_than_a_radian_is_refused():
 def test_a_tumbling_box_comes_to_rest_on_four_corners(step):
     """On an edge and on a face the contacts contradict each other: a step cannot close unlike gaps of four corners that stick.
 
-    A tilt by ε closed in a step leaves a slip of ε times its own speed, here some 1e-9 m/s: the answer at the nearest motion is taken.
+    A tilt by ε closed in a step leaves a slip of ε times its own speed, here some 1e-9 m/s: that of the nearest motion is taken.
     """
     body = box((0.2, 0.3, 0.1), 2.0, 0.4, 0.5)
     turned = Rotation.from_rotvec([0.3, -0.2, 0.7]).as_matrix()
@@ -96,7 +96,7 @@ def test_a_box_with_friction_of_one_and_more_tumbles_on_the_true_cone_to_the_end
 @pytest.mark.parametrize("restitution", [0.3, 0.8, 0.95])
 @pytest.mark.parametrize("step", [2e-3, 1e-3, 3e-4])
 def test_a_ball_that_bounces_comes_to_rest(step, restitution):
-    """A step ends on the ground before the ball leaves it again: a bounce above it would give height, and small ones without end."""
+    """A step ends on the ground before the ball leaves it again: a bounce above it would give height, in small ones without end."""
     ball = sphere(0.05, 1.0, 0.3, restitution)
     motion = placed(ball, [0.0, 0.0, 0.15], numpy.zeros(6))
     fall = math.sqrt(2.0 * 0.1 / 9.81)

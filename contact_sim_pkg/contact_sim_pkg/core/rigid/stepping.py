@@ -1,9 +1,9 @@
 """A rigid body in time at a fixed step, of first order: contacts within reach are solved once a step, in velocities and impulses.
 
-A contact is in reach where its gap is closed or closes within the step; all in reach meet ``gap/h + u_n+ >= 0``. Where one approaches
-faster than the rest speed 2 g h, with restitution, the step ends on the ground by the same rows, and the velocity after it is that of
-the impact law: a bounce above the ground would gain height, and a body that bounces would never rest. Source: identifiability paper eqs 9, 14;
-Stewart and Trinkle 1996; SEEDS 7.2 (M4.6, `stepping`).
+A contact is in reach where its gap is closed or closes within the step; all in reach meet ``gap/h + u_n+ >= 0``. Where one
+approaches faster than the rest speed 2 g h, with restitution, the step ends on the ground by the same rows, and the velocity
+after it is that of the impact law: a bounce above the ground would gain height, and a body that bounces would never rest.
+Source: identifiability paper eqs 9, 14; Stewart and Trinkle 1996; SEEDS 7.2 (M4.6, `stepping`).
 """
 
 from __future__ import annotations
