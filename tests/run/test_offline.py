@@ -8,6 +8,7 @@ from contact_sim_pkg.bag.reader import open_bag
 from contact_sim_pkg.bag.topics import TOPICS
 from contact_sim_pkg.run.from_bag import sources_from_bag
 from contact_sim_pkg.run.offline import run_offline
+from contact_sim_pkg.run.sources import make_sources
 
 
 def recorded(path):
@@ -69,3 +70,24 @@ def test_a_run_that_is_stopped_while_it_is_set_up_creates_nothing(tmp_path):
     outcome = run_offline(resolved("seat_ride"), tmp_path / "bag", stop=lambda: True)
     assert (outcome.stopped, outcome.blocks, outcome.bag) == (True, 0, None)
     assert not (tmp_path / "bag").exists()
+
+
+def test_a_fault_of_the_program_itself_is_told_by_the_bag_that_it_leaves(tmp_path):
+    """A source that raises what no source should, at its fourth block."""
+
+    class Faulty:
+        def describe(self):
+            return {}
+
+        def block(self, number):
+            if number == 3:
+                raise ZeroDivisionError("nothing to divide by")
+            return source.block(number)
+
+    scene = resolved("seat_ride", "duration=0.2")
+    (topic, source), *_ = make_sources(scene).items()
+    with pytest.raises(ZeroDivisionError):
+        run_offline(scene, tmp_path / "bag", sources={**make_sources(scene), topic: Faulty()})
+    told = open_bag(tmp_path / "bag").metadata
+    assert (told["ended"], told["blocks_done"]) == ("failed", "3")
+    assert told["failure"] == "unexpected ZeroDivisionError: nothing to divide by"

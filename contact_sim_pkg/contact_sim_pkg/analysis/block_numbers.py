@@ -5,8 +5,9 @@ from __future__ import annotations
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
-from .series import ContactSeries, Recording
+from .series import ContactSeries, MotionSeries, Recording
 
 BLOCK = "block"
 """Name of the contact."""
@@ -26,10 +27,15 @@ def block_numbers(recording: Recording) -> dict[str, Any]:
         "contacts": len(bursts),
         "impulse_max_Ns": max(bursts, default=0.0),
         "impulse_total_Ns": float(contact.normal.sum()) * contact.sample_period,
-        "at_rest_from_s": float(moving.time[moves[-1]] + moving.sample_period) if resting and len(moves) else None,
+        "at_rest_from_s": _rest(moving, moves) if resting else None,
         "end": {name: float(values[-1]) for name, values in moving.position.items()},
         "end_velocity": {name: float(values[-1]) for name, values in moving.velocity.items()},
     }
+
+
+def _rest(moving: MotionSeries, moves: NDArray[np.intp]) -> float:
+    """Instant in [s] of the first sample after the last move."""
+    return float(moving.time[moves[-1]] + moving.sample_period) if len(moves) else float(moving.time[0])
 
 
 def _bursts(contact: ContactSeries) -> list[float]:

@@ -26,6 +26,7 @@ __all__ = [
     "freeze",
     "kernel",
     "kernel_overload",
+    "never_called",
     "piece",
     "thaw",
 ]
@@ -111,6 +112,11 @@ def thaw() -> None:
 def compiled_functions() -> list[Any]:
     """Every decorated function of the process, entries first: for checks of options and of cache statistics."""
     return [*_entries, *_kernels]
+
+
+def never_called() -> list[Any]:
+    """Entries that have no compiled version, and that `freeze` closes: what a warm-up left out."""
+    return [function for function in _dispatchers(_entries) if not function.overloads]
 
 
 def _compile(function: Function, form: str = "", **options: Any) -> Function:

@@ -90,6 +90,9 @@ def run_offline(
         failure = str(error)
     except (BagWriteError, RecordingStoppedError) as error:
         loss = str(error)
+    except Exception as error:
+        failure = f"unexpected {type(error).__name__}: {error}"
+        raise
     finally:
         summary = None if writer is None else writer.close(_outcome(done, simulation.blocks, failure, stopped, first))
     return RunOutcome(done, startup, time.perf_counter() - first, summary, stopped, failure, descriptions, loss)

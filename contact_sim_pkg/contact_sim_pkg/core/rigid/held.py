@@ -161,6 +161,8 @@ def settle_points(
 ) -> tuple[float, bool]:
     """Hold the points whose rebound is below the rest speed and that the load presses down, or may be by what holds the others.
 
+    Also those that approach by rounding, whatever presses them.
+
     Returns the time in [s] that their last bounces take, and whether any point is held. ``work.impulse`` is what takes the
     speed of their rebound from them: the weight carries them over the last bounces, and this much less.
     """
@@ -175,8 +177,8 @@ def settle_points(
         if work.flags[i] == APART or abs(speed) > rest_speed:
             continue
         acceleration = _normal_acceleration(body, ground, motion, work, i)
-        if acceleration < 0.0:
-            if speed > still and body.restitution < 1.0:
+        if acceleration < 0.0 or speed < 0.0:  # without weight rounding alone may drive it in
+            if speed > still and acceleration < 0.0 and body.restitution < 1.0:
                 wait = max(wait, 2.0 * speed / (-acceleration * (1.0 - body.restitution)))
             work.flags[i] = HELD
             held = True

@@ -32,7 +32,7 @@ from .results import (
     TOO_MANY_EVENTS,
     TOO_MANY_IMPACTS,
 )
-from .slip import turns
+from .slip import slip_turns, turns
 from .supported import MOST_STOPS, SupportedPieces
 from .track import (
     BRIEF,
@@ -61,6 +61,7 @@ __all__ = ["Impact", "LocatedBody", "Track"]
 MOST_IMPACTS = 100_000  # in one interval
 REST = 1.0e-6  # rest speed over sqrt(g L)
 TOLERANCE = 1.0e-10
+LEAST_PULL = 0.1  # [m/s^2], by which a body without weight measures speeds and times
 LANDS = 3.0  # times the speed of a fall by `held.LANDED`: slower landings beside held points do not bounce
 LARGEST_TURN = 1.0e5  # [rad] in one interval: more are pieces without end
 LONGER = 4.0  # times, from one try for modes that fit to the next
@@ -102,7 +103,7 @@ class LocatedBody:
         self._columns = track_columns(body, points)
         self._solver = PackedSolver(coordinates, body.width, facets)
         self.size = float(body_size(body))
-        self.gravity = float(numpy.linalg.norm(body.load[: body.width]) / body.mass)
+        self.gravity = max(float(numpy.linalg.norm(body.load[: body.width]) / body.mass), LEAST_PULL)
         self._turning = make_turn_workspace(body, ground, self.size, self.gravity, tolerance)
         self.rest_speed = REST * math.sqrt(self.gravity * self.size)
         self.landing_speed = max(self.rest_speed, LANDS * math.sqrt(2.0 * held.LANDED * self.gravity * self.size))
@@ -248,6 +249,7 @@ class LocatedBody:
         held.landing_part(body, ground, motion, work, 1e-3, self.size)
         take_piece(body, ground, motion, work, 1e-3, self.size, 1e-9)
         turns(body, ground, motion, work, motion.velocity, self.size)
+        slip_turns(body, motion, work, 1e-9)
         self._turn_on(1e-9, numpy.zeros((1, self._columns[-1])))
         stay_on_the_ground(body, ground, motion, work, self.size, 1e-9)
         self.advance(1e-6)

@@ -1,0 +1,70 @@
+"""Bodies that a force carries exactly: nothing presses them down, so that speeds and times have no scale of their own."""
+
+import math
+
+import numpy
+import pytest
+from scipy.spatial.transform import Rotation
+
+from contact_sim_pkg.core.rigid.body import box, placed, regular_block, slope, sphere
+from contact_sim_pkg.core.rigid.located import LocatedBody
+from contact_sim_pkg.core.rigid.results import SOLVED
+
+FRICTION, PUSH, SPEED = 0.3, 1.0, 0.1
+
+
+def carried(body, *push):
+    return body._replace(load=numpy.array([*push, *[0.0] * (len(body.load) - len(push))]))
+
+
+@pytest.mark.parametrize("restitution", [0.0, 0.3, 1.0])
+@pytest.mark.parametrize("interval", [1.0, 0.01])
+def test_a_block_that_is_pushed_along_lands_flat_and_slides_without_friction_or_leaves(restitution, interval):
+    """1 kg, 0.05 m up, drifts down at 0.1 m/s and along under 1 N: the impact takes mu (1 + e) 0.1 m/s of its speed along."""
+    body = carried(regular_block(0.2, 1.0, FRICTION, restitution), PUSH, 0.0)
+    motion = placed(body, [0.0, 0.15], [1.0, -SPEED, 0.0])
+    located = LocatedBody(body, slope(2), motion)
+    status, track = located.advance_over(interval, round(1.0 / interval))
+    lost = FRICTION * (1.0 + restitution) * SPEED
+    assert status == SOLVED
+    assert motion.velocity == pytest.approx([2.0 - lost, restitution * SPEED, 0.0], abs=1e-12)
+    assert motion.position == pytest.approx([1.5 - 0.5 * lost, 0.1 + 0.5 * restitution * SPEED], abs=1e-12)
+    assert track.impulse[:, ::2].sum() == pytest.approx((1.0 + restitution) * SPEED, abs=1e-12)
+
+
+@pytest.mark.parametrize("restitution", [0.0, 0.5])
+def test_a_box_in_space_does_the_same_in_any_direction(restitution):
+    body = carried(box((0.2, 0.3, 0.1), 1.0, FRICTION, restitution))
+    heading = numpy.array([0.6, 0.8, 0.0])
+    turned = Rotation.from_rotvec([0.0, 0.0, 0.4]).as_matrix()
+    motion = placed(body, [0.0, 0.0, 0.1], [*(heading - [0.0, 0.0, SPEED]), 0.0, 0.0, 0.0], rotation=turned)
+    assert LocatedBody(body, slope(3), motion).advance(1.0) == SOLVED
+    lost = FRICTION * (1.0 + restitution) * SPEED
+    end = (1.0 - lost) * heading + [0.0, 0.0, restitution * SPEED]
+    assert motion.velocity == pytest.approx([*end, 0.0, 0.0, 0.0], abs=1e-12)
+    assert motion.position == pytest.approx((1.0 - 0.5 * lost) * heading + [0.0, 0.0, 0.05 + 0.5 * end[2]], abs=1e-12)
+
+
+def test_a_ball_that_spins_on_the_ground_goes_on_spinning_and_one_in_the_air_drifts():
+    ball = carried(sphere(0.05, 1.0, FRICTION, 0.5))
+    lying = placed(ball, [0.0, 0.0, 0.05], [0.2, 0.0, 0.0, 0.0, -3.0, 1.0])
+    flying = placed(ball, [0.0, 0.0, 0.5], [0.2, 0.0, 0.0, 0.0, -3.0, 1.0])
+    for motion in (lying, flying):
+        height = motion.position[2]
+        assert LocatedBody(ball, slope(3), motion).advance(2.0) == SOLVED
+        assert motion.velocity == pytest.approx([0.2, 0.0, 0.0, 0.0, -3.0, 1.0], abs=1e-12)
+        assert motion.position == pytest.approx([0.4, 0.0, height], abs=1e-12)
+
+
+def test_a_block_at_rest_on_the_ground_tips_about_its_edge_under_a_torque_alone():
+    """As on ice: the centre of mass goes straight up, and all work of the torque is motion."""
+    body = carried(regular_block(0.2, 1.0, 0.0, 0.0))
+    body.load[2] = 0.01
+    motion = placed(body, [0.0, 0.1], numpy.zeros(3))
+    located = LocatedBody(body, slope(2), motion)
+    assert located.advance(1.0) == SOLVED
+    energy = 0.5 * motion.velocity[1] ** 2 + 0.5 * body.inertia[0] * motion.velocity[2] ** 2
+    assert energy == pytest.approx(0.01 * motion.angle[0], rel=1e-9)
+    assert motion.position[0] == 0.0
+    corner = 0.1 * math.sqrt(2.0) * math.sin(math.pi / 4.0 + motion.angle[0])
+    assert motion.position[1] >= corner - 1e-10
