@@ -28,29 +28,33 @@ def _twist(velocity, spin):
     return _type("geometry_msgs/msg/Twist")(vector(*velocity), vector(*spin))
 
 
-def write_odometry(path, states, topic="/odom", storage=StoragePlugin.MCAP):
-    """Twist in body axes, as the definition of Odometry says."""
+def write_odometry(path, states, topic="/odom", storage=StoragePlugin.MCAP, child="base_link"):
+    """Poses in `map`; the twist in the axes of the child, as the definition of Odometry says."""
     kind = "nav_msgs/msg/Odometry"
     with Writer(path, version=9, storage_plugin=storage) as writer:
         row = writer.add_connection(topic, kind, typestore=STORE)
         for time, position, rotation, velocity, spin in zip(*states, strict=True):
             pose = _type("geometry_msgs/msg/PoseWithCovariance")(_pose(position, rotation), numpy.zeros(36))
+            axes = numpy.eye(3) if child == "map" else rotation.T
             twist = _type("geometry_msgs/msg/TwistWithCovariance")(
-                _twist(rotation.T @ velocity, rotation.T @ spin), numpy.zeros(36)
+                _twist(axes @ velocity, axes @ spin), numpy.zeros(36)
             )
-            message = _type(kind)(_header(time, "map"), "base_link", pose, twist)
+            message = _type(kind)(_header(time, "map"), child, pose, twist)
             writer.write(row, ORIGIN + round(time * 1e9), STORE.serialize_cdr(message, kind))
 
 
-def write_pose_and_twist(path, states, twist_frame="map", late=0.0, force=None):
-    """PoseStamped in `map` and TwistStamped in world or body axes, the twist's stamps `late` [s]; a wrench if asked."""
+def write_pose_and_twist(path, states, twist_frame="map", late=0.0, force=None, every=1):
+    """PoseStamped in `map` and TwistStamped in world or body axes, the twist's stamps `late` [s]; a wrench if asked.
+
+    Only every such pose has a twist.
+    """
     with Writer(path, version=9, storage_plugin=StoragePlugin.SQLITE3) as writer:
         kinds = {"/pose": "geometry_msgs/msg/PoseStamped", "/twist": "geometry_msgs/msg/TwistStamped"}
         if force is not None:
             kinds["/push"] = "geometry_msgs/msg/WrenchStamped"
         rows = {topic: writer.add_connection(topic, kind, typestore=STORE) for topic, kind in kinds.items()}
         vector = _type("geometry_msgs/msg/Vector3")
-        for time, position, rotation, velocity, spin in zip(*states, strict=True):
+        for number, (time, position, rotation, velocity, spin) in enumerate(zip(*states, strict=True)):
             axes = numpy.eye(3) if twist_frame == "map" else rotation.T
             messages = {
                 "/pose": (_header(time, "map"), _pose(position, rotation)),
@@ -59,6 +63,8 @@ def write_pose_and_twist(path, states, twist_frame="map", late=0.0, force=None):
             if force is not None:
                 wrench = _type("geometry_msgs/msg/Wrench")(vector(*force), vector(0.0, 0.0, 0.0))
                 messages["/push"] = (_header(time, "map"), wrench)
+            if number % every:
+                del messages["/twist"]
             for topic, fields in messages.items():
                 data = STORE.serialize_cdr(_type(kinds[topic])(*fields), kinds[topic])
                 writer.write(rows[topic], ORIGIN + round(time * 1e9), data)

@@ -105,6 +105,24 @@ def test_the_table_names_modes_and_what_is_not_known(tmp_path, capsys):
         assert words in text
 
 
+def test_table_and_json_tell_how_the_bag_was_read(tmp_path, capsys):
+    foreign_bag.write_pose_and_twist(tmp_path / "bag", motions.states_of(motions.planar()), every=2)
+    lines = told(capsys, tmp_path / "bag")[0]["reading"]
+    assert "the twist of /twist is read in world axes" in lines[0]
+    assert "have no twist of the same stamp" in lines[1]
+    assert main(["identify", str(tmp_path / "bag"), *BOX]) == 0
+    text = capsys.readouterr().out
+    assert all(line in text for line in lines)
+
+
+def test_axes_are_told_where_the_motion_is_refused_too(tmp_path, capsys):
+    short = tuple(field[:3] for field in motions.states_of(motions.planar()))
+    foreign_bag.write_odometry(tmp_path / "bag", short)
+    text = refused(capsys, tmp_path / "bag", *BOX)
+    assert "needs at least 4" in text
+    assert "the twist of /odom is read in body axes" in text
+
+
 def test_bad_input_ends_with_one_sentence(tmp_path, capsys):
     states = motions.states_of(motions.planar())
     bag = tmp_path / "bag"

@@ -1,13 +1,13 @@
 """States of a rigid body from a bag: ours (`bench/motion`), or anyone's with Odometry, or PoseStamped and TwistStamped.
 
 Foreign bags are read as `any_bag.py` says. The twist of an Odometry is in body axes, as its
-definition says; that of a TwistStamped is in the frame that its header names.
+definition says; that of a TwistStamped is in the frame that its header names (`twists.py`).
 """
 
 from __future__ import annotations
 
 from pathlib import Path
-from typing import Any, Literal, NamedTuple
+from typing import Any, NamedTuple
 
 import numpy
 from numpy.typing import NDArray
@@ -20,6 +20,7 @@ from .encoding import SECOND
 from .errors import BagError
 from .messages import decode_motion, stamp_of
 from .reader import Bag, open_bag
+from .twists import TwistAxes, pairs_of, reading_of_odometry, reading_of_twists
 
 __all__ = [
     "ODOMETRY",
@@ -34,12 +35,10 @@ __all__ = [
 ]
 
 Array = NDArray[numpy.float64]
-TwistAxes = Literal["auto", "world", "body"]
 
 ODOMETRY, POSE = "nav_msgs/msg/Odometry", "geometry_msgs/msg/PoseStamped"
 TWIST, WRENCH = "geometry_msgs/msg/TwistStamped", "geometry_msgs/msg/WrenchStamped"
 MOTION = "bench/motion"
-SAME = 1_000  # [ns] between the stamps of a pose and of its twist
 FEWEST_STAMPS = 3  # messages a stamp in the mean, beyond which a topic is not stamped
 NORM = 0.01  # allowed difference of a quaternion's length from 1
 XYZ = "xyz"
@@ -51,6 +50,7 @@ class RecordedStates(NamedTuple):
     states: BodyStates
     origin: int  # [ns], stamp of the first sample
     notes: tuple[str, ...] = ()  # what of the bag could not be read, one line each
+    reading: tuple[str, ...] = ()  # how the rest was read, one line each
 
 
 class WrenchSamples(NamedTuple):
@@ -70,7 +70,7 @@ def read_body_states(
         path: directory or file of the bag.
         topic: of Odometry or PoseStamped; the only one of its kind where it is None, or `bench/motion` of a bag of ours.
         twist_topic: of TwistStamped; the only one where it is None.
-        twist_axes: of the twist; `auto`: as the message says.
+        twist_axes: of the twist; `auto`: as the message says, which `reading` tells.
 
     Raises:
         BagError: no bag, no such topic, several to choose from, or stamps that do not fit.
@@ -118,7 +118,8 @@ def bench_states(bag: Bag) -> RecordedStates:
         [[True], numpy.diff(time) > 0.0]
     )  # the last sample of a block may be the first of the next
     states = BodyStates(time, place, exponential(turn), _spread(velocity, rows[:3]), _spread(velocity, rows[3:]))
-    return RecordedStates(BodyStates(*(field[kept] for field in states)), origin, tuple(bag.notes))
+    kept_states = BodyStates(*(field[kept] for field in states))
+    return RecordedStates(kept_states, origin, tuple(bag.notes), (f"the velocities of {MOTION} are in world axes",))
 
 
 def _coordinates(names: tuple[str, ...], path: Path) -> list[int | None]:
@@ -165,19 +166,20 @@ def _foreign(bag: AnyBag, topic: str | None, twist_topic: str | None, twist_axes
     name = _choose(bag, topic, (ODOMETRY, POSE), "--topic")
     messages = _all(bag, name)
     time = [_stamp(message) for message in messages]
+    alone: tuple[str, ...] = ()
     if bag.topics[name] == ODOMETRY:
         poses, twists = [message.pose.pose for message in messages], [message.twist.twist for message in messages]
-        turning = twist_axes != "world"
+        reading = reading_of_odometry(messages[0], name, twist_axes)
     else:
         poses = [message.pose for message in messages]
-        other = _all(bag, _choose(bag, twist_topic, (TWIST,), "--twist-topic"))
-        pairs = _paired(time, [_stamp(message) for message in other], name)
+        twist_name = _choose(bag, twist_topic, (TWIST,), "--twist-topic")
+        other = _all(bag, twist_name)
+        pairs, alone = pairs_of(time, [_stamp(message) for message in other], (name, twist_name))
         time, poses = [time[first] for first, _ in pairs], [poses[first] for first, _ in pairs]
         twists = [other[second].twist for _, second in pairs]
-        named = other[0].header.frame_id != messages[0].header.frame_id
-        turning = twist_axes == "body" or (twist_axes == "auto" and named)
-    found = _states(time, poses, twists, turning, name)
-    return found._replace(notes=(*bag.notes, *found.notes))
+        reading = reading_of_twists(messages[0], other[0], twist_name, twist_axes)
+    found = _states(time, poses, twists, reading.body, name)
+    return found._replace(notes=(*bag.notes, *found.notes), reading=(reading.note, *alone))
 
 
 def _all(bag: AnyBag, topic: str) -> list[Any]:
@@ -227,22 +229,6 @@ def _one_a_stamp(states: BodyStates, topic: str) -> tuple[BodyStates, tuple[str,
         f"{other} messages on {topic} have the stamp of another one and other values: the first of each stamp is used"
     )
     return BodyStates(*(field[first] for field in states)), (note,) if other else ()
-
-
-def _paired(first: list[int], second: list[int], topic: str) -> list[tuple[int, int]]:
-    """Places of poses and twists of the same stamp."""
-    order = numpy.argsort(numpy.array(second), kind="stable")
-    stamps = numpy.array(second)[order]
-    near = numpy.clip(numpy.searchsorted(stamps, numpy.array(first) - SAME), 0, len(stamps) - 1)
-    pairs = [
-        (place, int(order[other])) for place, other in enumerate(near) if abs(stamps[other] - first[place]) <= SAME
-    ]
-    if len(pairs) < 0.5 * len(first):
-        raise BagError(
-            f"of {len(first)} poses on {topic} only {len(pairs)} have a twist of the same stamp (within 1 us); record both "
-            "with one stamp, or use Odometry"
-        )
-    return pairs
 
 
 def _choose(bag: AnyBag, topic: str | None, types: tuple[str, ...], option: str) -> str:

@@ -10,7 +10,7 @@ import click
 from .tables import json_option, print_json, show_sections
 
 if TYPE_CHECKING:
-    from contact_sim_pkg.bag.body_states import TwistAxes
+    from contact_sim_pkg.bag.twists import TwistAxes
     from contact_sim_pkg.identification.geometry import Shape
     from contact_sim_pkg.identification.identify import Identification
     from contact_sim_pkg.identification.wrench import ExternalWrench
@@ -28,7 +28,8 @@ FILE = click.Path(path_type=Path)
     "--twist-axes",
     type=click.Choice(["auto", "world", "body"]),
     default="auto",
-    help="Axes of the twist; auto: body for Odometry, the frame of the header for TwistStamped.",
+    help="Axes of the twist; auto: the child_frame_id of Odometry, the frame of the header for TwistStamped, as the "
+    "result tells.",
 )
 @click.option("--box", type=VECTOR, metavar="X Y Z", help="The body is a box of these lengths [m].")
 @click.option("--sphere", type=float, metavar="R", help="The body is a sphere of this radius [m].")
@@ -75,9 +76,11 @@ def command(
     """
     from contact_sim_pkg.analysis import identification_rows
     from contact_sim_pkg.bag.body_states import read_body_states
+    from contact_sim_pkg.identification.errors import IdentificationError
     from contact_sim_pkg.identification.geometry import plane
     from contact_sim_pkg.identification.identify import Setup, identify
     from contact_sim_pkg.identification.states import Noise
+    from contact_sim_pkg.studies.section import Section
 
     shape = _shape(box, sphere, hull)
     recorded = read_body_states(bag, topic, twist_topic, twist_axes)
@@ -86,15 +89,22 @@ def command(
     setup = Setup(shape, plane(normal, ground), wrench, gravity, spreads, friction=friction)
     for note in recorded.notes:
         click.echo(f"bench: {note}", err=True)
-    found = identify(recorded.states, setup)
+    try:
+        found = identify(recorded.states, setup)
+    except IdentificationError:
+        for line in recorded.reading:
+            click.echo(f"bench: {line}", err=True)
+        raise
     if plot is not None:
         from contact_sim_pkg.analysis.identification_plot import write_plot
 
         write_plot(found, plot)
     if as_json:
-        print_json({"bag": str(bag), "first_stamp_ns": recorded.origin, **identification_rows.facts(found)})
+        heads = {"bag": str(bag), "first_stamp_ns": recorded.origin, "reading": list(recorded.reading)}
+        print_json({**heads, **identification_rows.facts(found)})
     else:
-        show_sections(_sections(found))
+        reading = Section("Reading of the bag", [{"what was read, and how": line} for line in recorded.reading])
+        show_sections([*_sections(found), reading])
 
 
 def _shape(box: tuple[float, float, float] | None, sphere: float | None, hull: Path | None) -> Shape:
