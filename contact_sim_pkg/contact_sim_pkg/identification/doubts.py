@@ -17,10 +17,12 @@ from .possible import impossible
 from .problem import Contact, Problem
 from .stacked import Estimate
 from .sweep import FEW
+from .turning import missing_spin_rate, spin_scale
 
 __all__ = ["doubts"]
 
 SIGMAS = 5.0  # how far from zero a mean of all flights or impacts
+LEAST_SCALE = 1e-5  # of the spin: less is that of stamps which were rounded
 SMOOTH = 5.0  # times the noise of neighbouring samples: what flights leave is no noise
 
 
@@ -41,7 +43,7 @@ def doubts(found: Estimate, notes: Iterable[str], problem: Problem) -> list[str]
             "ground, gravity, the wrench and the noise; the standard deviations are too small"
         )
     told += impossible(found, problem)
-    told += [*_falling(found, problem), *_above(found, problem)]
+    told += [*_falling(found, problem), *_turning(found, problem), *_above(found, problem)]
     short = [contact for contact in problem.contacts if _hidden(contact, problem)]
     if short:
         longest = 1e3 * max(contact.end - contact.begin for contact in short)
@@ -72,7 +74,8 @@ def _falling(found: Estimate, problem: Problem) -> list[str]:
         x, y, z = missing.value
         line = (
             f"the flights accelerate by ({x:.3g}, {y:.3g}, {z:.3g}) m/s^2 more than gravity and the known wrench make them "
-            f"(standard deviation {missing.deviation:.2g}): check gravity, its direction, and the wrench"
+            f"(standard deviation {missing.deviation:.2g}): check gravity, its direction, the wrench, "
+            "and impacts that the samples smear or miss"
         )
         return [line]
     left, rough = from_residuals(found.residuals, problem.states).velocity, first_guess(problem.states).velocity
@@ -80,6 +83,37 @@ def _falling(found: Estimate, problem: Problem) -> list[str]:
         line = (
             f"the flights leave {left:.2g} m/s of the velocities, {left / rough:.2g} times what neighbouring samples differ by: "
             "check gravity, the wrench and the axes of the twist; of filtered samples the standard deviations are too small"
+        )
+        return [line]
+    return []
+
+
+def _turning(found: Estimate, problem: Problem) -> list[str]:
+    """Flights whose rotation and spin contradict each other, or what inertia and torque make of them."""
+    scale = spin_scale(found, problem)
+    if abs(scale.value[0]) > max(SIGMAS * scale.deviation, LEAST_SCALE):
+        line = (
+            f"the rotations turn about {1.0 + scale.value[0]:.4g} times as fast as the spin says (standard deviation "
+            f"{scale.deviation:.2g}): check the scale and the axes of the spin, and the stamps"
+        )
+        return [line]
+    fastest, missing = float(abs(problem.states.angular_velocity).max()), missing_spin_rate(found, problem)
+    length = float(numpy.linalg.norm(missing.value))
+    if length > SIGMAS * missing.deviation and length * missing.longest > SLIGHT * fastest:
+        x, y, z = missing.value
+        line = (
+            f"the flights gain ({x:.3g}, {y:.3g}, {z:.3g}) rad/s of spin a second more than inertia and the known torque make them "
+            f"(standard deviation {missing.deviation:.2g}): check the torque"
+        )
+        return [line]
+    left, rough = from_residuals(found.residuals, problem.states), first_guess(problem.states)
+    spins, turns = left.angular_velocity / rough.angular_velocity, left.rotation / rough.rotation
+    size = max(left.rotation, left.angular_velocity / max(fastest, 1e-300))
+    if max(spins, turns) > SMOOTH and size > SLIGHT:
+        line = (
+            f"the flights leave {left.rotation:.2g} rad of the rotations and {left.angular_velocity:.2g} rad/s of the spins, up to "
+            f"{max(spins, turns):.2g} times what neighbouring samples differ by: check the torque, the axes of the spin, the "
+            "stamps, and single samples that are wrong"
         )
         return [line]
     return []

@@ -14,7 +14,7 @@ from .problem import Problem
 from .rotation import Array
 from .stacked import Estimate
 
-__all__ = ["MissingAcceleration", "missing_acceleration"]
+__all__ = ["FEWEST", "MissingAcceleration", "extra_acceleration", "missing_acceleration"]
 
 FEWEST = 4  # samples of a flight that tells an acceleration
 
@@ -35,7 +35,8 @@ def missing_acceleration(found: Estimate, problem: Problem) -> MissingAccelerati
         if last - first + 1 < FEWEST:
             continue
         time = problem.states.time[first : last + 1]
-        value, weight = _of_flight(time - time[0], rest, problem)
+        spreads = problem.noise.position, problem.noise.velocity
+        value, weight = extra_acceleration(time - time[0], rest[:, :3], rest[:, 3:6], *spreads)
         total = total + weight * value
         weights, longest = weights + weight, max(longest, float(time[-1] - time[0]))
     if weights == 0.0:
@@ -43,13 +44,15 @@ def missing_acceleration(found: Estimate, problem: Problem) -> MissingAccelerati
     return MissingAcceleration(total / weights, 1.0 / float(numpy.sqrt(weights)), longest)
 
 
-def _of_flight(time: Array, rest: Array, problem: Problem) -> tuple[Array, float]:
-    """Acceleration [3] from what is left of position and velocity [n, 12], and one over its variance."""
-    spreads = numpy.repeat([problem.noise.position, problem.noise.velocity], len(time))
+def extra_acceleration(
+    time: Array, places: Array, rates: Array, place_noise: float, rate_noise: float
+) -> tuple[Array, float]:
+    """Acceleration [3] in what is left of places and of their rates [n, 3] at `time` [n], and one over its variance."""
+    spreads = numpy.repeat([place_noise, rate_noise], len(time))
     one, nothing = numpy.ones_like(time), numpy.zeros_like(time)
     columns = [
         numpy.concatenate(pair) / spreads for pair in ((one, nothing), (time, one), (0.5 * time**2, time))
     ]  # fmt: skip
     orthogonal, triangle = numpy.linalg.qr(numpy.stack(columns, axis=1))
-    measured = numpy.concatenate([rest[:, :3], rest[:, 3:6]]) / spreads[:, None]
+    measured = numpy.concatenate([places, rates]) / spreads[:, None]
     return numpy.asarray(orthogonal[:, 2] @ measured / triangle[2, 2]), float(triangle[2, 2] ** 2)

@@ -24,12 +24,14 @@ from .slides import slides_of
 from .stacked import Estimate
 from .states import BodyStates, Noise, checked
 from .tumbling import tumbling_start
+from .turning import rate_of_turn
 from .wrench import NO_WRENCH, ExternalWrench
 
 __all__ = ["Identification", "Parameter", "Setup", "identify"]
 
 
 AXIS = 5.0  # times its deviation: how far the axis of the plane, a mean over all samples, may be wrong
+SLOWEST = 0.1  # of the spin that is told: slower turns contradict it, whatever noise and axes do
 LARGEST = 1e6  # gravity, friction coefficient, noise: beyond it a number is a mistake
 
 
@@ -81,6 +83,7 @@ def identify(states: BodyStates, setup: Setup) -> Identification:
     states = checked(states)
     _check_setup(setup)
     _check_wrench(states, setup.wrench)
+    _check_spin(states)
     guess = setup.noise or first_guess(states)
     axis = None if setup.planar is False else plane_of_motion(states, setup.ground, guess)
     if setup.planar and axis is None:
@@ -113,6 +116,15 @@ def _check_setup(setup: Setup) -> None:
     for name, value in (setup.noise._asdict() if setup.noise else {}).items():
         if not 0.0 <= value <= LARGEST:
             raise IdentificationError(f"the noise of the {name.replace('_', ' ')} is 0 to {LARGEST:g}, not {value:g}")
+
+
+def _check_spin(states: BodyStates) -> None:
+    rate = rate_of_turn(states)
+    if rate is not None and not SLOWEST <= abs(rate) <= 1.0 / SLOWEST:
+        raise IdentificationError(
+            f"the rotations turn {rate:.3g} times as fast as the angular velocities say (in degrees it would be 0.0175); give them "
+            "in rad/s"
+        )
 
 
 def _check_wrench(states: BodyStates, wrench: ExternalWrench) -> None:

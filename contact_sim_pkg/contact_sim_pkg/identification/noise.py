@@ -16,6 +16,7 @@ FLOOR = 1e-13  # of the largest value of a channel: rounding
 ROUNDED = float(numpy.sqrt(12.0))  # step of a rounding over its standard deviation
 STEPS = 10.0 ** numpy.arange(0.0, -10.0, -1.0)  # decimals that samples are rounded to
 NEARLY = 1e-6  # of a step
+CONSTANT = 0.1  # of the noisiest component: less noise is that of a component that was not measured, as across a plane
 FEWEST = 20  # different values
 SECOND = numpy.sqrt(6.0)  # noise of a second difference over that of a value
 
@@ -35,13 +36,18 @@ def first_guess(states: BodyStates) -> Noise:
 
 
 def from_residuals(residuals: Sequence[Array], states: BodyStates) -> Noise:
-    """From what flights leave of their samples, [n, 12] in the order dx, dv, rotation, dw, and not less than their rounding."""
+    """From what flights leave of their samples, [n, 12] in the order dx, dv, rotation, dw, and not less than their rounding.
+
+    A component without noise of its own, as those out of a plane that a camera films, is not counted.
+    """
     spreads, steps = [], (_step(states.position), _step(states.velocity), 0.0, _step(states.angular_velocity))
     for channel in range(4):
         parts = [rest[:, 3 * channel : 3 * channel + 3] for rest in residuals]
-        free = sum(3.0 * max(len(part) - 1.0, 0.0) for part in parts)
-        total = sum(float(numpy.sum(part**2)) for part in parts)
-        spreads.append(max(float(numpy.sqrt(total / free)) if free else 0.0, steps[channel] / ROUNDED))
+        free = sum(max(len(part) - 1.0, 0.0) for part in parts)
+        total = sum((numpy.sum(part**2, axis=0) for part in parts), start=numpy.zeros(3))
+        noisy = total > CONSTANT**2 * total.max()
+        spread = float(numpy.sqrt(total[noisy].mean() / free)) if free and noisy.any() else 0.0
+        spreads.append(max(spread, steps[channel] / ROUNDED))
     position, velocity, rotation, angular_velocity = spreads
     return limited(Noise(position, rotation, velocity, angular_velocity), states)
 
