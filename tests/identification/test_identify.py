@@ -176,7 +176,7 @@ def test_times_that_start_late_change_nothing():
 
 def sliding_ball(noise=0.0):
     """A ball slides on level ground and is spun up: v' = -mu g, w' = mu g R m/J; it never leaves the ground."""
-    radius, friction, time = 0.05, 0.3, 1e-3 * numpy.arange(200)
+    radius, friction, time = 0.05, 0.3, 1e-3 * numpy.arange(190)  # it rolls from 2/(3.5 mu g) = 0.194 s on
     zero, speed, rate = 0.0 * time, 2.0 - friction * 9.81 * time, friction * 9.81 / (0.4 * radius) * time
     place, turned = 2.0 * time - 0.5 * friction * 9.81 * time**2, 0.5 * rate * time
     vectors = [numpy.stack(rows, axis=1) for rows in ((place, zero, zero + radius), (zero, turned, zero))]
@@ -189,7 +189,7 @@ def sliding_ball(noise=0.0):
 def test_a_lasting_contact_tells_the_inertia_step_by_step(noise, allowed):
     found = identify(sliding_ball(noise), Setup(geometry.sphere(0.05)))
     assert values(found)["J/m"].value == pytest.approx(0.4 * 0.05**2, rel=allowed)
-    assert found.contacts[0].note == "lasting contact, slides with friction 0.3"
+    assert found.contacts[0].note.startswith("lasting contact, slides with friction 0.3 ±")
 
 
 def test_refusals_are_sentences():

@@ -4,10 +4,11 @@ from __future__ import annotations
 
 import numpy
 
-from .geometry import UP, arm, gaps, size
+from .geometry import arm, gaps, size
 from .problem import Contact, Problem
 from .rotation import Array
 from .segments import LONGEST_IMPACT, Segments
+from .sliding_friction import sliding_friction
 from .states import Noise
 
 __all__ = ["NO_FLIGHT", "in_words", "with_steps"]
@@ -42,8 +43,8 @@ def with_steps(problem: Problem, parts: Segments) -> Problem:
 
 
 def in_words(problem: Problem, first: int, last: int) -> str:
-    """What a lasting contact over the intervals first to last does: sticks, slides (with which friction), or both."""
-    states, noise, ground = problem.states, problem.noise, problem.ground
+    """What a lasting contact over the intervals first to last does: sticks, slides (with what friction), or both."""
+    states, noise = problem.states, problem.noise
     samples = range(first + 1, last + 1)
     lift = float(numpy.median([_heights(problem, sample).min() for sample in samples]))
     high = HIGH * size(problem.shape) + SIGMAS * noise.position
@@ -58,13 +59,9 @@ def in_words(problem: Problem, first: int, last: int) -> str:
     if share < FEW:
         return "lasting contact, sticks"
     words = "lasting contact, slides" if share > 1.0 - FEW else f"lasting contact, slides {share:.0%} of the time"
-    pushes = numpy.diff(states.velocity[first + 1 : last + 1], axis=0)
-    pushes = pushes + numpy.diff(states.time[first + 1 : last + 1])[:, None] * problem.model.gravity * UP
-    normal = float(numpy.sum(pushes @ ground.normal))
-    along = numpy.linalg.norm(pushes - (pushes @ ground.normal)[:, None] * ground.normal, axis=1)
-    if problem.model.wrench.present or share < 1.0 - FEW or normal <= 0.0:
-        return words
-    return f"{words} with friction {float(numpy.sum(along)) / normal:.3g}"
+    told = None if problem.model.wrench.present else sliding_friction(problem, samples)
+    friction = told.in_words() if told else ""
+    return f"{words} with {friction}" if friction else words
 
 
 def _slip(problem: Problem, sample: int) -> float:

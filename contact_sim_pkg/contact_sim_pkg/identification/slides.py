@@ -16,7 +16,7 @@ from .rotation import Array
 from .segments import LONGEST_IMPACT, MEDIAN_OF_GAUSS, Segments
 from .states import Noise
 
-__all__ = ["Slide", "slides_of", "with_slides"]
+__all__ = ["Slide", "slides_of", "slip_of", "with_slides"]
 
 MOST = 60  # steps taken
 SIGMAS = 6.0
@@ -109,10 +109,16 @@ def _missed(problem: Problem, slide: Slide, length: int) -> float:
 
 def _slip(problem: Problem, sample: int) -> Array:
     """Slip of the points that touch, [3] in [m/s]; zero where they slip slowly, or differently, or nothing touches."""
+    mean, alike = slip_of(problem, sample)
+    return mean if alike else numpy.zeros(3)
+
+
+def slip_of(problem: Problem, sample: int) -> tuple[Array, bool]:
+    """Mean slip of the points that touch, [3] in [m/s], zero where it is slow or nothing touches; whether all slip alike."""
     states, noise, length = problem.states, problem.noise, size(problem.shape)
     heights, flat = _heights(problem, sample), problem.tangents.T @ problem.tangents
     if heights.min() > HIGH * length + SIGMAS * noise.position:
-        return numpy.zeros(3)
+        return numpy.zeros(3), True
     doubt = SIGMAS * (noise.position + length * noise.rotation)
     touching = numpy.flatnonzero(heights <= heights.min() + max(TOUCH * length, doubt))
     reaches = [arm(problem.shape, problem.ground, states.rotation[sample], int(point)) for point in touching]
@@ -122,7 +128,7 @@ def _slip(problem: Problem, sample: int) -> Array:
     limit = max(SIGMAS * (noise.velocity + length * noise.angular_velocity), floor)
     mean = slips.mean(axis=0)
     alike = float(numpy.linalg.norm(slips - mean, axis=1).max()) <= limit
-    return mean if alike and float(numpy.linalg.norm(mean)) > limit else numpy.zeros(3)
+    return (mean if float(numpy.linalg.norm(mean)) > limit else numpy.zeros(3)), alike
 
 
 def _angle(first: Array, last: Array) -> float:
