@@ -44,8 +44,12 @@ def ball(slope=0.0, across=0.0, duration=0.15):
     time = 1e-3 * numpy.arange(round(1e3 * duration))
     start = numpy.concatenate([RADIUS * normal, 3.0 * downhill + [0.0, across, 0.0], numpy.zeros(3)])
     rows = solve_ivp(rate, (0.0, time[-1]), start, "DOP853", time, rtol=1e-12, atol=1e-13).y.T
-    turns = numpy.tile(numpy.eye(3), (len(time), 1, 1))  # of a ball they tell nothing
-    return BodyStates(time, rows[:, :3], turns, rows[:, 3:6], rows[:, 6:]), normal
+    turned = Rotation.identity()
+    turns = [turned.as_matrix()]
+    for spin in 0.5 * (rows[1:, 6:] + rows[:-1, 6:]):
+        turned = Rotation.from_rotvec(1e-3 * spin) * turned
+        turns.append(turned.as_matrix())
+    return BodyStates(time, rows[:, :3], numpy.array(turns), rows[:, 3:6], rows[:, 6:]), normal
 
 
 def spinning_plate(spin):
