@@ -6,7 +6,10 @@ import numpy
 import pytest
 from scipy.spatial.transform import Rotation
 
+from contact_sim_pkg.core.parameters import NormalElastic
+from contact_sim_pkg.core.results import DONE
 from contact_sim_pkg.core.rigid.body import box, placed, regular_block, slope, sphere
+from contact_sim_pkg.core.rigid.compliant import MovedBody, compliant_contact
 from contact_sim_pkg.core.rigid.located import LocatedBody
 from contact_sim_pkg.core.rigid.results import SOLVED
 
@@ -68,3 +71,14 @@ def test_a_block_at_rest_on_the_ground_tips_about_its_edge_under_a_torque_alone(
     assert motion.position[0] == 0.0
     corner = 0.1 * math.sqrt(2.0) * math.sin(math.pi / 4.0 + motion.angle[0])
     assert motion.position[1] >= corner - 1e-10
+
+
+@pytest.mark.parametrize("restitution", [0.1, 0.5, 0.9])
+def test_a_ball_on_springs_rebounds_with_the_restitution_that_was_asked_for(restitution):
+    """It drifts 0.05 m down at 0.1 m/s, touches for some milliseconds, and leaves."""
+    ball = carried(sphere(0.05, 1.0, FRICTION, restitution))
+    motion = placed(ball, [0.0, 0.0, 0.1], [0.3, 0.0, -SPEED, 0.0, 0.0, 0.0])
+    ball_on_springs = MovedBody(ball, slope(3), motion, compliant_contact(ball, NormalElastic(1e6, 1.5), 1e6), 1e-10)
+    for _ in range(100):
+        assert ball_on_springs.advance(0.01) == DONE
+    assert motion.velocity[2] == pytest.approx(restitution * SPEED, rel=1e-6)

@@ -20,6 +20,8 @@ from ..parameters import Vector
 from .problem import PLANE, SPACE
 from .profile import Profile, clearance, fitted, flat, make_profile, point_on_profile, ridge_on_polygon, rise_needed
 
+LEAST_PULL = 0.1  # [m/s^2]
+
 
 class RigidBody(NamedTuple):
     """Shape, inertia and surface of a body."""
@@ -217,6 +219,11 @@ def contact_rows(body, ground, motion, gap, J):
         if width == SPACE:
             s_x, s_y, s_z = n_y * t_z, n_z * t_x - n_x * t_z, -n_y * t_x
             _fill_row(J, row + 2, width, s_x, s_y, s_z, r_x, r_y, r_z)
+
+
+def pull(body: RigidBody) -> float:
+    """Acceleration in [m/s^2] by which a body measures speeds and times: of its load, and at least LEAST_PULL without weight."""
+    return max(float(numpy.linalg.norm(body.load[: body.width]) / body.mass), LEAST_PULL)
 
 
 @entry

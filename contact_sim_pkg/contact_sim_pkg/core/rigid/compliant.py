@@ -23,7 +23,7 @@ from ..rigs.compliant_body import (
     stored_energy,
 )
 from ..solvers.dormand_prince import EVENTS, REJECTED, STEPS, Workspace, integrate, make_workspace, set_sides
-from .body import Ground, Motion, RigidBody, contact_count, laid_under
+from .body import Ground, Motion, RigidBody, contact_count, laid_under, pull
 from .flight import body_size
 from .problem import PLANE
 
@@ -41,8 +41,8 @@ def asked_loss(restitution: float) -> float:
 
 
 def resting_swing(body: RigidBody, elastic: NormalElastic) -> tuple[float, float]:
-    """Depth in [m] of a body at rest on one point, and its frequency there in [rad/s]."""
-    weight = float(numpy.linalg.norm(body.load[: body.width]))
+    """Depth in [m] of a body at rest on one point under its `pull`, and its frequency there in [rad/s]."""
+    weight = body.mass * pull(body)
     depth = (weight / elastic.coefficient) ** (1.0 / elastic.exponent)
     return depth, math.sqrt(elastic.exponent * weight / (depth * body.mass))
 

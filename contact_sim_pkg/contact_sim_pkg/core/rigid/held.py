@@ -31,6 +31,7 @@ from .rotation import gyroscopic_rate, spin_in_body
 STILL = 1.0e-13  # of the speed scale: below it a velocity is rounding
 LANDED = 1.0e-11  # of the size: a point this far below the ground has landed
 DRIFT = 1.0e-10  # of the size: a gap of a held point that is taken back, which turning bodies call for
+LEAVES = 1.0e-9  # [m/s^2]: less is the rounding of an acceleration
 HOLD_SWEEPS = 20
 
 
@@ -161,7 +162,7 @@ def settle_points(
 ) -> tuple[float, bool]:
     """Hold the points whose rebound is below the rest speed and that the load presses down, or may be by what holds the others.
 
-    Also those that approach by rounding, whatever presses them.
+    Also those that approach by rounding and that nothing takes away.
 
     Returns the time in [s] that their last bounces take, and whether any point is held. ``work.impulse`` is what takes the
     speed of their rebound from them: the weight carries them over the last bounces, and this much less.
@@ -177,7 +178,9 @@ def settle_points(
         if work.flags[i] == APART or abs(speed) > rest_speed:
             continue
         acceleration = _normal_acceleration(body, ground, motion, work, i)
-        if acceleration < 0.0 or speed < 0.0:  # without weight rounding alone may drive it in
+        if acceleration < 0.0 or (
+            speed < 0.0 and acceleration < LEAVES
+        ):  # without weight rounding alone may drive it in
             if speed > still and acceleration < 0.0 and body.restitution < 1.0:
                 wait = max(wait, 2.0 * speed / (-acceleration * (1.0 - body.restitution)))
             work.flags[i] = HELD

@@ -14,7 +14,7 @@ import numpy
 
 from ..parameters import Vector
 from . import held
-from .body import Ground, Motion, RigidBody, contact_count, laid_under
+from .body import Ground, Motion, RigidBody, contact_count, laid_under, pull
 from .flight import body_size
 from .march import COLLIDE, DONE, MOST_SHORT, PAUSE, advance_samples, make_march_workspace
 from .motion import APART, HELD, STUCK, TOUCHING, make_motion_workspace
@@ -61,7 +61,6 @@ __all__ = ["Impact", "LocatedBody", "Track"]
 MOST_IMPACTS = 100_000  # in one interval
 REST = 1.0e-6  # rest speed over sqrt(g L)
 TOLERANCE = 1.0e-10
-LEAST_PULL = 0.1  # [m/s^2], by which a body without weight measures speeds and times
 LANDS = 3.0  # times the speed of a fall by `held.LANDED`: slower landings beside held points do not bounce
 LARGEST_TURN = 1.0e5  # [rad] in one interval: more are pieces without end
 LONGER = 4.0  # times, from one try for modes that fit to the next
@@ -103,7 +102,7 @@ class LocatedBody:
         self._columns = track_columns(body, points)
         self._solver = PackedSolver(coordinates, body.width, facets)
         self.size = float(body_size(body))
-        self.gravity = max(float(numpy.linalg.norm(body.load[: body.width]) / body.mass), LEAST_PULL)
+        self.gravity = pull(body)
         self._turning = make_turn_workspace(body, ground, self.size, self.gravity, tolerance)
         self.rest_speed = REST * math.sqrt(self.gravity * self.size)
         self.landing_speed = max(self.rest_speed, LANDS * math.sqrt(2.0 * held.LANDED * self.gravity * self.size))

@@ -134,9 +134,12 @@ class SteppedBody:
     def _solve(self, *, bounces: bool) -> int:
         work = self.work
         found = self._solver.hold(work)
+        landed = found.status == SOLVED
         self._landing[:] = work.impulse
-        if bounces and found.status == SOLVED:
+        if bounces:
             self.impacts += 1
             found = self._solver.collide(work, self.rule)
+            if not landed:  # gaps that no motion closes at once: it bounces where it is
+                self._landing[:] = work.impulse
         self.residual = max(self.residual, float(found.residual)) if math.isfinite(found.residual) else math.inf
         return int(found.status)
