@@ -117,3 +117,14 @@ def test_a_ball_that_bounces_without_loss_never_rises_above_its_start(step):
         assert body.advance(1) == SOLVED
         highest = max(highest, float(motion.position[2]))
     assert highest <= 0.15
+
+
+@pytest.mark.parametrize("step", [1e-3, 1e-4])
+def test_a_box_that_tumbles_down_a_slope_comes_to_rest(step):
+    """Friction of 0.6 holds it on 0.2 rad; four corners that stick ask a step for what no motion of the box gives."""
+    body = box((0.2, 0.3, 0.1), 1.0, 0.6, 0.5)
+    turned = Rotation.from_rotvec([0.3, -0.2, 0.7]).as_matrix()
+    motion = placed(body, [0.0, 0.0, 0.5], [0.5, 0.0, 0.0, 3.0, 5.0, 0.3], rotation=turned)
+    stepped = SteppedBody(body, slope(3, 0.2), motion, step)
+    assert stepped.advance(round(2.0 / step)) == SOLVED
+    assert numpy.abs(motion.velocity).max() <= 1e-12
