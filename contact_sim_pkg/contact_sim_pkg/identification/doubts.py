@@ -91,9 +91,9 @@ def _falling(found: Estimate, problem: Problem) -> list[str]:
 def _turning(found: Estimate, problem: Problem) -> list[str]:
     """Flights whose rotation and spin contradict each other, or what inertia and torque make of them."""
     scale = spin_scale(found, problem)
-    if abs(scale.value[0]) > max(SIGMAS * scale.deviation, LEAST_SCALE):
+    if abs(scale.excess) > max(SIGMAS * scale.deviation, LEAST_SCALE):
         line = (
-            f"the rotations turn about {1.0 + scale.value[0]:.4g} times as fast as the spin says (standard deviation "
+            f"the rotations turn about {1.0 + scale.excess:.4g} times as fast as the spin says (standard deviation "
             f"{scale.deviation:.2g}): check the scale and the axes of the spin, and the stamps"
         )
         return [line]

@@ -14,45 +14,54 @@ from .problem import Problem
 from .rotation import Array
 from .stacked import Estimate
 
-__all__ = ["FEWEST", "MissingAcceleration", "extra_acceleration", "missing_acceleration"]
+__all__ = ["FEWEST", "MissingAcceleration", "long_flights", "mean_over_flights", "missing_acceleration"]
 
 FEWEST = 4  # samples of a flight that tells an acceleration
 
 
 class MissingAcceleration(NamedTuple):
-    """Acceleration of the centre of mass in flight beyond that of the model."""
+    """Acceleration in flight beyond that of the model."""
 
-    value: Array  # [3], [m/s^2], world axes
-    deviation: float  # standard deviation of a component, [m/s^2]; infinite where no flight tells
+    value: Array  # [3], [m/s^2] or [rad/s^2], world axes
+    deviation: float  # standard deviation of a component; infinite where no flight tells
     longest: float  # [s], of the flights
 
 
 def missing_acceleration(found: Estimate, problem: Problem) -> MissingAcceleration:
-    """Mean over all flights of what `found` leaves of their samples."""
+    """Of the centre of mass: mean over all flights of what `found` leaves of their positions and velocities."""
+    return mean_over_flights(found, problem, 0, (problem.noise.position, problem.noise.velocity))
+
+
+def mean_over_flights(found: Estimate, problem: Problem, first: int, noise: tuple[float, float]) -> MissingAcceleration:
+    """Of the places in the columns `first` to `first` + 2 of what is left [n, 12], and of their rates in the next three.
+
+    `noise`: of a place and of a rate.
+    """
     total: Array = numpy.zeros(3)
     weights, longest = 0.0, 0.0
-    for (first, last), rest in zip(problem.flights, found.residuals, strict=True):
-        if last - first + 1 < FEWEST:
-            continue
-        time = problem.states.time[first : last + 1]
-        spreads = problem.noise.position, problem.noise.velocity
-        value, weight = extra_acceleration(time - time[0], rest[:, :3], rest[:, 3:6], *spreads)
+    for run, rest in long_flights(found, problem):
+        time = problem.states.time[run] - problem.states.time[run.start]
+        value, weight = _of_flight(time, rest[:, first : first + 6], noise)
         total = total + weight * value
-        weights, longest = weights + weight, max(longest, float(time[-1] - time[0]))
+        weights, longest = weights + weight, max(longest, float(time[-1]))
     if weights == 0.0:
         return MissingAcceleration(numpy.zeros(3), numpy.inf, 0.0)
     return MissingAcceleration(total / weights, 1.0 / float(numpy.sqrt(weights)), longest)
 
 
-def extra_acceleration(
-    time: Array, places: Array, rates: Array, place_noise: float, rate_noise: float
-) -> tuple[Array, float]:
-    """Acceleration [3] in what is left of places and of their rates [n, 3] at `time` [n], and one over its variance."""
-    spreads = numpy.repeat([place_noise, rate_noise], len(time))
+def long_flights(found: Estimate, problem: Problem) -> list[tuple[slice, Array]]:
+    """Samples of each flight of FEWEST samples or more, and what is left of them [n, 12]."""
+    pairs = zip(problem.flights, found.residuals, strict=True)
+    return [(slice(first, last + 1), rest) for (first, last), rest in pairs if last - first + 1 >= FEWEST]
+
+
+def _of_flight(time: Array, rest: Array, noise: tuple[float, float]) -> tuple[Array, float]:
+    """Acceleration [3] in what is left of places and rates [n, 6] at `time` [n], and one over its variance."""
+    spreads = numpy.repeat(noise, len(time))
     one, nothing = numpy.ones_like(time), numpy.zeros_like(time)
     columns = [
         numpy.concatenate(pair) / spreads for pair in ((one, nothing), (time, one), (0.5 * time**2, time))
     ]  # fmt: skip
     orthogonal, triangle = numpy.linalg.qr(numpy.stack(columns, axis=1))
-    measured = numpy.concatenate([places, rates]) / spreads[:, None]
+    measured = numpy.concatenate([rest[:, :3], rest[:, 3:]]) / spreads[:, None]
     return numpy.asarray(orthogonal[:, 2] @ measured / triangle[2, 2]), float(triangle[2, 2] ** 2)

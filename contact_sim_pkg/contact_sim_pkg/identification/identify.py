@@ -83,8 +83,8 @@ def identify(states: BodyStates, setup: Setup) -> Identification:
     states = checked(states)
     _check_setup(setup)
     _check_wrench(states, setup.wrench)
-    _check_spin(states)
     guess = setup.noise or first_guess(states)
+    _check_spin(states, guess)
     axis = None if setup.planar is False else plane_of_motion(states, setup.ground, guess)
     if setup.planar and axis is None:
         raise IdentificationError("the motion is not planar: its spin changes axis, or it drifts out of the plane")
@@ -118,8 +118,8 @@ def _check_setup(setup: Setup) -> None:
             raise IdentificationError(f"the noise of the {name.replace('_', ' ')} is 0 to {LARGEST:g}, not {value:g}")
 
 
-def _check_spin(states: BodyStates) -> None:
-    rate = rate_of_turn(states)
+def _check_spin(states: BodyStates, noise: Noise) -> None:
+    rate = rate_of_turn(states, noise.angular_velocity)
     if rate is not None and not SLOWEST <= abs(rate) <= 1.0 / SLOWEST:
         raise IdentificationError(
             f"the rotations turn {rate:.3g} times as fast as the angular velocities say (in degrees it would be 0.0175); give them "

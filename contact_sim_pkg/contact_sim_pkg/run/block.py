@@ -56,7 +56,7 @@ class BlockBodySimulation:
             state.velocity[:] = 0.0
             state.velocity[model.body.width - 1] = -0.1
             for _ in range(3):
-                passed(body, model, 1e-3)  # however it ends: the run has another start
+                status_after(body, model, 1e-3)  # however it ends: the run has another start
         if model.contact is None:
             _warm_up_solvers(model)
         contact_arms(model, model.start.position, model.start.rotation)
@@ -152,13 +152,13 @@ class BlockBodySimulation:
 
 def move(body: Body, model: BlockModel, interval: float, where: str = "block") -> None:
     """Move ``body`` by ``interval`` [s]. Raises RunError, which begins with ``where``, if it cannot be done."""
-    status = passed(body, model, interval)
+    status = status_after(body, model, interval)
     if status != SOLVED:
         why = sentence_of(status) if isinstance(body, MovedBody) else SENTENCES[status]
         raise RunError(f"{where}: {why}")
 
 
-def passed(body: Body, model: BlockModel, interval: float) -> int:
+def status_after(body: Body, model: BlockModel, interval: float) -> int:
     """Move ``body`` by ``interval`` [s]; returns a status."""
     stepped = isinstance(body, SteppedBody)
     return body.advance(max(1, round(interval / model.step)) if stepped else interval)  # type: ignore[arg-type]

@@ -64,6 +64,7 @@ def test_a_tumbling_box_comes_to_rest_on_four_corners(step):
     energy = math.inf
     for _ in range(30):
         assert stepped.advance(round(0.1 / step)) == SOLVED
+        assert stepped.residual <= 1e-7
         v, spin = motion.velocity[:3], motion.rotation.T @ motion.velocity[3:]
         now = float(v @ v + 0.5 * body.inertia @ spin**2 + 2.0 * 9.81 * motion.position[2])
         assert now <= energy * (1.0 + 1e-9)

@@ -14,7 +14,7 @@ from .contact_solver import NEAREST, NEWTON, REFINE, Solution, Solver, solve_and
 from .problem import DISC, SPACE, ContactProblem, residual
 from .results import CONTACT_NOT_FINITE, NOT_CONVERGED, SOLVED, UNIQUE
 
-__all__ = ["contact_impulses", "solve_over_and_over"]
+__all__ = ["contact_impulses", "nearest_motion", "solve_over_and_over"]
 
 CLOSE = 1.0e-10  # residual for which no path is asked: that of a slip of 1e-13 m/s, say, which neither ends nor goes on
 
@@ -59,8 +59,8 @@ def _by_nearest_motion(
     Contacts that are wedged in meet any approach ``J v`` with finite impulses, but none that no motion gives, however small. A
     body that moves at 1 m/s and approaches at 1e-10 m/s has rounding of 1e-6 in its approach.
     """
-    near = J @ numpy.linalg.lstsq(J, problem.q)[0]
-    if not numpy.abs(near - problem.q).max() <= NEAREST * numpy.abs(problem.q).max():
+    near = nearest_motion(J, problem.q, NEAREST)
+    if near is None:
         return found
     trial = numpy.zeros_like(c)
     ended = solve_over_and_over(problem._replace(q=near), J, W, solver, trial, 1)
@@ -68,6 +68,12 @@ def _by_nearest_motion(
         return found
     c[:] = trial
     return ended._replace(residual=float(residual(problem, c, solver.newton.velocity)))
+
+
+def nearest_motion(J: Vector, q: Vector, most: float) -> Vector | None:
+    """The contact velocities ``J v`` nearest to ``q`` [rows]; None where they differ by more than ``most`` of its largest."""
+    near: Vector = J @ numpy.linalg.lstsq(J, q)[0]
+    return near if numpy.abs(near - q).max() <= most * numpy.abs(q).max() else None
 
 
 def _by_path(problem: ContactProblem, J: Vector, W: Vector, solver: Solver, c: Vector, found: Solution) -> Solution:

@@ -15,6 +15,7 @@ import numpy
 from ..jit import entry
 from ..parameters import Vector
 from .body import Ground, Motion, RigidBody, contact_count, laid_under
+from .contact_answers import nearest_motion
 from .contact_solver import NEWTON
 from .motion import (
     APART,
@@ -39,6 +40,7 @@ __all__ = ["SteppedBody"]
 
 GAP_TOLERANCE = 1.0e-9  # [m]
 LARGEST_TURN = 1.0  # [rad] of a step
+CONTRADICTS = 1.0e-10  # residual of contacts that ask for what no motion gives
 CLOSED_AT_ONCE = 1.0e-3  # of the contact velocities: by so much those of a step may differ from a motion of the body
 
 
@@ -135,15 +137,12 @@ class SteppedBody:
     def _solve(self, *, bounces: bool) -> int:
         work = self.work
         found = self._solver.hold(work)
-        if found.status == NOT_CONVERGED and self._meets_a_motion():
+        if found.status in (SOLVED, NOT_CONVERGED) and not found.residual <= CONTRADICTS and self._meets_a_motion():
             found = self._solver.hold(work)
-        landed = found.status == SOLVED
         self._landing[:] = work.impulse
-        if bounces:
+        if bounces and found.status == SOLVED:
             self.impacts += 1
             found = self._solver.collide(work, self.rule)
-            if not landed:  # gaps that no motion closes at once: it bounces where it is
-                self._landing[:] = work.impulse
         self.residual = max(self.residual, float(found.residual)) if math.isfinite(found.residual) else math.inf
         return int(found.status)
 
@@ -153,11 +152,9 @@ class SteppedBody:
         A step that closes unlike gaps of points that stick asks for velocities that differ from any motion by the tilt that it
         takes away: an error of first order.
         """
-        work, width = self.work, self.body.width
-        rows = numpy.repeat(work.problem.friction >= 0.0, width)
-        asked = work.problem.q[rows]
-        near = work.J[rows] @ numpy.linalg.lstsq(work.J[rows], asked)[0]
-        if not numpy.abs(near - asked).max() <= CLOSED_AT_ONCE * numpy.abs(asked).max():
-            return False
-        work.problem.q[rows] = near
-        return True
+        work = self.work
+        rows = numpy.repeat(work.problem.friction >= 0.0, self.body.width)
+        near = nearest_motion(work.J[rows], work.problem.q[rows], CLOSED_AT_ONCE)
+        if near is not None:
+            work.problem.q[rows] = near
+        return near is not None
