@@ -15,6 +15,7 @@ from .drawing import ACCENT, MUTED, new_figure, style
 
 __all__ = ["write_plot"]
 
+LEAST_RANGE = 0.02  # of the axis of the parameters: less would draw rounding at full size
 COLOURS = {"stick": ACCENT, "slide": "#b8551b", "slide, reversed": "#7a3b9e"}
 
 
@@ -87,5 +88,8 @@ def _inertia(axis: Any, found: Identification) -> None:
     axis.set_xticks(numpy.arange(len(found.parameters)), [parameter.name for parameter in found.parameters])
     axis.set_xlim(-0.6, len(found.parameters) - 0.4)
     axis.margins(y=0.25)
+    low, high = axis.get_ylim()
+    widen = max(0.0, 0.5 * (LEAST_RANGE - (high - low)))
+    axis.set_ylim(low - widen, high + widen)
     axis.set_title("Parameters over the size of a homogeneous box (bars: two standard deviations)")
     axis.set_ylabel("value / size")
