@@ -43,28 +43,27 @@ def write_odometry(path, states, topic="/odom", storage=StoragePlugin.MCAP, chil
             writer.write(row, ORIGIN + round(time * 1e9), STORE.serialize_cdr(message, kind))
 
 
-def write_pose_and_twist(path, states, twist_frame="map", late=0.0, force=None, every=1):
-    """PoseStamped in `map` and TwistStamped in world or body axes, the twist's stamps `late` [s]; a wrench if asked.
+def write_pose_and_twist(path, states, twist_frame="map", late=0.0, every=1, pushes=(), push_frame="map"):
+    """PoseStamped in `map` and TwistStamped in world or body axes, the twist's stamps `late` [s].
 
-    Only every such pose has a twist.
+    Only every such pose has a twist. `pushes`: time [s], force [3] and torque [3] of WrenchStamped in `push_frame`, if any.
     """
     with Writer(path, version=9, storage_plugin=StoragePlugin.SQLITE3) as writer:
         kinds = {"/pose": "geometry_msgs/msg/PoseStamped", "/twist": "geometry_msgs/msg/TwistStamped"}
-        if force is not None:
+        if len(pushes):
             kinds["/push"] = "geometry_msgs/msg/WrenchStamped"
         rows = {topic: writer.add_connection(topic, kind, typestore=STORE) for topic, kind in kinds.items()}
         vector = _type("geometry_msgs/msg/Vector3")
+
+        def write(topic, time, *fields):
+            data = STORE.serialize_cdr(_type(kinds[topic])(*fields), kinds[topic])
+            writer.write(rows[topic], ORIGIN + round(time * 1e9), data)
+
         for number, (time, position, rotation, velocity, spin) in enumerate(zip(*states, strict=True)):
             axes = numpy.eye(3) if twist_frame == "map" else rotation.T
-            messages = {
-                "/pose": (_header(time, "map"), _pose(position, rotation)),
-                "/twist": (_header(time + late, twist_frame), _twist(axes @ velocity, axes @ spin)),
-            }
-            if force is not None:
-                wrench = _type("geometry_msgs/msg/Wrench")(vector(*force), vector(0.0, 0.0, 0.0))
-                messages["/push"] = (_header(time, "map"), wrench)
-            if number % every:
-                del messages["/twist"]
-            for topic, fields in messages.items():
-                data = STORE.serialize_cdr(_type(kinds[topic])(*fields), kinds[topic])
-                writer.write(rows[topic], ORIGIN + round(time * 1e9), data)
+            write("/pose", time, _header(time, "map"), _pose(position, rotation))
+            if number % every == 0:
+                write("/twist", time, _header(time + late, twist_frame), _twist(axes @ velocity, axes @ spin))
+        for time, force, torque in pushes:
+            wrench = _type("geometry_msgs/msg/Wrench")(vector(*force), vector(*torque))
+            write("/push", time, _header(time, push_frame), wrench)

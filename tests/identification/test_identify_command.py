@@ -7,7 +7,8 @@ from pathlib import Path
 import numpy
 import pytest
 
-from contact_sim_pkg.bag.messages import MotionBlock, encode_motion
+from contact_sim_pkg.bag.body_states import read_body_states
+from contact_sim_pkg.bag.messages import BENCH_FRAME, MotionBlock, encode_motion
 from contact_sim_pkg.bag.metadata import recorded_topics
 from contact_sim_pkg.bag.writer import BagWriter
 from contact_sim_pkg.cli.main import main
@@ -77,16 +78,36 @@ def test_pose_and_twist_of_others_are_read_in_either_frame(tmp_path, capsys, fra
 def test_a_force_given_as_option_or_as_topic_tells_the_mass(tmp_path, capsys):
     force = (1.3, 0.0, 0.7)
     states = motions.states_of(motions.planar(0.6, force))
-    foreign_bag.write_pose_and_twist(tmp_path / "bag", states, force=force)
+    pushes = [(time, force, (0.0, 0.0, 0.0)) for time in states.time]
+    foreign_bag.write_pose_and_twist(tmp_path / "bag", states, pushes=pushes)
     for known in (("--force", *force), ("--force-topic", "/push")):
         rows = told(capsys, tmp_path / "bag", *known)[1]
         assert rows["m"]["value"] == pytest.approx(motions.MASS, rel=1e-9)
         assert rows["J"]["value"] == pytest.approx(motions.MASS * motions.SIDE**2 / 6.0, rel=1e-9)
 
 
+@pytest.mark.parametrize(
+    ("turn", "normal", "weight"),
+    [
+        ([[1, 0, 0], [0, 0, 1], [0, -1, 0]], ("0", "1", "0"), ("0", "-9.81", "0")),
+        ([[0, 1, 0], [1, 0, 0], [0, 0, -1]], ("0", "0", "-1"), ("0", "0", "9.81")),
+    ],
+    ids=["y up", "north east down"],
+)
+def test_a_weight_given_as_force_stands_for_gravity_and_fixes_the_mass(tmp_path, capsys, turn, normal, weight):
+    states = motions.states_of(motions.planar())
+    turned = [field @ numpy.transpose(turn) for field in (states.position, states.velocity, states.angular_velocity)]
+    rotation = numpy.array(turn, dtype=float) @ states.rotation
+    foreign_bag.write_odometry(tmp_path / "bag", (states.time, turned[0], rotation, *turned[1:]))
+    rows = told(capsys, tmp_path / "bag", "--gravity", "0", "--normal", *normal, "--force", *weight)[1]
+    assert rows["m"]["value"] == pytest.approx(1.0, rel=1e-9)  # put in; the square has 1.3 kg
+    assert rows["J"]["value"] == pytest.approx(1.0 / 600.0, rel=1e-9)
+
+
 def test_a_bag_of_the_bench_is_read_without_naming_a_topic(tmp_path, capsys):
     write_bench_motion(tmp_path / "bag", motions.planar())
     assert told(capsys, tmp_path / "bag")[1]["m/J"]["value"] == pytest.approx(600.0, rel=1e-9)
+    assert read_body_states(tmp_path / "bag").frame == BENCH_FRAME
 
 
 def test_the_table_names_modes_and_what_is_not_known(tmp_path, capsys):
@@ -134,6 +155,7 @@ def test_bad_input_ends_with_one_sentence(tmp_path, capsys):
     )
     assert "lengths above 0 m" in refused(capsys, bag, "--box", "0.1", "0", "0.1")
     assert "is not a valid float" in refused(capsys, bag, *BOX, "--force", "a", "0", "0")
+    assert "goes with --force-topic" in refused(capsys, bag, *BOX, "--force", "1", "0", "0", "--force-axes", "body")
     assert "normal that is not zero" in refused(capsys, bag, *BOX, "--normal", "0", "0", "0")
     assert "gravity acts downward" in refused(capsys, bag, *BOX, "--gravity", "-9.81")
     assert "noise of the rotation is 0 to 1e+06" in refused(capsys, bag, *BOX, "--noise", "1", "-1", "1", "1")

@@ -1,4 +1,4 @@
-"""Bags of anyone: MCAP and SQLite of ROS 2, and ROS 1, read by rosbags; an MCAP that is cut or damaged, as far as it goes.
+"""Bags of anyone: MCAP and SQLite of ROS 2, and ROS 1, read by rosbags; an MCAP that is cut or damaged, as far as whole chunks go.
 
 rosbags wants a whole file. Where it gives up, the reader of this package takes what can be read of an MCAP.
 """

@@ -1,7 +1,7 @@
 """States of a rigid body from a bag: ours (`bench/motion`), or anyone's with Odometry, or PoseStamped and TwistStamped.
 
 Foreign bags are read as `any_bag.py` says. The twist of an Odometry is in body axes, as its
-definition says; that of a TwistStamped is in the frame that its header names (`twists.py`).
+definition says; that of a TwistStamped is in the frame that its header names (`twists.py`, `axes.py`).
 """
 
 from __future__ import annotations
@@ -10,38 +10,25 @@ from pathlib import Path
 from typing import Any, NamedTuple
 
 import numpy
-from numpy.typing import NDArray
 
 from contact_sim_pkg.identification.rotation import exponential, from_quaternion
 from contact_sim_pkg.identification.states import BodyStates
 
 from .any_bag import AnyBag, use_bag
+from .axes import Axes
 from .encoding import SECOND
 from .errors import BagError
 from .messages import decode_motion, stamp_of
 from .reader import Bag, open_bag
-from .twists import TwistAxes, pairs_of, reading_of_odometry, reading_of_twists
+from .stamped import Array, all_messages, chosen, one_a_stamp, stamp, vectors
+from .twists import pairs_of, reading_of_odometry, reading_of_twists
 
-__all__ = [
-    "ODOMETRY",
-    "POSE",
-    "TWIST",
-    "WRENCH",
-    "RecordedStates",
-    "WrenchSamples",
-    "bench_states",
-    "read_body_states",
-    "read_wrench",
-]
-
-Array = NDArray[numpy.float64]
+__all__ = ["ODOMETRY", "POSE", "TWIST", "RecordedStates", "bench_states", "read_body_states"]
 
 ODOMETRY, POSE = "nav_msgs/msg/Odometry", "geometry_msgs/msg/PoseStamped"
-TWIST, WRENCH = "geometry_msgs/msg/TwistStamped", "geometry_msgs/msg/WrenchStamped"
+TWIST = "geometry_msgs/msg/TwistStamped"
 MOTION = "bench/motion"
-FEWEST_STAMPS = 3  # messages a stamp in the mean, beyond which a topic is not stamped
 NORM = 0.01  # allowed difference of a quaternion's length from 1
-XYZ = "xyz"
 
 
 class RecordedStates(NamedTuple):
@@ -51,18 +38,11 @@ class RecordedStates(NamedTuple):
     origin: int  # [ns], stamp of the first sample
     notes: tuple[str, ...] = ()  # what of the bag could not be read, one line each
     reading: tuple[str, ...] = ()  # how the rest was read, one line each
-
-
-class WrenchSamples(NamedTuple):
-    """A known wrench over time, in the axes of the pose's frame."""
-
-    time: Array  # [n], [s]
-    force: Array  # [n, 3], [N]
-    torque: Array  # [n, 3], [N m]
+    frame: str = ""  # of the poses, as their header names it
 
 
 def read_body_states(
-    path: Path, topic: str | None = None, twist_topic: str | None = None, twist_axes: TwistAxes = "auto"
+    path: Path, topic: str | None = None, twist_topic: str | None = None, twist_axes: Axes = "auto"
 ) -> RecordedStates:
     """States of the body in world axes.
 
@@ -79,18 +59,6 @@ def read_body_states(
     if own is not None and topic in (None, MOTION, f"/{MOTION}"):
         return bench_states(own)
     return use_bag(path, lambda bag: _foreign(bag, topic, twist_topic, twist_axes))
-
-
-def read_wrench(path: Path, topic: str, origin: int) -> WrenchSamples:
-    """The wrench of a WrenchStamped topic, its time counted from `origin` [ns]; BagError where there is none."""
-    rows = use_bag(
-        path,
-        lambda bag: [
-            (_stamp(message), message.wrench) for message in bag.read(_choose(bag, topic, (WRENCH,), "--force-topic"))
-        ],
-    )
-    time = (numpy.array([stamp for stamp, _ in rows], dtype=numpy.int64) - origin) / SECOND
-    return WrenchSamples(time, _vectors([w.force for _, w in rows]), _vectors([w.torque for _, w in rows]))
 
 
 def bench_states(bag: Bag) -> RecordedStates:
@@ -119,7 +87,9 @@ def bench_states(bag: Bag) -> RecordedStates:
     )  # the last sample of a block may be the first of the next
     states = BodyStates(time, place, exponential(turn), _spread(velocity, rows[:3]), _spread(velocity, rows[3:]))
     kept_states = BodyStates(*(field[kept] for field in states))
-    return RecordedStates(kept_states, origin, tuple(bag.notes), (f"the velocities of {MOTION} are in world axes",))
+    read = f"the velocities of {MOTION} are in world axes"
+    frame = next(message.header.frame_id for _, message in bag.decoded(MOTION))
+    return RecordedStates(kept_states, origin, tuple(bag.notes), (read,), frame)
 
 
 def _coordinates(names: tuple[str, ...], path: Path) -> list[int | None]:
@@ -162,31 +132,26 @@ def _own(path: Path) -> Bag | None:
     return bag if MOTION in bag else None
 
 
-def _foreign(bag: AnyBag, topic: str | None, twist_topic: str | None, twist_axes: TwistAxes) -> RecordedStates:
-    name = _choose(bag, topic, (ODOMETRY, POSE), "--topic")
-    messages = _all(bag, name)
-    time = [_stamp(message) for message in messages]
+def _foreign(bag: AnyBag, topic: str | None, twist_topic: str | None, twist_axes: Axes) -> RecordedStates:
+    name = chosen(bag, topic, (ODOMETRY, POSE), "--topic")
+    messages = all_messages(bag, name)
+    time = [stamp(message) for message in messages]
     alone: tuple[str, ...] = ()
     if bag.topics[name] == ODOMETRY:
         poses, twists = [message.pose.pose for message in messages], [message.twist.twist for message in messages]
         reading = reading_of_odometry(messages[0], name, twist_axes)
     else:
         poses = [message.pose for message in messages]
-        twist_name = _choose(bag, twist_topic, (TWIST,), "--twist-topic")
-        other = _all(bag, twist_name)
-        pairs, alone = pairs_of(time, [_stamp(message) for message in other], (name, twist_name))
+        twist_name = chosen(bag, twist_topic, (TWIST,), "--twist-topic")
+        other = all_messages(bag, twist_name)
+        pairs, alone = pairs_of(time, [stamp(message) for message in other], (name, twist_name))
         time, poses = [time[first] for first, _ in pairs], [poses[first] for first, _ in pairs]
         twists = [other[second].twist for _, second in pairs]
         reading = reading_of_twists(messages[0], other[0], twist_name, twist_axes)
     found = _states(time, poses, twists, reading.body, name)
-    return found._replace(notes=(*bag.notes, *found.notes), reading=(reading.note, *alone))
-
-
-def _all(bag: AnyBag, topic: str) -> list[Any]:
-    messages = list(bag.read(topic))
-    if not messages:
-        raise BagError(f"{topic} of {bag.path} holds no message")
-    return messages
+    return found._replace(
+        notes=(*bag.notes, *found.notes), reading=(reading.note, *alone), frame=messages[0].header.frame_id
+    )
 
 
 def _states(time: list[int], poses: list[Any], twists: list[Any], turning: bool, topic: str) -> RecordedStates:
@@ -201,58 +166,10 @@ def _states(time: list[int], poses: list[Any], twists: list[Any], turning: bool,
             f"the orientation of sample {place} of {topic} has the length {lengths[place]:.4g}; allowed: 1 (within {NORM:g})"
         )
     rotation = from_quaternion(quaternions)
-    velocity = _vectors([twist.linear for twist in twists])[order]
-    spin = _vectors([twist.angular for twist in twists])[order]
+    velocity = vectors([twist.linear for twist in twists])[order]
+    spin = vectors([twist.angular for twist in twists])[order]
     if turning:
-        velocity, spin = (numpy.einsum("nij,nj->ni", rotation, vectors) for vectors in (velocity, spin))
-    position = _vectors([pose.position for pose in poses])[order]
-    states, note = _one_a_stamp(BodyStates(seconds, position, rotation, velocity, spin), topic)
+        velocity, spin = (numpy.einsum("nij,nj->ni", rotation, each) for each in (velocity, spin))
+    position = vectors([pose.position for pose in poses])[order]
+    states, note = one_a_stamp(BodyStates(seconds, position, rotation, velocity, spin), topic)
     return RecordedStates(states, min(time), note)
-
-
-def _one_a_stamp(states: BodyStates, topic: str) -> tuple[BodyStates, tuple[str, ...]]:
-    """The first state of each stamp; what others of it were, unless they repeat the first: a message recorded twice.
-
-    Raises:
-        BagError: there are far fewer stamps than messages.
-    """
-    first = numpy.concatenate([[True], numpy.diff(states.time) > 0.0])
-    if FEWEST_STAMPS * first.sum() < len(first):
-        raise BagError(
-            f"the {len(first)} messages on {topic} have {first.sum()} stamps; allowed: one stamp each. Let the publisher fill in "
-            "header.stamp"
-        )
-    of_stamp = numpy.maximum.accumulate(numpy.where(first, numpy.arange(len(first)), 0))
-    rows = numpy.column_stack([field.reshape(len(first), -1) for field in states])
-    other = int(((rows != rows[of_stamp]).any(axis=1) & ~first).sum())
-    note = (
-        f"{other} messages on {topic} have the stamp of another one and other values: the first of each stamp is used"
-    )
-    return BodyStates(*(field[first] for field in states)), (note,) if other else ()
-
-
-def _choose(bag: AnyBag, topic: str | None, types: tuple[str, ...], option: str) -> str:
-    """The name of a topic, or the only one of the types; BagError with what the bag has."""
-    kinds = " or ".join(name.split("/")[-1] for name in types)
-    fitting = [name for name, kind in bag.topics.items() if kind in types]
-    if topic is not None:
-        name = topic if topic in bag.topics else f"/{topic}"
-        if name not in bag.topics:
-            raise BagError(f"{bag.path} has no topic {topic}; of {kinds} it has {', '.join(fitting) or 'none'}")
-        if bag.topics[name] not in types:
-            raise BagError(f"{name} of {bag.path} is of {bag.topics[name]}; {option} needs {kinds}")
-        return name
-    preferred = [name for name in fitting if bag.topics[name] == types[0]] or fitting
-    if len(preferred) != 1:
-        what = f"several topics of {kinds} ({', '.join(preferred)}); choose one with {option}"
-        none = f"no topic of {kinds}, from which the motion of a body could be read"
-        raise BagError(f"{bag.path} has {what if preferred else none}")
-    return preferred[0]
-
-
-def _stamp(message: Any) -> int:
-    return int(message.header.stamp.sec) * SECOND + int(message.header.stamp.nanosec)
-
-
-def _vectors(values: list[Any]) -> Array:
-    return numpy.array([[getattr(value, name) for name in XYZ] for value in values], dtype=numpy.float64).reshape(-1, 3)

@@ -2,25 +2,17 @@
 
 from __future__ import annotations
 
-from typing import Any, Literal, NamedTuple
+from typing import Any, NamedTuple
 
 import numpy
 
+from .axes import Axes, Reading, Subject, reading, reading_as_asked, reading_of_frames
 from .errors import BagError
 
-__all__ = ["Pairs", "Reading", "TwistAxes", "pairs_of", "reading_of_odometry", "reading_of_twists"]
-
-TwistAxes = Literal["auto", "world", "body"]
+__all__ = ["Pairs", "pairs_of", "reading_of_odometry", "reading_of_twists"]
 
 SAME = 1_000  # [ns] between the stamps of a pose and of its twist
 FEWEST = 0.5  # share of the poses that must have a twist
-
-
-class Reading(NamedTuple):
-    """Axes in which the twist of a topic is read."""
-
-    body: bool
-    note: str  # which, and why
 
 
 class Pairs(NamedTuple):
@@ -30,39 +22,25 @@ class Pairs(NamedTuple):
     notes: tuple[str, ...]  # one where messages of either found no partner
 
 
-def reading_of_odometry(message: Any, topic: str, asked: TwistAxes) -> Reading:
+def reading_of_odometry(message: Any, topic: str, asked: Axes) -> Reading:
     """By its definition the twist of an Odometry is in the frame of its child_frame_id; world if that is frame_id."""
-    frame, child = message.header.frame_id, message.child_frame_id
+    frame, child, twist = message.header.frame_id, message.child_frame_id, _twist(topic)
     if asked != "auto":
-        return _asked(topic, asked)
+        return reading_as_asked(twist, asked)
     if frame and child == frame:
-        return _reading(topic, False, f"its child_frame_id is its frame_id, {frame!r}")
+        return reading(twist, False, f"its child_frame_id is its frame_id, {frame!r}")
     if child:
-        return _reading(topic, True, f"an Odometry has it in the frame of its child_frame_id, {child!r}")
-    return _reading(topic, True, "an Odometry has it in the frame of its child; its child_frame_id is empty")
+        return reading(twist, True, f"an Odometry has it in the frame of its child_frame_id, {child!r}")
+    return reading(twist, True, "an Odometry has it in the frame of its child; its child_frame_id is empty")
 
 
-def reading_of_twists(pose: Any, twist: Any, topic: str, asked: TwistAxes) -> Reading:
-    """The twist of a TwistStamped is in the frame of its header; the body's, unless it is that of the poses."""
-    poses, own = pose.header.frame_id, twist.header.frame_id
-    if asked != "auto":
-        return _asked(topic, asked)
-    if own == poses:
-        return _reading(topic, False, f"its frame_id is that of the poses, {poses!r}")
-    if not own:
-        return _reading(topic, True, f"a guess, since its frame_id is empty and that of the poses is {poses!r}")
-    return _reading(
-        topic, True, f"its frame_id {own!r} is not that of the poses, {poses!r}, and is taken as the body's"
-    )
+def reading_of_twists(pose: Any, twist: Any, topic: str, asked: Axes) -> Reading:
+    """The twist of a TwistStamped is in the frame of its header."""
+    return reading_of_frames(_twist(topic), twist.header.frame_id, pose.header.frame_id, asked)
 
 
-def _asked(topic: str, asked: TwistAxes) -> Reading:
-    return Reading(asked == "body", f"the twist of {topic} is read in {asked} axes: --twist-axes {asked}")
-
-
-def _reading(topic: str, body: bool, why: str) -> Reading:
-    axes, other = ("body", "world") if body else ("world", "body")
-    return Reading(body, f"the twist of {topic} is read in {axes} axes: {why}; if it is not so: --twist-axes {other}")
+def _twist(topic: str) -> Subject:
+    return Subject("twist", topic, "--twist-axes")
 
 
 def pairs_of(poses: list[int], twists: list[int], topics: tuple[str, str]) -> Pairs:

@@ -10,7 +10,8 @@ import click
 from .tables import json_option, print_json, show_sections
 
 if TYPE_CHECKING:
-    from contact_sim_pkg.bag.twists import TwistAxes
+    from contact_sim_pkg.bag.axes import Axes
+    from contact_sim_pkg.bag.body_states import RecordedStates
     from contact_sim_pkg.identification.geometry import Shape
     from contact_sim_pkg.identification.identify import Identification
     from contact_sim_pkg.identification.wrench import ExternalWrench
@@ -18,6 +19,7 @@ if TYPE_CHECKING:
 
 VECTOR = (float, float, float)
 FILE = click.Path(path_type=Path)
+AXES = click.Choice(["auto", "world", "body"])
 
 
 @click.command("identify")
@@ -26,7 +28,7 @@ FILE = click.Path(path_type=Path)
 @click.option("--twist-topic", metavar="NAME", help="TwistStamped that goes with a PoseStamped.")
 @click.option(
     "--twist-axes",
-    type=click.Choice(["auto", "world", "body"]),
+    type=AXES,
     default="auto",
     help="Axes of the twist; auto: the child_frame_id of Odometry, the frame of the header for TwistStamped, as the "
     "result tells.",
@@ -37,13 +39,36 @@ FILE = click.Path(path_type=Path)
     "--hull", type=FILE, metavar="FILE", help="The body is the hull of the points in a CSV file: x, y, z [m]."
 )
 @click.option("--ground", type=float, default=0.0, metavar="HEIGHT", help="Height of the ground along its normal [m].")
-@click.option("--normal", type=VECTOR, default=(0.0, 0.0, 1.0), metavar="X Y Z", help="Normal of the ground.")
-@click.option("--gravity", type=float, default=9.81, metavar="G", help="[m/s^2], downward; 9.81 otherwise.")
+@click.option(
+    "--normal",
+    type=VECTOR,
+    default=(0.0, 0.0, 1.0),
+    metavar="X Y Z",
+    help="Normal of the ground; gravity stays as it is.",
+)
+@click.option(
+    "--gravity",
+    type=float,
+    default=9.81,
+    metavar="G",
+    help="[m/s^2], along -z of the frame of the poses; 9.81 otherwise.",
+)
 @click.option(
     "--force", type=VECTOR, metavar="X Y Z", help="Known constant force at the centre of mass [N], world axes."
 )
 @click.option("--torque", type=VECTOR, metavar="X Y Z", help="Known constant torque [N m], world axes.")
-@click.option("--force-topic", metavar="NAME", help="WrenchStamped: the known wrench over time, world axes.")
+@click.option(
+    "--force-topic",
+    metavar="NAME",
+    help="WrenchStamped: the known wrench over time. Straight lines join its samples: record it at the rate of the states.",
+)
+@click.option(
+    "--force-axes",
+    type=AXES,
+    default="auto",
+    help="Axes of the wrench of --force-topic; auto: world axes where its header names the frame of the poses, else body "
+    "axes, as the result tells.",
+)
 @click.option(
     "--friction",
     type=float,
@@ -60,15 +85,21 @@ FILE = click.Path(path_type=Path)
 @click.option("--plot", type=FILE, metavar="FILE", help="Motion, impulses and parameters as a picture.")
 @json_option
 def command(
-    bag: Path, topic: str | None, twist_topic: str | None, twist_axes: TwistAxes, box: tuple[float, float, float] | None,
+    bag: Path, topic: str | None, twist_topic: str | None, twist_axes: Axes, box: tuple[float, float, float] | None,
     sphere: float | None, hull: Path | None, ground: float, normal: tuple[float, float, float], gravity: float,
     force: tuple[float, float, float] | None, torque: tuple[float, float, float] | None, force_topic: str | None,
-    friction: float | None, noise: tuple[float, float, float, float] | None, plot: Path | None, as_json: bool,
+    force_axes: Axes, friction: float | None, noise: tuple[float, float, float, float] | None, plot: Path | None,
+    as_json: bool,
 ) -> None:  # fmt: skip
     """Inertia and impulses of the rigid body whose motion BAG holds.
 
     BAG: of the bench (bench/motion), or any with Odometry, or PoseStamped and TwistStamped, of the centre of mass. Contacts
     and their modes are found. What the motion cannot tell, such as the mass without a known force, is named.
+
+    An MCAP that is cut is read as far as its whole chunks go.
+
+    Gravity acts along -z of the world frame in which the poses are given: z is up. --normal turns the ground only; turn what
+    is recorded y-up or NED before, or give the weight as known force (--gravity 0 --force ...), which then fixes the mass told.
 
     Of each contact: c_n/m, c_t/m; friction, mu where it slid straight on, else the lower bound that a contact that stuck,
     reversed or turned leaves (JSON: friction, friction_at_least); Newton's e, the ratio -u_n+/u_n- of normal speeds (JSON:
@@ -80,11 +111,15 @@ def command(
     from contact_sim_pkg.identification.geometry import plane
     from contact_sim_pkg.identification.identify import Setup, identify
     from contact_sim_pkg.identification.states import Noise
+    from contact_sim_pkg.identification.wrench import constant
     from contact_sim_pkg.studies.section import Section
 
     shape = _shape(box, sphere, hull)
+    _check_wrench_options((force, torque) != (None, None), force_topic, force_axes)
     recorded = read_body_states(bag, topic, twist_topic, twist_axes)
-    wrench = _wrench(bag, recorded.origin, force, torque, force_topic)
+    wrench = constant(force, torque)
+    if force_topic is not None:
+        recorded, wrench = _wrench(bag, recorded, force_topic, force_axes)
     spreads = None if noise is None else Noise(*noise)
     setup = Setup(shape, plane(normal, ground), wrench, gravity, spreads, friction=friction)
     for note in recorded.notes:
@@ -118,22 +153,21 @@ def _shape(box: tuple[float, float, float] | None, sphere: float | None, hull: P
     return hull_of_file(hull) if hull is not None else geometry.sphere(float(sphere or 0.0))
 
 
-def _wrench(
-    bag: Path,
-    origin: int,
-    force: tuple[float, float, float] | None,
-    torque: tuple[float, float, float] | None,
-    topic: str | None,
-) -> ExternalWrench:
-    from contact_sim_pkg.bag.body_states import read_wrench
-    from contact_sim_pkg.identification import wrench
-
-    if topic is None:
-        return wrench.constant(force, torque)
-    if force is not None or torque is not None:
+def _check_wrench_options(constant: bool, topic: str | None, axes: Axes) -> None:
+    if topic is not None and constant:
         raise click.UsageError("give the known wrench once: --force-topic, or --force and --torque")
-    samples = read_wrench(bag, topic, origin)
-    return wrench.sampled(samples.time, samples.force, samples.torque)
+    if topic is None and axes != "auto":
+        raise click.UsageError("--force-axes goes with --force-topic; --force and --torque are in world axes")
+
+
+def _wrench(bag: Path, recorded: RecordedStates, topic: str, axes: Axes) -> tuple[RecordedStates, ExternalWrench]:
+    """The wrench of a topic, and the states with what is to tell about it."""
+    from contact_sim_pkg.bag.wrenches import read_wrench
+    from contact_sim_pkg.identification.wrench import sampled
+
+    samples, notes, reading = read_wrench(bag, topic, recorded, axes)
+    told = recorded._replace(notes=(*recorded.notes, *notes), reading=(*recorded.reading, reading))
+    return told, sampled(*samples)
 
 
 def _sections(found: Identification) -> list[Section]:
