@@ -3,7 +3,12 @@
 import functools
 
 import numpy
+from scipy.spatial.transform import Rotation
 
+from contact_sim_pkg.core.rigid.body import RigidBody, box, placed, slope
+from contact_sim_pkg.core.rigid.located import LocatedBody
+from contact_sim_pkg.core.rigid.problem import PLANE, SPACE
+from contact_sim_pkg.core.rigid.results import SOLVED
 from contact_sim_pkg.identification.rotation import exponential
 from contact_sim_pkg.identification.states import BodyStates
 from contact_sim_pkg.reference.falling_body import FallingBody, fall
@@ -29,6 +34,48 @@ def spatial(duration=0.5, force=(0.0, 0.0, 0.0), torque=(0.0, 0.0, 0.0)):
     body = FallingBody(MASS, MASS * SPATIAL_INERTIA, corners, 0.3, 0.7, force=force, torque=torque)
     turned = exponential(numpy.array([0.3, 0.2, 0.5]))
     return fall(body, numpy.array([0, 0, 0.3]), turned, numpy.array([0.5, 0.1, 0]), numpy.array([1.0, 2, 3]), duration)
+
+
+@functools.cache
+def coming_to_rest(rate, duration=1.0):
+    """A square of 1 kg falls 0.2 m onto a corner and comes to rest by many small impacts, `rate` samples a second; by the bench."""
+    load = numpy.array([0.0, -9.81, 0.0])
+    square = RigidBody(PLANE, 1.0, numpy.array([SIDE**2 / 6.0]), SQUARE[:, [0, 2]], 0.0, 0.3, 0.3, load)
+    located = LocatedBody(square, slope(PLANE), placed(square, [0.0, 0.26884], [0.0, 0.0, 0.0], 0.2))
+    states = resting_states(round(duration * rate) + 1, rate)
+    for place in range(len(states.time)):
+        at = located.motion
+        states.position[place, [0, 2]], states.velocity[place, [0, 2]] = at.position, at.velocity[:2]
+        states.angular_velocity[place, 1] = -at.velocity[2]
+        states.rotation[numpy.ix_([place], [0, 2], [0, 2])] = at.rotation
+        assert located.advance(1.0 / rate) == SOLVED
+    return states
+
+
+@functools.cache
+def random_box(seed, rate, duration=1.2):
+    """A box of random sides, friction and restitution tumbles to rest, by the bench; its states, sides and I0/m."""
+    random = numpy.random.default_rng(seed)
+    sides = random.uniform(0.05, 0.3, 3)
+    body = box(tuple(sides), 1.0, random.uniform(0.1, 1.0), random.uniform(0.0, 0.7))
+    height, speed, spin = random.uniform(0.3, 0.5), random.uniform(-1.0, 1.0, 2), random.uniform(-6.0, 6.0, 3)
+    turned = Rotation.random(random_state=seed).as_matrix()
+    located = LocatedBody(body, slope(SPACE), placed(body, [0.0, 0.0, height], [*speed, 0.0, *spin], rotation=turned))
+    states = resting_states(round(duration * rate) + 1, rate)
+    for place in range(len(states.time)):
+        at = located.motion
+        states.position[place], states.rotation[place] = at.position, numpy.reshape(at.rotation, (3, 3))
+        states.velocity[place], states.angular_velocity[place] = at.velocity[:3], at.velocity[3:]
+        assert located.advance(1.0 / rate) == SOLVED
+    return states, sides, body.inertia
+
+
+def resting_states(count, rate):
+    """States to be filled in."""
+    nothing = numpy.zeros((3, count, 3))
+    return BodyStates(
+        numpy.arange(count) / rate, nothing[0], numpy.tile(numpy.eye(3), (count, 1, 1)), nothing[1], nothing[2]
+    )
 
 
 def states_of(record, end=None):

@@ -8,6 +8,7 @@ import numpy
 import pytest
 
 from contact_sim_pkg.identification import free_fall, geometry, wrench
+from contact_sim_pkg.identification.errors import IdentificationError
 from contact_sim_pkg.identification.identify import Setup, identify
 
 _spec = importlib.util.spec_from_file_location("motions", Path(__file__).with_name("motions.py"))
@@ -80,10 +81,11 @@ def test_a_shape_that_does_not_reach_the_ground_is_told_with_the_number_of_conta
 
 
 def test_wrong_gravity_leaves_no_flight_and_says_so():
-    found = spatial(None, gravity=9.7)
-    assert found.doubts == [
-        "the body does not move as a free one where it is off the ground: see the notes of the contacts"
-    ]
+    """Without noise each interval contradicts it: there is nothing to begin with, and the 0.11 m/s^2 are told."""
+    with pytest.raises(
+        IdentificationError, match=r"no free motion, up to 0\.\d* m above .* by \(.*, -0\.11\) m/s\^2 more than gravity"
+    ):
+        spatial(None, gravity=9.7)
 
 
 def test_contacts_without_a_flight_beside_them_are_no_reason_to_doubt():
@@ -179,3 +181,22 @@ def test_a_force_that_swings_faster_than_the_flights_last_is_told_by_what_they_l
     )
     found = identify(shaken, Setup(geometry.box([motions.SIDE] * 3), planar=False))
     assert any("times what neighbouring samples differ by" in line for line in found.doubts)
+
+
+def test_a_force_of_the_wrong_sign_is_doubted_and_not_called_faint():
+    """Exact, and 0.1 mm, 1 mrad: the body goes where the known force does not push it."""
+    exact = motions.states_of(motions.planar(0.6, (1.0, 0.0, 0.0)))
+    for states in (exact, motions.noisy(exact, 0, 1e-4, 1e-3)):
+        found = identify(states, Setup(geometry.box([motions.SIDE] * 3), wrench=wrench.constant((-1.0, 0.0, 0.0))))
+        assert not found.parameters[-1].identified
+        assert any(line.startswith("the body moves against the known wrench") for line in found.doubts)
+        assert not any("no trace" in line for line in found.unobservable)
+
+
+def test_a_flight_that_an_untold_force_bends_is_no_contact_that_tells_a_friction():
+    """Without noise each interval contradicts free motion: all of the record looked like a slide. (3, 0, 1.5) N on 1.3 kg."""
+    states = motions.states_of(motions.planar(0.6, (3.0, 0.0, 1.5)))
+    with pytest.raises(
+        IdentificationError, match=r"no free motion, .* by \(2\.31, 0, 1\.15\) m/s\^2 more than gravity"
+    ):
+        identify(states, Setup(geometry.box([motions.SIDE] * 3)))

@@ -8,7 +8,8 @@ import numpy
 import pytest
 
 from contact_sim_pkg.cli.main import main
-from contact_sim_pkg.identification.noise import rounding_of
+from contact_sim_pkg.identification.noise import roundings
+from contact_sim_pkg.identification.states import BodyStates
 
 
 def _beside(name):
@@ -149,5 +150,7 @@ def test_rounding_is_not_taken_from_values_that_hardly_change():
     random = numpy.random.default_rng(0)
     small, constant = 1e-16 * random.normal(size=100), numpy.full(100, 0.5)
     decimals = numpy.round(random.normal(size=100), 3)
-    assert rounding_of(numpy.column_stack([small, constant, random.normal(size=100)])) == 0.0
-    assert rounding_of(numpy.column_stack([small, constant, decimals])) == pytest.approx(1e-3 / numpy.sqrt(12.0))
+    silent = numpy.column_stack([small, constant, random.normal(size=100)])
+    rounded = numpy.column_stack([small, constant, decimals])
+    found = roundings(BodyStates(numpy.arange(100.0), silent, numpy.tile(numpy.eye(3), (100, 1, 1)), rounded, silent))
+    assert found == (0.0, 0.0, pytest.approx(1e-3 / numpy.sqrt(12.0)), 0.0)

@@ -56,7 +56,7 @@ def test_spins_in_degrees_are_refused_before_anything_starts(noise):
     states = sampled(motions.spatial(), noise)
     told = states._replace(angular_velocity=numpy.degrees(states.angular_velocity))
     assert rate_of_turn(told, first_guess(told).angular_velocity) == pytest.approx(numpy.pi / 180.0, rel=0.05)
-    with pytest.raises(IdentificationError, match=r"turn 0\.017\d* times as fast .* give them in rad/s"):
+    with pytest.raises(IdentificationError, match=r"turn 0\.017\d* times as fast .* give these in rad/s"):
         identify(told, Setup(geometry.box(motions.LENGTHS)))
 
 

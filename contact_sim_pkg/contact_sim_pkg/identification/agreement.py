@@ -1,8 +1,8 @@
 """Contacts that agree with each other: the sum of squares that the best parameters leave, against its chi-square distribution.
 
 Where all contacts together leave more than noise explains, those are left out, one after the other, without which the least is
-left, until the others agree. More than half stay, with more equations than unknowns: where more would have to go, all
-are used, and the contradiction is told.
+left, until the others agree. More than half stay, with an equation beyond what they tell. Where more would have to go, all are
+used, and the contradiction is told. Where all of them fit nothing, half is enough, with SURE equations.
 One impact that was two within a sample is such a contact. Source: data snooping of geodesy, W. Baarda, A testing procedure for
 use in geodetic networks, 1968.
 """
@@ -18,6 +18,7 @@ from .stacked import Estimate
 __all__ = ["SLIGHT", "agreeing", "contradicts"]
 
 QUANTILE = 0.9999
+SURE = 2  # equations left over by which half of the contacts agree: a single one may do so by chance
 SLIGHT = 1e-6  # standard deviation over the size of a parameter, contradictions counted, below which they do not matter
 
 
@@ -30,14 +31,21 @@ def contradicts(found: Estimate) -> bool:
     return found.misfit > limit and found.misfit * spread > SLIGHT
 
 
-def agreeing(linear: Linearised) -> list[int]:
-    """Numbers of the contacts that agree; all where no more than half of them do."""
+def agreeing(linear: Linearised, left_out: int, *, half: bool) -> list[int]:
+    """Numbers of the contacts that agree; all where it is open which of them do.
+
+    Args:
+        linear: where the flights alone are.
+        left_out: how many contacts besides contradicted the others before.
+        half: whether half of them are enough.
+    """
     everyone = list(range(len(linear.problem.contacts)))
     kept = everyone
     while kept and not _agree(linear, kept):
         without = [[each for each in kept if each != number] for number in kept]
         kept = min(without, key=lambda contacts: linear.contradiction(contacts)[0])
-        if 2 * len(kept) <= len(everyone) or linear.equations(kept) <= linear.problem.model.unknowns:
+        majority = 2 * len(kept) - len(everyone) - left_out
+        if majority < (0 if half else 1) or linear.redundancy(kept) < (1 if majority else SURE):
             return everyone
     return kept
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterable
 
 import numpy
@@ -13,7 +14,7 @@ from .heights import mean_gap
 from .lasting import NO_FLIGHT
 from .noise import first_guess, from_residuals
 from .notes import DISAGREES, TOUCHES_NOTHING
-from .possible import impossible
+from .possible import against_the_wrench, impossible
 from .problem import Contact, Problem
 from .stacked import Estimate
 from .sweep import FEW
@@ -38,9 +39,15 @@ def doubts(found: Estimate, notes: Iterable[str], problem: Problem) -> list[str]
     if not found.converged:
         told.append("the search has not converged: the numbers are not to be trusted")
     if contradicts(found):
+        friction = ", the friction coefficient" if any(contact.slides for contact in problem.contacts) else ""
         told.append(
             f"contacts and flights contradict each other by {found.misfit:.3g} times what the noise explains: check the shape, the "
-            "ground, gravity, the wrench and the noise; the standard deviations are too small"
+            f"ground, gravity, the wrench{friction}, the stamps and the noise; the standard deviations are too small"
+        )
+    if against_the_wrench(found, problem):
+        told.append(
+            f"the body moves against the known wrench, as if 1/m were {found.parameters[-1]:.3g} 1/kg: check the sign of the "
+            "wrench, its axes and its stamps"
         )
     told += impossible(found, problem)
     told += [*_falling(found, problem), *_turning(found, problem), *_above(found, problem)]
@@ -93,7 +100,7 @@ def _turning(found: Estimate, problem: Problem) -> list[str]:
     scale = spin_scale(found, problem)
     if abs(scale.excess) > max(SIGMAS * scale.deviation, LEAST_SCALE):
         line = (
-            f"the rotations turn about {1.0 + scale.excess:.4g} times as fast as the spin says (standard deviation "
+            f"the rotations turn about {_factor(scale.excess)} times as fast as the spin says (standard deviation "
             f"{scale.deviation:.2g}): check the scale and the axes of the spin, and the stamps"
         )
         return [line]
@@ -117,6 +124,12 @@ def _turning(found: Estimate, problem: Problem) -> list[str]:
         )
         return [line]
     return []
+
+
+def _factor(excess: float) -> str:
+    """1 + excess, with two digits of the excess."""
+    places = max(3, 2 - math.floor(math.log10(abs(excess)))) if abs(excess) < 1.0 else 3
+    return f"{1.0 + excess:.{places}f}"
 
 
 def _above(found: Estimate, problem: Problem) -> list[str]:

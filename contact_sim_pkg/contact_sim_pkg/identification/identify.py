@@ -13,9 +13,9 @@ from .errors import IdentificationError
 from .flight import Model
 from .geometry import Ground, Shape, flattened, gaps, plane
 from .naming import hidden_by_noise, parameter_names, unobservable
-from .noise import first_guess, limited, rounding_of
+from .noise import first_guess, limited, roundings
 from .plane import body_axis, plane_of_motion
-from .possible import HIDDEN, made_up
+from .possible import HIDDEN, against_the_wrench, made_up
 from .problem import Problem, planar_basis, spatial_basis, starting_parameters
 from .rotation import Array
 from .search import Search
@@ -91,18 +91,19 @@ def identify(states: BodyStates, setup: Setup) -> Identification:
     own_axis = None if axis is None else body_axis(states, axis, guess)
     doubt = AXIS * guess.rotation / float(numpy.sqrt(len(states.time)))
     shape = setup.shape if own_axis is None else flattened(setup.shape, own_axis, doubt)
-    rounding = rounding_of(states.velocity)
-    speed_noise = max(setup.noise.velocity if setup.noise else velocity_noise(states), rounding)
+    rounding = roundings(states)
+    speed_noise = max(setup.noise.velocity if setup.noise else velocity_noise(states), rounding.velocity)
     parts = segments(states, shape, setup.ground, setup.wrench, setup.gravity, speed_noise, guess[:2])
     basis = spatial_basis() if axis is None else planar_basis()
     model = Model(basis, setup.wrench.present, setup.wrench, setup.gravity)
     lifts = gaps(shape, setup.ground, states.position, states.rotation).min(axis=1)
     inverse_mass = inverse_mass_guess(states, lifts, setup.wrench, setup.gravity, gap_doubt(shape, guess[:2]))
     start, scale = starting_parameters(shape, model, own_axis, inverse_mass)
-    problem = Problem(states, [], [], shape, setup.ground, model, limited(guess, states), axis, friction=setup.friction)
+    noise = limited(guess, states)
+    problem = Problem(states, [], [], shape, setup.ground, model, noise, axis, rounding, friction=setup.friction)
     starts = [start]
     if axis is None:
-        tumbling = tumbling_start(states, parts.flights, model, limited(guess, states), start)
+        tumbling = tumbling_start(states, parts.flights, model, noise, start)
         starts = [start] if tumbling is None else [tumbling, start]
     search = Search(problem, parts, setup.noise, starts, scale)
     return _result(search.run(), search)
@@ -122,8 +123,8 @@ def _check_spin(states: BodyStates, noise: Noise) -> None:
     rate = rate_of_turn(states, noise.angular_velocity)
     if rate is not None and not SLOWEST <= abs(rate) <= 1.0 / SLOWEST:
         raise IdentificationError(
-            f"the rotations turn {rate:.3g} times as fast as the angular velocities say (in degrees it would be 0.0175); give them "
-            "in rad/s"
+            f"the rotations turn {rate:.3g} times as fast as the angular velocities say: give these in rad/s (in degrees it would "
+            "be 0.0175) and in the axes that they are told in, no sample twice, and none rounded so much that the body stands still"
         )
 
 
@@ -162,7 +163,10 @@ def _result(found: Estimate, search: Search) -> Identification:
         for name, value, deviation, lost in zip(names, found.parameters, deviations, hidden | unsure, strict=True)
     ]
     words = unobservable(missing, found.parameters, found.scale, spatial, model.with_mass, _why_no_mass(search, found))
-    words += hidden_by_noise([name for name, lost in zip(names, unsure & ~hidden, strict=True) if lost])
+    wrong_way = against_the_wrench(found, problem)
+    words += hidden_by_noise(
+        [name for name, lost in zip(names, unsure & ~hidden, strict=True) if lost], wrong_way=wrong_way
+    )
     contacts = findings(problem, found, search.parts, search.places, search.notes)
     told = doubts(found, search.notes.values(), problem)
     return Identification(

@@ -4,14 +4,14 @@ from __future__ import annotations
 
 import numpy
 
-from .geometry import arm, gaps, size
+from .geometry import UP, arm, gaps, size
 from .problem import Contact, Problem
 from .rotation import Array
 from .segments import LONGEST_IMPACT, Segments
 from .sliding_friction import sliding_friction
 from .states import Noise
 
-__all__ = ["NO_FLIGHT", "in_words", "with_steps"]
+__all__ = ["NO_FLIGHT", "in_words", "missing_in_the_air", "with_steps"]
 
 MOST = 60  # steps taken, evenly spread
 APART = 1e-3  # of the body's size: the next corner must be this much higher
@@ -46,12 +46,12 @@ def in_words(problem: Problem, first: int, last: int) -> str:
     """What a lasting contact over the intervals first to last does: sticks, slides (with what friction), or both."""
     states, noise = problem.states, problem.noise
     samples = range(first + 1, last + 1)
-    lift = float(numpy.median([_heights(problem, sample).min() for sample in samples]))
-    high = HIGH * size(problem.shape) + SIGMAS * noise.position
-    if lift < -high:
+    lifts = numpy.array([_heights(problem, sample).min() for sample in samples])
+    lift, deep = float(numpy.median(lifts)), HIGH * size(problem.shape) + SIGMAS * noise.position
+    if lift < -deep:
         return f"{NO_FLIGHT}, {-lift:.3g} m below the ground: check the shape, its axes, and the ground"
-    if lift > high:
-        return f"{NO_FLIGHT}, {lift:.3g} m above the ground: check gravity, the wrench, and the axes of the twist"
+    if numpy.mean(lifts > _highest_hop(problem)) > FEW:
+        return f"{NO_FLIGHT}, up to {lifts.max():.3g} m above the ground: check gravity, wrench, axes of the twist, and shape"
     limit = SIGMAS * (noise.velocity + size(problem.shape) * noise.angular_velocity)
     slips = numpy.array([_slip(problem, sample) for sample in samples])
     floor = STILL * float(abs(states.velocity).max() + size(problem.shape) * abs(states.angular_velocity).max())
@@ -62,6 +62,30 @@ def in_words(problem: Problem, first: int, last: int) -> str:
     told = None if problem.model.wrench.present else sliding_friction(problem, samples)
     friction = told.in_words() if told else ""
     return f"{words} with {friction}" if friction else words
+
+
+def missing_in_the_air(problem: Problem) -> str:
+    """By how much the body accelerates beyond gravity where it is off the ground, in words; empty where a known wrench acts.
+
+    A median over the intervals, for where no run of them fits free motion: exact samples contradict a wrong gravity in each.
+    """
+    states = problem.states
+    lifts = numpy.array([_heights(problem, sample).min() for sample in range(len(states.time))])
+    high = numpy.minimum(lifts[1:], lifts[:-1]) > _highest_hop(problem)
+    if problem.model.wrench.present or not high.any():
+        return ""
+    rates = numpy.diff(states.velocity, axis=0) / numpy.diff(states.time)[:, None] + problem.model.gravity * UP
+    x, y, z = numpy.median(rates[high], axis=0)
+    return f"; there it accelerates by ({x:.3g}, {y:.3g}, {z:.3g}) m/s^2 more than gravity makes it"
+
+
+def _highest_hop(problem: Problem) -> float:
+    """Height in [m] of a hop between two impacts that is too short to be a flight, g T^2 / 8, and what noise adds."""
+    longest = (LONGEST_IMPACT + 1) * float(numpy.median(numpy.diff(problem.states.time)))
+    noise, length = problem.noise, size(problem.shape)
+    return (
+        problem.model.gravity * longest**2 / 8.0 + SIGMAS * (noise.position + length * noise.rotation) + 1e-9 * length
+    )
 
 
 def _slip(problem: Problem, sample: int) -> float:
@@ -94,7 +118,7 @@ def _heights(problem: Problem, sample: int) -> Array:
 def _one_corner(problem: Problem, step: int) -> bool:
     """Whether the same corner, and no other, is down at both ends of a step; a soft ground lets it in."""
     ends = [_heights(problem, sample) for sample in (step, step + 1)]
-    if max(end.min() for end in ends) > HIGH * size(problem.shape) + SIGMAS * problem.noise.position:
+    if max(end.min() for end in ends) > _highest_hop(problem):
         return False
     if len(ends[0]) == 1:
         return True

@@ -18,8 +18,9 @@ from .coulomb import friction_balance
 from .errors import IdentificationError
 from .flight import FlightState, Motion, motion
 from .instant import impact_balance
+from .noise import shared_rounding
 from .problem import Contact, Problem
-from .rank import split
+from .rank import Split, split
 from .rotation import Array, logarithm
 
 __all__ = ["DIVERGES", "Linearised"]
@@ -27,7 +28,9 @@ __all__ = ["DIVERGES", "Linearised"]
 WHITE = 1e-13  # smallest pivot of a balance's covariance, relative
 
 
-DIVERGES = "the fit of the flights diverges: the states do not move as a free body; check gravity, wrench and the axes of the twist"
+DIVERGES = (
+    "the fit of the flights diverges: the states do not move as a free body; check gravity, wrench, twist and its unit"
+)
 
 
 class _Balances(NamedTuple):
@@ -63,7 +66,7 @@ class Linearised:
         self._regressor, self._rest = self._with_flights(self._white_regressor, self._white_rest)
         if not (numpy.isfinite(self._regressor).all() and numpy.isfinite(self._rest).all()):
             raise IdentificationError(DIVERGES)
-        self.split = split(self._regressor * scale)
+        self.split = self._split(self._regressor)
 
     def step(self) -> tuple[Array, Array]:
         """Gauss-Newton step of the parameters [p] and of the states [flights, 12]."""
@@ -96,18 +99,23 @@ class Linearised:
         square, freedom = self._left(self._white_rest, self.split.rank)
         return float(numpy.sqrt(square / freedom)) if freedom else 0.0, freedom
 
-    def equations(self, contacts: Sequence[int]) -> int:
-        """How many the balances of these contacts are."""
-        return sum(self._lines[number].stop - self._lines[number].start for number in contacts)
+    def redundancy(self, contacts: Sequence[int]) -> int:
+        """Equations of these contacts beyond the directions that they add to what the flights tell."""
+        _, regressor, rest = self._whitened(contacts)
+        alone, together = (self._split(self._with_flights(part, rest)[0]) for part in (regressor[:0], regressor))
+        return len(rest) - (together.rank - alone.rank)
 
     def contradiction(self, contacts: Sequence[int]) -> tuple[float, int]:
         """Sum of squares that the best parameters would leave, were these the only contacts, and the equations left over."""
         _, regressor, rest = self._whitened(contacts)
         together, all_rest = self._with_flights(regressor, rest)
-        kept = split(together * self.scale)
+        kept = self._split(together)
         explained = kept.left.T @ all_rest
         square, freedom = self._left(rest, kept.rank)
         return max(0.0, square - float(explained @ explained)), freedom
+
+    def _split(self, regressor: Array) -> Split:
+        return split(regressor * self.scale, with_mass=self.problem.model.with_mass)
 
     def _left(self, rest: Array, rank: int) -> tuple[float, int]:
         """Sum of the squares of balances and flights, and their number beyond `rank`.
@@ -135,9 +143,7 @@ class Linearised:
         count = last - first + 1
         rest = _measured(problem, first, last, whole)
         self.residuals.append(rest)
-        noise = problem.step_noise if first == last and problem.step_noise is not None else problem.noise
-        spreads = numpy.array([noise.position, noise.velocity, noise.rotation, noise.angular_velocity])
-        weights = numpy.repeat(1.0 / spreads, 3)
+        weights = 1.0 / _spreads(problem, first, last)
         self._condensed.append(_condensed(whole, rest, weights, standing=not (times != state.time).any()))
         return Motion(*(field[count:] for field in whole))
 
@@ -224,6 +230,19 @@ def _condensed(whole: Motion, rest: Array, weights: Array, *, standing: bool) ->
 def _triangle(rows: Array) -> Array:
     """R of a QR decomposition."""
     return numpy.asarray(numpy.linalg.qr(rows, mode="r"))
+
+
+def _spreads(problem: Problem, first: int, last: int) -> Array:
+    """Noise of the samples of a flight in the order dx, dv, rotation, dw, [12]; that of rounding as far as they share it."""
+    noise = problem.step_noise if first == last and problem.step_noise is not None else problem.noise
+    states, rows = problem.states, slice(first, last + 1)
+    place, speed, spin = (
+        numpy.maximum(
+            getattr(noise, name), shared_rounding(getattr(states, name)[rows], getattr(problem.rounding, name))
+        )
+        for name in ("position", "velocity", "angular_velocity")
+    )
+    return numpy.concatenate([place, speed, numpy.full(3, noise.rotation), spin])
 
 
 def _measured(problem: Problem, first: int, last: int, predicted: Motion) -> Array:

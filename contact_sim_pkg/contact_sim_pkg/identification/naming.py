@@ -12,6 +12,7 @@ __all__ = ["hidden_by_noise", "parameter_names", "unobservable"]
 PART = 1e-6  # a component of a direction below this is none
 FLAT = 0.02  # an eigenvalue below this part of the largest is zero: noise turns the directions a little
 NO_TRACE = "the known wrench leaves no trace in the motion that is large against the noise"
+WRONG_WAY = "the body moves against the known wrench"
 ALIKE = 1e-3  # of 1 - |cos|: two directions that noise may tell apart
 
 
@@ -55,10 +56,13 @@ def unobservable(
     ]  # fmt: skip
 
 
-def hidden_by_noise(names: list[str]) -> list[str]:
-    """One sentence for each parameter that equations tell, but not above their noise."""
+def hidden_by_noise(names: list[str], *, wrong_way: bool) -> list[str]:
+    """One sentence for each parameter that equations tell, but not above their noise.
+
+    ``wrong_way``: 1/m is below zero by more than that.
+    """
     return [
-        f"mass is not identifiable: {NO_TRACE}"
+        f"mass is not identifiable: {WRONG_WAY if wrong_way else NO_TRACE}"
         if name == "1/m"
         else f"{name} is not identifiable: noise could have made up its value"
         for name in names

@@ -7,10 +7,10 @@ from collections.abc import Sequence
 import numpy
 
 from .rotation import Array, logarithm
-from .segments import MEDIAN_OF_GAUSS
+from .segments import MEDIAN_OF_GAUSS, SHORTEST_FLIGHT
 from .states import BodyStates, Noise
 
-__all__ = ["first_guess", "from_residuals", "limited", "rounding_of"]
+__all__ = ["first_guess", "from_residuals", "limited", "roundings", "shared_rounding"]
 
 FLOOR = 1e-13  # of the largest value of a channel: rounding
 ROUNDED = float(numpy.sqrt(12.0))  # step of a rounding over its standard deviation
@@ -38,12 +38,14 @@ def first_guess(states: BodyStates) -> Noise:
 def from_residuals(residuals: Sequence[Array], states: BodyStates) -> Noise:
     """From what flights leave of their samples, [n, 12] in the order dx, dv, rotation, dw, and not less than their rounding.
 
-    A component without noise of its own, as those out of a plane that a camera films, is not counted.
+    A component without noise of its own, as those out of a plane that a camera films, is not counted; nor are the single samples
+    of a contact that lasts: what its steps leave is the error of their rule (`lasting.py`).
     """
+    flights = [rest for rest in residuals if len(rest) >= SHORTEST_FLIGHT]
     spreads, steps = [], (_step(states.position), _step(states.velocity), 0.0, _step(states.angular_velocity))
     for channel in range(4):
-        parts = [rest[:, 3 * channel : 3 * channel + 3] for rest in residuals]
-        free = sum(max(len(part) - 1.0, 0.0) for part in parts)
+        parts = [rest[:, 3 * channel : 3 * channel + 3] for rest in flights]
+        free = sum(len(part) - 1.0 for part in parts)
         total = sum((numpy.sum(part**2, axis=0) for part in parts), start=numpy.zeros(3))
         noisy = total > CONSTANT**2 * total.max()
         spread = float(numpy.sqrt(total[noisy].mean() / free)) if free and noisy.any() else 0.0
@@ -61,9 +63,27 @@ def limited(noise: Noise, states: BodyStates, floor: float = FLOOR) -> Noise:
     return Noise(*(max(value, floor * (size + 1e-3)) for value, size in zip(noise, largest, strict=True)))
 
 
-def rounding_of(values: Array) -> float:
-    """Standard deviation of the rounding of samples [n, k], stored with few decimals or in single precision; 0 otherwise."""
-    return _step(values) / ROUNDED
+def roundings(states: BodyStates) -> Noise:
+    """Standard deviations of the rounding of samples that are stored with few decimals or in single precision; 0 otherwise.
+
+    Of rotations, which come from rounded quaternions, it is not seen.
+    """
+    channels = (states.position, states.velocity, states.angular_velocity)
+    position, velocity, angular_velocity = (_step(values) / ROUNDED for values in channels)
+    return Noise(position, 0.0, velocity, angular_velocity)
+
+
+def shared_rounding(values: Array, rounding: float) -> Array:
+    """What counts as noise of each of the samples [n, k] of a flight so that their mean is as uncertain as rounding leaves it, [k].
+
+    Errors of rounding differ from sample to sample only where the increments of the rounded values do. A spin that is constant, or
+    a velocity that falls by whole steps, keeps one error for all n samples, r = 1: `rounding sqrt(n / r)`, r - 1 changes of
+    the increment.
+    """
+    if rounding == 0.0:
+        return numpy.zeros(values.shape[1])
+    changes = abs(numpy.diff(values, n=2, axis=0)) > 0.5 * ROUNDED * rounding
+    return numpy.asarray(rounding * numpy.sqrt(len(values) / (1.0 + changes.sum(axis=0))))
 
 
 def _step(values: Array) -> float:

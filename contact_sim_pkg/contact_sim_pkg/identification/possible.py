@@ -14,7 +14,7 @@ from .problem import Problem
 from .rotation import Array
 from .stacked import Estimate
 
-__all__ = ["HIDDEN", "impossible", "made_up"]
+__all__ = ["HIDDEN", "against_the_wrench", "impossible", "made_up"]
 
 HIDDEN = 1e-6  # component of a parameter in what is not identified, above which it counts as not identified itself
 TOLD = 1.0 / 3.0  # standard deviation over the value, above which noise could have made it up
@@ -34,6 +34,13 @@ def made_up(found: Estimate, problem: Problem) -> Array:
     if problem.axis is None:
         limits[3:6] = found.scale[3:6]
     return numpy.asarray((limits <= 0.0) | (deviations > TOLD * limits))
+
+
+def against_the_wrench(found: Estimate, problem: Problem) -> bool:
+    """Whether 1/m is told, and below zero by more than its noise: the body goes where the known wrench does not push it."""
+    if not problem.model.with_mass or abs(found.directions.missing[:, -1]).max(initial=0.0) > HIDDEN:
+        return False
+    return bool(found.parameters[-1] < -SIGMAS * float(numpy.sqrt(found.covariance[-1, -1])))
 
 
 def impossible(found: Estimate, problem: Problem) -> list[str]:

@@ -44,6 +44,9 @@ class Contact(NamedTuple):
     located: bool = False  # an impact whose instant is no more than the root of the gap on the flight before
 
 
+EXACT = Noise(0.0, 0.0, 0.0, 0.0)
+
+
 class Problem(NamedTuple):
     """Samples, flights, contacts and model."""
 
@@ -55,6 +58,7 @@ class Problem(NamedTuple):
     model: Model
     noise: Noise
     axis: Array | None  # normal of the plane of motion in world axes; None in space
+    rounding: Noise = EXACT  # standard deviation of the rounding of the samples
     step_noise: Noise | None = None  # of flights of one sample, where it differs: the error of a step counts as noise
     friction: float | None = None  # known coefficient
 

@@ -27,18 +27,38 @@ class Split(NamedTuple):
         return len(self.values)
 
 
-def split(regressor: Array) -> Split:
+def split(regressor: Array, *, with_mass: bool) -> Split:
     """Directions that are identified and those that are not.
 
     A direction counts as identified where its singular value is above 1e-8 of the largest, and its standard deviation
-    (one over the singular value) below the size of the parameters.
+    (one over the singular value) below the size of the parameters. The largest is that of its own kind: inertia and 1/m are
+    brought to one size first, since exact velocities may tell the mass 1e8 times better than rounded rotations tell the inertia.
+    That is allowed, for the rounding of a QR decomposition is that of each column.
 
     Args:
         regressor: [rows, p], each row of unit noise, each column times the size of its parameter.
+        with_mass: whether the last column is that of 1/m.
     """
     rows, count = regressor.shape
     if rows < count:
         regressor = numpy.concatenate([regressor, numpy.zeros((count - rows, count))])
-    left, values, right = numpy.linalg.svd(regressor, full_matrices=False)
-    kept = values > max(SMALLEST * float(values.max(initial=0.0)), 1.0)
-    return Split(right[kept], values[kept], left[:rows, kept], right[~kept])
+    told, hidden = _apart(regressor, _kinds(regressor, with_mass))
+    left, values, right = numpy.linalg.svd(regressor @ told.T, full_matrices=False)
+    directions, kept = right @ told, values > 1.0
+    return Split(directions[kept], values[kept], left[:rows, kept], numpy.concatenate([directions[~kept], hidden]))
+
+
+def _kinds(regressor: Array, with_mass: bool) -> Array:
+    """Norm of the columns of inertia, and of that of 1/m, [p]; 1 where they are empty."""
+    sizes = numpy.full(regressor.shape[1], float(numpy.linalg.norm(regressor[:, : -1 if with_mass else None])))
+    if with_mass:
+        sizes[-1] = float(numpy.linalg.norm(regressor[:, -1]))
+    return numpy.where(sizes > 0.0, sizes, 1.0)
+
+
+def _apart(regressor: Array, sizes: Array) -> tuple[Array, Array]:
+    """Orthonormal directions that the columns over their `sizes` tell, and the others, rows."""
+    _, values, right = numpy.linalg.svd(regressor / sizes, full_matrices=False)
+    silent = right[values <= SMALLEST * float(values.max(initial=0.0))] / sizes
+    whole, _ = numpy.linalg.qr(silent.T, mode="complete")
+    return whole[:, len(silent) :].T, whole[:, : len(silent)].T

@@ -9,7 +9,7 @@ from .errors import IdentificationError
 from .flight import plain_motion, state_at
 from .heights import gap_deviation
 from .impacts import Touch, locate
-from .lasting import NO_FLIGHT, in_words, with_steps
+from .lasting import NO_FLIGHT, in_words, missing_in_the_air, with_steps
 from .linearised import Linearised
 from .noise import from_residuals, limited
 from .notes import DISAGREES, DOUBLE, SEVERAL, TOUCHES_NOTHING, UNSURE, cure_without_flights
@@ -60,11 +60,7 @@ class Search:
         if not self.problem.flights:
             self.problem = with_slides(with_steps(self.problem, self.parts), self.parts)
         if not self.problem.flights:
-            no_force = self.problem.model.wrench.force is None
-            cure = cure_without_flights(no_friction=self.problem.friction is None, no_force=no_force)
-            raise IdentificationError(
-                f"there is no flight of {SHORTEST_FLIGHT} samples or more between contacts; {cure}"
-            )
+            raise IdentificationError(self._without_flights())
         if self.problem.contacts:
             return estimate(self.problem, self.start, self.scale)
         found = self.free = self._without_false_flights(self._flights_alone())
@@ -78,6 +74,15 @@ class Search:
         if found.directions.rank < self.problem.model.unknowns:
             found = self._with_steps(found)
         return self._with_faint_mass(found)
+
+    def _without_flights(self) -> str:
+        """Why there is nothing to begin with, and what helps."""
+        strange = [note for note in self.lasting.values() if note.startswith(NO_FLIGHT)]
+        if strange:
+            return f"{strange[0]}{missing_in_the_air(self.problem)}"
+        no_force = self.problem.model.wrench.force is None
+        cure = cure_without_flights(no_friction=self.problem.friction is None, no_force=no_force)
+        return f"there is no flight of {SHORTEST_FLIGHT} samples or more between contacts; {cure}"
 
     @property
     def flights(self) -> int:
@@ -106,17 +111,17 @@ class Search:
         try:
             fit = estimate(self.problem, found.parameters, scale, found.flights)
         except IdentificationError:
-            if not self._without_contradicting():
+            if not self._without_contradicting(half=True):
                 raise
         else:
-            if not (contradicts(fit) and self._without_contradicting()):
+            if not (contradicts(fit) and self._without_contradicting(half=False)):
                 return fit
         return estimate(self.problem, self.free.parameters, scale, self.free.flights)
 
-    def _without_contradicting(self) -> bool:
+    def _without_contradicting(self, *, half: bool) -> bool:
         """Leave out contacts that contradict the others, judged where the flights alone are; whether there are any."""
         linear = Linearised(self.problem, self.free.parameters, self.free.flights, self.scale)
-        kept = agreeing(linear)
+        kept = agreeing(linear, len(self.contradicting), half=half)
         if len(kept) == len(self.places):
             return False
         out = [place for number, place in enumerate(self.places) if number not in kept]
@@ -128,10 +133,7 @@ class Search:
         return True
 
     def _seen(self, found: Estimate) -> Noise:
-        return self.noise or from_residuals(self._long(found), self.problem.states)
-
-    def _long(self, found: Estimate) -> list[Array]:
-        return [rest for rest in found.residuals if len(rest) >= SHORTEST_FLIGHT]
+        return self.noise or from_residuals(found.residuals, self.problem.states)
 
     def _take_noise(self, found: Estimate) -> None:
         self.problem = self.problem._replace(noise=self._seen(found))
@@ -286,9 +288,18 @@ class Search:
         return ends.get(first), begins.get(last + 1)
 
     def _with_steps(self, found: Estimate) -> Estimate:
-        """Add steps of lasting contacts, and of slides with known friction, where impacts and flights do not tell all."""
+        """Add steps of lasting contacts, and of slides with known friction, where impacts and flights do not tell all.
+
+        Steps that hide small impacts may tell what no parameters fit: then all stays as it is.
+        """
         wider = with_slides(with_steps(self.problem, self.parts), self.parts)
         if len(wider.contacts) == len(self.problem.contacts):
             return found
+        try:
+            fit = estimate(wider, found.parameters, self._scale(found))
+        except IdentificationError:
+            return found
+        if not fit.converged:
+            return found
         self.problem = wider
-        return estimate(wider, found.parameters, self._scale(found))
+        return fit

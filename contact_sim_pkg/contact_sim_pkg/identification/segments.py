@@ -63,6 +63,8 @@ def inverse_mass_guess(
 ) -> float:
     """1/m in [1/kg] from the intervals off the ground: median of e.f/f.f; 0 without a force, or where all are on the ground.
 
+    Below zero where the body moves against the force.
+
     `lifts` [n]: smallest gaps, known to `doubt`, in [m].
     """
     pushes = _pushes(states, wrench)
@@ -71,7 +73,7 @@ def inverse_mass_guess(
     if not chosen.any():
         return 0.0
     jumps = _jumps(states, gravity)
-    return max(0.0, float(numpy.median(numpy.einsum("ni,ni->n", jumps, pushes)[chosen] / strength[chosen])))
+    return float(numpy.median(numpy.einsum("ni,ni->n", jumps, pushes)[chosen] / strength[chosen]))
 
 
 def segments(

@@ -23,6 +23,7 @@ __all__ = ["SpinScale", "missing_spin_rate", "rate_of_turn", "spin_scale"]
 
 ROUGH = 5.0  # times the noise of neighbouring samples: what flights leave beyond that is no noise
 SIGNIFICANT = 20.0  # times its noise: a spin that tells a rate of turn
+TURN = 0.2  # [rad], told by the spin, that rotations are compared over
 ROTATION = 6  # column of what is left, of 12
 
 
@@ -60,22 +61,25 @@ def spin_scale(found: Estimate, problem: Problem) -> SpinScale:
 
 
 def rate_of_turn(states: BodyStates, noise: float) -> float | None:
-    """How many times as fast as the spin says the rotations turn: a median over the intervals; None where that is open.
+    """How many times as fast as the spin says the rotations turn: a median over spans of TURN; None where that is open.
 
     Before any flight is known: for spins in another unit. It asks for spins of SIGNIFICANT times their `noise` [rad/s], and for
-    a radian in all.
+    a radian in all. Spans of a turn that shows beside rounded rotations.
     """
     if len(states.time) < FEWEST:
         return None
     steps, spin = numpy.diff(states.time), 0.5 * (states.angular_velocity[1:] + states.angular_velocity[:-1])
     speed = numpy.linalg.norm(spin, axis=1)
-    told = float(speed @ steps)
-    if told < 1.0 or float(numpy.median(speed)) < SIGNIFICANT * noise:
+    usual, total = float(numpy.median(speed)), float(speed @ steps)
+    if total < 1.0 or usual < SIGNIFICANT * noise:
         return None
-    turns = logarithm(states.rotation[1:] @ numpy.swapaxes(states.rotation[:-1], -1, -2))
-    fast = speed >= numpy.median(speed)
-    shares = numpy.einsum("ni,ni->n", turns, spin)[fast] / (speed[fast] ** 2 * steps[fast])
-    return float(numpy.median(shares))
+    span = min(max(1, round(TURN * len(steps) / total)), len(steps) // 2)
+    told = numpy.concatenate([numpy.zeros((1, 3)), numpy.cumsum(spin * steps[:, None], axis=0)])
+    told = told[span:] - told[:-span]
+    turns = logarithm(states.rotation[span:] @ numpy.swapaxes(states.rotation[:-span], -1, -2))
+    squares = numpy.einsum("ni,ni->n", told, told)
+    fast = squares >= numpy.median(squares)
+    return float(numpy.median(numpy.einsum("ni,ni->n", turns, told)[fast] / squares[fast]))
 
 
 def _spreads(problem: Problem) -> tuple[float, float]:
