@@ -10,9 +10,11 @@ from typing import NamedTuple
 
 import numpy
 
+from .noise import sample_noise
 from .problem import Problem
 from .rotation import Array
 from .stacked import Estimate
+from .states import Noise
 
 __all__ = ["FEWEST", "MissingAcceleration", "long_flights", "mean_over_flights", "missing_acceleration"]
 
@@ -29,19 +31,22 @@ class MissingAcceleration(NamedTuple):
 
 def missing_acceleration(found: Estimate, problem: Problem) -> MissingAcceleration:
     """Of the centre of mass: mean over all flights of what `found` leaves of their positions and velocities."""
-    return mean_over_flights(found, problem, 0, (problem.noise.position, problem.noise.velocity))
+    return mean_over_flights(found, problem, 0, problem.noise)
 
 
-def mean_over_flights(found: Estimate, problem: Problem, first: int, noise: tuple[float, float]) -> MissingAcceleration:
+def mean_over_flights(found: Estimate, problem: Problem, first: int, noise: Noise) -> MissingAcceleration:
     """Of the places in the columns `first` to `first` + 2 of what is left [n, 12], and of their rates in the next three.
 
-    `noise`: of a place and of a rate.
+    `noise`: of the samples; with what rounding they share.
     """
     total: Array = numpy.zeros(3)
     weights, longest = 0.0, 0.0
     for run, rest in long_flights(found, problem):
         time = problem.states.time[run] - problem.states.time[run.start]
-        value, weight = _of_flight(time, rest[:, first : first + 6], noise)
+        spreads = (
+            sample_noise(noise, problem.rounding, problem.states, run)[first : first + 6].reshape(2, 3).max(axis=1)
+        )
+        value, weight = _of_flight(time, rest[:, first : first + 6], spreads)
         total = total + weight * value
         weights, longest = weights + weight, max(longest, float(time[-1]))
     if weights == 0.0:
@@ -55,8 +60,8 @@ def long_flights(found: Estimate, problem: Problem) -> list[tuple[slice, Array]]
     return [(slice(first, last + 1), rest) for (first, last), rest in pairs if last - first + 1 >= FEWEST]
 
 
-def _of_flight(time: Array, rest: Array, noise: tuple[float, float]) -> tuple[Array, float]:
-    """Acceleration [3] in what is left of places and rates [n, 6] at `time` [n], and one over its variance."""
+def _of_flight(time: Array, rest: Array, noise: Array) -> tuple[Array, float]:
+    """Acceleration [3] in what is left of places and rates [n, 6], of this noise [2], at `time` [n], and one over its variance."""
     spreads = numpy.repeat(noise, len(time))
     one, nothing = numpy.ones_like(time), numpy.zeros_like(time)
     columns = [

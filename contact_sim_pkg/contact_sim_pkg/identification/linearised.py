@@ -18,7 +18,7 @@ from .coulomb import friction_balance
 from .errors import IdentificationError
 from .flight import FlightState, Motion, motion
 from .instant import impact_balance
-from .noise import shared_rounding
+from .noise import sample_noise
 from .problem import Contact, Problem
 from .rank import Split, split
 from .rotation import Array, logarithm
@@ -143,7 +143,8 @@ class Linearised:
         count = last - first + 1
         rest = _measured(problem, first, last, whole)
         self.residuals.append(rest)
-        weights = 1.0 / _spreads(problem, first, last)
+        noise = problem.step_noise if first == last and problem.step_noise is not None else problem.noise
+        weights = 1.0 / sample_noise(noise, problem.rounding, problem.states, slice(first, last + 1))
         self._condensed.append(_condensed(whole, rest, weights, standing=not (times != state.time).any()))
         return Motion(*(field[count:] for field in whole))
 
@@ -230,19 +231,6 @@ def _condensed(whole: Motion, rest: Array, weights: Array, *, standing: bool) ->
 def _triangle(rows: Array) -> Array:
     """R of a QR decomposition."""
     return numpy.asarray(numpy.linalg.qr(rows, mode="r"))
-
-
-def _spreads(problem: Problem, first: int, last: int) -> Array:
-    """Noise of the samples of a flight in the order dx, dv, rotation, dw, [12]; that of rounding as far as they share it."""
-    noise = problem.step_noise if first == last and problem.step_noise is not None else problem.noise
-    states, rows = problem.states, slice(first, last + 1)
-    place, speed, spin = (
-        numpy.maximum(
-            getattr(noise, name), shared_rounding(getattr(states, name)[rows], getattr(problem.rounding, name))
-        )
-        for name in ("position", "velocity", "angular_velocity")
-    )
-    return numpy.concatenate([place, speed, numpy.full(3, noise.rotation), spin])
 
 
 def _measured(problem: Problem, first: int, last: int, predicted: Motion) -> Array:

@@ -10,14 +10,14 @@ from .rotation import Array, logarithm
 from .segments import MEDIAN_OF_GAUSS, SHORTEST_FLIGHT
 from .states import BodyStates, Noise
 
-__all__ = ["first_guess", "from_residuals", "limited", "roundings", "shared_rounding"]
+__all__ = ["first_guess", "from_residuals", "limited", "roundings", "sample_noise", "shared_rounding"]
 
 FLOOR = 1e-13  # of the largest value of a channel: rounding
 ROUNDED = float(numpy.sqrt(12.0))  # step of a rounding over its standard deviation
 STEPS = 10.0 ** numpy.arange(0.0, -10.0, -1.0)  # decimals that samples are rounded to
 NEARLY = 1e-6  # of a step
 CONSTANT = 0.1  # of the noisiest component: less noise is that of a component that was not measured, as across a plane
-FEWEST = 20  # different values
+FEWEST = 4  # different values that are multiples, such as the spins of four flights: by chance they are not
 SECOND = numpy.sqrt(6.0)  # noise of a second difference over that of a value
 
 
@@ -71,6 +71,15 @@ def roundings(states: BodyStates) -> Noise:
     channels = (states.position, states.velocity, states.angular_velocity)
     position, velocity, angular_velocity = (_step(values) / ROUNDED for values in channels)
     return Noise(position, 0.0, velocity, angular_velocity)
+
+
+def sample_noise(noise: Noise, rounding: Noise, states: BodyStates, run: slice) -> Array:
+    """Of each sample of a flight in the order dx, dv, rotation, dw, [12]; `noise`, or rounding where the samples share more."""
+    place, speed, spin = (
+        numpy.maximum(getattr(noise, name), shared_rounding(getattr(states, name)[run], getattr(rounding, name)))
+        for name in ("position", "velocity", "angular_velocity")
+    )
+    return numpy.concatenate([place, speed, numpy.full(3, noise.rotation), spin])
 
 
 def shared_rounding(values: Array, rounding: float) -> Array:

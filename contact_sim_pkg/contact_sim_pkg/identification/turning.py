@@ -13,11 +13,11 @@ from typing import NamedTuple
 import numpy
 
 from .free_fall import FEWEST, MissingAcceleration, long_flights, mean_over_flights
-from .noise import first_guess
+from .noise import first_guess, sample_noise
 from .problem import Problem
 from .rotation import logarithm
 from .stacked import Estimate
-from .states import BodyStates
+from .states import BodyStates, Noise
 
 __all__ = ["SpinScale", "missing_spin_rate", "rate_of_turn", "spin_scale"]
 
@@ -36,12 +36,12 @@ class SpinScale(NamedTuple):
 
 def missing_spin_rate(found: Estimate, problem: Problem) -> MissingAcceleration:
     """Angular acceleration of all flights beyond that of the model, [rad/s^2], world axes."""
-    return mean_over_flights(found, problem, ROTATION, _spreads(problem))
+    return mean_over_flights(found, problem, ROTATION, _noise(problem))
 
 
 def spin_scale(found: Estimate, problem: Problem) -> SpinScale:
     """k - 1, where the rotations of the flights turn k times as fast as the spin says."""
-    (turn_noise, spin_noise), total, weights = _spreads(problem), 0.0, 0.0
+    noise, total, weights = _noise(problem), 0.0, 0.0
     for run, rest in long_flights(found, problem):
         turns, spins = rest[:, ROTATION : ROTATION + 3], rest[:, ROTATION + 3 :]
         spin = problem.states.angular_velocity[run] - spins
@@ -53,7 +53,8 @@ def spin_scale(found: Estimate, problem: Problem) -> SpinScale:
         lever = float(centred @ centred)
         rate = float(centred @ numpy.einsum("ni,ni->n", turns, along)) / lever
         excess = rate - float(numpy.einsum("ni,ni->n", spins, along).mean())
-        weight = 1.0 / (turn_noise**2 / lever + spin_noise**2 / len(time))
+        spin_noise = float(sample_noise(noise, problem.rounding, problem.states, run)[ROTATION + 3 :].max())
+        weight = 1.0 / (noise.rotation**2 / lever + spin_noise**2 / len(time))
         total, weights = total + weight * size * excess, weights + weight * size**2
     if weights == 0.0:
         return SpinScale(0.0, numpy.inf)
@@ -82,10 +83,10 @@ def rate_of_turn(states: BodyStates, noise: float) -> float | None:
     return float(numpy.median(numpy.einsum("ni,ni->n", turns, told)[fast] / squares[fast]))
 
 
-def _spreads(problem: Problem) -> tuple[float, float]:
-    """Noise of rotation and spin: of the flights, but no more than ROUGH times that of neighbours, which no misfit raises."""
-    rough = first_guess(problem.states)
-    return (
-        min(problem.noise.rotation, ROUGH * rough.rotation),
-        min(problem.noise.angular_velocity, ROUGH * rough.angular_velocity),
+def _noise(problem: Problem) -> Noise:
+    """Of rotation and spin that of the flights, but no more than ROUGH times that of neighbours, which no misfit raises."""
+    rough, noise = first_guess(problem.states), problem.noise
+    return noise._replace(
+        rotation=min(noise.rotation, ROUGH * rough.rotation),
+        angular_velocity=min(noise.angular_velocity, ROUGH * rough.angular_velocity),
     )
