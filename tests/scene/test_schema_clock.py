@@ -6,6 +6,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from contact_sim_pkg.scene.resolve import resolve
 from contact_sim_pkg.scene.schema_clock import block_count, block_nanoseconds, divisors
 
 THOUSAND = {"force_rate": 1000.0, "display_rate": 1000.0, "field_rate": 1000.0}
@@ -23,7 +24,7 @@ THOUSAND = {"force_rate": 1000.0, "display_rate": 1000.0, "field_rate": 1000.0}
             "outputs.field_rate",
             "1000 Hz",
         ),
-        ({"duration": 0.30000000000000004}, "duration", "0.3 and 0.31 s"),
+        ({"duration": 0.300000001}, "duration", "0.3 and 0.31 s"),
         ({"outputs": {"field_rate": 150.0}}, "outputs.field_rate", "100 and 200 Hz"),
         ({"outputs": {"field_rate": 50.0}}, "outputs.field_rate", "100 Hz"),
         ({"outputs": {"display_rate": 300.0}}, "outputs.display_rate", "200 and 400 Hz"),
@@ -64,6 +65,27 @@ def test_a_block_length_of_nothing_or_out_of_range_is_refused_with_its_range(mak
 def test_blocks_and_nanoseconds_are_exact(maker):
     scene = maker.load("seat", {"duration": 3599.99, "block_length": 0.01})
     assert (block_count(scene), block_nanoseconds(scene)) == (359999, 10_000_000)
+
+
+@pytest.mark.parametrize(
+    ("duration", "block_length", "blocks", "meant"),
+    [
+        (0.47000000000000003, 0.01, 47, 0.47),
+        (0.1 + 0.2, 0.01, 30, 0.3),
+        (1.1 - 0.4, 0.01, 70, 0.7),
+        (sum([0.001] * 3599), 0.001, 3599, 3.599),
+        (0.3 * (1.0 + 0.9e-9), 0.01, 30, 0.3),
+        (0.3 * (1.0 - 0.9e-9), 0.01, 30, 0.3),
+    ],
+)
+def test_a_duration_with_the_rounding_of_a_sum_is_the_whole_number_of_blocks_that_it_is_meant_to_be(
+    maker, duration, block_length, blocks, meant
+):
+    assert duration != meant
+    rates = {"outputs": THOUSAND} if block_length == 0.001 else {}
+    scene = maker.load("seat", {"duration": duration, "block_length": block_length, **rates})
+    assert block_count(scene) == blocks
+    assert resolve(scene).data["duration"] == meant
 
 
 @given(st.integers(1, 10**6))

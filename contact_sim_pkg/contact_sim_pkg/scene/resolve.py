@@ -19,6 +19,7 @@ from contact_sim_pkg.scene.rigs import RIGS
 from contact_sim_pkg.scene.schema import Scene
 from contact_sim_pkg.scene.schema_accuracy import Contact, asked, cells_of, integration_tolerance, rung_for
 from contact_sim_pkg.scene.schema_backrest import complete_backrest
+from contact_sim_pkg.scene.schema_clock import whole_duration
 from contact_sim_pkg.scene.schema_impact import complete_impact
 from contact_sim_pkg.scene.schema_validate import validate
 from contact_sim_pkg.scene.yaml_document import parse_document
@@ -93,6 +94,7 @@ def read_explicit(text: str, name: str, overrides: Sequence[Override] = ()) -> d
 def explicit(scene: Scene) -> dict[str, Any]:
     """The scene as a plain dict with every default and everything that follows from `accuracy` written out."""
     data = _dump(scene)
+    data["duration"] = whole_duration(scene)
     for contact in RIGS[scene.rig].contacts:
         data.setdefault(contact, {})  # the schema fills in its defaults
         _fill_effects(data["effects"][contact], scene.accuracy, contact)

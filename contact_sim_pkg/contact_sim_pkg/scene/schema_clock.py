@@ -1,6 +1,7 @@
 """Times that must fit together: blocks in the duration, samples in a block, all in whole nanoseconds.
 
-Decimal fractions are taken as they are written (0.01 is 1/100), so nothing hangs on rounding.
+Decimal fractions are taken as they are written (0.01 is 1/100), so nothing hangs on rounding. A duration may be the sum of floats,
+such as 0.47000000000000003: it is taken as the whole number of blocks that it is meant to be.
 """
 
 from __future__ import annotations
@@ -13,6 +14,7 @@ from contact_sim_pkg.scene.schema import Scene
 
 NANOSECONDS = 10**9
 LONGEST_DURATION = 3600
+ROUNDED = Fraction(1, 10**9)  # of a whole number of blocks: a duration this near to it is rounded
 
 
 def exact(value: float) -> Fraction:
@@ -27,7 +29,19 @@ def block_nanoseconds(scene: Scene) -> int:
 
 def block_count(scene: Scene) -> int:
     """Number of blocks of the scene."""
-    return int(exact(scene.duration) / exact(scene.block_length))
+    return int(_blocks(scene))
+
+
+def whole_duration(scene: Scene) -> float:
+    """Duration in [s] of the scene's blocks: the one asked for, without its rounding."""
+    return float(_blocks(scene) * exact(scene.block_length))
+
+
+def _blocks(scene: Scene) -> Fraction:
+    """Blocks in the duration: a whole number, unless the duration is further than ROUNDED from it."""
+    blocks = exact(scene.duration) / exact(scene.block_length)
+    whole = round(blocks)
+    return Fraction(whole) if abs(blocks - whole) <= ROUNDED * whole else blocks
 
 
 def clock_breaches(scene: Scene) -> Iterator[Breach]:
@@ -49,8 +63,7 @@ def clock_breaches(scene: Scene) -> Iterator[Breach]:
 
 
 def _duration(scene: Scene) -> Iterator[Breach]:
-    block = exact(scene.block_length)
-    blocks = exact(scene.duration) / block
+    block, blocks = exact(scene.block_length), _blocks(scene)
     if blocks.denominator != 1:
         whole = int(blocks)
         near = [_decimal(n * block) for n in (whole, whole + 1) if 0 < n * block <= LONGEST_DURATION]
