@@ -4,6 +4,7 @@ import math
 
 import numpy
 import pytest
+from scipy.spatial.transform import Rotation
 
 from contact_sim_pkg.core.rigid.body import box, height_field, placed, regular_block, slope, sphere
 from contact_sim_pkg.core.rigid.located import LocatedBody
@@ -64,6 +65,26 @@ def test_a_box_that_slides_to_a_stop_comes_as_far_as_coulomb_says_and_loses_its_
     assert body.motion.position == pytest.approx([0.6 * far, 0.8 * far, 0.05], rel=1e-9)
     assert not body.motion.velocity.any()
     assert body.dissipated == pytest.approx(0.5 * 2.0 * 2.0**2, rel=1e-9)
+
+
+@pytest.mark.parametrize("size", [1e-3, 0.1, 1.0, 10.0])
+@pytest.mark.parametrize("angle", [-0.3, -0.2, -0.107, -0.05, 0.0, 0.05, 0.13, 0.2, 0.28])
+def test_a_box_that_slides_straight_on_a_slope_stops_where_coulomb_says_at_any_accuracy(angle, size):
+    """Up and down, turned about the normal by any angle: v^2/(2 a), a = g (mu cos +- sin). Rounded on a slope."""
+    normal = numpy.array([-math.sin(angle), 0.0, math.cos(angle)])
+    along = numpy.array([math.cos(angle), 0.0, math.sin(angle)])
+    body, speed = box((size, 0.8 * size, 0.6 * size), size**3, 0.4, 0.3), 3.0 * math.sqrt(GRAVITY * size)
+    for azimuth in (0.0, 0.7, math.pi / 2.0, 2.0, -1.1):
+        turned = (Rotation.from_euler("y", -angle) * Rotation.from_euler("z", azimuth)).as_matrix()
+        for way in (1.0, -1.0):
+            slowing = GRAVITY * (0.4 * math.cos(angle) + way * math.sin(angle))
+            far, lasts = speed**2 / (2.0 * slowing), speed / slowing
+            start = 0.3 * size * normal
+            motion = placed(body, start, [*(way * speed * along), 0.0, 0.0, 0.0], rotation=turned)
+            status, _track = LocatedBody(body, slope(3, angle), motion, tolerance=1e-3).advance_over(0.06 * lasts, 20)
+            assert status == SOLVED
+            assert motion.position == pytest.approx(start + way * far * along, abs=1e-12 * far)
+            assert not motion.velocity.any()
 
 
 def test_a_sliding_box_presses_where_the_moment_of_its_friction_asks_it_to():

@@ -94,6 +94,90 @@ def test_a_box_with_friction_of_one_and_more_tumbles_on_the_true_cone_to_the_end
         energy = now
 
 
+def flat(width, friction, restitution):
+    if width == 2:
+        return regular_block(0.1, 1.0, friction, restitution)
+    return box((0.1, 0.1, 0.1), 1.0, friction, restitution)
+
+
+def energies(body, height, step, time):
+    """Energy over the one at the start, every 50 steps, of ``body`` dropped from ``height``, its centre of mass 0.05 m up."""
+    motion = placed(body, [*[0.0] * (body.width - 1), height], numpy.zeros(len(body.load)))
+    stepped, found = SteppedBody(body, slope(body.width), motion, step), []
+    for _ in range(round(time / step / 50)):
+        assert stepped.advance(50) == SOLVED
+        assert numpy.abs(motion.rotation - numpy.eye(body.width)).max() <= 1e-9
+        speed, above = float(motion.velocity[body.width - 1]), float(motion.position[-1]) - 0.05
+        found.append((0.5 * speed**2 + 9.81 * above) / (9.81 * (height - 0.05)))
+    return numpy.array(found)
+
+
+@pytest.mark.parametrize("restitution", [0.0, 0.5, 1.0])
+@pytest.mark.parametrize("friction", [0.0, 0.3])
+@pytest.mark.parametrize("width", [2, 3])
+def test_a_box_dropped_flat_from_any_height_bounces_as_a_ball_and_does_not_tumble(width, friction, restitution):
+    """At round heights and steps the gaps of its corners at the end of a step are 0 up to rounding, of either sign.
+
+    Box and ball may meet the ground a step apart, which is a part 2 h v/z of the energy of the fall z, at each bounce.
+    """
+    body, ball = flat(width, friction, restitution), sphere(0.05, 1.0, friction, restitution)
+    for height in numpy.round(numpy.arange(0.1, 1.3, 0.05), 2):
+        speed, bounces = math.sqrt(2.0 * 9.81 * (height - 0.05)), 1.5 / math.sqrt(8.0 * (height - 0.05) / 9.81) + 1.0
+        found, expected = energies(body, height, 1e-3, 1.5), energies(ball, height, 1e-3, 1.5)
+        assert numpy.abs(found - expected).max() <= bounces * 2.0 * 1e-3 * speed / (height - 0.05)
+
+
+@pytest.mark.parametrize("width", [2, 3])
+@pytest.mark.parametrize(("step", "time"), [(1e-4, 1.0), (1e-5, 0.95)])
+def test_at_finer_steps_too(width, step, time):
+    found = energies(flat(width, 0.3, 1.0), 0.5, step, time)
+    expected = energies(sphere(0.05, 1.0, 0.3, 1.0), 0.5, step, time)
+    assert numpy.abs(found - expected).max() <= 3.0 * 2.0 * step * 3.0 / 0.45
+
+
+def tilted(tilt, restitution, friction, deep, step, steps):
+    """A block that falls: at the end of step ``steps``, which lands, its low corner would be ``deep`` m in the ground."""
+    body = regular_block(0.1, 1.0, friction, restitution)
+    fallen = 0.5 * 9.81 * step**2 * steps * (steps + 1)
+    height = fallen + 0.05 * (math.cos(tilt) + math.sin(tilt)) - deep
+    motion = placed(body, [0.0, height], numpy.zeros(3), angle=tilt)
+    return SteppedBody(body, slope(2), motion, step), motion
+
+
+@pytest.mark.parametrize("tilt", [1e-13, 1e-9, 1e-6])
+@pytest.mark.parametrize("restitution", [0.0, 0.5, 1.0])
+def test_corners_further_apart_than_rounding_but_less_than_a_step_resolves_are_struck_at_once(tilt, restitution):
+    """One corner is in the ground at the end of the step and the other above it, 5e-5 of the way of the step at most."""
+    step, steps = 1e-3, 200
+    stepped, motion = tilted(tilt, restitution, 0.3, 0.05 * tilt, step, steps)
+    assert stepped.advance(steps + 1) == SOLVED
+    assert abs(motion.velocity[2]) <= 2.0 * tilt / step
+    assert motion.velocity[1] == pytest.approx(restitution * 9.81 * step * steps, abs=2.0 * 9.81 * step)
+
+
+@pytest.mark.parametrize("friction", [0.0, 0.3])
+@pytest.mark.parametrize("restitution", [0.0, 0.5, 1.0])
+def test_a_corner_that_another_drives_into_the_ground_is_in_reach_too(friction, restitution):
+    """The low corner stops 0.9 of its way v h early; that adds 0.2 of it to the way of the other (J = m s^2/6), 0.1 above."""
+    step, steps = 1e-3, 200
+    way = 9.81 * step**2 * steps
+    stepped, motion = tilted(way / 0.1, restitution, friction, 0.9 * way, step, steps)
+    assert stepped.advance(steps) == SOLVED
+    corners = stepped.body.points @ motion.rotation.T + motion.position
+    assert corners[:, 1].min() >= -1e-3 * way
+
+
+@pytest.mark.parametrize("spin", [0.0, 1e-15, -1e-15])
+@pytest.mark.parametrize("restitution", [0.5, 1.0])
+def test_corners_that_tie_at_the_rest_speed_bounce_alike(spin, restitution):
+    """Both approach at 2 g h, one a rounding faster and one slower: both bounce or none."""
+    step = 1e-3
+    body = regular_block(0.1, 1.0, 0.3, restitution)
+    motion = placed(body, [0.0, 0.05], [0.0, -9.81 * step, spin])
+    assert SteppedBody(body, slope(2), motion, step).advance(1) == SOLVED
+    assert abs(motion.velocity[2]) <= 1e-12
+
+
 @pytest.mark.parametrize("restitution", [0.3, 0.8, 0.95])
 @pytest.mark.parametrize("step", [2e-3, 1e-3, 3e-4])
 def test_a_ball_that_bounces_comes_to_rest(step, restitution):

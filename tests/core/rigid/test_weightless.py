@@ -4,6 +4,7 @@ import math
 
 import numpy
 import pytest
+from scipy.optimize import brentq
 from scipy.spatial.transform import Rotation
 
 from contact_sim_pkg.core.parameters import NormalElastic
@@ -46,6 +47,29 @@ def test_a_box_in_space_does_the_same_in_any_direction(restitution):
     end = (1.0 - lost) * heading + [0.0, 0.0, restitution * SPEED]
     assert motion.velocity == pytest.approx([*end, 0.0, 0.0, 0.0], abs=1e-12)
     assert motion.position == pytest.approx((1.0 - 0.5 * lost) * heading + [0.0, 0.0, 0.05 + 0.5 * end[2]], abs=1e-12)
+
+
+@pytest.mark.parametrize(("coefficient", "exponent"), [(1e6, 1.0), (1e8, 1.5), (1e8, 2.5)])
+@pytest.mark.parametrize("restitution", [0.06, 0.3])
+def test_on_springs_a_ball_slower_than_the_speed_told_rebounds_as_its_loss_says(coefficient, exponent, restitution):
+    """In a free impact ``d (1 + e) = ln((1 + d)/(1 - d e))``, d = lambda v; below n d a/(2 w) lambda is kept, a = 0.1 m/s^2."""
+
+    def excess(loss, e):
+        return loss * (1.0 + e) - math.log1p(loss) + math.log1p(-loss * e)
+
+    mass, pull = 2.0, 0.1
+    loss = brentq(excess, 1e-3, (1.0 - 1e-14) / restitution, args=(restitution,), xtol=1e-15)
+    depth = (mass * pull / coefficient) ** (1.0 / exponent)
+    slowest = exponent * loss * pull / (2.0 * math.sqrt(exponent * pull / depth))
+    for part, tolerance in ((2.0, 1e-5), (0.5, 1e-5), (0.2, 1e-5)):
+        own = loss * min(1.0, part)
+        expected = brentq(lambda e, own=own: excess(own, e), 1e-9, min(1.0, 1.0 / own) * (1.0 - 1e-14))
+        ball = carried(sphere(0.05, mass, FRICTION, restitution))
+        motion = placed(ball, [0.0, 0.0, 0.05 + 1e-7], [0.0, 0.0, -part * slowest, 0.0, 0.0, 0.0])
+        contact = compliant_contact(ball, NormalElastic(coefficient, exponent), 1e6)
+        assert MovedBody(ball, slope(3), motion, contact, 1e-6).advance(1.0) == DONE
+        assert motion.position[2] > 0.05
+        assert motion.velocity[2] == pytest.approx(expected * part * slowest, rel=tolerance)
 
 
 def test_a_ball_that_spins_on_the_ground_goes_on_spinning_and_one_in_the_air_drifts():

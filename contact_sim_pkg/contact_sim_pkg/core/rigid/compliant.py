@@ -52,8 +52,9 @@ def compliant_contact(
 ) -> CompliantContact:
     """The contact of ``body`` with the restitution and friction that it has; ``tangential_damping`` None: critical for its mass.
 
-    Below the speed ``d g/(2 w)``, w the frequency of the body at rest on one point, the loss no longer grows: a body at rest is
-    then about critically damped, and bounces as slow as that hardly leave the ground.
+    Below the speed ``n d g/(2 w)``, n the exponent, g the `pull` and w the frequency of the body at rest on one point, the loss no
+    longer grows: a body at rest is then about critically damped, and bounces as slow as that hardly leave the ground. A body
+    without weight is measured as if 0.1 m/s^2 pulled it, and rebounds faster than asked below that speed.
     """
     loss, (depth, frequency) = asked_loss(body.restitution), resting_swing(body, elastic)
     damping = tangential_damping or 2.0 * math.sqrt(tangential_stiffness * body.mass)

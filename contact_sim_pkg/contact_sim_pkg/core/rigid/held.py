@@ -129,10 +129,19 @@ def _normal_acceleration(body, ground, motion, work, i):
 
 
 @kernel
-def hold_back(body, motion, work):
+def drop_spin(body, velocity, size, still):
+    """Set spins of ``velocity`` to 0 that move no point of the body faster than ``still`` [m/s]: they are rounding."""
+    for k in range(body.width, velocity.shape[0]):
+        if abs(velocity[k]) * size <= still:
+            velocity[k] = 0.0
+
+
+@kernel
+def hold_back(body, motion, work, size, still):
     """Take the rest of the normal velocity from held points, one after the other (it is below the rest speed).
 
-    The impulses that this takes, towards the ground, are added to ``work.impulse``.
+    The impulses that this takes, towards the ground, are added to ``work.impulse``. On a slope the normal velocity of a body that
+    slides has rounding, and taking it from one point after the other spins the body by as much: `drop_spin`.
     """
     n = motion.velocity.shape[0]
     for _ in range(HOLD_SWEEPS):
@@ -154,11 +163,12 @@ def hold_back(body, motion, work):
                     motion.velocity[k] -= work.W[k, m] * work.J[row, m] * speed / weight
         if not moved:
             break
+    drop_spin(body, motion.velocity, size, still)
 
 
 @kernel
 def settle_points(
-    body: RigidBody, ground: Ground, motion: Motion, work: MotionWorkspace, rest_speed: float, still: float
+    body: RigidBody, ground: Ground, motion: Motion, work: MotionWorkspace, rest_speed: float, size: float, still: float
 ) -> tuple[float, bool]:
     """Hold the points whose rebound is below the rest speed and that the load presses down, or may be by what holds the others.
 
@@ -189,7 +199,7 @@ def settle_points(
         for i in range(work.flags.shape[0]):
             if work.flags[i] == TOUCHING and abs(work.u[i * body.width]) <= rest_speed:
                 work.flags[i] = HELD
-        hold_back(body, motion, work)
+        hold_back(body, motion, work, size, still)
     return wait, held
 
 

@@ -192,7 +192,7 @@ def _support(body, ground, motion, work, march, time, size, still):
     residual = _attempt(body, ground, motion, work, march, time, still)
     if not residual <= GOOD:
         return False
-    part, _stretch = stop_of_slip(body, ground, motion, work, time, still)
+    part, _stretch = stop_of_slip(body, ground, motion, work, time, size, still)
     if turns(body, ground, motion, work, work.free, size) or slip_turns(body, motion, work, still):
         return False
     if part < 1.0 or landing_part(body, ground, motion, work, time, size)[1] >= 0:
@@ -232,7 +232,7 @@ def advance_samples(
             if approaches and count[COLLIDED] == 0:
                 return COLLIDE
             count[COLLIDED] = 0
-            wait, holds = settle_points(body, ground, motion, work, rest_speed, still)
+            wait, holds = settle_points(body, ground, motion, work, rest_speed, size, still)
             if wait > 0.0:
                 clock[RESTED] = count[SAMPLE] * clock[INTERVAL] + clock[TIME] + wait
             if holds:

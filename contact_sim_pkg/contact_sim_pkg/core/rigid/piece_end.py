@@ -173,7 +173,7 @@ def stay_on_the_ground(
             work.flags[i] = TOUCHING if work.gap[i] <= TOUCH * size else APART
     _lift(body, ground, motion, work, size)
     look(body, ground, motion, work)
-    hold_back(body, motion, work)
+    hold_back(body, motion, work, size, still)
     contact_velocities(work.J, motion.velocity, work.u)
 
 

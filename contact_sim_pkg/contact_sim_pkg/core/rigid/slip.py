@@ -11,7 +11,7 @@ import math
 from ..jit import entry, kernel
 from ..parameters import Vector
 from .body import Ground, Motion, RigidBody
-from .held import path_acceleration
+from .held import drop_spin, path_acceleration
 from .motion import HELD, MotionWorkspace, apply_impulse, turns_alike
 from .problem import PLANE
 
@@ -51,13 +51,14 @@ def slip_turns(body: RigidBody, motion: Motion, work: MotionWorkspace, still: fl
 
 @entry
 def stop_of_slip(
-    body: RigidBody, ground: Ground, motion: Motion, work: MotionWorkspace, time: float, still: float
+    body: RigidBody, ground: Ground, motion: Motion, work: MotionWorkspace, time: float, size: float, still: float
 ) -> tuple[float, float]:
     """Velocity at the end of the piece in ``work.free``; part of it after which slip first stops, and how many pieces it lasts."""
     apply_impulse(work.J, work.W, work.impulse, work.free)
-    for k in range(work.free.shape[0]):
+    for k in range(body.width):
         if abs(work.free[k]) <= still:
             work.free[k] = 0.0
+    drop_spin(body, work.free, size, still)
     part, stretch = 1.0, math.inf
     for i in range(work.flags.shape[0]):
         if work.flags[i] != HELD:

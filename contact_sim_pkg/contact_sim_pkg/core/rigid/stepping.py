@@ -1,6 +1,7 @@
 """A rigid body in time at a fixed step, of first order: contacts within reach are solved once a step, in velocities and impulses.
 
-A contact is in reach where its gap is closed or closes within the step; all in reach meet ``gap/h + u_n+ >= 0``. Where one
+A contact is in reach where its gap is closed or closes within the step, of itself or by what the others take from the body
+(`reach.py`); all in reach meet ``gap/h + u_n+ >= 0``. Where one
 approaches faster than the rest speed 2 g h, with restitution, the step ends on the ground by the same rows, and the velocity
 after it is that of the impact law: a bounce above the ground would gain height, and a body that bounces would never rest.
 Source: identifiability paper eqs 9, 14; Stewart and Trinkle 1996; SEEDS 7.2 (M4.6, `stepping`).
@@ -16,63 +17,19 @@ from ..jit import entry
 from ..parameters import Vector
 from .body import Ground, Motion, RigidBody, contact_count, laid_under
 from .contact_answers import nearest_motion
-from .contact_solver import NEWTON
-from .motion import (
-    APART,
-    HELD,
-    MotionWorkspace,
-    apply_impulse,
-    carry_spin,
-    commit,
-    contact_velocities,
-    displace,
-    free_velocity,
-    look,
-    make_motion_workspace,
-    take_part,
-)
+from .contact_solver import NEWTON, Solution
+from .motion import MotionWorkspace, apply_impulse, carry_spin, commit, displace, make_motion_workspace
 from .packed import PackedSolver
 from .parameters import ENERGETIC
 from .problem import DISC
+from .reach import begin_step, reach_further
 from .results import NOT_CONVERGED, SOLVED, SPIN_TOO_FAST
 
 __all__ = ["SteppedBody"]
 
-GAP_TOLERANCE = 1.0e-9  # [m]
 LARGEST_TURN = 1.0  # [rad] of a step
 CONTRADICTS = 1.0e-10  # residual of contacts that ask for what no motion gives
 CLOSED_AT_ONCE = 1.0e-3  # of the contact velocities: by so much those of a step may differ from a motion of the body
-
-
-@entry
-def begin_step(
-    body: RigidBody, ground: Ground, motion: Motion, work: MotionWorkspace, step: float, rest_speed: float
-) -> tuple[int, float]:
-    """Velocity without contact in ``work.free``, the contacts within reach and their problem.
-
-    Returns 0: none is in reach, 1: they are held, 2: one bounces; and the angle turned in [rad].
-    """
-    look(body, ground, motion, work)
-    free_velocity(body, motion, work, step)
-    contact_velocities(work.J, work.free, work.u)
-    turn, found = 0.0, 0
-    for k in range(body.width, work.free.shape[0]):
-        turn = max(turn, step * abs(work.free[k]))
-    for i in range(work.gap.shape[0]):
-        u_n, row = work.u[i * body.width], i * body.width
-        reached = work.gap[i] <= GAP_TOLERANCE or work.gap[i] + step * u_n <= 0.0
-        fast = u_n < -rest_speed and body.restitution > 0.0
-        work.flags[i] = HELD if reached else APART
-        work.restitution[i] = body.restitution if fast else 0.0
-        work.problem.floor[i] = 0.0
-        if reached:
-            found = max(found, 2 if fast else 1)
-        for k in range(row, row + body.width):
-            work.problem.q[k] = work.u[k] if reached else 0.0
-        work.problem.q[row] += work.gap[i] / step if reached else 0.0
-    if found > 0:
-        take_part(body, work, HELD)
-    return found, turn
 
 
 @entry
@@ -103,6 +60,7 @@ class SteppedBody:
         weight = float(numpy.linalg.norm(body.load[: body.width]) / body.mass)
         self.rest_speed = 2.0 * step * weight
         self.impulse = numpy.zeros(points * body.width)  # [rows] in [N s] over the last call
+        self._margin, self._change = numpy.zeros(points), numpy.zeros(coordinates)
         self._landing = numpy.zeros(points * body.width)  # [rows] in [N s] of a step, without bounce
         self.dissipated = 0.0  # [J] by contacts, in all
         self.residual = 0.0  # largest of the last call
@@ -114,7 +72,9 @@ class SteppedBody:
         self.impulse[:] = 0.0
         self.residual = 0.0
         for _ in range(steps):
-            found, turn = begin_step(self.body, self.ground, self.motion, work, self.step, self.rest_speed)
+            found, turn = begin_step(
+                self.body, self.ground, self.motion, work, self._margin, self.step, self.rest_speed
+            )
             if not turn <= LARGEST_TURN:
                 return SPIN_TOO_FAST
             if found:
@@ -135,16 +95,30 @@ class SteppedBody:
         return float(work.impulse @ (before + 0.5 * (work.J @ work.W @ work.J.T) @ work.impulse))
 
     def _solve(self, *, bounces: bool) -> int:
-        work = self.work
-        found = self._solver.hold(work)
-        if found.status in (SOLVED, NOT_CONVERGED) and not found.residual <= CONTRADICTS and self._meets_a_motion():
-            found = self._solver.hold(work)
+        work, further = self.work, 1
+        while further:
+            found = self._land()
+            further = self._reach_further() if found.status == SOLVED else 0
+            bounces = bounces or further == 2
         self._landing[:] = work.impulse
         if bounces and found.status == SOLVED:
             self.impacts += 1
             found = self._solver.collide(work, self.rule)
         self.residual = max(self.residual, float(found.residual)) if math.isfinite(found.residual) else math.inf
         return int(found.status)
+
+    def _land(self) -> Solution:
+        """The contacts in reach without bounce."""
+        found = self._solver.hold(self.work)
+        if found.status in (SOLVED, NOT_CONVERGED) and not found.residual <= CONTRADICTS and self._meets_a_motion():
+            found = self._solver.hold(self.work)
+        return found
+
+    def _reach_further(self) -> int:
+        """Contacts that those in reach drive into the ground: 0 there are none, 1 they are held too, 2 they or others bounce."""
+        return int(
+            reach_further(self.body, self.motion, self.work, self._margin, self._change, self.step, self.rest_speed)
+        )
 
     def _meets_a_motion(self) -> bool:
         """Take the contact velocities nearest to those asked for that a motion of the body gives; False where they are far.

@@ -19,7 +19,7 @@ from .motion import MotionWorkspace
 from .packed import PackedSolver
 from .piece_end import take_piece
 from .results import SOLVED
-from .slip import slip_turns, stop_of_slip
+from .slip import slip_turns, stop_of_slip, turns
 from .track import EVENTS, LOST, RESIDUAL, SOLVES, STOPS
 
 __all__ = ["MOST_STOPS", "Attempt", "SupportedPieces"]
@@ -66,7 +66,7 @@ class SupportedPieces:
             return int(found.status), 1.0, math.inf
         clock = self.clock
         clock[RESIDUAL] = max(clock[RESIDUAL], float(found.residual))
-        part, stretch = stop_of_slip(self.body, self.ground, self.motion, work, time, still)
+        part, stretch = stop_of_slip(self.body, self.ground, self.motion, work, time, self.size, still)
         return SOLVED, part, stretch
 
     def slip_turns(self, time: float, still: float, found: Attempt) -> bool:
@@ -124,13 +124,28 @@ class SupportedPieces:
 
     def _to_the_stop(self, piece: float, still: float) -> tuple[int, float]:
         """The time at which the first sliding point stops: a piece in which it still slides gives its deceleration."""
-        probe, stretch, status = piece, math.inf, SOLVED
+        probe, part, stretch, status = piece, 0.0, math.inf, SOLVED
         for _ in range(STOP_HALVINGS):
             probe *= 0.5
             status, part, stretch = self.attempt(probe, still)
             if status != SOLVED or part == 1.0:
                 break
         time = min(piece, probe * stretch)
-        if status == SOLVED:
+        if status == SOLVED and part == 1.0 and self._goes_straight(still):
+            self._prolong(probe, time, still)
+        elif status == SOLVED:
             status, _part, _stretch = self.attempt(time, still)
         return status, time
+
+    def _goes_straight(self, still: float) -> bool:
+        """Whether neither rows of contacts nor slips turn in the last attempt: its impulses then grow with time."""
+        parts = (self.body, self.ground, self.motion, self.work)
+        turning = any(turns(*parts, velocity, self.size) for velocity in (self.motion.velocity, self.work.free))
+        return not turning and not slip_turns(self.body, self.motion, self.work, still)
+
+    def _prolong(self, probe: float, time: float, still: float) -> None:
+        """The attempt over ``probe`` [s] brought to the stop after ``time``, where a solve has no firm ground: stick meets slip."""
+        parts = (self.body, self.ground, self.motion, self.work)
+        held.prepare_attempt(*parts, time, 1.0)
+        self.work.impulse[:] *= time / probe
+        stop_of_slip(*parts, time, self.size, still)
