@@ -24,16 +24,16 @@ print(*sorted({entry.__module__.rpartition(".")[2] for entry in never_called() i
 """
 LAW = "effects.block.rigid_contact"
 PLANE, SPACE = "planar_impact", "impact_path"  # each for one number of axes alone
-SPRINGS = "compliant"
+SPRINGS, STEPPING = "compliant", ("stepping", "reach")
 
 
 @pytest.mark.parametrize(
     ("scene", "others"),
     [
-        (("block_fall",), {SPACE, SPRINGS, "stepping"}),
-        (("block_slope", "block.motion=space"), {PLANE, SPRINGS, "stepping"}),
-        (("block_zeno",), {PLANE, SPRINGS, "stepping"}),
-        (("box_3d_tumble", f"{LAW}.facets=8"), {PLANE, SPRINGS, "stepping"}),
+        (("block_fall",), {SPACE, SPRINGS, *STEPPING}),
+        (("block_slope", "block.motion=space"), {PLANE, SPRINGS, *STEPPING}),
+        (("block_zeno",), {PLANE, SPRINGS, *STEPPING}),
+        (("box_3d_tumble", f"{LAW}.facets=8"), {PLANE, SPRINGS, *STEPPING}),
         (("box_3d_tumble", f"{LAW}.scheme=stepping"), {PLANE, SPRINGS}),
     ],
 )
