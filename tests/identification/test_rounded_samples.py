@@ -70,3 +70,32 @@ def test_errors_of_rounding_that_all_samples_share_do_not_average_out(rate, alik
 
 def test_exact_samples_share_no_rounding():
     assert not shared_rounding(numpy.random.default_rng(0).normal(size=(10, 3)), 0.0).any()
+
+
+@pytest.mark.parametrize(
+    "channels", [("position",), ("position", "velocity", "angular_velocity")], ids=["one", "three"]
+)
+def test_rough_samples_beside_exact_rotations_tell_all_of_the_inertia(channels):
+    """In space, 10 motions. Of rounded positions alone it was 4000 deviations off; of three channels its size was not told.
+
+    Up to 1e-8 of it may be left by the roots of gaps, which are taken as linear in the errors of positions: 0.3 mm.
+    """
+    exact = motions.states_of(motions.spatial())
+    truth = [*numpy.diag(motions.SPATIAL_INERTIA), 0.0, 0.0, 0.0]
+    for factor in numpy.random.default_rng(0).uniform(0.8, 1.25, 10):
+        slow = slowed(exact, factor)
+        states = slow._replace(**{name: numpy.round(getattr(slow, name), 3) for name in channels})
+        found = identify(states, Setup(geometry.box(motions.LENGTHS), gravity=9.81 / factor**2))
+        assert found.rank == 6
+        assert found.doubts == []
+        for each, value in zip(found.parameters, truth, strict=True):
+            assert abs(each.value - value) < max(4.5 * each.deviation, 1e-8 * numpy.trace(motions.SPATIAL_INERTIA))
+
+
+def test_spins_of_three_flights_are_seen_to_be_rounded():
+    states = motions.states_of(motions.planar(), 0.55)
+    spin = numpy.round(states.angular_velocity, 2)
+    assert len(numpy.unique(spin[:, 1])) == 3
+    found = identify(states._replace(angular_velocity=spin), Setup(geometry.box([motions.SIDE] * 3)))
+    assert abs(found.parameters[0].value - motions.SIDE**2 / 6.0) < 4.5 * found.parameters[0].deviation
+    assert found.doubts == []

@@ -313,3 +313,38 @@ def test_a_compliant_ball_bounces_on_a_peak_sharper_than_a_right_angle():
     height = 0.25 + speed * rising[after] - 0.5 * GRAVITY * rising[after] ** 2
     assert position[2, after] == pytest.approx(height, abs=1e-9)
     assert abs(position[0]).max() < 1e-9
+
+
+def _wrenches_over_heights(heights, *values):
+    ground = (f"block.ground.heights={list(heights)}", "block.ground.start=-1", "block.ground.distance=1")
+    _scene, messages = run("block_zeno", *ground, *values)
+    found = of(messages, "block/wrench", decode_wrench)
+    return numpy.array([wrench.force for wrench in found]), numpy.array([wrench.torque for wrench in found])
+
+
+def test_a_ball_that_rests_in_a_valley_is_pushed_up_with_its_weight():
+    """Each face gives m g / (2 cos a), along its own normal."""
+    ball = ("block.position=[0,0,0.06]", "effects.block.rigid_contact.restitution=0", "duration=0.5")
+    force, torque = _wrenches_over_heights((0.2, 0.0, 0.2), *ball)
+    assert force[-1] == pytest.approx((0.0, 0.0, GRAVITY), abs=1e-9)
+    assert torque[-1] == pytest.approx((0.0, 0.0, 0.0), abs=1e-9)
+
+
+@pytest.mark.parametrize("scheme", ["located", "stepping"])
+def test_the_wrench_of_a_ball_that_rolls_down_a_slope_of_heights_is_that_of_rolling(scheme):
+    """In world axes: N = m g cos a along the normal, friction 2/7 m g sin a up the slope, and its moment R about the centre."""
+    angle, radius = math.atan(0.2), 0.05
+    height = radius / math.cos(angle)
+    ball = (
+        f"block.position=[0,0,{height!r}]", "block.velocity=[0,0,0]", "effects.block.rigid_contact.restitution=0",
+        f"effects.block.rigid_contact.scheme={scheme}", "duration=0.3",
+    )  # fmt: skip
+    force, torque = _wrenches_over_heights((-0.2, 0.0, 0.2), *ball)
+    along, normal = (
+        numpy.array([math.cos(angle), 0.0, math.sin(angle)]),
+        numpy.array([-math.sin(angle), 0.0, math.cos(angle)]),
+    )
+    friction = 2.0 / 7.0 * GRAVITY * math.sin(angle)
+    tolerance = 1e-9 if scheme == "located" else 2e-2
+    assert force[-1] == pytest.approx(GRAVITY * math.cos(angle) * normal + friction * along, abs=tolerance)
+    assert torque[-1] == pytest.approx((0.0, -friction * radius, 0.0), abs=tolerance * radius)

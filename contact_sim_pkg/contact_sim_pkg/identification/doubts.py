@@ -101,7 +101,7 @@ def _turning(found: Estimate, problem: Problem) -> list[str]:
     if abs(scale.excess) > max(SIGMAS * scale.deviation, LEAST_SCALE):
         line = (
             f"the rotations turn about {_factor(scale.excess)} times as fast as the spin says (standard deviation "
-            f"{scale.deviation:.2g}): check the scale and the axes of the spin, and the stamps"
+            f"{scale.deviation:.2g}): check the scale and the axes of the spin, the torque, and the stamps"
         )
         return [line]
     fastest, missing = float(abs(problem.states.angular_velocity).max()), missing_spin_rate(found, problem)

@@ -55,10 +55,14 @@ def in_words(problem: Problem, first: int, last: int) -> str:
     limit = SIGMAS * (noise.velocity + size(problem.shape) * noise.angular_velocity)
     slips = numpy.array([_slip(problem, sample) for sample in samples])
     floor = STILL * float(abs(states.velocity).max() + size(problem.shape) * abs(states.angular_velocity).max())
-    share = float(numpy.mean(slips > max(limit, floor)))
+    share, depth = (
+        float(numpy.mean(slips > max(limit, floor))),
+        f", {-lift:.2g} m deep" if -lift > _highest_hop(problem) else "",
+    )
     if share < FEW:
-        return "lasting contact, sticks"
-    words = "lasting contact, slides" if share > 1.0 - FEW else f"lasting contact, slides {share:.0%} of the time"
+        return f"lasting contact{depth}, sticks"
+    slides = "slides" if share > 1.0 - FEW else f"slides {share:.0%} of the time"
+    words = f"lasting contact{depth}, {slides}"
     told = None if problem.model.wrench.present else sliding_friction(problem, samples)
     friction = told.in_words() if told else ""
     return f"{words} with {friction}" if friction else words

@@ -13,11 +13,12 @@ from .states import BodyStates, Noise
 __all__ = ["first_guess", "from_residuals", "limited", "roundings", "sample_noise", "shared_rounding"]
 
 FLOOR = 1e-13  # of the largest value of a channel: rounding
+BESIDE = 1e-6  # of the largest relative noise of a channel: no other counts as more exact than that
 ROUNDED = float(numpy.sqrt(12.0))  # step of a rounding over its standard deviation
 STEPS = 10.0 ** numpy.arange(0.0, -10.0, -1.0)  # decimals that samples are rounded to
 NEARLY = 1e-6  # of a step
 CONSTANT = 0.1  # of the noisiest component: less noise is that of a component that was not measured, as across a plane
-FEWEST = 4  # different values that are multiples, such as the spins of four flights: by chance they are not
+FEWEST = 3  # different values that are multiples, such as the spins of three flights: by chance they are not
 SECOND = numpy.sqrt(6.0)  # noise of a second difference over that of a value
 
 
@@ -55,12 +56,18 @@ def from_residuals(residuals: Sequence[Array], states: BodyStates) -> Noise:
 
 
 def limited(noise: Noise, states: BodyStates, floor: float = FLOOR) -> Noise:
-    """Not below `floor` times the largest value of each channel: that of rounding."""
+    """Not below `floor` times the largest value of each channel, that of rounding, nor below BESIDE the noise of the roughest.
+
+    Rotations that are exact beside rounded spins would tell the ratios of the inertia so well that its size, which the spins tell,
+    would count as not told.
+    """
     largest = (
         float(abs(states.position).max()), 1.0, float(abs(states.velocity).max()),
         float(abs(states.angular_velocity).max()) + 1e-3,
     )  # fmt: skip
-    return Noise(*(max(value, floor * (size + 1e-3)) for value, size in zip(noise, largest, strict=True)))
+    sizes = [size + 1e-3 for size in largest]
+    least = max(floor, BESIDE * max(value / size for value, size in zip(noise, sizes, strict=True)))
+    return Noise(*(max(value, least * size) for value, size in zip(noise, sizes, strict=True)))
 
 
 def roundings(states: BodyStates) -> Noise:

@@ -38,9 +38,7 @@ def contact_arms(model: BlockModel, position: Array, rotation: Array) -> Array:
 
 
 def in_ground_axes(model: BlockModel, arms: Array) -> Array:
-    """Arms (x, y, z) in the axes of a plane ground: along its slope, across, along its normal; over heights as they are."""
-    if len(model.ground.profile.nodes):
-        return arms
+    """Arms (x, y, z) in the axes of a plane ground: along its slope, across, along its normal."""
     sine, cosine = -float(model.ground.normal[0]), float(model.ground.normal[-1])
     along, up = cosine * arms[:, 0] + sine * arms[:, 2], cosine * arms[:, 2] - sine * arms[:, 0]
     return numpy.column_stack([along, arms[:, 1], up])

@@ -8,6 +8,7 @@ import numpy
 from numpy.typing import NDArray
 
 from contact_sim_pkg.bag.messages import (
+    BENCH_FRAME,
     BLOCK_FRAME,
     ContactForceBlock,
     Cost,
@@ -26,6 +27,7 @@ from contact_sim_pkg.bag.topics import TOPICS
 from contact_sim_pkg.core.rigid.body import Motion, contact_count
 from contact_sim_pkg.core.rigid.problem import PLANE
 from contact_sim_pkg.run.block_geometry import contact_arms, gaps, in_ground_axes
+from contact_sim_pkg.run.block_resultant import resultant
 from contact_sim_pkg.scene.build_block import BlockModel
 
 Array = NDArray[numpy.float64]
@@ -103,19 +105,32 @@ def _stamp_of(model: BlockModel, stamp: int, sample: int) -> int:
 
 
 def _wrenches(model: BlockModel, record: BlockRecord, stamp: int) -> list[tuple[str, int, bytes]]:
-    """Mean wrench on the body about its centre of mass over a display period, axes of the ground's contact frame."""
+    """Mean wrench on the body about its centre of mass over a display period: axes of a plane ground, the world's over heights."""
     timing, found = model.timing, []
+    uneven = len(model.ground.profile.nodes) > 0
     for display in range(timing.displays):
         first, last = (place * timing.samples // timing.displays for place in (display, display + 1))
-        force = record.force[first:last].mean(axis=0)  # [contacts, width]
-        arms = contact_arms(model, record.position[first], record.rotation[first])
-        across = force[:, 2].sum() if model.body.width != PLANE else 0.0
-        total = (float(force[:, 1].sum()), float(across), float(force[:, 0].sum()))
-        torque = numpy.cross(in_ground_axes(model, _in_space(arms)), _forces_in_space(force)).sum(axis=0)
+        force, torque = (_over_heights if uneven else _on_a_plane)(model, record, first, last)
         at = _stamp_of(model, stamp, first)
-        wrench = Wrench(total, (float(torque[0]), float(torque[1]), float(torque[2])))
-        found.append(("block/wrench", at, encode_wrench(wrench, at, BLOCK_FRAME)))
+        wrench = Wrench((force[0], force[1], force[2]), (torque[0], torque[1], torque[2]))
+        found.append(("block/wrench", at, encode_wrench(wrench, at, BENCH_FRAME if uneven else BLOCK_FRAME)))
     return found
+
+
+def _on_a_plane(model: BlockModel, record: BlockRecord, first: int, last: int) -> tuple[list[float], list[float]]:
+    """Force (along, across, normal) and torque of the samples from first to last, of the forces and where they act."""
+    force = record.force[first:last].mean(axis=0)  # [contacts, width]
+    arms = in_ground_axes(model, _in_space(contact_arms(model, record.position[first], record.rotation[first])))
+    across = float(force[:, 2].sum()) if model.body.width != PLANE else 0.0
+    torque = numpy.cross(arms, _forces_in_space(force)).sum(axis=0)
+    return [float(force[:, 1].sum()), across, float(force[:, 0].sum())], torque.tolist()
+
+
+def _over_heights(model: BlockModel, record: BlockRecord, first: int, last: int) -> tuple[list[float], list[float]]:
+    """Force and torque of the samples from first to last: each face has axes of its own, which momentum does not need."""
+    ends, time = [first, last], (last - first) * model.timing.block_length / model.timing.samples
+    force, torque = resultant(model.body, record.rotation[ends], record.velocity[ends], time)
+    return force.tolist(), torque.tolist()
 
 
 def _in_space(arms: Array) -> Array:
