@@ -2,16 +2,19 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
+
 import numpy
 
 from .geometry import UP, arm, gaps, size
+from .notes import cure_without_flights
 from .problem import Contact, Problem
 from .rotation import Array
-from .segments import LONGEST_IMPACT, Segments
+from .segments import LONGEST_IMPACT, SHORTEST_FLIGHT, Segments
 from .sliding_friction import sliding_friction
 from .states import Noise
 
-__all__ = ["NO_FLIGHT", "in_words", "missing_in_the_air", "with_steps"]
+__all__ = ["NO_FLIGHT", "in_words", "nothing_to_begin_with", "with_steps"]
 
 MOST = 60  # steps taken, evenly spread
 APART = 1e-3  # of the body's size: the next corner must be this much higher
@@ -68,7 +71,16 @@ def in_words(problem: Problem, first: int, last: int) -> str:
     return f"{words} with {friction}" if friction else words
 
 
-def missing_in_the_air(problem: Problem) -> str:
+def nothing_to_begin_with(problem: Problem, notes: Iterable[str]) -> str:
+    """Why a motion without a flight, of whose lasting contacts these are the notes, tells nothing, and what helps."""
+    strange = [note for note in notes if note.startswith(NO_FLIGHT)]
+    if strange:
+        return f"{strange[0]}{_missing_in_the_air(problem)}"
+    cure = cure_without_flights(no_friction=problem.friction is None, no_force=problem.model.wrench.force is None)
+    return f"there is no flight of {SHORTEST_FLIGHT} samples or more between contacts; {cure}"
+
+
+def _missing_in_the_air(problem: Problem) -> str:
     """By how much the body accelerates beyond gravity where it is off the ground, in words; empty where a known wrench acts.
 
     A median over the intervals, for where no run of them fits free motion: exact samples contradict a wrong gravity in each.

@@ -9,10 +9,10 @@ from .errors import IdentificationError
 from .flight import plain_motion, state_at
 from .heights import gap_deviation
 from .impacts import Touch, locate
-from .lasting import NO_FLIGHT, in_words, missing_in_the_air, with_steps
+from .lasting import NO_FLIGHT, in_words, nothing_to_begin_with, with_steps
 from .linearised import Linearised
 from .noise import from_residuals, limited
-from .notes import DISAGREES, DOUBLE, SEVERAL, TOUCHES_NOTHING, UNSURE, cure_without_flights
+from .notes import DISAGREES, DOUBLE, SEVERAL, TOUCHES_NOTHING, UNSURE
 from .problem import Contact, Problem
 from .rotation import Array
 from .segments import LONGEST_IMPACT, SHORTEST_FLIGHT, Segments, gap_doubt
@@ -60,7 +60,7 @@ class Search:
         if not self.problem.flights:
             self.problem = with_slides(with_steps(self.problem, self.parts), self.parts)
         if not self.problem.flights:
-            raise IdentificationError(self._without_flights())
+            raise IdentificationError(nothing_to_begin_with(self.problem, self.lasting.values()))
         if self.problem.contacts:
             return estimate(self.problem, self.start, self.scale)
         found = self.free = self._without_false_flights(self._flights_alone())
@@ -74,15 +74,6 @@ class Search:
         if found.directions.rank < self.problem.model.unknowns:
             found = self._with_steps(found)
         return self._with_faint_mass(found)
-
-    def _without_flights(self) -> str:
-        """Why there is nothing to begin with, and what helps."""
-        strange = [note for note in self.lasting.values() if note.startswith(NO_FLIGHT)]
-        if strange:
-            return f"{strange[0]}{missing_in_the_air(self.problem)}"
-        no_force = self.problem.model.wrench.force is None
-        cure = cure_without_flights(no_friction=self.problem.friction is None, no_force=no_force)
-        return f"there is no flight of {SHORTEST_FLIGHT} samples or more between contacts; {cure}"
 
     @property
     def flights(self) -> int:
