@@ -1,9 +1,7 @@
 """Bags of other people's tools: whole, without metadata, cut, damaged, empty."""
 
 import contextlib
-import importlib.util
 import random
-from pathlib import Path
 
 import numpy
 import pytest
@@ -12,10 +10,7 @@ from rosbags.rosbag2 import StoragePlugin, Writer
 from contact_sim_pkg.bag.body_states import read_body_states
 from contact_sim_pkg.bag.errors import BagError
 
-_place = Path(__file__).parents[1] / "identification" / "foreign_bag.py"
-_spec = importlib.util.spec_from_file_location("foreign_bag", _place)
-foreign_bag = importlib.util.module_from_spec(_spec)
-_spec.loader.exec_module(foreign_bag)
+from ..identification import foreign_bag
 
 SAMPLES = 3000
 TIME = 1e-3 * numpy.arange(SAMPLES)

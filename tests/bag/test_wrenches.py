@@ -1,8 +1,5 @@
 """In which axes a wrench of others is read, how it is turned into those of the world, and that it is told."""
 
-import importlib.util
-from pathlib import Path
-
 import numpy
 import pytest
 from scipy.spatial.transform import Rotation
@@ -11,10 +8,7 @@ from contact_sim_pkg.bag.body_states import read_body_states
 from contact_sim_pkg.bag.errors import BagError
 from contact_sim_pkg.bag.wrenches import read_wrench
 
-_place = Path(__file__).parents[1] / "identification" / "foreign_bag.py"
-_spec = importlib.util.spec_from_file_location("foreign_bag", _place)
-foreign_bag = importlib.util.module_from_spec(_spec)
-_spec.loader.exec_module(foreign_bag)
+from ..identification import foreign_bag
 
 TIME = 0.01 * numpy.arange(40)
 SPIN = numpy.array([0.3, -2.0, 1.0])

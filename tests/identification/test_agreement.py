@@ -1,8 +1,5 @@
 """Contacts that contradict the others: impacts that were two within a sample, under noise that hides it."""
 
-import importlib.util
-from pathlib import Path
-
 import numpy
 import pytest
 
@@ -11,9 +8,7 @@ from contact_sim_pkg.identification.identify import Setup, identify
 from contact_sim_pkg.identification.states import BodyStates
 from contact_sim_pkg.reference.falling_body import FallingBody, fall
 
-_spec = importlib.util.spec_from_file_location("motions", Path(__file__).with_name("motions.py"))
-motions = importlib.util.module_from_spec(_spec)
-_spec.loader.exec_module(motions)
+from . import motions
 
 COARSE = {"position": 1e-3, "rotation": 1e-3, "velocity": 1e-3, "spin": 1e-2}
 LENGTHS = numpy.array([0.11, 0.07, 0.23])

@@ -1,8 +1,6 @@
 """What an identification says where its input is wrong: shape, ground, gravity or wrench other than those of the motion."""
 
 import functools
-import importlib.util
-from pathlib import Path
 
 import numpy
 import pytest
@@ -11,9 +9,7 @@ from contact_sim_pkg.identification import free_fall, geometry, wrench
 from contact_sim_pkg.identification.errors import IdentificationError
 from contact_sim_pkg.identification.identify import Setup, identify
 
-_spec = importlib.util.spec_from_file_location("motions", Path(__file__).with_name("motions.py"))
-motions = importlib.util.module_from_spec(_spec)
-_spec.loader.exec_module(motions)
+from . import motions
 
 FORCE = (1.0, 2.0, 0.3)
 

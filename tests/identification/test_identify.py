@@ -1,8 +1,5 @@
 """Identification of whole motions against the parameters and impulses that made them."""
 
-import importlib.util
-from pathlib import Path
-
 import numpy
 import pytest
 
@@ -13,9 +10,7 @@ from contact_sim_pkg.identification.modes import REVERSED
 from contact_sim_pkg.identification.states import BodyStates
 from contact_sim_pkg.reference.falling_body import FallingBody, fall
 
-_spec = importlib.util.spec_from_file_location("motions", Path(__file__).with_name("motions.py"))
-motions = importlib.util.module_from_spec(_spec)
-_spec.loader.exec_module(motions)
+from . import motions
 
 SQUARE = Setup(geometry.box([motions.SIDE] * 3))
 BOX = Setup(geometry.box(motions.LENGTHS))

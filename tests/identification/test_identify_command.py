@@ -1,8 +1,6 @@
 """`bench identify` on bags of others and of ours."""
 
-import importlib.util
 import json
-from pathlib import Path
 
 import numpy
 import pytest
@@ -13,15 +11,8 @@ from contact_sim_pkg.bag.metadata import recorded_topics
 from contact_sim_pkg.bag.writer import BagWriter
 from contact_sim_pkg.cli.main import main
 
+from . import foreign_bag, motions
 
-def _beside(name):
-    spec = importlib.util.spec_from_file_location(name, Path(__file__).with_name(f"{name}.py"))
-    module = importlib.util.module_from_spec(spec)
-    spec.loader.exec_module(module)
-    return module
-
-
-motions, foreign_bag = _beside("motions"), _beside("foreign_bag")
 BOX = ["--box", "0.1", "0.1", "0.1"]
 
 

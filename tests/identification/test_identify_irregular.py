@@ -1,8 +1,6 @@
 """`bench identify` on bags as sensors write them: slow, irregular, out of order, with gaps, doubled, noisy."""
 
-import importlib.util
 import json
-from pathlib import Path
 
 import numpy
 import pytest
@@ -11,15 +9,8 @@ from contact_sim_pkg.cli.main import main
 from contact_sim_pkg.identification.noise import roundings
 from contact_sim_pkg.identification.states import BodyStates
 
+from . import foreign_bag, motions
 
-def _beside(name):
-    spec = importlib.util.spec_from_file_location(name, Path(__file__).with_name(f"{name}.py"))
-    module = importlib.util.module_from_spec(spec)
-    spec.loader.exec_module(module)
-    return module
-
-
-motions, foreign_bag = _beside("motions"), _beside("foreign_bag")
 INERTIA = 600.0
 
 

@@ -1,8 +1,6 @@
 """The instant of an impact is not known better than the flights: its error is in all standard deviations."""
 
 import functools
-import importlib.util
-from pathlib import Path
 
 import numpy
 import pytest
@@ -16,9 +14,7 @@ from contact_sim_pkg.identification.instant import impact_balance, instant
 from contact_sim_pkg.identification.problem import spatial_basis
 from contact_sim_pkg.identification.rotation import exponential, logarithm
 
-_spec = importlib.util.spec_from_file_location("motions", Path(__file__).with_name("motions.py"))
-motions = importlib.util.module_from_spec(_spec)
-_spec.loader.exec_module(motions)
+from . import motions
 
 MODEL = Model(spatial_basis(), True, wrench.constant((1.0, 2.0, 0.3), (0.01, -0.005, 0.002)), 9.81)
 PARAMETERS = numpy.array([4e-3, 3e-3, 2e-3, 3e-4, -2e-4, 1e-4, 0.8])

@@ -3,9 +3,7 @@
 Expected motions are closed forms of bodies that slide with Coulomb friction; masses and moments are those put in.
 """
 
-import importlib.util
 import json
-from pathlib import Path
 
 import numpy
 import pytest
@@ -22,15 +20,8 @@ from contact_sim_pkg.identification.rotation import exponential
 from contact_sim_pkg.identification.stacked import estimate
 from contact_sim_pkg.identification.states import BodyStates, Noise
 
+from . import foreign_bag, motions
 
-def _beside(name):
-    spec = importlib.util.spec_from_file_location(name, Path(__file__).with_name(f"{name}.py"))
-    module = importlib.util.module_from_spec(spec)
-    spec.loader.exec_module(module)
-    return module
-
-
-motions, foreign_bag = _beside("motions"), _beside("foreign_bag")
 MASS, RADIUS, FRICTION, GRAVITY = 1.3, 0.05, 0.3, 9.81
 SPHERE, BLOCK = geometry.sphere(RADIUS), geometry.box([0.1, 0.14, 0.2])
 EXACT = Noise(1e-12, 1e-12, 1e-12, 1e-12)

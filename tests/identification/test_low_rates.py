@@ -1,16 +1,11 @@
 """Samples so far apart that impacts hide between them: bodies that tumble to rest at 50 to 200 samples a second."""
 
-import importlib.util
-from pathlib import Path
-
 import pytest
 
 from contact_sim_pkg.identification import geometry
 from contact_sim_pkg.identification.identify import Setup, identify
 
-_spec = importlib.util.spec_from_file_location("motions", Path(__file__).with_name("motions.py"))
-motions = importlib.util.module_from_spec(_spec)
-_spec.loader.exec_module(motions)
+from . import motions
 
 
 def deviations(seed, rate, *, noise):

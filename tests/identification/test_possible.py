@@ -1,8 +1,6 @@
 """Values that noise alone makes up are not told, and inertia that no body of the shape has is doubted."""
 
 import functools
-import importlib.util
-from pathlib import Path
 
 import numpy
 import pytest
@@ -13,9 +11,7 @@ from contact_sim_pkg.identification.possible import OUTSIDE, impossible
 from contact_sim_pkg.identification.rotation import exponential
 from contact_sim_pkg.reference.falling_body import FallingBody, fall
 
-_spec = importlib.util.spec_from_file_location("motions", Path(__file__).with_name("motions.py"))
-motions = importlib.util.module_from_spec(_spec)
-_spec.loader.exec_module(motions)
+from . import motions
 
 CUBE = geometry.box([motions.SIDE] * 3)
 

@@ -1,8 +1,5 @@
 """Which directions count as told: inertia beside a mass that is known many orders better."""
 
-import importlib.util
-from pathlib import Path
-
 import numpy
 import pytest
 
@@ -10,9 +7,7 @@ from contact_sim_pkg.identification import geometry, wrench
 from contact_sim_pkg.identification.identify import Setup, identify
 from contact_sim_pkg.identification.rank import split
 
-_spec = importlib.util.spec_from_file_location("motions", Path(__file__).with_name("motions.py"))
-motions = importlib.util.module_from_spec(_spec)
-_spec.loader.exec_module(motions)
+from . import motions
 
 FORCE, TORQUE = (0.0, 2.0, 3.0), (0.02, -0.03, 0.05)
 

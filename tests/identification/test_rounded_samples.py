@@ -1,8 +1,5 @@
 """Samples with few decimals: the error of a spin that is constant in a flight is the same in all of its samples."""
 
-import importlib.util
-from pathlib import Path
-
 import numpy
 import pytest
 
@@ -11,9 +8,7 @@ from contact_sim_pkg.identification.identify import Setup, identify
 from contact_sim_pkg.identification.noise import shared_rounding
 from contact_sim_pkg.identification.states import BodyStates
 
-_spec = importlib.util.spec_from_file_location("motions", Path(__file__).with_name("motions.py"))
-motions = importlib.util.module_from_spec(_spec)
-_spec.loader.exec_module(motions)
+from . import motions
 
 STEP = 1e-3
 ROUNDING = STEP / numpy.sqrt(12.0)

@@ -1,8 +1,6 @@
 """Friction of contacts that last: mu where the slip kept its direction, a lower bound elsewhere."""
 
-import importlib.util
 import re
-from pathlib import Path
 
 import numpy
 import pytest
@@ -17,9 +15,7 @@ from contact_sim_pkg.identification.problem import Problem, spatial_basis
 from contact_sim_pkg.identification.states import BodyStates, Noise
 from contact_sim_pkg.identification.wrench import NO_WRENCH
 
-_spec = importlib.util.spec_from_file_location("motions", Path(__file__).with_name("motions.py"))
-motions = importlib.util.module_from_spec(_spec)
-_spec.loader.exec_module(motions)
+from . import motions
 
 FRICTION, GRAVITY, RADIUS = 0.4, 9.81, 0.05
 CORNERS = numpy.array([[0.1, 0.15, 0.0], [0.1, -0.15, 0.0], [-0.1, 0.15, 0.0], [-0.1, -0.15, 0.0]])

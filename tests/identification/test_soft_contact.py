@@ -1,8 +1,5 @@
 """Identification from contacts that last over several samples: motions on a soft ground, made by scipy."""
 
-import importlib.util
-from pathlib import Path
-
 import numpy
 import pytest
 from scipy.spatial.transform import Rotation
@@ -11,9 +8,7 @@ from contact_sim_pkg.identification import geometry, wrench
 from contact_sim_pkg.identification.identify import Setup, identify
 from contact_sim_pkg.identification.states import BodyStates
 
-_spec = importlib.util.spec_from_file_location("soft_motions", Path(__file__).with_name("soft_motions.py"))
-soft = importlib.util.module_from_spec(_spec)
-_spec.loader.exec_module(soft)
+from . import soft_motions as soft
 
 SQUARE = Setup(geometry.box([0.1] * 3))
 

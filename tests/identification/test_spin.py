@@ -1,8 +1,5 @@
 """Spins that contradict the rotations, and flights that a torque turns which nobody told."""
 
-import importlib.util
-from pathlib import Path
-
 import numpy
 import pytest
 
@@ -13,9 +10,7 @@ from contact_sim_pkg.identification.noise import first_guess
 from contact_sim_pkg.identification.rotation import exponential
 from contact_sim_pkg.identification.turning import missing_spin_rate, rate_of_turn, spin_scale
 
-_spec = importlib.util.spec_from_file_location("motions", Path(__file__).with_name("motions.py"))
-motions = importlib.util.module_from_spec(_spec)
-_spec.loader.exec_module(motions)
+from . import motions
 
 NOISES = {"exact": None, "fine": (1e-4, 1e-3, 1e-3, 1e-2), "coarse": (5e-4, 3.5e-3, 1e-2, 5e-2)}
 SQUARE = Setup(geometry.box([motions.SIDE] * 3))

@@ -1,8 +1,5 @@
 """Bodies whose inertia is not that of a box along their axes: they tumble in space, and all of it is found."""
 
-import importlib.util
-from pathlib import Path
-
 import numpy
 import pytest
 from scipy.spatial.transform import Rotation
@@ -16,9 +13,7 @@ from contact_sim_pkg.identification.tumbling import tumbling_start
 from contact_sim_pkg.identification.wrench import NO_WRENCH
 from contact_sim_pkg.reference.falling_body import FallingBody, fall
 
-_spec = importlib.util.spec_from_file_location("motions", Path(__file__).with_name("motions.py"))
-motions = importlib.util.module_from_spec(_spec)
-_spec.loader.exec_module(motions)
+from . import motions
 
 LENGTHS = numpy.array([0.10, 0.14, 0.20])
 CORNERS = 0.5 * LENGTHS * numpy.array([[i, j, k] for i in (-1, 1) for j in (-1, 1) for k in (-1, 1)])

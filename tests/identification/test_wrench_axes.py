@@ -1,23 +1,14 @@
 """`bench identify` with a force that is fixed in the body: recorded in body axes, in world axes, and read in wrong ones."""
 
-import importlib.util
 import json
-from pathlib import Path
 
 import numpy
 import pytest
 
 from contact_sim_pkg.cli.main import main
 
+from . import foreign_bag, motions, pushed_box
 
-def _beside(name):
-    spec = importlib.util.spec_from_file_location(name, Path(__file__).with_name(f"{name}.py"))
-    module = importlib.util.module_from_spec(spec)
-    spec.loader.exec_module(module)
-    return module
-
-
-motions, foreign_bag, pushed_box = _beside("motions"), _beside("foreign_bag"), _beside("pushed_box")
 BOX = ["--box", "0.10", "0.14", "0.20"]
 NOISE = {"position": 1e-4, "rotation": 1e-3, "velocity": 1e-3, "spin": 1e-2}
 

@@ -43,10 +43,9 @@ def mean_over_flights(found: Estimate, problem: Problem, first: int, noise: Nois
     weights, longest = 0.0, 0.0
     for run, rest in long_flights(found, problem):
         time = problem.states.time[run] - problem.states.time[run.start]
-        spreads = (
-            sample_noise(noise, problem.rounding, problem.states, run)[first : first + 6].reshape(2, 3).max(axis=1)
-        )
-        value, weight = _of_flight(time, rest[:, first : first + 6], spreads)
+        columns = slice(first, first + 6)
+        spreads = sample_noise(noise, problem.rounding, problem.states, run)[columns].reshape(2, 3).max(axis=1)
+        value, weight = _of_flight(time, rest[:, columns], spreads)
         total = total + weight * value
         weights, longest = weights + weight, max(longest, float(time[-1]))
     if weights == 0.0:

@@ -58,10 +58,8 @@ def in_words(problem: Problem, first: int, last: int) -> str:
     limit = SIGMAS * (noise.velocity + size(problem.shape) * noise.angular_velocity)
     slips = numpy.array([_slip(problem, sample) for sample in samples])
     floor = STILL * float(abs(states.velocity).max() + size(problem.shape) * abs(states.angular_velocity).max())
-    share, depth = (
-        float(numpy.mean(slips > max(limit, floor))),
-        f", {-lift:.2g} m deep" if -lift > _highest_hop(problem) else "",
-    )
+    share = float(numpy.mean(slips > max(limit, floor)))
+    depth = f", {-lift:.2g} m deep" if -lift > _highest_hop(problem) else ""
     if share < FEW:
         return f"lasting contact{depth}, sticks"
     slides = "slides" if share > 1.0 - FEW else f"slides {share:.0%} of the time"
