@@ -76,11 +76,13 @@ def declared_parameters(node: str) -> dict:
     declared: dict = {}
 
     class Recorder:
-        def declare_parameter(self, name, default, descriptor):
-            assert descriptor.description
-            assert descriptor.read_only
+        def declare_parameter(self, name, default, descriptor, ignore_override=False):
+            assert descriptor.dynamic_typing or (descriptor.description and descriptor.read_only)
             declared[name] = default
             return type("Value", (), {"value": default})()
+
+        def undeclare_parameter(self, name):
+            del declared[name]
 
     recorder = Recorder()
     used = Path(module.__file__).read_text(encoding="utf-8")

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TypeVar
+from typing import Any, TypeVar
 
 from rcl_interfaces.msg import FloatingPointRange, ParameterDescriptor
 from rclpy.node import Node
@@ -11,13 +11,40 @@ from .pacing import parse_pace
 from .protocol import REFUSED, NodeError
 
 Value = TypeVar("Value", bool, int, float, str)
+_KINDS: dict[type, str] = {bool: "true or false", int: "a whole number", float: "a number", str: "a text"}
 
 
 def declare(node: Node, name: str, default: Value, text: str, allowed: tuple[float, float] | None = None) -> Value:
-    """The value of a parameter that is fixed for the life of the node; `allowed` is the range of a number."""
+    """The value of a parameter that is fixed for the life of the node; `allowed` is the range of a number.
+
+    A whole number does where a decimal one is asked for. Raises NodeError (refused) for another type or beyond the range.
+    """
+    given = _given(node, name, default)
+    return _declare_fixed(node, name, _checked(name, given, default, allowed), text, allowed)
+
+
+def _given(node: Node, name: str, default: Any) -> Any:
+    """The value given to the node, of whatever type, or the default: rclpy itself takes no 5 for a 5.0."""
+    value = node.declare_parameter(name, default, ParameterDescriptor(dynamic_typing=True)).value
+    node.undeclare_parameter(name)
+    return value
+
+
+def _declare_fixed(node: Node, name: str, value: Value, text: str, allowed: tuple[float, float] | None = None) -> Value:
     ranges = [FloatingPointRange(from_value=allowed[0], to_value=allowed[1], step=0.0)] if allowed else []
     descriptor = ParameterDescriptor(description=text, read_only=True, floating_point_range=ranges)
-    value: Value = node.declare_parameter(name, default, descriptor).value
+    node.declare_parameter(name, value, descriptor, ignore_override=True)
+    return value
+
+
+def _checked(name: str, given: Any, default: Value, allowed: tuple[float, float] | None) -> Value:
+    kind = type(default)
+    if type(given) is not kind and not (kind is float and type(given) is int):
+        cure = f"; write -p {name}:=\"'{given}'\"" if kind is str else ""
+        raise NodeError(f"parameter {name} is {given!r}, it takes {_KINDS[kind]}{cure}", REFUSED)
+    value = kind(given)
+    if allowed is not None and not allowed[0] <= value <= allowed[1]:  # not a number is in no range
+        raise NodeError(f"parameter {name} is {given!r}, allowed are {allowed[0]:g} to {allowed[1]:g}", REFUSED)
     return value
 
 
@@ -37,7 +64,7 @@ def declare_record(node: Node) -> bool:
 def declare_pace(node: Node, of_scene: str | float) -> float:
     """Simulated seconds per second; the scene's own where the parameter is empty."""
     text = "Pace: realtime, max, or simulated seconds per second, 0.001 to 1000. Empty: what the scene says."
-    pace = declare(node, "pace", "", text)
+    pace = _declare_fixed(node, "pace", str(_given(node, "pace", "")), text)
     try:
         return parse_pace(pace or of_scene)
     except ValueError as error:

@@ -11,6 +11,7 @@ from contextlib import suppress
 from typing import Any, Protocol
 
 import rclpy
+from rclpy.exceptions import NameValidationException, ParameterException
 from rclpy.executors import Executor, ExternalShutdownException, SingleThreadedExecutor
 from rclpy.impl.implementation_singleton import rclpy_implementation
 from rclpy.logging import get_logger
@@ -125,7 +126,7 @@ def run(make_node: Callable[[], Any], args: Sequence[str] | None = None) -> int:
     node: Any = None
     try:
         step_back()
-        rclpy.init(args=None if args is None else list(args), signal_handler_options=SignalHandlerOptions.NO)
+        _init(args)
         node = make_node()
         if node.computes:
             step_forward()
@@ -137,8 +138,12 @@ def run(make_node: Callable[[], Any], args: Sequence[str] | None = None) -> int:
     except NodeError as error:
         _say(node, str(error))
         return error.exit_status
-    except REFUSALS as error:
-        _say(node, str(error))
+    except (
+        *REFUSALS,
+        ParameterException,
+        NameValidationException,
+    ) as error:  # the last two: rclpy's own parameters and names
+        _say(node, " ".join(str(error).split()))
         return REFUSED
     except rclpy_implementation.RCLError:
         if rclpy.ok():
@@ -149,6 +154,15 @@ def run(make_node: Callable[[], Any], args: Sequence[str] | None = None) -> int:
         if node is not None:
             node.destroy_node()
         rclpy.try_shutdown()
+
+
+def _init(args: Sequence[str] | None) -> None:
+    """Start rclpy; NodeError (refused) where it cannot read the arguments after `--ros-args`."""
+    try:
+        rclpy.init(args=None if args is None else list(args), signal_handler_options=SignalHandlerOptions.NO)
+    except (rclpy_implementation.RCLError, rclpy_implementation.UnknownROSArgsError) as error:
+        reason = str(error).partition(", at /")[0].removeprefix("failed to initialize rcl: ")
+        raise NodeError(f"the arguments after --ros-args cannot be read: {reason}", REFUSED) from None
 
 
 def _spin(node: Any, signals: StopSignals) -> int:
