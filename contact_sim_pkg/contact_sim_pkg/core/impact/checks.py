@@ -1,34 +1,24 @@
-"""Checks of numbers, each with one sentence."""
+"""The guards of `core/guards.py` with the error of the impact model."""
 
 from __future__ import annotations
 
-import math
+import functools
 
+from .. import guards
 from .errors import ImpactError
 
-__all__ = ["check_not_negative", "check_poisson_ratio", "check_positive"]
+__all__ = [
+    "check_fields",
+    "check_not_negative",
+    "check_number",
+    "check_poisson_ratio",
+    "check_positive",
+    "check_values",
+]
 
-
-def check_positive(name: str, value: float, unit: str = "") -> float:
-    """`value` where it is finite and above 0; raises ImpactError otherwise."""
-    if not (math.isfinite(value) and value > 0.0):
-        raise ImpactError(f"{name} {value:g}{_blank(unit)}: a finite number above 0 is needed")
-    return float(value)
-
-
-def check_not_negative(name: str, value: float, unit: str = "") -> float:
-    """`value` where it is finite and not below 0; raises ImpactError otherwise."""
-    if not (math.isfinite(value) and value >= 0.0):
-        raise ImpactError(f"{name} {value:g}{_blank(unit)}: a finite number, 0 or above, is needed")
-    return float(value)
-
-
-def check_poisson_ratio(value: float) -> float:
-    """`value` where it lies above -1 and not above 1/2; raises ImpactError otherwise."""
-    if not -1.0 < value <= 0.5:
-        raise ImpactError(f"Poisson ratio {value:g}: a number above -1, at most 0.5, is needed")
-    return float(value)
-
-
-def _blank(unit: str) -> str:
-    return f" {unit}" if unit else ""
+check_number = functools.partial(guards.require, error=ImpactError)
+check_fields = functools.partial(guards.require_fields, error=ImpactError)
+check_not_negative = functools.partial(guards.require_not_negative, error=ImpactError)
+check_poisson_ratio = functools.partial(guards.require_poisson_ratio, error=ImpactError)
+check_positive = functools.partial(guards.require_positive, error=ImpactError)
+check_values = functools.partial(guards.require_values, error=ImpactError)
