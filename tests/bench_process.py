@@ -59,13 +59,14 @@ def resolved(name: str, *assignments: str) -> ResolvedScene:
 class Nodes:
     """Nodes of one run, each in a process of its own; what they say is kept."""
 
-    def __init__(self, scene: ResolvedScene, folder: Path) -> None:
+    def __init__(self, scene: ResolvedScene, folder: Path, *remapped: str) -> None:
         folder.mkdir(parents=True, exist_ok=True)
         self.said: list[str] = []
         self.bag = folder / "bag"
         self._scene = str(write_scene(scene, folder))
         self._children = Children(ENVIRONMENT, self.said.append)
         self._started = []
+        self._remapped = [part for each in remapped for part in ("-r", each)]
 
     def start(self, node: str, **parameters: object):
         """Start one node."""
@@ -73,7 +74,7 @@ class Nodes:
         values = {**({} if node == "bag_replay" else {"scene": self._scene}), **own, **parameters}
         arguments = [text for name, value in values.items() for text in ("-p", f"{name}:={value}")]
         command = [sys.executable, "-m", f"contact_sim_pkg.nodes.{node}", "--ros-args", "--disable-external-lib-logs"]
-        self._started.append(self._children.start(node, [*command, *arguments]))
+        self._started.append(self._children.start(node, [*command, *arguments, *self._remapped]))
         return self._started[-1]
 
     def started(self, node: str):
@@ -100,9 +101,9 @@ def wait_until(condition, seconds: float = LONGEST) -> None:
 
 def messages(bag: Path) -> list[tuple[str, int, bytes]]:
     """Topic, log time and bytes of every message but those that report wall time, whose bytes are left out."""
-    wall = {f"/{name}" for name, topic in TOPICS.items() if topic.wall_time}
+    wall = tuple(f"/{name}" for name, topic in TOPICS.items() if topic.wall_time)
     found = open_bag(bag).messages()
-    return [(each.topic, each.log_time, b"" if each.topic in wall else each.data) for each in found]
+    return [(each.topic, each.log_time, b"" if each.topic.endswith(wall) else each.data) for each in found]
 
 
 def children_of(process: int) -> dict[str, int]:

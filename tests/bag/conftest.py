@@ -9,6 +9,7 @@ import pytest
 
 from contact_sim_pkg.bag import messages
 from contact_sim_pkg.bag.metadata import recorded_topics
+from contact_sim_pkg.bag.topics import full_name
 from contact_sim_pkg.bag.writer import BagWriter
 from contact_sim_pkg.excitation.blocks import RoadPatch
 
@@ -47,13 +48,13 @@ def encoded() -> Encoded:
 def record(tmp_path: Path, encoded: Encoded) -> Callable[..., Path]:
     """Records the messages into a new bag, closing a chunk every five blocks of the injected clock."""
 
-    def write(name: str = "ride", *, close: bool = True, namespace: str = "") -> Path:
+    def write(name: str = "ride", *, close: bool = True, shown: Callable[[str], str] = full_name) -> Path:
         time = [0.0]
         texts = {"scene": "rig: tire\n", "numpy": "2.2.6", "kernel_fingerprint": "0f" * 8}
         place = tmp_path / name if close else tmp_path / "live" / name
         writer = BagWriter(
             place,
-            recorded_topics(TOPICS, namespace),
+            recorded_topics(TOPICS, shown),
             texts,
             clock=lambda: time[0],
             free_bytes=lambda: 10**12,

@@ -11,6 +11,8 @@ from rosbags.typesys import Stores, get_types_from_msg, get_typestore
 from contact_sim_pkg.bag import messages
 from contact_sim_pkg.bag.errors import BagError
 from contact_sim_pkg.bag.reader import open_bag, version_differences
+from contact_sim_pkg.bag.recover import recover
+from contact_sim_pkg.bag.topics import full_name
 from contact_sim_pkg.bag.writer import BagWriter
 
 Record = Callable[..., Path]
@@ -63,12 +65,37 @@ def test_nested_fields_have_names_with_dots_and_fields_can_be_chosen(record: Rec
 
 
 def test_a_namespace_may_be_left_out_where_it_is_clear(record: Record) -> None:
-    bag = open_bag(record(namespace="rig2"))
+    bag = open_bag(record(shown=lambda name: full_name(name, "rig2")))
     assert bag.topic("tire/force").name == "/rig2/tire/force"
     assert bag.count("tire/force") == bag.count("/rig2/tire/force") == 50
     assert bag.scene == "rig: tire\n"
     with pytest.raises(BagError, match=r"no topic called 'seat/force'; it has /rig2/bench/scene"):
         bag.topic("seat/force")
+
+
+def test_a_remapped_topic_is_found_by_its_name_in_the_table_also_after_a_recovery(
+    record: Record, tmp_path: Path
+) -> None:
+    first = record(shown=lambda name: "/rig2/left/f" if name == "tire/force" else full_name(name, "rig2"))
+    recover(first, tmp_path / "recovered")
+    for directory in (first, tmp_path / "recovered"):
+        bag = open_bag(directory)
+        assert bag.topic("tire/force").name == "/rig2/left/f"
+        assert bag.count("tire/force") == 50
+
+
+def test_a_remapped_topic_of_another_recorder_is_found_by_a_type_that_no_other_topic_has(record: Record) -> None:
+    shown = {"road/patch": "/surface", "tire/force": "/f"}
+    bag = open_bag(record(shown=lambda name: shown.get(name, full_name(name))))
+    bare = {name: topic._replace(relative_name="") for name, topic in bag.topics.items()}
+    bag.topics = bare  # as `ros2 bag record` leaves it
+    assert bag.topic("road/patch").name == "/surface"
+    assert "tire/force" not in bag  # its type is also that of the seat's
+
+
+def test_names_without_a_namespace_add_nothing_to_the_bag(record: Record) -> None:
+    assert b"relative_name" not in (record() / "ride_0.mcap").read_bytes()
+    assert b"relative_name" in (record("again", shown=lambda name: f"/rig2/{name}") / "again_0.mcap").read_bytes()
 
 
 def test_an_unfinished_bag_is_read_with_a_note_and_never_changed(record: Record, encoded: Encoded) -> None:

@@ -20,7 +20,7 @@ from ruamel.yaml import YAML
 
 from contact_sim_pkg.bag.errors import BagError
 from contact_sim_pkg.bag.metadata import Extent, metadata_text, recorded_topics
-from contact_sim_pkg.bag.topics import RECORDED
+from contact_sim_pkg.bag.topics import RECORDED, full_name
 from contact_sim_pkg.bag.typestore import type_hash
 from contact_sim_pkg.bag.writer import CHUNK_BYTES, BagWriter
 
@@ -94,7 +94,7 @@ def test_the_file_alone_says_profile_quality_of_service_hash_and_scene(record: R
 
 
 def test_a_namespace_stands_in_front_of_recorded_names(record: Record) -> None:
-    with Reader(record(namespace="rig2")) as reader:
+    with Reader(record(shown=lambda name: full_name(name, "rig2"))) as reader:
         assert "/rig2/tire/force" in reader.topics
 
 

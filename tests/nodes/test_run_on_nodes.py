@@ -5,7 +5,9 @@ import sys
 
 import pytest
 
+from contact_sim_pkg.analysis.summary import summarise
 from contact_sim_pkg.bag.reader import open_bag
+from contact_sim_pkg.run.from_bag import sources_from_bag
 from contact_sim_pkg.run.offline import run_offline
 
 from ..bench_process import Nodes, bench, messages, needs_ros, resolved
@@ -95,6 +97,22 @@ def test_a_rig_without_excitation_records_the_same_bits_as_offline(tmp_path):
     on_nodes = messages(tmp_path / "nodes")
     assert {topic for topic, _, _ in on_nodes} >= {"/impact/events", "/impact/course", "/impact/wave", "/impact/force"}
     assert on_nodes == messages(tmp_path / "offline")
+
+
+def test_a_bag_has_the_names_of_the_graph_and_drives_and_is_reported_as_any_other(seat, offline_seat, tmp_path):
+    shown = {"/seat/force": "/rig1/pan/load", "/platform/vibration": "/shaker"}
+    nodes = Nodes(seat, tmp_path, "__ns:=/rig1", "seat/force:=pan/load", "platform/vibration:=/shaker")
+    try:
+        for node in ("bag_logger", "vibration", "contact_simulator"):
+            nodes.start(node)
+        assert set(nodes.wait().values()) == {0}
+    finally:
+        nodes.end()
+    expected = [(shown.get(topic, f"/rig1{topic}"), stamp, data) for topic, stamp, data in offline_seat]
+    assert messages(nodes.bag) == expected
+    assert summarise(open_bag(nodes.bag))["contacts"]["seat"]["load_mean_N"] > 0.0
+    run_offline(seat, tmp_path / "again", sources=sources_from_bag(nodes.bag, seat))
+    assert messages(tmp_path / "again") == offline_seat
 
 
 def test_a_run_without_recording_ends_by_itself_and_leaves_nothing(seat, tmp_path):

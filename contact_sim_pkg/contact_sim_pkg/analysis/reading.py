@@ -69,7 +69,8 @@ def read_recording(bag: Bag) -> Recording:
     topics = {kind: [name for name in decoded if bag.topics[name].type == kind] for kind in SERIES_TYPES}
     known = {name for name, _ in stores[FORCE].fielddefs[FORCE][1]} if topics[FORCE] else set()
     contact_columns = (*CONTACT_COLUMNS, IMPULSES) if IMPULSES in known else CONTACT_COLUMNS
-    contacts = {contact_name(name): _contact(columns(name, contact_columns)) for name in topics[FORCE]}
+    contact_of = _contact_names(bag)
+    contacts = {contact_of[name]: _contact(columns(name, contact_columns)) for name in topics[FORCE]}
     motion = next((_motion(columns(name, MOTION_COLUMNS)) for name in topics[MOTION]), None)
     ledger = next((LedgerSeries(**columns(name, LedgerSeries._fields)) for name in topics[ENERGY]), None)
     cost = next((_cost(columns(name, CostSeries._fields)) for name in topics[COST]), None)
@@ -83,7 +84,7 @@ def read_recording(bag: Bag) -> Recording:
         metadata={key: text for key, text in bag.metadata.items() if key != SCENE_KEY},
         topics=[TopicCount(name, row.type, bag.count(name)) for name, row in bag.topics.items()],
         contacts=contacts,
-        fields={contact_name(name): field.finish() for name, field in fields.items()},
+        fields={contact_of[name]: field.finish() for name, field in fields.items()},
         motion=motion,
         ledger=ledger,
         cost=cost,
@@ -141,6 +142,20 @@ def contact_name(topic: str) -> str:
     """`/rig2/tire/force` -> `tire`: the part of a topic's name before its last one."""
     parts = topic.strip("/").split("/")
     return parts[-2] if len(parts) > 1 else parts[-1]
+
+
+def _contact_names(bag: Bag) -> dict[str, str]:
+    """Contact of each topic, by its name in the bag; BagError where two topics of a type call theirs the same."""
+    names: dict[str, str] = {}
+    seen: dict[tuple[str, str], str] = {}
+    for name, row in bag.topics.items():
+        names[name] = contact_name(row.relative_name or name)
+        other = seen.setdefault((row.type, names[name]), name)
+        if other != name and row.type in (FORCE, PATCH):
+            raise BagError(
+                f"{bag.path} has {other} and {name}, both of a contact {names[name]}; record each bench in a bag of its own"
+            )
+    return names
 
 
 def parse_mapping(text: str) -> dict[str, Any]:

@@ -1,7 +1,7 @@
 """`metadata.yaml` as rosbag2 of Jazzy writes it (version 9), and what a bag says about the software that wrote it."""
 
 import platform
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from importlib.metadata import PackageNotFoundError, version
 from io import StringIO
 from typing import Any, NamedTuple
@@ -16,6 +16,7 @@ from .typestore import definition, type_hash
 
 RECORD = "contact_bench"  # name of the MCAP metadata record
 SCENE_KEY = "scene"
+RELATIVE_NAME = "relative_name"  # key of a channel's metadata
 
 
 class RecordedTopic(NamedTuple):
@@ -27,19 +28,26 @@ class RecordedTopic(NamedTuple):
     definition: str  # ros2msg text with dependencies
     type_hash: str
     offered_qos: str  # YAML list of profiles
+    relative_name: str = ""  # of the table, where a namespace or a remapping has made another of it
 
 
-def recorded_topics(names: Sequence[str] = RECORDED, namespace: str = "") -> tuple[RecordedTopic, ...]:
-    """The given topics of the table, in order of rank, with the definitions installed; BagError for an unknown name."""
+def recorded_topics(
+    names: Sequence[str] = RECORDED, shown: Callable[[str], str] = full_name
+) -> tuple[RecordedTopic, ...]:
+    """The given topics of the table, in order of rank, with the definitions installed; BagError for an unknown name.
+
+    `shown` gives the name in the bag, that of the graph: namespace and remapping included.
+    """
     rows = sorted((topic_of(name) for name in names), key=lambda topic: topic.rank)
     return tuple(
         RecordedTopic(
             row.name,
-            full_name(row.name, namespace),
+            shown(row.name),
             row.type,
             definition(row.type),
             type_hash(row.type),
             offered_qos(row),
+            row.name if shown(row.name) != full_name(row.name) else "",
         )
         for row in rows
     )

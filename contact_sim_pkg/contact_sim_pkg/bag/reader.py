@@ -16,7 +16,7 @@ from .columns import stacked
 from .encoding import deserialize
 from .errors import BagError, CorruptChunkError
 from .layout import Layout, chunk_records, read_layout
-from .metadata import RECORD, SCENE_KEY, RecordedTopic, parse_metadata
+from .metadata import RECORD, RELATIVE_NAME, SCENE_KEY, RecordedTopic, parse_metadata
 from .topics import TOPICS
 from .typestore import store_of_definition, type_hash
 
@@ -71,11 +71,17 @@ class Bag:
         return None if first is None else str(deserialize("std_msgs/msg/String", first.data).data)
 
     def topic(self, name: str) -> RecordedTopic:
-        """The topic shown as `name`, `/name` or, where it is the only one, `/namespace/name`; BagError: none, many."""
+        """The topic shown as `name` or `/name`, or the only one that is called so or `/namespace/name`, or has its type.
+
+        By type only where the table has no other topic of that type. BagError: none, or many.
+        """
         for candidate in (name, f"/{name}"):
             if candidate in self.topics:
                 return self.topics[candidate]
-        fitting = [topic for full, topic in self.topics.items() if full.endswith(f"/{name}")]
+        called = [topic for topic in self.topics.values() if topic.relative_name == name]
+        fitting = called or [topic for full, topic in self.topics.items() if full.endswith(f"/{name}")]
+        if not fitting and name in TOPICS and sum(row.type == TOPICS[name].type for row in TOPICS.values()) == 1:
+            fitting = [topic for topic in self.topics.values() if topic.type == TOPICS[name].type]
         if len(fitting) == 1:
             return fitting[0]
         many = f"{len(fitting)} topics called" if fitting else "no topic called"
@@ -246,6 +252,7 @@ def _topic(channel: Channel, schema: Schema | None) -> RecordedTopic:
         text,
         kept.get("topic_type_hash", ""),
         kept.get("offered_qos_profiles", ""),
+        kept.get(RELATIVE_NAME, ""),
     )
 
 

@@ -18,7 +18,7 @@ from mcap.writer import Writer
 from .append_file import AppendFile, create_directory, create_file, free_bytes_at, write_whole
 from .errors import BagError, BagWriteError, RecordingStoppedError
 from .layout import counts_on_disk
-from .metadata import RECORD, Extent, RecordedTopic, metadata_text, recorded_topics, serialized_metadata
+from .metadata import RECORD, RELATIVE_NAME, Extent, RecordedTopic, metadata_text, recorded_topics, serialized_metadata
 
 CHUNK_SECONDS = 0.1  # age at which a chunk is closed
 CHUNK_BYTES = 1 << 20
@@ -114,6 +114,8 @@ class BagWriter:
             if topic.type not in schemas:
                 schemas[topic.type] = self._writer.register_schema(topic.type, "ros2msg", topic.definition.encode())
             kept = {"offered_qos_profiles": topic.offered_qos, "topic_type_hash": topic.type_hash}
+            if topic.relative_name:
+                kept[RELATIVE_NAME] = topic.relative_name
             channels[topic.key] = self._writer.register_channel(topic.name, "cdr", schemas[topic.type], kept)
         return channels
 

@@ -12,9 +12,10 @@ from rclpy.duration import Duration
 
 from contact_sim_pkg.bag.errors import BagError, MessageError
 from contact_sim_pkg.bag.messages import Recorded, decode_progress, encode_recorded, encode_scene
+from contact_sim_pkg.bag.metadata import recorded_topics
 from contact_sim_pkg.bag.names import default_directory
 from contact_sim_pkg.bag.writer import BagWriter
-from contact_sim_pkg.run.bag_content import attachments, input_names, recorded_names, result_names, topics_of
+from contact_sim_pkg.run.bag_content import attachments, input_names, recorded_names, result_names
 
 from .bench_node import LifecycleBenchNode
 from .endpoints import publisher, subscription
@@ -92,7 +93,7 @@ class BagLoggerNode(LifecycleBenchNode):
         self._order.on_progress(progress.block, progress.messages_sent)
 
     def _open(self) -> None:
-        topics = topics_of(recorded_names(self._scene))
+        topics = recorded_topics(recorded_names(self._scene), self.resolve_topic_name)
         texts = attachments(self._scene, read_descriptions(self._scene_name, self._scene))
         try:
             self._writer = BagWriter(self._path, topics, texts)

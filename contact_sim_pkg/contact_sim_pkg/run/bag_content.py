@@ -8,7 +8,7 @@ from importlib.resources import files
 from pathlib import Path
 from typing import Any
 
-from contact_sim_pkg.bag.metadata import SCENE_KEY, RecordedTopic, recorded_topics, software_versions
+from contact_sim_pkg.bag.metadata import SCENE_KEY, software_versions
 from contact_sim_pkg.run.rigs import result_topics
 from contact_sim_pkg.scene.resolved_scene import ResolvedScene
 
@@ -29,11 +29,6 @@ def result_names(scene: ResolvedScene) -> list[str]:
 def recorded_names(scene: ResolvedScene) -> list[str]:
     """Every topic of the scene's bag."""
     return ["bench/scene", *input_names(scene), *result_names(scene)]
-
-
-def topics_of(names: list[str], namespace: str = "") -> tuple[RecordedTopic, ...]:
-    """Rows of the bag for ``names``, with definitions, hashes and quality of service."""
-    return recorded_topics(names, namespace)
 
 
 def attachments(scene: ResolvedScene, excitation: dict[str, dict[str, Any]]) -> dict[str, str]:

@@ -9,11 +9,12 @@ from typing import Any, NamedTuple
 
 from contact_sim_pkg.bag.errors import BagWriteError, RecordingStoppedError
 from contact_sim_pkg.bag.messages import encode_road_patch, encode_scene, encode_vibration
+from contact_sim_pkg.bag.metadata import recorded_topics
 from contact_sim_pkg.bag.topics import TOPICS
 from contact_sim_pkg.bag.writer import BagSummary, BagWriter
 from contact_sim_pkg.excitation.blocks import RoadPatch, VibrationBlock
 from contact_sim_pkg.excitation.errors import ExcitationError
-from contact_sim_pkg.run.bag_content import attachments, recorded_names, topics_of
+from contact_sim_pkg.run.bag_content import attachments, recorded_names
 from contact_sim_pkg.run.block_simulation import BlockSimulation
 from contact_sim_pkg.run.errors import RunError
 from contact_sim_pkg.run.rigs import make_simulation
@@ -71,7 +72,7 @@ def run_offline(
     writer = None
     if directory is not None:
         names = recorded_names(scene)
-        writer = BagWriter(directory, topics_of(names), attachments(scene, descriptions))
+        writer = BagWriter(directory, recorded_topics(names), attachments(scene, descriptions))
     startup = time.perf_counter() - began
     first = time.perf_counter()
     done, failure, stopped, loss = 0, "", False, ""
