@@ -207,7 +207,7 @@ def test_files_that_are_no_opencrg_are_refused(tmp_path, content):
 def test_a_missing_file_and_a_directory_are_refused(tmp_path):
     with pytest.raises(ExcitationError, match=r"none\.crg: cannot be read: No such file"):
         OpenCrgRoad(tmp_path / "none.crg")
-    with pytest.raises(ExcitationError, match="cannot be read: Is a directory"):
+    with pytest.raises(ExcitationError, match="cannot be read: is a directory"):
         OpenCrgRoad(tmp_path)
 
 

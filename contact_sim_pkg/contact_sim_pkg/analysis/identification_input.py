@@ -6,6 +6,7 @@ from pathlib import Path
 
 import numpy
 
+from contact_sim_pkg.files import read_regular_file
 from contact_sim_pkg.identification.errors import IdentificationError
 from contact_sim_pkg.identification.geometry import Shape, hull
 
@@ -19,12 +20,11 @@ def hull_of_file(path: Path) -> Shape:
 
     Raises:
         IdentificationError: a line that is not three finite numbers, or no line at all.
-        OSError: the file cannot be read.
+        FileRefusedError: no regular file that can be read, or too large.
     """
-    if path.stat().st_size > LARGEST:
-        raise IdentificationError(f"{path} has {path.stat().st_size} bytes; a file of corners has at most {LARGEST}")
+    text = read_regular_file(path, LARGEST).decode("utf-8", "replace")
     points = []
-    for number, line in enumerate(path.read_text(encoding="utf-8", errors="replace").splitlines(), start=1):
+    for number, line in enumerate(text.splitlines(), start=1):
         words = line.split("#")[0].replace(",", " ").split()
         if not words:
             continue

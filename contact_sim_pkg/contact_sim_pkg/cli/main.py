@@ -79,6 +79,7 @@ def refusal(error: Exception) -> tuple[str, int] | None:
     from contact_sim_pkg.analysis.material.errors import MaterialError
     from contact_sim_pkg.bag.errors import BagError
     from contact_sim_pkg.excitation.errors import ExcitationError
+    from contact_sim_pkg.files import FileRefusedError
     from contact_sim_pkg.identification.errors import IdentificationError
     from contact_sim_pkg.run.errors import RunError
     from contact_sim_pkg.scene.errors import SceneError
@@ -88,7 +89,8 @@ def refusal(error: Exception) -> tuple[str, int] | None:
     if isinstance(error, RunError):
         return str(error), 1
     if isinstance(error, OSError):
-        return f"{error.strerror or error}{f': {error.filename}' if error.filename else ''}", 2
+        sentence = f"{error.filename}: {error.strerror}" if error.filename else str(error.strerror or error)
+        return sentence, 2 if isinstance(error, FileRefusedError) else 1
     if isinstance(error, ImportError) and (error.name or "").partition(".")[0] in (
         "rclpy",
         "contact_msgs_defs",

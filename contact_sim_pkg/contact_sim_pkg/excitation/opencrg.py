@@ -12,6 +12,8 @@ from typing import Any
 import numpy
 from numpy.typing import NDArray
 
+from contact_sim_pkg.files import read_regular_file
+
 from .errors import ExcitationError
 from .opencrg_grid import Grid, fill_missing, make_grid
 from .opencrg_header import Header, parse_header
@@ -228,9 +230,6 @@ _BRING_INSIDE: dict[str, Callable[[Array, float, float], Array]] = {
 
 def _read(path: Path) -> bytes:
     try:
-        size = path.stat().st_size
-        if size > LARGEST_FILE:
-            raise ExcitationError(f"{path}: the file has {size} bytes, limit {LARGEST_FILE}; cut the road")
-        return path.read_bytes()
+        return read_regular_file(path, LARGEST_FILE, "cut the road")
     except OSError as error:
         raise ExcitationError(f"{path}: cannot be read: {error.strerror or error}") from error

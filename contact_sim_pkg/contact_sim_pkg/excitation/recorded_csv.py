@@ -7,6 +7,8 @@ from typing import NamedTuple
 import numpy
 from numpy.typing import NDArray
 
+from contact_sim_pkg.files import read_regular_file
+
 from .errors import ExcitationError
 
 LARGEST_FILE = 1 << 28  # [bytes]
@@ -88,10 +90,7 @@ def read_table(path: Path) -> Table:
 
 def _read_lines(path: Path) -> list[str]:
     try:
-        size = path.stat().st_size
-        if size > LARGEST_FILE:
-            raise ExcitationError(f"{path}: the file has {size} bytes, limit {LARGEST_FILE}; cut the recording")
-        text = path.read_bytes().decode("utf-8-sig")
+        text = read_regular_file(path, LARGEST_FILE, "cut the recording").decode("utf-8-sig")
     except OSError as error:
         raise ExcitationError(f"{path}: cannot be read: {error.strerror or error}") from error
     except UnicodeDecodeError as error:

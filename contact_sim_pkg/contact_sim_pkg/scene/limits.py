@@ -7,6 +7,7 @@ from collections.abc import Iterator
 from pathlib import Path
 from typing import NamedTuple
 
+from contact_sim_pkg.files import FileRefusedError, open_regular_file
 from contact_sim_pkg.scene.errors import Breach
 from contact_sim_pkg.scene.files import InputFile, candidates, find_file, input_files
 from contact_sim_pkg.scene.resolved_scene import sha256_of
@@ -76,12 +77,15 @@ def _file_fault(file: InputFile, folder: Path) -> str:
     path = find_file(file.name, folder)
     if path is None:
         looked = " or ".join(str(place) for place in candidates(file.name, folder))
-        kind = "is a folder" if (folder / file.name).is_dir() else "is not there"
+        there = folder / file.name
+        kind = "is a folder" if there.is_dir() else "is no regular file" if there.exists() else "is not there"
         return f"the file {file.name!r} {kind}; looked for {looked}"
-    if not os.access(path, os.R_OK):
-        return f"the file {path} may not be read; check its permissions"
     largest = LARGEST_ROAD_FILE if file.where == "road.file" else LARGEST_SIGNAL_FILE
-    size = path.stat().st_size
+    try:
+        with open_regular_file(path) as stream:
+            size = os.fstat(stream.fileno()).st_size
+    except FileRefusedError as error:
+        return f"the file {path} cannot be read: {error.strerror}"
     if size > largest:
         return f"the file {path} has {size} bytes; at most {largest} are allowed"
     if file.sha256 is not None:

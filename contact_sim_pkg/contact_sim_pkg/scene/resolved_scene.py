@@ -11,6 +11,7 @@ from typing import Any
 
 from ruamel.yaml import YAML
 
+from contact_sim_pkg.files import open_regular_file
 from contact_sim_pkg.scene.errors import Fault, SceneError
 
 
@@ -72,7 +73,7 @@ class ResolvedScene:
 def sha256_of(path: Path) -> str:
     """Checksum of the content, as 64 hexadecimal digits."""
     digest = hashlib.sha256()
-    with path.open("rb") as stream:
+    with open_regular_file(path) as stream:
         while chunk := stream.read(1 << 20):
             digest.update(chunk)
     return digest.hexdigest()

@@ -15,6 +15,7 @@ from ruamel.yaml import YAML
 from ruamel.yaml.error import MarkedYAMLError, YAMLError
 from ruamel.yaml.reader import ReaderError
 
+from contact_sim_pkg.files import read_regular_file
 from contact_sim_pkg.scene.errors import Fault, SceneError
 from contact_sim_pkg.scene.yaml_composer import Composer
 from contact_sim_pkg.scene.yaml_nodes import ListNode, MappingNode, Mark, Node
@@ -44,13 +45,9 @@ def read_document(path: Path) -> Document:
     try:
         if path.is_dir():
             raise SceneError([start.fault("", "is a directory; a scene is a YAML file")])
-        if not path.is_file():
+        if not path.exists():
             raise SceneError([start.fault("", "there is no such file")])
-        size = path.stat().st_size
-        if size > LARGEST_FILE:
-            sentence = f"has {size} bytes; a scene has at most {LARGEST_FILE} bytes (1 MiB)"
-            raise SceneError([start.fault("", sentence)])
-        content = path.read_bytes()
+        content = read_regular_file(path, LARGEST_FILE, "a scene has at most 1 MiB")
     except OSError as error:
         raise SceneError([start.fault("", f"cannot be read: {error.strerror}")]) from error
     try:

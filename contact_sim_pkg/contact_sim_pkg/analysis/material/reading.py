@@ -12,6 +12,7 @@ import numpy
 from numpy.typing import NDArray
 
 from contact_sim_pkg.analysis.material.errors import MaterialError
+from contact_sim_pkg.files import read_regular_file
 
 __all__ = ["Impacts", "read_impacts"]
 
@@ -93,9 +94,7 @@ def read_impacts(path: Path) -> Impacts:
 def _lines(path: Path) -> list[tuple[int, str]]:
     """Numbered lines that hold something."""
     try:
-        if path.stat().st_size > LARGEST_FILE:
-            raise MaterialError(f"{path}: larger than {LARGEST_FILE} bytes; a file of impacts has a line an impact")
-        text = path.read_bytes().decode("utf-8-sig")
+        text = read_regular_file(path, LARGEST_FILE, "a file of impacts has a line an impact").decode("utf-8-sig")
     except OSError as error:
         raise MaterialError(f"{path}: cannot be read: {error.strerror or error}") from error
     except UnicodeDecodeError as error:

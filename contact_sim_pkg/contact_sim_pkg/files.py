@@ -1,0 +1,162 @@
+"""The one way to open a file from outside and to make a file that a user asked for.
+
+An input is a regular file of known size, so that no pipe, device or file of /proc makes a command wait for ever. An output is made
+anew: nothing that exists is written over unasked, and what the command reads never is.
+"""
+
+from __future__ import annotations
+
+import errno
+import os
+import stat
+from collections.abc import Callable, Iterable, Iterator
+from contextlib import contextmanager, suppress
+from pathlib import Path
+from typing import IO, BinaryIO
+
+__all__ = ["FileRefusedError", "check_output", "new_file", "open_regular_file", "read_regular_file"]
+
+EXISTS = "exists already and is not written over; give another name or --force"
+_KINDS = (
+    (stat.S_ISDIR, "is a directory"),
+    (stat.S_ISFIFO, "is a named pipe"),
+    (stat.S_ISCHR, "is a device"),
+    (stat.S_ISBLK, "is a device"),
+    (stat.S_ISSOCK, "is a socket"),
+)
+
+
+class FileRefusedError(OSError):
+    """A file that is not opened: `strerror` is what is wrong and the cure, `filename` the path; bad input, not a fault of a run."""
+
+    def __init__(self, path: str | Path, reason: str, number: int = errno.EINVAL) -> None:
+        """The error of a path; `number` is its errno, for who asks."""
+        super().__init__(number, reason, str(path))
+
+
+def open_regular_file(path: str | Path) -> BinaryIO:
+    """Open an existing file for reading bytes, without ever waiting for it.
+
+    Raises:
+        FileRefusedError: it is not there, may not be read, is a directory, pipe, device or socket, or has content but no size, as
+            files of /proc have.
+    """
+    try:
+        _refuse_kind(path, Path(path).stat().st_mode)  # before opening: that alone can act on a device
+        descriptor = os.open(path, os.O_RDONLY | os.O_NONBLOCK | os.O_NOCTTY | os.O_CLOEXEC)
+    except FileRefusedError:
+        raise
+    except (OSError, ValueError) as error:  # ValueError: a NUL in the name
+        raise FileRefusedError(
+            path, getattr(error, "strerror", None) or str(error), getattr(error, "errno", None) or errno.EINVAL
+        ) from None
+    try:
+        status = os.fstat(descriptor)
+        _refuse_kind(path, status.st_mode)
+        if status.st_size == 0 and _has_content(descriptor):
+            raise FileRefusedError(
+                path, "has content but no size, as files of the system have; copy it to a plain file"
+            )
+        return os.fdopen(descriptor, "rb")
+    except BaseException:
+        os.close(descriptor)
+        raise
+
+
+def read_regular_file(path: str | Path, most: int, cure: str = "give a smaller file") -> bytes:
+    """The whole content of an existing file of at most `most` bytes; FileRefusedError as above, or where it is larger."""
+    with open_regular_file(path) as file:
+        size = os.fstat(file.fileno()).st_size
+        if size <= most:
+            content = file.read(most + 1)
+            size = max(size, len(content))
+    if size > most:
+        raise FileRefusedError(path, f"has {size} bytes; at most {most} are read; {cure}", errno.EFBIG)
+    return content
+
+
+def check_output(
+    path: Path, inputs: Iterable[Path | None] = (), *, force: bool = False, ours: Callable[[Path], bool] | None = None
+) -> None:
+    """Refuse a file to be made that exists, before any work is done for it.
+
+    Args:
+        path: the file to be made.
+        inputs: what the command reads; none of it is written over, whatever `force` says.
+        force: an existing regular file may be replaced.
+        ours: whether an existing file is one that the same command made and may make again; None: no file is.
+
+    Raises:
+        FileRefusedError: it exists, is an input, or its directory is not there.
+    """
+    for each in inputs:
+        if each is not None and _are_one_file(path, each):
+            raise FileRefusedError(path, f"is read by this command ({each}) and is not written over; give another name")
+    try:
+        mode = path.stat().st_mode if path.exists() else path.lstat().st_mode
+    except FileNotFoundError:
+        if not path.parent.is_dir():
+            raise FileRefusedError(path, "cannot be written: its directory is not there; make it first") from None
+        if not os.access(path.parent, os.W_OK | os.X_OK):
+            raise FileRefusedError(path, "cannot be written: its directory is not writable", errno.EACCES) from None
+        return
+    except OSError as error:
+        raise FileRefusedError(path, f"cannot be written: {error.strerror}", error.errno or errno.EINVAL) from None
+    _refuse_kind(path, mode)
+    if not stat.S_ISREG(mode):
+        raise FileRefusedError(path, "is a link to nothing; remove it or give another name")
+    if not force and not (ours is not None and ours(path)):
+        raise FileRefusedError(path, EXISTS, errno.EEXIST)
+
+
+@contextmanager
+def new_file(
+    path: Path, inputs: Iterable[Path | None] = (), *, force: bool = False, ours: Callable[[Path], bool] | None = None
+) -> Iterator[IO[bytes]]:
+    """A file to write bytes into; it appears under its name whole, or not at all. Arguments and refusals: `check_output`.
+
+    Raises:
+        FileRefusedError: as `check_output`, also for what appeared in the meantime. OSError: it cannot be written.
+    """
+    check_output(path, inputs, force=force, ours=ours)
+    target, replaces = path.resolve(), path.exists()
+    draft = target.with_name(f".bench-{os.getpid()}.new")
+    try:
+        with open(draft, "xb") as file:
+            yield file
+        if replaces:
+            draft.replace(target)
+        else:
+            _name_exclusively(draft, target)
+    finally:
+        draft.unlink(missing_ok=True)
+
+
+def _name_exclusively(draft: Path, target: Path) -> None:
+    """Give the draft its name, unless there is a file of that name by now."""
+    try:
+        target.hardlink_to(draft)
+    except FileExistsError:
+        raise FileRefusedError(target, EXISTS, errno.EEXIST) from None
+    except OSError:  # a file system without hard links
+        with open(target, "xb") as file:
+            file.write(draft.read_bytes())
+
+
+def _are_one_file(path: Path, other: Path) -> bool:
+    with suppress(OSError):
+        return path.samefile(other)
+    return False
+
+
+def _refuse_kind(path: str | Path, mode: int) -> None:
+    for is_kind, sentence in _KINDS:
+        if is_kind(mode):
+            raise FileRefusedError(path, f"{sentence}; a regular file is needed")
+
+
+def _has_content(descriptor: int) -> bool:
+    try:
+        return bool(os.pread(descriptor, 1, 0))
+    except OSError:  # nothing to read at this moment
+        return True
