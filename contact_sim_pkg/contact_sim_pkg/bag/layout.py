@@ -7,6 +7,7 @@ chunk is taken apart when its checksum holds. The file is never changed.
 import struct
 import zlib
 from collections import Counter
+from dataclasses import replace
 from io import BytesIO
 from pathlib import Path
 from typing import IO, NamedTuple
@@ -15,11 +16,12 @@ from mcap.data_stream import ReadDataStream
 from mcap.exceptions import McapError
 from mcap.opcode import Opcode
 from mcap.reader import SeekingReader
-from mcap.records import Channel, Chunk, ChunkIndex, McapRecord, Message, Metadata, Schema
+from mcap.records import Channel, Chunk, ChunkIndex, McapRecord, Message, Metadata, MetadataIndex, Schema
 from mcap.stream_reader import breakup_chunk
 
 from .chunks import LARGEST_RECORD, damaged, decompressed
 from .errors import BagError, CorruptChunkError
+from .metadata import CHECKSUM_KEY
 
 MAGIC = b"\x89MCAP0\r\n"
 _HEAD = 9  # opcode and length of a record
@@ -44,6 +46,7 @@ class Layout(NamedTuple):
     channels: dict[int, Channel]
     counts: dict[int, int]  # messages by channel
     records: list[Metadata]
+    attachments: int  # number of MCAP attachments, which are not read
     finished: bool
     note: str
 
@@ -114,7 +117,9 @@ def _from_summary(file: IO[bytes], name: str) -> Layout | None:
             return None
         chunks = [_place(index) for index in sorted(summary.chunk_indexes, key=lambda index: index.chunk_start_offset)]
         counts = dict(summary.statistics.channel_message_counts)
-        return Layout(chunks, summary.schemas, summary.channels, counts, list(reader.iter_metadata()), True, "")
+        records = [_indexed(file, index) for index in summary.metadata_indexes]
+        attached = summary.statistics.attachment_count
+        return Layout(chunks, summary.schemas, summary.channels, counts, records, attached, True, "")
     except _FAULTS:
         return None
 
@@ -141,10 +146,28 @@ def _place(index: ChunkIndex) -> ChunkPlace:
     )
 
 
+def _metadata(file: IO[bytes], length: int) -> Metadata:
+    stream = _stream(file, length)
+    record: Metadata = Metadata.read(stream)
+    if stream.count != length:
+        raise ValueError(f"its texts end after {stream.count} of {length} bytes")
+    return record
+
+
+def _indexed(file: IO[bytes], index: MetadataIndex) -> Metadata:
+    """The metadata record of an index, which has a checksum, as the name in it; a checksum that fails where it cannot be read."""
+    try:
+        if _head(file, index.offset) != (Opcode.METADATA, index.length - _HEAD):
+            raise ValueError
+        return replace(_metadata(file, index.length - _HEAD), name=index.name)
+    except _FAULTS:
+        return Metadata(index.name, {CHECKSUM_KEY: ""})
+
+
 def _walk(file: IO[bytes], name: str) -> Layout:
     """The layout from the records themselves, up to the first that is cut off or cannot be believed."""
-    found = Layout([], {}, {}, {}, [], False, "")
-    end, damaged_records = file.seek(0, 2), 0
+    found = Layout([], {}, {}, {}, [], 0, False, "")
+    end, damaged_records, attachments = file.seek(0, 2), 0, 0
     last_is_whole = True
     offset, opcode, reason = len(MAGIC), 0, ""
     while offset < end:
@@ -154,12 +177,13 @@ def _walk(file: IO[bytes], name: str) -> Layout:
             break
         whole = _take(file, ChunkPlace(offset, length + _HEAD, 0, 0, None), opcode, found, name)
         damaged_records += not whole
+        attachments += opcode == Opcode.ATTACHMENT
         last_is_whole = whole if opcode == Opcode.CHUNK else last_is_whole
         offset += length + _HEAD
     if not last_is_whole and opcode != Opcode.DATA_END:
         found.chunks.pop()  # torn by a power loss: its length reached the disk, its content did not
     lost = f"{reason}, the last {end - offset} bytes are not read" if reason else "it was not finished"
-    return found._replace(note=_note(name, found, lost, damaged_records))
+    return found._replace(note=_note(name, found, lost, damaged_records), attachments=attachments)
 
 
 def _why_not(opcode: int, length: int, left: int) -> str:
@@ -184,7 +208,7 @@ def _take(file: IO[bytes], place: ChunkPlace, opcode: int, found: Layout, name: 
             found.chunks.append(place._replace(start=_time(times[:8]), end=_time(times[8:])))
             _count(chunk_records(file, found.chunks[-1], name), found)
         elif opcode == Opcode.METADATA:
-            found.records.append(Metadata.read(_stream(file, length)))
+            found.records.append(_metadata(file, length))
         elif opcode == Opcode.SCHEMA:
             _count([Schema.read(_stream(file, length))], found)
         elif opcode == Opcode.CHANNEL:

@@ -1,5 +1,7 @@
 """`metadata.yaml` as rosbag2 of Jazzy writes it (version 9), and what a bag says about the software that wrote it."""
 
+import hashlib
+import json
 import platform
 from collections.abc import Callable, Mapping, Sequence
 from importlib.metadata import PackageNotFoundError, version
@@ -15,8 +17,11 @@ from .topics import RECORDED, full_name, offered_qos, topic_of
 from .typestore import definition, type_hash
 
 RECORD = "contact_bench"  # name of the MCAP metadata record
+OUTCOME = f"{RECORD}_outcome"  # of the one at the end
+ROSBAG2 = "rosbag2"  # of the one that rosbag2 reads
 SCENE_KEY = "scene"
 RELATIVE_NAME = "relative_name"  # key of a channel's metadata
+CHECKSUM_KEY = "texts_sha256"
 
 
 class RecordedTopic(NamedTuple):
@@ -58,6 +63,28 @@ class Extent(NamedTuple):
 
     start: int
     end: int
+
+
+def sealed(texts: Mapping[str, str]) -> dict[str, str]:
+    """The texts of a metadata record with their checksum: MCAP keeps none for these records."""
+    return {**texts, CHECKSUM_KEY: _checksum(texts)}
+
+
+def unsealed(records: Sequence[Mapping[str, str]]) -> list[dict[str, str] | None]:
+    """The texts of each metadata record without their checksum; None where it does not hold.
+
+    Older bags have none; where one record has it, all must.
+    """
+    needed = any(CHECKSUM_KEY in texts for texts in records)
+    bare = [{key: text for key, text in texts.items() if key != CHECKSUM_KEY} for texts in records]
+    return [
+        texts if not needed or record.get(CHECKSUM_KEY) == _checksum(texts) else None
+        for record, texts in zip(records, bare, strict=True)
+    ]
+
+
+def _checksum(texts: Mapping[str, str]) -> str:
+    return hashlib.sha256(json.dumps(dict(texts), sort_keys=True).encode()).hexdigest()
 
 
 def software_versions(kernel_fingerprint: str) -> dict[str, str]:

@@ -16,9 +16,11 @@ from .columns import stacked
 from .encoding import deserialize
 from .errors import BagError, CorruptChunkError
 from .layout import Layout, chunk_records, read_layout
-from .metadata import RECORD, RELATIVE_NAME, SCENE_KEY, RecordedTopic, parse_metadata
+from .metadata import OUTCOME, RECORD, RELATIVE_NAME, ROSBAG2, SCENE_KEY, RecordedTopic, parse_metadata, unsealed
 from .topics import TOPICS
 from .typestore import store_of_definition, type_hash
+
+SCENE_TOPIC, SCENE_TYPE = "bench/scene", "std_msgs/msg/String"
 
 
 class BagMessage(NamedTuple):
@@ -46,6 +48,11 @@ class Bag:
         if unknown:
             self.notes.append(f"{unknown} messages of {path.name} cannot be read: what says their topic is damaged")
         self._stores: dict[str, Typestore] = {}
+        self.metadata: dict[str, str] = {}
+        """The texts kept at the start and at the end of the recording: scene, versions, how it ended."""
+        self.scene: str | None = None
+        """The resolved scene as YAML; None in a bag without one."""
+        self._take_texts()
 
     @property
     def complete(self) -> bool:
@@ -53,22 +60,41 @@ class Bag:
         return not self.notes
 
     @property
-    def metadata(self) -> dict[str, str]:
-        """The texts kept at the start and at the end of the recording: scene, versions, how it ended."""
-        kept: dict[str, str] = {}
-        for record in self._layout.records:
-            if record.name in (RECORD, f"{RECORD}_outcome"):
-                kept.update(record.metadata)
-        return kept
+    def not_copied(self) -> str:
+        """What of the file the reader passes over and a recovery leaves out, in one line; empty where there is nothing."""
+        names = [record.name for record in self._layout.records if record.name not in (RECORD, OUTCOME, ROSBAG2)]
+        parts = [f"the metadata record {name!r}" for name in names]
+        if self._layout.attachments:
+            parts.append(f"{self._layout.attachments} MCAP attachment(s)")
+        return ", ".join(parts)
 
-    @property
-    def scene(self) -> str | None:
-        """The resolved scene as YAML; None in a bag without one."""
-        kept = self.metadata.get(SCENE_KEY)
-        if kept is not None or "bench/scene" not in {_relative(name) for name in self.topics}:
-            return kept
-        first = next(self.messages("bench/scene"), None)
-        return None if first is None else str(deserialize("std_msgs/msg/String", first.data).data)
+    def _take_texts(self) -> None:
+        """Set `metadata` and `scene`; BagError, or a note with `skip_bad`, where they do not hold."""
+        ours = [record for record in self._layout.records if record.name in (RECORD, OUTCOME)]
+        for record, texts in zip(ours, unsealed([record.metadata for record in ours]), strict=True):
+            if texts is None:
+                self._leave_out(
+                    f"the texts {record.name!r} in the metadata of {self.path} are not as they were written"
+                )
+            self.metadata.update(texts or {})
+        kept, recorded = self.metadata.get(SCENE_KEY), self._recorded_scene()
+        if recorded is not None and kept not in (None, recorded):
+            self._leave_out(f"the scene in the metadata of {self.path} is another than the one on bench/scene")
+            self.metadata[SCENE_KEY] = recorded
+        self.scene = kept if recorded is None else recorded
+
+    def _leave_out(self, sentence: str) -> None:
+        if not self._skip_bad:
+            raise BagError(f"{sentence}; the file is damaged or was changed, `bench recover` saves what holds")
+        self.notes.append(f"{sentence} and are left out" if "texts" in sentence else f"{sentence}, which is taken")
+
+    def _recorded_scene(self) -> str | None:
+        """The text of the first message on `bench/scene`, under the checksum of its chunk; None without one."""
+        for name, row in self.topics.items():
+            if SCENE_TOPIC in (row.relative_name, _relative(name)) and row.type == SCENE_TYPE and self.count(name):
+                first = next(self.messages(name), None)
+                return None if first is None else str(deserialize(SCENE_TYPE, first.data).data)
+        return None
 
     def topic(self, name: str) -> RecordedTopic:
         """The topic shown as `name` or `/name`, or the only one that is called so or `/namespace/name`, or has its type.
@@ -187,10 +213,11 @@ def open_bag(path: Path | str, *, skip_bad: bool = False) -> Bag:
 
     Args:
         path: the bag's directory, or its `.mcap` file.
-        skip_bad: go on after a damaged chunk instead of stopping at it.
+        skip_bad: go on after a damaged chunk, and without damaged texts, instead of stopping at them.
 
     Raises:
-        BagError: there is no bag, it is of another storage, or it is spread over several files.
+        BagError: there is no bag, it is of another storage, it is spread over several files, or its texts do not hold: their
+            checksum fails, or its metadata and `bench/scene` hold different scenes.
     """
     place = Path(path)
     file_path = _file_of(place) if place.is_dir() else place

@@ -40,7 +40,8 @@ def recover(source: Path | str, target: Path) -> Recovery:
                 publish_time=message.publish_time,
                 sequence=message.sequence,
             )
-        lost = "; ".join(bag.notes)
+        left = f"{bag.not_copied} are not brought over" if bag.not_copied else ""
+        lost = "; ".join([*bag.notes, *([left] if left else [])])
         summary = writer.close({"recovered": lost or "nothing was missing"})
     sentence = "; ".join(part for part in (lost, summary.sentence) if part)
     return Recovery(target, summary.messages, not sentence, sentence)

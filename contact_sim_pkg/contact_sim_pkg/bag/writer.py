@@ -18,7 +18,18 @@ from mcap.writer import Writer
 from .append_file import AppendFile, create_directory, create_file, free_bytes_at, write_whole
 from .errors import BagError, BagWriteError, RecordingStoppedError
 from .layout import counts_on_disk
-from .metadata import RECORD, RELATIVE_NAME, Extent, RecordedTopic, metadata_text, recorded_topics, serialized_metadata
+from .metadata import (
+    OUTCOME,
+    RECORD,
+    RELATIVE_NAME,
+    ROSBAG2,
+    Extent,
+    RecordedTopic,
+    metadata_text,
+    recorded_topics,
+    sealed,
+    serialized_metadata,
+)
 
 CHUNK_SECONDS = 0.1  # age at which a chunk is closed
 CHUNK_BYTES = 1 << 20
@@ -107,7 +118,7 @@ class BagWriter:
         """Header, attachments, schemas and channels; the attachments stand in front, so a cut bag has them."""
         self._writer.start(profile="ros2", library=LIBRARY)
         if self._attachments:
-            self._writer.add_metadata(RECORD, self._attachments)
+            self._writer.add_metadata(RECORD, sealed(self._attachments))
         schemas: dict[str, int] = {}
         channels = {}
         for topic in self._topics:
@@ -260,8 +271,8 @@ class BagWriter:
         content = (self._name, self._topics, self._counts, extent, custom)
         try:
             if outcome:
-                self._writer.add_metadata(f"{RECORD}_outcome", outcome)
-            self._writer.add_metadata("rosbag2", serialized_metadata(*content))
+                self._writer.add_metadata(OUTCOME, sealed(outcome))
+            self._writer.add_metadata(ROSBAG2, serialized_metadata(*content))
             self._writer.finish()  # type: ignore[no-untyped-call]
             self._file.sync()
             write_whole(self.path, "metadata.yaml", metadata_text(*content))
