@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+from scipy.signal import freqs
 
 from contact_sim_pkg.analysis.weighting import WD, WK, apply_weighting, response
 
@@ -18,6 +19,24 @@ def test_gain_equals_the_table_at_every_third_octave(weighting, table):
     centres = 10.0 ** (np.arange(-10, 27) / 10.0)
 
     np.testing.assert_allclose(np.abs(response(weighting, centres)), expected, rtol=1e-3)
+
+
+@pytest.mark.parametrize("weighting", [WK, WD], ids=["Wk", "Wd"])
+def test_phase_is_that_of_the_transfer_function_of_the_standard_as_one_quotient_of_polynomials(weighting):
+    """ISO 2631-1 annex A: H_h H_l H_t H_s of the corner frequencies and qualities, multiplied out by numpy, taken by scipy."""
+    f_1, f_2, f_3, f_4, q_4 = (0.4, 100.0, 12.5, 12.5, 0.63) if weighting is WK else (0.4, 100.0, 2.0, 2.0, 0.63)
+    w_1, w_2, w_3, w_4 = (2.0 * np.pi * f for f in (f_1, f_2, f_3, f_4))
+    above = np.polymul([1.0, 0.0, 0.0], [w_2**2])
+    below = np.polymul([1.0, np.sqrt(2.0) * w_1, w_1**2], [1.0, np.sqrt(2.0) * w_2, w_2**2])
+    above = np.polymul(above, [1.0 / w_3, 1.0])
+    below = np.polymul(below, [1.0 / w_4**2, 1.0 / (q_4 * w_4), 1.0])
+    if weighting is WK:
+        w_5, w_6, q = 2.0 * np.pi * 2.37, 2.0 * np.pi * 3.35, 0.91
+        above = np.polymul(above, [1.0 / w_5**2, 1.0 / (q * w_5), 1.0]) * (w_5 / w_6) ** 2
+        below = np.polymul(below, [1.0 / w_6**2, 1.0 / (q * w_6), 1.0])
+    frequency = np.geomspace(0.1, 400.0, 50)
+    _, expected = freqs(above, below, 2.0 * np.pi * frequency)
+    np.testing.assert_allclose(response(weighting, frequency), expected, rtol=1e-9)
 
 
 @pytest.mark.parametrize(("weighting", "gain"), [(WK, 0.7718), (WD, 0.1261)], ids=["Wk", "Wd"])

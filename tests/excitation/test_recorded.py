@@ -212,6 +212,18 @@ def test_the_high_pass_takes_the_drift_and_leaves_the_rest(tmp_path):
     assert numpy.abs(z - Z)[middle].max() < 0.02
 
 
+@pytest.mark.parametrize("part", [0.5, 1.0, 2.0])
+def test_the_high_pass_is_a_butterworth_filter_of_order_four_run_both_ways(tmp_path, part):
+    """Gain 1/(1 + (f_c/f)^8) of a steady sine of f = part f_c."""
+    corner = 2.0
+    sine = numpy.sin(2.0 * numpy.pi * part * corner * TIME)
+    path = write(tmp_path / "a.csv", {"x": X, "y": 0.0 * X, "z": sine + 9.81})
+    z = RecordedVibration(path, RATE, high_pass=corner).acceleration(TIME)[1]
+    middle = slice(600, 1400)
+    gain = numpy.dot(z[middle], sine[middle]) / numpy.dot(sine[middle], sine[middle])
+    assert gain == pytest.approx(1.0 / (1.0 + part**-8), abs=1e-4)
+
+
 def test_start_shifts_the_recording(plain):
     later = RecordedVibration(plain, RATE, start=1.5)
     whole = RecordedVibration(plain, RATE)

@@ -2,13 +2,14 @@
 
 import math
 
+import mpmath
 import numpy
 import pytest
 
 from contact_sim_pkg.core.parameters import NormalElastic
 from contact_sim_pkg.core.results import DONE, NOT_FINITE
 from contact_sim_pkg.core.rigid.body import box, height_field, placed, regular_block, slope, sphere
-from contact_sim_pkg.core.rigid.compliant import MovedBody, compliant_contact, quaternion_of, sentence_of
+from contact_sim_pkg.core.rigid.compliant import MovedBody, compliant_contact, quaternion_of, resting_swing, sentence_of
 from contact_sim_pkg.core.rigid.located import LocatedBody
 
 GRAVITY, RADIUS, SIDE, TICK = 9.81, 0.05, 0.1, 1e-3
@@ -47,6 +48,14 @@ def tops(body, count):
             found.append(z + 0.5 * v * v / GRAVITY)
         last = v
     return numpy.array(found)
+
+
+@pytest.mark.parametrize("exponent", [1.0, 1.5, 2.0])
+def test_a_body_at_rest_swings_with_the_slope_of_its_force_law(exponent):
+    depth, frequency = resting_swing(sphere(RADIUS, 2.0, 0.3, 0.5), NormalElastic(1e6, exponent))
+    assert 1e6 * depth**exponent == pytest.approx(2.0 * GRAVITY, rel=1e-12)
+    slope = float(mpmath.diff(lambda x: 1e6 * x**exponent, depth))
+    assert frequency == pytest.approx(math.sqrt(slope / 2.0), rel=1e-9)
 
 
 @pytest.mark.parametrize(

@@ -111,6 +111,28 @@ def test_one_contact_in_space_never_gains_kinetic_energy():
     assert 0.9 < worst <= 1.0 + 1e-12
 
 
+@pytest.mark.parametrize("width", [PLANE, SPACE])
+def test_several_contacts_give_back_no_more_than_the_square_of_restitution_of_the_work_they_took(width):
+    """Energetic rule: the normal work of both phases, from the impulses of an impact with e and of one without."""
+    generator = numpy.random.default_rng(6)
+    work = make_impact_workspace(2, COORDINATES[width], width)
+    shares = []
+    for _ in range(200):
+        J, W, v = random_case(generator, 2, width)
+        friction, restitution = generator.uniform(0.0, 2.0, 2), generator.uniform(0.3, 0.9)
+        first, _solution = impact(J, W, v, friction, 0.0, ENERGETIC, width, work)
+        if not first.any():  # both contacts part
+            continue
+        both, _solution = impact(J, W, v, friction, restitution, ENERGETIC, width, work)
+        before, between, after = (J @ (v + W @ J.T @ c) for c in (numpy.zeros(len(J)), first, both))
+        normal = slice(None, None, width)
+        taken = -0.5 * first[normal] * (before + between)[normal]
+        returned = 0.5 * (both - first)[normal] @ (between + after)[normal]
+        shares.append(returned / (restitution**2 * numpy.maximum(taken, 0.0).sum()))
+    assert max(shares) <= 1.0 + 1e-9
+    assert sum(share > 1.0 - 1e-9 for share in shares) >= 10, "the bound acts in some of the impacts"
+
+
 def test_a_block_on_two_corners_falls_flat_and_rebounds_without_turning():
     """Symmetric: both corners give back e of their share, so the block rises straight with e times its speed."""
     J, W = contact_rows([[-0.1, -0.1], [0.1, -0.1]], PLANE), numpy.diag([1.0, 1.0, 600.0])

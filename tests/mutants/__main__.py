@@ -1,0 +1,90 @@
+"""`make mutants`: break physics one line at a time on a copy, run the tests that must notice, list what they missed.
+
+    python -m tests.mutants [NAME …]     NAME: part of a function's name; without one, all
+
+Exit status 1 where a mutant survives that is not marked equivalent, or a test fails without any mutant.
+"""
+
+import os
+import shutil
+import subprocess
+import sys
+import tempfile
+import time
+from pathlib import Path
+
+from .listed import MUTANTS, Mutant
+from .source import file_of, modules_noticing, mutated
+
+ROOT = Path(__file__).resolve().parents[2]
+TIME_LIMIT = 600.0  # [s] for the tests of one mutant; a mutant that hangs is noticed
+
+
+def main(names: list[str]) -> int:
+    chosen = [each for each in MUTANTS if not names or any(name in each.function for name in names)]
+    with tempfile.TemporaryDirectory(prefix="mutants-") as folder:
+        copy = Path(folder) / "copy"
+        _copy(copy)
+        files = sorted({path for each in chosen for path in modules_noticing(each, copy / "tests")})
+        print(f"{len(chosen)} mutants; first their {len(files)} test modules without any", flush=True)
+        if _failed(copy, files):
+            print("a test fails without any mutant; mend that first")
+            return 1
+        missed = [
+            each for number, each in enumerate(chosen, 1) if not _is_noticed(each, copy, f"{number}/{len(chosen)}")
+        ]
+    survived = [each for each in missed if not each.equivalent]
+    print(f"{len(chosen) - len(missed)} noticed, {len(missed) - len(survived)} equivalent, {len(survived)} survived")
+    return 1 if survived else 0
+
+
+def _copy(target: Path) -> None:
+    listed = subprocess.run(
+        ["git", "ls-files", "-z", "--cached", "--others", "--exclude-standard"],
+        cwd=ROOT,
+        capture_output=True,
+        check=True,
+    )
+    for name in filter(None, listed.stdout.decode().split("\0")):
+        if (ROOT / name).exists():
+            (target / name).parent.mkdir(parents=True, exist_ok=True)
+            shutil.copy2(ROOT / name, target / name, follow_symlinks=False)
+
+
+def _is_noticed(mutant: Mutant, copy: Path, place: str) -> bool:
+    started = time.monotonic()
+    path = file_of(mutant, copy / "contact_sim_pkg" / "contact_sim_pkg")
+    source = path.read_text()
+    path.write_text(mutated(mutant, source))
+    try:
+        noticed = _failed(copy, modules_noticing(mutant, copy / "tests"))
+    finally:
+        path.write_text(source)
+    word = "noticed" if noticed else f"equivalent: {mutant.equivalent}" if mutant.equivalent else "SURVIVED"
+    seconds = time.monotonic() - started
+    print(f"{place} {mutant.function}: {mutant.text!r} -> {mutant.becomes!r}: {word} ({seconds:.0f} s)", flush=True)
+    return noticed
+
+
+def _failed(copy: Path, files: list[Path]) -> bool:
+    """Whether a test fails. Tests that cannot be run at all are an error of this tool, not a verdict."""
+    paths = [str(copy), str(copy / "contact_sim_pkg"), os.environ.get("PYTHONPATH", "")]
+    environment = {
+        **os.environ,
+        "PYTHONPATH": os.pathsep.join(filter(None, paths)),
+        "PYTEST_DISABLE_PLUGIN_AUTOLOAD": "1",
+    }
+    command = [sys.executable, "-m", "pytest", "-x", "-q", "-p", "no:cacheprovider", *map(str, files)]
+    try:
+        done = subprocess.run(
+            command, cwd=copy, env=environment, capture_output=True, text=True, timeout=TIME_LIMIT, check=False
+        )
+    except subprocess.TimeoutExpired:
+        return True
+    if done.returncode not in (0, 1):
+        raise RuntimeError(f"pytest ended with status {done.returncode}:\n{done.stdout[-2000:]}{done.stderr[-2000:]}")
+    return done.returncode == 1
+
+
+if __name__ == "__main__":
+    sys.exit(main(sys.argv[1:]))

@@ -1,0 +1,103 @@
+"""Lines of physics that are broken one at a time, to see whether the tests notice (`make mutants`).
+
+A mutant names a function and a piece of its text, not a line, for files move. `tests` are the names of the test modules
+that must notice it. `equivalent` says why no test can: the change alters no answer.
+"""
+
+from typing import NamedTuple
+
+
+class Mutant(NamedTuple):
+    """One change of one function."""
+
+    function: str  # module.function or module.Class.method, the module by its last name
+    text: str  # stands exactly once in the function
+    becomes: str
+    tests: tuple[str, ...]  # names of test modules, found wherever they lie
+    equivalent: str = ""
+
+
+MUTANTS = (
+    # Laws of a contact point
+    Mutant("friction.spring_is_held", "2.0 *", "1.0 *", ("test_friction",)),
+    Mutant("friction.following_deflection", "max(along, -limit)", "along", ("test_friction",)),
+    Mutant("friction.stick_margin", "coefficient_static", "coefficient_kinetic", ("test_friction",)),
+    Mutant("normal_dissipative.loss_factor", "max(0.0, ", "max(-1.0, ", ("test_backrest_invariants",)),
+    Mutant("general_dissipative.rate_power", "0.5 * (", "1.0 * (", ("test_general_dissipative",)),
+    Mutant("general_dissipative.general_force_rate", "p * thickness", "thickness", ("test_general_dissipative",)),
+    Mutant("foam_hysteresis.memory_energy", "0.5 *", "1.0 *", ("test_foam",)),
+    Mutant("foam_elastic.foam_tangent_modulus", "(a - 1.0) *", "a *", ("test_foam",)),
+    Mutant("point_friction.point_stick_margin", "normal - trial", "normal + trial", ("test_point_friction",)),
+    # Pressure fields
+    Mutant("hertz.contact_of_shape", "1.0 / 6.0", "1.0 / 5.0", ("test_hertz",)),
+    Mutant("hertz.stiffness_coefficient", "integral_k**3", "integral_k**2", ("test_hertz",)),
+    Mutant("halfspace.love_coefficients", "(1, 0, -1.0)", "(1, 0, 1.0)", ("test_halfspace",)),
+    Mutant("halfspace._transfer", "rows + 1", "rows", ("test_halfspace",)),
+    Mutant("field_solver.overlap_approach", "0.6 *", "0.06 *", ("test_field_solver",)),
+    Mutant(
+        "field_iteration.forget",
+        "surface[k] < approach",
+        "surface[k] <= approach",
+        ("test_field_solver",),
+        "a cell whose surface lies exactly at the approach has no gap and no pressure: residual 0 either way",
+    ),
+    Mutant("lame_pressure.equivalent_ellipse", "math.pi * a * b", "4.0 * a * b", ("test_lame_pressure",)),
+    Mutant("subsurface.von_mises", "3.0 *", "2.0 *", ("test_subsurface",)),
+    Mutant(
+        "tread_viscoelasticity.take_step", "weights[k] * change", "weights[k] * now", ("test_tread_viscoelasticity",)
+    ),
+    Mutant("brush.rolling_step", "(1.0 + slip)", "(1.0 - slip)", ("test_brush",)),
+    Mutant("brush_march.carry", "way * stress * 0.5", "way * stress", ("test_brush",)),
+    # Rigid bodies
+    Mutant("impact_law._left", "restitution**2", "restitution", ("test_impact_law",)),
+    Mutant("impact_law._left", "taken = 0.5", "taken = 1.5", ("test_impact_law",)),
+    Mutant(
+        "impact_law._left",
+        "works = 0.5",
+        "works = 1.5",
+        ("test_impact_law",),
+        "the works and their size grow alike; only the sign of the quotient is used",
+    ),
+    Mutant(
+        "planar_impact._slide_modes",
+        "other_broken < broken",
+        "other_broken <= broken",
+        ("test_planar_impact",),
+        "both ways to slide break their conditions alike only where neither is further from an answer",
+    ),
+    Mutant(
+        "planar_impact._slide_impulse",
+        "sign * contact.friction * contact.coupling",
+        "contact.friction * contact.coupling",
+        ("test_planar_impact",),
+    ),
+    Mutant("compliant.resting_swing", "elastic.exponent * weight", "weight", ("test_compliant",)),
+    Mutant(
+        "rotation.gyroscopic_rate",
+        "(inertia[1] - inertia[2])",
+        "(inertia[2] - inertia[1])",
+        ("test_body", "test_turning"),
+    ),
+    Mutant("rotation.rotate_by", "0.5 * h * h", "0.25 * h * h", ("test_body", "test_landing")),
+    # Rigs and their integrator
+    Mutant("vehicle._rate", "lost += lost_in_links + rubbed", "lost += lost_in_links", ("test_vehicle_twin",)),
+    Mutant("order_5.step_of_order_5", "125.0 / 192.0", "125.0 / 191.0", ("test_orders",)),
+    Mutant("order_5.error_of_order_5", "22.0 / 525.0", "21.0 / 525.0", ("test_orders",)),
+    # Excitation and what is made of a recording
+    Mutant("recorded.RecordedVibration._filtered", "** 8", "** 4", ("test_recorded",)),
+    Mutant("iso8608.band_variance", "power)) / (exponent - 1.0)", "power)) / exponent", ("test_iso8608",)),
+    Mutant("obstacles.Obstacle._profile", "0.5 * self.height", "self.height", ("test_obstacles",)),
+    Mutant("weighting.response", "1.0 + s / omega_3", "1.0 - s / omega_3", ("test_weighting",)),
+    Mutant("metrics.ride_metrics", "** 0.25", "** 0.5", ("test_metrics",)),
+    # Impact and roller
+    Mutant("surface_wave.ring", "(1.0 - part)", "(1.0 + part)", ("test_waves",)),
+    Mutant("micro_front._border", "0.5 * impact.shape", "impact.shape", ("test_waves",)),
+    Mutant("severity.loss_tangent_of_severity", "3.0 *", "2.0 *", ("test_severity",)),
+    Mutant("stability.linearise", "[-gyro, ", "[gyro, ", ("test_stability",)),
+    Mutant("stability._slopes", "8.0 * near", "7.0 * near", ("test_stability",)),
+    Mutant("heave.contact_energy", "0.4 *", "0.6 *", ("test_heave",)),
+    Mutant("corrugation.wear", "- mean)", ")", ("test_corrugation",)),
+    Mutant("volumes.box_volume", "48.0", "24.0", ("test_volumes",)),
+    # Identification
+    Mutant("balance._of_motion", "sign * inertia", "inertia", ("test_balance",)),
+)

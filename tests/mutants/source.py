@@ -1,0 +1,50 @@
+"""Finds the function that a mutant names, and changes its text."""
+
+import ast
+from pathlib import Path
+
+from .listed import Mutant
+
+
+def file_of(mutant: Mutant, package: Path) -> Path:
+    """The one file under `package` that holds the mutant's text, exactly once, in the function that it names."""
+    module = mutant.function.split(".")[0]
+    found = [path for path in package.rglob(f"{module}.py") if _count(mutant, path.read_text()) == 1]
+    if len(found) != 1:
+        raise LookupError(f"{mutant.function}: {mutant.text!r} stands once in {len(found)} files, it must be 1")
+    return found[0]
+
+
+def mutated(mutant: Mutant, source: str) -> str:
+    """The source with the mutant's text replaced."""
+    start, end = _span(mutant, source)
+    return source[:start] + source[start:end].replace(mutant.text, mutant.becomes) + source[end:]
+
+
+def modules_noticing(mutant: Mutant, tests: Path) -> list[Path]:
+    """The test modules that must notice the mutant."""
+    found = []
+    for name in mutant.tests:
+        paths = list(tests.rglob(f"{name}.py"))
+        if not paths:
+            raise LookupError(f"{mutant.function}: there is no test module {name}.py")
+        found += paths
+    return found
+
+
+def _count(mutant: Mutant, source: str) -> int:
+    start, end = _span(mutant, source)
+    return source[start:end].count(mutant.text)
+
+
+def _span(mutant: Mutant, source: str) -> tuple[int, int]:
+    """Where the function's text begins and ends, without its docstring; an empty span where the file has no such function."""
+    node: ast.AST | None = ast.parse(source)
+    for name in mutant.function.split(".")[1:]:
+        inside = [each for each in ast.iter_child_nodes(node) if getattr(each, "name", None) == name] if node else []
+        node = inside[0] if inside else None
+    if not isinstance(node, ast.FunctionDef):
+        return 0, 0
+    lines = source.splitlines(keepends=True)
+    body = node.body[1:] if ast.get_docstring(node) else node.body
+    return sum(map(len, lines[: body[0].lineno - 1])), sum(map(len, lines[: node.end_lineno]))
