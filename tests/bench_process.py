@@ -81,6 +81,10 @@ class Nodes:
         """The processes of a node that were started."""
         return [child for child in self._started if child.name == node]
 
+    def ended(self) -> bool:
+        """Whether no process lives any more."""
+        return self._children.all_ended()
+
     def wait(self, seconds: float = LONGEST) -> dict[str, int]:
         """Exit status of each node, when all have ended."""
         wait_until(self._children.all_ended, seconds)

@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 
 from contact_sim_pkg.nodes import shared_memory
-from contact_sim_pkg.nodes.children import Children
+from contact_sim_pkg.nodes.children import Children, ErrorLines
 
 CATCHES = """
 import signal, sys, time
@@ -99,3 +99,22 @@ def test_only_the_segments_that_nobody_uses_are_removed(monkeypatch):
         for entry in folder.iterdir():
             entry.unlink()
         folder.rmdir()
+
+
+@pytest.mark.parametrize(
+    ("failure", "expected"),
+    [
+        ("", ["INFO a: begun", "ERROR a: no block 3", "[FATAL] [1.0] [b]: lost"]),
+        ("no block 3", ["INFO a: begun", "[FATAL] [1.0] [b]: lost"]),
+        ("a ended with status 1; it said last: ERROR a: no block 3", ["INFO a: begun", "[FATAL] [1.0] [b]: lost"]),
+        ("no block 3; bench recover BAG", ["INFO a: begun", "[FATAL] [1.0] [b]: lost"]),
+        ("another", ["INFO a: begun", "ERROR a: no block 3", "[FATAL] [1.0] [b]: lost"]),
+    ],
+)
+def test_an_error_that_is_the_failure_of_the_run_is_not_said_twice(failure, expected):
+    said: list[str] = []
+    lines = ErrorLines(said.append)
+    for line in ("ERROR a: no block 3", "INFO a: begun", "[FATAL] [1.0] [b]: lost"):
+        lines.hear(line)
+    lines.release(failure)
+    assert said == expected

@@ -36,6 +36,15 @@ def test_the_excitation_of_a_bag_is_asked_of_the_excitation_nodes_alone():
     assert asked == {"road_profile", "vibration"}
 
 
+def test_the_clock_is_the_simulators_and_can_be_switched_off():
+    for clock in (True, False):
+        nodes = planned_nodes(resolved("seat_ride"), SCENE, None, clock=clock)
+        assert {node.name: node.parameters.get("publish_clock") for node in nodes} == {
+            "vibration": None,
+            "contact_simulator": clock,
+        }
+
+
 def test_a_node_reads_the_scene_that_was_resolved_to_the_bit(tmp_path):
     scene = resolved("tire_belgian_block", "duration=0.37")
     again = read_scene(str(write_scene(scene, tmp_path)))

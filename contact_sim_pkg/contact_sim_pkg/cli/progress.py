@@ -30,7 +30,7 @@ class Standing(Protocol):
 
     @property
     def peak_pressure(self) -> float:
-        """Largest pressure of the last block, [Pa]."""
+        """Largest pressure of the last block, [Pa]; 0 without contact and where no field is computed."""
 
 
 class RunDisplay:
@@ -51,8 +51,10 @@ class RunDisplay:
             return
         text = (
             f"{standing.simulated:.2f} of {self._duration:g} s, {standing.real_time_factor:.2f}x real time, "
-            f"load {standing.load:.0f} N, peak {standing.peak_pressure / 1e3:.1f} kPa"
+            f"load {standing.load:.0f} N"
         )
+        if standing.peak_pressure > 0.0:
+            text += f", peak {standing.peak_pressure / 1e3:.1f} kPa"
         if self._console.is_terminal:
             self._bar.update(self._task, completed=standing.simulated, description=text)
         elif time.monotonic() - self._said > PLAIN_SECONDS:

@@ -19,6 +19,12 @@ from .tables import json_option
 @click.option(
     "--from-bag", type=click.Path(path_type=Path), metavar="BAG", help="Excitation (and scene) of an earlier run."
 )
+@click.option(
+    "--clock/--no-clock",
+    default=True,
+    show_default=True,
+    help="Simulated time on /clock, unless somebody publishes one.",
+)
 @click.option("--no-record", is_flag=True, help="Write no bag; the summary, which is read from it, is empty.")
 @json_option
 @click.pass_context
@@ -28,10 +34,14 @@ def command(
     offline: bool,
     out: Path | None,
     from_bag: Path | None,
+    clock: bool,
     no_record: bool,
     as_json: bool,
 ) -> None:
     """Run SCENE (a name or a YAML file), record it, and say what came of it."""
     from .run_scene import run_scene
 
-    context.exit(run_scene(options, offline=offline, out=out, from_bag=from_bag, record=not no_record, as_json=as_json))
+    status = run_scene(
+        options, offline=offline, out=out, from_bag=from_bag, clock=clock, record=not no_record, as_json=as_json
+    )
+    context.exit(status)

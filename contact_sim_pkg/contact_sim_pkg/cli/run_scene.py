@@ -7,6 +7,7 @@ import sys
 import time
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
+from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, NamedTuple
 
@@ -63,7 +64,14 @@ class Ended(NamedTuple):
 
 
 def run_scene(
-    options: SceneOptions, *, offline: bool, out: Path | None, from_bag: Path | None, record: bool, as_json: bool
+    options: SceneOptions,
+    *,
+    offline: bool,
+    out: Path | None,
+    from_bag: Path | None,
+    clock: bool,
+    record: bool,
+    as_json: bool,
 ) -> int:
     """Run a scene; returns the exit status.
 
@@ -77,7 +85,7 @@ def run_scene(
         refuse_other_scene(from_bag, scene)
     directory = _directory(scene, out) if record else None
     forecast = _forecast(scene)
-    run = _run_offline if offline else _run_on_nodes
+    run = _run_offline if offline else partial(_run_on_nodes, clock=clock)
     with RunDisplay(float(scene.data["duration"])) as display:
         ended = run(scene, directory, from_bag, display)
     if ended.failure:
@@ -140,13 +148,15 @@ def _run_offline(scene: ResolvedScene, directory: Path | None, from_bag: Path | 
     )
 
 
-def _run_on_nodes(scene: ResolvedScene, directory: Path | None, from_bag: Path | None, display: RunDisplay) -> Ended:
+def _run_on_nodes(
+    scene: ResolvedScene, directory: Path | None, from_bag: Path | None, display: RunDisplay, *, clock: bool
+) -> Ended:
     import rclpy  # noqa: F401  # refused here, with the cure, where ROS is not there
     from contact_msgs_defs.msg import BenchProgress  # noqa: F401
 
     from contact_sim_pkg.nodes.supervisor import Supervisor
 
-    supervisor = Supervisor(scene, directory, from_bag=from_bag)
+    supervisor = Supervisor(scene, directory, from_bag=from_bag, clock=clock)
     before = time.monotonic() - BEGAN
     with _signals_call(supervisor.stop):
         outcome = supervisor.run(display.show, display.say)

@@ -99,6 +99,7 @@ class BagLoggerNode(LifecycleBenchNode):
             self._writer = BagWriter(self._path, topics, texts)
         except BagError as error:
             raise NodeError(str(error), REFUSED) from None
+        self.announce(f"recording to {self._path}")
         self._writer.write("bench/scene", 0, encode_scene(self._scene.to_yaml()))
 
     def _write_whole(self) -> None:
@@ -175,6 +176,7 @@ class BagLoggerNode(LifecycleBenchNode):
         reasons = "; ".join(text for text in (sentence, summary.sentence) if text)
         self._answer(closed=True, sentence=reasons)
         self._answers.wait_for_all_acked(Duration(seconds=SETTLE_SECONDS))
+        self.announce(f"bag: {self._path}, {summary.messages} messages")
         if not summary.complete:
             self.get_logger().error(summary.sentence)
         return not summary.complete

@@ -45,6 +45,11 @@ class LifecycleBenchNode(LifecycleNode):
         if self._autostart and self.trigger_configure() == TransitionCallbackReturn.SUCCESS:
             self.trigger_activate()
 
+    def announce(self, sentence: str) -> None:
+        """Say where the run stands to who started the node alone or by `ros2 launch`; a supervisor shows it itself."""
+        if not self.supervisor:
+            self.get_logger().info(sentence)
+
     def fault(self, sentence: str, exit_status: int) -> None:
         """Say what failed, close, and end the process with this status."""
         self.get_logger().error(sentence)

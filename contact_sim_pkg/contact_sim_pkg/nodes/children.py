@@ -13,6 +13,30 @@ GRACE_SECONDS = 4.0  # from the signal that asks to the one that kills
 KILL_SECONDS = 1.0
 
 
+class ErrorLines:
+    """Hands lines of the processes on; errors at the end only, and not those that the failure of the run says already."""
+
+    def __init__(self, say: Callable[[str], None]) -> None:
+        """Nothing held."""
+        self._say, self._held = say, list[str]()
+
+    def hear(self, line: str) -> None:
+        """One line of a process."""
+        severity = line.split(maxsplit=1)[0].strip("[]")
+        if severity in ("ERROR", "FATAL") and "Traceback" not in line:
+            self._held.append(line)
+        else:
+            self._say(line)
+
+    def release(self, failure: str) -> None:
+        """Hand on the errors held; `failure` is printed by the caller, empty where there is none."""
+        for line in self._held:
+            text = line.partition(": ")[2] or line
+            if not failure or (text not in failure and failure not in line):
+                self._say(line)
+        self._held.clear()
+
+
 class Child:
     """One process; what it writes on its standard error is handed on line by line, and the last line is kept."""
 

@@ -6,12 +6,14 @@ import sys
 import time
 from collections.abc import Callable
 
-from contact_sim_pkg.bag.messages import decode_recorded, encode_clock, encode_scene
+from contact_sim_pkg.bag.messages import decode_recorded, encode_scene
 from contact_sim_pkg.run.bag_content import result_names
 from contact_sim_pkg.run.block_simulation import BlockResult
 from contact_sim_pkg.run.rigs import make_simulation
 
 from .bench_node import LifecycleBenchNode
+from .clock import SimulatedClock
+from .diagnostics import Diagnostics
 from .endpoints import publisher, subscription
 from .input_blocks import InputBlocks
 from .pacing import Pacer
@@ -53,8 +55,10 @@ class ContactSimulatorNode(LifecycleBenchNode):
         self._patience = self._input_timeout + scene.data["block_length"] / pace
         self._report = ProgressReport(publisher(self, "bench/progress"), scene)
         self._report.send(State.STARTING, "compiling")
+        self.announce(f"{scene.data['name']}: compiling")
         self._publishers_by_topic = {name: publisher(self, name, depth) for name in result_names(scene)}
-        self._clock_publisher = publisher(self, "/clock") if self._publish_clock else None
+        self._simulated_clock = SimulatedClock(self, wanted=self._publish_clock)
+        self._diagnostics = Diagnostics(self)
         self._scene_publisher = publisher(self, "bench/scene")
         self._scene_publisher.publish(encode_scene(scene.to_yaml()))
         self._simulation = make_simulation(scene)
@@ -74,8 +78,9 @@ class ContactSimulatorNode(LifecycleBenchNode):
     def tick(self, now: float) -> float:
         """Before ready: look for peers. Then: advance; find out what is missing. At the end: wait for the logger."""
         report = self._report
-        if report is None or not self.active:
+        if report is None or report.last is None or not self.active:
             return 1.0
+        self._diagnostics.report(now, report.last)
         if report.state is State.STARTING:
             self._look_for_peers(now, report)
             return PEERS_SECONDS
@@ -94,7 +99,9 @@ class ContactSimulatorNode(LifecycleBenchNode):
         if not absent:
             self._advanced = now
             self._pacer.start(now)
+            self._simulated_clock.start()
             report.send(State.READY)
+            self.announce("ready")
         elif now - self._said > SAY_SECONDS:
             self._said = now
             self.get_logger().info(f"waiting for {', '.join(absent)}")
@@ -103,6 +110,7 @@ class ContactSimulatorNode(LifecycleBenchNode):
         def take(data: bytes) -> None:
             reason = self._inputs.offer(topic, data)
             if reason:
+                self._diagnostics.warn(time.monotonic(), reason)
                 self.get_logger().warning(reason, throttle_duration_sec=1.0)
 
         return take
@@ -124,8 +132,7 @@ class ContactSimulatorNode(LifecycleBenchNode):
     def _publish(self, number: int, result: BlockResult, report: ProgressReport) -> None:
         for topic, _, data in result.messages:
             self._publishers_by_topic[topic].publish(data)
-        if self._clock_publisher is not None:
-            self._clock_publisher.publish(encode_clock((number + 1) * self._period_ns))
+        self._simulated_clock.publish(time.monotonic(), (number + 1) * self._period_ns)
         self._window.on_done(number)
         self._advanced = time.monotonic()
         report.block_done(number, result)
@@ -138,6 +145,7 @@ class ContactSimulatorNode(LifecycleBenchNode):
                 self.get_logger().error(
                     f"the logger closed its bag before the end: {recorded.message or 'no reason given'}"
                 )
+                self._diagnostics.warn(time.monotonic(), recorded.message)
                 self.ended_with = LOSS
                 self._report.send(State.STOPPED, recorded.message)
 
@@ -150,6 +158,7 @@ class ContactSimulatorNode(LifecycleBenchNode):
     def _wait_for_logger(self, now: float, report: ProgressReport) -> None:
         if not self._logged or self._recorded.closed:
             report.settle()
+            self.announce(report.describe())
             self.exit_status = self.ended_with
         elif now - self._advanced > CLOSE_SECONDS:
             self.get_logger().error(f"the logger has not closed its bag {CLOSE_SECONDS:g} s after the end")

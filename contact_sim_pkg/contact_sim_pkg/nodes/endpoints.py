@@ -96,7 +96,7 @@ def refuse_strangers(node: Node, name: str, *, unnamed: bool = True) -> bool:
     if (others or len(publishers) > 1) and not unnamed and any(UNKNOWN in info.node_name for info in publishers):
         return False
     if len(publishers) > 1:
-        names = ", ".join(sorted(_full_name(info.node_namespace, info.node_name) for info in publishers))
+        names = ", ".join(sorted(describe_endpoint(info) for info in publishers))
         raise NodeError(
             f"{name} has {len(publishers)} publishers ({names}), one is allowed: another bench or node is on the same "
             "topics; end it, or give this one a ROS_DOMAIN_ID of its own (the launch file also takes a namespace)",
@@ -104,7 +104,7 @@ def refuse_strangers(node: Node, name: str, *, unnamed: bool = True) -> bool:
         )
     for info in others:
         raise NodeError(
-            f"{_full_name(info.node_namespace, info.node_name)} publishes {name} with another definition of "
+            f"{describe_endpoint(info)} publishes {name} with another definition of "
             f"{info.topic_type} ({_hash(info)}, ours is {', '.join(ours)}); build both from the same contact_msgs_defs",
             REFUSED,
         )
@@ -115,7 +115,8 @@ def _hash(info: TopicEndpointInfo) -> str:
     return str(info.topic_type_hash)
 
 
-def _full_name(namespace: str, name: str) -> str:
-    if UNKNOWN in name:
+def describe_endpoint(info: TopicEndpointInfo) -> str:
+    """Full name of the node that has this publisher or subscription."""
+    if UNKNOWN in info.node_name:
         return "a node whose name is not known"
-    return f"{namespace.rstrip('/')}/{name}"
+    return f"{info.node_namespace.rstrip('/')}/{info.node_name}"

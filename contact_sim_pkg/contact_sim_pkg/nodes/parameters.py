@@ -42,7 +42,7 @@ def _checked(name: str, given: Any, default: Value, allowed: tuple[float, float]
     if type(given) is not kind and not (kind is float and type(given) is int):
         cure = f"; write -p {name}:=\"'{given}'\"" if kind is str else ""
         raise NodeError(f"parameter {name} is {given!r}, it takes {_KINDS[kind]}{cure}", REFUSED)
-    if allowed is not None and not allowed[0] <= given <= allowed[1]:  # not a number is in no range
+    if allowed is not None and not allowed[0] <= float(given) <= allowed[1]:  # not a number is in no range
         raise NodeError(f"parameter {name} is {given!r}, allowed are {allowed[0]:g} to {allowed[1]:g}", REFUSED)
     value: Value = kind(given)
     return value

@@ -29,6 +29,7 @@ class ProgressReport:
         self._block, self._sent = -1, 0
         self._load = self._peak = 0.0
         self._began: float | None = None
+        self.last: Progress | None = None
 
     def send(self, state: State, message: str = "") -> None:
         """Report a state, with one sentence for a person."""
@@ -38,16 +39,22 @@ class ProgressReport:
         elapsed = 0.0 if self._began is None else time.monotonic() - self._began
         simulated_ns = (self._block + 1) * self._period_ns
         factor = simulated_ns * 1e-9 / elapsed if elapsed > 0.0 else 0.0
-        value = Progress(
+        self.last = Progress(
             int(state), self._block, self._blocks, self._sent, factor, self._load, self._peak, self._scene, message
         )
-        self.publisher.publish(encode_progress(value, simulated_ns))
+        self.publisher.publish(encode_progress(self.last, simulated_ns))
 
     def block_done(self, block: int, result: BlockResult) -> None:
         """Report a block, whose messages were sent before; FINISHED with the last one of the scene."""
         self._block, self._sent = block, self._sent + len(result.messages)
         self._load, self._peak = result.load, result.peak_pressure
         self.send(State.FINISHED if block == self._blocks - 1 else State.RUNNING)
+
+    def describe(self) -> str:
+        """State, simulated time and speed, for a person."""
+        factor = 0.0 if self.last is None else self.last.real_time_factor
+        simulated = (self._block + 1) * self._period_ns * 1e-9
+        return f"{self._scene}: {self.state.name.lower()} after {simulated:g} s, {factor:.3g}x real time"
 
     def settle(self) -> None:
         """Wait until everybody has the last report, for one second at most."""

@@ -19,7 +19,7 @@ class PlannedNode(NamedTuple):
 
 
 def planned_nodes(
-    scene: ResolvedScene, scene_path: Path, directory: Path | None, from_bag: Path | None = None
+    scene: ResolvedScene, scene_path: Path, directory: Path | None, from_bag: Path | None = None, *, clock: bool = True
 ) -> list[PlannedNode]:
     """The nodes of a run, in the order of their start: the logger first, to be ended last, the simulator last.
 
@@ -28,10 +28,11 @@ def planned_nodes(
         scene_path: what `write_scene` returned for it.
         directory: directory of the bag; None: nothing is recorded and there is no logger.
         from_bag: bag whose excitation is sent instead of the scene's own.
+        clock: publish simulated time on `/clock`, unless somebody else does.
     """
     common: dict[str, str | bool] = {"scene": str(scene_path)}
     record: dict[str, str | bool] = {"record": directory is not None}
     source: dict[str, str | bool] = {} if from_bag is None else {"from_bag": str(from_bag.absolute())}
     logger = [] if directory is None else [PlannedNode("bag_logger", {**common, "bag": str(directory.absolute())})]
     sources = [PlannedNode(NODE_OF_INPUT[topic], {**common, **record, **source}) for topic in input_names(scene)]
-    return [*logger, *sources, PlannedNode("contact_simulator", {**common, **record})]
+    return [*logger, *sources, PlannedNode("contact_simulator", {**common, **record, "publish_clock": clock})]

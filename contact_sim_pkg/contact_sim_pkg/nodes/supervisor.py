@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 from contact_sim_pkg.scene.resolved_scene import ResolvedScene
 
-from .children import Child, Children
+from .children import Child, Children, ErrorLines
 from .protocol import DONE, FAULT, LOSS, REFUSED, NodeError, State
 from .run_plan import planned_nodes
 from .scene_file import count_blocks, descriptions_beside, write_scene
@@ -59,15 +59,18 @@ class SupervisedRun(NamedTuple):
 class Supervisor:
     """One run on nodes."""
 
-    def __init__(self, scene: ResolvedScene, directory: Path | None, *, from_bag: Path | None = None) -> None:
+    def __init__(
+        self, scene: ResolvedScene, directory: Path | None, *, from_bag: Path | None = None, clock: bool = True
+    ) -> None:
         """Prepare a run of `scene`, recorded in `directory` (None: not recorded), which must not exist.
 
         Args:
             scene: the scene.
             directory: directory of the bag.
             from_bag: bag whose excitation is sent instead of the scene's own.
+            clock: publish simulated time on `/clock`, unless somebody else does.
         """
-        self._scene, self._directory, self._from_bag = scene, directory, from_bag
+        self._scene, self._directory, self._from_bag, self._clock = scene, directory, from_bag, clock
         self._stop_count = 0
         self._asked = 0
         self._failure, self._exit_status = "", DONE
@@ -83,7 +86,8 @@ class Supervisor:
         say(
             f"ROS_DOMAIN_ID is {os.environ.get('ROS_DOMAIN_ID', '0')}, discovery {os.environ['ROS_AUTOMATIC_DISCOVERY_RANGE']}"
         )
-        children = Children(os.environ, say)
+        errors = ErrorLines(say)
+        children = Children(os.environ, errors.hear)
         with tempfile.TemporaryDirectory(prefix="contact_bench_") as folder:
             try:
                 scene = write_scene(self._scene, Path(folder))
@@ -95,9 +99,10 @@ class Supervisor:
                     return self._outcome(monitor, began, scene)
             finally:
                 children.end()
+                errors.release(self._failure)
 
     def _start_all(self, children: Children, scene: Path) -> None:
-        for node in planned_nodes(self._scene, scene, self._directory, self._from_bag):
+        for node in planned_nodes(self._scene, scene, self._directory, self._from_bag, clock=self._clock):
             arguments = node_arguments({**node.parameters, "supervisor": os.getpid()})
             children.start(node.name, [sys.executable, "-m", f"contact_sim_pkg.nodes.{node.name}", *arguments])
 

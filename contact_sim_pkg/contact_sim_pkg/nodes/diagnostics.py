@@ -1,0 +1,59 @@
+"""What the simulator reports on `/diagnostics`, once a second and at every change of state."""
+
+from __future__ import annotations
+
+from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus, KeyValue
+from rclpy.node import Node
+
+from contact_sim_pkg.bag.messages import Progress
+
+from .endpoints import publisher
+from .protocol import State
+
+PERIOD_SECONDS = 1.0
+WARN_SECONDS = 5.0  # that a warning shows for
+NOTHING = "none"
+
+
+class Diagnostics:
+    """One status: OK, WARN for 5 s after a warning and after a stop with loss, ERROR once the run has failed."""
+
+    def __init__(self, node: Node) -> None:
+        """Nothing sent yet."""
+        self._node = node
+        self._publisher = publisher(node, "/diagnostics")
+        self._warning, self._warned_at = NOTHING, float("-inf")
+        self._sent_at, self._sent_state = float("-inf"), State.IDLE
+
+    def warn(self, now: float, sentence: str) -> None:
+        """Keep a warning; `now` is the steady clock, [s]."""
+        self._warning, self._warned_at = sentence, now
+
+    def report(self, now: float, progress: Progress) -> None:
+        """Send the state of the run, if that is due."""
+        state = State(progress.state)
+        if now - self._sent_at < PERIOD_SECONDS and state is self._sent_state:
+            return
+        self._sent_at, self._sent_state = now, state
+        self._publisher.publish(self._array(now, progress))
+
+    def _array(self, now: float, progress: Progress) -> DiagnosticArray:
+        state = State(progress.state)
+        level = DiagnosticStatus.WARN if now - self._warned_at < WARN_SECONDS else DiagnosticStatus.OK
+        values = {
+            "block": progress.block,
+            "blocks": progress.blocks,
+            "real-time factor": f"{progress.real_time_factor:.3g}",
+            "load [N]": f"{progress.load:.6g}",
+            "last warning": self._warning,
+        }
+        status = DiagnosticStatus(
+            level=DiagnosticStatus.ERROR if state is State.FAILED else level,
+            name=f"{self._node.get_fully_qualified_name().lstrip('/')}: run",
+            message=": ".join(text for text in (state.name.lower(), progress.message) if text),
+            hardware_id=progress.scene,
+            values=[KeyValue(key=key, value=str(value)) for key, value in values.items()],
+        )
+        array = DiagnosticArray(status=[status])
+        array.header.stamp = self._node.get_clock().now().to_msg()
+        return array

@@ -1,0 +1,84 @@
+"""What several benches show on the topics that ROS shares between all nodes: one clock, diagnostics of each."""
+
+import pytest
+
+from ..bench_process import Nodes, needs_ros, resolved, wait_until
+
+pytestmark = needs_ros
+
+
+@pytest.fixture
+def listen():
+    """Hears a topic by its type; gives a list that fills as `spin` is called, and `spin`."""
+    import rclpy
+    from rclpy.executors import SingleThreadedExecutor
+    from rclpy.node import Node
+    from rclpy.signals import SignalHandlerOptions
+
+    context = rclpy.Context()
+    rclpy.init(context=context, signal_handler_options=SignalHandlerOptions.NO)
+    node = Node("listener", context=context, start_parameter_services=False, enable_rosout=False)
+    executor = SingleThreadedExecutor(context=context)
+    executor.add_node(node)
+
+    def hear(kind, topic, profile):
+        heard: list = []
+        node.create_subscription(kind, topic, heard.append, profile)
+        return heard
+
+    yield hear, lambda: executor.spin_once(timeout_sec=0.02)
+    executor.shutdown()
+    node.destroy_node()
+    context.try_shutdown()
+
+
+def test_two_benches_in_two_namespaces_have_one_clock_and_diagnostics_of_their_own(listen, tmp_path):
+    from diagnostic_msgs.msg import DiagnosticArray
+    from rclpy.qos import qos_profile_sensor_data
+    from rosgraph_msgs.msg import Clock
+
+    hear, spin = listen
+    ticks = hear(Clock, "/clock", qos_profile_sensor_data)
+    reports = hear(DiagnosticArray, "/diagnostics", 10)
+    scene = resolved("seat_ride", "duration=2")
+    rigs = [Nodes(scene, tmp_path / name, f"__ns:=/{name}") for name in ("rig1", "rig2")]
+    try:
+        for nodes in rigs:
+            for node in ("vibration", "contact_simulator"):
+                nodes.start(node, record="false")
+        wait_until(lambda: (spin(), all(nodes.ended() for nodes in rigs))[1])
+        assert [nodes.wait() for nodes in rigs] == [{"vibration": 0, "contact_simulator": 0}] * 2
+    finally:
+        for nodes in rigs:
+            nodes.end()
+    stamps = [tick.clock.sec * 10**9 + tick.clock.nanosec for tick in ticks]
+    assert len(stamps) > 50
+    assert stamps == sorted(set(stamps))
+    said = [line for nodes in rigs for line in nodes.said if "this run publishes none" in line]
+    assert len(said) == 1
+    assert "/clock comes from /rig" in said[0]
+    found = {(report.status[0].name, report.status[0].message): report.status[0] for report in reports}
+    for name in ("rig1", "rig2"):
+        running, done = (found[f"{name}/contact_simulator: run", state] for state in ("running", "finished"))
+        assert (running.level, done.level, done.hardware_id) == (b"\0", b"\0", "seat_ride")
+        assert {value.key: value.value for value in done.values}["block"] == "199"
+
+
+def test_a_clock_of_another_node_is_left_alone(listen, tmp_path):
+    from rclpy.qos import qos_profile_sensor_data
+    from rosgraph_msgs.msg import Clock
+
+    from .stand_in import StandIn
+
+    hear, spin = listen
+    ticks = hear(Clock, "/clock", qos_profile_sensor_data)
+    nodes = Nodes(resolved("seat_ride", "duration=0.3"), tmp_path)
+    with StandIn("gazebo", "/clock"):
+        try:
+            for node in ("vibration", "contact_simulator"):
+                nodes.start(node, record="false")
+            wait_until(lambda: (spin(), nodes.ended())[1])
+        finally:
+            nodes.end()
+    assert ticks == []
+    assert sum("/clock comes from /gazebo; this run publishes none" in line for line in nodes.said) == 1
