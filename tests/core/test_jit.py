@@ -308,28 +308,24 @@ def test_a_division_by_zero_is_infinite_instead_of_an_exception() -> None:
     assert reciprocal(0.0) == numpy.inf
 
 
-def test_c4_after_freeze_a_new_type_raises_at_once_and_known_types_go_on() -> None:
+@pytest.mark.fault("C4")
+def test_while_compilation_is_closed_a_new_type_raises_at_once_and_known_types_go_on() -> None:
     count_bad_cells(numpy.ones(3))
-    try:
-        jit.freeze()
+    with jit.closed():
         assert count_bad_cells(numpy.array([numpy.nan])) == 1
         with pytest.raises(TypeError, match="No matching definition"):
             count_bad_cells(numpy.ones(3, dtype=numpy.float32))
         assert len(count_bad_cells.signatures) == 1
-    finally:
-        jit.thaw()
     assert count_bad_cells(numpy.ones(3, dtype=numpy.float32)) == 0
 
 
-def test_c4_after_freeze_an_integer_for_a_float_does_not_compile() -> None:
+@pytest.mark.fault("C4")
+def test_while_compilation_is_closed_an_integer_for_a_float_does_not_compile() -> None:
     reciprocal(4.0)
     before = len(reciprocal.signatures)
-    try:
-        jit.freeze()
+    with jit.closed():
         assert reciprocal(4) == 0.25
         assert len(reciprocal.signatures) == before
-    finally:
-        jit.thaw()
 
 
 def test_kernel_overloads_are_chosen_by_type() -> None:

@@ -8,7 +8,6 @@ from typing import Any, TypeAlias
 import numpy as np
 
 from contact_sim_pkg.bag.messages import RollerVolumes
-from contact_sim_pkg.core.jit import thaw
 from contact_sim_pkg.core.roller.ellipse import RollingContact
 from contact_sim_pkg.core.roller.stress import bench_stresses
 from contact_sim_pkg.core.roller.volumes import leaves_box
@@ -33,8 +32,7 @@ DEPTH = 0.3
 
 
 def stress_pictures(roller: RollerSeries, scene: dict[str, Any]) -> list[Picture]:
-    """One picture an instant, of the first four. Opens compilation: a run of this process may have closed it."""
-    thaw()
+    """One picture an instant, of the first four."""
     loaded = [each for each in roller.volumes if each.load > 0.0]
     found = [_stress_picture(each, scene) for each in loaded[:MOST]]
     if len(loaded) > MOST:

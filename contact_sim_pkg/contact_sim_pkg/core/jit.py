@@ -10,7 +10,8 @@ update), forbid `fastmath` (which removes guards against NaN) and are kept on di
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
 from typing import Any, TypeVar
 
 import numba
@@ -21,14 +22,13 @@ from contact_sim_pkg.core.kernel_cache import attach_cache
 __all__ = [
     "COMPILE_OPTIONS",
     "borrowing_kernel",
+    "closed",
     "compiled_functions",
     "entry",
-    "freeze",
     "kernel",
     "kernel_overload",
     "never_called",
     "piece",
-    "thaw",
 ]
 
 COMPILE_OPTIONS: dict[str, Any] = {
@@ -75,7 +75,7 @@ def piece(function: Function) -> Function:
 
 
 def entry(function: Function) -> Function:
-    """Compile a function that is called from Python; `freeze` closes it for argument types not seen before."""
+    """Compile a function that is called from Python; inside `closed` it takes no argument types not seen before."""
     compiled = _compile(function)
     _entries.append(compiled)
     return compiled
@@ -94,19 +94,23 @@ def kernel_overload(function: Callable[..., Any]) -> Callable[[Function], Functi
     return decorator
 
 
-def freeze() -> None:
-    """Close compilation: from now on an entry called with new argument types raises `TypeError` at once.
+@contextmanager
+def closed() -> Iterator[None]:
+    """While a run is running: an entry called with new argument types raises `TypeError` at once.
 
-    Entries that were never called stay closed as well: they raise instead of compiling in the middle of a run.
+    Entries that were never called are closed as well: they raise instead of compiling in the middle of a run. The closing acts
+    on the whole process and ends with the block of code, so any number of scenes can be prepared and run one after another.
     """
-    for function in _dispatchers(_entries):
-        function._can_compile = False  # disable_compile() refuses entries that have no compiled version yet
+    _set_open(False)
+    try:
+        yield
+    finally:
+        _set_open(True)
 
 
-def thaw() -> None:
-    """Open compilation again (tests, a second scene in the same process)."""
+def _set_open(may_compile: bool) -> None:
     for function in _dispatchers(_entries):
-        function._can_compile = True
+        function._can_compile = may_compile  # disable_compile() refuses entries that have no compiled version yet
 
 
 def compiled_functions() -> list[Any]:
@@ -115,7 +119,7 @@ def compiled_functions() -> list[Any]:
 
 
 def never_called() -> list[Any]:
-    """Entries that have no compiled version, and that `freeze` closes: what a warm-up left out."""
+    """Entries that have no compiled version, which `closed` refuses: what a warm-up left out."""
     return [function for function in _dispatchers(_entries) if not function.overloads]
 
 

@@ -7,6 +7,7 @@ import time
 from collections.abc import Callable
 
 from contact_sim_pkg.bag.messages import decode_recorded, encode_scene
+from contact_sim_pkg.core.jit import closed
 from contact_sim_pkg.run.bag_content import result_names
 from contact_sim_pkg.run.block_simulation import BlockResult
 from contact_sim_pkg.run.rigs import make_simulation
@@ -122,7 +123,9 @@ class ContactSimulatorNode(LifecycleBenchNode):
             if blocks is None:
                 return
             number = self._window.take()
-            self._publish(number, self._simulation.advance(number, blocks), report)
+            with closed():
+                result = self._simulation.advance(number, blocks)
+            self._publish(number, result, report)
 
     def _may_begin(self, now: float) -> bool:
         return self._window.open and (

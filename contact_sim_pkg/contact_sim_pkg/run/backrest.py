@@ -6,7 +6,6 @@ import time
 
 import numpy
 
-from contact_sim_pkg.core.jit import freeze, thaw
 from contact_sim_pkg.core.parameters import Vector
 from contact_sim_pkg.core.results import DONE, SENTENCES
 from contact_sim_pkg.core.rigs import backrest_entries as entries
@@ -29,7 +28,6 @@ class BackrestSimulation:
 
     def __init__(self, scene: ResolvedScene) -> None:
         """Build the parameters of a resolved scene; the back rests under its preload."""
-        thaw()
         self.scene = scene
         self.model = build_backrest(scene.data)
         self.blocks = self.model.timing.blocks
@@ -46,14 +44,13 @@ class BackrestSimulation:
         self._start_energy = self._energies(0.0)
 
     def prepare(self) -> None:
-        """Compile or load every kernel that the scene needs, by one block at rest; then close compilation."""
+        """Compile or load every kernel that the scene needs, by one block at rest."""
         timing = self.model.timing
         samples = timing.intervals * timing.segments // timing.vibration_stride + 1
         still = numpy.zeros(samples)
         period = timing.segment_length * timing.vibration_stride
         self.advance(0, {VIBRATION: VibrationBlock(0, period, still, still)})
         self._reset()
-        freeze()
 
     def advance(self, block: int, inputs: dict[str, InputBlock]) -> BlockResult:
         """Advance block number ``block``; see ``BlockSimulation``."""

@@ -9,7 +9,6 @@ import numpy
 from numpy.typing import NDArray
 from scipy.spatial.transform import Rotation
 
-from contact_sim_pkg.core.jit import freeze, thaw
 from contact_sim_pkg.core.rigid.body import Motion, rise_to_ground
 from contact_sim_pkg.core.rigid.compliant import MovedBody, sentence_of
 from contact_sim_pkg.core.rigid.located import LocatedBody
@@ -35,7 +34,6 @@ class BlockBodySimulation:
 
     def __init__(self, scene: ResolvedScene) -> None:
         """Build the parameters of a resolved scene."""
-        thaw()
         self.scene = scene
         self.model = build_block(scene.data)
         self.blocks = self.model.timing.blocks
@@ -48,7 +46,7 @@ class BlockBodySimulation:
         self._supplied = 0.0
 
     def prepare(self) -> None:
-        """Compile or load every kernel that the scene needs, by a drop onto all points at once; then close compilation."""
+        """Compile or load every kernel that the scene needs, by a drop onto all points at once."""
         model = self.model
         start = _copy(model.start)
         for state in (_above(model, start, WARM_UP_IMPACT), _above(model, start, 0.0)):
@@ -60,7 +58,6 @@ class BlockBodySimulation:
         if model.contact is None:
             _warm_up_solvers(model)
         contact_arms(model, model.start.position, model.start.rotation)
-        freeze()
 
     def advance(self, block: int, inputs: dict[str, InputBlock]) -> BlockResult:
         """Advance block number ``block``; see ``BlockSimulation``."""

@@ -32,7 +32,7 @@ class BlockSimulation(Protocol):
     blocks: int  # number of blocks of the scene
 
     def prepare(self) -> None:
-        """Compile or load every kernel that the scene needs, then close compilation."""
+        """Compile or load every kernel that the scene needs: a run compiles nothing."""
 
     def advance(self, block: int, inputs: dict[str, InputBlock]) -> BlockResult:
         """Advance block number ``block``, in order from 0, with the blocks of every input topic.

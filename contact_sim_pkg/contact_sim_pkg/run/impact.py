@@ -9,7 +9,6 @@ import numpy
 from contact_sim_pkg.core.impact.contact import sample, touch
 from contact_sim_pkg.core.impact.creep import maxwell
 from contact_sim_pkg.core.impact.hereditary import hereditary_integral
-from contact_sim_pkg.core.jit import freeze, thaw
 from contact_sim_pkg.core.parameters import Vector
 from contact_sim_pkg.run.block_simulation import BlockResult, InputBlock, refuse_out_of_turn
 from contact_sim_pkg.run.impact_motion import Ended, ImpactMotion
@@ -25,7 +24,6 @@ class ImpactSimulation:
 
     def __init__(self, scene: ResolvedScene) -> None:
         """Build the model of a resolved scene; raises SceneError where a release is outside it."""
-        thaw()
         self.scene = scene
         self.model = build_impact(scene.data)
         self.blocks = self.model.timing.blocks
@@ -36,13 +34,12 @@ class ImpactSimulation:
         self._next_block = 0
 
     def prepare(self) -> None:
-        """Compile or load the kernels of a contact and its effects; then close compilation."""
+        """Compile or load the kernels of a contact and its effects."""
         release, few = self.motion.release, numpy.linspace(0.0, 1.0e-9, 3, dtype=numpy.float64)
         first = touch(self.model.touch(release.speed, release.temperature).law, release.speed)
         sample(first, few)
         hereditary_integral(maxwell(1.0, 1.0), few, few)
         self._reset()
-        freeze()
 
     def advance(self, block: int, inputs: dict[str, InputBlock]) -> BlockResult:
         """Advance block number ``block``; see ``BlockSimulation``."""

@@ -23,7 +23,6 @@ from contact_sim_pkg.bag.messages import (
     encode_motion,
 )
 from contact_sim_pkg.bag.topics import TOPICS
-from contact_sim_pkg.core.jit import thaw
 from contact_sim_pkg.run.backrest import BackrestSimulation
 from contact_sim_pkg.run.block_simulation import BlockResult, InputBlock
 from contact_sim_pkg.run.simulation import Simulation
@@ -48,9 +47,8 @@ class OccupantSimulation:
         self._block_ns = round(float(scene.data["block_length"]) * NANOSECONDS)
 
     def prepare(self) -> None:
-        """Compile or load every kernel that the scene needs; then close compilation."""
+        """Compile or load every kernel that the scene needs."""
         for part in self.parts:
-            thaw()
             part.prepare()
 
     def advance(self, block: int, inputs: dict[str, InputBlock]) -> BlockResult:

@@ -12,6 +12,7 @@ from contact_sim_pkg.bag.messages import encode_road_patch, encode_scene, encode
 from contact_sim_pkg.bag.metadata import recorded_topics
 from contact_sim_pkg.bag.topics import TOPICS
 from contact_sim_pkg.bag.writer import BagSummary, BagWriter
+from contact_sim_pkg.core.jit import closed
 from contact_sim_pkg.excitation.blocks import RoadPatch, VibrationBlock
 from contact_sim_pkg.excitation.errors import ExcitationError
 from contact_sim_pkg.run.bag_content import attachments, recorded_names
@@ -79,14 +80,15 @@ def run_offline(
     try:
         if writer is not None:
             writer.write("bench/scene", 0, encode_scene(scene.to_yaml()))
-        for block in range(simulation.blocks):
-            if stop is not None and stop():
-                stopped = True
-                break
-            progress = _one_block(simulation, sources, block, scene.data["block_length"], writer, first)
-            done = block + 1
-            if on_progress is not None:
-                on_progress(progress)
+        with closed():
+            for block in range(simulation.blocks):
+                if stop is not None and stop():
+                    stopped = True
+                    break
+                progress = _one_block(simulation, sources, block, scene.data["block_length"], writer, first)
+                done = block + 1
+                if on_progress is not None:
+                    on_progress(progress)
     except (RunError, ExcitationError) as error:
         failure = str(error)
     except (BagWriteError, RecordingStoppedError) as error:

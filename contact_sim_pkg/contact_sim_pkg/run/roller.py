@@ -8,7 +8,6 @@ import time
 import numpy
 
 from contact_sim_pkg.bag.messages import RollerStability
-from contact_sim_pkg.core.jit import freeze, thaw
 from contact_sim_pkg.core.parameters import Vector
 from contact_sim_pkg.core.roller.ellipse import RollingContact, rolling_contacts
 from contact_sim_pkg.core.roller.motion import accelerations
@@ -44,7 +43,6 @@ class RollerSimulation:
 
     def __init__(self, scene: ResolvedScene) -> None:
         """Build the model of a resolved scene."""
-        thaw()
         self.scene = scene
         self.model = build_roller(scene.data)
         self.blocks = self.model.timing.blocks
@@ -73,7 +71,7 @@ class RollerSimulation:
         self._angles = None if model.effects.get("tilt_yaw") is None else TiltYaw(model, first)
 
     def prepare(self) -> None:
-        """Compile or load every kernel that the scene needs, by a block; then close compilation."""
+        """Compile or load every kernel that the scene needs, by a block."""
         with contextlib.suppress(RunError):  # the run itself tells it
             self._advance(0)
         if self.model.effects.get("subsurface") is not None:
@@ -81,7 +79,6 @@ class RollerSimulation:
                 0.0, self.model.contact(1.0, self.model.held_yaw, self.model.programme.curvatures_at(0.0)), (2, 2, 2)
             )
         self._reset()
-        freeze()
 
     def advance(self, block: int, inputs: dict[str, InputBlock]) -> BlockResult:
         """Advance block number ``block``; see ``BlockSimulation``."""

@@ -7,7 +7,6 @@ from typing import Any
 
 import numpy
 
-from contact_sim_pkg.core.jit import freeze, thaw
 from contact_sim_pkg.core.parameters import Vector
 from contact_sim_pkg.excitation.blocks import RoadPatch, VibrationBlock
 from contact_sim_pkg.run.block_drive import ROAD, VIBRATION, BlockDrive, block_drive
@@ -24,7 +23,6 @@ class Simulation:
 
     def __init__(self, scene: Any) -> None:
         """Build the parameters of a resolved scene (``scene.data`` is its plain dict)."""
-        thaw()
         self.scene = scene
         self.model: Model = build(scene.data)
         self.blocks = self.model.timing.blocks
@@ -43,7 +41,7 @@ class Simulation:
         self._start_energy: Vector | None = None  # of the run
 
     def prepare(self) -> None:
-        """Compile or load every kernel that the scene needs, by one interval on a flat road; then close compilation."""
+        """Compile or load every kernel that the scene needs, by one interval on a flat road."""
         timing = self.model.timing
         inputs: dict[str, RoadPatch | VibrationBlock] = {}
         if ROAD in self.inputs:
@@ -58,7 +56,6 @@ class Simulation:
         self._coupling.reset()
         if self._shear is not None:
             self._shear.reset()
-        freeze()
 
     def _flat_patch(self) -> RoadPatch:
         geometry, travel = self.model.tire_geometry, self._travel

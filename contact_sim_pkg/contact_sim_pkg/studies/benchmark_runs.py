@@ -11,7 +11,6 @@ from functools import partial
 from pathlib import Path
 from typing import Any
 
-from contact_sim_pkg.core.jit import thaw
 from contact_sim_pkg.run.offline import run_offline
 from contact_sim_pkg.studies.accuracy_cost_field import bench_solves
 from contact_sim_pkg.studies.benchmark_goal import Measured, median_time
@@ -52,7 +51,6 @@ def offline() -> list[Measured]:
     scene = load_resolved(SCENE, "duration=2.0")
     run_offline(scene, None)
     outcome = run_offline(scene, None)
-    thaw()  # a run closes compilation behind itself; the parts that follow are other rigs
     simulated = outcome.blocks * float(scene.data["block_length"])
     return [Measured(f"{SCENE} without nodes and bag", simulated / outcome.wall, "× real time")]
 

@@ -11,7 +11,6 @@ import math
 from collections.abc import Callable
 from typing import Any, NamedTuple
 
-from contact_sim_pkg.core.jit import thaw
 from contact_sim_pkg.studies.section import Section
 
 __all__ = [
@@ -104,7 +103,6 @@ def all_cases() -> list[HardCase]:
 
 def evaluate(case: HardCase) -> dict[str, Any]:
     """One row of the table; a case that raises fails with its error as the expectation that was not met."""
-    thaw()  # a case that runs a scene closes compilation behind itself
     try:
         finding = case.find()
     except Exception as error:  # noqa: BLE001 - a table of cases goes on past a broken one, and says so
