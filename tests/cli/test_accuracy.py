@@ -7,7 +7,7 @@ from click.testing import CliRunner
 
 from contact_sim_pkg.cli.accuracy import command
 from contact_sim_pkg.scene.errors import SceneError
-from contact_sim_pkg.studies import accuracy_cost, ladder, ladder_road
+from contact_sim_pkg.studies import accuracy_cost, ladder, ladder_plot, ladder_road
 
 
 @pytest.fixture
@@ -25,6 +25,29 @@ def test_a_rig_is_a_table_for_people_and_rows_for_scripts(one_ladder, tmp_path):
     rows = json.loads(CliRunner().invoke(command, ["tire", "--json"], catch_exceptions=False).stdout)["rows"]
     assert {"rig", "part", "quantity", "rung", "error", "solver_error", "grid_error", "ms_per_call"} <= set(rows[0])
     assert {row["rung"] for row in rows} == {"20 sines", "400 sines", "inverse FFT"}
+
+
+@pytest.mark.parametrize(
+    ("picture", "told"),
+    [
+        ("nowhere/x.png", "does not exist; make it first"),
+        ("x.gif", "ends in one of .eps, .jpeg, .jpg"),
+        ("x", "ends in one of"),
+        ("", "is a directory"),
+    ],
+)
+def test_a_picture_that_cannot_be_written_is_refused_before_the_work(monkeypatch, tmp_path, picture, told):
+    monkeypatch.setitem(ladder.RIGS, "tire", (ladder.Ladder("never", lambda: pytest.fail("the work began")),))
+    refused = CliRunner().invoke(command, ["tire", "--plot", str(tmp_path / picture)])
+    assert refused.exit_code == 2
+    assert told in refused.stderr
+
+
+def test_the_table_is_there_whatever_becomes_of_the_picture(one_ladder, monkeypatch, tmp_path):
+    monkeypatch.setattr(ladder_plot, "write_plot", lambda rows, path: 1 / 0)
+    shown = CliRunner().invoke(command, ["tire", "--plot", str(tmp_path / "x.png")])
+    assert isinstance(shown.exception, ZeroDivisionError)
+    assert "ms a call" in shown.stdout
 
 
 def test_a_name_that_is_no_rig_is_taken_for_a_scene():

@@ -6,14 +6,13 @@ from pathlib import Path
 
 import click
 
+from .picture import PictureFile
 from .tables import json_option, print_json_rows, show_sections
 
 
 @click.command("accuracy")
 @click.argument("what", metavar="SCENE|RIG")
-@click.option(
-    "--plot", type=click.Path(path_type=Path), metavar="FILE", help="Error over time, both logarithmic, as a picture."
-)
+@click.option("--plot", type=PictureFile(), metavar="FILE", help="Error over time, both logarithmic, as a picture.")
 @json_option
 def command(what: str, plot: Path | None, as_json: bool) -> None:
     """Error against a reference beside time, for each way to an answer.
@@ -33,12 +32,12 @@ def command(what: str, plot: Path | None, as_json: bool) -> None:
 
         rows = accuracy_cost.study(what, _tell)
         draw, sections = accuracy_cost.write_plot, accuracy_cost.sections
-    if plot is not None:
-        draw(rows, plot)
     if as_json:
         print_json_rows(rows)
     else:
         show_sections(sections(rows))
+    if plot is not None:
+        draw(rows, plot)  # last: whatever becomes of the picture, the table is there
 
 
 def _tell(line: str) -> None:

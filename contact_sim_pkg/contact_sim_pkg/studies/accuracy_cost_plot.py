@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import sys
 from pathlib import Path
 from typing import Any
 
@@ -34,8 +35,8 @@ def write_plot(rows: list[dict[str, Any]], path: str | Path) -> Path:
     """Draw the rows of `accuracy_cost.study`, one panel a part that is there; the ending of `path` names the format."""
     chosen = [(title, _of_panel(rows, part, contact)) for part, contact, title in PANELS]
     panels = [(title, members) for title, members in chosen if members]
-    columns = min(2, len(panels))
-    lines = -(-len(panels) // columns)
+    columns = max(1, min(2, len(panels)))
+    lines = max(1, -(-len(panels) // columns))
     figure, axes = pyplot.subplots(
         lines, columns, figsize=(6.2 * columns, 5.2 * lines), squeeze=False, layout="constrained"
     )
@@ -53,11 +54,28 @@ def _of_panel(rows: list[dict[str, Any]], part: str, contact: str) -> list[dict[
     return [row for row in rows if row["part"].startswith(part) and row["quantity"].startswith(contact)]
 
 
+def _drawable(rows: list[dict[str, Any]]) -> tuple[list[dict[str, Any]], str]:
+    """The rows that logarithmic axes can show, and in words what became of the others.
+
+    An error of 0 is drawn at a power of ten below the smallest one; a row without an error or a time is left out.
+    """
+    known = [row for row in rows if row["error"] is not None and math.isfinite(row["error"])]
+    known = [row for row in known if row["error"] >= 0.0 and (row["ms_per_simulated_s"] or 0.0) > 0.0]
+    smallest = min((row["error"] for row in known if row["error"] > 0.0), default=sys.float_info.epsilon)
+    floor = 10.0 ** (math.floor(math.log10(smallest)) - 1)
+    notes = [f"0 drawn at {floor:.0e}"] if any(row["error"] == 0.0 for row in known) else []
+    notes += [f"{len(rows) - len(known)} without a number left out"] if len(known) < len(rows) else []
+    return [{**row, "error": row["error"] or floor} for row in known], f" ({', '.join(notes)})" if notes else ""
+
+
 def _panel(axis: Any, rows: list[dict[str, Any]]) -> None:
+    rows, note = _drawable(rows)
+    axis.set_ylabel(f"relative error{note}")
+    if not rows:
+        return
     names = list(dict.fromkeys(row["quantity"] for row in rows))
     for label in dict.fromkeys(_series(row) for row in rows):
         chosen = sorted((row for row in rows if _series(row) == label), key=_finer)
-        chosen = [row for row in chosen if row["error"] > 0.0]  # no error at all has no place on a logarithmic axis
         times, errors = [row["ms_per_simulated_s"] for row in chosen], [row["error"] for row in chosen]
         first = next(row for row in rows if _series(row) == label)
         style = "--s" if first["part"] == "field grid" else ":^" if first["rung"] == "check" else "-o"
@@ -77,7 +95,6 @@ def _panel(axis: Any, rows: list[dict[str, Any]]) -> None:
     if highest < 100.0 * lowest:
         axis.set_ylim(10.0 ** math.floor(math.log10(lowest)), 10.0 ** math.ceil(math.log10(highest)))
     axis.set_xlabel("ms per simulated second")
-    axis.set_ylabel("relative error")
     axis.grid(visible=True, which="major", alpha=0.4)
     axis.grid(visible=True, which="minor", alpha=0.12)
     axis.legend(fontsize=8, loc="upper center", bbox_to_anchor=(0.5, -0.13), ncols=2, frameon=False)
