@@ -1,8 +1,12 @@
 """Runs of the impact rig: what the bag of a scene holds, that it adds up, and that its material comes back."""
 
+import math
+from types import SimpleNamespace
+
 import numpy
 import pytest
 
+from contact_sim_pkg.analysis.impact_pass import missing_impacts
 from contact_sim_pkg.analysis.material.bag_impacts import impacts_of_bag
 from contact_sim_pkg.analysis.material.errors import MaterialError
 from contact_sim_pkg.analysis.material.options import Options
@@ -268,3 +272,38 @@ def test_a_sample_without_loss_and_one_that_never_lets_go_run(loss_tangent):
     _scene, messages = run("impact_rubber_drop", f"impact.sample.loss_tangent={loss_tangent}", "duration=0.5")
     ledger = of(messages, "bench/energy", decode_energy)
     assert max(abs(each.residual) for each in ledger) < 1e-12 * 0.04
+
+
+@pytest.mark.parametrize(
+    ("values", "needed"),
+    [
+        (("impact.period=0.001", "impact.repeats=100"), 1),
+        (("impact.period=0.205", "impact.repeats=2"), 1),
+        (("impact.period=0.3", "impact.repeats=2", "impact.bounces=2"), 2),
+        (("impact.machine=pendulum", "impact.period=0.5", "impact.speeds=[0.1,2]"), 1),
+    ],
+)
+def test_a_period_without_room_for_the_impacts_is_refused_with_the_one_that_works(values, needed):
+    """At least the fall, 2 m/s over 9.81 m/s^2, and below: the impact of 1.8 ms, a rebound, a swing of a quarter period."""
+    with pytest.raises(SceneError, match=r"impact\.period: .* until .* over; make the period .* s or longer") as caught:
+        make_simulation(resolved("impact_rubber_drop", *values))
+    smallest = float(str(caught.value).split("make the period ")[1].split()[0])
+    assert smallest > 2.0 / 9.81
+    enough = f"impact.period={smallest}"
+    duration = f"duration={math.ceil(200.0 * smallest) / 100.0}"
+    _, messages = run("impact_rubber_drop", *values, enough, f"impact.bounces={needed}", duration)
+    assert [int((events_of(messages)["release"] == release).sum()) for release in (0, 1)] == [needed, needed]
+
+
+def test_impacts_that_did_not_take_place_are_counted_and_said():
+    """Of three releases 0.3 s apart two strike in 0.6 s, each first after the fall of 0.2039 s."""
+    scene = resolved("impact_rubber_drop", "impact.period=0.3", "impact.repeats=3", "duration=0.6").data
+    _, messages = run("impact_rubber_drop", "impact.period=0.3", "impact.repeats=3", "duration=0.6")
+    seen = SimpleNamespace(events=SimpleNamespace(**events_of(messages)))
+    (sentence,) = missing_impacts(seen, scene)
+    assert sentence.startswith(
+        "2 of 3 impacts took place (3 releases, 1 of each): make duration or impact.period longer"
+    )
+    assert missing_impacts(seen, resolved("impact_rubber_drop").data) == []
+    assert missing_impacts(None, resolved("impact_rubber_drop").data)[0].startswith("0 of 1 impacts")
+    assert missing_impacts(None, resolved("seat_ride").data) == []

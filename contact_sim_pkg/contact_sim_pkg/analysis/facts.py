@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import Any, NamedTuple
 
+from .impact_pass import missing_impacts
 from .reading import parse_mapping
 from .rows import Row, described_rows, plain_name, scene_rows
 from .series import Recording
@@ -80,7 +81,7 @@ def version_rows(recording: Recording) -> list[Row]:
 
 
 def warnings(recording: Recording) -> list[str]:
-    """What a reader must know before the numbers: an unfinished bag, a run that failed or was stopped."""
+    """What a reader must know before the numbers: an unfinished bag, a run that failed or was stopped, impacts that are missing."""
     found = list(recording.notes)
     ended = recording.metadata.get("ended", "finished")
     if ended != "finished":
@@ -88,7 +89,7 @@ def warnings(recording: Recording) -> list[str]:
         found.append(f"The run ended before its last block: {ended}{'; ' + reason if reason else '.'}")
     if recording.metadata.get("stopped"):
         found.append(recording.metadata["stopped"])
-    return found
+    return found + missing_impacts(recording.impacts, recording.scene)
 
 
 def _effect_row(contact: str, name: str, values: Any) -> Row:

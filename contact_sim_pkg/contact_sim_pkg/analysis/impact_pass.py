@@ -43,6 +43,24 @@ class ImpactSeries(NamedTuple):
     """of the first impact each"""
 
 
+def missing_impacts(impacts: ImpactSeries | None, scene: dict[str, Any]) -> list[str]:
+    """A sentence where fewer impacts took place than the scene asks for: ``bounces`` of each release, at least one."""
+    rig = scene.get("impact")
+    if scene.get("rig") != "impact" or not isinstance(rig, dict):
+        return []
+    releases = len(rig["speeds"]) * len(rig["temperatures"]) * int(rig["repeats"])
+    each = max(int(rig["bounces"]), 1)
+    counts = np.zeros(0) if impacts is None else np.unique(impacts.events.release, return_counts=True)[1]
+    done, asked = int(np.minimum(counts, each).sum()), releases * each
+    if done >= asked:
+        return []
+    sentence = (
+        f"{done} of {asked} impacts took place ({releases} releases, {each} of each): make duration or impact.period longer; "
+        "a sphere that comes to rest, or does not part any more, has no further ones."
+    )
+    return [sentence]
+
+
 class ImpactPass:
     """Takes messages in the order of the bag."""
 

@@ -15,6 +15,7 @@ from contact_sim_pkg.bag.reader import Bag
 from .block_numbers import BLOCK, block_numbers
 from .energy import relative_residual, throughput
 from .episodes import slap_numbers
+from .impact_pass import missing_impacts
 from .metrics import ride_metrics, seat_factor
 from .reading import read_recording
 from .ride import ride_signals
@@ -31,8 +32,9 @@ def summarise_recording(recording: Recording) -> dict[str, Any]:
     """Summary numbers, ready for JSON: SI units in the names, None where a number is not defined.
 
     Sections that the run does not have are absent: `slaps` without contact episodes, `impacts` without impact events,
-    `block` without a rigid body, `roller` without a roller, `seat_vibration` without a seat, `energy` without a ledger,
-    `solver` without cost messages, the pressure of a contact without a field, ratios to the tire at rest without a tire.
+    `warnings` where all impacts of the scene took place, `block` without a rigid body, `roller` without a roller,
+    `seat_vibration` without a seat, `energy` without a ledger, `solver` without cost messages, the pressure of a
+    contact without a field, ratios to the tire at rest without a tire.
     """
     summary: dict[str, Any] = {
         "scene": recording.scene.get("name"),
@@ -59,6 +61,8 @@ def summarise_recording(recording: Recording) -> dict[str, Any]:
         from .roller_section import roller_numbers  # loads the drawing of pictures
 
         summary["roller"] = roller_numbers(recording.roller)
+    if missing := missing_impacts(recording.impacts, recording.scene):
+        summary["warnings"] = missing
     vibration = vibration_numbers(recording)
     if vibration is not None:
         summary["seat_vibration"] = vibration

@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+import contextlib
+import dataclasses
+import math
 import time
 
 import numpy
@@ -11,10 +14,13 @@ from contact_sim_pkg.core.impact.creep import maxwell
 from contact_sim_pkg.core.impact.hereditary import hereditary_integral
 from contact_sim_pkg.core.parameters import Vector
 from contact_sim_pkg.run.block_simulation import BlockResult, InputBlock, refuse_out_of_turn
+from contact_sim_pkg.run.errors import RunError
 from contact_sim_pkg.run.impact_motion import Ended, ImpactMotion
 from contact_sim_pkg.run.impact_outputs import encode_block
 from contact_sim_pkg.scene.build_impact import build_impact
+from contact_sim_pkg.scene.errors import Fault, SceneError
 from contact_sim_pkg.scene.resolved_scene import ResolvedScene
+from contact_sim_pkg.scene.schema_catalog import show
 
 
 class ImpactSimulation:
@@ -23,11 +29,30 @@ class ImpactSimulation:
     inputs: tuple[str, ...] = ()
 
     def __init__(self, scene: ResolvedScene) -> None:
-        """Build the model of a resolved scene; raises SceneError where a release is outside it."""
+        """Build the model of a resolved scene; raises SceneError where a release is outside it, or its period too short."""
         self.scene = scene
         self.model = build_impact(scene.data)
         self.blocks = self.model.timing.blocks
+        self._refuse_short_period()
         self._reset()
+
+    def _refuse_short_period(self) -> None:
+        """SceneError for a period in which a release does not fall, strike and part as often as the scene asks for."""
+        model = self.model
+        if len(model.releases) < 2:
+            return
+        period, count = model.releases[1].time, max(model.bounces, 1)
+        needed, speed = 0.0, 0.0
+        for release in {(each.speed, each.temperature): each for each in model.releases}.values():
+            alone = dataclasses.replace(model, releases=(release._replace(time=0.0),))
+            with contextlib.suppress(RunError):  # the run itself tells it
+                needed, speed = max((needed, speed), (ImpactMotion(alone).time_of(count), release.speed))
+        if period <= needed:
+            sentence = (
+                f"{show(period)} s from one release to the next; a release at {show(speed)} m/s needs {needed:.6g} s until "
+                f"{'its impact is' if count == 1 else f'{count} impacts are'} over; make the period {_above(needed)} s or longer"
+            )
+            raise SceneError([Fault("scene", 0, 0, "impact.period", sentence)])
 
     def _reset(self) -> None:
         self.motion = ImpactMotion(self.model)
@@ -61,3 +86,9 @@ class ImpactSimulation:
 def _peak(impact: Ended) -> float:
     turns = impact.stretches[0].turns
     return 0.0 if turns is None else turns.peak_force
+
+
+def _above(value: float) -> str:
+    """The next number above ``value`` > 0 of four digits."""
+    unit = 10.0 ** (math.floor(math.log10(value)) - 3)
+    return f"{(math.floor(value / unit) + 1) * unit:.4g}"

@@ -120,6 +120,15 @@ class ImpactMotion:
         self._ended = [impact for impact in self._ended if impact.parted > time]
         return taken
 
+    def time_of(self, count: int) -> float:
+        """When impact number ``count`` (from 1) of the first release has parted, [s]; 0 where the sphere comes to rest before.
+
+        Also 0 where more than `MOST_PIECES` pieces do not tell. Raises RunError where a touch is outside the model.
+        """
+        while self._impacts < count and math.isfinite(self.pieces[-1].end) and self.made < MOST_PIECES:
+            self._extend()
+        return self._ended[count - 1].parted if self._impacts >= count else 0.0
+
     def state(self, times: Vector) -> State:
         """The state at rising ``times`` [s]. Raises RunError where a touch is outside the model."""
         self._reach(float(times[-1]))

@@ -65,7 +65,11 @@ class Impact(Section):
     )  # fmt: skip
     repeats: int = number(1, 100000, "", "releases at each temperature and speed", default=1)
     period: float | None = number(
-        1e-3, 3600.0, "s", "from one release to the next; needed for more than one", default=None
+        1e-3,
+        3600.0,
+        "s",
+        "from one release to the next; needed for more than one; holds the fall and its impacts",
+        default=None,
     )
     bounces: int = number(
         0, 100000, "", "impacts after which the sphere is caught and held for the next release; 0: never", default=0
