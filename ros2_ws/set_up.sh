@@ -9,9 +9,14 @@ is_supported() {
   "$1" -c 'import sys; sys.exit(not (3, 10) <= sys.version_info[:2] <= (3, 13))' >/dev/null 2>&1
 }
 
+# What a Python says that cannot start at all, as a pyenv shim without its version does.
+complaint_of() {
+  message=$("$1" -c '' 2>&1) || [ -z "$message" ] || (set -f && set -- "$1:" $message && echo " ($*)")
+}
+
 if [ -n "${PYTHON:-}" ]; then
   if ! is_supported "$PYTHON"; then
-    echo "set-up: PYTHON=$PYTHON is not a Python of 3.10 to 3.13: name one that is." >&2
+    echo "set-up: PYTHON=$PYTHON is not a Python of 3.10 to 3.13: name one that is.$(complaint_of "$PYTHON")" >&2
     exit 2
   fi
 else
@@ -24,7 +29,10 @@ else
   done
   if [ -z "${PYTHON:-}" ]; then
     echo "set-up: no Python of 3.10 to 3.13 found (looked for python3 and python3.13 to python3.10): install one" \
-      "(Debian, Ubuntu: sudo apt install python3 python3-venv python3-dev) or name it with make PYTHON=/path/to/python3." >&2
+      "(Debian, Ubuntu: sudo apt install python3 python3-venv python3-dev) or name it with make PYTHON=/path/to/python3." \
+      "$(for candidate in python3 python3.13 python3.12 python3.11 python3.10; do
+        command -v "$candidate" >/dev/null && complaint_of "$candidate"
+      done)" >&2
     exit 2
   fi
 fi

@@ -10,7 +10,7 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import NamedTuple
 
-from .layout import PROJECT
+from .layout import PROJECT, WORKSPACE
 from .underlay import Underlay
 
 PYTHON_OLDEST = (3, 10)
@@ -46,6 +46,7 @@ class Facts(NamedTuple):
     ros_from_pip: bool
     project: Path
     free_bytes: int
+    is_writable: bool
 
 
 def gather(underlay: Underlay, environ: Mapping[str, str]) -> Facts:
@@ -67,6 +68,7 @@ def gather(underlay: Underlay, environ: Mapping[str, str]) -> Facts:
         ros_from_pip=underlay.prefix is None,
         project=PROJECT,
         free_bytes=shutil.disk_usage(PROJECT).free,
+        is_writable=all(os.access(folder, os.W_OK | os.X_OK) for folder in (PROJECT, WORKSPACE)),
     )
 
 
@@ -148,6 +150,16 @@ def _folder_faults(facts: Facts) -> list[str]:
         found.append(
             f"the project's path '{facts.project}' holds a blank, a colon, a quote or a dollar sign, which CMake and "
             "search paths cannot carry: move the project to a path without."
+        )
+    if not str(facts.project).isascii():
+        found.append(
+            f"the project's path '{facts.project}' holds letters beyond ASCII, which the message generators of ROS 2 cannot "
+            "carry: move the project to a path without."
+        )
+    if not facts.is_writable:
+        found.append(
+            f"{facts.project} cannot be written, and the environment and the build go into it: "
+            "work on a copy of your own, or change its permissions."
         )
     if facts.free_bytes < DISK_NEEDED:
         found.append(

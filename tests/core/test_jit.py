@@ -232,6 +232,15 @@ def test_g3_a_directory_open_to_others_is_refused(root: Path, which: str, mode: 
         kernel_cache.open_cache_directory("name")
 
 
+@pytest.mark.parametrize("which", ["fingerprint", "root"])
+def test_g3_the_sticky_bit_does_not_make_an_open_directory_trusted(root: Path, which: str) -> None:
+    """Others cannot remove our files there, but they can add files of their own, which numba would load."""
+    directory = kernel_cache.open_cache_directory("name")
+    {"fingerprint": directory, "root": root}[which].chmod(0o1777)
+    with pytest.raises(PermissionError, match="is open to other users"):
+        kernel_cache.open_cache_directory("name")
+
+
 @pytest.mark.skipif(os.getuid() != 0, reason="only root can give a directory to another user")
 @pytest.mark.parametrize("which", ["fingerprint", "root", "parent"])
 def test_g3_a_directory_of_another_user_is_refused(root: Path, which: str) -> None:

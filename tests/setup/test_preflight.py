@@ -1,6 +1,7 @@
 """What set-up says about a machine that lacks something, before it downloads anything."""
 
 import os
+import shutil
 import subprocess
 from pathlib import Path
 
@@ -28,6 +29,7 @@ def whole(tmp_path: Path) -> preflight.Facts:
         ros_from_pip=True,
         project=Path("/somewhere/contact-bench"),
         free_bytes=int(1e11),
+        is_writable=True,
     )
 
 
@@ -48,6 +50,8 @@ def test_a_whole_machine_has_no_faults(whole):
         ({"c_compiler": None}, ["no C compiler", "cc, gcc, clang", "apt install gcc"]),
         ({"cxx_compiler": None}, ["no C++ compiler", "c++, g++, clang++", "apt install g++"]),
         ({"project": Path("/home/a b/bench")}, ["'/home/a b/bench'", "blank", "move the project"]),
+        ({"project": Path("/home/Müller/bench")}, ["'/home/Müller/bench'", "beyond ASCII", "move the project"]),
+        ({"is_writable": False}, ["/somewhere/contact-bench cannot be written", "copy of your own"]),
         ({"free_bytes": int(5e8)}, ["0.5 GB are free", "2 GB are needed"]),
         ({"system": "Darwin"}, ["Darwin", "Linux", "pip install ./contact_sim_pkg"]),
     ],
@@ -105,3 +109,38 @@ def test_a_named_python_that_does_not_fit_is_refused():
     )
     assert result.returncode == 2
     assert result.stderr == "set-up: PYTHON=false is not a Python of 3.10 to 3.13: name one that is.\n"
+
+
+def test_what_a_python_that_cannot_start_says_is_shown(tmp_path):
+    shim = tmp_path / "python3.13"
+    shim.write_text("#!/bin/sh\necho 'pyenv: version 3.13.9 is not installed' >&2\necho 'set by x' >&2\nexit 127\n")
+    shim.chmod(0o755)
+    result = subprocess.run(
+        ["/bin/sh", str(PROJECT / "ros2_ws" / "set_up.sh")],
+        env={"PATH": os.environ["PATH"], "PYTHON": str(shim)},
+        capture_output=True,
+        text=True,
+        check=False,
+    )
+    assert result.returncode == 2
+    assert result.stderr.endswith(f"name one that is. ({shim}: pyenv: version 3.13.9 is not installed set by x)\n")
+
+
+def test_a_folder_that_cannot_be_used_is_refused_before_anything_is_made(tmp_path):
+    """The whole set-up, in a project whose path CMake's generators cannot carry."""
+    project = tmp_path / "Prüfstand"
+    shutil.copytree(PROJECT / "ros2_ws" / "set_up", project / "ros2_ws" / "set_up")
+    for name in ("set_up.sh", "requirements.txt", "requirements-build-tools.txt", "colcon_defaults.yaml"):
+        shutil.copy(PROJECT / "ros2_ws" / name, project / "ros2_ws" / name)
+    before = sorted(project.rglob("*"))
+    result = subprocess.run(
+        ["/bin/sh", str(project / "ros2_ws" / "set_up.sh")],
+        env={"PATH": os.environ["PATH"], "HOME": str(tmp_path), "PYTHONIOENCODING": "utf-8"},
+        capture_output=True,
+        text=True,
+        check=False,
+    )
+    assert result.returncode == 2, result.stderr
+    assert "Prüfstand" in result.stderr
+    assert "beyond ASCII" in result.stderr
+    assert sorted(project.rglob("*")) == before

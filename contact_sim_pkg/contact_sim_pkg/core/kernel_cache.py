@@ -81,7 +81,8 @@ def open_cache_directory(name: str) -> Path:
     directory = root / name
     root.mkdir(mode=0o700, parents=True, exist_ok=True)
     directory.mkdir(mode=0o700, exist_ok=True)
-    _require_trusted(root.parent, owners=(os.getuid(), 0), forbidden=stat.S_IWGRP | stat.S_IWOTH)
+    sticky = root.parent.lstat().st_mode & stat.S_ISVTX  # nobody else can replace the root there
+    _require_trusted(root.parent, owners=(os.getuid(), 0), forbidden=0 if sticky else stat.S_IWGRP | stat.S_IWOTH)
     _require_trusted(root, owners=(os.getuid(),), forbidden=stat.S_IWGRP | stat.S_IWOTH)
     _require_trusted(directory, owners=(os.getuid(),), forbidden=stat.S_IRWXG | stat.S_IRWXO)
     if not os.access(directory, os.W_OK | os.X_OK):
@@ -100,7 +101,7 @@ def _require_trusted(path: Path, owners: tuple[int, ...], forbidden: int) -> Non
         raise PermissionError(
             f"{path} belongs to user {status.st_uid}, not to user {os.getuid()}; remove it or set CONTACT_BENCH_CACHE"
         )
-    if mode & forbidden and not mode & stat.S_ISVTX:
+    if mode & forbidden:
         raise PermissionError(
             f"{path} is open to other users (mode {mode:04o}); remove its content and run 'chmod 700 {path}'"
         )
