@@ -57,18 +57,6 @@ def test_queues_hold_eight_blocks_of_the_fastest_single_messages():
     assert queue_depth(resolved("car_full_bench", "outputs.field_rate=200")) == 16
 
 
-def test_the_launch_file_declares_its_arguments_and_takes_the_nodes_from_the_plan():
-    text = (PACKAGE / "launch" / "bench.launch.py").read_text(encoding="utf-8")
-    module = ast.parse(text)
-    compile(module, "bench.launch.py", "exec")
-    tables = [node for node in module.body if isinstance(node, ast.Assign) and node.targets[0].id == "ARGUMENTS"]
-    declared = ast.literal_eval(tables[0].value)
-    assert set(declared) >= {"scene", "duration", "pace", "record", "use_sim_time", "namespace"}
-    functions = {node.name for node in module.body if isinstance(node, ast.FunctionDef)}
-    assert "generate_launch_description" in functions
-    assert "planned_nodes" in {node.id for node in ast.walk(module) if isinstance(node, ast.Name)}
-
-
 @needs_ros
 @pytest.mark.parametrize("node", ["contact_simulator", "bag_logger", "road_profile", "vibration", "bag_replay"])
 def test_the_parameter_file_states_every_parameter_of_a_node_with_its_default(node):

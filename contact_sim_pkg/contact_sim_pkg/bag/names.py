@@ -5,6 +5,8 @@ import secrets
 from datetime import datetime, timezone
 from pathlib import Path
 
+from .errors import BagError
+
 LONGEST_NAME = 100  # characters of a bag's name
 _LONGEST_SCENE = 70  # leaves room for the time and the random suffix
 
@@ -16,6 +18,14 @@ def safe_name(text: str, longest: int = LONGEST_NAME) -> str:
     """
     name = re.sub(r"[^A-Za-z0-9._-]+", "_", text, flags=re.ASCII).lstrip(".-")[:longest]
     return name if name.strip("_") else "bag"
+
+
+def new_directory(given: Path | None, scene_name: str) -> Path:
+    """Where a run is recorded: the directory given, or the default one. Raises BagError where that exists already."""
+    directory = default_directory(scene_name) if given is None else given
+    if directory.exists() or directory.is_symlink():
+        raise BagError(f"{directory} exists already; a bag is never overwritten, give another directory")
+    return directory
 
 
 def default_directory(

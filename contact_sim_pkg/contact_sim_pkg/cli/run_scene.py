@@ -11,8 +11,7 @@ from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, NamedTuple
 
-from contact_sim_pkg.bag.errors import BagError
-from contact_sim_pkg.bag.names import default_directory
+from contact_sim_pkg.bag.names import new_directory
 
 from .main import BEGAN
 from .outcome import describe, print_outcome
@@ -83,7 +82,7 @@ def run_scene(
         from contact_sim_pkg.run.from_bag import refuse_other_scene
 
         refuse_other_scene(from_bag, scene)
-    directory = _directory(scene, out) if record else None
+    directory = new_directory(out, str(scene.data["name"])) if record else None
     forecast = _forecast(scene)
     run = _run_offline if offline else partial(_run_on_nodes, clock=clock)
     with RunDisplay(float(scene.data["duration"])) as display:
@@ -109,12 +108,6 @@ def _forecast(scene: ResolvedScene) -> dict[str, Any]:
         return {}
     print(f"{scene.data['name']}: {found.sentence}", file=sys.stderr)
     return {"stability": found.facts}
-
-
-def _directory(scene: ResolvedScene, out: Path | None) -> Path:
-    if out is not None and (out.exists() or out.is_symlink()):
-        raise BagError(f"{out} exists already; a bag is never overwritten, give another directory")
-    return out if out is not None else default_directory(str(scene.data["name"]))
 
 
 def _run_offline(scene: ResolvedScene, directory: Path | None, from_bag: Path | None, display: RunDisplay) -> Ended:

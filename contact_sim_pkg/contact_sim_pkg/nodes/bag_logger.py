@@ -13,7 +13,7 @@ from rclpy.duration import Duration
 from contact_sim_pkg.bag.errors import BagError, MessageError
 from contact_sim_pkg.bag.messages import Recorded, decode_progress, encode_recorded, encode_scene
 from contact_sim_pkg.bag.metadata import recorded_topics
-from contact_sim_pkg.bag.names import default_directory
+from contact_sim_pkg.bag.names import new_directory
 from contact_sim_pkg.bag.writer import BagWriter
 from contact_sim_pkg.run.bag_content import attachments, input_names, recorded_names, result_names
 
@@ -53,9 +53,7 @@ class BagLoggerNode(LifecycleBenchNode):
         """Subscribe to what the scene records. The bag is created when the run is ready, so a refused run leaves none."""
         scene = read_scene(self._scene_name)
         self._period_ns, self._blocks, depth = block_length_ns(scene), count_blocks(scene), queue_depth(scene)
-        self._path = Path(self._directory) if self._directory else default_directory(str(scene.data["name"]))
-        if self._path.exists() or self._path.is_symlink():
-            raise BagError(f"{self._path} exists already; a bag is never overwritten, give another directory")
+        self._path = new_directory(Path(self._directory) if self._directory else None, str(scene.data["name"]))
         self._scene = scene
         self._order = RecordOrder(input_names(scene), self._period_ns)
         self._dropped = dict.fromkeys(input_names(scene), 0)
