@@ -22,7 +22,7 @@ def test_a_look_up_is_the_solved_impact(end):
         assert found.peak_force == pytest.approx(expected.peak_force, abs=1e-10)
 
 
-@pytest.mark.parametrize(("loss_tangent", "end"), [(2.01, "force"), (0.31, "gap"), (-1e-9, "force"), (0.1, "tension")])
+@pytest.mark.parametrize(("loss_tangent", "end"), [(2.01, "force"), (0.31, "gap"), (-1e-9, "force")])
 def test_beyond_its_ends_the_table_refuses(loss_tangent, end):
     with pytest.raises(ImpactError, match="table"):
         look_up(loss_tangent, end)

@@ -8,8 +8,7 @@ from __future__ import annotations
 
 from typing import NamedTuple
 
-from .checks import check_not_negative, check_positive
-from .errors import ImpactError
+from .checks import check_not_negative, check_number, check_positive
 
 __all__ = ["Material", "Sphere", "hertz_modulus", "pair", "shares"]
 
@@ -34,7 +33,10 @@ class Material(NamedTuple):
 
 
 def pair(half_space: Material, body: Material | None) -> Material:
-    """Both in series, ``1/E* = 1/E1* + 1/E2*`` with complex moduli; ``None`` is a rigid body."""
+    """Both in series, ``1/E* = 1/E1* + 1/E2*`` with complex moduli; ``None`` is a rigid body.
+
+    Raises ImpactError for a modulus [Pa] that is not above 0 and a loss tangent below 0.
+    """
     first = _complex(half_space)
     if body is None:
         return half_space
@@ -44,10 +46,12 @@ def pair(half_space: Material, body: Material | None) -> Material:
 
 
 def shares(half_space_modulus: float, body_modulus: float) -> tuple[float, float]:
-    """D1, D2: parts of the approach taken by the half-space and by the body; the body's modulus may be infinite (rigid)."""
+    """D1, D2: parts of the approach taken by the half-space and by the body, moduli > 0 [Pa]; the body's may be infinite (rigid).
+
+    Raises ImpactError for other moduli.
+    """
     check_positive("modulus of the half-space", half_space_modulus, "Pa")
-    if not body_modulus > 0.0:
-        raise ImpactError(f"modulus of the body {body_modulus:g} Pa: a number above 0, or infinity, is needed")
+    check_number("modulus of the body", body_modulus, "Pa", above=0.0, infinite=True)
     body_share = half_space_modulus / (half_space_modulus + body_modulus)
     return 1.0 - body_share, body_share
 
@@ -55,8 +59,10 @@ def shares(half_space_modulus: float, body_modulus: float) -> tuple[float, float
 def hertz_modulus(plane_strain_modulus: float, shape_factor: float) -> float:
     """E' in [Pa] with which the model's force is Hertz's: ``E'/k_p`` of the plane-strain modulus E*, ``F = 4/3 E* sqrt(R) x^1.5``.
 
-    At equal moduli the model is k_p (sqrt 2) times stiffer than Hertz.
+    At equal moduli the model is k_p (sqrt 2) times stiffer than Hertz. Both > 0; raises ImpactError otherwise.
     """
+    check_positive("plane-strain modulus", plane_strain_modulus, "Pa")
+    check_positive("shape factor", shape_factor)
     return plane_strain_modulus / shape_factor
 
 

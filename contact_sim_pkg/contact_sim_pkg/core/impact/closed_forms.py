@@ -14,7 +14,7 @@ import math
 from typing import NamedTuple
 
 from .bodies import Material, Sphere
-from .checks import check_not_negative
+from .checks import check_fields, check_not_negative, check_number, check_positive
 from .errors import ImpactError
 from .geometry import SMALL_SHAPE_FACTOR
 
@@ -55,8 +55,9 @@ def damped_sine(
     """Eqs 56-60: ``x = V0/w exp(-delta t) sin(w t)``, ``tau = pi/w``, k = exp(-pi delta/w).
 
     s = delta/w solves ``s = c tan(beta)(1 + s^2)``, c = 15 beta/32, 1.5 as printed. Real up to tan(beta) = 1/(2c): 0.43701, printed
-    1/3. Raises ImpactError above.
+    1/3. Raises ImpactError above, and for a mass, radius, modulus, speed or shape factor that is not above 0.
     """
+    _check_case(sphere, material.storage_modulus, speed, shape_factor)
     s = damping_ratio(material.loss_tangent, form)
     angle = math.atan2(1.0, s)  # w t at the turning point
     fall = math.exp(-s * angle)
@@ -97,7 +98,8 @@ def closed_restitution(loss_tangent: float, form: str = "printed") -> float:
 
 
 def restitution_note(loss_tangent: float, form: str = "printed") -> str | None:
-    """A sentence where the loss tangent is above 0.9 of the end of eq 66, else None."""
+    """A sentence where the loss tangent, >= 0, is above 0.9 of the end of eq 66, else None."""
+    check_not_negative("loss tangent", loss_tangent)
     limit = loss_factor_limit(form)
     if loss_tangent <= NEAR_LIMIT * limit:
         return None
@@ -112,7 +114,12 @@ def loss_factor_limit(form: str = "printed") -> float:
 def depth_of_restitution(
     sphere: Sphere, storage_modulus: float, speed: float, restitution: float, shape_factor: float = SMALL_SHAPE_FACTOR
 ) -> float:
-    """Eq 67: ``x_m = (15 m V0^2 k/(16 k_p E' sqrt R))^(2/5)`` in [m]; with k of eq 66 it is eq 68."""
+    """Eq 67: ``x_m = (15 m V0^2 k/(16 k_p E' sqrt R))^(2/5)`` in [m]; with k of eq 66 it is eq 68.
+
+    SI units; k from 0 to 1, the rest above 0; raises ImpactError otherwise.
+    """
+    _check_case(sphere, storage_modulus, speed, shape_factor)
+    check_number("restitution", restitution, least=0.0, most=1.0)
     energy = 15.0 * sphere.mass * speed**2 * restitution / 16.0
     return float((energy / (shape_factor * storage_modulus * math.sqrt(sphere.radius))) ** 0.4)
 
@@ -127,14 +134,22 @@ def closed_duration(
 ) -> float:
     """Eq 71: ``tau^2 = -2 (1 + k) ln k/((1 - k) V0^(2/5) k^(1/5)) (f m/(k_p E' sqrt R))^(4/5)``, f = 15/16, printed 5/8; in [s].
 
-    For k -> 1 the logarithm is a series: -ln k (1 + k)/(1 - k) -> 2. Range 0 < k <= 1.
+    For k -> 1 the logarithm is a series: -ln k (1 + k)/(1 - k) -> 2. Range 0 < k <= 1, the rest above 0; raises ImpactError
+    otherwise.
     """
-    if not 0.0 < restitution <= 1.0:
-        raise ImpactError(f"restitution {restitution:g}: a number above 0, at most 1, is needed")
+    _check_case(sphere, storage_modulus, speed, shape_factor)
+    check_number("restitution", restitution, above=0.0, most=1.0)
     loss = 1.0 - restitution
     ratio = 1.0 if loss == 0.0 else -math.log1p(-loss) / loss
     mass = _of(DURATION_FACTORS, form) * sphere.mass / (shape_factor * storage_modulus * math.sqrt(sphere.radius))
     return float(math.sqrt(2.0 * (1.0 + restitution) * ratio) / (speed * math.sqrt(restitution)) ** 0.2 * mass**0.4)
+
+
+def _check_case(sphere: Sphere, storage_modulus: float, speed: float, shape_factor: float) -> None:
+    check_fields("sphere", sphere, positive="mass radius")
+    check_positive("storage modulus", storage_modulus, "Pa")
+    check_positive("impact speed", speed, "m/s")
+    check_positive("shape factor", shape_factor)
 
 
 def _of(table: dict[str, float], form: str) -> float:

@@ -15,6 +15,8 @@ from typing import NamedTuple
 import numpy
 
 from ..parameters import Vector
+from .checks import check_fields, check_number, check_positive, check_values
+from .errors import ImpactError
 from .force import lowest_force
 from .scaled_motion import (
     DEPTH,
@@ -100,35 +102,56 @@ class _Units(NamedTuple):
 
 
 def touch(law: ContactLaw, speed: float) -> Stretch:
-    """First stretch of the contact that begins at depth 0 with ``speed`` > 0 [m/s]."""
+    """First stretch of the contact that begins at depth 0 with ``speed`` > 0 [m/s].
+
+    Raises ImpactError for a law or a speed outside its range, ValueError for another end rule.
+    """
+    _check_law(law)
+    check_positive("impact speed", speed, "m/s")
     return _loaded(law, 0.0, speed, first=True)
 
 
 def next_stretch(before: Stretch) -> Stretch:
-    """The stretch behind one whose ``next_kind`` is not PARTED."""
+    """The stretch behind one whose ``next_kind`` is not PARTED; raises ImpactError where it is."""
+    if before.next_kind == PARTED:
+        raise ImpactError("next stretch: the bodies have parted, there is none")
     if before.next_kind == LOADED:
         return _loaded(before.law, before.last_depth, before.last_speed, first=False)
     return _released(before.law, before.last_depth, before.last_speed)
 
 
 def static_depth(law: ContactLaw) -> float:
-    """Depth in [m] at which the sphere rests under its weight."""
+    """Depth in [m] at which the sphere rests under its weight. Raises ImpactError for a law outside its range."""
+    _check_law(law)
+    return _static_depth(law)
+
+
+def _static_depth(law: ContactLaw) -> float:
     return float((law.mass * law.gravity / law.elastic) ** (2.0 / 3.0))
 
 
 def stored(law: ContactLaw, depth: float) -> float:
-    """Elastic energy ``2/5 A x^(5/2)`` in [J]; 0 for depths below 0."""
+    """Elastic energy ``2/5 A x^(5/2)`` in [J]; 0 for depths [m] below 0. Raises ImpactError for a law outside its range."""
+    _check_law(law)
+    check_number("depth", depth, "m")
+    return _stored(law, depth)
+
+
+def _stored(law: ContactLaw, depth: float) -> float:
     return float(0.4 * law.elastic * max(depth, 0.0) ** 2.5)
 
 
 def sample(stretch: Stretch, times: Vector) -> tuple[Vector, Vector, Vector]:
-    """Depth [m], speed [m/s] and heat [J] since its begin at rising ``times`` [s] within the stretch."""
-    t = numpy.clip(numpy.asarray(times, dtype=numpy.float64), 0.0, stretch.duration)
+    """Depth [m], speed [m/s] and heat [J] since its begin at rising ``times`` [s] within the stretch, its ends outside it.
+
+    Raises ImpactError for times that are not finite or do not rise.
+    """
+    t = numpy.clip(check_values("times", times, "s", shape=(None,), rising=True), 0.0, stretch.duration)
     law = stretch.law
     if stretch.kind == RELEASED:
         depth = stretch.depth + (stretch.speed + 0.5 * law.gravity * t) * t
-        held = numpy.array([stored(law, float(x)) for x in depth])
-        return depth, stretch.speed + law.gravity * t, stored(law, stretch.depth) - held
+        held = numpy.array([_stored(law, float(x)) for x in depth])
+        return depth, stretch.speed + law.gravity * t, _stored(law, stretch.depth) - held
     units = _units(law, stretch.depth, stretch.speed)
     depth, speed, heat = (numpy.zeros(len(t)) for _ in range(3))
     root, pace = math.sqrt(stretch.depth / units.length), stretch.speed / units.speed
@@ -136,9 +159,14 @@ def sample(stretch: Stretch, times: Vector) -> tuple[Vector, Vector, Vector]:
     return depth * units.length, speed * units.speed, heat * law.mass * units.speed**2
 
 
+def _check_law(law: ContactLaw) -> None:
+    check_fields("contact law", law, positive="mass elastic", not_negative="gravity viscous")
+    lowest_force(law.end)
+
+
 def _units(law: ContactLaw, depth: float, speed: float) -> _Units:
     """Scales by the energy at hand, so that no quantity is far from 1."""
-    energy = 0.5 * law.mass * speed**2 + stored(law, depth) + law.mass * law.gravity * max(depth, static_depth(law))
+    energy = 0.5 * law.mass * speed**2 + _stored(law, depth) + law.mass * law.gravity * max(depth, _static_depth(law))
     typical = math.sqrt(2.0 * energy / law.mass)
     length = float((law.mass * typical**2 / law.elastic) ** 0.4)
     severity = law.viscous * math.sqrt(length) * length / (law.mass * typical)
@@ -180,7 +208,7 @@ def _released(law: ContactLaw, depth: float, speed: float) -> Stretch:
     last_depth = 0.0 if parts else last
     return Stretch(
         RELEASED, law, depth, speed, duration, last_depth, speed + law.gravity * duration,
-        stored(law, depth) - stored(law, last_depth), PARTED if parts else LOADED,
+        _stored(law, depth) - _stored(law, last_depth), PARTED if parts else LOADED,
     )  # fmt: skip
 
 

@@ -12,7 +12,7 @@ from typing import NamedTuple
 import numpy
 
 from ..parameters import Vector
-from .checks import check_not_negative, check_positive
+from .checks import check_not_negative, check_number, check_positive, check_values
 from .errors import ImpactError
 
 __all__ = ["Creep", "complex_compliance", "compliance", "kelvin_voigt", "maxwell", "standard_solid"]
@@ -28,30 +28,29 @@ class Creep(NamedTuple):
 
 
 def maxwell(shear_modulus: float, viscosity: float) -> Creep:
-    """Spring and dashpot in a row; G [Pa], eta [Pa s], which may be infinite."""
+    """Spring and dashpot in a row; G > 0 [Pa], eta > 0 [Pa s], which may be infinite; raises ImpactError otherwise."""
     check_positive("shear modulus", shear_modulus, "Pa")
-    if not viscosity > 0.0:
-        raise ImpactError(f"viscosity {viscosity:g} Pa s: a number above 0, or infinity, is needed")
+    check_number("viscosity", viscosity, "Pa s", above=0.0, infinite=True)
     return Creep(1.0 / shear_modulus, 1.0 / viscosity, (), ())
 
 
 def kelvin_voigt(shear_modulus: float, retardation_time: float) -> Creep:
-    """Spring and dashpot side by side; G [Pa], tau [s]."""
+    """Spring and dashpot side by side; G > 0 [Pa], tau > 0 [s]; raises ImpactError otherwise."""
     check_positive("shear modulus", shear_modulus, "Pa")
     check_positive("retardation time", retardation_time, "s")
     return Creep(0.0, 0.0, (1.0 / shear_modulus,), (float(retardation_time),))
 
 
 def standard_solid(glassy_modulus: float, delayed_modulus: float, retardation_time: float) -> Creep:
-    """A spring G0 [Pa] in a row with a Kelvin-Voigt element G1 [Pa], tau [s]."""
+    """A spring G0 [Pa] in a row with a Kelvin-Voigt element G1 [Pa], tau [s]; all > 0, raises ImpactError otherwise."""
     check_positive("glassy modulus", glassy_modulus, "Pa")
     return kelvin_voigt(delayed_modulus, retardation_time)._replace(glassy=1.0 / glassy_modulus)
 
 
 def compliance(creep: Creep, times: Vector) -> Vector:
-    """J in [1/Pa] at ``times`` >= 0 [s]."""
+    """J in [1/Pa] at ``times`` >= 0 [s]. Raises ImpactError for other times, and for parameters that stand for no material."""
     check(creep)
-    t = numpy.asarray(times, dtype=numpy.float64)
+    t = check_values("times", times, "s", least=0.0)
     total = creep.glassy + creep.fluidity * t
     for part, tau in zip(creep.compliances, creep.times, strict=True):
         total = total - part * numpy.expm1(-t / tau)

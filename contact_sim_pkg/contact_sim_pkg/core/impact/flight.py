@@ -14,6 +14,7 @@ import numpy
 
 from ..jacobi import jacobi_cn, quarter_period
 from ..parameters import Vector
+from .checks import check_fields, check_positive, check_values
 from .errors import ImpactError
 
 __all__ = ["Drop", "Flight", "Machine", "Pendulum", "fall", "rebound"]
@@ -29,7 +30,7 @@ class Pendulum(NamedTuple):
     """Pendulum whose mass is at its end; the sample stands at the lowest point."""
 
     gravity: float  # [m/s^2], > 0
-    length: float  # [m]
+    length: float  # [m], > 0
 
 
 Machine = Drop | Pendulum
@@ -54,7 +55,7 @@ class Flight(NamedTuple):
 
     def at(self, times: Vector) -> tuple[Vector, Vector]:
         """Approach x [m] (negative) and its rate [m/s] at ``times`` [s] behind the begin."""
-        since = numpy.asarray(times, dtype=numpy.float64) + self.begin - half_time(self.machine, self.speed)
+        since = check_values("times", times, "s") + self.begin - half_time(self.machine, self.speed)
         if isinstance(self.machine, Drop):
             g = self.machine.gravity
             return 0.5 * g * since**2 - self.height, g * since
@@ -69,13 +70,16 @@ class Flight(NamedTuple):
 
 
 def rebound(machine: Machine, speed: float) -> Flight:
-    """Flight that leaves the sample with ``speed`` > 0 [m/s]. Raises ImpactError where a pendulum would not swing back."""
+    """Flight that leaves the sample with ``speed`` > 0 [m/s].
+
+    Raises ImpactError where a pendulum would not swing back, and for a speed, gravity or length that is not above 0.
+    """
     _check(machine, speed)
     return Flight(machine, speed, 0.0)
 
 
 def fall(machine: Machine, speed: float) -> Flight:
-    """Flight from rest at the height from which the sample is reached with ``speed`` > 0 [m/s]."""
+    """Flight from rest at the height from which the sample is reached with ``speed`` > 0 [m/s]. Errors as `rebound`."""
     _check(machine, speed)
     return Flight(machine, speed, half_time(machine, speed))
 
@@ -93,8 +97,8 @@ def _parameter(machine: Pendulum, speed: float) -> float:
 
 
 def _check(machine: Machine, speed: float) -> None:
-    if not speed > 0.0:
-        raise ImpactError(f"impact speed {speed:g} m/s: a number above 0 is needed")
+    check_positive("impact speed", speed, "m/s")
+    check_fields("machine", machine, positive="gravity" if isinstance(machine, Drop) else "gravity length")
     if isinstance(machine, Pendulum) and not _parameter(machine, speed) <= 0.5:
         most = math.sqrt(2.0 * machine.gravity * machine.length)
         raise ImpactError(

@@ -36,7 +36,8 @@ def indentation(
 ) -> Indentation:
     """Depth under ``force`` [N] at rising ``times`` [s], linear between them.
 
-    ``printed``: factor 3/4 of eq 112, twice eq 110 at t = 0.
+    ``printed``: factor 3/4 of eq 112, twice eq 110 at t = 0. Raises ImpactError for a radius not above 0 [m], a Poisson ratio
+    outside -1 < nu <= 1/2, and as `hereditary_integral`; ValueError for another form.
     """
     check_positive("radius", radius, "m")
     check_poisson_ratio(poisson_ratio)
@@ -49,7 +50,10 @@ def indentation(
 
 
 def hereditary_integral(creep: Creep, times: Vector, force: Vector) -> Vector:
-    """``I(t) = int J(t - s) dF(s)`` in [m^2] at each of ``times``; exact for a force that is linear between samples."""
+    """``I(t) = int J(t - s) dF(s)`` in [m^2] at each of ``times``; exact for a force that is linear between samples.
+
+    times [samples] [s], rising; force [samples] [N]. Raises ImpactError for other arrays and for a creep of no material.
+    """
     check(creep)
     t, f = numpy.ascontiguousarray(times, dtype=numpy.float64), numpy.ascontiguousarray(force, dtype=numpy.float64)
     if t.shape != f.shape or t.ndim != 1 or t.size == 0:

@@ -12,8 +12,9 @@ import math
 from typing import NamedTuple
 
 from .bodies import Material, Sphere
-from .checks import check_positive
+from .checks import check_fields, check_not_negative, check_number, check_positive
 from .errors import ImpactError
+from .force import lowest_force
 from .geometry import SMALL_SHAPE_FACTOR, depth_note
 from .motion import SHAPE_RULES
 from .roots import bracketed_root
@@ -48,18 +49,20 @@ def material_of_impact(
     """E' and tan(beta) of an impact of ``sphere`` at ``speed`` [m/s] that lasts ``duration`` [s] and rebounds with ``restitution``.
 
     ``end`` and ``shape`` as in `solve_impact`. ``gravity`` [m/s^2] along the blow during the contact: that of a drop tower, 0 of a
-    pendulum; only the exact form knows it. Raises ImpactError for a restitution that the form does not reach and for x_m > R.
+    pendulum; only the exact form knows it.
+    Raises ImpactError for a restitution that the form does not reach, for x_m > R, and for a mass, radius, speed or duration that
+    is not above 0.
     """
+    group = group_factor(sphere, speed, duration)
+    check_not_negative("gravity", gravity, "m/s^2")
     found = reading(restitution, end, form, gravity * duration / speed)
     factor = shape_of_depth(found.depth_factor * speed * duration, sphere.radius, shape)
-    group = group_factor(sphere, speed, duration)
     return Material(group * found.modulus_factor / factor, found.loss_tangent)
 
 
 def group_factor(sphere: Sphere, speed: float, duration: float) -> float:
-    """``q = m/(sqrt(V0 R) tau^(5/2))`` in [Pa]."""
-    check_positive("mass", sphere.mass, "kg")
-    check_positive("radius", sphere.radius, "m")
+    """``q = m/(sqrt(V0 R) tau^(5/2))`` in [Pa]; all above 0, else ImpactError."""
+    check_fields("sphere", sphere, positive="mass radius")
     check_positive("impact speed", speed, "m/s")
     check_positive("duration", duration, "s")
     return float(sphere.mass / (math.sqrt(speed * sphere.radius) * duration**2.5))
@@ -81,9 +84,8 @@ def reading(restitution: float, end: str = "force", form: str = "exact", weight:
         return Reading(float(factor), loss_tangent_of_severity(severity, end), free.depth / scaled.duration)
     if form not in FACTORS:
         raise ValueError(f"form '{form}': {', '.join(FORMS)} are the forms")
-    if not 0.0 < restitution <= 1.0:
-        raise ImpactError(f"restitution {restitution:g}: a number above 0, at most 1, is needed")
-    k = restitution
+    lowest_force(end)
+    k = check_number("restitution", restitution, above=0.0, most=1.0)
     factor = FACTORS[form] * (1.0 + k) ** 2.5 / k**1.5
     return Reading(float(factor), math.pi / 3.0 * (1.0 - k) / (1.0 + k), 0.5 * k / (1.0 + k))
 

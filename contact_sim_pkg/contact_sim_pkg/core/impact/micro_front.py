@@ -13,7 +13,7 @@ from typing import NamedTuple
 
 import numpy
 
-from .checks import check_positive
+from .checks import check_number, check_positive
 from .closed_forms import damped_sine
 from .motion import Impact, course
 from .roots import bracketed_root
@@ -34,12 +34,20 @@ class Front(NamedTuple):
 
 
 def border_speed(impact: Impact, depth: float, speed: float, shear_speed: float) -> tuple[float, bool]:
-    """Speed of the contact's border in [m/s] (eq 76), and whether it is above the shear wave's: then it is given as V_s."""
+    """Speed of the contact's border in [m/s] (eq 76), and whether it is above the shear wave's: then it is given as V_s.
+
+    depth [m], speed [m/s], shear_speed > 0 [m/s]; raises ImpactError otherwise.
+    """
+    _check_state(depth, speed, shear_speed)
     return _held(_border(impact, depth, speed), shear_speed)
 
 
 def front_speed(impact: Impact, depth: float, speed: float, shear_speed: float) -> tuple[float, bool]:
-    """Speed of the wave front in [m/s] (eq 77), and whether it is above the shear wave's: then it is given as V_s."""
+    """Speed of the wave front in [m/s] (eq 77), and whether it is above the shear wave's: then it is given as V_s.
+
+    Arguments as `border_speed`.
+    """
+    _check_state(depth, speed, shear_speed)
     return _held(FRONT_OVER_BORDER * _border(impact, depth, speed), shear_speed)
 
 
@@ -88,6 +96,12 @@ def viscous_heat(impact: Impact, time: float) -> float:
     root = 0.5 * edge * (nodes + 1.0)
     now = course(impact, root**2)
     return float(0.5 * edge * numpy.sum(weights * now.viscous_force * now.speed * 2.0 * root))
+
+
+def _check_state(depth: float, speed: float, shear_speed: float) -> None:
+    check_number("depth", depth, "m")
+    check_number("speed", speed, "m/s")
+    check_positive("shear wave speed", shear_speed, "m/s")
 
 
 def _border(impact: Impact, depth: float, speed: float) -> float:

@@ -15,10 +15,10 @@ import numpy
 
 from ..parameters import GeneralDissipative, NormalElastic, Vector
 from .bodies import Material, Sphere
-from .checks import check_not_negative, check_positive
+from .checks import check_fields, check_not_negative, check_positive, check_values
 from .force import elastic_coefficient, normal_law, viscous_coefficient
 from .geometry import SMALL_SHAPE_FACTOR, depth_note, shape_factor
-from .scaled_motion import ScaledImpact, scaled_course, scaled_impact
+from .scaled_motion import LEEWAY, ScaledImpact, scaled_course, scaled_impact
 from .severity import severity_of_loss_tangent
 
 __all__ = ["SHAPE_RULES", "Course", "Impact", "course", "solve_impact"]
@@ -99,18 +99,19 @@ def solve_impact(sphere: Sphere, material: Material, speed: float, end: str = "f
 
 
 def course(impact: Impact, times: Vector) -> Course:
-    """Depth, speed and forces at rising ``times`` [s], 0 to ``impact.duration``."""
+    """Depth, speed and forces at rising ``times`` [s], 0 to ``impact.duration``. Raises ImpactError for other times."""
+    most = impact.duration * (1.0 + LEEWAY)
+    times = check_values("times", times, "s", shape=(None,), least=0.0, most=most, rising=True)
     time_unit = impact.length / impact.speed
     last = impact.duration / time_unit
-    depth, speed = scaled_course(impact.severity, numpy.minimum(numpy.asarray(times) / time_unit, last))
+    depth, speed = scaled_course(impact.severity, numpy.minimum(times / time_unit, last))
     x, v = depth * impact.length, speed * impact.speed
     root = numpy.sqrt(x)
-    return Course(numpy.asarray(times), x, v, impact.elastic * x * root, impact.viscous * root * v)
+    return Course(times, x, v, impact.elastic * x * root, impact.viscous * root * v)
 
 
 def _check(sphere: Sphere, material: Material, speed: float, shape: str) -> None:
-    check_positive("mass", sphere.mass, "kg")
-    check_positive("radius", sphere.radius, "m")
+    check_fields("sphere", sphere, positive="mass radius")
     check_positive("storage modulus", material.storage_modulus, "Pa")
     check_not_negative("loss tangent", material.loss_tangent)
     check_positive("impact speed", speed, "m/s")

@@ -15,7 +15,7 @@ from __future__ import annotations
 import math
 from typing import NamedTuple
 
-from .checks import check_poisson_ratio, check_positive
+from .checks import check_fields, check_number, check_poisson_ratio, check_positive
 from .errors import ImpactError
 from .geometry import shape_factor
 
@@ -47,7 +47,10 @@ class Position(NamedTuple):
 
 
 def position_variant_1(depth: float, radius: float, half_space: HalfSpace, rule: str = "equal") -> Position:
-    """Variant 1 at approach ``depth`` x [m]; ``rule`` for k_c: `equal` or `consistent`. Raises ImpactError outside the model."""
+    """Variant 1 at approach ``depth`` x [m]; ``rule`` for k_c: `equal` or `consistent`.
+
+    Range: 0 < x <= R [m], 0 < D1 <= 1, -1 < nu <= 1/2, alpha_h below 1 + K_T dT. Raises ImpactError outside.
+    """
     x1, k_p = _parts(depth, radius, half_space)
     k_c, alpha, surface = k_p, 0.0, x1
     for _ in range(_rounds(rule)):
@@ -62,7 +65,7 @@ def position_variant_1(depth: float, radius: float, half_space: HalfSpace, rule:
 
 
 def position_variant_2(depth: float, radius: float, half_space: HalfSpace) -> Position:
-    """Variant 2 at approach ``depth`` x [m]. Raises ImpactError outside the model."""
+    """Variant 2 at approach ``depth`` x [m]. Range and errors as variant 1."""
     x1, k_p = _parts(depth, radius, half_space)
     alpha = 16.0 * math.sqrt(half_space.share) / (5.0 * math.pi * k_p) * math.sqrt(x1 / radius)
     alpha *= 1.0 - 2.0 * half_space.poisson_ratio
@@ -75,8 +78,8 @@ def _parts(depth: float, radius: float, half_space: HalfSpace) -> tuple[float, f
     """x1 and k_p."""
     check_positive("depth", depth, "m")
     check_poisson_ratio(half_space.poisson_ratio)
-    if not 0.0 < half_space.share <= 1.0:
-        raise ImpactError(f"share of the half-space {half_space.share:g}: a number above 0, at most 1, is needed")
+    check_number("share of the half-space", half_space.share, above=0.0, most=1.0)
+    check_fields("half-space", half_space, finite="expansion heating")
     return half_space.share * depth, shape_factor(depth, radius)
 
 

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Callable
 
+from ..guards import require, require_positive
+
 __all__ = ["bracketed_root"]
 
 ITERATIONS = 200
@@ -12,9 +14,14 @@ ITERATIONS = 200
 def bracketed_root(function: Callable[[float], float], low: float, high: float, relative: float = 4.0e-16) -> float:
     """Where `function` changes its sign between `low` and `high`: regula falsi (Illinois), with bisection where it stalls.
 
-    Ends where the bracket is `relative` of its ends. Raises ArithmeticError where the ends have the same sign.
+    Ends where the bracket is `relative` of its ends. Raises ArithmeticError where the ends have the same sign,
+    ValueError for ends that are not finite and where the function is not a number at one of them.
     """
+    low, high = require("low end", low), require("high end", high)
+    require_positive("relative resolution", relative)
     low_value, high_value = function(low), function(high)
+    for end, value in ((low, low_value), (high, high_value)):
+        require(f"function at {end:g}:", value, infinite=True)
     if low_value == 0.0 or high_value == 0.0:
         return low if low_value == 0.0 else high
     if (low_value > 0.0) == (high_value > 0.0):

@@ -21,7 +21,7 @@ import numpy
 
 from ..jit import entry, kernel
 from ..parameters import Vector
-from .checks import check_not_negative
+from .checks import check_not_negative, check_number, check_values
 from .errors import ImpactError
 from .force import lowest_force
 
@@ -31,6 +31,7 @@ ORDER = 20
 LARGEST_STEPS = 400
 LARGEST_SEVERITY = 1000.0
 LOCATE_ITERATIONS = 200
+LEEWAY = 1.0e-9  # of the duration: by so much a last time may be rounded up
 SERIES = 7  # u, v, t, u^2, u^2 + zeta v, u v, heat
 HEAT = 6
 PEAK, TURNING, END = 0, 1, 2  # in the order in which they come
@@ -230,10 +231,13 @@ def _place(series, step, time):
 def sample_from(
     zeta: float, weight: float, u: float, v: float, times: Vector, depth: Vector, speed: Vector, heat: Vector
 ) -> int:
-    """Depth, speed and heat at rising ``times`` in contact, from ``u``, ``v`` on; returns how many of them were reached."""
+    """Depth, speed and heat at rising ``times`` in contact, from ``u``, ``v`` on; returns how many of them were reached.
+
+    Those behind the end of the contact get its values and are not counted.
+    """
     series = numpy.zeros((SERIES, ORDER + 1))
     _start(u, v, series)
-    i = 0
+    i, reached = 0, 0
     for _ in range(LARGEST_STEPS):
         step = _expand(zeta, weight, series)
         last = _value(series[0], step) <= 0.0
@@ -246,11 +250,12 @@ def sample_from(
             depth[i] = root * root
             speed[i] = _value(series[1], s)
             heat[i] = _value(series[HEAT], s)
+            reached += 1 if times[i] <= end * (1.0 + LEEWAY) else 0
             i += 1
         if i == times.shape[0]:
             break
         _step(series, step)
-    return i
+    return reached
 
 
 def scaled_impact(severity: float, end: str, weight: float = 0.0) -> ScaledImpact:
@@ -258,8 +263,7 @@ def scaled_impact(severity: float, end: str, weight: float = 0.0) -> ScaledImpac
 
     Raises ImpactError outside the range and, with ``gap``, where the mass does not come back (zeta above about 8).
     """
-    if not 0.0 <= severity <= LARGEST_SEVERITY:
-        raise ImpactError(f"severity {severity:g}: a number from 0 to {LARGEST_SEVERITY:g} is needed")
+    check_number("severity", severity, least=0.0, most=LARGEST_SEVERITY)
     check_not_negative("weight", weight)
     out = numpy.zeros(RESULTS)
     steps = solve_from(float(severity), float(weight), lowest_force(end) < 0.0, 0.0, 1.0, PEAK, math.inf, out)
@@ -274,11 +278,12 @@ def scaled_impact(severity: float, end: str, weight: float = 0.0) -> ScaledImpac
 def scaled_course(severity: float, times: Vector) -> tuple[Vector, Vector]:
     """Depth and speed at rising ``times`` >= 0 within the contact, to a few units of rounding.
 
-    Raises ImpactError where a time is not reached.
+    Raises ImpactError where a time is not reached, for times that do not rise from 0 on and a severity outside 0 to 1000.
     """
-    depth, speed, heat = (numpy.zeros(len(times)) for _ in range(3))
-    scaled = numpy.ascontiguousarray(times, dtype=numpy.float64)
+    check_number("severity", severity, least=0.0, most=LARGEST_SEVERITY)
+    scaled = check_values("times", times, shape=(None,), least=0.0, rising=True)
+    depth, speed, heat = (numpy.zeros(len(scaled)) for _ in range(3))
     reached = sample_from(float(severity), 0.0, 0.0, 1.0, scaled, depth, speed, heat)
-    if reached < len(times):
-        raise ImpactError(f"time {times[reached]:g} in units of L/V0 lies behind the end of the contact")
+    if reached < len(scaled):
+        raise ImpactError(f"time {scaled[reached]:g} in units of L/V0 lies behind the end of the contact")
     return depth, speed

@@ -10,8 +10,9 @@ from __future__ import annotations
 import functools
 import math
 
-from .checks import check_not_negative
+from .checks import check_not_negative, check_number
 from .errors import FoldError, ImpactError
+from .force import lowest_force
 from .roots import bracketed_root
 from .scaled_motion import LARGEST_SEVERITY, scaled_impact
 
@@ -30,7 +31,8 @@ SEVEREST = 100.0  # severity up to which a restitution is inverted
 
 
 def loss_tangent_of_severity(severity: float, end: str) -> float:
-    """``tan(beta) = pi zeta/(3 T_c)`` of a consistent impact at ``severity`` zeta."""
+    """``tan(beta) = pi zeta/(3 T_c)`` of a consistent impact at ``severity`` zeta. Errors as `scaled_impact`."""
+    lowest_force(end)
     if severity == 0.0:
         return 0.0
     return math.pi * severity / (3.0 * scaled_impact(severity, end).duration)
@@ -56,6 +58,7 @@ def severity_of_loss_tangent(loss_tangent: float, end: str) -> float:
     Raises FoldError above the fold with the end rule ``gap``, ImpactError outside the range.
     """
     check_not_negative("loss tangent", loss_tangent)
+    lowest_force(end)
     if loss_tangent == 0.0:
         return 0.0
     high = LARGEST_SEVERITY
@@ -77,18 +80,19 @@ def severity_of_loss_tangent(loss_tangent: float, end: str) -> float:
 def loss_tangent_of_restitution(restitution: float, end: str) -> float:
     """``tan(beta)`` whose consistent impact ends with ``restitution``, by inversion of k(zeta).
 
-    Range: from 6.05e-4 (``force``, severity 100) or 0.0679 (``gap``, the fold), to 1.
+    Range: from 6.05e-4 (``force``, severity 100) or 0.0679 (``gap``, the fold), to 1. Raises ImpactError outside.
     """
     return loss_tangent_of_severity(severity_of_restitution(restitution, end), end)
 
 
 def severity_of_restitution(restitution: float, end: str) -> float:
     """zeta with which the impact ends with ``restitution`` times its speed. Raises ImpactError outside the range."""
+    check_number("restitution", restitution)
     high = fold()[0] if end == "gap" else SEVEREST
     lowest = scaled_impact(high, end).restitution
     if not lowest <= restitution <= 1.0:
         raise ImpactError(f"restitution {restitution:.6g}: {lowest:.4g} to 1 is the range with the end rule {end}")
-    if restitution == 1.0:
+    if restitution >= scaled_impact(0.0, end).restitution:  # 1 but for rounding
         return 0.0
     return bracketed_root(lambda severity: scaled_impact(severity, end).restitution - restitution, 0.0, high, 1.0e-15)
 

@@ -11,7 +11,7 @@ from __future__ import annotations
 import math
 from typing import NamedTuple
 
-from .checks import check_positive
+from .checks import check_fields, check_number, check_positive
 from .errors import ImpactError
 
 __all__ = [
@@ -32,23 +32,27 @@ WLF_RANGE = 100.0  # [K] above Tg
 class Wlf(NamedTuple):
     """Williams, Landel and Ferry, from the glass temperature."""
 
-    glass_temperature: float  # Tg [K]
-    c1: float = 17.44
-    c2: float = 51.6  # [K]
+    glass_temperature: float  # Tg [K], > 0
+    c1: float = 17.44  # > 0
+    c2: float = 51.6  # [K], > 0
 
 
 class Arrhenius(NamedTuple):
     """One activation energy."""
 
-    reference_temperature: float  # [K]
-    activation_energy: float  # U [J/mol]
+    reference_temperature: float  # [K], > 0
+    activation_energy: float  # U [J/mol], > 0
 
 
 Shift = Wlf | Arrhenius
 
 
 def log_shift(shift: Shift, temperature: float) -> float:
-    """``lg a_T`` at ``temperature`` [K]. Raises ImpactError for WLF at T <= Tg - C2, where it has its pole."""
+    """``lg a_T`` at ``temperature`` [K]. Raises ImpactError for WLF at T <= Tg - C2, where it has its pole.
+
+    Also for a temperature or a parameter of the shift that is not above 0.
+    """
+    _check(shift)
     check_positive("temperature", temperature, "K")
     if isinstance(shift, Arrhenius):
         slope = shift.activation_energy / (math.log(10.0) * GAS_CONSTANT)
@@ -63,7 +67,9 @@ def log_shift(shift: Shift, temperature: float) -> float:
 
 
 def temperature_of_shift(shift: Shift, value: float) -> float:
-    """T in [K] with ``lg a_T = value``. Raises ImpactError where there is none."""
+    """T in [K] with ``lg a_T = value``. Raises ImpactError where there is none, and as `log_shift`."""
+    _check(shift)
+    check_number("shift", value)
     if isinstance(shift, Arrhenius):
         slope = shift.activation_energy / (math.log(10.0) * GAS_CONSTANT)
         inverse = 1.0 / shift.reference_temperature + value / slope
@@ -83,7 +89,7 @@ def temperature_of_shift(shift: Shift, value: float) -> float:
 def equivalent_temperature(shift: Shift, temperature: float, speed: float, table_speed: float) -> float:
     """T* in [K] at which a table measured at ``table_speed`` stands for ``temperature`` [K] and ``speed``.
 
-    Speeds or frequencies alike.
+    Speeds or frequencies alike, > 0. Errors as `log_shift` and `temperature_of_shift`.
     """
     check_positive("speed", speed)
     check_positive("speed of the table", table_speed)
@@ -91,13 +97,25 @@ def equivalent_temperature(shift: Shift, temperature: float, speed: float, table
 
 
 def carried_duration(duration: float, speed: float, table_speed: float) -> float:
-    """Contact time in [s] at ``speed`` from that read at T*: times ``(V/V1)^(-1/5)``."""
+    """Contact time in [s] at ``speed`` from that read at T*: times ``(V/V1)^(-1/5)``; all > 0, else ImpactError."""
+    check_positive("duration", duration, "s")
+    check_positive("speed", speed)
+    check_positive("speed of the table", table_speed)
     return float(duration * (speed / table_speed) ** -0.2)
 
 
 def shift_note(shift: Shift, temperature: float) -> str | None:
-    """A sentence outside Tg to Tg + 100 K, where WLF is not meant to hold; else None."""
+    """A sentence outside Tg to Tg + 100 K, where WLF is not meant to hold; else None. Errors as `log_shift`."""
+    _check(shift)
+    check_positive("temperature", temperature, "K")
     if isinstance(shift, Wlf) and not 0.0 <= temperature - shift.glass_temperature <= WLF_RANGE:
         low = shift.glass_temperature
         return f"temperature {temperature:g} K is outside {low:g} to {low + WLF_RANGE:g} K, the range of WLF"
     return None
+
+
+def _check(shift: Shift) -> None:
+    if isinstance(shift, Wlf):
+        check_fields("WLF", shift, positive="glass_temperature c1 c2")
+    else:
+        check_fields("Arrhenius", shift, positive="reference_temperature activation_energy")

@@ -17,7 +17,7 @@ from typing import NamedTuple
 import numpy
 
 from ..parameters import Vector
-from .errors import ImpactError
+from .checks import check_number, check_positive, check_values
 from .force import elastic_force, viscous_force
 from .motion import Impact
 
@@ -59,13 +59,13 @@ def centre_stress(
 ) -> CentreStress:
     """Stress in the centre at ``depth`` x [m] and ``speed`` x' [m/s]; both parts 0 without contact.
 
-    ``limiting_depth`` x_s > 0 [m]: the viscous part is not evaluated below it, and flagged.
+    ``limiting_depth`` x_s > 0 [m]: the viscous part is not evaluated below it, and flagged. See `micro_front.front_time`.
+    Raises ImpactError for values that are not finite and a limiting depth not above 0, ValueError for another shape.
     """
     factor = _factor(shape)
-    if not limiting_depth > 0.0:
-        raise ImpactError(
-            f"limiting depth {limiting_depth:g} m: a number above 0 is needed (see micro_front.front_time)"
-        )
+    check_number("depth", depth, "m")
+    check_number("speed", speed, "m/s")
+    check_positive("limiting depth", limiting_depth, "m")
     if depth <= 0.0:
         return CentreStress(0.0, 0.0, speed != 0.0)
     area = math.pi * impact.shape**2 * impact.sphere.radius
@@ -77,23 +77,31 @@ def centre_stress(
 
 
 def distribution(centre: float, places: Vector, shape: str = "parabola") -> Vector:
-    """Stress in [Pa] at ``places`` r_i/r from ``centre`` outwards; 0 outside the contact."""
+    """Stress in [Pa] at ``places`` r_i/r from ``centre`` outwards; 0 outside the contact.
+
+    Raises ImpactError for values that are not finite, ValueError for another shape.
+    """
     _factor(shape)
-    inside = numpy.clip(1.0 - numpy.asarray(places) ** 2, 0.0, None)
+    check_number("stress of the centre", centre, "Pa")
+    inside = numpy.clip(1.0 - check_values("places", places) ** 2, 0.0, None)
     return centre * (numpy.sqrt(inside) if shape == "hertz" else inside)
 
 
 def normal_velocity(speed: float, places: Vector) -> Vector:
     """Velocity of the surface along the normal, ``x'(1 - r_i^2/r^2)`` (eq 41).
 
-    In [m/s] at ``places`` r_i/r, 0..1; 0 at the border.
+    In [m/s] at ``places`` r_i/r, 0..1; 0 from the border on. Raises ImpactError for values that are not finite.
     """
-    return speed * numpy.clip(1.0 - numpy.asarray(places) ** 2, 0.0, None)
+    return check_number("speed", speed, "m/s") * numpy.clip(1.0 - check_values("places", places) ** 2, 0.0, None)
 
 
 def radial_velocity(border_speed: float, places: Vector) -> Vector:
-    """Velocity of the surface along its radius, ``r' r_i^2/r^2`` (eq 42) in [m/s] at ``places`` r_i/r, 0..1; 0 in the centre."""
-    places = numpy.asarray(places)
+    """Velocity of the surface along its radius, ``r' r_i^2/r^2`` (eq 42) in [m/s] at ``places`` r_i/r, 0..1; 0 in the centre.
+
+    0 outside the contact. Raises ImpactError for places below 0 and values that are not finite.
+    """
+    check_number("speed of the border", border_speed, "m/s")
+    places = check_values("places", places, least=0.0)
     return numpy.where(places <= 1.0, border_speed * places**2, 0.0)
 
 
@@ -101,8 +109,9 @@ def retarded_motion(impact: Impact, time: float, form: str = "corrected") -> tup
     """``x_s = V0/w e^(-delta t) sin(w t (1 - tau_KE/tau))`` (eq 88a), its derivative, and whether both are defined.
 
     tau_KE = tan(beta)/w. (0, 0, False) outside 0 < t <= tau and where the sine is not positive. ``printed`` leaves the
-    factor 1 - tau_KE/tau out of the derivative (eq 88b).
+    factor 1 - tau_KE/tau out of the derivative (eq 88b). Raises ImpactError for a time that is not finite.
     """
+    check_number("time", time, "s")
     if form not in ("corrected", "printed"):
         raise ValueError(f"form '{form}': corrected or printed is needed")
     slower = 1.0 - impact.material.loss_tangent / math.pi
@@ -123,7 +132,10 @@ def retarded_viscous_stress(
     """Viscous stress in the centre from the retarded motion (eq 89) in [Pa], and whether it is defined and not limited.
 
     ``s 4 E'' x_s'/(pi w k_p sqrt(R) sqrt(x_s))``; 0 where the motion is undefined; below ``limiting_depth`` that depth's.
+    Errors as `centre_stress` and `retarded_motion`.
     """
+    _factor(shape)
+    check_positive("limiting depth", limiting_depth, "m")
     depth, speed, defined = retarded_motion(impact, time, form)
     if not defined:
         return 0.0, False

@@ -14,7 +14,7 @@ from typing import NamedTuple
 import numpy
 
 from ..parameters import Vector
-from .checks import check_not_negative, check_poisson_ratio, check_positive
+from .checks import check_not_negative, check_number, check_poisson_ratio, check_positive, check_values
 from .errors import ImpactError
 from .geometry import contact_radius
 from .motion import Impact
@@ -51,10 +51,11 @@ class Wave(NamedTuple):
 def ring(radius: float, mean_pressure: float, bulk_modulus: float) -> Ring:
     """Ring around a contact of ``radius`` r [m] at ``mean_pressure`` p = F/(pi r^2) [Pa]; ``bulk_modulus`` K' may be infinite.
 
-    Raises ImpactError for p >= K', where the ratio has no meaning.
+    Raises ImpactError for p >= K', where the ratio has no meaning, and for p or r below 0.
     """
     check_not_negative("mean pressure", mean_pressure, "Pa")
     check_not_negative("contact radius", radius, "m")
+    check_number("bulk modulus", bulk_modulus, "Pa", above=0.0, infinite=True)
     if not bulk_modulus > mean_pressure:
         raise ImpactError(
             f"mean pressure {mean_pressure:.4g} Pa: the ring's continuity needs less than the bulk modulus {bulk_modulus:.4g} Pa"
@@ -66,7 +67,10 @@ def ring(radius: float, mean_pressure: float, bulk_modulus: float) -> Ring:
 
 
 def surface_wave(impact: Impact, shear_modulus: float, density: float, poisson_ratio: float) -> Wave:
-    """The wave that an impact leaves (eqs 72-74); the half-space's G' [Pa], density [kg/m^3] and nu give the Rayleigh speed."""
+    """The wave that an impact leaves (eqs 72-74); the half-space's G' [Pa], density [kg/m^3] and nu give the Rayleigh speed.
+
+    Errors as `rayleigh_speed`.
+    """
     radius = impact.shape * math.sqrt(impact.depth * impact.sphere.radius)
     length = 2.0 * (math.sqrt(2.0) - 1.0) * radius
     speed = length * impact.frequency / (2.0 * math.pi)
@@ -83,13 +87,14 @@ def wave_height(wave: Wave, radii: Vector, times: Vector, spread: str = "none", 
 
     0 before tau_1 and ahead of ``r_AW + v (t - tau_1)``. ``spread`` `cylindrical`: amplitude times sqrt(r_AW/r) outside r_AW.
     ``printed``: decay from first touch on, so that the wave starts below x_m.
+    Raises ImpactError for distances below 0 and values that are not finite, ValueError for another spread or form.
     """
     if spread not in SPREADS:
         raise ValueError(f"spread '{spread}': none or cylindrical is needed")
     if form not in ("corrected", "printed"):
         raise ValueError(f"form '{form}': corrected or printed is needed")
-    r = numpy.asarray(radii, dtype=numpy.float64)[numpy.newaxis, :]
-    since = numpy.asarray(times, dtype=numpy.float64)[:, numpy.newaxis] - wave.start_time
+    r = check_values("radii", radii, "m", shape=(None,), least=0.0)[numpy.newaxis, :]
+    since = check_values("times", times, "s", shape=(None,))[:, numpy.newaxis] - wave.start_time
     reached = (since >= 0.0) & (r <= wave.start_radius + wave.speed * since)
     waited = numpy.maximum(since, 0.0)
     decay = numpy.exp(-wave.damping * (waited + (wave.start_time if form == "printed" else 0.0)))
@@ -106,14 +111,17 @@ def contact_ring(impact: Impact, depth: float, force: float, bulk_modulus: float
 
 
 def shear_speed(shear_modulus: float, density: float) -> float:
-    """``V_s = sqrt(G'/rho)`` in [m/s]."""
+    """``V_s = sqrt(G'/rho)`` in [m/s]; both above 0, else ImpactError."""
     return math.sqrt(
         check_positive("shear modulus", shear_modulus, "Pa") / check_positive("density", density, "kg/m^3")
     )
 
 
 def rayleigh_speed(shear_modulus: float, density: float, poisson_ratio: float) -> float:
-    """Speed of the free surface wave in [m/s]: root of Rayleigh's cubic in ``(c/V_s)^2`` (Johnson 1985, 11.1)."""
+    """Speed of the free surface wave in [m/s]: root of Rayleigh's cubic in ``(c/V_s)^2`` (Johnson 1985, 11.1).
+
+    G' > 0 [Pa], density > 0 [kg/m^3], -1 < nu <= 1/2; raises ImpactError otherwise.
+    """
     nu = check_poisson_ratio(poisson_ratio)
     ratio = 0.5 * (1.0 - 2.0 * nu) / (1.0 - nu)
     roots = numpy.roots([1.0, -8.0, 24.0 - 16.0 * ratio, -16.0 * (1.0 - ratio)])

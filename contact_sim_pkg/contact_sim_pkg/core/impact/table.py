@@ -15,7 +15,9 @@ from numpy.polynomial import chebyshev
 
 from ..jit import entry
 from ..parameters import Vector
+from .checks import check_number
 from .errors import ImpactError
+from .force import lowest_force
 from .scaled_motion import scaled_impact
 from .severity import severity_of_loss_tangent
 
@@ -37,7 +39,8 @@ class TableEntry(NamedTuple):
 
 def look_up(loss_tangent: float, end: str = "force") -> TableEntry:
     """The consistent impact at ``loss_tangent``, 0 to the limit of the end rule. Raises ImpactError outside."""
-    limit = LIMITS.get(end, math.nan)
+    lowest_force(end)
+    limit, loss_tangent = LIMITS[end], check_number("loss tangent", loss_tangent)
     if not 0.0 <= loss_tangent <= limit:
         raise ImpactError(f"loss tangent {loss_tangent:g}: the table of the end rule {end} holds 0 to {limit:g}")
     place = 2.0 * math.sqrt(loss_tangent / limit) - 1.0
