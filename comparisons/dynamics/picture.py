@@ -9,6 +9,7 @@ from typing import Any
 import matplotlib
 
 from comparisons.dynamics.problems import PROBLEMS
+from contact_sim_pkg.files import new_file
 
 matplotlib.use("Agg")
 
@@ -20,7 +21,7 @@ STYLES = {"this project": ("#0b6e4f", "o"), "MuJoCo": ("#c1440e", "s"), "PyBulle
 FLOOR = 1e-17  # errors of 0 are drawn here
 
 
-def draw(rows: list[dict[str, Any]], path: Path) -> None:
+def draw(rows: list[dict[str, Any]], path: Path, *, overwrite: bool = False) -> None:
     """Write the picture as PNG."""
     figure, axes = pyplot.subplots(2, 3, figsize=(12.6, 7.2))
     for panel, problem in zip(axes.flat, PROBLEMS, strict=True):
@@ -45,5 +46,6 @@ def draw(rows: list[dict[str, Any]], path: Path) -> None:
     handles, labels = axes.flat[0].get_legend_handles_labels()
     figure.legend(handles, labels, loc="upper center", ncols=3, frameon=False)
     figure.tight_layout(rect=(0.0, 0.0, 1.0, 0.95))
-    figure.savefig(path, dpi=110)
+    with new_file(path, overwrite=overwrite) as file:
+        figure.savefig(file, format="png", dpi=110)
     pyplot.close(figure)

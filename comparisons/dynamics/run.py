@@ -15,6 +15,7 @@ import click
 from comparisons.dynamics.picture import draw
 from comparisons.dynamics.problems import PROBLEMS, measure
 from comparisons.environment import left_out
+from contact_sim_pkg.files import check_output
 
 __all__ = ["main"]
 
@@ -30,8 +31,11 @@ REPEATS = 3
 @click.option("--quick", is_flag=True, help="Steps of 1 ms and more only.")
 @click.option("--json", "as_json", is_flag=True, help="One JSON object on standard output, and nothing else.")
 @click.option("--plot", default=PICTURE, show_default=True, type=click.Path(path_type=Path), help="The picture (PNG).")
-def main(quick: bool, as_json: bool, plot: Path) -> None:
+@click.option("--overwrite", is_flag=True, help="Write over a picture that exists.")
+def main(quick: bool, as_json: bool, plot: Path, overwrite: bool) -> None:
     """Run the same six problems by this project and by others: error and time of each, at each of its steps."""
+    overwrite = overwrite or plot == PICTURE  # its own, made again each time
+    check_output(plot, overwrite=overwrite)
     rows: list[dict[str, Any]] = []
     about: dict[str, str] = {}
     missing: dict[str, str] = {}
@@ -50,7 +54,7 @@ def main(quick: bool, as_json: bool, plot: Path) -> None:
     click.echo(
         json.dumps({"solvers": about, "left out": missing, "rows": rows}) if as_json else _text(rows, about, missing)
     )
-    draw(rows, plot)
+    draw(rows, plot, overwrite=overwrite)
     click.echo(f"picture: {plot}", err=True)
 
 

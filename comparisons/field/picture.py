@@ -9,6 +9,7 @@ import numpy
 
 from comparisons.field.measure import Row
 from comparisons.field.solver import OURS
+from contact_sim_pkg.files import new_file
 
 matplotlib.use("Agg")
 
@@ -24,7 +25,7 @@ MARKS = {OURS: "o", "ASPHER": "s", "tamaas": "^"}
 COLUMNS = 3
 
 
-def draw(rows: list[Row], path: Path) -> None:
+def draw(rows: list[Row], path: Path, *, overwrite: bool = False) -> None:
     """Write the picture as PNG; medians over the seeds."""
     tasks = list(dict.fromkeys(row.task for row in rows))
     lines = -(-len(tasks) // COLUMNS)
@@ -37,7 +38,8 @@ def draw(rows: list[Row], path: Path) -> None:
     handles = [Line2D([], [], color=COLORS[name], marker=MARKS[name], label=name) for name in COLORS]
     figure.legend(handles=handles, loc="upper center", ncols=len(handles), frameon=False)
     figure.tight_layout(rect=(0.0, 0.0, 1.0, 0.96))
-    figure.savefig(path, dpi=110)
+    with new_file(path, overwrite=overwrite) as file:
+        figure.savefig(file, format="png", dpi=110)
     pyplot.close(figure)
 
 

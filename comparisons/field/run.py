@@ -20,6 +20,7 @@ from comparisons.field.plan import FULL, QUICK, Task
 from comparisons.field.readings import Reading, Verdict, readings, verdicts
 from comparisons.field.solver import Candidate, candidates
 from comparisons.field.table import agreement_lines, reading_lines, row_lines, set_up_lines, verdict_lines
+from contact_sim_pkg.files import check_output
 
 __all__ = ["main"]
 
@@ -44,8 +45,11 @@ class Result(NamedTuple):
 @click.option("--only", default="", help="Problems whose name contains this, as '(d)'.")
 @click.option("--json", "as_json", is_flag=True, help="One JSON object on standard output, and nothing else.")
 @click.option("--plot", default=PICTURE, show_default=True, type=click.Path(path_type=Path), help="The picture (PNG).")
-def main(quick: bool, only: str, as_json: bool, plot: Path) -> None:
+@click.option("--overwrite", is_flag=True, help="Write over a picture that exists.")
+def main(quick: bool, only: str, as_json: bool, plot: Path, overwrite: bool) -> None:
     """Solve the same pressure fields with this project's solver and with others, and compare time at equal error."""
+    overwrite = overwrite or plot == PICTURE  # its own, made again each time
+    check_output(plot, overwrite=overwrite)
     began = time.perf_counter()
     several = [name for name in ONE_THREAD if os.environ.get(name) != "1"]
     if several:
@@ -63,7 +67,7 @@ def main(quick: bool, only: str, as_json: bool, plot: Path) -> None:
     result = Result(solvers, missing, rows, set_ups, refused, read, verdicts(read), agreements(solvers))
     seconds = time.perf_counter() - began
     click.echo(json.dumps(_as_json(result, seconds), indent=2) if as_json else _as_text(result, seconds))
-    draw(rows, plot)
+    draw(rows, plot, overwrite=overwrite)
     _tell(f"picture: {plot}")
 
 

@@ -16,7 +16,7 @@ from typing import IO, BinaryIO
 
 __all__ = ["FileRefusedError", "check_output", "new_file", "open_regular_file", "read_regular_file"]
 
-EXISTS = "exists already and is not written over; give another name or --force"
+EXISTS = "exists already and is not written over; give another name or --overwrite"
 _KINDS = (
     (stat.S_ISDIR, "is a directory"),
     (stat.S_ISFIFO, "is a named pipe"),
@@ -76,21 +76,26 @@ def read_regular_file(path: str | Path, most: int, cure: str = "give a smaller f
 
 
 def check_output(
-    path: Path, inputs: Iterable[Path | None] = (), *, force: bool = False, ours: Callable[[Path], bool] | None = None
+    path: Path,
+    inputs: Iterable[Path | None] = (),
+    *,
+    overwrite: bool = False,
+    ours: Callable[[Path], bool] | None = None,
 ) -> None:
     """Refuse a file to be made that exists, before any work is done for it.
 
     Args:
         path: the file to be made.
-        inputs: what the command reads; none of it is written over, whatever `force` says.
-        force: an existing regular file may be replaced.
+        inputs: files and bags that the command reads; none of them is written over, whatever `overwrite` says.
+        overwrite: an existing regular file may be replaced.
         ours: whether an existing file is one that the same command made and may make again; None: no file is.
 
     Raises:
         FileRefusedError: it exists, is an input, or its directory is not there.
     """
+    remade = ours is not None and path.is_file() and ours(path)
     for each in inputs:
-        if each is not None and _are_one_file(path, each):
+        if each is not None and not remade and _belongs_to(path, each):
             raise FileRefusedError(path, f"is read by this command ({each}) and is not written over; give another name")
     try:
         mode = path.stat().st_mode if path.exists() else path.lstat().st_mode
@@ -105,20 +110,24 @@ def check_output(
     _refuse_kind(path, mode)
     if not stat.S_ISREG(mode):
         raise FileRefusedError(path, "is a link to nothing; remove it or give another name")
-    if not force and not (ours is not None and ours(path)):
+    if not overwrite and not remade:
         raise FileRefusedError(path, EXISTS, errno.EEXIST)
 
 
 @contextmanager
 def new_file(
-    path: Path, inputs: Iterable[Path | None] = (), *, force: bool = False, ours: Callable[[Path], bool] | None = None
+    path: Path,
+    inputs: Iterable[Path | None] = (),
+    *,
+    overwrite: bool = False,
+    ours: Callable[[Path], bool] | None = None,
 ) -> Iterator[IO[bytes]]:
     """A file to write bytes into; it appears under its name whole, or not at all. Arguments and refusals: `check_output`.
 
     Raises:
         FileRefusedError: as `check_output`, also for what appeared in the meantime. OSError: it cannot be written.
     """
-    check_output(path, inputs, force=force, ours=ours)
+    check_output(path, inputs, overwrite=overwrite, ours=ours)
     target, replaces = path.resolve(), path.exists()
     draft = target.with_name(f".bench-{os.getpid()}.new")
     try:
@@ -143,9 +152,11 @@ def _name_exclusively(draft: Path, target: Path) -> None:
             file.write(draft.read_bytes())
 
 
-def _are_one_file(path: Path, other: Path) -> bool:
+def _belongs_to(path: Path, given: Path) -> bool:
+    """Whether the existing file is `given`, or one of the files in it."""
     with suppress(OSError):
-        return path.samefile(other)
+        files = given.iterdir() if given.is_dir() else [given]
+        return any(path.samefile(file) for file in files)
     return False
 
 

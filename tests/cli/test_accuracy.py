@@ -6,6 +6,7 @@ import pytest
 from click.testing import CliRunner
 
 from contact_sim_pkg.cli.accuracy import command
+from contact_sim_pkg.cli.main import main
 from contact_sim_pkg.scene.errors import SceneError
 from contact_sim_pkg.studies import accuracy_cost, ladder, ladder_plot, ladder_road
 
@@ -30,21 +31,21 @@ def test_a_rig_is_a_table_for_people_and_rows_for_scripts(one_ladder, tmp_path):
 @pytest.mark.parametrize(
     ("picture", "told"),
     [
-        ("nowhere/x.png", "does not exist; make it first"),
-        ("x.gif", "ends in one of .eps, .jpeg, .jpg"),
+        ("nowhere/x.png", "its directory is not there; make it first"),
+        ("x.gif", "ends in one of eps, jpeg, jpg"),
         ("x", "ends in one of"),
-        ("", "is a directory"),
+        ("y.png", "is a directory"),
     ],
 )
-def test_a_picture_that_cannot_be_written_is_refused_before_the_work(monkeypatch, tmp_path, picture, told):
+def test_a_picture_that_cannot_be_written_is_refused_before_the_work(monkeypatch, capsys, tmp_path, picture, told):
     monkeypatch.setitem(ladder.RIGS, "tire", (ladder.Ladder("never", lambda: pytest.fail("the work began")),))
-    refused = CliRunner().invoke(command, ["tire", "--plot", str(tmp_path / picture)])
-    assert refused.exit_code == 2
-    assert told in refused.stderr
+    (tmp_path / "y.png").mkdir()
+    assert main(["accuracy", "tire", "--plot", str(tmp_path / picture)]) == 2
+    assert told in capsys.readouterr().err
 
 
 def test_the_table_is_there_whatever_becomes_of_the_picture(one_ladder, monkeypatch, tmp_path):
-    monkeypatch.setattr(ladder_plot, "write_plot", lambda rows, path: 1 / 0)
+    monkeypatch.setattr(ladder_plot, "write_plot", lambda rows, path, **_: 1 / 0)
     shown = CliRunner().invoke(command, ["tire", "--plot", str(tmp_path / "x.png")])
     assert isinstance(shown.exception, ZeroDivisionError)
     assert "ms a call" in shown.stdout

@@ -91,7 +91,7 @@ def test_a_parameter_without_its_law_is_refused(file, capsys):
         (["FILE", "--shift", "vft"], "shift 'vft'"),
         (["FILE", "--confidence", "95"], "confidence 95"),
         (["FILE", "--shift", "wlf", "--glass-temperature", "400"], "pole"),
-        (["FILE", "--plot", "out.nothing"], "the picture cannot be written"),
+        (["FILE", "--plot", "out.nothing"], "is no name of a picture"),
         (["FILE", "--csv", "/nowhere/out.csv"], "cannot be written"),
         (["FILE", "--speed-ratio", "0.5"], "speed ratio 0.5"),
         (["FILE", "--temperature-span", "-1"], "temperature span -1"),

@@ -83,7 +83,7 @@ def test_an_output_that_exists_is_left_as_it_is_unless_forced(tmp_path):
     with pytest.raises(FileRefusedError, match="exists already and is not written over"), new_file(path):
         pytest.fail("the file was opened")
     assert path.read_bytes() == b"old"
-    with new_file(path, force=True) as file:
+    with new_file(path, overwrite=True) as file:
         file.write(b"new")
     assert path.read_bytes() == b"new"
 
@@ -106,7 +106,7 @@ def test_an_input_is_never_an_output_whatever_it_is_called(tmp_path, link):
     if link == "symbolic":
         other.symlink_to(given)
     with pytest.raises(FileRefusedError, match="is read by this command"):
-        check_output(other, [None, given], force=True)
+        check_output(other, [None, given], overwrite=True)
 
 
 def test_outputs_that_cannot_be_are_refused_before_any_work(tmp_path, odd_files):
@@ -118,4 +118,4 @@ def test_outputs_that_cannot_be_are_refused_before_any_work(tmp_path, odd_files)
         (tmp_path, "is a directory"),
     ):
         with pytest.raises(FileRefusedError, match=sentence):
-            check_output(path, force=True)
+            check_output(path, overwrite=True)

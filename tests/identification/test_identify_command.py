@@ -150,7 +150,7 @@ def test_bad_input_ends_with_one_sentence(tmp_path, capsys):
     assert "normal that is not zero" in refused(capsys, bag, *BOX, "--normal", "0", "0", "0")
     assert "gravity acts downward" in refused(capsys, bag, *BOX, "--gravity", "-9.81")
     assert "noise of the rotation is 0 to 1e+06" in refused(capsys, bag, *BOX, "--noise", "1", "-1", "1", "1")
-    assert "cannot be written as" in refused(capsys, bag, *BOX, "--plot", tmp_path / "picture.qqq")
+    assert "is no name of a picture" in refused(capsys, bag, *BOX, "--plot", tmp_path / "picture.qqq")
     (tmp_path / "corners.csv").write_text("0, 0, 0\n1, two, 3\n")
     assert "line 2" in refused(capsys, bag, "--hull", tmp_path / "corners.csv")
     (tmp_path / "text.mcap").write_text("this is no bag")

@@ -7,6 +7,7 @@ from pathlib import Path
 
 from contact_sim_pkg.bag.errors import BagError
 from contact_sim_pkg.bag.reader import Bag
+from contact_sim_pkg.files import check_output, new_file
 
 from . import facts
 from .comparison_tables import difference_table, number_table
@@ -20,7 +21,7 @@ from .figures_comparison import (
     slap_comparison,
 )
 from .figures_comparison_domain import domain_comparison
-from .page import Section, environment
+from .page import Section, environment, is_page
 from .reading import read_recording
 from .scene_differences import differences, labels
 from .series import Recording
@@ -30,22 +31,27 @@ TEMPLATE = "comparison.html.j2"
 FILE_NAME = "comparison.html"
 
 
-def write_comparison(bags: Sequence[Bag], out: Path | None = None) -> Path:
+def write_comparison(bags: Sequence[Bag], out: Path | None = None, *, overwrite: bool = False) -> Path:
     """Write one page on several bags of one rig.
 
     Args:
         bags: opened with `open_bag`, at least two.
-        out: file to write, replaced if it exists; `comparison.html` in the working directory where it is None.
+        out: file to write; a page of this command is made again, another
+            file only by `overwrite`; `comparison.html` in the working directory where it is None.
 
     Returns:
         Where the page is.
 
     Raises:
         BagError: a bag cannot be read, or the rigs differ.
-        OSError: the page cannot be written there.
+        FileRefusedError: `out` is another file, or part of a bag that is read.
     """
     path = Path(FILE_NAME) if out is None else out
-    path.write_text(render_comparison([read_recording(bag) for bag in bags]), encoding="utf-8")
+    read = [file for each in bags for file in (each.path, each.path.parent)]
+    check_output(path, read, overwrite=overwrite, ours=is_page)
+    page = render_comparison([read_recording(bag) for bag in bags])
+    with new_file(path, read, overwrite=overwrite, ours=is_page) as file:
+        file.write(page.encode())
     return path
 
 

@@ -4,13 +4,17 @@ from __future__ import annotations
 
 import io
 import re
+from collections.abc import Iterable
 from contextlib import AbstractContextManager
+from pathlib import Path
 from typing import Any, NamedTuple
 
 import matplotlib
 from markupsafe import Markup
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
+
+from contact_sim_pkg.files import FileRefusedError, check_output, new_file
 
 # Each colour stands for a variable of the page's style sheet; the value is what is seen where that is missing.
 INK = "#1c2126"
@@ -84,6 +88,34 @@ def new_figure(height: float, rows: int = 1, cols: int = 1, **options: Any) -> t
 def style() -> AbstractContextManager[None]:
     """Context in which figures are made and rendered."""
     return matplotlib.rc_context(dict(STYLE))
+
+
+def check_picture(path: Path, inputs: Iterable[Path | None] = (), *, overwrite: bool = False) -> None:
+    """Refuse a picture that could not be written in the end; see `files.check_output`.
+
+    Raises:
+        FileRefusedError: also for an ending of `path` that names no format.
+    """
+    known = Figure().canvas.get_supported_filetypes()
+    if _format(path) not in known:
+        raise FileRefusedError(path, f"is no name of a picture; it ends in one of {', '.join(sorted(known))}")
+    check_output(path, inputs, overwrite=overwrite)
+
+
+def save_picture(figure: Figure, path: str | Path, *, overwrite: bool = False, **options: Any) -> Path:
+    """Write a figure into a new file, whose ending names the format; options as of `Figure.savefig`.
+
+    Raises:
+        FileRefusedError: as `check_picture`. OSError: it cannot be written.
+    """
+    check_picture(Path(path), overwrite=overwrite)
+    with new_file(Path(path), overwrite=overwrite) as file:
+        figure.savefig(file, format=_format(Path(path)), **options)
+    return Path(path)
+
+
+def _format(path: Path) -> str:
+    return path.suffix.removeprefix(".").lower()
 
 
 def picture(name: str, figure: Figure, description: str, caption: str) -> Picture:

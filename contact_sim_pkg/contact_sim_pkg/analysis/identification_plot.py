@@ -7,11 +7,10 @@ from typing import Any
 
 import numpy
 
-from contact_sim_pkg.identification.errors import IdentificationError
 from contact_sim_pkg.identification.geometry import gaps
 from contact_sim_pkg.identification.identify import Identification
 
-from .drawing import ACCENT, MUTED, new_figure, style
+from .drawing import ACCENT, MUTED, new_figure, save_picture, style
 
 __all__ = ["write_plot"]
 
@@ -19,22 +18,16 @@ LEAST_RANGE = 0.02  # of the axis of the parameters: less would draw rounding at
 COLOURS = {"stick": ACCENT, "slide": "#b8551b", "slide, reversed": "#7a3b9e"}
 
 
-def write_plot(found: Identification, path: str | Path) -> Path:
-    """Draw; the ending of `path` names the format. IdentificationError: an ending that no format has."""
+def write_plot(found: Identification, path: str | Path, *, overwrite: bool = False) -> Path:
+    """Draw; the ending of `path` names the format. Raises FileRefusedError, see `drawing.save_picture`."""
     with style():
         figure, axes = new_figure(7.0, 3)
-        known = figure.canvas.get_supported_filetypes()
-        if Path(path).suffix.removeprefix(".") not in known:
-            raise IdentificationError(
-                f"a picture cannot be written as {path}; its name ends in one of {', '.join(sorted(known))}"
-            )
         figure.set_facecolor("white")
         _height(axes[0], found)
         _impulses(axes[1], found)
         axes[1].set_xlim(axes[0].get_xlim())
         _inertia(axes[2], found)
-        figure.savefig(path, dpi=130, facecolor="white")
-    return Path(path)
+        return save_picture(figure, path, overwrite=overwrite, dpi=130, facecolor="white")
 
 
 def _height(axis: Any, found: Identification) -> None:

@@ -5,6 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 
 from contact_sim_pkg.bag.reader import Bag
+from contact_sim_pkg.files import check_output, new_file
 
 from . import facts
 from .backrest_numbers import BACKREST
@@ -16,7 +17,7 @@ from .figures_bench import energy_balance, real_time_factor
 from .figures_contact import footprint_over_time, load_over_approach, load_over_time, pressure_maps
 from .figures_ride import seat_spectrum, seat_transmissibility
 from .impact_section import IMPACT, impact_parts
-from .page import Section, environment
+from .page import Section, environment, is_page
 from .reading import read_recording
 from .ride import ride_signals
 from .roller_section import ROLLER, roller_parts
@@ -32,22 +33,27 @@ TEMPLATE = "report.html.j2"
 FILE_NAME = "report.html"
 
 
-def write_report(bag: Bag, out: Path | None = None) -> Path:
+def write_report(bag: Bag, out: Path | None = None, *, overwrite: bool = False) -> Path:
     """Write the report of a bag.
 
     Args:
         bag: opened with `open_bag`; unfinished bags give a report of what they hold.
-        out: file to write, replaced if it exists; `report.html` in the bag's directory where it is None.
+        out: file to write; a page of this command is made again, another
+            file only by `overwrite`; `report.html` in the bag's directory where it is None.
 
     Returns:
         Where the page is.
 
     Raises:
         BagError: the bag cannot be read.
-        OSError: the page cannot be written there.
+        FileRefusedError: `out` is another file, or part of a bag that is read.
     """
     path = bag.path.parent / FILE_NAME if out is None else out
-    path.write_text(render(read_recording(bag)), encoding="utf-8")
+    read = (bag.path, bag.path.parent)
+    check_output(path, read, overwrite=overwrite, ours=is_page)
+    page = render(read_recording(bag))
+    with new_file(path, read, overwrite=overwrite, ours=is_page) as file:
+        file.write(page.encode())
     return path
 
 

@@ -36,7 +36,7 @@ class Labels(NamedTuple):
 def differences(scenes: Sequence[dict[str, Any]]) -> list[Difference]:
     """Values that are not the same in all scenes, in the order of the first scene that has them; how it is run comes last."""
     flat = [dict(_leaves(scene)) for scene in scenes]
-    keys = dict.fromkeys(key for each in flat for key in each)
+    keys = dict.fromkeys(key for each in flat for key in each if key)  # a bag without a scene has the empty key
     found = []
     for key in sorted(keys, key=lambda key: LAST.index(key[0]) + 1 if key[0] in LAST else 0):
         values = tuple(scene_value(each[key], key) if each.get(key) is not None else ABSENT for each in flat)

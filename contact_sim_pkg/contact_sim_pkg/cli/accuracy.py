@@ -6,22 +6,27 @@ from pathlib import Path
 
 import click
 
-from .picture import PictureFile
-from .tables import json_option, print_json_rows, show_sections
+from .tables import json_option, overwrite_option, print_json_rows, show_sections
 
 
 @click.command("accuracy")
 @click.argument("what", metavar="SCENE|RIG")
-@click.option("--plot", type=PictureFile(), metavar="FILE", help="Error over time, both logarithmic, as a picture.")
+@click.option(
+    "--plot", type=click.Path(path_type=Path), metavar="FILE", help="Error over time, both logarithmic, as a picture."
+)
+@overwrite_option
 @json_option
-def command(what: str, plot: Path | None, as_json: bool) -> None:
+def command(what: str, plot: Path | None, overwrite: bool, as_json: bool) -> None:
     """Error against a reference beside time, for each way to an answer.
 
     SCENE, a name or a path: each rung, tolerance and grid that it can be run with. RIG (tire, seat, block, impact, roller): each
     quantity of its contact by the cheap formulas and the dear ones, on the same input. A file named like a rig is meant by ./NAME.
     """
+    from contact_sim_pkg.analysis.drawing import check_picture
     from contact_sim_pkg.studies import ladder
 
+    if plot is not None:
+        check_picture(plot, [Path(what)], overwrite=overwrite)
     if what in ladder.RIGS:
         from contact_sim_pkg.studies import ladder_plot, ladder_table
 
@@ -37,7 +42,7 @@ def command(what: str, plot: Path | None, as_json: bool) -> None:
     else:
         show_sections(sections(rows))
     if plot is not None:
-        draw(rows, plot)  # last: whatever becomes of the picture, the table is there
+        draw(rows, plot, overwrite=overwrite)  # last: whatever becomes of the picture, the table is there
 
 
 def _tell(line: str) -> None:

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from .tables import json_option, print_json, show_sections
+from .tables import json_option, overwrite_option, print_json, show_sections
 
 if TYPE_CHECKING:
     from contact_sim_pkg.bag.axes import Axes
@@ -83,13 +83,14 @@ AXES = click.Choice(["auto", "world", "body"])
     "taken from the flights otherwise.",
 )
 @click.option("--plot", type=FILE, metavar="FILE", help="Motion, impulses and parameters as a picture.")
+@overwrite_option
 @json_option
 def command(
     bag: Path, topic: str | None, twist_topic: str | None, twist_axes: Axes, box: tuple[float, float, float] | None,
     sphere: float | None, hull: Path | None, ground: float, normal: tuple[float, float, float], gravity: float,
     force: tuple[float, float, float] | None, torque: tuple[float, float, float] | None, force_topic: str | None,
     force_axes: Axes, friction: float | None, noise: tuple[float, float, float, float] | None, plot: Path | None,
-    as_json: bool,
+    overwrite: bool, as_json: bool,
 ) -> None:  # fmt: skip
     """Inertia and impulses of the rigid body whose motion BAG holds.
 
@@ -114,6 +115,10 @@ def command(
     from contact_sim_pkg.identification.wrench import constant
     from contact_sim_pkg.studies.section import Section
 
+    if plot is not None:
+        from contact_sim_pkg.analysis.drawing import check_picture
+
+        check_picture(plot, [bag, hull], overwrite=overwrite)
     shape = _shape(box, sphere, hull)
     _check_wrench_options((force, torque) != (None, None), force_topic, force_axes)
     recorded = read_body_states(bag, topic, twist_topic, twist_axes)
@@ -130,16 +135,16 @@ def command(
         for line in recorded.reading:
             click.echo(f"bench: {line}", err=True)
         raise
-    if plot is not None:
-        from contact_sim_pkg.analysis.identification_plot import write_plot
-
-        write_plot(found, plot)
     if as_json:
         heads = {"bag": str(bag), "first_stamp_ns": recorded.origin, "reading": list(recorded.reading)}
         print_json({**heads, **identification_rows.facts(found)})
     else:
         reading = Section("Reading of the bag", [{"what was read, and how": line} for line in recorded.reading])
         show_sections([*_sections(found), reading])
+    if plot is not None:
+        from contact_sim_pkg.analysis.identification_plot import write_plot
+
+        write_plot(found, plot, overwrite=overwrite)
 
 
 def _shape(box: tuple[float, float, float] | None, sphere: float | None, hull: Path | None) -> Shape:

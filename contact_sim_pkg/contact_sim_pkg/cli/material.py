@@ -6,7 +6,7 @@ from pathlib import Path
 
 import click
 
-from .tables import json_option, print_json, show_rows
+from .tables import json_option, overwrite_option, print_json, show_rows
 
 FILE = click.Path(path_type=Path)
 
@@ -35,21 +35,32 @@ FILE = click.Path(path_type=Path)
 @click.option("--reference", type=float, metavar="K", help="Temperature of the master curve.")
 @click.option("--csv", "table", type=FILE, metavar="FILE", help="Impacts into FILE, groups into FILE_groups.")
 @click.option("--plot", type=FILE, metavar="FILE", help="E' and tan beta as a picture.")
+@overwrite_option
 @json_option
 def command(
     impacts: Path, form: str, end: str | None, shape: str | None, gravity: float | None, confidence: float,
     temperature_span: float, speed_ratio: float, shift: str | None, glass_temperature: float | None,
-    activation_energy: float | None, reference: float | None, table: Path | None, plot: Path | None, as_json: bool,
+    activation_energy: float | None, reference: float | None, table: Path | None, plot: Path | None, overwrite: bool,
+    as_json: bool,
 ) -> None:  # fmt: skip
     """The material that measured impacts of a sphere tell, with intervals from repeated impacts.
 
     From a bag of the rig impact, or from a file with a line an impact: columns m, R, V0, tau, k and T (kg, m, m/s, s, 1, K; other
     units in brackets behind the name), g (m/s^2) where the weight acts along the blow.
     """
+    from contact_sim_pkg.analysis import drawing
     from contact_sim_pkg.analysis.material import figure
     from contact_sim_pkg.analysis.material.bag_impacts import is_bag, rules_of_bag
     from contact_sim_pkg.analysis.material.options import Options
-    from contact_sim_pkg.analysis.material.report import group_rows, master_row, material_report, pooled_rows, write_csv
+    from contact_sim_pkg.analysis.material.report import (
+        csv_files,
+        group_rows,
+        master_row,
+        material_report,
+        pooled_rows,
+        write_csv,
+    )
+    from contact_sim_pkg.files import check_output
 
     for name, given, law in (
         ("--glass-temperature", glass_temperature, "wlf"),
@@ -57,6 +68,10 @@ def command(
     ):
         if given is not None and shift != law:
             raise click.UsageError(f"{name} belongs to --shift {law}")
+    for each in () if table is None else csv_files(table):
+        check_output(each, [impacts], overwrite=overwrite)
+    if plot is not None:
+        drawing.check_picture(plot, [impacts], overwrite=overwrite)
     usual = rules_of_bag(impacts) if is_bag(impacts) else ("force", "small")
     options = Options(end or usual[0], form, shape or usual[1], confidence, temperature_span, speed_ratio)
     parameter = glass_temperature if shift == "wlf" else activation_energy
@@ -64,9 +79,9 @@ def command(
     for note in report.impacts.notes:
         click.echo(note, err=True)
     if table is not None:
-        write_csv(report, table)
+        write_csv(report, table, overwrite=overwrite)
     if plot is not None:
-        figure.write_figure(report, plot)
+        figure.write_figure(report, plot, overwrite=overwrite)
     if as_json:
         parts = {"impacts": report.rows, "groups": group_rows(report), "all_speeds": pooled_rows(report)}
         print_json({**parts, "master_curve": master_row(report)})

@@ -6,6 +6,8 @@ from pathlib import Path
 
 import click
 
+from .tables import overwrite_option
+
 
 @click.command("report")
 @click.argument("bags", nargs=-1, required=True, metavar="BAG...", type=click.Path(path_type=Path))
@@ -16,7 +18,8 @@ import click
     help="The page; report.html in the bag otherwise, comparison.html here for several bags.",
 )
 @click.option("--skip-bad", is_flag=True, help="Go on after damaged chunks.")
-def command(bags: tuple[Path, ...], out: Path | None, skip_bad: bool) -> None:
+@overwrite_option
+def command(bags: tuple[Path, ...], out: Path | None, skip_bad: bool, overwrite: bool) -> None:
     """Write the page with the pictures that an engineer looks at, and print its path.
 
     Several bags of one rig are laid over each other on one page, called by what differs between their scenes.
@@ -29,5 +32,9 @@ def command(bags: tuple[Path, ...], out: Path | None, skip_bad: bool) -> None:
     for each in recorded:
         for note in each.notes:
             click.echo(note if len(bags) == 1 else f"{each.path.parent.name}: {note}", err=True)
-    page = write_report(recorded[0], out) if len(recorded) == 1 else write_comparison(recorded, out)
+    page = (
+        write_report(recorded[0], out, overwrite=overwrite)
+        if len(recorded) == 1
+        else write_comparison(recorded, out, overwrite=overwrite)
+    )
     click.echo(f"report: {page}")

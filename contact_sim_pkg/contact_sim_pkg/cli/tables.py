@@ -23,6 +23,10 @@ json_option = click.option(
     "--json", "as_json", is_flag=True, help="One JSON object on standard output, and nothing else."
 )
 
+overwrite_option = click.option(
+    "--overwrite", is_flag=True, help="Write over files that exist; never over what is read."
+)
+
 
 def print_json(value: Mapping[str, Any]) -> None:
     """One object on standard output; NaN and infinity, which JSON lacks, become null."""

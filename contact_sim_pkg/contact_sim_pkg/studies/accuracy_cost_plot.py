@@ -12,6 +12,7 @@ import matplotlib
 matplotlib.use("Agg")
 from matplotlib import pyplot, ticker
 
+from contact_sim_pkg.analysis.drawing import save_picture
 from contact_sim_pkg.studies.accuracy_cost_roller import PARTS as ROLLER_PARTS
 
 __all__ = ["write_plot"]
@@ -31,7 +32,7 @@ PANELS = (  # part and contact -> title
 SPAN = 10.0  # the time axis shows at least this ratio, so that noise does not look like a trend
 
 
-def write_plot(rows: list[dict[str, Any]], path: str | Path) -> Path:
+def write_plot(rows: list[dict[str, Any]], path: str | Path, *, overwrite: bool = False) -> Path:
     """Draw the rows of `accuracy_cost.study`, one panel a part that is there; the ending of `path` names the format."""
     chosen = [(title, _of_panel(rows, part, contact)) for part, contact, title in PANELS]
     panels = [(title, members) for title, members in chosen if members]
@@ -45,9 +46,10 @@ def write_plot(rows: list[dict[str, Any]], path: str | Path) -> Path:
     for axis, (title, members) in zip(axes.flat, panels, strict=False):
         _panel(axis, members)
         axis.set_title(title)
-    figure.savefig(path, dpi=120)
-    pyplot.close(figure)
-    return Path(path)
+    try:
+        return save_picture(figure, path, overwrite=overwrite, dpi=120)
+    finally:
+        pyplot.close(figure)
 
 
 def _of_panel(rows: list[dict[str, Any]], part: str, contact: str) -> list[dict[str, Any]]:

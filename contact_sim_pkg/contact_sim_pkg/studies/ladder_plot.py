@@ -10,6 +10,7 @@ import matplotlib
 matplotlib.use("Agg")
 from matplotlib import pyplot, ticker
 
+from contact_sim_pkg.analysis.drawing import save_picture
 from contact_sim_pkg.studies.ladder_row import Row
 from contact_sim_pkg.studies.ladder_table import ROUNDING
 
@@ -23,7 +24,7 @@ MARKERS = "osD^vP*X<>hd"
 STYLES = ("-", "--", ":", "-.", (0, (5, 1, 1, 1, 1, 1)))
 
 
-def write_plot(rows: list[Row], path: str | Path) -> Path:
+def write_plot(rows: list[Row], path: str | Path, *, overwrite: bool = False) -> Path:
     """Draw the rows of `ladder.study`; the ending of `path` names the format."""
     parts = list(dict.fromkeys(row["part"] for row in rows))
     lines = -(-len(parts) // COLUMNS)
@@ -35,9 +36,10 @@ def write_plot(rows: list[Row], path: str | Path) -> Path:
     for axis, part in zip(axes.flat, parts, strict=False):
         _panel(axis, [row for row in rows if row["part"] == part])
         axis.set_title(part)
-    figure.savefig(path, dpi=80)
-    pyplot.close(figure)
-    return Path(path)
+    try:
+        return save_picture(figure, path, overwrite=overwrite, dpi=80)
+    finally:
+        pyplot.close(figure)
 
 
 def _panel(axis: Any, rows: list[Row]) -> None:

@@ -8,15 +8,18 @@ from typing import Any
 import numpy
 from matplotlib.figure import Figure
 
-from contact_sim_pkg.analysis.material.errors import MaterialError
+from contact_sim_pkg.analysis.drawing import save_picture
 from contact_sim_pkg.analysis.material.estimate import Estimate, Value
 from contact_sim_pkg.analysis.material.report import MaterialReport
 
 __all__ = ["write_figure"]
 
 
-def write_figure(report: MaterialReport, path: Path) -> Path:
-    """Draw every impact as a dot, every group with its interval; the ending of ``path`` names the format."""
+def write_figure(report: MaterialReport, path: Path, *, overwrite: bool = False) -> Path:
+    """Draw every impact as a dot, every group with its interval; the ending of ``path`` names the format.
+
+    Raises FileRefusedError, see `drawing.save_picture`.
+    """
     figure = Figure(figsize=(7.4, 6.0), layout="constrained")
     upper, lower = figure.subplots(2, 1, sharex=True)
     places, label, logarithmic = _places(report)
@@ -31,11 +34,7 @@ def write_figure(report: MaterialReport, path: Path) -> Path:
     upper.set_ylabel("E' [Pa]")
     lower.set_ylabel("tan β")
     lower.set_xlabel(label)
-    try:
-        figure.savefig(path, dpi=120)
-    except (OSError, ValueError) as error:
-        raise MaterialError(f"{path}: the picture cannot be written: {error}") from error
-    return path
+    return save_picture(figure, path, overwrite=overwrite, dpi=120)
 
 
 def _places(report: MaterialReport) -> tuple[list[float], str, bool]:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import csv
+import io
 from pathlib import Path
 from typing import Any, NamedTuple
 
@@ -20,8 +21,18 @@ from contact_sim_pkg.core.impact.force import ENDS
 from contact_sim_pkg.core.impact.inverse import FORMS, HEAVIEST
 from contact_sim_pkg.core.impact.motion import SHAPE_RULES
 from contact_sim_pkg.core.impact.shift import Wlf
+from contact_sim_pkg.files import new_file
 
-__all__ = ["MaterialReport", "group_rows", "master_row", "material_report", "pooled_rows", "report_of", "write_csv"]
+__all__ = [
+    "MaterialReport",
+    "csv_files",
+    "group_rows",
+    "master_row",
+    "material_report",
+    "pooled_rows",
+    "report_of",
+    "write_csv",
+]
 
 
 class MaterialReport(NamedTuple):
@@ -128,16 +139,20 @@ def master_row(report: MaterialReport) -> dict[str, Any] | None:
     }  # fmt: skip
 
 
-def write_csv(report: MaterialReport, path: Path) -> None:
-    """Write the rows of the impacts; beside it, with `_groups` in its name, those of the groups. Raises MaterialError."""
-    for rows, target in ((report.rows, path), (group_rows(report), path.with_stem(f"{path.stem}_groups"))):
-        try:
-            with open(target, "w", newline="", encoding="utf-8") as stream:
-                writer = csv.DictWriter(stream, list(rows[0]))
-                writer.writeheader()
-                writer.writerows(rows)
-        except OSError as error:
-            raise MaterialError(f"{target}: cannot be written: {error.strerror or error}") from error
+def csv_files(path: Path) -> tuple[Path, Path]:
+    """The files that `write_csv` makes: impacts, and beside it, with `_groups` in its name, groups."""
+    return path, path.with_stem(f"{path.stem}_groups")
+
+
+def write_csv(report: MaterialReport, path: Path, *, overwrite: bool = False) -> None:
+    """Write the rows of impacts and of groups into new `csv_files`. Raises FileRefusedError, see `files.new_file`."""
+    for rows, target in zip((report.rows, group_rows(report)), csv_files(path), strict=True):
+        text = io.StringIO()
+        writer = csv.DictWriter(text, list(rows[0]))
+        writer.writeheader()
+        writer.writerows(rows)
+        with new_file(target, overwrite=overwrite) as file:
+            file.write(text.getvalue().encode())
 
 
 def _flat(name: str, value: Value) -> dict[str, float | None]:

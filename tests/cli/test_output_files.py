@@ -1,0 +1,101 @@
+"""No command writes over what it reads, or over a file that it did not make, unasked."""
+
+import importlib
+
+import click
+import pytest
+
+from contact_sim_pkg.cli.main import COMMANDS, main
+
+from ..analysis import synthetic_bag as known
+
+IMPACTS = "m,R,V0,tau,k\n0.02,0.01,1,0.001,0.5\n0.02,0.01,1,0.001,0.51\n"
+OUTPUTS = {  # command, its parameter -> arguments that name FILE as an output
+    ("material", "table"): ["IMPACTS", "--csv", "FILE"],
+    ("material", "plot"): ["IMPACTS", "--plot", "FILE"],
+    ("identify", "plot"): ["BAG", "--box", "1", "1", "1", "--plot", "FILE"],
+    ("accuracy", "plot"): ["seat_ride", "--plot", "FILE"],
+    ("report", "out"): ["BAG", "--out", "FILE"],
+    ("run", "out"): ["seat_ride", "--offline", "--out", "FILE"],
+    ("recover", "target"): ["BAG", "FILE"],
+}
+INPUTS = {"impacts", "bag", "bags", "hull", "scene", "road", "vibration", "from_bag"}
+
+
+@pytest.fixture(scope="module")
+def bag(tmp_path_factory):
+    return known.bare_bag(tmp_path_factory.mktemp("outputs") / "bag")
+
+
+def call(bag, folder, arguments, file):
+    (folder / "impacts.csv").write_text(IMPACTS)
+    known_names = {"FILE": file, "BAG": bag.path.parent, "IMPACTS": folder / "impacts.csv"}
+    return main([str(known_names.get(argument, argument)) for argument in arguments])
+
+
+def test_every_path_of_a_command_is_a_known_output_or_an_input():
+    paths = {
+        (name, parameter.name)
+        for name, module in COMMANDS.items()
+        for parameter in importlib.import_module(f"contact_sim_pkg.cli.{module}").command.params
+        if isinstance(parameter.type, click.Path)
+    }
+    assert {(name, parameter) for name, parameter in paths if parameter not in INPUTS} == set(OUTPUTS)
+
+
+@pytest.mark.parametrize("output", OUTPUTS, ids=" ".join)
+def test_a_file_of_somebody_else_stays_as_it_is(bag, tmp_path, capsys, output):
+    theirs = tmp_path / "theirs.png"
+    theirs.write_text("a week's work")
+    assert call(bag, tmp_path, [output[0], *OUTPUTS[output]], theirs) == 2
+    said = capsys.readouterr().err
+    assert "theirs.png" in said
+    assert "exists already" in said
+    assert said.count("\n") == 1
+    assert theirs.read_text() == "a week's work"
+
+
+@pytest.mark.parametrize("name", ["impacts.csv", "impacts_groups.csv"])
+def test_impacts_are_never_written_over_even_when_asked_to(bag, tmp_path, capsys, name):
+    given = tmp_path / name
+    given.write_text(IMPACTS)
+    arguments = ["material", str(given), "--csv", str(tmp_path / "impacts.csv"), "--overwrite"]
+    assert main(arguments) == 2
+    assert "is read by this command" in capsys.readouterr().err
+    assert given.read_text() == IMPACTS
+
+
+def test_tables_and_pictures_are_written_over_where_that_is_asked_for(bag, tmp_path, capsys):
+    for output, name in ((("material", "table"), "a.csv"), (("material", "plot"), "a.png")):
+        file = tmp_path / name
+        file.write_text("old")
+        assert call(bag, tmp_path, [output[0], *OUTPUTS[output], "--overwrite"], file) == 0
+        assert file.read_bytes() != b"old"
+    capsys.readouterr()
+
+
+def test_a_page_is_made_again_and_nothing_else_is(bag, tmp_path, capsys):
+    page, notes = bag.path.parent / "report.html", tmp_path / "notes.html"
+    for _ in range(2):
+        assert main(["report", str(bag.path.parent)]) == 0
+    made = page.read_bytes()
+    page.write_bytes(b"old\n" + made)  # no page of ours: it begins otherwise
+    assert main(["report", str(bag.path.parent)]) == 2
+    page.write_bytes(made.replace(b"</body>", b"old</body>"))
+    assert main(["report", str(bag.path.parent)]) == 0
+    assert page.read_bytes() == made
+    notes.write_text("<!DOCTYPE html><title>notes on the Contact Bench report</title>")
+    assert main(["report", str(bag.path.parent), "--out", str(notes)]) == 2
+    assert main(["report", str(bag.path.parent), "--out", str(bag.path), "--overwrite"]) == 2
+    assert "is read by this command" in capsys.readouterr().err
+    assert main(["report", str(bag.path.parent), "--out", str(notes), "--overwrite"]) == 0
+    assert main(["report", *[str(bag.path.parent)] * 2, "--out", str(notes)]) == 0  # bags without a scene
+
+
+def test_a_full_disk_is_a_fault_and_no_refusal(monkeypatch, capsys):
+    def full(_text="", **_options):
+        raise OSError(28, "No space left on device")
+
+    monkeypatch.setattr(click, "echo", full)
+    assert main(["show", "seat_ride"]) == 1
+    assert capsys.readouterr().err == "bench: No space left on device\n"
