@@ -2,8 +2,8 @@
 
     ros2 launch contact_sim_pkg bench.launch.py scene:=seat_ride duration:=10.0 pace:=max
 
-A refused scene or bag, and a node that ends badly, end the launch with status 1 (launch has no other) and a sentence. `bench run` does
-the same where launch is not installed, and shows progress.
+A refused scene or bag, and a node that ends badly, end the launch with status 1 (launch has no other)
+and a sentence. `bench run` does the same where launch is not installed, and shows progress.
 """
 
 import shutil

@@ -138,30 +138,3 @@ def test_an_input_of_another_message_definition_is_refused(nodes):
         wait_until(lambda: nodes.started("contact_simulator")[0].status is not None)
     assert nodes.started("contact_simulator")[0].status == 2
     assert any("another definition" in line for line in nodes.said)
-
-
-def test_a_replayed_bag_brings_the_recorded_bytes_once_more(scene, tmp_path):
-    """Latched topics too; the node ends by itself with status 0."""
-    from ..nodes.stand_in import StandIn
-
-    bag = tmp_path / "bag"
-    run_offline(scene, bag)
-    got: list[bytes] = []
-    nodes = Nodes(scene, tmp_path / "nodes")
-    with StandIn("listener", topic="road/patch") as listener:
-        from contact_sim_pkg.nodes.endpoints import subscription
-
-        kept = [subscription(listener.node, "seat/force", got.append, 100)]
-        kept.append(subscription(listener.node, "bench/scene", got.append))
-        nodes.start("bag_replay", bag=bag, delay=2.0, rate=0.5)
-        try:
-            listener.spin_until(lambda: len(got) == BLOCKS + 1)
-            assert nodes.wait() == {"bag_replay": 0}
-        finally:
-            nodes.end()
-        assert len(kept) == 2
-    recorded = open_bag(bag)
-    forces = [message.data for message in recorded.messages("seat/force")]
-    scene_text = [message.data for message in recorded.messages("bench/scene")]
-    assert sorted(got) == sorted(scene_text + forces)
-    assert [data for data in got if data not in scene_text] == forces

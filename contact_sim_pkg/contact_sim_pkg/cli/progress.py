@@ -37,7 +37,7 @@ class RunDisplay:
     """A bar on a terminal, a line every five seconds elsewhere; lines of the nodes go above the bar."""
 
     def __init__(self, duration: float) -> None:
-        """Prepare for a run of `duration` simulated seconds; nothing is shown before it is entered."""
+        """Prepare for a run or a replay of `duration` simulated seconds; nothing is shown before it is entered."""
         self._duration = duration
         self._console = Console(file=sys.stderr, highlight=False)
         self._said = time.monotonic()
@@ -55,8 +55,12 @@ class RunDisplay:
         )
         if standing.peak_pressure > 0.0:
             text += f", peak {standing.peak_pressure / 1e3:.1f} kPa"
+        self.update(standing.simulated, text)
+
+    def update(self, completed: float, text: str) -> None:
+        """Show how much of the duration is done, [s], and a text."""
         if self._console.is_terminal:
-            self._bar.update(self._task, completed=standing.simulated, description=text)
+            self._bar.update(self._task, completed=completed, description=text)
         elif time.monotonic() - self._said > PLAIN_SECONDS:
             self._said = time.monotonic()
             self.say(text)

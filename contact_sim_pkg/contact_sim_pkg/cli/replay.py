@@ -3,9 +3,14 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import click
+
+from .progress import RunDisplay
+
+if TYPE_CHECKING:
+    from contact_sim_pkg.bag.reader import Bag
 
 
 class Number(click.FloatRange):
@@ -31,14 +36,30 @@ class Number(click.FloatRange):
     help="Recorded time to begin at.",
 )
 @click.option(
+    "--start-message",
+    type=click.IntRange(0),
+    default=0,
+    show_default=True,
+    metavar="N",
+    help="Number of the message to begin at, from 0, among those replayed.",
+)
+@click.option(
     "--delay",
     type=Number(0.0, 3600.0),
     default=0.5,
     show_default=True,
     metavar="S",
-    help="Time before the first message.",
+    help="Least time before the first message; the subscribers that are there are waited for in any case.",
 )
 @click.option("--topics", multiple=True, metavar="NAME", help="Replay only this topic; may be given several times.")
+@click.option(
+    "--remap",
+    "remapped",
+    multiple=True,
+    metavar="OLD:=NEW",
+    help="Publish a topic under another name; may be given several times.",
+)
+@click.option("--loop", is_flag=True, help="Begin again after the end.")
 @click.option("--clock", is_flag=True, help="Publish the recorded time on /clock.")
 @click.pass_context
 def command(
@@ -46,18 +67,37 @@ def command(
     bag: Path,
     rate: float,
     start_offset: float,
+    start_message: int,
     delay: float,
     topics: tuple[str, ...],
+    remapped: tuple[str, ...],
+    loop: bool,
     clock: bool,
 ) -> None:
-    """Publish the messages of BAG as they were recorded: bytes, spacing, quality of service."""
+    """Publish the messages of BAG as they were recorded: bytes, spacing, quality of service. The space key pauses."""
     from contact_sim_pkg.nodes.supervisor import node_arguments, set_default_environment
 
     set_default_environment()
+    from contact_sim_pkg.bag.reader import open_bag
     from contact_sim_pkg.nodes.bag_replay import main
 
+    recorded = open_bag(bag)
     parameters: dict[str, str | float | bool] = {
-        "bag": str(bag), "rate": rate, "start_offset": start_offset, "delay": delay, "clock": clock,
-        "topics": ",".join(topics),
+        "bag": str(bag), "rate": rate, "start_offset": start_offset, "start_message": start_message, "delay": delay,
+        "loop": loop, "clock": clock, "topics": ",".join(topics),
     }  # fmt: skip
-    context.exit(main(["bench", *node_arguments(parameters)]))
+    rules = [part for text in remapped for part in ("-r", _rule(text, recorded))]
+    with RunDisplay(recorded.end * 1e-9) as display:
+        status = main(
+            ["bench", *node_arguments(parameters), *rules],
+            lambda standing: display.update(standing.simulated, standing.describe()),
+        )
+    context.exit(status)
+
+
+def _rule(text: str, bag: Bag) -> str:
+    """A remapping by the topic's full name; BagError where the bag has no such topic."""
+    old, sign, new = text.partition(":=")
+    if not (sign and old and new):
+        raise click.BadParameter(f"{text!r} is not OLD:=NEW, such as tire/force:=left/force", param_hint="--remap")
+    return f"{bag.topic(old).name}:={new}"

@@ -3,69 +3,81 @@
 from __future__ import annotations
 
 import sys
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Sequence
 from pathlib import Path
+from typing import Any
 
 from rclpy.duration import Duration
 from rclpy.publisher import Publisher
+from std_srvs.srv import SetBool
 
 from contact_sim_pkg.bag.messages import encode_clock
-from contact_sim_pkg.bag.reader import Bag, BagMessage, open_bag
+from contact_sim_pkg.bag.reader import Bag, open_bag
 
+from .audience import Audience
 from .bench_node import LifecycleBenchNode
 from .endpoints import message_type, publisher, refuse_strangers
+from .keys import Keys
 from .parameters import declare
+from .player import Player, Standing
 from .process import run
 from .protocol import DONE, REFUSED, NodeError
 from .recorded_qos import profile_of_recorded
 
 CLOCK_RATE = 40.0  # [Hz] of the steady clock
-BATCH = 200  # messages between two looks at signals
+BATCH = 200  # messages between two looks at signals; what a volatile topic keeps for a subscriber that is behind
 SETTLE_SECONDS = 1.0
+LOOK_SECONDS = 0.05  # between two looks at the graph, at keys and at a pause
+SHOW_SECONDS = 5.0  # between two lines about where the replay stands
+DELAY_TEXT = "Least time before the first message, in s; the subscribers that are there are waited for in any case."
 
 
 class BagReplayNode(LifecycleBenchNode):
-    """Publishes the topics of a bag; their names count from the node's namespace."""
+    """Publishes the topics of a bag; their names count from the node's namespace. Offers `~/pause`."""
 
-    def __init__(self) -> None:
-        """Declare the parameters; everything else is done in `configure`."""
+    def __init__(self, show: Callable[[Standing], None] | None = None) -> None:
+        """Declare the parameters; `show` hears where the replay stands, in place of the log."""
         super().__init__("bag_replay")
         self._bag_name = declare(self, "bag", "", "Directory of the bag.")
         self._rate = declare(self, "rate", 1.0, "Recorded seconds per second.", (0.001, 1000.0))
         self._offset = declare(self, "start_offset", 0.0, "Recorded time to begin at, in s.", (0.0, 1e9))
-        self._delay = declare(
-            self, "delay", 0.5, "Time before the first message, in s, for others to match.", (0.0, 3600.0)
+        self._first = declare(
+            self, "start_message", 0, "Number of the message to begin at, from 0, among those replayed.", (0, 2**62)
         )
+        self._delay = declare(self, "delay", 0.5, DELAY_TEXT, (0.0, 3600.0))
+        self._loop = declare(self, "loop", False, "Begin again after the end; the recorded time then jumps back.")
         self._chosen = declare(self, "topics", "", "Names of the topics to replay, separated by commas. Empty: all.")
         self._with_clock = declare(self, "clock", False, "Publish the recorded time on /clock, 40 times a second.")
         self._publishers_by_topic: dict[str, Publisher] = {}
         self._clock_publisher: Publisher | None = None
-        self._began: float | None = None
-        self._clock_due = 0.0
-        self._checked = False
+        self._show = show
+        self._player: Player | None = None
+        self._began = self._held = False
+        self._clock_due = self._shown_at = 0.0
+        self._keys = Keys()
+        self._pause = self.create_service(SetBool, "~/pause", self._on_pause)
 
     def configure(self) -> None:
         """Open the bag and create a publisher for each topic that has messages."""
         if not self._bag_name:
             raise NodeError("parameter bag is empty; give the directory of a bag", REFUSED)
         bag = open_bag(Path(self._bag_name))
-        self._start = round(self._offset * 1e9)
-        if self._start > bag.end:
-            raise NodeError(
-                f"start_offset is {self._offset:g} s, {self._bag_name} ends at {bag.end * 1e-9:g} s; begin before its end",
-                REFUSED,
-            )
+        names = _chosen_topics(bag, self._chosen)
+        latched = {name for name in names if "transient_local" in bag.topics[name].offered_qos}
+        self._player = Player(
+            bag, names, latched,
+            start=self._offset, start_message=self._first, rate=self._rate, loop=self._loop,
+        )  # fmt: skip
         for note in bag.notes:
             self.get_logger().warning(note)
-        for name in _chosen_topics(bag, self._chosen):
+        for name in names:
             row = bag.topics[name]
             profile = profile_of_recorded(row.offered_qos)
+            profile.depth = profile.depth if name in latched else max(profile.depth, BATCH)
             self._publishers_by_topic[name] = self.create_publisher(message_type(row.type), name.lstrip("/"), profile)
             self._refuse_other_definition(name, row.type_hash)
         self._clock_publisher = publisher(self, "/clock") if self._with_clock else None
-        self._messages: Iterator[BagMessage] = bag.messages()
-        self._latched = {n for n in self._publishers_by_topic if "transient_local" in bag.topics[n].offered_qos}
-        self._next = self._advance()
+        self._audience = Audience(self, self._publishers_by_topic, self._delay)
 
     def _refuse_other_definition(self, name: str, recorded: str) -> None:
         for info in self.get_publishers_info_by_topic(name.lstrip("/")):
@@ -77,54 +89,76 @@ class BagReplayNode(LifecycleBenchNode):
                     REFUSED,
                 )
 
-    def _advance(self) -> BagMessage | None:
-        """The next message to publish; what lies before the start is passed over unless it is latched."""
-        for message in self._messages:
-            late = message.log_time < self._start and message.topic not in self._latched
-            if message.topic in self._publishers_by_topic and not late:
-                return message
-        return None
-
     def tick(self, now: float) -> float:
-        """Publish what is due."""
-        if not self.active:
-            return 1.0
-        if self._began is None:
-            self._began = now + self._delay
-        if now < self._began:
-            return self._began - now
-        self._refuse_others()
-        simulated = self._start + round((now - self._began) * self._rate * 1e9)
+        """Wait for the subscribers, then publish what is due."""
+        player = self._player
+        if player is None or not (self._began or (self.active and self._audience.is_there(now))):
+            return LOOK_SECONDS
+        if not self._began:
+            self._begin()
+        self._hold_or_go_on(player, now)
         for _ in range(BATCH):
-            if self._next is None or self._next.log_time > simulated:
+            message = player.take(now)
+            if message is None:
                 break
-            self._publishers_by_topic[self._next.topic].publish(self._next.data)
-            self._next = self._advance()
+            self._publishers_by_topic[message.topic].publish(message.data)
         if self._clock_publisher is not None and now >= self._clock_due:
             self._clock_due = now + 1.0 / CLOCK_RATE
-            self._clock_publisher.publish(encode_clock(simulated))
-        if self._next is None:
+            self._clock_publisher.publish(encode_clock(player.position(now)))
+        self._report(player.standing(now), now)
+        if player.done:
             self._settle()
-            return 0.0
-        return max(0.0, (self._next.log_time - simulated) * 1e-9 / self._rate)
+            self.exit_status = DONE
+        return player.wait(now)
 
-    def _refuse_others(self) -> None:
+    def _begin(self) -> None:
         """Once, before the first message: nobody else may publish on these topics."""
-        if self._checked:
-            return
-        self._checked = True
         names = [name.lstrip("/") for name in self._publishers_by_topic]
         for name in [*names, "/clock"] if self._clock_publisher is not None else names:
             refuse_strangers(self, name)
+        self._began = True
+        subscriptions, topics = self._audience.count()
+        keys = "; space: pause" if self._keys.is_terminal else ""
+        self.get_logger().info(
+            f"{subscriptions} subscriptions on {topics} of {len(names)} topics{keys}" if names else "nothing to replay"
+        )
+
+    def _hold_or_go_on(self, player: Player, now: float) -> None:
+        if self._keys.pressed().count(" ") % 2:
+            self._held = not self._held
+        if self._held or not self.active:
+            player.pause(now)
+        else:
+            player.resume(now)
+
+    def _on_pause(self, request: Any, response: Any) -> Any:
+        self._held = bool(request.data)
+        response.success, response.message = True, "paused" if self._held else "going on"
+        return response
+
+    def _report(self, standing: Standing, now: float) -> None:
+        if self._show is not None:
+            self._show(standing)
+        elif now - self._shown_at > SHOW_SECONDS:
+            self._shown_at = now
+            self.get_logger().info(standing.describe())
 
     def _settle(self) -> None:
         for entry in self._publishers_by_topic.values():
             entry.wait_for_all_acked(Duration(seconds=SETTLE_SECONDS))
-        self.exit_status = DONE
 
     def stop(self) -> None:
         """End at once."""
         self.exit_status = DONE
+
+    def destroy_node(self) -> None:
+        """Say how many messages went out, and give the terminal back."""
+        self._keys.close()
+        if self._player is not None and self._began:
+            sent, held, passes = self._player.sent, self._player.messages, self._player.passes
+            before = f" in pass {passes + 1}" if passes else ""
+            self.get_logger().info(f"{sent} of {held} messages went out{before}")
+        super().destroy_node()
 
 
 def _chosen_topics(bag: Bag, chosen: str) -> list[str]:
@@ -133,9 +167,9 @@ def _chosen_topics(bag: Bag, chosen: str) -> list[str]:
     return [bag.topic(name.strip()).name for name in chosen.split(",")]
 
 
-def main(args: Sequence[str] | None = None) -> int:
-    """Run the node; returns the exit status."""
-    return run(BagReplayNode, args)
+def main(args: Sequence[str] | None = None, show: Callable[[Standing], None] | None = None) -> int:
+    """Run the node; returns the exit status. `show` hears where the replay stands."""
+    return run(lambda: BagReplayNode(show), args)
 
 
 if __name__ == "__main__":

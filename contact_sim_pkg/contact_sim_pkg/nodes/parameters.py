@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Any, TypeVar
 
-from rcl_interfaces.msg import FloatingPointRange, ParameterDescriptor
+from rcl_interfaces.msg import FloatingPointRange, IntegerRange, ParameterDescriptor
 from rclpy.node import Node
 
 from .pacing import parse_pace
@@ -31,8 +31,11 @@ def _given(node: Node, name: str, default: Any) -> Any:
 
 
 def _declare_fixed(node: Node, name: str, value: Value, text: str, allowed: tuple[float, float] | None = None) -> Value:
-    ranges = [FloatingPointRange(from_value=allowed[0], to_value=allowed[1], step=0.0)] if allowed else []
-    descriptor = ParameterDescriptor(description=text, read_only=True, floating_point_range=ranges)
+    descriptor = ParameterDescriptor(description=text, read_only=True)
+    if allowed is not None and type(value) is int:
+        descriptor.integer_range = [IntegerRange(from_value=int(allowed[0]), to_value=int(allowed[1]), step=1)]
+    elif allowed is not None:
+        descriptor.floating_point_range = [FloatingPointRange(from_value=allowed[0], to_value=allowed[1], step=0.0)]
     node.declare_parameter(name, value, descriptor, ignore_override=True)
     return value
 

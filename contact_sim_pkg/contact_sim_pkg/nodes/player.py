@@ -1,0 +1,146 @@
+"""When which message of a bag is due: rate, begin, pause, loop, and the count of what went out. Without ROS."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Collection, Iterator
+from typing import NamedTuple
+
+from contact_sim_pkg.bag.errors import BagError
+from contact_sim_pkg.bag.reader import Bag, BagMessage
+
+SHORTEST_PASS_NS = 100_000_000  # of a loop: a bag of one instant is not sent without end in no time
+
+
+class Standing(NamedTuple):
+    """Where a replay stands."""
+
+    simulated: float  # [s] of the recording
+    end: float  # [s] of the recording
+    sent: int  # messages in this pass
+    messages: int  # of this pass
+    passes: int  # done before
+    paused: bool
+
+    def describe(self) -> str:
+        """For a person."""
+        number = f"pass {self.passes + 1}, " if self.passes else ""
+        paused = ", paused" if self.paused else ""
+        return f"{number}{self.simulated:.2f} of {self.end:g} s, {self.sent} of {self.messages} messages{paused}"
+
+
+class Player:
+    """Gives out the messages of some topics of a bag, each when it is due. Paused until `resume`."""
+
+    def __init__(
+        self, bag: Bag, topics: Collection[str], latched: Collection[str], *,
+        start: float = 0.0, start_message: int = 0, rate: float = 1.0, loop: bool = False,
+    ) -> None:  # fmt: skip
+        """Find the begin.
+
+        Args:
+            bag: what is played.
+            topics: names in the bag of what is given out.
+            latched: those of them of which messages before the begin are given out too, at once.
+            start: recorded time to begin at, [s].
+            start_message: number of the message to begin at, among those of the topics, from 0.
+            rate: recorded seconds per second.
+            loop: begin again after the end.
+
+        Raises:
+            BagError: the begin lies after the end, or the bag is damaged.
+        """
+        self._bag, self._topics, self._latched = bag, set(topics), set(latched)
+        self._held = sum(bag.count(name) for name in self._topics)
+        self._first, self._rate, self._loop = start_message, rate, loop
+        self._start = max(round(start * 1e9), self._time_of(start_message))
+        if self._start > bag.end:
+            raise BagError(
+                f"start_offset is {start:g} s, {bag.path} ends at {bag.end * 1e-9:g} s; begin before its end"
+            )
+        self.passes = 0
+        self._base, self._resumed_at = self._start, math.inf
+        self._rewind()
+
+    def _time_of(self, number: int) -> int:
+        """Recorded time of the message with this number, [ns]; where all are played, nothing is read for it."""
+        if number == 0:
+            return 0
+        if number >= self._held:
+            raise BagError(f"start_message is {number}, {self._bag.path} holds {self._held} messages to replay, from 0")
+        chosen = (message for message in self._bag.messages() if message.topic in self._topics)
+        return next(message.log_time for index, message in enumerate(chosen) if index == number)
+
+    def _rewind(self) -> None:
+        self.sent, self._passed_over = 0, 0
+        self._messages: Iterator[BagMessage] = self._bag.messages()
+        self._next = self._advance()
+
+    def _advance(self) -> BagMessage | None:
+        """The next message to give out; what lies before the begin is passed over unless it is latched."""
+        for message in self._messages:
+            if message.topic not in self._topics:
+                continue
+            early = message.log_time < self._start or self.sent + self._passed_over < self._first
+            if not early or message.topic in self._latched:
+                return message
+            self._passed_over += 1
+        return None
+
+    @property
+    def paused(self) -> bool:
+        """Whether time stands still."""
+        return math.isinf(self._resumed_at)
+
+    @property
+    def done(self) -> bool:
+        """Whether nothing is left to give out."""
+        return self._next is None and not self._loop
+
+    @property
+    def messages(self) -> int:
+        """Messages of a pass; the ones passed over before the begin do not count."""
+        return self._held - self._passed_over
+
+    def position(self, now: float) -> int:
+        """Recorded time, [ns], at this instant of the steady clock, [s]."""
+        return self._base if self.paused else self._base + round((now - self._resumed_at) * self._rate * 1e9)
+
+    def pause(self, now: float) -> None:
+        """Let time stand still."""
+        self._base, self._resumed_at = self.position(now), math.inf
+
+    def resume(self, now: float) -> None:
+        """Let time go on."""
+        if self.paused:
+            self._resumed_at = now
+
+    def take(self, now: float) -> BagMessage | None:
+        """The next message, if it is due; a loop begins again once the last one is out."""
+        if self.paused:
+            return None
+        if self._next is None and self._loop and self.position(now) - self._start >= self._pass_length():
+            self.passes += 1
+            self._base, self._resumed_at = self._start, now
+            self._rewind()
+        message = self._next
+        if message is None or message.log_time > self.position(now):
+            return None
+        self.sent += 1
+        self._next = self._advance()
+        return message
+
+    def wait(self, now: float) -> float:
+        """Seconds until something is due; infinity where nothing will be."""
+        if self.paused or self.done:
+            return math.inf
+        due = self._start + self._pass_length() if self._next is None else self._next.log_time
+        return max(0.0, (due - self.position(now)) * 1e-9 / self._rate)
+
+    def _pass_length(self) -> int:
+        return max(SHORTEST_PASS_NS, self._bag.end - self._start)
+
+    def standing(self, now: float) -> Standing:
+        """Where the replay stands."""
+        simulated = min(self.position(now), self._bag.end) * 1e-9
+        return Standing(simulated, self._bag.end * 1e-9, self.sent, self.messages, self.passes, self.paused)

@@ -1,0 +1,113 @@
+"""When a replay gives out which message: rate, begin, pause, loop; on an injected clock."""
+
+from typing import NamedTuple
+
+import pytest
+
+from contact_sim_pkg.bag.errors import BagError
+from contact_sim_pkg.nodes.player import Player
+
+
+class Entry(NamedTuple):
+    topic: str
+    log_time: int  # [ns]
+
+
+class Recorded:
+    """A bag of a latched text and of two topics, with a message each 10 and 20 ms."""
+
+    path = "bag"
+    entries = (
+        Entry("/text", 0),
+        *sorted(
+            [Entry("/a", n * 10_000_000) for n in range(11)] + [Entry("/b", n * 20_000_000) for n in range(6)],
+            key=lambda entry: entry.log_time,
+        ),
+    )
+    end = 100_000_000
+
+    def messages(self):
+        return iter(self.entries)
+
+    def count(self, topic):
+        return sum(entry.topic == topic for entry in self.entries)
+
+
+ALL = ("/text", "/a", "/b")
+
+
+def play(player, seconds, step=0.005, begin=0.0):
+    """What comes, as pairs of time of the steady clock and message."""
+    came = []
+    for count in range(round(seconds / step) + 1):
+        now = begin + count * step
+        while (message := player.take(now)) is not None:
+            came.append((now, message))
+    return came
+
+
+@pytest.mark.parametrize("rate", [0.5, 1.0, 3.0])
+def test_each_message_comes_when_it_is_due_and_the_count_is_whole(rate):
+    player = Player(Recorded(), ALL, ["/text"], rate=rate)
+    assert play(player, 1.0) == []  # paused until it is told to go on
+    player.resume(2.0)
+    came = play(player, 0.3, begin=2.0)
+    assert [message for _, message in came] == list(Recorded.entries)
+    for now, message in came:
+        assert -1e-9 < now - 2.0 - message.log_time * 1e-9 / rate < 0.005 + 1e-9
+    assert player.done
+    assert (player.standing(3.0).sent, player.messages) == (18, 18)
+
+
+def test_a_begin_passes_over_all_but_what_is_latched():
+    player = Player(Recorded(), ALL, ["/text"], start=0.05)
+    player.resume(0.0)
+    came = [message for _, message in play(player, 0.1)]
+    assert came == [Entry("/text", 0), *(entry for entry in Recorded.entries if entry.log_time >= 50_000_000)]
+    assert (player.sent, player.messages) == (len(came), len(came))
+
+
+@pytest.mark.parametrize("number", [1, 4, 5, 16])
+def test_a_begin_at_a_message_counts_among_those_replayed(number):
+    chosen = [entry for entry in Recorded.entries if entry.topic != "/text"]
+    player = Player(Recorded(), ("/a", "/b"), [], start_message=number)
+    player.resume(7.0)
+    came = play(player, 0.2, begin=7.0)
+    assert [message for _, message in came] == chosen[number:]
+    assert came[0][0] == 7.0
+
+
+def test_a_pause_holds_the_recorded_time():
+    player = Player(Recorded(), ("/a",), [])
+    player.resume(0.0)
+    assert len(play(player, 0.042)) == 5
+    player.pause(0.045)
+    assert play(player, 5.0, begin=0.045) == []
+    assert (player.position(9.0), player.wait(9.0)) == (45_000_000, float("inf"))
+    player.resume(10.0)
+    assert player.wait(10.0) == pytest.approx(0.005, rel=1e-12)
+    assert [now for now, _ in play(player, 0.1, begin=10.0)] == pytest.approx([10.005 + 0.01 * n for n in range(6)])
+
+
+def test_a_loop_begins_again_with_what_is_latched():
+    player = Player(Recorded(), ALL, ["/text"], loop=True)
+    player.resume(0.0)
+    came = [message for _, message in play(player, 0.3499)]
+    assert came[: 3 * 18] == list(Recorded.entries) * 3
+    assert (player.passes, player.done) == (3, False)
+    assert player.sent == len(came) - 3 * 18 > 0
+
+
+def test_a_loop_over_one_instant_does_not_send_without_end():
+    player = Player(Recorded(), ("/text",), ["/text"], start=0.1, loop=True)
+    player.resume(0.0)
+    assert len(play(player, 1.0)) == pytest.approx(10, abs=1)
+
+
+@pytest.mark.parametrize(
+    ("begin", "sentence"),
+    [({"start": 0.2}, "ends at 0.1 s"), ({"start_message": 18}, "holds 18 messages to replay, from 0")],
+)
+def test_a_begin_after_the_end_is_refused(begin, sentence):
+    with pytest.raises(BagError, match=sentence):
+        Player(Recorded(), ALL, [], **begin)

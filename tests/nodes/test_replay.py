@@ -1,0 +1,157 @@
+"""A replay over the real middleware: nothing of its beginning is lost; it can be paused, remapped and begun anywhere."""
+
+import fcntl
+import os
+import pty
+import signal
+import subprocess
+import sys
+import termios
+import time
+
+import pytest
+
+from contact_sim_pkg.bag.reader import open_bag
+from contact_sim_pkg.run.offline import run_offline
+
+from ..bench_process import ENVIRONMENT, LONGEST, Nodes, needs_ros, resolved
+
+pytestmark = needs_ros
+
+
+@pytest.fixture(scope="module")
+def bag(tmp_path_factory):
+    path = tmp_path_factory.mktemp("replayed") / "bag"
+    run_offline(resolved("seat_ride", "duration=0.5", "pace=max"), path)
+    return path
+
+
+@pytest.fixture
+def replay(bag, tmp_path):
+    """Starts the node of the replay; the processes end with the test."""
+    nodes = Nodes(resolved("seat_ride"), tmp_path)
+    yield lambda **parameters: (nodes.start("bag_replay", bag=bag, **parameters), nodes)[1]
+    nodes.end()
+
+
+@pytest.fixture
+def listener():
+    """A node that was there before the replay; `hear` gives a list that fills as it spins."""
+    from contact_sim_pkg.bag.topics import topic_of
+    from contact_sim_pkg.nodes.endpoints import message_type, profile_of
+
+    from .stand_in import StandIn
+
+    with StandIn("listener", topic="road/patch") as node:
+
+        def hear(name, topic=None):
+            row, heard = topic_of(name), []
+            kept.append(
+                node.node.create_subscription(
+                    message_type(row.type), topic or name, heard.append, profile_of(row, 1000), raw=True
+                )
+            )
+            return heard
+
+        kept: list = []
+        node.hear = hear
+        yield node
+
+
+def recorded(bag, *names):
+    return [message.data for name in names for message in open_bag(bag).messages(name)]
+
+
+@pytest.mark.parametrize("delay", [0.0, 0.5])
+def test_a_subscriber_that_is_there_gets_every_byte_from_the_first_on(bag, replay, listener, delay):
+    """Latched topics too; the node says how many messages went out and ends by itself with status 0."""
+    forces, scene = listener.hear("seat/force"), listener.hear("bench/scene")
+    nodes = replay(delay=delay)
+    listener.spin_until(nodes.ended)
+    listener.spin_until(lambda: len(forces) == 50)
+    assert nodes.wait() == {"bag_replay": 0}
+    assert (forces, scene) == (recorded(bag, "seat/force"), recorded(bag, "bench/scene"))
+    count = open_bag(bag).count()
+    assert f"{count} of {count} messages went out" in nodes.said[-1]
+    assert any("2 subscriptions on 2 of 7 topics" in line for line in nodes.said)
+
+
+def test_a_subscriber_that_cannot_be_served_is_named_and_not_waited_for(bag, replay, listener):
+    from rclpy.qos import DurabilityPolicy, QoSProfile
+    from std_msgs.msg import String
+
+    from contact_sim_pkg.nodes.endpoints import message_type
+
+    latched = QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL)
+    kind = message_type("contact_msgs_defs/msg/ContactForce")
+    kept = [
+        listener.node.create_subscription(kind, "seat/force", lambda _: None, latched),
+        listener.node.create_subscription(String, "bench/scene", lambda _: None, latched),
+    ]
+    began = time.monotonic()
+    nodes = replay()
+    listener.spin_until(nodes.ended)
+    assert len(kept) == 2
+    assert time.monotonic() - began < 9.0
+    assert sum("/listener gets nothing of /seat/force" in line for line in nodes.said) == 1
+    assert any("1 subscriptions on 1 of 7 topics" in line for line in nodes.said)
+
+
+def test_a_service_pauses_and_goes_on_where_it_stood(bag, replay, listener):
+    from std_srvs.srv import SetBool
+
+    forces = listener.hear("seat/force")
+    client = listener.node.create_client(SetBool, "bag_replay/pause")
+    nodes = replay(rate=0.25)
+    listener.spin_until(lambda: len(forces) >= 5 and client.service_is_ready())
+    answers = [client.call_async(SetBool.Request(data=True))]
+    listener.spin_until(answers[0].done)
+    standing, limit = len(forces), time.monotonic() + 1.0
+    listener.spin_until(lambda: time.monotonic() > limit)
+    assert len(forces) <= standing + 1 < 50  # one may have been on its way
+    answers.append(client.call_async(SetBool.Request(data=False)))
+    listener.spin_until(nodes.ended)
+    listener.spin_until(lambda: len(forces) == 50)
+    assert [(answer.result().success, answer.result().message) for answer in answers] == [
+        (True, "paused"),
+        (True, "going on"),
+    ]
+    assert forces == recorded(bag, "seat/force")
+
+
+def test_the_command_remaps_begins_at_a_message_shows_progress_and_pauses_by_the_space_key(bag, listener):
+    forces = listener.hear("seat/force", "pan/load")
+    first, second = pty.openpty()
+    command = [sys.executable, "-m", "contact_sim_pkg.cli.main", "replay", bag, "--topics", "seat/force"]
+    options = ["--remap", "seat/force:=pan/load", "--start-message", "10", "--rate", "0.2", "--loop"]
+    process = subprocess.Popen(
+        [*map(str, command), *options], env=ENVIRONMENT, stdin=second, stderr=subprocess.PIPE, text=True,
+        preexec_fn=take_terminal,
+    )  # fmt: skip
+    try:
+        listener.spin_until(lambda: len(forces) >= 3)
+        os.write(first, b" ")
+        wait = time.monotonic() + 1.0
+        listener.spin_until(lambda: time.monotonic() > wait)
+        standing, wait = len(forces), time.monotonic() + 1.0
+        listener.spin_until(lambda: time.monotonic() > wait)
+        assert len(forces) == standing < 40
+        os.write(first, b" ")
+        listener.spin_until(lambda: len(forces) > 45)  # 40 a pass
+        process.send_signal(signal.SIGINT)
+        _, said = process.communicate(timeout=LONGEST)
+    finally:
+        process.kill()
+        os.close(first)
+        os.close(second)
+    assert process.returncode == 0, said
+    expected = recorded(bag, "seat/force")[10:]
+    assert forces == (expected * 2)[: len(forces)]
+    assert "space: pause" in said
+    assert "of 40 messages went out in pass 2" in said
+
+
+def take_terminal() -> None:
+    """Make the standard input the controlling terminal of a new session."""
+    os.setsid()
+    fcntl.ioctl(0, termios.TIOCSCTTY, 0)
