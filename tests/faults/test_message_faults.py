@@ -1,5 +1,7 @@
 """Bad, missing and foreign messages over the real middleware (FAULTS part B)."""
 
+import time
+
 import numpy
 import pytest
 
@@ -124,6 +126,42 @@ def test_a_second_publisher_of_an_input_is_refused_before_ready(nodes, stand_in)
     assert "platform/vibration has 2 publishers (/vibration, /vibration)" in refusal
     assert "ROS_DOMAIN_ID" in refusal
     assert not nodes.bag.exists()
+
+
+@pytest.mark.fault("B1", "B6", "B8")
+@pytest.mark.parametrize("kind", ["other values", "blocks to come", "nan"])
+def test_a_second_publisher_during_a_run_ends_it_by_name_before_its_data_count(scene, nodes, stand_in, tmp_path, kind):
+    """Status 1; the bag holds the blocks done until then, with the bits that they have without it."""
+    from ..nodes.stand_in import StandIn
+
+    nodes.start("bag_logger")
+    nodes.start("contact_simulator")
+    source = make_vibration(scene)
+    stand_in.wait_ready(2)
+    send(stand_in, source, range(7))
+    stand_in.spin_until(lambda: stand_in.progress.block == 6)
+    with StandIn("intruder") as intruder:
+        intruder.wait_ready(2)
+        for number in range(7, 7 + 600):
+            block = source.block(min(number, BLOCKS - 1))._replace(block=min(number, BLOCKS - 1))
+            worse = block._replace(acceleration_z=block.acceleration_z * 3.0)
+            data = spoilt(source, 7) if kind == "nan" else encode_vibration(worse, worse.block * BLOCK)
+            if kind != "blocks to come" or number > 7:
+                intruder.entry.publish(data)
+            if number == 60:
+                stand_in.entry.publish(block_of(source, 7))
+            time.sleep(0.001)
+        stand_in.spin_until(lambda: stand_in.progress.message != "")
+        assert nodes.wait()["contact_simulator"] == 1
+    assert "/intruder publishes /platform/vibration beside the source of this run" in stand_in.progress.message
+    run_offline(scene, tmp_path / "offline")
+    held, whole = messages(nodes.bag), messages(tmp_path / "offline")
+    assert held == whole[: len(held)]
+    bag = open_bag(nodes.bag)
+    assert bag.complete
+    assert bag.count("seat/force") == bag.count("platform/vibration") in (7, 8)
+    assert bag.metadata["ended"] == "failed"
+    assert "/intruder" in bag.metadata["failure"]
 
 
 def test_an_input_of_another_message_definition_is_refused(nodes):

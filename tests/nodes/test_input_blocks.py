@@ -75,6 +75,18 @@ def test_a_second_block_of_the_same_number_is_not_mixed_in(inputs):
     assert "came a second time" in inputs.offer(VIBRATION, vibration(0))
 
 
+@pytest.mark.fault("B1")
+def test_a_thousand_bad_blocks_leave_no_trace_but_their_count(inputs):
+    """FAULTS B1 for numbered blocks; there are no live commands that could be held."""
+    for _ in range(1000):
+        inputs.offer(VIBRATION, vibration(0, value=float("nan")))
+    assert inputs.offer(VIBRATION, vibration(0, value=2.0)) == ""
+    inputs.offer(ROAD, road(0))
+    assert inputs.take()[VIBRATION].acceleration_z.tolist() == [2.0] * 11
+    assert inputs.dropped == {ROAD: 0, VIBRATION: 1000}
+
+
+@pytest.mark.fault("B6")
 def test_a_burst_is_bounded(inputs):
     reasons = [inputs.offer(VIBRATION, vibration(block)) for block in range(10 * FARTHEST_AHEAD)]
     assert reasons.count("") == FARTHEST_AHEAD

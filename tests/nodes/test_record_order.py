@@ -2,6 +2,8 @@
 
 import random
 
+import pytest
+
 from contact_sim_pkg.bag.messages import (
     ContactForceBlock,
     Energy,
@@ -10,6 +12,7 @@ from contact_sim_pkg.bag.messages import (
     encode_energy,
     encode_wrench,
 )
+from contact_sim_pkg.nodes.input_blocks import FARTHEST_AHEAD
 from contact_sim_pkg.nodes.record_order import RecordOrder
 
 from .blocks import LENGTH, vibration
@@ -95,3 +98,10 @@ def test_what_is_left_after_a_loss_is_given_out_and_the_loss_counted():
     assert len(order.take_whole()) == 10
     assert order.missing() == 1
     assert len(order.take_rest()) == 4
+
+
+@pytest.mark.fault("B6")
+def test_the_logger_holds_no_more_blocks_to_come_than_the_simulator():
+    order = RecordOrder([VIBRATION], LENGTH)
+    kept = [order.hold(VIBRATION, vibration(block)) for block in range(1000)]
+    assert kept.count(True) == FARTHEST_AHEAD

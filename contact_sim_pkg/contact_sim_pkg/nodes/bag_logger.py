@@ -4,8 +4,9 @@ from __future__ import annotations
 
 import sys
 import time
-from collections.abc import Callable
+from collections import Counter
 from contextlib import suppress
+from functools import partial
 from pathlib import Path
 
 from rclpy.duration import Duration
@@ -18,13 +19,15 @@ from contact_sim_pkg.bag.writer import BagWriter
 from contact_sim_pkg.run.bag_content import attachments, input_names, recorded_names, result_names
 
 from .bench_node import LifecycleBenchNode
-from .endpoints import publisher, subscription
+from .endpoints import numbered_subscription, publisher, subscription
 from .input_blocks import check_block
 from .parameters import declare, declare_input_timeout, declare_scene
 from .process import run
 from .protocol import DONE, FAULT, LOSS, REFUSED, Follower, NodeError, State
 from .record_order import HeldMessage, RecordOrder
-from .scene_file import block_length_ns, count_blocks, queue_depth, read_descriptions, read_scene
+from .record_outcome import outcome_of
+from .scene_file import block_length_ns, count_blocks, queue_depth, read_descriptions, read_reason, read_scene
+from .single_source import SingleSource
 
 BAG_TEXT = "Directory of the bag, which must not exist. Empty: bags/SCENE_TIME_RANDOM of the current directory."
 GATHER_SECONDS = 0.002  # that messages gather for; the window leaves room for it
@@ -56,22 +59,23 @@ class BagLoggerNode(LifecycleBenchNode):
         self._path = new_directory(Path(self._directory) if self._directory else None, str(scene.data["name"]))
         self._scene = scene
         self._order = RecordOrder(input_names(scene), self._period_ns)
-        self._dropped = dict.fromkeys(input_names(scene), 0)
+        self._left_out = Counter[str]()
+        self._sources = {name: SingleSource() for name in input_names(scene)}
         self._answers = publisher(self, "bench/recorded")
-        kept = [subscription(self, name, self._keeper(name, self._hold), depth) for name in result_names(scene)]
-        kept += [subscription(self, name, self._keeper(name, self._hold_checked), depth) for name in input_names(scene)]
+        kept = [subscription(self, name, partial(self._hold, name), depth) for name in result_names(scene)]
+        kept += [numbered_subscription(self, name, partial(self._hold_checked, name), depth) for name in self._sources]
         self._kept = [*kept, subscription(self, "bench/progress", self._on_progress)]
         self._news = time.monotonic()
 
-    def _keeper(self, topic: str, hold: Callable[[str, bytes], None]) -> Callable[[bytes], None]:
-        return lambda data: hold(topic, data)
-
-    def _hold_checked(self, topic: str, data: bytes) -> None:
+    def _hold_checked(self, topic: str, data: bytes, number: int | None) -> None:
         """Excitation is checked as the simulator checks it: what it drops is not recorded in place of a good block."""
+        if not self._sources[topic].accept(number, self.count_publishers(self.resolve_topic_name(topic))):
+            self._left_out[f"foreign {topic}"] += 1
+            return
         try:
             check_block(topic, data, self._period_ns, self._blocks)
         except MessageError as error:
-            self._dropped[topic] += 1
+            self._left_out[f"dropped {topic}"] += 1
             self.get_logger().warning(f"{topic}: {error}; not recorded", throttle_duration_sec=1.0)
             return
         self._hold(topic, data)
@@ -123,16 +127,15 @@ class BagLoggerNode(LifecycleBenchNode):
         self._write_whole()
         lacking = self._order.missing()
         if self._run.state.ended and not lacking:
-            self._end(DONE, "")
+            self._end("")
         elif now > self._leave_at:
-            self._end(DONE, "stopped")
+            self._end("stopped")
         elif self._run.state.ended and now - self._news > self._patience:
-            self._end(LOSS, f"{lacking} messages never came")
+            self._end(f"{lacking} messages never came")
         return 1.0
 
-    def _end(self, exit_status: int, sentence: str) -> None:
-        lost = self._close_bag(sentence)
-        self.exit_status = LOSS if lost and exit_status == DONE else exit_status
+    def _end(self, sentence: str) -> None:
+        self.exit_status = LOSS if self._close_bag(sentence) else DONE
 
     def stop(self) -> None:
         """Wait shortly for what the simulator has still sent, then close."""
@@ -160,24 +163,21 @@ class BagLoggerNode(LifecycleBenchNode):
             self._closed = True
             return False
         self._closed = True
+        lacking = self._order.missing() if self._run.state.ended else 0
         with suppress(BagError):  # where the bag itself is what failed; its summary says so
             self._write_whole()
             if self._run.state.ended:
                 self._write(self._order.take_rest())
-        ended = self._run.state.name.lower()
-        last = self._run.last
-        failure = last.message if last is not None and self._run.state is State.FAILED else ""
-        dropped = {f"dropped {topic}": str(count) for topic, count in self._dropped.items() if count}
-        summary = self._writer.close(
-            {"ended": ended, "blocks_done": str(self._block + 1), "failure": failure, **dropped}
-        )
+        reason = read_reason(self._scene_name)
+        outcome = outcome_of(self._run, self._block + 1, reason=reason, lacking=lacking, counts=self._left_out)
+        summary = self._writer.close(outcome)
         reasons = "; ".join(text for text in (sentence, summary.sentence) if text)
         self._answer(closed=True, sentence=reasons)
         self._answers.wait_for_all_acked(Duration(seconds=SETTLE_SECONDS))
         self.announce(f"bag: {self._path}, {summary.messages} messages")
         if not summary.complete:
             self.get_logger().error(summary.sentence)
-        return not summary.complete
+        return bool(lacking) or not summary.complete
 
 
 def main() -> int:

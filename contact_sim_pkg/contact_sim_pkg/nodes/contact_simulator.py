@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import sys
 import time
-from collections.abc import Callable
+from functools import partial
 
 from contact_sim_pkg.bag.messages import decode_recorded, encode_scene
 from contact_sim_pkg.core.jit import closed
@@ -15,20 +15,21 @@ from contact_sim_pkg.run.rigs import make_simulation
 from .bench_node import LifecycleBenchNode
 from .clock import SimulatedClock
 from .diagnostics import Diagnostics
-from .endpoints import publisher, subscription
+from .endpoints import numbered_subscription, publisher, publisher_ids, subscription
 from .input_blocks import InputBlocks
+from .logger_answers import LoggerAnswers
 from .pacing import Pacer
 from .parameters import declare, declare_input_timeout, declare_pace, declare_record, declare_scene
 from .peers import Peers
 from .process import run
 from .progress_report import ProgressReport
-from .protocol import DONE, FAULT, LOSS, RecordedFollower, State
+from .protocol import DONE, FAULT, State
 from .scene_file import block_length_ns, queue_depth, read_scene
+from .source_watch import SourceWatch
 from .window import Window
 
 PEERS_SECONDS = 0.01  # between two looks at the graph before ready
 SAY_SECONDS = 5.0  # between two log lines about who is missing
-CLOSE_SECONDS = 10.0  # for the logger to close its bag after the last block
 
 
 class ContactSimulatorNode(LifecycleBenchNode):
@@ -45,7 +46,6 @@ class ContactSimulatorNode(LifecycleBenchNode):
         self._publish_clock = declare(
             self, "publish_clock", True, "Publish the simulated time on /clock after each block."
         )
-        self.ended_with = DONE
         self._report: ProgressReport | None = None
 
     def configure(self) -> None:
@@ -66,8 +66,11 @@ class ContactSimulatorNode(LifecycleBenchNode):
         self._inputs = InputBlocks(self._simulation.inputs, self._period_ns, self._simulation.blocks)
         self._window = Window(self._simulation.blocks, logged=self._logged)
         self._pacer = Pacer(pace, scene.data["block_length"])
-        entries = {topic: subscription(self, topic, self._taker(topic), depth) for topic in self._simulation.inputs}
-        self._recorded = RecordedFollower()
+        inputs = self._simulation.inputs
+        names = {topic: self.resolve_topic_name(topic) for topic in inputs}
+        self._sources = SourceWatch(names, self.count_publishers, partial(publisher_ids, self))
+        entries = {topic: numbered_subscription(self, topic, partial(self._take, topic), depth) for topic in inputs}
+        self._recording = LoggerAnswers(self._window, logged=self._logged)
         answers = subscription(self, "bench/recorded", self._on_recorded) if self._logged else None
         supervised = self.supervisor > 0
         self._peers = Peers(
@@ -77,7 +80,7 @@ class ContactSimulatorNode(LifecycleBenchNode):
         self._said = self._advanced = time.monotonic()
 
     def tick(self, now: float) -> float:
-        """Before ready: look for peers. Then: advance; find out what is missing. At the end: wait for the logger."""
+        """Before ready: look for peers. Then: advance; find out who holds up. At the end: wait for the logger."""
         report = self._report
         if report is None or report.last is None or not self.active:
             return 1.0
@@ -86,11 +89,12 @@ class ContactSimulatorNode(LifecycleBenchNode):
             self._look_for_peers(now, report)
             return PEERS_SECONDS
         if report.state.ended:
-            self._wait_for_logger(now, report)
+            self._leave(now, report)
             return 1.0
-        self._advance(now, report)
-        if time.monotonic() - self._advanced > self._patience and not report.state.ended:
-            self.fault(self._what_is_missing(), FAULT)
+        if self._sources.alone(now):
+            self._advance(now, report)
+            if time.monotonic() - self._advanced > self._patience and not report.state.ended:
+                self.fault(f"{self._recording.who_holds_up(self._inputs)} (waited {self._patience:g} s)", FAULT)
         return (
             self._pacer.wait(self._window.next_block, now) if self._window.open and not self._simulation.inputs else 1.0
         )
@@ -101,24 +105,24 @@ class ContactSimulatorNode(LifecycleBenchNode):
             self._advanced = now
             self._pacer.start(now)
             self._simulated_clock.start()
+            self._sources.remember()
             report.send(State.READY)
             self.announce("ready")
         elif now - self._said > SAY_SECONDS:
             self._said = now
             self.get_logger().info(f"waiting for {', '.join(absent)}")
 
-    def _taker(self, topic: str) -> Callable[[bytes], None]:
-        def take(data: bytes) -> None:
-            reason = self._inputs.offer(topic, data)
-            if reason:
-                self._diagnostics.warn(time.monotonic(), reason)
-                self.get_logger().warning(reason, throttle_duration_sec=1.0)
-
-        return take
+    def _take(self, topic: str, data: bytes, number: int | None) -> None:
+        if not self._sources.accept(topic, number, time.monotonic()):
+            return
+        reason = self._inputs.offer(topic, data)
+        if reason:
+            self._diagnostics.warn(time.monotonic(), reason)
+            self.get_logger().warning(reason, throttle_duration_sec=1.0)
 
     def _advance(self, now: float, report: ProgressReport) -> None:
         """Do every block whose inputs are there; a scene without inputs is held back by the window and the pace alone."""
-        while not report.state.ended and self._may_begin(now):
+        while not report.state.ended and self._may_begin(now) and self._sources.alone(now):
             blocks = self._inputs.take()
             if blocks is None:
                 return
@@ -139,50 +143,50 @@ class ContactSimulatorNode(LifecycleBenchNode):
         self._window.on_done(number)
         self._advanced = time.monotonic()
         report.block_done(number, result)
+        if report.state.ended:
+            self._recording.end(self._advanced)
 
     def _on_recorded(self, data: bytes) -> None:
-        recorded = decode_recorded(data)
-        if self._report is not None and self._report.state >= State.READY and self._recorded.accept(recorded):
-            self._window.on_recorded(recorded.block)
-            if recorded.closed and not self._report.state.ended:
-                self.get_logger().error(
-                    f"the logger closed its bag before the end: {recorded.message or 'no reason given'}"
-                )
-                self._diagnostics.warn(time.monotonic(), recorded.message)
-                self.ended_with = LOSS
-                self._report.send(State.STOPPED, recorded.message)
+        report = self._report
+        if report is None or report.state < State.READY:
+            return
+        closed = self._recording.accept(decode_recorded(data))
+        if closed is not None and not report.state.ended:
+            self.get_logger().error(f"the logger closed its bag before the end: {closed}")
+            self._diagnostics.warn(time.monotonic(), closed)
+            self._recording.lost()
+            report.send(State.STOPPED, closed)
 
-    def _what_is_missing(self) -> str:
-        waited = f"after {self._patience:g} s"
-        if self._inputs.missing():
-            return f"{self._inputs.describe_missing()} {waited}"
-        return f"the logger has not answered for block {self._window.recorded + 1} {waited}"
-
-    def _wait_for_logger(self, now: float, report: ProgressReport) -> None:
-        if not self._logged or self._recorded.closed:
+    def _leave(self, now: float, report: ProgressReport) -> None:
+        """End the process once the bag is closed, or the wait for it is over."""
+        status = self._recording.status_to_leave(now)
+        if status is not None:
+            if self._recording.deserted:
+                self.get_logger().error("the logger has not closed its bag in time after the end")
             report.settle()
             self.announce(report.describe())
-            self.exit_status = self.ended_with
-        elif now - self._advanced > CLOSE_SECONDS:
-            self.get_logger().error(f"the logger has not closed its bag {CLOSE_SECONDS:g} s after the end")
-            self.exit_status = self.ended_with or FAULT
+            self.exit_status = status
 
     def stop(self) -> None:
         """End the run after the block that is done; a second signal does not wait for the logger."""
-        if self._report is None or self._report.state not in (State.READY, State.RUNNING):
-            self.exit_status = self.ended_with
-            return
-        self._advanced = time.monotonic()
-        self._report.send(State.STOPPED, "stopped by the user")
+        if not self._end(State.STOPPED, "stopped by the user", DONE):
+            self.exit_status = (
+                DONE if self._report is None or not self._report.state.ended else self._recording.exit_status
+            )
 
     def fault(self, sentence: str, exit_status: int) -> None:
         """End the run in the named state FAILED, so that the logger closes its bag; before ready, end the process."""
         self.get_logger().error(sentence)
-        if self._report is None or self._report.state not in (State.READY, State.RUNNING):
+        if not self._end(State.FAILED, sentence, exit_status):
             self.exit_status = exit_status
-            return
-        self.ended_with, self._advanced = exit_status, time.monotonic()
-        self._report.send(State.FAILED, sentence)
+
+    def _end(self, state: State, sentence: str, exit_status: int) -> bool:
+        """End a run under way; False where there is none."""
+        if self._report is None or self._report.state not in (State.READY, State.RUNNING):
+            return False
+        self._recording.end(time.monotonic(), exit_status, stopped=state is State.STOPPED)
+        self._report.send(state, sentence)
+        return True
 
 
 def main() -> int:

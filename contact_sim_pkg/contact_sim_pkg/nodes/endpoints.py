@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import inspect
 from collections.abc import Callable
 from functools import cache
 from importlib import import_module
@@ -19,6 +20,7 @@ from .protocol import REFUSED, NodeError
 
 KEPT = "error_of_a_subscription"  # attribute of a node
 UNKNOWN = "_NODE_NAME_UNKNOWN_"  # what the graph says before it has heard the node's name
+NUMBER = "publication_sequence_number"  # in what rclpy tells of a message
 
 
 @cache
@@ -55,16 +57,42 @@ def subscription(node: Node, name: str, callback: Callable[[bytes], None], least
 
     What `callback` raises is kept until `raise_kept`: the executor would print it before it passes it on.
     """
-    topic = topic_of(name)
 
     def take(data: bytes) -> None:
-        try:
-            callback(data)
-        except Exception as error:  # noqa: BLE001  # raised again outside of the executor
-            if getattr(node, KEPT, None) is None:
-                setattr(node, KEPT, error)
+        _call(node, callback, data)
 
+    return _subscribe(node, name, take, least_depth)
+
+
+def numbered_subscription(
+    node: Node, name: str, callback: Callable[[bytes, int | None], None], least_depth: int = 0
+) -> Subscription:
+    """As `subscription`, with the number that the publisher gave the message; None where the middleware does not tell it."""
+
+    def take(*parts: Any) -> None:
+        data, info = parts if len(parts) == 2 else parts[0]  # rclpy 7.1: EventsExecutor hands on both as one tuple
+        _call(node, callback, data, info.get(NUMBER))
+
+    take.__signature__ = _DATA_AND_INFO  # type: ignore[attr-defined]  # by which rclpy sees that the number is wanted
+    return _subscribe(node, name, take, least_depth)
+
+
+_DATA_AND_INFO = inspect.Signature(
+    [inspect.Parameter(name, inspect.Parameter.POSITIONAL_ONLY) for name in ("data", "info")]
+)
+
+
+def _subscribe(node: Node, name: str, take: Callable[..., None], least_depth: int) -> Subscription:
+    topic = topic_of(name)
     return node.create_subscription(message_type(topic.type), name, take, profile_of(topic, least_depth), raw=True)
+
+
+def _call(node: Node, callback: Callable[..., None], *given: Any) -> None:
+    try:
+        callback(*given)
+    except Exception as error:  # noqa: BLE001  # raised again outside of the executor
+        if getattr(node, KEPT, None) is None:
+            setattr(node, KEPT, error)
 
 
 def raise_kept(node: Node) -> None:
@@ -109,6 +137,14 @@ def refuse_strangers(node: Node, name: str, *, unnamed: bool = True) -> bool:
             REFUSED,
         )
     return True
+
+
+def publisher_ids(node: Node, name: str) -> dict[bytes, str]:
+    """The publishers of a topic: the middleware's own name of each -> name of its node, empty where it is not known yet."""
+    return {
+        bytes(info.endpoint_gid): "" if UNKNOWN in info.node_name else describe_endpoint(info)
+        for info in node.get_publishers_info_by_topic(name)
+    }
 
 
 def _hash(info: TopicEndpointInfo) -> str:

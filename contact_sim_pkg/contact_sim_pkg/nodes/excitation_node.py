@@ -7,6 +7,7 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
+from rclpy.duration import Duration
 from rclpy.node import Node
 
 from contact_sim_pkg.bag.messages import decode_progress, decode_recorded
@@ -23,6 +24,11 @@ from .window import Window
 
 FROM_BAG_TEXT = "Directory of a bag whose excitation is sent instead of the scene's own. Empty: the scene's own."
 GATHER_SECONDS = 0.002  # that answers gather for at pace max; the window leaves room for it
+LINGER_SECONDS = {
+    State.STOPPED: 1.0,
+    State.FAILED: 10.0,
+}  # for the logger to close its bag, as the simulator waits for it
+ACKNOWLEDGE_SECONDS = 0.3  # after a signal, for what was sent to arrive
 MakeSource = Callable[[ResolvedScene], Source]
 
 
@@ -50,6 +56,7 @@ class ExcitationNode(Node):
         self._pacer = Pacer(pace, float(scene.data["block_length"]))
         self.gather = GATHER_SECONDS if math.isinf(pace) else 0.0
         self._run, self._recorded = Follower(), RecordedFollower()
+        self._leave_at = math.inf
         self._publisher = publisher(self, topic, queue_depth(scene))
         self._subscriptions_kept = [subscription(self, "bench/progress", self._on_progress)]
         if logged:
@@ -63,9 +70,16 @@ class ExcitationNode(Node):
         wait = float("inf")
         if self._run.state in (State.READY, State.RUNNING):
             wait = self._send_due(now) if self._is_heard(now) else 0.005
-        if self._window.finished or self._run.state in (State.STOPPED, State.FAILED):
+        if self._window.finished or self._ended(now):
             self.exit_status = 0
         return wait
+
+    def _ended(self, now: float) -> bool:
+        """Whether nobody needs this node any more: what it sent last is delivered only as long as it is there."""
+        if self._run.state not in LINGER_SECONDS:
+            return False
+        self._leave_at = min(self._leave_at, now + LINGER_SECONDS[self._run.state])
+        return self._listeners < 2 or self._recorded.closed or now > self._leave_at
 
     def _is_heard(self, now: float) -> bool:
         """Whether everybody who needs block 0 is matched with this publisher; the simulator cannot see that."""
@@ -94,7 +108,8 @@ class ExcitationNode(Node):
             self._window.on_recorded(recorded.block)
 
     def stop(self) -> None:
-        """End at once: what was not sent will not be done."""
+        """End as soon as what was sent has arrived: what was not sent will not be done."""
+        self._publisher.wait_for_all_acked(Duration(seconds=ACKNOWLEDGE_SECONDS))
         self.exit_status = 0
 
     def fault(self, sentence: str, exit_status: int) -> None:

@@ -8,6 +8,8 @@ from typing import NamedTuple
 from contact_sim_pkg.bag.messages import stamp_of
 from contact_sim_pkg.bag.topics import topic_of
 
+from .input_blocks import FARTHEST_AHEAD
+
 
 class HeldMessage(NamedTuple):
     """One message; the tuples sort in canonical order within a block."""
@@ -38,13 +40,13 @@ class RecordOrder:
         self.given_out = 0
 
     def hold(self, topic: str, data: bytes) -> bool:
-        """Keep one message; False where it belongs to a block that is whole, or repeats a block of excitation."""
+        """Keep one message; False where it belongs to a block that is whole, repeats a block of excitation, or is far ahead."""
         stamp = stamp_of(data)
         block = stamp // self._block_length_ns
         if block <= self.last_block:
             return False
         if topic in self._excitation:
-            if block in self._excitation[topic]:
+            if block in self._excitation[topic] or block > self.last_block + FARTHEST_AHEAD:
                 return False
             self._excitation[topic].add(block)
         else:

@@ -12,6 +12,7 @@ from contact_sim_pkg.scene.resolved_scene import ResolvedScene
 RESOLVED = ".resolved.yaml"  # ending of a scene that needs no resolving; its input files stand in the file below
 FILES = ".files.json"
 DESCRIPTION = ".excitation.json"
+REASON = ".reason.json"
 
 
 def write_scene(scene: ResolvedScene, folder: Path) -> Path:
@@ -62,6 +63,21 @@ def descriptions_beside(scene: Path) -> dict[str, dict[str, Any]]:
     for path in sorted(scene.parent.glob(f"*{DESCRIPTION}")):
         found.update(json.loads(path.read_text(encoding="utf-8")))
     return found
+
+
+def write_reason(scene: Path, reason: str) -> None:
+    """Leave why a run ends early beside a scene of the supervisor, for the logger, before the nodes are asked to end."""
+    _write_beside(scene, REASON, {"reason": reason})
+
+
+def read_reason(scene: str) -> str:
+    """Why the supervisor ends the run; empty where it does not, or where there is none."""
+    if not scene.endswith(RESOLVED):
+        return ""
+    try:
+        return str(json.loads(_beside(Path(scene), REASON).read_text(encoding="utf-8"))["reason"])
+    except OSError:
+        return ""
 
 
 def block_length_ns(scene: ResolvedScene) -> int:
