@@ -364,3 +364,20 @@ def test_a_box_that_tumbles_above_heights_feels_no_wrench():
     for wrench in of(messages, "block/wrench", decode_wrench):
         assert wrench.force == pytest.approx((0.0, 0.0, 0.0), abs=1e-8)
         assert wrench.torque == pytest.approx((0.0, 0.0, 0.0), abs=1e-8)
+
+
+def test_a_box_that_rolls_over_its_edges_has_the_forces_of_the_asked_accuracy():
+    """An error of a turn on held points comes back many times greater from the impacts behind it."""
+    found, tight = (
+        numpy.concatenate(
+            [
+                each.normal
+                for each in of(
+                    run("box_3d_tumble", "duration=1.2", f"accuracy={asked}")[1], "block/force", decode_contact_force
+                )
+            ]
+        )
+        for asked in (1e-3, 1e-8)
+    )
+    assert tight.max() > 100.0
+    assert numpy.abs(found - tight).max() <= 1e-3 * tight.max()

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 from typing import Any
 
@@ -33,8 +34,9 @@ from contact_sim_pkg.scene.build_tire import Asperities, RollingFriction, TireGe
 from contact_sim_pkg.scene.lattice import GRAVITY, effects_at, field_settings, occupant_mass, standing_load
 from contact_sim_pkg.scene.timing import Timing
 
-POSITION_SCALE = 0.01  # [m], size of the approaches; the integrator's tolerance is relative to it
-VELOCITY_SCALE = 0.5  # [m/s], size of the velocities on a rough road
+POSITION_SCALE = 0.01  # [m], size of the approaches, at most; the integrator's tolerance is relative to it
+VELOCITY_SCALE = 0.5  # [m/s], size of the velocities on a rough road, at most
+STIFF = 0.1  # of a contact less deep than that: its swings are many and hardly damped, and their errors add up
 
 
 Fields = tuple[FieldGrids | None, FieldGrids | None]  # of tire and seat
@@ -174,22 +176,50 @@ def _seat_contact(scene: dict[str, Any], seat: Seat, field: FieldGrids | None, s
     return Contact(law, loss_of(scene, "seat", law, occupant_mass(scene)), rubbing, remembering)
 
 
+def _contact_scale(contact: Contact | None, load: float, mass: float) -> tuple[float, float]:
+    """Sizes in [m] and [m/s] of a body's motion on a contact: of its depth under the ``load`` [N] at rest, and of its swing.
+
+    ``mass`` [kg] is that of the body which touches. A stiff contact turns a small error of place into a large one of force.
+    """
+    size = POSITION_SCALE if contact is None else 2.0 * float(approach_of_force(contact.elastic, load))
+    if size >= POSITION_SCALE:
+        return POSITION_SCALE, VELOCITY_SCALE
+    return STIFF * size, min(VELOCITY_SCALE, STIFF * math.sqrt(load * size / mass))
+
+
 def _scale(rig: Vehicle, tolerance: float) -> Vector:
     """Error allowed per step and state; the two works at the end are not controlled."""
     position, velocity = POSITION_SCALE * tolerance, VELOCITY_SCALE * tolerance
+    occupant = 0.0 if rig.seat is None else rig.seat.frame_mass + float(rig.seat.masses.sum())
+    on_seat = (POSITION_SCALE, VELOCITY_SCALE)
+    if rig.seat is not None:
+        on_seat = _contact_scale(rig.seat_contact, occupant * rig.gravity, rig.seat.frame_mass)
+    seat_position, seat_velocity = (size * tolerance for size in on_seat)
     scale: list[float] = []
     if rig.tire is not None:
-        scale += [position, position, velocity, velocity]
+        mass, touching = rig.tire.wheel_mass + rig.tire.body_mass + occupant, rig.tire.wheel_mass
         if rig.carcass is not None:
-            scale += [position, velocity]
+            mass, touching = mass + rig.carcass.belt_mass, rig.carcass.belt_mass
+        on_road = _contact_scale(rig.tire_contact, mass * rig.gravity, touching)
+        road_position, road_velocity = (size * tolerance for size in on_road)
+        wheel = (position, velocity) if rig.carcass is not None else (road_position, road_velocity)
+        scale += [wheel[0], seat_position, wheel[1], seat_velocity]
+        if rig.carcass is not None:
+            scale += [road_position, road_velocity]
     if rig.seat is not None:
-        count = 1 + len(rig.seat.masses)
-        scale += [position] * count + [velocity] * count
+        count = len(rig.seat.masses)
+        scale += [seat_position] + [position] * count + [seat_velocity] + [velocity] * count
         if rig.seat_contact is not None and rig.seat_contact.friction is not None:
-            scale += [position, velocity, position]
+            scale += [position, velocity, _spring_scale(rig.seat_contact.friction, occupant * rig.gravity) * tolerance]
         if rig.seat_contact is not None and rig.seat_contact.hysteresis is not None:
             scale.append(tolerance)  # its internal variable runs from -1 to 1
     return numpy.array([*scale, numpy.inf, numpy.inf])
+
+
+def _spring_scale(friction: Friction, load: float) -> float:
+    """Deflection in [m] of the friction spring: what it reaches under the ``load`` [N] at rest, at most the usual size."""
+    reached = friction.coefficient_static * load / friction.stiffness
+    return min(POSITION_SCALE, reached) if reached > 0.0 else POSITION_SCALE
 
 
 def _bodies(rig: Vehicle) -> tuple[str, ...]:

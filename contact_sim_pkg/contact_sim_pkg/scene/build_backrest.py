@@ -28,7 +28,9 @@ from contact_sim_pkg.scene.timing import Timing, make_timing
 
 REFERENCE_SURFACE = 0.02  # [m^2] of the back to which the contact law belongs: a point has its part of it
 USUAL_FREQUENCY = 2.0 * math.pi * 5.0  # [rad/s] velocities over displacements, for the scale of the errors
-SMALLEST_SCALE = 1e-3  # [m] size of the motion where there is no preload
+USUAL_SIZE = 1e-3  # [m] of the motion where there is no preload
+USUAL_SPEED = 0.5  # [m/s] of a slap
+STIFF = 0.1  # of a contact less deep than the usual size: its swings are many, and their errors add up
 NEWTON_STEPS = 100
 
 
@@ -99,7 +101,7 @@ def build_backrest(scene: dict[str, Any]) -> BackrestModel:
     start = resting_state(rig)
     approach = float((rig.shapes @ start[: len(form.mass)] - rig.gaps).max())
     _refuse_deep(backrest["back"], preload, approach)
-    scale = _scale(rig, max(approach, SMALLEST_SCALE), preload, float(scene["integrator"]["relative_tolerance"]))
+    scale = _scale(rig, approach, preload, float(scene["integrator"]["relative_tolerance"]))
     timing = make_timing(scene, True)
     return BackrestModel(rig, timing, scale, start, form.names, form.motion, mat, form.point_x, form.point_y)
 
@@ -222,11 +224,28 @@ def _spring_scale(friction: Friction | None, size: float, preload: float) -> flo
     return min(size, reached) if reached > 0.0 else size
 
 
-def _scale(rig: Backrest, size: float, preload: float, tolerance: float) -> Vector:
+def _size_and_frequency(rig: Backrest, approach: float, preload: float) -> tuple[float, float]:
+    """Size in [m] and frequency in [rad/s] of the motion: of a swing about the ``approach`` [m] at rest, or of a slap.
+
+    A stiff contact turns a small error of place into a large one of force.
+    """
+    mass, size = float(rig.mass.max()), approach
+    if approach <= 0.0:
+        size = USUAL_SIZE
+        while elastic_force(rig.contact.elastic, size) * size > mass * USUAL_SPEED**2:
+            size *= 0.5
+    if size >= USUAL_SIZE:
+        return size, USUAL_FREQUENCY
+    frequency = USUAL_SPEED / size if approach <= 0.0 else math.sqrt(preload / (size * mass))
+    return STIFF * size, max(USUAL_FREQUENCY, frequency)
+
+
+def _scale(rig: Backrest, approach: float, preload: float, tolerance: float) -> Vector:
     """Error allowed per step and state: displacements relative to the approach at rest, works to that of the preload on it."""
     modes, points = len(rig.mass), len(rig.gaps)
-    position, velocity = size * tolerance, size * USUAL_FREQUENCY * tolerance
-    kinetic = 0.5 * float(rig.mass.max()) * (size * USUAL_FREQUENCY) ** 2
+    size, frequency = _size_and_frequency(rig, approach, preload)
+    position, velocity = size * tolerance, size * frequency * tolerance
+    kinetic = 0.5 * float(rig.mass.max()) * (size * frequency) ** 2
     work = max(preload * size, kinetic) * tolerance
     spring = _spring_scale(rig.contact.friction, size, preload) * tolerance
     parts = [numpy.full(modes, position), numpy.full(modes, velocity), numpy.full(points, spring)]

@@ -100,7 +100,8 @@ def explicit(scene: Scene) -> dict[str, Any]:
         _fill_effects(data["effects"][contact], scene.accuracy, contact)
     if scene.rig in _COMPLETED:
         _COMPLETED[scene.rig](data)
-    data["integrator"].setdefault("relative_tolerance", integration_tolerance(scene.accuracy))
+    impacts = scene.rig == "block" and data["effects"]["block"].get("compliant_contact") is None
+    data["integrator"].setdefault("relative_tolerance", integration_tolerance(scene.accuracy, impacts=impacts))
     if any((data["effects"][contact] or {}).get("contact_field") is not None for contact in RIGS[scene.rig].contacts):
         data["integrator"].setdefault("coupling_tolerance", asked(scene.accuracy))
     return _ordered(data)

@@ -16,6 +16,8 @@ FASTEST = 0.1
 LOOSEST_INTEGRATION = 1e-4
 INTEGRATION_SHARE = 1e-2
 """The time integration may make this part of the asked error."""
+HELD_INTEGRATION = 1e-8
+"""Loosest for a rigid body that turns on held points: the impacts that follow multiply its errors, and less costs nothing."""
 
 
 class Rung(NamedTuple):
@@ -64,9 +66,9 @@ def rung_name(contact: Contact, rows: int, cols: int) -> str:
     return next((rung.name for rung in RUNGS if rung.cells(contact) == (rows, cols)), "custom")
 
 
-def integration_tolerance(accuracy: float | str) -> float:
-    """Relative tolerance of a time step."""
-    return min(LOOSEST_INTEGRATION, INTEGRATION_SHARE * asked(accuracy))
+def integration_tolerance(accuracy: float | str, *, impacts: bool = False) -> float:
+    """Relative tolerance of a time step; ``impacts``: of a rigid body, whose impacts have no duration."""
+    return min(HELD_INTEGRATION if impacts else LOOSEST_INTEGRATION, INTEGRATION_SHARE * asked(accuracy))
 
 
 def cells_of(accuracy: float | str, contact: Contact, rows: int | None, cols: int | None) -> tuple[int, int]:

@@ -102,8 +102,9 @@ def _accuracy() -> str:
         "|---|---|---|---|---|---|"
     )
     rows = [_rung_row(rung, contact) for rung in RUNGS for contact in CONTACTS]
-    largest = integration_tolerance("realtime")
-    note = f"The time integration takes a hundredth of the asked error as its relative tolerance, at most {largest:g}."
+    largest, held = (integration_tolerance("realtime", impacts=impacts) for impacts in (False, True))
+    note = f"The time integration takes a hundredth of the asked error as its relative tolerance, at most {largest:g}; "
+    note += f"that of a rigid body at most {held:g}."
     return "\n".join([head, *rows, "", note])
 
 
