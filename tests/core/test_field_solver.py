@@ -17,6 +17,7 @@ from contact_sim_pkg.core.field_solver import (
     FieldResult,
     first_bad_cell,
     make_workspace,
+    overlap_approach,
     refuse_bad_gap,
     solve_at_approach,
     solve_at_load,
@@ -317,6 +318,16 @@ def test_arrays_of_the_wrong_shape_are_refused_before_compiled_code_sees_them() 
         problem.at_approach(1e-3)
 
 
+def test_without_a_pressure_to_start_from_the_overlap_of_a_ball_gives_the_approach_of_hertz() -> None:
+    half_space = make_half_space(64, 64, 1e-3, 1e-3, 1e6)
+    radius, load = 0.2, 2.0
+    place = (numpy.arange(64) - 31.5) * 1e-3
+    height = (place[:, None] ** 2 + place[None, :] ** 2) / (2.0 * radius)
+    hertz = (0.75 * load / (1e6 * math.sqrt(radius))) ** (2.0 / 3.0)
+    assert overlap_approach(half_space, height, load) == pytest.approx(hertz, rel=0.03)
+
+
+@pytest.mark.fault("D4")
 def test_the_iteration_cap_is_reported_with_the_true_residual() -> None:
     problem = Problem(rough(48, 48, 2e-4))
     result = problem.at_approach(1e-3, 1e-10, 3)

@@ -135,6 +135,13 @@ def _refuse_shapes(half_space: HalfSpace, gap: Field, pressure: Field) -> None:
     shape = (half_space.rows, half_space.cols)
     if gap.shape != shape or pressure.shape != shape:
         raise ValueError(f"pressure field: gap is {gap.shape} and pressure {pressure.shape}, both must be {shape}")
+    for name, field in (("gap", gap), ("pressure", pressure)):
+        if field.dtype != numpy.float64 or not (field.flags.c_contiguous and field.flags.writeable):
+            raise ValueError(
+                f"pressure field: {name} is of {field.dtype}, contiguous {field.flags.c_contiguous}, writable "
+                f"{field.flags.writeable}; it must be float64, contiguous by rows and writable: "
+                f"pass numpy.array({name}, float, order='C')"
+            )
 
 
 @entry

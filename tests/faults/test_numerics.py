@@ -1,0 +1,128 @@
+"""Steps, budgets, threads and arrays that a kernel must not stumble over (FAULTS part D, F7)."""
+
+import ast
+import hashlib
+import subprocess
+import sys
+import threading
+import time
+from pathlib import Path
+
+import numpy
+import pytest
+
+from contact_sim_pkg.core import jit
+from contact_sim_pkg.core.field_solver import make_workspace, solve_at_load
+from contact_sim_pkg.core.halfspace import make_half_space
+from contact_sim_pkg.core.parameters import NormalElastic, PointContact
+from contact_sim_pkg.studies.one_mass import integrate
+
+from ..bench_process import ENVIRONMENT, messages
+
+PACKAGE = Path(jit.__file__).resolve().parents[1]
+PRESSED = PointContact(1.0, 10.0, 0.0, 0.0, NormalElastic(1e8, 1.0), None)  # sinks 1e-7 m under its weight
+
+
+@pytest.mark.fault("D3")
+@pytest.mark.parametrize("interval", [0.5, 1.0, 2.0, 4.0])
+def test_an_output_interval_beyond_the_stability_limit_of_an_explicit_step_changes_nothing(interval):
+    """Undamped spring, 1e4 rad/s; an explicit step of the pair is unstable above 3.3/frequency. Nobody chooses the step."""
+    frequency, limit = 1e4, 3.3e-4
+    times = numpy.arange(0.0, 5e-3, interval * limit)
+    states = integrate(PRESSED, numpy.array([-1.5e-7, 0.0]), numpy.array([1e-7, 1e-3]) * 1e-10, times).states
+    assert states[:, 0] == pytest.approx(-1e-7 - 0.5e-7 * numpy.cos(frequency * times), abs=1e-13)
+
+
+def small_problem():
+    """Half-space, workspace, gap and pressure of a ball on 16 x 16 cells."""
+    half_space = make_half_space(16, 16, 1e-3, 1e-3, 1e6)
+    x = (numpy.arange(16) - 7.5) * 1e-3
+    gap = (x[:, None] ** 2 + x[None, :] ** 2) / 0.1
+    return half_space, make_workspace(half_space), gap, numpy.zeros((16, 16))
+
+
+def read_only(field):
+    """The same values, not to be written."""
+    field = field.copy()
+    field.flags.writeable = False
+    return field
+
+
+@pytest.mark.fault("D8")
+@pytest.mark.parametrize("name", ["gap", "pressure"])
+@pytest.mark.parametrize(
+    ("spoil", "said"),
+    [
+        (lambda field: field.astype(numpy.float32), "of float32"),
+        (lambda field: numpy.repeat(field, 2, axis=1)[:, ::2], "contiguous False"),
+        (lambda field: field.T.copy().T, "contiguous False"),
+        (read_only, "writable False"),
+    ],
+    ids=["single precision", "strided", "by columns", "read-only"],
+)
+def test_an_array_of_another_kind_is_refused_by_name_before_a_kernel_sees_it(name, spoil, said):
+    half_space, work, gap, pressure = small_problem()
+    arrays = {"gap": gap, "pressure": pressure}
+    arrays[name] = spoil(arrays[name])
+    with pytest.raises(ValueError, match=rf"{name} is .*{said}.*pass numpy.array"):
+        solve_at_load(half_space, work, arrays["gap"], 1.0, 1e-6, 100, arrays["pressure"])
+
+
+@pytest.mark.fault("D10")
+def test_no_kernel_shares_its_work_among_threads():
+    """So that sums have one order: no parallel target, no prange."""
+    found = []
+    for path in PACKAGE.rglob("*.py"):
+        for node in ast.walk(ast.parse(path.read_text())):
+            named = isinstance(node, (ast.Name, ast.Attribute)) and ast.unparse(node).split(".")[-1] == "prange"
+            asked = isinstance(node, ast.keyword) and node.arg == "parallel"
+            found += [f"{path.name}:{node.lineno}"] if named or asked else []
+    assert found == []
+    assert "parallel" not in jit.COMPILE_OPTIONS
+
+
+@pytest.mark.fault("D10")
+def test_the_same_scene_gives_the_same_bits_with_one_thread_and_with_two(tmp_path):
+    hashes = set()
+    for threads in ("1", "2"):
+        bag = tmp_path / threads
+        command = [sys.executable, "-m", "contact_sim_pkg.cli.main", "run", "seat_ride", "--offline"]
+        subprocess.run(
+            [*command, "--set", "duration=0.2", "--out", str(bag)],
+            env={**ENVIRONMENT, "NUMBA_NUM_THREADS": threads, "OPENBLAS_NUM_THREADS": threads, "OMP_NUM_THREADS": threads},
+            check=True, capture_output=True,
+        )  # fmt: skip
+        hashes.add(hashlib.sha256(repr(messages(bag)).encode()).hexdigest())
+    assert len(hashes) == 1
+
+
+@pytest.mark.fault("F7")
+def test_other_threads_go_on_while_a_kernel_computes():
+    """Without nogil the ticker would stand still for the whole call."""
+    half_space = make_half_space(128, 128, 1e-3, 1e-3, 1e6)
+    x = (numpy.arange(128) - 63.5) * 1e-3
+    gap = (x[:, None] ** 2 + x[None, :] ** 2) / 1.0 + 1e-4 * numpy.random.default_rng(1).random((128, 128))
+    work, pressure = make_workspace(half_space), numpy.zeros((128, 128))
+    solve_at_load(half_space, work, gap, 100.0, 1e-2, 1, pressure)  # compiled
+
+    ticks, over = [], threading.Event()
+
+    def tick():
+        while not over.is_set():
+            ticks.append(time.perf_counter())
+            time.sleep(1e-4)
+
+    ticker = threading.Thread(target=tick)
+    ticker.start()
+    try:
+        begun = time.perf_counter()
+        while not ticks:
+            time.sleep(1e-3)
+        began = time.perf_counter()
+        solve_at_load(half_space, work, gap, 100.0, 1e-15, 3000, pressure)
+        ended = time.perf_counter()
+    finally:
+        over.set()
+        ticker.join()
+    assert begun <= began < ended
+    assert sum(began < each < ended for each in ticks) >= 5
