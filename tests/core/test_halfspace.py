@@ -86,8 +86,8 @@ def test_displacement_of_uniform_pressure_at_the_centre_is_that_of_a_loaded_squa
 @pytest.mark.parametrize(
     ("arguments", "fault"),
     [
-        ((0, 5, 1.0, 1.0, 1.0), "rows = 0"),
-        ((5, 5000, 1.0, 1.0, 1.0), "cols = 5000"),
+        ((0, 5, 1.0, 1.0, 1.0), "rows 0: a finite number at least 1 and at most 4096 is needed"),
+        ((5, 5000, 1.0, 1.0, 1.0), "cols 5000"),
         ((5, 5, 0.0, 1.0, 1.0), "cell_x"),
         ((5, 5, 1.0, numpy.nan, 1.0), "cell_y"),
         ((5, 5, 1.0, 1.0, -2.0), "modulus"),

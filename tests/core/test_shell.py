@@ -136,8 +136,8 @@ def test_what_is_no_thin_shallow_shell_is_refused(change: dict[str, float], reas
 
 
 def test_wrong_counts_and_points_are_refused() -> None:
-    for count in (0, -1, 2, 24):
-        with pytest.raises(ShellError, match="square numbers"):
+    for count, reason in ((0, "at least 1"), (-1, "at least 1"), (2, "square numbers"), (24, "square numbers")):
+        with pytest.raises(ShellError, match=reason):
             natural_frequencies(BACK, count)
     with pytest.raises(ShellError, match="outside the sides"):
         shell_modes(BACK, 1, numpy.array([[0.2, 0.51]]))

@@ -65,7 +65,7 @@ def approach_at_radius(profile: Profile, radius: float) -> float:
     _refuse_radius(profile, radius)
     if isinstance(profile, PowerProfile):
         return float(_power_factor(profile) * radius**profile.exponent)
-    return float(_approaches(profile, numpy.array([radius]))[0])
+    return _finite(float(_approaches(profile, numpy.array([radius]))[0]), "approach", radius)
 
 
 def load_at_radius(profile: Profile, modulus: float, radius: float) -> float:
@@ -77,7 +77,7 @@ def load_at_radius(profile: Profile, modulus: float, radius: float) -> float:
     _refuse_radius(profile, radius)
     sine, weight = _slope_nodes(profile, numpy.array([radius]))
     integral = numpy.sum(weight * sine**2 * profile.slope(sine * radius))
-    return float(2.0 * modulus * radius**2 * integral)
+    return _finite(float(2.0 * modulus * radius**2 * integral), "load", radius)
 
 
 def pressure(profile: Profile, modulus: float, radius: float, r: Field) -> Field:
@@ -246,6 +246,15 @@ def _refuse_radius(profile: Profile, radius: float) -> None:
     reach = math.inf if isinstance(profile, PowerProfile) else profile.reach
     if not (0.0 <= radius < math.inf and radius <= reach):
         raise AxisymmetricError(f"axisymmetric contact: radius is {radius} m, allowed are 0 to {reach} m")
+
+
+def _finite(value: float, name: str, radius: float) -> float:
+    """Refuse what a slope gives that is no number."""
+    if not math.isfinite(value):
+        raise AxisymmetricError(
+            f"axisymmetric contact: {name} at a = {radius} m is {value}: the slope must be finite there"
+        )
+    return value
 
 
 def _refuse_modulus(modulus: float) -> None:

@@ -9,6 +9,8 @@ from typing import NamedTuple
 import numpy
 from numpy.typing import NDArray
 
+from contact_sim_pkg.core.guards import require, require_count, require_values
+
 __all__ = ["AxisymmetricError", "PowerProfile", "Profile", "SlopeProfile", "refuse_profile", "tabulated_profile"]
 
 Field = NDArray[numpy.float64]
@@ -67,8 +69,11 @@ def tabulated_profile(radius: Field, height: Field) -> SlopeProfile:
 
 
 def refuse_profile(profile: Profile) -> None:
-    """Raise `AxisymmetricError` for a power law without a contact of one disc."""
-    if not isinstance(profile, PowerProfile):
+    """Raise `AxisymmetricError` for a power law without a contact of one disc, and for breaks, reach or nodes that are none."""
+    if isinstance(profile, SlopeProfile):
+        require_values("profile: breaks", profile.breaks, "m", above=0.0, rising=True, error=AxisymmetricError)
+        require("profile: reach", profile.reach, "m", above=0.0, infinite=True, error=AxisymmetricError)
+        require_count("profile: nodes", profile.nodes, error=AxisymmetricError)
         return
     if not (0.0 < profile.coefficient < math.inf and 1.0 <= profile.exponent < math.inf):
         raise AxisymmetricError(

@@ -38,6 +38,7 @@ from contact_sim_pkg.core.field_iteration import (
     search,
     step,
 )
+from contact_sim_pkg.core.guards import require_count, require_not_negative
 from contact_sim_pkg.core.halfspace import Field, HalfSpace
 from contact_sim_pkg.core.jit import entry, kernel
 
@@ -97,9 +98,9 @@ def solve_at_approach(
     datum; tolerance: on the residual [-]; pressure: float64 [rows, cols] [Pa], in: start (zeros when nothing is known),
     out: the field, exactly zero where there is no contact. Without contact the field and the load are zero and the
     status is CONVERGED. With EDGE and NOT_CONVERGED the field is returned as it is; BAD_INPUT leaves it untouched.
-    Raises `ValueError` for arrays of the wrong shape.
+    Raises `ValueError` for arrays of the wrong shape or type, a tolerance below 0, iterations that are no whole number >= 0.
     """
-    _refuse_shapes(half_space, gap, pressure)
+    _refuse(half_space, gap, pressure, tolerance, max_iterations)
     return solve(half_space, workspace, gap, float(approach), False, float(tolerance), int(max_iterations), pressure)
 
 
@@ -116,7 +117,7 @@ def solve_at_load(
 
     Zero load gives a zero field and the approach of first touch, the smallest gap.
     """
-    _refuse_shapes(half_space, gap, pressure)
+    _refuse(half_space, gap, pressure, tolerance, max_iterations)
     return solve(half_space, workspace, gap, float(load), True, float(tolerance), int(max_iterations), pressure)
 
 
@@ -130,8 +131,10 @@ def refuse_bad_gap(gap: Field, name: str = "gap") -> None:
         )
 
 
-def _refuse_shapes(half_space: HalfSpace, gap: Field, pressure: Field) -> None:
+def _refuse(half_space: HalfSpace, gap: Field, pressure: Field, tolerance: float, max_iterations: int) -> None:
     """Compiled code does not check bounds, so shapes are checked before it."""
+    require_not_negative("pressure field: tolerance", tolerance)
+    require_count("pressure field: iterations", max_iterations, least=0)
     shape = (half_space.rows, half_space.cols)
     if gap.shape != shape or pressure.shape != shape:
         raise ValueError(f"pressure field: gap is {gap.shape} and pressure {pressure.shape}, both must be {shape}")
@@ -146,7 +149,7 @@ def _refuse_shapes(half_space: HalfSpace, gap: Field, pressure: Field) -> None:
 
 @entry
 def first_bad_cell(gap: Field) -> int:
-    """Row-major index of the first cell that is not finite, or -1."""
+    """Row-major index of the first cell that is not finite, or -1. The array has two axes, which is not checked."""
     rows, cols = gap.shape
     for i in range(rows):
         for j in range(cols):
@@ -166,7 +169,10 @@ def solve(
     max_iterations: int,
     pressure: Field,
 ) -> FieldResult:
-    """`solve_at_load` (holds_load: given is a load [N]) and `solve_at_approach` (given is an approach [m])."""
+    """`solve_at_load` (holds_load: given is a load [N]) and `solve_at_approach` (given is an approach [m]).
+
+    Shapes are not checked.
+    """
     if not (numpy.isfinite(given) and (given >= 0.0 or not holds_load) and acceptable(gap, pressure)):
         return FieldResult(BAD_INPUT, 0, 0.0, numpy.nan, numpy.inf)
     touch = lowest(gap)

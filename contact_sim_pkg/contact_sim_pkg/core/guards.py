@@ -43,7 +43,7 @@ def require(
     inside = inside and (number < below or below == math.inf) and least <= number <= most
     if inside and (infinite or math.isfinite(number)):
         return number
-    shown = f"{number}" if isinstance(value, Real) else repr(value)[:60]
+    shown = str(value)[:60] if isinstance(value, Real) else repr(value)[:60]
     raise error(f"{name} {shown}{_blank(unit)}: {_wanted(above, least, below, most, infinite)} is needed")
 
 

@@ -15,6 +15,7 @@ from typing import NamedTuple
 import numpy
 from numpy.typing import NDArray
 
+from contact_sim_pkg.core.guards import require_count, require_positive, require_values
 from contact_sim_pkg.core.jit import entry, kernel
 from contact_sim_pkg.core.transforms import rocket_fft
 
@@ -69,22 +70,26 @@ def make_half_space(
     rows, cols: number of cells along x and y; cell_x, cell_y: their size [m]; modulus: contact modulus E* [Pa]; further:
     influence [m/Pa] [rows, cols] of something else that yields under the pressure, in series with the half-space; it must
     be positive and not grow with the distance, as that of a belt does (`effects/envelopment.py`).
-    Raises `ValueError` for sizes that are not positive and finite. A ratio cell_x/cell_y up to 100 either way is fine.
+    Raises `ValueError` for sizes that are not positive and finite, counts that are not whole or outside 1 to 4096, and a
+    `further` that is negative or of another shape. A ratio cell_x/cell_y up to 100 either way is fine.
     """
-    for name, count in (("rows", rows), ("cols", cols)):
-        if not MINIMUM_CELLS <= count <= MAXIMUM_CELLS:
-            raise ValueError(f"half-space: {name} = {count}, allowed are {MINIMUM_CELLS} to {MAXIMUM_CELLS} cells")
-    for name, value in (("cell_x [m]", cell_x), ("cell_y [m]", cell_y), ("modulus [Pa]", modulus)):
-        if not (numpy.isfinite(value) and value > 0.0):
-            raise ValueError(f"half-space: {name} = {value}, allowed are positive finite numbers")
+    rows = require_count("half-space: rows", rows, least=MINIMUM_CELLS, most=MAXIMUM_CELLS)
+    cols = require_count("half-space: cols", cols, least=MINIMUM_CELLS, most=MAXIMUM_CELLS)
+    for name, value, unit in (("cell_x", cell_x, "m"), ("cell_y", cell_y, "m"), ("modulus", modulus, "Pa")):
+        require_positive(f"half-space: {name}", value, unit)
     influence = love_coefficients(rows, cols, cell_x, cell_y) / (numpy.pi * modulus)
     if further is not None:
-        influence += further
+        influence += require_values("half-space: further", further, "m/Pa", shape=(rows, cols), least=0.0)
     return _half_space(influence, float(cell_x), float(cell_y), float(modulus))
 
 
 def part_of(whole: HalfSpace, rows: int, cols: int) -> HalfSpace:
-    """A smaller grid of the same cells: what yields under them is the same."""
+    """A smaller grid of the same cells: what yields under them is the same.
+
+    Raises `ValueError` for more rows or cols than the whole has, and for fewer than 1.
+    """
+    rows = require_count("half-space: rows", rows, least=MINIMUM_CELLS, most=whole.rows)
+    cols = require_count("half-space: cols", cols, least=MINIMUM_CELLS, most=whole.cols)
     return _half_space(whole.influence[:rows, :cols], whole.cell_x, whole.cell_y, whole.modulus)
 
 
@@ -92,8 +97,10 @@ def coarsened(fine: HalfSpace) -> HalfSpace:
     """The same surface in cells of twice the size; rows and cols must be even.
 
     A coarse cell spreads its pressure over its four fine cells and takes the mean of their displacements: of the pairs of fine
-    cells, 1, 2 and 1 of 4 lie one cell nearer, as far and one cell farther along each side.
+    cells, 1, 2 and 1 of 4 lie one cell nearer, as far and one cell farther along each side. Raises `ValueError` for an odd count.
     """
+    if fine.rows % 2 or fine.cols % 2:
+        raise ValueError(f"half-space: {fine.rows} rows, {fine.cols} cols: even numbers are needed to halve them")
     far_rows, far_cols = numpy.arange(0, fine.rows, 2), numpy.arange(0, fine.cols, 2)
     influence = numpy.zeros((len(far_rows), len(far_cols)))
     for i, along_x in ((-1, 1.0), (0, 2.0), (1, 1.0)):
@@ -153,7 +160,10 @@ def love_coefficients(rows: int, cols: int, cell_x: float, cell_y: float) -> Fie
 
 @entry
 def displacement(half_space: HalfSpace, buffers: Buffers, pressure: Field, result: Field) -> None:
-    """Surface displacement [m] under a pressure field [Pa], both float64 [rows, cols]; `result` is overwritten."""
+    """Surface displacement [m] under a pressure field [Pa], both float64 [rows, cols]; `result` is overwritten.
+
+    Not checked.
+    """
     convolve(half_space, buffers, pressure, result)
 
 

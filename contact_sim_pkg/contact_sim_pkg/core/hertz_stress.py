@@ -115,7 +115,7 @@ def _fill(load: EllipseLoad, poisson: float, points: Values, out: Values) -> Non
 
 @kernel
 def stress_under_ellipse(load: EllipseLoad, poisson: float, x: float, y: float, z: float) -> Stress:
-    """`ellipse_stress` at one point, without its checks."""
+    """`ellipse_stress` at one point, for compiled callers. Not checked."""
     # Lengths in units of the smaller semi-axis, stresses in units of p0.
     unit = min(load.a, load.b)
     a2, b2 = (load.a / unit) ** 2, (load.b / unit) ** 2

@@ -30,6 +30,7 @@ def summarise(pressure: Field, cell_x: float, cell_y: float, origin_x: float, or
 
     pressure: [Pa], float64 [rows, cols], rows along x; cell_x, cell_y: size of a cell [m]; origin_x, origin_y: centre
     of cell (0, 0) [m]. The sums run over the rows in order, so the same field gives the same bits.
+    Pressures >= 0, cells > 0. Not checked.
     """
     rows, cols = pressure.shape
     total, moment_x, moment_y, peak, cells = 0.0, 0.0, 0.0, 0.0, 0
@@ -60,7 +61,7 @@ def contact_area(pressure: Field, cell_x: float, cell_y: float) -> float:
     Near the edge of an elastic contact p^2 grows like the distance from it (Johnson 1985, section 5.1). So along each line the
     edge lies `d = p1^2 / (p2^2 - p1^2)` cells beyond the centre of the last cell in contact, p1 its pressure and p2 that of the
     cell before, d at most 1; half a cell where the pressure does not fall outwards (a sharp-edged punch) and at the grid's
-    edge. A run of one cell counts as one cell. The mean of the areas by rows and by columns is returned.
+    edge. A run of one cell counts as one cell. The mean of the areas by rows and by columns is returned. Not checked.
     """
     rows, cols = pressure.shape
     length = 0.0

@@ -25,7 +25,7 @@ TOLERANCE_OF_HALF = 1e-2
 
 
 def make_periodic_half_space(rows: int, cols: int, cell_x: float, cell_y: float, modulus: float) -> HalfSpace:
-    """As `make_half_space` for one period of a surface that repeats after `rows` and `cols` cells."""
+    """As `make_half_space` for one period of a surface that repeats after `rows` and `cols` cells. Errors as there."""
     free = make_half_space(rows, cols, cell_x, cell_y, modulus)
     wave_x = 2.0 * numpy.pi * numpy.fft.fftfreq(rows, cell_x)[:, None]
     wave_y = 2.0 * numpy.pi * numpy.fft.rfftfreq(cols, cell_y)[None, :]

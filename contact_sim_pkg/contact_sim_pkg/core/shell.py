@@ -23,6 +23,8 @@ from typing import NamedTuple
 import numpy
 from numpy.typing import NDArray
 
+from contact_sim_pkg.core.guards import require_count, require_values
+
 __all__ = [
     "MODE_COUNTS",
     "ShallowShell",
@@ -101,11 +103,12 @@ def natural_frequencies(shell: ShallowShell, count: int) -> Field:
 def static_deflection(shell: ShallowShell, count: int, loads: Field, load_points: Field, points: Field) -> Field:
     """Deflection [m] at `points` [points, 2] under constant point loads [N] at `load_points` [loads, 2].
 
-    `w = sum_mn phi_mn sum_k P_k phi_mn(k) / (M omega_mn^2)` over the first `count` modes. Raises `ShellError`.
+    `w = sum_mn phi_mn sum_k P_k phi_mn(k) / (M omega_mn^2)` over the first `count` modes. Raises `ShellError`,
+    also for loads that are not finite.
     """
     at_loads = shell_modes(shell, count, load_points)
     at_points = shell_modes(shell, count, points)
-    forces = numpy.asarray(loads, dtype=float)
+    forces = require_values("shell: loads", loads, "N", error=ShellError)
     if forces.shape != at_loads.shapes.shape[:1]:
         raise ShellError(
             f"shell: {forces.shape} loads at {at_loads.shapes.shape[0]} points, one load a point is needed"
@@ -128,8 +131,8 @@ def crown_gap(shell: ShallowShell, points: Field) -> Field:
 def _wave_numbers(shell: ShallowShell, count: int) -> tuple[NDArray[numpy.int64], Field, Field]:
     """Orders [modes, 2], alpha [modes] and beta [modes] [1/m]."""
     _refuse_shell(shell)
-    side = math.isqrt(count) if count > 0 else 0
-    if side == 0 or side * side != count:
+    side = math.isqrt(require_count("shell: modes", count, error=ShellError))
+    if side * side != count:
         raise ShellError(f"shell: {count} modes, allowed are square numbers (1, 4, 9, 25, …): m and n count alike")
     orders = numpy.indices((side, side)).reshape(2, -1).T.astype(numpy.int64) + 1
     alpha, beta = math.pi * orders[:, 0] / shell.length_1, math.pi * orders[:, 1] / shell.length_2

@@ -34,6 +34,7 @@ from typing import NamedTuple
 import numpy
 from numpy.typing import NDArray
 
+from contact_sim_pkg.core.guards import require_values
 from contact_sim_pkg.core.jit import entry, kernel
 
 __all__ = ["SurfaceGrid", "max_shear", "principal_stresses", "subsurface_stress", "von_mises"]
@@ -102,23 +103,37 @@ def subsurface_stress(
 
 
 def principal_stresses(stress: Field) -> Field:
-    """Principal stresses [n, 3] [Pa], largest (most tensile) first, of stresses [n, 6] in the order of `Stress`."""
-    xx, yy, zz, xy, xz, yz = numpy.asarray(stress, dtype=float).T
+    """Principal stresses [n, 3] [Pa], largest (most tensile) first, of stresses [n, 6] in the order of `Stress`.
+
+    Raises `ValueError` for another shape and values that are not finite.
+    """
+    xx, yy, zz, xy, xz, yz = _components(stress)
     tensor = numpy.stack([xx, xy, xz, xy, yy, yz, xz, yz, zz], axis=-1).reshape(-1, 3, 3)
     return numpy.asarray(numpy.linalg.eigvalsh(tensor)[:, ::-1])
 
 
 def von_mises(stress: Field) -> Field:
-    """`sqrt(((xx-yy)^2 + (yy-zz)^2 + (zz-xx)^2)/2 + 3 (xy^2 + xz^2 + yz^2))` [n] [Pa] of stresses [n, 6]."""
-    xx, yy, zz, xy, xz, yz = numpy.asarray(stress, dtype=float).T
+    """`sqrt(((xx-yy)^2 + (yy-zz)^2 + (zz-xx)^2)/2 + 3 (xy^2 + xz^2 + yz^2))` [n] [Pa] of stresses [n, 6].
+
+    Errors as `principal_stresses`.
+    """
+    xx, yy, zz, xy, xz, yz = _components(stress)
     normal = 0.5 * ((xx - yy) ** 2 + (yy - zz) ** 2 + (zz - xx) ** 2)
     return numpy.asarray(numpy.sqrt(normal + 3.0 * (xy**2 + xz**2 + yz**2)))
 
 
 def max_shear(stress: Field) -> Field:
-    """Largest shear stress over all planes [n] [Pa]: half of the largest less the smallest principal stress."""
+    """Largest shear stress over all planes [n] [Pa]: half of the largest less the smallest principal stress.
+
+    stress: [n, 6] [Pa]. Errors as `principal_stresses`.
+    """
     principal = principal_stresses(stress)
     return numpy.asarray(0.5 * (principal[:, 0] - principal[:, 2]))
+
+
+def _components(stress: Field) -> Field:
+    """[6, n] of stresses [n, 6]."""
+    return require_values("subsurface: stress", stress, "Pa", shape=(None, 6)).T
 
 
 @entry

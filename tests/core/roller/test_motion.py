@@ -124,6 +124,6 @@ def test_the_weights_of_a_rule(stages):
         assert b @ c**k == pytest.approx(1.0 / (k + 1))
     for k in range(stages):
         assert a @ c**k == pytest.approx(c ** (k + 1) / (k + 1))
-    with pytest.raises(ValueError, match="allowed are 1 to 4"):
+    with pytest.raises(ValueError, match="at least 1 and at most 4 is needed"):
         gauss_rule(5)
     assert math.isfinite(table.sum())

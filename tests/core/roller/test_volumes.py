@@ -147,7 +147,7 @@ def test_they_scale_with_the_contact():
 def test_no_contact_and_impossible_limits():
     free = RollingContact(0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
     assert dangerous_volumes(free, 0.3, (1.0, 1.0)) == (0.0,) * 7
-    with pytest.raises(ValueError, match="must be above 0"):
+    with pytest.raises(ValueError, match="above 0 is needed"):
         dangerous_volumes(CIRCLE, 0.3, (0.0, 1.0))
     with pytest.raises(ValueError, match="at least 2"):
         dangerous_volumes(CIRCLE, 0.3, (1.0, 1.0), (1, 2, 2))

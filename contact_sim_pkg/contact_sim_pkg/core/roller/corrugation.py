@@ -20,6 +20,7 @@ from typing import NamedTuple
 import numpy
 from numpy.typing import NDArray
 
+from contact_sim_pkg.core.guards import require, require_count, require_not_negative, require_positive, require_values
 from contact_sim_pkg.core.jit import entry, kernel
 from contact_sim_pkg.core.roller.heave import Heave, Path, linear_stiffness, natural_frequency, ride
 
@@ -78,16 +79,21 @@ def make_track(
 ) -> Track:  # fmt: skip
     """Track of `radius` [m] cut into `cells`; `table`: loads [N], rising from 0, and the shares omega of these.
 
-    hardness: of each cell, 1 where None. Raises `ValueError` for a table that does not rise from 0 N and values out of range.
+    hardness: of each cell, 1 where None. turn_time [s] and radius above 0, at least 8 cells, contact_length [m], gain and
+    approach [m] at least 0. Raises `ValueError` for a table that does not rise from 0 N and values out of range.
     """
-    loads, shares = (numpy.ascontiguousarray(part, dtype=float) for part in table)
-    if loads.shape != shares.shape or len(loads) < 2 or loads[0] != 0.0 or (numpy.diff(loads) <= 0.0).any():
+    for name, value, unit in (("radius", radius, "m"), ("turn time", turn_time, "s")):
+        require_positive(f"track: {name}", value, unit)
+    for name, value, unit in (("contact length", contact_length, "m"), ("gain", gain, ""), ("approach", approach, "m")):
+        require_not_negative(f"track: {name}", value, unit)
+    cells = require_count("track: cells", cells, least=8)
+    loads = require_values("track: loads of the table", table[0], "N", shape=(None,), least=0.0, rising=True)
+    shares = require_values("track: shares of the table", table[1], shape=loads.shape, least=0.0)
+    if len(loads) < 2 or loads[0] != 0.0:
         raise ValueError("track: the table needs loads that rise from 0 N, and a share for each")
-    if turn_time <= 0.0 or cells < 8 or gain < 0.0:
-        raise ValueError(f"track: turn time {turn_time} s, {cells} cells, gain {gain}: above 0, at least 8, at least 0")
-    hard = numpy.ones(cells) if hardness is None else numpy.ascontiguousarray(hardness, dtype=float)
-    if hard.shape != (cells,) or not (hard > 0.0).all():
-        raise ValueError(f"track: the hardness needs {cells} numbers above 0, one for each cell")
+    hard = require_values(
+        "track: hardness", numpy.ones(cells) if hardness is None else hardness, shape=(cells,), above=0.0
+    )
     within = contact_length / (2.0 * math.pi * radius / cells)
     return Track(turn_time, within, gain, approach, loads, shares, hard, STRAIN * radius)
 
@@ -98,7 +104,7 @@ def run_intervals(
     motion: Values,
 ) -> Interval:  # fmt: skip
     """`intervals` intervals; `heights` [cells] [m], `state` (z, z') go on in place, `loads` [cells] [N] and
-    `motion` [cells, 2] are the last ones.
+    `motion` [cells, 2] are the last ones. Not checked.
     """
     cells = heights.shape[0]
     path = Path(numpy.zeros(cells + 1), numpy.full(cells + 1, heave.contact_coefficient))
@@ -119,7 +125,7 @@ def run_intervals(
 
 @entry
 def wear(track: Track, turns: float, loads: Values, heights: Values) -> Wear:
-    """Take off what `turns` turns under `loads` [cells] [N] cost; `heights` [cells] [m] change in place."""
+    """Take off what `turns` turns under `loads` [cells] [N] cost; `heights` [cells] [m] change in place. Not checked."""
     cells, mean = heights.shape[0], 0.0
     step = track.gain * track.approach * turns
     for j in range(cells):
@@ -142,7 +148,7 @@ def _share(track: Track, cell: int, load: float) -> float:
 def mean_weights(width: float) -> Values:
     """Weights of a place itself and of each place k cells before and behind it, in the mean over `width` cells about it.
 
-    Heights go straight from place to place. width: any number not below 0; 0 takes the height of the place.
+    Heights go straight from place to place. width: any number not below 0; 0 takes the height of the place. Not checked.
     """
     half = 0.5 * width
     whole = int(half)
@@ -162,7 +168,10 @@ def mean_weights(width: float) -> Values:
 
 @entry
 def moving_mean(heights: Values, width: float, out: Values) -> None:
-    """Mean of `heights` [cells] over `width` cells about each, round the track; an `out` of one cell more is closed."""
+    """Mean of `heights` [cells] over `width` cells about each, round the track; an `out` of one cell more is closed.
+
+    The width is at most that of the track. Not checked.
+    """
     cells, weights = heights.shape[0], mean_weights(width)
     for j in range(cells):
         total = weights[0] * heights[j]
@@ -190,8 +199,12 @@ def growth_of_wave(heave: Heave, track: Track, waves: int, slope: float, cells: 
     """Growth of a small wave in a turn: `-gamma delta(F_N) F omega'(F) (k_lin / F_N) Re(1 - H)` and the moving mean's factor.
 
     waves: n_w round the track; slope: `F d omega / dF` at F_N; `H = kappa^2 / (kappa^2 - Omega^2 + 2 i zeta kappa Omega)`.
-    Positive exactly below `kappa sqrt(1 - 4 zeta^2)` with a positive slope.
+    Positive exactly below `kappa sqrt(1 - 4 zeta^2)` with a positive slope, but for the sign of the moving mean.
+    Raises `ValueError` for waves below 0, fewer than 8 cells and a slope that is not finite.
     """
+    require_not_negative("growth of a wave: waves", waves)
+    require("growth of a wave: slope", slope)
+    require_count("growth of a wave: cells", cells, least=8)
     kappa, omega = natural_frequency(heave), 2.0 * math.pi * waves / track.turn_time
     answer = kappa**2 / (kappa**2 - omega**2 + 2j * heave.damping_ratio * kappa * omega)
     weights = mean_weights(track.contact_cells)

@@ -17,6 +17,7 @@ from typing import NamedTuple
 import numpy
 from numpy.typing import NDArray
 
+from contact_sim_pkg.core.guards import require, require_choice, require_fields, require_positive
 from contact_sim_pkg.core.hertz import HertzError, contact_of_shape, ellipse_shape
 from contact_sim_pkg.core.hertz_fits import shape_of_polynomial
 from contact_sim_pkg.core.jit import entry
@@ -73,10 +74,14 @@ def contact_of_rollers(
 ) -> RollingContact:
     """Contact under a load [N] at a yaw [rad]; modulus: E* [Pa]; kind: EXACT or POLYNOMIAL (the paper's eq 10).
 
-    Raises `HertzError` where the bodies do not touch in an ellipse, and for values that are not finite.
+    Zeros for a load <= 0. Raises `HertzError` where the bodies do not touch in an ellipse, for values that are not finite and for
+    another kind.
     """
-    if not all(math.isfinite(value) for value in (*curvatures, yaw, modulus, load)) or modulus <= 0.0:
-        raise HertzError("roller contact: curvatures, yaw and load must be finite, E* above 0")
+    require_fields("curvatures", curvatures, finite=" ".join(Curvatures._fields), error=HertzError)
+    require("roller contact: yaw", yaw, "rad", error=HertzError)
+    require_positive("roller contact: E*", modulus, "Pa", error=HertzError)
+    require("roller contact: load", load, "N", error=HertzError)
+    require_choice("roller contact: kind", kind, (EXACT, POLYNOMIAL), error=HertzError)
     principal = principal_curvatures(curvatures, yaw)
     smaller, larger = sorted(principal[:2])
     if smaller <= 0.0 or smaller < FLATTEST * larger:
@@ -89,7 +94,7 @@ def contact_of_rollers(
 
 @entry
 def principal_curvatures(curvatures: Curvatures, yaw: float) -> PrincipalCurvatures:
-    """Coefficients of the gap along its principal axes."""
+    """Coefficients of the gap along its principal axes. Not checked."""
     differ = curvatures.roller_axial - curvatures.roller_rolling
     mean = 0.25 * (
         curvatures.roller_axial + curvatures.roller_rolling + curvatures.shaft_axial + curvatures.shaft_rolling
@@ -104,7 +109,7 @@ def principal_curvatures(curvatures: Curvatures, yaw: float) -> PrincipalCurvatu
 
 @entry
 def rolling_contact(curvatures: Curvatures, yaw: float, modulus: float, load: float, kind: int) -> RollingContact:
-    """`contact_of_rollers` without its checks, for compiled callers."""
+    """`contact_of_rollers` for compiled callers. Not checked."""
     if not load > 0.0:
         return RollingContact(0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
     principal = principal_curvatures(curvatures, yaw)
@@ -122,7 +127,10 @@ def rolling_contact(curvatures: Curvatures, yaw: float, modulus: float, load: fl
 def rolling_contacts(
     curvatures: Values, yaws: Values, modulus: float, loads: Values, kind: int, out: Values
 ) -> None:  # fmt: skip
-    """`rolling_contact` of many instants into `out` [rows, 6], columns as its fields; curvatures [rows, 4] as `Curvatures`."""
+    """`rolling_contact` of many instants into `out` [rows, 6], columns as its fields; curvatures [rows, 4] as `Curvatures`.
+
+    Not checked.
+    """
     for i in range(yaws.shape[0]):
         here = Curvatures(curvatures[i, 0], curvatures[i, 1], curvatures[i, 2], curvatures[i, 3])
         contact = rolling_contact(here, yaws[i], modulus, loads[i], kind)
@@ -135,7 +143,7 @@ def local_coefficients(
     curvatures: Curvatures, yaw: float, modulus: float, kind: int, bends: Values, out: Values
 ) -> bool:
     """k_c [n] where the shaft curves by `k21 - bend` along rolling, bends [n] [1/m]; False where a place is too hollow to touch in
-    an ellipse.
+    an ellipse. Not checked.
     """
     for i in range(bends.shape[0]):
         here = Curvatures(

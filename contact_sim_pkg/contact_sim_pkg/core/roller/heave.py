@@ -19,6 +19,7 @@ from typing import NamedTuple
 import numpy
 from numpy.typing import NDArray
 
+from contact_sim_pkg.core.guards import require_not_negative, require_positive, require_values
 from contact_sim_pkg.core.jit import entry, kernel
 from contact_sim_pkg.core.roller.load_split import load_of_approach
 
@@ -57,7 +58,10 @@ class Path(NamedTuple):
 
 
 def closed_path(heave: Heave, heights: Values) -> Path:
-    """Round a track of `heights` [cells] [m], of the same k_c everywhere."""
+    """Round a track of `heights` [cells] [m], of the same k_c everywhere. Raises `ValueError` for heights that are not finite."""
+    heights = require_values("track: heights", heights, "m", shape=(None,))
+    if len(heights) == 0:
+        raise ValueError("track: no heights, at least 1 is needed")
     return Path(numpy.append(heights, heights[0]), numpy.full(len(heights) + 1, heave.contact_coefficient))
 
 
@@ -65,32 +69,31 @@ def make_heave(
     mass: float, damping_ratio: float, load: float, contact_coefficient: float, bending_compliance: float
 ) -> Heave:
     """Checked values. Raises `ValueError` for values that are not finite, or not above 0 (zeta, k_b: below 0)."""
-    values = (mass, damping_ratio, load, contact_coefficient, bending_compliance)
-    if not all(math.isfinite(value) for value in values) or min(mass, load, contact_coefficient) <= 0.0:
-        raise ValueError(
-            f"heave: mass, load and k_c must be finite and above 0, they are {mass}, {load}, {contact_coefficient}"
-        )
-    if damping_ratio < 0.0 or bending_compliance < 0.0:
-        raise ValueError(f"heave: zeta and k_b must be at least 0, they are {damping_ratio}, {bending_compliance}")
-    return Heave(*(float(value) for value in values))
+    return Heave(
+        require_positive("heave: mass", mass, "kg"),
+        require_not_negative("heave: zeta", damping_ratio),
+        require_positive("heave: load", load, "N"),
+        require_positive("heave: k_c", contact_coefficient, "m/N^(2/3)"),
+        require_not_negative("heave: k_b", bending_compliance, "m/N"),
+    )
 
 
 @entry
 def linear_stiffness(heave: Heave) -> float:
-    """k_lin [N/m] at the load at rest."""
+    """k_lin [N/m] at the load at rest. Not checked: `make_heave` is."""
     soft = 2.0 / 3.0 * heave.contact_coefficient / heave.load ** (1.0 / 3.0)
     return float(1.0 / (soft + heave.bending_compliance))
 
 
 @entry
 def natural_frequency(heave: Heave) -> float:
-    """kappa [rad/s]."""
+    """kappa [rad/s]. Not checked: `make_heave` is."""
     return math.sqrt(linear_stiffness(heave) / heave.mass)
 
 
 @entry
 def contact_energy(contact_coefficient: float, bending_compliance: float, load: float) -> float:
-    """U [J] that contact and shaft store under a load [N]."""
+    """U [J] that contact and shaft store under a load >= 0 [N]. Not checked."""
     return float(0.4 * contact_coefficient * load ** (5.0 / 3.0) + 0.5 * bending_compliance * load * load)
 
 
@@ -100,7 +103,7 @@ def ride(heave: Heave, path: Path, cell_time: float, turns: int, state: Values, 
 
     `state` (z [m], z' [m/s]) goes on in place; with two values more, the energies [J] that the track has supplied and the damper
     taken. `loads` [cells] [N] takes the mean over the turns of the contact load at each cell, `motion` [cells, 2] z and z' there in
-    the last turn.
+    the last turn. Not checked.
     """
     kappa = natural_frequency(heave)
     steps = max(1, int(math.ceil(kappa * cell_time / LARGEST_PHASE)))  # noqa: RUF046  # a float in compiled code

@@ -14,7 +14,10 @@ __all__ = ["load_of_approach", "parallel_contact_load"]
 
 @entry
 def parallel_contact_load(contact_coefficient: float, bending_compliance: float, load: float) -> float:
-    """F_c [N] of the parallel split; contact_coefficient: k_c [m/N^(2/3)], bending_compliance: k_b [m/N], load >= 0 [N]."""
+    """F_c [N] of the parallel split; contact_coefficient: k_c [m/N^(2/3)], bending_compliance: k_b [m/N], load >= 0 [N].
+
+    k_c > 0, k_b >= 0. Not checked.
+    """
     if load <= 0.0:
         return 0.0
     return _cube_root_load(contact_coefficient, bending_compliance, bending_compliance * load)
@@ -22,7 +25,10 @@ def parallel_contact_load(contact_coefficient: float, bending_compliance: float,
 
 @entry
 def load_of_approach(contact_coefficient: float, bending_compliance: float, approach: float) -> float:
-    """F [N] of `k_c F^(2/3) + k_b F = approach` (series), 0 where the approach [m] is not above 0; k_c > 0, k_b >= 0."""
+    """F [N] of `k_c F^(2/3) + k_b F = approach` (series), 0 where the approach [m] is not above 0; k_c > 0, k_b >= 0.
+
+    Not checked.
+    """
     if not approach > 0.0:
         return 0.0
     return _cube_root_load(contact_coefficient, bending_compliance, approach)

@@ -42,7 +42,7 @@ def moments(
     tilt: float,
     yaw: float,
 ) -> Moments:
-    """Moments of a contact under `load` [N] at angles [rad]; modulus: E* [Pa]. All are 0 without load."""
+    """Moments of a contact under `load` [N] at angles [rad]; modulus: E* [Pa]. All are 0 without load. Not checked."""
     if bending is None or not load > 0.0:
         return moments_of_straight(roller, load, tilt)
     return moments_of_bent(roller, bending, load, tilt, exact_ellipse(curvatures, modulus, yaw))
@@ -50,14 +50,14 @@ def moments(
 
 @kernel
 def moments_of_straight(roller: Roller, load: float, tilt: float) -> Moments:
-    """Of pressure and rolling alone."""
+    """Of pressure and rolling alone. Not checked."""
     about_y = max(load, 0.0) * roller.radius * math.sin(tilt)
     return Moments(about_y, roller.rolling_friction * about_y)
 
 
 @kernel
 def moments_of_bent(roller: Roller, bending: Bending, load: float, tilt: float, ellipse: YawEllipse) -> Moments:
-    """With the friction of the bent shaft, from the ellipse under 1 N at the yaw; load > 0."""
+    """With the friction of the bent shaft, from the ellipse under 1 N at the yaw; load > 0. Not checked."""
     straight, arm = moments_of_straight(roller, load, tilt), roller.radius * math.sin(tilt)
     grown = numpy.cbrt(load) ** 2
     pull = bending.friction * bending.load * math.pi * grown * ellipse.product / bending.second_moment

@@ -20,6 +20,7 @@ from typing import NamedTuple
 import numpy
 from numpy.typing import NDArray
 
+from contact_sim_pkg.core.guards import require, require_count, require_fields, require_values
 from contact_sim_pkg.core.jit import entry, kernel
 from contact_sim_pkg.core.roller.moments import Moments, moments_of_bent, moments_of_straight
 from contact_sim_pkg.core.roller.parameters import Bending, Curvatures, Roller
@@ -38,9 +39,11 @@ ITERATIONS = 100
 
 
 def gauss_rule(stages: int) -> Values:
-    """Table of a Gauss rule, [stages + 1, stages + 1]: rows of `A | c`, the last row the weights. stages: 1 to 4."""
-    if not 1 <= stages <= 4:
-        raise ValueError(f"Gauss rule: {stages} stages, allowed are 1 to 4")
+    """Table of a Gauss rule, [stages + 1, stages + 1]: rows of `A | c`, the last row the weights.
+
+    stages: 1 to 4, else `ValueError`.
+    """
+    stages = require_count("Gauss rule: stages", stages, most=4)
     roots, sizes = numpy.polynomial.legendre.leggauss(stages)
     nodes, weights = 0.5 * (roots + 1.0), 0.5 * sizes
     powers = numpy.arange(stages)
@@ -63,6 +66,7 @@ def march(
 
     `record` [rows, 4] takes the state at the start and after every `steps / (rows - 1)` steps. Returns DONE, DIVERGED where the
     tilt passes `LARGEST_TILT`, NO_CONVERGENCE where the step is too long for its iteration; what is not reached is NaN.
+    Not checked.
     """
     stages, steps = table.shape[0] - 1, loads.shape[0] - 1
     slopes, trial, fit = numpy.zeros((stages, 4)), numpy.zeros(4), empty_fit()
@@ -189,7 +193,10 @@ def _copy(values: Values, out: Values) -> None:
 def accelerations(
     roller: Roller, curvatures: Values, bending: Bending | None, modulus: float, loads: Values, states: Values, out: Values
 ) -> None:  # fmt: skip
-    """psi'' and theta'' [rows, 2] [rad/s^2] of states [rows, 4] under loads [rows] [N]; curvatures [rows, 4] as `Curvatures`."""
+    """psi'' and theta'' [rows, 2] [rad/s^2] of states [rows, 4] under loads [rows] [N]; curvatures [rows, 4] as `Curvatures`.
+
+    Not checked.
+    """
     slope, fit = numpy.zeros(4), empty_fit()
     for i in range(loads.shape[0]):
         here = Curvatures(curvatures[i, 0], curvatures[i, 1], curvatures[i, 2], curvatures[i, 3])
@@ -217,7 +224,10 @@ class Energies(NamedTuple):
 
 @entry
 def energies(roller: Roller, load: float, state: Values) -> Energies:
-    """Under a load [N]; their sum is conserved where f_r = 0, nothing is bent, nothing damps and the load rests."""
+    """Under a load [N]; their sum is conserved where f_r = 0, nothing is bent, nothing damps and the load rests.
+
+    Not checked: `energy` is.
+    """
     kinetic = 0.5 * (roller.inertia_tilt * state[2] ** 2 + roller.inertia_yaw * state[3] ** 2)
     kinetic += roller.inertia_product * state[2] * state[3]
     stored = 0.5 * (roller.stiffness_tilt * state[0] ** 2 + roller.stiffness_yaw * state[1] ** 2)
@@ -225,5 +235,12 @@ def energies(roller: Roller, load: float, state: Values) -> Energies:
 
 
 def energy(roller: Roller, load: float, state: Values) -> float:
-    """Sum of `energies` [J]."""
+    """Sum of `energies` [J] of a state (psi, theta, psi', theta') under a load [N].
+
+    Raises `ValueError` for values that are not finite and a state of fewer than 4 numbers.
+    """
+    require_fields("roller", roller, finite=" ".join(Roller._fields))
+    require("load", load, "N")
+    if len(require_values("state", state, shape=(None,))) < 4:
+        raise ValueError(f"state: {len(state)} numbers, 4 are needed")
     return float(sum(energies(roller, load, state)))

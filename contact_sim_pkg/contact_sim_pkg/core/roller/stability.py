@@ -14,6 +14,8 @@ from typing import NamedTuple
 import numpy
 from numpy.typing import NDArray
 
+from contact_sim_pkg.core.guards import require_fields, require_not_negative, require_positive
+from contact_sim_pkg.core.roller.ellipse import contact_of_rollers
 from contact_sim_pkg.core.roller.moments import moments
 from contact_sim_pkg.core.roller.parameters import Bending, Curvatures, Roller
 
@@ -55,7 +57,12 @@ class Stability(NamedTuple):
 
 
 def linearise(roller: Roller, curvatures: Curvatures, bending: Bending | None, modulus: float, load: float) -> Linear:
-    """Static angles under `load` [N] and the linear motion about them. Raises `RollerError`."""
+    """Static angles under `load` [N] and the linear motion about them.
+
+    Raises `RollerError` where there are none, and for values that are not finite, inertias, a radius or E* [Pa] not above 0, a
+    load below 0; `HertzError` where a bent shaft and the roller do not touch in an ellipse.
+    """
+    _check(roller, curvatures, bending, modulus, load)
     if roller.inertia_product**2 >= roller.inertia_tilt * roller.inertia_yaw:
         raise RollerError(
             f"roller: I_yz = {roller.inertia_product} kg m^2 is too large: I_yz^2 must be below I_y I_z = "
@@ -86,6 +93,19 @@ def linearise(roller: Roller, curvatures: Curvatures, bending: Bending | None, m
     )  # fmt: skip
 
 
+def _check(roller: Roller, curvatures: Curvatures, bending: Bending | None, modulus: float, load: float) -> None:
+    positive = "radius inertia_tilt inertia_yaw"
+    others = " ".join(name for name in Roller._fields if name not in positive.split())
+    require_fields("roller", roller, positive=positive, finite=others, error=RollerError)
+    require_fields("curvatures", curvatures, finite=" ".join(Curvatures._fields), error=RollerError)
+    require_positive("E*", modulus, "Pa", error=RollerError)
+    require_not_negative("load", load, "N", error=RollerError)
+    if bending is not None:
+        finite = "load contact_distance load_distance friction"
+        require_fields("bending", bending, positive="radius second_moment", finite=finite, error=RollerError)
+        contact_of_rollers(curvatures, 0.0, modulus, load)
+
+
 def _slopes(moment: Callable[[Matrix], Matrix], angles: Matrix) -> Matrix:
     """Derivatives of the moments by the angles, [moment, angle]."""
     columns = []
@@ -114,7 +134,11 @@ def stability(
 def critical_load(
     roller: Roller, curvatures: Curvatures, bending: Bending | None, modulus: float, largest: float
 ) -> float | None:
-    """Smallest load [N] up to `largest` at which a motion grows; None where none does. By bisection after 200 equal steps."""
+    """Smallest load [N] up to `largest` at which a motion grows; None where none does. By bisection after 200 equal steps.
+
+    Raises `RollerError` for values out of range, as `linearise`.
+    """
+    _check(roller, curvatures, bending, modulus, require_positive("largest load", largest, "N", error=RollerError))
 
     def grows(load: float) -> bool:
         try:
@@ -134,8 +158,9 @@ def critical_damping(
 ) -> float:
     """Equal damping [N m s] of tilt and yaw at which no motion grows any more, 0 where none does undamped.
 
-    Raises `RollerError` where no damping does it.
+    Raises `RollerError` where no damping does it, and as `linearise`.
     """
+    _check(roller, curvatures, bending, modulus, load)
 
     def decays(damping: float) -> bool:
         damped = roller._replace(damping_tilt=damping, damping_yaw=damping)

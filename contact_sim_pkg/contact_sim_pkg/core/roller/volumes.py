@@ -15,6 +15,7 @@ from typing import NamedTuple
 import numpy
 from numpy.typing import NDArray
 
+from contact_sim_pkg.core.guards import require, require_choice, require_count, require_fields, require_poisson_ratio
 from contact_sim_pkg.core.jit import entry, kernel
 from contact_sim_pkg.core.roller.ellipse import RollingContact
 from contact_sim_pkg.core.roller.parameters import Bending
@@ -79,12 +80,11 @@ def dangerous_volumes(
 ) -> Volumes:
     """Volumes [m^3] where the stress of contact, traction and bending (None: without) passes the limits [Pa] (normal, shear).
 
-    cells: along x, y and depth. Raises `ValueError` for limits that are not above 0 and fewer than two cells.
+    contact: of `contact_of_rollers`; all are 0 where its load is. cells: along x, y and depth. Raises `ValueError` for limits that
+    are not above 0 (they may be infinite), fewer than two cells, a Poisson ratio outside -1 < nu <= 1/2 and values not finite.
     """
-    if not min(limits) > 0.0:
-        raise ValueError(f"dangerous volumes: the limits are {limits[0]} and {limits[1]} Pa, they must be above 0")
-    if min(cells) < 2:
-        raise ValueError(f"dangerous volumes: {cells} cells, at least 2 each way")
+    _check(poisson, limits, cells, bending, traction)
+    require_choice("dangerous volumes: kind", kind, (COUNTED, MARCHED))
     out = numpy.zeros(COMPONENTS + 1)
     if contact.load > 0.0:
         normal, shear = float(limits[0]), float(limits[1])
@@ -122,7 +122,11 @@ def _measure(
 def leaves_box(
     contact: RollingContact, poisson: float, limits: tuple[float, float], traction: tuple[float, float] = (0.0, 0.0)
 ) -> bool:
-    """Whether a place on a side or the floor of the box is dangerous: the true volume is larger than the one in the box."""
+    """Whether a place on a side or the floor of the box is dangerous: the true volume is larger than the one in the box.
+
+    Errors as `dangerous_volumes`.
+    """
+    _check(poisson, limits, (2, 2, 2), None, traction)
     if not contact.load > 0.0:
         return False
     a, b, deepest = contact.along_x, contact.along_y, 3.0 * max(contact.along_x, contact.along_y)
@@ -141,9 +145,31 @@ def largest_ratio(
     contact: RollingContact, poisson: float, limits: tuple[float, float], cells: tuple[int, int, int],
     bending: Bending | None = None, traction: tuple[float, float] = (0.0, 0.0),
 ) -> float:  # fmt: skip
-    """Largest stress over its limit at the places where `dangerous_volumes` looks; without bending it grows as load^(1/3)."""
+    """Largest stress over its limit at the places where `dangerous_volumes` looks; without bending it grows as load^(1/3).
+
+    0 without load. Errors as `dangerous_volumes`.
+    """
+    _check(poisson, limits, cells, bending, traction)
+    if not contact.load > 0.0:
+        return 0.0
     normal, shear = float(limits[0]), float(limits[1])
     return float(_largest(contact, bending, float(traction[0]), float(traction[1]), poisson, normal, shear, *cells))
+
+
+def _check(
+    poisson: float, limits: tuple[float, float], cells: tuple[int, int, int], bending: Bending | None,
+    traction: tuple[float, float],
+) -> None:  # fmt: skip
+    require_poisson_ratio(poisson)
+    for name, limit in zip(("normal", "shear"), limits, strict=True):
+        require(f"dangerous volumes: limit of {name} stress", limit, "Pa", above=0.0, infinite=True)
+    for name, count in zip(("x", "y", "depth"), cells, strict=True):
+        require_count(f"dangerous volumes: cells along {name}", count, least=2)
+    for name, part in zip(("x", "y"), traction, strict=True):
+        require(f"dangerous volumes: traction along {name}", part)
+    if bending is not None:
+        finite = "load contact_distance load_distance friction"
+        require_fields("bending", bending, positive="radius second_moment", finite=finite)
 
 
 @entry

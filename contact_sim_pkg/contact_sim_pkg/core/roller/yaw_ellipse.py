@@ -40,7 +40,7 @@ class YawEllipse(NamedTuple):
 
 @entry
 def exact_ellipse(curvatures: Curvatures, modulus: float, yaw: float) -> YawEllipse:
-    """At one yaw [rad] by the elliptic root; modulus: E* [Pa]."""
+    """At one yaw [rad] by the elliptic root; modulus: E* [Pa]. Not checked."""
     contact = rolling_contact(curvatures, yaw, modulus, 1.0, EXACT)
     a, b = contact.along_x, contact.along_y
     return YawEllipse(a * b, (a * a - b * b) * math.sin(2.0 * contact.angle), contact.approach)
@@ -48,7 +48,10 @@ def exact_ellipse(curvatures: Curvatures, modulus: float, yaw: float) -> YawElli
 
 @entry
 def empty_fit() -> Values:
-    """Room for the series, [4, TERMS], that holds none yet: middle and half width of the interval, then one row a function."""
+    """Room for the series, [4, TERMS], that holds none yet: middle and half width of the interval, then one row a function.
+
+    Without arguments, so not checked.
+    """
     fit = numpy.zeros((4, TERMS))
     fit[0, 1] = -1.0
     return fit
@@ -56,7 +59,10 @@ def empty_fit() -> Values:
 
 @entry
 def ellipse_at_yaw(curvatures: Curvatures, modulus: float, yaw: float, fit: Values) -> YawEllipse:
-    """From the series in `fit`, laid anew where the yaw [rad] is outside; curvatures and modulus as at the first call."""
+    """From the series in `fit`, laid anew where the yaw [rad] is outside; curvatures and modulus as at the first call.
+
+    Not checked.
+    """
     if not abs(yaw - fit[0, 0]) <= fit[0, 1]:
         _lay(curvatures, modulus, yaw, fit)
     place = (yaw - fit[0, 0]) / fit[0, 1]
