@@ -5,7 +5,7 @@ import json
 import pytest
 
 from contact_sim_pkg.analysis import facts
-from contact_sim_pkg.analysis.reading import contact_name, parse_mapping
+from contact_sim_pkg.analysis.reading import contact_name
 from contact_sim_pkg.analysis.rows import described_rows, plain, scene_rows
 from contact_sim_pkg.analysis.series import Recording
 
@@ -76,11 +76,6 @@ def test_a_bag_without_scene_still_tells_its_length():
 @pytest.mark.parametrize(("topic", "name"), [("/tire/force", "tire"), ("/rig2/seat/patch", "seat"), ("force", "force")])
 def test_a_contact_is_called_after_its_topic(topic, name):
     assert contact_name(topic) == name
-
-
-@pytest.mark.parametrize("text", ["", "just text", "[1, 2]", "{broken: ["])
-def test_text_that_holds_no_mapping_gives_an_empty_one(text):
-    assert parse_mapping(text) == {}
 
 
 @pytest.mark.parametrize(("value", "text"), [(True, "yes"), (0.1 + 0.2, "0.3"), ([1.0, 2.5], "1, 2.5"), (12, "12")])

@@ -60,7 +60,7 @@ def test_a_hash_changes_with_the_definition() -> None:
 
 @pytest.mark.parametrize("text", ["float64[ x\n", "b_pkg/Missing part\n"])
 def test_a_definition_that_is_broken_or_lacks_a_part_is_refused_by_name(text: str) -> None:
-    with pytest.raises(BagError, match=r"definition of a_pkg/msg/Bad cannot be used"):
+    with pytest.raises(BagError, match=r"definition of 'a_pkg/msg/Bad' cannot be used"):
         store_of_definition("a_pkg/msg/Bad", text)
 
 

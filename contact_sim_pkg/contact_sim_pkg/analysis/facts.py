@@ -4,8 +4,9 @@ from __future__ import annotations
 
 from typing import Any, NamedTuple
 
+from contact_sim_pkg.bag.texts import excitation_of_text
+
 from .impact_pass import missing_impacts
-from .reading import parse_mapping
 from .rows import Row, described_rows, plain_name, scene_rows
 from .series import Recording
 
@@ -62,7 +63,7 @@ def effect_rows(recording: Recording) -> dict[str, list[Row]]:
 
 def excitation_facts(recording: Recording) -> list[ExcitationFacts]:
     """By topic: parameters and notes, such as clipped samples of a recorded signal."""
-    described = parse_mapping(recording.metadata.get(EXCITATION_KEY, ""))
+    described = excitation_of_text(recording.metadata.get(EXCITATION_KEY), f"excitation of {recording.name}")
     return [
         ExcitationFacts(
             str(topic),

@@ -3,19 +3,20 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import contextmanager
 from typing import Any, NamedTuple
 
 import numpy as np
 from rosbags.serde import SerdeError
 from rosbags.typesys.store import Typestore
-from ruamel.yaml import YAML
-from ruamel.yaml.error import YAMLError
 
 from contact_sim_pkg.bag.columns import stacked
 from contact_sim_pkg.bag.errors import BagError
 from contact_sim_pkg.bag.reader import Bag
+from contact_sim_pkg.bag.texts import scene_of_text
 from contact_sim_pkg.bag.typestore import store_of_definition
+from contact_sim_pkg.scene.errors import SceneError
 
 from .episodes import episode_series
 from .field_pass import FieldPass
@@ -76,7 +77,7 @@ def read_recording(bag: Bag) -> Recording:
     cost = next((_cost(columns(name, CostSeries._fields)) for name in topics[COST]), None)
     listed = [name for name, row in bag.topics.items() if row.type == EPISODES]
     episodes = next((_episodes(columns, name, name in decoded) for name in listed), None)
-    scene = parse_mapping(bag.scene or "")
+    scene = scene_of_text(bag.scene, f"scene of {bag.path}")
     return Recording(
         name=bag.path.parent.name,
         scene=scene,
@@ -96,6 +97,24 @@ def read_recording(bag: Bag) -> Recording:
         impacts=impacts.finish(),
         roller=roller.finish(),
     )
+
+
+@contextmanager
+def scenes_fit(bags: Sequence[Bag]) -> Iterator[None]:
+    """Whatever fails inside on the scene of a bag that this version would not run is a BagError that names the fault in it."""
+    try:
+        yield
+    except (BagError, OSError):
+        raise
+    except Exception:
+        from contact_sim_pkg.scene.resolve import read_explicit
+
+        for text, path in [(bag.scene, bag.path) for bag in bags if bag.scene is not None]:
+            try:
+                read_explicit(text, f"scene of {path}")
+            except SceneError as error:
+                raise BagError(f"{error.faults[0]}; no report can be made with this scene") from None
+        raise
 
 
 class Decoded(NamedTuple):
@@ -156,15 +175,6 @@ def _contact_names(bag: Bag) -> dict[str, str]:
                 f"{bag.path} has {other} and {name}, both of a contact {names[name]}; record each bench in a bag of its own"
             )
     return names
-
-
-def parse_mapping(text: str) -> dict[str, Any]:
-    """The mapping that a YAML or JSON text holds; empty where it is none."""
-    try:
-        value = YAML(typ="safe").load(text)
-    except (YAMLError, ValueError):
-        return {}
-    return value if isinstance(value, dict) else {}
 
 
 def _duration(series: list[ContactSeries | MotionSeries], scene: dict[str, Any], bag: Bag) -> float:

@@ -60,4 +60,4 @@ def labels(recordings: Sequence[Recording]) -> Labels:
 def _leaves(value: Any, location: tuple[str, ...] = ()) -> list[tuple[tuple[str, ...], Any]]:
     if isinstance(value, dict) and value:
         return [leaf for key, item in value.items() for leaf in _leaves(item, (*location, str(key)))]
-    return [(location, "on" if value == {} else value)]
+    return [(location, "on" if value == {} else value)] if location else []

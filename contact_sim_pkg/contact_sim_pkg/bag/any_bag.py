@@ -12,7 +12,10 @@ from typing import Any, NamedTuple, TypeVar
 from rosbags.highlevel import AnyReader
 from rosbags.typesys import Stores, get_typestore
 
+from contact_sim_pkg.files import open_regular_file
+
 from .errors import BagError
+from .metadata import files_of_bag
 from .reader import Bag, open_bag
 
 __all__ = ["AnyBag", "use_bag"]
@@ -57,15 +60,27 @@ def use_bag(path: Path, use: Callable[[AnyBag], Result]) -> Result:
 
 
 def _place_of(path: Path) -> Path:
-    """The path, or the only file with messages in a directory without metadata."""
+    """The path, or the only file with messages in a directory without metadata; its files are regular ones that can be opened."""
     if not path.exists():
         raise BagError(f"there is no bag {path}; give the directory or the file of a bag")
-    if not path.is_dir() or (path / METADATA).exists():
-        return path
-    files = [file for file in sorted(path.iterdir()) if file.suffix in ENDINGS]
-    if len(files) != 1:
-        raise BagError(f"the directory {path} has no {METADATA} and {len(files)} files of messages; give one of them")
-    return files[0]
+    place, files = path, [path]
+    if path.is_dir() and (path / METADATA).exists():
+        files = [path / name for name in files_of_bag(path / METADATA)]
+    elif path.is_dir():
+        files = [file for file in sorted(path.iterdir()) if file.suffix in ENDINGS]
+        if len(files) != 1:
+            raise BagError(
+                f"the directory {path} has no {METADATA} and {len(files)} files of messages; give one of them"
+            )
+        place = files[0]
+    for file in files:
+        try:
+            open_regular_file(file).close()
+        except OSError as error:
+            raise BagError(
+                f"{file} cannot be opened: {error.strerror}; give the directory or the file of a bag"
+            ) from None
+    return place
 
 
 def _whole(place: Path, use: Callable[[AnyBag], Result]) -> Result:

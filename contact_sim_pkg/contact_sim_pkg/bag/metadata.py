@@ -6,13 +6,17 @@ import platform
 from collections.abc import Callable, Mapping, Sequence
 from importlib.metadata import PackageNotFoundError, version
 from io import StringIO
+from pathlib import Path
 from typing import Any, NamedTuple
 
 from ruamel.yaml import YAML
-from ruamel.yaml.error import YAMLError
 from ruamel.yaml.scalarstring import DoubleQuotedScalarString
 
+from contact_sim_pkg.files import read_regular_file
+from contact_sim_pkg.scene.yaml_document import LARGEST_FILE as LARGEST_METADATA
+
 from .errors import BagError
+from .texts import MOST_VALUES, values_of_text
 from .topics import RECORDED, full_name, offered_qos, topic_of
 from .typestore import definition, type_hash
 
@@ -128,15 +132,21 @@ def serialized_metadata(
     return {"serialized_metadata": _dump(information), "ROS_DISTRO": "jazzy"}
 
 
-def parse_metadata(text: str, where: str) -> dict[str, Any]:
-    """The mapping `rosbag2_bagfile_information` of a `metadata.yaml`; BagError where there is none."""
+def files_of_bag(path: Path) -> list[str]:
+    """The files that the `metadata.yaml` at `path` lists; BagError where it cannot be read or lists none as it should."""
     try:
-        information = YAML(typ="safe").load(text)["rosbag2_bagfile_information"]
-        information["relative_file_paths"]
-    except (YAMLError, KeyError, TypeError, ValueError) as error:
-        reason = str(error).splitlines()[0] if str(error) else type(error).__name__
-        raise BagError(f"{where} is no metadata of a bag: {reason}; give the .mcap file instead") from None
-    return dict(information)
+        text = read_regular_file(path, LARGEST_METADATA).decode("utf-8", "replace")
+    except OSError as error:
+        raise BagError(f"{path} cannot be read: {error.strerror}; give the .mcap file instead") from None
+    content = values_of_text(text, str(path), most_values=MOST_VALUES)
+    information = content.get("rosbag2_bagfile_information") if isinstance(content, dict) else None
+    files = information.get("relative_file_paths") if isinstance(information, dict) else None
+    if not isinstance(files, list) or not all(isinstance(name, str) and name.isprintable() for name in files):
+        raise BagError(
+            f"{path} is no metadata of a bag: no list rosbag2_bagfile_information.relative_file_paths of names; give the .mcap "
+            "file instead"
+        )
+    return files
 
 
 def _information(
@@ -174,7 +184,7 @@ def _topic(topic: RecordedTopic, count: int) -> dict[str, Any]:
             "name": topic.name,
             "type": topic.type,
             "serialization_format": "cdr",
-            "offered_qos_profiles": YAML(typ="safe").load(topic.offered_qos) or [],
+            "offered_qos_profiles": values_of_text(topic.offered_qos, topic.name) if topic.offered_qos.strip() else [],
             "type_description_hash": topic.type_hash,
         },
         "message_count": count,

@@ -11,15 +11,18 @@ from mcap.records import Channel, Message, Schema
 from rosbags.serde import SerdeError
 from rosbags.typesys.store import Typestore
 
+from contact_sim_pkg.files import open_regular_file
+
 from .append_file import is_being_written
 from .columns import stacked
 from .encoding import deserialize
 from .errors import BagError, CorruptChunkError
 from .layout import Layout, chunk_records, read_layout
-from .metadata import OUTCOME, RECORD, RELATIVE_NAME, ROSBAG2, SCENE_KEY, RecordedTopic, parse_metadata, unsealed
+from .metadata import OUTCOME, RECORD, RELATIVE_NAME, ROSBAG2, SCENE_KEY, RecordedTopic, files_of_bag, unsealed
 from .topics import TOPICS
 from .typestore import store_of_definition, type_hash
 
+LONGEST_NAME = 255  # characters of a topic
 SCENE_TOPIC, SCENE_TYPE = "bench/scene", "std_msgs/msg/String"
 
 
@@ -43,7 +46,7 @@ class Bag:
         self.notes = [layout.note] if layout.note else []
         if layout.note and is_being_written(path):
             self.notes.append(f"{path.name} is being recorded at this moment")
-        self.topics = _topics(layout)
+        self.topics = _topics(layout, path)
         unknown = sum(count for number, count in layout.counts.items() if number not in layout.channels)
         if unknown:
             self.notes.append(f"{unknown} messages of {path.name} cannot be read: what says their topic is damaged")
@@ -148,7 +151,7 @@ class Bag:
         """
         wanted = None if topic is None else self.topic(topic).name
         numbers = {number for number, channel in self._layout.channels.items() if wanted in (None, channel.topic)}
-        with self.path.open("rb") as file:
+        with open_regular_file(self.path) as file:
             for place in self._layout.chunks:
                 if place.channels is not None and place.channels.isdisjoint(numbers):
                     continue
@@ -222,7 +225,7 @@ def open_bag(path: Path | str, *, skip_bad: bool = False) -> Bag:
     place = Path(path)
     file_path = _file_of(place) if place.is_dir() else place
     try:
-        with file_path.open("rb") as file:
+        with open_regular_file(file_path) as file:
             layout = read_layout(file, file_path.name)
     except OSError as error:
         raise BagError(
@@ -251,9 +254,8 @@ def version_differences(bag: Bag, current: dict[str, str]) -> list[str]:
 def _file_of(directory: Path) -> Path:
     """The one MCAP file of a bag's directory."""
     metadata = directory / "metadata.yaml"
-    if metadata.is_file():
-        information = parse_metadata(metadata.read_text(encoding="utf-8", errors="replace"), str(metadata))
-        names = [Path(str(name)).name for name in information["relative_file_paths"]]
+    if metadata.exists():
+        names = [Path(name).name for name in files_of_bag(metadata)]
     else:
         names = sorted(entry.name for entry in directory.glob("*.mcap"))
     if len(names) != 1 or not names[0].endswith(".mcap"):
@@ -263,10 +265,17 @@ def _file_of(directory: Path) -> Path:
     return directory / names[0]
 
 
-def _topics(layout: Layout) -> dict[str, RecordedTopic]:
-    return {
-        channel.topic: _topic(channel, layout.schemas.get(channel.schema_id)) for channel in layout.channels.values()
-    }
+def _topics(layout: Layout, path: Path) -> dict[str, RecordedTopic]:
+    """By name; BagError for what is no name, and for two definitions under one."""
+    found: dict[str, RecordedTopic] = {}
+    for channel in layout.channels.values():
+        row, name = _topic(channel, layout.schemas.get(channel.schema_id)), channel.topic
+        if not name.isprintable() or len(name) > LONGEST_NAME:
+            raise BagError(f"{path} has a topic whose name cannot be one: {name[:40]!r}")
+        first = found.setdefault(name, row)
+        if (first.type, first.definition) != (row.type, row.definition):
+            raise BagError(f"{path} has two definitions of the topic {name}: {first.type[:40]!r} and {row.type[:40]!r}")
+    return found
 
 
 def _topic(channel: Channel, schema: Schema | None) -> RecordedTopic:

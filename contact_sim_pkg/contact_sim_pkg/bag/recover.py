@@ -5,7 +5,9 @@ from typing import NamedTuple
 
 from .append_file import is_being_written
 from .errors import BagError
-from .reader import open_bag
+from .metadata import RecordedTopic
+from .reader import Bag, open_bag
+from .texts import values_of_text
 from .writer import BagWriter
 
 
@@ -31,7 +33,8 @@ def recover(source: Path | str, target: Path) -> Recovery:
     bag = open_bag(source, skip_bad=True)
     if is_being_written(bag.path):
         raise BagError(f"{bag.path} is being recorded at this moment; recover it when the recording has ended")
-    with BagWriter(target, tuple(bag.topics.values()), bag.metadata) as writer:
+    topics, lost_quality = _with_readable_quality(bag)
+    with BagWriter(target, topics, bag.metadata) as writer:
         for message in bag.messages():
             writer.write(
                 message.topic,
@@ -40,8 +43,21 @@ def recover(source: Path | str, target: Path) -> Recovery:
                 publish_time=message.publish_time,
                 sequence=message.sequence,
             )
-        left = f"{bag.not_copied} are not brought over" if bag.not_copied else ""
-        lost = "; ".join([*bag.notes, *([left] if left else [])])
+        left = [f"{bag.not_copied} are not brought over"] if bag.not_copied else []
+        lost = "; ".join([*bag.notes, *lost_quality, *left])
         summary = writer.close({"recovered": lost or "nothing was missing"})
     sentence = "; ".join(part for part in (lost, summary.sentence) if part)
     return Recovery(target, summary.messages, not sentence, sentence)
+
+
+def _with_readable_quality(bag: Bag) -> tuple[tuple[RecordedTopic, ...], list[str]]:
+    """The topics of the bag, without a quality of service that cannot be read, and a sentence on each of those."""
+    topics, lost = [], []
+    for row in bag.topics.values():
+        try:
+            values_of_text(row.offered_qos or "[]", f"quality of service of {row.name}")
+        except BagError as error:
+            lost.append(f"{error} and is left out")
+            row = row._replace(offered_qos="")
+        topics.append(row)
+    return tuple(topics), lost

@@ -10,7 +10,7 @@ Nothing here needs ROS to be installed. A bag carries its definitions, so a read
 from functools import cache
 from importlib.resources import files
 
-from rosbags.typesys import Stores, TypesysError, get_types_from_msg, get_typestore
+from rosbags.typesys import Stores, get_types_from_msg, get_typestore
 from rosbags.typesys.store import Typestore
 
 from .errors import BagError
@@ -32,6 +32,7 @@ STANDARD = {
     "diagnostic_msgs/msg/DiagnosticArray": "std_msgs/Header header\nDiagnosticStatus[] status\n",
 }
 """Definitions of the standard types, without comments."""
+LONGEST_DEFINITION = 1 << 18  # characters of a definition with all that it contains
 _SEPARATOR = "=" * 80 + "\n"
 
 
@@ -84,9 +85,12 @@ def store_of_definition(type_name: str, text: str) -> Typestore:
     """
     store = get_typestore(Stores.EMPTY)
     try:
+        if len(text) > LONGEST_DEFINITION:
+            raise ValueError(f"it has {len(text)} characters, limit {LONGEST_DEFINITION}")
         store.register(get_types_from_msg(text, type_name))
         store.get_msgdef(type_name)
-    except (TypesysError, KeyError) as error:
-        reason = f"{error.args[0]} is missing" if isinstance(error, KeyError) else error
-        raise BagError(f"the bag's definition of {type_name} cannot be used: {reason}") from None
+    except Exception as error:  # noqa: BLE001 - the parser and the generator of foreign definitions raise errors of many kinds
+        known = {KeyError: f"{error.args[0] if error.args else error} is missing", RecursionError: "it contains itself"}
+        reason = " ".join(str(known.get(type(error), error)).split()) or type(error).__name__
+        raise BagError(f"the bag's definition of {type_name[:100]!r} cannot be used: {reason:.300}") from None
     return store

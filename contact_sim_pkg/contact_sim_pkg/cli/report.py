@@ -25,6 +25,7 @@ def command(bags: tuple[Path, ...], out: Path | None, skip_bad: bool, overwrite:
     Several bags of one rig are laid over each other on one page, called by what differs between their scenes.
     """
     from contact_sim_pkg.analysis.comparison import write_comparison
+    from contact_sim_pkg.analysis.reading import scenes_fit
     from contact_sim_pkg.analysis.report import write_report
     from contact_sim_pkg.bag.reader import open_bag
 
@@ -32,9 +33,10 @@ def command(bags: tuple[Path, ...], out: Path | None, skip_bad: bool, overwrite:
     for each in recorded:
         for note in each.notes:
             click.echo(note if len(bags) == 1 else f"{each.path.parent.name}: {note}", err=True)
-    page = (
-        write_report(recorded[0], out, overwrite=overwrite)
-        if len(recorded) == 1
-        else write_comparison(recorded, out, overwrite=overwrite)
-    )
+    with scenes_fit(recorded):
+        page = (
+            write_report(recorded[0], out, overwrite=overwrite)
+            if len(recorded) == 1
+            else write_comparison(recorded, out, overwrite=overwrite)
+        )
     click.echo(f"report: {page}")

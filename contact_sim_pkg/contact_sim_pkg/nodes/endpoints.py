@@ -26,10 +26,10 @@ NUMBER = "publication_sequence_number"  # in what rclpy tells of a message
 @cache
 def message_type(type_name: str) -> Any:
     """The Python class of `package/msg/Type`; NodeError where the package is not installed."""
-    package, _, name = type_name.split("/")
     try:
+        package, _, name = type_name.split("/")
         return getattr(import_module(f"{package}.msg"), name)
-    except (ImportError, AttributeError) as error:
+    except (ImportError, AttributeError, ValueError) as error:
         raise NodeError(
             f"message type {type_name} cannot be imported ({error}); build and source its package", REFUSED
         ) from None

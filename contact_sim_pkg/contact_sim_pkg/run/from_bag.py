@@ -2,16 +2,14 @@
 
 from __future__ import annotations
 
-import json
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
-from ruamel.yaml import YAML
-
 from contact_sim_pkg.bag.errors import BagError
 from contact_sim_pkg.bag.messages import decode_road_patch, decode_vibration
 from contact_sim_pkg.bag.reader import Bag, open_bag
+from contact_sim_pkg.bag.texts import excitation_of_text, scene_of_text
 from contact_sim_pkg.excitation.blocks import RoadPatch, VibrationBlock
 from contact_sim_pkg.run.bag_content import EXCITATION_KEY, input_names
 from contact_sim_pkg.run.errors import RunError
@@ -34,8 +32,8 @@ class BagSource:
         """Read the topic; BagError where the bag does not have it or skips a block."""
         self._path, self._topic = bag.path, topic
         self._messages = [message.data for message in bag.messages(topic)]
-        texts = json.loads(bag.metadata.get(EXCITATION_KEY, "{}"))
-        self._description: dict[str, Any] = texts.get(topic, {})
+        described = excitation_of_text(bag.metadata.get(EXCITATION_KEY), f"excitation of {bag.path}")
+        self._description: dict[str, Any] = described.get(topic, {})
         for expected, data in enumerate(self._messages):
             found = DECODERS[topic](data).block
             if found != expected:
@@ -92,8 +90,7 @@ def _changed_keys(bag: Bag, scene: ResolvedScene) -> list[str]:
     text = bag.scene
     if text is None:
         return []
-    recorded = YAML(typ="safe", pure=True).load(text)
-    changed = _differences(recorded, scene.data)
+    changed = _differences(scene_of_text(text, f"scene of {bag.path}"), scene.data)
     if changed:  # a bag of an earlier release may leave open what is written out today
         from contact_sim_pkg.scene.resolve import read_explicit
 

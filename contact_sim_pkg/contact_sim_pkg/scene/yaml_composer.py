@@ -19,8 +19,12 @@ MOST_ALIASES = 32
 class Composer:
     """Builds nodes from parser events; counts and limits while doing so."""
 
-    def __init__(self, start: Mark, faults: list[Fault]) -> None:
+    def __init__(self, start: Mark, faults: list[Fault], plain: bool = False, most_values: int = MOST_VALUES) -> None:
+        """Args: `plain`: null is a value, and no scene is spoken of; `most_values`: limit in place of `MOST_VALUES`."""
         self.root: Node | None = None
+        self._plain, self._most_values = plain, most_values
+        self._subject = "text" if plain else "scene"
+        self.empty = "is empty" if plain else "is empty; a scene needs at least 'rig' and 'effects'"
         self._start = start
         self._faults = faults
         self._open: list[tuple[ListNode | MappingNode, str | None, int]] = []
@@ -34,7 +38,7 @@ class Composer:
         mark = self._mark(event)
         name = type(event).__name__
         if getattr(event, "tag", None) is not None:
-            self._refuse(mark, f"the tag {event.tag} is not allowed; a scene holds plain data only")
+            self._refuse(mark, f"the tag {event.tag} is not allowed; a {self._subject} holds plain data only")
         if name == "DocumentStartEvent":
             self._begin_document(event, mark)
         elif name == "AliasEvent":
@@ -60,14 +64,14 @@ class Composer:
 
     def _begin_document(self, event: Any, mark: Mark) -> None:
         if self.root is not None:
-            self._refuse(mark, "a second document begins here; a scene file holds one")
+            self._refuse(mark, f"a second document begins here; a {self._subject} file holds one")
         if event.version not in (None, (1, 2)):
             self._refuse(mark, "the directive asks for another YAML version; scenes are YAML 1.2")
 
     def _count(self, mark: Mark, more: int = 1) -> None:
         self._values += more
-        if self._values > MOST_VALUES:
-            self._refuse(mark, f"the scene has more than {MOST_VALUES} keys and values")
+        if self._values > self._most_values:
+            self._refuse(mark, f"the {self._subject} has more than {self._most_values} keys and values")
 
     def _scalar(self, event: Any, mark: Mark) -> None:
         self._count(mark)
@@ -77,7 +81,7 @@ class Composer:
             self._key(event.value, mark)
             return
         node = ScalarNode(mark, event.value, value, quoted=not plain)
-        if value is None:
+        if value is None and not self._plain:
             if not event.value and self._pending and self._pending[-1]:
                 mark = node.mark = self._pending[-1][1]
             cure = "write {} for an effect without parameters, or remove the key"
@@ -113,7 +117,7 @@ class Composer:
     def _alias(self, event: Any, mark: Mark) -> None:
         self._aliases += 1
         if self._aliases > MOST_ALIASES:
-            self._refuse(mark, f"the scene has more than {MOST_ALIASES} aliases; write the values out")
+            self._refuse(mark, f"the {self._subject} has more than {MOST_ALIASES} aliases; write the values out")
         if event.anchor not in self._anchors:
             self._refuse(mark, f"the alias *{event.anchor} stands inside or before its own anchor")
         if self._expects_key():
@@ -122,7 +126,7 @@ class Composer:
         self._count(mark, size)
         if len(self._open) + depth > DEEPEST_NESTING:
             self._refuse(mark, f"lists and mappings are nested deeper than {DEEPEST_NESTING} levels")
-        self._finish(copy.deepcopy(node), None, size, depth)
+        self._finish(node if self._plain else copy.deepcopy(node), None, size, depth)  # only a scene is changed later
 
     def _finish(self, node: Node, anchor: str | None, size: int, depth: int) -> None:
         if anchor is not None:

@@ -8,8 +8,10 @@ JSON forms of numbers and booleans count as such: `5e6` is a number; `010`, `60:
 
 from __future__ import annotations
 
+import json
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Any
 
 from ruamel.yaml import YAML
 from ruamel.yaml.error import MarkedYAMLError, YAMLError
@@ -17,8 +19,8 @@ from ruamel.yaml.reader import ReaderError
 
 from contact_sim_pkg.files import read_regular_file
 from contact_sim_pkg.scene.errors import Fault, SceneError
-from contact_sim_pkg.scene.yaml_composer import Composer
-from contact_sim_pkg.scene.yaml_nodes import ListNode, MappingNode, Mark, Node
+from contact_sim_pkg.scene.yaml_composer import DEEPEST_NESTING, MOST_VALUES, Composer
+from contact_sim_pkg.scene.yaml_nodes import ListNode, MappingNode, Mark, Node, to_plain
 
 LARGEST_FILE = 1 << 20
 """Largest scene file [bytes]."""
@@ -65,7 +67,9 @@ def parse_document(text: str, source: str) -> Document:
         SceneError: as `read_document`.
     """
     faults: list[Fault] = []
-    root = _compose(text, Mark(source, 1, 1), faults)
+    start = Mark(source, 1, 1)
+    _check_lines(text, start)
+    root = _compose(text, start, Composer(start, faults))
     if not isinstance(root, MappingNode):
         found = "a list" if isinstance(root, ListNode) else f"the value {_shorten(root.raw)}"
         sentence = f"a scene is a mapping of keys to values, such as 'rig: seat'; found {found}"
@@ -80,10 +84,47 @@ def parse_value(text: str, option: str) -> Node:
         SceneError: as `read_document`.
     """
     faults: list[Fault] = []
-    node = _compose(text, Mark(option, 0, 0), faults)
+    start = Mark(option, 0, 0)
+    _check_lines(text, start)
+    node = _compose(text, start, Composer(start, faults))
     if faults:
         raise SceneError(faults)
     return node
+
+
+def parse_plain(text: str, source: str, most_values: int = MOST_VALUES) -> Any:
+    """Plain data from any YAML text from outside, within the limits of a scene but that of its lines; null is a value.
+
+    Raises:
+        SceneError: as `read_document`, with `source` as the file's name.
+    """
+    faults: list[Fault] = []
+    composer = Composer(Mark(source, 1, 1), faults, plain=True, most_values=most_values)
+    root = _compose(text, Mark(source, 1, 1), composer)
+    if faults:
+        raise SceneError(faults)
+    return to_plain(root)
+
+
+def parse_json(text: str, source: str) -> Any:
+    """Plain data from a JSON text from outside, within the same limits of size and nesting.
+
+    Raises:
+        SceneError: not JSON, or beyond a limit.
+    """
+    start = Mark(source, 1, 1)
+    _check_size(text, start)
+    try:
+        level = [value := json.loads(text)]
+    except (ValueError, RecursionError) as error:
+        reason = "is nested too deeply" if isinstance(error, RecursionError) else f"is not JSON: {error}"
+        raise SceneError([start.fault("", reason)]) from None
+    for _ in range(DEEPEST_NESTING + 1):
+        inner = [each.values() if isinstance(each, dict) else each for each in level if isinstance(each, (dict, list))]
+        level = [each for values in inner for each in values]
+    if level:
+        raise SceneError([start.fault("", f"is nested deeper than {DEEPEST_NESTING} levels")])
+    return value
 
 
 def _shorten(text: str, length: int = 40) -> str:
@@ -91,9 +132,8 @@ def _shorten(text: str, length: int = 40) -> str:
     return repr(shown)
 
 
-def _compose(text: str, start: Mark, faults: list[Fault]) -> Node:
-    _check_lines(text, start)
-    composer = Composer(start, faults)
+def _compose(text: str, start: Mark, composer: Composer) -> Node:
+    _check_size(text, start)
     try:
         for event in YAML(typ="safe", pure=True).parse(text):
             composer.take(event)
@@ -111,8 +151,13 @@ def _compose(text: str, start: Mark, faults: list[Fault]) -> Node:
     except YAMLError as error:
         raise SceneError([start.fault("", f"is not YAML: {error}")]) from error
     if composer.root is None:
-        raise SceneError([start.fault("", "is empty; a scene needs at least 'rig' and 'effects'")])
+        raise SceneError([start.fault("", composer.empty)])
     return composer.root
+
+
+def _check_size(text: str, start: Mark) -> None:
+    if len(text) > LARGEST_FILE:
+        raise SceneError([start.fault("", f"has {len(text)} characters; at most {LARGEST_FILE} are read")])
 
 
 def _check_lines(text: str, start: Mark) -> None:

@@ -9,8 +9,8 @@ import numpy
 
 from contact_sim_pkg.analysis.material.errors import MaterialError
 from contact_sim_pkg.analysis.material.reading import Impacts
-from contact_sim_pkg.analysis.reading import parse_mapping
-from contact_sim_pkg.bag.reader import Bag, open_bag
+from contact_sim_pkg.bag.reader import open_bag
+from contact_sim_pkg.bag.texts import scene_of_text
 
 __all__ = ["EVENTS", "impacts_of_bag", "is_bag", "rules_of_bag"]
 
@@ -48,11 +48,13 @@ def impacts_of_bag(path: Path) -> Impacts:
 
 def rules_of_bag(path: Path) -> tuple[str, str]:
     """End rule and shape factor of the bag's scene; the usual ones where it does not say."""
-    scene = _scene(open_bag(path))
-    effects = (scene.get("effects") or {}).get("impact") or {}
-    loss, impact = effects.get("normal_dissipative") or {}, scene.get("impact") or {}
+    scene = scene_of_text(open_bag(path).scene, f"scene of {path}")
+    loss, impact = _section(scene, "effects", "impact", "normal_dissipative"), _section(scene, "impact")
     return str(loss.get("end", "force")), str(impact.get("shape_factor", "small"))
 
 
-def _scene(bag: Bag) -> dict[str, Any]:
-    return parse_mapping(bag.scene or "")
+def _section(scene: Any, *keys: str) -> dict[str, Any]:
+    """The mapping under these keys; empty where there is none."""
+    for key in keys:
+        scene = scene.get(key) if isinstance(scene, dict) else None
+    return scene if isinstance(scene, dict) else {}

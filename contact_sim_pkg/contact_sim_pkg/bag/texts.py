@@ -1,0 +1,45 @@
+"""Texts that stand in a bag, read as data within the limits of `scene/yaml_document.py`: whoever made the bag is a stranger."""
+
+from collections.abc import Callable
+from typing import Any
+
+from contact_sim_pkg.scene.errors import SceneError
+from contact_sim_pkg.scene.yaml_document import parse_json, parse_plain
+
+from .errors import BagError
+
+MOST_VALUES = 30_000  # of a `metadata.yaml`, which may list many topics
+
+__all__ = ["excitation_of_text", "scene_of_text", "values_of_text"]
+
+
+def values_of_text(text: str, where: str, read: Callable[..., Any] = parse_plain, **limits: int) -> Any:
+    """What a YAML text holds (JSON with `read=parse_json`); BagError, with `where` it stands, beyond what is allowed."""
+    try:
+        return read(text, where, **limits)
+    except SceneError as error:
+        raise BagError(str(error.faults[0])) from None
+
+
+def scene_of_text(text: str | None, where: str) -> dict[str, Any]:
+    """The mapping of a recorded scene, its values unchecked; empty where there is no text. BagError: no mapping."""
+    scene = {} if text is None else values_of_text(text, where)
+    if not isinstance(scene, dict):
+        raise BagError(f"{where}: holds {_kind(scene)}, not the keys and values of a scene")
+    return scene
+
+
+def excitation_of_text(text: str | None, where: str) -> dict[str, dict[str, Any]]:
+    """What each excitation found and did, by topic, with its `notes` as a list of texts. BagError: anything else."""
+    found = {} if text is None else values_of_text(text, where, parse_json)
+    if not isinstance(found, dict) or not all(isinstance(each, dict) for each in found.values()):
+        raise BagError(f"{where}: is no JSON object of objects, one a topic")
+    for topic, each in found.items():
+        notes = each.get("notes", [])
+        if not isinstance(notes, list) or not all(isinstance(note, str) for note in notes):
+            raise BagError(f"{where}: the notes of {topic} are {_kind(notes)}, not a list of texts")
+    return found
+
+
+def _kind(value: Any) -> str:
+    return {dict: "a mapping", list: "a list", type(None): "nothing"}.get(type(value), f"the value {value!r:.40}")
