@@ -68,10 +68,10 @@ def read_regular_file(path: str | Path, most: int, cure: str = "give a smaller f
     with open_regular_file(path) as file:
         size = os.fstat(file.fileno()).st_size
         if size <= most:
-            content = file.read(most + 1)
+            content = file.read(size + 1)  # one more: it may have grown
             size = max(size, len(content))
     if size > most:
-        raise FileRefusedError(path, f"has {size} bytes; at most {most} are read; {cure}", errno.EFBIG)
+        raise FileRefusedError(path, f"has {size} bytes; at most {most} bytes are read; {cure}", errno.EFBIG)
     return content
 
 

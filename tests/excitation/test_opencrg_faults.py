@@ -2,12 +2,13 @@
 
 import math
 import re
+import tracemalloc
 
 import numpy
 import pytest
 
 from contact_sim_pkg.excitation.errors import ExcitationError
-from contact_sim_pkg.excitation.opencrg import OpenCrgRoad
+from contact_sim_pkg.excitation.opencrg import OpenCrgRoad, memory_needed
 
 from . import crg_file
 
@@ -76,11 +77,49 @@ def test_a_channel_count_that_disagrees_with_the_road_parameters_shows_both(tmp_
     refused(tmp_path, "ask for 7 long sections .* definitions have 3", road=entries, channels=channels)
 
 
-def test_an_increment_given_twice_and_differently_shows_both(tmp_path):
-    text = crg_file.header().replace("#:KRBI", "#:KRBI\nU:reference line u,m,10.0,0.25")
-    refused(tmp_path, r"definition says 0\.25 m, REFERENCE_LINE_INCREMENT says 0\.5 m", text=text)
-    text = crg_file.header().replace("#:KRBI", "#:KRBI\nU:reference line u,m,11.0,0.5")
-    refused(tmp_path, "definition says 11 m, REFERENCE_LINE_START_U says 10 m", text=text)
+@pytest.mark.fault("A13")
+@pytest.mark.parametrize(
+    ("stated", "told"),
+    [
+        ("10.0,0.25", r"says 0\.25 m where REFERENCE_LINE_INCREMENT says 0\.5 m"),
+        ("11.0,0.5", "11 m where REFERENCE_LINE_START_U"),
+    ],
+)
+def test_the_channel_for_viewing_does_not_refuse_a_road_but_is_told(tmp_path, stated, told):
+    """The standard's handmade_arc.crg and handmade_circle.crg state 1 m there and 4 or 10 m in the road parameters."""
+    plain = OpenCrgRoad(crg_file.write(tmp_path / "plain.crg", table=crg_file.table()))
+    text = crg_file.header().replace("#:KRBI", f"#:KRBI\nU:reference line x,m,{stated}")
+    road = OpenCrgRoad(crg_file.write(tmp_path / "a.crg", table=crg_file.table(), text=text))
+    assert (road.describe()["increment_m"], len(plain.describe()["notes"])) == (0.5, len(road.describe()["notes"]) - 1)
+    assert re.search(told, road.describe()["notes"][0])
+
+
+def test_a_road_too_steep_for_a_wheel_is_refused_before_the_run(tmp_path):
+    """The standard's handmade_vtest.crg rises by 5.6 m across its 3 m."""
+    rows = [[0.0, 0.7, 1.4]] * 3
+    steep = OpenCrgRoad(crg_file.write(tmp_path / "a.crg", table=rows, rows=3, v=(-0.4, 0.0, 0.4), phi=False))
+    steep.refuse_steep_track(numpy.array([-0.3, 0.0, 0.04]))  # 0.595 m
+    with pytest.raises(
+        ExcitationError, match=r"rises by 0\.7 m across the 0\.4 m of the tire's track; allowed: 0\.6 m"
+    ):
+        steep.refuse_steep_track(numpy.array([-0.2, 0.2]))
+
+
+@pytest.mark.fault("A11")
+@pytest.mark.parametrize("form", ["KRBI", "KDBI", "LRFI", "LDFI"])
+@pytest.mark.parametrize("holes", [False, True])
+def test_the_memory_that_a_road_takes_stays_below_the_estimate(tmp_path, form, holes):
+    table = [[1.0 + (row % 7) / 64.0] * 40 for row in range(2000)]
+    table[3][2] = math.nan if holes else 1.0
+    v = tuple(0.1 * k for k in range(40))
+    path = crg_file.write(tmp_path / "a.crg", form, table=table, rows=2000, v=v, phi=False)
+    OpenCrgRoad(path, missing="hole")  # what is imported and kept once is not the file's
+    tracemalloc.start()
+    road = OpenCrgRoad(path, missing="hole")
+    _, peak = tracemalloc.get_traced_memory()
+    tracemalloc.stop()
+    assert road.describe()["missing_cells"] == holes
+    assert 0.3 * memory_needed(path) < peak < 1.05 * memory_needed(path) + 1e6
 
 
 @pytest.mark.parametrize(

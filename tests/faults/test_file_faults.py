@@ -58,7 +58,7 @@ def test_every_reader_refuses_what_is_no_plain_file(reader, odd_files):
 def test_a_file_above_its_limit_is_refused_with_both_sizes(tmp_path):
     (tmp_path / "a").write_bytes(bytes(11))
     assert read_regular_file(tmp_path / "a", 11) == bytes(11)
-    with pytest.raises(FileRefusedError, match="has 11 bytes; at most 10 are read; cut it"):
+    with pytest.raises(FileRefusedError, match="has 11 bytes; at most 10 bytes are read; cut it"):
         read_regular_file(tmp_path / "a", 10, "cut it")
 
 

@@ -88,6 +88,8 @@ def refusal(error: Exception) -> tuple[str, int] | None:
         return str(error), 2
     if isinstance(error, RunError):
         return str(error), 1
+    if isinstance(error, MemoryError):
+        return f"memory ran out: {error or 'an allocation failed'}; shorten the run or lower limits.memory", 1
     if isinstance(error, OSError):
         sentence = f"{error.filename}: {error.strerror}" if error.filename else str(error.strerror or error)
         return sentence, 2 if isinstance(error, FileRefusedError) else 1

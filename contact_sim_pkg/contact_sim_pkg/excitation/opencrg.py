@@ -5,6 +5,7 @@ path beside a curved reference line is longer or shorter than its x by the part 
 Heights between the grid's nodes are bilinear.
 """
 
+import os
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any
@@ -12,11 +13,11 @@ from typing import Any
 import numpy
 from numpy.typing import NDArray
 
-from contact_sim_pkg.files import read_regular_file
+from contact_sim_pkg.files import open_regular_file, read_regular_file
 
 from .errors import ExcitationError
-from .opencrg_grid import Grid, fill_missing, make_grid
-from .opencrg_header import Header, parse_header
+from .opencrg_grid import ROWS_AT_ONCE, Grid, fill_missing, make_grid
+from .opencrg_header import LONGEST_HEADER, Header, parse_header
 from .opencrg_layout import make_layout
 from .opencrg_payload import read_payload
 from .opencrg_settings import BORDERS, FileSettings, read_settings
@@ -24,6 +25,10 @@ from .opencrg_settings import BORDERS, FileSettings, read_settings
 LARGEST_FILE = 1 << 30  # [bytes]
 LARGEST_TABLE = 1 << 22  # numbers of the road resampled on one track's lines, 32 MiB; above, only the rows of a block
 MISSING = ("refuse", "fill", "hole")
+BYTES_PER_NUMBER = {"LRFI": 10, "LDFI": 20, "KRBI": 4, "KDBI": 8}
+BYTES_PER_CELL = 26
+"""The road twice, as it is read and in rows, or beside it the copy that its median is taken of, with marks of missing cells."""
+LARGEST_RISE = 0.6  # [m] across the track, about a wheel's radius: steeper, no wheel stands on it
 LEVELS = ("origin", "mean", "raw")
 
 Array = NDArray[numpy.float64]
@@ -71,7 +76,11 @@ class OpenCrgRoad:
         header = parse_header(data, str(path))
         self._settings = read_settings(header, file_settings)
         layout = make_layout(header)
-        grid = make_grid(header, layout, read_payload(data, header, layout), self._settings.scale_z)
+        values = read_payload(data, header, layout)
+        del data
+        grid = make_grid(header, layout, values, self._settings.scale_z)
+        del values
+        self._layout_notes = layout.notes
         self.border_u = border_u or self._settings.border_u or "constant"
         self.border_v = border_v or self._settings.border_v or "constant"
         self.format = header.format
@@ -102,16 +111,21 @@ class OpenCrgRoad:
                 f"{header.file}: {grid.missing} of {grid.height.size} cells have no height; say how they are treated "
                 "(road.missing_cells: fill or hole)"
             )
-        height = fill_missing(grid.height) if grid.missing else grid.height
+        height, holes = grid.height, None
+        if grid.missing:
+            holes = numpy.isnan(height)
+            fill_missing(height)
         self.lowest, self.highest = float(height.min()), float(height.max())
         nearest = int(numpy.argmin(numpy.abs(grid.v)))
         on_line = (
             float(numpy.interp(0.0, grid.v, height[0])) if grid.v[0] <= 0.0 <= grid.v[-1] else float(height[0, nearest])
         )
         self.removed = {"origin": on_line, "mean": float(height.mean()), "raw": 0.0}[self.level]
-        if self.missing == "hole" and grid.missing:
-            height = height - self.hole_depth * numpy.isnan(grid.height)
-        self._height = numpy.ascontiguousarray(height - self.removed + settings.offset_z)
+        if self.missing == "hole" and holes is not None:
+            numpy.subtract(height, self.hole_depth, out=height, where=holes)
+        height -= self.removed
+        height += settings.offset_z
+        self._height = numpy.ascontiguousarray(height)
         self._grid = grid._replace(height=self._height)
 
     def heights(self, x: Array, y: Array) -> Array:
@@ -132,6 +146,18 @@ class OpenCrgRoad:
         if outside_u is not None:
             height[outside_u] = 0.0
         return height
+
+    def refuse_steep_track(self, y: Array) -> None:
+        """Raise ExcitationError where the road rises across the track's lines `y`, [m], by more than a wheel can stand on."""
+        for start in range(0, len(self._height), ROWS_AT_ONCE):
+            rise = numpy.ptp(self._across(self._height[start : start + ROWS_AT_ONCE], y), axis=1)
+            row = int(rise.argmax())
+            if rise[row] > LARGEST_RISE:
+                raise ExcitationError(
+                    f"{self.path}: {(start + row) * self._grid.u_increment:g} m after its start the road rises by "
+                    f"{rise[row]:.3g} m across the {y[-1] - y[0]:.3g} m of the tire's track; allowed: {LARGEST_RISE:g} m; "
+                    "choose another line of travel (road.track_offset) or another file"
+                )
 
     def _lines(self, y: Array, left: NDArray[numpy.int64]) -> tuple[Array, int]:
         """The road resampled on the track's lines, and the number of its first row: all rows (kept), or those of a
@@ -186,7 +212,7 @@ class OpenCrgRoad:
         }  # fmt: skip
 
     def _notes(self) -> list[str]:
-        grid, notes = self._grid, list(self._settings.notes)
+        grid, notes = self._grid, [*self._layout_notes, *self._settings.notes]
         if grid.missing:
             done = {"fill": "filled along their cross section", "hole": f"made holes of {self.hole_depth:g} m depth"}[
                 self.missing
@@ -209,6 +235,18 @@ class OpenCrgRoad:
                 f"{seam:.3g} m at the seam."
             )
         return notes
+
+
+def memory_needed(path: Path) -> int:
+    """Memory in [bytes] that reading a file takes, from its size and its format; 0 for no file."""
+    try:
+        with open_regular_file(path) as file:
+            size, head = os.fstat(file.fileno()).st_size, file.read(LONGEST_HEADER)
+        form = parse_header(head, str(path)).format
+    except (OSError, ExcitationError):
+        return 0
+    cells = size // BYTES_PER_NUMBER[form]
+    return max(size + 8 * cells, BYTES_PER_CELL * cells)
 
 
 def _repeat(value: Array, low: float, high: float) -> Array:

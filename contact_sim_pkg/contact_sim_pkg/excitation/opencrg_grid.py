@@ -10,6 +10,7 @@ from .errors import ExcitationError
 from .opencrg_header import Header
 from .opencrg_layout import Layout
 
+ROWS_AT_ONCE = 1024
 TALLEST = 1e3  # [m] heights of one road differ by less than this from their median
 
 
@@ -30,18 +31,26 @@ def make_grid(header: Header, layout: Layout, values: NDArray[numpy.float64], sc
 
     height(u, v) = scale_z z(u, v) + banking(u) v + start_z + integral of slope du
 
+    `values` is worked on in place: the road is held once.
+
     Raises:
         ExcitationError: absurd heights, a reference line that bends so sharply that the grid overlaps itself, or an end
             of the reference line that disagrees with the header.
     """
-    height = values[:, list(layout.section_columns)]
+    first, last = layout.section_columns[0], layout.section_columns[-1]
+    together = last - first + 1 == len(layout.section_columns)
+    height = values[:, first : last + 1] if together else values[:, list(layout.section_columns)]
     missing = int(numpy.isnan(height).sum())
     if missing == height.size:
         raise ExcitationError(f"{header.file}: all {height.size} cells of the road are missing")
     _refuse_absurd(header, height)
-    heading = _heading(header, layout, values)
-    height = scale_z * height + _banking(header, layout, values)[:, None] * layout.v
-    height += _elevation(header, layout, values)[:, None]
+    heading, banking = _heading(header, layout, values), _banking(header, layout, values)
+    elevation = _elevation(header, layout, values)
+    for start in range(0, len(height), ROWS_AT_ONCE):
+        rows = slice(start, start + ROWS_AT_ONCE)
+        height[rows] *= scale_z
+        height[rows] += banking[rows, None] * layout.v
+        height[rows] += elevation[rows, None]
     stretch = _largest_stretch(header, layout, heading)
     return Grid(
         layout.u_start, layout.u_increment, layout.v, height, missing, float(heading[-1] - heading[0]), stretch
@@ -49,12 +58,14 @@ def make_grid(header: Header, layout: Layout, values: NDArray[numpy.float64], sc
 
 
 def _refuse_absurd(header: Header, height: NDArray[numpy.float64]) -> None:
-    distance = numpy.abs(height - numpy.nanmedian(height))
-    if not numpy.nanmax(distance) <= TALLEST or abs(numpy.nanmedian(height)) > 1e5:
+    median = float(numpy.nanmedian(height))
+    furthest = max(float(numpy.nanmax(height)) - median, median - float(numpy.nanmin(height)))
+    if not furthest <= TALLEST or abs(median) > 1e5:
+        distance = numpy.abs(height - median)
         row, section = divmod(int(numpy.nanargmax(distance)), height.shape[1])
         raise ExcitationError(
             f"{header.file}: the height in row {row + 1}, long section {section + 1} is {height[row, section]:.6g} m, "
-            f"more than {TALLEST:g} m from the road's median {numpy.nanmedian(height):.6g} m; the data is damaged or "
+            f"more than {TALLEST:g} m from the road's median {median:.6g} m; the data is damaged or "
             "in another unit"
         )
 
@@ -161,19 +172,17 @@ def _largest_stretch(header: Header, layout: Layout, heading: NDArray[numpy.floa
     return float(numpy.abs(curvature).max(initial=0.0) * numpy.abs(layout.v).max())
 
 
-def fill_missing(height: NDArray[numpy.float64]) -> NDArray[numpy.float64]:
-    """Missing cells replaced: linear along each cross section, its outermost value kept to the edge; empty cross
+def fill_missing(height: NDArray[numpy.float64]) -> None:
+    """Replace missing cells in place: linear along each cross section, its outermost value kept to the edge; empty cross
     sections linear along u between their neighbours."""
-    filled = height.copy()
     sections = numpy.arange(height.shape[1])
     holes = numpy.isnan(height)
     some = holes.any(axis=1)
     empty = holes.all(axis=1)
     for row in numpy.flatnonzero(some & ~empty):
         known = ~holes[row]
-        filled[row, ~known] = numpy.interp(sections[~known], sections[known], height[row, known])
+        height[row, ~known] = numpy.interp(sections[~known], sections[known], height[row, known])
     if empty.any():
         rows = numpy.arange(len(height))
         for section in sections:
-            filled[empty, section] = numpy.interp(rows[empty], rows[~empty], filled[~empty, section])
-    return filled
+            height[empty, section] = numpy.interp(rows[empty], rows[~empty], height[~empty, section])

@@ -30,6 +30,7 @@ class Layout(NamedTuple):
     section_columns: tuple[int, ...]
     reference_columns: dict[str, int]  # phi, banking, slope
     columns: int
+    notes: tuple[str, ...]
 
 
 def make_layout(header: Header) -> Layout:
@@ -43,7 +44,7 @@ def make_layout(header: Header) -> Layout:
         )
     reference, sections = _sort_channels(header)
     u_start = _number(header, "reference_line_start_u", 0.0)
-    _check_virtual(header, u_start, increment.number)
+    notes = _note_virtual(header, u_start, increment.number)
     v = _lateral_positions(header, sections)
     rows = _count_rows(header, u_start, increment.number)
     columns = len(header.channels)
@@ -52,7 +53,7 @@ def make_layout(header: Header) -> Layout:
             f"{header.file}: the header asks for {rows} x {columns} numbers ({8e-9 * rows * columns:.3g} GB), limit "
             f"{MOST_CELLS}; cut the road or thin it out"
         )
-    return Layout(u_start, increment.number, rows, v, tuple(index for index, _ in sections), reference, columns)
+    return Layout(u_start, increment.number, rows, v, tuple(index for index, _ in sections), reference, columns, notes)
 
 
 def _fault(header: Header, line: int, sentence: str) -> ExcitationError:
@@ -89,9 +90,10 @@ def _sort_channels(header: Header) -> tuple[dict[str, int], list[tuple[int, Chan
     return reference, sections
 
 
-def _check_virtual(header: Header, u_start: float, increment: float) -> None:
+def _note_virtual(header: Header, u_start: float, increment: float) -> tuple[str, ...]:
+    """What the virtual channel says otherwise; it serves viewers alone, the road parameters are the road's."""
     if header.virtual is None:
-        return
+        return ()
     line, fields = header.virtual.line, header.virtual.fields
     if (
         not re.fullmatch("reference line [ux]", header.virtual.name)
@@ -105,13 +107,14 @@ def _check_virtual(header: Header, u_start: float, increment: float) -> None:
         )
     if fields[0] != "m":
         raise _fault(header, line, f"unit of the virtual channel is '{fields[0]}'; only m is read")
+    notes: list[str] = []
     for name, stated, found in (("START_U", u_start, float(fields[1])), ("INCREMENT", increment, float(fields[2]))):
         if abs(stated - found) > max(AGREEMENT * increment, 5.1e-4 if name == "START_U" else 0.0):
-            raise _fault(
-                header,
-                line,
-                f"the channel definition says {found:g} m, REFERENCE_LINE_{name} says {stated:g} m; they must agree",
+            notes.append(
+                f"The virtual channel, for viewing only, says {found:g} m where REFERENCE_LINE_{name} says {stated:g} m; "
+                "the latter was taken."
             )
+    return tuple(notes)
 
 
 def _count_rows(header: Header, u_start: float, increment: float) -> int | None:

@@ -1,5 +1,9 @@
 """The numbers of an OpenCRG file: big-endian binary (KRBI, KDBI) or fixed-width text (LRFI, LDFI)."""
 
+from contextlib import suppress
+from io import BytesIO
+from itertools import islice
+from math import isfinite
 from typing import Any
 
 import numpy
@@ -86,16 +90,15 @@ def _cause(found: int, expected: int, itemsize: int) -> str:
 
 
 def _read_text(data: bytes, header: Header, layout: Layout, width: int) -> NDArray[numpy.float64]:
-    lines = data[header.payload_start :].split(b"\n")
-    lines = [line.rstrip(b"\r") for line in lines]
-    while lines and not lines[-1].strip():
-        lines.pop()
+    stream = BytesIO(data)
+    stream.seek(header.payload_start)
+    count = max((number for number, line in enumerate(stream, start=1) if line.strip()), default=0)
     per_line = RECORD // width
     lines_per_row = -(-layout.columns // per_line)
-    rows = layout.rows if layout.rows is not None else max(-(-len(lines) // lines_per_row), 2)
-    if len(lines) != rows * lines_per_row:
+    rows = layout.rows if layout.rows is not None else max(-(-count // lines_per_row), 2)
+    if count != rows * lines_per_row:
         raise ExcitationError(
-            f"{header.file}, line {header.payload_line}: the road data has {len(lines)} lines, expected "
+            f"{header.file}, line {header.payload_line}: the road data has {count} lines, expected "
             f"{rows * lines_per_row} ({rows} rows of {layout.columns} numbers, {per_line} a line); the file is cut "
             "or the header belongs to another file"
         )
@@ -103,12 +106,14 @@ def _read_text(data: bytes, header: Header, layout: Layout, width: int) -> NDArr
         raise ExcitationError(
             f"{header.file}: {rows} x {layout.columns} numbers are above the limit of {MOST_CELLS}; cut the road"
         )
-    values = numpy.empty((rows, lines_per_row, per_line))
-    for index, line in enumerate(lines):
+    values = numpy.empty((rows, layout.columns))
+    stream.seek(header.payload_start)
+    for index, line in enumerate(islice(stream, count)):
         row, part = divmod(index, lines_per_row)
-        fields = min(per_line, layout.columns - part * per_line)
-        values[row, part, :fields] = _fields(line, fields, width, header, index)
-    return values.reshape(rows, -1)[:, : layout.columns].copy()
+        start = part * per_line
+        stop = min(start + per_line, layout.columns)
+        values[row, start:stop] = _fields(line.rstrip(b"\r\n"), stop - start, width, header, index)
+    return values
 
 
 def _fields(line: bytes, count: int, width: int, header: Header, index: int) -> list[float]:
@@ -119,6 +124,10 @@ def _fields(line: bytes, count: int, width: int, header: Header, index: int) -> 
             f"{place}: the line has {len(text.rstrip())} characters, expected {count * width} ({count} numbers of "
             f"{width} characters)"
         )
+    with suppress(ValueError):  # plain numbers, nearly always
+        found = [float(text[position : position + width]) for position in range(0, count * width, width)]
+        if "_" not in text and all(map(isfinite, found)):
+            return found
     numbers = []
     for position in range(0, count * width, width):
         field = text[position : position + width].strip()

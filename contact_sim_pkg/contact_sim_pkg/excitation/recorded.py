@@ -13,9 +13,13 @@ import numpy
 from numpy.typing import NDArray
 
 from .errors import ExcitationError
-from .recorded_csv import Table, read_table
+from .recorded_csv import STANDARD_GRAVITY, UNITS, Table, read_table
 
-STANDARD_GRAVITY = 9.80665  # [m/s^2] exact by definition
+LARGEST_ACCELERATION = 1e5  # [m/s^2] about 10 000 g, the end of the range of shock accelerometers
+LARGEST_TIME = 1e11  # [s] a time column may count from 1970
+LARGEST_MEAN = 5.0 * STANDARD_GRAVITY  # [m/s^2] no rig is accelerated so for the length of a recording
+LARGEST_RMS = 200.0  # [m/s^2] about 20 g: seats and floors stay a factor 10 below
+GRAVITY_AGREEMENT = 0.1  # a mean this close to 1 or 1000 is gravity in g or mg
 RATE_AGREEMENT = 0.01  # stated and found rate may differ by this part
 USUAL_FULL_SCALES = (1.0, 1.5, 2.0, 3.0, 4.0, 6.0, 8.0, 16.0)  # [g] of accelerometers, data-sheet values
 SHORTEST_PLATEAU = 3  # equal extreme samples in a row that no unclipped vibration gives but by chance
@@ -54,11 +58,12 @@ class RecordedVibration:
         start: float = 0.0,
         sample_rate: float | None = None,
         unused: str = "",
+        unit: str | None = None,
     ) -> None:
         """Read, check and treat the recording.
 
         Args:
-            path: text file, see recorded_csv.read_table; values in [m/s^2].
+            path: text file, see recorded_csv.read_table; values in [m/s^2], or in `unit`.
             rate: sampling rate, [Hz]; None: from the time column. It is never guessed.
             vertical: column that points up; "-z" turns it round.
             forward: column that points forward; "-x" turns it round. None: no forward acceleration.
@@ -77,9 +82,12 @@ class RecordedVibration:
                 it are removed first (cosine flank from 0.4 to 0.5 of it). None: as fast as recorded or faster.
             unused: axes, of x and z, whose column the file may lack: there is no acceleration along them then.
 
+            unit: of the accelerations, m/s^2, g or mg, for columns whose unit the header does not name. None: m/s^2; a
+                recording whose mean or rms says otherwise is refused.
+
         Raises:
-            ExcitationError: bad file (with line), no rate, stated and found rate that differ by more than 1 %, a
-                vertical axis that points down, or by the choices above.
+            ExcitationError: bad file (with line), values beyond 1e5 m/s^2, no rate, stated and found rate that differ
+                by more than 1 %, a vertical axis that points down, or by the choices above.
         """
         for name, choice, allowed in (
             ("tilt", tilt, ("keep", "correct")), ("clipped", clipped, ("keep", "refuse")), ("beyond", beyond, BEYOND)
@@ -93,7 +101,12 @@ class RecordedVibration:
         self.rate = self._settle_rate(table, rate, table.time(time))
         self.remove_bias = remove_bias
         names = _columns(table, {"x": forward, "y": lateral, "z": vertical}, needed=tilt == "correct", unused=unused)
-        raw = {axis: _signed(table, name) for axis, name in names.items()}
+        raw = {axis: _signed(table, name, unit) for axis, name in names.items()}
+        self._unit_assumed = unit is None and not all(
+            name.removeprefix("-").lower() in table.with_unit for name in names.values()
+        )
+        if self._unit_assumed:
+            _refuse_other_unit(table.file, raw)
         self.samples = len(table.lines)
         self.duration = self.samples / self.rate
         if not 0.0 <= start < self.duration:
@@ -107,6 +120,8 @@ class RecordedVibration:
     def _settle_rate(self, table: Table, stated: float | None, time: Array | None) -> float:
         if stated is not None and not 1e-3 <= stated <= 1e6:
             raise ExcitationError(f"{table.file}: the stated rate is {stated} Hz; allowed: 0.001 to 1e6 Hz")
+        if stated is not None and table.nominal_rate is not None:
+            self._compare(stated, table, table.nominal_rate, "a comment in the file")
         if time is None:
             if stated is None:
                 raise ExcitationError(
@@ -115,19 +130,26 @@ class RecordedVibration:
                 )
             self._notes.append(
                 f"The rate of {stated:g} Hz is as stated; the file has no time column to compare it with."
+                if table.nominal_rate is None
+                else f"The rate of {stated:g} Hz is as stated; a comment in the file says so too."
             )
             return stated
         found = _found_rate(table, time)
+        if table.nominal_rate is not None:
+            self._compare(table.nominal_rate, table, found, "the time column", "a comment states")
         if stated is None:
             self._notes.append(f"The rate of {found:.6g} Hz was derived from the time column.")
             return found
-        if abs(stated - found) > RATE_AGREEMENT * found:
-            raise ExcitationError(
-                f"{table.file}: the stated rate is {stated:g} Hz, the time column says {found:.6g} Hz; they must "
-                "agree within 1 %"
-            )
+        self._compare(stated, table, found, "the time column")
         self._notes.append(f"The rate of {stated:g} Hz is as stated; the time column says {found:.6g} Hz.")
         return stated
+
+    @staticmethod
+    def _compare(stated: float, table: Table, found: float, source: str, states: str = "the stated rate is") -> None:
+        if not abs(stated - found) <= RATE_AGREEMENT * found:
+            raise ExcitationError(
+                f"{table.file}: {states} {stated:g} Hz, {source} says {found:.6g} Hz; they must agree within 1 %"
+            )
 
     def _report_clipping(self, names: dict[str, str], clipped: str) -> None:
         for axis, clipping in self.clipping.items():
@@ -183,6 +205,11 @@ class RecordedVibration:
         if self.tilt == "correct":
             raise ExcitationError(f"{self.path}: the tilt cannot be corrected, as {found}")
         self._notes.append(f"{found[0].upper()}{found[1:]}, so the sensor's tilt is unknown.")
+        if self._unit_assumed:
+            self._notes.append(
+                "WARNING: that the values are in m/s^2 is assumed: neither the header nor the scene states their unit, and no "
+                "gravity shows it; state it (vibration.unit)."
+            )
 
     def _filtered(self, values: Array) -> Array:
         """The record through its filters, zero-phase, mirrored at its ends."""
@@ -269,12 +296,46 @@ def _columns(table: Table, names: dict[str, str | None], needed: bool, unused: s
     return {axis: name for axis, name in named.items() if axis not in absent or axis not in f"y{unused}"}
 
 
-def _signed(table: Table, name: str) -> Array:
-    column = table.column(name.removeprefix("-").lower())
+def _signed(table: Table, name: str, unit: str | None) -> Array:
+    """One axis in [m/s^2]; ExcitationError where a value is none that can be measured."""
+    plain = name.removeprefix("-").lower()
+    column = table.column(plain)
+    factor = 1.0 if unit is None or plain in table.with_unit else UNITS[unit]
+    wrong = numpy.flatnonzero(numpy.abs(column) > LARGEST_ACCELERATION / factor)
+    if wrong.size:
+        raise ExcitationError(
+            f"{table.file}, line {table.lines[wrong[0]]}: column '{plain}' is {column[wrong[0]]:g} {unit or 'm/s^2'}; "
+            f"allowed: within +-{LARGEST_ACCELERATION / factor:g} ({wrong.size} such samples)"
+        )
+    column = column if factor == 1.0 else column * factor
     return -column if name.startswith("-") else column
 
 
+def _refuse_other_unit(file: str, raw: dict[str, Array]) -> None:
+    """Refuse values that are not in m/s^2 by what they say: gravity, a steady acceleration or an rms that cannot be."""
+    mean = sqrt(sum(float(values.mean()) ** 2 for values in raw.values()))
+    rms = max(float(values.std()) for values in raw.values())
+    cure = "state the unit (vibration.unit: m/s^2, g or mg; or in the header, such as z [g])"
+    for unit, gravity in (("g", 1.0), ("mg", 1000.0)):
+        if abs(mean - gravity) <= GRAVITY_AGREEMENT * gravity:
+            raise ExcitationError(
+                f"{file}: the mean acceleration is {mean:.4g}, which is gravity in {unit} and not in m/s^2 "
+                f"({STANDARD_GRAVITY:.4g}); {cure}"
+            )
+    if mean > LARGEST_MEAN or rms > LARGEST_RMS:
+        raise ExcitationError(
+            f"{file}: the mean acceleration is {mean:.4g} and the rms about it {rms:.4g}; in m/s^2 allowed are "
+            f"{LARGEST_MEAN:.3g} and {LARGEST_RMS:g}; {cure}"
+        )
+
+
 def _found_rate(table: Table, time: Array) -> float:
+    far = numpy.flatnonzero(numpy.abs(time) > LARGEST_TIME)
+    if far.size:
+        raise ExcitationError(
+            f"{table.file}, line {table.lines[far[0]]}: the time is {time[far[0]]:g} s; allowed: within "
+            f"+-{LARGEST_TIME:g} s"
+        )
     steps = numpy.diff(time)
     mean = float(time[-1] - time[0]) / len(steps)
     wrong = numpy.flatnonzero(~((steps > 0.5 * mean) & (steps < 1.5 * mean)))

@@ -8,6 +8,8 @@ from __future__ import annotations
 import math
 from typing import TYPE_CHECKING, Any, Protocol
 
+import numpy
+
 from contact_sim_pkg.excitation.blocks import RoadBlocks, RoadPatch, Signal, Surface, VibrationBlock, VibrationBlocks
 from contact_sim_pkg.excitation.travel import Travel
 from contact_sim_pkg.scene.lattice import tire_lattice
@@ -57,6 +59,12 @@ def make_road(scene: ResolvedScene) -> RoadBlocks:
     lattice = tire_lattice(data)
     half_length = (lattice.road_rows // 2 + 1) * lattice.cell_x
     surface = make_surface(scene, lattice.cell_x)
+    if data["road"]["kind"] == "opencrg":
+        from contact_sim_pkg.excitation.opencrg import OpenCrgRoad
+
+        if isinstance(surface, OpenCrgRoad):
+            half_width = 0.5 * (lattice.road_cols - 1) * lattice.cell_y
+            surface.refuse_steep_track(numpy.linspace(-half_width, half_width, lattice.road_cols, dtype=numpy.float64))
     return RoadBlocks(
         surface, make_travel(data), data["block_length"], lattice.cell_x, lattice.cell_y, half_length, lattice.road_cols
     )
@@ -107,6 +115,7 @@ def _signal(scene: ResolvedScene, vibration: dict[str, Any]) -> Signal:
             vibration["forward_column"], time=vibration.get("time_column"),
             tilt="correct" if vibration["correct_tilt"] else "keep", beyond=vibration["beyond"], start=vibration["start"],
             sample_rate=vibration["sample_rate"], unused=_unused_axes(scene.data),
+            unit=vibration.get("unit"),
         )  # fmt: skip
         recording.refuse_longer_run(float(scene.data["duration"]))
         return recording

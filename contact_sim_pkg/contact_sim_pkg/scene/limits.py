@@ -28,8 +28,6 @@ MOST_SAMPLES = 10**9
 """Force samples of a run: 3600 s at 277 kHz."""
 LARGEST_ROAD_FILE = 512 << 20
 LARGEST_SIGNAL_FILE = 256 << 20
-BYTES_PER_FILE_BYTE = 4
-"""Memory that a file takes when it is read: its text or 32-bit numbers and the 64-bit arrays made of them."""
 
 
 class Need(NamedTuple):
@@ -62,7 +60,15 @@ def memory_needs(scene: Scene) -> Iterator[Need]:
     for file in input_files(scene):
         path = find_file(file.name, Path(scene.file).parent)
         if path is not None:
-            yield Need(file.where, f"{file.name} needs", path.stat().st_size * BYTES_PER_FILE_BYTE)
+            yield Need(file.where, f"{file.name} needs", file_memory(file.where, path))
+
+
+def file_memory(where: str, path: Path) -> int:
+    """Memory in [bytes] that reading an input file takes, as its reader counts it; the reader is imported when there is a file."""
+    from contact_sim_pkg.excitation import opencrg, recorded_csv
+
+    needed = opencrg.memory_needed(path) if where == "road.file" else recorded_csv.memory_needed(path)
+    return int(needed)
 
 
 def file_breaches(scene: Scene) -> Iterator[Breach]:

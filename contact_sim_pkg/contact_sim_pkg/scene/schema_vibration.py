@@ -87,6 +87,9 @@ class HalfSine(Section):
     sample_rate: float = _sample_rate()
 
 
+AccelerationUnit: TypeAlias = Literal["m/s^2", "g", "mg"]
+
+
 class Recorded(Section):
     """A recorded acceleration (CSV), its mean (gravity, bias) taken off; give `rate` or `time_column`.
 
@@ -106,6 +109,10 @@ class Recorded(Section):
     time_column: str | None = text("column of time in seconds", default=None, longest=100)
     vertical_column: str = text("column of the upward acceleration in m/s²", default="z", longest=100)
     forward_column: str = text("column of the forward acceleration in m/s²", default="x", longest=100)
+    unit: AccelerationUnit | None = choice(
+        "unit of the accelerations where the file's header names none; null: m/s^2, refused where gravity says otherwise",
+        default=None,
+    )
     start: float = number(0.0, 1e6, "s", "where in the file the run begins", default=0.0)
     beyond: Beyond = choice(
         "after the end of the file: refuse to go there, no vibration, or from its beginning", default="refuse"
