@@ -3,12 +3,15 @@
 import os
 import re
 import signal
+import time
 from pathlib import Path
 
 import pytest
+from ruamel.yaml import YAML
 
 from contact_sim_pkg.bag.reader import open_bag
 from contact_sim_pkg.nodes.shared_memory import mapped_segments
+from contact_sim_pkg.run.offline import run_offline
 
 from ..bench_process import (
     ENVIRONMENT,
@@ -17,6 +20,7 @@ from ..bench_process import (
     children_of,
     end,
     lives,
+    messages,
     needs_ros,
     resolved,
     start_bench,
@@ -62,6 +66,7 @@ def test_a_signal_ends_the_run_with_its_bag_closed_and_status_0(running, number)
     assert not any(lives(node) for node in nodes.values())
 
 
+@pytest.mark.fault("F2", "F3")
 @pytest.mark.parametrize("victim", sorted(NODES))
 def test_a_killed_node_is_named_and_the_others_end(running, victim):
     """F2, F3: status 1, no process and no shared memory left, what was recorded stays readable."""
@@ -75,19 +80,120 @@ def test_a_killed_node_is_named_and_the_others_end(running, victim):
     assert f"{victim} was ended by SIGKILL" in said
     assert "Traceback" not in said
     assert not any(lives(node) for node in nodes.values())
-    assert open_bag(bag).complete == (victim != "bag_logger")
-    assert open_bag(bag).count("seat/force") > 0
+    left = open_bag(bag)
+    assert left.complete == (victim != "bag_logger")
+    assert left.count("seat/force") > 0
+    kept = YAML(typ="safe").load((bag / "metadata.yaml").read_text())["rosbag2_bagfile_information"]
+    assert kept["message_count"] == left.count()
+    assert kept["custom_data"]["ended"] == "failed"
+    assert f"{victim} was ended by SIGKILL" in kept["custom_data"]["failure"]
+    if victim == "bag_logger":
+        assert said.splitlines()[-1].endswith(f"make it whole: bench recover {bag} {bag}_recovered")
+    else:
+        assert left.metadata["failure"] == kept["custom_data"]["failure"]
+        assert "bench recover" not in said
     left = {name for name in segments if re.fullmatch(r"fastrtps_[0-9a-f]+", name) and Path("/dev/shm", name).exists()}
     assert left == set()
 
 
-def test_nodes_whose_supervisor_is_killed_end_by_themselves(running):
+@pytest.mark.fault("F2")
+def test_nodes_whose_supervisor_is_killed_end_by_themselves_and_leave_nothing(running):
     process, bag = running
     nodes = children_of(process.pid)
+    folder = folder_of(process)
+    wait_until(lambda: (folder / "segments").exists())
+    segments = set().union(*(mapped_segments(node) for node in (process.pid, *nodes.values())))
+    segments -= mapped_segments(os.getpid())
     process.kill()
     process.wait()
     wait_until(lambda: not any(lives(node) for node in nodes.values()), 20.0)
     assert open_bag(bag).complete
+    assert not folder.exists()
+    left = {name for name in segments if re.fullmatch(r"fastrtps_[0-9a-f]+", name) and Path("/dev/shm", name).exists()}
+    assert left == set()
+
+
+def folder_of(process) -> Path:
+    """The temporary folder of a supervisor: what its nodes were given as their scene stands in it."""
+    arguments = Path(f"/proc/{next(iter(children_of(process.pid).values()))}/cmdline").read_text().split("\0")
+    return Path(next(text for text in arguments if ".resolved.yaml" in text).split("scene:=")[1].strip("'")).parent
+
+
+@pytest.mark.parametrize("stopped", ["bag_logger", "contact_simulator"])
+def test_nothing_outlives_an_interrupt_by_more_than_two_seconds(running, stopped):
+    """With a node that does not answer any more; the time is doubled here for a machine under load."""
+    process, bag = running
+    nodes = children_of(process.pid)
+    os.kill(nodes[stopped], signal.SIGSTOP)
+    began = time.monotonic()
+    process.send_signal(signal.SIGINT)
+    wait_until(lambda: not any(lives(node) for node in nodes.values()), 4.0)
+    _, said = process.communicate(timeout=LONGEST)
+    assert time.monotonic() - began < 6.0
+    assert "Traceback" not in said
+    if stopped == "bag_logger":
+        assert process.returncode == 1
+        assert "bench recover" in said.splitlines()[-1]
+    else:
+        assert open_bag(bag).complete
+
+
+def test_a_simulator_without_its_logger_ends_within_two_seconds_of_an_interrupt(tmp_path):
+    """The logger is killed, and there is no supervisor to see it."""
+    nodes = Nodes(resolved("seat_ride", "duration=60", "pace=realtime"), tmp_path)
+    try:
+        started = {name: nodes.start(name, input_timeout=30.0) for name in ("bag_logger", "contact_simulator")}
+        started["vibration"] = nodes.start("vibration")
+        wait_until(lambda: recorded_bytes(nodes.bag) > 30_000)
+        started["bag_logger"].process.kill()
+        started["contact_simulator"].process.send_signal(signal.SIGINT)
+        began = time.monotonic()
+        wait_until(lambda: started["contact_simulator"].status is not None and started["vibration"].status is not None)
+        assert time.monotonic() - began < 4.0
+        assert started["contact_simulator"].status == 1
+    finally:
+        nodes.end()
+
+
+def test_a_stopped_logger_is_named_and_loses_nothing_when_it_goes_on(tmp_path):
+    """Stopped for longer than the run waits for it: the run ends and names it, and not its source; the bag is whole."""
+    nodes = Nodes(resolved("seat_ride", "duration=60", "pace=realtime"), tmp_path)
+    try:
+        logger = nodes.start("bag_logger")
+        nodes.start("contact_simulator", input_timeout=1.0)
+        nodes.start("vibration")
+        wait_until(lambda: recorded_bytes(nodes.bag) > 30_000)
+        logger.process.send_signal(signal.SIGSTOP)
+        wait_until(lambda: any("the logger has not answered for block" in line for line in nodes.said))
+        time.sleep(1.0)
+        logger.process.send_signal(signal.SIGCONT)
+        assert nodes.wait() == {"bag_logger": 0, "contact_simulator": 1, "vibration": 0}
+    finally:
+        nodes.end()
+    assert not [line for line in nodes.said if "is missing" in line]
+    bag = open_bag(nodes.bag)
+    assert bag.complete
+    assert "the logger has not answered" in bag.metadata["failure"]
+    assert bag.count("platform/vibration") == bag.count("seat/force") == int(bag.metadata["blocks_done"])
+
+
+@pytest.mark.fault("B5")
+def test_a_source_that_is_stopped_for_a_while_costs_nothing_but_time(tmp_path):
+    scene = resolved("seat_ride", "duration=1", "pace=realtime")
+    nodes = Nodes(scene, tmp_path)
+    try:
+        nodes.start("bag_logger")
+        nodes.start("contact_simulator")
+        source = nodes.start("vibration")
+        wait_until(lambda: recorded_bytes(nodes.bag) > 20_000)
+        source.process.send_signal(signal.SIGSTOP)
+        time.sleep(2.0)
+        source.process.send_signal(signal.SIGCONT)
+        assert nodes.wait() == {"bag_logger": 0, "contact_simulator": 0, "vibration": 0}
+    finally:
+        nodes.end()
+    run_offline(scene, tmp_path / "offline")
+    assert messages(nodes.bag) == messages(tmp_path / "offline")
 
 
 def test_a_second_bench_in_the_same_domain_is_refused_and_the_first_goes_on(running, tmp_path):

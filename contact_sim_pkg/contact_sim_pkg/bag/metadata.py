@@ -21,6 +21,7 @@ from .topics import RECORDED, full_name, offered_qos, topic_of
 from .typestore import definition, type_hash
 
 RECORD = "contact_bench"  # name of the MCAP metadata record
+LACKING = "lacking"  # key of the outcome that says which messages of the blocks done never came
 OUTCOME = f"{RECORD}_outcome"  # of the one at the end
 ROSBAG2 = "rosbag2"  # of the one that rosbag2 reads
 SCENE_KEY = "scene"

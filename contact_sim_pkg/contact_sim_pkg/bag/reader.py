@@ -18,7 +18,7 @@ from .columns import stacked
 from .encoding import deserialize
 from .errors import BagError, CorruptChunkError
 from .layout import Layout, chunk_records, read_layout
-from .metadata import OUTCOME, RECORD, RELATIVE_NAME, ROSBAG2, SCENE_KEY, RecordedTopic, files_of_bag, unsealed
+from .metadata import LACKING, OUTCOME, RECORD, RELATIVE_NAME, ROSBAG2, SCENE_KEY, RecordedTopic, files_of_bag, unsealed
 from .topics import TOPICS
 from .typestore import store_of_definition, type_hash
 
@@ -56,6 +56,8 @@ class Bag:
         self.scene: str | None = None
         """The resolved scene as YAML; None in a bag without one."""
         self._take_texts()
+        if LACKING in self.metadata:
+            self.notes.append(f"{path.name}: {self.metadata[LACKING]}")
 
     @property
     def complete(self) -> bool:

@@ -54,7 +54,7 @@ def describe(scene: ResolvedScene, outcome: Outcome) -> dict[str, Any]:
         "scene": scene.data["name"],
         "effects": scene.data["effects"],
         "accuracy": scene.data["accuracy"],
-        "ended": _ended(scene, outcome),
+        "ended": state_of(scene, outcome),
         "failure": outcome.failure or None,
         "simulated_s": simulated,
         "startup_s": round(outcome.startup, 3),
@@ -68,7 +68,7 @@ def describe(scene: ResolvedScene, outcome: Outcome) -> dict[str, Any]:
     }
 
 
-def _ended(scene: ResolvedScene, outcome: Outcome) -> str:
+def state_of(scene: ResolvedScene, outcome: Outcome) -> str:
     """`failed`, `stopped` (by the user, or by the end of the recording) or `finished`, as the bag says it."""
     if outcome.exit_status == 1:
         return "failed"

@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 from contact_sim_pkg.bag.names import new_directory
 
 from .main import BEGAN
-from .outcome import describe, print_outcome
+from .outcome import describe, print_outcome, state_of
 from .progress import RunDisplay
 from .scene_options import SceneOptions
 from .tables import print_json
@@ -91,12 +91,23 @@ def run_scene(
         print(f"bench: {ended.failure}", file=sys.stderr)
     if ended.exit_status == 2:
         return 2
+    hint = _leave_metadata(scene, ended)
     facts = describe(scene, ended) | forecast
     if as_json:
         print_json(facts)
     else:
         print_outcome(facts, ended)
+    if hint:
+        print(f"bench: {hint}", file=sys.stderr)
     return ended.exit_status
+
+
+def _leave_metadata(scene: ResolvedScene, ended: Ended) -> str:
+    """Beside a bag that its recorder could not finish; how to make it whole, empty where it is."""
+    from contact_sim_pkg.bag.unfinished import leave_metadata
+
+    outcome = {"ended": state_of(scene, ended), "blocks_done": str(ended.blocks), "failure": ended.failure}
+    return "" if ended.bag is None else leave_metadata(ended.bag, outcome)
 
 
 def _forecast(scene: ResolvedScene) -> dict[str, Any]:

@@ -31,7 +31,7 @@ from .single_source import SingleSource
 
 BAG_TEXT = "Directory of the bag, which must not exist. Empty: bags/SCENE_TIME_RANDOM of the current directory."
 GATHER_SECONDS = 0.002  # that messages gather for; the window leaves room for it
-STOP_SECONDS = 1.0  # that a signal waits for the simulator's last word
+STOP_SECONDS = 0.5  # that a signal waits for the simulator's last word
 SETTLE_SECONDS = 1.0  # for the last answer to be acknowledged
 
 

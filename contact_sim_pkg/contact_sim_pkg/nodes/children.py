@@ -5,12 +5,14 @@ from __future__ import annotations
 import signal
 import subprocess
 import threading
+import time
 from collections.abc import Callable, Mapping, Sequence
 
 from .shared_memory import mapped_segments, remove_unused
 
 GRACE_SECONDS = 4.0  # from the signal that asks to the one that kills
 KILL_SECONDS = 1.0
+LEAST_SECONDS = 0.1  # that a process has to end once it was asked, where an earlier one has used up the time
 
 
 class ErrorLines:
@@ -141,16 +143,21 @@ class Children:
         """Whether no process lives any more."""
         return all(child.status is not None for child in self._children)
 
+    def segments(self) -> set[str]:
+        """Shared memory that any of the processes has been seen to use."""
+        return set().union(*(child.segments for child in self._children))
+
     def end(self, grace: float = GRACE_SECONDS) -> list[str]:
-        """End what still lives, in reverse order of the start, by SIGTERM, after `grace` seconds by SIGKILL.
+        """End what still lives, in reverse order of the start, by SIGTERM, `grace` seconds later by SIGKILL.
 
         Returns the names of those that had to be killed. Shared memory of killed processes is removed.
         """
         killed = []
+        limit = time.monotonic() + grace
         for child in reversed(self._children):
             child.look()
             child.ask_to_end()
-            if not _wait(child, grace):
+            if not _wait(child, max(LEAST_SECONDS, limit - time.monotonic())):
                 child.look()
                 child.process.kill()
                 _wait(child, KILL_SECONDS)

@@ -25,6 +25,7 @@ from contact_sim_pkg.scene.errors import SceneError
 
 from .endpoints import raise_kept
 from .protocol import FAULT, REFUSED, NodeError
+from .run_folder import leave
 
 REFUSALS = (SceneError, ExcitationError, BagError)
 LONGEST_WAIT = 0.05  # [s] between two looks at signals and at the parent
@@ -154,6 +155,8 @@ def run(make_node: Callable[[], Any], args: Sequence[str] | None = None) -> int:
         if node is not None:
             node.destroy_node()
         rclpy.try_shutdown()
+        if node is not None and _orphaned(node.supervisor):
+            leave()
 
 
 def _init(args: Sequence[str] | None) -> None:
@@ -186,11 +189,16 @@ def _spin(node: Any, signals: StopSignals) -> int:
         except Exception as error:  # noqa: BLE001  # the boundary of a node: named once, the bag closed
             node.get_logger().error(traceback.format_exc())
             node.fault(f"unexpected {type(error).__name__}: {error}", FAULT)
-        orphaned = bool(supervisor) and os.getppid() != supervisor
+        orphaned = _orphaned(supervisor)
         if signals.count > seen or orphaned:
             seen, supervisor = signals.count, 0 if orphaned else supervisor
             node.stop()
     return node.exit_status or 0
+
+
+def _orphaned(supervisor: int) -> bool:
+    """Whether the supervisor that started this process is gone."""
+    return bool(supervisor) and os.getppid() != supervisor
 
 
 def _say(node: Any, sentence: str) -> None:

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 
+from contact_sim_pkg.bag.metadata import LACKING
+
 from .protocol import Follower, State
 
 UNSAID = "the recording was ended before the simulator said that the run had ended"
@@ -27,5 +29,5 @@ def outcome_of(
         ended, failure = "stopped", UNSAID
     outcome = {"ended": ended, "blocks_done": str(blocks_done), "failure": failure}
     if lacking:
-        outcome["lacking"] = f"{lacking} messages of the blocks done never came"
+        outcome[LACKING] = f"{lacking} messages of the blocks done never came"
     return outcome | {name: str(count) for name, count in (counts or {}).items() if count}

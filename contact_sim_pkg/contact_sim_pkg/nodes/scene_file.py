@@ -9,6 +9,8 @@ from typing import Any
 
 from contact_sim_pkg.scene.resolved_scene import ResolvedScene
 
+from .run_folder import hold
+
 RESOLVED = ".resolved.yaml"  # ending of a scene that needs no resolving; its input files stand in the file below
 FILES = ".files.json"
 DESCRIPTION = ".excitation.json"
@@ -34,6 +36,7 @@ def read_scene(scene: str) -> ResolvedScene:
     """
     if scene.endswith(RESOLVED):
         path = Path(scene)
+        hold(path.parent)
         files = json.loads(_beside(path, FILES).read_text(encoding="utf-8"))
         return ResolvedScene.from_own_yaml(path.read_text(encoding="utf-8"), files)
     from contact_sim_pkg.scene.load import load_scene

@@ -31,10 +31,18 @@ def remove_unused(names: Iterable[str]) -> list[str]:
     kept = {name.removesuffix("_el") for name in used}
     removed = []
     for name in sorted(wanted):
-        if name.removesuffix("_el") not in kept and (FOLDER / name).exists():
+        if name.removesuffix("_el") not in kept and _is_ours(FOLDER / name):
             (FOLDER / name).unlink(missing_ok=True)
             removed.append(name)
     return removed
+
+
+def _is_ours(path: Path) -> bool:
+    """Whether it is a segment of the middleware that this user has made."""
+    try:
+        return path.name.startswith(PREFIXES) and path.lstat().st_uid == os.getuid()
+    except OSError:
+        return False
 
 
 def _lines(path: Path) -> list[str]:

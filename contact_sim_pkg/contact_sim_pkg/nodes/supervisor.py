@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import os
 import sys
-import tempfile
 import time
 from collections.abc import Callable, Mapping
 from pathlib import Path
@@ -12,10 +11,12 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 from contact_sim_pkg.scene.resolved_scene import ResolvedScene
 
-from .children import Child, Children, ErrorLines
+from .children import GRACE_SECONDS, Child, Children, ErrorLines
 from .protocol import DONE, FAULT, LOSS, REFUSED, NodeError, State
+from .run_folder import RunFolder
 from .run_plan import planned_nodes
-from .scene_file import count_blocks, descriptions_beside, write_scene
+from .scene_file import count_blocks, descriptions_beside, write_reason, write_scene
+from .shared_memory import mapped_segments
 
 if TYPE_CHECKING:
     from .run_monitor import RunMonitor
@@ -29,6 +30,9 @@ DEFAULT_ENVIRONMENT = {  # each only where the caller has not set it
 LOOK_SECONDS = 0.05  # between two looks at the processes
 SEGMENT_SECONDS = 1.0  # between two looks at their shared memory
 END_SECONDS = 15.0  # for the processes to end by themselves once the run has ended
+ASK_SECONDS = 0.9  # after the user's signal, for the simulator to end the run; then every process is asked
+STOP_SECONDS = 1.7  # after the user's signal, for all processes to end; then they are killed
+LEAST_GRACE = 0.1  # from asking a process to killing it
 
 
 class Report(NamedTuple):
@@ -72,7 +76,7 @@ class Supervisor:
         """
         self._scene, self._directory, self._from_bag, self._clock = scene, directory, from_bag, clock
         self._stop_count = 0
-        self._asked = 0
+        self._asked, self._asked_at = 0, float("inf")
         self._failure, self._exit_status = "", DONE
 
     def stop(self) -> None:
@@ -88,26 +92,37 @@ class Supervisor:
         )
         errors = ErrorLines(say)
         children = Children(os.environ, errors.hear)
-        with tempfile.TemporaryDirectory(prefix="contact_bench_") as folder:
+        with RunFolder() as folder:
             try:
-                scene = write_scene(self._scene, Path(folder))
+                scene = write_scene(self._scene, folder.path)
                 self._start_all(children, scene)
                 from .run_monitor import RunMonitor  # the nodes start while this process loads ROS
 
                 with RunMonitor() as monitor:
-                    self._watch(children, monitor, on_report)
+                    self._watch(children, monitor, on_report, folder)
+                    self._end_all(children, scene)
                     return self._outcome(monitor, began, scene)
             finally:
                 children.end()
                 errors.release(self._failure)
+
+    def _end_all(self, children: Children, scene: Path) -> None:
+        """End what still lives; the logger keeps in its bag who died of what."""
+        if self._failure:
+            write_reason(scene, self._failure)
+        killed = children.end(max(LEAST_GRACE, min(GRACE_SECONDS, self._asked_at + STOP_SECONDS - time.monotonic())))
+        if "bag_logger" in killed and not self._failure:
+            self._fail("bag_logger did not end, and was killed before it had closed its bag", FAULT)
 
     def _start_all(self, children: Children, scene: Path) -> None:
         for node in planned_nodes(self._scene, scene, self._directory, self._from_bag, clock=self._clock):
             arguments = node_arguments({**node.parameters, "supervisor": os.getpid()})
             children.start(node.name, [sys.executable, "-m", f"contact_sim_pkg.nodes.{node.name}", *arguments])
 
-    def _watch(self, children: Children, monitor: RunMonitor, on_report: Callable[[Report], None]) -> None:
-        """Until every process has ended, or one has ended badly."""
+    def _watch(
+        self, children: Children, monitor: RunMonitor, on_report: Callable[[Report], None], folder: RunFolder
+    ) -> None:
+        """Until every process has ended, one has ended badly, or the time after the user's signal is over."""
         looked, ended_at = 0.0, float("inf")
         fallen: Child | None = None
         while fallen is None and not children.all_ended():
@@ -120,10 +135,13 @@ class Supervisor:
             if now - looked > SEGMENT_SECONDS:
                 looked = now
                 children.look()
+                folder.keep_segments(children.segments() | mapped_segments(os.getpid()))
             if monitor.run.last is not None:
                 on_report(self._report(monitor))
-            self._hand_on_stop(children, monitor)
-            if monitor.run.state.ended or self._asked:
+            self._hand_on_stop(children, monitor, now)
+            if now > self._asked_at + STOP_SECONDS:
+                return
+            if monitor.run.state.ended:
                 ended_at = min(ended_at, now)
             if now - ended_at > END_SECONDS:
                 self._fail(f"the nodes did not end {END_SECONDS:g} s after the run", FAULT)
@@ -133,10 +151,12 @@ class Supervisor:
         if fallen is not None:
             self._on_fallen(fallen, monitor)
 
-    def _hand_on_stop(self, children: Children, monitor: RunMonitor) -> None:
+    def _hand_on_stop(self, children: Children, monitor: RunMonitor, now: float) -> None:
         """A run under way is ended by its simulator, so that the bag gets whole; otherwise every process is asked to end."""
+        if self._asked == 1 and now > self._asked_at + ASK_SECONDS:
+            self._stop_count += 1
         if self._stop_count > self._asked:
-            self._asked = self._stop_count
+            self._asked, self._asked_at = self._stop_count, min(self._asked_at, now)
             under_way = monitor.run.state in (State.READY, State.RUNNING) and self._asked == 1
             children.ask(*(("contact_simulator",) if under_way else ()))
 
@@ -147,7 +167,7 @@ class Supervisor:
         """Name the fault that the run reported, or else the process that ended badly."""
         last = monitor.run.last
         reported = last.message if monitor.run.state is State.FAILED and last is not None else ""
-        status = fallen.status if fallen.status in (REFUSED, LOSS) else FAULT
+        status = fallen.status if fallen.status in (REFUSED, LOSS) and not reported else FAULT
         self._fail(reported or fallen.describe_end(), status)
 
     def _report(self, monitor: RunMonitor) -> Report:
