@@ -113,7 +113,7 @@ def check_domain(case: Property) -> None:
 def check_refusals(case: Property, trusted: tuple[type, ...] = ()) -> None:
     """Hostile numbers and words at every place of the arguments; records of `trusted` types are made by the package itself."""
 
-    @settings(max_examples=2, deadline=None, derandomize=True, database=None)
+    @settings(max_examples=2 if case.examples > 5 else 1, deadline=None, derandomize=True, database=None)
     @given(st.fixed_dictionaries(case.domain))
     def over(arguments: dict[str, Any]) -> None:
         real = not any(isinstance(value, complex) for value in _numbers(case.function(**arguments)))

@@ -16,9 +16,9 @@ __all__ = ["load_of_approach", "parallel_contact_load"]
 def parallel_contact_load(contact_coefficient: float, bending_compliance: float, load: float) -> float:
     """F_c [N] of the parallel split; contact_coefficient: k_c [m/N^(2/3)], bending_compliance: k_b [m/N], load >= 0 [N].
 
-    k_c > 0, k_b >= 0. Not checked.
+    k_c > 0, k_b >= 0; a rigid shaft, k_b = 0, takes all of it. Not checked.
     """
-    if load <= 0.0:
+    if not bending_compliance * load > 0.0:
         return 0.0
     return _cube_root_load(contact_coefficient, bending_compliance, bending_compliance * load)
 
