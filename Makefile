@@ -16,7 +16,7 @@ TEST_ENVIRONMENT = ROS_DOMAIN_ID=$(TEST_DOMAIN) ROS_AUTOMATIC_DISCOVERY_RANGE=LO
 # Ends a recipe: prints how long it took and hands the status on.
 REPORT_TIME = status=$$?; echo "make $@: $$SECONDS s in all"; exit $$status
 
-.PHONY: help setup run test lint bench hard mutants compare-field compare-dynamics clean
+.PHONY: help setup run test lint bench hard bounds mutants compare-field compare-dynamics clean
 
 help:  ## show this list
 	@awk -F ':.*## ' '/^[a-z-]+:.*## / { printf "make %-17s %s\n", $$1, $$2 }' $(firstword $(MAKEFILE_LIST))
@@ -39,6 +39,9 @@ bench:  ## measure start-up, real-time factor and error against their goals, and
 
 hard:  ## run the hard cases: value, expectation, margin, verdict
 	@$(ENTER) && bench hard
+
+bounds:  ## run the tests of kernels with bounds checks, in a cache of their own
+	@SECONDS=0; $(ENTER) && NUMBA_BOUNDSCHECK=1 $(TEST_ENVIRONMENT) python -m pytest tests/core tests/hard $(PYTEST_OPTIONS); $(REPORT_TIME)
 
 mutants:  ## break lines of physics one at a time on a copy, list those that the tests do not notice
 	@SECONDS=0; $(ENTER) && $(TEST_ENVIRONMENT) python -m tests.mutants $(MUTANTS); $(REPORT_TIME)

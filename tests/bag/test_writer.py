@@ -98,6 +98,7 @@ def test_a_namespace_stands_in_front_of_recorded_names(record: Record) -> None:
         assert "/rig2/tire/force" in reader.topics
 
 
+@pytest.mark.fault("G6")
 def test_a_bag_says_nothing_of_the_machine(record: Record) -> None:
     bag = record()
     content = b"".join(file.read_bytes() for file in bag.iterdir())

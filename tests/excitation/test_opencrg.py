@@ -175,6 +175,7 @@ def with_holes():
 HOLES = {"phi": False, "v": (-0.3, -0.1, 0.1, 0.3)}
 
 
+@pytest.mark.fault("A13")
 def test_missing_cells_are_refused_with_their_count(tmp_path):
     with pytest.raises(ExcitationError, match=r"6 of 20 cells have no height; .*road\.missing_cells: fill or hole"):
         road(tmp_path, with_holes(), **HOLES)

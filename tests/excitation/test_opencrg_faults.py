@@ -24,6 +24,7 @@ def refused(tmp_path, message, numbers=None, **options):
     assert "\n" not in str(caught.value)
 
 
+@pytest.mark.fault("A13")
 @pytest.mark.parametrize(
     ("entries", "message"),
     [
@@ -173,6 +174,7 @@ def test_a_bad_field_of_text_data_is_named_with_its_line(tmp_path):
         OpenCrgRoad(tmp_path / "road.crg")
 
 
+@pytest.mark.fault("A13")
 @pytest.mark.parametrize("form", ["KRBI", "KDBI", "LRFI", "LDFI"])
 def test_a_file_cut_anywhere_is_refused(tmp_path, form):
     whole = crg_file.write(tmp_path / "road.crg", form, crg_file.table(rows=6), rows=6).read_bytes()

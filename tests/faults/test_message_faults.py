@@ -77,6 +77,7 @@ def test_a_missing_block_ends_the_run_by_name_with_its_bag_closed(scene, nodes, 
     assert "block 7 of platform/vibration is missing" in bag.metadata["failure"]
 
 
+@pytest.mark.fault("B2")
 def test_bad_blocks_are_dropped_and_named_and_leave_the_bits_alone(scene, nodes, stand_in, tmp_path):
     """B1, B2, B4: NaN, a wrong length, a wrong stamp, a repetition, in front of the good block."""
     nodes.start("bag_logger")
@@ -164,6 +165,7 @@ def test_a_second_publisher_during_a_run_ends_it_by_name_before_its_data_count(s
     assert "/intruder" in bag.metadata["failure"]
 
 
+@pytest.mark.fault("B9")
 def test_an_input_of_another_message_definition_is_refused(nodes):
     """B9: the wire would take another type for ours; here a publisher of another type on our topic's name."""
     from ..nodes.stand_in import StandIn

@@ -11,13 +11,18 @@ from pathlib import Path
 import numpy
 import pytest
 
+from contact_sim_pkg.bag.encoding import deserialize
+from contact_sim_pkg.bag.messages import encode_vibration
+from contact_sim_pkg.bag.reader import open_bag
 from contact_sim_pkg.core import jit
 from contact_sim_pkg.core.field_solver import make_workspace, solve_at_load
 from contact_sim_pkg.core.halfspace import make_half_space
 from contact_sim_pkg.core.parameters import NormalElastic, PointContact
+from contact_sim_pkg.excitation.blocks import VibrationBlock
+from contact_sim_pkg.run import offline
 from contact_sim_pkg.studies.one_mass import integrate
 
-from ..bench_process import ENVIRONMENT, messages
+from ..bench_process import ENVIRONMENT, messages, resolved
 
 PACKAGE = Path(jit.__file__).resolve().parents[1]
 PRESSED = PointContact(1.0, 10.0, 0.0, 0.0, NormalElastic(1e8, 1.0), None)  # sinks 1e-7 m under its weight
@@ -126,3 +131,56 @@ def test_other_threads_go_on_while_a_kernel_computes():
         ticker.join()
     assert begun <= began < ended
     assert sum(began < each < ended for each in ticks) >= 5
+
+
+@pytest.mark.fault("D7")
+def test_with_bounds_checks_a_kernel_that_reads_beyond_its_array_is_noticed(tmp_path):
+    """What `make bounds` sets reaches kernels as this project compiles them."""
+    (tmp_path / "beyond.py").write_text(
+        "import numpy\n"
+        "from contact_sim_pkg.core.jit import entry, kernel\n"
+        "@kernel\ndef read(values, i):\n    return values[i]\n"
+        "@entry\ndef total(values):\n    return read(values, 8)\n"
+        "try:\n    total(numpy.zeros(4))\nexcept IndexError:\n    print('noticed')\n"
+    )
+    done = subprocess.run(
+        [sys.executable, str(tmp_path / "beyond.py")],
+        env={**ENVIRONMENT, "NUMBA_BOUNDSCHECK": "1", "CONTACT_BENCH_CACHE": str(tmp_path / "cache")},
+        capture_output=True, text=True, check=True,
+    )  # fmt: skip
+    assert done.stdout == "noticed\n"
+
+
+@pytest.mark.fault("C6")
+@pytest.mark.parametrize("number", [0, 2**31, 2**33 - 10, 2**37])
+def test_the_stamp_of_a_late_block_is_exact_to_the_nanosecond(number):
+    """43 years of blocks: number and length are integers, nothing is summed up."""
+    block = VibrationBlock(number, 1e-3, numpy.zeros(10), numpy.zeros(10))
+    stamp = number * 10_000_000
+    message = deserialize("contact_msgs_defs/msg/VibrationBlock", encode_vibration(block, stamp))
+    assert message.block == number
+    assert message.header.stamp.sec * 10**9 + message.header.stamp.nanosec == stamp
+
+
+@pytest.mark.fault("F8")
+def test_a_run_that_gets_no_more_memory_ends_by_name_with_its_bag_whole(tmp_path, monkeypatch):
+    scene = resolved("seat_ride", "duration=0.2")
+    make = offline.make_simulation
+
+    def hungry(given):
+        simulation = make(given)
+        advance = simulation.advance
+
+        def fail_at_seven(block, inputs):
+            if block == 7:
+                raise MemoryError("Unable to allocate 9.31 GiB")
+            return advance(block, inputs)
+
+        simulation.advance = fail_at_seven
+        return simulation
+
+    monkeypatch.setattr(offline, "make_simulation", hungry)
+    outcome = offline.run_offline(scene, tmp_path / "bag")
+    assert outcome.failure.startswith("out of memory in block 7: Unable to allocate 9.31 GiB")
+    bag = open_bag(tmp_path / "bag")
+    assert sum(each.topic == "/seat/force" for each in bag.messages()) == 7

@@ -23,6 +23,7 @@ def shaken(at, loss, mu, slide):
     return driven(rig, sine(at[0] * GRAVITY, at[1]), 0.8, TOLERANCE)
 
 
+@pytest.mark.fault("D9")
 @settings(max_examples=15, deadline=None)
 @given(at=shaking, loss=losses, mu=rubbing, slide=sliding)
 def test_force_never_pulls_friction_keeps_its_limit_and_the_energy_closes(at, loss, mu, slide):

@@ -83,6 +83,7 @@ def test_the_restitution_does_not_depend_on_stiffness_exponent_or_speed(coeffici
     assert end[1] / speed == pytest.approx(impact.restitution(loss), abs=1e-7)
 
 
+@pytest.mark.fault("D5")
 @settings(max_examples=40, deadline=None, derandomize=True)
 @example(1e3, 0.0, 1.0, 1.0, 0.0, 17.0)  # parts faster than the material recovers, with nothing that moves fore and aft
 @example(1e4, 0.0, 0.5, 1.0, 2.0, 17.0)  # the same while it slips

@@ -26,6 +26,7 @@ def test_blocks_are_taken_when_every_input_has_the_next_one(inputs):
     assert inputs.take() is None
 
 
+@pytest.mark.fault("B7")
 def test_a_missing_block_is_named_with_its_input_and_the_last_good_one(inputs):
     for block in range(3):
         inputs.offer(VIBRATION, vibration(block))
@@ -43,20 +44,24 @@ def test_a_block_with_a_value_that_is_not_finite_is_dropped_and_a_good_one_taken
     assert inputs.offer(VIBRATION, vibration(0)) == ""
 
 
+@pytest.mark.fault("B2")
 @pytest.mark.parametrize(("samples", "period"), [(2, 1e-3), (10, 1e-3), (12, 1e-3), (11, 2e-3)])
 def test_samples_that_do_not_fill_the_block_are_dropped(inputs, samples, period):
     assert "do not fill a block" in inputs.offer(VIBRATION, vibration(0, samples=samples, period=period))
 
 
+@pytest.mark.fault("B3")
 @pytest.mark.parametrize("value", [1.0e300, 1.0001e4])
 def test_a_finite_but_absurd_acceleration_is_dropped(inputs, value):
     assert "allowed: up to 10000 m/s^2" in inputs.offer(VIBRATION, vibration(0, value=value))
 
 
+@pytest.mark.fault("B3")
 def test_an_absurd_road_height_is_dropped(inputs):
     assert "allowed: up to 1000 m" in inputs.offer(ROAD, road(0, height=2e3))
 
 
+@pytest.mark.fault("B4")
 def test_number_and_stamp_must_agree(inputs):
     assert "stamped 0 ns instead of 30000000 ns" in inputs.offer(VIBRATION, vibration(3, stamp=0))
 
@@ -98,6 +103,7 @@ def test_a_block_beyond_the_scene_is_refused():
         check_block(VIBRATION, vibration(5), LENGTH, 5)
 
 
+@pytest.mark.fault("B4")
 def test_shuffled_and_repeated_blocks_are_taken_in_order_once():
     inputs = InputBlocks([VIBRATION], LENGTH, 60)
     numbers = [*range(60), *range(60)]

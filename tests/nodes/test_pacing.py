@@ -22,6 +22,7 @@ def test_nothing_is_due_before_the_start():
     assert Pacer(math.inf, 0.01).wait(0, 5.0) == math.inf
 
 
+@pytest.mark.fault("C1")
 def test_at_half_pace_a_block_of_10_ms_is_due_every_20_ms():
     pacer = Pacer(0.5, 0.01)
     pacer.start(100.0)
@@ -29,6 +30,7 @@ def test_at_half_pace_a_block_of_10_ms_is_due_every_20_ms():
     assert pacer.wait(3, 100.01) == pytest.approx(0.05)
 
 
+@pytest.mark.fault("C3")
 def test_a_late_run_catches_up_from_the_first_start():
     pacer = Pacer(1.0, 0.01)
     pacer.start(100.0)

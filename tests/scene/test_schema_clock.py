@@ -62,6 +62,7 @@ def test_a_block_length_of_nothing_or_out_of_range_is_refused_with_its_range(mak
     assert "0.001 to 0.1 s" in fault
 
 
+@pytest.mark.fault("C6")
 def test_blocks_and_nanoseconds_are_exact(maker):
     scene = maker.load("seat", {"duration": 3599.99, "block_length": 0.01})
     assert (block_count(scene), block_nanoseconds(scene)) == (359999, 10_000_000)

@@ -93,6 +93,8 @@ def run_offline(
         failure = str(error)
     except (BagWriteError, RecordingStoppedError) as error:
         loss = str(error)
+    except MemoryError as error:
+        failure = f"out of memory in block {done}: {error}; take a smaller grid, or let the run have more"
     except Exception as error:
         failure = f"unexpected {type(error).__name__}: {error}"
         raise

@@ -1,6 +1,7 @@
 """An absent effect changes nothing, to the last bit."""
 
 import numpy
+import pytest
 
 from contact_sim_pkg.core.parameters import (
     Contact,
@@ -40,6 +41,7 @@ def _shaken_seat(friction, count=1500):
     return samples[0][:, :4], samples[2][:, entries.SEAT_NORMAL]
 
 
+@pytest.mark.fault("D11")
 def test_friction_without_fore_aft_input_leaves_the_vertical_motion_bit_identical():
     with_friction, force = _shaken_seat(Friction(2.0e4, 200.0, 0.4, 0.35))
     without, other = _shaken_seat(None)
