@@ -10,9 +10,10 @@ from rosbags.typesys import Stores, get_types_from_msg, get_typestore
 
 from contact_sim_pkg.bag import messages
 from contact_sim_pkg.bag.errors import BagError
-from contact_sim_pkg.bag.reader import open_bag, version_differences
+from contact_sim_pkg.bag.reader import open_bag
 from contact_sim_pkg.bag.recover import recover
 from contact_sim_pkg.bag.topics import full_name
+from contact_sim_pkg.bag.versions import installed_versions, version_differences, versions_of
 from contact_sim_pkg.bag.writer import BagWriter
 
 Record = Callable[..., Path]
@@ -141,14 +142,16 @@ def test_types_come_from_the_bag_and_differences_are_told(tmp_path: Path) -> Non
     columns = bag.columns("bench/energy")
     assert columns["heat"].tolist() == [0.0, 0.5, 1.0]
     assert columns["stamp"].tolist() == [3_000_000_005] * 3
-    (difference,) = version_differences(bag, {})
-    assert "/bench/energy was recorded with another definition" in difference
+    (difference,) = version_differences(versions_of(bag), installed_versions("")).items()
+    assert difference[0] == name
+    with pytest.raises(BagError, match="/bench/energy was recorded with another definition"):
+        bag.refuse_other_definition("bench/energy")
 
 
 def test_other_versions_of_the_software_are_told(record: Record) -> None:
-    bag = open_bag(record())
-    assert version_differences(bag, {"numpy": "2.2.6", "kernel_fingerprint": "0f" * 8, "python": "3.12"}) == []
-    assert version_differences(bag, {"numpy": "9.9"}) == ["numpy of the bag is 2.2.6, here it is 9.9"]
+    own = versions_of(open_bag(record()))
+    assert version_differences(own, {"numpy": "2.2.6", "kernel_fingerprint": "0f" * 8, "python": "3.12"}) == {}
+    assert version_differences(own, {"numpy": "9.9"}) == {"numpy": "2.2.6 and 9.9"}
 
 
 def test_a_topic_without_messages_has_empty_columns(tmp_path: Path) -> None:

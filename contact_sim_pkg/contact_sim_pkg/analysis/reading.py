@@ -101,7 +101,7 @@ def read_recording(bag: Bag) -> Recording:
 
 @contextmanager
 def scenes_fit(bags: Sequence[Bag]) -> Iterator[None]:
-    """Whatever fails inside on the scene of a bag that this version would not run is a BagError that names the fault in it."""
+    """What fails inside on a scene that this version would not run, or on another definition, is a BagError that names it."""
     try:
         yield
     except (BagError, OSError):
@@ -114,6 +114,9 @@ def scenes_fit(bags: Sequence[Bag]) -> Iterator[None]:
                 read_explicit(text, f"scene of {path}")
             except SceneError as error:
                 raise BagError(f"{error.faults[0]}; no report can be made with this scene") from None
+        for bag in bags:
+            for name in [name for name, row in bag.topics.items() if row.type in READ_TYPES]:
+                bag.refuse_other_definition(name)
         raise
 
 

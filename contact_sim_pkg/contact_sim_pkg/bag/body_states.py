@@ -67,6 +67,7 @@ def bench_states(bag: Bag) -> RecordedStates:
     Pitch is the angle about y; rotation_x to _z are a rotation vector, body to world, whose velocity is the angular
     velocity in world axes.
     """
+    bag.refuse_other_definition(MOTION)
     blocks = [(message.data, decode_motion(message.data)) for message in bag.messages(MOTION)]
     if not blocks:
         raise BagError(f"{bag.path} holds no message on {MOTION}")

@@ -123,6 +123,16 @@ class Bag:
         row = self.topic(topic)
         return row.type_hash or self._types(row).hash_rihs01(row.type)
 
+    def refuse_other_definition(self, topic: str) -> None:
+        """BagError where a topic has not the installed definition of our type, by which its bytes would be read."""
+        row = self.topic(topic)
+        needed = TOPICS[topic].type if topic in TOPICS else row.type
+        if row.type != needed or self._types(row).hash_rihs01(row.type) != type_hash(needed):
+            raise BagError(
+                f"{self.path}: {row.name} was recorded with another definition of {needed} than the installed one; use the "
+                "version that recorded it"
+            )
+
     def __contains__(self, name: str) -> bool:
         """Whether the bag has the topic."""
         try:
@@ -234,23 +244,6 @@ def open_bag(path: Path | str, *, skip_bad: bool = False) -> Bag:
             f"the bag {place} cannot be opened: {error.strerror}; give its directory or its .mcap file"
         ) from None
     return Bag(file_path, layout, skip_bad)
-
-
-def version_differences(bag: Bag, current: dict[str, str]) -> list[str]:
-    """What differs between the bag and this installation, one sentence each: definitions, package, kernels.
-
-    Results of a bag with differences are not comparable without saying so. `current`: `metadata.software_versions`.
-    """
-    differences = [
-        f"{key} of the bag is {bag.metadata[key]}, here it is {here}"
-        for key, here in current.items()
-        if key in bag.metadata and bag.metadata[key] != here
-    ]
-    known = {topic.type for topic in TOPICS.values()}
-    for name, topic in bag.topics.items():
-        if topic.type in known and bag.hash_of(name) != type_hash(topic.type):
-            differences.append(f"{name} was recorded with another definition of {topic.type} ({bag.hash_of(name)})")
-    return differences
 
 
 def _file_of(directory: Path) -> Path:

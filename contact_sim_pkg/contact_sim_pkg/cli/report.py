@@ -18,8 +18,9 @@ from .tables import overwrite_option
     help="The page; report.html in the bag otherwise, comparison.html here for several bags.",
 )
 @click.option("--skip-bad", is_flag=True, help="Go on after damaged chunks.")
+@click.option("--across-versions", is_flag=True, help="Compare bags that different versions recorded.")
 @overwrite_option
-def command(bags: tuple[Path, ...], out: Path | None, skip_bad: bool, overwrite: bool) -> None:
+def command(bags: tuple[Path, ...], out: Path | None, skip_bad: bool, across_versions: bool, overwrite: bool) -> None:
     """Write the page with the pictures that an engineer looks at, and print its path.
 
     Several bags of one rig are laid over each other on one page, called by what differs between their scenes.
@@ -28,11 +29,19 @@ def command(bags: tuple[Path, ...], out: Path | None, skip_bad: bool, overwrite:
     from contact_sim_pkg.analysis.reading import scenes_fit
     from contact_sim_pkg.analysis.report import write_report
     from contact_sim_pkg.bag.reader import open_bag
+    from contact_sim_pkg.bag.versions import differences_from, differences_of_bags, installed_versions
+    from contact_sim_pkg.run.bag_content import kernel_fingerprint
 
     recorded = [open_bag(bag, skip_bad=skip_bad) for bag in bags]
     for each in recorded:
         for note in each.notes:
             click.echo(note if len(bags) == 1 else f"{each.path.parent.name}: {note}", err=True)
+    here = installed_versions(kernel_fingerprint())
+    others = differences_of_bags(recorded, across=across_versions) or [
+        differences_from(each, here) for each in recorded
+    ]
+    for line in filter(None, others):
+        click.echo(line, err=True)
     with scenes_fit(recorded):
         page = (
             write_report(recorded[0], out, overwrite=overwrite)

@@ -79,9 +79,11 @@ def run_scene(
     """
     scene = options.resolve(from_bag)
     if from_bag is not None:
-        from contact_sim_pkg.run.from_bag import refuse_other_scene
+        from contact_sim_pkg.run.from_bag import cautions, refuse_other_scene
 
         refuse_other_scene(from_bag, scene)
+        for line in cautions(from_bag):
+            print(line, file=sys.stderr)
     directory = new_directory(out, str(scene.data["name"])) if record else None
     forecast = _forecast(scene)
     run = _run_offline if offline else partial(_run_on_nodes, clock=clock)

@@ -35,12 +35,12 @@ def attachments(scene: ResolvedScene, excitation: dict[str, dict[str, Any]]) -> 
     """Texts for the bag: resolved scene, versions, and what each excitation found and did (JSON by topic)."""
     return {
         SCENE_KEY: scene.to_yaml(),
-        **software_versions(_kernel_fingerprint()),
+        **software_versions(kernel_fingerprint()),
         EXCITATION_KEY: json.dumps(excitation, sort_keys=True),
     }
 
 
-def _kernel_fingerprint() -> str:
+def kernel_fingerprint() -> str:
     """Name of the core's sources: what a result depends on beside the scene and the versions. Starts no compiler."""
     root = files("contact_sim_pkg.core")
     digest = hashlib.sha256()

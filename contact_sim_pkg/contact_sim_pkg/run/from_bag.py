@@ -10,8 +10,9 @@ from contact_sim_pkg.bag.errors import BagError
 from contact_sim_pkg.bag.messages import decode_road_patch, decode_vibration
 from contact_sim_pkg.bag.reader import Bag, open_bag
 from contact_sim_pkg.bag.texts import excitation_of_text, scene_of_text
+from contact_sim_pkg.bag.versions import differences_from, installed_versions
 from contact_sim_pkg.excitation.blocks import RoadPatch, VibrationBlock
-from contact_sim_pkg.run.bag_content import EXCITATION_KEY, input_names
+from contact_sim_pkg.run.bag_content import EXCITATION_KEY, input_names, kernel_fingerprint
 from contact_sim_pkg.run.errors import RunError
 from contact_sim_pkg.run.sources import Source
 from contact_sim_pkg.scene.lattice import tire_lattice
@@ -63,6 +64,12 @@ def sources_from_bag(path: Path, scene: ResolvedScene) -> dict[str, Source]:
     return {topic: BagSource(bag, topic) for topic in input_names(scene)}
 
 
+def cautions(path: Path) -> list[str]:
+    """What who runs a bag again must know, a line each: what it lacks, and that other versions recorded it."""
+    bag = open_bag(path)
+    return [*bag.notes, *filter(None, [differences_from(bag, installed_versions(kernel_fingerprint()))])]
+
+
 def refuse_other_scene(path: Path, scene: ResolvedScene) -> None:
     """Raise BagError where the bag's excitation is not the one that ``scene`` describes, or does not fit it.
 
@@ -78,6 +85,7 @@ def refuse_other_scene(path: Path, scene: ResolvedScene) -> None:
         )
     blocks = make_timing(scene.data, True).blocks
     for topic in input_names(scene):
+        bag.refuse_other_definition(topic)
         first, held = next(bag.messages(topic), None), bag.count(topic)
         if first is None or held < blocks:
             cure = f"; ask for --duration {held * scene.data['block_length']:g}" if held else ""

@@ -15,6 +15,9 @@ from contact_sim_pkg.bag.texts import scene_of_text
 __all__ = ["EVENTS", "impacts_of_bag", "is_bag", "rules_of_bag"]
 
 EVENTS = "contact_msgs_defs/msg/ImpactEvents"
+COLUMNS = (
+    "number", "mass", "radius", "measured_speed", "measured_duration", "measured_restitution", "temperature", "gravity",
+)  # fmt: skip
 LAST_SUFFIX = ".mcap"
 
 
@@ -33,7 +36,7 @@ def impacts_of_bag(path: Path) -> Impacts:
     if topic is None or bag.count(topic) == 0:
         what = "has no impact events; the rig impact records them" if topic is None else "holds no impact that ended"
         raise MaterialError(f"{path}: the bag {what}")
-    columns = bag.columns(topic)
+    columns = bag.columns(topic, COLUMNS)
 
     def column(name: str) -> Any:
         return numpy.concatenate([*columns[name]]).astype(numpy.float64)
