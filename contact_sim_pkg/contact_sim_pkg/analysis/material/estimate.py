@@ -28,6 +28,9 @@ from contact_sim_pkg.core.impact.inverse import group_factor, material_of_impact
 __all__ = ["Estimate", "Value", "around", "each_impact", "of_logarithm", "repeated_impacts", "student"]
 
 STEP = 1.0e-5  # of k, for the slopes of h and g
+ABOVE_BY_NOISE = 0.05  # of a mean restitution over 1, beside three standard errors; a larger one is no impact
+FAR_OFF = 6.0  # standard deviations, estimated from the median deviation, off the median of a group
+LEAST_FAR = 0.1  # of k, and of the logarithm of the contact time, below which nothing is far off
 ABOVE_ONE = "mean restitution above 1, by noise: read as no loss"
 Indices = NDArray[numpy.intp]
 
@@ -86,8 +89,13 @@ def each_impact(impacts: Impacts, options: Options) -> list[dict[str, float | in
 
 
 def repeated_impacts(impacts: Impacts, chosen: Indices, options: Options) -> Estimate:
-    """The material from the impacts ``chosen``, taken as repeats of one state of it. Raises MaterialError where k tells none."""
+    """The material from the impacts ``chosen``, taken as repeats of one state of it.
+
+    Impacts far off the others of the group are named in the note; they count all the same.
+    Raises MaterialError where k tells none, or lies above 1 by more than noise.
+    """
     k = impacts.restitution[chosen]
+    _refuse_gain(impacts, chosen)
     times = numpy.array([_group_factor(impacts, int(i)) ** -0.4 for i in chosen])
     curve = _curve(float(k.mean()), impacts, chosen, options)
     scale = impacts.speed[chosen] * impacts.duration[chosen] / impacts.radius[chosen]
@@ -106,8 +114,41 @@ def repeated_impacts(impacts: Impacts, chosen: Indices, options: Options) -> Est
     return Estimate(
         len(chosen), temperature, math.exp(float(numpy.log(impacts.speed[chosen]).mean())), float(k.mean()),
         of_logarithm(storage, log_error, factor), around(storage * tangent, loss_error, factor),
-        around(tangent, tangent_error, factor), ABOVE_ONE if k.mean() > 1.0 else None,
+        around(tangent, tangent_error, factor), _note(impacts, chosen, times),
     )  # fmt: skip
+
+
+def _refuse_gain(impacts: Impacts, chosen: Indices) -> None:
+    k = impacts.restitution[chosen]
+    if float(k.mean()) - 1.0 > max(ABOVE_BY_NOISE, 3.0 * (_standard_error(k) or 0.0)):
+        worst = int(chosen[k.argmax()])
+        raise MaterialError(
+            f"{impacts.file}, line {impacts.line[worst]}: restitution {impacts.restitution[worst]:g}, mean of its "
+            f"{len(chosen)} repeats {k.mean():.4g}; no impact rebounds faster than it came, 0 to 1 is possible; check the speeds, "
+            "or leave the impact out"
+        )
+
+
+def _note(impacts: Impacts, chosen: Indices, times: NDArray[numpy.float64]) -> str | None:
+    """What to mind: a mean above 1, single impacts above 1 that noise does not explain, impacts far off their group."""
+    k, parts = impacts.restitution[chosen], []
+    if k.mean() > 1.0:
+        parts.append(ABOVE_ONE)
+    for name, values, shown in (("k", k, k), ("tau", numpy.log(times), impacts.duration[chosen])):
+        far = numpy.flatnonzero(_far_off(values))
+        if far.size:
+            named = ", ".join(f"{shown[i]:g} (line {impacts.line[chosen[i]]})" for i in far[:3])
+            parts.append(
+                f"{name} = {named}{' …' if far.size > 3 else ''} far off the group's median {numpy.median(shown):.3g}"
+            )
+    return "; ".join(parts) or None
+
+
+def _far_off(values: NDArray[numpy.float64]) -> NDArray[numpy.bool_]:
+    """Which values lie far from the median, by the median deviation; of two, both where they lie far apart."""
+    distance = numpy.abs(values - numpy.median(values))
+    spread = 0.0 if len(values) == 2 else 1.4826 * float(numpy.median(distance))
+    return numpy.asarray(distance > max(LEAST_FAR, FAR_OFF * spread))
 
 
 def _group_factor(impacts: Impacts, i: int) -> float:
