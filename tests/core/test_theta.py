@@ -6,9 +6,12 @@ import math
 import mpmath
 import numpy
 import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
 
 from contact_sim_pkg.core import theta
 
+QUICK = settings(database=None, derandomize=True, deadline=None, max_examples=40)
 PHASES = numpy.linspace(-4.0, 4.0, 17)
 
 
@@ -130,3 +133,111 @@ def test_one_phase_needs_an_entry_below_zero(entry):
 def test_a_direction_that_does_not_fit_is_refused():
     with pytest.raises(theta.ThetaError, match="direction"):
         theta.theta_wave([0.0], [[-1.0]], [1.0, 2.0])
+
+
+def exact_wave(eta, matrix, along, reach=9):
+    """``2 d^2 ln Theta/dx^2`` by Poisson's sum in 60 digits, for one or two phases: the variance of its slopes."""
+    size = len(eta)
+    with mpmath.workdps(60):
+        inverse = mpmath.matrix(matrix) ** -1
+        k = mpmath.matrix([mpmath.mpf(float(value)) for value in along])
+        centre = [-int(mpmath.nint(mpmath.mpf(float(value)) / (2 * mpmath.pi))) for value in eta]
+        exponents, slopes = [], []
+        for point in itertools.product(range(-reach, reach + 1), repeat=size):
+            s = mpmath.matrix(
+                [mpmath.mpf(float(e)) + 2 * mpmath.pi * (c + m) for e, c, m in zip(eta, centre, point, strict=True)]
+            )
+            pulled = inverse * s
+            exponents.append(sum(a * b for a, b in zip(pulled, s, strict=True)) / 2)
+            slopes.append(sum(a * b for a, b in zip(pulled, k, strict=True)))
+        weights = [mpmath.exp(value - max(exponents)) for value in exponents]
+        mean = sum(w * t for w, t in zip(weights, slopes, strict=True)) / sum(weights)
+        spread = sum(w * (t - mean) ** 2 for w, t in zip(weights, slopes, strict=True)) / sum(weights)
+        return float(2 * (spread + (k.T * inverse * k)[0]))
+
+
+ETA = st.one_of(
+    st.floats(-4.0, 4.0), st.sampled_from([math.pi, -math.pi, math.pi - 1e-9, 9.42477796076938, 1e6, -1e15])
+)
+ENTRY = st.one_of(st.floats(-100.0, -2.0).map(lambda power: -(10.0**power)), st.floats(-2.0, -0.01))
+
+
+@QUICK
+@given(ETA, ENTRY)
+def test_the_wave_of_one_phase_keeps_its_digits_down_to_the_smallest_entry(eta, entry):
+    """Both sums, B from -2 to -1e-100 and phases next to the crest; absolute to 1e-12 of the crest's height."""
+    crest = 2.0 * (math.pi / entry) ** 2
+    exact = pytest.approx(exact_wave([eta], [[entry]], [1.0]), rel=1e-12, abs=1e-12 * crest)
+    assert float(theta.theta_wave([eta], [[entry]], [1.0])) == exact
+    assert float(theta.plain_sum([eta], [[entry]], [1.0])) == exact
+
+
+@QUICK
+@given(ETA, st.floats(-600.0, -1.0))
+def test_the_wave_of_one_phase_keeps_its_digits_where_it_is_small(eta, entry):
+    """The logarithm of theta_3 as a series, ``-4 sum of (-1)^n n q^n/(1 - q^2n) cos(n eta)``; for -B large its first term."""
+    with mpmath.workdps(40):
+        q, e = mpmath.exp(mpmath.mpf(entry) / 2), mpmath.mpf(eta)
+        terms = [
+            (-1) ** n * n * q**n / (1 - q ** (2 * n)) * mpmath.cos(n * e) for n in range(1, 2 + int(80.0 / -entry) + 4)
+        ]
+        exact = float(4 * sum(terms))
+    for found in (theta.theta_wave([eta], [[entry]], [1.0]), theta.plain_sum([eta], [[entry]], [1.0])):
+        assert float(found) == pytest.approx(exact, rel=1e-10, abs=1e-12 * 4.0 * math.exp(0.5 * entry))
+
+
+def test_a_small_entry_gives_the_sum_of_one_phase_waves():
+    """B = -0.02 gave -100 at the crest, for want of a representable 1 - m."""
+    assert float(theta.plain_sum([math.pi], [[-0.02]], [1.0])) == pytest.approx(
+        exact_wave([math.pi], [[-0.02]], [1.0]), rel=1e-13
+    )
+    phases = numpy.linspace(-4.0, 4.0, 41)[:, None]
+    assert float(numpy.abs(theta.interaction(phases, [[-0.02]], [1.0])).max()) < 1e-8
+
+
+@settings(QUICK, max_examples=8)
+@given(st.floats(-3.0, 3.0), st.floats(-3.0, 3.0), st.floats(0.001, 0.9), st.floats(0.05, 2.0), st.floats(-0.9, 0.9))
+def test_the_wave_of_two_phases_keeps_its_digits(first, second, small, other, coupling):
+    off = coupling * math.sqrt(small * other)
+    matrix, along = [[-small, off], [off, -other]], [1.0, 1.6]
+    exact = exact_wave([first, second], matrix, along)
+    crest = 2.0 * math.pi**2 * float(numpy.abs(numpy.linalg.inv(matrix) @ along).max()) ** 2
+    assert float(theta.theta_wave([first, second], matrix, along)) == pytest.approx(exact, rel=1e-11, abs=1e-12 * crest)
+
+
+def test_the_nearest_term_of_a_skew_matrix_is_found_however_far():
+    """Eigenvalues -1e-6 and -1: the terms that count are far from the origin; a wide lattice in long doubles."""
+    c, s = math.cos(0.5), math.sin(0.5)
+    matrix = -numpy.array([[c * c * 1e-6 + s * s, c * s * (1e-6 - 1.0)], [c * s * (1e-6 - 1.0), s * s * 1e-6 + c * c]])
+    inverse = numpy.linalg.inv(matrix).astype(numpy.longdouble)
+    inverse = 0.5 * (inverse + inverse.T)
+    eta = numpy.array([2.0, 1.0])
+    shifted = eta + 2.0 * numpy.pi * numpy.array(list(itertools.product(range(-80, 81), repeat=2)), numpy.longdouble)
+    exponents = 0.5 * numpy.einsum("mi,ij,mj->m", shifted, inverse, shifted)
+    total = exponents.max() + numpy.log(numpy.exp(exponents - exponents.max()).sum())
+    exact = float(total) + 0.5 * math.log((2.0 * math.pi) ** 2 / 1e-6)
+    assert abs(shifted[exponents.argmax()]).max() > 8.0 * math.pi
+    assert float(theta.log_theta(eta, matrix)) == pytest.approx(exact, rel=1e-9)
+
+
+@pytest.mark.parametrize(
+    ("phase", "entry", "along", "why"),
+    [
+        (0.0, -1e-101, 1.0, "eigenvalue"),
+        (0.0, -5e-324, 1.0, "eigenvalue"),
+        (0.0, 5e-324, 1.0, "negative definite"),
+        (0.0, -1e101, 1.0, "entry of B"),
+        (1.1e15, -1.0, 1.0, "phase"),
+        (math.nan, -1.0, 1.0, "finite"),
+        (math.inf, -1.0, 1.0, "finite"),
+        (0.0, -1.0, math.nan, "direction"),
+        (0.0, -1.0, 1e51, "direction"),
+    ],
+)
+def test_outside_of_its_range_a_wave_is_refused(phase, entry, along, why):
+    for function in (theta.theta_wave, theta.poisson_wave, theta.plain_sum, theta.interaction):
+        with pytest.raises(theta.ThetaError, match=why):
+            function([phase], [[entry]], [along])
+    if along == 1.0:
+        with pytest.raises(theta.ThetaError, match=why):
+            theta.theta([phase], [[entry]])
