@@ -4,7 +4,7 @@ import math
 
 import pytest
 
-from contact_sim_pkg.nodes.pacing import Pacer, parse_pace
+from contact_sim_pkg.nodes.pacing import Lateness, Pacer, parse_pace
 
 
 @pytest.mark.parametrize(("text", "factor"), [("realtime", 1.0), ("max", math.inf), ("2.5", 2.5), (0.5, 0.5)])
@@ -42,3 +42,35 @@ def test_at_pace_max_every_block_is_due_at_once():
     pacer = Pacer(math.inf, 0.01)
     pacer.start(100.0)
     assert pacer.wait(10**9, 100.0) == 0.0
+
+
+@pytest.fixture
+def lateness():
+    pacer = Pacer(1.0, 0.01)
+    pacer.start(100.0)
+    return Lateness(pacer)
+
+
+@pytest.mark.fault("C3")
+def test_blocks_done_late_are_counted_and_said_after_ten_in_a_row(lateness):
+    said = [lateness.block_done(block, 100.0 + 0.016 * (block + 1), 0.625) for block in range(40)]
+    late = [block for block in range(40) if 0.016 * (block + 1) > 0.01 * (block + 2)]
+    assert lateness.late == len(late)
+    assert [block for block, text in enumerate(said) if text] == late[9:]
+    assert said[-1] == f"slower than its pace: 0.62x real time, 0.23 s behind after block 39 ({len(late)} blocks late)"
+
+
+@pytest.mark.fault("C3")
+def test_a_run_that_has_caught_up_is_not_late_any_more(lateness):
+    assert all(not lateness.block_done(block, 105.0, 0.1) for block in range(9))
+    assert lateness.block_done(9, 100.11, 1.0) == ""
+    assert lateness.block_done(10, 105.0, 0.1) == ""
+    assert lateness.late == 10
+
+
+def test_without_a_pace_nothing_is_late():
+    pacer = Pacer(math.inf, 0.01)
+    pacer.start(100.0)
+    lateness = Lateness(pacer)
+    assert all(not lateness.block_done(block, 1e6, 0.1) for block in range(50))
+    assert lateness.late == 0

@@ -27,6 +27,7 @@ def offline_seat(seat, tmp_path_factory):
     return messages(bag)
 
 
+@pytest.mark.fault("F4")
 @pytest.mark.parametrize(
     "order",
     [

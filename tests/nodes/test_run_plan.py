@@ -73,6 +73,9 @@ def declared_parameters(node: str) -> dict:
     declared: dict = {}
 
     class Recorder:
+        def has_parameter(self, name):
+            return False
+
         def declare_parameter(self, name, default, descriptor, ignore_override=False):
             assert descriptor.dynamic_typing or (descriptor.description and descriptor.read_only)
             declared[name] = default

@@ -47,10 +47,7 @@ class BagLoggerNode(LifecycleBenchNode):
         self._directory = declare(self, "bag", "", BAG_TEXT)
         self._patience = declare_input_timeout(self)
         self._writer: BagWriter | None = None
-        self._closed = False
-        self._leave_at = float("inf")
-        self._run = Follower()
-        self._block = -1
+        self._closed = True
 
     def configure(self) -> None:
         """Subscribe to what the scene records. The bag is created when the run is ready, so a refused run leaves none."""
@@ -65,7 +62,8 @@ class BagLoggerNode(LifecycleBenchNode):
         kept = [subscription(self, name, partial(self._hold, name), depth) for name in result_names(scene)]
         kept += [numbered_subscription(self, name, partial(self._hold_checked, name), depth) for name in self._sources]
         self._kept = [*kept, subscription(self, "bench/progress", self._on_progress)]
-        self._news = time.monotonic()
+        self._writer, self._closed, self._leave_at = None, False, float("inf")
+        self._run, self._block, self._news = Follower(), -1, time.monotonic()
 
     def _hold_checked(self, topic: str, data: bytes, number: int | None) -> None:
         """Excitation is checked as the simulator checks it: what it drops is not recorded in place of a good block."""

@@ -5,6 +5,8 @@ from __future__ import annotations
 import traceback
 
 from rclpy.lifecycle import LifecycleNode, LifecycleState, TransitionCallbackReturn
+from rclpy.publisher import Publisher
+from rclpy.subscription import Subscription
 
 from contact_sim_pkg.run.errors import RunError
 
@@ -32,6 +34,7 @@ class LifecycleBenchNode(LifecycleNode):
         self.supervisor = declare(self, "supervisor", 0, SUPERVISOR_TEXT)
         self._autostart = declare(self, "autostart", True, "Configure and activate at the start of the process.")
         self.active = False
+        self._endpoints_before: list[Publisher | Subscription] = []
 
     def configure(self) -> None:
         """Set up; a refusal raises."""
@@ -58,12 +61,13 @@ class LifecycleBenchNode(LifecycleNode):
 
     def on_configure(self, state: LifecycleState) -> TransitionCallbackReturn:
         """Set up; FAILURE with the reason in the log where that is refused."""
+        self._endpoints_before = [*self.publishers, *self.subscriptions]
         try:
             self.configure()
         except (NodeError, RunError, *REFUSALS) as error:
             refusal = getattr(error, "exit_status", FAULT if isinstance(error, RunError) else REFUSED)
             self.get_logger().error(str(error))
-            self.close()
+            self._give_back()
             self.exit_status = refusal if self._autostart else None
             return TransitionCallbackReturn.FAILURE
         except Exception as error:  # noqa: BLE001  # the lifecycle would swallow it without a word
@@ -84,8 +88,18 @@ class LifecycleBenchNode(LifecycleNode):
 
     def on_cleanup(self, state: LifecycleState) -> TransitionCallbackReturn:
         """Give back what `configure` opened."""
-        self.close()
+        self._give_back()
         return TransitionCallbackReturn.SUCCESS
+
+    def _give_back(self) -> None:
+        """Close, and destroy what `configure` has created in the graph, the last one first: it may be called again."""
+        self.close()
+        for subscription in reversed(list(self.subscriptions)):
+            if subscription not in self._endpoints_before:
+                self.destroy_subscription(subscription)
+        for publisher in reversed(list(self.publishers)):
+            if publisher not in self._endpoints_before:
+                self.destroy_publisher(publisher)
 
     def on_shutdown(self, state: LifecycleState) -> TransitionCallbackReturn:
         """Give everything back and end the process."""

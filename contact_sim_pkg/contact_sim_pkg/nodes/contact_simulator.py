@@ -18,7 +18,7 @@ from .diagnostics import Diagnostics
 from .endpoints import numbered_subscription, publisher, publisher_ids, subscription
 from .input_blocks import InputBlocks
 from .logger_answers import LoggerAnswers
-from .pacing import Pacer
+from .pacing import Lateness, Pacer
 from .parameters import declare, declare_input_timeout, declare_pace, declare_record, declare_scene
 from .peers import Peers
 from .process import run
@@ -66,6 +66,7 @@ class ContactSimulatorNode(LifecycleBenchNode):
         self._inputs = InputBlocks(self._simulation.inputs, self._period_ns, self._simulation.blocks)
         self._window = Window(self._simulation.blocks, logged=self._logged)
         self._pacer = Pacer(pace, scene.data["block_length"])
+        self._lateness = Lateness(self._pacer)
         inputs = self._simulation.inputs
         names = {topic: self.resolve_topic_name(topic) for topic in inputs}
         self._sources = SourceWatch(names, self.count_publishers, partial(publisher_ids, self))
@@ -143,6 +144,9 @@ class ContactSimulatorNode(LifecycleBenchNode):
         self._window.on_done(number)
         self._advanced = time.monotonic()
         report.block_done(number, result)
+        late = self._lateness.block_done(number, self._advanced, report.real_time_factor)
+        if late:
+            self._diagnostics.warn(self._advanced, late)
         if report.state.ended:
             self._recording.end(self._advanced)
 

@@ -20,6 +20,9 @@ def parse_pace(pace: str | float) -> float:
     return factor
 
 
+LATE_IN_A_ROW = 10  # blocks done late, one after the other, before it is said
+
+
 class Pacer:
     """Block k is due k block_length / factor after the start. A late run catches up; simulated time is never skipped."""
 
@@ -37,8 +40,37 @@ class Pacer:
         """Begin to count at this instant of the steady clock, [s]; a second call changes nothing."""
         self._start = now if self._start is None else self._start
 
+    @property
+    def began(self) -> float:
+        """When block 0 was due, [s] of the steady clock; infinity before the start."""
+        return math.inf if self._start is None else self._start
+
     def wait(self, block: int, now: float) -> float:
         """Seconds until the block is due: 0 when it is, infinity before the start."""
         if self._start is None:
             return math.inf
         return max(0.0, self._start + block * self.interval - now)
+
+
+class Lateness:
+    """Counts the blocks that were done later than a block's time after they were due; simulated time is never skipped."""
+
+    def __init__(self, pacer: Pacer) -> None:
+        """No block done."""
+        self._pacer = pacer
+        self.late = self._in_a_row = 0
+
+    def block_done(self, block: int, now: float, factor: float) -> str:
+        """Count a block done at `now` of the steady clock, [s], at `factor` simulated seconds per second so far.
+
+        Returns a sentence from the tenth late block in a row on; empty where the run is in time, or has no pace.
+        """
+        interval = self._pacer.interval
+        behind = now - interval * (block + 2) - self._pacer.began
+        if interval <= 0.0 or behind <= 0.0:
+            self._in_a_row = 0
+            return ""
+        self.late, self._in_a_row = self.late + 1, self._in_a_row + 1
+        if self._in_a_row < LATE_IN_A_ROW:
+            return ""
+        return f"slower than its pace: {factor:.2g}x real time, {behind:.3g} s behind after block {block} ({self.late} blocks late)"

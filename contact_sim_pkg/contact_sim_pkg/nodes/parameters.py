@@ -67,7 +67,10 @@ def declare_record(node: Node) -> bool:
 def declare_pace(node: Node, of_scene: str | float) -> float:
     """Simulated seconds per second; the scene's own where the parameter is empty."""
     text = "Pace: realtime, max, or simulated seconds per second, 0.001 to 1000. Empty: what the scene says."
-    pace = _declare_fixed(node, "pace", str(_given(node, "pace", "")), text)
+    if node.has_parameter("pace"):  # the node is configured again
+        pace = str(node.get_parameter("pace").value)
+    else:
+        pace = _declare_fixed(node, "pace", str(_given(node, "pace", "")), text)
     try:
         return parse_pace(pace or of_scene)
     except ValueError as error:

@@ -50,11 +50,15 @@ class ProgressReport:
         self._load, self._peak = result.load, result.peak_pressure
         self.send(State.FINISHED if block == self._blocks - 1 else State.RUNNING)
 
+    @property
+    def real_time_factor(self) -> float:
+        """Simulated time over wall time since block 0, as it was last reported."""
+        return 0.0 if self.last is None else self.last.real_time_factor
+
     def describe(self) -> str:
         """State, simulated time and speed, for a person."""
-        factor = 0.0 if self.last is None else self.last.real_time_factor
         simulated = (self._block + 1) * self._period_ns * 1e-9
-        return f"{self._scene}: {self.state.name.lower()} after {simulated:g} s, {factor:.3g}x real time"
+        return f"{self._scene}: {self.state.name.lower()} after {simulated:g} s, {self.real_time_factor:.3g}x real time"
 
     def settle(self) -> None:
         """Wait until everybody has the last report, for one second at most."""
