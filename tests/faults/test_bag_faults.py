@@ -8,6 +8,7 @@ import signal
 import struct
 import subprocess
 import sys
+import threading
 import time
 from collections.abc import Callable
 from itertools import pairwise
@@ -303,6 +304,61 @@ def test_e7_a_file_is_created_without_following_a_link(tmp_path: Path) -> None:
 def test_e7_an_impossible_directory_is_refused_in_one_sentence(tmp_path: Path, name: str) -> None:
     with pytest.raises(BagError, match="cannot be created"):
         new_writer(tmp_path / name, Clock())
+
+
+def test_e8_a_disk_that_is_slow_to_sync_holds_up_no_message(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    clock, syncing, done = Clock(), threading.Event(), threading.Event()
+    writer = new_writer(tmp_path / "ride", clock)
+
+    def stuck(descriptor: int) -> None:
+        syncing.set()
+        assert done.wait(30)
+
+    monkeypatch.setattr(os, "fdatasync", stuck)
+    fill(writer, clock, range(50))
+    clock.now = 2.0
+    thread = threading.Thread(target=writer.maintain)
+    thread.start()
+    assert syncing.wait(30)
+    for block in range(50, 150):  # would never return if the sync held the lock
+        clock.now = 2.0 + 0.01 * block
+        writer.write("bench/energy", block * 10_000_000, energy(block))
+    assert thread.is_alive()
+    done.set()
+    thread.join()
+    assert writer.close().complete
+    assert open_bag(tmp_path / "ride").count() == 150
+
+
+def test_e8_a_slow_disk_keeps_one_chunk_in_memory_and_loses_nothing(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Each chunk takes 0.2 s to write; who records waits for it, so no queue grows and nothing is dropped."""
+    clock, slow, real = Clock(), [], os.pwrite
+
+    def delayed(descriptor: int, data: bytes, offset: int) -> int:
+        if len(data) > 500:  # a chunk
+            slow.append(len(data))
+            time.sleep(0.2)
+        return real(descriptor, data, offset)
+
+    writer = new_writer(tmp_path / "ride", clock)
+    monkeypatch.setattr(os, "pwrite", delayed)
+    file = tmp_path / "ride" / "ride_0.mcap"
+    for first in range(0, 48, 12):
+        before = file.stat().st_size
+        fill(writer, clock, range(first, first + 12))
+        assert file.stat().st_size > before
+    assert len(slow) >= 3
+    monkeypatch.undo()
+    summary = writer.close({"dropped platform/vibration": "3"})
+    assert summary.complete
+    bag = open_bag(tmp_path / "ride")
+    assert [message.log_time for message in bag.messages()] == [block * 10_000_000 for block in range(48)]
+    assert recover(bag.path, tmp_path / "again").lossless
+    for path in (tmp_path / "ride", tmp_path / "again"):
+        assert open_bag(path).metadata["dropped platform/vibration"] == "3"
+        assert '"dropped platform/vibration": "3"' in (path / "metadata.yaml").read_text()
 
 
 def test_e9_a_second_recorder_is_refused_while_the_first_goes_on(tmp_path: Path) -> None:

@@ -13,6 +13,7 @@ from contact_sim_pkg.bag.writer import BagWriter
 from contact_sim_pkg.cli.main import main as bench
 
 from ..bag.hand_made import Content, seat_ride, write
+from .test_bag_faults import chunk_spans
 
 TOPICS = ("bench/scene", "platform/vibration")
 
@@ -141,3 +142,21 @@ def test_recovery_names_records_and_attachments_that_it_leaves_out(tmp_path, cut
     outcome = recover(file, tmp_path / "new")
     assert not outcome.lossless
     assert "the metadata record 'calibration', 1 MCAP attachment(s) are not brought over" in outcome.sentence
+
+
+@pytest.mark.fault("E10")
+def test_the_commands_stop_at_a_damaged_chunk_and_go_on_after_it_when_told(tmp_path, capsys):
+    file = write(tmp_path / "ride", seat_ride(blocks=3))
+    offset, length = chunk_spans(file)[0]
+    content = bytearray(file.read_bytes())
+    content[offset + length // 2] ^= 1
+    file.write_bytes(content)
+    again = ["run", "--offline", "--no-record", "--from-bag", str(file)]
+    for command in (["report", str(file)], again):
+        assert bench(command) == 2
+        assert "messages of 0.000 s to 0.020 s, is damaged" in capsys.readouterr().err
+    assert bench(["report", str(file), "--skip-bad", "--out", str(tmp_path / "page.html")]) == 0
+    assert "is damaged" in capsys.readouterr().err
+    assert bench(["recover", str(file), str(tmp_path / "rest")]) == 3
+    assert "it was skipped" in capsys.readouterr().out
+    assert open_bag(tmp_path / "rest").scene == seat_ride(blocks=3).texts["scene"]

@@ -77,7 +77,7 @@ def test_a_missing_block_ends_the_run_by_name_with_its_bag_closed(scene, nodes, 
     assert "block 7 of platform/vibration is missing" in bag.metadata["failure"]
 
 
-@pytest.mark.fault("B2")
+@pytest.mark.fault("B2", "E8")
 def test_bad_blocks_are_dropped_and_named_and_leave_the_bits_alone(scene, nodes, stand_in, tmp_path):
     """B1, B2, B4: NaN, a wrong length, a wrong stamp, a repetition, in front of the good block."""
     nodes.start("bag_logger")
@@ -100,6 +100,8 @@ def test_bad_blocks_are_dropped_and_named_and_leave_the_bits_alone(scene, nodes,
     send(stand_in, source, range(BLOCKS), before=bad)
     assert nodes.wait() == {"bag_logger": 0, "contact_simulator": 0}
     assert any("NaN or infinite" in line and "dropped" in line for line in nodes.said)
+    bad_blocks = sum(4 if number else 3 for number in range(0, BLOCKS, 5))
+    assert open_bag(nodes.bag).metadata["dropped platform/vibration"] == str(bad_blocks)
     run_offline(scene, tmp_path / "offline")
     assert messages(nodes.bag) == messages(tmp_path / "offline")
 

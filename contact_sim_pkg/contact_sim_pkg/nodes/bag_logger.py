@@ -79,9 +79,9 @@ class BagLoggerNode(LifecycleBenchNode):
         self._hold(topic, data)
 
     def _hold(self, topic: str, data: bytes) -> None:
-        """Also before *ready* is heard: on the wire, block 0 may overtake it."""
-        if not self._closed:
-            self._order.hold(topic, data)
+        """Also before *ready* is heard: on the wire, block 0 may overtake it. What there is no place for is counted."""
+        if not self._closed and not self._order.hold(topic, data):
+            self._left_out[f"dropped {topic}"] += 1
 
     def _on_progress(self, data: bytes) -> None:
         progress = decode_progress(data)
