@@ -37,8 +37,9 @@ lint:  ## check style, format and types
 bench:  ## measure start-up, real-time factor and error against their goals, and what accuracy costs
 	@SECONDS=0; $(ENTER) && bench goals && echo && bench accuracy tire_bump; $(REPORT_TIME)
 
-hard:  ## run the hard cases: value, expectation, margin, verdict
-	@$(ENTER) && bench hard
+hard:  ## run the hard cases: value, expectation, margin, verdict; and every number of the schema at and beside its bounds
+	@SECONDS=0; $(ENTER) && bench hard && CONTACT_BENCH_FUZZ=all $(TEST_ENVIRONMENT) python -m pytest -s tests/faults/test_schema_fuzz.py; \
+	$(REPORT_TIME)
 
 bounds:  ## run the tests of kernels with bounds checks, in a cache of their own
 	@SECONDS=0; $(ENTER) && NUMBA_BOUNDSCHECK=1 $(TEST_ENVIRONMENT) python -m pytest tests/core tests/hard $(PYTEST_OPTIONS); $(REPORT_TIME)

@@ -2,15 +2,39 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from typing import Any
 
-from pydantic import BaseModel, ConfigDict, Field
+from pydantic import BaseModel, ConfigDict, Field, field_validator
+from pydantic_core import PydanticCustomError
+
+LEAST = 1e-30
+"""In size, of any number but 0: squares and quotients of smaller ones leave the range of 64-bit numbers."""
+
+TOO_NEAR_ZERO = "too_near_zero"
+"""The fault of a smaller one."""
 
 
 class Section(BaseModel):
     """A mapping of a scene: strict types, no unknown keys, no NaN, cannot be changed."""
 
     model_config = ConfigDict(strict=True, extra="forbid", frozen=True, allow_inf_nan=False)
+
+    @field_validator("*")
+    @classmethod
+    def _computable(cls, value: Any) -> Any:
+        """Refuse numbers, and lists with numbers, that are not 0 and closer to it than `LEAST`."""
+        if any(0.0 < abs(each) < LEAST for each in _floats(value)):
+            raise PydanticCustomError(TOO_NEAR_ZERO, "too near to 0")
+        return value
+
+
+def _floats(value: Any) -> Iterator[float]:
+    if isinstance(value, float):
+        yield value
+    elif isinstance(value, list):
+        for item in value:
+            yield from _floats(item)
 
 
 def number(

@@ -7,6 +7,7 @@ import re
 from collections.abc import Iterable
 
 from contact_sim_pkg.scene.schema_catalog import Entry, show
+from contact_sim_pkg.scene.schema_fields import LEAST
 from contact_sim_pkg.scene.yaml_nodes import ListNode, MappingNode, Node, ScalarNode
 
 LONGEST_SHOWN = 60
@@ -28,6 +29,12 @@ def bad_value(entry: Entry, node: Node) -> str:
     hint = suggestion(node.raw, entry.words)
     read = "" if isinstance(node.value, str) else f", read as {_type_name(node)},"
     return f"{raw_text(node)}{read} is not allowed; {_allowed(entry)}{hint}"
+
+
+def too_near_zero(entry: Entry, node: Node | None) -> str:
+    """Why a number, or a list that holds it, is too close to 0."""
+    amount = f"{node.raw} {entry.unit}".rstrip() if isinstance(node, ScalarNode) else "a number in the list"
+    return f"{amount} is too near to 0 to compute with; write 0, or at least {LEAST:g} in size; {_allowed(entry)}"
 
 
 def missing(entry: Entry) -> str:

@@ -12,8 +12,9 @@ from contact_sim_pkg.scene.errors import Breach, Fault, SceneError
 from contact_sim_pkg.scene.schema import Scene
 from contact_sim_pkg.scene.schema_catalog import Entry, catalog, entry_of, without_kinds
 from contact_sim_pkg.scene.schema_effect_rules import effect_breaches, unavailable_effect
+from contact_sim_pkg.scene.schema_fields import TOO_NEAR_ZERO
 from contact_sim_pkg.scene.schema_rules import breaches
-from contact_sim_pkg.scene.schema_sentences import bad_value, missing, suggestion, unknown_key
+from contact_sim_pkg.scene.schema_sentences import bad_value, missing, suggestion, too_near_zero, unknown_key
 from contact_sim_pkg.scene.yaml_nodes import ListNode, MappingNode, Mark, Node, ScalarNode, to_plain
 
 Path = tuple[str | int, ...]
@@ -89,6 +90,8 @@ class _Validator:
             self._add(path, missing(entry))
         elif entry.kind == "kinds":
             self._bad_kind(entry, path)
+        elif kind == TOO_NEAR_ZERO:
+            self._add(path, too_near_zero(entry, self._node(path)))
         else:
             node = self._node(path)
             self._add(path, bad_value(entry, node) if node is not None else "is not allowed")

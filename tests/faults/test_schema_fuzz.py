@@ -1,0 +1,49 @@
+"""Every number of the schema, at and beside its bounds: a run ends right, or in a sentence, within bounds of time and memory.
+
+A test run takes one in `TURNS` of the cases that run, others each day. CONTACT_BENCH_FUZZ=all takes every one, as `make hard`
+does, and CONTACT_BENCH_FUZZ=3 those of turn 3, which a failure names. `pytest -s` shows counts and times.
+"""
+
+import collections
+import datetime
+import os
+import time
+
+import pytest
+
+from .schema_fuzz import BASES, RARE_BASES, cases, end_of, missing_numbers, run_all
+
+TURNS = 8
+ASKED = os.environ.get("CONTACT_BENCH_FUZZ") or str(datetime.datetime.now(datetime.timezone.utc).toordinal() % TURNS)
+GOOD = ("right", "refused", "failed")
+ENDLESS = {  # more work than anybody waits for, without a bound yet
+    ("seat", "effects.seat.general_dissipative.coefficient"),
+    ("roller", "roller.radius"),
+    ("roller", "effects.roller.track_waves.cells"),
+}
+
+
+def test_the_bases_hold_every_number_of_the_schema():
+    assert missing_numbers() == set()
+
+
+@pytest.mark.fault("A8")
+@pytest.mark.parametrize("rig", BASES)
+def test_a_value_outside_its_bounds_is_refused(rig):
+    outside = [case for case in cases(rig) if not case.inside]
+    assert [(case.assignment, end) for case in outside if (end := end_of(case)).kind != "refused"] == []
+
+
+@pytest.mark.parametrize("rig", BASES)
+def test_a_value_within_its_bounds_ends_right_or_in_a_sentence(rig):
+    every = [case for case in cases(rig) if case.inside and not ((rig, case.where) in ENDLESS and case.value > 1.0)]
+    usual = [case for case in every if case.base not in RARE_BASES.get(rig, ())]
+    chosen = every if ASKED == "all" else usual[int(ASKED) % TURNS :: TURNS]
+    began, ends = time.perf_counter(), list(run_all(chosen))
+    counts = dict(collections.Counter(end.kind for _case, end in ends))
+    spent = f"{sum(end.seconds for _case, end in ends):.1f} s of processor, {time.perf_counter() - began:.1f} s in all"
+    print(  # noqa: T201  # for `pytest -s`
+        f"\n{rig}: {len({case.where for case in every})} numbers, {len(chosen)} of {len(every)} cases: {counts}, {spent}"
+    )
+    bad = [f"{' '.join(case.base)} {case.assignment}: {end}" for case, end in ends if end.kind not in GOOD]
+    assert bad == [], f"turn {ASKED}"
