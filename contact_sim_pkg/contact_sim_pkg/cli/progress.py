@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import sys
+import threading
 import time
 from types import TracebackType
 from typing import Protocol
@@ -10,7 +11,7 @@ from typing import Protocol
 from rich.console import Console
 from rich.progress import BarColumn, Progress, TextColumn, TimeRemainingColumn
 
-PLAIN_SECONDS = 5.0  # between two lines where standard error is no terminal
+PLAIN_SECONDS = 4.0  # between two lines where standard error is no terminal
 
 
 class Standing(Protocol):
@@ -40,7 +41,9 @@ class RunDisplay:
         """Prepare for a run or a replay of `duration` simulated seconds; nothing is shown before it is entered."""
         self._duration = duration
         self._console = Console(file=sys.stderr, highlight=False)
-        self._said = time.monotonic()
+        self._said = self._moved = time.monotonic()
+        self._completed, self._text = 0.0, "0 s: set-up, or the first block"
+        self._over = threading.Event()
         columns = (BarColumn(24), TextColumn("{task.description}"), TimeRemainingColumn())
         self._bar = Progress(*columns, console=self._console, transient=True, disable=not self._console.is_terminal)
         self._task = self._bar.add_task("starting", total=duration)
@@ -59,11 +62,21 @@ class RunDisplay:
 
     def update(self, completed: float, text: str) -> None:
         """Show how much of the duration is done, [s], and a text."""
+        now = time.monotonic()
+        if completed != self._completed:
+            self._completed, self._moved, self._text = completed, now, text
+        if now - self._moved > PLAIN_SECONDS:
+            text = f"{self._text}; no further block for {now - self._moved:.0f} s"
         if self._console.is_terminal:
             self._bar.update(self._task, completed=completed, description=text)
         elif time.monotonic() - self._said > PLAIN_SECONDS:
             self._said = time.monotonic()
             self.say(text)
+
+    def _repeat(self) -> None:
+        """A block that takes long is no reason for silence."""
+        while not self._over.wait(0.5):
+            self.update(self._completed, self._text)
 
     def say(self, line: str) -> None:
         """One line from a node."""
@@ -72,10 +85,12 @@ class RunDisplay:
     def __enter__(self) -> RunDisplay:
         """Begin to show."""
         self._bar.start()
+        threading.Thread(target=self._repeat, daemon=True).start()
         return self
 
     def __exit__(
         self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
     ) -> None:
         """Take the bar away."""
+        self._over.set()
         self._bar.stop()

@@ -25,6 +25,7 @@ from .tables import json_option
     show_default=True,
     help="Simulated time on /clock, unless somebody publishes one.",
 )
+@click.option("--allow-long", is_flag=True, help="Run even if the estimate is above 10 min of computing.")
 @click.option("--no-record", is_flag=True, help="Write no bag; the summary, which is read from it, is empty.")
 @json_option
 @click.pass_context
@@ -35,6 +36,7 @@ def command(
     out: Path | None,
     from_bag: Path | None,
     clock: bool,
+    allow_long: bool,
     no_record: bool,
     as_json: bool,
 ) -> None:
@@ -42,6 +44,13 @@ def command(
     from .run_scene import run_scene
 
     status = run_scene(
-        options, offline=offline, out=out, from_bag=from_bag, clock=clock, record=not no_record, as_json=as_json
+        options,
+        offline=offline,
+        out=out,
+        from_bag=from_bag,
+        clock=clock,
+        record=not no_record,
+        as_json=as_json,
+        allow_long=allow_long,
     )
     context.exit(status)

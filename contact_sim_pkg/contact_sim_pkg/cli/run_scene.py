@@ -2,14 +2,16 @@
 
 from __future__ import annotations
 
+import os
 import signal
 import sys
+import threading
 import time
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from functools import partial
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import TYPE_CHECKING, Any, Generic, NamedTuple, TypeVar
 
 from contact_sim_pkg.bag.names import new_directory
 
@@ -22,6 +24,9 @@ from .tables import print_json
 if TYPE_CHECKING:
     from contact_sim_pkg.scene.resolved_scene import ResolvedScene
 
+Result = TypeVar("Result")
+GRACE = 0.5  # [s] for the block that is computed when a signal comes
+LOOK = 0.1  # [s] between two looks at signals
 SIGNALS = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)
 
 
@@ -34,19 +39,19 @@ class StopRequest:
 
     def __init__(self) -> None:
         """Nothing is computed yet."""
-        self._heard = False
+        self.heard_at = float("inf")  # of the monotonic clock
         self._computes = False
 
     def hear(self) -> None:
         """A signal came. Raises `SetUpInterrupted` as long as nobody has asked."""
-        self._heard = True
+        self.heard_at = min(self.heard_at, time.monotonic())
         if not self._computes:
             raise SetUpInterrupted
 
     def __call__(self) -> bool:
         """Whether one came; the run asks, so it has begun."""
         self._computes = True
-        return self._heard
+        return self.heard_at < float("inf")
 
 
 class Ended(NamedTuple):
@@ -60,6 +65,7 @@ class Ended(NamedTuple):
     failure: str
     exit_status: int
     excitation: dict[str, dict[str, Any]]  # by topic, what was found in it and done about it
+    computes_on: bool = False  # a thread of this process that nothing can stop
 
 
 def run_scene(
@@ -71,8 +77,9 @@ def run_scene(
     clock: bool,
     record: bool,
     as_json: bool,
+    allow_long: bool,
 ) -> int:
-    """Run a scene; returns the exit status.
+    """Run a scene; returns the exit status. Ends the process where a computation goes on in it that was broken off.
 
     Raises:
         SceneError, BagError, ExcitationError: refused; nothing was created.
@@ -85,10 +92,21 @@ def run_scene(
         for line in cautions(from_bag):
             print(line, file=sys.stderr)
     directory = new_directory(out, str(scene.data["name"])) if record else None
+    _tell_work(scene, allow_long)
     forecast = _forecast(scene)
     run = _run_offline if offline else partial(_run_on_nodes, clock=clock)
     with RunDisplay(float(scene.data["duration"])) as display:
         ended = run(scene, directory, from_bag, display)
+    status = _told(scene, ended, forecast, as_json=as_json)
+    if ended.computes_on:
+        sys.stdout.flush()
+        sys.stderr.flush()
+        os._exit(status)
+    return status
+
+
+def _told(scene: ResolvedScene, ended: Ended, forecast: dict[str, Any], *, as_json: bool) -> int:
+    """Say what came of a run; returns the exit status."""
     if ended.failure:
         print(f"bench: {ended.failure}", file=sys.stderr)
     if ended.exit_status == 2:
@@ -112,6 +130,15 @@ def _leave_metadata(scene: ResolvedScene, ended: Ended) -> str:
     return "" if ended.bag is None else leave_metadata(ended.bag, outcome)
 
 
+def _tell_work(scene: ResolvedScene, allow_long: bool) -> None:
+    """One line on standard error where the run is long. Raises SceneError beyond the bound."""
+    from contact_sim_pkg.run.work import refuse_long
+
+    told = refuse_long(scene.data, allowed=allow_long)
+    if told:
+        print(f"{scene.data['name']}: {told}", file=sys.stderr)
+
+
 def _forecast(scene: ResolvedScene) -> dict[str, Any]:
     """What the rig tells before the run: one line on standard error, and the numbers of `--json`."""
     from contact_sim_pkg.run.rigs import forecast_of
@@ -124,7 +151,7 @@ def _forecast(scene: ResolvedScene) -> dict[str, Any]:
 
 
 def _run_offline(scene: ResolvedScene, directory: Path | None, from_bag: Path | None, display: RunDisplay) -> Ended:
-    from contact_sim_pkg.run.offline import run_offline
+    from contact_sim_pkg.run.offline import Computing, RunOutcome, run_offline
 
     sources = None
     if from_bag is not None:
@@ -133,11 +160,19 @@ def _run_offline(scene: ResolvedScene, directory: Path | None, from_bag: Path | 
         sources = sources_from_bag(from_bag, scene)
     stop = StopRequest()
     before = time.monotonic() - BEGAN
+    computing = Computing()
+    worker = Worker(run_offline, scene, directory, display.show, stop, sources, computing)
+    broken_off: RunOutcome | None = None
     with _signals_call(stop.hear):
         try:
-            outcome = run_offline(scene, directory, display.show, stop, sources)
+            worker.start()
+            while worker.is_alive() and broken_off is None:
+                worker.join(LOOK)
+                if time.monotonic() > stop.heard_at + GRACE:
+                    broken_off = computing.abandon()
         except SetUpInterrupted:
-            return Ended(0, time.monotonic() - BEGAN, 0.0, None, True, "", 0, {})
+            return Ended(0, time.monotonic() - BEGAN, 0.0, None, True, "", 0, {}, computes_on=True)
+    outcome = broken_off or worker.result()
     lost = bool(outcome.loss) or (outcome.bag is not None and not outcome.bag.complete)
     failure = outcome.failure or (outcome.bag.sentence if outcome.bag is not None else "") or outcome.loss
     status = 1 if outcome.failure else 3 if lost else 0
@@ -151,7 +186,32 @@ def _run_offline(scene: ResolvedScene, directory: Path | None, from_bag: Path | 
         failure,
         status,
         outcome.excitation,
+        computes_on=broken_off is not None,
     )
+
+
+class Worker(threading.Thread, Generic[Result]):
+    """A call in a thread of its own, so that this one hears signals while compiled code runs."""
+
+    def __init__(self, function: Callable[..., Result], *arguments: Any) -> None:
+        """Not started yet."""
+        super().__init__(daemon=True)
+        self._call = partial(function, *arguments)
+        self._results: list[Result] = []
+        self._error: BaseException | None = None
+
+    def run(self) -> None:
+        """Call; keeps the result or the error."""
+        try:
+            self._results.append(self._call())
+        except BaseException as error:  # noqa: BLE001  # raised again by `result`
+            self._error = error
+
+    def result(self) -> Result:
+        """What the call returned; raises its error."""
+        if self._error is not None:
+            raise self._error
+        return self._results[0]
 
 
 def _run_on_nodes(

@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
+import threading
 import time
 from collections.abc import Callable
 from pathlib import Path
-from typing import Any, NamedTuple
+from typing import Any, NamedTuple, TypeVar
 
 from contact_sim_pkg.bag.errors import BagWriteError, RecordingStoppedError
 from contact_sim_pkg.bag.messages import encode_road_patch, encode_scene, encode_vibration
@@ -23,6 +24,7 @@ from contact_sim_pkg.run.sources import Source, make_sources
 from contact_sim_pkg.scene.resolved_scene import ResolvedScene
 
 NANOSECONDS = 1_000_000_000
+Result = TypeVar("Result")
 
 
 class RunProgress(NamedTuple):
@@ -49,21 +51,46 @@ class RunOutcome(NamedTuple):
     loss: str = ""  # sentence of the write that ended the recording, and the run with it
 
 
+class Computing:
+    """Lets another thread end a run whose computation does not come back: while it lasts nothing is written."""
+
+    def __init__(self) -> None:
+        """Nothing is computed; `end` closes what is open once something is."""
+        self._idle = threading.Lock()
+        self._idle.acquire()
+        self.end: Callable[[], RunOutcome] | None = None
+
+    def call(self, function: Callable[..., Result], *arguments: Any) -> Result:
+        """``function(*arguments)``; does not return where another thread has ended the run meanwhile."""
+        self._idle.release()
+        try:
+            return function(*arguments)
+        finally:
+            self._idle.acquire()
+
+    def abandon(self) -> RunOutcome | None:
+        """From another thread: end the run, if it computes right now. None where it does not, or nothing is open yet."""
+        if self.end is None or not self._idle.acquire(blocking=False):
+            return None
+        return self.end()
+
+
 def run_offline(
     scene: ResolvedScene,
     directory: Path | None,
     on_progress: Callable[[RunProgress], None] | None = None,
     stop: Callable[[], bool] | None = None,
     sources: dict[str, Source] | None = None,
+    computing: Computing | None = None,
 ) -> RunOutcome:
     """Run ``scene`` and record it in ``directory``, which must not exist (None: no recording).
 
     ``sources`` replaces the scene's own excitation (a bag's, for one). ``stop`` is asked once all is compiled, where nothing has
     been created yet, and before each block. A fault of the
     physics or of the excitation ends the run, as does a write that fails: the bag is closed and the outcome names it. Raises
-    what a bad scene, file or directory raises, before anything is created.
+    what a bad scene, file or directory raises, before anything is created. ``computing`` lets another thread end it within a block.
     """
-    began = time.perf_counter()
+    began, computing = time.perf_counter(), computing or Computing()
     sources = make_sources(scene) if sources is None else sources
     simulation = make_simulation(scene)
     simulation.prepare()
@@ -77,6 +104,17 @@ def run_offline(
     startup = time.perf_counter() - began
     first = time.perf_counter()
     done, failure, stopped, loss = 0, "", False, ""
+
+    def ended() -> RunOutcome:
+        summary = None if writer is None else writer.close(_outcome(done, simulation.blocks, failure, stopped, first))
+        return RunOutcome(done, startup, time.perf_counter() - first, summary, stopped, failure, descriptions, loss)
+
+    def abandoned() -> RunOutcome:
+        nonlocal stopped
+        stopped = True
+        return ended()
+
+    computing.end = abandoned
     try:
         if writer is not None:
             writer.write("bench/scene", 0, encode_scene(scene.to_yaml()))
@@ -85,7 +123,7 @@ def run_offline(
                 if stop is not None and stop():
                     stopped = True
                     break
-                progress = _one_block(simulation, sources, block, scene.data["block_length"], writer, first)
+                progress = _one_block(simulation, sources, block, scene.data["block_length"], writer, first, computing)
                 done = block + 1
                 if on_progress is not None:
                     on_progress(progress)
@@ -93,14 +131,17 @@ def run_offline(
         failure = str(error)
     except (BagWriteError, RecordingStoppedError) as error:
         loss = str(error)
-    except MemoryError as error:
-        failure = f"out of memory in block {done}: {error}; take a smaller grid, or let the run have more"
-    except Exception as error:
-        failure = f"unexpected {type(error).__name__}: {error}"
+    except BaseException as error:
+        failure = _unexpected(error, done)
+        ended()
         raise
-    finally:
-        summary = None if writer is None else writer.close(_outcome(done, simulation.blocks, failure, stopped, first))
-    return RunOutcome(done, startup, time.perf_counter() - first, summary, stopped, failure, descriptions, loss)
+    return ended()
+
+
+def _unexpected(error: BaseException, block: int) -> str:
+    if isinstance(error, MemoryError):
+        return f"out of memory in block {block}: {error}; take a smaller grid, or let the run have more"
+    return f"unexpected {type(error).__name__}: {error}" if isinstance(error, Exception) else ""
 
 
 def _outcome(done: int, blocks: int, failure: str, stopped: bool, first: float) -> dict[str, str]:
@@ -115,10 +156,11 @@ def _one_block(
     length: float,
     writer: BagWriter | None,
     first: float,
+    computing: Computing,
 ) -> RunProgress:
     stamp = block * round(length * NANOSECONDS)
     inputs = {topic: source.block(block) for topic, source in sources.items()}
-    result = simulation.advance(block, inputs)
+    result = computing.call(simulation.advance, block, inputs)
     if writer is not None:
         for topic in sorted(inputs, key=lambda name: TOPICS[name].rank):
             writer.write(topic, stamp, encode_input(inputs[topic], stamp))

@@ -1,0 +1,127 @@
+"""The work of a run is estimated before it, and a computation that does not come back does not hold a run."""
+
+import signal
+import threading
+import time
+
+import numpy
+import pytest
+
+from contact_sim_pkg.bag.messages import decode_cost
+from contact_sim_pkg.bag.reader import open_bag
+from contact_sim_pkg.run import offline
+from contact_sim_pkg.run.rigs import make_simulation
+from contact_sim_pkg.run.sources import make_sources
+from contact_sim_pkg.run.work import BOUND, estimated_work, refuse_long
+from contact_sim_pkg.scene.errors import SceneError
+from contact_sim_pkg.scene.load import shipped_names
+
+from ..bench_process import bench, end, start_bench
+from .scenes import resolved
+
+GENERAL = "effects.backrest.general_dissipative"
+DAMPER = (f"{GENERAL}.restitution=null", f"{GENERAL}.reference_speed=null", f"{GENERAL}.coefficient=1e12")
+
+
+@pytest.mark.parametrize(
+    ("scene", "values", "cause"),
+    [
+        ("seat_general", DAMPER, "backrest.general_dissipative"),
+        ("block_fall", ("block.mass=1e6", "block.torque=[0,1e12,0]"), "spins"),
+        ("box_3d_tumble", ("duration=60", "block.angular_velocity=[0,0,1e6]"), "spins"),
+        ("roller_corrugation", ("roller.radius=100",), "turns of the track"),
+        (
+            "roller_corrugation",
+            ("effects.roller.damage.table_rows=1000", "effects.roller.subsurface.cells_z=512"),
+            "damage.table_rows",
+        ),
+        ("seat_ride", ("duration=3600", "effects.seat.contact_field={rows: 512, cols: 512}"), "seat.contact_field"),
+    ],
+)
+def test_more_than_ten_minutes_are_refused_by_name_unless_they_are_allowed(scene, values, cause):
+    data = resolved(scene, *values).data
+    with pytest.raises(SceneError, match=rf"{cause}.* of computing, more than .*--allow-long") as refused:
+        refuse_long(data, allowed=False)
+    assert "\n" not in str(refused.value)
+    assert cause in refuse_long(data, allowed=True)
+
+
+@pytest.mark.parametrize("name", shipped_names())
+def test_nothing_is_told_of_a_shipped_scene(name):
+    data = resolved(name).data
+    assert refuse_long(data, allowed=False) == ""
+    assert sum(part.seconds for part in estimated_work(data)) < BOUND
+
+
+def test_the_time_that_a_run_lasts_anyway_is_no_reason_to_refuse_it():
+    """At the pace of real time an hour takes an hour."""
+    assert sum(part.seconds for part in estimated_work(resolved("seat_ride", "duration=3600").data)) < 3600.0
+    assert refuse_long(resolved("seat_ride", "duration=3600").data, allowed=False) != ""
+
+
+def test_the_estimate_counts_the_steps_that_a_stiff_contact_takes():
+    scene = resolved("seat_ride", "duration=0.1", "effects.seat.normal_elastic.coefficient=1e12")
+    expected = {part.what: part.number for part in estimated_work(scene.data)}
+    simulation, source = make_simulation(scene), make_sources(scene)["platform/vibration"]
+    simulation.prepare()
+    counted = sum(
+        decode_cost(data).steps
+        for block in range(simulation.blocks)
+        for topic, _stamp, data in simulation.advance(block, {"platform/vibration": source.block(block)}).messages
+        if topic == "bench/cost"
+    )
+    assert counted > 500
+    assert 0.3 < expected["steps of the integrator for seat.normal_elastic"] / counted < 3.0
+
+
+def test_a_block_that_does_not_come_back_is_left_and_the_bag_closed(tmp_path, monkeypatch):
+    """The blocks before it are there, and what the lost computation brings later is not."""
+    scene, arrived, released = resolved("seat_ride", "duration=0.05"), threading.Event(), threading.Event()
+    usual = make_simulation(scene)
+
+    class Stuck:
+        inputs, blocks, prepare = usual.inputs, usual.blocks, usual.prepare
+
+        def advance(self, block, inputs):
+            if block == 2:
+                arrived.set()
+                released.wait(60.0)
+            return usual.advance(block, inputs)
+
+    monkeypatch.setattr(offline, "make_simulation", lambda scene: Stuck())
+    computing = offline.Computing()
+    assert computing.abandon() is None
+    worker = threading.Thread(
+        target=offline.run_offline, args=(scene, tmp_path / "bag"), kwargs={"computing": computing}, daemon=True
+    )
+    worker.start()
+    assert arrived.wait(60.0)
+    outcome = computing.abandon()
+    released.set()
+    worker.join(0.5)
+    assert worker.is_alive()  # it waits for ever: nothing is written behind the end
+    assert outcome.stopped
+    assert outcome.blocks == 2
+    assert outcome.failure == ""
+    bag = open_bag(tmp_path / "bag")
+    assert bag.count("/seat/force") == 2
+    assert numpy.isfinite(bag.columns("/bench/energy")["supplied"]).all()
+
+
+def test_the_command_refuses_what_is_too_long_and_its_flag_lifts_that():
+    """It tells of a long computation while it lasts, and ends it at an interrupt, though compiled code runs."""
+    values = [word for value in DAMPER for word in ("--set", value)]
+    refused = bench("run", "seat_general", "--offline", "--no-record", *values)
+    assert refused.returncode == 2
+    assert refused.stderr.startswith("bench: seat_general: about 3.2e+09 steps of the integrator")
+    assert refused.stderr.count("\n") == 1
+    process = start_bench("run", "seat_general", "--offline", "--no-record", "--allow-long", *values)
+    try:
+        assert next(line for line in process.stderr).startswith("seat_general: about 3.2e+09 steps")
+        assert any("no further block for" in line for line in process.stderr)
+        began = time.monotonic()
+        process.send_signal(signal.SIGINT)
+        assert process.wait(10.0) == 0
+        assert time.monotonic() - began < 2.0
+    finally:
+        end(process)
