@@ -13,6 +13,8 @@ from typing import Any
 import numpy
 from numpy.typing import NDArray
 
+from contact_sim_pkg.core.guards import require, require_not_negative, require_values
+
 from .errors import ExcitationError
 from .iso8608_texture import Texture
 from .periodic import synthesise
@@ -33,7 +35,16 @@ def roughness_of_class(name: str) -> float:
 
 
 def band_variance(roughness: float, exponent: float, low: NDArray[Any] | float, high: NDArray[Any] | float) -> Any:
-    """Variance in [m^2] of the wave numbers from low to high in [cycles/m]: the integral of G(n)."""
+    """Variance in [m^2] of the wave numbers from low to high in [cycles/m]: the integral of G(n).
+
+    roughness >= 0 [m^3], exponent finite, 0 < low <= high, numbers or arrays of one shape; ExcitationError otherwise.
+    """
+    require_not_negative("roughness", roughness, "m^3", error=ExcitationError)
+    require("exponent", exponent, error=ExcitationError)
+    low = require_values("lowest wave number", low, "cycles/m", above=0.0, error=ExcitationError)
+    high = require_values("highest wave number", high, "cycles/m", above=0.0, error=ExcitationError)
+    if (low > high).any():
+        raise ExcitationError(f"wave numbers from {low.max()} to {high.min()} cycles/m: the lowest must come first")
     scale = roughness * REFERENCE_WAVE_NUMBER**exponent
     if abs(exponent - 1.0) < 1e-9:
         return scale * numpy.log(numpy.divide(high, low))
@@ -77,6 +88,7 @@ class Iso8608Road:
             ExcitationError: a value out of range, or a road of more than 16.7 million points.
         """
         _check(roughness, seed, length, exponent, shortest_wavelength, longest_wavelength)
+        require_not_negative("lattice cell of the random road", lattice_cell, "m", error=ExcitationError)
         self.roughness, self.seed, self.length, self.exponent = roughness, seed, length, exponent
         self._notes: list[str] = []
         self.shortest = self._resolved(shortest_wavelength, lattice_cell, "profile")
