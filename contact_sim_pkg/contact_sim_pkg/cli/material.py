@@ -3,10 +3,14 @@
 from __future__ import annotations
 
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 import click
 
 from .tables import json_option, overwrite_option, print_json, show_rows
+
+if TYPE_CHECKING:
+    from contact_sim_pkg.analysis.material.report import MaterialReport
 
 FILE = click.Path(path_type=Path)
 
@@ -52,14 +56,7 @@ def command(
     from contact_sim_pkg.analysis.material import figure
     from contact_sim_pkg.analysis.material.bag_impacts import is_bag, rules_of_bag
     from contact_sim_pkg.analysis.material.options import Options
-    from contact_sim_pkg.analysis.material.report import (
-        csv_files,
-        group_rows,
-        master_row,
-        material_report,
-        pooled_rows,
-        write_csv,
-    )
+    from contact_sim_pkg.analysis.material.report import csv_files, material_report, write_csv
     from contact_sim_pkg.files import check_output
 
     for name, given, law in (
@@ -80,8 +77,14 @@ def command(
         click.echo(note, err=True)
     if table is not None:
         write_csv(report, table, overwrite=overwrite)
+    _show(report, as_json=as_json)
     if plot is not None:
-        figure.write_figure(report, plot, overwrite=overwrite)
+        figure.write_figure(report, plot, overwrite=overwrite)  # last: whatever becomes of the picture, the table is there
+
+
+def _show(report: MaterialReport, *, as_json: bool) -> None:
+    from contact_sim_pkg.analysis.material.report import group_rows, master_row, pooled_rows
+
     if as_json:
         parts = {"impacts": report.rows, "groups": group_rows(report), "all_speeds": pooled_rows(report)}
         print_json({**parts, "master_curve": master_row(report)})
