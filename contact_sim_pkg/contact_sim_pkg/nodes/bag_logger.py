@@ -169,7 +169,8 @@ class BagLoggerNode(LifecycleBenchNode):
         reason = read_reason(self._scene_name)
         outcome = outcome_of(self._run, self._block + 1, reason=reason, lacking=lacking, counts=self._left_out)
         summary = self._writer.close(outcome)
-        reasons = "; ".join(text for text in (sentence, summary.sentence) if text)
+        said = "" if sentence in summary.sentence else sentence
+        reasons = "; ".join(text for text in (said, summary.sentence) if text)
         self._answer(closed=True, sentence=reasons)
         self._answers.wait_for_all_acked(Duration(seconds=SETTLE_SECONDS))
         self.announce(f"bag: {self._path}, {summary.messages} messages")

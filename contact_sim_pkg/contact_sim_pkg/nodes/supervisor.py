@@ -111,7 +111,8 @@ class Supervisor:
         if self._failure:
             write_reason(scene, self._failure)
         killed = children.end(max(LEAST_GRACE, min(GRACE_SECONDS, self._asked_at + STOP_SECONDS - time.monotonic())))
-        if "bag_logger" in killed and not self._failure:
+        recording = self._directory is not None and self._directory.is_dir()
+        if "bag_logger" in killed and recording and not self._failure:
             self._fail("bag_logger did not end, and was killed before it had closed its bag", FAULT)
 
     def _start_all(self, children: Children, scene: Path) -> None:
@@ -148,7 +149,10 @@ class Supervisor:
                 return
             fallen = children.fallen()
         fallen = fallen or children.fallen()
-        if fallen is not None:
+        set_up_broken_off = (
+            self._asked > 0 and monitor.run.state < State.READY
+        )  # however a node took it, nothing was lost
+        if fallen is not None and not set_up_broken_off:
             self._on_fallen(fallen, monitor)
 
     def _hand_on_stop(self, children: Children, monitor: RunMonitor, now: float) -> None:
