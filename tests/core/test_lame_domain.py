@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import re
 
 import mpmath
 import numpy
@@ -132,3 +133,78 @@ def test_what_is_no_lame_domain_is_refused() -> None:
         lame_boundary(1.0, 1.0, 2.0, 0)
     with pytest.raises(ValueError, match="multiple of 4"):
         lame_mesh(1.0, 1.0, 2.0, 3, 10)
+
+
+QUICK = settings(database=None, derandomize=True, deadline=None, max_examples=40)
+AXIS = st.floats(-6.0, 6.0).map(lambda power: 10.0**power)
+SLENDER = st.one_of(st.just(1.0), st.floats(-12.0, 12.0).map(lambda power: 10.0**power))
+EXPONENT = st.one_of(st.sampled_from([0.1, 1.0, 2.0, 100.0]), st.floats(0.1, 100.0))
+
+
+def test_a_needle_has_a_boundary():
+    """A panel at its tip is shorter than the rounding of the whole: the points there were not numbers."""
+    x, y = lame_boundary(1e-12, 0.1, 3.0, 16)
+    assert numpy.isfinite(x).all()
+    assert numpy.isfinite(y).all()
+    numpy.testing.assert_allclose(y[:5], [0.0, 0.025, 0.05, 0.075, 0.1], atol=1e-9)
+
+
+@QUICK
+@given(AXIS, SLENDER, EXPONENT, st.integers(1, 40))
+def test_the_boundary_lies_on_the_curve_over_the_whole_range(a, ratio, exponent, count):
+    b = a * ratio * (1.0 - 1e-12 if ratio > 1.0 else 1.0 + 1e-12)
+    x, y = lame_boundary(a, b, exponent, count)
+    numpy.testing.assert_allclose(radial_variable(x, y, a, b, exponent), 1.0, rtol=1e-9)
+    length = perimeter(a, b, exponent)
+    assert 4.0 * math.hypot(a, b) * (1.0 - 1e-6) <= length <= 4.0 * (a + b) * (1.0 + 1e-9)
+    polygon = numpy.hypot(numpy.diff(x, append=x[0]), numpy.diff(y, append=y[0]))
+    assert (polygon <= length / count * (1.0 + 1e-6)).all()  # a chord is not longer than its arc
+
+
+@QUICK
+@given(AXIS, SLENDER, EXPONENT, st.integers(1, 5), st.integers(1, 6))
+def test_the_mesh_fills_the_domain_over_the_whole_range(a, ratio, exponent, rings, quarter):
+    b = a * ratio * (1.0 - 1e-12 if ratio > 1.0 else 1.0 + 1e-12)
+    mesh = lame_mesh(a, b, exponent, rings, 4 * quarter)
+    assert (mesh.area >= 0.0).all()
+    assert mesh.area.sum() == pytest.approx(lame_area(a, b, exponent), rel=1e-7)
+    assert (mesh.area @ mesh.x**2) <= lame_moment(a, b, exponent, 2.0, 0.0) * (1.0 + 1e-6)
+    assert (abs(mesh.x) <= a).all()
+    assert (abs(mesh.y) <= b).all()
+
+
+@QUICK
+@given(AXIS, AXIS, st.one_of(EXPONENT, st.floats(100.0, 1e300), st.just(math.inf)), *[st.floats(-0.999, 12.0)] * 2)
+def test_moments_are_dirichlet_s_integral_over_the_whole_range(a, b, exponent, i, j):
+    with mpmath.workdps(40):
+        u, v = (mpmath.mpf(i) + 1) / exponent, (mpmath.mpf(j) + 1) / exponent
+        exact = 4 * mpmath.mpf(a) ** (mpmath.mpf(i) + 1) * mpmath.mpf(b) ** (mpmath.mpf(j) + 1)
+        exact *= mpmath.gammaprod([u + 1, v + 1], [u + v + 1]) / ((mpmath.mpf(i) + 1) * (mpmath.mpf(j) + 1))
+        assert lame_moment(a, b, exponent, i, j) == pytest.approx(float(exact), rel=1e-11)
+
+
+@pytest.mark.parametrize("bad", [0.0, -1.0, math.nan, math.inf, 5e-324, 1e101])
+def test_half_axes_outside_their_range_are_refused(bad):
+    for call in (perimeter, lame_area, lambda *n: lame_boundary(*n, 8), lambda *n: lame_mesh(*n, 2, 8),
+                 lambda *n: lame_moment(*n, 2.0, 0.0), lambda *n: inside(0.0, 0.0, *n)):  # fmt: skip
+        with pytest.raises(ValueError, match=re.escape(f"half axis b = {bad} m")):
+            call(1.0, bad, 2.0)
+        with pytest.raises(ValueError, match=re.escape(f"half axis a = {bad} m")):
+            call(bad, 1.0, 2.0)
+
+
+@pytest.mark.parametrize("bad", [-1.0, 101.0, math.nan, math.inf])
+def test_powers_outside_their_range_are_refused(bad):
+    with pytest.raises(ValueError, match="power i"):
+        lame_moment(1.0, 1.0, 2.0, bad, 0.0)
+    with pytest.raises(ValueError, match="power j"):
+        lame_moment(1.0, 1.0, 2.0, 0.0, bad)
+
+
+def test_more_that_a_lame_curve_cannot_do_is_refused():
+    with pytest.raises(ValueError, match="range of numbers"):
+        lame_moment(1e100, 1.0, 2.0, 5.0, 0.0)
+    with pytest.raises(ValueError, match="ratio of 1e"):
+        perimeter(1.0, 2e-13, 2.0)
+    with pytest.raises(ValueError, match="coordinate"):
+        radial_variable(numpy.array([0.0, math.nan]), 0.0, 1.0, 1.0, 2.0)

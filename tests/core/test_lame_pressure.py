@@ -5,13 +5,17 @@ from __future__ import annotations
 import math
 from functools import cache
 
+import mpmath
 import numpy
 import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from scipy.integrate import quad
 
 from contact_sim_pkg.core.field_solver import make_workspace, solve_at_load
 from contact_sim_pkg.core.halfspace import make_half_space
 from contact_sim_pkg.core.hertz import HertzError, hertz_contact
-from contact_sim_pkg.core.lame import LameFit, fit_patch
+from contact_sim_pkg.core.lame import LameFit, fit_patch, lame_area
 from contact_sim_pkg.core.lame_pressure import (
     LamePressureError,
     ansatz_of_curvatures,
@@ -151,3 +155,40 @@ def test_impossible_input_is_refused() -> None:
         ansatz_on_domain(1.0, 1.0, 2.0, 1.0, math.nan)
     with pytest.raises(HertzError, match="conform"):
         ansatz_of_curvatures(0.0, 0.0, 2.0, 1.0, 1.0)
+
+
+@settings(database=None, derandomize=True, deadline=None, max_examples=40)
+@given(
+    *[st.floats(-8.0, 4.0).map(lambda power: 10.0**power)] * 2,
+    st.one_of(st.just(0.1), st.floats(0.1, 100.0)),
+    st.floats(1e-3, 1e12),
+    st.floats(0.0, 1e9),
+)
+def test_both_estimates_carry_their_load_over_the_whole_range(a, b, exponent, modulus, load):
+    """The mean of sqrt(1 - rho^n) over the domain by quadrature over rho; the ellipse's is 2/3."""
+    ansatz, ellipse = (call(a, b, exponent, modulus, load) for call in (ansatz_on_domain, equivalent_ellipse))
+    area = lame_area(a, b, exponent)
+    mean = quad(lambda t: 2.0 * t * math.sqrt(1.0 - t**exponent), 0.0, 1.0, epsabs=1e-12)[0]
+    assert ansatz.peak_pressure * area * mean == pytest.approx(load, rel=1e-6)
+    assert ellipse.peak_pressure * area * 2.0 / 3.0 == pytest.approx(load, rel=1e-12)
+    assert ansatz.approach >= 0.0
+    slender = max(ellipse.a, ellipse.b) / min(ellipse.a, ellipse.b)
+    with mpmath.workdps(30):
+        integral = mpmath.ellipk(1 - 1 / mpmath.mpf(slender) ** 2)
+    assert ellipse.approach == pytest.approx(
+        ellipse.peak_pressure * min(ellipse.a, ellipse.b) * float(integral) / modulus
+    )
+
+
+@pytest.mark.parametrize("bad", [0.0, -1.0, math.nan, math.inf, 5e-324])
+def test_what_no_lame_pressure_is_known_for_is_refused(bad):
+    for call in (ansatz_on_domain, equivalent_ellipse):
+        for values in ((bad, 1.0, 2.0, 1.0), (1.0, bad, 2.0, 1.0), (1.0, 1.0, bad, 1.0)):
+            with pytest.raises(LamePressureError):
+                call(*values, 1.0)
+    with pytest.raises(LamePressureError, match="no finite"):
+        ansatz_on_domain(1e-90, 1e-90, 2.0, 1.0, 1e200)
+    with pytest.raises(LamePressureError, match="coordinate"):
+        lame_pressure(ansatz_on_domain(1.0, 1.0, 2.0, 1.0, 1.0), numpy.array([math.nan]), numpy.zeros(1))
+    with pytest.raises(LamePressureError, match="Poisson"):
+        printed_approach(1.0, 1.0, 1e6, 1.0, 1.0)

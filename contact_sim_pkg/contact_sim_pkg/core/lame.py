@@ -22,6 +22,7 @@ __all__ = [
     "lame_area",
     "lame_moment",
     "lame_second_moment",
+    "refuse_axes",
     "refuse_exponent",
 ]
 
@@ -29,6 +30,9 @@ Field = NDArray[numpy.float64]
 
 SMALLEST_EXPONENT = 0.1
 """Below it the curve is a cross of four needles."""
+
+LARGEST_POWER = 100.0
+LARGEST_LOGARITHM = 600.0
 
 FIT_EXPONENTS = (0.3, 20.0)
 FEWEST_CELLS = 8
@@ -52,7 +56,8 @@ class LameFit(NamedTuple):
 
 
 def lame_area(a: float, b: float, exponent: float) -> float:
-    """`4 a b Gamma(1 + 1/n)^2 / Gamma(1 + 2/n)` [m^2]; raises `ValueError` for n < 0.1."""
+    """`4 a b Gamma(1 + 1/n)^2 / Gamma(1 + 2/n)` [m^2]; raises `ValueError` for n < 0.1 and axes outside 1e-100 to 1e100 m."""
+    refuse_axes(a, b)
     refuse_exponent(exponent)
     return 4.0 * a * b * math.exp(2.0 * math.lgamma(1.0 + 1.0 / exponent) - math.lgamma(1.0 + 2.0 / exponent))
 
@@ -63,15 +68,31 @@ def lame_second_moment(a: float, b: float, exponent: float) -> float:
 
 
 def lame_moment(a: float, b: float, exponent: float, power_x: float, power_y: float) -> float:
-    """Integral of `|x|^i |y|^j` over the domain, powers i, j > -1 (Dirichlet's integral); i = j = 0 is the area.
+    """Integral of `|x|^i |y|^j` over the domain, powers i, j above -1, to 100 (Dirichlet's integral); i = j = 0 is the area.
 
-    `(4 a^(i+1) b^(j+1) / n^2) Gamma(u) Gamma(v) / Gamma(u + v + 1)`, u = (i+1)/n, v = (j+1)/n [m^(i+j+2)].
-    Raises `ValueError` for n < 0.1.
+    `4 a^(i+1) b^(j+1) / ((i+1) (j+1)) Gamma(u+1) Gamma(v+1) / Gamma(u+v+1)`, u = (i+1)/n, v = (j+1)/n [m^(i+j+2)].
+    Raises `ValueError` for n < 0.1, powers and axes outside their range, and an integral that is no double.
     """
+    refuse_axes(a, b)
     refuse_exponent(exponent)
+    logarithm = math.log(4.0)
+    for name, axis, power in (("i", a, power_x), ("j", b, power_y)):
+        if not -1.0 < power <= LARGEST_POWER:
+            raise ValueError(f"Lame curve: power {name} = {power}, it must be above -1, at most {LARGEST_POWER:g}")
+        logarithm += (power + 1.0) * math.log(axis)
+    if abs(logarithm) > LARGEST_LOGARITHM:
+        raise ValueError(f"Lame curve: the moment is of the order exp({logarithm:.4g}), outside the range of numbers")
     u, v = (power_x + 1.0) / exponent, (power_y + 1.0) / exponent
-    gammas = math.exp(math.lgamma(u) + math.lgamma(v) - math.lgamma(u + v + 1.0))
-    return 4.0 * math.pow(a, power_x + 1.0) * math.pow(b, power_y + 1.0) / exponent**2 * gammas
+    gammas = math.exp(math.lgamma(u + 1.0) + math.lgamma(v + 1.0) - math.lgamma(u + v + 1.0))
+    scale = math.pow(a, power_x + 1.0) / (power_x + 1.0) * (math.pow(b, power_y + 1.0) / (power_y + 1.0))
+    return 4.0 * scale * gammas
+
+
+def refuse_axes(a: float, b: float) -> None:
+    """Raises `ValueError` for half axes outside 1e-100 to 1e100 m."""
+    for name, value in (("a", a), ("b", b)):
+        if not 1e-100 <= value <= 1e100:
+            raise ValueError(f"Lame curve: half axis {name} = {value} m, it must be a number from 1e-100 to 1e100")
 
 
 def refuse_exponent(exponent: float) -> None:

@@ -10,13 +10,12 @@ Source: driver-seat paper eqs 4 and 5, tire-road paper eqs 5 and 6, with signed 
 
 from __future__ import annotations
 
-import math
 from typing import NamedTuple
 
 import numpy
 from numpy.typing import NDArray
 
-from contact_sim_pkg.core.lame import refuse_exponent
+from contact_sim_pkg.core.lame import refuse_axes, refuse_exponent
 
 __all__ = ["LARGEST_EXPONENT", "LameMesh", "inside", "lame_boundary", "lame_mesh", "perimeter", "radial_variable"]
 
@@ -24,6 +23,9 @@ Field = NDArray[numpy.float64]
 
 LARGEST_EXPONENT = 100.0
 """Of boundary and mesh; the domain is then a rectangle to 0.7 % of its sides."""
+
+SLENDEREST = 1e12
+"""Largest ratio of the half axes of boundary and mesh."""
 
 PANELS = 32  # of s, in each octant; the one at a tip is halved again and again, since s has fractional powers there
 HALVINGS = 24
@@ -51,12 +53,15 @@ class _Quadrant(NamedTuple):
 def radial_variable(x: Field, y: Field, a: float, b: float, exponent: float) -> Field:
     """`rho = (|x/a|^n + |y/b|^n)^(1/n)` by logarithms, x and y [m] of any fitting shapes; 1 on the curve, inf beyond.
 
-    Raises `ValueError` for n < 0.1 and axes that are not positive.
+    Raises `ValueError` for n < 0.1, axes outside 1e-100 to 1e100 m and coordinates that are not numbers.
     """
-    _refuse_axes(a, b)
+    refuse_axes(a, b)
     refuse_exponent(exponent)
+    x, y = numpy.asarray(x, dtype=float), numpy.asarray(y, dtype=float)
+    if numpy.isnan(x).any() or numpy.isnan(y).any():
+        raise ValueError("Lame curve: a coordinate is nan, it must be a number")
     with numpy.errstate(divide="ignore", over="ignore"):
-        u, v = numpy.log(abs(numpy.asarray(x, dtype=float)) / a), numpy.log(abs(numpy.asarray(y, dtype=float)) / b)
+        u, v = numpy.log(abs(x) / a), numpy.log(abs(y) / b)
         larger = numpy.maximum(u, v)
         apart = numpy.where(numpy.isinf(larger), 0.0, larger) - numpy.minimum(u, v)
         return numpy.asarray(numpy.exp(larger + numpy.log1p(numpy.exp(-exponent * apart)) / exponent))
@@ -68,7 +73,10 @@ def inside(x: Field, y: Field, a: float, b: float, exponent: float) -> NDArray[n
 
 
 def perimeter(a: float, b: float, exponent: float) -> float:
-    """Length of the curve [m]. Raises `ValueError` for n outside 0.1 to 100 and axes that are not positive."""
+    """Length of the curve [m].
+
+    Raises `ValueError` for n outside 0.1 to 100, axes outside 1e-100 to 1e100 m and a ratio of theirs beyond 1e12.
+    """
     _refuse(a, b, exponent)
     return 4.0 * float(_lengths(a, b, exponent)[-1])
 
@@ -172,7 +180,10 @@ def _at_lengths(a: float, b: float, exponent: float, lengths: Field) -> Field:
     panel = numpy.clip(numpy.searchsorted(table, lengths, side="right") - 1, 0, edges.size - 2)
     low, high = edges[panel], edges[panel + 1]
     wanted = lengths - table[panel]
-    found = low + (high - low) * wanted / (table[panel + 1] - table[panel])
+    length = (
+        table[panel + 1] - table[panel]
+    )  # 0 where a panel at the tip of a needle is below the rounding of the whole
+    found = low + (high - low) * numpy.divide(wanted, length, out=numpy.zeros_like(wanted), where=length > 0.0)
     for _ in range(NEWTON_STEPS):
         s, weight = _gauss(low, found)
         missing = wanted - (_speed(a, b, exponent, s) * weight).sum(axis=-1)
@@ -181,13 +192,12 @@ def _at_lengths(a: float, b: float, exponent: float, lengths: Field) -> Field:
 
 
 def _refuse(a: float, b: float, exponent: float) -> None:
-    _refuse_axes(a, b)
+    refuse_axes(a, b)
     refuse_exponent(exponent)
     if exponent > LARGEST_EXPONENT:
         raise ValueError(f"Lame curve: exponent n = {exponent}, boundary and mesh go to {LARGEST_EXPONENT:g}")
 
-
-def _refuse_axes(a: float, b: float) -> None:
-    for name, value in (("a", a), ("b", b)):
-        if not 0.0 < value < math.inf:
-            raise ValueError(f"Lame curve: half axis {name} = {value} m, it must be a finite number above 0")
+    if max(a, b) > SLENDEREST * min(a, b):
+        raise ValueError(
+            f"Lame curve: half axes a = {a} m, b = {b} m, boundary and mesh go to a ratio of {SLENDEREST:g}"
+        )

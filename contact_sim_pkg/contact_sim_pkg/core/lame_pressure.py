@@ -77,7 +77,9 @@ def ansatz_on_domain(a: float, b: float, exponent: float, modulus: float, load: 
     _refuse_modulus(modulus)
     load = _carried(load)
     peak = load / (lame_area(a, b, exponent) * _mean_over_peak(exponent))
-    approach = peak * min(a, b) * _integral_k(eccentricity(a, b, exponent)) / modulus
+    approach = peak * min(a, b) * _integral_k(min(a, b) / max(a, b), exponent) / modulus
+    if not peak + approach < math.inf:
+        raise LamePressureError(f"Lame pressure: {load} N on a = {a} m, b = {b} m give no finite pressure and approach")
     return LamePressure(load, approach, a, b, exponent, peak)
 
 
@@ -115,8 +117,10 @@ def equivalent_ellipse(a: float, b: float, exponent: float, modulus: float, load
 
 
 def lame_pressure(contact: LamePressure, x: Field, y: Field) -> Field:
-    """`p0 sqrt(1 - rho^n)` [Pa] at x, y [m] (arrays that fit together), zero outside the domain."""
+    """`p0 sqrt(1 - rho^n)` [Pa] at x, y [m] (arrays that fit together), 0 outside. Raises `LamePressureError` for nan."""
     x, y = numpy.asarray(x, dtype=float), numpy.asarray(y, dtype=float)
+    if numpy.isnan(x).any() or numpy.isnan(y).any():
+        raise LamePressureError("Lame pressure: a coordinate is nan, it must be a number")
     if contact.peak_pressure == 0.0:
         return numpy.zeros(numpy.broadcast(x, y).shape)
     with numpy.errstate(over="ignore"):
@@ -127,8 +131,11 @@ def lame_pressure(contact: LamePressure, x: Field, y: Field) -> Field:
 def printed_approach(curvature_a: float, curvature_b: float, young: float, poisson: float, load: float) -> float:
     """Eq 9 as printed [m], with Young's modulus [Pa] where the shear modulus belongs: too low by (2 (1 + nu))^(-2/3).
 
-    With G in place of E it is Hertz. Raises `HertzError` as `hertz_contact`.
+    With G in place of E it is Hertz. Raises `LamePressureError` for a Poisson ratio outside -1 to 0.5, `HertzError` as
+    `hertz_contact`.
     """
+    if not -1.0 <= poisson <= 0.5:
+        raise LamePressureError(f"Lame pressure: Poisson ratio {poisson}, it must be a number from -1 to 0.5")
     return hertz_contact(curvature_a, curvature_b, 2.0 * young / (1.0 - poisson), load).approach
 
 
@@ -138,10 +145,11 @@ def _mean_over_peak(exponent: float) -> float:
     return first * math.exp(math.lgamma(first) + math.lgamma(1.5) - math.lgamma(first + 1.5))
 
 
-def _integral_k(modulus_k: float) -> float:
-    """Complete elliptic integral K of the parameter m = k^2."""
-    complement = max((1.0 - modulus_k) * (1.0 + modulus_k), SMALLEST_COMPLEMENT)
-    return float(elliptic_integrals(complement)[0])
+def _integral_k(aspect: float, exponent: float) -> float:
+    """Complete elliptic integral K of m = k^2, from `1 - m = 1 - (1 - aspect^n)^(2/n)` without cancellation."""
+    power = math.exp(exponent * math.log(aspect))
+    complement = -math.expm1(2.0 / exponent * math.log1p(-power)) if power < 1.0 else 1.0
+    return float(elliptic_integrals(max(complement, SMALLEST_COMPLEMENT))[0])
 
 
 def _carried(load: float) -> float:
@@ -156,7 +164,9 @@ def _refuse_modulus(modulus: float) -> None:
 
 
 def _refuse_domain(a: float, b: float, exponent: float) -> None:
-    if not (0.0 < a < math.inf and 0.0 < b < math.inf):
-        raise LamePressureError(f"Lame pressure: half axes a = {a} m, b = {b} m, both must be finite and above 0")
+    if not (1e-100 <= a <= 1e100 and 1e-100 <= b <= 1e100):
+        raise LamePressureError(
+            f"Lame pressure: half axes a = {a} m, b = {b} m, both must be numbers from 1e-100 to 1e100"
+        )
     if not 0.1 <= exponent < math.inf:
         raise LamePressureError(f"Lame pressure: exponent n = {exponent}, allowed from 0.1")
