@@ -12,6 +12,7 @@ from .endpoints import UNKNOWN, describe_endpoint, publisher
 
 CLOCK = "/clock"
 LOOK_SECONDS = 0.5  # between two looks at the graph
+NAME_SECONDS = 3.0  # for the graph to learn the name of who else publishes
 
 
 class SimulatedClock:
@@ -23,43 +24,51 @@ class SimulatedClock:
 
     def __init__(self, node: Node, *, wanted: bool) -> None:
         """Nothing is published before `start`."""
-        self._node, self._wanted = node, wanted
+        self._node = node
         self._publisher: Publisher | None = None
-        self._looked = 0.0
+        self._undecided = wanted  # until it was said that another clock is there
+        self._looked = self._began = 0.0
 
-    def start(self) -> None:
-        """Begin, unless somebody publishes a clock already."""
-        others = self._node.get_publishers_info_by_topic(CLOCK) if self._wanted else []
-        if others:
-            self._give_way(others)
-        elif self._wanted:
-            self._publisher = publisher(self._node, CLOCK)
+    def start(self, now: float) -> None:
+        """Begin, unless somebody publishes a clock already; `now` is the steady clock, [s]."""
+        self._began = now
+        self._look(now)
 
     def publish(self, now: float, time_ns: int) -> None:
         """Send the simulated time, [ns]; `now` is the steady clock, [s]."""
-        if self._publisher is not None and now - self._looked > LOOK_SECONDS:
-            self._looked = now
-            found = self._node.get_publishers_info_by_topic(CLOCK)
-            own = [info for info in found if self._is_own(info)]
-            others = [info for info in found if not self._is_own(info) and UNKNOWN not in info.node_name]
-            if any(info.node_name != self._node.get_name() or _before(info, own) for info in others):
-                self._give_way(others)
+        if now - self._looked > LOOK_SECONDS:
+            self._look(now)
         if self._publisher is not None:
             self._publisher.publish(encode_clock(time_ns))
+
+    def _look(self, now: float) -> None:
+        """Give way to another clock; say so as soon as the graph knows its node's name."""
+        self._looked = now
+        if not self._undecided:
+            return
+        found = self._node.get_publishers_info_by_topic(CLOCK)
+        own = [info for info in found if self._is_own(info)]
+        others = [info for info in found if not self._is_own(info)]
+        named = [info for info in others if UNKNOWN not in info.node_name]
+        if self._publisher is None and not others:
+            self._publisher = publisher(self._node, CLOCK)
+        elif self._publisher is not None and any(self._stays(info, own) for info in named):
+            self._node.destroy_publisher(self._publisher)
+            self._publisher = None
+        if self._publisher is None and (named or (others and now - self._began > NAME_SECONDS)):
+            self._say(others)
 
     def _is_own(self, info: TopicEndpointInfo) -> bool:
         return (info.node_name, info.node_namespace) == (self._node.get_name(), self._node.get_namespace())
 
-    def _give_way(self, others: list[TopicEndpointInfo]) -> None:
-        if self._publisher is not None:
-            self._node.destroy_publisher(self._publisher)
-            self._publisher = None
+    def _stays(self, other: TopicEndpointInfo, own: list[TopicEndpointInfo]) -> bool:
+        before = any(list(other.endpoint_gid) < list(mine.endpoint_gid) for mine in own)
+        return before or other.node_name != self._node.get_name()
+
+    def _say(self, others: list[TopicEndpointInfo]) -> None:
+        self._undecided = False
         names = ", ".join(sorted(describe_endpoint(info) for info in others))
         self._node.get_logger().warning(
             f"{CLOCK} comes from {names}; this run publishes none (its stamps are simulated time all the same). "
             f"To have two: -r {CLOCK}:=clock; to have it so without this line: publish_clock:=false"
         )
-
-
-def _before(info: TopicEndpointInfo, own: list[TopicEndpointInfo]) -> bool:
-    return any(list(info.endpoint_gid) < list(mine.endpoint_gid) for mine in own)

@@ -105,7 +105,7 @@ class ContactSimulatorNode(LifecycleBenchNode):
         if not absent:
             self._advanced = now
             self._pacer.start(now)
-            self._simulated_clock.start()
+            self._simulated_clock.start(now)
             self._sources.remember()
             report.send(State.READY)
             self.announce("ready")
@@ -168,6 +168,7 @@ class ContactSimulatorNode(LifecycleBenchNode):
             if self._recording.deserted:
                 self.get_logger().error("the logger has not closed its bag in time after the end")
             report.settle()
+            self._diagnostics.settle()
             self.announce(report.describe())
             self.exit_status = status
 

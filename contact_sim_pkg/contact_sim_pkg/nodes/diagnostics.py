@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus, KeyValue
+from rclpy.duration import Duration
 from rclpy.node import Node
 
 from contact_sim_pkg.bag.messages import Progress
@@ -12,6 +13,7 @@ from .protocol import State
 
 PERIOD_SECONDS = 1.0
 WARN_SECONDS = 5.0  # that a warning shows for
+SETTLE_SECONDS = 0.2
 NOTHING = "none"
 
 
@@ -36,6 +38,10 @@ class Diagnostics:
             return
         self._sent_at, self._sent_state = now, state
         self._publisher.publish(self._array(now, progress))
+
+    def settle(self) -> None:
+        """Give the last report time to arrive."""
+        self._publisher.wait_for_all_acked(Duration(seconds=SETTLE_SECONDS))
 
     def _array(self, now: float, progress: Progress) -> DiagnosticArray:
         state = State(progress.state)

@@ -38,6 +38,7 @@ PARAMETER_SERVICES = (
     "~/set_parameters",
     "~/set_parameters_atomically",
 )
+OWN_SERVICES = {"bag_replay": ("~/pause",)}
 LIFECYCLE_SERVICES = (
     "~/change_state",
     "~/get_available_states",
@@ -58,7 +59,7 @@ def policy() -> str:
         own = ("~/transition_event",) if node in LIFECYCLE else ()
         _allow(profile, "topics", "publish", (*PUBLISHED[node], *own, "parameter_events", "rosout"))
         _allow(profile, "topics", "subscribe", SUBSCRIBED[node])
-        services = LIFECYCLE_SERVICES if node in LIFECYCLE else ()
+        services = (*LIFECYCLE_SERVICES, *OWN_SERVICES.get(node, ())) if node in LIFECYCLE else ()
         parameters = () if node == "bench_run" else PARAMETER_SERVICES
         _allow(profile, "services", "reply", (*parameters, *services, "~/get_type_description"))
     ElementTree.indent(root)
