@@ -180,7 +180,8 @@ def test_a_run_that_gets_no_more_memory_ends_by_name_with_its_bag_whole(tmp_path
         return simulation
 
     monkeypatch.setattr(offline, "make_simulation", hungry)
-    outcome = offline.run_offline(scene, tmp_path / "bag")
-    assert outcome.failure.startswith("out of memory in block 7: Unable to allocate 9.31 GiB")
+    with pytest.raises(MemoryError):
+        offline.run_offline(scene, tmp_path / "bag")
     bag = open_bag(tmp_path / "bag")
+    assert bag.metadata["failure"].startswith("out of memory in block 7: Unable to allocate 9.31 GiB")
     assert sum(each.topic == "/seat/force" for each in bag.messages()) == 7
