@@ -7,8 +7,26 @@ from itertools import pairwise
 import numpy as np
 from numpy.typing import NDArray
 
+BANDS = 350
+"""Columns of a band with its mean: two pixels each."""
 COLUMNS = 700
 """Columns of an envelope; a plot in the report is about 700 pixels wide."""
+
+
+def bands(
+    time: NDArray[np.float64], values: NDArray[np.float64], columns: int = BANDS
+) -> tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.float64], NDArray[np.float64]]:
+    """Time in the middle of each of `columns` stretches, [columns], with the smallest, mean and largest value of each.
+
+    Args:
+        time: any unit, ascending, one dimension.
+        values: any unit, same shape, no nan, at least `columns` of them.
+        columns: number of stretches, > 0.
+    """
+    edges = np.linspace(0, values.size, columns + 1).astype(np.int64)
+    lengths = np.diff(edges)
+    low, high = (each.reduceat(values, edges[:-1]) for each in (np.minimum, np.maximum))
+    return 0.5 * (time[edges[:-1]] + time[edges[1:] - 1]), low, np.add.reduceat(values, edges[:-1]) / lengths, high
 
 
 def envelope(

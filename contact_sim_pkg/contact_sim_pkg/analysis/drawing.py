@@ -10,11 +10,15 @@ from pathlib import Path
 from typing import Any, NamedTuple
 
 import matplotlib
+import numpy
 from markupsafe import Markup
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
+from numpy.typing import NDArray
 
 from contact_sim_pkg.files import FileRefusedError, check_output, new_file
+
+from .decimate import BANDS, bands
 
 # Each colour stands for a variable of the page's style sheet; the value is what is seen where that is missing.
 INK = "#1c2126"
@@ -68,6 +72,9 @@ _IMAGE_NUMBER = re.compile(r' id="image[0-9a-f]+"')  # of its content: the same 
 _IDENTIFIER = re.compile(r'(\bid="|url\(#|href="#)')
 
 
+FloatArray = NDArray[numpy.float64]
+
+
 class Picture(NamedTuple):
     """One picture of the page."""
 
@@ -88,6 +95,21 @@ def new_figure(height: float, rows: int = 1, cols: int = 1, **options: Any) -> t
 def style() -> AbstractContextManager[None]:
     """Context in which figures are made and rendered."""
     return matplotlib.rc_context(dict(STYLE))
+
+
+BAND = " Band: smallest to largest value of each 350th of the time; line: its mean."
+"""Sentence of a caption where `draw_series` draws a band."""
+
+
+def draw_series(axes: Axes, time: FloatArray, values: FloatArray, **line: Any) -> str:
+    """A series as a line; a long one as the band that it fills with its mean as a line, and `BAND` for the caption."""
+    if values.size <= 2 * BANDS:
+        axes.plot(time, values, **line)
+        return ""
+    middle, low, mean, high = bands(time, values)
+    axes.fill_between(middle, low, high, color=line.get("color"), alpha=0.3, linewidth=0.0)
+    axes.plot(middle, mean, **line)
+    return BAND
 
 
 def check_picture(path: Path, inputs: Iterable[Path | None] = (), *, overwrite: bool = False) -> None:

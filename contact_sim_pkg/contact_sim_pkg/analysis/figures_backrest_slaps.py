@@ -5,8 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from .backrest_numbers import Shares, drive_period, durations, state_shares
-from .decimate import envelope
-from .drawing import ACCENT, INK, MUTED, SHADE, Picture, new_figure, picture
+from .drawing import ACCENT, INK, MUTED, SHADE, Picture, draw_series, new_figure, picture
 from .figures_contact import force_unit, shade
 from .lift_off import lifted_intervals
 from .point_series import PointSeries
@@ -29,7 +28,7 @@ def force_with_slaps(key: str, name: str, contact: ContactSeries, slaps: Episode
     panels.append(("approach, mm", contact.approach * 1e3))
     figure, axes = new_figure(1.0 + 1.45 * len(panels), len(panels), sharex=True)
     for place, (label, values) in zip(axes, panels, strict=True):
-        place.plot(*envelope(contact.time, values), color=ACCENT, linewidth=0.9)
+        draw_series(place, contact.time, values, color=ACCENT, linewidth=0.9)
         place.set_ylabel(label)
     shade(axes[0], lifted_intervals(contact))
     if slaps.start.size:

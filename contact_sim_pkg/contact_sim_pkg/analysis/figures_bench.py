@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from .decimate import envelope
-from .drawing import ACCENT, INK, MUTED, Picture, new_figure, picture
+from .drawing import ACCENT, INK, MUTED, Picture, draw_series, new_figure, picture
 from .energy import AT_REST, relative_residual, residual_scale, throughput
 from .series import CostSeries, LedgerSeries
 from .summary import solver_numbers
@@ -44,7 +44,7 @@ def energy_balance(ledger: LedgerSeries) -> Picture:
 def real_time_factor(cost: CostSeries) -> Picture:
     """Real-time factor of the blocks over time, and how often each wall time occurs."""
     figure, axes = new_figure(2.7, 1, 2, width_ratios=[3, 2])
-    axes[0].plot(*envelope(cost.time, cost.real_time_factor), color=ACCENT, linewidth=0.8)
+    draw_series(axes[0], cost.time, cost.real_time_factor, color=ACCENT, linewidth=0.8)
     axes[0].axhline(1.0, color=INK, linewidth=0.9, linestyle=(0, (4, 3)))
     axes[0].set_yscale("log")
     axes[0].set_xlabel("simulated time, s")

@@ -11,8 +11,22 @@ from matplotlib.collections import PolyCollection
 from matplotlib.colors import Normalize
 from numpy.typing import NDArray
 
-from .decimate import envelope
-from .drawing import ACCENT, INK, MUTED, PRESSURE_COLOURS, SHADE, WIDTH, Picture, new_figure, picture
+from contact_sim_pkg.core.lame import FIT_EXPONENTS
+
+from .decimate import BANDS, envelope
+from .drawing import (
+    ACCENT,
+    BAND,
+    INK,
+    MUTED,
+    PRESSURE_COLOURS,
+    SHADE,
+    WIDTH,
+    Picture,
+    draw_series,
+    new_figure,
+    picture,
+)
 from .lift_off import lifted_intervals
 from .maps import FROM_ABOVE, View, Window, draw_map, loaded_window, set_window
 from .series import ContactSeries, FieldSeries, PressureMap
@@ -59,6 +73,7 @@ def _load_caption(contact: ContactSeries) -> str:
     )
     if contact.impulses.size:
         text += f"The road's asperities push with up to {contact.impulses.max():.4g} N beside it. "
+    text += BAND.lstrip() + " " if contact.time.size > 2 * BANDS else ""
     if not numbers["lifted_share"]:
         return text + "The contact never opens."
     times = "once" if numbers["lift_offs"] == 1 else f"{numbers['lift_offs']} times"
@@ -141,12 +156,27 @@ def footprint_over_time(key: str, name: str, field: FieldSeries) -> Picture:
         f"{numbers['contact_area_mean_m2'] * 1e4:.4g} cm²: all cells with a pressure above 0. Semi-axes and exponent of the "
         "Lamé curve |x/a|ⁿ + |y/b|ⁿ = 1 through the boundary of these cells; n = 2 is an ellipse, larger is more like a "
         "rectangle. A contact in several parts has no such outline: its values jump. Gaps: no contact."
+        + _at_a_bound(field)
     )
     return picture(f"{key}-area", figure, f"Peak pressure, area and shape of the {name} contact over time", caption)
 
 
+def _at_a_bound(field: FieldSeries) -> str:
+    """What the exponent says where the fit stands at the end of its range: no Lamé curve lies along that boundary."""
+    touching = field.area > 0.0
+    low, high = FIT_EXPONENTS
+    exponent = field.lame_n[touching]
+    share = float(np.mean((exponent <= 1.001 * low) | (exponent >= 0.999 * high))) if touching.any() else 0.0
+    if share == 0.0:
+        return ""
+    return (
+        f" In {share:.1%} of the fields n stands at an end of its range ({low:g} to {high:g}): there no Lamé curve fits, as of "
+        "a contact in several parts, and n, a and b say nothing."
+    )
+
+
 def _exponent_axis(axes: Axes) -> None:
-    """Exponents of the fit lie within 0.3 and 20."""
+    """Exponents of the fit lie within `FIT_EXPONENTS`."""
     axes.set_yscale("log")
     low, high = axes.get_ylim()
     ticks = [0.5, 1, 2, 5, 10, 20]
@@ -165,7 +195,7 @@ def _with_gaps(
 
 
 def _line(axes: Axes, time: NDArray[np.float64], values: NDArray[np.float64], label: str) -> None:
-    axes.plot(*envelope(time, values), color=ACCENT, linewidth=0.9)
+    draw_series(axes, time, values, color=ACCENT, linewidth=0.9)
     axes.set_ylabel(label)
 
 

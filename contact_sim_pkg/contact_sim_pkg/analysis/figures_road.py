@@ -11,7 +11,7 @@ from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
 from .decimate import envelope
-from .drawing import ACCENT, INK, MUTED, PRESSURE_COLOURS, SHADE, Picture, new_figure, picture
+from .drawing import ACCENT, INK, MUTED, PRESSURE_COLOURS, SHADE, Picture, draw_series, new_figure, picture
 from .lift_off import lifted_intervals
 from .low_pass import low_pass
 from .maps import extension, robust_limits
@@ -92,7 +92,7 @@ def _draw_force(axes: Axes, rolling: Rolling, stretch: Stretch) -> None:
     inside = _inside(distance, stretch)
     filtered = low_pass(contact.normal, 1.0 / contact.sample_period)
     raw = "raw" if filtered is not None else "normal force"
-    axes.plot(*envelope(distance[inside], contact.normal[inside] * 1e-3), color=MUTED, linewidth=0.8, label=raw)
+    draw_series(axes, distance[inside], contact.normal[inside] * 1e-3, color=MUTED, linewidth=0.8, label=raw)
     if filtered is not None:
         axes.plot(*envelope(distance[inside], filtered[inside] * 1e-3), color=ACCENT, linewidth=1.2, label="100 Hz")
     if rolling.reference is not None:

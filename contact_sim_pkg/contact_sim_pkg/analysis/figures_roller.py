@@ -11,7 +11,7 @@ from contact_sim_pkg.core.roller.stability import RollerError, stability
 from contact_sim_pkg.scene.build_roller import build_roller
 
 from .decimate import envelope
-from .drawing import ACCENT, INK, MUTED, Picture, new_figure, picture
+from .drawing import ACCENT, INK, MUTED, Picture, draw_series, new_figure, picture
 from .roller_pass import RollerSeries
 from .roller_warnings import LARGEST_ERROR
 
@@ -37,7 +37,7 @@ def contact_over_time(roller: RollerSeries) -> Picture:
         (c.load, "load, N"),
     )
     for place, (values, label) in zip(axes[1:], rows, strict=True):
-        place.plot(*envelope(time, values), color=ACCENT, linewidth=0.9)
+        draw_series(place, time, values, color=ACCENT, linewidth=0.9)
         place.set_ylabel(label)
         if np.ptp(values) < LEAST_CHANGE * values.mean():
             place.set_ylim(0.95 * values.mean(), 1.05 * values.mean())
@@ -59,7 +59,7 @@ def motion_over_time(roller: RollerSeries) -> Picture | None:
         return None
     figure, axes = new_figure(0.8 + 1.3 * len(rows), len(rows), sharex=True)
     for place, (values, label) in zip(axes, rows, strict=True):
-        place.plot(*envelope(roller.time, values), color=ACCENT, linewidth=0.7)
+        draw_series(place, roller.time, values, color=ACCENT, linewidth=0.7)
         place.set_ylabel(label)
     axes[-1].set_xlabel("simulated time, s")
     figure.align_ylabels(axes)

@@ -175,7 +175,7 @@ def _draw_surface(axes: Any, field: PressureMap, quantity: Quantity, window: Win
     axes.set_box_aspect((max(length / largest, 0.45), max(width / largest, 0.45), 0.55), zoom=0.95)
     axes.set_xlabel("x, mm", labelpad=1)
     axes.set_ylabel("y, mm", labelpad=1)
-    axes.set_zlabel("")
+    axes.set_zlabel(quantity.label, labelpad=2)
     axes.tick_params(pad=-1, labelsize=8)
     axes.locator_params(nbins=5)
     for axis in (axes.xaxis, axes.yaxis, axes.zaxis):
