@@ -10,6 +10,7 @@ import pytest
 from contact_sim_pkg.bag.messages import decode_cost
 from contact_sim_pkg.bag.reader import open_bag
 from contact_sim_pkg.run import offline
+from contact_sim_pkg.run.computing import Computing
 from contact_sim_pkg.run.rigs import make_simulation
 from contact_sim_pkg.run.sources import make_sources
 from contact_sim_pkg.run.work import BOUND, estimated_work, refuse_long
@@ -89,7 +90,7 @@ def test_a_block_that_does_not_come_back_is_left_and_the_bag_closed(tmp_path, mo
             return usual.advance(block, inputs)
 
     monkeypatch.setattr(offline, "make_simulation", lambda scene: Stuck())
-    computing = offline.Computing()
+    computing = Computing()
     assert computing.abandon() is None
     worker = threading.Thread(
         target=offline.run_offline, args=(scene, tmp_path / "bag"), kwargs={"computing": computing}, daemon=True

@@ -151,7 +151,8 @@ def _forecast(scene: ResolvedScene) -> dict[str, Any]:
 
 
 def _run_offline(scene: ResolvedScene, directory: Path | None, from_bag: Path | None, display: RunDisplay) -> Ended:
-    from contact_sim_pkg.run.offline import Computing, RunOutcome, run_offline
+    from contact_sim_pkg.run.computing import Computing
+    from contact_sim_pkg.run.offline import RunOutcome, run_offline
 
     sources = None
     if from_bag is not None:
@@ -160,7 +161,7 @@ def _run_offline(scene: ResolvedScene, directory: Path | None, from_bag: Path | 
         sources = sources_from_bag(from_bag, scene)
     stop = StopRequest()
     before = time.monotonic() - BEGAN
-    computing = Computing()
+    computing = Computing[RunOutcome]()
     worker = Worker(run_offline, scene, directory, display.show, stop, sources, computing)
     broken_off: RunOutcome | None = None
     with _signals_call(stop.hear):

@@ -10,6 +10,7 @@ from contact_sim_pkg.bag.messages import decode_recorded, encode_scene
 from contact_sim_pkg.core.jit import closed
 from contact_sim_pkg.run.bag_content import result_names
 from contact_sim_pkg.run.block_simulation import BlockResult
+from contact_sim_pkg.run.computing import Computing
 from contact_sim_pkg.run.rigs import make_simulation
 
 from .bench_node import LifecycleBenchNode
@@ -29,6 +30,7 @@ from .source_watch import SourceWatch
 from .window import Window
 
 PEERS_SECONDS = 0.01  # between two looks at the graph before ready
+CLOSE_SECONDS = 1.0  # for the logger to close its bag, where a block that is computed does not come back
 SAY_SECONDS = 5.0  # between two log lines about who is missing
 
 
@@ -47,6 +49,8 @@ class ContactSimulatorNode(LifecycleBenchNode):
             self, "publish_clock", True, "Publish the simulated time on /clock after each block."
         )
         self._report: ProgressReport | None = None
+        self._computing = Computing[bool]()
+        self._computing.end = self._give_up
 
     def configure(self) -> None:
         """Compile everything that the scene needs, and create publishers and subscriptions."""
@@ -77,7 +81,7 @@ class ContactSimulatorNode(LifecycleBenchNode):
         self._peers = Peers(
             self, entries, self._publishers_by_topic, self._report.publisher, answers, supervised=supervised
         )
-        self._simulation.prepare()
+        self._computing.call(self._simulation.prepare)
         self._said = self._advanced = time.monotonic()
 
     def tick(self, now: float) -> float:
@@ -129,7 +133,7 @@ class ContactSimulatorNode(LifecycleBenchNode):
                 return
             number = self._window.take()
             with closed():
-                result = self._simulation.advance(number, blocks)
+                result = self._computing.call(self._simulation.advance, number, blocks)
             self._publish(number, result, report)
 
     def _may_begin(self, now: float) -> bool:
@@ -178,6 +182,19 @@ class ContactSimulatorNode(LifecycleBenchNode):
             self.exit_status = (
                 DONE if self._report is None or not self._report.state.ended else self._recording.exit_status
             )
+
+    def abandon(self) -> bool:
+        """See `BenchNode`."""
+        return bool(self._computing.abandon())
+
+    def _give_up(self) -> bool:
+        """The user wants the end, and the block that is computed does not come back."""
+        if self._report is not None and self._end(State.STOPPED, "stopped by the user", DONE):
+            self._report.settle()
+            limit = time.monotonic() + CLOSE_SECONDS  # the middleware acknowledges for a process that is there
+            while self.count_publishers("bench/recorded") and time.monotonic() < limit:
+                time.sleep(PEERS_SECONDS)
+        return True
 
     def fault(self, sentence: str, exit_status: int) -> None:
         """End the run in the named state FAILED, so that the logger closes its bag; before ready, end the process."""

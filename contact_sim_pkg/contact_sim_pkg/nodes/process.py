@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 import signal
+import threading
 import time
 import traceback
 from collections.abc import Callable, Sequence
@@ -29,6 +30,7 @@ from .run_folder import leave
 
 REFUSALS = (SceneError, ExcitationError, BagError)
 LONGEST_WAIT = 0.05  # [s] between two looks at signals and at the parent
+ANSWER_SECONDS = 0.5  # from a signal to what the node does about it; compiled code takes no signal
 _NEVER = Future()  # what is waited for by who waits for nothing
 
 
@@ -55,6 +57,9 @@ class BenchNode(Protocol):
     def fault(self, sentence: str, exit_status: int) -> None:
         """Something failed: say so, close what is open, set the exit status."""
 
+    def abandon(self) -> bool:
+        """From another thread: end the run if this node computes right now; whether it did. For nodes that compute."""
+
 
 class StopSignals:
     """SIGINT, SIGTERM and SIGHUP: a count that the spinning loop looks at."""
@@ -63,14 +68,31 @@ class StopSignals:
         """Take the three signals over."""
         self.count = 0
         self.breaks_off = True  # a signal ends the set-up at once; later the node ends by itself
+        self.answered = 0  # signals that the node has done something about
         for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
             signal.signal(number, self._on_signal)
 
     def _on_signal(self, number: int, frame: Any) -> None:
         self.count += 1
         if self.breaks_off:
-            self.breaks_off = False
+            self.breaks_off, self.answered = False, self.count
             raise Interrupted
+
+    def leave_what_computes(self, node: Any) -> None:
+        """From now on a node that computes on behind a signal is ended by a thread of its own, in good order."""
+        reading, writing = os.pipe()
+        os.set_blocking(writing, False)
+        signal.set_wakeup_fd(writing, warn_on_full_buffer=False)
+        threading.Thread(target=self._watch, args=(reading, node), daemon=True).start()
+
+    def _watch(self, reading: int, node: Any) -> None:
+        while os.read(reading, 1):
+            time.sleep(ANSWER_SECONDS)
+            if self.answered == self.count > 0:
+                continue
+            if node.abandon():
+                leave()
+                os._exit(0)
 
 
 def make_executor() -> Executor:
@@ -130,6 +152,7 @@ def run(make_node: Callable[[], Any], args: Sequence[str] | None = None) -> int:
         _init(args)
         node = make_node()
         if node.computes:
+            signals.leave_what_computes(node)
             step_forward()
         node.start()
         signals.breaks_off = False
@@ -192,6 +215,7 @@ def _spin(node: Any, signals: StopSignals) -> int:
         orphaned = _orphaned(supervisor)
         if signals.count > seen or orphaned:
             seen, supervisor = signals.count, 0 if orphaned else supervisor
+            signals.answered = seen
             node.stop()
     return node.exit_status or 0
 

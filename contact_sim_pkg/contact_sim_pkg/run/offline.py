@@ -2,11 +2,10 @@
 
 from __future__ import annotations
 
-import threading
 import time
 from collections.abc import Callable
 from pathlib import Path
-from typing import Any, NamedTuple, TypeVar
+from typing import Any, NamedTuple
 
 from contact_sim_pkg.bag.errors import BagWriteError, RecordingStoppedError
 from contact_sim_pkg.bag.messages import encode_road_patch, encode_scene, encode_vibration
@@ -18,13 +17,13 @@ from contact_sim_pkg.excitation.blocks import RoadPatch, VibrationBlock
 from contact_sim_pkg.excitation.errors import ExcitationError
 from contact_sim_pkg.run.bag_content import attachments, recorded_names
 from contact_sim_pkg.run.block_simulation import BlockSimulation
+from contact_sim_pkg.run.computing import Computing
 from contact_sim_pkg.run.errors import RunError
 from contact_sim_pkg.run.rigs import make_simulation
 from contact_sim_pkg.run.sources import Source, make_sources
 from contact_sim_pkg.scene.resolved_scene import ResolvedScene
 
 NANOSECONDS = 1_000_000_000
-Result = TypeVar("Result")
 
 
 class RunProgress(NamedTuple):
@@ -51,37 +50,13 @@ class RunOutcome(NamedTuple):
     loss: str = ""  # sentence of the write that ended the recording, and the run with it
 
 
-class Computing:
-    """Lets another thread end a run whose computation does not come back: while it lasts nothing is written."""
-
-    def __init__(self) -> None:
-        """Nothing is computed; `end` closes what is open once something is."""
-        self._idle = threading.Lock()
-        self._idle.acquire()
-        self.end: Callable[[], RunOutcome] | None = None
-
-    def call(self, function: Callable[..., Result], *arguments: Any) -> Result:
-        """``function(*arguments)``; does not return where another thread has ended the run meanwhile."""
-        self._idle.release()
-        try:
-            return function(*arguments)
-        finally:
-            self._idle.acquire()
-
-    def abandon(self) -> RunOutcome | None:
-        """From another thread: end the run, if it computes right now. None where it does not, or nothing is open yet."""
-        if self.end is None or not self._idle.acquire(blocking=False):
-            return None
-        return self.end()
-
-
 def run_offline(
     scene: ResolvedScene,
     directory: Path | None,
     on_progress: Callable[[RunProgress], None] | None = None,
     stop: Callable[[], bool] | None = None,
     sources: dict[str, Source] | None = None,
-    computing: Computing | None = None,
+    computing: Computing[RunOutcome] | None = None,
 ) -> RunOutcome:
     """Run ``scene`` and record it in ``directory``, which must not exist (None: no recording).
 
@@ -156,7 +131,7 @@ def _one_block(
     length: float,
     writer: BagWriter | None,
     first: float,
-    computing: Computing,
+    computing: Computing[RunOutcome],
 ) -> RunProgress:
     stamp = block * round(length * NANOSECONDS)
     inputs = {topic: source.block(block) for topic, source in sources.items()}
