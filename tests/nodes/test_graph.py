@@ -1,5 +1,7 @@
 """What several benches show on the topics that ROS shares between all nodes: one clock, diagnostics of each."""
 
+from types import SimpleNamespace
+
 import pytest
 
 from ..bench_process import Nodes, needs_ros, resolved, wait_until
@@ -61,7 +63,8 @@ def test_two_benches_in_two_namespaces_have_one_clock_and_diagnostics_of_their_o
     found = {(report.status[0].name, report.status[0].message): report.status[0] for report in reports}
     for name in ("rig1", "rig2"):
         running, done = (found[f"{name}/contact_simulator: run", state] for state in ("running", "finished"))
-        assert (running.level, done.level, done.hardware_id) == (b"\0", b"\0", "seat_ride")
+        assert {running.level, done.level} <= {b"\0", b"\1"}  # a run that is late on a busy machine warns
+        assert done.hardware_id == "seat_ride"
         assert {value.key: value.value for value in done.values}["block"] == "199"
 
 
@@ -83,3 +86,34 @@ def test_a_clock_of_another_node_is_left_alone(listen, tmp_path):
             nodes.end()
     assert ticks == []
     assert sum("/clock comes from /gazebo; this run publishes none" in line for line in nodes.said) == 1
+
+
+def test_diagnostics_come_once_a_second_and_at_each_change_and_remember_a_warning_for_five_seconds(monkeypatch):
+    from builtin_interfaces.msg import Time
+
+    from contact_sim_pkg.bag.messages import Progress
+    from contact_sim_pkg.nodes import diagnostics
+    from contact_sim_pkg.nodes.protocol import State
+
+    sent: list = []
+    monkeypatch.setattr(diagnostics, "publisher", lambda node, name: SimpleNamespace(publish=sent.append))
+    clock = SimpleNamespace(now=lambda: SimpleNamespace(to_msg=lambda: Time(sec=7)))
+    node = SimpleNamespace(get_fully_qualified_name=lambda: "/rig1/contact_simulator", get_clock=lambda: clock)
+    reports = diagnostics.Diagnostics(node)
+
+    def levels(state, *times, message=""):
+        sent.clear()
+        for now in times:
+            reports.report(now, Progress(int(state), 41, 100, 9, 1.25, 520.0, 0.0, "seat_ride", message))
+        return [int.from_bytes(array.status[0].level, "little") for array in sent]
+
+    assert levels(State.READY, 0.0, 0.5, 0.99, 1.0, 1.5) == [0, 0]
+    assert levels(State.RUNNING, 1.6, 1.7) == [0]  # a change of state is not waited with
+    reports.warn(2.0, "platform/vibration: late")
+    assert levels(State.RUNNING, 3.0, 6.9, 8.0) == [1, 1, 0]
+    assert levels(State.FAILED, 8.1, message="no block 3") == [2]
+    assert (sent[0].status[0].message, sent[0].header.stamp.sec) == ("failed: no block 3", 7)
+    assert sent[0].status[0].name == "rig1/contact_simulator: run"
+    values = {value.key: value.value for value in sent[0].status[0].values}
+    assert (values["block"], values["real-time factor"]) == ("41", "1.25")
+    assert values["last warning"] == "platform/vibration: late"

@@ -79,7 +79,9 @@ def command(
         write_csv(report, table, overwrite=overwrite)
     _show(report, as_json=as_json)
     if plot is not None:
-        figure.write_figure(report, plot, overwrite=overwrite)  # last: whatever becomes of the picture, the table is there
+        figure.write_figure(
+            report, plot, overwrite=overwrite
+        )  # last: whatever becomes of the picture, the table is there
 
 
 def _show(report: MaterialReport, *, as_json: bool) -> None:
