@@ -4,7 +4,13 @@ from __future__ import annotations
 
 import math
 
-__all__ = ["check_number", "check_positive", "check_within"]
+__all__ = ["check_not_nan", "check_number", "check_positive", "check_within"]
+
+
+def check_not_nan(name: str, value: float) -> None:
+    """Raises ValueError where ``value`` is nan; infinite it may be."""
+    if math.isnan(value):
+        raise ValueError(f"{name} is {value}, it must be a number")
 
 
 def check_number(name: str, value: float) -> None:

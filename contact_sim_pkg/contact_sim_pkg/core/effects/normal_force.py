@@ -2,17 +2,21 @@
 
 The loss is ``None``, ``NormalDissipative`` (Hunt and Crossley) or ``GeneralDissipative``. A rig calls ``normal_force`` for the
 force, ``tension_margin`` for the event that ends it before the gap opens, ``normal_force_rate`` where friction asks for dF/dt.
-``memory_factor`` multiplies the elastic part: 1, or what ``effects/foam_hysteresis.py`` gives.
+``memory_factor`` multiplies the elastic part: 1, or what ``effects/foam_hysteresis.py`` gives. Called from Python they raise
+ValueError for a law outside its range, an argument that is nan, and a result beyond the range of numbers.
 """
 
 from __future__ import annotations
 
+import math
+import sys
 from collections.abc import Callable
 from typing import Any
 
+from ..checks import check_not_nan, check_number, check_within
 from ..jit import kernel, kernel_overload
 from ..parameters import ElasticLaw, GeneralDissipative, NormalLoss
-from .elastic_law import elastic_force
+from .elastic_law import check_elastic, elastic_force
 from .general_dissipative import general_force, general_force_rate, general_tension_margin
 from .normal_dissipative import hunt_crossley_force, hunt_crossley_force_rate, hunt_crossley_tension_margin
 
@@ -21,6 +25,8 @@ from .normal_dissipative import hunt_crossley_force, hunt_crossley_force_rate, h
 def _margin_without_approach(elastic, dissipative, approach, approach_rate, memory_factor):
     return hunt_crossley_tension_margin(dissipative, approach_rate, memory_factor)
 
+
+LARGEST = sys.float_info.max
 
 Kernels = tuple[Callable[..., Any], Callable[..., Any], Callable[..., Any]]
 _USUAL: Kernels = (hunt_crossley_force, _margin_without_approach, hunt_crossley_force_rate)
@@ -40,8 +46,12 @@ def normal_force(
 
     Never negative, but for the general law with the end rule ``gap``.
     """
-    force = _OF_LOSS.get(type(dissipative), _USUAL)[0]
-    return float(force(elastic, dissipative, approach, approach_rate, memory_factor))
+    _check(elastic, dissipative, approach, approach_rate, memory_factor)
+    value = float(
+        _OF_LOSS.get(type(dissipative), _USUAL)[0](elastic, dissipative, approach, approach_rate, memory_factor)
+    )
+    check_number("force [N] of this law", value)
+    return value
 
 
 def tension_margin(
@@ -52,6 +62,7 @@ def tension_margin(
     memory_factor: float,
 ) -> float:
     """Event function, positive while the contact carries: its sign change is the loss of contact before the gap opens."""
+    _check(elastic, dissipative, approach, approach_rate, memory_factor)
     margin = _OF_LOSS.get(type(dissipative), _USUAL)[1]
     return float(margin(elastic, dissipative, approach, approach_rate, memory_factor))
 
@@ -65,17 +76,49 @@ def normal_force_rate(
     memory_factor: float,
 ) -> float:
     """dF/dt in [N/s] at ``approach_acceleration`` [m/s^2], ``memory_factor`` held."""
+    _check(elastic, dissipative, approach, approach_rate, memory_factor)
+    check_not_nan("approach acceleration [m/s^2]", approach_acceleration)
     force_rate = _OF_LOSS.get(type(dissipative), _USUAL)[2]
-    return float(force_rate(elastic, dissipative, approach, approach_rate, approach_acceleration, memory_factor))
+    value = float(force_rate(elastic, dissipative, approach, approach_rate, approach_acceleration, memory_factor))
+    check_number("rate of the force [N/s] of this law", value)
+    return value
 
 
 def pressure_factor(
     elastic: ElasticLaw, dissipative: NormalLoss | None, approach: float, approach_rate: float, memory_factor: float
 ) -> float:
-    """Ratio of the contact force to the elastic one: with it the elastic pressures add up to the force. 1 without contact."""
-    if approach <= 0.0:
-        return 1.0
-    return normal_force(elastic, dissipative, approach, approach_rate, memory_factor) / elastic_force(elastic, approach)
+    """Ratio of the contact force to the elastic one: with it the elastic pressures add up to the force.
+
+    1 without contact, and where the approach is so small that the elastic force underflows to 0.
+    """
+    force, spring = (
+        normal_force(elastic, dissipative, approach, approach_rate, memory_factor),
+        elastic_force(elastic, approach),
+    )
+    return force / spring if spring > 0.0 else 1.0
+
+
+def check_loss(dissipative: NormalLoss | None) -> None:
+    """Raises ValueError where a parameter of the loss is outside its range."""
+    if isinstance(dissipative, GeneralDissipative):
+        check_within("loss coefficient", dissipative.coefficient, 0.0, LARGEST)
+        check_within("approach exponent p", dissipative.approach_exponent, 0.0, 4.0)
+        check_within("rate exponent q", dissipative.rate_exponent, 0.0, 3.0)
+        check_within("smoothing speed [m/s]", dissipative.smoothing_speed, 0.0, LARGEST)
+        if dissipative.lowest_force not in (0.0, -math.inf):
+            raise ValueError(f"lowest force is {dissipative.lowest_force} N, it must be 0 or -inf")
+    elif dissipative is not None:
+        check_within("damping [s/m]", dissipative.damping, 0.0, LARGEST)
+
+
+def _check(
+    elastic: ElasticLaw, dissipative: NormalLoss | None, approach: float, approach_rate: float, memory_factor: float
+) -> None:
+    check_elastic(elastic)
+    check_loss(dissipative)
+    check_not_nan("approach [m]", approach)
+    check_not_nan("approach rate [m/s]", approach_rate)
+    check_within("memory factor", memory_factor, 0.0, 2.0)
 
 
 def _kernels_of(loss_type: Any) -> Kernels:
