@@ -5,6 +5,8 @@ import math
 
 import numpy
 import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
 from scipy.integrate import solve_ivp
 
 from contact_sim_pkg.core.cnoidal import (
@@ -105,3 +107,42 @@ def test_the_oscillator_of_a_contact_holds_the_first_two_derivatives_of_its_forc
 def test_a_contact_without_mass_or_preload_is_refused(mass, preload):
     with pytest.raises(ValueError, match="above 0"):
         contact_oscillator(mass, NormalElastic(1.0, 1.5), preload)
+
+
+@settings(database=None, derandomize=True, deadline=None, max_examples=60)
+@given(
+    st.floats(-30.0, 30.0).map(lambda power: 10.0**power),
+    st.floats(-30.0, 30.0).map(lambda power: 10.0**power),
+    st.sampled_from([1.0, -1.0]),
+    st.one_of(st.floats(-0.999, 0.499), st.floats(-18.0, -2.0).map(lambda power: 10.0**power)),
+)
+def test_the_motion_keeps_its_energy_over_the_whole_range(frequency, quadratic, sign, part):
+    """Both turning points lie on one level of ``w0^2 y^2/2 + k y^3/3``, the motion runs between them once a period."""
+    reach = frequency * (frequency / quadratic)
+    oscillator, start = QuadraticOscillator(frequency, sign * quadratic), sign * part * reach
+    motion = released_at(oscillator, start)
+
+    def level(y):
+        u = sign * y / reach
+        return u * u * (0.5 + u / 3.0)
+
+    assert level(motion.turn) == pytest.approx(level(start), rel=1e-11, abs=1e-300)
+    assert motion.start == start
+    assert motion.period * frequency >= 2.0 * math.pi * (1.0 - 1e-12)
+    places = position(motion, motion.period * numpy.array([0.0, 0.25, 0.5, 0.75, 1.0]))
+    width = abs(motion.turn - start)
+    numpy.testing.assert_allclose(places[[0, 2, 4]], [start, motion.turn, start], rtol=0.0, atol=1e-11 * width)
+    assert places[1] == pytest.approx(places[3], rel=0.0, abs=1e-11 * width)
+
+
+def test_what_the_cnoidal_motion_cannot_do_is_refused():
+    for bad in (math.nan, math.inf):
+        with pytest.raises(ValueError, match="finite"):
+            position(released_at(QuadraticOscillator(3.0, 5.0), 0.1), [0.0, bad])
+        with pytest.raises(ValueError, match="above 0"):
+            contact_oscillator(bad, NormalElastic(1.0, 1.5), 1.0)
+        with pytest.raises(ValueError, match="elastic coefficient"):
+            contact_oscillator(1.0, NormalElastic(bad, 1.5), 1.0)
+    for values in ((1e-200, 1.0, 0.1), (1.0, 1e200, 0.1), (1.0, 1.0, 1e200)):
+        with pytest.raises(ValueError, match="beyond"):
+            released_at(QuadraticOscillator(*values[:2]), values[2])

@@ -7,6 +7,8 @@ import math
 import numpy
 import pytest
 import scipy.optimize
+from hypothesis import given, settings
+from hypothesis import strategies as st
 
 from contact_sim_pkg.core.hertz import hertz_contact
 from contact_sim_pkg.core.winkler import bed_stiffness, winkler_at_approach, winkler_at_load
@@ -88,3 +90,26 @@ def test_impossible_input_is_refused() -> None:
         winkler_at_load(gap, 1.0, 1.0, 1.0, 1.0, pressure)
     with pytest.raises(ValueError, match="above 0"):
         bed_stiffness(1.0, 1.0, 1.0, 0.0)
+
+
+@settings(database=None, derandomize=True, deadline=None, max_examples=40)
+@given(
+    st.lists(st.floats(-1e-3, 1e-3), min_size=6, max_size=6),
+    *[st.floats(-6.0, 12.0).map(lambda power: 10.0**power)] * 2,
+)
+def test_the_bed_carries_any_load_on_any_gap(heights, stiffness, load):
+    gap, pressure = numpy.array(heights).reshape(2, 3), numpy.empty((2, 3))
+    found = winkler_at_load(gap, stiffness, 0.01, 0.02, load, pressure)
+    assert found.load == pytest.approx(load, rel=1e-9, abs=1e-12 * stiffness * 2e-4 * 1e-3)
+    numpy.testing.assert_array_equal(pressure > 0.0, found.approach > gap)
+
+
+@pytest.mark.parametrize("load", [math.nan, -1.0, 0.0])
+def test_a_bed_without_a_stiffness_is_refused(load: float) -> None:
+    with pytest.raises(ValueError, match="load"):
+        bed_stiffness(1.0, 1.0, 1.0, load)
+
+
+def test_an_approach_without_a_square_gives_no_stiffness() -> None:
+    with pytest.raises(ValueError, match="gives no stiffness"):
+        bed_stiffness(1e-3, 1e-3, 1e12, 1e-280)

@@ -14,9 +14,11 @@ from typing import NamedTuple
 import numpy
 from numpy.typing import ArrayLike
 
+from .effects.elastic_law import check_elastic
 from .jacobi import Array, cn_squared, quarter_period
 from .parameters import NormalElastic
 
+LARGEST = 1.0e100  # of frequency, quadratic term and release, in SI units
 LINEAR_BELOW = 1.0e-17  # of the way to the saddle: there m is below rounding
 
 
@@ -55,6 +57,8 @@ def released_at(oscillator: QuadraticOscillator, start: float) -> CnoidalMotion:
     w, k = oscillator
     if not (math.isfinite(w) and math.isfinite(k) and math.isfinite(start) and w > 0.0):
         raise ValueError(f"the oscillator (w0 {w} rad/s, k {k}) at {start} m needs finite numbers and w0 above 0")
+    if not (1.0 / LARGEST <= w <= LARGEST and abs(k) <= LARGEST and abs(start) <= LARGEST):
+        raise ValueError(f"the oscillator (w0 {w} rad/s, k {k}) at {start} m is beyond 1e-100 to 1e100")
     reach = 1.5 * w * w / abs(k) if k != 0.0 else math.inf  # the saddle lies at -2/3 of it
     if abs(start) <= LINEAR_BELOW * reach:
         return CnoidalMotion(start, -start, 0.5 * w, 1.0, 2.0 * math.pi / w)
@@ -69,8 +73,10 @@ def released_at(oscillator: QuadraticOscillator, start: float) -> CnoidalMotion:
 
 
 def position(motion: CnoidalMotion, times: ArrayLike) -> Array:
-    """y in [m] at ``times`` [s]; ``motion.start`` at t = 0."""
+    """y in [m] at ``times`` [s]; ``motion.start`` at t = 0. Raises ValueError for a time that is not finite."""
     t = numpy.asarray(times, dtype=numpy.float64)
+    if not numpy.isfinite(t).all():
+        raise ValueError("a time of the motion is not a finite number")
     if motion.complement == 1.0:
         return motion.turn + (motion.start - motion.turn) * numpy.cos(motion.rate * t) ** 2
     share = cn_squared(motion.rate * t, motion.complement)
@@ -83,11 +89,12 @@ def position(motion: CnoidalMotion, times: ArrayLike) -> Array:
 def contact_oscillator(mass: float, elastic: NormalElastic, preload: float) -> tuple[QuadraticOscillator, float]:
     """Oscillator of ``mass`` [kg] on ``F = A x^n`` under ``preload`` [N], to second order about its rest; and that approach.
 
-    y counts deeper: ``w0^2 = n A x0^(n-1)/m``, ``k = n (n-1) A x0^(n-2)/(2 m)``, x0 in [m]. Raises ValueError where mass or
-    preload is not positive.
+    y counts deeper: ``w0^2 = n A x0^(n-1)/m``, ``k = n (n-1) A x0^(n-2)/(2 m)``, x0 in [m]. Raises ValueError where mass,
+    preload or a parameter of the law is not a finite number above 0.
     """
-    if not (mass > 0.0 and preload > 0.0):
-        raise ValueError(f"a preloaded contact needs a mass and a preload above 0, not {mass} kg and {preload} N")
+    if not (0.0 < mass < math.inf and 0.0 < preload < math.inf):
+        raise ValueError(f"a preloaded contact needs a finite mass and preload above 0, not {mass} kg and {preload} N")
+    check_elastic(elastic)
     a, n = elastic.coefficient, elastic.exponent
     rest = float((preload / a) ** (1.0 / n))
     stiffness = n * a * rest ** (n - 1.0)

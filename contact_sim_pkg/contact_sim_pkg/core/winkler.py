@@ -37,12 +37,18 @@ def bed_stiffness(curvature_a: float, curvature_b: float, modulus: float, load: 
     """`k = 2 P sqrt(A B) / (pi approach^2)` [Pa/m]: the bed that has Hertz's approach at this load on a smooth gap.
 
     curvature_a, curvature_b: of the gap A x^2 + B y^2 [1/m]; modulus: E* [Pa]; load: P [N] > 0.
-    Raises `ValueError` for P <= 0, else as `hertz_contact`.
+    Raises `ValueError` for P <= 0 and a stiffness that is no number, else as `hertz_contact`.
     """
     contact = hertz_contact(curvature_a, curvature_b, modulus, load)
     if contact.load <= 0.0:
         raise ValueError(f"Winkler bed: the load is {load} N, it must be above 0 to give a stiffness")
-    return 2.0 * load * math.sqrt(curvature_a * curvature_b) / (math.pi * contact.approach**2)
+    squared = contact.approach**2 if contact.approach < 1e150 else math.inf
+    stiffness = 2.0 * load * math.sqrt(curvature_a * curvature_b) / (math.pi * squared) if squared > 0.0 else math.inf
+    if not 0.0 < stiffness < math.inf:
+        raise ValueError(
+            f"Winkler bed: an approach of {contact.approach} m under {load} N gives no stiffness that is a number"
+        )
+    return stiffness
 
 
 def winkler_at_approach(
