@@ -37,12 +37,15 @@ class Standing(Protocol):
 class RunDisplay:
     """A bar on a terminal, a line every five seconds elsewhere; lines of the nodes go above the bar."""
 
-    def __init__(self, duration: float) -> None:
-        """Prepare for a run or a replay of `duration` simulated seconds; nothing is shown before it is entered."""
+    def __init__(self, duration: float, begin: str = "0 s: set-up, or the first block", item: str = "block") -> None:
+        """Prepare for a run or a replay of `duration` simulated seconds; nothing is shown before it is entered.
+
+        `begin` is shown before the first update; `item` is what does not come where nothing moves.
+        """
         self._duration = duration
         self._console = Console(file=sys.stderr, highlight=False)
         self._said = self._moved = time.monotonic()
-        self._completed, self._text = 0.0, "0 s: set-up, or the first block"
+        self._completed, self._text, self._item = 0.0, begin, item
         self._over = threading.Event()
         columns = (BarColumn(24), TextColumn("{task.description}"), TimeRemainingColumn())
         self._bar = Progress(*columns, console=self._console, transient=True, disable=not self._console.is_terminal)
@@ -64,9 +67,10 @@ class RunDisplay:
         """Show how much of the duration is done, [s], and a text."""
         now = time.monotonic()
         if completed != self._completed:
-            self._completed, self._moved, self._text = completed, now, text
+            self._completed, self._moved = completed, now
+        self._text = text
         if now - self._moved > PLAIN_SECONDS:
-            text = f"{self._text}; no further block for {now - self._moved:.0f} s"
+            text = f"{self._text}; no further {self._item} for {now - self._moved:.0f} s"
         if self._console.is_terminal:
             self._bar.update(self._task, completed=completed, description=text)
         elif time.monotonic() - self._said > PLAIN_SECONDS:

@@ -87,7 +87,7 @@ def command(
         "loop": loop, "clock": clock, "topics": ",".join(topics),
     }  # fmt: skip
     rules = [part for text in remapped for part in ("-r", _rule(text, recorded))]
-    with RunDisplay(recorded.end * 1e-9) as display:
+    with RunDisplay(recorded.end * 1e-9, "waiting for the subscribers", "message") as display:
         status = main(
             ["bench", *node_arguments(parameters), *rules],
             lambda standing: display.update(standing.simulated, standing.describe()),
