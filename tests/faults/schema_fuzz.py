@@ -1,9 +1,9 @@
 """Every number of the schema at its bounds, beside them, at zero and at the smallest positive number: what a run makes of it.
 
 A case is one value of one number in one base scene. It ends *right* (finite, energy adds up), *refused* or *failed* (a sentence
-that names what is wrong), or it breaks a rule: a traceback, noise of numpy, a value that is not finite, energy from nowhere, no end
-within the bounds of processor time and memory. Cases run in a forked process, which has the compiled kernels of its base and is
-ended where a case goes beyond its time.
+that names what is wrong), or *long*: the estimate of its work says so, and it is not run. Or it breaks a rule: a traceback, noise
+of numpy, a value that is not finite, energy from nowhere, no end within the bounds of processor time and memory. Cases run in a
+forked process, which has the compiled kernels of its base and is ended where a case goes beyond its time.
 """
 
 from __future__ import annotations
@@ -26,6 +26,7 @@ from contact_sim_pkg.cli.main import refusal
 from contact_sim_pkg.core.jit import closed
 from contact_sim_pkg.run.rigs import forecast_of, make_simulation
 from contact_sim_pkg.run.sources import make_sources
+from contact_sim_pkg.run.work import estimated_work, refuse_long
 from contact_sim_pkg.scene.load import load_scene
 from contact_sim_pkg.scene.overrides import set_value
 from contact_sim_pkg.scene.resolve import resolve
@@ -102,7 +103,7 @@ class Case(NamedTuple):
 class End(NamedTuple):
     """How a case ended."""
 
-    kind: str  # right, refused, failed, or the rule that it broke
+    kind: str  # right, refused, failed, long, or the rule that it broke
     sentence: str
     seconds: float
 
@@ -202,6 +203,10 @@ def end_of(case: Case) -> End:
 
 def _run(case: Case) -> tuple[str, str]:
     scene = scene_of(case.base, case.assignment)
+    if case.where != "duration":  # of which two blocks are run
+        told = refuse_long(scene.data, allowed=False)
+        if sum(part.seconds for part in estimated_work(scene.data)) > SECONDS:
+            return "long", told
     with warnings.catch_warnings(record=True) as caught:
         warnings.simplefilter("always", RuntimeWarning)
         messages = _messages(scene)

@@ -15,12 +15,7 @@ from .schema_fuzz import BASES, RARE_BASES, cases, end_of, missing_numbers, run_
 
 TURNS = 8
 ASKED = os.environ.get("CONTACT_BENCH_FUZZ") or str(datetime.datetime.now(datetime.timezone.utc).toordinal() % TURNS)
-GOOD = ("right", "refused", "failed")
-ENDLESS = {  # more work than anybody waits for, without a bound yet
-    ("seat", "effects.seat.general_dissipative.coefficient"),
-    ("roller", "roller.radius"),
-    ("roller", "effects.roller.track_waves.cells"),
-}
+GOOD = ("right", "refused", "failed", "long")
 
 
 def test_the_bases_hold_every_number_of_the_schema():
@@ -36,7 +31,7 @@ def test_a_value_outside_its_bounds_is_refused(rig):
 
 @pytest.mark.parametrize("rig", BASES)
 def test_a_value_within_its_bounds_ends_right_or_in_a_sentence(rig):
-    every = [case for case in cases(rig) if case.inside and not ((rig, case.where) in ENDLESS and case.value > 1.0)]
+    every = [case for case in cases(rig) if case.inside]
     usual = [case for case in every if case.base not in RARE_BASES.get(rig, ())]
     chosen = every if ASKED == "all" else usual[int(ASKED) % TURNS :: TURNS]
     began, ends = time.perf_counter(), list(run_all(chosen))
