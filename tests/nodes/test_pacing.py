@@ -52,20 +52,20 @@ def lateness():
 
 
 @pytest.mark.fault("C3")
-def test_blocks_done_late_are_counted_and_said_after_ten_in_a_row(lateness):
-    said = [lateness.block_done(block, 100.0 + 0.016 * (block + 1), 0.625) for block in range(40)]
-    late = [block for block in range(40) if 0.016 * (block + 1) > 0.01 * (block + 2)]
+def test_blocks_done_late_are_counted_and_said_after_a_hundred_in_a_row(lateness):
+    said = [lateness.block_done(block, 100.0 + 0.016 * (block + 1), 0.625) for block in range(140)]
+    late = [block for block in range(140) if 0.016 * (block + 1) > 0.01 * (block + 2)]
     assert lateness.late == len(late)
-    assert [block for block, text in enumerate(said) if text] == late[9:]
-    assert said[-1] == f"slower than its pace: 0.62x real time, 0.23 s behind after block 39 ({len(late)} blocks late)"
+    assert [block for block, text in enumerate(said) if text] == late[99:]
+    assert said[-1] == f"slower than its pace: 0.62x real time, 0.83 s behind after block 139 ({len(late)} blocks late)"
 
 
 @pytest.mark.fault("C3")
 def test_a_run_that_has_caught_up_is_not_late_any_more(lateness):
-    assert all(not lateness.block_done(block, 105.0, 0.1) for block in range(9))
-    assert lateness.block_done(9, 100.11, 1.0) == ""
-    assert lateness.block_done(10, 105.0, 0.1) == ""
-    assert lateness.late == 10
+    assert all(not lateness.block_done(block, 105.0, 0.1) for block in range(99))
+    assert lateness.block_done(99, 101.01, 1.0) == ""
+    assert lateness.block_done(100, 105.0, 0.1) == ""
+    assert lateness.late == 100
 
 
 def test_without_a_pace_nothing_is_late():

@@ -1,5 +1,6 @@
 """What a killed supervisor leaves is removed by the last of its processes, or at the next start; nothing else is."""
 
+import fcntl
 import subprocess
 import sys
 from pathlib import Path
@@ -114,6 +115,13 @@ def test_processes_of_a_killed_supervisor_that_end_together_leave_nothing(root, 
         process.wait()
     assert not Path(folder).exists()
     assert left(root) == {"fastrtps_other"}
+
+
+def test_a_segment_whose_owner_holds_its_lock_is_left_alone(root):
+    with (root / "shm" / "fastrtps_ours_el").open("r+b") as held:
+        fcntl.flock(held, fcntl.LOCK_EX)
+        assert shared_memory.remove_unused({"fastrtps_ours"}) == []
+    assert shared_memory.remove_unused({"fastrtps_ours"}) == ["fastrtps_ours", "fastrtps_ours_el"]
 
 
 def test_names_that_are_no_segments_of_the_middleware_are_never_removed(root):

@@ -148,9 +148,7 @@ class ContactSimulatorNode(LifecycleBenchNode):
         self._window.on_done(number)
         self._advanced = time.monotonic()
         report.block_done(number, result)
-        late = self._lateness.block_done(number, self._advanced, report.real_time_factor)
-        if late:
-            self._diagnostics.warn(self._advanced, late)
+        self._diagnostics.late = self._lateness.block_done(number, self._advanced, report.real_time_factor)
         if report.state.ended:
             self._recording.end(self._advanced)
 

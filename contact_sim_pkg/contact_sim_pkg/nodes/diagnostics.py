@@ -24,6 +24,7 @@ class Diagnostics:
         """Nothing sent yet."""
         self._node = node
         self._publisher = publisher(node, "/diagnostics")
+        self.late = ""  # how far the run is behind its pace; empty where it is not
         self._warning, self._warned_at = NOTHING, float("-inf")
         self._sent_at, self._sent_state = float("-inf"), State.IDLE
 
@@ -51,6 +52,7 @@ class Diagnostics:
             "blocks": progress.blocks,
             "real-time factor": f"{progress.real_time_factor:.3g}",
             "load [N]": f"{progress.load:.6g}",
+            "pace": self.late or "held",
             "last warning": self._warning,
         }
         status = DiagnosticStatus(

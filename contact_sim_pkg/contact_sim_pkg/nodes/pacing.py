@@ -20,7 +20,7 @@ def parse_pace(pace: str | float) -> float:
     return factor
 
 
-LATE_IN_A_ROW = 10  # blocks done late, one after the other, before it is said
+LATE_IN_A_ROW = 100  # blocks done late, one after the other, before it is said
 
 
 class Pacer:
@@ -63,7 +63,7 @@ class Lateness:
     def block_done(self, block: int, now: float, factor: float) -> str:
         """Count a block done at `now` of the steady clock, [s], at `factor` simulated seconds per second so far.
 
-        Returns a sentence from the tenth late block in a row on; empty where the run is in time, or has no pace.
+        Returns a sentence from the hundredth late block in a row on; empty where the run is in time, or has no pace.
         """
         interval = self._pacer.interval
         behind = now - interval * (block + 2) - self._pacer.began

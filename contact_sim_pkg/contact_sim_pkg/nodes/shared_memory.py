@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import fcntl
 import os
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator
+from contextlib import contextmanager
 from pathlib import Path
 
 FOLDER = Path("/dev/shm")  # noqa: S108  # where the system keeps shared memory; nothing is created here
@@ -30,11 +32,30 @@ def remove_unused(names: Iterable[str]) -> list[str]:
     used = set().union(*(mapped_segments(process) for process in others if process != os.getpid()))
     kept = {name.removesuffix("_el") for name in used}
     removed = []
-    for name in sorted(wanted):
-        if name.removesuffix("_el") not in kept and _is_ours(FOLDER / name):
-            (FOLDER / name).unlink(missing_ok=True)
-            removed.append(name)
+    for name in sorted({name.removesuffix("_el") for name in wanted} - kept):
+        with _owner_is_dead(FOLDER / f"{name}_el") as dead:
+            for each in (name + ending for ending in COMPANION_ENDINGS):
+                if dead and _is_ours(FOLDER / each):
+                    (FOLDER / each).unlink(missing_ok=True)
+                    removed.append(each)
     return removed
+
+
+@contextmanager
+def _owner_is_dead(lock: Path) -> Iterator[bool]:
+    """Hold the lock that the owner of a segment holds as long as it lives; False where it does. No lock: nobody owns it."""
+    try:
+        descriptor = os.open(lock, os.O_RDWR | os.O_NOFOLLOW | os.O_CLOEXEC)
+    except OSError:
+        yield True
+        return
+    try:
+        fcntl.flock(descriptor, fcntl.LOCK_EX | fcntl.LOCK_NB)
+        yield True
+    except BlockingIOError:
+        yield False
+    finally:
+        os.close(descriptor)
 
 
 def _is_ours(path: Path) -> bool:
