@@ -86,6 +86,7 @@ def test_a_bag_that_exists_is_refused_before_a_node_is_started(launch_file, tmp_
     launch_file.start_nodes(context(launch_file, scene="seat_ride", bag=str(tmp_path), record="false"))
 
 
+@pytest.mark.fault("F2")
 @pytest.mark.parametrize(
     ("status", "is_shutdown", "fails"),
     [(0, False, False), (1, False, True), (3, True, True), (-9, False, True), (-2, True, False), (0, True, False)],
@@ -127,6 +128,7 @@ def test_launch_says_where_the_run_stands_and_ends_with_0_and_then_refuses_the_b
     assert "process started" not in ended[1]
 
 
+@pytest.mark.fault("F2")
 @needs_ros
 @needs_launch
 @pytest.mark.parametrize(("node", "number", "status"), [("bag_logger", 9, 1), ("contact_simulator", 9, 1), ("", 2, 0)])
