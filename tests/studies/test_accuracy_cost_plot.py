@@ -37,6 +37,16 @@ def test_a_row_without_a_number_is_left_out_and_said(axes, bad):
     assert axes.get_ylabel() == "relative error (1 without a number left out)"
 
 
+def test_a_point_is_named_by_what_was_asked_and_by_no_grid_that_is_not_there(axes):
+    accuracy_cost_plot._panel(axes, [row(1e-3)])
+    assert [text.get_text() for text in axes.texts] == ["located"]
+
+
+def test_every_part_of_a_block_s_study_has_a_panel():
+    drawn = {part for part, _contact, _title in accuracy_cost_plot.PANELS}
+    assert {"scheme in time", "turning on held contacts", "friction cone", "contact model"} <= drawn
+
+
 @pytest.mark.parametrize("rows", [[], [row(math.nan)], [row(0.0)], [row(0.0), row(0.0, part="friction cone")]])
 def test_a_picture_is_written_whatever_the_rows_hold(rows, tmp_path):
     path = accuracy_cost_plot.write_plot(rows, tmp_path / "plot.png")

@@ -23,6 +23,7 @@ PANELS = (  # part and contact -> title
     ("modes", "", "modes of the shell, tolerance of the scene"),
     ("first impact", "", "first impact of the scene"),
     ("scheme in time", "", "rigid contact, scheme in time"),
+    ("turning on held contacts", "", "body that turns on held contacts"),
     ("friction cone", "", "rigid contact, friction cone"),
     ("contact model", "", "compliant against rigid contact"),
     *((part, "", part) for part in ROLLER_PARTS),
@@ -126,9 +127,9 @@ def _name_points(axis: Any, rows: list[dict[str, Any]]) -> None:
 
 
 def _asked(row: dict[str, Any]) -> str:
-    if row["part"] in ("integrator", "coupling") or row["rung"] == "check":
+    if row["part"] in ("integrator", "coupling", "turning on held contacts") or row["rung"] == "check":
         return f"{row['tolerance']:.0e}"
-    return f"{row['rung']} {row['grid']}".strip()
+    return f"{row['rung']} {row['grid'] or ''}".strip()
 
 
 def _series(row: dict[str, Any]) -> str:
