@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import math
 
-from .checks import check_within
+from .guards import require
 
 LOWEST_RESTITUTION = 0.01
 SLOWEST_IMPACT = 1.0e-3  # [m/s]; B = A d / v0 grows beyond use below (SEEDS section 10, grazing)
@@ -35,7 +35,7 @@ def check_restitution(restitution: float) -> None:
 
 def effective_speed(impact_speed: float) -> float:
     """``impact_speed`` [m/s], at least 1 mm/s. Raises ValueError outside 0 to 1e6 m/s."""
-    check_within("impact speed [m/s]", impact_speed, 0.0, FASTEST_IMPACT)
+    require("impact speed [m/s]", impact_speed, least=0.0, most=FASTEST_IMPACT)
     return max(impact_speed, SLOWEST_IMPACT)
 
 

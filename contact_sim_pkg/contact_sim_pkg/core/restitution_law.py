@@ -22,8 +22,8 @@ import numpy
 from scipy.integrate import solve_ivp
 from scipy.optimize import brentq
 
-from .checks import check_within
 from .effects.general_dissipative import SMOOTHING
+from .guards import require
 from .parameters import GeneralDissipative, NormalElastic, PointContact
 from .restitution import check_restitution, damping_of_restitution, effective_speed
 from .results import DONE, SENTENCES
@@ -48,7 +48,7 @@ def kelvin_voigt_restitution(ratio: float, lowest_force: float) -> float:
     ``lowest_force`` 0: the bodies part where the force is zero; -inf: where x = 0, after a tensile end; for a ratio >= 1 never.
     Raises ValueError for a ratio outside 0 to 1e100 and another lowest force.
     """
-    check_within("damping ratio", ratio, 0.0, 1.0e100)
+    require("damping ratio", ratio, least=0.0, most=1.0e100)
     _check_end(lowest_force)
     z = ratio
     if lowest_force < 0.0:
@@ -80,7 +80,7 @@ def restitution_of_severity(severity: float, n: float, p: float, q: float, lowes
     Z: 0 to 1e20; n: 1 to 10; p: 0 to 4; q: 0 to 3; ``lowest_force``: 0 or -inf. Below q = 1 a return with less than 1e-4 of the
     speed counts as 0. Raises ValueError outside, ArithmeticError where the integration fails.
     """
-    check_within("severity Z", severity, 0.0, HIGHEST_SEVERITY)
+    require("severity Z", severity, least=0.0, most=HIGHEST_SEVERITY)
     _check_law(n, p, q, lowest_force)
     if q >= 1.0:
         return _forward(severity, n, p, q, lowest_force)
@@ -228,8 +228,8 @@ def coefficient_of_restitution(
     Speeds below 1 mm/s count as 1 mm/s. ``B = Z A L**(n-p) / v0**q``. Mass and A: 1e-20 to 1e20; speed: 0 to 1e6 m/s. Raises
     ValueError outside, and as ``severity_of_restitution``.
     """
-    check_within("mass [kg]", mass, *SIZES)
-    check_within("elastic coefficient A [N/m^n]", elastic.coefficient, *SIZES)
+    require("mass [kg]", mass, least=SIZES[0], most=SIZES[1])
+    require("elastic coefficient A [N/m^n]", elastic.coefficient, least=SIZES[0], most=SIZES[1])
     n, speed = elastic.exponent, effective_speed(impact_speed)
     severity = severity_of_restitution(restitution, n, p, q, lowest_force)
     length = (mass * speed**2 / elastic.coefficient) ** (1.0 / (n + 1.0))
@@ -238,7 +238,7 @@ def coefficient_of_restitution(
 
 def _check_law(n: float, p: float, q: float, lowest_force: float) -> None:
     for (name, (low, high)), value in zip(EXPONENTS.items(), (n, p, q), strict=True):
-        check_within(name, value, low, high)
+        require(name, value, least=low, most=high)
     _check_end(lowest_force)
 
 

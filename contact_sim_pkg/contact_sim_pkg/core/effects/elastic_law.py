@@ -11,7 +11,7 @@ import math
 from collections.abc import Callable
 from typing import Any
 
-from ..checks import check_not_nan, check_number, check_positive
+from ..guards import require, require_positive
 from ..jit import kernel_overload
 from ..parameters import ElasticLaw, FoamElastic
 from . import foam_elastic as foam
@@ -31,9 +31,9 @@ _OF_LAW: dict[Any, Kernels] = {
 def elastic_force(elastic: ElasticLaw, approach: float) -> float:
     """Force that pushes the bodies apart in [N] at ``approach`` in [m]; 0 for ``approach <= 0``."""
     check_elastic(elastic)
-    check_not_nan("approach [m]", approach)
+    require("approach [m]", approach, infinite=True)
     value = float(_OF_LAW.get(type(elastic), _POWER)[0](elastic, approach))
-    check_number("elastic_force of this law", value)
+    require("elastic_force of this law", value)
     return value
 
 
@@ -46,27 +46,27 @@ def elastic_order(elastic: ElasticLaw) -> float:
 def elastic_stiffness(elastic: ElasticLaw, approach: float) -> float:
     """Slope dF/dx in [N/m] at ``approach`` in [m]; 0 for ``approach <= 0``."""
     check_elastic(elastic)
-    check_not_nan("approach [m]", approach)
+    require("approach [m]", approach, infinite=True)
     value = float(_OF_LAW.get(type(elastic), _POWER)[2](elastic, approach))
-    check_number("elastic_stiffness of this law", value)
+    require("elastic_stiffness of this law", value)
     return value
 
 
 def elastic_energy(elastic: ElasticLaw, approach: float) -> float:
     """Energy stored at ``approach`` in [J]; 0 for ``approach <= 0``."""
     check_elastic(elastic)
-    check_not_nan("approach [m]", approach)
+    require("approach [m]", approach, infinite=True)
     value = float(_OF_LAW.get(type(elastic), _POWER)[3](elastic, approach))
-    check_number("elastic_energy of this law", value)
+    require("elastic_energy of this law", value)
     return value
 
 
 def approach_of_force(elastic: ElasticLaw, force: float) -> float:
     """Approach in [m] at which the law gives ``force`` in [N]; 0 for ``force <= 0``."""
     check_elastic(elastic)
-    check_number("force [N]", force)
+    require("force [N]", force)
     value = float(_OF_LAW.get(type(elastic), _POWER)[4](elastic, force))
-    check_number("approach_of_force of this law", value)
+    require("approach_of_force of this law", value)
     return value
 
 
@@ -74,15 +74,15 @@ def check_elastic(elastic: ElasticLaw) -> None:
     """Raises ValueError where a parameter of the law is outside its range."""
     if isinstance(elastic, FoamElastic):
         for name in ("area", "thickness", "modulus", "plateau", "densification_exponent"):
-            check_positive(f"foam {name}", getattr(elastic, name))
+            require_positive(f"foam {name}", getattr(elastic, name))
         if not 0.0 <= elastic.densification < math.inf or not elastic.modulus > elastic.plateau:
             raise ValueError(
                 f"foam densification is {elastic.densification} Pa, modulus {elastic.modulus} Pa and plateau {elastic.plateau} "
                 "Pa: the first must be 0 or above, the modulus above the plateau"
             )
     else:
-        check_positive("elastic coefficient", elastic.coefficient)
-        check_positive("elastic exponent", elastic.exponent)
+        require_positive("elastic coefficient", elastic.coefficient)
+        require_positive("elastic exponent", elastic.exponent)
 
 
 def _kernels_of(law_type: Any) -> Kernels:

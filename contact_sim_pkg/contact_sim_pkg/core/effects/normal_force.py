@@ -9,11 +9,10 @@ ValueError for a law outside its range, an argument that is nan, and a result be
 from __future__ import annotations
 
 import math
-import sys
 from collections.abc import Callable
 from typing import Any
 
-from ..checks import check_not_nan, check_number, check_within
+from ..guards import require, require_not_negative
 from ..jit import kernel, kernel_overload
 from ..parameters import ElasticLaw, GeneralDissipative, NormalLoss
 from .elastic_law import check_elastic, elastic_force
@@ -25,8 +24,6 @@ from .normal_dissipative import hunt_crossley_force, hunt_crossley_force_rate, h
 def _margin_without_approach(elastic, dissipative, approach, approach_rate, memory_factor):
     return hunt_crossley_tension_margin(dissipative, approach_rate, memory_factor)
 
-
-LARGEST = sys.float_info.max
 
 Kernels = tuple[Callable[..., Any], Callable[..., Any], Callable[..., Any]]
 _USUAL: Kernels = (hunt_crossley_force, _margin_without_approach, hunt_crossley_force_rate)
@@ -50,7 +47,7 @@ def normal_force(
     value = float(
         _OF_LOSS.get(type(dissipative), _USUAL)[0](elastic, dissipative, approach, approach_rate, memory_factor)
     )
-    check_number("force [N] of this law", value)
+    require("force [N] of this law", value)
     return value
 
 
@@ -77,10 +74,10 @@ def normal_force_rate(
 ) -> float:
     """dF/dt in [N/s] at ``approach_acceleration`` [m/s^2], ``memory_factor`` held."""
     _check(elastic, dissipative, approach, approach_rate, memory_factor)
-    check_not_nan("approach acceleration [m/s^2]", approach_acceleration)
+    require("approach acceleration [m/s^2]", approach_acceleration, infinite=True)
     force_rate = _OF_LOSS.get(type(dissipative), _USUAL)[2]
     value = float(force_rate(elastic, dissipative, approach, approach_rate, approach_acceleration, memory_factor))
-    check_number("rate of the force [N/s] of this law", value)
+    require("rate of the force [N/s] of this law", value)
     return value
 
 
@@ -101,14 +98,14 @@ def pressure_factor(
 def check_loss(dissipative: NormalLoss | None) -> None:
     """Raises ValueError where a parameter of the loss is outside its range."""
     if isinstance(dissipative, GeneralDissipative):
-        check_within("loss coefficient", dissipative.coefficient, 0.0, LARGEST)
-        check_within("approach exponent p", dissipative.approach_exponent, 0.0, 4.0)
-        check_within("rate exponent q", dissipative.rate_exponent, 0.0, 3.0)
-        check_within("smoothing speed [m/s]", dissipative.smoothing_speed, 0.0, LARGEST)
+        require_not_negative("loss coefficient", dissipative.coefficient)
+        require("approach exponent p", dissipative.approach_exponent, least=0.0, most=4.0)
+        require("rate exponent q", dissipative.rate_exponent, least=0.0, most=3.0)
+        require_not_negative("smoothing speed [m/s]", dissipative.smoothing_speed)
         if dissipative.lowest_force not in (0.0, -math.inf):
             raise ValueError(f"lowest force is {dissipative.lowest_force} N, it must be 0 or -inf")
     elif dissipative is not None:
-        check_within("damping [s/m]", dissipative.damping, 0.0, LARGEST)
+        require_not_negative("damping [s/m]", dissipative.damping)
 
 
 def _check(
@@ -116,9 +113,9 @@ def _check(
 ) -> None:
     check_elastic(elastic)
     check_loss(dissipative)
-    check_not_nan("approach [m]", approach)
-    check_not_nan("approach rate [m/s]", approach_rate)
-    check_within("memory factor", memory_factor, 0.0, 2.0)
+    require("approach [m]", approach, infinite=True)
+    require("approach rate [m/s]", approach_rate, infinite=True)
+    require("memory factor", memory_factor, least=0.0, most=2.0)
 
 
 def _kernels_of(loss_type: Any) -> Kernels:
