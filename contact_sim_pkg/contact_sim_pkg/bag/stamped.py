@@ -17,6 +17,7 @@ __all__ = ["Array", "WrenchSamples", "all_messages", "chosen", "one_a_stamp", "s
 
 Array = NDArray[numpy.float64]
 
+OVERTAKEN = 50.0  # usual steps by which a message may be late
 FEWEST_STAMPS = 3  # messages a stamp in the mean, beyond which a topic is not stamped
 XYZ = "xyz"
 
@@ -52,11 +53,25 @@ def chosen(bag: AnyBag, topic: str | None, types: tuple[str, ...], option: str) 
 
 
 def all_messages(bag: AnyBag, topic: str) -> list[Any]:
-    """The messages of a topic; BagError where there is none."""
+    """The messages of a topic; BagError where there is none, or a stamp lies far before those recorded earlier."""
     messages = list(bag.read(topic))
     if not messages:
         raise BagError(f"{topic} of {bag.path} holds no message")
+    _refuse_early_stamp(numpy.array([stamp(message) for message in messages], dtype=numpy.int64), topic)
     return messages
+
+
+def _refuse_early_stamp(stamps: NDArray[numpy.int64], topic: str) -> None:
+    """Messages may overtake each other by some steps; a stamp that is further back is wrong."""
+    latest = numpy.maximum.accumulate(stamps)
+    sample = int(numpy.argmax(latest - stamps))
+    forward = numpy.diff(stamps)
+    back = int(latest[sample] - stamps[sample])
+    if back > 0 and (forward > 0).any() and back > OVERTAKEN * float(numpy.median(forward[forward > 0])):
+        raise BagError(
+            f"the stamp of sample {sample} of {topic} lies {back / SECOND:.6g} s before one that was recorded earlier; correct the "
+            "stamps, or take the sample out"
+        )
 
 
 def stamp(message: Any) -> int:

@@ -7,6 +7,7 @@ from typing import NamedTuple
 import numpy
 
 from .contacts import ContactFinding, findings
+from .continuity import refuse_jumps
 from .coulomb import along_the_cone
 from .doubts import doubts
 from .errors import IdentificationError
@@ -85,6 +86,7 @@ def identify(states: BodyStates, setup: Setup) -> Identification:
     _check_wrench(states, setup.wrench)
     guess = setup.noise or first_guess(states)
     _check_spin(states, guess)
+    refuse_jumps(states, guess, setup.gravity)
     axis = None if setup.planar is False else plane_of_motion(states, setup.ground, guess)
     if setup.planar and axis is None:
         raise IdentificationError("the motion is not planar: its spin changes axis, or it drifts out of the plane")
