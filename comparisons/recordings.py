@@ -117,10 +117,7 @@ def _differences(first: dict[str, list[Any]], second: dict[str, list[Any]]) -> I
             if before != after:
                 yield field, numpy.inf
             continue
-        a, b = (
-            numpy.concatenate([numpy.ravel(value) for value in values] or [[]]).astype(float)
-            for values in (before, after)
-        )
+        a, b = (numpy.concatenate([numpy.zeros(0), *map(numpy.ravel, values)]) for values in (before, after))
         if a.shape != b.shape:
             yield f"{field} ({len(a)} and {len(b)} values)", numpy.inf
         elif not numpy.array_equal(a, b, equal_nan=True):
