@@ -58,6 +58,7 @@ def send(stand_in, source, numbers, *, before=lambda number: ()) -> None:
         stand_in.entry.publish(block_of(source, number))
 
 
+@pytest.mark.fault("B5")
 def test_a_missing_block_ends_the_run_by_name_with_its_bag_closed(scene, nodes, stand_in):
     """B5 for numbered blocks: named after the input timeout, never invented; status 1."""
     nodes.start("bag_logger")
@@ -78,6 +79,7 @@ def test_a_missing_block_ends_the_run_by_name_with_its_bag_closed(scene, nodes, 
 
 
 @pytest.mark.fault("B2", "E8")
+@pytest.mark.fault("B1", "B2", "B4")
 def test_bad_blocks_are_dropped_and_named_and_leave_the_bits_alone(scene, nodes, stand_in, tmp_path):
     """B1, B2, B4: NaN, a wrong length, a wrong stamp, a repetition, in front of the good block."""
     nodes.start("bag_logger")
@@ -119,6 +121,7 @@ def test_a_run_that_gets_nothing_but_nan_ends_by_name(scene, nodes, stand_in):
     assert open_bag(nodes.bag).count("seat/force") == 0
 
 
+@pytest.mark.fault("B8")
 def test_a_second_publisher_of_an_input_is_refused_before_ready(nodes, stand_in):
     """B8: both nodes named, the cure given, status 2, nothing created."""
     nodes.start("vibration")

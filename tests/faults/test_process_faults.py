@@ -197,6 +197,7 @@ def test_a_source_that_is_stopped_for_a_while_costs_nothing_but_time(tmp_path):
     assert messages(nodes.bag) == messages(tmp_path / "offline")
 
 
+@pytest.mark.fault("B8")
 def test_a_second_bench_in_the_same_domain_is_refused_and_the_first_goes_on(running, tmp_path):
     """B8: status 2, the cure named, nothing created."""
     process, bag = running
