@@ -288,6 +288,14 @@ def count_bad_cells(values: Any) -> int:
     return bad
 
 
+MANY = numpy.full(1 << 18, 7.0)
+
+
+@jit.entry
+def first_of_many() -> float:
+    return MANY[0]
+
+
 @jit.entry
 def compensated_sum(values: Any) -> float:
     total, lost = 0.0, 0.0
@@ -311,6 +319,18 @@ def test_d2_a_guard_sees_poisoned_cells() -> None:
 def test_d2_a_compensated_sum_keeps_its_correction() -> None:
     values = numpy.concatenate([[1.0], numpy.full(100_000, 1e-16)])
     assert compensated_sum(values) == pytest.approx(1.0 + 1e-11, rel=1e-15)
+
+
+def test_h2_a_function_that_numba_declines_to_cache_is_no_damage() -> None:
+    """A large global array is one reason; all that is kept beside it stays."""
+    directory = kernel_cache.cache_directory()
+    assert directory is not None
+    count_bad_cells(numpy.zeros(3))
+    kept = set(directory.iterdir())
+    with pytest.warns(numba.NumbaWarning, match="Cannot cache"):
+        assert first_of_many() == 7.0
+    assert kept
+    assert kept <= set(directory.iterdir())
 
 
 @pytest.mark.fault("D6")

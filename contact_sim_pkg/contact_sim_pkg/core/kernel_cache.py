@@ -177,6 +177,7 @@ class _Locator(_CacheLocator):
     """Puts the files of a function into the session's directory; never into the source tree."""
 
     def __init__(self, py_func: Any, py_file: str) -> None:
+        self._py_file = py_file  # numba names it where it declines to cache a function
         self._path = str(_session.directory)
         self._line = py_func.__code__.co_firstlineno
         self._module = hashlib.sha256(py_file.encode()).hexdigest()[:8]
