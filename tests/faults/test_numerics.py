@@ -119,18 +119,19 @@ def test_other_threads_go_on_while_a_kernel_computes():
 
     ticker = threading.Thread(target=tick)
     ticker.start()
-    within, limit = 0, time.perf_counter() + 60.0
+    shares: list[float] = []
     try:
-        while within < 5 and time.perf_counter() < limit:  # a busy machine may not let the ticker run at once
+        while not shares or (min(shares) > 0.5 and len(shares) < 10):  # a busy machine may starve the ticker once
             pressure[:] = 0.0
             began = time.perf_counter()
             solve_at_load(half_space, work, gap, 100.0, 1e-15, 3000, pressure)
             ended = time.perf_counter()
-            within += sum(began < each < ended for each in ticks)
+            seen = [began, *(each for each in ticks if began < each < ended), ended]
+            shares.append(float(numpy.diff(seen).max()) / (ended - began))
     finally:
         over.set()
         ticker.join()
-    assert within >= 5
+    assert min(shares) <= 0.5, "the ticker stood still for most of every call"
 
 
 @pytest.mark.fault("D7")
