@@ -37,20 +37,20 @@ class ImpactSimulation:
         self._reset()
 
     def _refuse_short_period(self) -> None:
-        """SceneError for a period in which a release does not fall, strike and part as often as the scene asks for."""
+        """SceneError for a period in which a release does not fall, strike and part; fewer bounces than asked for are a warning."""
         model = self.model
         if len(model.releases) < 2:
             return
-        period, count = model.releases[1].time, max(model.bounces, 1)
+        period = model.releases[1].time
         needed, speed = 0.0, 0.0
         for release in {(each.speed, each.temperature): each for each in model.releases}.values():
             alone = dataclasses.replace(model, releases=(release._replace(time=0.0),))
             with contextlib.suppress(RunError):  # the run itself tells it
-                needed, speed = max((needed, speed), (ImpactMotion(alone).time_of(count), release.speed))
+                needed, speed = max((needed, speed), (ImpactMotion(alone).time_of(1), release.speed))
         if period <= needed:
             sentence = (
                 f"{show(period)} s from one release to the next; a release at {show(speed)} m/s needs {needed:.6g} s until "
-                f"{'its impact is' if count == 1 else f'{count} impacts are'} over; make the period {_above(needed)} s or longer"
+                f"its impact is over; make the period {_above(needed)} s or longer"
             )
             raise SceneError([Fault("scene", 0, 0, "impact.period", sentence)])
 

@@ -87,8 +87,8 @@ def ledger_of_a_bounce() -> Finding:
 
 
 def ledger_of_releases() -> Finding:
-    """The same where the machine takes the ball out of a contact for the next release, and catches it."""
-    return _ledger("impact.repeats=40", "impact.period=0.2045", "impact.bounces=2")
+    """The same where the machine takes the ball out of its second contact for the next release, and catches it."""
+    return _ledger("impact.repeats=40", "impact.period=0.4365", "impact.bounces=2")
 
 
 def elastic_for_long() -> Finding:
