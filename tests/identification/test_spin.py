@@ -5,6 +5,7 @@ import pytest
 
 from contact_sim_pkg.identification import geometry
 from contact_sim_pkg.identification.errors import IdentificationError
+from contact_sim_pkg.identification.errors import IdentificationError
 from contact_sim_pkg.identification.identify import Setup, identify
 from contact_sim_pkg.identification.noise import first_guess
 from contact_sim_pkg.identification.rotation import exponential
@@ -61,11 +62,12 @@ def test_the_rate_of_a_body_that_hardly_turns_is_open():
     assert rate_of_turn(still, first_guess(still).angular_velocity) is None
 
 
-def test_a_single_rotation_that_is_wrong_is_told():
+@pytest.mark.parametrize("turn", [0.05, 0.5])
+def test_a_single_rotation_that_is_wrong_is_refused_by_its_number(turn):
     states = sampled(motions.planar(), "fine")
-    states.rotation[250] = exponential(numpy.array([0.0, 0.5, 0.0])) @ states.rotation[250]
-    found = identify(states, SQUARE)
-    assert any("single samples that are wrong" in doubt for doubt in found.doubts)
+    states.rotation[250] = exponential(numpy.array([0.0, turn, 0.0])) @ states.rotation[250]
+    with pytest.raises(IdentificationError, match="the rotation jumps by 0.* rad between samples 2(49|50) and"):
+        identify(states, SQUARE)
 
 
 def test_noise_within_the_plane_alone_is_found_as_large_as_it_is():
