@@ -5,7 +5,6 @@ import pytest
 
 from contact_sim_pkg.identification import geometry
 from contact_sim_pkg.identification.errors import IdentificationError
-from contact_sim_pkg.identification.errors import IdentificationError
 from contact_sim_pkg.identification.identify import Setup, identify
 from contact_sim_pkg.identification.noise import first_guess
 from contact_sim_pkg.identification.rotation import exponential
@@ -66,7 +65,7 @@ def test_the_rate_of_a_body_that_hardly_turns_is_open():
 def test_a_single_rotation_that_is_wrong_is_refused_by_its_number(turn):
     states = sampled(motions.planar(), "fine")
     states.rotation[250] = exponential(numpy.array([0.0, turn, 0.0])) @ states.rotation[250]
-    with pytest.raises(IdentificationError, match="the rotation jumps by 0.* rad between samples 2(49|50) and"):
+    with pytest.raises(IdentificationError, match=r"the rotation jumps by 0.* rad between samples 2(49|50) and"):
         identify(states, SQUARE)
 
 
