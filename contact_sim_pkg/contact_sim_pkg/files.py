@@ -153,10 +153,10 @@ def _name_exclusively(draft: Path, target: Path) -> None:
 
 
 def _belongs_to(path: Path, given: Path) -> bool:
-    """Whether the existing file is `given`, or one of the files in it."""
+    """Whether the existing file is `given`, or one of the files of the bag that it is."""
     with suppress(OSError):
-        files = given.iterdir() if given.is_dir() else [given]
-        return any(path.samefile(file) for file in files)
+        files = [*given.glob("*.mcap"), given / "metadata.yaml"] if given.is_dir() else [given]
+        return any(file.exists() and path.samefile(file) for file in files)
     return False
 
 

@@ -81,6 +81,9 @@ def test_a_page_is_made_again_and_nothing_else_is(bag, tmp_path, capsys):
     made = page.read_bytes()
     page.write_bytes(b"old\n" + made)  # no page of ours: it begins otherwise
     assert main(["report", str(bag.path.parent)]) == 2
+    assert "exists already" in capsys.readouterr().err
+    assert main(["report", str(bag.path.parent), "--overwrite"]) == 0
+    assert page.read_bytes() == made
     page.write_bytes(made.replace(b"</body>", b"old</body>"))
     assert main(["report", str(bag.path.parent)]) == 0
     assert page.read_bytes() == made

@@ -169,6 +169,47 @@ def test_a_second_publisher_during_a_run_ends_it_by_name_before_its_data_count(s
     assert "/intruder" in bag.metadata["failure"]
 
 
+@pytest.mark.fault("B8")
+def test_a_second_publisher_of_a_result_ends_the_run_by_name_and_is_not_recorded(scene, nodes, stand_in, tmp_path):
+    """Messages of the simulator's own type, for the blocks to come: the bag has the bits that it has without them."""
+    from ..nodes.stand_in import StandIn
+
+    nodes.start("bag_logger")
+    nodes.start("contact_simulator")
+    source = make_vibration(scene)
+    stand_in.wait_ready(2)
+    send(stand_in, source, range(7))
+    stand_in.spin_until(lambda: stand_in.progress.block == 6)
+    run_offline(scene, tmp_path / "offline")
+    foreign = [each.data for each in open_bag(tmp_path / "offline").messages("seat/force")]
+    with StandIn("intruder", "seat/force") as intruder:
+        intruder.wait_ready(1)
+        for data in foreign[7:]:
+            intruder.entry.publish(data)
+        stand_in.entry.publish(block_of(source, 7))
+        stand_in.spin_until(lambda: stand_in.progress.message != "")
+        assert nodes.wait()["contact_simulator"] == 1
+    assert "/intruder publishes /seat/force beside" in stand_in.progress.message
+    held, whole = messages(nodes.bag), messages(tmp_path / "offline")
+    assert held == whole[: len(held)]
+    bag = open_bag(nodes.bag)
+    assert bag.complete
+    assert bag.count("seat/force") in (7, 8)
+    assert "/intruder" in bag.metadata["failure"]
+    assert int(bag.metadata["foreign seat/force"]) > 0
+
+
+@pytest.mark.fault("B8")
+def test_a_second_publisher_of_a_result_is_refused_before_ready(nodes, stand_in):
+    from ..nodes.stand_in import StandIn
+
+    with StandIn("intruder", "seat/force"):
+        nodes.start("contact_simulator", record=False)
+        wait_until(lambda: nodes.started("contact_simulator")[0].status is not None)
+    assert nodes.started("contact_simulator")[0].status == 2
+    assert any("seat/force has 2 publishers" in line and "intruder" in line for line in nodes.said)
+
+
 @pytest.mark.fault("B9")
 def test_an_input_of_another_message_definition_is_refused(nodes):
     """B9: the wire would take another type for ours; here a publisher of another type on our topic's name."""

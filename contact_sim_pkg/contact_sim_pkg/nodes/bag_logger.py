@@ -57,21 +57,25 @@ class BagLoggerNode(LifecycleBenchNode):
         self._scene = scene
         self._order = RecordOrder(input_names(scene), self._period_ns)
         self._left_out = Counter[str]()
-        self._sources = {name: SingleSource() for name in input_names(scene)}
+        self._sources = {name: SingleSource() for name in (*result_names(scene), *input_names(scene))}
+        self._inputs = set(input_names(scene))
         self._answers = publisher(self, "bench/recorded")
-        kept = [subscription(self, name, partial(self._hold, name), depth) for name in result_names(scene)]
-        kept += [numbered_subscription(self, name, partial(self._hold_checked, name), depth) for name in self._sources]
+        kept = [numbered_subscription(self, name, partial(self._take, name), depth) for name in self._sources]
         self._kept = [*kept, subscription(self, "bench/progress", self._on_progress)]
         self._writer, self._closed, self._leave_at = None, False, float("inf")
         self._run, self._block, self._news = Follower(), -1, time.monotonic()
 
-    def _hold_checked(self, topic: str, data: bytes, number: int | None) -> None:
-        """Excitation is checked as the simulator checks it: what it drops is not recorded in place of a good block."""
+    def _take(self, topic: str, data: bytes, number: int | None) -> None:
+        """Of one publisher a topic. Excitation is checked as the simulator does: what it drops takes no good block's place."""
         if not self._sources[topic].accept(number, self.count_publishers(self.resolve_topic_name(topic))):
             self._left_out[f"foreign {topic}"] += 1
+            self.get_logger().warning(
+                f"{topic}: another node publishes here too; its messages are not recorded", throttle_duration_sec=1.0
+            )
             return
         try:
-            check_block(topic, data, self._period_ns, self._blocks)
+            if topic in self._inputs:
+                check_block(topic, data, self._period_ns, self._blocks)
         except MessageError as error:
             self._left_out[f"dropped {topic}"] += 1
             self.get_logger().warning(f"{topic}: {error}; not recorded", throttle_duration_sec=1.0)

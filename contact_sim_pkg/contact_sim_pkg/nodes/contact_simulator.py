@@ -31,6 +31,7 @@ from .window import Window
 
 PEERS_SECONDS = 0.01  # between two looks at the graph before ready
 CLOSE_SECONDS = 1.0  # for the logger to close its bag, where a block that is computed does not come back
+RESULTS_SECONDS = 0.05  # between two looks for other publishers of our results
 SAY_SECONDS = 5.0  # between two log lines about who is missing
 
 
@@ -74,6 +75,9 @@ class ContactSimulatorNode(LifecycleBenchNode):
         inputs = self._simulation.inputs
         names = {topic: self.resolve_topic_name(topic) for topic in inputs}
         self._sources = SourceWatch(names, self.count_publishers, partial(publisher_ids, self))
+        results = {topic: entry.topic_name for topic, entry in self._publishers_by_topic.items()}
+        self._results = SourceWatch(results, self.count_publishers, partial(publisher_ids, self))
+        self._looked, self._undisturbed = 0.0, True
         entries = {topic: numbered_subscription(self, topic, partial(self._take, topic), depth) for topic in inputs}
         self._recording = LoggerAnswers(self._window, logged=self._logged)
         answers = subscription(self, "bench/recorded", self._on_recorded) if self._logged else None
@@ -96,7 +100,9 @@ class ContactSimulatorNode(LifecycleBenchNode):
         if report.state.ended:
             self._leave(now, report)
             return 1.0
-        if self._sources.alone(now):
+        if now - self._looked > RESULTS_SECONDS:  # not each block: 4 us a topic, and the logger tells them apart
+            self._looked, self._undisturbed = now, self._results.alone(now)
+        if self._undisturbed and self._sources.alone(now):
             self._advance(now, report)
             if time.monotonic() - self._advanced > self._patience and not report.state.ended:
                 self.fault(f"{self._recording.who_holds_up(self._inputs)} (waited {self._patience:g} s)", FAULT)
@@ -111,6 +117,7 @@ class ContactSimulatorNode(LifecycleBenchNode):
             self._pacer.start(now)
             self._simulated_clock.start(now)
             self._sources.remember()
+            self._results.remember()
             report.send(State.READY)
             self.announce("ready")
         elif now - self._said > SAY_SECONDS:

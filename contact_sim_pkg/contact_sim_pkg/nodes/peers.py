@@ -38,10 +38,15 @@ class Peers:
     def missing(self) -> list[str]:
         """What is not matched yet, one text each; empty when everybody is there.
 
-        Raises NodeError (refused) for a second publisher on an input, a second bench, or another message definition.
+        Raises NodeError (refused) for a second publisher on an input or an output, a second bench, or another message definition.
         """
         self._began = time.monotonic() if self._began is None else self._began
-        checked = [*self._inputs, "bench/progress", *([] if self._recorded is None else ["bench/recorded"])]
+        checked = [
+            *self._inputs,
+            *self._outputs,
+            "bench/progress",
+            *([] if self._recorded is None else ["bench/recorded"]),
+        ]
         unnamed = time.monotonic() - self._began > NAME_SECONDS
         absent = [
             f"the names of {t}'s publishers" for t in checked if not refuse_strangers(self._node, t, unnamed=unnamed)

@@ -1,4 +1,4 @@
-"""The simulator's look at who sends the excitation while it runs: one publisher a topic, the one that was there at *ready*."""
+"""The simulator's look at who publishes beside it while it runs: one publisher a topic, the one that was there at *ready*."""
 
 from __future__ import annotations
 

@@ -111,8 +111,9 @@ class Supervisor:
         if self._failure:
             write_reason(scene, self._failure)
         killed = children.end(max(LEAST_GRACE, min(GRACE_SECONDS, self._asked_at + STOP_SECONDS - time.monotonic())))
-        recording = self._directory is not None and self._directory.is_dir()
-        if "bag_logger" in killed and recording and not self._failure:
+        bag = self._directory
+        unclosed = bag is not None and bag.is_dir() and not (bag / "metadata.yaml").exists()
+        if "bag_logger" in killed and unclosed and not self._failure:
             self._fail("bag_logger did not end, and was killed before it had closed its bag", FAULT)
 
     def _start_all(self, children: Children, scene: Path) -> None:
