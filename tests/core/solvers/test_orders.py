@@ -4,11 +4,12 @@ import math
 
 import numpy
 import pytest
-from scipy.integrate import solve_ivp
+from scipy.integrate import RK45, solve_ivp
 
 from contact_sim_pkg.core.parameters import NormalElastic, PointContact
 from contact_sim_pkg.core.results import DONE
 from contact_sim_pkg.core.rigs.single import empty_mode, run
+from contact_sim_pkg.core.solvers.order_5 import STAGES, error_of_order_5
 from contact_sim_pkg.core.solvers.root_steps import make_workspace
 from contact_sim_pkg.core.solvers.time_map import following_step, place, scaled_step, time_map
 
@@ -36,6 +37,20 @@ def test_half_the_step_leaves_the_error_that_the_order_says(order, length):
     whole, half = (abs(_one_step(order, h) - _exact(h)) for h in (length, 0.5 * length))
     assert (whole > 1e-11).all()
     assert order + 0.6 < numpy.log2(whole / half).min() < order + 1.6  # the other state may gain one more
+
+
+@pytest.mark.parametrize("stage", range(STAGES))
+def test_each_stage_counts_in_the_error_of_order_5_by_the_difference_of_the_two_weights(stage):
+    """b - b^ of Hairer, Norsett, Wanner I, table II.5.2; for each stage alone, against those of scipy."""
+    rates = numpy.zeros((STAGES, 1))
+    rates[stage] = 1.0
+    error = error_of_order_5(rates, time_map(0.0, 1.0, -math.inf, False), rates[-1], numpy.ones(1))
+    assert error == pytest.approx(abs(RK45.E[stage]), rel=1e-14)
+
+
+def test_a_constant_rate_leaves_no_error_of_order_5():
+    rates = numpy.full((STAGES, 1), 3.0)
+    assert error_of_order_5(rates, time_map(0.0, 1.0, -math.inf, False), rates[-1], numpy.ones(1)) < 1e-15
 
 
 def test_an_order_that_there_is_not_is_refused():
