@@ -6,9 +6,16 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from contact_sim_pkg.identification import geometry, wrench
-from contact_sim_pkg.identification.balance import Side, balance
+from contact_sim_pkg.identification.balance import Side, balance, lasting_balance
 from contact_sim_pkg.identification.flight import FlightState, Model, motion, moved, plain_motion
-from contact_sim_pkg.identification.problem import Contact, Problem, planar_basis, spatial_basis, starting_parameters
+from contact_sim_pkg.identification.problem import (
+    Contact,
+    Problem,
+    Sweep,
+    planar_basis,
+    spatial_basis,
+    starting_parameters,
+)
 from contact_sim_pkg.identification.rotation import exponential
 from contact_sim_pkg.identification.spin import turn
 from contact_sim_pkg.identification.stacked import estimate
@@ -42,21 +49,8 @@ def test_derivatives_of_a_flight_match_finite_differences():
             )
 
 
-def test_derivatives_of_the_balance_match_finite_differences():
-    random = numpy.random.default_rng(3)
-    before = state_of(random)
-    after = moved(
-        before, numpy.concatenate([random.normal(size=6), 1e-9 * random.normal(size=3), random.normal(size=3)])
-    )
-    model, flat = Model(spatial_basis(), True, PUSHED, 9.81), numpy.zeros((12, 7))
-
-    def value(change_before, change_after, parameters):
-        sides = [
-            Side(moved(state, change), numpy.eye(12), flat)
-            for state, change in ((before, change_before), (after, change_after))
-        ]
-        return balance(*sides, parameters, model, BOX, geometry.plane(), 3)
-
+def check_derivatives(value):
+    """Of `value(change of the state before, of the state after, parameters)`, a balance, against finite differences."""
     zero = numpy.zeros(12)
     found = value(zero, zero, PARAMETERS)
     for column in range(12):
@@ -70,6 +64,39 @@ def test_derivatives_of_the_balance_match_finite_differences():
         step = 1e-6 * numpy.eye(7)[column]
         ahead, behind = (value(zero, zero, PARAMETERS + sign * step).value for sign in (1, -1))
         assert found.by_parameters[:, column] == pytest.approx((ahead - behind) / 2e-6, rel=1e-6, abs=1e-8)
+
+
+def sides(before, after):
+    return [Side(state, numpy.eye(12), numpy.zeros((12, 7))) for state in (before, after)]
+
+
+def test_derivatives_of_the_balance_match_finite_differences():
+    random = numpy.random.default_rng(3)
+    before = state_of(random)
+    after = moved(
+        before, numpy.concatenate([random.normal(size=6), 1e-9 * random.normal(size=3), random.normal(size=3)])
+    )
+    model = Model(spatial_basis(), True, PUSHED, 9.81)
+
+    def value(change_before, change_after, parameters):
+        ends = sides(moved(before, change_before), moved(after, change_after))
+        return balance(*ends, parameters, model, BOX, geometry.plane(), 3)
+
+    check_derivatives(value)
+
+
+def test_derivatives_of_a_balance_that_lasts_match_finite_differences():
+    random = numpy.random.default_rng(4)
+    before, after = state_of(random), state_of(random, 0.02)
+    model = Model(spatial_basis(), True, PUSHED, 9.81)
+    # Made at the state before, where the derivatives hold
+    swept = Sweep(*random.normal(size=(2, 3)), before.velocity, 0.0, 0.0, 3)
+
+    def value(change_before, change_after, parameters):
+        ends = sides(moved(before, change_before), moved(after, change_after))
+        return lasting_balance(*ends, parameters, model, BOX, geometry.plane(), 3, swept)
+
+    check_derivatives(value)
 
 
 @settings(max_examples=25, deadline=None)
