@@ -80,7 +80,7 @@ MUTANTS = (
     ),
     Mutant("rotation.rotate_by", "0.5 * h * h", "0.25 * h * h", ("test_body", "test_landing")),
     # Rigs and their integrator
-    Mutant("vehicle._rate", "lost += lost_in_links + rubbed", "lost += lost_in_links", ("test_vehicle_twin",)),
+    Mutant("vehicle._rate", "lost += lost_in_links + rubbed", "lost += lost_in_links", ("test_absent_effects",)),
     Mutant("order_5.step_of_order_5", "125.0 / 192.0", "125.0 / 191.0", ("test_orders",)),
     Mutant("order_5.error_of_order_5", "22.0 / 525.0", "21.0 / 525.0", ("test_orders",)),
     # Excitation and what is made of a recording
