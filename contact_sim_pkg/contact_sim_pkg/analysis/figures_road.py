@@ -72,7 +72,7 @@ def along_the_road(key: str, name: str, rolling: Rolling, stretch: Stretch) -> P
     with_field = rolling.field is not None
     ratios = [3, 2.2, 2] if with_field else [3, 2]
     figure, axes = new_figure(5.4 if with_field else 4.0, len(ratios), sharex=True, height_ratios=ratios)
-    _draw_force(axes[0], rolling, stretch)
+    band = _draw_force(axes[0], rolling, stretch)
     if rolling.field is not None:
         _draw_line_load(figure, axes[1], rolling.field, rolling.road, stretch)
     _draw_road(axes[-1], rolling, stretch)
@@ -82,19 +82,20 @@ def along_the_road(key: str, name: str, rolling: Rolling, stretch: Stretch) -> P
     return picture(
         f"{key}-road-{stretch.start:.0f}-{stretch.end:.0f}", figure,
         f"Force, footprint and road of the {name} from {stretch.start:.2f} to {stretch.end:.2f} m",
-        _caption(rolling, stretch),
+        _caption(rolling, stretch) + band,
     )  # fmt: skip
 
 
-def _draw_force(axes: Axes, rolling: Rolling, stretch: Stretch) -> None:
+def _draw_force(axes: Axes, rolling: Rolling, stretch: Stretch) -> str:
+    """Returns what the caption says of a long series, which is drawn as a band."""
     contact, travel = rolling.contact, rolling.road.travel
     distance = travel.at(contact.time)
     inside = _inside(distance, stretch)
     filtered = low_pass(contact.normal, 1.0 / contact.sample_period)
     raw = "raw" if filtered is not None else "normal force"
-    draw_series(axes, distance[inside], contact.normal[inside] * 1e-3, color=MUTED, linewidth=0.8, label=raw)
+    band = draw_series(axes, distance[inside], contact.normal[inside] * 1e-3, color=MUTED, linewidth=0.8, label=raw)
     if filtered is not None:
-        axes.plot(*envelope(distance[inside], filtered[inside] * 1e-3), color=ACCENT, linewidth=1.2, label="100 Hz")
+        draw_series(axes, distance[inside], filtered[inside] * 1e-3, color=ACCENT, linewidth=1.2, label="100 Hz")
     if rolling.reference is not None:
         load = rolling.reference.load * 1e-3
         axes.axhline(load, color=INK, linewidth=0.8, linestyle=(0, (4, 3)), label="at rest")
@@ -111,6 +112,7 @@ def _draw_force(axes: Axes, rolling: Rolling, stretch: Stretch) -> None:
     axes.set_ylim(0.0, 1.22 * float(contact.normal[inside].max(initial=1.0)) * 1e-3)
     axes.set_ylabel("normal force, kN")
     axes.legend(loc="upper right", ncols=4)
+    return band
 
 
 def _draw_line_load(figure: Figure, axes: Axes, field: FieldSeries, road: RoadSeries, stretch: Stretch) -> None:

@@ -142,9 +142,9 @@ def surface_and_map(field: PressureMap, quantity: Quantity, window: Window, outl
     """A surface picture on the left, the same values as a map on the right; one colour scale for both."""
     limits = Normalize(min(0.0, float(np.nanmin(quantity.values))), float(np.nanmax(quantity.values)))
     figure = Figure(figsize=(WIDTH, 3.3))
-    surface: Any = figure.add_axes((-0.01, 0.03, 0.5, 1.03), projection="3d")
+    surface: Any = figure.add_axes((-0.03, 0.03, 0.47, 1.03), projection="3d")
     _draw_surface(surface, field, quantity, window, limits)
-    axes = figure.add_axes((0.565, 0.15, 0.335, 0.74))
+    axes = figure.add_axes((0.572, 0.15, 0.312, 0.74))
     shown = np.where(field.pressure > 0.0, quantity.values, np.nan) if not outline else quantity.values
     image = draw_map(axes, field, shown, quantity.colours, limits)
     if outline:
