@@ -189,3 +189,21 @@ def bag_of_a_square(tmp_path_factory):
 def test_a_pose_without_its_twist_is_refused(tmp_path, capsys):
     foreign_bag.write_pose_and_twist(tmp_path / "bag", motions.states_of(motions.planar()), late=0.0004)
     assert "twist of the same stamp" in refused(capsys, tmp_path / "bag", *BOX)
+
+
+@pytest.mark.parametrize("jump", [0.3, 3.0])
+def test_a_jump_of_the_position_in_a_bag_is_refused_by_sample_and_size(tmp_path, capsys, jump):
+    states = motions.noisy(motions.states_of(motions.planar()), 1)
+    states.position[400:, 0] += jump
+    foreign_bag.write_odometry(tmp_path / "bag", states)
+    sentence = refused(capsys, tmp_path / "bag", *BOX)
+    assert f"the position jumps by {jump:g} m" in sentence
+    assert "between samples 399 and 400" in sentence
+
+
+def test_a_stamp_five_seconds_early_in_a_bag_is_refused(tmp_path, capsys):
+    states = motions.noisy(motions.states_of(motions.planar()), 1)
+    time = states.time + 10.0
+    time[300] -= 5.0
+    foreign_bag.write_odometry(tmp_path / "bag", states._replace(time=time))
+    assert "stamp" in refused(capsys, tmp_path / "bag", *BOX)
