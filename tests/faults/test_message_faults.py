@@ -58,6 +58,17 @@ def send(stand_in, source, numbers, *, before=lambda number: ()) -> None:
         stand_in.entry.publish(block_of(source, number))
 
 
+def seven_blocks_done(scene, nodes, stand_in):
+    """A recorded run under way, with its source."""
+    nodes.start("bag_logger")
+    nodes.start("contact_simulator")
+    source = make_vibration(scene)
+    stand_in.wait_ready(2)
+    send(stand_in, source, range(7))
+    stand_in.spin_until(lambda: stand_in.progress.block == 6)
+    return source
+
+
 @pytest.mark.fault("B5")
 def test_a_missing_block_ends_the_run_by_name_with_its_bag_closed(scene, nodes, stand_in):
     """B5 for numbered blocks: named after the input timeout, never invented; status 1."""
@@ -140,12 +151,7 @@ def test_a_second_publisher_during_a_run_ends_it_by_name_before_its_data_count(s
     """Status 1; the bag holds the blocks done until then, with the bits that they have without it."""
     from ..nodes.stand_in import StandIn
 
-    nodes.start("bag_logger")
-    nodes.start("contact_simulator")
-    source = make_vibration(scene)
-    stand_in.wait_ready(2)
-    send(stand_in, source, range(7))
-    stand_in.spin_until(lambda: stand_in.progress.block == 6)
+    source = seven_blocks_done(scene, nodes, stand_in)
     with StandIn("intruder") as intruder:
         intruder.wait_ready(2)
         for number in range(7, 7 + 600):
@@ -174,12 +180,7 @@ def test_a_second_publisher_of_a_result_ends_the_run_by_name_and_is_not_recorded
     """Messages of the simulator's own type, for the blocks to come: the bag has the bits that it has without them."""
     from ..nodes.stand_in import StandIn
 
-    nodes.start("bag_logger")
-    nodes.start("contact_simulator")
-    source = make_vibration(scene)
-    stand_in.wait_ready(2)
-    send(stand_in, source, range(7))
-    stand_in.spin_until(lambda: stand_in.progress.block == 6)
+    source = seven_blocks_done(scene, nodes, stand_in)
     run_offline(scene, tmp_path / "offline")
     foreign = [each.data for each in open_bag(tmp_path / "offline").messages("seat/force")]
     with StandIn("intruder", "seat/force") as intruder:

@@ -134,9 +134,9 @@ def _tell_work(scene: ResolvedScene, allow_long: bool) -> None:
     """One line on standard error where the run is long. Raises SceneError beyond the bound."""
     from contact_sim_pkg.run.work import refuse_long
 
-    told = refuse_long(scene.data, allowed=allow_long)
-    if told:
-        print(f"{scene.data['name']}: {told}", file=sys.stderr)
+    report = refuse_long(scene.data, allowed=allow_long)
+    if report:
+        print(f"{scene.data['name']}: {report}", file=sys.stderr)
 
 
 def _forecast(scene: ResolvedScene) -> dict[str, Any]:

@@ -13,13 +13,10 @@ import numpy
 from numpy.typing import NDArray
 
 from .errors import ExcitationError
-from .recorded_csv import STANDARD_GRAVITY, UNITS, Table, read_table
+from .recorded_csv import STANDARD_GRAVITY, Table, read_table
+from .recorded_units import refuse_other_unit, signed_column
 
-LARGEST_ACCELERATION = 1e5  # [m/s^2] about 10 000 g, the end of the range of shock accelerometers
 LARGEST_TIME = 1e11  # [s] a time column may count from 1970
-LARGEST_MEAN = 5.0 * STANDARD_GRAVITY  # [m/s^2] no rig is accelerated so for the length of a recording
-LARGEST_RMS = 200.0  # [m/s^2] about 20 g: seats and floors stay a factor 10 below
-GRAVITY_AGREEMENT = 0.1  # a mean this close to 1 or 1000 is gravity in g or mg
 RATE_AGREEMENT = 0.01  # stated and found rate may differ by this part
 USUAL_FULL_SCALES = (1.0, 1.5, 2.0, 3.0, 4.0, 6.0, 8.0, 16.0)  # [g] of accelerometers, data-sheet values
 SHORTEST_PLATEAU = 3  # equal extreme samples in a row that no unclipped vibration gives but by chance
@@ -101,12 +98,12 @@ class RecordedVibration:
         self.rate = self._settle_rate(table, rate, table.time(time))
         self.remove_bias = remove_bias
         names = _columns(table, {"x": forward, "y": lateral, "z": vertical}, needed=tilt == "correct", unused=unused)
-        raw = {axis: _signed(table, name, unit) for axis, name in names.items()}
+        raw = {axis: signed_column(table, name, unit) for axis, name in names.items()}
         self._unit_assumed = unit is None and not all(
             name.removeprefix("-").lower() in table.with_unit for name in names.values()
         )
         if self._unit_assumed:
-            _refuse_other_unit(table.file, raw)
+            refuse_other_unit(table.file, raw)
         self.samples = len(table.lines)
         self.duration = self.samples / self.rate
         if not 0.0 <= start < self.duration:
@@ -294,39 +291,6 @@ def _columns(table: Table, names: dict[str, str | None], needed: bool, unused: s
         return named
     absent = {axis for axis, name in named.items() if name.removeprefix("-").lower() not in table.columns}
     return {axis: name for axis, name in named.items() if axis not in absent or axis not in f"y{unused}"}
-
-
-def _signed(table: Table, name: str, unit: str | None) -> Array:
-    """One axis in [m/s^2]; ExcitationError where a value is none that can be measured."""
-    plain = name.removeprefix("-").lower()
-    column = table.column(plain)
-    factor = 1.0 if unit is None or plain in table.with_unit else UNITS[unit]
-    wrong = numpy.flatnonzero(numpy.abs(column) > LARGEST_ACCELERATION / factor)
-    if wrong.size:
-        raise ExcitationError(
-            f"{table.file}, line {table.lines[wrong[0]]}: column '{plain}' is {column[wrong[0]]:g} {unit or 'm/s^2'}; "
-            f"allowed: within +-{LARGEST_ACCELERATION / factor:g} ({wrong.size} such samples)"
-        )
-    column = column if factor == 1.0 else column * factor
-    return -column if name.startswith("-") else column
-
-
-def _refuse_other_unit(file: str, raw: dict[str, Array]) -> None:
-    """Refuse values that are not in m/s^2 by what they say: gravity, a steady acceleration or an rms that cannot be."""
-    mean = sqrt(sum(float(values.mean()) ** 2 for values in raw.values()))
-    rms = max(float(values.std()) for values in raw.values())
-    cure = "state the unit (vibration.unit: m/s^2, g or mg; or in the header, such as z [g])"
-    for unit, gravity in (("g", 1.0), ("mg", 1000.0)):
-        if abs(mean - gravity) <= GRAVITY_AGREEMENT * gravity:
-            raise ExcitationError(
-                f"{file}: the mean acceleration is {mean:.4g}, which is gravity in {unit} and not in m/s^2 "
-                f"({STANDARD_GRAVITY:.4g}); {cure}"
-            )
-    if mean > LARGEST_MEAN or rms > LARGEST_RMS:
-        raise ExcitationError(
-            f"{file}: the mean acceleration is {mean:.4g} and the rms about it {rms:.4g}; in m/s^2 allowed are "
-            f"{LARGEST_MEAN:.3g} and {LARGEST_RMS:g}; {cure}"
-        )
 
 
 def _found_rate(table: Table, time: Array) -> float:

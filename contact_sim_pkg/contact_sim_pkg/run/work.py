@@ -22,7 +22,7 @@ __all__ = ["BOUND", "Work", "estimated_work", "refuse_long"]
 BOUND = 600.0
 """[s] of computing that a run may take unasked, or its duration where that is longer."""
 LONG = 30.0
-"""[s] from which on the estimate is told."""
+"""[s] from which on the estimate is reported."""
 SWING, DAMPED = 1.2, 3.3  # [rad], [time constants] of a step
 SPEED = 0.5  # [m/s] at which a loss is taken
 BLOCK_COST = 1e-3  # [s] of the outputs of a block
@@ -63,14 +63,14 @@ def estimated_work(scene: dict[str, Any]) -> list[Work]:
 
 
 def refuse_long(scene: dict[str, Any], *, allowed: bool) -> str:
-    """What is to be told of the work before the run; empty where it is short. SceneError beyond the bound, unless ``allowed``."""
+    """Report of the work before the run; empty where it is short. SceneError beyond the bound, unless ``allowed``."""
     parts = estimated_work(scene)
     total, bound = sum(part.seconds for part in parts), max(BOUND, float(scene["duration"]))
-    told = parts[0].sentence(total)
+    report = parts[0].sentence(total)
     if total > bound and not allowed:
         cure = f"more than {_time(bound)}; --allow-long lifts the bound, a shorter duration takes less"
-        raise SceneError([Fault(str(scene["name"]), 0, 0, "", f"{told}, {cure}")])
-    return told if total > LONG else ""
+        raise SceneError([Fault(str(scene["name"]), 0, 0, "", f"{report}, {cure}")])
+    return report if total > LONG else ""
 
 
 def _time(seconds: float) -> str:

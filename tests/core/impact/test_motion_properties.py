@@ -10,6 +10,7 @@ import pytest
 import scipy.integrate
 import scipy.special
 from hypothesis import strategies as st
+from tests.core.impact.solved_impacts import END, IMPACT, LOSS, MATERIAL, SPEED, SPHERE
 from tests.core.properties import Table, positive
 
 from contact_sim_pkg.core.impact import (
@@ -27,13 +28,6 @@ MODULES = ("contact", "flight", "inverse", "motion", "scaled_motion", "severity"
 TABLE = Table()
 holds = TABLE.holds
 close = pytest.approx
-
-END = st.sampled_from(["force", "gap"])
-LOSS = st.just(0.0) | positive(1e-6, 0.39)
-SPHERE = st.builds(Sphere, positive(1e-3, 10.0), positive(0.05, 1.0))
-MATERIAL = st.builds(Material, positive(1e7, 1e10), LOSS)
-SPEED = positive(1e-2, 3.0)
-IMPACT = st.builds(motion.solve_impact, SPHERE, MATERIAL, SPEED, END, st.sampled_from(["small", "iterate"]))
 
 
 @functools.lru_cache(maxsize=256)

@@ -12,23 +12,17 @@ from hypothesis import strategies as st
 from tests.core.impact import test_material_properties as material
 from tests.core.impact import test_motion_properties as moving
 from tests.core.impact import test_viscoelasticity_properties as viscoelastic
+from tests.core.impact.solved_impacts import IMPACT
 from tests.core.properties import Table, positive, rows
 
 from contact_sim_pkg.core import impact as package
 from contact_sim_pkg.core.impact import closed_forms, micro_front, motion, stress, surface_wave
-from contact_sim_pkg.core.impact.bodies import Material, Sphere
 
 MODULES = ("micro_front", "stress", "surface_wave")
 TABLE = Table()
 holds = TABLE.holds
 close = pytest.approx
 NOT_PHYSICS = {"checks", "errors"}  # thin names of `core/guards.py`, which has tests of its own
-END = st.sampled_from(["force", "gap"])
-LOSS = st.just(0.0) | positive(1e-6, 0.39)
-SPHERE = st.builds(Sphere, positive(1e-3, 10.0), positive(0.05, 1.0))
-MATERIAL = st.builds(Material, positive(1e7, 1e10), LOSS)
-SPEED = positive(1e-2, 3.0)
-IMPACT = st.builds(motion.solve_impact, SPHERE, MATERIAL, SPEED, END, st.sampled_from(["small", "iterate"]))
 
 
 # Micro-impact front
