@@ -26,7 +26,11 @@ def axes():
 def test_an_error_of_zero_is_drawn_below_the_others_and_said(axes, first):
     """A block that falls onto a plane is exact at some tolerances: it was divided by that error."""
     accuracy_cost_plot._panel(axes, [row(first, 1.0, 1e-2), row(0.0, 2.0, 1e-4), row(3e-7, 4.0, 1e-6)])
-    assert list(axes.lines[0].get_ydata()) == [first or 1e-8, 1e-8, 3e-7]
+    joined, alone = axes.lines
+    assert list(joined.get_ydata()) == ([first, 3e-7] if first else [3e-7])
+    assert list(alone.get_ydata()) == ([1e-8] if first else [1e-8, 1e-8])
+    assert (joined.get_linestyle(), alone.get_linestyle()) == ("-", "None"), "no line leads to an error of 0"
+    assert [text.get_text() for text in axes.get_legend().texts] == ["distance"]
     assert axes.get_ylabel() == "relative error (0 drawn at 1e-08)"
 
 

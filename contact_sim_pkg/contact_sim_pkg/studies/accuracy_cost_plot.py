@@ -68,7 +68,9 @@ def _drawable(rows: list[dict[str, Any]]) -> tuple[list[dict[str, Any]], str]:
     floor = 10.0 ** (math.floor(math.log10(smallest)) - 1)
     notes = [f"0 drawn at {floor:.0e}"] if any(row["error"] == 0.0 for row in known) else []
     notes += [f"{len(rows) - len(known)} without a number left out"] if len(known) < len(rows) else []
-    return [{**row, "error": row["error"] or floor} for row in known], f" ({', '.join(notes)})" if notes else ""
+    return [
+        {**row, "error": row["error"] or floor, "exact": row["error"] == 0.0} for row in known
+    ], f" ({', '.join(notes)})" if notes else ""
 
 
 def _panel(axis: Any, rows: list[dict[str, Any]]) -> None:
@@ -79,11 +81,15 @@ def _panel(axis: Any, rows: list[dict[str, Any]]) -> None:
     names = list(dict.fromkeys(row["quantity"] for row in rows))
     for label in dict.fromkeys(_series(row) for row in rows):
         chosen = sorted((row for row in rows if _series(row) == label), key=_finer)
-        times, errors = [row["ms_per_simulated_s"] for row in chosen], [row["error"] for row in chosen]
         first = next(row for row in rows if _series(row) == label)
         style = "--s" if first["part"] == "field grid" else ":^" if first["rung"] == "check" else "-o"
         colour = f"C{names.index(first['quantity'])}"
-        axis.plot(times, errors, style, color=colour, markersize=4, linewidth=1.3, label=label)
+        name: str | None = label
+        for exact, line in ((False, style), (True, style[-1])):  # no line leads to an error of 0
+            points = [(row["ms_per_simulated_s"], row["error"]) for row in chosen if row["exact"] is exact]
+            if points:
+                axis.plot(*zip(*points, strict=True), line, color=colour, markersize=4, linewidth=1.3, label=name)
+                name = None
     _name_points(axis, rows)
     axis.set_xscale("log")
     axis.set_yscale("log")
