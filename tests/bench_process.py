@@ -85,6 +85,14 @@ class Nodes:
         """Whether no process lives any more."""
         return self._children.all_ended()
 
+    def wait_until(self, condition, seconds: float = LONGEST) -> None:
+        """Wait for a condition of a run under way; fails after the time, or once all nodes have ended, with what they said."""
+        limit = time.monotonic() + seconds
+        while not condition():
+            over = "all nodes have ended" if self.ended() else "timed out" if time.monotonic() > limit else ""
+            assert not over, "\n".join([over, *self.said[-20:]])
+            time.sleep(0.02)
+
     def wait(self, seconds: float = LONGEST) -> dict[str, int]:
         """Exit status of each node, when all have ended."""
         wait_until(self._children.all_ended, seconds)
@@ -99,7 +107,7 @@ def wait_until(condition, seconds: float = LONGEST) -> None:
     """Wait for a condition; fails after the time."""
     limit = time.monotonic() + seconds
     while not condition():
-        assert time.monotonic() < limit, "waited in vain"
+        assert time.monotonic() < limit, "timed out"
         time.sleep(0.02)
 
 

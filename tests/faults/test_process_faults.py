@@ -145,7 +145,7 @@ def test_a_simulator_without_its_logger_ends_within_two_seconds_of_an_interrupt(
     try:
         started = {name: nodes.start(name, input_timeout=30.0) for name in ("bag_logger", "contact_simulator")}
         started["vibration"] = nodes.start("vibration")
-        wait_until(lambda: recorded_bytes(nodes.bag) > 30_000)
+        nodes.wait_until(lambda: recorded_bytes(nodes.bag) > 30_000)
         started["bag_logger"].process.kill()
         started["contact_simulator"].process.send_signal(signal.SIGINT)
         began = time.monotonic()
@@ -163,7 +163,7 @@ def test_a_stopped_logger_is_named_and_loses_nothing_when_it_goes_on(tmp_path):
         logger = nodes.start("bag_logger")
         nodes.start("contact_simulator", input_timeout=1.0)
         nodes.start("vibration")
-        wait_until(lambda: recorded_bytes(nodes.bag) > 30_000)
+        nodes.wait_until(lambda: recorded_bytes(nodes.bag) > 30_000)
         logger.process.send_signal(signal.SIGSTOP)
         wait_until(lambda: any("the logger has not answered for block" in line for line in nodes.said))
         time.sleep(1.0)
@@ -186,7 +186,7 @@ def test_a_source_that_is_stopped_for_a_while_costs_nothing_but_time(tmp_path):
         nodes.start("bag_logger")
         nodes.start("contact_simulator")
         source = nodes.start("vibration")
-        wait_until(lambda: recorded_bytes(nodes.bag) > 20_000)
+        nodes.wait_until(lambda: recorded_bytes(nodes.bag) > 20_000)
         source.process.send_signal(signal.SIGSTOP)
         time.sleep(2.0)
         source.process.send_signal(signal.SIGCONT)
@@ -236,7 +236,7 @@ def test_nodes_without_a_supervisor_close_the_bag_when_all_are_interrupted(tmp_p
     nodes = Nodes(resolved("seat_ride", "duration=60", "pace=realtime"), tmp_path)
     try:
         started = {name: nodes.start(name) for name in sorted(NODES)}
-        wait_until(lambda: recorded_bytes(nodes.bag) > 30_000)
+        nodes.wait_until(lambda: recorded_bytes(nodes.bag) > 30_000)
         for child in started.values():
             child.process.send_signal(signal.SIGINT)
         assert nodes.wait() == dict.fromkeys(sorted(NODES), 0)

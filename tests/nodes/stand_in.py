@@ -32,7 +32,7 @@ class StandIn:
         """Hear what comes until the condition holds; fails after the time."""
         limit = time.monotonic() + seconds
         while not condition():
-            assert time.monotonic() < limit, f"waited in vain; last heard {self.progress}"
+            assert time.monotonic() < limit, f"timed out; last heard {self.progress}"
             self._executor.spin_once(timeout_sec=0.02)
 
     def wait_ready(self, listeners: int) -> None:

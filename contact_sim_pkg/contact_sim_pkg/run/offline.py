@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import time
 from collections.abc import Callable
+from contextlib import ExitStack
 from pathlib import Path
 from typing import Any, NamedTuple
 
@@ -84,16 +85,20 @@ def run_offline(
         summary = None if writer is None else writer.close(_outcome(done, simulation.blocks, failure, stopped, first))
         return RunOutcome(done, startup, time.perf_counter() - first, summary, stopped, failure, descriptions, loss)
 
+    compilation = ExitStack()  # closed while the blocks run; open again behind a thread that does not come back
+
     def abandoned() -> RunOutcome:
         nonlocal stopped
         stopped = True
+        compilation.close()
         return ended()
 
     computing.end = abandoned
     try:
         if writer is not None:
             writer.write("bench/scene", 0, encode_scene(scene.to_yaml()))
-        with closed():
+        with compilation:
+            compilation.enter_context(closed())
             for block in range(simulation.blocks):
                 if stop is not None and stop():
                     stopped = True
