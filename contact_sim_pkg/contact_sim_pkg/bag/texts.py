@@ -4,6 +4,7 @@ from collections.abc import Callable
 from typing import Any
 
 from contact_sim_pkg.scene.errors import SceneError
+from contact_sim_pkg.scene.renamed_keys import with_new_names
 from contact_sim_pkg.scene.yaml_document import parse_json, parse_plain
 
 from .errors import BagError
@@ -22,11 +23,14 @@ def values_of_text(text: str, where: str, read: Callable[..., Any] = parse_plain
 
 
 def scene_of_text(text: str | None, where: str) -> dict[str, Any]:
-    """The mapping of a recorded scene, its values unchecked; empty where there is no text. BagError: no mapping."""
+    """The mapping of a recorded scene, its values unchecked, keys that were renamed since under their new names.
+
+    Empty where there is no text. BagError: no mapping.
+    """
     scene = {} if text is None else values_of_text(text, where)
     if not isinstance(scene, dict):
         raise BagError(f"{where}: holds {_kind(scene)}, not the keys and values of a scene")
-    return scene
+    return with_new_names(scene)
 
 
 def excitation_of_text(text: str | None, where: str) -> dict[str, dict[str, Any]]:

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from contact_sim_pkg.scene.errors import Fault, SceneError
+from contact_sim_pkg.scene.renamed_keys import new_key, sentence_of
 from contact_sim_pkg.scene.yaml_document import parse_value
 from contact_sim_pkg.scene.yaml_nodes import ListNode, MappingNode, Mark, Node, ScalarNode
 
@@ -79,7 +80,9 @@ def apply(root: MappingNode, overrides: Iterable[Override]) -> list[Fault]:
     faults = []
     for override in overrides:
         mark = Mark(override.option, 0, 0)
-        if override.node is None:
+        if new := new_key(override.path):
+            sentence = sentence_of(new)
+        elif override.node is None:
             sentence = _remove(root, override.path)
         elif override.file_section:
             sentence = _replace_file(root, override.file_section, override.node, mark)

@@ -14,6 +14,7 @@ from typing import Any
 from contact_sim_pkg.scene.errors import Fault, SceneError
 from contact_sim_pkg.scene.files import find_file, input_files
 from contact_sim_pkg.scene.overrides import Override, apply
+from contact_sim_pkg.scene.renamed_keys import take_new_names
 from contact_sim_pkg.scene.resolved_scene import ResolvedScene, sha256_of
 from contact_sim_pkg.scene.rigs import RIGS
 from contact_sim_pkg.scene.schema import Scene
@@ -73,6 +74,7 @@ def read_resolved(text: str, files: Mapping[str, str | Path] | None = None, fold
     """
     source = "resolved scene"
     document = parse_document(text, source)
+    take_new_names(document.root)  # a scene that an earlier version resolved
     scene = validate(document.root, source, document.faults)
     data = explicit(scene)
     open_keys = [where for where, value in _leaves(data) if _at(_dump(scene), where) != value]
@@ -85,8 +87,12 @@ def read_resolved(text: str, files: Mapping[str, str | Path] | None = None, fold
 
 
 def read_explicit(text: str, name: str, overrides: Sequence[Override] = ()) -> dict[str, Any]:
-    """The data of a resolved scene that stands in a bag, with ``overrides`` applied, made explicit and checked again."""
+    """The data of a resolved scene that stands in a bag, with ``overrides`` applied, made explicit and checked again.
+
+    Keys that were renamed since are read under their new names.
+    """
     document = parse_document(text, name)
+    take_new_names(document.root)
     faults = document.faults + apply(document.root, overrides)
     return explicit(validate(document.root, name, faults))
 

@@ -9,6 +9,7 @@ from typing import Any
 from pydantic import ValidationError
 
 from contact_sim_pkg.scene.errors import Breach, Fault, SceneError
+from contact_sim_pkg.scene.renamed_keys import take_new_names
 from contact_sim_pkg.scene.schema import Scene
 from contact_sim_pkg.scene.schema_catalog import Entry, catalog, entry_of, without_kinds
 from contact_sim_pkg.scene.schema_effect_rules import effect_breaches, unavailable_effect
@@ -36,9 +37,10 @@ def validate(root: MappingNode, file: str, known: Iterable[Fault] = (), rules: I
         rules: what must hold between keys.
 
     Raises:
-        SceneError: with all faults. A key with a fault of its own takes no part in the rules.
+        SceneError: with all faults. A key with a fault of its own takes no part in the rules. A key that was renamed is
+            one of them; its value is checked under the new name.
     """
-    validator = _Validator(root, list(known))
+    validator = _Validator(root, [*known, *take_new_names(root)])
     scene = validator.types()
     if scene is not None:
         scene._file = file

@@ -1,0 +1,132 @@
+"""Renamed scene keys: a scene with the old key is refused with the new one, the scene of an old bag is read.
+
+The renames of these tests are made up: an effect, a section and a key below a section.
+"""
+
+import pytest
+
+from contact_sim_pkg.bag.reader import open_bag
+from contact_sim_pkg.bag.texts import scene_of_text
+from contact_sim_pkg.cli.main import main as bench_main
+from contact_sim_pkg.run.from_bag import refuse_other_scene
+from contact_sim_pkg.scene.overrides import set_value
+from contact_sim_pkg.scene.renamed_keys import RENAMED, new_key
+from contact_sim_pkg.scene.resolve import ResolvedScene, read_explicit, resolve
+from contact_sim_pkg.scene.schema_catalog import catalog
+
+from ..bag import hand_made
+
+MADE_UP = {
+    "effects.seat.bounce": "effects.seat.normal_elastic",
+    "shaker": "vibration",
+    "seat.occupant.hip_mass": "seat.occupant.frame_mass",
+}
+
+
+@pytest.fixture
+def renamed(monkeypatch):
+    """The made-up renames beside the true ones."""
+    for old, new in MADE_UP.items():
+        monkeypatch.setitem(RENAMED, old, new)
+
+
+def with_old_names(text):
+    """A resolved scene of the rig seat as a version before the renames wrote it."""
+    for old, new in MADE_UP.items():
+        before, after = (f"{key.rpartition('.')[2]}:" for key in (new, old))
+        assert text.count(before) == 1
+        text = text.replace(before, after)
+    return text
+
+
+def test_no_old_key_is_a_key_of_today_and_every_new_one_is():
+    keys = {".".join(location) for location in catalog()}
+    assert not keys & set(RENAMED)
+    assert set(RENAMED.values()) <= keys
+
+
+@pytest.mark.usefixtures("renamed")
+@pytest.mark.parametrize(
+    ("changes", "fault"),
+    [
+        (
+            {"effects.seat.bounce": {"coefficient": 5e5}, "effects.seat.normal_elastic": ...},
+            "effects.seat.bounce: was renamed; write effects.seat.normal_elastic in its place",
+        ),
+        (
+            {"shaker": {"kind": "sine", "frequency": 4.0, "amplitude": 1.0}, "vibration": ...},
+            "shaker: was renamed; write vibration in its place",
+        ),
+        (
+            {"seat.occupant.hip_mass": 6.0},
+            "seat.occupant.hip_mass: was renamed; write seat.occupant.frame_mass in its place",
+        ),
+        (
+            {"seat.occupant.hip_mass": 6.0, "seat.occupant.frame_mass": 7.0},
+            "seat.occupant.hip_mass: was renamed; write seat.occupant.frame_mass in its place",
+        ),
+    ],
+)
+def test_an_old_key_is_refused_with_one_sentence_that_names_the_new_one(maker, changes, fault):
+    assert maker.faults("seat", changes) == [fault]
+
+
+@pytest.mark.usefixtures("renamed")
+def test_the_value_under_an_old_key_is_checked_as_that_of_the_new_one(maker):
+    first, second = maker.faults("seat", {"seat.occupant.hip_mass": -6.0})
+    assert first.endswith("write seat.occupant.frame_mass in its place")
+    assert second.startswith("seat.occupant.frame_mass: -6.0 kg is below")
+
+
+@pytest.mark.usefixtures("renamed")
+@pytest.mark.parametrize("value", ["5e5", "null"])
+def test_an_old_key_on_the_command_line_is_refused(maker, value):
+    override = set_value(f"effects.seat.bounce.coefficient={value}")
+    sentence = "was renamed; write effects.seat.normal_elastic.coefficient in its place"
+    assert maker.faults("seat", overrides=[override]) == [f"effects.seat.bounce.coefficient: {sentence}"]
+
+
+@pytest.mark.usefixtures("renamed")
+def test_bench_ends_with_2_and_the_new_key(maker, capsys):
+    file = maker.write("seat", {"seat.occupant.hip_mass": 6.0})
+    assert bench_main(["show", str(file)]) == 2
+    assert "write seat.occupant.frame_mass in its place" in capsys.readouterr().err
+
+
+@pytest.mark.usefixtures("renamed")
+def test_a_recorded_scene_with_old_keys_reads_as_one_with_the_new_ones(maker):
+    scene = resolve(maker.load("seat", {"seat.occupant.frame_mass": 6.0}))
+    old = with_old_names(scene.to_yaml())
+    assert read_explicit(old, "scene of a bag") == scene.data
+    assert ResolvedScene.from_yaml(old).data == scene.data
+    assert scene_of_text(old, "scene of a bag") == scene.data
+
+
+@pytest.mark.usefixtures("renamed")
+def test_a_bag_with_old_keys_is_reported_and_simulated_again(tmp_path):
+    content = hand_made.seat_ride()
+    old = with_old_names(content.texts["scene"])
+    content.texts = {**content.texts, "scene": old}
+    content.messages[0] = ("bench/scene", 0, hand_made.encode_scene(old))
+    hand_made.write(tmp_path / "old", content)
+    assert open_bag(tmp_path / "old").scene == old
+    assert bench_main(["report", str(tmp_path / "old"), "--out", str(tmp_path / "page.html")]) == 0
+    page = (tmp_path / "page.html").read_text(encoding="utf-8")
+    assert "frame mass" in page
+    assert "hip mass" not in page
+    refuse_other_scene(tmp_path / "old", ResolvedScene(read_explicit(old, "scene of a bag")))
+
+
+@pytest.mark.parametrize(
+    ("key", "found"),
+    [
+        ("shaker", "vibration"),
+        ("shaker.rate", "vibration.rate"),
+        ("effects.seat.bounce", "effects.seat.normal_elastic"),
+        ("effects.seat", ""),
+        ("shakers", ""),
+    ],
+)
+@pytest.mark.usefixtures("renamed")
+def test_the_new_key_of_a_section_holds_for_the_keys_below_it(key, found):
+    assert new_key(tuple(key.split("."))) == found
