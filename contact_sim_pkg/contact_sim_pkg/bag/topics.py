@@ -2,6 +2,7 @@
 
 Names are relative (a namespace puts itself in front) except `/clock` and `/diagnostics`, which ROS shares between all
 nodes. The rank is the position in the table; at equal stamps, a bag holds the messages of a block in order of rank.
+`docs/interfaces.md` shows the table, made by `nodes/interface_reference.py`.
 """
 
 from typing import Literal, NamedTuple
@@ -23,56 +24,86 @@ class Topic(NamedTuple):
     recorded: bool
     wall_time: bool  # reports wall time: differs from run to run, so it is excepted from bit identity
     kind: Kind
+    rate: str  # when a message comes; keys of the scene between backticks
 
 
-def _latched(name: str, type_name: str, kind: Kind, *, recorded: bool = False, wall_time: bool = False) -> Topic:
-    return Topic(name, type_name, 0, "reliable", "transient_local", 1, recorded, wall_time, kind)
+BLOCK = "every `block_length`"
+SAMPLES = "every `block_length`, samples at `outputs.force_rate`"
+DISPLAY = "`outputs.display_rate`"
+FIELD = "`outputs.field_rate`"
+IMPACT = "an impact"
 
 
-def _samples(name: str, type_name: str, kind: Kind = "result", *, wall_time: bool = False) -> Topic:
-    return Topic(name, type_name, 0, "reliable", "volatile", 10, True, wall_time, kind)
+def _latched(name: str, type_name: str, kind: Kind, rate: str, *, recorded: bool = False) -> Topic:
+    return Topic(name, type_name, 0, "reliable", "transient_local", 1, recorded, not recorded, kind, rate)
+
+
+def _samples(
+    name: str, type_name: str, rate: str = SAMPLES, *, kind: Kind = "result", wall_time: bool = False
+) -> Topic:
+    return Topic(name, type_name, 0, "reliable", "volatile", 10, True, wall_time, kind, rate)
 
 
 _TABLE = (
-    _latched("bench/scene", "std_msgs/msg/String", "scene", recorded=True),
-    _samples("road/patch", "contact_msgs_defs/msg/RoadPatch", "excitation"),
-    _samples("platform/vibration", "contact_msgs_defs/msg/VibrationBlock", "excitation"),
+    _latched("bench/scene", "std_msgs/msg/String", "scene", "once", recorded=True),
+    _samples("road/patch", "contact_msgs_defs/msg/RoadPatch", BLOCK, kind="excitation"),
+    _samples(
+        "platform/vibration",
+        "contact_msgs_defs/msg/VibrationBlock",
+        "every `block_length`, samples at `vibration.sample_rate`",
+        kind="excitation",
+    ),
     _samples("tire/force", "contact_msgs_defs/msg/ContactForce"),
     _samples("seat/force", "contact_msgs_defs/msg/ContactForce"),
     _samples("backrest/force", "contact_msgs_defs/msg/ContactForce"),
     _samples("impact/force", "contact_msgs_defs/msg/ContactForce"),
     _samples("block/force", "contact_msgs_defs/msg/ContactForce"),
     _samples("roller/force", "contact_msgs_defs/msg/ContactForce"),
-    _samples("tire/wrench", "geometry_msgs/msg/WrenchStamped"),
-    _samples("seat/wrench", "geometry_msgs/msg/WrenchStamped"),
-    _samples("backrest/wrench", "geometry_msgs/msg/WrenchStamped"),
-    _samples("impact/wrench", "geometry_msgs/msg/WrenchStamped"),
-    _samples("block/wrench", "geometry_msgs/msg/WrenchStamped"),
-    _samples("tire/patch", "contact_msgs_defs/msg/ContactPatch"),
-    _samples("seat/patch", "contact_msgs_defs/msg/ContactPatch"),
-    _samples("backrest/patch", "contact_msgs_defs/msg/ContactPatch"),
-    _samples("backrest/points", "contact_msgs_defs/msg/ContactPoints"),
-    _samples("block/points", "contact_msgs_defs/msg/ContactPoints"),
-    _samples("tire/shear", "contact_msgs_defs/msg/ContactShear"),
-    _samples("impact/events", "contact_msgs_defs/msg/ImpactEvents"),
-    _samples("impact/course", "contact_msgs_defs/msg/ImpactCourse"),
-    _samples("impact/stress", "contact_msgs_defs/msg/ImpactStress"),
-    _samples("impact/wave", "contact_msgs_defs/msg/ImpactWave"),
-    _samples("impact/front", "contact_msgs_defs/msg/ImpactFront"),
-    _samples("impact/position", "contact_msgs_defs/msg/ImpactPosition"),
-    _samples("impact/history", "contact_msgs_defs/msg/ImpactHistory"),
-    _samples("roller/stability", "contact_msgs_defs/msg/RollerStability"),
+    _samples("tire/wrench", "geometry_msgs/msg/WrenchStamped", DISPLAY),
+    _samples("seat/wrench", "geometry_msgs/msg/WrenchStamped", DISPLAY),
+    _samples("backrest/wrench", "geometry_msgs/msg/WrenchStamped", DISPLAY),
+    _samples("impact/wrench", "geometry_msgs/msg/WrenchStamped", DISPLAY),
+    _samples("block/wrench", "geometry_msgs/msg/WrenchStamped", DISPLAY),
+    _samples("tire/patch", "contact_msgs_defs/msg/ContactPatch", FIELD),
+    _samples("seat/patch", "contact_msgs_defs/msg/ContactPatch", FIELD),
+    _samples("backrest/patch", "contact_msgs_defs/msg/ContactPatch", FIELD),
+    _samples("backrest/points", "contact_msgs_defs/msg/ContactPoints", FIELD),
+    _samples("block/points", "contact_msgs_defs/msg/ContactPoints", FIELD),
+    _samples("tire/shear", "contact_msgs_defs/msg/ContactShear", FIELD),
+    _samples("impact/events", "contact_msgs_defs/msg/ImpactEvents", "a block in which an impact ended"),
+    _samples("impact/course", "contact_msgs_defs/msg/ImpactCourse", IMPACT),
+    _samples("impact/stress", "contact_msgs_defs/msg/ImpactStress", IMPACT),
+    _samples("impact/wave", "contact_msgs_defs/msg/ImpactWave", IMPACT),
+    _samples("impact/front", "contact_msgs_defs/msg/ImpactFront", IMPACT),
+    _samples("impact/position", "contact_msgs_defs/msg/ImpactPosition", IMPACT),
+    _samples("impact/history", "contact_msgs_defs/msg/ImpactHistory", IMPACT),
+    _samples(
+        "roller/stability",
+        "contact_msgs_defs/msg/RollerStability",
+        "the first block, and each in which the load changed",
+    ),
     _samples("roller/contact", "contact_msgs_defs/msg/RollerContact"),
-    _samples("roller/track", "contact_msgs_defs/msg/RollerTrack"),
-    _samples("roller/volumes", "contact_msgs_defs/msg/RollerVolumes"),
-    _samples("bench/episodes", "contact_msgs_defs/msg/ContactEpisodes"),
+    _samples("roller/track", "contact_msgs_defs/msg/RollerTrack", BLOCK),
+    _samples("roller/volumes", "contact_msgs_defs/msg/RollerVolumes", "`effects.roller.subsurface.instants`"),
+    _samples("bench/episodes", "contact_msgs_defs/msg/ContactEpisodes", "a block in which an episode ended"),
     _samples("bench/motion", "contact_msgs_defs/msg/BodyMotion"),
-    _samples("bench/energy", "contact_msgs_defs/msg/EnergyLedger"),
-    _samples("bench/cost", "contact_msgs_defs/msg/SolverCost", "cost", wall_time=True),
-    _latched("bench/progress", "contact_msgs_defs/msg/BenchProgress", "state", wall_time=True),
-    _latched("bench/recorded", "contact_msgs_defs/msg/BenchRecorded", "state", wall_time=True),
-    Topic("/clock", "rosgraph_msgs/msg/Clock", 0, "best_effort", "volatile", 1, False, False, "clock"),
-    Topic("/diagnostics", "diagnostic_msgs/msg/DiagnosticArray", 0, "reliable", "volatile", 10, False, True, "health"),
+    _samples("bench/energy", "contact_msgs_defs/msg/EnergyLedger", BLOCK),
+    _samples("bench/cost", "contact_msgs_defs/msg/SolverCost", BLOCK, kind="cost", wall_time=True),
+    _latched("bench/progress", "contact_msgs_defs/msg/BenchProgress", "state", "a block, and a change of state"),
+    _latched("bench/recorded", "contact_msgs_defs/msg/BenchRecorded", "state", "a block, and the end"),
+    Topic("/clock", "rosgraph_msgs/msg/Clock", 0, "best_effort", "volatile", 1, False, False, "clock", BLOCK),
+    Topic(
+        "/diagnostics",
+        "diagnostic_msgs/msg/DiagnosticArray",
+        0,
+        "reliable",
+        "volatile",
+        10,
+        False,
+        True,
+        "health",
+        "1 Hz, and a change of state",
+    ),
 )
 
 TOPICS: dict[str, Topic] = {topic.name: topic._replace(rank=rank) for rank, topic in enumerate(_TABLE)}

@@ -1,0 +1,221 @@
+"""The tables of `docs/interfaces.md`: topics, messages, nodes, exit codes and renamed scene keys.
+
+`python -m contact_sim_pkg.nodes.interface_reference docs/interfaces.md` writes them between the two marks of that file.
+They come from the table of topics, the `.msg` files, the rigs and `config/bench.yaml`; nothing is written twice.
+"""
+
+from __future__ import annotations
+
+import re
+import sys
+import textwrap
+from collections.abc import Iterable, Iterator
+from pathlib import Path
+from typing import Any, NamedTuple
+
+from contact_sim_pkg.bag.topics import TOPICS
+from contact_sim_pkg.bag.typestore import PACKAGE, definition
+from contact_sim_pkg.run.rigs import result_topics
+from contact_sim_pkg.scene.renamed_keys import RENAMED
+from contact_sim_pkg.scene.resolved_scene import ResolvedScene
+from contact_sim_pkg.scene.rigs import RIGS, RigName
+from contact_sim_pkg.scene.schema_effect_rules import EFFECT_RULES
+
+from .protocol import DONE, FAULT, LOSS, REFUSED
+from .sros2_policy import LIFECYCLE, OWN_SERVICES, PUBLISHED, SUBSCRIBED
+
+BEGIN = "<!-- tables made from the code: begin -->"
+END = "<!-- tables made from the code: end -->"
+PARAMETERS = Path("contact_sim_pkg") / "config" / "bench.yaml"
+WIDTH = 100
+APPEARS = {
+    "scene": "always",
+    "road/patch": "scenes with `road` and `travel`",
+    "platform/vibration": "scenes with `vibration`",
+    "cost": "always",
+    "state": "always; not recorded",
+    "clock": "unless another node publishes it; not recorded",
+    "health": "always; not recorded",
+}
+"""By name or kind of topic: when it appears, for those that no rig publishes."""
+EXIT_CODES = {
+    DONE: "done, or ended by the user",
+    FAULT: "failed while running",
+    REFUSED: "refused before anything started: scene, file, option, parameter or graph",
+    LOSS: "finished, and messages are missing in the bag",
+}
+
+
+def reference(parameters: str) -> str:
+    """All tables, as Markdown; `parameters` is the text of the nodes' parameter file."""
+    return "\n\n".join([_topics(), *_messages(), *_nodes(parameters), _exit_codes(), _renamed()])
+
+
+def with_tables(document: str, parameters: str) -> str:
+    """The document with its tables made anew.
+
+    Raises:
+        ValueError: one of the two marks is missing.
+    """
+    before, begin, rest = document.partition(BEGIN)
+    _, end, after = rest.partition(END)
+    if not begin or not end:
+        raise ValueError(f"the document needs the lines {BEGIN!r} and {END!r}")
+    return f"{before}{BEGIN}\n\n{reference(parameters)}\n\n{END}{after}"
+
+
+def _topics() -> str:
+    appears = _appearances()
+    rows = [
+        (f"`{topic.name}`", topic.type.replace("/msg/", "/"), _publisher(topic.name), topic.rate, appears[topic.name])
+        for topic in TOPICS.values()
+    ]
+    return "## Topics\n\n" + _table(("topic", "type", "publisher", "a message comes", "it appears"), rows)
+
+
+def _publisher(topic: str) -> str:
+    """The node that publishes a topic in a run; a replay publishes what a bag holds."""
+    return ", ".join(node for node, topics in PUBLISHED.items() if topic in topics and node != "bag_replay")
+
+
+def _appearances() -> dict[str, str]:
+    """By topic: the rigs that publish it, and the effects or the key that it needs."""
+    rows = {name: APPEARS.get(name) or APPEARS.get(topic.kind, "") for name, topic in TOPICS.items()}
+    needed: dict[
+        str, dict[str, list[str]]
+    ] = {}  # topic -> rig -> effects or key, one of which it needs; empty for none
+    for rig in RIGS:
+        for topic, condition in _conditions(rig):
+            needed.setdefault(topic, {}).setdefault(rig, []).extend([condition] if condition else [])
+    for topic, conditions in needed.items():
+        by_condition: dict[str, list[str]] = {}
+        for name, named in conditions.items():
+            by_condition.setdefault(" or ".join(named), []).append(name)
+        rows[topic] = "; ".join(_rigs(rigs, condition) for condition, rigs in by_condition.items())
+    return rows
+
+
+def _rigs(rigs: list[str], condition: str) -> str:
+    named = "every rig" if rigs == [*RIGS] else f"rig{'s' * (len(rigs) > 1)} {', '.join(rigs)}"
+    return f"{named} with {condition}" if condition else named
+
+
+def _conditions(rig: RigName) -> Iterator[tuple[str, str]]:
+    """Topics of one rig, each with what it needs beside the rig; one effect or key is switched on at a time."""
+    base = _published(rig)
+    yield from ((topic, "") for topic in base)
+    for contact in RIGS[rig].contacts:
+        for effect, rule in EFFECT_RULES.items():
+            if contact in rule.contacts:
+                added = [topic for topic in _published(rig, contact, effect) if topic not in base]
+                yield from ((topic, f"`{effect}`") for topic in added)
+    yield from ((topic, "`impact.course_samples`") for topic in _published(rig, course=1) if topic not in base)
+
+
+def _published(rig: RigName, contact: str = "", effect: str = "", course: int = 0) -> list[str]:
+    effects: dict[str, dict[str, Any]] = {name: {} for name in RIGS[rig].contacts}
+    if effect:
+        effects[contact][effect] = {}
+    return result_topics(ResolvedScene({"rig": rig, "effects": effects, "impact": {"course_samples": course}}))
+
+
+class Field(NamedTuple):
+    """One line of a message definition."""
+
+    name: str
+    type: str
+    unit: str
+    meaning: str
+
+
+def message_fields(text: str) -> list[Field]:
+    """The fields and constants of a `.msg` text; the unit stands in brackets at the start of the comment."""
+    found = []
+    for line in text.splitlines():
+        code, _, comment = line.partition("#")
+        if not code.strip():
+            continue
+        kind, name = code.split(maxsplit=1)
+        unit = re.match(r"\[([^]]*)\]\s*", comment.strip())
+        meaning = comment.strip()[unit.end() :] if unit else comment.strip()
+        found.append(Field(name.strip(), kind, unit.group(1) if unit else "", meaning))
+    return found
+
+
+def own_types() -> list[str]:
+    """Our message types in the order of the table of topics."""
+    return [*dict.fromkeys(topic.type for topic in TOPICS.values() if topic.type.startswith(f"{PACKAGE}/"))]
+
+
+def _messages() -> Iterator[str]:
+    yield "## Messages\n\nThe unit of a field is SI; a field without one is a number, a flag or a text."
+    for name in own_types():
+        text = definition(name).partition("=" * 80)[0]
+        head = " ".join(line.lstrip("# ") for line in text.split("\n\n")[0].splitlines() if line.startswith("#"))
+        rows = [(f"`{field.name}`", field.type, field.unit, field.meaning) for field in message_fields(text)]
+        table = _table(("field", "type", "unit", "meaning"), rows)
+        yield f"### {name.rpartition('/')[2]}\n\n{_wrapped(head)}\n\n{table}"
+
+
+def _nodes(parameters: str) -> Iterator[str]:
+    yield "## Nodes"
+    for node in PUBLISHED:
+        if node == "bench_run":
+            continue  # the supervisor: it has no parameters and publishes nothing
+        kind = "lifecycle node" if node in LIFECYCLE else "plain node"
+        services = "".join(f"; service `{name}`" for name in OWN_SERVICES.get(node, ()))
+        rows = [(f"`{name}`", value, meaning) for name, value, meaning in _parameters_of(node, parameters)]
+        table = _table(("parameter", "default", "meaning"), rows)
+        yield f"### {node}\n\nA {kind}{services}.{_subscribed(node)}\n\n{table}"
+
+
+def _subscribed(node: str) -> str:
+    recorded = {name for name, topic in TOPICS.items() if topic.recorded}
+    names = [*SUBSCRIBED[node]]
+    if recorded <= {*names}:
+        names = ["every recorded topic of the scene", *(f"`{name}`" for name in names if name not in recorded)]
+    else:
+        names = [f"`{name}`" for name in names]
+    return f" Subscribes to {', '.join(names)}." if names else ""
+
+
+def _parameters_of(node: str, text: str) -> Iterator[tuple[str, str, str]]:
+    """Name, default and comment of each parameter of a node."""
+    section = text.partition(f"/**/{node}:\n")[2].partition("\n/**/")[0]
+    for line in section.splitlines()[1:]:
+        code, _, comment = line.partition("#")
+        name, _, value = code.strip().partition(": ")
+        yield name, f"`{value.strip()}`", comment.strip()
+
+
+def _exit_codes() -> str:
+    rows = [(str(code), meaning) for code, meaning in sorted(EXIT_CODES.items())]
+    return "## Exit codes\n\nOf every `bench` command and of every node.\n\n" + _table(("code", "meaning"), rows)
+
+
+def _renamed() -> str:
+    rows = [(f"`{old}`", f"`{new}`") for old, new in RENAMED.items()]
+    table = _table(("old key", "new key"), rows) if rows else "None so far."
+    return f"## Renamed scene keys\n\n{table}"
+
+
+def _table(head: Iterable[str], rows: Iterable[Iterable[str]]) -> str:
+    lines = [tuple(head), *(tuple(cell.replace("|", "\\|") for cell in row) for row in rows)]
+    rows_as_text = [f"| {' | '.join(line)} |" for line in lines]
+    return "\n".join([rows_as_text[0], "|---" * len(lines[0]) + "|", *rows_as_text[1:]])
+
+
+def _wrapped(text: str) -> str:
+    return "\n".join(textwrap.wrap(text, WIDTH, break_long_words=False, break_on_hyphens=False))
+
+
+def main(arguments: list[str]) -> int:
+    """Write the tables into the given document of a checkout."""
+    path = Path(arguments[0])
+    parameters = (path.resolve().parents[1] / PARAMETERS).read_text(encoding="utf-8")
+    path.write_text(with_tables(path.read_text(encoding="utf-8"), parameters), encoding="utf-8")
+    return 0
+
+
+if __name__ == "__main__":
+    raise SystemExit(main(sys.argv[1:]))
