@@ -15,6 +15,7 @@ from contact_sim_pkg.scene.yaml_nodes import ListNode, MappingNode, Mark, Scalar
 
 ENTRIES = [entry for entry in catalog().values() if entry.location[-1] != "kind"]
 NUMBERS = [entry for entry in ENTRIES if entry.kind in ("number", "integer")]
+KEY, VALUE = (7, 7), (7, 20)  # line and column where `document_with` says that they stand
 BASE = "name: s\nrig: seat\nduration: 1\neffects: {seat: {normal_elastic: {}}}\n"
 
 
@@ -36,15 +37,18 @@ def document_with(entry, key, raw):
             section.key_marks["kind"] = Mark("s.yaml", 9, 3)
     value = parse_document(f"v: {raw}", "s.yaml").root.entries["v"]
     section.entries[key] = value
-    section.key_marks[key] = Mark("s.yaml", 7, 7)
-    value.mark = Mark("s.yaml", 7, 20)
+    section.key_marks[key] = Mark("s.yaml", *KEY)
+    value.mark = Mark("s.yaml", *VALUE)
     return root
 
 
 def faults_at(root, where):
-    with pytest.raises(SceneError) as caught:
+    """What is told at one place; other places are incomplete on purpose."""
+    try:
         validate(root, "s.yaml", rules=())
-    return [fault for fault in caught.value.faults if fault.where == where]
+    except SceneError as error:
+        return [fault for fault in error.faults if fault.where == where]
+    return []
 
 
 def path_of(entry, key=None):
@@ -52,59 +56,70 @@ def path_of(entry, key=None):
     return ".".join([*path[:-1], key or path[-1]])
 
 
-@pytest.mark.parametrize("entry", ENTRIES, ids=name_of)
-def test_every_key_with_one_letter_dropped_is_refused_at_its_place(entry):
-    key = entry.location[-1]
-    for index in range(len(key)):
-        misspelt = key[:index] + key[index + 1 :]
-        faults = faults_at(document_with(entry, misspelt, "1"), path_of(entry, misspelt))
-        assert len(faults) == 1
-        assert "unknown" in faults[0].sentence
-        assert (faults[0].line, faults[0].column) == (7, 7)
+def expect(found):
+    """All keys are tried, then what is wrong is told of all together."""
+    assert not found, "\n".join(found)
 
 
-@pytest.mark.parametrize("entry", ENTRIES, ids=name_of)
-def test_a_long_key_with_one_letter_dropped_is_told_what_was_meant(entry):
-    key = entry.location[-1]
-    if len(key) > 3:
-        misspelt = key[:1] + key[2:]
-        (fault,) = faults_at(document_with(entry, misspelt, "1"), path_of(entry, misspelt))
-        assert f"did you mean '{key}'?" in fault.sentence
+def refusals(entry, key, raw, mark, *told):
+    """What is wrong with the refusal of `raw` at `key`: expected are one fault, at its mark, and what it tells."""
+    faults = faults_at(document_with(entry, key, raw), path_of(entry, key))
+    where = f"{name_of(entry)}: {key}: {raw}"
+    if len(faults) != 1:
+        return [f"{where}: {len(faults)} faults"]
+    found = [f"{where}: {text!r} is not in {faults[0].sentence!r}" for text in told if text not in faults[0].sentence]
+    if (faults[0].line, faults[0].column) != mark:
+        found.append(f"{where}: at {faults[0].line}:{faults[0].column}, not at {mark}")
+    return found
 
 
-@pytest.mark.parametrize("entry", NUMBERS, ids=name_of)
+def test_every_key_with_one_letter_dropped_is_refused_at_its_place():
+    found = []
+    for entry in ENTRIES:
+        key = entry.location[-1]
+        for index in range(len(key)):
+            found += refusals(entry, key[:index] + key[index + 1 :], "1", KEY, "unknown")
+    expect(found)
+
+
+def test_a_long_key_with_one_letter_dropped_is_told_what_was_meant():
+    found = []
+    for entry in ENTRIES:
+        key = entry.location[-1]
+        if len(key) > 3:
+            found += refusals(entry, key[:1] + key[2:], "1", KEY, f"did you mean '{key}'?")
+    expect(found)
+
+
 @pytest.mark.parametrize(
     "raw", ["on", "yes", "010", "60:30", "1_000", ".nan", ".inf", "true", "'5'", "[1]", "{a: 1}", "1e999"]
 )
-def test_a_number_must_be_written_as_one_and_the_raw_text_is_shown(entry, raw):
-    (fault,) = faults_at(document_with(entry, entry.location[-1], raw), path_of(entry))
+def test_a_number_must_be_written_as_one_and_the_raw_text_is_shown(raw):
     shown = {"[1]": "a list", "{a: 1}": "a mapping", "'5'": "'5'"}.get(raw, f"'{raw}'")
-    assert shown in fault.sentence
-    assert (fault.line, fault.column) == (7, 20)
+    expect([line for entry in NUMBERS for line in refusals(entry, entry.location[-1], raw, VALUE, shown)])
 
 
-@pytest.mark.parametrize("entry", NUMBERS, ids=name_of)
-def test_values_beyond_a_bound_are_refused_with_bound_and_unit(entry):
-    low, high = float(entry.low), float(entry.high)
-    outside = [low if entry.above else math.nextafter(low, -math.inf), math.nextafter(high, math.inf)]
-    if entry.kind == "integer":
-        outside = [int(entry.low) - 1, int(entry.high) + 1]
-    for value in outside:
-        (fault,) = faults_at(document_with(entry, entry.location[-1], repr(value)), path_of(entry))
-        assert repr(value) in fault.sentence
-        assert "allowed are" in fault.sentence
-        assert entry.unit in fault.sentence
+def test_values_beyond_a_bound_are_refused_with_bound_and_unit():
+    found = []
+    for entry in NUMBERS:
+        low, high = float(entry.low), float(entry.high)
+        outside = [low if entry.above else math.nextafter(low, -math.inf), math.nextafter(high, math.inf)]
+        if entry.kind == "integer":
+            outside = [int(entry.low) - 1, int(entry.high) + 1]
+        for value in outside:
+            told = (repr(value), "allowed are", entry.unit)
+            found += refusals(entry, entry.location[-1], repr(value), VALUE, *told)
+    expect(found)
 
 
-@pytest.mark.parametrize("entry", NUMBERS, ids=name_of)
-def test_the_bounds_themselves_are_allowed(entry):
-    inside = [max(math.nextafter(float(entry.low), math.inf), 1e-30) if entry.above else entry.low, entry.high]
-    for value in inside:
-        root = document_with(entry, entry.location[-1], repr(value))
-        try:
-            validate(root, "s.yaml", rules=())
-        except SceneError as error:
-            assert [fault for fault in error.faults if fault.where == path_of(entry)] == []  # noqa: PT017
+def test_the_bounds_themselves_are_allowed():
+    found = []
+    for entry in NUMBERS:
+        low = max(math.nextafter(float(entry.low), math.inf), 1e-30) if entry.above else entry.low
+        for value in (low, entry.high):
+            root = document_with(entry, entry.location[-1], repr(value))
+            found += [f"{name_of(entry)}: {fault.sentence}" for fault in faults_at(root, path_of(entry))]
+    expect(found)
 
 
 @given(value=st.floats(), entry=st.sampled_from(NUMBERS))
@@ -157,14 +172,11 @@ def _node(value):
     return ScalarNode(mark, str(value), value)
 
 
-@pytest.mark.parametrize("entry", ENTRIES, ids=name_of)
-def test_every_key_says_what_it_is_and_every_required_key_has_an_example(entry):
-    assert entry.help
-    if entry.kind in ("number", "integer"):
-        assert entry.low is not None
-        assert entry.high is not None
-    if entry.required:
-        assert entry.example not in (None, "")
+def test_every_key_says_what_it_is_and_every_required_key_has_an_example():
+    unexplained = [name_of(entry) for entry in ENTRIES if not entry.help]
+    unbounded = [name_of(entry) for entry in NUMBERS if entry.low is None or entry.high is None]
+    without_example = [name_of(entry) for entry in ENTRIES if entry.required and entry.example in (None, "")]
+    assert (unexplained, unbounded, without_example) == ([], [], [])
 
 
 @pytest.mark.parametrize(
