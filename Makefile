@@ -12,11 +12,13 @@ ENTER := $(SET_UP) && . ros2_ws/setup.bash
 # Tests talk on a domain of their own, told apart by the project's folder, and on this host only.
 TEST_DOMAIN = $(shell printf '%s' '$(CURDIR)' | cksum | awk '{ print 1 + $$1 % 100 }')
 TEST_ENVIRONMENT = ROS_DOMAIN_ID=$(TEST_DOMAIN) ROS_AUTOMATIC_DISCOVERY_RANGE=LOCALHOST PYTEST_DISABLE_PLUGIN_AUTOLOAD=1
+# Two processes of tests on two cores, at most four: they compile beside each other, and each holds its own kernels in memory.
+PARALLEL = -p xdist -n auto --maxprocesses 4
 
 # Ends a recipe: prints how long it took and hands the status on.
 REPORT_TIME = status=$$?; echo "make $@: $$SECONDS s in all"; exit $$status
 
-.PHONY: help setup run test lint bench hard bounds mutants compare-field compare-dynamics clean
+.PHONY: help setup run check test lint bench hard bounds mutants compare-field compare-dynamics clean
 
 help:  ## show this list
 	@awk -F ':.*## ' '/^[a-z-]+:.*## / { printf "make %-17s %s\n", $$1, $$2 }' $(firstword $(MAKEFILE_LIST))
@@ -27,6 +29,9 @@ setup:  ## make the environment in .ros2/ and build the workspace; does nothing 
 run:  ## run the full bench on real nodes, record a bag, write its report
 	@SECONDS=0; bag="bags/car_full_bench_$$(date +%Y-%m-%d_%H-%M-%S)"; $(ENTER) && \
 	bench run car_full_bench --pace max --out "$$bag" && bench report "$$bag"; $(REPORT_TIME)
+
+check: lint  ## check style, format and types, run the tests that need neither compiler nor ROS nor programs; for every edit
+	@SECONDS=0; $(ENTER) && $(TEST_ENVIRONMENT) python -m pytest tests --check $(PARALLEL) --dist worksteal $(PYTEST_OPTIONS); $(REPORT_TIME)
 
 test:  ## run the tests
 	@SECONDS=0; $(ENTER) && $(TEST_ENVIRONMENT) python -m pytest tests $(PYTEST_OPTIONS); $(REPORT_TIME)

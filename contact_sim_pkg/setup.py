@@ -53,7 +53,7 @@ setup(
         "scipy>=1.11,<2",
         "zstandard>=0.22,<1",
     ],
-    extras_require={"test": ["hypothesis", "mcap-ros2-support", "pytest"]},
+    extras_require={"test": ["hypothesis", "mcap-ros2-support", "pytest", "pytest-xdist"]},
     entry_points={
         "console_scripts": [
             f"bench = {PACKAGE}.cli.main:main",

@@ -1,10 +1,67 @@
-"""What all tests share: a ROS domain of their own on this host, one thread a process, and one cache of compiled kernels."""
+"""What all tests share: a ROS domain of their own, one thread a process, one cache of kernels; and `pytest --check`."""
 
 import os
+import sys
 import zlib
+from collections.abc import Generator, Sequence
+from importlib.abc import MetaPathFinder
+from types import ModuleType
+
+import pytest
+
+LAST_DOMAIN = 100  # 101, the last that needs no other ports than the system keeps free, is for one test alone
+REFUSED = ("numba", "rclpy")  # modules of the compiler and of ROS
+PROGRAM_STARTS = ("subprocess.Popen", "os.posix_spawn", "os.fork", "os.exec", "os.system")  # audit events
+
+
+def ros_domain(run: str, worker: str) -> int:
+    """A domain, 1 to 100, of one worker (`gw3`, or nothing) of one run of the tests: workers of a run never share one."""
+    return 1 + (zlib.crc32(f"{__file__} {run}".encode()) + int(worker.removeprefix("gw") or 0)) % LAST_DOMAIN
+
 
 # Set before anything imports ROS or numba. A domain of the caller's is not used: tests must not meet a running bench.
-os.environ["ROS_DOMAIN_ID"] = str(1 + zlib.crc32(f"{__file__} {os.getpid()}".encode()) % 100)
+os.environ["ROS_DOMAIN_ID"] = str(
+    ros_domain(os.environ.get("PYTEST_XDIST_TESTRUNUID", str(os.getpid())), os.environ.get("PYTEST_XDIST_WORKER", ""))
+)
 os.environ["ROS_AUTOMATIC_DISCOVERY_RANGE"] = "LOCALHOST"
 os.environ.setdefault("NUMBA_NUM_THREADS", "1")
 os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
+
+
+class NoCompilerNoRos(MetaPathFinder):
+    """Skips the test, or the file of tests, that imports a refused module."""
+
+    def find_spec(self, name: str, path: Sequence[str] | None, target: ModuleType | None = None) -> None:
+        if name in REFUSED:
+            pytest.skip(f"needs {name}: in `make test`", allow_module_level=True)
+
+
+def skip_programs(event: str, arguments: tuple[object, ...]) -> None:
+    """Audit hook: skips the test that starts a program."""
+    if event in PROGRAM_STARTS:
+        pytest.skip("starts a program: in `make test`", allow_module_level=True)
+
+
+def pytest_addoption(parser: pytest.Parser) -> None:
+    parser.addoption("--check", action="store_true", help="skip what compiles kernels, uses ROS or starts a program")
+
+
+def pytest_collection(session: pytest.Session) -> None:
+    # The first process of several starts the others, and runs no test.
+    if session.config.getoption("check") and not session.config.getoption("numprocesses", None):
+        sys.meta_path.insert(0, NoCompilerNoRos())
+        sys.addaudithook(skip_programs)
+
+
+@pytest.hookimpl(wrapper=True)
+def pytest_make_collect_report(
+    collector: pytest.Collector,
+) -> Generator[None, pytest.CollectReport, pytest.CollectReport]:
+    """A file that was skipped half-way is not left behind as a module, where another file would find half of it."""
+    report = yield
+    if report.skipped:
+        for name in [
+            name for name, module in sys.modules.items() if getattr(module, "__file__", "") == str(collector.path)
+        ]:
+            del sys.modules[name]
+    return report

@@ -16,7 +16,7 @@ def test_a_raw_subscription_gets_the_encoded_bytes(monkeypatch: pytest.MonkeyPat
 
     monkeypatch.setenv("ROS_AUTOMATIC_DISCOVERY_RANGE", "LOCALHOST")
     context = rclpy.Context()
-    rclpy.init(context=context, domain_id=61)
+    rclpy.init(context=context, domain_id=101)
     try:
         node = rclpy.create_node("bytes", namespace="bag_bytes", context=context)
         executor = SingleThreadedExecutor(context=context)

@@ -1,5 +1,7 @@
 """Types and bounds of every single key of the schema."""
 
+import copy
+import functools
 import math
 
 import pytest
@@ -23,9 +25,15 @@ def name_of(entry):
     return ".".join(entry.location)
 
 
+@functools.cache
+def parsed(text):
+    """The tree of a document; who changes it takes a copy."""
+    return parse_document(text, "s.yaml").root
+
+
 def document_with(entry, key, raw):
     """A seat scene in which `key` stands beside (or in place of) the key of the entry."""
-    root = parse_document(BASE, "s.yaml").root
+    root = copy.deepcopy(parsed(BASE))
     location, path, section = entry.location, without_kinds(entry.location), root
     for depth, part in enumerate(path[:-1]):
         if part not in section.entries:
@@ -35,7 +43,7 @@ def document_with(entry, key, raw):
         if depth == 0 and len(location) > len(path):
             section.entries["kind"] = ScalarNode(Mark("s.yaml", 9, 3), location[1], location[1])
             section.key_marks["kind"] = Mark("s.yaml", 9, 3)
-    value = parse_document(f"v: {raw}", "s.yaml").root.entries["v"]
+    value = copy.deepcopy(parsed(f"v: {raw}").entries["v"])
     section.entries[key] = value
     section.key_marks[key] = Mark("s.yaml", *KEY)
     value.mark = Mark("s.yaml", *VALUE)
