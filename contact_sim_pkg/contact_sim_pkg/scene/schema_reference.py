@@ -98,13 +98,13 @@ def _effects() -> str:
 def _accuracy() -> str:
     head = (
         "### what `accuracy` stands for\n\n"
-        "| asked error | rung | contact | rows × cols | field tolerance | corrector passes |\n"
+        "| requested error | fidelity level | contact | rows × cols | field tolerance | corrector passes |\n"
         "|---|---|---|---|---|---|"
     )
     rows = [_rung_row(rung, contact) for rung in RUNGS for contact in CONTACTS]
     largest, held = (integration_tolerance("realtime", impacts=impacts) for impacts in (False, True))
-    note = f"The time integration takes a hundredth of the asked error as its relative tolerance, at most {largest:g}; "
-    note += f"that of a rigid body at most {held:g}."
+    note = f"The relative tolerance of the time integration is a hundredth of the requested error,\n"
+    note += f"at most {largest:g}; that of a rigid body at most {held:g}."
     return "\n".join([head, *rows, "", note])
 
 

@@ -1,0 +1,79 @@
+"""Pages are easy to read: short lines, table cells that hold a phrase, words of the field, links that lead somewhere."""
+
+import re
+from pathlib import Path
+
+import pytest
+
+ROOT = Path(__file__).resolve().parents[2]
+PAGES = sorted(
+    path
+    for pattern in ("*.md", "docs/**/*.md", "bags/*.md", "contact_msgs_defs/**/*.md", "contact_sim_pkg/**/*.md")
+    for path in ROOT.glob(pattern)
+)
+WIDEST = 100
+LONGEST_CELL = 120
+NAMES = [str(path.relative_to(ROOT)) for path in PAGES]
+PRIVATE_WORDS = (
+    "asked|coast|doubts?|doubted|ladders?|marched|put right|remembers|rungs?|speaks? against|stands? where|stretch|stretches|"
+    "tiers?|told|tells|touch(es)? nothing known|waited in vain"
+)
+"""Words that `docs/glossary.md` has a term for."""
+
+
+def prose(text):
+    """Number and text of each line outside code blocks, tables and HTML."""
+    code = False
+    for number, line in enumerate(text.splitlines(), 1):
+        if line.lstrip().startswith("```"):
+            code = not code
+        elif not code and not line.lstrip().startswith(("|", "<")):
+            yield number, line
+
+
+def by_hand(text):
+    """The text without the tables that a command makes."""
+    return re.sub(r"<!-- tables made from .*?: begin -->.*<!-- tables made from .*?: end -->", "", text, flags=re.DOTALL)
+
+
+def anchors(text):
+    """The anchors of a page's headings, as GitHub makes them."""
+    titles = (line.lstrip("#").strip().lower() for _, line in prose(text) if line.startswith("#"))
+    return {re.sub(r"[^\w\- ]", "", title).replace(" ", "-") for title in titles}
+
+
+def test_the_pages_are_found():
+    assert {"README.md", "docs/models.md", "docs/decisions/0001-an-absent-effect-is-none.md"} <= set(NAMES)
+
+
+@pytest.mark.parametrize("path", PAGES, ids=NAMES)
+def test_lines_of_prose_are_short(path):
+    long = [number for number, line in prose(path.read_text(encoding="utf-8")) if len(line) > WIDEST]
+    assert not long, f"lines of more than {WIDEST} characters: {long}"
+
+
+@pytest.mark.parametrize("path", PAGES, ids=NAMES)
+def test_a_table_cell_holds_a_figure_or_a_phrase(path):
+    rows = [line for line in by_hand(path.read_text(encoding="utf-8")).splitlines() if line.startswith("|")]
+    cells = [cell.strip() for row in rows for cell in re.split(r"(?<!\\)\|", row)]
+    assert not [cell for cell in cells if len(cell) > LONGEST_CELL or re.search(r"[a-z)]\. [A-Z]", cell)]
+
+
+@pytest.mark.parametrize("path", PAGES, ids=NAMES)
+def test_pages_use_the_words_of_the_field(path):
+    if path.name == "glossary.md":
+        return
+    text = re.sub(r"`[^`]*`", "", by_hand(path.read_text(encoding="utf-8")))
+    assert not [match[0] for match in re.finditer(rf"\b({PRIVATE_WORDS})\b", text, flags=re.IGNORECASE)]
+
+
+@pytest.mark.parametrize("path", PAGES, ids=NAMES)
+def test_links_lead_somewhere(path):
+    text = path.read_text(encoding="utf-8")
+    for target in re.findall(r"\]\(([^)\s]+)\)", re.sub(r"`[^`]*`", "", text)):
+        if target.startswith("http"):
+            continue
+        file, _, anchor = target.partition("#")
+        page = (path.parent / file) if file else path
+        assert page.exists(), target
+        assert not anchor or anchor in anchors(page.read_text(encoding="utf-8")), target
