@@ -33,7 +33,9 @@ def prose(text):
 
 def by_hand(text):
     """The text without the tables that a command makes."""
-    return re.sub(r"<!-- tables made from .*?: begin -->.*<!-- tables made from .*?: end -->", "", text, flags=re.DOTALL)
+    return re.sub(
+        r"<!-- tables made from .*?: begin -->.*<!-- tables made from .*?: end -->", "", text, flags=re.DOTALL
+    )
 
 
 def anchors(text):

@@ -103,7 +103,7 @@ def _accuracy() -> str:
     )
     rows = [_rung_row(rung, contact) for rung in RUNGS for contact in CONTACTS]
     largest, held = (integration_tolerance("realtime", impacts=impacts) for impacts in (False, True))
-    note = f"The relative tolerance of the time integration is a hundredth of the requested error,\n"
+    note = "The relative tolerance of the time integration is a hundredth of the requested error,\n"
     note += f"at most {largest:g}; that of a rigid body at most {held:g}."
     return "\n".join([head, *rows, "", note])
 
