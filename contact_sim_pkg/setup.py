@@ -29,7 +29,7 @@ setup(
     packages=find_packages(include=[PACKAGE, f"{PACKAGE}.*"]),
     package_data={
         PACKAGE: ["msg/*.msg", "scenes/*.yaml", "scenes/**/*", "py.typed"],
-        f"{PACKAGE}.analysis": ["templates/*", "templates/**/*"],
+        f"{PACKAGE}.report": ["templates/*", "templates/**/*"],
     },
     data_files=[
         ("share/ament_index/resource_index/packages", [f"resource/{PACKAGE}"]),

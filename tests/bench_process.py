@@ -12,8 +12,8 @@ import pytest
 
 from contact_sim_pkg.bag.reader import open_bag
 from contact_sim_pkg.bag.topics import TOPICS
-from contact_sim_pkg.nodes.children import Children
-from contact_sim_pkg.nodes.scene_file import write_scene
+from contact_sim_pkg.nodes.processes.children import Children
+from contact_sim_pkg.nodes.processes.scene_file import write_scene
 from contact_sim_pkg.scene.load import load_scene
 from contact_sim_pkg.scene.overrides import set_value
 from contact_sim_pkg.scene.resolve import ResolvedScene, resolve

@@ -65,3 +65,6 @@ def pytest_make_collect_report(
         ]:
             del sys.modules[name]
     return report
+
+
+pytest_plugins = ["tests.report_bags", "tests.scene_maker"]

@@ -7,8 +7,7 @@ import sys
 from pathlib import Path
 
 import pytest
-
-from .conftest import LAST_DOMAIN, ros_domain
+from tests.conftest import LAST_DOMAIN, ros_domain
 
 ROOT = Path(__file__).resolve().parents[1]
 IN_A_TEST = """

@@ -18,9 +18,9 @@ import numpy
 from comparisons.field.plan import Share, Task
 from comparisons.field.problems import Field, Problem
 from comparisons.field.solver import OURS, Candidate, NotSolvedError, Solver
-from contact_sim_pkg.core.field_solver import make_workspace, solve_at_load
-from contact_sim_pkg.core.halfspace import HalfSpace, make_half_space
-from contact_sim_pkg.core.periodic_field import make_periodic_half_space
+from contact_sim_pkg.pressure.field.halfspace import HalfSpace, make_half_space
+from contact_sim_pkg.pressure.field.periodic import make_periodic_half_space
+from contact_sim_pkg.pressure.field.solver import make_workspace, solve_at_load
 
 __all__ = ["REFERENCE", "Cost", "Row", "SetUp", "measure", "reference_fields"]
 

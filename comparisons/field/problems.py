@@ -8,7 +8,7 @@ from typing import NamedTuple
 import numpy
 from numpy.typing import NDArray
 
-from contact_sim_pkg.studies.rolling_problem import LOAD, rolling_problem
+from contact_sim_pkg.rigs.vehicle.studies.rolling_problem import LOAD, rolling_problem
 
 __all__ = ["Field", "Problem", "hertz", "rough", "tire"]
 
@@ -62,7 +62,7 @@ def rough(cells: int, mean_pressure: float, seed: int) -> Problem:
 
 
 def tire(grid: str, seed: int, cells: int = 1) -> Problem:
-    """(c), (d) A tire patch on a rough road (`studies/rolling_problem.py`), free; `cells`: travel of a step."""
+    """(c), (d) A tire patch on a rough road (`rigs/vehicle/studies/rolling_problem.py`), free; `cells`: travel of a step."""
     rolling = rolling_problem(grid, seed, cells)
     space = rolling.half_space
     return Problem(space.rows, space.cols, space.cell_x, space.modulus, LOAD, False, rolling.gap, cells)

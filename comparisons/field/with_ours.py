@@ -5,10 +5,10 @@ from __future__ import annotations
 from comparisons.field.problems import Field, Problem
 from comparisons.field.solver import NotSolvedError, Solver
 from contact_sim_pkg import __version__
-from contact_sim_pkg.core.field_rolling import RollingField
-from contact_sim_pkg.core.field_solver import CONVERGED, EDGE, SENTENCES
-from contact_sim_pkg.core.halfspace import make_half_space
-from contact_sim_pkg.core.periodic_field import PeriodicField, make_periodic_half_space
+from contact_sim_pkg.pressure.field.halfspace import make_half_space
+from contact_sim_pkg.pressure.field.periodic import PeriodicField, make_periodic_half_space
+from contact_sim_pkg.pressure.field.rolling import RollingField
+from contact_sim_pkg.pressure.field.solver import CONVERGED, EDGE, SENTENCES
 
 __all__ = ["SETTINGS", "make", "version"]
 

@@ -17,8 +17,8 @@ from launch.substitutions import EnvironmentVariable, LaunchConfiguration
 from launch_ros.actions import Node
 
 from contact_sim_pkg.bag.names import new_directory
-from contact_sim_pkg.nodes.run_plan import planned_nodes
-from contact_sim_pkg.nodes.scene_file import write_scene
+from contact_sim_pkg.nodes.processes.run_plan import planned_nodes
+from contact_sim_pkg.nodes.processes.scene_file import write_scene
 from contact_sim_pkg.scene.load import load_scene
 from contact_sim_pkg.scene.overrides import set_duration, set_pace
 from contact_sim_pkg.scene.resolve import resolve

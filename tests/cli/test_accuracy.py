@@ -7,8 +7,11 @@ from click.testing import CliRunner
 
 from contact_sim_pkg.cli.accuracy import command
 from contact_sim_pkg.cli.main import main
+from contact_sim_pkg.rigs.vehicle.studies import work_precision_road as ladder_road
 from contact_sim_pkg.scene.errors import SceneError
-from contact_sim_pkg.studies import accuracy_cost, ladder, ladder_plot, ladder_road
+from contact_sim_pkg.studies.accuracy import scene_study as accuracy_cost
+from contact_sim_pkg.studies.accuracy import work_precision as ladder
+from contact_sim_pkg.studies.accuracy import work_precision_plot as ladder_plot
 
 
 @pytest.fixture

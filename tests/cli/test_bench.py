@@ -4,16 +4,15 @@ import json
 import signal
 
 import pytest
+from tests.bench_process import ENVIRONMENT, bench, end, needs_ros, start_bench, wait_until
 
 from contact_sim_pkg.bag.errors import BagWriteError
 from contact_sim_pkg.bag.reader import open_bag
 from contact_sim_pkg.bag.writer import BagWriter
 from contact_sim_pkg.cli.main import COMMANDS
 from contact_sim_pkg.cli.main import main as bench_main
+from contact_sim_pkg.rigs.vehicle.simulation import Simulation
 from contact_sim_pkg.run.errors import RunError
-from contact_sim_pkg.run.simulation import Simulation
-
-from ..bench_process import ENVIRONMENT, bench, end, needs_ros, start_bench, wait_until
 
 OFFLINE = ["--offline", "--duration", "0.2"]
 

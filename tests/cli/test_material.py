@@ -9,8 +9,8 @@ from click.testing import CliRunner
 
 from contact_sim_pkg.cli.main import main
 from contact_sim_pkg.cli.material import command
-from contact_sim_pkg.core.impact.bodies import Material, Sphere
-from contact_sim_pkg.core.impact.motion import solve_impact
+from contact_sim_pkg.rigs.impact.theory.bodies import Material, Sphere
+from contact_sim_pkg.rigs.impact.theory.motion import solve_impact
 
 SPHERE = Sphere(0.02, 0.01)
 

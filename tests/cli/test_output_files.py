@@ -4,10 +4,9 @@ import importlib
 
 import click
 import pytest
+from tests.report import synthetic_bag as known
 
 from contact_sim_pkg.cli.main import COMMANDS, main
-
-from ..analysis import synthetic_bag as known
 
 IMPACTS = "m,R,V0,tau,k\n0.02,0.01,1,0.001,0.5\n0.02,0.01,1,0.001,0.51\n"
 OUTPUTS = {  # command, its parameter -> arguments that name FILE as an output

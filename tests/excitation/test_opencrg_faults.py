@@ -6,11 +6,10 @@ import tracemalloc
 
 import numpy
 import pytest
+from tests.excitation import crg_file
 
 from contact_sim_pkg.excitation.errors import ExcitationError
-from contact_sim_pkg.excitation.opencrg import OpenCrgRoad, memory_needed
-
-from . import crg_file
+from contact_sim_pkg.excitation.opencrg.road import OpenCrgRoad, memory_needed
 
 X, Y = numpy.linspace(0.0, 2.0, 9), numpy.array([-0.4, 0.1, 0.2])
 BELGIAN = crg_file.REAL_DATA / "belgian_block.crg"

@@ -10,7 +10,7 @@ import pytest
 import scipy.integrate
 import scipy.signal
 from hypothesis import strategies as st
-from tests.core.properties import Table, positive
+from tests.properties import Table, positive
 
 from contact_sim_pkg.excitation import iso8608, obstacles, signals, travel
 

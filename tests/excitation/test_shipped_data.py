@@ -3,9 +3,9 @@
 import numpy
 import pytest
 
-from contact_sim_pkg.excitation.opencrg import OpenCrgRoad
+from contact_sim_pkg.excitation import make_shipped_data as shipped
+from contact_sim_pkg.excitation.opencrg.road import OpenCrgRoad
 from contact_sim_pkg.excitation.recorded import RecordedVibration
-from contact_sim_pkg.studies import make_shipped_data as shipped
 
 ROAD, VIBRATION = shipped.DATA / shipped.ROAD_FILE, shipped.DATA / shipped.VIBRATION_FILE
 

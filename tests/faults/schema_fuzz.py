@@ -23,7 +23,7 @@ import numpy
 
 from contact_sim_pkg.bag.messages import decode_contact_force, decode_energy, decode_motion
 from contact_sim_pkg.cli.main import refusal
-from contact_sim_pkg.core.jit import closed
+from contact_sim_pkg.compiled.jit import closed
 from contact_sim_pkg.run.rigs import forecast_of, make_simulation
 from contact_sim_pkg.run.sources import make_sources
 from contact_sim_pkg.run.work import estimated_work, refuse_long
@@ -32,7 +32,7 @@ from contact_sim_pkg.scene.overrides import set_value
 from contact_sim_pkg.scene.resolve import resolve
 from contact_sim_pkg.scene.resolved_scene import ResolvedScene
 from contact_sim_pkg.scene.rigs import RIGS
-from contact_sim_pkg.scene.schema_catalog import Entry, catalog, without_kinds
+from contact_sim_pkg.scene.schema.catalog import Entry, catalog, without_kinds
 
 BLOCKS = 2  # the second begins with the energies after the first
 SECONDS = 10.0  # most time of a case

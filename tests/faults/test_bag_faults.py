@@ -18,18 +18,18 @@ import pytest
 from mcap.records import Chunk
 from mcap.stream_reader import StreamReader
 
-from contact_sim_pkg.bag import append_file
-from contact_sim_pkg.bag.append_file import AppendFile
 from contact_sim_pkg.bag.errors import BagError, BagWriteError, CorruptChunkError, RecordingStoppedError
+from contact_sim_pkg.bag.mcap import append_file
+from contact_sim_pkg.bag.mcap.append_file import AppendFile
+from contact_sim_pkg.bag.mcap.recover import recover
 from contact_sim_pkg.bag.messages import Energy, encode_energy
 from contact_sim_pkg.bag.metadata import recorded_topics
 from contact_sim_pkg.bag.reader import open_bag
-from contact_sim_pkg.bag.recover import recover
 from contact_sim_pkg.bag.writer import BagWriter
 
 PLENTY = 10**12
 ENERGY = ("bench/energy",)
-PACKAGE_ROOT = Path(append_file.__file__).parents[2]
+PACKAGE_ROOT = Path(append_file.__file__).parents[3]
 
 
 class Clock:

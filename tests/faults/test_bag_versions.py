@@ -3,11 +3,10 @@
 import dataclasses
 
 import pytest
+from tests.bag.hand_made import VIBRATION, seat_ride, write
 
 from contact_sim_pkg.cli.main import main as bench
 from contact_sim_pkg.run import offline
-
-from ..bag.hand_made import VIBRATION, seat_ride, write
 
 DIFFERENT = [("package_version", "0.0.1"), ("kernel_fingerprint", "0" * 20)]
 

@@ -6,11 +6,11 @@ import threading
 
 import pytest
 
-from contact_sim_pkg.analysis.identification_input import hull_of_file
-from contact_sim_pkg.analysis.material.reading import read_impacts
-from contact_sim_pkg.excitation.opencrg import OpenCrgRoad
+from contact_sim_pkg.excitation.opencrg.road import OpenCrgRoad
 from contact_sim_pkg.excitation.recorded import RecordedVibration
 from contact_sim_pkg.files import FileRefusedError, check_output, new_file, open_regular_file, read_regular_file
+from contact_sim_pkg.identify.report.input import hull_of_file
+from contact_sim_pkg.rigs.impact.material.reading import read_impacts
 from contact_sim_pkg.scene.load import load_scene
 
 READERS = {

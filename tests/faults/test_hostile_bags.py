@@ -9,6 +9,11 @@ import random
 import time
 
 import pytest
+from tests.bag.hand_made import VIBRATION, seat_ride, write
+from tests.bench_process import bench as run_bench
+from tests.bench_process import needs_ros
+from tests.report.rolling_bag import rolling_bag
+from tests.report.synthetic_bag import car_bag
 
 from contact_sim_pkg.bag.errors import BagError
 from contact_sim_pkg.bag.messages import encode_scene
@@ -16,12 +21,6 @@ from contact_sim_pkg.bag.typestore import store_of_definition
 from contact_sim_pkg.bag.writer import BagWriter
 from contact_sim_pkg.cli.main import main as bench
 from contact_sim_pkg.run import offline
-
-from ..analysis.rolling_bag import rolling_bag
-from ..analysis.synthetic_bag import car_bag
-from ..bag.hand_made import VIBRATION, seat_ride, write
-from ..bench_process import bench as run_bench
-from ..bench_process import needs_ros
 
 SECONDS = 20.0  # for one command, on a busy machine
 BOMB = "a: &a [x, x, x, x, x, x, x, x, x]\n" + "".join(
@@ -208,8 +207,8 @@ def test_a_scene_of_wrong_types_gives_a_page_or_a_sentence(capsys, tmp_path, mak
 @pytest.mark.fault("B10", "E12")
 @pytest.mark.parametrize("text", [name for name in TEXTS if name not in ("empty", "blank", "null")])
 def test_a_quality_of_service_that_cannot_be_used_is_refused_by_name(text):
-    from contact_sim_pkg.nodes.protocol import NodeError
-    from contact_sim_pkg.nodes.recorded_qos import profile_of_recorded
+    from contact_sim_pkg.nodes.protocol.recorded_qos import profile_of_recorded
+    from contact_sim_pkg.nodes.protocol.states import NodeError
 
     with pytest.raises(NodeError, match=r"the stored quality of service .* cannot be used") as caught:
         profile_of_recorded(TEXTS[text])

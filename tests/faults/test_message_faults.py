@@ -4,13 +4,12 @@ import time
 
 import numpy
 import pytest
+from tests.bench_process import Nodes, messages, needs_ros, resolved, wait_until
 
 from contact_sim_pkg.bag.messages import encode_vibration
 from contact_sim_pkg.bag.reader import open_bag
 from contact_sim_pkg.run.offline import run_offline
 from contact_sim_pkg.run.sources import make_vibration
-
-from ..bench_process import Nodes, messages, needs_ros, resolved, wait_until
 
 pytestmark = needs_ros
 
@@ -32,7 +31,7 @@ def nodes(scene, tmp_path):
 
 @pytest.fixture
 def stand_in():
-    from ..nodes.stand_in import StandIn
+    from tests.nodes.stand_in import StandIn
 
     with StandIn("vibration") as node:
         yield node
@@ -149,7 +148,7 @@ def test_a_second_publisher_of_an_input_is_refused_before_ready(nodes, stand_in)
 @pytest.mark.parametrize("kind", ["other values and blocks to come", "nan"])
 def test_a_second_publisher_during_a_run_ends_it_by_name_before_its_data_count(scene, nodes, stand_in, tmp_path, kind):
     """Status 1; the bag holds the blocks done until then, with the bits that they have without it."""
-    from ..nodes.stand_in import StandIn
+    from tests.nodes.stand_in import StandIn
 
     source = seven_blocks_done(scene, nodes, stand_in)
     with StandIn("intruder") as intruder:
@@ -178,7 +177,7 @@ def test_a_second_publisher_during_a_run_ends_it_by_name_before_its_data_count(s
 @pytest.mark.fault("B8")
 def test_a_second_publisher_of_a_result_ends_the_run_by_name_and_is_not_recorded(scene, nodes, stand_in, tmp_path):
     """Messages of the simulator's own type, for the blocks to come: the bag has the bits that it has without them."""
-    from ..nodes.stand_in import StandIn
+    from tests.nodes.stand_in import StandIn
 
     source = seven_blocks_done(scene, nodes, stand_in)
     run_offline(scene, tmp_path / "offline")
@@ -202,7 +201,7 @@ def test_a_second_publisher_of_a_result_ends_the_run_by_name_and_is_not_recorded
 
 @pytest.mark.fault("B8")
 def test_a_second_publisher_of_a_result_is_refused_before_ready(nodes, stand_in):
-    from ..nodes.stand_in import StandIn
+    from tests.nodes.stand_in import StandIn
 
     with StandIn("intruder", "seat/force"):
         nodes.start("contact_simulator", record=False)
@@ -214,7 +213,7 @@ def test_a_second_publisher_of_a_result_is_refused_before_ready(nodes, stand_in)
 @pytest.mark.fault("B9")
 def test_an_input_of_another_message_definition_is_refused(nodes):
     """B9: the wire would take another type for ours; here a publisher of another type on our topic's name."""
-    from ..nodes.stand_in import StandIn
+    from tests.nodes.stand_in import StandIn
 
     with StandIn("vibration") as other:
         other.node.destroy_publisher(other.entry)

@@ -5,8 +5,7 @@ import signal
 from types import SimpleNamespace
 
 import pytest
-
-from ..bench_process import PACKAGE, Nodes, messages, needs_ros, resolved
+from tests.bench_process import PACKAGE, Nodes, messages, needs_ros, resolved
 
 pytestmark = needs_ros
 
@@ -48,7 +47,7 @@ class Failing:
 
     def _counted(self, create):
         def counted(*arguments, **options):
-            from contact_sim_pkg.nodes.protocol import NodeError
+            from contact_sim_pkg.nodes.protocol.states import NodeError
 
             self.created += 1
             if self.created == self._point:
@@ -101,7 +100,7 @@ def test_an_unexpected_exception_of_a_callback_is_said_once_and_ends_the_node(ro
     from contact_sim_pkg.bag.messages import encode_clock
     from contact_sim_pkg.nodes.bench_node import LifecycleBenchNode
     from contact_sim_pkg.nodes.endpoints import publisher, subscription
-    from contact_sim_pkg.nodes.process import run
+    from contact_sim_pkg.nodes.processes.process import run
 
     done: list[str] = []
 
@@ -153,10 +152,10 @@ def test_no_parameter_can_be_set_while_a_node_lives(ros, name):
 @pytest.mark.fault("C2")
 def test_a_clock_that_jumps_and_stops_changes_no_bit(tmp_path):
     """No node waits for `/clock`; with `use_sim_time` it is heard, and jumps back by 10 s again and again, then stops."""
+    from tests.nodes.stand_in import StandIn
+
     from contact_sim_pkg.bag.messages import encode_clock
     from contact_sim_pkg.run.offline import run_offline
-
-    from ..nodes.stand_in import StandIn
 
     scene = resolved("seat_ride", "duration=0.3", "pace=max")
     nodes = Nodes(scene, tmp_path)
@@ -177,7 +176,7 @@ def test_a_clock_that_jumps_and_stops_changes_no_bit(tmp_path):
 
 @pytest.mark.fault("C2")
 def test_no_node_has_a_timer_that_a_clock_could_stop():
-    for file in (PACKAGE / "contact_sim_pkg" / "nodes").glob("*.py"):
+    for file in (PACKAGE / "contact_sim_pkg" / "nodes").rglob("*.py"):
         names = {node.attr for node in ast.walk(ast.parse(file.read_text())) if isinstance(node, ast.Attribute)}
         assert not names & {"create_timer", "create_rate", "sleep_for", "sleep_until"}, file
 
@@ -188,7 +187,7 @@ def test_a_hundred_starts_and_ends_under_messages_say_nothing(ros, capfd):
     from contact_sim_pkg.bag.messages import encode_clock
     from contact_sim_pkg.nodes.bench_node import LifecycleBenchNode
     from contact_sim_pkg.nodes.endpoints import publisher, subscription
-    from contact_sim_pkg.nodes.process import run
+    from contact_sim_pkg.nodes.processes.process import run
 
     heard: list[int] = []
 

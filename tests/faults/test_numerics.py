@@ -10,19 +10,19 @@ from pathlib import Path
 
 import numpy
 import pytest
+from tests.bench_process import ENVIRONMENT, messages, resolved
 
 from contact_sim_pkg.bag.encoding import deserialize
 from contact_sim_pkg.bag.messages import encode_vibration
 from contact_sim_pkg.bag.reader import open_bag
-from contact_sim_pkg.core import jit
-from contact_sim_pkg.core.field_solver import make_workspace, solve_at_load
-from contact_sim_pkg.core.halfspace import make_half_space
-from contact_sim_pkg.core.parameters import NormalElastic, PointContact
+from contact_sim_pkg.compiled import jit
 from contact_sim_pkg.excitation.blocks import VibrationBlock
+from contact_sim_pkg.laws.one_mass.parameters import PointContact
+from contact_sim_pkg.laws.one_mass.runs import integrate
+from contact_sim_pkg.laws.parameters import NormalElastic
+from contact_sim_pkg.pressure.field.halfspace import make_half_space
+from contact_sim_pkg.pressure.field.solver import make_workspace, solve_at_load
 from contact_sim_pkg.run import offline
-from contact_sim_pkg.studies.one_mass import integrate
-
-from ..bench_process import ENVIRONMENT, messages, resolved
 
 PACKAGE = Path(jit.__file__).resolve().parents[1]
 PRESSED = PointContact(1.0, 10.0, 0.0, 0.0, NormalElastic(1e8, 1.0), None)  # sinks 1e-7 m under its weight
@@ -139,7 +139,7 @@ def test_with_bounds_checks_a_kernel_that_reads_beyond_its_array_is_noticed(tmp_
     """What `make bounds` sets reaches kernels as this project compiles them."""
     (tmp_path / "beyond.py").write_text(
         "import numpy\n"
-        "from contact_sim_pkg.core.jit import entry, kernel\n"
+        "from contact_sim_pkg.compiled.jit import entry, kernel\n"
         "@kernel\ndef read(values, i):\n    return values[i]\n"
         "@entry\ndef total(values):\n    return read(values, 8)\n"
         "try:\n    total(numpy.zeros(4))\nexcept IndexError:\n    print('noticed')\n"

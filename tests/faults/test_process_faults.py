@@ -8,12 +8,7 @@ from pathlib import Path
 
 import pytest
 from ruamel.yaml import YAML
-
-from contact_sim_pkg.bag.reader import open_bag
-from contact_sim_pkg.nodes.shared_memory import mapped_segments
-from contact_sim_pkg.run.offline import run_offline
-
-from ..bench_process import (
+from tests.bench_process import (
     ENVIRONMENT,
     LONGEST,
     Nodes,
@@ -26,6 +21,10 @@ from ..bench_process import (
     start_bench,
     wait_until,
 )
+
+from contact_sim_pkg.bag.reader import open_bag
+from contact_sim_pkg.nodes.processes.shared_memory import mapped_segments
+from contact_sim_pkg.run.offline import run_offline
 
 pytestmark = needs_ros
 

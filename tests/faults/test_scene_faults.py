@@ -9,15 +9,15 @@ from pathlib import Path
 
 import pytest
 from hypothesis import given, settings, strategies
+from tests.excitation import crg_file
 
 import contact_sim_pkg
-from contact_sim_pkg.excitation import opencrg_payload, recorded_csv
+from contact_sim_pkg.excitation import recorded_csv
+from contact_sim_pkg.excitation.opencrg import payload as opencrg_payload
 from contact_sim_pkg.scene.errors import SceneError
 from contact_sim_pkg.scene.load import load_scene
-from contact_sim_pkg.scene.schema_validate import validate
-from contact_sim_pkg.scene.yaml_document import LARGEST_FILE, parse_document
-
-from ..excitation import crg_file
+from contact_sim_pkg.scene.schema.validate import validate
+from contact_sim_pkg.scene.yaml.document import LARGEST_FILE, parse_document
 
 BAD = sorted((Path(__file__).parent / "scenes" / "bad").glob("*.yaml"))
 PACKAGE = str(Path(contact_sim_pkg.__file__).resolve().parents[1])

@@ -10,8 +10,7 @@ import os
 import time
 
 import pytest
-
-from .schema_fuzz import BASES, RARE_BASES, cases, end_of, missing_numbers, run_all
+from tests.faults.schema_fuzz import BASES, RARE_BASES, cases, end_of, missing_numbers, run_all
 
 TURNS = 8
 ASKED = os.environ.get("CONTACT_BENCH_FUZZ") or str(datetime.datetime.now(datetime.timezone.utc).toordinal() % TURNS)

@@ -8,8 +8,7 @@ from xml.etree import ElementTree
 import pytest
 from packaging.requirements import Requirement
 from packaging.version import Version
-
-from ..bench_process import Nodes, needs_ros, resolved, wait_until
+from tests.bench_process import Nodes, needs_ros, resolved, wait_until
 
 ROOT = Path(__file__).resolve().parents[2]
 PACKAGE = ROOT / "contact_sim_pkg" / "contact_sim_pkg"
@@ -66,16 +65,18 @@ def allowed(node: str) -> dict[str, set[str]]:
 
 @pytest.mark.fault("G2")
 def test_the_policy_of_sros2_is_the_one_that_the_table_of_topics_gives():
-    from contact_sim_pkg.nodes.sros2_policy import policy
+    from contact_sim_pkg.nodes.processes.sros2_policy import policy
 
-    assert POLICY.read_text() == policy(), "run python -m contact_sim_pkg.nodes.sros2_policy > …/sros2_policy.xml"
+    assert POLICY.read_text() == policy(), (
+        "run python -m contact_sim_pkg.nodes.processes.sros2_policy > …/sros2_policy.xml"
+    )
 
 
 @needs_ros
 @pytest.mark.fault("G2")
 def test_the_policy_allows_what_the_nodes_of_a_run_do_and_nothing_beyond_the_table(tmp_path):
     """Against the graph of a run under way: every publisher, subscription and service of every node is allowed."""
-    from ..nodes.stand_in import StandIn
+    from tests.nodes.stand_in import StandIn
 
     nodes = Nodes(resolved("seat_ride", "duration=60"), tmp_path)
     try:

@@ -13,8 +13,8 @@ import tempfile
 import time
 from pathlib import Path
 
-from .listed import MUTANTS, Mutant
-from .source import file_of, modules_noticing, mutated
+from tests.mutants.listed import MUTANTS, Mutant
+from tests.mutants.source import file_of, modules_noticing, mutated
 
 ROOT = Path(__file__).resolve().parents[2]
 TIME_LIMIT = 600.0  # [s] for the tests of one mutant; a mutant that hangs is noticed

@@ -10,7 +10,7 @@ from typing import NamedTuple
 class Mutant(NamedTuple):
     """One change of one function."""
 
-    function: str  # module.function or module.Class.method, the module by its last name
+    function: str  # module.function or module.Class.method, the module by the end of its path
     text: str  # stands exactly once in the function
     becomes: str
     tests: tuple[str, ...]  # names of test modules, found wherever they lie
@@ -33,12 +33,12 @@ MUTANTS = (
     Mutant("hertz.stiffness_coefficient", "integral_k**3", "integral_k**2", ("test_hertz",)),
     Mutant("halfspace.love_coefficients", "(1, 0, -1.0)", "(1, 0, 1.0)", ("test_halfspace",)),
     Mutant("halfspace._transfer", "rows + 1", "rows", ("test_halfspace",)),
-    Mutant("field_solver.overlap_approach", "0.6 *", "0.06 *", ("test_field_solver",)),
+    Mutant("field/solver.overlap_approach", "0.6 *", "0.06 *", ("field/test_solver",)),
     Mutant(
-        "field_iteration.forget",
+        "field/iteration.forget",
         "surface[k] < approach",
         "surface[k] <= approach",
-        ("test_field_solver",),
+        ("field/test_solver",),
         "a cell whose surface lies exactly at the approach has no gap and no pressure: residual 0 either way",
     ),
     Mutant("lame_pressure.equivalent_ellipse", "math.pi * a * b", "4.0 * a * b", ("test_lame_pressure",)),
@@ -47,15 +47,15 @@ MUTANTS = (
         "tread_viscoelasticity.take_step", "weights[k] * change", "weights[k] * now", ("test_tread_viscoelasticity",)
     ),
     Mutant("brush.rolling_step", "(1.0 + slip)", "(1.0 - slip)", ("test_brush",)),
-    Mutant("brush_march.carry", "way * stress * 0.5", "way * stress", ("test_brush",)),
+    Mutant("tire/brush_steps.carry", "way * stress * 0.5", "way * stress", ("test_brush",)),
     # Rigid bodies
-    Mutant("impact_law._left", "restitution**2", "restitution", ("test_impact_law",)),
-    Mutant("impact_law._left", "taken = 0.5", "taken = 1.5", ("test_impact_law",)),
+    Mutant("impact/law._left", "restitution**2", "restitution", ("impact/test_law",)),
+    Mutant("impact/law._left", "taken = 0.5", "taken = 1.5", ("impact/test_law",)),
     Mutant(
-        "impact_law._left",
+        "impact/law._left",
         "works = 0.5",
         "works = 1.5",
-        ("test_impact_law",),
+        ("impact/test_law",),
         "the works and their size grow alike; only the sign of the quotient is used",
     ),
     Mutant(
@@ -80,7 +80,7 @@ MUTANTS = (
     ),
     Mutant("rotation.rotate_by", "0.5 * h * h", "0.25 * h * h", ("test_body", "test_landing")),
     # Rigs and their integrator
-    Mutant("vehicle._rate", "lost += lost_in_links + rubbed", "lost += lost_in_links", ("test_absent_effects",)),
+    Mutant("vehicle/motion._rate", "lost += lost_in_links + rubbed", "lost += lost_in_links", ("test_absent_effects",)),
     Mutant("order_5.step_of_order_5", "125.0 / 192.0", "125.0 / 191.0", ("test_orders",)),
     Mutant("order_5.error_of_order_5", "22.0 / 525.0", "21.0 / 525.0", ("test_orders",)),
     # Excitation and what is made of a recording

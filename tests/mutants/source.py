@@ -3,7 +3,7 @@
 import ast
 from pathlib import Path
 
-from .listed import Mutant
+from tests.mutants.listed import Mutant
 
 
 def file_of(mutant: Mutant, package: Path) -> Path:

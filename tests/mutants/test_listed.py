@@ -3,9 +3,8 @@
 from pathlib import Path
 
 import pytest
-
-from .listed import MUTANTS
-from .source import file_of, modules_noticing, mutated
+from tests.mutants.listed import MUTANTS
+from tests.mutants.source import file_of, modules_noticing, mutated
 
 ROOT = Path(__file__).resolve().parents[2]
 PACKAGE = ROOT / "contact_sim_pkg" / "contact_sim_pkg"

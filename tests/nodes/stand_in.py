@@ -9,7 +9,7 @@ from rclpy.signals import SignalHandlerOptions
 
 from contact_sim_pkg.bag.messages import Progress, decode_progress
 from contact_sim_pkg.nodes.endpoints import publisher, subscription
-from contact_sim_pkg.nodes.protocol import State
+from contact_sim_pkg.nodes.protocol.states import State
 
 
 class StandIn:

@@ -3,8 +3,7 @@
 from types import SimpleNamespace
 
 import pytest
-
-from ..bench_process import Nodes, needs_ros, resolved, wait_until
+from tests.bench_process import Nodes, needs_ros, resolved, wait_until
 
 pytestmark = needs_ros
 
@@ -71,8 +70,7 @@ def test_two_benches_in_two_namespaces_have_one_clock_and_diagnostics_of_their_o
 def test_a_clock_of_another_node_is_left_alone(listen, tmp_path):
     from rclpy.qos import qos_profile_sensor_data
     from rosgraph_msgs.msg import Clock
-
-    from .stand_in import StandIn
+    from tests.nodes.stand_in import StandIn
 
     hear, spin = listen
     ticks = hear(Clock, "/clock", qos_profile_sensor_data)
@@ -93,7 +91,7 @@ def test_diagnostics_come_once_a_second_and_at_each_change_and_remember_a_warnin
 
     from contact_sim_pkg.bag.messages import Progress
     from contact_sim_pkg.nodes import diagnostics
-    from contact_sim_pkg.nodes.protocol import State
+    from contact_sim_pkg.nodes.protocol.states import State
 
     sent: list = []
     monkeypatch.setattr(diagnostics, "publisher", lambda node, name: SimpleNamespace(publish=sent.append))

@@ -5,6 +5,7 @@ from importlib.resources import files
 from pathlib import Path
 
 import pytest
+from tests.bench_process import resolved
 
 from contact_sim_pkg.bag.reader import open_bag
 from contact_sim_pkg.bag.topics import TOPICS, full_name
@@ -20,9 +21,7 @@ from contact_sim_pkg.run.bag_content import recorded_names
 from contact_sim_pkg.run.offline import run_offline
 from contact_sim_pkg.scene.load import shipped_names
 from contact_sim_pkg.scene.renamed_keys import RENAMED
-from contact_sim_pkg.scene.schema_catalog import catalog, without_kinds
-
-from ..bench_process import resolved
+from contact_sim_pkg.scene.schema.catalog import catalog, without_kinds
 
 ROOT = Path(__file__).resolve().parents[2]
 TEXT = (ROOT / PARAMETERS).read_text(encoding="utf-8")

@@ -11,11 +11,10 @@ from pathlib import Path
 from types import SimpleNamespace
 
 import pytest
+from tests.bench_process import ENVIRONMENT, LONGEST, PACKAGE, needs_ros, wait_until
 
 from contact_sim_pkg.bag.errors import BagError
 from contact_sim_pkg.bag.reader import open_bag
-
-from ..bench_process import ENVIRONMENT, LONGEST, PACKAGE, needs_ros, wait_until
 
 FILE = PACKAGE / "launch" / "bench.launch.py"
 MODULES = ("", ".actions", ".event_handlers", ".events", ".events.process", ".substitutions")

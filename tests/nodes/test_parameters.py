@@ -5,8 +5,7 @@ import subprocess
 import sys
 
 import pytest
-
-from ..bench_process import ENVIRONMENT, needs_ros
+from tests.bench_process import ENVIRONMENT, needs_ros
 
 pytestmark = needs_ros
 
@@ -71,7 +70,7 @@ def test_a_whole_number_is_a_number_of_its_declared_type_range_and_text(node_wit
 )
 def test_a_wrong_type_or_value_is_refused_in_one_sentence(node_with, default, text, sentence):
     from contact_sim_pkg.nodes.parameters import declare
-    from contact_sim_pkg.nodes.protocol import REFUSED, NodeError
+    from contact_sim_pkg.nodes.protocol.states import REFUSED, NodeError
 
     allowed = (1.0, 10.0) if type(default) is float else None
     with pytest.raises(NodeError) as refused:

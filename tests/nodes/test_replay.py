@@ -10,11 +10,10 @@ import termios
 import time
 
 import pytest
+from tests.bench_process import ENVIRONMENT, LONGEST, Nodes, needs_ros, resolved
 
 from contact_sim_pkg.bag.reader import open_bag
 from contact_sim_pkg.run.offline import run_offline
-
-from ..bench_process import ENVIRONMENT, LONGEST, Nodes, needs_ros, resolved
 
 pytestmark = needs_ros
 
@@ -37,10 +36,10 @@ def replay(bag, tmp_path):
 @pytest.fixture
 def listener():
     """A node that was there before the replay; `hear` gives a list that fills as it spins."""
+    from tests.nodes.stand_in import StandIn
+
     from contact_sim_pkg.bag.topics import topic_of
     from contact_sim_pkg.nodes.endpoints import message_type, profile_of
-
-    from .stand_in import StandIn
 
     with StandIn("listener", topic="road/patch") as node:
 

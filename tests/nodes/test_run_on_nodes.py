@@ -4,13 +4,12 @@ import subprocess
 import sys
 
 import pytest
+from tests.bench_process import Nodes, bench, messages, needs_ros, resolved
 
-from contact_sim_pkg.analysis.summary import summarise
 from contact_sim_pkg.bag.reader import open_bag
+from contact_sim_pkg.report.summary import summarise
 from contact_sim_pkg.run.from_bag import sources_from_bag
 from contact_sim_pkg.run.offline import run_offline
-
-from ..bench_process import Nodes, bench, messages, needs_ros, resolved
 
 pytestmark = needs_ros
 

@@ -2,10 +2,9 @@
 
 import numpy
 import pytest
+from tests.run.scenes import resolved
 
 from contact_sim_pkg.run.sources import make_vibration
-
-from .scenes import resolved
 
 
 def notes(*values):

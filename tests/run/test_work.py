@@ -6,10 +6,12 @@ import time
 
 import numpy
 import pytest
+from tests.bench_process import bench, end, start_bench
+from tests.run.scenes import resolved
 
 from contact_sim_pkg.bag.messages import decode_cost
 from contact_sim_pkg.bag.reader import open_bag
-from contact_sim_pkg.core.jit import entry
+from contact_sim_pkg.compiled.jit import entry
 from contact_sim_pkg.run import offline
 from contact_sim_pkg.run.computing import Computing
 from contact_sim_pkg.run.rigs import make_simulation
@@ -17,9 +19,6 @@ from contact_sim_pkg.run.sources import make_sources
 from contact_sim_pkg.run.work import BOUND, estimated_work, refuse_long
 from contact_sim_pkg.scene.errors import SceneError
 from contact_sim_pkg.scene.load import shipped_names
-
-from ..bench_process import bench, end, start_bench
-from .scenes import resolved
 
 GENERAL = "effects.backrest.general_dissipative"
 DAMPER = (f"{GENERAL}.restitution=null", f"{GENERAL}.reference_speed=null", f"{GENERAL}.coefficient=1e12")

@@ -51,7 +51,7 @@ def test_too_many_samples_are_refused(maker):
 
 
 def test_the_estimate_covers_the_arrays_of_the_half_space(maker):
-    halfspace = pytest.importorskip("contact_sim_pkg.core.halfspace")
+    halfspace = pytest.importorskip("contact_sim_pkg.pressure.field.halfspace")
     scene = maker.load("tire", {FIELD: {"rows": 48, "cols": 64}})
     half_space = halfspace.make_half_space(48, 64, 0.004, 0.004, 4e6)
     taken = sum(

@@ -4,6 +4,7 @@ The renames of these tests are made up: an effect, a section and a key below a s
 """
 
 import pytest
+from tests.bag import hand_made
 
 from contact_sim_pkg.bag.reader import open_bag
 from contact_sim_pkg.bag.texts import scene_of_text
@@ -12,9 +13,7 @@ from contact_sim_pkg.run.from_bag import refuse_other_scene
 from contact_sim_pkg.scene.overrides import set_value
 from contact_sim_pkg.scene.renamed_keys import RENAMED, new_key
 from contact_sim_pkg.scene.resolve import ResolvedScene, read_explicit, resolve
-from contact_sim_pkg.scene.schema_catalog import catalog
-
-from ..bag import hand_made
+from contact_sim_pkg.scene.schema.catalog import catalog
 
 MADE_UP = {
     "effects.seat.bounce": "effects.seat.normal_elastic",

@@ -11,7 +11,7 @@ from contact_sim_pkg.scene.errors import SceneError
 from contact_sim_pkg.scene.load import load_scene, shipped_names
 from contact_sim_pkg.scene.overrides import set_value
 from contact_sim_pkg.scene.resolve import ResolvedScene, resolve
-from contact_sim_pkg.scene.schema_accuracy import RUNGS, rung_name
+from contact_sim_pkg.scene.schema.accuracy import RUNGS, rung_name
 
 FIELD = "effects.tire.contact_field"
 

@@ -1,9 +1,12 @@
 import numpy
 import pytest
 
-from contact_sim_pkg.studies import ablation, accuracy_cost, accuracy_cost_field, accuracy_cost_integrator
-from contact_sim_pkg.studies.ablation_rules import Observed, is_needed
-from contact_sim_pkg.studies.scene_drive import load_resolved
+from contact_sim_pkg.rigs.vehicle.studies import accuracy_field as accuracy_cost_field
+from contact_sim_pkg.rigs.vehicle.studies import accuracy_integrator as accuracy_cost_integrator
+from contact_sim_pkg.rigs.vehicle.studies.scene_drive import load_resolved
+from contact_sim_pkg.studies.accuracy import scene_study as accuracy_cost
+from contact_sim_pkg.studies.effects import ablation
+from contact_sim_pkg.studies.effects.ablation_rules import Observed, is_needed
 
 
 @pytest.fixture(scope="module")

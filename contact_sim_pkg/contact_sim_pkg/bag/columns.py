@@ -7,8 +7,8 @@ import numpy
 from rosbags.interfaces import Nodetype
 from rosbags.typesys.store import Typestore
 
-from .encoding import SECOND
-from .errors import BagError
+from contact_sim_pkg.bag.encoding import SECOND
+from contact_sim_pkg.bag.errors import BagError
 
 _TIME = "builtin_interfaces/msg/Time"
 _HEADER = "header."

@@ -13,8 +13,8 @@ import numpy
 from numpy.typing import ArrayLike, NDArray
 from rosbags.serde import SerdeError
 
-from .errors import MessageError
-from .typestore import installed_types
+from contact_sim_pkg.bag.errors import MessageError
+from contact_sim_pkg.bag.typestore import installed_types
 
 SECOND = 1_000_000_000  # [ns]
 LAST_STAMP = 2**31 * SECOND - 1  # [ns]; the seconds of a ROS stamp are an int32

@@ -12,13 +12,12 @@ from typing import Any, NamedTuple
 from ruamel.yaml import YAML
 from ruamel.yaml.scalarstring import DoubleQuotedScalarString
 
+from contact_sim_pkg.bag.errors import BagError
+from contact_sim_pkg.bag.texts import MOST_VALUES, values_of_text
+from contact_sim_pkg.bag.topics import RECORDED, full_name, offered_qos, topic_of
+from contact_sim_pkg.bag.typestore import definition, type_hash
 from contact_sim_pkg.files import read_regular_file
-from contact_sim_pkg.scene.yaml_document import LARGEST_FILE as LARGEST_METADATA
-
-from .errors import BagError
-from .texts import MOST_VALUES, values_of_text
-from .topics import RECORDED, full_name, offered_qos, topic_of
-from .typestore import definition, type_hash
+from contact_sim_pkg.scene.yaml.document import LARGEST_FILE as LARGEST_METADATA
 
 RECORD = "contact_bench"  # name of the MCAP metadata record
 LACKING = "lacking"  # key of the outcome that says which messages of the blocks done never came

@@ -5,7 +5,7 @@ import secrets
 from datetime import datetime, timezone
 from pathlib import Path
 
-from .errors import BagError
+from contact_sim_pkg.bag.errors import BagError
 
 LONGEST_NAME = 100  # characters of a bag's name
 _LONGEST_SCENE = 70  # leaves room for the time and the random suffix

@@ -11,16 +11,25 @@ from mcap.records import Channel, Message, Schema
 from rosbags.serde import SerdeError
 from rosbags.typesys.store import Typestore
 
+from contact_sim_pkg.bag.columns import stacked
+from contact_sim_pkg.bag.encoding import deserialize
+from contact_sim_pkg.bag.errors import BagError, CorruptChunkError
+from contact_sim_pkg.bag.mcap.append_file import is_being_written
+from contact_sim_pkg.bag.mcap.layout import Layout, chunk_records, read_layout
+from contact_sim_pkg.bag.metadata import (
+    LACKING,
+    OUTCOME,
+    RECORD,
+    RELATIVE_NAME,
+    ROSBAG2,
+    SCENE_KEY,
+    RecordedTopic,
+    files_of_bag,
+    unsealed,
+)
+from contact_sim_pkg.bag.topics import TOPICS
+from contact_sim_pkg.bag.typestore import store_of_definition, type_hash
 from contact_sim_pkg.files import open_regular_file
-
-from .append_file import is_being_written
-from .columns import stacked
-from .encoding import deserialize
-from .errors import BagError, CorruptChunkError
-from .layout import Layout, chunk_records, read_layout
-from .metadata import LACKING, OUTCOME, RECORD, RELATIVE_NAME, ROSBAG2, SCENE_KEY, RecordedTopic, files_of_bag, unsealed
-from .topics import TOPICS
-from .typestore import store_of_definition, type_hash
 
 LONGEST_NAME = 255  # characters of a topic
 SCENE_TOPIC, SCENE_TYPE = "bench/scene", "std_msgs/msg/String"

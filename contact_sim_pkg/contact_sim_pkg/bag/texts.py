@@ -1,13 +1,12 @@
-"""Texts that stand in a bag, read as data within the limits of `scene/yaml_document.py`: whoever made the bag is a stranger."""
+"""Texts that stand in a bag, read as data within the limits of `scene/yaml/document.py`: whoever made the bag is a stranger."""
 
 from collections.abc import Callable
 from typing import Any
 
+from contact_sim_pkg.bag.errors import BagError
 from contact_sim_pkg.scene.errors import SceneError
 from contact_sim_pkg.scene.renamed_keys import with_new_names
-from contact_sim_pkg.scene.yaml_document import parse_json, parse_plain
-
-from .errors import BagError
+from contact_sim_pkg.scene.yaml.document import parse_json, parse_plain
 
 MOST_VALUES = 30_000  # of a `metadata.yaml`, which may list many topics
 

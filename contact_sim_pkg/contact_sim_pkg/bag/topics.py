@@ -7,7 +7,7 @@ nodes. The rank is the position in the table; at equal stamps, a bag holds the m
 
 from typing import Literal, NamedTuple
 
-from .errors import BagError
+from contact_sim_pkg.bag.errors import BagError
 
 Kind = Literal["scene", "excitation", "result", "cost", "state", "clock", "health"]
 

@@ -13,7 +13,7 @@ from importlib.resources import files
 from rosbags.typesys import Stores, get_types_from_msg, get_typestore
 from rosbags.typesys.store import Typestore
 
-from .errors import BagError
+from contact_sim_pkg.bag.errors import BagError
 
 PACKAGE = "contact_msgs_defs"
 STANDARD = {

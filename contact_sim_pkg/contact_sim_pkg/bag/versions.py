@@ -2,11 +2,11 @@
 
 from collections.abc import Mapping, Sequence
 
-from .errors import BagError
-from .metadata import software_versions
-from .reader import Bag
-from .topics import TOPICS
-from .typestore import type_hash
+from contact_sim_pkg.bag.errors import BagError
+from contact_sim_pkg.bag.metadata import software_versions
+from contact_sim_pkg.bag.reader import Bag
+from contact_sim_pkg.bag.topics import TOPICS
+from contact_sim_pkg.bag.typestore import type_hash
 
 __all__ = ["differences_from", "differences_of_bags", "installed_versions", "version_differences", "versions_of"]
 

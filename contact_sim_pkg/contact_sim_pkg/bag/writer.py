@@ -15,10 +15,10 @@ from typing import NamedTuple
 
 from mcap.writer import Writer
 
-from .append_file import AppendFile, create_directory, create_file, free_bytes_at, write_whole
-from .errors import BagError, BagWriteError, RecordingStoppedError
-from .layout import counts_on_disk
-from .metadata import (
+from contact_sim_pkg.bag.errors import BagError, BagWriteError, RecordingStoppedError
+from contact_sim_pkg.bag.mcap.append_file import AppendFile, create_directory, create_file, free_bytes_at, write_whole
+from contact_sim_pkg.bag.mcap.layout import counts_on_disk
+from contact_sim_pkg.bag.metadata import (
     OUTCOME,
     RECORD,
     RELATIVE_NAME,

@@ -6,7 +6,7 @@ from pathlib import Path
 
 import click
 
-from .tables import json_option, overwrite_option, print_json_rows, show_sections
+from contact_sim_pkg.cli.output.tables import json_option, overwrite_option, print_json_rows, show_sections
 
 
 @click.command("accuracy")
@@ -22,18 +22,19 @@ def command(what: str, plot: Path | None, overwrite: bool, as_json: bool) -> Non
     SCENE, a name or a path: each rung, tolerance and grid that it can be run with. RIG (tire, seat, block, impact, roller): each
     quantity of its contact by the cheap formulas and the dear ones, on the same input. A file named like a rig is meant by ./NAME.
     """
-    from contact_sim_pkg.analysis.drawing import check_picture
-    from contact_sim_pkg.studies import ladder
+    from contact_sim_pkg.report.drawing import check_picture
+    from contact_sim_pkg.studies.accuracy import work_precision as ladder
 
     if plot is not None:
         check_picture(plot, [Path(what)], overwrite=overwrite)
     if what in ladder.RIGS:
-        from contact_sim_pkg.studies import ladder_plot, ladder_table
+        from contact_sim_pkg.studies.accuracy import work_precision_plot as ladder_plot
+        from contact_sim_pkg.studies.accuracy import work_precision_table as ladder_table
 
         rows = ladder.study(what, _tell)
         draw, sections = ladder_plot.write_plot, ladder_table.sections
     else:
-        from contact_sim_pkg.studies import accuracy_cost
+        from contact_sim_pkg.studies.accuracy import scene_study as accuracy_cost
 
         rows = accuracy_cost.study(what, _tell)
         draw, sections = accuracy_cost.write_plot, accuracy_cost.sections

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import click
 
-from .tables import json_option, print_json_rows, show_sections
+from contact_sim_pkg.cli.output.tables import json_option, print_json_rows, show_sections
 
 
 @click.command("effects")
@@ -12,7 +12,7 @@ from .tables import json_option, print_json_rows, show_sections
 @json_option
 def command(scene: str, as_json: bool) -> None:
     """Each effect of SCENE, on or off: its measured cost and the outputs that it feeds."""
-    from contact_sim_pkg.studies import ablation
+    from contact_sim_pkg.studies.effects import ablation
 
     rows = ablation.study(scene, lambda line: click.echo(line, err=True))
     if as_json:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import click
 
-from .tables import json_option, print_json_rows, show_sections
+from contact_sim_pkg.cli.output.tables import json_option, print_json_rows, show_sections
 
 
 @click.command("hard")
@@ -12,7 +12,7 @@ from .tables import json_option, print_json_rows, show_sections
 @click.pass_context
 def command(context: click.Context, as_json: bool) -> None:
     """Value, expectation, margin and verdict of each hard case; ends 1 if one fails."""
-    from contact_sim_pkg.studies import hard_cases
+    from contact_sim_pkg.studies.hard import hard_cases
 
     rows = hard_cases.study(None, lambda line: click.echo(line, err=True))
     if as_json:

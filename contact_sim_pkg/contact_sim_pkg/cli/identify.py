@@ -7,15 +7,15 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from .tables import json_option, overwrite_option, print_json, show_sections
+from contact_sim_pkg.cli.output.tables import json_option, overwrite_option, print_json, show_sections
 
 if TYPE_CHECKING:
-    from contact_sim_pkg.bag.axes import Axes
-    from contact_sim_pkg.bag.body_states import RecordedStates
-    from contact_sim_pkg.identification.geometry import Shape
-    from contact_sim_pkg.identification.identify import Identification
-    from contact_sim_pkg.identification.wrench import ExternalWrench
-    from contact_sim_pkg.studies.section import Section
+    from contact_sim_pkg.identify.contact.wrench import ExternalWrench
+    from contact_sim_pkg.identify.geometry import Shape
+    from contact_sim_pkg.identify.identify import Identification
+    from contact_sim_pkg.identify.readers.axes import Axes
+    from contact_sim_pkg.identify.readers.body_states import RecordedStates
+    from contact_sim_pkg.records.table import Section
 
 VECTOR = (float, float, float)
 FILE = click.Path(path_type=Path)
@@ -106,17 +106,17 @@ def command(
     reversed or turned leaves (JSON: friction, friction_at_least); Newton's e, the ratio -u_n+/u_n- of normal speeds (JSON:
     newton_restitution), which is not the e of an energetic or Poisson rule where there is friction.
     """
-    from contact_sim_pkg.analysis import identification_rows
-    from contact_sim_pkg.bag.body_states import read_body_states
-    from contact_sim_pkg.identification.errors import IdentificationError
-    from contact_sim_pkg.identification.geometry import plane
-    from contact_sim_pkg.identification.identify import Setup, identify
-    from contact_sim_pkg.identification.states import Noise
-    from contact_sim_pkg.identification.wrench import constant
-    from contact_sim_pkg.studies.section import Section
+    from contact_sim_pkg.identify.contact.wrench import constant
+    from contact_sim_pkg.identify.errors import IdentificationError
+    from contact_sim_pkg.identify.geometry import plane
+    from contact_sim_pkg.identify.identify import Setup, identify
+    from contact_sim_pkg.identify.motion.states import Noise
+    from contact_sim_pkg.identify.readers.body_states import read_body_states
+    from contact_sim_pkg.identify.report import rows as identification_rows
+    from contact_sim_pkg.records.table import Section
 
     if plot is not None:
-        from contact_sim_pkg.analysis.drawing import check_picture
+        from contact_sim_pkg.report.drawing import check_picture
 
         check_picture(plot, [bag, hull], overwrite=overwrite)
     shape = _shape(box, sphere, hull)
@@ -142,14 +142,14 @@ def command(
         reading = Section("Reading of the bag", [{"what was read, and how": line} for line in recorded.reading])
         show_sections([*_sections(found), reading])
     if plot is not None:
-        from contact_sim_pkg.analysis.identification_plot import write_plot
+        from contact_sim_pkg.identify.report.plot import write_plot
 
         write_plot(found, plot, overwrite=overwrite)
 
 
 def _shape(box: tuple[float, float, float] | None, sphere: float | None, hull: Path | None) -> Shape:
-    from contact_sim_pkg.analysis.identification_input import hull_of_file
-    from contact_sim_pkg.identification import geometry
+    from contact_sim_pkg.identify import geometry
+    from contact_sim_pkg.identify.report.input import hull_of_file
 
     if sum(each is not None for each in (box, sphere, hull)) != 1:
         raise click.UsageError("the shape of the body is needed once: --box X Y Z, --sphere R or --hull FILE")
@@ -167,8 +167,8 @@ def _check_wrench_options(constant: bool, topic: str | None, axes: Axes) -> None
 
 def _wrench(bag: Path, recorded: RecordedStates, topic: str, axes: Axes) -> tuple[RecordedStates, ExternalWrench]:
     """The wrench of a topic, and the states with what is to tell about it."""
-    from contact_sim_pkg.bag.wrenches import read_wrench
-    from contact_sim_pkg.identification.wrench import sampled
+    from contact_sim_pkg.identify.contact.wrench import sampled
+    from contact_sim_pkg.identify.readers.wrenches import read_wrench
 
     samples, notes, reading = read_wrench(bag, topic, recorded, axes)
     told = recorded._replace(notes=(*recorded.notes, *notes), reading=(*recorded.reading, reading))
@@ -177,8 +177,8 @@ def _wrench(bag: Path, recorded: RecordedStates, topic: str, axes: Axes) -> tupl
 
 def _sections(found: Identification) -> list[Section]:
     """Parameters, what cannot be known, contacts."""
-    from contact_sim_pkg.analysis.identification_rows import contact_rows, parameter_rows
-    from contact_sim_pkg.studies.section import Section
+    from contact_sim_pkg.identify.report.rows import contact_rows, parameter_rows
+    from contact_sim_pkg.records.table import Section
 
     where = "motion in a plane" if found.axis is not None else "motion in space"
     title = f"Parameters: {where}, {found.flights} flights, rank {found.rank} of {found.unknowns} unknowns"

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import click
 
-from .tables import json_option, show_rows
+from contact_sim_pkg.cli.output.tables import json_option, show_rows
 
 
 @click.command("list")

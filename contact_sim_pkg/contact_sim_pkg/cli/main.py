@@ -76,11 +76,11 @@ def main(arguments: list[str] | None = None) -> int:
 
 def refusal(error: Exception) -> tuple[str, int] | None:
     """Sentence and exit status of an error that stands for bad input or a named fault; None for any other."""
-    from contact_sim_pkg.analysis.material.errors import MaterialError
     from contact_sim_pkg.bag.errors import BagError
     from contact_sim_pkg.excitation.errors import ExcitationError
     from contact_sim_pkg.files import FileRefusedError
-    from contact_sim_pkg.identification.errors import IdentificationError
+    from contact_sim_pkg.identify.errors import IdentificationError
+    from contact_sim_pkg.rigs.impact.material.errors import MaterialError
     from contact_sim_pkg.run.errors import RunError
     from contact_sim_pkg.scene.errors import SceneError
 

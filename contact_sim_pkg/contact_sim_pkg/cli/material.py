@@ -7,10 +7,10 @@ from typing import TYPE_CHECKING
 
 import click
 
-from .tables import json_option, overwrite_option, print_json, show_rows
+from contact_sim_pkg.cli.output.tables import json_option, overwrite_option, print_json, show_rows
 
 if TYPE_CHECKING:
-    from contact_sim_pkg.analysis.material.report import MaterialReport
+    from contact_sim_pkg.rigs.impact.material.report import MaterialReport
 
 FILE = click.Path(path_type=Path)
 
@@ -52,12 +52,12 @@ def command(
     From a bag of the rig impact, or from a file with a line an impact: columns m, R, V0, tau, k and T (kg, m, m/s, s, 1, K; other
     units in brackets behind the name), g (m/s^2) where the weight acts along the blow.
     """
-    from contact_sim_pkg.analysis import drawing
-    from contact_sim_pkg.analysis.material import figure
-    from contact_sim_pkg.analysis.material.bag_impacts import is_bag, rules_of_bag
-    from contact_sim_pkg.analysis.material.options import Options
-    from contact_sim_pkg.analysis.material.report import csv_files, material_report, write_csv
     from contact_sim_pkg.files import check_output
+    from contact_sim_pkg.report import drawing
+    from contact_sim_pkg.rigs.impact.material import figure
+    from contact_sim_pkg.rigs.impact.material.bag_impacts import is_bag, rules_of_bag
+    from contact_sim_pkg.rigs.impact.material.options import Options
+    from contact_sim_pkg.rigs.impact.material.report import csv_files, material_report, write_csv
 
     for name, given, law in (
         ("--glass-temperature", glass_temperature, "wlf"),
@@ -85,7 +85,7 @@ def command(
 
 
 def _show(report: MaterialReport, *, as_json: bool) -> None:
-    from contact_sim_pkg.analysis.material.report import group_rows, master_row, pooled_rows
+    from contact_sim_pkg.rigs.impact.material.report import group_rows, master_row, pooled_rows
 
     if as_json:
         parts = {"impacts": report.rows, "groups": group_rows(report), "all_speeds": pooled_rows(report)}

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from .progress import RunDisplay
+from contact_sim_pkg.cli.output.progress import RunDisplay
 
 if TYPE_CHECKING:
     from contact_sim_pkg.bag.reader import Bag

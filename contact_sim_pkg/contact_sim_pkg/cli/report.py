@@ -6,7 +6,7 @@ from pathlib import Path
 
 import click
 
-from .tables import overwrite_option
+from contact_sim_pkg.cli.output.tables import overwrite_option
 
 
 @click.command("report")
@@ -25,11 +25,11 @@ def command(bags: tuple[Path, ...], out: Path | None, skip_bad: bool, across_ver
 
     Several bags of one rig are laid over each other on one page, called by what differs between their scenes.
     """
-    from contact_sim_pkg.analysis.comparison import write_comparison
-    from contact_sim_pkg.analysis.reading import scenes_fit
-    from contact_sim_pkg.analysis.report import write_report
     from contact_sim_pkg.bag.reader import open_bag
     from contact_sim_pkg.bag.versions import differences_from, differences_of_bags, installed_versions
+    from contact_sim_pkg.report.comparison.runs import write_comparison
+    from contact_sim_pkg.report.reading import scenes_fit
+    from contact_sim_pkg.report.report import write_report
     from contact_sim_pkg.run.bag_content import kernel_fingerprint
 
     recorded = [open_bag(bag, skip_bad=skip_bad) for bag in bags]

@@ -6,8 +6,8 @@ from pathlib import Path
 
 import click
 
-from .scene_options import SceneOptions, scene_options
-from .tables import json_option
+from contact_sim_pkg.cli.output.tables import json_option
+from contact_sim_pkg.cli.scene_options import SceneOptions, scene_options
 
 
 @click.command("run")
@@ -41,7 +41,7 @@ def command(
     as_json: bool,
 ) -> None:
     """Run SCENE (a name or a YAML file), record it, and say what came of it."""
-    from .run_scene import run_scene
+    from contact_sim_pkg.cli.run_scene import run_scene
 
     status = run_scene(
         options,

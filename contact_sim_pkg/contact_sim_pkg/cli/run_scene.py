@@ -14,12 +14,11 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, Generic, NamedTuple, TypeVar
 
 from contact_sim_pkg.bag.names import new_directory
-
-from .main import BEGAN
-from .outcome import describe, print_outcome, state_of
-from .progress import RunDisplay
-from .scene_options import SceneOptions
-from .tables import print_json
+from contact_sim_pkg.cli.main import BEGAN
+from contact_sim_pkg.cli.output.outcome import describe, print_outcome, state_of
+from contact_sim_pkg.cli.output.progress import RunDisplay
+from contact_sim_pkg.cli.output.tables import print_json
+from contact_sim_pkg.cli.scene_options import SceneOptions
 
 if TYPE_CHECKING:
     from contact_sim_pkg.scene.resolved_scene import ResolvedScene
@@ -124,7 +123,7 @@ def _told(scene: ResolvedScene, ended: Ended, forecast: dict[str, Any], *, as_js
 
 def _leave_metadata(scene: ResolvedScene, ended: Ended) -> str:
     """Beside a bag that its recorder could not finish; how to make it whole, empty where it is."""
-    from contact_sim_pkg.bag.unfinished import leave_metadata
+    from contact_sim_pkg.bag.mcap.unfinished import leave_metadata
 
     outcome = {"ended": state_of(scene, ended), "blocks_done": str(ended.blocks), "failure": ended.failure}
     return "" if ended.bag is None else leave_metadata(ended.bag, outcome)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import click
 
-from .scene_options import SceneOptions, scene_options
+from contact_sim_pkg.cli.scene_options import SceneOptions, scene_options
 
 
 @click.command("show")

@@ -9,8 +9,8 @@ from typing import Any, NamedTuple, Protocol
 import numpy
 from numpy.typing import NDArray
 
-from .errors import ExcitationError
-from .travel import Travel
+from contact_sim_pkg.excitation.errors import ExcitationError
+from contact_sim_pkg.excitation.travel import Travel
 
 LARGEST_PATCH = 4_000_000  # nodes of one block; 16 MB as float32, far above the widest tire at the highest speed
 

@@ -13,17 +13,16 @@ from typing import Any
 import numpy
 from numpy.typing import NDArray
 
-from contact_sim_pkg.core.guards import require, require_not_negative, require_values
-
-from .errors import ExcitationError
-from .iso8608_texture import Texture
-from .periodic import synthesise
+from contact_sim_pkg.compiled.guards import require, require_not_negative, require_values
+from contact_sim_pkg.excitation.errors import ExcitationError
+from contact_sim_pkg.excitation.iso8608_texture import Texture
+from contact_sim_pkg.excitation.periodic import synthesise
 
 REFERENCE_WAVE_NUMBER = 0.1  # [cycles/m] n0 of ISO 8608
 CLASS_ROUGHNESS = {  # [m^3] geometric mean of Gd(n0), ISO 8608:2016
     "A": 16e-6, "B": 64e-6, "C": 256e-6, "D": 1024e-6, "E": 4096e-6, "F": 16384e-6, "G": 65536e-6, "H": 262144e-6,
 }  # fmt: skip
-POINTS_PER_WAVE = 48  # error of the shortest wave 7.6e-7 of its amplitude, see periodic.py
+POINTS_PER_WAVE = 48  # error of the shortest wave 7.6e-7 of its amplitude, see excitation/periodic.py
 MOST_POINTS = 1 << 24  # 256 MiB of values and slopes
 
 
@@ -56,7 +55,7 @@ class Iso8608Road:
     """A random road, the same across the track unless a texture is asked for; it repeats after its length.
 
     The texture continues the spectrum below the shortest wavelength of the profile with an isotropic fine surface, see
-    iso8608_texture.py. Its oblique waves also add to the spectrum of the longer waves along the road; the profile is
+    excitation/iso8608_texture.py. Its oblique waves also add to the spectrum of the longer waves along the road; the profile is
     lowered by just that, so that the spectrum along any line of travel is G(n).
     """
 

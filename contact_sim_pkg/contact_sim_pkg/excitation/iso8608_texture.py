@@ -16,8 +16,8 @@ import numpy
 from numpy.typing import NDArray
 from scipy.special import betainc
 
-from .errors import ExcitationError
-from .periodic import PeriodicTable, synthesise
+from contact_sim_pkg.excitation.errors import ExcitationError
+from contact_sim_pkg.excitation.periodic import PeriodicTable, synthesise
 
 STRIP_LENGTH = 8.0  # [m]
 STRIP_WIDTH = 4.0  # [m]

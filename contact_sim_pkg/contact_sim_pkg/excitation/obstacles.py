@@ -6,7 +6,7 @@ from typing import Any
 import numpy
 from numpy.typing import NDArray
 
-from .errors import ExcitationError
+from contact_sim_pkg.excitation.errors import ExcitationError
 
 SHAPES = ("bump", "cleat", "step", "pothole")
 TALLEST = 2.0  # [m] plausibility bound; catches millimetres written for metres

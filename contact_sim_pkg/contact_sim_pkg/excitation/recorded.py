@@ -12,9 +12,9 @@ from typing import Any, NamedTuple
 import numpy
 from numpy.typing import NDArray
 
-from .errors import ExcitationError
-from .recorded_csv import STANDARD_GRAVITY, Table, read_table
-from .recorded_units import refuse_other_unit, signed_column
+from contact_sim_pkg.excitation.errors import ExcitationError
+from contact_sim_pkg.excitation.recorded_csv import STANDARD_GRAVITY, Table, read_table
+from contact_sim_pkg.excitation.recorded_units import refuse_other_unit, signed_column
 
 LARGEST_TIME = 1e11  # [s] a time column may count from 1970
 RATE_AGREEMENT = 0.01  # stated and found rate may differ by this part

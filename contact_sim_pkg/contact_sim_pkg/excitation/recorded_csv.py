@@ -11,9 +11,8 @@ from typing import Any, NamedTuple
 import numpy
 from numpy.typing import NDArray
 
+from contact_sim_pkg.excitation.errors import ExcitationError
 from contact_sim_pkg.files import open_regular_file
-
-from .errors import ExcitationError
 
 LARGEST_FILE = 1 << 28  # [bytes]
 TIME_NAMES = ("time", "t", "time_s")

@@ -7,8 +7,8 @@ from math import sqrt
 import numpy
 from numpy.typing import NDArray
 
-from .errors import ExcitationError
-from .recorded_csv import STANDARD_GRAVITY, UNITS, Table
+from contact_sim_pkg.excitation.errors import ExcitationError
+from contact_sim_pkg.excitation.recorded_csv import STANDARD_GRAVITY, UNITS, Table
 
 LARGEST_ACCELERATION = 1e5  # [m/s^2] about 10 000 g, the end of the range of shock accelerometers
 LARGEST_MEAN = 5.0 * STANDARD_GRAVITY  # [m/s^2] no rig is accelerated so for the length of a recording

@@ -11,8 +11,8 @@ from typing import Any, Protocol
 import numpy
 from numpy.typing import NDArray
 
-from .errors import ExcitationError
-from .periodic import synthesise
+from contact_sim_pkg.excitation.errors import ExcitationError
+from contact_sim_pkg.excitation.periodic import synthesise
 
 LARGEST_ACCELERATION = 1e4  # [m/s^2] plausibility bound, a thousand times gravity
 HIGHEST_FREQUENCY = 1e4  # [Hz]
@@ -127,7 +127,7 @@ class Noise:
 
     Harmonics of 1 / period inside [low, high], equal amplitudes, uniform random phases: the rms over one period is
     exactly the rms asked for, the distribution Gaussian to within the number of harmonics (at least 16). It repeats
-    after `period`. Interpolated to 1e-6 of the rms, see periodic.py.
+    after `period`. Interpolated to 1e-6 of the rms, see excitation/periodic.py.
     """
 
     def __init__(self, rms: float, low: float, high: float, seed: int, period: float = 60.0) -> None:

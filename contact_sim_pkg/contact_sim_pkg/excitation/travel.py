@@ -5,7 +5,7 @@ from bisect import bisect_right
 from collections.abc import Sequence
 from math import isfinite
 
-from .errors import ExcitationError
+from contact_sim_pkg.excitation.errors import ExcitationError
 
 HIGHEST_SPEED = 150.0  # [m/s] 540 km/h, above every road vehicle
 

@@ -16,18 +16,24 @@ from contact_sim_pkg.bag.messages import Recorded, decode_progress, encode_recor
 from contact_sim_pkg.bag.metadata import recorded_topics
 from contact_sim_pkg.bag.names import new_directory
 from contact_sim_pkg.bag.writer import BagWriter
+from contact_sim_pkg.nodes.bench_node import LifecycleBenchNode
+from contact_sim_pkg.nodes.endpoints import numbered_subscription, publisher, subscription
+from contact_sim_pkg.nodes.parameters import declare, declare_input_timeout, declare_scene
+from contact_sim_pkg.nodes.processes.process import run
+from contact_sim_pkg.nodes.processes.scene_file import (
+    block_length_ns,
+    count_blocks,
+    queue_depth,
+    read_descriptions,
+    read_reason,
+    read_scene,
+)
+from contact_sim_pkg.nodes.protocol.input_blocks import check_block
+from contact_sim_pkg.nodes.protocol.record_order import HeldMessage, RecordOrder
+from contact_sim_pkg.nodes.protocol.record_outcome import outcome_of
+from contact_sim_pkg.nodes.protocol.single_source import SingleSource
+from contact_sim_pkg.nodes.protocol.states import DONE, FAULT, LOSS, REFUSED, Follower, NodeError, State
 from contact_sim_pkg.run.bag_content import attachments, input_names, recorded_names, result_names
-
-from .bench_node import LifecycleBenchNode
-from .endpoints import numbered_subscription, publisher, subscription
-from .input_blocks import check_block
-from .parameters import declare, declare_input_timeout, declare_scene
-from .process import run
-from .protocol import DONE, FAULT, LOSS, REFUSED, Follower, NodeError, State
-from .record_order import HeldMessage, RecordOrder
-from .record_outcome import outcome_of
-from .scene_file import block_length_ns, count_blocks, queue_depth, read_descriptions, read_reason, read_scene
-from .single_source import SingleSource
 
 BAG_TEXT = "Directory of the bag, which must not exist. Empty: bags/SCENE_TIME_RANDOM of the current directory."
 GATHER_SECONDS = 0.002  # that messages gather for; the window leaves room for it

@@ -13,16 +13,15 @@ from std_srvs.srv import SetBool
 
 from contact_sim_pkg.bag.messages import encode_clock
 from contact_sim_pkg.bag.reader import Bag, open_bag
-
-from .audience import Audience
-from .bench_node import LifecycleBenchNode
-from .endpoints import message_type, publisher, refuse_strangers
-from .keys import Keys
-from .parameters import declare
-from .player import Player, Standing
-from .process import run
-from .protocol import DONE, REFUSED, NodeError
-from .recorded_qos import profile_of_recorded
+from contact_sim_pkg.nodes.bench_node import LifecycleBenchNode
+from contact_sim_pkg.nodes.endpoints import message_type, publisher, refuse_strangers
+from contact_sim_pkg.nodes.parameters import declare
+from contact_sim_pkg.nodes.player import Player, Standing
+from contact_sim_pkg.nodes.processes.audience import Audience
+from contact_sim_pkg.nodes.processes.keys import Keys
+from contact_sim_pkg.nodes.processes.process import run
+from contact_sim_pkg.nodes.protocol.recorded_qos import profile_of_recorded
+from contact_sim_pkg.nodes.protocol.states import DONE, REFUSED, NodeError
 
 CLOCK_RATE = 40.0  # [Hz] of the steady clock
 BATCH = 200  # messages between two looks at signals; what a volatile topic keeps for a subscriber that is behind

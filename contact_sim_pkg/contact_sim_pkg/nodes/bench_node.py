@@ -8,11 +8,10 @@ from rclpy.lifecycle import LifecycleNode, LifecycleState, TransitionCallbackRet
 from rclpy.publisher import Publisher
 from rclpy.subscription import Subscription
 
+from contact_sim_pkg.nodes.parameters import declare
+from contact_sim_pkg.nodes.processes.process import REFUSALS
+from contact_sim_pkg.nodes.protocol.states import FAULT, REFUSED, NodeError
 from contact_sim_pkg.run.errors import RunError
-
-from .parameters import declare
-from .process import REFUSALS
-from .protocol import FAULT, REFUSED, NodeError
 
 SUPERVISOR_TEXT = "Process number of the supervisor that started this node; the node ends when it is gone. 0: none."
 

@@ -7,8 +7,7 @@ from rclpy.publisher import Publisher
 from rclpy.topic_endpoint_info import TopicEndpointInfo
 
 from contact_sim_pkg.bag.messages import encode_clock
-
-from .endpoints import UNKNOWN, describe_endpoint, publisher
+from contact_sim_pkg.nodes.endpoints import UNKNOWN, describe_endpoint, publisher
 
 CLOCK = "/clock"
 LOOK_SECONDS = 0.5  # between two looks at the graph

@@ -7,27 +7,26 @@ import time
 from functools import partial
 
 from contact_sim_pkg.bag.messages import decode_recorded, encode_scene
-from contact_sim_pkg.core.jit import closed
+from contact_sim_pkg.compiled.jit import closed
+from contact_sim_pkg.nodes.bench_node import LifecycleBenchNode
+from contact_sim_pkg.nodes.clock import SimulatedClock
+from contact_sim_pkg.nodes.diagnostics import Diagnostics
+from contact_sim_pkg.nodes.endpoints import numbered_subscription, publisher, publisher_ids, subscription
+from contact_sim_pkg.nodes.parameters import declare, declare_input_timeout, declare_pace, declare_record, declare_scene
+from contact_sim_pkg.nodes.processes.process import run
+from contact_sim_pkg.nodes.processes.scene_file import block_length_ns, queue_depth, read_scene
+from contact_sim_pkg.nodes.protocol.input_blocks import InputBlocks
+from contact_sim_pkg.nodes.protocol.logger_answers import LoggerAnswers
+from contact_sim_pkg.nodes.protocol.pacing import Lateness, Pacer
+from contact_sim_pkg.nodes.protocol.peers import Peers
+from contact_sim_pkg.nodes.protocol.progress_report import ProgressReport
+from contact_sim_pkg.nodes.protocol.source_watch import SourceWatch
+from contact_sim_pkg.nodes.protocol.states import DONE, FAULT, State
+from contact_sim_pkg.nodes.protocol.window import Window
 from contact_sim_pkg.run.bag_content import result_names
 from contact_sim_pkg.run.block_simulation import BlockResult
 from contact_sim_pkg.run.computing import Computing
 from contact_sim_pkg.run.rigs import make_simulation
-
-from .bench_node import LifecycleBenchNode
-from .clock import SimulatedClock
-from .diagnostics import Diagnostics
-from .endpoints import numbered_subscription, publisher, publisher_ids, subscription
-from .input_blocks import InputBlocks
-from .logger_answers import LoggerAnswers
-from .pacing import Lateness, Pacer
-from .parameters import declare, declare_input_timeout, declare_pace, declare_record, declare_scene
-from .peers import Peers
-from .process import run
-from .progress_report import ProgressReport
-from .protocol import DONE, FAULT, State
-from .scene_file import block_length_ns, queue_depth, read_scene
-from .source_watch import SourceWatch
-from .window import Window
 
 PEERS_SECONDS = 0.01  # between two looks at the graph before ready
 CLOSE_SECONDS = 1.0  # for the logger to close its bag, where a block that is computed does not come back

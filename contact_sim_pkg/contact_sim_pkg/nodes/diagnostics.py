@@ -7,9 +7,8 @@ from rclpy.duration import Duration
 from rclpy.node import Node
 
 from contact_sim_pkg.bag.messages import Progress
-
-from .endpoints import publisher
-from .protocol import State
+from contact_sim_pkg.nodes.endpoints import publisher
+from contact_sim_pkg.nodes.protocol.states import State
 
 PERIOD_SECONDS = 1.0
 WARN_SECONDS = 5.0  # that a warning shows for

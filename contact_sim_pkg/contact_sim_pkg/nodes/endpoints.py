@@ -15,8 +15,7 @@ from rclpy.subscription import Subscription
 from rclpy.topic_endpoint_info import TopicEndpointInfo
 
 from contact_sim_pkg.bag.topics import Topic, topic_of
-
-from .protocol import REFUSED, NodeError
+from contact_sim_pkg.nodes.protocol.states import REFUSED, NodeError
 
 KEPT = "error_of_a_subscription"  # attribute of a node
 UNKNOWN = "_NODE_NAME_UNKNOWN_"  # what the graph says before it has heard the node's name

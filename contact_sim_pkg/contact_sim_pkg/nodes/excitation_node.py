@@ -11,16 +11,21 @@ from rclpy.duration import Duration
 from rclpy.node import Node
 
 from contact_sim_pkg.bag.messages import decode_progress, decode_recorded
+from contact_sim_pkg.nodes.bench_node import SUPERVISOR_TEXT
+from contact_sim_pkg.nodes.endpoints import publisher, subscription
+from contact_sim_pkg.nodes.parameters import declare, declare_pace, declare_record, declare_scene
+from contact_sim_pkg.nodes.processes.scene_file import (
+    block_length_ns,
+    count_blocks,
+    queue_depth,
+    read_scene,
+    write_description,
+)
+from contact_sim_pkg.nodes.protocol.pacing import Pacer
+from contact_sim_pkg.nodes.protocol.states import REFUSED, Follower, NodeError, RecordedFollower, State
+from contact_sim_pkg.nodes.protocol.window import Window
 from contact_sim_pkg.run.sources import Source
 from contact_sim_pkg.scene.resolved_scene import ResolvedScene
-
-from .bench_node import SUPERVISOR_TEXT
-from .endpoints import publisher, subscription
-from .pacing import Pacer
-from .parameters import declare, declare_pace, declare_record, declare_scene
-from .protocol import REFUSED, Follower, NodeError, RecordedFollower, State
-from .scene_file import block_length_ns, count_blocks, queue_depth, read_scene, write_description
-from .window import Window
 
 FROM_BAG_TEXT = "Directory of a bag whose excitation is sent instead of the scene's own. Empty: the scene's own."
 GATHER_SECONDS = 0.002  # that answers gather for at pace max; the window leaves room for it

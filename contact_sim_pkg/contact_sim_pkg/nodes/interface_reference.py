@@ -15,14 +15,13 @@ from typing import Any, NamedTuple
 
 from contact_sim_pkg.bag.topics import TOPICS
 from contact_sim_pkg.bag.typestore import PACKAGE, definition
+from contact_sim_pkg.nodes.processes.sros2_policy import LIFECYCLE, OWN_SERVICES, PUBLISHED, SUBSCRIBED
+from contact_sim_pkg.nodes.protocol.states import DONE, FAULT, LOSS, REFUSED
 from contact_sim_pkg.run.rigs import result_topics
 from contact_sim_pkg.scene.renamed_keys import RENAMED
 from contact_sim_pkg.scene.resolved_scene import ResolvedScene
 from contact_sim_pkg.scene.rigs import RIGS, RigName
-from contact_sim_pkg.scene.schema_effect_rules import EFFECT_RULES
-
-from .protocol import DONE, FAULT, LOSS, REFUSED
-from .sros2_policy import LIFECYCLE, OWN_SERVICES, PUBLISHED, SUBSCRIBED
+from contact_sim_pkg.scene.schema.effect_rules import EFFECT_RULES
 
 BEGIN = "<!-- tables made from the code: begin -->"
 END = "<!-- tables made from the code: end -->"

@@ -7,8 +7,8 @@ from typing import Any, TypeVar
 from rcl_interfaces.msg import FloatingPointRange, IntegerRange, ParameterDescriptor
 from rclpy.node import Node
 
-from .pacing import parse_pace
-from .protocol import REFUSED, NodeError
+from contact_sim_pkg.nodes.protocol.pacing import parse_pace
+from contact_sim_pkg.nodes.protocol.states import REFUSED, NodeError
 
 Value = TypeVar("Value", bool, int, float, str)
 _KINDS: dict[type, str] = {bool: "true or false", int: "a whole number", float: "a number", str: "a text"}

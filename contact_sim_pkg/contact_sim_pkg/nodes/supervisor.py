@@ -9,17 +9,16 @@ from collections.abc import Callable, Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, NamedTuple
 
+from contact_sim_pkg.nodes.processes.children import GRACE_SECONDS, Child, Children, ErrorLines
+from contact_sim_pkg.nodes.processes.run_folder import RunFolder
+from contact_sim_pkg.nodes.processes.run_plan import planned_nodes
+from contact_sim_pkg.nodes.processes.scene_file import count_blocks, descriptions_beside, write_reason, write_scene
+from contact_sim_pkg.nodes.processes.shared_memory import mapped_segments
+from contact_sim_pkg.nodes.protocol.states import DONE, FAULT, LOSS, REFUSED, NodeError, State
 from contact_sim_pkg.scene.resolved_scene import ResolvedScene
 
-from .children import GRACE_SECONDS, Child, Children, ErrorLines
-from .protocol import DONE, FAULT, LOSS, REFUSED, NodeError, State
-from .run_folder import RunFolder
-from .run_plan import planned_nodes
-from .scene_file import count_blocks, descriptions_beside, write_reason, write_scene
-from .shared_memory import mapped_segments
-
 if TYPE_CHECKING:
-    from .run_monitor import RunMonitor
+    from contact_sim_pkg.nodes.processes.run_monitor import RunMonitor
 
 DEFAULT_ENVIRONMENT = {  # each only where the caller has not set it
     "ROS_AUTOMATIC_DISCOVERY_RANGE": "LOCALHOST",
@@ -96,7 +95,9 @@ class Supervisor:
             try:
                 scene = write_scene(self._scene, folder.path)
                 self._start_all(children, scene)
-                from .run_monitor import RunMonitor  # the nodes start while this process loads ROS
+                from contact_sim_pkg.nodes.processes.run_monitor import (
+                    RunMonitor,  # the nodes start while this process loads ROS
+                )
 
                 with RunMonitor() as monitor:
                     self._watch(children, monitor, on_report, folder)

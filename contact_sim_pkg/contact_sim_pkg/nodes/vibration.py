@@ -5,10 +5,9 @@ from __future__ import annotations
 import sys
 
 from contact_sim_pkg.bag.messages import encode_vibration
+from contact_sim_pkg.nodes.excitation_node import ExcitationNode
+from contact_sim_pkg.nodes.processes.process import run
 from contact_sim_pkg.run.sources import make_vibration
-
-from .excitation_node import ExcitationNode
-from .process import run
 
 
 class VibrationNode(ExcitationNode):

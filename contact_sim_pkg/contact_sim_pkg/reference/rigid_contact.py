@@ -1,6 +1,6 @@
 """Contact problems the slow way: residual as it is defined, index sets of two planar contacts, the least-norm split by scipy.
 
-Twin of `core/rigid/contact_solver.py`, with which it shares no code.
+Twin of `rigid/contact/solver.py`, with which it shares no code.
 """
 
 from __future__ import annotations
@@ -11,7 +11,7 @@ import math
 import numpy
 from scipy.optimize import minimize
 
-from contact_sim_pkg.core.parameters import Vector
+from contact_sim_pkg.compiled.arrays import Vector
 from contact_sim_pkg.reference.rigid_impact import enumerate_lcp
 
 __all__ = ["coulomb_residual", "planar_velocity_by_enumeration", "planar_wrench_cone_split"]

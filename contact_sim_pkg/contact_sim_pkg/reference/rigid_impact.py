@@ -1,6 +1,6 @@
 """Impact of one planar contact the slow way: all index sets of the complementarity problem, and the impulse path by scipy.
 
-Twin of `core/rigid/planar_impact.py`, with which it shares no code. Source: identifiability paper eq 9; Stronge 1990.
+Twin of `rigid/impact/planar_impact.py`, with which it shares no code. Source: identifiability paper eq 9; Stronge 1990.
 """
 
 from __future__ import annotations
@@ -10,7 +10,7 @@ import itertools
 import numpy
 from scipy.integrate import solve_ivp
 
-from contact_sim_pkg.core.parameters import Vector
+from contact_sim_pkg.compiled.arrays import Vector
 
 __all__ = ["energetic_by_path", "enumerate_lcp", "newton_by_enumeration", "poisson_by_enumeration"]
 

@@ -2,13 +2,12 @@
 
 from __future__ import annotations
 
-import hashlib
 import json
-from importlib.resources import files
 from pathlib import Path
 from typing import Any
 
 from contact_sim_pkg.bag.metadata import SCENE_KEY, software_versions
+from contact_sim_pkg.compiled.sources import digest_of_sources
 from contact_sim_pkg.run.rigs import result_topics
 from contact_sim_pkg.scene.resolved_scene import ResolvedScene
 
@@ -41,9 +40,5 @@ def attachments(scene: ResolvedScene, excitation: dict[str, dict[str, Any]]) -> 
 
 
 def kernel_fingerprint() -> str:
-    """Name of the core's sources: what a result depends on beside the scene and the versions. Starts no compiler."""
-    root = files("contact_sim_pkg.core")
-    digest = hashlib.sha256()
-    for path in sorted(Path(str(root)).rglob("*.py")):
-        digest.update(path.name.encode() + hashlib.sha256(path.read_bytes()).digest())
-    return digest.hexdigest()[:20]
+    """Name of the kernels' sources: what a result depends on beside the scene and the versions. Starts no compiler."""
+    return digest_of_sources(Path(__file__).parents[1])[:20]

@@ -6,8 +6,8 @@ import numpy
 from numpy.typing import NDArray
 
 from contact_sim_pkg.bag.messages import PatchField
-from contact_sim_pkg.core.lame import fit_patch
-from contact_sim_pkg.core.patch import summarise
+from contact_sim_pkg.pressure.closed_form.lame import fit_patch
+from contact_sim_pkg.pressure.field.patch import summarise
 
 
 def mat_field(

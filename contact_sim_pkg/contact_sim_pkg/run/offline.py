@@ -13,7 +13,7 @@ from contact_sim_pkg.bag.messages import encode_road_patch, encode_scene, encode
 from contact_sim_pkg.bag.metadata import recorded_topics
 from contact_sim_pkg.bag.topics import TOPICS
 from contact_sim_pkg.bag.writer import BagSummary, BagWriter
-from contact_sim_pkg.core.jit import closed
+from contact_sim_pkg.compiled.jit import closed
 from contact_sim_pkg.excitation.blocks import RoadPatch, VibrationBlock
 from contact_sim_pkg.excitation.errors import ExcitationError
 from contact_sim_pkg.run.bag_content import attachments, recorded_names

@@ -69,21 +69,21 @@ def _occupant_topics(scene: dict[str, Any]) -> list[str]:
     return [*_vehicle_topics(scene, ("seat",)), *_backrest_topics(scene)]
 
 
-_VEHICLE = RigRun("contact_sim_pkg.run.simulation:Simulation", _vehicle_topics)
+_VEHICLE = RigRun("contact_sim_pkg.rigs.vehicle.simulation:Simulation", _vehicle_topics)
 
 RIG_RUNS: dict[RigName, RigRun] = {
     "tire": _VEHICLE,
     "seat": _VEHICLE,
     "car": _VEHICLE,
-    "block": RigRun("contact_sim_pkg.run.block:BlockBodySimulation", _block_topics),
-    "backrest": RigRun("contact_sim_pkg.run.backrest:BackrestSimulation", _backrest_topics),
-    "impact": RigRun("contact_sim_pkg.run.impact:ImpactSimulation", _impact_topics),
+    "block": RigRun("contact_sim_pkg.rigs.body.simulation:BlockBodySimulation", _block_topics),
+    "backrest": RigRun("contact_sim_pkg.rigs.backrest.simulation:BackrestSimulation", _backrest_topics),
+    "impact": RigRun("contact_sim_pkg.rigs.impact.simulation:ImpactSimulation", _impact_topics),
     "roller": RigRun(
-        "contact_sim_pkg.run.roller:RollerSimulation",
+        "contact_sim_pkg.rigs.roller.simulation:RollerSimulation",
         _roller_topics,
-        forecast="contact_sim_pkg.run.roller_forecast",
+        forecast="contact_sim_pkg.rigs.roller.forecast",
     ),
-    "occupant": RigRun("contact_sim_pkg.run.occupant:OccupantSimulation", _occupant_topics),
+    "occupant": RigRun("contact_sim_pkg.rigs.occupant.simulation:OccupantSimulation", _occupant_topics),
 }
 
 

@@ -60,7 +60,7 @@ def make_road(scene: ResolvedScene) -> RoadBlocks:
     half_length = (lattice.road_rows // 2 + 1) * lattice.cell_x
     surface = make_surface(scene, lattice.cell_x)
     if data["road"]["kind"] == "opencrg":
-        from contact_sim_pkg.excitation.opencrg import OpenCrgRoad
+        from contact_sim_pkg.excitation.opencrg.road import OpenCrgRoad
 
         if isinstance(surface, OpenCrgRoad):
             half_width = 0.5 * (lattice.road_cols - 1) * lattice.cell_y
@@ -84,7 +84,7 @@ def make_surface(scene: ResolvedScene, cell: float) -> Surface:
             road["longest_wavelength"], texture.get("shortest_wavelength"), cell,
         )  # fmt: skip
     if kind == "opencrg":
-        from contact_sim_pkg.excitation.opencrg import OpenCrgRoad
+        from contact_sim_pkg.excitation.opencrg.road import OpenCrgRoad
 
         return OpenCrgRoad(
             scene.file_path("road.file"), road["start"], road["track_offset"], road["missing_cells"], road["hole_depth"],

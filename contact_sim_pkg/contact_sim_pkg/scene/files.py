@@ -5,9 +5,9 @@ from __future__ import annotations
 from pathlib import Path
 from typing import NamedTuple
 
-from contact_sim_pkg.scene.schema import Scene
-from contact_sim_pkg.scene.schema_road import OpenCrgRoad
-from contact_sim_pkg.scene.schema_vibration import Recorded
+from contact_sim_pkg.scene.schema.road import OpenCrgRoad
+from contact_sim_pkg.scene.schema.scene import Scene
+from contact_sim_pkg.scene.schema.vibration import Recorded
 
 SCENES = Path(__file__).resolve().parent.parent / "scenes"
 """Folder of the shipped scenes; their input files are in `data/` below it."""

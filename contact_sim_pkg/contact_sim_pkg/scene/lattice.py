@@ -7,7 +7,7 @@ from __future__ import annotations
 import math
 from typing import Any, NamedTuple
 
-from contact_sim_pkg.core.parameters import Belt, FieldSettings, widened
+from contact_sim_pkg.pressure.settings import Belt, FieldSettings, widened
 
 GRAVITY = 9.81  # [m/s^2]
 FIELD_ITERATIONS = 400

@@ -12,9 +12,9 @@ from contact_sim_pkg.scene.errors import Breach
 from contact_sim_pkg.scene.files import InputFile, candidates, find_file, input_files
 from contact_sim_pkg.scene.resolved_scene import sha256_of
 from contact_sim_pkg.scene.rigs import RIGS
-from contact_sim_pkg.scene.schema import Scene
-from contact_sim_pkg.scene.schema_accuracy import Contact, cells_of
-from contact_sim_pkg.scene.schema_road import Iso8608Road
+from contact_sim_pkg.scene.schema.accuracy import Contact, cells_of
+from contact_sim_pkg.scene.schema.road import Iso8608Road
+from contact_sim_pkg.scene.schema.scene import Scene
 
 GIBIBYTE = 1 << 30
 BYTES_PER_CELL = 256
@@ -65,7 +65,8 @@ def memory_needs(scene: Scene) -> Iterator[Need]:
 
 def file_memory(where: str, path: Path) -> int:
     """Memory in [bytes] that reading an input file takes, as its reader counts it; the reader is imported when there is a file."""
-    from contact_sim_pkg.excitation import opencrg, recorded_csv
+    from contact_sim_pkg.excitation import recorded_csv
+    from contact_sim_pkg.excitation.opencrg import road as opencrg
 
     needed = opencrg.memory_needed(path) if where == "road.file" else recorded_csv.memory_needed(path)
     return int(needed)

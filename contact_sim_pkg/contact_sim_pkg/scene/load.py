@@ -11,10 +11,10 @@ from contact_sim_pkg.scene.errors import Fault, SceneError
 from contact_sim_pkg.scene.files import SCENES
 from contact_sim_pkg.scene.limits import file_breaches, limit_breaches
 from contact_sim_pkg.scene.overrides import Override, apply
-from contact_sim_pkg.scene.schema import Scene
-from contact_sim_pkg.scene.schema_validate import RULES, validate
-from contact_sim_pkg.scene.yaml_document import read_document
-from contact_sim_pkg.scene.yaml_nodes import MappingNode, Mark, ScalarNode
+from contact_sim_pkg.scene.schema.scene import Scene
+from contact_sim_pkg.scene.schema.validate import RULES, validate
+from contact_sim_pkg.scene.yaml.document import read_document
+from contact_sim_pkg.scene.yaml.nodes import MappingNode, Mark, ScalarNode
 
 ORDER = (
     "seat_ride",

@@ -8,8 +8,8 @@ from pathlib import Path
 
 from contact_sim_pkg.scene.errors import Fault, SceneError
 from contact_sim_pkg.scene.renamed_keys import new_key, sentence_of
-from contact_sim_pkg.scene.yaml_document import parse_value
-from contact_sim_pkg.scene.yaml_nodes import ListNode, MappingNode, Mark, Node, ScalarNode
+from contact_sim_pkg.scene.yaml.document import parse_value
+from contact_sim_pkg.scene.yaml.nodes import ListNode, MappingNode, Mark, Node, ScalarNode
 
 TIED_TO_FILE = {"road": ("start", "sha256"), "vibration": ("start", "sha256", "rate", "time_column")}
 """Keys that say something about one file and go when another file takes its place."""

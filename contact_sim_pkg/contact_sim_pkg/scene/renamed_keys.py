@@ -9,7 +9,7 @@ from __future__ import annotations
 from typing import Any
 
 from contact_sim_pkg.scene.errors import Fault
-from contact_sim_pkg.scene.yaml_nodes import MappingNode, Mark
+from contact_sim_pkg.scene.yaml.nodes import MappingNode, Mark
 
 RENAMED: dict[str, str] = {}
 """Old key -> new key. `docs/interfaces.md` lists them; an entry stays as long as bags with the old key are read."""

@@ -11,24 +11,24 @@ from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
+from contact_sim_pkg.rigs.backrest.schema import complete_backrest
+from contact_sim_pkg.rigs.impact.schema import complete_impact
 from contact_sim_pkg.scene.errors import Fault, SceneError
 from contact_sim_pkg.scene.files import find_file, input_files
 from contact_sim_pkg.scene.overrides import Override, apply
 from contact_sim_pkg.scene.renamed_keys import take_new_names
 from contact_sim_pkg.scene.resolved_scene import ResolvedScene, sha256_of
 from contact_sim_pkg.scene.rigs import RIGS
-from contact_sim_pkg.scene.schema import Scene
-from contact_sim_pkg.scene.schema_accuracy import Contact, asked, cells_of, integration_tolerance, rung_for
-from contact_sim_pkg.scene.schema_backrest import complete_backrest
-from contact_sim_pkg.scene.schema_clock import whole_duration
-from contact_sim_pkg.scene.schema_impact import complete_impact
-from contact_sim_pkg.scene.schema_validate import validate
-from contact_sim_pkg.scene.yaml_document import parse_document
+from contact_sim_pkg.scene.schema.accuracy import Contact, asked, cells_of, integration_tolerance, rung_for
+from contact_sim_pkg.scene.schema.clock import whole_duration
+from contact_sim_pkg.scene.schema.scene import Scene
+from contact_sim_pkg.scene.schema.validate import validate
+from contact_sim_pkg.scene.yaml.document import parse_document
 
 __all__ = ["ResolvedScene", "explicit", "read_explicit", "read_resolved", "resolve"]
 
 DEFAULT_DAMPING: dict[str, float] = {"tire": 0.06, "seat": 1.0, "backrest": 1.949743421626532}
-"""Hunt-Crossley damping in [s/m] where a scene names neither damping nor restitution, see `schema_effects.py`."""
+"""Hunt-Crossley damping in [s/m] where a scene names neither damping nor restitution, see `scene/schema/effects.py`."""
 _COMPLETED: dict[str, Callable[[dict[str, Any]], None]] = {
     "backrest": complete_backrest, "impact": complete_impact, "occupant": complete_backrest,
 }  # fmt: skip

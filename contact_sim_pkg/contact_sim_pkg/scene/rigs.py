@@ -1,7 +1,8 @@
 """The rigs that a scene can name: their contacts, and the sections of a scene that each of them needs or takes.
 
-A new rig is a row here, a row in `run/rigs.py`, its section in `schema.py` and its contact in `schema_effects.py` and
-`schema_effect_rules.py`; nothing else asks which rig it is.
+A new rig is a row here, a row in `run/rigs.py`, its section in `scene/schema/scene.py` and its
+contact in `scene/schema/effects.py` and `scene/schema/effect_rules.py`; nothing else asks which rig
+it is.
 """
 
 from __future__ import annotations

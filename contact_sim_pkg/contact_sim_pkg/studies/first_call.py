@@ -10,9 +10,9 @@ import time
 def main(scene_name: str) -> None:
     """Write one JSON object: seconds from the start of the imports to a block done, and of the first field solve (or null)."""
     began = time.perf_counter()
+    from contact_sim_pkg.rigs.vehicle.studies.accuracy_field import first_solve
+    from contact_sim_pkg.rigs.vehicle.studies.scene_drive import load_resolved
     from contact_sim_pkg.run.rigs import make_simulation
-    from contact_sim_pkg.studies.accuracy_cost_field import first_solve
-    from contact_sim_pkg.studies.scene_drive import load_resolved
 
     scene = load_resolved(scene_name)
     field = first_solve(scene)

@@ -6,8 +6,8 @@ Decoded arrays are copies: writable, aligned, contiguous.
 One file a group of topics: excitation, contact, points, impact, roller, bench.
 """
 
-from ..encoding import stamp_of
-from .bench import (
+from contact_sim_pkg.bag.encoding import stamp_of
+from contact_sim_pkg.bag.messages.bench import (
     Cost,
     Energy,
     MotionBlock,
@@ -27,7 +27,7 @@ from .bench import (
     encode_recorded,
     encode_scene,
 )
-from .contact import (
+from contact_sim_pkg.bag.messages.contact import (
     NO_SAMPLES,
     ContactForceBlock,
     PatchField,
@@ -42,13 +42,13 @@ from .contact import (
     encode_contact_shear,
     encode_wrench,
 )
-from .excitation import (
+from contact_sim_pkg.bag.messages.excitation import (
     decode_road_patch,
     decode_vibration,
     encode_road_patch,
     encode_vibration,
 )
-from .frames import (
+from contact_sim_pkg.bag.messages.frames import (
     BACKREST_FRAME,
     BENCH_FRAME,
     BLOCK_FRAME,
@@ -57,7 +57,7 @@ from .frames import (
     SEAT_FRAME,
     TIRE_FRAME,
 )
-from .impact import (
+from contact_sim_pkg.bag.messages.impact import (
     ImpactCourse,
     ImpactEvents,
     ImpactFront,
@@ -72,7 +72,7 @@ from .impact import (
     events_of_message,
     impact_of_message,
 )
-from .points import (
+from contact_sim_pkg.bag.messages.points import (
     WHOLE_CONTACT,
     EpisodeBlock,
     PointField,
@@ -81,7 +81,7 @@ from .points import (
     encode_contact_points,
     encode_episodes,
 )
-from .roller import (
+from contact_sim_pkg.bag.messages.roller import (
     RollerContact,
     RollerStability,
     RollerTrack,

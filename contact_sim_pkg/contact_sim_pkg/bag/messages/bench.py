@@ -5,9 +5,9 @@ from typing import NamedTuple
 import numpy
 from numpy.typing import NDArray
 
-from ..encoding import deserialize, float64s, grid, header, scalars, serialize, time_of
-from ..errors import MessageError
-from .frames import BENCH_FRAME
+from contact_sim_pkg.bag.encoding import deserialize, float64s, grid, header, scalars, serialize, time_of
+from contact_sim_pkg.bag.errors import MessageError
+from contact_sim_pkg.bag.messages.frames import BENCH_FRAME
 
 _MOTION = "contact_msgs_defs/msg/BodyMotion"
 _ENERGY = "contact_msgs_defs/msg/EnergyLedger"

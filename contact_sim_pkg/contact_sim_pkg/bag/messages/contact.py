@@ -5,8 +5,18 @@ from typing import NamedTuple
 import numpy
 from numpy.typing import NDArray
 
-from ..encoding import deserialize, equal_lengths, float32s, float64s, grid, header, message_class, scalars, serialize
-from ..errors import MessageError
+from contact_sim_pkg.bag.encoding import (
+    deserialize,
+    equal_lengths,
+    float32s,
+    float64s,
+    grid,
+    header,
+    message_class,
+    scalars,
+    serialize,
+)
+from contact_sim_pkg.bag.errors import MessageError
 
 _FORCE = "contact_msgs_defs/msg/ContactForce"
 _PATCH = "contact_msgs_defs/msg/ContactPatch"

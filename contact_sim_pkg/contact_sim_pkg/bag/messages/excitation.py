@@ -2,11 +2,20 @@
 
 import numpy
 
+from contact_sim_pkg.bag.encoding import (
+    above_zero,
+    deserialize,
+    equal_lengths,
+    finite,
+    float32s,
+    float64s,
+    grid,
+    header,
+    serialize,
+)
+from contact_sim_pkg.bag.errors import MessageError
+from contact_sim_pkg.bag.messages.frames import BENCH_FRAME
 from contact_sim_pkg.excitation.blocks import RoadPatch, VibrationBlock
-
-from ..encoding import above_zero, deserialize, equal_lengths, finite, float32s, float64s, grid, header, serialize
-from ..errors import MessageError
-from .frames import BENCH_FRAME
 
 _ROAD = "contact_msgs_defs/msg/RoadPatch"
 _VIBRATION = "contact_msgs_defs/msg/VibrationBlock"

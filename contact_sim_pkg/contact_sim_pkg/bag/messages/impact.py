@@ -5,9 +5,9 @@ from typing import Any, NamedTuple, TypeVar
 import numpy
 from numpy.typing import NDArray
 
-from ..encoding import deserialize, equal_lengths, float64s, grid, header, serialize
-from ..errors import MessageError
-from .frames import IMPACT_FRAME
+from contact_sim_pkg.bag.encoding import deserialize, equal_lengths, float64s, grid, header, serialize
+from contact_sim_pkg.bag.errors import MessageError
+from contact_sim_pkg.bag.messages.frames import IMPACT_FRAME
 
 Numbers = NDArray[numpy.float64]
 

@@ -5,8 +5,8 @@ from typing import Any, NamedTuple
 import numpy
 from numpy.typing import NDArray
 
-from ..encoding import deserialize, equal_lengths, float64s, header, serialize
-from .frames import BENCH_FRAME
+from contact_sim_pkg.bag.encoding import deserialize, equal_lengths, float64s, header, serialize
+from contact_sim_pkg.bag.messages.frames import BENCH_FRAME
 
 _POINTS = "contact_msgs_defs/msg/ContactPoints"
 _EPISODES = "contact_msgs_defs/msg/ContactEpisodes"

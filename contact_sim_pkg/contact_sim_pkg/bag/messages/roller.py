@@ -5,8 +5,8 @@ from typing import Any, NamedTuple, TypeVar
 import numpy
 from numpy.typing import NDArray
 
-from ..encoding import deserialize, equal_lengths, float64s, header, serialize
-from .frames import ROLLER_FRAME
+from contact_sim_pkg.bag.encoding import deserialize, equal_lengths, float64s, header, serialize
+from contact_sim_pkg.bag.messages.frames import ROLLER_FRAME
 
 Numbers = NDArray[numpy.float64]
 

@@ -1,1 +1,0 @@
-"""Reading recorded runs: series, metrics, summary numbers and the HTML report. Never imports ROS."""

@@ -1,1 +1,0 @@
-"""Materials from measured impacts: reading, each impact, repeated impacts, master curve."""

@@ -1,0 +1,1 @@
+"""The MCAP file itself: layout, appending, recovery of an unfinished one."""

@@ -1,0 +1,240 @@
+"""Where the parts of an MCAP file stand: from its summary, or, where it was cut off, from a walk over its records.
+
+Nothing is believed before it was checked: a record is read when its length fits into the file and below a limit, a
+chunk is taken apart when its checksum holds. The file is never changed.
+"""
+
+import struct
+import zlib
+from collections import Counter
+from dataclasses import replace
+from io import BytesIO
+from pathlib import Path
+from typing import IO, NamedTuple
+
+from mcap.data_stream import ReadDataStream
+from mcap.exceptions import McapError
+from mcap.opcode import Opcode
+from mcap.reader import SeekingReader
+from mcap.records import Channel, Chunk, ChunkIndex, McapRecord, Message, Metadata, MetadataIndex, Schema
+from mcap.stream_reader import breakup_chunk
+
+from contact_sim_pkg.bag.errors import BagError, CorruptChunkError
+from contact_sim_pkg.bag.mcap.chunks import LARGEST_RECORD, damaged, decompressed
+from contact_sim_pkg.bag.metadata import CHECKSUM_KEY
+
+MAGIC = b"\x89MCAP0\r\n"
+_HEAD = 9  # opcode and length of a record
+_FAULTS = (McapError, struct.error, ValueError, OSError, IndexError, KeyError, OverflowError)
+
+
+class ChunkPlace(NamedTuple):
+    """One chunk of the file; times in [ns]."""
+
+    offset: int
+    length: int
+    start: int
+    end: int
+    channels: frozenset[int] | None  # what it holds messages of; None where that is not known
+
+
+class Layout(NamedTuple):
+    """Everything about a file but its messages; `note` says what is missing, and is empty where nothing is."""
+
+    chunks: list[ChunkPlace]
+    schemas: dict[int, Schema]
+    channels: dict[int, Channel]
+    counts: dict[int, int]  # messages by channel
+    records: list[Metadata]
+    attachments: int  # number of MCAP attachments, which are not read
+    finished: bool
+    note: str
+
+
+def read_layout(file: IO[bytes], name: str) -> Layout:
+    """The layout of a file, finished or not; BagError where it is no MCAP file at all."""
+    file.seek(0)
+    magic = file.read(len(MAGIC))
+    if magic != MAGIC:
+        raise BagError(
+            f"{name} is no MCAP file: it begins with {magic.hex(' ') or 'nothing'}, not with {MAGIC.hex(' ')}"
+        )
+    return _from_summary(file, name) or _walk(file, name)
+
+
+def counts_on_disk(path: Path) -> tuple[dict[str, int], bool]:
+    """Messages by topic that the file lists, and whether it is finished with each chunk in its place; else empty."""
+    try:
+        with path.open("rb") as file:
+            layout = read_layout(file, path.name)
+            in_place = all(_head(file, place.offset) == (Opcode.CHUNK, place.length - _HEAD) for place in layout.chunks)
+    except (BagError, OSError):
+        return {}, False
+    counts: Counter[str] = Counter()
+    for channel, count in layout.counts.items():
+        if channel in layout.channels:
+            counts[layout.channels[channel].topic] += count
+    return dict(counts), layout.finished and in_place
+
+
+def chunk_records(file: IO[bytes], place: ChunkPlace, name: str) -> list[McapRecord]:
+    """Schemas, channels and messages of one chunk in file order; CorruptChunkError where it is damaged."""
+    try:
+        opcode, length = _head(file, place.offset)
+        if opcode != Opcode.CHUNK or length != place.length - _HEAD or length > LARGEST_RECORD:
+            raise ValueError(f"a chunk of {place.length} bytes should stand there")
+        return breakup_chunk(decompressed(Chunk.read(_stream(file, length))), validate_crc=True)
+    except _FAULTS as error:
+        raise damaged(name, place.offset, place.start, place.end, error) from None
+
+
+def _stream(file: IO[bytes], length: int) -> ReadDataStream:
+    content = file.read(length)
+    if len(content) < length:
+        raise ValueError(f"{length - len(content)} bytes are missing")
+    return ReadDataStream(BytesIO(content))
+
+
+def _head(file: IO[bytes], offset: int) -> tuple[int, int]:
+    file.seek(offset)
+    head = file.read(_HEAD)
+    return (head[0], int.from_bytes(head[1:], "little")) if len(head) == _HEAD else (0, 0)
+
+
+def _from_summary(file: IO[bytes], name: str) -> Layout | None:
+    """The layout from a summary whose checksum holds; None where there is none."""
+    try:
+        if not _summary_is_whole(file):
+            return None
+        file.seek(0)
+        reader = SeekingReader(file, record_size_limit=LARGEST_RECORD)
+        summary = reader.get_summary()
+        if (
+            summary is None
+            or summary.statistics is None
+            or (summary.statistics.message_count and not summary.chunk_indexes)
+        ):
+            return None
+        chunks = [_place(index) for index in sorted(summary.chunk_indexes, key=lambda index: index.chunk_start_offset)]
+        counts = dict(summary.statistics.channel_message_counts)
+        records = [_indexed(file, index) for index in summary.metadata_indexes]
+        attached = summary.statistics.attachment_count
+        return Layout(chunks, summary.schemas, summary.channels, counts, records, attached, True, "")
+    except _FAULTS:
+        return None
+
+
+def _summary_is_whole(file: IO[bytes]) -> bool:
+    """Whether the file ends with a footer, and the summary has the checksum that the footer states (0: none stated)."""
+    tail = _HEAD + 20 + len(MAGIC)
+    end = file.seek(0, 2)
+    file.seek(max(0, end - tail))
+    footer = file.read()
+    if len(footer) < tail or footer[-len(MAGIC) :] != MAGIC or footer[0] != Opcode.FOOTER:
+        return False
+    start, _, checksum = struct.unpack("<QQI", footer[_HEAD : _HEAD + 20])
+    if not 0 < start <= end - tail or end - start > LARGEST_RECORD:
+        return False
+    file.seek(start)
+    return bool(checksum == 0 or zlib.crc32(file.read(end - start - len(MAGIC) - 4)) == checksum)
+
+
+def _place(index: ChunkIndex) -> ChunkPlace:
+    channels = frozenset(index.message_index_offsets) or None
+    return ChunkPlace(
+        index.chunk_start_offset, index.chunk_length, index.message_start_time, index.message_end_time, channels
+    )
+
+
+def _metadata(file: IO[bytes], length: int) -> Metadata:
+    stream = _stream(file, length)
+    record: Metadata = Metadata.read(stream)
+    if stream.count != length:
+        raise ValueError(f"its texts end after {stream.count} of {length} bytes")
+    return record
+
+
+def _indexed(file: IO[bytes], index: MetadataIndex) -> Metadata:
+    """The metadata record of an index, which has a checksum, as the name in it; a checksum that fails where it cannot be read."""
+    try:
+        if _head(file, index.offset) != (Opcode.METADATA, index.length - _HEAD):
+            raise ValueError
+        return replace(_metadata(file, index.length - _HEAD), name=index.name)
+    except _FAULTS:
+        return Metadata(index.name, {CHECKSUM_KEY: ""})
+
+
+def _walk(file: IO[bytes], name: str) -> Layout:
+    """The layout from the records themselves, up to the first that is cut off or cannot be believed."""
+    found = Layout([], {}, {}, {}, [], 0, False, "")
+    end, damaged_records, attachments = file.seek(0, 2), 0, 0
+    last_is_whole = True
+    offset, opcode, reason = len(MAGIC), 0, ""
+    while offset < end:
+        opcode, length = _head(file, offset)
+        reason = _why_not(opcode, length, end - offset - _HEAD)
+        if reason:
+            break
+        whole = _take(file, ChunkPlace(offset, length + _HEAD, 0, 0, None), opcode, found, name)
+        damaged_records += not whole
+        attachments += opcode == Opcode.ATTACHMENT
+        last_is_whole = whole if opcode == Opcode.CHUNK else last_is_whole
+        offset += length + _HEAD
+    if not last_is_whole and opcode != Opcode.DATA_END:
+        found.chunks.pop()  # torn by a power loss: its length reached the disk, its content did not
+    lost = f"{reason}, the last {end - offset} bytes are not read" if reason else "it was not finished"
+    return found._replace(note=_note(name, found, lost, damaged_records), attachments=attachments)
+
+
+def _why_not(opcode: int, length: int, left: int) -> str:
+    """Why the walk cannot go past this record; empty where it can."""
+    if opcode == Opcode.DATA_END:
+        return "its summary is damaged"
+    if left < 0 or opcode in (0, Opcode.FOOTER):
+        return "it was not finished"
+    if length > LARGEST_RECORD:
+        return f"it is damaged: a record of kind {opcode} claims {length} bytes, limit {LARGEST_RECORD}"
+    if length > left:
+        return f"it was not finished: a record of kind {opcode} is cut off after {left} of {length} bytes"
+    return ""
+
+
+def _take(file: IO[bytes], place: ChunkPlace, opcode: int, found: Layout, name: str) -> bool:
+    """Add one record of the walk; False where it is damaged (a chunk stays listed, so that a reader meets it)."""
+    length = place.length - _HEAD
+    try:
+        if opcode == Opcode.CHUNK:
+            times = file.read(16)
+            found.chunks.append(place._replace(start=_time(times[:8]), end=_time(times[8:])))
+            _count(chunk_records(file, found.chunks[-1], name), found)
+        elif opcode == Opcode.METADATA:
+            found.records.append(_metadata(file, length))
+        elif opcode == Opcode.SCHEMA:
+            _count([Schema.read(_stream(file, length))], found)
+        elif opcode == Opcode.CHANNEL:
+            _count([Channel.read(_stream(file, length))], found)
+    except (CorruptChunkError, *_FAULTS):
+        return False
+    return True
+
+
+def _time(eight: bytes) -> int:
+    return int.from_bytes(eight, "little")
+
+
+def _count(records: list[McapRecord], found: Layout) -> None:
+    for record in records:
+        if isinstance(record, Schema):
+            found.schemas[record.id] = record
+        elif isinstance(record, Channel):
+            found.channels[record.id] = record
+        elif isinstance(record, Message):
+            found.counts[record.channel_id] = found.counts.get(record.channel_id, 0) + 1
+
+
+def _note(name: str, found: Layout, lost: str, damaged_records: int) -> str:
+    held = f"{sum(found.counts.values())} messages"
+    if found.counts:
+        held += f" up to {max(chunk.end for chunk in found.chunks) / 1e9:.3f} s"
+    bad = f"; {damaged_records} of its records are damaged" if damaged_records else ""
+    return f"{name} holds {held}: {lost}{bad}"

@@ -1,0 +1,135 @@
+"""What came of a run, for scripts and for people."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, Protocol
+
+import click
+
+if TYPE_CHECKING:
+    from contact_sim_pkg.scene.resolved_scene import ResolvedScene
+
+
+class Outcome(Protocol):
+    """What is asked of a finished run."""
+
+    @property
+    def blocks(self) -> int:
+        """Blocks done."""
+
+    @property
+    def startup(self) -> float:
+        """Start of the process to first block, [s]."""
+
+    @property
+    def wall(self) -> float:
+        """First block to last message recorded, [s]."""
+
+    @property
+    def bag(self) -> Path | None:
+        """Directory of the bag."""
+
+    @property
+    def stopped(self) -> bool:
+        """Ended by the user."""
+
+    @property
+    def failure(self) -> str:
+        """Sentence of the fault or of the loss; empty where there is none."""
+
+    @property
+    def exit_status(self) -> int:
+        """0 done, 1 failed, 3 with loss."""
+
+    @property
+    def excitation(self) -> dict[str, dict[str, Any]]:
+        """By topic: what was found in the excitation and done about it."""
+
+
+def describe(scene: ResolvedScene, outcome: Outcome) -> dict[str, Any]:
+    """The object that `--json` prints; `bag` is None and `summary` empty where nothing was recorded."""
+    simulated = round(outcome.blocks * float(scene.data["block_length"]), 9)
+    return {
+        "scene": scene.data["name"],
+        "effects": scene.data["effects"],
+        "accuracy": scene.data["accuracy"],
+        "ended": state_of(scene, outcome),
+        "failure": outcome.failure or None,
+        "simulated_s": simulated,
+        "startup_s": round(outcome.startup, 3),
+        "wall_s": round(outcome.wall, 6),
+        "real_time_factor": simulated / outcome.wall if outcome.wall > 0.0 else None,
+        "excitation": outcome.excitation,
+        "bag": None if outcome.bag is None else str(outcome.bag),
+        "summary": {}
+        if outcome.bag is None or not outcome.blocks
+        else _summary(outcome.bag, lossy=outcome.exit_status != 0),
+    }
+
+
+def state_of(scene: ResolvedScene, outcome: Outcome) -> str:
+    """`failed`, `stopped` (by the user, or by the end of the recording) or `finished`, as the bag says it."""
+    if outcome.exit_status == 1:
+        return "failed"
+    blocks = round(float(scene.data["duration"]) / float(scene.data["block_length"]))
+    return "stopped" if outcome.blocks < blocks else "finished"
+
+
+def _summary(bag: Path, *, lossy: bool) -> dict[str, Any]:
+    from contact_sim_pkg.bag.errors import BagError
+    from contact_sim_pkg.bag.reader import open_bag
+    from contact_sim_pkg.report.summary import summarise
+
+    try:
+        return summarise(open_bag(bag))
+    except BagError:
+        if not lossy:
+            raise
+        return {}  # the loss was named already
+
+
+def print_outcome(facts: dict[str, Any], outcome: Outcome) -> None:
+    """A few lines for a person, the path of the bag last; on standard error what was found in the excitation."""
+    for topic, description in facts["excitation"].items():
+        for note in description.get("notes", []):
+            click.echo(f"{topic}: {note}", err=True)
+    factor = facts["real_time_factor"]
+    speed = "" if factor is None else f" in {facts['wall_s']:.3g} s: {factor:.3g}x real time"
+    state = "stopped after" if outcome.stopped else "simulated"
+    click.echo(f"{facts['scene']}: {state} {facts['simulated_s']:g} s{speed} (start-up {facts['startup_s']:.2f} s)")
+    summary = facts["summary"]
+    for contact, numbers in summary.get("contacts", {}).items():
+        click.echo(f"  {contact}: {_contact_line(numbers)}")
+    if "slaps" in summary:
+        click.echo(f"  {_slap_line(summary['slaps'])}")
+    if "impacts" in summary:
+        click.echo(f"  {_impact_line(summary['impacts'])}")
+    for warning in (*summary.get("warnings", []), *summary.get("roller", {}).get("warnings", [])):
+        click.echo(f"  warning: {warning}")
+    if "messages" in summary:
+        click.echo(f"  {sum(summary['messages'].values())} messages on {len(summary['messages'])} topics")
+    if facts["bag"] is not None:
+        click.echo(f"bag: {facts['bag']}")
+
+
+def _slap_line(slaps: dict[str, Any]) -> str:
+    if not slaps["count"]:
+        return "no slaps"
+    return f"{slaps['count']} slaps, restitution {slaps['restitution_min']:.3f} to {slaps['restitution_max']:.3f}"
+
+
+def _impact_line(impacts: dict[str, Any]) -> str:
+    low, high = impacts["restitution_min"], impacts["restitution_max"]
+    return (
+        f"{impacts['count']} impacts, restitution {low:.3f} to {high:.3f}, {1e3 * impacts['duration_min_s']:.4g} to "
+        f"{1e3 * impacts['duration_max_s']:.4g} ms; largest force {impacts['peak_force_max_N']:.5g} N"
+    )
+
+
+def _contact_line(numbers: dict[str, Any]) -> str:
+    line = (
+        f"load {numbers['load_mean_N']:.5g} N on average, {numbers['load_min_N']:.5g} to {numbers['load_max_N']:.5g} N"
+    )
+    peak = next((value for key, value in numbers.items() if "peak" in key and isinstance(value, float)), None)
+    return line if peak is None else f"{line}; peak pressure {peak / 1e3:.5g} kPa"

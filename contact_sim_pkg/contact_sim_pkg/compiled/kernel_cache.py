@@ -1,0 +1,264 @@
+"""Compiled kernels kept on disk: where, under which name, whom to trust, and what to do with damage.
+
+The directory is `<root>/<fingerprint>`, root = $CONTACT_BENCH_CACHE or
+$XDG_CACHE_HOME/contact_bench or ~/.cache/contact_bench. The fingerprint hashes every module with
+kernels and what it imports, the versions of everything that takes part in compiling and the
+processor: an edited helper in another file, which numba itself does not notice, gives a new
+directory. Cache files are pickles, and loading a pickle can run code, so a directory that anyone
+else can write to is not used. Each file starts with the hash of its content, which is checked
+before it is unpickled.
+"""
+
+# numba.core.caching has no types.
+# mypy: disallow-untyped-calls=False
+
+from __future__ import annotations
+
+import hashlib
+import logging
+import os
+import pickle
+import platform
+import shutil
+import stat
+from importlib.metadata import version
+from pathlib import Path
+from typing import Any
+
+import llvmlite
+import llvmlite.binding
+import numba
+import numpy
+from numba.core.caching import CompileResultCacheImpl, FunctionCache, IndexDataCacheFile, _CacheLocator
+
+from contact_sim_pkg.compiled.sources import digest_of_sources
+
+__all__ = ["attach_cache", "cache_directory", "fingerprint"]
+
+_log = logging.getLogger(__name__)
+
+KEPT_FINGERPRINTS = 2
+"""Directories of older fingerprints that stay beside the current one."""
+
+_DIGEST_BYTES = hashlib.sha256().digest_size
+
+
+def fingerprint(package: Path) -> str:
+    """Name everything that machine code depends on: sources of kernels, versions of compiler and libraries, processor."""
+    parts = (
+        digest_of_sources(package),
+        numba.__version__,
+        llvmlite.__version__,
+        numpy.__version__,
+        version("rocket-fft"),
+        _setting("CPU_NAME") or llvmlite.binding.get_host_cpu_name(),
+        platform.python_version(),
+        f"boundscheck={_setting('BOUNDSCHECK')} opt={_setting('OPT')}",
+    )
+    return hashlib.sha256("\0".join(parts).encode()).hexdigest()[:20]
+
+
+def _setting(name: str) -> Any:
+    """A value of numba's configuration, which is made at run time and has no types."""
+    return getattr(numba.config, name)
+
+
+def cache_root() -> Path:
+    """The per-user directory that holds one directory for each fingerprint."""
+    override = os.environ.get("CONTACT_BENCH_CACHE")
+    if override:
+        return Path(override).absolute()
+    base = Path(os.environ.get("XDG_CACHE_HOME", ""))
+    return (base if base.is_absolute() else Path.home() / ".cache") / "contact_bench"
+
+
+def open_cache_directory(name: str) -> Path:
+    """Make `<root>/<name>` (mode 0700) and check that nobody else can write there.
+
+    Raises `OSError` with one sentence when the directory cannot be made, written or trusted.
+    """
+    root = cache_root()
+    directory = root / name
+    root.mkdir(mode=0o700, parents=True, exist_ok=True)
+    directory.mkdir(mode=0o700, exist_ok=True)
+    sticky = root.parent.lstat().st_mode & stat.S_ISVTX  # nobody else can replace the root there
+    _require_trusted(root.parent, owners=(os.getuid(), 0), forbidden=0 if sticky else stat.S_IWGRP | stat.S_IWOTH)
+    _require_trusted(root, owners=(os.getuid(),), forbidden=stat.S_IWGRP | stat.S_IWOTH)
+    _require_trusted(directory, owners=(os.getuid(),), forbidden=stat.S_IRWXG | stat.S_IRWXO)
+    if not os.access(directory, os.W_OK | os.X_OK):
+        raise PermissionError(f"{directory} cannot be written; run 'chmod u+rwx {directory}'")
+    os.utime(directory)  # the date of last use, by which _prune chooses
+    _prune(root, keep=directory)
+    return directory
+
+
+def _require_trusted(path: Path, owners: tuple[int, ...], forbidden: int) -> None:
+    status = path.lstat()
+    mode = stat.S_IMODE(status.st_mode)
+    if not stat.S_ISDIR(status.st_mode):
+        raise PermissionError(f"{path} is not a directory of its own (a link or a file); remove it")
+    if status.st_uid not in owners:
+        raise PermissionError(
+            f"{path} belongs to user {status.st_uid}, not to user {os.getuid()}; remove it or set CONTACT_BENCH_CACHE"
+        )
+    if mode & forbidden:
+        raise PermissionError(
+            f"{path} is open to other users (mode {mode:04o}); remove its content and run 'chmod 700 {path}'"
+        )
+
+
+def _prune(root: Path, keep: Path) -> None:
+    """Remove all but the most recently used directories of other fingerprints."""
+    others = [path for path in root.iterdir() if path != keep and path.is_dir() and not path.is_symlink()]
+    others.sort(key=lambda path: path.stat().st_mtime, reverse=True)
+    for path in others[KEPT_FINGERPRINTS:]:
+        shutil.rmtree(path, ignore_errors=True)
+
+
+class _Session:
+    """The cache of this process: opened at the first decorated function, closed at the first write that fails."""
+
+    def __init__(self) -> None:
+        self.name = ""
+        self.directory: Path | None = None
+        self._opened = False
+        self._warned = False
+
+    def open(self) -> Path | None:
+        if not self._opened:
+            self._opened = True
+            self.name = fingerprint(Path(__file__).parents[1])
+            try:
+                self.directory = open_cache_directory(self.name)
+            except (OSError, RuntimeError) as error:  # RuntimeError: no home directory is known
+                self.close(error)
+        return self.directory
+
+    def close(self, error: Exception) -> None:
+        """Go on without a cache and say so once."""
+        if not self._warned:
+            self._warned = True
+            _log.warning("compiled kernels are not kept on disk (each start takes some seconds longer): %s", error)
+        self.directory = None
+
+    def rebuild(self, error: Exception) -> None:
+        """Throw away a damaged cache; kernels are compiled again and kept anew."""
+        if self.directory is not None:
+            _log.warning(
+                "the cache of compiled kernels in %s is damaged (%s); it is removed and compiled again",
+                self.directory,
+                error,
+            )
+            shutil.rmtree(self.directory, ignore_errors=True)
+            self.directory.mkdir(mode=0o700, exist_ok=True)
+
+
+_session = _Session()
+
+
+def cache_directory() -> Path | None:
+    """The directory in use, or `None` when kernels are compiled without a cache."""
+    return _session.open()
+
+
+def attach_cache(dispatcher: Any, form: str = "") -> None:
+    """Let a freshly decorated function load its machine code from the cache and save it there.
+
+    ``form``: tells apart the files of one function that is compiled in several ways.
+    """
+    if hasattr(dispatcher, "overloads") and _session.open() is not None:
+        try:
+            dispatcher._cache = _CheckedCache(dispatcher.py_func, form)
+        except (OSError, RuntimeError) as error:
+            _session.close(error)
+
+
+class _Locator(_CacheLocator):
+    """Puts the files of a function into the session's directory; never into the source tree."""
+
+    def __init__(self, py_func: Any, py_file: str) -> None:
+        self._py_file = py_file  # numba names it where it declines to cache a function
+        self._path = str(_session.directory)
+        self._line = py_func.__code__.co_firstlineno
+        self._module = hashlib.sha256(py_file.encode()).hexdigest()[:8]
+
+    @classmethod
+    def from_function(cls, py_func: Any, py_file: str) -> _Locator:
+        return cls(py_func, py_file)
+
+    def ensure_cache_path(self) -> None:
+        Path(self._path).mkdir(mode=0o700, exist_ok=True)  # a newer version may have pruned it meanwhile
+
+    def get_cache_path(self) -> str:
+        return self._path
+
+    def get_source_stamp(self) -> str:
+        return _session.name
+
+    def get_disambiguator(self) -> str:
+        return f"{self._line}-{self._module}"
+
+
+class _CheckedCacheImpl(CompileResultCacheImpl):
+    _locator_classes = [_Locator]  # noqa: RUF012 - as declared by numba
+
+
+class _CheckedFiles(IndexDataCacheFile):
+    """numba's index and data files, each led by the hash of its content."""
+
+    def _load_index(self) -> Any:
+        try:
+            content = self._read(self._index_path)
+        except FileNotFoundError:
+            return {}
+        stamp, overloads = pickle.loads(content)  # noqa: S301 - own directory, hash checked
+        return overloads if stamp == self._source_stamp else {}
+
+    def _save_index(self, overloads: Any) -> None:
+        self._write(self._index_path, self._dump((self._source_stamp, overloads)))
+
+    def _load_data(self, name: str) -> Any:
+        return pickle.loads(self._read(self._data_path(name)))  # noqa: S301 - own directory, hash checked
+
+    def _save_data(self, name: str, data: Any) -> None:
+        self._write(self._data_path(name), self._dump(data))
+
+    def _read(self, path: str) -> bytes:
+        content = Path(path).read_bytes()
+        digest, payload = content[:_DIGEST_BYTES], content[_DIGEST_BYTES:]
+        if hashlib.sha256(payload).digest() != digest:
+            raise pickle.UnpicklingError(f"{Path(path).name}: the content does not match its hash")
+        return payload
+
+    def _write(self, path: str, payload: bytes) -> None:
+        with self._open_for_write(path) as file:
+            file.write(hashlib.sha256(payload).digest() + payload)
+
+
+class _CheckedCache(FunctionCache):
+    """numba's function cache; damage leads to a new compilation, a failed write to a run without cache."""
+
+    _impl_class = _CheckedCacheImpl
+
+    def __init__(self, py_func: Any, form: str) -> None:
+        super().__init__(py_func)
+        self._cache_file = _CheckedFiles(self._cache_path, self._impl.filename_base + form, _session.name)
+
+    def load_overload(self, sig: Any, target_context: Any) -> Any:
+        if _session.directory is None:
+            return None
+        try:
+            return super().load_overload(sig, target_context)
+        except Exception as error:  # noqa: BLE001 - whatever unpickling damaged code raises; answered by compiling
+            _session.rebuild(error)
+            return None
+
+    def save_overload(self, sig: Any, data: Any) -> None:
+        if _session.directory is None:
+            return
+        try:
+            super().save_overload(sig, data)
+        except OSError as error:
+            _session.close(error)
+        except Exception as error:  # noqa: BLE001 - a damaged index, read before it is written
+            _session.rebuild(error)

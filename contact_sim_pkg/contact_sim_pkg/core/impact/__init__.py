@@ -1,1 +1,0 @@
-"""Impact of a sphere on a viscoelastic half-space (Goloshchapov): contact, motion, waves, stresses, materials."""

@@ -1,0 +1,1 @@
+"""Reader of OpenCRG road files."""

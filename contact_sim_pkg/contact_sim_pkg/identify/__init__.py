@@ -1,0 +1,1 @@
+"""Inertia and contact impulses from the motion of a rigid body. numpy and scipy only."""

@@ -1,0 +1,1 @@
+"""Contacts and impulses: impacts, lasting contacts, friction."""

@@ -1,0 +1,144 @@
+"""Steps of a lasting contact: each interval gives one balance (identifiability paper, eq 39 corrected)."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+
+import numpy
+
+from contact_sim_pkg.identify.contact.sliding_friction import sliding_friction
+from contact_sim_pkg.identify.diagnostics.notes import cure_without_flights
+from contact_sim_pkg.identify.geometry import UP, arm, gaps, size
+from contact_sim_pkg.identify.motion.rotation import Array
+from contact_sim_pkg.identify.motion.segments import LONGEST_IMPACT, SHORTEST_FLIGHT, Segments
+from contact_sim_pkg.identify.motion.states import Noise
+from contact_sim_pkg.identify.problem import Contact, Problem
+
+__all__ = ["NO_FLIGHT", "in_words", "nothing_to_begin_with", "with_steps"]
+
+MOST = 60  # steps taken, evenly spread
+APART = 1e-3  # of the body's size: the next corner must be this much higher
+SIGMAS = 6.0
+HIGH = 0.1  # of the body's size: a gap that is no contact
+STILL = 1e-9  # of the largest speed: slip that counts as none
+NO_FLIGHT = "no free motion"  # how a note begins on what cannot be a contact
+FEW = 0.05  # share of the samples that is passed over
+
+
+def with_steps(problem: Problem, parts: Segments) -> Problem:
+    """The problem with the steps of all lasting contacts on one corner: a flight of one sample at each end of a step."""
+    steps = [
+        step for first, last in parts.contacts if last - first + 1 > LONGEST_IMPACT for step in range(first + 1, last)
+    ]
+    steps = [step for step in steps if _one_corner(problem, step)]
+    if len(steps) > MOST:
+        steps = [steps[place] for place in numpy.linspace(0, len(steps) - 1, MOST).round().astype(int)]
+    flights, contacts, time = list(problem.flights), list(problem.contacts), problem.states.time
+    numbers: dict[int, int] = {}
+    for step in steps:
+        for sample in (step, step + 1):
+            if sample not in numbers:
+                numbers[sample] = len(flights)
+                flights.append((sample, sample))
+        point = int(_heights(problem, step).argmin())
+        contacts.append(Contact(numbers[step], numbers[step + 1], float(time[step]), float(time[step + 1]), point))
+    return problem._replace(flights=flights, contacts=contacts, step_noise=_step_noise(problem, steps))
+
+
+def in_words(problem: Problem, first: int, last: int) -> str:
+    """What a lasting contact over the intervals first to last does: sticks, slides (with what friction), or both."""
+    states, noise = problem.states, problem.noise
+    samples = range(first + 1, last + 1)
+    lifts = numpy.array([_heights(problem, sample).min() for sample in samples])
+    lift, deep = float(numpy.median(lifts)), HIGH * size(problem.shape) + SIGMAS * noise.position
+    if lift < -deep:
+        return f"{NO_FLIGHT}, {-lift:.3g} m below the ground: check the shape, its axes, and the ground"
+    if numpy.mean(lifts > _highest_hop(problem)) > FEW:
+        return f"{NO_FLIGHT}, up to {lifts.max():.3g} m above the ground: check gravity, wrench, axes of the twist, and shape"
+    limit = SIGMAS * (noise.velocity + size(problem.shape) * noise.angular_velocity)
+    slips = numpy.array([_slip(problem, sample) for sample in samples])
+    floor = STILL * float(abs(states.velocity).max() + size(problem.shape) * abs(states.angular_velocity).max())
+    share = float(numpy.mean(slips > max(limit, floor)))
+    depth = f", {-lift:.2g} m deep" if -lift > _highest_hop(problem) else ""
+    if share < FEW:
+        return f"lasting contact{depth}, sticks"
+    slides = "slides" if share > 1.0 - FEW else f"slides {share:.0%} of the time"
+    words = f"lasting contact{depth}, {slides}"
+    told = None if problem.model.wrench.present else sliding_friction(problem, samples)
+    friction = told.in_words() if told else ""
+    return f"{words} with {friction}" if friction else words
+
+
+def nothing_to_begin_with(problem: Problem, notes: Iterable[str]) -> str:
+    """Why a motion without a flight, of whose lasting contacts these are the notes, tells nothing, and what helps."""
+    strange = [note for note in notes if note.startswith(NO_FLIGHT)]
+    if strange:
+        return f"{strange[0]}{_missing_in_the_air(problem)}"
+    cure = cure_without_flights(no_friction=problem.friction is None, no_force=problem.model.wrench.force is None)
+    return f"there is no flight of {SHORTEST_FLIGHT} samples or more between contacts; {cure}"
+
+
+def _missing_in_the_air(problem: Problem) -> str:
+    """By how much the body accelerates beyond gravity where it is off the ground, in words; empty where a known wrench acts.
+
+    A median over the intervals, for where no run of them fits free motion: exact samples contradict a wrong gravity in each.
+    """
+    states = problem.states
+    lifts = numpy.array([_heights(problem, sample).min() for sample in range(len(states.time))])
+    high = numpy.minimum(lifts[1:], lifts[:-1]) > _highest_hop(problem)
+    if problem.model.wrench.present or not high.any():
+        return ""
+    rates = numpy.diff(states.velocity, axis=0) / numpy.diff(states.time)[:, None] + problem.model.gravity * UP
+    x, y, z = numpy.median(rates[high], axis=0)
+    return f"; there it accelerates by ({x:.3g}, {y:.3g}, {z:.3g}) m/s^2 more than gravity makes it"
+
+
+def _highest_hop(problem: Problem) -> float:
+    """Height in [m] of a hop between two impacts that is too short to be a flight, g T^2 / 8, and what noise adds."""
+    longest = (LONGEST_IMPACT + 1) * float(numpy.median(numpy.diff(problem.states.time)))
+    noise, length = problem.noise, size(problem.shape)
+    return (
+        problem.model.gravity * longest**2 / 8.0 + SIGMAS * (noise.position + length * noise.rotation) + 1e-9 * length
+    )
+
+
+def _slip(problem: Problem, sample: int) -> float:
+    """Speed of the lowest point along the ground, [m/s]."""
+    states, normal = problem.states, problem.ground.normal
+    point = int(_heights(problem, sample).argmin())
+    reach = arm(problem.shape, problem.ground, states.rotation[sample], point)
+    velocity = states.velocity[sample] + numpy.cross(states.angular_velocity[sample], reach)
+    return float(numpy.linalg.norm(velocity - (velocity @ normal) * normal))
+
+
+def _step_noise(problem: Problem, steps: list[int]) -> Noise:
+    """Noise of the samples at the ends of steps: the error of the midpoint rule, from third differences, counts as noise."""
+    states, noise = problem.states, problem.noise
+    inner = [step for step in steps if 1 <= step < len(states.time) - 2]
+    errors = []
+    for values in (states.velocity, states.angular_velocity):
+        third = [values[k + 2] - 3.0 * values[k + 1] + 3.0 * values[k] - values[k - 1] for k in inner]
+        errors.append(float(abs(numpy.array(third)).max(initial=0.0)) / 12.0)
+    return noise._replace(
+        velocity=max(noise.velocity, errors[0]), angular_velocity=max(noise.angular_velocity, errors[1])
+    )
+
+
+def _heights(problem: Problem, sample: int) -> Array:
+    states = problem.states
+    return gaps(problem.shape, problem.ground, states.position[sample], states.rotation[sample])
+
+
+def _one_corner(problem: Problem, step: int) -> bool:
+    """Whether the same corner, and no other, is down at both ends of a step; a soft ground lets it in."""
+    ends = [_heights(problem, sample) for sample in (step, step + 1)]
+    if max(end.min() for end in ends) > _highest_hop(problem):
+        return False
+    if len(ends[0]) == 1:
+        return True
+    length = float(numpy.ptp(problem.shape.points))
+    pressed = -size(problem.shape)  # deeper than that is no soft ground, but another one than told
+    levels = [max(end.min(), 0.0) if end.min() > pressed else end.min() for end in ends]
+    second = min(float(numpy.partition(end, 1)[1] - level) for end, level in zip(ends, levels, strict=True))
+    same = ends[0].argmin() == ends[1].argmin()
+    return bool(same and second > APART * length + SIGMAS * problem.noise.position)

@@ -1,0 +1,141 @@
+"""Steps of a lasting contact that slides with a known friction coefficient: what they tell of the mass under a known force.
+
+Points may touch together where all slip alike, as those of a block that slides on its face do.
+"""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy
+
+from contact_sim_pkg.identify.diagnostics.noise import limited
+from contact_sim_pkg.identify.geometry import arm, gaps, size
+from contact_sim_pkg.identify.motion.rotation import Array
+from contact_sim_pkg.identify.motion.segments import LONGEST_IMPACT, MEDIAN_OF_GAUSS, Segments
+from contact_sim_pkg.identify.motion.states import Noise
+from contact_sim_pkg.identify.problem import Contact, Problem
+
+__all__ = ["Slide", "slides_of", "slip_of", "with_slides"]
+
+MOST = 60  # steps taken
+SIGMAS = 6.0
+STILL = 1e-6  # of the largest speed: slip that counts as none, and a difference of slip that counts as none
+HIGH = 0.1  # of the body's size: a gap that is no contact
+TOUCH = 1e-6  # of the body's size: points this close to the lowest one touch with it
+FOURTH = 8  # samples that fourth differences need
+CURVED = 0.125  # delta^2 / 8: share of the friction that a step misses whose slip turns by delta
+
+
+class Slide(NamedTuple):
+    """A run of samples that slide on."""
+
+    first: int
+    last: int
+    turn: float  # [rad] by which the slip turns
+
+
+def slides_of(problem: Problem, parts: Segments) -> list[Slide]:
+    """All runs of two samples or more, in lasting contacts, of slip that never stops or reverses."""
+    found = []
+    for begin, end in parts.contacts:
+        if end - begin + 1 <= LONGEST_IMPACT:
+            continue
+        slips = numpy.array([_slip(problem, sample) for sample in range(begin + 1, end + 1)])
+        kept = numpy.linalg.norm(slips, axis=1) > 0.0
+        joined = kept[1:] & kept[:-1] & (numpy.einsum("ni,ni->n", slips[1:], slips[:-1]) > 0.0)
+        edges = numpy.flatnonzero(numpy.diff(numpy.concatenate([[0], joined.astype(int), [0]])))
+        for first, last in edges.reshape(-1, 2):
+            found.append(Slide(begin + 1 + int(first), begin + 1 + int(last), _angle(slips[first], slips[last])))
+    return found
+
+
+def with_slides(problem: Problem, parts: Segments) -> Problem:
+    """The problem with steps of all slides; the same where friction is not known or there is no force."""
+    if problem.friction is None or problem.model.wrench.force is None:
+        return problem
+    slides, noise = slides_of(problem, parts), problem.step_noise or problem.noise
+    lengths = [_length(problem, slide) for slide in slides]
+    steps = [
+        (first, first + length)
+        for slide, length in zip(slides, lengths, strict=True)
+        for first in range(slide.first, slide.last - length + 1, length)
+    ]
+    if len(steps) > MOST:
+        steps = [steps[place] for place in numpy.linspace(0, len(steps) - 1, MOST).round().astype(int)]
+    missed = max((_missed(problem, *pair) for pair in zip(slides, lengths, strict=True)), default=0.0)
+    wider = problem._replace(step_noise=noise._replace(velocity=max(noise.velocity, missed)))
+    return _joined(wider, steps)
+
+
+def _joined(problem: Problem, steps: list[tuple[int, int]]) -> Problem:
+    """The problem with these steps, which share the states at their ends."""
+    flights, contacts, time = list(problem.flights), list(problem.contacts), problem.states.time
+    numbers = {first: number for number, (first, last) in enumerate(flights) if first == last}
+    for begin, end in steps:
+        for sample in (begin, end):
+            if sample not in numbers:
+                numbers[sample] = len(flights)
+                flights.append((sample, sample))
+        point = int(_heights(problem, begin).argmin())
+        times = (float(time[begin]), float(time[end]))
+        contacts.append(Contact(numbers[begin], numbers[end], *times, point, turns=False, slides=True))
+    return problem._replace(flights=flights, contacts=contacts)
+
+
+def _length(problem: Problem, slide: Slide) -> int:
+    """Samples of a step: MOST steps in a row, or shorter ones, so that what a turning slip misses stays below the noise."""
+    samples = slide.last - slide.first
+    count = numpy.ceil((_missed(problem, slide, samples) / _noise(problem, slide)) ** (1.0 / 3.0))
+    return max(1, int(samples / max(MOST, count)))
+
+
+def _noise(problem: Problem, slide: Slide) -> float:
+    """Of a velocity component in [m/s], from fourth differences over the slide: smooth motion hardly adds to them."""
+    noise, rounding = problem.noise.velocity, limited(Noise(0.0, 0.0, 0.0, 0.0), problem.states).velocity
+    if slide.last - slide.first < FOURTH:
+        return noise
+    fourth = numpy.diff(problem.states.velocity[slide.first : slide.last + 1], n=4, axis=0)
+    spread = float(numpy.median(abs(fourth), axis=0).max()) / MEDIAN_OF_GAUSS / float(numpy.sqrt(70.0))
+    return max(rounding, min(noise, spread))
+
+
+def _missed(problem: Problem, slide: Slide, length: int) -> float:
+    """Largest error of the balance of a step of `length` samples, since it takes one direction of slip: [m/s]."""
+    states, share = problem.states, length / (slide.last - slide.first)
+    jump = states.velocity[slide.last] - states.velocity[slide.first]
+    return CURVED * slide.turn**2 * float(numpy.linalg.norm(jump)) * share**3
+
+
+def _slip(problem: Problem, sample: int) -> Array:
+    """Slip of the points that touch, [3] in [m/s]; zero where they slip slowly, or differently, or nothing touches."""
+    mean, alike = slip_of(problem, sample)
+    return mean if alike else numpy.zeros(3)
+
+
+def slip_of(problem: Problem, sample: int) -> tuple[Array, bool]:
+    """Mean slip of the points that touch, [3] in [m/s], zero where it is slow or nothing touches; whether all slip alike."""
+    states, noise, length = problem.states, problem.noise, size(problem.shape)
+    heights, flat = _heights(problem, sample), problem.tangents.T @ problem.tangents
+    if heights.min() > HIGH * length + SIGMAS * noise.position:
+        return numpy.zeros(3), True
+    doubt = SIGMAS * (noise.position + length * noise.rotation)
+    touching = numpy.flatnonzero(heights <= heights.min() + max(TOUCH * length, doubt))
+    reaches = [arm(problem.shape, problem.ground, states.rotation[sample], int(point)) for point in touching]
+    velocity, spin = states.velocity[sample], states.angular_velocity[sample]
+    slips = numpy.array([flat @ (velocity + numpy.cross(spin, reach)) for reach in reaches])
+    floor = STILL * float(abs(states.velocity).max() + length * abs(states.angular_velocity).max())
+    limit = max(SIGMAS * (noise.velocity + length * noise.angular_velocity), floor)
+    mean = slips.mean(axis=0)
+    alike = float(numpy.linalg.norm(slips - mean, axis=1).max()) <= limit
+    return (mean if float(numpy.linalg.norm(mean)) > limit else numpy.zeros(3)), alike
+
+
+def _angle(first: Array, last: Array) -> float:
+    across = float(numpy.linalg.norm(numpy.cross(first, last)))
+    return float(numpy.arctan2(across, float(first @ last)))
+
+
+def _heights(problem: Problem, sample: int) -> Array:
+    states = problem.states
+    return gaps(problem.shape, problem.ground, states.position[sample], states.rotation[sample])

@@ -1,0 +1,1 @@
+"""Consistency of the numbers: rank, noise, balances, warnings."""

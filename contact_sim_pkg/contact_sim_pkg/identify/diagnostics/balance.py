@@ -1,0 +1,125 @@
+"""Balance of angular momentum over one contact, divided by the mass, and its derivatives.
+
+`f = A2 w2 - A1 w1 - r x pi - h kappa tau`, A = R S R^T, `pi = v2 - v1 + h g z - h kappa F` the contact's impulse over the
+mass, r from the centre of mass to the contact. Impact: h = 0. Lasting contact: one step of length h; R1 and R2 are half
+a step before and after the mean rotation. A contact that lasts over several samples takes both rotations as they are and the
+moment of its impulses from `identify/sweep.py`: `f = A2 w2 - A1 w1 - r2 x pi + int r' x pi dt - h kappa tau`.
+Source: identifiability paper, eqs 19-31 and 39, corrected: linear in S and kappa.
+"""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy
+
+from contact_sim_pkg.identify.geometry import UP, Ground, Shape, arm
+from contact_sim_pkg.identify.motion.flight import FlightState, Model
+from contact_sim_pkg.identify.motion.rotation import Array, angular_inertia, cross_matrix, exponential, mean
+from contact_sim_pkg.identify.problem import Sweep
+
+__all__ = ["Balance", "Side", "balance", "impulse", "lasting_balance"]
+
+
+class Side(NamedTuple):
+    """The motion at one end of a contact, and its derivatives by the flight's state and by the parameters."""
+
+    state: FlightState
+    by_state: Array  # [12, 12], or [12, k] by any other k numbers
+    by_parameters: Array  # [12, p]
+
+
+class Balance(NamedTuple):
+    """What is left of the balance, and its derivatives."""
+
+    value: Array  # [3], [m^2/s]
+    by_before: Array  # [3, 12]
+    by_after: Array  # [3, 12]
+    by_parameters: Array  # [3, p]
+
+
+def impulse(before: FlightState, after: FlightState, inverse_mass: float, model: Model) -> Array:
+    """pi: impulse of the contact over the mass, [3] in [m/s]."""
+    passed = after.time - before.time
+    free = passed * model.gravity * UP - inverse_mass * model.wrench.push(before.time, after.time)
+    return numpy.asarray(after.velocity - before.velocity + free)
+
+
+def balance(
+    before: Side, after: Side, parameters: Array, model: Model, shape: Shape, ground: Ground, point: int
+) -> Balance:
+    """The balance of one contact at `point` of the shape."""
+    first, second = before.state, after.state
+    inertia, inverse_mass = model.inertia(parameters), model.inverse_mass(parameters)
+    middle = mean(first.rotation, second.rotation)
+    half = 0.25 * (second.time - first.time) * (first.angular_velocity + second.angular_velocity)
+    turned = [exponential(-half) @ middle, exponential(half) @ middle]
+    inertias = [angular_inertia(rotation, inertia) for rotation in turned]
+    spins = (first.angular_velocity, second.angular_velocity)
+    push = impulse(first, second, inverse_mass, model)
+    reach = arm(shape, ground, middle, point)
+    twist = model.wrench.twist(first.time, second.time)
+    value = inertias[1] @ spins[1] - inertias[0] @ spins[0] - numpy.cross(reach, push) - inverse_mass * twist
+    locals_ = _by_motion(inertias, spins, push, middle @ shape.points[point], reach)
+    direct = numpy.zeros((3, model.unknowns))
+    for place, part in enumerate(model.basis):
+        direct[:, place] = angular_inertia(turned[1], part) @ spins[1] - angular_inertia(turned[0], part) @ spins[0]
+    if model.with_mass:
+        direct[:, -1] = numpy.cross(reach, model.wrench.push(first.time, second.time)) - twist
+    by_parameters = direct + locals_[0] @ before.by_parameters + locals_[1] @ after.by_parameters
+    return Balance(value, locals_[0] @ before.by_state, locals_[1] @ after.by_state, by_parameters)
+
+
+def lasting_balance(
+    before: Side, after: Side, parameters: Array, model: Model, shape: Shape, ground: Ground, point: int, swept: Sweep
+) -> Balance:
+    """The balance of one contact at `point` that lasts from `before` to `after`."""
+    first, second = before.state, after.state
+    inertia, inverse_mass = model.inertia(parameters), model.inverse_mass(parameters)
+    inertias = [angular_inertia(state.rotation, inertia) for state in (first, second)]
+    spins = (first.angular_velocity, second.angular_velocity)
+    reaches = [arm(shape, ground, state.rotation, point) for state in (first, second)]
+    push, twist = impulse(first, second, inverse_mass, model), model.wrench.twist(first.time, second.time)
+    late = numpy.cross(reaches[1] - reaches[0], first.velocity - swept.velocity)
+    rest = swept.moment - inverse_mass * (swept.by_inverse_mass + twist) - late
+    value = inertias[1] @ spins[1] - inertias[0] @ spins[0] - numpy.cross(reaches[1], push) + rest
+    direct = numpy.zeros((3, model.unknowns))
+    for place, part in enumerate(model.basis):
+        turned = [angular_inertia(state.rotation, part) @ state.angular_velocity for state in (first, second)]
+        direct[:, place] = turned[1] - turned[0]
+    if model.with_mass:
+        pushed = model.wrench.push(first.time, second.time)
+        direct[:, -1] = numpy.cross(reaches[1], pushed) - swept.by_inverse_mass - twist
+    lever = second.rotation @ shape.points[point]
+    turnings = [numpy.zeros((3, 3)), cross_matrix(push) @ -cross_matrix(lever)]
+    blocks = [
+        _of_motion(sign, inertias[k], spins[k], reaches[k], turnings[k]) for k, sign in enumerate((-1.0, 1.0))
+    ]  # fmt: skip
+    by_parameters = direct + blocks[0] @ before.by_parameters + blocks[1] @ after.by_parameters
+    return Balance(value, blocks[0] @ before.by_state, blocks[1] @ after.by_state, by_parameters)
+
+
+def _of_motion(sign: float, inertia: Array, spin: Array, reach: Array, turning: Array) -> Array:
+    """Derivative [3, 12] by the motion at one end, whose angular momentum and impulse count `sign`."""
+    block = numpy.zeros((3, 12))
+    block[:, 3:6] = -sign * cross_matrix(reach)
+    block[:, 6:9] = turning + sign * (inertia @ cross_matrix(spin) - cross_matrix(inertia @ spin))
+    block[:, 9:] = sign * inertia
+    return block
+
+
+def _by_motion(
+    inertias: list[Array], spins: tuple[Array, Array], push: Array, lever: Array, reach: Array
+) -> tuple[Array, Array]:
+    """Derivatives [3, 12] by the motion before and after; a small rotation of either turns the mean by half of it."""
+    turning = cross_matrix(push) @ -cross_matrix(lever)
+    for sign, inertia, spin in ((-1.0, inertias[0], spins[0]), (1.0, inertias[1], spins[1])):
+        turning = turning + sign * (inertia @ cross_matrix(spin) - cross_matrix(inertia @ spin))
+    found = []
+    for sign, inertia in ((-1.0, inertias[0]), (1.0, inertias[1])):
+        block = numpy.zeros((3, 12))
+        block[:, 3:6] = -sign * cross_matrix(reach)
+        block[:, 6:9] = 0.5 * turning
+        block[:, 9:] = sign * inertia
+        found.append(block)
+    return found[0], found[1]

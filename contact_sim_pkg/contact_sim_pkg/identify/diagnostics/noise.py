@@ -1,0 +1,127 @@
+"""Noise of the samples, from the samples."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy
+
+from contact_sim_pkg.identify.motion.rotation import Array, logarithm
+from contact_sim_pkg.identify.motion.segments import MEDIAN_OF_GAUSS, SHORTEST_FLIGHT
+from contact_sim_pkg.identify.motion.states import BodyStates, Noise
+
+__all__ = ["first_guess", "from_residuals", "limited", "roundings", "sample_noise", "shared_rounding"]
+
+FLOOR = 1e-13  # of the largest value of a channel: rounding
+BESIDE = 1e-6  # of the largest relative noise of a channel: no other counts as more exact than that
+ROUNDED = float(numpy.sqrt(12.0))  # step of a rounding over its standard deviation
+STEPS = 10.0 ** numpy.arange(0.0, -10.0, -1.0)  # decimals that samples are rounded to
+NEARLY = 1e-6  # of a step
+CONSTANT = 0.1  # of the noisiest component: less noise is that of a component that was not measured, as across a plane
+FEWEST = 3  # different values that are multiples, such as the spins of three flights: by chance they are not
+SECOND = numpy.sqrt(6.0)  # noise of a second difference over that of a value
+
+
+def first_guess(states: BodyStates) -> Noise:
+    """From medians of second differences, which impacts do not move; smooth motion adds to it."""
+    if len(states.time) < 5:
+        return limited(Noise(0.0, 0.0, 0.0, 0.0), states)
+    turns = logarithm(states.rotation[1:] @ numpy.swapaxes(states.rotation[:-1], -1, -2))
+    channels = (
+        numpy.diff(states.position, n=2, axis=0), numpy.diff(turns, axis=0), numpy.diff(states.velocity, n=2, axis=0),
+        numpy.diff(states.angular_velocity, n=2, axis=0),
+    )  # fmt: skip
+    steps = (_step(states.position), 0.0, _step(states.velocity), _step(states.angular_velocity))
+    spreads = [max(_spread(channel), step / ROUNDED) for channel, step in zip(channels, steps, strict=True)]
+    return limited(Noise(*spreads), states)
+
+
+def from_residuals(residuals: Sequence[Array], states: BodyStates) -> Noise:
+    """From what flights leave of their samples, [n, 12] in the order dx, dv, rotation, dw, and not less than their rounding.
+
+    A component without noise of its own, as those out of a plane that a camera films, is not counted; nor are the single samples
+    of a contact that lasts: what its steps leave is the error of their rule (`identify/contact/lasting.py`).
+    """
+    flights = [rest for rest in residuals if len(rest) >= SHORTEST_FLIGHT]
+    spreads, steps = [], (_step(states.position), _step(states.velocity), 0.0, _step(states.angular_velocity))
+    for channel in range(4):
+        parts = [rest[:, 3 * channel : 3 * channel + 3] for rest in flights]
+        free = sum(len(part) - 1.0 for part in parts)
+        total = sum((numpy.sum(part**2, axis=0) for part in parts), start=numpy.zeros(3))
+        noisy = total > CONSTANT**2 * total.max()
+        spread = float(numpy.sqrt(total[noisy].mean() / free)) if free and noisy.any() else 0.0
+        spreads.append(max(spread, steps[channel] / ROUNDED))
+    position, velocity, rotation, angular_velocity = spreads
+    return limited(Noise(position, rotation, velocity, angular_velocity), states)
+
+
+def limited(noise: Noise, states: BodyStates, floor: float = FLOOR) -> Noise:
+    """Not below `floor` times the largest value of each channel, that of rounding, nor below BESIDE the noise of the roughest.
+
+    Rotations that are exact beside rounded spins would tell the ratios of the inertia so well that its size, which the spins tell,
+    would count as not told.
+    """
+    largest = (
+        float(abs(states.position).max()), 1.0, float(abs(states.velocity).max()),
+        float(abs(states.angular_velocity).max()) + 1e-3,
+    )  # fmt: skip
+    sizes = [size + 1e-3 for size in largest]
+    least = max(floor, BESIDE * max(value / size for value, size in zip(noise, sizes, strict=True)))
+    return Noise(*(max(value, least * size) for value, size in zip(noise, sizes, strict=True)))
+
+
+def roundings(states: BodyStates) -> Noise:
+    """Standard deviations of the rounding of samples that are stored with few decimals or in single precision; 0 otherwise.
+
+    Of rotations, which come from rounded quaternions, it is not seen.
+    """
+    channels = (states.position, states.velocity, states.angular_velocity)
+    position, velocity, angular_velocity = (_step(values) / ROUNDED for values in channels)
+    return Noise(position, 0.0, velocity, angular_velocity)
+
+
+def sample_noise(noise: Noise, rounding: Noise, states: BodyStates, run: slice) -> Array:
+    """Of each sample of a flight in the order dx, dv, rotation, dw, [12]; `noise`, or rounding where the samples share more."""
+    place, speed, spin = (
+        numpy.maximum(getattr(noise, name), shared_rounding(getattr(states, name)[run], getattr(rounding, name)))
+        for name in ("position", "velocity", "angular_velocity")
+    )
+    return numpy.concatenate([place, speed, numpy.full(3, noise.rotation), spin])
+
+
+def shared_rounding(values: Array, rounding: float) -> Array:
+    """What counts as noise of each of the samples [n, k] of a flight so that their mean is as uncertain as rounding leaves it, [k].
+
+    Errors of rounding differ from sample to sample only where the increments of the rounded values do. A spin that is constant, or
+    a velocity that falls by whole steps, keeps one error for all n samples, r = 1: `rounding sqrt(n / r)`, r - 1 changes of
+    the increment.
+    """
+    if rounding == 0.0:
+        return numpy.zeros(values.shape[1])
+    changes = abs(numpy.diff(values, n=2, axis=0)) > 0.5 * ROUNDED * rounding
+    return numpy.asarray(rounding * numpy.sqrt(len(values) / (1.0 + changes.sum(axis=0))))
+
+
+def _step(values: Array) -> float:
+    """Step of which all values are multiples: a power of ten, or that of single precision; 0 where there is none.
+
+    A channel counts that takes FEWEST values or more: of a constant anything is a multiple.
+    """
+    found = 0.0
+    for channel in values.T:
+        if len(numpy.unique(channel)) < FEWEST:
+            continue
+        if (channel == channel.astype(numpy.float32)).all():
+            found = max(found, float(numpy.spacing(numpy.float32(abs(channel).max()))))
+        for step in STEPS:
+            places = numpy.round(channel / step)
+            near = abs(channel / step - places) <= NEARLY * numpy.maximum(1.0, 1e-9 * abs(places))
+            if near.all() and len(numpy.unique(places)) >= FEWEST:
+                found = max(found, step)
+                break
+    return found
+
+
+def _spread(differences: Array) -> float:
+    centred = abs(differences - numpy.median(differences, axis=0))
+    return float(numpy.median(centred, axis=0).max() / MEDIAN_OF_GAUSS / SECOND)

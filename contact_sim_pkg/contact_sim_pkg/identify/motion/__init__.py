@@ -1,0 +1,1 @@
+"""Segments of a recorded motion: flight, rotation, spin, slides."""

@@ -1,0 +1,128 @@
+"""What is to be estimated from what: flights, contacts between them, parameters."""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy
+
+from contact_sim_pkg.identify.geometry import Ground, Shape, inertia_guess
+from contact_sim_pkg.identify.motion.flight import FlightState, Model
+from contact_sim_pkg.identify.motion.rotation import Array
+from contact_sim_pkg.identify.motion.states import BodyStates, Noise
+
+__all__ = ["AXES", "Contact", "Problem", "Sweep", "planar_basis", "spatial_basis", "start_of", "starting_parameters"]
+
+AXES = "xyz"
+PAIRS = ((0, 0), (1, 1), (2, 2), (0, 1), (0, 2), (1, 2))
+
+
+class Sweep(NamedTuple):
+    """Moment of the impulses of a contact from t0 to t1 (`identify/sweep.py`): `int r' x (pi - pi(t0)) dt`, r' the rate of the arm.
+
+    It is moment - kappa by_inverse_mass - (r1 - r0) x (v0 - velocity)`, v0 the velocity at t0."""
+
+    moment: Array  # [3], [m^2/s], at `velocity` and kappa = 0
+    by_inverse_mass: Array  # [3], [kg m^2/s]
+    velocity: Array  # [3], [m/s]
+    deviation: float  # standard deviation of a component, [m^2/s]: of the quadrature and of the samples
+    quadrature: float  # the share of the quadrature in it
+    samples: int  # while the contact lasts
+
+
+class Contact(NamedTuple):
+    """One contact between two flights."""
+
+    before: int  # number of the flight
+    after: int
+    begin: float  # [s]; where the flight before ends
+    end: float  # [s]; equal to begin for an impact
+    point: int  # of the shape
+    turns: bool = True  # its moment counts: it acts at this point alone
+    slides: bool = False  # the known friction counts
+    sweep: Sweep | None = None  # of a contact that lasts: the moment of its impulses
+    located: bool = False  # an impact whose instant is no more than the root of the gap on the flight before
+
+
+EXACT = Noise(0.0, 0.0, 0.0, 0.0)
+
+
+class Problem(NamedTuple):
+    """Samples, flights, contacts and model."""
+
+    states: BodyStates
+    flights: list[tuple[int, int]]  # first and last sample
+    contacts: list[Contact]
+    shape: Shape
+    ground: Ground
+    model: Model
+    noise: Noise
+    axis: Array | None  # normal of the plane of motion in world axes; None in space
+    rounding: Noise = EXACT  # standard deviation of the rounding of the samples
+    step_noise: Noise | None = None  # of flights of one sample, where it differs: the error of a step counts as noise
+    friction: float | None = None  # known coefficient
+
+    @property
+    def rows(self) -> Array:
+        """What a balance is projected on: [1, 3] in the plane, [3, 3] in space."""
+        return numpy.eye(3) if self.axis is None else self.axis[None]
+
+    @property
+    def tangents(self) -> Array:
+        """Directions along the ground, of length 1: [1, 3] in the plane of motion, [2, 3] in space."""
+        normal = self.ground.normal
+        first = numpy.cross(numpy.eye(3)[abs(normal).argmin()] if self.axis is None else self.axis, normal)
+        first = first / numpy.linalg.norm(first)
+        return first[None] if self.axis is not None else numpy.stack([first, numpy.cross(normal, first)])
+
+
+def spatial_basis() -> Array:
+    """E_i of Ixx, Iyy, Izz, Ixy, Ixz, Iyz (elements of the matrix) over m, [6, 3, 3]."""
+    basis = numpy.zeros((6, 3, 3))
+    for place, (row, col) in enumerate(PAIRS):
+        basis[place, row, col] = basis[place, col, row] = 1.0
+    return basis
+
+
+def planar_basis() -> Array:
+    """One unknown, J/m about the normal of the plane; other axes never turn, so any value serves them: [1, 3, 3]."""
+    return numpy.eye(3)[None]
+
+
+def starting_parameters(shape: Shape, model: Model, axis: Array | None, inverse_mass: float) -> tuple[Array, Array]:
+    """A start [p] and the size of each parameter [p]: a homogeneous box, and 1/m as seen in the flights.
+
+    `axis`: normal of the plane of motion in body axes, None in space.
+    """
+    guess = inertia_guess(shape)
+    size = float(numpy.trace(guess)) / 3.0
+    if axis is not None:
+        start = [float(axis @ guess @ axis)]
+        sizes = list(start)
+    else:
+        start = [float(guess[row, col]) for row, col in PAIRS]
+        sizes = [size] * 6
+    if model.with_mass:
+        start.append(inverse_mass)
+        sizes.append(inverse_mass if inverse_mass > 0.0 else _usual_inverse_mass(model, size))
+    return numpy.array(start), numpy.array(sizes)
+
+
+def _usual_inverse_mass(model: Model, inertia: float) -> float:
+    """1/m in [1/kg] of a body that the wrench moves as gravity would."""
+    wrench = model.wrench
+    time = (
+        numpy.array([max(wrench.begin, -1e9), min(wrench.end, 1e9)]) if numpy.isfinite(wrench.begin) else numpy.zeros(1)
+    )
+    force = 0.0 if wrench.force is None else float(abs(numpy.asarray(wrench.force.value(time))).max())
+    torque = float(abs(wrench.torque_at(time)).max()) / numpy.sqrt(inertia)
+    return float(max(model.gravity, 1e-3) / max(force, torque, 1e-300))
+
+
+def start_of(states: BodyStates, flight: tuple[int, int]) -> FlightState:
+    """State of a flight at its first sample, as measured."""
+    first = flight[0]
+    return FlightState(
+        float(states.time[first]), states.position[first], states.velocity[first], states.rotation[first],
+        states.angular_velocity[first],
+    )  # fmt: skip

@@ -1,0 +1,1 @@
+"""Motions and wrenches from bags of any origin."""

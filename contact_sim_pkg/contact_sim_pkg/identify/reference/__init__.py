@@ -1,0 +1,1 @@
+"""Slow twins: bodies that fall and strike."""

@@ -1,0 +1,1 @@
+"""Work and precision, goals and hard cases of the identification."""

@@ -1,0 +1,1 @@
+"""Adaptive time integration of a rig with located events."""

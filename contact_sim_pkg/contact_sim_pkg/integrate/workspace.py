@@ -1,0 +1,63 @@
+"""Arrays of the integrator, made once a run."""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy
+
+from contact_sim_pkg.compiled.arrays import Modes, Vector
+from contact_sim_pkg.integrate import order_5, order_8
+
+__all__ = ["COUNTERS", "EVENTS", "REJECTED", "STEPS", "Workspace", "make_workspace"]
+
+STEPS, REJECTED, EVENTS, COUNTERS = 0, 1, 2, 3
+
+
+class Workspace(NamedTuple):
+    """Arrays of the integrator, and the pair of orders that it steps with."""
+
+    pair: order_5.Order5 | order_8.Order8
+    rate_before: Vector  # [states], at the start of the step
+    rate_after: Vector  # [states], at its end
+    trial: Vector  # [states]
+    inside: Vector  # [states]
+    inside_rate: Vector  # [states]
+    side: Vector  # [margins], the sign on which each event function stands
+    margin: Vector  # [margins], at the end of the step
+    margin_before: Vector  # [margins], at its start
+    margin_inside: Vector  # [margins]
+    step: Vector  # [1], the step that the error control proposes; carried from segment to segment
+    first_step: Vector  # [2 margins], the step in [s] that was right behind the last event of each kind; 0: none yet
+    reach: Vector  # [2 margins], the step in [s] that was right up to the last event of each kind; 0: none yet
+    last_kind: (
+        Modes  # [1], kind of the last event: twice its number, plus 1 where the event function has become positive
+    )
+    expected: Vector  # [1], time in [s] at which an event is thought to lie; infinite: none
+    expected_reach: Vector  # [1], time in [s] before it from which one step may lead to it
+    last_event: Vector  # [1], time of the last event in [s]
+    counters: Vector  # [COUNTERS], accepted steps, rejected steps, events
+
+
+def make_workspace(states: int, margin_count: int, order: int = 5) -> Workspace:
+    """Workspace for a rig with ``states`` state variables and ``margin_count`` event functions.
+
+    ``order`` 5 steps cheaply, for drives that change within milliseconds; 8 takes long steps to tight tolerances.
+    Raises ValueError for any other order.
+    """
+
+    def zeros(*shape: int) -> Vector:
+        return numpy.zeros(shape)
+
+    if order == 5:
+        pair: order_5.Order5 | order_8.Order8 = order_5.Order5(zeros(order_5.STAGES, states))
+    elif order == 8:
+        pair = order_8.Order8(zeros(order_8.STAGES, states))
+    else:
+        raise ValueError(f"the integrator has pairs of orders 5 and 8, not {order}")
+    return Workspace(
+        pair, zeros(states), zeros(states), zeros(states), zeros(states), zeros(states), zeros(margin_count),
+        zeros(margin_count), zeros(margin_count), zeros(margin_count), zeros(1), zeros(2 * margin_count), zeros(2 * margin_count),
+        numpy.zeros(1, dtype=numpy.int64),
+        numpy.full(1, numpy.inf), zeros(1), numpy.full(1, -numpy.inf), zeros(COUNTERS),
+    )  # fmt: skip

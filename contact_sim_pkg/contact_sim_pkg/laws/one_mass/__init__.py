@@ -1,0 +1,1 @@
+"""Rigs of one mass in which a single law can be measured: impact, slap, stick-slip."""

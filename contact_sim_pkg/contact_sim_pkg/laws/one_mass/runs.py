@@ -1,0 +1,92 @@
+"""Runs of the one-mass rigs with one asked tolerance, for the studies: state at given times, and what it took."""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy
+
+from contact_sim_pkg.compiled.arrays import Vector
+from contact_sim_pkg.compiled.results import DONE, SENTENCES
+from contact_sim_pkg.integrate import dormand_prince
+from contact_sim_pkg.integrate.root_steps import EVENTS, REJECTED, STEPS, Workspace, make_workspace
+from contact_sim_pkg.laws.one_mass.parameters import BeltSlider, ImpactWorks, PointContact
+from contact_sim_pkg.laws.one_mass.single import belt_slider, impact_works, point_contact, run, run_with_friction
+from contact_sim_pkg.laws.parameters import NormalDissipative, NormalElastic
+
+__all__ = ["Course", "RunFailureError", "free_impact", "impact_speeds", "integrate", "seat_slap"]
+
+ORDER = (
+    8  # of the integrator: its steps are not cut short by a drive, and it is the cheaper one below a tolerance of 1e-4
+)
+MARGINS = {
+    PointContact: point_contact.MARGINS,
+    ImpactWorks: impact_works.MARGINS,
+    BeltSlider: belt_slider.MARGINS,
+}
+
+
+class RunFailureError(RuntimeError):
+    """The integrator ended with a status other than DONE; the message is its sentence."""
+
+
+class Course(NamedTuple):
+    """States at the asked times, and the integrator's counts."""
+
+    states: Vector  # [times, states]
+    status: int
+    accepted: int
+    rejected: int
+    events: int
+
+
+def integrate(
+    rig: PointContact | ImpactWorks | BeltSlider,
+    start: Vector,
+    scale: Vector,
+    times: Vector,
+    mode: int = 0,
+    strict: bool = True,
+) -> Course:
+    """Integrate `rig` from `start` through `times` [s]; `scale` [states]: error allowed per step.
+
+    `mode`: friction mode at the start (0 sticks, 1 and -1 slip). Raises RunFailureError where `strict` and the run fails.
+    """
+    margins = MARGINS[type(rig)]
+    state = numpy.array(start, dtype=float)
+    out = numpy.full((len(times), len(state)), numpy.nan)
+    rest = (numpy.array([mode]), state, numpy.asarray(scale, dtype=float))
+    instants = numpy.asarray(times, float)
+    work: Workspace | dormand_prince.Workspace
+    if isinstance(rig, BeltSlider):
+        work = dormand_prince.make_workspace(len(state), margins)
+        status = run_with_friction(rig, *rest, work, instants, out)
+    else:
+        work = make_workspace(len(state), margins, ORDER)
+        status = run(rig, *rest, work, instants, out)
+    if strict and status != DONE:
+        raise RunFailureError(SENTENCES[status])
+    counts = work.counters
+    return Course(out, int(status), int(counts[STEPS]), int(counts[REJECTED]), int(counts[EVENTS]))
+
+
+def free_impact(mass: float, elastic: NormalElastic, damping: float | None) -> PointContact:
+    """One mass against a support at rest, without gravity; `damping` [s/m] or None without loss."""
+    return PointContact(mass, 0.0, 0.0, 0.0, elastic, None if damping is None else NormalDissipative(damping))
+
+
+def impact_speeds(rig: PointContact, speed: float, depth: float, tolerance: float, gap: float, end: float) -> Course:
+    """Free impact at `speed` [m/s] from `gap` [m] above the support, to `end` [s]; tolerance relative to `depth` and `speed`."""
+    scale = numpy.array([depth, speed]) * tolerance
+    return integrate(rig, numpy.array([gap, -speed]), scale, numpy.array([0.0, end]))
+
+
+def seat_slap() -> tuple[PointContact, Vector, Vector]:
+    """60 kg on a one-sided foam law over a floor at 5 Hz and 1.3 g: rig, start, and the scales [m, m/s] of the motion."""
+    mass, gravity = 60.0, 9.81
+    frequency = 2.0 * numpy.pi * 5.0
+    amplitude = 1.3 * gravity / frequency**2
+    sunk = 1.5 * gravity / (2.0 * numpy.pi * 5.5) ** 2
+    law = NormalElastic(mass * gravity / sunk**1.5, 1.5)
+    rig = PointContact(mass, gravity, amplitude, frequency, law, NormalDissipative(1.0))
+    return rig, numpy.array([-sunk, amplitude * frequency]), numpy.array([0.05, 1.0])

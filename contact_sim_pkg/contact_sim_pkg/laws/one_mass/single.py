@@ -1,0 +1,64 @@
+"""Compiled entries of the one-mass rigs: integrate from event to event or over a time, for tests and studies."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy
+
+from contact_sim_pkg.compiled.arrays import Modes, Vector
+from contact_sim_pkg.compiled.jit import entry
+from contact_sim_pkg.compiled.vectors import copy_row
+from contact_sim_pkg.integrate import dormand_prince
+from contact_sim_pkg.integrate.drive import Drive
+from contact_sim_pkg.integrate.root_steps import Workspace, integrate, set_sides
+from contact_sim_pkg.laws.one_mass import belt_slider, impact_works, point_contact
+
+__all__ = ["belt_slider", "empty_mode", "impact_works", "point_contact", "run", "run_with_friction"]
+
+
+@entry
+def run(rig: Any, mode: Modes, state: Vector, scale: Vector, work: Workspace, times: Vector, out: Vector) -> int:
+    """Integrate ``rig`` from ``times[0]`` through all ``times`` in [s]; row i of ``out`` is the state at ``times[i]``.
+
+    ``rig``: any that is registered (``integrate/interface.py``). ``state`` [states] is the start and changes in place; ``scale``
+    [states] the error allowed per step. Returns the status of ``compiled/results.py``; rows after a failure keep what they held.
+    """
+    drive = Drive(times[0], times[-1] - times[0], 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
+    set_sides(rig, drive, mode, times[0], state, work)
+    copy_row(state, out[0])
+    status = 0
+    for i in range(times.shape[0] - 1):
+        drive = Drive(times[i], times[i + 1] - times[i], 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
+        status = integrate(rig, drive, mode, times[i + 1], state, scale, work)
+        if status != 0:
+            return status
+        copy_row(state, out[i + 1])
+    return status
+
+
+_integrate_5 = dormand_prince.integrate
+_set_sides_5 = dormand_prince.set_sides
+
+
+@entry
+def run_with_friction(
+    rig: Any, mode: Modes, state: Vector, scale: Vector, work: dormand_prince.Workspace, times: Vector, out: Vector
+) -> int:
+    """As ``run``, by the integrator of the driven rigs: friction events have no root of time beside them that steps could use."""
+    drive = Drive(times[0], times[-1] - times[0], 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
+    _set_sides_5(rig, drive, mode, times[0], state, work)
+    copy_row(state, out[0])
+    status = 0
+    for i in range(times.shape[0] - 1):
+        drive = Drive(times[i], times[i + 1] - times[i], 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
+        status = _integrate_5(rig, drive, mode, times[i + 1], state, scale, work)
+        if status != 0:
+            return status
+        copy_row(state, out[i + 1])
+    return status
+
+
+def empty_mode() -> Modes:
+    """Mode array of a rig with one friction contact, sticking."""
+    return numpy.zeros(1, dtype=numpy.int64)

@@ -1,0 +1,1 @@
+"""Processes of a run: supervisor, children, folders, shared memory, keys."""

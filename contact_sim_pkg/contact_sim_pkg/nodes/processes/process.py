@@ -1,0 +1,228 @@
+"""The life of a node's process: start, spin, signals, end. Exit status 0 on every signal, no traceback."""
+
+from __future__ import annotations
+
+import os
+import signal
+import threading
+import time
+import traceback
+from collections.abc import Callable, Sequence
+from contextlib import suppress
+from typing import Any, Protocol
+
+import rclpy
+from rclpy.exceptions import NameValidationException, ParameterException
+from rclpy.executors import Executor, ExternalShutdownException, SingleThreadedExecutor
+from rclpy.impl.implementation_singleton import rclpy_implementation
+from rclpy.logging import get_logger
+from rclpy.signals import SignalHandlerOptions
+from rclpy.task import Future
+
+from contact_sim_pkg.bag.errors import BagError
+from contact_sim_pkg.excitation.errors import ExcitationError
+from contact_sim_pkg.nodes.endpoints import raise_kept
+from contact_sim_pkg.nodes.processes.run_folder import leave
+from contact_sim_pkg.nodes.protocol.states import FAULT, REFUSED, NodeError
+from contact_sim_pkg.run.errors import RunError
+from contact_sim_pkg.scene.errors import SceneError
+
+REFUSALS = (SceneError, ExcitationError, BagError)
+LONGEST_WAIT = 0.05  # [s] between two looks at signals and at the parent
+ANSWER_SECONDS = 0.5  # from a signal to what the node does about it; compiled code takes no signal
+_NEVER = Future()  # what is waited for by who waits for nothing
+
+
+class Interrupted(BaseException):
+    """A signal that came while the node was being set up."""
+
+
+class BenchNode(Protocol):
+    """What `run` asks of a node beside being one of rclpy."""
+
+    exit_status: int | None  # set when the process shall end
+    gather: float  # [s] between two looks at what has come; 0 handles each message at once
+    computes: bool  # the others make way for this node's thread
+
+    def start(self) -> None:
+        """Whatever takes long: compile, open; a signal may break it off."""
+
+    def tick(self, now: float) -> float:
+        """Look after what no message triggers; `now` is the steady clock, [s]. Returns how long to wait at most, [s]."""
+
+    def stop(self) -> None:
+        """The user wants the end: begin to end cleanly."""
+
+    def fault(self, sentence: str, exit_status: int) -> None:
+        """Something failed: say so, close what is open, set the exit status."""
+
+    def abandon(self) -> bool:
+        """From another thread: end the run if this node computes right now; whether it did. For nodes that compute."""
+
+
+class StopSignals:
+    """SIGINT, SIGTERM and SIGHUP: a count that the spinning loop looks at."""
+
+    def __init__(self) -> None:
+        """Take the three signals over."""
+        self.count = 0
+        self.breaks_off = True  # a signal ends the set-up at once; later the node ends by itself
+        self.answered = 0  # signals that the node has done something about
+        for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
+            signal.signal(number, self._on_signal)
+
+    def _on_signal(self, number: int, frame: Any) -> None:
+        self.count += 1
+        if self.breaks_off:
+            self.breaks_off, self.answered = False, self.count
+            raise Interrupted
+
+    def leave_what_computes(self, node: Any) -> None:
+        """From now on a node that computes on behind a signal is ended by a thread of its own, in good order."""
+        reading, writing = os.pipe()
+        os.set_blocking(writing, False)
+        signal.set_wakeup_fd(writing, warn_on_full_buffer=False)
+        threading.Thread(target=self._watch, args=(reading, node), daemon=True).start()
+
+    def _watch(self, reading: int, node: Any) -> None:
+        while os.read(reading, 1):
+            time.sleep(ANSWER_SECONDS)
+            if self.answered == self.count > 0:
+                continue
+            if node.abandon():
+                leave()
+                os._exit(0)
+
+
+def make_executor() -> Executor:
+    """The executor with the least cost per message (8 times less); the plain one where rclpy does not have it."""
+    try:
+        from rclpy.experimental import EventsExecutor
+    except ImportError:
+        return SingleThreadedExecutor()
+    return EventsExecutor()
+
+
+def hear(executor: Executor, wait: float, gather: float = 0.0) -> None:
+    """Run the callbacks of what has come.
+
+    A process that handles several messages at a time is woken less often, which leaves the cores to the simulation.
+
+    Args:
+        executor: as `make_executor` makes it.
+        wait: how long to wait for a message, [s].
+        gather: where above 0, sleep for that long, [s], and then handle all that has come, without waiting for more.
+    """
+    plain = isinstance(executor, SingleThreadedExecutor)
+    if gather > 0.0 and not plain:
+        time.sleep(min(wait, gather))
+    else:
+        executor.spin_once(timeout_sec=wait)
+    if not plain:
+        executor.spin_until_future_complete(_NEVER, timeout_sec=0.0)  # all that is queued, where `spin_once` takes one
+
+
+def step_back() -> None:
+    """Let this thread, and those it starts, wait for its turn when it wakes instead of pushing another off its core.
+
+    DDS wakes threads some 20 times a block. Under the usual policy each of them interrupts the simulation where both cores are
+    busy. A policy that the caller chose is kept.
+    """
+    _change_policy(os.SCHED_OTHER, os.SCHED_BATCH)
+
+
+def step_forward() -> None:
+    """Take this thread, not those it has started, back to the usual policy."""
+    _change_policy(os.SCHED_BATCH, os.SCHED_OTHER)
+
+
+def _change_policy(usual: int, wanted: int) -> None:
+    with suppress(OSError):  # a system that forbids it runs a little slower
+        if os.sched_getscheduler(0) == usual:
+            os.sched_setscheduler(0, wanted, os.sched_param(0))
+
+
+def run(make_node: Callable[[], Any], args: Sequence[str] | None = None) -> int:
+    """Run one node until it ends or a signal comes; returns the exit status of the process."""
+    signals = StopSignals()
+    node: Any = None
+    try:
+        step_back()
+        _init(args)
+        node = make_node()
+        if node.computes:
+            signals.leave_what_computes(node)
+            step_forward()
+        node.start()
+        signals.breaks_off = False
+        return _spin(node, signals)
+    except Interrupted:
+        return 0
+    except NodeError as error:
+        _say(node, str(error))
+        return error.exit_status
+    except (
+        *REFUSALS,
+        ParameterException,
+        NameValidationException,
+    ) as error:  # the last two: rclpy's own parameters and names
+        _say(node, " ".join(str(error).split()))
+        return REFUSED
+    except rclpy_implementation.RCLError:
+        if rclpy.ok():
+            raise
+        return 0
+    finally:
+        signals.breaks_off = False
+        if node is not None:
+            node.destroy_node()
+        rclpy.try_shutdown()
+        if node is not None and _orphaned(node.supervisor):
+            leave()
+
+
+def _init(args: Sequence[str] | None) -> None:
+    """Start rclpy; NodeError (refused) where it cannot read the arguments after `--ros-args`."""
+    try:
+        rclpy.init(args=None if args is None else list(args), signal_handler_options=SignalHandlerOptions.NO)
+    except (rclpy_implementation.RCLError, rclpy_implementation.UnknownROSArgsError) as error:
+        reason = str(error).partition(", at /")[0].removeprefix("failed to initialize rcl: ")
+        raise NodeError(f"the arguments after --ros-args cannot be read: {reason}", REFUSED) from None
+
+
+def _spin(node: Any, signals: StopSignals) -> int:
+    executor = make_executor()
+    executor.add_node(node)
+    supervisor, seen = node.supervisor, 0
+    while node.exit_status is None:
+        try:
+            wait = node.tick(time.monotonic())
+            if node.exit_status is None:
+                hear(executor, min(wait, LONGEST_WAIT), node.gather)
+                raise_kept(node)
+        except ExternalShutdownException:
+            break
+        except (NodeError, RunError, *REFUSALS) as error:
+            node.fault(str(error), getattr(error, "exit_status", FAULT))
+        except rclpy_implementation.RCLError:
+            if rclpy.ok():
+                raise
+            break
+        except Exception as error:  # noqa: BLE001  # the boundary of a node: named once, the bag closed
+            node.get_logger().error(traceback.format_exc())
+            node.fault(f"unexpected {type(error).__name__}: {error}", FAULT)
+        orphaned = _orphaned(supervisor)
+        if signals.count > seen or orphaned:
+            seen, supervisor = signals.count, 0 if orphaned else supervisor
+            signals.answered = seen
+            node.stop()
+    return node.exit_status or 0
+
+
+def _orphaned(supervisor: int) -> bool:
+    """Whether the supervisor that started this process is gone."""
+    return bool(supervisor) and os.getppid() != supervisor
+
+
+def _say(node: Any, sentence: str) -> None:
+    (node.get_logger() if node is not None else get_logger("bench")).fatal(sentence)

@@ -1,0 +1,69 @@
+"""The supervisor's own ears: what it hears on `bench/progress` and `bench/recorded`, with the steady clock beside it."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Sequence
+from types import TracebackType
+
+import rclpy
+from rclpy.node import Node
+from rclpy.signals import SignalHandlerOptions
+
+from contact_sim_pkg.bag.messages import decode_progress, decode_recorded
+from contact_sim_pkg.nodes.endpoints import raise_kept, subscription
+from contact_sim_pkg.nodes.processes.process import hear, make_executor, step_back
+from contact_sim_pkg.nodes.protocol.states import Follower, RecordedFollower, State
+
+GATHER_SECONDS = 0.01  # that reports gather for; what the times of a run are exact to
+
+
+class RunMonitor:
+    """Follows one run; a context manager that starts and ends rclpy."""
+
+    def __init__(self, arguments: Sequence[str] = ()) -> None:
+        """Join the graph; `arguments` are those of ROS (`--ros-args …`)."""
+        step_back()
+        rclpy.init(args=list(arguments), signal_handler_options=SignalHandlerOptions.NO)
+        self._node = Node("bench_run", start_parameter_services=False, enable_rosout=False)
+        self._executor = make_executor()
+        self._executor.add_node(self._node)
+        self.run, self.recorded = Follower(answers=False), RecordedFollower()
+        self.ready_at = self.done_at = self.recorded_at = 0.0  # steady clock, [s]; 0 before
+        self._kept = [
+            subscription(self._node, "bench/progress", self._on_progress),
+            subscription(self._node, "bench/recorded", self._on_recorded),
+        ]
+
+    def spin(self, seconds: float) -> None:
+        """Hear what comes, for at most this long; NodeError where another bench is heard."""
+        limit = time.monotonic() + seconds
+        left = seconds
+        while left >= 0.0:
+            hear(self._executor, left, GATHER_SECONDS)
+            raise_kept(self._node)
+            left = limit - time.monotonic()
+
+    def _on_progress(self, data: bytes) -> None:
+        if self.run.accept(decode_progress(data)):
+            now = time.monotonic()
+            if self.run.state >= State.READY and not self.ready_at:
+                self.ready_at = now
+            self.done_at = now
+
+    def _on_recorded(self, data: bytes) -> None:
+        recorded = decode_recorded(data)
+        if recorded.block > self.recorded.block:
+            self.recorded_at = time.monotonic()
+        self.recorded.accept(recorded)
+
+    def __enter__(self) -> RunMonitor:
+        """The monitor itself."""
+        return self
+
+    def __exit__(
+        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
+    ) -> None:
+        """Leave the graph."""
+        self._node.destroy_node()
+        rclpy.try_shutdown()

@@ -1,0 +1,110 @@
+"""The scene as it is handed to a node: resolved once by the supervisor, read back by every node."""
+
+from __future__ import annotations
+
+import json
+import math
+from pathlib import Path
+from typing import Any
+
+from contact_sim_pkg.nodes.processes.run_folder import hold
+from contact_sim_pkg.scene.resolved_scene import ResolvedScene
+
+RESOLVED = ".resolved.yaml"  # ending of a scene that needs no resolving; its input files stand in the file below
+FILES = ".files.json"
+DESCRIPTION = ".excitation.json"
+REASON = ".reason.json"
+
+
+def write_scene(scene: ResolvedScene, folder: Path) -> Path:
+    """Write a resolved scene, and where its input files are; returns what a node is given as its scene."""
+    path = folder / f"scene{RESOLVED}"
+    path.write_text(scene.to_yaml(), encoding="utf-8")
+    _write_beside(path, FILES, {where: str(file) for where, file in scene.files.items()})
+    return path
+
+
+def read_scene(scene: str) -> ResolvedScene:
+    """The resolved scene behind a node's parameter.
+
+    Args:
+        scene: what `write_scene` returned, or the name of a shipped scene, or the path of a scene file.
+
+    Raises:
+        SceneError: the scene is faulty or not there.
+    """
+    if scene.endswith(RESOLVED):
+        path = Path(scene)
+        hold(path.parent)
+        files = json.loads(_beside(path, FILES).read_text(encoding="utf-8"))
+        return ResolvedScene.from_own_yaml(path.read_text(encoding="utf-8"), files)
+    from contact_sim_pkg.scene.load import load_scene
+    from contact_sim_pkg.scene.resolve import resolve
+
+    return resolve(load_scene(scene))
+
+
+def write_description(scene: str, topic: str, description: dict[str, Any]) -> None:
+    """Leave what an excitation found and did beside a scene of the supervisor, for the logger."""
+    if scene.endswith(RESOLVED):
+        _write_beside(Path(scene), f".{topic.replace('/', '_')}{DESCRIPTION}", {topic: description})
+
+
+def read_descriptions(scene: str, resolved: ResolvedScene) -> dict[str, dict[str, Any]]:
+    """What each excitation found and did: as its node left it, or found out here where there is no supervisor."""
+    if scene.endswith(RESOLVED):
+        return descriptions_beside(Path(scene))
+    from contact_sim_pkg.run.sources import make_sources
+
+    return {topic: source.describe() for topic, source in make_sources(resolved).items()}
+
+
+def descriptions_beside(scene: Path) -> dict[str, dict[str, Any]]:
+    """What the excitation nodes have left beside a scene of the supervisor, by topic."""
+    found: dict[str, dict[str, Any]] = {}
+    for path in sorted(scene.parent.glob(f"*{DESCRIPTION}")):
+        found.update(json.loads(path.read_text(encoding="utf-8")))
+    return found
+
+
+def write_reason(scene: Path, reason: str) -> None:
+    """Leave why a run ends early beside a scene of the supervisor, for the logger, before the nodes are asked to end."""
+    _write_beside(scene, REASON, {"reason": reason})
+
+
+def read_reason(scene: str) -> str:
+    """Why the supervisor ends the run; empty where it does not, or where there is none."""
+    if not scene.endswith(RESOLVED):
+        return ""
+    try:
+        return str(json.loads(_beside(Path(scene), REASON).read_text(encoding="utf-8"))["reason"])
+    except OSError:
+        return ""
+
+
+def block_length_ns(scene: ResolvedScene) -> int:
+    """Simulated time of a block, [ns]."""
+    return round(float(scene.data["block_length"]) * 1e9)
+
+
+def count_blocks(scene: ResolvedScene) -> int:
+    """Number of blocks of the scene."""
+    return round(float(scene.data["duration"]) / float(scene.data["block_length"]))
+
+
+def queue_depth(scene: ResolvedScene) -> int:
+    """Depth that holds what a topic carries in 8 blocks, twice the window of 4."""
+    rates = scene.data["outputs"]
+    highest = max(float(rates["field_rate"]), float(rates["display_rate"]))
+    return 8 * math.ceil(highest * float(scene.data["block_length"]))
+
+
+def _beside(path: Path, ending: str) -> Path:
+    return path.with_name(path.name.removesuffix(RESOLVED) + ending)
+
+
+def _write_beside(path: Path, ending: str, content: dict[str, Any]) -> None:
+    """In one go: a reader finds the whole file or none."""
+    part = _beside(path, ending + ".part")
+    part.write_text(json.dumps(content), encoding="utf-8")
+    part.replace(_beside(path, ending))

@@ -1,0 +1,1 @@
+"""Blocks, windows, peers and progress: the protocol between the nodes."""

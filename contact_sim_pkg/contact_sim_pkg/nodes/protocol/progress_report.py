@@ -1,0 +1,64 @@
+"""What the simulator says on `bench/progress`."""
+
+from __future__ import annotations
+
+import time
+
+from rclpy.duration import Duration
+from rclpy.publisher import Publisher
+
+from contact_sim_pkg.bag.messages import Progress, encode_progress
+from contact_sim_pkg.nodes.processes.scene_file import block_length_ns, count_blocks
+from contact_sim_pkg.nodes.protocol.states import State
+from contact_sim_pkg.run.block_simulation import BlockResult
+from contact_sim_pkg.scene.resolved_scene import ResolvedScene
+
+SETTLE_SECONDS = 1.0  # for the last report to be acknowledged
+
+
+class ProgressReport:
+    """State of the run, block by block; the one place that counts the messages sent."""
+
+    def __init__(self, publisher: Publisher, scene: ResolvedScene) -> None:
+        """Nothing sent; state IDLE."""
+        self.publisher = publisher
+        self.state = State.IDLE
+        self._scene = str(scene.data["name"])
+        self._blocks, self._period_ns = count_blocks(scene), block_length_ns(scene)
+        self._block, self._sent = -1, 0
+        self._load = self._peak = 0.0
+        self._began: float | None = None
+        self.last: Progress | None = None
+
+    def send(self, state: State, message: str = "") -> None:
+        """Report a state, with one sentence for a person."""
+        if state is State.READY:
+            self._began = time.monotonic()
+        self.state = state
+        elapsed = 0.0 if self._began is None else time.monotonic() - self._began
+        simulated_ns = (self._block + 1) * self._period_ns
+        factor = simulated_ns * 1e-9 / elapsed if elapsed > 0.0 else 0.0
+        self.last = Progress(
+            int(state), self._block, self._blocks, self._sent, factor, self._load, self._peak, self._scene, message
+        )
+        self.publisher.publish(encode_progress(self.last, simulated_ns))
+
+    def block_done(self, block: int, result: BlockResult) -> None:
+        """Report a block, whose messages were sent before; FINISHED with the last one of the scene."""
+        self._block, self._sent = block, self._sent + len(result.messages)
+        self._load, self._peak = result.load, result.peak_pressure
+        self.send(State.FINISHED if block == self._blocks - 1 else State.RUNNING)
+
+    @property
+    def real_time_factor(self) -> float:
+        """Simulated time over wall time since block 0, as it was last reported."""
+        return 0.0 if self.last is None else self.last.real_time_factor
+
+    def describe(self) -> str:
+        """State, simulated time and speed, for a person."""
+        simulated = (self._block + 1) * self._period_ns * 1e-9
+        return f"{self._scene}: {self.state.name.lower()} after {simulated:g} s, {self.real_time_factor:.3g}x real time"
+
+    def settle(self) -> None:
+        """Wait until everybody has the last report, for one second at most."""
+        self.publisher.wait_for_all_acked(Duration(seconds=SETTLE_SECONDS))

@@ -1,0 +1,93 @@
+"""States of a run and the rules by which a node follows `bench/progress`, without ROS."""
+
+from __future__ import annotations
+
+from enum import IntEnum
+
+from contact_sim_pkg.bag.messages import Progress, Recorded
+from contact_sim_pkg.nodes.protocol.window import AHEAD
+
+
+class NodeError(Exception):
+    """What a node cannot go on with: one sentence, and the exit status that belongs to it."""
+
+    def __init__(self, sentence: str, exit_status: int = 1) -> None:
+        """Keep the exit status beside the sentence."""
+        super().__init__(sentence)
+        self.exit_status = exit_status
+
+
+class State(IntEnum):
+    """The constants of `BenchProgress.msg`."""
+
+    IDLE = 0
+    STARTING = 1
+    READY = 2
+    RUNNING = 3
+    FINISHED = 4
+    STOPPED = 5
+    FAILED = 6
+
+    @property
+    def ended(self) -> bool:
+        """No further block will be done."""
+        return self >= State.FINISHED
+
+
+REFUSED, LOSS, FAULT, DONE = 2, 3, 1, 0  # exit statuses
+
+
+class Follower:
+    """What a node knows of its run from `bench/progress`.
+
+    A node is a peer that *ready* waits for, and without its answers the run does not get further than the window. Whatever
+    is further on, before *ready* was seen, belongs to another bench. Later on, a report that lies behind what was already
+    seen comes from another bench that is starting on the same topics, and is passed over.
+    """
+
+    def __init__(self, *, answers: bool = True) -> None:
+        """Nothing seen yet; `answers`: the run waits for this node's answers or blocks."""
+        self.state = State.IDLE
+        self.block = -1
+        self.last: Progress | None = None
+        self._answers = answers
+
+    def accept(self, progress: Progress) -> bool:
+        """Whether this report belongs to the run and is news.
+
+        Raises NodeError (refused) where it is that of another bench's run under way.
+        """
+        state = State(progress.state)
+        if self.state is State.IDLE:
+            foreign = progress.block >= 0 or state > State.READY
+        else:
+            foreign = self._answers and self.state is State.STARTING and progress.block >= AHEAD
+        if foreign:
+            raise NodeError(
+                f"another bench (scene {progress.scene}, block {progress.block} of {progress.blocks}) runs on "
+                "bench/progress; end it, or give this one a ROS_DOMAIN_ID of its own",
+                REFUSED,
+            )
+        if state < self.state or progress.block < self.block or self.state.ended:
+            return False
+        self.state, self.block, self.last = state, progress.block, progress
+        return True
+
+
+class RecordedFollower:
+    """What a node knows from `bench/recorded`: answers that lie behind what was already seen are passed over."""
+
+    def __init__(self) -> None:
+        """Nothing held yet."""
+        self.block = -1
+        self.messages = 0
+        self.closed = False
+        self.bag = ""
+        self.message = ""
+
+    def accept(self, recorded: Recorded) -> bool:
+        """Whether this answer is news."""
+        if recorded.block < self.block or recorded.messages < self.messages or self.closed:
+            return False
+        self.block, self.messages, self.closed, self.bag, self.message = recorded
+        return True

@@ -1,0 +1,1 @@
+"""What the papers say beyond the rigs."""

@@ -1,0 +1,275 @@
+"""Lame curves (superellipses) `|x/a|^n + |y/b|^n = 1`: area, second moments, and the fit to a contact patch.
+
+n = 2 is the ellipse, n = 1 the rhombus, n -> infinity the rectangle. The radial variable
+`rho = (|x/a|^n + |y/b|^n)^(1/n)` is computed through logarithms, so no power under- or overflows.
+"""
+
+from __future__ import annotations
+
+import math
+from typing import NamedTuple
+
+import numpy
+from numpy.typing import NDArray
+
+from contact_sim_pkg.compiled.jit import entry, kernel
+
+__all__ = [
+    "LameFit",
+    "fit_boundary",
+    "fit_centred",
+    "fit_patch",
+    "lame_area",
+    "lame_moment",
+    "lame_second_moment",
+    "refuse_axes",
+    "refuse_exponent",
+]
+
+Field = NDArray[numpy.float64]
+
+SMALLEST_EXPONENT = 0.1
+"""Below it the curve is a cross of four needles."""
+
+LARGEST_POWER = 100.0
+LARGEST_LOGARITHM = 600.0
+
+FIT_EXPONENTS = (0.3, 20.0)
+FEWEST_CELLS = 8
+"""A patch of fewer cells says nothing about its exponent."""
+
+FIT_STEPS = 20
+SMALLEST_STEP = 1e-4
+"""Sum of the changes of ln a, ln b and ln n after which the fit has converged."""
+
+_TINY = 1e-300
+
+
+class LameFit(NamedTuple):
+    a: float  # [m] along x
+    b: float  # [m] along y
+    exponent: float  # [-] n; 2 when not fitted
+    centre_x: float  # [m] mean of the boundary points
+    centre_y: float  # [m]
+    deviation: float  # [-] root mean square of rho - 1 over the boundary
+    fitted: bool  # False: fewer than 8 cells; half extents and n = 2
+
+
+def lame_area(a: float, b: float, exponent: float) -> float:
+    """`4 a b Gamma(1 + 1/n)^2 / Gamma(1 + 2/n)` [m^2]; raises `ValueError` for n < 0.1 and axes outside 1e-100 to 1e100 m."""
+    refuse_axes(a, b)
+    refuse_exponent(exponent)
+    return 4.0 * a * b * math.exp(2.0 * math.lgamma(1.0 + 1.0 / exponent) - math.lgamma(1.0 + 2.0 / exponent))
+
+
+def lame_second_moment(a: float, b: float, exponent: float) -> float:
+    """Integral of x^2 over the domain, `(4 a^3 b / n) B(3/n, 1 + 1/n)` [m^4]; exchange a and b for y^2."""
+    return lame_moment(a, b, exponent, 2.0, 0.0)
+
+
+def lame_moment(a: float, b: float, exponent: float, power_x: float, power_y: float) -> float:
+    """Integral of `|x|^i |y|^j` over the domain, powers i, j above -1, to 100 (Dirichlet's integral); i = j = 0 is the area.
+
+    `4 a^(i+1) b^(j+1) / ((i+1) (j+1)) Gamma(u+1) Gamma(v+1) / Gamma(u+v+1)`, u = (i+1)/n, v = (j+1)/n [m^(i+j+2)].
+    Raises `ValueError` for n < 0.1, powers and axes outside their range, and an integral that is no double.
+    """
+    refuse_axes(a, b)
+    refuse_exponent(exponent)
+    logarithm = math.log(4.0)
+    for name, axis, power in (("i", a, power_x), ("j", b, power_y)):
+        if not -1.0 < power <= LARGEST_POWER:
+            raise ValueError(f"Lame curve: power {name} = {power}, it must be above -1, at most {LARGEST_POWER:g}")
+        logarithm += (power + 1.0) * math.log(axis)
+    if abs(logarithm) > LARGEST_LOGARITHM:
+        raise ValueError(f"Lame curve: the moment is of the order exp({logarithm:.4g}), outside the range of numbers")
+    u, v = (power_x + 1.0) / exponent, (power_y + 1.0) / exponent
+    gammas = math.exp(math.lgamma(u + 1.0) + math.lgamma(v + 1.0) - math.lgamma(u + v + 1.0))
+    scale = math.pow(a, power_x + 1.0) / (power_x + 1.0) * (math.pow(b, power_y + 1.0) / (power_y + 1.0))
+    return 4.0 * scale * gammas
+
+
+def refuse_axes(a: float, b: float) -> None:
+    """Raises `ValueError` for half axes outside 1e-100 to 1e100 m."""
+    for name, value in (("a", a), ("b", b)):
+        if not 1e-100 <= value <= 1e100:
+            raise ValueError(f"Lame curve: half axis {name} = {value} m, it must be a number from 1e-100 to 1e100")
+
+
+def refuse_exponent(exponent: float) -> None:
+    """Raises `ValueError` for n < 0.1."""
+    if not exponent >= SMALLEST_EXPONENT:
+        raise ValueError(f"Lame curve: exponent n = {exponent}, allowed from {SMALLEST_EXPONENT}")
+
+
+@entry
+def fit_patch(pressure: Field, cell_x: float, cell_y: float, origin_x: float, origin_y: float) -> LameFit:
+    """Lame curve through the boundary of the cells under pressure.
+
+    pressure: float64 [rows, cols], rows along x; cell_x, cell_y [m]; origin_x, origin_y: centre of cell (0, 0) [m].
+    The boundary points are the midpoints of the edges between a cell inside and one outside. Zeros without contact.
+    """
+    rows, cols = pressure.shape
+    cells, points, low_row, high_row, low_col, high_col = extents(pressure)
+    if cells == 0:
+        centre_x, centre_y = origin_x + 0.5 * (rows - 1) * cell_x, origin_y + 0.5 * (cols - 1) * cell_y
+        return LameFit(0.0, 0.0, 2.0, centre_x, centre_y, 0.0, False)
+    half_x = 0.5 * (high_row - low_row + 1) * cell_x
+    half_y = 0.5 * (high_col - low_col + 1) * cell_y
+    if cells < FEWEST_CELLS:
+        centre_x = origin_x + 0.5 * (low_row + high_row) * cell_x
+        centre_y = origin_y + 0.5 * (low_col + high_col) * cell_y
+        return LameFit(half_x, half_y, 2.0, centre_x, centre_y, 0.0, False)
+    x, y = numpy.empty(points), numpy.empty(points)
+    boundary_points(pressure, cell_x, cell_y, x, y)
+    fit = fit_boundary(x, y, half_x, half_y)
+    return LameFit(
+        fit.a,
+        fit.b,
+        fit.exponent,
+        fit.centre_x + origin_x,
+        fit.centre_y + origin_y,
+        fit.deviation,
+        True,
+    )
+
+
+@entry
+def fit_boundary(x: Field, y: Field, half_x: float, half_y: float) -> LameFit:
+    """Minimise `sum (rho - 1)^2` over ln a, ln b, ln n for points about their mean; `x`, `y` [m] are overwritten.
+
+    Damped Gauss-Newton steps from the half extents [m] and n = 2, n kept within 0.3 to 20.
+    """
+    return fit_centred(x, y, half_x, half_y, mean_of(x), mean_of(y))
+
+
+@entry
+def fit_centred(x: Field, y: Field, half_x: float, half_y: float, centre_x: float, centre_y: float) -> LameFit:
+    """`fit_boundary` about a centre that is known [m]."""
+    take_logarithms(x, y, centre_x, centre_y)
+    log_a, log_b, log_n = math.log(half_x), math.log(half_y), math.log(2.0)
+    normal, trial = numpy.empty((3, 4)), numpy.empty((3, 4))
+    cost = normal_equations(x, y, log_a, log_b, log_n, normal)
+    damping = 1e-3
+    for _ in range(FIT_STEPS):
+        step_a, step_b, step_n = damped_step(normal, damping)
+        trial_n = min(max(log_n + step_n, math.log(FIT_EXPONENTS[0])), math.log(FIT_EXPONENTS[1]))
+        trial_cost = normal_equations(x, y, log_a + step_a, log_b + step_b, trial_n, trial)
+        if not trial_cost <= cost:
+            damping *= 8.0
+            if damping > 1e8:
+                break
+            continue
+        moved = abs(step_a) + abs(step_b) + abs(trial_n - log_n)
+        log_a, log_b, log_n, cost = log_a + step_a, log_b + step_b, trial_n, trial_cost
+        normal, trial = trial, normal
+        damping *= 0.2
+        if moved < SMALLEST_STEP:
+            break
+    return LameFit(
+        math.exp(log_a), math.exp(log_b), math.exp(log_n), centre_x, centre_y, math.sqrt(cost / x.size), True
+    )
+
+
+@kernel
+def mean_of(values: Field) -> float:
+    total = 0.0
+    for k in range(values.size):
+        total += values[k]
+    return total / values.size
+
+
+@kernel
+def take_logarithms(x: Field, y: Field, centre_x: float, centre_y: float) -> None:
+    """Replace the coordinates by the logarithms of their distances from the centre."""
+    for k in range(x.size):
+        x[k] = math.log(max(abs(x[k] - centre_x), _TINY))
+        y[k] = math.log(max(abs(y[k] - centre_y), _TINY))
+
+
+@kernel
+def extents(pressure: Field) -> tuple[int, int, int, int, int, int]:
+    """Number of cells in contact, number of their outer edges, first and last row, first and last column."""
+    rows, cols = pressure.shape
+    cells, edges, low_row, high_row, low_col, high_col = 0, 0, rows, -1, cols, -1
+    for i in range(rows):
+        for j in range(cols):
+            if pressure[i, j] > 0.0:
+                cells += 1
+                edges += 4 - neighbours(pressure, i, j)
+                low_row, high_row = min(low_row, i), max(high_row, i)
+                low_col, high_col = min(low_col, j), max(high_col, j)
+    return cells, edges, low_row, high_row, low_col, high_col
+
+
+@kernel
+def neighbours(pressure: Field, i: int, j: int) -> int:
+    return (
+        inside(pressure, i - 1, j)
+        + inside(pressure, i + 1, j)
+        + inside(pressure, i, j - 1)
+        + inside(pressure, i, j + 1)
+    )
+
+
+@kernel
+def inside(pressure: Field, i: int, j: int) -> int:
+    rows, cols = pressure.shape
+    return 1 if 0 <= i < rows and 0 <= j < cols and pressure[i, j] > 0.0 else 0
+
+
+@kernel
+def boundary_points(pressure: Field, cell_x: float, cell_y: float, x: Field, y: Field) -> None:
+    """Midpoints [m] of the edges between a cell in contact and one without, from the centre of cell (0, 0)."""
+    rows, cols = pressure.shape
+    count = 0
+    for i in range(rows):
+        for j in range(cols):
+            if pressure[i, j] > 0.0:
+                for step_i, step_j in ((-1, 0), (1, 0), (0, -1), (0, 1)):
+                    if inside(pressure, i + step_i, j + step_j) == 0:
+                        x[count] = (i + 0.5 * step_i) * cell_x
+                        y[count] = (j + 0.5 * step_j) * cell_y
+                        count += 1
+
+
+@kernel
+def normal_equations(log_x: Field, log_y: Field, log_a: float, log_b: float, log_n: float, normal: Field) -> float:
+    """`J^T J` and, in the last column, `-J^T (rho - 1)`, from ln|x| and ln|y|; returns the cost `sum (rho - 1)^2`.
+
+    With u = ln|x/a|, v = ln|y/b| and the share s = |x/a|^n / rho^n: `ln rho = max(u, v) + ln(1 + exp(-n |u-v|)) / n`,
+    its derivatives by ln a, ln b, ln n are `-s`, `-(1-s)` and `s u + (1-s) v - ln rho`.
+    """
+    normal[:] = 0.0
+    exponent, cost = math.exp(log_n), 0.0
+    for k in range(log_x.size):
+        u, v = log_x[k] - log_a, log_y[k] - log_b
+        smaller = math.exp(-exponent * abs(u - v))
+        larger_share = 1.0 / (1.0 + smaller)
+        share = larger_share if u >= v else smaller * larger_share
+        log_rho = max(u, v) + math.log1p(smaller) / exponent
+        rho = math.exp(log_rho)
+        error = rho - 1.0
+        by_a, by_b, by_n = -rho * share, rho * (share - 1.0), rho * (share * u + (1.0 - share) * v - log_rho)
+        cost += error * error
+        row = (by_a, by_b, by_n, -error)
+        for i in range(3):
+            for j in range(4):
+                normal[i, j] += row[i] * row[j]
+    return cost
+
+
+@kernel
+def damped_step(normal: Field, damping: float) -> tuple[float, float, float]:
+    """Solve `(J^T J + damping diag) step = -J^T error` (3 x 3, symmetric positive definite) by elimination."""
+    floor = 1e-14 * (normal[0, 0] + normal[1, 1] + normal[2, 2])
+    a00 = normal[0, 0] * (1.0 + damping) + floor
+    a11 = normal[1, 1] * (1.0 + damping) + floor
+    a22 = normal[2, 2] * (1.0 + damping) + floor
+    ratio_1, ratio_2 = normal[0, 1] / a00, normal[0, 2] / a00
+    b11, b12, b22 = a11 - ratio_1 * normal[0, 1], normal[1, 2] - ratio_1 * normal[0, 2], a22 - ratio_2 * normal[0, 2]
+    right_1, right_2 = normal[1, 3] - ratio_1 * normal[0, 3], normal[2, 3] - ratio_2 * normal[0, 3]
+    ratio = b12 / b11
+    step_n = (right_2 - ratio * right_1) / (b22 - ratio * b12)
+    step_b = (right_1 - b12 * step_n) / b11
+    step_a = (normal[0, 3] - normal[0, 1] * step_b - normal[0, 2] * step_n) / a00
+    return step_a, step_b, step_n

@@ -1,0 +1,1 @@
+"""The pressure of a contact on a grid: influence by FFT, solver, sequence of a rolling contact."""

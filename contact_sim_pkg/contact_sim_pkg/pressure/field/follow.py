@@ -1,0 +1,250 @@
+"""Corrections of a predicted pressure field, one convolution each, each certified by it.
+
+The prediction comes with its displacement (`pressure/field/prediction.py`), so the clearance c is known before the first
+convolution. A correction is a step along the preconditioned clearance z = M c of the free cells, made conjugate to the step
+before, s, by the response K s that is known from it:
+
+    d = -(z - mean z) + b s,    b = max(0, sum z K s / sum s K s),    p_new = max(0, p + a d), scaled to the load.
+
+Conjugate gradients would take one convolution for the length a and another to certify. Here a is taken from experience, one
+length for each correction by its number, and u = K p_new is evaluated afresh: that certifies the field and gives K s, clipping
+and all. Where more is needed the length is put right afterwards, with the factor `g = -sum c s / sum s K s`, before the next
+direction is sought; g^(1/4) goes into the experience.
+
+It ends when the residual is at most the tolerance and the last correction changed the field by at most `CHANGE` times the
+tolerance in L2. The second is the better measure of the error: the error was 0.4 to 0.9 of the change where it was measured
+(tire on rough roads), while the residual weighs a clearance by its depth and hardly sees the short waves of the pressure.
+"""
+
+from __future__ import annotations
+
+import math
+from typing import NamedTuple
+
+import numpy
+from numpy.typing import NDArray
+
+from contact_sim_pkg.compiled.jit import kernel
+from contact_sim_pkg.pressure.field.halfspace import HalfSpace, convolve, precondition
+from contact_sim_pkg.pressure.field.iteration import SolverWorkspace, evaluate, hold_load
+
+__all__ = ["FIRST_LENGTH", "MOST_CORRECTIONS", "follow"]
+
+CHANGE = 6.0
+"""Largest last change of the field, over the tolerance."""
+
+MOST_CORRECTIONS = 24
+"""After so many the prediction was of no use, or the tolerance asks for lengths without guessing."""
+
+FIRST_LENGTH = 0.4
+"""Length of a correction before there is experience."""
+
+LENGTHS = (0.1, 1.5)
+"""Shortest and longest correction."""
+
+FACTORS = (0.3, 3.0)
+"""Least and largest factor that puts a length right."""
+
+Values = NDArray[numpy.float64]
+
+
+class Followed(NamedTuple):
+    """How far the corrections came."""
+
+    certified: bool  # otherwise the rest means nothing
+    corrections: int
+    approach: float  # [m]
+    residual: float  # [-]
+
+
+class Change(NamedTuple):
+    """What the last correction did."""
+
+    factor: float  # [-] by which it should have been longer
+    size: float  # [-] L2 norm over that of the field
+
+
+@kernel
+def follow(
+    half_space: HalfSpace,
+    workspace: SolverWorkspace,
+    approach: float,
+    total: float,
+    tolerance: float,
+    least_corrections: int,
+    max_corrections: int,
+    lengths: Values,
+) -> Followed:
+    """Correct the prediction in `pressure` and `surface` until it is certified; `total` as in `field_solver.iterate`."""
+    holds_load = total >= 0.0
+    contact, pulling = list_cells(workspace)
+    response_known = False
+    for correction in range(min(max_corrections, MOST_CORRECTIONS)):
+        state = evaluate(workspace, contact, 0, approach, holds_load)
+        if contact == 0 or not abs(state.approach) < numpy.inf:
+            break
+        seek(half_space, workspace, state.free, holds_load, response_known)
+        contact, left = move(workspace, state.free, pulling, lengths[correction])
+        factor = hold_load(workspace, contact, total) if holds_load else 1.0
+        if contact == 0 or not 0.0 < factor < numpy.inf:
+            break
+        respond(half_space, workspace)
+        change = weigh(workspace, contact, left, state.approach)
+        state = evaluate(workspace, contact, left, approach, holds_load)
+        longer = lengths[correction] * math.sqrt(math.sqrt(change.factor))
+        lengths[correction] = min(max(longer, LENGTHS[0]), LENGTHS[1])
+        enough = correction + 1 >= least_corrections and change.size <= CHANGE * tolerance
+        if enough and state.residual <= tolerance:
+            return Followed(True, correction + 1, state.approach, state.residual)
+        contact, pulling = put_right(workspace, contact, state.free, left, change.factor)
+        response_known = True
+    return Followed(False, 0, approach, numpy.inf)
+
+
+@kernel
+def list_cells(workspace: SolverWorkspace) -> tuple[int, int]:
+    """List the cells that press as free and those that pull as left; returns how many of each."""
+    pressure, residual, direction = workspace.pressure, workspace.residual, workspace.direction
+    free, left = workspace.cells.free, workspace.cells.left
+    rows, cols = pressure.shape
+    contact, pulling = 0, 0
+    for i in range(rows):
+        for j in range(cols):
+            residual[i, j] = 0.0
+            direction[i, j] = 0.0
+            if pressure[i, j] > 0.0:
+                free[contact] = i * cols + j
+                contact += 1
+            elif pressure[i, j] < 0.0:
+                left[pulling] = i * cols + j
+                pulling += 1
+    return contact, pulling
+
+
+@kernel
+def seek(half_space: HalfSpace, workspace: SolverWorkspace, count: int, holds_load: bool, response_known: bool) -> None:
+    """New direction on the free cells; `direction` holds the step before, `response` what it displaced."""
+    precondition(half_space, workspace.buffers, workspace.residual, workspace.filtered)
+    filtered, residual = workspace.cells.filtered, workspace.cells.residual
+    direction, response = workspace.cells.direction, workspace.cells.response
+    free = workspace.cells.free
+    total, across, along = 0.0, 0.0, 0.0
+    for m in range(count):
+        k = free[m]
+        total += filtered[k]
+        if response_known:
+            across += filtered[k] * response[k]
+            along += direction[k] * response[k]
+    mean = total / max(float(count), 1.0) if holds_load else 0.0
+    momentum = max(across / along, 0.0) if along > 0.0 else 0.0
+    surplus, descent = 0.0, 0.0
+    for m in range(count):
+        k = free[m]
+        value = mean - filtered[k] + momentum * direction[k]
+        direction[k] = value
+        surplus += value
+        descent += value * residual[k]
+    if descent >= 0.0:
+        for m in range(count):
+            direction[free[m]] = mean - filtered[free[m]]
+    elif holds_load:
+        surplus /= max(float(count), 1.0)
+        for m in range(count):
+            direction[free[m]] -= surplus
+
+
+@kernel
+def move(workspace: SolverWorkspace, count: int, pulling: int, length: float) -> tuple[int, int]:
+    """Step along the direction and clip at zero; `direction` becomes minus the pressure before.
+
+    The first `pulling` cells of `left` pulled: they let go. Returns the numbers of cells in contact and of cells that left.
+    """
+    pressure, direction = workspace.cells.pressure, workspace.cells.direction
+    free, leaving = workspace.cells.free, workspace.cells.left
+    for m in range(pulling):
+        k = leaving[m]
+        direction[k] = -pressure[k]
+        pressure[k] = 0.0
+    contact, left = 0, pulling
+    for m in range(count):
+        k = free[m]
+        before = pressure[k]
+        after = before + length * direction[k]
+        direction[k] = -before
+        if after > 0.0:
+            pressure[k] = after
+            free[contact] = k
+            contact += 1
+        else:
+            pressure[k] = 0.0
+            leaving[left] = k
+            left += 1
+    return contact, left
+
+
+@kernel
+def respond(half_space: HalfSpace, workspace: SolverWorkspace) -> None:
+    """Deformed surface from the pressure alone, and what it moved by in `response`; 0 where it was not known before."""
+    surface, height, response = workspace.surface, workspace.height, workspace.response
+    convolve(half_space, workspace.buffers, workspace.pressure, response)
+    rows, cols = surface.shape
+    for i in range(rows):
+        for j in range(cols):
+            now = response[i, j] + height[i, j]
+            response[i, j] = now - surface[i, j] if surface[i, j] < numpy.inf else 0.0
+            surface[i, j] = now
+
+
+@kernel
+def weigh(workspace: SolverWorkspace, contact: int, left: int, approach: float) -> Change:
+    """Complete the step in `direction`, and judge it; `approach` is that before the step."""
+    pressure, direction = workspace.cells.pressure, workspace.cells.direction
+    surface, response = workspace.cells.surface, workspace.cells.response
+    free, leaving = workspace.cells.free, workspace.cells.left
+    work, curvature, size, norm = 0.0, 0.0, 0.0, 0.0
+    for m in range(contact):
+        k = free[m]
+        p = pressure[k]
+        step = direction[k] + p
+        direction[k] = step
+        work += (surface[k] - response[k] - approach) * step
+        curvature += step * response[k]
+        size += step * step
+        norm += p * p
+    for m in range(left):
+        k = leaving[m]
+        step = direction[k]
+        work += (surface[k] - response[k] - approach) * step
+        curvature += step * response[k]
+        size += step * step
+    factor = min(max(-work / curvature, FACTORS[0]), FACTORS[1]) if curvature > 0.0 else 1.0
+    return Change(factor, math.sqrt(size / norm))
+
+
+@kernel
+def put_right(workspace: SolverWorkspace, contact: int, count: int, left: int, factor: float) -> tuple[int, int]:
+    """Make the last step `factor` times as long, surface and all; returns the numbers of cells that press and that pull."""
+    surface, response = workspace.surface, workspace.response
+    pressure, direction, residual = workspace.cells.pressure, workspace.cells.direction, workspace.cells.residual
+    free, leaving = workspace.cells.free, workspace.cells.left
+    further = factor - 1.0
+    rows, cols = surface.shape
+    for i in range(rows):
+        for j in range(cols):
+            surface[i, j] += further * response[i, j]
+    for m in range(left):
+        direction[leaving[m]] = 0.0
+    for m in range(count):
+        residual[free[m]] = 0.0
+    pressing, pulling = 0, 0
+    for m in range(contact):
+        k = free[m]
+        p = pressure[k] + further * direction[k]
+        pressure[k] = p
+        if p > 0.0:
+            free[pressing] = k
+            pressing += 1
+        elif p < 0.0:
+            leaving[pulling] = k
+            pulling += 1
+    return pressing, pulling

@@ -1,0 +1,267 @@
+"""Does a field that was solved on a window hold outside it? Bounds first, direct sums where they leave a doubt.
+
+A window is enough if no cell outside it penetrates. The gap of a block of cells outside is not less than its lowest gap plus
+the displacement that the pressure of each block inside causes at the largest distance between the two. Only cells of blocks
+where that bound fails are evaluated, from the influence table. The bound holds for any influence that decays with distance.
+"""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy
+from numpy.typing import NDArray
+
+from contact_sim_pkg.compiled.jit import kernel
+from contact_sim_pkg.pressure.field.halfspace import Field, HalfSpace
+
+__all__ = ["enclose", "widened"]
+
+BLOCK = 4
+"""Cells along a side of a block."""
+
+MIDDLE, COARSE = 8, 16
+"""Cells along a side of larger blocks, which are tried first; each a multiple of the size before."""
+
+MARGIN = 2
+"""Cells around a contact that belong to its window."""
+
+Values = NDArray[numpy.float64]
+Places = NDArray[numpy.int64]
+
+
+class Blocks(NamedTuple):
+    """Pressures added up over square blocks of cells; scratch."""
+
+    side: int  # [cells]
+    sums: Field  # [Pa] [rows/side, cols/side]
+    pressures: Values  # [Pa] those that are not zero
+    loaded: Places  # first row and column of these
+    number: Places  # [1] how many they are
+    line: Values  # [Pa] [cols]
+
+
+@kernel
+def make_blocks(half_space: HalfSpace, side: int) -> Blocks:
+    """Scratch for blocks of `side` x `side` cells."""
+    rows, cols = -(-half_space.rows // side), -(-half_space.cols // side)
+    places = numpy.zeros((rows * cols, 2), dtype=numpy.int64)
+    number = numpy.zeros(1, dtype=numpy.int64)
+    return Blocks(
+        side, numpy.zeros((rows, cols)), numpy.zeros(rows * cols), places, number, numpy.zeros(half_space.cols)
+    )
+
+
+class BlockSums(NamedTuple):
+    """Blocks of three sizes."""
+
+    fine: Blocks
+    middle: Blocks
+    coarse: Blocks
+
+
+@kernel
+def make_block_sums(half_space: HalfSpace) -> BlockSums:
+    """Scratch for a grid; to hand it in from Python would take longer than to make it."""
+    return BlockSums(make_blocks(half_space, BLOCK), make_blocks(half_space, MIDDLE), make_blocks(half_space, COARSE))
+
+
+@kernel
+def widened(rows: int, cols: int, top: int, bottom: int, left: int, right: int) -> tuple[int, int, int, int]:
+    """Window that holds a box of cells and the margin, with sides that the transforms are fast for."""
+    height = good_side(bottom - top + 1 + 2 * MARGIN, rows)
+    width = good_side(right - left + 1 + 2 * MARGIN, cols)
+    first_row = min(max((top + bottom + 1 - height) // 2, 0), rows - height)
+    first_col = min(max((left + right + 1 - width) // 2, 0), cols - width)
+    return first_row, first_col, height, width
+
+
+@kernel
+def good_side(least: int, most: int) -> int:
+    """The next side of a window [cells], or `most`: even and a product of 2, 3 and 5."""
+    side = least + least % 2
+    while side < most:
+        rest = side
+        for prime in (2, 3, 5):
+            while rest % prime == 0:
+                rest //= prime
+        if rest == 1:
+            return side
+        side += 2
+    return most
+
+
+@kernel
+def enclose(
+    half_space: HalfSpace,
+    gap: Field,
+    approach: float,
+    pressure: Field,
+    first_row: int,
+    first_col: int,
+    window_rows: int,
+    window_cols: int,
+) -> tuple[int, int, int, int]:
+    """Smallest window that holds the given one and every cell outside it that penetrates."""
+    rows, cols = gap.shape
+    end_row, end_col = first_row + window_rows, first_col + window_cols
+    top, bottom, left, right = rows, -1, cols, -1
+    blocks, added = make_block_sums(half_space), False
+    for i in range(0, rows, BLOCK):
+        for j in range(0, cols, BLOCK):
+            inside_rows = first_row <= i and min(i + BLOCK, rows) <= end_row
+            if inside_rows and first_col <= j and min(j + BLOCK, cols) <= end_col:
+                continue
+            depth = approach - lowest_of_block(gap, i, j, approach)
+            if depth <= 0.0:
+                continue
+            if not added:
+                add_up(pressure, blocks)
+                added = True
+            least = least_displacement(half_space, blocks, i, j, BLOCK, depth)
+            if least < depth:
+                window = (first_row, first_col, end_row, end_col)
+                box = penetrating(half_space, gap, approach, pressure, blocks, window, i, j, least)
+                top, bottom = min(top, box[0]), max(bottom, box[1])
+                left, right = min(left, box[2]), max(right, box[3])
+    if bottom < 0:
+        return first_row, first_col, window_rows, window_cols
+    top, bottom = min(top, first_row + MARGIN), max(bottom, end_row - 1 - MARGIN)
+    left, right = min(left, first_col + MARGIN), max(right, end_col - 1 - MARGIN)
+    return widened(rows, cols, top, bottom, left, right)
+
+
+@kernel
+def penetrating(
+    half_space: HalfSpace,
+    gap: Field,
+    approach: float,
+    pressure: Field,
+    blocks: BlockSums,
+    window: tuple[int, int, int, int],
+    i: int,
+    j: int,
+    least: float,
+) -> tuple[int, int, int, int]:
+    """Box of the cells of a block that penetrate outside the window; all are displaced by `least` [m] at least."""
+    rows, cols = gap.shape
+    first_row, first_col, end_row, end_col = window
+    top, bottom, left, right = rows, -1, cols, -1
+    for row in range(i, min(i + BLOCK, rows)):
+        for col in range(j, min(j + BLOCK, cols)):
+            depth = approach - gap[row, col]
+            if depth <= least or (first_row <= row < end_row and first_col <= col < end_col):
+                continue
+            if displacement_at(half_space, pressure, blocks.fine.line, row, col, first_row, end_row) < depth:
+                top, bottom = min(top, row), max(bottom, row)
+                left, right = min(left, col), max(right, col)
+    return top, bottom, left, right
+
+
+@kernel
+def least_displacement(half_space: HalfSpace, blocks: BlockSums, i: int, j: int, side: int, depth: float) -> float:
+    """Displacement [m] that all of the `side` x `side` cells from (i, j) surely have, sought until it reaches `depth`."""
+    least = bound(half_space, blocks.coarse, i, j, side, depth)
+    if least < depth:
+        least = max(least, bound(half_space, blocks.middle, i, j, side, depth))
+    if least < depth:
+        least = max(least, bound(half_space, blocks.fine, i, j, side, depth))
+    return least
+
+
+@kernel
+def add_up(pressure: Field, blocks: BlockSums) -> None:
+    """Sums of the pressure over blocks of all sizes."""
+    add_up_cells(pressure, blocks.fine)
+    add_up_blocks(blocks.fine, blocks.middle)
+    add_up_blocks(blocks.middle, blocks.coarse)
+
+
+@kernel
+def add_up_cells(pressure: Field, blocks: Blocks) -> None:
+    """Sums of the pressure over blocks of cells."""
+    rows, cols = pressure.shape
+    side, sums, line = blocks.side, blocks.sums, blocks.line
+    for a in range(sums.shape[0]):
+        for j in range(cols):
+            line[j] = pressure[a * side, j]
+        for i in range(a * side + 1, min((a + 1) * side, rows)):
+            for j in range(cols):
+                line[j] += pressure[i, j]
+        for b in range(sums.shape[1]):
+            total = 0.0
+            for j in range(b * side, min((b + 1) * side, cols)):
+                total += line[j]
+            sums[a, b] = total
+    list_loaded(blocks)
+
+
+@kernel
+def add_up_blocks(fine: Blocks, coarse: Blocks) -> None:
+    """Sums over larger blocks from those over smaller ones."""
+    ratio = coarse.side // fine.side
+    for a in range(coarse.sums.shape[0]):
+        for b in range(coarse.sums.shape[1]):
+            coarse.sums[a, b] = 0.0
+    for a in range(fine.sums.shape[0]):
+        for b in range(fine.sums.shape[1]):
+            coarse.sums[a // ratio, b // ratio] += fine.sums[a, b]
+    list_loaded(coarse)
+
+
+@kernel
+def list_loaded(blocks: Blocks) -> None:
+    """List the blocks with pressure in them."""
+    count = 0
+    for a in range(blocks.sums.shape[0]):
+        for b in range(blocks.sums.shape[1]):
+            if blocks.sums[a, b] > 0.0:
+                blocks.loaded[count, 0], blocks.loaded[count, 1] = a * blocks.side, b * blocks.side
+                blocks.pressures[count] = blocks.sums[a, b]
+                count += 1
+    blocks.number[0] = count
+
+
+@kernel
+def lowest_of_block(gap: Field, i: int, j: int, most: float) -> float:
+    """Lowest gap [m] of a block, or `most` where none is lower."""
+    end_row, end_col = min(i + BLOCK, gap.shape[0]), min(j + BLOCK, gap.shape[1])
+    least = most
+    for row in range(i, end_row):
+        for col in range(j, end_col):
+            if gap[row, col] < least:
+                least = gap[row, col]
+    return least
+
+
+@kernel
+def bound(half_space: HalfSpace, blocks: Blocks, i: int, j: int, side: int, depth: float) -> float:
+    """As `least_displacement`: the pressure of each block at the largest distance between two cells of the two blocks."""
+    influence, loaded, far = half_space.influence, blocks.loaded, blocks.side - 1
+    last_row, last_col = influence.shape[0] - 1, influence.shape[1] - 1
+    total = 0.0
+    for k in range(blocks.number[0]):
+        away_x = max(i + side - 1 - loaded[k, 0], loaded[k, 0] + far - i)
+        away_y = max(j + side - 1 - loaded[k, 1], loaded[k, 1] + far - j)
+        total += blocks.pressures[k] * influence[min(away_x, last_row), min(away_y, last_col)]
+        if total >= depth:
+            break
+    return total
+
+
+@kernel
+def displacement_at(
+    half_space: HalfSpace, pressure: Field, line: Values, row: int, col: int, first_row: int, end_row: int
+) -> float:
+    """Displacement [m] of one cell by a direct sum over the loaded rows; `line` [cols] is scratch."""
+    cols, mirrored = pressure.shape[1], half_space.mirrored
+    for j in range(cols):
+        line[j] = 0.0
+    for i in range(first_row, end_row):
+        loads, table = pressure[i], mirrored[abs(i - row), cols - 1 - col :]
+        for j in range(cols):
+            line[j] += loads[j] * table[j]
+    total = 0.0
+    for j in range(cols):
+        total += line[j]
+    return total

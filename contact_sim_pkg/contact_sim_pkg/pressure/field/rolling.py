@@ -1,0 +1,268 @@
+"""The pressure field of a contact that rolls: each field starts from a prediction, on the cells that it needs.
+
+Prediction and its displacement come from the two fields before (`pressure/field/prediction.py`); corrections follow, each certified
+by its own convolution (`pressure/field/follow.py`). Where that does not converge the solver of `pressure/field/solver.py` goes on.
+Where nothing is known the start is the field on a grid of half as many cells each way, itself started like that.
+
+Window: the solver works on the box of the contact before and a margin. A window is enough if no cell outside it penetrates,
+which is checked after each solve (`pressure/field/outside.py`). Where one penetrates the window grows and the solve goes on.
+"""
+
+from __future__ import annotations
+
+from functools import cache
+
+import numpy
+from numpy.typing import NDArray
+
+from contact_sim_pkg.pressure.field.follow import FIRST_LENGTH, MOST_CORRECTIONS
+from contact_sim_pkg.pressure.field.halfspace import Field, HalfSpace, coarsened, make_half_space, yields_further
+from contact_sim_pkg.pressure.field.instant import Instant, all_finite, grown_window, keep_window, solve_instant
+from contact_sim_pkg.pressure.field.nested import double, halve
+from contact_sim_pkg.pressure.field.outside import widened
+from contact_sim_pkg.pressure.field.prediction import EXTRAPOLATION, make_known
+from contact_sim_pkg.pressure.field.solver import (
+    BAD_INPUT,
+    CONVERGED,
+    EDGE,
+    FieldResult,
+    solve_at_approach,
+    solve_at_load,
+)
+from contact_sim_pkg.pressure.field.window import Part, Window, make_part, put_back, take
+
+__all__ = ["RollingField"]
+
+LEAST_OF_HALF = 24
+"""Rows and columns below which a coarser grid costs more than it saves."""
+
+TOLERANCE_OF_HALF = 1e-1
+"""Of the field on the coarser grid; the grids differ by more."""
+
+MOST_TRAVEL = 0.1
+"""Of a window's rows: after more travel the field before is no start any more."""
+
+NOWHERE = (0, -1, 0, -1)
+
+NEW, REPEAT, START = 0, 1, 2
+"""Lengths of corrections are known apart for a new instant, another solve at the same, and a start from nothing."""
+
+FEW_CORRECTIONS = 2
+"""Of a grid where a belt yields beside the half-space: corrections of learned length do not converge there, gradients do."""
+
+FROM_PRESSURE = -1.0
+"""In place of a share of extrapolation: start from the pressure on the whole grid."""
+
+Values = NDArray[numpy.float64]
+Box = tuple[int, int, int, int]
+
+
+class RollingField:
+    """One pressure field and what is known of it from the instants before. Rows lie along the travel.
+
+    `roll` begins an instant and says how far the road moved, `solve_at_load` or `solve_at_approach` solves there; `pressure`
+    [Pa] is the field. A solve without `roll` repeats the instant: it starts from the last field, which it replaces.
+    """
+
+    def __init__(self, half_space: HalfSpace) -> None:
+        """Take the whole grid; tables of a window's size are made when it first comes (about 1 ms) and kept."""
+        self.half_space = half_space
+        self.pressure: Field = numpy.zeros((half_space.rows, half_space.cols))
+        self._last, self._before = make_known(half_space), make_known(half_space)
+        self._instants = 0  # known, at most 2
+        self._cells: int | None = None  # of travel since the last field, if a new instant began
+        self._box: Box = NOWHERE  # of the last field's contact
+        self._lengths: Values = numpy.full((3, MOST_CORRECTIONS), FIRST_LENGTH)
+        self._corrections = FEW_CORRECTIONS if yields_further(half_space) else MOST_CORRECTIONS
+        self._parts: dict[tuple[int, int], Part] = {}
+        self._half = _half_of(half_space)
+        self._gap_of_half: Field = numpy.zeros((half_space.rows // 2, half_space.cols // 2))
+        compile_now()
+
+    @property
+    def convolutions(self) -> int:
+        """Done so far on this grid, coarser ones not counted."""
+        return sum(int(part.workspace.buffers.convolutions[0]) for part in self._parts.values())
+
+    def roll(self, cells: int) -> None:
+        """A new instant: the road moved by `cells` rows towards row 0 since the last field; negative: the other way."""
+        self._cells = int(cells) + (self._cells or 0)
+
+    def forget(self) -> None:
+        """The next field starts from nothing."""
+        self._instants, self._cells, self._box = 0, None, NOWHERE
+        self._lengths.fill(FIRST_LENGTH)
+        self.pressure.fill(0.0)
+
+    def solve_at_load(self, gap: Field, load: float, tolerance: float, max_iterations: int) -> FieldResult:
+        """As `field_solver.solve_at_load`, into `pressure`. BAD_INPUT leaves what is known as it was."""
+        return self._solve(gap, float(load), True, float(tolerance), int(max_iterations))
+
+    def solve_at_approach(self, gap: Field, approach: float, tolerance: float, max_iterations: int) -> FieldResult:
+        """As `field_solver.solve_at_approach`, into `pressure`. BAD_INPUT leaves what is known as it was."""
+        return self._solve(gap, float(approach), False, float(tolerance), int(max_iterations))
+
+    def _solve(self, gap: Field, given: float, holds_load: bool, tolerance: float, max_iterations: int) -> FieldResult:
+        whole = self.half_space
+        if gap.shape != (whole.rows, whole.cols):
+            raise ValueError(f"pressure field: gap is {gap.shape}, it must be {(whole.rows, whole.cols)}")
+        if not (numpy.isfinite(given) and (given >= 0.0 or not holds_load) and all_finite(gap)):
+            return FieldResult(BAD_INPUT, 0, 0.0, numpy.nan, numpy.inf)
+        repeats, window, spent = self._begin(), self._expected(), 0
+        share, lengths = (0.0, REPEAT) if repeats else (EXTRAPOLATION if self._instants > 1 else 0.0, NEW)
+        if window is None:
+            window, share, lengths = self._start(gap, given, holds_load, max_iterations), FROM_PRESSURE, START
+        while True:
+            found = self._correct(
+                window, gap, given, holds_load, tolerance, min(max_iterations - spent, self._corrections), repeats,
+                share, lengths,
+            )  # fmt: skip
+            spent += found.corrections
+            if not found.certified:
+                return self._settle(window, gap, given, holds_load, tolerance, max_iterations, spent, repeats)
+            if found.window == window:
+                self._end(repeats, found.box)
+                return self._judged(FieldResult(CONVERGED, spent, found.load, found.approach, found.residual))
+            window, share, lengths = Window(*found.window), FROM_PRESSURE, START
+
+    def _begin(self) -> bool:
+        """Carry what is known to where the road is now; whether this is another solve at the same instant."""
+        repeats = self._cells is None and self._instants > 0
+        for known in (self._last, self._before):
+            known.place[4] += self._cells or 0
+        self._cells = None
+        return repeats
+
+    def _end(self, repeats: bool, box: Box) -> None:
+        """The new field was kept: in place of the last one if that was of the same instant."""
+        self._box = box
+        if not repeats:
+            self._last, self._before = self._before, self._last
+            self._instants = min(self._instants + 1, 2)
+
+    def _expected(self) -> Window | None:
+        """Where the contact will be: around the place of the last; None where nothing useful is known."""
+        if self._instants == 0 or self._box == NOWHERE:
+            return None
+        top, bottom, left, right = self._box
+        window = Window(*widened(self.half_space.rows, self.half_space.cols, top, bottom, left, right))
+        return window if abs(self._last.place[4]) <= MOST_TRAVEL * window.rows else None
+
+    def _start(self, gap: Field, given: float, holds_load: bool, max_iterations: int) -> Window:
+        """Start from the field on a grid of half as many cells each way, itself started like that, or from nothing."""
+        half, whole = self._half, Window(0, 0, self.half_space.rows, self.half_space.cols)
+        if half is None:
+            self.pressure.fill(0.0)
+            return whole
+        half.forget()
+        halve(gap, self._gap_of_half)
+        solve = half.solve_at_load if holds_load else half.solve_at_approach
+        solve(self._gap_of_half, given, TOLERANCE_OF_HALF, max_iterations)
+        window = Window(*double(half.pressure, self.pressure))
+        return window if window.rows else whole
+
+    def _correct(
+        self,
+        window: Window,
+        gap: Field,
+        given: float,
+        holds_load: bool,
+        tolerance: float,
+        max_corrections: int,
+        repeats: bool,
+        share: float,
+        lengths: int,
+    ) -> Instant:
+        part = self._part(window.rows, window.cols)
+        return solve_instant(
+            self.half_space, part.half_space, part.workspace, gap, given, holds_load, tolerance, max_corrections,
+            window.first_row, window.first_col, self._last, self._before, repeats, share, self._lengths[lengths],
+            self.pressure,
+        )  # fmt: skip
+
+    def _settle(
+        self,
+        window: Window,
+        gap: Field,
+        given: float,
+        holds_load: bool,
+        tolerance: float,
+        max_iterations: int,
+        spent: int,
+        repeats: bool,
+    ) -> FieldResult:
+        """Solve from the start in `pressure`, on windows that grow until no cell outside penetrates."""
+        result = self._solve_in(window, gap, given, holds_load, tolerance, max_iterations - spent)
+        while result.status in (CONVERGED, EDGE):
+            grown = self._grown(window, gap, result.approach)
+            if grown == window:
+                break
+            window, spent = grown, spent + result.iterations
+            result = self._solve_in(window, gap, given, holds_load, tolerance, max_iterations - spent)
+        if result.load > 0.0:
+            workspace, keep = self._part(window.rows, window.cols).workspace, self._last if repeats else self._before
+            self._end(repeats, keep_window(workspace, window.first_row, window.first_col, keep, self.pressure))
+        else:
+            self._instants, self._box = 0, NOWHERE
+        return self._judged(result._replace(iterations=result.iterations + spent))
+
+    def _solve_in(
+        self, window: Window, gap: Field, given: float, holds_load: bool, tolerance: float, max_iterations: int
+    ) -> FieldResult:
+        part = self._part(window.rows, window.cols)
+        take(gap, window.first_row, window.first_col, part.gap)
+        take(self.pressure, window.first_row, window.first_col, part.pressure)
+        solve = solve_at_load if holds_load else solve_at_approach
+        result = solve(part.half_space, part.workspace, part.gap, given, tolerance, max_iterations, part.pressure)
+        put_back(part.pressure, window.first_row, window.first_col, self.pressure)
+        return result
+
+    def _grown(self, window: Window, gap: Field, approach: float) -> Window:
+        """The window, or a larger one that holds the cells outside it that penetrate."""
+        whole = self.half_space
+        if (window.rows, window.cols) == (whole.rows, whole.cols):
+            return window
+        return Window(*grown_window(whole, gap, approach, self.pressure, *window))
+
+    def _judged(self, result: FieldResult) -> FieldResult:
+        """EDGE is about the whole grid's edge: the window's edge was checked."""
+        if result.status not in (CONVERGED, EDGE) or self._box == NOWHERE:
+            return result
+        top, bottom, left, right = self._box
+        at_edge = top == 0 or left == 0 or bottom == self.half_space.rows - 1 or right == self.half_space.cols - 1
+        return result._replace(status=EDGE if at_edge else CONVERGED)
+
+    def _part(self, rows: int, cols: int) -> Part:
+        part = self._parts.get((rows, cols))
+        if part is None:
+            part = self._parts[rows, cols] = make_part(self.half_space, rows, cols)
+        return part
+
+
+def _half_of(whole: HalfSpace) -> RollingField | None:
+    """A grid with cells of twice the size; None where it would be too coarse to help."""
+    rows, cols = whole.rows, whole.cols
+    if min(rows, cols) < 2 * LEAST_OF_HALF or rows % 2 or cols % 2:
+        return None
+    return RollingField(coarsened(whole))
+
+
+@cache
+def compile_now() -> None:
+    """Compile all of it on a grid of four cells: a path that was never taken may be needed in the middle of a run."""
+    half_space, field, wide = make_half_space(2, 2, 1.0, 1.0, 1.0), numpy.zeros((2, 2)), numpy.zeros((4, 4))
+    part, known = make_part(half_space, 2, 2), make_known(half_space)
+    all_finite(field)
+    lengths = numpy.full(MOST_CORRECTIONS, FIRST_LENGTH)
+    solve_instant(
+        half_space, part.half_space, part.workspace, field, 1.0, True, 1.0, 1, 0, 0, known, known, False, FROM_PRESSURE,
+        lengths, field,
+    )  # fmt: skip
+    solve_at_load(half_space, part.workspace, field, 1.0, 1.0, 1, field)
+    keep_window(part.workspace, 0, 0, known, field)
+    grown_window(half_space, field, 1.0, field, 0, 0, 2, 2)
+    take(field, 0, 0, part.gap)
+    put_back(part.gap, 0, 0, field)
+    halve(wide, field)
+    double(field, wide)
+    widened(2, 2, 0, 1, 0, 1)

@@ -1,0 +1,33 @@
+"""Grid, accuracy and belt of a pressure field, in SI units."""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+
+class Belt(NamedTuple):
+    """A belt under tension on an elastic foundation, rigid across its width: what bends over an obstacle."""
+
+    tension: float  # [N], > 0
+    foundation: float  # [N/m^2] radial stiffness per length of circumference, > 0
+
+
+class FieldSettings(NamedTuple):
+    """Grid and accuracy of one pressure field."""
+
+    rows: int
+    cols: int
+    cell_x: float  # [m]
+    cell_y: float  # [m]
+    modulus: float  # [Pa], plane-strain contact modulus E*
+    tolerance: float  # complementarity residual asked of the solver
+    maximum_iterations: int
+    corrector_passes: int  # most repetitions of a stretch with the field found at its end
+    belt: Belt | None = None  # yields in series with the half-space
+
+
+def widened(settings: FieldSettings) -> FieldSettings:
+    """The same cells on twice the extent: the grid that takes over where the contact outgrows the first."""
+    return settings._replace(
+        rows=settings.rows + 2 * (settings.rows // 2), cols=settings.cols + 2 * (settings.cols // 2)
+    )

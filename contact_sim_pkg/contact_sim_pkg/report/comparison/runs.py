@@ -1,0 +1,108 @@
+"""The page that compares several runs of one rig, in the form of the report of one."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from pathlib import Path
+
+from contact_sim_pkg.bag.errors import BagError
+from contact_sim_pkg.bag.reader import Bag
+from contact_sim_pkg.files import check_output, new_file
+from contact_sim_pkg.report import facts
+from contact_sim_pkg.report.comparison.figures import (
+    Run,
+    area_comparison,
+    force_comparison,
+    loop_comparison,
+    make_runs,
+    slap_comparison,
+)
+from contact_sim_pkg.report.comparison.figures_domain import domain_comparison
+from contact_sim_pkg.report.comparison.scene_differences import differences, labels
+from contact_sim_pkg.report.comparison.tables import difference_table, number_table
+from contact_sim_pkg.report.drawing import Picture, style
+from contact_sim_pkg.report.page import Section, environment, is_page
+from contact_sim_pkg.report.reading import read_recording
+from contact_sim_pkg.report.series import Recording
+from contact_sim_pkg.report.summary import summarise_recording
+
+TEMPLATE = "comparison.html.j2"
+FILE_NAME = "comparison.html"
+
+
+def write_comparison(bags: Sequence[Bag], out: Path | None = None, *, overwrite: bool = False) -> Path:
+    """Write one page on several bags of one rig.
+
+    Args:
+        bags: opened with `open_bag`, at least two.
+        out: file to write; a page of this command is made again, another
+            file only by `overwrite`; `comparison.html` in the working directory where it is None.
+
+    Returns:
+        Where the page is.
+
+    Raises:
+        BagError: a bag cannot be read, or the rigs differ.
+        FileRefusedError: `out` is another file, or part of a bag that is read.
+    """
+    path = Path(FILE_NAME) if out is None else out
+    read = [file for each in bags for file in (each.path, each.path.parent)]
+    check_output(path, read, overwrite=overwrite, ours=is_page)
+    page = render_comparison([read_recording(bag) for bag in bags])
+    with new_file(path, read, overwrite=overwrite, ours=is_page) as file:
+        file.write(page.encode())
+    return path
+
+
+def render_comparison(recordings: Sequence[Recording]) -> str:
+    """The page as text. Raises BagError for runs of different rigs, or fewer than two."""
+    refuse_other_rigs(recordings)
+    called = labels(recordings)
+    runs = make_runs(called.names, recordings)
+    summaries = [summarise_recording(each) for each in recordings]
+    title = " and ".join(dict.fromkeys(str(each.scene.get("name") or each.name) for each in recordings))
+    page: str = (
+        environment()
+        .get_template(TEMPLATE)
+        .render(
+            title=title,
+            warnings=[f"{each.name}: {text}" for each in recordings for text in facts.warnings(each)],
+            told_apart=difference_table(recordings, differences([each.scene for each in recordings])),
+            numbers=number_table(runs, summaries),
+            sections=_sections(runs, called.title),
+        )
+    )
+    return page
+
+
+def refuse_other_rigs(recordings: Sequence[Recording]) -> None:
+    """Raises BagError where the runs are not of one rig, or fewer than two."""
+    if len(recordings) < 2:
+        raise BagError(f"a comparison needs at least two bags, {len(recordings)} given")
+    first = recordings[0]
+    for each in recordings[1:]:
+        if each.scene.get("rig") != first.scene.get("rig") or set(each.contacts) != set(first.contacts):
+            raise BagError(
+                f"bags of one rig can be compared: {first.name} is of rig {_rig(first)}, {each.name} of rig {_rig(each)}; "
+                "report them one by one"
+            )
+
+
+def _rig(recording: Recording) -> str:
+    contacts = ", ".join(recording.contacts) or "none"
+    return f"{recording.scene.get('rig') or 'unknown'} (contacts: {contacts})"
+
+
+def _sections(runs: list[Run], title: str) -> list[Section]:
+    with style():
+        found = []
+        for number, name in enumerate(runs[0].recording.contacts):
+            key = f"contact-{number}"
+            made: list[Picture | None] = [
+                force_comparison(key, name, runs, title),
+                domain_comparison(key, name, runs),
+                loop_comparison(key, name, runs, title),
+            ]
+            made += [area_comparison(key, name, runs, title), slap_comparison(key, name, runs, title)]
+            found.append(Section(key, f"{name.capitalize()} contact", [each for each in made if each is not None]))
+    return found

@@ -1,0 +1,63 @@
+"""What tells several runs apart: the values in which their scenes differ."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any, NamedTuple
+
+from contact_sim_pkg.report.rows import scene_value
+from contact_sim_pkg.report.series import Recording
+
+UNIMPORTANT = ("description",)
+LAST = ("duration", "block_length", "seed", "pace", "accuracy", "integrator", "outputs", "limits", "name")
+"""How a scene is run rather than what it is: tells runs apart only where nothing else does."""
+MOST_TOGETHER = 3
+"""Values that a legend can take."""
+ABSENT = "–"
+
+
+class Difference(NamedTuple):
+    """One value in which the scenes differ."""
+
+    key: str
+    """`vibration.frequency`"""
+    values: tuple[str, ...]
+    """with unit, one a run"""
+
+
+class Labels(NamedTuple):
+    """What a legend calls the runs."""
+
+    title: str
+    """the key of the scene, or `bag`"""
+    names: tuple[str, ...]
+
+
+def differences(scenes: Sequence[dict[str, Any]]) -> list[Difference]:
+    """Values that are not the same in all scenes, in the order of the first scene that has them; how it is run comes last."""
+    flat = [dict(_leaves(scene)) for scene in scenes]
+    keys = dict.fromkeys(key for each in flat for key in each if key)  # a bag without a scene has the empty key
+    found = []
+    for key in sorted(keys, key=lambda key: LAST.index(key[0]) + 1 if key[0] in LAST else 0):
+        values = tuple(scene_value(each[key], key) if each.get(key) is not None else ABSENT for each in flat)
+        if len(set(values)) > 1 and key[0] not in UNIMPORTANT:
+            found.append(Difference(".".join(key), values))
+    return found
+
+
+def labels(recordings: Sequence[Recording]) -> Labels:
+    """The first value that alone tells all runs apart; else all of them together, if few; else the names of the bags."""
+    found = differences([each.scene for each in recordings])
+    for each in found:
+        if len(set(each.values)) == len(recordings):
+            return Labels(each.key, each.values)
+    joined = tuple(", ".join(values) for values in zip(*(each.values for each in found), strict=True))
+    if len(found) <= MOST_TOGETHER and len(set(joined)) == len(recordings):
+        return Labels(", ".join(each.key for each in found), joined)
+    return Labels("bag", tuple(each.name for each in recordings))
+
+
+def _leaves(value: Any, location: tuple[str, ...] = ()) -> list[tuple[tuple[str, ...], Any]]:
+    if isinstance(value, dict) and value:
+        return [leaf for key, item in value.items() for leaf in _leaves(item, (*location, str(key)))]
+    return [(location, "on" if value == {} else value)] if location else []

@@ -1,0 +1,162 @@
+"""Drawing for the page: one style, and SVG that takes its colours from the page: light, dark or print."""
+
+from __future__ import annotations
+
+import io
+import re
+from collections.abc import Iterable
+from contextlib import AbstractContextManager
+from pathlib import Path
+from typing import Any, NamedTuple
+
+import matplotlib
+import numpy
+from markupsafe import Markup
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+from numpy.typing import NDArray
+
+from contact_sim_pkg.files import FileRefusedError, check_output, new_file
+from contact_sim_pkg.report.signal.decimate import BANDS, bands
+
+# Each colour stands for a variable of the page's style sheet; the value is what is seen where that is missing.
+INK = "#1c2126"
+MUTED = "#69727b"
+RULE = "#d9dee2"
+ACCENT = "#0a6c9e"
+SHADE = "#f1dfc6"
+VARIABLES = {INK: "--ink", MUTED: "--muted", RULE: "--rule", ACCENT: "--accent", SHADE: "--shade"}
+
+PRESSURE_COLOURS = "viridis"
+DISPLACEMENT_COLOURS = "cividis"
+STRESS_COLOURS = "magma"
+SHEAR_COLOURS = "inferno"
+WIDTH = 7.4
+"""[inch] of a picture across the page's column"""
+
+STYLE = {
+    "font.size": 9.0,
+    "font.family": "DejaVu Sans",  # comes with matplotlib; the page replaces it by its own
+    "axes.edgecolor": MUTED,
+    "axes.labelcolor": INK,
+    "axes.titlecolor": INK,
+    "axes.titlesize": 9.5,
+    "axes.titlelocation": "left",
+    "axes.linewidth": 0.7,
+    "axes.spines.top": False,
+    "axes.spines.right": False,
+    "axes.grid": True,
+    "axes.axisbelow": True,
+    "axes.formatter.useoffset": False,
+    "grid.color": RULE,
+    "grid.linewidth": 0.6,
+    "xtick.color": MUTED,
+    "ytick.color": MUTED,
+    "xtick.labelcolor": INK,
+    "ytick.labelcolor": INK,
+    "text.color": INK,
+    "lines.linewidth": 1.1,
+    "lines.solid_joinstyle": "round",
+    "legend.frameon": False,
+    "legend.fontsize": 8.5,
+    "figure.facecolor": "none",
+    "axes.facecolor": "none",
+    "savefig.facecolor": "none",
+    "svg.fonttype": "none",
+    "svg.hashsalt": "contact bench",
+    "path.simplify": True,
+}
+
+_IMAGE_NUMBER = re.compile(r' id="image[0-9a-f]+"')  # of its content: the same colour bar twice would have one twice
+_IDENTIFIER = re.compile(r'(\bid="|url\(#|href="#)')
+
+
+FloatArray = NDArray[numpy.float64]
+
+
+class Picture(NamedTuple):
+    """One picture of the page."""
+
+    svg: Markup
+    description: str
+    """read aloud in place of the picture"""
+    caption: str
+    """what one sees, with its numbers"""
+
+
+def new_figure(height: float, rows: int = 1, cols: int = 1, **options: Any) -> tuple[Figure, list[Axes]]:
+    """A figure of the page's width and `height` [inch], and its axes, row by row. Call inside `style()`."""
+    figure = Figure(figsize=(WIDTH, height), layout="constrained")
+    axes = figure.subplots(rows, cols, squeeze=False, **options)
+    return figure, [each for row in axes for each in row]
+
+
+def style() -> AbstractContextManager[None]:
+    """Context in which figures are made and rendered."""
+    return matplotlib.rc_context(dict(STYLE))
+
+
+BAND = " Band: smallest to largest value of each 350th of the time; line: its mean."
+"""Sentence of a caption where `draw_series` draws a band."""
+
+
+def draw_series(axes: Axes, time: FloatArray, values: FloatArray, **line: Any) -> str:
+    """A series as a line; a long one as the band that it fills with its mean as a line, and `BAND` for the caption."""
+    if values.size <= 2 * BANDS:
+        axes.plot(time, values, **line)
+        return ""
+    middle, low, mean, high = bands(time, values)
+    axes.fill_between(middle, low, high, color=line.get("color"), alpha=0.3, linewidth=0.0)
+    axes.plot(middle, mean, **line)
+    return BAND
+
+
+def check_picture(path: Path, inputs: Iterable[Path | None] = (), *, overwrite: bool = False) -> None:
+    """Refuse a picture that could not be written in the end; see `files.check_output`.
+
+    Raises:
+        FileRefusedError: also for an ending of `path` that names no format.
+    """
+    known = Figure().canvas.get_supported_filetypes()
+    if _format(path) not in known:
+        raise FileRefusedError(path, f"is no name of a picture; it ends in one of {', '.join(sorted(known))}")
+    check_output(path, inputs, overwrite=overwrite)
+
+
+def save_picture(figure: Figure, path: str | Path, *, overwrite: bool = False, **options: Any) -> Path:
+    """Write a figure into a new file, whose ending names the format; options as of `Figure.savefig`.
+
+    Raises:
+        FileRefusedError: as `check_picture`. OSError: it cannot be written.
+    """
+    check_picture(Path(path), overwrite=overwrite)
+    with new_file(Path(path), overwrite=overwrite) as file:
+        figure.savefig(file, format=_format(Path(path)), **options)
+    return Path(path)
+
+
+def _format(path: Path) -> str:
+    return path.suffix.removeprefix(".").lower()
+
+
+def picture(name: str, figure: Figure, description: str, caption: str) -> Picture:
+    """Render a figure as inline SVG.
+
+    Args:
+        name: of the picture on its page; keeps the identifiers of several pictures apart.
+        figure: made with `new_figure`.
+        description: plain text for those who do not see the picture.
+        caption: plain text below the picture.
+    """
+    buffer = io.StringIO()
+    figure.savefig(buffer, format="svg", dpi=150, metadata={"Date": None, "Creator": None})
+    text = buffer.getvalue()
+    body = text[text.index("<svg") :]
+    body = re.sub(r"<metadata>.*?</metadata>", "", body, flags=re.DOTALL)
+    body = _IMAGE_NUMBER.sub("", body)
+    body = _IDENTIFIER.sub(rf"\g<1>{name}-", body)
+    for colour, variable in VARIABLES.items():
+        body = body.replace(colour, f"var({variable})")
+    body = body.replace("<svg ", '<svg aria-hidden="true" focusable="false" ', 1)
+    # Text in the figure went through matplotlib, which escapes it.
+    return Picture(Markup(body), description, caption)  # noqa: S704

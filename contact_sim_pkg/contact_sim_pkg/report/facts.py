@@ -1,0 +1,103 @@
+"""What was run, as rows of text for the page: scene, effects, grids, tolerances, excitation, versions."""
+
+from __future__ import annotations
+
+from typing import Any, NamedTuple
+
+from contact_sim_pkg.bag.texts import excitation_of_text
+from contact_sim_pkg.report.rows import Row, described_rows, plain_name, scene_rows
+from contact_sim_pkg.report.series import Recording
+from contact_sim_pkg.rigs.impact.report.series import missing_impacts
+
+EXCITATION_KEY = "excitation"
+OUTCOME_KEYS = ("ended", "failure", "blocks_done", "wall_s", "stopped")
+EFFECT_NAMES = {
+    "normal_elastic": "elastic normal force",
+    "normal_dissipative": "loss in the normal direction",
+    "foam": "foam with plateau and densification",
+    "foam_hysteresis": "loss of foam without rate",
+    "general_dissipative": "loss after the general law",
+    "friction": "friction with true stick",
+    "contact_field": "pressure field",
+    "shift": "time-temperature shift",
+    "contact_stress": "stress over the contact",
+    "surface_waves": "circular surface wave",
+    "micro_front": "front of the micro-impact",
+    "thermal_volume": "position and volumes of the contact",
+    "history": "hereditary indentation",
+    "gauge_noise": "noise of the gauges",
+}
+
+
+class ExcitationFacts(NamedTuple):
+    """One excitation: where it acts, its parameters, and what was found and done."""
+
+    topic: str
+    rows: list[Row]
+    notes: list[str]
+
+
+def run_rows(recording: Recording) -> list[Row]:
+    """Rig, times, accuracy, tolerances and rates of the run, as far as the bag tells."""
+    rows = [Row("simulated time", f"{recording.duration:.6g} s")]
+    for key in ("rig", "block_length", "accuracy", "seed", "integrator", "outputs", "travel"):
+        value = recording.scene.get(key)
+        rows += scene_rows(value, (key,), shown_from=1 if isinstance(value, dict) and key != "integrator" else 0)
+    return rows
+
+
+def effect_rows(recording: Recording) -> dict[str, list[Row]]:
+    """By contact: each effect that acts, with its parameters, grids and tolerances."""
+    effects = recording.scene.get("effects")
+    if not isinstance(effects, dict):
+        return {}
+    return {
+        str(contact): [
+            _effect_row(str(contact), str(name), values) for name, values in named.items() if values is not None
+        ]
+        for contact, named in effects.items()
+        if isinstance(named, dict)
+    }
+
+
+def excitation_facts(recording: Recording) -> list[ExcitationFacts]:
+    """By topic: parameters and notes, such as clipped samples of a recorded signal."""
+    described = excitation_of_text(recording.metadata.get(EXCITATION_KEY), f"excitation of {recording.name}")
+    return [
+        ExcitationFacts(
+            str(topic),
+            described_rows({key: value for key, value in values.items() if key != "notes"}),
+            _sentences(values.get("notes")),
+        )
+        for topic, values in described.items()
+        if isinstance(values, dict)
+    ]
+
+
+def version_rows(recording: Recording) -> list[Row]:
+    """Versions of what the numbers depend on."""
+    other = (EXCITATION_KEY, *OUTCOME_KEYS)
+    return [Row(plain_name(key), text) for key, text in recording.metadata.items() if key not in other]
+
+
+def warnings(recording: Recording) -> list[str]:
+    """What a reader must know before the numbers: an unfinished bag, a run that failed or was stopped, impacts that are missing."""
+    found = list(recording.notes)
+    ended = recording.metadata.get("ended", "finished")
+    if ended != "finished":
+        reason = recording.metadata.get("failure", "")
+        found.append(f"The run ended before its last block: {ended}{'; ' + reason if reason else '.'}")
+    if recording.metadata.get("stopped"):
+        found.append(recording.metadata["stopped"])
+    return found + missing_impacts(recording.impacts, recording.scene)
+
+
+def _effect_row(contact: str, name: str, values: Any) -> Row:
+    given = {key: value for key, value in values.items() if value != []}
+    settings = scene_rows(given, ("effects", contact, name), shown_from=3) if given else []
+    text = ", ".join(f"{row.label} {row.value}".strip() for row in settings)
+    return Row(EFFECT_NAMES.get(name, plain_name(name)), text or "on")
+
+
+def _sentences(notes: Any) -> list[str]:
+    return [str(note) for note in notes] if isinstance(notes, list) else [str(notes)] if notes else []

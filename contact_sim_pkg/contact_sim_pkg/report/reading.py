@@ -1,0 +1,232 @@
+"""Bag -> `Recording`. Topics are found by message type, so a rig may call its contacts as it likes."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import contextmanager
+from typing import Any, NamedTuple
+
+import numpy as np
+from rosbags.serde import SerdeError
+from rosbags.typesys.store import Typestore
+
+from contact_sim_pkg.bag.columns import stacked
+from contact_sim_pkg.bag.errors import BagError
+from contact_sim_pkg.bag.reader import Bag
+from contact_sim_pkg.bag.texts import scene_of_text
+from contact_sim_pkg.bag.typestore import store_of_definition
+from contact_sim_pkg.report.field_series import FieldPass
+from contact_sim_pkg.report.point_reading import PointPass
+from contact_sim_pkg.report.series import (
+    ContactSeries,
+    CostSeries,
+    EpisodeSeries,
+    FloatArray,
+    LedgerSeries,
+    MotionSeries,
+    Recording,
+    TopicCount,
+)
+from contact_sim_pkg.report.signal.episodes import episode_series
+from contact_sim_pkg.rigs.impact.report.series import IMPACT_TYPES, ImpactPass
+from contact_sim_pkg.rigs.roller.report.series import ROLLER_TYPES, RollerPass
+from contact_sim_pkg.rigs.vehicle.tire.report.road_series import RoadPass
+from contact_sim_pkg.rigs.vehicle.tire.report.shear_series import ShearPass
+from contact_sim_pkg.scene.errors import SceneError
+
+FORCE = "contact_msgs_defs/msg/ContactForce"
+PATCH = "contact_msgs_defs/msg/ContactPatch"
+ROAD = "contact_msgs_defs/msg/RoadPatch"
+SHEAR = "contact_msgs_defs/msg/ContactShear"
+MOTION = "contact_msgs_defs/msg/BodyMotion"
+ENERGY = "contact_msgs_defs/msg/EnergyLedger"
+COST = "contact_msgs_defs/msg/SolverCost"
+EPISODES = "contact_msgs_defs/msg/ContactEpisodes"
+POINTS = "contact_msgs_defs/msg/ContactPoints"
+SERIES_TYPES = (FORCE, MOTION, ENERGY, COST, EPISODES)
+READ_TYPES = (*SERIES_TYPES, PATCH, ROAD, SHEAR, POINTS, *IMPACT_TYPES, *ROLLER_TYPES)
+CONTACT_COLUMNS = ("time", "sample_period", "normal", "tangential", "approach", "effective_height")
+IMPULSES = "impulses"  # absent from older bags
+MOTION_COLUMNS = ("time", "sample_period", "samples", "bodies", "position", "acceleration", "velocity")
+SCENE_KEY = "scene"
+
+
+def read_recording(bag: Bag) -> Recording:
+    """Read every series, in one pass over the bag.
+
+    Raises:
+        BagError: a message does not fit its definition, or a chunk is damaged and bad chunks are not skipped.
+    """
+    kinds = {row.type: row.definition for row in bag.topics.values() if row.type in READ_TYPES}
+    stores = {kind: store_of_definition(kind, definition) for kind, definition in kinds.items()}
+    decoded, fields, roads, shears, points, impacts, roller = _decode(bag, stores)
+
+    def columns(topic: str, names: tuple[str, ...]) -> dict[str, Any]:
+        kind = bag.topics[topic].type
+        return stacked(decoded[topic], stores[kind], kind, names)
+
+    topics = {kind: [name for name in decoded if bag.topics[name].type == kind] for kind in SERIES_TYPES}
+    known = {name for name, _ in stores[FORCE].fielddefs[FORCE][1]} if topics[FORCE] else set()
+    contact_columns = (*CONTACT_COLUMNS, IMPULSES) if IMPULSES in known else CONTACT_COLUMNS
+    contact_of = _contact_names(bag)
+    contacts = {contact_of[name]: _contact(columns(name, contact_columns)) for name in topics[FORCE]}
+    motion = next((_motion(columns(name, MOTION_COLUMNS)) for name in topics[MOTION]), None)
+    ledger = next((LedgerSeries(**columns(name, LedgerSeries._fields)) for name in topics[ENERGY]), None)
+    cost = next((_cost(columns(name, CostSeries._fields)) for name in topics[COST]), None)
+    listed = [name for name, row in bag.topics.items() if row.type == EPISODES]
+    episodes = next((_episodes(columns, name, name in decoded) for name in listed), None)
+    scene = scene_of_text(bag.scene, f"scene of {bag.path}")
+    return Recording(
+        name=bag.path.parent.name,
+        scene=scene,
+        notes=list(bag.notes),
+        metadata={key: text for key, text in bag.metadata.items() if key != SCENE_KEY},
+        topics=[TopicCount(name, row.type, bag.count(name)) for name, row in bag.topics.items()],
+        contacts=contacts,
+        fields={contact_of[name]: field.finish() for name, field in fields.items()},
+        motion=motion,
+        ledger=ledger,
+        cost=cost,
+        duration=_duration([*contacts.values(), *([motion] if motion else [])], scene, bag),
+        road=next((road.finish() for road in roads.values()), None),
+        shear=next((shear.finish() for shear in shears.values()), None),
+        episodes=episodes,
+        points=next((each.finish() for each in points.values()), None),
+        impacts=impacts.finish(),
+        roller=roller.finish(),
+    )
+
+
+@contextmanager
+def scenes_fit(bags: Sequence[Bag]) -> Iterator[None]:
+    """What fails inside on a scene that this version would not run, or on another definition, is a BagError that names it."""
+    try:
+        yield
+    except (BagError, OSError):
+        raise
+    except Exception:
+        from contact_sim_pkg.scene.resolve import read_explicit
+
+        for text, path in [(bag.scene, bag.path) for bag in bags if bag.scene is not None]:
+            try:
+                read_explicit(text, f"scene of {path}")
+            except SceneError as error:
+                raise BagError(f"{error.faults[0]}; no report can be made with this scene") from None
+        for bag in bags:
+            for name in [name for name, row in bag.topics.items() if row.type in READ_TYPES]:
+                bag.refuse_other_definition(name)
+        raise
+
+
+class Decoded(NamedTuple):
+    """Messages of the series by topic; fields, roads, shears and points are taken in one by one, for they are large."""
+
+    series: dict[str, list[tuple[int, Any]]]
+    fields: dict[str, FieldPass]
+    roads: dict[str, RoadPass]
+    shears: dict[str, ShearPass]
+    points: dict[str, PointPass]
+    impacts: ImpactPass
+    roller: RollerPass
+
+
+def _decode(bag: Bag, stores: dict[str, Typestore]) -> Decoded:
+    decoded = Decoded({}, {}, {}, {}, {}, ImpactPass(), RollerPass())
+    for message in bag.messages():
+        if message.type not in stores:
+            continue
+        seconds = message.log_time * 1e-9
+        try:
+            value = stores[message.type].deserialize_cdr(message.data, message.type)
+        except (SerdeError, AssertionError) as error:
+            where = f"{bag.path}: the message of {message.topic} at {seconds:.6f} s"
+            raise BagError(f"{where} does not fit the definition in the bag: {error}") from None
+        if message.type == PATCH:
+            decoded.fields.setdefault(message.topic, FieldPass()).take(seconds, value)
+        elif message.type == ROAD:
+            decoded.roads.setdefault(message.topic, RoadPass()).take(seconds, value)
+        elif message.type == SHEAR:
+            decoded.shears.setdefault(message.topic, ShearPass()).take(seconds, value)
+        elif message.type in IMPACT_TYPES:
+            decoded.impacts.take(message.type, value)
+        elif message.type in ROLLER_TYPES:
+            decoded.roller.take(seconds, message.type, value)
+        elif message.type == POINTS:
+            decoded.points.setdefault(message.topic, PointPass()).take(seconds, value)
+        else:
+            decoded.series.setdefault(message.topic, []).append((message.log_time, value))
+    return decoded
+
+
+def contact_name(topic: str) -> str:
+    """`/rig2/tire/force` -> `tire`: the part of a topic's name before its last one."""
+    parts = topic.strip("/").split("/")
+    return parts[-2] if len(parts) > 1 else parts[-1]
+
+
+def _contact_names(bag: Bag) -> dict[str, str]:
+    """Contact of each topic, by its name in the bag; BagError where two topics of a type call theirs the same."""
+    names: dict[str, str] = {}
+    seen: dict[tuple[str, str], str] = {}
+    for name, row in bag.topics.items():
+        names[name] = contact_name(row.relative_name or name)
+        other = seen.setdefault((row.type, names[name]), name)
+        if other != name and row.type in (FORCE, PATCH):
+            raise BagError(
+                f"{bag.path} has {other} and {name}, both of a contact {names[name]}; record each bench in a bag of its own"
+            )
+    return names
+
+
+def _duration(series: list[ContactSeries | MotionSeries], scene: dict[str, Any], bag: Bag) -> float:
+    """End of the last sample; without samples the end of the last block, as far as the scene tells its length."""
+    if series:
+        return max(float(each.time[-1]) + each.sample_period for each in series)
+    block_length = scene.get("block_length")
+    if isinstance(block_length, (int, float)) and bag.count():
+        return float((math.floor(bag.end * 1e-9 / block_length + 1e-9) + 1) * block_length)
+    return bag.end * 1e-9
+
+
+def _sample_times(columns: dict[str, Any], counts: list[int]) -> FloatArray:
+    """[s] of every sample, from the stamp of each message."""
+    period = float(columns["sample_period"][0])
+    starts = zip(columns["time"], counts, strict=True)
+    times: FloatArray = np.concatenate([start + period * np.arange(count) for start, count in starts])
+    return times
+
+
+def _contact(columns: dict[str, Any]) -> ContactSeries:
+    time = _sample_times(columns, [len(row) for row in columns["normal"]])
+    normal, tangential, approach, height = (
+        np.concatenate([*columns[name]]).astype(np.float64) for name in CONTACT_COLUMNS[2:]
+    )
+    impulses = np.concatenate([*columns[IMPULSES]]).astype(np.float64) if IMPULSES in columns else np.zeros(0)
+    return ContactSeries(time, float(columns["sample_period"][0]), normal, tangential, approach, height, impulses)
+
+
+def _motion(columns: dict[str, Any]) -> MotionSeries:
+    counts = [int(count) for count in columns["samples"]]
+    bodies = [str(name) for name in columns["bodies"][0]]
+    position, acceleration, velocity = (
+        np.concatenate([np.reshape(row, (len(bodies), -1)) for row in columns[name]], axis=1)
+        for name in ("position", "acceleration", "velocity")
+    )
+    return MotionSeries(
+        _sample_times(columns, counts),
+        float(columns["sample_period"][0]),
+        dict(zip(bodies, position, strict=True)),
+        dict(zip(bodies, acceleration, strict=True)),
+        dict(zip(bodies, velocity, strict=True)),
+    )
+
+
+def _episodes(columns: Callable[[str, tuple[str, ...]], dict[str, Any]], topic: str, held: bool) -> EpisodeSeries:
+    """Episodes of a topic; it carries nothing where none ended."""
+    names = EpisodeSeries._fields
+    return episode_series(columns(topic, names) if held else {name: [] for name in names})
+
+
+def _cost(columns: dict[str, Any]) -> CostSeries:
+    return CostSeries(**{name: np.asarray(column, dtype=np.float64) for name, column in columns.items()})

@@ -1,0 +1,293 @@
+"""The series of a recorded run that summary and report are made of.
+
+What a bag does not hold is empty (no contact, no field) or None (no motion, no ledger, no cost).
+"""
+
+from __future__ import annotations
+
+from typing import Any, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from contact_sim_pkg.report.point_series import PointSeries
+from contact_sim_pkg.rigs.impact.report.series import ImpactSeries
+from contact_sim_pkg.rigs.roller.report.series import RollerSeries
+
+FloatArray = NDArray[np.float64]
+
+
+class ContactSeries(NamedTuple):
+    """Resultants of one contact at the full rate."""
+
+    time: FloatArray
+    """[s]"""
+    sample_period: float
+    """[s]"""
+    normal: FloatArray
+    """[N]"""
+    tangential: FloatArray
+    """[N]"""
+    approach: FloatArray
+    """[m]"""
+    effective_height: FloatArray
+    """[m] of the ground that a smooth contact would need for the same force"""
+    impulses: FloatArray
+    """[N] of the road's asperities, beside `normal`; empty without any"""
+
+
+class PressureMap(NamedTuple):
+    """One pressure field with its grid, in the contact's frame."""
+
+    pressure: FloatArray
+    """[Pa] [rows, cols], rows along x (forward), cols along y (left)"""
+    cell_x: float
+    cell_y: float
+    """[m] cell size"""
+    origin_x: float
+    origin_y: float
+    """[m] centre of cell (0, 0)"""
+
+
+class Snapshot(NamedTuple):
+    """One field, when it was and what it carries."""
+
+    time: float
+    """[s]"""
+    load: float
+    """[N]"""
+    field: PressureMap
+
+
+class FieldSeries(NamedTuple):
+    """Scalars of the pressure field of one contact, and a few maps of it."""
+
+    time: FloatArray
+    """[s]"""
+    load: FloatArray
+    """[N]"""
+    peak: FloatArray
+    """[Pa]"""
+    mean: FloatArray
+    """[Pa] load over area"""
+    area: FloatArray
+    """[m^2]"""
+    lame_a: FloatArray
+    lame_b: FloatArray
+    """[m] semi-axes along x and y of the Lame curve through the contact's boundary; 0 without contact"""
+    lame_n: FloatArray
+    """exponent of that curve"""
+    length: FloatArray
+    width: FloatArray
+    """[m] along x and y between the outermost loaded cells, these included; 0 without contact"""
+    highest: PressureMap
+    """map at the instant of the largest peak"""
+    highest_time: float
+    """[s]"""
+    average: PressureMap
+    """mean over all recorded instants"""
+    event: list[Snapshot]
+    """the field with the largest load, the fields before and after it, in the order of time"""
+    history_time: FloatArray
+    """[s] of the rows of `history`"""
+    history: FloatArray
+    """[N/m] [instants, rows] pressure integrated across the width, on the rows of `average`"""
+    history_group: int
+    """fields that one row of `history` is the mean of"""
+    first: Snapshot
+    """the first field of all"""
+    touch: Snapshot | None
+    """the first field with a load after one without; None where the contact never closes"""
+
+    @property
+    def heaviest(self) -> Snapshot:
+        """The field with the largest load."""
+        return max(self.event, key=lambda each: each.load)
+
+
+class Travel(NamedTuple):
+    """Way of the wheel centre over time, straight between its points."""
+
+    time: FloatArray
+    """[s] ascending"""
+    distance: FloatArray
+    """[m]"""
+
+    def at(self, time: FloatArray) -> FloatArray:
+        """[m] at the times [s]; its ends beyond them."""
+        return np.interp(time, self.time, self.distance)
+
+
+class RoadSeries(NamedTuple):
+    """What the wheel rolled over."""
+
+    travel: Travel
+    distance: FloatArray
+    """[m] of the heights"""
+    middle: FloatArray
+    """[m] height in the middle of the track"""
+    low: FloatArray
+    high: FloatArray
+    """[m] lowest and highest point of the strip around the middle"""
+
+
+class ShearMap(NamedTuple):
+    """The shear on a rolling tire at one instant."""
+
+    time: float
+    """[s]"""
+    slip: float
+    """(omega R - v) / v"""
+    slip_angle: float
+    """[rad]"""
+    force_x: float
+    force_y: float
+    """[N] on the tire"""
+    moment_z: float
+    """[N m]"""
+    sliding_share: float
+    """slipping cells among those in contact"""
+    grid: PressureMap
+    """magnitude of the shear on its grid"""
+    shear_x: FloatArray
+    shear_y: FloatArray
+    """[Pa] [rows, cols] on the tire"""
+    state: NDArray[np.uint8]
+    """[rows, cols] 0 apart, 1 sticks, 2 slips"""
+
+
+class ShearSeries(NamedTuple):
+    """Friction of a rolling tire over time, and its shear where it is largest."""
+
+    time: FloatArray
+    """[s]"""
+    slip: FloatArray
+    """(omega R - v) / v"""
+    slip_angle: FloatArray
+    """[rad]"""
+    force_x: FloatArray
+    force_y: FloatArray
+    """[N] on the tire, forward and left positive"""
+    moment_z: FloatArray
+    """[N m] on the tire"""
+    sliding_share: FloatArray
+    """slipping cells among those in contact"""
+    dissipated: FloatArray
+    """[J] since the instant before"""
+    largest: list[ShearMap]
+    """where the force along, and where that across, is largest while some cells stick; one where the other is small"""
+
+
+class MotionSeries(NamedTuple):
+    """Motion of the rig's bodies."""
+
+    time: FloatArray
+    """[s]"""
+    sample_period: float
+    """[s]"""
+    position: dict[str, FloatArray]
+    """[m] by body"""
+    acceleration: dict[str, FloatArray]
+    """[m/s^2] by body"""
+    velocity: dict[str, FloatArray]
+    """[m/s] by body"""
+
+
+class LedgerSeries(NamedTuple):
+    """Energy ledger of the rig."""
+
+    time: FloatArray
+    """[s]"""
+    kinetic: FloatArray
+    potential: FloatArray
+    stored: FloatArray
+    dissipated: FloatArray
+    supplied: FloatArray
+    residual: FloatArray
+    """[J] each"""
+
+
+class CostSeries(NamedTuple):
+    """What each block cost."""
+
+    time: FloatArray
+    """[s] simulated time of the block's start"""
+    wall_time: FloatArray
+    """[s]"""
+    real_time_factor: FloatArray
+    steps: FloatArray
+    rejected_steps: FloatArray
+    events: FloatArray
+    field_iterations: FloatArray
+    field_residual: FloatArray
+    field_jump: FloatArray
+    """[N]"""
+    stretches: FloatArray
+    stretches_repeated: FloatArray
+    coupling_error: FloatArray
+    """over the standing load"""
+
+
+WHOLE_CONTACT = -1
+"""In place of the number of a point: all points of the contact together."""
+
+
+class EpisodeSeries(NamedTuple):
+    """Contact episodes in the order in which they ended."""
+
+    point: FloatArray
+    """number of the point; -1: all together"""
+    touched: FloatArray
+    """1: began with a touch; 0: was there from the start of the run"""
+    start: FloatArray
+    end: FloatArray
+    """[s]"""
+    compression_work: FloatArray
+    restitution_work: FloatArray
+    """[J] W_c <= 0 and W_r >= 0"""
+    restitution: FloatArray
+    """sqrt(W_r / -W_c)"""
+    peak_force: FloatArray
+    """[N]"""
+    largest_approach: FloatArray
+    """[m]"""
+
+    def slaps(self) -> EpisodeSeries:
+        """The episodes of the whole contact that began with a touch."""
+        chosen = (self.point == WHOLE_CONTACT) & (self.touched == 1)
+        return EpisodeSeries(*(column[chosen] for column in self))
+
+
+class TopicCount(NamedTuple):
+    """One topic of the bag."""
+
+    name: str
+    type: str
+    messages: int
+
+
+class Recording(NamedTuple):
+    """Everything that the analysis uses from one bag."""
+
+    name: str
+    """of the bag's directory"""
+    scene: dict[str, Any]
+    """resolved scene; empty for a bag without one"""
+    notes: list[str]
+    """what the bag says is missing in it"""
+    metadata: dict[str, str]
+    """texts kept with the recording: versions, excitation, how the run ended; the scene is not among them"""
+    topics: list[TopicCount]
+    contacts: dict[str, ContactSeries]
+    fields: dict[str, FieldSeries]
+    motion: MotionSeries | None
+    ledger: LedgerSeries | None
+    cost: CostSeries | None
+    duration: float
+    """[s] simulated time of the blocks recorded"""
+    road: RoadSeries | None = None
+    shear: ShearSeries | None = None
+    episodes: EpisodeSeries | None = None
+    points: PointSeries | None = None
+    impacts: ImpactSeries | None = None
+    roller: RollerSeries | None = None

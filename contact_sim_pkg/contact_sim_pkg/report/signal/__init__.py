@@ -1,0 +1,1 @@
+"""Signal processing of recorded series."""

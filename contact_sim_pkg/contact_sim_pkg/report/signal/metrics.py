@@ -1,0 +1,54 @@
+"""Whole-body vibration metrics of sampled accelerations (ISO 2631-1, ISO 10326-1)."""
+
+from __future__ import annotations
+
+import math
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from contact_sim_pkg.report.signal.weighting import WK, Weighting, apply_weighting
+
+
+class RideMetrics(NamedTuple):
+    """Metrics of one acceleration signal."""
+
+    rms: float
+    """[m/s^2] root mean square, not weighted, mean removed"""
+    weighted_rms: float
+    """[m/s^2] a_w = sqrt(1/T int a_w(t)^2 dt)"""
+    vibration_dose: float
+    """[m/s^1.75] VDV = (int a_w(t)^4 dt)^(1/4)"""
+    crest_factor: float
+    """max |a_w(t)| / a_w; nan for a signal that is 0. Above 9 the basic method is doubtful."""
+
+
+def ride_metrics(acceleration: NDArray[np.float64], sample_rate: float, weighting: Weighting = WK) -> RideMetrics:
+    """Metrics of one acceleration signal over its whole length; its mean is removed first.
+
+    Args:
+        acceleration: [m/s^2] at least one sample, gravity may be included.
+        sample_rate: [Hz] > 0.
+        weighting: frequency weighting; Wk for the vertical at seat and floor.
+    """
+    centred = acceleration - acceleration.mean()
+    weighted = apply_weighting(weighting, centred, sample_rate)
+    weighted_rms = root_mean_square(weighted)
+    largest = float(np.abs(weighted).max())
+    return RideMetrics(
+        rms=root_mean_square(centred),
+        weighted_rms=weighted_rms,
+        vibration_dose=float((np.sum(weighted**4) / sample_rate) ** 0.25),
+        crest_factor=largest / weighted_rms if weighted_rms > 0.0 else math.nan,
+    )
+
+
+def seat_factor(seat: float, floor: float) -> float:
+    """SEAT = 100 seat / floor in per cent, from two weighted rms values or two VDVs; nan for a floor at rest."""
+    return 100.0 * seat / floor if floor > 0.0 else math.nan
+
+
+def root_mean_square(values: NDArray[np.float64]) -> float:
+    """sqrt(mean(values^2)), in the unit of the values."""
+    return float(np.sqrt(np.mean(np.square(values))))

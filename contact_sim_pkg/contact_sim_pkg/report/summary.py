@@ -1,0 +1,156 @@
+"""The numbers of a run that a person or a script asks for first.
+
+A run that a signal ends still prints them, so what only one rig needs and takes long to load is loaded there.
+"""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+import numpy as np
+
+from contact_sim_pkg.bag.reader import Bag
+from contact_sim_pkg.report.energy import relative_residual, throughput
+from contact_sim_pkg.report.reading import read_recording
+from contact_sim_pkg.report.series import ContactSeries, CostSeries, FieldSeries, LedgerSeries, Recording
+from contact_sim_pkg.report.signal.episodes import slap_numbers
+from contact_sim_pkg.report.signal.metrics import ride_metrics, seat_factor
+from contact_sim_pkg.rigs.body.report.numbers import BLOCK, block_numbers
+from contact_sim_pkg.rigs.impact.report.series import missing_impacts
+from contact_sim_pkg.rigs.vehicle.seat.report.ride import ride_signals
+from contact_sim_pkg.rigs.vehicle.tire.report.numbers import TIRE, load_numbers, standing_load_of
+
+
+def summarise(bag: Bag) -> dict[str, Any]:
+    """Summary numbers of a bag; see `summarise_recording`. Raises BagError where the bag cannot be read."""
+    return summarise_recording(read_recording(bag))
+
+
+def summarise_recording(recording: Recording) -> dict[str, Any]:
+    """Summary numbers, ready for JSON: SI units in the names, None where a number is not defined.
+
+    Sections that the run does not have are absent: `slaps` without contact episodes, `impacts` without impact events,
+    `warnings` where all impacts of the scene took place, `block` without a rigid body, `roller` without a roller,
+    `seat_vibration` without a seat, `energy` without a ledger, `solver` without cost messages, the pressure of a
+    contact without a field, ratios to the tire at rest without a tire.
+    """
+    summary: dict[str, Any] = {
+        "scene": recording.scene.get("name"),
+        "rig": recording.scene.get("rig"),
+        "simulated_s": round(recording.duration, 9),
+        "contacts": {
+            name: {
+                **force_numbers(series),
+                **field_numbers(recording.fields.get(name)),
+                **(load_numbers(series, standing_load_of(recording.scene)) if name == TIRE else {}),
+            }
+            for name, series in recording.contacts.items()
+        },
+    }
+    if recording.episodes is not None:
+        summary["slaps"] = slap_numbers(recording.episodes)
+    if recording.impacts is not None:
+        from contact_sim_pkg.rigs.impact.report.numbers import impact_numbers  # loads the fits of materials
+
+        summary["impacts"] = impact_numbers(recording.impacts)
+    if BLOCK in recording.contacts and recording.motion is not None:
+        summary["block"] = block_numbers(recording)
+    if recording.roller is not None:
+        from contact_sim_pkg.rigs.roller.report.section import roller_numbers  # loads the drawing of pictures
+
+        summary["roller"] = roller_numbers(recording.roller)
+    if missing := missing_impacts(recording.impacts, recording.scene):
+        summary["warnings"] = missing
+    vibration = vibration_numbers(recording)
+    if vibration is not None:
+        summary["seat_vibration"] = vibration
+    if recording.ledger is not None:
+        summary["energy"] = energy_numbers(recording.ledger)
+    if recording.cost is not None:
+        summary["solver"] = solver_numbers(recording.cost)
+    summary["messages"] = {topic.name: topic.messages for topic in recording.topics}
+    defined: dict[str, Any] = _without_nan(summary)
+    return defined
+
+
+def force_numbers(contact: ContactSeries) -> dict[str, Any]:
+    """Load in [N], share of the time without contact (0 .. 1), number of lift-offs: from a load to none."""
+    apart = contact.normal <= 0.0
+    return {
+        "load_mean_N": float(contact.normal.mean()),
+        "load_min_N": float(contact.normal.min()),
+        "load_max_N": float(contact.normal.max()),
+        "lifted_share": float(apart.mean()),
+        "lift_offs": int(np.count_nonzero(apart[1:] & ~apart[:-1])),
+    }
+
+
+def field_numbers(field: FieldSeries | None) -> dict[str, Any]:
+    """Largest pressure and when, mean contact area over all recorded instants; empty without a field."""
+    if field is None:
+        return {}
+    return {
+        "peak_pressure_Pa": float(field.peak.max()),
+        "peak_pressure_time_s": field.highest_time,
+        "contact_area_mean_m2": float(field.area.mean()),
+    }
+
+
+def vibration_numbers(recording: Recording) -> dict[str, Any] | None:
+    """Floor and seat accelerations, plain and Wk-weighted, and SEAT in per cent; None without a seat."""
+    signals = ride_signals(recording.motion)
+    if signals is None:
+        return None
+    floor = ride_metrics(signals.floor, signals.sample_rate)
+    seat = ride_metrics(signals.seat, signals.sample_rate)
+    return {
+        "floor_rms_m_s2": floor.rms,
+        "floor_weighted_rms_m_s2": floor.weighted_rms,
+        "floor_dose_m_s1_75": floor.vibration_dose,
+        "floor_crest_factor": floor.crest_factor,
+        "seat_rms_m_s2": seat.rms,
+        "seat_weighted_rms_m_s2": seat.weighted_rms,
+        "seat_dose_m_s1_75": seat.vibration_dose,
+        "seat_crest_factor": seat.crest_factor,
+        "seat_factor_percent": seat_factor(seat.weighted_rms, floor.weighted_rms),
+        "seat_factor_dose_percent": seat_factor(seat.vibration_dose, floor.vibration_dose),
+    }
+
+
+def energy_numbers(ledger: LedgerSeries) -> dict[str, Any]:
+    """Work supplied and dissipated at the end in [J]; largest residual, plain and over the throughput (at least 1e-6 J)."""
+    return {
+        "supplied_J": float(ledger.supplied[-1]),
+        "dissipated_J": float(ledger.dissipated[-1]),
+        "throughput_J": throughput(ledger),
+        "residual_max_J": float(np.abs(ledger.residual).max()),
+        "residual_relative": relative_residual(ledger),
+    }
+
+
+def solver_numbers(cost: CostSeries) -> dict[str, Any]:
+    """Steps, events and iterations over the run; wall time of the physics; largest field residual and jump."""
+    wall = float(cost.wall_time.sum())
+    simulated = float((cost.real_time_factor * cost.wall_time).sum())
+    return {
+        "blocks": int(cost.time.size),
+        "steps": int(cost.steps.sum()),
+        "rejected_steps": int(cost.rejected_steps.sum()),
+        "events": int(cost.events.sum()),
+        "field_iterations": int(cost.field_iterations.sum()),
+        "field_residual_max": float(cost.field_residual.max()),
+        "field_jump_max_N": float(cost.field_jump.max()),
+        "stretches": int(cost.stretches.sum()),
+        "stretches_repeated": int(cost.stretches_repeated.sum()),
+        "coupling_error_max": float(cost.coupling_error.max()),
+        "physics_wall_s": wall,
+        "physics_real_time_factor": simulated / wall if wall > 0.0 else math.nan,
+    }
+
+
+def _without_nan(value: Any) -> Any:
+    """The same tree with None for numbers that are not finite: JSON has no nan."""
+    if isinstance(value, dict):
+        return {key: _without_nan(item) for key, item in value.items()}
+    return None if isinstance(value, float) and not math.isfinite(value) else value

@@ -1,0 +1,1 @@
+"""Rigid bodies in frictional contact: geometry, contact problem, impact law, motion."""

@@ -1,0 +1,1 @@
+"""The contact problem: impulses that satisfy the Signorini condition and Coulomb friction."""

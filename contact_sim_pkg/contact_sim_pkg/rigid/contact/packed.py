@@ -1,0 +1,94 @@
+"""Solve the contacts of a body that take part, and those alone: of all that it can have few are active at a time.
+
+The arrays of a solve are made once for each number of active contacts. Bookkeeping around
+`rigid/contact/solver.py` and `rigid/impact/law.py`.
+"""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy
+
+from contact_sim_pkg.compiled.arrays import Vector
+from contact_sim_pkg.rigid.contact.answers import contact_impulses
+from contact_sim_pkg.rigid.contact.solver import NEWTON, SWEEPS, Solution, Solver, make_solver
+from contact_sim_pkg.rigid.impact.law import ImpactWorkspace, impact_impulses, make_impact_workspace
+from contact_sim_pkg.rigid.motion.motion import MotionWorkspace
+from contact_sim_pkg.rigid.problem import DISC, ContactProblem, make_problem
+from contact_sim_pkg.rigid.results import SOLVED, UNIQUE
+
+__all__ = ["PackedSolver"]
+
+
+class _Room(NamedTuple):
+    """Arrays for one number of contacts."""
+
+    problem: ContactProblem
+    jacobian: Vector  # [rows, coordinates]
+    solver: Solver
+    impact: ImpactWorkspace
+    impulse: Vector  # [rows]
+
+
+class PackedSolver:
+    """Impulses of the active contacts of a `MotionWorkspace`, into its ``impulse``; those of the others are 0."""
+
+    def __init__(
+        self, coordinates: int, width: int, facets: int = DISC, rung: int = NEWTON, sweeps: int = SWEEPS
+    ) -> None:
+        """Of a body with ``coordinates`` coordinates; ``rung`` and ``sweeps`` of the solver of held contacts."""
+        self._coordinates, self._width, self._facets, self._rung, self._sweeps = (
+            coordinates,
+            width,
+            facets,
+            rung,
+            sweeps,
+        )
+        self._rooms: dict[int, _Room] = {}
+
+    def hold(self, work: MotionWorkspace) -> Solution:
+        """Contacts of ``work.problem`` that are held."""
+        rows, room = self._pack(work)
+        work.impulse[:] = 0.0
+        if len(rows) == 0:
+            return Solution(SOLVED, UNIQUE, 0.0, 0)
+        found = contact_impulses(room.problem, room.jacobian, work.W, room.solver, room.impulse)
+        work.impulse[rows] = room.impulse
+        return found
+
+    def collide(self, work: MotionWorkspace, rule: int) -> Solution:
+        """Impact of the active contacts from the contact velocities ``work.u``."""
+        rows, room = self._pack(work)
+        work.impulse[:] = 0.0
+        if len(rows) == 0:
+            return Solution(SOLVED, UNIQUE, 0.0, 0)
+        restitution = work.restitution[rows[:: self._width] // self._width]
+        found = impact_impulses(
+            room.problem, room.jacobian, work.W, work.u[rows], restitution, rule, room.impact, room.impulse
+        )
+        work.impulse[rows] = room.impulse
+        return found
+
+    def _pack(self, work: MotionWorkspace) -> tuple[numpy.typing.NDArray[numpy.intp], _Room]:
+        active = numpy.flatnonzero(work.problem.friction >= 0.0)
+        rows = (active[:, None] * self._width + numpy.arange(self._width)).ravel()
+        room = self._rooms.get(len(active))
+        if room is None:
+            room = self._rooms[len(active)] = self._make_room(len(active))
+        problem = room.problem
+        problem.A[:] = work.problem.A[numpy.ix_(rows, rows)]
+        problem.q[:], problem.friction[:] = work.problem.q[rows], work.problem.friction[active]
+        problem.floor[:], room.jacobian[:] = work.problem.floor[active], work.J[rows]
+        room.impulse[:] = 0.0
+        return rows, room
+
+    def _make_room(self, contacts: int) -> _Room:
+        rows, coordinates, width, facets = contacts * self._width, self._coordinates, self._width, self._facets
+        return _Room(
+            make_problem(contacts, width, facets),
+            numpy.zeros((rows, coordinates)),
+            make_solver(contacts, coordinates, width, facets, self._rung, self._sweeps),
+            make_impact_workspace(contacts, coordinates, width, facets),
+            numpy.zeros(rows),
+        )

@@ -1,0 +1,1 @@
+"""Rates of a body under contact forces, for the integrator."""

@@ -1,0 +1,1 @@
+"""Gaps and contact rows of a body on its ground."""

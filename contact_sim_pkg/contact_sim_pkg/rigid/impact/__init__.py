@@ -1,0 +1,1 @@
+"""Impact laws with friction: one point in the plane, a path in space, many contacts."""

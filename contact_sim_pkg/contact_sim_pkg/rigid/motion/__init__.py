@@ -1,0 +1,1 @@
+"""Motion in time: event-located, fixed-step and compliant."""

@@ -1,0 +1,210 @@
+"""A rigid body on compliant contact in time: the twin of ``located.LocatedBody``, by the integrator with error control."""
+
+from __future__ import annotations
+
+import math
+
+import numpy
+import numpy.typing
+
+from contact_sim_pkg.compiled.arrays import Vector
+from contact_sim_pkg.compiled.jit import entry
+from contact_sim_pkg.compiled.results import DONE, SENTENCES
+from contact_sim_pkg.integrate.dormand_prince import (
+    EVENTS,
+    REJECTED,
+    STEPS,
+    Workspace,
+    integrate,
+    make_workspace,
+    set_sides,
+)
+from contact_sim_pkg.integrate.drive import Drive
+from contact_sim_pkg.laws.parameters import Friction, NormalElastic
+from contact_sim_pkg.laws.restitution import LOWEST_RESTITUTION, damping_of_restitution
+from contact_sim_pkg.rigid.body import Ground, Motion, RigidBody, contact_count, laid_under, pull
+from contact_sim_pkg.rigid.body_state import places_of
+from contact_sim_pkg.rigid.forces.compliant_body import (
+    MARGINS_A_POINT,
+    CompliantBody,
+    CompliantContact,
+    look,
+    make_rig,
+    set_loss,
+    state_count,
+    stored_energy,
+)
+from contact_sim_pkg.rigid.motion.flight import body_size
+from contact_sim_pkg.rigid.problem import PLANE
+
+__all__ = ["MovedBody", "asked_loss", "compliant_contact", "sentence_of"]
+
+LARGEST_TURN = 0.2  # [rad] of a piece that is integrated at once, so that no touch is stepped over
+LONGEST_PIECE = 0.02  # [s]
+TOUCH = 1e-12  # of the body's size
+SMALLEST_LOSS = 1e-9  # so that the slowest speed is never 0
+
+
+def asked_loss(restitution: float) -> float:
+    """lambda times the speed of approach with which a touch ends with ``restitution``; below 0.01 it counts as 0.01."""
+    return damping_of_restitution(max(restitution, LOWEST_RESTITUTION), 1.0)
+
+
+def resting_swing(body: RigidBody, elastic: NormalElastic) -> tuple[float, float]:
+    """Depth in [m] of a body at rest on one point under its `pull`, and its frequency there in [rad/s]."""
+    weight = body.mass * pull(body)
+    depth = (weight / elastic.coefficient) ** (1.0 / elastic.exponent)
+    return depth, math.sqrt(elastic.exponent * weight / (depth * body.mass))
+
+
+def compliant_contact(
+    body: RigidBody, elastic: NormalElastic, tangential_stiffness: float, tangential_damping: float | None = None
+) -> CompliantContact:
+    """The contact of ``body`` with the restitution and friction that it has; ``tangential_damping`` None: critical for its mass.
+
+    Below the speed ``n d g/(2 w)``, n the exponent, g the `pull` and w the frequency of the body at rest on one point, the loss no
+    longer grows: a body at rest is then about critically damped, and bounces as slow as that hardly leave the ground. A body
+    without weight is measured as if 0.1 m/s^2 pulled it, and rebounds faster than asked below that speed.
+    """
+    loss, (depth, frequency) = asked_loss(body.restitution), resting_swing(body, elastic)
+    damping = tangential_damping or 2.0 * math.sqrt(tangential_stiffness * body.mass)
+    friction = Friction(tangential_stiffness, damping, body.friction, body.friction)
+    slowest = 0.5 * max(loss, SMALLEST_LOSS) * depth * frequency
+    return CompliantContact(elastic, friction, loss, slowest, TOUCH * float(body_size(body)))
+
+
+@entry
+def _begin(rig: CompliantBody, mode: Vector, state: Vector, work: Workspace) -> None:
+    look(rig, state)
+    for point in range(rig.gap.shape[0]):
+        set_loss(rig, mode, point)
+    drive = Drive(0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
+    set_sides(rig, drive, mode, 0.0, state, work)
+
+
+@entry
+def _advance(
+    rig: CompliantBody, mode: Vector, state: Vector, scale: Vector, work: Workspace, start: float, interval: float,
+    pieces: int,
+) -> int:  # fmt: skip
+    for piece in range(pieces):
+        begin = start + interval * piece / pieces
+        drive = Drive(begin, interval / pieces, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
+        status = integrate(rig, drive, mode, start + interval * (piece + 1) / pieces, state, scale, work)
+        if status != DONE:
+            return status
+    look(rig, state)
+    return DONE
+
+
+@entry
+def look_at(rig: CompliantBody, state: Vector) -> None:
+    """Motion, gaps and point velocities of a state, into the rig's arrays."""
+    look(rig, state)
+
+
+@entry
+def _stored(rig: CompliantBody, state: Vector) -> tuple[float, float]:
+    return stored_energy(rig, state)
+
+
+class MovedBody:
+    """One body on compliant contact, and where it stands. ``motion`` changes in place."""
+
+    def __init__(
+        self, body: RigidBody, ground: Ground, motion: Motion, contact: CompliantContact, tolerance: float
+    ) -> None:
+        """Take a body at the start; ``tolerance`` is the error a step may make, relative to depth and speed of an impact."""
+        ground = laid_under(body, ground)
+        self.body, self.ground, self.motion, self.contacts = body, ground, motion, contact_count(body, ground)
+        self.rig = make_rig(body, ground, contact)
+        self.state, self.mode = _state_of(body, motion, self.contacts), numpy.zeros(self.contacts)
+        self.size = float(body_size(body))
+        self.scale = tolerance * self._scales()
+        self.work = make_workspace(len(self.state), MARGINS_A_POINT * self.contacts)
+        self.time = 0.0
+        rows = self.contacts * body.width
+        self._impulses = slice(len(self.state) - 1 - rows, len(self.state) - 1)
+        self.impulse = numpy.zeros(rows)  # [N s] over the last interval: normal, then tangents, of each point
+        self.stored = 0.0  # [J] in contacts and friction springs
+        self.dissipated = 0.0  # [J] in all
+        _begin(self.rig, self.mode, self.state, self.work)
+
+    def advance(self, interval: float) -> int:
+        """One interval in [s]; returns a status of `compiled/results.py`, whose sentence `sentence_of` gives."""
+        width, state = self.body.width, self.state
+        spin = float(numpy.abs(self.motion.velocity[width:]).sum())
+        pieces = max(1, math.ceil(interval / LONGEST_PIECE), math.ceil(interval * spin / LARGEST_TURN))
+        state[self._impulses] = 0.0
+        status = int(_advance(self.rig, self.mode, state, self.scale, self.work, self.time, interval, pieces))
+        if status != DONE:
+            return status
+        self.time += interval
+        if width != PLANE:
+            state[3:7] /= numpy.linalg.norm(state[3:7])
+        for mine, found in zip(self.motion, self.rig.motion, strict=True):
+            mine[:] = found
+        self.impulse[:] = state[self._impulses]
+        contacts, springs = _stored(self.rig, state)
+        self.stored = float(contacts + springs)
+        self.dissipated = float(state[-1] - springs)
+        return status
+
+    @property
+    def solves(self) -> int:
+        """Steps so far, accepted and rejected."""
+        return int(self.work.counters[STEPS] + self.work.counters[REJECTED])
+
+    @property
+    def events(self) -> int:
+        """Events located so far: touches, losses of contact, ends of stick and slip."""
+        return int(self.work.counters[EVENTS])
+
+    def sticks(self) -> numpy.typing.NDArray[numpy.bool_]:
+        """Which points stick at the end of the last interval."""
+        touches = self.rig.gap < 0.0
+        return numpy.asarray(touches & (self.work.side[2 * self.contacts :] > 0.0))
+
+    def _scales(self) -> Vector:
+        """Size of each state: depth and speed of the swing of the body at rest on one point.
+
+        They are below those of an impact, which the error control then meets the better; with larger ones a body at rest would
+        be shaken loose by the errors of its own steps.
+        """
+        body, width = self.body, self.body.width
+        depth, frequency = resting_swing(body, self.rig.contact.elastic)
+        speed, springs = depth * frequency, self.contacts * (width - 1)
+        sizes = [depth] * width + [depth / self.size] * (places_of(width) - width) + [speed] * width
+        sizes += [speed / self.size] * (len(body.load) - width) + [depth] * springs
+        return numpy.array(sizes + [math.inf] * (len(self.state) - len(sizes)))
+
+
+def sentence_of(status: int) -> str:
+    """What a status says."""
+    return SENTENCES[status]
+
+
+def _state_of(body: RigidBody, motion: Motion, contacts: int) -> Vector:
+    state, width = numpy.zeros(state_count(body, contacts)), body.width
+    state[:width] = motion.position
+    if width == PLANE:
+        state[2], state[3:6] = motion.angle[0], motion.velocity
+        return state
+    state[3:7] = quaternion_of(motion.rotation)
+    state[7:10], state[10:13] = motion.velocity[:3], motion.rotation.T @ motion.velocity[3:]
+    return state
+
+
+def quaternion_of(rotation: Vector) -> Vector:
+    """Unit quaternion (w, x, y, z) of a rotation matrix [3, 3], from its largest component."""
+    m, trace = rotation, float(numpy.trace(rotation))
+    squares = numpy.array([1.0 + trace, *(1.0 - trace + 2.0 * m[i, i] for i in range(3))])
+    skew = numpy.array([m[2, 1] - m[1, 2], m[0, 2] - m[2, 0], m[1, 0] - m[0, 1]])
+    greatest = int(squares.argmax())
+    if greatest == 0:
+        found = numpy.array([squares[0], *skew])
+    else:
+        i = greatest - 1
+        found = numpy.array([skew[i], *(m[i, j] + m[j, i] for j in range(3))])
+        found[greatest] = squares[greatest]
+    return found / numpy.linalg.norm(found)

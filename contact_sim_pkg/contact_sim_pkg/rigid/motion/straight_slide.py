@@ -1,0 +1,162 @@
+"""Pieces of time of a held body that need no survey and no solver: it rests, or it slides on over a plane without turning.
+
+At rest the next sample repeats the last one. A body that slides without turning has one slip for all its points. It lies along the
+velocity w that the load alone would leave, so friction takes ``mu Q/m`` from it, Q the normal impulse on the whole body. No moment
+about the centre of mass is left, ``sum N_i r_i x (n - mu d) = 0``, and so the loads of least norm are linear over the face,
+``N_i = Q/k + b rho_t,i + g rho_s,i`` with ``sum N_i r_i = -mu h d Q``, h the height of the face over the centre of mass.
+Source: SEEDS 7.2 (M4.8, load split).
+"""
+
+from __future__ import annotations
+
+import math
+from typing import NamedTuple
+
+from contact_sim_pkg.compiled.jit import piece
+from contact_sim_pkg.rigid.motion.active_contacts import DRIFT
+from contact_sim_pkg.rigid.motion.motion import APART, HELD, STUCK
+from contact_sim_pkg.rigid.motion.slip import SLOW, SWERVE
+from contact_sim_pkg.rigid.problem import PLANE, SPACE
+
+NARROW = 1.0e-9  # of the size of the face, to the power 3: points this near to a line are no face
+SLIPS = 10.0  # times what counts as rounding: a slower body is left to the solvers
+T, S, ROW = 0, 1, 2  # columns of a held point: its place along the tangents, its row
+
+
+class Face(NamedTuple):
+    """Held points of a body that slides straight on; ``held`` 0: there is no such body."""
+
+    held: int
+    row: int  # of the first, whose axes all have
+    height: float  # [m] over the centre of mass, negative
+    mean_t: float  # [m]
+    mean_s: float  # [m]
+    inverse_tt: float  # [1/m^2], of the sums of products of the places about their mean
+    inverse_ts: float
+    inverse_ss: float
+
+
+NO_FACE = Face(0, 0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
+
+
+@piece
+def rests(motion, work, size):
+    """Whether nothing moves, the held points stick on the ground and no other touches it: a piece of time then changes nothing."""
+    resting = True
+    for k in range(motion.velocity.shape[0]):
+        resting = resting and motion.velocity[k] == 0.0
+    for i in range(work.flags.shape[0]):
+        held = work.flags[i] == STUCK and abs(work.gap[i]) <= DRIFT * size
+        resting = resting and (held or work.flags[i] == APART)
+    return resting
+
+
+@piece
+def _slides_straight(body, ground, motion, work):
+    """Whether a body slides over a plane without turning and without a torque, every point on the ground held."""
+    straight, slides = ground.profile.nodes.shape[0] == 0 and body.friction > 0.0, False
+    for k in range(body.width):
+        slides = slides or motion.velocity[k] != 0.0
+    for k in range(body.width, motion.velocity.shape[0]):
+        straight = straight and motion.velocity[k] == 0.0 and body.load[k] == 0.0
+    for i in range(work.flags.shape[0]):
+        straight = straight and (work.flags[i] == APART or work.flags[i] == HELD)
+    return straight and slides
+
+
+@piece
+def _place(body, J, first, row):
+    """Arm of a contact along the tangents, and along the normal, from the moments of its rows."""
+    if body.width == PLANE:
+        return J[row, 2], 0.0, -J[row + 1, 2]
+    t, s, h = 0.0, 0.0, 0.0
+    for k in range(3):
+        t -= J[row, 3 + k] * J[first + 2, k]
+        s += J[row, 3 + k] * J[first + 1, k]
+        h += J[row + 1, 3 + k] * J[first + 2, k]
+    return t, s, h
+
+
+@piece
+def straight_face(body, ground, motion, work, face):
+    """The held points of a body that slides straight on, about their mean into ``face`` [points, 3 or more]."""
+    count, first, height, mean_t, mean_s = 0, 0, 0.0, 0.0, 0.0
+    tt, ts, ss = 0.0, 0.0, 0.0
+    if _slides_straight(body, ground, motion, work):
+        for i in range(work.flags.shape[0]):
+            if work.flags[i] == HELD:
+                row = i * body.width
+                first = row if count == 0 else first
+                t, s, height = _place(body, work.J, first, row)
+                face[count, T], face[count, S], face[count, ROW] = t, s, row
+                mean_t, mean_s, count = mean_t + t, mean_s + s, count + 1
+    if count < body.width:
+        return NO_FACE
+    mean_t, mean_s = mean_t / count, mean_s / count
+    for j in range(count):
+        face[j, T] -= mean_t
+        face[j, S] -= mean_s
+        t, s = face[j, T], face[j, S]
+        tt, ts, ss = tt + t * t, ts + t * s, ss + s * s
+    if body.width == PLANE:
+        return Face(count, first, height, mean_t, mean_s, 1.0 / tt, 0.0, 0.0)
+    size, whole = tt + ss, tt * ss - ts * ts
+    count = count if whole > NARROW * size * size else 0
+    return Face(count, first, height, mean_t, mean_s, ss / whole, -ts / whole, tt / whole)
+
+
+@piece
+def _tangential(body, J, row, x):
+    """A velocity of the centre of mass along the tangents of a contact."""
+    t, s = 0.0, 0.0
+    for k in range(body.width):
+        t += J[row + 1, k] * x[k]
+        if body.width == SPACE:
+            s += J[row + 2, k] * x[k]
+    return t, s
+
+
+@piece
+def _press(body, face, points, push, d_t, d_s, impulse):
+    """Loads of least norm under a body that is pushed by ``push`` [N s] and slides along d, and its friction; whether all press."""
+    rise = body.friction * points.height
+    t, s = -push * (rise * d_t + points.mean_t), -push * (rise * d_s + points.mean_s)
+    b, g = points.inverse_tt * t + points.inverse_ts * s, points.inverse_ts * t + points.inverse_ss * s
+    presses = True
+    for j in range(points.held):
+        load, row = push / points.held + b * face[j, T] + g * face[j, S], int(face[j, ROW])
+        presses = presses and load >= 0.0
+        impulse[row], impulse[row + 1] = load, -body.friction * load * d_t
+        if body.width == SPACE:
+            impulse[row + 2] = -body.friction * load * d_s
+    return presses
+
+
+@piece
+def slide_straight(body, motion, work, face, points, time, still):
+    """One piece of ``time`` [s]: state, ``work.impulse``; returns the energy lost in [J], -1 (nothing taken) where slip may end.
+
+    ``still`` [m/s]: what counts as rounding. ``work.impulse`` is 0 for contacts that are not held.
+    """
+    J, v, row, fall = work.J, motion.velocity, points.row, time / body.mass
+    press = 0.0
+    for k in range(body.width):
+        press -= J[row, k] * (v[k] + fall * body.load[k])
+    v_t, v_s = _tangential(body, J, row, v)
+    f_t, f_s = _tangential(body, J, row, body.load)
+    w_t, w_s = v_t + fall * f_t, v_s + fall * f_s
+    speed, before = math.sqrt(w_t * w_t + w_s * w_s), v_t * v_t + v_s * v_s
+    left = speed - body.friction * press
+    d_t, d_s = w_t / speed, w_s / speed
+    along = v_t * d_t + v_s * d_s
+    if not (press > 0.0 and left > SLIPS * still and left * along > SLOW * before and before > still * still):
+        return -1.0
+    if abs(v_t * d_s - v_s * d_t) > SWERVE * math.sqrt(before):
+        return -1.0
+    if not _press(body, face, points, body.mass * press, d_t, d_s, work.impulse):
+        return -1.0
+    for k in range(body.width):
+        end = left * (d_t * J[row + 1, k] + (d_s * J[row + 2, k] if body.width == SPACE else 0.0))
+        motion.position[k] += 0.5 * time * (v[k] + end)
+        v[k] = end
+    return 0.5 * body.friction * body.mass * press * (along + left)

@@ -1,0 +1,1 @@
+"""The rigs of the bench, a folder each: physics, scene keys, outputs, report, studies."""

@@ -1,0 +1,1 @@
+"""Back against a seat back: one mass or a shell with contact points."""

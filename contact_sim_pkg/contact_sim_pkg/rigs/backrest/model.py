@@ -1,0 +1,287 @@
+"""Resolved scene of the backrest rig -> parameters, start state, mat and timing."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import Any, NamedTuple
+
+import numpy
+from numpy.typing import NDArray
+
+from contact_sim_pkg.compiled.arrays import Vector
+from contact_sim_pkg.laws.elastic_law import approach_of_force, elastic_energy, elastic_force, elastic_stiffness
+from contact_sim_pkg.laws.parameters import Contact, FoamHysteresis, Friction
+from contact_sim_pkg.pressure.mat import paraboloid_gap
+from contact_sim_pkg.rigs.backrest.entries import find_point
+from contact_sim_pkg.rigs.backrest.motion import memory_offset, state_count
+from contact_sim_pkg.rigs.backrest.parameters import Backrest, ContactSearch
+from contact_sim_pkg.rigs.backrest.shell import ShallowShell, ShellModes, crown_gap, shell_modes
+from contact_sim_pkg.rigs.vehicle.contact_model import elastic_of, loss_of
+from contact_sim_pkg.scene.errors import Fault, SceneError
+from contact_sim_pkg.scene.lattice import GRAVITY, effects_at
+from contact_sim_pkg.scene.timing import Timing, make_timing
+
+REFERENCE_SURFACE = 0.02  # [m^2] of the back to which the contact law belongs: a point has its part of it
+USUAL_FREQUENCY = 2.0 * math.pi * 5.0  # [rad/s] velocities over displacements, for the scale of the errors
+USUAL_SIZE = 1e-3  # [m] of the motion where there is no preload
+USUAL_SPEED = 0.5  # [m/s] of a slap
+STIFF = 0.1  # of a contact less deep than the usual size: its swings are many, and their errors add up
+NEWTON_STEPS = 100
+
+
+class Mat(NamedTuple):
+    """Cells of the pressure map, in the contact's frame: x up, y left, the crown at the origin."""
+
+    cell_x: float  # [m]
+    cell_y: float  # [m]
+    x: Vector  # [rows] [m] of the cells' centres
+    y: Vector  # [cols] [m]
+    gap: NDArray[numpy.float64]  # [rows, cols] [m]
+    by_points: bool  # each cell is that of one contact point
+    bent: NDArray[numpy.float64] | None = (
+        None  # [cells, modes] shapes of a shell with a moving point: the gap then follows them
+    )
+
+
+@dataclass(frozen=True)
+class BackrestModel:
+    """Everything that the simulation of one backrest scene needs."""
+
+    rig: Backrest
+    timing: Timing
+    scale: Vector  # [states] error allowed per step
+    start: Vector  # [states] at rest under the preload
+    coordinates: tuple[str, ...]  # names of the forward coordinates of ``bench/motion``
+    motion: NDArray[numpy.float64]  # [coordinates, modes] how they follow from the modes, forward positive
+    mat: Mat
+    point_x: Vector  # [points] [m]
+    point_y: Vector  # [points] [m]
+
+
+class _Form(NamedTuple):
+    """The back in modal form, as one mass or as a shell."""
+
+    mass: Vector
+    stiffness: Vector
+    damping: Vector
+    at_preload: Vector  # [modes] shapes where the preload acts
+    at_shaking: Vector  # [modes] shapes where the exciting force acts
+    shapes: NDArray[numpy.float64]  # [points, modes]
+    slopes: NDArray[numpy.float64]  # [points, modes]
+    gaps: Vector  # [points]
+    shares: Vector  # [points]
+    point_x: Vector
+    point_y: Vector
+    names: tuple[str, ...]
+    motion: NDArray[numpy.float64]
+
+
+def build_backrest(scene: dict[str, Any]) -> BackrestModel:
+    """Parameters of a resolved scene. Raises ShellError for a shell that is not possible, SceneError for too deep a rest."""
+    backrest, effects = scene["backrest"], effects_at(scene, "backrest")
+    mat = _mat(backrest, effects.get("shell_modes"))
+    form = _one_mass(backrest) if effects.get("shell_modes") is None else _shell(backrest, effects["shell_modes"], mat)
+    search = None
+    if effects.get("contact_search") is not None:
+        search = _search(backrest, effects["shell_modes"], mat)
+        mat, form = mat._replace(by_points=False, bent=form.shapes), _with_one_point(form)
+    preload = _preload(scene)
+    sliding = backrest["sliding"]
+    modal = [form.mass, form.stiffness, form.damping, preload * form.at_preload, _moving_mass(scene) * form.at_shaking]
+    rig = Backrest(
+        numpy.stack(modal), numpy.stack([form.shapes, form.slopes]), numpy.stack([form.gaps, form.shares]),
+        _contact(scene, len(form.mass), len(form.gaps)), float(sliding["amplitude"]),
+        2.0 * math.pi * float(sliding["frequency"]), search,
+    )  # fmt: skip
+    start = resting_state(rig)
+    approach = float((rig.shapes @ start[: len(form.mass)] - rig.gaps).max())
+    _refuse_deep(backrest["back"], preload, approach)
+    scale = _scale(rig, approach, preload, float(scene["integrator"]["relative_tolerance"]))
+    timing = make_timing(scene, True)
+    return BackrestModel(rig, timing, scale, start, form.names, form.motion, mat, form.point_x, form.point_y)
+
+
+def _refuse_deep(back: dict[str, Any], preload: float, approach: float) -> None:
+    """A preload that presses the back in deeper than its smaller radius: no contact law of a curved body reaches there."""
+    radius = min(float(back["radius_up"]), float(back["radius_across"]))
+    if approach > radius:
+        sentence = (
+            f"{preload:g} N press the back {approach:.3g} m into the seat back, deeper than its smaller radius of {radius:g} m; "
+            "lower the preload or make the contact stiffer"
+        )
+        raise SceneError([Fault("scene", 0, 0, "backrest.preload", sentence)])
+
+
+def _contact(scene: dict[str, Any], modes: int, points: int) -> Contact:
+    effects = effects_at(scene, "backrest")
+    friction, memory = effects.get("friction"), effects.get("foam_hysteresis")
+    keys = ("stiffness", "damping", "coefficient_static", "coefficient_kinetic")
+    rubbing = None if friction is None else Friction(*(float(friction[key]) for key in keys))
+    offset = memory_offset(modes, points)
+    remembering = None if memory is None else FoamHysteresis(offset, float(memory["share"]), float(memory["energy"]))
+    law = elastic_of(effects)
+    return Contact(law, loss_of(scene, "backrest", law, _moving_mass(scene)), rubbing, remembering)
+
+
+def _moving_mass(scene: dict[str, Any]) -> float:
+    """Mass in [kg] that the seat back's acceleration shakes: the occupant's, or the one that presses a shell with its weight."""
+    shell = effects_at(scene, "backrest").get("shell_modes")
+    return float(scene["backrest"]["mass"]) if shell is None else _preload(scene) / GRAVITY
+
+
+def _preload(scene: dict[str, Any]) -> float:
+    return float(scene["backrest"]["preload"])
+
+
+def _mat(backrest: dict[str, Any], shell: dict[str, Any] | None) -> Mat:
+    back, cells = backrest["back"], backrest["mat"]
+    rows = int(cells["rows"] if shell is None else shell["points_up"])
+    cols = int(cells["cols"] if shell is None else shell["points_across"])
+    cell_x, cell_y = float(back["height"]) / rows, float(back["width"]) / cols
+    x, y = (
+        (numpy.arange(n, dtype=numpy.float64) - 0.5 * (n - 1)) * cell for n, cell in ((rows, cell_x), (cols, cell_y))
+    )
+    gap = paraboloid_gap(x, y, float(back["radius_up"]), float(back["radius_across"]))
+    return Mat(cell_x, cell_y, x, y, gap, shell is not None)
+
+
+def _one_mass(backrest: dict[str, Any]) -> _Form:
+    one, none = numpy.ones(1), numpy.zeros(1)
+    mass = numpy.array([float(backrest["mass"])])
+    return _Form(
+        mass, none, none.copy(), one, one.copy(), numpy.ones((1, 1)), numpy.zeros((1, 1)), none.copy(), one.copy(),
+        none.copy(), none.copy(), ("occupant_x",), -numpy.ones((1, 1)),
+    )  # fmt: skip
+
+
+def _shallow_shell(backrest: dict[str, Any], effect: dict[str, Any]) -> ShallowShell:
+    back = backrest["back"]
+    return ShallowShell(
+        float(back["width"]), float(back["height"]), float(effect["thickness"]), float(effect["young_modulus"]),
+        float(effect["poisson_ratio"]), float(effect["density"]), float(back["radius_across"]), float(back["radius_up"]),
+    )  # fmt: skip
+
+
+def _shell(backrest: dict[str, Any], effect: dict[str, Any], mat: Mat) -> _Form:
+    shell = _shallow_shell(backrest, effect)
+    width, height = shell.length_1, shell.length_2
+    point_x, point_y = (grid.ravel() for grid in numpy.meshgrid(mat.x, mat.y, indexing="ij"))
+    places = numpy.column_stack([point_y + 0.5 * width, point_x + 0.5 * height])
+    middle = (0.5 * width, 0.5 * height)
+    exciter = (float(effect["shaken_across"]) * width, float(effect["shaken_up"]) * height)
+    modes = shell_modes(shell, int(effect["modes"]), places)
+    at_middle, at_exciter = shell_modes(shell, int(effect["modes"]), numpy.array([middle, exciter])).shapes
+    share = mat.cell_x * mat.cell_y / REFERENCE_SURFACE
+    mass = numpy.full(len(modes.frequencies), modes.modal_mass)
+    return _Form(
+        mass, mass * modes.frequencies**2, 2.0 * float(effect["damping_ratio"]) * mass * modes.frequencies, at_middle,
+        at_exciter, modes.shapes, 0.5 * shell.thickness * modes.slopes_y, crown_gap(shell, places),
+        numpy.full(len(places), share), point_x, point_y, ("crown_x", *_mode_names(modes)),
+        -numpy.vstack([at_middle, numpy.eye(len(mass))]),
+    )  # fmt: skip
+
+
+def _search(backrest: dict[str, Any], effect: dict[str, Any], mat: Mat) -> ContactSearch:
+    """Search over the cells' centres and the sides."""
+    shell = _shallow_shell(backrest, effect)
+    width, height = shell.length_1, shell.length_2
+    up, across = (
+        numpy.clip(numpy.concatenate([[0.0], middle + 0.5 * side, [side]]), 0.0, side)
+        for middle, side in ((mat.x, height), (mat.y, width))
+    )
+    places = numpy.stack(numpy.meshgrid(up, across, indexing="ij")[::-1], axis=-1).reshape(-1, 2)
+    modes = shell_modes(shell, int(effect["modes"]), places)
+    rim = numpy.full((len(up) + 2, len(across) + 2), -numpy.inf)
+    return ContactSearch(
+        width, height, 1.0 / shell.radius_1, 1.0 / shell.radius_2, 0.5 * shell.thickness,
+        math.isqrt(len(modes.frequencies)), places, modes.shapes, crown_gap(shell, places), rim,
+    )  # fmt: skip
+
+
+def _with_one_point(form: _Form) -> _Form:
+    """The shell with a point in its middle, which the search then moves; it carries the whole law."""
+    modes, origin = len(form.mass), numpy.zeros(1)
+    return form._replace(
+        shapes=form.at_preload.reshape(1, modes).copy(), slopes=numpy.zeros((1, modes)), gaps=origin, shares=numpy.ones(1),
+        point_x=origin, point_y=origin,
+    )  # fmt: skip
+
+
+def _mode_names(modes: ShellModes) -> tuple[str, ...]:
+    return tuple(f"mode_{m}_{n}_x" for m, n in modes.orders)
+
+
+def _spring_scale(friction: Friction | None, size: float, preload: float) -> float:
+    """Deflection [m] of the friction spring: what it reaches under the preload, at most ``size``."""
+    if friction is None:
+        return numpy.inf
+    reached = friction.coefficient_static * preload / friction.stiffness
+    return min(size, reached) if reached > 0.0 else size
+
+
+def _size_and_frequency(rig: Backrest, approach: float, preload: float) -> tuple[float, float]:
+    """Size in [m] and frequency in [rad/s] of the motion: of a swing about the ``approach`` [m] at rest, or of a slap.
+
+    A stiff contact turns a small error of place into a large one of force.
+    """
+    mass, size = float(rig.mass.max()), approach
+    if approach <= 0.0:
+        size = USUAL_SIZE
+        while elastic_force(rig.contact.elastic, size) * size > mass * USUAL_SPEED**2:
+            size *= 0.5
+    if size >= USUAL_SIZE:
+        return size, USUAL_FREQUENCY
+    frequency = USUAL_SPEED / size if approach <= 0.0 else math.sqrt(preload / (size * mass))
+    return STIFF * size, max(USUAL_FREQUENCY, frequency)
+
+
+def _scale(rig: Backrest, approach: float, preload: float, tolerance: float) -> Vector:
+    """Error allowed per step and state: displacements relative to the approach at rest, works to that of the preload on it."""
+    modes, points = len(rig.mass), len(rig.gaps)
+    size, frequency = _size_and_frequency(rig, approach, preload)
+    position, velocity = size * tolerance, size * frequency * tolerance
+    kinetic = 0.5 * float(rig.mass.max()) * (size * frequency) ** 2
+    work = max(preload * size, kinetic) * tolerance
+    spring = _spring_scale(rig.contact.friction, size, preload) * tolerance
+    parts = [numpy.full(modes, position), numpy.full(modes, velocity), numpy.full(points, spring)]
+    parts.append(numpy.full(2 * points, work))
+    if rig.contact.hysteresis is not None:
+        parts.append(numpy.full(points, tolerance))  # what the foam remembers runs from -1 to 1
+    return numpy.concatenate([*parts, numpy.full(2, work)])
+
+
+def resting_state(rig: Backrest) -> Vector:
+    """State at rest under the preload: the least of the convex energy ``q K q / 2 - P q + sum_c share A d**(n+1) / (n+1)``."""
+    modes, law = len(rig.mass), rig.contact.elastic
+    q = numpy.zeros(modes)
+    if not rig.stiffness.any():
+        q[0] = approach_of_force(law, float(rig.preload[0]))
+    for _ in range(NEWTON_STEPS):
+        slope, curvature, energy = _energy_at(rig, q)
+        if numpy.abs(slope).max() <= 1e-13 * numpy.abs(rig.preload).max():
+            break
+        step = numpy.linalg.solve(curvature, -slope)
+        part = 1.0
+        while part > 1e-6 and _energy_at(rig, q + part * step)[2] > energy + 1e-4 * part * float(slope @ step):
+            part *= 0.5
+        q = q + part * step
+    state = numpy.zeros(state_count(modes, len(rig.gaps), rig.contact.hysteresis is not None))
+    state[:modes] = q
+    return state
+
+
+def _energy_at(rig: Backrest, q: Vector) -> tuple[Vector, NDArray[numpy.float64], float]:
+    """Gradient [N], Hessian [N/m] and value [J] of the energy."""
+    law = rig.contact.elastic
+    if rig.search is not None:
+        find_point(rig, q)
+    depth = numpy.maximum(rig.shapes @ q - rig.gaps, 0.0)
+    force, stiffness, stored = (
+        rig.shares * numpy.array([part(law, x) for x in depth])
+        for part in (elastic_force, elastic_stiffness, elastic_energy)
+    )
+    slope = rig.stiffness * q - rig.preload + rig.shapes.T @ force
+    curvature = numpy.diag(rig.stiffness) + rig.shapes.T @ (stiffness[:, None] * rig.shapes)
+    energy = 0.5 * rig.stiffness @ q**2 - rig.preload @ q + stored.sum()
+    return slope, curvature, float(energy)

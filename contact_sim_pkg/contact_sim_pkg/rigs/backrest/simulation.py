@@ -1,0 +1,84 @@
+"""The simulation of a backrest scene, block by block."""
+
+from __future__ import annotations
+
+import time
+
+import numpy
+
+from contact_sim_pkg.compiled.arrays import Vector
+from contact_sim_pkg.compiled.results import DONE, SENTENCES
+from contact_sim_pkg.excitation.blocks import VibrationBlock
+from contact_sim_pkg.integrate.dormand_prince import make_workspace
+from contact_sim_pkg.rigs.backrest import entries
+from contact_sim_pkg.rigs.backrest.model import build_backrest
+from contact_sim_pkg.rigs.backrest.motion import margin_count
+from contact_sim_pkg.rigs.backrest.outputs import BackrestRecord, encode_backrest
+from contact_sim_pkg.rigs.backrest.parameters import ENDED, MOST_EPISODES, make_mode
+from contact_sim_pkg.run.block_simulation import BlockResult, InputBlock, refuse_out_of_turn
+from contact_sim_pkg.run.errors import RunError
+from contact_sim_pkg.run.vibration_drive import VIBRATION, accelerations
+from contact_sim_pkg.scene.resolved_scene import ResolvedScene
+
+
+class BackrestSimulation:
+    """Owns the state of a run: a ``BlockSimulation`` (run/block_simulation.py)."""
+
+    inputs: tuple[str, ...] = (VIBRATION,)
+
+    def __init__(self, scene: ResolvedScene) -> None:
+        """Build the parameters of a resolved scene; the back rests under its preload."""
+        self.scene = scene
+        self.model = build_backrest(scene.data)
+        self.blocks = self.model.timing.blocks
+        self._reset()
+
+    def _reset(self) -> None:
+        states, points = len(self.model.start), len(self.model.rig.gaps)
+        self.state: Vector = self.model.start.copy()
+        self._mode = make_mode(points)
+        self._work = make_workspace(states, margin_count(points))
+        self._peak_force = numpy.zeros(points + 1)
+        self._next_block = 0
+        entries.start(self.model.rig, self._mode, self.state, self._work)
+        self._start_energy = self._energies(0.0)
+
+    def prepare(self) -> None:
+        """Compile or load every kernel that the scene needs, by one block at rest."""
+        timing = self.model.timing
+        samples = timing.intervals * timing.segments // timing.vibration_stride + 1
+        still = numpy.zeros(samples)
+        period = timing.segment_length * timing.vibration_stride
+        self.advance(0, {VIBRATION: VibrationBlock(0, period, still, still)})
+        self._reset()
+
+    def advance(self, block: int, inputs: dict[str, InputBlock]) -> BlockResult:
+        """Advance block number ``block``; see ``BlockSimulation``."""
+        began = time.perf_counter()
+        refuse_out_of_turn(block, self._next_block)
+        model, timing = self.model, self.model.timing
+        forward, _upward = accelerations(timing, block, inputs.get(VIBRATION))
+        start = block * timing.block_length
+        record = BackrestRecord.empty(model, block, forward[: -1 : timing.sample_every])
+        record.energy[:] = self._energies(start)
+        record.start_energy[:] = self._start_energy
+        self._work.counters[:] = 0.0
+        self._mode.counts[ENDED] = 0
+        status = entries.advance(
+            model.rig, self._mode, self.state, model.scale, self._work, start, timing.segment_length, forward,
+            timing.sample_every, record.states, record.rates, record.forces, record.points,
+        )  # fmt: skip
+        if status != DONE:
+            raise RunError(f"block {block}, {start:.6g} s: {SENTENCES[status]}")
+        ended = int(self._mode.counts[ENDED])
+        if ended > MOST_EPISODES:
+            raise RunError(f"block {block}, {start:.6g} s: {ended} contact episodes ended in it, limit {MOST_EPISODES}")
+        record.counters[:] = self._work.counters
+        record.take_episodes(model, self._mode, self._peak_force)
+        self._next_block = block + 1
+        wall = time.perf_counter() - began
+        messages, load, peak = encode_backrest(model, record, wall)
+        return BlockResult(messages, load, peak, time.perf_counter() - began)
+
+    def _energies(self, at: float) -> Vector:
+        return numpy.array(entries.energies(self.model.rig, self._mode, at, self.state))

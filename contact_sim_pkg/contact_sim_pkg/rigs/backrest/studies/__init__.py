@@ -1,0 +1,1 @@
+"""Accuracy studies and hard cases of the backrest."""

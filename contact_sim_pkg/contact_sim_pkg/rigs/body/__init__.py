@@ -1,0 +1,1 @@
+"""Rigid body on the ground with friction: rig block."""

@@ -1,0 +1,212 @@
+"""What one block of a rigid body's simulation says, as encoded messages in canonical order."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+
+import numpy
+from numpy.typing import NDArray
+
+from contact_sim_pkg.bag.messages import (
+    BENCH_FRAME,
+    BLOCK_FRAME,
+    ContactForceBlock,
+    Cost,
+    Energy,
+    MotionBlock,
+    PointField,
+    Wrench,
+    encode_contact_force,
+    encode_contact_points,
+    encode_cost,
+    encode_energy,
+    encode_motion,
+    encode_wrench,
+)
+from contact_sim_pkg.bag.topics import TOPICS
+from contact_sim_pkg.rigid.body import Motion, contact_count
+from contact_sim_pkg.rigid.problem import PLANE
+from contact_sim_pkg.rigs.body.geometry import contact_arms, gaps, in_ground_axes
+from contact_sim_pkg.rigs.body.model import BlockModel
+from contact_sim_pkg.rigs.body.resultant import resultant
+
+Array = NDArray[numpy.float64]
+NANOSECONDS = 1_000_000_000
+STICKS, SLIPS = 2, 3  # of `ContactPoints.state`
+PLANE_NAMES = ("block_x", "block_z", "block_pitch")
+SPACE_NAMES = ("block_x", "block_y", "block_z", "block_rotation_x", "block_rotation_y", "block_rotation_z")
+
+
+@dataclass
+class BlockRecord:
+    """Samples of one block: states at the starts of the samples and at its end, forces as means over each sample."""
+
+    block: int
+    position: Array  # [samples + 1, width]
+    angle: Array  # [samples + 1]
+    rotation: Array  # [samples + 1, width, width]
+    velocity: Array  # [samples + 1, coordinates]
+    gap: Array  # [samples], of the lowest contact
+    force: Array  # [samples, contacts, width], normal, then tangents
+    states: NDArray[numpy.int64]  # [samples, contacts]
+    energy: Array = field(default_factory=lambda: numpy.zeros(5))  # kinetic, potential, stored, dissipated, supplied
+    residual: float = 0.0
+    events: int = 0
+    steps: int = 0
+
+    @classmethod
+    def empty(cls, model: BlockModel, block: int) -> BlockRecord:
+        """Room for one block of ``model``."""
+        samples, width, contacts = model.timing.samples, model.body.width, contact_count(model.body, model.ground)
+        zeros, ends = numpy.zeros, samples + 1
+        return cls(
+            block, zeros((ends, width)), zeros(ends), zeros((ends, width, width)), zeros((ends, len(model.body.load))),
+            zeros(samples), zeros((samples, contacts, width)), zeros((samples, contacts), numpy.int64),
+        )  # fmt: skip
+
+    def take_start(self, motion: Motion) -> None:
+        """State at the start of the block."""
+        self.take_state(0, motion)
+
+    def take_state(self, sample: int, motion: Motion) -> None:
+        """State at the start of a sample."""
+        self.position[sample], self.angle[sample] = motion.position, motion.angle[0]
+        self.rotation[sample], self.velocity[sample] = motion.rotation, motion.velocity
+
+    def take_impulses(self, model: BlockModel, force: Array, stuck: NDArray[numpy.bool_]) -> None:
+        """Mean forces over all samples, [samples, rows] in [N], and which contacts stick, [samples, contacts]."""
+        self.force[:] = force.reshape(self.force.shape)
+        self.states[:] = numpy.where(self.force[:, :, 0] > 0.0, numpy.where(stuck, STICKS, SLIPS), 0)
+
+    def look(self, model: BlockModel) -> None:
+        """Gaps of the states that were taken."""
+        self.gap[:] = gaps(model, self.position[:-1], self.rotation[:-1])
+
+
+def encode_block(
+    model: BlockModel, record: BlockRecord, wall_time: float
+) -> tuple[list[tuple[str, int, bytes]], float]:
+    """Messages of a block in canonical order, and the largest normal force in [N]."""
+    timing = model.timing
+    stamp = record.block * round(timing.block_length * NANOSECONDS)
+    period = timing.block_length / timing.samples
+    normal, tangential = record.force[:, :, 0].sum(axis=1), record.force[:, :, 1].sum(axis=1)
+    zeros = numpy.zeros_like(normal)
+    value = ContactForceBlock(record.block, period, normal, tangential, -record.gap, zeros)
+    messages = [("block/force", stamp, encode_contact_force(value, stamp, BLOCK_FRAME))]
+    messages += _wrenches(model, record, stamp) + _points(model, record, stamp)
+    messages += _bench(model, record, stamp, period, wall_time)
+    messages.sort(key=lambda message: (message[1], TOPICS[message[0]].rank))
+    return messages, float(normal.max())
+
+
+def _stamp_of(model: BlockModel, stamp: int, sample: int) -> int:
+    return stamp + sample * round(model.timing.block_length * NANOSECONDS) // model.timing.samples
+
+
+def _wrenches(model: BlockModel, record: BlockRecord, stamp: int) -> list[tuple[str, int, bytes]]:
+    """Mean wrench on the body about its centre of mass over a display period: axes of a plane ground, the world's over heights."""
+    timing, found = model.timing, []
+    uneven = len(model.ground.profile.nodes) > 0
+    for display in range(timing.displays):
+        first, last = (place * timing.samples // timing.displays for place in (display, display + 1))
+        force, torque = (_over_heights if uneven else _on_a_plane)(model, record, first, last)
+        at = _stamp_of(model, stamp, first)
+        wrench = Wrench((force[0], force[1], force[2]), (torque[0], torque[1], torque[2]))
+        found.append(("block/wrench", at, encode_wrench(wrench, at, BENCH_FRAME if uneven else BLOCK_FRAME)))
+    return found
+
+
+def _on_a_plane(model: BlockModel, record: BlockRecord, first: int, last: int) -> tuple[list[float], list[float]]:
+    """Force (along, across, normal) and torque of the samples from first to last, of the forces and where they act."""
+    force = record.force[first:last].mean(axis=0)  # [contacts, width]
+    arms = in_ground_axes(model, _in_space(contact_arms(model, record.position[first], record.rotation[first])))
+    across = float(force[:, 2].sum()) if model.body.width != PLANE else 0.0
+    torque = numpy.cross(arms, _forces_in_space(force)).sum(axis=0)
+    return [float(force[:, 1].sum()), across, float(force[:, 0].sum())], torque.tolist()
+
+
+def _over_heights(model: BlockModel, record: BlockRecord, first: int, last: int) -> tuple[list[float], list[float]]:
+    """Force and torque of the samples from first to last: each face has axes of its own, which momentum does not need."""
+    ends, time = [first, last], (last - first) * model.timing.block_length / model.timing.samples
+    force, torque = resultant(model.body, record.rotation[ends], record.velocity[ends], time)
+    return force.tolist(), torque.tolist()
+
+
+def _in_space(arms: Array) -> Array:
+    return arms if arms.shape[1] == 3 else numpy.column_stack([arms[:, 0], numpy.zeros(len(arms)), arms[:, 1]])
+
+
+def _forces_in_space(force: Array) -> Array:
+    """Rows (along, across, normal) of forces (normal, tangents) in the axes of the ground."""
+    across = force[:, 2] if force.shape[1] == 3 else numpy.zeros(len(force))
+    return numpy.column_stack([force[:, 1], across, force[:, 0]])
+
+
+def _points(model: BlockModel, record: BlockRecord, stamp: int) -> list[tuple[str, int, bytes]]:
+    """The candidate contacts at the field rate, forces as means from one field to the next."""
+    timing, found = model.timing, []
+    for interval in range(timing.intervals):
+        first, last = (place * timing.samples // timing.intervals for place in (interval, interval + 1))
+        arms = _in_space(contact_arms(model, record.position[first], record.rotation[first]))
+        force = record.force[first:last].mean(axis=0)
+        at = _stamp_of(model, stamp, first)
+        value = PointField(
+            record.block, arms[:, 0], arms[:, 1], numpy.zeros(len(arms)), force[:, 0], force[:, 1],
+            numpy.full(len(arms), record.position[first, 0]) + arms[:, 0],
+            record.states[first:last].max(axis=0).astype(numpy.uint8),
+        )  # fmt: skip
+        found.append(("block/points", at, encode_contact_points(value, at, BLOCK_FRAME)))
+    return found
+
+
+def _bench(
+    model: BlockModel, record: BlockRecord, stamp: int, period: float, wall_time: float
+) -> list[tuple[str, int, bytes]]:
+    names, position, velocity = _coordinates(model, record)
+    acceleration = numpy.diff(velocity, axis=1) / period
+    motion = MotionBlock(record.block, period, names, position[:, :-1], velocity[:, :-1], acceleration)
+    kinetic, potential, stored, dissipated, supplied = (float(value) for value in record.energy)
+    residual = supplied - kinetic - potential - stored - dissipated
+    ledger = Energy(record.block, kinetic, potential, stored, dissipated, supplied, residual)
+    factor = model.timing.block_length / wall_time
+    cost = Cost(record.block, wall_time, factor, record.steps, 0, record.events, 0, record.residual, 0.0, 0, 0, 0.0)
+    return [
+        ("bench/motion", stamp, encode_motion(motion, stamp)), ("bench/energy", stamp, encode_energy(ledger, stamp)),
+        ("bench/cost", stamp, encode_cost(cost, stamp)),
+    ]  # fmt: skip
+
+
+def _coordinates(model: BlockModel, record: BlockRecord) -> tuple[tuple[str, ...], Array, Array]:
+    """Names, positions and velocities [coordinates, samples + 1]; pitch is positive from z to x, as a rotation about y."""
+    if model.body.width == PLANE:
+        position = numpy.vstack([record.position.T, -record.angle])
+        return PLANE_NAMES, position, record.velocity.T * numpy.array([[1.0], [1.0], [-1.0]])
+    turns = numpy.array([rotation_vector(turn @ model.axes.T) for turn in record.rotation])
+    return SPACE_NAMES, numpy.vstack([record.position.T, turns.T]), record.velocity.T
+
+
+def rotation_vector(rotation: Array) -> Array:
+    """Rotation vector in [rad], of length 0 to pi, of a rotation matrix; by its quaternion, exact near 0 and pi."""
+    m = rotation
+    trace = float(numpy.trace(m))
+    squares = numpy.array([1.0 + trace, *(1.0 - trace + 2.0 * m[i, i] for i in range(3))])
+    greatest = int(squares.argmax())
+    if greatest == 0:
+        quaternion = numpy.array([squares[0], m[2, 1] - m[1, 2], m[0, 2] - m[2, 0], m[1, 0] - m[0, 1]])
+    else:
+        i, j, k = greatest - 1, greatest % 3, (greatest + 1) % 3
+        quaternion = numpy.zeros(4)
+        quaternion[0] = m[k, j] - m[j, k]
+        quaternion[1 + i], quaternion[1 + j], quaternion[1 + k] = (
+            squares[greatest],
+            m[j, i] + m[i, j],
+            m[k, i] + m[i, k],
+        )
+    quaternion /= numpy.linalg.norm(quaternion)
+    if quaternion[0] < 0.0:
+        quaternion = -quaternion
+    sine = float(numpy.linalg.norm(quaternion[1:]))
+    if sine == 0.0:
+        return numpy.zeros(3)
+    return numpy.asarray(2.0 * numpy.arctan2(sine, quaternion[0]) / sine * quaternion[1:])

@@ -1,0 +1,1 @@
+"""Accuracy studies, goals and hard cases of the rigid body."""

@@ -1,0 +1,1 @@
+"""Sphere that strikes a viscoelastic sample: drop tower and pendulum."""

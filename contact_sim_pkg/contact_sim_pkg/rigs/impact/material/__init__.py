@@ -1,0 +1,1 @@
+"""Material constants from measured impacts: `bench material`."""

@@ -1,0 +1,1 @@
+"""Slow twins of the impact, with which it shares no code."""

@@ -1,0 +1,1 @@
+"""The impact of a sphere after Goloshchapov: force, motion, restitution, contact time."""

@@ -1,0 +1,1 @@
+"""Creep, relaxation and the hereditary integral of the sample."""

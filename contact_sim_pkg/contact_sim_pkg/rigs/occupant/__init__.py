@@ -1,0 +1,1 @@
+"""Occupant on a cushion and against a seat back under one body."""

@@ -1,0 +1,182 @@
+"""Resolved scene of the roller rig -> roller, contact over time, track, and what is told of its stability before the run."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import Any
+
+import numpy
+from numpy.typing import NDArray
+
+from contact_sim_pkg.compiled.arrays import Vector
+from contact_sim_pkg.rigs.roller.model_checks import refuse_impossible
+from contact_sim_pkg.rigs.roller.theory.ellipse import EXACT, POLYNOMIAL, RollingContact, contact_of_rollers
+from contact_sim_pkg.rigs.roller.theory.load_split import parallel_contact_load
+from contact_sim_pkg.rigs.roller.theory.parameters import Bending, Curvatures, Roller
+from contact_sim_pkg.scene.lattice import effects_at
+from contact_sim_pkg.scene.timing import Timing, make_timing
+
+__all__ = ["RollerModel", "build_roller"]
+
+RADII = ("profile_radius", "rolling_radius", "shaft_radius", "shaft_profile_radius")
+
+
+@dataclass(frozen=True)
+class Programme:
+    """Load and curvatures over time."""
+
+    time: Vector  # [rows] [s]
+    load: Vector  # [rows] [N]
+    curvatures: NDArray[numpy.float64]  # [rows, 4] [1/m] as `Curvatures`
+    steps: bool
+
+    def loads(self, times: Vector) -> Vector:
+        """Pressed on at `times` [s], in [N]."""
+        if self.steps:
+            return numpy.asarray(self.load[self._rows(times)])
+        return numpy.interp(times, self.time, self.load)
+
+    def curvatures_at(self, time: float) -> Curvatures:
+        """At one time [s]. Radii go straight from row to row, not the curvatures."""
+        if self.steps:
+            return Curvatures(*(float(value) for value in self.curvatures[self._rows(numpy.array([time]))[0]]))
+        return Curvatures(*(_straight(time, self.time, column) for column in self.curvatures.T))
+
+    def curvatures_over(self, times: Vector) -> NDArray[numpy.float64]:
+        """At many times [s], [times, 4], columns as `Curvatures`."""
+        if not self.turns_bodies:
+            return numpy.tile(self.curvatures[0], (len(times), 1))
+        return numpy.array([self.curvatures_at(float(time)) for time in times])
+
+    @property
+    def turns_bodies(self) -> bool:
+        """Whether the curvatures change."""
+        return bool((self.curvatures != self.curvatures[0]).any())
+
+    def _rows(self, times: Vector) -> NDArray[numpy.int64]:
+        return numpy.maximum(numpy.searchsorted(self.time, times, side="right") - 1, 0)
+
+
+def _straight(time: float, times: Vector, curvatures: Vector) -> float:
+    if (curvatures == 0.0).any():
+        return float(numpy.interp(time, times, curvatures))
+    return float(1.0 / numpy.interp(time, times, 1.0 / curvatures))
+
+
+@dataclass(frozen=True)
+class RollerModel:
+    """Everything that the simulation of one roller scene needs."""
+
+    timing: Timing
+    roller: Roller  # spin and friction are 0 where their effects are absent
+    modulus: float  # E* [Pa]
+    poisson_ratio: float
+    mass: float  # [kg]
+    shaft_radius: float  # [m]
+    turn_time: float  # [s] of the shaft; inf: it stands
+    bending: Bending | None
+    bending_compliance: float  # k_b [m/N]; 0: the shaft does not bend
+    programme: Programme
+    kind: int  # of the ellipse
+    parallel: bool
+    start: tuple[float, float]  # tilt and yaw [rad] from the static angles
+    acceleration: float
+    effects: dict[str, Any]
+    seed: int
+
+    def contact_load(self, load: float, curvatures: Curvatures) -> float:
+        """F_c [N] of the load pressed on."""
+        if not self.parallel:
+            return load
+        coefficient = contact_of_rollers(curvatures, self.held_yaw, self.modulus, 1.0, self.kind).approach
+        return parallel_contact_load(coefficient, self.bending_compliance, load)
+
+    def contact(self, load: float, yaw: float, curvatures: Curvatures) -> RollingContact:
+        """Contact under a load [N] on it, at a yaw [rad]."""
+        return contact_of_rollers(curvatures, yaw, self.modulus, load, self.kind)
+
+    @property
+    def held_yaw(self) -> float:
+        """[rad] where the roller does not yaw; 0, about its place at rest, where it does."""
+        return 0.0 if self.effects.get("tilt_yaw") is not None else self.start[1]
+
+    @property
+    def traction(self) -> tuple[float, float]:
+        """Over the pressure, along x and y: as `subsurface` says; along rolling by default that of the rolling friction."""
+        below = self.effects.get("subsurface") or {"traction_x": 0.0}
+        along = below.get("traction_y")
+        return float(below["traction_x"]), self.roller.rolling_friction if along is None else float(along)
+
+    @property
+    def largest_load(self) -> float:
+        """[N] pressed on over the run."""
+        return float(self.programme.load.max())
+
+
+def build_roller(scene: dict[str, Any]) -> RollerModel:
+    """Model of a resolved scene. Raises SceneError where it cannot run (`build_roller_checks`)."""
+    rig, effects = scene["roller"], effects_at(scene, "roller")
+    bending, compliance = _bending(rig, effects.get("shaft_bending"))
+    law = effects["normal_elastic"]
+    modulus = 0.5 * float(rig["young_modulus"]) / (1.0 - float(rig["poisson_ratio"]) ** 2)
+    speed = float(rig["speed"])
+    turns = speed * float(rig["radius"]) / float(rig["shaft_radius"])
+    model = RollerModel(
+        make_timing(scene, False), _roller(rig, effects), modulus, float(rig["poisson_ratio"]), float(rig["mass"]),
+        float(rig["shaft_radius"]), 1.0 / turns if turns > 0.0 else math.inf, bending, compliance, _programme(rig),
+        POLYNOMIAL if law["ellipse"] == "polynomial" else EXACT, law["split"] == "parallel" and compliance > 0.0,
+        (float(rig["tilt"]), float(rig["yaw"])), float(rig["acceleration"]), effects, int(scene["seed"]),
+    )  # fmt: skip
+    refuse_impossible(model)
+    return model
+
+
+def _roller(rig: dict[str, Any], effects: dict[str, Any]) -> Roller:
+    gyroscope, friction = effects.get("gyroscope"), effects.get("rolling_friction")
+    named = (
+        "inertia_tilt",
+        "inertia_yaw",
+        "inertia_product",
+        "stiffness_tilt",
+        "stiffness_yaw",
+        "damping_tilt",
+        "damping_yaw",
+    )
+    return Roller(
+        radius=float(rig["radius"]),
+        inertia_spin=0.0 if gyroscope is None else float(gyroscope["inertia_spin"]),
+        spin=2.0 * math.pi * float(rig["speed"]),
+        rolling_friction=0.0 if friction is None else float(friction["coefficient"]),
+        **{name: float(rig[name]) for name in named},
+    )
+
+
+def _bending(rig: dict[str, Any], effect: dict[str, Any] | None) -> tuple[Bending | None, float]:
+    """The bent shaft, and its compliance A^3 / 3 E J [m/N] at the contact."""
+    if effect is None:
+        return None, 0.0
+    radius, distance = float(rig["shaft_radius"]), float(effect["contact_distance"])
+    moment = 0.25 * math.pi * radius**4
+    values = (
+        float(effect["load"]),
+        distance,
+        float(effect["load_distance"]),
+        radius,
+        moment,
+        float(effect["friction"]),
+    )
+    return Bending(*values), distance**3 / (3.0 * float(rig["young_modulus"]) * moment)
+
+
+def _programme(rig: dict[str, Any]) -> Programme:
+    given = rig.get("programme") or {}
+    times = numpy.array(given.get("time") or [0.0], float)
+
+    def column(name: str, constant: float) -> Vector:
+        return numpy.array(given.get(name) or [constant] * len(times), float)
+
+    standing = dict(zip(RADII, ("profile_radius", "radius", "shaft_radius", "shaft_profile_radius"), strict=True))
+    radii = numpy.stack([column(name, float(rig[key])) for name, key in standing.items()], axis=1)
+    curvatures = numpy.divide(1.0, radii, out=numpy.zeros_like(radii), where=radii > 0.0)
+    return Programme(times, column("load", float(rig["load"])), curvatures, given.get("between") == "steps")

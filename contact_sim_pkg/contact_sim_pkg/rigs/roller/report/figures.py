@@ -1,0 +1,189 @@
+"""Pictures of the roller rig in time: contact, motion, track, spectrogram of the load, stability over load and speed."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+
+from contact_sim_pkg.bag.messages import RollerTrack
+from contact_sim_pkg.report.drawing import ACCENT, INK, MUTED, Picture, draw_series, new_figure, picture
+from contact_sim_pkg.report.signal.decimate import envelope
+from contact_sim_pkg.rigs.roller.model import build_roller
+from contact_sim_pkg.rigs.roller.report.series import RollerSeries
+from contact_sim_pkg.rigs.roller.report.warnings import LARGEST_ERROR
+from contact_sim_pkg.rigs.roller.theory.stability import RollerError, stability
+
+OTHER = "#e08a2e"
+LEAST_CHANGE = 1e-3  # of a value's mean: less is drawn as a level line
+MAP_ROWS = 25
+SPECTRUM_PARTS = 60
+
+
+def contact_over_time(roller: RollerSeries) -> Picture:
+    """Semi-axes, area, pressure, approach and load over time: the paper's figure 10."""
+    c, time = roller.contact, roller.time
+    figure, axes = new_figure(6.2, 5, sharex=True)
+    for values, colour, label in ((c.along_x, ACCENT, "nearer to x"), (c.along_y, OTHER, "nearer to y")):
+        axes[0].plot(*envelope(time, values * 1e3), color=colour, label=label, linewidth=0.9)
+    axes[0].legend(loc="lower left", bbox_to_anchor=(0.0, 1.0), ncols=2, fontsize=7.5, frameon=False)
+    axes[0].set_ylabel("semi-axes, mm")
+    area = np.pi * c.along_x * c.along_y
+    rows = (
+        (area * 1e6, "S, mm²"),
+        (c.peak_pressure * 1e-6, "p₀, MPa"),
+        (c.approach * 1e6, "δ, µm"),
+        (c.load, "load, N"),
+    )
+    for place, (values, label) in zip(axes[1:], rows, strict=True):
+        draw_series(place, time, values, color=ACCENT, linewidth=0.9)
+        place.set_ylabel(label)
+        if np.ptp(values) < LEAST_CHANGE * values.mean():
+            place.set_ylim(0.95 * values.mean(), 1.05 * values.mean())
+    axes[-1].set_xlabel("simulated time, s")
+    figure.align_ylabels(axes)
+    caption = (
+        f"Semi-axes of the contact, its area, largest pressure ({c.peak_pressure.max() * 1e-6:.5g} MPa at most), approach "
+        f"and the load on it ({c.load.min():.5g} to {c.load.max():.5g} N)."
+    )
+    return picture("roller-contact", figure, "Semi-axes, area, pressure, approach and load over time", caption)
+
+
+def motion_over_time(roller: RollerSeries) -> Picture | None:
+    """Tilt, yaw and heave; None where nothing moves."""
+    c = roller.contact
+    rows = [(c.tilt * 1e3, "tilt, mrad"), (c.yaw * 1e3, "yaw, mrad"), (c.heave * 1e6, "heave, µm")]
+    rows = [(values, label) for values, label in rows if np.ptp(values) > 0.0]
+    if not rows:
+        return None
+    figure, axes = new_figure(0.8 + 1.3 * len(rows), len(rows), sharex=True)
+    for place, (values, label) in zip(axes, rows, strict=True):
+        draw_series(place, roller.time, values, color=ACCENT, linewidth=0.7)
+        place.set_ylabel(label)
+    axes[-1].set_xlabel("simulated time, s")
+    figure.align_ylabels(axes)
+    told = ""
+    if roller.stability:
+        first = roller.stability[0]
+        told = f" Told before the run: growth rate {first.growth_rate:+.4g} 1/s at {first.frequency:.5g} Hz."
+    return picture("roller-motion", figure, "Tilt, yaw and heave over time", f"Motion of the roller.{told}")
+
+
+def track_pictures(roller: RollerSeries) -> list[Picture]:
+    """Heights round each body's circumference over cycles, and the error of the time acceleration where it was looked at."""
+    bodies = dict.fromkeys(each.body for each in roller.tracks)
+    tracks = {body: [each for each in roller.tracks if each.body == body] for body in bodies}
+    found = [_track_over_cycles(body, rows) for body, rows in tracks.items() if len(rows) > 1]
+    checked = [each for each in next(iter(tracks.values()), []) if each.checked > 0.0]
+    return found + ([_acceleration_error(checked)] if checked else [])
+
+
+def _track_over_cycles(body: str, tracks: list[RollerTrack]) -> Picture:
+    cycles = np.array([each.cycles for each in tracks])
+    heights = np.array([each.height for each in tracks]) * 1e6
+    length = 2.0 * np.pi * tracks[0].radius * 1e3
+    figure, (left, right) = new_figure(3.2, 1, 2)
+    largest = float(np.abs(heights).max()) or 1.0
+    places = np.linspace(0.0, length, heights.shape[1])
+    image = left.pcolormesh(places, cycles, heights, cmap="RdBu_r", vmin=-largest, vmax=largest, rasterized=True)
+    figure.colorbar(image, ax=left, label="height, µm")
+    left.set_xlabel("along the circumference, mm")
+    left.set_ylabel("cycles")
+    right.semilogy(cycles, [each.range * 1e6 for each in tracks], color=ACCENT, label="range of heights")
+    if tracks[-1].lowered > 0.0:
+        right.semilogy(cycles, [each.lowered * 1e6 for each in tracks], color=MUTED, label="lost by the mean")
+    right.locator_params(axis="x", nbins=4)
+    right.set_xlabel("cycles")
+    right.set_ylabel("µm")
+    right.legend(loc="lower left", bbox_to_anchor=(-0.12, 1.0), ncols=2, fontsize=7.5, handlelength=1.2)
+    last = tracks[-1]
+    strength = np.abs(np.fft.rfft(last.height))
+    waves = int(strength[1:].argmax()) + 1
+    caption = (
+        f"Heights of the {body}'s track round its circumference over {last.cycles:.6g} cycles, {last.turns:.6g} turns ridden: "
+        f"range {tracks[0].range * 1e6:.4g} to {last.range * 1e6:.4g} µm, at the end strongest {waves} waves round it "
+        f"({length / waves:.4g} mm long); contact lost for {100.0 * last.free:.3g} % of the last turn. "
+        "The paper's own measured waves (figures 3 and 4) are drawn there without numbers; these are simulated."
+    )
+    return picture(f"roller-track-{body}", figure, f"Heights round the {body} over cycles", caption)
+
+
+def _acceleration_error(checked: list[RollerTrack]) -> Picture:
+    figure, (axes,) = new_figure(2.4)
+    cycles, errors = [each.cycles for each in checked], [each.check_error for each in checked]
+    axes.semilogy(cycles, errors, color=ACCENT, marker="o", markersize=4, linewidth=0.9)
+    axes.axhline(LARGEST_ERROR, color=MUTED, linestyle=(0, (4, 3)), linewidth=0.8, label="warned beyond")
+    axes.legend(loc="lower left", bbox_to_anchor=(0.0, 1.0), fontsize=7.5)
+    axes.set_xlabel("cycles")
+    axes.set_ylabel("error of the change")
+    told = [error for error in errors if np.isfinite(error)]
+    worst = f"{min(told):.2g} to {max(told):.2g}" if told else "none could be told"
+    first = checked[0]
+    caption = (
+        f"Each turn that is ridden stands for {first.cycles / first.turns:.6g}. At {len(checked)} places of the run the next "
+        f"{first.checked:.6g} turns were ridden by that time acceleration and turn by turn; the difference of the heights' "
+        f"change over the change turn by turn, rms: {worst}. While waves grow, the errors of the stretches add up over the run."
+    )
+    return picture("roller-acceleration", figure, "Interval procedure beside every turn ridden", caption)
+
+
+def load_spectrogram(roller: RollerSeries) -> Picture | None:
+    """Amplitudes of the load over frequency and time; None where it does not change or the run is short."""
+    load, part = roller.contact.load, len(roller.contact.load) // SPECTRUM_PARTS
+    if part < 32 or np.ptp(load) <= 1e-9 * float(load.max()):
+        return None
+    pieces = load[: part * SPECTRUM_PARTS].reshape(SPECTRUM_PARTS, part)
+    window = np.hanning(part)
+    pieces = (pieces - pieces.mean(axis=1, keepdims=True)) * window
+    sizes = 2.0 * np.abs(np.fft.rfft(pieces, axis=1)) / window.sum()
+    frequency = np.fft.rfftfreq(part, roller.contact.period)
+    figure, (axes,) = new_figure(3.0)
+    levels = np.log10(np.maximum(sizes, 1e-9 * sizes.max()))
+    time = roller.time[::part][:SPECTRUM_PARTS] + 0.5 * part * roller.contact.period
+    image = axes.pcolormesh(time, frequency, levels.T, cmap="magma", vmin=levels.max() - 6.0, rasterized=True)
+    figure.colorbar(image, ax=axes, label="log₁₀ of the amplitude in N")
+    axes.set_xlabel("simulated time, s")
+    axes.set_ylabel("frequency, Hz")
+    strongest = frequency[int(sizes[-1].argmax())]
+    width = float(frequency[1])
+    caption = (
+        f"Load on the contact by frequency, in steps of {width:.3g} Hz; at the end strongest at {strongest:.0f} ± "
+        f"{0.5 * width:.2g} Hz ({sizes[-1].max():.3g} N). Samples of the load at instants: what is faster than "
+        f"{frequency[-1]:.6g} Hz appears below it."
+    )
+    return picture("roller-spectrogram", figure, "Spectrogram of the load on the contact", caption)
+
+
+def stability_map(roller: RollerSeries, scene: dict[str, Any]) -> Picture | None:
+    """Growth rate of tilt and yaw over load and speed; None where they are held."""
+    if not roller.stability:
+        return None
+    model = build_roller(scene)
+    at = roller.stability[0]
+    curvatures = model.programme.curvatures_at(0.0)
+    loads = np.linspace(0.05, 2.0, MAP_ROWS) * model.largest_load
+    spins = np.linspace(0.0, 2.0, MAP_ROWS) * model.roller.spin
+    growth = np.full((MAP_ROWS, MAP_ROWS), np.nan)
+    for i, spin in enumerate(spins):
+        for j, load in enumerate(loads):
+            turned = model.roller._replace(spin=float(spin))
+            try:
+                growth[i, j] = stability(turned, curvatures, model.bending, model.modulus, float(load)).growth_rate
+            except RollerError:
+                continue
+    figure, (axes,) = new_figure(3.0)
+    largest = float(np.nanmax(np.abs(growth))) or 1.0
+    turns = spins / (2.0 * np.pi)
+    image = axes.pcolormesh(loads, turns, growth, cmap="RdBu_r", vmin=-largest, vmax=largest, rasterized=True)
+    zero = np.nanmin(growth) < -1e-6 * largest and np.nanmax(growth) > 1e-6 * largest
+    if zero:
+        axes.contour(loads, turns, growth, levels=[0.0], colors=INK, linewidths=1.0)
+    figure.colorbar(image, ax=axes, label="growth rate, 1/s")
+    axes.plot(at.load, model.roller.spin / (2.0 * np.pi), marker="o", color=INK, markersize=4)
+    axes.set_xlabel("load, N")
+    axes.set_ylabel("turns of the roller, 1/s")
+    caption = (
+        f"Growth rate of the fastest growing motion of tilt and yaw; {'the line is its zero, ' if zero else ''}the point the "
+        f"start of the run ({at.growth_rate:+.4g} 1/s)."
+    )
+    return picture("roller-stability", figure, "Growth rate over load and speed", caption)

@@ -1,0 +1,1 @@
+"""Contact ellipse, motion, stress volumes and wear of the roller."""

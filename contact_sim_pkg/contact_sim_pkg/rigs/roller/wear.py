@@ -1,0 +1,100 @@
+"""The tracks of the roller rig: whose they are, their heights, and what wears them."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, replace
+from typing import Any
+
+import numpy
+
+from contact_sim_pkg.compiled.arrays import Vector
+from contact_sim_pkg.rigs.roller.damage import Table, damage_table
+from contact_sim_pkg.rigs.roller.model import RollerModel
+from contact_sim_pkg.rigs.roller.theory.corrugation import Track, make_track, moving_mean
+from contact_sim_pkg.rigs.roller.theory.ellipse import RollingContact
+
+__all__ = ["BodyTrack", "make_tracks", "track_under"]
+
+PREFIX = {"shaft": "", "roller": "roller_"}
+"""Of a body's keys in the scene."""
+
+
+@dataclass
+class BodyTrack:
+    """A body's track: what changes is its heights and what it has lost."""
+
+    body: str  # "shaft" or "roller"
+    radius: float  # [m]
+    turn_time: float  # [s]
+    turns: int  # of an interval
+    heights: Vector  # [cells] [m]
+    hardness: Vector  # [cells]
+    table: Table
+    track: Track
+    loads: Vector  # [cells] [N] of the last interval
+    turned: int = 0
+    lowered: float = 0.0  # [m]
+
+    def copy(self) -> BodyTrack:
+        """With heights of its own."""
+        return replace(self, heights=self.heights.copy(), loads=self.loads.copy())
+
+    @property
+    def range(self) -> float:
+        """Highest less lowest cell [m]."""
+        return float(numpy.ptp(self.heights))
+
+    def ridden(self) -> Vector:
+        """[cells] [m] heights as the roller feels them: their mean over the contact."""
+        out = numpy.zeros_like(self.heights)
+        moving_mean(self.heights, self.track.contact_cells, out)
+        return out
+
+
+def make_tracks(model: RollerModel) -> list[BodyTrack]:
+    """The tracks of a scene at its start, the shaft's first; measures the dangerous volumes where the scene asks for damage."""
+    effect = model.effects["track_waves"]
+    which, cells = str(effect["track"]), int(effect["cells"])
+    radii = {"shaft": model.shaft_radius, "roller": model.roller.radius}
+    bodies = ("shaft", "roller") if which == "both" else (which,)
+    least, most = (pick(radii[body] for body in bodies) for pick in (min, max))
+    found: list[BodyTrack] = []
+    for body in bodies:
+        number = cells * round(radii[body] / least)
+        heights = _first_heights(effect, [model.seed, 1] if found else model.seed, number, waves=not found)
+        table = damage_table(model, PREFIX[body])
+        turn_time = model.turn_time * radii[body] / model.shaft_radius
+        hardness = _hardness(model, PREFIX[body], number)
+        track = make_track(radii[body], turn_time, number, 0.0, 0.0, 0.0, table, hardness)
+        turns = round(most / radii[body])
+        found.append(
+            BodyTrack(body, radii[body], turn_time, turns, heights, hardness, table, track, numpy.zeros(number))
+        )
+    return found
+
+
+def track_under(track: BodyTrack, contact: RollingContact, gain: float) -> Track:
+    """Of a body, under the contact of the load pressed on."""
+    return make_track(
+        track.radius, track.turn_time, len(track.heights), 2.0 * contact.along_y, gain, contact.approach, track.table,
+        track.hardness,
+    )  # fmt: skip
+
+
+def _first_heights(effect: dict[str, Any], seed: int | list[int], cells: int, waves: bool) -> Vector:
+    heights = float(effect["roughness"]) * numpy.random.default_rng(seed).uniform(-1.0, 1.0, cells)
+    place = 2.0 * math.pi * numpy.arange(cells) / cells
+    for name, wave in (("cosines", numpy.cos), ("sines", numpy.sin)) if waves else ():
+        for number, amplitude in enumerate(effect[name], start=1):
+            heights += amplitude * wave(number * place)
+    level: Vector = heights - heights.mean()
+    return level
+
+
+def _hardness(model: RollerModel, prefix: str, cells: int) -> Vector:
+    damage = model.effects.get("damage") or {}
+    given = damage.get(f"{prefix}hardness") or [1.0]
+    places = numpy.arange(cells, dtype=numpy.float64) / cells * len(given)
+    hardness: Vector = numpy.interp(places, numpy.arange(len(given) + 1), [*given, given[0]])
+    return hardness

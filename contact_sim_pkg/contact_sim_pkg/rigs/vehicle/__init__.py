@@ -1,0 +1,1 @@
+"""Quarter car and seat, alone or together: rigs tire, seat and car."""

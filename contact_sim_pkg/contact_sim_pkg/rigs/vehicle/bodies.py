@@ -1,0 +1,149 @@
+"""The bodies of a vehicle rig in a run: their state, and how it moves between given heights of road and cushion."""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy
+
+from contact_sim_pkg.compiled.arrays import Modes, Vector
+from contact_sim_pkg.compiled.results import DONE, SENTENCES
+from contact_sim_pkg.integrate.dormand_prince import make_workspace
+from contact_sim_pkg.rigs.vehicle import entries
+from contact_sim_pkg.rigs.vehicle.drive import BlockDrive
+from contact_sim_pkg.rigs.vehicle.model import Model, standing_state
+from contact_sim_pkg.rigs.vehicle.motion import MARGINS
+from contact_sim_pkg.rigs.vehicle.tire.footprint import effective_between
+from contact_sim_pkg.run.errors import RunError
+
+Sampled = tuple[Vector, Vector, Vector]  # states, rates, forces; [samples, ...] each
+Offsets = tuple[float, float]  # [m] of tire and seat
+
+
+class Stretch(NamedTuple):
+    """A row of segments from one solution of the fields to the next."""
+
+    block: int
+    start: float  # [s]
+    segment_length: float  # [s]
+    drive: BlockDrive
+    last: bool  # of its interval: its fields are published
+    sampled: Sampled  # rows from the next sample on
+    behind_sample: int  # segments since the last sample
+
+    @property
+    def duration(self) -> float:
+        """In [s]."""
+        return self.segments * self.segment_length
+
+    @property
+    def segments(self) -> int:
+        """Number of segments."""
+        return len(self.drive.smooth) - 1
+
+
+class Saved(NamedTuple):
+    """Everything that a stretch changes."""
+
+    state: Vector
+    mode: Modes
+    side: Vector
+    step: Vector
+    last_event: Vector
+
+
+class Bodies:
+    """State of the bodies of ``model``; heights are smooth heights and what the fields add to them."""
+
+    def __init__(self, model: Model) -> None:
+        """Make the buffers."""
+        self.model = model
+        self._height = numpy.zeros(model.timing.segments + 1)
+        self._cushion = numpy.zeros(model.timing.segments + 1)
+        self.reset()
+
+    def reset(self) -> None:
+        """Forget everything but the buffers."""
+        self.state: Vector = numpy.zeros(self.model.states)
+        self.mode: Modes = numpy.zeros(1, dtype=numpy.int64)
+        self.work = make_workspace(self.model.states, MARGINS)
+
+    def stand(self, smooth: float) -> None:
+        """Let the rig stand in balance on a road of height ``smooth`` [m], by its contact laws."""
+        self.state[:] = standing_state(self.model, smooth)
+
+    def lift(self, height: float) -> None:
+        """Move the whole rig up by ``height`` [m]."""
+        rig = self.model.rig
+        vertical = [0, 1] if rig.carcass is None else [0, 1, rig.carcass.offset]
+        if rig.seat is not None:
+            vertical += range(rig.seat.offset, rig.seat.offset + 1 + len(rig.seat.masses))
+        self.state[vertical] += height
+
+    def weight(self) -> float:
+        """What the tire carries at rest, in [N]."""
+        rig = self.model.rig
+        assert rig.tire is not None
+        mass = rig.tire.wheel_mass + rig.tire.body_mass
+        if rig.carcass is not None:
+            mass += rig.carcass.belt_mass
+        if rig.seat is not None:
+            mass += rig.seat.frame_mass + float(rig.seat.masses.sum())
+        return mass * rig.gravity
+
+    def start(self, first: BlockDrive, offsets: Offsets) -> None:
+        """Take the sides of the event functions at the start of a run; ``first`` is its first segment."""
+        entries.start(
+            self.model.rig, self.mode, self.state, self.work, self.model.timing.segment_length, first.smooth + offsets[0],
+            numpy.full(2, offsets[1]), first.acceleration_x, first.acceleration_z, first.push,
+        )  # fmt: skip
+
+    def save(self) -> Saved:
+        """Copies of everything that a stretch changes."""
+        work = self.work
+        return Saved(
+            self.state.copy(), self.mode.copy(), work.side.copy(), work.step.copy(), work.last_event.copy()
+        )  # fmt: skip
+
+    def restore(self, saved: Saved) -> None:
+        """Go back to what was saved."""
+        work = self.work
+        self.state[:], self.mode[:], work.side[:], work.step[:], work.last_event[:] = saved
+
+    def move(self, stretch: Stretch, starts: Offsets, ends: Offsets) -> None:
+        """Move over a stretch, the offsets going straight from ``starts`` to ``ends``. RunError where the physics fails."""
+        timing, drive = self.model.timing, stretch.drive
+        points = stretch.segments + 1
+        height, cushion = self._height[:points], self._cushion[:points]
+        effective_between(drive.smooth, starts[0], ends[0], height)
+        cushion[:] = numpy.linspace(starts[1], ends[1], points)
+        status = entries.advance(
+            self.model.rig, self.mode, self.state, self.model.scale, self.work, stretch.start, stretch.segment_length, height,
+            cushion, drive.acceleration_x, drive.acceleration_z, drive.push, timing.sample_every, stretch.behind_sample,
+            *stretch.sampled,
+        )  # fmt: skip
+        if status != DONE:
+            raise RunError(f"block {stretch.block}, {stretch.start:.6g} s: {SENTENCES[status]}")
+
+    def energies(self, height: float, cushion: float) -> Vector:
+        """Energies in [J] of the state over given heights in [m] (order of ``rigs/vehicle/entries.energies``)."""
+        return numpy.array(entries.energies(self.model.rig, self.mode, self.state, height, cushion))
+
+    def supply(self, energy: float) -> None:
+        """Count ``energy`` [J] as brought in from outside."""
+        self.state[-2] += energy
+
+    def tire_approach(self, height: float) -> float:
+        """Approach in [m] of tire or belt to a road of ``height`` [m]; 0 without a tire."""
+        rig = self.model.rig
+        if rig.tire is None:
+            return 0.0
+        return height - float(self.state[0 if rig.carcass is None else rig.carcass.offset])
+
+    def seat_approach(self, cushion: float) -> float:
+        """Approach in [m] of the occupant to a cushion of height ``cushion`` [m]; 0 without a seat."""
+        rig = self.model.rig
+        if rig.seat is None:
+            return 0.0
+        floor = float(self.state[1]) if rig.tire is not None else 0.0
+        return floor + cushion - float(self.state[rig.seat.offset])

@@ -1,0 +1,133 @@
+"""The pressure field as the contact itself: what drives the bodies at a field instant is the integral of the field.
+
+At instants of the run the half-space problem is solved for the rigid approach that the bodies have. Between two instants
+stands the field's tangent: the power law ``A x**n`` fitted to the field at its working load (``fit_tangent``), read at the
+approach plus an *offset* that makes it give exactly the field's force at the instant. The offset is a height, the
+effective road (or cushion) height; it changes linearly from instant to instant and is corrected by solving the field again at
+the new end state. What is left after the last correction is a jump at the instant, measured and published as ``field_jump``.
+"""
+
+from __future__ import annotations
+
+import math
+
+import numpy
+from numpy.typing import NDArray
+
+from contact_sim_pkg.laws.elastic_law import approach_of_force
+from contact_sim_pkg.laws.parameters import ElasticLaw, NormalElastic
+from contact_sim_pkg.pressure.field.halfspace import HalfSpace, make_half_space
+from contact_sim_pkg.pressure.field.rolling import RollingField
+from contact_sim_pkg.pressure.field.solver import BAD_INPUT, CONVERGED, EDGE, SENTENCES, FieldResult, refuse_bad_gap
+from contact_sim_pkg.pressure.settings import FieldSettings
+from contact_sim_pkg.rigs.vehicle.tire.envelopment import belt_influence
+
+Field = NDArray[numpy.float64]
+TANGENT_LOAD_STEP = 1.05  # ratio of the two loads through which the tangent law is laid
+TANGENT_TOLERANCE = 1e-7  # of these two solutions: their difference is a thirtieth of the approach
+
+
+class FieldError(RuntimeError):
+    """The field could not be solved: contact at the grid's edge, or no convergence. The message says which."""
+
+
+class FieldEdgeError(FieldError):
+    """The contact reached the edge of the grid."""
+
+
+def half_space_of(settings: FieldSettings) -> HalfSpace:
+    """Half-space of a field's grid, with the belt that yields beside it where there is one."""
+    size = (settings.rows, settings.cols, settings.cell_x, settings.cell_y)
+    belt = None if settings.belt is None else belt_influence(settings.belt, *size)
+    return make_half_space(*size, settings.modulus, belt)
+
+
+class PressureField:
+    """One pressure field that follows its contact: influence tables, the solver's buffers and its last field."""
+
+    def __init__(self, settings: FieldSettings, contact: str) -> None:
+        """Make influence tables and buffers for ``settings``; ``contact`` names it in messages (``tire``, ``seat``)."""
+        self.settings = settings
+        self.contact = contact
+        self.half_space: HalfSpace = half_space_of(settings)
+        self._field = RollingField(self.half_space)
+        self._row: int | None = None  # of the road under row 0, at the last solve
+        self.pressure: Field = self._field.pressure
+        self.load = 0.0
+        self.iterations = 0
+        self.residual = 0.0
+
+    def forget(self) -> None:
+        """The next field starts from nothing."""
+        self._field.forget()
+        self._row = None
+
+    def roll_to(self, row: int) -> None:
+        """Row 0 of the grid lies on ``row`` of the road now. Call it before each solve; the same row again changes nothing.
+
+        What is known of the field moves with the road. Several solves at one row repeat the instant: the last one counts.
+        """
+        if self._row is not None and row != self._row:
+            self._field.roll(row - self._row)
+        self._row = row
+
+    def solve(self, gap: Field, approach: float) -> float:
+        """Solve for ``gap`` [m] (undeformed, at zero approach) and ``approach`` [m]; returns the load in [N], 0 without contact.
+
+        Starts from what is known of the fields before. Raises FieldError where the contact reaches the edge or does not converge.
+        """
+        s = self.settings
+        result = self._field.solve_at_approach(gap, approach, s.tolerance, s.maximum_iterations)
+        self._accept(result, gap)
+        return self.load
+
+    def solve_load(self, gap: Field, load: float, tolerance: float | None = None) -> float:
+        """Solve for ``load`` [N]; returns the approach in [m]. ``tolerance`` None: that of the settings. Errors as ``solve``."""
+        s = self.settings
+        asked = s.tolerance if tolerance is None else tolerance
+        result = self._field.solve_at_load(gap, load, asked, s.maximum_iterations)
+        self._accept(result, gap)
+        return float(result.approach)
+
+    def _accept(self, result: FieldResult, gap: Field) -> None:
+        if result.status == BAD_INPUT:
+            self._refuse_bad_cell(gap)
+        if result.status != CONVERGED:
+            kind = FieldEdgeError if result.status == EDGE else FieldError
+            raise kind(
+                f"{self.contact}: {SENTENCES[result.status]} (load {result.load:.6g} N, residual {result.residual:.2g}, grid "
+                f"{self.settings.rows} x {self.settings.cols} over {self.settings.rows * self.settings.cell_x:.4g} m x "
+                f"{self.settings.cols * self.settings.cell_y:.4g} m; see effects.{self.contact}.contact_field)"
+            )
+        self.load = float(result.load)
+        self.iterations += int(result.iterations)
+        self.residual = float(result.residual)
+
+    def _refuse_bad_cell(self, gap: Field) -> None:
+        """Name the cell whose height is not finite, where that is the fault."""
+        try:
+            refuse_bad_gap(gap)
+        except ValueError as error:
+            raise FieldError(f"{self.contact}: {error}") from None
+
+
+def fit_tangent(field: PressureField, gap: Field, load: float) -> NormalElastic:
+    """Power law through the field's approach at ``load`` [N] and at 5 % more: the tangent between field instants.
+
+    Both are solved to 1e-7 whatever the field's own tolerance: the loss and the effective height are read from this law.
+    """
+    tolerance = min(TANGENT_TOLERANCE, field.settings.tolerance)
+    first = field.solve_load(gap, load, tolerance)
+    second = field.solve_load(gap, load * TANGENT_LOAD_STEP, tolerance)
+    exponent = math.log(TANGENT_LOAD_STEP) / math.log(second / first)
+    return NormalElastic(load / first**exponent, exponent)
+
+
+def offset_of(elastic: ElasticLaw, field: PressureField, gap: Field, approach: float, geometric: float) -> float:
+    """Height in [m] to add to the ``geometric`` approach [m] so that the tangent law gives the field's force.
+
+    ``approach`` [m] is what the field was solved at. Without contact the law's approach is minus the smallest distance.
+    """
+    if field.load > 0.0:
+        return float(approach_of_force(elastic, field.load)) - geometric
+    return min(0.0, approach - float(gap.min())) - geometric

@@ -1,0 +1,103 @@
+"""What moves the rig over one block, at every segment's end: travel, smooth road height, accelerations, impulses."""
+
+from __future__ import annotations
+
+from typing import Any, NamedTuple
+
+import numpy
+
+from contact_sim_pkg.compiled.arrays import Vector
+from contact_sim_pkg.excitation.travel import Travel
+from contact_sim_pkg.rigs.vehicle.model import Model
+from contact_sim_pkg.rigs.vehicle.tire.asperity_push import asperity_push
+from contact_sim_pkg.rigs.vehicle.tire.footprint import effective_heights
+from contact_sim_pkg.rigs.vehicle.tire.model import TireGeometry
+from contact_sim_pkg.run.errors import RunError
+
+ROAD, VIBRATION = "road/patch", "platform/vibration"
+
+
+class BlockDrive(NamedTuple):
+    """Values at the ends of all segments of a block, [segments + 1], or of a part of them."""
+
+    road: Any  # the block's RoadPatch, None without a tire
+    travel: Vector  # [m] of the wheel centre
+    smooth: Vector  # [m] height that a smooth tire sees
+    acceleration_x: Vector  # [m/s^2] of the floor
+    acceleration_z: Vector  # [m/s^2]
+    push: Vector | None  # [N] of the road's asperities; None where the scene calls for none
+
+    def part(self, first: int, segments: int) -> BlockDrive:
+        """The same for ``segments`` segments from number ``first``."""
+        chosen = slice(first, first + segments + 1)
+        return BlockDrive(
+            self.road, self.travel[chosen], self.smooth[chosen], self.acceleration_x[chosen],
+            self.acceleration_z[chosen], None if self.push is None else self.push[chosen],
+        )  # fmt: skip
+
+
+def block_drive(model: Model, travel: Travel | None, block: int, road: Any, vibration: Any) -> BlockDrive:
+    """Drive of block number ``block`` from its input blocks; ``travel`` is None without a tire.
+
+    Raises RunError where an input is missing, of another block, or does not fit the scene.
+    """
+    a_x, a_z = _accelerations(model, block, vibration)
+    places, smooth, push = _rolling(model, travel, block, road)
+    return BlockDrive(road, places, smooth, a_x, a_z, push)
+
+
+def _accelerations(model: Model, block: int, vibration: Any) -> tuple[Vector, Vector]:
+    """Floor accelerations, straight between the samples."""
+    timing = model.timing
+    points = timing.intervals * timing.segments + 1
+    if not model.shaken:
+        zeros = numpy.zeros(points)
+        return zeros, zeros
+    samples = (points - 1) // timing.vibration_stride + 1
+    if vibration is None or vibration.block != block or len(vibration.acceleration_z) != samples:
+        found = "none" if vibration is None else f"block {vibration.block} with {len(vibration.acceleration_z)} samples"
+        raise RunError(f"{VIBRATION}: block {block} with {samples} samples was due, {found} came")
+    position = numpy.arange(points) / timing.vibration_stride
+    index = numpy.arange(samples)
+    return (
+        numpy.interp(position, index, vibration.acceleration_x),
+        numpy.interp(position, index, vibration.acceleration_z),
+    )
+
+
+def _rolling(model: Model, travel: Travel | None, block: int, road: Any) -> tuple[Vector, Vector, Vector | None]:
+    """Travel of the wheel, height that a smooth tire sees, and impulses of the road."""
+    timing, geometry = model.timing, model.tire_geometry
+    steps = timing.intervals * timing.segments
+    if geometry is None or travel is None:
+        zeros = numpy.zeros(steps + 1)
+        return zeros, zeros, None
+    _check_road(geometry, block, road)
+    places = numpy.array([travel.position((block * steps + i) * timing.segment_length) for i in range(steps + 1)])
+    smooth = numpy.empty(steps + 1)
+    inside = effective_heights(
+        road.height, road.first_row, geometry.lattice.cell_x, geometry.lattice.cell_y, geometry.semi_axis_x,
+        geometry.semi_axis_y, places, smooth,
+    )  # fmt: skip
+    if not inside:
+        raise RunError(
+            f"{ROAD}: block {block} does not reach over the footprint from {places[0]:.6g} to {places[-1]:.6g} m"
+        )
+    push = None if model.asperities is None else asperity_push(model.asperities, geometry, road, places)
+    return places, smooth, push
+
+
+def _check_road(geometry: TireGeometry, block: int, road: Any) -> None:
+    lattice = geometry.lattice
+    if road is None or road.block != block:
+        raise RunError(f"{ROAD}: block {block} was due, {'none' if road is None else f'block {road.block}'} came")
+    if road.height.shape[1] != lattice.road_cols or abs(road.cell_x / lattice.cell_x - 1.0) > 1e-12:
+        raise RunError(
+            f"{ROAD}: block {block} has {road.height.shape[1]} columns and cells of {road.cell_x} m, the scene needs "
+            f"{lattice.road_cols} columns and cells of {lattice.cell_x} m"
+        )
+    if not numpy.isfinite(road.height).all():
+        row, col = (int(index) for index in numpy.argwhere(~numpy.isfinite(road.height))[0])
+        raise RunError(
+            f"{ROAD}: block {block} has the height {road.height[row, col]} at row {row}, column {col}; it must be finite"
+        )

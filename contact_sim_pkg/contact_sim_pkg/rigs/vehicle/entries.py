@@ -1,0 +1,186 @@
+"""Compiled entries of the vehicle rig: advance over a row of segments with samples, and the energies of a state."""
+
+from __future__ import annotations
+
+from contact_sim_pkg.compiled.arrays import Modes, Vector
+from contact_sim_pkg.compiled.jit import borrowing_kernel, entry
+from contact_sim_pkg.compiled.results import DONE
+from contact_sim_pkg.compiled.vectors import copy_row
+from contact_sim_pkg.integrate.dormand_prince import Workspace, integrate, set_sides
+from contact_sim_pkg.integrate.drive import Drive
+from contact_sim_pkg.integrate.interface import rate
+from contact_sim_pkg.laws.elastic_law import elastic_energy
+from contact_sim_pkg.laws.foam_hysteresis import memory_energy
+from contact_sim_pkg.laws.friction import SLIP_BACKWARD, SLIP_FORWARD, following_deflection, friction_force
+from contact_sim_pkg.rigs.vehicle import motion as vehicle
+from contact_sim_pkg.rigs.vehicle import quarter_car
+from contact_sim_pkg.rigs.vehicle.parameters import Vehicle
+
+TIRE_NORMAL, TIRE_APPROACH, TIRE_HEIGHT, TIRE_RATE = 0, 1, 2, 3
+SEAT_NORMAL, SEAT_TANGENTIAL, SEAT_APPROACH, SEAT_HEIGHT, SEAT_RATE = 4, 5, 6, 7, 8
+TIRE_PUSH = 9
+FORCES = 10
+
+
+@borrowing_kernel
+def _value(values, i):
+    if values is None:
+        return None
+    return values[i]
+
+
+@borrowing_kernel
+def _segment(start, length, i, height, cushion, acceleration_x, acceleration_z, push):
+    return Drive(
+        start + i * length, length, height[i], height[i + 1], cushion[i], cushion[i + 1],
+        acceleration_x[i], acceleration_x[i + 1], acceleration_z[i], acceleration_z[i + 1],
+        _value(push, i), _value(push, i + 1),
+    )  # fmt: skip
+
+
+@borrowing_kernel
+def _tangential(friction, seat, mode, normal, state):
+    """Friction force on the occupant in [N]."""
+    if friction is None:
+        return 0.0
+    x = vehicle._slide_index(seat)
+    return -friction_force(friction, mode[0], normal, state[x + 2], state[x + 1])
+
+
+@borrowing_kernel
+def _observe(rig, drive, mode, state, out):
+    """Forces, approaches and heights of both contacts at the start of the segment."""
+    height, height_rate, cushion, cushion_rate, _a_x, _a_z = quarter_car.drive_at(drive, drive.start)
+    tire_x, tire_v = quarter_car.tire_approach(rig.tire, rig.carcass, height, height_rate, state)
+    seat_x, seat_v = vehicle.seat_approach(rig.tire, rig.seat, cushion, cushion_rate, state)
+    seat_normal = vehicle.normal_force(rig.seat_contact, seat_x, seat_v, state)
+    out[TIRE_NORMAL] = vehicle.normal_force(rig.tire_contact, tire_x, tire_v, state)
+    out[TIRE_APPROACH] = tire_x
+    out[TIRE_HEIGHT] = height
+    out[TIRE_RATE] = tire_v
+    out[TIRE_PUSH] = quarter_car.push_at(drive, drive.start) if tire_x > 0.0 else 0.0
+    out[SEAT_NORMAL] = seat_normal
+    out[SEAT_TANGENTIAL] = _tangential(vehicle._friction_of(rig.seat_contact), rig.seat, mode, seat_normal, state)
+    out[SEAT_APPROACH] = seat_x
+    out[SEAT_HEIGHT] = cushion
+    out[SEAT_RATE] = seat_v
+
+
+@entry
+def start(
+    rig: Vehicle, mode: Modes, state: Vector, work: Workspace, segment_length: float, height: Vector, cushion: Vector,
+    acceleration_x: Vector, acceleration_z: Vector, push: Vector | None,
+) -> None:  # fmt: skip
+    """Take the sides of the event functions at the start of a run (arrays hold the first segment's two ends)."""
+    drive = _segment(0.0, segment_length, 0, height, cushion, acceleration_x, acceleration_z, push)
+    set_sides(rig, drive, mode, 0.0, state, work)
+
+
+@entry
+def advance(
+    rig: Vehicle, mode: Modes, state: Vector, scale: Vector, work: Workspace, start: float, segment_length: float,
+    height: Vector, cushion: Vector, acceleration_x: Vector, acceleration_z: Vector, push: Vector | None,
+    sample_every: int, behind_sample: int, sampled_states: Vector, sampled_rates: Vector, sampled_forces: Vector,
+) -> int:  # fmt: skip
+    """Advance ``state`` over ``len(height) - 1`` segments of ``segment_length`` in [s] from time ``start``.
+
+    ``height``, ``cushion`` [m], ``acceleration_x``, ``acceleration_z`` [m/s^2], ``push`` [N] (None: none): values at the
+    ends of the segments, linear between. Every ``sample_every``-th segment's start is sampled, the first segment lying
+    ``behind_sample`` segments behind one: state, rates (seen from the right) and the columns ``TIRE_NORMAL ...`` of the forces.
+    Returns a status of ``compiled/results.py``; ``mode``, ``state`` and ``work`` change in place.
+    """
+    row = 0
+    for i in range(height.shape[0] - 1):
+        drive = _segment(start, segment_length, i, height, cushion, acceleration_x, acceleration_z, push)
+        if (i + behind_sample) % sample_every == 0:
+            copy_row(state, sampled_states[row])
+            rate(rig, drive, mode, drive.start, state, sampled_rates[row])
+            _observe(rig, drive, mode, state, sampled_forces[row])
+            row += 1
+        status = integrate(rig, drive, mode, start + (i + 1) * segment_length, state, scale, work)
+        if status != DONE:
+            return status
+    return DONE
+
+
+@borrowing_kernel
+def _tire_energies(tire, gravity, state):
+    if tire is None:
+        return 0.0, 0.0, 0.0
+    kinetic = 0.5 * (tire.wheel_mass * state[2] ** 2 + tire.body_mass * state[3] ** 2)
+    potential = gravity * (tire.wheel_mass * state[0] + tire.body_mass * state[1])
+    return kinetic, potential, 0.5 * tire.suspension_stiffness * (state[0] - state[1]) ** 2
+
+
+@borrowing_kernel
+def _carcass_energies(carcass, gravity, state):
+    if carcass is None:
+        return 0.0, 0.0, 0.0
+    belt = carcass.offset
+    kinetic = 0.5 * carcass.belt_mass * state[belt + 1] ** 2
+    return kinetic, gravity * carcass.belt_mass * state[belt], 0.5 * carcass.stiffness * (state[belt] - state[0]) ** 2
+
+
+@borrowing_kernel
+def _seat_energies(seat, gravity, state):
+    if seat is None:
+        return 0.0, 0.0, 0.0
+    count = seat.masses.shape[0]
+    z = seat.offset
+    v = seat.offset + 1 + count
+    kinetic = 0.5 * seat.frame_mass * state[v] ** 2
+    potential = gravity * seat.frame_mass * state[z]
+    stored = 0.0
+    for i in range(count):
+        kinetic += 0.5 * seat.masses[i] * state[v + 1 + i] ** 2
+        potential += gravity * seat.masses[i] * state[z + 1 + i]
+        stored += 0.5 * seat.stiffness[i] * (state[z + 1 + i] - state[z]) ** 2
+    return kinetic, potential, stored
+
+
+@borrowing_kernel
+def _slide_energies(friction, seat, mode, normal, state):
+    if friction is None:
+        return 0.0, 0.0
+    x = vehicle._slide_index(seat)
+    deflection = state[x + 2]
+    if mode[0] == SLIP_FORWARD or mode[0] == SLIP_BACKWARD:
+        deflection = following_deflection(friction, mode[0], normal, state[x + 1])
+    return 0.5 * vehicle.seat_mass(seat) * state[x + 1] ** 2, 0.5 * friction.stiffness * deflection**2
+
+
+@borrowing_kernel
+def _contact_energy(contact, approach):
+    if contact is None:
+        return 0.0
+    return elastic_energy(contact.elastic, approach)
+
+
+@borrowing_kernel
+def _memory_energy(contact, state):
+    if contact is None:
+        return 0.0
+    return memory_energy(contact.hysteresis, state)
+
+
+@entry
+def energies(
+    rig: Vehicle, mode: Modes, state: Vector, height: float, cushion: float
+) -> tuple[float, float, float, float, float]:
+    """Kinetic, potential, stored energy, work supplied, work dissipated, all in [J], of ``state`` at given heights in [m]."""
+    kinetic, potential, stored = _tire_energies(rig.tire, rig.gravity, state)
+    belt_kinetic, belt_potential, belt_stored = _carcass_energies(rig.carcass, rig.gravity, state)
+    kinetic += belt_kinetic
+    potential += belt_potential
+    stored += belt_stored
+    seat_kinetic, seat_potential, seat_stored = _seat_energies(rig.seat, rig.gravity, state)
+    tire_x, _tire_v = quarter_car.tire_approach(rig.tire, rig.carcass, height, 0.0, state)
+    seat_x, _seat_v = vehicle.seat_approach(rig.tire, rig.seat, cushion, 0.0, state)
+    normal = vehicle.normal_force(rig.seat_contact, seat_x, _seat_v, state)
+    slide_kinetic, spring = _slide_energies(vehicle._friction_of(rig.seat_contact), rig.seat, mode, normal, state)
+    remembered = _memory_energy(rig.seat_contact, state)
+    stored += seat_stored + spring + remembered
+    stored += _contact_energy(rig.tire_contact, tire_x) + _contact_energy(rig.seat_contact, seat_x)
+    last = state.shape[0]
+    dissipated = state[last - 1] - spring - remembered
+    return kinetic + seat_kinetic + slide_kinetic, potential + seat_potential, stored, state[last - 2], dissipated

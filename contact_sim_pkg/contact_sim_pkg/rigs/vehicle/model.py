@@ -1,0 +1,251 @@
+"""Resolved scene -> parameters, grids and timing: the only place where an effect that is not called for becomes ``None``."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import Any
+
+import numpy
+from numpy.typing import NDArray
+
+from contact_sim_pkg.compiled.arrays import Vector
+from contact_sim_pkg.laws.elastic_law import approach_of_force
+from contact_sim_pkg.laws.parameters import Contact, ElasticLaw, FoamHysteresis, Friction
+from contact_sim_pkg.pressure.settings import FieldSettings
+from contact_sim_pkg.rigs.vehicle.contact_model import FieldGrids, elastic_of, loss_of, make_grids, tangent_law
+from contact_sim_pkg.rigs.vehicle.coupling_model import (
+    CouplingRule,
+    allowance_of,
+    coupled_timing,
+    longest_travel,
+    shortest_time,
+)
+from contact_sim_pkg.rigs.vehicle.parameters import Seat, Vehicle
+from contact_sim_pkg.rigs.vehicle.seat.mat import PanMat, build_pan_mat
+from contact_sim_pkg.rigs.vehicle.seat.shape import SeatShape, seat_gap
+from contact_sim_pkg.rigs.vehicle.tire.model import Asperities, RollingFriction, TireGeometry, Tread, build_tire
+from contact_sim_pkg.scene.lattice import GRAVITY, effects_at, field_settings, occupant_mass, standing_load
+from contact_sim_pkg.scene.timing import Timing
+
+POSITION_SCALE = 0.01  # [m], size of the approaches, at most; the integrator's tolerance is relative to it
+VELOCITY_SCALE = 0.5  # [m/s], size of the velocities on a rough road, at most
+STIFF = 0.1  # of a contact less deep than that: its swings are many and hardly damped, and their errors add up
+
+
+Fields = tuple[FieldGrids | None, FieldGrids | None]  # of tire and seat
+
+
+@dataclass(frozen=True)
+class Model:
+    """Everything that the simulation of one scene needs."""
+
+    rig: Vehicle
+    timing: Timing
+    scale: Vector  # [states] error allowed per step
+    bodies: tuple[str, ...]
+    tire_geometry: TireGeometry | None
+    tire_field: FieldGrids | None
+    tread: Tread | None
+    rolling_friction: RollingFriction | None
+    asperities: Asperities | None
+    seat_field: FieldGrids | None
+    seat_shape: SeatShape | None
+    seat_mat: PanMat | None
+    corrector_passes: int
+    coupling: CouplingRule | None  # None without a pressure field
+    shaken: bool  # whether the scene has a vibration
+
+    @property
+    def states(self) -> int:
+        """Number of state variables."""
+        return int(self.scale.shape[0])
+
+
+def build(scene: dict[str, Any]) -> Model:
+    """Parameters of a resolved scene. Raises FieldError where a pressure field cannot carry the standing load."""
+    rig_name = scene["rig"]
+    with_tire, with_seat = rig_name in ("tire", "car"), rig_name in ("seat", "car", "occupant")
+    seat_field, shape = _seat_field(scene) if with_seat else (None, None)
+    tire = build_tire(scene) if with_tire else None
+    tire_field = None if tire is None else tire.field
+    behind = 0 if tire is None else 4 if tire.carcass is None else 6
+    seat = _seat(scene, offset=behind) if with_seat else None
+    seat_contact = _seat_contact(scene, seat, seat_field, shape) if seat is not None else None
+    rig = Vehicle(GRAVITY, None, None, None, seat, seat_contact)
+    if tire is not None:
+        rig = rig._replace(tire=tire.tire, carcass=tire.carcass, tire_contact=tire.contact)
+    footprint = None if tire is None or tire_field is None else tire.footprint_length
+    timing = coupled_timing(scene, tire_field is not None or seat_field is not None, footprint)
+    return Model(
+        rig=rig,
+        timing=timing,
+        scale=_scale(rig, float(scene["integrator"]["relative_tolerance"])),
+        bodies=_bodies(rig),
+        tire_geometry=None if tire is None else tire.geometry,
+        tire_field=tire_field,
+        tread=None if tire is None else tire.tread,
+        rolling_friction=None if tire is None else tire.rolling_friction,
+        asperities=None if tire is None else tire.asperities,
+        seat_field=seat_field,
+        seat_shape=shape,
+        seat_mat=None if seat is None else build_pan_mat(scene),
+        corrector_passes=max(
+            (field.usual.settings.corrector_passes for field in (tire_field, seat_field) if field is not None),
+            default=0,
+        ),
+        coupling=_coupling(
+            scene, rig, footprint, timing, (tire_field, seat_field), None if tire is None else tire.tread
+        ),
+        shaken=bool(scene.get("vibration")),
+    )
+
+
+def _coupling(
+    scene: dict[str, Any], rig: Vehicle, footprint: float | None, timing: Timing, fields: Fields, tread: Tread | None
+) -> CouplingRule | None:
+    """Rule for the stretches between two solutions of the fields; ``footprint`` [m] is None without a field on a road.
+
+    The stretches of a ``tread`` with memory are its step.
+    """
+    if fields == (None, None):
+        return None
+    tolerance = float(scene["integrator"]["coupling_tolerance"])
+    tire_load = 0.0 if rig.tire is None else standing_load(scene)
+    seat_load = 0.0 if rig.seat is None else occupant_mass(scene) * GRAVITY
+    allowances = (
+        allowance_of(rig.tire_contact, fields[0], tire_load, tolerance),
+        allowance_of(rig.seat_contact, fields[1], seat_load, tolerance),
+    )
+    segments = None if tread is None else round(tread.step / timing.segment_length)
+    shortest = max(1, round(max(map(shortest_time, allowances)) / timing.segment_length))
+    return CouplingRule(tolerance, allowances, longest_travel(footprint, tolerance), shortest, segments)
+
+
+def _seat(scene: dict[str, Any], offset: int) -> Seat:
+    occupant = scene["seat"]["occupant"]
+    arrays = (numpy.array(occupant[key], dtype=numpy.float64) for key in ("masses", "stiffness", "damping"))
+    return Seat(offset, float(occupant["frame_mass"]), *arrays)
+
+
+def _seat_field(scene: dict[str, Any]) -> tuple[FieldGrids | None, SeatShape | None]:
+    seat = scene["seat"]
+    settings = field_settings(scene, "seat", seat["cushion_modulus"] / (1.0 - seat["cushion_poisson"] ** 2))
+    if settings is None:
+        return None, None
+    return make_grids(settings, "seat"), SeatShape(*(float(seat["body"][key]) for key in SeatShape._fields))
+
+
+def seat_gap_on(shape: SeatShape, settings: FieldSettings) -> NDArray[numpy.float64]:
+    """Gap of the occupant over the flat cushion on the cells of a grid, in [m]."""
+    return seat_gap(shape, *seat_cells(settings))
+
+
+def seat_cells(settings: FieldSettings) -> tuple[NDArray[numpy.float64], NDArray[numpy.float64]]:
+    """Cell centres of the seat's grid in [m]; x counts forward from the tuberosities, which lie 0.3 of the length from its back."""
+    rows, cols = numpy.arange(settings.rows, dtype=float), numpy.arange(settings.cols, dtype=float)
+    x = (rows + 0.5) * settings.cell_x - 0.3 * settings.rows * settings.cell_x
+    y = (cols - 0.5 * (settings.cols - 1)) * settings.cell_y
+    return x, y
+
+
+def _seat_contact(scene: dict[str, Any], seat: Seat, field: FieldGrids | None, shape: SeatShape | None) -> Contact:
+    effects = effects_at(scene, "seat")
+    law: ElasticLaw
+    if field is not None and shape is not None:
+        law, _length = tangent_law(field, lambda grid: seat_gap_on(shape, grid), occupant_mass(scene) * GRAVITY, "seat")
+    else:
+        law = elastic_of(effects)
+    friction = effects.get("friction")
+    rubbing = (
+        None
+        if friction is None
+        else Friction(
+            *(float(friction[key]) for key in ("stiffness", "damping", "coefficient_static", "coefficient_kinetic"))
+        )
+    )
+    memory = effects.get("foam_hysteresis")
+    offset = seat.offset + 2 * (1 + len(seat.masses)) + (0 if rubbing is None else 3)
+    remembering = None if memory is None else FoamHysteresis(offset, float(memory["share"]), float(memory["energy"]))
+    return Contact(law, loss_of(scene, "seat", law, occupant_mass(scene)), rubbing, remembering)
+
+
+def _contact_scale(contact: Contact | None, load: float, mass: float) -> tuple[float, float]:
+    """Sizes in [m] and [m/s] of a body's motion on a contact: of its depth under the ``load`` [N] at rest, and of its swing.
+
+    ``mass`` [kg] is that of the body which touches. A stiff contact turns a small error of place into a large one of force.
+    """
+    size = POSITION_SCALE if contact is None else 2.0 * float(approach_of_force(contact.elastic, load))
+    if size >= POSITION_SCALE:
+        return POSITION_SCALE, VELOCITY_SCALE
+    return STIFF * size, min(VELOCITY_SCALE, STIFF * math.sqrt(load * size / mass))
+
+
+def _scale(rig: Vehicle, tolerance: float) -> Vector:
+    """Error allowed per step and state; the two works at the end are not controlled."""
+    position, velocity = POSITION_SCALE * tolerance, VELOCITY_SCALE * tolerance
+    occupant = 0.0 if rig.seat is None else rig.seat.frame_mass + float(rig.seat.masses.sum())
+    on_seat = (POSITION_SCALE, VELOCITY_SCALE)
+    if rig.seat is not None:
+        on_seat = _contact_scale(rig.seat_contact, occupant * rig.gravity, rig.seat.frame_mass)
+    seat_position, seat_velocity = (size * tolerance for size in on_seat)
+    scale: list[float] = []
+    if rig.tire is not None:
+        mass, touching = rig.tire.wheel_mass + rig.tire.body_mass + occupant, rig.tire.wheel_mass
+        if rig.carcass is not None:
+            mass, touching = mass + rig.carcass.belt_mass, rig.carcass.belt_mass
+        on_road = _contact_scale(rig.tire_contact, mass * rig.gravity, touching)
+        road_position, road_velocity = (size * tolerance for size in on_road)
+        wheel = (position, velocity) if rig.carcass is not None else (road_position, road_velocity)
+        scale += [wheel[0], seat_position, wheel[1], seat_velocity]
+        if rig.carcass is not None:
+            scale += [road_position, road_velocity]
+    if rig.seat is not None:
+        count = len(rig.seat.masses)
+        scale += [seat_position] + [position] * count + [seat_velocity] + [velocity] * count
+        if rig.seat_contact is not None and rig.seat_contact.friction is not None:
+            scale += [position, velocity, _spring_scale(rig.seat_contact.friction, occupant * rig.gravity) * tolerance]
+        if rig.seat_contact is not None and rig.seat_contact.hysteresis is not None:
+            scale.append(tolerance)  # its internal variable runs from -1 to 1
+    return numpy.array([*scale, numpy.inf, numpy.inf])
+
+
+def _spring_scale(friction: Friction, load: float) -> float:
+    """Deflection in [m] of the friction spring: what it reaches under the ``load`` [N] at rest, at most the usual size."""
+    reached = friction.coefficient_static * load / friction.stiffness
+    return min(POSITION_SCALE, reached) if reached > 0.0 else POSITION_SCALE
+
+
+def _bodies(rig: Vehicle) -> tuple[str, ...]:
+    """Names of the coordinates that ``bench/motion`` carries, in order."""
+    names: list[str] = ["wheel_z", "body_z"] if rig.tire is not None else ["floor_z"]
+    if rig.carcass is not None:
+        names.append("belt_z")
+    if rig.seat is not None:
+        names += ["seat_frame_z", *(f"occupant{i + 1}_z" for i in range(len(rig.seat.masses)))]
+        if rig.seat_contact is not None and rig.seat_contact.friction is not None:
+            names.append("occupant_x")
+    return tuple(names)
+
+
+def standing_state(model: Model, height: float) -> Vector:
+    """State at rest in [m, m/s] under gravity on a road of effective ``height`` [m]: every force in balance."""
+    rig = model.rig
+    state = numpy.zeros(model.states)
+    floor = 0.0
+    occupant = 0.0 if rig.seat is None else rig.seat.frame_mass + float(rig.seat.masses.sum())
+    if rig.tire is not None and rig.tire_contact is not None:
+        carried = (rig.tire.body_mass + occupant) * rig.gravity
+        on_wheel = carried + rig.tire.wheel_mass * rig.gravity
+        belt = 0.0 if rig.carcass is None else rig.carcass.belt_mass * rig.gravity
+        state[0] = height - approach_of_force(rig.tire_contact.elastic, on_wheel + belt)
+        if rig.carcass is not None:
+            state[rig.carcass.offset] = state[0]
+            state[0] -= on_wheel / rig.carcass.stiffness
+        floor = state[1] = state[0] - carried / rig.tire.suspension_stiffness
+    if rig.seat is not None and rig.seat_contact is not None:
+        first = rig.seat.offset
+        state[first] = floor - approach_of_force(rig.seat_contact.elastic, occupant * rig.gravity)
+        for i, mass in enumerate(rig.seat.masses):
+            state[first + 1 + i] = state[first] - mass * rig.gravity / rig.seat.stiffness[i]
+    return state

@@ -1,0 +1,98 @@
+"""The quarter car inside the vehicle rig: what drives it, wheel and body on their suspension, the belt on its sidewalls.
+
+Equations and state are those of ``rigs/vehicle/motion.py``; a part that the rig lacks is ``None``.
+"""
+
+from __future__ import annotations
+
+from contact_sim_pkg.compiled.jit import borrowing_kernel
+
+
+@borrowing_kernel
+def _between(start, end, part):
+    return start + (end - start) * part
+
+
+@borrowing_kernel
+def _push_between(start, end, part):
+    if start is None:
+        return 0.0
+    return _between(start, end, part)
+
+
+@borrowing_kernel
+def drive_at(drive, time):
+    """Road height, its rate, cushion height, its rate, floor accelerations x and z at ``time``."""
+    part = (time - drive.start) / drive.length
+    return (
+        _between(drive.height_0, drive.height_1, part),
+        (drive.height_1 - drive.height_0) / drive.length,
+        _between(drive.cushion_0, drive.cushion_1, part),
+        (drive.cushion_1 - drive.cushion_0) / drive.length,
+        _between(drive.acceleration_x_0, drive.acceleration_x_1, part),
+        _between(drive.acceleration_z_0, drive.acceleration_z_1, part),
+    )
+
+
+@borrowing_kernel
+def push_at(drive, time):
+    """Force in [N] that road asperities add at ``time``; 0 where the scene calls for none."""
+    return _push_between(drive.push_0, drive.push_1, (time - drive.start) / drive.length)
+
+
+@borrowing_kernel
+def tread_motion(carcass, state):
+    """Height in [m] and velocity in [m/s] of what touches the road: the belt, or the wheel where there is no carcass."""
+    if carcass is None:
+        return state[0], state[2]
+    return state[carcass.offset], state[carcass.offset + 1]
+
+
+@borrowing_kernel
+def tire_approach(tire, carcass, height, height_rate, state):
+    """Approach in [m] and its rate in [m/s]; apart where there is no tire."""
+    if tire is None:
+        return -1.0, 0.0
+    tread, tread_rate = tread_motion(carcass, state)
+    return height - tread, height_rate - tread_rate
+
+
+@borrowing_kernel
+def carcass_rates(carcass, gravity, force, state, out):
+    """Rates of the belt; returns the force on the wheel and the power that the sidewalls take."""
+    if carcass is None:
+        return force, 0.0
+    belt = carcass.offset
+    closing = state[belt + 1] - state[2]
+    sidewalls = carcass.stiffness * (state[belt] - state[0]) + carcass.damping * closing
+    out[belt] = state[belt + 1]
+    out[belt + 1] = (force - sidewalls) / carcass.belt_mass - gravity
+    return sidewalls, carcass.damping * closing * closing
+
+
+@borrowing_kernel
+def tire_rates(tire, gravity, force, seat_force, acceleration_z, state, out):
+    """Rates of wheel and body; returns the power that the suspension takes."""
+    if tire is None:
+        return 0.0
+    closing = state[2] - state[3]
+    suspension = tire.suspension_stiffness * (state[0] - state[1]) + tire.suspension_damping * closing
+    out[0] = state[2]
+    out[1] = state[3]
+    out[2] = (force - suspension) / tire.wheel_mass - gravity
+    out[3] = (suspension - seat_force) / tire.body_mass - gravity + acceleration_z
+    return tire.suspension_damping * closing * closing
+
+
+@borrowing_kernel
+def body_power(tire, acceleration_z, state):
+    if tire is None:
+        return 0.0
+    return tire.body_mass * acceleration_z * state[3]
+
+
+@borrowing_kernel
+def tread_velocity(tire, carcass, state):
+    if tire is None:
+        return 0.0
+    return tread_motion(carcass, state)[1]

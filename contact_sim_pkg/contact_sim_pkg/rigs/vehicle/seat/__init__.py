@@ -1,0 +1,1 @@
+"""Seat cushion under an occupant: its shape and its pressure map."""

@@ -1,0 +1,103 @@
+"""Pictures of the ride: spectra of floor and seat, and the way from one to the other."""
+
+from __future__ import annotations
+
+import numpy as np
+from matplotlib.axes import Axes
+from numpy.typing import NDArray
+
+from contact_sim_pkg.report.drawing import ACCENT, INK, MUTED, Picture, new_figure, picture
+from contact_sim_pkg.report.signal.spectrum import Density, Transmissibility, power_density, transmissibility
+from contact_sim_pkg.rigs.vehicle.seat.report.ride import RideSignals
+
+HIGHEST_FREQUENCY = 80.0
+"""[Hz] upper end of the range of whole-body vibration"""
+TRUSTED_COHERENCE = 0.9
+DRIVEN_SHARE = 1e-3
+"""Share of the floor's largest density below which its leakage, not its motion, is measured."""
+FLOOR_OF_POWER = 1e-9
+"""Share of the largest density below which a spectrum is rounding and not drawn."""
+
+
+def seat_spectrum(signals: RideSignals) -> Picture:
+    """Power spectral density of the accelerations of floor and seat."""
+    floor = power_density(signals.floor, signals.sample_rate)
+    seat = power_density(signals.seat, signals.sample_rate)
+    figure, (axes,) = new_figure(3.0)
+    shown = band(floor.frequency)
+    axes.loglog(floor.frequency[shown], _visible(floor)[shown], color=MUTED, linestyle=(0, (4, 2)), label="floor")
+    axes.loglog(seat.frequency[shown], _visible(seat)[shown], color=ACCENT, label="seat")
+    axes.set_xlabel("frequency, Hz")
+    axes.set_ylabel("PSD, (m/s²)²/Hz")
+    _frequency_axis(axes, floor.frequency)
+    axes.legend(loc="best")
+    caption = (
+        f"Power spectral density of the vertical acceleration, Welch's method: {seat.segments} half-overlapping "
+        f"segments, {seat.frequency[1]:.3g} Hz resolution. The floor's power is largest at {_top(floor):.3g} Hz, "
+        f"the seat's at {_top(seat):.3g} Hz."
+    )
+    return picture("ride-spectrum", figure, "Spectrum of the vertical acceleration of floor and seat", caption)
+
+
+def seat_transmissibility(signals: RideSignals) -> Picture | None:
+    """Magnitude, phase and coherence of the seat over the floor; None for a floor at rest."""
+    result = transmissibility(signals.floor, signals.seat, signals.sample_rate)
+    shown = band(result.frequency) & np.isfinite(result.magnitude)
+    if not shown.any():
+        return None
+    driven = power_density(signals.floor, signals.sample_rate).density
+    trusted = shown & (result.coherence >= TRUSTED_COHERENCE) & (driven >= DRIVEN_SHARE * driven[shown].max())
+    figure, axes = new_figure(4.6, 3, sharex=True, height_ratios=[2, 1, 1])
+    frequency = result.frequency[shown]
+    for place, values in ((axes[0], result.magnitude), (axes[1], np.degrees(result.phase))):
+        place.semilogx(frequency, values[shown], color=MUTED, linewidth=0.6, alpha=0.6)
+        place.semilogx(frequency, np.where(trusted, values, np.nan)[shown], color=ACCENT, marker=".", markersize=3.5)
+    axes[0].axhline(1.0, color=MUTED, linewidth=0.7)
+    axes[0].set_ylabel("seat / floor")
+    axes[0].set_ylim(0.0, 1.5 * max(1.0, float(result.magnitude[trusted].max(initial=1.0))))
+    axes[1].set_ylabel("phase, °")
+    axes[1].set_yticks([-180, -90, 0, 90, 180])
+    axes[2].semilogx(frequency, result.coherence[shown], color=INK, linewidth=0.9)
+    axes[2].axhline(TRUSTED_COHERENCE, color=MUTED, linewidth=0.7, linestyle=(0, (4, 3)))
+    axes[2].set_ylabel("coherence")
+    axes[2].set_ylim(0.0, 1.05)
+    axes[2].set_xlabel("frequency, Hz")
+    _frequency_axis(axes[2], result.frequency)
+    return picture(
+        "ride-transmissibility", figure, "Transmissibility from floor to seat: magnitude, phase, coherence",
+        _transmissibility_caption(result, trusted),
+    )  # fmt: skip
+
+
+def band(frequency: NDArray[np.float64]) -> NDArray[np.bool_]:
+    """Frequencies that are drawn: above 0, up to 80 Hz."""
+    inside: NDArray[np.bool_] = (frequency > 0.0) & (frequency <= HIGHEST_FREQUENCY)
+    return inside
+
+
+def _transmissibility_caption(result: Transmissibility, trusted: NDArray[np.bool_]) -> str:
+    text = f"Seat over floor, mean of {result.segments} segments. "
+    if not trusted.any():
+        return text + "Nowhere is it coherent with enough excitation: no resonance can be read from this record."
+    peak = int(np.flatnonzero(trusted)[result.magnitude[trusted].argmax()])
+    return text + (
+        f"Blue where the coherence is at least {TRUSTED_COHERENCE} (dashed) and the floor moves enough; largest there: "
+        f"{result.magnitude[peak]:.3g} at {result.frequency[peak]:.3g} Hz. Where it is grey, neither magnitude nor "
+        "phase should be read: little excitation, noise, or a non-linear seat."
+    )
+
+
+def _visible(spectrum: Density) -> NDArray[np.float64]:
+    smallest = FLOOR_OF_POWER * spectrum.density.max()
+    return np.where(spectrum.density > smallest, spectrum.density, np.nan)
+
+
+def _frequency_axis(axes: Axes, frequency: NDArray[np.float64]) -> None:
+    ticks = [tick for tick in (0.5, 1, 2, 5, 10, 20, 50, 80) if tick >= frequency[1]]
+    axes.set_xticks(ticks, [f"{tick:g}" for tick in ticks])
+    axes.minorticks_off()
+    axes.set_xlim(max(frequency[1], 0.1), HIGHEST_FREQUENCY)
+
+
+def _top(spectrum: Density) -> float:
+    return float(spectrum.frequency[spectrum.density.argmax()])

@@ -1,0 +1,108 @@
+"""The simulation of one scene, block by block: the one implementation behind the offline run and the simulator node."""
+
+from __future__ import annotations
+
+import time
+from typing import Any
+
+import numpy
+
+from contact_sim_pkg.compiled.arrays import Vector
+from contact_sim_pkg.excitation.blocks import RoadPatch, VibrationBlock
+from contact_sim_pkg.rigs.vehicle.coupling import Coupling
+from contact_sim_pkg.rigs.vehicle.drive import ROAD, VIBRATION, BlockDrive, block_drive
+from contact_sim_pkg.rigs.vehicle.model import Model, build
+from contact_sim_pkg.rigs.vehicle.outputs import BlockRecord, encode_block
+from contact_sim_pkg.rigs.vehicle.tire.rolling_shear import RollingShear
+from contact_sim_pkg.run.block_simulation import BlockResult, refuse_out_of_turn
+from contact_sim_pkg.run.sources import make_travel
+
+
+class Simulation:
+    """Owns the state of a run. ``prepare`` once, then ``advance`` block by block, in order from 0."""
+
+    def __init__(self, scene: Any) -> None:
+        """Build the parameters of a resolved scene (``scene.data`` is its plain dict)."""
+        self.scene = scene
+        self.model: Model = build(scene.data)
+        self.blocks = self.model.timing.blocks
+        inputs = [ROAD] if self.model.tire_geometry is not None else []
+        if scene.data.get("vibration"):
+            inputs.append(VIBRATION)
+        self.inputs = tuple(inputs)
+        self._travel = make_travel(scene.data) if self.model.tire_geometry is not None else None
+        self._coupling = Coupling(self.model)
+        friction, field = self.model.rolling_friction, self.model.tire_field
+        self._shear = None if friction is None or field is None else RollingShear(friction, field.wide.settings)
+        self._next_block = 0
+        self._reset()
+
+    def _reset(self) -> None:
+        self._start_energy: Vector | None = None  # of the run
+
+    def prepare(self) -> None:
+        """Compile or load every kernel that the scene needs, by one interval on a flat road."""
+        timing = self.model.timing
+        inputs: dict[str, RoadPatch | VibrationBlock] = {}
+        if ROAD in self.inputs:
+            inputs[ROAD] = self._flat_patch()
+        if VIBRATION in self.inputs:
+            count = timing.intervals * timing.segments // timing.vibration_stride + 1
+            period = timing.segment_length * timing.vibration_stride
+            inputs[VIBRATION] = VibrationBlock(0, period, numpy.zeros(count), numpy.zeros(count))
+        self.advance(0, inputs)
+        self._reset()
+        self._next_block = 0
+        self._coupling.reset()
+        if self._shear is not None:
+            self._shear.reset()
+
+    def _flat_patch(self) -> RoadPatch:
+        geometry, travel = self.model.tire_geometry, self._travel
+        assert geometry is not None
+        assert travel is not None
+        length = self.model.timing.block_length
+        low, high = travel.extent(0.0, length)
+        first = int(numpy.floor(low / geometry.lattice.cell_x)) - geometry.lattice.road_rows
+        rows = int(numpy.ceil((high - low) / geometry.lattice.cell_x)) + 2 * geometry.lattice.road_rows + 2
+        height = numpy.zeros((rows, geometry.lattice.road_cols), dtype=numpy.float32)
+        return RoadPatch(
+            0, 0.0, travel.position(length), first, geometry.lattice.cell_x, geometry.lattice.cell_y, height
+        )
+
+    def advance(self, block: int, inputs: dict[str, RoadPatch | VibrationBlock]) -> BlockResult:
+        """Advance block number ``block`` with the blocks of every input topic.
+
+        Raises RunError where a block is out of turn, does not fit the scene, or the physics ends in a named failure.
+        """
+        began = time.perf_counter()
+        refuse_out_of_turn(block, self._next_block)
+        record = BlockRecord.empty(self.model, block)
+        drive = block_drive(self.model, self._travel, block, inputs.get(ROAD), inputs.get(VIBRATION))
+        coupling = self._coupling
+        if block == 0:
+            coupling.start(drive)
+        coupling.bodies.work.counters[:] = 0.0
+        for interval in range(self.model.timing.intervals):
+            self._interval(block, interval, drive, record)
+        self._next_block = block + 1
+        record.counters[:] = coupling.bodies.work.counters
+        for support in coupling.supports:
+            iterations, residual = support.take_cost()
+            record.field_iterations += iterations
+            record.field_residual = max(record.field_residual, residual)
+        wall = time.perf_counter() - began
+        messages, load, peak = encode_block(self.model, record, self._shear, wall)
+        return BlockResult(messages, load, peak, time.perf_counter() - began)
+
+    def _interval(self, block: int, interval: int, whole: BlockDrive, record: BlockRecord) -> None:
+        """One interval between published fields."""
+        segments = self.model.timing.segments
+        drive = whole.part(interval * segments, segments)
+        energy = self._coupling.energies(float(drive.smooth[0]))
+        if self._start_energy is None:
+            self._start_energy = energy
+        fields = self._coupling.copy_published()
+        self._coupling.advance(block, interval, whole, record)
+        accelerations = drive.acceleration_x, drive.acceleration_z
+        record.take(interval, self._coupling.sampled, energy, self._start_energy, *accelerations, fields)

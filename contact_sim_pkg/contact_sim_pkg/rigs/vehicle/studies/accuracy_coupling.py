@@ -1,0 +1,91 @@
+"""Accuracy and cost of the coupling: the error that is allowed between two solutions of the pressure fields.
+
+The error is that of the normal force at every sample of the run, against a run that allows 1e-5 and may make its stretches a
+quarter as long. `error` is the largest over the largest force; the quantity ending in `(rms)` is relative to the mean force.
+"""
+
+from __future__ import annotations
+
+import statistics
+from collections.abc import Callable
+from typing import Any
+
+import numpy
+
+from contact_sim_pkg.bag.messages import decode_contact_force
+from contact_sim_pkg.compiled.arrays import Vector
+from contact_sim_pkg.rigs.vehicle.studies.scene_drive import load_resolved
+from contact_sim_pkg.run.rigs import make_simulation
+from contact_sim_pkg.run.sources import make_sources
+from contact_sim_pkg.scene.errors import SceneError
+from contact_sim_pkg.scene.resolved_scene import ResolvedScene
+
+__all__ = ["coupling_rows"]
+
+DURATION = 2.0  # [s] of the scene
+TOLERANCES = (1.0, 1e-1, 1e-2, 1e-3)
+FINEST, FINER_RATE = 1e-5, 4
+PART = "coupling"
+
+
+def coupling_rows(scene_name: str, scene: ResolvedScene, tell: Callable[[str], None]) -> list[dict[str, Any]]:
+    """Rows of each contact with a field, at the grids that the scene asks for; none where it has no field."""
+    contacts = [name for name, effects in scene.data["effects"].items() if effects and effects.get("contact_field")]
+    if not contacts:
+        return []
+    tell(f"coupling: reference, tolerance {FINEST:.0e}")
+    exact, every = _reference(scene_name, scene)
+    rows = []
+    for tolerance in TOLERANCES:
+        tell(f"coupling: tolerance {tolerance:.0e}")
+        forces, cost = simulate(load_resolved(scene_name, f"integrator.coupling_tolerance={tolerance}"), DURATION)
+        for contact in contacts:
+            field = scene.data["effects"][contact]["contact_field"]
+            reference = exact[contact][::every]
+            missed = forces[contact] - reference
+            errors = {
+                "": float(numpy.abs(missed).max() / reference.max()),
+                " (rms)": float(missed.std() / reference.mean()),
+            }
+            rows += [
+                {
+                    "quantity": f"{contact} force{kind}", "part": PART, "rung": "", "grid": f"{field['rows']}x{field['cols']}",
+                    "tolerance": tolerance, "error": error, "reference": f"own code, tolerance {FINEST:.0e}",
+                    "ms_per_simulated_s": cost,
+                }
+                for kind, error in errors.items()
+            ]  # fmt: skip
+    return rows
+
+
+def _reference(scene_name: str, scene: ResolvedScene) -> tuple[dict[str, Vector], int]:
+    """Forces of the finest run, and how many of its samples make one of the scene's."""
+    finest = f"integrator.coupling_tolerance={FINEST}"
+    passes = [
+        f"effects.{name}.contact_field.corrector_passes=8"
+        for name, effects in scene.data["effects"].items() if effects and effects.get("contact_field")
+    ]  # fmt: skip
+    rate = float(scene.data["outputs"]["force_rate"])
+    try:
+        finer = load_resolved(scene_name, finest, *passes, f"outputs.force_rate={FINER_RATE * rate:.12g}")
+    except SceneError:  # no whole number of nanoseconds
+        return simulate(load_resolved(scene_name, finest, *passes), DURATION)[0], 1
+    return simulate(finer, DURATION)[0], FINER_RATE
+
+
+def simulate(scene: ResolvedScene, duration: float) -> tuple[dict[str, Vector], float]:
+    """Normal force [N] of each contact over `duration` [s], and ms per simulated second of the simulation alone."""
+    sources, simulation = make_sources(scene), make_simulation(scene)
+    simulation.prepare()
+    length = float(scene.data["block_length"])
+    forces: dict[str, list[Vector]] = {}
+    walls = []
+    for block in range(min(simulation.blocks, round(duration / length))):
+        result = simulation.advance(block, {topic: source.block(block) for topic, source in sources.items()})
+        walls.append(result.wall_time)
+        for topic, _stamp, data in result.messages:
+            contact, _, kind = topic.partition("/")
+            if kind == "force":
+                forces.setdefault(contact, []).append(decode_contact_force(data).normal)
+    joined = {contact: numpy.concatenate(parts) for contact, parts in forces.items()}
+    return joined, 1e3 * statistics.median(walls) / length

@@ -1,0 +1,78 @@
+"""Hard cases of whole scenes: the energy ledger, lift-off, determinism."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from contact_sim_pkg.bag.messages import decode_contact_force, decode_contact_patch, decode_energy
+from contact_sim_pkg.records.hard_case import Finding, HardCase, at_most, exactly
+from contact_sim_pkg.run.rigs import make_simulation
+from contact_sim_pkg.run.sources import make_sources
+from contact_sim_pkg.scene.load import load_scene
+from contact_sim_pkg.scene.overrides import set_duration, set_value
+from contact_sim_pkg.scene.resolve import resolve
+
+Message = tuple[str, int, bytes]
+
+
+def messages_of(scene_name: str, duration: float, *values: str) -> list[Message]:
+    """Recorded messages of a shipped scene, `values` as of `--set`, without the wall times of `bench/cost`."""
+    overrides = [set_duration(duration), *(set_value(value) for value in values)]
+    scene = resolve(load_scene(scene_name, overrides))
+    simulation, sources = make_simulation(scene), make_sources(scene)
+    simulation.prepare()
+    found: list[Message] = []
+    for block in range(simulation.blocks):
+        result = simulation.advance(block, {topic: source.block(block) for topic, source in sources.items()})
+        found += [message for message in result.messages if message[0] != "bench/cost"]
+    return found
+
+
+def _last(messages: list[Message], topic: str) -> Any:
+    return [data for name, _stamp, data in messages if name == topic][-1]
+
+
+def _residual(scene_name: str, duration: float, *values: str) -> float:
+    ledger = decode_energy(_last(messages_of(scene_name, duration, *values), "bench/energy"))
+    return abs(ledger.residual) / max(abs(ledger.supplied), ledger.dissipated)
+
+
+def seat_ledger() -> Finding:
+    """Energy residual over the energy turned over, seat with friction and loss."""
+    return at_most(_residual("seat_ride", 2.0, "effects.seat.friction={}", "integrator.relative_tolerance=1e-7"), 1e-6)
+
+
+def tire_ledger() -> Finding:
+    """The same for the tire over a bump, its pressure field driving the wheel."""
+    return at_most(_residual("tire_bump", 1.3, "integrator.relative_tolerance=1e-7"), 1e-4)
+
+
+def car_ledger() -> Finding:
+    """The same for the full bench with both fields."""
+    return at_most(_residual("car_full_bench", 1.0, "integrator.relative_tolerance=1e-7"), 1e-4)
+
+
+def lift_off() -> Finding:
+    """Samples with a negative force behind a bump of 0.12 m, where the tire leaves the road (also counted: no flight at all)."""
+    found = messages_of("tire_bump", 1.5, "road.height=0.12")
+    forces = [decode_contact_force(data).normal for name, _stamp, data in found if name == "tire/force"]
+    flying = sum(int((force == 0.0).sum()) for force in forces)
+    wrong = sum(int((force < 0.0).sum()) for force in forces) + (0 if flying > 10 else 1)
+    fields = [decode_contact_patch(data) for name, _stamp, data in found if name == "tire/patch"]
+    wrong += 0 if any(patch.load == 0.0 and patch.area == 0.0 for patch in fields) else 1
+    return exactly(wrong, 0)
+
+
+def determinism() -> Finding:
+    """Messages that differ between two runs of the same scene."""
+    first, second = messages_of("car_full_bench", 0.2), messages_of("car_full_bench", 0.2)
+    return exactly(sum(one != other for one, other in zip(first, second, strict=True)), 0)
+
+
+CASES = (
+    HardCase("general", "energy ledger: seat with friction, residual over turnover", seat_ledger),
+    HardCase("general", "energy ledger: tire field over a bump", tire_ledger),
+    HardCase("general", "energy ledger: full bench, both fields", car_ledger),
+    HardCase("rough road", "tire flies behind a bump: forces below 0, fields missing", lift_off),
+    HardCase("general", "two runs of a scene: messages that differ", determinism),
+)

@@ -1,0 +1,148 @@
+"""A scene's rig with point contacts, and what drives it over a time, as arrays: for studies that leave out bag and fields."""
+
+from __future__ import annotations
+
+import copy
+from typing import Any, NamedTuple
+
+import numpy
+
+from contact_sim_pkg.compiled.arrays import Vector
+from contact_sim_pkg.compiled.results import DONE, SENTENCES
+from contact_sim_pkg.integrate.dormand_prince import make_workspace
+from contact_sim_pkg.laws.parameters import Contact, GeneralDissipative, NormalElastic
+from contact_sim_pkg.rigs.vehicle import entries
+from contact_sim_pkg.rigs.vehicle.model import Model, build, standing_state
+from contact_sim_pkg.rigs.vehicle.motion import MARGINS
+from contact_sim_pkg.rigs.vehicle.parameters import Vehicle
+from contact_sim_pkg.rigs.vehicle.reference import Belt, Law, Occupant, Quarter, states_at_segments
+from contact_sim_pkg.rigs.vehicle.tire.footprint import effective_heights
+from contact_sim_pkg.run.sources import make_sources, make_travel
+from contact_sim_pkg.scene.load import load_scene
+from contact_sim_pkg.scene.overrides import set_value
+from contact_sim_pkg.scene.resolve import ResolvedScene, resolve
+from contact_sim_pkg.scene.schema.effect_rules import dependents_of
+
+__all__ = ["SceneDrive", "drive_of", "fast_run", "load_resolved", "slow_run", "twin_laws", "without"]
+
+
+class SceneDrive(NamedTuple):
+    """Drive at the ends of all segments, and the state in which the rig stands at the start."""
+
+    model: Model
+    segment: float  # [s]
+    height: Vector  # [m] effective height of the road
+    acceleration_x: Vector  # [m/s^2]
+    acceleration_z: Vector
+    start: Vector
+
+
+def load_resolved(scene_name: str, *values: str) -> ResolvedScene:
+    """A scene by name or path, resolved; `values` as of `--set`."""
+    return resolve(load_scene(scene_name, [set_value(value) for value in values]))
+
+
+def without(scene: ResolvedScene, *effects: tuple[str, str]) -> ResolvedScene:
+    """The scene less some effects, each as (contact, effect), and what needs them; one that it does not name is passed over."""
+    data: dict[str, Any] = copy.deepcopy(scene.data)
+    for contact, effect in effects:
+        for name in (effect, *dependents_of(effect)):
+            (data["effects"].get(contact) or {}).pop(name, None)
+    if "brush" not in (data["effects"].get("tire") or {}):
+        data.pop("slip", None)
+    return ResolvedScene(data, scene.files)
+
+
+def drive_of(scene: ResolvedScene, duration: float) -> SceneDrive:
+    """Drive of the scene's rig with point contacts over `duration` [s], without friction (it does not act on z) and impulses."""
+    left_out = ("contact_field", "friction", "asperity_impulses")
+    effects = [(contact, effect) for contact in ("tire", "seat") for effect in left_out]
+    plain = without(scene, *effects)
+    model, sources = build(plain.data), make_sources(plain)
+    timing = model.timing
+    blocks = max(1, min(timing.blocks, round(duration / timing.block_length)))
+    steps = timing.intervals * timing.segments
+    shape = blocks * steps + 1
+    height, a_x, a_z = numpy.zeros(shape), numpy.zeros(shape), numpy.zeros(shape)
+    travel = make_travel(plain.data) if model.tire_geometry is not None else None
+    for block in range(blocks):
+        part = slice(block * steps, (block + 1) * steps + 1)
+        if travel is not None:
+            positions = numpy.array([travel.position(i * timing.segment_length) for i in range(part.start, part.stop)])
+            _fill_heights(model, sources["road/patch"].block(block), positions, height[part])
+        if "platform/vibration" in sources:
+            vibration: Any = sources["platform/vibration"].block(block)
+            at = numpy.arange(steps + 1) / timing.vibration_stride
+            index = numpy.arange(len(vibration.acceleration_z))
+            a_x[part] = numpy.interp(at, index, vibration.acceleration_x)
+            a_z[part] = numpy.interp(at, index, vibration.acceleration_z)
+    return SceneDrive(model, timing.segment_length, height, a_x, a_z, standing_state(model, float(height[0])))
+
+
+def _fill_heights(model: Model, patch: Any, positions: Vector, out: Vector) -> None:
+    geometry = model.tire_geometry
+    assert geometry is not None
+    effective_heights(
+        patch.height, patch.first_row, patch.cell_x, patch.cell_y, geometry.semi_axis_x, geometry.semi_axis_y,
+        positions, out,
+    )  # fmt: skip
+
+
+def fast_run(drive: SceneDrive, scale: Vector) -> tuple[Vector, Vector]:
+    """States and forces (columns of `rigs/vehicle/entries.py`) at the starts of all segments, by the bench's kernels."""
+    count, states = len(drive.height) - 1, len(drive.start)
+    samples = (numpy.zeros((count, states)), numpy.zeros((count, states)), numpy.zeros((count, entries.FORCES)))
+    state, mode = drive.start.copy(), numpy.zeros(1, dtype=numpy.int64)
+    work, cushion = make_workspace(states, MARGINS), numpy.zeros(count + 1)
+    rig, a_x, a_z = drive.model.rig, drive.acceleration_x, drive.acceleration_z
+    entries.start(rig, mode, state, work, drive.segment, drive.height[:2], cushion[:2], a_x[:2], a_z[:2], None)
+    status = entries.advance(
+        rig, mode, state, scale, work, 0.0, drive.segment, drive.height, cushion, a_x, a_z, None, 1, 0, *samples
+    )
+    if status != DONE:
+        raise ArithmeticError(SENTENCES[status])
+    return samples[0], samples[2]
+
+
+def slow_run(drive: SceneDrive) -> Vector:
+    """Mechanical states at the ends of all segments by the twin that shares no code with the kernels."""
+    quarter, occupant = _twins(drive.model.rig)
+    return states_at_segments(
+        drive.model.rig.gravity, quarter, occupant, drive.start[:-2], drive.segment, drive.height,
+        numpy.zeros(len(drive.height)), drive.acceleration_z,
+    )  # fmt: skip
+
+
+def twin_laws(rig: Vehicle) -> tuple[Law | None, Law | None]:
+    """Laws of tire and seat for the twin; None where the rig has no such part."""
+    return (
+        None if rig.tire is None else _law(rig.tire_contact),
+        None if rig.seat is None else _law(rig.seat_contact),
+    )
+
+
+def twin_knows(rig: Vehicle) -> bool:
+    """Whether the laws of all contacts are among those that the twin has: power laws without memory."""
+    present = ((rig.tire, rig.tire_contact), (rig.seat, rig.seat_contact))
+    return all(_is_known(contact) for part, contact in present if part is not None)
+
+
+def _is_known(contact: Contact | None) -> bool:
+    return contact is not None and isinstance(contact.elastic, NormalElastic) and contact.hysteresis is None
+
+
+def _law(contact: Contact | None) -> Law:
+    if contact is None or not isinstance(contact.elastic, NormalElastic) or contact.hysteresis is not None:
+        raise ValueError("the slow twin knows power laws without memory only; leave out foam and foam_hysteresis")
+    coefficient, exponent, loss = contact.elastic.coefficient, contact.elastic.exponent, contact.dissipative
+    if isinstance(loss, GeneralDissipative):
+        powers = loss.coefficient, loss.approach_exponent, loss.rate_exponent
+        return Law(coefficient, exponent, 0.0, powers, loss.lowest_force)
+    return Law(coefficient, exponent, 0.0 if loss is None else loss.damping)
+
+
+def _twins(rig: Vehicle) -> tuple[Quarter | None, Occupant | None]:
+    belt = None if rig.carcass is None else Belt(*rig.carcass[1:])
+    quarter = None if rig.tire is None else Quarter(*rig.tire, _law(rig.tire_contact), belt)
+    occupant = None if rig.seat is None else Occupant(*rig.seat[1:], _law(rig.seat_contact))
+    return quarter, occupant

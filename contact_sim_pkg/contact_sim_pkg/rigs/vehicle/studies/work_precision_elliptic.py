@@ -1,0 +1,49 @@
+"""Ladder of the elliptic contact: polynomial, power fit, table, exact root; against 50 digits."""
+
+from __future__ import annotations
+
+import numpy
+
+from contact_sim_pkg.pressure.closed_form.hertz_fits import (
+    EXACT,
+    POLYNOMIAL,
+    POWER,
+    TABLE,
+    contacts_at_load,
+    make_shape_table,
+)
+from contact_sim_pkg.records.work_precision import Row, Rung, milliseconds, relative, row
+from contact_sim_pkg.reference import hertz as reference
+from contact_sim_pkg.rigs.vehicle.studies.patch_problem import CURVATURES, LOAD, MODULUS
+
+__all__ = ["PART", "rows"]
+
+PART = "elliptic contact"
+RUNGS = (
+    ("polynomial (eq 10)", POLYNOMIAL), ("power b/a = (A/B)^(2/3)", POWER), ("table in ln(1-Ω)", TABLE),
+    ("AGM and Newton", EXACT),
+)  # fmt: skip
+OMEGAS = (0.5, 0.75, 0.93, 0.98)
+MANY = 500
+REFERENCE = "mpmath, 50 digits, no shared code"
+QUANTITIES = ("approach", "a", "b", "peak pressure")
+
+
+def rows() -> list[Row]:
+    """The crown of the patch, and the same mean curvature at larger Omega."""
+    table, mean = make_shape_table(), sum(CURVATURES)
+    pairs = {f"Ω = {abs(CURVATURES[0] - CURVATURES[1]) / mean:.3g}": (min(CURVATURES), max(CURVATURES))}
+    pairs |= {f"Ω = {omega:g}": (0.5 * mean * (1.0 - omega), 0.5 * mean * (1.0 + omega)) for omega in OMEGAS}
+    found: list[Row] = []
+    for case, (smaller, larger) in pairs.items():
+        exact = reference.contact_at_load(smaller, larger, MODULUS, LOAD)
+        expected = (exact.approach, exact.a, exact.b, exact.peak_pressure)
+        curvature_a, curvature_b = numpy.full(MANY, smaller), numpy.full(MANY, larger)
+        out = numpy.empty((MANY, 4))
+        for name, kind in RUNGS:
+            arguments = (kind, table, curvature_a, curvature_b, MODULUS, LOAD, out)
+            rung = Rung(name, milliseconds(lambda arguments=arguments: contacts_at_load(*arguments)) / MANY)  # type: ignore[misc]
+            for quantity, value, right in zip(QUANTITIES, out[0].tolist(), expected, strict=True):
+                error = relative(value, right)
+                found.append(row(PART, case, quantity, rung, REFERENCE, error, value=value, expected=right))
+    return found

@@ -1,0 +1,99 @@
+"""Ladder of a contact whose gap is no paraboloid, `(|x|^g + |y|^g)/g`: closed forms on the Lame domain against the field.
+
+E* = 1, P = 1. The domain (a, b, n) of the closed forms is fitted to the reference, so what is left is the error of the pressure
+that they put on it.
+"""
+
+from __future__ import annotations
+
+import numpy
+from numpy.typing import NDArray
+
+from contact_sim_pkg.pressure.closed_form.lame import LameFit, fit_patch, lame_area
+from contact_sim_pkg.pressure.closed_form.lame_pressure import (
+    LamePressure,
+    ansatz_on_domain,
+    equivalent_ellipse,
+    lame_pressure,
+)
+from contact_sim_pkg.pressure.field.halfspace import make_half_space
+from contact_sim_pkg.records.work_precision import Row, Rung, milliseconds, relative, row
+from contact_sim_pkg.rigs.vehicle.studies.fields import CONVERGED, GIVEN, Answer, FieldRung, rows_of, solve, timed
+from contact_sim_pkg.rigs.vehicle.studies.patch_problem import PatchProblem
+
+__all__ = ["EXPONENTS", "PART", "power_gap", "rows"]
+
+Field = NDArray[numpy.float64]
+
+PART = "gap of exponent above 2"
+EXPONENTS = (3.0, 4.0)
+SIDE, FINEST = 2.3, 384  # length of the grid; cells along it
+REFERENCE = "own code, grid 384x384 to 1e-8"
+RUNGS = (
+    FieldRung("FFT-CG", (48, 48), 1e-2),
+    FieldRung("FFT-CG", (96, 96), 1e-3),
+    FieldRung("FFT-CG", (192, 192), 1e-6),
+)
+CENTRE = "pressure in the centre"
+
+
+def rows() -> list[Row]:
+    """Each gap exponent under the load 1."""
+    found: list[Row] = []
+    for exponent in EXPONENTS:
+        case = f"gap exponent {exponent:g}"
+        finest = power_gap(FINEST, exponent)
+        exact = solve(finest, GIVEN[0], 1.0, 1e-8)
+        fit = _fit(finest, exact)
+        found += _closed_forms(f"{case}, domain n = {fit.exponent:.2g}", fit, exact)
+        for rung in RUNGS:
+            problem = power_gap(rung.cells[0], exponent)
+            described, answer = timed(rung, problem, GIVEN[0], 1.0)
+            converged = solve(problem, GIVEN[0], 1.0, CONVERGED)
+            head = (PART, f"{case}, domain n = {fit.exponent:.2g}")
+            found += rows_of(*head, described, REFERENCE, answer, exact, converged)
+            found.append(_centre(head[1], described, centre_of(answer), centre_of(exact)))
+    return found
+
+
+def power_gap(cells: int, exponent: float) -> PatchProblem:
+    """The gap on a square grid, E* = 1."""
+    cell = SIDE / cells
+    height = abs((numpy.arange(cells) - 0.5 * (cells - 1)) * cell) ** exponent / exponent
+    return PatchProblem(make_half_space(cells, cells, cell, cell, 1.0), height[:, None] + height[None, :])
+
+
+def centre_of(answer: Answer) -> float:
+    """Mean pressure of the four cells around the centre."""
+    assert answer.pressure is not None
+    middle = answer.pressure.shape[0] // 2
+    return float(answer.pressure[middle - 1 : middle + 1, middle - 1 : middle + 1].mean())
+
+
+def _fit(problem: PatchProblem, answer: Answer) -> LameFit:
+    assert answer.pressure is not None
+    cell, start = problem.half_space.cell_x, -0.5 * (FINEST - 1) * problem.half_space.cell_x
+    return fit_patch(answer.pressure, cell, cell, start, start)
+
+
+def _closed_forms(case: str, fit: LameFit, exact: Answer) -> list[Row]:
+    found: list[Row] = []
+    domain = (fit.a, fit.b, fit.exponent, 1.0, 1.0)
+    for name, form in (("Lamé ansatz", ansatz_on_domain), ("equivalent ellipse", equivalent_ellipse)):
+        rung = Rung(name, milliseconds(lambda form=form, domain=domain: form(*domain)))  # type: ignore[misc]
+        contact = form(*domain)
+        found += rows_of(PART, case, rung, REFERENCE, _answer(contact), exact)
+        found.append(_centre(case, rung, contact.peak_pressure, centre_of(exact)))
+    return found
+
+
+def _answer(contact: LamePressure) -> Answer:
+    """A closed form as an answer on the finest grid."""
+    x = (numpy.arange(FINEST) - 0.5 * (FINEST - 1)) * SIDE / FINEST
+    area = lame_area(contact.a, contact.b, contact.exponent)
+    pressure = lame_pressure(contact, x[:, None], x[None, :])
+    return Answer(contact.load, contact.approach, contact.peak_pressure, area, pressure)
+
+
+def _centre(case: str, rung: Rung, value: float, expected: float) -> Row:
+    return row(PART, case, CENTRE, rung, REFERENCE, relative(value, expected), value=value, expected=expected)

@@ -1,0 +1,1 @@
+"""Tire on a road: pressure field, belt, tread, brush, asperities."""

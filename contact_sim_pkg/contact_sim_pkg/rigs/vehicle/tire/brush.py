@@ -1,0 +1,250 @@
+"""Brush friction of a rolling tire: elastic bristles that stick to the road or slide, one a cell of the pressure field.
+
+Contact frame: x forward, y left, z up, origin in the road below the wheel centre, which travels with v along x. The belt
+runs backwards with (1 + kappa) v through the contact, the road with v, and sideways with -v tan(alpha) (ISO 8855):
+
+* `kappa = (omega R_e - v)/v`: driving positive, -1 is a locked wheel;
+* `alpha` is the angle from the wheel's x axis to its velocity, positive to the left: the wheel drifts to the left, the
+  road drags the tread to the right, F_y is negative, and M_z is positive, turning the wheel into its velocity.
+
+A bristle stands in the belt, its tip on the road. While it sticks, its deflection u grows by the way of the road relative to
+the belt, `(kappa, -tan alpha) v dt`; the shear on the tire is `tau_i = k_i u_i`. It sticks up to `mu_s p`. Then the tip slides
+along tau with `|tau| = mu_k p`, until a trial stress falls below that. Bristles enter the contact, and leave it, unstrained.
+
+Normal and shear problem are not coupled: for a rigid road and an incompressible tread (nu = 1/2) Cerruti's normal
+displacement, with its factor 1 - 2 nu, is zero. The bristles do not influence each other (Kalker's simplified theory).
+
+Bristles are carried in whole cells of the belt, and the part of a cell that is left is kept as `phase`: nothing is smeared. A step
+of many cells is marched cell by cell; the pressure goes linearly in time from the field before to the present one, *in the
+contact frame*, where it stands still on a smooth road. So the result for a constant pressure does not depend on the step.
+A cell is in contact up to its borders; there the bristles begin to grow.
+
+Source: Pacejka, Tire and Vehicle Dynamics, ch. 3; Kalker, A fast algorithm for the simplified theory of rolling contact
+(FASTSIM), Vehicle System Dynamics 11 (1982).
+"""
+
+from __future__ import annotations
+
+import math
+from typing import Any, NamedTuple
+
+import numpy
+from numpy.typing import NDArray
+
+from contact_sim_pkg.compiled.arrays import Vector
+from contact_sim_pkg.compiled.jit import entry, kernel
+from contact_sim_pkg.rigs.vehicle.tire.brush_lattice import blend, copy_field, loaded_window, place_on
+from contact_sim_pkg.rigs.vehicle.tire.brush_steps import PAD, Bristles, Field, Window, march, next_stretch
+from contact_sim_pkg.rigs.vehicle.tire.parameters import Brush
+
+__all__ = [
+    "BrushResult",
+    "BrushState",
+    "PatchGrid",
+    "RollingStep",
+    "advance_brush",
+    "brush_state_on",
+    "make_brush_state",
+    "rolling_step",
+]
+
+LEAST_WAY = 1e-12
+"""Shorter ways of the belt [cells] in one step count as none: a locked wheel."""
+
+
+APART, STICKS, SLIPS = 0, 1, 2
+"""What the bristle of a cell does: it carries no pressure, its tip holds to the road, or slides over it."""
+
+
+class BrushState(NamedTuple):
+    """What the bristles of one contact remember; written by `advance_brush`."""
+
+    bristles: Bristles
+    before: Field  # [Pa] pressure of the last field, [PAD + rows + PAD, cols]
+    place: Vector  # [3] phase of the belt's lattice [cells], origin_x of the last field [m], 1 once there was a field
+
+
+class PatchGrid(NamedTuple):
+    """Where a pressure field lies in the contact frame: centre of cell (0, 0), and the cells [m]."""
+
+    origin_x: float
+    origin_y: float
+    cell_x: float
+    cell_y: float
+
+
+class RollingStep(NamedTuple):
+    """Ways during one step [m]; see `rolling_step`."""
+
+    travel: float  # of the wheel centre, forward: v dt
+    belt: float  # of the belt, backward: omega R_e dt
+    drift: float  # of the wheel, to the left: v tan(alpha) dt
+
+
+class BrushResult(NamedTuple):
+    """Force and moment on the tire, about the origin of the contact frame, and what the step cost."""
+
+    force_x: float  # [N] sum of tau_x A
+    force_y: float  # [N] sum of tau_y A
+    moment_z: float  # [N m] sum of (x tau_y - y tau_x) A
+    sliding_share: float  # sliding cells among those in contact, 0 without contact
+    dissipated: float  # [J] work of friction during the step, tau times sliding way; >= 0
+    released: float  # [J] elastic energy of the bristles that left the contact during the step, lost as well; >= 0
+
+
+def make_brush_state(rows: int, cols: int) -> BrushState:
+    """Unstrained bristles for pressure fields of `rows` x `cols` cells. Raises `ValueError` for an empty grid."""
+    if rows < 1 or cols < 1:
+        raise ValueError(f"brush: grid of {rows} x {cols} cells, it must have at least one row and one column")
+    shape = (rows + 2 * PAD, cols)
+    bristles = Bristles(
+        numpy.zeros(shape), numpy.zeros(shape), numpy.zeros(shape, dtype=numpy.uint8), numpy.zeros(shape)
+    )
+    return BrushState(bristles, numpy.zeros(shape), numpy.zeros(3))
+
+
+def brush_state_on(state: BrushState, rows: int, cols: int, cell_x: float) -> BrushState:
+    """The same bristles for fields of another size with the same cells and middle column; what does not fit is dropped.
+
+    Row 0 of the next field may lie anywhere: `advance_brush` finds it by its `origin_x`. Errors as in `make_brush_state`.
+    """
+    moved = make_brush_state(rows, cols)
+    old_rows, old_cols = state.before.shape[0] - 2 * PAD, state.before.shape[1]
+    if (cols - old_cols) % 2:
+        raise ValueError(f"brush: from {old_cols} to {cols} columns, the two must differ by an even number")
+    more_rows, more_cols = (rows - old_rows) // 2, (cols - old_cols) // 2
+    for source, target in zip(_remembered(state), _remembered(moved), strict=True):
+        row, col = max(0, -more_rows) + PAD, max(0, -more_cols)
+        part = source[row : row + min(rows, old_rows), col : col + min(cols, old_cols)]
+        row, col = max(0, more_rows) + PAD, max(0, more_cols)
+        target[row : row + part.shape[0], col : col + part.shape[1]] = part
+    moved.place[:] = state.place
+    moved.place[1] -= more_rows * cell_x
+    return moved
+
+
+def _remembered(state: BrushState) -> tuple[NDArray[Any], ...]:
+    bristles = state.bristles
+    return bristles.deflection_x, bristles.deflection_y, bristles.sliding, state.before
+
+
+def rolling_step(travel: float, slip: float, slip_angle: float) -> RollingStep:
+    """Ways for a `travel` v dt [m] at the longitudinal slip kappa [-] and the slip angle alpha [rad].
+
+    Raises `ValueError` where a number is not finite or the slip angle is not within +-pi/2. A wheel that spins at
+    standstill has no slip: give its ways to `RollingStep`.
+    """
+    for name, value in (("travel", travel), ("slip", slip), ("slip angle", slip_angle)):
+        if not math.isfinite(value):
+            raise ValueError(f"brush: {name} is {value}, it must be a finite number")
+    if not abs(slip_angle) < 0.5 * math.pi:
+        raise ValueError(f"brush: slip angle is {slip_angle} rad, it must lie between -pi/2 and pi/2")
+    return RollingStep(float(travel), float((1.0 + slip) * travel), float(travel * math.tan(slip_angle)))
+
+
+@entry
+def advance_brush(
+    brush: Brush, state: BrushState, grid: PatchGrid, pressure: Field, step: RollingStep,
+    shear_x: NDArray[numpy.float64], shear_y: NDArray[numpy.float64], mode: NDArray[numpy.uint8],
+) -> BrushResult:  # fmt: skip
+    """Carry the bristles through one step that ends with the field `pressure` [Pa] >= 0, float64 [rows, cols].
+
+    grid: where that field lies; cells must be those of the state's fields before. The first field of a state counts as
+    having stood since before the step. Written, on the cells of `pressure`: shear_x, shear_y, the stress on the tire [Pa], and
+    mode: APART, STICKS or SLIPS. Raises `ValueError` where a field is not on the cells of the state.
+    Ways that are not finite give forces that are not. Cost: about one visit of each loaded cell for each cell of belt travel.
+    """
+    rows, cols = state.before.shape[0] - 2 * PAD, state.before.shape[1]
+    for field_rows, field_cols in (pressure.shape, shear_x.shape, shear_y.shape, mode.shape):
+        if field_rows != rows or field_cols != cols:
+            raise ValueError("brush: a field is not on the cells of the bristles; move them with brush_state_on")
+    first_field = state.place[2] == 0.0
+    origin_before = grid.origin_x if first_field else state.place[1]
+    phase = place_on(state.bristles, state.before, state.place[0], (grid.origin_x - origin_before) / grid.cell_x)
+    if first_field:
+        copy_field(pressure, state.before)
+    window = loaded_window(state.before, pressure)
+    phase, dissipated, released = march_all(brush, state, pressure, window, phase, grid.cell_x, step)
+    copy_field(pressure, state.before)
+    state.place[0], state.place[1], state.place[2] = phase, grid.origin_x, 1.0
+    area = grid.cell_x * grid.cell_y
+    force_x, force_y, moment_z, share = write_shear(
+        brush, state.bristles, grid, pressure, phase, shear_x, shear_y, mode
+    )
+    return BrushResult(force_x * area, force_y * area, moment_z * area, share, dissipated * area, released * area)
+
+
+@kernel
+def march_all(
+    brush: Brush, state: BrushState, pressure: Field, window: Window, phase: float, cell_x: float, step: RollingStep
+) -> tuple[float, float, float]:
+    """March the whole step, stretch by stretch; returns the new phase, work of friction and released energy [J/m^2]."""
+    cells = abs(step.belt) / cell_x
+    if not LEAST_WAY <= cells < math.inf:
+        cells = 0.0
+    over = cells if cells > 0.0 else 1.0
+    slide_x, slide_y = (step.belt - step.travel) / over, -step.drift / over
+    remaining = cells
+    dissipated, released = 0.0, 0.0
+    while True:
+        stretch = next_stretch(phase, remaining, step.belt < 0.0)
+        remaining -= stretch.length
+        blend(state.before, pressure, 1.0 - remaining / over, window, state.bristles.pressure)
+        work, energy = march(brush, state.bristles, window, stretch, slide_x, slide_y)
+        dissipated += work
+        released += energy
+        phase = stretch.end - stretch.write
+        if remaining <= 0.0:
+            return phase, dissipated, released
+
+
+@kernel
+def write_shear(
+    brush: Brush, bristles: Bristles, grid: PatchGrid, pressure: Field, phase: float, shear_x: Field, shear_y: Field,
+    mode: NDArray[numpy.uint8],
+) -> tuple[float, float, float, float]:  # fmt: skip
+    """Shear [Pa] at the centres of the cells; returns its sums (x, y, moment) and the share of sliding cells.
+
+    A centre lies between two bristles: deflections are interpolated, a bristle out of contact does not count; the nearer one
+    tells whether the cell slides. The limit is that of the cell's own pressure.
+    """
+    rows, cols = pressure.shape
+    near, far = (0, 1) if phase <= 0.5 else (1, 0)
+    weight = min(phase, 1.0 - phase)
+    sum_x, sum_y, moment, loaded, sliding = 0.0, 0.0, 0.0, 0, 0
+    for i in range(rows):
+        x = grid.origin_x + i * grid.cell_x
+        beyond = i + far - near
+        for j in range(cols):
+            shear_x[i, j], shear_y[i, j], mode[i, j] = 0.0, 0.0, APART
+            if not pressure[i, j] > 0.0:
+                continue
+            counts = weight if 0 <= beyond < rows and pressure[beyond, j] > 0.0 else 0.0
+            tau_x, tau_y = stress_between(brush, bristles, PAD + i + near, PAD + i + far, j, counts, pressure[i, j])
+            shear_x[i, j], shear_y[i, j] = tau_x, tau_y
+            sum_x += tau_x
+            sum_y += tau_y
+            moment += x * tau_y - (grid.origin_y + j * grid.cell_y) * tau_x
+            loaded += 1
+            slips = bristles.sliding[PAD + i + near, j] != 0
+            mode[i, j] = SLIPS if slips else STICKS
+            sliding += 1 if slips else 0
+    return sum_x, sum_y, moment, sliding / max(loaded, 1)
+
+
+@kernel
+def stress_between(
+    brush: Brush, bristles: Bristles, near: int, far: int, j: int, weight: float, pressure: float
+) -> tuple[float, float]:
+    """Stress [Pa] between two bristles, the far one with `weight`: `mu_k p` where the near one slides, else up to `mu_s p`."""
+    x = bristles.deflection_x[near, j] + weight * (bristles.deflection_x[far, j] - bristles.deflection_x[near, j])
+    y = bristles.deflection_y[near, j] + weight * (bristles.deflection_y[far, j] - bristles.deflection_y[near, j])
+    tau_x, tau_y = brush.stiffness_x * x, brush.stiffness_y * y
+    stress = math.sqrt(tau_x * tau_x + tau_y * tau_y)
+    if stress <= 0.0:
+        return 0.0, 0.0
+    if bristles.sliding[near, j]:
+        factor = brush.coefficient_kinetic * pressure / stress
+    else:
+        factor = min(1.0, brush.coefficient_static * pressure / stress)
+    return tau_x * factor, tau_y * factor

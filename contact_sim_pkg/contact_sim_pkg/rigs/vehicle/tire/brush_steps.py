@@ -1,0 +1,191 @@
+"""The march of the bristles of `rigs/vehicle/tire/brush.py` through the contact: one stretch of at most one cell at a time.
+
+A bristle with the label m stands `phase` cells behind the centre of row m, 0 <= phase <= 1: in the cell m as long as phase <= 1/2,
+then in the cell m - 1. Labels shift by whole cells, values are never mixed, so nothing is smeared on the way.
+"""
+
+from __future__ import annotations
+
+import math
+from typing import NamedTuple
+
+import numpy
+from numpy.typing import NDArray
+
+from contact_sim_pkg.compiled.jit import kernel
+from contact_sim_pkg.rigs.vehicle.tire.parameters import Brush
+
+__all__ = [
+    "PAD",
+    "Bristles",
+    "Field",
+    "Flags",
+    "Stretch",
+    "Window",
+    "march",
+    "next_stretch",
+    "slide_onto",
+    "unit_slide",
+]
+
+PAD = 2
+"""Rows before the first and after the last that are never loaded: a march reads and writes beyond the grid."""
+
+ROUNDING = 1e-12
+"""A trial stress within this part of the limit is at the limit."""
+
+NEWTON_STEPS = 20
+"""Most steps of `unit_slide`; one for equal stiffnesses, 2 to 5 else."""
+
+LAST_EXCESS = 1e-4
+"""Relative excess of the stress at which one more Newton step suffices: its error is about the square of this."""
+
+LEAST_LIMIT = 1e-100
+"""Limits [Pa] below it are zero: the squares of smaller stresses are not numbers to divide by."""
+
+Field = NDArray[numpy.float64]
+Flags = NDArray[numpy.uint8]
+
+
+class Bristles(NamedTuple):
+    """Deflections of the bristles and the pressure on them, [PAD + rows + PAD, cols]."""
+
+    deflection_x: Field  # [m] tip on the road ahead of its root in the belt
+    deflection_y: Field  # [m] to the left
+    sliding: Flags  # 1 where the tip slides
+    pressure: Field  # [Pa] at the end of the present stretch
+
+
+class Window(NamedTuple):
+    """Labels `first ... last - 1` (counted from the first padding row) and columns `left ... right - 1`."""
+
+    first: int
+    last: int
+    left: int
+    right: int
+
+
+class Stretch(NamedTuple):
+    """A way of the belt within one cell, and what the road slides along it."""
+
+    length: float  # [cells]
+    end: float  # phase at its end
+    read: int  # a bristle m is found in row m - read
+    write: int  # and left in row m - write
+    share_here: float  # [cells] the part of the way in the cell m, 1 or 0 for a belt at rest
+    share_next: float  # [cells] the part in the cell m - 1
+
+
+@kernel
+def next_stretch(phase: float, remaining: float, backward: bool) -> Stretch:
+    """The way to the next centre of a cell, or less where less is `remaining` [cells]."""
+    if remaining <= 0.0:
+        here = 1.0 if phase <= 0.5 else 0.0
+        return Stretch(0.0, phase, 0, 0, here, 1.0 - here)
+    if backward:
+        start = phase if phase > 0.0 else 1.0  # phase 0 of one label is phase 1 of the next
+        length = min(start, remaining)
+        end = start - length if remaining < start else 0.0
+        read, write = 0 if phase > 0.0 else 1, 0
+    else:
+        start = phase
+        length = min(1.0 - start, remaining)
+        end = start + length if remaining < 1.0 - start else 1.0
+        read, write = 0, 1 if end >= 1.0 else 0
+    here = min(abs(min(end, 0.5) - min(start, 0.5)), length)
+    return Stretch(length, end, read, write, here, length - here)
+
+
+@kernel
+def march(
+    brush: Brush, bristles: Bristles, window: Window, stretch: Stretch, slide_x: float, slide_y: float
+) -> tuple[float, float]:
+    """Carry every bristle of the window along one stretch; the road slides `slide_x`, `slide_y` [m] for each cell of way.
+
+    Returns the work [J/m^2] of friction and the elastic energy [J/m^2] of the bristles that left the contact.
+    """
+    pressure, sliding = bristles.pressure, bristles.sliding
+    deflection_x, deflection_y = bristles.deflection_x, bristles.deflection_y
+    dissipated, released = 0.0, 0.0
+    for n in range(window.last - window.first):
+        m = window.first + n if stretch.read == 0 else window.last - 1 - n  # never read what was just written
+        source, target = m - stretch.read, m - stretch.write
+        for j in range(window.left, window.right):
+            x, y, slid = deflection_x[source, j], deflection_y[source, j], sliding[source, j]
+            here, following = pressure[m, j], pressure[m - 1, j]
+            if (following if stretch.end > 0.5 else here) > 0.0:
+                x, y, slid, work = carry(brush, x, y, slid, here, following, stretch, slide_x, slide_y)
+                dissipated += work
+            else:
+                released += 0.5 * (brush.stiffness_x * x * x + brush.stiffness_y * y * y)
+                x, y, slid = 0.0, 0.0, numpy.uint8(0)
+            deflection_x[target, j], deflection_y[target, j], sliding[target, j] = x, y, slid
+    return dissipated, released
+
+
+@kernel
+def carry(
+    brush: Brush, x: float, y: float, slid: int, here: float, following: float, stretch: Stretch,
+    slide_x: float, slide_y: float,
+) -> tuple[float, float, numpy.uint8, float]:  # fmt: skip
+    """One bristle along one stretch that ends under load: it grows in the loaded cells, then it sticks or slides.
+
+    here, following: pressure [Pa] of the cells m and m - 1. Returns deflection [m], flag and work of friction [J/m^2].
+    """
+    share = (stretch.share_here if here > 0.0 else 0.0) + (stretch.share_next if following > 0.0 else 0.0)
+    grown_x, grown_y = x + share * slide_x, y + share * slide_y
+    at_end = here + stretch.end * (following - here)
+    new_x, new_y, slides, way = slide_onto(brush, grown_x, grown_y, slid, at_end)
+    if way <= 0.0:
+        return new_x, new_y, slides, 0.0
+    stress = brush.coefficient_kinetic * at_end
+    stress_before = shear_of(brush, x, y) if slid else stress  # the mean of both, if it slid before
+    return new_x, new_y, slides, way * stress * 0.5 * (stress + stress_before)
+
+
+@kernel
+def slide_onto(brush: Brush, x: float, y: float, slid: int, pressure: float) -> tuple[float, float, numpy.uint8, float]:
+    """Deflection [m], flag, and `unit_slide` [m/Pa] of a bristle with the trial deflection `x`, `y` [m].
+
+    It sticks up to `mu_s p` (up to `mu_k p` if it slid), and slides on to `mu_k p`. At the very limit a flag stays as it is.
+    """
+    holds = (brush.coefficient_kinetic if slid else brush.coefficient_static) * pressure
+    trial = shear_of(brush, x, y)
+    if trial <= holds * (1.0 + ROUNDING):
+        return x, y, numpy.uint8(slid and trial >= holds * (1.0 - ROUNDING)), 0.0
+    limit = brush.coefficient_kinetic * pressure
+    if limit < LEAST_LIMIT:
+        return 0.0, 0.0, numpy.uint8(1), 0.0
+    way = unit_slide(brush, brush.stiffness_x * x, brush.stiffness_y * y, limit)
+    x /= 1.0 + way * brush.stiffness_x
+    y /= 1.0 + way * brush.stiffness_y
+    factor = limit / shear_of(brush, x, y)
+    return x * factor, y * factor, numpy.uint8(1), way
+
+
+@kernel
+def shear_of(brush: Brush, x: float, y: float) -> float:
+    """Size of the shear stress [Pa] of a deflection `x`, `y` [m]."""
+    tau_x, tau_y = brush.stiffness_x * x, brush.stiffness_y * y
+    return math.sqrt(tau_x * tau_x + tau_y * tau_y)
+
+
+@kernel
+def unit_slide(brush: Brush, trial_x: float, trial_y: float, limit: float) -> float:
+    """Sliding distance over stress [m/Pa]: the w >= 0 with `|tau(w)| = limit`, `tau_i(w) = trial_i / (1 + w k_i)`.
+
+    The tip slides along the stress, `w tau`, as Coulomb's law asks. Newton's method on 1/|tau(w)| = 1/limit, which is
+    linear in w for equal stiffnesses and nearly so else (Moré and Sorensen 1983). limit > 0 in [Pa].
+    """
+    if brush.stiffness_x == brush.stiffness_y:
+        return (math.sqrt(trial_x * trial_x + trial_y * trial_y) / limit - 1.0) / brush.stiffness_x
+    way = 0.0
+    for _ in range(NEWTON_STEPS):
+        flat_x, flat_y = 1.0 + way * brush.stiffness_x, 1.0 + way * brush.stiffness_y
+        x, y = trial_x / flat_x, trial_y / flat_y
+        square = x * x + y * y
+        excess = math.sqrt(square) / limit - 1.0
+        way += square * excess / (brush.stiffness_x * x * x / flat_x + brush.stiffness_y * y * y / flat_y)
+        if excess < LAST_EXCESS:
+            break
+    return way

@@ -1,0 +1,173 @@
+"""The height that a smooth tire sees: the road averaged with the pressure of the footprint.
+
+By the reciprocal theorem (Betti) a small roughness h(x, y) under a contact of fixed pressure p changes the approach by
+``integral(p h) / integral(p)``: exact to first order in h. The weights are the Hertz pressure ``sqrt(1 - (x/a)^2 - (y/b)^2)`` of
+the standing load. It drives the point contact everywhere, and between two field instants it tells how the effective
+height changes with the travel; at the instants the pressure field itself decides.
+"""
+
+from __future__ import annotations
+
+import math
+
+import numpy
+from numpy.typing import NDArray
+
+from contact_sim_pkg.compiled.arrays import Vector
+from contact_sim_pkg.compiled.jit import entry, kernel
+
+Heights = NDArray[numpy.float32]
+Pressures = NDArray[numpy.float64]
+
+
+@entry
+def effective_heights(
+    height: Heights, first_row: int, cell_x: float, cell_y: float, semi_axis_x: float, semi_axis_y: float,
+    travel: Vector, out: Vector,
+) -> bool:  # fmt: skip
+    """Weighted mean height in [m] for each wheel position ``travel`` [m], written into ``out``.
+
+    ``height`` [rows, cols] in [m] on the road lattice (node (i, j) at x = (first_row + i) cell_x, y = (j - (cols-1)/2) cell_y);
+    ``semi_axis_x``, ``semi_axis_y`` [m] of the footprint. The mean is taken with the wheel over a node and laid as a cubic with
+    continuous slope (Catmull-Rom) between the nodes: there the steep edge of the weights would cross the nodes one by one, and each
+    would show as a jerk. Returns False where the lattice does not hold the footprint.
+    """
+    weights = _weights(height.shape[1], cell_x, cell_y, semi_axis_x, semi_axis_y)
+    reach = weights.shape[0] // 2
+    means = numpy.zeros(4)  # at the node before the one behind the wheel, at that, and at the two ahead
+    place, known = 0, False
+    for k in range(travel.shape[0]):
+        node = int(math.floor(travel[k] / cell_x))  # noqa: RUF046  # a float in compiled code
+        if node - reach < first_row or node + 1 + reach >= first_row + height.shape[0]:
+            return False
+        if not (known and node == place):
+            kept = 3 if known and node == place + 1 else 0
+            for i in range(kept):
+                means[i] = means[i + 1]
+            for i in range(kept, 4):
+                first = min(max(node - 1 + i - reach - first_row, 0), height.shape[0] - weights.shape[0])
+                means[i] = _mean(height, weights, first)
+            place, known = node, True
+        out[k] = _cubic(means, travel[k] / cell_x - node)
+    return True
+
+
+@kernel
+def _cubic(means: Vector, part: float) -> float:
+    """Between the second and the third of four equal steps, with the slopes of their neighbours."""
+    slope, slope_end = 0.5 * (means[2] - means[0]), 0.5 * (means[3] - means[1])
+    rise = means[2] - means[1]
+    return means[1] + part * (
+        slope + part * (3.0 * rise - 2.0 * slope - slope_end + part * (slope + slope_end - 2.0 * rise))
+    )
+
+
+@kernel
+def _weights(cols: int, cell_x: float, cell_y: float, semi_axis_x: float, semi_axis_y: float) -> Pressures:
+    """Hertz pressure of the footprint on the nodes around its middle, of sum 1."""
+    reach = int(semi_axis_x / cell_x) + 1
+    weights = numpy.zeros((2 * reach + 1, cols))
+    total = 0.0
+    for i in range(2 * reach + 1):
+        for j in range(cols):
+            u, v = (i - reach) * cell_x / semi_axis_x, (j - 0.5 * (cols - 1)) * cell_y / semi_axis_y
+            weights[i, j] = math.sqrt(max(0.0, 1.0 - u * u - v * v))
+            total += weights[i, j]
+    return weights / total
+
+
+@kernel
+def _mean(height: Heights, weights: Pressures, first: int) -> float:
+    """Mean of the rows from ``first`` on."""
+    total = 0.0
+    for i in range(weights.shape[0]):
+        for j in range(weights.shape[1]):
+            total += weights[i, j] * height[first + i, j]
+    return total
+
+
+@entry
+def tire_gap(
+    height: Heights, first_row: int, cell_x: float, cell_y: float, radius_rolling: float, radius_lateral: float,
+    first: int, travel: float, out: Vector,
+) -> bool:  # fmt: skip
+    """Undeformed gap in [m] of the tire whose lowest point stands at height 0 over the road, written into ``out`` [rows, cols].
+
+    ``g = x^2/(2 R_rolling) + y^2/(2 R_lateral) - h``; row 0 of ``out`` is lattice row ``first``, x counts from ``travel`` [m].
+    Cells coincide with road nodes, so no height is interpolated; the road may be wider than ``out`` by an even number of
+    columns. Returns False where the lattice does not hold the grid.
+    """
+    rows, cols = out.shape
+    if first < first_row or first + rows > first_row + height.shape[0] or cols > height.shape[1]:
+        return False
+    margin = (height.shape[1] - cols) // 2
+    middle = 0.5 * (cols - 1)
+    for i in range(rows):
+        x = (first + i) * cell_x - travel
+        crown = 0.5 * x * x / radius_rolling
+        for j in range(cols):
+            y = (j - middle) * cell_y
+            out[i, j] = crown + 0.5 * y * y / radius_lateral - height[first + i - first_row, margin + j]
+    return True
+
+
+@entry
+def touches_beyond(
+    height: Heights, first_row: int, radius_rolling: float, radius_lateral: float, first: int, travel: float,
+    approach: float, modulus: float, cell_x: float, cell_y: float, pressure: Pressures, rows: int, cols: int,
+) -> bool:  # fmt: skip
+    """Whether the road touches the tire outside the grid of ``pressure`` [Pa], on a larger one of ``rows`` x ``cols`` cells.
+
+    A cell outside touches where its gap (``tire_gap``) is less than ``approach`` [m] minus the displacement
+    ``sum(p cell_x cell_y / (pi E* r))`` that the pressure causes there; ``modulus`` is E* [Pa]. The larger grid has the same cells
+    and the same middle; its row 0 is lattice row ``first``. Cells that the lattice does not hold are taken not to touch. A belt
+    yields further and leaves more room, so with one this may say that a cell touches which does not.
+    """
+    own_rows, own_cols = pressure.shape
+    top, left = rows // 2 - own_rows // 2, (cols - own_cols) // 2
+    margin = (height.shape[1] - cols) // 2
+    middle = 0.5 * (cols - 1)
+    for i in range(max(0, first_row - first), min(rows, first_row + height.shape[0] - first)):
+        x = (first + i) * cell_x - travel
+        free = approach - 0.5 * x * x / radius_rolling
+        inside = top <= i < top + own_rows
+        for j in range(max(0, -margin), min(cols, height.shape[1] - margin)):
+            if inside and left <= j < left + own_cols:
+                continue
+            y = (j - middle) * cell_y
+            depth = free - 0.5 * y * y / radius_lateral + height[first + i - first_row, margin + j]
+            if depth > 0.0 and depth > _sunk(pressure, i - top, j - left, modulus, cell_x, cell_y):
+                return True
+    return False
+
+
+@kernel
+def _sunk(pressure: Pressures, row: int, col: int, modulus: float, cell_x: float, cell_y: float) -> float:
+    """Displacement in [m] at a cell outside the loaded ones, from point forces at their centres."""
+    total = 0.0
+    for i in range(pressure.shape[0]):
+        for j in range(pressure.shape[1]):
+            if pressure[i, j] > 0.0:
+                total += pressure[i, j] / math.hypot((row - i) * cell_x, (col - j) * cell_y)
+    return total * cell_x * cell_y / (math.pi * modulus)
+
+
+@entry
+def effective_between(smooth: Vector, offset: float, offset_end: float, out: Vector) -> None:
+    """Effective height of the road in [m] from one field to the next, written into ``out``: ``smooth`` [m] and an offset [m].
+
+    The offset goes straight to its end. What the smooth height has beside a straight line is right to first order in the
+    roughness only: at an edge it falls in a curve where the tire, which stands on the edge, does not, and the offset takes
+    nearly all of it back. So it counts as far as the offset leaves it alone: ``1 - 4 |change of offset| / range of smooth``,
+    and no more from a quarter on.
+    """
+    last = smooth.shape[0] - 1
+    highest, lowest = smooth[0], smooth[0]
+    for i in range(1, last + 1):
+        highest, lowest = max(highest, smooth[i]), min(lowest, smooth[i])
+    span, change = highest - lowest, offset_end - offset
+    kept = max(0.0, 1.0 - 4.0 * abs(change) / span) if span > 0.0 else 0.0
+    for i in range(last + 1):
+        part = i / last
+        straight = smooth[0] + (smooth[last] - smooth[0]) * part
+        out[i] = straight + kept * (smooth[i] - straight) + offset + change * part

@@ -1,0 +1,81 @@
+"""The part of the page on the rolling tire: pictures and tables; what the run lacks is absent."""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+from contact_sim_pkg.report.drawing import Picture
+from contact_sim_pkg.report.figures.peaks import peak_curves
+from contact_sim_pkg.report.series import FieldSeries, Recording
+from contact_sim_pkg.report.signal.peaks import filtered_signals, peak_rows
+from contact_sim_pkg.report.tables import Table
+from contact_sim_pkg.rigs.vehicle.tire.report.closed_form import TireReference, tire_reference
+from contact_sim_pkg.rigs.vehicle.tire.report.figures_field import (
+    displacement_picture,
+    relative_pressure_picture,
+    stress_picture,
+)
+from contact_sim_pkg.rigs.vehicle.tire.report.figures_footprint import footprint_stages
+from contact_sim_pkg.rigs.vehicle.tire.report.figures_road import Rolling, along_the_road, stretches
+from contact_sim_pkg.rigs.vehicle.tire.report.figures_shear import friction_over_slip, friction_over_time, shear_maps
+from contact_sim_pkg.rigs.vehicle.tire.report.numbers import TIRE, standing_load_of
+from contact_sim_pkg.rigs.vehicle.tire.report.tables import footprint_table, load_table, peak_table
+
+KEY = "rolling"
+FRICTION_KEY = "friction"
+
+
+class TirePart(NamedTuple):
+    """Pictures and tables of the rolling tire."""
+
+    pictures: list[Picture]
+    tables: list[Table]
+
+
+def tire_part(recording: Recording) -> TirePart:
+    """Call inside `drawing.style()`; both lists are empty where nothing rolls."""
+    contact, field, road = recording.contacts.get(TIRE), recording.fields.get(TIRE), recording.road
+    if contact is None:
+        return TirePart([], [])
+    reference = tire_reference(recording.scene)
+    travel = road.travel if road is not None else None
+    signals = filtered_signals(contact, recording.motion)
+    pictures: list[Picture] = []
+    if road is not None:
+        rolling = Rolling(contact, field, road, reference)
+        pictures += [along_the_road(KEY, TIRE, rolling, stretch) for stretch in stretches(rolling)]
+    if signals:
+        pictures.append(peak_curves(KEY, TIRE, signals))
+    if field is not None:
+        pictures.append(footprint_stages(KEY, TIRE, field, travel))
+    pictures += _under_load(field, reference)
+    tables = [load_table(contact, travel, standing_load_of(recording.scene))]
+    tables += [footprint_table(field, reference)] if field is not None else []
+    tables += [peak_table(peak_rows(signals))] if signals else []
+    return TirePart(pictures, tables)
+
+
+def friction_pictures(recording: Recording) -> list[Picture]:
+    """Pictures of the friction of a rolling tire; call inside `drawing.style()`. Empty without shear in the bag."""
+    shear = recording.shear
+    if shear is None:
+        return []
+    found = [
+        friction_over_time(FRICTION_KEY, TIRE, shear),
+        friction_over_slip(FRICTION_KEY, TIRE, shear, recording.fields.get(TIRE)),
+        shear_maps(FRICTION_KEY, TIRE, shear),
+    ]
+    return [each for each in found if each is not None]
+
+
+def _under_load(field: FieldSeries | None, reference: TireReference | None) -> list[Picture]:
+    """What the heaviest field does; needs a field with load, and the scene's tire."""
+    if field is None or reference is None or field.heaviest.load <= 0.0:
+        return []
+    heaviest = field.heaviest
+    found = [
+        displacement_picture(KEY, heaviest, reference),
+        relative_pressure_picture(KEY, heaviest, reference),
+        stress_picture(KEY, heaviest, reference.poisson_ratio),
+    ]
+    return [each for each in found if each is not None]

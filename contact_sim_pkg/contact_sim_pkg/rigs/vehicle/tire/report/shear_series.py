@@ -1,0 +1,64 @@
+"""The shear fields of a rolling tire, taken in one by one."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+
+from contact_sim_pkg.bag.errors import BagError
+from contact_sim_pkg.report.series import PressureMap, ShearMap, ShearSeries
+
+SCALARS = ("slip", "slip_angle", "force_x", "force_y", "moment_z", "sliding_share", "dissipated")
+MOSTLY = 0.95
+"""Share of slipping cells above which the footprint slides as a whole."""
+SMALL = 0.05
+"""Share of the other force below which a force has no map of its own."""
+
+
+class ShearPass:
+    """Scalars of all fields, and the whole fields with the largest force along and across that still stick somewhere."""
+
+    def __init__(self) -> None:
+        """Nothing taken in yet."""
+        self._scalars: list[tuple[float, ...]] = []
+        self._largest: dict[str, tuple[float, Any]] = {}
+
+    def take(self, time: float, message: Any) -> None:
+        """Take in the field at `time` [s]. BagError for one that does not fill its grid."""
+        cells = message.rows * message.cols
+        if any(len(values) != cells for values in (message.shear_x, message.shear_y, message.state)):
+            raise BagError(f"the shear at {time:.6f} s does not fill its {message.rows} x {message.cols} cells")
+        self._scalars.append((time, *(float(getattr(message, name)) for name in SCALARS)))
+        for name in ("force_x", "force_y"):
+            before = self._largest.get(name)
+            if before is None or _worth(name, message) > _worth(name, before[1]):
+                self._largest[name] = (time, message)
+
+    def finish(self) -> ShearSeries:
+        """The series of all fields taken in; at least one."""
+        if not self._scalars:
+            raise BagError("no shear was taken in")
+        time, *columns = np.array(self._scalars).T
+        along, across = (self._largest[name] for name in ("force_x", "force_y"))
+        force_x, force_y = abs(along[1].force_x), abs(across[1].force_y)
+        if force_y <= SMALL * force_x or along[0] == across[0]:
+            chosen = [along]
+        else:
+            chosen = [across] if force_x <= SMALL * force_y else [along, across]
+        largest = [_shear_map(*each) for each in chosen]
+        return ShearSeries(time, **dict(zip(SCALARS, columns, strict=True)), largest=largest)
+
+
+def _worth(name: str, message: Any) -> tuple[bool, float]:
+    """Order of what is shown: cells that stick and cells that slip say more than a footprint that slides as a whole."""
+    return message.sliding_share <= MOSTLY, abs(getattr(message, name))
+
+
+def _shear_map(time: float, message: Any) -> ShearMap:
+    shape = (message.rows, message.cols)
+    x, y = (np.array(values, dtype=np.float64).reshape(shape) for values in (message.shear_x, message.shear_y))
+    state = np.array(message.state, dtype=np.uint8).reshape(shape)
+    grid = PressureMap(np.hypot(x, y), message.cell_x, message.cell_y, message.origin_x, message.origin_y)
+    slip, angle, force_x, force_y, moment, share = (float(getattr(message, name)) for name in SCALARS[:-1])
+    return ShearMap(time, slip, angle, force_x, force_y, moment, share, grid, x, y, state)

@@ -1,0 +1,139 @@
+"""The road under a tire as its support: grids that follow the wheel, what touches beyond them, and what the tread remembers."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy
+
+from contact_sim_pkg.laws.parameters import Contact
+from contact_sim_pkg.pressure.field.instant import grown_window
+from contact_sim_pkg.pressure.settings import FieldSettings
+from contact_sim_pkg.rigs.vehicle.contact_field import PressureField
+from contact_sim_pkg.rigs.vehicle.contact_model import FieldGrids
+from contact_sim_pkg.rigs.vehicle.field_driver import Gap, Support
+from contact_sim_pkg.rigs.vehicle.tire.footprint import tire_gap, touches_beyond
+from contact_sim_pkg.rigs.vehicle.tire.model import TireGeometry, Tread, relaxed_grids
+from contact_sim_pkg.rigs.vehicle.tire.tread_viscoelasticity import TreadMemory
+from contact_sim_pkg.run.errors import RunError
+
+
+class RoadSupport(Support):
+    """The road under the tire; ``place`` says where the wheel stands before a field is solved."""
+
+    def __init__(
+        self, grids: FieldGrids | None, contact: Contact | None, geometry: TireGeometry | None, tread: Tread | None
+    ) -> None:
+        """As ``Support``; ``geometry`` gives radii and lattice, ``tread`` the memory of the rubber (None: it has none)."""
+        super().__init__(grids, contact)
+        self._geometry, self._tread = geometry, tread
+        self._road: Any = None
+        self._gaps = {} if grids is None else {
+            field.settings.rows: numpy.empty((field.settings.rows, field.settings.cols)) for field in grids.both()
+        }  # fmt: skip
+        self._memory: TreadMemory | None = None
+        if tread is not None and grids is not None:
+            wide = grids.wide.settings
+            self._memory = TreadMemory(wide, tread.relaxed_modulus, tread.viscoelasticity, tread.step)
+            self._pressed = numpy.zeros((wide.rows, wide.cols))
+            self.remembers = True
+
+    def reset(self) -> None:
+        """See Support."""
+        super().reset()
+        if self._memory is not None:
+            self._memory.reset()
+
+    def place(self, road: Any, travel: float) -> None:
+        """The block's road, and the travel of the wheel centre in [m]."""
+        self._road, self.travel = road, travel
+        if self._memory is not None and self.grids is not None:
+            self._memory.move_to(self.road_row(self.grids.wide.settings))
+
+    def stand(self, load: float) -> float:
+        """See Support; a tread with memory has stood there for long."""
+        if self._memory is None or self._tread is None or self.grids is None:
+            return super().stand(load)
+        self._memory.reset()
+        relaxed = relaxed_grids(self.grids, self._tread)
+        approach, field = self._stand_on(relaxed, load)
+        self._memory.settle(self.road_row(relaxed.wide.settings), self._on_wide(field.pressure))
+        return approach
+
+    def keep(self) -> None:
+        """The last field is the one of its instant: the tread remembers it."""
+        if self._memory is not None and self.published is not None:
+            self._memory.keep(self._on_wide(self.published.pressure))
+
+    def _on_wide(self, pressure: Gap) -> Gap:
+        """A pressure field on the wide grid, which both grids share their middle with."""
+        rows, cols = (wide - own for wide, own in zip(self._pressed.shape, pressure.shape, strict=True))
+        if rows == cols == 0:
+            return pressure
+        self._pressed.fill(0.0)
+        first_row, first_col = self._pressed.shape[0] // 2 - pressure.shape[0] // 2, cols // 2
+        self._pressed[first_row : first_row + pressure.shape[0], first_col : first_col + pressure.shape[1]] = pressure
+        return self._pressed
+
+    def road_row(self, settings: FieldSettings) -> int:
+        """See Support."""
+        return round(self.travel / settings.cell_x) - settings.rows // 2
+
+    def gap(self, settings: FieldSettings) -> Gap:
+        """See Support; cells coincide with nodes of the road. What the tread remembers is added."""
+        geometry, road = self._geometry, self._road
+        assert geometry is not None
+        out = self._gaps[settings.rows]
+        inside = tire_gap(
+            road.height, road.first_row, settings.cell_x, settings.cell_y, geometry.radius_rolling,
+            geometry.radius_lateral, self.road_row(settings), self.travel, out,
+        )  # fmt: skip
+        if not inside:
+            raise RunError(
+                f"road/patch: block {road.block} does not reach over the pressure grid at {self.travel:.6g} m"
+            )
+        if self._memory is not None:
+            whole = self._memory.gap
+            row, col = whole.shape[0] // 2 - settings.rows // 2, (whole.shape[1] - settings.cols) // 2
+            out += whole[row : row + settings.rows, col : col + settings.cols]
+        return out
+
+    def touches_beyond(self, grids: FieldGrids, approach: float) -> bool:
+        """See Support."""
+        if not self._touches(grids.usual, approach):
+            return False
+        return grids.usual.settings.belt is None or self._touches_with_belt(grids, approach)
+
+    def _touches_with_belt(self, grids: FieldGrids, approach: float) -> bool:
+        """The same where a belt yields further than the half-space: by its own displacements on the wide grid."""
+        wide, pressure = grids.wide.settings, grids.usual.pressure
+        rows, cols = pressure.shape
+        first_row, first_col = wide.rows // 2 - rows // 2, (wide.cols - cols) // 2
+        pressed = numpy.zeros((wide.rows, wide.cols))
+        pressed[first_row : first_row + rows, first_col : first_col + cols] = pressure
+        window = (first_row, first_col, rows, cols)
+        return bool(grown_window(grids.wide.half_space, self.gap(wide), approach, pressed, *window) != window)
+
+    def refuse_beyond(self, grids: FieldGrids, approach: float, block: int) -> None:
+        """See Support."""
+        wide = grids.wide.settings
+        if wide.belt is None and self._touches(grids.wide, approach):
+            raise RunError(
+                f"block {block}: tire: the road touches it beyond its pressure grid of {wide.rows * wide.cell_x:.4g} m, at "
+                f"{self.travel:.6g} m; enlarge effects.tire.contact_field.length and rows"
+            )
+
+    def _touches(self, field: PressureField, approach: float) -> bool:
+        """Whether the road touches the tire outside a field's grid, as far as a tire reaches."""
+        geometry, road, settings = self._geometry, self._road, field.settings
+        assert geometry is not None
+        rows, cols = geometry.lattice.road_rows, geometry.lattice.road_cols
+        return bool(touches_beyond(
+            road.height, road.first_row, geometry.radius_rolling, geometry.radius_lateral,
+            round(self.travel / settings.cell_x) - rows // 2, self.travel, approach, settings.modulus, settings.cell_x,
+            settings.cell_y, field.pressure, rows, cols,
+        ))  # fmt: skip
+
+    def origin(self, settings: FieldSettings) -> tuple[float, float]:
+        """See Support."""
+        return self.road_row(settings) * settings.cell_x - self.travel, -0.5 * (settings.cols - 1) * settings.cell_y

@@ -1,0 +1,135 @@
+"""Memory of the tread rubber in a rolling pressure field: Kelvin-Voigt and Maxwell branches, cell by cell.
+
+For a half-space whose Poisson's ratio does not change in time the elastic-viscoelastic correspondence holds at every point of
+its surface, loaded or not: with the elastic operator K of the long-time modulus,
+
+    K p(t) = integral of [1 + T dirac(t-s) + sum r_k exp(-(t-s)/t_k)] u'(s) ds = u + T u' + sum q_k,    q_k' = r_k u' - q_k/t_k.
+
+Over a step h in which u changes linearly (T: backward difference) q_k becomes `a_k q_k + w_k (u - u_before)`, a_k = exp(-h/t_k),
+w_k = r_k (t_k/h)(1 - a_k), so that
+
+    u = K p / s + g,    s = 1 + T/h + sum w_k,    g = [(T/h + sum w_k) u_before - sum a_k q_k] / s:
+
+an elastic contact with the modulus raised by s, and the gap raised by g. The contact may grow, shrink and move. Material points
+of a rolling tread lie still against the road, so u and q are carried on the road's lattice; rows that enter are taken to be as the
+row beside them.
+
+Sources: Lee and Radok (1960), J. Appl. Mech. 27, 438; Johnson, Contact Mechanics, 6.5; Taylor, Pister and Goudreau (1970),
+Int. J. Num. Meth. Eng. 2, 45 (exponential update).
+"""
+
+from __future__ import annotations
+
+import numpy
+from numpy.typing import NDArray
+
+from contact_sim_pkg.compiled.jit import entry
+from contact_sim_pkg.pressure.field.halfspace import displacement, make_buffers, make_half_space
+from contact_sim_pkg.pressure.settings import FieldSettings
+from contact_sim_pkg.rigs.vehicle.tire.parameters import TreadViscoelasticity
+
+__all__ = ["TreadMemory", "stiffening"]
+
+Field = NDArray[numpy.float64]
+
+
+def _weights(tread: TreadViscoelasticity, step: float) -> tuple[float, Field, Field]:
+    """T/h, w_k and a_k of a step in [s]."""
+    ratio, time = numpy.asarray(tread.ratios, dtype=float), numpy.asarray(tread.times, dtype=float)
+    return tread.retardation_time / step, -ratio * (time / step) * numpy.expm1(-step / time), numpy.exp(-step / time)
+
+
+def stiffening(tread: TreadViscoelasticity, step: float) -> float:
+    """`s = 1 + T/h + sum r_k (t_k/h)(1 - exp(-h/t_k))` [-]: modulus over a step h [s] against the long-time modulus."""
+    viscous, weights, _decay = _weights(tread, step)
+    return 1.0 + viscous + float(weights.sum())
+
+
+class TreadMemory:
+    """Displacement of the tread's surface and the branches' share of it on one grid, from field instant to field instant.
+
+    `move_to` the row of the instant, solve with the gap raised by `gap`, then `keep` the pressure that was found.
+    """
+
+    def __init__(self, settings: FieldSettings, relaxed: float, tread: TreadViscoelasticity, step: float) -> None:
+        """Grid of `settings`; `relaxed` [Pa]: its contact modulus at long times; `step` [s] between two field instants."""
+        size = (settings.rows, settings.cols, settings.cell_x, settings.cell_y)
+        self._relaxed = make_half_space(*size, relaxed)
+        self._viscous, self._weights, self._decay = _weights(tread, step)
+        self._raised = make_half_space(*size, relaxed * stiffening(tread, step))
+        self._buffers = make_buffers(self._relaxed)
+        self._row = 0
+        shape = size[:2]
+        self._displacement: Field = numpy.zeros(shape)
+        self._branches: Field = numpy.zeros((len(self._weights), *shape))
+        self._pressed: Field = numpy.zeros(shape)
+        self.gap: Field = numpy.zeros(shape)  # [m] to be added to the gap at the present instant
+
+    def reset(self) -> None:
+        """Forget everything: an unloaded tread."""
+        for field in (self._displacement, self._branches, self.gap):
+            field.fill(0.0)
+
+    def settle(self, row: int, pressure: Field) -> None:
+        """The tread has stood under `pressure` [Pa] for long, with its first row at lattice row `row`."""
+        self._row = row
+        displacement(self._relaxed, self._buffers, pressure, self._displacement)
+        self._branches.fill(0.0)
+        self._remember()
+
+    def move_to(self, row: int) -> None:
+        """The tread rolled on: its first row is lattice row `row` now."""
+        cells, self._row = row - self._row, row
+        if cells != 0:
+            shift_rows(self._displacement, cells)
+            for branch in self._branches:
+                shift_rows(branch, cells)
+            self._remember()
+
+    def keep(self, pressure: Field) -> None:
+        """Take over the pressure [Pa] that was found with the present `gap`."""
+        displacement(self._raised, self._buffers, pressure, self._pressed)
+        take_step(self._pressed, self.gap, self._weights, self._decay, self._displacement, self._branches)
+        self._remember()
+
+    def _remember(self) -> None:
+        remembered_gap(
+            self._displacement, self._branches, self._viscous, self._weights, self._decay, self.gap
+        )  # fmt: skip
+
+
+@entry
+def shift_rows(field: Field, cells: int) -> None:
+    """Move all rows by `cells` towards row 0 (negative: away); rows that enter are copies of the row at that side."""
+    rows, cols = field.shape
+    for k in range(rows):
+        i = k if cells >= 0 else rows - 1 - k  # a row is read before it is written
+        source = min(max(i + cells, 0), rows - 1)
+        for j in range(cols):
+            field[i, j] = field[source, j]
+
+
+@entry
+def remembered_gap(displaced: Field, branches: Field, viscous: float, weights: Field, decay: Field, gap: Field) -> None:
+    """`g = [(T/h + sum w) u - sum a q] / s`, see the module."""
+    held = viscous
+    for k in range(weights.shape[0]):
+        held += weights[k]
+    for i in range(gap.shape[0]):
+        for j in range(gap.shape[1]):
+            total = held * displaced[i, j]
+            for k in range(weights.shape[0]):
+                total -= decay[k] * branches[k, i, j]
+            gap[i, j] = total / (1.0 + held)
+
+
+@entry
+def take_step(pressed: Field, gap: Field, weights: Field, decay: Field, displaced: Field, branches: Field) -> None:
+    """`u = K p / s + g`, `q = a q + w (u - u_before)`."""
+    for i in range(gap.shape[0]):
+        for j in range(gap.shape[1]):
+            now = pressed[i, j] + gap[i, j]
+            change = now - displaced[i, j]
+            displaced[i, j] = now
+            for k in range(weights.shape[0]):
+                branches[k, i, j] = decay[k] * branches[k, i, j] + weights[k] * change

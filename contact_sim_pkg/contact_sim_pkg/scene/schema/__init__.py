@@ -1,0 +1,1 @@
+"""The scene as a schema: keys with type, unit, range, default and meaning, and the rules between them."""

@@ -1,0 +1,1 @@
+"""`bench accuracy`: error beside time, of a scene and of a rig."""

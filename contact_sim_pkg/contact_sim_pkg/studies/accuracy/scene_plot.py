@@ -1,0 +1,146 @@
+"""Work-precision plot of an accuracy study: error over time, both logarithmic."""
+
+from __future__ import annotations
+
+import math
+import sys
+from pathlib import Path
+from typing import Any
+
+import matplotlib
+
+matplotlib.use("Agg")
+from matplotlib import pyplot, ticker
+
+from contact_sim_pkg.report.drawing import save_picture
+from contact_sim_pkg.rigs.roller.studies.accuracy import PARTS as ROLLER_PARTS
+
+__all__ = ["write_plot"]
+
+PANELS = (  # part and contact -> title
+    ("integrator", "", "time integration, point contacts"),
+    ("coupling", "", "coupling of bodies and fields, whole scene"),
+    ("modes", "", "modes of the shell, tolerance of the scene"),
+    ("first impact", "", "first impact of the scene"),
+    ("scheme in time", "", "rigid contact, scheme in time"),
+    ("turning on held contacts", "", "body that turns on held contacts"),
+    ("friction cone", "", "rigid contact, friction cone"),
+    ("contact model", "", "compliant against rigid contact"),
+    *((part, "", part) for part in ROLLER_PARTS),
+    ("field", "tire", "tire field"),
+    ("field", "seat", "seat field"),
+)
+SPAN = 10.0  # the time axis shows at least this ratio, so that noise does not look like a trend
+
+
+def write_plot(rows: list[dict[str, Any]], path: str | Path, *, overwrite: bool = False) -> Path:
+    """Draw the rows of `accuracy_cost.study`, one panel a part that is there; the ending of `path` names the format."""
+    chosen = [(title, _of_panel(rows, part, contact)) for part, contact, title in PANELS]
+    panels = [(title, members) for title, members in chosen if members]
+    columns = max(1, min(2, len(panels)))
+    lines = max(1, -(-len(panels) // columns))
+    figure, axes = pyplot.subplots(
+        lines, columns, figsize=(6.2 * columns, 5.2 * lines), squeeze=False, layout="constrained"
+    )
+    for axis in axes.flat[len(panels) :]:
+        axis.set_visible(False)
+    for axis, (title, members) in zip(axes.flat, panels, strict=False):
+        _panel(axis, members)
+        axis.set_title(title)
+    try:
+        return save_picture(figure, path, overwrite=overwrite, dpi=120)
+    finally:
+        pyplot.close(figure)
+
+
+def _of_panel(rows: list[dict[str, Any]], part: str, contact: str) -> list[dict[str, Any]]:
+    return [row for row in rows if row["part"].startswith(part) and row["quantity"].startswith(contact)]
+
+
+def _drawable(rows: list[dict[str, Any]]) -> tuple[list[dict[str, Any]], str]:
+    """The rows that logarithmic axes can show, and in words what became of the others.
+
+    An error of 0 is drawn at a power of ten below the smallest one; a row without an error or a time is left out.
+    """
+    known = [row for row in rows if row["error"] is not None and math.isfinite(row["error"])]
+    known = [row for row in known if row["error"] >= 0.0 and (row["ms_per_simulated_s"] or 0.0) > 0.0]
+    smallest = min((row["error"] for row in known if row["error"] > 0.0), default=sys.float_info.epsilon)
+    floor = 10.0 ** (math.floor(math.log10(smallest)) - 1)
+    notes = [f"0 drawn at {floor:.0e}"] if any(row["error"] == 0.0 for row in known) else []
+    notes += [f"{len(rows) - len(known)} without a number left out"] if len(known) < len(rows) else []
+    return [
+        {**row, "error": row["error"] or floor, "exact": row["error"] == 0.0} for row in known
+    ], f" ({', '.join(notes)})" if notes else ""
+
+
+def _panel(axis: Any, rows: list[dict[str, Any]]) -> None:
+    rows, note = _drawable(rows)
+    axis.set_ylabel(f"relative error{note}")
+    if not rows:
+        return
+    names = list(dict.fromkeys(row["quantity"] for row in rows))
+    for label in dict.fromkeys(_series(row) for row in rows):
+        chosen = sorted((row for row in rows if _series(row) == label), key=_finer)
+        first = next(row for row in rows if _series(row) == label)
+        style = "--s" if first["part"] == "field grid" else ":^" if first["rung"] == "check" else "-o"
+        colour = f"C{names.index(first['quantity'])}"
+        name: str | None = label
+        for exact, line in ((False, style), (True, style[-1])):  # no line leads to an error of 0
+            points = [(row["ms_per_simulated_s"], row["error"]) for row in chosen if row["exact"] is exact]
+            if points:
+                axis.plot(*zip(*points, strict=True), line, color=colour, markersize=4, linewidth=1.3, label=name)
+                name = None
+    _name_points(axis, rows)
+    axis.set_xscale("log")
+    axis.set_yscale("log")
+    times = [row["ms_per_simulated_s"] for row in rows]
+    middle, half = (min(times) * max(times)) ** 0.5, max(SPAN, 2.0 * max(times) / min(times)) ** 0.5
+    axis.set_xlim(middle / half, 2.6 * middle * half)  # room for the names of the last points
+    axis.xaxis.set_major_locator(ticker.LogLocator(subs=(1.0, 2.0, 5.0)))
+    axis.xaxis.set_major_formatter(ticker.FuncFormatter(lambda value, _place: f"{value:g}"))
+    axis.xaxis.set_minor_formatter(ticker.NullFormatter())
+    axis.yaxis.set_minor_formatter(ticker.NullFormatter())
+    lowest, highest = axis.get_ylim()
+    if highest < 100.0 * lowest:
+        axis.set_ylim(10.0 ** math.floor(math.log10(lowest)), 10.0 ** math.ceil(math.log10(highest)))
+    axis.set_xlabel("ms per simulated second")
+    axis.grid(visible=True, which="major", alpha=0.4)
+    axis.grid(visible=True, which="minor", alpha=0.12)
+    axis.legend(fontsize=8, loc="upper center", bbox_to_anchor=(0.5, -0.13), ncols=2, frameon=False)
+
+
+def _finer(row: dict[str, Any]) -> float:
+    return -float(row["tolerance"] or 0.0)
+
+
+def _name_points(axis: Any, rows: list[dict[str, Any]]) -> None:
+    """Say what was asked at the points of the first line of each part: tolerance or rung."""
+    for part in dict.fromkeys((row["part"], row["rung"] == "check") for row in rows):
+        if part[0] == "field grid":
+            continue  # the same rungs as those of the solver
+        members = [row for row in rows if (row["part"], row["rung"] == "check") == part]
+        line: dict[str, dict[str, Any]] = {}
+        for row in sorted(members, key=lambda row: row["error"]):
+            line[_asked(row)] = row  # the highest point of each
+        last = (0.0, 0.0)
+        for text, row in line.items():
+            place = (row["ms_per_simulated_s"], row["error"])
+            if not 0.9 < place[0] / max(last[0], 1e-300) < 1.1 or not 0.7 < place[1] / last[1] < 1.4:
+                axis.annotate(
+                    text, place, xytext=(5, 5), textcoords="offset points", fontsize=7, color="0.3", clip_on=True
+                )
+            last = place
+
+
+def _asked(row: dict[str, Any]) -> str:
+    if row["part"] in ("integrator", "coupling", "turning on held contacts") or row["rung"] == "check":
+        return f"{row['tolerance']:.0e}"
+    return f"{row['rung']} {row['grid'] or ''}".strip()
+
+
+def _series(row: dict[str, Any]) -> str:
+    """Rows of one line: the same quantity, and for fields the same kind of error."""
+    kind = {"field grid": ", grid", "field solver": ", solver"}.get(row["part"], "")
+    if row["rung"] == "check":
+        kind = f" on {row['grid']}, against NNLS"
+    return f"{row['quantity']}{kind}"

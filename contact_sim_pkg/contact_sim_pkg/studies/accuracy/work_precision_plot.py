@@ -1,0 +1,106 @@
+"""Error over time of a rig's ladders: one panel a ladder, both axes logarithmic."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+import matplotlib
+
+matplotlib.use("Agg")
+from matplotlib import pyplot, ticker
+
+from contact_sim_pkg.records.work_precision import Row
+from contact_sim_pkg.report.drawing import save_picture
+from contact_sim_pkg.studies.accuracy.work_precision_table import ROUNDING
+
+__all__ = ["write_plot"]
+
+COLUMNS = 3
+FLOOR = 1e-9
+"""Errors below are drawn here: what is exact must not squeeze the rest."""
+
+MARKERS = "osD^vP*X<>hd"
+STYLES = ("-", "--", ":", "-.", (0, (5, 1, 1, 1, 1, 1)))
+
+
+def write_plot(rows: list[Row], path: str | Path, *, overwrite: bool = False) -> Path:
+    """Draw the rows of `ladder.study`; the ending of `path` names the format."""
+    parts = list(dict.fromkeys(row["part"] for row in rows))
+    lines = -(-len(parts) // COLUMNS)
+    figure, axes = pyplot.subplots(
+        lines, COLUMNS, figsize=(6.2 * COLUMNS, 6.0 * lines), squeeze=False, layout="constrained"
+    )
+    for axis in axes.flat[len(parts) :]:
+        axis.set_visible(False)
+    for axis, part in zip(axes.flat, parts, strict=False):
+        _panel(axis, [row for row in rows if row["part"] == part])
+        axis.set_title(part)
+    try:
+        return save_picture(figure, path, overwrite=overwrite, dpi=80)
+    finally:
+        pyplot.close(figure)
+
+
+def _panel(axis: Any, rows: list[Row]) -> None:
+    """Colour: quantity; line: case; marker: rung and grid."""
+    rows = [row for row in rows if not _given(row, rows)]
+    quantities, cases, rungs = (_distinct(map(name, rows)) for name in (_quantity, _case, _rung))
+    for quantity in quantities:
+        for case in cases:
+            chosen = [row for row in rows if _quantity(row) == quantity and _case(row) == case]
+            _lines(axis, chosen, f"C{quantities.index(quantity)}", STYLES[cases.index(case) % len(STYLES)], rungs)
+    for quantity in quantities:
+        axis.plot([], [], "-", linewidth=3, color=f"C{quantities.index(quantity)}", label=quantity)
+    for case in cases:
+        axis.plot([], [], color="0.3", linestyle=STYLES[cases.index(case) % len(STYLES)], label=case)
+    for rung in rungs:
+        axis.plot([], [], MARKERS[rungs.index(rung) % len(MARKERS)], color="0.3", label=rung)
+    axis.set_xscale("log")
+    axis.set_yscale("log")
+    for side in (axis.xaxis, axis.yaxis):
+        side.set_minor_formatter(ticker.LogFormatterSciNotation(minor_thresholds=(1.5, 0.5)))
+    axis.set_xlabel("ms a call")
+    below = any(row["error"] < FLOOR for row in rows)
+    axis.set_ylabel(f"relative error{f' (below {FLOOR:g} drawn there)' if below else ''}")
+    axis.grid(visible=True, which="major", alpha=0.4)
+    axis.legend(fontsize=7, loc="upper center", bbox_to_anchor=(0.5, -0.1), ncols=3, frameon=False)
+
+
+def _lines(axis: Any, rows: list[Row], colour: str, style: Any, rungs: list[str]) -> None:
+    """One line through the rungs by time; where a grid has several tolerances, one a grid."""
+    several = len({(row["rung"], row["grid"]) for row in rows}) < len(rows)
+    for grid in _distinct(row["grid"] if several else None for row in rows):
+        chosen = sorted((row for row in rows if not several or row["grid"] == grid), key=lambda row: row["ms_per_call"])
+        points = [(row["ms_per_call"], max(row["error"], FLOOR)) for row in chosen]
+        axis.plot(*zip(*points, strict=True), color=colour, linestyle=style, linewidth=0.8, alpha=0.6)
+        for row, point in zip(chosen, points, strict=True):
+            marker = MARKERS[rungs.index(_rung(row)) % len(MARKERS)]
+            axis.plot(*point, marker, color=colour, markersize=5, alpha=0.8)
+
+
+def _given(row: Row, rows: list[Row]) -> bool:
+    """Whether the quantity is what was asked for, and so comes back to rounding on every rung of the case."""
+    return all(
+        other["error"] <= ROUNDING for other in rows if (_case(other), _quantity(other)) == (_case(row), _quantity(row))
+    )
+
+
+def _distinct(names: Any) -> list[Any]:
+    return list(dict.fromkeys(names))
+
+
+def _quantity(row: Row) -> str:
+    return str(row["quantity"])
+
+
+def _case(row: Row) -> str:
+    return str(row["case"])
+
+
+def _rung(row: Row) -> str:
+    """A rung; solved grids are told apart by their cells, their tiers are not named."""
+    if row["grid"] is None:
+        return str(row["rung"])
+    name = str(row["rung"]) if row["solver_error"] is None else str(row["rung"]).split()[0]
+    return f"{name} {row['grid']}"

@@ -1,0 +1,1 @@
+"""`bench effects`: cost and action of each effect."""

@@ -1,0 +1,224 @@
+"""`bench effects SCENE`: each effect on or off, its measured cost, the outputs it feeds, and whether the scene calls for it.
+
+Each effect of the scene's contacts is taken out (or put in, where it is absent and can be) and the scene run again, the two
+kinds of run by turns, so that what else the machine does hits both alike; the median of the pairs counts.
+"""
+
+from __future__ import annotations
+
+import statistics
+from collections.abc import Callable
+from typing import Any
+
+from contact_sim_pkg.records.table import Section
+from contact_sim_pkg.rigs.vehicle.studies.scene_drive import load_resolved, without
+from contact_sim_pkg.run.errors import RunError
+from contact_sim_pkg.scene.errors import SceneError
+from contact_sim_pkg.scene.overrides import set_value
+from contact_sim_pkg.scene.resolve import ResolvedScene, read_explicit
+from contact_sim_pkg.scene.rigs import RIGS
+from contact_sim_pkg.scene.schema.effect_rules import EFFECT_RULES, carrier_of
+from contact_sim_pkg.studies.effects.ablation_changes import changes_of
+from contact_sim_pkg.studies.effects.ablation_rules import is_needed
+from contact_sim_pkg.studies.effects.ablation_runs import Pair, paired
+
+__all__ = ["FEEDS", "sections", "study"]
+
+FEEDS: dict[str, tuple[str, ...]] = {
+    "normal_elastic": ("force", "wrench"),
+    "normal_dissipative": ("force", "wrench", "patch"),
+    "foam": ("force", "wrench"),
+    "foam_hysteresis": ("force", "wrench"),
+    "general_dissipative": ("force", "wrench", "patch"),
+    "friction": ("force", "wrench", "points"),
+    "contact_field": ("patch", "force", "wrench"),
+    "pressure_mat": ("patch",),
+    "shell_modes": ("force", "wrench", "patch", "points"),
+    "contact_search": ("force", "wrench", "patch", "points"),
+    "carcass": ("force", "wrench", "patch"),
+    "envelopment": ("patch", "force", "wrench"),
+    "tread_viscoelasticity": ("patch", "force", "wrench"),
+    "brush": ("shear", "force", "wrench"),
+    "asperity_impulses": ("force", "wrench"),
+    "shift": ("force", "wrench", "events"),
+    "contact_stress": ("stress",),
+    "surface_waves": ("wave",),
+    "micro_front": ("front",),
+    "thermal_volume": ("position",),
+    "history": ("history",),
+    "gauge_noise": ("events",),
+    "rigid_contact": ("force", "wrench", "points"),
+    "compliant_contact": ("force", "wrench", "points"),
+    "tilt_yaw": ("contact", "stability"),
+    "gyroscope": ("contact", "stability"),
+    "rolling_friction": ("contact", "stability"),
+    "shaft_bending": ("contact", "force"),
+    "track_waves": ("track", "contact", "force"),
+    "subsurface": ("volumes",),
+    "damage": ("track", "contact", "force"),
+}
+"""Topics of the contact that an effect feeds; every effect also feeds `bench/motion` and `bench/energy`."""
+BENCH_TOPICS = ("bench/motion", "bench/energy")
+LEDGER = "bench/energy"
+MEASURES = (
+    "duration", "cost_with", "cost_without", "cost", "cost_noise", "cost_share", "load_mean_change", "load_rms_change",
+)  # fmt: skip
+STEADY = 1.0e-9  # of the greatest force: a spread of it below this is rounding, which has no ratio
+NOTHING: dict[str, Any] = {**dict.fromkeys(MEASURES), "changes": []}
+"""Measures of an effect that is not measured."""
+
+
+def study(scene_name: str, progress: Callable[[str], None] | None = None) -> list[dict[str, Any]]:
+    """One row a contact and effect: contact, effect, on, topics, cost with and without, changes, called for.
+
+    `duration` [s] simulated in each run, `cost_with`, `cost_without` [ms per simulated second], `cost` (median difference of the
+    pairs), `cost_noise` (half the range of these differences: a cost below it is none that was seen), `cost_share` (`cost` over
+    `cost_with`), `load_mean_change` and `load_rms_change` (relative, of the normal force), `changes` (of each output that the
+    effect feeds, the field that changes most: `ablation_changes`), `called_for` (`needed`, `not needed` or `no rule`), `verdict`
+    (`as it should be`, `on but not needed`, `off but needed`, `not available`, `carries the load`) and `why`. Raises what a
+    bad scene raises.
+    """
+    tell = progress or (lambda text: None)
+    scene = load_resolved(scene_name)
+    rows = []
+    for contact in RIGS[scene.data["rig"]].contacts:
+        for effect, rule in EFFECT_RULES.items():
+            if contact not in rule.contacts:
+                continue
+            tell(f"{contact}: {effect}")
+            rows.append(_row(scene_name, scene, contact, effect, tell))
+    return rows
+
+
+def sections(rows: list[dict[str, Any]]) -> list[Section]:
+    """The same rows as a person reads them."""
+    cost = [
+        {
+            "contact": row["contact"], "effect": row["effect"], "on": row["on"], "with": row["cost_with"],
+            "without": row["cost_without"], "cost": row["cost"], "±": row["cost_noise"],
+            "mean load": _percent(row["load_mean_change"]), "load rms": _percent(row["load_rms_change"]),
+        }
+        for row in rows
+    ]  # fmt: skip
+    reasons = [{name: row[name] for name in ("contact", "effect", "verdict", "why")} for row in rows]
+    feeds = [
+        {
+            "contact": row["contact"],
+            "effect": row["effect"],
+            "outputs": [t for t in row["topics"] if t not in BENCH_TOPICS],
+        }
+        for row in rows
+    ]
+    changes = [
+        {
+            "contact": row["contact"], "effect": row["effect"], "output": change["topic"], "changes most": change["field"],
+            "by": _change(change),
+        }
+        for row in rows
+        for change in row["changes"]
+    ]  # fmt: skip
+    return [
+        Section(
+            "cost, and change of the normal force by the effect", cost, "with, without, cost ±: ms per simulated second"
+        ),
+        Section(
+            "what the effect changes",
+            changes,
+            "of each output the field that changes most: rms of the difference over the larger rms; of what is 0 in one run the "
+            "rms in the other",
+        ),
+        Section("called for by the scene?", reasons),
+        Section("outputs that the effect feeds", feeds, f"and each of them {' and '.join(BENCH_TOPICS)}"),
+    ]
+
+
+def _change(change: dict[str, Any]) -> str:
+    if change["size"] is not None:
+        return f"{change['size']:.2g} {change['unit']} in one run, 0 in the other"
+    return f"{100.0 * change['change']:.3g} %" if change["change"] else "-"
+
+
+def _percent(change: float | None) -> str:
+    return "-" if change is None else f"{100.0 * change:+.2f} %"
+
+
+def _row(
+    scene_name: str, scene: ResolvedScene, contact: str, effect: str, tell: Callable[[str], None]
+) -> dict[str, Any]:
+    on = (scene.data["effects"].get(contact) or {}).get(effect) is not None
+    topics = [f"{contact}/{name}" for name in FEEDS[effect]] + list(BENCH_TOPICS)
+    row: dict[str, Any] = {"contact": contact, "effect": effect, "on": on, "topics": topics}
+    if effect == carrier_of(contact):
+        why = "without it the contact carries no load"
+        return {
+            **row,
+            **NOTHING,
+            "called_for": "needed",
+            "verdict": "carries the load",
+            "why": why,
+        }
+    missing = _missing(scene, contact, effect)
+    if missing:
+        why = f"needs {missing}, which the scene does not name"
+        return {**row, **NOTHING, "called_for": "no rule", "verdict": "not available", "why": why}
+    try:
+        present = scene if on else _with(scene, scene_name, contact, effect)
+        pair = paired(present, without(present, (contact, effect)), tell)
+    except (SceneError, RunError) as error:
+        return {**row, **NOTHING, "called_for": "no rule", "verdict": "not available", "why": _reason(error)}
+    replaced = [] if on else _excluded(scene, contact, effect)
+    needed, why = (
+        (None, f"a choice of the model in place of {' and '.join(replaced)}")
+        if replaced
+        else is_needed(effect, contact, present, pair.with_it.observed)
+    )
+    called_for = "no rule" if needed is None else "needed" if needed else "not needed"
+    verdict = "as it should be"
+    if needed is not None and needed != on:
+        verdict = "on but not needed" if on else "off but needed"
+    return {**row, **_measures(pair, contact, topics), "called_for": called_for, "verdict": verdict, "why": why}
+
+
+def _reason(error: SceneError | RunError) -> str:
+    """Why there is no pair of runs."""
+    if isinstance(error, RunError):
+        return f"a run with or without it ends: {error}"
+    fault = error.faults[0]
+    return f"the scene does not take it: {fault.where}: {fault.sentence}"
+
+
+def _with(scene: ResolvedScene, scene_name: str, contact: str, effect: str) -> ResolvedScene:
+    """The scene with one more effect, all its defaults, in place of those that it excludes."""
+    bare = without(scene, *((contact, name) for name in _excluded(scene, contact, effect)))
+    asked = set_value(f"effects.{contact}.{effect}={{}}")
+    return ResolvedScene(read_explicit(bare.to_yaml(), scene_name, [asked]), scene.files)
+
+
+def _excluded(scene: ResolvedScene, contact: str, effect: str) -> list[str]:
+    """What the scene names and the effect would take the place of."""
+    named = scene.data["effects"].get(contact) or {}
+    return [
+        name for name, rule in EFFECT_RULES.items()
+        if named.get(name) is not None and (name in EFFECT_RULES[effect].excludes or effect in rule.excludes)
+    ]  # fmt: skip
+
+
+def _missing(scene: ResolvedScene, contact: str, effect: str) -> str:
+    """What the effect needs and the scene does not name; empty where nothing is missing."""
+    named = scene.data["effects"].get(contact) or {}
+    return " and ".join(name for name in EFFECT_RULES[effect].needs if named.get(name) is None)
+
+
+def _measures(pair: Pair, contact: str, topics: list[str]) -> dict[str, Any]:
+    force, bare = pair.with_it.forces[contact], pair.without_it.forces[contact]
+    spread, bare_spread = float(force.std()), float(bare.std())
+    least = STEADY * float(abs(bare).max())
+    cost = statistics.median(pair.differences)
+    values = (
+        pair.duration, pair.with_it.cost, pair.without_it.cost, cost,
+        0.5 * (max(pair.differences) - min(pair.differences)), cost / pair.with_it.cost,
+        float(force.mean() / bare.mean() - 1.0), spread / bare_spread - 1.0 if bare_spread > least else 0.0,
+    )  # fmt: skip
+    seen = [topic for topic in topics if topic != LEDGER]
+    changes = changes_of(pair.with_it.messages, pair.without_it.messages, seen)
+    return {**dict(zip(MEASURES, values, strict=True)), "changes": [change._asdict() for change in changes]}

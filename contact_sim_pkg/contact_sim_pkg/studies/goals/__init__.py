@@ -1,0 +1,1 @@
+"""`bench goals`: measured figures beside their goals."""

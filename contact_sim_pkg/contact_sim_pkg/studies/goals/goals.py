@@ -1,0 +1,77 @@
+"""`bench goals`: what the bench is asked to reach, measured in one run on this machine.
+
+Times are medians of warm calls on one thread with no Python inside the loop of our side; scipy's right-hand sides are Python,
+which is most of its time. Runs on nodes start as a user starts them and are recorded. A goal that is missed is shown, no more.
+"""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Callable
+from typing import Any
+
+from contact_sim_pkg.identify.studies import goals as benchmark_identification
+from contact_sim_pkg.records.goal import Measured
+from contact_sim_pkg.records.table import Section
+from contact_sim_pkg.rigs.body.studies import goals as benchmark_rigid
+from contact_sim_pkg.rigs.impact.studies import goals as benchmark_impact
+from contact_sim_pkg.rigs.roller.studies import goals as benchmark_roller
+from contact_sim_pkg.studies.goals import laws as benchmark_core
+from contact_sim_pkg.studies.goals import runs as benchmark_runs
+
+__all__ = ["sections", "study"]
+
+BUSY, QUIET = "load average of the machine at the start", 0.7
+
+
+def _machine() -> list[Measured]:
+    return [Measured(BUSY, os.getloadavg()[0], "")]
+
+
+PARTS: tuple[tuple[str, Callable[[], list[Measured]]], ...] = (
+    ("machine", _machine),
+    ("full bench on nodes", benchmark_runs.on_nodes),
+    ("full bench without nodes", benchmark_runs.offline),
+    ("seat slap", benchmark_core.seat_slap),
+    ("impacts", benchmark_core.impacts),
+    ("steel ball", benchmark_core.steel),
+    ("sphere impact", benchmark_impact.goals),
+    ("stick-slip", benchmark_core.stick_slip),
+    ("absent effect", benchmark_core.absent_effect),
+    ("rigid contact", benchmark_rigid.goals),
+    ("identification", benchmark_identification.goals),
+    ("roller", benchmark_roller.goals),
+    ("rigs with point contacts", benchmark_runs.rigs),
+    ("tire field", benchmark_runs.fields),
+)
+
+
+def study(progress: Callable[[str], None] | None = None) -> list[dict[str, Any]]:
+    """Rows: part, what, measured (null where it could not be), unit, goal, reached (null: no goal, or not measured), note.
+
+    Takes one to two minutes.
+    """
+    rows = []
+    for part, measure in PARTS:
+        if progress is not None:
+            progress(part)
+        for found in measure():
+            head = {"part": part, "what": found.what, "measured": found.value, "unit": found.unit}
+            rows.append({**head, "goal": found.goal, "reached": found.reached, "note": found.note})
+    return rows
+
+
+def sections(rows: list[dict[str, Any]]) -> list[Section]:
+    """The same rows as a person reads them: those with a goal, then the rest."""
+    names = ("what", "measured", "unit", "goal")
+    with_goal = [row for row in rows if row["goal"]]
+    reached = {True: "yes", False: "NO", None: "not measured"}
+    judged = [{**{name: row[name] for name in names}, "reached": reached[row["reached"]]} for row in with_goal]
+    others = [{**{name: row[name] for name in names[:3]}, "note": row["note"]} for row in rows if not row["goal"]]
+    missed = [row for row in with_goal if row["reached"] is not True]
+    notes = [f"{row['what']}: {row['note']}" for row in missed if row["note"]]
+    count = f"{len(with_goal) - len(missed)} of {len(with_goal)} goals reached"
+    busy = next(row["measured"] for row in rows if row["what"] == BUSY)
+    if busy > QUIET:
+        notes.append(f"The machine had other work at the start (load average {busy:.2g}): times count for less.")
+    return [Section("goals", judged, "\n".join([count, *notes])), Section("measured beside them", others)]

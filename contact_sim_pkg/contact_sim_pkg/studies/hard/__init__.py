@@ -1,0 +1,1 @@
+"""`bench hard`: the hard cases."""

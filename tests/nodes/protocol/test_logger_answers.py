@@ -1,0 +1,67 @@
+"""Who holds a run up, and how long the simulator stays after it."""
+
+import pytest
+from tests.nodes.blocks import LENGTH, vibration
+
+from contact_sim_pkg.bag.messages import Recorded
+from contact_sim_pkg.nodes.protocol.input_blocks import InputBlocks
+from contact_sim_pkg.nodes.protocol.logger_answers import CLOSE_SECONDS, STOP_SECONDS, LoggerAnswers
+from contact_sim_pkg.nodes.protocol.window import Window
+
+VIBRATION = "platform/vibration"
+
+
+class Run:
+    """A run of 100 blocks whose logger answers for those up to `recorded`."""
+
+    def __init__(self, done: int, recorded: int, *, logged: bool = True):
+        self.window = Window(100, logged=logged)
+        self.answers = LoggerAnswers(self.window, logged=logged)
+        self.inputs = InputBlocks([VIBRATION], LENGTH, 100)
+        if recorded >= 0:
+            self.answers.accept(Recorded(recorded, 5 * recorded, False, "bag", ""))
+        for block in range(done + 1):
+            self.inputs.offer(VIBRATION, vibration(block))
+            self.inputs.take()
+            self.window.take()
+            self.window.on_done(block)
+
+    def who(self) -> str:
+        return self.answers.who_holds_up(self.inputs)
+
+
+def test_a_logger_that_does_not_answer_is_named_and_the_source_that_waits_for_it_is_not():
+    said = Run(done=12, recorded=8).who()
+    assert said.startswith("the logger has not answered for block 9")
+    assert VIBRATION not in said
+
+
+@pytest.mark.fault("B5")
+def test_a_source_that_stops_is_named_while_the_logger_answers():
+    assert (
+        Run(done=12, recorded=9).who() == "block 13 of platform/vibration is missing (the last good one was block 12)"
+    )
+    assert "block 3 of platform/vibration" in Run(done=2, recorded=-1, logged=False).who()
+
+
+def test_after_the_end_the_simulator_stays_until_the_bag_is_closed():
+    run = Run(done=12, recorded=12)
+    run.answers.end(5.0)
+    assert run.answers.status_to_leave(5.0) is None
+    run.answers.accept(Recorded(12, 60, True, "bag", ""))
+    assert run.answers.status_to_leave(5.0) == 0
+
+
+@pytest.mark.parametrize(("stopped", "seconds"), [(False, CLOSE_SECONDS), (True, STOP_SECONDS)])
+def test_a_logger_that_never_closes_is_waited_for_shortly_after_a_signal(stopped, seconds):
+    run = Run(done=12, recorded=12)
+    run.answers.end(5.0, stopped=stopped)
+    assert run.answers.status_to_leave(4.9 + seconds) is None
+    assert run.answers.status_to_leave(5.1 + seconds) == 1
+
+
+def test_the_reason_of_a_bag_closed_before_the_end_is_handed_on_once():
+    run = Run(done=2, recorded=1)
+    assert run.answers.accept(Recorded(2, 10, False, "bag", "")) is None
+    assert run.answers.accept(Recorded(2, 10, True, "bag", "the disk is full")) == "the disk is full"
+    assert run.answers.accept(Recorded(2, 10, True, "bag", "the disk is full")) is None

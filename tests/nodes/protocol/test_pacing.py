@@ -1,0 +1,76 @@
+"""Pace by an injected steady clock (FAULTS C1: the system clock plays no part)."""
+
+import math
+
+import pytest
+
+from contact_sim_pkg.nodes.protocol.pacing import Lateness, Pacer, parse_pace
+
+
+@pytest.mark.parametrize(("text", "factor"), [("realtime", 1.0), ("max", math.inf), ("2.5", 2.5), (0.5, 0.5)])
+def test_a_pace_is_a_word_or_a_factor(text, factor):
+    assert parse_pace(text) == factor
+
+
+@pytest.mark.parametrize("text", ["fast", "0", "-1", "nan", "inf", "1001"])
+def test_another_pace_is_refused_with_what_is_allowed(text):
+    with pytest.raises(ValueError, match=r"allowed: realtime, max, or a factor from 0.001 to 1000"):
+        parse_pace(text)
+
+
+def test_nothing_is_due_before_the_start():
+    assert Pacer(math.inf, 0.01).wait(0, 5.0) == math.inf
+
+
+@pytest.mark.fault("C1")
+def test_at_half_pace_a_block_of_10_ms_is_due_every_20_ms():
+    pacer = Pacer(0.5, 0.01)
+    pacer.start(100.0)
+    assert pacer.wait(0, 100.0) == 0.0
+    assert pacer.wait(3, 100.01) == pytest.approx(0.05)
+
+
+@pytest.mark.fault("C3")
+def test_a_late_run_catches_up_from_the_first_start():
+    pacer = Pacer(1.0, 0.01)
+    pacer.start(100.0)
+    pacer.start(200.0)
+    assert pacer.wait(50, 100.6) == 0.0
+
+
+def test_at_pace_max_every_block_is_due_at_once():
+    pacer = Pacer(math.inf, 0.01)
+    pacer.start(100.0)
+    assert pacer.wait(10**9, 100.0) == 0.0
+
+
+@pytest.fixture
+def lateness():
+    pacer = Pacer(1.0, 0.01)
+    pacer.start(100.0)
+    return Lateness(pacer)
+
+
+@pytest.mark.fault("C3")
+def test_blocks_done_late_are_counted_and_said_after_a_hundred_in_a_row(lateness):
+    said = [lateness.block_done(block, 100.0 + 0.016 * (block + 1), 0.625) for block in range(140)]
+    late = [block for block in range(140) if 0.016 * (block + 1) > 0.01 * (block + 2)]
+    assert lateness.late == len(late)
+    assert [block for block, text in enumerate(said) if text] == late[99:]
+    assert said[-1] == f"slower than its pace: 0.62x real time, 0.83 s behind after block 139 ({len(late)} blocks late)"
+
+
+@pytest.mark.fault("C3")
+def test_a_run_that_has_caught_up_is_not_late_any_more(lateness):
+    assert all(not lateness.block_done(block, 105.0, 0.1) for block in range(99))
+    assert lateness.block_done(99, 101.01, 1.0) == ""
+    assert lateness.block_done(100, 105.0, 0.1) == ""
+    assert lateness.late == 100
+
+
+def test_without_a_pace_nothing_is_late():
+    pacer = Pacer(math.inf, 0.01)
+    pacer.start(100.0)
+    lateness = Lateness(pacer)
+    assert all(not lateness.block_done(block, 1e6, 0.1) for block in range(50))
+    assert lateness.late == 0

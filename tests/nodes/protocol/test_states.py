@@ -1,0 +1,62 @@
+"""How a node tells its own run from another bench on the same topics."""
+
+import pytest
+
+from contact_sim_pkg.bag.messages import Progress, Recorded
+from contact_sim_pkg.nodes.protocol.states import Follower, NodeError, RecordedFollower, State
+
+
+def report(state: State, block: int) -> Progress:
+    return Progress(int(state), block, 100, 0, 0.0, 0.0, 0.0, "seat_ride", "")
+
+
+def test_a_run_is_followed_from_its_start_to_its_end():
+    follower = Follower()
+    steps = [(State.STARTING, -1), (State.READY, -1), (State.RUNNING, 0), (State.RUNNING, 7), (State.FINISHED, 99)]
+    assert all(follower.accept(report(*step)) for step in steps)
+    assert follower.state is State.FINISHED
+
+
+def test_a_run_under_way_is_another_bench():
+    with pytest.raises(
+        NodeError, match=r"another bench \(scene seat_ride, block 57 of 100\) .* ROS_DOMAIN_ID"
+    ) as refusal:
+        Follower().accept(report(State.RUNNING, 57))
+    assert refusal.value.exit_status == 2
+
+
+def test_a_run_that_got_further_than_the_window_without_this_node_is_another_bench():
+    follower = Follower()
+    follower.accept(report(State.STARTING, -1))
+    with pytest.raises(NodeError, match="another bench"):
+        follower.accept(report(State.RUNNING, 4))
+
+
+def test_ready_may_have_been_overwritten_by_the_first_blocks():
+    follower = Follower()
+    follower.accept(report(State.STARTING, -1))
+    assert follower.accept(report(State.RUNNING, 3))
+
+
+@pytest.mark.parametrize("state", [State.STARTING, State.READY, State.FAILED, State.STOPPED])
+def test_a_second_bench_that_starts_beside_a_run_is_passed_over(state):
+    follower = Follower()
+    follower.accept(report(State.READY, -1))
+    follower.accept(report(State.RUNNING, 12))
+    assert not follower.accept(report(state, -1))
+    assert follower.state is State.RUNNING
+
+
+def test_nothing_follows_the_end():
+    follower = Follower()
+    follower.accept(report(State.READY, -1))
+    follower.accept(report(State.STOPPED, 3))
+    assert not follower.accept(report(State.RUNNING, 4))
+
+
+def test_an_answer_of_the_logger_that_lies_behind_is_passed_over():
+    follower = RecordedFollower()
+    assert follower.accept(Recorded(5, 60, False, "bags/a", ""))
+    assert not follower.accept(Recorded(-1, 0, True, "bags/b", ""))
+    assert follower.accept(Recorded(5, 60, True, "bags/a", "done"))
+    assert (follower.closed, follower.bag, follower.message) == (True, "bags/a", "done")

@@ -1,0 +1,104 @@
+"""One page on several bags."""
+
+import pytest
+from click.testing import CliRunner
+from tests.report.page import Page
+from tests.report.synthetic_bag import seat_bag
+from tests.rigs.backrest.report import backrest_bag as known
+
+from contact_sim_pkg.bag.errors import BagError
+from contact_sim_pkg.cli.report import command
+from contact_sim_pkg.report.comparison.figures import COLOURS, make_runs
+from contact_sim_pkg.report.comparison.figures_domain import domain_comparison
+from contact_sim_pkg.report.comparison.runs import render_comparison, write_comparison
+from contact_sim_pkg.report.comparison.tables import number_table
+from contact_sim_pkg.report.drawing import style
+from contact_sim_pkg.report.reading import read_recording
+from contact_sim_pkg.report.summary import summarise_recording
+
+FREQUENCIES = (4.75, 5.25, 5.75, 6.25)
+
+
+@pytest.fixture(scope="module")
+def bags(tmp_path_factory):
+    folder = tmp_path_factory.mktemp("bags")
+    return [known.backrest_bag(folder / f"run_{each}", each) for each in FREQUENCIES]
+
+
+@pytest.fixture(scope="module")
+def page(bags):
+    return Page(render_comparison([read_recording(bag) for bag in bags]))
+
+
+def test_four_runs_lie_on_one_page_called_by_what_differs(page):
+    text = " ".join(page.texts)
+    assert "comparison of 4 bags" in text
+    assert page.tags.count("figure") == 5
+    for each in FREQUENCIES:
+        assert page.texts.count(f"{each} Hz") >= 1 + 1 + 4, "in both tables and every legend"
+
+
+def test_the_table_has_the_slaps_of_every_run(bags):
+    recordings = [read_recording(bag) for bag in bags]
+    runs = make_runs([str(each) for each in FREQUENCIES], recordings)
+    table = number_table(runs, [summarise_recording(each) for each in recordings])
+    rows = {row[0]: row[1:] for row in table.rows}
+    assert table.header[1:] == tuple(str(each) for each in FREQUENCIES)
+    assert rows["slaps"] == tuple(str(known.touches(each).size) for each in FREQUENCIES)
+    assert rows["restitution"] == ("0.5 to 0.5",) * 4
+    assert rows["largest area of the contact domain, S/S_ref"] == ("6",) * 4
+    assert rows["duration of a slap, ms"][0] == "105.3 to 105.3"
+
+
+def test_runs_without_slaps_are_compared_without_them(tmp_path):
+    kept = [known.backrest_bag(tmp_path / f"{each}", each, slaps=False) for each in (4.0, 5.0)]
+    page = Page(write_comparison(kept, tmp_path / "page.html").read_text(encoding="utf-8"))
+    assert page.tags.count("figure") == 4
+    assert "Work that the contact takes a cycle, and friction" in " ".join(page.texts)
+
+
+def test_the_contact_domain_of_every_run_is_told_with_its_axes(page):
+    (caption,) = [each for each in page.texts if each.startswith("Above at first touch")]
+    assert all(f"{each} Hz: " in caption for each in FREQUENCIES)
+
+
+@pytest.mark.parametrize("count", [2, 5])
+def test_any_number_of_domains_is_drawn(bags, count):
+    recordings = [read_recording(bag) for bag in (bags * 2)[:count]]
+    runs = make_runs([str(number) for number in range(count)], recordings)
+    with style():
+        drawn = domain_comparison("key", "backrest", runs)
+    assert drawn is not None
+    assert all(f"{number}: " in drawn.caption for number in range(count))
+
+
+def test_other_rigs_are_compared_by_force_and_approach(seat, tmp_path):
+    page = Page(
+        write_comparison([seat, seat_bag(tmp_path / "other")], tmp_path / "page.html").read_text(encoding="utf-8")
+    )
+    assert page.tags.count("figure") == 2
+
+
+def test_more_runs_than_colours_begin_again():
+    runs = make_runs([str(k) for k in range(len(COLOURS) + 1)], [None] * (len(COLOURS) + 1))
+    assert runs[0].colour == runs[-1].colour
+
+
+def test_bags_of_two_rigs_are_refused(bags, seat):
+    with pytest.raises(BagError, match=r"run_4\.75 is of rig backrest .*, seat of rig seat .*one by one"):
+        write_comparison([bags[0], seat])
+
+
+def test_one_bag_is_no_comparison(bags):
+    with pytest.raises(BagError, match="at least two bags, 1 given"):
+        render_comparison([read_recording(bags[0])])
+
+
+def test_the_command_takes_several_bags(seat, tmp_path):
+    folder = str(seat.path.parent)
+    several = CliRunner().invoke(command, [folder, folder, "--out", str(tmp_path / "page.html")])
+    *said, last = several.output.splitlines()
+    assert last == f"report: {tmp_path / 'page.html'}"
+    assert all("package_version (0.0-synthetic and " in line for line in said), "the bags are synthetic, and it is said"
+    assert "comparison of 2 bags" in (tmp_path / "page.html").read_text(encoding="utf-8")
+    assert CliRunner().invoke(command, []).exit_code == 2

@@ -1,0 +1,64 @@
+"""A thinned table is bounded, and its rows are means, minima or maxima of groups of equal size."""
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from contact_sim_pkg.report.signal.thinning import ThinnedRows
+
+
+def taken(rows, limit, reduce=np.mean):
+    table = ThinnedRows(limit, reduce)
+    for row in rows:
+        table.take(row)
+    return table
+
+
+def test_few_rows_stay_as_they_are():
+    rows = np.random.default_rng(1).normal(size=(7, 3))
+
+    np.testing.assert_array_equal(taken(rows, 8).finish(), rows)
+
+
+@pytest.mark.parametrize("reduce", [np.mean, np.min, np.max])
+def test_rows_of_a_long_table_stand_for_groups(reduce):
+    rows = np.random.default_rng(2).normal(size=(64, 2))
+
+    table = taken(rows, 10, reduce)
+
+    assert table.group == 8
+    np.testing.assert_allclose(table.finish(), reduce(rows.reshape(8, 8, 2), axis=1), rtol=1e-13)
+
+
+def test_the_last_row_may_stand_for_fewer():
+    rows = np.arange(21.0)[:, None]
+
+    table = taken(rows, 10)
+
+    assert table.group == 4
+    np.testing.assert_allclose(table.finish()[:, 0], [1.5, 5.5, 9.5, 13.5, 17.5, 20.0])
+
+
+@given(st.integers(1, 3000), st.sampled_from([2, 4, 10, 50]))
+def test_memory_is_bounded_and_extremes_survive(size, limit):
+    rows = np.sin(1.7 * np.arange(size))[:, None]
+
+    found = taken(rows, limit, np.max).finish()
+
+    assert len(found) <= limit + 1
+    assert found.max() == rows.max()
+
+
+def test_rows_taken_before_a_widening_are_padded():
+    table = taken([np.ones(2)] * 3, 4)
+    table.widen(1, 2)
+    table.take(np.full(5, 3.0))
+
+    np.testing.assert_array_equal(table.finish(), [[0, 1, 1, 0, 0], [1.5, 2, 2, 1.5, 1.5]])
+
+
+@pytest.mark.parametrize("limit", [0, 1, 7])
+def test_a_limit_that_cannot_be_halved_is_refused(limit):
+    with pytest.raises(ValueError, match=f"limit = {limit}"):
+        ThinnedRows(limit)

@@ -1,0 +1,83 @@
+"""What was run, as rows with units."""
+
+import json
+
+import pytest
+
+from contact_sim_pkg.report import facts
+from contact_sim_pkg.report.reading import contact_name
+from contact_sim_pkg.report.rows import described_rows, plain, scene_rows
+from contact_sim_pkg.report.series import Recording
+
+SCENE = {
+    "rig": "seat",
+    "block_length": 0.01,
+    "outputs": {"field_rate": 100.0},
+    "vibration": {"kind": "sine", "frequency": 4.0},
+}
+
+
+def recording(**changes):
+    empty = Recording("bag", {}, [], {}, [], {}, {}, None, None, None, 1.5)
+    return empty._replace(**changes)
+
+
+def test_values_of_a_scene_carry_the_units_of_the_schema():
+    rows = {row.label: row.value for row in scene_rows(SCENE)}
+
+    assert rows["block length"] == "0.01 s"
+    assert rows["outputs · field rate"] == "100 Hz"
+    assert rows["vibration · frequency"] == "4 Hz"
+
+
+def test_an_excitation_carries_its_units_at_the_end_of_its_keys():
+    rows = described_rows({"peak_m_per_s2": 3.0, "rate_Hz": 476.0, "axes": {"z": {"bias_m_per_s2": 0.2}}, "none": None})
+
+    assert rows == [("peak", "3 m/s²"), ("rate", "476 Hz"), ("axes · z · bias", "0.2 m/s²")]
+
+
+def test_waveforms_in_a_list_become_rows_too():
+    assert described_rows({"x": [], "z": [{"frequency_Hz": 25.0}]}) == [("z · frequency", "25 Hz")]
+
+
+def test_an_absent_effect_is_not_listed():
+    scene = {
+        "effects": {"seat": {"normal_elastic": {}, "friction": None, "contact_field": {"rows": 40, "length": 0.6}}}
+    }
+
+    rows = facts.effect_rows(recording(scene=scene))["seat"]
+
+    assert rows == [("elastic normal force", "on"), ("pressure field", "rows 40, length 0.6 m")]
+
+
+def test_notes_of_the_excitation_stand_apart_from_its_values():
+    described = {"platform/vibration": {"kind": "recorded", "notes": ["4 samples clipped"]}}
+
+    (found,) = facts.excitation_facts(recording(metadata={"excitation": json.dumps(described)}))
+
+    assert found == ("platform/vibration", [("kind", "recorded")], ["4 samples clipped"])
+
+
+@pytest.mark.parametrize("ended", ["failed", "stopped"])
+def test_a_run_that_ended_early_is_a_warning(ended):
+    assert ended in facts.warnings(recording(metadata={"ended": ended, "failure": ""}))[0]
+    assert facts.warnings(recording(metadata={"ended": "finished"})) == []
+
+
+def test_what_a_bag_lacks_is_a_warning():
+    assert facts.warnings(recording(notes=["the bag was not finished"])) == ["the bag was not finished"]
+
+
+def test_a_bag_without_scene_still_tells_its_length():
+    assert facts.run_rows(recording()) == [("simulated time", "1.5 s")]
+    assert facts.effect_rows(recording()) == {}
+
+
+@pytest.mark.parametrize(("topic", "name"), [("/tire/force", "tire"), ("/rig2/seat/patch", "seat"), ("force", "force")])
+def test_a_contact_is_called_after_its_topic(topic, name):
+    assert contact_name(topic) == name
+
+
+@pytest.mark.parametrize(("value", "text"), [(True, "yes"), (0.1 + 0.2, "0.3"), ([1.0, 2.5], "1, 2.5"), (12, "12")])
+def test_values_are_written_as_a_person_would(value, text):
+    assert plain(value) == text

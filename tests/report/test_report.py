@@ -1,0 +1,143 @@
+"""The report page: what it holds, what it leaves out, and that nothing in a bag can act in it."""
+
+import xml.etree.ElementTree as ElementTree
+
+import pytest
+from tests.report import synthetic_bag as known
+from tests.report.page import Page
+
+from contact_sim_pkg.report.report import write_report
+
+HOSTILE = '<script>alert(1)</script><img src=x onerror="alert(2)"> & "quotes"'
+
+
+@pytest.fixture(scope="module")
+def car_text(car, tmp_path_factory):
+    return write_report(car, tmp_path_factory.mktemp("page") / "car.html").read_text(encoding="utf-8")
+
+
+@pytest.fixture(scope="module")
+def car_page(car_text):
+    return Page(car_text)
+
+
+def test_a_car_with_a_tire_field_has_every_section(car_page):
+    assert car_page.headings == [
+        "What was run", "Tire contact", "Rolling tire", "Seat contact", "Seat vibration", "Energy", "Cost", "Recording",
+    ]  # fmt: skip
+    assert car_page.tags.count("figure") == 4 + 2 + 2 + 2 + 1 + 1
+
+
+def test_a_seat_alone_has_no_tire_and_no_map(seat, tmp_path):
+    page = Page(write_report(seat, tmp_path / "seat.html").read_text(encoding="utf-8"))
+
+    assert page.headings == ["What was run", "Seat contact", "Seat vibration", "Energy", "Cost", "Recording"]
+    assert not any("Pressure" in description for description in page.values("aria-label"))
+
+
+def test_a_bag_of_forces_alone_still_gives_a_page(bare, tmp_path):
+    page = Page(write_report(bare, tmp_path / "bare.html").read_text(encoding="utf-8"))
+
+    assert page.headings == ["What was run", "Tire contact", "Rolling tire", "Recording"]
+
+
+def test_the_page_lies_in_the_bag_unless_told_otherwise(tmp_path):
+    bag = known.bare_bag(tmp_path / "bag")
+
+    assert write_report(bag) == tmp_path / "bag" / "report.html"
+
+
+def test_nothing_is_loaded_and_nothing_runs(car_page):
+    assert not {"script", "link", "iframe", "object", "embed", "form"} & set(car_page.tags)
+    sources = car_page.values("src") + car_page.values("href") + car_page.values("xlink:href")
+    assert all(source.startswith(("#", "data:image/png;base64,")) for source in sources)
+    assert not [name for _, name, _ in car_page.attributes if name.startswith("on")]
+
+
+def test_style_sheets_load_nothing(car_text):
+    style = car_text[car_text.index("<style>") : car_text.index("</style>")]
+
+    assert "url(" not in style
+    assert "@import" not in style
+
+
+def test_text_from_a_bag_is_inert(tmp_path):
+    quoted = HOSTILE.replace('"', '\\"')
+    effects = f'{{"{quoted}": {{"{quoted}": {{"{quoted}": "{quoted}"}}}}}}'
+    scene = f'name: "{quoted}"\ndescription: "{quoted}"\nrig: car\neffects: {effects}\n'
+    bag = known.car_bag(tmp_path / "hostile", blocks=80, scene=scene)
+
+    page = Page(write_report(bag).read_text(encoding="utf-8"))
+
+    assert "script" not in page.tags
+    assert "img" not in page.tags
+    assert page.texts.count(HOSTILE) >= 2  # title and description, word for word
+
+
+def test_every_picture_says_what_it_shows_and_has_a_caption(car_page):
+    described = [value for tag, name, value in car_page.attributes if tag == "div" and name == "aria-label"]
+
+    assert len(described) == car_page.tags.count("figure") == car_page.tags.count("figcaption")
+    assert all(described)
+    assert len(set(described)) == len(described)
+
+
+def test_identifiers_are_unique_and_every_reference_is_met(car_page, car_text):
+    identifiers = car_page.values("id")
+    references = {part.split(")")[0] for part in car_text.split("url(#")[1:]}
+    references |= {value[1:] for value in car_page.values("xlink:href") if value.startswith("#")}
+
+    assert references <= set(identifiers)
+    assert len(identifiers) == len(set(identifiers))
+
+
+def test_each_picture_is_well_formed_svg(car_text):
+    drawings = [part.split("</svg>")[0] for part in car_text.split("<svg ")[1:]]
+
+    for drawing in drawings:
+        ElementTree.fromstring(f"<svg {drawing}</svg>")
+
+
+@pytest.mark.parametrize(
+    "expected",
+    [
+        "450 kPa (cross) at 0.570 s", "It lifts off 20 times", "mean 24 cm²", "17 samples at full scale: clipped",
+        "closed forms, not a simulation", "rows 16, cols 12, tolerance 1e-06", "0.0-synthetic",
+        "5 times as fast as the clock", "a force jumped by at most 2.5 N",
+    ],
+)  # fmt: skip
+def test_captions_and_tables_state_the_numbers(car_text, expected):
+    assert expected in car_text
+
+
+def test_topics_are_listed_with_their_counts(car_page):
+    row = car_page.texts.index("/tire/force")
+
+    assert [text for text in car_page.texts[row : row + 12] if text][:4] == [
+        "/tire/force", "contact_msgs_defs/msg/ContactForce", "1000", "100",
+    ]  # fmt: skip
+
+
+def test_the_same_bag_gives_the_same_page(bare, tmp_path):
+    first, second = (write_report(bare, tmp_path / name).read_bytes() for name in ("a.html", "b.html"))
+
+    assert first == second
+
+
+def test_an_unfinished_bag_is_reported_with_a_warning(tmp_path):
+    whole = known.car_bag(tmp_path / "whole", blocks=1000)
+    data = whole.path.read_bytes()
+    cut = tmp_path / "cut"
+    cut.mkdir()
+    (cut / whole.path.name).write_bytes(data[: int(len(data) * 0.8)])
+
+    text = write_report(known.open_bag(cut)).read_text(encoding="utf-8")
+
+    assert 'aria-label="Warnings"' in text
+    assert "Tire contact" in text
+
+
+def test_a_minute_at_full_rate_stays_below_three_megabytes(tmp_path):
+    bag = known.seat_bag(tmp_path / "minute", blocks=6000)
+
+    assert write_report(bag).stat().st_size < 3_000_000

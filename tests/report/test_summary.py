@@ -1,0 +1,122 @@
+"""Summary numbers against the closed forms that the synthetic bags are made of."""
+
+import json
+import math
+
+import numpy as np
+import pytest
+from tests.report import synthetic_bag as known
+
+from contact_sim_pkg.bag import messages
+from contact_sim_pkg.bag.errors import BagError
+from contact_sim_pkg.bag.metadata import recorded_topics
+from contact_sim_pkg.bag.reader import open_bag
+from contact_sim_pkg.bag.writer import BagWriter
+from contact_sim_pkg.report.energy import relative_residual
+from contact_sim_pkg.report.series import LedgerSeries
+from contact_sim_pkg.report.summary import summarise
+
+
+@pytest.fixture(scope="module")
+def summary(car):
+    return summarise(car)
+
+
+def test_a_summary_survives_strict_json(summary, seat, bare):
+    for numbers in (summary, summarise(seat), summarise(bare)):
+        assert json.loads(json.dumps(numbers, allow_nan=False)) == numbers
+
+
+def test_name_rig_and_simulated_time_are_those_of_the_scene(summary):
+    assert (summary["scene"], summary["rig"], summary["simulated_s"]) == ("synthetic_car", "car", 10.0)
+
+
+def test_load_extremes_and_lift_offs_of_a_clipped_sine(summary):
+    tire = summary["contacts"]["tire"]
+    ratio = known.TIRE_MEAN / known.TIRE_AMPLITUDE
+    share = math.acos(ratio) / math.pi
+
+    assert tire["load_max_N"] == pytest.approx(known.TIRE_MEAN + known.TIRE_AMPLITUDE, rel=1e-9)
+    assert tire["load_min_N"] == 0.0
+    assert tire["lifted_share"] == pytest.approx(share, abs=0.005)
+    assert tire["lift_offs"] == 10.0 * known.TIRE_FREQUENCY
+    mean = known.TIRE_MEAN * (1.0 - share) + known.TIRE_AMPLITUDE * math.sin(share * math.pi) / math.pi
+    assert tire["load_mean_N"] == pytest.approx(mean, rel=1e-3)
+
+
+def test_a_steady_contact_never_lifts_off(summary):
+    assert summary["contacts"]["seat"] == {
+        "load_mean_N": pytest.approx(known.SEAT_LOAD), "load_min_N": known.SEAT_LOAD, "load_max_N": known.SEAT_LOAD,
+        "lifted_share": 0.0, "lift_offs": 0,
+    }  # fmt: skip
+
+
+def test_the_largest_pressure_is_found_with_its_time(summary):
+    tire = summary["contacts"]["tire"]
+
+    assert tire["peak_pressure_Pa"] == known.PEAK_PRESSURE
+    assert tire["peak_pressure_time_s"] == pytest.approx(known.PEAK_BLOCK * known.BLOCK_LENGTH)
+    assert tire["contact_area_mean_m2"] == pytest.approx(known.LOADED_CELLS * known.CELL**2)
+
+
+def test_seat_vibration_of_a_sine_at_a_tabulated_frequency(summary):
+    vibration = summary["seat_vibration"]
+
+    assert vibration["floor_rms_m_s2"] == pytest.approx(known.FLOOR_RMS, rel=2e-3)
+    assert vibration["seat_weighted_rms_m_s2"] == pytest.approx(0.9648 * known.SEAT_RMS, rel=5e-3)
+    assert vibration["seat_factor_percent"] == pytest.approx(100.0 * known.SEAT_RMS / known.FLOOR_RMS, rel=1e-6)
+    dose = 1.10668 * 0.9648 * known.SEAT_RMS * 10.0**0.25
+    assert vibration["seat_dose_m_s1_75"] == pytest.approx(dose, rel=5e-3)
+
+
+def test_the_residual_is_measured_by_the_throughput(summary):
+    energy = summary["energy"]
+
+    assert energy["supplied_J"] == pytest.approx(known.SUPPLIED)
+    assert energy["dissipated_J"] == pytest.approx(known.DISSIPATED)
+    assert energy["residual_relative"] == pytest.approx(known.RESIDUAL / known.SUPPLIED)
+
+
+@pytest.mark.parametrize(("supplied", "residual"), [(0.0, 0.0), (6e-29, 8e-29), (1.4e-12, 1.3e-13)])
+def test_round_off_of_a_rig_at_rest_is_no_residual_worth_a_percentage(supplied, residual):
+    still = np.zeros(3)
+    ledger = LedgerSeries(still, still, still, still, still, still + supplied, np.array([0.0, -residual, residual]))
+    assert relative_residual(ledger) == pytest.approx(residual / 1e-6)
+
+
+def test_energy_that_appears_in_a_rig_at_rest_is_a_residual():
+    still = np.zeros(3)
+    ledger = LedgerSeries(still, still, still, still, still, still, still - 0.5)
+    assert relative_residual(ledger) > 1.0
+
+
+def test_solver_counts_are_sums_over_the_blocks(summary):
+    assert summary["solver"] == {
+        "blocks": 1000, "steps": 12_000, "rejected_steps": 1000, "events": 2000, "field_iterations": 30_000,
+        "field_residual_max": 1e-7, "field_jump_max_N": 2.5, "stretches": 4000,
+        "stretches_repeated": 1000, "coupling_error_max": 2e-3, "physics_wall_s": pytest.approx(2.0),
+        "physics_real_time_factor": pytest.approx(5.0),
+    }  # fmt: skip
+
+
+def test_messages_are_counted_by_topic(summary):
+    expected = dict.fromkeys((f"/{name}" for name in known.CAR_TOPICS), 1000) | {"/bench/scene": 1}
+
+    assert summary["messages"] == expected
+
+
+def test_what_a_scene_lacks_is_absent_from_its_summary(seat, bare):
+    assert set(summarise(seat)["contacts"]) == {"seat"}
+    assert set(summarise(bare)) == {"scene", "rig", "simulated_s", "contacts", "messages"}
+    assert summarise(bare)["scene"] is None
+
+
+def test_fields_on_cells_of_two_sizes_in_one_topic_are_refused(tmp_path):
+    with BagWriter(tmp_path / "two", recorded_topics(("tire/patch",)), reserve_bytes=0, background=False) as writer:
+        for block, rows in enumerate((4, 5)):
+            ones = np.ones((rows, 3), dtype=np.float32)
+            field = messages.PatchField(block, *[0.01 * (1 + block)] * 14, pressure=ones)
+            writer.write("tire/patch", block, messages.encode_contact_patch(field, block, messages.TIRE_FRAME))
+
+    with pytest.raises(BagError, match=r"5 x 3 cells of 0\.02 x 0\.02 m, another one on 4 x 3 of 0\.01 x 0\.01 m"):
+        summarise(open_bag(tmp_path / "two"))

@@ -1,0 +1,45 @@
+"""Ladders of the sample's memory: dear rungs meet the reference, cheap ones are as wrong as their idea is."""
+
+import pytest
+
+from contact_sim_pkg.records import work_precision as ladder_row
+from contact_sim_pkg.rigs.impact.studies import work_precision_memory as ladder_impact_memory
+from contact_sim_pkg.studies.accuracy import work_precision as ladder
+
+
+@pytest.fixture(scope="module", autouse=True)
+def few_samples():
+    kept = ladder_row.FEWEST, ladder_row.BUDGET
+    ladder_row.FEWEST, ladder_row.BUDGET = 1, 0.0
+    yield
+    ladder_row.FEWEST, ladder_row.BUDGET = kept
+
+
+def errors(rows, quantity, case):
+    return {row["rung"]: row["error"] for row in rows if row["quantity"] == quantity and case in row["case"]}
+
+
+def test_internal_variables_are_exact_on_the_same_samples_and_a_single_element_is_not_the_solid():
+    rows = ladder_impact_memory.history_rows()
+    for case in ("compliance 0.25", "compliance 1"):
+        found = errors(rows, "depth at the turning point", case)
+        assert found["internal variables, 400 samples"] < 1e-12
+        assert 1e-5 < found["internal variables, 20 samples"] < 1e-3
+        assert found["Kelvin-Voigt force"] > 1e-4
+    strong = errors(rows, "depth at the turning point", "compliance 1")
+    assert strong["Kelvin-Voigt force"] > 30.0 * strong["internal variables, 20 samples"]
+
+
+def test_harmonic_balance_converges_and_the_linear_answer_fails_with_the_square_of_the_shaking():
+    rows = ladder_impact_memory.response_rows()
+    small, large = (errors(rows, "half range of the depth", f"by {part:g} of") for part in (0.05, 0.3))
+    assert large["harmonic balance, 6 harmonics"] < 1e-7
+    assert small["time integration over 50 periods"] < 1e-7
+    assert large["amplitude and phase"] / small["amplitude and phase"] == pytest.approx(36.0, rel=0.5)
+    falling = [large[f"harmonic balance, {n}"] for n in ("1 harmonic", "3 harmonics", "6 harmonics")]
+    assert falling == sorted(falling, reverse=True)
+
+
+def test_both_ladders_stand_under_impact():
+    parts = {each.part for each in ladder.RIGS["impact"]}
+    assert {"viscoelastic history", "complex response"} <= parts

@@ -1,0 +1,170 @@
+"""How often the fields are solved: by the accuracy, the speed and the road, not by the rate of publishing.
+
+The reference of each case solves the fields ten times as often as they are published, by the rate of publishing itself.
+"""
+
+from functools import cache
+from itertools import pairwise
+
+import numpy
+import pytest
+from tests.run.scenes import resolved
+
+from contact_sim_pkg.bag.messages import decode_contact_force, decode_contact_patch, decode_cost
+from contact_sim_pkg.rigs.vehicle.simulation import Simulation
+from contact_sim_pkg.run.errors import RunError
+from contact_sim_pkg.run.sources import make_sources
+
+STANDING = 3335.0  # [N]
+ROADS = {
+    "kerb": "road={kind: step, position: 3.0, height: -0.1}",
+    "pothole": "road={kind: pothole, position: 3.0, depth: 0.05, length: 0.3}",
+    "cleat": "road={kind: cleat, position: 3.0, height: 0.01, length: 0.05}",
+    "stones": "road={kind: cleat, position: 3.0, height: 0.01, length: 0.02, period: 0.1}",
+}
+
+
+@cache
+def run(*sets):
+    """Normal force of the tire at 1 kHz, and stretches, of 0.6 s of tire_bump with other values."""
+    scene = resolved("tire_bump", "duration=0.6", *sets)
+    simulation, sources = Simulation(scene), make_sources(scene)
+    simulation.prepare()
+    forces, costs = [], []
+    for block in range(simulation.blocks):
+        result = simulation.advance(block, {topic: source.block(block) for topic, source in sources.items()})
+        for topic, _stamp, data in result.messages:
+            if topic == "tire/force":
+                forces.append(decode_contact_force(data).normal)
+            elif topic == "bench/cost":
+                costs.append(decode_cost(data))
+    return numpy.concatenate(forces), costs
+
+
+@pytest.mark.parametrize("road", ROADS)
+def test_the_force_is_that_of_ten_times_as_many_fields(road):
+    force, _costs = run(ROADS[road])
+    often, _costs = run(ROADS[road], "outputs.field_rate=1000", "integrator.coupling_tolerance=1e-3")
+    assert (force - often).std() < 0.01 * STANDING
+    assert abs(force.max() / often.max() - 1.0) < 0.015
+    assert (force.min() == 0.0) == (often.min() == 0.0)  # lift-off is seen
+
+
+def test_the_rate_of_publishing_does_not_set_the_force():
+    seldom, _costs = run(ROADS["pothole"], "outputs.field_rate=100")
+    often, _costs = run(ROADS["pothole"], "outputs.field_rate=500")
+    assert (seldom - often).std() < 0.01 * STANDING
+
+
+SLOW_TREAD = (
+    "road={kind: step, position: 3.0, height: 0.04}",
+    "effects.tire.tread_viscoelasticity={retardation_time: 0.01, branches: []}",
+)
+
+
+@pytest.mark.parametrize(("force", "field"), [(1000, 100), (4000, 1000), (4000, 2000), (8000, 100)])
+def test_the_memory_of_the_tread_steps_as_its_stretches(force, field):
+    scene = resolved("tire_bump", *SLOW_TREAD, f"outputs.force_rate={force}", f"outputs.field_rate={field}")
+    model = Simulation(scene).model
+    assert model.tread.step == pytest.approx(model.coupling.segments * model.timing.segment_length, rel=1e-12)
+
+
+def test_a_tread_with_memory_meets_a_kerb_with_the_same_force_at_every_rate():
+    peaks = [run(*SLOW_TREAD, f"outputs.field_rate={rate}")[0].max() for rate in (100, 500, 1000)]
+    shorter = run(*SLOW_TREAD, "outputs.field_rate=4000", "outputs.force_rate=4000")[0].max()  # four times as short
+    assert peaks == pytest.approx([shorter] * 3, rel=0.06)
+
+
+def test_a_kerb_is_met_with_the_law_of_a_field_solved_tightly():
+    case = ("road={kind: step, position: 3.0, height: 0.08}", "travel={speed: 15}", "duration=0.4")
+    tight = ("effects.tire.contact_field.tolerance=1e-5", "integrator.coupling_tolerance=1e-3")
+    force, exact = run(*case)[0], run(*case, *tight)[0]
+    assert (force - exact).std() < 0.03 * STANDING
+    assert force.max() == pytest.approx(exact.max(), rel=0.03)
+
+
+def test_the_error_follows_the_tolerance():
+    exactly = ("effects.tire.contact_field.corrector_passes=6", "effects.tire.contact_field.tolerance=1e-4")
+    exact, _costs = run(ROADS["pothole"], "integrator.coupling_tolerance=1e-4", *exactly)
+    errors = [
+        (run(ROADS["pothole"], f"integrator.coupling_tolerance={tolerance}", *exactly)[0] - exact).std() / STANDING
+        for tolerance in (1.0, 1e-1, 1e-2, 1e-3)
+    ]
+    assert all(later < earlier for earlier, later in pairwise(errors))
+    assert errors[1] < 0.1
+    assert errors[2] < 0.01
+
+
+def test_a_flat_road_asks_for_no_more_than_the_footprint_does():
+    _force, costs = run("road={kind: flat}")
+    assert sum(cost.stretches_repeated for cost in costs) == 0
+    assert max(cost.coupling_error for cost in costs) < 5e-3  # what the field solver's tolerance of 1e-2 leaves
+    assert max(cost.stretches for cost in costs) == min(cost.stretches for cost in costs) <= 4
+
+
+def test_a_wheel_that_stands_is_solved_once_a_field():
+    _force, costs = run("travel={speed: 0.0}", ROADS["pothole"])
+    assert all(cost.stretches == 1 for cost in costs)
+
+
+def test_an_edge_is_taken_in_shorter_stretches():
+    _force, costs = run(ROADS["kerb"])
+    assert sum(cost.stretches_repeated for cost in costs) > 0
+    assert max(cost.stretches for cost in costs) > min(cost.stretches for cost in costs)
+
+
+def test_samples_keep_their_instants_where_stretches_end_between_them():
+    """At 40 m/s four segments make a sample; with 1000 fields a second each sample starts an interval of its own."""
+    fast = "travel={speed: 40.0}"
+    force, _costs = run(fast, ROADS["pothole"])
+    often, _costs = run(fast, ROADS["pothole"], "outputs.field_rate=1000")
+    assert len(force) == len(often) == 600
+    assert (force - often).std() < 0.01 * STANDING
+
+
+@pytest.mark.parametrize("rate", [1000, 4000, 40000])
+def test_a_wall_before_the_usual_grid_is_felt_before_it_enters(rate):
+    """The far edge of a pothole 0.1 m deep is higher than the tire is at the end of its usual grid (33 mm at 0.14 m)."""
+    pothole = ("travel.speed=5", "road={kind: pothole, position: 1.5, depth: 0.1, length: 0.6}")
+    usual, costs = run(*pothole, f"outputs.force_rate={rate}")
+    large, _costs = run(*pothole, "effects.tire.contact_field.length=0.6", "effects.tire.contact_field.rows=96")
+    assert usual.max() == pytest.approx(large.max(), rel=0.02)
+    assert usual[:: rate // 1000] == pytest.approx(large, abs=0.1 * large.max())
+    assert max(cost.coupling_error for cost in costs) < 0.1
+
+
+LOSSES = {"default": "{}", "large": "{restitution: 0.5, reference_speed: 1.0}"}
+
+
+@pytest.mark.parametrize("loss", LOSSES)
+def test_the_rate_of_the_forces_does_not_set_their_peak(loss):
+    """At 40 kHz a segment is a fraction of a millimetre long: neither nodes of the road nor corrections are felt as speeds."""
+    road = "road={kind: pothole, position: 2, depth: 0.05, length: 0.3}"
+    effects = (
+        f"effects.tire={{normal_elastic: {{}}, normal_dissipative: {LOSSES[loss]}, contact_field: {{tolerance: 1e-4}}}}"
+    )
+    peaks = [
+        run("travel.speed=10", road, effects, f"outputs.force_rate={rate}")[0].max() for rate in (1000, 4000, 40000)
+    ]
+    assert peaks[1] == pytest.approx(peaks[2], rel=0.015)
+    assert peaks[0] == pytest.approx(peaks[2], rel=0.035)  # a sample a millisecond need not meet the peak
+
+
+@pytest.mark.parametrize("position", [0.275, 0.29])
+def test_a_wall_beyond_both_grids_is_refused_by_name(position):
+    """The paraboloid of the tire is 0.14 m high at 0.29 m: a wall of 0.3 m stands in it."""
+    with pytest.raises(
+        RunError, match=r"beyond its pressure grid of 0\.56 m, .* enlarge effects\.tire\.contact_field\.length"
+    ):
+        run("travel={speed: 0.0}", f"road={{kind: step, position: {position}, height: 0.3}}")
+
+
+def test_a_belt_that_yields_beside_the_footprint_keeps_the_usual_grid():
+    """The half-space alone would let the fine road touch beyond the grid: the wide one would be solved every time."""
+    scene = resolved("tire_texture", "duration=0.05")
+    simulation, sources = Simulation(scene), make_sources(scene)
+    simulation.prepare()
+    for block in range(simulation.blocks):
+        result = simulation.advance(block, {topic: source.block(block) for topic, source in sources.items()})
+        fields = [decode_contact_patch(data) for topic, _stamp, data in result.messages if topic == "tire/patch"]
+        assert {field.pressure.shape for field in fields} == {(128, 96)}

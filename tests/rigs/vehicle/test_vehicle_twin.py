@@ -1,0 +1,63 @@
+"""The vehicle rig against a twin that shares no code with it, on the drives of the shipped scenes."""
+
+import numpy
+import pytest
+
+from contact_sim_pkg.rigs.vehicle.studies.scene_drive import drive_of, fast_run, load_resolved, slow_run
+
+CASES = {
+    "tire_bump": (1.2,),
+    "tire_bump on its carcass": (1.2, "effects.tire.carcass={}"),
+    "seat_ride": (0.5,),
+    "seat_ride on a viscoelastic cushion": (
+        0.5,
+        "effects.seat={normal_elastic: {}, general_dissipative: {coefficient: 8000, approach_exponent: 0.5}}",
+    ),
+    "car_full_bench": (0.5,),
+    "car_full_bench on its carcass": (0.3, "effects.tire.carcass={}"),
+    "tire_rough_road": (0.3,),
+}
+
+
+@pytest.mark.parametrize("name", CASES)
+def test_the_rig_follows_its_twin_to_the_asked_tolerance(name):
+    duration, *values = CASES[name]
+    scene = load_resolved(name.split()[0], *values)
+    drive = drive_of(scene, duration)
+    asked = float(scene.data["integrator"]["relative_tolerance"])
+    exact = slow_run(drive)[:-1]
+    for tolerance in (1e-6, 1e-9):
+        states, _forces = fast_run(drive, drive.model.scale * (tolerance / asked))
+        error = numpy.abs(states[:, :-2] - exact).max(axis=0) / numpy.abs(exact - exact[0]).max(axis=0)
+        assert error.max() <= 10.0 * tolerance
+
+
+def test_the_rig_follows_its_twin_through_lift_off():
+    scene = load_resolved("tire_bump", "road.height=0.12")
+    drive = drive_of(scene, 1.4)
+    asked = float(scene.data["integrator"]["relative_tolerance"])
+    states, forces = fast_run(drive, drive.model.scale * (1e-10 / asked))
+    assert (forces[:, 0] == 0.0).any(), "the tire does not leave the road"
+    assert states[:, :-2] == pytest.approx(slow_run(drive)[:-1], abs=1e-8)
+
+
+SHAKEN = "vibration={kind: sine, frequency: 5.0, amplitude: 14.0}"
+
+
+@pytest.mark.parametrize(
+    "law",
+    [
+        "{coefficient: 8000, approach_exponent: 0.5}",
+        "{coefficient: 700, approach_exponent: 0}",
+        "{coefficient: 8000, approach_exponent: 0.5, end: gap}",
+    ],
+)
+def test_the_rig_follows_its_twin_where_the_general_law_ends_its_contacts(law):
+    effects = f"effects.seat={{normal_elastic: {{}}, general_dissipative: {law}}}"
+    scene = load_resolved("seat_ride", SHAKEN, effects)
+    drive = drive_of(scene, 1.0)
+    asked = float(scene.data["integrator"]["relative_tolerance"])
+    states, forces = fast_run(drive, drive.model.scale * (1e-10 / asked))
+    assert (forces[:, 4] == 0.0).any(), "the occupant does not leave the seat"
+    assert (forces[:, 4] < 0.0).any() == ("gap" in law)
+    assert states[:, :-2] == pytest.approx(slow_run(drive)[:-1], abs=1e-7)

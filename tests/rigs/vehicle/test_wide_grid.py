@@ -1,0 +1,77 @@
+"""A contact that outgrows its grid: solved on a wider one, recorded, summarised; refused by name where that is too small."""
+
+import numpy
+import pytest
+from tests.run.scenes import resolved
+
+from contact_sim_pkg.bag.errors import BagError
+from contact_sim_pkg.bag.messages import PatchField, decode_contact_patch
+from contact_sim_pkg.bag.reader import open_bag
+from contact_sim_pkg.report.reading import FieldPass
+from contact_sim_pkg.report.summary import summarise
+from contact_sim_pkg.rigs.vehicle.simulation import Simulation
+from contact_sim_pkg.run.offline import run_offline
+from contact_sim_pkg.scene.errors import SceneError
+
+
+def test_a_high_bump_is_run_on_two_grids_and_summarised(tmp_path):
+    outcome = run_offline(resolved("tire_bump", "road.height=0.1", "duration=1.2"), tmp_path / "bag")
+    assert outcome.failure == ""
+    fields = [decode_contact_patch(m.data) for m in open_bag(tmp_path / "bag").messages() if m.topic == "/tire/patch"]
+    assert {field.pressure.shape for field in fields} == {(48, 64), (96, 128)}
+    for field in fields:
+        assert float(field.pressure.sum()) * field.cell_x * field.cell_y == pytest.approx(
+            field.load, rel=1e-6, abs=1e-9
+        )
+    numbers = summarise(open_bag(tmp_path / "bag"))["contacts"]["tire"]
+    assert numbers["peak_pressure_Pa"] == pytest.approx(max(field.peak for field in fields), rel=1e-6)
+
+
+def test_a_grid_that_the_standing_contact_fills_compiles_nothing_later():
+    """Only the bump leaves room around the contact, so that a window is smaller than the grid."""
+    small = ("effects.tire.contact_field.length=0.14", "effects.tire.contact_field.width=0.22")
+    scene = resolved("tire_bump", *small, "road.height=0.015", "duration=1.2")
+    assert run_offline(scene, None).failure == ""
+
+
+def test_a_heavy_car_starts_on_the_wide_grid():
+    assert run_offline(resolved("tire_bump", "tire.body_mass=3000", "duration=0.05"), None).failure == ""
+
+
+def test_a_grid_that_cannot_hold_the_standing_contact_is_refused_by_name():
+    with pytest.raises(
+        SceneError, match=r"effects\.tire\.contact_field: the contact does not fit .* enlarge length and width"
+    ):
+        Simulation(resolved("tire_bump", "effects.tire.contact_field.length=0.02"))
+
+
+def patch(pressure, origin=(0.0, 0.0), cell=0.01):
+    rows, cols = pressure.shape
+    values = PatchField(
+        0, cell, cell, *origin, 1.0, float(pressure.max()), 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 2.0, pressure
+    )
+    return type("Message", (), {**values._asdict(), "pressure": pressure.ravel(), "rows": rows, "cols": cols})()
+
+
+@pytest.mark.parametrize("order", [(0, 1), (1, 0)])
+def test_the_mean_lays_cells_over_each_other_by_their_place(order):
+    wide = numpy.arange(48.0).reshape(6, 8)
+    narrow = numpy.full((2, 4), 100.0)
+    messages = [patch(wide, (-0.03, -0.04)), patch(narrow, (-0.01, -0.02))]
+    fields = FieldPass()
+    for number in order:
+        fields.take(0.01 * number, messages[number])
+    expected = wide.copy()
+    expected[2:4, 2:6] += 100.0
+    series = fields.finish()
+    numpy.testing.assert_allclose(series.average.pressure, expected / 2.0)
+    assert series.highest.pressure.shape == (2, 4)
+
+
+def test_fields_on_other_cells_are_refused():
+    fields = FieldPass()
+    fields.take(0.0, patch(numpy.ones((4, 4))))
+    with pytest.raises(BagError, match="same cells"):
+        fields.take(0.01, patch(numpy.ones((4, 4)), cell=0.02))
+    with pytest.raises(BagError, match="must hold the other"):
+        fields.take(0.01, patch(numpy.ones((6, 2))))

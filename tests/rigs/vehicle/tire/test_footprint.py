@@ -1,0 +1,104 @@
+"""The effective height of the road: under the footprint, from one field to the next, and what touches beyond a grid."""
+
+import math
+
+import numpy
+import pytest
+
+from contact_sim_pkg.rigs.vehicle.tire.footprint import effective_between, effective_heights, touches_beyond
+
+CELL = 0.005  # [m]
+ROWS, COLS = 161, 41
+ALONG = CELL * numpy.arange(ROWS)[:, None] * numpy.ones(COLS)  # [m] of the nodes
+ACROSS = CELL * (numpy.arange(COLS) - COLS // 2) * numpy.ones((ROWS, 1))
+PLACES = numpy.linspace(0.3, 0.5, 777)  # [m], most of them between nodes
+
+
+def heights(road):
+    out = numpy.empty(len(PLACES))
+    assert effective_heights(road.astype(numpy.float32), 0, CELL, CELL, 0.06, 0.08, PLACES, out)
+    return out
+
+
+def test_a_plane_has_the_height_under_the_wheel():
+    assert heights(0.2 * ALONG + 0.1 * ACROSS + 0.01) == pytest.approx(0.2 * PLACES + 0.01, abs=1e-7)
+
+
+def test_a_parabola_is_raised_by_the_second_moment_of_the_hertz_pressure():
+    """The mean of x**2 under the pressure of semi-axis a is a**2 / 5; the nodes leave 1 % of it, straight lines 3 um."""
+    assert heights(0.5 * (ALONG - 0.4) ** 2) == pytest.approx(
+        0.5 * (PLACES - 0.4) ** 2 + 0.1 * 0.06**2, abs=0.01 * 0.1 * 0.06**2 + 0.125 * CELL**2
+    )
+
+
+def test_a_wall_comes_without_jerks_between_the_nodes():
+    """The share of Hertz's pressure beyond x is (1/2 - 3/4 u + 1/4 u**3), of slope 3/4 (1 - u**2) / a at most."""
+    height = heights(0.1 * (ALONG > 0.4))
+    u = numpy.clip((0.4 + 0.5 * CELL - PLACES) / 0.06, -1.0, 1.0)
+    assert height == pytest.approx(0.1 * (0.5 - 0.75 * u + 0.25 * u**3), abs=0.001)
+    assert numpy.diff(height).max() / numpy.diff(PLACES)[0] < 1.03 * 0.1 * 0.75 / 0.06
+
+
+def test_a_lattice_that_does_not_hold_the_footprint_is_told():
+    out = numpy.empty(1)
+    for place in (0.05, 0.75):
+        flat = numpy.zeros((ROWS, COLS), dtype=numpy.float32)
+        assert not effective_heights(flat, 0, CELL, CELL, 0.06, 0.08, numpy.array([place]), out)
+
+
+def beyond(road, approach, pressure):
+    """On a grid of 40 x 20 cells around the wheel at 0.4 m, of which ``pressure`` holds the middle."""
+    return touches_beyond(road.astype(numpy.float32), 0, 0.3, 0.5, 60, 0.4, approach, 2e6, CELL, CELL, pressure, 40, 20)
+
+
+def test_a_wall_touches_beyond_the_grid_where_it_is_higher_than_the_tire():
+    none = numpy.zeros((20, 20))
+    crown = 0.5 * (15 * CELL) ** 2 / 0.3  # at the first node behind the wall, 15 cells ahead, on the middle line nearly
+    for height, touches in ((0.9 * crown - 0.002, False), (1.1 * crown - 0.002, True)):
+        assert beyond(height * (ALONG > 0.4 + 14.5 * CELL), 0.002, none) is touches
+
+
+def test_a_wall_inside_the_grid_does_not_touch_beyond_it():
+    inside = 0.05 * ((ALONG > 0.4) & (ALONG < 0.42))
+    assert not beyond(inside, 0.002, numpy.zeros((20, 20)))
+
+
+def test_what_the_pressure_pushes_away_does_not_touch():
+    """A load P on one cell sinks a place at a distance r by P / (pi E* r)."""
+    wall = 0.0200 * (ALONG > 0.4 + 14.5 * CELL)
+    crown = 0.5 * (15 * CELL) ** 2 / 0.3 + 0.5 * (0.5 * CELL) ** 2 / 0.5
+    depth = 0.0200 - crown
+    pressure = numpy.zeros((20, 20))
+    distance = 15 * CELL
+    for share, touches in ((0.95, True), (1.05, False)):
+        pressure[10, 9:11] = 0.5 * share * depth * math.pi * 2e6 * distance / CELL**2
+        assert beyond(wall * (abs(ACROSS) < 2 * CELL), 0.0, pressure) is touches
+
+
+def between(smooth, offset, offset_end):
+    height = numpy.empty_like(smooth)
+    effective_between(smooth, offset, offset_end, height)
+    return height
+
+
+PLACE = numpy.linspace(0.0, 1.0, 11)
+EDGE = -0.5 * (3.0 * PLACE**2 - 2.0 * PLACE**3)  # [m] an S-curve down by half a metre
+
+
+def test_it_has_the_heights_of_both_instants():
+    height = between(EDGE, 0.02, 0.3)
+    assert (height[0], height[-1]) == pytest.approx((0.02, -0.2))
+
+
+def test_a_straight_road_is_left_alone():
+    assert between(0.1 * PLACE, 0.01, 0.03) == pytest.approx(0.01 + 0.12 * PLACE)
+
+
+def test_an_edge_does_not_stand_out_over_both_ends():
+    height = between(EDGE, 0.0, 0.5)  # both ends at 0: the tire still stands on the edge
+    assert abs(height).max() < 1e-12
+
+
+def test_a_bump_inside_the_interval_is_kept():
+    bump = 0.03 * numpy.sin(numpy.pi * PLACE)
+    assert between(bump, 0.01, 0.01) == pytest.approx(bump + 0.01)

@@ -1,0 +1,121 @@
+"""Which effects go together: all subsets, against a table that is written out here."""
+
+from itertools import combinations
+
+import pytest
+
+from contact_sim_pkg.scene.schema import effect_rules as schema_effect_rules
+from contact_sim_pkg.scene.schema.effect_rules import EFFECT_RULES, EffectRule
+
+EFFECTS = (
+    "normal_elastic", "normal_dissipative", "general_dissipative", "foam", "foam_hysteresis", "friction", "contact_field",
+    "pressure_mat", "shell_modes", "contact_search", "carcass",
+    "envelopment",
+    "tread_viscoelasticity", "brush", "asperity_impulses",
+    "shift", "contact_stress", "surface_waves", "micro_front", "thermal_volume", "history", "gauge_noise",
+    "rigid_contact", "compliant_contact",
+    "tilt_yaw", "gyroscope", "rolling_friction", "shaft_bending", "track_waves", "subsurface", "damage",
+)  # fmt: skip
+TIRE_ONLY = {"carcass", "envelopment", "tread_viscoelasticity", "brush", "asperity_impulses"}
+OF_THE_ROLLER = (
+    "tilt_yaw", "gyroscope", "rolling_friction", "shaft_bending", "track_waves", "subsurface", "damage",
+)  # fmt: skip
+BODY_ONLY = ("rigid_contact", "compliant_contact", *OF_THE_ROLLER)
+"""Of the rigid body on the ground, and of the roller on its shaft."""
+SEAT_ONLY = {"general_dissipative", "foam", "foam_hysteresis", "friction", "pressure_mat"}
+"""Of the vehicle's contacts."""
+IN_THE_FIELD = {"envelopment", "tread_viscoelasticity", "brush"}
+"""What acts cell by cell, and so needs the pressure field."""
+OF_THE_BACK = (
+    "normal_elastic", "normal_dissipative", "general_dissipative", "foam", "foam_hysteresis", "friction", "shell_modes",
+    "contact_search",
+)  # fmt: skip
+ELSEWHERE = set(EFFECTS) - set(OF_THE_BACK)
+OF_THE_IMPACT = (
+    "shift", "contact_stress", "surface_waves", "micro_front", "thermal_volume", "history", "gauge_noise",
+)  # fmt: skip
+OF_FOAM = ("foam", "foam_hysteresis", "pressure_mat")
+SHELL = ("shell_modes", "contact_search")
+OF_VEHICLES = tuple(name for name in EFFECTS if name not in (*SHELL, *OF_FOAM, *OF_THE_IMPACT, *BODY_ONLY))
+SUBSETS = {
+    "tire": [set(chosen) for count in range(len(OF_VEHICLES) + 1) for chosen in combinations(OF_VEHICLES, count)]
+    + [{"normal_elastic", name} for name in (*SHELL, *OF_FOAM, *OF_THE_IMPACT, *BODY_ONLY)],
+    "backrest": [set(chosen) for count in range(9) for chosen in combinations(OF_THE_BACK, count)]
+    + [{"normal_elastic", name} for name in sorted(ELSEWHERE)],
+    "impact": [
+        set(chosen)
+        for count in (0, 1, 2, 3, 8, 9)
+        for chosen in combinations(("normal_elastic", "normal_dissipative", *OF_THE_IMPACT), count)
+    ]
+    + [{"normal_elastic", "friction"}, {"normal_elastic", "contact_field"}],
+    "roller": [set(chosen) for count in range(9) for chosen in combinations(("normal_elastic", *OF_THE_ROLLER), count)]
+    + [{"normal_elastic", "friction"}, {"normal_elastic", "rigid_contact"}],
+    "seat": [set(chosen) for count in range(9) for chosen in combinations(EFFECTS[:8], count)]
+    + [{"normal_elastic", "contact_field", name} for name in sorted(TIRE_ONLY)],
+}
+
+
+def allowed(contact, named):
+    """Whether these effects may stand together, written out once more."""
+    refused = {
+        "tire": {*SEAT_ONLY, *SHELL, *OF_THE_IMPACT, *BODY_ONLY},
+        "seat": {*TIRE_ONLY, *SHELL, *OF_THE_IMPACT, *BODY_ONLY},
+        "backrest": ELSEWHERE, "roller": set(EFFECTS) - {"normal_elastic", *OF_THE_ROLLER},
+        "impact": set(EFFECTS) - {"normal_elastic", "normal_dissipative", *OF_THE_IMPACT},
+    }[contact]  # fmt: skip
+    if named & {"surface_waves", "history"} and "normal_dissipative" not in named:
+        return False
+    if "normal_elastic" not in named or named & refused:
+        return False
+    if named & {"gyroscope", "rolling_friction"} and "tilt_yaw" not in named:
+        return False
+    if "damage" in named and not named >= {"track_waves", "subsurface"}:
+        return False
+    if "contact_search" in named and "shell_modes" not in named:
+        return False
+    if named >= {"normal_dissipative", "general_dissipative"}:
+        return False
+    if "contact_field" in named and named & {"foam", "foam_hysteresis", "pressure_mat"}:
+        return False
+    return "contact_field" in named or not named & IN_THE_FIELD
+
+
+def test_the_table_knows_exactly_these_effects():
+    assert tuple(EFFECT_RULES) == EFFECTS
+
+
+@pytest.mark.parametrize("contact", ["tire", "seat", "backrest", "impact", "roller"])
+def test_every_set_of_effects_is_allowed_or_refused_as_tabled(maker, contact):
+    for named in SUBSETS[contact]:
+        faults = maker.faults(contact, {f"effects.{contact}": {name: {} for name in named}})
+        assert (faults == []) == allowed(contact, named), named
+
+
+@pytest.mark.parametrize("name", ["normal_dissipative", "general_dissipative", "friction", "contact_field"])
+def test_an_effect_without_what_it_needs_names_both(maker, name):
+    faults = maker.faults("seat", {"effects.seat": {name: {}}})
+    assert any(fault.startswith(f"effects.seat.{name}: {name} needs normal_elastic") for fault in faults)
+
+
+def test_friction_at_the_tire_is_refused_as_an_effect_not_as_a_misspelling(maker):
+    (fault,) = maker.faults("tire", {"effects.tire.friction": {}})
+    assert "the effect friction is not available at the contact tire, only at seat and backrest" in fault
+
+
+@pytest.mark.parametrize(("rig", "contact"), [("tire", "seat"), ("seat", "tire")])
+def test_a_contact_that_the_rig_lacks_is_refused(maker, rig, contact):
+    (fault,) = maker.faults(rig, {f"effects.{contact}": {"normal_elastic": {}}})
+    assert fault.startswith(f"effects.{contact}: the rig {rig} has no contact {contact}")
+
+
+@pytest.mark.parametrize(("rig", "contact"), [("tire", "tire"), ("seat", "seat"), ("car", "tire"), ("car", "seat")])
+def test_a_contact_of_the_rig_without_elastic_force_is_refused(maker, rig, contact):
+    (fault,) = maker.faults(rig, {f"effects.{contact}": ...})
+    assert fault.startswith(f"effects.{contact}.normal_elastic: is missing")
+
+
+def test_effects_that_exclude_each_other_are_both_named(maker, monkeypatch):
+    rules = {**EFFECT_RULES, "friction": EffectRule(("seat",), excludes=("contact_field",))}
+    monkeypatch.setattr(schema_effect_rules, "EFFECT_RULES", rules)
+    (fault,) = maker.faults("seat", {"effects.seat.friction": {}, "effects.seat.contact_field": {}})
+    assert "friction and contact_field exclude each other" in fault

@@ -1,0 +1,47 @@
+import pytest
+
+from contact_sim_pkg.records.goal import Measured
+from contact_sim_pkg.studies.goals import goals as benchmark
+from contact_sim_pkg.studies.goals import laws as benchmark_core
+from contact_sim_pkg.studies.laws import seat_slap
+
+
+@pytest.mark.parametrize(
+    ("found", "goal", "reached"),
+    [
+        (Measured("a", 1.0, "s", most=2.0), "≤ 2", True),
+        (Measured("a", 3.0, "s", most=2.0), "≤ 2", False),
+        (Measured("a", 3.0, "x", least=3.0), "≥ 3", True),
+        (Measured("a", 2.9, "x", least=3.0), "≥ 3", False),
+        (Measured("a", None, "x", least=3.0), "≥ 3", None),
+        (Measured("a", 1.0, "x"), "", None),
+    ],
+)
+def test_a_figure_is_held_against_its_goal(found, goal, reached):
+    assert (found.goal, found.reached) == (goal, reached)
+
+
+def test_a_missed_goal_and_one_that_was_not_measured_are_shown(monkeypatch):
+    parts = (
+        ("machine", lambda: [Measured(benchmark.BUSY, 0.1, "")]),
+        ("part", lambda: [Measured("slow", 3.0, "s", most=2.0, note="why"), Measured("gone", None, "s", most=2.0)]),
+        ("part", lambda: [Measured("good", 1.0, "s", most=2.0), Measured("beside", 1.0, "s")]),
+    )
+    monkeypatch.setattr(benchmark, "PARTS", parts)
+    goals, beside = benchmark.sections(benchmark.study())
+    assert [row["reached"] for row in goals.rows] == ["NO", "not measured", "yes"]
+    assert goals.note.splitlines() == ["1 of 3 goals reached", "slow: why"]
+    assert [row["what"] for row in beside.rows] == [benchmark.BUSY, "beside"]
+
+
+def test_the_goals_of_error_are_reached():
+    rows = [*benchmark_core.steel(), *benchmark_core.stick_slip()]
+    assert all(row.reached for row in rows), rows
+
+
+def test_a_run_that_is_right_by_chance_is_not_the_cheapest():
+    errors = (1e-4, 1e-9, 1e-6, 2e-9, 1e-10)
+    work = [seat_slap.Work("a", 10.0**-i, error, float(i + 1)) for i, error in enumerate(errors)]
+    assert seat_slap.cheapest(work, 1e-8) == work[3]
+    assert seat_slap.cheapest(work, 1e-11) is None
+    assert seat_slap.cheapest(work, 1.0) == work[0]

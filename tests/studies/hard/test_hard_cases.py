@@ -1,0 +1,120 @@
+"""Every row of `bench hard`, and more ranges of the same cases."""
+
+import math
+
+import numpy
+import pytest
+from hypothesis import example, given, settings
+from hypothesis import strategies as st
+
+from contact_sim_pkg.compiled.results import DONE
+from contact_sim_pkg.integrate.dormand_prince import make_workspace
+from contact_sim_pkg.laws.one_mass.parameters import BeltSlider, PointContact
+from contact_sim_pkg.laws.one_mass.runs import integrate
+from contact_sim_pkg.laws.parameters import Contact, Friction, NormalDissipative, NormalElastic
+from contact_sim_pkg.reference import impact
+from contact_sim_pkg.rigs.vehicle import entries
+from contact_sim_pkg.rigs.vehicle.motion import MARGINS
+from contact_sim_pkg.rigs.vehicle.parameters import Seat, Vehicle
+from contact_sim_pkg.studies.hard import hard_cases
+from contact_sim_pkg.studies.laws import hard_cases_impact
+
+CASES = hard_cases.all_cases()
+
+
+@pytest.mark.parametrize("case", CASES, ids=[f"{case.model}: {case.case}" for case in CASES])
+def test_each_hard_case_meets_its_expectation(case):
+    finding = case.find()
+    assert finding.margin >= 0.0, f"{finding.value} instead of {finding.expectation}"
+
+
+def test_a_case_that_misses_its_expectation_fails_the_table():
+    wrong = hard_cases.HardCase("model", "case", lambda: hard_cases.close_to(1.1, 1.0, 0.05))
+    broken = hard_cases.HardCase("model", "case", lambda: hard_cases.at_most(1 / 0, 1.0))
+    not_a_number = hard_cases.HardCase("model", "case", lambda: hard_cases.at_most(math.nan, 1.0))
+    for case in (wrong, broken, not_a_number):
+        row = hard_cases.evaluate(case)
+        assert row["verdict"] == "fail"
+        assert hard_cases.failed([row])
+
+
+@pytest.mark.parametrize("loss", [0.05, 0.2, 0.5, 1.0, 3.0])
+@pytest.mark.parametrize("tolerance", [1e-4, 1e-7, 1e-10])
+def test_the_error_of_the_restitution_follows_the_tolerance_in_every_approach_phase(loss, tolerance):
+    assert max(hard_cases_impact.phase_errors(loss, tolerance)) <= 3.0 * tolerance
+
+
+@pytest.mark.parametrize("exponent", [1.0, 1.05, 1.25, 1.75, 2.5, 3.0])
+def test_the_error_follows_the_tolerance_for_every_power_of_the_contact_force(exponent):
+    law = NormalElastic(1e5, exponent)
+    for loss in (0.05, 0.5, 3.0):
+        assert max(hard_cases_impact.phase_errors(loss, 1e-7, law)) <= 1e-6
+
+
+@pytest.mark.parametrize("power", range(4, 12))
+def test_the_error_of_the_seat_slap_lies_within_a_factor_10_of_the_tolerance(power):
+    assert 0.1 * 10.0**-power <= hard_cases_impact.slap_error(10.0**-power) <= 4.0 * 10.0**-power
+
+
+def test_the_seat_slap_follows_a_loose_tolerance():
+    assert hard_cases_impact.slap_error(1e-3) <= 4e-3
+
+
+@pytest.mark.parametrize("phase", [0.001, 0.004, 0.011])
+def test_the_seat_slap_follows_its_twin_from_other_starts(phase):
+    assert hard_cases_impact.slap_error(1e-10, phase) <= 1e-7
+
+
+@settings(max_examples=40, deadline=None, derandomize=True)
+@given(st.floats(1e3, 1e16), st.floats(1.0, 3.0), st.floats(1e-4, 5.0), st.floats(1e-3, 10.0))
+def test_the_restitution_does_not_depend_on_stiffness_exponent_or_speed(coefficient, exponent, loss, speed):
+    rig = PointContact(3.0, 0.0, 0.0, 0.0, NormalElastic(coefficient, exponent), NormalDissipative(loss / speed))
+    depth = impact.deepest_approach(3.0, speed, coefficient, exponent, loss / speed)
+    lasts = impact.elastic_impact(3.0, speed, coefficient, exponent)[0]
+    scale = numpy.array([depth, speed]) * 1e-9
+    times = numpy.array([0.0, lasts * (6.0 + 6.0 * loss)])
+    end = integrate(rig, numpy.array([0.3 * depth, -speed]), scale, times).states[-1]
+    assert end[1] / speed == pytest.approx(impact.restitution(loss), abs=1e-7)
+
+
+@pytest.mark.fault("D5")
+@settings(max_examples=40, deadline=None, derandomize=True)
+@example(1e3, 0.0, 1.0, 1.0, 0.0, 17.0)  # parts faster than the material recovers, with nothing that moves fore and aft
+@example(1e4, 0.0, 0.5, 1.0, 2.0, 17.0)  # the same while it slips
+@given(
+    st.floats(1e3, 1e6), st.floats(0.0, 1e3), st.floats(0.05, 1.0), st.floats(0.1, 1.0), st.floats(0.0, 12.0),
+    st.floats(0.0, 25.0),
+)  # fmt: skip
+def test_friction_never_chatters_nor_passes_its_limit_while_the_seat_shakes_and_lifts_off(
+    stiffness, damping, static, ratio, shake_x, shake_z
+):
+    none = numpy.zeros(0)
+    contact = Contact(
+        NormalElastic(2.73e5, 1.5), NormalDissipative(1.0), Friction(stiffness, damping, static, static * ratio)
+    )
+    rig = Vehicle(9.81, None, None, None, Seat(0, 50.0, none, none, none), contact)
+    count = 1000
+    times = numpy.arange(count + 1) * 1e-3
+    a_x, a_z = shake_x * numpy.sin(19.0 * times), shake_z * numpy.sin(25.0 * times)
+    zeros, state = numpy.zeros(count + 1), numpy.zeros(7)
+    state[0] = -((50.0 * 9.81 / 2.73e5) ** (2.0 / 3.0))
+    work, mode = make_workspace(7, MARGINS), numpy.zeros(1, dtype=numpy.int64)
+    samples = (numpy.zeros((count, 7)), numpy.zeros((count, 7)), numpy.zeros((count, entries.FORCES)))
+    scale = numpy.array([1e-2, 0.5, 1e-2, 0.5, 1e-2, numpy.inf, numpy.inf]) * 1e-6
+    entries.start(rig, mode, state, work, 1e-3, zeros[:2], zeros[:2], a_x[:2], a_z[:2], None)
+    assert (
+        entries.advance(rig, mode, state, scale, work, 0.0, 1e-3, zeros, zeros, a_x, a_z, None, 1, 0, *samples) == DONE
+    )
+    normal, tangential = samples[2][:, entries.SEAT_NORMAL], samples[2][:, entries.SEAT_TANGENTIAL]
+    assert normal.min() >= 0.0
+    assert (numpy.abs(tangential) <= static * normal + 1e-3).all()
+
+
+@pytest.mark.parametrize("belt_speed", [0.0, 1e-6, 1e-3, 1.0])
+@pytest.mark.parametrize("static", [0.3, 0.4])
+def test_stick_slip_ends_without_chatter_at_any_belt_speed(belt_speed, static):
+    rig = BeltSlider(1.0, 100.0, belt_speed, 9.81, Friction(1.0e5, 300.0, static, 0.3))
+    scale = numpy.array([1e-2, 1e-1, 1e-3]) * 1e-8
+    course = integrate(rig, numpy.array([0.02, 0.0, 0.0]), scale, numpy.array([0.0, 10.0]), strict=False)
+    assert course.status == DONE
+    assert course.events < 200

@@ -1,0 +1,45 @@
+"""The ladder of the restitution: published formulas give what they are known to give, exact ones what is asked."""
+
+import pytest
+
+from contact_sim_pkg.records import work_precision as ladder_row
+from contact_sim_pkg.studies.laws import work_precision_restitution as ladder_restitution
+from contact_sim_pkg.studies.laws.restitution_formulas import FORMULAS
+
+PUBLISHED = {  # e obtained, driver-seat paper's law, by asked e: in the order of FORMULAS
+    0.95: (0.9524, 0.9535, 0.9468, 0.9359, 0.9500),
+    0.90: (0.9090, 0.9132, 0.8939, 0.8764, 0.8999),
+    0.80: (0.8329, 0.8471, 0.7885, 0.7680, 0.7992),
+    0.70: (0.7680, 0.7960, 0.6832, 0.6696, 0.6973),
+    0.50: (0.6630, 0.7252, 0.4704, 0.4877, 0.4877),
+    0.30: (0.5813, 0.6842, 0.2562, 0.3042, 0.2707),
+    0.10: (0.5158, 0.6653, 0.0694, 0.1010, 0.0741),
+}
+
+
+@pytest.fixture(scope="module")
+def rows():
+    kept = ladder_row.FEWEST, ladder_row.BUDGET
+    ladder_row.FEWEST, ladder_row.BUDGET = 1, 0.0
+    yield ladder_restitution.rows()
+    ladder_row.FEWEST, ladder_row.BUDGET = kept
+
+
+@pytest.mark.parametrize("asked", PUBLISHED)
+def test_each_published_formula_gives_what_is_known_of_it(rows, asked):
+    found = {row["rung"]: row["value"] for row in rows if row["case"] == f"Hunt-Crossley, e = {asked:g}"}
+    for name, value in zip(FORMULAS, PUBLISHED[asked], strict=True):
+        assert found[name] == pytest.approx(value, abs=6e-5)
+
+
+@pytest.mark.parametrize("rung", ["exact relation", "closed form at F = 0", "root search of e(Z)"])
+def test_the_dear_rung_of_every_law_delivers_what_is_asked(rows, rung):
+    chosen = [row for row in rows if row["rung"] == rung]
+    assert [row["expected"] for row in chosen] == list(ladder_restitution.ASKED)
+    assert max(row["error"] for row in chosen) < 1e-9
+
+
+def test_half_a_period_without_its_tensile_end_gives_more_than_it_promises(rows):
+    chosen = [row for row in rows if row["rung"].startswith("half a period")]
+    assert all(row["value"] > row["expected"] for row in chosen)
+    assert max(row["error"] for row in chosen) > 3.0
