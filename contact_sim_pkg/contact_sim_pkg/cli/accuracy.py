@@ -1,4 +1,4 @@
-"""`bench accuracy`: what accuracy costs in time, on this machine."""
+"""`bench accuracy`: error beside time, on this machine."""
 
 from __future__ import annotations
 
@@ -17,10 +17,10 @@ from contact_sim_pkg.cli.output.tables import json_option, overwrite_option, pri
 @overwrite_option
 @json_option
 def command(what: str, plot: Path | None, overwrite: bool, as_json: bool) -> None:
-    """Error against a reference beside time, for each way to an answer.
+    """Error against a reference beside time, for each method (work-precision study).
 
-    SCENE, a name or a path: each rung, tolerance and grid that it can be run with. RIG (tire, seat, block, impact, roller): each
-    quantity of its contact by the cheap formulas and the dear ones, on the same input. A file named like a rig is meant by ./NAME.
+    SCENE, a name or a path: each fidelity level, tolerance and grid. RIG (tire, seat, block, impact, roller): each quantity
+    of its contact by inexpensive and expensive formulas, on the same input. For a file named like a rig write ./NAME.
     """
     from contact_sim_pkg.report.drawing import check_picture
     from contact_sim_pkg.studies.accuracy import work_precision as ladder

@@ -1,4 +1,4 @@
-"""`bench effects`: what each effect costs and feeds."""
+"""`bench effects`: cost and outputs of each effect."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from contact_sim_pkg.cli.output.tables import json_option, print_json_rows, show
 @click.argument("scene")
 @json_option
 def command(scene: str, as_json: bool) -> None:
-    """Each effect of SCENE, on or off: its measured cost and the outputs that it feeds."""
+    """Each effect of SCENE, on and off: its measured cost and its influence on the outputs."""
     from contact_sim_pkg.studies.effects import ablation
 
     rows = ablation.study(scene, lambda line: click.echo(line, err=True))

@@ -1,4 +1,4 @@
-"""`bench goals`: what the bench is asked to reach, and what it reaches on this machine."""
+"""`bench goals`: goals of the bench, and what this machine reaches."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from contact_sim_pkg.cli.output.tables import json_option, print_json_rows, show
 @click.command("goals")
 @json_option
 def command(as_json: bool) -> None:
-    """Start-up, speed and error against their goals, measured in one run; a goal that is missed is shown, no more."""
+    """Start-up, speed and error against their goals, measured in one run; a missed goal is shown only."""
     from contact_sim_pkg.studies.goals import goals as benchmark
 
     rows = benchmark.study(lambda line: click.echo(line, err=True))

@@ -11,7 +11,7 @@ from contact_sim_pkg.cli.output.tables import json_option, print_json_rows, show
 @json_option
 @click.pass_context
 def command(context: click.Context, as_json: bool) -> None:
-    """Value, expectation, margin and verdict of each hard case; ends 1 if one fails."""
+    """Value, expectation, margin and verdict of each hard case; exit code 1 if one fails."""
     from contact_sim_pkg.studies.hard import hard_cases
 
     rows = hard_cases.study(None, lambda line: click.echo(line, err=True))

@@ -1,4 +1,4 @@
-"""`bench identify`: inertia, impulses and what cannot be known, from the motion in a bag."""
+"""`bench identify`: inertia, impulses and what stays unidentified, from the motion in a bag."""
 
 from __future__ import annotations
 
@@ -25,13 +25,13 @@ AXES = click.Choice(["auto", "world", "body"])
 @click.command("identify")
 @click.argument("bag", type=FILE)
 @click.option("--topic", metavar="NAME", help="Odometry or PoseStamped; found by type otherwise.")
-@click.option("--twist-topic", metavar="NAME", help="TwistStamped that goes with a PoseStamped.")
+@click.option("--twist-topic", metavar="NAME", help="TwistStamped beside a PoseStamped.")
 @click.option(
     "--twist-axes",
     type=AXES,
     default="auto",
-    help="Axes of the twist; auto: the child_frame_id of Odometry, the frame of the header for TwistStamped, as the "
-    "result tells.",
+    help="Axes of the twist; auto: the child_frame_id of Odometry, the frame of the header for TwistStamped; the "
+    "result reports the choice.",
 )
 @click.option("--box", type=VECTOR, metavar="X Y Z", help="The body is a box of these lengths [m].")
 @click.option("--sphere", type=float, metavar="R", help="The body is a sphere of this radius [m].")
@@ -44,7 +44,7 @@ AXES = click.Choice(["auto", "world", "body"])
     type=VECTOR,
     default=(0.0, 0.0, 1.0),
     metavar="X Y Z",
-    help="Normal of the ground; gravity stays as it is.",
+    help="Normal of the ground; gravity is unchanged.",
 )
 @click.option(
     "--gravity",
@@ -67,20 +67,20 @@ AXES = click.Choice(["auto", "world", "body"])
     type=AXES,
     default="auto",
     help="Axes of the wrench of --force-topic; auto: world axes where its header names the frame of the poses, else body "
-    "axes, as the result tells.",
+    "axes; the result reports the choice.",
 )
 @click.option(
     "--friction",
     type=float,
     metavar="MU",
-    help="Known friction coefficient: a slide under a known force then tells the mass. A result otherwise.",
+    help="Known friction coefficient: a slide under a known force then identifies the mass. Else a result.",
 )
 @click.option(
     "--noise",
     type=(float, float, float, float),
     metavar="X R V W",
     help="Standard deviations of position [m], rotation [rad], velocity [m/s], angular velocity [rad/s]; "
-    "taken from the flights otherwise.",
+    "estimated from the flights otherwise.",
 )
 @click.option("--plot", type=FILE, metavar="FILE", help="Motion, impulses and parameters as a picture.")
 @overwrite_option
@@ -95,16 +95,16 @@ def command(
     """Inertia and impulses of the rigid body whose motion BAG holds.
 
     BAG: of the bench (bench/motion), or any with Odometry, or PoseStamped and TwistStamped, of the centre of mass. Contacts
-    and their modes are found. What the motion cannot tell, such as the mass without a known force, is named.
+    and their modes are found. Parameters that the motion does not identify, such as the mass without a known force, are named.
 
-    An MCAP that is cut is read as far as its whole chunks go.
+    A cut MCAP is read as far as its whole chunks go.
 
-    Gravity acts along -z of the world frame in which the poses are given: z is up. --normal turns the ground only; turn what
-    is recorded y-up or NED before, or give the weight as known force (--gravity 0 --force ...), which then fixes the mass told.
+    Gravity acts along -z of the world frame in which the poses are given: z is up. --normal turns the ground only. Turn a
+    recording with y up or NED before, or give the weight as known force (--gravity 0 --force ...), which then fixes the mass.
 
-    Of each contact: c_n/m, c_t/m; friction, mu where it slid straight on, else the lower bound that a contact that stuck,
-    reversed or turned leaves (JSON: friction, friction_at_least); Newton's e, the ratio -u_n+/u_n- of normal speeds (JSON:
-    newton_restitution), which is not the e of an energetic or Poisson rule where there is friction.
+    Of each contact: c_n/m, c_t/m; friction, mu for a straight slide, else a lower bound for a contact that sticks, reverses
+    or turns (JSON: friction, friction_at_least); Newton's e, the ratio -u_n+/u_n- of normal speeds (JSON:
+    newton_restitution), which with friction is not the e of an energetic or Poisson rule.
     """
     from contact_sim_pkg.identify.contact.wrench import constant
     from contact_sim_pkg.identify.errors import IdentificationError
@@ -166,7 +166,7 @@ def _check_wrench_options(constant: bool, topic: str | None, axes: Axes) -> None
 
 
 def _wrench(bag: Path, recorded: RecordedStates, topic: str, axes: Axes) -> tuple[RecordedStates, ExternalWrench]:
-    """The wrench of a topic, and the states with what is to tell about it."""
+    """The wrench of a topic, and the states with what is to report about it."""
     from contact_sim_pkg.identify.contact.wrench import sampled
     from contact_sim_pkg.identify.readers.wrenches import read_wrench
 
@@ -176,7 +176,7 @@ def _wrench(bag: Path, recorded: RecordedStates, topic: str, axes: Axes) -> tupl
 
 
 def _sections(found: Identification) -> list[Section]:
-    """Parameters, what cannot be known, contacts."""
+    """Parameters, what stays unidentified, contacts."""
     from contact_sim_pkg.identify.report.rows import contact_rows, parameter_rows
     from contact_sim_pkg.records.table import Section
 

@@ -29,7 +29,7 @@ ONE_THREAD = ("NUMBA_NUM_THREADS", "OPENBLAS_NUM_THREADS")  # the nodes share th
 
 
 class LazyGroup(click.Group):
-    """A group whose commands are imported when they are asked for: `bench run` needs no plotting library."""
+    """A group whose commands are imported when they are called: `bench run` needs no plotting library."""
 
     def list_commands(self, ctx: click.Context) -> list[str]:
         """Names, in the order of use."""

@@ -18,23 +18,25 @@ FILE = click.Path(path_type=Path)
 @click.command("material")
 @click.argument("impacts", type=FILE, metavar="IMPACTS.csv|BAG")
 @click.option(
-    "--form", default="exact", show_default=True, help="exact, corrected or printed (the paper's eqs 104, 105)."
+    "--form", default="exact", show_default=True, help="exact, corrected or printed (eqs 104, 105 of Contact Area)."
 )
-@click.option("--end", help="End of contact: force or gap; of a bag its scene's, else force.")
-@click.option("--shape", help="Shape factor of the contact: small or iterate; of a bag its scene's, else small.")
+@click.option("--end", help="End of contact: force or gap; in a bag that of its scene, else force.")
+@click.option("--shape", help="Shape factor of the contact: small or iterate; in a bag that of its scene, else small.")
 @click.option(
     "--gravity",
     type=click.FloatRange(0.0, 1e4),
     metavar="M/S2",
-    help="Weight along the blow: 9.81 of a drop tower, 0 of a pendulum; of a bag, or with a column g, as it says; else 0.",
+    help="Weight along the blow: 9.81 of a drop tower, 0 of a pendulum; of a bag, or of a column g, its own; else 0.",
 )
-@click.option("--confidence", default=0.95, show_default=True, help="Of the intervals.")
-@click.option("--temperature-span", default=2.0, show_default=True, metavar="K", help="Impacts so close are repeats.")
-@click.option("--speed-ratio", default=1.3, show_default=True, help="Impacts so close in speed are repeats.")
-@click.option("--shift", metavar="LAW", help="Master curve by wlf or arrhenius.")
-@click.option("--glass-temperature", type=float, metavar="K", help="Of wlf; found from the impacts without it.")
+@click.option("--confidence", default=0.95, show_default=True, help="Confidence of the intervals.")
 @click.option(
-    "--activation-energy", type=float, metavar="J/MOL", help="Of arrhenius; found from the impacts without it."
+    "--temperature-span", default=2.0, show_default=True, metavar="K", help="Largest difference between repeats."
+)
+@click.option("--speed-ratio", default=1.3, show_default=True, help="Largest ratio of speeds between repeats.")
+@click.option("--shift", metavar="LAW", help="Master curve by wlf or arrhenius.")
+@click.option("--glass-temperature", type=float, metavar="K", help="Glass temperature of wlf; identified without it.")
+@click.option(
+    "--activation-energy", type=float, metavar="J/MOL", help="Activation energy of arrhenius; identified without it."
 )
 @click.option("--reference", type=float, metavar="K", help="Temperature of the master curve.")
 @click.option("--csv", "table", type=FILE, metavar="FILE", help="Impacts into FILE, groups into FILE_groups.")
@@ -47,10 +49,10 @@ def command(
     activation_energy: float | None, reference: float | None, table: Path | None, plot: Path | None, overwrite: bool,
     as_json: bool,
 ) -> None:  # fmt: skip
-    """The material that measured impacts of a sphere tell, with intervals from repeated impacts.
+    """The material from measured impacts of a sphere, with intervals from repeated impacts.
 
-    From a bag of the rig impact, or from a file with a line an impact: columns m, R, V0, tau, k and T (kg, m, m/s, s, 1, K; other
-    units in brackets behind the name), g (m/s^2) where the weight acts along the blow.
+    From a bag of the rig impact, or from a file with one line for each impact: columns m, R, V0, tau, k and T (kg, m, m/s, s,
+    1, K; other units in brackets behind the name), g (m/s^2) where the weight acts along the blow.
     """
     from contact_sim_pkg.files import check_output
     from contact_sim_pkg.report import drawing

@@ -12,7 +12,7 @@ import click
 @click.argument("target", type=click.Path(path_type=Path))
 @click.pass_context
 def command(context: click.Context, bag: Path, target: Path) -> None:
-    """Write what can be read of BAG into the new bag TARGET; ends 3 where something is lost."""
+    """Write what can be read of BAG into the new bag TARGET; exit code 3 where messages are lost."""
     from contact_sim_pkg.bag.mcap.recover import recover
 
     recovery = recover(bag, target)

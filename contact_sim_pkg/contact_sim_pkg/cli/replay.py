@@ -14,7 +14,7 @@ if TYPE_CHECKING:
 
 
 class Number(click.FloatRange):
-    """A float in a range; what is no number is refused too."""
+    """A float in a range; anything else is refused."""
 
     def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> Any:
         """The number."""
@@ -49,7 +49,7 @@ class Number(click.FloatRange):
     default=0.5,
     show_default=True,
     metavar="S",
-    help="Least time before the first message; the subscribers that are there are waited for in any case.",
+    help="Least time before the first message; matched subscribers are waited for in any case.",
 )
 @click.option("--topics", multiple=True, metavar="NAME", help="Replay only this topic; may be given several times.")
 @click.option(

@@ -15,15 +15,15 @@ from contact_sim_pkg.cli.output.tables import overwrite_option
     "--out",
     type=click.Path(path_type=Path),
     metavar="FILE",
-    help="The page; report.html in the bag otherwise, comparison.html here for several bags.",
+    help="The page; else report.html in the bag, or comparison.html here for several bags.",
 )
-@click.option("--skip-bad", is_flag=True, help="Go on after damaged chunks.")
-@click.option("--across-versions", is_flag=True, help="Compare bags that different versions recorded.")
+@click.option("--skip-bad", is_flag=True, help="Continue after damaged chunks.")
+@click.option("--across-versions", is_flag=True, help="Compare bags of different versions.")
 @overwrite_option
 def command(bags: tuple[Path, ...], out: Path | None, skip_bad: bool, across_versions: bool, overwrite: bool) -> None:
-    """Write the page with the pictures that an engineer looks at, and print its path.
+    """Write the report page of BAG and print its path.
 
-    Several bags of one rig are laid over each other on one page, called by what differs between their scenes.
+    Several bags of one rig are overlaid on one page, named by what differs between their scenes.
     """
     from contact_sim_pkg.bag.reader import open_bag
     from contact_sim_pkg.bag.versions import differences_from, differences_of_bags, installed_versions

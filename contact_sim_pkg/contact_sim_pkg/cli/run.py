@@ -12,7 +12,7 @@ from contact_sim_pkg.cli.scene_options import SceneOptions, scene_options
 
 @click.command("run")
 @scene_options
-@click.option("--offline", is_flag=True, help="Without ROS, in this process, as fast as it goes; the same bits.")
+@click.option("--offline", is_flag=True, help="Without ROS, in this process, at full speed; the same bits.")
 @click.option(
     "--out", type=click.Path(path_type=Path), metavar="DIR", help="Directory of the bag, which must not exist."
 )
@@ -23,10 +23,10 @@ from contact_sim_pkg.cli.scene_options import SceneOptions, scene_options
     "--clock/--no-clock",
     default=True,
     show_default=True,
-    help="Simulated time on /clock, unless somebody publishes one.",
+    help="Simulated time on /clock, unless another node publishes it.",
 )
 @click.option("--allow-long", is_flag=True, help="Run even if the estimate is above 10 min of computing.")
-@click.option("--no-record", is_flag=True, help="Write no bag; the summary, which is read from it, is empty.")
+@click.option("--no-record", is_flag=True, help="Write no bag; the summary is then empty.")
 @json_option
 @click.pass_context
 def command(
@@ -40,7 +40,7 @@ def command(
     no_record: bool,
     as_json: bool,
 ) -> None:
-    """Run SCENE (a name or a YAML file), record it, and say what came of it."""
+    """Run SCENE (a name or a YAML file), record it and report its outcome."""
     from contact_sim_pkg.cli.run_scene import run_scene
 
     status = run_scene(

@@ -1,4 +1,4 @@
-"""What `bench run` does: resolve, run on nodes or without, show progress, say what came of it."""
+"""What `bench run` does: resolve, run on nodes or without, show progress, report the outcome."""
 
 from __future__ import annotations
 
@@ -34,7 +34,7 @@ class SetUpInterrupted(BaseException):
 
 
 class StopRequest:
-    """Whether a signal came: it breaks the set-up off at once, and is asked for between two blocks once they are computed."""
+    """Whether a signal came: it breaks the set-up off at once, and is checked between two blocks once they are computed."""
 
     def __init__(self) -> None:
         """Nothing is computed yet."""
@@ -42,13 +42,13 @@ class StopRequest:
         self._computes = False
 
     def hear(self) -> None:
-        """A signal came. Raises `SetUpInterrupted` as long as nobody has asked."""
+        """A signal came. Raises `SetUpInterrupted` until the run has checked once."""
         self.heard_at = min(self.heard_at, time.monotonic())
         if not self._computes:
             raise SetUpInterrupted
 
     def __call__(self) -> bool:
-        """Whether one came; the run asks, so it has begun."""
+        """Whether one came; the first check marks the start of the run."""
         self._computes = True
         return self.heard_at < float("inf")
 
@@ -105,7 +105,7 @@ def run_scene(
 
 
 def _told(scene: ResolvedScene, ended: Ended, forecast: dict[str, Any], *, as_json: bool) -> int:
-    """Say what came of a run; returns the exit status."""
+    """Report the outcome of a run; returns the exit status."""
     if ended.failure:
         print(f"bench: {ended.failure}", file=sys.stderr)
     if ended.exit_status == 2:
@@ -139,7 +139,7 @@ def _tell_work(scene: ResolvedScene, allow_long: bool) -> None:
 
 
 def _forecast(scene: ResolvedScene) -> dict[str, Any]:
-    """What the rig tells before the run: one line on standard error, and the numbers of `--json`."""
+    """Forecast of the rig before the run: one line on standard error, and the numbers of `--json`."""
     from contact_sim_pkg.run.rigs import forecast_of
 
     found = forecast_of(scene)
@@ -240,7 +240,7 @@ def _run_on_nodes(
 
 @contextmanager
 def _signals_call(stop: Callable[[], Any]) -> Iterator[None]:
-    """While the run lasts, the three signals ask for a clean end."""
+    """While the run lasts, the three signals request a clean end."""
     before = {number: signal.signal(number, lambda *_: stop()) for number in SIGNALS}
     try:
         yield

@@ -19,7 +19,7 @@ _FILE = click.Path(path_type=Path)
 
 @dataclass(frozen=True)
 class SceneOptions:
-    """What the command line says about the scene."""
+    """Scene and changes from the command line."""
 
     scene: str | None
     assignments: tuple[str, ...]
@@ -30,7 +30,7 @@ class SceneOptions:
     rate: str | None
 
     def overrides(self) -> list[Override]:
-        """The values to put into the scene; `--set` comes last and wins."""
+        """The changes to the scene; `--set` comes last and overrides."""
         from contact_sim_pkg.scene import overrides
 
         made: tuple[tuple[Any, Callable[[Any], Override]], ...] = (
@@ -83,8 +83,10 @@ def scene_options(function: Callable[..., Any]) -> Callable[..., Any]:
         ),
         click.option("--duration", metavar="S", help="Simulated time, in s."),
         click.option("--pace", metavar="realtime|max|FACTOR", help="How fast blocks are sent; acts on nodes."),
-        click.option("--road", type=_FILE, metavar="FILE", help="OpenCRG road in place of the scene's road."),
-        click.option("--vibration", type=_FILE, metavar="FILE", help="CSV file in place of the scene's vibration."),
+        click.option("--road", type=_FILE, metavar="FILE", help="OpenCRG road in place of that of the scene."),
+        click.option(
+            "--vibration", type=_FILE, metavar="FILE", help="CSV file in place of the vibration of the scene."
+        ),
         click.option("--rate", metavar="HZ", help="Sampling rate of the vibration file."),
     )
 

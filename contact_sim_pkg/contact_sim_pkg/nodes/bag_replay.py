@@ -28,7 +28,7 @@ BATCH = 200  # messages between two looks at signals; what a volatile topic keep
 SETTLE_SECONDS = 1.0
 LOOK_SECONDS = 0.05  # between two looks at the graph, at keys and at a pause
 SHOW_SECONDS = 5.0  # between two lines about where the replay stands
-DELAY_TEXT = "Least time before the first message, in s; the subscribers that are there are waited for in any case."
+DELAY_TEXT = "Least time before the first message, in s; matched subscribers are waited for in any case."
 
 
 class BagReplayNode(LifecycleBenchNode):

@@ -1,4 +1,4 @@
-"""What came of a run, for scripts and for people."""
+"""Outcome of a run, for scripts and for people."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ if TYPE_CHECKING:
 
 
 class Outcome(Protocol):
-    """What is asked of a finished run."""
+    """What a finished run provides."""
 
     @property
     def blocks(self) -> int:
@@ -44,7 +44,7 @@ class Outcome(Protocol):
 
     @property
     def excitation(self) -> dict[str, dict[str, Any]]:
-        """By topic: what was found in the excitation and done about it."""
+        """By topic: findings in the excitation and their treatment."""
 
 
 def describe(scene: ResolvedScene, outcome: Outcome) -> dict[str, Any]:
@@ -90,7 +90,7 @@ def _summary(bag: Path, *, lossy: bool) -> dict[str, Any]:
 
 
 def print_outcome(facts: dict[str, Any], outcome: Outcome) -> None:
-    """A few lines for a person, the path of the bag last; on standard error what was found in the excitation."""
+    """A few lines for a person, the path of the bag last; on standard error the findings in the excitation."""
     for topic, description in facts["excitation"].items():
         for note in description.get("notes", []):
             click.echo(f"{topic}: {note}", err=True)

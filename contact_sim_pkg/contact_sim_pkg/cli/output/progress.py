@@ -15,7 +15,7 @@ PLAIN_SECONDS = 4.0  # between two lines where standard error is no terminal
 
 
 class Standing(Protocol):
-    """Where a run stands, on nodes or without."""
+    """State of a run, on nodes or without."""
 
     @property
     def simulated(self) -> float:
@@ -52,7 +52,7 @@ class RunDisplay:
         self._task = self._bar.add_task("starting", total=duration)
 
     def show(self, standing: Standing) -> None:
-        """Show where the run stands."""
+        """Show the state of the run."""
         if standing.simulated <= 0.0:
             return
         text = (
@@ -78,7 +78,7 @@ class RunDisplay:
             self.say(text)
 
     def _repeat(self) -> None:
-        """A block that takes long is no reason for silence."""
+        """Report a block that takes long."""
         while not self._over.wait(0.5):
             self.update(self._completed, self._text)
 

@@ -23,9 +23,7 @@ json_option = click.option(
     "--json", "as_json", is_flag=True, help="One JSON object on standard output, and nothing else."
 )
 
-overwrite_option = click.option(
-    "--overwrite", is_flag=True, help="Write over files that exist; never over what is read."
-)
+overwrite_option = click.option("--overwrite", is_flag=True, help="Replace files that exist; never an input.")
 
 
 def print_json(value: Mapping[str, Any]) -> None:
