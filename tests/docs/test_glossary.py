@@ -5,7 +5,7 @@ from pathlib import Path
 
 from contact_sim_pkg.bag.topics import TOPICS
 from contact_sim_pkg.scene.rigs import RIGS
-from contact_sim_pkg.scene.schema_effect_rules import EFFECT_RULES
+from contact_sim_pkg.scene.schema.effect_rules import EFFECT_RULES
 
 TEXT = (Path(__file__).resolve().parents[2] / "docs" / "glossary.md").read_text(encoding="utf-8")
 ROWS = [

@@ -19,6 +19,7 @@ PRIVATE_WORDS = (
     "tiers?|told|tells|touch(es)? nothing known|waited in vain"
 )
 """Words that `docs/glossary.md` has a term for."""
+ROOMS = (ROOT, ROOT / "contact_sim_pkg", ROOT / "contact_sim_pkg" / "contact_sim_pkg")
 
 
 def prose(text):
@@ -79,3 +80,18 @@ def test_links_lead_somewhere(path):
         page = (path.parent / file) if file else path
         assert page.exists(), target
         assert not anchor or anchor in anchors(page.read_text(encoding="utf-8")), target
+
+
+@pytest.mark.parametrize("path", PAGES, ids=NAMES)
+def test_modules_that_a_page_names_are_there(path):
+    named = re.findall(r"`([\w./]+/[\w./]*\.py)`", path.read_text(encoding="utf-8"))
+    assert not [name for name in named if not any((room / name).exists() for room in (*ROOMS, path.parent))]
+
+
+@pytest.mark.parametrize("path", PAGES, ids=NAMES)
+def test_modules_that_a_page_runs_are_there(path):
+    modules = re.findall(r"python -m (contact_sim_pkg[\w.]*|comparisons[\w.]*)", path.read_text(encoding="utf-8"))
+    files = [
+        ROOT / ("contact_sim_pkg" if name.startswith("contact") else "") / name.replace(".", "/") for name in modules
+    ]
+    assert not [file for file in files if not file.with_suffix(".py").exists() and not (file / "__main__.py").exists()]
