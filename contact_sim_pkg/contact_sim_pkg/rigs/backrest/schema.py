@@ -15,8 +15,8 @@ SHELL_PRELOAD = 20.0  # [N]; the weight of the mass would bend the default shell
 class Back(Section):
     """Form of the back: a doubly curved surface over a flat seat back, which it touches first in its middle."""
 
-    width: float = number(0.05, 5.0, "m", "across", default=0.40)
-    height: float = number(0.05, 5.0, "m", "up", default=0.50)
+    width: float = number(0.05, 5.0, "m", "width of the back", default=0.40)
+    height: float = number(0.05, 5.0, "m", "height of the back", default=0.50)
     radius_across: float = number(0.05, 1000.0, "m", "radius of curvature across", default=0.6)
     radius_up: float = number(0.05, 1000.0, "m", "radius of curvature up", default=1.5)
 
@@ -24,8 +24,8 @@ class Back(Section):
 class Sliding(Section):
     """Rigid sliding of the back along the seat back, up and down: amplitude · sin(2π frequency t); acts in friction."""
 
-    amplitude: float = number(0.0, 1.0, "m", "of the displacement; 0: none", default=0.0)
-    frequency: float = number(0.0, 1000.0, "Hz", "of the sliding", above=True, default=5.25)
+    amplitude: float = number(0.0, 1.0, "m", "amplitude of the displacement; 0: none", default=0.0)
+    frequency: float = number(0.0, 1000.0, "Hz", "frequency of the sliding", above=True, default=5.25)
 
 
 class Mat(Section):
@@ -38,15 +38,15 @@ class Mat(Section):
 class Backrest(Section):
     """Occupant against a seat back that is shaken along its normal (x, forward)."""
 
-    mass: float = number(0.1, 1000.0, "kg", "moving mass of the occupant; a shell takes its place", default=45.6)
+    mass: float = number(0.1, 1000.0, "kg", "moving mass of the occupant; replaced by a shell", default=45.6)
     preload: float | None = number(
         0.0,
         1e6,
         "N",
-        "constant force on the seat back: mass · 9.81 m/s² where none is given, 20 N for a shell",
+        "constant force on the seat back; by default mass · 9.81 m/s², 20 N for a shell",
         default=None,
     )
-    back: Back = Field(default_factory=Back, description="form of the back")
+    back: Back = Field(default_factory=Back, description="shape of the back")
     sliding: Sliding = Field(default_factory=Sliding, description="rigid sliding along the seat back")
     mat: Mat = Field(default_factory=Mat, description="cells of the pressure map")
 

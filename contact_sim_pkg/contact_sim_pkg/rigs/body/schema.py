@@ -29,11 +29,11 @@ class BlockGround(Section):
 
     slope: float = number(-1.4, 1.4, "rad", "angle at which the plane rises along x", default=0.0)
     heights: list[Bounded] | None = numbers(
-        "m", "heights at even distances along x, in place of the plane; straight between them and on beyond the ends",
+        "m", "heights at equal distances along x, in place of the plane; straight between them and beyond the ends",
         "2 to 10000 numbers, each -1e6 to 1e6 m", default=None, shortest=2, longest=10000,
     )  # fmt: skip
     start: float = number(-1e4, 1e4, "m", "x of the first height", default=0.0)
-    distance: float = number(1e-4, 1e3, "m", "between heights", default=0.05)
+    distance: float = number(1e-4, 1e3, "m", "distance between heights", default=0.05)
 
 
 class Block(Section):
@@ -44,22 +44,22 @@ class Block(Section):
         "box of `sides`, sphere of `radius`, or the convex hull of `points` (in the plane a polygon); homogeneous",
         default="box",
     )
-    sides: list[float] = _vector("m", "edges of the box along its axes x, y, z", [0.1, 0.1, 0.1])
-    radius: float = number(1e-4, 100.0, "m", "of the sphere", default=0.05)
+    sides: list[float] = _vector("m", "lengths of the box along its axes x, y, z", [0.1, 0.1, 0.1])
+    radius: float = number(1e-4, 100.0, "m", "radius of the sphere", default=0.05)
     points: list[Point] | None = numbers(
-        "m", "corners, [x, z] in the plane, [x, y, z] in space; moved so that the centre of mass is the origin",
+        "m", "corners, [x, z] in the plane, [x, y, z] in space; shifted so that the centre of mass is the origin",
         "3 to 64 points", default=None, shortest=3, longest=MOST_POINTS,
     )  # fmt: skip
-    mass: float = number(1e-6, 1e6, "kg", "of the body", default=1.0)
+    mass: float = number(1e-6, 1e6, "kg", "mass of the body", default=1.0)
     position: list[Bounded] = _vector("m", "x, y, z of the centre of mass at the start", [0.0, 0.0, 0.2], "1e6")
     rotation: list[Bounded] = _vector(
         "rad", "rotation vector at the start, body to world; in the plane only y", [0.0] * 3, "1e6"
     )
-    velocity: list[Bounded] = _vector("m/s", "at the start", [0.0, 0.0, 0.0], "1e6")
+    velocity: list[Bounded] = _vector("m/s", "velocity at the start", [0.0, 0.0, 0.0], "1e6")
     angular_velocity: list[Bounded] = _vector(
-        "rad/s", "at the start, world axes; in the plane only y", [0.0] * 3, "1e6"
+        "rad/s", "angular velocity at the start, world axes; in the plane only y", [0.0] * 3, "1e6"
     )
-    gravity: float = number(0.1, 1000.0, "m/s^2", "downward", default=9.81)
+    gravity: float = number(0.1, 1000.0, "m/s^2", "gravity, downward", default=9.81)
     force: list[Load] = _vector("N", "known force at the centre of mass, world axes", [0.0] * 3, "1e12")
     torque: list[Load] = _vector("N m", "known torque, world axes; in the plane only y", [0.0] * 3, "1e12")
     ground: BlockGround = Field(default_factory=BlockGround, description="ground under the body")
@@ -68,8 +68,8 @@ class Block(Section):
 class RigidContact(Section):
     """Rigid contact: no penetration, Coulomb friction with true stick, impacts by a rule; solved as complementarity."""
 
-    friction: float = number(0.0, 5.0, "", "Coulomb's ratio", default=0.3)
-    restitution: float = number(0.0, 1.0, "", "as the rule reads it", default=0.3)
+    friction: float = number(0.0, 5.0, "", "Coulomb friction μ", default=0.3)
+    restitution: float = number(0.0, 1.0, "", "restitution of the rule", default=0.3)
     rule: Literal["energetic", "poisson", "newton"] = choice(
         "restitution of works (never gains energy), of impulses, or of velocities (may gain energy with friction)",
         default="energetic",
@@ -77,8 +77,8 @@ class RigidContact(Section):
     scheme: Literal["located", "stepping"] = choice(
         "events located in time, or fixed steps of first order", default="located"
     )
-    step: float = number(1e-6, 0.01, "s", "of the scheme stepping; fits the samples of the outputs", default=1e-3)
-    facets: int = number(0, 64, "", "of the friction cone in space, even; 0: the true cone", default=0)
+    step: float = number(1e-6, 0.01, "s", "step of the scheme stepping; fits the samples of the outputs", default=1e-3)
+    facets: int = number(0, 64, "", "facets of the friction cone in space, even; 0: the true cone", default=0)
 
 
 class CompliantContact(Section):
@@ -90,10 +90,10 @@ class CompliantContact(Section):
     """
 
     stiffness: float = number(1.0, 1e12, "N/m^exponent", "of a point, normal to the ground", default=1e6)
-    exponent: float = number(1.0, 3.0, "", "of the depth; 1 is a spring, 1.5 is Hertz", default=1.0)
+    exponent: float = number(1.0, 3.0, "", "exponent of the depth; 1 is a spring, 1.5 is Hertz", default=1.0)
     tangential_stiffness: float = number(1.0, 1e12, "N/m", "of a point that sticks, along the ground", default=1e6)
     tangential_damping: float | None = number(
-        1e-6, 1e9, "N s/m", "of the same; critical for the whole mass when absent", default=None
+        1e-6, 1e9, "N s/m", "damping along the ground; critical for the whole mass when absent", default=None
     )
 
 

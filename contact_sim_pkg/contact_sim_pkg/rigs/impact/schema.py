@@ -31,7 +31,7 @@ MATERIALS: dict[str, SampleMaterial] = {
 class Sample(Section):
     """The half-space. What is not given is that of the material."""
 
-    material: Literal["rubber", "foam", "steel"] = choice("gives the numbers that are absent", default="rubber")
+    material: Literal["rubber", "foam", "steel"] = choice("material of the absent values", default="rubber")
     storage_modulus: float | None = number(
         1.0, 1e13, "Pa", "E' of the half-space: rubber 8e6, foam 2e5, steel 2.1e11", default=None
     )
@@ -40,27 +40,29 @@ class Sample(Section):
     )
     poisson_ratio: float | None = number(-0.99, 0.5, "", "rubber 0.499, foam 0.1, steel 0.3", default=None)
     density: float | None = number(0.1, 1e5, "kg/m^3", "rubber 1100, foam 60, steel 7850", default=None)
-    body_modulus: float | None = number(1.0, 1e13, "Pa", "E' of the sphere; rigid where none is given", default=None)
-    body_loss_tangent: float = number(0.0, 100.0, "", "of the sphere; acts with body_modulus", default=0.0)
+    body_modulus: float | None = number(1.0, 1e13, "Pa", "E' of the sphere; rigid by default", default=None)
+    body_loss_tangent: float = number(0.0, 100.0, "", "tan β of the sphere; acts with body_modulus", default=0.0)
 
 
 class Impact(Section):
     """A sphere that strikes a sample: drop tower or pendulum, one release or a programme of them."""
 
-    machine: Literal["drop", "pendulum"] = choice("falls, or swings and strikes at the lowest point", default="drop")
-    mass: float = number(1e-9, 1e5, "kg", "of the sphere with what it is fixed to", default=0.02)
-    radius: float = number(1e-6, 100.0, "m", "of the nose", default=0.01)
+    machine: Literal["drop", "pendulum"] = choice(
+        "drop tower, or pendulum that strikes at its lowest point", default="drop"
+    )
+    mass: float = number(1e-9, 1e5, "kg", "moving mass: sphere and what it is fixed to", default=0.02)
+    radius: float = number(1e-6, 100.0, "m", "radius of the nose", default=0.01)
     gravity: float = number(
-        1e-6, 1000.0, "m/s^2", "also acts during a contact in the drop tower, not in the pendulum", default=9.81
+        1e-6, 1000.0, "m/s^2", "gravity; acts during contact in the drop tower, not in the pendulum", default=9.81
     )
     arm: float = number(1e-3, 1000.0, "m", "length of the pendulum", default=1.0)
-    sample: Sample = Field(default_factory=Sample, description="what is struck")
+    sample: Sample = Field(default_factory=Sample, description="material of the sample")
     speeds: list[Speed] = numbers(
-        "m/s", "impact speed of each release, which sets its height", "1 to 1000 numbers, each 0.001 to 1000 m/s",
+        "m/s", "impact speed of each release", "1 to 1000 numbers, each 0.001 to 1000 m/s",
         default=[2.0], shortest=1, longest=1000,
     )  # fmt: skip
     temperatures: list[Temperature] = numbers(
-        "K", "of the sample, one after the other; at each of them all speeds", "1 to 1000 numbers, each 1 to 2000 K",
+        "K", "temperatures of the sample, in turn; at each of them all speeds", "1 to 1000 numbers, each 1 to 2000 K",
         default=[293.15], shortest=1, longest=1000,
     )  # fmt: skip
     repeats: int = number(1, 100000, "", "releases at each temperature and speed", default=1)
@@ -68,11 +70,11 @@ class Impact(Section):
         1e-3,
         3600.0,
         "s",
-        "from one release to the next; needed for more than one; holds the fall and its impacts",
+        "time between releases, fall and impacts included; required for more than one",
         default=None,
     )
     bounces: int = number(
-        0, 100000, "", "impacts after which the sphere is caught and held for the next release; 0: never", default=0
+        0, 100000, "", "impacts after which the sphere is caught for the next release; 0: never", default=0
     )
     shape_factor: Literal["small", "iterate"] = choice(
         "k_p of the contact: √2, or √(2 − x_m/R) of each impact", default="small"

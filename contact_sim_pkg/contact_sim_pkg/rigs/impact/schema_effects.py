@@ -19,7 +19,7 @@ class SphereLoss(Section):
     """Viscous force 4 k_p √R (E' tan β/ω) x^(1/2) x', ω the angular frequency π/τ of the impact itself."""
 
     end: Literal["force", "gap"] = choice(
-        "contact is lost where the force reaches zero (it never pulls), or where the gap opens (it may pull before)",
+        "contact ends at zero force (never tensile), or at zero gap (tensile before)",
         default="force",
     )
 
@@ -28,13 +28,13 @@ class Shift(Section):
     """Time-temperature shift: E' and tan β of each impact from a table over temperature, measured at one impact speed."""
 
     law: Literal["wlf", "arrhenius"] = choice("Williams-Landel-Ferry, or one activation energy", default="wlf")
-    glass_temperature: float = number(1.0, 2000.0, "K", "Tg, the temperature that the law starts from", default=223.0)
-    c1: float = number(1e-6, 1000.0, "", "of wlf", default=17.44)
-    c2: float = number(1e-6, 1000.0, "K", "of wlf", default=51.6)
-    activation_energy: float = number(1.0, 1e7, "J/mol", "of arrhenius", default=1.0e5)
+    glass_temperature: float = number(1.0, 2000.0, "K", "glass temperature Tg", default=223.0)
+    c1: float = number(1e-6, 1000.0, "", "constant of wlf", default=17.44)
+    c2: float = number(1e-6, 1000.0, "K", "constant of wlf", default=51.6)
+    activation_energy: float = number(1.0, 1e7, "J/mol", "activation energy of arrhenius", default=1.0e5)
     table_speed: float = number(1e-6, 1000.0, "m/s", "impact speed at which the table was measured", default=2.0)
     table: list[TableRow] = numbers(
-        "", "[T in K, E' in Pa, tan β] each, T rising; between them ln E' and tan β are straight",
+        "", "rows [T in K, E' in Pa, tan β], T increasing; ln E' and tan β linear between them",
         "2 to 1000 rows [T in K, E' in Pa, tan β]",
         default=[
             [200.0, 2.0e9, 0.02], [220.0, 1.8e9, 0.04], [235.0, 1.3e9, 0.12], [245.0, 6.0e8, 0.4], [252.0, 2.0e8, 0.85],
@@ -44,10 +44,10 @@ class Shift(Section):
         shortest=2, longest=1000,
     )  # fmt: skip
     beyond: Literal["refuse", "keep"] = choice(
-        "where the table has no such state: end the run, or keep its first or last row", default="refuse"
+        "beyond the table: end the run, or keep its first or last row", default="refuse"
     )
     rate: Literal["speed", "frequency"] = choice(
-        "what the shift is compared by: impact speed (the paper's), or frequency π/τ", default="speed"
+        "rate of the shift: impact speed (Contact Area), or frequency π/τ", default="speed"
     )
     table_frequency: float = number(
         1e-6, 1e12, "rad/s", "frequency of the table; acts with rate: frequency", default=1750.0
@@ -58,7 +58,7 @@ class ContactStress(Section):
     """Stress over the contact radius in time, elastic and viscous, as `impact/stress`."""
 
     shape: Literal["parabola", "hertz", "printed"] = choice(
-        "over the radius: 1 − ρ², √(1 − ρ²), or the paper's, which carries 3/4 of the force", default="parabola"
+        "over the radius: 1 − ρ², √(1 − ρ²), or as printed with 3/4 of the force", default="parabola"
     )
     places: int = number(3, 1001, "", "places from the centre to the border", default=41)
     instants: int = number(3, 1001, "", "instants of each impact", default=101)
@@ -67,9 +67,9 @@ class ContactStress(Section):
 class SurfaceWaves(Section):
     """Ring and circular wave around each impact, as `impact/wave`."""
 
-    spread: Literal["none", "cylindrical"] = choice("how its amplitude falls with the radius", default="none")
-    lengths: float = number(0.5, 1000.0, "", "wave lengths around the contact that are recorded", default=3.0)
-    times: float = number(1.0, 1000.0, "", "contact times that are recorded", default=6.0)
+    spread: Literal["none", "cylindrical"] = choice("decay of the amplitude with the radius", default="none")
+    lengths: float = number(0.5, 1000.0, "", "recorded distance around the contact, in wave lengths", default=3.0)
+    times: float = number(1.0, 1000.0, "", "recorded time, in contact times", default=6.0)
     places: int = number(3, 4001, "", "radii", default=161)
     instants: int = number(3, 4001, "", "instants of each impact", default=121)
 
@@ -95,7 +95,7 @@ class History(Section):
     the contact shrinks and the integral no longer holds."""
 
     model: Literal["kelvin_voigt", "maxwell"] = choice(
-        "whose complex modulus at the impact's frequency is the sample's", default="kelvin_voigt"
+        "model with the complex modulus of the sample at the frequency of the impact", default="kelvin_voigt"
     )
 
 
@@ -117,5 +117,5 @@ class ImpactEffects(Section):
     surface_waves: SurfaceWaves | None = choice("circular surface wave", default=None)
     micro_front: MicroFront | None = choice("front of the micro-impact", default=None)
     thermal_volume: ThermalVolume | None = choice("position and volumes of the contact", default=None)
-    history: History | None = choice("hereditary indentation beside it", default=None)
+    history: History | None = choice("depth by the hereditary integral", default=None)
     gauge_noise: GaugeNoise | None = choice("noise of the measured values", default=None)

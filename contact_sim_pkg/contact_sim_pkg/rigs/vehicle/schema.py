@@ -30,16 +30,16 @@ class Tire(Section):
         1e4,
         1e12,
         "Pa",
-        "modulus of the half-space that stands for tread and carcass, fitted to the footprint",
+        "modulus of the half-space for tread and sidewalls together, fitted to the footprint",
         default=3.0e6,
     )
-    poisson_ratio: float = number(0.0, 0.5, "", "of the same material; rubber is 0.5", default=0.5)
+    poisson_ratio: float = number(0.0, 0.5, "", "Poisson's ratio of that half-space; rubber is 0.5", default=0.5)
 
 
 class Occupant(Section):
     """Masses that hang in parallel on the frame mass, which sits on the cushion; Wei and Griffin 1998, two masses."""
 
-    frame_mass: float = number(0.1, 1000.0, "kg", "mass that is in contact with the cushion", default=6.7)
+    frame_mass: float = number(0.1, 1000.0, "kg", "mass in contact with the cushion", default=6.7)
     masses: list[Mass] = numbers(
         "kg",
         "masses on springs; an empty list is a rigid occupant",
@@ -73,22 +73,24 @@ class Body(Section):
     buttock_radius: float = number(0.02, 0.5, "m", "radius of each sphere", default=0.12)
     thigh_radius: float = number(0.02, 0.5, "m", "radius of each cylinder", default=0.09)
     thigh_length: float = number(
-        0.0, 1.0, "m", "length of each cylinder, forward from the sphere's middle; 0: none", default=0.30
+        0.0, 1.0, "m", "length of each cylinder, forward from the centre of the sphere; 0: none", default=0.30
     )
-    thigh_rise: float = number(0.0, 0.2, "m", "height of the thighs' lowest line above the lowest points", default=0.02)
+    thigh_rise: float = number(
+        0.0, 0.2, "m", "height of the lowest line of the thighs above the lowest points", default=0.02
+    )
 
 
 class Seat(Section):
     """Occupant on a cushion that stands on the floor."""
 
-    occupant: Occupant = Field(default_factory=Occupant, description="what sits on the cushion")
-    body: Body = Field(default_factory=Body, description="form that presses into the cushion; acts in contact_field")
-    backrest: Literal["none"] = choice("the occupant does not lean on a back rest", default="none")
+    occupant: Occupant = Field(default_factory=Occupant, description="masses on the cushion")
+    body: Body = Field(default_factory=Body, description="shape of the body on the cushion; acts in contact_field")
+    backrest: Literal["none"] = choice("occupant without backrest", default="none")
     cushion_modulus: float = number(
         1e3,
         1e9,
         "Pa",
-        "Young's modulus of the half-space that stands for the foam (20 to 100 kPa); acts in contact_field",
+        "Young's modulus of the half-space for the foam (20 to 100 kPa); acts in contact_field",
         default=4.0e4,
     )
     cushion_poisson: float = number(0.0, 0.5, "", "Poisson's ratio of the foam; acts in contact_field", default=0.3)

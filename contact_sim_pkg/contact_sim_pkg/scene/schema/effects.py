@@ -28,7 +28,7 @@ def _tolerance() -> float | None:
         1e-12,
         0.1,
         "",
-        "relative error of the pressure at which the solver stops; taken from accuracy when absent",
+        "relative error of the pressure; taken from accuracy when absent",
         default=None,
     )
     return tolerance
@@ -39,7 +39,7 @@ def _corrector_passes() -> int | None:
         0,
         8,
         "",
-        "most repetitions of a stretch of the run with the field found at its end; taken from accuracy when absent",
+        "most repetitions of a coupling step with the field at its end; taken from accuracy when absent",
         default=None,
     )
     return passes
@@ -68,17 +68,17 @@ class PowerElastic(Section):
         1.0,
         1e12,
         "N/m^exponent",
-        "chosen so that 50.8 kg sit at 50 kN/m: 498 N at 14.95 mm",
+        "A; by default 50 kN/m under 50.8 kg: 498 N at 14.95 mm",
         default=2.73e5,
     )
-    exponent: float = number(1.0, 3.0, "", "1 is linear, 1.5 is Hertz", default=1.5)
+    exponent: float = number(1.0, 3.0, "", "n; 1 is linear, 1.5 is Hertz", default=1.5)
 
 
 class TireLoss(Section):
     """Hunt-Crossley loss: elastic force · (1 + damping · approach rate), never pulling; or `restitution` at a speed."""
 
     damping: float | None = number(
-        0.0, 100.0, "s/m", "0.06 where none is given: 200 N s/m at 3335 N, ζ about 3 %", default=None
+        0.0, 100.0, "s/m", "λ; 0.06 by default: 200 N s/m at 3335 N, ζ about 3 %", default=None
     )
     restitution: float | None = _restitution()
     reference_speed: float | None = _reference_speed()
@@ -87,7 +87,7 @@ class TireLoss(Section):
 class SeatLoss(Section):
     """Hunt-Crossley loss: elastic force · (1 + damping · approach rate), never pulling; or `restitution` at a speed."""
 
-    damping: float | None = number(0.0, 100.0, "s/m", "1.0 where none is given: 500 N s/m at 498 N", default=None)
+    damping: float | None = number(0.0, 100.0, "s/m", "λ; 1.0 by default: 500 N s/m at 498 N", default=None)
     restitution: float | None = _restitution()
     reference_speed: float | None = _reference_speed()
 
@@ -95,10 +95,10 @@ class SeatLoss(Section):
 class Foam(Section):
     """Foam block under an even load, with plateau and densification; its force takes the place of that of normal_elastic."""
 
-    area: float = number(1e-3, 10.0, "m^2", "that carries; under a sitter 0.10 to 0.15", default=0.12)
-    thickness: float = number(0.005, 2.0, "m", "of the unloaded block", default=0.08)
+    area: float = number(1e-3, 10.0, "m^2", "loaded area; under an occupant 0.10 to 0.15", default=0.12)
+    thickness: float = number(0.005, 2.0, "m", "thickness of the unloaded block", default=0.08)
     modulus: float = number(
-        100.0, 1e9, "Pa", "Young's modulus at first touch, above plateau; 20 to 100 kPa", default=4.0e4
+        100.0, 1e9, "Pa", "Young's modulus at first contact, above plateau; 20 to 100 kPa", default=4.0e4
     )
     plateau: float = number(
         10.0, 1e8, "Pa", "stress of the plateau; with the other defaults 5.9 kPa at 40 % strain", default=3.0e3
@@ -112,10 +112,8 @@ class Foam(Section):
 class FoamHysteresis(Section):
     """Loss without rate: the force is the elastic one times 1 + share · z, z between -1 and 1 follows the loading."""
 
-    share: float = number(0.0, 0.9, "", "s; of a long loading 2 s/(1 + s) is lost: 21 % with the default", default=0.12)
-    energy: float = number(
-        1e-6, 1e6, "J", "stored energy over which a reversal is passed (choice)", above=True, default=1.0
-    )
+    share: float = number(0.0, 0.9, "", "s; a long loading dissipates 2 s/(1 + s): 21 % by default", default=0.12)
+    energy: float = number(1e-6, 1e6, "J", "u₀, stored energy of a reversal (choice)", above=True, default=1.0)
 
 
 class GeneralLoss(Section):
@@ -123,7 +121,7 @@ class GeneralLoss(Section):
     normal_dissipative. Exponents 0 and 1 are a plain damper, the elastic exponent and 1 Hunt-Crossley, 0.5 and 1 Kuwabara-Kono."""
 
     coefficient: float | None = number(
-        0.0, 1e12, "N/m^p/(m/s)^q", "2.73e5 where none is given: with the default exponents 500 N s/m at 498 N",
+        0.0, 1e12, "N/m^p/(m/s)^q", "B; 2.73e5 by default: with the default exponents 500 N s/m at 498 N",
         default=None,
     )  # fmt: skip
     approach_exponent: float = number(0.0, 4.0, "", "p, power of the approach", default=1.5)
@@ -139,7 +137,7 @@ class GeneralLoss(Section):
         default=None,
     )  # fmt: skip
     end: Literal["force", "gap"] = choice(
-        "contact is lost where the force reaches zero (it never pulls), or where the gap opens (it may pull before)",
+        "contact ends at zero force (never tensile), or at zero gap (tensile before)",
         default="force",
     )
 
@@ -147,11 +145,9 @@ class GeneralLoss(Section):
 class Friction(Section):
     """Friction between occupant and cushion: a spring and damper that sticks, up to the Coulomb limit."""
 
-    coefficient_static: float = number(
-        0.0, 5.0, "", "ratio at which sticking ends; cloth 0.3 to 0.6", above=True, default=0.4
-    )
+    coefficient_static: float = number(0.0, 5.0, "", "static friction; cloth 0.3 to 0.6", above=True, default=0.4)
     coefficient_kinetic: float = number(
-        0.0, 5.0, "", "ratio while slipping, at most coefficient_static", above=True, default=0.35
+        0.0, 5.0, "", "kinetic friction, at most coefficient_static", above=True, default=0.35
     )
     stiffness: float = number(1.0, 1e9, "N/m", "shear spring of the cushion while it sticks (choice)", default=2.0e4)
     damping: float = number(0.0, 1e6, "N s/m", "shear damper of the cushion while it sticks (choice)", default=200.0)
@@ -192,9 +188,15 @@ class Carcass(Section):
     """Sidewalls and a rigid belt ring: spring and damper in series with the tread's contact."""
 
     stiffness: float = number(
-        1e3, 1e9, "N/m", "of the sidewalls; with the default tread 200 kN/m at 3335 N in all (fitted)", default=3.1e5
+        1e3,
+        1e9,
+        "N/m",
+        "stiffness of the sidewalls; with the default tread 200 kN/m at 3335 N in all (fitted)",
+        default=3.1e5,
     )
-    damping: float = number(0.0, 1e6, "N s/m", "of the sidewalls; about 130 N s/m of the whole tire", default=300.0)
+    damping: float = number(
+        0.0, 1e6, "N s/m", "damping of the sidewalls; about 130 N s/m of the whole tire", default=300.0
+    )
     belt_mass: float = number(0.1, 1000.0, "kg", "belt and tread, a part of tire.wheel_mass", default=7.0)
 
 
@@ -218,7 +220,7 @@ class Envelopment(Section):
     """A belt under tension on an elastic foundation yields under the pressure beside the tread, and bends over obstacles."""
 
     tension: float = number(
-        1.0, 1e6, "N", "of the belt over its whole width; 220 kPa on 0.3 m by 0.15 m give 9900 N", default=9900.0
+        1.0, 1e6, "N", "tension of the belt over its width; 220 kPa on 0.3 m by 0.15 m give 9900 N", default=9900.0
     )
     foundation: float = number(
         1e3, 1e9, "N/m^2", "radial stiffness of the sidewalls per length of circumference (choice)", default=6.3e5
@@ -231,25 +233,25 @@ class Brush(Section):
     stiffness_x: float = number(
         1e3, 1e12, "N/m^3", "shear stiffness of the tread per area, along the road (choice)", default=6e7
     )
-    stiffness_y: float = number(1e3, 1e12, "N/m^3", "the same across the track; costs less where equal", default=6e7)
+    stiffness_y: float = number(1e3, 1e12, "N/m^3", "the same across the track; less work where equal", default=6e7)
     coefficient_static: float = number(
-        0.0, 5.0, "", "shear over pressure at which a bristle begins to slip; dry asphalt 0.9 to 1.1", above=True,
+        0.0, 5.0, "", "static friction; dry asphalt 0.9 to 1.1", above=True,
         default=1.0,
     )  # fmt: skip
     coefficient_kinetic: float = number(
-        0.0, 5.0, "", "while it slips, at most coefficient_static; dry asphalt 0.7 to 0.8", above=True, default=0.75
+        0.0, 5.0, "", "kinetic friction, at most coefficient_static; dry asphalt 0.7 to 0.8", above=True, default=0.75
     )
 
 
 class AsperityImpulses(Section):
     """Push of the road's asperities on the rolling tire, site by site; they act while the tire is in contact."""
 
-    spacing: float = number(1e-4, 10.0, "m", "distance of two sites along the road", default=0.02)
+    spacing: float = number(1e-4, 10.0, "m", "distance of two asperities along the road", default=0.02)
     share: float = number(
-        0.0, 10.0, "", "of the standing load, carried together by the sites under the tire (choice)", default=0.1
+        0.0, 10.0, "", "share of the standing load on the asperities under the tire (choice)", default=0.1
     )
     window: Literal["rectangular", "raised_cosine"] = choice(
-        "how a site acts while it is under the tire; raised_cosine is smooth", default="rectangular"
+        "time function of an asperity under the tire; raised_cosine is smooth", default="rectangular"
     )
 
 
@@ -259,11 +261,11 @@ class TireEffects(Section):
     normal_elastic: HertzElastic | None = choice("elastic force", default=None)
     normal_dissipative: TireLoss | None = choice("loss", default=None)
     contact_field: TireField | None = choice("pressure field", default=None)
-    carcass: Carcass | None = choice("sidewalls and belt ring", default=None)
+    carcass: Carcass | None = choice("rigid ring on sidewalls", default=None)
     envelopment: Envelopment | None = choice("belt that bends over obstacles", default=None)
-    tread_viscoelasticity: TreadViscoelasticity | None = choice("memory of the tread rubber", default=None)
-    brush: Brush | None = choice("friction of a rolling tire, stick and slip per cell", default=None)
-    asperity_impulses: AsperityImpulses | None = choice("impulses of the road's asperities", default=None)
+    tread_viscoelasticity: TreadViscoelasticity | None = choice("viscoelasticity of the tread rubber", default=None)
+    brush: Brush | None = choice("brush friction of a rolling tire, stick and slip of each cell", default=None)
+    asperity_impulses: AsperityImpulses | None = choice("impulses of road asperities", default=None)
 
 
 class SeatEffects(Section):
@@ -272,9 +274,9 @@ class SeatEffects(Section):
     normal_elastic: PowerElastic | None = choice("elastic force", default=None)
     normal_dissipative: SeatLoss | None = choice("loss", default=None)
     foam: Foam | None = choice("foam with plateau and densification", default=None)
-    foam_hysteresis: FoamHysteresis | None = choice("loss of foam without rate", default=None)
-    general_dissipative: GeneralLoss | None = choice("loss after the general law", default=None)
-    friction: Friction | None = choice("friction with true stick", default=None)
+    foam_hysteresis: FoamHysteresis | None = choice("rate-independent loss of foam", default=None)
+    general_dissipative: GeneralLoss | None = choice("loss by the general law", default=None)
+    friction: Friction | None = choice("friction with stick and slip", default=None)
     contact_field: SeatField | None = choice("pressure field", default=None)
     pressure_mat: PressureMat | None = choice("pressure map of a point contact", default=None)
 
@@ -283,17 +285,15 @@ class BackElastic(Section):
     """Elastic force of the back in the seat back: coefficient · approach^exponent, for the whole back."""
 
     coefficient: float = number(
-        1.0, 1e12, "N/m^exponent", "447 N at 14.91 mm: 45.6 kg then resonate at 5 Hz", default=2.457e5
+        1.0, 1e12, "N/m^exponent", "A; by default 447 N at 14.91 mm: 45.6 kg have 5 Hz", default=2.457e5
     )
-    exponent: float = number(1.0, 3.0, "", "1 is linear, 1.5 is Hertz", default=1.5)
+    exponent: float = number(1.0, 3.0, "", "n; 1 is linear, 1.5 is Hertz", default=1.5)
 
 
 class BackLoss(Section):
     """Hunt-Crossley loss: elastic force · (1 + damping · approach rate), never pulling; or `restitution` at a speed."""
 
-    damping: float | None = number(
-        0.0, 100.0, "s/m", "1.9497 where none is given: restitution 0.6 at 0.5 m/s", default=None
-    )
+    damping: float | None = number(0.0, 100.0, "s/m", "λ; 1.9497 by default: restitution 0.6 at 0.5 m/s", default=None)
     restitution: float | None = _restitution()
     reference_speed: float | None = _reference_speed()
 
@@ -302,7 +302,7 @@ class BackGeneralLoss(GeneralLoss):
     """General law of the back in the seat back: as that of the cushion, with a coefficient of its own."""
 
     coefficient: float | None = number(
-        0.0, 1e12, "N/m^p/(m/s)^q", "4.7905e5 where none is given: with the default exponents restitution 0.6 at 0.5 m/s",
+        0.0, 1e12, "N/m^p/(m/s)^q", "B; 4.7905e5 by default: with the default exponents restitution 0.6 at 0.5 m/s",
         default=None,
     )  # fmt: skip
 
@@ -310,11 +310,9 @@ class BackGeneralLoss(GeneralLoss):
 class BackFriction(Section):
     """Friction between back and seat back: a spring and damper that sticks, up to the Coulomb limit; for the whole back."""
 
-    coefficient_static: float = number(
-        0.0, 5.0, "", "ratio at which sticking ends; cloth 0.3 to 0.6", above=True, default=0.4
-    )
+    coefficient_static: float = number(0.0, 5.0, "", "static friction; cloth 0.3 to 0.6", above=True, default=0.4)
     coefficient_kinetic: float = number(
-        0.0, 5.0, "", "ratio while slipping, at most coefficient_static", above=True, default=0.4
+        0.0, 5.0, "", "kinetic friction, at most coefficient_static", above=True, default=0.4
     )
     stiffness: float = number(
         1.0, 1e9, "N/m", "shear spring while it sticks; Mindlin's ratio at ν 0.45", default=3.19e4
@@ -334,13 +332,17 @@ class ShellModes(Section):
     modes: int = number(1, 25, "", "modes: 1, 4, 9 or 25 (m and n up to 1, 2, 3 or 5)", default=9)
     points_up: int = number(1, 64, "", "candidate contact points up the back", default=20)
     points_across: int = number(1, 64, "", "candidate contact points across the back", default=16)
-    thickness: float = number(1e-4, 1.0, "m", "of the shell, at most 0.1 of its shorter side", default=0.03)
-    density: float = number(1.0, 1e5, "kg/m^3", "of the shell", default=1050.0)
+    thickness: float = number(1e-4, 1.0, "m", "thickness of the shell, at most 0.1 of its shorter side", default=0.03)
+    density: float = number(1.0, 1e5, "kg/m^3", "density of the shell", default=1050.0)
     young_modulus: float = number(
-        1.0, 1e12, "Pa", "of the shell; puts the first mode at 5.49 Hz, inside the spine's band", default=6.0e5
+        1.0,
+        1e12,
+        "Pa",
+        "Young's modulus of the shell; by default first mode 5.49 Hz, in the band of the spine",
+        default=6.0e5,
     )
-    poisson_ratio: float = number(0.0, 0.5, "", "of the shell", default=0.45)
-    damping_ratio: float = number(0.0, 2.0, "", "of every mode", default=0.1)
+    poisson_ratio: float = number(0.0, 0.5, "", "Poisson's ratio of the shell", default=0.45)
+    damping_ratio: float = number(0.0, 2.0, "", "damping ratio of every mode", default=0.1)
     shaken_across: float = number(
         0.0, 1.0, "", "place of the exciting force over the width, from the right edge", default=0.4
     )
@@ -360,11 +362,11 @@ class BackrestEffects(Section):
     normal_elastic: BackElastic | None = choice("elastic force", default=None)
     normal_dissipative: BackLoss | None = choice("loss", default=None)
     foam: Foam | None = choice("foam with plateau and densification", default=None)
-    foam_hysteresis: FoamHysteresis | None = choice("loss of foam without rate", default=None)
-    general_dissipative: BackGeneralLoss | None = choice("loss after the general law", default=None)
-    friction: BackFriction | None = choice("friction with true stick", default=None)
+    foam_hysteresis: FoamHysteresis | None = choice("rate-independent loss of foam", default=None)
+    general_dissipative: BackGeneralLoss | None = choice("loss by the general law", default=None)
+    friction: BackFriction | None = choice("friction with stick and slip", default=None)
     shell_modes: ShellModes | None = choice("back as a shell with many contact points", default=None)
-    contact_search: ContactSearch | None = choice("contact point that moves with the shell", default=None)
+    contact_search: ContactSearch | None = choice("moving contact point of the shell", default=None)
 
 
 class Effects(Section):

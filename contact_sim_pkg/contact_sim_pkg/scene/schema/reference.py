@@ -54,7 +54,8 @@ def _section(location: Location, entries: list[Entry]) -> str:
         title = f"### `{'.'.join(location)}`\n\n{catalog()[location].help}"
     else:
         title = f"### `{location[0]}` of `kind: {location[1]}`"
-    return "\n".join([title, "", HEAD, *(_row(entry) for entry in entries if entry.location[-1] != "kind")])
+    rows = [_row(entry) for entry in entries if entry.location[-1] != "kind"]
+    return "\n".join([title, "", HEAD, *rows] if rows else [title, "", "No further key."])
 
 
 def _row(entry: Entry) -> str:

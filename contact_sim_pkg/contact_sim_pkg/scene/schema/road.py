@@ -93,7 +93,7 @@ class Iso8608Road(Section):
         0.001, 1e4, "m", "longest wave of the profile; ISO 8608 ends at 90.9 m", default=100.0
     )
     texture: Texture | None = choice(
-        "fine surface that continues the spectrum; without it the road is even across", default=None
+        "isotropic surface that continues the spectrum; without it the road is even across", default=None
     )
 
 
@@ -123,7 +123,7 @@ class StepRoad(Section):
     """An even road that goes on at another height."""
 
     kind: Literal["step"]
-    position: float = number(-1e6, 1e6, "m", "where the middle of the step lies along the road", example=3.0)
+    position: float = number(-1e6, 1e6, "m", "middle of the step along the road", example=3.0)
     height: float = number(-0.5, 0.5, "m", "height behind the step; negative goes down", example=0.02)
     length: float = number(0.0, 100.0, "m", "length of the straight ramp; 0 is a sharp edge", default=0.0)
 
@@ -148,22 +148,20 @@ class OpenCrgRoad(Section):
         longest=500,
         example="road.crg",
     )
-    sha256: str | None = text(
-        "checksum of the file; another content is then refused", default=None, pattern="^[0-9a-f]{64}$"
-    )
+    sha256: str | None = text("checksum of the file; other content is refused", default=None, pattern="^[0-9a-f]{64}$")
     track_offset: float = number(
         -100.0, 100.0, "m", "line of travel, to the left of the reference line (v)", default=0.0
     )
-    start: float = number(-1e6, 1e6, "m", "where the wheel starts, from the beginning of the road (u)", default=0.0)
+    start: float = number(-1e6, 1e6, "m", "start of the wheel, from the beginning of the road (u)", default=0.0)
     missing_cells: MissingCells = choice(
         "cells without height: refuse the file, fill from their neighbours, or a hole", default="refuse"
     )
     hole_depth: float = number(0.0, 0.5, "m", "depth of a hole (missing_cells: hole)", default=0.05)
     border_u: Border = choice("before the beginning and after the end of the road", default="refuse")
-    border_v: Border = choice("left and right of the road, likewise", default="keep")
-    remove_mean: bool = choice("move the road so that its mean height is 0, else so that it begins at 0", default=True)
+    border_v: Border = choice("beyond the left and right side of the road", default="keep")
+    remove_mean: bool = choice("shift the mean height to 0, else the height at the start", default=True)
     file_settings: FileSettings = choice(
-        "options and modifiers that the file itself carries: refuse the file, apply, or ignore", default="refuse"
+        "options and modifiers of the file: refuse the file, apply, or ignore", default="refuse"
     )
 
 

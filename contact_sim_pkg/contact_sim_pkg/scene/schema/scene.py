@@ -61,32 +61,32 @@ class Scene(Section):
     """One scene: rig, excitation, effects, accuracy, outputs. Made by `load_scene`; valid as it stands."""
 
     name: str = text(
-        "name of the scene and of its bags; the file's name where none is given",
+        "name of the scene and of its bags; the name of the file by default",
         pattern=r"^[A-Za-z0-9_][A-Za-z0-9._-]*$",
         longest=100,
         example="scene",
     )
-    description: str = text("one line on what the scene shows", default="")
+    description: str = text("one line of description", default="")
     rig: RigName = choice(
         "tire on a road, occupant on a seat, both as a car, occupant against a backrest, on a seat and against its back, "
         "sphere that strikes a sample, rigid body on the ground, or roller on a shaft",
         example="seat",
     )
     duration: float = number(0.0, 3600.0, "s", "simulated time, a whole number of blocks", above=True, example=1.0)
-    seed: int = number(0, 2**53 - 1, "", "of all random numbers; the same seed gives the same bits", default=1)
+    seed: int = number(0, 2**53 - 1, "", "seed of all random numbers; the same seed gives the same bits", default=1)
     pace: Pace = choice(
-        "how fast blocks are sent: as the clock runs, a factor of it, or as fast as it goes; acts on nodes",
+        "rate of the blocks: real time, a factor of it, or as fast as possible; acts on nodes",
         default="realtime",
     )
     block_length: float = number(
         0.001, 0.1, "s", "simulated time of a block, a whole number of nanoseconds", default=0.01
     )
     accuracy: Accuracy = choice(
-        "asked relative error of forces and pressures, or the best that keeps up with the clock", default=0.01
+        "requested relative error of forces and pressures, or the best in real time", default=0.01
     )
     travel: Travel | None = choice("speed programme (rigs tire and car)", default=None, example={"speed": 10.0})
     road: Road | None = choice(
-        "road under the tire (rigs tire and car), or ridden by the roller beside its track (roller)",
+        "road under the tire (rigs tire and car), or added to the track of the roller (roller)",
         default=None,
         example={"kind": "flat"},
     )
@@ -100,13 +100,13 @@ class Scene(Section):
     backrest: Backrest | None = choice(
         "occupant against a seat back (rig backrest); defaults where absent", default=None
     )
-    impact: Impact | None = choice("sphere that strikes a sample (rig impact); defaults where absent", default=None)
+    impact: Impact | None = choice("impact of a sphere on a sample (rig impact); defaults where absent", default=None)
     block: Block | None = choice("rigid body over the ground (rig block); defaults where absent", default=None)
     roller: RollerRig | None = choice("roller on a rotating shaft (rig roller); defaults where absent", default=None)
     effects: Effects = choice("contact → effect → its parameters", example={"seat": {"normal_elastic": {}}})
     outputs: Outputs = Field(default_factory=Outputs, description="rates of the outputs")
     integrator: Integrator = Field(default_factory=Integrator, description="tolerance of the time integration")
-    limits: Limits = Field(default_factory=Limits, description="caps")
+    limits: Limits = Field(default_factory=Limits, description="limits of memory")
 
     _file: str = PrivateAttr(default="scene")
 

@@ -16,7 +16,7 @@ SHARPEST = 1000.0
 
 def _sample_rate() -> float:
     sample_rate: float = number(
-        10.0, 1e5, "Hz", "samples a second that are sent to the rig, straight between them", default=1000.0
+        10.0, 1e5, "Hz", "samples a second sent to the rig, joined by straight lines", default=1000.0
     )
     return sample_rate
 
@@ -82,7 +82,7 @@ class HalfSine(Section):
         -SHARPEST, SHARPEST, "m/s²", "peak of the acceleration; negative is downwards or backwards", example=10.0
     )
     duration: float = number(1e-4, 10.0, "s", "length of the shock", example=0.05)
-    start: float = number(0.0, 3600.0, "s", "when the shock begins", default=0.5)
+    start: float = number(0.0, 3600.0, "s", "start of the shock", default=0.5)
     axis: Axis = _axis()
     sample_rate: float = _sample_rate()
 
@@ -102,22 +102,18 @@ class Recorded(Section):
         longest=500,
         example="floor.csv",
     )
-    sha256: str | None = text(
-        "checksum of the file; another content is then refused", default=None, pattern="^[0-9a-f]{64}$"
-    )
+    sha256: str | None = text("checksum of the file; other content is refused", default=None, pattern="^[0-9a-f]{64}$")
     rate: float | None = number(1.0, 1e6, "Hz", "sampling rate of the file; never guessed", default=None)
     time_column: str | None = text("column of time in seconds", default=None, longest=100)
     vertical_column: str = text("column of the upward acceleration in m/s²", default="z", longest=100)
     forward_column: str = text("column of the forward acceleration in m/s²", default="x", longest=100)
     unit: AccelerationUnit | None = choice(
-        "unit of the accelerations where the file's header names none; null: m/s^2, refused where gravity says otherwise",
+        "unit of the accelerations where the header has none; null: m/s^2, refused if gravity contradicts it",
         default=None,
     )
-    start: float = number(0.0, 1e6, "s", "where in the file the run begins", default=0.0)
-    beyond: Beyond = choice(
-        "after the end of the file: refuse to go there, no vibration, or from its beginning", default="refuse"
-    )
-    correct_tilt: bool = choice("turn the sensor's axes so that the mean acceleration is vertical", default=False)
+    start: float = number(0.0, 1e6, "s", "start of the run in the file", default=0.0)
+    beyond: Beyond = choice("beyond the end of the file: refused, no vibration, or repeated", default="refuse")
+    correct_tilt: bool = choice("rotate the sensor axes so that the mean acceleration is vertical", default=False)
     sample_rate: float = _sample_rate()
 
 
