@@ -4,7 +4,7 @@ import re
 from pathlib import Path
 
 from contact_sim_pkg.bag.topics import TOPICS
-from contact_sim_pkg.scene.rigs import RIGS
+from contact_sim_pkg.records.registry import rigs
 from contact_sim_pkg.scene.schema.effect_rules import EFFECT_RULES
 
 TEXT = (Path(__file__).resolve().parents[2] / "docs" / "glossary.md").read_text(encoding="utf-8")
@@ -28,7 +28,7 @@ def test_every_message_of_a_contact_stands_in_the_glossary():
     }
     plain = {"force", "contact"}  # of everyday language
     assert not leaves - plain - NAMES
-    assert not set(RIGS) - {"car", "seat", "block", "impact", "roller", "backrest"} - NAMES
+    assert not set(rigs()) - {"car", "seat", "block", "impact", "roller", "backrest"} - NAMES
 
 
 def test_a_term_has_one_line_with_meaning_and_source():

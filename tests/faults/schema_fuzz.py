@@ -24,6 +24,7 @@ import numpy
 from contact_sim_pkg.bag.messages import decode_contact_force, decode_energy, decode_motion
 from contact_sim_pkg.cli.main import refusal
 from contact_sim_pkg.compiled.jit import closed
+from contact_sim_pkg.records.registry import rigs
 from contact_sim_pkg.run.rigs import forecast_of, make_simulation
 from contact_sim_pkg.run.sources import make_sources
 from contact_sim_pkg.run.work import estimated_work, refuse_long
@@ -31,7 +32,6 @@ from contact_sim_pkg.scene.load import load_scene
 from contact_sim_pkg.scene.overrides import set_value
 from contact_sim_pkg.scene.resolve import resolve
 from contact_sim_pkg.scene.resolved_scene import ResolvedScene
-from contact_sim_pkg.scene.rigs import RIGS
 from contact_sim_pkg.scene.schema.catalog import Entry, catalog, without_kinds
 
 BLOCKS = 2  # the second begins with the energies after the first
@@ -145,7 +145,7 @@ def _path_in(entry: Entry, data: dict[str, Any], rig: str) -> tuple[str, ...] | 
     path = tuple(str(part) for part in without_kinds(entry.location))
     if entry.kind not in ("number", "integer", "list"):
         return None
-    if path[0] == "effects" and path[1] not in RIGS[rig].contacts:  # type: ignore[index]
+    if path[0] == "effects" and path[1] not in rigs()[rig].contacts:  # type: ignore[index]
         return None
     section: Any = data
     for part in path[:-1]:

@@ -17,10 +17,10 @@ from contact_sim_pkg.bag.topics import TOPICS
 from contact_sim_pkg.bag.typestore import PACKAGE, definition
 from contact_sim_pkg.nodes.processes.sros2_policy import LIFECYCLE, OWN_SERVICES, PUBLISHED, SUBSCRIBED
 from contact_sim_pkg.nodes.protocol.states import DONE, FAULT, LOSS, REFUSED
+from contact_sim_pkg.records.registry import rigs
 from contact_sim_pkg.run.rigs import result_topics
 from contact_sim_pkg.scene.renamed_keys import RENAMED
 from contact_sim_pkg.scene.resolved_scene import ResolvedScene
-from contact_sim_pkg.scene.rigs import RIGS, RigName
 from contact_sim_pkg.scene.schema.effect_rules import EFFECT_RULES
 
 BEGIN = "<!-- tables made from the code: begin -->"
@@ -83,27 +83,27 @@ def _appearances() -> dict[str, str]:
     needed: dict[
         str, dict[str, list[str]]
     ] = {}  # topic -> rig -> effects or key, one of which it needs; empty for none
-    for rig in RIGS:
+    for rig in rigs():
         for topic, condition in _conditions(rig):
             needed.setdefault(topic, {}).setdefault(rig, []).extend([condition] if condition else [])
     for topic, conditions in needed.items():
         by_condition: dict[str, list[str]] = {}
         for name, named in conditions.items():
             by_condition.setdefault(" or ".join(named), []).append(name)
-        rows[topic] = "; ".join(_rigs(rigs, condition) for condition, rigs in by_condition.items())
+        rows[topic] = "; ".join(_rigs(names, condition) for condition, names in by_condition.items())
     return rows
 
 
-def _rigs(rigs: list[str], condition: str) -> str:
-    named = "every rig" if rigs == [*RIGS] else f"rig{'s' * (len(rigs) > 1)} {', '.join(rigs)}"
+def _rigs(names: list[str], condition: str) -> str:
+    named = "every rig" if names == [*rigs()] else f"rig{'s' * (len(names) > 1)} {', '.join(names)}"
     return f"{named} with {condition}" if condition else named
 
 
-def _conditions(rig: RigName) -> Iterator[tuple[str, str]]:
+def _conditions(rig: str) -> Iterator[tuple[str, str]]:
     """Topics of one rig, each with what it needs beside the rig; one effect or key is switched on at a time."""
     base = _published(rig)
     yield from ((topic, "") for topic in base)
-    for contact in RIGS[rig].contacts:
+    for contact in rigs()[rig].contacts:
         for effect, rule in EFFECT_RULES.items():
             if contact in rule.contacts:
                 added = [topic for topic in _published(rig, contact, effect) if topic not in base]
@@ -111,8 +111,8 @@ def _conditions(rig: RigName) -> Iterator[tuple[str, str]]:
     yield from ((topic, "`impact.course_samples`") for topic in _published(rig, course=1) if topic not in base)
 
 
-def _published(rig: RigName, contact: str = "", effect: str = "", course: int = 0) -> list[str]:
-    effects: dict[str, dict[str, Any]] = {name: {} for name in RIGS[rig].contacts}
+def _published(rig: str, contact: str = "", effect: str = "", course: int = 0) -> list[str]:
+    effects: dict[str, dict[str, Any]] = {name: {} for name in rigs()[rig].contacts}
     if effect:
         effects[contact][effect] = {}
     return result_topics(ResolvedScene({"rig": rig, "effects": effects, "impact": {"course_samples": course}}))

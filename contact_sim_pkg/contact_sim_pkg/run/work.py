@@ -12,9 +12,9 @@ import math
 from collections.abc import Iterator
 from typing import Any, NamedTuple
 
+from contact_sim_pkg.records.registry import rigs
 from contact_sim_pkg.scene.errors import Fault, SceneError
 from contact_sim_pkg.scene.lattice import GRAVITY, effects_at, occupant_mass
-from contact_sim_pkg.scene.rigs import RIGS
 from contact_sim_pkg.scene.timing import make_timing
 
 __all__ = ["BOUND", "Work", "estimated_work", "refuse_long"]
@@ -87,7 +87,7 @@ def _steps(scene: dict[str, Any]) -> Iterator[Work]:
         return
     timing = make_timing(scene, True)
     yield Work("segments between two samples of drive or output", duration / timing.segment_length, STEP_COST)
-    for contact in RIGS[rig].contacts:
+    for contact in rigs()[rig].contacts:
         effects, cost = effects_at(scene, contact), STEP_COST
         shell = effects.get("shell_modes")
         if shell is not None:
@@ -153,7 +153,7 @@ def _tangential(compliant: dict[str, Any]) -> dict[str, float]:
 
 def _fields(scene: dict[str, Any]) -> Iterator[Work]:
     """Cells of the pressure fields, solved as often as they are published at least."""
-    for contact in RIGS[scene["rig"]].contacts:
+    for contact in rigs()[scene["rig"]].contacts:
         field = effects_at(scene, contact).get("contact_field")
         if field is not None:
             solved = scene["duration"] * scene["outputs"]["field_rate"]

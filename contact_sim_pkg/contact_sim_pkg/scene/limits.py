@@ -8,10 +8,10 @@ from pathlib import Path
 from typing import NamedTuple
 
 from contact_sim_pkg.files import FileRefusedError, open_regular_file
+from contact_sim_pkg.records.registry import rigs
 from contact_sim_pkg.scene.errors import Breach
 from contact_sim_pkg.scene.files import InputFile, candidates, find_file, input_files
 from contact_sim_pkg.scene.resolved_scene import sha256_of
-from contact_sim_pkg.scene.rigs import RIGS
 from contact_sim_pkg.scene.schema.accuracy import Contact, cells_of
 from contact_sim_pkg.scene.schema.road import Iso8608Road
 from contact_sim_pkg.scene.schema.scene import Scene
@@ -110,7 +110,7 @@ def _too_much(needs: list[Need], total: int, limit: float) -> Breach:
 
 
 def _grids(scene: Scene) -> Iterator[tuple[str, int, int]]:
-    for contact in RIGS[scene.rig].contacts:
+    for contact in rigs()[scene.rig].contacts:
         effects = getattr(scene.effects, contact)
         field = getattr(effects, "contact_field", None)
         if field is not None:

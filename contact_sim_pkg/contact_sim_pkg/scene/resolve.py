@@ -11,6 +11,7 @@ from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
+from contact_sim_pkg.records.registry import rigs
 from contact_sim_pkg.rigs.backrest.schema import complete_backrest
 from contact_sim_pkg.rigs.impact.schema import complete_impact
 from contact_sim_pkg.scene.errors import Fault, SceneError
@@ -18,7 +19,6 @@ from contact_sim_pkg.scene.files import find_file, input_files
 from contact_sim_pkg.scene.overrides import Override, apply
 from contact_sim_pkg.scene.renamed_keys import take_new_names
 from contact_sim_pkg.scene.resolved_scene import ResolvedScene, sha256_of
-from contact_sim_pkg.scene.rigs import RIGS
 from contact_sim_pkg.scene.schema.accuracy import Contact, asked, cells_of, integration_tolerance, rung_for
 from contact_sim_pkg.scene.schema.clock import whole_duration
 from contact_sim_pkg.scene.schema.scene import Scene
@@ -101,14 +101,14 @@ def explicit(scene: Scene) -> dict[str, Any]:
     """The scene as a plain dict with every default and everything that follows from `accuracy` written out."""
     data = _dump(scene)
     data["duration"] = whole_duration(scene)
-    for contact in RIGS[scene.rig].contacts:
+    for contact in rigs()[scene.rig].contacts:
         data.setdefault(contact, {})  # the schema fills in its defaults
         _fill_effects(data["effects"][contact], scene.accuracy, contact)
     if scene.rig in _COMPLETED:
         _COMPLETED[scene.rig](data)
     impacts = scene.rig == "block" and data["effects"]["block"].get("compliant_contact") is None
     data["integrator"].setdefault("relative_tolerance", integration_tolerance(scene.accuracy, impacts=impacts))
-    if any((data["effects"][contact] or {}).get("contact_field") is not None for contact in RIGS[scene.rig].contacts):
+    if any((data["effects"][contact] or {}).get("contact_field") is not None for contact in rigs()[scene.rig].contacts):
         data["integrator"].setdefault("coupling_tolerance", asked(scene.accuracy))
     return _ordered(data)
 

@@ -1,1 +1,18 @@
-"""Occupant on a cushion and against a seat back under one body."""
+"""Occupant on a cushion and against a seat back under one body. Rig occupant."""
+
+from contact_sim_pkg.records.rig import Rig
+from contact_sim_pkg.rigs.backrest import backrest_topics
+from contact_sim_pkg.rigs.vehicle.topics import vehicle_topics
+
+__all__ = ["RIGS"]
+
+RIGS = (
+    Rig(
+        name="occupant",
+        contacts=("seat", "backrest"),
+        needs=("vibration",),
+        takes=("seat", "backrest"),
+        simulation=f"{__name__}.simulation:OccupantSimulation",
+        topics=lambda scene: [*vehicle_topics(scene, ("seat",)), *backrest_topics(scene)],
+    ),
+)

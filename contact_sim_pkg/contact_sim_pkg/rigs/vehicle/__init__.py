@@ -1,1 +1,35 @@
 """Quarter car and seat, alone or together: rigs tire, seat and car."""
+
+from contact_sim_pkg.records.rig import Rig
+from contact_sim_pkg.rigs.vehicle.topics import vehicle_topics
+
+__all__ = ["RIGS"]
+
+_SIMULATION = f"{__name__}.simulation:Simulation"
+
+RIGS = (
+    Rig(
+        name="tire",
+        contacts=("tire",),
+        needs=("travel", "road"),
+        takes=("slip", "tire"),
+        simulation=_SIMULATION,
+        topics=lambda scene: vehicle_topics(scene, ("tire",)),
+    ),
+    Rig(
+        name="seat",
+        contacts=("seat",),
+        needs=("vibration",),
+        takes=("seat",),
+        simulation=_SIMULATION,
+        topics=lambda scene: vehicle_topics(scene, ("seat",)),
+    ),
+    Rig(
+        name="car",
+        contacts=("tire", "seat"),
+        needs=("travel", "road"),
+        takes=("slip", "vibration", "tire", "seat"),
+        simulation=_SIMULATION,
+        topics=lambda scene: vehicle_topics(scene, ("tire", "seat")),
+    ),
+)

@@ -6,8 +6,8 @@ from collections.abc import Iterator
 from itertools import combinations
 from typing import NamedTuple
 
+from contact_sim_pkg.records.registry import contacts, rigs
 from contact_sim_pkg.scene.errors import Breach
-from contact_sim_pkg.scene.rigs import CONTACTS, RIGS
 from contact_sim_pkg.scene.schema.scene import Scene
 
 
@@ -81,13 +81,13 @@ def effects_of(scene: Scene, contact: str) -> list[str]:
 
 def effect_breaches(scene: Scene) -> Iterator[Breach]:
     """Contacts that the rig lacks or leaves without elastic force; effects without what they need, or that exclude."""
-    contacts = RIGS[scene.rig].contacts
-    for contact in CONTACTS:
+    own = rigs()[scene.rig].contacts
+    for contact in contacts():
         where = f"effects.{contact}"
-        if contact not in contacts:
+        if contact not in own:
             if getattr(scene.effects, contact) is not None:
                 yield Breach(
-                    where, f"the rig {scene.rig} has no contact {contact}; it has {' and '.join(contacts)}", ("rig",)
+                    where, f"the rig {scene.rig} has no contact {contact}; it has {' and '.join(own)}", ("rig",)
                 )
             continue
         named = effects_of(scene, contact)

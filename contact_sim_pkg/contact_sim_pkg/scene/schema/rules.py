@@ -5,13 +5,13 @@ from __future__ import annotations
 from collections.abc import Iterator
 from itertools import chain, pairwise
 
+from contact_sim_pkg.records.registry import contacts, refused_sections, rigs
 from contact_sim_pkg.rigs.backrest.schema_rules import backrest_breaches
 from contact_sim_pkg.rigs.body.schema_rules import block_breaches
 from contact_sim_pkg.rigs.impact.schema_rules import impact_breaches
 from contact_sim_pkg.rigs.roller.schema_rules import roller_breaches
 from contact_sim_pkg.rigs.vehicle.tire.schema_rules import slip_breaches, tire_effect_breaches
 from contact_sim_pkg.scene.errors import Breach
-from contact_sim_pkg.scene.rigs import CONTACTS, RIGS, refused_sections
 from contact_sim_pkg.scene.schema.catalog import show
 from contact_sim_pkg.scene.schema.clock import clock_breaches
 from contact_sim_pkg.scene.schema.road import BumpRoad, CleatRoad, Iso8608Road, PotholeRoad
@@ -42,7 +42,7 @@ def breaches(scene: Scene) -> Iterator[Breach]:
 
 
 def _sections(scene: Scene) -> Iterator[Breach]:
-    for name in RIGS[scene.rig].needs:
+    for name in rigs()[scene.rig].needs:
         if getattr(scene, name) is None:
             yield Breach(name, f"is missing; the rig {scene.rig} needs it", ("rig",))
     for name in refused_sections(scene.rig):
@@ -159,7 +159,7 @@ def _occupant(scene: Scene) -> Iterator[Breach]:
 
 
 def _contacts(scene: Scene) -> Iterator[Breach]:
-    for contact in CONTACTS:
+    for contact in contacts():
         effects, where = getattr(scene.effects, contact), f"effects.{contact}"
         loss = getattr(effects, "normal_dissipative", None)
         if loss is not None and hasattr(loss, "damping"):

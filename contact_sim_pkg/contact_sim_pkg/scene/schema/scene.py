@@ -6,20 +6,25 @@ from here.
 
 from __future__ import annotations
 
-from typing import Annotated, Literal, TypeAlias
+from typing import TYPE_CHECKING, Annotated, Literal, TypeAlias
 
 from pydantic import Field, PrivateAttr
 
+from contact_sim_pkg.records.registry import rig_names
 from contact_sim_pkg.rigs.backrest.schema import Backrest
 from contact_sim_pkg.rigs.body.schema import Block
 from contact_sim_pkg.rigs.impact.schema import Impact
 from contact_sim_pkg.rigs.roller.schema import RollerRig
 from contact_sim_pkg.rigs.vehicle.schema import Seat, Tire
-from contact_sim_pkg.scene.rigs import RigName
 from contact_sim_pkg.scene.schema.effects import Effects
 from contact_sim_pkg.scene.schema.fields import Section, choice, number, text
 from contact_sim_pkg.scene.schema.road import Road, Slip, Travel
 from contact_sim_pkg.scene.schema.vibration import Vibration
+
+if TYPE_CHECKING:
+    RigName: TypeAlias = str
+else:
+    RigName = Literal[rig_names()]
 
 Accuracy: TypeAlias = Annotated[float, Field(ge=1e-8, le=0.1)] | Literal["realtime"]
 Pace: TypeAlias = Annotated[float, Field(ge=0.001, le=1000.0)] | Literal["realtime", "max"]

@@ -27,7 +27,6 @@ from contact_sim_pkg.rigs.vehicle.studies import accuracy_integrator as accuracy
 from contact_sim_pkg.rigs.vehicle.studies.scene_drive import load_resolved
 from contact_sim_pkg.scene.errors import Fault, SceneError
 from contact_sim_pkg.scene.resolved_scene import ResolvedScene
-from contact_sim_pkg.scene.rigs import RigName
 from contact_sim_pkg.studies.accuracy.scene_plot import write_plot
 from contact_sim_pkg.studies.accuracy.scene_table import sections
 
@@ -51,7 +50,7 @@ def _named(contact: str, part: Part) -> Part:
 
 
 _BACKREST: tuple[Part, ...] = (backrest.tolerance_rows, backrest.mode_rows)
-PARTS: dict[RigName, tuple[Part, ...]] = {
+PARTS: dict[str, tuple[Part, ...]] = {
     "tire": _VEHICLE,
     "seat": _VEHICLE,
     "car": _VEHICLE,

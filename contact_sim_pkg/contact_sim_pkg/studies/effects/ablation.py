@@ -10,13 +10,13 @@ import statistics
 from collections.abc import Callable
 from typing import Any
 
+from contact_sim_pkg.records.registry import rigs
 from contact_sim_pkg.records.table import Section
 from contact_sim_pkg.rigs.vehicle.studies.scene_drive import load_resolved, without
 from contact_sim_pkg.run.errors import RunError
 from contact_sim_pkg.scene.errors import SceneError
 from contact_sim_pkg.scene.overrides import set_value
 from contact_sim_pkg.scene.resolve import ResolvedScene, read_explicit
-from contact_sim_pkg.scene.rigs import RIGS
 from contact_sim_pkg.scene.schema.effect_rules import EFFECT_RULES, carrier_of
 from contact_sim_pkg.studies.effects.ablation_changes import changes_of
 from contact_sim_pkg.studies.effects.ablation_rules import is_needed
@@ -81,7 +81,7 @@ def study(scene_name: str, progress: Callable[[str], None] | None = None) -> lis
     tell = progress or (lambda text: None)
     scene = load_resolved(scene_name)
     rows = []
-    for contact in RIGS[scene.data["rig"]].contacts:
+    for contact in rigs()[scene.data["rig"]].contacts:
         for effect, rule in EFFECT_RULES.items():
             if contact not in rule.contacts:
                 continue

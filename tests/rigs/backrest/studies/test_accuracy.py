@@ -3,11 +3,11 @@
 import numpy
 import pytest
 
+from contact_sim_pkg.records.registry import rigs
 from contact_sim_pkg.rigs.backrest.reference import SlappingMass, slapping_mass
 from contact_sim_pkg.rigs.backrest.studies import accuracy as accuracy_cost_backrest
 from contact_sim_pkg.rigs.backrest.studies.drive import drive_of, fast_run, slow_run
 from contact_sim_pkg.rigs.vehicle.studies.scene_drive import load_resolved
-from contact_sim_pkg.scene.rigs import RIGS
 from contact_sim_pkg.studies.accuracy import scene_study as accuracy_cost
 
 SMALL_SHELL = (
@@ -88,7 +88,7 @@ def test_more_modes_of_a_shell_come_nearer_to_the_most():
 
 
 def test_every_rig_under_an_integrator_has_its_parts():
-    assert set(accuracy_cost.PARTS) == set(RIGS)
+    assert set(accuracy_cost.PARTS) == set(rigs())
     assert all(parts for parts in accuracy_cost.PARTS.values())
 
 
