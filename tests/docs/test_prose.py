@@ -95,3 +95,11 @@ def test_modules_that_a_page_runs_are_there(path):
         ROOT / ("contact_sim_pkg" if name.startswith("contact") else "") / name.replace(".", "/") for name in modules
     ]
     assert not [file for file in files if not file.with_suffix(".py").exists() and not (file / "__main__.py").exists()]
+
+
+@pytest.mark.parametrize("path", [path for path in PAGES if "rigs" in path.parts], ids=str)
+def test_the_page_of_a_rig_lists_files_that_are_there(path):
+    files = path.read_text(encoding="utf-8").partition("\n## Files\n")[2]
+    listed = re.findall(r"^\| `([^`]+)` \|", files, flags=re.MULTILINE)
+    assert listed
+    assert not [name for name in listed if not (path.parent / name).exists()]
