@@ -7,16 +7,18 @@ from pathlib import Path
 import numpy
 import pytest
 
-from contact_sim_pkg.bag import messages
+from contact_sim_pkg.bag.messages import encode
 from contact_sim_pkg.bag.metadata import recorded_topics
 from contact_sim_pkg.bag.topics import full_name
 from contact_sim_pkg.bag.writer import BagWriter
-from contact_sim_pkg.excitation.blocks import RoadPatch
+from contact_sim_pkg.records.messages import ContactForce, ContactPatch, RoadPatch, String
+from contact_sim_pkg.run.wrench import wrench_of
 
 Encoded = list[tuple[str, int, bytes]]
 
 BLOCK = 10_000_000  # [ns]
 TOPICS = ("bench/scene", "road/patch", "tire/force", "tire/wrench", "tire/patch")
+COLUMNS = ("normal", "tangential", "approach", "effective_height")
 
 
 def encoded_block(block: int) -> Encoded:
@@ -24,16 +26,26 @@ def encoded_block(block: int) -> Encoded:
     stamp = block * BLOCK
     rng = numpy.random.default_rng(block)
     road = RoadPatch(
-        block, 0.1 * block, 0.1 * (block + 1), 3 * block - 2, 0.01, 0.02, rng.random((6, 4), numpy.float32)
+        block=block,
+        travel_start=0.1 * block,
+        travel_end=0.1 * (block + 1),
+        first_row=3 * block - 2,
+        cell_x=0.01,
+        cell_y=0.02,
+        height=rng.random((6, 4), numpy.float32),
     )
-    force = messages.ContactForceBlock(block, 1e-3, *rng.random((4, 10)))
-    wrench = messages.Wrench((float(block), 0.5, 2.0), (0.0, -1.0, 3.0))
-    field = messages.PatchField(block, *rng.random(14), rng.random((4, 3), numpy.float32))
+    force = ContactForce(block=block, sample_period=1e-3, **dict(zip(COLUMNS, rng.random((4, 10)), strict=True)))
+    wrench = wrench_of((float(block), 0.5, 2.0), (0.0, -1.0, 3.0))
+    field = ContactPatch(
+        **dict(zip(ContactPatch._fields[1:-1], rng.random(14), strict=True)),
+        block=block,
+        pressure=rng.random((4, 3), numpy.float32),
+    )
     return [
-        ("road/patch", stamp, messages.encode_road_patch(road, stamp)),
-        ("tire/force", stamp, messages.encode_contact_force(force, stamp, "tire_contact")),
-        ("tire/wrench", stamp, messages.encode_wrench(wrench, stamp, "tire_contact")),
-        ("tire/patch", stamp, messages.encode_contact_patch(field, stamp, "tire_contact")),
+        ("road/patch", stamp, encode(road, stamp)),
+        ("tire/force", stamp, encode(force, stamp, "tire_contact")),
+        ("tire/wrench", stamp, encode(wrench, stamp, "tire_contact")),
+        ("tire/patch", stamp, encode(field, stamp, "tire_contact")),
     ]
 
 
@@ -41,7 +53,7 @@ def encoded_block(block: int) -> Encoded:
 def encoded() -> Encoded:
     """A scene and 50 blocks of four messages."""
     blocks = [message for block in range(50) for message in encoded_block(block)]
-    return [("bench/scene", 0, messages.encode_scene("rig: tire\n")), *blocks]
+    return [("bench/scene", 0, encode(String(data="rig: tire\n"))), *blocks]
 
 
 @pytest.fixture

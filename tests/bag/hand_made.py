@@ -7,8 +7,9 @@ from typing import Any
 
 from mcap.writer import CompressionType, Writer
 
-from contact_sim_pkg.bag.messages import encode_scene, encode_vibration
+from contact_sim_pkg.bag.messages import encode
 from contact_sim_pkg.bag.metadata import RECORD, recorded_topics, sealed
+from contact_sim_pkg.records.messages import String
 from contact_sim_pkg.run.bag_content import attachments
 from contact_sim_pkg.run.sources import make_sources
 from contact_sim_pkg.scene.load import load_scene
@@ -38,9 +39,9 @@ def seat_ride(blocks: int = 2, **changes: Any) -> Content:
     scene = resolve(load_scene("seat_ride", [set_value(f"duration={blocks * 0.01}")]))
     source = make_sources(scene)[VIBRATION]
     stamps = [number * BLOCK for number in range(blocks)]
-    sent = [(VIBRATION, stamp, encode_vibration(source.block(stamp // BLOCK), stamp)) for stamp in stamps]
+    sent = [(VIBRATION, stamp, encode(source.block(stamp // BLOCK), stamp)) for stamp in stamps]
     texts = attachments(scene, {VIBRATION: source.describe()})
-    return Content(texts, [("bench/scene", 0, encode_scene(scene.to_yaml())), *sent], **changes)
+    return Content(texts, [("bench/scene", 0, encode(String(data=scene.to_yaml()))), *sent], **changes)
 
 
 def write(directory: Path, content: Content) -> Path:

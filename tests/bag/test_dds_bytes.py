@@ -4,8 +4,9 @@ import time
 
 import pytest
 
-from contact_sim_pkg.bag import messages
+from contact_sim_pkg.bag.messages import encode
 from contact_sim_pkg.bag.typestore import type_hash
+from contact_sim_pkg.run.wrench import wrench_of
 
 rclpy = pytest.importorskip("rclpy", reason="ROS 2 is not sourced here")
 
@@ -27,8 +28,8 @@ def test_a_raw_subscription_gets_the_encoded_bytes(monkeypatch: pytest.MonkeyPat
         deadline = time.monotonic() + 10.0
         while not publisher.get_subscription_count() and time.monotonic() < deadline:
             executor.spin_once(timeout_sec=0.05)
-        wrench = messages.Wrench((1.0, 2.0, 3.0), (4.0, 5.0, 6.0))
-        sent = [messages.encode_wrench(wrench, 10**9 + length, "t" * length) for length in range(6)]
+        wrench = wrench_of((1.0, 2.0, 3.0), (4.0, 5.0, 6.0))
+        sent = [encode(wrench, 10**9 + length, "t" * length) for length in range(6)]
         for data in sent:
             publisher.publish(data)
         while len(received) < len(sent) and time.monotonic() < deadline:

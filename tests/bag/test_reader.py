@@ -8,13 +8,14 @@ import pytest
 from rosbags.rosbag2 import StoragePlugin, Writer
 from rosbags.typesys import Stores, get_types_from_msg, get_typestore
 
-from contact_sim_pkg.bag import messages
 from contact_sim_pkg.bag.errors import BagError
 from contact_sim_pkg.bag.mcap.recover import recover
+from contact_sim_pkg.bag.messages import decode
 from contact_sim_pkg.bag.reader import open_bag
 from contact_sim_pkg.bag.topics import full_name
 from contact_sim_pkg.bag.versions import installed_versions, version_differences, versions_of
 from contact_sim_pkg.bag.writer import BagWriter
+from contact_sim_pkg.records.messages import ContactForce
 
 Record = Callable[..., Path]
 Encoded = list[tuple[str, int, bytes]]
@@ -46,7 +47,7 @@ def test_scene_texts_and_end_come_from_the_bag(record: Record) -> None:
 
 def test_columns_hold_the_values_that_were_written(record: Record, encoded: Encoded) -> None:
     bag = open_bag(record())
-    forces = [messages.decode_contact_force(data) for topic, _, data in encoded if topic == "tire/force"]
+    forces = [decode(ContactForce, data) for topic, _, data in encoded if topic == "tire/force"]
     columns = bag.columns("tire/force")
     assert columns["normal"].shape == (50, 10)
     assert numpy.array_equal(columns["normal"], numpy.array([force.normal for force in forces]))

@@ -11,7 +11,8 @@ from rosbags.typesys import Stores, get_types_from_msg, get_typestore
 
 from contact_sim_pkg.bag.errors import BagError
 from contact_sim_pkg.bag.topics import TOPICS
-from contact_sim_pkg.bag.typestore import STANDARD, definition, store_of_definition, type_hash
+from contact_sim_pkg.bag.typestore import definition, store_of_definition, type_hash
+from contact_sim_pkg.records.definitions import STANDARD
 
 OURS = sorted({topic.type for topic in TOPICS.values() if topic.type.startswith("contact_msgs_defs")})
 

@@ -21,9 +21,9 @@ from typing import Any, NamedTuple
 
 import numpy
 
-from contact_sim_pkg.bag.messages import decode_contact_force, decode_energy, decode_motion
 from contact_sim_pkg.cli.main import refusal
 from contact_sim_pkg.compiled.jit import closed
+from contact_sim_pkg.records.messages import BodyMotion, ContactForce, EnergyLedger
 from contact_sim_pkg.records.registry import rigs
 from contact_sim_pkg.run.rigs import forecast_of, make_simulation
 from contact_sim_pkg.run.sources import make_sources
@@ -230,8 +230,8 @@ def _judged(messages: list[tuple[str, int, bytes]]) -> tuple[str, str]:
     """`right`, or the rule that the messages break."""
     worst = 0.0
     for topic, _stamp, data in messages:
-        decode: Any = {"bench/energy": decode_energy, "bench/motion": decode_motion}.get(topic)
-        decode = decode_contact_force if topic.endswith("/force") else decode
+        decode: Any = {"bench/energy": EnergyLedger, "bench/motion": BodyMotion}.get(topic)
+        decode = ContactForce if topic.endswith("/force") else decode
         if decode is None:
             continue
         value = decode(data)

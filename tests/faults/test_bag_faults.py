@@ -22,10 +22,11 @@ from contact_sim_pkg.bag.errors import BagError, BagWriteError, CorruptChunkErro
 from contact_sim_pkg.bag.mcap import append_file
 from contact_sim_pkg.bag.mcap.append_file import AppendFile
 from contact_sim_pkg.bag.mcap.recover import recover
-from contact_sim_pkg.bag.messages import Energy, encode_energy
+from contact_sim_pkg.bag.messages import encode
 from contact_sim_pkg.bag.metadata import recorded_topics
 from contact_sim_pkg.bag.reader import open_bag
 from contact_sim_pkg.bag.writer import BagWriter
+from contact_sim_pkg.records.messages import EnergyLedger
 
 PLENTY = 10**12
 ENERGY = ("bench/energy",)
@@ -50,7 +51,9 @@ def new_writer(directory: Path, clock: Callable[[], float], free: Callable[[], i
 
 def energy(block: int) -> bytes:
     rng = random.Random(block)  # incompressible values, so that files grow as they would in a run
-    return encode_energy(Energy(block, *(rng.random() for _ in range(6))), block * 10_000_000)
+    return encode(
+        EnergyLedger(**{name: rng.random() for name in EnergyLedger._fields} | {"block": block}), block * 10_000_000
+    )
 
 
 def fill(writer: BagWriter, clock: Clock, blocks: range) -> None:
@@ -86,15 +89,17 @@ def chunk_spans(file: Path) -> list[tuple[int, int]]:
 CHILD = """
 import sys, time
 from pathlib import Path
-from contact_sim_pkg.bag.messages import Energy, encode_energy
+from contact_sim_pkg.bag.messages import encode
 from contact_sim_pkg.bag.metadata import recorded_topics
 from contact_sim_pkg.bag.writer import BagWriter
+from contact_sim_pkg.records.messages import EnergyLedger
 
+ledger = EnergyLedger(**dict.fromkeys(EnergyLedger._fields, 0.0) | {"block": 0})
 writer = BagWriter(Path(sys.argv[1]), recorded_topics(("bench/energy",)), reserve_bytes=0)
 start = time.monotonic_ns()
 while True:
     now = time.monotonic_ns()
-    data = encode_energy(Energy(0, *[0.0] * 6), now - start)
+    data = encode(ledger, now - start)
     writer.write("bench/energy", now - start, data)
     sys.stdout.buffer.write((now - start).to_bytes(8, "little"))
     sys.stdout.buffer.flush()

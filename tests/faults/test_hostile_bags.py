@@ -16,10 +16,11 @@ from tests.report.rolling_bag import rolling_bag
 from tests.report.synthetic_bag import car_bag
 
 from contact_sim_pkg.bag.errors import BagError
-from contact_sim_pkg.bag.messages import encode_scene
+from contact_sim_pkg.bag.messages import encode
 from contact_sim_pkg.bag.typestore import store_of_definition
 from contact_sim_pkg.bag.writer import BagWriter
 from contact_sim_pkg.cli.main import main as bench
+from contact_sim_pkg.records.messages import String
 from contact_sim_pkg.run import offline
 
 SECONDS = 20.0  # for one command, on a busy machine
@@ -95,7 +96,7 @@ def with_text(ride, field, text):
         return dataclasses.replace(
             ride,
             texts={**ride.texts, "scene": text},
-            messages=[("bench/scene", 0, encode_scene(text)), *ride.messages[1:]],
+            messages=[("bench/scene", 0, encode(String(data=text))), *ride.messages[1:]],
         )
     if field == "quality":
         return dataclasses.replace(ride, quality=text)

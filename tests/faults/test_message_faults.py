@@ -6,7 +6,7 @@ import numpy
 import pytest
 from tests.bench_process import Nodes, messages, needs_ros, resolved, wait_until
 
-from contact_sim_pkg.bag.messages import encode_vibration
+from contact_sim_pkg.bag.messages import encode
 from contact_sim_pkg.bag.reader import open_bag
 from contact_sim_pkg.run.offline import run_offline
 from contact_sim_pkg.run.sources import make_vibration
@@ -38,14 +38,14 @@ def stand_in():
 
 
 def block_of(source, number: int, stamp: int | None = None) -> bytes:
-    return encode_vibration(source.block(number), number * BLOCK if stamp is None else stamp)
+    return encode(source.block(number), number * BLOCK if stamp is None else stamp)
 
 
 def spoilt(source, number: int) -> bytes:
     block = source.block(number)
     values = numpy.array(block.acceleration_z)
     values[3] = numpy.nan
-    return encode_vibration(block._replace(acceleration_z=values), number * BLOCK)
+    return encode(block._replace(acceleration_z=values), number * BLOCK)
 
 
 def send(stand_in, source, numbers, *, before=lambda number: ()) -> None:
@@ -103,7 +103,7 @@ def test_bad_blocks_are_dropped_and_named_and_leave_the_bits_alone(scene, nodes,
         short = block._replace(acceleration_x=block.acceleration_x[:-1], acceleration_z=block.acceleration_z[:-1])
         return [
             spoilt(source, number),
-            encode_vibration(short, number * BLOCK),
+            encode(short, number * BLOCK),
             block_of(source, number, stamp=number * BLOCK + 1),
             *([block_of(source, number - 1)] if number else []),
         ]
@@ -156,7 +156,7 @@ def test_a_second_publisher_during_a_run_ends_it_by_name_before_its_data_count(s
         for number in range(7, 7 + 600):
             block = source.block(min(number, BLOCKS - 1))._replace(block=min(number, BLOCKS - 1))
             worse = block._replace(acceleration_z=block.acceleration_z * 3.0)
-            data = spoilt(source, 7) if kind == "nan" else encode_vibration(worse, worse.block * BLOCK)
+            data = spoilt(source, 7) if kind == "nan" else encode(worse, worse.block * BLOCK)
             intruder.entry.publish(data)
             if number == 60:
                 stand_in.entry.publish(block_of(source, 7))

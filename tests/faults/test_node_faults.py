@@ -97,8 +97,8 @@ def test_a_set_up_that_fails_at_any_point_gives_everything_back_and_can_be_tried
 @pytest.mark.fault("B11")
 def test_an_unexpected_exception_of_a_callback_is_said_once_and_ends_the_node(ros, capfd):
     """The bag is closed by `fault`, and nothing is done after it."""
-    from contact_sim_pkg.bag.messages import encode_clock
     from contact_sim_pkg.nodes.bench_node import LifecycleBenchNode
+    from contact_sim_pkg.nodes.clock import clock_message
     from contact_sim_pkg.nodes.endpoints import publisher, subscription
     from contact_sim_pkg.nodes.processes.process import run
 
@@ -117,7 +117,7 @@ def test_an_unexpected_exception_of_a_callback_is_said_once_and_ends_the_node(ro
 
         def tick(self, now):
             assert "closed" not in done
-            self.entries[0].publish(encode_clock(0))
+            self.entries[0].publish(clock_message(0))
             return 0.01
 
         def close(self):
@@ -154,7 +154,7 @@ def test_a_clock_that_jumps_and_stops_changes_no_bit(tmp_path):
     """No node waits for `/clock`; with `use_sim_time` it is heard, and jumps back by 10 s again and again, then stops."""
     from tests.nodes.stand_in import StandIn
 
-    from contact_sim_pkg.bag.messages import encode_clock
+    from contact_sim_pkg.nodes.clock import clock_message
     from contact_sim_pkg.run.offline import run_offline
 
     scene = resolved("seat_ride", "duration=0.3", "pace=max")
@@ -166,7 +166,7 @@ def test_a_clock_that_jumps_and_stops_changes_no_bit(tmp_path):
             nodes.start("contact_simulator", use_sim_time="true", publish_clock="false")
             clock.spin_until(lambda: clock.entry.get_subscription_count() >= 3)
             for number in range(100):
-                clock.entry.publish(encode_clock((20 - 10 * (number % 2)) * 1_000_000_000 + number))
+                clock.entry.publish(clock_message((20 - 10 * (number % 2)) * 1_000_000_000 + number))
             assert nodes.wait() == {"bag_logger": 0, "vibration": 0, "contact_simulator": 0}
     finally:
         nodes.end()
@@ -184,8 +184,8 @@ def test_no_node_has_a_timer_that_a_clock_could_stop():
 @pytest.mark.fault("F6")
 def test_a_hundred_starts_and_ends_under_messages_say_nothing(ros, capfd):
     """Nodes are destroyed after their executor has returned, so no callback runs meanwhile."""
-    from contact_sim_pkg.bag.messages import encode_clock
     from contact_sim_pkg.nodes.bench_node import LifecycleBenchNode
+    from contact_sim_pkg.nodes.clock import clock_message
     from contact_sim_pkg.nodes.endpoints import publisher, subscription
     from contact_sim_pkg.nodes.processes.process import run
 
@@ -204,7 +204,7 @@ def test_a_hundred_starts_and_ends_under_messages_say_nothing(ros, capfd):
 
         def tick(self, now):
             for _ in range(5):
-                self.entries[0].publish(encode_clock(0))
+                self.entries[0].publish(clock_message(0))
             self.ticks += 1
             self.exit_status = 0 if self.ticks == 3 else None
             return 0.002

@@ -13,15 +13,15 @@ import pytest
 from tests.bench_process import ENVIRONMENT, messages, resolved
 
 from contact_sim_pkg.bag.encoding import deserialize
-from contact_sim_pkg.bag.messages import encode_vibration
+from contact_sim_pkg.bag.messages import encode
 from contact_sim_pkg.bag.reader import open_bag
 from contact_sim_pkg.compiled import jit
-from contact_sim_pkg.excitation.blocks import VibrationBlock
 from contact_sim_pkg.laws.one_mass.parameters import PointContact
 from contact_sim_pkg.laws.one_mass.runs import integrate
 from contact_sim_pkg.laws.parameters import NormalElastic
 from contact_sim_pkg.pressure.field.halfspace import make_half_space
 from contact_sim_pkg.pressure.field.solver import make_workspace, solve_at_load
+from contact_sim_pkg.records.messages import VibrationBlock
 from contact_sim_pkg.run import offline
 
 PACKAGE = Path(jit.__file__).resolve().parents[1]
@@ -156,9 +156,11 @@ def test_with_bounds_checks_a_kernel_that_reads_beyond_its_array_is_noticed(tmp_
 @pytest.mark.parametrize("number", [0, 2**31, 2**33 - 10, 2**37])
 def test_the_stamp_of_a_late_block_is_exact_to_the_nanosecond(number):
     """43 years of blocks: number and length are integers, nothing is summed up."""
-    block = VibrationBlock(number, 1e-3, numpy.zeros(10), numpy.zeros(10))
+    block = VibrationBlock(
+        block=number, sample_period=1e-3, acceleration_x=numpy.zeros(10), acceleration_z=numpy.zeros(10)
+    )
     stamp = number * 10_000_000
-    message = deserialize("contact_msgs_defs/msg/VibrationBlock", encode_vibration(block, stamp))
+    message = deserialize("contact_msgs_defs/msg/VibrationBlock", encode(block, stamp))
     assert message.block == number
     assert message.header.stamp.sec * 10**9 + message.header.stamp.nanosec == stamp
 

@@ -6,11 +6,12 @@ import numpy
 import pytest
 from tests.identify import foreign_bag, motions
 
-from contact_sim_pkg.bag.messages import BENCH_FRAME, MotionBlock, encode_motion
+from contact_sim_pkg.bag.messages import encode
 from contact_sim_pkg.bag.metadata import recorded_topics
 from contact_sim_pkg.bag.writer import BagWriter
 from contact_sim_pkg.cli.main import main
 from contact_sim_pkg.identify.readers.body_states import read_body_states
+from contact_sim_pkg.records.messages import BodyMotion
 
 BOX = ["--box", "0.1", "0.1", "0.1"]
 
@@ -38,11 +39,16 @@ def write_bench_motion(path, record):
     writer = BagWriter(path, recorded_topics(("bench/motion",)), {})
     for block in range(len(record.time) // 10):
         part = slice(10 * block, 10 * block + 10)
-        motion = MotionBlock(
-            block, 1e-3, ("block_x", "block_z", "block_pitch"), rows[:, part], rates[:, part], numpy.zeros((3, 10))
+        motion = BodyMotion(
+            block=block,
+            sample_period=1e-3,
+            bodies=("block_x", "block_z", "block_pitch"),
+            position=rows[:, part],
+            velocity=rates[:, part],
+            acceleration=numpy.zeros((3, 10)),
         )
         stamp = block * 10_000_000
-        writer.write("bench/motion", stamp, encode_motion(motion, stamp))
+        writer.write("bench/motion", stamp, encode(motion, stamp))
     writer.close()
 
 
@@ -97,7 +103,7 @@ def test_a_weight_given_as_force_stands_for_gravity_and_fixes_the_mass(tmp_path,
 def test_a_bag_of_the_bench_is_read_without_naming_a_topic(tmp_path, capsys):
     write_bench_motion(tmp_path / "bag", motions.planar())
     assert told(capsys, tmp_path / "bag")[1]["m/J"]["value"] == pytest.approx(600.0, rel=1e-9)
-    assert read_body_states(tmp_path / "bag").frame == BENCH_FRAME
+    assert read_body_states(tmp_path / "bag").frame == "bench"
 
 
 def test_the_table_names_modes_and_what_is_not_known(tmp_path, capsys):

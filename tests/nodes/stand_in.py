@@ -7,9 +7,10 @@ from rclpy.executors import SingleThreadedExecutor
 from rclpy.node import Node
 from rclpy.signals import SignalHandlerOptions
 
-from contact_sim_pkg.bag.messages import Progress, decode_progress
+from contact_sim_pkg.bag.messages import decode
 from contact_sim_pkg.nodes.endpoints import publisher, subscription
 from contact_sim_pkg.nodes.protocol.states import State
+from contact_sim_pkg.records.messages import BenchProgress
 
 
 class StandIn:
@@ -19,14 +20,14 @@ class StandIn:
         self._context = rclpy.Context()
         rclpy.init(context=self._context, signal_handler_options=SignalHandlerOptions.NO)
         self.node = Node(name, context=self._context, start_parameter_services=False, enable_rosout=False)
-        self.progress: Progress | None = None
+        self.progress: BenchProgress | None = None
         self.entry = publisher(self.node, topic)
         self._kept = [subscription(self.node, "bench/progress", self._on_progress)]
         self._executor = SingleThreadedExecutor(context=self._context)
         self._executor.add_node(self.node)
 
     def _on_progress(self, data: bytes) -> None:
-        self.progress = decode_progress(data)
+        self.progress = decode(BenchProgress, data)
 
     def spin_until(self, condition, seconds: float = 40.0) -> None:
         """Hear what comes until the condition holds; fails after the time."""

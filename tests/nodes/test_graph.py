@@ -89,9 +89,9 @@ def test_a_clock_of_another_node_is_left_alone(listen, tmp_path):
 def test_diagnostics_come_once_a_second_and_at_each_change_and_remember_a_warning_for_five_seconds(monkeypatch):
     from builtin_interfaces.msg import Time
 
-    from contact_sim_pkg.bag.messages import Progress
     from contact_sim_pkg.nodes import diagnostics
     from contact_sim_pkg.nodes.protocol.states import State
+    from contact_sim_pkg.records.messages import BenchProgress
 
     sent: list = []
     monkeypatch.setattr(diagnostics, "publisher", lambda node, name: SimpleNamespace(publish=sent.append))
@@ -102,7 +102,11 @@ def test_diagnostics_come_once_a_second_and_at_each_change_and_remember_a_warnin
     def levels(state, *times, message=""):
         sent.clear()
         for now in times:
-            reports.report(now, Progress(int(state), 41, 100, 9, 1.25, 520.0, 0.0, "seat_ride", message))
+            report = BenchProgress(
+                state=int(state), block=41, blocks=100, messages_sent=9, real_time_factor=1.25, load=520.0, peak_pressure=0.0,
+                scene="seat_ride", message=message,
+            )  # fmt: skip
+            reports.report(now, report)
         return [int.from_bytes(array.status[0].level, "little") for array in sent]
 
     assert levels(State.READY, 0.0, 0.5, 0.99, 1.0, 1.5) == [0, 0]

@@ -7,11 +7,11 @@ from pathlib import Path
 import numpy as np
 import scipy.special
 
-from contact_sim_pkg.bag import messages
+from contact_sim_pkg.bag.messages import encode
 from contact_sim_pkg.bag.metadata import recorded_topics
 from contact_sim_pkg.bag.reader import Bag, open_bag
 from contact_sim_pkg.bag.writer import BagWriter
-from contact_sim_pkg.excitation.blocks import RoadPatch
+from contact_sim_pkg.records.messages import BodyMotion, ContactForce, ContactPatch, ContactShear, RoadPatch, String
 
 BLOCK_NS, BLOCK_LENGTH, SAMPLES = 10_000_000, 0.01, 10
 SPEED = 10.0  # [m/s]
@@ -90,7 +90,7 @@ def rolling_bag(directory: Path, blocks: int = 100, topics: tuple[str, ...] = TO
         for block in range(blocks):
             stamp = block * BLOCK_NS
             if block == 0:
-                writer.write("bench/scene", 0, messages.encode_scene(SCENE))
+                writer.write("bench/scene", 0, encode(String(data=SCENE)))
             for topic in topics:
                 if topic in _ENCODERS:
                     writer.write(topic, stamp, _ENCODERS[topic](block, stamp))
@@ -103,17 +103,32 @@ def road(block: int) -> RoadPatch:
     first = int(np.floor((start - 0.2) / CELL_X))
     x = (first + np.arange(150)) * CELL_X
     height = np.where(x >= STEP_AT, STEP, 0.0)[:, None] * np.ones(COLS)
-    return RoadPatch(block, start, start + BLOCK_LENGTH * SPEED, first, CELL_X, CELL_Y, height.astype(np.float32))
+    return RoadPatch(
+        block=block,
+        travel_start=start,
+        travel_end=start + BLOCK_LENGTH * SPEED,
+        first_row=first,
+        cell_x=CELL_X,
+        cell_y=CELL_Y,
+        height=height.astype(np.float32),
+    )
 
 
 def _road(block: int, stamp: int) -> bytes:
-    return messages.encode_road_patch(road(block), stamp)
+    return encode(road(block), stamp)
 
 
 def _force(block: int, stamp: int) -> bytes:
     normal, zeros = np.full(SAMPLES, load_of(block)), np.zeros(SAMPLES)
-    force = messages.ContactForceBlock(block, BLOCK_LENGTH / SAMPLES, normal, zeros, zeros + 0.01, zeros)
-    return messages.encode_contact_force(force, stamp, messages.TIRE_FRAME)
+    force = ContactForce(
+        block=block,
+        sample_period=BLOCK_LENGTH / SAMPLES,
+        normal=normal,
+        tangential=zeros,
+        approach=zeros + 0.01,
+        effective_height=zeros,
+    )
+    return encode(force, stamp, "tire_contact")
 
 
 def _patch(block: int, stamp: int) -> bytes:
@@ -121,11 +136,12 @@ def _patch(block: int, stamp: int) -> bytes:
     load, area = float(field.sum()) * CELL_X * CELL_Y, float((field > 0.0).sum()) * CELL_X * CELL_Y
     along, across, _, approach = ellipse(load) if load > 0.0 else (0.0, 0.0, 0.0, 0.0)
     x, y = cells()
-    value = messages.PatchField(
-        block, CELL_X, CELL_Y, float(x[0, 0]), float(y[0, 0]), load, float(field.max()), load / area if area else 0.0,
-        area, 0.0, 0.0, approach, along, across, 2.0, field,
+    value = ContactPatch(
+        block=block, cell_x=CELL_X, cell_y=CELL_Y, origin_x=float(x[0, 0]), origin_y=float(y[0, 0]), load=load,
+        peak=float(field.max()), mean=load / area if area else 0.0, area=area, centre_x=0.0, centre_y=0.0,
+        approach=approach, lame_a=along, lame_b=across, lame_n=2.0, pressure=field,
     )  # fmt: skip
-    return messages.encode_contact_patch(value, stamp, messages.TIRE_FRAME)
+    return encode(value, stamp, "tire_contact")
 
 
 def slip_of(block: int) -> float:
@@ -141,19 +157,28 @@ def _shear(block: int, stamp: int) -> bytes:
     shear_x = -FRICTION * field
     force = float(shear_x.sum()) * CELL_X * CELL_Y
     share = float((state == 2).sum() / max((state > 0).sum(), 1))
-    value = messages.ShearField(
-        block, CELL_X, CELL_Y, float(x[0, 0]), float(y[0, 0]), slip_of(block), 0.0, force, 0.0, 0.0, share, 2.0,
-        shear_x.astype(np.float32), np.zeros((ROWS, COLS), dtype=np.float32), state,
+    value = ContactShear(
+        block=block, cell_x=CELL_X, cell_y=CELL_Y, origin_x=float(x[0, 0]), origin_y=float(y[0, 0]),
+        slip=slip_of(block), slip_angle=0.0, force_x=force, force_y=0.0, moment_z=0.0, sliding_share=share,
+        dissipated=2.0, shear_x=shear_x.astype(np.float32), shear_y=np.zeros((ROWS, COLS), dtype=np.float32),
+        state=state,
     )  # fmt: skip
-    return messages.encode_contact_shear(value, stamp, messages.TIRE_FRAME)
+    return encode(value, stamp, "tire_contact")
 
 
 def _motion(block: int, stamp: int) -> bytes:
     times = block * BLOCK_LENGTH + np.arange(SAMPLES) * BLOCK_LENGTH / SAMPLES
     wheel = WHEEL_AMPLITUDE * np.sin(2.0 * np.pi * WHEEL_FREQUENCY * times)
     rows = np.stack([wheel, np.zeros(SAMPLES), np.zeros(SAMPLES)])
-    motion = messages.MotionBlock(block, BLOCK_LENGTH / SAMPLES, ("wheel_z", "body_z", "belt_z"), rows, rows, rows)
-    return messages.encode_motion(motion, stamp)
+    motion = BodyMotion(
+        block=block,
+        sample_period=BLOCK_LENGTH / SAMPLES,
+        bodies=("wheel_z", "body_z", "belt_z"),
+        position=rows,
+        velocity=rows,
+        acceleration=rows,
+    )
+    return encode(motion, stamp)
 
 
 _ENCODERS = {

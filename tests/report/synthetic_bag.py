@@ -8,10 +8,11 @@ from pathlib import Path
 
 import numpy as np
 
-from contact_sim_pkg.bag import messages
+from contact_sim_pkg.bag.messages import encode
 from contact_sim_pkg.bag.metadata import recorded_topics
 from contact_sim_pkg.bag.reader import Bag, open_bag
 from contact_sim_pkg.bag.writer import BagWriter
+from contact_sim_pkg.records.messages import BodyMotion, ContactForce, ContactPatch, EnergyLedger, SolverCost, String
 
 BLOCK_NS = 10_000_000
 BLOCK_LENGTH = 0.01  # [s]
@@ -71,7 +72,7 @@ def _write(directory: Path, topics: tuple[str, ...], blocks: int, scene: str | N
         kept["scene"] = scene
     with BagWriter(directory, recorded_topics(topics), kept, reserve_bytes=0, background=False) as writer:
         if scene is not None and "bench/scene" in topics:
-            writer.write("bench/scene", 0, messages.encode_scene(scene))
+            writer.write("bench/scene", 0, encode(String(data=scene)))
         for block in range(blocks):
             stamp = block * BLOCK_NS
             for topic in topics:
@@ -88,14 +89,28 @@ def _tire_force(block: int, _blocks: int, stamp: int) -> bytes:
     wave = TIRE_MEAN + TIRE_AMPLITUDE * np.sin(2.0 * np.pi * TIRE_FREQUENCY * _times(block))
     normal = np.maximum(wave, 0.0)
     zeros = np.zeros(SAMPLES)
-    force = messages.ContactForceBlock(block, BLOCK_LENGTH / SAMPLES, normal, zeros, wave / TIRE_STIFFNESS, zeros)
-    return messages.encode_contact_force(force, stamp, messages.TIRE_FRAME)
+    force = ContactForce(
+        block=block,
+        sample_period=BLOCK_LENGTH / SAMPLES,
+        normal=normal,
+        tangential=zeros,
+        approach=wave / TIRE_STIFFNESS,
+        effective_height=zeros,
+    )
+    return encode(force, stamp, "tire_contact")
 
 
 def _seat_force(block: int, _blocks: int, stamp: int) -> bytes:
     steady, zeros = np.full(SAMPLES, SEAT_LOAD), np.zeros(SAMPLES)
-    force = messages.ContactForceBlock(block, BLOCK_LENGTH / SAMPLES, steady, zeros, np.full(SAMPLES, 0.015), zeros)
-    return messages.encode_contact_force(force, stamp, messages.SEAT_FRAME)
+    force = ContactForce(
+        block=block,
+        sample_period=BLOCK_LENGTH / SAMPLES,
+        normal=steady,
+        tangential=zeros,
+        approach=np.full(SAMPLES, 0.015),
+        effective_height=zeros,
+    )
+    return encode(force, stamp, "seat_contact")
 
 
 def _tire_patch(block: int, _blocks: int, stamp: int) -> bytes:
@@ -107,11 +122,12 @@ def _tire_patch(block: int, _blocks: int, stamp: int) -> bytes:
     load = float(pressure.sum()) * CELL**2
     area = LOADED_CELLS * CELL**2
     centre = (-(ROWS - 1) / 2 * CELL, -(COLS - 1) / 2 * CELL)
-    field = messages.PatchField(
-        block, CELL, CELL, *centre, load, float(pressure.max()), load / area, area, 0.0, 0.0, 0.015, 0.03,
-        0.02, 6.0, pressure,
+    field = ContactPatch(
+        block=block, cell_x=CELL, cell_y=CELL, origin_x=centre[0], origin_y=centre[1], load=load, peak=float(pressure.max()),
+        mean=load / area, area=area, centre_x=0.0, centre_y=0.0, approach=0.015, lame_a=0.03, lame_b=0.02, lame_n=6.0,
+        pressure=pressure,
     )  # fmt: skip
-    return messages.encode_contact_patch(field, stamp, messages.TIRE_FRAME)
+    return encode(field, stamp, "tire_contact")
 
 
 def _motion(block: int, _blocks: int, stamp: int) -> bytes:
@@ -120,21 +136,52 @@ def _motion(block: int, _blocks: int, stamp: int) -> bytes:
     acceleration = np.stack([FLOOR_RMS * wave, SEAT_RMS * wave, SEAT_RMS * wave])
     rates = np.zeros_like(acceleration)
     bodies = ("body_z", "seat_frame_z", "occupant1_z")
-    motion = messages.MotionBlock(block, BLOCK_LENGTH / SAMPLES, bodies, -acceleration / omega**2, rates, acceleration)
-    return messages.encode_motion(motion, stamp)
+    motion = BodyMotion(
+        block=block,
+        sample_period=BLOCK_LENGTH / SAMPLES,
+        bodies=bodies,
+        position=-acceleration / omega**2,
+        velocity=rates,
+        acceleration=acceleration,
+    )
+    return encode(motion, stamp)
 
 
 def _energy(block: int, blocks: int, stamp: int) -> bytes:
     part = block / (blocks - 1)
     supplied, dissipated, residual = SUPPLIED * part, DISSIPATED * part, RESIDUAL * part
     kinetic = supplied - dissipated - residual
-    return messages.encode_energy(messages.Energy(block, kinetic, 0.0, 0.0, dissipated, supplied, residual), stamp)
+    return encode(
+        EnergyLedger(
+            block=block,
+            kinetic=kinetic,
+            potential=0.0,
+            stored=0.0,
+            dissipated=dissipated,
+            supplied=supplied,
+            residual=residual,
+        ),
+        stamp,
+    )
 
 
 def _cost(block: int, _blocks: int, stamp: int) -> bytes:
     jump = 2.5 if block == PEAK_BLOCK % 20 else 0.5
-    cost = messages.Cost(block, WALL_TIME, BLOCK_LENGTH / WALL_TIME, 12, 1, 2, 30, 1e-7, jump, 4, 1, 2e-3)
-    return messages.encode_cost(cost, stamp)
+    cost = SolverCost(
+        block=block,
+        wall_time=WALL_TIME,
+        real_time_factor=BLOCK_LENGTH / WALL_TIME,
+        steps=12,
+        rejected_steps=1,
+        events=2,
+        field_iterations=30,
+        field_residual=1e-7,
+        field_jump=jump,
+        stretches=4,
+        stretches_repeated=1,
+        coupling_error=2e-3,
+    )
+    return encode(cost, stamp)
 
 
 _ENCODERS = {

@@ -7,11 +7,12 @@ import numpy as np
 import pytest
 from tests.report import synthetic_bag as known
 
-from contact_sim_pkg.bag import messages
 from contact_sim_pkg.bag.errors import BagError
+from contact_sim_pkg.bag.messages import encode
 from contact_sim_pkg.bag.metadata import recorded_topics
 from contact_sim_pkg.bag.reader import open_bag
 from contact_sim_pkg.bag.writer import BagWriter
+from contact_sim_pkg.records.messages import ContactPatch
 from contact_sim_pkg.report.energy import relative_residual
 from contact_sim_pkg.report.series import LedgerSeries
 from contact_sim_pkg.report.summary import summarise
@@ -115,8 +116,10 @@ def test_fields_on_cells_of_two_sizes_in_one_topic_are_refused(tmp_path):
     with BagWriter(tmp_path / "two", recorded_topics(("tire/patch",)), reserve_bytes=0, background=False) as writer:
         for block, rows in enumerate((4, 5)):
             ones = np.ones((rows, 3), dtype=np.float32)
-            field = messages.PatchField(block, *[0.01 * (1 + block)] * 14, pressure=ones)
-            writer.write("tire/patch", block, messages.encode_contact_patch(field, block, messages.TIRE_FRAME))
+            field = ContactPatch(
+                **dict.fromkeys(ContactPatch._fields, 0.01 * (1 + block)) | {"block": block, "pressure": ones}
+            )
+            writer.write("tire/patch", block, encode(field, block, "tire_contact"))
 
     with pytest.raises(BagError, match=r"5 x 3 cells of 0\.02 x 0\.02 m, another one on 4 x 3 of 0\.01 x 0\.01 m"):
         summarise(open_bag(tmp_path / "two"))

@@ -9,9 +9,10 @@ import pytest
 from tests.bench_process import bench, end, start_bench
 from tests.run.scenes import resolved
 
-from contact_sim_pkg.bag.messages import decode_cost
+from contact_sim_pkg.bag.messages import decode
 from contact_sim_pkg.bag.reader import open_bag
 from contact_sim_pkg.compiled.jit import entry
+from contact_sim_pkg.records.messages import SolverCost
 from contact_sim_pkg.run import offline
 from contact_sim_pkg.run.computing import Computing
 from contact_sim_pkg.run.rigs import make_simulation
@@ -66,7 +67,7 @@ def test_the_estimate_counts_the_steps_that_a_stiff_contact_takes():
     simulation, source = make_simulation(scene), make_sources(scene)["platform/vibration"]
     simulation.prepare()
     counted = sum(
-        decode_cost(data).steps
+        decode(SolverCost, data).steps
         for block in range(simulation.blocks)
         for topic, _stamp, data in simulation.advance(block, {"platform/vibration": source.block(block)}).messages
         if topic == "bench/cost"

@@ -54,11 +54,6 @@ def test_setuptools_is_older_than_the_one_that_breaks_symlink_installs():
     assert int(line.removeprefix("setuptools==").split(".")[0]) < 80
 
 
-def test_cmake_lists_every_message_and_no_other():
-    listed = re.findall(r'"msg/(\w+)\.msg"', (MESSAGES / "CMakeLists.txt").read_text())
-    assert sorted(listed) == sorted(path.stem for path in (MESSAGES / "msg").glob("*.msg"))
-
-
 def test_message_dependencies_stand_in_cmake_and_package_xml():
     used = set()
     for path in (MESSAGES / "msg").glob("*.msg"):

@@ -4,39 +4,16 @@ A block depends on its number alone, so it is the same whoever asks for it and i
 """
 
 from math import ceil, floor
-from typing import Any, NamedTuple, Protocol
+from typing import Any, Protocol
 
 import numpy
 from numpy.typing import NDArray
 
 from contact_sim_pkg.excitation.errors import ExcitationError
 from contact_sim_pkg.excitation.travel import Travel
+from contact_sim_pkg.records.messages import RoadPatch, VibrationBlock
 
 LARGEST_PATCH = 4_000_000  # nodes of one block; 16 MB as float32, far above the widest tire at the highest speed
-
-
-class RoadPatch(NamedTuple):
-    """The strip of road that the tire can touch in one block.
-
-    Node (i, j) lies at x = (first_row + i) cell_x along the road and y = (j - (cols - 1) / 2) cell_y to the left.
-    """
-
-    block: int
-    travel_start: float  # [m] at the block's start
-    travel_end: float  # [m] at the block's end
-    first_row: int
-    cell_x: float  # [m]
-    cell_y: float  # [m]
-    height: NDArray[numpy.float32]  # [rows, cols], [m], up positive
-
-
-class VibrationBlock(NamedTuple):
-    """Acceleration over one block; the last sample lies at the block's end and is the first of the next block."""
-
-    block: int
-    sample_period: float  # [s]
-    acceleration_x: NDArray[numpy.float64]  # [samples], [m/s^2], forward positive
-    acceleration_z: NDArray[numpy.float64]  # [samples], [m/s^2], up positive
 
 
 class Surface(Protocol):
@@ -131,8 +108,9 @@ class RoadBlocks:
             )
         self._last = (first_row, height)
         return RoadPatch(
-            block, self.travel.position(start), self.travel.position(end), first_row, self.cell_x, self.cell_y, height
-        )
+            block=block, travel_start=self.travel.position(start), travel_end=self.travel.position(end),
+            first_row=first_row, cell_x=self.cell_x, cell_y=self.cell_y, height=height,
+        )  # fmt: skip
 
     def _strip(self, first_row: int, last_row: int) -> NDArray[numpy.float32]:
         """Heights of these rows; those that the last strip ends with are taken from it, a strip moves on by few rows."""
@@ -190,7 +168,12 @@ class VibrationBlocks:
             raise ExcitationError(
                 f"block {block}: the vibration is not finite between {times[0]:.6g} s and {times[-1]:.6g} s"
             )
-        return VibrationBlock(block, 1.0 / self.sample_rate, acceleration_x, acceleration_z)
+        return VibrationBlock(
+            block=block,
+            sample_period=1.0 / self.sample_rate,
+            acceleration_x=acceleration_x,
+            acceleration_z=acceleration_z,
+        )
 
     def describe(self) -> dict[str, Any]:
         """What the signal says about itself."""

@@ -12,7 +12,7 @@ from pathlib import Path
 from rclpy.duration import Duration
 
 from contact_sim_pkg.bag.errors import BagError, MessageError
-from contact_sim_pkg.bag.messages import Recorded, decode_progress, encode_recorded, encode_scene
+from contact_sim_pkg.bag.messages import decode, encode
 from contact_sim_pkg.bag.metadata import recorded_topics
 from contact_sim_pkg.bag.names import new_directory
 from contact_sim_pkg.bag.writer import BagWriter
@@ -33,6 +33,7 @@ from contact_sim_pkg.nodes.protocol.record_order import HeldMessage, RecordOrder
 from contact_sim_pkg.nodes.protocol.record_outcome import outcome_of
 from contact_sim_pkg.nodes.protocol.single_source import SingleSource
 from contact_sim_pkg.nodes.protocol.states import DONE, FAULT, LOSS, REFUSED, Follower, NodeError, State
+from contact_sim_pkg.records.messages import BenchProgress, BenchRecorded, String
 from contact_sim_pkg.run.bag_content import attachments, input_names, recorded_names, result_names
 
 BAG_TEXT = "Directory of the bag, which must not exist. Empty: bags/SCENE_TIME_RANDOM of the current directory."
@@ -94,7 +95,7 @@ class BagLoggerNode(LifecycleBenchNode):
             self._left_out[f"dropped {topic}"] += 1
 
     def _on_progress(self, data: bytes) -> None:
-        progress = decode_progress(data)
+        progress = decode(BenchProgress, data)
         if self._closed or not self._run.accept(progress):
             return
         self._news = time.monotonic()
@@ -110,7 +111,7 @@ class BagLoggerNode(LifecycleBenchNode):
         except BagError as error:
             raise NodeError(str(error), REFUSED) from None
         self.announce(f"recording to {self._path}")
-        self._writer.write("bench/scene", 0, encode_scene(self._scene.to_yaml()))
+        self._writer.write("bench/scene", 0, encode(String(data=self._scene.to_yaml())))
 
     def _write_whole(self) -> None:
         self._write(self._order.take_whole())
@@ -126,7 +127,12 @@ class BagLoggerNode(LifecycleBenchNode):
     def _answer(self, *, closed: bool = False, sentence: str = "") -> None:
         stamp = (self._block + 1) * self._period_ns
         held = self._order.given_out + (self._writer is not None)  # the scene's text is one message
-        self._answers.publish(encode_recorded(Recorded(self._block, held, closed, str(self._path), sentence), stamp))
+        self._answers.publish(
+            encode(
+                BenchRecorded(block=self._block, messages=held, closed=closed, bag=str(self._path), message=sentence),
+                stamp,
+            )
+        )
 
     def tick(self, now: float) -> float:
         """Write what is whole. Close when the run has ended and all is here, when the wait for it is over, or when asked to."""

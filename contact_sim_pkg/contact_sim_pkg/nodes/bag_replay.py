@@ -11,7 +11,6 @@ from rclpy.duration import Duration
 from rclpy.publisher import Publisher
 from std_srvs.srv import SetBool
 
-from contact_sim_pkg.bag.messages import encode_clock
 from contact_sim_pkg.bag.reader import Bag, open_bag
 from contact_sim_pkg.nodes.bench_node import LifecycleBenchNode
 from contact_sim_pkg.nodes.endpoints import message_type, publisher, refuse_strangers
@@ -22,6 +21,8 @@ from contact_sim_pkg.nodes.processes.keys import Keys
 from contact_sim_pkg.nodes.processes.process import run
 from contact_sim_pkg.nodes.protocol.recorded_qos import profile_of_recorded
 from contact_sim_pkg.nodes.protocol.states import DONE, REFUSED, NodeError
+
+from .clock import clock_message
 
 CLOCK_RATE = 40.0  # [Hz] of the steady clock
 BATCH = 200  # messages between two looks at signals; what a volatile topic keeps for a subscriber that is behind
@@ -103,7 +104,7 @@ class BagReplayNode(LifecycleBenchNode):
             self._publishers_by_topic[message.topic].publish(message.data)
         if self._clock_publisher is not None and now >= self._clock_due:
             self._clock_due = now + 1.0 / CLOCK_RATE
-            self._clock_publisher.publish(encode_clock(player.position(now)))
+            self._clock_publisher.publish(clock_message(player.position(now)))
         self._report(player.standing(now), now)
         if player.done:
             self._settle()

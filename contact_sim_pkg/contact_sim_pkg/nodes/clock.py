@@ -6,12 +6,19 @@ from rclpy.node import Node
 from rclpy.publisher import Publisher
 from rclpy.topic_endpoint_info import TopicEndpointInfo
 
-from contact_sim_pkg.bag.messages import encode_clock
+from contact_sim_pkg.bag.encoding import SECOND
+from contact_sim_pkg.bag.messages import encode
 from contact_sim_pkg.nodes.endpoints import UNKNOWN, describe_endpoint, publisher
+from contact_sim_pkg.records.messages import Clock, Time
 
 CLOCK = "/clock"
 LOOK_SECONDS = 0.5  # between two looks at the graph
 NAME_SECONDS = 3.0  # for the graph to learn the name of who else publishes
+
+
+def clock_message(time_ns: int) -> bytes:
+    """The bytes of `/clock` at a simulated time, [ns]."""
+    return encode(Clock(clock=Time(sec=time_ns // SECOND, nanosec=time_ns % SECOND)))
 
 
 class SimulatedClock:
@@ -38,7 +45,7 @@ class SimulatedClock:
         if now - self._looked > LOOK_SECONDS:
             self._look(now)
         if self._publisher is not None:
-            self._publisher.publish(encode_clock(time_ns))
+            self._publisher.publish(clock_message(time_ns))
 
     def _look(self, now: float) -> None:
         """Give way to another clock; say so as soon as the graph knows its node's name."""

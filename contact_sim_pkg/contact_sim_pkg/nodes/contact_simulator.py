@@ -6,7 +6,7 @@ import sys
 import time
 from functools import partial
 
-from contact_sim_pkg.bag.messages import decode_recorded, encode_scene
+from contact_sim_pkg.bag.messages import decode, encode
 from contact_sim_pkg.compiled.jit import closed
 from contact_sim_pkg.nodes.bench_node import LifecycleBenchNode
 from contact_sim_pkg.nodes.clock import SimulatedClock
@@ -23,6 +23,7 @@ from contact_sim_pkg.nodes.protocol.progress_report import ProgressReport
 from contact_sim_pkg.nodes.protocol.source_watch import SourceWatch
 from contact_sim_pkg.nodes.protocol.states import DONE, FAULT, State
 from contact_sim_pkg.nodes.protocol.window import Window
+from contact_sim_pkg.records.messages import BenchRecorded, String
 from contact_sim_pkg.run.bag_content import result_names
 from contact_sim_pkg.run.block_simulation import BlockResult
 from contact_sim_pkg.run.computing import Computing
@@ -65,7 +66,7 @@ class ContactSimulatorNode(LifecycleBenchNode):
         self._simulated_clock = SimulatedClock(self, wanted=self._publish_clock)
         self._diagnostics = Diagnostics(self)
         self._scene_publisher = publisher(self, "bench/scene")
-        self._scene_publisher.publish(encode_scene(scene.to_yaml()))
+        self._scene_publisher.publish(encode(String(data=scene.to_yaml())))
         self._simulation = make_simulation(scene)
         self._inputs = InputBlocks(self._simulation.inputs, self._period_ns, self._simulation.blocks)
         self._window = Window(self._simulation.blocks, logged=self._logged)
@@ -162,7 +163,7 @@ class ContactSimulatorNode(LifecycleBenchNode):
         report = self._report
         if report is None or report.state < State.READY:
             return
-        closed = self._recording.accept(decode_recorded(data))
+        closed = self._recording.accept(decode(BenchRecorded, data))
         if closed is not None and not report.state.ended:
             self.get_logger().error(f"the logger closed its bag before the end: {closed}")
             self._diagnostics.warn(time.monotonic(), closed)

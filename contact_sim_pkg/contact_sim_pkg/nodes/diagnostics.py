@@ -6,9 +6,9 @@ from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus, KeyValue
 from rclpy.duration import Duration
 from rclpy.node import Node
 
-from contact_sim_pkg.bag.messages import Progress
 from contact_sim_pkg.nodes.endpoints import publisher
 from contact_sim_pkg.nodes.protocol.states import State
+from contact_sim_pkg.records.messages import BenchProgress
 
 PERIOD_SECONDS = 1.0
 WARN_SECONDS = 5.0  # that a warning shows for
@@ -31,7 +31,7 @@ class Diagnostics:
         """Keep a warning; `now` is the steady clock, [s]."""
         self._warning, self._warned_at = sentence, now
 
-    def report(self, now: float, progress: Progress) -> None:
+    def report(self, now: float, progress: BenchProgress) -> None:
         """Send the state of the run, if that is due."""
         state = State(progress.state)
         if now - self._sent_at < PERIOD_SECONDS and state is self._sent_state:
@@ -43,7 +43,7 @@ class Diagnostics:
         """Give the last report time to arrive."""
         self._publisher.wait_for_all_acked(Duration(seconds=SETTLE_SECONDS))
 
-    def _array(self, now: float, progress: Progress) -> DiagnosticArray:
+    def _array(self, now: float, progress: BenchProgress) -> DiagnosticArray:
         state = State(progress.state)
         level = DiagnosticStatus.WARN if now - self._warned_at < WARN_SECONDS else DiagnosticStatus.OK
         values = {

@@ -5,12 +5,11 @@ from __future__ import annotations
 import math
 from collections.abc import Callable
 from pathlib import Path
-from typing import Any
 
 from rclpy.duration import Duration
 from rclpy.node import Node
 
-from contact_sim_pkg.bag.messages import decode_progress, decode_recorded
+from contact_sim_pkg.bag.messages import decode, encode
 from contact_sim_pkg.nodes.bench_node import SUPERVISOR_TEXT
 from contact_sim_pkg.nodes.endpoints import publisher, subscription
 from contact_sim_pkg.nodes.parameters import declare, declare_pace, declare_record, declare_scene
@@ -24,6 +23,7 @@ from contact_sim_pkg.nodes.processes.scene_file import (
 from contact_sim_pkg.nodes.protocol.pacing import Pacer
 from contact_sim_pkg.nodes.protocol.states import REFUSED, Follower, NodeError, RecordedFollower, State
 from contact_sim_pkg.nodes.protocol.window import Window
+from contact_sim_pkg.records.messages import BenchProgress, BenchRecorded
 from contact_sim_pkg.run.sources import Source
 from contact_sim_pkg.scene.resolved_scene import ResolvedScene
 
@@ -43,7 +43,7 @@ class ExcitationNode(Node):
     exit_status: int | None = None
     computes = False
 
-    def __init__(self, name: str, topic: str, make_source: MakeSource, encode: Callable[[Any, int], bytes]) -> None:
+    def __init__(self, name: str, topic: str, make_source: MakeSource) -> None:
         """Make the source of the scene, or open the bag, and wait for the simulator."""
         super().__init__(name)
         self.supervisor = declare(self, "supervisor", 0, SUPERVISOR_TEXT)
@@ -52,7 +52,6 @@ class ExcitationNode(Node):
         bag = declare(self, "from_bag", "", FROM_BAG_TEXT)
         self._source = _source_of_bag(topic, bag, scene) if bag else make_source(scene)
         write_description(scene_name, topic, self._source.describe())
-        self._encode = encode
         self._block_length_ns = block_length_ns(scene)
         logged = declare_record(self)
         self._listeners = 1 + logged  # simulator, logger
@@ -99,16 +98,16 @@ class ExcitationNode(Node):
             if wait > 0.0:
                 return wait
             number = self._window.take()
-            self._publisher.publish(self._encode(self._source.block(number), number * self._block_length_ns))
+            self._publisher.publish(encode(self._source.block(number), number * self._block_length_ns))
         return float("inf")
 
     def _on_progress(self, data: bytes) -> None:
-        progress = decode_progress(data)
+        progress = decode(BenchProgress, data)
         if self._run.accept(progress):
             self._window.on_done(progress.block)
 
     def _on_recorded(self, data: bytes) -> None:
-        recorded = decode_recorded(data)
+        recorded = decode(BenchRecorded, data)
         if self._run.state >= State.READY and self._recorded.accept(recorded):
             self._window.on_recorded(recorded.block)
 

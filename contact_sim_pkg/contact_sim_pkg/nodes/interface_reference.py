@@ -14,9 +14,9 @@ from pathlib import Path
 from typing import Any, NamedTuple
 
 from contact_sim_pkg.bag.topics import TOPICS
-from contact_sim_pkg.bag.typestore import PACKAGE, definition
 from contact_sim_pkg.nodes.processes.sros2_policy import LIFECYCLE, OWN_SERVICES, PUBLISHED, SUBSCRIBED
 from contact_sim_pkg.nodes.protocol.states import DONE, FAULT, LOSS, REFUSED
+from contact_sim_pkg.records.definitions import PACKAGE, texts
 from contact_sim_pkg.records.registry import rigs
 from contact_sim_pkg.run.rigs import result_topics
 from contact_sim_pkg.scene.renamed_keys import RENAMED
@@ -137,7 +137,8 @@ def message_fields(text: str) -> list[Field]:
         kind, name = code.split(maxsplit=1)
         unit = re.match(r"\[([^]]*)\]\s*", comment.strip())
         meaning = comment.strip()[unit.end() :] if unit else comment.strip()
-        found.append(Field(name.strip(), kind, unit.group(1) if unit else "", meaning))
+        name = name.strip() if "=" in name else name.split()[0]  # a default is no part of it
+        found.append(Field(name, kind, unit.group(1) if unit else "", meaning))
     return found
 
 
@@ -149,7 +150,7 @@ def own_types() -> list[str]:
 def _messages() -> Iterator[str]:
     yield "## Messages\n\nThe unit of a field is SI; a field without one is a number, a flag or a text."
     for name in own_types():
-        text = definition(name).partition("=" * 80)[0]
+        text = texts()[name]
         head = " ".join(line.lstrip("# ") for line in text.split("\n\n")[0].splitlines() if line.startswith("#"))
         rows = [(f"`{field.name}`", field.type, field.unit, field.meaning) for field in message_fields(text)]
         table = _table(("field", "type", "unit", "meaning"), rows)

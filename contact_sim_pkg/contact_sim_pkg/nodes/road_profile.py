@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import sys
 
-from contact_sim_pkg.bag.messages import encode_road_patch
 from contact_sim_pkg.nodes.excitation_node import ExcitationNode
 from contact_sim_pkg.nodes.processes.process import run
 from contact_sim_pkg.run.sources import make_road
@@ -15,7 +14,7 @@ class RoadProfileNode(ExcitationNode):
 
     def __init__(self) -> None:
         """Make the road of the scene."""
-        super().__init__("road_profile", "road/patch", make_road, encode_road_patch)
+        super().__init__("road_profile", "road/patch", make_road)
 
 
 def main() -> int:

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import sys
 
-from contact_sim_pkg.bag.messages import encode_vibration
 from contact_sim_pkg.nodes.excitation_node import ExcitationNode
 from contact_sim_pkg.nodes.processes.process import run
 from contact_sim_pkg.run.sources import make_vibration
@@ -15,7 +14,7 @@ class VibrationNode(ExcitationNode):
 
     def __init__(self) -> None:
         """Make the vibration of the scene."""
-        super().__init__("vibration", "platform/vibration", make_vibration, encode_vibration)
+        super().__init__("vibration", "platform/vibration", make_vibration)
 
 
 def main() -> int:

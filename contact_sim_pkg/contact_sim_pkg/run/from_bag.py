@@ -2,16 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
 from contact_sim_pkg.bag.errors import BagError
-from contact_sim_pkg.bag.messages import decode_road_patch, decode_vibration
+from contact_sim_pkg.bag.excitation import DECODERS
 from contact_sim_pkg.bag.reader import Bag, open_bag
 from contact_sim_pkg.bag.texts import excitation_of_text, scene_of_text
 from contact_sim_pkg.bag.versions import differences_from, installed_versions
-from contact_sim_pkg.excitation.blocks import RoadPatch, VibrationBlock
+from contact_sim_pkg.records.messages import RoadPatch, VibrationBlock
 from contact_sim_pkg.run.bag_content import EXCITATION_KEY, input_names, kernel_fingerprint
 from contact_sim_pkg.run.errors import RunError
 from contact_sim_pkg.run.sources import Source
@@ -20,10 +19,6 @@ from contact_sim_pkg.scene.resolved_scene import ResolvedScene
 from contact_sim_pkg.scene.timing import make_timing
 
 KEYS = ("rig", "road", "vibration", "travel", "seed", "block_length")  # of a scene, that make its excitation
-DECODERS: dict[str, Callable[[bytes], RoadPatch | VibrationBlock]] = {
-    "road/patch": decode_road_patch,
-    "platform/vibration": decode_vibration,
-}
 
 
 class BagSource:

@@ -5,21 +5,23 @@ from __future__ import annotations
 import numpy
 from numpy.typing import NDArray
 
-from contact_sim_pkg.bag.messages import PatchField
 from contact_sim_pkg.pressure.closed_form.lame import fit_patch
 from contact_sim_pkg.pressure.field.patch import summarise
+from contact_sim_pkg.records.messages import ContactPatch
 
 
 def mat_field(
     block: int, grid: tuple[float, float, float, float], approach: float, pressure: NDArray[numpy.float64]
-) -> PatchField:
+) -> ContactPatch:
     """Load, peak, area, centre and Lame curve of ``pressure`` [rows, cols] [Pa].
 
     ``grid``: sizes of a cell and centre of the first one, each along rows and columns, in [m]; ``approach`` [m].
     """
     total, shape = summarise(pressure, *grid), fit_patch(pressure, *grid)
     touching = total.load > 0.0
-    return PatchField(
-        block, *grid, total.load, total.peak, total.mean, total.area, total.centre_x if touching else 0.0,
-        total.centre_y if touching else 0.0, approach, shape.a, shape.b, shape.exponent, pressure.astype(numpy.float32),
+    return ContactPatch(
+        block=block, cell_x=grid[0], cell_y=grid[1], origin_x=grid[2], origin_y=grid[3], load=total.load,
+        peak=total.peak, mean=total.mean, area=total.area, centre_x=total.centre_x if touching else 0.0,
+        centre_y=total.centre_y if touching else 0.0, approach=approach, lame_a=shape.a, lame_b=shape.b,
+        lame_n=shape.exponent, pressure=pressure.astype(numpy.float32),
     )  # fmt: skip

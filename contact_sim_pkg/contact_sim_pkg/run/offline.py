@@ -9,13 +9,13 @@ from pathlib import Path
 from typing import Any, NamedTuple
 
 from contact_sim_pkg.bag.errors import BagWriteError, RecordingStoppedError
-from contact_sim_pkg.bag.messages import encode_road_patch, encode_scene, encode_vibration
+from contact_sim_pkg.bag.messages import encode
 from contact_sim_pkg.bag.metadata import recorded_topics
 from contact_sim_pkg.bag.topics import TOPICS
 from contact_sim_pkg.bag.writer import BagSummary, BagWriter
 from contact_sim_pkg.compiled.jit import closed
-from contact_sim_pkg.excitation.blocks import RoadPatch, VibrationBlock
 from contact_sim_pkg.excitation.errors import ExcitationError
+from contact_sim_pkg.records.messages import String
 from contact_sim_pkg.run.bag_content import attachments, recorded_names
 from contact_sim_pkg.run.block_simulation import BlockSimulation
 from contact_sim_pkg.run.computing import Computing
@@ -96,7 +96,7 @@ def run_offline(
     computing.end = abandoned
     try:
         if writer is not None:
-            writer.write("bench/scene", 0, encode_scene(scene.to_yaml()))
+            writer.write("bench/scene", 0, encode(String(data=scene.to_yaml())))
         with compilation:
             compilation.enter_context(closed())
             for block in range(simulation.blocks):
@@ -143,14 +143,9 @@ def _one_block(
     result = computing.call(simulation.advance, block, inputs)
     if writer is not None:
         for topic in sorted(inputs, key=lambda name: TOPICS[name].rank):
-            writer.write(topic, stamp, encode_input(inputs[topic], stamp))
+            writer.write(topic, stamp, encode(inputs[topic], stamp))
         for topic, message_stamp, data in result.messages:
             writer.write(topic, message_stamp, data)
     simulated = (block + 1) * length
     elapsed = time.perf_counter() - first
     return RunProgress(block + 1, simulation.blocks, simulated, simulated / elapsed, result.load, result.peak_pressure)
-
-
-def encode_input(value: RoadPatch | VibrationBlock, stamp: int) -> bytes:
-    """CDR bytes of an excitation block with ``stamp`` [ns]."""
-    return encode_road_patch(value, stamp) if isinstance(value, RoadPatch) else encode_vibration(value, stamp)

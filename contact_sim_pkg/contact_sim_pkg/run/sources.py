@@ -10,8 +10,9 @@ from typing import TYPE_CHECKING, Any, Protocol
 
 import numpy
 
-from contact_sim_pkg.excitation.blocks import RoadBlocks, RoadPatch, Signal, Surface, VibrationBlock, VibrationBlocks
+from contact_sim_pkg.excitation.blocks import RoadBlocks, Signal, Surface, VibrationBlocks
 from contact_sim_pkg.excitation.travel import Travel
+from contact_sim_pkg.records.messages import RoadPatch, VibrationBlock
 from contact_sim_pkg.scene.lattice import tire_lattice
 from contact_sim_pkg.scene.resolved_scene import ResolvedScene
 
@@ -87,9 +88,9 @@ def make_surface(scene: ResolvedScene, cell: float) -> Surface:
         from contact_sim_pkg.excitation.opencrg.road import OpenCrgRoad
 
         return OpenCrgRoad(
-            scene.file_path("road.file"), road["start"], road["track_offset"], road["missing_cells"], road["hole_depth"],
-            BORDER_NAMES[road["border_u"]], BORDER_NAMES[road["border_v"]], "mean" if road["remove_mean"] else "origin",
-            road["file_settings"],
+            scene.file_path("road.file"), road["start"], road["track_offset"], road["missing_cells"],
+            road["hole_depth"], BORDER_NAMES[road["border_u"]], BORDER_NAMES[road["border_v"]],
+            "mean" if road["remove_mean"] else "origin", road["file_settings"],
         )  # fmt: skip
     from contact_sim_pkg.excitation.obstacles import FlatRoad, Obstacle
 
@@ -113,8 +114,8 @@ def _signal(scene: ResolvedScene, vibration: dict[str, Any]) -> Signal:
         recording = RecordedVibration(
             scene.file_path("vibration.file"), vibration.get("rate"), vibration["vertical_column"],
             vibration["forward_column"], time=vibration.get("time_column"),
-            tilt="correct" if vibration["correct_tilt"] else "keep", beyond=vibration["beyond"], start=vibration["start"],
-            sample_rate=vibration["sample_rate"], unused=_unused_axes(scene.data),
+            tilt="correct" if vibration["correct_tilt"] else "keep", beyond=vibration["beyond"],
+            start=vibration["start"], sample_rate=vibration["sample_rate"], unused=_unused_axes(scene.data),
             unit=vibration.get("unit"),
         )  # fmt: skip
         recording.refuse_longer_run(float(scene.data["duration"]))

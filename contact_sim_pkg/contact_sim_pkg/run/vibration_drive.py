@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy
 
 from contact_sim_pkg.compiled.arrays import Vector
-from contact_sim_pkg.excitation.blocks import RoadPatch, VibrationBlock
+from contact_sim_pkg.records.messages import RoadPatch, VibrationBlock
 from contact_sim_pkg.run.errors import RunError
 from contact_sim_pkg.scene.timing import Timing
 

@@ -3,10 +3,10 @@
 import pytest
 from tests.nodes.blocks import LENGTH, vibration
 
-from contact_sim_pkg.bag.messages import Recorded
 from contact_sim_pkg.nodes.protocol.input_blocks import InputBlocks
 from contact_sim_pkg.nodes.protocol.logger_answers import CLOSE_SECONDS, STOP_SECONDS, LoggerAnswers
 from contact_sim_pkg.nodes.protocol.window import Window
+from contact_sim_pkg.records.messages import BenchRecorded
 
 VIBRATION = "platform/vibration"
 
@@ -19,7 +19,9 @@ class Run:
         self.answers = LoggerAnswers(self.window, logged=logged)
         self.inputs = InputBlocks([VIBRATION], LENGTH, 100)
         if recorded >= 0:
-            self.answers.accept(Recorded(recorded, 5 * recorded, False, "bag", ""))
+            self.answers.accept(
+                BenchRecorded(block=recorded, messages=5 * recorded, closed=False, bag="bag", message="")
+            )
         for block in range(done + 1):
             self.inputs.offer(VIBRATION, vibration(block))
             self.inputs.take()
@@ -48,7 +50,7 @@ def test_after_the_end_the_simulator_stays_until_the_bag_is_closed():
     run = Run(done=12, recorded=12)
     run.answers.end(5.0)
     assert run.answers.status_to_leave(5.0) is None
-    run.answers.accept(Recorded(12, 60, True, "bag", ""))
+    run.answers.accept(BenchRecorded(block=12, messages=60, closed=True, bag="bag", message=""))
     assert run.answers.status_to_leave(5.0) == 0
 
 
@@ -62,6 +64,12 @@ def test_a_logger_that_never_closes_is_waited_for_shortly_after_a_signal(stopped
 
 def test_the_reason_of_a_bag_closed_before_the_end_is_handed_on_once():
     run = Run(done=2, recorded=1)
-    assert run.answers.accept(Recorded(2, 10, False, "bag", "")) is None
-    assert run.answers.accept(Recorded(2, 10, True, "bag", "the disk is full")) == "the disk is full"
-    assert run.answers.accept(Recorded(2, 10, True, "bag", "the disk is full")) is None
+    assert run.answers.accept(BenchRecorded(block=2, messages=10, closed=False, bag="bag", message="")) is None
+    assert (
+        run.answers.accept(BenchRecorded(block=2, messages=10, closed=True, bag="bag", message="the disk is full"))
+        == "the disk is full"
+    )
+    assert (
+        run.answers.accept(BenchRecorded(block=2, messages=10, closed=True, bag="bag", message="the disk is full"))
+        is None
+    )

@@ -5,16 +5,11 @@ import random
 import pytest
 from tests.nodes.blocks import LENGTH, vibration
 
-from contact_sim_pkg.bag.messages import (
-    ContactForceBlock,
-    Energy,
-    Wrench,
-    encode_contact_force,
-    encode_energy,
-    encode_wrench,
-)
+from contact_sim_pkg.bag.messages import encode
 from contact_sim_pkg.nodes.protocol.input_blocks import FARTHEST_AHEAD
 from contact_sim_pkg.nodes.protocol.record_order import RecordOrder
+from contact_sim_pkg.records.messages import ContactForce, EnergyLedger
+from contact_sim_pkg.run.wrench import wrench_of
 
 VIBRATION = "platform/vibration"
 
@@ -22,12 +17,23 @@ VIBRATION = "platform/vibration"
 def results(block: int) -> list[tuple[str, bytes]]:
     """Four messages of the simulator in canonical order: three at the block's start, a second wrench half-way."""
     start = block * LENGTH
-    wrench = Wrench((0.0, 0.0, float(block)), (0.0, 0.0, 0.0))
+    wrench = wrench_of((0.0, 0.0, float(block)), (0.0, 0.0, 0.0))
+    force = ContactForce(
+        block=block, sample_period=1e-3, normal=[1.0], tangential=[1.0], approach=[1.0], effective_height=[1.0]
+    )
     return [
-        ("seat/force", encode_contact_force(ContactForceBlock(block, 1e-3, *[[1.0]] * 4), start, "seat_contact")),
-        ("seat/wrench", encode_wrench(wrench, start, "seat_contact")),
-        ("bench/energy", encode_energy(Energy(block, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0), start)),
-        ("seat/wrench", encode_wrench(wrench, start + LENGTH // 2, "seat_contact")),
+        ("seat/force", encode(force, start, "seat_contact")),
+        ("seat/wrench", encode(wrench, start, "seat_contact")),
+        (
+            "bench/energy",
+            encode(
+                EnergyLedger(
+                    block=block, kinetic=0.0, potential=0.0, stored=0.0, dissipated=0.0, supplied=0.0, residual=0.0
+                ),
+                start,
+            ),
+        ),
+        ("seat/wrench", encode(wrench, start + LENGTH // 2, "seat_contact")),
     ]
 
 

@@ -1,14 +1,26 @@
 """How a run ended is in its bag: state, blocks, who died of what, what never came."""
 
-from contact_sim_pkg.bag.messages import Progress
 from contact_sim_pkg.nodes.protocol.record_outcome import UNSAID, outcome_of
 from contact_sim_pkg.nodes.protocol.states import Follower, State
+from contact_sim_pkg.records.messages import BenchProgress
 
 
 def followed(*states: State, message: str = "") -> Follower:
     run = Follower()
     for block, state in enumerate(states, start=-1):
-        run.accept(Progress(int(state), block, 100, 0, 0.0, 0.0, 0.0, "seat_ride", message))
+        run.accept(
+            BenchProgress(
+                state=int(state),
+                block=block,
+                blocks=100,
+                messages_sent=0,
+                real_time_factor=0.0,
+                load=0.0,
+                peak_pressure=0.0,
+                scene="seat_ride",
+                message=message,
+            )
+        )
     return run
 
 

@@ -2,12 +2,22 @@
 
 import pytest
 
-from contact_sim_pkg.bag.messages import Progress, Recorded
 from contact_sim_pkg.nodes.protocol.states import Follower, NodeError, RecordedFollower, State
+from contact_sim_pkg.records.messages import BenchProgress, BenchRecorded
 
 
-def report(state: State, block: int) -> Progress:
-    return Progress(int(state), block, 100, 0, 0.0, 0.0, 0.0, "seat_ride", "")
+def report(state: State, block: int) -> BenchProgress:
+    return BenchProgress(
+        state=int(state),
+        block=block,
+        blocks=100,
+        messages_sent=0,
+        real_time_factor=0.0,
+        load=0.0,
+        peak_pressure=0.0,
+        scene="seat_ride",
+        message="",
+    )
 
 
 def test_a_run_is_followed_from_its_start_to_its_end():
@@ -56,7 +66,7 @@ def test_nothing_follows_the_end():
 
 def test_an_answer_of_the_logger_that_lies_behind_is_passed_over():
     follower = RecordedFollower()
-    assert follower.accept(Recorded(5, 60, False, "bags/a", ""))
-    assert not follower.accept(Recorded(-1, 0, True, "bags/b", ""))
-    assert follower.accept(Recorded(5, 60, True, "bags/a", "done"))
+    assert follower.accept(BenchRecorded(block=5, messages=60, closed=False, bag="bags/a", message=""))
+    assert not follower.accept(BenchRecorded(block=-1, messages=0, closed=True, bag="bags/b", message=""))
+    assert follower.accept(BenchRecorded(block=5, messages=60, closed=True, bag="bags/a", message="done"))
     assert (follower.closed, follower.bag, follower.message) == (True, "bags/a", "done")

@@ -4,13 +4,8 @@ import numpy
 import pytest
 from tests.run.scenes import resolved
 
-from contact_sim_pkg.bag.messages import (
-    decode_contact_force,
-    decode_contact_patch,
-    decode_contact_points,
-    decode_energy,
-    decode_episodes,
-)
+from contact_sim_pkg.bag.messages import decode
+from contact_sim_pkg.records.messages import ContactEpisodes, ContactForce, ContactPatch, ContactPoints, EnergyLedger
 from contact_sim_pkg.run.errors import RunError
 from contact_sim_pkg.run.rigs import make_simulation, result_topics
 from contact_sim_pkg.run.sources import make_sources
@@ -31,8 +26,8 @@ def run(name, *values):
     return scene, messages
 
 
-def of(messages, topic, decode):
-    return [decode(data) for name, _stamp, data in messages if name == topic]
+def of(messages, topic, kind):
+    return [decode(kind, data) for name, _stamp, data in messages if name == topic]
 
 
 @pytest.fixture(scope="module")
@@ -55,8 +50,8 @@ def test_a_run_says_what_its_scene_lists_and_nothing_else(slap_and_slip):
 
 def test_the_pressure_map_carries_the_force_to_a_millionth_and_never_pulls(slap_and_slip):
     _scene, messages = slap_and_slip
-    forces = numpy.concatenate([block.normal for block in of(messages, "backrest/force", decode_contact_force)])
-    patches = of(messages, "backrest/patch", decode_contact_patch)
+    forces = numpy.concatenate([block.normal for block in of(messages, "backrest/force", ContactForce)])
+    patches = of(messages, "backrest/patch", ContactPatch)
     assert len(patches) * 10 == len(forces)
     assert any(patch.load == 0.0 for patch in patches)
     for patch, force in zip(patches, forces[::10], strict=True):
@@ -67,8 +62,8 @@ def test_the_pressure_map_carries_the_force_to_a_millionth_and_never_pulls(slap_
 
 def test_the_points_carry_the_force_and_keep_within_the_friction_cone(slap_and_slip):
     _scene, messages = slap_and_slip
-    force = of(messages, "backrest/force", decode_contact_force)
-    for block, points in zip(force, of(messages, "backrest/points", decode_contact_points), strict=True):
+    force = of(messages, "backrest/force", ContactForce)
+    for block, points in zip(force, of(messages, "backrest/points", ContactPoints), strict=True):
         assert points.normal.sum() == block.normal[0]
         assert points.tangential.sum() == block.tangential[0]
         assert (numpy.abs(points.tangential) <= 0.4 * points.normal + 1e-6).all()
@@ -76,14 +71,14 @@ def test_the_points_carry_the_force_and_keep_within_the_friction_cone(slap_and_s
 
 def test_slaps_and_slips_leave_the_energy_ledger_closed(slap_and_slip):
     _scene, messages = slap_and_slip
-    ledger = of(messages, "bench/energy", decode_energy)
+    ledger = of(messages, "bench/energy", EnergyLedger)
     assert abs(ledger[-1].residual) <= 1e-5 * ledger[-1].supplied
     assert numpy.all(numpy.diff([entry.dissipated for entry in ledger]) >= -1e-9)
 
 
 def test_every_slap_gives_back_less_work_than_it_took(slap_and_slip):
     _scene, messages = slap_and_slip
-    blocks = of(messages, "bench/episodes", decode_episodes)
+    blocks = of(messages, "bench/episodes", ContactEpisodes)
     ratio = numpy.concatenate([block.restitution for block in blocks])
     assert len(ratio) == 10, "one from the start, then one slap a period"
     assert [touched for block in blocks for touched in block.touched] == [0, *[1] * 9]
@@ -96,9 +91,9 @@ def test_every_slap_gives_back_less_work_than_it_took(slap_and_slip):
 @pytest.mark.fault("D5")
 def test_at_rest_nothing_moves():
     _scene, messages = run("seat_slap", "vibration.amplitude=0", "duration=0.1")
-    forces = numpy.concatenate([block.normal for block in of(messages, "backrest/force", decode_contact_force)])
+    forces = numpy.concatenate([block.normal for block in of(messages, "backrest/force", ContactForce)])
     assert forces == pytest.approx(45.6 * 9.81, rel=1e-9)
-    assert of(messages, "bench/episodes", decode_episodes) == []
+    assert of(messages, "bench/episodes", ContactEpisodes) == []
 
 
 def test_a_block_without_its_vibration_is_refused():
@@ -115,11 +110,11 @@ def test_a_back_that_does_not_lean_is_struck_with_its_whole_mass():
         "accuracy=1e-6",
     )
     _scene, messages = run("seat_shock", "backrest.preload=0", "backrest.mass=20", *values, "outputs.force_rate=10000")
-    force = numpy.concatenate([block.normal for block in of(messages, "backrest/force", decode_contact_force)])
+    force = numpy.concatenate([block.normal for block in of(messages, "backrest/force", ContactForce)])
     speed = 60.0 * 0.03 * 2.0 / numpy.pi
     momentum = force.sum() / 10_000.0
     assert 20.0 * speed < momentum < 2.0 * 20.0 * speed, "the mass ends between the seat back's speed and twice that"
-    (episodes,) = of(messages, "bench/episodes", decode_episodes)
+    (episodes,) = of(messages, "bench/episodes", ContactEpisodes)
     assert len(episodes.restitution) == 1
 
 
@@ -128,14 +123,14 @@ SEARCHED = ("effects.backrest.shell_modes={}", "effects.backrest.contact_search=
 
 def test_the_map_of_a_moving_point_carries_its_force_and_the_point_lies_on_the_back():
     _scene, messages = run("seat_slap", *SEARCHED, "duration=0.5")
-    forces = numpy.concatenate([block.normal for block in of(messages, "backrest/force", decode_contact_force)])
-    patches = of(messages, "backrest/patch", decode_contact_patch)
+    forces = numpy.concatenate([block.normal for block in of(messages, "backrest/force", ContactForce)])
+    patches = of(messages, "backrest/patch", ContactPatch)
     assert (forces == 0.0).any()
     for patch, force in zip(patches, forces[::10], strict=True):
         carried = patch.pressure.astype(float).sum() * patch.cell_x * patch.cell_y
         assert carried == pytest.approx(force, rel=1e-6, abs=1e-9)
         assert patch.pressure.min() >= 0.0
-    points = of(messages, "backrest/points", decode_contact_points)
+    points = of(messages, "backrest/points", ContactPoints)
     assert all(len(each.x) == 1 for each in points)
     assert max(abs(each.x[0]) for each in points) <= 0.25
     assert max(abs(each.y[0]) for each in points) <= 0.20

@@ -7,8 +7,9 @@ import sys
 import pytest
 from tests.run.scenes import resolved
 
-from contact_sim_pkg.bag.messages import decode_motion
+from contact_sim_pkg.bag.messages import decode
 from contact_sim_pkg.compiled.jit import closed
+from contact_sim_pkg.records.messages import BodyMotion
 from contact_sim_pkg.run.rigs import make_simulation
 
 LEFT_OUT = """
@@ -70,7 +71,7 @@ def test_a_body_that_slides_straight_in_space_stops_and_rests(body, facets):
     simulation.prepare()
     with closed():
         messages = [message for block in range(simulation.blocks) for message in simulation.advance(block, {}).messages]
-    last = decode_motion([data for topic, _stamp, data in messages if topic == "bench/motion"][-1])
+    last = decode(BodyMotion, [data for topic, _stamp, data in messages if topic == "bench/motion"][-1])
     way = 1.3**2 / (2.0 * 0.3 * 9.81)
     assert math.hypot(last.position[0, -1], last.position[1, -1]) == pytest.approx(way, abs=1e-9)
     assert abs(last.velocity[:, -1]).max() <= 1e-12

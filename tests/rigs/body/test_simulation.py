@@ -8,15 +8,16 @@ import numpy
 import pytest
 from tests.run.scenes import resolved
 
-from contact_sim_pkg.bag.messages import (
-    decode_contact_force,
-    decode_contact_points,
-    decode_cost,
-    decode_energy,
-    decode_motion,
-    decode_wrench,
-)
+from contact_sim_pkg.bag.messages import decode
 from contact_sim_pkg.cli.main import main
+from contact_sim_pkg.records.messages import (
+    BodyMotion,
+    ContactForce,
+    ContactPoints,
+    EnergyLedger,
+    SolverCost,
+    WrenchStamped,
+)
 from contact_sim_pkg.run.offline import run_offline
 from contact_sim_pkg.run.rigs import make_simulation, result_topics
 from contact_sim_pkg.scene.errors import SceneError
@@ -35,13 +36,13 @@ def run(name, *values):
     return scene, messages
 
 
-def of(messages, topic, decode):
-    return [decode(data) for name, _stamp, data in messages if name == topic]
+def of(messages, topic, kind):
+    return [decode(kind, data) for name, _stamp, data in messages if name == topic]
 
 
 def rows(messages):
     """Names, positions and velocities [coordinates, samples] of `bench/motion`."""
-    blocks = of(messages, "bench/motion", decode_motion)
+    blocks = of(messages, "bench/motion", BodyMotion)
     parts = [numpy.concatenate([getattr(b, name) for b in blocks], axis=1) for name in ("position", "velocity")]
     return blocks[0].bodies, *parts
 
@@ -50,17 +51,17 @@ def rows(messages):
 def test_a_run_says_what_its_scene_lists_and_loses_no_energy_unnoticed(name):
     scene, messages = run(name)
     assert {topic for topic, _stamp, _data in messages} == set(result_topics(scene))
-    ledgers = of(messages, "bench/energy", decode_energy)
+    ledgers = of(messages, "bench/energy", EnergyLedger)
     totals = numpy.array([ledger.kinetic + ledger.potential for ledger in ledgers])
     size = max(abs(totals).max(), 1e-3)
     assert numpy.diff(totals).max() <= 1e-6 * size
     assert max(abs(ledger.residual) for ledger in ledgers) <= 1e-3 * size
-    assert max(cost.field_residual for cost in of(messages, "bench/cost", decode_cost)) <= 1e-9
+    assert max(cost.field_residual for cost in of(messages, "bench/cost", SolverCost)) <= 1e-9
 
 
 def test_the_ledger_holds_the_work_of_a_known_torque_on_a_box_in_flight():
     _scene, messages = run("box_3d_tumble", "duration=0.5", "block.position=[0,0,20]", "block.torque=[0.5,0,0.3]")
-    ledgers = of(messages, "bench/energy", decode_energy)
+    ledgers = of(messages, "bench/energy", EnergyLedger)
     assert abs(ledgers[-1].supplied) > 0.1
     assert max(abs(ledger.residual) for ledger in ledgers) <= 1e-5 * abs(ledgers[-1].supplied)
 
@@ -73,10 +74,10 @@ def test_the_ball_rests_at_once_after_the_geometric_series_and_presses_with_its_
     assert names[2] == "block_z"
     assert not velocity[:, rest:].any()
     assert position[2, rest:] == pytest.approx(numpy.full(position.shape[1] - rest, 0.05), abs=1e-12)
-    force = numpy.concatenate([block.normal for block in of(messages, "block/force", decode_contact_force)])
+    force = numpy.concatenate([block.normal for block in of(messages, "block/force", ContactForce)])
     assert force[rest:] == pytest.approx(numpy.full(len(force) - rest, GRAVITY), rel=1e-9)
-    wrench = of(messages, "block/wrench", decode_wrench)[-1]
-    assert wrench.force == pytest.approx((0.0, 0.0, GRAVITY), abs=1e-9)
+    wrench = of(messages, "block/wrench", WrenchStamped)[-1]
+    assert wrench.wrench.force == pytest.approx((0.0, 0.0, GRAVITY), abs=1e-9)
 
 
 def test_the_block_climbs_as_far_as_friction_and_weight_let_it_and_then_sticks():
@@ -86,7 +87,7 @@ def test_the_block_climbs_as_far_as_friction_and_weight_let_it_and_then_sticks()
     climbed = 1.0 / (2.0 * GRAVITY * (math.sin(angle) + 0.3 * math.cos(angle)))
     assert numpy.linalg.norm(position[:2, -1] - position[:2, 0]) == pytest.approx(climbed, rel=1e-9)
     assert not velocity[:, -1].any()
-    points = of(messages, "block/points", decode_contact_points)
+    points = of(messages, "block/points", ContactPoints)
     assert sorted(points[0].state) == [0, 0, 3, 3]
     assert sorted(points[-1].state) == [0, 0, 2, 2]
 
@@ -102,7 +103,7 @@ def test_a_point_that_sticks_in_its_impact_is_said_to():
     """A ball that falls straight down sticks; one that moves on after its impact slips."""
     for velocity, state in ((0.0, 2), (20.0, 3)):
         _scene, messages = run("block_zeno", f"block.velocity=[{velocity},0,0]", "duration=0.5")
-        points = of(messages, "block/points", decode_contact_points)
+        points = of(messages, "block/points", ContactPoints)
         assert {int(value) for each in points for value in each.state} == {0, state}
 
 
@@ -113,7 +114,7 @@ COMPLIANT = "effects.block.compliant_contact={}"
 def test_the_compliant_twin_of_a_scene_says_the_same_topics_and_closes_its_ledger(name):
     scene, messages = run(name, COMPLIANT, "duration=1.0")
     assert {topic for topic, _stamp, _data in messages} == set(result_topics(scene))
-    ledgers = of(messages, "bench/energy", decode_energy)
+    ledgers = of(messages, "bench/energy", EnergyLedger)
     totals = numpy.array([ledger.kinetic + ledger.potential + ledger.stored for ledger in ledgers])
     size = abs(totals).max()
     assert numpy.diff(totals).max() <= 1e-9 * size
@@ -216,7 +217,7 @@ def test_the_bag_of_block_identify_tells_inertia_over_mass_and_names_the_mass(ca
 def test_the_identified_impulses_are_those_that_the_contacts_gave(capsys, tmp_path):
     facts, _parameters = identified(capsys, tmp_path / "bag")
     _scene, messages = run("block_identify")
-    force = of(messages, "block/force", decode_contact_force)
+    force = of(messages, "block/force", ContactForce)
     normal, tangential = (
         numpy.concatenate([getattr(b, name) for b in force]) * 1e-3 / 1.3 for name in ("normal", "tangential")
     )
@@ -246,7 +247,7 @@ def test_a_box_that_falls_in_space_tells_its_three_moments_over_mass(capsys, tmp
 def test_the_approach_of_a_falling_ball_is_minus_its_height():
     """`-(h - g t^2 / 2)`, h = 1 m, until it touches; as in every rig negative apart."""
     _scene, messages = run("block_zeno", "duration=0.4")
-    approach = numpy.concatenate([block.approach for block in of(messages, "block/force", decode_contact_force)])
+    approach = numpy.concatenate([block.approach for block in of(messages, "block/force", ContactForce)])
     times = 0.4 / len(approach) * numpy.arange(len(approach))
     assert approach == pytest.approx(0.5 * GRAVITY * times**2 - 1.0, abs=1e-12)
 
@@ -266,7 +267,7 @@ VALLEYS = ("block.ground.heights=[0.1,0,0.1,0.3,0.2,0]", "block.ground.start=-0.
 def test_a_ball_that_falls_into_a_valley_of_heights_ends_its_run(scheme):
     values = (*VALLEYS, "duration=2", "block.velocity=[0.3,0.1,0]", f"effects.block.rigid_contact.scheme={scheme}")
     _scene, messages = run("block_zeno", *values)
-    ledgers = of(messages, "bench/energy", decode_energy)
+    ledgers = of(messages, "bench/energy", EnergyLedger)
     totals = numpy.array([ledger.kinetic + ledger.potential for ledger in ledgers])
     assert numpy.diff(totals).max() <= (1e-9 if scheme == "located" else 0.05)
 
@@ -287,10 +288,10 @@ def test_every_body_runs_over_every_ground(values, ground):
     _scene, messages = run(
         "block_fall", *values, *ground, "duration=0.75", "block.position=[0,0,0.5]", "block.rotation=[0,0.2,0]"
     )
-    ledgers = of(messages, "bench/energy", decode_energy)
+    ledgers = of(messages, "bench/energy", EnergyLedger)
     totals = numpy.array([ledger.kinetic + ledger.potential for ledger in ledgers])
     assert numpy.diff(totals).max() <= 1e-6
-    depth = max(block.approach.max() for block in of(messages, "block/force", decode_contact_force))
+    depth = max(block.approach.max() for block in of(messages, "block/force", ContactForce))
     if ground == VALLEYS and "block.motion=space" in values and "block.shape=sphere" not in values:
         return  # in space the corners alone of a box or hull meet heights, so that a peak goes into its faces
     assert depth <= 1e-7
@@ -300,9 +301,10 @@ def test_a_compliant_ball_bounces_on_a_peak_sharper_than_a_right_angle():
     """A mass on a spring while it touches, `y = g/w^2 (cos wt - 1) - v/w sin wt`; it rises at the speed that it came with."""
     drop, stiffness, duration = 0.1, 1e5, 0.25
     _scene, messages = run(
-        "block_zeno", "block.ground={heights: [0, 0.2, 0], start: -0.1, distance: 0.1}", f"block.position=[0, 0, {0.25 + drop}]",
-        "effects.block.rigid_contact.restitution=1", "effects.block.rigid_contact.friction=0",
-        f"effects.block.compliant_contact={{stiffness: {stiffness}}}", f"duration={duration}", "accuracy=1e-6",
+        "block_zeno", "block.ground={heights: [0, 0.2, 0], start: -0.1, distance: 0.1}",
+        f"block.position=[0, 0, {0.25 + drop}]", "effects.block.rigid_contact.restitution=1",
+        "effects.block.rigid_contact.friction=0", f"effects.block.compliant_contact={{stiffness: {stiffness}}}",
+        f"duration={duration}", "accuracy=1e-6",
     )  # fmt: skip
     _names, position, _velocity = rows(messages)
     speed, swing = math.sqrt(2.0 * GRAVITY * drop), math.sqrt(stiffness)
@@ -318,8 +320,8 @@ def test_a_compliant_ball_bounces_on_a_peak_sharper_than_a_right_angle():
 def _wrenches_over_heights(heights, *values):
     ground = (f"block.ground.heights={list(heights)}", "block.ground.start=-1", "block.ground.distance=1")
     _scene, messages = run("block_zeno", *ground, *values)
-    found = of(messages, "block/wrench", decode_wrench)
-    return numpy.array([wrench.force for wrench in found]), numpy.array([wrench.torque for wrench in found])
+    found = of(messages, "block/wrench", WrenchStamped)
+    return tuple(numpy.array([getattr(each.wrench, name) for each in found]) for name in ("force", "torque"))
 
 
 def test_a_ball_that_rests_in_a_valley_is_pushed_up_with_its_weight():
@@ -361,8 +363,8 @@ def test_a_box_that_tumbles_above_heights_feels_no_wrench():
     )
     _names, _position, velocity = rows(messages)
     assert numpy.ptp(velocity[3:], axis=1).max() > 1.0
-    for wrench in of(messages, "block/wrench", decode_wrench):
-        assert wrench.force == pytest.approx((0.0, 0.0, 0.0), abs=1e-8)
+    for wrench in of(messages, "block/wrench", WrenchStamped):
+        assert wrench.wrench.force == pytest.approx((0.0, 0.0, 0.0), abs=1e-8)
         assert wrench.torque == pytest.approx((0.0, 0.0, 0.0), abs=1e-8)
 
 
@@ -373,7 +375,7 @@ def test_a_box_that_rolls_over_its_edges_has_the_forces_of_the_asked_accuracy():
             [
                 each.normal
                 for each in of(
-                    run("box_3d_tumble", "duration=1.2", f"accuracy={asked}")[1], "block/force", decode_contact_force
+                    run("box_3d_tumble", "duration=1.2", f"accuracy={asked}")[1], "block/force", ContactForce
                 )
             ]
         )

@@ -7,17 +7,17 @@ import numpy
 import pytest
 from tests.run.scenes import resolved
 
-from contact_sim_pkg.bag.messages import (
+from contact_sim_pkg.bag.messages import decode
+from contact_sim_pkg.records.messages import (
+    ContactForce,
+    EnergyLedger,
     ImpactCourse,
+    ImpactEvents,
     ImpactFront,
     ImpactHistory,
     ImpactPosition,
     ImpactStress,
     ImpactWave,
-    decode_contact_force,
-    decode_energy,
-    decode_impact,
-    decode_impact_events,
 )
 from contact_sim_pkg.rigs.impact.material.bag_impacts import impacts_of_bag
 from contact_sim_pkg.rigs.impact.material.errors import MaterialError
@@ -44,17 +44,21 @@ def run(name, *values):
     return scene, messages
 
 
-def of(messages, topic, decode):
-    return [decode(data) for name, _stamp, data in messages if name == topic]
+def of(messages, topic, kind):
+    return [decode(kind, data) for name, _stamp, data in messages if name == topic]
 
 
 def events_of(messages):
-    blocks = of(messages, "impact/events", decode_impact_events)
-    return {name: numpy.concatenate([getattr(each, name) for each in blocks]) for name in blocks[0]._fields[1:]}
+    blocks = of(messages, "impact/events", ImpactEvents)
+    return {
+        name: numpy.concatenate([getattr(each, name) for each in blocks])
+        for name in blocks[0]._fields
+        if name != "block"
+    }
 
 
 def course_of(messages, topic, kind):
-    return of(messages, topic, lambda data: decode_impact(kind, data))
+    return of(messages, topic, kind)
 
 
 @pytest.fixture(scope="module")
@@ -80,13 +84,13 @@ def test_the_ball_falls_bounces_and_rests_under_its_weight(rubber):
     assert events["number"].tolist() == list(range(len(events["number"])))
     flights = numpy.diff(events["start"])[1:]
     assert (flights < numpy.diff(events["start"])[:-1]).all()
-    last = of(messages, "impact/force", decode_contact_force)[-1]
+    last = of(messages, "impact/force", ContactForce)[-1]
     assert last.normal == pytest.approx(0.02 * 9.81, rel=1e-6)
 
 
 def test_every_joule_is_accounted_for_and_heat_only_grows(rubber):
     _scene, messages = rubber
-    ledger = of(messages, "bench/energy", decode_energy)
+    ledger = of(messages, "bench/energy", EnergyLedger)
     assert max(abs(each.residual) for each in ledger) < 1e-13 * 0.04
     heat = numpy.array([each.dissipated for each in ledger])
     assert (numpy.diff(heat) > -1e-16).all()
@@ -104,7 +108,7 @@ def test_works_of_an_impact_are_its_kinetic_energies_and_the_weight(rubber):
 
 def test_no_force_pulls_and_no_sample_lies_between_contact_and_flight(rubber):
     _scene, messages = rubber
-    for block in of(messages, "impact/force", decode_contact_force):
+    for block in of(messages, "impact/force", ContactForce):
         assert block.normal.min() >= 0.0
         assert (block.normal[block.approach <= 0.0] == 0.0).all()
 
@@ -180,7 +184,7 @@ def test_restitution_of_a_pendulum_does_not_depend_on_speed_and_times_scale_down
     assert e["duration"] * e["speed"] ** 0.2 == pytest.approx(e["duration"][0] * e["speed"][0] ** 0.2, rel=1e-9)
     assert e["depth"] / e["speed"] ** 0.8 == pytest.approx(e["depth"][0] / e["speed"][0] ** 0.8, rel=1e-9)
     assert e["speed"][-1] > 1e-9 > k * e["speed"][-1]
-    assert of(messages, "bench/energy", decode_energy)[-1].dissipated == pytest.approx(0.1, rel=1e-12)
+    assert of(messages, "bench/energy", EnergyLedger)[-1].dissipated == pytest.approx(0.1, rel=1e-12)
 
 
 def test_a_slow_touch_under_weight_swings_with_the_frequency_of_small_swings_at_rest():
@@ -269,7 +273,7 @@ def test_a_bounce_outside_the_table_ends_the_run_with_its_impact_named():
 @pytest.mark.parametrize("loss_tangent", [0.0, 3.0, 100.0])
 def test_a_sample_without_loss_and_one_that_never_lets_go_run(loss_tangent):
     _scene, messages = run("impact_rubber_drop", f"impact.sample.loss_tangent={loss_tangent}", "duration=0.5")
-    ledger = of(messages, "bench/energy", decode_energy)
+    ledger = of(messages, "bench/energy", EnergyLedger)
     assert max(abs(each.residual) for each in ledger) < 1e-12 * 0.04
 
 

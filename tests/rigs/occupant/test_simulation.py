@@ -4,7 +4,8 @@ import numpy
 import pytest
 from tests.run.scenes import FRICTIONLESS, resolved
 
-from contact_sim_pkg.bag.messages import decode_contact_force, decode_contact_patch, decode_energy, decode_motion
+from contact_sim_pkg.bag.messages import decode
+from contact_sim_pkg.records.messages import BodyMotion, ContactForce, ContactPatch, EnergyLedger
 from contact_sim_pkg.run.rigs import make_simulation, result_topics
 from contact_sim_pkg.run.sources import make_sources
 
@@ -35,14 +36,14 @@ def dropped():
 
 
 def forces(found, contact):
-    return numpy.concatenate([decode_contact_force(data).normal for data in found[f"{contact}/force"]])
+    return numpy.concatenate([decode(ContactForce, data).normal for data in found[f"{contact}/force"]])
 
 
 @pytest.mark.parametrize("contact", ["seat", "backrest"])
 def test_a_map_is_one_sided_and_its_integral_is_the_force(shaken, dropped, contact):
     for found in (shaken, dropped):
         force = forces(found, contact)
-        fields = [decode_contact_patch(data) for data in found[f"{contact}/patch"]]
+        fields = [decode(ContactPatch, data) for data in found[f"{contact}/patch"]]
         every = len(force) // len(fields)
         for number, field in enumerate(fields):
             pressure = field.pressure.astype(float)
@@ -76,9 +77,9 @@ def test_each_contact_does_what_it_does_in_its_own_rig(shaken):
 
 
 def test_motions_stand_side_by_side_and_energies_add_up(dropped):
-    motion = decode_motion(dropped["bench/motion"][0])
+    motion = decode(BodyMotion, dropped["bench/motion"][0])
     assert motion.bodies == ("floor_z", "seat_frame_z", "occupant1_z", "occupant2_z", "seat_back_x", "occupant_x")
-    ledgers = [decode_energy(data) for data in dropped["bench/energy"]]
+    ledgers = [decode(EnergyLedger, data) for data in dropped["bench/energy"]]
     supplied = max(abs(each.supplied) for each in ledgers)
     assert supplied > 10.0
     assert max(abs(each.residual) for each in ledgers) <= 1e-6 * supplied
@@ -88,7 +89,7 @@ def test_foam_bottoms_out_under_an_occupant_who_falls_back():
     with_it = messages_of(resolved("seat_drop", "duration=0.8"))
     without = messages_of(resolved("seat_drop", "duration=0.8", "effects.seat.foam.densification=0"))
     depths = [
-        max(decode_contact_force(data).approach.max() for data in found["seat/force"]) for found in (with_it, without)
+        max(decode(ContactForce, data).approach.max() for data in found["seat/force"]) for found in (with_it, without)
     ]
     assert (forces(with_it, "seat") == 0.0).any()
     assert 0.6 * 0.08 < depths[0] < depths[1] - 0.003

@@ -5,7 +5,7 @@ import pytest
 from tests.rigs.roller.test_simulation import of, run
 from tests.run.scenes import resolved
 
-from contact_sim_pkg.bag.messages import RollerTrack, RollerVolumes
+from contact_sim_pkg.records.messages import RollerTrack, RollerVolumes
 from contact_sim_pkg.rigs.roller.damage import damage_table
 from contact_sim_pkg.rigs.roller.model import build_roller
 from contact_sim_pkg.rigs.roller.settings import volume_settings

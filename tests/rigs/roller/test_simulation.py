@@ -6,14 +6,14 @@ import numpy
 import pytest
 from tests.run.scenes import resolved
 
-from contact_sim_pkg.bag.messages import (
+from contact_sim_pkg.bag.messages import decode
+from contact_sim_pkg.records.messages import (
+    BodyMotion,
+    EnergyLedger,
     RollerContact,
     RollerStability,
     RollerTrack,
     RollerVolumes,
-    decode_energy,
-    decode_motion,
-    decode_roller,
 )
 from contact_sim_pkg.rigs.roller.model import build_roller
 from contact_sim_pkg.rigs.roller.theory.motion import energies
@@ -44,7 +44,14 @@ def run(name, *values):
 
 def of(messages, kind):
     topic = f"roller/{kind.__name__.removeprefix('Roller').lower()}"
-    return [decode_roller(kind, data) for name, _stamp, data in messages if name == topic]
+    return [decode(kind, data) for name, _stamp, data in messages if name == topic]
+
+
+def ledger_rows(messages):
+    """Kinetic, potential, stored, dissipated, supplied, residual [blocks, 6]."""
+    ledgers = [decode(EnergyLedger, data) for name, _stamp, data in messages if name == "bench/energy"]
+    names = ("kinetic", "potential", "stored", "dissipated", "supplied", "residual")
+    return numpy.array([[getattr(each, name) for name in names] for each in ledgers])
 
 
 def column(messages, name):
@@ -127,7 +134,7 @@ def test_the_heave_follows_a_long_wave_and_the_motion_is_that_of_the_contact():
     heave = column(messages, "heave")[-2000:]
     amplitude = 0.5 * (heave.max() - heave.min())
     assert amplitude == pytest.approx(1e-8 / (1.0 - (200.0 / 446.757) ** 2), rel=5e-3)
-    motion = [decode_motion(data) for name, _stamp, data in messages if name == "bench/motion"][-1]
+    motion = [decode(BodyMotion, data) for name, _stamp, data in messages if name == "bench/motion"][-1]
     assert motion.bodies == ("roller_z", "roller_tilt", "roller_yaw")
     assert motion.position[0] == pytest.approx(heave[-1000:], abs=0.0)
 
@@ -157,7 +164,7 @@ def test_a_track_that_does_not_turn_whole_times_in_a_block_is_refused_with_the_n
 
 def residual_share(messages):
     """Largest residual over the largest entry."""
-    rows = numpy.array([decode_energy(data)[1:] for name, _stamp, data in messages if name == "bench/energy"])
+    rows = ledger_rows(messages)
     return abs(rows[:, -1]).max() / abs(rows[:, :-1]).max()
 
 
@@ -182,7 +189,7 @@ def test_the_ledger_closes_over_waves_wear_and_steps_of_the_load():
     values = ("effects.roller.track_waves.cosines=[0,1e-6]", "effects.roller.damage.table_rows=3", "duration=0.2")
     _scene, messages = run("roller_programme", *values, "effects.roller.subsurface.instants=[0.0]", *STEPPED)
     assert residual_share(messages) < 1e-6
-    rows = numpy.array([decode_energy(data)[1:] for name, _stamp, data in messages if name == "bench/energy"])
+    rows = ledger_rows(messages)
     assert rows[-1, 3] > 1e-9, "something was dissipated"
     assert (numpy.diff(rows[:, 3]) > 0.0).all()
 

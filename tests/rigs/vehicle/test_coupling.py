@@ -10,7 +10,8 @@ import numpy
 import pytest
 from tests.run.scenes import resolved
 
-from contact_sim_pkg.bag.messages import decode_contact_force, decode_contact_patch, decode_cost
+from contact_sim_pkg.bag.messages import decode
+from contact_sim_pkg.records.messages import ContactForce, ContactPatch, SolverCost
 from contact_sim_pkg.rigs.vehicle.simulation import Simulation
 from contact_sim_pkg.run.errors import RunError
 from contact_sim_pkg.run.sources import make_sources
@@ -35,9 +36,9 @@ def run(*sets):
         result = simulation.advance(block, {topic: source.block(block) for topic, source in sources.items()})
         for topic, _stamp, data in result.messages:
             if topic == "tire/force":
-                forces.append(decode_contact_force(data).normal)
+                forces.append(decode(ContactForce, data).normal)
             elif topic == "bench/cost":
-                costs.append(decode_cost(data))
+                costs.append(decode(SolverCost, data))
     return numpy.concatenate(forces), costs
 
 
@@ -166,5 +167,5 @@ def test_a_belt_that_yields_beside_the_footprint_keeps_the_usual_grid():
     simulation.prepare()
     for block in range(simulation.blocks):
         result = simulation.advance(block, {topic: source.block(block) for topic, source in sources.items()})
-        fields = [decode_contact_patch(data) for topic, _stamp, data in result.messages if topic == "tire/patch"]
+        fields = [decode(ContactPatch, data) for topic, _stamp, data in result.messages if topic == "tire/patch"]
         assert {field.pressure.shape for field in fields} == {(128, 96)}

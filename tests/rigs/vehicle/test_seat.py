@@ -7,8 +7,9 @@ import pytest
 from scipy.integrate import solve_ivp
 from tests.run.scenes import resolved
 
-from contact_sim_pkg.bag.messages import decode_contact_force
+from contact_sim_pkg.bag.messages import decode
 from contact_sim_pkg.bag.reader import open_bag
+from contact_sim_pkg.records.messages import ContactForce
 from contact_sim_pkg.run.offline import run_offline
 from contact_sim_pkg.run.rigs import make_simulation
 from contact_sim_pkg.run.sources import make_sources
@@ -97,7 +98,7 @@ def test_the_force_of_a_contact_as_stiff_as_the_schema_lets_is_as_accurate_as_as
     shaken = numpy.concatenate([*(block.acceleration_z[:-1] for block in blocks), blocks[-1].acceleration_z[-1:]])
     found = numpy.concatenate(
         [
-            decode_contact_force(data).normal
+            decode(ContactForce, data).normal
             for block in blocks
             for topic, _stamp, data in simulation.advance(block.block, {"platform/vibration": block}).messages
             if topic == "seat/force"

@@ -4,12 +4,8 @@ import numpy
 import pytest
 from tests.run.scenes import resolved
 
-from contact_sim_pkg.bag.messages import (
-    decode_contact_force,
-    decode_contact_patch,
-    decode_energy,
-    decode_motion,
-)
+from contact_sim_pkg.bag.messages import decode
+from contact_sim_pkg.records.messages import BodyMotion, ContactForce, ContactPatch, EnergyLedger
 from contact_sim_pkg.rigs.vehicle.simulation import Simulation
 from contact_sim_pkg.run.errors import RunError
 from contact_sim_pkg.run.offline import run_offline
@@ -39,7 +35,7 @@ def car():
 @pytest.mark.parametrize("contact", ["tire", "seat"])
 def test_the_force_that_drives_the_bodies_is_the_integral_of_the_published_pressure(car, contact):
     for force_data, patch_data in zip(car[f"{contact}/force"], car[f"{contact}/patch"], strict=True):
-        force, patch = decode_contact_force(force_data), decode_contact_patch(patch_data)
+        force, patch = decode(ContactForce, force_data), decode(ContactPatch, patch_data)
         integral = patch.pressure.astype(float).sum() * patch.cell_x * patch.cell_y
         assert integral == pytest.approx(force.normal[0], rel=1e-6)
         assert patch.pressure.min() >= 0.0
@@ -48,14 +44,14 @@ def test_the_force_that_drives_the_bodies_is_the_integral_of_the_published_press
 @pytest.mark.parametrize("contact", ["tire", "seat"])
 def test_the_approaches_of_force_and_field_differ_by_the_effective_height(car, contact):
     for force_data, patch_data in zip(car[f"{contact}/force"], car[f"{contact}/patch"], strict=True):
-        force, patch = decode_contact_force(force_data), decode_contact_patch(patch_data)
+        force, patch = decode(ContactForce, force_data), decode(ContactPatch, patch_data)
         assert patch.approach == pytest.approx(force.approach[0] - force.effective_height[0], abs=1e-15)
 
 
 def test_the_wheel_accelerates_by_the_published_forces_alone(car):
     """Newton's second law on the wheel from published numbers: m a = F_tire - m g - F_suspension."""
     for force_data, motion_data in zip(car["tire/force"], car["bench/motion"], strict=True):
-        force, motion = decode_contact_force(force_data), decode_motion(motion_data)
+        force, motion = decode(ContactForce, force_data), decode(BodyMotion, motion_data)
         wheel, body = motion.bodies.index("wheel_z"), motion.bodies.index("body_z")
         spring = 20000.0 * (motion.position[wheel] - motion.position[body])
         damper = 1500.0 * (motion.velocity[wheel] - motion.velocity[body])
@@ -64,8 +60,8 @@ def test_the_wheel_accelerates_by_the_published_forces_alone(car):
 
 
 def test_energy_supplied_is_found_again(car):
-    last = decode_energy(car["bench/energy"][-1])
-    dissipated = [decode_energy(data).dissipated for data in car["bench/energy"]]
+    last = decode(EnergyLedger, car["bench/energy"][-1])
+    dissipated = [decode(EnergyLedger, data).dissipated for data in car["bench/energy"]]
     assert abs(last.residual) <= 1e-5 * last.dissipated
     assert numpy.all(numpy.diff(dissipated) >= 0.0)
 
@@ -75,9 +71,9 @@ def test_a_car_on_a_flat_road_stands_still_under_its_weight():
     found = messages_of(scene)
     weight = (40.0 + 300.0 + 6.7 + 33.4 + 10.7) * GRAVITY
     for data in found["tire/force"]:
-        assert decode_contact_force(data).normal == pytest.approx(numpy.full(10, weight), rel=1e-2)
+        assert decode(ContactForce, data).normal == pytest.approx(numpy.full(10, weight), rel=1e-2)
     for data in found["bench/motion"]:
-        assert numpy.abs(decode_motion(data).velocity).max() < 5e-3
+        assert numpy.abs(decode(BodyMotion, data).velocity).max() < 5e-3
 
 
 def test_the_same_scene_gives_the_same_bytes_twice():
@@ -129,4 +125,4 @@ def test_an_effect_that_is_off_leaves_every_bit_of_the_others():
     without = messages_of(resolved("seat_ride", "duration=0.5"))
     with_friction = messages_of(resolved("seat_ride", "duration=0.5", "effects.seat.friction={}"))
     for bare, rubbed in zip(without["seat/force"], with_friction["seat/force"], strict=True):
-        assert numpy.array_equal(decode_contact_force(bare).normal, decode_contact_force(rubbed).normal)
+        assert numpy.array_equal(decode(ContactForce, bare).normal, decode(ContactForce, rubbed).normal)

@@ -5,8 +5,9 @@ import pytest
 from tests.run.scenes import resolved
 
 from contact_sim_pkg.bag.errors import BagError
-from contact_sim_pkg.bag.messages import PatchField, decode_contact_patch
+from contact_sim_pkg.bag.messages import decode
 from contact_sim_pkg.bag.reader import open_bag
+from contact_sim_pkg.records.messages import ContactPatch
 from contact_sim_pkg.report.reading import FieldPass
 from contact_sim_pkg.report.summary import summarise
 from contact_sim_pkg.rigs.vehicle.simulation import Simulation
@@ -17,7 +18,7 @@ from contact_sim_pkg.scene.errors import SceneError
 def test_a_high_bump_is_run_on_two_grids_and_summarised(tmp_path):
     outcome = run_offline(resolved("tire_bump", "road.height=0.1", "duration=1.2"), tmp_path / "bag")
     assert outcome.failure == ""
-    fields = [decode_contact_patch(m.data) for m in open_bag(tmp_path / "bag").messages() if m.topic == "/tire/patch"]
+    fields = [decode(ContactPatch, m.data) for m in open_bag(tmp_path / "bag").messages() if m.topic == "/tire/patch"]
     assert {field.pressure.shape for field in fields} == {(48, 64), (96, 128)}
     for field in fields:
         assert float(field.pressure.sum()) * field.cell_x * field.cell_y == pytest.approx(
@@ -47,9 +48,10 @@ def test_a_grid_that_cannot_hold_the_standing_contact_is_refused_by_name():
 
 def patch(pressure, origin=(0.0, 0.0), cell=0.01):
     rows, cols = pressure.shape
-    values = PatchField(
-        0, cell, cell, *origin, 1.0, float(pressure.max()), 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 2.0, pressure
-    )
+    values = ContactPatch(
+        block=0, cell_x=cell, cell_y=cell, origin_x=origin[0], origin_y=origin[1], load=1.0, peak=float(pressure.max()),
+        mean=0.0, area=0.0, centre_x=0.0, centre_y=0.0, approach=0.0, lame_a=0.0, lame_b=0.0, lame_n=2.0, pressure=pressure,
+    )  # fmt: skip
     return type("Message", (), {**values._asdict(), "pressure": pressure.ravel(), "rows": rows, "cols": cols})()
 
 

@@ -3,16 +3,17 @@
 import numpy
 import pytest
 
-from contact_sim_pkg.bag.messages import RollerContact, encode_roller
+from contact_sim_pkg.bag.messages import encode
+from contact_sim_pkg.records.messages import RollerContact
 from contact_sim_pkg.studies.effects import ablation
 from contact_sim_pkg.studies.effects.ablation_changes import Change, changes_of, unit_of
 from contact_sim_pkg.studies.effects.ablation_rules import Observed, is_needed
 
 
 def contact(**values):
-    columns = {name: numpy.ones(4) for name in RollerContact._fields[2:]}
+    columns = {name: numpy.ones(4) for name in RollerContact._fields if name not in ("block", "period")}
     columns.update(values)
-    return [("roller/contact", 0, encode_roller(RollerContact(0, 0.01, *columns.values()), 0))]
+    return [("roller/contact", 0, encode(RollerContact(block=0, period=0.01, **columns), 0))]
 
 
 def test_the_change_is_that_of_the_field_that_changes_most():

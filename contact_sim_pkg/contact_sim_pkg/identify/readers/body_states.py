@@ -14,7 +14,7 @@ import numpy
 
 from contact_sim_pkg.bag.encoding import SECOND
 from contact_sim_pkg.bag.errors import BagError
-from contact_sim_pkg.bag.messages import decode_motion, stamp_of
+from contact_sim_pkg.bag.messages import decode, stamp_of
 from contact_sim_pkg.bag.reader import Bag, open_bag
 from contact_sim_pkg.identify.motion.rotation import exponential, from_quaternion
 from contact_sim_pkg.identify.motion.states import BodyStates
@@ -22,6 +22,7 @@ from contact_sim_pkg.identify.readers.any_bag import AnyBag, use_bag
 from contact_sim_pkg.identify.readers.axes import Axes
 from contact_sim_pkg.identify.readers.stamped import Array, all_messages, chosen, one_a_stamp, stamp, vectors
 from contact_sim_pkg.identify.readers.twists import pairs_of, reading_of_odometry, reading_of_twists
+from contact_sim_pkg.records.messages import BodyMotion
 
 __all__ = ["ODOMETRY", "POSE", "TWIST", "RecordedStates", "bench_states", "read_body_states"]
 
@@ -68,7 +69,7 @@ def bench_states(bag: Bag) -> RecordedStates:
     velocity in world axes.
     """
     bag.refuse_other_definition(MOTION)
-    blocks = [(message.data, decode_motion(message.data)) for message in bag.messages(MOTION)]
+    blocks = [(message.data, decode(BodyMotion, message.data)) for message in bag.messages(MOTION)]
     if not blocks:
         raise BagError(f"{bag.path} holds no message on {MOTION}")
     names = blocks[0][1].bodies

@@ -10,10 +10,11 @@ import rclpy
 from rclpy.node import Node
 from rclpy.signals import SignalHandlerOptions
 
-from contact_sim_pkg.bag.messages import decode_progress, decode_recorded
+from contact_sim_pkg.bag.messages import decode
 from contact_sim_pkg.nodes.endpoints import raise_kept, subscription
 from contact_sim_pkg.nodes.processes.process import hear, make_executor, step_back
 from contact_sim_pkg.nodes.protocol.states import Follower, RecordedFollower, State
+from contact_sim_pkg.records.messages import BenchProgress, BenchRecorded
 
 GATHER_SECONDS = 0.01  # that reports gather for; what the times of a run are exact to
 
@@ -45,14 +46,14 @@ class RunMonitor:
             left = limit - time.monotonic()
 
     def _on_progress(self, data: bytes) -> None:
-        if self.run.accept(decode_progress(data)):
+        if self.run.accept(decode(BenchProgress, data)):
             now = time.monotonic()
             if self.run.state >= State.READY and not self.ready_at:
                 self.ready_at = now
             self.done_at = now
 
     def _on_recorded(self, data: bytes) -> None:
-        recorded = decode_recorded(data)
+        recorded = decode(BenchRecorded, data)
         if recorded.block > self.recorded.block:
             self.recorded_at = time.monotonic()
         self.recorded.accept(recorded)

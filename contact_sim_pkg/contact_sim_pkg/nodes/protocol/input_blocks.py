@@ -11,8 +11,9 @@ import numpy
 from numpy.typing import NDArray
 
 from contact_sim_pkg.bag.errors import MessageError
-from contact_sim_pkg.bag.messages import decode_road_patch, decode_vibration, stamp_of
-from contact_sim_pkg.excitation.blocks import RoadPatch, VibrationBlock
+from contact_sim_pkg.bag.excitation import decode_road, decode_vibration
+from contact_sim_pkg.bag.messages import stamp_of
+from contact_sim_pkg.records.messages import RoadPatch, VibrationBlock
 
 Block = RoadPatch | VibrationBlock
 
@@ -23,7 +24,7 @@ LARGEST_ACCELERATION = 1.0e4  # [m/s^2]
 
 def check_road(data: bytes, block_length: float) -> RoadPatch:
     """The strip that the bytes hold; MessageError where it is malformed or a height absurd."""
-    patch = decode_road_patch(data)
+    patch = decode_road(data)
     _within("height", patch.block, patch.height, LARGEST_HEIGHT, "m")
     return patch
 

@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from contact_sim_pkg.bag.messages import Recorded
 from contact_sim_pkg.nodes.protocol.input_blocks import InputBlocks
 from contact_sim_pkg.nodes.protocol.states import DONE, FAULT, LOSS, RecordedFollower
 from contact_sim_pkg.nodes.protocol.window import Window
+from contact_sim_pkg.records.messages import BenchRecorded
 
 CLOSE_SECONDS = 10.0  # for the logger to close its bag after the last block
 STOP_SECONDS = 1.0  # for the same after a signal
@@ -21,7 +21,7 @@ class LoggerAnswers:
         self._leave_at = float("inf")
         self.exit_status = DONE  # of the run, once it has ended
 
-    def accept(self, recorded: Recorded) -> str | None:
+    def accept(self, recorded: BenchRecorded) -> str | None:
         """Take an answer; why the logger has closed its bag, None while it has not."""
         if not self._follower.accept(recorded):
             return None

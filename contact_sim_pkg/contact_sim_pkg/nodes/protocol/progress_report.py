@@ -7,9 +7,10 @@ import time
 from rclpy.duration import Duration
 from rclpy.publisher import Publisher
 
-from contact_sim_pkg.bag.messages import Progress, encode_progress
+from contact_sim_pkg.bag.messages import encode
 from contact_sim_pkg.nodes.processes.scene_file import block_length_ns, count_blocks
 from contact_sim_pkg.nodes.protocol.states import State
+from contact_sim_pkg.records.messages import BenchProgress
 from contact_sim_pkg.run.block_simulation import BlockResult
 from contact_sim_pkg.scene.resolved_scene import ResolvedScene
 
@@ -28,7 +29,7 @@ class ProgressReport:
         self._block, self._sent = -1, 0
         self._load = self._peak = 0.0
         self._began: float | None = None
-        self.last: Progress | None = None
+        self.last: BenchProgress | None = None
 
     def send(self, state: State, message: str = "") -> None:
         """Report a state, with one sentence for a person."""
@@ -38,10 +39,18 @@ class ProgressReport:
         elapsed = 0.0 if self._began is None else time.monotonic() - self._began
         simulated_ns = (self._block + 1) * self._period_ns
         factor = simulated_ns * 1e-9 / elapsed if elapsed > 0.0 else 0.0
-        self.last = Progress(
-            int(state), self._block, self._blocks, self._sent, factor, self._load, self._peak, self._scene, message
+        self.last = BenchProgress(
+            state=int(state),
+            block=self._block,
+            blocks=self._blocks,
+            messages_sent=self._sent,
+            real_time_factor=factor,
+            load=self._load,
+            peak_pressure=self._peak,
+            scene=self._scene,
+            message=message,
         )
-        self.publisher.publish(encode_progress(self.last, simulated_ns))
+        self.publisher.publish(encode(self.last, simulated_ns))
 
     def block_done(self, block: int, result: BlockResult) -> None:
         """Report a block, whose messages were sent before; FINISHED with the last one of the scene."""

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from enum import IntEnum
 
-from contact_sim_pkg.bag.messages import Progress, Recorded
 from contact_sim_pkg.nodes.protocol.window import AHEAD
+from contact_sim_pkg.records.messages import BenchProgress, BenchRecorded
 
 
 class NodeError(Exception):
@@ -49,10 +49,10 @@ class Follower:
         """Nothing seen yet; `answers`: the run waits for this node's answers or blocks."""
         self.state = State.IDLE
         self.block = -1
-        self.last: Progress | None = None
+        self.last: BenchProgress | None = None
         self._answers = answers
 
-    def accept(self, progress: Progress) -> bool:
+    def accept(self, progress: BenchProgress) -> bool:
         """Whether this report belongs to the run and is news.
 
         Raises NodeError (refused) where it is that of another bench's run under way.
@@ -85,9 +85,10 @@ class RecordedFollower:
         self.bag = ""
         self.message = ""
 
-    def accept(self, recorded: Recorded) -> bool:
+    def accept(self, recorded: BenchRecorded) -> bool:
         """Whether this answer is news."""
         if recorded.block < self.block or recorded.messages < self.messages or self.closed:
             return False
-        self.block, self.messages, self.closed, self.bag, self.message = recorded
+        self.block, self.messages, self.closed = recorded.block, recorded.messages, recorded.closed
+        self.bag, self.message = recorded.bag, recorded.message
         return True

@@ -8,33 +8,24 @@ from typing import Any
 import numpy
 from numpy.typing import NDArray
 
-from contact_sim_pkg.bag.messages import (
-    BACKREST_FRAME,
-    WHOLE_CONTACT,
-    ContactForceBlock,
-    Cost,
-    Energy,
-    EpisodeBlock,
-    MotionBlock,
-    PatchField,
-    PointField,
-    Wrench,
-    encode_contact_force,
-    encode_contact_patch,
-    encode_contact_points,
-    encode_cost,
-    encode_energy,
-    encode_episodes,
-    encode_motion,
-    encode_wrench,
-)
+from contact_sim_pkg.bag.messages import encode
 from contact_sim_pkg.bag.topics import TOPICS
 from contact_sim_pkg.pressure.mat import spread_force
+from contact_sim_pkg.records.messages import (
+    BodyMotion,
+    ContactEpisodes,
+    ContactForce,
+    ContactPatch,
+    ContactPoints,
+    EnergyLedger,
+    SolverCost,
+)
 from contact_sim_pkg.rigs.backrest import entries as columns
 from contact_sim_pkg.rigs.backrest import parameters as episode
 from contact_sim_pkg.rigs.backrest.model import BackrestModel
 from contact_sim_pkg.rigs.backrest.parameters import BackrestMode
 from contact_sim_pkg.run.mat_field import mat_field
+from contact_sim_pkg.run.wrench import wrench_of
 
 Array = NDArray[numpy.float64]
 NANOSECONDS = 1_000_000_000
@@ -61,8 +52,8 @@ class BackrestRecord:
         """Room for one block of ``model``."""
         samples, states, points = model.timing.samples, len(model.start), len(model.rig.gaps)
         return cls(
-            block, numpy.zeros((samples, states)), numpy.zeros((samples, states)), numpy.zeros((samples, columns.FORCES)),
-            numpy.zeros((samples, points, columns.POINT_COLUMNS)), forward,
+            block, numpy.zeros((samples, states)), numpy.zeros((samples, states)),
+            numpy.zeros((samples, columns.FORCES)), numpy.zeros((samples, points, columns.POINT_COLUMNS)), forward,
         )  # fmt: skip
 
     def take_episodes(self, model: BackrestModel, mode: BackrestMode, peak: Array) -> None:
@@ -111,16 +102,21 @@ class _Encoder:
     def force(self) -> None:
         """The resultant at the full rate, and wrenches at the display rate."""
         normal, tangential, approach = self.record.forces.T
-        value = ContactForceBlock(
-            self.record.block, self.period, normal, tangential, approach, numpy.zeros_like(normal)
+        value = ContactForce(
+            block=self.record.block,
+            sample_period=self.period,
+            normal=normal,
+            tangential=tangential,
+            approach=approach,
+            effective_height=numpy.zeros_like(normal),
         )
-        self.messages.append(("backrest/force", self.stamp, encode_contact_force(value, self.stamp, BACKREST_FRAME)))
+        self.messages.append(("backrest/force", self.stamp, encode(value, self.stamp, "backrest_contact")))
         displays = self.model.timing.displays
         for i in range(displays):
             sample = i * self.model.timing.samples // displays
             stamp = self._stamp_of(sample)
-            wrench = Wrench((float(tangential[sample]), 0.0, float(normal[sample])), (0.0, 0.0, 0.0))
-            self.messages.append(("backrest/wrench", stamp, encode_wrench(wrench, stamp, BACKREST_FRAME)))
+            wrench = wrench_of((float(tangential[sample]), 0.0, float(normal[sample])), (0.0, 0.0, 0.0))
+            self.messages.append(("backrest/wrench", stamp, encode(wrench, stamp, "backrest_contact")))
 
     def fields(self) -> None:
         """Pressure map and contact points at the field rate."""
@@ -128,9 +124,9 @@ class _Encoder:
         for interval in range(timing.intervals):
             sample = interval * timing.segments // timing.sample_every
             stamp = self._stamp_of(sample)
-            field_bytes = encode_contact_patch(self._patch(sample), stamp, BACKREST_FRAME)
+            field_bytes = encode(self._patch(sample), stamp, "backrest_contact")
             self.messages.append(("backrest/patch", stamp, field_bytes))
-            point_bytes = encode_contact_points(self._points(sample), stamp, BACKREST_FRAME)
+            point_bytes = encode(self._points(sample), stamp, "backrest_contact")
             self.messages.append(("backrest/points", stamp, point_bytes))
 
     def _pressure(self, sample: int) -> Array:
@@ -144,20 +140,20 @@ class _Encoder:
             gap = gap - (mat.bent @ self.record.states[sample, : len(model.rig.mass)]).reshape(gap.shape) + approach
         return spread_force(force, approach, model.rig.contact.elastic, gap, mat.cell_x * mat.cell_y)
 
-    def _patch(self, sample: int) -> PatchField:
+    def _patch(self, sample: int) -> ContactPatch:
         mat, pressure = self.model.mat, self._pressure(sample)
         grid = (mat.cell_x, mat.cell_y, float(mat.x[0]), float(mat.y[0]))
         found = mat_field(self.record.block, grid, float(self.record.forces[sample, columns.APPROACH]), pressure)
         self.peak = max(self.peak, found.peak)
         return found
 
-    def _points(self, sample: int) -> PointField:
+    def _points(self, sample: int) -> ContactPoints:
         rows = self.record.points[sample]
-        return PointField(
-            self.record.block, self.model.point_x + rows[:, columns.POINT_UP],
-            self.model.point_y + rows[:, columns.POINT_ACROSS], rows[:, columns.POINT_APPROACH],
-            rows[:, columns.POINT_NORMAL], rows[:, columns.POINT_TANGENTIAL], rows[:, columns.POINT_DISPLACEMENT],
-            rows[:, columns.POINT_STATE].astype(numpy.uint8),
+        return ContactPoints(
+            block=self.record.block, x=self.model.point_x + rows[:, columns.POINT_UP],
+            y=self.model.point_y + rows[:, columns.POINT_ACROSS], approach=rows[:, columns.POINT_APPROACH],
+            normal=rows[:, columns.POINT_NORMAL], tangential=rows[:, columns.POINT_TANGENTIAL],
+            displacement=rows[:, columns.POINT_DISPLACEMENT], state=rows[:, columns.POINT_STATE].astype(numpy.uint8),
         )  # fmt: skip
 
     def episodes(self) -> None:
@@ -166,32 +162,48 @@ class _Encoder:
         if len(rows) == 0:
             return
         place = rows[:, episode.PLACE].astype(numpy.int32)
-        place[place == len(self.model.rig.gaps)] = WHOLE_CONTACT
+        place[place == len(self.model.rig.gaps)] = ContactEpisodes.WHOLE_CONTACT
         closing, opening = rows[:, episode.CLOSING_WORK], rows[:, episode.OPENING_WORK]
         ratio = numpy.divide(opening, closing, out=numpy.zeros_like(closing), where=closing > 0.0)
-        value = EpisodeBlock(
-            self.record.block, place, rows[:, episode.TOUCHED].astype(numpy.uint8),
-            rows[:, episode.START], rows[:, episode.CARRIED], -closing, opening,
-            numpy.sqrt(numpy.maximum(ratio, 0.0)), self.record.peak_force, rows[:, episode.DEEPEST],
+        value = ContactEpisodes(
+            block=self.record.block, point=place, touched=rows[:, episode.TOUCHED].astype(numpy.uint8),
+            start=rows[:, episode.START], end=rows[:, episode.CARRIED], compression_work=-closing,
+            restitution_work=opening, restitution=numpy.sqrt(numpy.maximum(ratio, 0.0)),
+            peak_force=self.record.peak_force, largest_approach=rows[:, episode.DEEPEST],
         )  # fmt: skip
-        self.messages.append(("bench/episodes", self.stamp, encode_episodes(value, self.stamp)))
+        self.messages.append(("bench/episodes", self.stamp, encode(value, self.stamp)))
 
     def bench(self, wall_time: float) -> None:
         """Motion, energy ledger at the block's start, and cost."""
         record = self.record
-        motion = MotionBlock(record.block, self.period, *_motion(self.model, record))
-        self.messages.append(("bench/motion", self.stamp, encode_motion(motion, self.stamp)))
+        motion = BodyMotion(block=record.block, sample_period=self.period, **_motion(self.model, record))
+        self.messages.append(("bench/motion", self.stamp, encode(motion, self.stamp)))
         kinetic, potential, stored, supplied, dissipated = (float(v) for v in record.energy - record.start_energy)
         residual = supplied - kinetic - potential - stored - dissipated
-        ledger = Energy(record.block, kinetic, potential, stored, dissipated, supplied, residual)
-        self.messages.append(("bench/energy", self.stamp, encode_energy(ledger, self.stamp)))
+        ledger = EnergyLedger(
+            block=record.block,
+            kinetic=kinetic,
+            potential=potential,
+            stored=stored,
+            dissipated=dissipated,
+            supplied=supplied,
+            residual=residual,
+        )
+        self.messages.append(("bench/energy", self.stamp, encode(ledger, self.stamp)))
         steps, rejected, events = (int(value) for value in record.counters)
         factor = self.model.timing.block_length / wall_time
-        cost = Cost(record.block, wall_time, factor, steps, rejected, events, 0, 0.0, 0.0, 0, 0, 0.0)
-        self.messages.append(("bench/cost", self.stamp, encode_cost(cost, self.stamp)))
+        cost = SolverCost(
+            block=record.block,
+            wall_time=wall_time,
+            real_time_factor=factor,
+            steps=steps,
+            rejected_steps=rejected,
+            events=events,
+        )
+        self.messages.append(("bench/cost", self.stamp, encode(cost, self.stamp)))
 
 
-def _motion(model: BackrestModel, record: BackrestRecord) -> tuple[Any, ...]:
+def _motion(model: BackrestModel, record: BackrestRecord) -> dict[str, Any]:
     """Names, positions, velocities and accelerations of ``bench/motion``; positions relative to the seat back.
 
     Modal coordinates are relative in their acceleration as well; that of the seat back is added to the others'.
@@ -202,7 +214,9 @@ def _motion(model: BackrestModel, record: BackrestRecord) -> tuple[Any, ...]:
     acceleration = model.motion @ record.rates[:, modes : 2 * modes].T
     acceleration[0] += record.forward
     still = numpy.zeros((1, len(record.states)))
-    return (
-        ("seat_back_x", *model.coordinates), numpy.vstack([still, position]), numpy.vstack([still, velocity]),
-        numpy.vstack([record.forward[None, :], acceleration]),
-    )  # fmt: skip
+    return {
+        "bodies": ("seat_back_x", *model.coordinates),
+        "position": numpy.vstack([still, position]),
+        "velocity": numpy.vstack([still, velocity]),
+        "acceleration": numpy.vstack([record.forward[None, :], acceleration]),
+    }

@@ -8,8 +8,8 @@ import numpy
 
 from contact_sim_pkg.compiled.arrays import Vector
 from contact_sim_pkg.compiled.results import DONE, SENTENCES
-from contact_sim_pkg.excitation.blocks import VibrationBlock
 from contact_sim_pkg.integrate.dormand_prince import make_workspace
+from contact_sim_pkg.records.messages import VibrationBlock
 from contact_sim_pkg.rigs.backrest import entries
 from contact_sim_pkg.rigs.backrest.model import build_backrest
 from contact_sim_pkg.rigs.backrest.motion import margin_count
@@ -49,7 +49,9 @@ class BackrestSimulation:
         samples = timing.intervals * timing.segments // timing.vibration_stride + 1
         still = numpy.zeros(samples)
         period = timing.segment_length * timing.vibration_stride
-        self.advance(0, {VIBRATION: VibrationBlock(0, period, still, still)})
+        self.advance(
+            0, {VIBRATION: VibrationBlock(block=0, sample_period=period, acceleration_x=still, acceleration_z=still)}
+        )
         self._reset()
 
     def advance(self, block: int, inputs: dict[str, InputBlock]) -> BlockResult:

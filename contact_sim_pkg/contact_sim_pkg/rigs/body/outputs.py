@@ -7,28 +7,15 @@ from dataclasses import dataclass, field
 import numpy
 from numpy.typing import NDArray
 
-from contact_sim_pkg.bag.messages import (
-    BENCH_FRAME,
-    BLOCK_FRAME,
-    ContactForceBlock,
-    Cost,
-    Energy,
-    MotionBlock,
-    PointField,
-    Wrench,
-    encode_contact_force,
-    encode_contact_points,
-    encode_cost,
-    encode_energy,
-    encode_motion,
-    encode_wrench,
-)
+from contact_sim_pkg.bag.messages import encode
 from contact_sim_pkg.bag.topics import TOPICS
+from contact_sim_pkg.records.messages import BodyMotion, ContactForce, ContactPoints, EnergyLedger, SolverCost
 from contact_sim_pkg.rigid.body import Motion, contact_count
 from contact_sim_pkg.rigid.problem import PLANE
 from contact_sim_pkg.rigs.body.geometry import contact_arms, gaps, in_ground_axes
 from contact_sim_pkg.rigs.body.model import BlockModel
 from contact_sim_pkg.rigs.body.resultant import resultant
+from contact_sim_pkg.run.wrench import wrench_of
 
 Array = NDArray[numpy.float64]
 NANOSECONDS = 1_000_000_000
@@ -92,8 +79,15 @@ def encode_block(
     period = timing.block_length / timing.samples
     normal, tangential = record.force[:, :, 0].sum(axis=1), record.force[:, :, 1].sum(axis=1)
     zeros = numpy.zeros_like(normal)
-    value = ContactForceBlock(record.block, period, normal, tangential, -record.gap, zeros)
-    messages = [("block/force", stamp, encode_contact_force(value, stamp, BLOCK_FRAME))]
+    value = ContactForce(
+        block=record.block,
+        sample_period=period,
+        normal=normal,
+        tangential=tangential,
+        approach=-record.gap,
+        effective_height=zeros,
+    )
+    messages = [("block/force", stamp, encode(value, stamp, "block_contact"))]
     messages += _wrenches(model, record, stamp) + _points(model, record, stamp)
     messages += _bench(model, record, stamp, period, wall_time)
     messages.sort(key=lambda message: (message[1], TOPICS[message[0]].rank))
@@ -112,8 +106,8 @@ def _wrenches(model: BlockModel, record: BlockRecord, stamp: int) -> list[tuple[
         first, last = (place * timing.samples // timing.displays for place in (display, display + 1))
         force, torque = (_over_heights if uneven else _on_a_plane)(model, record, first, last)
         at = _stamp_of(model, stamp, first)
-        wrench = Wrench((force[0], force[1], force[2]), (torque[0], torque[1], torque[2]))
-        found.append(("block/wrench", at, encode_wrench(wrench, at, BENCH_FRAME if uneven else BLOCK_FRAME)))
+        wrench = wrench_of((force[0], force[1], force[2]), (torque[0], torque[1], torque[2]))
+        found.append(("block/wrench", at, encode(wrench, at, "bench" if uneven else "block_contact")))
     return found
 
 
@@ -151,12 +145,12 @@ def _points(model: BlockModel, record: BlockRecord, stamp: int) -> list[tuple[st
         arms = _in_space(contact_arms(model, record.position[first], record.rotation[first]))
         force = record.force[first:last].mean(axis=0)
         at = _stamp_of(model, stamp, first)
-        value = PointField(
-            record.block, arms[:, 0], arms[:, 1], numpy.zeros(len(arms)), force[:, 0], force[:, 1],
-            numpy.full(len(arms), record.position[first, 0]) + arms[:, 0],
-            record.states[first:last].max(axis=0).astype(numpy.uint8),
+        value = ContactPoints(
+            block=record.block, x=arms[:, 0], y=arms[:, 1], approach=numpy.zeros(len(arms)), normal=force[:, 0],
+            tangential=force[:, 1], displacement=numpy.full(len(arms), record.position[first, 0]) + arms[:, 0],
+            state=record.states[first:last].max(axis=0).astype(numpy.uint8),
         )  # fmt: skip
-        found.append(("block/points", at, encode_contact_points(value, at, BLOCK_FRAME)))
+        found.append(("block/points", at, encode(value, at, "block_contact")))
     return found
 
 
@@ -165,15 +159,37 @@ def _bench(
 ) -> list[tuple[str, int, bytes]]:
     names, position, velocity = _coordinates(model, record)
     acceleration = numpy.diff(velocity, axis=1) / period
-    motion = MotionBlock(record.block, period, names, position[:, :-1], velocity[:, :-1], acceleration)
+    motion = BodyMotion(
+        block=record.block,
+        sample_period=period,
+        bodies=names,
+        position=position[:, :-1],
+        velocity=velocity[:, :-1],
+        acceleration=acceleration,
+    )
     kinetic, potential, stored, dissipated, supplied = (float(value) for value in record.energy)
     residual = supplied - kinetic - potential - stored - dissipated
-    ledger = Energy(record.block, kinetic, potential, stored, dissipated, supplied, residual)
+    ledger = EnergyLedger(
+        block=record.block,
+        kinetic=kinetic,
+        potential=potential,
+        stored=stored,
+        dissipated=dissipated,
+        supplied=supplied,
+        residual=residual,
+    )
     factor = model.timing.block_length / wall_time
-    cost = Cost(record.block, wall_time, factor, record.steps, 0, record.events, 0, record.residual, 0.0, 0, 0, 0.0)
+    cost = SolverCost(
+        block=record.block,
+        wall_time=wall_time,
+        real_time_factor=factor,
+        steps=record.steps,
+        events=record.events,
+        field_residual=record.residual,
+    )
     return [
-        ("bench/motion", stamp, encode_motion(motion, stamp)), ("bench/energy", stamp, encode_energy(ledger, stamp)),
-        ("bench/cost", stamp, encode_cost(cost, stamp)),
+        ("bench/motion", stamp, encode(motion, stamp)), ("bench/energy", stamp, encode(ledger, stamp)),
+        ("bench/cost", stamp, encode(cost, stamp)),
     ]  # fmt: skip
 
 

@@ -11,8 +11,8 @@ from typing import Any
 
 import numpy
 
-from contact_sim_pkg.bag.messages import ImpactFront, ImpactHistory, ImpactPosition, ImpactStress, ImpactWave
 from contact_sim_pkg.compiled.arrays import Vector
+from contact_sim_pkg.records.messages import ImpactFront, ImpactHistory, ImpactPosition, ImpactStress, ImpactWave
 from contact_sim_pkg.rigs.impact.model import ImpactModel
 from contact_sim_pkg.rigs.impact.motion import Ended, course_of
 from contact_sim_pkg.rigs.impact.theory import position
@@ -35,10 +35,10 @@ def stress_of(model: ImpactModel, effect: dict[str, Any], block: int, impact: En
     over = stress.distribution(1.0, places, shape)
     radius: Vector = free.shape * numpy.sqrt(free.sphere.radius * numpy.maximum(depth, 0.0))
     return ImpactStress(
-        block, impact.number, impact.start, shape, times, radius, places,
-        numpy.array([each.elastic for each in centres])[:, None] * over,
-        numpy.array([each.viscous for each in centres])[:, None] * over,
-        numpy.array([each.limited for each in centres], dtype=numpy.uint8),
+        block=block, number=impact.number, start=impact.start, shape=shape, time=times, radius=radius, place=places,
+        elastic=numpy.array([each.elastic for each in centres])[:, None] * over,
+        viscous=numpy.array([each.viscous for each in centres])[:, None] * over,
+        limited=numpy.array([each.limited for each in centres], dtype=numpy.uint8),
     )  # fmt: skip
 
 
@@ -60,8 +60,10 @@ def wave_of(model: ImpactModel, effect: dict[str, Any], block: int, impact: Ende
     radii: Vector = numpy.linspace(0.0, far, int(effect["places"]), dtype=numpy.float64)
     height = surface_wave.wave_height(wave, radii, times, effect["spread"])
     return ImpactWave(
-        block, impact.number, impact.start, wave.amplitude, wave.length, wave.frequency, wave.damping, wave.speed,
-        wave.relative_speed, wave.start_time, wave.start_radius, ring.ratio, times, radii, height,
+        block=block, number=impact.number, start=impact.start, amplitude=wave.amplitude, length=wave.length,
+        frequency=wave.frequency, damping=wave.damping, speed=wave.speed, relative_speed=wave.relative_speed,
+        start_time=wave.start_time, start_radius=wave.start_radius, ring_ratio=ring.ratio, time=times, radius=radii,
+        height=height,
     )  # fmt: skip
 
 
@@ -74,8 +76,10 @@ def front_of(model: ImpactModel, effect: dict[str, Any], block: int, impact: End
     fronts = [micro_front.front_speed(free, x, v, shear) for x, v in states]
     borders = [micro_front.border_speed(free, x, v, shear)[0] for x, v in states]
     return ImpactFront(
-        block, impact.number, impact.start, shear, front.time, front.depth, front.heat, times, numpy.array(borders),
-        numpy.array([speed for speed, _held in fronts]), numpy.array([held for _speed, held in fronts], dtype=numpy.uint8),
+        block=block, number=impact.number, start=impact.start, shear_speed=shear, front_time=front.time,
+        front_depth=front.depth, front_heat=front.heat, time=times, border_speed=numpy.array(borders),
+        front_speed=numpy.array([speed for speed, _held in fronts]),
+        supersonic=numpy.array([held for _speed, held in fronts], dtype=numpy.uint8),
     )  # fmt: skip
 
 
@@ -95,9 +99,17 @@ def position_of(model: ImpactModel, effect: dict[str, Any], block: int, impact: 
         ]  # fmt: skip
     except ImpactError as error:
         raise RunError(f"{impact.start:.6g} s, thermal_volume of impact {impact.number}: {error}") from None
-    names = ("surface_depth", "alpha", "volume", "compression_volume", "heating_volume")
-    columns = [numpy.array([0.0 if each is None else getattr(each, name) for each in found]) for name in names]
-    return ImpactPosition(block, impact.number, impact.start, int(effect["variant"]), times, *columns)
+    names = {
+        "surface_depth": "surface_depth", "compression": "alpha", "volume": "volume",
+        "compression_volume": "compression_volume", "heating_volume": "heating_volume",
+    }  # fmt: skip
+    columns = {
+        column: numpy.array([0.0 if each is None else getattr(each, name) for each in found])
+        for column, name in names.items()
+    }
+    return ImpactPosition(
+        block=block, number=impact.number, start=impact.start, variant=int(effect["variant"]), time=times, **columns
+    )
 
 
 def history_of(model: ImpactModel, effect: dict[str, Any], block: int, impact: Ended) -> ImpactHistory:
@@ -117,7 +129,13 @@ def history_of(model: ImpactModel, effect: dict[str, Any], block: int, impact: E
         law, times, numpy.maximum(elastic + viscous, 0.0), model.sphere.radius, model.poisson_ratio
     )
     return ImpactHistory(
-        block, impact.number, impact.start, effect["model"], times, found.depth, found.growing.astype(numpy.uint8)
+        block=block,
+        number=impact.number,
+        start=impact.start,
+        model=effect["model"],
+        time=times,
+        depth=found.depth,
+        valid=found.growing.astype(numpy.uint8),
     )
 
 

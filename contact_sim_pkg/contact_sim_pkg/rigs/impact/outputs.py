@@ -9,27 +9,20 @@ from typing import Any
 
 import numpy
 
-from contact_sim_pkg.bag.messages import (
-    IMPACT_FRAME,
-    ContactForceBlock,
-    Cost,
-    Energy,
+from contact_sim_pkg.bag.messages import encode
+from contact_sim_pkg.bag.topics import TOPICS
+from contact_sim_pkg.records.messages import (
+    BodyMotion,
+    ContactForce,
+    EnergyLedger,
     ImpactCourse,
     ImpactEvents,
-    MotionBlock,
-    Wrench,
-    encode_contact_force,
-    encode_cost,
-    encode_energy,
-    encode_impact,
-    encode_impact_events,
-    encode_motion,
-    encode_wrench,
+    SolverCost,
 )
-from contact_sim_pkg.bag.topics import TOPICS
 from contact_sim_pkg.rigs.impact.effects import EFFECT_MESSAGES
 from contact_sim_pkg.rigs.impact.model import ImpactModel
 from contact_sim_pkg.rigs.impact.motion import Ended, State, course_of
+from contact_sim_pkg.run.wrench import wrench_of
 
 NANOSECONDS = 1_000_000_000
 Messages = list[tuple[str, int, bytes]]
@@ -42,15 +35,21 @@ def encode_block(
     stamp = block * round(model.timing.block_length * NANOSECONDS)
     messages = _force(model, block, stamp, state)
     if ended:
-        events = encode_impact_events(_events(model, block, ended), stamp)
+        events = encode(_events(model, block, ended), stamp, "impact_contact")
         messages.append(("impact/events", stamp, events))
     for impact in ended:
         messages += encode_impact_messages(model, block, stamp, impact)
-    messages.append(("bench/motion", stamp, encode_motion(_motion(model, block, state), stamp)))
-    messages.append(("bench/energy", stamp, encode_energy(_ledger(model, block, state), stamp)))
+    messages.append(("bench/motion", stamp, encode(_motion(model, block, state), stamp)))
+    messages.append(("bench/energy", stamp, encode(_ledger(model, block, state), stamp)))
     wall = time.perf_counter() - began
-    cost = Cost(block, wall, model.timing.block_length / wall, pieces, 0, len(ended), 0, 0.0, 0.0, 0, 0, 0.0)
-    messages.append(("bench/cost", stamp, encode_cost(cost, stamp)))
+    cost = SolverCost(
+        block=block,
+        wall_time=wall,
+        real_time_factor=model.timing.block_length / wall,
+        steps=pieces,
+        events=len(ended),
+    )
+    messages.append(("bench/cost", stamp, encode(cost, stamp)))
     messages.sort(key=lambda message: (message[1], TOPICS[message[0]].rank))
     return messages
 
@@ -58,13 +57,15 @@ def encode_block(
 def _force(model: ImpactModel, block: int, stamp: int, state: State) -> Messages:
     normal, still = numpy.maximum(state.elastic + state.viscous, _lowest(model)), numpy.zeros(len(state.depth))
     period = model.timing.block_length / model.timing.samples
-    value = ContactForceBlock(block, period, normal, still, state.depth, still)
-    messages: Messages = [("impact/force", stamp, encode_contact_force(value, stamp, IMPACT_FRAME))]
+    value = ContactForce(
+        block=block, sample_period=period, normal=normal, tangential=still, approach=state.depth, effective_height=still
+    )
+    messages: Messages = [("impact/force", stamp, encode(value, stamp, "impact_contact"))]
     for i in range(model.timing.displays):
         place = i * model.timing.samples // model.timing.displays
         at = stamp + place * round(model.timing.block_length * NANOSECONDS) // model.timing.samples
-        wrench = Wrench((0.0, 0.0, float(normal[place])), (0.0, 0.0, 0.0))
-        messages.append(("impact/wrench", at, encode_wrench(wrench, at, IMPACT_FRAME)))
+        wrench = wrench_of((0.0, 0.0, float(normal[place])), (0.0, 0.0, 0.0))
+        messages.append(("impact/wrench", at, encode(wrench, at, "impact_contact")))
     return messages
 
 
@@ -77,9 +78,10 @@ def _events(model: ImpactModel, block: int, ended: list[Ended]) -> ImpactEvents:
     rows = [_event(model, impact) for impact in ended]
     columns = {
         name: numpy.array([row[name] for row in rows], dtype=numpy.int32 if name in ("number", "release") else None)
-        for name in ImpactEvents._fields[1:]
+        for name in ImpactEvents._fields
+        if name != "block"
     }
-    return ImpactEvents(block, **columns)
+    return ImpactEvents(block=block, **columns)
 
 
 def _event(model: ImpactModel, impact: Ended) -> dict[str, Any]:
@@ -114,27 +116,41 @@ def encode_impact_messages(model: ImpactModel, block: int, stamp: int, impact: E
     """Course of an impact, and what the scene's effects say of it."""
     messages: Messages = []
     if model.course_samples:
-        course = ImpactCourse(block, impact.number, impact.start, *course_of(impact, max(2, model.course_samples)))
-        messages.append(("impact/course", stamp, encode_impact(course, stamp)))
+        times, depth, speed, elastic, viscous = course_of(impact, max(2, model.course_samples))
+        course = ImpactCourse(
+            block=block, number=impact.number, start=impact.start, time=times, depth=depth, speed=speed,
+            elastic_force=elastic, viscous_force=viscous,
+        )  # fmt: skip
+        messages.append(("impact/course", stamp, encode(course, stamp, "impact_contact")))
     for effect, (topic, make) in EFFECT_MESSAGES.items():
         if model.effects.get(effect) is not None:
             message: Callable[..., Any] = make
             found = message(model, model.effects[effect], block, impact)
-            messages.append((f"impact/{topic}", stamp, encode_impact(found, stamp)))
+            messages.append((f"impact/{topic}", stamp, encode(found, stamp, "impact_contact")))
     return messages
 
 
-def _motion(model: ImpactModel, block: int, state: State) -> MotionBlock:
+def _motion(model: ImpactModel, block: int, state: State) -> BodyMotion:
     """Height of the sphere's lowest point above the sample, along the blow."""
     period = model.timing.block_length / model.timing.samples
-    rows = (-state.depth[None, :], -state.speed[None, :], -state.acceleration[None, :])
-    return MotionBlock(block, period, ("sphere_z",), *rows)
+    return BodyMotion(
+        block=block, sample_period=period, bodies=("sphere_z",), position=-state.depth[None, :],
+        velocity=-state.speed[None, :], acceleration=-state.acceleration[None, :],
+    )  # fmt: skip
 
 
-def _ledger(model: ImpactModel, block: int, state: State) -> Energy:
+def _ledger(model: ImpactModel, block: int, state: State) -> EnergyLedger:
     start = 0.5 * model.sphere.mass * model.releases[0].speed ** 2
     kinetic, potential, held, heat, supplied = (
         float(column[0]) for column in (state.kinetic, state.potential, state.stored, state.heat, state.supplied)
     )
     residual = supplied - kinetic - (potential - start) - held - heat
-    return Energy(block, kinetic, potential - start, held, heat, supplied, residual)
+    return EnergyLedger(
+        block=block,
+        kinetic=kinetic,
+        potential=potential - start,
+        stored=held,
+        dissipated=heat,
+        supplied=supplied,
+        residual=residual,
+    )

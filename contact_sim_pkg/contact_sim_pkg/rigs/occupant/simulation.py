@@ -11,18 +11,9 @@ import time
 
 import numpy
 
-from contact_sim_pkg.bag.messages import (
-    Cost,
-    Energy,
-    MotionBlock,
-    decode_cost,
-    decode_energy,
-    decode_motion,
-    encode_cost,
-    encode_energy,
-    encode_motion,
-)
+from contact_sim_pkg.bag.messages import decode, encode
 from contact_sim_pkg.bag.topics import TOPICS
+from contact_sim_pkg.records.messages import BodyMotion, EnergyLedger, SolverCost
 from contact_sim_pkg.rigs.backrest.simulation import BackrestSimulation
 from contact_sim_pkg.rigs.vehicle.simulation import Simulation
 from contact_sim_pkg.run.block_simulation import BlockResult, InputBlock
@@ -65,27 +56,29 @@ class OccupantSimulation:
 def _together(results: list[BlockResult], stamp: int) -> list[Message]:
     """One message of motion, energy and cost, of those of both rigs."""
     found = [{topic: data for topic, _stamp, data in result.messages if topic in SHARED} for result in results]
-    motions = [decode_motion(each["bench/motion"]) for each in found]
-    energies = [decode_energy(each["bench/energy"]) for each in found]
-    costs = [decode_cost(each["bench/cost"]) for each in found]
+    motions = [decode(BodyMotion, each["bench/motion"]) for each in found]
+    energies = [decode(EnergyLedger, each["bench/energy"]) for each in found]
+    costs = [decode(SolverCost, each["bench/cost"]) for each in found]
     return [
-        ("bench/motion", stamp, encode_motion(_motion(motions), stamp)),
-        ("bench/energy", stamp, encode_energy(_energy(energies), stamp)),
-        ("bench/cost", stamp, encode_cost(_cost(costs), stamp)),
+        ("bench/motion", stamp, encode(_motion(motions), stamp)),
+        ("bench/energy", stamp, encode(_energy(energies), stamp)),
+        ("bench/cost", stamp, encode(_cost(costs), stamp)),
     ]
 
 
-def _motion(parts: list[MotionBlock]) -> MotionBlock:
-    rows = [numpy.vstack([getattr(part, name) for part in parts]) for name in ("position", "velocity", "acceleration")]
+def _motion(parts: list[BodyMotion]) -> BodyMotion:
+    names = ("position", "velocity", "acceleration")
+    rows = {name: numpy.vstack([getattr(part, name) for part in parts]) for name in names}
     bodies = tuple(body for part in parts for body in part.bodies)
-    return MotionBlock(parts[0].block, parts[0].sample_period, bodies, *rows)
+    return BodyMotion(block=parts[0].block, sample_period=parts[0].sample_period, bodies=bodies, **rows)
 
 
-def _energy(parts: list[Energy]) -> Energy:
-    return Energy(parts[0].block, *(sum(values) for values in zip(*(part[1:] for part in parts), strict=True)))
+def _energy(parts: list[EnergyLedger]) -> EnergyLedger:
+    names = [name for name in EnergyLedger._fields if name != "block"]
+    return EnergyLedger(block=parts[0].block, **{name: sum(getattr(part, name) for part in parts) for name in names})
 
 
-def _cost(parts: list[Cost]) -> Cost:
+def _cost(parts: list[SolverCost]) -> SolverCost:
     """Times and counts add up; of residuals, jumps and errors the largest counts."""
     block, wall = parts[0].block, sum(part.wall_time for part in parts)
     length = parts[0].real_time_factor * parts[0].wall_time
@@ -96,6 +89,17 @@ def _cost(parts: list[Cost]) -> Cost:
     residual, jump, error = (
         max(getattr(part, name) for part in parts) for name in ("field_residual", "field_jump", "coupling_error")
     )
-    return Cost(
-        block, wall, length / wall, steps, rejected, events, iterations, residual, jump, stretches, repeated, error
+    return SolverCost(
+        block=block,
+        wall_time=wall,
+        real_time_factor=length / wall,
+        steps=steps,
+        rejected_steps=rejected,
+        events=events,
+        field_iterations=iterations,
+        field_residual=residual,
+        field_jump=jump,
+        stretches=stretches,
+        stretches_repeated=repeated,
+        coupling_error=error,
     )

@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy
 
-from contact_sim_pkg.bag.messages import RollerStability
+from contact_sim_pkg.records.messages import RollerStability
 from contact_sim_pkg.rigs.roller.model import RollerModel, build_roller
 from contact_sim_pkg.rigs.roller.theory.parameters import Curvatures
 from contact_sim_pkg.rigs.roller.theory.stability import RollerError, critical_damping, critical_load, stability
@@ -43,9 +43,9 @@ def _told(model: RollerModel, block: int, curvatures: Curvatures, load: float) -
         damping = math.nan
     threshold = critical_load(model.roller, *case, SEARCHED * model.largest_load)
     return RollerStability(
-        block, load, found.growth_rate, found.frequency, found.linear.tilt, found.linear.yaw,
-        math.nan if threshold is None else threshold, damping,
-        numpy.array(found.roots.real), numpy.array(found.roots.imag),
+        block=block, load=load, growth_rate=found.growth_rate, frequency=found.frequency, tilt=found.linear.tilt,
+        yaw=found.linear.yaw, critical_load=math.nan if threshold is None else threshold, critical_damping=damping,
+        root_real=numpy.array(found.roots.real), root_imaginary=numpy.array(found.roots.imag),
     )  # fmt: skip
 
 

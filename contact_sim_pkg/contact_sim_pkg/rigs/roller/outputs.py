@@ -9,24 +9,19 @@ from typing import NamedTuple
 import numpy
 from numpy.typing import NDArray
 
-from contact_sim_pkg.bag.messages import (
-    ROLLER_FRAME,
-    ContactForceBlock,
-    Cost,
-    Energy,
-    MotionBlock,
+from contact_sim_pkg.bag.messages import encode
+from contact_sim_pkg.bag.topics import TOPICS
+from contact_sim_pkg.compiled.arrays import Vector
+from contact_sim_pkg.records.messages import (
+    BodyMotion,
+    ContactForce,
+    EnergyLedger,
     RollerContact,
     RollerStability,
     RollerTrack,
     RollerVolumes,
-    encode_contact_force,
-    encode_cost,
-    encode_energy,
-    encode_motion,
-    encode_roller,
+    SolverCost,
 )
-from contact_sim_pkg.bag.topics import TOPICS
-from contact_sim_pkg.compiled.arrays import Vector
 from contact_sim_pkg.rigs.roller.energy import Energies
 from contact_sim_pkg.rigs.roller.model import RollerModel
 from contact_sim_pkg.rigs.roller.ride import Checked, TrackRide
@@ -76,12 +71,14 @@ def encode_block(model: RollerModel, record: RollerRecord, wall_time: float) -> 
     stamp = record.block * round(model.timing.block_length * NANOSECONDS)
     messages = _contact(record, stamp)
     if record.stability is not None:
-        messages.append(("roller/stability", stamp, encode_roller(record.stability, stamp)))
+        messages.append(("roller/stability", stamp, encode(record.stability, stamp, "roller_contact")))
     if record.track is not None:
         for track in record.track.tracks:
-            messages.append(("roller/track", stamp, encode_roller(_track(model, record, record.track, track), stamp)))
+            messages.append(
+                ("roller/track", stamp, encode(_track(model, record, record.track, track), stamp, "roller_contact"))
+            )
     for measured in record.volumes:
-        messages.append(("roller/volumes", stamp, encode_roller(_volumes(record.block, measured), stamp)))
+        messages.append(("roller/volumes", stamp, encode(_volumes(record.block, measured), stamp, "roller_contact")))
     messages += _bench(model, record, stamp, wall_time)
     messages.sort(key=lambda message: (message[1], TOPICS[message[0]].rank))
     return messages
@@ -91,23 +88,32 @@ def _contact(record: RollerRecord, stamp: int) -> Messages:
     columns = record.contacts.T.copy()
     along_x, along_y, angle, peak, approach = columns[:5]
     zeros = numpy.zeros_like(record.load)
-    force = ContactForceBlock(record.block, record.period, record.load, zeros, approach, zeros)
+    force = ContactForce(
+        block=record.block,
+        sample_period=record.period,
+        normal=record.load,
+        tangential=zeros,
+        approach=approach,
+        effective_height=zeros,
+    )
     value = RollerContact(
-        record.block, record.period, record.load, along_x, along_y, angle, peak, approach, record.angles[:, 0].copy(),
-        record.angles[:, 1].copy(), record.heave[0].copy(),
+        block=record.block, period=record.period, load=record.load, along_x=along_x, along_y=along_y, angle=angle,
+        peak_pressure=peak, approach=approach, tilt=record.angles[:, 0].copy(), yaw=record.angles[:, 1].copy(),
+        heave=record.heave[0].copy(),
     )  # fmt: skip
     return [
-        ("roller/force", stamp, encode_contact_force(force, stamp, ROLLER_FRAME)),
-        ("roller/contact", stamp, encode_roller(value, stamp)),
+        ("roller/force", stamp, encode(force, stamp, "roller_contact")),
+        ("roller/contact", stamp, encode(value, stamp, "roller_contact")),
     ]
 
 
 def _track(model: RollerModel, record: RollerRecord, ride: TrackRide, track: BodyTrack) -> RollerTrack:
     checked = record.checked or Checked(0, math.nan)
     return RollerTrack(
-        record.block, track.body, float(track.turned), track.turned * model.acceleration, track.turn_time, track.radius,
-        track.heights.copy(), track.loads.copy(), track.lowered, track.range, ride.free, float(checked.intervals * track.turns),
-        checked.error,
+        block=record.block, body=track.body, turns=float(track.turned), cycles=track.turned * model.acceleration,
+        turn_time=track.turn_time, radius=track.radius, height=track.heights.copy(), load=track.loads.copy(),
+        lowered=track.lowered, range=track.range, free=ride.free, checked=float(checked.intervals * track.turns),
+        check_error=checked.error,
     )  # fmt: skip
 
 
@@ -115,19 +121,33 @@ def _volumes(block: int, measured: Measured) -> RollerVolumes:
     contact = measured.contact
     bent = numpy.zeros(0) if measured.bent is None else numpy.array(measured.bent)
     return RollerVolumes(
-        block, measured.time, contact.load, contact.along_x, contact.along_y, contact.angle, contact.peak_pressure,
-        contact.approach, *measured.limits, measured.working, numpy.array(measured.own), bent,
+        block=block, time=measured.time, load=contact.load, along_x=contact.along_x, along_y=contact.along_y,
+        angle=contact.angle, peak_pressure=contact.peak_pressure, approach=contact.approach,
+        normal_limit=measured.limits[0], shear_limit=measured.limits[1], working_volume=measured.working,
+        volume=numpy.array(measured.own), with_bending=bent,
     )  # fmt: skip
 
 
 def _bench(model: RollerModel, record: RollerRecord, stamp: int, wall_time: float) -> Messages:
     position = numpy.vstack([record.heave[0], record.angles[:, 0], record.angles[:, 1]])
     velocity = numpy.vstack([record.heave[1], record.angles[:, 2], record.angles[:, 3]])
-    motion = MotionBlock(record.block, record.period, BODIES, position, velocity, record.acceleration)
+    motion = BodyMotion(
+        block=record.block,
+        sample_period=record.period,
+        bodies=BODIES,
+        position=position,
+        velocity=velocity,
+        acceleration=record.acceleration,
+    )
     factor = model.timing.block_length / wall_time
-    cost = Cost(record.block, wall_time, factor, record.steps, 0, 0, 0, 0.0, 0.0, 0, 0, 0.0)
-    ledger = Energy(record.block, *record.energy, record.energy.residual)
+    cost = SolverCost(
+        block=record.block,
+        wall_time=wall_time,
+        real_time_factor=factor,
+        steps=record.steps,
+    )
+    ledger = EnergyLedger(block=record.block, **record.energy._asdict(), residual=record.energy.residual)
     return [
-        ("bench/motion", stamp, encode_motion(motion, stamp)), ("bench/energy", stamp, encode_energy(ledger, stamp)),
-        ("bench/cost", stamp, encode_cost(cost, stamp)),
+        ("bench/motion", stamp, encode(motion, stamp)), ("bench/energy", stamp, encode(ledger, stamp)),
+        ("bench/cost", stamp, encode(cost, stamp)),
     ]  # fmt: skip

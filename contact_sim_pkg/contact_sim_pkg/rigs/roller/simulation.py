@@ -7,8 +7,8 @@ import time
 
 import numpy
 
-from contact_sim_pkg.bag.messages import RollerStability
 from contact_sim_pkg.compiled.arrays import Vector
+from contact_sim_pkg.records.messages import RollerStability
 from contact_sim_pkg.rigs.roller.block_motion import Matrix, TiltYaw
 from contact_sim_pkg.rigs.roller.energy import Energies
 from contact_sim_pkg.rigs.roller.forecast import forecast
@@ -28,10 +28,8 @@ from contact_sim_pkg.scene.resolved_scene import ResolvedScene
 MOST_TRACKS = 200
 """Heights of the track that a run records, about: one at every so many blocks, and one at its end."""
 
-
 ROAD_CELL = 1e-3
 """[m]: a road's texture holds waves down to two of them."""
-
 
 PEAK_PRESSURE = RollingContact._fields.index("peak_pressure")
 

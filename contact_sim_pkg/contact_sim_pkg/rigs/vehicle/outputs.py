@@ -3,42 +3,33 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import numpy
 from numpy.typing import NDArray
 
-from contact_sim_pkg.bag.messages import (
-    NO_SAMPLES,
-    SEAT_FRAME,
-    TIRE_FRAME,
-    ContactForceBlock,
-    Cost,
-    Energy,
-    MotionBlock,
-    PatchField,
-    ShearField,
-    Wrench,
-    encode_contact_force,
-    encode_contact_patch,
-    encode_contact_shear,
-    encode_cost,
-    encode_energy,
-    encode_motion,
-    encode_wrench,
-)
+from contact_sim_pkg.bag.messages import encode
 from contact_sim_pkg.bag.topics import TOPICS
 from contact_sim_pkg.laws.normal_force import pressure_factor
 from contact_sim_pkg.laws.parameters import ElasticLaw
 from contact_sim_pkg.pressure.closed_form.lame import fit_patch
 from contact_sim_pkg.pressure.field.patch import summarise
 from contact_sim_pkg.pressure.mat import spread_force
+from contact_sim_pkg.records.messages import (
+    BodyMotion,
+    ContactForce,
+    ContactPatch,
+    ContactShear,
+    EnergyLedger,
+    SolverCost,
+)
 from contact_sim_pkg.rigs.vehicle import entries as columns
 from contact_sim_pkg.rigs.vehicle.contact_model import FieldGrids
 from contact_sim_pkg.rigs.vehicle.model import Model
 from contact_sim_pkg.rigs.vehicle.seat.mat import PanMat
 from contact_sim_pkg.rigs.vehicle.tire.rolling_shear import RollingShear
 from contact_sim_pkg.run.mat_field import mat_field
+from contact_sim_pkg.run.wrench import wrench_of
 
 Array = NDArray[numpy.float64]
 NANOSECONDS = 1_000_000_000
@@ -142,20 +133,20 @@ class _Encoder:
         rig, force = self.model.rig, self.record.forces
         for sample, tire, seat in self.record.fields:
             if tire is not None:
-                pressure = self._field("tire", TIRE_FRAME, sample, tire, (columns.TIRE_APPROACH, columns.TIRE_RATE))
+                pressure = self._field("tire", "tire_contact", sample, tire, (columns.TIRE_APPROACH, columns.TIRE_RATE))
                 if self.shear is not None:
                     self._sheared(self.shear, sample, tire, pressure)
             if seat is not None:
-                self._field("seat", SEAT_FRAME, sample, seat, (columns.SEAT_APPROACH, columns.SEAT_RATE))
+                self._field("seat", "seat_contact", sample, seat, (columns.SEAT_APPROACH, columns.SEAT_RATE))
         if rig.tire_contact is not None:
             chosen = (columns.TIRE_NORMAL, columns.TIRE_APPROACH, columns.TIRE_HEIGHT)
-            impulses = NO_SAMPLES if self.model.asperities is None else force[:, columns.TIRE_PUSH]
-            self._contact("tire", TIRE_FRAME, self.friction, force[:, chosen], impulses)
+            impulses = numpy.empty(0) if self.model.asperities is None else force[:, columns.TIRE_PUSH]
+            self._contact("tire", "tire_contact", self.friction, force[:, chosen], impulses)
         if rig.seat_contact is not None:
             chosen = (columns.SEAT_NORMAL, columns.SEAT_APPROACH, columns.SEAT_HEIGHT)
             friction = numpy.zeros((len(force), 3))
             friction[:, 0] = force[:, columns.SEAT_TANGENTIAL]
-            self._contact("seat", SEAT_FRAME, friction, force[:, chosen], NO_SAMPLES)
+            self._contact("seat", "seat_contact", friction, force[:, chosen], numpy.empty(0))
             if self.model.seat_mat is not None:
                 self._mat(self.model.seat_mat, rig.seat_contact.elastic)
 
@@ -169,22 +160,30 @@ class _Encoder:
             pressure = spread_force(force, approach, elastic, mat.gap, mat.cell_x * mat.cell_y)
             found = mat_field(self.record.block, mat[:4], approach, pressure)
             self.peak, stamp = max(self.peak, found.peak), self._stamp_of(sample)
-            self.messages.append(("seat/patch", stamp, encode_contact_patch(found, stamp, SEAT_FRAME)))
+            self.messages.append(("seat/patch", stamp, encode(found, stamp, "seat_contact")))
 
     def _contact(self, name: str, frame: str, friction: Array, samples: Array, impulses: Array) -> None:
         """Force and wrenches of a contact; ``samples``: normal force [N], approach and height [m]."""
         normal, approach, height = samples.T
         self.load = max(self.load, float(normal.max()))
-        value = ContactForceBlock(self.record.block, self.period, normal, friction[:, 0], approach, height, impulses)
-        self.messages.append((f"{name}/force", self.stamp, encode_contact_force(value, self.stamp, frame)))
+        value = ContactForce(
+            block=self.record.block,
+            sample_period=self.period,
+            normal=normal,
+            tangential=friction[:, 0],
+            approach=approach,
+            effective_height=height,
+            impulses=impulses,
+        )
+        self.messages.append((f"{name}/force", self.stamp, encode(value, self.stamp, frame)))
         displays = self.model.timing.displays
         for i in range(displays):
             sample = i * self.model.timing.samples // displays
             force_x, force_y, moment_z = (float(part) for part in friction[sample])
             vertical = float(normal[sample]) + (float(impulses[sample]) if len(impulses) else 0.0)
-            wrench = Wrench((force_x, force_y, vertical), (0.0, 0.0, moment_z))
+            wrench = wrench_of((force_x, force_y, vertical), (0.0, 0.0, moment_z))
             stamp = self._stamp_of(sample)
-            self.messages.append((f"{name}/wrench", stamp, encode_wrench(wrench, stamp, frame)))
+            self.messages.append((f"{name}/wrench", stamp, encode(wrench, stamp, frame)))
 
     def _sheared(self, shear: RollingShear, sample: int, found: FieldRecord, pressure: Array) -> None:
         """The shear under a field; its resultants hold until the next."""
@@ -193,12 +192,14 @@ class _Encoder:
         rolled = shear.advance(pressure, *place, found.travel, stamp / NANOSECONDS)
         result = rolled.result
         self.friction[sample:] = (result.force_x, result.force_y, result.moment_z)
-        value = ShearField(
-            self.record.block, settings.cell_x, settings.cell_y, *place, rolled.slip, rolled.slip_angle, result.force_x,
-            result.force_y, result.moment_z, result.sliding_share, result.dissipated + result.released,
-            rolled.shear_x.astype(numpy.float32), rolled.shear_y.astype(numpy.float32), rolled.state,
+        value = ContactShear(
+            block=self.record.block, cell_x=settings.cell_x, cell_y=settings.cell_y, origin_x=place[0],
+            origin_y=place[1], slip=rolled.slip, slip_angle=rolled.slip_angle, force_x=result.force_x,
+            force_y=result.force_y, moment_z=result.moment_z, sliding_share=result.sliding_share,
+            dissipated=result.dissipated + result.released, shear_x=rolled.shear_x.astype(numpy.float32),
+            shear_y=rolled.shear_y.astype(numpy.float32), state=rolled.state,
         )  # fmt: skip
-        self.messages.append(("tire/shear", stamp, encode_contact_shear(value, stamp, TIRE_FRAME)))
+        self.messages.append(("tire/shear", stamp, encode(value, stamp, "tire_contact")))
 
     def _grids(self, name: str) -> FieldGrids:
         grids = self.model.tire_field if name == "tire" else self.model.seat_field
@@ -218,42 +219,56 @@ class _Encoder:
         shape = fit_patch(pressure, settings.cell_x, settings.cell_y, origin_x, origin_y)
         self.peak = max(self.peak, total.peak)
         touching = total.load > 0.0
-        value = PatchField(
-            self.record.block, settings.cell_x, settings.cell_y, origin_x, origin_y, total.load, total.peak, total.mean,
-            total.area, total.centre_x if touching else 0.0, total.centre_y if touching else 0.0, found.approach,
-            shape.a, shape.b, shape.exponent, pressure.astype(numpy.float32),
+        value = ContactPatch(
+            block=self.record.block, cell_x=settings.cell_x, cell_y=settings.cell_y,
+            origin_x=origin_x, origin_y=origin_y, load=total.load, peak=total.peak, mean=total.mean,
+            area=total.area, centre_x=total.centre_x if touching else 0.0,
+            centre_y=total.centre_y if touching else 0.0, approach=found.approach,
+            lame_a=shape.a, lame_b=shape.b, lame_n=shape.exponent, pressure=pressure.astype(numpy.float32),
         )  # fmt: skip
         stamp = self._stamp_of(sample)
-        self.messages.append((f"{name}/patch", stamp, encode_contact_patch(value, stamp, frame)))
+        self.messages.append((f"{name}/patch", stamp, encode(value, stamp, frame)))
         return pressure
 
     def motion(self) -> None:
         """Positions, velocities and accelerations of all bodies."""
-        value = MotionBlock(self.record.block, self.period, self.model.bodies, *_motion_rows(self.model, self.record))
-        self.messages.append(("bench/motion", self.stamp, encode_motion(value, self.stamp)))
+        value = BodyMotion(
+            block=self.record.block,
+            sample_period=self.period,
+            bodies=self.model.bodies,
+            **_motion_rows(self.model, self.record),
+        )
+        self.messages.append(("bench/motion", self.stamp, encode(value, self.stamp)))
 
     def ledger(self) -> None:
         """The energy ledger at the block's start."""
         kinetic, potential, stored, supplied, dissipated = self.record.energy - self.record.start_energy
         residual = supplied - kinetic - potential - stored - dissipated
-        value = Energy(
-            self.record.block, *(float(v) for v in (kinetic, potential, stored, dissipated, supplied, residual))
+        value = EnergyLedger(
+            block=self.record.block,
+            kinetic=float(kinetic),
+            potential=float(potential),
+            stored=float(stored),
+            dissipated=float(dissipated),
+            supplied=float(supplied),
+            residual=float(residual),
         )
-        self.messages.append(("bench/energy", self.stamp, encode_energy(value, self.stamp)))
+        self.messages.append(("bench/energy", self.stamp, encode(value, self.stamp)))
 
     def cost(self, wall_time: float) -> None:
         """What the block cost."""
         record = self.record
         steps, rejected, events = (int(value) for value in record.counters)
-        value = Cost(
-            record.block, wall_time, self.model.timing.block_length / wall_time, steps, rejected, events,
-            record.field_iterations, record.field_residual, record.field_jump, record.stretches, record.stretches_repeated,
-            record.coupling_error,
+        value = SolverCost(
+            block=record.block, wall_time=wall_time, real_time_factor=self.model.timing.block_length / wall_time,
+            steps=steps, rejected_steps=rejected, events=events, field_iterations=record.field_iterations,
+            field_residual=record.field_residual, field_jump=record.field_jump, stretches=record.stretches,
+            stretches_repeated=record.stretches_repeated, coupling_error=record.coupling_error,
         )  # fmt: skip
-        self.messages.append(("bench/cost", self.stamp, encode_cost(value, self.stamp)))
+        self.messages.append(("bench/cost", self.stamp, encode(value, self.stamp)))
 
 
-def _motion_rows(model: Model, record: BlockRecord) -> tuple[Any, Any, Any]:
+def _motion_rows(model: Model, record: BlockRecord) -> dict[str, Array]:
     """Rows of ``bench/motion`` in the order of ``model.bodies``: position, velocity, acceleration."""
     rig, state, rate = model.rig, record.states, record.rates
     indices: list[tuple[int, int]] = []
@@ -277,4 +292,4 @@ def _motion_rows(model: Model, record: BlockRecord) -> tuple[Any, Any, Any]:
         still = numpy.zeros((1, len(state)))
         position, velocity = numpy.vstack([still, position]), numpy.vstack([still, velocity])
         acceleration = numpy.vstack([record.floor[:, 1][None, :], acceleration])
-    return position, velocity, acceleration
+    return {"position": position, "velocity": velocity, "acceleration": acceleration}

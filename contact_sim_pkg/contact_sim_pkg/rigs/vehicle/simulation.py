@@ -8,7 +8,7 @@ from typing import Any
 import numpy
 
 from contact_sim_pkg.compiled.arrays import Vector
-from contact_sim_pkg.excitation.blocks import RoadPatch, VibrationBlock
+from contact_sim_pkg.records.messages import RoadPatch, VibrationBlock
 from contact_sim_pkg.rigs.vehicle.coupling import Coupling
 from contact_sim_pkg.rigs.vehicle.drive import ROAD, VIBRATION, BlockDrive, block_drive
 from contact_sim_pkg.rigs.vehicle.model import Model, build
@@ -49,7 +49,9 @@ class Simulation:
         if VIBRATION in self.inputs:
             count = timing.intervals * timing.segments // timing.vibration_stride + 1
             period = timing.segment_length * timing.vibration_stride
-            inputs[VIBRATION] = VibrationBlock(0, period, numpy.zeros(count), numpy.zeros(count))
+            inputs[VIBRATION] = VibrationBlock(
+                block=0, sample_period=period, acceleration_x=numpy.zeros(count), acceleration_z=numpy.zeros(count)
+            )
         self.advance(0, inputs)
         self._reset()
         self._next_block = 0
@@ -67,7 +69,13 @@ class Simulation:
         rows = int(numpy.ceil((high - low) / geometry.lattice.cell_x)) + 2 * geometry.lattice.road_rows + 2
         height = numpy.zeros((rows, geometry.lattice.road_cols), dtype=numpy.float32)
         return RoadPatch(
-            0, 0.0, travel.position(length), first, geometry.lattice.cell_x, geometry.lattice.cell_y, height
+            block=0,
+            travel_start=0.0,
+            travel_end=travel.position(length),
+            first_row=first,
+            cell_x=geometry.lattice.cell_x,
+            cell_y=geometry.lattice.cell_y,
+            height=height,
         )
 
     def advance(self, block: int, inputs: dict[str, RoadPatch | VibrationBlock]) -> BlockResult:

@@ -16,8 +16,9 @@ from typing import Any, NamedTuple
 
 import numpy
 
-from contact_sim_pkg.bag.messages import decode_contact_force
+from contact_sim_pkg.bag.messages import decode
 from contact_sim_pkg.compiled.arrays import Vector
+from contact_sim_pkg.records.messages import ContactForce
 from contact_sim_pkg.scene.resolve import ResolvedScene
 
 __all__ = ["Observed", "is_needed", "observe"]
@@ -44,7 +45,7 @@ def observe(messages: list[tuple[str, int, bytes]], inputs: list[dict[str, Any]]
     for topic, _stamp, data in messages:
         contact, _, kind = topic.partition("/")
         if kind == "force":
-            parts.setdefault(contact, []).append(decode_contact_force(data).normal)
+            parts.setdefault(contact, []).append(decode(ContactForce, data).normal)
     forces = {contact: numpy.concatenate(found) for contact, found in parts.items()}
     shaken = [
         numpy.abs(given["platform/vibration"].acceleration_x).max() for given in inputs if "platform/vibration" in given

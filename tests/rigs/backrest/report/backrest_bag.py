@@ -7,10 +7,20 @@ from pathlib import Path
 
 import numpy as np
 
-from contact_sim_pkg.bag import messages
+from contact_sim_pkg.bag.messages import encode
 from contact_sim_pkg.bag.metadata import recorded_topics
 from contact_sim_pkg.bag.reader import Bag, open_bag
 from contact_sim_pkg.bag.writer import BagWriter
+from contact_sim_pkg.records.messages import (
+    BodyMotion,
+    ContactEpisodes,
+    ContactForce,
+    ContactPatch,
+    ContactPoints,
+    EnergyLedger,
+    SolverCost,
+    String,
+)
 
 BLOCK_NS, BLOCK_LENGTH, SAMPLES = 10_000_000, 0.01, 10
 BLOCKS = 200  # two seconds
@@ -70,7 +80,7 @@ def backrest_bag(directory: Path, frequency: float = 5.0, *, slaps: bool = True,
     with BagWriter(
         directory, recorded_topics(TOPICS), {"scene": scene(frequency)}, reserve_bytes=0, background=False
     ) as writer:
-        writer.write("bench/scene", 0, messages.encode_scene(scene(frequency)))
+        writer.write("bench/scene", 0, encode(String(data=scene(frequency))))
         for block in range(BLOCKS):
             _write_block(writer, block, frequency, amplitude, points)
     return open_bag(directory)
@@ -82,29 +92,61 @@ def _write_block(writer: BagWriter, block: int, frequency: float, amplitude: flo
     normal, tangential, slid = forces(time, frequency, amplitude)
     deep, rate = approach(time, frequency, amplitude)
     period = BLOCK_LENGTH / SAMPLES
-    force = messages.ContactForceBlock(block, period, normal, tangential, deep, np.zeros(SAMPLES))
-    writer.write("backrest/force", stamp, messages.encode_contact_force(force, stamp, messages.BACKREST_FRAME))
-    patch = messages.encode_contact_patch(
-        _patch(block, float(normal[0]), float(deep[0])), stamp, messages.BACKREST_FRAME
+    force = ContactForce(
+        block=block,
+        sample_period=period,
+        normal=normal,
+        tangential=tangential,
+        approach=deep,
+        effective_height=np.zeros(SAMPLES),
     )
+    writer.write("backrest/force", stamp, encode(force, stamp, "backrest_contact"))
+    patch = encode(_patch(block, float(normal[0]), float(deep[0])), stamp, "backrest_contact")
     writer.write("backrest/patch", stamp, patch)
     at = (float(normal[0]), float(tangential[0]), float(deep[0]), float(slid[0]))
-    point = messages.encode_contact_points(_points(block, points, *at), stamp, messages.BACKREST_FRAME)
+    point = encode(_points(block, points, *at), stamp, "backrest_contact")
     writer.write("backrest/points", stamp, point)
     ended = touches(frequency) if amplitude == SLAPPING else np.zeros(0)
     ended = ended[(ended + 0.5 / frequency >= time[0]) & (ended + 0.5 / frequency < time[0] + BLOCK_LENGTH)]
     if ended.size:
-        writer.write("bench/episodes", stamp, messages.encode_episodes(_episodes(block, ended, frequency), stamp))
-    motion = messages.MotionBlock(block, period, ("occupant_x",), -deep[None], -rate[None], np.zeros((1, SAMPLES)))
-    writer.write("bench/motion", stamp, messages.encode_motion(motion, stamp))
-    writer.write(
-        "bench/energy", stamp, messages.encode_energy(messages.Energy(block, 0.0, 0.0, 0.0, 1.0, 1.0, 0.0), stamp)
+        writer.write("bench/episodes", stamp, encode(_episodes(block, ended, frequency), stamp))
+    motion = BodyMotion(
+        block=block,
+        sample_period=period,
+        bodies=("occupant_x",),
+        position=-deep[None],
+        velocity=-rate[None],
+        acceleration=np.zeros((1, SAMPLES)),
     )
-    cost = messages.Cost(block, 2e-3, 5.0, 12, 1, 2, 0, 0.0, 0.0, 0, 0, 0.0)
-    writer.write("bench/cost", stamp, messages.encode_cost(cost, stamp))
+    writer.write("bench/motion", stamp, encode(motion, stamp))
+    writer.write(
+        "bench/energy",
+        stamp,
+        encode(
+            EnergyLedger(
+                block=block, kinetic=0.0, potential=0.0, stored=0.0, dissipated=1.0, supplied=1.0, residual=0.0
+            ),
+            stamp,
+        ),
+    )
+    cost = SolverCost(
+        block=block,
+        wall_time=2e-3,
+        real_time_factor=5.0,
+        steps=12,
+        rejected_steps=1,
+        events=2,
+        field_iterations=0,
+        field_residual=0.0,
+        field_jump=0.0,
+        stretches=0,
+        stretches_repeated=0,
+        coupling_error=0.0,
+    )
+    writer.write("bench/cost", stamp, encode(cost, stamp))
 
 
-def _patch(block: int, load: float, deep: float) -> messages.PatchField:
+def _patch(block: int, load: float, deep: float) -> ContactPatch:
     pressure = np.zeros((ROWS, COLS), dtype=np.float32)
     cells = 0 if load <= 0.0 else REST_CELLS if deep <= REST else DEEP_CELLS
     half_rows, half_cols = {0: (0, 0), REST_CELLS: (1, 1), DEEP_CELLS: (3, 2)}[cells]
@@ -112,13 +154,15 @@ def _patch(block: int, load: float, deep: float) -> messages.PatchField:
     if cells:
         pressure[place] = load / (cells * CELL_X * CELL_Y)
     peak = float(pressure.max())
-    return messages.PatchField(
-        block, CELL_X, CELL_Y, -(ROWS - 1) / 2 * CELL_X, -(COLS - 1) / 2 * CELL_Y, load, peak, peak, cells * CELL_X * CELL_Y,
-        0.0, 0.0, deep, half_rows * CELL_X, half_cols * CELL_Y, 2.0, pressure,
+    return ContactPatch(
+        block=block, cell_x=CELL_X, cell_y=CELL_Y, origin_x=-(ROWS - 1) / 2 * CELL_X,
+        origin_y=-(COLS - 1) / 2 * CELL_Y, load=load, peak=peak, mean=peak, area=cells * CELL_X * CELL_Y, centre_x=0.0,
+        centre_y=0.0, approach=deep, lame_a=half_rows * CELL_X, lame_b=half_cols * CELL_Y, lame_n=2.0,
+        pressure=pressure,
     )  # fmt: skip
 
 
-def _points(block: int, count: int, normal: float, tangential: float, deep: float, slid: float) -> messages.PointField:
+def _points(block: int, count: int, normal: float, tangential: float, deep: float, slid: float) -> ContactPoints:
     share = np.zeros(count)
     inner = slice(max(0, count // 2 - 1), count // 2 + 1)
     share[inner if deep <= REST else slice(0, count)] = 1.0
@@ -126,22 +170,24 @@ def _points(block: int, count: int, normal: float, tangential: float, deep: floa
     share = share / share.sum()
     state = np.where((share > 0.0) & (normal > 0.0), 2 if slid > 0.0 else 3, 0).astype(np.uint8)
     line = (np.arange(count) - (count - 1) / 2) * CELL_X
-    return messages.PointField(
-        block,
-        line,
-        np.zeros(count),
-        np.full(count, deep),
-        share * normal,
-        share * tangential,
-        np.full(count, slid),
-        state,
+    return ContactPoints(
+        block=block,
+        x=line,
+        y=np.zeros(count),
+        approach=np.full(count, deep),
+        normal=share * normal,
+        tangential=share * tangential,
+        displacement=np.full(count, slid),
+        state=state,
     )
 
 
-def _episodes(block: int, start: np.ndarray, frequency: float) -> messages.EpisodeBlock:
+def _episodes(block: int, start: np.ndarray, frequency: float) -> ContactEpisodes:
     count = start.size
-    return messages.EpisodeBlock(
-        block, np.full(count, messages.WHOLE_CONTACT, dtype=np.int32), np.ones(count, dtype=np.uint8), start,
-        start + 0.5 / frequency, np.full(count, WORKS[0]), np.full(count, WORKS[1]), np.full(count, 0.5),
-        np.full(count, 1600.0), np.full(count, REST + SLAPPING),
+    return ContactEpisodes(
+        block=block, point=np.full(count, ContactEpisodes.WHOLE_CONTACT, dtype=np.int32),
+        touched=np.ones(count, dtype=np.uint8), start=start, end=start + 0.5 / frequency,
+        compression_work=np.full(count, WORKS[0]), restitution_work=np.full(count, WORKS[1]),
+        restitution=np.full(count, 0.5), peak_force=np.full(count, 1600.0),
+        largest_approach=np.full(count, REST + SLAPPING),
     )  # fmt: skip

@@ -5,9 +5,10 @@ import pytest
 from tests.report.page import Page
 from tests.rigs.backrest.report import backrest_bag as known
 
-from contact_sim_pkg.bag.messages import decode_contact_patch
+from contact_sim_pkg.bag.messages import decode
 from contact_sim_pkg.bag.reader import open_bag
 from contact_sim_pkg.pressure.closed_form.lame import LameFit
+from contact_sim_pkg.records.messages import ContactPatch
 from contact_sim_pkg.report.reading import read_recording
 from contact_sim_pkg.report.report import write_report
 from contact_sim_pkg.rigs.backrest.report.figures_domain import chosen_stages, fit_of, lame_curve
@@ -74,7 +75,7 @@ def test_the_drawn_curve_is_the_lame_curve_about_its_centre(exponent):
 
 def test_the_domain_at_first_touch_and_largest_force_is_that_of_the_messages(slapping):
     field = read_recording(slapping).fields["backrest"]
-    patches = [(each.log_time * 1e-9, decode_contact_patch(each.data)) for each in slapping.messages("/backrest/patch")]
+    patches = [(each.log_time * 1e-9, decode(ContactPatch, each.data)) for each in slapping.messages("/backrest/patch")]
     loads = [patch.load for _, patch in patches]
     touch = next(k for k in range(1, len(loads)) if loads[k] > 0.0 and loads[k - 1] == 0.0)
     for shown, number in ((field.touch, touch), (field.heaviest, int(np.argmax(loads)))):

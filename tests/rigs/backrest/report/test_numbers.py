@@ -6,7 +6,8 @@ import numpy as np
 import pytest
 from tests.rigs.backrest.report import backrest_bag as known
 
-from contact_sim_pkg.bag.messages import decode_contact_patch, decode_contact_points
+from contact_sim_pkg.bag.messages import decode
+from contact_sim_pkg.records.messages import ContactPatch, ContactPoints
 from contact_sim_pkg.report.point_series import PointSeries
 from contact_sim_pkg.report.reading import read_recording
 from contact_sim_pkg.rigs.backrest.report import numbers
@@ -57,7 +58,7 @@ def test_the_friction_loop_has_the_paper_s_sign_and_the_work_of_its_damper(kept)
 
 def test_the_loop_of_one_of_many_points_is_what_its_messages_say(slap, slap_bag):
     loop = numbers.point_loop(slap.points)
-    messages = [decode_contact_points(each.data) for each in slap_bag.messages("/backrest/points")]
+    messages = [decode(ContactPoints, each.data) for each in slap_bag.messages("/backrest/points")]
     assert loop.force.tolist() == [each.normal[3] for each in messages]
     friction = numbers.tangential_loop(slap.contacts["backrest"], slap.points)
     assert friction.force.tolist() == [-each.tangential[3] for each in messages]
@@ -66,7 +67,7 @@ def test_the_loop_of_one_of_many_points_is_what_its_messages_say(slap, slap_bag)
 def test_the_area_ratio_is_one_at_rest_and_counts_loaded_cells(slap, slap_bag):
     area = numbers.area_ratio(slap.fields["backrest"])
     loaded = [
-        int(np.count_nonzero(decode_contact_patch(each.data).pressure)) for each in slap_bag.messages("/backrest/patch")
+        int(np.count_nonzero(decode(ContactPatch, each.data).pressure)) for each in slap_bag.messages("/backrest/patch")
     ]
     assert area.reference == pytest.approx(known.REST_CELLS * known.CELL_X * known.CELL_Y, rel=1e-12)
     assert area.ratio == pytest.approx(np.array(loaded) / known.REST_CELLS, rel=1e-12)

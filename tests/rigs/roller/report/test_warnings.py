@@ -3,7 +3,7 @@
 import numpy
 import pytest
 
-from contact_sim_pkg.bag.messages import RollerContact, RollerTrack
+from contact_sim_pkg.records.messages import RollerContact, RollerTrack
 from contact_sim_pkg.rigs.roller.report.series import RollerSeries
 from contact_sim_pkg.rigs.roller.report.warnings import roller_warnings, variation_above
 
@@ -12,12 +12,26 @@ CELLS, TURN = 256, 0.005  # [s]
 
 def track(waves=2, amplitude=50.0, lowered=0.0, checked=0.0, error=0.0):
     load = 100.0 + amplitude * numpy.cos(2.0 * numpy.pi * waves * numpy.arange(CELLS) / CELLS)
-    return RollerTrack(0, "shaft", 10.0, 1e4, TURN, 0.005, numpy.zeros(CELLS), load, lowered, 0.0, 0.0, checked, error)
+    return RollerTrack(
+        block=0,
+        body="shaft",
+        turns=10.0,
+        cycles=1e4,
+        turn_time=TURN,
+        radius=0.005,
+        height=numpy.zeros(CELLS),
+        load=load,
+        lowered=lowered,
+        range=0.0,
+        free=0.0,
+        checked=checked,
+        check_error=error,
+    )
 
 
 def warned(*tracks, rate=2000.0):
-    columns = [numpy.zeros(4)] * 9
-    return roller_warnings(RollerSeries(numpy.zeros(4), RollerContact(0, 1.0 / rate, *columns), list(tracks), [], []))
+    contact = RollerContact(**dict.fromkeys(RollerContact._fields, numpy.zeros(4)) | {"block": 0, "period": 1.0 / rate})
+    return roller_warnings(RollerSeries(numpy.zeros(4), contact, list(tracks), [], []))
 
 
 def test_a_run_whose_stretches_agree_is_not_warned_of():

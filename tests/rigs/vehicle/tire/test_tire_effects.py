@@ -5,13 +5,14 @@ import pytest
 from tests.rigs.vehicle.test_simulation import messages_of
 from tests.run.scenes import resolved
 
-from contact_sim_pkg.bag.messages import (
-    decode_contact_force,
-    decode_contact_patch,
-    decode_contact_shear,
-    decode_energy,
-    decode_motion,
-    decode_wrench,
+from contact_sim_pkg.bag.messages import decode
+from contact_sim_pkg.records.messages import (
+    BodyMotion,
+    ContactForce,
+    ContactPatch,
+    ContactShear,
+    EnergyLedger,
+    WrenchStamped,
 )
 
 GRAVITY = 9.81
@@ -22,20 +23,20 @@ ALL = tuple(f"effects.tire.{name}={{}}" for name in EFFECTS)
 
 
 def forces(found, field="normal"):
-    return numpy.concatenate([getattr(decode_contact_force(data), field) for data in found["tire/force"]])
+    return numpy.concatenate([getattr(decode(ContactForce, data), field) for data in found["tire/force"]])
 
 
 @pytest.mark.parametrize("effects", [ALL[:1], ALL[1:2], ALL[2:], ALL], ids=lambda chosen: "+".join(chosen))
 def test_a_tire_on_a_flat_road_stands_still_under_its_weight(effects):
     found = messages_of(resolved("tire_bump", *FLAT, "travel.speed=0", "accuracy=1e-3", *effects))
     assert forces(found) == pytest.approx(WEIGHT, rel=2e-3)
-    motion = [decode_motion(data) for data in found["bench/motion"]]
+    motion = [decode(BodyMotion, data) for data in found["bench/motion"]]
     assert max(abs(block.velocity).max() for block in motion) < 3e-3
 
 
 def test_the_belt_stands_between_road_and_wheel_as_two_springs_in_series():
     scene = resolved("tire_bump", *FLAT, "effects.tire.carcass={stiffness: 250000, belt_mass: 10}")
-    motion = decode_motion(messages_of(scene, 1)["bench/motion"][0])
+    motion = decode(BodyMotion, messages_of(scene, 1)["bench/motion"][0])
     height = dict(zip(motion.bodies, motion.position[:, 0], strict=True))
     assert motion.bodies == ("wheel_z", "body_z", "belt_z")
     assert height["belt_z"] - height["wheel_z"] == pytest.approx(330.0 * GRAVITY / 250000.0, rel=1e-9)
@@ -46,7 +47,7 @@ def test_the_ledger_closes_with_a_belt_and_impulses():
     found = messages_of(
         resolved("tire_bump", "duration=1.3", "effects.tire.carcass={}", "effects.tire.asperity_impulses={}")
     )
-    ledger = [decode_energy(data) for data in found["bench/energy"]]
+    ledger = [decode(EnergyLedger, data) for data in found["bench/energy"]]
     moved = max(abs(entry.supplied) + entry.dissipated for entry in ledger)
     assert moved > 50.0
     assert max(abs(entry.residual) for entry in ledger) < 1e-4 * moved
@@ -66,8 +67,8 @@ def test_impulses_carry_their_share_of_the_load_on_an_even_road():
     step = 0.2 * WEIGHT * 0.02 / (2.0 * 0.0460556)  # Hertz: semi-axis along the road of 3335 N
     assert set(numpy.round(impulses / step, 3)) == {4.0, 5.0}
     assert impulses.mean() == pytest.approx(0.2 * WEIGHT, rel=0.02)
-    wrench = decode_wrench(found["tire/wrench"][3])
-    assert wrench.force[2] == pytest.approx(forces(found)[30] + impulses[30])
+    wrench = decode(WrenchStamped, found["tire/wrench"][3]).wrench
+    assert wrench.force.z == pytest.approx(forces(found)[30] + impulses[30])
 
 
 def test_impulses_do_not_push_a_tire_that_is_off_the_road():
@@ -88,7 +89,7 @@ def test_a_tread_with_memory_drags_and_an_elastic_one_does_not():
     centre = {}
     for name, effects in (("elastic", ()), ("memory", ALL[2:])):
         found = messages_of(resolved("tire_bump", *rolling, *effects))
-        patches = [decode_contact_patch(data) for data in found["tire/patch"]][50:]
+        patches = [decode(ContactPatch, data) for data in found["tire/patch"]][50:]
         centre[name] = numpy.mean([patch.centre_x for patch in patches])
     assert abs(centre["elastic"]) < 2e-4
     assert centre["memory"] > 1e-3  # the pressure stands ahead of the axle: a moment against the rolling
@@ -98,8 +99,8 @@ def test_a_flat_road_in_a_steady_turn_gives_what_the_brush_gives_and_the_forces_
     found = messages_of(
         resolved("tire_bump", *FLAT, "effects.tire.brush={}", "slip={longitudinal: -0.01, angle: 0.02}")
     )
-    shears = [decode_contact_shear(data) for data in found["tire/shear"]]
-    patch, shear = decode_contact_patch(found["tire/patch"][-1]), shears[-1]
+    shears = [decode(ContactShear, data) for data in found["tire/shear"]]
+    patch, shear = decode(ContactPatch, found["tire/patch"][-1]), shears[-1]
     cell = shear.cell_x * shear.cell_y
     assert shear.shear_x.astype(float).sum() * cell == pytest.approx(shear.force_x, rel=1e-5)
     assert shear.shear_y.astype(float).sum() * cell == pytest.approx(shear.force_y, rel=1e-5)
@@ -110,15 +111,15 @@ def test_a_flat_road_in_a_steady_turn_gives_what_the_brush_gives_and_the_forces_
     size = numpy.hypot(shear.shear_x, shear.shear_y)
     assert (size <= 1.0 * patch.pressure * (1.0 + 1e-5)).all()
     assert size[shear.state == 2] == pytest.approx(0.75 * patch.pressure[shear.state == 2], rel=1e-5)
-    block = decode_contact_force(found["tire/force"][-1])
+    block = decode(ContactForce, found["tire/force"][-1])
     assert block.tangential[-1] == shear.force_x
-    wrench = decode_wrench(found["tire/wrench"][-1])
-    assert (wrench.force[0], wrench.force[1], wrench.torque[2]) == (shear.force_x, shear.force_y, shear.moment_z)
+    wrench = decode(WrenchStamped, found["tire/wrench"][-1]).wrench
+    assert (wrench.force.x, wrench.force.y, wrench.torque.z) == (shear.force_x, shear.force_y, shear.moment_z)
 
 
 def test_a_locked_wheel_slides_everywhere():
     found = messages_of(resolved("tire_bump", *FLAT, "effects.tire.brush={}", "slip={longitudinal: -1}"))
-    shear = decode_contact_shear(found["tire/shear"][-1])
+    shear = decode(ContactShear, found["tire/shear"][-1])
     assert shear.sliding_share == 1.0
     assert shear.force_x == pytest.approx(-0.75 * WEIGHT, rel=5e-3)
 

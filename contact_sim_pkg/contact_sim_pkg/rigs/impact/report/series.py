@@ -6,7 +6,8 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from contact_sim_pkg.bag.messages import (
+from contact_sim_pkg.bag.messages import record_of
+from contact_sim_pkg.records.messages import (
     ImpactCourse,
     ImpactEvents,
     ImpactFront,
@@ -14,8 +15,6 @@ from contact_sim_pkg.bag.messages import (
     ImpactPosition,
     ImpactStress,
     ImpactWave,
-    events_of_message,
-    impact_of_message,
 )
 
 EVENTS = "contact_msgs_defs/msg/ImpactEvents"
@@ -73,21 +72,22 @@ class ImpactPass:
     def take(self, type_name: str, message: Any) -> None:
         """Take a message of one of `IMPACT_TYPES`. Raises MessageError where its arrays do not fit."""
         if type_name == EVENTS:
-            self._events.append(events_of_message(message))
+            self._events.append(record_of(ImpactEvents, message))
             return
         kind: Any = _KINDS[type_name]
         if kind is ImpactCourse:
             if len(self._courses) < MOST_COURSES:
-                self._courses.append(impact_of_message(kind, message))
+                self._courses.append(record_of(kind, message))
         elif kind not in self._first:
-            self._first[kind] = impact_of_message(kind, message)
+            self._first[kind] = record_of(kind, message)
 
     def finish(self) -> ImpactSeries | None:
         """What was taken; None where no impact ended."""
         if not self._events:
             return None
-        columns = [np.concatenate(rows) for rows in zip(*(each[1:] for each in self._events), strict=True)]
+        names = [name for name in ImpactEvents._fields if name != "block"]
+        columns = {name: np.concatenate([getattr(each, name) for each in self._events]) for name in names}
         rest = (
             self._first.get(kind) for kind in (ImpactStress, ImpactWave, ImpactFront, ImpactPosition, ImpactHistory)
         )
-        return ImpactSeries(ImpactEvents(0, *columns), self._courses, *rest)
+        return ImpactSeries(ImpactEvents(block=0, **columns), self._courses, *rest)

@@ -7,9 +7,10 @@ from collections.abc import Callable
 
 import numpy
 
-from contact_sim_pkg.bag.messages import decode_contact_force, decode_energy, decode_impact_events
+from contact_sim_pkg.bag.messages import decode
 from contact_sim_pkg.compiled.arrays import Vector
 from contact_sim_pkg.records.hard_case import Finding, HardCase, at_most, close_to, exactly
+from contact_sim_pkg.records.messages import ContactForce, EnergyLedger, ImpactEvents
 from contact_sim_pkg.rigs.impact.reference.weighted_impact import impact_under_weight
 from contact_sim_pkg.rigs.impact.theory.bodies import Material, Sphere
 from contact_sim_pkg.rigs.impact.theory.contact import ContactLaw, touch
@@ -55,7 +56,7 @@ def back_under_weight() -> Finding:
 
 
 def _forces(messages: list[Message]) -> list[Vector]:
-    return [decode_contact_force(data).normal for name, _stamp, data in messages if name == "impact/force"]
+    return [decode(ContactForce, data).normal for name, _stamp, data in messages if name == "impact/force"]
 
 
 def comes_to_rest() -> Finding:
@@ -69,14 +70,14 @@ def no_pull() -> Finding:
     wrong = 0
     for name, _stamp, data in found:
         if name == "impact/force":
-            block = decode_contact_force(data)
+            block = decode(ContactForce, data)
             wrong += int((block.normal < 0.0).sum() + (block.normal[block.approach <= 0.0] != 0.0).sum())
     return exactly(wrong, 0)
 
 
 def _ledger(*values: str) -> Finding:
     found = messages_of("impact_rubber_drop", 1.0, BARE, *values)
-    ledger = [decode_energy(data) for name, _stamp, data in found if name == "bench/energy"]
+    ledger = [decode(EnergyLedger, data) for name, _stamp, data in found if name == "bench/energy"]
     turned = max(max(each.kinetic, abs(each.potential), each.dissipated) for each in ledger)
     return at_most(max(abs(each.residual) for each in ledger) / turned, 1e-12)
 
@@ -95,14 +96,14 @@ def elastic_for_long() -> Finding:
     """Loss of speed over 100 impacts without loss, relative."""
     values = ("effects.impact={normal_elastic: {}}", "impact.speeds=[0.05]", "outputs.force_rate=1000")
     found = messages_of("impact_rubber_drop", 2.0, *values)
-    speeds = numpy.concatenate([decode_impact_events(d).speed for name, _s, d in found if name == "impact/events"])
+    speeds = numpy.concatenate([decode(ImpactEvents, d).speed for name, _s, d in found if name == "impact/events"])
     return at_most(float(abs(speeds / 0.05 - 1.0).max()) + (0.0 if len(speeds) > 100 else 1.0), 1e-11)
 
 
 def pendulum_to_rest() -> Finding:
     """Largest change of k over the 27 impacts of a hammer on foam, 1 m/s to 1.4 nm/s; then it hangs at rest."""
     found = messages_of("impact_pendulum", 30.0, BARE, "outputs.force_rate=100")
-    events = [decode_impact_events(data) for name, _stamp, data in found if name == "impact/events"]
+    events = [decode(ImpactEvents, data) for name, _stamp, data in found if name == "impact/events"]
     k = numpy.concatenate([each.restitution for each in events])
     rests = len(k) == 27 and not _forces(found)[-1].any()
     return at_most(float(abs(k / k[0] - 1.0).max()) if rests else math.nan, 1e-9)
@@ -121,6 +122,7 @@ def refusals() -> Finding:
     shift = "effects.impact={normal_elastic: {}, shift: {}}"
     name = "impact_rubber_drop"
     cases = (
+
         (lambda: messages_of(name, 0.3, "effects.impact.normal_dissipative.end=gap", "impact.sample.loss_tangent=0.5"), "0.4037"),
         (lambda: messages_of(name, 0.3, "impact.speeds=[80.0]"), "depth over radius"),
         (lambda: messages_of(name, 0.3, shift, "impact.temperatures=[150.0]"), "pole"),
@@ -142,7 +144,7 @@ def steel_without_weight() -> Finding:
     """Steel on steel at 1 m/s by the pendulum: largest error of tau, x_m and F against the closed form with no loss."""
     loss = ("impact.sample.loss_tangent=0", "impact.sample.body_loss_tangent=0", "impact.machine=pendulum")
     found = messages_of("impact_steel", 0.6, BARE, *loss, "outputs.force_rate=1000")
-    events = next(decode_impact_events(data) for name, _stamp, data in found if name == "impact/events")
+    events = next(decode(ImpactEvents, data) for name, _stamp, data in found if name == "impact/events")
     mass, elastic = 0.0326, 4.0 / 3.0 * math.sqrt(2.0) * 1.05e11 * math.sqrt(0.01)
     depth = (1.25 * mass / elastic) ** 0.4
     duration = 0.8 * math.sqrt(math.pi) * math.gamma(0.4) / math.gamma(0.9) * depth

@@ -6,7 +6,7 @@ from typing import Any
 
 import numpy as np
 
-from contact_sim_pkg.bag.messages import RollerTrack
+from contact_sim_pkg.records.messages import RollerTrack
 from contact_sim_pkg.report.drawing import ACCENT, INK, MUTED, Picture, draw_series, new_figure, picture
 from contact_sim_pkg.report.signal.decimate import envelope
 from contact_sim_pkg.rigs.roller.model import build_roller

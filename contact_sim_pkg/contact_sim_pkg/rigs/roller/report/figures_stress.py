@@ -7,7 +7,7 @@ from typing import Any, TypeAlias
 
 import numpy as np
 
-from contact_sim_pkg.bag.messages import RollerVolumes
+from contact_sim_pkg.records.messages import RollerVolumes
 from contact_sim_pkg.report.drawing import Picture, new_figure, picture
 from contact_sim_pkg.report.series import FloatArray
 from contact_sim_pkg.rigs.roller.model import RollerModel, build_roller

@@ -6,7 +6,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from contact_sim_pkg.bag.messages import RollerTrack
+from contact_sim_pkg.records.messages import RollerTrack
 from contact_sim_pkg.report.drawing import Picture
 from contact_sim_pkg.report.series import Recording
 from contact_sim_pkg.report.tables import Table

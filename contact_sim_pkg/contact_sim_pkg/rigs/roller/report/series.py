@@ -7,13 +7,8 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from contact_sim_pkg.bag.messages import (
-    RollerContact,
-    RollerStability,
-    RollerTrack,
-    RollerVolumes,
-    roller_of_message,
-)
+from contact_sim_pkg.bag.messages import record_of
+from contact_sim_pkg.records.messages import RollerContact, RollerStability, RollerTrack, RollerVolumes
 
 FloatArray = NDArray[np.float64]
 
@@ -45,7 +40,7 @@ class RollerPass:
     def take(self, seconds: float, type_name: str, message: Any) -> None:
         """Take a message of one of `ROLLER_TYPES`. Raises MessageError where its arrays do not fit."""
         kind = KINDS[type_name]
-        value = roller_of_message(kind, message)
+        value = record_of(kind, message)
         self._taken[kind].append(value)
         if isinstance(value, RollerContact):
             self._times.append(seconds + value.period * np.arange(len(value.load), dtype=np.float64))
@@ -55,7 +50,8 @@ class RollerPass:
         blocks = self._taken[RollerContact]
         if not blocks:
             return None
-        columns = [np.concatenate(rows) for rows in zip(*(each[2:] for each in blocks), strict=True)]
-        contact = RollerContact(0, blocks[0].period, *columns)
+        names = [name for name in RollerContact._fields if name not in ("block", "period")]
+        columns = {name: np.concatenate([getattr(each, name) for each in blocks]) for name in names}
+        contact = RollerContact(block=0, period=blocks[0].period, **columns)
         rest = (self._taken[kind] for kind in (RollerTrack, RollerVolumes, RollerStability))
         return RollerSeries(np.concatenate(self._times), contact, *rest)

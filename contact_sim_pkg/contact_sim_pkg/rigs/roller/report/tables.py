@@ -6,7 +6,7 @@ import math
 from collections.abc import Callable
 from typing import Any
 
-from contact_sim_pkg.bag.messages import RollerStability, RollerVolumes
+from contact_sim_pkg.records.messages import RollerStability, RollerVolumes
 from contact_sim_pkg.report.tables import Table
 from contact_sim_pkg.rigs.roller.forecast import ANY_LOAD
 

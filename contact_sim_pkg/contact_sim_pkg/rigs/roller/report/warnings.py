@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from contact_sim_pkg.bag.messages import RollerTrack
+from contact_sim_pkg.records.messages import RollerTrack
 from contact_sim_pkg.rigs.roller.report.series import RollerSeries
 
 LARGEST_ERROR = 0.1

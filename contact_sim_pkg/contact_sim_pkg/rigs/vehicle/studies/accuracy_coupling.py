@@ -12,8 +12,9 @@ from typing import Any
 
 import numpy
 
-from contact_sim_pkg.bag.messages import decode_contact_force
+from contact_sim_pkg.bag.messages import decode
 from contact_sim_pkg.compiled.arrays import Vector
+from contact_sim_pkg.records.messages import ContactForce
 from contact_sim_pkg.rigs.vehicle.studies.scene_drive import load_resolved
 from contact_sim_pkg.run.rigs import make_simulation
 from contact_sim_pkg.run.sources import make_sources
@@ -86,6 +87,6 @@ def simulate(scene: ResolvedScene, duration: float) -> tuple[dict[str, Vector], 
         for topic, _stamp, data in result.messages:
             contact, _, kind = topic.partition("/")
             if kind == "force":
-                forces.setdefault(contact, []).append(decode_contact_force(data).normal)
+                forces.setdefault(contact, []).append(decode(ContactForce, data).normal)
     joined = {contact: numpy.concatenate(parts) for contact, parts in forces.items()}
     return joined, 1e3 * statistics.median(walls) / length

@@ -4,8 +4,9 @@ from __future__ import annotations
 
 from typing import Any
 
-from contact_sim_pkg.bag.messages import decode_contact_force, decode_contact_patch, decode_energy
+from contact_sim_pkg.bag.messages import decode
 from contact_sim_pkg.records.hard_case import Finding, HardCase, at_most, exactly
+from contact_sim_pkg.records.messages import ContactForce, ContactPatch, EnergyLedger
 from contact_sim_pkg.run.rigs import make_simulation
 from contact_sim_pkg.run.sources import make_sources
 from contact_sim_pkg.scene.load import load_scene
@@ -33,7 +34,7 @@ def _last(messages: list[Message], topic: str) -> Any:
 
 
 def _residual(scene_name: str, duration: float, *values: str) -> float:
-    ledger = decode_energy(_last(messages_of(scene_name, duration, *values), "bench/energy"))
+    ledger = decode(EnergyLedger, _last(messages_of(scene_name, duration, *values), "bench/energy"))
     return abs(ledger.residual) / max(abs(ledger.supplied), ledger.dissipated)
 
 
@@ -55,10 +56,10 @@ def car_ledger() -> Finding:
 def lift_off() -> Finding:
     """Samples with a negative force behind a bump of 0.12 m, where the tire leaves the road (also counted: no flight at all)."""
     found = messages_of("tire_bump", 1.5, "road.height=0.12")
-    forces = [decode_contact_force(data).normal for name, _stamp, data in found if name == "tire/force"]
+    forces = [decode(ContactForce, data).normal for name, _stamp, data in found if name == "tire/force"]
     flying = sum(int((force == 0.0).sum()) for force in forces)
     wrong = sum(int((force < 0.0).sum()) for force in forces) + (0 if flying > 10 else 1)
-    fields = [decode_contact_patch(data) for name, _stamp, data in found if name == "tire/patch"]
+    fields = [decode(ContactPatch, data) for name, _stamp, data in found if name == "tire/patch"]
     wrong += 0 if any(patch.load == 0.0 and patch.area == 0.0 for patch in fields) else 1
     return exactly(wrong, 0)
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy
 
 from contact_sim_pkg.compiled.arrays import Vector
-from contact_sim_pkg.excitation.blocks import RoadPatch
+from contact_sim_pkg.records.messages import RoadPatch
 from contact_sim_pkg.rigs.vehicle.tire.asperity_impulses import FORCE_SHARE, asperity_force, default_asperities
 from contact_sim_pkg.rigs.vehicle.tire.model import Asperities, TireGeometry
 

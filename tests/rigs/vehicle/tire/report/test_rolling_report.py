@@ -7,7 +7,8 @@ import pytest
 from tests.report import rolling_bag as known
 from tests.report.page import Page
 
-from contact_sim_pkg.bag import messages
+from contact_sim_pkg.bag.messages import encode
+from contact_sim_pkg.records.messages import ContactForce
 from contact_sim_pkg.report.reading import read_recording
 from contact_sim_pkg.report.report import write_report
 from contact_sim_pkg.report.signal.lift_off import lifted_intervals
@@ -180,8 +181,16 @@ def test_a_wheel_that_stands_has_no_picture_over_distance(tmp_path, monkeypatch)
 def test_asperities_have_a_curve_of_their_own(tmp_path, monkeypatch):
     def force(block, stamp):
         zeros = np.zeros(known.SAMPLES)
-        pushed = messages.ContactForceBlock(block, 1e-3, zeros + 3000.0, zeros, zeros, zeros, zeros + 10.0 * block)
-        return messages.encode_contact_force(pushed, stamp, messages.TIRE_FRAME)
+        pushed = ContactForce(
+            block=block,
+            sample_period=1e-3,
+            normal=zeros + 3000.0,
+            tangential=zeros,
+            approach=zeros,
+            effective_height=zeros,
+            impulses=zeros + 10.0 * block,
+        )
+        return encode(pushed, stamp, "tire_contact")
 
     monkeypatch.setitem(known._ENCODERS, "tire/force", force)
     bag = known.rolling_bag(tmp_path / "asperities", 30, ("bench/scene", "tire/force"))

@@ -1,0 +1,44 @@
+"""Messages as records: `from contact_sim_pkg.records.messages import ContactForce`, then `ContactForce(block=3, normal=...)`.
+
+Each is made from its `.msg` file when it is first asked for: its fields by name, its constants beside them. It is a named
+tuple whose values are given by name alone, so a field may move or be added without a word elsewhere. The header and the numbers
+that say the shape of an array are no fields of it: the encoder knows them. What tools see of it stands in `messages.pyi`, which
+`make records` writes from the same files.
+"""
+
+from __future__ import annotations
+
+from collections import namedtuple
+from typing import Any
+
+import numpy
+
+from .definitions import Definition, definition_of
+
+__all__ = ["made"]
+
+
+def made(definition: Definition) -> Any:
+    """The class of a message's records."""
+    names = [field.name for field in definition.record_fields]
+    defaults: dict[str, Any] = {
+        field.name: numpy.empty(0, field.type) if field.may_be_empty else field.default
+        for field in definition.record_fields
+        if field.has_default
+    }
+    name = definition.type_name.rpartition("/")[2]
+    base: Any = namedtuple(name, names)  # type: ignore[misc]
+
+    def by_name(cls: Any, /, **values: Any) -> Any:
+        return base.__new__(cls, **{**defaults, **values})
+
+    inside = {"__slots__": (), "__new__": by_name, "__module__": __name__, "__doc__": definition.comment}
+    return type(name, (base,), {**inside, **definition.constants})
+
+
+def __getattr__(name: str) -> Any:
+    try:
+        definition = definition_of(name)
+    except KeyError:
+        raise AttributeError(f"no message is called {name}") from None
+    return globals().setdefault(name, made(definition))
