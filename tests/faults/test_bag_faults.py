@@ -1,4 +1,4 @@
-"""Part E of the fault sheet, recording and disk: one test or more per row, with its number in the name."""
+"""Part E of docs/faults.md, recording and disk: one test or more per row, with its number in the name."""
 
 import errno
 import os

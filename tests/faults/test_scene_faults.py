@@ -1,4 +1,4 @@
-"""Part A of the fault sheet: scenes and settings. Each test carries the number of its row."""
+"""Part A of docs/faults.md: scenes and settings. Each test carries the number of its row."""
 
 import os
 import subprocess

@@ -63,7 +63,7 @@ def test_the_root_search_delivers_what_is_asked_by_the_slow_twin(n, p, q, lowest
 
 
 def test_the_published_table_of_the_sphere_comes_out():
-    """SEEDS 4.4 at zeta = 2.2354: restitution 0.0679 where the bodies part at x = 0."""
+    """The free impact at zeta = 2.2354: restitution 0.0679 where the bodies part at x = 0."""
     assert restitution_of_severity(2.2354, 1.5, 0.5, 1.0, PULLS) == pytest.approx(0.0679, abs=5e-5)
 
 

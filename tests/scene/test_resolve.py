@@ -168,7 +168,7 @@ def test_every_shipped_scene_resolves_and_reads_back(name):
 
 
 def test_the_general_law_of_a_back_has_the_default_loss_of_a_back():
-    """Restitution 0.6 at 0.5 m/s is 1.9497 s/m of damping (SEEDS 3.4), times the elastic coefficient."""
+    """Restitution 0.6 at 0.5 m/s is 1.9497 s/m of damping, times the elastic coefficient."""
     general = "effects.backrest={normal_elastic: {}, general_dissipative: {}}"
     slap = load_scene("seat_slap", [set_value("backrest.sliding=null"), set_value(general)])
     effects = resolve(slap).data["effects"]["backrest"]

@@ -1,4 +1,4 @@
-"""Friction with true stick: a spring-damper that sticks, limited by Coulomb's law (SEEDS 2.6, P0 eq 9).
+"""Friction with true stick: a spring-damper that sticks, limited by Coulomb's law (Driver and Seat, eq 9).
 
 * stick: ``F_t = C s + D v``, ``s' = v``;
 * slip: ``F_t = sigma mu_k N``, and the spring follows, ``C s = F_t - D v``, never beyond ``mu_k N / C`` against the slip;
@@ -7,8 +7,8 @@
 
 v is the velocity of the upper body relative to the lower, F_t the force on the lower body; on the upper body acts
 -F_t. The transitions are located events, not smoothed: no creep in stick. F_t is continuous where slip ends, also where v has
-turned round before: a load that falls fast keeps the slip alive a little longer. (SEEDS 2.6 holds s below mu_k N / C along the
-slip too: then the force jumps by D v there, again and again, at instants that the step decides.)
+turned round before: a load that falls fast keeps the slip alive a little longer. (With s below mu_k N / C along the
+slip too the force jumps by D v there, again and again, at instants that the step decides.)
 """
 
 from __future__ import annotations

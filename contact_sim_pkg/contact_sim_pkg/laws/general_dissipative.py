@@ -1,4 +1,4 @@
-"""Loss of the general normal law ``F = A x**n + B x**p sgn(x') |x'|**q`` for an approach x > 0, else 0 (driver-seat paper eq 8).
+"""Loss of the general normal law ``F = A x**n + B x**p sgn(x') |x'|**q`` for an approach x > 0, else 0 (Driver and Seat eq 8).
 
 Special cases: p = 0, q = 1, n = 1 the linear spring and damper (Kelvin and Voigt; the force jumps by B v0 at first touch);
 p = n, q = 1 Hunt and Crossley; n = 3/2, p = 1/2, q = 1 the viscoelastic sphere of Kuwabara and Kono, which Goloshchapov's impact
@@ -17,7 +17,7 @@ from contact_sim_pkg.compiled.jit import kernel
 from contact_sim_pkg.laws.elastic_law import elastic_force, elastic_order, elastic_stiffness
 from contact_sim_pkg.laws.parameters import ElasticLaw, GeneralDissipative
 
-SMOOTHING = 1.0e-6  # smoothing speed over reference speed where q < 1 (SEEDS section 10)
+SMOOTHING = 1.0e-6  # smoothing speed over reference speed where q < 1
 SMALLEST_APPROACH = 1.0e-60  # [m], below it the tension margin stands for its limit at first touch
 
 

@@ -7,7 +7,8 @@ With ``T = C s + D v``, v the slip velocity and s the deflection of the spring, 
 
 F and s' are continuous where stick and slip meet, so the law has no mode to keep; in stick nothing creeps. What is lost,
 ``F (v - s') + D s'^2``, is never negative. Along one line stick and steady slip are those of ``laws/friction.py``. F acts on
-the surface, -F on the point. The static and the kinetic ratio are one. Source: SEEDS 2.6, with the direction of slip free.
+the surface, -F on the point. The static and the kinetic ratio are one. Source:
+Driver and Seat, eq 9, with the direction of slip free.
 """
 
 from __future__ import annotations

@@ -10,7 +10,7 @@ import math
 from contact_sim_pkg.compiled.guards import require
 
 LOWEST_RESTITUTION = 0.01
-SLOWEST_IMPACT = 1.0e-3  # [m/s]; B = A d / v0 grows beyond use below (SEEDS section 10, grazing)
+SLOWEST_IMPACT = 1.0e-3  # [m/s]; B = A d / v0 grows beyond use below (grazing impacts)
 FASTEST_IMPACT = 1.0e6  # [m/s]
 SMALL_LOSS = 1.0e-4  # below, e = 1 - 2/3 d + 4/9 d^2 is exact to d^3/3
 

@@ -1,4 +1,4 @@
-"""Lame pressures by quadrature, and the tire-road paper's formulas as they are printed."""
+"""Lame pressures by quadrature, and Tire/Road Contact's formulas as they are printed."""
 
 from __future__ import annotations
 

@@ -1,6 +1,6 @@
 """Impact of one planar contact the slow way: all index sets of the complementarity problem, and the impulse path by scipy.
 
-Twin of `rigid/impact/planar_impact.py`, with which it shares no code. Source: identifiability paper eq 9; Stronge 1990.
+Twin of `rigid/impact/planar_impact.py`, with which it shares no code. Source: Identifiability eq 9; Stronge 1990.
 """
 
 from __future__ import annotations

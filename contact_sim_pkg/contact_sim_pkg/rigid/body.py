@@ -4,8 +4,8 @@ Every shape is the hull of spheres of one radius about its points: radius 0 for 
 one point for a sphere. Against a plane that is exact, and in the plane against heights along x
 (`rigid/geometry/profile.py`); in space the points of a hull alone meet heights, so that peaks
 narrower than their spacing go unseen. Coordinates: plane (x, y, angle), space (x, y, z and a
-rotation matrix); velocities (v, omega) in world axes. Source: identifiability paper eqs 10, 11,
-40-42; SEEDS 7.2 (M4.7).
+rotation matrix); velocities (v, omega) in world axes. Source: Identifiability eqs 10, 11,
+40-42.
 """
 
 from __future__ import annotations
@@ -64,7 +64,7 @@ class Motion(NamedTuple):
 
 
 def regular_block(side: float, mass: float, friction: float, restitution: float, gravity: float = 9.81) -> RigidBody:
-    """The square block of the identifiability paper: four corners, inertia ``m s^2/6``."""
+    """The square block of Identifiability: four corners, inertia ``m s^2/6``."""
     half = 0.5 * side
     corners = numpy.array([[-half, -half], [half, -half], [half, half], [-half, half]])
     inertia = numpy.array([mass * side**2 / 6.0])

@@ -2,7 +2,7 @@
 
 For contacts i with impulse ``c_i = (c_n, c_t)`` and velocity ``u = q + A c`` (rows: normal, then one tangent in the plane,
 two in space): ``0 <= c_n - floor  _|_  u_n >= 0`` and Coulomb's law, ``c_t`` in the disc (or polygon) of radius ``mu c_n``
-and of greatest dissipation against ``u_t``. Source: identifiability paper eqs 5-9, corrected; SEEDS 7.2 (M4.6).
+and of greatest dissipation against ``u_t``. Source: Identifiability eqs 5-9, corrected.
 """
 
 from __future__ import annotations

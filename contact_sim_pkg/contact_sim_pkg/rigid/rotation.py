@@ -2,7 +2,7 @@
 
 Torque-free or driven rotation in body axes by the implicit midpoint rule, ``I0 (w+ - w) + h wm x I0 wm = h tau``,
 ``wm = (w + w+)/2``: free motion keeps ``w' I0 w`` and ``|I0 w|`` to rounding at any step; nine such steps of lengths that add up to
-one make a step of order 6. Source: SEEDS 7.2 (gyroscopic term); Kahan and Li 1997 (order 6, nine stages).
+one make a step of order 6. Source: Kahan and Li 1997 (order 6, nine stages).
 """
 
 from __future__ import annotations

@@ -15,7 +15,7 @@ EACH_MODE = 50
 
 
 def block_corner(theta, mass=1.0, side=SIDE):
-    """J_n, J_t of the lowest corner of the block of the identifiability paper (eqs 41 and 42), and its inverse masses."""
+    """J_n, J_t of the lowest corner of the block of Identifiability (eqs 41 and 42), and its inverse masses."""
     radius = side / math.sqrt(2.0)
     j_n = numpy.array([0.0, 1.0, -radius * math.sin(math.pi / 4 - theta)])
     j_t = numpy.array([1.0, 0.0, radius * math.cos(math.pi / 4 - theta)])

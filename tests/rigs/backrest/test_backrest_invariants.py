@@ -1,4 +1,4 @@
-"""What must hold of a back on its seat back, however it is shaken and slid (SEEDS 13: 1, 2, 4, 13 and 14)."""
+"""What must hold of a back on its seat back, however it is shaken and slid."""
 
 import numpy
 import pytest

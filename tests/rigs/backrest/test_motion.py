@@ -122,7 +122,7 @@ def test_the_restitution_of_a_free_slap_is_the_ratio_of_speeds_and_the_asked_one
 
 
 def test_the_largest_approach_of_a_free_slap_is_the_closed_one():
-    """SEEDS 2.5: A x^(n+1)/(n+1) = m (v0/l - ln(1 + l v0)/l^2), kept here in its own numbers."""
+    """Depth of a free slap: A x^(n+1)/(n+1) = m (v0/l - ln(1 + l v0)/l^2), kept here in its own numbers."""
     rig = one_mass(preload=0.0)
     start = resting_state(rig)
     start[:2] = -1e-3, 0.5
@@ -135,7 +135,7 @@ def test_the_largest_approach_of_a_free_slap_is_the_closed_one():
 
 @pytest.mark.parametrize("slides", [0.008, 0.010, 0.02])
 def test_a_sliding_back_encloses_the_loop_of_coulomb_friction(slides):
-    """SEEDS 2.6, without damper: 4 mu N (X - mu N/C) a period."""
+    """Dissipation without damper: 4 mu N (X - mu N/C) a period."""
     friction = Friction(3.19e4, 0.0, 0.4, 0.4)
     found = driven(one_mass(friction=friction, amplitude=slides, frequency=5.0), lambda t: 0.0, 1.0, 1e-10)
     period = found.points[-400:, 0]

@@ -1,4 +1,4 @@
-"""The bench of the paper on rolling vibro-impact, with the values that the paper leaves open chosen."""
+"""The bench of Rolling Contact, with the values that the paper leaves open chosen."""
 
 import math
 

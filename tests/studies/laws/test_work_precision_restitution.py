@@ -6,7 +6,7 @@ from contact_sim_pkg.records import work_precision as ladder_row
 from contact_sim_pkg.studies.laws import work_precision_restitution as ladder_restitution
 from contact_sim_pkg.studies.laws.restitution_formulas import FORMULAS
 
-PUBLISHED = {  # e obtained, driver-seat paper's law, by asked e: in the order of FORMULAS
+PUBLISHED = {  # e obtained, Driver and Seat's law, by asked e: in the order of FORMULAS
     0.95: (0.9524, 0.9535, 0.9468, 0.9359, 0.9500),
     0.90: (0.9090, 0.9132, 0.8939, 0.8764, 0.8999),
     0.80: (0.8329, 0.8471, 0.7885, 0.7680, 0.7992),

@@ -4,7 +4,7 @@
 impulse over the mass (see `identify/diagnostics/balance.py`). It is linear in kappa = 1/m with the
 factor `-h T (F + mu (n.F) d)`: a known force F tells the mass, unless it lies along the edge of the
 friction cone, where it looks like more contact. The arm of the impulse does not enter: several
-points may touch, if all slip alike. Source: identifiability paper, eq 39, corrected (F_x other than
+points may touch, if all slip alike. Source: Identifiability, eq 39, corrected (F_x other than
 sigma mu F_y).
 """
 

@@ -1,6 +1,6 @@
 """The cheap ways: one impact alone, two velocity samples, no noise model.
 
-Source: identifiability paper, eq 44 with the sign of its errata, and its form in space: `S a + h W x S W = R^T (r x pi)`.
+Source: Identifiability, eq 44 with the sign of its errata, and its form in space: `S a + h W x S W = R^T (r x pi)`.
 """
 
 from __future__ import annotations

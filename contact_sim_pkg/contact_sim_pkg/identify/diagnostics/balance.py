@@ -4,7 +4,7 @@
 mass, r from the centre of mass to the contact. Impact: h = 0. Lasting contact: one step of length h; R1 and R2 are half
 a step before and after the mean rotation. A contact that lasts over several samples takes both rotations as they are and the
 moment of its impulses from `identify/sweep.py`: `f = A2 w2 - A1 w1 - r2 x pi + int r' x pi dt - h kappa tau`.
-Source: identifiability paper, eqs 19-31 and 39, corrected: linear in S and kappa.
+Source: Identifiability, eqs 19-31 and 39, corrected: linear in S and kappa.
 """
 
 from __future__ import annotations

@@ -1,6 +1,6 @@
 """A point contact whose force's works are integrated with it: what the coefficient of restitution is made of.
 
-``W = -integral F x' dt`` (driver-seat paper eq 10, with the closing and the opening phases apart): ``W_c`` collects all closing
+``W = -integral F x' dt`` (Driver and Seat eq 10, with the closing and the opening phases apart): ``W_c`` collects all closing
 phases, ``W_r`` all opening ones, and ``e = sqrt(W_r / -W_c)`` (eq 11). For a free single mass that is the ratio of the speeds.
 Only the contact force counts, not gravity. The turning point x' = 0 is a located event, so neither work straddles it.
 State [z, v, W_c, W_r]; event functions: the approach x, the tension margin, the approach rate.

@@ -1,1 +1,1 @@
-"""Cnoidal waves and theta functions (driver-seat paper, eqs 12 to 16)."""
+"""Cnoidal waves and theta functions (Driver and Seat, eqs 12 to 16)."""

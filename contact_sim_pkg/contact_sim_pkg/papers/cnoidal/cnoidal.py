@@ -3,7 +3,7 @@
 ``y'' = -w0^2 y - k y^2`` between the turning points y2 <= y <= y3, which are roots with y1 of ``k y^3/3 + w0^2 y^2/2 = const``:
 ``y = y2 + (y3 - y2) cn^2(W t; m)``, ``W^2 = k (y3 - y1)/6``, ``m = (y3 - y2)/(y3 - y1)``, period ``2 K(m)/W``. For k < 0 y is
 mirrored, for k = 0 the oscillator is linear. m = 1 is the homoclinic motion: it needs for ever, and its period is infinite.
-Source: driver-seat paper, appendix (eqs A1-A5), in the one case where one phase is exact; Abramowitz and Stegun 16.
+Source: Driver and Seat, appendix (eqs A1-A5), in the one case where one phase is exact; Abramowitz and Stegun 16.
 """
 
 from __future__ import annotations

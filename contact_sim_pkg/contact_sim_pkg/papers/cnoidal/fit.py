@@ -1,4 +1,4 @@
-"""The cnoidal ansatz fitted to a computed motion, and its residual (driver-seat paper eqs 12, 13, A6; corrected).
+"""The cnoidal ansatz fitted to a computed motion, and its residual (Driver and Seat eqs 12, 13, A6; corrected).
 
 ``S = c + sum_k a_k C_k + sum_k b_k C_k / (1 + sum_k g_k C_k)``, ``C_k = cn^2(K(m_k)/pi (eta_k + f_k); m_k)``, k = 1..N.
 For a periodic response of fundamental W ``eta_k = k W t``: cn^2 has the period 2 K, so every C_k repeats with the response. For the

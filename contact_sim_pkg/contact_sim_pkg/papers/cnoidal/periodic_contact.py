@@ -1,6 +1,6 @@
 """Periodic motions of the back-rest contact, integrated: the free one under preload, and the steady response to a shaken seat.
 
-Set-up of the driver-seat paper's figures 4-7: 45.6 kg, A = 2.46e5 N/m^1.5, damping 1.950 s/m (e = 0.6 at 0.5 m/s), 0.5 g
+Set-up of Driver and Seat's figures 4-7: 45.6 kg, A = 2.46e5 N/m^1.5, damping 1.950 s/m (e = 0.6 at 0.5 m/s), 0.5 g
 (contact kept) and 1.5 g (slaps) at 4.75, 5.25, 5.75 and 6.25 Hz.
 """
 

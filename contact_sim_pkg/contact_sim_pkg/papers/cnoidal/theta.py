@@ -1,7 +1,7 @@
 """Theta functions of N phases, and the motion ``2 d^2 ln Theta / dx^2`` with its split into one-phase waves and interaction.
 
 ``Theta(eta) = sum over integer M of exp(i M.eta + 1/2 M.B M)``, B real, symmetric, negative definite, and
-``eta_j = k_j x - w_j t + phi_j`` (driver-seat paper eqs A1-A3). For one phase, with ``q = exp(B/2)`` the nome of m,
+``eta_j = k_j x - w_j t + phi_j`` (Driver and Seat eqs A1-A3). For one phase, with ``q = exp(B/2)`` the nome of m,
 
 ``2 d^2 ln Theta/dx^2 = 2 k^2 (K/pi)^2 [1 - m - E/K + m cn^2(K eta/pi + K; m)]``,
 

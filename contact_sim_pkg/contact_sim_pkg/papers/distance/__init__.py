@@ -1,1 +1,1 @@
-"""Distance and interference of convex bodies (driver-seat paper, eqs 1 and 2)."""
+"""Distance and interference of convex bodies (Driver and Seat, eqs 1 and 2)."""

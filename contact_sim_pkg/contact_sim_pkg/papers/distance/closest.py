@@ -10,7 +10,7 @@ hold to `CONVERGED`; the residual is part of the result. Overlapping bodies have
 common point; how deep they overlap is in `papers/distance/interference.py`. Where the closest
 points are not unique (parallel faces), one pair is found.
 
-Source: driver-seat paper eq 1.
+Source: Driver and Seat eq 1.
 """
 
 from __future__ import annotations

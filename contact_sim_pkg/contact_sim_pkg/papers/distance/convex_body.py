@@ -6,7 +6,7 @@ A body is where all its constraint functions are at most zero:
     plane     g(p) = n^T p - o                     n the unit outward normal
 
 Polyhedra and what several bodies share: `papers/distance/convex_intersection.py`.
-Source: driver-seat paper eqs 1 and 2 (bounding surface constraints).
+Source: Driver and Seat eqs 1 and 2 (bounding surface constraints).
 """
 
 from __future__ import annotations

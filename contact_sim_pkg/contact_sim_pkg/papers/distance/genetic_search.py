@@ -1,4 +1,4 @@
-"""Distance and interference of convex bodies by a genetic search, as the driver-seat paper solves its eqs 1 and 2.
+"""Distance and interference of convex bodies by a genetic search, as Driver and Seat solves its eqs 1 and 2.
 
 scipy's differential evolution (a population that crosses and mutates, seed fixed) finds the region;
 a local search from its best point gives the digits. It needs thousands of evaluations where

@@ -15,7 +15,7 @@ Found by cutting planes: every foot of a point adds the supporting plane there (
 largest ball under all planes so far is a linear program, and Newton steps on the conditions above, started from the planes
 that hold that ball (`papers/distance/touching_ball.py`), give the last digits as soon as those planes are near the right ones.
 
-Source: driver-seat paper eq 2, corrected (one common point, signed distances).
+Source: Driver and Seat eq 2, corrected (one common point, signed distances).
 """
 
 from __future__ import annotations

@@ -2,7 +2,7 @@
 
 With Omega = (B - A)/(A + B), m = 1 - (b/a)^2:
 
-* polynomial: `m = sum c_i Omega^i`, i = 1..10 (troppy paper, eq 10). b/a is 1 % high from Omega = 0.853 and never falls
+* polynomial: `m = sum c_i Omega^i`, i = 1..10 (Rolling Contact, eq 10). b/a is 1 % high from Omega = 0.853 and never falls
   below 0.032; p0 is off by 1 % from 0.932, the approach from 0.923. Not for Omega above 0.85 where the axes matter.
 * power: `b/a = (A/B)^(2/3)`, 0.5 % low at A/B = 0.3, 3 % at 0.1, 16 % at 0.01.
 * table: ln(1 - m), ln K and ln E over ln(1 - Omega), cubic between equal steps; 385 nodes leave 5e-6 near the circle and

@@ -5,7 +5,7 @@ octant has a parameter s from 0 (tip) to 1 (diagonal) in which it is smooth: wit
 `x/a = (1 + t^n)^(-1/n)`, `y/b = t x/a`, and the same with the axes exchanged. Lengths, sector areas and centroids are
 Gauss sums over fixed panels of s; against quadrature and closed forms they are good to 1e-9.
 
-Source: driver-seat paper eqs 4 and 5, tire-road paper eqs 5 and 6, with signed powers.
+Source: Driver and Seat eqs 4 and 5, Tire/Road Contact eqs 5 and 6, with signed powers.
 """
 
 from __future__ import annotations

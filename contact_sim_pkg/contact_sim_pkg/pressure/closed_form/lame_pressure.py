@@ -1,4 +1,4 @@
-"""Closed-form pressure on a Lame (superelliptic) contact domain: the tire-road paper's eqs 5-9, corrected, and its errors.
+"""Closed-form pressure on a Lame (superelliptic) contact domain: Tire/Road Contact's eqs 5-9, corrected, and its errors.
 
 Domain `rho <= 1`, `rho^n = |x/a|^n + |y/b|^n`, area S. For n = 2 every form here is the elliptic Hertz contact. For other
 n no closed form exists; these are estimates, and the pressure field (`pressure/field/solver.py`) is what they are measured with:
@@ -13,7 +13,7 @@ approach; the ellipse is 13 to 31 % high in the approach.
 Of the printed formulas eq 9 is kept (`printed_approach`), to show its error. The printed eq 7 is infinite at the edge and
 carries 9.05 times the load on a circle; it is not offered.
 
-Source: tire-road paper, eqs 5-9 (M2.4 to M2.7); Johnson (1985), Contact Mechanics, section 4.2.
+Source: Tire/Road Contact, eqs 5-9; Johnson (1985), Contact Mechanics, section 4.2.
 """
 
 from __future__ import annotations

@@ -2,7 +2,7 @@
 
 Per contact ``c_n, c_t (one a direction), lambda``: ``0 <= c_t _|_ lambda + D'u >= 0``, ``0 <= lambda _|_ mu c_n - sum c_t >= 0``.
 A contact without friction has its normal row only. Contact i is scaled by sqrt(A_nn,i), so that masses of any ratio meet
-rows of order 1. Source: identifiability paper eq 9; SEEDS 7.2 (M4.6).
+rows of order 1. Source: Identifiability eq 9.
 """
 
 from __future__ import annotations

@@ -3,7 +3,7 @@
 Least ``sum c_n^2 + |c_t|^2`` over all impulses with the same wrench ``J'c``, each in its own cone: nothing where the contact
 separates, the ray against the slip where it slides, the friction cone where it sticks. It is the projection ``c = P(J y)`` on
 these cones, with one multiplier y per coordinate of the bodies: Newton's method on ``J' P(J y) = wrench``, whose dual is
-convex with one derivative. Source: SEEDS 7.2 (load split).
+convex with one derivative. Source: the least-norm choice is ours.
 """
 
 from __future__ import annotations

@@ -1,8 +1,8 @@
 """One contact in space that stays on the ground: it sticks, or it slides on; closed form but for the direction of slip.
 
 The impulse that stops all slip is taken where it lies in the cone. Sliding, ``c_n`` follows from the normal row for a given
-direction, and the direction is that of the slip which is left, found by iteration; for a sphere it is the one before. Source: SEEDS
-7.2 (M4.8, M4.10).
+direction, and the direction is that of the slip which is left, found by iteration; for a sphere it is the one before. Source:
+Identifiability eqs 12-18 and 32-38, corrected.
 """
 
 from __future__ import annotations

@@ -4,7 +4,7 @@ For a direction d of slip ``c_t = -mu c_n d``, and ``c_n = -q_n / s`` with ``s =
 zero. d is right where the slip that is left, ``u_t = q_t + A_tn c_n + A_tt c_t``, points along it: ``u_t x d = 0``,
 ``u_t d >= 0``. Times s this is a trigonometric polynomial of the angle of d. A floor of the normal impulse takes the place of
 ``-q_n / s`` where that is below it. Newton's method finds the direction in most cases; this is for those in which it turns
-round and round. Source: SEEDS 7.2 (M4.10), with the direction of slip free.
+round and round. Source: Identifiability eqs 32-38, with the direction of slip free.
 """
 
 from __future__ import annotations

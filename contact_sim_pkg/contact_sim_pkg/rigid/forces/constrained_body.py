@@ -4,7 +4,8 @@ A mode ends where a normal force or a slip comes to 0, a sticking force leaves i
 to the end of a face of the ground. The forces: `rigid/forces/constraint_forces.py`.
 
 State: [place and turn] [v, omega] (`rigid/body_state.py`) [time in s] [work of friction in J] [impulse of each row in N s]
-[integral of each event function: so the rate of a state holds all that is asked of it]. Source: SEEDS 7.2 (`located`).
+[integral of each event function: so the rate of a state holds all that is asked of it]. Source: Hairer and Wanner,
+Solving Ordinary Differential Equations II, VII.2.
 """
 
 from __future__ import annotations

@@ -4,7 +4,7 @@ They keep the contacts on the ground: ``J a + b = 0`` for the normal row of each
 for the tangents of those that stick, with ``a = W (load + gyroscopic torque + J' f)`` and b the
 acceleration of the contact at constant velocities (`rigid/motion/active_contacts.py`); a sliding
 contact has ``f_t = -mu f_n s``, s the direction of slip. Where the rows are dependent the forces of
-least norm are taken. Source: identifiability paper eqs 12-18 and 32-38 at the level of
+least norm are taken. Source: Identifiability eqs 12-18 and 32-38 at the level of
 accelerations.
 """
 

@@ -3,7 +3,7 @@
 `rigid/motion/face_stick.py` shares the wrench that stops the body among the points, within their
 friction cones; `rigid/motion/face_slide.py`: all slide. Either answer is taken only if it meets
 Signorini's and Coulomb's conditions; ``numpy.inf`` sends the caller to a solver that pivots.
-Source: SEEDS 7.2 (M4.6, load split).
+Source: Identifiability eqs 5-9, corrected, with the split of least norm.
 """
 
 from __future__ import annotations

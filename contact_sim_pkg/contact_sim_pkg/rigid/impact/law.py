@@ -2,7 +2,8 @@
 
 Energetic, several contacts: compression without bounce, then each contact gives back ``s e_i`` of its compression impulse, with
 the greatest s in [0, 1] for which the normal works give back at most ``e_i^2`` of what they took and no kinetic energy is gained.
-Several contacts are a row of contact solves, each compiled, called from Python. Source: SEEDS 7.3. Planar and one contact:
+Several contacts are a row of contact solves, each compiled, called from Python. Source: Brogliato,
+Nonsmooth Mechanics. Planar and one contact:
 `rigid/impact/planar_impact.py`; one contact in space: `rigid/impact/path.py`.
 """
 

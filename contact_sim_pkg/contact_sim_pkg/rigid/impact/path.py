@@ -2,7 +2,7 @@
 
 Slip ``u_t = r (cos a, sin a) = r s``, ``dp = r dtau``, ``f = A_tn - mu A_tt s``: ``da/dtau`` is f across s, ``d ln r/dtau`` f
 along s, ``du_n/dtau = r (A_nn - mu A_nt s)``; regular as the slip stops, far out in tau. From a stop on the path is straight:
-stick where ``|A_tt^-1 A_tn| <= mu``, else slip along the s with ``A_tn - mu A_tt s = k s, k > 0``. Source: SEEDS 7.3; Stronge
+stick where ``|A_tt^-1 A_tn| <= mu``, else slip along the s with ``A_tn - mu A_tt s = k s, k > 0``. Source: Stronge
 1990; Batlle 1996. Integrated by `integrate/dormand_prince.py`.
 """
 

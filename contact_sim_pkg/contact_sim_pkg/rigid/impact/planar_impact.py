@@ -1,7 +1,7 @@
 """One impact of one planar contact, in closed form, by the rules of Newton, Poisson and Stronge (energetic).
 
 Velocities of the contact point: u_n along the normal (negative: approaching), u_t along the tangent; impulses c_n, c_t;
-``u+ = u + A c``. Source: SEEDS 7.2 (M4.8, M4.10) and 7.3; identifiability paper eqs 12-18 and 32-38, corrected.
+``u+ = u + A c``. Source: Identifiability eqs 12-18 and 32-38, corrected; Stronge 1990.
 """
 
 from __future__ import annotations

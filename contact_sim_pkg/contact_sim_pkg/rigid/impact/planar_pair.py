@@ -5,7 +5,7 @@ holds the columns that are not in the basis alone (8 by 10 with z0), so a pivot 
 are not broken here: they, and residuals above rounding, are left to `rigid/contact/lemke.py`, for
 which `numpy.inf` is returned. Impulses with the same wrench differ by one vector, the squeeze of
 the two points: the split of least norm is a projection along it, cut off at the cones. Source:
-Cottle, Pang, Stone 4.4; SEEDS 7.2.
+Cottle, Pang, Stone, The Linear Complementarity Problem, 4.4.
 """
 
 from __future__ import annotations

@@ -2,7 +2,7 @@
 
 Each function is one step of `rigid/motion/time_loop.py` and `rigid/motion/located.py`, which solve
 the contact problems between them. A rebound below the rest speed ends after ``2 u/(a (1 - e))``,
-the rest of the geometric series. Source: SEEDS 7.2 (`located`), 7.3.
+the rest of the geometric series. Source: Identifiability eqs 9-11.
 """
 
 from __future__ import annotations

@@ -3,7 +3,7 @@
 Without bounds ``c_i = p + y x rho_i`` with ``sum c_i = F``, ``sum rho_i x c_i = X``, which is closed form. Where that leaves a cone
 they are the projections ``c_i = P(p + y x rho_i)`` on the cones, with six multipliers (p, y) again: the conditions of Karush, Kuhn
 and Tucker for the least norm. Newton's method on the two sums, whose derivative is symmetric, with steps halved until the dual
-function ``1/2 sum |c_i|^2 - F p - X y`` falls. Source: SEEDS 7.2 (load split).
+function ``1/2 sum |c_i|^2 - F p - X y`` falls. Source: the least-norm choice is ours.
 """
 
 from __future__ import annotations

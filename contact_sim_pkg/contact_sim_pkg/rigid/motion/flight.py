@@ -1,7 +1,7 @@
 """Free flight of a rigid body to its first touch of the ground.
 
 The centre of mass moves exactly under a uniform load, the spin in space by a step of order 6; the touch is the root of a point's
-gap, whose change is summed free of cancellation, so that its time is as exact as the state. Source: SEEDS 7.2 (`located`).
+gap, whose change is summed free of cancellation, so that its time is as exact as the state. Source: Identifiability eqs 10, 11.
 """
 
 from __future__ import annotations

@@ -4,7 +4,7 @@
 What it cannot do, an impact or a piece of time that takes the general solvers or holds an event, is
 done here, by compiled steps (`rigid/motion/active_contacts.py`, `rigid/contact/solver.py`,
 `rigid/impact/law.py`) called from Python: in one compiled function of all of them every solver
-would be compiled again. Source: SEEDS 7.2, 7.3.
+would be compiled again. Source: Identifiability eqs 9-11; Brogliato, Nonsmooth Mechanics (event-driven schemes).
 """
 
 from __future__ import annotations

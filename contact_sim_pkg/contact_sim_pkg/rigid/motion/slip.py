@@ -2,7 +2,7 @@
 
 What goes straight is solved in one piece of any length (`rigid/motion/time_loop.py`,
 `rigid/motion/straight_slide.py`); what turns is integrated (`rigid/motion/turning.py`). Source:
-SEEDS 7.2 (`located`).
+Identifiability eqs 12-18.
 """
 
 from __future__ import annotations

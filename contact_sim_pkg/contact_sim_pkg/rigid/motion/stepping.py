@@ -4,7 +4,7 @@ A contact is in reach where its gap is closed or closes within the step, of itse
 (`rigid/geometry/reach.py`); all in reach meet ``gap/h + u_n+ >= 0``. Where one
 approaches faster than the rest speed 2 g h, with restitution, the step ends on the ground by the same rows, and the velocity
 after it is that of the impact law: a bounce above the ground would gain height, and a body that bounces would never rest.
-Source: identifiability paper eqs 9, 14; Stewart and Trinkle 1996; SEEDS 7.2 (M4.6, `stepping`).
+Source: Identifiability eqs 9, 14; Stewart and Trinkle 1996.
 """
 
 from __future__ import annotations

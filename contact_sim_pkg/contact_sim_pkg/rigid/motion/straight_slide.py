@@ -4,7 +4,7 @@ At rest the next sample repeats the last one. A body that slides without turning
 velocity w that the load alone would leave, so friction takes ``mu Q/m`` from it, Q the normal impulse on the whole body. No moment
 about the centre of mass is left, ``sum N_i r_i x (n - mu d) = 0``, and so the loads of least norm are linear over the face,
 ``N_i = Q/k + b rho_t,i + g rho_s,i`` with ``sum N_i r_i = -mu h d Q``, h the height of the face over the centre of mass.
-Source: SEEDS 7.2 (M4.8, load split).
+Source: Identifiability eqs 12-18, with the split of least norm.
 """
 
 from __future__ import annotations

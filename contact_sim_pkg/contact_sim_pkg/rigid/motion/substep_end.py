@@ -2,7 +2,7 @@
 
 The impulses were found with the normals at the start. Half of the normal ones then act along the normals at the end, so that they
 do no work to second order; contacts that a turn has left beside the ground are put back; what is left of the error in energy goes
-into the speed. Source: SEEDS 7.2 (`located`).
+into the speed. Source: Hairer and Wanner, Solving Ordinary Differential Equations II, VII.2 (projection).
 """
 
 from __future__ import annotations

@@ -1,7 +1,7 @@
 """Pieces of time with held contacts by the general solvers: what no closed form and no path of `rigid/motion/turning.py` takes.
 
 A velocity step with contact impulses, exact where the body does not turn; it ends where the first slip stops or the first free
-contact lands. Source: SEEDS 7.2 (`located`).
+contact lands. Source: Identifiability eqs 9-11.
 """
 
 from __future__ import annotations

@@ -2,7 +2,7 @@
 `rigid/forces/constrained_body.py`, integrated with error control.
 
 Which contacts stick, slide or part is what the contact problem over an instant says; the piece ends where one of these modes does.
-Source: SEEDS 7.2 (`located`); Hairer and Wanner, Solving Ordinary Differential Equations II, VII.2 (index reduction, projection).
+Source: Hairer and Wanner, Solving Ordinary Differential Equations II, VII.2 (index reduction, projection).
 """
 
 from __future__ import annotations

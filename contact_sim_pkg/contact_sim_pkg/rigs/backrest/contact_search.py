@@ -1,4 +1,4 @@
-"""Moving contact point: where a bent shell comes nearest to the flat seat it faces (driver-seat paper, eqs 1 and 2).
+"""Moving contact point: where a bent shell comes nearest to the flat seat it faces (Driver and Seat, eqs 1 and 2).
 
 ``d = max over the shell of sum_i q_i phi_i(x, y) - dx^2/2R1 - dy^2/2R2`` is the least distance of the two surfaces (negative) or
 the depth to which one enters the other, along the seat's normal. Every crest of a coarse grid of candidate points, those on the

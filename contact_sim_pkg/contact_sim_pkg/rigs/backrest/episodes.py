@@ -1,4 +1,4 @@
-"""Contact episodes of the backrest rig: when they begin and end, and the works between (driver-seat paper, eqs 10 and 11).
+"""Contact episodes of the backrest rig: when they begin and end, and the works between (Driver and Seat, eqs 10 and 11).
 
 An episode of a point lasts from a touch to the last loss of its force: where the bodies part faster than the material recovers,
 and close again before they are apart, it goes on. One of the whole contact lasts from the first point's touch until no point

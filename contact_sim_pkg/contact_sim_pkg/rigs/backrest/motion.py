@@ -1,4 +1,4 @@
-"""Backrest rig: an occupant's back pressed on a shaken seat back, which slaps and slips (driver-seat paper, eqs 6 to 11).
+"""Backrest rig: an occupant's back pressed on a shaken seat back, which slaps and slips (Driver and Seat, eqs 6 to 11).
 
 Everything is seen from the seat back, an accelerated frame; x points forward, out of the seat back. The back moves in modal
 coordinates q, positive towards the seat, with one mass as the case of one mode without stiffness:

@@ -63,8 +63,8 @@ def sliding_friction(
 ) -> Vector:
     """Friction [N] of a spring-damper within ``ratio`` times ``normal`` [N], sampled each ``step`` [s] as ``velocity`` [m/s] is.
 
-    The law of SEEDS 2.6 in steps, of first order: trial ``C (s + v h) + D v``; beyond the limit the force is the limit and
-    ``C s = F - D v``, at most the limit against the slip; without normal force ``s = 0``.
+    Friction with stick (Driver and Seat, eq 9) in steps, of first order: trial ``C (s + v h) + D v``; beyond the
+    limit the force is the limit and ``C s = F - D v``, at most the limit against the slip; without normal force ``s = 0``.
     """
     force, s = numpy.zeros(len(normal)), 0.0
     for k in range(1, len(normal)):

@@ -1,4 +1,4 @@
-"""The occupant's back and the seat back it leans on (driver-seat paper)."""
+"""The occupant's back and the seat back it leans on (Driver and Seat)."""
 
 from __future__ import annotations
 

@@ -11,7 +11,7 @@ R = inf is the flat plate, exactly. A shape counts to the first power, so q_mn i
 
 Range: thin (h at most 0.1 of the shorter side, where transverse shear already lowers a plate's frequencies by some
 percent), shallow (rise L^2 / (8 R) at most 0.2 L) and w small against h and the rise: the theory is linear in w.
-Source: driver-seat paper eqs 3 and 6, reduced by Donnell, Mushtari and Vlasov; Soedel (2004), Vibrations of Shells
+Source: Driver and Seat eqs 3 and 6, reduced by Donnell, Mushtari and Vlasov; Soedel (2004), Vibrations of Shells
 and Plates, sections 6.7 and 8; Timoshenko and Woinowsky-Krieger (1959), section 34, for the plate.
 """
 

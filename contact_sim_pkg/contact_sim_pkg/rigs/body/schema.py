@@ -1,4 +1,4 @@
-"""The rigid body of the rig block, the ground under it, and the contact between them (identifiability paper)."""
+"""The rigid body of the rig block, the ground under it, and the contact between them (Identifiability)."""
 
 from __future__ import annotations
 

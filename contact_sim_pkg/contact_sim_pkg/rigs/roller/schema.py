@@ -1,4 +1,4 @@
-"""The roller pressed on a rotating shaft of the rig roller, and the effects of their contact (paper on rolling vibro-impact)."""
+"""The roller pressed on a rotating shaft of the rig roller, and the effects of their contact (Rolling Contact)."""
 
 from __future__ import annotations
 

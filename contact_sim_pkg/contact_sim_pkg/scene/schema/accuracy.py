@@ -1,7 +1,7 @@
 """What an asked accuracy stands for: grids, tolerances, corrector passes. One table.
 
 The figures behind the rungs are those of `bench accuracy`, which measures each of them against a reference on the
-user's machine; the tiers of the tire's field are those of the model sheet (force 64 × 48 cells to 1e-2, field 128 × 96
+user's machine; the levels of the field of the tire are (force 64 × 48 cells to 1e-2, field 128 × 96
 to 1e-3, reference 256 × 192 to 1e-6).
 """
 

@@ -12,7 +12,7 @@ __all__ = ["FORMULAS"]
 
 
 def hunt_crossley(e: float) -> float:
-    """`3/2 (1 - e)`: Hunt and Crossley 1975, for e near 1; the usual one beside the driver-seat paper's eq 8."""
+    """`3/2 (1 - e)`: Hunt and Crossley 1975, for e near 1; the usual one beside Driver and Seat's eq 8."""
     return 1.5 * (1.0 - e)
 
 

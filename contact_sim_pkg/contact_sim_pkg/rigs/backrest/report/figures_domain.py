@@ -23,7 +23,7 @@ CURVE_POINTS = 361
 
 
 def lame_curve(fit: LameFit) -> tuple[FloatArray, FloatArray]:
-    """x and y [m] along the curve |x/a|^n + |y/b|^n = 1 about its centre, once around (driver-seat paper, eq 5)."""
+    """x and y [m] along the curve |x/a|^n + |y/b|^n = 1 about its centre, once around (Driver and Seat, eq 5)."""
     angle = np.linspace(0.0, 2.0 * np.pi, CURVE_POINTS)
     power = 2.0 / fit.exponent
     x = fit.centre_x + fit.a * np.sign(np.cos(angle)) * np.abs(np.cos(angle)) ** power

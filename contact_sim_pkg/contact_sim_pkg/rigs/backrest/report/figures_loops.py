@@ -1,4 +1,4 @@
-"""Loops of a backrest: normal force over approach, friction over tangential displacement (driver-seat paper, figures 4 to 6)."""
+"""Loops of a backrest: normal force over approach, friction over tangential displacement (Driver and Seat, figures 4 to 6)."""
 
 from __future__ import annotations
 

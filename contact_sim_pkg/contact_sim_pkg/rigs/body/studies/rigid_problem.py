@@ -16,7 +16,7 @@ from contact_sim_pkg.rigid.contact.solver import NEWTON, Solution, Solver, make_
 __all__ = ["Case", "block_corner", "contact_rows", "milliseconds_of_a_solve", "random_face", "solve", "stack"]
 
 SOLVES = 200  # in a compiled loop, whose time is that of one so many times
-SIDE = 0.1  # [m] of the block of the identifiability paper
+SIDE = 0.1  # [m] of the block of Identifiability
 
 
 class Case(NamedTuple):

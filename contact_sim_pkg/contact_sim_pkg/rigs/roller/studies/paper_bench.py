@@ -1,4 +1,4 @@
-"""The roller bench of the paper on rolling vibro-impact, with the values that it leaves open chosen."""
+"""The roller bench of Rolling Contact, with the values that it leaves open chosen."""
 
 from __future__ import annotations
 

@@ -5,7 +5,7 @@
 
 z, the height W of the track and the roller's way are counted outwards; Delta_0 is the approach at rest under F_N. Linearised
 this is eq 20 with `kappa^2 = k_lin / m`, `1 / k_lin = (2/3) k_c F_N^(-1/3) + k_b`. Each cell is passed in equal steps of the
-classical fourth-order rule, W and k_c straight over the cell. Source: the paper on rolling vibro-impact, eq 20 and figure 15.
+classical fourth-order rule, W and k_c straight over the cell. Source: Rolling Contact, eq 20 and figure 15.
 
 Energy: kinetic m z'^2 / 2, of the press F_N z, stored `U = (2/5) k_c F^(5/3) + k_b F^2 / 2`. The track supplies
 `F W' - (3/5) F^(5/3) k_c'`, the damper takes `2 zeta kappa m z'^2`; both are summed by the same rule.

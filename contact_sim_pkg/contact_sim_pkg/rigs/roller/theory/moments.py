@@ -8,7 +8,7 @@ With the load F, tilt psi, and the ellipse (a nearer to x, b, turned by phi) of 
                M_theta = T (a^2 - b^2) sin(2 phi) / 8                            eq 17b
 
 17a is printed with `A - 1 + R cos psi` and a factor 1/2, 17b with 1/4 and phi = theta: no traction gives both factors. Source:
-the paper on rolling vibro-impact; the corrected factors are integrals over the ellipse.
+Rolling Contact; the corrected factors are integrals over the ellipse.
 """
 
 from __future__ import annotations

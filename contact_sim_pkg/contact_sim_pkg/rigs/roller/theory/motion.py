@@ -9,7 +9,7 @@ the energy errs within a bound that does not grow. The load goes straight over a
 Energy: kinetic and stored in the suspension, of the pressure `-F R (1 - cos psi)`, conserved where f_r = 0, nothing is bent or
 damped and F rests. Rolling, bending and a changing load supply, damping takes; both are summed by the same rule.
 
-Sources: eqs 8 and 18 of the paper on rolling vibro-impact; Hairer, Lubich, Wanner (2006), Geometric Numerical Integration, II.1.3.
+Sources: eqs 8 and 18 of Rolling Contact; Hairer, Lubich, Wanner (2006), Geometric Numerical Integration, II.1.3.
 """
 
 from __future__ import annotations

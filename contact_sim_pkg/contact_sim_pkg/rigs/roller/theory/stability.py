@@ -3,7 +3,7 @@
 About the static angles the motion is `M x'' + D x' + K x = 0` with x = (tilt, yaw), D of damping and gyroscope, K of
 suspension less the slopes of the moments. Rolling friction c = f_r F R couples tilt into yaw; with any spin the characteristic
 polynomial then has no s^3 term but a linear one, so without damping a root lies in the right half-plane for either sign
-(flutter). Source: the paper on rolling vibro-impact, eqs 8 and 18, about the static angles instead of zero.
+(flutter). Source: Rolling Contact, eqs 8 and 18, about the static angles instead of zero.
 """
 
 from __future__ import annotations

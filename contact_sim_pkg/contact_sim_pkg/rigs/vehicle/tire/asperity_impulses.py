@@ -9,7 +9,7 @@ W is 1 (rectangular), or `1 + cos(2 pi (n dx - s)/b)` (raised cosine): smooth, a
 dx = b/2, b/3, … even of the same resultant at every s. About b/dx sites act at once.
 
 The road between the sites and the elastic field are not in it: it is a load added to a contact, chosen by its inputs.
-Source: tire-road paper eq 10 (M2.8), with N as the limit of the sum and delta the Dirac density.
+Source: Tire/Road Contact eq 10, with N as the limit of the sum and delta the Dirac density.
 """
 
 from __future__ import annotations
