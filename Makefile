@@ -33,8 +33,11 @@ run:  ## run the full bench on real nodes, record a bag, write its report
 check: lint  ## check style, format and types, run the tests that need neither compiler nor ROS nor programs; for every edit
 	@SECONDS=0; $(ENTER) && $(TEST_ENVIRONMENT) python -m pytest tests --check $(PARALLEL) --dist worksteal $(PYTEST_OPTIONS); $(REPORT_TIME)
 
-test:  ## run the tests
-	@SECONDS=0; $(ENTER) && $(TEST_ENVIRONMENT) python -m pytest tests $(PYTEST_OPTIONS); $(REPORT_TIME)
+test:  ## run all the tests: beside each other, then those that start nodes and keep time, one after the other
+	@SECONDS=0; $(ENTER) || exit; export $(TEST_ENVIRONMENT); \
+	python -m pytest tests -m 'not ros' $(PARALLEL) --dist loadfile --no-loadscope-reorder $(PYTEST_OPTIONS); beside=$$?; \
+	python -m pytest tests -m ros $(PYTEST_OPTIONS); alone=$$?; \
+	[ $$beside = 5 ] && beside=$$alone; [ $$alone = 5 ] && alone=$$beside; [ $$beside = 0 ] && [ $$alone = 0 ]; $(REPORT_TIME)
 
 lint:  ## check style, format and types
 	@$(ENTER) && ruff check && ruff format --check && mypy

@@ -1,6 +1,5 @@
 """Runs of the bench in processes of their own, for the tests of nodes, faults and command line."""
 
-import importlib.util
 import os
 import signal
 import subprocess
@@ -18,10 +17,7 @@ from contact_sim_pkg.scene.load import load_scene
 from contact_sim_pkg.scene.overrides import set_value
 from contact_sim_pkg.scene.resolve import ResolvedScene, resolve
 
-HAS_ROS = all(importlib.util.find_spec(name) is not None for name in ("rclpy", "contact_msgs_defs"))
-needs_ros = pytest.mark.skipif(
-    not HAS_ROS, reason="rclpy or contact_msgs_defs cannot be imported: ROS 2 is not sourced"
-)
+needs_ros = pytest.mark.ros
 
 PACKAGE = Path(__file__).resolve().parents[1] / "contact_sim_pkg"
 ENVIRONMENT = {
@@ -77,36 +73,37 @@ class Nodes:
         self._started.append(self._children.start(node, [*command, *arguments, *self._remapped]))
         return self._started[-1]
 
-    def started(self, node: str):
-        """The processes of a node that were started."""
-        return [child for child in self._started if child.name == node]
-
     def ended(self) -> bool:
         """Whether no process lives any more."""
         return self._children.all_ended()
 
     def wait_until(self, condition, seconds: float = LONGEST) -> None:
-        """Wait for a condition of a run under way; fails after the time, or once all nodes have ended, with what they said."""
-        limit = time.monotonic() + seconds
-        while not condition():
-            over = "all nodes have ended" if self.ended() else "timed out" if time.monotonic() > limit else ""
-            assert not over, "\n".join([over, *self.said[-20:]])
-            time.sleep(0.02)
+        """Wait for a condition of a run under way; fails after the time, or once a node has ended badly or all have ended."""
 
-    def wait(self, seconds: float = LONGEST) -> dict[str, int]:
-        """Exit status of each node, when all have ended."""
-        wait_until(self._children.all_ended, seconds)
-        return {child.name: child.status for child in self._started}
+        def over() -> str:
+            fallen = self._children.fallen()
+            return fallen.describe_end() if fallen else "all nodes have ended" if self.ended() else ""
+
+        wait_until(condition, seconds, over)
+
+    def wait(self, *names: str, seconds: float = LONGEST) -> dict[str, int]:
+        """Exit status of these nodes, or of all, when they have ended."""
+        waited = [child for child in self._started if not names or child.name in names]
+        wait_until(lambda: all(child.status is not None for child in waited), seconds)
+        return {child.name: child.status for child in waited}
 
     def end(self) -> None:
-        """End what still lives."""
+        """End what still lives, and print what the nodes said: pytest shows it where the test has failed."""
         self._children.end(grace=2.0)
+        print(*self.said, sep="\n")
 
 
-def wait_until(condition, seconds: float = LONGEST) -> None:
-    """Wait for a condition; fails after the time."""
+def wait_until(condition, seconds: float = LONGEST, over=lambda: "") -> None:
+    """Wait for a condition; fails after the time, or as soon as `over` says why it will not come true any more."""
     limit = time.monotonic() + seconds
     while not condition():
+        why = over()
+        assert not why, why
         assert time.monotonic() < limit, "timed out"
         time.sleep(0.02)
 
@@ -144,9 +141,9 @@ def lives(process: int) -> bool:
 
 
 def end(process: subprocess.Popen[str]) -> None:
-    """Kill a process of a test that still lives, with its session."""
+    """Kill a process of a test that still lives, with its session; print what it said and nobody read."""
     if process.poll() is None:
         for child in children_of(process.pid).values():
             os.kill(child, signal.SIGKILL)
         process.kill()
-    process.communicate()
+    print(*process.communicate())

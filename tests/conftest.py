@@ -1,5 +1,7 @@
 """What all tests share: a ROS domain of their own, one thread a process, one cache of kernels; and `pytest --check`."""
 
+import gc
+import importlib.util
 import os
 import sys
 import zlib
@@ -26,6 +28,7 @@ os.environ["ROS_DOMAIN_ID"] = str(
 os.environ["ROS_AUTOMATIC_DISCOVERY_RANGE"] = "LOCALHOST"
 os.environ.setdefault("NUMBA_NUM_THREADS", "1")
 os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
+gc.set_threshold(20_000, 50, 1000)  # a compiler makes many objects that stay: 5 % of its time went into looking at them
 
 
 class NoCompilerNoRos(MetaPathFinder):
@@ -44,6 +47,36 @@ def skip_programs(event: str, arguments: tuple[object, ...]) -> None:
 
 def pytest_addoption(parser: pytest.Parser) -> None:
     parser.addoption("--check", action="store_true", help="skip what compiles kernels, uses ROS or starts a program")
+
+
+@pytest.hookimpl(optionalhook=True)
+def pytest_xdist_make_scheduler(config: pytest.Config, log: object) -> object:
+    """With `--dist loadfile`: every other worker takes its files from the end of the list.
+
+    Neighbours in the tree call the same kernels. Workers that come from both ends seldom compile one at the same time.
+    """
+    from xdist.scheduler import LoadFileScheduling
+
+    class FromBothEnds(LoadFileScheduling):
+        def _assign_work_unit(self, node: object) -> None:
+            if self.nodes.index(node) % 2:
+                self.workqueue.move_to_end(next(reversed(self.workqueue)), last=False)
+            super()._assign_work_unit(node)
+
+    return FromBothEnds(config, log) if config.getoption("dist") == "loadfile" else None
+
+
+def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item]) -> None:
+    """Tests that use ROS are skipped by `--check`, and where it is not sourced."""
+    if config.getoption("check"):
+        reason = "uses ROS: in `make test`"
+    elif any(importlib.util.find_spec(name) is None for name in ("rclpy", "contact_msgs_defs")):
+        reason = "rclpy or contact_msgs_defs cannot be imported: ROS 2 is not sourced"
+    else:
+        return
+    for item in items:
+        if item.get_closest_marker("ros"):
+            item.add_marker(pytest.mark.skip(reason))
 
 
 def pytest_collection(session: pytest.Session) -> None:

@@ -8,10 +8,11 @@ from contact_sim_pkg.bag.messages import encode
 from contact_sim_pkg.bag.typestore import type_hash
 from contact_sim_pkg.run.wrench import wrench_of
 
-rclpy = pytest.importorskip("rclpy", reason="ROS 2 is not sourced here")
+pytestmark = pytest.mark.ros
 
 
 def test_a_raw_subscription_gets_the_encoded_bytes(monkeypatch: pytest.MonkeyPatch) -> None:
+    import rclpy
     from geometry_msgs.msg import WrenchStamped
     from rclpy.executors import SingleThreadedExecutor
 

@@ -4,7 +4,7 @@ import time
 
 import numpy
 import pytest
-from tests.bench_process import Nodes, messages, needs_ros, resolved, wait_until
+from tests.bench_process import Nodes, messages, needs_ros, resolved
 
 from contact_sim_pkg.bag.messages import encode
 from contact_sim_pkg.bag.reader import open_bag
@@ -136,8 +136,7 @@ def test_a_second_publisher_of_an_input_is_refused_before_ready(nodes, stand_in)
     """B8: both nodes named, the cure given, status 2, nothing created."""
     nodes.start("vibration")
     nodes.start("contact_simulator")
-    wait_until(lambda: any(child.status is not None for child in nodes.started("contact_simulator")))
-    assert nodes.started("contact_simulator")[0].status == 2
+    assert nodes.wait("contact_simulator") == {"contact_simulator": 2}
     refusal = next(line for line in nodes.said if "publishers" in line)
     assert "platform/vibration has 2 publishers (/vibration, /vibration)" in refusal
     assert "ROS_DOMAIN_ID" in refusal
@@ -205,8 +204,7 @@ def test_a_second_publisher_of_a_result_is_refused_before_ready(nodes, stand_in)
 
     with StandIn("intruder", "seat/force"):
         nodes.start("contact_simulator", record=False)
-        wait_until(lambda: nodes.started("contact_simulator")[0].status is not None)
-    assert nodes.started("contact_simulator")[0].status == 2
+        assert nodes.wait("contact_simulator") == {"contact_simulator": 2}
     assert any("seat/force has 2 publishers" in line and "intruder" in line for line in nodes.said)
 
 
@@ -220,6 +218,5 @@ def test_an_input_of_another_message_definition_is_refused(nodes):
         message = pytest.importorskip("std_msgs.msg").String
         other.entry = other.node.create_publisher(message, "platform/vibration", 10)
         nodes.start("contact_simulator")
-        wait_until(lambda: nodes.started("contact_simulator")[0].status is not None)
-    assert nodes.started("contact_simulator")[0].status == 2
+        assert nodes.wait("contact_simulator") == {"contact_simulator": 2}
     assert any("another definition" in line for line in nodes.said)
