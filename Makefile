@@ -18,7 +18,7 @@ PARALLEL = -p xdist -n auto --maxprocesses 4
 # Ends a recipe: prints how long it took and hands the status on.
 REPORT_TIME = status=$$?; echo "make $@: $$SECONDS s in all"; exit $$status
 
-.PHONY: help setup run check test lint bench hard bounds mutants compare-field compare-dynamics clean
+.PHONY: help setup run check test lint bench hard bounds mutants measures compare-field compare-dynamics clean
 
 help:  ## show this list
 	@awk -F ':.*## ' '/^[a-z-]+:.*## / { printf "make %-17s %s\n", $$1, $$2 }' $(firstword $(MAKEFILE_LIST))
@@ -49,11 +49,16 @@ hard:  ## run the hard cases: value, expectation, margin, verdict; and every num
 	@SECONDS=0; $(ENTER) && bench hard && CONTACT_BENCH_FUZZ=all $(TEST_ENVIRONMENT) python -m pytest -s tests/faults/test_schema_fuzz.py; \
 	$(REPORT_TIME)
 
+KERNEL_TESTS = $(addprefix tests/,compiled integrate laws pressure rigid papers rigs studies/hard)
+
 bounds:  ## run the tests of kernels with bounds checks, in a cache of their own
-	@SECONDS=0; $(ENTER) && NUMBA_BOUNDSCHECK=1 $(TEST_ENVIRONMENT) python -m pytest tests/core tests/hard $(PYTEST_OPTIONS); $(REPORT_TIME)
+	@SECONDS=0; $(ENTER) && NUMBA_BOUNDSCHECK=1 $(TEST_ENVIRONMENT) python -m pytest $(KERNEL_TESTS) $(PYTEST_OPTIONS); $(REPORT_TIME)
 
 mutants:  ## break lines of physics one at a time on a copy, list those that the tests do not notice
 	@SECONDS=0; $(ENTER) && $(TEST_ENVIRONMENT) python -m tests.mutants $(MUTANTS); $(REPORT_TIME)
+
+measures:  ## measure the shape of the package: folders, circles, tables of effects, shared files of an addition, calls, docstrings
+	@$(ENTER) && python -m tests.house $(MEASURE)
 
 compare-field:  ## solve the same pressure fields with tamaas and ASPHER, installed apart in .compare-field/, and compare
 	@SECONDS=0; $(ENTER) && python -m comparisons.field $(COMPARE_OPTIONS); $(REPORT_TIME)

@@ -1,0 +1,36 @@
+"""Patches that bring a new rig, effect, topic and column, as a developer would, and the shared files that each edits."""
+
+from __future__ import annotations
+
+import re
+from pathlib import Path
+from typing import NamedTuple
+
+FOLDER = Path(__file__).parent
+
+
+class Patch(NamedTuple):
+    """How many shared files such an addition edited before, and how many are wanted, as words."""
+
+    before: str
+    wanted: str
+
+
+PATCHES = {
+    "rig": Patch("24", "0 (a package of its own)"),
+    "effect": Patch("10 to 20", "1 to 3"),
+    "topic": Patch("14", "3"),
+    "column": Patch("15", "3"),
+}
+
+
+def text_of(name: str) -> str:
+    """The patch as `git diff` writes it; empty where there is none yet."""
+    path = FOLDER / f"{name}.patch"
+    return path.read_text(encoding="utf-8") if path.exists() else ""
+
+
+def shared_files(name: str) -> list[str]:
+    """Files that exist without the patch and that it edits, tests and generated pages left out."""
+    edited = re.findall(r"^--- a/(\S+)$", text_of(name), re.MULTILINE)
+    return [path for path in edited if not path.startswith(("tests/", "docs/"))]
