@@ -3,7 +3,6 @@
 from pathlib import Path
 
 import pytest
-
 from tests.house.measures import SHAPE, UNIT, commented, doubled_classes, wide_calls
 from tests.house.source import circles, imports, modules
 
