@@ -42,7 +42,7 @@ test:  ## run all the tests: beside each other, then those that start nodes and 
 lint:  ## check style, format and types
 	@$(ENTER) && ruff check && ruff format --check && mypy
 
-bench:  ## measure start-up, real-time factor and error against their goals, and what accuracy costs
+bench:  ## measure start-up, real-time factor and error against their goals, and error beside time
 	@SECONDS=0; $(ENTER) && bench goals && echo && bench accuracy tire_bump; $(REPORT_TIME)
 
 hard:  ## run the hard cases: value, expectation, margin, verdict; and every number of the schema at and beside its bounds
@@ -54,7 +54,7 @@ KERNEL_TESTS = $(addprefix tests/,compiled integrate laws pressure rigid papers 
 bounds:  ## run the tests of kernels with bounds checks, in a cache of their own
 	@SECONDS=0; $(ENTER) && NUMBA_BOUNDSCHECK=1 $(TEST_ENVIRONMENT) python -m pytest $(KERNEL_TESTS) $(PYTEST_OPTIONS); $(REPORT_TIME)
 
-mutants:  ## break lines of physics one at a time on a copy, list those that the tests do not notice
+mutants:  ## change lines of physics one at a time on a copy, list the changes that no test notices
 	@SECONDS=0; $(ENTER) && $(TEST_ENVIRONMENT) python -m tests.mutants $(MUTANTS); $(REPORT_TIME)
 
 measures:  ## measure the shape of the package: folders, circles, tables of effects, shared files of an addition, calls, docstrings

@@ -26,10 +26,10 @@ from launch import LaunchContext, LaunchDescription
 
 ARGUMENTS = {
     "scene": ("car_full_bench", "name of a shipped scene, or path of a scene file"),
-    "duration": ("", "simulated time in s; empty: what the scene says"),
-    "pace": ("", "realtime, max or a factor; empty: what the scene says"),
+    "duration": ("", "simulated time in s; empty: that of the scene"),
+    "pace": ("", "realtime, max or a factor; empty: that of the scene"),
     "record": ("true", "write a bag"),
-    "publish_clock": ("true", "simulated time on /clock, unless somebody else publishes one"),
+    "publish_clock": ("true", "simulated time on /clock, unless another node publishes it"),
     "bag": ("", "directory of the bag, which must not exist; empty: bags/SCENE_TIME_RANDOM"),
     "use_sim_time": ("false", "clock of the nodes; stamps are simulated time, pacing is the steady clock in any case"),
     "namespace": ("", "namespace of all nodes and topics"),
@@ -73,7 +73,7 @@ def end_if_failed(event: ProcessExited, context: LaunchContext) -> None:
 
 
 def generate_launch_description() -> LaunchDescription:
-    """What `ros2 launch` asks for."""
+    """Description for `ros2 launch`."""
     declared = [
         DeclareLaunchArgument(
             name,

@@ -66,7 +66,7 @@ def declare_record(node: Node) -> bool:
 
 def declare_pace(node: Node, of_scene: str | float) -> float:
     """Simulated seconds per second; the scene's own where the parameter is empty."""
-    text = "Pace: realtime, max, or simulated seconds per second, 0.001 to 1000. Empty: what the scene says."
+    text = "Pace: realtime, max, or simulated seconds per second, 0.001 to 1000. Empty: that of the scene."
     if node.has_parameter("pace"):  # the node is configured again
         pace = str(node.get_parameter("pace").value)
     else:

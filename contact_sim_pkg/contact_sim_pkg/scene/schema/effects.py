@@ -105,7 +105,7 @@ class Foam(Section):
     )
     densification: float = number(0.0, 1e8, "Pa", "stress scale of the densification (choice)", default=150.0)
     densification_exponent: float = number(
-        0.1, 20.0, "", "r: stress grows as stretch^(-r-1); 3 bends up near 65 % strain (choice)", default=3.0
+        0.1, 20.0, "", "r: stress grows as l^(-r-1), l = 1 - strain; 3 bends up near 65 % strain (choice)", default=3.0
     )
 
 
