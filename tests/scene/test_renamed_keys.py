@@ -6,9 +6,11 @@ The renames of these tests are made up: an effect, a section and a key below a s
 import pytest
 from tests.bag import hand_made
 
+from contact_sim_pkg.bag.messages import encode
 from contact_sim_pkg.bag.reader import open_bag
 from contact_sim_pkg.bag.texts import scene_of_text
 from contact_sim_pkg.cli.main import main as bench_main
+from contact_sim_pkg.records.messages import String
 from contact_sim_pkg.run.from_bag import refuse_other_scene
 from contact_sim_pkg.scene.overrides import set_value
 from contact_sim_pkg.scene.renamed_keys import RENAMED, new_key
@@ -106,7 +108,7 @@ def test_a_bag_with_old_keys_is_reported_and_simulated_again(tmp_path):
     content = hand_made.seat_ride()
     old = with_old_names(content.texts["scene"])
     content.texts = {**content.texts, "scene": old}
-    content.messages[0] = ("bench/scene", 0, hand_made.encode_scene(old))
+    content.messages[0] = ("bench/scene", 0, encode(String(data=old)))
     hand_made.write(tmp_path / "old", content)
     assert open_bag(tmp_path / "old").scene == old
     assert bench_main(["report", str(tmp_path / "old"), "--out", str(tmp_path / "page.html")]) == 0
