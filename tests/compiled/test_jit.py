@@ -197,6 +197,13 @@ def test_h5_processes_that_compile_at_once_all_succeed(start: Start) -> None:
     assert start()["hits"] == 1
 
 
+def test_another_path_to_the_same_package_finds_its_kernels(warm: Start, tmp_path: Path) -> None:
+    """As the workspace of ROS has it: links to the sources."""
+    (tmp_path / "linked").symlink_to(warm.package.parent)
+    shutil.copytree(warm.package.parent, tmp_path / "copied")
+    assert [warm(PYTHONPATH=str(tmp_path / way))["hits"] for way in ("linked", "copied")] == [1, 1]
+
+
 def test_h6_another_processor_gets_a_directory_of_its_own(warm: Start) -> None:
     generic = warm(NUMBA_CPU_NAME="generic", NUMBA_CPU_FEATURES="")
     assert generic["directory"] != str(warm.directory())

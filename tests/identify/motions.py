@@ -40,7 +40,8 @@ def spatial(duration=0.5, force=(0.0, 0.0, 0.0), torque=(0.0, 0.0, 0.0)):
 def coming_to_rest(rate, duration=1.0):
     """A square of 1 kg falls 0.2 m onto a corner and comes to rest by many small impacts, `rate` samples a second; by the bench."""
     load = numpy.array([0.0, -9.81, 0.0])
-    square = RigidBody(PLANE, 1.0, numpy.array([SIDE**2 / 6.0]), SQUARE[:, [0, 2]], 0.0, 0.3, 0.3, load)
+    corners = numpy.ascontiguousarray(SQUARE[:, [0, 2]])  # another layout is another type, compiled in a minute
+    square = RigidBody(PLANE, 1.0, numpy.array([SIDE**2 / 6.0]), corners, 0.0, 0.3, 0.3, load)
     located = LocatedBody(square, slope(PLANE), placed(square, [0.0, 0.26884], [0.0, 0.0, 0.0], 0.2))
     states = resting_states(round(duration * rate) + 1, rate)
     for place in range(len(states.time)):

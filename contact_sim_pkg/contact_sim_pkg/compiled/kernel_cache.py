@@ -40,6 +40,7 @@ _log = logging.getLogger(__name__)
 KEPT_FINGERPRINTS = 2
 """Directories of older fingerprints that stay beside the current one."""
 
+_PACKAGE = Path(__file__).parents[1]
 _DIGEST_BYTES = hashlib.sha256().digest_size
 
 
@@ -127,7 +128,7 @@ class _Session:
     def open(self) -> Path | None:
         if not self._opened:
             self._opened = True
-            self.name = fingerprint(Path(__file__).parents[1])
+            self.name = fingerprint(_PACKAGE)
             try:
                 self.directory = open_cache_directory(self.name)
             except (OSError, RuntimeError) as error:  # RuntimeError: no home directory is known
@@ -173,6 +174,12 @@ def attach_cache(dispatcher: Any, form: str = "") -> None:
             _session.close(error)
 
 
+def _place(py_file: str) -> str:
+    """Path of a module inside the package, the same in every copy of it and behind every link to it; else the whole path."""
+    path = Path(py_file)
+    return str(path.relative_to(_PACKAGE)) if path.is_relative_to(_PACKAGE) else py_file
+
+
 class _Locator(_CacheLocator):
     """Puts the files of a function into the session's directory; never into the source tree."""
 
@@ -180,7 +187,7 @@ class _Locator(_CacheLocator):
         self._py_file = py_file  # numba names it where it declines to cache a function
         self._path = str(_session.directory)
         self._line = py_func.__code__.co_firstlineno
-        self._module = hashlib.sha256(py_file.encode()).hexdigest()[:8]
+        self._module = hashlib.sha256(_place(py_file).encode()).hexdigest()[:8]
 
     @classmethod
     def from_function(cls, py_func: Any, py_file: str) -> _Locator:
