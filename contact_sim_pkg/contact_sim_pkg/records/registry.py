@@ -7,9 +7,10 @@ from __future__ import annotations
 
 from functools import cache
 
+from contact_sim_pkg.records.report import ContactReport
 from contact_sim_pkg.records.rig import Rig, load
 
-__all__ = ["contacts", "refused_sections", "rig_names", "rigs"]
+__all__ = ["contact_reports", "contacts", "refused_sections", "rig_names", "rigs"]
 
 _PACKAGES = "contact_sim_pkg.rigs:PACKAGES"
 
@@ -39,6 +40,16 @@ def rig_names() -> tuple[str, ...]:
 def contacts() -> tuple[str, ...]:
     """Contacts of all rigs, each once."""
     return tuple(dict.fromkeys(name for rig in rigs().values() for name in rig.contacts))
+
+
+@cache
+def contact_reports() -> dict[str, ContactReport]:
+    """Reports of the contacts of all rigs, by contact; where rigs share a contact, that of the first rig counts."""
+    found: dict[str, ContactReport] = {}
+    for name in dict.fromkeys(name for rig in rigs().values() for name in rig.report):
+        report: ContactReport = load(name)
+        found.setdefault(report.contact, report)
+    return found
 
 
 def refused_sections(rig: str) -> tuple[str, ...]:

@@ -25,6 +25,7 @@ class Rig:
         takes: sections that it may have; those of the contacts are defaults where absent.
         simulation: ``module:class`` of a `run.block_simulation.BlockSimulation` that takes a resolved scene.
         topics: resolved scene -> topics of its contacts; those of `bench/` follow.
+        report: ``module:name`` of the `records.report.ContactReport` of each contact that has one.
         forecast: module whose `facts_before_run` and `sentence_before_run` report what is known
             before the run; empty: nothing.
     """
@@ -35,6 +36,7 @@ class Rig:
     takes: tuple[str, ...] = ()
     simulation: str
     topics: Callable[[dict[str, Any]], list[str]]
+    report: tuple[str, ...] = ()
     forecast: str = ""
 
 

@@ -5,9 +5,9 @@ from __future__ import annotations
 from typing import Any, NamedTuple
 
 from contact_sim_pkg.bag.texts import excitation_of_text
+from contact_sim_pkg.report.rig_reports import rig_warnings
 from contact_sim_pkg.report.rows import Row, described_rows, plain_name, scene_rows
 from contact_sim_pkg.report.series import Recording
-from contact_sim_pkg.rigs.impact.report.series import missing_impacts
 
 EXCITATION_KEY = "excitation"
 OUTCOME_KEYS = ("ended", "failure", "blocks_done", "wall_s", "stopped")
@@ -81,7 +81,7 @@ def version_rows(recording: Recording) -> list[Row]:
 
 
 def warnings(recording: Recording) -> list[str]:
-    """What a reader must know before the numbers: an unfinished bag, a run that failed or was stopped, impacts that are missing."""
+    """What a reader must know before the numbers: an unfinished bag, a run that failed or was stopped, those of the rig."""
     found = list(recording.notes)
     ended = recording.metadata.get("ended", "finished")
     if ended != "finished":
@@ -89,7 +89,7 @@ def warnings(recording: Recording) -> list[str]:
         found.append(f"The run ended before its last block: {ended}{'; ' + reason if reason else '.'}")
     if recording.metadata.get("stopped"):
         found.append(recording.metadata["stopped"])
-    return found + missing_impacts(recording.impacts, recording.scene)
+    return found + rig_warnings(recording)
 
 
 def _effect_row(contact: str, name: str, values: Any) -> Row:

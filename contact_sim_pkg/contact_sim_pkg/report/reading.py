@@ -16,8 +16,10 @@ from contact_sim_pkg.bag.errors import BagError
 from contact_sim_pkg.bag.reader import Bag
 from contact_sim_pkg.bag.texts import scene_of_text
 from contact_sim_pkg.bag.typestore import store_of_definition
+from contact_sim_pkg.records.rig import load
 from contact_sim_pkg.report.field_series import FieldPass
 from contact_sim_pkg.report.point_reading import PointPass
+from contact_sim_pkg.report.rig_reports import series_readers
 from contact_sim_pkg.report.series import (
     ContactSeries,
     CostSeries,
@@ -29,23 +31,16 @@ from contact_sim_pkg.report.series import (
     TopicCount,
 )
 from contact_sim_pkg.report.signal.episodes import episode_series
-from contact_sim_pkg.rigs.impact.report.series import IMPACT_TYPES, ImpactPass
-from contact_sim_pkg.rigs.roller.report.series import ROLLER_TYPES, RollerPass
-from contact_sim_pkg.rigs.vehicle.tire.report.road_series import RoadPass
-from contact_sim_pkg.rigs.vehicle.tire.report.shear_series import ShearPass
 from contact_sim_pkg.scene.errors import SceneError
 
 FORCE = "contact_msgs_defs/msg/ContactForce"
 PATCH = "contact_msgs_defs/msg/ContactPatch"
-ROAD = "contact_msgs_defs/msg/RoadPatch"
-SHEAR = "contact_msgs_defs/msg/ContactShear"
 MOTION = "contact_msgs_defs/msg/BodyMotion"
 ENERGY = "contact_msgs_defs/msg/EnergyLedger"
 COST = "contact_msgs_defs/msg/SolverCost"
 EPISODES = "contact_msgs_defs/msg/ContactEpisodes"
 POINTS = "contact_msgs_defs/msg/ContactPoints"
 SERIES_TYPES = (FORCE, MOTION, ENERGY, COST, EPISODES)
-READ_TYPES = (*SERIES_TYPES, PATCH, ROAD, SHEAR, POINTS, *IMPACT_TYPES, *ROLLER_TYPES)
 CONTACT_COLUMNS = ("time", "sample_period", "normal", "tangential", "approach", "effective_height")
 IMPULSES = "impulses"  # absent from older bags
 MOTION_COLUMNS = ("time", "sample_period", "samples", "bodies", "position", "acceleration", "velocity")
@@ -58,9 +53,10 @@ def read_recording(bag: Bag) -> Recording:
     Raises:
         BagError: a message does not fit its definition, or a chunk is damaged and bad chunks are not skipped.
     """
-    kinds = {row.type: row.definition for row in bag.topics.values() if row.type in READ_TYPES}
+    read = _read_types()
+    kinds = {row.type: row.definition for row in bag.topics.values() if row.type in read}
     stores = {kind: store_of_definition(kind, definition) for kind, definition in kinds.items()}
-    decoded, fields, roads, shears, points, impacts, roller = _decode(bag, stores)
+    decoded, fields, points, of_rigs = _decode(bag, stores)
 
     def columns(topic: str, names: tuple[str, ...]) -> dict[str, Any]:
         kind = bag.topics[topic].type
@@ -89,12 +85,9 @@ def read_recording(bag: Bag) -> Recording:
         ledger=ledger,
         cost=cost,
         duration=_duration([*contacts.values(), *([motion] if motion else [])], scene, bag),
-        road=next((road.finish() for road in roads.values()), None),
-        shear=next((shear.finish() for shear in shears.values()), None),
         episodes=episodes,
         points=next((each.finish() for each in points.values()), None),
-        impacts=impacts.finish(),
-        roller=roller.finish(),
+        series=_rig_series(of_rigs),
     )
 
 
@@ -114,25 +107,37 @@ def scenes_fit(bags: Sequence[Bag]) -> Iterator[None]:
             except SceneError as error:
                 raise BagError(f"{error.faults[0]}; no report can be made with this scene") from None
         for bag in bags:
-            for name in [name for name, row in bag.topics.items() if row.type in READ_TYPES]:
+            for name in [name for name, row in bag.topics.items() if row.type in _read_types()]:
                 bag.refuse_other_definition(name)
         raise
 
 
 class Decoded(NamedTuple):
-    """Messages of the series by topic; fields, roads, shears and points are taken in one by one, for they are large."""
+    """Messages of the series by topic; fields, points and what only one rig records are read one by one, for they are large."""
 
     series: dict[str, list[tuple[int, Any]]]
     fields: dict[str, FieldPass]
-    roads: dict[str, RoadPass]
-    shears: dict[str, ShearPass]
     points: dict[str, PointPass]
-    impacts: ImpactPass
-    roller: RollerPass
+    of_rigs: dict[tuple[str, str], Any]
+    """readers by the name of their series and the namespace of their topics"""
+
+
+def _read_types() -> set[str]:
+    return {*SERIES_TYPES, PATCH, POINTS, *series_readers()}
+
+
+def _rig_series(readers: dict[tuple[str, str], Any]) -> dict[str, Any]:
+    """Series by name; of several namespaces the first one that has any."""
+    found: dict[str, Any] = {}
+    for (name, _), reader in readers.items():
+        series = None if name in found else reader.finish()
+        if series is not None:
+            found[name] = series
+    return found
 
 
 def _decode(bag: Bag, stores: dict[str, Typestore]) -> Decoded:
-    decoded = Decoded({}, {}, {}, {}, {}, ImpactPass(), RollerPass())
+    decoded, readers = Decoded({}, {}, {}, {}), series_readers()
     for message in bag.messages():
         if message.type not in stores:
             continue
@@ -144,16 +149,14 @@ def _decode(bag: Bag, stores: dict[str, Typestore]) -> Decoded:
             raise BagError(f"{where} does not fit the definition in the bag: {error}") from None
         if message.type == PATCH:
             decoded.fields.setdefault(message.topic, FieldPass()).take(seconds, value)
-        elif message.type == ROAD:
-            decoded.roads.setdefault(message.topic, RoadPass()).take(seconds, value)
-        elif message.type == SHEAR:
-            decoded.shears.setdefault(message.topic, ShearPass()).take(seconds, value)
-        elif message.type in IMPACT_TYPES:
-            decoded.impacts.take(message.type, value)
-        elif message.type in ROLLER_TYPES:
-            decoded.roller.take(seconds, message.type, value)
         elif message.type == POINTS:
             decoded.points.setdefault(message.topic, PointPass()).take(seconds, value)
+        elif message.type in readers:
+            reader = readers[message.type]
+            place = reader.name, message.topic.rpartition("/")[0]
+            if place not in decoded.of_rigs:
+                decoded.of_rigs[place] = load(reader.reader)()
+            decoded.of_rigs[place].take(seconds, message.type, value)
         else:
             decoded.series.setdefault(message.topic, []).append((message.log_time, value))
     return decoded

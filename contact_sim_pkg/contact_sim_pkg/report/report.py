@@ -6,32 +6,18 @@ from pathlib import Path
 
 from contact_sim_pkg.bag.reader import Bag
 from contact_sim_pkg.files import check_output, new_file
-from contact_sim_pkg.report import facts
-from contact_sim_pkg.report.drawing import Picture, style
+from contact_sim_pkg.records.registry import contact_reports
+from contact_sim_pkg.records.rig import load
+from contact_sim_pkg.report import facts, rig_reports
+from contact_sim_pkg.report.drawing import style
 from contact_sim_pkg.report.figures.bench import energy_balance, real_time_factor
-from contact_sim_pkg.report.figures.contact import (
-    footprint_over_time,
-    load_over_approach,
-    load_over_time,
-    pressure_maps,
-)
+from contact_sim_pkg.report.figures.contact import contact_section
 from contact_sim_pkg.report.page import Section, environment, is_page
 from contact_sim_pkg.report.reading import read_recording
 from contact_sim_pkg.report.rows import scene_rows
 from contact_sim_pkg.report.series import Recording
 from contact_sim_pkg.report.summary import summarise_recording
 from contact_sim_pkg.report.tiles import tiles
-from contact_sim_pkg.rigs.backrest.report.numbers import BACKREST
-from contact_sim_pkg.rigs.backrest.report.section import backrest_parts
-from contact_sim_pkg.rigs.body.report.numbers import BLOCK
-from contact_sim_pkg.rigs.body.report.section import block_parts
-from contact_sim_pkg.rigs.impact.report.section import IMPACT, impact_parts
-from contact_sim_pkg.rigs.roller.report.section import ROLLER, roller_parts
-from contact_sim_pkg.rigs.roller.report.warnings import roller_warnings
-from contact_sim_pkg.rigs.vehicle.seat.report.figures_ride import seat_spectrum, seat_transmissibility
-from contact_sim_pkg.rigs.vehicle.seat.report.ride import ride_signals
-from contact_sim_pkg.rigs.vehicle.tire.report.numbers import TIRE
-from contact_sim_pkg.rigs.vehicle.tire.report.section import FRICTION_KEY, KEY, friction_pictures, tire_part
 
 TEMPLATE = "report.html.j2"
 FILE_NAME = "report.html"
@@ -71,15 +57,14 @@ def render(recording: Recording) -> str:
             title=recording.scene.get("name") or recording.name,
             description=recording.scene.get("description") or "",
             bag_name=recording.name,
-            warnings=facts.warnings(recording) + roller_warnings(recording.roller),
-            tiles=tiles(summary),
+            warnings=facts.warnings(recording),
+            tiles=tiles(summary, rig_reports.rig_tiles(recording, summary)),
             run=facts.run_rows(recording),
             effects=facts.effect_rows(recording),
             excitations=facts.excitation_facts(recording),
             versions=facts.version_rows(recording),
             scene=scene_rows(recording.scene),
             sections=sections(recording),
-            vibration=summary.get("seat_vibration"),
             topics=recording.topics,
             duration=recording.duration,
         )
@@ -92,24 +77,9 @@ def sections(recording: Recording) -> list[Section]:
     with style():
         found: list[Section] = []
         for number, name in enumerate(recording.contacts):
-            if name == ROLLER and recording.roller is not None:
-                found += [Section(*part) for part in roller_parts(recording)]
-                continue
-            if name == BLOCK and recording.motion is not None:
-                found += [Section(*part) for part in block_parts(number, recording)]
-                continue
-            if name == IMPACT:
-                found += [Section(*part) for part in impact_parts(recording)]
-                continue
-            if name == BACKREST:
-                found += [Section(*part) for part in backrest_parts(recording)]
-                continue
-            found.append(_contact_section(number, name, recording))
-            if name == TIRE:
-                rolling = tire_part(recording)
-                found.append(Section(KEY, "Rolling tire", rolling.pictures, rolling.tables))
-                found.append(Section(FRICTION_KEY, "Friction of the tire", friction_pictures(recording)))
-        found.append(Section("ride", "Seat vibration", _ride_pictures(recording)))
+            found += _contact_sections(number, name, recording)
+        for report in rig_reports.reports_of(recording):
+            found += load(report.closing_sections)(recording) if report.closing_sections else []
         if recording.ledger is not None:
             found.append(Section("energy", "Energy", [energy_balance(recording.ledger)]))
         if recording.cost is not None:
@@ -117,22 +87,10 @@ def sections(recording: Recording) -> list[Section]:
     return [section for section in found if section.pictures]
 
 
-def _contact_section(number: int, name: str, recording: Recording) -> Section:
-    contact, field = recording.contacts[name], recording.fields.get(name)
-    key = f"contact-{number}"
-    pictures = [load_over_time(key, name, contact)]
-    if field is not None:
-        pictures.append(pressure_maps(key, name, field))
-    if field is not None and field.time.size > 1:
-        pictures.append(footprint_over_time(key, name, field))
-    curve = load_over_approach(key, name, contact)
-    pictures += [] if curve is None else [curve]
-    return Section(key, f"{name.capitalize()} contact", pictures)
-
-
-def _ride_pictures(recording: Recording) -> list[Picture]:
-    signals = ride_signals(recording.motion)
-    if signals is None:
-        return []
-    found = [seat_spectrum(signals), seat_transmissibility(signals)]
-    return [each for each in found if each is not None]
+def _contact_sections(number: int, name: str, recording: Recording) -> list[Section]:
+    """Sections of a contact: those of its rig, or the general one."""
+    report = contact_reports().get(name)
+    if report is None or not report.sections:
+        return [contact_section(number, name, recording)]
+    found: list[Section] = load(report.sections)(number, recording)
+    return found

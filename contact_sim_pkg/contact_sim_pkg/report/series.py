@@ -5,14 +5,14 @@ What a bag does not hold is empty (no contact, no field) or None (no motion, no 
 
 from __future__ import annotations
 
+from collections.abc import Mapping
+from types import MappingProxyType
 from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
 from contact_sim_pkg.report.point_series import PointSeries
-from contact_sim_pkg.rigs.impact.report.series import ImpactSeries
-from contact_sim_pkg.rigs.roller.report.series import RollerSeries
 
 FloatArray = NDArray[np.float64]
 
@@ -103,79 +103,6 @@ class FieldSeries(NamedTuple):
     def heaviest(self) -> Snapshot:
         """The field with the largest load."""
         return max(self.event, key=lambda each: each.load)
-
-
-class Travel(NamedTuple):
-    """Way of the wheel centre over time, straight between its points."""
-
-    time: FloatArray
-    """[s] ascending"""
-    distance: FloatArray
-    """[m]"""
-
-    def at(self, time: FloatArray) -> FloatArray:
-        """[m] at the times [s]; its ends beyond them."""
-        return np.interp(time, self.time, self.distance)
-
-
-class RoadSeries(NamedTuple):
-    """What the wheel rolled over."""
-
-    travel: Travel
-    distance: FloatArray
-    """[m] of the heights"""
-    middle: FloatArray
-    """[m] height in the middle of the track"""
-    low: FloatArray
-    high: FloatArray
-    """[m] lowest and highest point of the strip around the middle"""
-
-
-class ShearMap(NamedTuple):
-    """The shear on a rolling tire at one instant."""
-
-    time: float
-    """[s]"""
-    slip: float
-    """(omega R - v) / v"""
-    slip_angle: float
-    """[rad]"""
-    force_x: float
-    force_y: float
-    """[N] on the tire"""
-    moment_z: float
-    """[N m]"""
-    sliding_share: float
-    """slipping cells among those in contact"""
-    grid: PressureMap
-    """magnitude of the shear on its grid"""
-    shear_x: FloatArray
-    shear_y: FloatArray
-    """[Pa] [rows, cols] on the tire"""
-    state: NDArray[np.uint8]
-    """[rows, cols] 0 apart, 1 sticks, 2 slips"""
-
-
-class ShearSeries(NamedTuple):
-    """Friction of a rolling tire over time, and its shear where it is largest."""
-
-    time: FloatArray
-    """[s]"""
-    slip: FloatArray
-    """(omega R - v) / v"""
-    slip_angle: FloatArray
-    """[rad]"""
-    force_x: FloatArray
-    force_y: FloatArray
-    """[N] on the tire, forward and left positive"""
-    moment_z: FloatArray
-    """[N m] on the tire"""
-    sliding_share: FloatArray
-    """slipping cells among those in contact"""
-    dissipated: FloatArray
-    """[J] since the instant before"""
-    largest: list[ShearMap]
-    """where the force along, and where that across, is largest while some cells stick; one where the other is small"""
 
 
 class MotionSeries(NamedTuple):
@@ -285,9 +212,7 @@ class Recording(NamedTuple):
     cost: CostSeries | None
     duration: float
     """[s] simulated time of the blocks recorded"""
-    road: RoadSeries | None = None
-    shear: ShearSeries | None = None
     episodes: EpisodeSeries | None = None
     points: PointSeries | None = None
-    impacts: ImpactSeries | None = None
-    roller: RollerSeries | None = None
+    series: Mapping[str, Any] = MappingProxyType({})
+    """what only one rig records, by the name of its `records.report.SeriesReader`; what the bag does not hold is absent"""

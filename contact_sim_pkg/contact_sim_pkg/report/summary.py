@@ -13,13 +13,9 @@ import numpy as np
 from contact_sim_pkg.bag.reader import Bag
 from contact_sim_pkg.report.energy import relative_residual, throughput
 from contact_sim_pkg.report.reading import read_recording
+from contact_sim_pkg.report.rig_reports import contact_numbers, summary_numbers
 from contact_sim_pkg.report.series import ContactSeries, CostSeries, FieldSeries, LedgerSeries, Recording
 from contact_sim_pkg.report.signal.episodes import slap_numbers
-from contact_sim_pkg.report.signal.metrics import ride_metrics, seat_factor
-from contact_sim_pkg.rigs.body.report.numbers import BLOCK, block_numbers
-from contact_sim_pkg.rigs.impact.report.series import missing_impacts
-from contact_sim_pkg.rigs.vehicle.seat.report.ride import ride_signals
-from contact_sim_pkg.rigs.vehicle.tire.report.numbers import TIRE, load_numbers, standing_load_of
 
 
 def summarise(bag: Bag) -> dict[str, Any]:
@@ -30,10 +26,9 @@ def summarise(bag: Bag) -> dict[str, Any]:
 def summarise_recording(recording: Recording) -> dict[str, Any]:
     """Summary numbers, ready for JSON: SI units in the names, None where a number is not defined.
 
-    Sections that the run does not have are absent: `slaps` without contact episodes, `impacts` without impact events,
-    `warnings` where all impacts of the scene took place, `block` without a rigid body, `roller` without a roller,
-    `seat_vibration` without a seat, `energy` without a ledger, `solver` without cost messages, the pressure of a
-    contact without a field, ratios to the tire at rest without a tire.
+    Sections that the run does not have are absent: `slaps` without contact episodes, `energy` without a
+    ledger, `solver` without cost messages, the pressure of a contact without a field. Rigs add sections
+    and numbers of their contacts (`records.report`).
     """
     summary: dict[str, Any] = {
         "scene": recording.scene.get("name"),
@@ -43,28 +38,14 @@ def summarise_recording(recording: Recording) -> dict[str, Any]:
             name: {
                 **force_numbers(series),
                 **field_numbers(recording.fields.get(name)),
-                **(load_numbers(series, standing_load_of(recording.scene)) if name == TIRE else {}),
+                **contact_numbers(name, recording),
             }
             for name, series in recording.contacts.items()
         },
     }
     if recording.episodes is not None:
         summary["slaps"] = slap_numbers(recording.episodes)
-    if recording.impacts is not None:
-        from contact_sim_pkg.rigs.impact.report.numbers import impact_numbers  # loads the fits of materials
-
-        summary["impacts"] = impact_numbers(recording.impacts)
-    if BLOCK in recording.contacts and recording.motion is not None:
-        summary["block"] = block_numbers(recording)
-    if recording.roller is not None:
-        from contact_sim_pkg.rigs.roller.report.section import roller_numbers  # loads the drawing of pictures
-
-        summary["roller"] = roller_numbers(recording.roller)
-    if missing := missing_impacts(recording.impacts, recording.scene):
-        summary["warnings"] = missing
-    vibration = vibration_numbers(recording)
-    if vibration is not None:
-        summary["seat_vibration"] = vibration
+    summary |= summary_numbers(recording)
     if recording.ledger is not None:
         summary["energy"] = energy_numbers(recording.ledger)
     if recording.cost is not None:
@@ -94,27 +75,6 @@ def field_numbers(field: FieldSeries | None) -> dict[str, Any]:
         "peak_pressure_Pa": float(field.peak.max()),
         "peak_pressure_time_s": field.highest_time,
         "contact_area_mean_m2": float(field.area.mean()),
-    }
-
-
-def vibration_numbers(recording: Recording) -> dict[str, Any] | None:
-    """Floor and seat accelerations, plain and Wk-weighted, and SEAT in per cent; None without a seat."""
-    signals = ride_signals(recording.motion)
-    if signals is None:
-        return None
-    floor = ride_metrics(signals.floor, signals.sample_rate)
-    seat = ride_metrics(signals.seat, signals.sample_rate)
-    return {
-        "floor_rms_m_s2": floor.rms,
-        "floor_weighted_rms_m_s2": floor.weighted_rms,
-        "floor_dose_m_s1_75": floor.vibration_dose,
-        "floor_crest_factor": floor.crest_factor,
-        "seat_rms_m_s2": seat.rms,
-        "seat_weighted_rms_m_s2": seat.weighted_rms,
-        "seat_dose_m_s1_75": seat.vibration_dose,
-        "seat_crest_factor": seat.crest_factor,
-        "seat_factor_percent": seat_factor(seat.weighted_rms, floor.weighted_rms),
-        "seat_factor_dose_percent": seat_factor(seat.vibration_dose, floor.vibration_dose),
     }
 
 

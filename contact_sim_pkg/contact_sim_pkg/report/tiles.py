@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import Any, NamedTuple
 
 from contact_sim_pkg.report.energy import AT_REST
@@ -18,14 +19,13 @@ class Tile(NamedTuple):
     detail: str
 
 
-def tiles(summary: dict[str, Any]) -> list[Tile]:
-    """Key numbers of a summary as `summarise` gives it, most asked for first; numbers not defined have no tile."""
+def tiles(summary: dict[str, Any], of_rigs: Sequence[Tile] = ()) -> list[Tile]:
+    """Key numbers of a summary from `summarise`, and those of the rigs; numbers that are not defined have no tile."""
     found: list[Tile] = []
     for name, contact in summary["contacts"].items():
         found += _contact_tiles(name, contact)
     found += _slap_tiles(summary.get("slaps", {}))
-    found += _impact_tiles(summary.get("impacts", {}))
-    found += _ride_tiles(summary.get("seat_vibration", {}))
+    found += of_rigs
     energy = summary.get("energy", {})
     if energy.get("residual_relative") is not None:
         scale = max(energy["throughput_J"], AT_REST)
@@ -68,26 +68,3 @@ def _slap_tiles(slaps: dict[str, Any]) -> list[Tile]:
         return [Tile("slaps", "0", "", "no slap ended within the run")]
     span = f"restitution {number(slaps['restitution_min'])} to {number(slaps['restitution_max'])}"
     return [Tile("slaps", str(slaps["count"]), "", span)]
-
-
-def _impact_tiles(impacts: dict[str, Any]) -> list[Tile]:
-    if not impacts:
-        return []
-    span = f"restitution {number(impacts['restitution_min'])} to {number(impacts['restitution_max'])}"
-    found = [Tile("impacts", str(impacts["count"]), "", span)]
-    largest = f"depth {number(impacts['depth_max_m'] * 1e3)} mm"
-    found.append(Tile("largest force of an impact", number(impacts["peak_force_max_N"]), "N", largest))
-    longest = f"shortest {number(impacts['duration_min_s'] * 1e3)} ms"
-    found.append(Tile("longest contact", number(impacts["duration_max_s"] * 1e3), "ms", longest))
-    return found
-
-
-def _ride_tiles(vibration: dict[str, Any]) -> list[Tile]:
-    if not vibration:
-        return []
-    detail = f"Wk; not weighted {number(vibration['seat_rms_m_s2'])} m/s²"
-    found = [Tile("seat vibration", number(vibration["seat_weighted_rms_m_s2"]), "m/s²", detail)]
-    if vibration["seat_factor_percent"] is not None:
-        detail = f"floor {number(vibration['floor_weighted_rms_m_s2'])} m/s², Wk"
-        found.append(Tile("SEAT", number(vibration["seat_factor_percent"]), "%", detail))
-    return found

@@ -9,12 +9,12 @@ from tests.rigs.backrest.report import backrest_bag as known
 from contact_sim_pkg.bag.errors import BagError
 from contact_sim_pkg.cli.report import command
 from contact_sim_pkg.report.comparison.figures import COLOURS, make_runs
-from contact_sim_pkg.report.comparison.figures_domain import domain_comparison
 from contact_sim_pkg.report.comparison.runs import render_comparison, write_comparison
 from contact_sim_pkg.report.comparison.tables import number_table
 from contact_sim_pkg.report.drawing import style
 from contact_sim_pkg.report.reading import read_recording
 from contact_sim_pkg.report.summary import summarise_recording
+from contact_sim_pkg.rigs.backrest.report.figures_comparison import domain_comparison
 
 FREQUENCIES = (4.75, 5.25, 5.75, 6.25)
 

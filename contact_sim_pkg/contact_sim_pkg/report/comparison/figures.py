@@ -10,17 +10,16 @@ from matplotlib.figure import Figure
 
 from contact_sim_pkg.report.drawing import MUTED, Picture, new_figure, picture
 from contact_sim_pkg.report.figures.contact import force_unit
+from contact_sim_pkg.report.rig_reports import drive_period
 from contact_sim_pkg.report.series import FloatArray, Recording
 from contact_sim_pkg.report.signal.decimate import envelope
-from contact_sim_pkg.rigs.backrest.report.numbers import (
+from contact_sim_pkg.report.signal.episodes import durations, slaps_of
+from contact_sim_pkg.report.signal.loops import (
     Loop,
     area_ratio,
-    drive_period,
-    durations,
     loop_work,
     normal_loop,
     point_loop,
-    slaps_of,
     steady_start,
     tangential_loop,
 )
@@ -40,7 +39,7 @@ class Run(NamedTuple):
 
     def steady(self) -> tuple[float, float | None]:
         """Start [s] of the last cycles of the drive, and its period [s]; 0 and None for a drive without cycles."""
-        period = drive_period(self.recording.scene)
+        period = drive_period(self.recording)
         return steady_start(self.recording.duration, period), period
 
 

@@ -8,6 +8,8 @@ from pathlib import Path
 from contact_sim_pkg.bag.errors import BagError
 from contact_sim_pkg.bag.reader import Bag
 from contact_sim_pkg.files import check_output, new_file
+from contact_sim_pkg.records.registry import contact_reports
+from contact_sim_pkg.records.rig import load
 from contact_sim_pkg.report import facts
 from contact_sim_pkg.report.comparison.figures import (
     Run,
@@ -17,7 +19,6 @@ from contact_sim_pkg.report.comparison.figures import (
     make_runs,
     slap_comparison,
 )
-from contact_sim_pkg.report.comparison.figures_domain import domain_comparison
 from contact_sim_pkg.report.comparison.scene_differences import differences, labels
 from contact_sim_pkg.report.comparison.tables import difference_table, number_table
 from contact_sim_pkg.report.drawing import Picture, style
@@ -100,9 +101,16 @@ def _sections(runs: list[Run], title: str) -> list[Section]:
             key = f"contact-{number}"
             made: list[Picture | None] = [
                 force_comparison(key, name, runs, title),
-                domain_comparison(key, name, runs),
+                *_rig_pictures(key, name, runs),
                 loop_comparison(key, name, runs, title),
             ]
             made += [area_comparison(key, name, runs, title), slap_comparison(key, name, runs, title)]
             found.append(Section(key, f"{name.capitalize()} contact", [each for each in made if each is not None]))
+    return found
+
+
+def _rig_pictures(key: str, name: str, runs: list[Run]) -> list[Picture]:
+    """Pictures that the rig of a contact adds."""
+    report = contact_reports().get(name)
+    found: list[Picture] = [] if report is None or not report.comparison else load(report.comparison)(key, name, runs)
     return found

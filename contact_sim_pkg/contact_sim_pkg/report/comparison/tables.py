@@ -8,9 +8,10 @@ from typing import Any
 from contact_sim_pkg.report.comparison.figures import Run
 from contact_sim_pkg.report.comparison.scene_differences import Difference
 from contact_sim_pkg.report.series import Recording
+from contact_sim_pkg.report.signal.episodes import durations, slaps_of
+from contact_sim_pkg.report.signal.loops import area_ratio
 from contact_sim_pkg.report.tables import Table
 from contact_sim_pkg.report.tiles import number
-from contact_sim_pkg.rigs.backrest.report.numbers import area_ratio, durations, slaps_of
 
 NONE = "–"
 
@@ -29,7 +30,7 @@ def number_table(runs: Sequence[Run], summaries: Sequence[dict[str, Any]]) -> Ta
         rows += [
             (f"{name}: {label}", *(read(each["contacts"][name]) for each in summaries)) for label, read in _CONTACT
         ]
-    rows += [(label, *(read(run) for run in runs)) for label, read in _BACKREST]
+    rows += [(label, *(read(run) for run in runs)) for label, read in _EPISODES]
     rows += [("largest energy residual over throughput", *(_residual(each) for each in summaries))]
     kept = [row for row in rows if any(value != NONE for value in row[1:])]
     return Table("Main numbers of the whole runs.", ("", *(run.label for run in runs)), kept)
@@ -72,7 +73,7 @@ def _largest_area(run: Run) -> str:
     return next((number(float(area.ratio.max())) for area in areas if area is not None), NONE)
 
 
-_BACKREST = (
+_EPISODES = (
     ("largest area of the contact domain, S/S_ref", _largest_area),
     ("slaps", _slap_count),
     ("restitution", _slap_restitution),

@@ -26,7 +26,8 @@ from contact_sim_pkg.report.drawing import (
     picture,
 )
 from contact_sim_pkg.report.figures.maps import FROM_ABOVE, View, Window, draw_map, loaded_window, set_window
-from contact_sim_pkg.report.series import ContactSeries, FieldSeries, PressureMap
+from contact_sim_pkg.report.page import Section
+from contact_sim_pkg.report.series import ContactSeries, FieldSeries, PressureMap, Recording
 from contact_sim_pkg.report.signal.decimate import BANDS, envelope
 from contact_sim_pkg.report.signal.lift_off import lifted_intervals
 from contact_sim_pkg.report.summary import field_numbers, force_numbers
@@ -37,6 +38,26 @@ LOOP_POINTS = 4000
 
 LEAST_APPROACH = 1e-9
 """[m]: a contact that never yields more is rigid."""
+
+
+def contact_section(number: int, name: str, recording: Recording) -> Section:
+    """Load and approach over time, the pressure field where the bag has one, load over approach.
+
+    Args:
+        number: of the contact in the recording, part of the keys of its pictures.
+        name: of the contact.
+        recording: with a contact of that name.
+    """
+    contact, field = recording.contacts[name], recording.fields.get(name)
+    key = f"contact-{number}"
+    pictures = [load_over_time(key, name, contact)]
+    if field is not None:
+        pictures.append(pressure_maps(key, name, field))
+    if field is not None and field.time.size > 1:
+        pictures.append(footprint_over_time(key, name, field))
+    curve = load_over_approach(key, name, contact)
+    pictures += [] if curve is None else [curve]
+    return Section(key, f"{name.capitalize()} contact", pictures)
 
 
 def load_over_time(key: str, name: str, contact: ContactSeries) -> Picture:

@@ -43,7 +43,6 @@ class View(NamedTuple):
 
 
 FROM_ABOVE = View("← left, y, mm", "forward, x, mm →", "Seen from above, forward is up.")
-AT_BACKREST = View("← left, y, mm", "up, x, mm →", "Seen from the front, as one looks at the seat back.")
 
 
 class Quantity(NamedTuple):

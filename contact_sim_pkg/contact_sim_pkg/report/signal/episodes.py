@@ -6,7 +6,7 @@ from typing import Any
 
 import numpy as np
 
-from contact_sim_pkg.report.series import EpisodeSeries
+from contact_sim_pkg.report.series import EpisodeSeries, FloatArray
 
 
 def episode_series(columns: dict[str, Any]) -> EpisodeSeries:
@@ -14,6 +14,17 @@ def episode_series(columns: dict[str, Any]) -> EpisodeSeries:
     return EpisodeSeries(
         *(np.concatenate([np.zeros(0), *columns[name]]).astype(np.float64) for name in EpisodeSeries._fields)
     )
+
+
+def slaps_of(episodes: EpisodeSeries | None) -> EpisodeSeries:
+    """The slaps of the whole contact; none where the bag has no episodes."""
+    return EpisodeSeries(*(np.zeros(0) for _ in EpisodeSeries._fields)) if episodes is None else episodes.slaps()
+
+
+def durations(slaps: EpisodeSeries) -> FloatArray:
+    """From the touch to the loss of force in [s], of each slap."""
+    lasted: FloatArray = slaps.end - slaps.start
+    return lasted
 
 
 def slap_numbers(episodes: EpisodeSeries) -> dict[str, Any]:

@@ -20,5 +20,6 @@ RIGS = (
         takes=("backrest",),
         simulation=f"{__name__}.simulation:BackrestSimulation",
         topics=backrest_topics,
+        report=(f"{__name__}.report:BACKREST_REPORT",),
     ),
 )

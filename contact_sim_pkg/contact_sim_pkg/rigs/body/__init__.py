@@ -11,5 +11,6 @@ RIGS = (
         takes=("block",),
         simulation=f"{__name__}.simulation:BlockBodySimulation",
         topics=lambda _scene: [f"block/{name}" for name in ("force", "wrench", "points")],
+        report=(f"{__name__}.report:BLOCK_REPORT",),
     ),
 )

@@ -27,5 +27,6 @@ RIGS = (
         takes=("impact",),
         simulation=f"{__name__}.simulation:ImpactSimulation",
         topics=_topics,
+        report=(f"{__name__}.report:IMPACT_REPORT",),
     ),
 )

@@ -14,5 +14,9 @@ RIGS = (
         takes=("seat", "backrest"),
         simulation=f"{__name__}.simulation:OccupantSimulation",
         topics=lambda scene: [*vehicle_topics(scene, ("seat",)), *backrest_topics(scene)],
+        report=(
+            "contact_sim_pkg.rigs.vehicle.seat.report:SEAT_REPORT",
+            "contact_sim_pkg.rigs.backrest.report:BACKREST_REPORT",
+        ),
     ),
 )

@@ -23,6 +23,7 @@ RIGS = (
         takes=("roller", "road"),
         simulation=f"{__name__}.simulation:RollerSimulation",
         topics=_topics,
+        report=(f"{__name__}.report:ROLLER_REPORT",),
         forecast=f"{__name__}.forecast",
     ),
 )

@@ -6,6 +6,7 @@ from contact_sim_pkg.rigs.vehicle.topics import vehicle_topics
 __all__ = ["RIGS"]
 
 _SIMULATION = f"{__name__}.simulation:Simulation"
+_TIRE_REPORT, _SEAT_REPORT = f"{__name__}.tire.report:TIRE_REPORT", f"{__name__}.seat.report:SEAT_REPORT"
 
 RIGS = (
     Rig(
@@ -15,6 +16,7 @@ RIGS = (
         takes=("slip", "tire"),
         simulation=_SIMULATION,
         topics=lambda scene: vehicle_topics(scene, ("tire",)),
+        report=(_TIRE_REPORT,),
     ),
     Rig(
         name="seat",
@@ -23,6 +25,7 @@ RIGS = (
         takes=("seat",),
         simulation=_SIMULATION,
         topics=lambda scene: vehicle_topics(scene, ("seat",)),
+        report=(_SEAT_REPORT,),
     ),
     Rig(
         name="car",
@@ -31,5 +34,6 @@ RIGS = (
         takes=("slip", "vibration", "tire", "seat"),
         simulation=_SIMULATION,
         topics=lambda scene: vehicle_topics(scene, ("tire", "seat")),
+        report=(_TIRE_REPORT, _SEAT_REPORT),
     ),
 )

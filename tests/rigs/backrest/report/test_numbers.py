@@ -10,6 +10,7 @@ from contact_sim_pkg.bag.messages import decode
 from contact_sim_pkg.records.messages import ContactPatch, ContactPoints
 from contact_sim_pkg.report.point_series import PointSeries
 from contact_sim_pkg.report.reading import read_recording
+from contact_sim_pkg.report.signal import episodes, loops
 from contact_sim_pkg.rigs.backrest.report import numbers
 
 FREQUENCY = 5.0
@@ -37,35 +38,35 @@ def slap(slap_bag):
 
 
 def test_the_normal_loop_encloses_the_work_of_its_damper(kept):
-    last = numbers.normal_loop(kept.contacts["backrest"]).since(numbers.steady_start(2.0, 1.0 / FREQUENCY))
-    closed = numbers.Loop(*(np.append(column, column[0]) for column in last))
+    last = loops.normal_loop(kept.contacts["backrest"]).since(loops.steady_start(2.0, 1.0 / FREQUENCY))
+    closed = loops.Loop(*(np.append(column, column[0]) for column in last))
     work = 2.0 * math.pi * known.DAMPING * OMEGA * known.KEPT**2
-    assert numbers.loop_work(closed) == pytest.approx(work, rel=1e-3)
+    assert loops.loop_work(closed) == pytest.approx(work, rel=1e-3)
 
 
 def test_the_friction_loop_has_the_paper_s_sign_and_the_work_of_its_damper(kept):
-    loop = numbers.tangential_loop(kept.contacts["backrest"], kept.points)
+    loop = loops.tangential_loop(kept.contacts["backrest"], kept.points)
     slid = known.SLIDING * np.sin(OMEGA * loop.time)
     force = known.FRICTION_STIFFNESS * slid + known.FRICTION_DAMPING * known.SLIDING * OMEGA * np.cos(OMEGA * loop.time)
     assert loop.force == pytest.approx(force, abs=1e-3)
     inner = slice(100, -100)  # the spline has no more than its end conditions at the ends
     assert loop.displacement[inner] == pytest.approx(slid[inner], abs=1e-4 * known.SLIDING)
     cycle = (loop.time >= 1.0 - 1e-9) & (loop.time <= 1.2 + 1e-9)
-    enclosed = numbers.Loop(*(column[cycle] for column in loop))
+    enclosed = loops.Loop(*(column[cycle] for column in loop))
     work = math.pi * known.FRICTION_DAMPING * OMEGA * known.SLIDING**2
-    assert numbers.loop_work(enclosed) == pytest.approx(work, rel=1e-3)
+    assert loops.loop_work(enclosed) == pytest.approx(work, rel=1e-3)
 
 
 def test_the_loop_of_one_of_many_points_is_what_its_messages_say(slap, slap_bag):
-    loop = numbers.point_loop(slap.points)
+    loop = loops.point_loop(slap.points)
     messages = [decode(ContactPoints, each.data) for each in slap_bag.messages("/backrest/points")]
     assert loop.force.tolist() == [each.normal[3] for each in messages]
-    friction = numbers.tangential_loop(slap.contacts["backrest"], slap.points)
+    friction = loops.tangential_loop(slap.contacts["backrest"], slap.points)
     assert friction.force.tolist() == [-each.tangential[3] for each in messages]
 
 
 def test_the_area_ratio_is_one_at_rest_and_counts_loaded_cells(slap, slap_bag):
-    area = numbers.area_ratio(slap.fields["backrest"])
+    area = loops.area_ratio(slap.fields["backrest"])
     loaded = [
         int(np.count_nonzero(decode(ContactPatch, each.data).pressure)) for each in slap_bag.messages("/backrest/patch")
     ]
@@ -76,7 +77,7 @@ def test_the_area_ratio_is_one_at_rest_and_counts_loaded_cells(slap, slap_bag):
 
 def test_there_is_no_area_ratio_where_the_contact_at_rest_is_not_recorded(slap):
     field = slap.fields["backrest"]
-    assert numbers.area_ratio(field._replace(time=field.time + 0.5)) is None
+    assert loops.area_ratio(field._replace(time=field.time + 0.5)) is None
 
 
 def test_shares_add_up_and_are_those_of_the_closed_form(kept):
@@ -101,16 +102,16 @@ def test_shares_of_many_points_are_parts_of_all_points():
 
 
 def test_slaps_last_from_touch_to_loss(slap):
-    slaps = numbers.slaps_of(slap.episodes)
+    slaps = episodes.slaps_of(slap.episodes)
     assert slaps.start == pytest.approx(known.touches(FREQUENCY))
-    assert numbers.durations(slaps) == pytest.approx(0.5 / FREQUENCY)
+    assert episodes.durations(slaps) == pytest.approx(0.5 / FREQUENCY)
     assert numbers.heaviest_slap(slaps) == 0
 
 
 def test_a_run_without_episodes_has_no_slaps(kept):
-    assert numbers.slaps_of(kept.episodes).start.size == 0
-    assert numbers.slaps_of(None).start.size == 0
-    assert numbers.heaviest_slap(numbers.slaps_of(None)) is None
+    assert episodes.slaps_of(kept.episodes).start.size == 0
+    assert episodes.slaps_of(None).start.size == 0
+    assert numbers.heaviest_slap(episodes.slaps_of(None)) is None
 
 
 @pytest.mark.parametrize(
@@ -129,12 +130,12 @@ def test_the_drive_has_a_period_where_it_is_a_sine(scene, period):
 
 def test_a_coarse_loop_stands_for_the_second_half_of_the_run():
     time = np.linspace(0.0, 4.0, 401)
-    fine, dots = numbers.Loop(*(np.linspace(0.0, 4.0, 4001),) * 3).steady(3.6)
+    fine, dots = loops.Loop(*(np.linspace(0.0, 4.0, 4001),) * 3).steady(3.6)
     assert not dots
     assert fine.time[0] == pytest.approx(3.6)
-    coarse, dots = numbers.Loop(time, time, time).steady(3.6)
+    coarse, dots = loops.Loop(time, time, time).steady(3.6)
     assert dots
     assert coarse.time[0] == pytest.approx(2.0)
-    whole, dots = numbers.Loop(time[:50], time[:50], time[:50]).steady(0.0)
+    whole, dots = loops.Loop(time[:50], time[:50], time[:50]).steady(0.0)
     assert not dots
     assert whole.time.size == 50

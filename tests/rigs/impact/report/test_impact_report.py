@@ -9,7 +9,7 @@ from contact_sim_pkg.bag.reader import open_bag
 from contact_sim_pkg.report.reading import read_recording
 from contact_sim_pkg.report.report import render
 from contact_sim_pkg.report.summary import summarise_recording
-from contact_sim_pkg.rigs.impact.report.numbers import material_of_run
+from contact_sim_pkg.rigs.impact.report.figures_material import material_of_run
 from contact_sim_pkg.rigs.impact.report.series import MOST_COURSES, ImpactPass
 from contact_sim_pkg.run.offline import run_offline
 from contact_sim_pkg.scene.load import load_scene
@@ -57,7 +57,7 @@ def test_a_run_that_ends_before_the_touch_has_a_page_without_impacts(tmp_path):
 
 def test_the_summary_has_the_events_and_is_json(rubber):
     impacts = summarise_recording(rubber)["impacts"]
-    events = rubber.impacts.events
+    events = rubber.series["impacts"].events
     assert impacts["count"] == len(events.number) == 2
     assert impacts["restitution"] == events.restitution.tolist()
     assert impacts["peak_force_max_N"] == pytest.approx(59.1039, abs=1e-3)
@@ -65,7 +65,7 @@ def test_the_summary_has_the_events_and_is_json(rubber):
 
 
 def test_the_material_of_the_run_is_that_of_its_scene(rubber):
-    for estimate in material_of_run(rubber.impacts, rubber.scene).estimates:
+    for estimate in material_of_run(rubber.series["impacts"], rubber.scene).estimates:
         assert estimate.storage_modulus.value == pytest.approx(8.0e6, rel=1e-9)
         assert estimate.loss_tangent.value == pytest.approx(0.2, rel=1e-9)
 

@@ -5,7 +5,7 @@ import pytest
 
 from contact_sim_pkg.records.messages import RollerContact, RollerTrack
 from contact_sim_pkg.rigs.roller.report.series import RollerSeries
-from contact_sim_pkg.rigs.roller.report.warnings import roller_warnings, variation_above
+from contact_sim_pkg.rigs.roller.report.warnings import variation_above, warnings_of
 
 CELLS, TURN = 256, 0.005  # [s]
 
@@ -31,7 +31,7 @@ def track(waves=2, amplitude=50.0, lowered=0.0, checked=0.0, error=0.0):
 
 def warned(*tracks, rate=2000.0):
     contact = RollerContact(**dict.fromkeys(RollerContact._fields, numpy.zeros(4)) | {"block": 0, "period": 1.0 / rate})
-    return roller_warnings(RollerSeries(numpy.zeros(4), contact, list(tracks), [], []))
+    return warnings_of(RollerSeries(numpy.zeros(4), contact, list(tracks), [], []))
 
 
 def test_a_run_whose_stretches_agree_is_not_warned_of():

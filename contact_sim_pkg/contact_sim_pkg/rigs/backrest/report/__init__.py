@@ -1,1 +1,12 @@
-"""Section of the report on the backrest."""
+"""Report of a back against a seat back."""
+
+from contact_sim_pkg.records.report import ContactReport
+
+__all__ = ["BACKREST_REPORT"]
+
+BACKREST_REPORT = ContactReport(
+    contact="backrest",
+    sections=f"{__name__}.section:backrest_sections",
+    drive_period=f"{__name__}.numbers:drive_period",
+    comparison=f"{__name__}.figures_comparison:comparison_pictures",
+)

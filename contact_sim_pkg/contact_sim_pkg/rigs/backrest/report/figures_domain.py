@@ -10,13 +10,15 @@ from matplotlib.image import AxesImage
 
 from contact_sim_pkg.pressure.closed_form.lame import LameFit, fit_patch
 from contact_sim_pkg.report.drawing import ACCENT, MUTED, PRESSURE_COLOURS, WIDTH, Picture, new_figure, picture
-from contact_sim_pkg.report.figures.maps import AT_BACKREST, Window, common_window, draw_map, draw_outline, set_window
+from contact_sim_pkg.report.figures.maps import View, Window, common_window, draw_map, draw_outline, set_window
 from contact_sim_pkg.report.point_series import APART, SLIPS, STICKS, TOUCHES, PointSeries, PointSnapshot
 from contact_sim_pkg.report.series import EpisodeSeries, FieldSeries, FloatArray, PressureMap, Snapshot
 from contact_sim_pkg.report.signal.decimate import envelope
-from contact_sim_pkg.rigs.backrest.report.numbers import area_ratio, heaviest_slap
+from contact_sim_pkg.report.signal.loops import area_ratio
+from contact_sim_pkg.rigs.backrest.report.numbers import heaviest_slap
 
 CURVE = "#d5402b"
+AT_BACKREST = View("← left, y, mm", "up, x, mm →", "Seen from the front, as one looks at the seat back.")
 STATES = {TOUCHES: ("carries", "#ffffff"), STICKS: ("sticks", "#7fc4ee"), SLIPS: ("slips", "#f2a03d")}
 STAGES, COLUMNS = 8, 4
 CURVE_POINTS = 361

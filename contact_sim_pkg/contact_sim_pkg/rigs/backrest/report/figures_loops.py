@@ -9,15 +9,15 @@ from matplotlib.axes import Axes
 from contact_sim_pkg.report.drawing import ACCENT, MUTED, Picture, new_figure, picture
 from contact_sim_pkg.report.point_series import PointSeries
 from contact_sim_pkg.report.series import ContactSeries, Recording
-from contact_sim_pkg.rigs.backrest.report.numbers import (
+from contact_sim_pkg.report.signal.loops import (
     Loop,
-    drive_period,
     loop_work,
     normal_loop,
     point_loop,
     steady_start,
     tangential_loop,
 )
+from contact_sim_pkg.rigs.backrest.report.numbers import drive_period
 
 LOOP_POINTS = 4000
 """Most points of the curve of a whole run."""

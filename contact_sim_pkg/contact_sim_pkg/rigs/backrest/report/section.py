@@ -3,27 +3,19 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import NamedTuple
 
 from contact_sim_pkg.report.drawing import Picture
 from contact_sim_pkg.report.figures.contact import footprint_over_time, pressure_maps
-from contact_sim_pkg.report.figures.maps import AT_BACKREST
+from contact_sim_pkg.report.page import Section
 from contact_sim_pkg.report.series import Recording
-from contact_sim_pkg.rigs.backrest.report.figures_domain import area_over_time, contact_domain, slap_stages
+from contact_sim_pkg.report.signal.episodes import slaps_of
+from contact_sim_pkg.rigs.backrest.report.figures_domain import AT_BACKREST, area_over_time, contact_domain, slap_stages
 from contact_sim_pkg.rigs.backrest.report.figures_loops import force_loops
 from contact_sim_pkg.rigs.backrest.report.figures_slaps import force_with_slaps, restitution_over_time, share_over_time
-from contact_sim_pkg.rigs.backrest.report.numbers import BACKREST, slaps_of
+from contact_sim_pkg.rigs.backrest.report.numbers import BACKREST
 
 
-class BackrestPart(NamedTuple):
-    """Pictures of one section."""
-
-    key: str
-    title: str
-    pictures: list[Picture]
-
-
-def backrest_parts(recording: Recording) -> list[BackrestPart]:
+def backrest_sections(_number: int, recording: Recording) -> list[Section]:
     """Call inside `drawing.style()`; the recording has a contact of this name."""
     contact, field, name = recording.contacts[BACKREST], recording.fields.get(BACKREST), BACKREST
     slaps = slaps_of(recording.episodes)
@@ -39,9 +31,9 @@ def backrest_parts(recording: Recording) -> list[BackrestPart]:
         domain += [area_over_time("domain", name, field, slaps), pressure_maps("domain", name, field, AT_BACKREST)]
         domain += [footprint_over_time("domain", name, field)] if field.time.size > 1 else []
     return [
-        BackrestPart("backrest", "Backrest contact", _made(first)),
-        BackrestPart("domain", "Contact domain", _made(domain)),
-        BackrestPart("slaps", "Slaps", _made([restitution_over_time("slaps", name, slaps)])),
+        Section("backrest", "Backrest contact", _made(first)),
+        Section("domain", "Contact domain", _made(domain)),
+        Section("slaps", "Slaps", _made([restitution_over_time("slaps", name, slaps)])),
     ]
 
 

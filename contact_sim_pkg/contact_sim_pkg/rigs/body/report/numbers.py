@@ -17,13 +17,17 @@ REST_SPEED = 1.0e-12
 
 
 def block_numbers(recording: Recording) -> dict[str, Any]:
-    """Runs of samples in contact, largest impulse of one, when the body moved last, where it ends; speeds at the end."""
-    contact, moving = recording.contacts[BLOCK], recording.motion
-    assert moving is not None
+    """Section `block` of the summary; none without motion.
+
+    Runs of samples in contact, largest impulse of one, when the body moved last, where it ends; speeds at the end.
+    """
+    contact, moving = recording.contacts.get(BLOCK), recording.motion
+    if contact is None or moving is None:
+        return {}
     bursts = _bursts(contact)
     moves = np.flatnonzero(np.any([np.abs(values) > REST_SPEED for values in moving.velocity.values()], axis=0))
     resting = len(moves) == 0 or moves[-1] < len(moving.time) - 1
-    return {
+    numbers = {
         "contacts": len(bursts),
         "impulse_max_Ns": max(bursts, default=0.0),
         "impulse_total_Ns": float(contact.normal.sum()) * contact.sample_period,
@@ -31,6 +35,7 @@ def block_numbers(recording: Recording) -> dict[str, Any]:
         "end": {name: float(values[-1]) for name, values in moving.position.items()},
         "end_velocity": {name: float(values[-1]) for name, values in moving.velocity.items()},
     }
+    return {"block": numbers}
 
 
 def _rest(moving: MotionSeries, moves: NDArray[np.intp]) -> float:

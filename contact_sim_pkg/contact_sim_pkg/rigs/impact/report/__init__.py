@@ -1,1 +1,22 @@
-"""Section of the report on impacts."""
+"""Report of the impacts of a sphere."""
+
+from contact_sim_pkg.records.report import ContactReport, SeriesReader
+
+__all__ = ["IMPACT_REPORT"]
+
+_KINDS = ("Events", "Course", "Stress", "Wave", "Front", "Position", "History")
+
+IMPACT_REPORT = ContactReport(
+    contact="impact",
+    series=(
+        SeriesReader(
+            name="impacts",
+            types=tuple(f"contact_msgs_defs/msg/Impact{kind}" for kind in _KINDS),
+            reader=f"{__name__}.series:ImpactPass",
+        ),
+    ),
+    sections=f"{__name__}.section:impact_sections",
+    numbers=f"{__name__}.numbers:summary_numbers",
+    tiles=f"{__name__}.numbers:impact_tiles",
+    warnings=f"{__name__}.series:impact_warnings",
+)

@@ -1,16 +1,19 @@
-"""Numbers of the impacts of a run, and the material that they tell."""
+"""Numbers of the impacts of a run in the summary, and the key numbers at the head of the page."""
 
 from __future__ import annotations
 
 from typing import Any
 
-import numpy as np
+from contact_sim_pkg.report.series import Recording
+from contact_sim_pkg.report.tiles import Tile, number
+from contact_sim_pkg.rigs.impact.report.series import ImpactSeries, impact_warnings, impacts_of
 
-from contact_sim_pkg.rigs.impact.material.errors import MaterialError
-from contact_sim_pkg.rigs.impact.material.options import Options
-from contact_sim_pkg.rigs.impact.material.reading import Impacts
-from contact_sim_pkg.rigs.impact.material.report import MaterialReport, report_of
-from contact_sim_pkg.rigs.impact.report.series import ImpactSeries
+
+def summary_numbers(recording: Recording) -> dict[str, Any]:
+    """Sections `impacts`, of a run with impacts, and `warnings`, of a run that lacks some."""
+    impacts, missing = impacts_of(recording), impact_warnings(recording)
+    found: dict[str, Any] = {} if impacts is None else {"impacts": impact_numbers(impacts)}
+    return {**found, "warnings": missing} if missing else found
 
 
 def impact_numbers(impacts: ImpactSeries) -> dict[str, Any]:
@@ -37,18 +40,15 @@ def impact_numbers(impacts: ImpactSeries) -> dict[str, Any]:
     }
 
 
-def material_of_run(impacts: ImpactSeries, scene: dict[str, Any]) -> MaterialReport | None:
-    """E' and tan(beta) from what the gauges measured; None where they tell none."""
-    e = impacts.events
-    loss = ((scene.get("effects") or {}).get("impact") or {}).get("normal_dissipative") or {}
-    options = Options(
-        end=str(loss.get("end", "force")), shape=str((scene.get("impact") or {}).get("shape_factor", "small"))
-    )
-    measured = Impacts(
-        "bag", e.number.astype(np.int64), e.mass, e.radius, e.measured_speed, e.measured_duration,
-        e.measured_restitution, e.temperature, (), e.gravity if e.gravity.any() else None,
-    )  # fmt: skip
-    try:
-        return report_of(measured, options)
-    except MaterialError:
-        return None
+def impact_tiles(summary: dict[str, Any]) -> list[Tile]:
+    """Count, restitution, largest force and longest contact; none without impacts."""
+    impacts = summary.get("impacts")
+    if not impacts:
+        return []
+    span = f"restitution {number(impacts['restitution_min'])} to {number(impacts['restitution_max'])}"
+    found = [Tile("impacts", str(impacts["count"]), "", span)]
+    largest = f"depth {number(impacts['depth_max_m'] * 1e3)} mm"
+    found.append(Tile("largest force of an impact", number(impacts["peak_force_max_N"]), "N", largest))
+    longest = f"shortest {number(impacts['duration_min_s'] * 1e3)} ms"
+    found.append(Tile("longest contact", number(impacts["duration_max_s"] * 1e3), "ms", longest))
+    return found

@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import NamedTuple
 
 from contact_sim_pkg.report.drawing import Picture
+from contact_sim_pkg.report.page import Section
 from contact_sim_pkg.report.series import Recording
 from contact_sim_pkg.rigs.impact.report.figures import (
     bounces,
@@ -15,24 +15,13 @@ from contact_sim_pkg.rigs.impact.report.figures import (
     position_over_time,
 )
 from contact_sim_pkg.rigs.impact.report.figures_maps import stress_over_radius, wave_in_space_and_time
-from contact_sim_pkg.rigs.impact.report.figures_material import material_picture
-from contact_sim_pkg.rigs.impact.report.numbers import material_of_run
-
-IMPACT = "impact"
-"""Name of the contact that this part belongs to."""
+from contact_sim_pkg.rigs.impact.report.figures_material import material_of_run, material_picture
+from contact_sim_pkg.rigs.impact.report.series import impacts_of
 
 
-class ImpactPart(NamedTuple):
-    """Pictures of one section."""
-
-    key: str
-    title: str
-    pictures: list[Picture]
-
-
-def impact_parts(recording: Recording) -> list[ImpactPart]:
+def impact_sections(_number: int, recording: Recording) -> list[Section]:
     """Call inside `drawing.style()`; empty where no impact ended."""
-    impacts = recording.impacts
+    impacts = impacts_of(recording)
     if impacts is None:
         return []
     material = material_picture(impacts, material_of_run(impacts, recording.scene))
@@ -41,9 +30,9 @@ def impact_parts(recording: Recording) -> list[ImpactPart]:
         stress_over_radius(impacts), wave_in_space_and_time(impacts), front_over_time(impacts), position_over_time(impacts),
     ])  # fmt: skip
     return [
-        ImpactPart("impact", "Impacts", first),
-        ImpactPart("around", "In and around the contact", around),
-        ImpactPart("material", "Material from the impacts", _made([material])),
+        Section("impact", "Impacts", first),
+        Section("around", "In and around the contact", around),
+        Section("material", "Material from the impacts", _made([material])),
     ]
 
 

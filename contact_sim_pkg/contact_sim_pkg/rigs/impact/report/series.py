@@ -16,13 +16,13 @@ from contact_sim_pkg.records.messages import (
     ImpactStress,
     ImpactWave,
 )
+from contact_sim_pkg.report.series import Recording
 
 EVENTS = "contact_msgs_defs/msg/ImpactEvents"
 _KINDS: dict[str, type] = {
     f"contact_msgs_defs/msg/{kind.__name__}": kind
     for kind in (ImpactCourse, ImpactStress, ImpactWave, ImpactFront, ImpactPosition, ImpactHistory)
 }
-IMPACT_TYPES = (EVENTS, *_KINDS)
 MOST_COURSES = 12
 """Impacts whose course is kept for the pictures."""
 
@@ -40,6 +40,16 @@ class ImpactSeries(NamedTuple):
     position: ImpactPosition | None
     history: ImpactHistory | None
     """of the first impact each"""
+
+
+def impacts_of(recording: Recording) -> ImpactSeries | None:
+    """Impacts of a recording; None where none ended."""
+    return recording.series.get("impacts")
+
+
+def impact_warnings(recording: Recording) -> list[str]:
+    """A sentence where impacts are missing; see `missing_impacts`."""
+    return missing_impacts(impacts_of(recording), recording.scene)
 
 
 def missing_impacts(impacts: ImpactSeries | None, scene: dict[str, Any]) -> list[str]:
@@ -69,8 +79,8 @@ class ImpactPass:
         self._courses: list[ImpactCourse] = []
         self._first: dict[type, Any] = {}
 
-    def take(self, type_name: str, message: Any) -> None:
-        """Take a message of one of `IMPACT_TYPES`. Raises MessageError where its arrays do not fit."""
+    def take(self, _time: float, type_name: str, message: Any) -> None:
+        """Take a message of one of its types. Raises MessageError where its arrays do not fit."""
         if type_name == EVENTS:
             self._events.append(record_of(ImpactEvents, message))
             return

@@ -1,1 +1,21 @@
-"""Section of the report on the roller."""
+"""Report of a roller on its shaft."""
+
+from contact_sim_pkg.records.report import ContactReport, SeriesReader
+
+__all__ = ["ROLLER_REPORT"]
+
+_KINDS = ("Contact", "Track", "Volumes", "Stability")
+
+ROLLER_REPORT = ContactReport(
+    contact="roller",
+    series=(
+        SeriesReader(
+            name="roller",
+            types=tuple(f"contact_msgs_defs/msg/Roller{kind}" for kind in _KINDS),
+            reader=f"{__name__}.series:RollerPass",
+        ),
+    ),
+    sections=f"{__name__}.section:roller_sections",
+    numbers=f"{__name__}.numbers:summary_numbers",
+    warnings=f"{__name__}.warnings:roller_warnings",
+)

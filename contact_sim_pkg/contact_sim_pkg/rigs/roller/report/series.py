@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 
 from contact_sim_pkg.bag.messages import record_of
 from contact_sim_pkg.records.messages import RollerContact, RollerStability, RollerTrack, RollerVolumes
+from contact_sim_pkg.report.series import Recording
 
 FloatArray = NDArray[np.float64]
 
@@ -16,7 +17,6 @@ KINDS: dict[str, Any] = {
     f"contact_msgs_defs/msg/{kind.__name__}": kind
     for kind in (RollerContact, RollerTrack, RollerVolumes, RollerStability)
 }
-ROLLER_TYPES = tuple(KINDS)
 
 
 class RollerSeries(NamedTuple):
@@ -29,6 +29,11 @@ class RollerSeries(NamedTuple):
     stability: list[RollerStability]
 
 
+def roller_of(recording: Recording) -> RollerSeries | None:
+    """Roller of a recording; None where the bag holds no state of it."""
+    return recording.series.get("roller")
+
+
 class RollerPass:
     """Takes messages in the order of the bag."""
 
@@ -38,7 +43,7 @@ class RollerPass:
         self._times: list[FloatArray] = []
 
     def take(self, seconds: float, type_name: str, message: Any) -> None:
-        """Take a message of one of `ROLLER_TYPES`. Raises MessageError where its arrays do not fit."""
+        """Take a message of one of its types. Raises MessageError where its arrays do not fit."""
         kind = KINDS[type_name]
         value = record_of(kind, message)
         self._taken[kind].append(value)

@@ -5,7 +5,8 @@ from __future__ import annotations
 import numpy as np
 
 from contact_sim_pkg.records.messages import RollerTrack
-from contact_sim_pkg.rigs.roller.report.series import RollerSeries
+from contact_sim_pkg.report.series import Recording
+from contact_sim_pkg.rigs.roller.report.series import RollerSeries, roller_of
 
 LARGEST_ERROR = 0.1
 """Of the change of heights over a stretch ridden both ways: beyond it is warned."""
@@ -17,10 +18,14 @@ LEAST_VARIATION = 0.01
 """Of the mean load: below it the variation is not looked at."""
 
 
-def roller_warnings(roller: RollerSeries | None) -> list[str]:
+def roller_warnings(recording: Recording) -> list[str]:
     """Sentences; none where nothing is to be warned of."""
-    if roller is None:
-        return []
+    roller = roller_of(recording)
+    return [] if roller is None else warnings_of(roller)
+
+
+def warnings_of(roller: RollerSeries) -> list[str]:
+    """Sentences on a roller; none where nothing is to be warned of."""
     bodies = dict.fromkeys(each.body for each in roller.tracks)
     tracks = [[each for each in roller.tracks if each.body == body] for body in bodies]
     found = [_acceleration(each) for each in tracks[:1]] + [_loss(each[-1]) for each in tracks] + [_sampling(roller)]

@@ -19,7 +19,7 @@ def message(patch):
 def road():
     passing = RoadPass()
     for block in range(100):
-        passing.take(block * known.BLOCK_LENGTH, message(known.road(block)))
+        passing.take(block * known.BLOCK_LENGTH, "", message(known.road(block)))
     return passing.finish()
 
 
@@ -45,7 +45,7 @@ def test_the_strip_holds_the_extremes_beside_the_middle():
     beside = known.COLS // 2 + 5  # 27.5 mm from the middle
     height[:, beside], height[:, 0] = 0.02, 0.5  # the last one lies far outside
     passing = RoadPass()
-    passing.take(0.0, message(patch._replace(height=height)))
+    passing.take(0.0, "", message(patch._replace(height=height)))
 
     road = passing.finish()
 
@@ -58,4 +58,4 @@ def test_a_block_that_does_not_fill_its_grid_is_refused():
     broken.rows += 1
 
     with pytest.raises(BagError, match=r"has 14400 heights for 151 x 96 nodes"):
-        RoadPass().take(0.0, broken)
+        RoadPass().take(0.0, "", broken)

@@ -72,7 +72,7 @@ def test_lift_off_is_counted_with_its_instants_and_places(recording):
     contact = recording.contacts["tire"]
 
     np.testing.assert_allclose(lifted_intervals(contact), [[0.70, 0.73]])
-    rows = column(load_table(contact, recording.road.travel, known.STANDING), "")
+    rows = column(load_table(contact, recording.series["road"].travel, known.STANDING), "")
     assert rows["share of the time without load"] == "3 %"
     assert rows["lift-offs"] == "1"
     assert rows["lift-off 1"] == "0.700 to 0.730 s, 7.000 to 7.300 m"
@@ -106,7 +106,7 @@ def test_peaks_stand_raw_and_filtered_side_by_side(recording):
 def test_the_shown_stretch_holds_the_largest_load_and_what_comes_after(recording, reference):
     field = recording.fields["tire"]
 
-    near, whole = stretches(Rolling(recording.contacts["tire"], field, recording.road, reference))
+    near, whole = stretches(Rolling(recording.contacts["tire"], field, recording.series["road"], reference))
 
     place = HEAVY_TIME * known.SPEED
     assert near.start == pytest.approx(place - 1.0)
@@ -115,7 +115,7 @@ def test_the_shown_stretch_holds_the_largest_load_and_what_comes_after(recording
 
 
 def test_the_stages_surround_the_largest_load(recording):
-    stages = chosen_stages(recording.fields["tire"], recording.road.travel)
+    stages = chosen_stages(recording.fields["tire"], recording.series["road"].travel)
 
     assert len(stages) == STAGES
     assert recording.fields["tire"].heaviest in stages

@@ -27,7 +27,7 @@ def message(force_x, force_y, sliding_share=0.5):
 def passed(*messages):
     fields = ShearPass()
     for number, each in enumerate(messages):
-        fields.take(0.1 * number, each)
+        fields.take(0.1 * number, "", each)
     return fields.finish()
 
 
@@ -71,7 +71,7 @@ def test_friction_over_load_is_the_friction_of_the_closed_form(braking):
     recording = read_recording(braking)
 
     touching = recording.fields["tire"].load > 0.0
-    ratio = recording.shear.force_x[touching] / recording.fields["tire"].load[touching]
+    ratio = recording.series["shear"].force_x[touching] / recording.fields["tire"].load[touching]
     np.testing.assert_allclose(ratio, -known.FRICTION, rtol=1e-5)
 
 

@@ -1,1 +1,19 @@
-"""Section of the report on the tire."""
+"""Report of a tire on a road."""
+
+from contact_sim_pkg.records.report import ContactReport, SeriesReader
+
+__all__ = ["TIRE_REPORT"]
+
+TIRE_REPORT = ContactReport(
+    contact="tire",
+    series=(
+        SeriesReader(
+            name="road", types=("contact_msgs_defs/msg/RoadPatch",), reader=f"{__name__}.road_series:RoadPass"
+        ),
+        SeriesReader(
+            name="shear", types=("contact_msgs_defs/msg/ContactShear",), reader=f"{__name__}.shear_series:ShearPass"
+        ),
+    ),
+    sections=f"{__name__}.section:tire_sections",
+    contact_numbers=f"{__name__}.numbers:contact_numbers",
+)

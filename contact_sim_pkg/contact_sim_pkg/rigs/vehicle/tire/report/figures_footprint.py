@@ -9,7 +9,8 @@ from matplotlib.colors import Normalize
 
 from contact_sim_pkg.report.drawing import MUTED, PRESSURE_COLOURS, WIDTH, Picture, new_figure, picture
 from contact_sim_pkg.report.figures.maps import common_window, draw_map, extension, robust_limits, set_window
-from contact_sim_pkg.report.series import FieldSeries, Snapshot, Travel
+from contact_sim_pkg.report.series import FieldSeries, Snapshot
+from contact_sim_pkg.rigs.vehicle.tire.report.road_series import WheelTravel
 
 STAGES = 8
 COLUMNS = 4
@@ -17,7 +18,7 @@ REACH = 0.5
 """[m] of travel before and after the largest load that the stages span"""
 
 
-def chosen_stages(field: FieldSeries, travel: Travel | None) -> list[Snapshot]:
+def chosen_stages(field: FieldSeries, travel: WheelTravel | None) -> list[Snapshot]:
     """At most `STAGES` fields around the largest load, evenly among those within `REACH` of it, the heaviest included."""
     event, heaviest = field.event, field.heaviest
     middle = next(number for number, each in enumerate(event) if each is heaviest)
@@ -31,7 +32,7 @@ def chosen_stages(field: FieldSeries, travel: Travel | None) -> list[Snapshot]:
     return [event[number] for number in numbers if 0 <= number < len(event)]
 
 
-def footprint_stages(key: str, name: str, field: FieldSeries, travel: Travel | None) -> Picture:
+def footprint_stages(key: str, name: str, field: FieldSeries, travel: WheelTravel | None) -> Picture:
     """Maps of the footprint at several instants, one colour scale."""
     stages = chosen_stages(field, travel)
     window = common_window([each.field for each in stages])
@@ -60,7 +61,7 @@ def footprint_stages(key: str, name: str, field: FieldSeries, travel: Travel | N
     return picture(f"{key}-stages", figure, f"Footprint of the {name} at several instants", caption)
 
 
-def _draw_stage(axes: Axes, stage: Snapshot, travel: Travel | None, limits: Normalize) -> None:
+def _draw_stage(axes: Axes, stage: Snapshot, travel: WheelTravel | None, limits: Normalize) -> None:
     pressure = stage.field.pressure
     draw_map(axes, stage.field, np.where(pressure > 0.0, pressure * 1e-3, np.nan), PRESSURE_COLOURS, limits)
     axes.set_title(_stage_title(stage, travel), fontsize=8.5)
@@ -68,7 +69,7 @@ def _draw_stage(axes: Axes, stage: Snapshot, travel: Travel | None, limits: Norm
         axes.text(0.5, 0.5, "no contact", transform=axes.transAxes, ha="center", va="center", color=MUTED)
 
 
-def _stage_title(each: Snapshot, travel: Travel | None) -> str:
+def _stage_title(each: Snapshot, travel: WheelTravel | None) -> str:
     load = f"{each.load * 1e-3:.2f} kN" if each.load >= 1000.0 else f"{each.load:.0f} N"
     if travel is None:
         return f"{each.time:.3f} s, {load}"

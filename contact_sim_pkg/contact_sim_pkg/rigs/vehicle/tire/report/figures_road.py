@@ -22,11 +22,12 @@ from contact_sim_pkg.report.drawing import (
     picture,
 )
 from contact_sim_pkg.report.figures.maps import extension, robust_limits
-from contact_sim_pkg.report.series import ContactSeries, FieldSeries, FloatArray, RoadSeries
+from contact_sim_pkg.report.series import ContactSeries, FieldSeries, FloatArray
 from contact_sim_pkg.report.signal.decimate import envelope
 from contact_sim_pkg.report.signal.lift_off import lifted_intervals
 from contact_sim_pkg.report.signal.low_pass import low_pass
 from contact_sim_pkg.rigs.vehicle.tire.report.closed_form import TireReference
+from contact_sim_pkg.rigs.vehicle.tire.report.road_series import RoadSeries
 
 BEFORE, AFTER = (0.7, 0.1), (2.0, 0.3)
 """[m], [s] shown at least before and after the largest load"""

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Any
 
-from contact_sim_pkg.report.series import ContactSeries
+from contact_sim_pkg.report.series import ContactSeries, Recording
 from contact_sim_pkg.scene.lattice import standing_load
 
 TIRE = "tire"
@@ -20,6 +20,12 @@ def standing_load_of(scene: dict[str, Any]) -> float | None:
     except (KeyError, TypeError):
         return None  # a scene that this version does not know
     return load if load > 0.0 else None
+
+
+def contact_numbers(recording: Recording) -> dict[str, Any]:
+    """Ratios of the load to that at rest; see `load_numbers`."""
+    contact = recording.contacts.get(TIRE)
+    return {} if contact is None else load_numbers(contact, standing_load_of(recording.scene))
 
 
 def load_numbers(contact: ContactSeries, standing: float | None) -> dict[str, Any]:

@@ -2,18 +2,49 @@
 
 from __future__ import annotations
 
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 
 from contact_sim_pkg.bag.errors import BagError
-from contact_sim_pkg.report.series import FloatArray, RoadSeries, Travel
+from contact_sim_pkg.report.series import FloatArray, Recording
 from contact_sim_pkg.report.signal.thinning import ThinnedRows
 
 TRACK = 0.1
 """[m] width of the strip in the middle whose lowest and highest points are kept"""
 ROWS = 200_000
 """Most rows kept: 1.2 km at cells of 6 mm, beyond that the mean of two, four, …"""
+
+
+class WheelTravel(NamedTuple):
+    """Way of the wheel centre over time, straight between its points."""
+
+    time: FloatArray
+    """[s] ascending"""
+    distance: FloatArray
+    """[m]"""
+
+    def at(self, time: FloatArray) -> FloatArray:
+        """[m] at the times [s]; its ends beyond them."""
+        return np.interp(time, self.time, self.distance)
+
+
+class RoadSeries(NamedTuple):
+    """What the wheel rolled over."""
+
+    travel: WheelTravel
+    distance: FloatArray
+    """[m] of the heights"""
+    middle: FloatArray
+    """[m] height in the middle of the track"""
+    low: FloatArray
+    high: FloatArray
+    """[m] lowest and highest point of the strip around the middle"""
+
+
+def road_of(recording: Recording) -> RoadSeries | None:
+    """Road of a recording; None where the bag holds none."""
+    return recording.series.get("road")
 
 
 class RoadPass:
@@ -26,7 +57,7 @@ class RoadPass:
         self._next_row: int | None = None
         self._middle, self._low, self._high = (ThinnedRows(ROWS, reduce) for reduce in (np.mean, np.min, np.max))
 
-    def take(self, time: float, message: Any) -> None:
+    def take(self, time: float, _type: str, message: Any) -> None:
         """Take in the block that starts at `time` [s]. BagError for one that does not fill its grid."""
         if len(message.height) != message.rows * message.cols:
             raise BagError(
@@ -61,4 +92,4 @@ class RoadPass:
         x, middle = self._middle.finish().T
         low: FloatArray = self._low.finish()[:, 0]
         high: FloatArray = self._high.finish()[:, 0]
-        return RoadSeries(Travel(time, travel), x, middle, low, high)
+        return RoadSeries(WheelTravel(time, travel), x, middle, low, high)

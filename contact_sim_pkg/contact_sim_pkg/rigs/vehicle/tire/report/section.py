@@ -2,13 +2,12 @@
 
 from __future__ import annotations
 
-from typing import NamedTuple
-
 from contact_sim_pkg.report.drawing import Picture
+from contact_sim_pkg.report.figures.contact import contact_section
 from contact_sim_pkg.report.figures.peaks import peak_curves
+from contact_sim_pkg.report.page import Section
 from contact_sim_pkg.report.series import FieldSeries, Recording
 from contact_sim_pkg.report.signal.peaks import filtered_signals, peak_rows
-from contact_sim_pkg.report.tables import Table
 from contact_sim_pkg.rigs.vehicle.tire.report.closed_form import TireReference, tire_reference
 from contact_sim_pkg.rigs.vehicle.tire.report.figures_field import (
     displacement_picture,
@@ -19,24 +18,23 @@ from contact_sim_pkg.rigs.vehicle.tire.report.figures_footprint import footprint
 from contact_sim_pkg.rigs.vehicle.tire.report.figures_road import Rolling, along_the_road, stretches
 from contact_sim_pkg.rigs.vehicle.tire.report.figures_shear import friction_over_slip, friction_over_time, shear_maps
 from contact_sim_pkg.rigs.vehicle.tire.report.numbers import TIRE, standing_load_of
+from contact_sim_pkg.rigs.vehicle.tire.report.road_series import road_of
+from contact_sim_pkg.rigs.vehicle.tire.report.shear_series import shear_of
 from contact_sim_pkg.rigs.vehicle.tire.report.tables import footprint_table, load_table, peak_table
 
 KEY = "rolling"
 FRICTION_KEY = "friction"
 
 
-class TirePart(NamedTuple):
-    """Pictures and tables of the rolling tire."""
+def tire_sections(number: int, recording: Recording) -> list[Section]:
+    """Contact, rolling tire and friction. Call inside `drawing.style()`; the recording has a contact of this name."""
+    rolling = _rolling_section(recording)
+    friction = Section(FRICTION_KEY, "Friction of the tire", _friction_pictures(recording))
+    return [contact_section(number, TIRE, recording), rolling, friction]
 
-    pictures: list[Picture]
-    tables: list[Table]
 
-
-def tire_part(recording: Recording) -> TirePart:
-    """Call inside `drawing.style()`; both lists are empty where nothing rolls."""
-    contact, field, road = recording.contacts.get(TIRE), recording.fields.get(TIRE), recording.road
-    if contact is None:
-        return TirePart([], [])
+def _rolling_section(recording: Recording) -> Section:
+    contact, field, road = recording.contacts[TIRE], recording.fields.get(TIRE), road_of(recording)
     reference = tire_reference(recording.scene)
     travel = road.travel if road is not None else None
     signals = filtered_signals(contact, recording.motion)
@@ -52,12 +50,12 @@ def tire_part(recording: Recording) -> TirePart:
     tables = [load_table(contact, travel, standing_load_of(recording.scene))]
     tables += [footprint_table(field, reference)] if field is not None else []
     tables += [peak_table(peak_rows(signals))] if signals else []
-    return TirePart(pictures, tables)
+    return Section(KEY, "Rolling tire", pictures, tables)
 
 
-def friction_pictures(recording: Recording) -> list[Picture]:
-    """Pictures of the friction of a rolling tire; call inside `drawing.style()`. Empty without shear in the bag."""
-    shear = recording.shear
+def _friction_pictures(recording: Recording) -> list[Picture]:
+    """Empty without shear in the bag."""
+    shear = shear_of(recording)
     if shear is None:
         return []
     found = [

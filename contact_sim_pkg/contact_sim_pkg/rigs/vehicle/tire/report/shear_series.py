@@ -2,18 +2,71 @@
 
 from __future__ import annotations
 
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
+from numpy.typing import NDArray
 
 from contact_sim_pkg.bag.errors import BagError
-from contact_sim_pkg.report.series import PressureMap, ShearMap, ShearSeries
+from contact_sim_pkg.report.series import FloatArray, PressureMap, Recording
 
 SCALARS = ("slip", "slip_angle", "force_x", "force_y", "moment_z", "sliding_share", "dissipated")
 MOSTLY = 0.95
 """Share of slipping cells above which the footprint slides as a whole."""
 SMALL = 0.05
 """Share of the other force below which a force has no map of its own."""
+
+
+class ShearMap(NamedTuple):
+    """The shear on a rolling tire at one instant."""
+
+    time: float
+    """[s]"""
+    slip: float
+    """(omega R - v) / v"""
+    slip_angle: float
+    """[rad]"""
+    force_x: float
+    force_y: float
+    """[N] on the tire"""
+    moment_z: float
+    """[N m]"""
+    sliding_share: float
+    """slipping cells among those in contact"""
+    grid: PressureMap
+    """magnitude of the shear on its grid"""
+    shear_x: FloatArray
+    shear_y: FloatArray
+    """[Pa] [rows, cols] on the tire"""
+    state: NDArray[np.uint8]
+    """[rows, cols] 0 apart, 1 sticks, 2 slips"""
+
+
+class ShearSeries(NamedTuple):
+    """Friction of a rolling tire over time, and its shear where it is largest."""
+
+    time: FloatArray
+    """[s]"""
+    slip: FloatArray
+    """(omega R - v) / v"""
+    slip_angle: FloatArray
+    """[rad]"""
+    force_x: FloatArray
+    force_y: FloatArray
+    """[N] on the tire, forward and left positive"""
+    moment_z: FloatArray
+    """[N m] on the tire"""
+    sliding_share: FloatArray
+    """slipping cells among those in contact"""
+    dissipated: FloatArray
+    """[J] since the instant before"""
+    largest: list[ShearMap]
+    """where the force along, and where that across, is largest while some cells stick; one where the other is small"""
+
+
+def shear_of(recording: Recording) -> ShearSeries | None:
+    """Friction of a recording; None where the bag holds none."""
+    return recording.series.get("shear")
 
 
 class ShearPass:
@@ -24,7 +77,7 @@ class ShearPass:
         self._scalars: list[tuple[float, ...]] = []
         self._largest: dict[str, tuple[float, Any]] = {}
 
-    def take(self, time: float, message: Any) -> None:
+    def take(self, time: float, _type: str, message: Any) -> None:
         """Take in the field at `time` [s]. BagError for one that does not fill its grid."""
         cells = message.rows * message.cols
         if any(len(values) != cells for values in (message.shear_x, message.shear_y, message.state)):

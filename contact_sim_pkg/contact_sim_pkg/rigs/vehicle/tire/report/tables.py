@@ -7,13 +7,14 @@ from typing import Any
 
 import numpy as np
 
-from contact_sim_pkg.report.series import ContactSeries, FieldSeries, FloatArray, Travel
+from contact_sim_pkg.report.series import ContactSeries, FieldSeries, FloatArray
 from contact_sim_pkg.report.signal.lift_off import lifted_intervals
 from contact_sim_pkg.report.signal.peaks import PeakRow
 from contact_sim_pkg.report.tables import Table
 from contact_sim_pkg.report.tiles import number
 from contact_sim_pkg.rigs.vehicle.tire.report.closed_form import TireReference
 from contact_sim_pkg.rigs.vehicle.tire.report.numbers import load_numbers
+from contact_sim_pkg.rigs.vehicle.tire.report.road_series import WheelTravel
 
 NAMED_LIFT_OFFS = 6
 """Lift-offs that are listed one by one."""
@@ -63,7 +64,7 @@ def _at_rest(reference: TireReference | None) -> list[float]:
     ]  # fmt: skip
 
 
-def load_table(contact: ContactSeries, travel: Travel | None, standing: float | None) -> Table:
+def load_table(contact: ContactSeries, travel: WheelTravel | None, standing: float | None) -> Table:
     """What the road did to the load: extremes, dynamic load coefficient, lift-offs and when they were."""
     numbers = load_numbers(contact, standing)
     intervals = lifted_intervals(contact)
@@ -108,7 +109,7 @@ def _with(key: str, numbers: dict[str, Any], unit: str = "") -> str:
     return f"{numbers[key]:.4g}{unit}" if key in numbers else ""
 
 
-def _when(start: float, end: float, travel: Travel | None) -> str:
+def _when(start: float, end: float, travel: WheelTravel | None) -> str:
     span = f"{start:.3f} to {end:.3f} s"
     if travel is None:
         return span

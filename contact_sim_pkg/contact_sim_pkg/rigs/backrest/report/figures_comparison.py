@@ -12,10 +12,10 @@ from matplotlib.figure import Figure
 
 from contact_sim_pkg.report.comparison.figures import Run
 from contact_sim_pkg.report.drawing import PRESSURE_COLOURS, WIDTH, Picture, new_figure, picture
-from contact_sim_pkg.report.figures.maps import AT_BACKREST, Window, common_window
+from contact_sim_pkg.report.figures.maps import Window, common_window
 from contact_sim_pkg.report.point_series import PointSnapshot
 from contact_sim_pkg.report.series import Snapshot
-from contact_sim_pkg.rigs.backrest.report.figures_domain import draw_domain, fit_of, highest_kilopascals
+from contact_sim_pkg.rigs.backrest.report.figures_domain import AT_BACKREST, draw_domain, fit_of, highest_kilopascals
 
 COLUMNS = 4
 """Most runs side by side."""
@@ -27,6 +27,12 @@ class _Domain(NamedTuple):
     run: Run
     fields: tuple[Snapshot, Snapshot]
     points: tuple[PointSnapshot | None, PointSnapshot | None]
+
+
+def comparison_pictures(key: str, name: str, runs: list[Run]) -> list[Picture]:
+    """Contact domain of every run; none where no run has fields and points of this contact."""
+    found = domain_comparison(key, name, runs)
+    return [] if found is None else [found]
 
 
 def domain_comparison(key: str, name: str, runs: list[Run]) -> Picture | None:

@@ -1,0 +1,52 @@
+"""What a rig adds to the report of a bag. Functions are named as ``module:name`` and loaded on use."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+__all__ = ["ContactReport", "SeriesReader"]
+
+
+@dataclass(frozen=True, kw_only=True)
+class SeriesReader:
+    """Reader of the messages of some types.
+
+    Attributes:
+        name: of the series in `Recording.series`.
+        types: message types that it reads, `package/msg/Type`.
+        reader: class without arguments. ``take(time, type, message)`` takes the messages in the order
+            of the bag, `time` in [s]; ``finish()`` returns the series, or None.
+    """
+
+    name: str
+    types: tuple[str, ...]
+    reader: str
+
+
+@dataclass(frozen=True, kw_only=True)
+class ContactReport:
+    """Report of one contact beside what every contact has. An empty name adds nothing.
+
+    Attributes:
+        contact: its name.
+        series: readers of its own messages.
+        sections: (number of the contact, recording) -> sections of the page, in place of the general one.
+        closing_sections: (recording) -> sections that follow those of all contacts.
+        contact_numbers: (recording) -> numbers of the contact in the summary.
+        numbers: (recording) -> further sections of the summary by their keys.
+        tiles: (summary) -> key numbers at the head of the page.
+        warnings: (recording) -> sentences that stand before the numbers.
+        drive_period: (scene) -> period [s] of a drive that is not the vibration, or None.
+        comparison: (key, contact, runs) -> pictures that compare several runs.
+    """
+
+    contact: str
+    series: tuple[SeriesReader, ...] = ()
+    sections: str = ""
+    closing_sections: str = ""
+    contact_numbers: str = ""
+    numbers: str = ""
+    tiles: str = ""
+    warnings: str = ""
+    drive_period: str = ""
+    comparison: str = ""

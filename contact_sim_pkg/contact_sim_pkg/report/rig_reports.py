@@ -1,0 +1,62 @@
+"""What the rigs of a recording add to its numbers; found through the registry. Loads no drawing of pictures."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from contact_sim_pkg.records.registry import contact_reports, rigs
+from contact_sim_pkg.records.report import ContactReport, SeriesReader
+from contact_sim_pkg.records.rig import load
+from contact_sim_pkg.report.series import Recording
+from contact_sim_pkg.report.signal.loops import vibration_period
+from contact_sim_pkg.report.tiles import Tile
+
+
+def series_readers() -> dict[str, SeriesReader]:
+    """Reader of each message type that only one rig records."""
+    return {kind: each for report in contact_reports().values() for each in report.series for kind in each.types}
+
+
+def reports_of(recording: Recording) -> list[ContactReport]:
+    """Reports of the contacts that the bag holds, that its rig has, or of which it holds a series."""
+    rig = rigs().get(str(recording.scene.get("rig")))
+    contacts = {*recording.contacts, *(rig.contacts if rig is not None else ())}
+    return [
+        each
+        for each in contact_reports().values()
+        if each.contact in contacts or any(series.name in recording.series for series in each.series)
+    ]
+
+
+def contact_numbers(name: str, recording: Recording) -> dict[str, Any]:
+    """Numbers of a contact in the summary that only its rig knows."""
+    report = contact_reports().get(name)
+    found: dict[str, Any] = (
+        {} if report is None or not report.contact_numbers else load(report.contact_numbers)(recording)
+    )
+    return found
+
+
+def summary_numbers(recording: Recording) -> dict[str, Any]:
+    """Sections of the summary that the rigs add."""
+    named = [each.numbers for each in reports_of(recording) if each.numbers]
+    return {key: value for name in named for key, value in load(name)(recording).items()}
+
+
+def rig_tiles(recording: Recording, summary: dict[str, Any]) -> list[Tile]:
+    """Key numbers of the rigs."""
+    return [tile for each in reports_of(recording) if each.tiles for tile in load(each.tiles)(summary)]
+
+
+def rig_warnings(recording: Recording) -> list[str]:
+    """Sentences of the rigs that stand before the numbers."""
+    return [text for each in reports_of(recording) if each.warnings for text in load(each.warnings)(recording)]
+
+
+def drive_period(recording: Recording) -> float | None:
+    """Period [s] of the drive of a run, that of a rig or of the vibration; None for one without cycles."""
+    for each in reports_of(recording):
+        period: float | None = load(each.drive_period)(recording.scene) if each.drive_period else None
+        if period is not None:
+            return period
+    return vibration_period(recording.scene)
