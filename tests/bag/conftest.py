@@ -12,7 +12,7 @@ from contact_sim_pkg.bag.metadata import recorded_topics
 from contact_sim_pkg.bag.topics import full_name
 from contact_sim_pkg.bag.writer import BagWriter
 from contact_sim_pkg.records.messages import ContactForce, ContactPatch, RoadPatch, String
-from contact_sim_pkg.run.wrench import wrench_of
+from contact_sim_pkg.run.outputs import wrench_of
 
 Encoded = list[tuple[str, int, bytes]]
 

@@ -6,7 +6,7 @@ import pytest
 
 from contact_sim_pkg.bag.messages import encode
 from contact_sim_pkg.bag.typestore import type_hash
-from contact_sim_pkg.run.wrench import wrench_of
+from contact_sim_pkg.run.outputs import wrench_of
 
 pytestmark = pytest.mark.ros
 

@@ -29,7 +29,7 @@ from contact_sim_pkg.records.messages import (
     Time,
     VibrationBlock,
 )
-from contact_sim_pkg.run.wrench import wrench_of
+from contact_sim_pkg.run.outputs import wrench_of
 
 STAMP = 12_345_678_901
 FINITE = st.floats(allow_nan=False, allow_infinity=False)

@@ -5,13 +5,14 @@ The bytes follow the definition; an array of two sides is sent row by row. Decod
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from functools import cache, partial
+from collections.abc import Callable, Sequence
+from functools import cache
 from math import prod
+from operator import attrgetter
 from typing import Any, TypeVar
 
 import numpy
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import NDArray
 
 from contact_sim_pkg.records import messages as records
 from contact_sim_pkg.records.definitions import HEADER, Field, definition_of
@@ -46,7 +47,8 @@ def record_of(kind: type[Record], message: Any) -> Record:
     A field that the bag's definition does not know has its default. Raises MessageError where arrays do not fit each other,
     AttributeError where a field without a default is missing.
     """
-    return kind(**_codec(kind.__name__).values(message))
+    made: Record = kind._make(_codec(kind.__name__).values(message))  # type: ignore[attr-defined]
+    return made
 
 
 @cache
@@ -55,106 +57,122 @@ def _codec(name: str) -> _Codec:
 
 
 class _Codec:
-    """How one kind of message is encoded and decoded."""
+    """How one kind of message is encoded and decoded; the places of its fields are those of its definition."""
 
     def __init__(self, name: str) -> None:
         definition = definition_of(name)
         fields, sides = definition.record_fields, definition.sides
-        self.type_name = definition.type_name
+        self.type_name, self._fields = definition.type_name, fields
         self._class = message_class(definition.type_name)
+        self._values_of = _values_of(tuple(field.name for field in fields))
         self._has_header = any(field.type == HEADER for field in definition.fields)
-        self._fields = fields
-        self._senders = [(field.name, _sender(field)) for field in fields]
-        self._side_arrays = [field.name for field in fields if field.name in sides]
-        self._shaped = [field for field in fields if field.shape]
-        self._columns = [each for each in fields if each.is_array and not each.shape and each.name not in sides]
+        self._kinds = [
+            (place, numpy.dtype(field.type))
+            for place, field in enumerate(fields)
+            if field.is_array and field.type != "string"
+        ]
+        self._names = [place for place, field in enumerate(fields) if field.is_array and field.type == "string"]
+        self._messages = [(place, _short(field.type)) for place, field in enumerate(fields) if _is_message(field)]
+        self._shaped = [(place, field) for place, field in enumerate(fields) if field.shape]
+        self._side_arrays = [(place, field.name) for place, field in enumerate(fields) if field.name in sides]
+        self._columns = [
+            (place, field.may_be_empty) for place, field in enumerate(fields)
+            if field.is_array and not field.shape and field.name not in sides
+        ]  # fmt: skip
+        body = [field.name for field in definition.fields if field.type != HEADER]
+        self._counts = [
+            (place, name) for place, name in enumerate(body) if name not in {field.name for field in fields}
+        ]
 
     def message(self, record: Any, stamp_ns: int, frame_id: str) -> Any:
         """The message of a record; its numbers of rows, columns and samples are those of its arrays."""
         try:
-            fields: dict[str, Any] = self._sizes(record)
-            self._refuse_uneven_columns(record)
-            for name, send in self._senders:
-                value = getattr(record, name)
-                fields[name] = value if send is None else send(value)
+            values = list(self._values_of(record))
+            for place, kind in self._kinds:
+                values[place] = numpy.asarray(values[place]).astype(kind, "C", "same_kind", copy=False)
+            sizes = self._sizes(values) if self._shaped else {}
         except (TypeError, ValueError, AttributeError) as error:
             raise MessageError(f"a {self.type_name} cannot be encoded: {error}") from None
-        if self._has_header:
-            fields["header"] = header(stamp_ns, frame_id)
-        return self._class(**fields)
+        if self._columns:
+            self._refuse_uneven_columns(values)
+        for place, _field in self._shaped:
+            values[place] = values[place].reshape(-1)
+        for place in self._names:
+            values[place] = list(values[place])
+        for place, name in self._counts:  # in the order of the definition, so that each finds its place
+            values.insert(place, sizes[name])
+        return self._class(header(stamp_ns, frame_id), *values) if self._has_header else self._class(*values)
 
-    def _sizes(self, record: Any) -> dict[str, int]:
-        """The size of each side that an array has; MessageError where two arrays have it with different sizes."""
-        sizes = {name: len(getattr(record, name)) for name in self._side_arrays}
-        for field in self._shaped:
-            shape = numpy.shape(getattr(record, field.name))
-            found = [sizes.setdefault(side, size) for side, size in zip(field.shape, shape, strict=False)]
-            if len(shape) != len(field.shape) or found != list(shape):
-                shapes = (f"{each.name} {numpy.shape(getattr(record, each.name))}" for each in self._shaped)
+    def _sizes(self, values: list[Any]) -> dict[str, int]:
+        """The size of each side of an array; MessageError where two arrays disagree on it."""
+        sizes = {name: len(values[place]) for place, name in self._side_arrays}
+        for place, field in self._shaped:
+            shape = values[place].shape
+            if [sizes.setdefault(side, size) for side, size in zip(field.shape, shape, strict=False)] != [
+                *shape
+            ] or len(shape) != len(field.shape):
+                shapes = (f"{each.name} {values[place].shape}" for place, each in self._shaped)
                 wanted = " x ".join(f"{sizes.get(side, '?')} {side}" for side in field.shape)
                 raise MessageError(
                     f"the arrays of a {self.type_name} do not fit each other: {', '.join(shapes)}; {field.name} must be {wanted}"
                 )
         return sizes
 
-    def _refuse_uneven_columns(self, holder: Any) -> None:
+    def _refuse_uneven_columns(self, values: Sequence[Any]) -> None:
         """MessageError where arrays that stand beside each other differ in length."""
-        lengths = {field.name: len(getattr(holder, field.name)) for field in self._columns if not field.may_be_empty}
-        lengths |= {
-            each.name: size for each in self._columns if each.may_be_empty and (size := _length(holder, each.name))
+        lengths = {
+            len(values[place]) for place, may_be_empty in self._columns if not may_be_empty or len(values[place])
         }
-        if len(set(lengths.values())) > 1:
-            told = ", ".join(f"{name} has {length}" for name, length in lengths.items())
+        if len(lengths) > 1:
+            told = ", ".join(f"{self._fields[place].name} has {len(values[place])}" for place, _empty in self._columns)
             raise MessageError(
                 f"the arrays of a {self.type_name} differ in length: {told}; one value a sample is needed in each"
             )
 
-    def values(self, message: Any) -> dict[str, Any]:
-        """The fields of a record, of a message with the same fields."""
-        self._refuse_uneven_columns(message)
-        missing = {field.name for field in self._fields if field.has_default and not hasattr(message, field.name)}
-        return {field.name: self._value(field, message) for field in self._fields if field.name not in missing}
+    def values(self, message: Any) -> list[Any]:
+        """The values of a record, of a message with the same fields: arrays as copies, texts as tuples, messages as records."""
+        try:
+            values = list(self._values_of(message))
+        except AttributeError:
+            values = self._values_or_defaults(message)
+        for place, _kind in self._kinds:
+            values[place] = numpy.array(values[place])
+        for place, field in self._shaped:
+            values[place] = self._in_shape(field, message, values[place])
+        for place in self._names:
+            values[place] = tuple(values[place])
+        for place, name in self._messages:
+            values[place] = record_of(getattr(records, name), values[place])
+        if self._columns:
+            self._refuse_uneven_columns(values)
+        return values
 
-    def _value(self, field: Field, message: Any) -> Any:
-        """One field of a record: an array as a copy in its shape, names as a tuple, a message in it as a record."""
-        value = getattr(message, field.name)
-        if field.type == "string" and field.is_array:
-            return tuple(value)
-        if field.is_array:
-            return self._shaped_copy(field, message, value) if field.shape else numpy.array(value)
-        return record_of(getattr(records, _short(field.type)), value) if _is_message(field) else value
+    def _values_or_defaults(self, message: Any) -> list[Any]:
+        """As the message has them; AttributeError where it lacks a field that has no default."""
+        defaults = {field.name: field.default_value for field in self._fields if field.has_default}
+        return [
+            getattr(message, field.name, defaults[field.name])
+            if field.name in defaults
+            else getattr(message, field.name)
+            for field in self._fields
+        ]
 
-    def _shaped_copy(self, field: Field, message: Any, values: NDArray[Any]) -> NDArray[Any]:
+    def _in_shape(self, field: Field, message: Any, values: NDArray[Any]) -> NDArray[Any]:
         sides = [getattr(message, side) for side in field.shape]
         shape = [side if isinstance(side, int) else len(side) for side in sides]
         if prod(shape) != len(values):
-            grid = " x ".join(f"{size} {side}" for size, side in zip(shape, field.shape, strict=True))
+            wanted = " x ".join(f"{size} {side}" for size, side in zip(shape, field.shape, strict=True))
             raise MessageError(
-                f"block {message.block} of {self.type_name} has {len(values)} values of {field.name} for {grid}"
+                f"block {message.block} of {self.type_name} has {len(values)} values of {field.name} for {wanted}"
             )
-        return numpy.array(values).reshape(shape)
+        return values.reshape(shape)
 
 
-def _sender(field: Field) -> Callable[[Any], Any] | None:
-    """What makes the value of a message's field of that of a record; None where they are the same."""
-    if _is_message(field):
-        return partial(_nested, _short(field.type))
-    if not field.is_array:
-        return None
-    return list if field.type == "string" else partial(_row, numpy.dtype(field.type))
-
-
-def _nested(name: str, record: Any) -> Any:
-    return _codec(name).message(record, 0, "")
-
-
-def _row(kind: numpy.dtype[Any], values: ArrayLike) -> NDArray[Any]:
-    """The values one after the other, row by row; TypeError where they are of another kind, such as reals for whole numbers."""
-    return numpy.asarray(values).astype(kind, order="C", casting="same_kind", copy=False).reshape(-1)
-
-
-def _length(holder: Any, name: str) -> int:
-    return len(getattr(holder, name, ()))
+def _values_of(names: tuple[str, ...]) -> Callable[[Any], tuple[Any, ...]]:
+    """What takes the values of these fields from a record or a message, at the speed of the interpreter's own code."""
+    if len(names) == 1:
+        return lambda holder: (getattr(holder, names[0]),)
+    return attrgetter(*names)
 
 
 def _is_message(field: Field) -> bool:

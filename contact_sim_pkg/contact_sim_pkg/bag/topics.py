@@ -26,6 +26,12 @@ class Topic(NamedTuple):
     kind: Kind
     rate: str  # when a message comes; keys of the scene between backticks
 
+    @property
+    def frame(self) -> str:
+        """The frame of its messages: that of the contact that the topic is named after, else the bench's fixed frame."""
+        first = self.name.partition("/")[0]
+        return f"{first}_contact" if self.kind == "result" and first != "bench" else "bench"
+
 
 BLOCK = "every `block_length`"
 SAMPLES = "every `block_length`, samples at `outputs.force_rate`"

@@ -16,6 +16,8 @@ from functools import cache
 from importlib.resources import files
 from typing import Any, NamedTuple
 
+import numpy
+
 PACKAGE = "contact_msgs_defs"
 HEADER = "std_msgs/Header"
 STANDARD = {
@@ -55,6 +57,11 @@ class Field(NamedTuple):
     def has_default(self) -> bool:
         """Whether a record may be made without it."""
         return self.may_be_empty or self.default is not None
+
+    @property
+    def default_value(self) -> Any:
+        """What a record has that is made without it: a number, or an array of no values."""
+        return numpy.empty(0, self.type) if self.may_be_empty else self.default
 
 
 class Definition(NamedTuple):

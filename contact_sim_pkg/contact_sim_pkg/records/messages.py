@@ -11,8 +11,6 @@ from __future__ import annotations
 from collections import namedtuple
 from typing import Any
 
-import numpy
-
 from .definitions import Definition, definition_of
 
 __all__ = ["made"]
@@ -21,11 +19,7 @@ __all__ = ["made"]
 def made(definition: Definition) -> Any:
     """The class of a message's records."""
     names = [field.name for field in definition.record_fields]
-    defaults: dict[str, Any] = {
-        field.name: numpy.empty(0, field.type) if field.may_be_empty else field.default
-        for field in definition.record_fields
-        if field.has_default
-    }
+    defaults = {field.name: field.default_value for field in definition.record_fields if field.has_default}
     name = definition.type_name.rpartition("/")[2]
     base: Any = namedtuple(name, names)  # type: ignore[misc]
 

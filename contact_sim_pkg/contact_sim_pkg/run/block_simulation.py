@@ -2,21 +2,30 @@
 
 from __future__ import annotations
 
-from typing import NamedTuple, Protocol, TypeAlias
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Protocol, TypeAlias
 
+from contact_sim_pkg.bag.block_encoder import Message, Output, encode_block
 from contact_sim_pkg.records.messages import RoadPatch, VibrationBlock
 from contact_sim_pkg.run.errors import RunError
 
 InputBlock: TypeAlias = RoadPatch | VibrationBlock
 
 
-class BlockResult(NamedTuple):
-    """What one block gives."""
+@dataclass(frozen=True)
+class BlockResult:
+    """Outputs of one block."""
 
-    messages: list[tuple[str, int, bytes]]  # topic, stamp [ns], CDR; in canonical order
+    outputs: list[Output]  # recorded topics, `bench/cost` included
     load: float  # [N] largest normal force
     peak_pressure: float  # [Pa]; 0 where no field is computed
     wall_time: float  # [s]
+
+    @cached_property
+    def messages(self) -> list[Message]:
+        """Topic, stamp [ns] and CDR bytes of each message, in canonical order."""
+        return encode_block(self.outputs)
 
 
 def refuse_out_of_turn(block: int, due: int) -> None:

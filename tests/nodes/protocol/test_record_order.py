@@ -9,7 +9,7 @@ from contact_sim_pkg.bag.messages import encode
 from contact_sim_pkg.nodes.protocol.input_blocks import FARTHEST_AHEAD
 from contact_sim_pkg.nodes.protocol.record_order import RecordOrder
 from contact_sim_pkg.records.messages import ContactForce, EnergyLedger
-from contact_sim_pkg.run.wrench import wrench_of
+from contact_sim_pkg.run.outputs import wrench_of
 
 VIBRATION = "platform/vibration"
 

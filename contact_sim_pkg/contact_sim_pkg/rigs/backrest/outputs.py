@@ -1,34 +1,24 @@
-"""What one block of the backrest simulation says, as encoded messages in canonical order."""
+"""The outputs of the backrest: what is sampled over one block, and the columns of its messages."""
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass, field
 from typing import Any
 
 import numpy
 from numpy.typing import NDArray
 
-from contact_sim_pkg.bag.messages import encode
-from contact_sim_pkg.bag.topics import TOPICS
-from contact_sim_pkg.pressure.mat import spread_force
-from contact_sim_pkg.records.messages import (
-    BodyMotion,
-    ContactEpisodes,
-    ContactForce,
-    ContactPatch,
-    ContactPoints,
-    EnergyLedger,
-    SolverCost,
-)
+from contact_sim_pkg.bag.block_encoder import Output
+from contact_sim_pkg.records.messages import BodyMotion, ContactEpisodes, ContactForce, ContactPoints, EnergyLedger
 from contact_sim_pkg.rigs.backrest import entries as columns
 from contact_sim_pkg.rigs.backrest import parameters as episode
 from contact_sim_pkg.rigs.backrest.model import BackrestModel
 from contact_sim_pkg.rigs.backrest.parameters import BackrestMode
-from contact_sim_pkg.run.mat_field import mat_field
-from contact_sim_pkg.run.wrench import wrench_of
+from contact_sim_pkg.run.contact_patch import contact_patch
+from contact_sim_pkg.run.outputs import BlockStamps, contact_outputs, energy_ledger, solver_cost
 
 Array = NDArray[numpy.float64]
-NANOSECONDS = 1_000_000_000
 
 
 @dataclass
@@ -46,6 +36,7 @@ class BackrestRecord:
     counters: Array = field(default_factory=lambda: numpy.zeros(3))
     ended: Array = field(default_factory=lambda: numpy.zeros((0, episode.ENDED_COLUMNS)))
     peak_force: Array = field(default_factory=lambda: numpy.zeros(0))  # [episodes] [N]
+    maps: list[tuple[int, Array]] = field(default_factory=list)  # sample, pressure [rows, cols] [Pa] on the mat
 
     @classmethod
     def empty(cls, model: BackrestModel, block: int, forward: Array) -> BackrestRecord:
@@ -74,133 +65,66 @@ class BackrestRecord:
         numpy.maximum(peak, numpy.where(lasting, forces, 0.0).max(axis=0), out=peak)
 
 
-def encode_backrest(
-    model: BackrestModel, record: BackrestRecord, wall_time: float
-) -> tuple[list[tuple[str, int, bytes]], float, float]:
-    """Messages of a block in canonical order, largest normal force in [N] and largest pressure in [Pa]."""
-    encoder = _Encoder(model, record)
-    encoder.force()
-    encoder.fields()
-    encoder.episodes()
-    encoder.bench(wall_time)
-    encoder.messages.sort(key=lambda message: (message[1], TOPICS[message[0]].rank))
-    return encoder.messages, float(record.forces[:, columns.NORMAL].max()), encoder.peak
+def block_outputs(model: BackrestModel, record: BackrestRecord, wall_time: float) -> list[Output]:
+    """The outputs of a block that took ``wall_time`` [s]."""
+    stamps = BlockStamps(record.block, model.timing)
+    normal, tangential, approach = record.forces.T
+    force = ContactForce(
+        block=record.block, sample_period=stamps.period, normal=normal, tangential=tangential, approach=approach,
+        effective_height=numpy.zeros_like(normal),
+    )  # fmt: skip
+    motion = BodyMotion(block=record.block, sample_period=stamps.period, **_motion(model, record))
+    steps, rejected, events = (int(value) for value in record.counters)
+    cost = solver_cost(stamps, wall_time, steps=steps, rejected_steps=rejected, events=events)
+    episodes = [Output("bench/episodes", stamps.start, _episodes(model, record))] if len(record.ended) else []
+    return [
+        *contact_outputs("backrest", stamps, force), *_fields(model, record, stamps), *episodes,
+        Output("bench/motion", stamps.start, motion), Output("bench/energy", stamps.start, _ledger(record)),
+        Output("bench/cost", stamps.start, cost),
+    ]  # fmt: skip
 
 
-class _Encoder:
-    def __init__(self, model: BackrestModel, record: BackrestRecord) -> None:
-        self.model, self.record, timing = model, record, model.timing
-        self.block_ns = round(timing.block_length * NANOSECONDS)
-        self.stamp = record.block * self.block_ns
-        self.period = timing.block_length / timing.samples
-        self.messages: list[tuple[str, int, bytes]] = []
-        self.peak = 0.0
+def _fields(model: BackrestModel, record: BackrestRecord, stamps: BlockStamps) -> Iterator[Output]:
+    """Pressure map and contact points at the field rate."""
+    mat = model.mat
+    grid = (mat.cell_x, mat.cell_y, float(mat.x[0]), float(mat.y[0]))
+    for sample, pressure in record.maps:
+        patch = contact_patch(record.block, grid, float(record.forces[sample, columns.APPROACH]), pressure)
+        yield Output("backrest/patch", stamps.at(sample), patch)
+        yield Output("backrest/points", stamps.at(sample), _points(model, record, sample))
 
-    def _stamp_of(self, sample: int) -> int:
-        return self.stamp + sample * self.block_ns // self.model.timing.samples
 
-    def force(self) -> None:
-        """The resultant at the full rate, and wrenches at the display rate."""
-        normal, tangential, approach = self.record.forces.T
-        value = ContactForce(
-            block=self.record.block,
-            sample_period=self.period,
-            normal=normal,
-            tangential=tangential,
-            approach=approach,
-            effective_height=numpy.zeros_like(normal),
-        )
-        self.messages.append(("backrest/force", self.stamp, encode(value, self.stamp, "backrest_contact")))
-        displays = self.model.timing.displays
-        for i in range(displays):
-            sample = i * self.model.timing.samples // displays
-            stamp = self._stamp_of(sample)
-            wrench = wrench_of((float(tangential[sample]), 0.0, float(normal[sample])), (0.0, 0.0, 0.0))
-            self.messages.append(("backrest/wrench", stamp, encode(wrench, stamp, "backrest_contact")))
+def _points(model: BackrestModel, record: BackrestRecord, sample: int) -> ContactPoints:
+    rows = record.points[sample]
+    return ContactPoints(
+        block=record.block, x=model.point_x + rows[:, columns.POINT_UP], y=model.point_y + rows[:, columns.POINT_ACROSS],
+        approach=rows[:, columns.POINT_APPROACH], normal=rows[:, columns.POINT_NORMAL],
+        tangential=rows[:, columns.POINT_TANGENTIAL], displacement=rows[:, columns.POINT_DISPLACEMENT],
+        state=rows[:, columns.POINT_STATE].astype(numpy.uint8),
+    )  # fmt: skip
 
-    def fields(self) -> None:
-        """Pressure map and contact points at the field rate."""
-        timing = self.model.timing
-        for interval in range(timing.intervals):
-            sample = interval * timing.segments // timing.sample_every
-            stamp = self._stamp_of(sample)
-            field_bytes = encode(self._patch(sample), stamp, "backrest_contact")
-            self.messages.append(("backrest/patch", stamp, field_bytes))
-            point_bytes = encode(self._points(sample), stamp, "backrest_contact")
-            self.messages.append(("backrest/points", stamp, point_bytes))
 
-    def _pressure(self, sample: int) -> Array:
-        mat, model = self.model.mat, self.model
-        if mat.by_points:
-            normal = self.record.points[sample, :, columns.POINT_NORMAL]
-            return numpy.ascontiguousarray(normal.reshape(mat.gap.shape)) / (mat.cell_x * mat.cell_y)
-        force, approach = (float(self.record.forces[sample, k]) for k in (columns.NORMAL, columns.APPROACH))
-        gap = mat.gap
-        if mat.bent is not None:  # the approach is that of the nearest point: over it the gap is none
-            gap = gap - (mat.bent @ self.record.states[sample, : len(model.rig.mass)]).reshape(gap.shape) + approach
-        return spread_force(force, approach, model.rig.contact.elastic, gap, mat.cell_x * mat.cell_y)
+def _episodes(model: BackrestModel, record: BackrestRecord) -> ContactEpisodes:
+    """The contact episodes that ended."""
+    rows = record.ended
+    place = rows[:, episode.PLACE].astype(numpy.int32)
+    place[place == len(model.rig.gaps)] = ContactEpisodes.WHOLE_CONTACT
+    closing, opening = rows[:, episode.CLOSING_WORK], rows[:, episode.OPENING_WORK]
+    ratio = numpy.divide(opening, closing, out=numpy.zeros_like(closing), where=closing > 0.0)
+    return ContactEpisodes(
+        block=record.block, point=place, touched=rows[:, episode.TOUCHED].astype(numpy.uint8),
+        start=rows[:, episode.START], end=rows[:, episode.CARRIED], compression_work=-closing,
+        restitution_work=opening, restitution=numpy.sqrt(numpy.maximum(ratio, 0.0)),
+        peak_force=record.peak_force, largest_approach=rows[:, episode.DEEPEST],
+    )  # fmt: skip
 
-    def _patch(self, sample: int) -> ContactPatch:
-        mat, pressure = self.model.mat, self._pressure(sample)
-        grid = (mat.cell_x, mat.cell_y, float(mat.x[0]), float(mat.y[0]))
-        found = mat_field(self.record.block, grid, float(self.record.forces[sample, columns.APPROACH]), pressure)
-        self.peak = max(self.peak, found.peak)
-        return found
 
-    def _points(self, sample: int) -> ContactPoints:
-        rows = self.record.points[sample]
-        return ContactPoints(
-            block=self.record.block, x=self.model.point_x + rows[:, columns.POINT_UP],
-            y=self.model.point_y + rows[:, columns.POINT_ACROSS], approach=rows[:, columns.POINT_APPROACH],
-            normal=rows[:, columns.POINT_NORMAL], tangential=rows[:, columns.POINT_TANGENTIAL],
-            displacement=rows[:, columns.POINT_DISPLACEMENT], state=rows[:, columns.POINT_STATE].astype(numpy.uint8),
-        )  # fmt: skip
-
-    def episodes(self) -> None:
-        """The contact episodes that ended; nothing where none did."""
-        rows = self.record.ended
-        if len(rows) == 0:
-            return
-        place = rows[:, episode.PLACE].astype(numpy.int32)
-        place[place == len(self.model.rig.gaps)] = ContactEpisodes.WHOLE_CONTACT
-        closing, opening = rows[:, episode.CLOSING_WORK], rows[:, episode.OPENING_WORK]
-        ratio = numpy.divide(opening, closing, out=numpy.zeros_like(closing), where=closing > 0.0)
-        value = ContactEpisodes(
-            block=self.record.block, point=place, touched=rows[:, episode.TOUCHED].astype(numpy.uint8),
-            start=rows[:, episode.START], end=rows[:, episode.CARRIED], compression_work=-closing,
-            restitution_work=opening, restitution=numpy.sqrt(numpy.maximum(ratio, 0.0)),
-            peak_force=self.record.peak_force, largest_approach=rows[:, episode.DEEPEST],
-        )  # fmt: skip
-        self.messages.append(("bench/episodes", self.stamp, encode(value, self.stamp)))
-
-    def bench(self, wall_time: float) -> None:
-        """Motion, energy ledger at the block's start, and cost."""
-        record = self.record
-        motion = BodyMotion(block=record.block, sample_period=self.period, **_motion(self.model, record))
-        self.messages.append(("bench/motion", self.stamp, encode(motion, self.stamp)))
-        kinetic, potential, stored, supplied, dissipated = (float(v) for v in record.energy - record.start_energy)
-        residual = supplied - kinetic - potential - stored - dissipated
-        ledger = EnergyLedger(
-            block=record.block,
-            kinetic=kinetic,
-            potential=potential,
-            stored=stored,
-            dissipated=dissipated,
-            supplied=supplied,
-            residual=residual,
-        )
-        self.messages.append(("bench/energy", self.stamp, encode(ledger, self.stamp)))
-        steps, rejected, events = (int(value) for value in record.counters)
-        factor = self.model.timing.block_length / wall_time
-        cost = SolverCost(
-            block=record.block,
-            wall_time=wall_time,
-            real_time_factor=factor,
-            steps=steps,
-            rejected_steps=rejected,
-            events=events,
-        )
-        self.messages.append(("bench/cost", self.stamp, encode(cost, self.stamp)))
+def _ledger(record: BackrestRecord) -> EnergyLedger:
+    """The energy ledger at the block's start."""
+    kinetic, potential, stored, supplied, dissipated = (float(v) for v in record.energy - record.start_energy)
+    return energy_ledger(
+        record.block, kinetic=kinetic, potential=potential, stored=stored, dissipated=dissipated, supplied=supplied
+    )
 
 
 def _motion(model: BackrestModel, record: BackrestRecord) -> dict[str, Any]:

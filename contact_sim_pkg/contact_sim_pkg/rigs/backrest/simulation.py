@@ -5,20 +5,25 @@ from __future__ import annotations
 import time
 
 import numpy
+from numpy.typing import NDArray
 
 from contact_sim_pkg.compiled.arrays import Vector
 from contact_sim_pkg.compiled.results import DONE, SENTENCES
 from contact_sim_pkg.integrate.dormand_prince import make_workspace
+from contact_sim_pkg.pressure.mat import spread_force
 from contact_sim_pkg.records.messages import VibrationBlock
 from contact_sim_pkg.rigs.backrest import entries
 from contact_sim_pkg.rigs.backrest.model import build_backrest
 from contact_sim_pkg.rigs.backrest.motion import margin_count
-from contact_sim_pkg.rigs.backrest.outputs import BackrestRecord, encode_backrest
+from contact_sim_pkg.rigs.backrest.outputs import BackrestRecord, block_outputs
 from contact_sim_pkg.rigs.backrest.parameters import ENDED, MOST_EPISODES, make_mode
 from contact_sim_pkg.run.block_simulation import BlockResult, InputBlock, refuse_out_of_turn
 from contact_sim_pkg.run.errors import RunError
+from contact_sim_pkg.run.outputs import largest
 from contact_sim_pkg.run.vibration_drive import VIBRATION, accelerations
 from contact_sim_pkg.scene.resolved_scene import ResolvedScene
+
+Array = NDArray[numpy.float64]
 
 
 class BackrestSimulation:
@@ -78,9 +83,27 @@ class BackrestSimulation:
         record.counters[:] = self._work.counters
         record.take_episodes(model, self._mode, self._peak_force)
         self._next_block = block + 1
-        wall = time.perf_counter() - began
-        messages, load, peak = encode_backrest(model, record, wall)
-        return BlockResult(messages, load, peak, time.perf_counter() - began)
+        record.maps = [(sample, self._pressure(record, sample)) for sample in self._field_samples()]
+        outputs = block_outputs(model, record, time.perf_counter() - began)
+        load, peak = largest(outputs, "force", "normal"), largest(outputs, "patch", "peak")
+        return BlockResult(outputs, load, peak, time.perf_counter() - began)
+
+    def _field_samples(self) -> list[int]:
+        """Samples of a block at which its pressure map is given."""
+        timing = self.model.timing
+        return [interval * timing.segments // timing.sample_every for interval in range(timing.intervals)]
+
+    def _pressure(self, record: BackrestRecord, sample: int) -> Array:
+        """Pressure on the cells of the mat [rows, cols] [Pa]: that of its points, or the force of the one contact spread."""
+        mat, model = self.model.mat, self.model
+        if mat.by_points:
+            normal = record.points[sample, :, entries.POINT_NORMAL]
+            return numpy.ascontiguousarray(normal.reshape(mat.gap.shape)) / (mat.cell_x * mat.cell_y)
+        force, approach = (float(record.forces[sample, k]) for k in (entries.NORMAL, entries.APPROACH))
+        gap = mat.gap
+        if mat.bent is not None:  # the approach is that of the nearest point: over it the gap is none
+            gap = gap - (mat.bent @ record.states[sample, : len(model.rig.mass)]).reshape(gap.shape) + approach
+        return spread_force(force, approach, model.rig.contact.elastic, gap, mat.cell_x * mat.cell_y)
 
     def _energies(self, at: float) -> Vector:
         return numpy.array(entries.energies(self.model.rig, self._mode, at, self.state))

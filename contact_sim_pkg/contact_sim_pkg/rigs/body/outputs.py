@@ -1,25 +1,24 @@
-"""What one block of a rigid body's simulation says, as encoded messages in canonical order."""
+"""The outputs of a rigid body: what is sampled over one block, and the columns of its messages."""
 
 from __future__ import annotations
 
+import itertools
+from collections.abc import Iterator
 from dataclasses import dataclass, field
 
 import numpy
 from numpy.typing import NDArray
 
-from contact_sim_pkg.bag.messages import encode
-from contact_sim_pkg.bag.topics import TOPICS
-from contact_sim_pkg.records.messages import BodyMotion, ContactForce, ContactPoints, EnergyLedger, SolverCost
+from contact_sim_pkg.bag.block_encoder import Output
+from contact_sim_pkg.records.messages import BodyMotion, ContactForce, ContactPoints
 from contact_sim_pkg.rigid.body import Motion, contact_count
 from contact_sim_pkg.rigid.problem import PLANE
 from contact_sim_pkg.rigs.body.geometry import contact_arms, gaps, in_ground_axes
 from contact_sim_pkg.rigs.body.model import BlockModel
 from contact_sim_pkg.rigs.body.resultant import resultant
-from contact_sim_pkg.run.wrench import wrench_of
+from contact_sim_pkg.run.outputs import BlockStamps, energy_ledger, solver_cost, wrench_of
 
 Array = NDArray[numpy.float64]
-NANOSECONDS = 1_000_000_000
-STICKS, SLIPS = 2, 3  # of `ContactPoints.state`
 PLANE_NAMES = ("block_x", "block_z", "block_pitch")
 SPACE_NAMES = ("block_x", "block_y", "block_z", "block_rotation_x", "block_rotation_y", "block_rotation_z")
 
@@ -63,52 +62,47 @@ class BlockRecord:
     def take_impulses(self, model: BlockModel, force: Array, stuck: NDArray[numpy.bool_]) -> None:
         """Mean forces over all samples, [samples, rows] in [N], and which contacts stick, [samples, contacts]."""
         self.force[:] = force.reshape(self.force.shape)
-        self.states[:] = numpy.where(self.force[:, :, 0] > 0.0, numpy.where(stuck, STICKS, SLIPS), 0)
+        self.states[:] = numpy.where(
+            self.force[:, :, 0] > 0.0, numpy.where(stuck, ContactPoints.STICKS, ContactPoints.SLIPS), 0
+        )
 
     def look(self, model: BlockModel) -> None:
         """Gaps of the states that were taken."""
         self.gap[:] = gaps(model, self.position[:-1], self.rotation[:-1])
 
 
-def encode_block(
-    model: BlockModel, record: BlockRecord, wall_time: float
-) -> tuple[list[tuple[str, int, bytes]], float]:
-    """Messages of a block in canonical order, and the largest normal force in [N]."""
-    timing = model.timing
-    stamp = record.block * round(timing.block_length * NANOSECONDS)
-    period = timing.block_length / timing.samples
+def block_outputs(model: BlockModel, record: BlockRecord, wall_time: float) -> list[Output]:
+    """The outputs of a block that took ``wall_time`` [s]."""
+    stamps = BlockStamps(record.block, model.timing)
     normal, tangential = record.force[:, :, 0].sum(axis=1), record.force[:, :, 1].sum(axis=1)
-    zeros = numpy.zeros_like(normal)
-    value = ContactForce(
-        block=record.block,
-        sample_period=period,
-        normal=normal,
-        tangential=tangential,
-        approach=-record.gap,
-        effective_height=zeros,
+    force = ContactForce(
+        block=record.block, sample_period=stamps.period, normal=normal, tangential=tangential, approach=-record.gap,
+        effective_height=numpy.zeros_like(normal),
+    )  # fmt: skip
+    names, position, velocity = _coordinates(model, record)
+    motion = BodyMotion(
+        block=record.block, sample_period=stamps.period, bodies=names, position=position[:, :-1],
+        velocity=velocity[:, :-1], acceleration=numpy.diff(velocity, axis=1) / stamps.period,
+    )  # fmt: skip
+    kinetic, potential, stored, dissipated, supplied = (float(value) for value in record.energy)
+    ledger = energy_ledger(
+        record.block, kinetic=kinetic, potential=potential, stored=stored, dissipated=dissipated, supplied=supplied
     )
-    messages = [("block/force", stamp, encode(value, stamp, "block_contact"))]
-    messages += _wrenches(model, record, stamp) + _points(model, record, stamp)
-    messages += _bench(model, record, stamp, period, wall_time)
-    messages.sort(key=lambda message: (message[1], TOPICS[message[0]].rank))
-    return messages, float(normal.max())
+    cost = solver_cost(stamps, wall_time, steps=record.steps, events=record.events, field_residual=record.residual)
+    return [
+        Output("block/force", stamps.start, force), *_wrenches(model, record, stamps), *_points(model, record, stamps),
+        Output("bench/motion", stamps.start, motion), Output("bench/energy", stamps.start, ledger),
+        Output("bench/cost", stamps.start, cost),
+    ]  # fmt: skip
 
 
-def _stamp_of(model: BlockModel, stamp: int, sample: int) -> int:
-    return stamp + sample * round(model.timing.block_length * NANOSECONDS) // model.timing.samples
-
-
-def _wrenches(model: BlockModel, record: BlockRecord, stamp: int) -> list[tuple[str, int, bytes]]:
+def _wrenches(model: BlockModel, record: BlockRecord, stamps: BlockStamps) -> Iterator[Output]:
     """Mean wrench on the body about its centre of mass over a display period: axes of a plane ground, the world's over heights."""
-    timing, found = model.timing, []
     uneven = len(model.ground.profile.nodes) > 0
-    for display in range(timing.displays):
-        first, last = (place * timing.samples // timing.displays for place in (display, display + 1))
-        force, torque = (_over_heights if uneven else _on_a_plane)(model, record, first, last)
-        at = _stamp_of(model, stamp, first)
-        wrench = wrench_of((force[0], force[1], force[2]), (torque[0], torque[1], torque[2]))
-        found.append(("block/wrench", at, encode(wrench, at, "bench" if uneven else "block_contact")))
-    return found
+    starts = [*stamps.displayed(), model.timing.samples]
+    for first, last in itertools.pairwise(starts):
+        wrench = wrench_of(*(_over_heights if uneven else _on_a_plane)(model, record, first, last))
+        yield Output("block/wrench", stamps.at(first), wrench, "bench" if uneven else "")
 
 
 def _on_a_plane(model: BlockModel, record: BlockRecord, first: int, last: int) -> tuple[list[float], list[float]]:
@@ -137,60 +131,19 @@ def _forces_in_space(force: Array) -> Array:
     return numpy.column_stack([force[:, 1], across, force[:, 0]])
 
 
-def _points(model: BlockModel, record: BlockRecord, stamp: int) -> list[tuple[str, int, bytes]]:
+def _points(model: BlockModel, record: BlockRecord, stamps: BlockStamps) -> Iterator[Output]:
     """The candidate contacts at the field rate, forces as means from one field to the next."""
-    timing, found = model.timing, []
+    timing = model.timing
     for interval in range(timing.intervals):
         first, last = (place * timing.samples // timing.intervals for place in (interval, interval + 1))
         arms = _in_space(contact_arms(model, record.position[first], record.rotation[first]))
         force = record.force[first:last].mean(axis=0)
-        at = _stamp_of(model, stamp, first)
-        value = ContactPoints(
+        points = ContactPoints(
             block=record.block, x=arms[:, 0], y=arms[:, 1], approach=numpy.zeros(len(arms)), normal=force[:, 0],
             tangential=force[:, 1], displacement=numpy.full(len(arms), record.position[first, 0]) + arms[:, 0],
             state=record.states[first:last].max(axis=0).astype(numpy.uint8),
         )  # fmt: skip
-        found.append(("block/points", at, encode(value, at, "block_contact")))
-    return found
-
-
-def _bench(
-    model: BlockModel, record: BlockRecord, stamp: int, period: float, wall_time: float
-) -> list[tuple[str, int, bytes]]:
-    names, position, velocity = _coordinates(model, record)
-    acceleration = numpy.diff(velocity, axis=1) / period
-    motion = BodyMotion(
-        block=record.block,
-        sample_period=period,
-        bodies=names,
-        position=position[:, :-1],
-        velocity=velocity[:, :-1],
-        acceleration=acceleration,
-    )
-    kinetic, potential, stored, dissipated, supplied = (float(value) for value in record.energy)
-    residual = supplied - kinetic - potential - stored - dissipated
-    ledger = EnergyLedger(
-        block=record.block,
-        kinetic=kinetic,
-        potential=potential,
-        stored=stored,
-        dissipated=dissipated,
-        supplied=supplied,
-        residual=residual,
-    )
-    factor = model.timing.block_length / wall_time
-    cost = SolverCost(
-        block=record.block,
-        wall_time=wall_time,
-        real_time_factor=factor,
-        steps=record.steps,
-        events=record.events,
-        field_residual=record.residual,
-    )
-    return [
-        ("bench/motion", stamp, encode(motion, stamp)), ("bench/energy", stamp, encode(ledger, stamp)),
-        ("bench/cost", stamp, encode(cost, stamp)),
-    ]  # fmt: skip
+        yield Output("block/points", stamps.at(first), points)
 
 
 def _coordinates(model: BlockModel, record: BlockRecord) -> tuple[tuple[str, ...], Array, Array]:

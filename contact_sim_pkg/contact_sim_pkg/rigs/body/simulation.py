@@ -18,9 +18,10 @@ from contact_sim_pkg.rigid.problem import PLANE
 from contact_sim_pkg.rigid.results import SENTENCES, SOLVED, STICK
 from contact_sim_pkg.rigs.body.geometry import contact_arms
 from contact_sim_pkg.rigs.body.model import BlockModel, build_block
-from contact_sim_pkg.rigs.body.outputs import BlockRecord, encode_block
+from contact_sim_pkg.rigs.body.outputs import BlockRecord, block_outputs
 from contact_sim_pkg.run.block_simulation import BlockResult, InputBlock, refuse_out_of_turn
 from contact_sim_pkg.run.errors import RunError
+from contact_sim_pkg.run.outputs import largest
 from contact_sim_pkg.scene.resolved_scene import ResolvedScene
 
 Body: TypeAlias = LocatedBody | SteppedBody | MovedBody
@@ -76,8 +77,8 @@ class BlockBodySimulation:
         record.events = getattr(self.body, "events", 0) - events
         record.steps = getattr(self.body, "solves", 0) - solves or timing.samples
         self._next_block = block + 1
-        messages, load = encode_block(self.model, record, time.perf_counter() - began)
-        return BlockResult(messages, load, 0.0, time.perf_counter() - began)
+        outputs = block_outputs(self.model, record, time.perf_counter() - began)
+        return BlockResult(outputs, largest(outputs, "force", "normal"), 0.0, time.perf_counter() - began)
 
     def _run_located(self, body: LocatedBody, record: BlockRecord, block: int) -> None:
         """All samples of a block in one call."""

@@ -139,6 +139,16 @@ def history_of(model: ImpactModel, effect: dict[str, Any], block: int, impact: E
     )
 
 
+def gauge_readings(model: ImpactModel, number: int, *values: float) -> list[float]:
+    """The values with the noise of the gauges: of the scene's seed and the impact's number, so the same in every run."""
+    noise = model.effects.get("gauge_noise")
+    if noise is None:
+        return list(values)
+    spread = numpy.array([noise["speed"], noise["duration"], noise["restitution"]])
+    drawn = numpy.random.Generator(numpy.random.Philox(key=[model.seed, number])).standard_normal(3)
+    return [float(v) for v in numpy.array(values) * numpy.maximum(1.0 + spread * drawn, 1.0e-3)]
+
+
 def _shear_modulus(model: ImpactModel, impact: Ended) -> float:
     """``G' = E'/(2 (1 + nu))`` of the half-space in [Pa]."""
     return impact.touch.half_space.storage_modulus / (2.0 * (1.0 + model.poisson_ratio))

@@ -1,72 +1,44 @@
-"""What one block of the impact simulation says, as encoded messages in canonical order."""
+"""The outputs of the impact rig: the columns of the messages of one block."""
 
 from __future__ import annotations
 
 import math
 import time
-from collections.abc import Callable
+from collections.abc import Iterator
 from typing import Any
 
 import numpy
 
-from contact_sim_pkg.bag.messages import encode
-from contact_sim_pkg.bag.topics import TOPICS
-from contact_sim_pkg.records.messages import (
-    BodyMotion,
-    ContactForce,
-    EnergyLedger,
-    ImpactCourse,
-    ImpactEvents,
-    SolverCost,
-)
-from contact_sim_pkg.rigs.impact.effects import EFFECT_MESSAGES
+from contact_sim_pkg.bag.block_encoder import Output
+from contact_sim_pkg.records.messages import BodyMotion, ContactForce, EnergyLedger, ImpactCourse, ImpactEvents
+from contact_sim_pkg.rigs.impact.effects import EFFECT_MESSAGES, gauge_readings
 from contact_sim_pkg.rigs.impact.model import ImpactModel
 from contact_sim_pkg.rigs.impact.motion import Ended, State, course_of
-from contact_sim_pkg.run.wrench import wrench_of
-
-NANOSECONDS = 1_000_000_000
-Messages = list[tuple[str, int, bytes]]
+from contact_sim_pkg.run.outputs import BlockStamps, contact_outputs, energy_ledger, solver_cost
 
 
-def encode_block(
+def block_outputs(
     model: ImpactModel, block: int, state: State, ended: list[Ended], pieces: int, began: float
-) -> Messages:
-    """Messages of a block; ``pieces`` of motion were made for it, work on it began at ``began`` on the performance counter."""
-    stamp = block * round(model.timing.block_length * NANOSECONDS)
-    messages = _force(model, block, stamp, state)
-    if ended:
-        events = encode(_events(model, block, ended), stamp, "impact_contact")
-        messages.append(("impact/events", stamp, events))
-    for impact in ended:
-        messages += encode_impact_messages(model, block, stamp, impact)
-    messages.append(("bench/motion", stamp, encode(_motion(model, block, state), stamp)))
-    messages.append(("bench/energy", stamp, encode(_ledger(model, block, state), stamp)))
-    wall = time.perf_counter() - began
-    cost = SolverCost(
-        block=block,
-        wall_time=wall,
-        real_time_factor=model.timing.block_length / wall,
-        steps=pieces,
-        events=len(ended),
-    )
-    messages.append(("bench/cost", stamp, encode(cost, stamp)))
-    messages.sort(key=lambda message: (message[1], TOPICS[message[0]].rank))
-    return messages
+) -> list[Output]:
+    """The outputs of a block; ``pieces`` of motion were made for it, work on it began at ``began`` on the performance counter."""
+    stamps = BlockStamps(block, model.timing)
+    events = [Output("impact/events", stamps.start, _events(model, block, ended))] if ended else []
+    outputs = [
+        *contact_outputs("impact", stamps, _force(model, stamps, state)), *events,
+        *(output for impact in ended for output in impact_outputs(model, stamps, impact)),
+        Output("bench/motion", stamps.start, _motion(stamps, state)),
+        Output("bench/energy", stamps.start, _ledger(model, block, state)),
+    ]  # fmt: skip
+    cost = solver_cost(stamps, time.perf_counter() - began, steps=pieces, events=len(ended))
+    return [*outputs, Output("bench/cost", stamps.start, cost)]
 
 
-def _force(model: ImpactModel, block: int, stamp: int, state: State) -> Messages:
+def _force(model: ImpactModel, stamps: BlockStamps, state: State) -> ContactForce:
     normal, still = numpy.maximum(state.elastic + state.viscous, _lowest(model)), numpy.zeros(len(state.depth))
-    period = model.timing.block_length / model.timing.samples
-    value = ContactForce(
-        block=block, sample_period=period, normal=normal, tangential=still, approach=state.depth, effective_height=still
-    )
-    messages: Messages = [("impact/force", stamp, encode(value, stamp, "impact_contact"))]
-    for i in range(model.timing.displays):
-        place = i * model.timing.samples // model.timing.displays
-        at = stamp + place * round(model.timing.block_length * NANOSECONDS) // model.timing.samples
-        wrench = wrench_of((0.0, 0.0, float(normal[place])), (0.0, 0.0, 0.0))
-        messages.append(("impact/wrench", at, encode(wrench, at, "impact_contact")))
-    return messages
+    return ContactForce(
+        block=stamps.block, sample_period=stamps.period, normal=normal, tangential=still, approach=state.depth,
+        effective_height=still,
+    )  # fmt: skip
 
 
 def _lowest(model: ImpactModel) -> float:
@@ -90,7 +62,7 @@ def _event(model: ImpactModel, impact: Ended) -> dict[str, Any]:
     restitution = -impact.loss_speed / impact.speed
     closing = -0.5 * law.mass * impact.speed**2 - law.mass * law.gravity * turns.depth
     opening = 0.5 * law.mass * impact.loss_speed**2 + law.mass * law.gravity * (turns.depth - impact.loss_depth)
-    measured = _measured(model, impact.number, impact.speed, impact.duration, restitution)
+    measured = gauge_readings(model, impact.number, impact.speed, impact.duration, restitution)
     return {
         "number": impact.number, "release": impact.release, "start": impact.start, "end": impact.start + impact.duration,
         "mass": law.mass, "radius": model.sphere.radius, "temperature": impact.temperature, "speed": impact.speed,
@@ -102,39 +74,24 @@ def _event(model: ImpactModel, impact: Ended) -> dict[str, Any]:
     }  # fmt: skip
 
 
-def _measured(model: ImpactModel, number: int, *values: float) -> list[float]:
-    """The values with the noise of the gauges: of the scene's seed and the impact's number, so the same in every run."""
-    noise = model.effects.get("gauge_noise")
-    if noise is None:
-        return list(values)
-    spread = numpy.array([noise["speed"], noise["duration"], noise["restitution"]])
-    drawn = numpy.random.Generator(numpy.random.Philox(key=[model.seed, number])).standard_normal(3)
-    return [float(v) for v in numpy.array(values) * numpy.maximum(1.0 + spread * drawn, 1.0e-3)]
-
-
-def encode_impact_messages(model: ImpactModel, block: int, stamp: int, impact: Ended) -> Messages:
+def impact_outputs(model: ImpactModel, stamps: BlockStamps, impact: Ended) -> Iterator[Output]:
     """Course of an impact, and what the scene's effects say of it."""
-    messages: Messages = []
     if model.course_samples:
         times, depth, speed, elastic, viscous = course_of(impact, max(2, model.course_samples))
         course = ImpactCourse(
-            block=block, number=impact.number, start=impact.start, time=times, depth=depth, speed=speed,
+            block=stamps.block, number=impact.number, start=impact.start, time=times, depth=depth, speed=speed,
             elastic_force=elastic, viscous_force=viscous,
         )  # fmt: skip
-        messages.append(("impact/course", stamp, encode(course, stamp, "impact_contact")))
+        yield Output("impact/course", stamps.start, course)
     for effect, (topic, make) in EFFECT_MESSAGES.items():
         if model.effects.get(effect) is not None:
-            message: Callable[..., Any] = make
-            found = message(model, model.effects[effect], block, impact)
-            messages.append((f"impact/{topic}", stamp, encode(found, stamp, "impact_contact")))
-    return messages
+            yield Output(f"impact/{topic}", stamps.start, make(model, model.effects[effect], stamps.block, impact))
 
 
-def _motion(model: ImpactModel, block: int, state: State) -> BodyMotion:
+def _motion(stamps: BlockStamps, state: State) -> BodyMotion:
     """Height of the sphere's lowest point above the sample, along the blow."""
-    period = model.timing.block_length / model.timing.samples
     return BodyMotion(
-        block=block, sample_period=period, bodies=("sphere_z",), position=-state.depth[None, :],
+        block=stamps.block, sample_period=stamps.period, bodies=("sphere_z",), position=-state.depth[None, :],
         velocity=-state.speed[None, :], acceleration=-state.acceleration[None, :],
     )  # fmt: skip
 
@@ -144,13 +101,6 @@ def _ledger(model: ImpactModel, block: int, state: State) -> EnergyLedger:
     kinetic, potential, held, heat, supplied = (
         float(column[0]) for column in (state.kinetic, state.potential, state.stored, state.heat, state.supplied)
     )
-    residual = supplied - kinetic - (potential - start) - held - heat
-    return EnergyLedger(
-        block=block,
-        kinetic=kinetic,
-        potential=potential - start,
-        stored=held,
-        dissipated=heat,
-        supplied=supplied,
-        residual=residual,
+    return energy_ledger(
+        block, kinetic=kinetic, potential=potential - start, stored=held, dissipated=heat, supplied=supplied
     )

@@ -12,7 +12,7 @@ import numpy
 from contact_sim_pkg.compiled.arrays import Vector
 from contact_sim_pkg.rigs.impact.model import build_impact
 from contact_sim_pkg.rigs.impact.motion import Ended, ImpactMotion
-from contact_sim_pkg.rigs.impact.outputs import encode_block
+from contact_sim_pkg.rigs.impact.outputs import block_outputs
 from contact_sim_pkg.rigs.impact.theory.contact import sample, touch
 from contact_sim_pkg.rigs.impact.theory.viscoelastic.creep import maxwell
 from contact_sim_pkg.rigs.impact.theory.viscoelastic.hereditary import hereditary_integral
@@ -77,10 +77,10 @@ class ImpactSimulation:
         state = self.motion.state(times)
         ended = self.motion.take_ended((block + 1) * timing.block_length)
         self._next_block = block + 1
-        messages = encode_block(self.model, block, state, ended, self.motion.made - made, began)
+        outputs = block_outputs(self.model, block, state, ended, self.motion.made - made, began)
         self.motion.forget_before((block + 1) * timing.block_length)
         largest = [float((state.elastic + state.viscous).max()), *(_peak(impact) for impact in ended)]
-        return BlockResult(messages, max(largest), 0.0, time.perf_counter() - began)
+        return BlockResult(outputs, max(largest), 0.0, time.perf_counter() - began)
 
 
 def _peak(impact: Ended) -> float:

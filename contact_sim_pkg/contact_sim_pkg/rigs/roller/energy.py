@@ -23,8 +23,3 @@ class Energies(NamedTuple):
     def plus(self, other: Energies) -> Energies:
         """Of both."""
         return Energies(*(one + two for one, two in zip(self, other, strict=True)))
-
-    @property
-    def residual(self) -> float:
-        """Supplied less all that became of it."""
-        return self.supplied - self.kinetic - self.potential - self.stored - self.dissipated

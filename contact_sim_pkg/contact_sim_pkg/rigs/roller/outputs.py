@@ -1,26 +1,23 @@
-"""What one block of the roller rig says, as encoded messages in canonical order."""
+"""The outputs of the roller: what is sampled over one block, and the columns of its messages."""
 
 from __future__ import annotations
 
 import math
 from dataclasses import dataclass, field
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy
 from numpy.typing import NDArray
 
-from contact_sim_pkg.bag.messages import encode
-from contact_sim_pkg.bag.topics import TOPICS
+from contact_sim_pkg.bag.block_encoder import Output
 from contact_sim_pkg.compiled.arrays import Vector
 from contact_sim_pkg.records.messages import (
     BodyMotion,
     ContactForce,
-    EnergyLedger,
     RollerContact,
     RollerStability,
     RollerTrack,
     RollerVolumes,
-    SolverCost,
 )
 from contact_sim_pkg.rigs.roller.energy import Energies
 from contact_sim_pkg.rigs.roller.model import RollerModel
@@ -28,11 +25,10 @@ from contact_sim_pkg.rigs.roller.ride import Checked, TrackRide
 from contact_sim_pkg.rigs.roller.theory.ellipse import RollingContact
 from contact_sim_pkg.rigs.roller.theory.volumes import Volumes
 from contact_sim_pkg.rigs.roller.wear import BodyTrack
+from contact_sim_pkg.run.outputs import BlockStamps, energy_ledger, solver_cost
 
 Matrix = NDArray[numpy.float64]
-Messages = list[tuple[str, int, bytes]]
 
-NANOSECONDS = 1_000_000_000
 BODIES = ("roller_z", "roller_tilt", "roller_yaw")
 
 
@@ -66,45 +62,40 @@ class RollerRecord:
     checked: Checked | None = None
 
 
-def encode_block(model: RollerModel, record: RollerRecord, wall_time: float) -> Messages:
-    """Messages of a block in canonical order."""
-    stamp = record.block * round(model.timing.block_length * NANOSECONDS)
-    messages = _contact(record, stamp)
-    if record.stability is not None:
-        messages.append(("roller/stability", stamp, encode(record.stability, stamp, "roller_contact")))
-    if record.track is not None:
-        for track in record.track.tracks:
-            messages.append(
-                ("roller/track", stamp, encode(_track(model, record, record.track, track), stamp, "roller_contact"))
-            )
-    for measured in record.volumes:
-        messages.append(("roller/volumes", stamp, encode(_volumes(record.block, measured), stamp, "roller_contact")))
-    messages += _bench(model, record, stamp, wall_time)
-    messages.sort(key=lambda message: (message[1], TOPICS[message[0]].rank))
-    return messages
+def block_outputs(model: RollerModel, record: RollerRecord, wall_time: float) -> list[Output]:
+    """The outputs of a block that took ``wall_time`` [s]."""
+    stamps = BlockStamps(record.block, model.timing)
+    tracks = [] if record.track is None else [_track(model, record, record.track, each) for each in record.track.tracks]
+    told: list[tuple[str, Any]] = [
+        ("roller/force", _force(record)), ("roller/contact", _contact(record)),
+        *(("roller/stability", each) for each in [record.stability] if each is not None),
+        *(("roller/track", track) for track in tracks),
+        *(("roller/volumes", _volumes(record.block, measured)) for measured in record.volumes),
+        ("bench/motion", _motion(record)), ("bench/energy", energy_ledger(record.block, **record.energy._asdict())),
+        ("bench/cost", solver_cost(stamps, wall_time, steps=record.steps)),
+    ]  # fmt: skip
+    return [Output(topic, stamps.start, each) for topic, each in told]
 
 
-def _contact(record: RollerRecord, stamp: int) -> Messages:
-    columns = record.contacts.T.copy()
-    along_x, along_y, angle, peak, approach = columns[:5]
+def _force(record: RollerRecord) -> ContactForce:
     zeros = numpy.zeros_like(record.load)
-    force = ContactForce(
-        block=record.block,
-        sample_period=record.period,
-        normal=record.load,
-        tangential=zeros,
-        approach=approach,
-        effective_height=zeros,
-    )
-    value = RollerContact(
-        block=record.block, period=record.period, load=record.load, along_x=along_x, along_y=along_y, angle=angle,
-        peak_pressure=peak, approach=approach, tilt=record.angles[:, 0].copy(), yaw=record.angles[:, 1].copy(),
-        heave=record.heave[0].copy(),
+    return ContactForce(
+        block=record.block, sample_period=record.period, normal=record.load, tangential=zeros,
+        approach=_columns(record)["approach"], effective_height=zeros,
     )  # fmt: skip
-    return [
-        ("roller/force", stamp, encode(force, stamp, "roller_contact")),
-        ("roller/contact", stamp, encode(value, stamp, "roller_contact")),
-    ]
+
+
+def _contact(record: RollerRecord) -> RollerContact:
+    columns = _columns(record) | {"load": record.load}
+    return RollerContact(
+        block=record.block, period=record.period, tilt=record.angles[:, 0], yaw=record.angles[:, 1], heave=record.heave[0],
+        **columns,
+    )  # fmt: skip
+
+
+def _columns(record: RollerRecord) -> dict[str, Vector]:
+    """The contacts of all samples by the names of `RollingContact`."""
+    return dict(zip(RollingContact._fields, record.contacts.T, strict=True))
 
 
 def _track(model: RollerModel, record: RollerRecord, ride: TrackRide, track: BodyTrack) -> RollerTrack:
@@ -128,26 +119,10 @@ def _volumes(block: int, measured: Measured) -> RollerVolumes:
     )  # fmt: skip
 
 
-def _bench(model: RollerModel, record: RollerRecord, stamp: int, wall_time: float) -> Messages:
-    position = numpy.vstack([record.heave[0], record.angles[:, 0], record.angles[:, 1]])
-    velocity = numpy.vstack([record.heave[1], record.angles[:, 2], record.angles[:, 3]])
-    motion = BodyMotion(
-        block=record.block,
-        sample_period=record.period,
-        bodies=BODIES,
-        position=position,
-        velocity=velocity,
+def _motion(record: RollerRecord) -> BodyMotion:
+    return BodyMotion(
+        block=record.block, sample_period=record.period, bodies=BODIES,
+        position=numpy.vstack([record.heave[0], record.angles[:, 0], record.angles[:, 1]]),
+        velocity=numpy.vstack([record.heave[1], record.angles[:, 2], record.angles[:, 3]]),
         acceleration=record.acceleration,
-    )
-    factor = model.timing.block_length / wall_time
-    cost = SolverCost(
-        block=record.block,
-        wall_time=wall_time,
-        real_time_factor=factor,
-        steps=record.steps,
-    )
-    ledger = EnergyLedger(block=record.block, **record.energy._asdict(), residual=record.energy.residual)
-    return [
-        ("bench/motion", stamp, encode(motion, stamp)), ("bench/energy", stamp, encode(ledger, stamp)),
-        ("bench/cost", stamp, encode(cost, stamp)),
-    ]  # fmt: skip
+    )  # fmt: skip

@@ -14,7 +14,7 @@ from contact_sim_pkg.rigs.roller.energy import Energies
 from contact_sim_pkg.rigs.roller.forecast import forecast
 from contact_sim_pkg.rigs.roller.model import build_roller
 from contact_sim_pkg.rigs.roller.model_checks import refused
-from contact_sim_pkg.rigs.roller.outputs import Measured, RollerRecord, encode_block
+from contact_sim_pkg.rigs.roller.outputs import Measured, RollerRecord, block_outputs
 from contact_sim_pkg.rigs.roller.ride import Ridden, TrackRide, joined
 from contact_sim_pkg.rigs.roller.settings import volume_settings
 from contact_sim_pkg.rigs.roller.theory.ellipse import RollingContact, rolling_contacts
@@ -22,6 +22,7 @@ from contact_sim_pkg.rigs.roller.theory.motion import accelerations
 from contact_sim_pkg.rigs.roller.theory.volumes import box_volume, dangerous_volumes
 from contact_sim_pkg.run.block_simulation import BlockResult, InputBlock, refuse_out_of_turn
 from contact_sim_pkg.run.errors import RunError
+from contact_sim_pkg.run.outputs import largest
 from contact_sim_pkg.run.sources import make_surface
 from contact_sim_pkg.scene.resolved_scene import ResolvedScene
 
@@ -30,8 +31,6 @@ MOST_TRACKS = 200
 
 ROAD_CELL = 1e-3
 """[m]: a road's texture holds waves down to two of them."""
-
-PEAK_PRESSURE = RollingContact._fields.index("peak_pressure")
 
 
 class RollerSimulation:
@@ -89,9 +88,9 @@ class RollerSimulation:
         if self._ride is not None and self._track_due(block):
             record.track = self._ride
             record.checked = self._ride.check() if self._check_due(block) else None
-        messages = encode_block(self.model, record, time.perf_counter() - began)
-        peak = float(record.contacts[:, PEAK_PRESSURE].max())
-        return BlockResult(messages, float(record.load.max()), peak, time.perf_counter() - began)
+        outputs = block_outputs(self.model, record, time.perf_counter() - began)
+        load, peak = largest(outputs, "force", "normal"), largest(outputs, "contact", "peak_pressure")
+        return BlockResult(outputs, load, peak, time.perf_counter() - began)
 
     def _advance(self, block: int) -> RollerRecord:
         model, timing = self.model, self.model.timing

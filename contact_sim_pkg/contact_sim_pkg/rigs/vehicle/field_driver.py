@@ -7,6 +7,7 @@ from abc import ABC, abstractmethod
 import numpy
 from numpy.typing import NDArray
 
+from contact_sim_pkg.laws.normal_force import pressure_factor
 from contact_sim_pkg.laws.parameters import Contact
 from contact_sim_pkg.pressure.settings import FieldSettings
 from contact_sim_pkg.rigs.vehicle.contact_field import FieldEdgeError, FieldError, PressureField, offset_of
@@ -138,13 +139,22 @@ class Support(ABC):
         """The last field, copied before the next solve overwrites it."""
         return None if self.published is None else self.published._replace(pressure=self.published.pressure.copy())
 
+    def with_loss(self, found: FieldRecord, approach: float, rate: float) -> FieldRecord:
+        """The elastic field with the loss of the contact's law, so that its integral is the force at its instant.
+
+        ``approach`` [m] and its ``rate`` [m/s] are those of the smooth contact.
+        """
+        assert self.contact is not None
+        factor = pressure_factor(self.contact.elastic, self.contact.dissipative, approach, rate, 1.0)
+        return found._replace(pressure=found.pressure * factor)
+
     def _solve_on(self, field: PressureField, approach: float, geometric: float) -> float:
         assert self.contact is not None
         assert self.grids is not None
         gap = self.gap(field.settings)
         field.roll_to(self.road_row(field.settings))
         field.solve(gap, approach)
-        self.published = FieldRecord(field.pressure, *self.origin(field.settings), approach, field.load, self.travel)
+        self.published = FieldRecord(field.pressure, *self.origin(field.settings), approach, self.travel)
         if field.load == 0.0:  # free: the nearest place may lie beyond the usual grid
             gap = self.gap(self.grids.wide.settings)
         return offset_of(self.contact.elastic, field, gap, approach, geometric)

@@ -8,13 +8,16 @@ from typing import Any
 import numpy
 
 from contact_sim_pkg.compiled.arrays import Vector
+from contact_sim_pkg.pressure.mat import spread_force
 from contact_sim_pkg.records.messages import RoadPatch, VibrationBlock
+from contact_sim_pkg.rigs.vehicle import entries as columns
 from contact_sim_pkg.rigs.vehicle.coupling import Coupling
 from contact_sim_pkg.rigs.vehicle.drive import ROAD, VIBRATION, BlockDrive, block_drive
 from contact_sim_pkg.rigs.vehicle.model import Model, build
-from contact_sim_pkg.rigs.vehicle.outputs import BlockRecord, encode_block
+from contact_sim_pkg.rigs.vehicle.outputs import BlockRecord, FieldRecord, block_outputs
 from contact_sim_pkg.rigs.vehicle.tire.rolling_shear import RollingShear
 from contact_sim_pkg.run.block_simulation import BlockResult, refuse_out_of_turn
+from contact_sim_pkg.run.outputs import NANOSECONDS, BlockStamps, largest
 from contact_sim_pkg.run.sources import make_travel
 
 
@@ -99,9 +102,10 @@ class Simulation:
             iterations, residual = support.take_cost()
             record.field_iterations += iterations
             record.field_residual = max(record.field_residual, residual)
-        wall = time.perf_counter() - began
-        messages, load, peak = encode_block(self.model, record, self._shear, wall)
-        return BlockResult(messages, load, peak, time.perf_counter() - began)
+        self._map_seat(record)
+        outputs = block_outputs(self.model, record, time.perf_counter() - began)
+        load, peak = largest(outputs, "force", "normal"), largest(outputs, "patch", "peak")
+        return BlockResult(outputs, load, peak, time.perf_counter() - began)
 
     def _interval(self, block: int, interval: int, whole: BlockDrive, record: BlockRecord) -> None:
         """One interval between published fields."""
@@ -113,4 +117,32 @@ class Simulation:
         fields = self._coupling.copy_published()
         self._coupling.advance(block, interval, whole, record)
         accelerations = drive.acceleration_x, drive.acceleration_z
-        record.take(interval, self._coupling.sampled, energy, self._start_energy, *accelerations, fields)
+        first = record.take(interval, self._coupling.sampled, energy, self._start_energy, *accelerations)
+        self._publish(first, fields, record)
+
+    def _publish(self, sample: int, fields: tuple[FieldRecord | None, FieldRecord | None], record: BlockRecord) -> None:
+        """Take the elastic fields of an instant with the loss of their contacts, and roll the tire on to it."""
+        tire, seat = fields
+        forces = record.forces[sample]
+        if tire is not None:
+            approach, rate = float(forces[columns.TIRE_APPROACH]), float(forces[columns.TIRE_RATE])
+            tire = self._coupling.tire.with_loss(tire, approach, rate)
+            record.tire_fields.append((sample, tire))
+            if self._shear is not None:
+                time = BlockStamps(record.block, self.model.timing).at(sample) / NANOSECONDS
+                rolled = self._shear.advance(tire.pressure, tire.origin_x, tire.origin_y, tire.travel, time)
+                record.take_shear(sample, tire, rolled)
+        if seat is not None:
+            approach, rate = float(forces[columns.SEAT_APPROACH]), float(forces[columns.SEAT_RATE])
+            record.seat_fields.append((sample, self._coupling.seat.with_loss(seat, approach, rate)))
+
+    def _map_seat(self, record: BlockRecord) -> None:
+        """Spread the force of the seat's point contact over the cells of its mat, so many times a block."""
+        mat, contact, samples = self.model.seat_mat, self.model.rig.seat_contact, self.model.timing.samples
+        if mat is None or contact is None:
+            return
+        for number in range(mat.fields):
+            sample = number * samples // mat.fields
+            force, approach = (float(record.forces[sample, k]) for k in (columns.SEAT_NORMAL, columns.SEAT_APPROACH))
+            pressure = spread_force(force, approach, contact.elastic, mat.gap, mat.cell_x * mat.cell_y)
+            record.seat_maps.append((sample, pressure))

@@ -1,0 +1,48 @@
+"""What every rig tells in the same way: stamps, wrenches, ledger, cost."""
+
+import numpy
+import pytest
+
+from contact_sim_pkg.bag.block_encoder import Output
+from contact_sim_pkg.records.messages import ContactForce
+from contact_sim_pkg.run.outputs import BlockStamps, contact_outputs, energy_ledger, largest, solver_cost
+from contact_sim_pkg.scene.timing import Timing
+
+TIMING = Timing(0.01, 5, 2, 6, 1, 1, 4)  # 12 samples and 4 wrenches in 10 ms
+STAMPS = BlockStamps(3, TIMING)
+
+
+def force(**columns):
+    given = dict.fromkeys(("normal", "tangential", "approach", "effective_height"), numpy.arange(12.0))
+    return ContactForce(block=3, sample_period=STAMPS.period, **given | columns)
+
+
+def test_samples_lie_evenly_in_their_block():
+    assert (STAMPS.start, STAMPS.period) == (30_000_000, pytest.approx(0.01 / 12))
+    assert [STAMPS.at(sample) for sample in (0, 6, 11)] == [30_000_000, 35_000_000, 39_166_666]
+    assert list(STAMPS.displayed()) == [0, 3, 6, 9]
+
+
+def test_a_wrench_is_the_resultant_of_its_sample_impulses_included():
+    lateral = numpy.column_stack([numpy.full(12, 7.0), numpy.full(12, 8.0)])
+    rows = list(contact_outputs("tire", STAMPS, force(impulses=numpy.full(12, 100.0)), lateral))
+    assert [row.topic for row in rows] == ["tire/force", *["tire/wrench"] * 4]
+    last = rows[-1].record.wrench
+    assert (tuple(last.force), tuple(last.torque)) == ((9.0, 7.0, 109.0), (0.0, 0.0, 8.0))
+    assert rows[-1].stamp == STAMPS.at(9)
+
+
+def test_the_residual_is_what_was_supplied_and_is_nowhere():
+    ledger = energy_ledger(3, kinetic=1.0, potential=2.0, stored=4.0, dissipated=8.0, supplied=16.0)
+    assert ledger.residual == 1.0
+
+
+def test_columns_of_cost_that_are_not_given_are_zero():
+    cost = solver_cost(STAMPS, 0.005, steps=7)
+    assert (cost.real_time_factor, cost.steps, cost.stretches, cost.field_residual) == (2.0, 7, 0, 0.0)
+
+
+def test_the_largest_of_a_column_is_taken_over_all_topics_of_its_kind():
+    outputs = [Output("tire/force", 0, force()), Output("seat/force", 0, force(normal=numpy.full(12, 50.0)))]
+    assert largest(outputs, "force", "normal") == 50.0
+    assert largest(outputs, "patch", "peak") == 0.0
