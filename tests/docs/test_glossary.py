@@ -4,8 +4,7 @@ import re
 from pathlib import Path
 
 from contact_sim_pkg.bag.topics import TOPICS
-from contact_sim_pkg.records.registry import rigs
-from contact_sim_pkg.scene.schema.effect_rules import EFFECT_RULES
+from contact_sim_pkg.records.registry import effects, rigs
 
 TEXT = (Path(__file__).resolve().parents[2] / "docs" / "glossary.md").read_text(encoding="utf-8")
 ROWS = [
@@ -19,7 +18,7 @@ SOURCES = rf"Johnson|Pacejka|Brogliato|HNW|ISO|REP|ASAM|ROS 2|{PAPERS}"
 
 
 def test_every_effect_stands_in_the_glossary():
-    assert not set(EFFECT_RULES) - NAMES
+    assert not set(effects()) - NAMES
 
 
 def test_every_message_of_a_contact_stands_in_the_glossary():

@@ -145,7 +145,7 @@ def _path_in(entry: Entry, data: dict[str, Any], rig: str) -> tuple[str, ...] | 
     path = tuple(str(part) for part in without_kinds(entry.location))
     if entry.kind not in ("number", "integer", "list"):
         return None
-    if path[0] == "effects" and path[1] not in rigs()[rig].contacts:  # type: ignore[index]
+    if path[0] == "effects" and path[1] not in [contact.name for contact in rigs()[rig].contacts]:  # type: ignore[index]
         return None
     section: Any = data
     for part in path[:-1]:
@@ -204,8 +204,8 @@ def end_of(case: Case) -> End:
 def _run(case: Case) -> tuple[str, str]:
     scene = scene_of(case.base, case.assignment)
     if case.where != "duration":  # of which two blocks are run
-        told = refuse_long(scene.data, allowed=False)
-        if sum(part.seconds for part in estimated_work(scene.data)) > SECONDS:
+        told = refuse_long(scene, allowed=False)
+        if sum(part.seconds for part in estimated_work(scene)) > SECONDS:
             return "long", told
     with warnings.catch_warnings(record=True) as caught:
         warnings.simplefilter("always", RuntimeWarning)

@@ -142,11 +142,13 @@ def _annotations(function: Function) -> str:
 
 def tables_of_effects(found: list[Module]) -> list[str]:
     """Modules outside a rig's own records that name many effects as text."""
-    from contact_sim_pkg.scene.schema.effect_rules import EFFECT_RULES
+    from contact_sim_pkg.records.registry import effects
 
-    names = set(EFFECT_RULES)
+    names = set(effects())
     counted: dict[str, int] = {}
     for module in found:
+        if re.fullmatch(r"rigs\..*\.effects", module.name):
+            continue
         skipped = module.docstring_lines()
         texts = {
             node.value

@@ -41,29 +41,29 @@ DAMPER = (f"{GENERAL}.restitution=null", f"{GENERAL}.reference_speed=null", f"{G
     ],
 )
 def test_more_than_ten_minutes_are_refused_by_name_unless_they_are_allowed(scene, values, cause):
-    data = resolved(scene, *values).data
+    asked = resolved(scene, *values)
     with pytest.raises(SceneError, match=rf"{cause}.* of computing, more than .*--allow-long") as refused:
-        refuse_long(data, allowed=False)
+        refuse_long(asked, allowed=False)
     assert "\n" not in str(refused.value)
-    assert cause in refuse_long(data, allowed=True)
+    assert cause in refuse_long(asked, allowed=True)
 
 
 @pytest.mark.parametrize("name", shipped_names())
 def test_nothing_is_told_of_a_shipped_scene(name):
-    data = resolved(name).data
-    assert refuse_long(data, allowed=False) == ""
-    assert sum(part.seconds for part in estimated_work(data)) < BOUND
+    scene = resolved(name)
+    assert refuse_long(scene, allowed=False) == ""
+    assert sum(part.seconds for part in estimated_work(scene)) < BOUND
 
 
 def test_the_time_that_a_run_lasts_anyway_is_no_reason_to_refuse_it():
     """At the pace of real time an hour takes an hour."""
-    assert sum(part.seconds for part in estimated_work(resolved("seat_ride", "duration=3600").data)) < 3600.0
-    assert refuse_long(resolved("seat_ride", "duration=3600").data, allowed=False) != ""
+    assert sum(part.seconds for part in estimated_work(resolved("seat_ride", "duration=3600"))) < 3600.0
+    assert refuse_long(resolved("seat_ride", "duration=3600"), allowed=False) != ""
 
 
 def test_the_estimate_counts_the_steps_that_a_stiff_contact_takes():
     scene = resolved("seat_ride", "duration=0.1", "effects.seat.normal_elastic.coefficient=1e12")
-    expected = {part.what: part.number for part in estimated_work(scene.data)}
+    expected = {part.what: part.number for part in estimated_work(scene)}
     simulation, source = make_simulation(scene), make_sources(scene)["platform/vibration"]
     simulation.prepare()
     counted = sum(

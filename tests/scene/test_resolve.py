@@ -7,11 +7,13 @@ import pytest
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
+from contact_sim_pkg.rigs.vehicle.seat.schema import SeatField
+from contact_sim_pkg.rigs.vehicle.tire.schema import TireField
 from contact_sim_pkg.scene.errors import SceneError
 from contact_sim_pkg.scene.load import load_scene, shipped_names
 from contact_sim_pkg.scene.overrides import set_value
 from contact_sim_pkg.scene.resolve import ResolvedScene, resolve
-from contact_sim_pkg.scene.schema.accuracy import RUNGS, rung_name
+from contact_sim_pkg.scene.schema.accuracy import LEVELS
 
 FIELD = "effects.tire.contact_field"
 
@@ -46,15 +48,15 @@ def test_time_integration_takes_a_hundredth_of_the_asked_error(maker, accuracy, 
     assert found == pytest.approx(tolerance, rel=1e-12)
 
 
-def test_rungs_get_finer_and_dearer():
-    for contact in ("tire", "seat"):
-        cells = [rung.cells(contact)[0] * rung.cells(contact)[1] for rung in RUNGS]
-        tolerances = [rung.field_tolerance(contact) for rung in RUNGS]
+def test_fidelity_levels_get_finer_and_more_expensive():
+    for grids in (TireField.levels, SeatField.levels):
+        cells = [grid.rows * grid.cols for grid in grids]
+        tolerances = [grid.tolerance for grid in grids]
+        assert len(grids) == len(LEVELS)
         assert cells == sorted(cells)
         assert tolerances == sorted(tolerances, reverse=True)
-        assert min(rung.passes(contact) for rung in RUNGS) >= 0
-        assert [rung_name(contact, *rung.cells(contact)) for rung in RUNGS] == ["force", "field", "reference"]
-    assert RUNGS[-1].accuracy == 0.0
+        assert min(grid.corrector_passes for grid in grids) >= 0
+    assert LEVELS[-1].accuracy == 0.0
 
 
 def test_what_the_scene_gives_itself_stays(maker):

@@ -1,12 +1,13 @@
 import numpy
 import pytest
 
+from contact_sim_pkg.records.effect import Observed
+from contact_sim_pkg.records.registry import effects
 from contact_sim_pkg.rigs.vehicle.studies import accuracy_field as accuracy_cost_field
 from contact_sim_pkg.rigs.vehicle.studies import accuracy_integrator as accuracy_cost_integrator
 from contact_sim_pkg.rigs.vehicle.studies.scene_drive import load_resolved
 from contact_sim_pkg.studies.accuracy import scene_study as accuracy_cost
 from contact_sim_pkg.studies.effects import ablation
-from contact_sim_pkg.studies.effects.ablation_rules import Observed, is_needed
 
 
 @pytest.fixture(scope="module")
@@ -68,10 +69,10 @@ def test_every_effect_of_a_scene_has_a_row_with_its_topics():
 )
 def test_the_rule_for_the_pressure_field_looks_at_the_waves_of_the_road(scene, values, needed):
     nothing = Observed({}, {}, 0.0)
-    assert is_needed("contact_field", "tire", load_resolved(scene, *values), nothing)[0] is needed
+    assert effects()["contact_field"]["tire"].called_for(load_resolved(scene, *values), nothing)[0] is needed
 
 
 @pytest.mark.parametrize(("forward", "needed"), [(0.0, False), (0.1, False), (5.0, True)])
 def test_the_rule_for_friction_looks_at_the_fore_aft_demand(forward, needed):
     observed = Observed({"seat": numpy.array([450.0, 500.0])}, {"seat": False}, forward)
-    assert is_needed("friction", "seat", load_resolved("seat_ride"), observed)[0] is needed
+    assert effects()["friction"]["seat"].called_for(load_resolved("seat_ride"), observed)[0] is needed

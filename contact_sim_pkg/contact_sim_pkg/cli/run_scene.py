@@ -133,7 +133,7 @@ def _tell_work(scene: ResolvedScene, allow_long: bool) -> None:
     """One line on standard error where the run is long. Raises SceneError beyond the bound."""
     from contact_sim_pkg.run.work import refuse_long
 
-    report = refuse_long(scene.data, allowed=allow_long)
+    report = refuse_long(scene, allowed=allow_long)
     if report:
         print(f"{scene.data['name']}: {report}", file=sys.stderr)
 

@@ -4,7 +4,7 @@ A block depends on its number alone, so it is the same whoever asks for it and i
 """
 
 from math import ceil, floor
-from typing import Any, Protocol
+from typing import Any, NamedTuple, Protocol
 
 import numpy
 from numpy.typing import NDArray
@@ -14,6 +14,17 @@ from contact_sim_pkg.excitation.travel import Travel
 from contact_sim_pkg.records.messages import RoadPatch, VibrationBlock
 
 LARGEST_PATCH = 4_000_000  # nodes of one block; 16 MB as float32, far above the widest tire at the highest speed
+
+
+class RoadLattice(NamedTuple):
+    """Lattice of the road under a tire, and how much of it a field instant may need."""
+
+    rows: int  # of the usual grid, along the road
+    cols: int
+    cell_x: float  # [m]
+    cell_y: float  # [m]
+    road_rows: int  # of the wide grid, or the tire's diameter where that is more
+    road_cols: int
 
 
 class Surface(Protocol):

@@ -21,7 +21,6 @@ from contact_sim_pkg.records.registry import rigs
 from contact_sim_pkg.run.rigs import result_topics
 from contact_sim_pkg.scene.renamed_keys import RENAMED
 from contact_sim_pkg.scene.resolved_scene import ResolvedScene
-from contact_sim_pkg.scene.schema.effect_rules import EFFECT_RULES
 
 BEGIN = "<!-- tables made from the code: begin -->"
 END = "<!-- tables made from the code: end -->"
@@ -104,15 +103,14 @@ def _conditions(rig: str) -> Iterator[tuple[str, str]]:
     base = _published(rig)
     yield from ((topic, "") for topic in base)
     for contact in rigs()[rig].contacts:
-        for effect, rule in EFFECT_RULES.items():
-            if contact in rule.contacts:
-                added = [topic for topic in _published(rig, contact, effect) if topic not in base]
-                yield from ((topic, f"`{effect}`") for topic in added)
+        for effect in contact.effects:
+            added = [topic for topic in _published(rig, contact.name, effect.name) if topic not in base]
+            yield from ((topic, f"`{effect.name}`") for topic in added)
     yield from ((topic, "`impact.course_samples`") for topic in _published(rig, course=1) if topic not in base)
 
 
 def _published(rig: str, contact: str = "", effect: str = "", course: int = 0) -> list[str]:
-    effects: dict[str, dict[str, Any]] = {name: {} for name in rigs()[rig].contacts}
+    effects: dict[str, dict[str, Any]] = {contact.name: {} for contact in rigs()[rig].contacts}
     if effect:
         effects[contact][effect] = {}
     return result_topics(ResolvedScene({"rig": rig, "effects": effects, "impact": {"course_samples": course}}))

@@ -7,10 +7,12 @@ from __future__ import annotations
 
 from functools import cache
 
+from contact_sim_pkg.records.contact import Contact
+from contact_sim_pkg.records.effect import Effect
 from contact_sim_pkg.records.report import ContactReport
 from contact_sim_pkg.records.rig import Rig, load
 
-__all__ = ["contact_reports", "contacts", "refused_sections", "rig_names", "rigs"]
+__all__ = ["contact_reports", "contacts", "effects", "refused_sections", "rig_names", "rigs"]
 
 _PACKAGES = "contact_sim_pkg.rigs:PACKAGES"
 
@@ -37,9 +39,30 @@ def rig_names() -> tuple[str, ...]:
 
 
 @cache
-def contacts() -> tuple[str, ...]:
-    """Contacts of all rigs, each once."""
-    return tuple(dict.fromkeys(name for rig in rigs().values() for name in rig.contacts))
+def contacts() -> dict[str, Contact]:
+    """Contacts of all rigs by name, in the order of the rigs.
+
+    Raises:
+        ValueError: two rigs have different contacts of the same name.
+    """
+    found: dict[str, Contact] = {}
+    for rig in rigs().values():
+        for contact in rig.contacts:
+            if found.setdefault(contact.name, contact) is not contact:
+                raise ValueError(
+                    f"two contacts are named {contact.name}: one of the rig {rig.name}; rename one of them"
+                )
+    return found
+
+
+@cache
+def effects() -> dict[str, dict[str, Effect]]:
+    """Effects of all contacts: by the name of the effect, then by that of the contact."""
+    found: dict[str, dict[str, Effect]] = {}
+    for contact in contacts().values():
+        for effect in contact.effects:
+            found.setdefault(effect.name, {})[contact.name] = effect
+    return found
 
 
 @cache
@@ -54,6 +77,9 @@ def contact_reports() -> dict[str, ContactReport]:
 
 def refused_sections(rig: str) -> tuple[str, ...]:
     """Sections of a scene that have no meaning for a rig."""
-    own = {*rigs()[rig].needs, *rigs()[rig].takes}
-    others = dict.fromkeys(name for each in rigs().values() for name in (*each.needs, *each.takes))
-    return tuple(name for name in others if name not in own)
+    known = [_sections(each) for each in (rigs()[rig], *rigs().values())]
+    return tuple(dict.fromkeys(name for sections in known for name in sections if name not in known[0]))
+
+
+def _sections(rig: Rig) -> tuple[str, ...]:
+    return (*rig.needs, *rig.takes, *(contact.name for contact in rig.contacts))

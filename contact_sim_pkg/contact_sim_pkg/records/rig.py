@@ -1,4 +1,4 @@
-"""A rig as everyone else sees it: what a scene gives it, what simulates it, what it publishes.
+"""A rig as everyone else sees it: its contacts, what a scene gives it, what simulates it.
 
 A record names what it takes long to load as ``module:name`` and loads it on use, so that a node
 that only records or only shakes starts without a compiler.
@@ -6,10 +6,12 @@ that only records or only shakes starts without a compiler.
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from importlib import import_module
 from typing import Any
+
+from contact_sim_pkg.records.contact import Contact
 
 __all__ = ["Rig", "load"]
 
@@ -20,23 +22,31 @@ class Rig:
 
     Attributes:
         name: the word behind `rig` in a scene.
-        contacts: each needs a normal force; a contact's own section of the scene has its name.
+        help: what it is, in a phrase.
+        contacts: each needs a normal force; its own section of the scene has its name.
         needs: sections that the scene must have.
-        takes: sections that it may have; those of the contacts are defaults where absent.
+        takes: further sections that it may have; those of its contacts are defaults where absent.
         simulation: ``module:class`` of a `run.block_simulation.BlockSimulation` that takes a resolved scene.
-        topics: resolved scene -> topics of its contacts; those of `bench/` follow.
         report: ``module:name`` of the `records.report.ContactReport` of each contact that has one.
+        road_strip: ``module:function`` of a resolved scene -> the strip of road that its tire needs;
+            empty: it rides on none.
+        work: ``module:function`` of a typed scene -> parts of its work beside that of blocks and fields;
+            empty: none.
+        unused_axes: plain data of its effects by contact -> axes whose vibration moves nothing.
         forecast: module whose `facts_before_run` and `sentence_before_run` report what is known
             before the run; empty: nothing.
     """
 
     name: str
-    contacts: tuple[str, ...]
+    help: str
+    contacts: tuple[Contact, ...]
     needs: tuple[str, ...] = ()
     takes: tuple[str, ...] = ()
     simulation: str
-    topics: Callable[[dict[str, Any]], list[str]]
     report: tuple[str, ...] = ()
+    road_strip: str = ""
+    work: str = ""
+    unused_axes: Callable[[Mapping[str, Any]], str] = lambda _effects: ""
     forecast: str = ""
 
 

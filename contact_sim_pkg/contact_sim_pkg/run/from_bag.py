@@ -13,8 +13,7 @@ from contact_sim_pkg.bag.versions import differences_from, installed_versions
 from contact_sim_pkg.records.messages import RoadPatch, VibrationBlock
 from contact_sim_pkg.run.bag_content import EXCITATION_KEY, input_names, kernel_fingerprint
 from contact_sim_pkg.run.errors import RunError
-from contact_sim_pkg.run.sources import Source
-from contact_sim_pkg.scene.lattice import tire_lattice
+from contact_sim_pkg.run.sources import Source, road_lattice
 from contact_sim_pkg.scene.resolved_scene import ResolvedScene
 from contact_sim_pkg.scene.timing import make_timing
 
@@ -115,7 +114,7 @@ def _differences(recorded: dict[str, Any], data: dict[str, Any]) -> list[str]:
 
 def _refuse_misfit(path: Path, topic: str, first: RoadPatch | VibrationBlock, scene: ResolvedScene) -> None:
     if isinstance(first, RoadPatch):
-        lattice = tire_lattice(scene.data)
+        lattice = road_lattice(scene)
         found = (first.height.shape[1], first.cell_x, first.cell_y)
         needed = (lattice.road_cols, lattice.cell_x, lattice.cell_y)
         if any(abs(a / b - 1.0) > 1e-12 for a, b in zip(found, needed, strict=True)):

@@ -18,7 +18,9 @@ def make_simulation(scene: ResolvedScene) -> BlockSimulation:
 
 def result_topics(scene: ResolvedScene) -> list[str]:
     """Recorded topics that the simulator publishes for the scene."""
-    return [*rigs()[scene.data["rig"]].topics(scene.data), "bench/motion", "bench/energy", "bench/cost"]
+    own = [topic for contact in rigs()[scene.data["rig"]].contacts for topic in contact.published(scene.data)]
+    last = dict.fromkeys(topic for contact in rigs()[scene.data["rig"]].contacts for topic in contact.bench_topics)
+    return [*own, *last, "bench/motion", "bench/energy", "bench/cost"]
 
 
 class Forecast(NamedTuple):

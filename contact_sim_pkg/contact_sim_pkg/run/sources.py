@@ -10,10 +10,11 @@ from typing import TYPE_CHECKING, Any, Protocol
 
 import numpy
 
-from contact_sim_pkg.excitation.blocks import RoadBlocks, Signal, Surface, VibrationBlocks
+from contact_sim_pkg.excitation.blocks import RoadBlocks, RoadLattice, Signal, Surface, VibrationBlocks
 from contact_sim_pkg.excitation.travel import Travel
 from contact_sim_pkg.records.messages import RoadPatch, VibrationBlock
-from contact_sim_pkg.scene.lattice import tire_lattice
+from contact_sim_pkg.records.registry import rigs
+from contact_sim_pkg.records.rig import load
 from contact_sim_pkg.scene.resolved_scene import ResolvedScene
 
 if TYPE_CHECKING:
@@ -57,7 +58,7 @@ def make_sources(scene: ResolvedScene) -> dict[str, Source]:
 def make_road(scene: ResolvedScene) -> RoadBlocks:
     """The road of a resolved scene, on the lattice of its tire."""
     data = scene.data
-    lattice = tire_lattice(data)
+    lattice = road_lattice(scene)
     half_length = (lattice.road_rows // 2 + 1) * lattice.cell_x
     surface = make_surface(scene, lattice.cell_x)
     if data["road"]["kind"] == "opencrg":
@@ -69,6 +70,12 @@ def make_road(scene: ResolvedScene) -> RoadBlocks:
     return RoadBlocks(
         surface, make_travel(data), data["block_length"], lattice.cell_x, lattice.cell_y, half_length, lattice.road_cols
     )
+
+
+def road_lattice(scene: ResolvedScene) -> RoadLattice:
+    """The strip of road that the rig of a resolved scene needs."""
+    lattice: RoadLattice = load(rigs()[scene.data["rig"]].road_strip)(scene.data)
+    return lattice
 
 
 def make_surface(scene: ResolvedScene, cell: float) -> Surface:
@@ -144,9 +151,7 @@ def _notes(vibration: dict[str, Any], accuracy: float) -> list[str]:
 
 def _unused_axes(scene: dict[str, Any]) -> str:
     """Axes whose acceleration moves nothing in this scene, so that a recording need not have them."""
-    if scene["rig"] == "backrest":
-        return "z"
-    return "x" if scene["rig"] == "seat" and scene["effects"]["seat"].get("friction") is None else ""
+    return rigs()[scene["rig"]].unused_axes(scene["effects"])
 
 
 def _wave(scene: dict[str, Any], vibration: dict[str, Any]) -> Waveform:

@@ -12,7 +12,7 @@ from contact_sim_pkg.records.registry import rigs
 from contact_sim_pkg.scene.errors import Breach
 from contact_sim_pkg.scene.files import InputFile, candidates, find_file, input_files
 from contact_sim_pkg.scene.resolved_scene import sha256_of
-from contact_sim_pkg.scene.schema.accuracy import Contact, cells_of
+from contact_sim_pkg.scene.schema.pressure_field import PressureField
 from contact_sim_pkg.scene.schema.road import Iso8608Road
 from contact_sim_pkg.scene.schema.scene import Scene
 
@@ -111,11 +111,9 @@ def _too_much(needs: list[Need], total: int, limit: float) -> Breach:
 
 def _grids(scene: Scene) -> Iterator[tuple[str, int, int]]:
     for contact in rigs()[scene.rig].contacts:
-        effects = getattr(scene.effects, contact)
-        field = getattr(effects, "contact_field", None)
+        field = scene.effect(contact.name, PressureField)
         if field is not None:
-            name: Contact = "tire" if contact == "tire" else "seat"
-            yield contact, *cells_of(scene.accuracy, name, field.rows, field.cols)
+            yield contact.name, *field.cells(scene.accuracy)
 
 
 def _sides(scene: Scene) -> Iterator[Breach]:

@@ -7,38 +7,25 @@ and the checksum of each input file. Reading it back and resolving it once more 
 from __future__ import annotations
 
 import copy
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
 from contact_sim_pkg.records.registry import rigs
-from contact_sim_pkg.rigs.backrest.schema import complete_backrest
-from contact_sim_pkg.rigs.impact.schema import complete_impact
 from contact_sim_pkg.scene.errors import Fault, SceneError
 from contact_sim_pkg.scene.files import find_file, input_files
 from contact_sim_pkg.scene.overrides import Override, apply
 from contact_sim_pkg.scene.renamed_keys import take_new_names
 from contact_sim_pkg.scene.resolved_scene import ResolvedScene, sha256_of
-from contact_sim_pkg.scene.schema.accuracy import Contact, asked, cells_of, integration_tolerance, rung_for
+from contact_sim_pkg.scene.schema.accuracy import integration_tolerance, requested
 from contact_sim_pkg.scene.schema.clock import whole_duration
+from contact_sim_pkg.scene.schema.fields import Section
+from contact_sim_pkg.scene.schema.pressure_field import PressureField
 from contact_sim_pkg.scene.schema.scene import Scene
 from contact_sim_pkg.scene.schema.validate import validate
 from contact_sim_pkg.scene.yaml.document import parse_document
 
 __all__ = ["ResolvedScene", "explicit", "read_explicit", "read_resolved", "resolve"]
-
-DEFAULT_DAMPING: dict[str, float] = {"tire": 0.06, "seat": 1.0, "backrest": 1.949743421626532}
-"""Hunt-Crossley damping in [s/m] where a scene names neither damping nor restitution, see `scene/schema/effects.py`."""
-_COMPLETED: dict[str, Callable[[dict[str, Any]], None]] = {
-    "backrest": complete_backrest, "impact": complete_impact, "occupant": complete_backrest,
-}  # fmt: skip
-"""Rigs with keys whose default follows from others."""
-_FIELD_CONTACTS: dict[str, Contact] = {"tire": "tire", "seat": "seat"}
-
-DEFAULT_COEFFICIENT: dict[str, float] = {"seat": 2.73e5, "backrest": 4.7905e5}
-"""Coefficient of the general law where a scene names neither coefficient nor restitution: elastic one times damping, by default."""
-DEFAULT_SPEED = 0.5
-"""[m/s] that the smoothing of a rate exponent below 1 is relative to, where a scene names none."""
 
 
 def resolve(scene: Scene) -> ResolvedScene:
@@ -99,36 +86,26 @@ def read_explicit(text: str, name: str, overrides: Sequence[Override] = ()) -> d
 
 def explicit(scene: Scene) -> dict[str, Any]:
     """The scene as a plain dict with every default and everything that follows from `accuracy` written out."""
-    data = _dump(scene)
+    contacts = rigs()[scene.rig].contacts
+    absent: dict[str, Any] = {contact.name: {} for contact in contacts if getattr(scene, contact.name) is None}
+    whole = Scene.model_validate({**_dump(scene), **absent})  # the schema fills in the defaults
+    data = _dump(whole)
     data["duration"] = whole_duration(scene)
-    for contact in rigs()[scene.rig].contacts:
-        data.setdefault(contact, {})  # the schema fills in its defaults
-        _fill_effects(data["effects"][contact], scene.accuracy, contact)
-    if scene.rig in _COMPLETED:
-        _COMPLETED[scene.rig](data)
-    impacts = scene.rig == "block" and data["effects"]["block"].get("compliant_contact") is None
-    data["integrator"].setdefault("relative_tolerance", integration_tolerance(scene.accuracy, impacts=impacts))
-    if any((data["effects"][contact] or {}).get("contact_field") is not None for contact in rigs()[scene.rig].contacts):
-        data["integrator"].setdefault("coupling_tolerance", asked(scene.accuracy))
+    _fill(whole, whole, data)
+    loosest = min(contact.loosest_integration(data["effects"][contact.name]) for contact in contacts)
+    data["integrator"].setdefault("relative_tolerance", integration_tolerance(scene.accuracy, loosest))
+    if any(scene.effect(contact.name, PressureField) is not None for contact in contacts):
+        data["integrator"].setdefault("coupling_tolerance", requested(scene.accuracy))
     return _ordered(data)
 
 
-def _fill_effects(effects: dict[str, Any], accuracy: float | str, contact: str) -> None:
-    loss = effects.get("normal_dissipative")
-    if loss is not None and contact in DEFAULT_DAMPING and "restitution" not in loss:
-        loss.setdefault("damping", DEFAULT_DAMPING[contact])
-    general = effects.get("general_dissipative")
-    if general is not None:
-        if "restitution" not in general:
-            general.setdefault("coefficient", DEFAULT_COEFFICIENT[contact])
-        if general["rate_exponent"] < 1.0:
-            general.setdefault("reference_speed", DEFAULT_SPEED)
-    grid = effects.get("contact_field")
-    if grid is not None:
-        rung, field = rung_for(accuracy), _FIELD_CONTACTS[contact]
-        grid["rows"], grid["cols"] = cells_of(accuracy, field, grid.get("rows"), grid.get("cols"))
-        grid.setdefault("tolerance", rung.field_tolerance(field))
-        grid.setdefault("corrector_passes", rung.passes(field))
+def _fill(section: Section, scene: Scene, data: dict[str, Any]) -> None:
+    """Write out what a section, and those in it, leave open."""
+    for name, value in section.open_values(scene).items():
+        data.setdefault(name, value)
+    for name, value in section:
+        if isinstance(value, Section):
+            _fill(value, scene, data[name])
 
 
 def _dump(scene: Scene) -> dict[str, Any]:

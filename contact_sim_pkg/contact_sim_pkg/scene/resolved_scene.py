@@ -5,14 +5,18 @@ from __future__ import annotations
 import hashlib
 from collections.abc import Mapping
 from dataclasses import dataclass, field
+from functools import cached_property
 from io import StringIO
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from ruamel.yaml import YAML
 
 from contact_sim_pkg.files import open_regular_file
 from contact_sim_pkg.scene.errors import Fault, SceneError
+
+if TYPE_CHECKING:
+    from contact_sim_pkg.scene.schema.scene import Scene
 
 
 @dataclass(frozen=True)
@@ -26,6 +30,13 @@ class ResolvedScene:
 
     data: dict[str, Any]
     files: Mapping[str, Path] = field(default_factory=dict, compare=False)
+
+    @cached_property
+    def typed(self) -> Scene:
+        """The same scene with typed sections, of which the parameters of kernels are made; reads the schema."""
+        from contact_sim_pkg.scene.schema.scene import Scene
+
+        return Scene.model_validate(self.data)
 
     def to_yaml(self) -> str:
         """The data as YAML 1.2; `from_yaml` reads the same data from it, to the bit."""
@@ -68,6 +79,11 @@ class ResolvedScene:
             sentence = f"{path} has another content than the scene was resolved with: sha256 {found}, stated {stated}"
             raise SceneError([Fault("resolved scene", 0, 0, where, sentence)])
         return path
+
+
+def effects_at(scene: dict[str, Any], contact: str) -> dict[str, Any]:
+    """Effects that a resolved scene names at a contact, with their parameters."""
+    return scene["effects"].get(contact) or {}
 
 
 def sha256_of(path: Path) -> str:

@@ -9,11 +9,11 @@ from tests.run.scenes import resolved
 
 from contact_sim_pkg.bag.messages import decode
 from contact_sim_pkg.bag.reader import open_bag
+from contact_sim_pkg.records.constants import GRAVITY
 from contact_sim_pkg.records.messages import ContactForce
 from contact_sim_pkg.run.offline import run_offline
 from contact_sim_pkg.run.rigs import make_simulation
 from contact_sim_pkg.run.sources import make_sources
-from contact_sim_pkg.scene.lattice import GRAVITY
 
 FRAME = 6.7  # [kg]; the two-mass occupant of Wei and Griffin (1998)
 HUNG = ((33.4, 35776.0, 761.0), (10.7, 38374.0, 458.0))  # [kg], [N/m], [N s/m]

@@ -4,8 +4,8 @@ from itertools import combinations
 
 import pytest
 
-from contact_sim_pkg.scene.schema import effect_rules as schema_effect_rules
-from contact_sim_pkg.scene.schema.effect_rules import EFFECT_RULES, EffectRule
+from contact_sim_pkg.bag.topics import TOPICS
+from contact_sim_pkg.records.registry import contacts, effects
 
 EFFECTS = (
     "normal_elastic", "normal_dissipative", "general_dissipative", "foam", "foam_hysteresis", "friction", "contact_field",
@@ -80,8 +80,8 @@ def allowed(contact, named):
     return "contact_field" in named or not named & IN_THE_FIELD
 
 
-def test_the_table_knows_exactly_these_effects():
-    assert tuple(EFFECT_RULES) == EFFECTS
+def test_the_records_are_exactly_these_effects():
+    assert set(effects()) == set(EFFECTS)
 
 
 @pytest.mark.parametrize("contact", ["tire", "seat", "backrest", "impact", "roller"])
@@ -114,8 +114,17 @@ def test_a_contact_of_the_rig_without_elastic_force_is_refused(maker, rig, conta
     assert fault.startswith(f"effects.{contact}.normal_elastic: is missing")
 
 
-def test_effects_that_exclude_each_other_are_both_named(maker, monkeypatch):
-    rules = {**EFFECT_RULES, "friction": EffectRule(("seat",), excludes=("contact_field",))}
-    monkeypatch.setattr(schema_effect_rules, "EFFECT_RULES", rules)
-    (fault,) = maker.faults("seat", {"effects.seat.friction": {}, "effects.seat.contact_field": {}})
-    assert "friction and contact_field exclude each other" in fault
+def test_effects_that_exclude_each_other_are_both_named(maker):
+    (fault,) = maker.faults("seat", {"effects.seat.foam": {}, "effects.seat.contact_field": {}})
+    assert "foam and contact_field exclude each other" in fault
+
+
+@pytest.mark.parametrize("contact", contacts().values(), ids=contacts())
+def test_a_record_names_effects_and_topics_that_its_contact_has(contact):
+    names = [effect.name for effect in contact.effects]
+    assert len(set(names)) == len(names)
+    assert [effect.name for effect in contact.effects if effect.carries] == [contact.carrier]
+    for effect in contact.effects:
+        assert {*effect.needs, *effect.excludes} <= {*names} - {effect.name}
+        assert f"{contact.name}/{effect.publishes or contact.topics[0]}" in TOPICS
+        assert not effect.publishes or effect.publishes in effect.feeds

@@ -4,10 +4,11 @@ import numpy
 import pytest
 
 from contact_sim_pkg.bag.messages import encode
+from contact_sim_pkg.records.effect import Observed
 from contact_sim_pkg.records.messages import RollerContact
+from contact_sim_pkg.records.registry import effects
 from contact_sim_pkg.studies.effects import ablation
 from contact_sim_pkg.studies.effects.ablation_changes import Change, changes_of, unit_of
-from contact_sim_pkg.studies.effects.ablation_rules import Observed, is_needed
 
 
 def contact(**values):
@@ -72,7 +73,7 @@ def test_another_number_of_values_is_told():
 )
 def test_a_contact_that_opens_needs_a_loss(effect, opens, needed):
     observed = Observed({"backrest": numpy.ones(1)}, {"backrest": opens}, 0.0)
-    assert is_needed(effect, "backrest", None, observed)[0] is needed
+    assert effects()[effect]["backrest"].called_for(None, observed)[0] is needed
 
 
 def test_an_effect_that_the_scene_cannot_take_has_a_row_with_the_reason():

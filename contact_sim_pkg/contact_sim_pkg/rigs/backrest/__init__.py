@@ -1,25 +1,31 @@
 """Back against a seat back: one mass or a shell with contact points. Rig backrest."""
 
-from typing import Any
-
+from contact_sim_pkg.records.contact import Contact
 from contact_sim_pkg.records.rig import Rig
+from contact_sim_pkg.rigs.backrest.effects import BACKREST_EFFECTS
 
-__all__ = ["RIGS", "backrest_topics"]
+__all__ = ["BACKREST", "RIGS"]
 
-
-def backrest_topics(_scene: dict[str, Any]) -> list[str]:
-    """Topics of the contact of the back."""
-    return [*(f"backrest/{name}" for name in ("force", "wrench", "patch", "points")), "bench/episodes"]
-
+BACKREST = Contact(
+    name="backrest",
+    help="contact between back and seat back",
+    section=f"{__name__}.schema:Backrest",
+    section_help="occupant against a seat back (rig backrest); defaults where absent",
+    effects=BACKREST_EFFECTS,
+    rules=(f"{__name__}.schema_rules:backrest_breaches",),
+    topics=("force", "wrench", "patch", "points"),
+    bench_topics=("bench/episodes",),
+)
 
 RIGS = (
     Rig(
         name="backrest",
-        contacts=("backrest",),
+        help="occupant against a backrest",
+        contacts=(BACKREST,),
         needs=("vibration",),
-        takes=("backrest",),
         simulation=f"{__name__}.simulation:BackrestSimulation",
-        topics=backrest_topics,
+        work=f"{__name__}.work:work_of_backrest",
         report=(f"{__name__}.report:BACKREST_REPORT",),
+        unused_axes=lambda _effects: "z",
     ),
 )

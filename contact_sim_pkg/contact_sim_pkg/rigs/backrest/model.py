@@ -13,13 +13,14 @@ from contact_sim_pkg.compiled.arrays import Vector
 from contact_sim_pkg.laws.elastic_law import approach_of_force, elastic_energy, elastic_force, elastic_stiffness
 from contact_sim_pkg.laws.parameters import Contact, FoamHysteresis, Friction
 from contact_sim_pkg.pressure.mat import paraboloid_gap
+from contact_sim_pkg.records.constants import GRAVITY
 from contact_sim_pkg.rigs.backrest.entries import find_point
 from contact_sim_pkg.rigs.backrest.motion import memory_offset, state_count
 from contact_sim_pkg.rigs.backrest.parameters import Backrest, ContactSearch
 from contact_sim_pkg.rigs.backrest.shell import ShallowShell, ShellModes, crown_gap, shell_modes
 from contact_sim_pkg.rigs.vehicle.contact_model import elastic_of, loss_of
 from contact_sim_pkg.scene.errors import Fault, SceneError
-from contact_sim_pkg.scene.lattice import GRAVITY, effects_at
+from contact_sim_pkg.scene.resolved_scene import effects_at
 from contact_sim_pkg.scene.timing import Timing, make_timing
 
 REFERENCE_SURFACE = 0.02  # [m^2] of the back to which the contact law belongs: a point has its part of it

@@ -1,16 +1,34 @@
 """Rigid body on the ground with friction. Rig block."""
 
+from contact_sim_pkg.records.contact import LOOSEST_INTEGRATION, Contact
 from contact_sim_pkg.records.rig import Rig
+from contact_sim_pkg.rigs.body.effects import BLOCK_EFFECTS
 
 __all__ = ["RIGS"]
+
+RIGID_INTEGRATION = 1e-8
+"""Loosest for a rigid body that turns on sticking points: the impacts that follow multiply its errors."""
+
+BLOCK = Contact(
+    name="block",
+    help="contact between a rigid body and the ground",
+    section=f"{__name__}.schema:Block",
+    section_help="rigid body over the ground (rig block); defaults where absent",
+    effects=BLOCK_EFFECTS,
+    rules=(f"{__name__}.schema_rules:block_breaches",),
+    topics=("force", "wrench", "points"),
+    loosest_integration=lambda effects: (
+        RIGID_INTEGRATION if effects.get("compliant_contact") is None else LOOSEST_INTEGRATION
+    ),
+)
 
 RIGS = (
     Rig(
         name="block",
-        contacts=("block",),
-        takes=("block",),
+        help="rigid body on the ground",
+        contacts=(BLOCK,),
         simulation=f"{__name__}.simulation:BlockBodySimulation",
-        topics=lambda _scene: [f"block/{name}" for name in ("force", "wrench", "points")],
+        work=f"{__name__}.work:work_of_block",
         report=(f"{__name__}.report:BLOCK_REPORT",),
     ),
 )

@@ -26,7 +26,7 @@ from contact_sim_pkg.rigid.motion.compliant import compliant_contact
 from contact_sim_pkg.rigid.parameters import RULE_NAMES
 from contact_sim_pkg.rigid.problem import PLANE, SPACE
 from contact_sim_pkg.rigs.body.hull import homogeneous_hull
-from contact_sim_pkg.scene.lattice import effects_at
+from contact_sim_pkg.scene.resolved_scene import effects_at
 from contact_sim_pkg.scene.timing import Timing, make_timing
 
 __all__ = ["BlockModel", "build_block", "rise_at_start"]

@@ -95,12 +95,3 @@ class CompliantContact(Section):
     tangential_damping: float | None = number(
         1e-6, 1e9, "N s/m", "damping along the ground; critical for the whole mass when absent", default=None
     )
-
-
-class BlockEffects(Section):
-    """Effects of the contact between a rigid body and the ground."""
-
-    rigid_contact: RigidContact | None = choice("rigid contact with friction", default=None)
-    compliant_contact: CompliantContact | None = choice(
-        "the same contact with springs and dampers in place of impulses", default=None
-    )

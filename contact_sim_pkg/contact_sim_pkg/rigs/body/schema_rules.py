@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator
 
-from contact_sim_pkg.rigs.body.schema import Block, RigidContact
+from contact_sim_pkg.rigs.body.schema import Block, CompliantContact, RigidContact
 from contact_sim_pkg.scene.errors import Breach
 from contact_sim_pkg.scene.schema.catalog import show
 from contact_sim_pkg.scene.schema.scene import Scene
@@ -15,9 +15,7 @@ FLAT = 1e-9  # volume of a hull over that of its box: below it has none
 
 def block_breaches(scene: Scene) -> Iterator[Breach]:
     """A shape that has no volume, motion out of the plane, a friction cone without middle, a step that does not fit."""
-    if scene.rig != "block":
-        return
-    block = scene.block or Block()
+    block = scene.section(Block)
     faults = list(_shape(block))
     yield from faults
     if not faults:
@@ -29,15 +27,15 @@ def block_breaches(scene: Scene) -> Iterator[Breach]:
             f"{show(block.ground.slope)} rad has no meaning beside heights; put the slope into them or remove one"
         )
         yield Breach("block.ground.slope", sentence, ("block.ground.heights",))
-    effects = scene.effects.block
-    if effects is None or effects.rigid_contact is None:
+    law = scene.effect("block", RigidContact)
+    if law is None:
         return
-    if block.motion == "plane" and effects.rigid_contact.facets:
-        sentence = f"{effects.rigid_contact.facets} has no meaning in the plane, whose cone has two edges; take 0 or motion: space"
+    if block.motion == "plane" and law.facets:
+        sentence = f"{law.facets} has no meaning in the plane, whose cone has two edges; take 0 or motion: space"
         yield Breach("effects.block.rigid_contact.facets", sentence, ("block.motion",))
-    yield from _scheme(scene, effects.rigid_contact)
-    if effects.compliant_contact is not None:
-        yield from _compliant(effects.rigid_contact)
+    yield from _scheme(scene, law)
+    if scene.effect("block", CompliantContact) is not None:
+        yield from _compliant(law)
 
 
 def _compliant(law: RigidContact) -> Iterator[Breach]:

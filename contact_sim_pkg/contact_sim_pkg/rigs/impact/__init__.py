@@ -1,32 +1,28 @@
 """Sphere that strikes a viscoelastic sample: drop tower and pendulum. Rig impact."""
 
-from typing import Any
-
+from contact_sim_pkg.records.contact import Contact
 from contact_sim_pkg.records.rig import Rig
+from contact_sim_pkg.rigs.impact.effects import IMPACT_EFFECTS
 
 __all__ = ["RIGS"]
 
-_EFFECT_TOPICS = {
-    "contact_stress": "stress", "surface_waves": "wave", "micro_front": "front", "thermal_volume": "position",
-    "history": "history",
-}  # fmt: skip
-"""Effects that publish something, and their topics."""
-
-
-def _topics(scene: dict[str, Any]) -> list[str]:
-    effects = scene["effects"]["impact"]
-    names = ["force", "wrench", "events"] + (["course"] if scene["impact"]["course_samples"] else [])
-    names += [topic for effect, topic in _EFFECT_TOPICS.items() if effects.get(effect) is not None]
-    return [f"impact/{name}" for name in names]
-
+IMPACT = Contact(
+    name="impact",
+    help="contact between sphere and sample",
+    section=f"{__name__}.schema:Impact",
+    section_help="impact of a sphere on a sample (rig impact); defaults where absent",
+    effects=IMPACT_EFFECTS,
+    rules=(f"{__name__}.schema_rules:impact_breaches",),
+    topics=("force", "wrench", "events"),
+    topics_of_keys={"course_samples": "course"},
+)
 
 RIGS = (
     Rig(
         name="impact",
-        contacts=("impact",),
-        takes=("impact",),
+        help="sphere that strikes a sample",
+        contacts=(IMPACT,),
         simulation=f"{__name__}.simulation:ImpactSimulation",
-        topics=_topics,
         report=(f"{__name__}.report:IMPACT_REPORT",),
     ),
 )

@@ -16,7 +16,7 @@ from contact_sim_pkg.rigs.impact.theory.errors import ImpactError
 from contact_sim_pkg.rigs.impact.theory.motion import Impact, solve_impact
 from contact_sim_pkg.rigs.impact.theory.shift import Arrhenius, Shift, Wlf, equivalent_temperature
 from contact_sim_pkg.scene.errors import Fault, SceneError
-from contact_sim_pkg.scene.lattice import effects_at
+from contact_sim_pkg.scene.resolved_scene import effects_at
 from contact_sim_pkg.scene.timing import Timing, make_timing
 
 SLOWEST_STATE = 1.0e-3  # [m/s]: below, the sample's state by a shift is that of this speed

@@ -11,7 +11,7 @@ import numpy
 
 from contact_sim_pkg.bag.block_encoder import Output
 from contact_sim_pkg.records.messages import BodyMotion, ContactForce, EnergyLedger, ImpactCourse, ImpactEvents
-from contact_sim_pkg.rigs.impact.effects import EFFECT_MESSAGES, gauge_readings
+from contact_sim_pkg.rigs.impact.effect_outputs import EFFECT_MESSAGES, gauge_readings
 from contact_sim_pkg.rigs.impact.model import ImpactModel
 from contact_sim_pkg.rigs.impact.motion import Ended, State, course_of
 from contact_sim_pkg.run.outputs import BlockStamps, contact_outputs, energy_ledger, solver_cost

@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
-from typing import Annotated, Any, Literal, NamedTuple, TypeAlias
+from typing import TYPE_CHECKING, Annotated, Any, Literal, NamedTuple, TypeAlias
 
 from pydantic import Field
 
 from contact_sim_pkg.scene.schema.fields import Section, choice, number, numbers
+
+if TYPE_CHECKING:
+    from contact_sim_pkg.scene.schema.scene import Scene
 
 Speed: TypeAlias = Annotated[float, Field(ge=1e-3, le=1000.0)]
 Temperature: TypeAlias = Annotated[float, Field(ge=1.0, le=2000.0)]
@@ -42,6 +45,9 @@ class Sample(Section):
     density: float | None = number(0.1, 1e5, "kg/m^3", "rubber 1100, foam 60, steel 7850", default=None)
     body_modulus: float | None = number(1.0, 1e13, "Pa", "E' of the sphere; rigid by default", default=None)
     body_loss_tangent: float = number(0.0, 100.0, "", "tan β of the sphere; acts with body_modulus", default=0.0)
+
+    def open_values(self, scene: Scene) -> dict[str, Any]:
+        return MATERIALS[self.material]._asdict()
 
 
 class Impact(Section):
@@ -80,11 +86,3 @@ class Impact(Section):
         "k_p of the contact: √2, or √(2 − x_m/R) of each impact", default="small"
     )
     course_samples: int = number(0, 10001, "", "instants of each impact in impact/course; 0: none", default=201)
-
-
-def complete_impact(data: dict[str, Any]) -> None:
-    """Write out what the material's name stands for."""
-    sample = data["impact"].setdefault("sample", {})
-    material = MATERIALS[sample.get("material", Sample().material)]
-    for name, value in material._asdict().items():
-        sample.setdefault(name, value)

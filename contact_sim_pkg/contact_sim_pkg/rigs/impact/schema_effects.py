@@ -105,17 +105,3 @@ class GaugeNoise(Section):
     speed: float = number(0.0, 0.5, "", "standard deviation", default=0.01)
     duration: float = number(0.0, 0.5, "", "standard deviation", default=0.01)
     restitution: float = number(0.0, 0.5, "", "standard deviation", default=0.01)
-
-
-class ImpactEffects(Section):
-    """Effects of the contact between sphere and sample."""
-
-    normal_elastic: SphereElastic | None = choice("elastic force", default=None)
-    normal_dissipative: SphereLoss | None = choice("viscous force", default=None)
-    shift: Shift | None = choice("time-temperature shift of the material", default=None)
-    contact_stress: ContactStress | None = choice("stress over the contact", default=None)
-    surface_waves: SurfaceWaves | None = choice("circular surface wave", default=None)
-    micro_front: MicroFront | None = choice("front of the micro-impact", default=None)
-    thermal_volume: ThermalVolume | None = choice("position and volumes of the contact", default=None)
-    history: History | None = choice("depth by the hereditary integral", default=None)
-    gauge_noise: GaugeNoise | None = choice("noise of the measured values", default=None)

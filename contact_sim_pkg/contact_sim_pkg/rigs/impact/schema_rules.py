@@ -7,6 +7,7 @@ from collections.abc import Iterator
 from itertools import pairwise
 
 from contact_sim_pkg.rigs.impact.schema import Impact
+from contact_sim_pkg.rigs.impact.schema_effects import Shift
 from contact_sim_pkg.scene.errors import Breach
 from contact_sim_pkg.scene.schema.catalog import show
 from contact_sim_pkg.scene.schema.scene import Scene
@@ -14,10 +15,7 @@ from contact_sim_pkg.scene.schema.scene import Scene
 
 def impact_breaches(scene: Scene) -> Iterator[Breach]:
     """Releases without a period, a pendulum that is too short, a table that does not rise or holds what is no material."""
-    effects = scene.effects.impact
-    if effects is None:
-        return
-    impact = scene.impact or Impact()
+    impact, shift = scene.section(Impact), scene.effect("impact", Shift)
     releases = len(impact.speeds) * len(impact.temperatures) * impact.repeats
     if releases > 1 and impact.period is None:
         yield Breach(
@@ -32,8 +30,8 @@ def impact_breaches(scene: Scene) -> Iterator[Breach]:
                     f"{most:.4g} m/s; take a longer arm"
                 )
                 yield Breach(f"impact.speeds.{index}", sentence, ("impact.arm",))
-    if effects.shift is not None:
-        yield from _table(effects.shift.table)
+    if shift is not None:
+        yield from _table(shift.table)
 
 
 def _table(rows: list[list[float]]) -> Iterator[Breach]:

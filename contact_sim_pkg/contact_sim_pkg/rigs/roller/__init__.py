@@ -1,28 +1,29 @@
 """Roller on a rotating shaft: rolling vibro-impact, tilt and yaw, damage, corrugation. Rig roller."""
 
-from typing import Any
-
+from contact_sim_pkg.records.contact import Contact
 from contact_sim_pkg.records.rig import Rig
+from contact_sim_pkg.rigs.roller.effects import ROLLER_EFFECTS
 
 __all__ = ["RIGS"]
 
-_EFFECT_TOPICS = {"tilt_yaw": "stability", "track_waves": "track", "subsurface": "volumes"}
-"""Effects that publish something, and their topics."""
-
-
-def _topics(scene: dict[str, Any]) -> list[str]:
-    effects = scene["effects"]["roller"]
-    named = [topic for effect, topic in _EFFECT_TOPICS.items() if effects.get(effect) is not None]
-    return [f"roller/{name}" for name in ("force", "contact", *named)]
-
+ROLLER = Contact(
+    name="roller",
+    help="contact between roller and shaft",
+    section=f"{__name__}.schema:RollerRig",
+    section_help="roller on a rotating shaft (rig roller); defaults where absent",
+    effects=ROLLER_EFFECTS,
+    rules=(f"{__name__}.schema_rules:roller_breaches",),
+    topics=("force", "contact"),
+)
 
 RIGS = (
     Rig(
         name="roller",
-        contacts=("roller",),
-        takes=("roller", "road"),
+        help="roller on a shaft",
+        contacts=(ROLLER,),
+        takes=("road",),
         simulation=f"{__name__}.simulation:RollerSimulation",
-        topics=_topics,
+        work=f"{__name__}.work:work_of_roller",
         report=(f"{__name__}.report:ROLLER_REPORT",),
         forecast=f"{__name__}.forecast",
     ),

@@ -14,7 +14,7 @@ from contact_sim_pkg.rigs.roller.model_checks import refuse_impossible
 from contact_sim_pkg.rigs.roller.theory.ellipse import EXACT, POLYNOMIAL, RollingContact, contact_of_rollers
 from contact_sim_pkg.rigs.roller.theory.load_split import parallel_contact_load
 from contact_sim_pkg.rigs.roller.theory.parameters import Bending, Curvatures, Roller
-from contact_sim_pkg.scene.lattice import effects_at
+from contact_sim_pkg.scene.resolved_scene import effects_at
 from contact_sim_pkg.scene.timing import Timing, make_timing
 
 __all__ = ["RollerModel", "build_roller"]

@@ -181,16 +181,3 @@ class Damage(Section):
         0, 1000, "",
         "intervals also simulated turn by turn with a time acceleration above 1: its error", default=10,
     )  # fmt: skip
-
-
-class RollerEffects(Section):
-    """Effects of the contact between roller and shaft."""
-
-    normal_elastic: RollerElastic | None = choice("elliptic contact", default=None)
-    tilt_yaw: TiltYaw | None = choice("tilt and yaw of the roller", default=None)
-    gyroscope: Gyroscope | None = choice("moments of the spinning roller", default=None)
-    rolling_friction: RollingFriction | None = choice("rolling resistance", default=None)
-    shaft_bending: ShaftBending | None = choice("the shaft is bent", default=None)
-    track_waves: TrackWaves | None = choice("heave over the heights of the track", default=None)
-    subsurface: Subsurface | None = choice("stress below the surface and dangerous volumes", default=None)
-    damage: Damage | None = choice("wear of the track where its dangerous volume is large", default=None)

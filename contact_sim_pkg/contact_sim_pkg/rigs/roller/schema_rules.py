@@ -6,7 +6,14 @@ import math
 from collections.abc import Iterator
 from itertools import pairwise
 
-from contact_sim_pkg.rigs.roller.schema import RollerProgramme, RollerRig
+from contact_sim_pkg.rigs.roller.schema import (
+    RollerElastic,
+    RollerProgramme,
+    RollerRig,
+    ShaftBending,
+    Subsurface,
+    TrackWaves,
+)
 from contact_sim_pkg.scene.errors import Breach
 from contact_sim_pkg.scene.schema.catalog import show
 from contact_sim_pkg.scene.schema.clock import exact
@@ -17,10 +24,7 @@ COLUMNS = ("load", "profile_radius", "rolling_radius", "shaft_radius", "shaft_pr
 
 def roller_breaches(scene: Scene) -> Iterator[Breach]:
     """Inertias that are none, columns of unequal length, turns that do not fit a block, instants outside the run."""
-    effects = scene.effects.roller
-    if scene.rig != "roller" or effects is None:
-        return
-    roller = scene.roller or RollerRig()
+    roller, law, waves = scene.section(RollerRig), _law(scene), scene.effect("roller", TrackWaves)
     if not roller.inertia_product**2 < roller.inertia_tilt * roller.inertia_yaw:
         most = math.sqrt(roller.inertia_tilt * roller.inertia_yaw)
         sentence = (
@@ -28,23 +32,28 @@ def roller_breaches(scene: Scene) -> Iterator[Breach]:
             f"-{most:.6g} and {most:.6g} kg m^2"
         )
         yield Breach("roller.inertia_product", sentence, ("roller.inertia_tilt", "roller.inertia_yaw"))
-    law = effects.normal_elastic
-    if law and law.split == "parallel" and effects.shaft_bending is None:
+    if law.split == "parallel" and scene.effect("roller", ShaftBending) is None:
         sentence = "parallel takes part of the load through a bent shaft; add shaft_bending, or take series"
         yield Breach("effects.roller.normal_elastic.split", sentence, ("effects.roller.shaft_bending",))
     if roller.programme is not None:
         yield from _programme(roller.programme)
-    if effects.track_waves is not None:
-        yield from _track(scene, roller)
+    if waves is not None:
+        yield from _track(scene, roller, waves)
     elif scene.road is not None:
         sentence = "the roller rides no heights; add the effect track_waves, or leave the road out"
         yield Breach("road", sentence, ("effects.roller",))
-    if effects.subsurface is not None:
-        for index, instant in enumerate(effects.subsurface.instants):
+    below = scene.effect("roller", Subsurface)
+    if below is not None:
+        for index, instant in enumerate(below.instants):
             if instant >= scene.duration:
                 sentence = f"{show(instant)} s is not before the end of the run, {show(scene.duration)} s; "
                 sentence += "leave it out or take a longer duration"
                 yield Breach(f"effects.roller.subsurface.instants.{index}", sentence, ("duration",))
+
+
+def _law(scene: Scene) -> RollerElastic:
+    """Its elastic law, or its defaults where the scene names none, which is a fault of its own."""
+    return scene.effect("roller", RollerElastic) or RollerElastic()
 
 
 def _programme(programme: RollerProgramme) -> Iterator[Breach]:
@@ -63,7 +72,7 @@ def _programme(programme: RollerProgramme) -> Iterator[Breach]:
             yield Breach(f"{where}.{name}", sentence, (f"{where}.time",))
 
 
-def _track(scene: Scene, roller: RollerRig) -> Iterator[Breach]:
+def _track(scene: Scene, roller: RollerRig, waves: TrackWaves) -> Iterator[Breach]:
     """A block holds whole turns of the shaft; over the heights of the track only the load may change."""
     if roller.speed == 0.0:
         yield Breach(
@@ -71,15 +80,13 @@ def _track(scene: Scene, roller: RollerRig) -> Iterator[Breach]:
             "is 0 1/s: a roller that stands does not ride over the track; give a speed above 0 or leave track_waves out",
         )
         return
-    law = scene.effects.roller and scene.effects.roller.normal_elastic
-    if law and law.split == "parallel":
+    if _law(scene).split == "parallel":
         sentence = (
             "parallel is for a contact at rest; over the heights of the track the load goes in series; take series, or "
         )
         sentence += "leave track_waves out"
         yield Breach("effects.roller.normal_elastic.split", sentence, ("effects.roller.track_waves",))
-    track = scene.effects.roller.track_waves.track if scene.effects.roller and scene.effects.roller.track_waves else ""
-    yield from _whole_turns(scene, roller, track)
+    yield from _whole_turns(scene, roller, waves.track)
     programme = roller.programme
     for name in COLUMNS[1:]:
         if programme is not None and getattr(programme, name) is not None:

@@ -1,39 +1,63 @@
 """Quarter car and seat, alone or together: rigs tire, seat and car."""
 
+from contact_sim_pkg.records.contact import Contact
 from contact_sim_pkg.records.rig import Rig
-from contact_sim_pkg.rigs.vehicle.topics import vehicle_topics
+from contact_sim_pkg.rigs.vehicle.seat.effects import SEAT_EFFECTS
+from contact_sim_pkg.rigs.vehicle.tire.effects import TIRE_EFFECTS
 
-__all__ = ["RIGS"]
+__all__ = ["RIGS", "SEAT", "TIRE"]
 
+TIRE = Contact(
+    name="tire",
+    help="contact between tire and road",
+    section=f"{__name__}.tire.schema:Tire",
+    section_help="quarter car and tire (rigs tire and car); defaults where absent",
+    effects=TIRE_EFFECTS,
+    rules=tuple(f"{__name__}.tire.schema_rules:{name}" for name in ("slip_breaches", "tire_effect_breaches")),
+)
+SEAT = Contact(
+    name="seat",
+    help="contact between occupant and cushion",
+    section=f"{__name__}.seat.schema:Seat",
+    section_help="occupant and cushion (rigs seat and car); defaults where absent",
+    effects=SEAT_EFFECTS,
+    rules=(f"{__name__}.seat.schema_rules:occupant_breaches",),
+)
 _SIMULATION = f"{__name__}.simulation:Simulation"
 _TIRE_REPORT, _SEAT_REPORT = f"{__name__}.tire.report:TIRE_REPORT", f"{__name__}.seat.report:SEAT_REPORT"
+_ROAD_STRIP = f"{__name__}.lattice:tire_lattice"
 
 RIGS = (
     Rig(
         name="tire",
-        contacts=("tire",),
+        help="tire on a road",
+        contacts=(TIRE,),
         needs=("travel", "road"),
-        takes=("slip", "tire"),
+        takes=("slip",),
         simulation=_SIMULATION,
-        topics=lambda scene: vehicle_topics(scene, ("tire",)),
+        work=f"{__name__}.work:work_of_tire",
         report=(_TIRE_REPORT,),
+        road_strip=_ROAD_STRIP,
     ),
     Rig(
         name="seat",
-        contacts=("seat",),
+        help="occupant on a seat",
+        contacts=(SEAT,),
         needs=("vibration",),
-        takes=("seat",),
         simulation=_SIMULATION,
-        topics=lambda scene: vehicle_topics(scene, ("seat",)),
+        work=f"{__name__}.work:work_of_seat",
         report=(_SEAT_REPORT,),
+        unused_axes=lambda effects: "x" if effects["seat"].get("friction") is None else "",
     ),
     Rig(
         name="car",
-        contacts=("tire", "seat"),
+        help="both as a car",
+        contacts=(TIRE, SEAT),
         needs=("travel", "road"),
-        takes=("slip", "vibration", "tire", "seat"),
+        takes=("slip", "vibration"),
         simulation=_SIMULATION,
-        topics=lambda scene: vehicle_topics(scene, ("tire", "seat")),
+        work=f"{__name__}.work:work_of_car",
         report=(_TIRE_REPORT, _SEAT_REPORT),
+        road_strip=_ROAD_STRIP,
     ),
 )

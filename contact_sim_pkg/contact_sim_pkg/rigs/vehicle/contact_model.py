@@ -23,9 +23,7 @@ from contact_sim_pkg.laws.restitution_law import NEVER_PULLS, PULLS, coefficient
 from contact_sim_pkg.pressure.settings import FieldSettings, widened
 from contact_sim_pkg.rigs.vehicle.contact_field import FieldError, PressureField, fit_tangent
 from contact_sim_pkg.scene.errors import Fault, SceneError
-from contact_sim_pkg.scene.lattice import effects_at
-
-DEFAULT_DAMPING = {"tire": 0.06, "seat": 1.0, "backrest": 1.949743421626532}  # [s/m], see scene/schema/effects.py
+from contact_sim_pkg.scene.resolved_scene import effects_at
 
 
 @dataclass(frozen=True)
@@ -61,8 +59,7 @@ def loss_of(scene: dict[str, Any], contact: str, elastic: ElasticLaw, mass: floa
         return None
     if loss.get("restitution") is not None:
         return NormalDissipative(damping_of_restitution(float(loss["restitution"]), float(loss["reference_speed"])))
-    damping = loss.get("damping")
-    return NormalDissipative(DEFAULT_DAMPING[contact] if damping is None else float(damping))
+    return NormalDissipative(float(loss["damping"]))
 
 
 def _general_loss(loss: dict[str, Any], contact: str, elastic: ElasticLaw, mass: float) -> GeneralDissipative:

@@ -13,6 +13,7 @@ from contact_sim_pkg.compiled.arrays import Vector
 from contact_sim_pkg.laws.elastic_law import approach_of_force
 from contact_sim_pkg.laws.parameters import Contact, ElasticLaw, FoamHysteresis, Friction
 from contact_sim_pkg.pressure.settings import FieldSettings
+from contact_sim_pkg.records.constants import GRAVITY
 from contact_sim_pkg.rigs.vehicle.contact_model import FieldGrids, elastic_of, loss_of, make_grids, tangent_law
 from contact_sim_pkg.rigs.vehicle.coupling_model import (
     CouplingRule,
@@ -21,11 +22,12 @@ from contact_sim_pkg.rigs.vehicle.coupling_model import (
     longest_travel,
     shortest_time,
 )
+from contact_sim_pkg.rigs.vehicle.lattice import field_settings, occupant_mass, standing_load
 from contact_sim_pkg.rigs.vehicle.parameters import Seat, Vehicle
 from contact_sim_pkg.rigs.vehicle.seat.mat import PanMat, build_pan_mat
 from contact_sim_pkg.rigs.vehicle.seat.shape import SeatShape, seat_gap
 from contact_sim_pkg.rigs.vehicle.tire.model import Asperities, RollingFriction, TireGeometry, Tread, build_tire
-from contact_sim_pkg.scene.lattice import GRAVITY, effects_at, field_settings, occupant_mass, standing_load
+from contact_sim_pkg.scene.resolved_scene import effects_at
 from contact_sim_pkg.scene.timing import Timing
 
 POSITION_SCALE = 0.01  # [m], size of the approaches, at most; the integrator's tolerance is relative to it

@@ -3,10 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from pydantic import BaseModel, ConfigDict, Field, field_validator
 from pydantic_core import PydanticCustomError
+
+if TYPE_CHECKING:
+    from contact_sim_pkg.scene.schema.scene import Scene
 
 LEAST = 1e-30
 """In size, of any number but 0: squares and quotients of smaller ones leave the range of 64-bit numbers."""
@@ -19,6 +22,10 @@ class Section(BaseModel):
     """A mapping of a scene: strict types, no unknown keys, no NaN, cannot be changed."""
 
     model_config = ConfigDict(strict=True, extra="forbid", frozen=True, allow_inf_nan=False)
+
+    def open_values(self, scene: Scene) -> dict[str, Any]:
+        """Values of the keys that the scene leaves open, where they follow from other keys or from `accuracy`."""
+        return {}
 
     @field_validator("*")
     @classmethod

@@ -9,13 +9,15 @@ import sys
 from itertools import groupby
 from pathlib import Path
 
-from contact_sim_pkg.scene.schema.accuracy import RUNGS, Contact, Rung, integration_tolerance
+from contact_sim_pkg.records.contact import LOOSEST_INTEGRATION
+from contact_sim_pkg.records.effect import Effect
+from contact_sim_pkg.records.registry import contacts, effects
+from contact_sim_pkg.records.rig import load
+from contact_sim_pkg.scene.schema.accuracy import LEVELS, Level
 from contact_sim_pkg.scene.schema.catalog import Entry, Location, catalog, show
-from contact_sim_pkg.scene.schema.effect_rules import EFFECT_RULES
 
 BEGIN = "<!-- tables made from the schema: begin -->"
 END = "<!-- tables made from the schema: end -->"
-CONTACTS: tuple[Contact, ...] = ("tire", "seat")
 HEAD = "| key | unit | allowed | default | meaning |\n|---|---|---|---|---|"
 
 
@@ -90,10 +92,15 @@ def _default(entry: Entry) -> str:
 def _effects() -> str:
     head = "### which effects go together\n\n| effect | contacts | needs | excludes |\n|---|---|---|---|"
     rows = [
-        f"| `{name}` | {', '.join(rule.contacts)} | {', '.join(rule.needs)} | {', '.join(rule.excludes)} |"
-        for name, rule in EFFECT_RULES.items()
+        f"| `{name}` | {', '.join(records)} | {_named(records, 'needs')} | {_named(records, 'excludes')} |"
+        for name, records in effects().items()
     ]
     return "\n".join([head, *rows])
+
+
+def _named(records: dict[str, Effect], field: str) -> str:
+    """What the effect needs or excludes at any of its contacts."""
+    return ", ".join(dict.fromkeys(name for record in records.values() for name in getattr(record, field)))
 
 
 def _accuracy() -> str:
@@ -102,23 +109,23 @@ def _accuracy() -> str:
         "| requested error | fidelity level | contact | rows × cols | field tolerance | corrector passes |\n"
         "|---|---|---|---|---|---|"
     )
-    rows = [_rung_row(rung, contact) for rung in RUNGS for contact in CONTACTS]
-    largest, held = (integration_tolerance("realtime", impacts=impacts) for impacts in (False, True))
+    fields = {contact: load(record.section) for contact, record in effects()["contact_field"].items()}
+    rows = [
+        f"| {_requested(level)} | {level.name} | {contact} | {grid.rows} × {grid.cols} | {grid.tolerance:g} "
+        f"| {grid.corrector_passes} |"
+        for place, level in enumerate(LEVELS)
+        for contact, grid in ((contact, field.levels[place]) for contact, field in fields.items())
+    ]
+    loosest = {contact.name: contact.loosest_integration({}) for contact in contacts().values()}
     note = "The relative tolerance of the time integration is a hundredth of the requested error,\n"
-    note += f"at most {largest:g}; that of a rigid body at most {held:g}."
+    note += f"at most {LOOSEST_INTEGRATION:g}; that of a rigid body at most {min(loosest.values()):g}."
     return "\n".join([head, *rows, "", note])
 
 
-def _rung_row(rung: Rung, contact: Contact) -> str:
-    rows, cols = rung.cells(contact)
-    tolerance, passes = rung.field_tolerance(contact), rung.passes(contact)
-    return f"| {_asked(rung)} | {rung.name} | {contact} | {rows} × {cols} | {tolerance:g} | {passes} |"
-
-
-def _asked(rung: Rung) -> str:
-    if rung is RUNGS[0]:
-        return f"from {rung.accuracy:g}, or realtime"
-    return f"from {rung.accuracy:g}" if rung.accuracy else "below"
+def _requested(level: Level) -> str:
+    if level is LEVELS[0]:
+        return f"from {level.accuracy:g}, or realtime"
+    return f"from {level.accuracy:g}" if level.accuracy else "below"
 
 
 def main(arguments: list[str]) -> int:

@@ -5,15 +5,12 @@ from __future__ import annotations
 from collections.abc import Iterator
 from itertools import chain, pairwise
 
-from contact_sim_pkg.records.registry import contacts, refused_sections, rigs
-from contact_sim_pkg.rigs.backrest.schema_rules import backrest_breaches
-from contact_sim_pkg.rigs.body.schema_rules import block_breaches
-from contact_sim_pkg.rigs.impact.schema_rules import impact_breaches
-from contact_sim_pkg.rigs.roller.schema_rules import roller_breaches
-from contact_sim_pkg.rigs.vehicle.tire.schema_rules import slip_breaches, tire_effect_breaches
+from contact_sim_pkg.records.registry import refused_sections, rigs
+from contact_sim_pkg.records.rig import load
 from contact_sim_pkg.scene.errors import Breach
 from contact_sim_pkg.scene.schema.catalog import show
 from contact_sim_pkg.scene.schema.clock import clock_breaches
+from contact_sim_pkg.scene.schema.law_rules import law_breaches
 from contact_sim_pkg.scene.schema.road import BumpRoad, CleatRoad, Iso8608Road, PotholeRoad
 from contact_sim_pkg.scene.schema.scene import Scene
 from contact_sim_pkg.scene.schema.vibration import HalfSine, Noise, Recorded, Sine, Sweep
@@ -23,21 +20,16 @@ SAMPLES_OF_A_SHOCK = 10
 
 
 def breaches(scene: Scene) -> Iterator[Breach]:
-    """All breaches of rules between keys; the rules of effects are in `scene/schema/effect_rules.py`."""
+    """All breaches of rules between keys, those of the contacts included; rules between effects are in `effect_rules`."""
+    of_contacts = (load(rule)(scene) for contact in rigs()[scene.rig].contacts for rule in contact.rules)
     return chain(
         _sections(scene),
         clock_breaches(scene),
         _travel(scene),
-        slip_breaches(scene),
-        tire_effect_breaches(scene),
-        backrest_breaches(scene),
-        impact_breaches(scene),
-        block_breaches(scene),
-        roller_breaches(scene),
+        *of_contacts,
         _road(scene),
         _vibration(scene),
-        _occupant(scene),
-        _contacts(scene),
+        law_breaches(scene),
     )
 
 
@@ -146,73 +138,3 @@ def _below_half_rate(sample_rate: float, key: str, frequency: float) -> Iterator
     if not frequency < 0.5 * sample_rate:
         sentence = f"{show(frequency)} Hz is not below half the sample rate ({show(sample_rate)} Hz)"
         yield Breach(f"vibration.{key}", sentence, ("vibration.sample_rate",))
-
-
-def _occupant(scene: Scene) -> Iterator[Breach]:
-    if scene.seat is None:
-        return
-    occupant = scene.seat.occupant
-    for name, values in (("stiffness", occupant.stiffness), ("damping", occupant.damping)):
-        if len(values) != len(occupant.masses):
-            sentence = f"has {len(values)} values, masses has {len(occupant.masses)}; each mass needs one"
-            yield Breach(f"seat.occupant.{name}", sentence, ("seat.occupant.masses",))
-
-
-def _contacts(scene: Scene) -> Iterator[Breach]:
-    for contact in contacts():
-        effects, where = getattr(scene.effects, contact), f"effects.{contact}"
-        loss = getattr(effects, "normal_dissipative", None)
-        if loss is not None and hasattr(loss, "damping"):
-            yield from _loss(f"{where}.normal_dissipative", loss.damping, loss.restitution, loss.reference_speed)
-        yield from _general(where, effects)
-        yield from _foam(where, effects)
-        friction = getattr(effects, "friction", None)
-        if friction is not None and friction.coefficient_kinetic > friction.coefficient_static:
-            kinetic, static = show(friction.coefficient_kinetic), show(friction.coefficient_static)
-            sentence = f"{kinetic} is above coefficient_static ({static})"
-            yield Breach(f"{where}.friction.coefficient_kinetic", sentence, (f"{where}.friction.coefficient_static",))
-
-
-def _loss(where: str, damping: float | None, restitution: float | None, speed: float | None) -> Iterator[Breach]:
-    if damping is not None and restitution is not None:
-        yield Breach(f"{where}.restitution", "damping and restitution are both given; keep one", (f"{where}.damping",))
-    if restitution is not None and speed is None:
-        yield Breach(
-            f"{where}.reference_speed", "is missing; restitution holds at one impact speed", (f"{where}.restitution",)
-        )
-    if restitution is None and speed is not None:
-        yield Breach(
-            f"{where}.reference_speed", "has no meaning without restitution; remove it", (f"{where}.restitution",)
-        )
-
-
-def _general(where: str, effects: object) -> Iterator[Breach]:
-    """The general law takes a coefficient or a restitution, and may pull only where nothing rubs."""
-    general, place = getattr(effects, "general_dissipative", None), f"{where}.general_dissipative"
-    if general is None:
-        return
-    if general.coefficient is not None and general.restitution is not None:
-        sentence = "coefficient and restitution are both given; keep one"
-        yield Breach(f"{place}.restitution", sentence, (f"{place}.coefficient",))
-    if general.restitution is not None and general.reference_speed is None:
-        sentence = "is missing; restitution holds at one impact speed"
-        yield Breach(f"{place}.reference_speed", sentence, (f"{place}.restitution",))
-    if general.restitution is None and general.reference_speed is not None and general.rate_exponent >= 1.0:
-        sentence = "has no meaning without restitution or a rate_exponent below 1; remove it"
-        yield Breach(f"{place}.reference_speed", sentence, (f"{place}.restitution", f"{place}.rate_exponent"))
-    if general.end == "gap" and getattr(effects, "friction", None) is not None:
-        sentence = "a contact that pulls has no Coulomb limit; take end: force or remove friction"
-        yield Breach(f"{place}.end", sentence, (f"{where}.friction",))
-
-
-def _foam(where: str, effects: object) -> Iterator[Breach]:
-    """Foam begins stiffer than its plateau; the general law's restitution is known for power laws only."""
-    foam, general = (getattr(effects, name, None) for name in ("foam", "general_dissipative"))
-    if foam is None:
-        return
-    if not foam.modulus > foam.plateau:
-        sentence = f"{show(foam.modulus)} Pa is not above plateau ({show(foam.plateau)} Pa)"
-        yield Breach(f"{where}.foam.modulus", sentence, (f"{where}.foam.plateau",))
-    if general is not None and general.restitution is not None:
-        sentence = "holds for a power law, not for foam; give a coefficient, or take normal_dissipative"
-        yield Breach(f"{where}.general_dissipative.restitution", sentence, (f"{where}.foam",))

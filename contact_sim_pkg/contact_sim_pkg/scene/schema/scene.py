@@ -1,22 +1,19 @@
 """The scene: every key with its type, unit, range, default and meaning.
 
-Rules that tie several keys together are in `scene/schema/rules.py` and `scene/schema/effect_rules.py`; `docs/scenes.md` is made
-from here.
+The sections and effects of the contacts come from the records of the rigs; this module knows none by
+name. `docs/scenes.md` is made from here.
 """
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Annotated, Literal, TypeAlias
+from collections.abc import Iterator
+from typing import TYPE_CHECKING, Annotated, Any, Literal, TypeAlias, TypeVar
 
-from pydantic import Field, PrivateAttr
+from pydantic import Field, PrivateAttr, create_model
 
-from contact_sim_pkg.records.registry import rig_names
-from contact_sim_pkg.rigs.backrest.schema import Backrest
-from contact_sim_pkg.rigs.body.schema import Block
-from contact_sim_pkg.rigs.impact.schema import Impact
-from contact_sim_pkg.rigs.roller.schema import RollerRig
-from contact_sim_pkg.rigs.vehicle.schema import Seat, Tire
-from contact_sim_pkg.scene.schema.effects import Effects
+from contact_sim_pkg.records.contact import Contact
+from contact_sim_pkg.records.registry import contacts, rig_names, rigs
+from contact_sim_pkg.records.rig import load
 from contact_sim_pkg.scene.schema.fields import Section, choice, number, text
 from contact_sim_pkg.scene.schema.road import Road, Slip, Travel
 from contact_sim_pkg.scene.schema.vibration import Vibration
@@ -26,6 +23,7 @@ if TYPE_CHECKING:
 else:
     RigName = Literal[rig_names()]
 
+Kind = TypeVar("Kind", bound=Section)
 Accuracy: TypeAlias = Annotated[float, Field(ge=1e-8, le=0.1)] | Literal["realtime"]
 Pace: TypeAlias = Annotated[float, Field(ge=0.001, le=1000.0)] | Literal["realtime", "max"]
 
@@ -62,8 +60,8 @@ class Limits(Section):
     )
 
 
-class Scene(Section):
-    """One scene: rig, excitation, effects, accuracy, outputs. Made by `load_scene`; valid as it stands."""
+class _Scene(Section):
+    """Keys of every scene up to the excitation, and what a scene answers."""
 
     name: str = text(
         "name of the scene and of its bags; the name of the file by default",
@@ -73,8 +71,7 @@ class Scene(Section):
     )
     description: str = text("one line of description", default="")
     rig: RigName = choice(
-        "tire on a road, occupant on a seat, both as a car, occupant against a backrest, on a seat and against its back, "
-        "sphere that strikes a sample, rigid body on the ground, or roller on a shaft",
+        "{}, or {}".format(", ".join(each.help for each in [*rigs().values()][:-1]), [*rigs().values()][-1].help),
         example="seat",
     )
     duration: float = number(0.0, 3600.0, "s", "simulated time, a whole number of blocks", above=True, example=1.0)
@@ -100,18 +97,6 @@ class Scene(Section):
         "acceleration of the floor (rig seat), of the seat back (backrest), or added to the floor of the car (car)",
         default=None,
     )
-    tire: Tire | None = choice("quarter car and tire (rigs tire and car); defaults where absent", default=None)
-    seat: Seat | None = choice("occupant and cushion (rigs seat and car); defaults where absent", default=None)
-    backrest: Backrest | None = choice(
-        "occupant against a seat back (rig backrest); defaults where absent", default=None
-    )
-    impact: Impact | None = choice("impact of a sphere on a sample (rig impact); defaults where absent", default=None)
-    block: Block | None = choice("rigid body over the ground (rig block); defaults where absent", default=None)
-    roller: RollerRig | None = choice("roller on a rotating shaft (rig roller); defaults where absent", default=None)
-    effects: Effects = choice("contact → effect → its parameters", example={"seat": {"normal_elastic": {}}})
-    outputs: Outputs = Field(default_factory=Outputs, description="rates of the outputs")
-    integrator: Integrator = Field(default_factory=Integrator, description="tolerance of the time integration")
-    limits: Limits = Field(default_factory=Limits, description="limits of memory")
 
     _file: str = PrivateAttr(default="scene")
 
@@ -119,3 +104,61 @@ class Scene(Section):
     def file(self) -> str:
         """Path of the file that the scene was read from; its folder is where relative file names start."""
         return self._file
+
+    def section(self, kind: type[Kind]) -> Kind:
+        """The section of a contact by its class; its defaults where the scene does not give it."""
+        found = (getattr(self, contact.name) for contact in rigs()[self.rig].contacts)
+        return next((each for each in found if isinstance(each, kind)), None) or kind()
+
+    def effect(self, contact: str, kind: type[Kind]) -> Kind | None:
+        """The effect of a contact by the class of its keys; None where the scene does not call for it."""
+        named = getattr(self.effects, contact)  # type: ignore[attr-defined]
+        return next((each for _name, each in named or () if isinstance(each, kind)), None)
+
+    def effects_at(self, contact: Contact) -> Iterator[tuple[str, Section]]:
+        """Effects that the scene calls for at a contact, by name, in the order of the records."""
+        named = getattr(self.effects, contact.name)  # type: ignore[attr-defined]
+        return ((name, each) for name, each in named or () if each is not None)
+
+
+def _effects_of(contact: Contact) -> type[Section]:
+    keys = {effect.name: (load(effect.section) | None, choice(effect.help, default=None)) for effect in contact.effects}
+    made: type[Section] = create_model(f"{contact.name.title()}Effects", __base__=Section, **keys)  # type: ignore[call-overload]
+    made.__doc__ = f"Effects of the {contact.help}."
+    return made
+
+
+def _scene_of(known: dict[str, Contact]) -> type[_Scene]:
+    sections = {
+        name: (load(contact.section) | None, choice(contact.section_help, default=None))
+        for name, contact in known.items()
+    }
+    effects: Any = create_model(
+        "Effects",
+        __base__=Section,
+        **{name: (_effects_of(contact) | None, choice(contact.help, default=None)) for name, contact in known.items()},
+    )  # type: ignore[call-overload]
+    made: type[_Scene] = create_model(
+        "Scene",
+        __base__=_Scene,
+        **sections,
+        effects=(effects, choice("contact → effect → its parameters", example={"seat": {"normal_elastic": {}}})),
+        outputs=(Outputs, Field(default_factory=Outputs, description="rates of the outputs")),
+        integrator=(Integrator, Field(default_factory=Integrator, description="tolerance of the time integration")),
+        limits=(Limits, Field(default_factory=Limits, description="limits of memory")),
+    )  # type: ignore[call-overload]
+    made.__doc__ = "One scene: rig, excitation, effects, accuracy, outputs. Made by `load_scene`; valid as it stands."
+    return made
+
+
+if TYPE_CHECKING:
+
+    class Scene(_Scene):
+        """Keys that stand behind those of the contacts, as `_scene_of` adds them."""
+
+        effects: Section
+        outputs: Outputs
+        integrator: Integrator
+        limits: Limits
+else:
+    Scene = _scene_of(contacts())

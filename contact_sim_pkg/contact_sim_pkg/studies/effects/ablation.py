@@ -10,6 +10,8 @@ import statistics
 from collections.abc import Callable
 from typing import Any
 
+from contact_sim_pkg.records.contact import Contact
+from contact_sim_pkg.records.effect import Effect
 from contact_sim_pkg.records.registry import rigs
 from contact_sim_pkg.records.table import Section
 from contact_sim_pkg.rigs.vehicle.studies.scene_drive import load_resolved, without
@@ -17,47 +19,11 @@ from contact_sim_pkg.run.errors import RunError
 from contact_sim_pkg.scene.errors import SceneError
 from contact_sim_pkg.scene.overrides import set_value
 from contact_sim_pkg.scene.resolve import ResolvedScene, read_explicit
-from contact_sim_pkg.scene.schema.effect_rules import EFFECT_RULES, carrier_of
 from contact_sim_pkg.studies.effects.ablation_changes import changes_of
-from contact_sim_pkg.studies.effects.ablation_rules import is_needed
 from contact_sim_pkg.studies.effects.ablation_runs import Pair, paired
 
-__all__ = ["FEEDS", "sections", "study"]
+__all__ = ["sections", "study"]
 
-FEEDS: dict[str, tuple[str, ...]] = {
-    "normal_elastic": ("force", "wrench"),
-    "normal_dissipative": ("force", "wrench", "patch"),
-    "foam": ("force", "wrench"),
-    "foam_hysteresis": ("force", "wrench"),
-    "general_dissipative": ("force", "wrench", "patch"),
-    "friction": ("force", "wrench", "points"),
-    "contact_field": ("patch", "force", "wrench"),
-    "pressure_mat": ("patch",),
-    "shell_modes": ("force", "wrench", "patch", "points"),
-    "contact_search": ("force", "wrench", "patch", "points"),
-    "carcass": ("force", "wrench", "patch"),
-    "envelopment": ("patch", "force", "wrench"),
-    "tread_viscoelasticity": ("patch", "force", "wrench"),
-    "brush": ("shear", "force", "wrench"),
-    "asperity_impulses": ("force", "wrench"),
-    "shift": ("force", "wrench", "events"),
-    "contact_stress": ("stress",),
-    "surface_waves": ("wave",),
-    "micro_front": ("front",),
-    "thermal_volume": ("position",),
-    "history": ("history",),
-    "gauge_noise": ("events",),
-    "rigid_contact": ("force", "wrench", "points"),
-    "compliant_contact": ("force", "wrench", "points"),
-    "tilt_yaw": ("contact", "stability"),
-    "gyroscope": ("contact", "stability"),
-    "rolling_friction": ("contact", "stability"),
-    "shaft_bending": ("contact", "force"),
-    "track_waves": ("track", "contact", "force"),
-    "subsurface": ("volumes",),
-    "damage": ("track", "contact", "force"),
-}
-"""Topics of the contact that an effect feeds; every effect also feeds `bench/motion` and `bench/energy`."""
 BENCH_TOPICS = ("bench/motion", "bench/energy")
 LEDGER = "bench/energy"
 MEASURES = (
@@ -82,10 +48,8 @@ def study(scene_name: str, progress: Callable[[str], None] | None = None) -> lis
     scene = load_resolved(scene_name)
     rows = []
     for contact in rigs()[scene.data["rig"]].contacts:
-        for effect, rule in EFFECT_RULES.items():
-            if contact not in rule.contacts:
-                continue
-            tell(f"{contact}: {effect}")
+        for effect in contact.effects:
+            tell(f"{contact.name}: {effect.name}")
             rows.append(_row(scene_name, scene, contact, effect, tell))
     return rows
 
@@ -143,12 +107,13 @@ def _percent(change: float | None) -> str:
 
 
 def _row(
-    scene_name: str, scene: ResolvedScene, contact: str, effect: str, tell: Callable[[str], None]
+    scene_name: str, scene: ResolvedScene, contact: Contact, effect: Effect, tell: Callable[[str], None]
 ) -> dict[str, Any]:
-    on = (scene.data["effects"].get(contact) or {}).get(effect) is not None
-    topics = [f"{contact}/{name}" for name in FEEDS[effect]] + list(BENCH_TOPICS)
-    row: dict[str, Any] = {"contact": contact, "effect": effect, "on": on, "topics": topics}
-    if effect == carrier_of(contact):
+    named = scene.data["effects"].get(contact.name) or {}
+    on = named.get(effect.name) is not None
+    topics = [f"{contact.name}/{name}" for name in effect.feeds] + list(BENCH_TOPICS)
+    row: dict[str, Any] = {"contact": contact.name, "effect": effect.name, "on": on, "topics": topics}
+    if effect.carries:
         why = "without it the contact carries no load"
         return {
             **row,
@@ -157,26 +122,26 @@ def _row(
             "verdict": "carries the load",
             "why": why,
         }
-    missing = _missing(scene, contact, effect)
+    missing = " and ".join(name for name in effect.needs if named.get(name) is None)
     if missing:
         why = f"needs {missing}, which the scene does not name"
         return {**row, **NOTHING, "called_for": "no rule", "verdict": "not available", "why": why}
     try:
         present = scene if on else _with(scene, scene_name, contact, effect)
-        pair = paired(present, without(present, (contact, effect)), tell)
+        pair = paired(present, without(present, (contact.name, effect.name)), tell)
     except (SceneError, RunError) as error:
         return {**row, **NOTHING, "called_for": "no rule", "verdict": "not available", "why": _reason(error)}
     replaced = [] if on else _excluded(scene, contact, effect)
     needed, why = (
         (None, f"a choice of the model in place of {' and '.join(replaced)}")
         if replaced
-        else is_needed(effect, contact, present, pair.with_it.observed)
+        else effect.called_for(present, pair.with_it.observed)
     )
     called_for = "no rule" if needed is None else "needed" if needed else "not needed"
     verdict = "as it should be"
     if needed is not None and needed != on:
         verdict = "on but not needed" if on else "off but needed"
-    return {**row, **_measures(pair, contact, topics), "called_for": called_for, "verdict": verdict, "why": why}
+    return {**row, **_measures(pair, contact.name, topics), "called_for": called_for, "verdict": verdict, "why": why}
 
 
 def _reason(error: SceneError | RunError) -> str:
@@ -187,26 +152,20 @@ def _reason(error: SceneError | RunError) -> str:
     return f"the scene does not take it: {fault.where}: {fault.sentence}"
 
 
-def _with(scene: ResolvedScene, scene_name: str, contact: str, effect: str) -> ResolvedScene:
+def _with(scene: ResolvedScene, scene_name: str, contact: Contact, effect: Effect) -> ResolvedScene:
     """The scene with one more effect, all its defaults, in place of those that it excludes."""
-    bare = without(scene, *((contact, name) for name in _excluded(scene, contact, effect)))
-    asked = set_value(f"effects.{contact}.{effect}={{}}")
+    bare = without(scene, *((contact.name, name) for name in _excluded(scene, contact, effect)))
+    asked = set_value(f"effects.{contact.name}.{effect.name}={{}}")
     return ResolvedScene(read_explicit(bare.to_yaml(), scene_name, [asked]), scene.files)
 
 
-def _excluded(scene: ResolvedScene, contact: str, effect: str) -> list[str]:
+def _excluded(scene: ResolvedScene, contact: Contact, effect: Effect) -> list[str]:
     """What the scene names and the effect would take the place of."""
-    named = scene.data["effects"].get(contact) or {}
+    named = scene.data["effects"].get(contact.name) or {}
     return [
-        name for name, rule in EFFECT_RULES.items()
-        if named.get(name) is not None and (name in EFFECT_RULES[effect].excludes or effect in rule.excludes)
+        other.name for other in contact.effects
+        if named.get(other.name) is not None and (other.name in effect.excludes or effect.name in other.excludes)
     ]  # fmt: skip
-
-
-def _missing(scene: ResolvedScene, contact: str, effect: str) -> str:
-    """What the effect needs and the scene does not name; empty where nothing is missing."""
-    named = scene.data["effects"].get(contact) or {}
-    return " and ".join(name for name in EFFECT_RULES[effect].needs if named.get(name) is None)
 
 
 def _measures(pair: Pair, contact: str, topics: list[str]) -> dict[str, Any]:

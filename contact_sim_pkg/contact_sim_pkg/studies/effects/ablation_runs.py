@@ -14,12 +14,14 @@ from typing import Any, NamedTuple
 
 import numpy
 
+from contact_sim_pkg.bag.messages import decode
 from contact_sim_pkg.compiled.arrays import Vector
+from contact_sim_pkg.records.effect import Observed
+from contact_sim_pkg.records.messages import ContactForce
 from contact_sim_pkg.run.block_simulation import BlockSimulation
 from contact_sim_pkg.run.rigs import make_simulation
 from contact_sim_pkg.run.sources import make_sources
 from contact_sim_pkg.scene.resolve import ResolvedScene
-from contact_sim_pkg.studies.effects.ablation_rules import Observed, observe
 
 __all__ = ["Pair", "Run", "paired"]
 
@@ -91,7 +93,7 @@ def _run(scene: ResolvedScene, plan: _Plan) -> Run:
     if plan.bursts:
         again = [_walls(scene, plan.blocks)[0] for _ in range(plan.repeats - 1)]
         cost = float(numpy.min([walls, *again], axis=0).mean())
-    observed = observe(messages, inputs)
+    observed = _observed(messages, inputs)
     return Run(1e3 * cost / float(scene.data["block_length"]), observed.forces, observed, messages)
 
 
@@ -123,3 +125,18 @@ def _prepared(scene: ResolvedScene) -> BlockSimulation:
     simulation = make_simulation(scene)
     simulation.prepare()
     return simulation
+
+
+def _observed(messages: Messages, inputs: list[dict[str, Any]]) -> Observed:
+    """Read a run's messages and its input blocks."""
+    parts: dict[str, list[Vector]] = {}
+    for topic, _stamp, data in messages:
+        contact, _, kind = topic.partition("/")
+        if kind == "force":
+            parts.setdefault(contact, []).append(decode(ContactForce, data).normal)
+    forces = {contact: numpy.concatenate(found) for contact, found in parts.items()}
+    shaken = [
+        numpy.abs(given["platform/vibration"].acceleration_x).max() for given in inputs if "platform/vibration" in given
+    ]
+    opens = {contact: bool((force <= 0.0).any()) for contact, force in forces.items()}
+    return Observed(forces, opens, float(max(shaken, default=0.0)))

@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from contact_sim_pkg.compiled.arrays import Vector
 from contact_sim_pkg.rigs.vehicle.seat.shape import SeatShape, seat_gap
-from contact_sim_pkg.scene.lattice import effects_at
+from contact_sim_pkg.scene.resolved_scene import effects_at
 
 AHEAD = 0.7  # part of the length that lies forward of the tuberosities
 

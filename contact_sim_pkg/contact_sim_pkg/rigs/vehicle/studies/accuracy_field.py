@@ -12,13 +12,16 @@ import numpy
 from numpy.typing import NDArray
 
 from contact_sim_pkg.pressure.settings import FieldSettings
+from contact_sim_pkg.records.constants import GRAVITY
 from contact_sim_pkg.reference.halfspace import dense_influence, pressure_at_approach
 from contact_sim_pkg.rigs.vehicle.contact_field import PressureField
+from contact_sim_pkg.rigs.vehicle.lattice import occupant_mass, standing_load
 from contact_sim_pkg.rigs.vehicle.model import build, seat_gap_on
+from contact_sim_pkg.rigs.vehicle.seat.schema import SeatField
+from contact_sim_pkg.rigs.vehicle.tire.schema import TireField
 from contact_sim_pkg.run.sources import make_road, make_travel
-from contact_sim_pkg.scene.lattice import GRAVITY, occupant_mass, standing_load
 from contact_sim_pkg.scene.resolved_scene import ResolvedScene
-from contact_sim_pkg.scene.schema.accuracy import RUNGS, Contact
+from contact_sim_pkg.scene.schema.accuracy import LEVELS
 
 __all__ = ["bench_solves", "field_rows", "first_solve"]
 
@@ -39,7 +42,7 @@ class Problem(NamedTuple):
     """One contact's field: grid, gaps [m] at consecutive instants (one, where the shape is fixed), standing load [N]."""
 
     settings: FieldSettings
-    contact: Contact
+    contact: str
     gaps: list[Field]
     load: float
 
@@ -55,7 +58,7 @@ class Solution(NamedTuple):
 def field_rows(scene: ResolvedScene, tell: Callable[[str], None]) -> list[dict[str, Any]]:
     """Rows of each contact whose pressure field the scene asks for: solver, grid, and the check against another code."""
     rows: list[dict[str, Any]] = []
-    contacts: tuple[Contact, ...] = ("tire", "seat")
+    contacts: tuple[str, ...] = ("tire", "seat")
     for contact in contacts:
         if (scene.data["effects"].get(contact) or {}).get("contact_field"):
             rows += _rungs(scene, contact, tell)
@@ -86,20 +89,20 @@ def bench_solves(scene: ResolvedScene, cells: Cells, tolerance: float) -> tuple[
     return 1e3 * statistics.median(walls), 1e3 * warm.seconds, _errors(warm, converged)["pressure (L2)"]
 
 
-def _rungs(scene: ResolvedScene, contact: Contact, tell: Callable[[str], None]) -> list[dict[str, Any]]:
-    rows_of_rung, cols_of_rung = RUNGS[-1].cells(contact)
-    finest = (2 * rows_of_rung, 2 * cols_of_rung)
+def _rungs(scene: ResolvedScene, contact: str, tell: Callable[[str], None]) -> list[dict[str, Any]]:
+    grids = {"tire": TireField, "seat": SeatField}[contact].levels
+    finest = (2 * grids[-1].rows, 2 * grids[-1].cols)
     tell(f"{contact} field: reference grid {finest[0]}x{finest[1]}")
-    reference = _solve(_problem(scene, contact, finest, RUNGS[-1].field_tolerance(contact)), FEW)
+    reference = _solve(_problem(scene, contact, finest, grids[-1].tolerance), FEW)
     rate = float(scene.data["outputs"]["field_rate"])
     rows = []
-    for rung in RUNGS:
-        cells = rung.cells(contact)
-        tell(f"{contact} field: rung {rung.name}, {cells[0]}x{cells[1]}")
-        found = _solve(_problem(scene, contact, cells, rung.field_tolerance(contact)))
+    for level, grid in zip(LEVELS, grids, strict=True):
+        cells = grid.cells
+        tell(f"{contact} field: rung {level.name}, {cells[0]}x{cells[1]}")
+        found = _solve(_problem(scene, contact, cells, grid.tolerance))
         converged = _solve(_problem(scene, contact, cells, CONVERGED_TOLERANCE))
         shared = {
-            "rung": rung.name, "grid": f"{cells[0]}x{cells[1]}", "tolerance": rung.field_tolerance(contact),
+            "rung": level.name, "grid": f"{cells[0]}x{cells[1]}", "tolerance": grid.tolerance,
             "ms_per_simulated_s": 1e3 * found.seconds * rate,
         }  # fmt: skip
         for name, error in _errors(found, converged).items():
@@ -111,7 +114,7 @@ def _rungs(scene: ResolvedScene, contact: Contact, tell: Callable[[str], None]) 
     return rows
 
 
-def _independent(scene: ResolvedScene, contact: Contact, tell: Callable[[str], None]) -> list[dict[str, Any]]:
+def _independent(scene: ResolvedScene, contact: str, tell: Callable[[str], None]) -> list[dict[str, Any]]:
     """The solver on a small grid against dense non-negative least squares at the same approach."""
     cells = (CHECK_ROWS, CHECK_COLS)
     tell(f"{contact} field: dense check on {cells[0]}x{cells[1]}")
@@ -138,7 +141,7 @@ def _independent(scene: ResolvedScene, contact: Contact, tell: Callable[[str], N
     return rows
 
 
-def _problem(scene: ResolvedScene, contact: Contact, cells: Cells, tolerance: float) -> Problem:
+def _problem(scene: ResolvedScene, contact: str, cells: Cells, tolerance: float) -> Problem:
     """The field of one contact on a grid of `cells`, its gaps at the instants and the standing load."""
     model = build(scene.data)
     grids = model.tire_field if contact == "tire" else model.seat_field

@@ -46,7 +46,7 @@ def without(scene: ResolvedScene, *effects: tuple[str, str]) -> ResolvedScene:
     """The scene less some effects, each as (contact, effect), and what needs them; one that it does not name is passed over."""
     data: dict[str, Any] = copy.deepcopy(scene.data)
     for contact, effect in effects:
-        for name in (effect, *dependents_of(effect)):
+        for name in (effect, *dependents_of(contact, effect)):
             (data["effects"].get(contact) or {}).pop(name, None)
     if "brush" not in (data["effects"].get("tire") or {}):
         data.pop("slip", None)

@@ -9,23 +9,23 @@ import numpy
 from numpy.typing import NDArray
 
 from contact_sim_pkg.compiled.arrays import Vector
+from contact_sim_pkg.excitation.blocks import RoadLattice
 from contact_sim_pkg.laws.parameters import Contact, NormalElastic
 from contact_sim_pkg.pressure.closed_form.hertz import hertz_contact, power_law
 from contact_sim_pkg.pressure.settings import FieldSettings
+from contact_sim_pkg.records.constants import GRAVITY
 from contact_sim_pkg.rigs.vehicle.contact_model import FieldGrids, loss_of, make_grids, tangent_law
 from contact_sim_pkg.rigs.vehicle.coupling_model import coupled_timing, uniform_segments
-from contact_sim_pkg.rigs.vehicle.parameters import Carcass, Tire
-from contact_sim_pkg.rigs.vehicle.tire.parameters import Brush, TreadViscoelasticity
-from contact_sim_pkg.rigs.vehicle.tire.tread_viscoelasticity import stiffening
-from contact_sim_pkg.scene.lattice import (
-    GRAVITY,
-    RoadLattice,
+from contact_sim_pkg.rigs.vehicle.lattice import (
     contact_modulus,
-    effects_at,
     field_settings,
     standing_load,
     tire_lattice,
 )
+from contact_sim_pkg.rigs.vehicle.parameters import Carcass, Tire
+from contact_sim_pkg.rigs.vehicle.tire.parameters import Brush, TreadViscoelasticity
+from contact_sim_pkg.rigs.vehicle.tire.tread_viscoelasticity import stiffening
+from contact_sim_pkg.scene.resolved_scene import effects_at
 
 
 @dataclass(frozen=True)

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from itertools import pairwise
 
-from contact_sim_pkg.rigs.vehicle.schema import Tire
+from contact_sim_pkg.rigs.vehicle.tire.schema import Brush, Carcass, Tire, TreadViscoelasticity
 from contact_sim_pkg.scene.errors import Breach
 from contact_sim_pkg.scene.schema.catalog import show
 from contact_sim_pkg.scene.schema.scene import Scene
@@ -19,8 +19,7 @@ def slip_breaches(scene: Scene) -> Iterator[Breach]:
     slip = scene.slip
     if slip is None:
         return
-    effects = scene.effects.tire
-    if effects is not None and effects.brush is None:
+    if scene.effect("tire", Brush) is None:
         yield Breach("slip", "acts through the effect brush, which the scene does not name; add effects.tire.brush: {}")
     if slip.points is None:
         return
@@ -45,20 +44,15 @@ def slip_breaches(scene: Scene) -> Iterator[Breach]:
 
 def tire_effect_breaches(scene: Scene) -> Iterator[Breach]:
     """A belt heavier than its wheel, kinetic friction above static, branches out of range."""
-    effects, where = scene.effects.tire, "effects.tire"
-    if effects is None:
-        return
-    wheel_mass = (scene.tire or Tire()).wheel_mass
-    if effects.carcass is not None and not effects.carcass.belt_mass < wheel_mass:
-        sentence = (
-            f"{show(effects.carcass.belt_mass)} kg is not below tire.wheel_mass ({show(wheel_mass)} kg), which holds it"
-        )
+    where, wheel_mass, carcass = "effects.tire", scene.section(Tire).wheel_mass, scene.effect("tire", Carcass)
+    if carcass is not None and not carcass.belt_mass < wheel_mass:
+        sentence = f"{show(carcass.belt_mass)} kg is not below tire.wheel_mass ({show(wheel_mass)} kg), which holds it"
         yield Breach(f"{where}.carcass.belt_mass", sentence, ("tire.wheel_mass",))
-    brush = effects.brush
+    brush = scene.effect("tire", Brush)
     if brush is not None and brush.coefficient_kinetic > brush.coefficient_static:
         sentence = f"{show(brush.coefficient_kinetic)} is above coefficient_static ({show(brush.coefficient_static)})"
         yield Breach(f"{where}.brush.coefficient_kinetic", sentence, (f"{where}.brush.coefficient_static",))
-    memory = effects.tread_viscoelasticity
+    memory = scene.effect("tire", TreadViscoelasticity)
     for index, (ratio, time) in enumerate(() if memory is None else memory.branches):
         place = f"{where}.tread_viscoelasticity.branches.{index}"
         if not 0.0 <= ratio <= 100.0:

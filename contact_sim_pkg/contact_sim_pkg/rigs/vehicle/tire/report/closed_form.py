@@ -11,8 +11,8 @@ from contact_sim_pkg.pressure.closed_form.hertz import HertzError, hertz_contact
 from contact_sim_pkg.pressure.closed_form.lame import fit_patch, lame_area
 from contact_sim_pkg.pressure.settings import Belt, widened
 from contact_sim_pkg.rigs.vehicle.contact_field import FieldError, PressureField
+from contact_sim_pkg.rigs.vehicle.lattice import contact_modulus, field_settings
 from contact_sim_pkg.rigs.vehicle.tire.report.numbers import standing_load_of
-from contact_sim_pkg.scene.lattice import contact_modulus, field_settings
 
 REFERENCE_TOLERANCE = 1e-6
 """Of the field at rest: what a run is measured by must not carry the error of the run's own tolerance."""

@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import Any
 
 from contact_sim_pkg.report.series import ContactSeries, Recording
-from contact_sim_pkg.scene.lattice import standing_load
+from contact_sim_pkg.rigs.vehicle.lattice import standing_load
 
 TIRE = "tire"
 """Name of its contact."""

@@ -1,4 +1,4 @@
-"""Bodies of the rigs: the quarter car on its tire, the occupant on the seat."""
+"""The occupant on the seat, and the effects between occupant and cushion."""
 
 from __future__ import annotations
 
@@ -7,33 +7,12 @@ from typing import Annotated, Literal, TypeAlias
 from pydantic import Field
 
 from contact_sim_pkg.scene.schema.fields import Section, choice, number, numbers
+from contact_sim_pkg.scene.schema.laws import HuntCrossley, PowerLaw
+from contact_sim_pkg.scene.schema.pressure_field import Grid, PressureField
 
 Mass: TypeAlias = Annotated[float, Field(ge=0.05, le=1000.0)]
 Stiffness: TypeAlias = Annotated[float, Field(ge=100.0, le=1e8)]
 Damping: TypeAlias = Annotated[float, Field(ge=0.0, le=1e6)]
-
-
-class Tire(Section):
-    """Quarter car on a tire. The static load follows from the masses: 3335 N with the defaults."""
-
-    wheel_mass: float = number(0.1, 2000.0, "kg", "wheel, brake and share of the axle; medium car", default=40.0)
-    body_mass: float = number(
-        1.0, 20000.0, "kg", "body above the suspension, without the occupant; medium car", default=300.0
-    )
-    suspension_stiffness: float = number(
-        100.0, 1e7, "N/m", "spring between wheel and body; medium car", default=20000.0
-    )
-    suspension_damping: float = number(0.0, 1e6, "N s/m", "damper between wheel and body; medium car", default=1500.0)
-    radius_rolling: float = number(0.02, 3.0, "m", "radius in the plane of the wheel", default=0.30)
-    radius_lateral: float = number(0.02, 30.0, "m", "radius of the crown across the tread", default=1.0)
-    young_modulus: float = number(
-        1e4,
-        1e12,
-        "Pa",
-        "modulus of the half-space for tread and sidewalls together, fitted to the footprint",
-        default=3.0e6,
-    )
-    poisson_ratio: float = number(0.0, 0.5, "", "Poisson's ratio of that half-space; rubber is 0.5", default=0.5)
 
 
 class Occupant(Section):
@@ -94,3 +73,43 @@ class Seat(Section):
         default=4.0e4,
     )
     cushion_poisson: float = number(0.0, 0.5, "", "Poisson's ratio of the foam; acts in contact_field", default=0.3)
+
+
+class PowerElastic(PowerLaw):
+    """Elastic force of the cushion: coefficient · approach^exponent. `contact_field` takes its place where both act."""
+
+    coefficient: float = number(
+        1.0,
+        1e12,
+        "N/m^exponent",
+        "A; by default 50 kN/m under 50.8 kg: 498 N at 14.95 mm",
+        default=2.73e5,
+    )
+
+
+class SeatLoss(HuntCrossley):
+    """Hunt-Crossley loss: elastic force · (1 + damping · approach rate), never pulling; or `restitution` at a speed."""
+
+    usual_damping = 1.0
+
+    damping: float | None = number(0.0, 100.0, "s/m", "λ; 1.0 by default: 500 N s/m at 498 N", default=None)
+
+
+class SeatField(PressureField):
+    """Pressure field of the cushion on a half-space; it is the contact, its integral carries the occupant."""
+
+    levels = (Grid(40, 40, 1e-3, 0), Grid(64, 64, 1e-4, 1), Grid(96, 96, 1e-7, 3))
+    """The light frame of an occupant feels a tenth of the error that a wheel feels; the cushion does not
+    move under the body, so it needs one corrector pass fewer."""
+
+    length: float = number(0.05, 5.0, "m", "extent forward", default=0.6)
+    width: float = number(0.05, 5.0, "m", "extent to the left", default=0.5)
+
+
+class PressureMat(Section):
+    """Pressure under the occupant of the point contact's force: spread over the cells as a bed of springs under the body would."""
+
+    length: float = number(0.05, 5.0, "m", "extent forward", default=0.6)
+    width: float = number(0.05, 5.0, "m", "extent to the left", default=0.5)
+    rows: int = number(4, 256, "", "cells forward", default=36)
+    cols: int = number(4, 256, "", "cells to the left", default=30)

@@ -5,33 +5,19 @@ node that sends the road starts without them.
 from __future__ import annotations
 
 import math
-from typing import Any, NamedTuple
+from typing import Any
 
+from contact_sim_pkg.excitation.blocks import RoadLattice
 from contact_sim_pkg.pressure.settings import Belt, FieldSettings, widened
+from contact_sim_pkg.records.constants import GRAVITY
+from contact_sim_pkg.scene.resolved_scene import effects_at
 
-GRAVITY = 9.81  # [m/s^2]
 FIELD_ITERATIONS = 400
 FOLLOWER_CELLS = (64, 48)  # road lattice of a tire without pressure field
 FOLLOWER_REACH = 4.0  # its extent over the contact radius of a sphere with the tire's radius in that direction
 
 
 SIGHT = 1.0  # of the tire's radius: how far the road is looked at beyond the pressure grids
-
-
-class RoadLattice(NamedTuple):
-    """Lattice of the road under a tire, and how much of it a field instant may need."""
-
-    rows: int  # of the usual grid, along the road
-    cols: int
-    cell_x: float  # [m]
-    cell_y: float  # [m]
-    road_rows: int  # of the wide grid, or the tire's diameter where that is more
-    road_cols: int
-
-
-def effects_at(scene: dict[str, Any], contact: str) -> dict[str, Any]:
-    """Effects that a resolved scene names at a contact, with their parameters."""
-    return scene["effects"].get(contact) or {}
 
 
 def field_settings(scene: dict[str, Any], contact: str, modulus: float) -> FieldSettings | None:

@@ -1,0 +1,57 @@
+"""A contact of a rig: its section of the scene, its effects, its topics."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field
+from functools import cached_property
+from typing import Any
+
+from contact_sim_pkg.records.effect import Effect
+
+__all__ = ["LOOSEST_INTEGRATION", "Contact"]
+
+LOOSEST_INTEGRATION = 1e-4
+"""Relative tolerance of a time step, at most, whatever accuracy is requested."""
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class Contact:
+    """One contact. Several rigs may share it: the seat alone, in a car, under an occupant.
+
+    Attributes:
+        name: of its section, of its effects below `effects`, and in front of its topics.
+        help: what touches what, in a phrase.
+        section: ``module:class`` of its section of the scene.
+        section_help: what the section describes, in a phrase.
+        effects: in the order of the documentation; a field's topic follows this order too.
+        rules: ``module:function`` of rules between keys, each a scene -> its breaches.
+        topics: names of the topics that it always has.
+        topics_of_keys: further topics by the key of its section that switches them on.
+        bench_topics: further topics below `bench/`, by their whole name.
+        loosest_integration: plain data of its effects by name -> largest relative tolerance of the
+            time integration.
+    """
+
+    name: str
+    help: str
+    section: str
+    section_help: str
+    effects: tuple[Effect, ...]
+    rules: tuple[str, ...] = ()
+    topics: tuple[str, ...] = ("force", "wrench")
+    topics_of_keys: Mapping[str, str] = field(default_factory=dict)
+    bench_topics: tuple[str, ...] = ()
+    loosest_integration: Callable[[Mapping[str, Any]], float] = lambda _effects: LOOSEST_INTEGRATION
+
+    @cached_property
+    def carrier(self) -> str:
+        """The effect without which the contact carries no load."""
+        return next(effect.name for effect in self.effects if effect.carries)
+
+    def published(self, scene: Mapping[str, Any]) -> list[str]:
+        """Topics of the contact that the plain data of a resolved scene calls for."""
+        keys, named = scene.get(self.name) or {}, scene["effects"].get(self.name) or {}
+        own = [*self.topics, *(topic for key, topic in self.topics_of_keys.items() if keys.get(key))]
+        own += [effect.publishes for effect in self.effects if effect.publishes and named.get(effect.name) is not None]
+        return [f"{self.name}/{topic}" for topic in own]

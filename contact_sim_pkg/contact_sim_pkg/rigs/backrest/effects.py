@@ -1,0 +1,61 @@
+"""Effects of the contact between back and seat back.
+
+A scene calls for friction where the back slides along the seat back, for a loss where the contact opens.
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from contact_sim_pkg.records.effect import Effect, Observed, Verdict, choice_of_model, needed_where_it_opens
+
+if TYPE_CHECKING:
+    from contact_sim_pkg.scene.resolved_scene import ResolvedScene
+
+__all__ = ["BACKREST_EFFECTS"]
+
+
+def _friction(scene: ResolvedScene, _observed: Observed) -> Verdict:
+    slides = float(scene.data["backrest"]["sliding"]["amplitude"])
+    return slides > 0.0, f"the back slides {slides:g} m along the seat back"
+
+
+_SCHEMA, _LAWS = f"{__package__}.schema", "contact_sim_pkg.scene.schema.laws"
+_LAW = choice_of_model("which law carries the load, and what it loses without rate, is a choice of the model")
+_BENDS = choice_of_model("whether the back bends, and where it touches then, is a choice of the model")
+
+BACKREST_EFFECTS = (
+    Effect(
+        name="normal_elastic", section=f"{_SCHEMA}:BackElastic", help="elastic force", source="Driver and Seat",
+        carries=True, feeds=("force", "wrench"), called_for=_LAW,
+    ),
+    Effect(
+        name="normal_dissipative", section=f"{_SCHEMA}:BackLoss", help="loss", source="Driver and Seat",
+        needs=("normal_elastic",), feeds=("force", "wrench", "patch"), called_for=needed_where_it_opens("backrest"),
+    ),
+    Effect(
+        name="foam", section=f"{_LAWS}:Foam", help="foam with plateau and densification", source="Driver and Seat",
+        needs=("normal_elastic",), feeds=("force", "wrench"), called_for=_LAW,
+    ),
+    Effect(
+        name="foam_hysteresis", section=f"{_LAWS}:FoamHysteresis", help="rate-independent loss of foam",
+        needs=("normal_elastic",), feeds=("force", "wrench"), called_for=_LAW,
+    ),
+    Effect(
+        name="general_dissipative", section=f"{_SCHEMA}:BackGeneralLoss", help="loss by the general law",
+        source="Driver and Seat", needs=("normal_elastic",), excludes=("normal_dissipative",),
+        feeds=("force", "wrench", "patch"), called_for=needed_where_it_opens("backrest"),
+    ),
+    Effect(
+        name="friction", section=f"{_SCHEMA}:BackFriction", help="friction with stick and slip", source="Driver and Seat",
+        needs=("normal_elastic",), feeds=("force", "wrench", "points"), called_for=_friction,
+    ),
+    Effect(
+        name="shell_modes", section=f"{_SCHEMA}:ShellModes", help="back as a shell with many contact points",
+        source="Driver and Seat", needs=("normal_elastic",), feeds=("force", "wrench", "patch", "points"), called_for=_BENDS,
+    ),
+    Effect(
+        name="contact_search", section=f"{_SCHEMA}:ContactSearch", help="moving contact point of the shell",
+        source="Driver and Seat", needs=("shell_modes",), feeds=("force", "wrench", "patch", "points"), called_for=_BENDS,
+    ),
+)  # fmt: skip

@@ -1,0 +1,29 @@
+"""Work of the rig backrest, estimated before the run."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from contact_sim_pkg.records.work import STEP_COST, Work
+from contact_sim_pkg.rigs.backrest.schema import Backrest, ShellModes
+from contact_sim_pkg.run.integrator_work import integrator_steps, links_of_laws, segments
+from contact_sim_pkg.scene.schema.scene import Scene
+
+__all__ = ["back_steps", "work_of_backrest"]
+
+POINT_COST = 2e-8  # [s] of a mode of a point in a step
+
+
+def work_of_backrest(scene: Scene) -> Iterator[Work]:
+    """Segments and steps of a back against a seat back."""
+    yield segments(scene)
+    yield from back_steps(scene)
+
+
+def back_steps(scene: Scene) -> Iterator[Work]:
+    """Steps of the contact; of a shell each takes the longer, the more points it has."""
+    backrest, shell, cost = scene.section(Backrest), scene.effect("backrest", ShellModes), STEP_COST
+    if shell is not None:
+        cost += POINT_COST * shell.modes * shell.points_up * shell.points_across
+    load = float(backrest.preload or 0.0)
+    yield from integrator_steps(scene, "backrest", links_of_laws(scene, "backrest", backrest.mass, load), cost)

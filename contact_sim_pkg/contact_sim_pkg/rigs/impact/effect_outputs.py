@@ -1,0 +1,168 @@
+"""What the effects of the impact rig say of one impact; one function an effect, none where the scene does not name it.
+
+Frequency, damping and k_p are those of the free impact that the touch finds; depth, speed and forces those of the contact itself.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from typing import Any
+
+import numpy
+
+from contact_sim_pkg.compiled.arrays import Vector
+from contact_sim_pkg.records.messages import ImpactFront, ImpactHistory, ImpactPosition, ImpactStress, ImpactWave
+from contact_sim_pkg.rigs.impact.model import ImpactModel
+from contact_sim_pkg.rigs.impact.motion import Ended, course_of
+from contact_sim_pkg.rigs.impact.theory import position
+from contact_sim_pkg.rigs.impact.theory.closed_form import micro_front, stress, surface_wave
+from contact_sim_pkg.rigs.impact.theory.errors import ImpactError
+from contact_sim_pkg.rigs.impact.theory.viscoelastic import creep, hereditary
+from contact_sim_pkg.rigs.impact.theory.viscoelastic.relaxation import maxwell_time, retardation_time
+from contact_sim_pkg.run.errors import RunError
+
+FINE = 401  # instants of the force that the hereditary integral takes
+
+
+def stress_of(model: ImpactModel, effect: dict[str, Any], block: int, impact: Ended) -> ImpactStress:
+    """Stress over the contact radius, elastic and viscous."""
+    times, depth, speed, _elastic, _viscous = course_of(impact, int(effect["instants"]))
+    limit = micro_front.front_time(impact.touch.impact, _shear_speed(model, impact)).depth
+    places: Vector = numpy.linspace(0.0, 1.0, int(effect["places"]), dtype=numpy.float64)
+    free, shape = impact.touch.impact, effect["shape"]
+    centres = [stress.centre_stress(free, float(x), float(v), limit, shape) for x, v in zip(depth, speed, strict=True)]
+    over = stress.distribution(1.0, places, shape)
+    radius: Vector = free.shape * numpy.sqrt(free.sphere.radius * numpy.maximum(depth, 0.0))
+    return ImpactStress(
+        block=block, number=impact.number, start=impact.start, shape=shape, time=times, radius=radius, place=places,
+        elastic=numpy.array([each.elastic for each in centres])[:, None] * over,
+        viscous=numpy.array([each.viscous for each in centres])[:, None] * over,
+        limited=numpy.array([each.limited for each in centres], dtype=numpy.uint8),
+    )  # fmt: skip
+
+
+def wave_of(model: ImpactModel, effect: dict[str, Any], block: int, impact: Ended) -> ImpactWave:
+    """Ring and circular wave."""
+    half_space, free = impact.touch.half_space, impact.touch.impact
+    wave = surface_wave.surface_wave(free, _shear_modulus(model, impact), model.density, model.poisson_ratio)
+    turns = impact.stretches[0].turns
+    assert turns is not None
+    radius = free.shape * math.sqrt(free.sphere.radius * turns.depth)
+    loose = 1.0 - 2.0 * model.poisson_ratio
+    bulk = half_space.storage_modulus / (3.0 * loose) if loose > 0.0 else math.inf
+    try:
+        ring = surface_wave.ring(radius, turns.peak_force / (math.pi * radius**2), bulk)
+    except ImpactError as error:
+        raise RunError(f"{impact.start:.6g} s, surface_waves of impact {impact.number}: {error}") from None
+    times: Vector = numpy.linspace(0.0, effect["times"] * impact.duration, int(effect["instants"]), dtype=numpy.float64)
+    far = wave.start_radius + effect["lengths"] * wave.length
+    radii: Vector = numpy.linspace(0.0, far, int(effect["places"]), dtype=numpy.float64)
+    height = surface_wave.wave_height(wave, radii, times, effect["spread"])
+    return ImpactWave(
+        block=block, number=impact.number, start=impact.start, amplitude=wave.amplitude, length=wave.length,
+        frequency=wave.frequency, damping=wave.damping, speed=wave.speed, relative_speed=wave.relative_speed,
+        start_time=wave.start_time, start_radius=wave.start_radius, ring_ratio=ring.ratio, time=times, radius=radii,
+        height=height,
+    )  # fmt: skip
+
+
+def front_of(model: ImpactModel, effect: dict[str, Any], block: int, impact: Ended) -> ImpactFront:
+    """Border and front of the micro-impact."""
+    shear, free = _shear_speed(model, impact), impact.touch.impact
+    front = micro_front.front_time(free, shear)
+    times, depth, speed, _elastic, _viscous = course_of(impact, int(effect["instants"]))
+    states = [(float(x), float(v)) for x, v in zip(depth, speed, strict=True)]
+    fronts = [micro_front.front_speed(free, x, v, shear) for x, v in states]
+    borders = [micro_front.border_speed(free, x, v, shear)[0] for x, v in states]
+    return ImpactFront(
+        block=block, number=impact.number, start=impact.start, shear_speed=shear, front_time=front.time,
+        front_depth=front.depth, front_heat=front.heat, time=times, border_speed=numpy.array(borders),
+        front_speed=numpy.array([speed for speed, _held in fronts]),
+        supersonic=numpy.array([held for _speed, held in fronts], dtype=numpy.uint8),
+    )  # fmt: skip
+
+
+def position_of(model: ImpactModel, effect: dict[str, Any], block: int, impact: Ended) -> ImpactPosition:
+    """Depth of the contact surface and volumes."""
+    half_space = position.HalfSpace(
+        model.half_space_share(impact.touch), model.poisson_ratio, float(effect["expansion"]), float(effect["heating"])
+    )
+    times, depth, _speed, _elastic, _viscous = course_of(impact, int(effect["instants"]))
+    radius = model.sphere.radius
+    try:
+        found = [
+            None if x <= 0.0
+            else position.position_variant_2(float(x), radius, half_space) if effect["variant"] == 2
+            else position.position_variant_1(float(x), radius, half_space, effect["border_factor"])
+            for x in depth
+        ]  # fmt: skip
+    except ImpactError as error:
+        raise RunError(f"{impact.start:.6g} s, thermal_volume of impact {impact.number}: {error}") from None
+    names = {
+        "surface_depth": "surface_depth", "compression": "alpha", "volume": "volume",
+        "compression_volume": "compression_volume", "heating_volume": "heating_volume",
+    }  # fmt: skip
+    columns = {
+        column: numpy.array([0.0 if each is None else getattr(each, name) for each in found])
+        for column, name in names.items()
+    }
+    return ImpactPosition(
+        block=block, number=impact.number, start=impact.start, variant=int(effect["variant"]), time=times, **columns
+    )
+
+
+def history_of(model: ImpactModel, effect: dict[str, Any], block: int, impact: Ended) -> ImpactHistory:
+    """Depth by the hereditary integral, with the elastic limit that the impact's own law has."""
+    free = impact.touch.impact
+    material, frequency = free.material, free.frequency
+    # elastic limit of Lee and Radok, x^1.5 = 3 (1 - nu) F/(8 sqrt(R) G), made that of F = A x^1.5
+    modulus = 0.5 * free.shape * material.storage_modulus * (1.0 - model.poisson_ratio)
+    tangent = max(material.loss_tangent, 1.0e-12)
+    if effect["model"] == "kelvin_voigt":
+        law = creep.kelvin_voigt(modulus, retardation_time(frequency, tangent))
+    else:
+        stiff = modulus * (1.0 + tangent**2)
+        law = creep.maxwell(stiff, stiff * maxwell_time(frequency, tangent))
+    times, _depth, _speed, elastic, viscous = course_of(impact, FINE)
+    found = hereditary.indentation(
+        law, times, numpy.maximum(elastic + viscous, 0.0), model.sphere.radius, model.poisson_ratio
+    )
+    return ImpactHistory(
+        block=block,
+        number=impact.number,
+        start=impact.start,
+        model=effect["model"],
+        time=times,
+        depth=found.depth,
+        valid=found.growing.astype(numpy.uint8),
+    )
+
+
+def gauge_readings(model: ImpactModel, number: int, *values: float) -> list[float]:
+    """The values with the noise of the gauges: of the scene's seed and the impact's number, so the same in every run."""
+    noise = model.effects.get("gauge_noise")
+    if noise is None:
+        return list(values)
+    spread = numpy.array([noise["speed"], noise["duration"], noise["restitution"]])
+    drawn = numpy.random.Generator(numpy.random.Philox(key=[model.seed, number])).standard_normal(3)
+    return [float(v) for v in numpy.array(values) * numpy.maximum(1.0 + spread * drawn, 1.0e-3)]
+
+
+def _shear_modulus(model: ImpactModel, impact: Ended) -> float:
+    """``G' = E'/(2 (1 + nu))`` of the half-space in [Pa]."""
+    return impact.touch.half_space.storage_modulus / (2.0 * (1.0 + model.poisson_ratio))
+
+
+def _shear_speed(model: ImpactModel, impact: Ended) -> float:
+    return surface_wave.shear_speed(_shear_modulus(model, impact), model.density)
+
+
+EFFECT_MESSAGES: dict[str, tuple[str, Callable[..., Any]]] = {
+    "contact_stress": ("stress", stress_of),
+    "surface_waves": ("wave", wave_of),
+    "micro_front": ("front", front_of),
+    "thermal_volume": ("position", position_of),
+    "history": ("history", history_of),
+}
+"""Effect -> its topic and its function."""

@@ -1,0 +1,72 @@
+"""Effects of the contact between occupant and cushion.
+
+A scene calls for friction where the floor moves fore and aft, with a tangential demand above about
+0.3 of mu N; for a loss where the contact opens. What carries the load is a choice of the model.
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from contact_sim_pkg.records.effect import Effect, Observed, Verdict, choice_of_model, needed_where_it_opens
+
+if TYPE_CHECKING:
+    from contact_sim_pkg.scene.resolved_scene import ResolvedScene
+
+__all__ = ["SEAT_EFFECTS"]
+
+DEMAND = 0.3  # of mu N
+
+
+def _friction(scene: ResolvedScene, observed: Observed) -> Verdict:
+    if observed.forward == 0.0:
+        return False, "no fore-aft input"
+    occupant = scene.data["seat"]["occupant"]
+    mass = float(occupant["frame_mass"] + sum(occupant["masses"]))
+    friction = (scene.data["effects"].get("seat") or {}).get("friction") or {}
+    limit = float(friction.get("coefficient_static", 0.4)) * float(observed.forces["seat"].min())
+    demand = mass * observed.forward
+    share = demand / limit if limit > 0.0 else float("inf")
+    return share > DEMAND, f"fore-aft demand up to {share:.2g} of mu N, limit {DEMAND:g}"
+
+
+_SCHEMA, _LAWS = f"{__package__}.schema", "contact_sim_pkg.scene.schema.laws"
+_LAW = choice_of_model("which law carries the load, and what it loses without rate, is a choice of the model")
+
+SEAT_EFFECTS = (
+    Effect(
+        name="normal_elastic", section=f"{_SCHEMA}:PowerElastic", help="elastic force", carries=True,
+        feeds=("force", "wrench"), called_for=_LAW,
+    ),
+    Effect(
+        name="normal_dissipative", section=f"{_SCHEMA}:SeatLoss", help="loss", source="Brogliato, Nonsmooth Mechanics, 2",
+        needs=("normal_elastic",), feeds=("force", "wrench", "patch"), called_for=needed_where_it_opens("seat"),
+    ),
+    Effect(
+        name="foam", section=f"{_LAWS}:Foam", help="foam with plateau and densification", source="Driver and Seat",
+        needs=("normal_elastic",), excludes=("contact_field",), feeds=("force", "wrench"), called_for=_LAW,
+    ),
+    Effect(
+        name="foam_hysteresis", section=f"{_LAWS}:FoamHysteresis", help="rate-independent loss of foam",
+        needs=("normal_elastic",), excludes=("contact_field",), feeds=("force", "wrench"), called_for=_LAW,
+    ),
+    Effect(
+        name="general_dissipative", section=f"{_LAWS}:GeneralLoss", help="loss by the general law",
+        needs=("normal_elastic",), excludes=("normal_dissipative",), feeds=("force", "wrench", "patch"),
+        called_for=needed_where_it_opens("seat"),
+    ),
+    Effect(
+        name="friction", section=f"{_LAWS}:Friction", help="friction with stick and slip", needs=("normal_elastic",),
+        feeds=("force", "wrench", "points"), called_for=_friction,
+    ),
+    Effect(
+        name="contact_field", section=f"{_SCHEMA}:SeatField", help="pressure field", source="Johnson, Contact Mechanics, 5.4",
+        needs=("normal_elastic",), publishes="patch", feeds=("patch", "force", "wrench"),
+        called_for=choice_of_model("needed where the pressure under the occupant is asked for"),
+    ),
+    Effect(
+        name="pressure_mat", section=f"{_SCHEMA}:PressureMat", help="pressure map of a point contact",
+        needs=("normal_elastic",), excludes=("contact_field",), publishes="patch", feeds=("patch",),
+        called_for=choice_of_model("needed where a map of the pressure is asked for"),
+    ),
+)  # fmt: skip

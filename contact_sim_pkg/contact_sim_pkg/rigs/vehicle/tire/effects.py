@@ -1,0 +1,109 @@
+"""Effects of the contact between tire and road.
+
+A scene calls for them by rules of thumb of the field: the pressure field for road wavelengths below
+about three patch lengths, steps, cleats and stones, or where the pressure is requested; the carcass
+for content above 30 Hz at the axle; the envelopment for obstacles shorter than the footprint; the
+brush for slip.
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy
+
+from contact_sim_pkg.records.effect import Effect, Observed, Verdict, choice_of_model, needed_where_it_opens
+
+if TYPE_CHECKING:
+    from contact_sim_pkg.scene.resolved_scene import ResolvedScene
+
+__all__ = ["TIRE_EFFECTS"]
+
+SHORT_WAVE = 0.4  # [m], three patch lengths
+FOOTPRINT = 0.13  # [m], one patch length
+AXLE_FREQUENCY, AXLE_SHARE = 30.0, 0.05  # [Hz], and the part of the force's variance above it that counts as content
+SHARP_ROADS = ("step", "cleat", "pothole", "ramp", "bump")
+
+
+def _field(scene: ResolvedScene, _observed: Observed) -> Verdict:
+    short, why = _short_waves(scene, SHORT_WAVE, "three patch lengths")
+    return short, f"{why}, unless the pressure itself is asked for" if short is False else why
+
+
+def _envelopment(scene: ResolvedScene, _observed: Observed) -> Verdict:
+    return _short_waves(scene, FOOTPRINT, "one patch length")
+
+
+def _short_waves(scene: ResolvedScene, limit: float, lengths: str) -> Verdict:
+    """Whether the road holds waves or edges shorter than ``limit`` [m]."""
+    road = scene.data["road"]
+    kind = road["kind"]
+    if kind == "flat":
+        return False, "the road is flat: the point contact is exact"
+    if kind == "iso8608":
+        texture = road.get("texture") or {}
+        shortest = float(texture.get("shortest_wavelength") or road["shortest_wavelength"])
+        return shortest < limit, f"shortest wave of the road {shortest:g} m, limit {limit:g} m ({lengths})"
+    if kind == "opencrg":
+        return True, f"a measured road holds waves down to its grid, below {lengths}"
+    edge, length = road.get("edge"), float(road.get("edge") or road["length"])
+    sharp = kind in SHARP_ROADS and (kind != "bump" or length < limit)
+    return sharp, f"{kind} with {'edges' if edge else 'a length'} of {length:g} m, limit {limit:g} m ({lengths})"
+
+
+def _carcass(scene: ResolvedScene, observed: Observed) -> Verdict:
+    force = observed.forces["tire"] - observed.forces["tire"].mean()
+    power = numpy.abs(numpy.fft.rfft(force)) ** 2
+    fast = numpy.fft.rfftfreq(len(force), 1.0 / float(scene.data["outputs"]["force_rate"])) > AXLE_FREQUENCY
+    share = float(power[fast].sum() / power.sum()) if power.sum() > 0.0 else 0.0
+    why = f"{100.0 * share:.2g} % of the force's variance above {AXLE_FREQUENCY:g} Hz, limit {100.0 * AXLE_SHARE:g} %"
+    return share > AXLE_SHARE, why
+
+
+def _brush(scene: ResolvedScene, _observed: Observed) -> Verdict:
+    slip = scene.data.get("slip") or {}
+    points = slip.get("points") or [[0.0, slip.get("longitudinal", 0.0), slip.get("angle", 0.0)]]
+    largest = max(abs(float(value)) for point in points for value in point[1:])
+    return largest > 0.0, f"largest slip that the scene asks for: {largest:g}"
+
+
+_SCHEMA = f"{__package__}.schema"
+_FREE = choice_of_model("whether it acts is a choice of the model")
+
+TIRE_EFFECTS = (
+    Effect(
+        name="normal_elastic", section=f"{_SCHEMA}:HertzElastic", help="elastic force", source="Johnson, Contact Mechanics, 4.2",
+        carries=True, feeds=("force", "wrench"), called_for=_FREE,
+    ),
+    Effect(
+        name="normal_dissipative", section=f"{_SCHEMA}:TireLoss", help="loss", source="Brogliato, Nonsmooth Mechanics, 2",
+        needs=("normal_elastic",), feeds=("force", "wrench", "patch"), called_for=needed_where_it_opens("tire"),
+    ),
+    Effect(
+        name="contact_field", section=f"{_SCHEMA}:TireField", help="pressure field", source="Johnson, Contact Mechanics, 5.4",
+        needs=("normal_elastic",), publishes="patch", feeds=("patch", "force", "wrench"), called_for=_field,
+    ),
+    Effect(
+        name="carcass", section=f"{_SCHEMA}:Carcass", help="rigid ring on sidewalls",
+        source="Pacejka, Tire and Vehicle Dynamics, 9", needs=("normal_elastic",), feeds=("force", "wrench", "patch"),
+        called_for=_carcass,
+    ),
+    Effect(
+        name="envelopment", section=f"{_SCHEMA}:Envelopment", help="belt that bends over obstacles",
+        source="Pacejka, Tire and Vehicle Dynamics, 10", needs=("contact_field",), feeds=("patch", "force", "wrench"),
+        called_for=_envelopment,
+    ),
+    Effect(
+        name="tread_viscoelasticity", section=f"{_SCHEMA}:TreadViscoelasticity", help="viscoelasticity of the tread rubber",
+        source="Tire/Road Contact", needs=("contact_field",), feeds=("patch", "force", "wrench"), called_for=_FREE,
+    ),
+    Effect(
+        name="brush", section=f"{_SCHEMA}:Brush", help="brush friction of a rolling tire, stick and slip of each cell",
+        source="Pacejka, Tire and Vehicle Dynamics, 3", needs=("contact_field",), publishes="shear",
+        feeds=("shear", "force", "wrench"), called_for=_brush,
+    ),
+    Effect(
+        name="asperity_impulses", section=f"{_SCHEMA}:AsperityImpulses", help="impulses of road asperities",
+        source="Tire/Road Contact", needs=("normal_elastic",), feeds=("force", "wrench"), called_for=_FREE,
+    ),
+)  # fmt: skip

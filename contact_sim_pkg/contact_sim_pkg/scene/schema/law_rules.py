@@ -1,0 +1,71 @@
+"""Rules that tie keys of the force laws together, wherever a contact has them."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from contact_sim_pkg.records.registry import contacts
+from contact_sim_pkg.scene.errors import Breach
+from contact_sim_pkg.scene.schema.catalog import show
+from contact_sim_pkg.scene.schema.laws import Foam, Friction, GeneralLoss, HuntCrossley
+from contact_sim_pkg.scene.schema.scene import Scene
+
+
+def law_breaches(scene: Scene) -> Iterator[Breach]:
+    """Laws whose coefficients contradict each other, at any contact."""
+    for contact in contacts():
+        where = f"effects.{contact}"
+        loss = scene.effect(contact, HuntCrossley)
+        if loss is not None:
+            yield from _loss(f"{where}.normal_dissipative", loss)
+        general, friction = scene.effect(contact, GeneralLoss), scene.effect(contact, Friction)
+        if general is not None:
+            yield from _general(where, general, friction)
+        foam = scene.effect(contact, Foam)
+        if foam is not None:
+            yield from _foam(where, foam, general)
+        if friction is not None and friction.coefficient_kinetic > friction.coefficient_static:
+            kinetic, static = show(friction.coefficient_kinetic), show(friction.coefficient_static)
+            sentence = f"{kinetic} is above coefficient_static ({static})"
+            yield Breach(f"{where}.friction.coefficient_kinetic", sentence, (f"{where}.friction.coefficient_static",))
+
+
+def _loss(where: str, loss: HuntCrossley) -> Iterator[Breach]:
+    damping, restitution, speed = loss.damping, loss.restitution, loss.reference_speed
+    if damping is not None and restitution is not None:
+        yield Breach(f"{where}.restitution", "damping and restitution are both given; keep one", (f"{where}.damping",))
+    if restitution is not None and speed is None:
+        yield Breach(
+            f"{where}.reference_speed", "is missing; restitution holds at one impact speed", (f"{where}.restitution",)
+        )
+    if restitution is None and speed is not None:
+        yield Breach(
+            f"{where}.reference_speed", "has no meaning without restitution; remove it", (f"{where}.restitution",)
+        )
+
+
+def _general(where: str, general: GeneralLoss, friction: Friction | None) -> Iterator[Breach]:
+    """The general law takes a coefficient or a restitution, and may pull only where nothing rubs."""
+    place = f"{where}.general_dissipative"
+    if general.coefficient is not None and general.restitution is not None:
+        sentence = "coefficient and restitution are both given; keep one"
+        yield Breach(f"{place}.restitution", sentence, (f"{place}.coefficient",))
+    if general.restitution is not None and general.reference_speed is None:
+        sentence = "is missing; restitution holds at one impact speed"
+        yield Breach(f"{place}.reference_speed", sentence, (f"{place}.restitution",))
+    if general.restitution is None and general.reference_speed is not None and general.rate_exponent >= 1.0:
+        sentence = "has no meaning without restitution or a rate_exponent below 1; remove it"
+        yield Breach(f"{place}.reference_speed", sentence, (f"{place}.restitution", f"{place}.rate_exponent"))
+    if general.end == "gap" and friction is not None:
+        sentence = "a contact that pulls has no Coulomb limit; take end: force or remove friction"
+        yield Breach(f"{place}.end", sentence, (f"{where}.friction",))
+
+
+def _foam(where: str, foam: Foam, general: GeneralLoss | None) -> Iterator[Breach]:
+    """Foam begins stiffer than its plateau; the general law's restitution is known for power laws only."""
+    if not foam.modulus > foam.plateau:
+        sentence = f"{show(foam.modulus)} Pa is not above plateau ({show(foam.plateau)} Pa)"
+        yield Breach(f"{where}.foam.modulus", sentence, (f"{where}.foam.plateau",))
+    if general is not None and general.restitution is not None:
+        sentence = "holds for a power law, not for foam; give a coefficient, or take normal_dissipative"
+        yield Breach(f"{where}.general_dissipative.restitution", sentence, (f"{where}.foam",))

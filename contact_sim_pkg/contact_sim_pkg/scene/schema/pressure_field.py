@@ -1,0 +1,58 @@
+"""Keys of a pressure field, and its fidelity levels: what a requested accuracy stands for."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any, ClassVar, NamedTuple
+
+from contact_sim_pkg.scene.schema.accuracy import level_of
+from contact_sim_pkg.scene.schema.fields import Section, number
+
+if TYPE_CHECKING:
+    from contact_sim_pkg.scene.schema.scene import Scene
+
+MOST_CELLS_A_SIDE = 65536
+
+
+class Grid(NamedTuple):
+    """A pressure field at one fidelity level."""
+
+    rows: int  # along
+    cols: int  # across
+    tolerance: float  # relative, of the solver
+    corrector_passes: int
+
+    @property
+    def cells(self) -> tuple[int, int]:
+        """Rows and cols."""
+        return self.rows, self.cols
+
+
+class PressureField(Section):
+    """Pressure field of a contact on a half-space; it is the contact, its integral is the force."""
+
+    levels: ClassVar[tuple[Grid, ...]]
+    """One grid for each of `accuracy.LEVELS`."""
+
+    length: float = number(0.01, 5.0, "m", "extent forward")
+    width: float = number(0.01, 5.0, "m", "extent to the left")
+    rows: int | None = number(
+        4, MOST_CELLS_A_SIDE, "", "cells along the field (forward); taken from accuracy when absent", default=None
+    )
+    cols: int | None = number(
+        4, MOST_CELLS_A_SIDE, "", "cells across the field (left); taken from accuracy when absent", default=None
+    )
+    tolerance: float | None = number(
+        1e-12, 0.1, "", "relative error of the pressure; taken from accuracy when absent", default=None
+    )
+    corrector_passes: int | None = number(
+        0, 8, "", "most repetitions of a coupling step with the field at its end; taken from accuracy when absent",
+        default=None,
+    )  # fmt: skip
+
+    def open_values(self, scene: Scene) -> dict[str, Any]:
+        return self.levels[level_of(scene.accuracy)]._asdict()
+
+    def cells(self, accuracy: float | str) -> tuple[int, int]:
+        """Rows and cols: as given, else those of the level."""
+        rows, cols = self.levels[level_of(accuracy)].cells
+        return rows if self.rows is None else self.rows, cols if self.cols is None else self.cols
