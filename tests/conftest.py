@@ -67,16 +67,29 @@ def pytest_xdist_make_scheduler(config: pytest.Config, log: object) -> object:
 
 
 def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item]) -> None:
-    """Tests that use ROS are skipped by `--check`, and where it is not sourced."""
+    """Tests of ROS are skipped by `--check` and where it is not sourced; files that start commands stand in the middle.
+
+    Workers that come from both ends have compiled in themselves by then what a command would wait for.
+    """
     if config.getoption("check"):
         reason = "uses ROS: in `make test`"
     elif any(importlib.util.find_spec(name) is None for name in ("rclpy", "contact_msgs_defs")):
         reason = "rclpy or contact_msgs_defs cannot be imported: ROS 2 is not sourced"
     else:
-        return
+        reason = ""
     for item in items:
-        if item.get_closest_marker("ros"):
+        if reason and item.get_closest_marker("ros"):
             item.add_marker(pytest.mark.skip(reason))
+    files = list(dict.fromkeys(item.path for item in items))
+    place = {path: 0 if number < len(files) / 2 else 2 for number, path in enumerate(files)}
+    starting = {item.path for item in items if _starts_commands(item)}
+    items.sort(key=lambda item: 1 if item.path in starting else place[item.path])
+
+
+def _starts_commands(item: pytest.Item) -> bool:
+    """Whether the file of a test takes anything from `tests/bench_process.py`."""
+    names = vars(item.getparent(pytest.Module).obj).values()
+    return any(getattr(each, "__module__", None) == "tests.bench_process" for each in names)
 
 
 def pytest_collection(session: pytest.Session) -> None:
