@@ -76,7 +76,10 @@ def compare(first: Path, second: Path) -> int:
 def _compare_hard(first: Path, second: Path) -> int:
     if not (first.exists() and second.exists()):
         return 0
-    before, after = ({row["name"]: row for row in json.loads(path.read_text())["rows"]} for path in (first, second))
+    before, after = (
+        {f"{row['model']}: {row['case']}": row for row in json.loads(path.read_text())["rows"]}
+        for path in (first, second)
+    )
     changed = [name for name in before.keys() | after.keys() if before.get(name) != after.get(name)]
     print(f"bench hard: {len(before)} and {len(after)} rows, {len(changed)} differ")
     for name in sorted(changed):

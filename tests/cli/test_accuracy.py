@@ -1,25 +1,26 @@
 """`bench accuracy` with the name of a rig."""
 
 import json
+from dataclasses import replace
 
 import pytest
 from click.testing import CliRunner
 
 from contact_sim_pkg.cli.accuracy import command
 from contact_sim_pkg.cli.main import main
-from contact_sim_pkg.rigs.vehicle.studies import work_precision_road as ladder_road
+from contact_sim_pkg.records.registry import rigs
+from contact_sim_pkg.records.work_precision import WorkPrecision
+from contact_sim_pkg.rigs.vehicle.studies import work_precision_road
 from contact_sim_pkg.scene.errors import SceneError
-from contact_sim_pkg.studies.accuracy import scene_study as accuracy_cost
-from contact_sim_pkg.studies.accuracy import work_precision as ladder
-from contact_sim_pkg.studies.accuracy import work_precision_plot as ladder_plot
+from contact_sim_pkg.studies.accuracy import scene_study, work_precision, work_precision_plot
 
 
 @pytest.fixture
-def one_ladder(monkeypatch):
-    monkeypatch.setitem(ladder.RIGS, "tire", (ladder.Ladder(ladder_road.PART, ladder_road.rows),))
+def one_study(monkeypatch):
+    monkeypatch.setattr(work_precision, "studies_of", lambda _rig: work_precision_road.WORK_PRECISION)
 
 
-def test_a_rig_is_a_table_for_people_and_rows_for_scripts(one_ladder, tmp_path):
+def test_a_rig_is_a_table_for_people_and_rows_for_scripts(one_study, tmp_path):
     picture = tmp_path / "tire.png"
     shown = CliRunner().invoke(command, ["tire", "--plot", str(picture)], catch_exceptions=False)
     assert "road: class C" in shown.stdout
@@ -41,14 +42,15 @@ def test_a_rig_is_a_table_for_people_and_rows_for_scripts(one_ladder, tmp_path):
     ],
 )
 def test_a_picture_that_cannot_be_written_is_refused_before_the_work(monkeypatch, capsys, tmp_path, picture, told):
-    monkeypatch.setitem(ladder.RIGS, "tire", (ladder.Ladder("never", lambda: pytest.fail("the work began")),))
+    study = WorkPrecision("never", lambda: pytest.fail("the work began"))
+    monkeypatch.setattr(work_precision, "studies_of", lambda _rig: [study])
     (tmp_path / "y.png").mkdir()
     assert main(["accuracy", "tire", "--plot", str(tmp_path / picture)]) == 2
     assert told in capsys.readouterr().err
 
 
-def test_the_table_is_there_whatever_becomes_of_the_picture(one_ladder, monkeypatch, tmp_path):
-    monkeypatch.setattr(ladder_plot, "write_plot", lambda rows, path, **_: 1 / 0)
+def test_the_table_is_there_whatever_becomes_of_the_picture(one_study, monkeypatch, tmp_path):
+    monkeypatch.setattr(work_precision_plot, "write_plot", lambda rows, path, **_: 1 / 0)
     shown = CliRunner().invoke(command, ["tire", "--plot", str(tmp_path / "x.png")])
     assert isinstance(shown.exception, ZeroDivisionError)
     assert "ms a call" in shown.stdout
@@ -59,12 +61,13 @@ def test_a_name_that_is_no_rig_is_taken_for_a_scene():
         CliRunner().invoke(command, ["tyre"], catch_exceptions=False)
 
 
-def test_each_row_of_the_tire_s_ladder_is_there():
-    parts = [entry.part for entry in ladder.RIGS["tire"]]
+def test_each_study_of_the_tire_is_there():
+    parts = [entry.part for entry in work_precision.studies_of("tire")]
     assert len(parts) == len(set(parts)) == 9
 
 
 def test_a_scene_of_a_rig_that_is_not_measured_is_refused_with_the_way_out(monkeypatch):
-    monkeypatch.delitem(accuracy_cost.PARTS, "backrest")
+    without = {**rigs(), "backrest": replace(rigs()["backrest"], accuracy=())}
+    monkeypatch.setattr(scene_study, "rigs", lambda: without)
     with pytest.raises(SceneError, match=r"not for backrest; compare runs with --set integrator\.relative_tolerance"):
         CliRunner().invoke(command, ["seat_slap"], catch_exceptions=False)

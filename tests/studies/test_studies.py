@@ -6,6 +6,7 @@ from contact_sim_pkg.records.registry import effects
 from contact_sim_pkg.rigs.vehicle.studies import accuracy_field as accuracy_cost_field
 from contact_sim_pkg.rigs.vehicle.studies import accuracy_integrator as accuracy_cost_integrator
 from contact_sim_pkg.rigs.vehicle.studies.scene_drive import load_resolved
+from contact_sim_pkg.studies import cases
 from contact_sim_pkg.studies.accuracy import scene_study as accuracy_cost
 from contact_sim_pkg.studies.effects import ablation
 
@@ -25,6 +26,16 @@ def test_the_error_of_the_time_integration_falls_with_the_tolerance(tolerance_ro
 def test_the_plot_is_drawn_for_every_part_that_is_there(tolerance_rows, tmp_path):
     path = accuracy_cost.write_plot(tolerance_rows, tmp_path / "plot.png")
     assert path.read_bytes().startswith(b"\x89PNG")
+
+
+@pytest.mark.parametrize(
+    ("field", "constant"),
+    [("accuracy", "ACCURACY"), ("work_precision", "WORK_PRECISION"), ("goals", "GOALS"), ("hard_cases", "CASES")],
+)
+def test_every_module_that_a_rig_names_has_its_cases(field, constant):
+    modules = cases.modules_of_rigs(field)
+    assert modules
+    assert all(cases.objects((module,), constant) for module in modules)
 
 
 def test_means_over_coarser_cells_keep_the_integral_and_a_constant():

@@ -23,21 +23,20 @@ def command(what: str, plot: Path | None, overwrite: bool, as_json: bool) -> Non
     of its contact by inexpensive and expensive formulas, on the same input. For a file named like a rig write ./NAME.
     """
     from contact_sim_pkg.report.drawing import check_picture
-    from contact_sim_pkg.studies.accuracy import work_precision as ladder
+    from contact_sim_pkg.studies.accuracy import work_precision
 
     if plot is not None:
         check_picture(plot, [Path(what)], overwrite=overwrite)
-    if what in ladder.RIGS:
-        from contact_sim_pkg.studies.accuracy import work_precision_plot as ladder_plot
-        from contact_sim_pkg.studies.accuracy import work_precision_table as ladder_table
+    if what in work_precision.measured_rigs():
+        from contact_sim_pkg.studies.accuracy import work_precision_plot, work_precision_table
 
-        rows = ladder.study(what, _tell)
-        draw, sections = ladder_plot.write_plot, ladder_table.sections
+        rows = work_precision.study(what, _tell)
+        draw, sections = work_precision_plot.write_plot, work_precision_table.sections
     else:
-        from contact_sim_pkg.studies.accuracy import scene_study as accuracy_cost
+        from contact_sim_pkg.studies.accuracy import scene_study
 
-        rows = accuracy_cost.study(what, _tell)
-        draw, sections = accuracy_cost.write_plot, accuracy_cost.sections
+        rows = scene_study.study(what, _tell)
+        draw, sections = scene_study.write_plot, scene_study.sections
     if as_json:
         print_json_rows(rows)
     else:

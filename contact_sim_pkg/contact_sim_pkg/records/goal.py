@@ -7,7 +7,7 @@ import time
 from collections.abc import Callable
 from typing import NamedTuple
 
-__all__ = ["Measured", "median_time"]
+__all__ = ["GoalPart", "Measured", "median_time"]
 
 REPEATS = 7
 
@@ -35,6 +35,13 @@ class Measured(NamedTuple):
         if self.value is None or (self.most is None and self.least is None):
             return None
         return (self.most is None or self.value <= self.most) and (self.least is None or self.value >= self.least)
+
+
+class GoalPart(NamedTuple):
+    """Figures that are measured together, and what they are of."""
+
+    part: str
+    measure: Callable[[], list[Measured]]
 
 
 def median_time(call: Callable[[], object], repeats: int = REPEATS) -> float:

@@ -33,6 +33,11 @@ class Rig:
         work: ``module:function`` of a typed scene -> parts of its work beside that of blocks and fields;
             empty: none.
         unused_axes: plain data of its effects by contact -> axes whose vibration moves nothing.
+        accuracy: modules whose `ACCURACY` holds `records.accuracy.AccuracyStudy`: `bench accuracy SCENE`.
+        work_precision: modules whose `WORK_PRECISION` holds `records.work_precision.WorkPrecision`, those of
+            papers on the rig included: `bench accuracy RIG`.
+        goals: modules whose `GOALS` holds `records.goal.GoalPart`: `bench goals`.
+        hard_cases: modules whose `CASES` holds `records.hard_case.HardCase`: `bench hard`.
         forecast: module whose `facts_before_run` and `sentence_before_run` report what is known
             before the run; empty: nothing.
     """
@@ -47,6 +52,10 @@ class Rig:
     road_strip: str = ""
     work: str = ""
     unused_axes: Callable[[Mapping[str, Any]], str] = lambda _effects: ""
+    accuracy: tuple[str, ...] = ()
+    work_precision: tuple[str, ...] = ()
+    goals: tuple[str, ...] = ()
+    hard_cases: tuple[str, ...] = ()
     forecast: str = ""
 
 

@@ -1,4 +1,4 @@
-"""Rows of a ladder, and the time of a call."""
+"""A work-precision study: one quantity by several methods, error beside time. Its rows, and the time of a call."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ import time
 from collections.abc import Callable
 from typing import Any, NamedTuple, TypeVar
 
-__all__ = ["COLUMNS", "Row", "Rung", "milliseconds", "relative", "row", "timed_once"]
+__all__ = ["COLUMNS", "Row", "Rung", "WorkPrecision", "milliseconds", "relative", "row", "timed_once"]
 
 Row = dict[str, Any]
 Answer = TypeVar("Answer")
@@ -29,6 +29,13 @@ class Rung(NamedTuple):
     ms: float
     grid: str | None = None
     tolerance: float | None = None
+
+
+class WorkPrecision(NamedTuple):
+    """One quantity by inexpensive and expensive methods on the same input."""
+
+    part: str
+    rows: Callable[[], list[Row]]
 
 
 def milliseconds(call: Callable[[], object]) -> float:

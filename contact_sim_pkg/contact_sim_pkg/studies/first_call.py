@@ -10,12 +10,15 @@ import time
 def main(scene_name: str) -> None:
     """Write one JSON object: seconds from the start of the imports to a block done, and of the first field solve (or null)."""
     began = time.perf_counter()
-    from contact_sim_pkg.rigs.vehicle.studies.accuracy_field import first_solve
+    from contact_sim_pkg.records.registry import rigs
     from contact_sim_pkg.rigs.vehicle.studies.scene_drive import load_resolved
     from contact_sim_pkg.run.rigs import make_simulation
+    from contact_sim_pkg.studies.cases import objects
 
     scene = load_resolved(scene_name)
-    field = first_solve(scene)
+    studies = objects(rigs()[scene.data["rig"]].accuracy, "ACCURACY")
+    first_calls = [each.first_call for each in studies if each.first_call is not None]
+    field = next((call(scene) for call in first_calls), None)
     make_simulation(scene).prepare()
     sys.stdout.write(json.dumps({"simulation": time.perf_counter() - began, "field": field}))
 

@@ -6,6 +6,7 @@ import pytest
 from matplotlib import pyplot
 
 from contact_sim_pkg.studies.accuracy import scene_plot as accuracy_cost_plot
+from contact_sim_pkg.studies.accuracy.lines import parts_of_rigs
 
 
 def row(error, milliseconds=2.0, tolerance=1e-3, part="scheme in time"):
@@ -47,7 +48,7 @@ def test_a_point_is_named_by_what_was_asked_and_by_no_grid_that_is_not_there(axe
 
 
 def test_every_part_of_a_block_s_study_has_a_panel():
-    drawn = {part for part, _contact, _title in accuracy_cost_plot.PANELS}
+    drawn = {part.part for part in parts_of_rigs()}
     assert {"scheme in time", "turning on held contacts", "friction cone", "contact model"} <= drawn
 
 

@@ -204,9 +204,9 @@ def test_a_field_that_is_not_certified_ends_the_study():
         solve(patch_problem((24, 24)), GIVEN[0], 100.0 * LOAD, 1e-6)
 
 
-def test_every_row_has_every_column_and_the_table_and_the_plot_show_each_ladder(smooth_rows, monkeypatch, tmp_path):
-    road = ladder.Ladder(ladder_road.PART, ladder_road.rows)
-    monkeypatch.setitem(ladder.RIGS, "rig", (road, ladder.Ladder(ladder_smooth.PART, lambda: smooth_rows)))
+def test_every_row_has_every_column_and_the_table_and_the_plot_show_each_study(smooth_rows, monkeypatch, tmp_path):
+    studies = (*ladder_road.WORK_PRECISION, ladder_row.WorkPrecision(ladder_smooth.PART, lambda: smooth_rows))
+    monkeypatch.setattr(ladder, "studies_of", lambda _rig: studies)
     told: list[str] = []
     rows = ladder.study("rig", told.append)
     assert told == ["rig: road", "rig: pressure field, smooth road"]

@@ -1,6 +1,6 @@
 import pytest
 
-from contact_sim_pkg.records.goal import Measured
+from contact_sim_pkg.records.goal import GoalPart, Measured
 from contact_sim_pkg.studies.goals import goals as benchmark
 from contact_sim_pkg.studies.goals import laws as benchmark_core
 from contact_sim_pkg.studies.laws import seat_slap
@@ -23,11 +23,13 @@ def test_a_figure_is_held_against_its_goal(found, goal, reached):
 
 def test_a_missed_goal_and_one_that_was_not_measured_are_shown(monkeypatch):
     parts = (
-        ("machine", lambda: [Measured(benchmark.BUSY, 0.1, "")]),
-        ("part", lambda: [Measured("slow", 3.0, "s", most=2.0, note="why"), Measured("gone", None, "s", most=2.0)]),
-        ("part", lambda: [Measured("good", 1.0, "s", most=2.0), Measured("beside", 1.0, "s")]),
+        GoalPart("machine", lambda: [Measured(benchmark.BUSY, 0.1, "")]),
+        GoalPart(
+            "part", lambda: [Measured("slow", 3.0, "s", most=2.0, note="why"), Measured("gone", None, "s", most=2.0)]
+        ),
+        GoalPart("part", lambda: [Measured("good", 1.0, "s", most=2.0), Measured("beside", 1.0, "s")]),
     )
-    monkeypatch.setattr(benchmark, "PARTS", parts)
+    monkeypatch.setattr(benchmark, "parts", lambda: parts)
     goals, beside = benchmark.sections(benchmark.study())
     assert [row["reached"] for row in goals.rows] == ["NO", "not measured", "yes"]
     assert goals.note.splitlines() == ["1 of 3 goals reached", "slow: why"]

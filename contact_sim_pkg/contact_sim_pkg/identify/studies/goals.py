@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 from contact_sim_pkg.identify.studies import hard_cases as cases
-from contact_sim_pkg.records.goal import Measured
+from contact_sim_pkg.records.goal import GoalPart, Measured
 
-__all__ = ["goals"]
+__all__ = ["GOALS", "goals"]
 
 NOTE = f"{cases.DRAWS} draws of {cases.IMPACTS} impacts, one sample before and after each, 1 mm/s and 10 mrad/s"
 
@@ -22,3 +22,6 @@ def goals() -> list[Measured]:
         Measured("m/J with noise: rms error", 100.0 * float(cases.noise().value), "%", 0.15, note=NOTE),
         Measured("the same over the reported standard deviation, less 1", abs(ratio - 1.0), "", 0.3, note=NOTE),
     ]
+
+
+GOALS = (GoalPart("identification", goals),)

@@ -16,9 +16,9 @@ from contact_sim_pkg.identify.contact.two_point import one_impact, two_point
 from contact_sim_pkg.identify.motion.rotation import Array
 from contact_sim_pkg.identify.reference.block_impacts import random_block_impacts
 from contact_sim_pkg.identify.table import ImpactTable, estimate_from_impacts, problem_of_impacts
-from contact_sim_pkg.records.work_precision import Row, Rung, milliseconds, row
+from contact_sim_pkg.records.work_precision import Row, Rung, WorkPrecision, milliseconds, row
 
-__all__ = ["PART", "rows"]
+__all__ = ["PART", "WORK_PRECISION", "rows"]
 
 PART = "identification of m/J"
 QUANTITY = "m/J"
@@ -96,3 +96,6 @@ def _first_least_squares(table: ImpactTable, _: float) -> float:
 def _stacked(table: ImpactTable, noise: float) -> float:
     spreads = (max(noise, 1e-13), max(SPIN_SHARE * noise, 1e-12))
     return float(1.0 / estimate_from_impacts(problem_of_impacts(table, SQUARE, spreads, PITCH)).parameters[0])
+
+
+WORK_PRECISION = (WorkPrecision(PART, rows),)

@@ -14,9 +14,9 @@ import numpy
 
 from contact_sim_pkg.papers.cnoidal import theta
 from contact_sim_pkg.papers.cnoidal.fit import Array, ansatz, fit_ansatz
-from contact_sim_pkg.records.work_precision import Row, Rung, milliseconds, row, timed_once
+from contact_sim_pkg.records.work_precision import Row, Rung, WorkPrecision, milliseconds, row, timed_once
 
-__all__ = ["COUPLINGS", "PART", "matrix_of", "phases_of", "rows"]
+__all__ = ["COUPLINGS", "PART", "WORK_PRECISION", "matrix_of", "phases_of", "rows"]
 
 PART = "interaction of modes"
 QUANTITY = "wave of two phases"
@@ -68,3 +68,6 @@ def _fitted(exact: Array, phases: Array) -> Array:
     """The ansatz, fitted to the answer: it needs it first."""
     pairs = phases.reshape(-1, 2).T
     return ansatz(fit_ansatz(exact.ravel(), pairs), pairs).reshape(exact.shape)
+
+
+WORK_PRECISION = (WorkPrecision(PART, rows),)

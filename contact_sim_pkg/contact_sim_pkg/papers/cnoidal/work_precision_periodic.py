@@ -25,9 +25,9 @@ from contact_sim_pkg.papers.cnoidal.periodic_contact import (
     exact_period,
     steady_response,
 )
-from contact_sim_pkg.records.work_precision import Row, Rung, milliseconds, relative, row, timed_once
+from contact_sim_pkg.records.work_precision import Row, Rung, WorkPrecision, milliseconds, relative, row, timed_once
 
-__all__ = ["ANSATZ_PART", "PART", "RELEASES", "ansatz_rows", "rows"]
+__all__ = ["ANSATZ_PART", "PART", "RELEASES", "WORK_PRECISION", "ansatz_rows", "rows"]
 
 PART = "periodic contact motion"
 ANSATZ_PART = "steady response in few functions"
@@ -111,3 +111,9 @@ def _integrated(start: float, rest: float, times: Array, tolerance: float) -> Ar
     scale = numpy.array([rest, math.sqrt(GRAVITY * rest)]) * tolerance
     states = integrate(rig, numpy.array([-rest - start, 0.0]), scale, times).states
     return numpy.asarray(states + numpy.array([rest, 0.0]))
+
+
+WORK_PRECISION = (
+    WorkPrecision(PART, rows),
+    WorkPrecision(ANSATZ_PART, ansatz_rows),
+)

@@ -14,9 +14,9 @@ from contact_sim_pkg.papers.distance.closest import minimum_distance
 from contact_sim_pkg.papers.distance.convex_body import ConvexBody, ellipsoid
 from contact_sim_pkg.papers.distance.genetic_search import genetic_distance, genetic_interference
 from contact_sim_pkg.papers.distance.interference import interference
-from contact_sim_pkg.records.work_precision import Row, Rung, milliseconds, relative, row
+from contact_sim_pkg.records.work_precision import Row, Rung, WorkPrecision, milliseconds, relative, row
 
-__all__ = ["PART", "bodies", "rows"]
+__all__ = ["PART", "WORK_PRECISION", "bodies", "rows"]
 
 Field = NDArray[numpy.float64]
 
@@ -101,3 +101,6 @@ def support_points(one: ConvexBody, other: ConvexBody) -> float:
     normal = between / numpy.linalg.norm(between)
     reach = sum(numpy.linalg.norm(body.half_axes[0] * (body.rotations[0].T @ normal)) for body in (one, other))
     return float(between @ normal - reach)
+
+
+WORK_PRECISION = (WorkPrecision(PART, rows),)

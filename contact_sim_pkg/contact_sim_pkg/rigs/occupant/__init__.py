@@ -18,5 +18,6 @@ RIGS = (
             "contact_sim_pkg.rigs.vehicle.seat.report:SEAT_REPORT",
             "contact_sim_pkg.rigs.backrest.report:BACKREST_REPORT",
         ),
+        accuracy=(f"{__name__}.accuracy",),
     ),
 )

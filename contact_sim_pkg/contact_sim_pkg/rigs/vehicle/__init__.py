@@ -24,6 +24,7 @@ SEAT = Contact(
     rules=(f"{__name__}.seat.schema_rules:occupant_breaches",),
 )
 _SIMULATION = f"{__name__}.simulation:Simulation"
+_ACCURACY = (f"{__name__}.studies.accuracy",)
 _TIRE_REPORT, _SEAT_REPORT = f"{__name__}.tire.report:TIRE_REPORT", f"{__name__}.seat.report:SEAT_REPORT"
 _ROAD_STRIP = f"{__name__}.lattice:tire_lattice"
 
@@ -38,6 +39,12 @@ RIGS = (
         work=f"{__name__}.work:work_of_tire",
         report=(_TIRE_REPORT,),
         road_strip=_ROAD_STRIP,
+        accuracy=_ACCURACY,
+        work_precision=tuple(
+            f"{__name__}.studies.work_precision_{name}"
+            for name in ("elliptic", "force", "smooth", "rough", "area", "exponent", "road")
+        ),
+        hard_cases=(f"{__name__}.studies.hard_cases_tire", f"{__name__}.studies.hard_cases_scenes"),
     ),
     Rig(
         name="seat",
@@ -48,6 +55,14 @@ RIGS = (
         work=f"{__name__}.work:work_of_seat",
         report=(_SEAT_REPORT,),
         unused_axes=lambda effects: "x" if effects["seat"].get("friction") is None else "",
+        accuracy=_ACCURACY,
+        work_precision=(
+            "contact_sim_pkg.studies.laws.work_precision_restitution",
+            "contact_sim_pkg.papers.cnoidal.work_precision_periodic",
+            "contact_sim_pkg.papers.cnoidal.work_precision_modes",
+            "contact_sim_pkg.rigs.backrest.studies.work_precision_shell",
+            "contact_sim_pkg.papers.distance.work_precision",
+        ),
     ),
     Rig(
         name="car",
@@ -59,5 +74,7 @@ RIGS = (
         work=f"{__name__}.work:work_of_car",
         report=(_TIRE_REPORT, _SEAT_REPORT),
         road_strip=_ROAD_STRIP,
+        accuracy=_ACCURACY,
+        goals=(f"{__name__}.studies.goals",),
     ),
 )

@@ -7,54 +7,26 @@ import sys
 from pathlib import Path
 from typing import Any
 
-import matplotlib
+from matplotlib import ticker
 
-matplotlib.use("Agg")
-from matplotlib import pyplot, ticker
-
-from contact_sim_pkg.report.drawing import save_picture
-from contact_sim_pkg.rigs.roller.studies.accuracy import PARTS as ROLLER_PARTS
+from contact_sim_pkg.records.accuracy import CHECK
+from contact_sim_pkg.studies.accuracy.lines import parts_of_rigs
+from contact_sim_pkg.studies.accuracy.panels import write_panels
 
 __all__ = ["write_plot"]
 
-PANELS = (  # part and contact -> title
-    ("integrator", "", "time integration, point contacts"),
-    ("coupling", "", "coupling of bodies and fields, whole scene"),
-    ("modes", "", "modes of the shell, tolerance of the scene"),
-    ("first impact", "", "first impact of the scene"),
-    ("scheme in time", "", "rigid contact, scheme in time"),
-    ("turning on held contacts", "", "body that turns on held contacts"),
-    ("friction cone", "", "rigid contact, friction cone"),
-    ("contact model", "", "compliant against rigid contact"),
-    *((part, "", part) for part in ROLLER_PARTS),
-    ("field", "tire", "tire field"),
-    ("field", "seat", "seat field"),
-)
 SPAN = 10.0  # the time axis shows at least this ratio, so that noise does not look like a trend
 
 
 def write_plot(rows: list[dict[str, Any]], path: str | Path, *, overwrite: bool = False) -> Path:
-    """Draw the rows of `accuracy_cost.study`, one panel a part that is there; the ending of `path` names the format."""
-    chosen = [(title, _of_panel(rows, part, contact)) for part, contact, title in PANELS]
-    panels = [(title, members) for title, members in chosen if members]
-    columns = max(1, min(2, len(panels)))
-    lines = max(1, -(-len(panels) // columns))
-    figure, axes = pyplot.subplots(
-        lines, columns, figsize=(6.2 * columns, 5.2 * lines), squeeze=False, layout="constrained"
-    )
-    for axis in axes.flat[len(panels) :]:
-        axis.set_visible(False)
-    for axis, (title, members) in zip(axes.flat, panels, strict=False):
-        _panel(axis, members)
-        axis.set_title(title)
-    try:
-        return save_picture(figure, path, overwrite=overwrite, dpi=120)
-    finally:
-        pyplot.close(figure)
-
-
-def _of_panel(rows: list[dict[str, Any]], part: str, contact: str) -> list[dict[str, Any]]:
-    return [row for row in rows if row["part"].startswith(part) and row["quantity"].startswith(contact)]
+    """Draw the rows of `scene_study.study`, one panel a part that is there; the ending of `path` names the format."""
+    panels: dict[str, list[dict[str, Any]]] = {}
+    for title in dict.fromkeys(part.panel for part in parts_of_rigs()):
+        of_panel = [part for part in parts_of_rigs() if part.panel == title]
+        members = [row for row in rows if any(part.holds(row) for part in of_panel)]
+        if members:
+            panels[title] = members
+    return write_panels(panels, _panel, path, columns=2, size=(6.2, 5.2), dpi=120, overwrite=overwrite)
 
 
 def _drawable(rows: list[dict[str, Any]]) -> tuple[list[dict[str, Any]], str]:
@@ -82,7 +54,7 @@ def _panel(axis: Any, rows: list[dict[str, Any]]) -> None:
     for label in dict.fromkeys(_series(row) for row in rows):
         chosen = sorted((row for row in rows if _series(row) == label), key=_finer)
         first = next(row for row in rows if _series(row) == label)
-        style = "--s" if first["part"] == "field grid" else ":^" if first["rung"] == "check" else "-o"
+        style = "--s" if first["part"] == "field grid" else ":^" if first["rung"] == CHECK else "-o"
         colour = f"C{names.index(first['quantity'])}"
         name: str | None = label
         for exact, line in ((False, style), (True, style[-1])):  # no line leads to an error of 0
@@ -115,10 +87,10 @@ def _finer(row: dict[str, Any]) -> float:
 
 def _name_points(axis: Any, rows: list[dict[str, Any]]) -> None:
     """Say what was asked at the points of the first line of each part: tolerance or rung."""
-    for part in dict.fromkeys((row["part"], row["rung"] == "check") for row in rows):
+    for part in dict.fromkeys((row["part"], row["rung"] == CHECK) for row in rows):
         if part[0] == "field grid":
             continue  # the same rungs as those of the solver
-        members = [row for row in rows if (row["part"], row["rung"] == "check") == part]
+        members = [row for row in rows if (row["part"], row["rung"] == CHECK) == part]
         line: dict[str, dict[str, Any]] = {}
         for row in sorted(members, key=lambda row: row["error"]):
             line[_asked(row)] = row  # the highest point of each
@@ -133,7 +105,8 @@ def _name_points(axis: Any, rows: list[dict[str, Any]]) -> None:
 
 
 def _asked(row: dict[str, Any]) -> str:
-    if row["part"] in ("integrator", "coupling", "turning on held contacts") or row["rung"] == "check":
+    by_tolerance = {part.part for part in parts_of_rigs() if not (part.level or part.contact)}
+    if row["part"] in by_tolerance or row["rung"] == CHECK:
         return f"{row['tolerance']:.0e}"
     return f"{row['rung']} {row['grid'] or ''}".strip()
 
@@ -141,6 +114,6 @@ def _asked(row: dict[str, Any]) -> str:
 def _series(row: dict[str, Any]) -> str:
     """Rows of one line: the same quantity, and for fields the same kind of error."""
     kind = {"field grid": ", grid", "field solver": ", solver"}.get(row["part"], "")
-    if row["rung"] == "check":
+    if row["rung"] == CHECK:
         kind = f" on {row['grid']}, against NNLS"
     return f"{row['quantity']}{kind}"

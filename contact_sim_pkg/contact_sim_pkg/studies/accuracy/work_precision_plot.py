@@ -1,22 +1,18 @@
-"""Error over time of a rig's ladders: one panel a ladder, both axes logarithmic."""
+"""Error over time of a rig's work-precision studies: one panel a study, both axes logarithmic."""
 
 from __future__ import annotations
 
 from pathlib import Path
 from typing import Any
 
-import matplotlib
-
-matplotlib.use("Agg")
-from matplotlib import pyplot, ticker
+from matplotlib import ticker
 
 from contact_sim_pkg.records.work_precision import Row
-from contact_sim_pkg.report.drawing import save_picture
+from contact_sim_pkg.studies.accuracy.panels import write_panels
 from contact_sim_pkg.studies.accuracy.work_precision_table import ROUNDING
 
 __all__ = ["write_plot"]
 
-COLUMNS = 3
 FLOOR = 1e-9
 """Errors below are drawn here: what is exact must not squeeze the rest."""
 
@@ -25,21 +21,9 @@ STYLES = ("-", "--", ":", "-.", (0, (5, 1, 1, 1, 1, 1)))
 
 
 def write_plot(rows: list[Row], path: str | Path, *, overwrite: bool = False) -> Path:
-    """Draw the rows of `ladder.study`; the ending of `path` names the format."""
-    parts = list(dict.fromkeys(row["part"] for row in rows))
-    lines = -(-len(parts) // COLUMNS)
-    figure, axes = pyplot.subplots(
-        lines, COLUMNS, figsize=(6.2 * COLUMNS, 6.0 * lines), squeeze=False, layout="constrained"
-    )
-    for axis in axes.flat[len(parts) :]:
-        axis.set_visible(False)
-    for axis, part in zip(axes.flat, parts, strict=False):
-        _panel(axis, [row for row in rows if row["part"] == part])
-        axis.set_title(part)
-    try:
-        return save_picture(figure, path, overwrite=overwrite, dpi=80)
-    finally:
-        pyplot.close(figure)
+    """Draw the rows of `work_precision.study`; the ending of `path` names the format."""
+    panels = {part: [row for row in rows if row["part"] == part] for part in _distinct(row["part"] for row in rows)}
+    return write_panels(panels, _panel, path, columns=3, size=(6.2, 6.0), dpi=80, overwrite=overwrite)
 
 
 def _panel(axis: Any, rows: list[Row]) -> None:

@@ -10,16 +10,11 @@ import os
 from collections.abc import Callable
 from typing import Any
 
-from contact_sim_pkg.identify.studies import goals as benchmark_identification
-from contact_sim_pkg.records.goal import Measured
+from contact_sim_pkg.records.goal import GoalPart, Measured
 from contact_sim_pkg.records.table import Section
-from contact_sim_pkg.rigs.body.studies import goals as benchmark_rigid
-from contact_sim_pkg.rigs.impact.studies import goals as benchmark_impact
-from contact_sim_pkg.rigs.roller.studies import goals as benchmark_roller
-from contact_sim_pkg.studies.goals import laws as benchmark_core
-from contact_sim_pkg.studies.goals import runs as benchmark_runs
+from contact_sim_pkg.studies import cases
 
-__all__ = ["sections", "study"]
+__all__ = ["parts", "sections", "study"]
 
 BUSY, QUIET = "load average of the machine at the start", 0.7
 
@@ -28,22 +23,10 @@ def _machine() -> list[Measured]:
     return [Measured(BUSY, os.getloadavg()[0], "")]
 
 
-PARTS: tuple[tuple[str, Callable[[], list[Measured]]], ...] = (
-    ("machine", _machine),
-    ("full bench on nodes", benchmark_runs.on_nodes),
-    ("full bench without nodes", benchmark_runs.offline),
-    ("seat slap", benchmark_core.seat_slap),
-    ("impacts", benchmark_core.impacts),
-    ("steel ball", benchmark_core.steel),
-    ("sphere impact", benchmark_impact.goals),
-    ("stick-slip", benchmark_core.stick_slip),
-    ("absent effect", benchmark_core.absent_effect),
-    ("rigid contact", benchmark_rigid.goals),
-    ("identification", benchmark_identification.goals),
-    ("roller", benchmark_roller.goals),
-    ("rigs with point contacts", benchmark_runs.rigs),
-    ("tire field", benchmark_runs.fields),
-)
+def parts() -> list[GoalPart]:
+    """The machine, the parts of no rig, and those of the rigs."""
+    modules = (*cases.GOALS, *cases.modules_of_rigs("goals"))
+    return [GoalPart("machine", _machine), *cases.objects(modules, "GOALS")]
 
 
 def study(progress: Callable[[str], None] | None = None) -> list[dict[str, Any]]:
@@ -52,7 +35,7 @@ def study(progress: Callable[[str], None] | None = None) -> list[dict[str, Any]]
     Takes one to two minutes.
     """
     rows = []
-    for part, measure in PARTS:
+    for part, measure in parts():
         if progress is not None:
             progress(part)
         for found in measure():

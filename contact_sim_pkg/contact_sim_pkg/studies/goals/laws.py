@@ -14,7 +14,7 @@ from contact_sim_pkg.laws.one_mass import runs as one_mass
 from contact_sim_pkg.laws.one_mass.parameters import PointContact
 from contact_sim_pkg.laws.one_mass.point_contact import MARGINS, STATES
 from contact_sim_pkg.laws.one_mass.single import empty_mode, run
-from contact_sim_pkg.records.goal import Measured, median_time
+from contact_sim_pkg.records.goal import GoalPart, Measured, median_time
 from contact_sim_pkg.reference import impact
 from contact_sim_pkg.reference.belt_slider import period_of_rigid_law
 from contact_sim_pkg.studies.effects.effect_cost import absent_effect_cost
@@ -22,7 +22,7 @@ from contact_sim_pkg.studies.laws import hard_cases_friction
 from contact_sim_pkg.studies.laws import hard_cases_impact as impacts_of
 from contact_sim_pkg.studies.laws import seat_slap as work_of
 
-__all__ = ["absent_effect", "impacts", "seat_slap", "steel", "stick_slip"]
+__all__ = ["GOALS", "absent_effect", "impacts", "seat_slap", "steel", "stick_slip"]
 
 SLAP_ERROR = 1e-8  # [m]
 SLAP_TOLERANCES = tuple(10.0**-power for power in range(4, 12))
@@ -145,3 +145,12 @@ def absent_effect() -> list[Measured]:
         Measured("a step with the loss absent", absent, "ns"),
         Measured("a step of the rig by hand", by_hand, "ns"),
     ]
+
+
+GOALS = (
+    GoalPart("seat slap", seat_slap),
+    GoalPart("impacts", impacts),
+    GoalPart("steel ball", steel),
+    GoalPart("stick-slip", stick_slip),
+    GoalPart("absent effect", absent_effect),
+)

@@ -1,4 +1,4 @@
-"""Goals of whole runs: start-up and real-time factor of the full bench on nodes and without, rigs, and pressure fields."""
+"""Goals of whole runs: start-up and real-time factor of the full bench on nodes and without."""
 
 from __future__ import annotations
 
@@ -7,16 +7,14 @@ import statistics
 import subprocess
 import sys
 import tempfile
-from functools import partial
 from pathlib import Path
 from typing import Any
 
-from contact_sim_pkg.records.goal import Measured, median_time
-from contact_sim_pkg.rigs.vehicle.studies.accuracy_field import bench_solves
-from contact_sim_pkg.rigs.vehicle.studies.scene_drive import drive_of, fast_run, load_resolved
+from contact_sim_pkg.records.goal import GoalPart, Measured
+from contact_sim_pkg.rigs.vehicle.studies.scene_drive import load_resolved
 from contact_sim_pkg.run.offline import run_offline
 
-__all__ = ["fields", "offline", "on_nodes", "rigs"]
+__all__ = ["GOALS", "offline", "on_nodes"]
 
 SCENE = "car_full_bench"
 RUNS = 3  # after one that compiles and is not counted
@@ -55,27 +53,4 @@ def offline() -> list[Measured]:
     return [Measured(f"{SCENE} without nodes and bag", simulated / outcome.wall, "× real time")]
 
 
-def rigs() -> list[Measured]:
-    """The rigs of three scenes with point contacts."""
-    found = []
-    for name in ("seat_ride", "tire_bump", SCENE):
-        drive = drive_of(load_resolved(name), 2.0)
-        simulated = (len(drive.height) - 1) * drive.segment
-        seconds = median_time(partial(fast_run, drive, drive.model.scale))
-        found.append(Measured(f"rig of {name}, point contacts", simulated / seconds, "× real time"))
-    return found
-
-
-def fields() -> list[Measured]:
-    """Solves of the tire's field on a rough road, from nothing and from the field 10 ms before."""
-    scene = load_resolved("tire_rough_road")
-    found = []
-    for cells in ((48, 64), (96, 128)):
-        for tolerance in (1e-2, 1e-3):
-            cold, warm, error = bench_solves(scene, cells, tolerance)
-            name, note = f"tire field {cells[0]}x{cells[1]}, tolerance {tolerance:g}", f"error {error:.1e} (L2)"
-            found += [
-                Measured(f"{name}, cold", cold, "ms", note=note),
-                Measured(f"{name}, warm", warm, "ms", note=note),
-            ]
-    return found
+GOALS = (GoalPart("full bench on nodes", on_nodes), GoalPart("full bench without nodes", offline))

@@ -13,6 +13,7 @@ from typing import Any
 
 from contact_sim_pkg.records.hard_case import Finding, HardCase
 from contact_sim_pkg.records.table import Section
+from contact_sim_pkg.studies import cases
 
 __all__ = [
     "all_cases",
@@ -27,37 +28,8 @@ PASSED, FAILED = "pass", "fail"
 
 
 def all_cases() -> list[HardCase]:
-    """Every case, by model."""
-    from contact_sim_pkg.identify.studies import hard_cases as hard_cases_identification
-    from contact_sim_pkg.papers.cnoidal import hard_cases as hard_cases_cnoidal
-    from contact_sim_pkg.papers.distance import hard_cases as hard_cases_closest
-    from contact_sim_pkg.rigs.backrest.studies import hard_cases as hard_cases_backrest
-    from contact_sim_pkg.rigs.backrest.studies import hard_cases_shell
-    from contact_sim_pkg.rigs.backrest.studies import hard_cases_surface as hard_cases_back_surface
-    from contact_sim_pkg.rigs.body.studies import hard_cases as hard_cases_block
-    from contact_sim_pkg.rigs.body.studies import hard_cases_contact as hard_cases_rigid
-    from contact_sim_pkg.rigs.body.studies import hard_cases_motion
-    from contact_sim_pkg.rigs.impact.studies import hard_cases as hard_cases_impact_rig
-    from contact_sim_pkg.rigs.impact.studies import hard_cases_sphere
-    from contact_sim_pkg.rigs.roller.studies import hard_cases as hard_cases_roller
-    from contact_sim_pkg.rigs.vehicle.studies import hard_cases_scenes, hard_cases_tire
-    from contact_sim_pkg.studies.field import hard_cases_entries, hard_cases_field, hard_cases_geometry
-    from contact_sim_pkg.studies.laws import (
-        hard_cases_foam,
-        hard_cases_friction,
-        hard_cases_general_law,
-        hard_cases_impact,
-        hard_cases_law,
-    )
-
-    modules = (
-        hard_cases_law, hard_cases_general_law, hard_cases_impact, hard_cases_sphere, hard_cases_friction, hard_cases_geometry,
-        hard_cases_field, hard_cases_entries, hard_cases_shell, hard_cases_closest, hard_cases_cnoidal, hard_cases_foam,
-        hard_cases_tire, hard_cases_scenes, hard_cases_identification,
-        hard_cases_rigid, hard_cases_motion, hard_cases_block, hard_cases_backrest,
-        hard_cases_back_surface, hard_cases_impact_rig, hard_cases_roller,
-    )  # fmt: skip
-    return [case for module in modules for case in module.CASES]
+    """Every case: those of no rig, then those of the rigs."""
+    return cases.objects((*cases.HARD_CASES, *cases.modules_of_rigs("hard_cases")), "CASES")
 
 
 def evaluate(case: HardCase) -> dict[str, Any]:

@@ -17,11 +17,11 @@ from contact_sim_pkg.laws.one_mass.runs import integrate
 from contact_sim_pkg.laws.parameters import GeneralDissipative, NormalElastic, NormalLoss
 from contact_sim_pkg.laws.restitution import damping_of_restitution
 from contact_sim_pkg.laws.restitution_law import NEVER_PULLS, PULLS, kelvin_voigt_ratio, severity_of_restitution
-from contact_sim_pkg.records.work_precision import Row, Rung, milliseconds, relative, row
+from contact_sim_pkg.records.work_precision import Row, Rung, WorkPrecision, milliseconds, relative, row
 from contact_sim_pkg.reference import impact
 from contact_sim_pkg.studies.laws.restitution_formulas import FORMULAS
 
-__all__ = ["ASKED", "PART", "delivered", "rows"]
+__all__ = ["ASKED", "PART", "WORK_PRECISION", "delivered", "rows"]
 
 PART = "restitution from B"
 ASKED = (0.05, 0.1, 0.3, 0.5, 0.7, 0.8, 0.9, 0.95, 0.98)
@@ -101,3 +101,6 @@ def _sphere() -> Ways:
         ),
         "root search of e(Z)": exact,
     }
+
+
+WORK_PRECISION = (WorkPrecision(PART, rows),)

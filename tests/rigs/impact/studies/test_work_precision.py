@@ -80,7 +80,7 @@ def test_the_front_s_formulas_come_nearer_for_slow_impacts():
 
 
 def test_the_rig_is_one_of_the_ladders():
-    assert [entry.part for entry in ladder.RIGS["impact"]] == [
+    assert [entry.part for entry in ladder.studies_of("impact")] == [
         ladder_impact.PART,
         ladder_impact_material.PART,
         ladder_impact_material.FRONT_PART,

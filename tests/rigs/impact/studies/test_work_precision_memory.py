@@ -41,5 +41,5 @@ def test_harmonic_balance_converges_and_the_linear_answer_fails_with_the_square_
 
 
 def test_both_ladders_stand_under_impact():
-    parts = {each.part for each in ladder.RIGS["impact"]}
+    parts = {each.part for each in ladder.studies_of("impact")}
     assert {"viscoelastic history", "complex response"} <= parts

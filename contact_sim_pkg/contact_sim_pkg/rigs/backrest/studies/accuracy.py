@@ -14,12 +14,13 @@ from typing import Any
 
 import numpy
 
+from contact_sim_pkg.records.accuracy import INTEGRATOR, AccuracyPart, AccuracyStudy
 from contact_sim_pkg.rigs.backrest.schema_rules import MOST_SEARCHED
 from contact_sim_pkg.rigs.backrest.shell import MODE_COUNTS
 from contact_sim_pkg.rigs.backrest.studies.drive import BackrestDrive, Motion, drive_of, fast_run, slow_run
 from contact_sim_pkg.scene.resolved_scene import ResolvedScene
 
-__all__ = ["mode_rows", "tolerance_rows"]
+__all__ = ["ACCURACY", "mode_rows", "tolerance_rows"]
 
 DURATION, SHELL_DURATION = 2.0, 0.5  # [s] of the scene
 TOLERANCES = tuple(10.0**-power for power in range(3, 12))
@@ -127,3 +128,8 @@ def _largest(found: Any, exact: Any) -> float:
 
 def _row(head: Row, quantity: str, error: float, reference: str) -> Row:
     return {"quantity": quantity, "error": error, "reference": reference, **head}
+
+
+_MODES = AccuracyPart("modes", "modes of the shell: error", "modes of the shell, tolerance of the scene", "modes")
+
+ACCURACY = (AccuracyStudy(tolerance_rows, (INTEGRATOR,)), AccuracyStudy(mode_rows, (_MODES,)))

@@ -8,11 +8,11 @@ from collections.abc import Callable
 import numpy
 from numpy.typing import NDArray
 
-from contact_sim_pkg.records.work_precision import Row, Rung, milliseconds, relative, row
+from contact_sim_pkg.records.work_precision import Row, Rung, WorkPrecision, milliseconds, relative, row
 from contact_sim_pkg.rigs.backrest.reference_shell import plate_centre_deflection
 from contact_sim_pkg.rigs.backrest.shell import MODE_COUNTS, ShallowShell, shell_modes, static_deflection
 
-__all__ = ["PART", "rows"]
+__all__ = ["PART", "WORK_PRECISION", "rows"]
 
 Field = NDArray[numpy.float64]
 
@@ -57,3 +57,6 @@ def steady_amplitude(shell: ShallowShell, count: int, frequency: float = 5.25) -
     omega = 2.0 * math.pi * frequency
     stiffness = modes.modal_mass * (modes.frequencies**2 - omega**2 + 2j * DAMPING * modes.frequencies * omega)
     return float(abs((modes.shapes[0] * at_force.shapes[0] * LOAD[0] / stiffness).sum()))
+
+
+WORK_PRECISION = (WorkPrecision(PART, rows),)

@@ -18,6 +18,7 @@ import numpy
 
 from contact_sim_pkg.compiled.arrays import Vector
 from contact_sim_pkg.laws.parameters import NormalElastic
+from contact_sim_pkg.records.accuracy import AccuracyPart, AccuracyStudy
 from contact_sim_pkg.records.work_precision import milliseconds
 from contact_sim_pkg.rigid.body import Motion
 from contact_sim_pkg.rigid.motion.compliant import compliant_contact
@@ -28,7 +29,7 @@ from contact_sim_pkg.rigs.body.studies.tipping_body import REFERENCE, tip, tip_e
 from contact_sim_pkg.run.errors import RunError
 from contact_sim_pkg.scene.resolved_scene import ResolvedScene
 
-__all__ = [
+__all__ = ["ACCURACY",
     "COMPLIANT_PART", "CONE_PART", "SCHEME_PART", "TURN_PART", "contact_rows", "facet_rows", "scheme_rows", "turn_rows",
 ]  # fmt: skip
 
@@ -164,3 +165,23 @@ def _angle(turn: Vector) -> float:
     sine = float(numpy.linalg.norm(turn - turn.T)) / (8.0**0.5)
     cosine = (float(numpy.trace(turn)) - (1.0 if len(turn) == 3 else 0.0)) / 2.0
     return float(numpy.arctan2(sine, cosine))
+
+
+ACCURACY = tuple(
+    AccuracyStudy(rows, (AccuracyPart(part, heading, panel, level),))
+    for rows, part, heading, panel, level in (
+        (
+            scheme_rows, SCHEME_PART, "scheme in time: distance over the body's size, turn in rad",
+            "rigid contact, scheme in time", "scheme",
+        ),
+        (
+            turn_rows, TURN_PART, "body that turns on held contacts: distance over that from the corner",
+            "body that turns on held contacts", "",
+        ),
+        (facet_rows, CONE_PART, "friction cone: the same", "rigid contact, friction cone", "cone"),
+        (
+            contact_rows, COMPLIANT_PART, "contact model: difference of the two, the same", "compliant against rigid contact",
+            "contact",
+        ),
+    )
+)  # fmt: skip

@@ -8,7 +8,7 @@ import numpy
 
 from contact_sim_pkg.compiled.arrays import Vector
 from contact_sim_pkg.compiled.jit import entry
-from contact_sim_pkg.records.goal import Measured, median_time
+from contact_sim_pkg.records.goal import GoalPart, Measured, median_time
 from contact_sim_pkg.rigid.geometry.face import face_impulses, make_face_workspace
 from contact_sim_pkg.rigid.impact.planar_impact import impact_impulse
 from contact_sim_pkg.rigid.impact.planar_pair import PairWorkspace, make_pair_workspace, pair_impulses
@@ -20,7 +20,7 @@ from contact_sim_pkg.rigs.body.studies import rigid_motion
 from contact_sim_pkg.rigs.body.studies.hard_cases_contact import redundant_residual
 from contact_sim_pkg.rigs.body.studies.rigid_problem import SIDE, contact_rows, random_face
 
-__all__ = ["goals"]
+__all__ = ["GOALS", "goals"]
 
 IMPACTS, SOLVES = 100_000, 100_000
 
@@ -154,3 +154,6 @@ def goals() -> list[Measured]:
         Measured("creep on a slope of 15°", rigid_motion.creep(), "m/s", 1e-15),
         Measured("1000 elastic bounces: energy", rigid_motion.elastic_drift(), "", 1e-12),
     ]
+
+
+GOALS = (GoalPart("rigid contact", goals),)

@@ -13,7 +13,7 @@ from collections.abc import Callable
 import numpy
 
 from contact_sim_pkg.compiled.arrays import Vector
-from contact_sim_pkg.records.work_precision import Row, Rung, milliseconds, row
+from contact_sim_pkg.records.work_precision import Row, Rung, WorkPrecision, milliseconds, row
 from contact_sim_pkg.reference.rigid_contact import planar_velocity_by_enumeration
 from contact_sim_pkg.rigid.body import box, regular_block
 from contact_sim_pkg.rigid.contact.solver import GAUSS_SEIDEL, LEMKE, MODES, NEWTON
@@ -29,7 +29,15 @@ from contact_sim_pkg.rigs.body.studies.rigid_problem import (
 )
 
 __all__ = [
-    "CONE_PART", "SOLVER_PART", "STEP_PART", "TURN_PART", "cone_rows", "solver_rows", "step_rows", "turn_rows",
+    "CONE_PART",
+    "SOLVER_PART",
+    "STEP_PART",
+    "TURN_PART",
+    "WORK_PRECISION",
+    "cone_rows",
+    "solver_rows",
+    "step_rows",
+    "turn_rows",
 ]  # fmt: skip
 
 SOLVER_PART = "post-impact velocity: solver"
@@ -127,3 +135,11 @@ def _by_tolerance(
         rung = Rung(f"located, {tolerance:g}", milliseconds(lambda at=tolerance: run(at)), tolerance=tolerance)  # type: ignore[misc]
         found.append(row(TURN_PART, name, "position", rung, reference, error_of(tolerance)))
     return found
+
+
+WORK_PRECISION = (
+    WorkPrecision(SOLVER_PART, solver_rows),
+    WorkPrecision(CONE_PART, cone_rows),
+    WorkPrecision(STEP_PART, step_rows),
+    WorkPrecision(TURN_PART, turn_rows),
+)

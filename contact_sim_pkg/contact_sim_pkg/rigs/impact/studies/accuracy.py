@@ -14,6 +14,7 @@ from typing import Any
 
 import numpy
 
+from contact_sim_pkg.records.accuracy import AccuracyPart, AccuracyStudy
 from contact_sim_pkg.rigs.impact.model import ImpactModel, Touch, build_impact
 from contact_sim_pkg.rigs.impact.motion import ImpactMotion
 from contact_sim_pkg.rigs.impact.reference.weighted_impact import impact_under_weight
@@ -30,7 +31,7 @@ from contact_sim_pkg.rigs.impact.theory.motion import solve_impact
 from contact_sim_pkg.rigs.impact.theory.table import look_up
 from contact_sim_pkg.scene.resolved_scene import ResolvedScene
 
-__all__ = ["way_rows"]
+__all__ = ["ACCURACY", "way_rows"]
 
 QUANTITIES = ("restitution", "contact time", "depth", "peak force")
 TWIN = "scipy DOP853 under weight, no shared code"
@@ -128,3 +129,8 @@ def _milliseconds(way: Callable[[], Answer]) -> float:
         way()
         times.append(time.thread_time() - began)
     return 1e3 * float(numpy.median(times))
+
+
+_IMPACT = AccuracyPart("first impact", "first impact of the scene: error", "first impact of the scene", "way")
+
+ACCURACY = (AccuracyStudy(way_rows, (_IMPACT,)),)

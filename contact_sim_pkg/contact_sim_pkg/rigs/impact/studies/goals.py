@@ -6,7 +6,7 @@ import statistics
 
 import numpy
 
-from contact_sim_pkg.records.goal import Measured, median_time
+from contact_sim_pkg.records.goal import GoalPart, Measured, median_time
 from contact_sim_pkg.rigs.impact.material.estimate import Estimate, repeated_impacts
 from contact_sim_pkg.rigs.impact.material.options import Options
 from contact_sim_pkg.rigs.impact.material.reading import Impacts
@@ -16,7 +16,7 @@ from contact_sim_pkg.rigs.impact.theory.inverse import material_of_impact
 from contact_sim_pkg.rigs.impact.theory.motion import solve_impact
 from contact_sim_pkg.rigs.impact.theory.table import look_up
 
-__all__ = ["goals"]
+__all__ = ["GOALS", "goals"]
 
 RUNS, REPEATS, NOISE = 40, 100, 0.01
 TANGENT = 0.2
@@ -102,3 +102,6 @@ def _times() -> list[Measured]:
         Measured(f"sphere impact, {name}", 1e6 * statistics.median(median_time(way, CALLS) for _ in range(3)), "µs")
         for name, way in ways.items()
     ]
+
+
+GOALS = (GoalPart("sphere impact", goals),)

@@ -10,7 +10,7 @@ from __future__ import annotations
 import functools
 from collections.abc import Callable
 
-from contact_sim_pkg.records.work_precision import Row, Rung, milliseconds, relative, row
+from contact_sim_pkg.records.work_precision import Row, Rung, WorkPrecision, milliseconds, relative, row
 from contact_sim_pkg.rigs.impact.reference import goloshchapov
 from contact_sim_pkg.rigs.impact.theory.bodies import Material, Sphere
 from contact_sim_pkg.rigs.impact.theory.closed_form.force import elastic_coefficient, elastic_force
@@ -25,7 +25,7 @@ from contact_sim_pkg.rigs.impact.theory.geometry import SMALL_SHAPE_FACTOR
 from contact_sim_pkg.rigs.impact.theory.motion import solve_impact
 from contact_sim_pkg.rigs.impact.theory.table import look_up
 
-__all__ = ["LOSS_TANGENTS", "PART", "QUANTITIES", "reference", "rows"]
+__all__ = ["LOSS_TANGENTS", "PART", "QUANTITIES", "WORK_PRECISION", "reference", "rows"]
 
 PART = "impact of a sphere"
 REFERENCE = "the equation of motion with its own frequency, by scipy's DOP853 at 1e-13"
@@ -101,3 +101,6 @@ def _table(loss_tangent: float, end: str) -> Answer:
 def _integrated(loss_tangent: float, end: str) -> Answer:
     found = solve_impact(SPHERE, Material(MODULUS, loss_tangent), SPEED, end)
     return found.restitution, found.duration, found.depth, found.peak_force
+
+
+WORK_PRECISION = (WorkPrecision(PART, rows),)

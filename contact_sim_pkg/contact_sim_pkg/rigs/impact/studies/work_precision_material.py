@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import functools
 
-from contact_sim_pkg.records.work_precision import Row, Rung, milliseconds, relative, row
+from contact_sim_pkg.records.work_precision import Row, Rung, WorkPrecision, milliseconds, relative, row
 from contact_sim_pkg.rigs.impact.reference import goloshchapov
 from contact_sim_pkg.rigs.impact.studies.work_precision import MODULUS, SPEED, SPHERE, reference
 from contact_sim_pkg.rigs.impact.theory.bodies import Material
@@ -13,7 +13,7 @@ from contact_sim_pkg.rigs.impact.theory.errors import ImpactError
 from contact_sim_pkg.rigs.impact.theory.inverse import FORMS, material_of_impact
 from contact_sim_pkg.rigs.impact.theory.motion import Impact, solve_impact
 
-__all__ = ["FRONT_PART", "PART", "front_rows", "rows"]
+__all__ = ["FRONT_PART", "PART", "WORK_PRECISION", "front_rows", "rows"]
 
 PART = "material from an impact"
 REFERENCE = "the material of the impact, which scipy's DOP853 integrated"
@@ -84,3 +84,9 @@ def _sine(impact: Impact) -> float:
 
 def _integrated(impact: Impact) -> float:
     return micro_front.front_time(impact, SHEAR_SPEED).time
+
+
+WORK_PRECISION = (
+    WorkPrecision(PART, rows),
+    WorkPrecision(FRONT_PART, front_rows),
+)

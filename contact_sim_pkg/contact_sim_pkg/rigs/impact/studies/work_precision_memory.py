@@ -17,7 +17,7 @@ import numpy
 from scipy.optimize import root
 
 from contact_sim_pkg.compiled.arrays import Vector
-from contact_sim_pkg.records.work_precision import Row, Rung, milliseconds, relative, row, timed_once
+from contact_sim_pkg.records.work_precision import Row, Rung, WorkPrecision, milliseconds, relative, row, timed_once
 from contact_sim_pkg.rigs.impact.reference import hereditary, shaken_contact
 from contact_sim_pkg.rigs.impact.studies.work_precision import MODULUS, SPEED, SPHERE
 from contact_sim_pkg.rigs.impact.theory.bodies import Material
@@ -25,7 +25,7 @@ from contact_sim_pkg.rigs.impact.theory.motion import course, solve_impact
 from contact_sim_pkg.rigs.impact.theory.viscoelastic import creep
 from contact_sim_pkg.rigs.impact.theory.viscoelastic.hereditary import hereditary_integral
 
-__all__ = ["HISTORY_PART", "RESPONSE_PART", "history_rows", "response_rows"]
+__all__ = ["HISTORY_PART", "RESPONSE_PART", "WORK_PRECISION", "history_rows", "response_rows"]
 
 HISTORY_PART = "viscoelastic history"
 HISTORY_REFERENCE = "hereditary integral by Gauss quadrature, 400 samples"
@@ -169,3 +169,9 @@ def _balanced(part: float, harmonics: int) -> Vector:
     guess[0] = 1.0
     depth: Vector = depth_of(root(residual, guess, tol=1e-12).x)[0]
     return depth
+
+
+WORK_PRECISION = (
+    WorkPrecision(HISTORY_PART, history_rows),
+    WorkPrecision(RESPONSE_PART, response_rows),
+)

@@ -15,6 +15,7 @@ import numpy
 from scipy.integrate import solve_ivp
 
 from contact_sim_pkg.compiled.arrays import Vector
+from contact_sim_pkg.records.accuracy import AccuracyPart, AccuracyStudy
 from contact_sim_pkg.records.work_precision import milliseconds, timed_once
 from contact_sim_pkg.reference import hertz as reference
 from contact_sim_pkg.rigs.roller.block_motion import TiltYaw
@@ -29,7 +30,7 @@ from contact_sim_pkg.rigs.roller.theory.motion import gauss_rule, march
 from contact_sim_pkg.rigs.roller.theory.volumes import MARCHED, Volumes, dangerous_volumes
 from contact_sim_pkg.scene.resolved_scene import ResolvedScene
 
-__all__ = ["PARTS", "rows"]
+__all__ = ["ACCURACY", "PARTS", "rows"]
 
 PARTS = ("ellipse", "tilt and yaw", "heave", "dangerous volume", "time acceleration")
 
@@ -215,3 +216,6 @@ def _acceleration(model: RollerModel) -> Rows:
             )
         )
     return found
+
+
+ACCURACY = (AccuracyStudy(rows, tuple(AccuracyPart(part, f"{part}: error", part, "way") for part in PARTS)),)

@@ -5,13 +5,13 @@ from __future__ import annotations
 import numpy
 
 from contact_sim_pkg.pressure.closed_form.hertz_stress import EllipseLoad, ellipse_stress
-from contact_sim_pkg.records.goal import Measured, median_time
+from contact_sim_pkg.records.goal import GoalPart, Measured, median_time
 from contact_sim_pkg.rigs.roller.studies.paper_bench import CURVATURES, LIMITS, LOAD, MODULUS, POISSON
 from contact_sim_pkg.rigs.roller.studies.work_precision_interval import hour
 from contact_sim_pkg.rigs.roller.theory.ellipse import contact_of_rollers
 from contact_sim_pkg.rigs.roller.theory.volumes import dangerous_volumes
 
-__all__ = ["goals"]
+__all__ = ["GOALS", "goals"]
 
 POINTS = 2000
 CELLS = (32, 40, 16)
@@ -39,3 +39,6 @@ def goals() -> list[Measured]:
             note=f"a turn that is ridden stands for {JUMP}",
         ),
     ]
+
+
+GOALS = (GoalPart("roller", goals),)

@@ -12,7 +12,7 @@ import scipy.optimize
 from numpy.typing import NDArray
 
 from contact_sim_pkg.pressure.closed_form.hertz_stress import EllipseLoad, ellipse_stress
-from contact_sim_pkg.records.work_precision import Row, Rung, milliseconds, relative, row, timed_once
+from contact_sim_pkg.records.work_precision import Row, Rung, WorkPrecision, milliseconds, relative, row, timed_once
 from contact_sim_pkg.rigs.roller import reference
 from contact_sim_pkg.rigs.roller.studies.paper_bench import (
     BENDING_COMPLIANCE,
@@ -39,6 +39,7 @@ __all__ = [
     "STRESS_PART",
     "VOLUME_PART",
     "WAVE_PART",
+    "WORK_PRECISION",
     "motion_rows",
     "split_rows",
     "stress_rows",
@@ -238,3 +239,12 @@ def wave_rows() -> list[Row]:
             WAVE_PART, "two waves", "growth a turn", rung, "linear theory", relative(value, right), value=value, expected=right,
         ))  # fmt: skip
     return found
+
+
+WORK_PRECISION = (
+    WorkPrecision(STRESS_PART, stress_rows),
+    WorkPrecision(VOLUME_PART, volume_rows),
+    WorkPrecision(MOTION_PART, motion_rows),
+    WorkPrecision(SPLIT_PART, split_rows),
+    WorkPrecision(WAVE_PART, wave_rows),
+)

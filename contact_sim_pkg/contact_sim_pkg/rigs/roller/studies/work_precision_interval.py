@@ -7,7 +7,7 @@ import math
 import numpy
 from numpy.typing import NDArray
 
-from contact_sim_pkg.records.work_precision import Row, Rung, row, timed_once
+from contact_sim_pkg.records.work_precision import Row, Rung, WorkPrecision, row, timed_once
 from contact_sim_pkg.rigs.roller.studies.paper_bench import (
     BENDING_COMPLIANCE,
     CURVATURES,
@@ -20,7 +20,7 @@ from contact_sim_pkg.rigs.roller.theory.corrugation import Interval, Track, make
 from contact_sim_pkg.rigs.roller.theory.ellipse import contact_of_rollers
 from contact_sim_pkg.rigs.roller.theory.heave import Heave, make_heave
 
-__all__ = ["PART", "hour", "rows"]
+__all__ = ["PART", "WORK_PRECISION", "hour", "rows"]
 
 PART = "interval procedure"
 
@@ -82,3 +82,6 @@ def hour(jump: int) -> float:
     intervals = round(3600.0 * RATE / jump)
     _, cost = timed_once(lambda: _ridden(heave, track, jump, intervals, heights, numpy.zeros(2)))
     return 1e-3 * cost
+
+
+WORK_PRECISION = (WorkPrecision(PART, rows),)

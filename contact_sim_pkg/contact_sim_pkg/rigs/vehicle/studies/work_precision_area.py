@@ -12,13 +12,13 @@ from contact_sim_pkg.pressure.closed_form.hertz import hertz_contact
 from contact_sim_pkg.pressure.closed_form.lame import fit_patch, lame_area
 from contact_sim_pkg.pressure.field.halfspace import HalfSpace
 from contact_sim_pkg.pressure.field.patch import contact_area, summarise
-from contact_sim_pkg.records.work_precision import Row, Rung, milliseconds, relative, row
+from contact_sim_pkg.records.work_precision import Row, Rung, WorkPrecision, milliseconds, relative, row
 from contact_sim_pkg.rigs.vehicle.studies.fields import AREA, GIVEN, solve
 from contact_sim_pkg.rigs.vehicle.studies.patch_problem import CURVATURES, LOAD, MODULUS, patch_problem
 from contact_sim_pkg.rigs.vehicle.studies.work_precision_rough import OWN, SEED, finest
 from contact_sim_pkg.rigs.vehicle.studies.work_precision_smooth import REFERENCE, TIERS, exact_answer
 
-__all__ = ["PART", "rows"]
+__all__ = ["PART", "WORK_PRECISION", "rows"]
 
 Field = NDArray[numpy.float64]
 
@@ -64,3 +64,6 @@ def measures(half_space: HalfSpace, pressure: Field) -> dict[str, Callable[[], f
 def _row(case: str, rung: Rung, reference: str, value: float, expected: float) -> Row:
     error = relative(value, expected)
     return row(PART, case, AREA, rung, reference, error, value=float(value), expected=expected)
+
+
+WORK_PRECISION = (WorkPrecision(PART, rows),)

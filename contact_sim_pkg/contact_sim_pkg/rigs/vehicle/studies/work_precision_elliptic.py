@@ -12,11 +12,11 @@ from contact_sim_pkg.pressure.closed_form.hertz_fits import (
     contacts_at_load,
     make_shape_table,
 )
-from contact_sim_pkg.records.work_precision import Row, Rung, milliseconds, relative, row
+from contact_sim_pkg.records.work_precision import Row, Rung, WorkPrecision, milliseconds, relative, row
 from contact_sim_pkg.reference import hertz as reference
 from contact_sim_pkg.rigs.vehicle.studies.patch_problem import CURVATURES, LOAD, MODULUS
 
-__all__ = ["PART", "rows"]
+__all__ = ["PART", "WORK_PRECISION", "rows"]
 
 PART = "elliptic contact"
 RUNGS = (
@@ -47,3 +47,6 @@ def rows() -> list[Row]:
                 error = relative(value, right)
                 found.append(row(PART, case, quantity, rung, REFERENCE, error, value=value, expected=right))
     return found
+
+
+WORK_PRECISION = (WorkPrecision(PART, rows),)

@@ -17,11 +17,11 @@ from contact_sim_pkg.pressure.closed_form.lame_pressure import (
     lame_pressure,
 )
 from contact_sim_pkg.pressure.field.halfspace import make_half_space
-from contact_sim_pkg.records.work_precision import Row, Rung, milliseconds, relative, row
+from contact_sim_pkg.records.work_precision import Row, Rung, WorkPrecision, milliseconds, relative, row
 from contact_sim_pkg.rigs.vehicle.studies.fields import CONVERGED, GIVEN, Answer, FieldRung, rows_of, solve, timed
 from contact_sim_pkg.rigs.vehicle.studies.patch_problem import PatchProblem
 
-__all__ = ["EXPONENTS", "PART", "power_gap", "rows"]
+__all__ = ["EXPONENTS", "PART", "WORK_PRECISION", "power_gap", "rows"]
 
 Field = NDArray[numpy.float64]
 
@@ -97,3 +97,6 @@ def _answer(contact: LamePressure) -> Answer:
 
 def _centre(case: str, rung: Rung, value: float, expected: float) -> Row:
     return row(PART, case, CENTRE, rung, REFERENCE, relative(value, expected), value=value, expected=expected)
+
+
+WORK_PRECISION = (WorkPrecision(PART, rows),)

@@ -15,14 +15,14 @@ from typing import NamedTuple
 
 from contact_sim_pkg.laws.normal_elastic import approach_of_force, elastic_force, elastic_stiffness
 from contact_sim_pkg.laws.parameters import NormalElastic
-from contact_sim_pkg.records.work_precision import Row, Rung, milliseconds, relative, row
+from contact_sim_pkg.records.work_precision import Row, Rung, WorkPrecision, milliseconds, relative, row
 from contact_sim_pkg.rigs.vehicle.contact_field import TANGENT_LOAD_STEP
 from contact_sim_pkg.rigs.vehicle.studies.fields import APPROACH, FORCE, GIVEN, FieldRung, PatchSolver
 from contact_sim_pkg.rigs.vehicle.studies.patch_problem import LOAD, patch_problem
 from contact_sim_pkg.rigs.vehicle.studies.work_precision_rough import FINEST, SEED
 from contact_sim_pkg.rigs.vehicle.studies.work_precision_smooth import REFERENCE, TIERS, exact_answer
 
-__all__ = ["PART", "laws_through", "rows"]
+__all__ = ["PART", "WORK_PRECISION", "laws_through", "rows"]
 
 PART = "normal force"
 RANGES = {"0.9 to 1.1 P": (0.9, 1.1), "0.5 to 1.2 P": (0.5, 1.2)}
@@ -103,3 +103,6 @@ def _rough_approach(factor: float) -> float:
 @functools.cache
 def _finest_solver() -> PatchSolver:
     return PatchSolver(patch_problem(FINEST, SEED))
+
+
+WORK_PRECISION = (WorkPrecision(PART, rows),)

@@ -14,9 +14,9 @@ import numpy
 from numpy.typing import NDArray
 
 from contact_sim_pkg.excitation.iso8608 import Iso8608Road, band_variance, roughness_of_class
-from contact_sim_pkg.records.work_precision import Row, Rung, milliseconds, relative, row
+from contact_sim_pkg.records.work_precision import Row, Rung, WorkPrecision, milliseconds, relative, row
 
-__all__ = ["PART", "SineRoad", "rows", "third_octaves"]
+__all__ = ["PART", "WORK_PRECISION", "SineRoad", "rows", "third_octaves"]
 
 Field = NDArray[numpy.float64]
 
@@ -98,3 +98,6 @@ def rows() -> list[Row]:
         found.append(row(*head, "third octaves, rms", rung, REFERENCE, float(numpy.sqrt(numpy.mean(share**2)))))
         found.append(row(*head, "third octaves, worst", rung, REFERENCE, float(abs(share).max())))
     return found
+
+
+WORK_PRECISION = (WorkPrecision(PART, rows),)

@@ -7,7 +7,7 @@ import functools
 import numpy
 
 from contact_sim_pkg.pressure.field.winkler import bed_stiffness, winkler_at_approach, winkler_at_load
-from contact_sim_pkg.records.work_precision import Row, Rung, milliseconds
+from contact_sim_pkg.records.work_precision import Row, Rung, WorkPrecision, milliseconds
 from contact_sim_pkg.reference.halfspace import dense_influence, pressure_at_approach
 from contact_sim_pkg.rigs.vehicle.studies.fields import (
     CONVERGED,
@@ -31,7 +31,18 @@ from contact_sim_pkg.rigs.vehicle.studies.patch_problem import (
 )
 from contact_sim_pkg.rigs.vehicle.studies.work_precision_smooth import FIELD_CELLS, TIERS
 
-__all__ = ["CHECK_PART", "GRIDS_PART", "OWN", "PART", "SEED", "check_rows", "finest", "grid_rows", "rows"]
+__all__ = [
+    "CHECK_PART",
+    "GRIDS_PART",
+    "OWN",
+    "PART",
+    "SEED",
+    "WORK_PRECISION",
+    "check_rows",
+    "finest",
+    "grid_rows",
+    "rows",
+]
 
 PART = "pressure field, rough road"
 GRIDS_PART = "rough road, every grid and tolerance"
@@ -130,3 +141,10 @@ def _winkler(given: str) -> list[Row]:
         errors.append(errors_of(found, finest(seed)))
     rung = Rung("Winkler bed", milliseconds(lambda: solve_given(*arguments)), "{}x{}".format(*FIELD_CELLS))
     return rows_of_errors(PART, f"{given}{WORST}", rung, OWN, errors)
+
+
+WORK_PRECISION = (
+    WorkPrecision(PART, rows),
+    WorkPrecision(GRIDS_PART, grid_rows),
+    WorkPrecision(CHECK_PART, check_rows),
+)

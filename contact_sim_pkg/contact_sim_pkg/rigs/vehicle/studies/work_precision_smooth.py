@@ -16,12 +16,12 @@ from contact_sim_pkg.pressure.closed_form.lame_pressure import (
     equivalent_ellipse,
     lame_pressure,
 )
-from contact_sim_pkg.records.work_precision import Row, Rung, milliseconds
+from contact_sim_pkg.records.work_precision import Row, Rung, WorkPrecision, milliseconds
 from contact_sim_pkg.reference import hertz as reference
 from contact_sim_pkg.rigs.vehicle.studies.fields import GIVEN, Answer, FieldRung, rows_of, solve, timed
 from contact_sim_pkg.rigs.vehicle.studies.patch_problem import CURVATURES, LOAD, MODULUS, PATCH, Cells, patch_problem
 
-__all__ = ["FIELD_CELLS", "PART", "REFERENCE", "TIERS", "exact_answer", "rows"]
+__all__ = ["FIELD_CELLS", "PART", "REFERENCE", "TIERS", "WORK_PRECISION", "exact_answer", "rows"]
 
 Field = NDArray[numpy.float64]
 
@@ -109,3 +109,6 @@ def _of_hertz(contact: HertzContact) -> Answer:
 def _of_lame(contact: LamePressure) -> Answer:
     area = lame_area(contact.a, contact.b, contact.exponent)
     return Answer(contact.load, contact.approach, contact.peak_pressure, area, cell_means(contact, FIELD_CELLS))
+
+
+WORK_PRECISION = (WorkPrecision(PART, rows),)

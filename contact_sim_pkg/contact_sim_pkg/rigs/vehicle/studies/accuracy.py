@@ -1,0 +1,22 @@
+"""Accuracy studies of a scene of tire and seat: integrator, coupling of bodies and fields, fields."""
+
+from __future__ import annotations
+
+from contact_sim_pkg.records.accuracy import INTEGRATOR, AccuracyPart, AccuracyStudy, field_parts
+from contact_sim_pkg.rigs.vehicle.studies.accuracy_coupling import coupling_rows
+from contact_sim_pkg.rigs.vehicle.studies.accuracy_field import field_rows, first_solve
+from contact_sim_pkg.rigs.vehicle.studies.accuracy_integrator import tolerance_rows
+
+__all__ = ["ACCURACY"]
+
+_COUPLING = AccuracyPart(
+    "coupling", "coupling of bodies and pressure fields: error", "coupling of bodies and fields, whole scene"
+)
+
+ACCURACY = (
+    AccuracyStudy(lambda _name, scene, tell: tolerance_rows(scene, tell), (INTEGRATOR,)),
+    AccuracyStudy(coupling_rows, (_COUPLING,)),
+    AccuracyStudy(
+        lambda _name, scene, tell: field_rows(scene, tell), (*field_parts("tire"), *field_parts("seat")), first_solve
+    ),
+)
