@@ -31,6 +31,9 @@ def text_of(name: str) -> str:
 
 
 def shared_files(name: str) -> list[str]:
-    """Files that exist without the patch and that it edits, tests and generated pages left out."""
+    """Files that exist without the patch and that it edits, tests and generated pages left out.
+
+    What commands write from the same definitions (`records/messages.pyi`, `config/sros2_policy.xml`) is in no patch.
+    """
     edited = re.findall(r"^--- a/(\S+)$", text_of(name), re.MULTILINE)
     return [path for path in edited if not path.startswith(("tests/", "docs/"))]

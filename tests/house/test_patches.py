@@ -1,0 +1,54 @@
+"""The patches of a new topic and a new column apply, do what they say, and edit few shared files by hand."""
+
+import shutil
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+from tests.house.patches import FOLDER, shared_files
+
+ROOT = Path(__file__).resolve().parents[2]
+TOPIC = """
+import numpy
+from contact_sim_pkg.bag.block_encoder import Output, encode_block
+from contact_sim_pkg.bag.messages import decode
+from contact_sim_pkg.records.messages import BodyMomentum
+from contact_sim_pkg.records.registry import rigs
+
+momentum = numpy.arange(6.0).reshape(2, 3)
+record = BodyMomentum(block=4, sample_period=0.1, momentum=momentum)
+[(topic, stamp, data)] = encode_block([Output("block/momentum", 10, record)])
+assert numpy.array_equal(decode(BodyMomentum, data).momentum, momentum)
+assert "block/momentum" in rigs()["block"].topics({})
+"""
+COLUMN = """
+from contact_sim_pkg.bag.messages import decode, encode
+from contact_sim_pkg.records.messages import SolverCost
+
+given = {"block": 4, "wall_time": 0.1, "real_time_factor": 1.0}
+assert SolverCost(**given).longest_stretch == 0.0
+cost = SolverCost(**given, longest_stretch=0.25)
+assert decode(SolverCost, encode(cost)) == cost
+"""
+
+
+@pytest.mark.parametrize(("name", "use"), [("topic", TOPIC), ("column", COLUMN)])
+def test_a_patch_brings_what_it_says(tmp_path, name, use):
+    for package in ("contact_msgs_defs", "contact_sim_pkg"):
+        shutil.copytree(ROOT / package, tmp_path / package, symlinks=True, ignore=shutil.ignore_patterns("__pycache__"))
+    patch = subprocess.run(
+        ["git", "apply", "--verbose", str(FOLDER / f"{name}.patch")],
+        cwd=tmp_path, env={"GIT_CEILING_DIRECTORIES": str(tmp_path.parent), "PATH": "/usr/bin:/bin"},
+        capture_output=True, text=True, check=False,
+    )  # fmt: skip
+    assert patch.returncode == 0, patch.stderr
+    done = subprocess.run(
+        [sys.executable, "-c", use], cwd=tmp_path / "contact_sim_pkg", capture_output=True, text=True, check=False
+    )
+    assert done.returncode == 0, done.stderr
+
+
+@pytest.mark.parametrize("name", ["topic", "column"])
+def test_few_shared_files_are_edited_by_hand(name):
+    assert len(shared_files(name)) <= 3
