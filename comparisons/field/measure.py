@@ -143,7 +143,7 @@ def _cold(
             for tolerance in shares[name].tolerances:
                 key = name, tolerance
                 for _ in range(_in_turn(shares[name].solves, turn)):
-                    solver.forget()
+                    solver.reset()
                     try:
                         field, cost = _timed(solver, gap, 0, tolerance)
                     except NotSolvedError as error:
@@ -188,7 +188,7 @@ def _sequences(
 
 
 def _run(solver: Solver, problem: Problem, steps: int, tolerance: float) -> tuple[list[Field], list[Cost]]:
-    solver.forget()
+    solver.reset()
     fields: list[Field] = []
     costs: list[Cost] = []
     for step in range(steps):

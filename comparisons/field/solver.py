@@ -26,7 +26,7 @@ class Solver(Protocol):
 
     untimed: float  # [s] wall time that the last solve spent on tables, which count as set-up
 
-    def forget(self) -> None:
+    def reset(self) -> None:
         """The next field starts from nothing."""
 
     def solve(self, gap: Field, cells: int, tolerance: float) -> Field:

@@ -65,7 +65,7 @@ class _Nested:
         self.untimed = 0.0
         self._square = _Square(problem)
 
-    def forget(self) -> None:
+    def reset(self) -> None:
         return
 
     def solve(self, gap: Field, cells: int, tolerance: float) -> Field:
@@ -93,7 +93,7 @@ class _Sequence:
         self._solver = aspher.ContactSolver(backend=self._square.backend, **self._square.grid)
         self._pressure: Field | None = None
 
-    def forget(self) -> None:
+    def reset(self) -> None:
         self._pressure = None
 
     def solve(self, gap: Field, cells: int, tolerance: float) -> Field:

@@ -38,9 +38,9 @@ class _Ours:
         else:
             self._field = RollingField(make_half_space(*grid))
 
-    def forget(self) -> None:
+    def reset(self) -> None:
         if isinstance(self._field, RollingField):
-            self._field.forget()
+            self._field.reset()
 
     def solve(self, gap: Field, cells: int, tolerance: float) -> Field:
         if isinstance(self._field, RollingField):

@@ -40,7 +40,7 @@ class _Tamaas:
         if not problem.periodic:
             tamaas.ModelFactory.registerNonPeriodic(self._model, FREE)
 
-    def forget(self) -> None:
+    def reset(self) -> None:
         self._model.traction[:] = 0.0
 
     def solve(self, gap: Field, cells: int, tolerance: float) -> Field:

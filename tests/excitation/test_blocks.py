@@ -7,7 +7,7 @@ from contact_sim_pkg.excitation.blocks import RoadBlocks, VibrationBlocks
 from contact_sim_pkg.excitation.errors import ExcitationError
 from contact_sim_pkg.excitation.iso8608 import Iso8608Road
 from contact_sim_pkg.excitation.obstacles import Obstacle
-from contact_sim_pkg.excitation.signals import AxisSignal, Noise, Sine
+from contact_sim_pkg.excitation.signals import AxisSignal, NoiseSignal, Sine
 from contact_sim_pkg.excitation.travel import Travel
 
 
@@ -106,7 +106,7 @@ def test_samples_lie_at_whole_multiples_of_the_period_and_share_the_ends():
 
 def test_vibration_blocks_are_the_same_bits_in_any_order():
     def make():
-        return VibrationBlocks(AxisSignal(x=[Noise(1.0, 1.0, 40.0, 5)]), 0.01, 2000.0)
+        return VibrationBlocks(AxisSignal(x=[NoiseSignal(1.0, 1.0, 40.0, 5)]), 0.01, 2000.0)
 
     forward, backward = make(), make()
     wanted = [forward.block(block).acceleration_x.tobytes() for block in range(5)]

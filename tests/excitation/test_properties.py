@@ -80,7 +80,7 @@ def _(found, amplitude, frequency, phase):
     assert found.values(TIMES) == close(expected, abs=1e-9)
 
 
-@holds(signals.Sweep, amplitude=RANGE, start=LOW, end=HIGH, duration=st.just(1.0), logarithmic=st.booleans(),
+@holds(signals.SweepSignal, amplitude=RANGE, start=LOW, end=HIGH, duration=st.just(1.0), logarithmic=st.booleans(),
        outside=({"start": 5.0, "end": 5.0}, {"duration": 0.0}))  # fmt: skip
 def _(found, amplitude, start, end, duration, logarithmic):
     method = "logarithmic" if logarithmic else "linear"
@@ -96,7 +96,7 @@ def _(found, peak, start, duration):
     assert found.values(numpy.array([start + 0.5 * duration])) == close(numpy.array([peak]))
 
 
-@holds(signals.Noise, rms=RANGE, low=LOW, high=HIGH, seed=st.integers(0, 9), period=st.just(20.0),
+@holds(signals.NoiseSignal, rms=RANGE, low=LOW, high=HIGH, seed=st.integers(0, 9), period=st.just(20.0),
        outside=({"low": 30.0, "high": 20.0}, {"period": 0.01}, {"seed": 1.5}), examples=8)  # fmt: skip
 def _(found, rms, low, high, seed, period):
     """Exactly its rms over a period, and nothing outside the band."""

@@ -8,7 +8,7 @@ import pytest
 from scipy import signal, stats
 
 from contact_sim_pkg.excitation.errors import ExcitationError
-from contact_sim_pkg.excitation.signals import AxisSignal, HalfSine, Noise, Sine, Sweep
+from contact_sim_pkg.excitation.signals import AxisSignal, HalfSine, NoiseSignal, Sine, SweepSignal
 
 TIME = numpy.linspace(-0.5, 3.0, 1234)
 
@@ -21,7 +21,7 @@ def test_a_sine_has_its_amplitude_frequency_and_phase():
 @pytest.mark.parametrize(("logarithmic", "method"), [(True, "logarithmic"), (False, "linear")])
 @pytest.mark.parametrize(("start", "end"), [(0.5, 80.0), (80.0, 0.5)])
 def test_a_sweep_is_scipys_chirp_from_phase_zero_and_rests_outside(logarithmic, method, start, end):
-    found = Sweep(3.0, start, end, 2.0, logarithmic).values(TIME)
+    found = SweepSignal(3.0, start, end, 2.0, logarithmic).values(TIME)
     inside = (TIME >= 0.0) & (TIME <= 2.0)
     expected = 3.0 * signal.chirp(TIME[inside], start, 2.0, end, method, phi=-90)
     numpy.testing.assert_allclose(found[inside], expected, atol=1e-10)
@@ -29,9 +29,9 @@ def test_a_sweep_is_scipys_chirp_from_phase_zero_and_rests_outside(logarithmic, 
 
 
 def test_a_sweep_says_its_rate():
-    assert Sweep(1.0, 1.0, 8.0, 180.0).describe()["rate_octaves_per_minute"] == pytest.approx(1.0)
-    assert Sweep(1.0, 8.0, 1.0, 180.0).describe()["rate_octaves_per_minute"] == pytest.approx(-1.0)
-    assert Sweep(1.0, 1.0, 10.0, 18.0, logarithmic=False).describe()["rate_Hz_per_s"] == pytest.approx(0.5)
+    assert SweepSignal(1.0, 1.0, 8.0, 180.0).describe()["rate_octaves_per_minute"] == pytest.approx(1.0)
+    assert SweepSignal(1.0, 8.0, 1.0, 180.0).describe()["rate_octaves_per_minute"] == pytest.approx(-1.0)
+    assert SweepSignal(1.0, 1.0, 10.0, 18.0, logarithmic=False).describe()["rate_Hz_per_s"] == pytest.approx(0.5)
 
 
 def test_a_half_sine_shock_changes_the_velocity_by_its_area():
@@ -47,7 +47,7 @@ def test_a_half_sine_shock_changes_the_velocity_by_its_area():
 @pytest.mark.parametrize("rms", [0.25, 2.0])
 def test_noise_has_exactly_its_rms_inside_its_band_and_none_outside(rms):
     period, count = 20.0, 4000
-    values = Noise(rms, 0.5, 20.0, 3, period).values(period * numpy.arange(count) / count)
+    values = NoiseSignal(rms, 0.5, 20.0, 3, period).values(period * numpy.arange(count) / count)
     assert math.sqrt(numpy.mean(values**2)) == pytest.approx(rms, rel=1e-6)
     power = 2.0 * numpy.abs(numpy.fft.rfft(values) / count) ** 2
     frequency = numpy.arange(len(power)) / period
@@ -58,17 +58,17 @@ def test_noise_has_exactly_its_rms_inside_its_band_and_none_outside(rms):
 
 def test_noise_is_gaussian_and_its_seeds_differ():
     time = 60.0 * numpy.arange(12000) / 12000
-    first, second = (Noise(1.0, 0.5, 40.0, seed).values(time) for seed in (1, 2))
+    first, second = (NoiseSignal(1.0, 0.5, 40.0, seed).values(time) for seed in (1, 2))
     for values in (first, second):
         assert abs(stats.skew(values)) < 0.1
         assert abs(stats.kurtosis(values)) < 0.15
     assert abs(numpy.corrcoef(first, second)[0, 1]) < 0.1
-    assert Noise(1.0, 0.5, 40.0, 1).values(time).tobytes() == first.tobytes()
+    assert NoiseSignal(1.0, 0.5, 40.0, 1).values(time).tobytes() == first.tobytes()
 
 
 def test_noise_between_its_lattice_points_is_the_sum_of_its_harmonics():
     period, count = 10.0, 1024
-    noise = Noise(1.0, 18.0, 20.0, 3, period)
+    noise = NoiseSignal(1.0, 18.0, 20.0, 3, period)
     amplitude = numpy.fft.rfft(noise.values(period * numpy.arange(count) / count)) / count
     time = numpy.random.default_rng(1).uniform(-10.0, 30.0, 500)
     waves = numpy.arange(180, 201)
@@ -86,7 +86,7 @@ def test_waveforms_add_up_on_each_axis():
 
 
 def test_description_is_plain_json():
-    described = AxisSignal(x=[Noise(1.0, 1.0, 9.0, 2)], z=[Sweep(1.0, 1.0, 2.0, 3.0)]).describe()
+    described = AxisSignal(x=[NoiseSignal(1.0, 1.0, 9.0, 2)], z=[SweepSignal(1.0, 1.0, 2.0, 3.0)]).describe()
     assert json.loads(json.dumps(described)) == described
     assert described["notes"] == ["The noise repeats after 60 s."]
 
@@ -96,13 +96,13 @@ def test_description_is_plain_json():
     [
         (lambda: Sine(-1.0, 1.0), "amplitude of the sine is -1"),
         (lambda: Sine(1.0, math.nan), "frequency of the sine is nan"),
-        (lambda: Sweep(1.0, 0.0, 2.0, 1.0), "start frequency"),
-        (lambda: Sweep(1.0, 2.0, 2.0, 1.0), "use a sine"),
+        (lambda: SweepSignal(1.0, 0.0, 2.0, 1.0), "start frequency"),
+        (lambda: SweepSignal(1.0, 2.0, 2.0, 1.0), "use a sine"),
         (lambda: HalfSine(1.0, 0.0, 0.0), "duration of the half-sine"),
-        (lambda: Noise(1.0, 5.0, 4.0, 1), "highest frequency"),
-        (lambda: Noise(1.0, 1.0, 1.1, 1), "holds 7 harmonics .* longer period"),
-        (lambda: Noise(1.0, 1.0, 9.0, -1), "seed of the noise"),
-        (lambda: Noise(1.0, 1.0, 1e4, 1, 1e4), "limit 16777216"),
+        (lambda: NoiseSignal(1.0, 5.0, 4.0, 1), "highest frequency"),
+        (lambda: NoiseSignal(1.0, 1.0, 1.1, 1), "holds 7 harmonics .* longer period"),
+        (lambda: NoiseSignal(1.0, 1.0, 9.0, -1), "seed of the noise"),
+        (lambda: NoiseSignal(1.0, 1.0, 1e4, 1, 1e4), "limit 16777216"),
     ],
 )
 def test_bad_parameters_are_refused(make, message):

@@ -13,7 +13,7 @@ import numpy
 from numpy.typing import NDArray
 
 from contact_sim_pkg.excitation.errors import ExcitationError
-from contact_sim_pkg.excitation.recorded_csv import STANDARD_GRAVITY, Table, read_table
+from contact_sim_pkg.excitation.recorded_csv import STANDARD_GRAVITY, RecordedTable, read_table
 from contact_sim_pkg.excitation.recorded_units import refuse_other_unit, signed_column
 
 LARGEST_TIME = 1e11  # [s] a time column may count from 1970
@@ -114,7 +114,7 @@ class RecordedVibration:
         self._report_clipping(names, clipped)
         self._remove_gravity(raw, names)
 
-    def _settle_rate(self, table: Table, stated: float | None, time: Array | None) -> float:
+    def _settle_rate(self, table: RecordedTable, stated: float | None, time: Array | None) -> float:
         if stated is not None and not 1e-3 <= stated <= 1e6:
             raise ExcitationError(f"{table.file}: the stated rate is {stated} Hz; allowed: 0.001 to 1e6 Hz")
         if stated is not None and table.nominal_rate is not None:
@@ -142,7 +142,9 @@ class RecordedVibration:
         return stated
 
     @staticmethod
-    def _compare(stated: float, table: Table, found: float, source: str, states: str = "the stated rate is") -> None:
+    def _compare(
+        stated: float, table: RecordedTable, found: float, source: str, states: str = "the stated rate is"
+    ) -> None:
         if not abs(stated - found) <= RATE_AGREEMENT * found:
             raise ExcitationError(
                 f"{table.file}: {states} {stated:g} Hz, {source} says {found:.6g} Hz; they must agree within 1 %"
@@ -282,7 +284,7 @@ class RecordedVibration:
         }  # fmt: skip
 
 
-def _columns(table: Table, names: dict[str, str | None], needed: bool, unused: str) -> dict[str, str]:
+def _columns(table: RecordedTable, names: dict[str, str | None], needed: bool, unused: str) -> dict[str, str]:
     """The column of each axis; the lateral one and those of unused axes may be absent unless all are needed."""
     if names["x"] is None and needed:
         raise ExcitationError(f"{table.file}: the tilt cannot be corrected without a forward column; name it")
@@ -293,7 +295,7 @@ def _columns(table: Table, names: dict[str, str | None], needed: bool, unused: s
     return {axis: name for axis, name in named.items() if axis not in absent or axis not in f"y{unused}"}
 
 
-def _found_rate(table: Table, time: Array) -> float:
+def _found_rate(table: RecordedTable, time: Array) -> float:
     far = numpy.flatnonzero(numpy.abs(time) > LARGEST_TIME)
     if far.size:
         raise ExcitationError(
@@ -312,7 +314,7 @@ def _found_rate(table: Table, time: Array) -> float:
     return 1.0 / mean
 
 
-def _find_clipping(table: Table, values: Array, full_scale: float | None) -> Clipping:
+def _find_clipping(table: RecordedTable, values: Array, full_scale: float | None) -> Clipping:
     """Samples at the stated full scale; where none is stated, at an extreme value that looks like one.
 
     A constant signal has no extremes: only a stated full scale tells that it is clipped.
@@ -338,7 +340,7 @@ def _is_usual_full_scale(value: float) -> bool:
     return any(abs(abs(value) - scale * STANDARD_GRAVITY) < 2e-3 * abs(value) for scale in USUAL_FULL_SCALES)
 
 
-def _clipping_at(table: Table, at_limit: NDArray[numpy.bool_], limit: float) -> Clipping:
+def _clipping_at(table: RecordedTable, at_limit: NDArray[numpy.bool_], limit: float) -> Clipping:
     if not at_limit.any():
         return Clipping(0, limit, 0, 0)
     edges = numpy.flatnonzero(numpy.diff(numpy.concatenate(([False], at_limit, [False])).astype(numpy.int8)))

@@ -31,7 +31,7 @@ Array = NDArray[numpy.float64]
 SEPARATORS = {";": "semicolon", "\t": "tab", ",": "comma"}  # none of them in the header: spaces
 
 
-class Table(NamedTuple):
+class RecordedTable(NamedTuple):
     """The columns of a recording."""
 
     file: str
@@ -64,7 +64,7 @@ class Table(NamedTuple):
         return self.column(found[0]) if found else None
 
 
-def read_table(path: Path) -> Table:
+def read_table(path: Path) -> RecordedTable:
     """Read the file, a block of lines at a time: beside the numbers only one block is held.
 
     The first line that is neither empty nor a comment (#, %) names the columns, with the unit of an acceleration in
@@ -99,7 +99,7 @@ def read_table(path: Path) -> Table:
     named = {name: numpy.frombuffer(column) for name, column in zip(names, columns, strict=True)}
     for name, factor in factors.items():
         named[name] = named[name] if factor == 1.0 else named[name] * factor
-    return Table(
+    return RecordedTable(
         str(path), named, numpy.frombuffer(numbers, numpy.int64), SEPARATORS.get(separator or "", "space"),
         frozenset(factors), _nominal_rate(comments),
     )  # fmt: skip

@@ -8,7 +8,7 @@ import numpy
 from numpy.typing import NDArray
 
 from contact_sim_pkg.excitation.errors import ExcitationError
-from contact_sim_pkg.excitation.recorded_csv import STANDARD_GRAVITY, UNITS, Table
+from contact_sim_pkg.excitation.recorded_csv import STANDARD_GRAVITY, UNITS, RecordedTable
 
 LARGEST_ACCELERATION = 1e5  # [m/s^2] about 10 000 g, the end of the range of shock accelerometers
 LARGEST_MEAN = 5.0 * STANDARD_GRAVITY  # [m/s^2] no rig is accelerated so for the length of a recording
@@ -18,7 +18,7 @@ GRAVITY_AGREEMENT = 0.1  # a mean this close to 1 or 1000 is gravity in g or mg
 Array = NDArray[numpy.float64]
 
 
-def signed_column(table: Table, name: str, unit: str | None) -> Array:
+def signed_column(table: RecordedTable, name: str, unit: str | None) -> Array:
     """One axis in [m/s^2]; ExcitationError where a value is none that can be measured."""
     plain = name.removeprefix("-").lower()
     column = table.column(plain)

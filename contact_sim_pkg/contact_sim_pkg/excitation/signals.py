@@ -56,7 +56,7 @@ class Sine:
         }  # fmt: skip
 
 
-class Sweep:
+class SweepSignal:
     """Sine of constant acceleration amplitude whose frequency runs from start to end over the duration, then 0.
 
     logarithmic:  f = start (end/start)^(t/duration),  phase = 2 pi start duration / ln(end/start)
@@ -122,7 +122,7 @@ class HalfSine:
         }  # fmt: skip
 
 
-class Noise:
+class NoiseSignal:
     """Gaussian noise with a flat spectrum between two frequencies, made of harmonics with random phases.
 
     Harmonics of 1 / period inside [low, high], equal amplitudes, uniform random phases: the rms over one period is
@@ -197,7 +197,9 @@ class AxisSignal:
     def describe(self) -> dict[str, Any]:
         """See blocks.Signal."""
         notes = [
-            f"The noise repeats after {wave.period:g} s." for wave in (*self.x, *self.z) if isinstance(wave, Noise)
+            f"The noise repeats after {wave.period:g} s."
+            for wave in (*self.x, *self.z)
+            if isinstance(wave, NoiseSignal)
         ] + list(self.notes)
         return {
             "kind": "formulas", "x": [wave.describe() for wave in self.x], "z": [wave.describe() for wave in self.z],

@@ -43,7 +43,7 @@ WEIGHTS = numpy.array([
 ])  # fmt: skip
 
 
-class Workspace(NamedTuple):
+class DormandPrinceWorkspace(NamedTuple):
     """Arrays of the integrator, made once a run by ``make_workspace``."""
 
     stages: Vector  # [STAGES, states]
@@ -57,21 +57,32 @@ class Workspace(NamedTuple):
     counters: Vector  # [COUNTERS], accepted steps, rejected steps, events
 
 
-def make_workspace(states: int, margin_count: int) -> Workspace:
+def make_workspace(states: int, margin_count: int) -> DormandPrinceWorkspace:
     """Workspace for a rig with ``states`` state variables and ``margin_count`` event functions."""
 
     def zeros(*shape: int) -> Vector:
         return numpy.zeros(shape)
 
-    return Workspace(
-        zeros(STAGES, states), zeros(states), zeros(states), zeros(states), zeros(margin_count), zeros(margin_count),
-        zeros(2), numpy.full(1, -numpy.inf), zeros(COUNTERS),
-    )  # fmt: skip
+    return DormandPrinceWorkspace(
+        stages=zeros(STAGES, states),
+        trial=zeros(states),
+        inside=zeros(states),
+        inside_rate=zeros(states),
+        side=zeros(margin_count),
+        margin=zeros(margin_count),
+        step=zeros(2),
+        last_event=numpy.full(1, -numpy.inf),
+        counters=zeros(COUNTERS),
+    )
 
 
 @borrowing_kernel
-def _stages(rig, drive, mode, time, step, state, k, out):
-    """One step from ``state`` into ``out``; k[0] must hold the rate at the start, k[6] holds that at the end after it."""
+def _stages(rig, drive, mode, time, step, state, work):
+    """One step from ``state`` into ``work.trial``.
+
+    ``work.stages[0]`` must hold the rate at the start; afterwards ``work.stages[6]`` holds that at the end.
+    """
+    k, out = work.stages, work.trial
     for stage in range(1, STAGES):
         for i in range(state.shape[0]):
             change = 0.0
@@ -151,15 +162,18 @@ def _worst_margin(work):
 
 
 @borrowing_kernel
-def _locate(rig, drive, mode, time, inner, outer, state, work):
-    """Shortest whole step after which an event function has changed sign, between ``inner`` (none has) and ``outer``.
+def _locate(rig, drive, mode, time, bracket, state, work):
+    """Shortest whole step after which an event function has changed sign.
+
+    ``bracket``: steps in [s] after which none has changed, and after which one is seen to have.
 
     Bisection on "has any changed", sped up by regula falsi on the one that is farthest beyond; by halves again where that stays on
     one side. Leaves the step's result in ``work.trial``; returns the step, and the number of the event, -1 where none has changed
     after ``outer``: the look inside the step is an interpolation.
     """
     k = work.stages
-    low, high = inner, outer
+    low, high = bracket
+    outer = high
     low_value = numpy.nan
     high_value = numpy.nan
     event = -1
@@ -167,7 +181,7 @@ def _locate(rig, drive, mode, time, inner, outer, state, work):
     repeated = 0
     found = False
     for iteration in range(LOCATE_ITERATIONS + 1):
-        _stages(rig, drive, mode, time, step, state, k, work.trial)
+        _stages(rig, drive, mode, time, step, state, work)
         margins(rig, drive, mode, time + step, work.trial, k[6], work.margin)
         number, value = _worst_margin(work)
         if found:
@@ -232,7 +246,7 @@ def integrate(rig, drive, mode, end, state, scale, work):  # noqa: C901
         step = remaining if last else min(proposed, 0.5 * remaining if proposed > 0.5 * remaining else proposed)
         if (step <= 1.0e-15 * max(1.0, abs(time)) and not last) or 0.0 < work.step[1] < tries:
             return STEP_TOO_SMALL
-        _stages(rig, drive, mode, time, step, state, k, work.trial)
+        _stages(rig, drive, mode, time, step, state, work)
         care = _underestimate(step, time - work.last_event[0])
         error = care * _error(step, k, scale)
         if not error <= 1.0:
@@ -249,7 +263,7 @@ def integrate(rig, drive, mode, end, state, scale, work):  # noqa: C901
         event, part = -1, _first_change(rig, drive, mode, time, step, state, work)
         if part > 0.0:
             inner = max(0.0, part - 1.0 / (INSIDE_POINTS + 1.0)) * step
-            step, event = _locate(rig, drive, mode, time, inner, part * step, state, work)
+            step, event = _locate(rig, drive, mode, time, (inner, part * step), state, work)
             error = UNDERESTIMATE * _error(step, k, scale)  # contact ends as it begins: mirrored in time
             if error > 1.0:
                 proposed = step * max(0.1, 0.9 * error**-0.4)

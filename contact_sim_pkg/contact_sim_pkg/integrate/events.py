@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import NamedTuple
+
 import numpy
 
 from contact_sim_pkg.compiled.jit import borrowing_kernel
@@ -14,6 +16,15 @@ STRADDLING_ERROR = 1.0e4  # a trial step with a larger error over the allowed on
 LOCATE_ITERATIONS = 60
 INTERPOLATED_ITERATIONS = 12
 NEARBY = 1.0e-7  # part of the step over which the slope of an event function is taken
+
+
+class EventSearch(NamedTuple):
+    """Steps among which the one to an event is searched for."""
+
+    start: float  # [s]
+    inner: float  # [s] step after which no event function has changed its sign
+    guess: float  # [s] step to try first
+    outer: float  # [s] longest step
 
 
 @borrowing_kernel
@@ -84,8 +95,12 @@ def _bracket_inside(rig, drive, mode, course, changed, state, work):
 
 
 @borrowing_kernel
-def _interpolated_change(rig, drive, mode, course, low, high, state, work):
-    """Part of the step at which the event function that has changed at ``high`` passes zero, from the interpolated states."""
+def _interpolated_change(rig, drive, mode, course, bracket, state, work):
+    """Part of the step at which the event function that has changed at the end of ``bracket`` is zero.
+
+    From the interpolated states; also the number of that function.
+    """
+    low, high = bracket
     event = -1
     if high < 1.0:
         _margins_inside(rig, drive, mode, course, high, state, work)
@@ -113,9 +128,9 @@ def _interpolated_change(rig, drive, mode, course, low, high, state, work):
 
 
 @borrowing_kernel
-def guess_of_change(rig, drive, mode, course, low, high, state, work):
+def guess_of_change(rig, drive, mode, course, bracket, state, work):
     """Step in [s] after which an event function passes zero, by the interpolated states of the step just taken."""
-    change, event = _interpolated_change(rig, drive, mode, course, low, high, state, work)
+    change, event = _interpolated_change(rig, drive, mode, course, bracket, state, work)
     return place(course, change)[0] - course.start, event
 
 
@@ -151,16 +166,16 @@ def _nearest(work):
 
 
 @borrowing_kernel
-def locate(rig, drive, mode, time, inner, guess, outer, state, scale, work):
-    """Shortest whole step, up to ``outer`` [s], after which an event function has changed its sign, begun at ``guess``.
+def locate(rig, drive, mode, search, state, scale, work):
+    """Shortest whole step after which an event function has changed its sign, within ``search``.
 
     Newton's method on whole steps, bisection where it leaves the bracket. The step found ends just beyond the change, and its
-    result is in ``work.trial``. Returns the step and the number of the event, -1 where none changes up to ``outer``. Where the
-    error of the first step is too large, that one is returned.
+    result is in ``work.trial``. Returns the step and the number of the event, -1 where none changes up to
+    ``search.outer``. Where the error of the first step is too large, that one is returned.
     """
-    low, high = inner, outer
+    time, low, step, outer = search
+    high = outer
     known = False  # whether a change before ``high`` has been seen on whole steps
-    step = guess
     for iteration in range(LOCATE_ITERATIONS):
         course = time_map(time, step, work.last_event[0], True)
         take_step(rig, drive, mode, course, state, work)

@@ -17,13 +17,13 @@ import numpy
 
 from contact_sim_pkg.compiled.jit import borrowing_kernel
 from contact_sim_pkg.compiled.results import DONE, NOT_FINITE, STEP_TOO_SMALL, TOO_MANY_EVENTS
-from contact_sim_pkg.integrate.events import bracket_of_change, guess_of_change, locate
+from contact_sim_pkg.integrate.events import EventSearch, bracket_of_change, guess_of_change, locate
 from contact_sim_pkg.integrate.interface import free_flight, margins, rate, switch
 from contact_sim_pkg.integrate.step import error_of_step, power_of, take_step
 from contact_sim_pkg.integrate.time_map import following_step, place, scaled_step, time_map
-from contact_sim_pkg.integrate.workspace import COUNTERS, EVENTS, REJECTED, STEPS, Workspace, make_workspace
+from contact_sim_pkg.integrate.workspace import COUNTERS, EVENTS, REJECTED, STEPS, RootStepWorkspace, make_workspace
 
-__all__ = ["COUNTERS", "EVENTS", "REJECTED", "STEPS", "Workspace", "integrate", "make_workspace", "set_sides"]
+__all__ = ["COUNTERS", "EVENTS", "REJECTED", "STEPS", "RootStepWorkspace", "integrate", "make_workspace", "set_sides"]
 
 MAXIMUM_EVENTS = 10_000
 STATE_LIMIT = 1.0e10
@@ -94,9 +94,9 @@ def _planned_step(time, end, proposed, work):
 
 
 @borrowing_kernel
-def _step_to_event(rig, drive, mode, time, inner, guess, outer, state, scale, work):
-    step, event = locate(rig, drive, mode, time, inner, guess, outer, state, scale, work)
-    course = time_map(time, step, work.last_event[0], True)
+def _step_to_event(rig, drive, mode, search, state, scale, work):
+    step, event = locate(rig, drive, mode, search, state, scale, work)
+    course = time_map(search.start, step, work.last_event[0], True)
     return course, error_of_step(course, scale, work), event
 
 
@@ -109,14 +109,15 @@ def _try_step(rig, drive, mode, time, step, end, state, scale, work):
     distance = work.expected[0] - time
     if distance <= min(1.1 * work.expected_reach[0], end - time):
         outer = min(1.5 * distance, end - time)
-        return _step_to_event(rig, drive, mode, time, 0.0, distance, outer, state, scale, work)
+        return _step_to_event(rig, drive, mode, EventSearch(time, 0.0, distance, outer), state, scale, work)
     course = time_map(time, step, work.last_event[0], False)
     take_step(rig, drive, mode, course, state, work)
     error = error_of_step(course, scale, work)
-    low, high = bracket_of_change(rig, drive, mode, course, error, state, work)
+    bracket = bracket_of_change(rig, drive, mode, course, error, state, work)
+    low, high = bracket
     if high == 0.0:
         return course, error, NO_EVENT
-    guess, event = guess_of_change(rig, drive, mode, course, low, high, state, work)
+    guess, event = guess_of_change(rig, drive, mode, course, bracket, state, work)
     reach = work.reach[_kind(event, -work.side[event])]
     if guess > 1.1 * reach > 0.0:
         work.expected[0] = time + guess
@@ -125,7 +126,7 @@ def _try_step(rig, drive, mode, time, step, end, state, scale, work):
     inner, outer = place(course, low)[0] - time, place(course, high)[0] - time
     if inner == 0.0 and time == work.last_event[0]:
         guess = outer  # no change is looked for right behind the start unless a whole step shows it: the root just left is there
-    return _step_to_event(rig, drive, mode, time, inner, guess, outer, state, scale, work)
+    return _step_to_event(rig, drive, mode, EventSearch(time, inner, guess, outer), state, scale, work)
 
 
 @borrowing_kernel
@@ -212,7 +213,7 @@ def integrate(rig, drive, mode, end, state, scale, work):
             step = _planned_step(time, end, proposed, work)
             if step <= 1.0e-15 * max(1.0, abs(time)) and step < end - time:
                 return STEP_TOO_SMALL
-            course, error, event = _try_step(rig, drive, mode, time, step, end, state, scale, work)
+            course, error, event = _try_step(rig, drive, mode, time, step, end, state=state, scale=scale, work=work)
             if not error <= 1.0:
                 if not _finite(work.rate_before):
                     return NOT_FINITE
@@ -227,6 +228,6 @@ def integrate(rig, drive, mode, end, state, scale, work):
             events += 1
             if events > MAXIMUM_EVENTS:
                 return TOO_MANY_EVENTS
-            proposed = _pass_event(rig, drive, mode, time, state, event, proposed, work)
+            proposed = _pass_event(rig, drive, mode, time, state, event, proposed=proposed, work=work)
     work.step[0] = proposed
     return DONE

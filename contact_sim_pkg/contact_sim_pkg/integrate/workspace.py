@@ -9,12 +9,12 @@ import numpy
 from contact_sim_pkg.compiled.arrays import Modes, Vector
 from contact_sim_pkg.integrate import order_5, order_8
 
-__all__ = ["COUNTERS", "EVENTS", "REJECTED", "STEPS", "Workspace", "make_workspace"]
+__all__ = ["COUNTERS", "EVENTS", "REJECTED", "STEPS", "RootStepWorkspace", "make_workspace"]
 
 STEPS, REJECTED, EVENTS, COUNTERS = 0, 1, 2, 3
 
 
-class Workspace(NamedTuple):
+class RootStepWorkspace(NamedTuple):
     """Arrays of the integrator, and the pair of orders that it steps with."""
 
     pair: order_5.Order5 | order_8.Order8
@@ -39,7 +39,7 @@ class Workspace(NamedTuple):
     counters: Vector  # [COUNTERS], accepted steps, rejected steps, events
 
 
-def make_workspace(states: int, margin_count: int, order: int = 5) -> Workspace:
+def make_workspace(states: int, margin_count: int, order: int = 5) -> RootStepWorkspace:
     """Workspace for a rig with ``states`` state variables and ``margin_count`` event functions.
 
     ``order`` 5 steps cheaply, for drives that change within milliseconds; 8 takes long steps to tight tolerances.
@@ -55,9 +55,23 @@ def make_workspace(states: int, margin_count: int, order: int = 5) -> Workspace:
         pair = order_8.Order8(zeros(order_8.STAGES, states))
     else:
         raise ValueError(f"the integrator has pairs of orders 5 and 8, not {order}")
-    return Workspace(
-        pair, zeros(states), zeros(states), zeros(states), zeros(states), zeros(states), zeros(margin_count),
-        zeros(margin_count), zeros(margin_count), zeros(margin_count), zeros(1), zeros(2 * margin_count), zeros(2 * margin_count),
-        numpy.zeros(1, dtype=numpy.int64),
-        numpy.full(1, numpy.inf), zeros(1), numpy.full(1, -numpy.inf), zeros(COUNTERS),
-    )  # fmt: skip
+    return RootStepWorkspace(
+        pair=pair,
+        rate_before=zeros(states),
+        rate_after=zeros(states),
+        trial=zeros(states),
+        inside=zeros(states),
+        inside_rate=zeros(states),
+        side=zeros(margin_count),
+        margin=zeros(margin_count),
+        margin_before=zeros(margin_count),
+        margin_inside=zeros(margin_count),
+        step=zeros(1),
+        first_step=zeros(2 * margin_count),
+        reach=zeros(2 * margin_count),
+        last_kind=numpy.zeros(1, dtype=numpy.int64),
+        expected=numpy.full(1, numpy.inf),
+        expected_reach=zeros(1),
+        last_event=numpy.full(1, -numpy.inf),
+        counters=zeros(COUNTERS),
+    )

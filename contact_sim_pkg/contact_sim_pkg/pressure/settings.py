@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import NamedTuple
 
 
-class Belt(NamedTuple):
+class BeltSettings(NamedTuple):
     """A belt under tension on an elastic foundation, rigid across its width: what bends over an obstacle."""
 
     tension: float  # [N], > 0
@@ -23,7 +23,7 @@ class FieldSettings(NamedTuple):
     tolerance: float  # complementarity residual asked of the solver
     maximum_iterations: int
     corrector_passes: int  # most repetitions of a stretch with the field found at its end
-    belt: Belt | None = None  # yields in series with the half-space
+    belt: BeltSettings | None = None  # yields in series with the half-space
 
 
 def widened(settings: FieldSettings) -> FieldSettings:

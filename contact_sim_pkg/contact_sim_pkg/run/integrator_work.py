@@ -11,7 +11,7 @@ from collections.abc import Iterable, Iterator
 from typing import NamedTuple
 
 from contact_sim_pkg.records.work import STEP_COST, Work
-from contact_sim_pkg.scene.schema.laws import Friction, GeneralLoss, HuntCrossley, PowerLaw
+from contact_sim_pkg.scene.schema.laws import FrictionSection, GeneralLoss, HuntCrossley, PowerLaw
 from contact_sim_pkg.scene.schema.scene import Scene
 from contact_sim_pkg.scene.timing import make_timing
 
@@ -45,7 +45,7 @@ def integrator_steps(scene: Scene, contact: str, links: Iterable[Link], cost: fl
 
 def links_of_laws(scene: Scene, contact: str, mass: float, load: float) -> Iterator[Link]:
     """The laws of a contact that touches with a ``mass`` [kg], at its depth under the ``load`` [N] at rest."""
-    elastic, friction = scene.effect(contact, PowerLaw), scene.effect(contact, Friction)
+    elastic, friction = scene.effect(contact, PowerLaw), scene.effect(contact, FrictionSection)
     if elastic is not None and load > 0.0:
         general, loss = scene.effect(contact, GeneralLoss), scene.effect(contact, HuntCrossley)
         depth = (load / elastic.coefficient) ** (1.0 / elastic.exponent)

@@ -155,17 +155,17 @@ def _unused_axes(scene: dict[str, Any]) -> str:
 
 
 def _wave(scene: dict[str, Any], vibration: dict[str, Any]) -> Waveform:
-    from contact_sim_pkg.excitation.signals import HalfSine, Noise, Sine, Sweep
+    from contact_sim_pkg.excitation.signals import HalfSine, NoiseSignal, Sine, SweepSignal
 
     kind = vibration["kind"]
     if kind == "sine":
         return Sine(vibration["amplitude"], vibration["frequency"])
     if kind == "noise":
-        return Noise(vibration["rms"], vibration["low"], vibration["high"], scene["seed"])
+        return NoiseSignal(vibration["rms"], vibration["low"], vibration["high"], scene["seed"])
     if kind == "half_sine":
         return HalfSine(vibration["amplitude"], vibration["start"], vibration["duration"])
     start, end = vibration["start_frequency"], vibration["end_frequency"]
     duration = vibration.get("duration")
     if duration is None:
         duration = 60.0 * abs(math.log2(end / start)) / vibration["octaves_per_minute"]
-    return Sweep(vibration["amplitude"], start, end, duration)
+    return SweepSignal(vibration["amplitude"], start, end, duration)

@@ -13,7 +13,7 @@ from contact_sim_pkg.records.rig import load
 from contact_sim_pkg.records.work import Work
 from contact_sim_pkg.scene.errors import Fault, SceneError
 from contact_sim_pkg.scene.resolved_scene import ResolvedScene
-from contact_sim_pkg.scene.schema.pressure_field import PressureField
+from contact_sim_pkg.scene.schema.pressure_field import PressureFieldSection
 from contact_sim_pkg.scene.schema.scene import Scene
 
 __all__ = ["BOUND", "estimated_work", "refuse_long"]
@@ -57,7 +57,7 @@ def _time(seconds: float) -> str:
 def _fields(scene: Scene) -> Iterator[Work]:
     """Cells of the pressure fields, solved as often as they are published at least."""
     for contact in rigs()[scene.rig].contacts:
-        field = scene.effect(contact.name, PressureField)
+        field = scene.effect(contact.name, PressureFieldSection)
         if field is not None:
             rows, cols = field.cells(scene.accuracy)
             solved = scene.duration * scene.outputs.field_rate

@@ -5,9 +5,9 @@ from __future__ import annotations
 from pathlib import Path
 from typing import NamedTuple
 
-from contact_sim_pkg.scene.schema.road import OpenCrgRoad
+from contact_sim_pkg.scene.schema.road import OpenCrgRoadSection
 from contact_sim_pkg.scene.schema.scene import Scene
-from contact_sim_pkg.scene.schema.vibration import Recorded
+from contact_sim_pkg.scene.schema.vibration import RecordedSection
 
 SCENES = Path(__file__).resolve().parent.parent / "scenes"
 """Folder of the shipped scenes; their input files are in `data/` below it."""
@@ -25,9 +25,9 @@ class InputFile(NamedTuple):
 def input_files(scene: Scene) -> list[InputFile]:
     """The files that a scene names."""
     named = []
-    if isinstance(scene.road, OpenCrgRoad):
+    if isinstance(scene.road, OpenCrgRoadSection):
         named.append(InputFile("road.file", scene.road.file, scene.road.sha256))
-    if isinstance(scene.vibration, Recorded):
+    if isinstance(scene.vibration, RecordedSection):
         named.append(InputFile("vibration.file", scene.vibration.file, scene.vibration.sha256))
     return named
 

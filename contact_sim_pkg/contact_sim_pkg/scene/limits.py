@@ -12,8 +12,8 @@ from contact_sim_pkg.records.registry import rigs
 from contact_sim_pkg.scene.errors import Breach
 from contact_sim_pkg.scene.files import InputFile, candidates, find_file, input_files
 from contact_sim_pkg.scene.resolved_scene import sha256_of
-from contact_sim_pkg.scene.schema.pressure_field import PressureField
-from contact_sim_pkg.scene.schema.road import Iso8608Road
+from contact_sim_pkg.scene.schema.pressure_field import PressureFieldSection
+from contact_sim_pkg.scene.schema.road import Iso8608RoadSection
 from contact_sim_pkg.scene.schema.scene import Scene
 
 GIBIBYTE = 1 << 30
@@ -111,7 +111,7 @@ def _too_much(needs: list[Need], total: int, limit: float) -> Breach:
 
 def _grids(scene: Scene) -> Iterator[tuple[str, int, int]]:
     for contact in rigs()[scene.rig].contacts:
-        field = scene.effect(contact.name, PressureField)
+        field = scene.effect(contact.name, PressureFieldSection)
         if field is not None:
             yield contact.name, *field.cells(scene.accuracy)
 
@@ -134,7 +134,7 @@ def _samples(scene: Scene) -> Iterator[Breach]:
 
 def _random_road_points(scene: Scene) -> int:
     road = scene.road
-    if not isinstance(road, Iso8608Road):
+    if not isinstance(road, Iso8608RoadSection):
         return 0
     points = 1024 * -(-ROAD_POINTS_PER_WAVE * road.length / road.shortest_wavelength // 1024)
     return int(points)
@@ -142,7 +142,7 @@ def _random_road_points(scene: Scene) -> int:
 
 def _road_points(scene: Scene) -> Iterator[Breach]:
     road, points = scene.road, _random_road_points(scene)
-    if isinstance(road, Iso8608Road) and points > MOST_ROAD_POINTS:
+    if isinstance(road, Iso8608RoadSection) and points > MOST_ROAD_POINTS:
         sentence = (
             f"a road of {road.length:g} m with waves down to {road.shortest_wavelength:g} m needs {points} points, "
             f"limit {MOST_ROAD_POINTS}; shorten it (it repeats) or raise shortest_wavelength"

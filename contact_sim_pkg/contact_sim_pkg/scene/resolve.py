@@ -20,7 +20,7 @@ from contact_sim_pkg.scene.resolved_scene import ResolvedScene, sha256_of
 from contact_sim_pkg.scene.schema.accuracy import integration_tolerance, requested
 from contact_sim_pkg.scene.schema.clock import whole_duration
 from contact_sim_pkg.scene.schema.fields import Section
-from contact_sim_pkg.scene.schema.pressure_field import PressureField
+from contact_sim_pkg.scene.schema.pressure_field import PressureFieldSection
 from contact_sim_pkg.scene.schema.scene import Scene
 from contact_sim_pkg.scene.schema.validate import validate
 from contact_sim_pkg.scene.yaml.document import parse_document
@@ -94,7 +94,7 @@ def explicit(scene: Scene) -> dict[str, Any]:
     _fill(whole, whole, data)
     loosest = min(contact.loosest_integration(data["effects"][contact.name]) for contact in contacts)
     data["integrator"].setdefault("relative_tolerance", integration_tolerance(scene.accuracy, loosest))
-    if any(scene.effect(contact.name, PressureField) is not None for contact in contacts):
+    if any(scene.effect(contact.name, PressureFieldSection) is not None for contact in contacts):
         data["integrator"].setdefault("coupling_tolerance", requested(scene.accuracy))
     return _ordered(data)
 

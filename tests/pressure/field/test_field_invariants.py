@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 
 from contact_sim_pkg.pressure.field.halfspace import make_half_space
 from contact_sim_pkg.pressure.field.solver import CONVERGED, EDGE
-from contact_sim_pkg.pressure.settings import Belt
+from contact_sim_pkg.pressure.settings import BeltSettings
 from contact_sim_pkg.reference import halfspace as reference
 from contact_sim_pkg.rigs.vehicle.tire.envelopment import belt_influence
 from contact_sim_pkg.studies.field.field_entries import ENTRIES, Asked, holds_load
@@ -195,7 +195,7 @@ def test_more_approach_or_load_never_takes_load_or_approach_away(name, gap, firs
 def test_with_a_belt_in_series_the_field_is_that_of_dense_least_squares(name, gap, share, softness, length):
     """Softness: by powers of ten, of the belt against the half-space; length: relaxation length in cells."""
     foundation = MODULUS * 10.0**-softness * CELLS[1]
-    belt = belt_influence(Belt((length * CELLS[0]) ** 2 * foundation, foundation), SIDE, SIDE, *CELLS)
+    belt = belt_influence(BeltSettings((length * CELLS[0]) ** 2 * foundation, foundation), SIDE, SIDE, *CELLS)
     half_space = make_half_space(SIDE, SIDE, *CELLS, MODULUS, belt)
     row, col = numpy.divmod(numpy.arange(SIDE * SIDE), SIDE)
     influence = dense() + belt[abs(row[:, None] - row), abs(col[:, None] - col)]

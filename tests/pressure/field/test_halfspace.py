@@ -16,7 +16,7 @@ from contact_sim_pkg.pressure.field.halfspace import (
     part_of,
     yields_further,
 )
-from contact_sim_pkg.pressure.settings import Belt
+from contact_sim_pkg.pressure.settings import BeltSettings
 from contact_sim_pkg.reference import halfspace as reference
 from contact_sim_pkg.rigs.vehicle.tire.envelopment import belt_influence
 
@@ -146,7 +146,7 @@ def test_a_belt_is_seen_in_the_influence_and_coarser_cells_are_not_taken_for_one
     assert not yields_further(plain)
     assert not yields_further(coarsened(plain))
     assert not yields_further(part_of(plain, 20, 12))
-    for belt in (Belt(9900.0, 6.3e5), Belt(9900.0, 3e6)):
+    for belt in (BeltSettings(9900.0, 6.3e5), BeltSettings(9900.0, 3e6)):
         belted = make_half_space(*size, MODULUS, belt_influence(belt, *size))
         assert yields_further(belted)
         assert yields_further(part_of(belted, 24, 20))

@@ -185,11 +185,14 @@ def _(found, half_space, workspace, gap, approach, tolerance, max_iterations, pr
     assert (found.load > 0.0) == (approach > gap.min())
 
 
-@holds(field_solver.solve, **SOLVER, given=positive(0.01, 5.0), holds_load=st.booleans(), **LIMITS)
-def _(found, half_space, workspace, gap, given, holds_load, tolerance, max_iterations, pressure):
+REQUESTS = st.builds(field_solver.FieldRequest, positive(0.01, 5.0), st.booleans(), st.just(1e-9), st.just(400))
+
+
+@holds(field_solver.solve, **SOLVER, request=REQUESTS, pressure=LIMITS["pressure"])
+def _(found, half_space, workspace, gap, request, pressure):
     if found.status != field_solver.NOT_CONVERGED:
-        check_contact(found, gap, pressure, tolerance)
-        assert (found.load if holds_load else found.approach) == close(given, rel=1e-9)
+        check_contact(found, gap, pressure, request.tolerance)
+        assert (found.load if request.holds_load else found.approach) == close(request.prescribed, rel=1e-9)
 
 
 @holds(field_solver.make_workspace, half_space=GRID)

@@ -148,7 +148,7 @@ def test_the_same_sequence_gives_the_same_bits_whatever_was_solved_before():
     heights, fresh, used = road(6), RollingField(HALF_SPACE), RollingField(HALF_SPACE)
     for first in (80, 20, 60):
         used.solve_at_load(gap_over(heights, first), 400.0, 1e-4, 900)
-    used.forget()
+    used.reset()
     for step in range(4):
         for field in (fresh, used):
             field.roll(1)
@@ -231,7 +231,7 @@ def test_a_repeated_solve_starts_from_the_last():
 def test_contact_at_the_grid_s_edge_is_reported_and_at_the_window_s_edge_is_not():
     field = RollingField(HALF_SPACE)
     assert field.solve_at_load(numpy.roll(BOWL, 20, axis=0), 150.0, 1e-6, 900).status == EDGE
-    field.forget()
+    field.reset()
     assert field.solve_at_load(BOWL, 150.0, 1e-6, 900).status == CONVERGED
     assert field.solve_at_load(BOWL, 600.0, 1e-6, 900).status == CONVERGED
 

@@ -41,7 +41,7 @@ def test_every_pass_at_every_place_is_the_field_of_that_place(travel):
 def test_a_field_that_forgot_runs_to_the_same_bits_again():
     field, runs = PressureField(SETTINGS, "tire"), []
     for _ in range(2):
-        field.forget()
+        field.reset()
         loads = []
         for row in (10, 12, 12, 14, 46, 47):
             field.roll_to(row)
@@ -64,7 +64,7 @@ def test_contact_at_the_edge_of_the_grid_is_an_error_and_the_field_is_usable_aft
     field = PressureField(SETTINGS, "tire")
     with pytest.raises(FieldEdgeError, match="tire: the contact reaches the edge"):
         field.solve(gap_at(10), 1.0)
-    field.forget()
+    field.reset()
     assert field.solve(gap_at(10), 1e-3) > 0.0
 
 

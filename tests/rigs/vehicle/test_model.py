@@ -5,7 +5,7 @@ import pytest
 from tests.run.scenes import resolved
 
 from contact_sim_pkg.laws.parameters import GeneralDissipative, NormalDissipative
-from contact_sim_pkg.pressure.settings import Belt
+from contact_sim_pkg.pressure.settings import BeltSettings
 from contact_sim_pkg.reference import general_law
 from contact_sim_pkg.rigs.vehicle.model import build
 from contact_sim_pkg.rigs.vehicle.parameters import Carcass
@@ -53,7 +53,7 @@ def test_the_numbers_of_belt_brush_tread_and_asperities_arrive():
         "slip={points: [[0, 0, 0], [2, -0.4, 0.1]]}",
     )
     settings = made.tire_field.usual.settings
-    assert settings.belt == Belt(5000.0, 2e6)
+    assert settings.belt == BeltSettings(5000.0, 2e6)
     assert made.rolling_friction.brush == Brush(1e8, 6e7, 1.2, 0.75)
     assert made.rolling_friction.slips_at(1.0) == pytest.approx((-0.2, 0.05))
     assert made.rolling_friction.slips_at(9.0) == pytest.approx((-0.4, 0.1))

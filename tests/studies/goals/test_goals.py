@@ -43,7 +43,7 @@ def test_the_goals_of_error_are_reached():
 
 def test_a_run_that_is_right_by_chance_is_not_the_cheapest():
     errors = (1e-4, 1e-9, 1e-6, 2e-9, 1e-10)
-    work = [seat_slap.Work("a", 10.0**-i, error, float(i + 1)) for i, error in enumerate(errors)]
+    work = [seat_slap.SlapCost("a", 10.0**-i, error, float(i + 1)) for i, error in enumerate(errors)]
     assert seat_slap.cheapest(work, 1e-8) == work[3]
     assert seat_slap.cheapest(work, 1e-11) is None
     assert seat_slap.cheapest(work, 1.0) == work[0]

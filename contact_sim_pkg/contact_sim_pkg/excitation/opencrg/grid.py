@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 
 from contact_sim_pkg.excitation.errors import ExcitationError
 from contact_sim_pkg.excitation.opencrg.header import Header
-from contact_sim_pkg.excitation.opencrg.layout import Layout
+from contact_sim_pkg.excitation.opencrg.layout import CrgLayout
 
 ROWS_AT_ONCE = 1024
 TALLEST = 1e3  # [m] heights of one road differ by less than this from their median
@@ -26,7 +26,7 @@ class Grid(NamedTuple):
     largest_stretch: float  # largest |curvature v|: a path beside the reference line is longer or shorter by this part
 
 
-def make_grid(header: Header, layout: Layout, values: NDArray[numpy.float64], scale_z: float = 1.0) -> Grid:
+def make_grid(header: Header, layout: CrgLayout, values: NDArray[numpy.float64], scale_z: float = 1.0) -> Grid:
     """Raw heights with banking and slope of the reference line added; missing cells are still NaN.
 
     height(u, v) = scale_z z(u, v) + banking(u) v + start_z + integral of slope du
@@ -71,7 +71,7 @@ def _refuse_absurd(header: Header, height: NDArray[numpy.float64]) -> None:
 
 
 def _column(
-    header: Header, layout: Layout, values: NDArray[numpy.float64], name: str, first: int
+    header: Header, layout: CrgLayout, values: NDArray[numpy.float64], name: str, first: int
 ) -> NDArray[numpy.float64] | None:
     """A channel of the reference line; its rows before `first` are unused in the format."""
     if name not in layout.reference_columns:
@@ -103,7 +103,7 @@ def _agree(
         )
 
 
-def _heading(header: Header, layout: Layout, values: NDArray[numpy.float64]) -> NDArray[numpy.float64]:
+def _heading(header: Header, layout: CrgLayout, values: NDArray[numpy.float64]) -> NDArray[numpy.float64]:
     """Heading in [rad] of each piece of the reference line (piece i ends in row i), checked against the header's
     ends."""
     start, end = _stated(header, "phi")
@@ -132,7 +132,7 @@ def _heading(header: Header, layout: Layout, values: NDArray[numpy.float64]) -> 
     return heading
 
 
-def _banking(header: Header, layout: Layout, values: NDArray[numpy.float64]) -> NDArray[numpy.float64]:
+def _banking(header: Header, layout: CrgLayout, values: NDArray[numpy.float64]) -> NDArray[numpy.float64]:
     start, end = _stated(header, "b")
     column = _column(header, layout, values, "banking", 0)
     if column is None:
@@ -142,7 +142,7 @@ def _banking(header: Header, layout: Layout, values: NDArray[numpy.float64]) -> 
     return column
 
 
-def _elevation(header: Header, layout: Layout, values: NDArray[numpy.float64]) -> NDArray[numpy.float64]:
+def _elevation(header: Header, layout: CrgLayout, values: NDArray[numpy.float64]) -> NDArray[numpy.float64]:
     """Height in [m] of the reference line: start_z and the integral of the slope, checked against end_z."""
     start, end = _stated(header, "s")
     column = _column(header, layout, values, "slope", 1)
@@ -157,7 +157,7 @@ def _elevation(header: Header, layout: Layout, values: NDArray[numpy.float64]) -
     return elevation
 
 
-def _largest_stretch(header: Header, layout: Layout, heading: NDArray[numpy.float64]) -> float:
+def _largest_stretch(header: Header, layout: CrgLayout, heading: NDArray[numpy.float64]) -> float:
     curvature = numpy.diff(heading[1:], prepend=heading[1]) / layout.u_increment
     reach = numpy.maximum(
         curvature * layout.v[0], curvature * layout.v[-1]

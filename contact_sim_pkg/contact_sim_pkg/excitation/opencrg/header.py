@@ -48,7 +48,7 @@ class Channel(NamedTuple):
     line: int
 
 
-class Value(NamedTuple):
+class HeaderValue(NamedTuple):
     """One number of the header."""
 
     number: float
@@ -59,9 +59,9 @@ class Header(NamedTuple):
     """What the text part says."""
 
     file: str
-    road: dict[str, Value]
-    options: dict[str, Value]
-    modifiers: dict[str, Value]
+    road: dict[str, HeaderValue]
+    options: dict[str, HeaderValue]
+    modifiers: dict[str, HeaderValue]
     format: str  # LRFI, LDFI, KRBI or KDBI
     channels: tuple[Channel, ...]
     virtual: Channel | None
@@ -88,7 +88,7 @@ class _Parser:
         self.line = 0
         self.section: str | None = None
         self.seen: set[str] = set()
-        self.values: dict[str, dict[str, Value]] = {name: {} for name in KEYED_SECTIONS}
+        self.values: dict[str, dict[str, HeaderValue]] = {name: {} for name in KEYED_SECTIONS}
         self.format: str | None = None
         self.channels: list[Channel] = []
         self.virtual: Channel | None = None
@@ -162,7 +162,7 @@ class _Parser:
             raise self.fail(f"{key} was already given in line {values[key].line}")
         if not NUMBER.fullmatch(number) or abs(float(number)) > 1e12:
             raise self.fail(f"{key} is '{number}'; a plain number was expected")
-        values[key] = Value(float(number), self.line)
+        values[key] = HeaderValue(float(number), self.line)
 
     def _define(self, text: str) -> None:
         kind, rest = text[:2], text[2:].strip()
@@ -188,9 +188,16 @@ class _Parser:
             if name not in self.seen:
                 raise self.fail(f"the header ends without a section ${name.upper()}")
         return Header(
-            self.file, self.values["road_crg"], self.values["road_crg_opts"], self.values["road_crg_mods"],
-            self.format or "KRBI", tuple(self.channels), self.virtual, payload_start, self.line + 1,
-        )  # fmt: skip
+            file=self.file,
+            road=self.values["road_crg"],
+            options=self.values["road_crg_opts"],
+            modifiers=self.values["road_crg_mods"],
+            format=self.format or "KRBI",
+            channels=tuple(self.channels),
+            virtual=self.virtual,
+            payload_start=payload_start,
+            payload_line=self.line + 1,
+        )
 
 
 def _suggest(name: str, known: "frozenset[str] | tuple[str, ...]") -> str:

@@ -20,7 +20,7 @@ _AT_V = re.compile(rf"long section at v ?= ?({NUMBER.pattern})")
 _NUMBERED = re.compile(r"long section (\d{1,7})")
 
 
-class Layout(NamedTuple):
+class CrgLayout(NamedTuple):
     """Grid lines and columns of the payload."""
 
     u_start: float  # [m]
@@ -33,7 +33,7 @@ class Layout(NamedTuple):
     notes: tuple[str, ...]
 
 
-def make_layout(header: Header) -> Layout:
+def make_layout(header: Header) -> CrgLayout:
     """Check the header against itself and lay out the grid; ExcitationError where two statements disagree."""
     increment = header.road.get("reference_line_increment")
     if increment is None:
@@ -53,7 +53,16 @@ def make_layout(header: Header) -> Layout:
             f"{header.file}: the header asks for {rows} x {columns} numbers ({8e-9 * rows * columns:.3g} GB), limit "
             f"{MOST_CELLS}; cut the road or thin it out"
         )
-    return Layout(u_start, increment.number, rows, v, tuple(index for index, _ in sections), reference, columns, notes)
+    return CrgLayout(
+        u_start=u_start,
+        u_increment=increment.number,
+        rows=rows,
+        v=v,
+        section_columns=tuple(index for index, _ in sections),
+        reference_columns=reference,
+        columns=columns,
+        notes=notes,
+    )
 
 
 def _fault(header: Header, line: int, sentence: str) -> ExcitationError:

@@ -11,14 +11,14 @@ from numpy.typing import NDArray
 
 from contact_sim_pkg.excitation.errors import ExcitationError
 from contact_sim_pkg.excitation.opencrg.header import NUMBER, Header
-from contact_sim_pkg.excitation.opencrg.layout import MOST_CELLS, Layout
+from contact_sim_pkg.excitation.opencrg.layout import MOST_CELLS, CrgLayout
 
 RECORD = 80  # [bytes] a record of the payload
 _BINARY = {"KRBI": ">f4", "KDBI": ">f8"}
 _FIELD_WIDTH = {"LRFI": 10, "LDFI": 20}
 
 
-def read_payload(data: bytes, header: Header, layout: Layout) -> NDArray[numpy.float64]:
+def read_payload(data: bytes, header: Header, layout: CrgLayout) -> NDArray[numpy.float64]:
     """All numbers, [rows, columns]; missing cells are NaN.
 
     Raises:
@@ -29,7 +29,7 @@ def read_payload(data: bytes, header: Header, layout: Layout) -> NDArray[numpy.f
     return _read_text(data, header, layout, _FIELD_WIDTH[header.format])
 
 
-def _read_binary(data: bytes, header: Header, layout: Layout, number: "numpy.dtype[Any]") -> NDArray[numpy.float64]:
+def _read_binary(data: bytes, header: Header, layout: CrgLayout, number: "numpy.dtype[Any]") -> NDArray[numpy.float64]:
     found = len(data) - header.payload_start
     row_bytes = layout.columns * number.itemsize
     rows = layout.rows if layout.rows is not None else _open_ended_rows(found, row_bytes)
@@ -89,7 +89,7 @@ def _cause(found: int, expected: int, itemsize: int) -> str:
     return "the file is cut; take the whole file" if found < expected else "header and data do not belong together"
 
 
-def _read_text(data: bytes, header: Header, layout: Layout, width: int) -> NDArray[numpy.float64]:
+def _read_text(data: bytes, header: Header, layout: CrgLayout, width: int) -> NDArray[numpy.float64]:
     stream = BytesIO(data)
     stream.seek(header.payload_start)
     count = max((number for number, line in enumerate(stream, start=1) if line.strip()), default=0)

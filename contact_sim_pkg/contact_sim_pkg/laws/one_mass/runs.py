@@ -9,12 +9,12 @@ import numpy
 from contact_sim_pkg.compiled.arrays import Vector
 from contact_sim_pkg.compiled.results import DONE, SENTENCES
 from contact_sim_pkg.integrate import dormand_prince
-from contact_sim_pkg.integrate.root_steps import EVENTS, REJECTED, STEPS, Workspace, make_workspace
+from contact_sim_pkg.integrate.root_steps import EVENTS, REJECTED, STEPS, RootStepWorkspace, make_workspace
 from contact_sim_pkg.laws.one_mass.parameters import BeltSlider, ImpactWorks, PointContact
 from contact_sim_pkg.laws.one_mass.single import belt_slider, impact_works, point_contact, run, run_with_friction
 from contact_sim_pkg.laws.parameters import NormalDissipative, NormalElastic
 
-__all__ = ["Course", "RunFailureError", "free_impact", "impact_speeds", "integrate", "seat_slap"]
+__all__ = ["OneMassCourse", "RunFailureError", "free_impact", "impact_speeds", "integrate", "seat_slap"]
 
 ORDER = (
     8  # of the integrator: its steps are not cut short by a drive, and it is the cheaper one below a tolerance of 1e-4
@@ -30,7 +30,7 @@ class RunFailureError(RuntimeError):
     """The integrator ended with a status other than DONE; the message is its sentence."""
 
 
-class Course(NamedTuple):
+class OneMassCourse(NamedTuple):
     """States at the asked times, and the integrator's counts."""
 
     states: Vector  # [times, states]
@@ -47,7 +47,7 @@ def integrate(
     times: Vector,
     mode: int = 0,
     strict: bool = True,
-) -> Course:
+) -> OneMassCourse:
     """Integrate `rig` from `start` through `times` [s]; `scale` [states]: error allowed per step.
 
     `mode`: friction mode at the start (0 sticks, 1 and -1 slip). Raises RunFailureError where `strict` and the run fails.
@@ -57,7 +57,7 @@ def integrate(
     out = numpy.full((len(times), len(state)), numpy.nan)
     rest = (numpy.array([mode]), state, numpy.asarray(scale, dtype=float))
     instants = numpy.asarray(times, float)
-    work: Workspace | dormand_prince.Workspace
+    work: RootStepWorkspace | dormand_prince.DormandPrinceWorkspace
     if isinstance(rig, BeltSlider):
         work = dormand_prince.make_workspace(len(state), margins)
         status = run_with_friction(rig, *rest, work, instants, out)
@@ -67,7 +67,7 @@ def integrate(
     if strict and status != DONE:
         raise RunFailureError(SENTENCES[status])
     counts = work.counters
-    return Course(out, int(status), int(counts[STEPS]), int(counts[REJECTED]), int(counts[EVENTS]))
+    return OneMassCourse(out, int(status), int(counts[STEPS]), int(counts[REJECTED]), int(counts[EVENTS]))
 
 
 def free_impact(mass: float, elastic: NormalElastic, damping: float | None) -> PointContact:
@@ -75,7 +75,9 @@ def free_impact(mass: float, elastic: NormalElastic, damping: float | None) -> P
     return PointContact(mass, 0.0, 0.0, 0.0, elastic, None if damping is None else NormalDissipative(damping))
 
 
-def impact_speeds(rig: PointContact, speed: float, depth: float, tolerance: float, gap: float, end: float) -> Course:
+def impact_speeds(
+    rig: PointContact, speed: float, depth: float, tolerance: float, gap: float, end: float
+) -> OneMassCourse:
     """Free impact at `speed` [m/s] from `gap` [m] above the support, to `end` [s]; tolerance relative to `depth` and `speed`."""
     scale = numpy.array([depth, speed]) * tolerance
     return integrate(rig, numpy.array([gap, -speed]), scale, numpy.array([0.0, end]))

@@ -7,29 +7,48 @@ from typing import Any
 import numpy
 
 from contact_sim_pkg.compiled.arrays import Modes, Vector
-from contact_sim_pkg.compiled.jit import entry
+from contact_sim_pkg.compiled.jit import borrowing_kernel, entry
 from contact_sim_pkg.compiled.vectors import copy_row
 from contact_sim_pkg.integrate import dormand_prince
 from contact_sim_pkg.integrate.drive import Drive
-from contact_sim_pkg.integrate.root_steps import Workspace, integrate, set_sides
+from contact_sim_pkg.integrate.root_steps import RootStepWorkspace, integrate, set_sides
 from contact_sim_pkg.laws.one_mass import belt_slider, impact_works, point_contact
 
 __all__ = ["belt_slider", "empty_mode", "impact_works", "point_contact", "run", "run_with_friction"]
 
 
+@borrowing_kernel
+def _free(start, end):
+    """Segment from ``start`` to ``end`` in [s] in which nothing moves the rig."""
+    return Drive(
+        start=start,
+        length=end - start,
+        height_0=0.0,
+        height_1=0.0,
+        cushion_0=0.0,
+        cushion_1=0.0,
+        acceleration_x_0=0.0,
+        acceleration_x_1=0.0,
+        acceleration_z_0=0.0,
+        acceleration_z_1=0.0,
+    )
+
+
 @entry
-def run(rig: Any, mode: Modes, state: Vector, scale: Vector, work: Workspace, times: Vector, out: Vector) -> int:
+def run(
+    rig: Any, mode: Modes, state: Vector, scale: Vector, work: RootStepWorkspace, times: Vector, out: Vector
+) -> int:
     """Integrate ``rig`` from ``times[0]`` through all ``times`` in [s]; row i of ``out`` is the state at ``times[i]``.
 
     ``rig``: any that is registered (``integrate/interface.py``). ``state`` [states] is the start and changes in place; ``scale``
     [states] the error allowed per step. Returns the status of ``compiled/results.py``; rows after a failure keep what they held.
     """
-    drive = Drive(times[0], times[-1] - times[0], 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
+    drive = _free(times[0], times[-1])
     set_sides(rig, drive, mode, times[0], state, work)
     copy_row(state, out[0])
     status = 0
     for i in range(times.shape[0] - 1):
-        drive = Drive(times[i], times[i + 1] - times[i], 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
+        drive = _free(times[i], times[i + 1])
         status = integrate(rig, drive, mode, times[i + 1], state, scale, work)
         if status != 0:
             return status
@@ -43,15 +62,21 @@ _set_sides_5 = dormand_prince.set_sides
 
 @entry
 def run_with_friction(
-    rig: Any, mode: Modes, state: Vector, scale: Vector, work: dormand_prince.Workspace, times: Vector, out: Vector
+    rig: Any,
+    mode: Modes,
+    state: Vector,
+    scale: Vector,
+    work: dormand_prince.DormandPrinceWorkspace,
+    times: Vector,
+    out: Vector,
 ) -> int:
     """As ``run``, by the integrator of the driven rigs: friction events have no root of time beside them that steps could use."""
-    drive = Drive(times[0], times[-1] - times[0], 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
+    drive = _free(times[0], times[-1])
     _set_sides_5(rig, drive, mode, times[0], state, work)
     copy_row(state, out[0])
     status = 0
     for i in range(times.shape[0] - 1):
-        drive = Drive(times[i], times[i + 1] - times[i], 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
+        drive = _free(times[i], times[i + 1])
         status = _integrate_5(rig, drive, mode, times[i + 1], state, scale, work)
         if status != 0:
             return status

@@ -69,7 +69,16 @@ def fit_ansatz(samples: Array, phases: Array, *, nonlinear: bool = True) -> Ansa
     )  # fmt: skip
     c, a, m, f, b, g = _parts(found.x, terms, nonlinear)
     residual = float(numpy.sqrt(numpy.mean(found.fun**2)))
-    return AnsatzFit(mean + size * c, size * a, size * b, g, m, f, residual, unknowns)
+    return AnsatzFit(
+        constant=mean + size * c,
+        linear=size * a,
+        numerator=size * b,
+        denominator=g,
+        parameters=m,
+        shifts=f,
+        residual=residual,
+        unknowns=unknowns,
+    )
 
 
 def ansatz(fit: AnsatzFit, phases: Array) -> Array:

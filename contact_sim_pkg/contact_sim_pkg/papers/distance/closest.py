@@ -181,7 +181,16 @@ def pair_program(body_1: ConvexBody, body_2: ConvexBody, origin: Field, size: fl
     put_quadrics(body_1, origin, size, curved, centres, 0, 0)
     put_quadrics(body_2, origin, size, curved, centres, quadrics, 3)
     none = numpy.zeros((all_quadrics, 6))
-    return Program(quadratic, numpy.zeros(6), rows, bounds, curved, centres, none, numpy.ones(all_quadrics))
+    return Program(
+        quadratic=quadratic,
+        linear=numpy.zeros(6),
+        flat_rows=rows,
+        flat_bounds=bounds,
+        curved=curved,
+        curved_centres=centres,
+        curved_rows=none,
+        curved_bounds=numpy.ones(all_quadrics),
+    )
 
 
 @kernel

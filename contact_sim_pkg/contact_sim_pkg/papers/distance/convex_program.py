@@ -19,7 +19,7 @@ from numpy.typing import NDArray
 from contact_sim_pkg.compiled.jit import entry, kernel
 from contact_sim_pkg.compiled.linear_solve import solve_linear
 
-__all__ = ["Point", "Program", "Solution", "evaluate", "minimise"]
+__all__ = ["Point", "Program", "ProgramSolution", "evaluate", "minimise"]
 
 Field = NDArray[numpy.float64]
 
@@ -72,7 +72,7 @@ class Point(NamedTuple):
     gradients: Field  # [constraints, n]
 
 
-class Solution(NamedTuple):
+class ProgramSolution(NamedTuple):
     unknowns: Field  # [n]
     multipliers: Field  # [constraints] lambda >= 0, flat ones first
     gap: float  # sum of -lambda_i g_i: the cost is at most this above the minimum, once the residual is zero
@@ -80,7 +80,7 @@ class Solution(NamedTuple):
 
 
 @entry
-def minimise(program: Program, start: Field, tolerance: float) -> Solution:
+def minimise(program: Program, start: Field, tolerance: float) -> ProgramSolution:
     """Minimum from a start inside every constraint, until the gap is below `tolerance` or the digits are used up.
 
     A start on or outside a constraint comes back unchanged with an infinite gap.
@@ -88,7 +88,7 @@ def minimise(program: Program, start: Field, tolerance: float) -> Solution:
     count = program.flat_bounds.size + program.curved_bounds.size
     point = evaluate(program, start.copy(), numpy.zeros(count))
     if not is_inside(point):
-        return Solution(point.unknowns, point.multipliers, math.inf, 0)
+        return ProgramSolution(point.unknowns, point.multipliers, math.inf, 0)
     point = centred(program, point, FIRST_GAP / count)
     gap, taken, length = gap_of(point), 0, 1.0
     behind = False
@@ -103,7 +103,7 @@ def minimise(program: Program, start: Field, tolerance: float) -> Solution:
         gap = gap_of(point)
         behind = norm_of(stationarity(program, point)) > max(10.0 * gap, STATIONARY)
         taken += 1
-    return Solution(point.unknowns, point.multipliers, gap, taken)
+    return ProgramSolution(point.unknowns, point.multipliers, gap, taken)
 
 
 @kernel

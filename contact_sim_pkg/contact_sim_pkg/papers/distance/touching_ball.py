@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 from contact_sim_pkg.compiled.jit import entry, kernel
 from contact_sim_pkg.papers.distance.ball_constraints import Constraints, Cuts, add_cuts, gather, least_depth, make_cuts
 from contact_sim_pkg.papers.distance.convex_body import ConvexBody
-from contact_sim_pkg.papers.distance.convex_program import Program, Solution, minimise
+from contact_sim_pkg.papers.distance.convex_program import Program, ProgramSolution, minimise
 from contact_sim_pkg.papers.distance.touching_newton import Ball, ball_residual, cluster, touch
 
 __all__ = ["BallResult", "largest_ball"]
@@ -101,7 +101,7 @@ def holding_feet(constraints: Constraints, ball: Ball) -> tuple[Field, int, int]
 
 
 @kernel
-def ball_under_planes(cuts: Cuts, middle: Field, radius: float, half_width: float) -> Solution:
+def ball_under_planes(cuts: Cuts, middle: Field, radius: float, half_width: float) -> ProgramSolution:
     """Largest ball, unknowns (p, r), under all planes, p within a box about `middle`, where a ball of `radius` fits."""
     count = cuts.used[0]
     rows, bounds = numpy.zeros((count + 6, 4)), numpy.empty(count + 6)
@@ -117,5 +117,14 @@ def ball_under_planes(cuts: Cuts, middle: Field, radius: float, half_width: floa
     for j in range(3):
         start[j] = middle[j]
     matrices, vectors = numpy.zeros((0, 4, 4)), numpy.zeros((0, 4))
-    program = Program(numpy.zeros((4, 4)), cost, rows, bounds, matrices, vectors, vectors, numpy.zeros(0))
+    program = Program(
+        quadratic=numpy.zeros((4, 4)),
+        linear=cost,
+        flat_rows=rows,
+        flat_bounds=bounds,
+        curved=matrices,
+        curved_centres=vectors,
+        curved_rows=vectors,
+        curved_bounds=numpy.zeros(0),
+    )
     return minimise(program, start, PROGRAM_GAP)

@@ -24,7 +24,7 @@ PART = "contact search"
 DISTANCE, DEPTH = "distance", "interference"
 
 
-class Case(NamedTuple):
+class DistanceCase(NamedTuple):
     """Two ellipsoids, the question, and how it is answered without shared code."""
 
     name: str
@@ -57,19 +57,19 @@ def rows() -> list[Row]:
     return found
 
 
-def _cases() -> tuple[Case, ...]:
+def _cases() -> tuple[DistanceCase, ...]:
     apart, close = bodies(0.15), bodies(0.04)
     distance, depth = (
         exact(*((body.centres[0], body.shapes[0]) for body in pair))
         for exact, pair in ((reference.ellipsoid_distance, apart), (reference.separating_translation, close))
     )
     return (
-        Case("apart", apart, DISTANCE, distance, "SLSQP, then 40 digits"),
-        Case("overlapping", close, DEPTH, depth, "support functions, Nelder-Mead"),
+        DistanceCase("apart", apart, DISTANCE, distance, "SLSQP, then 40 digits"),
+        DistanceCase("overlapping", close, DEPTH, depth, "support functions, Nelder-Mead"),
     )
 
 
-def _rungs(case: Case) -> dict[str, Callable[[], float]]:
+def _rungs(case: DistanceCase) -> dict[str, Callable[[], float]]:
     one, other = case.pair
     sign = 1.0 if case.quantity == DISTANCE else -1.0
 

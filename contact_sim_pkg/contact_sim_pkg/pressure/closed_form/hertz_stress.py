@@ -129,7 +129,7 @@ def stress_under_ellipse(load: EllipseLoad, poisson: float, x: float, y: float, 
     if z == 0.0:
         pressure = math.sqrt(max(0.0, 1.0 - x * x / a2 - y * y / b2)) / (0.5 * math.sqrt(a2 * b2))
         return _on_surface(load, poisson, x, y, pressure, integrals, scale)
-    return _inside(load, poisson, a2, b2, x, y, z, root, integrals, scale)
+    return _inside(load, poisson, a2=a2, b2=b2, x=x, y=y, z=z, root=root, i=integrals, scale=scale)
 
 
 @kernel
@@ -182,7 +182,21 @@ def _integrate(a2: float, b2: float, x: float, y: float, z: float, root: float) 
             xxy -= (1.0 + x * u * cube) * v / height * of_p
             yyy -= (3.0 + y * v * cube) * v / height * of_q
             yyx -= (1.0 + y * v * cube) * u / height * of_q
-    return Integrals(i_p, i_q, i_s, i_xx, i_xy, f_xxx, f_xxy, f_yyy, f_yyx, xxx, xxy, yyy, yyx)
+    return Integrals(
+        p=i_p,
+        q=i_q,
+        s=i_s,
+        xx=i_xx,
+        xy=i_xy,
+        f_xxx=f_xxx,
+        f_xxy=f_xxy,
+        f_yyy=f_yyy,
+        f_yyx=f_yyx,
+        xxx=xxx,
+        xxy=xxy,
+        yyy=yyy,
+        yyx=yyx,
+    )
 
 
 @kernel

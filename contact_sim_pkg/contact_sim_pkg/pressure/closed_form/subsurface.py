@@ -85,19 +85,20 @@ def subsurface_stress(
         raise ValueError(f"subsurface: points are {points.shape}, they must be [n, 3]")
     _refuse_points(points)
     stress = numpy.zeros((points.shape[0], 6))
-    start_x, start_y = grid.origin_x - 0.5 * grid.cell_x, grid.origin_y - 0.5 * grid.cell_y
-    cell_x, cell_y = float(grid.cell_x), float(grid.cell_y)
+    nu, cell_x, cell_y = float(poisson), float(grid.cell_x), float(grid.cell_y)
+    start_x, start_y = float(grid.origin_x - 0.5 * grid.cell_x), float(grid.origin_y - 0.5 * grid.cell_y)
+    corners = SurfaceGrid(cell_x, cell_y, start_x, start_y)
     if pressure is not None:
         weight = _corner_weights(pressure, "pressure")
-        add_stresses(weight, cell_x, cell_y, float(start_x), float(start_y), float(poisson), False, points, stress)
+        add_stresses(weight, corners, nu, False, points, stress)
     if traction_x is not None:
         weight = _corner_weights(traction_x, "traction_x")
-        add_stresses(weight, cell_x, cell_y, float(start_x), float(start_y), float(poisson), True, points, stress)
+        add_stresses(weight, corners, nu, True, points, stress)
     if traction_y is not None:
-        # Along y: x and y change places, in the field, the points and the stresses.
-        turned, out = numpy.ascontiguousarray(points[:, [1, 0, 2]]), numpy.zeros(stress.shape)
+        # Along y: x and y are exchanged, in the field, the points and the stresses.
+        exchanged, out = numpy.ascontiguousarray(points[:, [1, 0, 2]]), numpy.zeros(stress.shape)
         weight = numpy.ascontiguousarray(_corner_weights(traction_y, "traction_y").T)
-        add_stresses(weight, cell_y, cell_x, float(start_y), float(start_x), float(poisson), True, turned, out)
+        add_stresses(weight, SurfaceGrid(cell_y, cell_x, start_y, start_x), nu, True, exchanged, out)
         stress += out[:, [1, 0, 2, 3, 5, 4]]
     return stress
 
@@ -138,21 +139,14 @@ def _components(stress: Field) -> Field:
 
 @entry
 def add_stresses(
-    weight: Field,
-    cell_x: float,
-    cell_y: float,
-    start_x: float,
-    start_y: float,
-    poisson: float,
-    tangential: bool,
-    points: Field,
-    stress: Field,
+    weight: Field, corners: SurfaceGrid, poisson: float, tangential: bool, points: Field, stress: Field
 ) -> None:
-    """Add the stresses of a pressure, or of a traction along x (`tangential`), to `stress` [n, 6].
+    """Add the stresses of a pressure, or of a traction along x (`tangential`), to `stress` [n, 6] [Pa].
 
-    weight: second differences D [rows+1, cols+1].
+    weight: second differences D [rows+1, cols+1] [Pa] at the `corners` of the cells; points: [n, 3] [m].
     """
     rows, cols = weight.shape
+    cell_x, cell_y, start_x, start_y = corners
     cut = CUT * min(cell_x, cell_y)
     for k in range(points.shape[0]):
         x, y, z = points[k, 0] - start_x, points[k, 1] - start_y, points[k, 2]

@@ -8,8 +8,8 @@ before, s, by the response K s that is known from it:
 
 Conjugate gradients would take one convolution for the length a and another to certify. Here a is taken from experience, one
 length for each correction by its number, and u = K p_new is evaluated afresh: that certifies the field and gives K s, clipping
-and all. Where more is needed the length is put right afterwards, with the factor `g = -sum c s / sum s K s`, before the next
-direction is sought; g^(1/4) goes into the experience.
+and all. Where more is needed the step is rescaled afterwards, with the factor `g = -sum c s / sum s K s`, before the next
+search direction; g^(1/4) enters the experience.
 
 It ends when the residual is at most the tolerance and the last correction changed the field by at most `CHANGE` times the
 tolerance in L2. The second is the better measure of the error: the error was 0.4 to 0.9 of the change where it was measured
@@ -27,8 +27,9 @@ from numpy.typing import NDArray
 from contact_sim_pkg.compiled.jit import kernel
 from contact_sim_pkg.pressure.field.halfspace import HalfSpace, convolve, precondition
 from contact_sim_pkg.pressure.field.iteration import SolverWorkspace, evaluate, hold_load
+from contact_sim_pkg.pressure.field.solver import FieldRequest
 
-__all__ = ["FIRST_LENGTH", "MOST_CORRECTIONS", "follow"]
+__all__ = ["FIRST_LENGTH", "MOST_CORRECTIONS", "correct"]
 
 CHANGE = 6.0
 """Largest last change of the field, over the tolerance."""
@@ -43,13 +44,13 @@ LENGTHS = (0.1, 1.5)
 """Shortest and longest correction."""
 
 FACTORS = (0.3, 3.0)
-"""Least and largest factor that puts a length right."""
+"""Least and largest factor that rescales a step."""
 
 Values = NDArray[numpy.float64]
 
 
-class Followed(NamedTuple):
-    """How far the corrections came."""
+class Corrected(NamedTuple):
+    """Result of the corrections."""
 
     certified: bool  # otherwise the rest means nothing
     corrections: int
@@ -57,7 +58,7 @@ class Followed(NamedTuple):
     residual: float  # [-]
 
 
-class Change(NamedTuple):
+class Correction(NamedTuple):
     """What the last correction did."""
 
     factor: float  # [-] by which it should have been longer
@@ -65,40 +66,43 @@ class Change(NamedTuple):
 
 
 @kernel
-def follow(
+def correct(
     half_space: HalfSpace,
     workspace: SolverWorkspace,
     approach: float,
     total: float,
-    tolerance: float,
+    request: FieldRequest,
     least_corrections: int,
-    max_corrections: int,
     lengths: Values,
-) -> Followed:
-    """Correct the prediction in `pressure` and `surface` until it is certified; `total` as in `field_solver.iterate`."""
+) -> Corrected:
+    """Correct the prediction in `pressure` and `surface` until it is certified.
+
+    approach: [m], taken where `total` is negative; total: [Pa] as in `pressure/field/solver.py:iterate`;
+    request: its tolerance, and the most corrections; lengths: [corrections] [-], learned, changed in place.
+    """
     holds_load = total >= 0.0
     contact, pulling = list_cells(workspace)
     response_known = False
-    for correction in range(min(max_corrections, MOST_CORRECTIONS)):
+    for correction in range(min(request.max_iterations, MOST_CORRECTIONS)):
         state = evaluate(workspace, contact, 0, approach, holds_load)
         if contact == 0 or not abs(state.approach) < numpy.inf:
             break
-        seek(half_space, workspace, state.free, holds_load, response_known)
+        search_direction(half_space, workspace, state.free, holds_load, response_known)
         contact, left = move(workspace, state.free, pulling, lengths[correction])
         factor = hold_load(workspace, contact, total) if holds_load else 1.0
         if contact == 0 or not 0.0 < factor < numpy.inf:
             break
-        respond(half_space, workspace)
-        change = weigh(workspace, contact, left, state.approach)
+        apply_operator(half_space, workspace)
+        change = accept_step(workspace, contact, left, state.approach)
         state = evaluate(workspace, contact, left, approach, holds_load)
         longer = lengths[correction] * math.sqrt(math.sqrt(change.factor))
         lengths[correction] = min(max(longer, LENGTHS[0]), LENGTHS[1])
-        enough = correction + 1 >= least_corrections and change.size <= CHANGE * tolerance
-        if enough and state.residual <= tolerance:
-            return Followed(True, correction + 1, state.approach, state.residual)
-        contact, pulling = put_right(workspace, contact, state.free, left, change.factor)
+        enough = correction + 1 >= least_corrections and change.size <= CHANGE * request.tolerance
+        if enough and state.residual <= request.tolerance:
+            return Corrected(True, correction + 1, state.approach, state.residual)
+        contact, pulling = rescale_step(workspace, contact, state.free, left, change.factor)
         response_known = True
-    return Followed(False, 0, approach, numpy.inf)
+    return Corrected(False, 0, approach, numpy.inf)
 
 
 @kernel
@@ -122,7 +126,9 @@ def list_cells(workspace: SolverWorkspace) -> tuple[int, int]:
 
 
 @kernel
-def seek(half_space: HalfSpace, workspace: SolverWorkspace, count: int, holds_load: bool, response_known: bool) -> None:
+def search_direction(
+    half_space: HalfSpace, workspace: SolverWorkspace, count: int, holds_load: bool, response_known: bool
+) -> None:
     """New direction on the free cells; `direction` holds the step before, `response` what it displaced."""
     precondition(half_space, workspace.buffers, workspace.residual, workspace.filtered)
     filtered, residual = workspace.cells.filtered, workspace.cells.residual
@@ -183,7 +189,7 @@ def move(workspace: SolverWorkspace, count: int, pulling: int, length: float) ->
 
 
 @kernel
-def respond(half_space: HalfSpace, workspace: SolverWorkspace) -> None:
+def apply_operator(half_space: HalfSpace, workspace: SolverWorkspace) -> None:
     """Deformed surface from the pressure alone, and what it moved by in `response`; 0 where it was not known before."""
     surface, height, response = workspace.surface, workspace.height, workspace.response
     convolve(half_space, workspace.buffers, workspace.pressure, response)
@@ -196,7 +202,7 @@ def respond(half_space: HalfSpace, workspace: SolverWorkspace) -> None:
 
 
 @kernel
-def weigh(workspace: SolverWorkspace, contact: int, left: int, approach: float) -> Change:
+def accept_step(workspace: SolverWorkspace, contact: int, left: int, approach: float) -> Correction:
     """Complete the step in `direction`, and judge it; `approach` is that before the step."""
     pressure, direction = workspace.cells.pressure, workspace.cells.direction
     surface, response = workspace.cells.surface, workspace.cells.response
@@ -218,11 +224,11 @@ def weigh(workspace: SolverWorkspace, contact: int, left: int, approach: float) 
         curvature += step * response[k]
         size += step * step
     factor = min(max(-work / curvature, FACTORS[0]), FACTORS[1]) if curvature > 0.0 else 1.0
-    return Change(factor, math.sqrt(size / norm))
+    return Correction(factor, math.sqrt(size / norm))
 
 
 @kernel
-def put_right(workspace: SolverWorkspace, contact: int, count: int, left: int, factor: float) -> tuple[int, int]:
+def rescale_step(workspace: SolverWorkspace, contact: int, count: int, left: int, factor: float) -> tuple[int, int]:
     """Make the last step `factor` times as long, surface and all; returns the numbers of cells that press and that pull."""
     surface, response = workspace.surface, workspace.response
     pressure, direction, residual = workspace.cells.pressure, workspace.cells.direction, workspace.cells.residual

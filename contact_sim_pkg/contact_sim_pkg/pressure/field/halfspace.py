@@ -113,15 +113,15 @@ def _half_space(influence: Field, cell_x: float, cell_y: float, modulus: float) 
     influence = numpy.ascontiguousarray(influence)
     rows, cols = influence.shape
     return HalfSpace(
-        rows,
-        cols,
-        cell_x,
-        cell_y,
-        modulus,
-        influence,
-        _transfer(influence),
-        _preconditioner(influence, cell_x, cell_y, modulus),
-        numpy.ascontiguousarray(numpy.concatenate([influence[:, :0:-1], influence], axis=1)),
+        rows=rows,
+        cols=cols,
+        cell_x=cell_x,
+        cell_y=cell_y,
+        modulus=modulus,
+        influence=influence,
+        transfer=_transfer(influence),
+        preconditioner=_preconditioner(influence, cell_x, cell_y, modulus),
+        mirrored=numpy.ascontiguousarray(numpy.concatenate([influence[:, :0:-1], influence], axis=1)),
     )
 
 

@@ -1,4 +1,4 @@
-"""One instant of a rolling pressure field in one compiled piece: predict, correct, certify, look outside the window, keep."""
+"""One instant of a rolling pressure field in one compiled entry: predict, correct, certify, look outside the window, store."""
 
 from __future__ import annotations
 
@@ -8,14 +8,14 @@ import numpy
 from numpy.typing import NDArray
 
 from contact_sim_pkg.compiled.jit import entry, kernel
-from contact_sim_pkg.pressure.field.follow import follow
+from contact_sim_pkg.pressure.field.follow import correct
 from contact_sim_pkg.pressure.field.halfspace import Field, HalfSpace
 from contact_sim_pkg.pressure.field.iteration import SolverWorkspace
 from contact_sim_pkg.pressure.field.outside import enclose
-from contact_sim_pkg.pressure.field.prediction import Known, predict, remember, scale_to, start_from
-from contact_sim_pkg.pressure.field.solver import total_of
+from contact_sim_pkg.pressure.field.prediction import PreviousField, predict, scale_to, start_from, store
+from contact_sim_pkg.pressure.field.solver import FieldRequest, total_of
 
-__all__ = ["Instant", "all_finite", "grown_window", "keep_window", "solve_instant"]
+__all__ = ["InstantResult", "Start", "all_finite", "grown_window", "solve_instant", "store_window"]
 
 LEAST_FROM_START = 2
 """Corrections of a start that is no prediction: on a window that has grown the first moves the new cells by its length only."""
@@ -23,8 +23,20 @@ LEAST_FROM_START = 2
 Values = NDArray[numpy.float64]
 
 
-class Instant(NamedTuple):
-    """What a solve from a prediction came to."""
+class Start(NamedTuple):
+    """Where a solve starts: its window, the fields before, and the learned lengths of corrections."""
+
+    first_row: int
+    first_col: int
+    last: PreviousField
+    before: PreviousField
+    repeats: bool  # another solve at the instant of `last`
+    share: float  # of extrapolation; negative: start from the pressure on the whole grid
+    lengths: Values  # [corrections] [-]
+
+
+class InstantResult(NamedTuple):
+    """Result of a solve from a prediction."""
 
     certified: bool  # otherwise the field on the whole grid is a start, and nothing else means anything
     corrections: int
@@ -51,61 +63,54 @@ def solve_instant(
     part: HalfSpace,
     workspace: SolverWorkspace,
     gap: Field,
-    given: float,
-    holds_load: bool,
-    tolerance: float,
-    max_corrections: int,
-    first_row: int,
-    first_col: int,
-    last: Known,
-    before: Known,
-    repeats: bool,
-    share: float,
-    lengths: Values,
+    request: FieldRequest,
+    start: Start,
     pressure: Field,
-) -> Instant:
-    """Solve on the window of the size of `part` at (first_row, first_col); `pressure` of the whole grid is overwritten.
+) -> InstantResult:
+    """Solve on the window of the size of `part` at the place of `start`; `pressure` of the whole grid is overwritten.
 
-    share: of extrapolation; negative: start from `pressure` instead of what is known. The new field is kept in
-    `last` if this repeats an instant, else in `before`. What is not certified is put into `pressure` as a start.
+    gap: [rows, cols] [m] of the whole grid; pressure: [rows, cols] [Pa]; request: its iterations are corrections. The new
+    field is stored in `start.last` if this repeats an instant, else in `start.before`. What is not certified is put into
+    `pressure` as a start.
     """
     rows, cols = part.rows, part.cols
+    first_row, first_col, share = start.first_row, start.first_col, start.share
+    prescribed, holds_load = request.prescribed, request.holds_load
     window, cell = (first_row, first_col, rows, cols), whole.cell_x * whole.cell_y
     datum = load_heights(gap, first_row, first_col, workspace.height, workspace.clipped)
     if share >= 0.0:
-        predict(workspace, first_row, first_col, last, before, share)
+        predict(workspace, first_row, first_col, start.last, start.before, share)
     else:
         start_from(part, workspace, first_row, first_col, pressure)
-    total, approach = (given / cell, 0.0) if holds_load else (-1.0, given - datum)
+    total, approach = (prescribed / cell, 0.0) if holds_load else (-1.0, prescribed - datum)
     if (holds_load or approach > 0.0) and scale_to(workspace, approach, total):
-        keep = last if repeats else before
+        target = start.last if start.repeats else start.before
         least = 1 if share >= 0.0 else LEAST_FROM_START
-        found = follow(part, workspace, approach, total, tolerance, least, max_corrections, lengths)
+        found = correct(part, workspace, approach, total, request, least, start.lengths)
         if found.certified:
-            box = remember(workspace, first_row, first_col, keep, pressure)
-            approach = found.approach + datum if holds_load else given
-            window = enclose(whole, gap, approach, pressure, *window)
+            box = store(workspace, first_row, first_col, target, pressure)
+            approach = found.approach + datum if holds_load else prescribed
+            window = enclose(whole, gap, approach, pressure, window)
             load = total_of(workspace.pressure) * cell
-            return Instant(True, found.corrections, load, approach, found.residual, window, box)
+            return InstantResult(True, found.corrections, load, approach, found.residual, window, box)
     put_start(workspace, first_row, first_col, pressure)
-    return Instant(False, 0, 0.0, given, numpy.inf, window, (0, 0, 0, 0))
+    return InstantResult(False, 0, 0.0, prescribed, numpy.inf, window, (0, 0, 0, 0))
 
 
 @entry
-def keep_window(
-    workspace: SolverWorkspace, first_row: int, first_col: int, keep: Known, pressure: Field
+def store_window(
+    workspace: SolverWorkspace, first_row: int, first_col: int, target: PreviousField, pressure: Field
 ) -> tuple[int, int, int, int]:
-    """Keep what another solver left in the workspace; as `remember`."""
-    return remember(workspace, first_row, first_col, keep, pressure)
+    """Store what another solver left in the workspace; as `store`."""
+    return store(workspace, first_row, first_col, target, pressure)
 
 
 @entry
 def grown_window(
-    whole: HalfSpace, gap: Field, approach: float, pressure: Field,
-    first_row: int, first_col: int, rows: int, cols: int,
-) -> tuple[int, int, int, int]:  # fmt: skip
+    whole: HalfSpace, gap: Field, approach: float, pressure: Field, window: tuple[int, int, int, int]
+) -> tuple[int, int, int, int]:
     """See `enclose`."""
-    return enclose(whole, gap, approach, pressure, first_row, first_col, rows, cols)
+    return enclose(whole, gap, approach, pressure, window)
 
 
 @kernel
@@ -117,7 +122,7 @@ def load_heights(gap: Field, first_row: int, first_col: int, height: Field, line
     for i in range(rows):
         for j in range(cols):
             here = gap[first_row + i, first_col + j]
-            line[j] = here if here < line[j] else line[j]  # `min` minds NaN, which takes four times as long
+            line[j] = here if here < line[j] else line[j]  # `min` propagates NaN, which takes four times as long
     least = numpy.inf
     for j in range(cols):
         least = min(least, line[j])
@@ -129,7 +134,7 @@ def load_heights(gap: Field, first_row: int, first_col: int, height: Field, line
 
 @kernel
 def put_start(workspace: SolverWorkspace, first_row: int, first_col: int, pressure: Field) -> None:
-    """What the corrections came to, as a start on the whole grid: positive and finite, zero elsewhere."""
+    """Field after the corrections, as a start on the whole grid: positive and finite, zero elsewhere."""
     rows, cols = workspace.pressure.shape
     pressure[:] = 0.0
     for i in range(rows):

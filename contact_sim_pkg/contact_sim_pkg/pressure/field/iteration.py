@@ -66,7 +66,7 @@ class SolverWorkspace(NamedTuple):
     cells: CellLists
 
 
-class State(NamedTuple):
+class Evaluation(NamedTuple):
     """What one evaluation finds."""
 
     approach: float  # [m]
@@ -118,7 +118,7 @@ def fresh_surface(half_space: HalfSpace, workspace: SolverWorkspace) -> None:
 
 
 @kernel
-def evaluate(workspace: SolverWorkspace, contact: int, left: int, approach: float, holds_load: bool) -> State:
+def evaluate(workspace: SolverWorkspace, contact: int, left: int, approach: float, holds_load: bool) -> Evaluation:
     """Residual of a field (and its approach, if the load is given); stores the clearance of the free cells.
 
     The first `contact` cells of the list are in contact, the first `left` of the other have just lost their pressure.
@@ -146,10 +146,10 @@ def evaluate(workspace: SolverWorkspace, contact: int, left: int, approach: floa
     for m in range(contact, count):
         penetration = max(penetration, -residual[free[m]])
     if penetration == 0.0 and complementarity == 0.0:
-        return State(approach, 0.0, count)
+        return Evaluation(approach, 0.0, count)
     if not energy > 0.0:
-        return State(approach, numpy.inf, count)
-    return State(approach, (complementarity + penetration * total) / energy, count)
+        return Evaluation(approach, numpy.inf, count)
+    return Evaluation(approach, (complementarity + penetration * total) / energy, count)
 
 
 @kernel

@@ -93,17 +93,14 @@ def good_side(least: int, most: int) -> int:
 
 @kernel
 def enclose(
-    half_space: HalfSpace,
-    gap: Field,
-    approach: float,
-    pressure: Field,
-    first_row: int,
-    first_col: int,
-    window_rows: int,
-    window_cols: int,
+    half_space: HalfSpace, gap: Field, approach: float, pressure: Field, window: tuple[int, int, int, int]
 ) -> tuple[int, int, int, int]:
-    """Smallest window that holds the given one and every cell outside it that penetrates."""
+    """Smallest window that holds `window` and every cell outside it that penetrates.
+
+    Windows: first row, first column, rows, columns. gap: [rows, cols] [m]; approach: [m]; pressure: [rows, cols] [Pa].
+    """
     rows, cols = gap.shape
+    first_row, first_col, window_rows, window_cols = window
     end_row, end_col = first_row + window_rows, first_col + window_cols
     top, bottom, left, right = rows, -1, cols, -1
     blocks, added = make_block_sums(half_space), False
@@ -120,8 +117,8 @@ def enclose(
                 added = True
             least = least_displacement(half_space, blocks, i, j, BLOCK, depth)
             if least < depth:
-                window = (first_row, first_col, end_row, end_col)
-                box = penetrating(half_space, gap, approach, pressure, blocks, window, i, j, least)
+                ends = (first_row, first_col, end_row, end_col)
+                box = penetrating(half_space, gap, approach, pressure, blocks, ends, block=(i, j), least=least)
                 top, bottom = min(top, box[0]), max(bottom, box[1])
                 left, right = min(left, box[2]), max(right, box[3])
     if bottom < 0:
@@ -139,12 +136,15 @@ def penetrating(
     pressure: Field,
     blocks: BlockSums,
     window: tuple[int, int, int, int],
-    i: int,
-    j: int,
+    block: tuple[int, int],
     least: float,
 ) -> tuple[int, int, int, int]:
-    """Box of the cells of a block that penetrate outside the window; all are displaced by `least` [m] at least."""
+    """Box of the cells of a block that penetrate outside the window; all are displaced by `least` [m] at least.
+
+    window: first row and column, end row and column; block: its first row and column.
+    """
     rows, cols = gap.shape
+    i, j = block
     first_row, first_col, end_row, end_col = window
     top, bottom, left, right = rows, -1, cols, -1
     for row in range(i, min(i + BLOCK, rows)):

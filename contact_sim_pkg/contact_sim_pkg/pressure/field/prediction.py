@@ -1,4 +1,4 @@
-"""What the fields before tell about the next one: pressure and displacement, carried along with the road.
+"""Prediction of a field from the two before it: pressure and displacement, carried along with the road.
 
 The roughness of the road is carried through the contact, so the field changes slowly in the *road's* frame. Pressure p and
 displacement u = K p of the two fields before, shifted by the cells travelled, are extrapolated by the same amount,
@@ -20,7 +20,7 @@ from contact_sim_pkg.compiled.jit import kernel
 from contact_sim_pkg.pressure.field.halfspace import Field, HalfSpace, convolve
 from contact_sim_pkg.pressure.field.iteration import SolverWorkspace
 
-__all__ = ["EXTRAPOLATION", "Known", "make_known", "predict", "remember", "scale_to", "start_from"]
+__all__ = ["EXTRAPOLATION", "PreviousField", "make_previous_field", "predict", "scale_to", "start_from", "store"]
 
 EXTRAPOLATION = 0.75
 """Full extrapolation, 1, carries more of the errors of the fields before into the next; chosen by error and convolutions."""
@@ -31,7 +31,7 @@ SCALES = (0.5, 2.0)
 Place = NDArray[numpy.int64]
 
 
-class Known(NamedTuple):
+class PreviousField(NamedTuple):
     """A field that was solved on a window of the whole grid; outside it the pressure is zero and u is not known."""
 
     pressure: Field  # [Pa] [rows, cols] of the whole grid, meant within the window only
@@ -39,21 +39,21 @@ class Known(NamedTuple):
     place: Place  # first row, first column, end row, end column of the window; cells travelled since
 
 
-def make_known(half_space: HalfSpace) -> Known:
-    """Nothing known yet."""
+def make_previous_field(half_space: HalfSpace) -> PreviousField:
+    """Nothing stored yet."""
     shape = (half_space.rows, half_space.cols)
-    return Known(numpy.zeros(shape), numpy.zeros(shape), numpy.zeros(5, dtype=numpy.int64))
+    return PreviousField(numpy.zeros(shape), numpy.zeros(shape), numpy.zeros(5, dtype=numpy.int64))
 
 
 @kernel
 def predict(
-    workspace: SolverWorkspace, first_row: int, first_col: int, last: Known, before: Known, share: float
+    workspace: SolverWorkspace, first_row: int, first_col: int, last: PreviousField, before: PreviousField, share: float
 ) -> None:
     """Prediction on the window at (first_row, first_col): pressure, and u in `surface`, infinite where it is not known."""
     pressure, surface = workspace.pressure, workspace.surface
     rows, cols = pressure.shape
     for i in range(rows):
-        row, start, end = known_part(last, first_row + i, first_col, cols)
+        row, start, end = stored_part(last, first_row + i, first_col, cols)
         for j in range(cols):
             pressure[i, j], surface[i, j] = 0.0, numpy.inf
         for j in range(start, end):
@@ -61,7 +61,7 @@ def predict(
             surface[i, j] = last.displacement[row, first_col + j]
         if share == 0.0:
             continue
-        row, start_before, end_before = known_part(before, first_row + i, first_col, cols)
+        row, start_before, end_before = stored_part(before, first_row + i, first_col, cols)
         for j in range(max(start, start_before), min(end, end_before)):
             p, u = pressure[i, j], surface[i, j]
             surface[i, j] = u + share * (u - before.displacement[row, first_col + j])
@@ -81,9 +81,9 @@ def start_from(
 
 
 @kernel
-def known_part(known: Known, row: int, first_col: int, cols: int) -> tuple[int, int, int]:
-    """Row of a known field that lies at `row` now, and the first and end column of a window's row that are known."""
-    top, start, bottom, end, moved = known.place
+def stored_part(field: PreviousField, row: int, first_col: int, cols: int) -> tuple[int, int, int]:
+    """Row of a stored field that lies at `row` now, and the first and end column of a window's row that it holds."""
+    top, start, bottom, end, moved = field.place
     row += moved
     if not top <= row < bottom:
         return 0, 0, 0
@@ -117,24 +117,24 @@ def scale_to(workspace: SolverWorkspace, approach: float, total: float) -> bool:
 
 
 @kernel
-def remember(
-    workspace: SolverWorkspace, first_row: int, first_col: int, known: Known, pressure: Field
+def store(
+    workspace: SolverWorkspace, first_row: int, first_col: int, field: PreviousField, pressure: Field
 ) -> tuple[int, int, int, int]:
-    """Keep a solved window, and write its pressure into the whole grid, zero around it.
+    """Store a solved window, and write its pressure into the whole grid, zero around it.
 
     Returns first and last row, first and last column of the contact; where there is none the last are negative.
     """
     rows, cols = workspace.pressure.shape
-    known.place[0], known.place[1] = first_row, first_col
-    known.place[2], known.place[3], known.place[4] = first_row + rows, first_col + cols, 0
+    field.place[0], field.place[1] = first_row, first_col
+    field.place[2], field.place[3], field.place[4] = first_row + rows, first_col + cols, 0
     pressure[:] = 0.0
     top, bottom, left, right = rows, -1, cols, -1
     for i in range(rows):
         first, end = cols, -1
         for j in range(cols):
             p = workspace.pressure[i, j]
-            known.pressure[first_row + i, first_col + j] = p
-            known.displacement[first_row + i, first_col + j] = workspace.surface[i, j] - workspace.height[i, j]
+            field.pressure[first_row + i, first_col + j] = p
+            field.displacement[first_row + i, first_col + j] = workspace.surface[i, j] - workspace.height[i, j]
             pressure[first_row + i, first_col + j] = p
             if p > 0.0:
                 first, end = min(first, j), j

@@ -2,7 +2,7 @@
 
 Prediction and its displacement come from the two fields before (`pressure/field/prediction.py`); corrections follow, each certified
 by its own convolution (`pressure/field/follow.py`). Where that does not converge the solver of `pressure/field/solver.py` goes on.
-Where nothing is known the start is the field on a grid of half as many cells each way, itself started like that.
+Without a field before the start is the field on a grid of half as many cells each way, itself started like that.
 
 Window: the solver works on the box of the contact before and a margin. A window is enough if no cell outside it penetrates,
 which is checked after each solve (`pressure/field/outside.py`). Where one penetrates the window grows and the solve goes on.
@@ -17,19 +17,27 @@ from numpy.typing import NDArray
 
 from contact_sim_pkg.pressure.field.follow import FIRST_LENGTH, MOST_CORRECTIONS
 from contact_sim_pkg.pressure.field.halfspace import Field, HalfSpace, coarsened, make_half_space, yields_further
-from contact_sim_pkg.pressure.field.instant import Instant, all_finite, grown_window, keep_window, solve_instant
+from contact_sim_pkg.pressure.field.instant import (
+    InstantResult,
+    Start,
+    all_finite,
+    grown_window,
+    solve_instant,
+    store_window,
+)
 from contact_sim_pkg.pressure.field.nested import double, halve
 from contact_sim_pkg.pressure.field.outside import widened
-from contact_sim_pkg.pressure.field.prediction import EXTRAPOLATION, make_known
+from contact_sim_pkg.pressure.field.prediction import EXTRAPOLATION, make_previous_field
 from contact_sim_pkg.pressure.field.solver import (
     BAD_INPUT,
     CONVERGED,
     EDGE,
+    FieldRequest,
     FieldResult,
     solve_at_approach,
     solve_at_load,
 )
-from contact_sim_pkg.pressure.field.window import Part, Window, make_part, put_back, take
+from contact_sim_pkg.pressure.field.window import GridWindow, Part, copy_window, make_part, write_window
 
 __all__ = ["RollingField"]
 
@@ -45,7 +53,7 @@ MOST_TRAVEL = 0.1
 NOWHERE = (0, -1, 0, -1)
 
 NEW, REPEAT, START = 0, 1, 2
-"""Lengths of corrections are known apart for a new instant, another solve at the same, and a start from nothing."""
+"""Lengths of corrections are learned apart for a new instant, another solve at the same, and a start from nothing."""
 
 FEW_CORRECTIONS = 2
 """Of a grid where a belt yields beside the half-space: corrections of learned length do not converge there, gradients do."""
@@ -58,9 +66,9 @@ Box = tuple[int, int, int, int]
 
 
 class RollingField:
-    """One pressure field and what is known of it from the instants before. Rows lie along the travel.
+    """One pressure field, and the fields of the two instants before. Rows lie along the travel.
 
-    `roll` begins an instant and says how far the road moved, `solve_at_load` or `solve_at_approach` solves there; `pressure`
+    `roll` begins an instant and sets how far the road moved, `solve_at_load` or `solve_at_approach` solves there; `pressure`
     [Pa] is the field. A solve without `roll` repeats the instant: it starts from the last field, which it replaces.
     """
 
@@ -68,8 +76,8 @@ class RollingField:
         """Take the whole grid; tables of a window's size are made when it first comes (about 1 ms) and kept."""
         self.half_space = half_space
         self.pressure: Field = numpy.zeros((half_space.rows, half_space.cols))
-        self._last, self._before = make_known(half_space), make_known(half_space)
-        self._instants = 0  # known, at most 2
+        self._last, self._before = make_previous_field(half_space), make_previous_field(half_space)
+        self._instants = 0  # stored, at most 2
         self._cells: int | None = None  # of travel since the last field, if a new instant began
         self._box: Box = NOWHERE  # of the last field's contact
         self._lengths: Values = numpy.full((3, MOST_CORRECTIONS), FIRST_LENGTH)
@@ -88,141 +96,125 @@ class RollingField:
         """A new instant: the road moved by `cells` rows towards row 0 since the last field; negative: the other way."""
         self._cells = int(cells) + (self._cells or 0)
 
-    def forget(self) -> None:
-        """The next field starts from nothing."""
+    def reset(self) -> None:
+        """Drop the fields before: the next one starts from nothing."""
         self._instants, self._cells, self._box = 0, None, NOWHERE
         self._lengths.fill(FIRST_LENGTH)
         self.pressure.fill(0.0)
 
     def solve_at_load(self, gap: Field, load: float, tolerance: float, max_iterations: int) -> FieldResult:
-        """As `field_solver.solve_at_load`, into `pressure`. BAD_INPUT leaves what is known as it was."""
-        return self._solve(gap, float(load), True, float(tolerance), int(max_iterations))
+        """As `pressure/field/solver.py:solve_at_load`, into `pressure`. BAD_INPUT leaves the fields before as they were."""
+        return self._solve(gap, FieldRequest(float(load), True, float(tolerance), int(max_iterations)))
 
     def solve_at_approach(self, gap: Field, approach: float, tolerance: float, max_iterations: int) -> FieldResult:
-        """As `field_solver.solve_at_approach`, into `pressure`. BAD_INPUT leaves what is known as it was."""
-        return self._solve(gap, float(approach), False, float(tolerance), int(max_iterations))
+        """As `pressure/field/solver.py:solve_at_approach`, into `pressure`. BAD_INPUT leaves the fields before as they were."""
+        return self._solve(gap, FieldRequest(float(approach), False, float(tolerance), int(max_iterations)))
 
-    def _solve(self, gap: Field, given: float, holds_load: bool, tolerance: float, max_iterations: int) -> FieldResult:
-        whole = self.half_space
+    def _solve(self, gap: Field, request: FieldRequest) -> FieldResult:
+        whole, prescribed = self.half_space, request.prescribed
         if gap.shape != (whole.rows, whole.cols):
             raise ValueError(f"pressure field: gap is {gap.shape}, it must be {(whole.rows, whole.cols)}")
-        if not (numpy.isfinite(given) and (given >= 0.0 or not holds_load) and all_finite(gap)):
+        if not (numpy.isfinite(prescribed) and (prescribed >= 0.0 or not request.holds_load) and all_finite(gap)):
             return FieldResult(BAD_INPUT, 0, 0.0, numpy.nan, numpy.inf)
+        # Predict from the fields before, or start from a coarser grid.
         repeats, window, spent = self._begin(), self._expected(), 0
         share, lengths = (0.0, REPEAT) if repeats else (EXTRAPOLATION if self._instants > 1 else 0.0, NEW)
         if window is None:
-            window, share, lengths = self._start(gap, given, holds_load, max_iterations), FROM_PRESSURE, START
+            window, share, lengths = self._start(gap, request), FROM_PRESSURE, START
+        # Correct on a window that grows until no cell outside penetrates; the solver goes on where that fails.
         while True:
-            found = self._correct(
-                window, gap, given, holds_load, tolerance, min(max_iterations - spent, self._corrections), repeats,
-                share, lengths,
-            )  # fmt: skip
+            start = Start(
+                first_row=window.first_row,
+                first_col=window.first_col,
+                last=self._last,
+                before=self._before,
+                repeats=repeats,
+                share=share,
+                lengths=self._lengths[lengths],
+            )
+            most = min(request.max_iterations - spent, self._corrections)
+            found = self._correct(window, gap, request._replace(max_iterations=most), start)
             spent += found.corrections
             if not found.certified:
-                return self._settle(window, gap, given, holds_load, tolerance, max_iterations, spent, repeats)
+                return self._settle(window, gap, request, spent, repeats)
             if found.window == window:
                 self._end(repeats, found.box)
                 return self._judged(FieldResult(CONVERGED, spent, found.load, found.approach, found.residual))
-            window, share, lengths = Window(*found.window), FROM_PRESSURE, START
+            window, share, lengths = GridWindow(*found.window), FROM_PRESSURE, START
 
     def _begin(self) -> bool:
-        """Carry what is known to where the road is now; whether this is another solve at the same instant."""
+        """Carry the fields before to where the road is now; whether this is another solve at the same instant."""
         repeats = self._cells is None and self._instants > 0
-        for known in (self._last, self._before):
-            known.place[4] += self._cells or 0
+        for field in (self._last, self._before):
+            field.place[4] += self._cells or 0
         self._cells = None
         return repeats
 
     def _end(self, repeats: bool, box: Box) -> None:
-        """The new field was kept: in place of the last one if that was of the same instant."""
+        """The new field was stored: in place of the last one if that was of the same instant."""
         self._box = box
         if not repeats:
             self._last, self._before = self._before, self._last
             self._instants = min(self._instants + 1, 2)
 
-    def _expected(self) -> Window | None:
-        """Where the contact will be: around the place of the last; None where nothing useful is known."""
+    def _expected(self) -> GridWindow | None:
+        """Where the contact will be: around the place of the last; None where no field before is of use."""
         if self._instants == 0 or self._box == NOWHERE:
             return None
         top, bottom, left, right = self._box
-        window = Window(*widened(self.half_space.rows, self.half_space.cols, top, bottom, left, right))
+        window = GridWindow(*widened(self.half_space.rows, self.half_space.cols, top, bottom, left, right))
         return window if abs(self._last.place[4]) <= MOST_TRAVEL * window.rows else None
 
-    def _start(self, gap: Field, given: float, holds_load: bool, max_iterations: int) -> Window:
+    def _start(self, gap: Field, request: FieldRequest) -> GridWindow:
         """Start from the field on a grid of half as many cells each way, itself started like that, or from nothing."""
-        half, whole = self._half, Window(0, 0, self.half_space.rows, self.half_space.cols)
+        half, whole = self._half, GridWindow(0, 0, self.half_space.rows, self.half_space.cols)
         if half is None:
             self.pressure.fill(0.0)
             return whole
-        half.forget()
+        half.reset()
         halve(gap, self._gap_of_half)
-        solve = half.solve_at_load if holds_load else half.solve_at_approach
-        solve(self._gap_of_half, given, TOLERANCE_OF_HALF, max_iterations)
-        window = Window(*double(half.pressure, self.pressure))
+        solve = half.solve_at_load if request.holds_load else half.solve_at_approach
+        solve(self._gap_of_half, request.prescribed, TOLERANCE_OF_HALF, request.max_iterations)
+        window = GridWindow(*double(half.pressure, self.pressure))
         return window if window.rows else whole
 
-    def _correct(
-        self,
-        window: Window,
-        gap: Field,
-        given: float,
-        holds_load: bool,
-        tolerance: float,
-        max_corrections: int,
-        repeats: bool,
-        share: float,
-        lengths: int,
-    ) -> Instant:
+    def _correct(self, window: GridWindow, gap: Field, request: FieldRequest, start: Start) -> InstantResult:
         part = self._part(window.rows, window.cols)
-        return solve_instant(
-            self.half_space, part.half_space, part.workspace, gap, given, holds_load, tolerance, max_corrections,
-            window.first_row, window.first_col, self._last, self._before, repeats, share, self._lengths[lengths],
-            self.pressure,
-        )  # fmt: skip
+        return solve_instant(self.half_space, part.half_space, part.workspace, gap, request, start, self.pressure)
 
-    def _settle(
-        self,
-        window: Window,
-        gap: Field,
-        given: float,
-        holds_load: bool,
-        tolerance: float,
-        max_iterations: int,
-        spent: int,
-        repeats: bool,
-    ) -> FieldResult:
+    def _settle(self, window: GridWindow, gap: Field, request: FieldRequest, spent: int, repeats: bool) -> FieldResult:
         """Solve from the start in `pressure`, on windows that grow until no cell outside penetrates."""
-        result = self._solve_in(window, gap, given, holds_load, tolerance, max_iterations - spent)
+        result = self._solve_in(window, gap, request, spent)
         while result.status in (CONVERGED, EDGE):
             grown = self._grown(window, gap, result.approach)
             if grown == window:
                 break
             window, spent = grown, spent + result.iterations
-            result = self._solve_in(window, gap, given, holds_load, tolerance, max_iterations - spent)
+            result = self._solve_in(window, gap, request, spent)
         if result.load > 0.0:
-            workspace, keep = self._part(window.rows, window.cols).workspace, self._last if repeats else self._before
-            self._end(repeats, keep_window(workspace, window.first_row, window.first_col, keep, self.pressure))
+            workspace, target = self._part(window.rows, window.cols).workspace, self._last if repeats else self._before
+            self._end(repeats, store_window(workspace, window.first_row, window.first_col, target, self.pressure))
         else:
             self._instants, self._box = 0, NOWHERE
         return self._judged(result._replace(iterations=result.iterations + spent))
 
-    def _solve_in(
-        self, window: Window, gap: Field, given: float, holds_load: bool, tolerance: float, max_iterations: int
-    ) -> FieldResult:
+    def _solve_in(self, window: GridWindow, gap: Field, request: FieldRequest, spent: int) -> FieldResult:
         part = self._part(window.rows, window.cols)
-        take(gap, window.first_row, window.first_col, part.gap)
-        take(self.pressure, window.first_row, window.first_col, part.pressure)
-        solve = solve_at_load if holds_load else solve_at_approach
-        result = solve(part.half_space, part.workspace, part.gap, given, tolerance, max_iterations, part.pressure)
-        put_back(part.pressure, window.first_row, window.first_col, self.pressure)
+        copy_window(gap, window.first_row, window.first_col, part.gap)
+        copy_window(self.pressure, window.first_row, window.first_col, part.pressure)
+        solve, iterations = solve_at_load if request.holds_load else solve_at_approach, request.max_iterations - spent
+        result = solve(
+            part.half_space, part.workspace, part.gap, request.prescribed, request.tolerance, iterations, part.pressure
+        )
+        write_window(part.pressure, window.first_row, window.first_col, self.pressure)
         return result
 
-    def _grown(self, window: Window, gap: Field, approach: float) -> Window:
+    def _grown(self, window: GridWindow, gap: Field, approach: float) -> GridWindow:
         """The window, or a larger one that holds the cells outside it that penetrate."""
         whole = self.half_space
         if (window.rows, window.cols) == (whole.rows, whole.cols):
             return window
-        return Window(*grown_window(whole, gap, approach, self.pressure, *window))
+        return GridWindow(*grown_window(whole, gap, approach, self.pressure, window[:]))
 
     def _judged(self, result: FieldResult) -> FieldResult:
         """EDGE is about the whole grid's edge: the window's edge was checked."""
@@ -251,18 +243,18 @@ def _half_of(whole: HalfSpace) -> RollingField | None:
 def compile_now() -> None:
     """Compile all of it on a grid of four cells: a path that was never taken may be needed in the middle of a run."""
     half_space, field, wide = make_half_space(2, 2, 1.0, 1.0, 1.0), numpy.zeros((2, 2)), numpy.zeros((4, 4))
-    part, known = make_part(half_space, 2, 2), make_known(half_space)
+    part, previous = make_part(half_space, 2, 2), make_previous_field(half_space)
     all_finite(field)
     lengths = numpy.full(MOST_CORRECTIONS, FIRST_LENGTH)
-    solve_instant(
-        half_space, part.half_space, part.workspace, field, 1.0, True, 1.0, 1, 0, 0, known, known, False, FROM_PRESSURE,
-        lengths, field,
-    )  # fmt: skip
+    start = Start(
+        first_row=0, first_col=0, last=previous, before=previous, repeats=False, share=FROM_PRESSURE, lengths=lengths
+    )
+    solve_instant(half_space, part.half_space, part.workspace, field, FieldRequest(1.0, True, 1.0, 1), start, field)
     solve_at_load(half_space, part.workspace, field, 1.0, 1.0, 1, field)
-    keep_window(part.workspace, 0, 0, known, field)
-    grown_window(half_space, field, 1.0, field, 0, 0, 2, 2)
-    take(field, 0, 0, part.gap)
-    put_back(part.gap, 0, 0, field)
+    store_window(part.workspace, 0, 0, previous, field)
+    grown_window(half_space, field, 1.0, field, (0, 0, 2, 2))
+    copy_window(field, 0, 0, part.gap)
+    write_window(part.gap, 0, 0, field)
     halve(wide, field)
     double(field, wide)
     widened(2, 2, 0, 1, 0, 1)

@@ -48,6 +48,7 @@ __all__ = [
     "EDGE",
     "NOT_CONVERGED",
     "SENTENCES",
+    "FieldRequest",
     "FieldResult",
     "SolverWorkspace",
     "first_bad_cell",
@@ -75,7 +76,18 @@ PATIENCE = 20
 """Iterations without a lower residual after which the direction starts again from the gradient."""
 
 
+class FieldRequest(NamedTuple):
+    """What is prescribed, and how accurately the field is needed."""
+
+    prescribed: float  # load [N] where `holds_load`, else approach [m] against the datum of the gap
+    holds_load: bool
+    tolerance: float  # [-] on the residual
+    max_iterations: int
+
+
 class FieldResult(NamedTuple):
+    """What a solve found, beside the field."""
+
     status: int  # CONVERGED (also without contact: load 0), EDGE, NOT_CONVERGED or BAD_INPUT
     iterations: int  # conjugate gradient steps
     load: float  # [N] sum of the pressure times the cell area
@@ -101,7 +113,8 @@ def solve_at_approach(
     Raises `ValueError` for arrays of the wrong shape or type, a tolerance below 0, iterations that are no whole number >= 0.
     """
     _refuse(half_space, gap, pressure, tolerance, max_iterations)
-    return solve(half_space, workspace, gap, float(approach), False, float(tolerance), int(max_iterations), pressure)
+    request = FieldRequest(float(approach), False, float(tolerance), int(max_iterations))
+    return solve(half_space, workspace, gap, request, pressure)
 
 
 def solve_at_load(
@@ -118,7 +131,8 @@ def solve_at_load(
     Zero load gives a zero field and the approach of first touch, the smallest gap.
     """
     _refuse(half_space, gap, pressure, tolerance, max_iterations)
-    return solve(half_space, workspace, gap, float(load), True, float(tolerance), int(max_iterations), pressure)
+    request = FieldRequest(float(load), True, float(tolerance), int(max_iterations))
+    return solve(half_space, workspace, gap, request, pressure)
 
 
 def refuse_bad_gap(gap: Field, name: str = "gap") -> None:
@@ -160,33 +174,27 @@ def first_bad_cell(gap: Field) -> int:
 
 @entry
 def solve(
-    half_space: HalfSpace,
-    workspace: SolverWorkspace,
-    gap: Field,
-    given: float,
-    holds_load: bool,
-    tolerance: float,
-    max_iterations: int,
-    pressure: Field,
+    half_space: HalfSpace, workspace: SolverWorkspace, gap: Field, request: FieldRequest, pressure: Field
 ) -> FieldResult:
-    """`solve_at_load` (holds_load: given is a load [N]) and `solve_at_approach` (given is an approach [m]).
+    """`solve_at_load` or `solve_at_approach`, as `request` says.
 
-    Shapes are not checked.
+    gap: [rows, cols] [m]; pressure: [rows, cols] [Pa], start and result. Shapes are not checked.
     """
-    if not (numpy.isfinite(given) and (given >= 0.0 or not holds_load) and acceptable(gap, pressure)):
+    prescribed, holds_load = request.prescribed, request.holds_load
+    if not (numpy.isfinite(prescribed) and (prescribed >= 0.0 or not holds_load) and acceptable(gap, pressure)):
         return FieldResult(BAD_INPUT, 0, 0.0, numpy.nan, numpy.inf)
     touch = lowest(gap)
-    if given == 0.0 if holds_load else given <= touch:
+    if prescribed == 0.0 if holds_load else prescribed <= touch:
         pressure[:] = 0.0
-        return FieldResult(CONVERGED, 0, 0.0, touch if holds_load else given, 0.0)
-    total = given / (half_space.cell_x * half_space.cell_y) if holds_load else -1.0
+        return FieldResult(CONVERGED, 0, 0.0, touch if holds_load else prescribed, 0.0)
+    total = prescribed / (half_space.cell_x * half_space.cell_y) if holds_load else -1.0
     heights_above(gap, touch, workspace.height)
     heights_above(pressure, 0.0, workspace.pressure)
     if holds_load:
-        start_at_load(half_space, workspace.height, given, total, workspace.pressure)
-    result = iterate(half_space, workspace, given - touch, total, tolerance, max_iterations)
+        start_at_load(half_space, workspace.height, prescribed, total, workspace.pressure)
+    result = iterate(half_space, workspace, prescribed - touch, total, request.tolerance, request.max_iterations)
     heights_above(workspace.pressure, 0.0, pressure)
-    approach = touch + result.approach if holds_load else given
+    approach = touch + result.approach if holds_load else prescribed
     return FieldResult(result.status, result.iterations, result.load, approach, result.residual)
 
 

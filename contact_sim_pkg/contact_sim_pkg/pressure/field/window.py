@@ -26,13 +26,13 @@ from contact_sim_pkg.pressure.field.solver import (
     solve_at_load,
 )
 
-__all__ = ["Part", "Window", "WindowedSolver", "make_part", "overlap_window", "put_back", "take"]
+__all__ = ["GridWindow", "Part", "WindowedSolver", "copy_window", "make_part", "overlap_window", "write_window"]
 
 STEP = 4
 """Sizes of windows are multiples of it [cells]; chosen by time on the tire's grid."""
 
 
-class Window(NamedTuple):
+class GridWindow(NamedTuple):
     """Rows `first_row ... first_row + rows - 1` and columns alike; no rows where nothing overlaps."""
 
     first_row: int
@@ -59,28 +59,27 @@ class WindowedSolver:
         self._whole = make_workspace(half_space)
         self._parts: dict[tuple[int, int], Part] = {}
         cell = numpy.zeros((1, 1))
-        take(
-            cell, 0, 0, cell
-        )  # compiled now: the first window that is not the whole grid may come in the middle of a run
-        put_back(cell, 0, 0, numpy.zeros((1, 1)))
+        # Compiled now: the first window that is not the whole grid may come in the middle of a run.
+        copy_window(cell, 0, 0, cell)
+        write_window(cell, 0, 0, numpy.zeros((1, 1)))
 
     def solve_at_approach(
         self, gap: Field, approach: float, tolerance: float, max_iterations: int, pressure: Field
     ) -> FieldResult:
         """As `field_solver.solve_at_approach` on the whole grid; the same field, sooner."""
         rows, cols = self.half_space.rows, self.half_space.cols
-        window = Window(0, 0, rows, cols)
+        window = GridWindow(0, 0, rows, cols)
         if gap.shape == pressure.shape == (rows, cols):  # other shapes are refused below
-            window = Window(*overlap_window(gap, float(approach), pressure))
+            window = GridWindow(*overlap_window(gap, float(approach), pressure))
         if window.rows == 0 or (window.rows, window.cols) == (rows, cols):
             return solve_at_approach(self.half_space, self._whole, gap, approach, tolerance, max_iterations, pressure)
         part = self._part(window.rows, window.cols)
-        take(gap, window.first_row, window.first_col, part.gap)
-        take(pressure, window.first_row, window.first_col, part.pressure)
+        copy_window(gap, window.first_row, window.first_col, part.gap)
+        copy_window(pressure, window.first_row, window.first_col, part.pressure)
         result = solve_at_approach(
             part.half_space, part.workspace, part.gap, approach, tolerance, max_iterations, part.pressure
         )
-        put_back(part.pressure, window.first_row, window.first_col, pressure)
+        write_window(part.pressure, window.first_row, window.first_col, pressure)
         return result
 
     def solve_at_load(
@@ -129,7 +128,7 @@ def overlap_window(gap: Field, approach: float, pressure: Field) -> tuple[int, i
 
 
 @entry
-def take(field: Field, first_row: int, first_col: int, part: Field) -> None:
+def copy_window(field: Field, first_row: int, first_col: int, part: Field) -> None:
     """Copy a window of `field` into `part`."""
     for i in range(part.shape[0]):
         for j in range(part.shape[1]):
@@ -137,7 +136,7 @@ def take(field: Field, first_row: int, first_col: int, part: Field) -> None:
 
 
 @entry
-def put_back(part: Field, first_row: int, first_col: int, field: Field) -> None:
+def write_window(part: Field, first_row: int, first_col: int, field: Field) -> None:
     """Write `part` into its window of `field`, and zero around it."""
     field[:] = 0.0
     for i in range(part.shape[0]):

@@ -15,7 +15,7 @@ import numpy
 
 from contact_sim_pkg.compiled.arrays import Modes, Vector
 from contact_sim_pkg.compiled.jit import entry, kernel
-from contact_sim_pkg.integrate.dormand_prince import Workspace, integrate, make_workspace, set_sides
+from contact_sim_pkg.integrate.dormand_prince import DormandPrinceWorkspace, integrate, make_workspace, set_sides
 from contact_sim_pkg.integrate.drive import Drive
 from contact_sim_pkg.integrate.interface import register
 from contact_sim_pkg.rigid.parameters import ImpactPath
@@ -38,7 +38,7 @@ class PathWorkspace(NamedTuple):
     scale: Vector  # [STATES]
     mode: Modes  # [1], the phase
     wanted: Vector  # [1], work that restitution shall give back, in [J]
-    integrator: Workspace
+    integrator: DormandPrinceWorkspace
 
 
 class PathRig(NamedTuple):

@@ -14,7 +14,7 @@ from contact_sim_pkg.integrate.dormand_prince import (
     EVENTS,
     REJECTED,
     STEPS,
-    Workspace,
+    DormandPrinceWorkspace,
     integrate,
     make_workspace,
     set_sides,
@@ -74,7 +74,7 @@ def compliant_contact(
 
 
 @entry
-def _begin(rig: CompliantBody, mode: Vector, state: Vector, work: Workspace) -> None:
+def _begin(rig: CompliantBody, mode: Vector, state: Vector, work: DormandPrinceWorkspace) -> None:
     look(rig, state)
     for point in range(rig.gap.shape[0]):
         set_loss(rig, mode, point)
@@ -84,7 +84,7 @@ def _begin(rig: CompliantBody, mode: Vector, state: Vector, work: Workspace) -> 
 
 @entry
 def _advance(
-    rig: CompliantBody, mode: Vector, state: Vector, scale: Vector, work: Workspace, start: float, interval: float,
+    rig: CompliantBody, mode: Vector, state: Vector, scale: Vector, work: DormandPrinceWorkspace, start: float, interval: float,
     pieces: int,
 ) -> int:  # fmt: skip
     for piece in range(pieces):

@@ -15,7 +15,7 @@ import numpy
 from contact_sim_pkg.compiled.arrays import Modes, Vector
 from contact_sim_pkg.compiled.jit import entry, kernel, piece
 from contact_sim_pkg.compiled.results import DONE, NOT_FINITE
-from contact_sim_pkg.integrate.dormand_prince import Workspace, integrate, make_workspace
+from contact_sim_pkg.integrate.dormand_prince import DormandPrinceWorkspace, integrate, make_workspace
 from contact_sim_pkg.integrate.drive import Drive
 from contact_sim_pkg.integrate.interface import rate
 from contact_sim_pkg.rigid.body import Ground, Motion, RigidBody, contact_count
@@ -76,7 +76,7 @@ class TurnWorkspace(NamedTuple):
     mode: Modes  # [contacts + 1]
     state: Vector  # [states]
     scale: Vector  # [states]
-    integrator: Workspace
+    integrator: DormandPrinceWorkspace
 
 
 def make_turn_workspace(

@@ -38,7 +38,7 @@ BACKREST_EFFECTS = (
         needs=("normal_elastic",), feeds=("force", "wrench"), called_for=_LAW,
     ),
     Effect(
-        name="foam_hysteresis", section=f"{_LAWS}:FoamHysteresis", help="rate-independent loss of foam",
+        name="foam_hysteresis", section=f"{_LAWS}:FoamHysteresisSection", help="rate-independent loss of foam",
         needs=("normal_elastic",), feeds=("force", "wrench"), called_for=_LAW,
     ),
     Effect(
@@ -51,11 +51,11 @@ BACKREST_EFFECTS = (
         needs=("normal_elastic",), feeds=("force", "wrench", "points"), called_for=_friction,
     ),
     Effect(
-        name="shell_modes", section=f"{_SCHEMA}:ShellModes", help="back as a shell with many contact points",
+        name="shell_modes", section=f"{_SCHEMA}:ShellModesSection", help="back as a shell with many contact points",
         source="Driver and Seat", needs=("normal_elastic",), feeds=("force", "wrench", "patch", "points"), called_for=_BENDS,
     ),
     Effect(
-        name="contact_search", section=f"{_SCHEMA}:ContactSearch", help="moving contact point of the shell",
+        name="contact_search", section=f"{_SCHEMA}:ContactSearchSection", help="moving contact point of the shell",
         source="Driver and Seat", needs=("shell_modes",), feeds=("force", "wrench", "patch", "points"), called_for=_BENDS,
     ),
 )  # fmt: skip

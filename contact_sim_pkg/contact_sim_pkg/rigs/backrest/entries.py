@@ -8,7 +8,7 @@ from contact_sim_pkg.compiled.arrays import Vector
 from contact_sim_pkg.compiled.jit import borrowing_kernel, entry
 from contact_sim_pkg.compiled.results import DONE
 from contact_sim_pkg.compiled.vectors import copy_row
-from contact_sim_pkg.integrate.dormand_prince import Workspace, integrate
+from contact_sim_pkg.integrate.dormand_prince import DormandPrinceWorkspace, integrate
 from contact_sim_pkg.integrate.interface import rate
 from contact_sim_pkg.laws.elastic_law import elastic_energy
 from contact_sim_pkg.laws.foam_hysteresis import memory_energy
@@ -51,7 +51,7 @@ def _first_friction(friction, rig, mode, point, normal, state):
 
 
 @entry
-def start(rig: Backrest, mode: BackrestMode, state: Vector, work: Workspace) -> None:
+def start(rig: Backrest, mode: BackrestMode, state: Vector, work: DormandPrinceWorkspace) -> None:
     """Take the discrete state that belongs to ``state`` at the start of a run, time 0."""
     points = rig.places.shape[1]
     mode.counts[OVERLAPPING] = 0
@@ -125,7 +125,8 @@ def _observe(rig, mode, time, state, whole, by_point):
 
 @entry
 def advance(
-    rig: Backrest, mode: BackrestMode, state: Vector, scale: Vector, work: Workspace, begin: float, segment_length: float,
+    rig: Backrest, mode: BackrestMode, state: Vector, scale: Vector, work: DormandPrinceWorkspace, begin: float,
+    segment_length: float,
     acceleration: Vector, sample_every: int, sampled_states: Vector, sampled_rates: Vector, sampled_forces: Vector,
     sampled_points: Vector,
 ) -> int:  # fmt: skip

@@ -8,7 +8,7 @@ from pydantic import Field
 
 from contact_sim_pkg.records.constants import GRAVITY
 from contact_sim_pkg.scene.schema.fields import Section, number
-from contact_sim_pkg.scene.schema.laws import Friction, GeneralLoss, HuntCrossley, PowerLaw
+from contact_sim_pkg.scene.schema.laws import FrictionSection, GeneralLoss, HuntCrossley, PowerLaw
 
 if TYPE_CHECKING:
     from contact_sim_pkg.scene.schema.scene import Scene
@@ -32,14 +32,14 @@ class Sliding(Section):
     frequency: float = number(0.0, 1000.0, "Hz", "frequency of the sliding", above=True, default=5.25)
 
 
-class Mat(Section):
+class MatSection(Section):
     """Pressure mat on the seat back: the cells of `backrest/patch`; a shell has the cells of its points instead."""
 
     rows: int = number(4, 256, "", "cells up the back", default=40)
     cols: int = number(4, 256, "", "cells across the back", default=32)
 
 
-class Backrest(Section):
+class BackrestSection(Section):
     """Occupant against a seat back that is shaken along its normal (x, forward)."""
 
     mass: float = number(0.1, 1000.0, "kg", "moving mass of the occupant; replaced by a shell", default=45.6)
@@ -52,10 +52,10 @@ class Backrest(Section):
     )
     back: Back = Field(default_factory=Back, description="shape of the back")
     sliding: Sliding = Field(default_factory=Sliding, description="rigid sliding along the seat back")
-    mat: Mat = Field(default_factory=Mat, description="cells of the pressure map")
+    mat: MatSection = Field(default_factory=MatSection, description="cells of the pressure map")
 
     def open_values(self, scene: Scene) -> dict[str, Any]:
-        one_mass = scene.effect("backrest", ShellModes) is None
+        one_mass = scene.effect("backrest", ShellModesSection) is None
         return {"preload": self.mass * GRAVITY if one_mass else SHELL_PRELOAD}
 
 
@@ -86,7 +86,7 @@ class BackGeneralLoss(GeneralLoss):
     )  # fmt: skip
 
 
-class BackFriction(Friction):
+class BackFriction(FrictionSection):
     """Friction between back and seat back: a spring and damper that sticks, up to the Coulomb limit; for the whole back."""
 
     coefficient_static: float = number(0.0, 5.0, "", "static friction; cloth 0.3 to 0.6", above=True, default=0.4)
@@ -105,7 +105,7 @@ class BackFriction(Friction):
     )
 
 
-class ShellModes(Section):
+class ShellModesSection(Section):
     """The back as a doubly curved shallow shell in modal form with candidate contact points, in place of one mass."""
 
     modes: int = number(1, 25, "", "modes: 1, 4, 9 or 25 (m and n up to 1, 2, 3 or 5)", default=9)
@@ -130,6 +130,6 @@ class ShellModes(Section):
     )
 
 
-class ContactSearch(Section):
+class ContactSearchSection(Section):
     """One contact point that moves: where the bent shell comes nearest to the seat back, searched at every step; it carries the
     whole law, in place of candidate points with a share each."""

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from contact_sim_pkg.rigs.backrest.schema import BackFriction, Backrest, ContactSearch, ShellModes
+from contact_sim_pkg.rigs.backrest.schema import BackFriction, BackrestSection, ContactSearchSection, ShellModesSection
 from contact_sim_pkg.rigs.backrest.shell import MODE_COUNTS, STEEPEST, THICKEST
 from contact_sim_pkg.scene.errors import Breach
 from contact_sim_pkg.scene.schema.catalog import show
@@ -16,17 +16,17 @@ MOST_SEARCHED = 9
 
 def backrest_breaches(scene: Scene) -> Iterator[Breach]:
     """A shell that is not thin or not shallow, a number of modes that is not offered, sliding without friction."""
-    backrest = scene.section(Backrest)
+    backrest = scene.section(BackrestSection)
     if backrest.sliding.amplitude > 0.0 and scene.effect("backrest", BackFriction) is None:
         sentence = f"{show(backrest.sliding.amplitude)} m act through friction, which the scene does not name; add it"
         yield Breach("backrest.sliding.amplitude", sentence, ("effects.backrest",))
     if scene.rig == "backrest" and getattr(scene.vibration, "axis", "x") != "x":
         yield Breach("vibration.axis", "a seat back is shaken forward; set axis: x", ("rig",))
-    shell = scene.effect("backrest", ShellModes)
+    shell = scene.effect("backrest", ShellModesSection)
     if shell is None:
         return
     where = "effects.backrest.shell_modes"
-    if scene.effect("backrest", ContactSearch) is not None and shell.modes > MOST_SEARCHED:
+    if scene.effect("backrest", ContactSearchSection) is not None and shell.modes > MOST_SEARCHED:
         sentence = (
             f"with {shell.modes} modes several bumps of the back touch at once, which one moving point does not see; "
             f"allowed with contact_search are 1, 4 and {MOST_SEARCHED}"

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from contact_sim_pkg.records.work import STEP_COST, Work
-from contact_sim_pkg.rigs.backrest.schema import Backrest, ShellModes
+from contact_sim_pkg.rigs.backrest.schema import BackrestSection, ShellModesSection
 from contact_sim_pkg.run.integrator_work import integrator_steps, links_of_laws, segments
 from contact_sim_pkg.scene.schema.scene import Scene
 
@@ -22,7 +22,7 @@ def work_of_backrest(scene: Scene) -> Iterator[Work]:
 
 def back_steps(scene: Scene) -> Iterator[Work]:
     """Steps of the contact; of a shell each takes the longer, the more points it has."""
-    backrest, shell, cost = scene.section(Backrest), scene.effect("backrest", ShellModes), STEP_COST
+    backrest, shell, cost = scene.section(BackrestSection), scene.effect("backrest", ShellModesSection), STEP_COST
     if shell is not None:
         cost += POINT_COST * shell.modes * shell.points_up * shell.points_across
     load = float(backrest.preload or 0.0)

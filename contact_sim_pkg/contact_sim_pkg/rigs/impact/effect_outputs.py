@@ -14,7 +14,7 @@ import numpy
 from contact_sim_pkg.compiled.arrays import Vector
 from contact_sim_pkg.records.messages import ImpactFront, ImpactHistory, ImpactPosition, ImpactStress, ImpactWave
 from contact_sim_pkg.rigs.impact.model import ImpactModel
-from contact_sim_pkg.rigs.impact.motion import Ended, course_of
+from contact_sim_pkg.rigs.impact.motion import FinishedImpact, course_of
 from contact_sim_pkg.rigs.impact.theory import position
 from contact_sim_pkg.rigs.impact.theory.closed_form import micro_front, stress, surface_wave
 from contact_sim_pkg.rigs.impact.theory.errors import ImpactError
@@ -25,7 +25,7 @@ from contact_sim_pkg.run.errors import RunError
 FINE = 401  # instants of the force that the hereditary integral takes
 
 
-def stress_of(model: ImpactModel, effect: dict[str, Any], block: int, impact: Ended) -> ImpactStress:
+def stress_of(model: ImpactModel, effect: dict[str, Any], block: int, impact: FinishedImpact) -> ImpactStress:
     """Stress over the contact radius, elastic and viscous."""
     times, depth, speed, _elastic, _viscous = course_of(impact, int(effect["instants"]))
     limit = micro_front.front_time(impact.touch.impact, _shear_speed(model, impact)).depth
@@ -42,7 +42,7 @@ def stress_of(model: ImpactModel, effect: dict[str, Any], block: int, impact: En
     )  # fmt: skip
 
 
-def wave_of(model: ImpactModel, effect: dict[str, Any], block: int, impact: Ended) -> ImpactWave:
+def wave_of(model: ImpactModel, effect: dict[str, Any], block: int, impact: FinishedImpact) -> ImpactWave:
     """Ring and circular wave."""
     half_space, free = impact.touch.half_space, impact.touch.impact
     wave = surface_wave.surface_wave(free, _shear_modulus(model, impact), model.density, model.poisson_ratio)
@@ -67,7 +67,7 @@ def wave_of(model: ImpactModel, effect: dict[str, Any], block: int, impact: Ende
     )  # fmt: skip
 
 
-def front_of(model: ImpactModel, effect: dict[str, Any], block: int, impact: Ended) -> ImpactFront:
+def front_of(model: ImpactModel, effect: dict[str, Any], block: int, impact: FinishedImpact) -> ImpactFront:
     """Border and front of the micro-impact."""
     shear, free = _shear_speed(model, impact), impact.touch.impact
     front = micro_front.front_time(free, shear)
@@ -83,9 +83,9 @@ def front_of(model: ImpactModel, effect: dict[str, Any], block: int, impact: End
     )  # fmt: skip
 
 
-def position_of(model: ImpactModel, effect: dict[str, Any], block: int, impact: Ended) -> ImpactPosition:
+def position_of(model: ImpactModel, effect: dict[str, Any], block: int, impact: FinishedImpact) -> ImpactPosition:
     """Depth of the contact surface and volumes."""
-    half_space = position.HalfSpace(
+    half_space = position.SampleHalfSpace(
         model.half_space_share(impact.touch), model.poisson_ratio, float(effect["expansion"]), float(effect["heating"])
     )
     times, depth, _speed, _elastic, _viscous = course_of(impact, int(effect["instants"]))
@@ -112,7 +112,7 @@ def position_of(model: ImpactModel, effect: dict[str, Any], block: int, impact: 
     )
 
 
-def history_of(model: ImpactModel, effect: dict[str, Any], block: int, impact: Ended) -> ImpactHistory:
+def history_of(model: ImpactModel, effect: dict[str, Any], block: int, impact: FinishedImpact) -> ImpactHistory:
     """Depth by the hereditary integral, with the elastic limit that the impact's own law has."""
     free = impact.touch.impact
     material, frequency = free.material, free.frequency
@@ -149,12 +149,12 @@ def gauge_readings(model: ImpactModel, number: int, *values: float) -> list[floa
     return [float(v) for v in numpy.array(values) * numpy.maximum(1.0 + spread * drawn, 1.0e-3)]
 
 
-def _shear_modulus(model: ImpactModel, impact: Ended) -> float:
+def _shear_modulus(model: ImpactModel, impact: FinishedImpact) -> float:
     """``G' = E'/(2 (1 + nu))`` of the half-space in [Pa]."""
     return impact.touch.half_space.storage_modulus / (2.0 * (1.0 + model.poisson_ratio))
 
 
-def _shear_speed(model: ImpactModel, impact: Ended) -> float:
+def _shear_speed(model: ImpactModel, impact: FinishedImpact) -> float:
     return surface_wave.shear_speed(_shear_modulus(model, impact), model.density)
 
 

@@ -13,7 +13,7 @@ from contact_sim_pkg.rigs.impact.theory.bodies import Material, Sphere, pair, sh
 from contact_sim_pkg.rigs.impact.theory.closed_form.flight import Drop, Machine, Pendulum, fall
 from contact_sim_pkg.rigs.impact.theory.contact import ContactLaw
 from contact_sim_pkg.rigs.impact.theory.errors import ImpactError
-from contact_sim_pkg.rigs.impact.theory.motion import Impact, solve_impact
+from contact_sim_pkg.rigs.impact.theory.motion import FreeImpact, solve_impact
 from contact_sim_pkg.rigs.impact.theory.shift import Arrhenius, Shift, Wlf, equivalent_temperature
 from contact_sim_pkg.scene.errors import Fault, SceneError
 from contact_sim_pkg.scene.resolved_scene import effects_at
@@ -31,11 +31,11 @@ class Release(NamedTuple):
     temperature: float  # [K] of the sample
 
 
-class Touch(NamedTuple):
+class FirstContact(NamedTuple):
     """What a touch finds: the free impact at its speed, and the law that the contact follows under weight."""
 
     half_space: Material  # alone; that of the impact is both bodies in series
-    impact: Impact
+    impact: FreeImpact
     law: ContactLaw
 
 
@@ -85,7 +85,7 @@ class ImpactModel:
     effects: dict[str, Any]
     seed: int
 
-    def touch(self, speed: float, temperature: float) -> Touch:
+    def touch(self, speed: float, temperature: float) -> FirstContact:
         """The contact of a touch at ``speed`` [m/s]. Raises ImpactError outside the model.
 
         Frequency and viscous force are those of the free impact at that speed, or at ``_speed_of_weight`` where that is higher.
@@ -96,14 +96,14 @@ class ImpactModel:
         if held != impact.speed:
             impact = self._solve(half_space, held)
         law = ContactLaw(self.sphere.mass, gravity, impact.elastic, impact.viscous, self.end)
-        return Touch(half_space, impact, law)
+        return FirstContact(half_space, impact, law)
 
-    def half_space_share(self, touch: Touch) -> float:
+    def half_space_share(self, touch: FirstContact) -> float:
         """D1, the half-space's part of the approach."""
         body = math.inf if self.body is None else self.body.storage_modulus
         return shares(touch.half_space.storage_modulus, body)[0]
 
-    def _impact(self, speed: float, temperature: float) -> tuple[Material, Impact]:
+    def _impact(self, speed: float, temperature: float) -> tuple[Material, FreeImpact]:
         """Material of the half-space at this touch, and the free impact; with a shift by frequency both settle together."""
         half_space = self.half_space.at(temperature, self.half_space.table_rate if self.by_frequency else speed)
         impact = self._solve(half_space, speed)
@@ -114,13 +114,13 @@ class ImpactModel:
                 break
         return half_space, impact
 
-    def _solve(self, half_space: Material, speed: float) -> Impact:
+    def _solve(self, half_space: Material, speed: float) -> FreeImpact:
         lossless = half_space if self.lossy else Material(half_space.storage_modulus, 0.0)
         body = self.body if self.lossy or self.body is None else Material(self.body.storage_modulus, 0.0)
         return solve_impact(self.sphere, pair(lossless, body), speed, self.end, self.shape)
 
 
-def _speed_of_weight(impact: Impact, gravity: float) -> float:
+def _speed_of_weight(impact: FreeImpact, gravity: float) -> float:
     """Speed in [m/s] whose free impact has the frequency of the swing on the static depth x_s, ``w^2 = 3/2 g/x_s``.
 
     A slower touch is a swing under the weight rather than a blow: it is no slower than that, and with the frequency of its free
@@ -139,13 +139,23 @@ def build_impact(scene: dict[str, Any]) -> ImpactModel:
     body = sample.get("body_modulus")
     shift = effects.get("shift")
     model = ImpactModel(
-        make_timing(scene, False), Sphere(float(impact["mass"]), float(impact["radius"])), _machine(impact),
-        _releases(impact), int(impact["bounces"]), int(impact["course_samples"]),
-        _material(sample, shift), None if body is None else Material(float(body), float(sample["body_loss_tangent"])),
-        shift is not None and shift["rate"] == "frequency", loss is not None,
-        "force" if loss is None else loss["end"], impact["shape_factor"], float(sample["poisson_ratio"]),
-        float(sample["density"]), effects, int(scene["seed"]),
-    )  # fmt: skip
+        timing=make_timing(scene, False),
+        sphere=Sphere(float(impact["mass"]), float(impact["radius"])),
+        machine=_machine(impact),
+        releases=_releases(impact),
+        bounces=int(impact["bounces"]),
+        course_samples=int(impact["course_samples"]),
+        half_space=_material(sample, shift),
+        body=None if body is None else Material(float(body), float(sample["body_loss_tangent"])),
+        by_frequency=shift is not None and shift["rate"] == "frequency",
+        lossy=loss is not None,
+        end="force" if loss is None else loss["end"],
+        shape=impact["shape_factor"],
+        poisson_ratio=float(sample["poisson_ratio"]),
+        density=float(sample["density"]),
+        effects=effects,
+        seed=int(scene["seed"]),
+    )
     for release in dict.fromkeys((release.speed, release.temperature) for release in model.releases):
         try:
             fall(model.machine, release[0])

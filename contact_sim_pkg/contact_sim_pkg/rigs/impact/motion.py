@@ -12,13 +12,13 @@ import numpy
 from numpy.typing import NDArray
 
 from contact_sim_pkg.compiled.arrays import Vector
-from contact_sim_pkg.rigs.impact.model import ImpactModel, Release, Touch
+from contact_sim_pkg.rigs.impact.model import FirstContact, ImpactModel, Release
 from contact_sim_pkg.rigs.impact.theory.closed_form.flight import Flight, fall, rebound
 from contact_sim_pkg.rigs.impact.theory.contact import (
     LOADED,
     PARTED,
     ContactLaw,
-    Stretch,
+    ContactPhase,
     next_stretch,
     sample,
     static_depth,
@@ -53,12 +53,12 @@ class Piece(NamedTuple):
 
     begin: float  # [s]
     end: float  # [s], infinite where nothing ends it
-    motion: Held | Flight | Stretch | Rest
+    motion: Held | Flight | ContactPhase | Rest
     heat: float  # [J] that the sample has turned into heat before it
     supplied: float  # [J] that the machine has supplied before it
 
 
-class State(NamedTuple):
+class SphereState(NamedTuple):
     """The sphere at given times; arrays [times]."""
 
     depth: Vector  # approach [m], negative in flight
@@ -73,15 +73,15 @@ class State(NamedTuple):
     supplied: Vector  # [J] by the machine since the start of the run
 
 
-class Ended(NamedTuple):
+class FinishedImpact(NamedTuple):
     """One impact, from touch to parting."""
 
     number: int
     release: int
     start: float  # [s]
     temperature: float  # [K]
-    touch: Touch
-    stretches: tuple[Stretch, ...]
+    touch: FirstContact
+    stretches: tuple[ContactPhase, ...]
     duration: float  # [s] to the last loss of force
     parted: float  # [s] simulated time of the end of the overlap
     loss_depth: float  # [m]
@@ -97,9 +97,9 @@ class ImpactMotion:
         self.model = model
         self._release = 0
         self._bounces = self._impacts = 0
-        self._ended: list[Ended] = []
-        self._contact: list[Stretch] = []
-        self._touch: tuple[float, float, Touch] | None = None
+        self._ended: list[FinishedImpact] = []
+        self._contact: list[ContactPhase] = []
+        self._touch: tuple[float, float, FirstContact] | None = None
         self.pieces: list[Piece] = []
         self.made = 0
         self._append(fall(model.machine, model.releases[0].speed), 0.0, 0.0, 0.0)
@@ -113,7 +113,7 @@ class ImpactMotion:
         """Drop pieces that ended before ``time`` [s]."""
         self.pieces = [piece for piece in self.pieces if piece.end > time]
 
-    def take_ended(self, time: float) -> list[Ended]:
+    def take_ended(self, time: float) -> list[FinishedImpact]:
         """The impacts whose overlap ended up to ``time`` [s], each once."""
         self._reach(time)
         taken = [impact for impact in self._ended if impact.parted <= time]
@@ -129,15 +129,15 @@ class ImpactMotion:
             self._extend()
         return self._ended[count - 1].parted if self._impacts >= count else 0.0
 
-    def state(self, times: Vector) -> State:
+    def state(self, times: Vector) -> SphereState:
         """The state at rising ``times`` [s]. Raises RunError where a touch is outside the model."""
         self._reach(float(times[-1]))
-        columns = numpy.zeros((len(State._fields), len(times)))
+        columns = numpy.zeros((len(SphereState._fields), len(times)))
         for piece in self.pieces:
             inside = (times >= piece.begin) & (times < piece.end)
             if inside.any():
                 columns[:, inside] = self._of_piece(piece, times[inside])
-        return State(*columns)
+        return SphereState(*columns)
 
     def _reach(self, time: float) -> None:
         """Make pieces until one covers ``time``."""
@@ -151,8 +151,8 @@ class ImpactMotion:
                     "bounces any more; end the run earlier, or let it be caught after some bounces"
                 )
 
-    def _append(self, motion: Held | Flight | Stretch | Rest, begin: float, heat: float, supplied: float) -> None:
-        duration = motion.duration if isinstance(motion, (Flight, Stretch)) else math.inf
+    def _append(self, motion: Held | Flight | ContactPhase | Rest, begin: float, heat: float, supplied: float) -> None:
+        duration = motion.duration if isinstance(motion, (Flight, ContactPhase)) else math.inf
         self.pieces.append(Piece(begin, min(begin + duration, self._next_release()), motion, heat, supplied))
         self.made += 1
 
@@ -166,7 +166,7 @@ class ImpactMotion:
             self._lift(last)
         elif isinstance(last.motion, Flight):
             self._begin_contact(last, last.motion)
-        elif isinstance(last.motion, Stretch):
+        elif isinstance(last.motion, ContactPhase):
             self._contact.append(last.motion)
             heat = last.heat + last.motion.heat
             if last.motion.next_kind == PARTED:
@@ -183,7 +183,7 @@ class ImpactMotion:
     def _lift(self, last: Piece) -> None:
         """The next release takes the sphere from wherever it is."""
         now = self._of_piece(last, numpy.array([last.end]))
-        names = State._fields
+        names = SphereState._fields
         kinetic, potential, held, heat, supplied = (
             float(now[names.index(name), 0]) for name in ("kinetic", "potential", "stored", "heat", "supplied")
         )
@@ -202,7 +202,7 @@ class ImpactMotion:
         self._touch, self._contact = (last.end, flight.speed, found), []
         self._append(touch(found.law, flight.speed), last.end, last.heat, last.supplied)
 
-    def _part(self, last: Piece, stretch: Stretch, heat: float) -> None:
+    def _part(self, last: Piece, stretch: ContactPhase, heat: float) -> None:
         assert self._touch is not None
         self._close(last.end)
         self._bounces += 1
@@ -229,17 +229,26 @@ class ImpactMotion:
         last = self._contact[loaded]
         duration = math.fsum(stretch.duration for stretch in self._contact[: loaded + 1])
         self._ended.append(
-            Ended(
-                self._impacts, self._release, start, self.release.temperature, found, tuple(self._contact), duration,
-                parted, last.last_depth, last.last_speed, speed,
+            FinishedImpact(
+                number=self._impacts,
+                release=self._release,
+                start=start,
+                temperature=self.release.temperature,
+                touch=found,
+                stretches=tuple(self._contact),
+                duration=duration,
+                parted=parted,
+                loss_depth=last.last_depth,
+                loss_speed=last.last_speed,
+                speed=speed,
             )
-        )  # fmt: skip
+        )
         self._impacts += 1
 
     def _of_piece(self, piece: Piece, times: Vector) -> NDArray[numpy.float64]:
-        """Rows as the fields of `State`."""
+        """Rows as the fields of `SphereState`."""
         since, mass = times - piece.begin, self.model.sphere.mass
-        out = numpy.zeros((len(State._fields), len(times)))
+        out = numpy.zeros((len(SphereState._fields), len(times)))
         depth, speed, acceleration, elastic, viscous, kinetic, potential, held, heat, supplied = out
         heat[:], supplied[:] = piece.heat, piece.supplied
         motion = piece.motion
@@ -259,7 +268,7 @@ class ImpactMotion:
                 elastic[:], viscous[:] = forces(motion.law, depth, speed)
             acceleration[:] = motion.law.gravity - (elastic + viscous) / mass
         kinetic[:] = 0.5 * mass * speed**2
-        if isinstance(motion, (Stretch, Rest)):
+        if isinstance(motion, (ContactPhase, Rest)):
             held[:] = [stored(motion.law, float(x)) for x in depth]
             potential[:] = -mass * motion.law.gravity * depth
         return out
@@ -271,7 +280,7 @@ def forces(law: ContactLaw, depth: Vector, speed: Vector) -> tuple[Vector, Vecto
     return law.elastic * depth * root, law.viscous * root * speed
 
 
-def course_of(impact: Ended, count: int) -> tuple[Vector, ...]:
+def course_of(impact: FinishedImpact, count: int) -> tuple[Vector, ...]:
     """Times from the touch, depth, speed, elastic and viscous force at ``count`` even instants up to the last loss of force."""
     times: Vector = numpy.linspace(0.0, impact.duration, count, dtype=numpy.float64)
     depth, speed, elastic, viscous = (numpy.zeros(count) for _ in range(4))
@@ -295,7 +304,7 @@ def _energy(law: ContactLaw, depth: float, speed: float) -> float:
     return 0.5 * law.mass * speed**2 + stored(law, depth) - law.mass * law.gravity * depth
 
 
-def _excess(stretch: Stretch) -> float:
+def _excess(stretch: ContactPhase) -> float:
     """Energy above that at rest, over the work of the weight on the static depth; infinite without weight."""
     law = stretch.law
     rest = static_depth(law)

@@ -13,12 +13,12 @@ from contact_sim_pkg.bag.block_encoder import Output
 from contact_sim_pkg.records.messages import BodyMotion, ContactForce, EnergyLedger, ImpactCourse, ImpactEvents
 from contact_sim_pkg.rigs.impact.effect_outputs import EFFECT_MESSAGES, gauge_readings
 from contact_sim_pkg.rigs.impact.model import ImpactModel
-from contact_sim_pkg.rigs.impact.motion import Ended, State, course_of
+from contact_sim_pkg.rigs.impact.motion import FinishedImpact, SphereState, course_of
 from contact_sim_pkg.run.outputs import BlockStamps, contact_outputs, energy_ledger, solver_cost
 
 
 def block_outputs(
-    model: ImpactModel, block: int, state: State, ended: list[Ended], pieces: int, began: float
+    model: ImpactModel, block: int, state: SphereState, ended: list[FinishedImpact], pieces: int, began: float
 ) -> list[Output]:
     """The outputs of a block; ``pieces`` of motion were made for it, work on it began at ``began`` on the performance counter."""
     stamps = BlockStamps(block, model.timing)
@@ -33,7 +33,7 @@ def block_outputs(
     return [*outputs, Output("bench/cost", stamps.start, cost)]
 
 
-def _force(model: ImpactModel, stamps: BlockStamps, state: State) -> ContactForce:
+def _force(model: ImpactModel, stamps: BlockStamps, state: SphereState) -> ContactForce:
     normal, still = numpy.maximum(state.elastic + state.viscous, _lowest(model)), numpy.zeros(len(state.depth))
     return ContactForce(
         block=stamps.block, sample_period=stamps.period, normal=normal, tangential=still, approach=state.depth,
@@ -46,7 +46,7 @@ def _lowest(model: ImpactModel) -> float:
     return 0.0 if model.end == "force" else -math.inf
 
 
-def _events(model: ImpactModel, block: int, ended: list[Ended]) -> ImpactEvents:
+def _events(model: ImpactModel, block: int, ended: list[FinishedImpact]) -> ImpactEvents:
     rows = [_event(model, impact) for impact in ended]
     columns = {
         name: numpy.array([row[name] for row in rows], dtype=numpy.int32 if name in ("number", "release") else None)
@@ -56,7 +56,7 @@ def _events(model: ImpactModel, block: int, ended: list[Ended]) -> ImpactEvents:
     return ImpactEvents(block=block, **columns)
 
 
-def _event(model: ImpactModel, impact: Ended) -> dict[str, Any]:
+def _event(model: ImpactModel, impact: FinishedImpact) -> dict[str, Any]:
     law, turns, free = impact.touch.law, impact.stretches[0].turns, impact.touch.impact
     assert turns is not None
     restitution = -impact.loss_speed / impact.speed
@@ -74,7 +74,7 @@ def _event(model: ImpactModel, impact: Ended) -> dict[str, Any]:
     }  # fmt: skip
 
 
-def impact_outputs(model: ImpactModel, stamps: BlockStamps, impact: Ended) -> Iterator[Output]:
+def impact_outputs(model: ImpactModel, stamps: BlockStamps, impact: FinishedImpact) -> Iterator[Output]:
     """Course of an impact, and what the scene's effects say of it."""
     if model.course_samples:
         times, depth, speed, elastic, viscous = course_of(impact, max(2, model.course_samples))
@@ -88,7 +88,7 @@ def impact_outputs(model: ImpactModel, stamps: BlockStamps, impact: Ended) -> It
             yield Output(f"impact/{topic}", stamps.start, make(model, model.effects[effect], stamps.block, impact))
 
 
-def _motion(stamps: BlockStamps, state: State) -> BodyMotion:
+def _motion(stamps: BlockStamps, state: SphereState) -> BodyMotion:
     """Height of the sphere's lowest point above the sample, along the blow."""
     return BodyMotion(
         block=stamps.block, sample_period=stamps.period, bodies=("sphere_z",), position=-state.depth[None, :],
@@ -96,7 +96,7 @@ def _motion(stamps: BlockStamps, state: State) -> BodyMotion:
     )  # fmt: skip
 
 
-def _ledger(model: ImpactModel, block: int, state: State) -> EnergyLedger:
+def _ledger(model: ImpactModel, block: int, state: SphereState) -> EnergyLedger:
     start = 0.5 * model.sphere.mass * model.releases[0].speed ** 2
     kinetic, potential, held, heat, supplied = (
         float(column[0]) for column in (state.kinetic, state.potential, state.stored, state.heat, state.supplied)

@@ -50,7 +50,7 @@ class Sample(Section):
         return MATERIALS[self.material]._asdict()
 
 
-class Impact(Section):
+class ImpactSection(Section):
     """A sphere that strikes a sample: drop tower or pendulum, one release or a programme of them."""
 
     machine: Literal["drop", "pendulum"] = choice(

@@ -6,7 +6,7 @@ import math
 from collections.abc import Iterator
 from itertools import pairwise
 
-from contact_sim_pkg.rigs.impact.schema import Impact
+from contact_sim_pkg.rigs.impact.schema import ImpactSection
 from contact_sim_pkg.rigs.impact.schema_effects import Shift
 from contact_sim_pkg.scene.errors import Breach
 from contact_sim_pkg.scene.schema.catalog import show
@@ -15,7 +15,7 @@ from contact_sim_pkg.scene.schema.scene import Scene
 
 def impact_breaches(scene: Scene) -> Iterator[Breach]:
     """Releases without a period, a pendulum that is too short, a table that does not rise or holds what is no material."""
-    impact, shift = scene.section(Impact), scene.effect("impact", Shift)
+    impact, shift = scene.section(ImpactSection), scene.effect("impact", Shift)
     releases = len(impact.speeds) * len(impact.temperatures) * impact.repeats
     if releases > 1 and impact.period is None:
         yield Breach(

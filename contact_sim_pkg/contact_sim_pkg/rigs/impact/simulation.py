@@ -11,7 +11,7 @@ import numpy
 
 from contact_sim_pkg.compiled.arrays import Vector
 from contact_sim_pkg.rigs.impact.model import build_impact
-from contact_sim_pkg.rigs.impact.motion import Ended, ImpactMotion
+from contact_sim_pkg.rigs.impact.motion import FinishedImpact, ImpactMotion
 from contact_sim_pkg.rigs.impact.outputs import block_outputs
 from contact_sim_pkg.rigs.impact.theory.contact import sample, touch
 from contact_sim_pkg.rigs.impact.theory.viscoelastic.creep import maxwell
@@ -83,7 +83,7 @@ class ImpactSimulation:
         return BlockResult(outputs, max(largest), 0.0, time.perf_counter() - began)
 
 
-def _peak(impact: Ended) -> float:
+def _peak(impact: FinishedImpact) -> float:
     turns = impact.stretches[0].turns
     return 0.0 if turns is None else turns.peak_force
 

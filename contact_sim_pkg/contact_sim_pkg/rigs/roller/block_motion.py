@@ -80,9 +80,16 @@ class TiltYaw:
     def _march(self, at: float, loads: Vector, step: float, rows: int, start: float) -> Matrix:
         model, record = self.model, numpy.empty((rows, 4))
         status = march(
-            model.roller, model.programme.curvatures_at(at), model.bending, model.modulus, loads, step, self.rule,
-            self.state, record,
-        )  # fmt: skip
+            model.roller,
+            model.programme.curvatures_at(at),
+            model.bending,
+            model.modulus,
+            loads=loads,
+            step=step,
+            table=self.rule,
+            state=self.state,
+            record=record,
+        )
         if status == DONE:
             return record
         if status == DIVERGED:

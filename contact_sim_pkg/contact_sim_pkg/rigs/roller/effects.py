@@ -16,7 +16,7 @@ ROLLER_EFFECTS = (
         feeds=("force", "wrench"), called_for=_QUESTION,
     ),
     Effect(
-        name="tilt_yaw", section=f"{_SCHEMA}:TiltYaw", help="tilt and yaw of the roller", source=_PAPER,
+        name="tilt_yaw", section=f"{_SCHEMA}:TiltYawSection", help="tilt and yaw of the roller", source=_PAPER,
         needs=("normal_elastic",), publishes="stability", feeds=("contact", "stability"), called_for=_QUESTION,
     ),
     Effect(
@@ -24,7 +24,7 @@ ROLLER_EFFECTS = (
         needs=("tilt_yaw",), feeds=("contact", "stability"), called_for=_QUESTION,
     ),
     Effect(
-        name="rolling_friction", section=f"{_SCHEMA}:RollingFriction", help="rolling resistance", source=_PAPER,
+        name="rolling_friction", section=f"{_SCHEMA}:RollingFrictionSection", help="rolling resistance", source=_PAPER,
         needs=("tilt_yaw",), feeds=("contact", "stability"), called_for=_QUESTION,
     ),
     Effect(

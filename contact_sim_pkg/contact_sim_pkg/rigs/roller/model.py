@@ -123,11 +123,23 @@ def build_roller(scene: dict[str, Any]) -> RollerModel:
     speed = float(rig["speed"])
     turns = speed * float(rig["radius"]) / float(rig["shaft_radius"])
     model = RollerModel(
-        make_timing(scene, False), _roller(rig, effects), modulus, float(rig["poisson_ratio"]), float(rig["mass"]),
-        float(rig["shaft_radius"]), 1.0 / turns if turns > 0.0 else math.inf, bending, compliance, _programme(rig),
-        POLYNOMIAL if law["ellipse"] == "polynomial" else EXACT, law["split"] == "parallel" and compliance > 0.0,
-        (float(rig["tilt"]), float(rig["yaw"])), float(rig["acceleration"]), effects, int(scene["seed"]),
-    )  # fmt: skip
+        timing=make_timing(scene, False),
+        roller=_roller(rig, effects),
+        modulus=modulus,
+        poisson_ratio=float(rig["poisson_ratio"]),
+        mass=float(rig["mass"]),
+        shaft_radius=float(rig["shaft_radius"]),
+        turn_time=1.0 / turns if turns > 0.0 else math.inf,
+        bending=bending,
+        bending_compliance=compliance,
+        programme=_programme(rig),
+        kind=POLYNOMIAL if law["ellipse"] == "polynomial" else EXACT,
+        parallel=law["split"] == "parallel" and compliance > 0.0,
+        start=(float(rig["tilt"]), float(rig["yaw"])),
+        acceleration=float(rig["acceleration"]),
+        effects=effects,
+        seed=int(scene["seed"]),
+    )
     refuse_impossible(model)
     return model
 

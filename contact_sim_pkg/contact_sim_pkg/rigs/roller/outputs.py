@@ -32,7 +32,7 @@ Matrix = NDArray[numpy.float64]
 BODIES = ("roller_z", "roller_tilt", "roller_yaw")
 
 
-class Measured(NamedTuple):
+class RollerMeasurement(NamedTuple):
     """Dangerous volumes at an instant."""
 
     time: float  # [s]
@@ -57,7 +57,7 @@ class RollerRecord:
     steps: int
     energy: Energies  # at the start
     stability: RollerStability | None = None
-    volumes: list[Measured] = field(default_factory=list)
+    volumes: list[RollerMeasurement] = field(default_factory=list)
     track: TrackRide | None = None
     checked: Checked | None = None
 
@@ -108,7 +108,7 @@ def _track(model: RollerModel, record: RollerRecord, ride: TrackRide, track: Bod
     )  # fmt: skip
 
 
-def _volumes(block: int, measured: Measured) -> RollerVolumes:
+def _volumes(block: int, measured: RollerMeasurement) -> RollerVolumes:
     contact = measured.contact
     bent = numpy.zeros(0) if measured.bent is None else numpy.array(measured.bent)
     return RollerVolumes(

@@ -91,7 +91,7 @@ class RollerElastic(Section):
     )
 
 
-class TiltYaw(Section):
+class TiltYawSection(Section):
     """The roller tilts and yaws; without it both angles are held."""
 
 
@@ -101,7 +101,7 @@ class Gyroscope(Section):
     inertia_spin: float = number(0.0, 1e6, "kg m^2", "i about the spin axis", default=3.5e-5)
 
 
-class RollingFriction(Section):
+class RollingFrictionSection(Section):
     """Rolling friction turns a tilted roller."""
 
     coefficient: float = number(-1.0, 1.0, "", "rolling resistance f_r; its sign is that of the rolling", default=0.01)

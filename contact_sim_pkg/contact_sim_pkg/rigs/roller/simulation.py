@@ -14,7 +14,7 @@ from contact_sim_pkg.rigs.roller.energy import Energies
 from contact_sim_pkg.rigs.roller.forecast import forecast
 from contact_sim_pkg.rigs.roller.model import build_roller
 from contact_sim_pkg.rigs.roller.model_checks import refused
-from contact_sim_pkg.rigs.roller.outputs import Measured, RollerRecord, block_outputs
+from contact_sim_pkg.rigs.roller.outputs import RollerMeasurement, RollerRecord, block_outputs
 from contact_sim_pkg.rigs.roller.ride import Ridden, TrackRide, joined
 from contact_sim_pkg.rigs.roller.settings import volume_settings
 from contact_sim_pkg.rigs.roller.theory.ellipse import RollingContact, rolling_contacts
@@ -177,7 +177,7 @@ class RollerSimulation:
                 return None
         return forecast(self.model, block)
 
-    def _measured(self, block: int, record: RollerRecord) -> list[Measured]:
+    def _measured(self, block: int, record: RollerRecord) -> list[RollerMeasurement]:
         below = self.model.effects.get("subsurface")
         if below is None:
             return []
@@ -189,7 +189,9 @@ class RollerSimulation:
                 found.append(self._volumes(float(instant), contact))
         return found
 
-    def _volumes(self, instant: float, contact: RollingContact, cells: tuple[int, int, int] | None = None) -> Measured:
+    def _volumes(
+        self, instant: float, contact: RollingContact, cells: tuple[int, int, int] | None = None
+    ) -> RollerMeasurement:
         model = self.model
         limits, usual, _none, traction = volume_settings(model)
         cut = usual if cells is None else cells
@@ -198,7 +200,7 @@ class RollerSimulation:
         if model.bending is not None:
             bent = dangerous_volumes(contact, model.poisson_ratio, limits, cut, model.bending, traction)
         first = model.contact(float(model.programme.load[0]), model.held_yaw, model.programme.curvatures_at(0.0))
-        return Measured(instant, contact, limits, box_volume(first), own, bent)
+        return RollerMeasurement(instant, contact, limits, box_volume(first), own, bent)
 
     def _track_due(self, block: int) -> bool:
         return block % self._every == 0 or block == self.blocks - 1

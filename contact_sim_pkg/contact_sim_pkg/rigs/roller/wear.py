@@ -11,7 +11,7 @@ import numpy
 from contact_sim_pkg.compiled.arrays import Vector
 from contact_sim_pkg.rigs.roller.damage import Table, damage_table
 from contact_sim_pkg.rigs.roller.model import RollerModel
-from contact_sim_pkg.rigs.roller.theory.corrugation import Track, make_track, moving_mean
+from contact_sim_pkg.rigs.roller.theory.corrugation import WearTrack, make_track, moving_mean
 from contact_sim_pkg.rigs.roller.theory.ellipse import RollingContact
 
 __all__ = ["BodyTrack", "make_tracks", "track_under"]
@@ -31,7 +31,7 @@ class BodyTrack:
     heights: Vector  # [cells] [m]
     hardness: Vector  # [cells]
     table: Table
-    track: Track
+    track: WearTrack
     loads: Vector  # [cells] [N] of the last interval
     turned: int = 0
     lowered: float = 0.0  # [m]
@@ -66,20 +66,45 @@ def make_tracks(model: RollerModel) -> list[BodyTrack]:
         table = damage_table(model, PREFIX[body])
         turn_time = model.turn_time * radii[body] / model.shaft_radius
         hardness = _hardness(model, PREFIX[body], number)
-        track = make_track(radii[body], turn_time, number, 0.0, 0.0, 0.0, table, hardness)
+        track = make_track(
+            radius=radii[body],
+            turn_time=turn_time,
+            cells=number,
+            contact_length=0.0,
+            gain=0.0,
+            approach=0.0,
+            table=table,
+            hardness=hardness,
+        )
         turns = round(most / radii[body])
         found.append(
-            BodyTrack(body, radii[body], turn_time, turns, heights, hardness, table, track, numpy.zeros(number))
+            BodyTrack(
+                body=body,
+                radius=radii[body],
+                turn_time=turn_time,
+                turns=turns,
+                heights=heights,
+                hardness=hardness,
+                table=table,
+                track=track,
+                loads=numpy.zeros(number),
+            )
         )
     return found
 
 
-def track_under(track: BodyTrack, contact: RollingContact, gain: float) -> Track:
+def track_under(track: BodyTrack, contact: RollingContact, gain: float) -> WearTrack:
     """Of a body, under the contact of the load pressed on."""
     return make_track(
-        track.radius, track.turn_time, len(track.heights), 2.0 * contact.along_y, gain, contact.approach, track.table,
-        track.hardness,
-    )  # fmt: skip
+        radius=track.radius,
+        turn_time=track.turn_time,
+        cells=len(track.heights),
+        contact_length=2.0 * contact.along_y,
+        gain=gain,
+        approach=contact.approach,
+        table=track.table,
+        hardness=track.hardness,
+    )
 
 
 def _first_heights(effect: dict[str, Any], seed: int | list[int], cells: int, waves: bool) -> Vector:

@@ -6,7 +6,7 @@ import math
 from collections.abc import Iterator
 
 from contact_sim_pkg.records.work import STEP_COST, Work
-from contact_sim_pkg.rigs.roller.schema import Damage, Gyroscope, RollerRig, Subsurface, TiltYaw, TrackWaves
+from contact_sim_pkg.rigs.roller.schema import Damage, Gyroscope, RollerRig, Subsurface, TiltYawSection, TrackWaves
 from contact_sim_pkg.scene.schema.scene import Scene
 
 CELL_COST = 3e-6  # [s] of a cell of the volume below a contact
@@ -38,7 +38,7 @@ def work_of_roller(scene: Scene) -> Iterator[Work]:
         outputs = intervals * cells
         steps = max(1.0, _heave_frequency(rig) * length / cells / HEAVE_PHASE)
         yield Work("cells of the track", outputs, TRACK_COST + steps * HEAVE_COST)
-    if scene.effect("roller", TiltYaw) is not None:
+    if scene.effect("roller", TiltYawSection) is not None:
         inertia = min(rig.inertia_tilt, rig.inertia_yaw)
         spin = (0.0 if gyroscope is None else gyroscope.inertia_spin) * 2.0 * math.pi * rig.speed
         rate = math.sqrt(max(rig.stiffness_tilt, rig.stiffness_yaw) / inertia) + spin / inertia

@@ -20,7 +20,7 @@ Sampled = tuple[Vector, Vector, Vector]  # states, rates, forces; [samples, ...]
 Offsets = tuple[float, float]  # [m] of tire and seat
 
 
-class Stretch(NamedTuple):
+class CouplingStep(NamedTuple):
     """A row of segments from one solution of the fields to the next."""
 
     block: int
@@ -110,7 +110,7 @@ class Bodies:
         work = self.work
         self.state[:], self.mode[:], work.side[:], work.step[:], work.last_event[:] = saved
 
-    def move(self, stretch: Stretch, starts: Offsets, ends: Offsets) -> None:
+    def move(self, stretch: CouplingStep, starts: Offsets, ends: Offsets) -> None:
         """Move over a stretch, the offsets going straight from ``starts`` to ``ends``. RunError where the physics fails."""
         timing, drive = self.model.timing, stretch.drive
         points = stretch.segments + 1

@@ -57,9 +57,9 @@ class PressureField:
         self.iterations = 0
         self.residual = 0.0
 
-    def forget(self) -> None:
+    def reset(self) -> None:
         """The next field starts from nothing."""
-        self._field.forget()
+        self._field.reset()
         self._row = None
 
     def roll_to(self, row: int) -> None:

@@ -22,7 +22,7 @@ import numpy
 
 from contact_sim_pkg.compiled.arrays import Vector
 from contact_sim_pkg.laws.elastic_law import elastic_energy, elastic_force
-from contact_sim_pkg.rigs.vehicle.bodies import Bodies, Offsets, Sampled, Saved, Stretch
+from contact_sim_pkg.rigs.vehicle.bodies import Bodies, CouplingStep, Offsets, Sampled, Saved
 from contact_sim_pkg.rigs.vehicle.coupling_model import Allowance
 from contact_sim_pkg.rigs.vehicle.drive import BlockDrive
 from contact_sim_pkg.rigs.vehicle.entries import FORCES
@@ -106,7 +106,7 @@ class Coupling:
             count = self._count(whole, first, timing.segments - done)
             row = -(-done // timing.sample_every)
             states, rates, forces = self.sampled
-            stretch = Stretch(
+            stretch = CouplingStep(
                 block, (block * timing.intervals * timing.segments + first) * timing.segment_length,
                 timing.segment_length, whole.part(first, count),
                 done + count == timing.segments, (states[row:], rates[row:], forces[row:]), done % timing.sample_every,
@@ -126,7 +126,7 @@ class Coupling:
         pieces = -(-left // max(1, int(longest)))
         return -(-left // pieces)
 
-    def _pass(self, stretch: Stretch, record: BlockRecord) -> bool:
+    def _pass(self, stretch: CouplingStep, record: BlockRecord) -> bool:
         """Pass a stretch; False where a shorter one must be tried, with all as it was."""
         saved, count = self.bodies.save(), stretch.segments
         least = self._shortest
@@ -150,7 +150,7 @@ class Coupling:
         self._close(stretch, passed, record)
         return True
 
-    def _corrected(self, stretch: Stretch, saved: Saved) -> Passed:
+    def _corrected(self, stretch: CouplingStep, saved: Saved) -> Passed:
         """Predict, solve the fields at the end, correct; an error that calls for a shorter stretch ends it early."""
         most = self.model.corrector_passes
         solved = [stretch.last or not support.calm for support in self.supports]
@@ -182,7 +182,7 @@ class Coupling:
     def _offsets(self) -> Offsets:
         return self.tire.offset, self.seat.offset
 
-    def _solve(self, stretch: Stretch, solved: list[bool], expected: Offsets) -> Offsets:
+    def _solve(self, stretch: CouplingStep, solved: list[bool], expected: Offsets) -> Offsets:
         """Offsets that belong to the fields at the end of the stretch; those ``expected`` where none is solved."""
         tire = self._solve_tire(stretch.drive, -1, stretch.block) if solved[0] else expected[0]
         return tire, self._solve_seat(stretch.block) if solved[1] else expected[1]
@@ -201,7 +201,7 @@ class Coupling:
         approach = self.bodies.seat_approach(0.0)
         return self.seat.solve(approach, approach, block)
 
-    def _error(self, found: Offsets, stretch: Stretch) -> float:
+    def _error(self, found: Offsets, stretch: CouplingStep) -> float:
         """Largest height, or rate of it, that a straight offset misses, over the allowed one."""
         worst, count = 0.0, stretch.segments
         for support, offset, allowed in zip(self.supports, found, self._allowances, strict=True):
@@ -209,7 +209,7 @@ class Coupling:
             worst = max(worst, support.bend(offset, count) / allowed.height, SLOPE * turned / allowed.speed)
         return worst
 
-    def _close(self, stretch: Stretch, passed: Passed, record: BlockRecord) -> None:
+    def _close(self, stretch: CouplingStep, passed: Passed, record: BlockRecord) -> None:
         """Take the fields and their offsets over; the energy that the remaining jump brings in counts as supplied."""
         self.tire.keep()
         height, cushion = float(stretch.drive.smooth[-1]) + passed.ends[0], passed.ends[1]

@@ -6,7 +6,7 @@ from contact_sim_pkg.compiled.arrays import Modes, Vector
 from contact_sim_pkg.compiled.jit import borrowing_kernel, entry
 from contact_sim_pkg.compiled.results import DONE
 from contact_sim_pkg.compiled.vectors import copy_row
-from contact_sim_pkg.integrate.dormand_prince import Workspace, integrate, set_sides
+from contact_sim_pkg.integrate.dormand_prince import DormandPrinceWorkspace, integrate, set_sides
 from contact_sim_pkg.integrate.drive import Drive
 from contact_sim_pkg.integrate.interface import rate
 from contact_sim_pkg.laws.elastic_law import elastic_energy
@@ -68,7 +68,7 @@ def _observe(rig, drive, mode, state, out):
 
 @entry
 def start(
-    rig: Vehicle, mode: Modes, state: Vector, work: Workspace, segment_length: float, height: Vector, cushion: Vector,
+    rig: Vehicle, mode: Modes, state: Vector, work: DormandPrinceWorkspace, segment_length: float, height: Vector, cushion: Vector,
     acceleration_x: Vector, acceleration_z: Vector, push: Vector | None,
 ) -> None:  # fmt: skip
     """Take the sides of the event functions at the start of a run (arrays hold the first segment's two ends)."""
@@ -78,7 +78,7 @@ def start(
 
 @entry
 def advance(
-    rig: Vehicle, mode: Modes, state: Vector, scale: Vector, work: Workspace, start: float, segment_length: float,
+    rig: Vehicle, mode: Modes, state: Vector, scale: Vector, work: DormandPrinceWorkspace, start: float, segment_length: float,
     height: Vector, cushion: Vector, acceleration_x: Vector, acceleration_z: Vector, push: Vector | None,
     sample_every: int, behind_sample: int, sampled_states: Vector, sampled_rates: Vector, sampled_forces: Vector,
 ) -> int:  # fmt: skip

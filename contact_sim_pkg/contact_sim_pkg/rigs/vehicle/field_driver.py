@@ -46,7 +46,7 @@ class Support(ABC):
         self.begin(0.0)
         self.published = None
         for field in () if self.grids is None else self.grids.both():
-            field.forget()
+            field.reset()
 
     def begin(self, offset: float) -> None:
         """A run starts with ``offset`` [m]."""
@@ -90,7 +90,7 @@ class Support(ABC):
             if not self.touches_beyond(self.grids, approach):
                 return offset
         except FieldEdgeError:
-            self.grids.usual.forget()
+            self.grids.usual.reset()
         except FieldError as error:
             raise RunError(f"block {block}: {error}") from None
         try:
@@ -117,7 +117,7 @@ class Support(ABC):
                     continue
                 return approach, field
             except FieldEdgeError as error:
-                field.forget()
+                field.reset()
                 last = error
             except FieldError as error:
                 raise RunError(f"block 0: {error}") from None

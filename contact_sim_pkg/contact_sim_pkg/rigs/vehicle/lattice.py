@@ -8,7 +8,7 @@ import math
 from typing import Any
 
 from contact_sim_pkg.excitation.blocks import RoadLattice
-from contact_sim_pkg.pressure.settings import Belt, FieldSettings, widened
+from contact_sim_pkg.pressure.settings import BeltSettings, FieldSettings, widened
 from contact_sim_pkg.records.constants import GRAVITY
 from contact_sim_pkg.scene.resolved_scene import effects_at
 
@@ -27,7 +27,7 @@ def field_settings(scene: dict[str, Any], contact: str, modulus: float) -> Field
     if field is None:
         return None
     rows, cols = int(field["rows"]), int(field["cols"])
-    belt = None if bend is None else Belt(float(bend["tension"]), float(bend["foundation"]))
+    belt = None if bend is None else BeltSettings(float(bend["tension"]), float(bend["foundation"]))
     return FieldSettings(
         rows, cols, float(field["length"]) / rows, float(field["width"]) / cols, modulus, float(field["tolerance"]),
         FIELD_ITERATIONS, int(field["corrector_passes"]), belt,

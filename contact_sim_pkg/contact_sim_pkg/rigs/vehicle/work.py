@@ -6,8 +6,8 @@ from collections.abc import Iterator
 
 from contact_sim_pkg.records.constants import GRAVITY
 from contact_sim_pkg.records.work import Work
-from contact_sim_pkg.rigs.vehicle.seat.schema import Seat
-from contact_sim_pkg.rigs.vehicle.tire.schema import Carcass, Tire
+from contact_sim_pkg.rigs.vehicle.seat.schema import SeatSection
+from contact_sim_pkg.rigs.vehicle.tire.schema import CarcassSection, TireSection
 from contact_sim_pkg.run.integrator_work import Link, integrator_steps, links_of_laws, segments
 from contact_sim_pkg.scene.schema.scene import Scene
 
@@ -35,7 +35,7 @@ def work_of_car(scene: Scene) -> Iterator[Work]:
 
 def seat_steps(scene: Scene) -> Iterator[Work]:
     """Steps of the occupant and of its contact with the cushion."""
-    occupant = scene.section(Seat).occupant
+    occupant = scene.section(SeatSection).occupant
     rows = zip(occupant.masses, occupant.stiffness, occupant.damping, strict=True)
     links = [Link("occupant", min(mass, occupant.frame_mass), k, c) for mass, k, c in rows]
     load = (occupant.frame_mass + sum(occupant.masses)) * GRAVITY
@@ -44,7 +44,7 @@ def seat_steps(scene: Scene) -> Iterator[Work]:
 
 def tire_steps(scene: Scene) -> Iterator[Work]:
     """Steps of suspension and sidewalls; Hertz's law of the tire is softer than the latter."""
-    tire, ring = scene.section(Tire), scene.effect("tire", Carcass)
+    tire, ring = scene.section(TireSection), scene.effect("tire", CarcassSection)
     least = min(tire.wheel_mass, tire.body_mass)
     links = [Link("suspension", least, tire.suspension_stiffness, tire.suspension_damping)]
     if ring is not None:

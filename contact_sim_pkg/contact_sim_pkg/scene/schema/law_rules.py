@@ -7,7 +7,7 @@ from collections.abc import Iterator
 from contact_sim_pkg.records.registry import contacts
 from contact_sim_pkg.scene.errors import Breach
 from contact_sim_pkg.scene.schema.catalog import show
-from contact_sim_pkg.scene.schema.laws import Foam, Friction, GeneralLoss, HuntCrossley
+from contact_sim_pkg.scene.schema.laws import Foam, FrictionSection, GeneralLoss, HuntCrossley
 from contact_sim_pkg.scene.schema.scene import Scene
 
 
@@ -18,7 +18,7 @@ def law_breaches(scene: Scene) -> Iterator[Breach]:
         loss = scene.effect(contact, HuntCrossley)
         if loss is not None:
             yield from _loss(f"{where}.normal_dissipative", loss)
-        general, friction = scene.effect(contact, GeneralLoss), scene.effect(contact, Friction)
+        general, friction = scene.effect(contact, GeneralLoss), scene.effect(contact, FrictionSection)
         if general is not None:
             yield from _general(where, general, friction)
         foam = scene.effect(contact, Foam)
@@ -44,7 +44,7 @@ def _loss(where: str, loss: HuntCrossley) -> Iterator[Breach]:
         )
 
 
-def _general(where: str, general: GeneralLoss, friction: Friction | None) -> Iterator[Breach]:
+def _general(where: str, general: GeneralLoss, friction: FrictionSection | None) -> Iterator[Breach]:
     """The general law takes a coefficient or a restitution, and may pull only where nothing rubs."""
     place = f"{where}.general_dissipative"
     if general.coefficient is not None and general.restitution is not None:

@@ -55,7 +55,7 @@ class Foam(Section):
     )
 
 
-class FoamHysteresis(Section):
+class FoamHysteresisSection(Section):
     """Loss without rate: the force is the elastic one times 1 + share · z, z between -1 and 1 follows the loading."""
 
     share: float = number(0.0, 0.9, "", "s; a long loading dissipates 2 s/(1 + s): 21 % by default", default=0.12)
@@ -95,7 +95,7 @@ class GeneralLoss(Section):
         return found if self.rate_exponent >= 1.0 else {**found, "reference_speed": SMOOTHED_SPEED}
 
 
-class Friction(Section):
+class FrictionSection(Section):
     """Friction at a contact that deforms: a spring and damper that sticks, up to the Coulomb limit."""
 
     coefficient_static: float = number(0.0, 5.0, "", "static friction; cloth 0.3 to 0.6", above=True, default=0.4)

@@ -13,7 +13,7 @@ if TYPE_CHECKING:
 MOST_CELLS_A_SIDE = 65536
 
 
-class Grid(NamedTuple):
+class GridSection(NamedTuple):
     """A pressure field at one fidelity level."""
 
     rows: int  # along
@@ -27,10 +27,10 @@ class Grid(NamedTuple):
         return self.rows, self.cols
 
 
-class PressureField(Section):
+class PressureFieldSection(Section):
     """Pressure field of a contact on a half-space; it is the contact, its integral is the force."""
 
-    levels: ClassVar[tuple[Grid, ...]]
+    levels: ClassVar[tuple[GridSection, ...]]
     """One grid for each of `accuracy.LEVELS`."""
 
     length: float = number(0.01, 5.0, "m", "extent forward")

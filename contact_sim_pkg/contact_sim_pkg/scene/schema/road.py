@@ -19,7 +19,7 @@ POSITION_HELP = "middle of the obstacle along the road"
 PERIOD_HELP = "distance to the next equal obstacle; without it there is one"
 
 
-class Travel(Section):
+class TravelSection(Section):
     """How fast the wheel rolls: `speed`, or `points` of a piecewise linear speed; one of the two."""
 
     speed: float | None = number(0.0, 100.0, "m/s", "constant speed", default=None)
@@ -56,13 +56,13 @@ class Slip(Section):
     )
 
 
-class FlatRoad(Section):
+class FlatRoadSection(Section):
     """An even road at height 0."""
 
     kind: Literal["flat"]
 
 
-class Texture(Section):
+class TextureSection(Section):
     """Fine surface below the shortest wavelength of an ISO 8608 profile, equal in all directions."""
 
     shortest_wavelength: float = number(
@@ -74,7 +74,7 @@ class Texture(Section):
     )
 
 
-class Iso8608Road(Section):
+class Iso8608RoadSection(Section):
     """Random road with the spectrum G(n) = roughness (n / 0.1 c/m)^-exponent; `roughness_class` or `roughness`."""
 
     kind: Literal["iso8608"]
@@ -92,7 +92,7 @@ class Iso8608Road(Section):
     longest_wavelength: float = number(
         0.001, 1e4, "m", "longest wave of the profile; ISO 8608 ends at 90.9 m", default=100.0
     )
-    texture: Texture | None = choice(
+    texture: TextureSection | None = choice(
         "isotropic surface that continues the spectrum; without it the road is even across", default=None
     )
 
@@ -139,7 +139,7 @@ class PotholeRoad(Section):
     period: float | None = number(0.001, 1e6, "m", PERIOD_HELP, default=None)
 
 
-class OpenCrgRoad(Section):
+class OpenCrgRoadSection(Section):
     """A road from an ASAM OpenCRG file (text or binary)."""
 
     kind: Literal["opencrg"]
@@ -166,5 +166,6 @@ class OpenCrgRoad(Section):
 
 
 Road: TypeAlias = Annotated[
-    FlatRoad | Iso8608Road | BumpRoad | CleatRoad | StepRoad | PotholeRoad | OpenCrgRoad, Field(discriminator="kind")
+    FlatRoadSection | Iso8608RoadSection | BumpRoad | CleatRoad | StepRoad | PotholeRoad | OpenCrgRoadSection,
+    Field(discriminator="kind"),
 ]

@@ -11,9 +11,15 @@ from contact_sim_pkg.scene.errors import Breach
 from contact_sim_pkg.scene.schema.catalog import show
 from contact_sim_pkg.scene.schema.clock import clock_breaches
 from contact_sim_pkg.scene.schema.law_rules import law_breaches
-from contact_sim_pkg.scene.schema.road import BumpRoad, CleatRoad, Iso8608Road, PotholeRoad
+from contact_sim_pkg.scene.schema.road import BumpRoad, CleatRoad, Iso8608RoadSection, PotholeRoad
 from contact_sim_pkg.scene.schema.scene import Scene
-from contact_sim_pkg.scene.schema.vibration import HalfSine, Noise, Recorded, Sine, Sweep
+from contact_sim_pkg.scene.schema.vibration import (
+    HalfSineSection,
+    NoiseSection,
+    RecordedSection,
+    SineSection,
+    SweepSection,
+)
 
 SAMPLES_OF_A_SHOCK = 10
 """At least; straight lines between as many samples keep its change of speed to 1 %."""
@@ -70,7 +76,7 @@ def _travel(scene: Scene) -> Iterator[Breach]:
 
 def _road(scene: Scene) -> Iterator[Breach]:
     road = scene.road
-    if isinstance(road, Iso8608Road):
+    if isinstance(road, Iso8608RoadSection):
         yield from _one_of(
             "road", "roughness_class", road.roughness_class is not None, "roughness", road.roughness is not None
         )
@@ -102,9 +108,9 @@ def _rising(where: str, low_key: str, low: float, high_key: str, high: float, un
 
 def _vibration(scene: Scene) -> Iterator[Breach]:
     vibration = scene.vibration
-    if isinstance(vibration, Sine):
+    if isinstance(vibration, SineSection):
         yield from _below_half_rate(vibration.sample_rate, "frequency", vibration.frequency)
-    elif isinstance(vibration, Sweep):
+    elif isinstance(vibration, SweepSection):
         rate, duration = vibration.octaves_per_minute, vibration.duration
         yield from _one_of("vibration", "octaves_per_minute", rate is not None, "duration", duration is not None)
         yield from _below_half_rate(vibration.sample_rate, "start_frequency", vibration.start_frequency)
@@ -112,10 +118,10 @@ def _vibration(scene: Scene) -> Iterator[Breach]:
         if vibration.start_frequency == vibration.end_frequency:
             sentence = f"is equal to start_frequency ({show(vibration.start_frequency)} Hz); take kind: sine"
             yield Breach("vibration.end_frequency", sentence, ("vibration.start_frequency",))
-    elif isinstance(vibration, Noise):
+    elif isinstance(vibration, NoiseSection):
         yield from _rising("vibration", "low", vibration.low, "high", vibration.high, "Hz")
         yield from _below_half_rate(vibration.sample_rate, "high", vibration.high)
-    elif isinstance(vibration, HalfSine):
+    elif isinstance(vibration, HalfSineSection):
         if vibration.start >= scene.duration:
             sentence = (
                 f"the shock at {show(vibration.start)} s lies behind the end of the run ({show(scene.duration)} s)"
@@ -127,7 +133,7 @@ def _vibration(scene: Scene) -> Iterator[Breach]:
                 f"{SAMPLES_OF_A_SHOCK}, so make it longer, or the sample rate {show(SAMPLES_OF_A_SHOCK / vibration.duration)} Hz"
             )
             yield Breach("vibration.duration", sentence, ("vibration.sample_rate",))
-    elif isinstance(vibration, Recorded) and vibration.rate is None and vibration.time_column is None:
+    elif isinstance(vibration, RecordedSection) and vibration.rate is None and vibration.time_column is None:
         sentence = (
             "is missing; give the file's sampling rate in Hz, or its time_column where it has one (nothing is guessed)"
         )

@@ -15,7 +15,7 @@ from contact_sim_pkg.records.contact import Contact
 from contact_sim_pkg.records.registry import contacts, rig_names, rigs
 from contact_sim_pkg.records.rig import load
 from contact_sim_pkg.scene.schema.fields import Section, choice, number, text
-from contact_sim_pkg.scene.schema.road import Road, Slip, Travel
+from contact_sim_pkg.scene.schema.road import Road, Slip, TravelSection
 from contact_sim_pkg.scene.schema.vibration import Vibration
 
 if TYPE_CHECKING:
@@ -86,7 +86,7 @@ class _Scene(Section):
     accuracy: Accuracy = choice(
         "requested relative error of forces and pressures, or the best in real time", default=0.01
     )
-    travel: Travel | None = choice("speed programme (rigs tire and car)", default=None, example={"speed": 10.0})
+    travel: TravelSection | None = choice("speed programme (rigs tire and car)", default=None, example={"speed": 10.0})
     road: Road | None = choice(
         "road under the tire (rigs tire and car), or added to the track of the roller (roller)",
         default=None,

@@ -36,7 +36,7 @@ def _acceleration(meaning: str) -> float:
     return acceleration
 
 
-class Sine(Section):
+class SineSection(Section):
     """A sine: amplitude · sin(2π frequency t)."""
 
     kind: Literal["sine"]
@@ -46,7 +46,7 @@ class Sine(Section):
     sample_rate: float = _sample_rate()
 
 
-class Sweep(Section):
+class SweepSection(Section):
     """A sine of rising or falling frequency, logarithmic in time; `octaves_per_minute` or `duration`."""
 
     kind: Literal["sweep"]
@@ -63,7 +63,7 @@ class Sweep(Section):
     sample_rate: float = _sample_rate()
 
 
-class Noise(Section):
+class NoiseSection(Section):
     """Gaussian noise of constant spectral density between two frequencies; drawn from `seed`."""
 
     kind: Literal["noise"]
@@ -74,7 +74,7 @@ class Noise(Section):
     sample_rate: float = _sample_rate()
 
 
-class HalfSine(Section):
+class HalfSineSection(Section):
     """One shock: half a sine of acceleration."""
 
     kind: Literal["half_sine"]
@@ -90,7 +90,7 @@ class HalfSine(Section):
 AccelerationUnit: TypeAlias = Literal["m/s^2", "g", "mg"]
 
 
-class Recorded(Section):
+class RecordedSection(Section):
     """A recorded acceleration (CSV), its mean (gravity, bias) taken off; give `rate` or `time_column`.
 
     An axis that moves nothing in the scene (upwards at a seat back, forward under a seat without friction) needs no column.
@@ -117,4 +117,6 @@ class Recorded(Section):
     sample_rate: float = _sample_rate()
 
 
-Vibration: TypeAlias = Annotated[Sine | Sweep | Noise | HalfSine | Recorded, Field(discriminator="kind")]
+Vibration: TypeAlias = Annotated[
+    SineSection | SweepSection | NoiseSection | HalfSineSection | RecordedSection, Field(discriminator="kind")
+]

@@ -23,7 +23,7 @@ from contact_sim_pkg.run.rigs import make_simulation
 from contact_sim_pkg.run.sources import make_sources
 from contact_sim_pkg.scene.resolve import ResolvedScene
 
-__all__ = ["Pair", "Run", "paired"]
+__all__ = ["AblationRun", "Pair", "paired"]
 
 DURATION = 1.0  # [s] simulated a run, at most
 SECONDS = 15.0  # of wall time for the blocks of all runs with and without one effect, about
@@ -35,7 +35,7 @@ BURST = 2.0
 Messages = list[tuple[str, int, bytes]]
 
 
-class Run(NamedTuple):
+class AblationRun(NamedTuple):
     """One run: cost, the normal force of each contact [N], what the rules look at, and all that it said."""
 
     cost: float  # [ms] per simulated second
@@ -47,8 +47,8 @@ class Run(NamedTuple):
 class Pair(NamedTuple):
     """A run with and one without the effect, each with the median of its costs; costs of each pair apart."""
 
-    with_it: Run
-    without_it: Run
+    with_it: AblationRun
+    without_it: AblationRun
     differences: list[float]  # [ms] per simulated second
     duration: float  # [s] simulated
 
@@ -86,7 +86,7 @@ def _plan(first: ResolvedScene, second: ResolvedScene) -> _Plan:
     return _Plan(blocks, min(RUNS_OF_BURSTS, max(1, fitting)) if bursts else 1, bursts)
 
 
-def _run(scene: ResolvedScene, plan: _Plan) -> Run:
+def _run(scene: ResolvedScene, plan: _Plan) -> AblationRun:
     """Without bag; the cost is that of the simulation alone."""
     walls, messages, inputs = _walls(scene, plan.blocks)
     cost = float(numpy.median(walls))
@@ -94,7 +94,7 @@ def _run(scene: ResolvedScene, plan: _Plan) -> Run:
         again = [_walls(scene, plan.blocks)[0] for _ in range(plan.repeats - 1)]
         cost = float(numpy.min([walls, *again], axis=0).mean())
     observed = _observed(messages, inputs)
-    return Run(1e3 * cost / float(scene.data["block_length"]), observed.forces, observed, messages)
+    return AblationRun(1e3 * cost / float(scene.data["block_length"]), observed.forces, observed, messages)
 
 
 def _walls(

@@ -112,7 +112,7 @@ def _solver(
 
         def solve_rolling(gap: Field, cells: int) -> tuple[Field, FieldResult]:
             if kind == NESTED:
-                rolling.forget()
+                rolling.reset()
             rolling.roll(cells)
             return rolling.pressure, rolling.solve_at_load(gap, LOAD, tolerance, CAP)
 

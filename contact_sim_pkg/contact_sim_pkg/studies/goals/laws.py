@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from contact_sim_pkg.compiled.arrays import Vector
 from contact_sim_pkg.compiled.jit import entry
-from contact_sim_pkg.integrate.root_steps import Workspace, make_workspace
+from contact_sim_pkg.integrate.root_steps import RootStepWorkspace, make_workspace
 from contact_sim_pkg.laws.one_mass import runs as one_mass
 from contact_sim_pkg.laws.one_mass.parameters import PointContact
 from contact_sim_pkg.laws.one_mass.point_contact import MARGINS, STATES
@@ -55,7 +55,7 @@ def seat_slap() -> list[Measured]:
     return found
 
 
-def _work_of(run: work_of.Work, own: list[work_of.Work] | None = None) -> Measured:
+def _work_of(run: work_of.SlapCost, own: list[work_of.SlapCost] | None = None) -> Measured:
     """One run as a row: its time, and in the note its error and how much cheaper ours is with an error as small."""
     note = f"error {run.error:.1e} m"
     equal = None if own is None else work_of.cheapest(own, run.error)
@@ -70,7 +70,7 @@ def _many(
     mode: Modes,
     start: Vector,
     scale: Vector,
-    work: Workspace,
+    work: RootStepWorkspace,
     times: Vector,
     out: Vector,
     count: int,

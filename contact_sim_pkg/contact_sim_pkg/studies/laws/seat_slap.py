@@ -20,7 +20,7 @@ from contact_sim_pkg.laws.one_mass.parameters import PointContact
 from contact_sim_pkg.records.goal import median_time
 from contact_sim_pkg.studies.laws import hard_cases_impact as impacts_of
 
-__all__ = ["END", "Work", "cheapest", "own_work", "scipy_work"]
+__all__ = ["END", "SlapCost", "cheapest", "own_work", "scipy_work"]
 
 END = 4.0  # [s]
 TOLERANCES = tuple(10.0 ** (-0.5 * half) for half in range(8, 25))  # 1e-4 to 1e-12
@@ -29,7 +29,7 @@ PEER_REPEATS = 3
 LONGEST_STEP = 0.01  # [s]
 
 
-class Work(NamedTuple):
+class SlapCost(NamedTuple):
     """One run of one solver."""
 
     solver: str
@@ -38,7 +38,7 @@ class Work(NamedTuple):
     cost: float  # [µs] per simulated second
 
 
-def own_work() -> list[Work]:
+def own_work() -> list[SlapCost]:
     """Our runs, tolerance 1e-4 to 1e-12; error against scipy's DOP853 at 3e-14 from event to event."""
     rig, start, scales = one_mass.seat_slap()
     exact, times = _exact(rig, start), numpy.array([0.0, END])
@@ -46,11 +46,11 @@ def own_work() -> list[Work]:
     for tolerance in TOLERANCES:
         call = partial(one_mass.integrate, rig, start, scales * tolerance, times)
         error = abs(float(call().states[-1, 0]) - exact)
-        found.append(Work("ours", tolerance, error, 1e6 * median_time(call) / END))
+        found.append(SlapCost("ours", tolerance, error, 1e6 * median_time(call) / END))
     return found
 
 
-def scipy_work(method: str) -> list[Work]:
+def scipy_work(method: str) -> list[SlapCost]:
     """scipy's runs with `method`, relative tolerance 1e-4 to 1e-12, absolute a hundredth of it."""
     rig, start, _scales = one_mass.seat_slap()
     exact = _exact(rig, start)
@@ -58,11 +58,11 @@ def scipy_work(method: str) -> list[Work]:
     for tolerance in PEER_TOLERANCES:
         call = partial(_by_scipy, rig, start, method, tolerance)
         error = abs(float(call().y[0, -1]) - exact)
-        found.append(Work(method, tolerance, error, 1e6 * median_time(call, PEER_REPEATS) / END))
+        found.append(SlapCost(method, tolerance, error, 1e6 * median_time(call, PEER_REPEATS) / END))
     return found
 
 
-def cheapest(work: list[Work], error: float) -> Work | None:
+def cheapest(work: list[SlapCost], error: float) -> SlapCost | None:
     """The cheapest run whose error, and that of all tighter ones, is at most `error` [m]; None where none is.
 
     `work` goes from loose to tight: one run that is right by chance does not count.

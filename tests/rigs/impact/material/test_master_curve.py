@@ -6,7 +6,7 @@ import numpy
 import pytest
 
 from contact_sim_pkg.rigs.impact.material.errors import MaterialError
-from contact_sim_pkg.rigs.impact.material.estimate import Estimate, Value
+from contact_sim_pkg.rigs.impact.material.estimate import EstimatedValue, MaterialEstimate
 from contact_sim_pkg.rigs.impact.material.master_curve import master_curve
 from contact_sim_pkg.rigs.impact.theory.shift import Arrhenius, Wlf, log_shift
 
@@ -19,8 +19,8 @@ def state(law, temperature, speed, random):
     """A group of a material whose modulus rises with the reduced speed as a glass transition does."""
     place = math.log10(speed) + log_shift(law, temperature) - log_shift(law, 300.0)
     modulus = 3e6 * math.exp(2.0 / (1.0 + math.exp(-0.8 * (place - 1.0)))) * (1.0 + NOISE * random.standard_normal())
-    value = Value(modulus, NOISE * modulus, modulus * (1 - 2 * NOISE), modulus * (1 + 2 * NOISE))
-    return Estimate(20, float(temperature), speed, 0.6, value, value, Value(0.2, 0.01, 0.18, 0.22))
+    value = EstimatedValue(modulus, NOISE * modulus, modulus * (1 - 2 * NOISE), modulus * (1 + 2 * NOISE))
+    return MaterialEstimate(20, float(temperature), speed, 0.6, value, value, EstimatedValue(0.2, 0.01, 0.18, 0.22))
 
 
 def states(law, seed=0, speeds=SPEEDS, temperatures=TEMPERATURES):

@@ -5,7 +5,7 @@ import pytest
 from scipy import stats
 from tests.rigs.impact.material import simulated
 
-from contact_sim_pkg.rigs.impact.material.estimate import Estimate, Value, repeated_impacts
+from contact_sim_pkg.rigs.impact.material.estimate import EstimatedValue, MaterialEstimate, repeated_impacts
 from contact_sim_pkg.rigs.impact.material.groups import groups
 from contact_sim_pkg.rigs.impact.material.options import Options
 from contact_sim_pkg.rigs.impact.material.pooled import pooled_speeds
@@ -63,10 +63,12 @@ def test_the_agreement_is_the_f_test_of_the_means():
     samples = [random.normal(0.2, 0.01, count) for count in (4, 7, 9)]
 
     def value(sample):
-        return Value(float(sample.mean()), float(sample.std(ddof=1)) / len(sample) ** 0.5, None, None)
+        return EstimatedValue(float(sample.mean()), float(sample.std(ddof=1)) / len(sample) ** 0.5, None, None)
 
-    storage = Value(1.0, 1.0, None, None)  # the same in each: it tells nothing
-    estimates = [Estimate(len(s), 293.0, 1.0 + i, 0.5, storage, value(s), value(s)) for i, s in enumerate(samples)]
+    storage = EstimatedValue(1.0, 1.0, None, None)  # the same in each: it tells nothing
+    estimates = [
+        MaterialEstimate(len(s), 293.0, 1.0 + i, 0.5, storage, value(s), value(s)) for i, s in enumerate(samples)
+    ]
     (found,) = pooled_speeds(estimates, Options())
     assert found.agreement == pytest.approx(min(1.0, 2.0 * stats.f_oneway(*samples).pvalue), rel=1e-9)
     everything = numpy.concatenate(samples)

@@ -7,11 +7,11 @@ import pytest
 
 from contact_sim_pkg.rigs.impact.theory import geometry
 from contact_sim_pkg.rigs.impact.theory.errors import ImpactError
-from contact_sim_pkg.rigs.impact.theory.position import HalfSpace, position_variant_1, position_variant_2
+from contact_sim_pkg.rigs.impact.theory.position import SampleHalfSpace, position_variant_1, position_variant_2
 
 RADIUS = 0.01
 DEEP = 0.1 * RADIUS
-PUBLISHED = HalfSpace(0.8, 0.4)
+PUBLISHED = SampleHalfSpace(0.8, 0.4)
 
 
 def test_the_published_numbers_of_both_variants_come_out():
@@ -31,7 +31,7 @@ def test_the_published_numbers_of_both_variants_come_out():
 @pytest.mark.parametrize("depth", [1e-6, 1e-4, 1e-3])
 @pytest.mark.parametrize("share", [1.0, 0.6])
 def test_volumes_balance_and_are_the_integrals_of_their_areas(depth, share):
-    half_space = HalfSpace(share, 0.3, 2e-4, 15.0)
+    half_space = SampleHalfSpace(share, 0.3, 2e-4, 15.0)
     for variant in (position_variant_1, position_variant_2):
         found = variant(depth, RADIUS, half_space)
         assert found.contact_volume == pytest.approx(
@@ -56,26 +56,28 @@ def test_variant_2_keeps_the_contact_radius_on_the_original_surface():
 
 @pytest.mark.parametrize("rule", ["equal", "consistent"])
 def test_an_incompressible_half_space_takes_its_whole_share(rule):
-    found = position_variant_1(DEEP, RADIUS, HalfSpace(0.8, 0.5), rule)
+    found = position_variant_1(DEEP, RADIUS, SampleHalfSpace(0.8, 0.5), rule)
     assert found.surface_depth == found.share_depth
     assert found.alpha == 0.0
-    assert position_variant_2(DEEP, RADIUS, HalfSpace(0.8, 0.5)).surface_depth == pytest.approx(0.8 * DEEP, rel=1e-15)
+    assert position_variant_2(DEEP, RADIUS, SampleHalfSpace(0.8, 0.5)).surface_depth == pytest.approx(
+        0.8 * DEEP, rel=1e-15
+    )
 
 
 def test_more_compression_than_volume_is_outside_the_model():
     with pytest.raises(ImpactError, match="outside the model"):
-        position_variant_1(0.9 * RADIUS, RADIUS, HalfSpace(1.0, -0.5))
+        position_variant_1(0.9 * RADIUS, RADIUS, SampleHalfSpace(1.0, -0.5))
     with pytest.raises(ImpactError, match="outside the model"):
-        position_variant_2(0.9 * RADIUS, RADIUS, HalfSpace(1.0, -0.5))
+        position_variant_2(0.9 * RADIUS, RADIUS, SampleHalfSpace(1.0, -0.5))
 
 
 def test_the_rule_of_the_factor_and_the_shares_are_checked():
     with pytest.raises(ValueError, match="equal or consistent"):
         position_variant_1(DEEP, RADIUS, PUBLISHED, "iterate")
     with pytest.raises(ImpactError, match="share"):
-        position_variant_2(DEEP, RADIUS, HalfSpace(0.0, 0.3))
+        position_variant_2(DEEP, RADIUS, SampleHalfSpace(0.0, 0.3))
     with pytest.raises(ImpactError, match="Poisson"):
-        position_variant_2(DEEP, RADIUS, HalfSpace(1.0, 0.51))
+        position_variant_2(DEEP, RADIUS, SampleHalfSpace(1.0, 0.51))
 
 
 @pytest.mark.parametrize("ratio", [1e-8, 0.01, 0.3, 1.0])

@@ -259,9 +259,9 @@ def _(found, modulus, frequency):
 # Position of the contact surface
 
 HALF_SPACE = st.builds(
-    position.HalfSpace, st.floats(0.01, 1.0), st.floats(0.2, 0.5), st.floats(0.0, 1e-3), st.floats(0.0, 50.0)
+    position.SampleHalfSpace, st.floats(0.01, 1.0), st.floats(0.2, 0.5), st.floats(0.0, 1e-3), st.floats(0.0, 50.0)
 )
-TOO_SOFT = {"depth": 1.0, "half_space": position.HalfSpace(1.0, -0.9)}
+TOO_SOFT = {"depth": 1.0, "half_space": position.SampleHalfSpace(1.0, -0.9)}
 
 
 def check_position(found, depth, radius, half_space, k_squared, share_factor):

@@ -315,5 +315,5 @@ def _(found, restitution, end, form, weight):
 
 
 test_each_holds_over_its_domain, test_each_refuses_what_it_cannot_do, test_each_public_function_has_a_property = (
-    TABLE.tests("contact_sim_pkg.rigs.impact.theory", MODULES, (motion.Impact, contact.Stretch))
+    TABLE.tests("contact_sim_pkg.rigs.impact.theory", MODULES, (motion.FreeImpact, contact.ContactPhase))
 )

@@ -221,7 +221,7 @@ def _(found, wave, radii, times, spread, form):
 
 
 test_each_holds_over_its_domain, test_each_refuses_what_it_cannot_do, test_each_public_function_has_a_property = (
-    TABLE.tests("contact_sim_pkg.rigs.impact.theory", MODULES, (motion.Impact, surface_wave.Wave))
+    TABLE.tests("contact_sim_pkg.rigs.impact.theory", MODULES, (motion.FreeImpact, surface_wave.Wave))
 )
 
 

@@ -370,5 +370,5 @@ def _(found, roller, curvatures, bending, modulus, load):
 
 
 test_each_holds_over_its_domain, test_each_refuses_what_it_cannot_do, test_each_public_function_has_a_property = (
-    TABLE.tests("contact_sim_pkg.rigs.roller.theory", MODULES, (heave.Heave, heave.Path, corrugation.Track))
+    TABLE.tests("contact_sim_pkg.rigs.roller.theory", MODULES, (heave.Heave, heave.Path, corrugation.WearTrack))
 )

@@ -9,11 +9,11 @@ import pytest
 from scipy.integrate import quad
 from scipy.linalg import solve_banded
 
-from contact_sim_pkg.pressure.settings import Belt, FieldSettings
+from contact_sim_pkg.pressure.settings import BeltSettings, FieldSettings
 from contact_sim_pkg.rigs.vehicle.contact_field import PressureField
 from contact_sim_pkg.rigs.vehicle.tire.envelopment import belt_influence, relaxation_length
 
-BELT = Belt(9900.0, 6.3e5)
+BELT = BeltSettings(9900.0, 6.3e5)
 CELL_X, CELL_Y = 5e-3, 7e-3
 
 
@@ -49,7 +49,10 @@ def test_a_stiff_foundation_leaves_the_half_space_as_it_is() -> None:
     x = (numpy.arange(24) - 11.5) * 6e-3
     gap = x[:, None] ** 2 / 0.6 + x[None, :] ** 2 / 0.6
     settings = FieldSettings(24, 24, 6e-3, 6e-3, 4e6, 1e-8, 400, 0)
-    alone, with_belt = PressureField(settings, "tire"), PressureField(settings._replace(belt=Belt(1e3, 1e13)), "tire")
+    alone, with_belt = (
+        PressureField(settings, "tire"),
+        PressureField(settings._replace(belt=BeltSettings(1e3, 1e13)), "tire"),
+    )
     assert with_belt.solve_load(gap, 2000.0) == pytest.approx(alone.solve_load(gap, 2000.0), rel=1e-6)
 
 
@@ -60,7 +63,7 @@ def test_a_soft_belt_lets_the_tire_bend_over_a_short_obstacle() -> None:
     gap[bar_rows] -= 0.01  # a bar of 10 mm height and 20 mm length
     settings = FieldSettings(64, 24, 5e-3, 1e-2, 2e7, 1e-6, 400, 0)
     shares = []
-    for belt in (None, Belt(2000.0, 1e6)):
+    for belt in (None, BeltSettings(2000.0, 1e6)):
         field = PressureField(settings._replace(belt=belt), "tire")
         field.solve_load(gap, 3000.0)
         shares.append(field.pressure[bar_rows].sum() / field.pressure.sum())
@@ -69,6 +72,11 @@ def test_a_soft_belt_lets_the_tire_bend_over_a_short_obstacle() -> None:
 
 
 def test_tension_and_foundation_must_be_positive_and_finite() -> None:
-    for belt in (Belt(0.0, 1.0), Belt(1.0, -1.0), Belt(math.nan, 1.0), Belt(1.0, math.inf)):
+    for belt in (
+        BeltSettings(0.0, 1.0),
+        BeltSettings(1.0, -1.0),
+        BeltSettings(math.nan, 1.0),
+        BeltSettings(1.0, math.inf),
+    ):
         with pytest.raises(ValueError, match="allowed are positive finite numbers"):
             relaxation_length(belt)

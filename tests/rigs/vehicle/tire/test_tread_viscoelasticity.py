@@ -162,5 +162,5 @@ def test_a_reset_tread_remembers_nothing() -> None:
     first = pressing.at_approach(gap, 4e-3)
     pressing.at_approach(gap, 4e-3)
     pressing.memory.reset()
-    pressing.field.forget()
+    pressing.field.reset()
     assert pressing.at_approach(gap, 4e-3) == first

@@ -17,7 +17,7 @@ import numpy
 from contact_sim_pkg.records.accuracy import INTEGRATOR, AccuracyPart, AccuracyStudy
 from contact_sim_pkg.rigs.backrest.schema_rules import MOST_SEARCHED
 from contact_sim_pkg.rigs.backrest.shell import MODE_COUNTS
-from contact_sim_pkg.rigs.backrest.studies.drive import BackrestDrive, Motion, drive_of, fast_run, slow_run
+from contact_sim_pkg.rigs.backrest.studies.drive import DrivenBackrest, Motion, drive_of, fast_run, slow_run
 from contact_sim_pkg.scene.resolved_scene import ResolvedScene
 
 __all__ = ["ACCURACY", "mode_rows", "tolerance_rows"]
@@ -87,11 +87,11 @@ def _with_modes(scene: ResolvedScene, count: int) -> ResolvedScene:
     return ResolvedScene(data, scene.files)
 
 
-def _scale(scene: ResolvedScene, drive: BackrestDrive, tolerance: float) -> Any:
+def _scale(scene: ResolvedScene, drive: DrivenBackrest, tolerance: float) -> Any:
     return drive.model.scale * (tolerance / float(scene.data["integrator"]["relative_tolerance"]))
 
 
-def _timed(drive: BackrestDrive, scale: Any) -> tuple[Motion, float]:
+def _timed(drive: DrivenBackrest, scale: Any) -> tuple[Motion, float]:
     """A run, and the shortest processor time of some [ms] per simulated second."""
     run = partial(fast_run, drive, scale)
     found = run()

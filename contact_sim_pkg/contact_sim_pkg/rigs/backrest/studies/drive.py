@@ -21,10 +21,10 @@ from contact_sim_pkg.run.sources import make_sources
 from contact_sim_pkg.run.vibration_drive import VIBRATION, accelerations
 from contact_sim_pkg.scene.resolved_scene import ResolvedScene
 
-__all__ = ["BackrestDrive", "Motion", "drive_of", "fast_run", "slow_run"]
+__all__ = ["DrivenBackrest", "Motion", "drive_of", "fast_run", "slow_run"]
 
 
-class BackrestDrive(NamedTuple):
+class DrivenBackrest(NamedTuple):
     """What shakes the seat back."""
 
     model: BackrestModel
@@ -43,17 +43,17 @@ class Motion(NamedTuple):
     residual: float = 0.0  # [J] supplied less what is kinetic, potential, stored and dissipated
 
 
-def drive_of(scene: ResolvedScene, duration: float) -> BackrestDrive:
+def drive_of(scene: ResolvedScene, duration: float) -> DrivenBackrest:
     """Drive of the scene's seat back over ``duration`` [s]."""
     model, sources = build_backrest(scene.data), make_sources(scene)
     timing = model.timing
     blocks = max(1, min(timing.blocks, round(duration / timing.block_length)))
     forward = [accelerations(timing, block, sources[VIBRATION].block(block))[0] for block in range(blocks)]
     joined = numpy.concatenate([*(part[:-1] for part in forward), forward[-1][-1:]])
-    return BackrestDrive(model, timing.segment_length, joined)
+    return DrivenBackrest(model, timing.segment_length, joined)
 
 
-def fast_run(drive: BackrestDrive, scale: Vector) -> Motion:
+def fast_run(drive: DrivenBackrest, scale: Vector) -> Motion:
     """By the bench's kernels, with the error ``scale`` [states] allowed per step. Raises ArithmeticError where they fail."""
     model, count = drive.model, len(drive.acceleration) - 1
     states, points = len(model.start), len(model.rig.gaps)
@@ -81,7 +81,7 @@ def fast_run(drive: BackrestDrive, scale: Vector) -> Motion:
     )  # fmt: skip
 
 
-def slow_run(drive: BackrestDrive) -> Motion | None:
+def slow_run(drive: DrivenBackrest) -> Motion | None:
     """By scipy, without code of the kernels; None for a back that the twin does not know: a shell, or one on foam.
 
     Friction does not act on the normal motion of a back without modes, and is not worked out.
@@ -110,7 +110,7 @@ def _law(elastic: object, loss: object) -> Law | None:
     return Law(elastic.coefficient, elastic.exponent, float(getattr(loss, "damping", 0.0)))
 
 
-def _touches(drive: BackrestDrive, pressed: float, approach: Vector, speed: Vector) -> Vector:
+def _touches(drive: DrivenBackrest, pressed: float, approach: Vector, speed: Vector) -> Vector:
     """Instants at which free flight ends: the root of its cubic, the acceleration being straight in each segment."""
     length, shaking = drive.segment, drive.acceleration
     found = []

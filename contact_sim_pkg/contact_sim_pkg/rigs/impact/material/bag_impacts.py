@@ -43,10 +43,17 @@ def impacts_of_bag(path: Path) -> Impacts:
 
     gravity = column("gravity")
     return Impacts(
-        str(path), column("number").astype(numpy.int64), column("mass"), column("radius"), column("measured_speed"),
-        column("measured_duration"), column("measured_restitution"), column("temperature"), (),
-        gravity if gravity.any() else None,
-    )  # fmt: skip
+        file=str(path),
+        line=column("number").astype(numpy.int64),
+        mass=column("mass"),
+        radius=column("radius"),
+        speed=column("measured_speed"),
+        duration=column("measured_duration"),
+        restitution=column("measured_restitution"),
+        temperature=column("temperature"),
+        notes=(),
+        gravity=gravity if gravity.any() else None,
+    )
 
 
 def rules_of_bag(path: Path) -> tuple[str, str]:

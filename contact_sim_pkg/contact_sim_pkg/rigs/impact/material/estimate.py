@@ -27,7 +27,7 @@ from contact_sim_pkg.rigs.impact.theory.bodies import Sphere
 from contact_sim_pkg.rigs.impact.theory.errors import ImpactError
 from contact_sim_pkg.rigs.impact.theory.inverse import group_factor, material_of_impact, reading, shape_of_depth
 
-__all__ = ["Estimate", "Value", "around", "each_impact", "of_logarithm", "repeated_impacts", "student"]
+__all__ = ["EstimatedValue", "MaterialEstimate", "around", "each_impact", "of_logarithm", "repeated_impacts", "student"]
 
 STEP = 1.0e-5  # of k, for the slopes of h and g
 ABOVE_BY_NOISE = 0.05  # of a mean restitution over 1, beside three standard errors; a larger one is no impact
@@ -37,7 +37,7 @@ ABOVE_ONE = "mean restitution above 1, by noise: read as no loss"
 Indices = NDArray[numpy.intp]
 
 
-class Value(NamedTuple):
+class EstimatedValue(NamedTuple):
     """A value with its standard error and the interval of the asked confidence; None where a single impact tells none."""
 
     value: float
@@ -46,16 +46,16 @@ class Value(NamedTuple):
     high: float | None
 
 
-class Estimate(NamedTuple):
+class MaterialEstimate(NamedTuple):
     """What repeated impacts say of the material."""
 
     impacts: int
     temperature: float | None  # [K], mean
     speed: float  # [m/s], geometric mean
     restitution: float  # mean
-    storage_modulus: Value  # E' [Pa]
-    loss_modulus: Value  # E'' [Pa]
-    loss_tangent: Value
+    storage_modulus: EstimatedValue  # E' [Pa]
+    loss_modulus: EstimatedValue  # E'' [Pa]
+    loss_tangent: EstimatedValue
     note: str | None = None  # what to mind
 
 
@@ -81,7 +81,9 @@ def each_impact(impacts: Impacts, options: Options) -> list[dict[str, float | in
         speed, duration, k = (float(v[i]) for v in (impacts.speed, impacts.duration, impacts.restitution))
         try:
             gravity = 0.0 if impacts.gravity is None else float(impacts.gravity[i])
-            found = material_of_impact(sphere, speed, duration, k, options.end, options.form, options.shape, gravity)
+            found = material_of_impact(
+                sphere, speed, duration, k, end=options.end, form=options.form, shape=options.shape, gravity=gravity
+            )
         except ImpactError as error:
             rows.append({**row, "E'": None, "E''": None, "tan_beta": None, "note": str(error)})
             continue
@@ -90,7 +92,7 @@ def each_impact(impacts: Impacts, options: Options) -> list[dict[str, float | in
     return rows
 
 
-def repeated_impacts(impacts: Impacts, chosen: Indices, options: Options) -> Estimate:
+def repeated_impacts(impacts: Impacts, chosen: Indices, options: Options) -> MaterialEstimate:
     """The material from the impacts ``chosen``, taken as repeats of one state of it.
 
     Impacts far off the others of the group are named in the note; they count all the same.
@@ -113,11 +115,16 @@ def repeated_impacts(impacts: Impacts, chosen: Indices, options: Options) -> Est
     tangent_error = _standard_error(curve.loss_tangent_slope * deviation)
     loss_error = _standard_error(storage * (tangent * log_storage + curve.loss_tangent_slope * deviation))
     temperature = None if impacts.temperature is None else float(impacts.temperature[chosen].mean())
-    return Estimate(
-        len(chosen), temperature, math.exp(float(numpy.log(impacts.speed[chosen]).mean())), float(k.mean()),
-        of_logarithm(storage, log_error, factor), around(storage * tangent, loss_error, factor),
-        around(tangent, tangent_error, factor), _note(impacts, chosen, times),
-    )  # fmt: skip
+    return MaterialEstimate(
+        impacts=len(chosen),
+        temperature=temperature,
+        speed=math.exp(float(numpy.log(impacts.speed[chosen]).mean())),
+        restitution=float(k.mean()),
+        storage_modulus=of_logarithm(storage, log_error, factor),
+        loss_modulus=around(storage * tangent, loss_error, factor),
+        loss_tangent=around(tangent, tangent_error, factor),
+        note=_note(impacts, chosen, times),
+    )
 
 
 def _refuse_gain(impacts: Impacts, chosen: Indices) -> None:
@@ -193,15 +200,15 @@ def student(count: int, confidence: float) -> float:
     return float(stdtrit(count - 1, 0.5 + 0.5 * confidence)) if count > 1 else math.nan
 
 
-def around(value: float, error: float | None, factor: float) -> Value:
+def around(value: float, error: float | None, factor: float) -> EstimatedValue:
     """Value with an interval of ``factor`` standard errors, not below 0."""
     if error is None:
-        return Value(value, None, None, None)
-    return Value(value, error, max(0.0, value - factor * error), value + factor * error)
+        return EstimatedValue(value, None, None, None)
+    return EstimatedValue(value, error, max(0.0, value - factor * error), value + factor * error)
 
 
-def of_logarithm(value: float, error: float | None, factor: float) -> Value:
+def of_logarithm(value: float, error: float | None, factor: float) -> EstimatedValue:
     """Value with an interval of ``factor`` standard errors of its logarithm, ``error``."""
     if error is None:
-        return Value(value, None, None, None)
-    return Value(value, value * error, value * math.exp(-factor * error), value * math.exp(factor * error))
+        return EstimatedValue(value, None, None, None)
+    return EstimatedValue(value, value * error, value * math.exp(-factor * error), value * math.exp(factor * error))

@@ -9,7 +9,7 @@ import numpy
 from matplotlib.figure import Figure
 
 from contact_sim_pkg.report.drawing import save_picture
-from contact_sim_pkg.rigs.impact.material.estimate import Estimate, Value
+from contact_sim_pkg.rigs.impact.material.estimate import EstimatedValue, MaterialEstimate
 from contact_sim_pkg.rigs.impact.material.report import MaterialReport
 
 __all__ = ["write_figure"]
@@ -53,7 +53,7 @@ def _impacts(axes: Any, report: MaterialReport, name: str) -> None:
         axes.plot(*zip(*points, strict=True), ".", color="0.7", markersize=3, label="single impacts")
 
 
-def _intervals(axes: Any, estimates: list[Estimate], places: list[float], of: Any) -> None:
+def _intervals(axes: Any, estimates: list[MaterialEstimate], places: list[float], of: Any) -> None:
     values = [of(estimate) for estimate in estimates]
     centre = numpy.array([value.value for value in values])
     low = numpy.array([value.value if value.low is None else value.low for value in values])
@@ -61,9 +61,9 @@ def _intervals(axes: Any, estimates: list[Estimate], places: list[float], of: An
     axes.errorbar(places, centre, yerr=numpy.array([centre - low, high - centre]), fmt="o", markersize=4, capsize=2)
 
 
-def _storage(estimate: Estimate) -> Value:
+def _storage(estimate: MaterialEstimate) -> EstimatedValue:
     return estimate.storage_modulus
 
 
-def _tangent(estimate: Estimate) -> Value:
+def _tangent(estimate: MaterialEstimate) -> EstimatedValue:
     return estimate.loss_tangent

@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 from scipy.optimize import minimize_scalar
 
 from contact_sim_pkg.rigs.impact.material.errors import MaterialError
-from contact_sim_pkg.rigs.impact.material.estimate import Estimate
+from contact_sim_pkg.rigs.impact.material.estimate import MaterialEstimate
 from contact_sim_pkg.rigs.impact.theory.errors import ImpactError
 from contact_sim_pkg.rigs.impact.theory.shift import Arrhenius, Shift, Wlf, log_shift
 
@@ -44,7 +44,7 @@ class MasterCurve(NamedTuple):
 
 
 def master_curve(
-    estimates: list[Estimate], law: str, parameter: float | None = None, reference: float | None = None
+    estimates: list[MaterialEstimate], law: str, parameter: float | None = None, reference: float | None = None
 ) -> MasterCurve:
     """Shift all groups to ``reference`` [K] (that group's nearest the middle where None).
 
@@ -89,7 +89,7 @@ def _shifts(shift: Shift, temperatures: Vector, reference: float) -> Vector:
         raise MaterialError(f"master curve: {error}") from error
 
 
-def _distance(estimates: list[Estimate], logs: Vector) -> tuple[float, float | None]:
+def _distance(estimates: list[MaterialEstimate], logs: Vector) -> tuple[float, float | None]:
     """Weighted sum of squares of ln E' about its curve, over the degrees of freedom; and the unweighted scatter."""
     place = numpy.log10(numpy.array([e.speed for e in estimates])) + logs
     value = numpy.log(numpy.array([e.storage_modulus.value for e in estimates]))
@@ -105,12 +105,14 @@ def _distance(estimates: list[Estimate], logs: Vector) -> tuple[float, float | N
     return float(numpy.sum((residual * weights) ** 2)), float(numpy.sqrt(numpy.mean(residual**2)))
 
 
-def _log_error(estimate: Estimate) -> float:
+def _log_error(estimate: MaterialEstimate) -> float:
     error = estimate.storage_modulus.error
     return LEAST_ERROR if error is None else max(LEAST_ERROR, error / estimate.storage_modulus.value)
 
 
-def _search(estimates: list[Estimate], temperatures: Vector, law: str, reference: float) -> tuple[float, float | None]:
+def _search(
+    estimates: list[MaterialEstimate], temperatures: Vector, law: str, reference: float
+) -> tuple[float, float | None]:
     """Parameter of least distance: scan, then Brent between the neighbours; standard error from the curvature there."""
     speeds_at: dict[int, set[int]] = {}
     for e, t in zip(estimates, temperatures, strict=True):

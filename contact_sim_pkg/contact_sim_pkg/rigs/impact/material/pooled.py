@@ -15,7 +15,13 @@ import numpy
 from numpy.typing import NDArray
 from scipy.special import fdtrc
 
-from contact_sim_pkg.rigs.impact.material.estimate import Estimate, Value, around, of_logarithm, student
+from contact_sim_pkg.rigs.impact.material.estimate import (
+    EstimatedValue,
+    MaterialEstimate,
+    around,
+    of_logarithm,
+    student,
+)
 from contact_sim_pkg.rigs.impact.material.options import Options
 
 __all__ = ["Pooled", "pooled_speeds"]
@@ -33,14 +39,14 @@ class Pooled(NamedTuple):
     temperature: float | None  # [K], mean
     slowest: float  # [m/s], mean speed of the slowest group
     fastest: float  # [m/s]
-    storage_modulus: Value  # E' [Pa]
-    loss_modulus: Value  # E'' [Pa]
-    loss_tangent: Value
+    storage_modulus: EstimatedValue  # E' [Pa]
+    loss_modulus: EstimatedValue  # E'' [Pa]
+    loss_tangent: EstimatedValue
     agreement: float | None  # smaller probability of E' and tan(beta), twice, at most 1; None without repeats
     note: str | None
 
 
-def pooled_speeds(estimates: list[Estimate], options: Options) -> list[Pooled]:
+def pooled_speeds(estimates: list[MaterialEstimate], options: Options) -> list[Pooled]:
     """One row for each temperature that several groups share; ``estimates`` by rising temperature, as `groups` orders them."""
     found = []
     for together in _of_one_temperature(estimates, options.temperature_span):
@@ -49,8 +55,8 @@ def pooled_speeds(estimates: list[Estimate], options: Options) -> list[Pooled]:
     return found
 
 
-def _of_one_temperature(estimates: list[Estimate], span: float) -> list[list[Estimate]]:
-    parts: list[list[Estimate]] = []
+def _of_one_temperature(estimates: list[MaterialEstimate], span: float) -> list[list[MaterialEstimate]]:
+    parts: list[list[MaterialEstimate]] = []
     for estimate in estimates:
         first = parts[-1][0].temperature if parts else None
         if parts and (estimate.temperature is None or first is None or abs(estimate.temperature - first) <= span):
@@ -60,14 +66,14 @@ def _of_one_temperature(estimates: list[Estimate], span: float) -> list[list[Est
     return parts
 
 
-def _pool(together: list[Estimate], confidence: float) -> Pooled:
+def _pool(together: list[MaterialEstimate], confidence: float) -> Pooled:
     counts = numpy.array([float(each.impacts) for each in together])
     total = float(counts.sum())
     storage, loss, tangent = (
         [getattr(each, name) for each in together] for name in ("storage_modulus", "loss_modulus", "loss_tangent")
     )
     logs = [
-        Value(math.log(v.value), None if v.error is None else v.error / v.value, None, None) for v in storage
+        EstimatedValue(math.log(v.value), None if v.error is None else v.error / v.value, None, None) for v in storage
     ]  # of E' its logarithm, as in its interval
     freedom = int(total) - len(together)
     factor = student(freedom + 1 if freedom else len(together), confidence)
@@ -77,14 +83,20 @@ def _pool(together: list[Estimate], confidence: float) -> Pooled:
     temperatures = [each.temperature for each in together if each.temperature is not None]
     speeds = [each.speed for each in together]
     return Pooled(
-        int(total), len(together), float(numpy.average(temperatures, weights=counts)) if temperatures else None,
-        min(speeds), max(speeds), of_logarithm(math.exp(values[0][0]), values[0][1], factor),
-        around(*values[1][:2], factor), around(*values[2][:2], factor), agreement,
-        DIFFERENT if agreement is not None and agreement < UNLIKELY else None,
-    )  # fmt: skip
+        impacts=int(total),
+        groups=len(together),
+        temperature=float(numpy.average(temperatures, weights=counts)) if temperatures else None,
+        slowest=min(speeds),
+        fastest=max(speeds),
+        storage_modulus=of_logarithm(math.exp(values[0][0]), values[0][1], factor),
+        loss_modulus=around(*values[1][:2], factor),
+        loss_tangent=around(*values[2][:2], factor),
+        agreement=agreement,
+        note=DIFFERENT if agreement is not None and agreement < UNLIKELY else None,
+    )
 
 
-def _mean(parts: list[Value], counts: Vector) -> tuple[float, float, float | None]:
+def _mean(parts: list[EstimatedValue], counts: Vector) -> tuple[float, float, float | None]:
     """Mean, its standard error, and the chance of groups so far apart; without repeats the groups themselves are the scatter."""
     total, number = float(counts.sum()), len(parts)
     centre = numpy.array([part.value for part in parts])

@@ -86,9 +86,17 @@ def read_impacts(path: Path) -> Impacts:
     notes = (f"columns not used: {', '.join(unused)}",) if unused else ()
     line = numpy.array([number for number, _ in rows[1:]], dtype=numpy.int64)
     return Impacts(
-        str(path), line, arrays["m"], arrays["R"], arrays["V0"], arrays["tau"], arrays["k"], arrays.get("T"), notes,
-        arrays.get("g"),
-    )  # fmt: skip
+        file=str(path),
+        line=line,
+        mass=arrays["m"],
+        radius=arrays["R"],
+        speed=arrays["V0"],
+        duration=arrays["tau"],
+        restitution=arrays["k"],
+        temperature=arrays.get("T"),
+        notes=notes,
+        gravity=arrays.get("g"),
+    )
 
 
 def _lines(path: Path) -> list[tuple[int, str]]:

@@ -12,7 +12,12 @@ import numpy
 from contact_sim_pkg.files import new_file
 from contact_sim_pkg.rigs.impact.material.bag_impacts import impacts_of_bag, is_bag
 from contact_sim_pkg.rigs.impact.material.errors import MaterialError
-from contact_sim_pkg.rigs.impact.material.estimate import Estimate, Value, each_impact, repeated_impacts
+from contact_sim_pkg.rigs.impact.material.estimate import (
+    EstimatedValue,
+    MaterialEstimate,
+    each_impact,
+    repeated_impacts,
+)
 from contact_sim_pkg.rigs.impact.material.groups import groups
 from contact_sim_pkg.rigs.impact.material.master_curve import LAWS, MasterCurve, master_curve
 from contact_sim_pkg.rigs.impact.material.options import Options
@@ -41,7 +46,7 @@ class MaterialReport(NamedTuple):
     impacts: Impacts
     options: Options
     rows: list[dict[str, Any]]  # an impact a row
-    estimates: list[Estimate]  # a group of repeats a row
+    estimates: list[MaterialEstimate]  # a group of repeats a row
     master: MasterCurve | None
     pooled: list[Pooled]  # a temperature with several speeds a row
 
@@ -155,7 +160,7 @@ def write_csv(report: MaterialReport, path: Path, *, overwrite: bool = False) ->
             file.write(text.getvalue().encode())
 
 
-def _flat(name: str, value: Value) -> dict[str, float | None]:
+def _flat(name: str, value: EstimatedValue) -> dict[str, float | None]:
     return {name: value.value, f"{name}_error": value.error, f"{name}_low": value.low, f"{name}_high": value.high}
 
 

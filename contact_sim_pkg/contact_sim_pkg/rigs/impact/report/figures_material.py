@@ -8,7 +8,7 @@ import numpy as np
 
 from contact_sim_pkg.report.drawing import ACCENT, MUTED, Picture, new_figure, picture
 from contact_sim_pkg.rigs.impact.material.errors import MaterialError
-from contact_sim_pkg.rigs.impact.material.estimate import Estimate, Value
+from contact_sim_pkg.rigs.impact.material.estimate import EstimatedValue, MaterialEstimate
 from contact_sim_pkg.rigs.impact.material.options import Options
 from contact_sim_pkg.rigs.impact.material.reading import Impacts
 from contact_sim_pkg.rigs.impact.material.report import MaterialReport, report_of
@@ -84,13 +84,13 @@ def _caption(report: MaterialReport, over_temperature: bool) -> str:
     tangents = [each.loss_tangent.value for each in groups]
     text += f"E′ {min(moduli):.4g} to {max(moduli):.4g} Pa, tan β {min(tangents):.4g} to {max(tangents):.4g}"
     if over_temperature:
-        softest: Estimate = max(groups, key=lambda each: each.loss_tangent.value)
+        softest: MaterialEstimate = max(groups, key=lambda each: each.loss_tangent.value)
         text += f", largest at {softest.temperature or 0.0:.4g} K and {softest.speed:.3g} m/s"
     notes = f" {'; '.join(report.impacts.notes)}." if report.impacts.notes else ""
     return f"{text}.{notes}"
 
 
-def _points(axes, places: list[float], values: list[Value], style: dict[str, object]) -> None:  # type: ignore[no-untyped-def]
+def _points(axes, places: list[float], values: list[EstimatedValue], style: dict[str, object]) -> None:  # type: ignore[no-untyped-def]
     centre = np.array([value.value for value in values])
     low = np.array([value.value if value.low is None else value.low for value in values])
     high = np.array([value.value if value.high is None else value.high for value in values])

@@ -15,7 +15,7 @@ from typing import Any
 import numpy
 
 from contact_sim_pkg.records.accuracy import AccuracyPart, AccuracyStudy
-from contact_sim_pkg.rigs.impact.model import ImpactModel, Touch, build_impact
+from contact_sim_pkg.rigs.impact.model import FirstContact, ImpactModel, build_impact
 from contact_sim_pkg.rigs.impact.motion import ImpactMotion
 from contact_sim_pkg.rigs.impact.reference.weighted_impact import impact_under_weight
 from contact_sim_pkg.rigs.impact.theory.closed_form.force import elastic_force
@@ -66,7 +66,7 @@ def way_rows(_scene_name: str, scene: ResolvedScene, tell: Callable[[str], None]
     return rows
 
 
-def _ways(model: ImpactModel, found: Touch) -> dict[str, Callable[[], Answer]]:
+def _ways(model: ImpactModel, found: FirstContact) -> dict[str, Callable[[], Answer]]:
     return {
         "closed forms": partial(_closed, found),
         "equivalent constants": partial(_constants, found),
@@ -76,7 +76,7 @@ def _ways(model: ImpactModel, found: Touch) -> dict[str, Callable[[], Answer]]:
     }
 
 
-def _closed(found: Touch) -> Answer:
+def _closed(found: FirstContact) -> Answer:
     free = found.impact
     modulus = free.material.storage_modulus
     k = closed_restitution(free.material.loss_tangent)
@@ -89,12 +89,12 @@ def _closed(found: Touch) -> Answer:
     )
 
 
-def _constants(found: Touch) -> Answer:
+def _constants(found: FirstContact) -> Answer:
     sine = damped_sine(found.impact.sphere, found.impact.material, found.impact.speed, "corrected")
     return sine.restitution, sine.duration, sine.depth, sine.peak_force
 
 
-def _table(found: Touch) -> Answer:
+def _table(found: FirstContact) -> Answer:
     free = found.impact
     entry = look_up(free.material.loss_tangent, free.end)
     force = free.sphere.mass * free.speed**2 / free.length
@@ -106,7 +106,7 @@ def _table(found: Touch) -> Answer:
     )
 
 
-def _free(found: Touch) -> Answer:
+def _free(found: FirstContact) -> Answer:
     free = found.impact
     shape = "small" if free.shape == math.sqrt(2.0) else "iterate"
     again = solve_impact(free.sphere, free.material, free.speed, free.end, shape)

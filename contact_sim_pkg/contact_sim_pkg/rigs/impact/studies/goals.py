@@ -7,7 +7,7 @@ import statistics
 import numpy
 
 from contact_sim_pkg.records.goal import GoalPart, Measured, median_time
-from contact_sim_pkg.rigs.impact.material.estimate import Estimate, repeated_impacts
+from contact_sim_pkg.rigs.impact.material.estimate import MaterialEstimate, repeated_impacts
 from contact_sim_pkg.rigs.impact.material.options import Options
 from contact_sim_pkg.rigs.impact.material.reading import Impacts
 from contact_sim_pkg.rigs.impact.studies import hard_cases_sphere as cases
@@ -76,7 +76,7 @@ def _material() -> list[Measured]:
     ]
 
 
-def _reading(seed: int) -> Estimate:
+def _reading(seed: int) -> MaterialEstimate:
     impact = solve_impact(cases.SPHERE, Material(cases.RUBBER.storage_modulus, TANGENT), 2.0)
     random, ones = numpy.random.default_rng(seed), numpy.ones(REPEATS)
     speed, duration, restitution = (

@@ -22,7 +22,7 @@ from contact_sim_pkg.rigs.impact.theory.closed_form.severity import fold, severi
 from contact_sim_pkg.rigs.impact.theory.closed_form.surface_wave import ring, shear_speed
 from contact_sim_pkg.rigs.impact.theory.errors import FoldError, ImpactError
 from contact_sim_pkg.rigs.impact.theory.geometry import SMALL_SHAPE_FACTOR, contact_radius, depth_note, shape_factor
-from contact_sim_pkg.rigs.impact.theory.motion import Impact, course, solve_impact
+from contact_sim_pkg.rigs.impact.theory.motion import FreeImpact, course, solve_impact
 from contact_sim_pkg.rigs.impact.theory.viscoelastic import creep, hereditary
 
 STEEL_RADIUS, STEEL_DENSITY = 0.01, 7800.0  # [m], [kg/m^3]
@@ -40,7 +40,7 @@ def _refused(call: Callable[[], object], kind: type[Exception] = ImpactError) ->
     return False
 
 
-def _sample(loss_tangent: float = 0.2, speed: float = 2.0, end: str = "force") -> Impact:
+def _sample(loss_tangent: float = 0.2, speed: float = 2.0, end: str = "force") -> FreeImpact:
     return solve_impact(SPHERE, Material(RUBBER.storage_modulus, loss_tangent), speed, end)
 
 
@@ -139,7 +139,7 @@ def retarded_outside() -> Finding:
 
 def volumes_outside() -> Finding:
     """Both variants refuse alpha_h above 1."""
-    half_space = position.HalfSpace(1.0, -0.6)
+    half_space = position.SampleHalfSpace(1.0, -0.6)
     calls = (
         lambda: position.position_variant_1(9e-3, 0.01, half_space),
         lambda: position.position_variant_2(9e-3, 0.01, half_space),
@@ -149,7 +149,7 @@ def volumes_outside() -> Finding:
 
 def printed_numbers() -> Finding:
     """alpha_h of both variants at nu 0.4, D1 0.8, x/R 0.1: 0.04180 and 0.0374; largest difference."""
-    half_space = position.HalfSpace(0.8, 0.4)
+    half_space = position.SampleHalfSpace(0.8, 0.4)
     first = position.position_variant_1(1e-3, 0.01, half_space).alpha
     second = position.position_variant_2(1e-3, 0.01, half_space).alpha
     return at_most(max(abs(first - 0.04180), abs(second - 0.03739)), 6e-6)
@@ -182,7 +182,7 @@ def deeper_than_radius() -> Finding:
 
 def incompressible() -> Finding:
     """nu = 1/2: h_x over x1 in both variants, and E of G and an endless K over 3 G; a bulk modulus is refused."""
-    half_space = position.HalfSpace(0.8, 0.5)
+    half_space = position.SampleHalfSpace(0.8, 0.5)
     ratios = [
         position.position_variant_1(1e-3, 0.01, half_space).surface_depth / 8e-4,
         position.position_variant_2(1e-3, 0.01, half_space).surface_depth / 8e-4,
@@ -212,7 +212,7 @@ def invariants() -> Finding:
     return at_most(worst, 1e-9)
 
 
-def steel_sphere() -> tuple[Impact, tuple[float, float, float]]:
+def steel_sphere() -> tuple[FreeImpact, tuple[float, float, float]]:
     """The steel ball at 1 m/s as a case of the sphere's impact, and its duration, depth and force in closed form."""
     mass = STEEL_DENSITY * 4.0 / 3.0 * math.pi * STEEL_RADIUS**3
     coefficient = elastic_reference.sphere_coefficient(STEEL_RADIUS, 210e9, 0.3)

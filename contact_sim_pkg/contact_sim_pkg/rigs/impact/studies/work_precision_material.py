@@ -11,7 +11,7 @@ from contact_sim_pkg.rigs.impact.theory.bodies import Material
 from contact_sim_pkg.rigs.impact.theory.closed_form import micro_front
 from contact_sim_pkg.rigs.impact.theory.errors import ImpactError
 from contact_sim_pkg.rigs.impact.theory.inverse import FORMS, material_of_impact
-from contact_sim_pkg.rigs.impact.theory.motion import Impact, solve_impact
+from contact_sim_pkg.rigs.impact.theory.motion import FreeImpact, solve_impact
 
 __all__ = ["FRONT_PART", "PART", "WORK_PRECISION", "front_rows", "rows"]
 
@@ -74,15 +74,15 @@ def front_rows() -> list[Row]:
     return found
 
 
-def _small(impact: Impact) -> float:
+def _small(impact: FreeImpact) -> float:
     return micro_front.front_of_small_times(impact, SHEAR_SPEED).time
 
 
-def _sine(impact: Impact) -> float:
+def _sine(impact: FreeImpact) -> float:
     return micro_front.front_of_damped_sine(impact, SHEAR_SPEED)
 
 
-def _integrated(impact: Impact) -> float:
+def _integrated(impact: FreeImpact) -> float:
     return micro_front.front_time(impact, SHEAR_SPEED).time
 
 

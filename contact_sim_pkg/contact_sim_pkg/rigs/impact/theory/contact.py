@@ -42,7 +42,7 @@ __all__ = [
     "PARTED",
     "RELEASED",
     "ContactLaw",
-    "Stretch",
+    "ContactPhase",
     "Turns",
     "next_stretch",
     "sample",
@@ -74,7 +74,7 @@ class Turns(NamedTuple):
     peak_force: float  # [N]
 
 
-class Stretch(NamedTuple):
+class ContactPhase(NamedTuple):
     """A part of a contact; SI units, times from its own begin."""
 
     kind: str  # LOADED or RELEASED
@@ -102,7 +102,7 @@ class _Units(NamedTuple):
         return self.length / self.speed
 
 
-def touch(law: ContactLaw, speed: float) -> Stretch:
+def touch(law: ContactLaw, speed: float) -> ContactPhase:
     """First stretch of the contact that begins at depth 0 with ``speed`` > 0 [m/s].
 
     Raises ImpactError for a law or a speed outside its range, ValueError for another end rule.
@@ -112,7 +112,7 @@ def touch(law: ContactLaw, speed: float) -> Stretch:
     return _loaded(law, 0.0, speed, first=True)
 
 
-def next_stretch(before: Stretch) -> Stretch:
+def next_stretch(before: ContactPhase) -> ContactPhase:
     """The stretch behind one whose ``next_kind`` is not PARTED; raises ImpactError where it is."""
     if before.next_kind == PARTED:
         raise ImpactError("next stretch: the bodies have parted, there is none")
@@ -142,7 +142,7 @@ def _stored(law: ContactLaw, depth: float) -> float:
     return float(0.4 * law.elastic * max(depth, 0.0) ** 2.5)
 
 
-def sample(stretch: Stretch, times: Vector) -> tuple[Vector, Vector, Vector]:
+def sample(stretch: ContactPhase, times: Vector) -> tuple[Vector, Vector, Vector]:
     """Depth [m], speed [m/s] and heat [J] since its begin at rising ``times`` [s] within the stretch, its ends outside it.
 
     Raises ImpactError for times that are not finite or do not rise.
@@ -156,7 +156,7 @@ def sample(stretch: Stretch, times: Vector) -> tuple[Vector, Vector, Vector]:
     units = _units(law, stretch.depth, stretch.speed)
     depth, speed, heat = (numpy.zeros(len(t)) for _ in range(3))
     root, pace = math.sqrt(stretch.depth / units.length), stretch.speed / units.speed
-    sample_from(units.severity, units.weight, root, pace, t / units.time, depth, speed, heat)
+    sample_from(units.severity, units.weight, u=root, v=pace, times=t / units.time, depth=depth, speed=speed, heat=heat)
     return depth * units.length, speed * units.speed, heat * law.mass * units.speed**2
 
 
@@ -174,11 +174,13 @@ def _units(law: ContactLaw, depth: float, speed: float) -> _Units:
     return _Units(length, typical, severity, law.gravity * length / typical**2)
 
 
-def _loaded(law: ContactLaw, depth: float, speed: float, *, first: bool) -> Stretch:
+def _loaded(law: ContactLaw, depth: float, speed: float, *, first: bool) -> ContactPhase:
     units, out = _units(law, depth, speed), numpy.zeros(RESULTS)
     pulls = lowest_force(law.end) < 0.0
     root, pace = math.sqrt(depth / units.length), speed / units.speed
-    steps = solve_from(units.severity, units.weight, pulls, root, pace, PEAK if first else END, LONGEST, out)
+    steps = solve_from(
+        units.severity, units.weight, pulls=pulls, u=root, v=pace, kind=PEAK if first else END, limit=LONGEST, out=out
+    )
     if steps > 0:
         out[REACHED_TIME], out[REACHED_SPEED] = out[DURATION], -out[RESTITUTION]
     last_depth = float(out[REACHED_ROOT] ** 2 * units.length)
@@ -190,14 +192,21 @@ def _loaded(law: ContactLaw, depth: float, speed: float, *, first: bool) -> Stre
             float(out[TURNING_TIME]) * units.time, float(out[DEPTH]) * units.length, float(out[PEAK_TIME]) * units.time,
             float(out[PEAK_FORCE]) * force,
         )  # fmt: skip
-    return Stretch(
-        LOADED, law, depth, speed, float(out[REACHED_TIME]) * units.time, 0.0 if parts else last_depth,
-        float(out[REACHED_SPEED]) * units.speed, float(out[LOST]) * law.mass * units.speed**2,
-        PARTED if parts else LOADED if steps == 0 else RELEASED, turns,
-    )  # fmt: skip
+    return ContactPhase(
+        kind=LOADED,
+        law=law,
+        depth=depth,
+        speed=speed,
+        duration=float(out[REACHED_TIME]) * units.time,
+        last_depth=0.0 if parts else last_depth,
+        last_speed=float(out[REACHED_SPEED]) * units.speed,
+        heat=float(out[LOST]) * law.mass * units.speed**2,
+        next_kind=PARTED if parts else LOADED if steps == 0 else RELEASED,
+        turns=turns,
+    )
 
 
-def _released(law: ContactLaw, depth: float, speed: float) -> Stretch:
+def _released(law: ContactLaw, depth: float, speed: float) -> ContactPhase:
     """Parabola from ``depth`` > 0, moving out, to depth 0 or to where the law pushes again, whichever comes first."""
     parting = _first_root(0.5 * law.gravity, speed, depth)
     ratio = law.elastic / law.viscous
@@ -207,10 +216,17 @@ def _released(law: ContactLaw, depth: float, speed: float) -> Stretch:
     last = depth + (speed + 0.5 * law.gravity * duration) * duration
     parts = parting <= pushing
     last_depth = 0.0 if parts else last
-    return Stretch(
-        RELEASED, law, depth, speed, duration, last_depth, speed + law.gravity * duration,
-        _stored(law, depth) - _stored(law, last_depth), PARTED if parts else LOADED,
-    )  # fmt: skip
+    return ContactPhase(
+        kind=RELEASED,
+        law=law,
+        depth=depth,
+        speed=speed,
+        duration=duration,
+        last_depth=last_depth,
+        last_speed=speed + law.gravity * duration,
+        heat=_stored(law, depth) - _stored(law, last_depth),
+        next_kind=PARTED if parts else LOADED,
+    )
 
 
 def _first_root(square: float, slope: float, value: float, *, rising: bool = False) -> float:

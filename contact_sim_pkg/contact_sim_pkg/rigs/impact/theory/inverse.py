@@ -21,14 +21,14 @@ from contact_sim_pkg.rigs.impact.theory.geometry import SMALL_SHAPE_FACTOR, dept
 from contact_sim_pkg.rigs.impact.theory.motion import SHAPE_RULES
 from contact_sim_pkg.rigs.impact.theory.roots import bracketed_root
 
-__all__ = ["FORMS", "HEAVIEST", "Reading", "group_factor", "material_of_impact", "reading"]
+__all__ = ["FORMS", "HEAVIEST", "RestitutionReading", "group_factor", "material_of_impact", "reading"]
 
 FORMS = ("exact", "corrected", "printed")
 HEAVIEST = 0.5  # g tau/V0 up to which an impact under weight is inverted
 FACTORS = {"corrected": 15.0 / 16.0 * 2.0**2.5, "printed": 5.03}
 
 
-class Reading(NamedTuple):
+class RestitutionReading(NamedTuple):
     """What a restitution alone says."""
 
     modulus_factor: float  # h k_p: E' = q (h k_p)/k_p
@@ -68,7 +68,7 @@ def group_factor(sphere: Sphere, speed: float, duration: float) -> float:
     return float(sphere.mass / (math.sqrt(speed * sphere.radius) * duration**2.5))
 
 
-def reading(restitution: float, end: str = "force", form: str = "exact", weight: float = 0.0) -> Reading:
+def reading(restitution: float, end: str = "force", form: str = "exact", weight: float = 0.0) -> RestitutionReading:
     """h, g and the depth of a restitution k; ``weight`` is ``g tau/V0``.
 
     Raises ImpactError outside the range of the form, ValueError for another form.
@@ -81,13 +81,13 @@ def reading(restitution: float, end: str = "force", form: str = "exact", weight:
         severity, scaled = _severity_under_weight(restitution, end, weight)
         factor = 0.75 * scaled.duration**2.5
         free = scaled_impact(severity, end)  # whose depth gives k_p, as in `solve_impact`
-        return Reading(float(factor), loss_tangent_of_severity(severity, end), free.depth / scaled.duration)
+        return RestitutionReading(float(factor), loss_tangent_of_severity(severity, end), free.depth / scaled.duration)
     if form not in FACTORS:
         raise ValueError(f"form '{form}': {', '.join(FORMS)} are the forms")
     lowest_force(end)
     k = check_number("restitution", restitution, above=0.0, most=1.0)
     factor = FACTORS[form] * (1.0 + k) ** 2.5 / k**1.5
-    return Reading(float(factor), math.pi / 3.0 * (1.0 - k) / (1.0 + k), 0.5 * k / (1.0 + k))
+    return RestitutionReading(float(factor), math.pi / 3.0 * (1.0 - k) / (1.0 + k), 0.5 * k / (1.0 + k))
 
 
 def _severity_under_weight(restitution: float, end: str, weight: float) -> tuple[float, ScaledImpact]:

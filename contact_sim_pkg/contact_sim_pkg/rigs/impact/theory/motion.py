@@ -29,13 +29,13 @@ from contact_sim_pkg.rigs.impact.theory.closed_form.scaled_motion import (
 from contact_sim_pkg.rigs.impact.theory.closed_form.severity import severity_of_loss_tangent
 from contact_sim_pkg.rigs.impact.theory.geometry import SMALL_SHAPE_FACTOR, depth_note, shape_factor
 
-__all__ = ["SHAPE_RULES", "Course", "Impact", "course", "solve_impact"]
+__all__ = ["SHAPE_RULES", "FreeImpact", "ImpactCourse", "course", "solve_impact"]
 
 SHAPE_RULES = ("small", "iterate")
 ROUNDS = 100
 
 
-class Impact(NamedTuple):
+class FreeImpact(NamedTuple):
     """One free impact. SI units; times from first touch."""
 
     sphere: Sphere
@@ -71,7 +71,7 @@ class Impact(NamedTuple):
         return normal_law(self.elastic, self.viscous, self.end)
 
 
-class Course(NamedTuple):
+class ImpactCourse(NamedTuple):
     """An impact at given times; arrays [times]."""
 
     time: Vector  # [s]
@@ -86,7 +86,9 @@ class Course(NamedTuple):
         return self.elastic_force + self.viscous_force
 
 
-def solve_impact(sphere: Sphere, material: Material, speed: float, end: str = "force", shape: str = "small") -> Impact:
+def solve_impact(
+    sphere: Sphere, material: Material, speed: float, end: str = "force", shape: str = "small"
+) -> FreeImpact:
     """The free impact of ``sphere`` at ``speed`` V0 > 0 [m/s] on a half-space; ``material``: that of both bodies in series.
 
     ``end``: contact ends where the force is zero (`force`) or where the gap opens (`gap`). ``shape``: k_p = sqrt(2) (`small`) or
@@ -106,7 +108,7 @@ def solve_impact(sphere: Sphere, material: Material, speed: float, end: str = "f
     return impact._replace(note=depth_note(impact.depth, sphere.radius))
 
 
-def course(impact: Impact, times: Vector) -> Course:
+def course(impact: FreeImpact, times: Vector) -> ImpactCourse:
     """Depth, speed and forces at rising ``times`` [s], 0 to ``impact.duration``. Raises ImpactError for other times."""
     most = impact.duration * (1.0 + LEEWAY)
     times = check_values("times", times, "s", shape=(None,), least=0.0, most=most, rising=True)
@@ -115,7 +117,7 @@ def course(impact: Impact, times: Vector) -> Course:
     depth, speed = scaled_course(impact.severity, numpy.minimum(times / time_unit, last))
     x, v = depth * impact.length, speed * impact.speed
     root = numpy.sqrt(x)
-    return Course(times, x, v, impact.elastic * x * root, impact.viscous * root * v)
+    return ImpactCourse(times, x, v, impact.elastic * x * root, impact.viscous * root * v)
 
 
 def _check(sphere: Sphere, material: Material, speed: float, shape: str) -> None:
@@ -129,14 +131,27 @@ def _check(sphere: Sphere, material: Material, speed: float, shape: str) -> None
 
 def _in_units(
     sphere: Sphere, material: Material, speed: float, end: str, factor: float, severity: float, scaled: ScaledImpact
-) -> Impact:
+) -> FreeImpact:
     coefficient = elastic_coefficient(material.storage_modulus, sphere.radius, factor)
     length = float((sphere.mass * speed**2 / coefficient) ** 0.4)
     time_unit, force_unit = length / speed, sphere.mass * speed**2 / length
     duration = scaled.duration * time_unit
     viscous = viscous_coefficient(material.loss_modulus, sphere.radius, factor, math.pi / duration)
-    return Impact(
-        sphere, material, speed, end, factor, severity, length, scaled.restitution, duration,
-        scaled.turning_time * time_unit, scaled.depth * length, scaled.peak_force * force_unit, scaled.peak_time * time_unit,
-        coefficient, viscous, None,
-    )  # fmt: skip
+    return FreeImpact(
+        sphere=sphere,
+        material=material,
+        speed=speed,
+        end=end,
+        shape=factor,
+        severity=severity,
+        length=length,
+        restitution=scaled.restitution,
+        duration=duration,
+        compression_time=scaled.turning_time * time_unit,
+        depth=scaled.depth * length,
+        peak_force=scaled.peak_force * force_unit,
+        peak_time=scaled.peak_time * time_unit,
+        elastic=coefficient,
+        viscous=viscous,
+        note=None,
+    )

@@ -19,12 +19,12 @@ from contact_sim_pkg.rigs.impact.theory.checks import check_fields, check_number
 from contact_sim_pkg.rigs.impact.theory.errors import ImpactError
 from contact_sim_pkg.rigs.impact.theory.geometry import shape_factor
 
-__all__ = ["HalfSpace", "Position", "position_variant_1", "position_variant_2"]
+__all__ = ["Position", "SampleHalfSpace", "position_variant_1", "position_variant_2"]
 
 ROUNDS = 200
 
 
-class HalfSpace(NamedTuple):
+class SampleHalfSpace(NamedTuple):
     """What the position needs of the half-space."""
 
     share: float  # D1, 0 to 1: its part of the approach
@@ -46,7 +46,7 @@ class Position(NamedTuple):
     contact_volume: float  # V_h = V_x1 - V_c1 + dV_T [m^3], in contact with the sphere
 
 
-def position_variant_1(depth: float, radius: float, half_space: HalfSpace, rule: str = "equal") -> Position:
+def position_variant_1(depth: float, radius: float, half_space: SampleHalfSpace, rule: str = "equal") -> Position:
     """Variant 1 at approach ``depth`` x [m]; ``rule`` for k_c: `equal` or `consistent`.
 
     Range: 0 < x <= R [m], 0 < D1 <= 1, -1 < nu <= 1/2, alpha_h below 1 + K_T dT. Raises ImpactError outside.
@@ -64,7 +64,7 @@ def position_variant_1(depth: float, radius: float, half_space: HalfSpace, rule:
     return _position(x1, surface, alpha, k_c, volume, half_space)
 
 
-def position_variant_2(depth: float, radius: float, half_space: HalfSpace) -> Position:
+def position_variant_2(depth: float, radius: float, half_space: SampleHalfSpace) -> Position:
     """Variant 2 at approach ``depth`` x [m]. Range and errors as variant 1."""
     x1, k_p = _parts(depth, radius, half_space)
     alpha = 16.0 * math.sqrt(half_space.share) / (5.0 * math.pi * k_p) * math.sqrt(x1 / radius)
@@ -74,7 +74,7 @@ def position_variant_2(depth: float, radius: float, half_space: HalfSpace) -> Po
     return _position(x1, surface, alpha, k_p * math.sqrt(depth / surface), volume, half_space)
 
 
-def _parts(depth: float, radius: float, half_space: HalfSpace) -> tuple[float, float]:
+def _parts(depth: float, radius: float, half_space: SampleHalfSpace) -> tuple[float, float]:
     """x1 and k_p."""
     check_positive("depth", depth, "m")
     check_poisson_ratio(half_space.poisson_ratio)
@@ -83,7 +83,7 @@ def _parts(depth: float, radius: float, half_space: HalfSpace) -> tuple[float, f
     return half_space.share * depth, shape_factor(depth, radius)
 
 
-def _left(alpha: float, half_space: HalfSpace) -> float:
+def _left(alpha: float, half_space: SampleHalfSpace) -> float:
     """``1 - a + K_T dT``, which must be above 0."""
     left = 1.0 - alpha + half_space.expansion * half_space.heating
     if not left > 0.0:
@@ -100,7 +100,18 @@ def _rounds(rule: str) -> int:
     return ROUNDS
 
 
-def _position(x1: float, surface: float, alpha: float, factor: float, volume: float, half_space: HalfSpace) -> Position:
+def _position(
+    x1: float, surface: float, alpha: float, factor: float, volume: float, half_space: SampleHalfSpace
+) -> Position:
     compression = alpha * volume  # V_c1/V_x1 = alpha in both variants
     heating = volume * half_space.expansion * half_space.heating
-    return Position(x1, surface, alpha, factor, volume, compression, heating, volume - compression + heating)
+    return Position(
+        share_depth=x1,
+        surface_depth=surface,
+        alpha=alpha,
+        surface_factor=factor,
+        volume=volume,
+        compression_volume=compression,
+        heating_volume=heating,
+        contact_volume=volume - compression + heating,
+    )

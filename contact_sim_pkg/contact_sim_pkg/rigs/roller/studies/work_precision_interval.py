@@ -16,7 +16,7 @@ from contact_sim_pkg.rigs.roller.studies.paper_bench import (
     MODULUS,
     SHAFT_RADIUS,
 )
-from contact_sim_pkg.rigs.roller.theory.corrugation import Interval, Track, make_track, run_intervals
+from contact_sim_pkg.rigs.roller.theory.corrugation import Interval, WearTrack, make_track, run_intervals
 from contact_sim_pkg.rigs.roller.theory.ellipse import contact_of_rollers
 from contact_sim_pkg.rigs.roller.theory.heave import Heave, make_heave
 
@@ -36,14 +36,14 @@ SHARES = numpy.array([0.0, 0.028, 0.079, 0.171, 0.315, 0.482, 0.9])
 STARTS = {"wave of 0.1 µm": 1e-7, "wave of 10 µm": 1e-5, "wave of 20 µm, the roller leaves the track": 2e-5}
 
 
-def _bench() -> tuple[Heave, Track]:
+def _bench() -> tuple[Heave, WearTrack]:
     contact = contact_of_rollers(CURVATURES, 0.0, MODULUS, LOAD)
     heave = make_heave(MASS, 0.05, LOAD, contact.approach / LOAD ** (2.0 / 3.0), BENDING_COMPLIANCE)
     width, table = 2.0 * contact.along_y, (LOADS, SHARES)
     return heave, make_track(SHAFT_RADIUS, 1.0 / RATE, CELLS, width, GAIN, contact.approach, table)
 
 
-def _ridden(heave: Heave, track: Track, jump: int, intervals: int, heights: Values, state: Values) -> Interval:
+def _ridden(heave: Heave, track: WearTrack, jump: int, intervals: int, heights: Values, state: Values) -> Interval:
     """Each interval rides one turn that wears as `jump`."""
     loads, motion = numpy.zeros(CELLS), numpy.zeros((CELLS, 2))
     return run_intervals(heave, track._replace(gain=track.gain * jump), 1, intervals, heights, state, loads, motion)

@@ -32,8 +32,8 @@ from contact_sim_pkg.rigs.roller.theory.heave import Heave, Path, linear_stiffne
 
 __all__ = [
     "Interval",
-    "Track",
     "Wear",
+    "WearTrack",
     "growth_of_wave",
     "make_track",
     "mean_weights",
@@ -48,7 +48,7 @@ STRAIN = 0.14
 """Radial strain of the track at which the paper's specimen was used up."""
 
 
-class Track(NamedTuple):
+class WearTrack(NamedTuple):
     """What a track feels and how it answers."""
 
     turn_time: float  # [s] of one turn
@@ -82,7 +82,7 @@ class Interval(NamedTuple):
 def make_track(
     radius: float, turn_time: float, cells: int, contact_length: float, gain: float, approach: float,
     table: tuple[Values, Values], hardness: Values | None = None,
-) -> Track:  # fmt: skip
+) -> WearTrack:  # fmt: skip
     """Track of `radius` [m] cut into `cells`; `table`: loads [N], rising from 0, and the shares omega of these.
 
     hardness: of each cell, 1 where None. turn_time [s] and radius above 0, at least 8 cells, contact_length [m], gain and
@@ -101,12 +101,21 @@ def make_track(
         "track: hardness", numpy.ones(cells) if hardness is None else hardness, shape=(cells,), above=0.0
     )
     within = contact_length / (2.0 * math.pi * radius / cells)
-    return Track(turn_time, within, gain, approach, loads, shares, hard, STRAIN * radius)
+    return WearTrack(
+        turn_time=turn_time,
+        contact_cells=within,
+        gain=gain,
+        approach=approach,
+        table_loads=loads,
+        table_shares=shares,
+        hardness=hard,
+        largest_range=STRAIN * radius,
+    )
 
 
 @entry
 def run_intervals(
-    heave: Heave, track: Track, turns: int, intervals: int, heights: Values, state: Values, loads: Values,
+    heave: Heave, track: WearTrack, turns: int, intervals: int, heights: Values, state: Values, loads: Values,
     motion: Values,
 ) -> Interval:  # fmt: skip
     """`intervals` intervals; `heights` [cells] [m], `state` (z, z') go on in place, `loads` [cells] [N] and
@@ -130,7 +139,7 @@ def run_intervals(
 
 
 @entry
-def wear(track: Track, turns: float, loads: Values, heights: Values) -> Wear:
+def wear(track: WearTrack, turns: float, loads: Values, heights: Values) -> Wear:
     """Take off what `turns` turns under `loads` [cells] [N] cost; `heights` [cells] [m] change in place. Not checked."""
     cells, mean = heights.shape[0], 0.0
     step = track.gain * track.approach * turns
@@ -144,7 +153,7 @@ def wear(track: Track, turns: float, loads: Values, heights: Values) -> Wear:
 
 
 @kernel
-def _share(track: Track, cell: int, load: float) -> float:
+def _share(track: WearTrack, cell: int, load: float) -> float:
     """omega of a cell under a load [N]."""
     harder = track.hardness[cell] ** 3
     return float(harder * _read(track.table_loads, track.table_shares, load / harder))
@@ -201,7 +210,7 @@ def _read(places: Values, values: Values, place: float) -> float:
     return float(values[low] + (values[high] - values[low]) * (place - places[low]) / (places[high] - places[low]))
 
 
-def growth_of_wave(heave: Heave, track: Track, waves: int, slope: float, cells: int) -> float:
+def growth_of_wave(heave: Heave, track: WearTrack, waves: int, slope: float, cells: int) -> float:
     """Growth of a small wave in a turn: `-gamma delta(F_N) F omega'(F) (k_lin / F_N) Re(1 - H)` and the moving mean's factor.
 
     waves: n_w round the track; slope: `F d omega / dF` at F_N; `H = kappa^2 / (kappa^2 - Omega^2 + 2 i zeta kappa Omega)`.

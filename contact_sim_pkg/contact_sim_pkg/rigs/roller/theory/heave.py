@@ -111,7 +111,7 @@ def ride(heave: Heave, path: Path, cell_time: float, turns: int, state: Values, 
     rest = heave.contact_coefficient * heave.load ** (2.0 / 3.0) + heave.bending_compliance * heave.load
     loads[:] = 0.0
     free = 0
-    total = State(state[0], state[1], 0.0, 0.0)
+    total = HeaveState(state[0], state[1], 0.0, 0.0)
     for _ in range(turns):
         for j in range(loads.shape[0]):
             rise = (path.height[j + 1] - path.height[j]) / steps
@@ -131,7 +131,7 @@ def ride(heave: Heave, path: Path, cell_time: float, turns: int, state: Values, 
     return free / (turns * loads.shape[0] * steps)
 
 
-class State(NamedTuple):
+class HeaveState(NamedTuple):
     """Of the heave, and energies since the start of a ride."""
 
     z: float  # [m]
@@ -149,8 +149,8 @@ class Place(NamedTuple):
 
 @kernel
 def _step(
-    heave: Heave, kappa: float, start: Place, end: Place, step: float, now: State, load: float
-) -> tuple[State, float]:
+    heave: Heave, kappa: float, start: Place, end: Place, step: float, now: HeaveState, load: float
+) -> tuple[HeaveState, float]:
     """One step of the classical rule; `load` belongs to its start. Returns state and load at its end."""
     drag, k_b = 2.0 * heave.damping_ratio * kappa, heave.bending_compliance
     middle, k_middle = 0.5 * (start.height + end.height), 0.5 * (start.coefficient + end.coefficient)
@@ -172,5 +172,5 @@ def _step(
     lost = drag * heave.mass * step / 6.0 * (v * v + 2.0 * v2 * v2 + 2.0 * v3 * v3 + v4 * v4)
     z += step / 6.0 * (v + 2.0 * v2 + 2.0 * v3 + v4)
     v += step / 6.0 * (a1 + 2.0 * a2 + 2.0 * a3 + a4)
-    after = State(z, v, now.supplied + pushed, now.dissipated + lost)
+    after = HeaveState(z, v, now.supplied + pushed, now.dissipated + lost)
     return after, load_of_approach(end.coefficient, k_b, end.height - z)

@@ -26,7 +26,17 @@ from contact_sim_pkg.rigs.roller.theory.moments import Moments, moments_of_bent,
 from contact_sim_pkg.rigs.roller.theory.parameters import Bending, Curvatures, Roller
 from contact_sim_pkg.rigs.roller.theory.yaw_ellipse import ellipse_at_yaw, empty_fit
 
-__all__ = ["DIVERGED", "DONE", "LARGEST_TILT", "Energies", "accelerations", "energies", "energy", "gauss_rule", "march"]
+__all__ = [
+    "DIVERGED",
+    "DONE",
+    "LARGEST_TILT",
+    "TiltYawEnergies",
+    "accelerations",
+    "energies",
+    "energy",
+    "gauss_rule",
+    "march",
+]
 
 Values = NDArray[numpy.float64]
 
@@ -36,6 +46,32 @@ LARGEST_TILT = 0.2
 """[rad]: beyond it the roller has tipped over."""
 
 ITERATIONS = 100
+
+
+class TiltYawProblem(NamedTuple):
+    """What the derivative of tilt and yaw depends on, but load and state."""
+
+    roller: Roller
+    curvatures: Curvatures
+    bending: Bending | None
+    modulus: float  # [Pa]
+    fit: Values  # series of the contact ellipse over the yaw, see `yaw_ellipse.py`
+
+
+class LoadStep(NamedTuple):
+    """One step in time, over which the load is linear."""
+
+    length: float  # [s]
+    load: float  # [N] at the start
+    load_end: float  # [N]
+
+
+class StageArrays(NamedTuple):
+    """Runge-Kutta rule and its scratch."""
+
+    table: Values  # [stages + 1, stages + 1], see `gauss_rule`
+    slopes: Values  # [stages, 4] time derivatives of the state
+    trial: Values  # [4]
 
 
 def gauss_rule(stages: int) -> Values:
@@ -69,19 +105,21 @@ def march(
     Not checked.
     """
     stages, steps = table.shape[0] - 1, loads.shape[0] - 1
-    slopes, trial, fit = numpy.zeros((stages, 4)), numpy.zeros(4), empty_fit()
-    _fill(roller, curvatures, bending, modulus, loads[0], state, slopes[0], fit)
+    problem = TiltYawProblem(roller, curvatures, bending, modulus, empty_fit())
+    scratch = StageArrays(table, numpy.zeros((stages, 4)), numpy.zeros(4))
+    slopes = scratch.slopes
+    _fill(problem, loads[0], state, slopes[0])
     for i in range(1, stages):
         _copy(slopes[0], slopes[i])
     every = steps // max(1, record.shape[0] - 1)
     record[:, :] = numpy.nan
     _copy(state, record[0])
     for n in range(steps):
-        case = (roller, curvatures, bending, modulus, loads[n], loads[n + 1], step, table, state, slopes, trial, fit)
-        if not _solve(*case):
+        load_step = LoadStep(step, loads[n], loads[n + 1])
+        if not _solve(problem, load_step, state, scratch):
             return NO_CONVERGENCE
         if state.shape[0] > 4:
-            _sum_powers(*case)
+            _sum_powers(problem, load_step, state, scratch)
         for j in range(4):
             for i in range(stages):
                 state[j] += step * table[stages, i] * slopes[i, j]
@@ -93,13 +131,15 @@ def march(
 
 
 @kernel
-def _solve(
-    roller: Roller, curvatures: Curvatures, bending: Bending | None, modulus: float, load: float, load_end: float,
-    step: float, table: Values, state: Values, slopes: Values, trial: Values, fit: Values,
-) -> bool:  # fmt: skip
-    """Slopes of the stages by repeated substitution, from those of the step before; to rounding of the moments that make them."""
+def _solve(problem: TiltYawProblem, load_step: LoadStep, state: Values, scratch: StageArrays) -> bool:
+    """Slopes of the stages by repeated substitution, from those of the step before.
+
+    To rounding of the moments that make them; whether it converges.
+    """
+    step, load, load_end = load_step
+    table, slopes, trial = scratch
     stages = table.shape[0] - 1
-    before, terms = numpy.inf, _largest_term(roller, load, state)
+    before, terms = numpy.inf, _largest_term(problem.roller, load, state)
     for _ in range(ITERATIONS):
         change, size = 0.0, terms
         for i in range(stages):
@@ -110,7 +150,7 @@ def _solve(
                 trial[j] = state[j] + step * total
             here = load + table[i, stages] * (load_end - load)
             old_tilt, old_yaw = slopes[i, 2], slopes[i, 3]
-            _fill(roller, curvatures, bending, modulus, here, trial, slopes[i], fit)
+            _fill(problem, here, trial, slopes[i])
             change = max(change, abs(slopes[i, 2] - old_tilt), abs(slopes[i, 3] - old_yaw))
             size = max(size, abs(slopes[i, 2]), abs(slopes[i, 3]))
         if change <= 4e-16 * size or (change <= 1e-12 * size and change >= before):
@@ -129,13 +169,10 @@ def _largest_term(roller: Roller, load: float, state: Values) -> float:
 
 
 @kernel
-def _fill(
-    roller: Roller, curvatures: Curvatures, bending: Bending | None, modulus: float, load: float, state: Values,
-    slope: Values, fit: Values,
-) -> None:  # fmt: skip
+def _fill(problem: TiltYawProblem, load: float, state: Values, slope: Values) -> None:
     """Time derivative of a state."""
-    tilt, yaw = state[0], state[1]
-    moment = _moments(roller, curvatures, bending, modulus, load, tilt, yaw, fit)
+    roller, tilt, yaw = problem.roller, state[0], state[1]
+    moment = _moments(problem, problem.bending, load, tilt, yaw)
     gyro = roller.inertia_spin * roller.spin
     about_y = moment.tilt - roller.stiffness_tilt * tilt - roller.damping_tilt * state[2] - gyro * state[3]
     about_z = moment.yaw - roller.stiffness_yaw * yaw - roller.damping_yaw * state[3] + gyro * state[2]
@@ -146,22 +183,23 @@ def _fill(
 
 
 @kernel
-def _moments(
-    roller: Roller, curvatures: Curvatures, bending: Bending | None, modulus: float, load: float, tilt: float, yaw: float,
-    fit: Values,
-) -> Moments:  # fmt: skip
-    """`moments`, with the ellipse from its series over the yaw."""
+def _moments(problem: TiltYawProblem, bending: Bending | None, load: float, tilt: float, yaw: float) -> Moments:
+    """`moments`, with the ellipse from its series over the yaw.
+
+    `bending` is an argument of its own, for numba removes the branch of an absent effect for arguments alone.
+    """
     if bending is not None and load > 0.0:
-        return moments_of_bent(roller, bending, load, tilt, ellipse_at_yaw(curvatures, modulus, yaw, fit))
-    return moments_of_straight(roller, load, tilt)
+        ellipse = ellipse_at_yaw(problem.curvatures, problem.modulus, yaw, problem.fit)
+        return moments_of_bent(problem.roller, bending, load, tilt, ellipse)
+    return moments_of_straight(problem.roller, load, tilt)
 
 
 @kernel
-def _sum_powers(
-    roller: Roller, curvatures: Curvatures, bending: Bending | None, modulus: float, load: float, load_end: float,
-    step: float, table: Values, state: Values, slopes: Values, trial: Values, fit: Values,
-) -> None:  # fmt: skip
+def _sum_powers(problem: TiltYawProblem, load_step: LoadStep, state: Values, scratch: StageArrays) -> None:
     """Add what a step supplies and dissipates, from its stages."""
+    roller = problem.roller
+    step, load, load_end = load_step
+    table, slopes, trial = scratch
     stages, rise = table.shape[0] - 1, (load_end - load) / step
     for i in range(stages):
         for j in range(4):
@@ -169,7 +207,7 @@ def _sum_powers(
             for k in range(stages):
                 trial[j] += step * table[i, k] * slopes[k, j]
         here = load + table[i, stages] * (load_end - load)
-        moment = _moments(roller, curvatures, bending, modulus, here, trial[0], trial[1], fit)
+        moment = _moments(problem, problem.bending, here, trial[0], trial[1])
         about_y = moment.tilt - here * roller.radius * math.sin(trial[0])
         supplied = about_y * trial[2] + moment.yaw * trial[3] - rise * _lowered(roller, trial[0])
         dissipated = roller.damping_tilt * trial[2] ** 2 + roller.damping_yaw * trial[3] ** 2
@@ -202,7 +240,8 @@ def accelerations(
         here = Curvatures(curvatures[i, 0], curvatures[i, 1], curvatures[i, 2], curvatures[i, 3])
         if i > 0 and not _equal(curvatures[i], curvatures[i - 1]):
             fit[0, 1] = -1.0
-        _fill(roller, here, bending, modulus, loads[i], states[i], slope, fit)
+        problem = TiltYawProblem(roller, here, bending, modulus, fit)
+        _fill(problem, loads[i], states[i], slope)
         out[i, 0], out[i, 1] = slope[2], slope[3]
 
 
@@ -214,7 +253,7 @@ def _equal(values: Values, others: Values) -> bool:
     return equal
 
 
-class Energies(NamedTuple):
+class TiltYawEnergies(NamedTuple):
     """Of tilt and yaw [J]."""
 
     kinetic: float
@@ -223,7 +262,7 @@ class Energies(NamedTuple):
 
 
 @entry
-def energies(roller: Roller, load: float, state: Values) -> Energies:
+def energies(roller: Roller, load: float, state: Values) -> TiltYawEnergies:
     """Under a load [N]; their sum is conserved where f_r = 0, nothing is bent, nothing damps and the load rests.
 
     Not checked: `energy` is.
@@ -231,7 +270,7 @@ def energies(roller: Roller, load: float, state: Values) -> Energies:
     kinetic = 0.5 * (roller.inertia_tilt * state[2] ** 2 + roller.inertia_yaw * state[3] ** 2)
     kinetic += roller.inertia_product * state[2] * state[3]
     stored = 0.5 * (roller.stiffness_tilt * state[0] ** 2 + roller.stiffness_yaw * state[1] ** 2)
-    return Energies(kinetic, stored, -load * _lowered(roller, state[0]))
+    return TiltYawEnergies(kinetic, stored, -load * _lowered(roller, state[0]))
 
 
 def energy(roller: Roller, load: float, state: Values) -> float:

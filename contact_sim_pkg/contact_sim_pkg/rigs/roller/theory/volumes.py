@@ -64,6 +64,20 @@ class Volumes(NamedTuple):
     any: float  # V_T, of the union
 
 
+class Loading(NamedTuple):
+    """What acts beside the pressure, and what the material bears."""
+
+    traction_x: float  # over pressure
+    traction_y: float  # over pressure
+    poisson: float
+    normal: float  # [Pa] limit of normal stress
+    shear: float  # [Pa] limit of shear stress
+
+
+def _loading(poisson: float, limits: tuple[float, float], traction: tuple[float, float]) -> Loading:
+    return Loading(float(traction[0]), float(traction[1]), float(poisson), float(limits[0]), float(limits[1]))
+
+
 def box_volume(contact: RollingContact) -> float:
     """Volume [m^3] of the box under a contact."""
     a, b = max(contact.along_x, contact.along_y), min(contact.along_x, contact.along_y)
@@ -93,16 +107,16 @@ def dangerous_volumes(
     require_choice("dangerous volumes: kind", kind, (COUNTED, MARCHED))
     out = numpy.zeros(COMPONENTS + 1)
     if contact.load > 0.0:
-        normal, shear = float(limits[0]), float(limits[1])
-        _measure(contact, bending, float(traction[0]), float(traction[1]), poisson, normal, shear, *cells, kind, out)
+        loading = _loading(poisson, limits, traction)
+        _measure(contact, bending, loading, cells, kind, out)
     return Volumes(*(float(value) for value in out))
 
 
 @entry
 def _measure(
-    contact: RollingContact, bending: Bending | None, traction_x: float, traction_y: float, poisson: float,
-    normal: float, shear: float, nx: int, ny: int, nz: int, kind: int, out: Values,
+    contact: RollingContact, bending: Bending | None, loading: Loading, cells: tuple[int, int, int], kind: int, out: Values
 ) -> None:  # fmt: skip
+    nx, ny, nz = cells
     length, width = 4.0 * contact.along_x, 4.0 * contact.along_y
     depth = 3.0 * max(contact.along_x, contact.along_y)
     ground = length * width / (nx * ny)
@@ -114,8 +128,7 @@ def _measure(
             before = 0.0
             for k in range(nz + 1 if kind == MARCHED else nz):
                 z = _depth(contact, k, nz) if kind == MARCHED else depth * (k + 0.5) / nz
-                stress = add_bending(bench_stress(contact, traction_x, traction_y, poisson, x, y, z), bending, x, z)
-                _excess(stress, normal, shear, now)
+                _excess(_stress_at(contact, bending, loading, x, y, z), loading, now)
                 for c in range(COMPONENTS + 1):
                     if kind == COUNTED:
                         out[c] += ground * depth / nz if now[c] > 0.0 else 0.0
@@ -158,8 +171,7 @@ def largest_ratio(
     _check(poisson, limits, cells, bending, traction)
     if not contact.load > 0.0:
         return 0.0
-    normal, shear = float(limits[0]), float(limits[1])
-    return float(_largest(contact, bending, float(traction[0]), float(traction[1]), poisson, normal, shear, *cells))
+    return float(_largest(contact, bending, _loading(poisson, limits, traction), cells))
 
 
 def _check(
@@ -179,10 +191,8 @@ def _check(
 
 
 @entry
-def _largest(
-    contact: RollingContact, bending: Bending | None, traction_x: float, traction_y: float, poisson: float,
-    normal: float, shear: float, nx: int, ny: int, nz: int,
-) -> float:  # fmt: skip
+def _largest(contact: RollingContact, bending: Bending | None, loading: Loading, cells: tuple[int, int, int]) -> float:
+    nx, ny, nz = cells
     largest, now = -1.0, numpy.zeros(COMPONENTS + 1)
     for i in range(nx):
         x = ((i + 0.5) / nx - 0.5) * 4.0 * contact.along_x
@@ -190,15 +200,24 @@ def _largest(
             y = ((j + 0.5) / ny - 0.5) * 4.0 * contact.along_y
             for k in range(nz + 1):
                 z = _depth(contact, k, nz)
-                stress = add_bending(bench_stress(contact, traction_x, traction_y, poisson, x, y, z), bending, x, z)
-                _excess(stress, normal, shear, now)
+                _excess(_stress_at(contact, bending, loading, x, y, z), loading, now)
                 largest = max(largest, now[COMPONENTS])
     return 1.0 + largest
 
 
 @kernel
-def _excess(stress: Stress, normal: float, shear: float, out: Values) -> None:
+def _stress_at(
+    contact: RollingContact, bending: Bending | None, loading: Loading, x: float, y: float, z: float
+) -> Stress:
+    """Stress [Pa] of contact, traction and bending at a point [m]."""
+    stress = bench_stress(contact, loading.traction_x, loading.traction_y, loading.poisson, x, y, z)
+    return add_bending(stress, bending, x, z)
+
+
+@kernel
+def _excess(stress: Stress, loading: Loading, out: Values) -> None:
     """Each component over its limit, less 1, and the largest of them."""
+    normal, shear = loading.normal, loading.shear
     out[0], out[1], out[2] = abs(stress.xx) / normal, abs(stress.yy) / normal, abs(stress.zz) / normal
     out[3], out[4], out[5] = abs(stress.xy) / shear, abs(stress.xz) / shear, abs(stress.yz) / shear
     largest = 0.0

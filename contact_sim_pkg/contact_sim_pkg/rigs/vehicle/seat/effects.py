@@ -47,7 +47,7 @@ SEAT_EFFECTS = (
         needs=("normal_elastic",), excludes=("contact_field",), feeds=("force", "wrench"), called_for=_LAW,
     ),
     Effect(
-        name="foam_hysteresis", section=f"{_LAWS}:FoamHysteresis", help="rate-independent loss of foam",
+        name="foam_hysteresis", section=f"{_LAWS}:FoamHysteresisSection", help="rate-independent loss of foam",
         needs=("normal_elastic",), excludes=("contact_field",), feeds=("force", "wrench"), called_for=_LAW,
     ),
     Effect(
@@ -56,7 +56,7 @@ SEAT_EFFECTS = (
         called_for=needed_where_it_opens("seat"),
     ),
     Effect(
-        name="friction", section=f"{_LAWS}:Friction", help="friction with stick and slip", needs=("normal_elastic",),
+        name="friction", section=f"{_LAWS}:FrictionSection", help="friction with stick and slip", needs=("normal_elastic",),
         feeds=("force", "wrench", "points"), called_for=_friction,
     ),
     Effect(

@@ -8,14 +8,14 @@ from pydantic import Field
 
 from contact_sim_pkg.scene.schema.fields import Section, choice, number, numbers
 from contact_sim_pkg.scene.schema.laws import HuntCrossley, PowerLaw
-from contact_sim_pkg.scene.schema.pressure_field import Grid, PressureField
+from contact_sim_pkg.scene.schema.pressure_field import GridSection, PressureFieldSection
 
 Mass: TypeAlias = Annotated[float, Field(ge=0.05, le=1000.0)]
 Stiffness: TypeAlias = Annotated[float, Field(ge=100.0, le=1e8)]
 Damping: TypeAlias = Annotated[float, Field(ge=0.0, le=1e6)]
 
 
-class Occupant(Section):
+class OccupantSection(Section):
     """Masses that hang in parallel on the frame mass, which sits on the cushion; Wei and Griffin 1998, two masses."""
 
     frame_mass: float = number(0.1, 1000.0, "kg", "mass in contact with the cushion", default=6.7)
@@ -59,10 +59,10 @@ class Body(Section):
     )
 
 
-class Seat(Section):
+class SeatSection(Section):
     """Occupant on a cushion that stands on the floor."""
 
-    occupant: Occupant = Field(default_factory=Occupant, description="masses on the cushion")
+    occupant: OccupantSection = Field(default_factory=OccupantSection, description="masses on the cushion")
     body: Body = Field(default_factory=Body, description="shape of the body on the cushion; acts in contact_field")
     backrest: Literal["none"] = choice("occupant without backrest", default="none")
     cushion_modulus: float = number(
@@ -95,10 +95,10 @@ class SeatLoss(HuntCrossley):
     damping: float | None = number(0.0, 100.0, "s/m", "λ; 1.0 by default: 500 N s/m at 498 N", default=None)
 
 
-class SeatField(PressureField):
+class SeatField(PressureFieldSection):
     """Pressure field of the cushion on a half-space; it is the contact, its integral carries the occupant."""
 
-    levels = (Grid(40, 40, 1e-3, 0), Grid(64, 64, 1e-4, 1), Grid(96, 96, 1e-7, 3))
+    levels = (GridSection(40, 40, 1e-3, 0), GridSection(64, 64, 1e-4, 1), GridSection(96, 96, 1e-7, 3))
     """The light frame of an occupant feels a tenth of the error that a wheel feels; the cushion does not
     move under the body, so it needs one corrector pass fewer."""
 

@@ -38,7 +38,7 @@ OWN_GRID, OWN_SOLVER = "own code, grid {}x{}", "own code, same grid to 1e-10"
 DENSE = "dense NNLS (scipy), no shared code"
 
 
-class Problem(NamedTuple):
+class FieldProblem(NamedTuple):
     """One contact's field: grid, gaps [m] at consecutive instants (one, where the shape is fixed), standing load [N]."""
 
     settings: FieldSettings
@@ -47,7 +47,7 @@ class Problem(NamedTuple):
     load: float
 
 
-class Solution(NamedTuple):
+class FieldSolution(NamedTuple):
     """Fields of one contact at the instants, on one grid."""
 
     pressures: list[Field]  # [Pa]
@@ -141,7 +141,7 @@ def _independent(scene: ResolvedScene, contact: str, tell: Callable[[str], None]
     return rows
 
 
-def _problem(scene: ResolvedScene, contact: str, cells: Cells, tolerance: float) -> Problem:
+def _problem(scene: ResolvedScene, contact: str, cells: Cells, tolerance: float) -> FieldProblem:
     """The field of one contact on a grid of `cells`, its gaps at the instants and the standing load."""
     model = build(scene.data)
     grids = model.tire_field if contact == "tire" else model.seat_field
@@ -157,7 +157,7 @@ def _problem(scene: ResolvedScene, contact: str, cells: Cells, tolerance: float)
         gaps, load = [seat_gap_on(model.seat_shape, settings)], occupant_mass(scene.data) * GRAVITY
     else:
         gaps, load = _tire_gaps(scene, settings), standing_load(scene.data)
-    return Problem(settings, contact, gaps, load)
+    return FieldProblem(settings, contact, gaps, load)
 
 
 def _tire_gaps(scene: ResolvedScene, settings: FieldSettings) -> list[Field]:
@@ -173,7 +173,7 @@ def _tire_gaps(scene: ResolvedScene, settings: FieldSettings) -> list[Field]:
     return [numpy.asarray(crown - surface.heights(numpy.asarray(x + position), y)) for position in at]
 
 
-def _solve(problem: Problem, count: int = INSTANTS) -> Solution:
+def _solve(problem: FieldProblem, count: int = INSTANTS) -> FieldSolution:
     field = PressureField(problem.settings, problem.contact)
     pressures, approaches, walls = [], [], []
     for i in range(count):
@@ -182,14 +182,14 @@ def _solve(problem: Problem, count: int = INSTANTS) -> Solution:
         approaches.append(field.solve_load(problem.gaps[min(i, len(problem.gaps) - 1)], asked))
         walls.append(time.perf_counter() - began)
         pressures.append(field.pressure.copy())
-    return Solution(pressures, numpy.array(approaches), statistics.median(walls[1:]))
+    return FieldSolution(pressures, numpy.array(approaches), statistics.median(walls[1:]))
 
 
-def _first(solution: Solution, count: int) -> Solution:
-    return Solution(solution.pressures[:count], solution.approaches[:count], solution.seconds)
+def _first(solution: FieldSolution, count: int) -> FieldSolution:
+    return FieldSolution(solution.pressures[:count], solution.approaches[:count], solution.seconds)
 
 
-def _errors(found: Solution, exact: Solution) -> dict[str, float]:
+def _errors(found: FieldSolution, exact: FieldSolution) -> dict[str, float]:
     """Worst relative error over the instants, of the approach, the peak, the area and the field (means over the coarser cells)."""
     values: dict[str, list[float]] = {"approach": [], "peak pressure": [], "contact area": [], "pressure (L2)": []}
     pairs = zip(found.pressures, exact.pressures, found.approaches, exact.approaches, strict=True)

@@ -81,7 +81,7 @@ class PatchSolver:
 
         Raises `RuntimeError` where the field is not certified, or reaches the edge of the patch.
         """
-        self._field.forget()
+        self._field.reset()
         solve_given = self._field.solve_at_load if given == GIVEN[0] else self._field.solve_at_approach
         result = solve_given(self.problem.gap, value, tolerance, CAP)
         if result.status != CERTIFIED:

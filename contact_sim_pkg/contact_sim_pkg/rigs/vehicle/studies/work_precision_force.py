@@ -31,7 +31,7 @@ FINEST_TOLERANCE = 1e-6
 FINE = "own code, grid 512x384 to 1e-6"
 
 
-class Law(NamedTuple):
+class TangentLaw(NamedTuple):
     """Force and approach of a rung."""
 
     rung: Rung
@@ -56,7 +56,7 @@ def rows() -> list[Row]:
     return found
 
 
-def laws_through(seed: int | None) -> list[Law]:
+def laws_through(seed: int | None) -> list[TangentLaw]:
     """Spring and power law through the field of the reference tier."""
     solver, tolerance = PatchSolver(patch_problem(TIERS[-1].cells, seed)), TIERS[-1].tolerance
     first = solver.solve(GIVEN[0], LOAD, tolerance).approach
@@ -66,12 +66,12 @@ def laws_through(seed: int | None) -> list[Law]:
     spring = NormalElastic(float(elastic_stiffness(power, first)), 1.0)
     offset = first - LOAD / spring.coefficient
     return [
-        Law(
+        TangentLaw(
             Rung("linear spring", milliseconds(lambda: elastic_force(spring, first - offset))),
             lambda approach: float(elastic_force(spring, approach - offset)),
             lambda load: offset + float(approach_of_force(spring, load)),
         ),
-        Law(
+        TangentLaw(
             Rung("power law", milliseconds(lambda: elastic_force(power, first))),
             lambda approach: float(elastic_force(power, approach)),
             lambda load: float(approach_of_force(power, load)),
@@ -79,11 +79,11 @@ def laws_through(seed: int | None) -> list[Law]:
     ]
 
 
-def _field_law(tier: FieldRung, seed: int | None) -> Law:
+def _field_law(tier: FieldRung, seed: int | None) -> TangentLaw:
     solver, tolerance = PatchSolver(patch_problem(tier.cells, seed)), tier.tolerance
     standing = solver.solve(GIVEN[0], LOAD, tolerance).approach
     cost = milliseconds(lambda: solver.solve(GIVEN[1], standing, tolerance))
-    return Law(
+    return TangentLaw(
         Rung(tier.name, cost, "{}x{}".format(*tier.cells), tolerance),
         lambda approach: solver.solve(GIVEN[1], approach, tolerance).force,
         lambda load: solver.solve(GIVEN[0], load, tolerance).approach,

@@ -34,7 +34,7 @@ from numpy.typing import NDArray
 from contact_sim_pkg.compiled.arrays import Vector
 from contact_sim_pkg.compiled.jit import entry, kernel
 from contact_sim_pkg.rigs.vehicle.tire.brush_lattice import blend, copy_field, loaded_window, place_on
-from contact_sim_pkg.rigs.vehicle.tire.brush_steps import PAD, Bristles, Field, Window, march, next_stretch
+from contact_sim_pkg.rigs.vehicle.tire.brush_steps import PAD, Bristles, Field, LoadedWindow, march, next_stretch
 from contact_sim_pkg.rigs.vehicle.tire.parameters import Brush
 
 __all__ = [
@@ -169,14 +169,20 @@ def advance_brush(
     state.place[0], state.place[1], state.place[2] = phase, grid.origin_x, 1.0
     area = grid.cell_x * grid.cell_y
     force_x, force_y, moment_z, share = write_shear(
-        brush, state.bristles, grid, pressure, phase, shear_x, shear_y, mode
+        brush, state.bristles, grid, pressure, phase, shear_x=shear_x, shear_y=shear_y, mode=mode
     )
     return BrushResult(force_x * area, force_y * area, moment_z * area, share, dissipated * area, released * area)
 
 
 @kernel
 def march_all(
-    brush: Brush, state: BrushState, pressure: Field, window: Window, phase: float, cell_x: float, step: RollingStep
+    brush: Brush,
+    state: BrushState,
+    pressure: Field,
+    window: LoadedWindow,
+    phase: float,
+    cell_x: float,
+    step: RollingStep,
 ) -> tuple[float, float, float]:
     """March the whole step, stretch by stretch; returns the new phase, work of friction and released energy [J/m^2]."""
     cells = abs(step.belt) / cell_x

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 
 from contact_sim_pkg.compiled.jit import kernel
-from contact_sim_pkg.rigs.vehicle.tire.brush_steps import PAD, Bristles, Field, Flags, Window
+from contact_sim_pkg.rigs.vehicle.tire.brush_steps import PAD, Bristles, Field, Flags, LoadedWindow
 
 __all__ = ["blend", "copy_field", "loaded_window", "place_on"]
 
@@ -70,7 +70,7 @@ def copy_field(pressure: Field, padded: Field) -> None:
 
 
 @kernel
-def loaded_window(before: Field, pressure: Field) -> Window:
+def loaded_window(before: Field, pressure: Field) -> LoadedWindow:
     """Labels of all bristles that can be under load before, at or between two fields; none without load."""
     rows, cols = pressure.shape
     top, bottom, left, right = rows, -1, cols, -1
@@ -80,12 +80,12 @@ def loaded_window(before: Field, pressure: Field) -> Window:
                 top, bottom = min(top, i), i
                 left, right = min(left, j), max(right, j)
     if bottom < 0:
-        return Window(0, 0, 0, 0)
-    return Window(PAD + top - 1, PAD + bottom + 3, left, right + 1)
+        return LoadedWindow(0, 0, 0, 0)
+    return LoadedWindow(PAD + top - 1, PAD + bottom + 3, left, right + 1)
 
 
 @kernel
-def blend(before: Field, pressure: Field, part: float, window: Window, out: Field) -> None:
+def blend(before: Field, pressure: Field, part: float, window: LoadedWindow, out: Field) -> None:
     """Pressure when `part` of the step is done, in [window], linear in time."""
     for m in range(window.first - 1, window.last):
         i = m - PAD

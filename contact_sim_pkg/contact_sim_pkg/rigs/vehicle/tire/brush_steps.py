@@ -17,11 +17,11 @@ from contact_sim_pkg.rigs.vehicle.tire.parameters import Brush
 
 __all__ = [
     "PAD",
+    "BeltSegment",
     "Bristles",
     "Field",
     "Flags",
-    "Stretch",
-    "Window",
+    "LoadedWindow",
     "march",
     "next_stretch",
     "slide_onto",
@@ -56,7 +56,7 @@ class Bristles(NamedTuple):
     pressure: Field  # [Pa] at the end of the present stretch
 
 
-class Window(NamedTuple):
+class LoadedWindow(NamedTuple):
     """Labels `first ... last - 1` (counted from the first padding row) and columns `left ... right - 1`."""
 
     first: int
@@ -65,7 +65,7 @@ class Window(NamedTuple):
     right: int
 
 
-class Stretch(NamedTuple):
+class BeltSegment(NamedTuple):
     """A way of the belt within one cell, and what the road slides along it."""
 
     length: float  # [cells]
@@ -77,11 +77,11 @@ class Stretch(NamedTuple):
 
 
 @kernel
-def next_stretch(phase: float, remaining: float, backward: bool) -> Stretch:
+def next_stretch(phase: float, remaining: float, backward: bool) -> BeltSegment:
     """The way to the next centre of a cell, or less where less is `remaining` [cells]."""
     if remaining <= 0.0:
         here = 1.0 if phase <= 0.5 else 0.0
-        return Stretch(0.0, phase, 0, 0, here, 1.0 - here)
+        return BeltSegment(0.0, phase, 0, 0, here, 1.0 - here)
     if backward:
         start = phase if phase > 0.0 else 1.0  # phase 0 of one label is phase 1 of the next
         length = min(start, remaining)
@@ -93,12 +93,12 @@ def next_stretch(phase: float, remaining: float, backward: bool) -> Stretch:
         end = start + length if remaining < 1.0 - start else 1.0
         read, write = 0, 1 if end >= 1.0 else 0
     here = min(abs(min(end, 0.5) - min(start, 0.5)), length)
-    return Stretch(length, end, read, write, here, length - here)
+    return BeltSegment(length, end, read, write, here, length - here)
 
 
 @kernel
 def march(
-    brush: Brush, bristles: Bristles, window: Window, stretch: Stretch, slide_x: float, slide_y: float
+    brush: Brush, bristles: Bristles, window: LoadedWindow, stretch: BeltSegment, slide_x: float, slide_y: float
 ) -> tuple[float, float]:
     """Carry every bristle of the window along one stretch; the road slides `slide_x`, `slide_y` [m] for each cell of way.
 
@@ -114,7 +114,9 @@ def march(
             x, y, slid = deflection_x[source, j], deflection_y[source, j], sliding[source, j]
             here, following = pressure[m, j], pressure[m - 1, j]
             if (following if stretch.end > 0.5 else here) > 0.0:
-                x, y, slid, work = carry(brush, x, y, slid, here, following, stretch, slide_x, slide_y)
+                x, y, slid, work = carry(
+                    brush, x, y, slid, here, following, stretch=stretch, slide_x=slide_x, slide_y=slide_y
+                )
                 dissipated += work
             else:
                 released += 0.5 * (brush.stiffness_x * x * x + brush.stiffness_y * y * y)
@@ -125,7 +127,7 @@ def march(
 
 @kernel
 def carry(
-    brush: Brush, x: float, y: float, slid: int, here: float, following: float, stretch: Stretch,
+    brush: Brush, x: float, y: float, slid: int, here: float, following: float, stretch: BeltSegment,
     slide_x: float, slide_y: float,
 ) -> tuple[float, float, numpy.uint8, float]:  # fmt: skip
     """One bristle along one stretch that ends under load: it grows in the loaded cells, then it sticks or slides.

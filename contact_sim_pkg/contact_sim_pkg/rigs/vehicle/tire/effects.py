@@ -84,7 +84,7 @@ TIRE_EFFECTS = (
         needs=("normal_elastic",), publishes="patch", feeds=("patch", "force", "wrench"), called_for=_field,
     ),
     Effect(
-        name="carcass", section=f"{_SCHEMA}:Carcass", help="rigid ring on sidewalls",
+        name="carcass", section=f"{_SCHEMA}:CarcassSection", help="rigid ring on sidewalls",
         source="Pacejka, Tire and Vehicle Dynamics, 9", needs=("normal_elastic",), feeds=("force", "wrench", "patch"),
         called_for=_carcass,
     ),
@@ -94,16 +94,16 @@ TIRE_EFFECTS = (
         called_for=_envelopment,
     ),
     Effect(
-        name="tread_viscoelasticity", section=f"{_SCHEMA}:TreadViscoelasticity", help="viscoelasticity of the tread rubber",
+        name="tread_viscoelasticity", section=f"{_SCHEMA}:TreadViscoelasticitySection", help="viscoelasticity of the tread rubber",
         source="Tire/Road Contact", needs=("contact_field",), feeds=("patch", "force", "wrench"), called_for=_FREE,
     ),
     Effect(
-        name="brush", section=f"{_SCHEMA}:Brush", help="brush friction of a rolling tire, stick and slip of each cell",
+        name="brush", section=f"{_SCHEMA}:BrushSection", help="brush friction of a rolling tire, stick and slip of each cell",
         source="Pacejka, Tire and Vehicle Dynamics, 3", needs=("contact_field",), publishes="shear",
         feeds=("shear", "force", "wrench"), called_for=_brush,
     ),
     Effect(
-        name="asperity_impulses", section=f"{_SCHEMA}:AsperityImpulses", help="impulses of road asperities",
+        name="asperity_impulses", section=f"{_SCHEMA}:AsperityImpulsesSection", help="impulses of road asperities",
         source="Tire/Road Contact", needs=("normal_elastic",), feeds=("force", "wrench"), called_for=_FREE,
     ),
 )  # fmt: skip

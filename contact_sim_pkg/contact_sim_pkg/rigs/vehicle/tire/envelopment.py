@@ -15,12 +15,12 @@ import math
 import numpy
 from numpy.typing import NDArray
 
-from contact_sim_pkg.pressure.settings import Belt
+from contact_sim_pkg.pressure.settings import BeltSettings
 
 __all__ = ["belt_influence", "relaxation_length"]
 
 
-def relaxation_length(belt: Belt) -> float:
+def relaxation_length(belt: BeltSettings) -> float:
     """`l = sqrt(T / k)` in [m]: over it the bend beside an obstacle falls to 1/e. Raises ValueError unless T, k > 0."""
     for name, value, unit in (("tension", belt.tension, "N"), ("foundation", belt.foundation, "N/m^2")):
         if not 0.0 < value < math.inf:
@@ -28,7 +28,7 @@ def relaxation_length(belt: Belt) -> float:
     return math.sqrt(belt.tension / belt.foundation)
 
 
-def belt_influence(belt: Belt, rows: int, cols: int, cell_x: float, cell_y: float) -> NDArray[numpy.float64]:
+def belt_influence(belt: BeltSettings, rows: int, cols: int, cell_x: float, cell_y: float) -> NDArray[numpy.float64]:
     """Displacement [m/Pa] i rows and j cols away from a cell under unit pressure, [rows, cols]; the same for every j.
 
     The exact integral over the loaded cell: `cell_y / (2 k) [exp(-(d - c/2)/l) - exp(-(d + c/2)/l)]`, d = i cell_x, c = cell_x;

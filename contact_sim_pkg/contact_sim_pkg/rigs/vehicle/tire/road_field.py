@@ -112,7 +112,7 @@ class RoadSupport(Support):
         pressed = numpy.zeros((wide.rows, wide.cols))
         pressed[first_row : first_row + rows, first_col : first_col + cols] = pressure
         window = (first_row, first_col, rows, cols)
-        return bool(grown_window(grids.wide.half_space, self.gap(wide), approach, pressed, *window) != window)
+        return bool(grown_window(grids.wide.half_space, self.gap(wide), approach, pressed, window) != window)
 
     def refuse_beyond(self, grids: FieldGrids, approach: float, block: int) -> None:
         """See Support."""

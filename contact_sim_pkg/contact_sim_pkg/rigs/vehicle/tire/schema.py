@@ -8,12 +8,12 @@ from pydantic import Field
 
 from contact_sim_pkg.scene.schema.fields import Section, choice, number, numbers
 from contact_sim_pkg.scene.schema.laws import HuntCrossley
-from contact_sim_pkg.scene.schema.pressure_field import Grid, PressureField
+from contact_sim_pkg.scene.schema.pressure_field import GridSection, PressureFieldSection
 
 Branch: TypeAlias = Annotated[list[float], Field(min_length=2, max_length=2)]
 
 
-class Tire(Section):
+class TireSection(Section):
     """Quarter car on a tire. The static load follows from the masses: 3335 N with the defaults."""
 
     wheel_mass: float = number(0.1, 2000.0, "kg", "wheel, brake and share of the axle; medium car", default=40.0)
@@ -50,16 +50,16 @@ class TireLoss(HuntCrossley):
     )
 
 
-class TireField(PressureField):
+class TireField(PressureFieldSection):
     """Pressure field of the tire on a half-space; it is the contact, its integral drives the wheel."""
 
-    levels = (Grid(48, 64, 1e-2, 1), Grid(96, 128, 1e-3, 2), Grid(192, 256, 1e-6, 4))
+    levels = (GridSection(48, 64, 1e-2, 1), GridSection(96, 128, 1e-3, 2), GridSection(192, 256, 1e-6, 4))
 
     length: float = number(0.01, 2.0, "m", "extent along the road (forward)", default=0.28)
     width: float = number(0.01, 2.0, "m", "extent across the track (left); 0.22 m are loaded at 4 kN", default=0.44)
 
 
-class Carcass(Section):
+class CarcassSection(Section):
     """Sidewalls and a rigid belt ring: spring and damper in series with the tread's contact."""
 
     stiffness: float = number(
@@ -86,7 +86,7 @@ class Envelopment(Section):
     )
 
 
-class TreadViscoelasticity(Section):
+class TreadViscoelasticitySection(Section):
     """Memory of the tread rubber: a Kelvin-Voigt element and Maxwell branches beside the modulus of `tire`, cell by cell."""
 
     retardation_time: float = number(
@@ -102,7 +102,7 @@ class TreadViscoelasticity(Section):
     )
 
 
-class Brush(Section):
+class BrushSection(Section):
     """Bristles that stick to the road and slip, cell by cell: longitudinal and lateral force, aligning moment."""
 
     stiffness_x: float = number(
@@ -118,7 +118,7 @@ class Brush(Section):
     )
 
 
-class AsperityImpulses(Section):
+class AsperityImpulsesSection(Section):
     """Push of the road's asperities on the rolling tire, site by site; they act while the tire is in contact."""
 
     spacing: float = number(1e-4, 10.0, "m", "distance of two asperities along the road", default=0.02)

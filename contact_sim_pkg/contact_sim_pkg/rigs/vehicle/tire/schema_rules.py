@@ -5,7 +5,12 @@ from __future__ import annotations
 from collections.abc import Iterator
 from itertools import pairwise
 
-from contact_sim_pkg.rigs.vehicle.tire.schema import Brush, Carcass, Tire, TreadViscoelasticity
+from contact_sim_pkg.rigs.vehicle.tire.schema import (
+    BrushSection,
+    CarcassSection,
+    TireSection,
+    TreadViscoelasticitySection,
+)
 from contact_sim_pkg.scene.errors import Breach
 from contact_sim_pkg.scene.schema.catalog import show
 from contact_sim_pkg.scene.schema.scene import Scene
@@ -19,7 +24,7 @@ def slip_breaches(scene: Scene) -> Iterator[Breach]:
     slip = scene.slip
     if slip is None:
         return
-    if scene.effect("tire", Brush) is None:
+    if scene.effect("tire", BrushSection) is None:
         yield Breach("slip", "acts through the effect brush, which the scene does not name; add effects.tire.brush: {}")
     if slip.points is None:
         return
@@ -44,15 +49,19 @@ def slip_breaches(scene: Scene) -> Iterator[Breach]:
 
 def tire_effect_breaches(scene: Scene) -> Iterator[Breach]:
     """A belt heavier than its wheel, kinetic friction above static, branches out of range."""
-    where, wheel_mass, carcass = "effects.tire", scene.section(Tire).wheel_mass, scene.effect("tire", Carcass)
+    where, wheel_mass, carcass = (
+        "effects.tire",
+        scene.section(TireSection).wheel_mass,
+        scene.effect("tire", CarcassSection),
+    )
     if carcass is not None and not carcass.belt_mass < wheel_mass:
         sentence = f"{show(carcass.belt_mass)} kg is not below tire.wheel_mass ({show(wheel_mass)} kg), which holds it"
         yield Breach(f"{where}.carcass.belt_mass", sentence, ("tire.wheel_mass",))
-    brush = scene.effect("tire", Brush)
+    brush = scene.effect("tire", BrushSection)
     if brush is not None and brush.coefficient_kinetic > brush.coefficient_static:
         sentence = f"{show(brush.coefficient_kinetic)} is above coefficient_static ({show(brush.coefficient_static)})"
         yield Breach(f"{where}.brush.coefficient_kinetic", sentence, (f"{where}.brush.coefficient_static",))
-    memory = scene.effect("tire", TreadViscoelasticity)
+    memory = scene.effect("tire", TreadViscoelasticitySection)
     for index, (ratio, time) in enumerate(() if memory is None else memory.branches):
         place = f"{where}.tread_viscoelasticity.branches.{index}"
         if not 0.0 <= ratio <= 100.0:

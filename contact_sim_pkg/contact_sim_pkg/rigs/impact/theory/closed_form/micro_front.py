@@ -15,7 +15,7 @@ import numpy
 
 from contact_sim_pkg.rigs.impact.theory.checks import check_number, check_positive
 from contact_sim_pkg.rigs.impact.theory.closed_form.scalings import damped_sine
-from contact_sim_pkg.rigs.impact.theory.motion import Impact, course
+from contact_sim_pkg.rigs.impact.theory.motion import FreeImpact, course
 from contact_sim_pkg.rigs.impact.theory.roots import bracketed_root
 
 __all__ = ["Front", "border_speed", "front_of_damped_sine", "front_of_small_times", "front_speed", "front_time"]
@@ -33,7 +33,7 @@ class Front(NamedTuple):
     heat: float  # [J] that the viscous force has turned into heat by then
 
 
-def border_speed(impact: Impact, depth: float, speed: float, shear_speed: float) -> tuple[float, bool]:
+def border_speed(impact: FreeImpact, depth: float, speed: float, shear_speed: float) -> tuple[float, bool]:
     """Speed of the contact's border in [m/s] (eq 76), and whether it is above the shear wave's: then it is given as V_s.
 
     depth [m], speed [m/s], shear_speed > 0 [m/s]; raises ImpactError otherwise.
@@ -42,7 +42,7 @@ def border_speed(impact: Impact, depth: float, speed: float, shear_speed: float)
     return _held(_border(impact, depth, speed), shear_speed)
 
 
-def front_speed(impact: Impact, depth: float, speed: float, shear_speed: float) -> tuple[float, bool]:
+def front_speed(impact: FreeImpact, depth: float, speed: float, shear_speed: float) -> tuple[float, bool]:
     """Speed of the wave front in [m/s] (eq 77), and whether it is above the shear wave's: then it is given as V_s.
 
     Arguments as `border_speed`.
@@ -51,7 +51,7 @@ def front_speed(impact: Impact, depth: float, speed: float, shear_speed: float) 
     return _held(FRONT_OVER_BORDER * _border(impact, depth, speed), shear_speed)
 
 
-def front_time(impact: Impact, shear_speed: float) -> Front:
+def front_time(impact: FreeImpact, shear_speed: float) -> Front:
     """End of the supersonic phase on the integrated motion. There is always one: the front stands still at the turning point."""
     check_positive("shear wave speed", shear_speed, "m/s")
 
@@ -66,7 +66,7 @@ def front_time(impact: Impact, shear_speed: float) -> Front:
     return Front(time, float(now.depth[0]), float(now.speed[0]), viscous_heat(impact, time))
 
 
-def front_of_small_times(impact: Impact, shear_speed: float) -> Front:
+def front_of_small_times(impact: FreeImpact, shear_speed: float) -> Front:
     """The same with ``x = V0 t``, for t_s far below tau_1; heat ``8/3 k_p sqrt(R) (E''/w) V0 (V0 t_s)^(3/2)``."""
     check_positive("shear wave speed", shear_speed, "m/s")
     time = _small_time(impact, shear_speed)
@@ -74,7 +74,7 @@ def front_of_small_times(impact: Impact, shear_speed: float) -> Front:
     return Front(time, depth, impact.speed, 2.0 / 3.0 * impact.viscous * impact.speed * depth**1.5)
 
 
-def front_of_damped_sine(impact: Impact, shear_speed: float) -> float:
+def front_of_damped_sine(impact: FreeImpact, shear_speed: float) -> float:
     """t_s [s] as the root of eq 80: the damped sine of constant parameters in place of the motion. Up to tan(beta) = 0.43701."""
     check_positive("shear wave speed", shear_speed, "m/s")
     sine = damped_sine(impact.sphere, impact.material, impact.speed, "corrected", impact.shape)
@@ -89,7 +89,7 @@ def front_of_damped_sine(impact: Impact, shear_speed: float) -> float:
     return bracketed_root(excess, first, sine.compression_time, 1.0e-14)
 
 
-def viscous_heat(impact: Impact, time: float) -> float:
+def viscous_heat(impact: FreeImpact, time: float) -> float:
     """Work of the viscous force from first touch to ``time`` in [J], 0 to tau_1: 40 Gauss points in sqrt(t), where it is smooth."""
     nodes, weights = numpy.polynomial.legendre.leggauss(40)
     edge = math.sqrt(time)
@@ -104,7 +104,7 @@ def _check_state(depth: float, speed: float, shear_speed: float) -> None:
     check_positive("shear wave speed", shear_speed, "m/s")
 
 
-def _border(impact: Impact, depth: float, speed: float) -> float:
+def _border(impact: FreeImpact, depth: float, speed: float) -> float:
     if depth <= 0.0:
         return math.inf if speed > 0.0 else 0.0
     return 0.5 * impact.shape * math.sqrt(impact.sphere.radius / depth) * speed
@@ -115,10 +115,10 @@ def _held(speed: float, shear_speed: float) -> tuple[float, bool]:
     return (shear_speed if supersonic else speed), supersonic
 
 
-def _small_time(impact: Impact, shear_speed: float) -> float:
+def _small_time(impact: FreeImpact, shear_speed: float) -> float:
     return (0.5 * FRONT_OVER_BORDER * impact.shape / shear_speed) ** 2 * impact.sphere.radius * impact.speed
 
 
-def _earliest(impact: Impact, shear_speed: float) -> float:
+def _earliest(impact: FreeImpact, shear_speed: float) -> float:
     """A time at which the front is surely supersonic: a tenth of the formula for small times, within the compression."""
     return min(0.1 * _small_time(impact, shear_speed), 0.01 * impact.compression_time)

@@ -266,7 +266,9 @@ def scaled_impact(severity: float, end: str, weight: float = 0.0) -> ScaledImpac
     check_number("severity", severity, least=0.0, most=LARGEST_SEVERITY)
     check_not_negative("weight", weight)
     out = numpy.zeros(RESULTS)
-    steps = solve_from(float(severity), float(weight), lowest_force(end) < 0.0, 0.0, 1.0, PEAK, math.inf, out)
+    steps = solve_from(
+        float(severity), float(weight), pulls=lowest_force(end) < 0.0, u=0.0, v=1.0, kind=PEAK, limit=math.inf, out=out
+    )
     if steps == 0:
         raise ImpactError(f"severity {severity:g}: the mass does not leave within {LARGEST_STEPS} steps")
     return ScaledImpact(
@@ -283,7 +285,7 @@ def scaled_course(severity: float, times: Vector) -> tuple[Vector, Vector]:
     check_number("severity", severity, least=0.0, most=LARGEST_SEVERITY)
     scaled = check_values("times", times, shape=(None,), least=0.0, rising=True)
     depth, speed, heat = (numpy.zeros(len(scaled)) for _ in range(3))
-    reached = sample_from(float(severity), 0.0, 0.0, 1.0, scaled, depth, speed, heat)
+    reached = sample_from(float(severity), 0.0, u=0.0, v=1.0, times=scaled, depth=depth, speed=speed, heat=heat)
     if reached < len(scaled):
         raise ImpactError(f"time {scaled[reached]:g} in units of L/V0 lies behind the end of the contact")
     return depth, speed

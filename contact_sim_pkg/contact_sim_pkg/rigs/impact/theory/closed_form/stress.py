@@ -19,7 +19,7 @@ import numpy
 from contact_sim_pkg.compiled.arrays import Vector
 from contact_sim_pkg.rigs.impact.theory.checks import check_number, check_positive, check_values
 from contact_sim_pkg.rigs.impact.theory.closed_form.force import elastic_force, viscous_force
-from contact_sim_pkg.rigs.impact.theory.motion import Impact
+from contact_sim_pkg.rigs.impact.theory.motion import FreeImpact
 
 __all__ = [
     "SHAPES",
@@ -55,7 +55,7 @@ class CentreStress(NamedTuple):
 
 
 def centre_stress(
-    impact: Impact, depth: float, speed: float, limiting_depth: float, shape: str = "parabola"
+    impact: FreeImpact, depth: float, speed: float, limiting_depth: float, shape: str = "parabola"
 ) -> CentreStress:
     """Stress in the centre at ``depth`` x [m] and ``speed`` x' [m/s]; both parts 0 without contact.
 
@@ -105,7 +105,7 @@ def radial_velocity(border_speed: float, places: Vector) -> Vector:
     return numpy.where(places <= 1.0, border_speed * places**2, 0.0)
 
 
-def retarded_motion(impact: Impact, time: float, form: str = "corrected") -> tuple[float, float, bool]:
+def retarded_motion(impact: FreeImpact, time: float, form: str = "corrected") -> tuple[float, float, bool]:
     """``x_s = V0/w e^(-delta t) sin(w t (1 - tau_KE/tau))`` (eq 88a), its derivative, and whether both are defined.
 
     tau_KE = tan(beta)/w. (0, 0, False) outside 0 < t <= tau and where the sine is not positive. ``printed`` leaves the
@@ -127,7 +127,7 @@ def retarded_motion(impact: Impact, time: float, form: str = "corrected") -> tup
 
 
 def retarded_viscous_stress(
-    impact: Impact, time: float, limiting_depth: float, shape: str = "parabola", form: str = "corrected"
+    impact: FreeImpact, time: float, limiting_depth: float, shape: str = "parabola", form: str = "corrected"
 ) -> tuple[float, bool]:
     """Viscous stress in the centre from the retarded motion (eq 89) in [Pa], and whether it is defined and not limited.
 

@@ -23,7 +23,7 @@ from contact_sim_pkg.rigs.impact.theory.checks import (
 )
 from contact_sim_pkg.rigs.impact.theory.errors import ImpactError
 from contact_sim_pkg.rigs.impact.theory.geometry import contact_radius
-from contact_sim_pkg.rigs.impact.theory.motion import Impact
+from contact_sim_pkg.rigs.impact.theory.motion import FreeImpact
 
 __all__ = ["Ring", "Wave", "rayleigh_speed", "ring", "shear_speed", "surface_wave", "wave_height"]
 
@@ -72,7 +72,7 @@ def ring(radius: float, mean_pressure: float, bulk_modulus: float) -> Ring:
     return Ring(ratio, radius, width, radius + width)
 
 
-def surface_wave(impact: Impact, shear_modulus: float, density: float, poisson_ratio: float) -> Wave:
+def surface_wave(impact: FreeImpact, shear_modulus: float, density: float, poisson_ratio: float) -> Wave:
     """The wave that an impact leaves (eqs 72-74); the half-space's G' [Pa], density [kg/m^3] and nu give the Rayleigh speed.
 
     Errors as `rayleigh_speed`.
@@ -83,9 +83,16 @@ def surface_wave(impact: Impact, shear_modulus: float, density: float, poisson_r
     rayleigh = rayleigh_speed(shear_modulus, density, poisson_ratio)
     front = radius + 0.5 * radius * (math.sqrt(1.0 + STIFF) - 1.0)
     return Wave(
-        impact.depth, length, 2.0 * math.pi / length, impact.frequency, impact.damping, speed, impact.compression_time, front,
-        speed / rayleigh,
-    )  # fmt: skip
+        amplitude=impact.depth,
+        length=length,
+        number=2.0 * math.pi / length,
+        frequency=impact.frequency,
+        damping=impact.damping,
+        speed=speed,
+        start_time=impact.compression_time,
+        start_radius=front,
+        relative_speed=speed / rayleigh,
+    )
 
 
 def wave_height(wave: Wave, radii: Vector, times: Vector, spread: str = "none", form: str = "corrected") -> Vector:
@@ -110,7 +117,7 @@ def wave_height(wave: Wave, radii: Vector, times: Vector, spread: str = "none", 
     return numpy.where(reached, height, 0.0)
 
 
-def contact_ring(impact: Impact, depth: float, force: float, bulk_modulus: float) -> Ring:
+def contact_ring(impact: FreeImpact, depth: float, force: float, bulk_modulus: float) -> Ring:
     """Ring at one instant of an impact, from its depth [m] and total force [N]."""
     radius = contact_radius(depth, impact.sphere.radius)
     return ring(radius, max(force, 0.0) / (math.pi * radius**2) if radius > 0.0 else 0.0, bulk_modulus)

@@ -9,7 +9,7 @@ import numpy as np
 
 from contact_sim_pkg.pressure.closed_form.hertz import HertzError, hertz_contact
 from contact_sim_pkg.pressure.closed_form.lame import fit_patch, lame_area
-from contact_sim_pkg.pressure.settings import Belt, widened
+from contact_sim_pkg.pressure.settings import BeltSettings, widened
 from contact_sim_pkg.rigs.vehicle.contact_field import FieldError, PressureField
 from contact_sim_pkg.rigs.vehicle.lattice import contact_modulus, field_settings
 from contact_sim_pkg.rigs.vehicle.tire.report.numbers import standing_load_of
@@ -38,7 +38,7 @@ class TireReference(NamedTuple):
     """[m]"""
     area: float
     """[m^2]"""
-    belt: Belt | None = None
+    belt: BeltSettings | None = None
     """what yields beside the tread; with it the contact is no ellipse, its semi-axes are those of the fitted curve"""
 
     @property

@@ -5,12 +5,12 @@ from __future__ import annotations
 import numpy as np
 
 from contact_sim_pkg.pressure.field.halfspace import displacement, make_buffers, make_half_space
-from contact_sim_pkg.pressure.settings import Belt
+from contact_sim_pkg.pressure.settings import BeltSettings
 from contact_sim_pkg.report.series import FloatArray, PressureMap
 from contact_sim_pkg.rigs.vehicle.tire.envelopment import belt_influence
 
 
-def surface_displacement(field: PressureMap, modulus: float, belt: Belt | None = None) -> FloatArray:
+def surface_displacement(field: PressureMap, modulus: float, belt: BeltSettings | None = None) -> FloatArray:
     """u(x, y) [m] = 1/(pi E*) integral of p / distance, on the cells of the field; positive into the body.
 
     With a ``belt`` its deflection is added.

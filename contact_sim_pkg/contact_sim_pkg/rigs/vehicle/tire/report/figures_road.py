@@ -37,7 +37,7 @@ LEAST_WAY = 0.01
 """[m] that the wheel must travel for a picture over distance"""
 
 
-class Stretch(NamedTuple):
+class RoadSection(NamedTuple):
     """Part of the road, [m]."""
 
     start: float
@@ -53,19 +53,19 @@ class Rolling(NamedTuple):
     reference: TireReference | None
 
 
-def stretches(rolling: Rolling) -> list[Stretch]:
+def stretches(rolling: Rolling) -> list[RoadSection]:
     """The stretch around the largest load (of a field, where there are any), then the whole way where that is longer.
 
     None where the wheel stands.
     """
     travel, contact = rolling.road.travel, rolling.contact
-    whole = Stretch(*(float(end) for end in travel.at(contact.time[[0, -1]])))
+    whole = RoadSection(*(float(end) for end in travel.at(contact.time[[0, -1]])))
     if whole.end - whole.start < LEAST_WAY:
         return []
     time = _focus(rolling)
     way, behind, ahead = travel.at(np.array([time, time - BEFORE[1], time + AFTER[1]]))
     start, end = min(way - BEFORE[0], behind), max(way + AFTER[0], ahead)
-    near = Stretch(max(float(start), whole.start), min(float(end), whole.end))
+    near = RoadSection(max(float(start), whole.start), min(float(end), whole.end))
     if near.end - near.start > 0.6 * (whole.end - whole.start):
         return [whole]
     return [near, whole]
@@ -78,7 +78,7 @@ def _focus(rolling: Rolling) -> float:
     return float(rolling.contact.time[int(rolling.contact.normal.argmax())])
 
 
-def along_the_road(key: str, name: str, rolling: Rolling, stretch: Stretch) -> Picture:
+def along_the_road(key: str, name: str, rolling: Rolling, stretch: RoadSection) -> Picture:
     """Normal force raw and filtered, the footprint's line load, and the road below, on one axis of distance."""
     with_field = rolling.field is not None
     ratios = [3, 2.2, 2] if with_field else [3, 2]
@@ -97,7 +97,7 @@ def along_the_road(key: str, name: str, rolling: Rolling, stretch: Stretch) -> P
     )  # fmt: skip
 
 
-def _draw_force(axes: Axes, rolling: Rolling, stretch: Stretch) -> str:
+def _draw_force(axes: Axes, rolling: Rolling, stretch: RoadSection) -> str:
     """Returns what the caption says of a long series, which is drawn as a band."""
     contact, travel = rolling.contact, rolling.road.travel
     distance = travel.at(contact.time)
@@ -126,7 +126,7 @@ def _draw_force(axes: Axes, rolling: Rolling, stretch: Stretch) -> str:
     return band
 
 
-def _draw_line_load(figure: Figure, axes: Axes, field: FieldSeries, road: RoadSeries, stretch: Stretch) -> None:
+def _draw_line_load(figure: Figure, axes: Axes, field: FieldSeries, road: RoadSeries, stretch: RoadSection) -> None:
     """Every field a column at its place, as wide as the way to its neighbours."""
     distance = road.travel.at(field.history_time)
     moving = np.concatenate([[True], np.diff(distance) > 0.0]) & _inside(distance, stretch)
@@ -151,7 +151,7 @@ def _draw_line_load(figure: Figure, axes: Axes, field: FieldSeries, road: RoadSe
     bar.ax.spines["outline"].set_visible(False)
 
 
-def _draw_road(axes: Axes, rolling: Rolling, stretch: Stretch) -> None:
+def _draw_road(axes: Axes, rolling: Rolling, stretch: RoadSection) -> None:
     road, contact = rolling.road, rolling.contact
     inside = _inside(road.distance, stretch)
     distance = road.distance[inside]
@@ -178,7 +178,7 @@ def _draw_road(axes: Axes, rolling: Rolling, stretch: Stretch) -> None:
     axes.set_ylim(low_end, high_end + 0.25 * (high_end - low_end))
 
 
-def _caption(rolling: Rolling, stretch: Stretch) -> str:
+def _caption(rolling: Rolling, stretch: RoadSection) -> str:
     contact, travel = rolling.contact, rolling.road.travel
     distance = travel.at(contact.time)
     inside = _inside(distance, stretch)
@@ -203,5 +203,5 @@ def _caption(rolling: Rolling, stretch: Stretch) -> str:
     )
 
 
-def _inside(distance: FloatArray, stretch: Stretch) -> NDArray[np.bool_]:
+def _inside(distance: FloatArray, stretch: RoadSection) -> NDArray[np.bool_]:
     return np.asarray((distance >= stretch.start) & (distance <= stretch.end))
