@@ -7,9 +7,11 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from contact_sim_pkg.records.messages import ContactPoints
+
 FloatArray = NDArray[np.float64]
 
-APART, TOUCHES, STICKS, SLIPS = 0, 1, 2, 3
+APART, TOUCHES, STICKS, SLIPS = ContactPoints.APART, ContactPoints.TOUCHES, ContactPoints.STICKS, ContactPoints.SLIPS
 """State of a point, as the message has it."""
 
 

@@ -12,6 +12,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from contact_sim_pkg.records.messages import ContactEpisodes
 from contact_sim_pkg.report.point_series import PointSeries
 
 FloatArray = NDArray[np.float64]
@@ -155,10 +156,6 @@ class CostSeries(NamedTuple):
     """over the standing load"""
 
 
-WHOLE_CONTACT = -1
-"""In place of the number of a point: all points of the contact together."""
-
-
 class EpisodeSeries(NamedTuple):
     """Contact episodes in the order in which they ended."""
 
@@ -181,7 +178,7 @@ class EpisodeSeries(NamedTuple):
 
     def slaps(self) -> EpisodeSeries:
         """The episodes of the whole contact that began with a touch."""
-        chosen = (self.point == WHOLE_CONTACT) & (self.touched == 1)
+        chosen = (self.point == ContactEpisodes.WHOLE_CONTACT) & (self.touched == 1)
         return EpisodeSeries(*(column[chosen] for column in self))
 
 

@@ -20,13 +20,13 @@ class NodeError(Exception):
 class State(IntEnum):
     """The constants of `BenchProgress.msg`."""
 
-    IDLE = 0
-    STARTING = 1
-    READY = 2
-    RUNNING = 3
-    FINISHED = 4
-    STOPPED = 5
-    FAILED = 6
+    IDLE = BenchProgress.IDLE
+    STARTING = BenchProgress.STARTING
+    READY = BenchProgress.READY
+    RUNNING = BenchProgress.RUNNING
+    FINISHED = BenchProgress.FINISHED
+    STOPPED = BenchProgress.STOPPED
+    FAILED = BenchProgress.FAILED
 
     @property
     def ended(self) -> bool:

@@ -8,13 +8,14 @@ from matplotlib.colors import ListedColormap, Normalize
 from matplotlib.patches import Patch
 from numpy.typing import NDArray
 
+from contact_sim_pkg.records.messages import ContactShear
 from contact_sim_pkg.report.drawing import ACCENT, MUTED, SHEAR_COLOURS, WIDTH, Picture, new_figure, picture
 from contact_sim_pkg.report.figures.maps import Window, draw_map, loaded_window, set_window
 from contact_sim_pkg.report.series import FieldSeries, FloatArray, PressureMap
 from contact_sim_pkg.report.signal.decimate import envelope
 from contact_sim_pkg.rigs.vehicle.tire.report.shear_series import ShearMap, ShearSeries
 
-APART, STICKS, SLIPS = 0, 1, 2
+APART, STICKS, SLIPS = ContactShear.APART, ContactShear.STICKS, ContactShear.SLIPS
 STATE_COLOURS = ("#2f7fb5", "#e08a2e")
 """Sticks, slips: told apart by everyone."""
 LEAST_SPREAD = 1e-3
