@@ -10,7 +10,7 @@ from contact_sim_pkg.cli.accuracy import command
 from contact_sim_pkg.cli.main import main
 from contact_sim_pkg.records.registry import rigs
 from contact_sim_pkg.records.work_precision import WorkPrecision
-from contact_sim_pkg.rigs.vehicle.studies import work_precision_road
+from contact_sim_pkg.rigs.vehicle.studies.work_precision import road as work_precision_road
 from contact_sim_pkg.scene.errors import SceneError
 from contact_sim_pkg.studies.accuracy import scene_study, work_precision, work_precision_plot
 

@@ -21,7 +21,8 @@ from contact_sim_pkg.laws.one_mass.runs import integrate
 from contact_sim_pkg.laws.parameters import FoamElastic, FoamHysteresis, NormalDissipative, NormalElastic
 from contact_sim_pkg.reference import impact
 from contact_sim_pkg.rigs.vehicle.entries import energies
-from contact_sim_pkg.rigs.vehicle.studies.scene_drive import drive_of, fast_run, load_resolved
+from contact_sim_pkg.rigs.vehicle.studies.scene_drive import drive_of, fast_run
+from contact_sim_pkg.scene.resolve import load_resolved
 
 FOAM = FoamElastic(0.12, 0.08, 4.0e4, 3.0e3, 150.0, 3.0)
 STRAINS = (1e-6, 1e-3, 0.05, 0.2, 0.4, 0.65, 0.9, 0.99)

@@ -14,7 +14,7 @@ from contact_sim_pkg.records.messages import String
 from contact_sim_pkg.run.from_bag import refuse_other_scene
 from contact_sim_pkg.scene.overrides import set_value
 from contact_sim_pkg.scene.renamed_keys import RENAMED, new_key
-from contact_sim_pkg.scene.resolve import ResolvedScene, read_explicit, resolve
+from contact_sim_pkg.scene.resolve import ResolvedScene, read_explicit, read_resolved, resolve
 from contact_sim_pkg.scene.schema.catalog import catalog
 
 MADE_UP = {
@@ -99,7 +99,7 @@ def test_a_recorded_scene_with_old_keys_reads_as_one_with_the_new_ones(maker):
     scene = resolve(maker.load("seat", {"seat.occupant.frame_mass": 6.0}))
     old = with_old_names(scene.to_yaml())
     assert read_explicit(old, "scene of a bag") == scene.data
-    assert ResolvedScene.from_yaml(old).data == scene.data
+    assert read_resolved(old).data == scene.data
     assert scene_of_text(old, "scene of a bag") == scene.data
 
 

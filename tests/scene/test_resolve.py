@@ -12,7 +12,7 @@ from contact_sim_pkg.rigs.vehicle.tire.schema import TireField
 from contact_sim_pkg.scene.errors import SceneError
 from contact_sim_pkg.scene.load import load_scene, shipped_names
 from contact_sim_pkg.scene.overrides import set_value
-from contact_sim_pkg.scene.resolve import ResolvedScene, resolve
+from contact_sim_pkg.scene.resolve import read_resolved, resolve
 from contact_sim_pkg.scene.schema.accuracy import LEVELS
 
 FIELD = "effects.tire.contact_field"
@@ -91,7 +91,7 @@ def test_the_data_is_plain_json(maker, rig):
 
 def assert_round_trip(resolved):
     text = resolved.to_yaml()
-    again = ResolvedScene.from_yaml(text)
+    again = read_resolved(text)
     assert json.dumps(again.data) == json.dumps(resolved.data)
     assert again.to_yaml() == text
 
@@ -126,7 +126,7 @@ def test_a_resolved_text_that_leaves_something_open_is_refused(maker):
     open_text = "".join(line for line in text.splitlines(keepends=True) if "tolerance: 0.01" not in line)
     assert open_text != text
     with pytest.raises(SceneError, match=r"contact_field\.tolerance: is left open"):
-        ResolvedScene.from_yaml(open_text)
+        read_resolved(open_text)
 
 
 @pytest.fixture
@@ -152,10 +152,10 @@ def test_a_file_that_changed_since_is_refused(maker, recorded):
 def test_a_resolved_text_reads_without_its_files_and_asks_for_them_later(maker, recorded):
     text = resolve(recorded).to_yaml()
     with pytest.raises(SceneError, match="is not there; give its path"):
-        ResolvedScene.from_yaml(text, folder=maker.folder / "elsewhere").file_path("vibration.file")
-    given = ResolvedScene.from_yaml(text, files={"vibration.file": maker.folder / "floor.csv"})
+        read_resolved(text, folder=maker.folder / "elsewhere").file_path("vibration.file")
+    given = read_resolved(text, files={"vibration.file": maker.folder / "floor.csv"})
     assert given.file_path("vibration.file") == maker.folder / "floor.csv"
-    assert ResolvedScene.from_yaml(text, folder=maker.folder).file_path("vibration.file").name == "floor.csv"
+    assert read_resolved(text, folder=maker.folder).file_path("vibration.file").name == "floor.csv"
 
 
 def test_an_absolute_file_name_leaves_no_trace_of_the_machine(maker, recorded):

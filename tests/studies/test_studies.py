@@ -5,7 +5,7 @@ from contact_sim_pkg.records.effect import Observed
 from contact_sim_pkg.records.registry import effects
 from contact_sim_pkg.rigs.vehicle.studies import accuracy_field as accuracy_cost_field
 from contact_sim_pkg.rigs.vehicle.studies import accuracy_integrator as accuracy_cost_integrator
-from contact_sim_pkg.rigs.vehicle.studies.scene_drive import load_resolved
+from contact_sim_pkg.scene.resolve import load_resolved
 from contact_sim_pkg.studies import cases
 from contact_sim_pkg.studies.accuracy import scene_study as accuracy_cost
 from contact_sim_pkg.studies.effects import ablation

@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterable
 from typing import Any, NamedTuple
 
-from .messages import encode
-from .topics import TOPICS
+from contact_sim_pkg.bag.messages import encode
+from contact_sim_pkg.bag.topics import TOPICS
 
 Message = tuple[str, int, bytes]  # topic, stamp [ns], CDR
 

@@ -7,10 +7,9 @@ from typing import Any
 
 import numpy
 
+from contact_sim_pkg.bag.errors import MessageError
+from contact_sim_pkg.bag.messages import decode
 from contact_sim_pkg.records.messages import RoadPatch, VibrationBlock
-
-from .errors import MessageError
-from .messages import decode
 
 Block = RoadPatch | VibrationBlock
 FEWEST_SAMPLES = 2

@@ -14,11 +14,10 @@ from typing import Any, TypeVar
 import numpy
 from numpy.typing import NDArray
 
+from contact_sim_pkg.bag.encoding import deserialize, header, message_class, serialize, stamp_of
+from contact_sim_pkg.bag.errors import MessageError
 from contact_sim_pkg.records import messages as records
 from contact_sim_pkg.records.definitions import HEADER, Field, definition_of
-
-from .encoding import deserialize, header, message_class, serialize, stamp_of
-from .errors import MessageError
 
 __all__ = ["BENCH_FRAME", "decode", "encode", "record_of", "stamp_of"]
 

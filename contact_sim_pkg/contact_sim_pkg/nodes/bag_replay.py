@@ -13,6 +13,7 @@ from std_srvs.srv import SetBool
 
 from contact_sim_pkg.bag.reader import Bag, open_bag
 from contact_sim_pkg.nodes.bench_node import LifecycleBenchNode
+from contact_sim_pkg.nodes.clock import clock_message
 from contact_sim_pkg.nodes.endpoints import message_type, publisher, refuse_strangers
 from contact_sim_pkg.nodes.parameters import declare
 from contact_sim_pkg.nodes.player import Player, Standing
@@ -21,8 +22,6 @@ from contact_sim_pkg.nodes.processes.keys import Keys
 from contact_sim_pkg.nodes.processes.process import run
 from contact_sim_pkg.nodes.protocol.recorded_qos import profile_of_recorded
 from contact_sim_pkg.nodes.protocol.states import DONE, REFUSED, NodeError
-
-from .clock import clock_message
 
 CLOCK_RATE = 40.0  # [Hz] of the steady clock
 BATCH = 200  # messages between two looks at signals; what a volatile topic keeps for a subscriber that is behind

@@ -6,13 +6,10 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, NamedTuple, TypeAlias
+from typing import Any, NamedTuple, TypeAlias
 
 import numpy
 from numpy.typing import NDArray
-
-if TYPE_CHECKING:
-    from contact_sim_pkg.scene.resolved_scene import ResolvedScene
 
 __all__ = ["Effect", "Observed", "Rule", "Verdict", "choice_of_model", "needed_where_it_opens"]
 
@@ -29,7 +26,8 @@ class Observed(NamedTuple):
 
 Verdict: TypeAlias = tuple[bool | None, str]
 """Whether a scene calls for an effect (None: there is no rule), and the figures behind it."""
-Rule: TypeAlias = Callable[["ResolvedScene", Observed], Verdict]
+Rule: TypeAlias = Callable[[Any, Observed], Verdict]
+"""Of a `scene.resolved_scene.ResolvedScene`, which records do not know, and a run of it."""
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -69,7 +67,7 @@ def choice_of_model(why: str) -> Rule:
 def needed_where_it_opens(contact: str) -> Rule:
     """The rule of a loss: an impact has no restitution without one."""
 
-    def rule(_scene: ResolvedScene, observed: Observed) -> Verdict:
+    def rule(_scene: Any, observed: Observed) -> Verdict:
         if observed.opens[contact]:
             return True, "the contact opens: an impact needs a loss to have a restitution"
         return None, "the contact stays closed; how much it damps is a choice of the model"

@@ -11,7 +11,7 @@ from __future__ import annotations
 from collections import namedtuple
 from typing import Any
 
-from .definitions import Definition, definition_of
+from contact_sim_pkg.records.definitions import Definition, definition_of
 
 __all__ = ["made"]
 

@@ -14,7 +14,8 @@ from typing import Any
 from contact_sim_pkg.records.registry import rigs
 from contact_sim_pkg.scene.errors import Fault, SceneError
 from contact_sim_pkg.scene.files import find_file, input_files
-from contact_sim_pkg.scene.overrides import Override, apply
+from contact_sim_pkg.scene.load import load_scene
+from contact_sim_pkg.scene.overrides import Override, apply, set_value
 from contact_sim_pkg.scene.renamed_keys import take_new_names
 from contact_sim_pkg.scene.resolved_scene import ResolvedScene, sha256_of
 from contact_sim_pkg.scene.schema.accuracy import integration_tolerance, requested
@@ -25,7 +26,7 @@ from contact_sim_pkg.scene.schema.scene import Scene
 from contact_sim_pkg.scene.schema.validate import validate
 from contact_sim_pkg.scene.yaml.document import parse_document
 
-__all__ = ["ResolvedScene", "explicit", "read_explicit", "read_resolved", "resolve"]
+__all__ = ["ResolvedScene", "explicit", "load_resolved", "read_explicit", "read_resolved", "resolve"]
 
 
 def resolve(scene: Scene) -> ResolvedScene:
@@ -44,6 +45,11 @@ def resolve(scene: Scene) -> ResolvedScene:
         section["sha256"] = sha256_of(path)
         files[file.where] = path
     return ResolvedScene(_ordered(data), files)
+
+
+def load_resolved(scene_name: str, *values: str) -> ResolvedScene:
+    """A scene by name or path, resolved; `values` as of `--set`."""
+    return resolve(load_scene(scene_name, [set_value(value) for value in values]))
 
 
 def read_resolved(text: str, files: Mapping[str, str | Path] | None = None, folder: str | Path = ".") -> ResolvedScene:

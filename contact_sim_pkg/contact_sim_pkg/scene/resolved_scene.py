@@ -39,7 +39,7 @@ class ResolvedScene:
         return Scene.model_validate(self.data)
 
     def to_yaml(self) -> str:
-        """The data as YAML 1.2; `from_yaml` reads the same data from it, to the bit."""
+        """The data as YAML 1.2; `resolve.read_resolved` reads the same data from it, to the bit."""
         writer = YAML(typ="safe", pure=True)
         writer.default_flow_style = False
         writer.sort_base_mapping_type_on_output = False  # type: ignore[assignment]
@@ -48,15 +48,6 @@ class ResolvedScene:
         stream = StringIO()
         writer.dump(self.data, stream)
         return stream.getvalue()
-
-    @classmethod
-    def from_yaml(
-        cls, text: str, files: Mapping[str, str | Path] | None = None, folder: str | Path = "."
-    ) -> ResolvedScene:
-        """Read and check what `to_yaml` wrote; arguments and errors as `resolve.read_resolved`."""
-        from contact_sim_pkg.scene.resolve import read_resolved
-
-        return read_resolved(text, files, folder)
 
     @classmethod
     def from_own_yaml(cls, text: str, files: Mapping[str, str | Path]) -> ResolvedScene:

@@ -11,8 +11,8 @@ def main(scene_name: str) -> None:
     """Write one JSON object: seconds from the start of the imports to a block done, and of the first field solve (or null)."""
     began = time.perf_counter()
     from contact_sim_pkg.records.registry import rigs
-    from contact_sim_pkg.rigs.vehicle.studies.scene_drive import load_resolved
     from contact_sim_pkg.run.rigs import make_simulation
+    from contact_sim_pkg.scene.resolve import load_resolved
     from contact_sim_pkg.studies.cases import objects
 
     scene = load_resolved(scene_name)

@@ -3,7 +3,8 @@
 import numpy
 import pytest
 
-from contact_sim_pkg.rigs.vehicle.studies.scene_drive import drive_of, fast_run, load_resolved, slow_run
+from contact_sim_pkg.rigs.vehicle.studies.scene_drive import drive_of, fast_run, slow_run
+from contact_sim_pkg.scene.resolve import load_resolved
 
 CASES = {
     "tire_bump": (1.2,),

@@ -7,15 +7,29 @@ import numpy
 import pytest
 
 from contact_sim_pkg.records import work_precision as ladder_row
-from contact_sim_pkg.rigs.vehicle.studies import work_precision_area as ladder_area
-from contact_sim_pkg.rigs.vehicle.studies import work_precision_elliptic as ladder_elliptic
-from contact_sim_pkg.rigs.vehicle.studies import work_precision_exponent as ladder_exponent
-from contact_sim_pkg.rigs.vehicle.studies import work_precision_road as ladder_road
-from contact_sim_pkg.rigs.vehicle.studies import work_precision_rough as ladder_rough
-from contact_sim_pkg.rigs.vehicle.studies import work_precision_smooth as ladder_smooth
-from contact_sim_pkg.rigs.vehicle.studies.fields import FIELD, FORCE, GIVEN, PEAK, Answer, distances, solve
-from contact_sim_pkg.rigs.vehicle.studies.patch_problem import LOAD, PATCH, means_over, patch_problem, road_heights
-from contact_sim_pkg.rigs.vehicle.studies.rolling_problem import FINEST, FIRST, rough_road
+from contact_sim_pkg.rigs.vehicle.studies.work_precision import area as ladder_area
+from contact_sim_pkg.rigs.vehicle.studies.work_precision import elliptic as ladder_elliptic
+from contact_sim_pkg.rigs.vehicle.studies.work_precision import exponent as ladder_exponent
+from contact_sim_pkg.rigs.vehicle.studies.work_precision import road as ladder_road
+from contact_sim_pkg.rigs.vehicle.studies.work_precision import rough as ladder_rough
+from contact_sim_pkg.rigs.vehicle.studies.work_precision import smooth as ladder_smooth
+from contact_sim_pkg.rigs.vehicle.studies.work_precision.fields import (
+    FIELD,
+    FORCE,
+    GIVEN,
+    PEAK,
+    Answer,
+    distances,
+    solve,
+)
+from contact_sim_pkg.rigs.vehicle.studies.work_precision.patch_problem import (
+    LOAD,
+    PATCH,
+    means_over,
+    patch_problem,
+    road_heights,
+)
+from contact_sim_pkg.rigs.vehicle.studies.work_precision.rolling_problem import FINEST, FIRST, rough_road
 from contact_sim_pkg.studies.accuracy import work_precision as ladder
 from contact_sim_pkg.studies.accuracy import work_precision_plot as ladder_plot
 from contact_sim_pkg.studies.accuracy import work_precision_table as ladder_table

@@ -3,7 +3,7 @@ import math
 import numpy
 import pytest
 
-from contact_sim_pkg.rigs.vehicle.studies import rolling_problem
+from contact_sim_pkg.rigs.vehicle.studies.work_precision import rolling_problem
 from contact_sim_pkg.studies.field import field_benchmark
 
 

@@ -27,7 +27,7 @@ RIGS = (
         report=(f"{__name__}.report:ROLLER_REPORT",),
         accuracy=(f"{__name__}.studies.accuracy",),
         work_precision=(
-            "contact_sim_pkg.rigs.vehicle.studies.work_precision_elliptic",
+            "contact_sim_pkg.rigs.vehicle.studies.work_precision.elliptic",
             f"{__name__}.studies.work_precision",
             f"{__name__}.studies.work_precision_interval",
         ),

@@ -1,4 +1,4 @@
-"""Resolved scene of the roller rig -> roller, contact over time, track, and what is told of its stability before the run."""
+"""Resolved scene of the roller rig -> roller, contact over time, track; a scene that cannot run is refused."""
 
 from __future__ import annotations
 
@@ -10,16 +10,27 @@ import numpy
 from numpy.typing import NDArray
 
 from contact_sim_pkg.compiled.arrays import Vector
-from contact_sim_pkg.rigs.roller.model_checks import refuse_impossible
-from contact_sim_pkg.rigs.roller.theory.ellipse import EXACT, POLYNOMIAL, RollingContact, contact_of_rollers
+from contact_sim_pkg.pressure.closed_form.hertz import HertzError
+from contact_sim_pkg.rigs.roller.theory.ellipse import (
+    EXACT,
+    POLYNOMIAL,
+    RollingContact,
+    contact_of_rollers,
+    principal_curvatures,
+)
 from contact_sim_pkg.rigs.roller.theory.load_split import parallel_contact_load
+from contact_sim_pkg.rigs.roller.theory.motion import LARGEST_TILT
 from contact_sim_pkg.rigs.roller.theory.parameters import Bending, Curvatures, Roller
+from contact_sim_pkg.rigs.roller.theory.stability import RollerError, linearise
+from contact_sim_pkg.scene.errors import Fault, SceneError
 from contact_sim_pkg.scene.resolved_scene import effects_at
 from contact_sim_pkg.scene.timing import Timing, make_timing
 
-__all__ = ["RollerModel", "build_roller"]
+__all__ = ["RollerModel", "build_roller", "refused"]
 
 RADII = ("profile_radius", "rolling_radius", "shaft_radius", "shaft_profile_radius")
+LARGEST_SLOPE = 0.5
+"""Semi-axis over the radius of the gap along it: Hertz takes the bodies as flat; at 0.5 a circle lies 7 % off its parabola."""
 
 
 @dataclass(frozen=True)
@@ -140,7 +151,7 @@ def build_roller(scene: dict[str, Any]) -> RollerModel:
         effects=effects,
         seed=int(scene["seed"]),
     )
-    refuse_impossible(model)
+    _refuse_impossible(model)
     return model
 
 
@@ -192,3 +203,61 @@ def _programme(rig: dict[str, Any]) -> Programme:
     radii = numpy.stack([column(name, float(rig[key])) for name, key in standing.items()], axis=1)
     curvatures = numpy.divide(1.0, radii, out=numpy.zeros_like(radii), where=radii > 0.0)
     return Programme(times, column("load", float(rig["load"])), curvatures, given.get("between") == "steps")
+
+
+def refused(sentence: str) -> SceneError:
+    """The error of a roller that cannot run as a whole."""
+    return SceneError([Fault("scene", 0, 0, "roller", sentence)])
+
+
+def _refuse_impossible(model: RollerModel) -> None:
+    """Refuse a roller without an ellipse, with a contact larger than the bodies, or without static angles.
+
+    Raises SceneError with what is wrong and what to change.
+    """
+    for row, load in zip(model.programme.curvatures, model.programme.load, strict=True):
+        curvatures = Curvatures(*(float(value) for value in row))
+        _refuse_no_ellipse(model, curvatures)
+        _refuse_large_contact(model, curvatures, model.contact_load(float(load), curvatures))
+    if model.effects.get("tilt_yaw") is not None:
+        _refuse_no_static_angles(model)
+
+
+def _refuse_no_ellipse(model: RollerModel, curvatures: Curvatures) -> None:
+    try:
+        model.contact(1.0, model.held_yaw, curvatures)
+    except HertzError as error:
+        raise refused(f"{error}; give profile_radius or shaft_profile_radius a value that is not 0") from None
+
+
+def _refuse_large_contact(model: RollerModel, curvatures: Curvatures, load: float) -> None:
+    contact = model.contact(load, model.held_yaw, curvatures)
+    gap = principal_curvatures(curvatures, model.held_yaw)
+    bends = (("x", contact.along_x, 2.0 * gap.near_x), ("y", contact.along_y, 2.0 * gap.near_y))
+    for axis, semi_axis, curvature in bends:
+        if not semi_axis * curvature <= LARGEST_SLOPE:
+            raise refused(
+                f"under {load:.6g} N the contact reaches {semi_axis:.4g} m nearly along {axis}, more than {LARGEST_SLOPE:g} of the "
+                f"radius of {1.0 / curvature:.4g} m that both bodies have there together: no contact of nearly flat bodies; give "
+                "a lower load, larger radii or a larger young_modulus"
+            )
+
+
+def _refuse_no_static_angles(model: RollerModel) -> None:
+    """Under the load at the start."""
+    curvatures = Curvatures(*(float(value) for value in model.programme.curvatures[0]))
+    load = model.contact_load(float(model.programme.load[0]), curvatures)
+    try:
+        linear = linearise(model.roller, curvatures, model.bending, model.modulus, load)
+    except RollerError as error:
+        about_y = model.roller.stiffness_tilt - load * model.roller.radius
+        raise refused(
+            f"{error}; stiffness_tilt less load times radius is {about_y:.6g} N m/rad, stiffness_yaw "
+            f"{model.roller.stiffness_yaw:.6g} N m/rad: neither may be 0; give stiffer springs or another load, or "
+            "leave tilt_yaw out"
+        ) from None
+    if not abs(linear.tilt) <= LARGEST_TILT:
+        raise refused(
+            f"under {load:.6g} N the static tilt is {linear.tilt:.4g} rad, the roller tips over at {LARGEST_TILT:g} rad; give a "
+            "stiffer stiffness_tilt, a lower load or less bending, or leave tilt_yaw out"
+        )

@@ -12,8 +12,7 @@ from contact_sim_pkg.records.messages import RollerStability
 from contact_sim_pkg.rigs.roller.block_motion import Matrix, TiltYaw
 from contact_sim_pkg.rigs.roller.energy import Energies
 from contact_sim_pkg.rigs.roller.forecast import forecast
-from contact_sim_pkg.rigs.roller.model import build_roller
-from contact_sim_pkg.rigs.roller.model_checks import refused
+from contact_sim_pkg.rigs.roller.model import build_roller, refused
 from contact_sim_pkg.rigs.roller.outputs import RollerMeasurement, RollerRecord, block_outputs
 from contact_sim_pkg.rigs.roller.ride import Ridden, TrackRide, joined
 from contact_sim_pkg.rigs.roller.settings import volume_settings

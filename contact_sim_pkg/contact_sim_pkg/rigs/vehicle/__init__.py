@@ -41,7 +41,7 @@ RIGS = (
         road_strip=_ROAD_STRIP,
         accuracy=_ACCURACY,
         work_precision=tuple(
-            f"{__name__}.studies.work_precision_{name}"
+            f"{__name__}.studies.work_precision.{name}"
             for name in ("elliptic", "force", "smooth", "rough", "area", "exponent", "road")
         ),
         hard_cases=(f"{__name__}.studies.hard_cases_tire", f"{__name__}.studies.hard_cases_scenes"),

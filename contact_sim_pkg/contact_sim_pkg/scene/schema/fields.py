@@ -3,13 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from pydantic import BaseModel, ConfigDict, Field, field_validator
 from pydantic_core import PydanticCustomError
-
-if TYPE_CHECKING:
-    from contact_sim_pkg.scene.schema.scene import Scene
 
 LEAST = 1e-30
 """In size, of any number but 0: squares and quotients of smaller ones leave the range of 64-bit numbers."""
@@ -23,8 +20,8 @@ class Section(BaseModel):
 
     model_config = ConfigDict(strict=True, extra="forbid", frozen=True, allow_inf_nan=False)
 
-    def open_values(self, scene: Scene) -> dict[str, Any]:
-        """Values of the keys that the scene leaves open, where they follow from other keys or from `accuracy`."""
+    def open_values(self, scene: Any) -> dict[str, Any]:
+        """Values of the keys that a `scene.Scene` leaves open, where they follow from other keys or from `accuracy`."""
         return {}
 
     @field_validator("*")

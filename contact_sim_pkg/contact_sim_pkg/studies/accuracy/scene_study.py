@@ -18,8 +18,8 @@ from typing import Any
 
 from contact_sim_pkg.records.accuracy import AccuracyStudy
 from contact_sim_pkg.records.registry import rigs
-from contact_sim_pkg.rigs.vehicle.studies.scene_drive import load_resolved
 from contact_sim_pkg.scene.errors import Fault, SceneError
+from contact_sim_pkg.scene.resolve import load_resolved
 from contact_sim_pkg.studies.accuracy.scene_plot import write_plot
 from contact_sim_pkg.studies.accuracy.scene_table import sections
 from contact_sim_pkg.studies.cases import objects

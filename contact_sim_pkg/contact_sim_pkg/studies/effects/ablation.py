@@ -14,11 +14,11 @@ from contact_sim_pkg.records.contact import Contact
 from contact_sim_pkg.records.effect import Effect
 from contact_sim_pkg.records.registry import rigs
 from contact_sim_pkg.records.table import Section
-from contact_sim_pkg.rigs.vehicle.studies.scene_drive import load_resolved, without
+from contact_sim_pkg.rigs.vehicle.studies.scene_drive import without
 from contact_sim_pkg.run.errors import RunError
 from contact_sim_pkg.scene.errors import SceneError
 from contact_sim_pkg.scene.overrides import set_value
-from contact_sim_pkg.scene.resolve import ResolvedScene, read_explicit
+from contact_sim_pkg.scene.resolve import ResolvedScene, load_resolved, read_explicit
 from contact_sim_pkg.studies.effects.ablation_changes import changes_of
 from contact_sim_pkg.studies.effects.ablation_runs import Pair, paired
 

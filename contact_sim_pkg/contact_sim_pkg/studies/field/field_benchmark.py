@@ -25,7 +25,12 @@ from numpy.typing import NDArray
 from contact_sim_pkg.pressure.field import solver as field_solver
 from contact_sim_pkg.pressure.field.rolling import RollingField
 from contact_sim_pkg.pressure.field.solver import FieldResult, make_workspace
-from contact_sim_pkg.rigs.vehicle.studies.rolling_problem import GRIDS, LOAD, RollingProblem, rolling_problem
+from contact_sim_pkg.rigs.vehicle.studies.work_precision.rolling_problem import (
+    GRIDS,
+    LOAD,
+    RollingProblem,
+    rolling_problem,
+)
 
 __all__ = ["Sequence", "calibrate", "cold", "read_at", "rows_of", "sequence"]
 

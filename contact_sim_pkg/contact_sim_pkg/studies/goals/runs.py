@@ -11,8 +11,8 @@ from pathlib import Path
 from typing import Any
 
 from contact_sim_pkg.records.goal import GoalPart, Measured
-from contact_sim_pkg.rigs.vehicle.studies.scene_drive import load_resolved
 from contact_sim_pkg.run.offline import run_offline
+from contact_sim_pkg.scene.resolve import load_resolved
 
 __all__ = ["GOALS", "offline", "on_nodes"]
 

@@ -7,7 +7,7 @@ from contact_sim_pkg.records.registry import rigs
 from contact_sim_pkg.rigs.backrest.reference import SlappingMass, slapping_mass
 from contact_sim_pkg.rigs.backrest.studies import accuracy as accuracy_cost_backrest
 from contact_sim_pkg.rigs.backrest.studies.drive import drive_of, fast_run, slow_run
-from contact_sim_pkg.rigs.vehicle.studies.scene_drive import load_resolved
+from contact_sim_pkg.scene.resolve import load_resolved
 from contact_sim_pkg.studies.accuracy import scene_study as accuracy_cost
 
 SMALL_SHELL = (

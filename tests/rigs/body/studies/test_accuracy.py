@@ -5,7 +5,7 @@ from itertools import pairwise
 import pytest
 
 from contact_sim_pkg.rigs.body.studies import accuracy as accuracy_cost_block
-from contact_sim_pkg.rigs.vehicle.studies.scene_drive import load_resolved
+from contact_sim_pkg.scene.resolve import load_resolved
 from contact_sim_pkg.studies.accuracy import scene_study as accuracy_cost
 
 

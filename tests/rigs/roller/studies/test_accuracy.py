@@ -3,7 +3,7 @@
 import pytest
 
 from contact_sim_pkg.rigs.roller.studies import accuracy as accuracy_cost_roller
-from contact_sim_pkg.rigs.vehicle.studies.scene_drive import load_resolved
+from contact_sim_pkg.scene.resolve import load_resolved
 from contact_sim_pkg.studies.accuracy import scene_study as accuracy_cost
 
 SMALL = (

@@ -12,11 +12,11 @@ from contact_sim_pkg.compiled.arrays import Vector
 from contact_sim_pkg.compiled.results import DONE, SENTENCES
 from contact_sim_pkg.integrate.dormand_prince import make_workspace
 from contact_sim_pkg.laws.parameters import GeneralDissipative, NormalElastic
+from contact_sim_pkg.reference.vehicle import Law, Occupant, normal_force, states_at_segments
 from contact_sim_pkg.rigs.backrest import entries
 from contact_sim_pkg.rigs.backrest.model import BackrestModel, build_backrest
 from contact_sim_pkg.rigs.backrest.motion import margin_count
 from contact_sim_pkg.rigs.backrest.parameters import ENDED, PLACE, START, TOUCHED, make_mode
-from contact_sim_pkg.rigs.vehicle.reference import Law, Occupant, normal_force, states_at_segments
 from contact_sim_pkg.run.sources import make_sources
 from contact_sim_pkg.run.vibration_drive import VIBRATION, accelerations
 from contact_sim_pkg.scene.resolved_scene import ResolvedScene

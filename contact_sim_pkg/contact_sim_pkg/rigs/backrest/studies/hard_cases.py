@@ -6,7 +6,7 @@ import numpy
 
 from contact_sim_pkg.records.hard_case import Finding, HardCase, at_most, close_to, exactly
 from contact_sim_pkg.rigs.backrest.studies.drive import Motion, drive_of, fast_run, slow_run
-from contact_sim_pkg.rigs.vehicle.studies.scene_drive import load_resolved
+from contact_sim_pkg.scene.resolve import load_resolved
 
 MODEL = "backrest"
 TIGHT = "integrator.relative_tolerance=1e-10"

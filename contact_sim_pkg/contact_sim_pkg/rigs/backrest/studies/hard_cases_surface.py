@@ -10,7 +10,7 @@ from contact_sim_pkg.records.hard_case import Finding, HardCase, at_most, close_
 from contact_sim_pkg.rigs.backrest.contact_search import nearest_point
 from contact_sim_pkg.rigs.backrest.parameters import ContactSearch
 from contact_sim_pkg.rigs.backrest.studies.drive import Motion, drive_of, fast_run
-from contact_sim_pkg.rigs.vehicle.studies.scene_drive import load_resolved
+from contact_sim_pkg.scene.resolve import load_resolved
 
 FOAM, SEARCH = "foam at the back", "contact search"
 TIGHT = "integrator.relative_tolerance=1e-9"

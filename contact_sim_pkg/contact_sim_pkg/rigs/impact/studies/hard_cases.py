@@ -16,8 +16,8 @@ from contact_sim_pkg.rigs.impact.theory.bodies import Material, Sphere
 from contact_sim_pkg.rigs.impact.theory.contact import ContactLaw, touch
 from contact_sim_pkg.rigs.impact.theory.inverse import material_of_impact
 from contact_sim_pkg.rigs.impact.theory.motion import solve_impact
-from contact_sim_pkg.rigs.vehicle.studies.hard_cases_scenes import Message, messages_of
 from contact_sim_pkg.run.errors import RunError
+from contact_sim_pkg.run.scene_messages import Message, messages_of
 from contact_sim_pkg.scene.errors import SceneError
 
 __all__ = ["CASES"]

@@ -15,10 +15,10 @@ import numpy
 from contact_sim_pkg.bag.messages import decode
 from contact_sim_pkg.compiled.arrays import Vector
 from contact_sim_pkg.records.messages import ContactForce
-from contact_sim_pkg.rigs.vehicle.studies.scene_drive import load_resolved
 from contact_sim_pkg.run.rigs import make_simulation
 from contact_sim_pkg.run.sources import make_sources
 from contact_sim_pkg.scene.errors import SceneError
+from contact_sim_pkg.scene.resolve import load_resolved
 from contact_sim_pkg.scene.resolved_scene import ResolvedScene
 
 __all__ = ["coupling_rows"]

@@ -10,8 +10,8 @@ from typing import Any
 import numpy
 
 from contact_sim_pkg.compiled.arrays import Vector
+from contact_sim_pkg.reference.vehicle import normal_force
 from contact_sim_pkg.rigs.vehicle import entries as columns
-from contact_sim_pkg.rigs.vehicle.reference import normal_force
 from contact_sim_pkg.rigs.vehicle.studies.scene_drive import (
     SceneDrive,
     drive_of,

@@ -6,7 +6,8 @@ from functools import partial
 
 from contact_sim_pkg.records.goal import GoalPart, Measured, median_time
 from contact_sim_pkg.rigs.vehicle.studies.accuracy_field import bench_solves
-from contact_sim_pkg.rigs.vehicle.studies.scene_drive import drive_of, fast_run, load_resolved
+from contact_sim_pkg.rigs.vehicle.studies.scene_drive import drive_of, fast_run
+from contact_sim_pkg.scene.resolve import load_resolved
 
 __all__ = ["GOALS", "point_contacts", "tire_field"]
 

@@ -7,26 +7,7 @@ from typing import Any
 from contact_sim_pkg.bag.messages import decode
 from contact_sim_pkg.records.hard_case import Finding, HardCase, at_most, exactly
 from contact_sim_pkg.records.messages import ContactForce, ContactPatch, EnergyLedger
-from contact_sim_pkg.run.rigs import make_simulation
-from contact_sim_pkg.run.sources import make_sources
-from contact_sim_pkg.scene.load import load_scene
-from contact_sim_pkg.scene.overrides import set_duration, set_value
-from contact_sim_pkg.scene.resolve import resolve
-
-Message = tuple[str, int, bytes]
-
-
-def messages_of(scene_name: str, duration: float, *values: str) -> list[Message]:
-    """Recorded messages of a shipped scene, `values` as of `--set`, without the wall times of `bench/cost`."""
-    overrides = [set_duration(duration), *(set_value(value) for value in values)]
-    scene = resolve(load_scene(scene_name, overrides))
-    simulation, sources = make_simulation(scene), make_sources(scene)
-    simulation.prepare()
-    found: list[Message] = []
-    for block in range(simulation.blocks):
-        result = simulation.advance(block, {topic: source.block(block) for topic, source in sources.items()})
-        found += [message for message in result.messages if message[0] != "bench/cost"]
-    return found
+from contact_sim_pkg.run.scene_messages import Message, messages_of
 
 
 def _last(messages: list[Message], topic: str) -> Any:

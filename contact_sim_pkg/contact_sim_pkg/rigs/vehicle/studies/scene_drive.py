@@ -11,19 +11,17 @@ from contact_sim_pkg.compiled.arrays import Vector
 from contact_sim_pkg.compiled.results import DONE, SENTENCES
 from contact_sim_pkg.integrate.dormand_prince import make_workspace
 from contact_sim_pkg.laws.parameters import Contact, GeneralDissipative, NormalElastic
+from contact_sim_pkg.reference.vehicle import Belt, Law, Occupant, Quarter, states_at_segments
 from contact_sim_pkg.rigs.vehicle import entries
 from contact_sim_pkg.rigs.vehicle.model import Model, build, standing_state
 from contact_sim_pkg.rigs.vehicle.motion import MARGINS
 from contact_sim_pkg.rigs.vehicle.parameters import Vehicle
-from contact_sim_pkg.rigs.vehicle.reference import Belt, Law, Occupant, Quarter, states_at_segments
 from contact_sim_pkg.rigs.vehicle.tire.footprint import effective_heights
 from contact_sim_pkg.run.sources import make_sources, make_travel
-from contact_sim_pkg.scene.load import load_scene
-from contact_sim_pkg.scene.overrides import set_value
-from contact_sim_pkg.scene.resolve import ResolvedScene, resolve
+from contact_sim_pkg.scene.resolve import ResolvedScene
 from contact_sim_pkg.scene.schema.effect_rules import dependents_of
 
-__all__ = ["SceneDrive", "drive_of", "fast_run", "load_resolved", "slow_run", "twin_laws", "without"]
+__all__ = ["SceneDrive", "drive_of", "fast_run", "slow_run", "twin_laws", "without"]
 
 
 class SceneDrive(NamedTuple):
@@ -35,11 +33,6 @@ class SceneDrive(NamedTuple):
     acceleration_x: Vector  # [m/s^2]
     acceleration_z: Vector
     start: Vector
-
-
-def load_resolved(scene_name: str, *values: str) -> ResolvedScene:
-    """A scene by name or path, resolved; `values` as of `--set`."""
-    return resolve(load_scene(scene_name, [set_value(value) for value in values]))
 
 
 def without(scene: ResolvedScene, *effects: tuple[str, str]) -> ResolvedScene:

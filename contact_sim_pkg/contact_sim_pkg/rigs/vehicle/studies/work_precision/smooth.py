@@ -18,8 +18,15 @@ from contact_sim_pkg.pressure.closed_form.lame_pressure import (
 )
 from contact_sim_pkg.records.work_precision import Row, Rung, WorkPrecision, milliseconds
 from contact_sim_pkg.reference import hertz as reference
-from contact_sim_pkg.rigs.vehicle.studies.fields import GIVEN, Answer, FieldRung, rows_of, solve, timed
-from contact_sim_pkg.rigs.vehicle.studies.patch_problem import CURVATURES, LOAD, MODULUS, PATCH, Cells, patch_problem
+from contact_sim_pkg.rigs.vehicle.studies.work_precision.fields import GIVEN, Answer, FieldRung, rows_of, solve, timed
+from contact_sim_pkg.rigs.vehicle.studies.work_precision.patch_problem import (
+    CURVATURES,
+    LOAD,
+    MODULUS,
+    PATCH,
+    Cells,
+    patch_problem,
+)
 
 __all__ = ["FIELD_CELLS", "PART", "REFERENCE", "TIERS", "WORK_PRECISION", "exact_answer", "rows"]
 

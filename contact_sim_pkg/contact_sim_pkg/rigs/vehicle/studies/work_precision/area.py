@@ -13,10 +13,10 @@ from contact_sim_pkg.pressure.closed_form.lame import fit_patch, lame_area
 from contact_sim_pkg.pressure.field.halfspace import HalfSpace
 from contact_sim_pkg.pressure.field.patch import contact_area, summarise
 from contact_sim_pkg.records.work_precision import Row, Rung, WorkPrecision, milliseconds, relative, row
-from contact_sim_pkg.rigs.vehicle.studies.fields import AREA, GIVEN, solve
-from contact_sim_pkg.rigs.vehicle.studies.patch_problem import CURVATURES, LOAD, MODULUS, patch_problem
-from contact_sim_pkg.rigs.vehicle.studies.work_precision_rough import OWN, SEED, finest
-from contact_sim_pkg.rigs.vehicle.studies.work_precision_smooth import REFERENCE, TIERS, exact_answer
+from contact_sim_pkg.rigs.vehicle.studies.work_precision.fields import AREA, GIVEN, solve
+from contact_sim_pkg.rigs.vehicle.studies.work_precision.patch_problem import CURVATURES, LOAD, MODULUS, patch_problem
+from contact_sim_pkg.rigs.vehicle.studies.work_precision.rough import OWN, SEED, finest
+from contact_sim_pkg.rigs.vehicle.studies.work_precision.smooth import REFERENCE, TIERS, exact_answer
 
 __all__ = ["PART", "WORK_PRECISION", "rows"]
 

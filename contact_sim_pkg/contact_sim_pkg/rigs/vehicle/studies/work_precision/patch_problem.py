@@ -14,7 +14,7 @@ import numpy
 from numpy.typing import NDArray
 
 from contact_sim_pkg.pressure.field.halfspace import HalfSpace, make_half_space
-from contact_sim_pkg.rigs.vehicle.studies.rolling_problem import (
+from contact_sim_pkg.rigs.vehicle.studies.work_precision.rolling_problem import (
     FINEST,
     FIRST,
     HIGHEST,

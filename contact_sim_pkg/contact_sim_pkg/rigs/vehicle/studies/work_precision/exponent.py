@@ -18,8 +18,16 @@ from contact_sim_pkg.pressure.closed_form.lame_pressure import (
 )
 from contact_sim_pkg.pressure.field.halfspace import make_half_space
 from contact_sim_pkg.records.work_precision import Row, Rung, WorkPrecision, milliseconds, relative, row
-from contact_sim_pkg.rigs.vehicle.studies.fields import CONVERGED, GIVEN, Answer, FieldRung, rows_of, solve, timed
-from contact_sim_pkg.rigs.vehicle.studies.patch_problem import PatchProblem
+from contact_sim_pkg.rigs.vehicle.studies.work_precision.fields import (
+    CONVERGED,
+    GIVEN,
+    Answer,
+    FieldRung,
+    rows_of,
+    solve,
+    timed,
+)
+from contact_sim_pkg.rigs.vehicle.studies.work_precision.patch_problem import PatchProblem
 
 __all__ = ["EXPONENTS", "PART", "WORK_PRECISION", "power_gap", "rows"]
 

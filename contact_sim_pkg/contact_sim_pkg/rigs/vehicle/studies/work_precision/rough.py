@@ -9,7 +9,7 @@ import numpy
 from contact_sim_pkg.pressure.field.winkler import bed_stiffness, winkler_at_approach, winkler_at_load
 from contact_sim_pkg.records.work_precision import Row, Rung, WorkPrecision, milliseconds
 from contact_sim_pkg.reference.halfspace import dense_influence, pressure_at_approach
-from contact_sim_pkg.rigs.vehicle.studies.fields import (
+from contact_sim_pkg.rigs.vehicle.studies.work_precision.fields import (
     CONVERGED,
     GIVEN,
     Answer,
@@ -21,7 +21,7 @@ from contact_sim_pkg.rigs.vehicle.studies.fields import (
     solve,
     timed,
 )
-from contact_sim_pkg.rigs.vehicle.studies.patch_problem import (
+from contact_sim_pkg.rigs.vehicle.studies.work_precision.patch_problem import (
     CURVATURES,
     LOAD,
     MODULUS,
@@ -29,7 +29,7 @@ from contact_sim_pkg.rigs.vehicle.studies.patch_problem import (
     PatchProblem,
     patch_problem,
 )
-from contact_sim_pkg.rigs.vehicle.studies.work_precision_smooth import FIELD_CELLS, TIERS
+from contact_sim_pkg.rigs.vehicle.studies.work_precision.smooth import FIELD_CELLS, TIERS
 
 __all__ = [
     "CHECK_PART",

@@ -17,10 +17,10 @@ from contact_sim_pkg.laws.normal_elastic import approach_of_force, elastic_force
 from contact_sim_pkg.laws.parameters import NormalElastic
 from contact_sim_pkg.records.work_precision import Row, Rung, WorkPrecision, milliseconds, relative, row
 from contact_sim_pkg.rigs.vehicle.contact_field import TANGENT_LOAD_STEP
-from contact_sim_pkg.rigs.vehicle.studies.fields import APPROACH, FORCE, GIVEN, FieldRung, PatchSolver
-from contact_sim_pkg.rigs.vehicle.studies.patch_problem import LOAD, patch_problem
-from contact_sim_pkg.rigs.vehicle.studies.work_precision_rough import FINEST, SEED
-from contact_sim_pkg.rigs.vehicle.studies.work_precision_smooth import REFERENCE, TIERS, exact_answer
+from contact_sim_pkg.rigs.vehicle.studies.work_precision.fields import APPROACH, FORCE, GIVEN, FieldRung, PatchSolver
+from contact_sim_pkg.rigs.vehicle.studies.work_precision.patch_problem import LOAD, patch_problem
+from contact_sim_pkg.rigs.vehicle.studies.work_precision.rough import FINEST, SEED
+from contact_sim_pkg.rigs.vehicle.studies.work_precision.smooth import REFERENCE, TIERS, exact_answer
 
 __all__ = ["PART", "WORK_PRECISION", "laws_through", "rows"]
 

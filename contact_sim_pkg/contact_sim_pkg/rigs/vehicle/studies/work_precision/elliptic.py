@@ -14,7 +14,7 @@ from contact_sim_pkg.pressure.closed_form.hertz_fits import (
 )
 from contact_sim_pkg.records.work_precision import Row, Rung, WorkPrecision, milliseconds, relative, row
 from contact_sim_pkg.reference import hertz as reference
-from contact_sim_pkg.rigs.vehicle.studies.patch_problem import CURVATURES, LOAD, MODULUS
+from contact_sim_pkg.rigs.vehicle.studies.work_precision.patch_problem import CURVATURES, LOAD, MODULUS
 
 __all__ = ["PART", "WORK_PRECISION", "rows"]
 

@@ -13,7 +13,7 @@ from contact_sim_pkg.pressure.field.rolling import RollingField
 from contact_sim_pkg.pressure.field.solver import CONVERGED as CERTIFIED
 from contact_sim_pkg.pressure.field.solver import SENTENCES
 from contact_sim_pkg.records.work_precision import Row, Rung, milliseconds, relative, row
-from contact_sim_pkg.rigs.vehicle.studies.patch_problem import Cells, PatchProblem, means_over
+from contact_sim_pkg.rigs.vehicle.studies.work_precision.patch_problem import Cells, PatchProblem, means_over
 
 __all__ = [
     "APPROACH",

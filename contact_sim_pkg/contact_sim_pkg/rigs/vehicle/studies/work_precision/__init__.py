@@ -1,0 +1,1 @@
+"""Work-precision studies of the tire, and the problems that they solve."""

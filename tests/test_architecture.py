@@ -1,0 +1,85 @@
+"""The order of imports between the rooms of the package, and the size of its folders."""
+
+import ast
+from collections import Counter
+
+import pytest
+from tests.house.source import PACKAGE, circles, imports, modules
+
+ORDER = (
+    ("files",), ("records",), ("compiled",), ("integrate",), ("laws",), ("pressure", "rigid", "reference"), ("excitation",),
+    ("scene",), ("bag",), ("run",), ("report",), ("rigs", "identify"), ("papers",), ("studies",), ("nodes",), ("cli",),
+)  # fmt: skip
+"""A room imports from those before it, and from none beside it."""
+RANK = {room: rank for rank, rooms in enumerate(ORDER) for room in rooms}
+BESIDE = {("occupant", "vehicle"), ("occupant", "backrest")}
+"""Rigs that import another rig: the occupant sits on a seat and against a seat back."""
+MOST_MODULES = 16
+
+EXCEPTIONS = {("rigs.backrest.model", "rigs.vehicle.contact_model")}
+"""Imports against the order, as modules that import and are imported; none may be added."""
+
+
+@pytest.fixture(scope="module")
+def found():
+    return modules()
+
+
+@pytest.fixture(scope="module")
+def edges(found):
+    return imports(found)
+
+
+def room(name):
+    return name.partition(".")[0]
+
+
+def rig(name):
+    parts = name.split(".")
+    return parts[1] if parts[0] == "rigs" and len(parts) > 1 else ""
+
+
+def against_the_order(name, target):
+    """Whether an import, at the top of a module, in a function or for types, goes up or sideways."""
+    if room(name) != room(target):
+        return RANK[room(target)] >= RANK[room(name)]
+    two = rig(name), rig(target)
+    return "" not in two and two[0] != two[1] and two not in BESIDE
+
+
+def test_every_room_has_its_place_in_the_order(found):
+    assert {room(name) for name in found} - {""} == set(RANK)
+
+
+def test_imports_go_one_way(edges):
+    wrong = {(name, target) for name, targets in edges.items() for target in targets if against_the_order(name, target)}
+    assert wrong == EXCEPTIONS
+
+
+def test_imports_are_absolute(found):
+    """`tests.house.source.imports` sees no others."""
+    relative = [
+        name
+        for name, module in found.items()
+        for node in ast.walk(module.tree)
+        if (isinstance(node, ast.ImportFrom) and node.level)
+        or (isinstance(node, ast.Import) and any(alias.name.startswith(PACKAGE.name) for alias in node.names))
+    ]
+    assert relative == []
+
+
+def test_an_import_against_the_order_is_seen():
+    assert against_the_order("records.rig", "scene.resolve")
+    assert against_the_order("pressure.layer", "rigid.body")
+    assert against_the_order("rigs.impact.model", "rigs.roller.model")
+    assert not against_the_order("rigs.occupant.simulation", "rigs.vehicle.model")
+    assert not against_the_order("cli.main", "records.rig")
+
+
+def test_no_modules_import_each_other(edges):
+    assert circles(edges) == []
+
+
+def test_a_folder_holds_at_most_sixteen_modules(found):
+    folders = Counter(module.path.parent for module in found.values() if module.path.name != "__init__.py")
+    assert {str(path.relative_to(PACKAGE)): count for path, count in folders.items() if count > MOST_MODULES} == {}
