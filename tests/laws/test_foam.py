@@ -15,7 +15,12 @@ from contact_sim_pkg.laws.elastic_law import (
     elastic_order,
     elastic_stiffness,
 )
-from contact_sim_pkg.laws.foam_hysteresis import factor_rate, memory_energy, memory_factor, memory_rate
+from contact_sim_pkg.laws.foam_hysteresis import (
+    hysteresis_energy,
+    hysteresis_factor,
+    hysteresis_factor_rate,
+    hysteresis_rate,
+)
 from contact_sim_pkg.laws.one_mass.parameters import PointContact
 from contact_sim_pkg.laws.one_mass.runs import integrate
 from contact_sim_pkg.laws.parameters import FoamElastic, FoamHysteresis, NormalDissipative, NormalElastic
@@ -100,7 +105,7 @@ def marched(power, z, duration, steps=4000):
 
     def rate(value):
         out = numpy.zeros(1)
-        memory_rate(MEMORY, power, numpy.array([value]), out)
+        hysteresis_rate(MEMORY, power, numpy.array([value]), out)
         return out[0]
 
     h = duration / steps
@@ -121,12 +126,16 @@ def test_the_memory_follows_the_energy_exponentially_and_not_the_time():
 def test_factor_rate_and_energy_are_what_the_docstring_says():
     state = numpy.array([0.3])
     out = numpy.zeros(1)
-    memory_rate(MEMORY, -4.0, state, out)
+    hysteresis_rate(MEMORY, -4.0, state, out)
     assert out[0] == pytest.approx((-4.0 - 4.0 * 0.3) / ENERGY)
-    assert memory_factor(MEMORY, state) == pytest.approx(1.06)
-    assert factor_rate(MEMORY, out) == pytest.approx(SHARE * out[0])
-    assert memory_energy(MEMORY, state) == pytest.approx(0.5 * SHARE * ENERGY * 0.09)
-    assert (memory_factor(None, state), memory_energy(None, state), factor_rate(None, out)) == (1.0, 0.0, 0.0)
+    assert hysteresis_factor(MEMORY, state) == pytest.approx(1.06)
+    assert hysteresis_factor_rate(MEMORY, out) == pytest.approx(SHARE * out[0])
+    assert hysteresis_energy(MEMORY, state) == pytest.approx(0.5 * SHARE * ENERGY * 0.09)
+    assert (hysteresis_factor(None, state), hysteresis_energy(None, state), hysteresis_factor_rate(None, out)) == (
+        1.0,
+        0.0,
+        0.0,
+    )
 
 
 @pytest.mark.parametrize("elastic", [FOAM, NormalElastic(2.73e5, 1.5)])
@@ -137,8 +146,8 @@ def test_a_closed_loop_loses_what_its_closed_form_says(elastic, depth):
     def work(t, y):
         x, v = depth * math.sin(math.pi * t), depth * math.pi * math.cos(math.pi * t)
         carried, out = elastic_force(elastic, x), numpy.zeros(1)
-        memory_rate(MEMORY, carried * v, y[:1], out)
-        return [out[0], carried * memory_factor(MEMORY, y[:1]) * v]
+        hysteresis_rate(MEMORY, carried * v, y[:1], out)
+        return [out[0], carried * hysteresis_factor(MEMORY, y[:1]) * v]
 
     settings = {"rtol": 1e-11, "atol": 1e-13}
     pressed = solve_ivp(work, (0.0, 0.5), [0.0, 0.0], **settings).y[:, -1]

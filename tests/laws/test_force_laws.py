@@ -14,7 +14,7 @@ from contact_sim_pkg.laws.elastic_law import (
     elastic_order,
     elastic_stiffness,
 )
-from contact_sim_pkg.laws.normal_force import normal_force, normal_force_rate, pressure_factor, tension_margin
+from contact_sim_pkg.laws.normal_force import normal_force, normal_force_rate, pressure_factor, tension_event
 from contact_sim_pkg.laws.parameters import FoamElastic, GeneralDissipative, NormalDissipative, NormalElastic
 
 QUICK = settings(database=None, derandomize=True, deadline=None, max_examples=60)
@@ -79,7 +79,7 @@ def test_hunt_and_crossley_is_right_over_its_range(law, damping, x, rate, memory
     factor = max(0.0, memory + damping * rate)
     force = law.coefficient * x**law.exponent
     assert normal_force(law, loss, x, rate, memory) == pytest.approx(force * factor, rel=1e-12, abs=1e-15 * force)
-    assert tension_margin(law, loss, x, rate, memory) == pytest.approx(memory + damping * rate, rel=1e-14, abs=1e-15)
+    assert tension_event(law, loss, x, rate, memory) == pytest.approx(memory + damping * rate, rel=1e-14, abs=1e-15)
     assert pressure_factor(law, loss, x, rate, memory) == pytest.approx(factor, rel=1e-12, abs=1e-14)
     moving = factor > 0.0
     expected = law.exponent * force / x * factor * rate + damping * force * 3.0 if moving else 0.0
@@ -98,7 +98,7 @@ def test_the_general_law_is_right_over_its_range(law, loss, x, rate):
         expected = elastic + lost if loss.lowest_force < 0.0 else max(0, elastic + lost)
         scale = float(abs(elastic) + abs(lost))
     assert normal_force(law, loss, x, rate, 1.0) == pytest.approx(float(expected), rel=1e-12, abs=1e-13 * scale)
-    margin = tension_margin(law, loss, x, rate, 1.0)
+    margin = tension_event(law, loss, x, rate, 1.0)
     assert margin == math.inf if loss.lowest_force < 0.0 else (margin > 0.0) == (elastic + lost > 0)
 
 
@@ -147,7 +147,7 @@ def test_an_elastic_law_outside_its_range_is_refused(law, name):
     ],
 )
 def test_a_loss_outside_its_range_is_refused(loss, name):
-    for function in (normal_force, tension_margin, pressure_factor):
+    for function in (normal_force, tension_event, pressure_factor):
         with pytest.raises(ValueError, match=name):
             function(GOOD, loss, 0.01, 0.1, 1.0)
     with pytest.raises(ValueError, match=name):

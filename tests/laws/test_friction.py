@@ -8,9 +8,9 @@ from contact_sim_pkg.laws.friction import (
     STICK,
     following_deflection,
     friction_force,
-    slip_margin,
-    spring_is_held,
-    stick_margin,
+    slip_event,
+    spring_is_limited,
+    stick_event,
 )
 from contact_sim_pkg.laws.one_mass.parameters import BeltSlider
 from contact_sim_pkg.laws.one_mass.runs import integrate
@@ -51,20 +51,20 @@ def test_the_force_is_continuous_where_slip_ends(velocity):
     ("velocity", "held"), [(-0.1, False), (0.0, False), (0.5, False), (1.5, False), (1.6, True), (3.0, True)]
 )
 def test_the_spring_is_held_where_the_damper_alone_carries_twice_the_limit(velocity, held):
-    assert spring_is_held(LAW, 1, 100.0, velocity) == held
-    assert spring_is_held(LAW, -1, 100.0, -velocity) == held
+    assert spring_is_limited(LAW, 1, 100.0, velocity) == held
+    assert spring_is_limited(LAW, -1, 100.0, -velocity) == held
 
 
 def test_sticking_ends_at_the_static_limit():
-    assert stick_margin(LAW, 100.0, 5e-3, 0.0) == pytest.approx(0.0, abs=1e-13)
-    assert stick_margin(LAW, 100.0, -6e-3, 0.0) == pytest.approx(-10.0)
+    assert stick_event(LAW, 100.0, 5e-3, 0.0) == pytest.approx(0.0, abs=1e-13)
+    assert stick_event(LAW, 100.0, -6e-3, 0.0) == pytest.approx(-10.0)
 
 
 def test_the_slip_rate_counts_the_following_spring():
-    assert slip_margin(LAW, 1, 0.5, -3.0, 100.0, 0.0) == pytest.approx(0.5 - 50.0 * 3.0 / 1e4)
-    assert slip_margin(LAW, 1, -0.1, -3.0, 100.0, -5000.0) == pytest.approx(-0.1 + (0.4 * 5000.0 - 50.0 * 3.0) / 1e4)
-    assert slip_margin(LAW, 1, -0.1, 0.0, 100.0, -5000.0) == pytest.approx(-0.1 + 0.4 * 5000.0 / 1e4)
-    assert slip_margin(LAW, 1, 3.0, -1e9, 100.0, -1e9) == 3.0, "held beyond the limit by the damper alone"
+    assert slip_event(LAW, 1, 0.5, -3.0, 100.0, 0.0) == pytest.approx(0.5 - 50.0 * 3.0 / 1e4)
+    assert slip_event(LAW, 1, -0.1, -3.0, 100.0, -5000.0) == pytest.approx(-0.1 + (0.4 * 5000.0 - 50.0 * 3.0) / 1e4)
+    assert slip_event(LAW, 1, -0.1, 0.0, 100.0, -5000.0) == pytest.approx(-0.1 + 0.4 * 5000.0 / 1e4)
+    assert slip_event(LAW, 1, 3.0, -1e9, 100.0, -1e9) == 3.0, "held beyond the limit by the damper alone"
 
 
 def test_the_loop_of_a_slow_oscillation_encloses_four_mu_n_times_the_slip():

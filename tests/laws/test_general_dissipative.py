@@ -6,7 +6,7 @@ import numpy
 import pytest
 
 from contact_sim_pkg.laws.general_dissipative import SMOOTHING, rate_power, rate_power_slope
-from contact_sim_pkg.laws.normal_force import normal_force, normal_force_rate, tension_margin
+from contact_sim_pkg.laws.normal_force import normal_force, normal_force_rate, tension_event
 from contact_sim_pkg.laws.one_mass.parameters import ImpactWorks, PointContact
 from contact_sim_pkg.laws.one_mass.runs import integrate
 from contact_sim_pkg.laws.parameters import GeneralDissipative, NormalDissipative, NormalElastic
@@ -73,15 +73,15 @@ def test_the_margin_changes_its_sign_where_the_force_reaches_zero(p, q):
     general = loss(700.0, p, q)
     for approach in (1e-6, 1e-3, 0.05):
         zero_at = -((LAW.coefficient * approach ** (1.5 - p) / 700.0) ** (1.0 / q))
-        assert tension_margin(LAW, general, approach, zero_at * (1.0 - 1e-9), 1.0) > 0.0
-        assert tension_margin(LAW, general, approach, zero_at * (1.0 + 1e-9), 1.0) < 0.0
-        assert tension_margin(LAW, loss(700.0, p, q, PULLS), approach, 10.0 * zero_at, 1.0) == math.inf
+        assert tension_event(LAW, general, approach, zero_at * (1.0 - 1e-9), 1.0) > 0.0
+        assert tension_event(LAW, general, approach, zero_at * (1.0 + 1e-9), 1.0) < 0.0
+        assert tension_event(LAW, loss(700.0, p, q, PULLS), approach, 10.0 * zero_at, 1.0) == math.inf
 
 
 @pytest.mark.parametrize("p", [0.0, 0.5, 1.5, 4.0])
 def test_the_margin_is_finite_at_first_touch_and_in_flight(p):
     for approach in (-1.0, 0.0, 1e-300, 1e-80):
-        assert math.isfinite(tension_margin(LAW, loss(700.0, p, 1.0), approach, -0.3, 1.0))
+        assert math.isfinite(tension_event(LAW, loss(700.0, p, 1.0), approach, -0.3, 1.0))
 
 
 @pytest.mark.parametrize("q", [0.0, 0.5, 1.0, 2.0])

@@ -7,7 +7,7 @@ from hypothesis import strategies as st
 
 from contact_sim_pkg.laws.friction import STICK, friction_force
 from contact_sim_pkg.laws.parameters import Friction
-from contact_sim_pkg.laws.point_friction import point_friction, point_stick_margin
+from contact_sim_pkg.laws.point_friction import point_friction, point_stick_event
 
 LAW = Friction(2e4, 30.0, 0.4, 0.4)
 component = st.floats(-1.0, 1.0)
@@ -16,7 +16,7 @@ component = st.floats(-1.0, 1.0)
 def test_a_point_that_sticks_pulls_as_the_friction_of_one_direction_does():
     force = point_friction(LAW, 50.0, 3e-4, 0.0, 0.1, 0.0)
     assert force == (friction_force(LAW, STICK, 50.0, 3e-4, 0.1), 0.0, 0.1, 0.0)
-    assert point_stick_margin(LAW, 50.0, 3e-4, 0.0, 0.1, 0.0) == 0.4 * 50.0 - (2e4 * 3e-4 + 30.0 * 0.1)
+    assert point_stick_event(LAW, 50.0, 3e-4, 0.0, 0.1, 0.0) == 0.4 * 50.0 - (2e4 * 3e-4 + 30.0 * 0.1)
 
 
 def test_in_steady_slip_the_force_is_the_limit_along_the_slip_and_the_spring_stands():
@@ -41,7 +41,7 @@ def test_stick_and_slip_meet_without_a_jump():
         for normal in (math.hypot(3.5, 4.0) / 0.4 * (1.0 + d) for d in (1e-9, -1e-9))
     )
     assert max(abs(a - b) for a, b in zip(below, above, strict=True)) < 1e-7
-    assert point_stick_margin(LAW, math.hypot(3.5, 4.0) / 0.4 * (1.0 + 1e-9), 1e-4, 2e-4, 0.05, 0.0) > 0.0
+    assert point_stick_event(LAW, math.hypot(3.5, 4.0) / 0.4 * (1.0 + 1e-9), 1e-4, 2e-4, 0.05, 0.0) > 0.0
 
 
 def test_without_a_normal_force_the_spring_runs_back_by_itself():

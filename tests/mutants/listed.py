@@ -19,15 +19,15 @@ class Mutant(NamedTuple):
 
 MUTANTS = (
     # Laws of a contact point
-    Mutant("friction.spring_is_held", "2.0 *", "1.0 *", ("test_friction",)),
+    Mutant("friction.spring_is_limited", "2.0 *", "1.0 *", ("test_friction",)),
     Mutant("friction.following_deflection", "max(along, -limit)", "along", ("test_friction",)),
-    Mutant("friction.stick_margin", "coefficient_static", "coefficient_kinetic", ("test_friction",)),
+    Mutant("friction.stick_event", "coefficient_static", "coefficient_kinetic", ("test_friction",)),
     Mutant("normal_dissipative.loss_factor", "max(0.0, ", "max(-1.0, ", ("test_force_laws",)),
     Mutant("general_dissipative.rate_power", "0.5 * (", "1.0 * (", ("test_general_dissipative",)),
     Mutant("general_dissipative.general_force_rate", "p * thickness", "thickness", ("test_general_dissipative",)),
-    Mutant("foam_hysteresis.memory_energy", "0.5 *", "1.0 *", ("test_foam",)),
+    Mutant("foam_hysteresis.hysteresis_energy", "0.5 *", "1.0 *", ("test_foam",)),
     Mutant("foam_elastic.foam_tangent_modulus", "(a - 1.0) *", "a *", ("test_foam",)),
-    Mutant("point_friction.point_stick_margin", "normal - trial", "normal + trial", ("test_point_friction",)),
+    Mutant("point_friction.point_stick_event", "normal - trial", "normal + trial", ("test_point_friction",)),
     # Pressure fields
     Mutant("hertz.contact_of_shape", "1.0 / 6.0", "1.0 / 5.0", ("test_hertz",)),
     Mutant("hertz.stiffness_coefficient", "integral_k**3", "integral_k**2", ("test_hertz",)),

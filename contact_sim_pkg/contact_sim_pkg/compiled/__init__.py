@@ -1,1 +1,3 @@
-"""Compile options, the cache of kernels on disk, array types and small dense algebra. All kernels are decorated here."""
+"""Compile options, the cache of kernels on disk, array types and small dense algebra. All kernels
+are decorated here.
+"""

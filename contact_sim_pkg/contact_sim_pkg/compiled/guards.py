@@ -1,7 +1,9 @@
-"""Guards of public functions: what cannot be computed is refused before anything is, in one sentence.
+"""Guards of public functions: what cannot be computed is refused before anything is, in one
+sentence.
 
-The sentence holds the name, the value and what is allowed: `radius -1.0 m: a finite number above 0 is needed`. A guard stands
-where Python calls, once; compiled functions have none. Every function here raises `error`, a kind of `ValueError`.
+The sentence holds the name, the value and what is allowed: `radius -1.0 m: a finite number above 0
+is needed`. A guard stands where Python calls, once; compiled functions have none. Every function
+here raises `error`, a kind of `ValueError`.
 """
 
 from __future__ import annotations
@@ -32,8 +34,11 @@ def require(
     name: str, value: Any, unit: str = "", *, above: float = -math.inf, least: float = -math.inf, below: float = math.inf,
     most: float = math.inf, infinite: bool = False, error: Error = ValueError,
 ) -> float:  # fmt: skip
-    """`value` as a float where it is a number within its bounds, and finite unless `infinite`; raises `error` otherwise."""
-    if type(value) is float and above < value < below and least <= value <= most:  # at once, for it is asked often
+    """`value` as a float where it is a number within its bounds, and finite unless `infinite`;
+    raises `error` otherwise.
+    """
+    # At once, for it is called often
+    if type(value) is float and above < value < below and least <= value <= most:
         return value
     try:
         number = float(value) if isinstance(value, Real) else math.nan
@@ -80,7 +85,9 @@ def require_choice(name: str, value: Any, allowed: Iterable[Any], *, error: Erro
 def require_fields(
     kind: str, record: Any, *, positive: str = "", not_negative: str = "", finite: str = "", error: Error = ValueError
 ) -> None:
-    """Refuse a record of `kind` by its fields, named in words: those above 0, those at least 0, those that are only finite."""
+    """Refuse a record of `kind` by its fields, named in words: those above 0, those at least 0,
+    those that are only finite.
+    """
     for names, least, above in (
         (positive, -math.inf, 0.0),
         (not_negative, 0.0, -math.inf),
@@ -94,7 +101,8 @@ def require_values(
     name: str, values: ArrayLike, unit: str = "", *, shape: tuple[int | None, ...] | None = None, rising: bool = False,
     above: float = -math.inf, least: float = -math.inf, most: float = math.inf, error: Error = ValueError,
 ) -> NDArray[numpy.float64]:  # fmt: skip
-    """`values` as a contiguous array where all are finite and within bounds; the sentence names the first that is not.
+    """`values` as a contiguous array where all are finite and within bounds; the sentence names the
+    first that is not.
 
     shape: None in it allows any length. rising: each value above the one before.
     """
@@ -103,7 +111,7 @@ def require_values(
     except (TypeError, ValueError):
         raise error(f"{name} {repr(values)[:60]}: an array of numbers is needed") from None
     if numpy.ndim(values) == 0:
-        array = array.reshape(())  # numpy makes a row of a single number
+        array = array.reshape(())  # numpy makes an array of a single number
     if shape is not None and not _fits(array.shape, shape):
         wanted = ", ".join("any" if length is None else str(length) for length in shape)
         raise error(f"{name}: shape {array.shape}, [{wanted}] is needed")

@@ -1,11 +1,11 @@
 """The one place for compile options: every compiled function of the core is decorated here.
 
-`@kernel` marks a compiled helper that other compiled functions call (`@borrowing_kernel` one that makes no array), `@entry` a
-compiled function that Python calls.
-What stands between Python and machine code is compiled for calls from Python alone: with the wide parameter tuples of a rig
-it would take a third of the time to compile.
-Both release the interpreter lock, follow the NumPy error model (1/0 is inf, never an exception half-way through an
-update), forbid `fastmath` (which removes guards against NaN) and are kept on disk (`compiled/kernel_cache.py`).
+`@kernel` marks a compiled helper that other compiled functions call (`@borrowing_kernel` one that
+makes no array), `@entry` a compiled function that Python calls. What stands between Python and
+machine code is compiled for calls from Python alone: with the wide parameter tuples of a rig it
+would take a third of the time to compile. Both release the interpreter lock, follow the NumPy error
+model (1/0 is inf, never an exception half-way through an update), forbid `fastmath` (which removes
+guards against NaN) and are kept on disk (`compiled/kernel_cache.py`).
 """
 
 from __future__ import annotations
@@ -25,10 +25,10 @@ __all__ = [
     "closed",
     "compiled_functions",
     "entry",
+    "inline_kernel",
     "kernel",
     "kernel_overload",
     "never_called",
-    "piece",
 ]
 
 COMPILE_OPTIONS: dict[str, Any] = {
@@ -42,15 +42,19 @@ _entries: list[Any] = []
 
 
 def kernel(function: Function) -> Function:
-    """Compile a helper that other compiled functions call; a call from Python compiles it once more, as an entry."""
+    """Compile a helper that other compiled functions call; a call from Python compiles it once
+    more, as an entry.
+    """
     return _kernel(function)
 
 
 def borrowing_kernel(function: Function) -> Function:
-    """As `kernel`, for a helper that makes no array and returns none: it works on arrays that its caller holds.
+    """As `kernel`, for a helper that makes no array and returns none: it works on arrays that its
+    caller holds.
 
-    numba then counts no references to them, which otherwise costs two atomic operations for every array of every tuple at
-    every call: half the time of an integrator's step. A helper that makes an array is refused when it is compiled.
+    numba then counts no references to them, which otherwise costs two atomic operations for every
+    array of every tuple at every call: half the time of an integrator's step. A helper that makes
+    an array is refused when it is compiled.
     """
     return _kernel(function, _nrt=False)
 
@@ -65,27 +69,33 @@ def _kernel(function: Function, **options: Any) -> Function:
     return compiled  # type: ignore[no-any-return]
 
 
-def piece(function: Function) -> Function:
-    """Compile a helper into its caller before types are known, so that it is optimised once: for what one or two kernels call.
+def inline_kernel(function: Function) -> Function:
+    """Compile a helper into its caller before types are known, so that it is optimised once: for
+    what one or two kernels call.
 
-    A kernel is optimised by itself and once more inside each caller, at every level of calls; a piece in its caller alone.
+    A kernel is optimised by itself and once more inside each caller, at every level of calls; an
+    inline kernel in its caller alone.
     """
     compiled: Any = numba.jit(**COMPILE_OPTIONS, inline="always")(function)
     return compiled  # type: ignore[no-any-return]
 
 
 def entry(function: Function) -> Function:
-    """Compile a function that is called from Python; inside `closed` it takes no argument types not seen before."""
+    """Compile a function that is called from Python; inside `closed` it takes no argument types not
+    seen before.
+    """
     compiled = _compile(function)
     _entries.append(compiled)
     return compiled
 
 
 def kernel_overload(function: Callable[..., Any]) -> Callable[[Function], Function]:
-    """Register a compiled implementation of `function`, chosen by argument types, with the compile options of kernels.
+    """Register a compiled implementation of `function`, chosen by argument types, with the compile
+    options of kernels.
 
-    As `numba.extending.overload`: the decorated function receives the argument *types* and returns the implementation
-    or `None`. The body is compiled into its caller, so it is cached with the caller.
+    As `numba.extending.overload`: the decorated function receives the argument *types* and returns
+    the implementation or `None`. The body is compiled into its caller, so it is cached with the
+    caller.
     """
     decorator: Callable[[Function], Function] = overload(
         function,
@@ -98,8 +108,9 @@ def kernel_overload(function: Callable[..., Any]) -> Callable[[Function], Functi
 def closed() -> Iterator[None]:
     """While a run is running: an entry called with new argument types raises `TypeError` at once.
 
-    Entries that were never called are closed as well: they raise instead of compiling in the middle of a run. The closing acts
-    on the whole process and ends with the block of code, so any number of scenes can be prepared and run one after another.
+    Entries that were never called are closed as well: they raise instead of compiling in the middle
+    of a run. The closing acts on the whole process and ends with the block of code, so any number
+    of scenes can be prepared and run one after another.
     """
     _set_open(False)
     try:
@@ -110,11 +121,14 @@ def closed() -> Iterator[None]:
 
 def _set_open(may_compile: bool) -> None:
     for function in _dispatchers(_entries):
-        function._can_compile = may_compile  # disable_compile() refuses entries that have no compiled version yet
+        # disable_compile() refuses entries that have no compiled version yet
+        function._can_compile = may_compile
 
 
 def compiled_functions() -> list[Any]:
-    """Every decorated function of the process, entries first: for checks of options and of cache statistics."""
+    """Every decorated function of the process, entries first: for checks of options and of cache
+    statistics.
+    """
     return [*_entries, *_kernels]
 
 
@@ -130,5 +144,7 @@ def _compile(function: Function, form: str = "", **options: Any) -> Function:
 
 
 def _dispatchers(functions: list[Any]) -> list[Any]:
-    """Only compiled functions: with NUMBA_DISABLE_JIT=1 the decorators hand back plain Python functions."""
+    """Only compiled functions: with NUMBA_DISABLE_JIT=1 the decorators hand back plain Python
+    functions.
+    """
     return [function for function in functions if hasattr(function, "overloads")]

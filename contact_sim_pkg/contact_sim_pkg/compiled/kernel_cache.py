@@ -1,4 +1,5 @@
-"""Compiled kernels kept on disk: where, under which name, whom to trust, and what to do with damage.
+"""Compiled kernels kept on disk: where, under which name, whom to trust, and what to do with
+damage.
 
 The directory is `<root>/<fingerprint>`, root = $CONTACT_BENCH_CACHE or
 $XDG_CACHE_HOME/contact_bench or ~/.cache/contact_bench. The fingerprint hashes every module with
@@ -45,7 +46,9 @@ _DIGEST_BYTES = hashlib.sha256().digest_size
 
 
 def fingerprint(package: Path) -> str:
-    """Name everything that machine code depends on: sources of kernels, versions of compiler and libraries, processor."""
+    """Name everything that machine code depends on: sources of kernels, versions of compiler and
+    libraries, processor.
+    """
     parts = (
         digest_of_sources(package),
         numba.__version__,
@@ -117,7 +120,9 @@ def _prune(root: Path, keep: Path) -> None:
 
 
 class _Session:
-    """The cache of this process: opened at the first decorated function, closed at the first write that fails."""
+    """The cache of this process: opened at the first decorated function, closed at the first write
+    that fails.
+    """
 
     def __init__(self) -> None:
         self.name = ""
@@ -136,14 +141,14 @@ class _Session:
         return self.directory
 
     def close(self, error: Exception) -> None:
-        """Go on without a cache and say so once."""
+        """Go on without a cache and report it once."""
         if not self._warned:
             self._warned = True
             _log.warning("compiled kernels are not kept on disk (each start takes some seconds longer): %s", error)
         self.directory = None
 
     def rebuild(self, error: Exception) -> None:
-        """Throw away a damaged cache; kernels are compiled again and kept anew."""
+        """Remove a damaged cache; kernels are compiled again and kept anew."""
         if self.directory is not None:
             _log.warning(
                 "the cache of compiled kernels in %s is damaged (%s); it is removed and compiled again",
@@ -165,7 +170,7 @@ def cache_directory() -> Path | None:
 def attach_cache(dispatcher: Any, form: str = "") -> None:
     """Let a freshly decorated function load its machine code from the cache and save it there.
 
-    ``form``: tells apart the files of one function that is compiled in several ways.
+    ``form`` distinguishes the files of one function that is compiled in several ways.
     """
     if hasattr(dispatcher, "overloads") and _session.open() is not None:
         try:
@@ -175,7 +180,9 @@ def attach_cache(dispatcher: Any, form: str = "") -> None:
 
 
 def _place(py_file: str) -> str:
-    """Path of a module inside the package, the same in every copy of it and behind every link to it; else the whole path."""
+    """Path of a module inside the package, the same in every copy of it and behind every link to
+    it; else the whole path.
+    """
     path = Path(py_file)
     return str(path.relative_to(_PACKAGE)) if path.is_relative_to(_PACKAGE) else py_file
 
@@ -194,7 +201,8 @@ class _Locator(_CacheLocator):
         return cls(py_func, py_file)
 
     def ensure_cache_path(self) -> None:
-        Path(self._path).mkdir(mode=0o700, exist_ok=True)  # a newer version may have pruned it meanwhile
+        # A newer version may have pruned it meanwhile
+        Path(self._path).mkdir(mode=0o700, exist_ok=True)
 
     def get_cache_path(self) -> str:
         return self._path
@@ -243,7 +251,9 @@ class _CheckedFiles(IndexDataCacheFile):
 
 
 class _CheckedCache(FunctionCache):
-    """numba's function cache; damage leads to a new compilation, a failed write to a run without cache."""
+    """numba's function cache; damage leads to a new compilation, a failed write to a run without
+    cache.
+    """
 
     _impl_class = _CheckedCacheImpl
 

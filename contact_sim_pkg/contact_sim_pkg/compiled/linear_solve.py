@@ -14,7 +14,8 @@ Field = NDArray[numpy.float64]
 
 @kernel
 def solve_linear(matrix: Field, right: Field) -> Field:
-    """x of `matrix x = right` [n], by elimination with row pivoting; both arguments are overwritten.
+    """x of `matrix x = right` [n], by elimination with row pivoting; both arguments are
+    overwritten.
 
     A pivot that is exactly zero gives infinities or NaN in the result.
     """

@@ -10,7 +10,8 @@ from contact_sim_pkg.compiled.jit import kernel
 def copy_row(source: Vector, target: Vector) -> None:
     """Write ``source`` [n] into ``target`` [n].
 
-    In place of ``target[:] = source``, for which numba compiles the text of an error about shapes into every caller: 2 s.
+    In place of ``target[:] = source``, for which numba compiles the text of an error about shapes
+    into every caller: 2 s.
     """
     for i in range(source.shape[0]):
         target[i] = source[i]

@@ -1,1 +1,3 @@
-"""Excitation: roads as heights over position, vibration as acceleration over time, both cut into numbered blocks."""
+"""Excitation: roads as heights over position, vibration as acceleration over time, both cut into
+numbered blocks.
+"""

@@ -1,4 +1,5 @@
-"""Numbered blocks of excitation: what one message of road and of vibration carries, and how it is cut out.
+"""Numbered blocks of excitation: what one message of road and of vibration carries, and how it is
+cut out.
 
 A block depends on its number alone, so it is the same whoever asks for it and in which order.
 """
@@ -13,7 +14,8 @@ from contact_sim_pkg.excitation.errors import ExcitationError
 from contact_sim_pkg.excitation.travel import Travel
 from contact_sim_pkg.records.messages import RoadPatch, VibrationBlock
 
-LARGEST_PATCH = 4_000_000  # nodes of one block; 16 MB as float32, far above the widest tire at the highest speed
+# Nodes of one block; 16 MB as float32, far above the widest tire at the highest speed
+LARGEST_PATCH = 4_000_000
 
 
 class RoadLattice(NamedTuple):
@@ -34,7 +36,9 @@ class Surface(Protocol):
         """Heights in [m], [len(x), len(y)], at x along the road and y to the left, both in [m]."""
 
     def describe(self) -> dict[str, Any]:
-        """What was found and what was done, for the report: plain values, units in the names, sentences in `notes`."""
+        """What was found and what was done, for the report: plain values, units in the names,
+        sentences in `notes`.
+        """
 
 
 class Signal(Protocol):
@@ -44,7 +48,9 @@ class Signal(Protocol):
         """Acceleration forward (x) and up (z) in [m/s^2] at times t in [s]."""
 
     def describe(self) -> dict[str, Any]:
-        """What was found and what was done, for the report: plain values, units in the names, sentences in `notes`."""
+        """What was found and what was done, for the report: plain values, units in the names,
+        sentences in `notes`.
+        """
 
 
 SHORT_KINDS = ("bump", "cleat", "pothole")
@@ -55,7 +61,8 @@ LEAST_NODES = 3.0
 class RoadBlocks:
     """The strips of a surface that a rig passes, one a block.
 
-    A strip covers the travel of its block, half_length before and after it, and at least one node more on each side.
+    A strip covers the travel of its block, half_length before and after it, and at least one node
+    more on each side.
     """
 
     def __init__(
@@ -80,7 +87,8 @@ class RoadBlocks:
             cols: lattice nodes across the track, >= 1.
 
         Raises:
-            ExcitationError: a value out of range, a strip of more than 4 million nodes at the programme's highest
+            ExcitationError: a value out of range, a strip of more than 4 million nodes at the
+            programme's highest
                 speed, or a surface that has no height in block 0.
         """
         for name, value in (("block_length", block_length), ("cell_x", cell_x), ("cell_y", cell_y)):
@@ -101,10 +109,14 @@ class RoadBlocks:
         self.cell_x, self.cell_y, self.half_length = cell_x, cell_y, half_length
         self._y = numpy.asarray((numpy.arange(cols) - 0.5 * (cols - 1)) * cell_y, dtype=numpy.float64)
         self._last: tuple[int, NDArray[numpy.float32]] = (0, numpy.empty((0, cols), dtype=numpy.float32))
-        self.block(0)  # surfaces make their tables for this track now, and a track that they refuse is refused here
+        # Surfaces make their tables for this track now, and a track that they refuse is refused
+        # here
+        self.block(0)
 
     def block(self, block: int) -> RoadPatch:
-        """The strip of block number `block`, from 0; ExcitationError where the surface has no height there."""
+        """The strip of block number `block`, from 0; ExcitationError where the surface has no
+        height there.
+        """
         start, end = block * self.block_length, (block + 1) * self.block_length
         lowest, highest = self.travel.extent(start, end)
         first_row = floor((lowest - self.half_length) / self.cell_x) - 1
@@ -124,7 +136,9 @@ class RoadBlocks:
         )  # fmt: skip
 
     def _strip(self, first_row: int, last_row: int) -> NDArray[numpy.float32]:
-        """Heights of these rows; those that the last strip ends with are taken from it, a strip moves on by few rows."""
+        """Heights of these rows; those that the last strip ends with are taken from it, a strip
+        moves on by few rows.
+        """
         held_first, held = self._last
         offset = first_row - held_first
         kept = held[offset : offset + last_row + 1 - first_row] if offset >= 0 else held[:0]
@@ -148,16 +162,15 @@ class RoadBlocks:
 
 
 class VibrationBlocks:
-    """The samples of a signal, one row a block; sample i of block k lies at (k n + i) / sample_rate, n samples a
-    block."""
+    """The samples of a signal, one row a block; sample i of block k lies at (k n + i) /
+    sample_rate, n samples a block."""
 
     def __init__(self, signal: Signal, block_length: float, sample_rate: float) -> None:
         """Lay the sample times over the blocks.
 
         Args:
-            signal: the vibration.
-            block_length: simulated time of a block, [s], > 0.
-            sample_rate: samples a second, [Hz]; block_length * sample_rate must be a whole number of samples.
+            signal: the vibration. block_length: simulated time of a block, [s], > 0. sample_rate:
+            samples a second, [Hz]; block_length * sample_rate must be a whole number of samples.
 
         Raises:
             ExcitationError: a value out of range, or a block that is not a whole number of samples.
@@ -172,7 +185,9 @@ class VibrationBlocks:
         self.samples = round(samples)
 
     def block(self, block: int) -> VibrationBlock:
-        """The samples of block number `block`, from 0; ExcitationError where the signal has no finite value there."""
+        """The samples of block number `block`, from 0; ExcitationError where the signal has no
+        finite value there.
+        """
         times = numpy.arange(block * self.samples, (block + 1) * self.samples + 1) / self.sample_rate
         acceleration_x, acceleration_z = self.signal.acceleration(times)
         if not (numpy.isfinite(acceleration_x).all() and numpy.isfinite(acceleration_z).all()):

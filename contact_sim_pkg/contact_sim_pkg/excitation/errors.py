@@ -4,6 +4,6 @@
 class ExcitationError(ValueError):
     """A road, a signal or a speed programme that cannot be used.
 
-    The text is one sentence that says what is wrong, where (file and line or byte), the value, what is allowed and the
-    cure.
+    The text is one sentence that says what is wrong, where (file and line or byte), the value, what
+    is allowed and the cure.
     """

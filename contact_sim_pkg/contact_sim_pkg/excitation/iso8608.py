@@ -4,7 +4,8 @@ One-sided spectrum along the road, n in cycles a metre:  G(n) = roughness (n / n
 Every harmonic of the road's length gets the variance of its own bin, integral of G, and a uniform random phase, so the
 variance of the band is exact: roughness n0^2 (1/n_low - 1/n_high) for exponent 2.
 
-Source: ISO 8608:2016 (classes by their geometric mean); random phases and inverse FFT instead of a few sines.
+Source: ISO 8608:2016 (classes by their geometric mean); random phases and inverse FFT instead of a
+few sines.
 """
 
 from math import ceil, floor, isfinite, sqrt
@@ -22,12 +23,15 @@ REFERENCE_WAVE_NUMBER = 0.1  # [cycles/m] n0 of ISO 8608
 CLASS_ROUGHNESS = {  # [m^3] geometric mean of Gd(n0), ISO 8608:2016
     "A": 16e-6, "B": 64e-6, "C": 256e-6, "D": 1024e-6, "E": 4096e-6, "F": 16384e-6, "G": 65536e-6, "H": 262144e-6,
 }  # fmt: skip
-POINTS_PER_WAVE = 48  # error of the shortest wave 7.6e-7 of its amplitude, see excitation/periodic.py
+# Error of the shortest wave 7.6e-7 of its amplitude, see excitation/periodic.py
+POINTS_PER_WAVE = 48
 MOST_POINTS = 1 << 24  # 256 MiB of values and slopes
 
 
 def roughness_of_class(name: str) -> float:
-    """Gd(n0) in [m^3] of an ISO 8608 class A to H, its geometric mean; ExcitationError for another name."""
+    """Gd(n0) in [m^3] of an ISO 8608 class A to H, its geometric mean; ExcitationError for another
+    name.
+    """
     if name not in CLASS_ROUGHNESS:
         raise ExcitationError(f"road class '{name}' is unknown; allowed: {', '.join(CLASS_ROUGHNESS)}")
     return CLASS_ROUGHNESS[name]
@@ -36,7 +40,8 @@ def roughness_of_class(name: str) -> float:
 def band_variance(roughness: float, exponent: float, low: NDArray[Any] | float, high: NDArray[Any] | float) -> Any:
     """Variance in [m^2] of the wave numbers from low to high in [cycles/m]: the integral of G(n).
 
-    roughness >= 0 [m^3], exponent finite, 0 < low <= high, numbers or arrays of one shape; ExcitationError otherwise.
+    roughness >= 0 [m^3], exponent finite, 0 < low <= high, numbers or arrays of one shape;
+    ExcitationError otherwise.
     """
     require_not_negative("roughness", roughness, "m^3", error=ExcitationError)
     require("exponent", exponent, error=ExcitationError)
@@ -52,11 +57,13 @@ def band_variance(roughness: float, exponent: float, low: NDArray[Any] | float, 
 
 
 class Iso8608Road:
-    """A random road, the same across the track unless a texture is asked for; it repeats after its length.
+    """A random road, the same across the track unless a texture is asked for; it repeats after its
+    length.
 
-    The texture continues the spectrum below the shortest wavelength of the profile with an isotropic fine surface, see
-    excitation/iso8608_texture.py. Its oblique waves also add to the spectrum of the longer waves along the road; the profile is
-    lowered by just that, so that the spectrum along any line of travel is G(n).
+    The texture continues the spectrum below the shortest wavelength of the profile with an
+    isotropic fine surface, see excitation/iso8608_texture.py. Its oblique waves also add to the
+    spectrum of the longer waves along the road; the profile is lowered by just that, so that the
+    spectrum along any line of travel is G(n).
     """
 
     def __init__(
@@ -73,15 +80,14 @@ class Iso8608Road:
         """Make the road; some 10 ms a kilometre.
 
         Args:
-            roughness: Gd(n0), [m^3], 0 (flat) to 1; see `roughness_of_class`.
-            seed: whole number from 0; the same seed gives the same bits.
-            length: the road repeats after this length, [m].
-            exponent: w of the spectrum, 1 to 4.
-            shortest_wavelength: of the profile, [m].
-            longest_wavelength: [m]; the length where that is shorter.
-            texture_wavelength: shortest wavelength of the isotropic fine surface, [m], below shortest_wavelength; None:
+            roughness: Gd(n0), [m^3], 0 (flat) to 1; see `roughness_of_class`. seed: whole number
+            from 0; the same seed gives the same bits. length: the road repeats after this length,
+            [m]. exponent: w of the spectrum, 1 to 4. shortest_wavelength: of the profile, [m].
+            longest_wavelength: [m]; the length where that is shorter. texture_wavelength: shortest
+            wavelength of the isotropic fine surface, [m], below shortest_wavelength; None:
                 no texture.
-            lattice_cell: cell of the lattice that will carry the road, [m]; waves below two cells are left out.
+            lattice_cell: cell of the lattice that will carry the road, [m]; waves below two cells
+            are left out.
 
         Raises:
             ExcitationError: a value out of range, or a road of more than 16.7 million points.
@@ -141,7 +147,9 @@ class Iso8608Road:
         return synthesise(numpy.sqrt(2.0 * variance) * numpy.exp(1j * phase), points, self.length)
 
     def _bin_variances(self, n: NDArray[numpy.float64]) -> NDArray[numpy.float64]:
-        """Variance in [m^2] of each harmonic: the integral of the profile's spectrum over its bin, cut to the band."""
+        """Variance in [m^2] of each harmonic: the integral of the profile's spectrum over its bin,
+        cut to the band.
+        """
         low = numpy.clip(n - 0.5 / self.length, 1.0 / self.longest, 1.0 / self.shortest)
         high = numpy.clip(n + 0.5 / self.length, 1.0 / self.longest, 1.0 / self.shortest)
         variance = band_variance(self.roughness, self.exponent, low, high)
@@ -150,7 +158,9 @@ class Iso8608Road:
         return numpy.asarray(variance, dtype=numpy.float64)
 
     def heights(self, x: NDArray[numpy.float64], y: NDArray[numpy.float64]) -> NDArray[numpy.float64]:
-        """Heights in [m], [len(x), len(y)]; any x, and any y within the texture's strip. See blocks.Surface."""
+        """Heights in [m], [len(x), len(y)]; any x, and any y within the texture's strip. See
+        blocks.Surface.
+        """
         profile = self._profile.at(x)
         if self.texture is None:
             return numpy.repeat(profile, len(y), axis=1)

@@ -1,13 +1,14 @@
 """Isotropic fine road surface that continues a road's spectrum down to the length of single stones.
 
-Spectrum over the plane, q = sqrt(nx^2 + ny^2) in cycles a metre, within 1/longest <= q <= 1/shortest:
+Spectrum over the plane, q = sqrt(nx^2 + ny^2) in cycles a metre, within 1/longest <= q <=
+1/shortest:
 
     S(q) = C q^-(w + 1),   C = scale gamma((w + 1) / 2) / (2 sqrt(pi) gamma(w / 2))
 
-Along any straight line an unlimited surface of this kind has the one-sided spectrum scale n^-w; the band limits leave
-the share I(1 - (n shortest)^2) - I(1 - (n longest)^2) of it (second term only for n < 1/longest), with I(z) the
-regularised incomplete beta function of (1/2, w/2). The share falls to 0 at the shortest wavelength.
-The surface repeats after 8 m along the road and 4 m across.
+Along any straight line an unlimited surface of this kind has the one-sided spectrum scale n^-w; the
+band limits leave the share I(1 - (n shortest)^2) - I(1 - (n longest)^2) of it (second term only for
+n < 1/longest), with I(z) the regularised incomplete beta function of (1/2, w/2). The share falls to
+0 at the shortest wavelength. The surface repeats after 8 m along the road and 4 m across.
 """
 
 from math import gamma, pi, sqrt
@@ -21,12 +22,15 @@ from contact_sim_pkg.excitation.periodic import PeriodicTable, synthesise
 
 STRIP_LENGTH = 8.0  # [m]
 STRIP_WIDTH = 4.0  # [m]
-POINTS_PER_WAVE = 24  # shortest wave 1.2e-5 of its own amplitude; below 1e-6 of the road's rms, as short waves are low
+# Shortest wave 1.2e-5 of its own amplitude; below 1e-6 of the road's rms, as short waves are low
+POINTS_PER_WAVE = 24
 LARGEST_TABLE = 1 << 25  # numbers in values and slopes of one strip, 256 MiB
 
 
 class Texture:
-    """One periodic strip of isotropic random surface; immutable but for the table of the track that was asked last."""
+    """One periodic strip of isotropic random surface; immutable but for the table of the track that
+    was asked last.
+    """
 
     def __init__(self, scale: float, exponent: float, longest: float, shortest: float, seed: int) -> None:
         """Draw the waves.
@@ -69,8 +73,8 @@ class Texture:
         return numpy.asarray(amplitude * numpy.exp(1j * phase), dtype=numpy.complex128)
 
     def share(self, n: NDArray[numpy.float64]) -> NDArray[numpy.float64]:
-        """Share of the spectrum scale n^-w along a line that the texture holds at wave numbers n in [cycles/m], 0 to
-        1."""
+        """Share of the spectrum scale n^-w along a line that the texture holds at wave numbers n in
+        [cycles/m], 0 to 1."""
         upper = numpy.clip(1.0 - (n * self.shortest) ** 2, 0.0, 1.0)
         lower = numpy.clip(1.0 - (n * self.longest) ** 2, 0.0, 1.0)
         return numpy.asarray(betainc(0.5, 0.5 * self.exponent, upper) - betainc(0.5, 0.5 * self.exponent, lower))
@@ -95,7 +99,8 @@ class Texture:
                 f"{LARGEST_TABLE}; use a longer texture wavelength or fewer lines"
             )
         across = numpy.exp(2j * pi / STRIP_WIDTH * self._across[:, None] * y[None, :])
-        # einsum, not the matrix product: the sums must not depend on how many threads the linear algebra library has
+        # einsum, not the matrix product: the sums must not depend on how many threads the linear
+        # algebra library has
         return synthesise(numpy.einsum("pq,qj->pj", self._waves, across), points, STRIP_LENGTH)
 
     def note(self) -> str:

@@ -17,7 +17,8 @@ ROAD_FILE, VIBRATION_FILE = "stone_road.crg", "bus_like_floor.csv"
 SEED = 20240601
 LENGTH, INCREMENT, HALF_WIDTH = 10.0, 0.01, 0.32  # [m]
 STONE_LENGTH, STONE_WIDTH = LENGTH / 70, 0.16  # [m] a sett and its joint
-STONE_UNEVENNESS, STONE_TILT = 0.0045, 0.003  # [m] standard deviation of a sett's height, and of the rise to its edge
+# [m] standard deviation of a sett's height, and of the rise to its edge
+STONE_UNEVENNESS, STONE_TILT = 0.0045, 0.003
 JOINT_DEPTH = 0.012  # [m]
 SUBGRADE_RMS = 0.005  # [m] of the ground under the setts, harmonics 1 to 8 of the length
 HEADING_CHANGE = 0.2  # [rad] from start to end: a bend of 50 m radius
@@ -33,7 +34,8 @@ MODES = (
     (26.0, 0.03, 0.20, 0.15, 0.30),  # engine, idling
     (55.0, 0.40, 0.15, 0.15, 0.25),  # floor panels
 )
-SHOCKS = ((4.2, 11.0), (11.7, 13.0), (16.4, -12.0))  # time [s], peak on z [m/s^2], half sines of 12 ms
+# Time [s], peak on z [m/s^2], half sines of 12 ms
+SHOCKS = ((4.2, 11.0), (11.7, 13.0), (16.4, -12.0))
 
 
 def stone_heights() -> NDArray[numpy.float64]:

@@ -1,4 +1,6 @@
-"""Single obstacles on a flat road: raised-cosine bump, cleat, step, pothole, once or again and again."""
+"""Single obstacles on a flat road: raised-cosine bump, cleat, step, pothole, once or again and
+again.
+"""
 
 from math import isfinite, pi
 from typing import Any
@@ -25,7 +27,8 @@ class FlatRoad:
 
 
 class Obstacle:
-    """One obstacle across the whole track, its middle at `position`; with s = x - position the shapes are
+    """One obstacle across the whole track, its middle at `position`; with s = x - position the
+    shapes are
 
     bump:     height/2 (1 + cos(2 pi s / length))          for |s| < length / 2
     cleat:    height, with straight flanks of `flank` length inside the length (0: rectangular, sharp edges)
@@ -39,12 +42,11 @@ class Obstacle:
         """Place the obstacle.
 
         Args:
-            shape: bump, cleat, step or pothole.
-            position: of the middle along the road, [m].
-            height: of a bump, cleat or step (negative: downwards), depth of a pothole, [m], within +-2.
-            length: along the road, [m], 0 only for a step.
-            flank: length of each straight flank of a cleat or pothole, [m], 0 to length / 2.
-            period: distance to the next equal obstacle, [m], at least the length; None: there is one. Not for a step.
+            shape: bump, cleat, step or pothole. position: of the middle along the road, [m].
+            height: of a bump, cleat or step (negative: downwards), depth of a pothole, [m], within
+            +-2. length: along the road, [m], 0 only for a step. flank: length of each straight
+            flank of a cleat or pothole, [m], 0 to length / 2. period: distance to the next equal
+            obstacle, [m], at least the length; None: there is one. Not for a step.
 
         Raises:
             ExcitationError: an unknown shape or a value out of range.

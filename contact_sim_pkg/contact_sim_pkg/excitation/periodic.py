@@ -1,8 +1,9 @@
-"""Periodic band-limited functions from an inverse FFT, evaluated anywhere by cubic Hermite interpolation.
+"""Periodic band-limited functions from an inverse FFT, evaluated anywhere by cubic Hermite
+interpolation.
 
-With N points a shortest wavelength the lattice step is h = wavelength / N, and the relative error of a wave of that
-length is at most (2 pi / N)^4 / 384: 7.6e-7 for N = 48; it falls with the fourth power of the wavelength for longer
-waves.
+With N points a shortest wavelength the lattice step is h = wavelength / N, and the relative error
+of a wave of that length is at most (2 pi / N)^4 / 384: 7.6e-7 for N = 48; it falls with the fourth
+power of the wavelength for longer waves.
 """
 
 import numpy
@@ -13,7 +14,8 @@ def synthesise(amplitude: NDArray[numpy.complex128], points: int, period: float)
     """Tabulate f(x) = Re sum_p amplitude[p] exp(2 pi i p x / period) with its slope.
 
     Args:
-        amplitude: complex amplitude of harmonic p = 0, 1, ..., [harmonics] or [harmonics, columns]; fewer than points /
+        amplitude: complex amplitude of harmonic p = 0, 1, ..., [harmonics] or [harmonics, columns];
+        fewer than points /
             2.
         points: lattice points a period.
         period: length of the period in [m].

@@ -1,8 +1,9 @@
-"""Recorded vibration: what a real accelerometer file carries is found, reported, and treated as the user says.
+"""Recorded vibration: what a real accelerometer file carries is found, reported, and treated as the
+user says.
 
-Between samples the signal is band-limited: interpolation with 64 samples under a sinc windowed by the 4-term
-Blackman-Harris window. At the recorded instants it gives the samples themselves; up to 0.85 of half the recording rate
-it is exact to 1e-4.
+Between samples the signal is band-limited: interpolation with 64 samples under a sinc windowed by
+the 4-term Blackman-Harris window. At the recorded instants it gives the samples themselves; up to
+0.85 of half the recording rate it is exact to 1e-4.
 """
 
 from math import acos, degrees, sqrt
@@ -18,8 +19,10 @@ from contact_sim_pkg.excitation.recorded_units import refuse_other_unit, signed_
 
 LARGEST_TIME = 1e11  # [s] a time column may count from 1970
 RATE_AGREEMENT = 0.01  # stated and found rate may differ by this part
-USUAL_FULL_SCALES = (1.0, 1.5, 2.0, 3.0, 4.0, 6.0, 8.0, 16.0)  # [g] of accelerometers, data-sheet values
-SHORTEST_PLATEAU = 3  # equal extreme samples in a row that no unclipped vibration gives but by chance
+# [g] of accelerometers, data-sheet values
+USUAL_FULL_SCALES = (1.0, 1.5, 2.0, 3.0, 4.0, 6.0, 8.0, 16.0)
+# Equal extreme samples in a row that no unclipped vibration gives but by chance
+SHORTEST_PLATEAU = 3
 HALF_WIDTH = 32  # samples on each side of the interpolated instant
 BEYOND = ("refuse", "zero", "repeat")
 
@@ -36,7 +39,9 @@ class Clipping(NamedTuple):
 
 
 class RecordedVibration:
-    """A recording as a function of time, gravity and bias removed, t = 0 at `start` seconds into it."""
+    """A recording as a function of time, gravity and bias removed, t = 0 at `start` seconds into
+    it.
+    """
 
     def __init__(
         self,
@@ -60,30 +65,34 @@ class RecordedVibration:
         """Read, check and treat the recording.
 
         Args:
-            path: text file, see recorded_csv.read_table; values in [m/s^2], or in `unit`.
-            rate: sampling rate, [Hz]; None: from the time column. It is never guessed.
-            vertical: column that points up; "-z" turns it round.
-            forward: column that points forward; "-x" turns it round. None: no forward acceleration.
-            lateral: column to the left; needed only to correct the tilt, else used for the tilt angle where it exists.
-            time: time column, [s]; None: a column named time, t or time_s where there is one.
-            tilt: keep, or correct (turn the axes so that the mean lies along the vertical).
-            remove_bias: take the mean of each axis (gravity and bias) off.
-            clipped: keep (samples at full scale stay as they are), or refuse.
-            full_scale: of the sensor, [m/s^2]; None: an extreme value that occurs
+            path: text file, see recorded_csv.read_table; values in [m/s^2], or in `unit`. rate:
+            sampling rate, [Hz]; None: from the time column. It is never guessed. vertical: column
+            that points up; "-z" turns it round. forward: column that points forward; "-x" turns it
+            round. None: no forward acceleration. lateral: column to the left; needed only to
+            correct the tilt, else used for the tilt angle where it exists. time: time column, [s];
+            None: a column named time, t or time_s where there is one. tilt: keep, or correct (turn
+            the axes so that the mean lies along the vertical). remove_bias: take the mean of each
+            axis (gravity and bias) off. clipped: keep (samples at full scale stay as they are), or
+            refuse. full_scale: of the sensor, [m/s^2]; None: an extreme value that occurs
                 three times in a row, or twice where it is a usual full scale (2, 4, 8, 16 g …).
-            high_pass: corner frequency, [Hz], of a zero-phase high-pass with the gain 1 / (1 + (corner / f)^8); None:
+            high_pass: corner frequency, [Hz], of a zero-phase high-pass with the gain 1 / (1 +
+            (corner / f)^8); None:
                 no filter.
-            beyond: after the end of the recording: refuse, zero, or repeat.
-            start: time in the recording at t = 0, [s].
-            sample_rate: rate at which it will be sampled, [Hz]; below the recording's rate, frequencies above half of
-                it are removed first (cosine flank from 0.4 to 0.5 of it). None: as fast as recorded or faster.
-            unused: axes, of x and z, whose column the file may lack: there is no acceleration along them then.
+            beyond: after the end of the recording: refuse, zero, or repeat. start: time in the
+            recording at t = 0, [s]. sample_rate: rate at which it will be sampled, [Hz]; below the
+            recording's rate, frequencies above half of
+                it are removed first (cosine flank from 0.4 to 0.5 of it). None: as fast as recorded
+                or faster.
+            unused: axes, of x and z, whose column the file may lack: there is no acceleration along
+            them then.
 
-            unit: of the accelerations, m/s^2, g or mg, for columns whose unit the header does not name. None: m/s^2; a
+            unit: of the accelerations, m/s^2, g or mg, for columns whose unit the header does not
+            name. None: m/s^2; a
                 recording whose mean or rms says otherwise is refused.
 
         Raises:
-            ExcitationError: bad file (with line), values beyond 1e5 m/s^2, no rate, stated and found rate that differ
+            ExcitationError: bad file (with line), values beyond 1e5 m/s^2, no rate, stated and
+            found rate that differ
                 by more than 1 %, a vertical axis that points down, or by the choices above.
         """
         for name, choice, allowed in (
@@ -233,7 +242,9 @@ class RecordedVibration:
         return numpy.fft.irfft(gain * numpy.fft.rfft(mirrored), len(mirrored))[: len(values)]
 
     def refuse_longer_run(self, duration: float) -> None:
-        """Raise ExcitationError where a run of `duration`, [s], needs more than the recording and that is refused."""
+        """Raise ExcitationError where a run of `duration`, [s], needs more than the recording and
+        that is refused.
+        """
         length = (self.samples - 1) / self.rate - self.start
         if self.beyond == "refuse" and (duration - length) * self.rate > 1e-6:
             raise ExcitationError(
@@ -285,7 +296,9 @@ class RecordedVibration:
 
 
 def _columns(table: RecordedTable, names: dict[str, str | None], needed: bool, unused: str) -> dict[str, str]:
-    """The column of each axis; the lateral one and those of unused axes may be absent unless all are needed."""
+    """The column of each axis; the lateral one and those of unused axes may be absent unless all
+    are needed.
+    """
     if names["x"] is None and needed:
         raise ExcitationError(f"{table.file}: the tilt cannot be corrected without a forward column; name it")
     named = {axis: name for axis, name in names.items() if name is not None}
@@ -315,7 +328,8 @@ def _found_rate(table: RecordedTable, time: Array) -> float:
 
 
 def _find_clipping(table: RecordedTable, values: Array, full_scale: float | None) -> Clipping:
-    """Samples at the stated full scale; where none is stated, at an extreme value that looks like one.
+    """Samples at the stated full scale; where none is stated, at an extreme value that looks like
+    one.
 
     A constant signal has no extremes: only a stated full scale tells that it is clipped.
     """
@@ -349,7 +363,9 @@ def _clipping_at(table: RecordedTable, at_limit: NDArray[numpy.bool_], limit: fl
 
 
 def _turn_upright(raw: dict[str, Array], bias: dict[str, float]) -> dict[str, Array]:
-    """The smallest rotation that puts the mean on the vertical axis (Rodrigues' formula), applied to every sample."""
+    """The smallest rotation that puts the mean on the vertical axis (Rodrigues' formula), applied
+    to every sample.
+    """
     mean = numpy.array([bias["x"], bias["y"], bias["z"]])
     mean /= numpy.linalg.norm(mean)
     cross = numpy.array([mean[1], -mean[0], 0.0])  # mean x up

@@ -24,7 +24,9 @@ UNITS = {
 BLOCK = 1 << 20  # [bytes] of text that are read at a time
 LONGEST_LINE = 1 << 22  # [bytes]
 BYTES_PER_TREATED_ROW = 160
-"""Three axes as used, and one through the filters: mirrored twice as long, its spectrum, gain, product and inverse."""
+"""Three axes as used, and one through the filters: mirrored twice as long, its spectrum, gain,
+product and inverse.
+"""
 COMMENT = "#%"
 _RATE = re.compile(r"(?:sampl\w*|rate|\bfs\b)[^\d\n]{0,20}?(\d+(?:\.\d+)?)\s*(k)?hz", re.IGNORECASE)
 Array = NDArray[numpy.float64]
@@ -42,7 +44,9 @@ class RecordedTable(NamedTuple):
     nominal_rate: float | None = None  # [Hz], as a comment of the file says
 
     def column(self, name: str) -> NDArray[numpy.float64]:
-        """One column; ExcitationError where it is absent or holds NaN or infinity (with the line)."""
+        """One column; ExcitationError where it is absent or holds NaN or infinity (with the
+        line).
+        """
         if name not in self.columns:
             raise ExcitationError(
                 f"{self.file}: there is no column '{name}'; the header names {', '.join(self.columns)}"
@@ -57,7 +61,9 @@ class RecordedTable(NamedTuple):
         return column
 
     def time(self, name: str | None) -> NDArray[numpy.float64] | None:
-        """The time column by its name, or by a usual name where none is given; None where there is none."""
+        """The time column by its name, or by a usual name where none is given; None where there is
+        none.
+        """
         if name is not None:
             return self.column(name.lower())
         found = [usual for usual in TIME_NAMES if usual in self.columns]
@@ -67,12 +73,14 @@ class RecordedTable(NamedTuple):
 def read_table(path: Path) -> RecordedTable:
     """Read the file, a block of lines at a time: beside the numbers only one block is held.
 
-    The first line that is neither empty nor a comment (#, %) names the columns, with the unit of an acceleration in
-    brackets where it is known: m/s^2, g or mg, read as m/s^2; s for time. Columns are separated by semicolon, tab,
-    comma or spaces, whichever of them the header holds, in this order.
+    The first line that is neither empty nor a comment (#, %) names the columns, with the unit of an
+    acceleration in brackets where it is known: m/s^2, g or mg, read as m/s^2; s for time. Columns
+    are separated by semicolon, tab, comma or spaces, whichever of them the header holds, in this
+    order.
 
     Raises:
-        ExcitationError: with the line, for no header, ragged lines and fields that are no numbers; a file above 256
+        ExcitationError: with the line, for no header, ragged lines and fields that are no numbers;
+        a file above 256
             MiB.
     """
     blocks = _line_blocks(path)
@@ -106,7 +114,8 @@ def read_table(path: Path) -> RecordedTable:
 
 
 def memory_needed(path: Path) -> int:
-    """Memory in [bytes] that `read_table` and the treatment of its columns take, from the file's lines; 0 for no file.
+    """Memory in [bytes] that `read_table` and the treatment of its columns take, from the file's
+    lines; 0 for no file.
 
     A row: its columns and line number, three axes, and one axis at a time through the filters.
     """
@@ -126,7 +135,9 @@ def memory_needed(path: Path) -> int:
 
 
 def _line_blocks(path: Path, *, text: bool = True) -> Iterator[Any]:
-    """Whole lines, numbered and stripped, those that are empty left out; or as they are, in bytes."""
+    """Whole lines, numbered and stripped, those that are empty left out; or as they are, in
+    bytes.
+    """
     number = 1
     rest = b""
     try:
@@ -178,7 +189,9 @@ def _too_short(path: Path, samples: int) -> ExcitationError:
 
 
 def _parse(path: Path, numbered: list[tuple[int, str]], names: list[str], separator: str | None) -> Array:
-    """Numbers of a block, [lines, columns]; where numpy does not read it, the first bad line is looked for."""
+    """Numbers of a block, [lines, columns]; where numpy does not read it, the first bad line is
+    looked for.
+    """
     lines = [line for _, line in numbered]
     if not lines:
         return numpy.empty((0, len(names)))
@@ -197,7 +210,8 @@ def _parse(path: Path, numbered: list[tuple[int, str]], names: list[str], separa
                 f"by {SEPARATORS.get(separator or '', 'space')}"
             )
         for name, field in zip(names, fields, strict=True):
-            if not _is_number(field) or "_" in field:  # Python reads 9_8 as 98; a file does not mean that
+            # Python reads 9_8 as 98; a file does not mean that
+            if not _is_number(field) or "_" in field:
                 raise ExcitationError(
                     f"{path}, line {number}: '{field[:40]}' in column '{name}' is no number (a decimal point is "
                     "expected)"
@@ -207,7 +221,9 @@ def _parse(path: Path, numbered: list[tuple[int, str]], names: list[str], separa
 
 
 def _nominal_rate(comments: list[str]) -> float | None:
-    """Sampling rate in [Hz] that a comment of the file states; None where none does, or several differ."""
+    """Sampling rate in [Hz] that a comment of the file states; None where none does, or several
+    differ.
+    """
     found = {
         float(match.group(1)) * (1e3 if match.group(2) else 1.0) for line in comments for match in _RATE.finditer(line)
     }

@@ -11,7 +11,8 @@ from contact_sim_pkg.excitation.errors import ExcitationError
 from contact_sim_pkg.excitation.recorded_csv import STANDARD_GRAVITY, UNITS, RecordedTable
 
 LARGEST_ACCELERATION = 1e5  # [m/s^2] about 10 000 g, the end of the range of shock accelerometers
-LARGEST_MEAN = 5.0 * STANDARD_GRAVITY  # [m/s^2] no rig is accelerated so for the length of a recording
+# [m/s^2] no rig is accelerated so for the length of a recording
+LARGEST_MEAN = 5.0 * STANDARD_GRAVITY
 LARGEST_RMS = 200.0  # [m/s^2] about 20 g: seats and floors stay a factor 10 below
 GRAVITY_AGREEMENT = 0.1  # a mean this close to 1 or 1000 is gravity in g or mg
 
@@ -34,7 +35,9 @@ def signed_column(table: RecordedTable, name: str, unit: str | None) -> Array:
 
 
 def refuse_other_unit(file: str, raw: dict[str, Array]) -> None:
-    """Refuse values that are not in m/s^2 by what they say: gravity, a steady acceleration or an rms that cannot be."""
+    """Refuse values that are not in m/s^2 by what they say: gravity, a steady acceleration or an
+    rms that cannot be.
+    """
     mean = sqrt(sum(float(values.mean()) ** 2 for values in raw.values()))
     rms = max(float(values.std()) for values in raw.values())
     cure = "state the unit (vibration.unit: m/s^2, g or mg; or in the header, such as z [g])"

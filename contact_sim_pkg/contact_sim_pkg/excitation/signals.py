@@ -1,7 +1,8 @@
-"""Vibration given by formulas: rest, sine, sweep, band-limited noise, half-sine shock, and their sum on the two axes.
+"""Vibration given by formulas: rest, sine, sweep, band-limited noise, half-sine shock, and their
+sum on the two axes.
 
-A waveform is a pure function of time, values(t), in [m/s^2]; `AxisSignal` puts waveforms on the axes x (forward) and z
-(up).
+A waveform is a pure function of time, values(t), in [m/s^2]; `AxisSignal` puts waveforms on the
+axes x (forward) and z (up).
 """
 
 from collections.abc import Sequence
@@ -38,7 +39,9 @@ class Sine:
     """amplitude sin(2 pi frequency t + phase)."""
 
     def __init__(self, amplitude: float, frequency: float, phase: float = 0.0) -> None:
-        """Take amplitude [m/s^2], frequency [Hz] and phase [rad]; ExcitationError for a value out of range."""
+        """Take amplitude [m/s^2], frequency [Hz] and phase [rad]; ExcitationError for a value out
+        of range.
+        """
         _require("sine", "amplitude", amplitude, 0.0, LARGEST_ACCELERATION, "m/s^2")
         _require("sine", "frequency", frequency, 0.0, HIGHEST_FREQUENCY, "Hz")
         _require("sine", "phase", phase, -1e3, 1e3, "rad")
@@ -57,16 +60,18 @@ class Sine:
 
 
 class SweepSignal:
-    """Sine of constant acceleration amplitude whose frequency runs from start to end over the duration, then 0.
+    """Sine of constant acceleration amplitude whose frequency runs from start to end over the
+    duration, then 0.
 
     logarithmic:  f = start (end/start)^(t/duration),  phase = 2 pi start duration / ln(end/start)
         ((end/start)^(t/duration) - 1)
-    linear:       f = start + (end - start) t/duration,  phase = 2 pi (start t + (end - start) t^2 / (2 duration))
+    linear:       f = start + (end - start) t/duration,  phase = 2 pi (start t + (end - start) t^2 /
+    (2 duration))
     """
 
     def __init__(self, amplitude: float, start: float, end: float, duration: float, logarithmic: bool = True) -> None:
-        """Take amplitude [m/s^2], start and end frequency [Hz], duration [s]; ExcitationError for a value out of
-        range."""
+        """Take amplitude [m/s^2], start and end frequency [Hz], duration [s]; ExcitationError for a
+        value out of range."""
         _require("sweep", "amplitude", amplitude, 0.0, LARGEST_ACCELERATION, "m/s^2")
         _require("sweep", "start frequency", start, 1e-6, HIGHEST_FREQUENCY, "Hz")
         _require("sweep", "end frequency", end, 1e-6, HIGHEST_FREQUENCY, "Hz")
@@ -103,7 +108,9 @@ class HalfSine:
     """One half sine: peak sin(pi (t - start) / duration) from start to start + duration, else 0."""
 
     def __init__(self, peak: float, start: float, duration: float) -> None:
-        """Take peak [m/s^2], its sign counts, start [s] and duration [s]; ExcitationError for a value out of range."""
+        """Take peak [m/s^2], its sign counts, start [s] and duration [s]; ExcitationError for a
+        value out of range.
+        """
         _require("half-sine shock", "peak", peak, -LARGEST_ACCELERATION, LARGEST_ACCELERATION, "m/s^2")
         _require("half-sine shock", "start", start, -1e6, 1e6, "s")
         _require("half-sine shock", "duration", duration, 1e-6, 1e3, "s")
@@ -123,11 +130,13 @@ class HalfSine:
 
 
 class NoiseSignal:
-    """Gaussian noise with a flat spectrum between two frequencies, made of harmonics with random phases.
+    """Gaussian noise with a flat spectrum between two frequencies, made of harmonics with random
+    phases.
 
-    Harmonics of 1 / period inside [low, high], equal amplitudes, uniform random phases: the rms over one period is
-    exactly the rms asked for, the distribution Gaussian to within the number of harmonics (at least 16). It repeats
-    after `period`. Interpolated to 1e-6 of the rms, see excitation/periodic.py.
+    Harmonics of 1 / period inside [low, high], equal amplitudes, uniform random phases: the rms
+    over one period is exactly the rms asked for, the distribution Gaussian to within the number of
+    harmonics (at least 16). It repeats after `period`. Interpolated to 1e-6 of the rms, see
+    excitation/periodic.py.
     """
 
     def __init__(self, rms: float, low: float, high: float, seed: int, period: float = 60.0) -> None:
@@ -141,7 +150,8 @@ class NoiseSignal:
             period: the noise repeats after this time, [s].
 
         Raises:
-            ExcitationError: a value out of range, or a band that holds fewer than 16 harmonics of the period.
+            ExcitationError: a value out of range, or a band that holds fewer than 16 harmonics of
+            the period.
         """
         _require("noise", "rms", rms, 0.0, 1000.0, "m/s^2")
         _require("noise", "lowest frequency", low, 1e-6, HIGHEST_FREQUENCY, "Hz")
@@ -187,7 +197,9 @@ class AxisSignal:
     """Sum of waveforms on each axis; an axis without a waveform rests."""
 
     def __init__(self, x: Sequence[Waveform] = (), z: Sequence[Waveform] = (), notes: Sequence[str] = ()) -> None:
-        """Take the waveforms of the axes x (forward) and z (up), and what else is to be told of them."""
+        """Take the waveforms of the axes x (forward) and z (up), and what else is to be told of
+        them.
+        """
         self.x, self.z, self.notes = tuple(x), tuple(z), tuple(notes)
 
     def acceleration(self, t: NDArray[numpy.float64]) -> tuple[NDArray[numpy.float64], NDArray[numpy.float64]]:

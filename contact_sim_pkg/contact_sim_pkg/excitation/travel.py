@@ -13,18 +13,21 @@ HIGHEST_SPEED = 150.0  # [m/s] 540 km/h, above every road vehicle
 class Travel:
     """Piecewise linear speed over time and the travel that follows from it.
 
-    Between two points (t0, v0), (t1, v1) the speed is v0 + (v1 - v0) (t - t0) / (t1 - t0); before the first and after
-    the last point it stays constant. The travel is the exact integral of the speed from t = 0, so position(0) = 0.
+    Between two points (t0, v0), (t1, v1) the speed is v0 + (v1 - v0) (t - t0) / (t1 - t0); before
+    the first and after the last point it stays constant. The travel is the exact integral of the
+    speed from t = 0, so position(0) = 0.
     """
 
     def __init__(self, points: Sequence[tuple[float, float]]) -> None:
         """Take the speed programme.
 
         Args:
-            points: (time [s], speed [m/s]) with strictly increasing times; negative speed drives backwards.
+            points: (time [s], speed [m/s]) with strictly increasing times; negative speed drives
+            backwards.
 
         Raises:
-            ExcitationError: no point, times that do not increase, or a value that is not finite or above 150 m/s.
+            ExcitationError: no point, times that do not increase, or a value that is not finite or
+            above 150 m/s.
         """
         self.times = [float(time) for time, _ in points]
         self.speeds = [float(speed) for _, speed in points]
@@ -55,7 +58,9 @@ class Travel:
         return bisect_right(self.times, time) - 1
 
     def _slope(self, index: int) -> float:
-        """Acceleration in [m/s^2] of the segment that starts at this point; 0 outside the programme."""
+        """Acceleration in [m/s^2] of the segment that starts at this point; 0 outside the
+        programme.
+        """
         if index < 0 or index >= len(self.times) - 1:
             return 0.0
         return (self.speeds[index + 1] - self.speeds[index]) / (self.times[index + 1] - self.times[index])
@@ -75,7 +80,9 @@ class Travel:
         return self._positions[start] + path - self._origin
 
     def extent(self, start: float, end: float) -> tuple[float, float]:
-        """Smallest and largest travel in [m] between two times in [s], also where the rig turns back in between."""
+        """Smallest and largest travel in [m] between two times in [s], also where the rig turns
+        back in between.
+        """
         instants = [start, end, *self._reversals(start, end)]
         positions = [self.position(time) for time in instants]
         return min(positions), max(positions)

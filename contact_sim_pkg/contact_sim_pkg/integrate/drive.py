@@ -6,7 +6,9 @@ from typing import NamedTuple
 
 
 class Drive(NamedTuple):
-    """What moves a rig during one segment: values that change linearly from its start to its end."""
+    """What moves a rig during one segment: values that change linearly from its start to its
+    end.
+    """
 
     start: float  # [s]
     length: float  # [s]
@@ -18,5 +20,6 @@ class Drive(NamedTuple):
     acceleration_x_1: float
     acceleration_z_0: float  # [m/s^2] of the floor (seat rig) or of the free body (car)
     acceleration_z_1: float
-    push_0: float | None = None  # [N] that road asperities add to the tire's force while it is in contact
+    # [N] that road asperities add to the tire's force while it is in contact
+    push_0: float | None = None
     push_1: float | None = None

@@ -7,12 +7,14 @@ from typing import NamedTuple
 import numpy
 
 from contact_sim_pkg.compiled.jit import borrowing_kernel
-from contact_sim_pkg.integrate.interface import margins, margins_need_rate, rate
+from contact_sim_pkg.integrate.interface import event_functions, event_functions_need_rate, rate
 from contact_sim_pkg.integrate.step import error_of_step, state_inside, take_step
 from contact_sim_pkg.integrate.time_map import place, time_map
 
-INSIDE_POINTS = 4  # event functions are looked at at 1/5 ... 4/5 of a step on which one may come near zero
-STRADDLING_ERROR = 1.0e4  # a trial step with a larger error over the allowed one is not worth looking for events
+# Event functions are evaluated at 1/5 ... 4/5 of a step on which one may come near zero
+INSIDE_POINTS = 4
+# A trial step with a larger error over the allowed one is not worth looking for events
+STRADDLING_ERROR = 1.0e4
 LOCATE_ITERATIONS = 60
 INTERPOLATED_ITERATIONS = 12
 NEARBY = 1.0e-7  # part of the step over which the slope of an event function is taken
@@ -28,48 +30,58 @@ class EventSearch(NamedTuple):
 
 
 @borrowing_kernel
-def _margins_inside(rig, drive, mode, course, part, state, work):
-    """Event functions at ``part`` of the step just taken into ``work.margin_inside``, from the interpolated state."""
+def _event_values_inside(rig, drive, mode, course, part, state, work):
+    """Event functions at ``part`` of the step just taken into ``work.event_inside``, from the
+    interpolated state.
+    """
     time, _slope = place(course, part)
     state_inside(course, part, state, work)
-    if margins_need_rate(rig, mode):
+    if event_functions_need_rate(rig, mode):
         rate(rig, drive, mode, time, work.inside, work.inside_rate)
-    margins(rig, drive, mode, time, work.inside, work.inside_rate, work.margin_inside)
+    event_functions(rig, drive, mode, time, work.inside, work.inside_rate, work.event_inside)
 
 
 @borrowing_kernel
-def _farthest_beyond(margin, side):
+def _farthest_beyond(value, direction):
+    """Number of the event function that lies farthest beyond its sign; -1 where none does."""
     event = -1
-    value = 0.0
-    for j in range(side.shape[0]):
-        signed = margin[j] * side[j]
-        if signed < value:
-            value = signed
+    lowest = 0.0
+    for j in range(direction.shape[0]):
+        signed = value[j] * direction[j]
+        if signed < lowest:
+            lowest = signed
             event = j
     return event
 
 
 @borrowing_kernel
 def _stays_clear(work):
-    """Whether parabolas through start, middle and end of a step keep away from zero by three times their own bend."""
-    for j in range(work.side.shape[0]):
-        start, middle, end = work.margin_before[j], work.margin_inside[j], work.margin[j]
-        bend = 0.125 * abs(start - 2.0 * middle + end)
-        if not min(start * work.side[j], middle * work.side[j], end * work.side[j]) > 4.0 * bend:
+    """Whether parabolas through start, middle and end of a step keep away from zero by three times
+    their sagitta.
+    """
+    for j in range(work.event_direction.shape[0]):
+        start, middle, end = work.event_before[j], work.event_inside[j], work.event_value[j]
+        sagitta = 0.125 * abs(start - 2.0 * middle + end)
+        if (
+            not min(start * work.event_direction[j], middle * work.event_direction[j], end * work.event_direction[j])
+            > 4.0 * sagitta
+        ):
             return False
     return True
 
 
 @borrowing_kernel
 def bracket_of_change(rig, drive, mode, course, error, state, work):
-    """Parts of the step just taken between which an event function is seen to change its sign; 0, 0 where none does.
+    """Parts of the step just taken between which an event function is seen to change its sign; 0, 0
+    where none does.
 
-    Where the ``error`` is above the allowed one, the states inside are not to be trusted, and only the end is looked at.
+    Where the ``error`` is above the allowed one, the states inside are not accurate, and only the
+    end is examined.
     """
     if not error < STRADDLING_ERROR:
         return 0.0, 0.0
-    margins(rig, drive, mode, course.start + course.step, work.trial, work.rate_after, work.margin)
-    changed = _farthest_beyond(work.margin, work.side) >= 0
+    event_functions(rig, drive, mode, course.start + course.step, work.trial, work.rate_after, work.event_value)
+    changed = _farthest_beyond(work.event_value, work.event_direction) >= 0
     if error > 1.0:
         return 0.0, 1.0 if changed else 0.0
     return _bracket_inside(rig, drive, mode, course, changed, state, work)
@@ -77,18 +89,19 @@ def bracket_of_change(rig, drive, mode, course, error, state, work):
 
 @borrowing_kernel
 def _bracket_inside(rig, drive, mode, course, changed, state, work):
-    """Neighbours of 0, 1/5 ... 4/5, 1 of the step between which an event function first changes its sign; 0, 0 where none does.
+    """Neighbours of 0, 1/5 ... 4/5, 1 of the step between which an event function first changes its
+    sign; 0, 0 where none does.
 
     ``changed``: whether one has at the end of the step.
     """
-    _margins_inside(rig, drive, mode, course, 0.5, state, work)
+    _event_values_inside(rig, drive, mode, course, 0.5, state, work)
     if _stays_clear(work):
         return 0.0, 0.0
     before = 0.0
     for point in range(1, INSIDE_POINTS + 1):
         part = point / (INSIDE_POINTS + 1.0)
-        _margins_inside(rig, drive, mode, course, part, state, work)
-        if _farthest_beyond(work.margin_inside, work.side) >= 0:
+        _event_values_inside(rig, drive, mode, course, part, state, work)
+        if _farthest_beyond(work.event_inside, work.event_direction) >= 0:
             return before, part
         before = part
     return (before, 1.0) if changed else (0.0, 0.0)
@@ -96,24 +109,25 @@ def _bracket_inside(rig, drive, mode, course, changed, state, work):
 
 @borrowing_kernel
 def _interpolated_change(rig, drive, mode, course, bracket, state, work):
-    """Part of the step at which the event function that has changed at the end of ``bracket`` is zero.
+    """Part of the step at which the event function that has changed at the end of ``bracket`` is
+    zero.
 
     From the interpolated states; also the number of that function.
     """
     low, high = bracket
     event = -1
     if high < 1.0:
-        _margins_inside(rig, drive, mode, course, high, state, work)
-        event = _farthest_beyond(work.margin_inside, work.side)
-        high_value = work.margin_inside[event] * work.side[event]
+        _event_values_inside(rig, drive, mode, course, high, state, work)
+        event = _farthest_beyond(work.event_inside, work.event_direction)
+        high_value = work.event_inside[event] * work.event_direction[event]
     else:
-        event = _farthest_beyond(work.margin, work.side)
-        high_value = work.margin[event] * work.side[event]
+        event = _farthest_beyond(work.event_value, work.event_direction)
+        high_value = work.event_value[event] * work.event_direction[event]
     low_value = numpy.nan
     middle = 0.5 * (low + high)
     for _ in range(INTERPOLATED_ITERATIONS):
-        _margins_inside(rig, drive, mode, course, middle, state, work)
-        value = work.margin_inside[event] * work.side[event]
+        _event_values_inside(rig, drive, mode, course, middle, state, work)
+        value = work.event_inside[event] * work.event_direction[event]
         if value <= 0.0:
             high, high_value = middle, value
         else:
@@ -129,36 +143,41 @@ def _interpolated_change(rig, drive, mode, course, bracket, state, work):
 
 @borrowing_kernel
 def guess_of_change(rig, drive, mode, course, bracket, state, work):
-    """Step in [s] after which an event function passes zero, by the interpolated states of the step just taken."""
+    """Step in [s] after which an event function passes zero, by the interpolated states of the step
+    just taken.
+    """
     change, event = _interpolated_change(rig, drive, mode, course, bracket, state, work)
     return place(course, change)[0] - course.start, event
 
 
 @borrowing_kernel
 def _correction(rig, drive, mode, end, step, event, work):
-    """Change of the step in [s] that brings event function ``event`` to zero, by its slope right before the step's ``end``.
+    """Change of the step in [s] that brings event function ``event`` to zero, by its slope right
+    before the step's ``end``.
 
     NaN where it does not fall there: it has jumped, and the change lies before.
     """
     back = NEARBY * step
     for i in range(work.trial.shape[0]):
         work.inside[i] = work.trial[i] - back * work.rate_after[i]
-    if margins_need_rate(rig, mode):
+    if event_functions_need_rate(rig, mode):
         rate(rig, drive, mode, end - back, work.inside, work.inside_rate)
-    margins(rig, drive, mode, end - back, work.inside, work.inside_rate, work.margin_inside)
-    slope = (work.margin[event] - work.margin_inside[event]) / back
-    if slope * work.side[event] < 0.0:
-        return -work.margin[event] / slope
+    event_functions(rig, drive, mode, end - back, work.inside, work.inside_rate, work.event_inside)
+    slope = (work.event_value[event] - work.event_inside[event]) / back
+    if slope * work.event_direction[event] < 0.0:
+        return -work.event_value[event] / slope
     return numpy.nan
 
 
 @borrowing_kernel
 def _nearest(work):
-    """Event function that lies farthest beyond its sign, or nearest to zero; and whether it has changed, as zero has."""
+    """Event function that lies farthest beyond its sign, or nearest to zero; and whether it has
+    changed, as zero has.
+    """
     event = 0
     value = numpy.inf
-    for j in range(work.side.shape[0]):
-        signed = work.margin[j] * work.side[j]
+    for j in range(work.event_direction.shape[0]):
+        signed = work.event_value[j] * work.event_direction[j]
         if signed < value:
             value = signed
             event = j
@@ -169,17 +188,18 @@ def _nearest(work):
 def locate(rig, drive, mode, search, state, scale, work):
     """Shortest whole step after which an event function has changed its sign, within ``search``.
 
-    Newton's method on whole steps, bisection where it leaves the bracket. The step found ends just beyond the change, and its
-    result is in ``work.trial``. Returns the step and the number of the event, -1 where none changes up to
-    ``search.outer``. Where the error of the first step is too large, that one is returned.
+    Newton's method on whole steps, bisection where it leaves the bracket. The step found ends just
+    beyond the change, and its result is in ``work.trial``. Returns the step and the number of the
+    event, -1 where none changes up to ``search.outer``. Where the error of the first step is too
+    large, that one is returned.
     """
     time, low, step, outer = search
     high = outer
-    known = False  # whether a change before ``high`` has been seen on whole steps
+    seen = False  # whether a change before ``high`` has been seen on whole steps
     for iteration in range(LOCATE_ITERATIONS):
         course = time_map(time, step, work.last_event[0], True)
         take_step(rig, drive, mode, course, state, work)
-        margins(rig, drive, mode, time + step, work.trial, work.rate_after, work.margin)
+        event_functions(rig, drive, mode, time + step, work.trial, work.rate_after, work.event_value)
         event, changed = _nearest(work)
         resolution = max(4.0e-16 * (abs(time) + step), 1.0e-14 * outer)
         if iteration == 0 and not error_of_step(course, scale, work) <= 1.0:
@@ -187,7 +207,7 @@ def locate(rig, drive, mode, search, state, scale, work):
         correction = _correction(rig, drive, mode, time + step, step, event, work)
         if changed:
             high = step
-            known = True
+            seen = True
             if abs(correction) <= resolution or high - low <= resolution:
                 return step, event
         else:
@@ -195,10 +215,10 @@ def locate(rig, drive, mode, search, state, scale, work):
             if step == outer:
                 return step, -1
         step += correction + 0.5 * resolution
-        if high - low <= resolution or (not known and not step < high):
+        if high - low <= resolution or (not seen and not step < high):
             step = high
         elif not low < step < high or iteration % 4 == 3:
             step = 0.5 * (low + high)
     take_step(rig, drive, mode, time_map(time, high, work.last_event[0], True), state, work)
-    margins(rig, drive, mode, time + high, work.trial, work.rate_after, work.margin)
+    event_functions(rig, drive, mode, time + high, work.trial, work.rate_after, work.event_value)
     return high, _nearest(work)[0]

@@ -1,6 +1,6 @@
-"""Dormand and Prince's pair of orders 5 and 4: cheap steps.
+"""Dormand and Prince's pair of orders 5 and 4: inexpensive steps.
 
-Hairer, Norsett, Wanner, Solving Ordinary Differential Equations I, 2nd ed., II.5, table 5.2.
+Hairer, Norsett, Wanner, Solving Ordinary Differential Equations I, 2nd ed., chapter II, table 5.2.
 """
 
 from __future__ import annotations
@@ -24,7 +24,9 @@ class Order5(NamedTuple):
 
 @borrowing_kernel
 def step_of_order_5(stages, rig, drive, mode, course, state, out):
-    """Step from ``state`` along ``course`` into ``out``; the first row of ``stages`` must hold the rate at its start."""
+    """Step from ``state`` along ``course`` into ``out``; the first row of ``stages`` must hold the
+    rate at its start.
+    """
     k = stages
     n = state.shape[0]
     for i in range(n):

@@ -1,6 +1,8 @@
-"""Dormand and Prince's pair of order 8 with embedded orders 5 and 3: long steps to tight tolerances.
+"""Dormand and Prince's pair of order 8 with embedded orders 5 and 3: long steps to tight
+tolerances.
 
-Hairer, Norsett, Wanner, Solving Ordinary Differential Equations I, 2nd ed., II.10; coefficients of their code DOP853.
+Hairer, Norsett, Wanner, Solving Ordinary Differential Equations I, 2nd ed., chapter II, section 10;
+coefficients of their code DOP853.
 """
 
 from __future__ import annotations
@@ -15,7 +17,8 @@ from contact_sim_pkg.integrate.stage import evaluate
 STAGES = 12
 POWER = 8.0
 INSIDE_CONTACT = 0.2
-# Found by trial: with these, rubber at loss tangents 0 to 1 and the seat slap follow their tolerance.
+# Found by trial: with these, rubber at loss tangents 0 to 1 and the seat slap follow their
+# tolerance.
 TOO_COARSE, FAR_ABOVE = 0.03, 500.0
 TOO_LONG = 100.0  # an error that halves the step
 
@@ -28,7 +31,9 @@ class Order8(NamedTuple):
 
 @borrowing_kernel
 def step_of_order_8(stages, rig, drive, mode, course, state, out):  # noqa: C901 (a loop over the states a stage)
-    """Step from ``state`` along ``course`` into ``out``; the first row of ``stages`` must hold the rate at its start."""
+    """Step from ``state`` along ``course`` into ``out``; the first row of ``stages`` must hold the
+    rate at its start.
+    """
     k = stages
     n = state.shape[0]
     for i in range(n):
@@ -97,7 +102,9 @@ def step_of_order_8(stages, rig, drive, mode, course, state, out):  # noqa: C901
 
 @borrowing_kernel
 def _too_long(k, i, coarse):
-    """Whether the error of order 3 of state ``i`` (``coarse``, as a rate) is a large part of its largest rate in the step."""
+    """Whether the error of order 3 of state ``i`` (``coarse``, as a rate) is a large part of its
+    largest rate in the step.
+    """
     change = 0.0
     for j in range(k.shape[0]):
         change = max(change, abs(k[j, i]))
@@ -106,12 +113,14 @@ def _too_long(k, i, coarse):
 
 @borrowing_kernel
 def error_of_order_8(stages, course, scale):
-    """Largest error of a state over ``scale``: that of order 5, corrected by that of order 3 to the power 8 of the step.
+    """Largest error of a state over ``scale``: that of order 5, corrected by that of order 3 to the
+    power 8 of the step.
 
-    Inside a contact the true error lies 30 to 100 times below that estimate, towards an event 1.5 to 10 times (measured on the
-    seat slap), so that ``INSIDE_CONTACT`` of it is returned but for the step that ends at an event.
-    A step that would pass while that of order 3 is above 3 % of the change over it, and far above what is allowed, is
-    ``TOO_LONG``: that of order 5 is small by chance there (seen behind a first touch: 1e-3 off with 1e-6 asked).
+    Inside a contact the true error lies 30 to 100 times below that estimate, towards an event 1.5
+    to 10 times (measured on the seat slap), so that ``INSIDE_CONTACT`` of it is returned but for
+    the step that ends at an event. A step that would be accepted while that of order 3 is above 3 %
+    of the change over it, and far above what is allowed, is ``TOO_LONG``: that of order 5 is small
+    by chance there (seen behind a first touch: 1e-3 off at a tolerance of 1e-6).
     """
     k = stages
     worst = 0.0

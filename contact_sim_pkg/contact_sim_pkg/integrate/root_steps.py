@@ -1,14 +1,15 @@
-"""Dormand and Prince's pairs of orders 5 and 8 with steps even in the root of time beside events; for the one-mass rigs.
+"""Dormand and Prince's pairs of orders 5 and 8 with steps even in the root of time beside events;
+for the one-mass rigs.
 
-Reference: Hairer, Norsett, Wanner, Solving Ordinary Differential Equations I, II.4-5 and II.10. No
-step straddles an event: where an event function of the rig changes its sign within a trial step,
-the step is taken again up to the change (``integrate/events.py``), so that the state at the event
-has the order of the method. Beside an event a step is even in the root of the time from it
-(``integrate/time_map.py``), where contact laws are smooth. A rig that crosses free flight in closed
-form does so (``integrate/interface.py``).
+Source: Hairer, Norsett, Wanner, Solving Ordinary Differential Equations I, sections 4, 5 and 10 of
+chapter II. No step straddles an event: where an event function of the rig changes its sign within a
+trial step, the step is taken again up to the change (``integrate/events.py``), so that the state at
+the event has the order of the method. Beside an event a step is even in the root of the time from
+it (``integrate/time_map.py``), where contact laws are smooth. A rig that crosses free flight in
+closed form does so (``integrate/interface.py``).
 
-Contacts repeat: the step that was right behind the last event of a kind is tried behind the next, and where the last one could
-be reached in one step from, the next is.
+Contacts repeat: the step that was right behind the last event of a kind is tried behind the next,
+and where the last one could be reached in one step from, the next is.
 """
 
 from __future__ import annotations
@@ -18,34 +19,45 @@ import numpy
 from contact_sim_pkg.compiled.jit import borrowing_kernel
 from contact_sim_pkg.compiled.results import DONE, NOT_FINITE, STEP_TOO_SMALL, TOO_MANY_EVENTS
 from contact_sim_pkg.integrate.events import EventSearch, bracket_of_change, guess_of_change, locate
-from contact_sim_pkg.integrate.interface import free_flight, margins, rate, switch
+from contact_sim_pkg.integrate.interface import event_functions, free_flight, mode_transition, rate
 from contact_sim_pkg.integrate.step import error_of_step, power_of, take_step
 from contact_sim_pkg.integrate.time_map import following_step, place, scaled_step, time_map
 from contact_sim_pkg.integrate.workspace import COUNTERS, EVENTS, REJECTED, STEPS, RootStepWorkspace, make_workspace
 
-__all__ = ["COUNTERS", "EVENTS", "REJECTED", "STEPS", "RootStepWorkspace", "integrate", "make_workspace", "set_sides"]
+__all__ = [
+    "COUNTERS",
+    "EVENTS",
+    "REJECTED",
+    "STEPS",
+    "RootStepWorkspace",
+    "integrate",
+    "make_workspace",
+    "set_event_directions",
+]
 
 MAXIMUM_EVENTS = 10_000
 STATE_LIMIT = 1.0e10
 SAFETY = 0.9
 LEAST_FACTOR, LARGEST_FACTOR = 0.2, 5.0
-GROWTH_BESIDE_EVENT = 1.6  # a longer step is rejected more often than not, measured on the seat slap
-NO_EVENT, PUT_OFF = -1, -2
+# A longer step is rejected more often than not, measured on the seat slap
+GROWTH_BESIDE_EVENT = 1.6
+NO_EVENT, POSTPONED = -1, -2
 
 
 @borrowing_kernel
-def _take_sides(margin, side, but):
-    for j in range(side.shape[0]):
+def _set_directions(value, direction, but):
+    """Write the sign of each event function but number ``but`` into ``direction``."""
+    for j in range(direction.shape[0]):
         if j != but:
-            side[j] = 1.0 if margin[j] >= 0.0 else -1.0
+            direction[j] = 1.0 if value[j] >= 0.0 else -1.0
 
 
 @borrowing_kernel
-def set_sides(rig, drive, mode, time, state, work):
-    """Take the sign of every event function as the one on which it stands; to be called once, at the start of a run."""
+def set_event_directions(rig, drive, mode, time, state, work):
+    """Store the sign of each event function; to be called once, at the start of a run."""
     rate(rig, drive, mode, time, state, work.rate_before)
-    margins(rig, drive, mode, time, state, work.rate_before, work.margin_before)
-    _take_sides(work.margin_before, work.side, NO_EVENT)
+    event_functions(rig, drive, mode, time, state, work.rate_before, work.event_before)
+    _set_directions(work.event_before, work.event_direction, NO_EVENT)
     work.last_event[0] = -numpy.inf
     work.first_step[:] = 0.0
     work.reach[:] = 0.0
@@ -53,36 +65,43 @@ def set_sides(rig, drive, mode, time, state, work):
 
 @borrowing_kernel
 def _land(rig, drive, mode, time, state, event, work):
-    """Take rate and sides after a free flight, but the side of the event that ended it: that one is passed as any other."""
+    """Store rate and event directions after a free flight.
+
+    Not the direction of the event that ended it: that event is handled as any other.
+    """
     rate(rig, drive, mode, time, state, work.rate_before)
-    margins(rig, drive, mode, time, state, work.rate_before, work.margin_before)
-    _take_sides(work.margin_before, work.side, event)
+    event_functions(rig, drive, mode, time, state, work.rate_before, work.event_before)
+    _set_directions(work.event_before, work.event_direction, event)
     work.counters[STEPS] += 1
 
 
 @borrowing_kernel
-def _kind(event, side):
+def _kind(event, direction):
     """An event's kind: which function changes, to which sign."""
-    return 2 * event + (1 if side > 0.0 else 0)
+    return 2 * event + (1 if direction > 0.0 else 0)
 
 
 @borrowing_kernel
-def _pass_event(rig, drive, mode, time, state, event, proposed, work):
-    """Let the rig switch at event number ``event``, and take the rate on its new side; returns the step in [s] to try next."""
+def _handle_event(rig, drive, mode, time, state, event, proposed, work):
+    """Mode transition of the rig at event number ``event``, and the rate behind it; returns the
+    step in [s] to try next.
+    """
     work.counters[EVENTS] += 1
-    kind = _kind(event, -work.side[event])
+    kind = _kind(event, -work.event_direction[event])
     work.last_kind[0] = kind
     work.last_event[0] = time
     work.expected[0] = numpy.inf
-    work.side[event] = switch(rig, drive, mode, time, state, event, -work.side[event])
-    work.margin_before[event] = 0.0
+    work.event_direction[event] = mode_transition(rig, drive, mode, time, state, event, -work.event_direction[event])
+    work.event_before[event] = 0.0
     rate(rig, drive, mode, time, state, work.rate_before)
     return work.first_step[kind] if work.first_step[kind] > 0.0 else proposed
 
 
 @borrowing_kernel
 def _planned_step(time, end, proposed, work):
-    """Step in [s] to try: the proposed one, divided so that an expected event and the end are met by steps of some length."""
+    """Step in [s] to try: the proposed one, divided so that an expected event and the end are met
+    by steps of some length.
+    """
     remaining = end - time
     distance = work.expected[0] - time
     if 1.1 * work.expected_reach[0] < distance < numpy.inf:
@@ -102,9 +121,11 @@ def _step_to_event(rig, drive, mode, search, state, scale, work):
 
 @borrowing_kernel
 def _try_step(rig, drive, mode, time, step, end, state, scale, work):
-    """Step into ``work.trial``, cut off at the first event. Returns its course, its error over the allowed one, and the event.
+    """Step into ``work.trial``, cut off at the first event. Returns its course, its error over the
+    allowed one, and the event.
 
-    Where an event is found that is too far to be reached in one step, the error is infinite and the event ``PUT_OFF``.
+    Where an event is found that is too far to be reached in one step, the error is infinite and the
+    event ``POSTPONED``.
     """
     distance = work.expected[0] - time
     if distance <= min(1.1 * work.expected_reach[0], end - time):
@@ -118,20 +139,22 @@ def _try_step(rig, drive, mode, time, step, end, state, scale, work):
     if high == 0.0:
         return course, error, NO_EVENT
     guess, event = guess_of_change(rig, drive, mode, course, bracket, state, work)
-    reach = work.reach[_kind(event, -work.side[event])]
+    reach = work.reach[_kind(event, -work.event_direction[event])]
     if guess > 1.1 * reach > 0.0:
         work.expected[0] = time + guess
         work.expected_reach[0] = reach
-        return course, numpy.inf, PUT_OFF
+        return course, numpy.inf, POSTPONED
     inner, outer = place(course, low)[0] - time, place(course, high)[0] - time
     if inner == 0.0 and time == work.last_event[0]:
-        guess = outer  # no change is looked for right behind the start unless a whole step shows it: the root just left is there
+        # No change is looked for right behind the start unless a whole step shows it: the root just
+        # left is there
+        guess = outer
     return _step_to_event(rig, drive, mode, EventSearch(time, inner, guess, outer), state, scale, work)
 
 
 @borrowing_kernel
 def _factor(error, work):
-    """Ratio of the step that meets the error allowed to the step whose ``error`` over it is given."""
+    """Ratio of the step that meets the tolerance to the step with ``error`` over the tolerance."""
     if not error < numpy.inf:
         return LEAST_FACTOR
     wanted = SAFETY * max(error, 1.0e-12) ** (-1.0 / power_of(work.pair))
@@ -150,7 +173,7 @@ def _finite(values):
 def _reject(course, error, event, proposed, work):
     """Step in [s] to try instead."""
     work.counters[REJECTED] += 1
-    if event == PUT_OFF:
+    if event == POSTPONED:
         return proposed
     factor = _factor(error, work)
     work.expected[0] = numpy.inf
@@ -163,10 +186,12 @@ def _reject(course, error, event, proposed, work):
 
 @borrowing_kernel
 def _following(course, error, event, last, proposed, work):
-    """Step in [s] to try next, behind an accepted one; remembers what was right beside the event."""
+    """Step in [s] to try next, after an accepted one; stores the step that was right beside the
+    event.
+    """
     factor = _factor(error, work)
     if event >= 0:
-        work.reach[_kind(event, -work.side[event])] = course.step * factor**1.5
+        work.reach[_kind(event, -work.event_direction[event])] = course.step * factor**1.5
         return proposed
     if last and course.step < proposed:
         return proposed
@@ -178,14 +203,14 @@ def _following(course, error, event, last, proposed, work):
 
 @borrowing_kernel
 def _accept(time, state, work):
-    """Take over the trial step, which ends at ``time``; whether it is finite."""
+    """Accept the trial step, which ends at ``time``; whether it is finite."""
     finite = True
     for i in range(state.shape[0]):
         state[i] = work.trial[i]
         work.rate_before[i] = work.rate_after[i]
         finite = finite and abs(state[i]) < STATE_LIMIT
-    for j in range(work.side.shape[0]):
-        work.margin_before[j] = work.margin[j]
+    for j in range(work.event_direction.shape[0]):
+        work.event_before[j] = work.event_value[j]
     if time >= work.expected[0]:
         work.expected[0] = numpy.inf
     work.counters[STEPS] += 1
@@ -194,10 +219,12 @@ def _accept(time, state, work):
 
 @borrowing_kernel
 def integrate(rig, drive, mode, end, state, scale, work):
-    """Advance ``state`` from ``drive.start`` to ``end`` (within the segment); returns a status of ``compiled/results.py``.
+    """Advance ``state`` from ``drive.start`` to ``end`` (within the segment); returns a status of
+    ``compiled/results.py``.
 
-    ``scale`` [states]: error allowed per step, in the unit of each state; infinite for what is not controlled.
-    ``mode`` [of the rig] and ``state`` change in place. ``work.step`` carries the step size along.
+    ``scale`` [states]: error allowed per step, in the unit of each state; infinite for what is not
+    controlled. ``mode`` [of the rig] and ``state`` change in place. ``work.step`` carries the step
+    size along.
     """
     time = drive.start
     proposed = work.step[0] if work.step[0] > 0.0 else end - time
@@ -205,11 +232,13 @@ def integrate(rig, drive, mode, end, state, scale, work):
     rate(rig, drive, mode, time, state, work.rate_before)
     events = 0
     while time < end:
-        reached, event = free_flight(rig, drive, mode, time, end, state, work.side)
+        # Free flight in closed form, where the rig is in one.
+        reached, event = free_flight(rig, drive, mode, time, end, state, work.event_direction)
         if reached > time or event >= 0:
             time = reached
             _land(rig, drive, mode, time, state, event, work)
         else:
+            # A trial step, cut off at the first event; shorter where its error is too large.
             step = _planned_step(time, end, proposed, work)
             if step <= 1.0e-15 * max(1.0, abs(time)) and step < end - time:
                 return STEP_TOO_SMALL
@@ -224,10 +253,11 @@ def integrate(rig, drive, mode, end, state, scale, work):
             if not _accept(time, state, work):
                 return NOT_FINITE
             proposed = _following(course, error, event, last, proposed, work)
+        # Mode transition at the event.
         if event >= 0:
             events += 1
             if events > MAXIMUM_EVENTS:
                 return TOO_MANY_EVENTS
-            proposed = _pass_event(rig, drive, mode, time, state, event, proposed=proposed, work=work)
+            proposed = _handle_event(rig, drive, mode, time, state, event, proposed=proposed, work=work)
     work.step[0] = proposed
     return DONE

@@ -9,7 +9,9 @@ from contact_sim_pkg.integrate.time_map import place
 
 @borrowing_kernel
 def evaluate(rig, drive, mode, course, part, state, out):
-    """Write the rate of ``state`` over the part of the step, at ``part`` of ``course``, into ``out``."""
+    """Write the rate of ``state`` over the part of the step, at ``part`` of ``course``, into
+    ``out``.
+    """
     time, slope = place(course, part)
     rate(rig, drive, mode, time, state, out)
     for i in range(out.shape[0]):

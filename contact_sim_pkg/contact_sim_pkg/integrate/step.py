@@ -1,4 +1,6 @@
-"""One step of the integrator by the pair that its workspace holds: its result, its error, and the state inside it."""
+"""One step of the integrator by the pair that its workspace holds: its result, its error, and the
+state inside it.
+"""
 
 from __future__ import annotations
 
@@ -14,14 +16,16 @@ from contact_sim_pkg.integrate.order_8 import error_of_order_8, step_of_order_8
 from contact_sim_pkg.integrate.time_map import place
 
 
-def take_stages(pair: Any, rig: Any, drive: Any, mode: Any, course: Any, state: Vector, out: Vector) -> None:
-    """Step from ``state`` along ``course`` into ``out`` by ``pair``, the first of whose stages must be there."""
+def compute_stages(pair: Any, rig: Any, drive: Any, mode: Any, course: Any, state: Vector, out: Vector) -> None:
+    """Step from ``state`` along ``course`` into ``out`` by ``pair``, the first of whose stages must
+    be there.
+    """
     stages_of = step_of_order_5 if isinstance(pair, Order5) else step_of_order_8
     stages_of(pair.stages, rig, drive, mode, course, state, out)
 
 
-@kernel_overload(take_stages)
-def _take_stages(pair, rig, drive, mode, course, state, out):
+@kernel_overload(compute_stages)
+def _compute_stages(pair, rig, drive, mode, course, state, out):
     stages_of = step_of_order_5 if pair.instance_class is Order5 else step_of_order_8
     return lambda pair, rig, drive, mode, course, state, out: stages_of(
         pair.stages, rig, drive, mode, course, state, out
@@ -29,7 +33,9 @@ def _take_stages(pair, rig, drive, mode, course, state, out):
 
 
 def estimate(pair: Any, course: Any, end_rate: Vector, scale: Vector) -> float:
-    """Largest error of a state over ``scale`` that ``pair`` estimates for the step just taken along ``course``."""
+    """Largest error of a state over ``scale`` that ``pair`` estimates for the step just taken along
+    ``course``.
+    """
     if isinstance(pair, Order5):
         return float(error_of_order_5(pair.stages, course, end_rate, scale))
     return float(error_of_order_8(pair.stages, course, scale))
@@ -43,7 +49,7 @@ def _estimate(pair, course, end_rate, scale):
 
 
 def power_of(pair: Any) -> float:
-    """The error that ``pair`` estimates goes with the step to this power."""
+    """The error that ``pair`` estimates scales with the step to this power."""
     return POWER_5 if isinstance(pair, Order5) else POWER_8
 
 
@@ -55,11 +61,13 @@ def _power_of(pair):
 
 @borrowing_kernel
 def take_step(rig, drive, mode, course, state, work):
-    """Step from ``state`` along ``course`` into ``work.trial``, from ``work.rate_before``; fills ``work.rate_after``."""
+    """Step from ``state`` along ``course`` into ``work.trial``, from ``work.rate_before``; fills
+    ``work.rate_after``.
+    """
     _start, slope = place(course, 0.0)
     for i in range(state.shape[0]):
         work.pair.stages[0, i] = slope * work.rate_before[i]
-    take_stages(work.pair, rig, drive, mode, course, state, work.trial)
+    compute_stages(work.pair, rig, drive, mode, course, state, work.trial)
     rate(rig, drive, mode, course.start + course.step, work.trial, work.rate_after)
 
 

@@ -23,15 +23,23 @@ class RootStepWorkspace(NamedTuple):
     trial: Vector  # [states]
     inside: Vector  # [states]
     inside_rate: Vector  # [states]
-    side: Vector  # [margins], the sign on which each event function stands
-    margin: Vector  # [margins], at the end of the step
-    margin_before: Vector  # [margins], at its start
-    margin_inside: Vector  # [margins]
+    event_direction: Vector  # [event functions], sign of each event function
+    event_value: Vector  # [event functions], at the end of the step
+    event_before: Vector  # [event functions], at its start
+    event_inside: Vector  # [event functions]
     step: Vector  # [1], the step that the error control proposes; carried from segment to segment
-    first_step: Vector  # [2 margins], the step in [s] that was right behind the last event of each kind; 0: none yet
-    reach: Vector  # [2 margins], the step in [s] that was right up to the last event of each kind; 0: none yet
+    first_step: (
+        # [2 event functions], the step in [s] that was right behind the last event of each kind; 0:
+        # none yet
+        Vector
+    )
+    # [2 event functions], the step in [s] that was right up to the last event of each kind; 0: none
+    # yet
+    reach: Vector
     last_kind: (
-        Modes  # [1], kind of the last event: twice its number, plus 1 where the event function has become positive
+        # [1], kind of the last event: twice its number, plus 1 where the event function has become
+        # positive
+        Modes
     )
     expected: Vector  # [1], time in [s] at which an event is thought to lie; infinite: none
     expected_reach: Vector  # [1], time in [s] before it from which one step may lead to it
@@ -39,11 +47,11 @@ class RootStepWorkspace(NamedTuple):
     counters: Vector  # [COUNTERS], accepted steps, rejected steps, events
 
 
-def make_workspace(states: int, margin_count: int, order: int = 5) -> RootStepWorkspace:
-    """Workspace for a rig with ``states`` state variables and ``margin_count`` event functions.
+def make_workspace(states: int, event_count: int, order: int = 5) -> RootStepWorkspace:
+    """Workspace for a rig with ``states`` state variables and ``event_count`` event functions.
 
-    ``order`` 5 steps cheaply, for drives that change within milliseconds; 8 takes long steps to tight tolerances.
-    Raises ValueError for any other order.
+    ``order`` 5 has inexpensive steps, for drives that change within milliseconds; 8 long steps to
+    tight tolerances. Raises ValueError for any other order.
     """
 
     def zeros(*shape: int) -> Vector:
@@ -62,13 +70,13 @@ def make_workspace(states: int, margin_count: int, order: int = 5) -> RootStepWo
         trial=zeros(states),
         inside=zeros(states),
         inside_rate=zeros(states),
-        side=zeros(margin_count),
-        margin=zeros(margin_count),
-        margin_before=zeros(margin_count),
-        margin_inside=zeros(margin_count),
+        event_direction=zeros(event_count),
+        event_value=zeros(event_count),
+        event_before=zeros(event_count),
+        event_inside=zeros(event_count),
         step=zeros(1),
-        first_step=zeros(2 * margin_count),
-        reach=zeros(2 * margin_count),
+        first_step=zeros(2 * event_count),
+        reach=zeros(2 * event_count),
         last_kind=numpy.zeros(1, dtype=numpy.int64),
         expected=numpy.full(1, numpy.inf),
         expected_reach=zeros(1),

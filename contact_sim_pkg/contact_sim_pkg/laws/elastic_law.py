@@ -1,8 +1,10 @@
-"""The elastic law of a contact, picked by the class of its parameters when a rig is compiled: power law, or foam.
+"""The elastic law of a contact, picked by the class of its parameters when a rig is compiled: power
+law, or foam.
 
-The functions are those of ``laws/normal_elastic.py``, and call them for a ``NormalElastic``; a ``FoamElastic`` has its own
-(``laws/foam_elastic.py``). Rigs and losses call these. Called from Python they check what they are given: a law within its range
-(``laws/parameters.py``), an argument that is a number, a result within the range of numbers; compiled they check nothing.
+The functions are those of ``laws/normal_elastic.py``, and call them for a ``NormalElastic``; a
+``FoamElastic`` has its own (``laws/foam_elastic.py``). Rigs and losses call these. Called from
+Python they check what they are given: a law within its range (``laws/parameters.py``), an argument
+that is a number, a result within the range of numbers; compiled they check nothing.
 """
 
 from __future__ import annotations

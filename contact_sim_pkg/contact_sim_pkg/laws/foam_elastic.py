@@ -1,12 +1,15 @@
-"""Elastic law of a foam block under an even load: soft start, plateau, densification (two terms of Hill's hyperfoam, nu = 0).
+"""Elastic law of a foam block under an even load: soft start, plateau, densification (two terms of
+Hill's hyperfoam, nu = 0).
 
 With the strain ``e = x/h``, the stretch ``l = 1 - e``, the area S of the block and ``a = E_0/p_0``
 
-``F/S = p_0 (1/l - l**(a-1)) + p_d (l**(-r-1) - 1/l)``, energy ``S h [p_0 (-ln l - (1 - l**a)/a) + p_d ((l**-r - 1)/r + ln l)]``.
+``F/S = p_0 (1/l - l**(a-1)) + p_d (l**(-r-1) - 1/l)``, energy ``S h [p_0 (-ln l - (1 - l**a)/a) +
+p_d ((l**-r - 1)/r + ln l)]``.
 
-The first term rises with the modulus E_0 and bends to the plateau p_0, the second is the densification: it grows as l**(-r-1), and
-no force closes the block. Slope at first touch ``S (E_0 + r p_d)/h``. Below a stretch of 1e-3 the law goes on along its tangent.
-Source: Hill 1978; Storakers 1986: U = sum of 2 mu_i/a_i^2 (sum of l^a_i - 3 - a_i ln J) for nu = 0, as seat foams are fitted.
+The first term rises with the modulus E_0 and bends to the plateau p_0, the second is the
+densification: it grows as l**(-r-1), and no force closes the block. Slope at first touch ``S (E_0 +
+r p_d)/h``. Below a stretch of 1e-3 the law goes on along its tangent. Source: Hill 1978; Storakers
+1986: U = sum of 2 mu_i/a_i^2 (sum of l^a_i - 3 - a_i ln J) for nu = 0, as seat foams are fitted.
 """
 
 from __future__ import annotations
@@ -105,7 +108,9 @@ def foam_energy(foam: FoamElastic, approach: float) -> float:
 
 @kernel
 def foam_approach_of_force(foam: FoamElastic, force: float) -> float:
-    """Approach in [m] at which the law gives ``force`` in [N], by Newton within a bracket; 0 for ``force <= 0``."""
+    """Approach in [m] at which the law gives ``force`` in [N], by Newton within a bracket; 0 for
+    ``force <= 0``.
+    """
     if force <= 0.0:
         return 0.0
     low, high = 0.0, foam.thickness

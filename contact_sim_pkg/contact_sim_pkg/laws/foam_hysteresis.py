@@ -1,14 +1,19 @@
-"""Loss of foam without rate: one internal variable between -1 and 1 that follows the loading (Bouc 1967, Wen 1976, Dahl 1968).
+"""Loss of foam without rate: one internal variable between -1 and 1 that follows the loading (Bouc
+1967, Wen 1976, Dahl 1968).
 
-``F = F_el(x) (1 + s z)``, ``z' = (u' - |u'| z)/u_0``, u the energy stored in the elastic law, u' = F_el x'. On a long loading z
-tends to 1 and the force to 1 + s times the elastic one, on unloading to 1 - s; a reversal is passed over in the energy u_0.
-Driven by the energy in place of the displacement, the loss is a part of the load, the force never pulls (s < 1), and the balance
-closes: ``(F - F_el) x' = d/dt (1/2 s u_0 z^2) + s |u'| z^2``: stored beside u is ``1/2 s u_0 z^2``, what is lost is never negative.
+``F = F_el(x) (1 + s z)``, ``z' = (u' - |u'| z)/u_0``, u the energy stored in the elastic law, u' =
+F_el x'. On a long loading z tends to 1 and the force to 1 + s times the elastic one, on unloading
+to 1 - s; a reversal is passed over in the energy u_0. Driven by the energy in place of the
+displacement, the loss is a part of the load, the force never pulls (s < 1), and the balance closes:
+``(F - F_el) x' = d/dt (1/2 s u_0 z^2) + s |u'| z^2``: stored beside u is ``1/2 s u_0 z^2``, what is
+lost is never negative.
 
-Loaded from z = 0 to U and back: taken up ``U + s (U - u_0 (1 - E))``, given back ``U - s (U - (1 + z_1) u_0 (1 - E))`` with
-``E = exp(-U/u_0)``, ``z_1 = 1 - E``. For U >> u_0 the share lost of what was taken up is 2 s/(1 + s). Out of contact z stays.
+Loaded from z = 0 to U and back: taken up ``U + s (U - u_0 (1 - E))``, given back ``U - s (U - (1 +
+z_1) u_0 (1 - E))`` with ``E = exp(-U/u_0)``, ``z_1 = 1 - E``. For U >> u_0 the share lost of what
+was taken up is 2 s/(1 + s). Out of contact z stays.
 
-Where many points remember, ``place`` is the number of the point: their variables stand in a row from ``offset`` on.
+Where many points remember, ``place`` is the number of the point: their variables stand in a row
+from ``offset`` on.
 """
 
 from __future__ import annotations
@@ -19,15 +24,17 @@ from contact_sim_pkg.laws.parameters import FoamHysteresis
 
 
 @kernel
-def memory_factor(hysteresis: FoamHysteresis | None, state: Vector, place: int = 0) -> float:
-    """Ratio of the force without rate to the elastic one, ``1 + s z``; 1 where the scene calls for none."""
+def hysteresis_factor(hysteresis: FoamHysteresis | None, state: Vector, place: int = 0) -> float:
+    """Ratio of the force without rate to the elastic one, ``1 + s z``; 1 where the scene calls for
+    none.
+    """
     if hysteresis is None:
         return 1.0
     return 1.0 + hysteresis.share * state[hysteresis.offset + place]
 
 
 @kernel
-def memory_rate(
+def hysteresis_rate(
     hysteresis: FoamHysteresis | None, elastic_power: float, state: Vector, out: Vector, place: int = 0
 ) -> None:
     """Write z' for ``elastic_power`` u' in [W]."""
@@ -37,15 +44,15 @@ def memory_rate(
 
 
 @kernel
-def factor_rate(hysteresis: FoamHysteresis | None, derivative: Vector, place: int = 0) -> float:
-    """Rate of ``memory_factor`` in [1/s], from the derivative of the state."""
+def hysteresis_factor_rate(hysteresis: FoamHysteresis | None, derivative: Vector, place: int = 0) -> float:
+    """Rate of ``hysteresis_factor`` in [1/s], from the derivative of the state."""
     if hysteresis is None:
         return 0.0
     return hysteresis.share * derivative[hysteresis.offset + place]
 
 
 @kernel
-def memory_energy(hysteresis: FoamHysteresis | None, state: Vector, place: int = 0) -> float:
+def hysteresis_energy(hysteresis: FoamHysteresis | None, state: Vector, place: int = 0) -> float:
     """Energy stored beside the elastic law in [J]."""
     if hysteresis is None:
         return 0.0
@@ -53,8 +60,10 @@ def memory_energy(hysteresis: FoamHysteresis | None, state: Vector, place: int =
 
 
 @kernel
-def turning_margin(hysteresis: FoamHysteresis | None, approach: float, approach_rate: float) -> float:
-    """Event function of the reversals, where z' has a corner; constant without memory and out of contact."""
+def reversal_event(hysteresis: FoamHysteresis | None, approach: float, approach_rate: float) -> float:
+    """Event function of the reversals, where z' has a corner; constant without memory and out of
+    contact.
+    """
     if hysteresis is None:
         return 1.0
     return approach_rate if approach > 0.0 else 1.0

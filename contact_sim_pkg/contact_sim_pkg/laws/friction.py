@@ -1,14 +1,18 @@
-"""Friction with true stick: a spring-damper that sticks, limited by Coulomb's law (Driver and Seat, eq 9).
+"""Friction with true stick: a spring and damper, limited by Coulomb's law (Driver and Seat, eq 9).
 
 * stick: ``F_t = C s + D v``, ``s' = v``;
-* slip: ``F_t = sigma mu_k N``, and the spring follows, ``C s = F_t - D v``, never beyond ``mu_k N / C`` against the slip;
-* stick ends where ``|C s + D v|`` reaches ``mu_s N``; slip ends where the slip rate ``v - s'`` passes zero;
-* without a normal force (bodies apart, or parting faster than the material recovers) ``F_t = 0``, ``s = 0``.
+* slip: ``F_t = sigma mu_k N``, and the spring follows, ``C s = F_t - D v``, never beyond ``mu_k N /
+  C`` against the slip;
+* stick ends where ``|C s + D v|`` reaches ``mu_s N``; slip ends where the slip rate ``v - s'``
+  passes zero;
+* without a normal force (bodies apart, or parting faster than the material recovers) ``F_t = 0``,
+  ``s = 0``.
 
-v is the velocity of the upper body relative to the lower, F_t the force on the lower body; on the upper body acts
--F_t. The transitions are located events, not smoothed: no creep in stick. F_t is continuous where slip ends, also where v has
-turned round before: a load that falls fast keeps the slip alive a little longer. (With s below mu_k N / C along the
-slip too the force jumps by D v there, again and again, at instants that the step decides.)
+v is the velocity of the upper body relative to the lower, F_t the force on the lower body, so that
+-F_t acts on the upper one. The transitions are located events, not smoothed: sticking does not
+creep. F_t is continuous where slip ends, also where v has reversed before: a load that falls fast
+prolongs the slip a little. (With s below mu_k N / C along the slip too, the force would jump by D v
+there, repeatedly, at instants that the step decides.)
 """
 
 from __future__ import annotations
@@ -24,7 +28,9 @@ APART = 2
 
 @kernel
 def friction_force(friction: Friction | None, mode: int, normal: float, deflection: float, velocity: float) -> float:
-    """Force F_t on the lower body in [N]; ``normal`` [N] >= 0, ``deflection`` s [m], ``velocity`` v [m/s]."""
+    """Force F_t on the lower body in [N]; ``normal`` [N] >= 0, ``deflection`` s [m], ``velocity`` v
+    [m/s].
+    """
     if friction is None:
         return 0.0
     if mode == APART:
@@ -36,34 +42,37 @@ def friction_force(friction: Friction | None, mode: int, normal: float, deflecti
 
 @kernel
 def following_deflection(friction: Friction, mode: int, normal: float, velocity: float) -> float:
-    """Deflection of the spring in [m] while slipping: ``(F_t - D v)/C``, at most ``mu_k N/C`` against the slip."""
+    """Deflection of the spring in [m] while slipping: ``(F_t - D v)/C``, at most ``mu_k N/C``
+    against the slip.
+    """
     limit = friction.coefficient_kinetic * normal / friction.stiffness
     along = limit - mode * friction.damping * velocity / friction.stiffness
     return mode * max(along, -limit)
 
 
 @kernel
-def stick_margin(friction: Friction, normal: float, deflection: float, velocity: float) -> float:
+def stick_event(friction: Friction, normal: float, deflection: float, velocity: float) -> float:
     """``mu_s N - |C s + D v|`` in [N]: sticking lasts while it is positive."""
     return friction.coefficient_static * normal - abs(friction.stiffness * deflection + friction.damping * velocity)
 
 
 @kernel
-def spring_is_held(friction: Friction, mode: int, normal: float, velocity: float) -> bool:
-    """Whether the following spring stands at its limit ``mu_k N/C`` against the slip."""
+def spring_is_limited(friction: Friction, mode: int, normal: float, velocity: float) -> bool:
+    """Whether the following spring is at its limit ``mu_k N/C`` against the slip."""
     return mode * friction.damping * velocity >= 2.0 * friction.coefficient_kinetic * normal
 
 
 @kernel
-def slip_margin(
+def slip_event(
     friction: Friction, mode: int, velocity: float, acceleration: float, normal: float, normal_rate: float
 ) -> float:
     """``sigma (v - s')`` in [m/s]: slipping lasts while it is positive.
 
-    ``C s' = sigma mu_k N' - D v'``. Where the spring is held against the slip, the damper alone holds the trial force beyond
-    the limit, and ``sigma v`` is returned. ``normal_rate`` N' in [N/s], ``acceleration`` v' in [m/s^2].
+    ``C s' = sigma mu_k N' - D v'``. Where the spring is at that limit, the damper alone
+    keeps the trial force beyond it, and ``sigma v`` is returned. ``normal_rate`` N' in
+    [N/s], ``acceleration`` v' in [m/s^2].
     """
-    if spring_is_held(friction, mode, normal, velocity):
+    if spring_is_limited(friction, mode, normal, velocity):
         return mode * velocity
     spring_rate = mode * friction.coefficient_kinetic * normal_rate - friction.damping * acceleration
     return mode * (velocity - spring_rate / friction.stiffness)

@@ -1,14 +1,17 @@
-"""Loss of the general normal law ``F = A x**n + B x**p sgn(x') |x'|**q`` for an approach x > 0, else 0 (Driver and Seat eq 8).
+"""Loss of the general normal law ``F = A x**n + B x**p sgn(x') |x'|**q`` for an approach x > 0,
+else 0 (Driver and Seat eq 8).
 
-Special cases: p = 0, q = 1, n = 1 the linear spring and damper (Kelvin and Voigt; the force jumps by B v0 at first touch);
-p = n, q = 1 Hunt and Crossley; n = 3/2, p = 1/2, q = 1 the viscoelastic sphere of Kuwabara and Kono, which Goloshchapov's impact
-shares; B = 0 the elastic law.
+Special cases: p = 0, q = 1, n = 1 the linear spring and damper (Kelvin and Voigt; the force jumps
+by B v0 at first touch); p = n, q = 1 Hunt and Crossley; n = 3/2, p = 1/2, q = 1 the viscoelastic
+sphere of Kuwabara and Kono, which Goloshchapov's impact shares; B = 0 the elastic law.
 
-End of contact: where p < n the loss outweighs the spring before x is back at 0. With ``lowest_force = 0`` contact is lost where F
-reaches 0 (end rule ``force``: no adhesion); with ``-inf`` it lasts, pulling, until x = 0 (end rule ``gap``).
+End of contact: where p < n the loss outweighs the spring before x is back at 0. With ``lowest_force
+= 0`` contact is lost where F reaches 0 (end rule ``force``: no adhesion); with ``-inf`` it lasts,
+pulling, until x = 0 (end rule ``gap``).
 
-q < 1 has an infinite slope at x' = 0. ``|x'|**(q-1)`` is then evaluated at ``sqrt(x'^2 + s^2)``, s the smoothing speed, 1e-6 of
-the reference speed: the force is wrong by less than 1e-6 of itself wherever |x'| is above 1e-3 of that speed.
+q < 1 has an infinite slope at x' = 0. ``|x'|**(q-1)`` is then evaluated at ``sqrt(x'^2 + s^2)``, s
+the smoothing speed, 1e-6 of the reference speed: the force is wrong by less than 1e-6 of itself
+wherever |x'| is above 1e-3 of that speed.
 """
 
 from __future__ import annotations
@@ -43,20 +46,23 @@ def rate_power_slope(general: GeneralDissipative, approach_rate: float) -> float
 
 @kernel
 def general_force(
-    elastic: ElasticLaw, general: GeneralDissipative, approach: float, approach_rate: float, memory_factor: float
+    elastic: ElasticLaw, general: GeneralDissipative, approach: float, approach_rate: float, hysteresis_factor: float
 ) -> float:
-    """Contact force in [N] at ``approach`` [m] and ``approach_rate`` [m/s]; the elastic part is multiplied by ``memory_factor``."""
+    """Contact force in [N] at ``approach`` [m] and ``approach_rate`` [m/s]; the elastic part is
+    multiplied by ``hysteresis_factor``.
+    """
     if approach <= 0.0:
         return 0.0
     loss = general.coefficient * approach**general.approach_exponent * rate_power(general, approach_rate)
-    return max(general.lowest_force, memory_factor * elastic_force(elastic, approach) + loss)
+    return max(general.lowest_force, hysteresis_factor * elastic_force(elastic, approach) + loss)
 
 
 @kernel
-def general_tension_margin(
-    elastic: ElasticLaw, general: GeneralDissipative, approach: float, approach_rate: float, memory_factor: float
+def general_tension_event(
+    elastic: ElasticLaw, general: GeneralDissipative, approach: float, approach_rate: float, hysteresis_factor: float
 ) -> float:
-    """Contact force over ``x**min(n, p)``, before it is limited: its sign change is the event "the force reaches zero".
+    """Contact force over ``x**min(n, p)``, before it is limited: its sign change is the event "the
+    force reaches zero".
 
     Infinite where the contact may pull (end rule ``gap``): there is no such event.
     """
@@ -65,7 +71,7 @@ def general_tension_margin(
     x = max(approach, SMALLEST_APPROACH)
     order = min(elastic_order(elastic), general.approach_exponent)
     loss = general.coefficient * rate_power(general, approach_rate) * x ** (general.approach_exponent - order)
-    return memory_factor * elastic_force(elastic, x) / x**order + loss
+    return hysteresis_factor * elastic_force(elastic, x) / x**order + loss
 
 
 @kernel
@@ -75,15 +81,15 @@ def general_force_rate(
     approach: float,
     approach_rate: float,
     approach_acceleration: float,
-    memory_factor: float,
+    hysteresis_factor: float,
 ) -> float:
-    """dF/dt in [N/s], ``memory_factor`` held; 0 without contact."""
+    """dF/dt in [N/s], ``hysteresis_factor`` held; 0 without contact."""
     if approach <= 0.0:
         return 0.0
     p = general.approach_exponent
     thickness = general.coefficient * approach**p
     power = rate_power(general, approach_rate)
-    if memory_factor * elastic_force(elastic, approach) + thickness * power <= general.lowest_force:
+    if hysteresis_factor * elastic_force(elastic, approach) + thickness * power <= general.lowest_force:
         return 0.0
-    slope = memory_factor * elastic_stiffness(elastic, approach) + p * thickness / approach * power
+    slope = hysteresis_factor * elastic_stiffness(elastic, approach) + p * thickness / approach * power
     return slope * approach_rate + thickness * rate_power_slope(general, approach_rate) * approach_acceleration

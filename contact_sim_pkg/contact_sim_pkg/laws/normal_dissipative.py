@@ -1,8 +1,10 @@
-"""Loss in one contact, after Hunt and Crossley: ``F = A x**n (1 + damping x')``, contact lost when F reaches 0.
+"""Loss in one contact, after Hunt and Crossley: ``F = A x**n (1 + damping x')``, contact lost when
+F reaches 0.
 
-The factor multiplies the elastic pressure of each cell as well as the elastic force of a point contact, so that the
-force stays the integral of the pressure. No force jump at first touch, no tension (end rule ``force``).
-In a free impact at v0, with d = damping v0: ``d (1 + e) = ln[(1 + d)/(1 - d e)]``, whatever A, n and mass.
+The factor multiplies the elastic pressure of each cell as well as the elastic force of a point
+contact, so that the force stays the integral of the pressure. No force jump at first touch, no
+tension (end rule ``force``). In a free impact at v0, with d = damping v0: ``d (1 + e) = ln[(1 +
+d)/(1 - d e)]``, whatever A, n and mass.
 """
 
 from __future__ import annotations
@@ -13,29 +15,33 @@ from contact_sim_pkg.laws.parameters import NormalDissipative
 
 
 @kernel
-def loss_factor(dissipative: NormalDissipative | None, approach_rate: float, memory_factor: float = 1.0) -> float:
-    """Ratio of the contact force to the elastic force at ``approach_rate`` in [m/s] (closing positive), >= 0.
+def loss_factor(dissipative: NormalDissipative | None, approach_rate: float, hysteresis_factor: float = 1.0) -> float:
+    """Ratio of the contact force to the elastic force at ``approach_rate`` in [m/s] (closing
+    positive), >= 0.
 
-    1 where the scene calls for no loss; 0 where the bodies part faster than the material recovers. ``memory_factor``: the ratio
-    that a loss without rate, as foam has, gives alone (``laws/foam_hysteresis.py``); 1 without it.
+    1 where the scene calls for no loss; 0 where the bodies part faster than the material recovers.
+    ``hysteresis_factor``: the ratio that a loss without rate, as foam has, gives alone
+    (``laws/foam_hysteresis.py``); 1 without it.
     """
     if dissipative is None:
-        return memory_factor
-    return max(0.0, memory_factor + dissipative.damping * approach_rate)
+        return hysteresis_factor
+    return max(0.0, hysteresis_factor + dissipative.damping * approach_rate)
 
 
 @kernel
-def hunt_crossley_force(elastic, dissipative, approach, approach_rate, memory_factor):
+def hunt_crossley_force(elastic, dissipative, approach, approach_rate, hysteresis_factor):
     """Contact force in [N]; ``dissipative`` may be ``None``."""
-    return elastic_force(elastic, approach) * loss_factor(dissipative, approach_rate, memory_factor)
+    return elastic_force(elastic, approach) * loss_factor(dissipative, approach_rate, hysteresis_factor)
 
 
 @kernel
-def hunt_crossley_tension_margin(dissipative, approach_rate, memory_factor):
-    """The factor before it is limited: its sign change is the event "the material recovers slower than the bodies part"."""
+def hunt_crossley_tension_event(dissipative, approach_rate, hysteresis_factor):
+    """The factor before it is limited: its sign change is the event "the material recovers slower
+    than the bodies part".
+    """
     if dissipative is None:
-        return memory_factor
-    return memory_factor + dissipative.damping * approach_rate
+        return hysteresis_factor
+    return hysteresis_factor + dissipative.damping * approach_rate
 
 
 @kernel
@@ -46,10 +52,12 @@ def _damping_of(dissipative):
 
 
 @kernel
-def hunt_crossley_force_rate(elastic, dissipative, approach, approach_rate, approach_acceleration, memory_factor):
-    """dF/dt in [N/s], ``memory_factor`` held; 0 where the bodies part faster than the material recovers."""
-    if hunt_crossley_tension_margin(dissipative, approach_rate, memory_factor) <= 0.0:
+def hunt_crossley_force_rate(elastic, dissipative, approach, approach_rate, approach_acceleration, hysteresis_factor):
+    """dF/dt in [N/s], ``hysteresis_factor`` held; 0 where the bodies part faster than the material
+    recovers.
+    """
+    if hunt_crossley_tension_event(dissipative, approach_rate, hysteresis_factor) <= 0.0:
         return 0.0
-    slope = elastic_stiffness(elastic, approach) * loss_factor(dissipative, approach_rate, memory_factor)
+    slope = elastic_stiffness(elastic, approach) * loss_factor(dissipative, approach_rate, hysteresis_factor)
     loss = _damping_of(dissipative) * elastic_force(elastic, approach)
     return slope * approach_rate + loss * approach_acceleration

@@ -1,7 +1,8 @@
 """Elastic normal law of one contact.
 
-``F = A x**n`` for an approach x > 0, else 0; stored energy ``A x**(n+1)/(n+1)``. n = 3/2 is Hertz (Johnson, Contact
-Mechanics, 4.3; Driver and Seat, eq 7), n = 1 a linear spring. Exact in its class; no adhesion.
+``F = A x**n`` for an approach x > 0, else 0; stored energy ``A x**(n+1)/(n+1)``. n = 3/2 is Hertz
+(Johnson, Contact Mechanics, 4.3; Driver and Seat, eq 7), n = 1 a linear spring. Exact in its class;
+no adhesion.
 """
 
 from __future__ import annotations

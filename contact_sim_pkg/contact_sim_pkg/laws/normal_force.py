@@ -1,9 +1,11 @@
-"""The normal force of a contact: elastic law and loss together, picked by the class of the loss when a rig is compiled.
+"""The normal force of a contact: elastic law and loss together, picked by the class of the loss
+when a rig is compiled.
 
-The loss is ``None``, ``NormalDissipative`` (Hunt and Crossley) or ``GeneralDissipative``. A rig calls ``normal_force`` for the
-force, ``tension_margin`` for the event that ends it before the gap opens, ``normal_force_rate`` where friction asks for dF/dt.
-``memory_factor`` multiplies the elastic part: 1, or what ``laws/foam_hysteresis.py`` gives. Called from Python they raise
-ValueError for a law outside its range, an argument that is nan, and a result beyond the range of numbers.
+The loss is ``None``, ``NormalDissipative`` (Hunt and Crossley) or ``GeneralDissipative``. A rig
+calls ``normal_force`` for the force, ``tension_event`` for the event that ends it before the gap
+opens, ``normal_force_rate`` where friction asks for dF/dt. ``hysteresis_factor`` multiplies the
+elastic part: 1, or what ``laws/foam_hysteresis.py`` gives. Called from Python they raise ValueError
+for a law outside its range, an argument that is nan, and a result beyond the range of numbers.
 """
 
 from __future__ import annotations
@@ -15,24 +17,24 @@ from typing import Any
 from contact_sim_pkg.compiled.guards import require, require_not_negative
 from contact_sim_pkg.compiled.jit import kernel, kernel_overload
 from contact_sim_pkg.laws.elastic_law import check_elastic, elastic_force
-from contact_sim_pkg.laws.general_dissipative import general_force, general_force_rate, general_tension_margin
+from contact_sim_pkg.laws.general_dissipative import general_force, general_force_rate, general_tension_event
 from contact_sim_pkg.laws.normal_dissipative import (
     hunt_crossley_force,
     hunt_crossley_force_rate,
-    hunt_crossley_tension_margin,
+    hunt_crossley_tension_event,
 )
 from contact_sim_pkg.laws.parameters import ElasticLaw, GeneralDissipative, NormalLoss
 
 
 @kernel
-def _margin_without_approach(elastic, dissipative, approach, approach_rate, memory_factor):
-    return hunt_crossley_tension_margin(dissipative, approach_rate, memory_factor)
+def _event_without_approach(elastic, dissipative, approach, approach_rate, hysteresis_factor):
+    return hunt_crossley_tension_event(dissipative, approach_rate, hysteresis_factor)
 
 
 Kernels = tuple[Callable[..., Any], Callable[..., Any], Callable[..., Any]]
-_USUAL: Kernels = (hunt_crossley_force, _margin_without_approach, hunt_crossley_force_rate)
+_USUAL: Kernels = (hunt_crossley_force, _event_without_approach, hunt_crossley_force_rate)
 _OF_LOSS: dict[Any, Kernels] = {
-    GeneralDissipative: (general_force, general_tension_margin, general_force_rate),
+    GeneralDissipative: (general_force, general_tension_event, general_force_rate),
 }
 
 
@@ -41,31 +43,34 @@ def normal_force(
     dissipative: NormalLoss | None,
     approach: float,
     approach_rate: float,
-    memory_factor: float,
+    hysteresis_factor: float,
 ) -> float:
-    """Force that pushes the bodies apart in [N]; 0 for ``approach <= 0`` [m]. ``approach_rate`` [m/s], closing positive.
+    """Force that pushes the bodies apart in [N]; 0 for ``approach <= 0`` [m]. ``approach_rate``
+    [m/s], closing positive.
 
     Never negative, but for the general law with the end rule ``gap``.
     """
-    _check(elastic, dissipative, approach, approach_rate, memory_factor)
+    _check(elastic, dissipative, approach, approach_rate, hysteresis_factor)
     value = float(
-        _OF_LOSS.get(type(dissipative), _USUAL)[0](elastic, dissipative, approach, approach_rate, memory_factor)
+        _OF_LOSS.get(type(dissipative), _USUAL)[0](elastic, dissipative, approach, approach_rate, hysteresis_factor)
     )
     require("force [N] of this law", value)
     return value
 
 
-def tension_margin(
+def tension_event(
     elastic: ElasticLaw,
     dissipative: NormalLoss | None,
     approach: float,
     approach_rate: float,
-    memory_factor: float,
+    hysteresis_factor: float,
 ) -> float:
-    """Event function, positive while the contact carries: its sign change is the loss of contact before the gap opens."""
-    _check(elastic, dissipative, approach, approach_rate, memory_factor)
+    """Event function, positive while the contact carries: its sign change is the loss of contact
+    before the gap opens.
+    """
+    _check(elastic, dissipative, approach, approach_rate, hysteresis_factor)
     margin = _OF_LOSS.get(type(dissipative), _USUAL)[1]
-    return float(margin(elastic, dissipative, approach, approach_rate, memory_factor))
+    return float(margin(elastic, dissipative, approach, approach_rate, hysteresis_factor))
 
 
 def normal_force_rate(
@@ -74,26 +79,27 @@ def normal_force_rate(
     approach: float,
     approach_rate: float,
     approach_acceleration: float,
-    memory_factor: float,
+    hysteresis_factor: float,
 ) -> float:
-    """dF/dt in [N/s] at ``approach_acceleration`` [m/s^2], ``memory_factor`` held."""
-    _check(elastic, dissipative, approach, approach_rate, memory_factor)
+    """dF/dt in [N/s] at ``approach_acceleration`` [m/s^2], ``hysteresis_factor`` held."""
+    _check(elastic, dissipative, approach, approach_rate, hysteresis_factor)
     require("approach acceleration [m/s^2]", approach_acceleration, infinite=True)
     force_rate = _OF_LOSS.get(type(dissipative), _USUAL)[2]
-    value = float(force_rate(elastic, dissipative, approach, approach_rate, approach_acceleration, memory_factor))
+    value = float(force_rate(elastic, dissipative, approach, approach_rate, approach_acceleration, hysteresis_factor))
     require("rate of the force [N/s] of this law", value)
     return value
 
 
 def pressure_factor(
-    elastic: ElasticLaw, dissipative: NormalLoss | None, approach: float, approach_rate: float, memory_factor: float
+    elastic: ElasticLaw, dissipative: NormalLoss | None, approach: float, approach_rate: float, hysteresis_factor: float
 ) -> float:
-    """Ratio of the contact force to the elastic one: with it the elastic pressures add up to the force.
+    """Ratio of the contact force to the elastic one: with it the elastic pressures add up to the
+    force.
 
     1 without contact, and where the approach is so small that the elastic force underflows to 0.
     """
     force, spring = (
-        normal_force(elastic, dissipative, approach, approach_rate, memory_factor),
+        normal_force(elastic, dissipative, approach, approach_rate, hysteresis_factor),
         elastic_force(elastic, approach),
     )
     return force / spring if spring > 0.0 else 1.0
@@ -113,13 +119,13 @@ def check_loss(dissipative: NormalLoss | None) -> None:
 
 
 def _check(
-    elastic: ElasticLaw, dissipative: NormalLoss | None, approach: float, approach_rate: float, memory_factor: float
+    elastic: ElasticLaw, dissipative: NormalLoss | None, approach: float, approach_rate: float, hysteresis_factor: float
 ) -> None:
     check_elastic(elastic)
     check_loss(dissipative)
     require("approach [m]", approach, infinite=True)
     require("approach rate [m/s]", approach_rate, infinite=True)
-    require("memory factor", memory_factor, least=0.0, most=2.0)
+    require("memory factor", hysteresis_factor, least=0.0, most=2.0)
 
 
 def _kernels_of(loss_type: Any) -> Kernels:
@@ -127,24 +133,24 @@ def _kernels_of(loss_type: Any) -> Kernels:
 
 
 @kernel_overload(normal_force)
-def _normal_force(elastic, dissipative, approach, approach_rate, memory_factor):
+def _normal_force(elastic, dissipative, approach, approach_rate, hysteresis_factor):
     force = _kernels_of(dissipative)[0]
-    return lambda elastic, dissipative, approach, approach_rate, memory_factor: force(
-        elastic, dissipative, approach, approach_rate, memory_factor
+    return lambda elastic, dissipative, approach, approach_rate, hysteresis_factor: force(
+        elastic, dissipative, approach, approach_rate, hysteresis_factor
     )
 
 
-@kernel_overload(tension_margin)
-def _tension_margin(elastic, dissipative, approach, approach_rate, memory_factor):
+@kernel_overload(tension_event)
+def _tension_event(elastic, dissipative, approach, approach_rate, hysteresis_factor):
     margin = _kernels_of(dissipative)[1]
-    return lambda elastic, dissipative, approach, approach_rate, memory_factor: margin(
-        elastic, dissipative, approach, approach_rate, memory_factor
+    return lambda elastic, dissipative, approach, approach_rate, hysteresis_factor: margin(
+        elastic, dissipative, approach, approach_rate, hysteresis_factor
     )
 
 
 @kernel_overload(normal_force_rate)
-def _normal_force_rate(elastic, dissipative, approach, approach_rate, approach_acceleration, memory_factor):
+def _normal_force_rate(elastic, dissipative, approach, approach_rate, approach_acceleration, hysteresis_factor):
     force_rate = _kernels_of(dissipative)[2]
-    return lambda elastic, dissipative, approach, approach_rate, approach_acceleration, memory_factor: force_rate(
-        elastic, dissipative, approach, approach_rate, approach_acceleration, memory_factor
+    return lambda elastic, dissipative, approach, approach_rate, approach_acceleration, hysteresis_factor: force_rate(
+        elastic, dissipative, approach, approach_rate, approach_acceleration, hysteresis_factor
     )

@@ -1,7 +1,7 @@
 """Parameter tuples of the force laws.
 
-An effect that a scene does not call for is ``None`` in place of its tuple (decision 0001). SI units; all numbers are ``float``
-unless stated otherwise.
+An effect that a scene does not call for is ``None`` in place of its tuple (decision 0001). SI
+units; all numbers are ``float`` unless stated otherwise.
 """
 
 from __future__ import annotations
@@ -17,7 +17,9 @@ class NormalElastic(NamedTuple):
 
 
 class FoamElastic(NamedTuple):
-    """Elastic law of a foam block with plateau and densification (``laws/foam_elastic.py``), in place of a power law."""
+    """Elastic law of a foam block with plateau and densification (``laws/foam_elastic.py``), in
+    place of a power law.
+    """
 
     area: float  # S [m^2], > 0
     thickness: float  # h [m], > 0
@@ -31,20 +33,27 @@ ElasticLaw: TypeAlias = NormalElastic | FoamElastic
 
 
 class NormalDissipative(NamedTuple):
-    """Hunt-Crossley loss: the elastic force is multiplied by 1 + damping * approach_rate, and never pulls."""
+    """Hunt-Crossley loss: the elastic force is multiplied by 1 + damping * approach_rate, and never
+    pulls.
+    """
 
     damping: float  # [s/m], >= 0
 
 
 class GeneralDissipative(NamedTuple):
-    """Loss of the general law: ``B x**p sgn(x') |x'|**q`` is added to the elastic force (``laws/general_dissipative.py``)."""
+    """Loss of the general law: ``B x**p sgn(x') |x'|**q`` is added to the elastic force
+    (``laws/general_dissipative.py``).
+    """
 
     coefficient: float  # B [N/m^p/(m/s)^q], >= 0
     approach_exponent: float  # p, 0 to 4; 0 is a plain damper
     rate_exponent: float  # q, 0 to 3; 1 is linear, 0 dry friction
-    smoothing_speed: float  # [m/s], 0 for q >= 1; |x'|**(q-1) is evaluated at sqrt(x'^2 + smoothing_speed^2)
+    # [m/s], 0 for q >= 1; |x'|**(q-1) is evaluated at sqrt(x'^2 + smoothing_speed^2)
+    smoothing_speed: float
     lowest_force: (
-        float  # [N], 0: contact is lost where the force reaches 0; -inf: it lasts, pulling, until the gap opens
+        # [N], 0: contact is lost where the force reaches 0; -inf: it lasts, pulling, until the gap
+        # opens
+        float
     )
 
 
@@ -52,10 +61,14 @@ NormalLoss: TypeAlias = NormalDissipative | GeneralDissipative
 
 
 class FoamHysteresis(NamedTuple):
-    """Loss of foam without rate: an internal variable that follows the loading (``laws/foam_hysteresis.py``)."""
+    """Loss of foam without rate: an internal variable that follows the loading
+    (``laws/foam_hysteresis.py``).
+    """
 
     offset: int  # of the internal variable in the state vector
-    share: float  # s, 0 to below 1: force over elastic force is 1 + s on a long loading, 1 - s on a long unloading
+    # s, 0 to below 1: force over elastic force is 1 + s on a long loading, 1 - s on a long
+    # unloading
+    share: float
     energy: float  # u_0 [J] over which a reversal is passed, > 0
 
 
@@ -69,7 +82,9 @@ class Friction(NamedTuple):
 
 
 class Contact(NamedTuple):
-    """One contact: the effects that act in it. ``elastic`` is always there, the others may be ``None``."""
+    """One contact: the effects that act in it. ``elastic`` is always there, the others may be
+    ``None``.
+    """
 
     elastic: ElasticLaw
     dissipative: NormalLoss | None

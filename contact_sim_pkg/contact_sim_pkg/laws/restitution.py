@@ -1,6 +1,7 @@
 """Restitution of the Hunt-Crossley law, exactly: which loss delivers an asked ratio of speeds.
 
-In a free impact at speed v0, d = damping v0: ``d (1 + e) = ln[(1 + d)/(1 - d e)]``, whatever stiffness, exponent and mass.
+In a free impact at speed v0, d = damping v0: ``d (1 + e) = ln[(1 + d)/(1 - d e)]``, whatever
+stiffness, exponent and mass.
 """
 
 from __future__ import annotations
@@ -16,9 +17,11 @@ SMALL_LOSS = 1.0e-4  # below, e = 1 - 2/3 d + 4/9 d^2 is exact to d^3/3
 
 
 def damping_of_restitution(restitution: float, impact_speed: float) -> float:
-    """Damping in [s/m] with which a free impact at ``impact_speed`` [m/s] ends with ``restitution`` times that speed.
+    """Damping in [s/m] with which a free impact at ``impact_speed`` [m/s] ends with ``restitution``
+    times that speed.
 
-    Range: 0.01 <= restitution <= 1; impact speeds: 0 to 1e6 m/s, below 1 mm/s they count as 1 mm/s. Raises ValueError outside.
+    Range: 0.01 <= restitution <= 1; impact speeds: 0 to 1e6 m/s, below 1 mm/s they count as 1 mm/s.
+    Raises ValueError outside.
     """
     check_restitution(restitution)
     speed = effective_speed(impact_speed)

@@ -1,14 +1,17 @@
-"""Restitution of the linear spring and damper in closed form, and of the general law by one root search.
+"""Restitution of the linear spring and damper in closed form, and of the general law by one root
+search.
 
-A free impact on ``F = A x**n + B x**p sgn(x') |x'|**q`` at speed v0 depends, for given n, p, q and end rule, on one number:
-``Z = B L**(p-n) v0**q / A`` with ``L = (m v0^2/A)**(1/(n+1))``. The requested restitution is the root of e(Z), which falls from 1.
+A free impact on ``F = A x**n + B x**p sgn(x') |x'|**q`` at speed v0 depends, for given n, p, q and
+end rule, on one number: ``Z = B L**(p-n) v0**q / A`` with ``L = (m v0^2/A)**(1/(n+1))``. The
+requested restitution is the root of e(Z), which falls from 1.
 
-For q >= 1 e(Z) is integrated forward. For q < 1 the mass may creep on the way out, in time without bound: there the motion is
-followed backward in time from its end, where creeping is a fast departure, until the mass is out again or faster than it came.
+For q >= 1 e(Z) is integrated forward. For q < 1 the mass may creep on the way out, in time without
+bound: there the motion is followed backward in time from its end, where creeping is a fast
+departure, until the mass is out again or faster than it came.
 
-Where p > n and q is small, friction holds the mass: for q = 0 as soon as ``X**n < Z X**p`` at the largest approach X, for q > 0 it
-creeps at ``(x**(n-p)/Z)**(1/q)``. Held is what needs more than 1000 L/v0 for that. For q = 0 the law reaches restitutions down to
-``sqrt((p-n)/(p+n+2))`` only.
+Where p > n and q is small, friction holds the mass: for q = 0 as soon as ``X**n < Z X**p`` at the
+largest approach X, for q > 0 it creeps at ``(x**(n-p)/Z)**(1/q)``. A mass is held where it needs more than
+1000 L/v0 for that. For q = 0 the law reaches restitutions down to ``sqrt((p-n)/(p+n+2))`` only.
 """
 
 from __future__ import annotations
@@ -27,17 +30,19 @@ from contact_sim_pkg.compiled.results import DONE, SENTENCES
 from contact_sim_pkg.integrate.root_steps import make_workspace
 from contact_sim_pkg.laws.general_dissipative import SMOOTHING
 from contact_sim_pkg.laws.one_mass.parameters import PointContact
-from contact_sim_pkg.laws.one_mass.point_contact import MARGINS
+from contact_sim_pkg.laws.one_mass.point_contact import EVENT_FUNCTIONS
 from contact_sim_pkg.laws.one_mass.single import empty_mode, run
 from contact_sim_pkg.laws.parameters import GeneralDissipative, NormalElastic
 from contact_sim_pkg.laws.restitution import check_restitution, damping_of_restitution, effective_speed
 
 TOLERANCE = 1.0e-13  # of the integrator, relative to L and v0; e is then good to 1e-11
 LONGEST = 1.0e3  # [L / v0]
-LEAST_SEVERITY, HIGHEST_SEVERITY = 1.0e-12, 1.0e20  # e = 0.01 is reached below 1e16 by all powers that are allowed
+# e = 0.01 is reached below 1e16 by all powers that are allowed
+LEAST_SEVERITY, HIGHEST_SEVERITY = 1.0e-12, 1.0e20
 SMALLEST_LOSS = 1.0e-9  # 1 - e, below which e = 1 - (first order) Z is good to 1e-11
 LEAST_RATIO = 1.0e-4  # of the speeds: a slower return counts as none where q < 1
-RUNAWAY = 2.0  # [v0^2] energy of the backward motion with which it cannot have come from the speed v0
+# [v0^2] energy of the backward motion with which it cannot have come from the speed v0
+RUNAWAY = 2.0
 SIZES = (1.0e-20, 1.0e20)  # of mass and stiffness
 EXPONENTS = {"elastic exponent n": (1.0, 10.0), "approach exponent p": (0.0, 4.0), "rate exponent q": (0.0, 3.0)}
 NEVER_PULLS, PULLS = 0.0, -math.inf
@@ -46,8 +51,9 @@ NEVER_PULLS, PULLS = 0.0, -math.inf
 def kelvin_voigt_restitution(ratio: float, lowest_force: float) -> float:
     """e of a linear spring and damper with damping ratio ``c / (2 sqrt(k m))`` >= 0.
 
-    ``lowest_force`` 0: the bodies part where the force is zero; -inf: where x = 0, after a tensile end; for a ratio >= 1 never.
-    Raises ValueError for a ratio outside 0 to 1e100 and another lowest force.
+    ``lowest_force`` 0: the bodies part where the force is zero; -inf: where x = 0, after a tensile
+    end; for a ratio >= 1 never. Raises ValueError for a ratio outside 0 to 1e100 and another lowest
+    force.
     """
     require("damping ratio", ratio, least=0.0, most=1.0e100)
     _check_end(lowest_force)
@@ -64,7 +70,9 @@ def kelvin_voigt_restitution(ratio: float, lowest_force: float) -> float:
 
 
 def kelvin_voigt_ratio(restitution: float, lowest_force: float) -> float:
-    """Damping ratio of a linear spring and damper that delivers ``restitution``; 0.01 to 1. Raises ValueError outside."""
+    """Damping ratio of a linear spring and damper that delivers ``restitution``; 0.01 to 1. Raises
+    ValueError outside.
+    """
     check_restitution(restitution)
     _check_end(lowest_force)
     if restitution == 1.0:
@@ -76,10 +84,12 @@ def kelvin_voigt_ratio(restitution: float, lowest_force: float) -> float:
 
 
 def restitution_of_severity(severity: float, n: float, p: float, q: float, lowest_force: float) -> float:
-    """e of a free impact with ``severity`` Z, to 1e-11; 0 where the mass does not come back within 1000 L/v0.
+    """e of a free impact with ``severity`` Z, to 1e-11; 0 where the mass does not come back within
+    1000 L/v0.
 
-    Z: 0 to 1e20; n: 1 to 10; p: 0 to 4; q: 0 to 3; ``lowest_force``: 0 or -inf. Below q = 1 a return with less than 1e-4 of the
-    speed counts as 0. Raises ValueError outside, ArithmeticError where the integration fails.
+    Z: 0 to 1e20; n: 1 to 10; p: 0 to 4; q: 0 to 3; ``lowest_force``: 0 or -inf. Below q = 1 a
+    return with less than 1e-4 of the speed counts as 0. Raises ValueError outside, ArithmeticError
+    where the integration fails.
     """
     require("severity Z", severity, least=0.0, most=HIGHEST_SEVERITY)
     _check_law(n, p, q, lowest_force)
@@ -101,26 +111,31 @@ def _forward(severity: float, n: float, p: float, q: float, lowest_force: float)
     out = numpy.zeros((2, 2))
     times = numpy.array([0.0, LONGEST])
     scale = numpy.full(2, TOLERANCE)
-    status = run(rig, empty_mode(), state, scale, make_workspace(2, MARGINS), times, out)
+    status = run(rig, empty_mode(), state, scale, make_workspace(2, EVENT_FUNCTIONS), times, out)
     if status != DONE:
         raise ArithmeticError(SENTENCES[status])
     return max(0.0, float(state[1]))
 
 
 def _course(loss: float, n: float, p: float, q: float, start: tuple[float, float], *ends: Callable[..., float]) -> Any:
-    """Approach and its rate [2, times] from ``start`` to the first of ``ends``, in units of L and v0; a loss < 0 runs backward."""
+    """Approach and its rate [2, times] from ``start`` to the first of ``ends``, in units of L and
+    v0; a loss < 0 runs backward.
+    """
 
     def rate(_time: float, state: tuple[float, float]) -> tuple[float, float]:
         x, v = max(state[0], 0.0), state[1]
         size = v * v + SMOOTHING * SMOOTHING
         return v, -(x**n) - loss * x**p * v * size ** (0.5 * (q - 1.0))
 
-    with numpy.errstate(all="ignore"):  # a trial step of a runaway motion may overflow; it is taken again
+    # A trial step of a runaway motion may overflow; it is taken again
+    with numpy.errstate(all="ignore"):
         return solve_ivp(rate, (0.0, LONGEST), start, "DOP853", events=ends, rtol=1.0e-12, atol=1.0e-14)
 
 
 def _speed_before(severity: float, restitution: float, n: float, p: float, q: float, lowest_force: float) -> float:
-    """Speed, over v0, before an impact that ends with ``restitution``, for q < 1; at most 2. It rises with Z and e."""
+    """Speed, over v0, before an impact that ends with ``restitution``, for q < 1; at most 2. It
+    rises with Z and e.
+    """
     depth = 0.0
     if lowest_force == 0.0 and p < n:  # the bodies part where x^n = Z x^p e^q
         logarithm = (math.log(severity) + q * math.log(restitution)) / (n - p)
@@ -154,7 +169,9 @@ def _speed_after(
 
 
 def _holding_margin(severity: float, n: float, p: float, q: float) -> float:
-    """``q ln(T/1000)``, T the least time to creep out of the largest approach; above 0 friction holds the mass (p > n, q < 1)."""
+    """``q ln(T/1000)``, T the least time to creep out of the largest approach; above 0 friction
+    holds the mass (p > n, q < 1).
+    """
     if p <= n or q >= 1.0:
         return -math.inf
 
@@ -163,22 +180,25 @@ def _holding_margin(severity: float, n: float, p: float, q: float) -> float:
 
     turned.terminal = True  # type: ignore[attr-defined]
     largest = math.log(_course(severity, n, p, q, (0.0, 1.0), turned).y[0, -1])
-    growth = q * math.log((q + p - n) / q) if q > 0.0 else 0.0  # the creep speed grows as x**((n-p)/q)
+    # The creep speed grows as x**((n-p)/q)
+    growth = q * math.log((q + p - n) / q) if q > 0.0 else 0.0
     return q * (largest - math.log(LONGEST)) - growth - (n - p) * largest + math.log(severity)
 
 
 @functools.lru_cache(maxsize=64)
 def severity_of_restitution(restitution: float, n: float, p: float, q: float, lowest_force: float) -> float:
-    """Z that delivers ``restitution``, 0.01 to 1: closed form for Hunt-Crossley and Kelvin-Voigt, one root search otherwise.
+    """Z that delivers ``restitution``, 0.01 to 1: closed form for Hunt-Crossley and Kelvin-Voigt,
+    one root search otherwise.
 
-    n: 1 to 10; p: 0 to 4; q: 0 to 3; ``lowest_force``: 0 or -inf. Raises ValueError outside, and where no loss of this kind gives
-    so small a restitution, with the range that it reaches.
+    n: 1 to 10; p: 0 to 4; q: 0 to 3; ``lowest_force``: 0 or -inf. Raises ValueError outside, and
+    where no loss of this kind gives so small a restitution, with the range that it reaches.
     """
     check_restitution(restitution)
     _check_law(n, p, q, lowest_force)
     if restitution == 1.0:
         return 0.0
-    if p == n and q == 1.0:  # 1 + damping x' never changes its sign in a free impact: both ends are one
+    # 1 + damping x' never changes its sign in a free impact: both ends are one
+    if p == n and q == 1.0:
         return damping_of_restitution(restitution, 1.0)
     if n == 1.0 and p == 0.0 and q == 1.0:
         return 2.0 * kelvin_voigt_ratio(restitution, lowest_force)
@@ -194,14 +214,18 @@ def severity_of_restitution(restitution: float, n: float, p: float, q: float, lo
 
 
 def _loss_of_small_severity(n: float, p: float, q: float) -> float:
-    """``(1 - e)/Z`` for Z -> 0: twice the integral of ``x**p v**q`` over the way in of the elastic impact."""
+    """``(1 - e)/Z`` for Z -> 0: twice the integral of ``x**p v**q`` over the way in of the elastic
+    impact.
+    """
     power = (p + 1.0) / (n + 1.0)
     beta = math.exp(math.lgamma(power) + math.lgamma(0.5 * q + 1.0) - math.lgamma(power + 0.5 * q + 1.0))
     return float(2.0 * (0.5 * (n + 1.0)) ** power / (n + 1.0) * beta)
 
 
 def _refuse_held(restitution: float, n: float, p: float, q: float, lowest_force: float) -> None:
-    """Raises ValueError where friction holds the mass before so small a restitution is reached, with the range that is."""
+    """Raises ValueError where friction holds the mass before so small a restitution is reached,
+    with the range that is.
+    """
     if _holding_margin(HIGHEST_SEVERITY, n, p, q) <= 0.0:
         return
     ends = math.log(LEAST_SEVERITY), math.log(HIGHEST_SEVERITY)
@@ -224,10 +248,11 @@ def coefficient_of_restitution(
     q: float,
     lowest_force: float,
 ) -> float:
-    """B in [N/m^p/(m/s)^q] with which a free impact of ``mass`` [kg] at ``impact_speed`` [m/s] ends with ``restitution`` of it.
+    """B in [N/m^p/(m/s)^q] with which a free impact of ``mass`` [kg] at ``impact_speed`` [m/s] ends
+    with ``restitution`` of it.
 
-    Speeds below 1 mm/s count as 1 mm/s. ``B = Z A L**(n-p) / v0**q``. Mass and A: 1e-20 to 1e20; speed: 0 to 1e6 m/s. Raises
-    ValueError outside, and as ``severity_of_restitution``.
+    Speeds below 1 mm/s count as 1 mm/s. ``B = Z A L**(n-p) / v0**q``. Mass and A: 1e-20 to 1e20;
+    speed: 0 to 1e6 m/s. Raises ValueError outside, and as ``severity_of_restitution``.
     """
     require("mass [kg]", mass, least=SIZES[0], most=SIZES[1])
     require("elastic coefficient A [N/m^n]", elastic.coefficient, least=SIZES[0], most=SIZES[1])
@@ -251,9 +276,11 @@ def _check_end(lowest_force: float) -> None:
 def _falling_root(
     value: Callable[[float], float], target: float, start: float = 1.0, highest: float = HIGHEST_SEVERITY
 ) -> float:
-    """Where a falling function of a positive number reaches ``target``: bracket by factors of 4, then Illinois in its logarithm.
+    """Where a falling function of a positive number reaches ``target``: bracket by factors of 4,
+    then Illinois in its logarithm.
 
-    At most 55 + 100 evaluations. Raises ValueError where the function is above ``target`` up to ``highest``.
+    At most 55 + 100 evaluations. Raises ValueError where the function is above ``target`` up to
+    ``highest``.
     """
     low, high = math.log(start), math.log(start)
     low_value = high_value = value(start) - target

@@ -6,7 +6,9 @@ from typing import NamedTuple
 
 
 class BeltSettings(NamedTuple):
-    """A belt under tension on an elastic foundation, rigid across its width: what bends over an obstacle."""
+    """A belt under tension on an elastic foundation, rigid across its width: what bends over an
+    obstacle.
+    """
 
     tension: float  # [N], > 0
     foundation: float  # [N/m^2] radial stiffness per length of circumference, > 0
@@ -27,7 +29,9 @@ class FieldSettings(NamedTuple):
 
 
 def widened(settings: FieldSettings) -> FieldSettings:
-    """The same cells on twice the extent: the grid that takes over where the contact outgrows the first."""
+    """The same cells on twice the extent: the grid that takes over where the contact outgrows the
+    first.
+    """
     return settings._replace(
         rows=settings.rows + 2 * (settings.rows // 2), cols=settings.cols + 2 * (settings.cols // 2)
     )

@@ -1,1 +1,3 @@
-"""Closed forms and slow, trusted versions of the kernels; they share no code with `core`; for tests and studies."""
+"""Closed forms and slow, trusted versions of the kernels; they share no code with `core`; for tests
+and studies.
+"""

@@ -1,4 +1,6 @@
-"""Sneddon's integrals in multiple precision, straight from the textbook: d'(s) with the second derivative of the profile."""
+"""Sneddon's integrals in multiple precision, straight from the textbook: d'(s) with the second
+derivative of the profile.
+"""
 
 from __future__ import annotations
 
@@ -30,7 +32,9 @@ def load(slope: Function, modulus: float, radius: float, breaks: tuple[float, ..
 
 
 def pressure(slope: Function, second: Function, modulus: float, radius: float, r: float) -> float:
-    """`(E*/pi) integral over r..a of d'(s) / sqrt(s^2 - r^2) ds` [Pa], `d'(s)` = integral of (r f')' / sqrt(s^2 - r^2)."""
+    """`(E*/pi) integral over r..a of d'(s) / sqrt(s^2 - r^2) ds` [Pa], `d'(s)` = integral of (r
+    f')' / sqrt(s^2 - r^2).
+    """
 
     def approach_slope(s: mpmath.mpf) -> mpmath.mpf:
         return mpmath.quad(

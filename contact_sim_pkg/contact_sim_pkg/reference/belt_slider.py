@@ -1,4 +1,6 @@
-"""Stick-slip of a mass on a spring over a belt: closed form of the rigid law, and the spring-damper law by scipy."""
+"""Stick-slip of a mass on a spring over a belt: closed form of the rigid law, and the spring-damper
+law by scipy.
+"""
 
 from __future__ import annotations
 
@@ -16,7 +18,9 @@ RELATIVE, ABSOLUTE = 1.0e-13, 1.0e-16
 
 
 class StickSlip(NamedTuple):
-    """Mass [kg] on a spring [N/m], belt speed [m/s], load [N]; friction spring C [N/m], damper D [N s/m], two ratios."""
+    """Mass [kg] on a spring [N/m], belt speed [m/s], load [N]; friction spring C [N/m], damper D [N
+    s/m], two ratios.
+    """
 
     mass: float
     spring: float
@@ -29,16 +33,20 @@ class StickSlip(NamedTuple):
 
 
 def period_of_rigid_law(case: StickSlip) -> float:
-    """Period [s] without friction spring: `2 u0/v_b + (2/w)(pi - atan(u0 w/v_b))`, `u0 = (mu_s - mu_k) N/k`."""
+    """Period [s] without friction spring: `2 u0/v_b + (2/w)(pi - atan(u0 w/v_b))`, `u0 = (mu_s -
+    mu_k) N/k`.
+    """
     jump = (case.coefficient_static - case.coefficient_kinetic) * case.load / case.spring
     frequency = math.sqrt(case.spring / case.mass)
     return 2.0 * jump / case.belt_speed + 2.0 / frequency * (math.pi - math.atan(jump * frequency / case.belt_speed))
 
 
 def slip_starts(case: StickSlip, count: int) -> list[float]:
-    """Times [s] at which the mass breaks away, from rest in stick at x = 0 on the belt; the first `count`.
+    """Times [s] at which the mass breaks away, from rest in stick at x = 0 on the belt; the first
+    `count`.
 
-    Stick: `F = C s + D v`, `s' = v = v_b - x'`, up to `|F| = mu_s N`. Slip: `F = mu_k N`, `C s = F - D v`, until `v = s'`.
+    Stick: `F = C s + D v`, `s' = v = v_b - x'`, up to `|F| = mu_s N`. Slip: `F = mu_k N`, `C s = F
+    - D v`, until `v = s'`.
     """
     time, state = 0.0, numpy.array([0.0, case.belt_speed, 0.0])
     starts: list[float] = []
@@ -50,7 +58,9 @@ def slip_starts(case: StickSlip, count: int) -> list[float]:
 
 
 def state_at(case: StickSlip, end: float) -> NDArray[numpy.float64]:
-    """Position [m], speed [m/s] and spring deflection [m] at `end` [s], from the same start; the deflection is that of stick."""
+    """Position [m], speed [m/s] and spring deflection [m] at `end` [s], from the same start; the
+    deflection is that of stick.
+    """
     time, state, sticks = 0.0, numpy.array([0.0, case.belt_speed, 0.0]), True
     while time < end:
         time, state = (_stick if sticks else _slip)(case, time, state, end)

@@ -1,6 +1,8 @@
-"""Free impact on the general law `m x'' = -(A x^n + B x^p sgn(x') |x'|^q)` by scipy's DOP853, and Kelvin-Voigt in closed form.
+"""Free impact on the general law `m x'' = -(A x^n + B x^p sgn(x') |x'|^q)` by scipy's DOP853, and
+Kelvin-Voigt in closed form.
 
-In units of `L = (m v0^2/A)^(1/(n+1))` and v0 the impact depends on `Z = B L^(p-n) v0^q / A` alone. Slow, free of kernel code.
+In units of `L = (m v0^2/A)^(1/(n+1))` and v0 the impact depends on `Z = B L^(p-n) v0^q / A` alone.
+Slow, free of kernel code.
 """
 
 from __future__ import annotations
@@ -15,7 +17,9 @@ __all__ = ["kelvin_voigt_at_force", "kelvin_voigt_at_gap", "restitution"]
 
 
 def restitution(severity: float, n: float, p: float, q: float, end: str) -> float:
-    """Ratio of the speeds after and before, for `severity` Z; `end` is "force" or "gap". To about 1e-11 for q >= 1."""
+    """Ratio of the speeds after and before, for `severity` Z; `end` is "force" or "gap". To about
+    1e-11 for q >= 1.
+    """
 
     def force(x: float, v: float) -> float:
         x = max(x, 0.0)
@@ -36,7 +40,9 @@ def restitution(severity: float, n: float, p: float, q: float, end: str) -> floa
 
 
 def kelvin_voigt_at_force(ratio: float) -> float:
-    """e of a linear spring and damper with damping `ratio` zeta >= 0 that parts where the force is zero, in 40 digits."""
+    """e of a linear spring and damper with damping `ratio` zeta >= 0 that parts where the force is
+    zero, in 40 digits.
+    """
     with mpmath.workdps(40):
         z = mpmath.mpf(ratio)
         if z == 1:
@@ -49,7 +55,9 @@ def kelvin_voigt_at_force(ratio: float) -> float:
 
 
 def kelvin_voigt_at_gap(ratio: float) -> float:
-    """e where the bodies part at x = 0, after a tensile end: `exp(-pi zeta / sqrt(1 - zeta^2))`; 0 for zeta >= 1."""
+    """e where the bodies part at x = 0, after a tensile end: `exp(-pi zeta / sqrt(1 - zeta^2))`; 0
+    for zeta >= 1.
+    """
     if ratio >= 1.0:
         return 0.0
     with mpmath.workdps(40):

@@ -1,4 +1,5 @@
-"""Half-space contact without shortcuts: log-form influence, dense matrix, non-negative least squares.
+"""Half-space contact without shortcuts: log-form influence, dense matrix, non-negative least
+squares.
 
 For small grids only (24 x 24): the work grows with the cube of the number of cells.
 """
@@ -17,9 +18,11 @@ Field = NDArray[numpy.float64]
 
 
 def cell_displacement(x: float, y: float, half_x: float, half_y: float, modulus: float) -> float:
-    """Displacement [m/Pa] at (x, y) of a cell of half-sizes half_x, half_y under unit pressure, to 30 digits.
+    """Displacement [m/Pa] at (x, y) of a cell of half-sizes half_x, half_y under unit pressure, to
+    30 digits.
 
-    Love's four logarithms, `(x+hx) ln[(y+hy+R1)/(y-hy+R2)] + ...`, in multiple precision, where they lose nothing.
+    Love's four logarithms, `(x+hx) ln[(y+hy+R1)/(y-hy+R2)] + ...`, in multiple precision, where
+    they lose nothing.
     """
     with mpmath.workdps(50):
         east, west = mpmath.mpf(x) + mpmath.mpf(half_x), mpmath.mpf(x) - mpmath.mpf(half_x)
@@ -32,7 +35,9 @@ def cell_displacement(x: float, y: float, half_x: float, half_y: float, modulus:
 
 
 def dense_influence(rows: int, cols: int, cell_x: float, cell_y: float, modulus: float) -> Field:
-    """Matrix K [m/Pa], [rows*cols, rows*cols]: displacement of each cell centre under unit pressure on each cell."""
+    """Matrix K [m/Pa], [rows*cols, rows*cols]: displacement of each cell centre under unit pressure
+    on each cell.
+    """
     table = numpy.array(
         [
             [cell_displacement(i * cell_x, j * cell_y, cell_x / 2, cell_y / 2, modulus) for j in range(cols)]
@@ -49,7 +54,8 @@ def displacement(influence: Field, pressure: Field) -> Field:
 
 
 def pressure_at_approach(influence: Field, gap: Field, approach: float) -> Field:
-    """Pressure [Pa] at a given approach [m]: non-negative least squares of `|L'p - L^-1 (approach - gap)|`, K = L L'.
+    """Pressure [Pa] at a given approach [m]: non-negative least squares of `|L'p - L^-1 (approach -
+    gap)|`, K = L L'.
 
     Its optimality conditions are exactly p >= 0, clearance >= 0, p * clearance = 0.
     """

@@ -1,4 +1,6 @@
-"""Elliptic Hertz contact in multiple precision, straight from the textbook relations (Johnson 1985, section 4.2)."""
+"""Elliptic Hertz contact in multiple precision, straight from the textbook relations (Johnson 1985,
+section 4.2).
+"""
 
 from __future__ import annotations
 

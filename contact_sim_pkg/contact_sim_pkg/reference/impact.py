@@ -1,7 +1,8 @@
-"""Free impact of one mass on a Hunt-Crossley or an elastic power law: closed forms in multiple precision.
+"""Free impact of one mass on a Hunt-Crossley or an elastic power law: closed forms in multiple
+precision.
 
-`m x'' = -A x^n (1 + damping x')`, x(0) = 0, x'(0) = v0 > 0. Sources: Hunt and Crossley (1975), J. Appl. Mech. 42, 440;
-Johnson (1985), Contact Mechanics, 11.4.
+`m x'' = -A x^n (1 + damping x')`, x(0) = 0, x'(0) = v0 > 0. Sources: Hunt and Crossley (1975), J.
+Appl. Mech. 42, 440; Johnson (1985), Contact Mechanics, 11.4.
 """
 
 from __future__ import annotations
@@ -35,7 +36,9 @@ def restitution(loss: float) -> float:
 
 
 def damping_of_restitution(ratio: float, speed: float) -> float:
-    """Damping [s/m] that ends a free impact at `speed` [m/s] with `ratio` (0 < ratio < 1) of it, by bisection in ln d."""
+    """Damping [s/m] that ends a free impact at `speed` [m/s] with `ratio` (0 < ratio < 1) of it, by
+    bisection in ln d.
+    """
     with mpmath.workdps(DIGITS):
         e = mpmath.mpf(ratio)
         low, high = mpmath.mpf(10) ** -12, (1 - mpmath.mpf(10) ** -38) / e
@@ -49,7 +52,9 @@ def damping_of_restitution(ratio: float, speed: float) -> float:
 
 
 def deepest_approach(mass: float, speed: float, coefficient: float, exponent: float, damping: float) -> float:
-    """Largest approach [m]: `A x^(n+1)/(n+1) = m [v0/damping - ln(1 + damping v0)/damping^2]`; elastic where damping is 0."""
+    """Largest approach [m]: `A x^(n+1)/(n+1) = m [v0/damping - ln(1 + damping v0)/damping^2]`;
+    elastic where damping is 0.
+    """
     with mpmath.workdps(DIGITS):
         m, v, a, n, c = (mpmath.mpf(value) for value in (mass, speed, coefficient, exponent, damping))
         energy = m * v**2 / 2 if c == 0 else m * (v / c - mpmath.log(1 + c * v) / c**2)
@@ -57,7 +62,9 @@ def deepest_approach(mass: float, speed: float, coefficient: float, exponent: fl
 
 
 def duration(mass: float, speed: float, coefficient: float, exponent: float, damping: float) -> float:
-    """Time in contact [s]: `integral of dv / |v'|` from v0 to -e v0, with x(v) from the first integral, by quadrature."""
+    """Time in contact [s]: `integral of dv / |v'|` from v0 to -e v0, with x(v) from the first
+    integral, by quadrature.
+    """
     if damping == 0.0:
         return elastic_impact(mass, speed, coefficient, exponent)[0]
     with mpmath.workdps(30):
@@ -76,7 +83,9 @@ def duration(mass: float, speed: float, coefficient: float, exponent: float, dam
 
 
 def elastic_impact(mass: float, speed: float, coefficient: float, exponent: float) -> tuple[float, float, float]:
-    """Duration [s], depth [m] and peak force [N] without loss: `T = 2/(n+1) B(1/(n+1), 1/2) x_m / v0`."""
+    """Duration [s], depth [m] and peak force [N] without loss: `T = 2/(n+1) B(1/(n+1), 1/2) x_m /
+    v0`.
+    """
     with mpmath.workdps(DIGITS):
         m, v, a, n = (mpmath.mpf(value) for value in (mass, speed, coefficient, exponent))
         depth = ((n + 1) * m * v**2 / (2 * a)) ** (1 / (n + 1))
@@ -85,6 +94,8 @@ def elastic_impact(mass: float, speed: float, coefficient: float, exponent: floa
 
 
 def sphere_coefficient(radius: float, young_modulus: float, poisson_ratio: float) -> float:
-    """A [N/m^1.5] of a ball on a flat of the same material: `4/3 E* sqrt(R)`, `E* = E / (2 (1 - nu^2))`."""
+    """A [N/m^1.5] of a ball on a flat of the same material: `4/3 E* sqrt(R)`, `E* = E / (2 (1 -
+    nu^2))`.
+    """
     modulus = young_modulus / (2.0 * (1.0 - poisson_ratio**2))
     return 4.0 / 3.0 * modulus * float(mpmath.sqrt(radius))

@@ -27,14 +27,18 @@ def second_moment(a: float, b: float, exponent: float) -> float:
 
 
 def points(a: float, b: float, exponent: float, count: int) -> tuple[Points, Points]:
-    """Boundary points [m] `a sgn(cos t) |cos t|^(2/n)`, `b sgn(sin t) |sin t|^(2/n)`, t evenly spaced."""
+    """Boundary points [m] `a sgn(cos t) |cos t|^(2/n)`, `b sgn(sin t) |sin t|^(2/n)`, t evenly
+    spaced.
+    """
     angle = 2.0 * numpy.pi * (numpy.arange(count) + 0.5) / count
     x, y = numpy.cos(angle), numpy.sin(angle)
     return a * numpy.sign(x) * abs(x) ** (2 / exponent), b * numpy.sign(y) * abs(y) ** (2 / exponent)
 
 
 def fit(x: Points, y: Points, half_x: float, half_y: float) -> tuple[float, float, float]:
-    """(a, b, n) that minimise `sum (rho - 1)^2` for centred points, by scipy's trust-region solver."""
+    """(a, b, n) that minimise `sum (rho - 1)^2` for centred points, by scipy's trust-region
+    solver.
+    """
 
     def deviation(unknown: Points) -> Points:
         a, b, n = numpy.exp(unknown)
@@ -48,7 +52,9 @@ def fit(x: Points, y: Points, half_x: float, half_y: float) -> tuple[float, floa
 
 
 def perimeter(a: float, b: float, exponent: float) -> float:
-    """Length of the curve [m]: `y(x)` and `x(y)` up to the diagonal, by quadrature with 50 digits."""
+    """Length of the curve [m]: `y(x)` and `x(y)` up to the diagonal, by quadrature with 50
+    digits.
+    """
     with mpmath.workdps(50):
         return float(4 * (_graph(a, b, mpmath.mpf(exponent)) + _graph(b, a, mpmath.mpf(exponent))))
 

@@ -29,6 +29,8 @@ def printed_eccentricity_power(a: float, b: float, exponent: float, radius_power
 
 
 def printed_shape_load() -> float:
-    """Load of the printed eq 7 over the right load, on a circle: shape `E(arcsin(1 - r), 0)^(-2/3)`, 1 in the centre."""
+    """Load of the printed eq 7 over the right load, on a circle: shape `E(arcsin(1 - r),
+    0)^(-2/3)`, 1 in the centre.
+    """
     integral = mpmath.quad(lambda r: r * (mpmath.asin(1 - r) * 2 / mpmath.pi) ** (-mpmath.mpf(2) / 3), [0, 0.5, 1])
     return float(3 * integral)

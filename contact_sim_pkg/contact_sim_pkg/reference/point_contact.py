@@ -1,4 +1,6 @@
-"""One mass over a support that moves as a sine, by scipy's DOP853 from event to event: slow, and free of kernel code."""
+"""One mass over a support that moves as a sine, by scipy's DOP853 from event to event: slow, and
+free of kernel code.
+"""
 
 from __future__ import annotations
 
@@ -18,7 +20,9 @@ PIECES_A_PERIOD = 32  # events are looked for in pieces, so that no touch falls 
 
 
 class Slap(NamedTuple):
-    """`m z'' = F - m g`, `F = A x^n max(0, 1 + damping x')` for `x = amplitude sin(w t) - z > 0`."""
+    """`m z'' = F - m g`, `F = A x^n max(0, 1 + damping x')` for `x = amplitude sin(w t) - z >
+    0`.
+    """
 
     mass: float  # [kg]
     gravity: float  # [m/s^2]
@@ -32,7 +36,8 @@ class Slap(NamedTuple):
 def final_state(slap: Slap, start: State, end_time: float, piece: float | None = None) -> State:
     """State [z, v] in [m, m/s] at `end_time` [s], from `start` at time 0, to about 1e-13.
 
-    `piece`: longest stretch in [s] that is integrated at once; a 32nd of the support's period where not given.
+    `piece`: longest stretch in [s] that is integrated at once; a 32nd of the support's period where
+    not given.
     """
     if piece is None:
         piece = 2.0 * math.pi / slap.frequency / PIECES_A_PERIOD if slap.frequency > 0.0 else end_time / 200.0
@@ -52,7 +57,9 @@ def _approach(slap: Slap, time: float, state: State) -> tuple[float, float]:
 
 
 def _advance(slap: Slap, touching: bool, time: float, until: float, state: State) -> tuple[float, State, bool]:
-    """Up to `until` or to the change of contact; the law of the side on which the piece starts holds throughout."""
+    """Up to `until` or to the change of contact; the law of the side on which the piece starts
+    holds throughout.
+    """
 
     def rate(t: float, y: State) -> list[float]:
         force = 0.0
@@ -75,7 +82,9 @@ def terminal_piece(
     until: float,
     state: State,
 ) -> tuple[float, State, bool]:
-    """Integrate until `change` passes zero in `direction`; returns time, state, and whether it did before `until`."""
+    """Integrate until `change` passes zero in `direction`; returns time, state, and whether it did
+    before `until`.
+    """
     change.terminal, change.direction = True, direction  # type: ignore[attr-defined]
     found = solve_ivp(rate, (time, until), state, "DOP853", events=change, rtol=RELATIVE, atol=ABSOLUTE)
     return float(found.t[-1]), numpy.asarray(found.y[:, -1]), found.status == 1

@@ -1,4 +1,5 @@
-"""Contact problems the slow way: residual as it is defined, index sets of two planar contacts, the least-norm split by scipy.
+"""Contact problems the slow way: residual as it is defined, index sets of two planar contacts, the
+least-norm split by scipy.
 
 Twin of `rigid/contact/solver.py`, with which it shares no code.
 """
@@ -36,7 +37,9 @@ def _nearest_on_polygon(point: Vector, radius: float, facets: int) -> Vector:
 
 
 def coulomb_residual(A: Vector, q: Vector, c: Vector, friction: Vector, width: int, facets: int) -> float:
-    """Greatest break of Signorini's and Coulomb's conditions over the greatest velocity; ``facets`` 0: the disc."""
+    """Greatest break of Signorini's and Coulomb's conditions over the greatest velocity; ``facets``
+    0: the disc.
+    """
     u = q + A @ c
     friction = numpy.broadcast_to(friction, len(c) // width)
     scale = max(numpy.abs(q).max(), (numpy.diag(A) * c)[::width].max())
@@ -55,7 +58,9 @@ def coulomb_residual(A: Vector, q: Vector, c: Vector, friction: Vector, width: i
 
 
 def planar_velocity_by_enumeration(J: Vector, W: Vector, v: Vector, friction: Vector) -> Vector:
-    """Velocity after the planar contacts ``J`` (rows normal, tangent a contact), from all index sets of eq 9."""
+    """Velocity after the planar contacts ``J`` (rows normal, tangent a contact), from all index
+    sets of eq 9.
+    """
     contacts = len(J) // 2
     normals, tangents = J[0::2].T, J[1::2].T
     D = numpy.hstack([tangents, -tangents])
@@ -74,7 +79,9 @@ def planar_velocity_by_enumeration(J: Vector, W: Vector, v: Vector, friction: Ve
 
 
 def planar_wrench_cone_split(J: Vector, wrench: Vector, friction: float) -> Vector:
-    """Impulses of least norm with this wrench, all contacts sticking inside their cones: bounds by SLSQP, then exactly."""
+    """Impulses of least norm with this wrench, all contacts sticking inside their cones: bounds by
+    SLSQP, then exactly.
+    """
     rows = len(J)
     found = minimize(
         lambda x: float(x @ x), numpy.linalg.lstsq(J.T, wrench, rcond=None)[0], jac=lambda x: 2.0 * x, method="SLSQP",

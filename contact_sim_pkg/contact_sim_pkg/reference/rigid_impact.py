@@ -1,6 +1,8 @@
-"""Impact of one planar contact the slow way: all index sets of the complementarity problem, and the impulse path by scipy.
+"""Impact of one planar contact the slow way: all index sets of the complementarity problem, and the
+impulse path by scipy.
 
-Twin of `rigid/impact/planar_impact.py`, with which it shares no code. Source: Identifiability eq 9; Stronge 1990.
+Twin of `rigid/impact/planar_impact.py`, with which it shares no code. Source: Identifiability eq 9;
+Stronge 1990.
 """
 
 from __future__ import annotations
@@ -16,7 +18,9 @@ __all__ = ["energetic_by_path", "enumerate_lcp", "newton_by_enumeration", "poiss
 
 
 def enumerate_lcp(M: Vector, q: Vector) -> list[Vector]:
-    """Every solution z of ``0 <= z _|_ M z + q >= 0`` with a regular index set; up to about 12 unknowns."""
+    """Every solution z of ``0 <= z _|_ M z + q >= 0`` with a regular index set; up to about 12
+    unknowns.
+    """
     n = len(q)
     slack = 1e-12 * max(1.0, numpy.abs(q).max())
     found: list[Vector] = []
@@ -34,7 +38,9 @@ def enumerate_lcp(M: Vector, q: Vector) -> list[Vector]:
 
 
 def _one_contact(A: Vector, friction: float, q: Vector, floor: float) -> Vector:
-    """Impulse ``(c_n, c_t)`` of one contact from the index sets of eq 9 with the two directions of the plane."""
+    """Impulse ``(c_n, c_t)`` of one contact from the index sets of eq 9 with the two directions of
+    the plane.
+    """
     D = numpy.array([[1.0, 0.0, 0.0], [0.0, 1.0, -1.0]])
     M = numpy.zeros((4, 4))
     M[:3, :3] = D.T @ A @ D
@@ -52,7 +58,9 @@ def _one_contact(A: Vector, friction: float, q: Vector, floor: float) -> Vector:
 
 
 def newton_by_enumeration(A: Vector, friction: float, restitution: float, u: Vector) -> Vector:
-    """Impulse ``(c_n, c_t)`` by Newton's rule; ``A`` [2, 2] in [1/kg], ``u`` (normal, tangential) in [m/s]."""
+    """Impulse ``(c_n, c_t)`` by Newton's rule; ``A`` [2, 2] in [1/kg], ``u`` (normal, tangential)
+    in [m/s].
+    """
     return _one_contact(A, friction, u + numpy.array([restitution * min(0.0, u[0]), 0.0]), 0.0)
 
 
@@ -63,7 +71,8 @@ def poisson_by_enumeration(A: Vector, friction: float, restitution: float, u: Ve
 
 
 def energetic_by_path(A: Vector, friction: float, restitution: float, u: Vector) -> Vector:
-    """Impulse ``(c_n, c_t)`` of the energetic rule: the path over the normal impulse, integrated by scipy's DOP853.
+    """Impulse ``(c_n, c_t)`` of the energetic rule: the path over the normal impulse, integrated by
+    scipy's DOP853.
 
     States: normal and tangential velocity, tangential impulse, work of the normal impulse.
     """
@@ -93,7 +102,9 @@ def energetic_by_path(A: Vector, friction: float, restitution: float, u: Vector)
 
 
 def _friction_ratio(A: Vector, friction: float, slip: float | None) -> float:
-    """Tangential over normal impulse on a piece of the path; ``None``: the contact point holds, or slip starts anew."""
+    """Tangential over normal impulse on a piece of the path; ``None``: the contact point holds, or
+    slip starts anew.
+    """
     if slip is not None:
         return float(slip * friction)
     if abs(A[0, 1]) <= friction * A[1, 1]:

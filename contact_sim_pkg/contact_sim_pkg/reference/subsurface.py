@@ -1,4 +1,6 @@
-"""Stress in a half-space by cubature of the point-force solutions, and the closed forms on the axis of Hertz contacts."""
+"""Stress in a half-space by cubature of the point-force solutions, and the closed forms on the axis
+of Hertz contacts.
+"""
 
 from __future__ import annotations
 
@@ -13,7 +15,9 @@ Six = tuple[float, float, float, float, float, float]
 
 
 def normal_point(x: float, y: float, z: float, nu: float) -> Six:
-    """xx, yy, zz, xy, xz, yz of a unit force into the body (Boussinesq; Johnson 1985, eqs 3.18 in Cartesian form)."""
+    """xx, yy, zz, xy, xz, yz of a unit force into the body (Boussinesq; Johnson 1985, eqs 3.18 in
+    Cartesian form).
+    """
     r = math.sqrt(x * x + y * y + z * z)
     s, q = 1.0 - 2.0 * nu, r * (r + z)
     bend = (2 * r + z) / (r**3 * (r + z) ** 2)
@@ -43,7 +47,9 @@ def rectangle(
     at: tuple[float, float, float],
     nu: float,
 ) -> list[float]:
-    """Stresses [Pa] at a point below the surface of `load(x, y)` [Pa] on |x| < half[0], |y| < half[1], by cubature."""
+    """Stresses [Pa] at a point below the surface of `load(x, y)` [Pa] on |x| < half[0], |y| <
+    half[1], by cubature.
+    """
     values = []
     for component in range(6):
         value, _ = scipy.integrate.dblquad(
@@ -60,14 +66,18 @@ def rectangle(
 
 
 def circle_axis(depth: float, nu: float) -> tuple[float, float]:
-    """zz and radial stress over p0 on the axis of a circular Hertz contact, depth over a (Johnson 1985, eq 3.45)."""
+    """zz and radial stress over p0 on the axis of a circular Hertz contact, depth over a (Johnson
+    1985, eq 3.45).
+    """
     swing = math.atan(1.0 / depth) if depth > 0.0 else 0.5 * math.pi
     zz = -1.0 / (1.0 + depth**2)
     return zz, -(1.0 + nu) * (1.0 - depth * swing) - 0.5 * zz
 
 
 def line_axis(depth: float, nu: float) -> tuple[float, float, float]:
-    """xx (across), yy (along the line), zz over p0 on the axis of a Hertz line contact (Johnson 1985, eq 4.46)."""
+    """xx (across), yy (along the line), zz over p0 on the axis of a Hertz line contact (Johnson
+    1985, eq 4.46).
+    """
     root = math.sqrt(1.0 + depth**2)
     xx, zz = -((1.0 + 2.0 * depth**2) / root - 2.0 * depth), -1.0 / root
     return xx, nu * (xx + zz), zz

@@ -10,7 +10,7 @@ from contact_sim_pkg.integrate.dormand_prince import make_workspace
 from contact_sim_pkg.laws.parameters import Contact, FoamHysteresis, Friction, NormalDissipative, NormalElastic
 from contact_sim_pkg.rigs.backrest import entries
 from contact_sim_pkg.rigs.backrest.model import resting_state
-from contact_sim_pkg.rigs.backrest.motion import margin_count, memory_offset
+from contact_sim_pkg.rigs.backrest.motion import event_count, memory_offset
 from contact_sim_pkg.rigs.backrest.parameters import (
     CARRIED,
     CLOSING_WORK,
@@ -54,7 +54,7 @@ def driven(rig, acceleration, duration, tolerance=1e-9, start=None, size=0.015, 
     """The run of a rig under `acceleration`(t), straight between `rate` samples a second."""
     state = resting_state(rig) if start is None else start.copy()
     points, modes = len(rig.gaps), len(rig.mass)
-    mode, work = make_mode(points), make_workspace(len(state), margin_count(points))
+    mode, work = make_mode(points), make_workspace(len(state), event_count(points))
     scale = numpy.full(len(state), float(rig.preload.sum() + 1.0) * size * tolerance)
     scale[:modes], scale[modes : 2 * modes] = size * tolerance, 30.0 * size * tolerance
     scale[2 * modes : 2 * modes + points] = size * tolerance

@@ -1,5 +1,5 @@
-"""From the numbers of an OpenCRG file to a grid of heights over (u, v): reference line, banking, slope, missing
-cells."""
+"""From the numbers of an OpenCRG file to a grid of heights over (u, v): reference line, banking,
+slope, missing cells."""
 
 from typing import NamedTuple
 
@@ -23,7 +23,8 @@ class Grid(NamedTuple):
     height: NDArray[numpy.float64]  # [rows, long sections], [m]
     missing: int  # cells without a measured height
     heading_change: float  # [rad] of the reference line from start to end
-    largest_stretch: float  # largest |curvature v|: a path beside the reference line is longer or shorter by this part
+    # Largest |curvature v|: a path beside the reference line is longer or shorter by this part
+    largest_stretch: float
 
 
 def make_grid(header: Header, layout: CrgLayout, values: NDArray[numpy.float64], scale_z: float = 1.0) -> Grid:
@@ -34,7 +35,8 @@ def make_grid(header: Header, layout: CrgLayout, values: NDArray[numpy.float64],
     `values` is worked on in place: the road is held once.
 
     Raises:
-        ExcitationError: absurd heights, a reference line that bends so sharply that the grid overlaps itself, or an end
+        ExcitationError: absurd heights, a reference line that bends so sharply that the grid
+        overlaps itself, or an end
             of the reference line that disagrees with the header.
     """
     first, last = layout.section_columns[0], layout.section_columns[-1]
@@ -104,8 +106,8 @@ def _agree(
 
 
 def _heading(header: Header, layout: CrgLayout, values: NDArray[numpy.float64]) -> NDArray[numpy.float64]:
-    """Heading in [rad] of each piece of the reference line (piece i ends in row i), checked against the header's
-    ends."""
+    """Heading in [rad] of each piece of the reference line (piece i ends in row i), checked against
+    the header's ends."""
     start, end = _stated(header, "phi")
     column = _column(header, layout, values, "phi", 1)
     if column is None:
@@ -143,7 +145,9 @@ def _banking(header: Header, layout: CrgLayout, values: NDArray[numpy.float64]) 
 
 
 def _elevation(header: Header, layout: CrgLayout, values: NDArray[numpy.float64]) -> NDArray[numpy.float64]:
-    """Height in [m] of the reference line: start_z and the integral of the slope, checked against end_z."""
+    """Height in [m] of the reference line: start_z and the integral of the slope, checked against
+    end_z.
+    """
     start, end = _stated(header, "s")
     column = _column(header, layout, values, "slope", 1)
     if column is None:
@@ -173,8 +177,8 @@ def _largest_stretch(header: Header, layout: CrgLayout, heading: NDArray[numpy.f
 
 
 def fill_missing(height: NDArray[numpy.float64]) -> None:
-    """Replace missing cells in place: linear along each cross section, its outermost value kept to the edge; empty cross
-    sections linear along u between their neighbours."""
+    """Replace missing cells in place: linear along each cross section, its outermost value kept to
+    the edge; empty cross sections linear along u between their neighbours."""
     sections = numpy.arange(height.shape[1])
     holes = numpy.isnan(height)
     some = holes.any(axis=1)

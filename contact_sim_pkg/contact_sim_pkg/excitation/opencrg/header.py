@@ -1,7 +1,7 @@
 """The text part of an OpenCRG file: named sections of `KEY = value` lines and the list of channels.
 
-Source: ASAM OpenCRG 1.2, chapter 3 (text in ISO 8859-1; `*` in column 1 and `!` start comments; `$NAME` opens and `$`
-closes a section; a line that starts with `$$$$` ends the header).
+Source: ASAM OpenCRG 1.2, chapter 3 (text in ISO 8859-1; `*` in column 1 and `!` start comments;
+`$NAME` opens and `$` closes a section; a line that starts with `$$$$` ends the header).
 """
 
 import re
@@ -123,7 +123,8 @@ class _Parser:
         if self.section == "ct":
             return
         text = text.partition("!")[0].strip()
-        if not text or self.section == "road_crg_mpro":  # the map projection does not touch heights over (u, v)
+        # The map projection does not touch heights over (u, v)
+        if not text or self.section == "road_crg_mpro":
             return
         if self.section == "kd_definition":
             self._define(text)

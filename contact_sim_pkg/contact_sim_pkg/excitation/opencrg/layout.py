@@ -1,4 +1,5 @@
-"""Where the grid of an OpenCRG file lies: rows along u, long sections along v, and the columns that hold them.
+"""Where the grid of an OpenCRG file lies: rows along u, long sections along v, and the columns that
+hold them.
 
 The header gives most numbers twice (road parameters and channel definitions); they must agree.
 """
@@ -34,7 +35,9 @@ class CrgLayout(NamedTuple):
 
 
 def make_layout(header: Header) -> CrgLayout:
-    """Check the header against itself and lay out the grid; ExcitationError where two statements disagree."""
+    """Check the header against itself and lay out the grid; ExcitationError where two statements
+    disagree.
+    """
     increment = header.road.get("reference_line_increment")
     if increment is None:
         raise ExcitationError(f"{header.file}: the header gives no REFERENCE_LINE_INCREMENT")
@@ -100,7 +103,9 @@ def _sort_channels(header: Header) -> tuple[dict[str, int], list[tuple[int, Chan
 
 
 def _note_virtual(header: Header, u_start: float, increment: float) -> tuple[str, ...]:
-    """What the virtual channel says otherwise; it serves viewers alone, the road parameters are the road's."""
+    """What the virtual channel says otherwise; it serves viewers alone, the road parameters are the
+    road's.
+    """
     if header.virtual is None:
         return ()
     line, fields = header.virtual.line, header.virtual.fields
@@ -182,7 +187,8 @@ def _even_positions(header: Header, count: int) -> NDArray[numpy.float64]:
     stated = {part: header.road.get(f"long_section_v_{part}") for part in ("right", "left", "increment")}
     right, left, increment = (None if value is None else value.number for value in stated.values())
     if right is None and left is None and increment is not None:
-        right = -0.5 * (count - 1) * increment  # the format's default: even about the reference line
+        # The format's default: even about the reference line
+        right = -0.5 * (count - 1) * increment
     if right is None and left is not None and increment is not None:
         right = left - (count - 1) * increment
     if left is None and right is not None and increment is not None:

@@ -1,4 +1,6 @@
-"""The numbers of an OpenCRG file: big-endian binary (KRBI, KDBI) or fixed-width text (LRFI, LDFI)."""
+"""The numbers of an OpenCRG file: big-endian binary (KRBI, KDBI) or fixed-width text (LRFI,
+LDFI).
+"""
 
 from contextlib import suppress
 from io import BytesIO
@@ -22,7 +24,8 @@ def read_payload(data: bytes, header: Header, layout: CrgLayout) -> NDArray[nump
     """All numbers, [rows, columns]; missing cells are NaN.
 
     Raises:
-        ExcitationError: too few or too many bytes or lines, with both numbers; a field that is no number.
+        ExcitationError: too few or too many bytes or lines, with both numbers; a field that is no
+        number.
     """
     if header.format in _BINARY:
         return _read_binary(data, header, layout, numpy.dtype(_BINARY[header.format]))
@@ -64,8 +67,8 @@ def _check_fill(fill: NDArray[Any], header: Header, rows: int) -> None:
 
 
 def _open_ended_rows(found: int, row_bytes: int) -> int:
-    """Rows where the header gives no end: the payload is either whole rows, or whole rows filled up to the next
-    record."""
+    """Rows where the header gives no end: the payload is either whole rows, or whole rows filled up
+    to the next record."""
     if found % row_bytes == 0 or found % RECORD:
         return max(found // row_bytes, 1)
     return found // row_bytes

@@ -1,8 +1,8 @@
 """Measured roads from OpenCRG files (ASAM OpenCRG 1.x, text and binary).
 
-The road is used in the coordinates of its reference line: x = u - start of the file - start, y = v - lateral_offset. A
-path beside a curved reference line is longer or shorter than its x by the part |curvature v|, which `describe` reports.
-Heights between the grid's nodes are bilinear.
+The road is used in the coordinates of its reference line: x = u - start of the file - start, y = v
+- lateral_offset. A path beside a curved reference line is longer or shorter than its x by the part
+|curvature v|, which `describe` reports. Heights between the grid's nodes are bilinear.
 """
 
 import os
@@ -22,11 +22,14 @@ from contact_sim_pkg.excitation.opencrg.settings import BORDERS, FileSettings, r
 from contact_sim_pkg.files import open_regular_file, read_regular_file
 
 LARGEST_FILE = 1 << 30  # [bytes]
-LARGEST_TABLE = 1 << 22  # numbers of the road resampled on one track's lines, 32 MiB; above, only the rows of a block
+# Numbers of the road resampled on one track's lines, 32 MiB; above, only the rows of a block
+LARGEST_TABLE = 1 << 22
 MISSING = ("refuse", "fill", "hole")
 BYTES_PER_NUMBER = {"LRFI": 10, "LDFI": 20, "KRBI": 4, "KDBI": 8}
 BYTES_PER_CELL = 26
-"""The road twice, as it is read and in rows, or beside it the copy that its median is taken of, with marks of missing cells."""
+"""The road twice, as it is read and in rows, or beside it the copy that its median is taken of,
+with marks of missing cells.
+"""
 LARGEST_RISE = 0.6  # [m] across the track, about a wheel's radius: steeper, no wheel stands on it
 LEVELS = ("origin", "mean", "raw")
 
@@ -51,21 +54,22 @@ class OpenCrgRoad:
         """Read and check the file.
 
         Args:
-            path: of the .crg file.
-            start: distance from the file's start to x = 0, [m].
-            lateral_offset: v of the track's middle, left positive, [m].
-            missing: cells without a height: refuse (with their count), fill (linear along the cross section, its
+            path: of the .crg file. start: distance from the file's start to x = 0, [m].
+            lateral_offset: v of the track's middle, left positive, [m]. missing: cells without a
+            height: refuse (with their count), fill (linear along the cross section, its
                 outermost value kept to the edge), hole (the filled surface lowered by hole_depth).
-            hole_depth: depth of such a hole, [m].
-            border_u: beyond the ends: none (an error), zero, constant (the last cross section), repeat, reflect; None:
-                as the file asks for where its settings are applied, else constant, the default of the format.
-            border_v: the same beyond the sides.
-            level: origin (height 0 on the reference line at the file's start, as the reference library evaluates by
+            hole_depth: depth of such a hole, [m]. border_u: beyond the ends: none (an error), zero,
+            constant (the last cross section), repeat, reflect; None:
+                as the file asks for where its settings are applied, else constant, the default of
+                the format.
+            border_v: the same beyond the sides. level: origin (height 0 on the reference line at
+            the file's start, as the reference library evaluates by
                 default), mean (mean of all cells 0), raw (as the file gives them).
             file_settings: the file's own options and modifiers, see opencrg_settings.read_settings.
 
         Raises:
-            ExcitationError: the file cannot be read or is malformed, with line or byte; an unknown choice; missing
+            ExcitationError: the file cannot be read or is malformed, with line or byte; an unknown
+            choice; missing
                 cells.
         """
         self.path, self.start, self.lateral_offset = Path(path), start, lateral_offset
@@ -128,7 +132,9 @@ class OpenCrgRoad:
         self._grid = grid._replace(height=self._height)
 
     def heights(self, x: Array, y: Array) -> Array:
-        """Heights in [m], [len(x), len(y)]; ExcitationError outside of the road where the border is 'none'."""
+        """Heights in [m], [len(x), len(y)]; ExcitationError outside of the road where the border is
+        'none'.
+        """
         grid = self._grid
         cells = len(grid.height) - 1
         position, outside_u = self._inside(
@@ -147,7 +153,9 @@ class OpenCrgRoad:
         return height
 
     def refuse_steep_track(self, y: Array) -> None:
-        """Raise ExcitationError where the road rises across the track's lines `y`, [m], by more than a wheel can stand on."""
+        """Raise ExcitationError where the road rises across the track's lines `y`, [m], by more
+        than a wheel can stand on.
+        """
         for start in range(0, len(self._height), ROWS_AT_ONCE):
             rise = numpy.ptp(self._across(self._height[start : start + ROWS_AT_ONCE], y), axis=1)
             row = int(rise.argmax())
@@ -159,8 +167,8 @@ class OpenCrgRoad:
                 )
 
     def _lines(self, y: Array, left: NDArray[numpy.int64]) -> tuple[Array, int]:
-        """The road resampled on the track's lines, and the number of its first row: all rows (kept), or those of a
-        block."""
+        """The road resampled on the track's lines, and the number of its first row: all rows
+        (kept), or those of a block."""
         if len(self._height) * len(y) > LARGEST_TABLE:
             first = int(left.min())
             return self._across(self._height[first : int(left.max()) + 2], y), first
@@ -182,7 +190,9 @@ class OpenCrgRoad:
         return numpy.ascontiguousarray(lines)
 
     def _inside(self, value: Array, low: float, high: float, border: str, name: str, asked: Array) -> tuple[Array, Any]:
-        """Positions brought into [low, high] by the border mode, and where the height is 0 instead."""
+        """Positions brought into [low, high] by the border mode, and where the height is 0
+        instead.
+        """
         outside = (value < low - 1e-9) | (value > high + 1e-9)
         if not outside.any():
             return numpy.clip(value, low, high), None

@@ -1,5 +1,5 @@
-"""What an OpenCRG file itself asks an evaluator to do: its options and modifiers, as far as they touch heights over (u,
-v)."""
+"""What an OpenCRG file itself asks an evaluator to do: its options and modifiers, as far as they
+touch heights over (u, v)."""
 
 from typing import NamedTuple
 
@@ -33,10 +33,10 @@ def read_settings(header: Header, policy: str) -> FileSettings:
     """Take the file's settings by the policy.
 
     Args:
-        header: the file's text part.
-        policy: refuse: a file with settings that change heights is refused, so that the user decides; ignore: they are
-            left out and noted; apply: SCALE_Z_GRID, REFLINE_OFFSET_Z and the border modes are used, others refused by
-            name.
+        header: the file's text part. policy: refuse: a file with settings that change heights is
+        refused, so that the user decides; ignore: they are
+            left out and noted; apply: SCALE_Z_GRID, REFLINE_OFFSET_Z and the border modes are used,
+            others refused by name.
 
     Raises:
         ExcitationError: by the policy, or for a border mode that does not exist.

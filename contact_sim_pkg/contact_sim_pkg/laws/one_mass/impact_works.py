@@ -1,22 +1,24 @@
-"""A point contact whose force's works are integrated with it: what the coefficient of restitution is made of.
+"""A point contact whose force's works are integrated with it: what the coefficient of restitution
+is made of.
 
-``W = -integral F x' dt`` (Driver and Seat eq 10, with the closing and the opening phases apart): ``W_c`` collects all closing
-phases, ``W_r`` all opening ones, and ``e = sqrt(W_r / -W_c)`` (eq 11). For a free single mass that is the ratio of the speeds.
-Only the contact force counts, not gravity. The turning point x' = 0 is a located event, so neither work straddles it.
-State [z, v, W_c, W_r]; event functions: the approach x, the tension margin, the approach rate.
+``W = -integral F x' dt`` (Driver and Seat eq 10, with the closing and the opening phases apart):
+``W_c`` collects all closing phases, ``W_r`` all opening ones, and ``e = sqrt(W_r / -W_c)`` (eq 11).
+For a free single mass that is the ratio of the speeds. Only the contact force counts, not gravity.
+The turning point x' = 0 is a located event, so neither work straddles it. State [z, v, W_c, W_r];
+event functions: the approach x, the tension margin, the approach rate.
 """
 
 from __future__ import annotations
 
 from contact_sim_pkg.compiled.jit import borrowing_kernel
-from contact_sim_pkg.integrate.interface import register
+from contact_sim_pkg.integrate.interface import register_rig
 from contact_sim_pkg.laws.normal_force import normal_force
 from contact_sim_pkg.laws.one_mass.parameters import ImpactWorks
-from contact_sim_pkg.laws.one_mass.point_contact import _margins as contact_margins
+from contact_sim_pkg.laws.one_mass.point_contact import _event_functions as contact_event_functions
 from contact_sim_pkg.laws.one_mass.point_contact import approach_of, free_flight
 
 STATES = 4
-MARGINS = 3
+EVENT_FUNCTIONS = 3
 
 
 @borrowing_kernel
@@ -32,15 +34,15 @@ def _rate(rig, drive, mode, time, state, out):
 
 
 @borrowing_kernel
-def _margins(rig, drive, mode, time, state, derivative, out):
-    contact_margins(rig.contact, drive, mode, time, state, derivative, out)
+def _event_functions(rig, drive, mode, time, state, derivative, out):
+    contact_event_functions(rig.contact, drive, mode, time, state, derivative, out)
     _approach, approach_rate = approach_of(rig.contact, time, state)
     out[2] = approach_rate
 
 
 @borrowing_kernel
-def _switch(rig, drive, mode, time, state, event, side):
-    return side
+def _mode_transition(rig, drive, mode, time, state, event, direction):
+    return direction
 
 
 @borrowing_kernel
@@ -53,4 +55,4 @@ def _free_flight(rig, drive, mode, time, end, state, side):
     return free_flight(rig.contact, drive, mode, time, end, state, side)
 
 
-register(ImpactWorks, _rate, _margins, _switch, _need_rate, _free_flight)
+register_rig(ImpactWorks, _rate, _event_functions, _mode_transition, _need_rate, _free_flight)

@@ -22,17 +22,21 @@ class PointContact(NamedTuple):
 
 
 class ImpactWorks(NamedTuple):
-    """A point contact whose force's works are integrated with it. State [z, v, work of closing, work of opening] in [m, m/s, J, J].
+    """A point contact whose force's works are integrated with it. State [z, v, work of closing,
+    work of opening] in [m, m/s, J, J].
 
-    Both works are counted from the start of the run: ``W = -integral F x' dt``, the first over all closing phases (W_c <= 0), the
-    second over all opening ones (W_r >= 0 where the contact never pulls).
+    Both works are counted from the start of the run: ``W = -integral F x' dt``, the first over all
+    closing phases (W_c <= 0), the second over all opening ones (W_r >= 0 where the contact never
+    pulls).
     """
 
     contact: PointContact
 
 
 class BeltSlider(NamedTuple):
-    """One mass on a spring, rubbed by a belt under a constant load. State [x, v, deflection of the friction spring]."""
+    """One mass on a spring, rubbed by a belt under a constant load. State [x, v, deflection of the
+    friction spring].
+    """
 
     mass: float  # [kg]
     spring: float  # [N/m]

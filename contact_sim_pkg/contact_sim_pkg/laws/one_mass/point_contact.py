@@ -1,6 +1,8 @@
-"""One mass over a support that may move: free impact, drop, slap. The smallest rig, and the yardstick of the integrator.
+"""One mass over a support that may move: free impact, drop, slap. The smallest rig, and the
+yardstick of the integrator.
 
-``m z'' = F(x, x') - m g``, ``x = A sin(w t) - z``. State [z, v]; event functions: the approach x, and the tension margin.
+``m z'' = F(x, x') - m g``, ``x = A sin(w t) - z``. State [z, v]; event functions: the approach x,
+and the tension margin.
 """
 
 from __future__ import annotations
@@ -8,12 +10,12 @@ from __future__ import annotations
 import math
 
 from contact_sim_pkg.compiled.jit import borrowing_kernel
-from contact_sim_pkg.integrate.interface import register
-from contact_sim_pkg.laws.normal_force import normal_force, tension_margin
+from contact_sim_pkg.integrate.interface import register_rig
+from contact_sim_pkg.laws.normal_force import normal_force, tension_event
 from contact_sim_pkg.laws.one_mass.parameters import PointContact
 
 STATES = 2
-MARGINS = 2
+EVENT_FUNCTIONS = 2
 APPROACH, TENSION = 0, 1
 FLIGHT_ITERATIONS = 1000
 
@@ -35,15 +37,15 @@ def _rate(rig, drive, mode, time, state, out):
 
 
 @borrowing_kernel
-def _margins(rig, drive, mode, time, state, derivative, out):
+def _event_functions(rig, drive, mode, time, state, derivative, out):
     approach, approach_rate = approach_of(rig, time, state)
     out[0] = approach
-    out[1] = tension_margin(rig.elastic, rig.dissipative, approach, approach_rate, 1.0)
+    out[1] = tension_event(rig.elastic, rig.dissipative, approach, approach_rate, 1.0)
 
 
 @borrowing_kernel
-def _switch(rig, drive, mode, time, state, event, side):
-    return side
+def _mode_transition(rig, drive, mode, time, state, event, direction):
+    return direction
 
 
 @borrowing_kernel
@@ -53,7 +55,9 @@ def _need_rate(rig, mode):
 
 @borrowing_kernel
 def _time_to_zero(value, slope, bend):
-    """Time in [s] before which a function at ``value`` <= 0 with second derivative up to ``bend`` >= 0 cannot reach zero."""
+    """Time in [s] before which a function at ``value`` <= 0 with second derivative up to ``bend``
+    >= 0 cannot reach zero.
+    """
     root = math.sqrt(max(0.0, slope * slope - 2.0 * bend * value))
     if slope > 0.0:
         return -2.0 * value / (slope + root)
@@ -62,7 +66,8 @@ def _time_to_zero(value, slope, bend):
 
 @borrowing_kernel
 def free_flight(rig, drive, mode, time, end, state, side):
-    """Parabola of the mass, and the touch of the support's sine from below: by steps within which none can be, so none is missed.
+    """Parabola of the mass, and the touch of the support's sine from below: by steps within which
+    none can be, so none is missed.
 
     The steps end as Newton's, from one side; the mass stands at the last instant before the touch.
     """
@@ -89,4 +94,4 @@ def free_flight(rig, drive, mode, time, end, state, side):
     return reached, event
 
 
-register(PointContact, _rate, _margins, _switch, _need_rate, free_flight)
+register_rig(PointContact, _rate, _event_functions, _mode_transition, _need_rate, free_flight)

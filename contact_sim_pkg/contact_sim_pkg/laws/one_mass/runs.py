@@ -1,4 +1,6 @@
-"""Runs of the one-mass rigs with one asked tolerance, for the studies: state at given times, and what it took."""
+"""Runs of the one-mass rigs with one asked tolerance, for the studies: state at given times, and
+what it took.
+"""
 
 from __future__ import annotations
 
@@ -17,12 +19,14 @@ from contact_sim_pkg.laws.parameters import NormalDissipative, NormalElastic
 __all__ = ["OneMassCourse", "RunFailureError", "free_impact", "impact_speeds", "integrate", "seat_slap"]
 
 ORDER = (
-    8  # of the integrator: its steps are not cut short by a drive, and it is the cheaper one below a tolerance of 1e-4
+    # Of the integrator: its steps are not cut short by a drive, and it is the cheaper one below a
+    # tolerance of 1e-4
+    8
 )
-MARGINS = {
-    PointContact: point_contact.MARGINS,
-    ImpactWorks: impact_works.MARGINS,
-    BeltSlider: belt_slider.MARGINS,
+EVENT_FUNCTIONS = {
+    PointContact: point_contact.EVENT_FUNCTIONS,
+    ImpactWorks: impact_works.EVENT_FUNCTIONS,
+    BeltSlider: belt_slider.EVENT_FUNCTIONS,
 }
 
 
@@ -50,9 +54,10 @@ def integrate(
 ) -> OneMassCourse:
     """Integrate `rig` from `start` through `times` [s]; `scale` [states]: error allowed per step.
 
-    `mode`: friction mode at the start (0 sticks, 1 and -1 slip). Raises RunFailureError where `strict` and the run fails.
+    `mode`: friction mode at the start (0 sticks, 1 and -1 slip). Raises RunFailureError where
+    `strict` and the run fails.
     """
-    margins = MARGINS[type(rig)]
+    margins = EVENT_FUNCTIONS[type(rig)]
     state = numpy.array(start, dtype=float)
     out = numpy.full((len(times), len(state)), numpy.nan)
     rest = (numpy.array([mode]), state, numpy.asarray(scale, dtype=float))
@@ -78,13 +83,17 @@ def free_impact(mass: float, elastic: NormalElastic, damping: float | None) -> P
 def impact_speeds(
     rig: PointContact, speed: float, depth: float, tolerance: float, gap: float, end: float
 ) -> OneMassCourse:
-    """Free impact at `speed` [m/s] from `gap` [m] above the support, to `end` [s]; tolerance relative to `depth` and `speed`."""
+    """Free impact at `speed` [m/s] from `gap` [m] above the support, to `end` [s]; tolerance
+    relative to `depth` and `speed`.
+    """
     scale = numpy.array([depth, speed]) * tolerance
     return integrate(rig, numpy.array([gap, -speed]), scale, numpy.array([0.0, end]))
 
 
 def seat_slap() -> tuple[PointContact, Vector, Vector]:
-    """60 kg on a one-sided foam law over a floor at 5 Hz and 1.3 g: rig, start, and the scales [m, m/s] of the motion."""
+    """60 kg on a one-sided foam law over a floor at 5 Hz and 1.3 g: rig, start, and the scales [m,
+    m/s] of the motion.
+    """
     mass, gravity = 60.0, 9.81
     frequency = 2.0 * numpy.pi * 5.0
     amplitude = 1.3 * gravity / frequency**2

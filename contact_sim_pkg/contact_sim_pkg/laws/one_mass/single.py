@@ -1,4 +1,6 @@
-"""Compiled entries of the one-mass rigs: integrate from event to event or over a time, for tests and studies."""
+"""Compiled entries of the one-mass rigs: integrate from event to event or over a time, for tests
+and studies.
+"""
 
 from __future__ import annotations
 
@@ -11,7 +13,7 @@ from contact_sim_pkg.compiled.jit import borrowing_kernel, entry
 from contact_sim_pkg.compiled.vectors import copy_row
 from contact_sim_pkg.integrate import dormand_prince
 from contact_sim_pkg.integrate.drive import Drive
-from contact_sim_pkg.integrate.root_steps import RootStepWorkspace, integrate, set_sides
+from contact_sim_pkg.integrate.root_steps import RootStepWorkspace, integrate, set_event_directions
 from contact_sim_pkg.laws.one_mass import belt_slider, impact_works, point_contact
 
 __all__ = ["belt_slider", "empty_mode", "impact_works", "point_contact", "run", "run_with_friction"]
@@ -38,13 +40,15 @@ def _free(start, end):
 def run(
     rig: Any, mode: Modes, state: Vector, scale: Vector, work: RootStepWorkspace, times: Vector, out: Vector
 ) -> int:
-    """Integrate ``rig`` from ``times[0]`` through all ``times`` in [s]; row i of ``out`` is the state at ``times[i]``.
+    """Integrate ``rig`` from ``times[0]`` through all ``times`` in [s]; row i of ``out`` is the
+    state at ``times[i]``.
 
-    ``rig``: any that is registered (``integrate/interface.py``). ``state`` [states] is the start and changes in place; ``scale``
-    [states] the error allowed per step. Returns the status of ``compiled/results.py``; rows after a failure keep what they held.
+    ``rig``: any that is registered (``integrate/interface.py``). ``state`` [states] is the start
+    and changes in place; ``scale`` [states] the error allowed per step. Returns the status of
+    ``compiled/results.py``; rows after a failure keep what they held.
     """
     drive = _free(times[0], times[-1])
-    set_sides(rig, drive, mode, times[0], state, work)
+    set_event_directions(rig, drive, mode, times[0], state, work)
     copy_row(state, out[0])
     status = 0
     for i in range(times.shape[0] - 1):
@@ -57,7 +61,7 @@ def run(
 
 
 _integrate_5 = dormand_prince.integrate
-_set_sides_5 = dormand_prince.set_sides
+_set_event_directions_5 = dormand_prince.set_event_directions
 
 
 @entry
@@ -70,9 +74,11 @@ def run_with_friction(
     times: Vector,
     out: Vector,
 ) -> int:
-    """As ``run``, by the integrator of the driven rigs: friction events have no root of time beside them that steps could use."""
+    """As ``run``, by the integrator of the driven rigs: friction events have no root of time beside
+    them that steps could use.
+    """
     drive = _free(times[0], times[-1])
-    _set_sides_5(rig, drive, mode, times[0], state, work)
+    _set_event_directions_5(rig, drive, mode, times[0], state, work)
     copy_row(state, out[0])
     status = 0
     for i in range(times.shape[0] - 1):

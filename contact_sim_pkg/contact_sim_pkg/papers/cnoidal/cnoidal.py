@@ -1,9 +1,12 @@
-"""The exact motion of a quadratic oscillator in cn^2, and the oscillator that a preloaded contact spring is to second order.
+"""The exact motion of a quadratic oscillator in cn^2, and the oscillator that a preloaded contact
+spring is to second order.
 
-``y'' = -w0^2 y - k y^2`` between the turning points y2 <= y <= y3, which are roots with y1 of ``k y^3/3 + w0^2 y^2/2 = const``:
-``y = y2 + (y3 - y2) cn^2(W t; m)``, ``W^2 = k (y3 - y1)/6``, ``m = (y3 - y2)/(y3 - y1)``, period ``2 K(m)/W``. For k < 0 y is
-mirrored, for k = 0 the oscillator is linear. m = 1 is the homoclinic motion: it needs for ever, and its period is infinite.
-Source: Driver and Seat, appendix (eqs A1-A5), in the one case where one phase is exact; Abramowitz and Stegun 16.
+``y'' = -w0^2 y - k y^2`` between the turning points y2 <= y <= y3, which are roots with y1 of ``k
+y^3/3 + w0^2 y^2/2 = const``: ``y = y2 + (y3 - y2) cn^2(W t; m)``, ``W^2 = k (y3 - y1)/6``, ``m =
+(y3 - y2)/(y3 - y1)``, period ``2 K(m)/W``. For k < 0 y is mirrored, for k = 0 the oscillator is
+linear. m = 1 is the homoclinic motion: it needs for ever, and its period is infinite. Source:
+Driver and Seat, appendix (eqs A1-A5), in the one case where one phase is exact; Abramowitz and
+Stegun 16.
 """
 
 from __future__ import annotations
@@ -49,10 +52,12 @@ class CnoidalMotion(NamedTuple):
 
 
 def released_at(oscillator: QuadraticOscillator, start: float) -> CnoidalMotion:
-    """Motion released at rest at ``start`` [m] on the side to which the spring stiffens (the sign of the quadratic term).
+    """Motion released at rest at ``start`` [m] on the side to which the spring stiffens (the sign
+    of the quadratic term).
 
-    ``start`` may be of either sign: the other turning point follows. Raises CnoidalError beyond the saddle, where the motion runs
-    away, and ValueError where the frequency is not positive or a number is not finite.
+    ``start`` may be of either sign: the other turning point follows. Raises CnoidalError beyond the
+    saddle, where the motion runs away, and ValueError where the frequency is not positive or a
+    number is not finite.
     """
     w, k = oscillator
     if not (math.isfinite(w) and math.isfinite(k) and math.isfinite(start) and w > 0.0):
@@ -73,7 +78,9 @@ def released_at(oscillator: QuadraticOscillator, start: float) -> CnoidalMotion:
 
 
 def position(motion: CnoidalMotion, times: ArrayLike) -> Array:
-    """y in [m] at ``times`` [s]; ``motion.start`` at t = 0. Raises ValueError for a time that is not finite."""
+    """y in [m] at ``times`` [s]; ``motion.start`` at t = 0. Raises ValueError for a time that is
+    not finite.
+    """
     t = numpy.asarray(times, dtype=numpy.float64)
     if not numpy.isfinite(t).all():
         raise ValueError("a time of the motion is not a finite number")
@@ -87,10 +94,11 @@ def position(motion: CnoidalMotion, times: ArrayLike) -> Array:
 
 
 def contact_oscillator(mass: float, elastic: NormalElastic, preload: float) -> tuple[QuadraticOscillator, float]:
-    """Oscillator of ``mass`` [kg] on ``F = A x^n`` under ``preload`` [N], to second order about its rest; and that approach.
+    """Oscillator of ``mass`` [kg] on ``F = A x^n`` under ``preload`` [N], to second order about its
+    rest; and that approach.
 
-    y counts deeper: ``w0^2 = n A x0^(n-1)/m``, ``k = n (n-1) A x0^(n-2)/(2 m)``, x0 in [m]. Raises ValueError where mass,
-    preload or a parameter of the law is not a finite number above 0.
+    y counts deeper: ``w0^2 = n A x0^(n-1)/m``, ``k = n (n-1) A x0^(n-2)/(2 m)``, x0 in [m]. Raises
+    ValueError where mass, preload or a parameter of the law is not a finite number above 0.
     """
     if not (0.0 < mass < math.inf and 0.0 < preload < math.inf):
         raise ValueError(f"a preloaded contact needs a finite mass and preload above 0, not {mass} kg and {preload} N")
@@ -107,7 +115,9 @@ def _starts_at_the_soft_end(motion: CnoidalMotion) -> bool:
 
 
 def _roots(upper: float, reach: float) -> tuple[float, float, float]:
-    """Turning points for a release at ``upper`` > 0, mirrored so that k > 0: y^2 + b y + b y3 = 0 with b = y3 + reach."""
+    """Turning points for a release at ``upper`` > 0, mirrored so that k > 0: y^2 + b y + b y3 = 0
+    with b = y3 + reach.
+    """
     b = upper + reach
     discriminant = b * (b - 4.0 * upper)
     if discriminant < 0.0:

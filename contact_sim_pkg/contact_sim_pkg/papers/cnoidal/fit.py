@@ -1,9 +1,12 @@
-"""The cnoidal ansatz fitted to a computed motion, and its residual (Driver and Seat eqs 12, 13, A6; corrected).
+"""The cnoidal ansatz fitted to a computed motion, and its residual (Driver and Seat eqs 12, 13, A6;
+corrected).
 
-``S = c + sum_k a_k C_k + sum_k b_k C_k / (1 + sum_k g_k C_k)``, ``C_k = cn^2(K(m_k)/pi (eta_k + f_k); m_k)``, k = 1..N.
-For a periodic response of fundamental W ``eta_k = k W t``: cn^2 has the period 2 K, so every C_k repeats with the response. For the
-wave of N phases the eta_k are those phases. c, a, b, g, m and f are fitted by least squares from m = 0.1, b = g = 0 and the Fourier
-amplitudes; the least found may be a local one. The ansatz is exact for one phase only; elsewhere its residual says its worth.
+``S = c + sum_k a_k C_k + sum_k b_k C_k / (1 + sum_k g_k C_k)``, ``C_k = cn^2(K(m_k)/pi (eta_k +
+f_k); m_k)``, k = 1..N. For a periodic response of fundamental W ``eta_k = k W t``: cn^2 has the
+period 2 K, so every C_k repeats with the response. For the wave of N phases the eta_k are those
+phases. c, a, b, g, m and f are fitted by least squares from m = 0.1, b = g = 0 and the Fourier
+amplitudes; the least found may be a local one. The ansatz is exact for one phase only; elsewhere
+its residual says its worth.
 """
 
 from __future__ import annotations
@@ -41,7 +44,9 @@ class AnsatzFit(NamedTuple):
 
 
 def harmonics_of_period(count: int, terms: int = 2) -> Array:
-    """Phases ``k W t`` [terms, count] of evenly spaced samples over one period, the end left out."""
+    """Phases ``k W t`` [terms, count] of evenly spaced samples over one period, the end left
+    out.
+    """
     phase = 2.0 * math.pi * numpy.arange(count) / count
     return numpy.arange(1, terms + 1)[:, None] * phase
 
@@ -49,8 +54,8 @@ def harmonics_of_period(count: int, terms: int = 2) -> Array:
 def fit_ansatz(samples: Array, phases: Array, *, nonlinear: bool = True) -> AnsatzFit:
     """Fit to ``samples`` [n] at ``phases`` [N, n] in [rad].
 
-    ``nonlinear``: with the quotient; False: S_lin alone. Raises ValueError where the samples are fewer than the unknowns, or all
-    the same.
+    ``nonlinear``: with the quotient; False: S_lin alone. Raises ValueError where the samples are
+    fewer than the unknowns, or all the same.
     """
     terms = len(phases)
     mean, size = float(samples.mean()), float(samples.std())
@@ -88,7 +93,9 @@ def ansatz(fit: AnsatzFit, phases: Array) -> Array:
 
 
 def fit_harmonics(samples: Array, count: int) -> float:
-    """Residual of the mean and ``count`` harmonics of one period, as that of ``fit_ansatz``; 1 + 2 count unknowns."""
+    """Residual of the mean and ``count`` harmonics of one period, as that of ``fit_ansatz``; 1 + 2
+    count unknowns.
+    """
     spectrum = numpy.fft.rfft(samples - samples.mean())
     spectrum[: count + 1] = 0.0
     rest = numpy.fft.irfft(spectrum, len(samples))
@@ -96,7 +103,9 @@ def fit_harmonics(samples: Array, count: int) -> float:
 
 
 def _start(scaled: Array, phases: Array, nonlinear: bool) -> Array:
-    """cn^2 is (1 + cos)/2 for small m: amplitude and shift are those of the Fourier component, the amplitude twice."""
+    """cn^2 is (1 + cos)/2 for small m: amplitude and shift are those of the Fourier component, the
+    amplitude twice.
+    """
     components = 2.0 * numpy.mean(scaled * numpy.exp(-1j * phases), axis=1)
     linear, terms = 2.0 * numpy.abs(components), len(phases)
     rest = numpy.zeros(2 * terms if nonlinear else 0)

@@ -1,4 +1,6 @@
-"""Hard cases of the cnoidal method: limits of the parameter, the homoclinic motion, theta functions near a singular matrix."""
+"""Hard cases of the cnoidal method: limits of the parameter, the homoclinic motion, theta functions
+near a singular matrix.
+"""
 
 from __future__ import annotations
 
@@ -22,7 +24,9 @@ BEYOND_THE_TABLE = {-0.2: 0.178, -0.5: 0.365, -1.0: 0.540}
 
 
 def limits_of_cn() -> Finding:
-    """Largest error of cn from the cosine (m = 0) to the hyperbolic secant (m = 1), against 140 digits."""
+    """Largest error of cn from the cosine (m = 0) to the hyperbolic secant (m = 1), against 140
+    digits.
+    """
     worst = 0.0
     with mpmath.workdps(140):
         for complement in COMPLEMENTS:
@@ -52,7 +56,9 @@ def linear_limit() -> Finding:
 
 
 def homoclinic() -> Finding:
-    """Released exactly at the saddle's level: y = 3 a sech^2(w0 t/2) - 2 a with a = w0^2/(2 k), reported as homoclinic."""
+    """Released exactly at the saddle's level: y = 3 a sech^2(w0 t/2) - 2 a with a = w0^2/(2 k),
+    reported as homoclinic.
+    """
     motion = released_at(OSCILLATOR, SADDLE_RELEASE)
     times = numpy.linspace(0.0, 8.0, 81)
     exact = 3.0 * SADDLE_RELEASE / numpy.cosh(0.5 * OSCILLATOR.frequency * times) ** 2 - 2.0 * SADDLE_RELEASE
@@ -72,7 +78,9 @@ def beyond_the_saddle() -> Finding:
 
 
 def cancelling_sum() -> Finding:
-    """Theta of one phase at B = -0.2, where the lattice sum cancels to 1e-9: largest relative error, against 60 digits."""
+    """Theta of one phase at B = -0.2, where the lattice sum cancels to 1e-9: largest relative
+    error, against 60 digits.
+    """
     phases = numpy.linspace(-math.pi, math.pi, 25)[:, None]
     worst = 0.0
     with mpmath.workdps(60):
@@ -84,14 +92,18 @@ def cancelling_sum() -> Finding:
 
 
 def nearly_singular() -> Finding:
-    """ln Theta at B = -1e-6, where Theta itself underflows: relative error against the one Gaussian that counts."""
+    """ln Theta at B = -1e-6, where Theta itself underflows: relative error against the one Gaussian
+    that counts.
+    """
     eta = 2.0
     exact = 0.5 * math.log(2.0 * math.pi / 1e-6) - eta**2 / 2e-6
     return at_most(abs(float(theta.log_theta([eta], [[-1e-6]])) / exact - 1.0), 1e-14)
 
 
 def both_sums() -> Finding:
-    """Lattice and Poisson's sum of three coupled phases on both sides of the switch: largest difference of the wave."""
+    """Lattice and Poisson's sum of three coupled phases on both sides of the switch: largest
+    difference of the wave.
+    """
     generator = numpy.random.default_rng(4)
     phases, along = generator.uniform(-4.0, 4.0, (40, 3)), numpy.array([1.0, -0.7, 2.2])
     worst = 0.0
@@ -103,7 +115,9 @@ def both_sums() -> Finding:
 
 
 def one_phase() -> Finding:
-    """The wave of one phase against its cn^2 and constant, B from -0.05 to -30: largest error over its rms."""
+    """The wave of one phase against its cn^2 and constant, B from -0.05 to -30: largest error over
+    its rms.
+    """
     phases, worst = numpy.linspace(-4.0, 4.0, 41)[:, None], 0.0
     for entry in (-0.05, -0.3, -0.999, -1.0, -2.2, -6.0, -6.3, -12.0, -30.0):
         wave = theta.theta_wave(phases, [[entry]], [1.3])
@@ -113,7 +127,9 @@ def one_phase() -> Finding:
 
 
 def interaction() -> Finding:
-    """Interaction of two phases over the plain sum at three couplings, against 17.8, 36.5 and 54.0 %: largest difference."""
+    """Interaction of two phases over the plain sum at three couplings, against 17.8, 36.5 and 54.0
+    %: largest difference.
+    """
     phases, worst = phases_of(64), 0.0
     for coupling in COUPLINGS:
         plain = theta.plain_sum(phases, matrix_of(coupling), WAVE_NUMBERS)
@@ -124,7 +140,9 @@ def interaction() -> Finding:
 
 
 def bad_matrices() -> Finding:
-    """Matrices that have no theta function, or one beyond the lattice bound, of seven: all are refused with a sentence."""
+    """Matrices that have no theta function, or one beyond the lattice bound, of seven: all are
+    refused with a sentence.
+    """
     cases = (
         [[0.0]], [[1.0]], [[math.nan]], [[-1.0, 2.0], [2.0, -1.0]], [[-1.0, 0.1], [0.2, -1.0]], [[-1e-9, 0.0], [0.0, -1e14]],
         numpy.diag([-1.0] * 6),

@@ -1,7 +1,8 @@
-"""Periodic motions of the back-rest contact, integrated: the free one under preload, and the steady response to a shaken seat.
+"""Periodic motions of the back-rest contact, integrated: the free one under preload, and the steady
+response to a shaken seat.
 
-Set-up of Driver and Seat's figures 4-7: 45.6 kg, A = 2.46e5 N/m^1.5, damping 1.950 s/m (e = 0.6 at 0.5 m/s), 0.5 g
-(contact kept) and 1.5 g (slaps) at 4.75, 5.25, 5.75 and 6.25 Hz.
+Set-up of Driver and Seat's figures 4-7: 45.6 kg, A = 2.46e5 N/m^1.5, damping 1.950 s/m (e = 0.6 at
+0.5 m/s), 0.5 g (contact kept) and 1.5 g (slaps) at 4.75, 5.25, 5.75 and 6.25 Hz.
 """
 
 from __future__ import annotations
@@ -33,11 +34,14 @@ class Steady(NamedTuple):
     """One period of the approach."""
 
     approach: Array  # [SAMPLES] [m]
-    mismatch: float  # of the last two periods, relative to the spread: 0 where the response has the drive's period
+    # Of the last two periods, relative to the spread: 0 where the response has the drive's period
+    mismatch: float
 
 
 def exact_period(elastic: NormalElastic, mass: float, preload: float, deepest: float) -> float:
-    """Period [s] of the free motion released at the approach ``deepest`` [m]: the energy integral by quadrature."""
+    """Period [s] of the free motion released at the approach ``deepest`` [m]: the energy integral
+    by quadrature.
+    """
 
     def potential(x: float) -> float:
         return float(
@@ -57,7 +61,9 @@ def exact_period(elastic: NormalElastic, mass: float, preload: float, deepest: f
 
 
 def steady_response(frequency: float, amplitude: float, tolerance: float = 1e-9) -> Steady:
-    """Approach over one period after the transient, for a seat shaken at ``frequency`` [Hz] and ``amplitude`` [g]."""
+    """Approach over one period after the transient, for a seat shaken at ``frequency`` [Hz] and
+    ``amplitude`` [g].
+    """
     angular = 2.0 * math.pi * frequency
     stroke = amplitude * GRAVITY / angular**2
     rig = PointContact(MASS, GRAVITY, stroke, angular, LAW, LOSS)

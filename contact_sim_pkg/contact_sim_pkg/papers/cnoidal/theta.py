@@ -1,20 +1,24 @@
-"""Theta functions of N phases, and the motion ``2 d^2 ln Theta / dx^2`` with its split into one-phase waves and interaction.
+"""Theta functions of N phases, and the motion ``2 d^2 ln Theta / dx^2`` with its split into
+one-phase waves and interaction.
 
-``Theta(eta) = sum over integer M of exp(i M.eta + 1/2 M.B M)``, B real, symmetric, negative definite, and
-``eta_j = k_j x - w_j t + phi_j`` (Driver and Seat eqs A1-A3). For one phase, with ``q = exp(B/2)`` the nome of m,
+``Theta(eta) = sum over integer M of exp(i M.eta + 1/2 M.B M)``, B real, symmetric, negative
+definite, and ``eta_j = k_j x - w_j t + phi_j`` (Driver and Seat eqs A1-A3). For one phase, with ``q
+= exp(B/2)`` the nome of m,
 
 ``2 d^2 ln Theta/dx^2 = 2 k^2 (K/pi)^2 [1 - m - E/K + m cn^2(K eta/pi + K; m)]``,
 
-so eq A5's sum of cn^2 needs a constant (a second derivative of a periodic logarithm has no mean). ``printed`` leaves it out.
+so eq A5's sum of cn^2 needs a constant (a second derivative of a periodic logarithm has no mean).
+``printed`` leaves it out.
 
-Truncation: |M_i| <= ceil(sqrt(2 . 36 / l)), l the least eigenvalue of -B, leaves 1e-16. Below l = 1 the terms cancel;
-there Poisson's sum takes over, all of whose terms are positive:
-``Theta(eta) = sqrt((2 pi)^N / det(-B)) sum over M of exp(1/2 (eta + 2 pi M).B^-1 (eta + 2 pi M))``.
-Its exponents are taken over that of M = 0, ``2 pi M.B^-1 (eta + pi M)``, and the wave is a variance, ``2 (var + k.B^-1 k)`` of
-``2 pi M.B^-1 k`` over the weights: neither cancels, however near B is to singular.
+Truncation: |M_i| <= ceil(sqrt(2 . 36 / l)), l the least eigenvalue of -B, leaves 1e-16. Below l = 1
+the terms cancel; there Poisson's sum takes over, all of whose terms are positive: ``Theta(eta) =
+sqrt((2 pi)^N / det(-B)) sum over M of exp(1/2 (eta + 2 pi M).B^-1 (eta + 2 pi M))``. Its exponents
+are taken over that of M = 0, ``2 pi M.B^-1 (eta + pi M)``, and the wave is a variance, ``2 (var +
+k.B^-1 k)`` of ``2 pi M.B^-1 k`` over the weights: neither cancels, however near B is to singular.
 
-Range: eigenvalues of -B from 1e-100, entries of B to 1e100, phases to 1e15 rad, direction to 1e50. Errors, seen against 60 digits:
-waves 1e-12 of the largest value that the wave takes, logarithms 1e-13 of themselves or of one.
+Range: eigenvalues of -B from 1e-100, entries of B to 1e100, phases to 1e15 rad, direction to 1e50.
+Errors, seen against 60 digits: waves 1e-12 of the largest value that the wave takes, logarithms
+1e-13 of themselves or of one.
 """
 
 from __future__ import annotations
@@ -54,37 +58,48 @@ class OnePhase(NamedTuple):
 
 
 def theta(phases: ArrayLike, matrix: ArrayLike) -> Array:
-    """Theta at ``phases`` [..., N] in [rad] for ``matrix`` B [N, N]. Raises ThetaError as ``log_theta``."""
+    """Theta at ``phases`` [..., N] in [rad] for ``matrix`` B [N, N]. Raises ThetaError as
+    ``log_theta``.
+    """
     return numpy.exp(log_theta(phases, matrix))
 
 
 def log_theta(phases: ArrayLike, matrix: ArrayLike) -> Array:
-    """ln Theta, [...]. Raises ThetaError where B is not symmetric and negative definite, or needs more than 2e6 terms."""
+    """ln Theta, [...]. Raises ThetaError where B is not symmetric and negative definite, or needs
+    more than 2e6 terms.
+    """
     eta, b = _checked(phases, matrix)
     return _sums(eta, b, numpy.zeros(b.shape[0]))[0]
 
 
 def theta_wave(phases: ArrayLike, matrix: ArrayLike, direction: ArrayLike) -> Array:
-    """``2 d^2 ln Theta/dx^2`` along ``direction`` d(eta)/dx [N]: wave numbers, or frequencies for eq A4."""
+    """``2 d^2 ln Theta/dx^2`` along ``direction`` d(eta)/dx [N]: wave numbers, or frequencies for
+    eq A4.
+    """
     eta, b = _checked(phases, matrix)
     along = _direction(direction, b.shape[0])
     return _sums(eta, b, along)[1]
 
 
 def poisson_wave(phases: ArrayLike, matrix: ArrayLike, direction: ArrayLike) -> Array:
-    """As ``theta_wave``, always by Poisson's sum: dear where -B is large, and a check of the lattice sum anywhere."""
+    """As ``theta_wave``, always by Poisson's sum: dear where -B is large, and a check of the
+    lattice sum anywhere.
+    """
     eta, b = _checked(phases, matrix)
     return _modular_sums(eta, b, _direction(direction, b.shape[0]))[1]
 
 
 def plain_sum(phases: ArrayLike, matrix: ArrayLike, direction: ArrayLike, *, printed: bool = False) -> Array:
-    """Sum of the one-phase waves of B's diagonal (eq A5, with its constant; ``printed`` without)."""
+    """Sum of the one-phase waves of B's diagonal (eq A5, with its constant; ``printed``
+    without).
+    """
     eta, b = _checked(phases, matrix)
     along = _direction(direction, b.shape[0])
     total = numpy.zeros(eta.shape[:-1])
     rest, turns = _within_half_a_turn(eta)
     side = numpy.where(rest < 0.0, -0.5, 0.5)
-    from_crest = (rest - side * TWO_PI) - (side + turns) * TWO_PI_REST  # the waves' crests are at odd multiples of pi
+    # The waves' crests are at odd multiples of pi
+    from_crest = (rest - side * TWO_PI) - (side + turns) * TWO_PI_REST
     for j in range(b.shape[0]):
         wave = one_phase(float(b[j, j]), float(along[j]))
         total += wave.amplitude * cn_squared(wave.argument * from_crest[..., j], wave.complement).reshape(total.shape)
@@ -93,12 +108,16 @@ def plain_sum(phases: ArrayLike, matrix: ArrayLike, direction: ArrayLike, *, pri
 
 
 def interaction(phases: ArrayLike, matrix: ArrayLike, direction: ArrayLike) -> Array:
-    """What the phases do to each other: ``theta_wave - plain_sum`` (eq A4); zero where B is diagonal."""
+    """What the phases do to each other: ``theta_wave - plain_sum`` (eq A4); zero where B is
+    diagonal.
+    """
     return theta_wave(phases, matrix, direction) - plain_sum(phases, matrix, direction)
 
 
 def one_phase(entry: float, wave_number: float) -> OnePhase:
-    """The wave of one phase with B = ``entry``, -1e100 to -1e-100. Raises ThetaError outside, and for a wave number beyond 1e50."""
+    """The wave of one phase with B = ``entry``, -1e100 to -1e-100. Raises ThetaError outside, and
+    for a wave number beyond 1e50.
+    """
     if not -LARGEST_ENTRY <= entry <= -LEAST_EIGENVALUE:
         raise ThetaError(
             f"B = {entry} has no theta function within range; it must be a number below 0, "
@@ -114,7 +133,9 @@ def one_phase(entry: float, wave_number: float) -> OnePhase:
 
 
 def _of_nome_exponent(exponent: float) -> tuple[float, float, float]:
-    """K, m and 1 - m from ``q = exp(-exponent)``: theta constants of the nome q or, where q is large, of the other one."""
+    """K, m and 1 - m from ``q = exp(-exponent)``: theta constants of the nome q or, where q is
+    large, of the other one.
+    """
     if exponent >= math.pi:
         second, third, fourth = _constants(exponent)
         return 0.5 * math.pi * third**2, (second / third) ** 4, (fourth / third) ** 4
@@ -168,7 +189,9 @@ def _lattice(reach: Array) -> Array:
 
 
 def _within_half_a_turn(eta: Array) -> tuple[Array, Array]:
-    """Remainder within -pi to pi of the phases by ``TWO_PI``, exact, and the number of turns taken off."""
+    """Remainder within -pi to pi of the phases by ``TWO_PI``, exact, and the number of turns taken
+    off.
+    """
     rest = numpy.fmod(eta, TWO_PI)
     rest = numpy.where(rest > math.pi, rest - TWO_PI, numpy.where(rest < -math.pi, rest + TWO_PI, rest))
     return rest, numpy.round((eta - rest) / TWO_PI)
@@ -196,7 +219,9 @@ def _plain_sums(eta: Array, b: Array, along: Array, least: float) -> tuple[Array
 
 
 def _modular_sums(eta: Array, b: Array, along: Array) -> tuple[Array, Array]:
-    """Poisson's sum about the phases, which are first brought into -pi to pi; in groups of phases that bound its memory."""
+    """Poisson's sum about the phases, which are first brought into -pi to pi; in groups of phases
+    that bound its memory.
+    """
     inverse = numpy.linalg.inv(b)
     inverse = 0.5 * (inverse + inverse.T)
     rest, turns = (values.reshape(-1, b.shape[0]) for values in _within_half_a_turn(eta))

@@ -1,7 +1,9 @@
-"""Ladder of the interaction of two phases: plain sum of one-phase waves, fitted ansatz, lattice sum of the theta function.
+"""Ladder of the interaction of two phases: plain sum of one-phase waves, fitted ansatz, lattice sum
+of the theta function.
 
-B11 = -2.2, B22 = -3.1, k = (1, 1.6); B12 is what ties the phases together. Distances are rms over both phases, relative to the rms
-of the plain sum. The lattice sum is compared with Poisson's sum of the same function, which shares no term with it.
+B11 = -2.2, B22 = -3.1, k = (1, 1.6); B12 is what ties the phases together. Distances are rms over
+both phases, relative to the rms of the plain sum. The lattice sum is compared with Poisson's sum of
+the same function, which shares no term with it.
 """
 
 from __future__ import annotations

@@ -1,4 +1,6 @@
-"""What bounds a ball inside two bodies: all their constraints in relative lengths, depths below them, supporting planes."""
+"""What bounds a ball inside two bodies: all their constraints in relative lengths, depths below
+them, supporting planes.
+"""
 
 from __future__ import annotations
 
@@ -21,7 +23,9 @@ REFLECTIONS = 8
 
 
 class Constraints(NamedTuple):
-    """Planes first, then quadrics; in each kind those of body 1 first. Lengths from an origin, over a size."""
+    """Planes first, then quadrics; in each kind those of body 1 first. Lengths from an origin, over
+    a size.
+    """
 
     normals: Field  # [planes, 3]
     offsets: Field  # [planes]
@@ -105,7 +109,9 @@ def put_cut(cuts: Cuts, normal: Field, offset: float, constraint: int) -> None:
 
 @kernel
 def add_cuts(constraints: Constraints, cuts: Cuts, point: Field) -> None:
-    """The supporting planes at the feet of a point on every quadric, and their reflections in its planes of symmetry."""
+    """The supporting planes at the feet of a point on every quadric, and their reflections in its
+    planes of symmetry.
+    """
     local, foot, mirrored, normal = numpy.empty(3), numpy.empty(3), numpy.empty(3), numpy.empty(3)
     for k in range(constraints.centres.shape[0]):
         to_local(constraints, k, point, local)

@@ -1,6 +1,7 @@
 """Minimum distance of two convex bodies, and the points where it is reached.
 
-    minimise |p1 - p2|^2 / 2   where   g(p1) <= 0 for each constraint of body 1, g(p2) <= 0 for each of body 2
+    minimise |p1 - p2|^2 / 2   where   g(p1) <= 0 for each constraint of body 1, g(p2) <= 0 for each
+    of body 2
 
 The problem is convex: what meets the Karush-Kuhn-Tucker conditions `p1 - p2 + sum lambda grad g =
 0` (and with the sign changed for body 2), `lambda >= 0`, `lambda g = 0` is the minimum. Newton
@@ -43,7 +44,8 @@ CONVERGED = 1e-10
 """Residual, relative to the size of the pair, at which no further start is tried."""
 
 SMALLEST_GAP = 1e-22
-"""Of the cost, relative to the square of the pair's size: the active constraints are known by then."""
+"""Of the cost, relative to the square of the pair's size: the active constraints are known by then.
+"""
 
 MOST_STARTS = 6
 POLISH_STEPS = 6
@@ -75,7 +77,9 @@ def minimum_distance(body_1: ConvexBody, body_2: ConvexBody) -> Closest:
 
 @entry
 def minimum_distance_from(body_1: ConvexBody, body_2: ConvexBody, start: int) -> Closest:
-    """One descent: start 0 is from the bodies' inside points, others from points between these and the boundary."""
+    """One descent: start 0 is from the bodies' inside points, others from points between these and
+    the boundary.
+    """
     origin, size = moved_by(body_1.inside, 0.5, between(body_2.inside, body_1.inside)), pair_size(body_1, body_2)
     program = pair_program(body_1, body_2, origin, size)
     direction = start_direction(start)
@@ -243,7 +247,9 @@ def active_constraints(point: Point) -> NDArray[numpy.int64]:
 
 @kernel
 def equality_step(program: Program, point: Point, active: NDArray[numpy.int64]) -> Point:
-    """One Newton step on stationarity and `g = 0` of the active constraints; the others get no multiplier."""
+    """One Newton step on stationarity and `g = 0` of the active constraints; the others get no
+    multiplier.
+    """
     size, number = point.unknowns.size, active.size
     matrix, right = numpy.zeros((size + number, size + number)), numpy.empty(size + number)
     curvature, slope = hessian(program, point.multipliers), stationarity(program, point)
@@ -270,7 +276,8 @@ def equality_step(program: Program, point: Point, active: NDArray[numpy.int64]) 
 
 @kernel
 def conditions(program: Program, point: Point) -> float:
-    """Largest violation: of stationarity, and for each constraint `|min(lambda |grad g|, -g / |grad g|)|`, both lengths.
+    """Largest violation: of stationarity, and for each constraint `|min(lambda |grad g|, -g / |grad
+    g|)|`, both lengths.
 
     The latter is zero where both are not negative and one of them is zero.
     """

@@ -56,7 +56,8 @@ def sphere(centre: ArrayLike, radius: float) -> ConvexBody:
 
 
 def ellipsoid(centre: ArrayLike, half_axes: ArrayLike, rotation: ArrayLike = IDENTITY) -> ConvexBody:
-    """Ellipsoid with half axes [3] [m], one or two of them may be inf, along the columns of `rotation` [3, 3].
+    """Ellipsoid with half axes [3] [m], one or two of them may be inf, along the columns of
+    `rotation` [3, 3].
 
     Raises `BodyError` for axes that are not positive and matrices that are not orthogonal.
     """
@@ -67,7 +68,8 @@ def ellipsoid(centre: ArrayLike, half_axes: ArrayLike, rotation: ArrayLike = IDE
 
 
 def quadric(centre: ArrayLike, matrix: ArrayLike) -> ConvexBody:
-    """`(p - c)^T Q (p - c) <= 1` of a symmetric, positive semidefinite `matrix` Q [3, 3] [1/m^2], not zero.
+    """`(p - c)^T Q (p - c) <= 1` of a symmetric, positive semidefinite `matrix` Q [3, 3] [1/m^2],
+    not zero.
 
     Raises `BodyError`.
     """
@@ -104,7 +106,9 @@ def box(centre: ArrayLike, half_sides: ArrayLike, rotation: ArrayLike = IDENTITY
 
 
 def planes(normals: Field, offsets: Field, inside: Field) -> ConvexBody:
-    """A body of planes alone, nothing checked: unit normals [planes, 3], offsets [planes] [m], a point inside [3] [m]."""
+    """A body of planes alone, nothing checked: unit normals [planes, 3], offsets [planes] [m], a
+    point inside [3] [m].
+    """
     none, matrices = numpy.zeros((0, 3)), numpy.zeros((0, 3, 3))
     return ConvexBody(none, none, matrices, matrices, numpy.ascontiguousarray(normals), offsets, inside)
 

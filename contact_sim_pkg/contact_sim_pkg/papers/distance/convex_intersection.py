@@ -1,4 +1,5 @@
-"""Polyhedra, and what several convex bodies share, with the point inside that the searches start from.
+"""Polyhedra, and what several convex bodies share, with the point inside that the searches start
+from.
 
 That point is the centre of the largest ball inside (`papers/distance/touching_ball.py`), bounded by
 a box for bodies without bounds.
@@ -17,14 +18,17 @@ __all__ = ["intersection", "polyhedron"]
 Field = NDArray[numpy.float64]
 
 SEARCH_BOXES = (10.0, 1e3, 1e5)
-"""Half sides, in units of the body's size, of the boxes in which the point inside is looked for, one after the other."""
+"""Half sides, in units of the body's size, of the boxes in which the point inside is looked for,
+one after the other.
+"""
 
 SMALLEST_INSIDE = 1e-9
 """Radius that a ball inside must have, relative to the body's size."""
 
 
 def polyhedron(normals: ArrayLike, offsets: ArrayLike) -> ConvexBody:
-    """All of `n_i^T p <= o_i` [m], n_i the unit vectors along `normals` [planes, 3]; it may be unbounded.
+    """All of `n_i^T p <= o_i` [m], n_i the unit vectors along `normals` [planes, 3]; it may be
+    unbounded.
 
     Raises `BodyError` where it is empty or flat.
     """

@@ -1,11 +1,14 @@
-"""Small convex programs: a linear or quadratic cost under linear and convex quadratic constraints, by interior points.
+"""Small convex programs: a linear or quadratic cost under linear and convex quadratic constraints,
+by interior points.
 
-    minimise z^T P z / 2 + q^T z   where   A z <= b   and   (z - c_k)^T Q_k (z - c_k) + a_k^T z <= b_k
+    minimise z^T P z / 2 + q^T z   where   A z <= b   and   (z - c_k)^T Q_k (z - c_k) + a_k^T z <=
+    b_k
 
-P and Q_k symmetric, positive semidefinite. Newton steps on the perturbed Karush-Kuhn-Tucker conditions
-`grad cost + G^T lambda = 0`, `-lambda_i g_i = 1/t`, t growing, from a strictly feasible start: for a convex program they
-lead to the minimum from any such start. Meant for up to ten unknowns; the work is linear in the number of constraints.
-Source: Boyd and Vandenberghe (2004), Convex Optimization, section 11.7.
+P and Q_k symmetric, positive semidefinite. Newton steps on the perturbed Karush-Kuhn-Tucker
+conditions `grad cost + G^T lambda = 0`, `-lambda_i g_i = 1/t`, t growing, from a strictly feasible
+start: for a convex program they lead to the minimum from any such start. Meant for up to ten
+unknowns; the work is linear in the number of constraints. Source: Boyd and Vandenberghe (2004),
+Convex Optimization, section 11.7.
 """
 
 from __future__ import annotations
@@ -30,19 +33,24 @@ GROWTH, FASTER_GROWTH = 10.0, 300.0
 """Of t in a step; the larger after a full step."""
 
 REGULARISATION = 1e-13
-"""Added to the diagonal of the Newton matrix, relative to its largest: directions that change nothing stay put."""
+"""Added to the diagonal of the Newton matrix, relative to its largest: directions that change
+nothing stay put.
+"""
 
 FIRST_GAP = 0.1
 """Of the first point on the central path; costs are of the order of 1."""
 
 STATIONARY = 1e-9
-"""Norm of the stationarity that does not hold the gap back; cost gradients are of the order of 1."""
+"""Norm of the stationarity that does not hold the gap back; cost gradients are of the order of 1.
+"""
 
 CENTRED = 1e-2
 """Newton decrement at which a point counts as on the path."""
 
 SHORT = 0.3
-"""Step after which the point is brought back to the path: far from it curved constraints would block one step after the other."""
+"""Step after which the point is brought back to the path: far from it curved constraints would
+block one step after the other.
+"""
 
 EXHAUSTED = 1e-14
 """Gap below which a short step means that the digits are used up."""
@@ -75,13 +83,15 @@ class Point(NamedTuple):
 class ProgramSolution(NamedTuple):
     unknowns: Field  # [n]
     multipliers: Field  # [constraints] lambda >= 0, flat ones first
-    gap: float  # sum of -lambda_i g_i: the cost is at most this above the minimum, once the residual is zero
+    # Sum of -lambda_i g_i: the cost is at most this above the minimum, once the residual is zero
+    gap: float
     steps: int
 
 
 @entry
 def minimise(program: Program, start: Field, tolerance: float) -> ProgramSolution:
-    """Minimum from a start inside every constraint, until the gap is below `tolerance` or the digits are used up.
+    """Minimum from a start inside every constraint, until the gap is below `tolerance` or the
+    digits are used up.
 
     A start on or outside a constraint comes back unchanged with an infinite gap.
     """
@@ -93,7 +103,8 @@ def minimise(program: Program, start: Field, tolerance: float) -> ProgramSolutio
     gap, taken, length = gap_of(point), 0, 1.0
     behind = False
     while taken < MOST_STEPS and (gap > tolerance or behind):
-        target = gap / count if behind else gap / (count * (FASTER_GROWTH if length > 0.9 else GROWTH))  # 1/t
+        # 1/t
+        target = gap / count if behind else gap / (count * (FASTER_GROWTH if length > 0.9 else GROWTH))
         step, multiplier_step = newton_step(program, point, target)
         length, point = line_search(program, point, step, multiplier_step, target)
         if length < SHORT and gap < EXHAUSTED:
@@ -140,10 +151,11 @@ def moved_by(start: Field, length: float, step: Field) -> Field:
 
 @kernel
 def centred(program: Program, point: Point, target: float) -> Point:
-    """The point where `cost / target - sum ln(-g)` is least, by damped Newton steps, which get there from anywhere inside.
+    """The point where `cost / target - sum ln(-g)` is least, by damped Newton steps, which get
+    there from anywhere inside.
 
-    With `lambda_i = -target / g_i` the step is `newton_step`'s. The slope along a step decides on its length, since the cost over
-    a small target has no digits left for a difference.
+    With `lambda_i = -target / g_i` the step is `newton_step`'s. The slope along a step decides on
+    its length, since the cost over a small target has no digits left for a difference.
     """
     put_on_path(point, target)
     for _ in range(MOST_CENTRING_STEPS):
@@ -273,7 +285,9 @@ def newton_step(program: Program, point: Point, target: float) -> tuple[Field, F
 def line_search(
     program: Program, point: Point, step: Field, multiplier_step: Field, target: float
 ) -> tuple[float, Point]:
-    """Longest halved step that stays inside, keeps the multipliers positive and lowers the residual; 0 if there is none."""
+    """Longest halved step that stays inside, keeps the multipliers positive and lowers the
+    residual; 0 if there is none.
+    """
     length = 1.0
     for i in range(point.values.size):
         if multiplier_step[i] < 0.0:

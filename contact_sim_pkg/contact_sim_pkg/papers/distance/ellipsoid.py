@@ -1,9 +1,11 @@
-"""Nearest boundary point of an ellipsoid or elliptic cylinder, from inside or outside, as a supporting plane.
+"""Nearest boundary point of an ellipsoid or elliptic cylinder, from inside or outside, as a
+supporting plane.
 
-In the axes of the ellipsoid, with y the point and t the largest root of `sum (h_i y_i / (t + h_i^2))^2 = 1`, the foot is
-`x_i = h_i^2 y_i / (t + h_i^2)`. The unknown is `tau = t + h_min^2 >= 0`, in which `1 - |w(tau)|^-1` is nearly a straight line,
-so that Newton's method converges from the left without a bracket. On the plane of symmetry across the smallest axis the foot
-may leave that plane (tau = 0): then it is one of two or more, and the others follow by reflection.
+In the axes of the ellipsoid, with y the point and t the largest root of `sum (h_i y_i / (t +
+h_i^2))^2 = 1`, the foot is `x_i = h_i^2 y_i / (t + h_i^2)`. The unknown is `tau = t + h_min^2 >=
+0`, in which `1 - |w(tau)|^-1` is nearly a straight line, so that Newton's method converges from the
+left without a bracket. On the plane of symmetry across the smallest axis the foot may leave that
+plane (tau = 0): then it is one of two or more, and the others follow by reflection.
 
 Source: Eberly (2013), Distance from a Point to an Ellipse, an Ellipsoid, or a Hyperellipsoid.
 """
@@ -27,10 +29,11 @@ EXACT = 4e-16
 
 @entry
 def supporting_plane(half_axes: Field, local: Field, normal: Field) -> float:
-    """Outward unit `normal` [3] (overwritten) at the foot of `local`, and the plane's distance from the centre [m].
+    """Outward unit `normal` [3] (overwritten) at the foot of `local`, and the plane's distance from
+    the centre [m].
 
-    half_axes: [3] [m], inf along a cylinder; local: [3] [m] from the centre, in the axes of the ellipsoid.
-    `distance - normal . local` is the depth of the point, negative outside.
+    half_axes: [3] [m], inf along a cylinder; local: [3] [m] from the centre, in the axes of the
+    ellipsoid. `distance - normal . local` is the depth of the point, negative outside.
     """
     smallest = min(half_axes[0], half_axes[1], half_axes[2])
     tau = secular_root(half_axes, local, smallest)

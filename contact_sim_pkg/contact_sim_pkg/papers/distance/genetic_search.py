@@ -1,4 +1,5 @@
-"""Distance and interference of convex bodies by a genetic search, as Driver and Seat solves its eqs 1 and 2.
+"""Distance and interference of convex bodies by a genetic search, as Driver and Seat solves its eqs
+1 and 2.
 
 scipy's differential evolution (a population that crosses and mutates, seed fixed) finds the region;
 a local search from its best point gives the digits. It needs thousands of evaluations where
@@ -40,7 +41,9 @@ class GeneticResult(NamedTuple):
 
 
 def genetic_distance(body_1: ConvexBody, body_2: ConvexBody, seed: int = 1, polish: bool = True) -> GeneticResult:
-    """Distance [m] of two bodies; a point outside its body counts as the boundary point towards the inside point."""
+    """Distance [m] of two bodies; a point outside its body counts as the boundary point towards the
+    inside point.
+    """
     bodies, size = (body_1, body_2), _size(body_1, body_2)
 
     def gaps(genes: Field) -> Field:
@@ -146,7 +149,9 @@ def _depths(bodies: tuple[ConvexBody, ConvexBody], point: Field) -> tuple[Field,
 
 
 def _distance_residual(bodies: tuple[ConvexBody, ConvexBody], points: Field, size: float) -> float:
-    """Largest part of the gap that no positive multipliers of active constraints balance, and of a constraint violated."""
+    """Largest part of the gap that no positive multipliers of active constraints balance, and of a
+    constraint violated.
+    """
     worst = 0.0
     for k, body in enumerate(bodies):
         point, gap = points[k], (points[k] - points[1 - k]) / size
@@ -164,7 +169,9 @@ def _distance_residual(bodies: tuple[ConvexBody, ConvexBody], points: Field, siz
 
 
 def _bounds(body: ConvexBody, size: float) -> list[tuple[float, float]]:
-    """Where closest points are looked for: about the inside point, within the larger of the body and the pair."""
+    """Where closest points are looked for: about the inside point, within the larger of the body
+    and the pair.
+    """
     axes = body.half_axes[numpy.isfinite(body.half_axes)]
     half = max([size, *(1.1 * axes)])
     return [(float(middle - half), float(middle + half)) for middle in body.inside]

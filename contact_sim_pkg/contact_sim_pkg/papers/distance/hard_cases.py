@@ -1,4 +1,6 @@
-"""Hard cases of the contact search: interference of nested, concentric and edged bodies, and the genetic search."""
+"""Hard cases of the contact search: interference of nested, concentric and edged bodies, and the
+genetic search.
+"""
 
 from __future__ import annotations
 
@@ -30,7 +32,9 @@ def concentric() -> Finding:
 
 
 def concentric_flag() -> Finding:
-    """How many of five nested pairs say that they have no single direction: concentric, eccentric, touching inside."""
+    """How many of five nested pairs say that they have no single direction: concentric, eccentric,
+    touching inside.
+    """
     pairs = [(0.0, 0.1), (0.0, 0.3), (0.0, 0.5), (0.05, 0.1), (0.2, 0.1)]
     found = [interference(sphere(ORIGIN, 0.3), sphere((offset, 0.0, 0.0), radius)) for offset, radius in pairs]
     return exactly(sum(not result.one_foot_each for result in found), 5)
@@ -48,7 +52,9 @@ def nested_ellipsoid() -> Finding:
 
 
 def wedge() -> Finding:
-    """d over w of a wedge of 60 degrees pushed w into a half-space: 2/3, and less than the separating translation w."""
+    """d over w of a wedge of 60 degrees pushed w into a half-space: 2/3, and less than the
+    separating translation w.
+    """
     half = math.radians(30.0)
     edge = polyhedron([[math.cos(half), 0, -math.sin(half)], [-math.cos(half), 0, -math.sin(half)]], [0.0, 0.0])
     return close_to(interference(edge, half_space((0, 0, 1), 0.1)).depth / 0.1, 2.0 / 3.0, 1e-12)
@@ -83,18 +89,24 @@ def genetic_repeats() -> Finding:
 
 
 def genetic_residual() -> Finding:
-    """Residual of the optimality conditions after the genetic search and its local search, worst of three seeds."""
+    """Residual of the optimality conditions after the genetic search and its local search, worst of
+    three seeds.
+    """
     return at_most(max(genetic_distance(*_pair(), seed=seed).residual for seed in (1, 2, 3)), 1e-5)
 
 
 def genetic_flat_cost() -> Finding:
-    """Distance of faces that lie parallel, a flat cost: the points found differ by seed, the distance may not [m]."""
+    """Distance of faces that lie parallel, a flat cost: the points found differ by seed, the
+    distance may not [m].
+    """
     boxes = box(ORIGIN, (1, 1, 1)), box((2.5, 0.4, 0.0), (1, 1, 1))
     return at_most(max(abs(genetic_distance(*boxes, seed=seed).value - 0.5) for seed in (1, 2)), 1e-7)
 
 
 def genetic_depth() -> Finding:
-    """Relative difference between the interference of the polished genetic search and that of the conditions."""
+    """Relative difference between the interference of the polished genetic search and that of the
+    conditions.
+    """
     pair = ellipsoid(ORIGIN, (0.12, 0.2, 0.3)), ellipsoid((-0.16, 0.15, 0.05), (0.08, 0.06, 0.25))
     return at_most(abs(genetic_interference(*pair).value / interference(*pair).depth - 1.0), 1e-8)
 

@@ -1,7 +1,8 @@
-"""Distance and overlap of ellipsoids by other ways: SLSQP and 40 digits, support functions, a linear program over directions.
+"""Distance and overlap of ellipsoids by other ways: SLSQP and 40 digits, support functions, a
+linear program over directions.
 
-An ellipsoid is its centre [3] and its matrix Q [3, 3], `(p - c)^T Q (p - c) <= 1`; its support function is
-`h(n) = n . c + sqrt(n^T Q^-1 n)`.
+An ellipsoid is its centre [3] and its matrix Q [3, 3], `(p - c)^T Q (p - c) <= 1`; its support
+function is `h(n) = n . c + sqrt(n^T Q^-1 n)`.
 """
 
 from __future__ import annotations
@@ -20,7 +21,9 @@ Ellipsoid = tuple[Field, Field]
 
 
 def ellipsoid_distance(one: Ellipsoid, other: Ellipsoid, starts: int = 5) -> float:
-    """Distance of two separate ellipsoids [m]: the best of many SLSQP runs, then the stationarity equations to 40 digits."""
+    """Distance of two separate ellipsoids [m]: the best of many SLSQP runs, then the stationarity
+    equations to 40 digits.
+    """
     random, best = numpy.random.default_rng(7), None
 
     def left(points: Field) -> Field:
@@ -79,7 +82,9 @@ def directions(count: int) -> Field:
 
 
 def separating_translation(one: Ellipsoid, other: Ellipsoid) -> float:
-    """Smallest translation [m] that separates two ellipsoids: least `h1(n) + h2(-n)`, from the best of 4000 directions."""
+    """Smallest translation [m] that separates two ellipsoids: least `h1(n) + h2(-n)`, from the best
+    of 4000 directions.
+    """
 
     def overlap(n: Field) -> float:
         unit = n / numpy.linalg.norm(n)
@@ -92,7 +97,9 @@ def separating_translation(one: Ellipsoid, other: Ellipsoid) -> float:
 
 
 def largest_ball_radius(bodies: Sequence[Ellipsoid], count: int = 20_000) -> float:
-    """Radius [m] of the largest ball under the tangent planes of all bodies in `count` directions (a little too large)."""
+    """Radius [m] of the largest ball under the tangent planes of all bodies in `count` directions
+    (a little too large).
+    """
     normals = directions(count)
     rows = numpy.column_stack([numpy.tile(normals, (len(bodies), 1)), numpy.ones(count * len(bodies))])
     bounds = numpy.concatenate([support(body, normals) for body in bodies])

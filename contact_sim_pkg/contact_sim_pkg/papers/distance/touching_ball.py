@@ -1,9 +1,10 @@
 """The largest ball inside the constraints of two bodies, by cutting planes and Newton steps (see
 `papers/distance/interference.py`).
 
-A round solves for the largest ball under all supporting planes so far, its centre within a box about the best centre. The box
-shrinks where the planes promise more than the constraints hold and grows where they hold. Each round ends with Newton steps
-from the planes that hold that ball; the search ends where the conditions are met.
+A round solves for the largest ball under all supporting planes so far, its centre within a box
+about the best centre. The box shrinks where the planes promise more than the constraints hold and
+grows where they hold. Each round ends with Newton steps from the planes that hold that ball; the
+search ends where the conditions are met.
 """
 
 from __future__ import annotations
@@ -39,7 +40,8 @@ HOLDS = 1e-7
 class BallResult(NamedTuple):
     radius: float  # [m] inf where nothing bounds it
     centre: Field  # [3] [m]
-    normal: Field  # [3] outward of body 1 at its foot with the largest multiplier; zero where it has none
+    # [3] outward of body 1 at its foot with the largest multiplier; zero where it has none
+    normal: Field
     feet_1: int  # on body 1
     feet_2: int
     residual: float  # [-] of the conditions
@@ -48,7 +50,9 @@ class BallResult(NamedTuple):
 
 @entry
 def largest_ball(body_1: ConvexBody, body_2: ConvexBody, origin: Field, size: float) -> BallResult:
-    """Largest ball inside both bodies, searched from a point `origin` [3] [m] near both; size: of the pair [m]."""
+    """Largest ball inside both bodies, searched from a point `origin` [3] [m] near both; size: of
+    the pair [m].
+    """
     constraints = gather(body_1, body_2, origin, size)
     cuts = make_cuts(constraints, MOST_ROUNDS + 1)
     middle: Field = numpy.zeros(3)
@@ -87,7 +91,9 @@ def first_three(values: Field) -> Field:
 
 @kernel
 def holding_feet(constraints: Constraints, ball: Ball) -> tuple[Field, int, int]:
-    """Normal of body 1 at its foot with the largest multiplier, and the numbers of feet on each body."""
+    """Normal of body 1 at its foot with the largest multiplier, and the numbers of feet on each
+    body.
+    """
     normal, feet, largest = numpy.zeros(3), numpy.zeros(2, numpy.int64), HOLDS
     for k in range(ball.multipliers.size):
         if ball.multipliers[k] > HOLDS:
@@ -102,7 +108,9 @@ def holding_feet(constraints: Constraints, ball: Ball) -> tuple[Field, int, int]
 
 @kernel
 def ball_under_planes(cuts: Cuts, middle: Field, radius: float, half_width: float) -> ProgramSolution:
-    """Largest ball, unknowns (p, r), under all planes, p within a box about `middle`, where a ball of `radius` fits."""
+    """Largest ball, unknowns (p, r), under all planes, p within a box about `middle`, where a ball
+    of `radius` fits.
+    """
     count = cuts.used[0]
     rows, bounds = numpy.zeros((count + 6, 4)), numpy.empty(count + 6)
     for i in range(count):

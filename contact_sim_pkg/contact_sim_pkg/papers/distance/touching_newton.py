@@ -1,10 +1,13 @@
-"""A ball that touches given constraints at given normals: Newton steps on the conditions, and how far they are from met.
+"""A ball that touches given constraints at given normals: Newton steps on the conditions, and how
+far they are from met.
 
-Unknowns: centre p, radius r, and for each foot k its point x_k and multiplier lambda_k. Equations, n_k the outward normal:
+Unknowns: centre p, radius r, and for each foot k its point x_k and multiplier lambda_k. Equations,
+n_k the outward normal:
 
     sum lambda_k n_k = 0,   sum lambda_k = 1,   x_k = p + r n_k(x_k),   g_k(x_k) = 0
 
-They stay regular through r = 0, and where the nearest boundary point jumps, since every foot has a point of its own.
+They stay regular through r = 0, and where the nearest boundary point jumps, since every foot has a
+point of its own.
 """
 
 from __future__ import annotations
@@ -33,7 +36,9 @@ SAME_FOOT = 0.97
 """Cosine between the normals of planes of one constraint that count as one foot."""
 
 DAMPING = 1e-15
-"""Relative, of the normal equations: without it they are singular where a foot may move along the surface."""
+"""Relative, of the normal equations: without it they are singular where a foot may move along the
+surface.
+"""
 
 
 class Ball(NamedTuple):
@@ -47,7 +52,9 @@ class Ball(NamedTuple):
 
 @kernel
 def cluster(cuts: Cuts, multipliers: Field, centre: Field, radius: float) -> Ball:
-    """The planes that hold a ball, those of one constraint and nearly one direction taken together."""
+    """The planes that hold a ball, those of one constraint and nearly one direction taken
+    together.
+    """
     constraints, normals = numpy.empty(MOST_FEET, dtype=numpy.int64), numpy.zeros((MOST_FEET, 3))
     weights, feet = numpy.zeros(MOST_FEET), 0
     for row in range(cuts.used[0]):
@@ -93,7 +100,9 @@ def touch(constraints: Constraints, ball: Ball) -> Ball:
 
 @kernel
 def equations(constraints: Constraints, ball: Ball) -> tuple[float, Field, Field]:
-    """Norm of the equations, the equations and their Jacobian; sets the ball's normals. Four rows and columns a foot."""
+    """Norm of the equations, the equations and their Jacobian; sets the ball's normals. Four rows
+    and columns a foot.
+    """
     feet = ball.multipliers.size
     size, planes = 4 + 4 * feet, constraints.offsets.size
     right, matrix, turn = numpy.zeros(size), numpy.zeros((size, size)), numpy.zeros((3, 3))
@@ -138,7 +147,9 @@ def plane_foot(constraints: Constraints, i: int, point: Field, normal: Field, tu
 
 @kernel
 def quadric_foot(constraints: Constraints, k: int, point: Field, normal: Field, turn: Field) -> float:
-    """`g / |grad g|` of quadric k at a point; its normal and the normal's derivative `(I - n n^T) Q / |Q y|`."""
+    """`g / |grad g|` of quadric k at a point; its normal and the normal's derivative `(I - n n^T) Q
+    / |Q y|`.
+    """
     value, length = -1.0, 0.0
     for j in range(3):
         normal[j] = 0.0
@@ -187,7 +198,9 @@ def newton_move(ball: Ball, right: Field, matrix: Field) -> Ball:
 
 @kernel
 def ball_residual(constraints: Constraints, ball: Ball) -> float:
-    """Largest violation of the conditions: balance and signs of the multipliers, and depths unlike the least one."""
+    """Largest violation of the conditions: balance and signs of the multipliers, and depths unlike
+    the least one.
+    """
     least = least_depth(constraints, ball.centre)
     worst, total = 0.0, -1.0
     for j in range(3):

@@ -1,4 +1,6 @@
-"""Ladder of the contact search: bounding spheres, support points, the paper's genetic search, Newton on the conditions."""
+"""Ladder of the contact search: bounding spheres, support points, the paper's genetic search,
+Newton on the conditions.
+"""
 
 from __future__ import annotations
 
@@ -35,7 +37,9 @@ class DistanceCase(NamedTuple):
 
 
 def bodies(apart: float) -> tuple[ConvexBody, ConvexBody]:
-    """The back as an ellipsoid, and a bolster of the seat whose centre is `apart` [m] further back."""
+    """The back as an ellipsoid, and a bolster of the seat whose centre is `apart` [m] further
+    back.
+    """
     lean = math.radians(20.0)
     turn = numpy.array([[math.cos(lean), 0, math.sin(lean)], [0, 1, 0], [-math.sin(lean), 0, math.cos(lean)]])
     return (
@@ -90,13 +94,17 @@ def _rungs(case: DistanceCase) -> dict[str, Callable[[], float]]:
 
 
 def bounding_spheres(one: ConvexBody, other: ConvexBody) -> float:
-    """Distance [m] of the spheres about two ellipsoids, never more than theirs; negative: overlap."""
+    """Distance [m] of the spheres about two ellipsoids, never more than theirs; negative:
+    overlap.
+    """
     apart = numpy.linalg.norm(one.centres[0] - other.centres[0])
     return float(apart - one.half_axes[0].max() - other.half_axes[0].max())
 
 
 def support_points(one: ConvexBody, other: ConvexBody) -> float:
-    """Gap [m] between the tangent planes across the line of centres, never more than the distance; negative: overlap."""
+    """Gap [m] between the tangent planes across the line of centres, never more than the distance;
+    negative: overlap.
+    """
     between = other.centres[0] - one.centres[0]
     normal = between / numpy.linalg.norm(between)
     reach = sum(numpy.linalg.norm(body.half_axes[0] * (body.rotations[0].T @ normal)) for body in (one, other))

@@ -1,1 +1,3 @@
-"""Contacts whose pressure has a formula: Hertz, Lamé domains, axisymmetric profiles; stress below the surface."""
+"""Contacts whose pressure has a formula: Hertz, Lamé domains, axisymmetric profiles; stress below
+the surface.
+"""

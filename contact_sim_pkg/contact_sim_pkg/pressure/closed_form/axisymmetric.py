@@ -1,4 +1,5 @@
-"""Axisymmetric contact of a rigid profile of any shape with an elastic half-space (Sneddon's dual integrals).
+"""Axisymmetric contact of a rigid profile of any shape with an elastic half-space (Sneddon's dual
+integrals).
 
 Profile height f(r) above its tip [m], contact radius a [m], E* [Pa]:
 
@@ -6,13 +7,16 @@ Profile height f(r) above its tip [m], contact radius a [m], E* [Pa]:
     load      P(a) = 2 E* a^2 integral over 0..pi/2 of sin(t)^2 f'(a sin t) dt
     pressure  p(r) = (E*/pi) integral over r..a of d'(s) / sqrt(s^2 - r^2) ds
 
-The pressure is integrated by parts, so that the slope f' is all that is asked of a profile. With s = r cosh(u), U = acosh(a/r):
+The pressure is integrated by parts, so that the slope f' is all that is asked of a profile. With s
+= r cosh(u), U = acosh(a/r):
 
-    p(r) = (E*/pi) [ (d(a) - d(r)) / sqrt(a^2 - r^2) + integral over 0..U of (d(s) - d(r)) cosh(u) / (r sinh(u)^2) du ]
+    p(r) = (E*/pi) [ (d(a) - d(r)) / sqrt(a^2 - r^2) + integral over 0..U of (d(s) - d(r)) cosh(u) /
+    (r sinh(u)^2) du ]
 
-`f = C r^k` has closed forms of approach and load. The solution holds where the contact is one disc: d(a) has to rise with a.
-Accuracy for profiles that are smooth between their breaks: 1e-12 in approach and load, 1e-10 in the pressure, and at the
-very edge (1e-7 a from it) 3e-10 of the largest pressure.
+`f = C r^k` has closed forms of approach and load. The solution holds where the contact is one disc:
+d(a) has to rise with a. Accuracy for profiles that are smooth between their breaks: 1e-12 in
+approach and load, 1e-10 in the pressure, and at the very edge (1e-7 a from it) 3e-10 of the largest
+pressure.
 
 Sources: Sneddon (1965), Int. J. Engng Sci. 3, 47; Johnson (1985), Contact Mechanics, section 5.3.
 """
@@ -58,7 +62,8 @@ PULL = 1e-8
 
 
 def approach_at_radius(profile: Profile, radius: float) -> float:
-    """Approach [m] at contact radius a [m], 0 <= a <= reach; for `C r^k` it is `C a^k sqrt(pi) G(k/2+1) / G((k+1)/2)`.
+    """Approach [m] at contact radius a [m], 0 <= a <= reach; for `C r^k` it is `C a^k sqrt(pi)
+    G(k/2+1) / G((k+1)/2)`.
 
     Raises `AxisymmetricError` for a profile or a radius outside its range.
     """
@@ -69,7 +74,9 @@ def approach_at_radius(profile: Profile, radius: float) -> float:
 
 
 def load_at_radius(profile: Profile, modulus: float, radius: float) -> float:
-    """Load [N] at contact radius a [m], modulus E* [Pa]; for `C r^k` it is `2 E* a d k / (k + 1)`. Errors as before."""
+    """Load [N] at contact radius a [m], modulus E* [Pa]; for `C r^k` it is `2 E* a d k / (k + 1)`.
+    Errors as before.
+    """
     _refuse_modulus(modulus)
     if isinstance(profile, PowerProfile):
         k = profile.exponent
@@ -81,10 +88,12 @@ def load_at_radius(profile: Profile, modulus: float, radius: float) -> float:
 
 
 def pressure(profile: Profile, modulus: float, radius: float, r: Field) -> Field:
-    """Pressure [Pa] at the distances r [m] >= 0 from the axis (any shape); zero from r = a outwards.
+    """Pressure [Pa] at the distances r [m] >= 0 from the axis (any shape); zero from r = a
+    outwards.
 
-    A slope that does not vanish at the tip gives an infinite pressure at r = 0. modulus: E* [Pa]; radius: a [m].
-    Raises `AxisymmetricError` as `load_at_radius`, for a negative r and where the pressure comes out negative.
+    A slope that does not vanish at the tip gives an infinite pressure at r = 0. modulus: E* [Pa];
+    radius: a [m]. Raises `AxisymmetricError` as `load_at_radius`, for a negative r and where the
+    pressure comes out negative.
     """
     _refuse_modulus(modulus)
     _refuse_radius(profile, radius)
@@ -101,7 +110,9 @@ def pressure(profile: Profile, modulus: float, radius: float, r: Field) -> Field
 
 
 def radius_at_approach(profile: Profile, approach: float) -> float:
-    """Contact radius [m] at an approach [m]; 0 for approach <= 0. Raises `AxisymmetricError` beyond the reach."""
+    """Contact radius [m] at an approach [m]; 0 for approach <= 0. Raises `AxisymmetricError` beyond
+    the reach.
+    """
     refuse_profile(profile)
     _refuse_target(approach, "approach [m]")
     if isinstance(profile, PowerProfile):
@@ -110,7 +121,9 @@ def radius_at_approach(profile: Profile, approach: float) -> float:
 
 
 def radius_at_load(profile: Profile, modulus: float, load: float) -> float:
-    """Contact radius [m] under a load [N]; 0 for load <= 0. Raises `AxisymmetricError` beyond the reach."""
+    """Contact radius [m] under a load [N]; 0 for load <= 0. Raises `AxisymmetricError` beyond the
+    reach.
+    """
     refuse_profile(profile)
     _refuse_modulus(modulus)
     _refuse_target(load, "load [N]")
@@ -134,7 +147,9 @@ def _approaches(profile: SlopeProfile, radius: Field) -> Field:
 
 
 def _slope_nodes(profile: SlopeProfile, radius: Field) -> tuple[Field, Field]:
-    """sin(t) and weights, [radii, nodes], for integrals over t from 0 to pi/2 with panels between the breaks."""
+    """sin(t) and weights, [radii, nodes], for integrals over t from 0 to pi/2 with panels between
+    the breaks.
+    """
     breaks = numpy.array(profile.breaks)
     inner = numpy.arcsin(numpy.minimum(breaks[None, :] / numpy.maximum(radius[:, None], 1e-300), 1.0))
     column = numpy.ones((radius.size, 1))
@@ -158,7 +173,8 @@ def _pressure_integral(profile: Profile, radius: float, r: float) -> float:
         u, weight = _panels([0.0, reach], 16)
         slope = _power_factor(profile) * profile.exponent * (r * numpy.cosh(u)) ** (profile.exponent - 1.0)
         return float(numpy.sum(weight * slope))
-    # Close to the edge few points do, and none of them comes so close to r that the rise loses its digits.
+    # Close to the edge few points do, and none of them comes so close to r that the rise loses its
+    # digits.
     edges = [0.0, *(math.acosh(s / r) for s in profile.breaks if r < s < radius), reach]
     u, weight = _panels(edges, profile.nodes if reach > SHORT_RANGE else 8)
     own = _approaches(profile, numpy.array([r]))[0]
@@ -174,7 +190,8 @@ def _centre_integral(profile: Profile, radius: float) -> float:
         return math.inf if k <= 1.0 else _power_factor(profile) * k / (k - 1.0) * radius ** (k - 1.0)
     if float(profile.slope(numpy.array([0.0]))[0]) > 0.0:
         return math.inf
-    # s = a e^-v: d(s)/s falls like e^(-(k-1) v); 40 / (k - 1) of v would be needed, k = 1.1 is taken as the limit.
+    # s = a e^-v: d(s)/s falls like e^(-(k-1) v); 40 / (k - 1) of v would be needed, k = 1.1 is
+    # taken as the limit.
     breaks = [math.log(radius / s) for s in profile.breaks[::-1] if s < radius]
     v, weight = _panels([0.0, *breaks, (breaks[-1] if breaks else 0.0) + 330.0], profile.nodes)
     s = radius * numpy.exp(-v)
@@ -182,7 +199,9 @@ def _centre_integral(profile: Profile, radius: float) -> float:
 
 
 def _panels(edges: list[float], nodes: int) -> tuple[Field, Field]:
-    """Gauss points and weights over rising edges; a panel behind a break is graded, the approach has a root there."""
+    """Gauss points and weights over rising edges; a panel behind a break is graded, the approach
+    has a root there.
+    """
     point, share = _unit_gauss(nodes)
     points, weights = [], []
     for number, (low, high) in enumerate(itertools.pairwise(edges)):
@@ -202,7 +221,9 @@ def _unit_gauss(nodes: int) -> tuple[Field, Field]:
 
 
 def _rising_root(function: Callable[[float], float], target: float, profile: SlopeProfile, name: str) -> float:
-    """Radius where a rising function of it reaches the target: bracketed, then false position (Anderson, Bjorck 1973)."""
+    """Radius where a rising function of it reaches the target: bracketed, then false position
+    (Anderson, Bjorck 1973).
+    """
     if target <= 0.0:
         return 0.0
     low, high = _bracket(function, target, profile, name)

@@ -1,4 +1,6 @@
-"""Profiles of rigid axisymmetric bodies: a power law, a slope, or a table, for `pressure/closed_form/axisymmetric.py`."""
+"""Profiles of rigid axisymmetric bodies: a power law, a slope, or a table, for
+`pressure/closed_form/axisymmetric.py`.
+"""
 
 from __future__ import annotations
 
@@ -69,7 +71,9 @@ def tabulated_profile(radius: Field, height: Field) -> SlopeProfile:
 
 
 def refuse_profile(profile: Profile) -> None:
-    """Raise `AxisymmetricError` for a power law without a contact of one disc, and for breaks, reach or nodes that are none."""
+    """Raise `AxisymmetricError` for a power law without a contact of one disc, and for breaks,
+    reach or nodes that are none.
+    """
     if isinstance(profile, SlopeProfile):
         require_values("profile: breaks", profile.breaks, "m", above=0.0, rising=True, error=AxisymmetricError)
         require("profile: reach", profile.reach, "m", above=0.0, infinite=True, error=AxisymmetricError)

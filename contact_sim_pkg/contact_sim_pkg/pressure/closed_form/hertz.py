@@ -1,14 +1,17 @@
-"""Elliptic Hertz contact of smooth bodies: load <-> approach, semi-axes, peak pressure, in closed form.
+"""Elliptic Hertz contact of smooth bodies: load <-> approach, semi-axes, peak pressure, in closed
+form.
 
-Gap `A x^2 + B y^2`, 0 < A <= B. With m the parameter of the complete elliptic integrals (m = 1 - (b/a)^2), H = A + B:
+Gap `A x^2 + B y^2`, 0 < A <= B. With m the parameter of the complete elliptic integrals (m = 1 -
+(b/a)^2), H = A + B:
 
     Omega = (B - A) / (A + B) = ((2 - m) E - 2 (1 - m) K) / (m E)
     delta = (9 P^2 H / (4 pi^2 E*^2))^(1/3) (1 - m)^(1/3) K E^(-1/3),     P = c delta^(3/2)
     p0 = (3 P E*^2 H^2 / (2 pi))^(1/3) E^(-2/3) (1 - m)^(1/6),   b = p0 E / (E* H),   a = b / sqrt(1 - m)
 
-m is found from ln(1 - m), with K and E from 1 - m by the arithmetic-geometric mean, so that slender ellipses keep their
-digits: valid for Omega from 0 to 1 - 1e-12 (b/a down to 1e-8), all results to 3e-15. Near the circle the relation is 0/0,
-so below Omega = 0.02 its power series is used. Source: Johnson (1985), Contact Mechanics, section 4.2.
+m is found from ln(1 - m), with K and E from 1 - m by the arithmetic-geometric mean, so that slender
+ellipses keep their digits: valid for Omega from 0 to 1 - 1e-12 (b/a down to 1e-8), all results to
+3e-15. Near the circle the relation is 0/0, so below Omega = 0.02 its power series is used. Source:
+Johnson (1985), Contact Mechanics, section 4.2.
 """
 
 from __future__ import annotations
@@ -34,7 +37,9 @@ __all__ = [
 ]
 
 SERIES_BELOW = 0.02
-"""Omega below which the series is used: m stays below 0.053, and the closed form loses less than a digit above."""
+"""Omega below which the series is used: m stays below 0.053, and the closed form loses less than a
+digit above.
+"""
 
 SERIES_TERMS = 14
 """0.053^14 = 1e-18."""
@@ -45,7 +50,9 @@ CURE = "use the pressure field (effect contact_field) instead"
 
 
 def _omega_series(count: int) -> tuple[float, ...]:
-    """c_1, c_2, … of `Omega = sum c_j m^j` (3/8, 3/16, 111/1024, …), by division of the series of K and E."""
+    """c_1, c_2, … of `Omega = sum c_j m^j` (3/8, 3/16, 111/1024, …), by division of the series of K
+    and E.
+    """
     root = [Fraction(1)]
     for n in range(1, count + 2):
         root.append(root[-1] * Fraction(2 * n - 1, 2 * n))
@@ -84,8 +91,8 @@ class HertzContact(NamedTuple):
 def hertz_contact(curvature_a: float, curvature_b: float, modulus: float, load: float) -> HertzContact:
     """Contact under a load [N]; zeros for load <= 0.
 
-    curvature_a, curvature_b: coefficients of the gap A x^2 + B y^2 [1/m] (half the relative curvatures), in either
-    order; a of the result lies along the smaller one. modulus: E* [Pa].
+    curvature_a, curvature_b: coefficients of the gap A x^2 + B y^2 [1/m] (half the relative
+    curvatures), in either order; a of the result lies along the smaller one. modulus: E* [Pa].
     Raises `HertzError` for conforming, saddle or line contact and for values that are not finite.
     """
     smaller, larger = _ordered(curvature_a, curvature_b, modulus, load, "load [N]")
@@ -93,7 +100,10 @@ def hertz_contact(curvature_a: float, curvature_b: float, modulus: float, load: 
 
 
 def hertz_contact_at_approach(curvature_a: float, curvature_b: float, modulus: float, approach: float) -> HertzContact:
-    """Contact at an approach [m]; zeros for approach <= 0. Arguments and errors as `hertz_contact`."""
+    """Contact at an approach [m]; zeros for approach <= 0.
+
+    Arguments and errors as `hertz_contact`.
+    """
     smaller, larger = _ordered(curvature_a, curvature_b, modulus, approach, "approach [m]")
     return contact_at_approach(smaller, larger, float(modulus), float(approach))
 
@@ -105,7 +115,9 @@ def power_law(curvature_a: float, curvature_b: float, modulus: float) -> float:
 
 
 def _ordered(curvature_a: float, curvature_b: float, modulus: float, value: float, name: str) -> tuple[float, float]:
-    """The smaller and the larger curvature; raises `HertzError` where there is no elliptic contact."""
+    """The smaller and the larger curvature; raises `HertzError` where there is no elliptic
+    contact.
+    """
     curvatures = (("curvature A [1/m]", curvature_a), ("curvature B [1/m]", curvature_b))
     for label, number in (*curvatures, ("E* [Pa]", modulus), (name, value)):
         if not math.isfinite(number):

@@ -1,15 +1,18 @@
-"""Cheaper ways to the shape of a Hertz ellipse than the exact root of `pressure/closed_form/hertz.py`, each with its error.
+"""Cheaper ways to the shape of a Hertz ellipse than the exact root of
+`pressure/closed_form/hertz.py`, each with its error.
 
 With Omega = (B - A)/(A + B), m = 1 - (b/a)^2:
 
-* polynomial: `m = sum c_i Omega^i`, i = 1..10 (Rolling Contact, eq 10). b/a is 1 % high from Omega = 0.853 and never falls
-  below 0.032; p0 is off by 1 % from 0.932, the approach from 0.923. Not for Omega above 0.85 where the axes matter.
+* polynomial: `m = sum c_i Omega^i`, i = 1..10 (Rolling Contact, eq 10). b/a is 1 % high from Omega
+= 0.853 and never falls
+  below 0.032; p0 is off by 1 % from 0.932, the approach from 0.923. Not for Omega above 0.85 where
+  the axes matter.
 * power: `b/a = (A/B)^(2/3)`, 0.5 % low at A/B = 0.3, 3 % at 0.1, 16 % at 0.01.
-* table: ln(1 - m), ln K and ln E over ln(1 - Omega), cubic between equal steps; 385 nodes leave 5e-6 near the circle and
-  below 1e-6 from Omega = 0.2.
+* table: ln(1 - m), ln K and ln E over ln(1 - Omega), cubic between equal steps; 385 nodes leave
+  5e-6 near the circle and below 1e-6 from Omega = 0.2.
 
-K and E of the first two come from the arithmetic-geometric mean, as in the exact solution; only the root is saved. The
-table saves both.
+K and E of the first two come from the arithmetic-geometric mean, as in the exact solution; only the
+root is saved. The table saves both.
 """
 
 from __future__ import annotations
@@ -42,7 +45,9 @@ TABLE_END = -math.log1p(-LARGEST_OMEGA)
 
 
 def make_shape_table() -> Field:
-    """ln(1 - m), ln K, ln E, [nodes, 3], at equal steps of -ln(1 - Omega) from 0 to the end of Hertz's range."""
+    """ln(1 - m), ln K, ln E, [nodes, 3], at equal steps of -ln(1 - Omega) from 0 to the end of
+    Hertz's range.
+    """
     rows = []
     for steepness in numpy.linspace(0.0, TABLE_END, TABLE_NODES):
         gap = math.exp(-steepness)  # 1 - Omega
@@ -54,10 +59,12 @@ def make_shape_table() -> Field:
 def contacts_at_load(
     kind: int, table: Field, curvature_a: Field, curvature_b: Field, modulus: float, load: float, out: Field
 ) -> None:
-    """Approach [m], a [m], b [m] and peak pressure [Pa] of many contacts under one load, into `out` [n, 4].
+    """Approach [m], a [m], b [m] and peak pressure [Pa] of many contacts under one load, into `out`
+    [n, 4].
 
-    kind: EXACT, POLYNOMIAL, POWER or TABLE; table: of `make_shape_table`; curvature_a <= curvature_b [1/m], both above 0;
-    modulus: E* [Pa]; load: [N], zeros where it is not above 0. Not checked.
+    kind: EXACT, POLYNOMIAL, POWER or TABLE; table: of `make_shape_table`; curvature_a <=
+    curvature_b [1/m], both above 0; modulus: E* [Pa]; load: [N], zeros where it is not above 0. Not
+    checked.
     """
     for k in range(curvature_a.shape[0]):
         a, b = curvature_a[k], curvature_b[k]

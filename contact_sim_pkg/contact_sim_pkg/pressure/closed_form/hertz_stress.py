@@ -1,9 +1,12 @@
-"""Stress inside an elastic half-space under a Hertz ellipse of pressure and traction, by one smooth integral a point.
+"""Stress inside an elastic half-space under a Hertz ellipse of pressure and traction, by one smooth
+integral a point.
 
-The pressure is `p = p0 sqrt(1 - x^2/a^2 - y^2/b^2)`, the traction `q_x = f_x p`, `q_y = f_y p`. Boussinesq's and Cerruti's
-potentials of the ellipse are integrals over the confocal ellipsoids, from the one through the point to infinity. With
+The pressure is `p = p0 sqrt(1 - x^2/a^2 - y^2/b^2)`, the traction `q_x = f_x p`, `q_y = f_y p`.
+Boussinesq's and Cerruti's potentials of the ellipse are integrals over the confocal ellipsoids,
+from the one through the point to infinity. With
 
-    P = 1/(a^2 + s),  Q = 1/(b^2 + s),  Z^2 = s (1 - x^2 P - y^2 Q),  dm = ds / sqrt((a^2 + s)(b^2 + s) s),  C = pi a b p0
+    P = 1/(a^2 + s),  Q = 1/(b^2 + s),  Z^2 = s (1 - x^2 P - y^2 Q),  dm = ds / sqrt((a^2 + s)(b^2 +
+    s) s),  C = pi a b p0
 
 and lambda the largest root of `x^2 P + y^2 Q + z^2/s = 1`, where Z = z:
 
@@ -11,19 +14,24 @@ and lambda the largest root of `x^2 P + y^2 Q + z^2/s = 1`, where Z = z:
     psi1_x = -C x int (Z - z) P dm                            psi1_z = psi
     F_x    = -C x int (Z - z)^2 / 2 P dm                      F_z = psi1
 
-All three are harmonic, so six integrals give every derivative that the stresses need. With u = x s P, v = y s Q:
+All three are harmonic, so six integrals give every derivative that the stresses need. With u = x s
+P, v = y s Q:
 
-    normal      xx  2 nu psi_z - z psi_xx - (1 - 2 nu) psi1_xx      zz  psi_z - z psi_zz      xz  -z psi_xz
+    normal      xx  2 nu psi_z - z psi_xx - (1 - 2 nu) psi1_xx      zz  psi_z - z psi_zz      xz  -z
+    psi_xz
                 xy  -(1 - 2 nu) psi1_xy - z psi_xy
-    along x     xx  2 (1 + nu) psi_x + 2 nu F_xxx - z psi1_xxx      zz  -z psi_xz             xz  psi_z - z psi_xx
-                yy  2 nu psi_x + 2 nu F_xyy - z psi1_xyy            yz  -z psi_xy             xy  psi_y + 2 nu F_xxy - z psi1_xxy
+    along x     xx  2 (1 + nu) psi_x + 2 nu F_xxx - z psi1_xxx      zz  -z psi_xz             xz
+    psi_z - z psi_xx
+                yy  2 nu psi_x + 2 nu F_xyy - z psi1_xyy            yz  -z psi_xy             xy
+                psi_y + 2 nu F_xxy - z psi1_xxy
 
-each over 2 pi. The integral is taken in q with `s = lambda + (l sinh q)^2`, l the depth at which the integrand turns, in panels of
-twelve Gauss points: 1e-8 of p0 in the stress at any depth, 1 to 2 us a point.
+each over 2 pi. The integral is taken in q with `s = lambda + (l sinh q)^2`, l the depth at which
+the integrand turns, in panels of twelve Gauss points: 1e-8 of p0 in the stress at any depth, 1 to 2
+us a point.
 
-Axes: x and y along the semi-axes a and b, z into the body; stresses are positive in tension and the surface has
-`zz = -p`, `xz = -q_x`, `yz = -q_y`. Sources: Johnson (1985), Contact Mechanics, sections 3.2 and 3.6; psi1 and F come from
-psi by a change of the order of integration.
+Axes: x and y along the semi-axes a and b, z into the body; stresses are positive in tension and the
+surface has `zz = -p`, `xz = -q_x`, `yz = -q_y`. Sources: Johnson (1985), Contact Mechanics,
+sections 3.2 and 3.6; psi1 and F come from psi by a change of the order of integration.
 """
 
 from __future__ import annotations
@@ -84,7 +92,8 @@ class Integrals(NamedTuple):
 def ellipse_stress(load: EllipseLoad, poisson: float, points: Values) -> Values:
     """Stresses [n, 6] [Pa] at `points` [n, 3] [m] (z >= 0); columns xx, yy, zz, xy, xz, yz.
 
-    poisson: -1 < nu <= 0.5. Raises `ValueError` for axes that are not above 0, points above the surface, values not finite.
+    poisson: -1 < nu <= 0.5. Raises `ValueError` for axes that are not above 0, points above the
+    surface, values not finite.
     """
     points = numpy.ascontiguousarray(points, dtype=float)
     if points.ndim != 2 or points.shape[1] != 3:
@@ -121,7 +130,8 @@ def stress_under_ellipse(load: EllipseLoad, poisson: float, x: float, y: float, 
     a2, b2 = (load.a / unit) ** 2, (load.b / unit) ** 2
     x, y, z = x / unit, y / unit, z / unit
     outside = x * x / a2 + y * y / b2 > 1.0
-    if z < SURFACE:  # beside the ellipse the integrals have a layer at the surface that a depth of 0 leaves out
+    # Beside the ellipse the integrals have a layer at the surface that a depth of 0 leaves out
+    if z < SURFACE:
         z = SURFACE if outside else 0.0
     root = _confocal(a2, b2, x, y, z)
     integrals = _integrate(a2, b2, x, y, z, root)
@@ -136,7 +146,8 @@ def stress_under_ellipse(load: EllipseLoad, poisson: float, x: float, y: float, 
 def _confocal(a2: float, b2: float, x: float, y: float, z: float) -> float:
     """Largest root of `x^2/(a2 + s) + y^2/(b2 + s) + z^2/s = 1`, 0 on the ellipse itself.
 
-    Newton from above on `s (1 - x^2/(a2 + s) - y^2/(b2 + s)) = z^2`, whose left side is convex and rises at that root.
+    Newton from above on `s (1 - x^2/(a2 + s) - y^2/(b2 + s)) = z^2`, whose left side is convex and
+    rises at that root.
     """
     root = x * x + y * y + z * z
     for _ in range(200):
@@ -201,7 +212,9 @@ def _integrate(a2: float, b2: float, x: float, y: float, z: float, root: float) 
 
 @kernel
 def _turning(a2: float, b2: float, x: float, y: float, z: float, root: float) -> float:
-    """Length over which the integrand turns: the smaller of sqrt(lambda) and z / sqrt(h); p / p0 where both are 0."""
+    """Length over which the integrand turns: the smaller of sqrt(lambda) and z / sqrt(h); p / p0
+    where both are 0.
+    """
     if z == 0.0:
         return max(1e-6, math.sqrt(max(0.0, 1.0 - x * x / a2 - y * y / b2)))
     p, q = 1.0 / (a2 + root), 1.0 / (b2 + root)

@@ -1,8 +1,10 @@
-"""Jacobi's elliptic function cn by theta series (Abramowitz and Stegun 16.36), from the complement m1 = 1 - m.
+"""Jacobi's elliptic function cn by theta series (Abramowitz and Stegun 16.36), from the complement
+m1 = 1 - m.
 
-m is the parameter (the square of the modulus), 0 <= m <= 1. m = 0 is the cosine, m = 1 the hyperbolic secant.
-``cn(u) = theta_4(0)/theta_2(0) theta_2(z)/theta_4(z)``, ``z = pi u/(2 K)``. For m <= 1/2 the series in the nome, which is below
-exp(-pi); above, the same functions as sums of Gaussians about the lattice (Jacobi's transformation): four terms give all digits.
+m is the parameter (the square of the modulus), 0 <= m <= 1. m = 0 is the cosine, m = 1 the
+hyperbolic secant. ``cn(u) = theta_4(0)/theta_2(0) theta_2(z)/theta_4(z)``, ``z = pi u/(2 K)``. For
+m <= 1/2 the series in the nome, which is below exp(-pi); above, the same functions as sums of
+Gaussians about the lattice (Jacobi's transformation): four terms give all digits.
 """
 
 from __future__ import annotations
@@ -20,7 +22,9 @@ TERMS = 5
 
 
 def quarter_period(complement: float) -> tuple[float, float]:
-    """K(m) and E(m) from ``complement`` 1 - m, 0 <= 1 - m <= 1; at 0 they are infinite and 1. Raises ValueError outside."""
+    """K(m) and E(m) from ``complement`` 1 - m, 0 <= 1 - m <= 1; at 0 they are infinite and 1.
+    Raises ValueError outside.
+    """
     if not 0.0 <= complement <= 1.0:
         raise ValueError(f"the complement 1 - m of an elliptic function is {complement}, it must be 0 to 1")
     if complement == 0.0:
@@ -30,7 +34,8 @@ def quarter_period(complement: float) -> tuple[float, float]:
 
 
 def jacobi_cn(argument: ArrayLike, complement: float) -> Array:
-    """cn(u; m) at ``argument`` u, any real number, from ``complement`` 1 - m; absolute error about 1e-15 within a few periods.
+    """cn(u; m) at ``argument`` u, any real number, from ``complement`` 1 - m; absolute error about
+    1e-15 within a few periods.
 
     Raises ValueError where 1 - m is outside 0 to 1.
     """
@@ -65,7 +70,9 @@ def _nome_series(z: Array, ratio: float) -> tuple[Array, Array]:
 
 
 def _lattice_series(z: Array, ratio: float) -> tuple[Array, Array]:
-    """theta_2 and theta_4 at |z| <= pi/2 over one factor, as sums of Gaussians of width ``pi ratio``."""
+    """theta_2 and theta_4 at |z| <= pi/2 over one factor, as sums of Gaussians of width ``pi
+    ratio``.
+    """
     second, fourth = numpy.zeros_like(z), numpy.zeros_like(z)
     for n in range(-TERMS, TERMS + 1):
         second = second + (-1) ** n * numpy.exp(-((z + n * math.pi) ** 2) / (math.pi * ratio))

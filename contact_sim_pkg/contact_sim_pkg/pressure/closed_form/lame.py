@@ -1,4 +1,5 @@
-"""Lame curves (superellipses) `|x/a|^n + |y/b|^n = 1`: area, second moments, and the fit to a contact patch.
+"""Lame curves (superellipses) `|x/a|^n + |y/b|^n = 1`: area, second moments, and the fit to a
+contact patch.
 
 n = 2 is the ellipse, n = 1 the rhombus, n -> infinity the rectangle. The radial variable
 `rho = (|x/a|^n + |y/b|^n)^(1/n)` is computed through logarithms, so no power under- or overflows.
@@ -56,22 +57,28 @@ class LameFit(NamedTuple):
 
 
 def lame_area(a: float, b: float, exponent: float) -> float:
-    """`4 a b Gamma(1 + 1/n)^2 / Gamma(1 + 2/n)` [m^2]; raises `ValueError` for n < 0.1 and axes outside 1e-100 to 1e100 m."""
+    """`4 a b Gamma(1 + 1/n)^2 / Gamma(1 + 2/n)` [m^2]; raises `ValueError` for n < 0.1 and axes
+    outside 1e-100 to 1e100 m.
+    """
     refuse_axes(a, b)
     refuse_exponent(exponent)
     return 4.0 * a * b * math.exp(2.0 * math.lgamma(1.0 + 1.0 / exponent) - math.lgamma(1.0 + 2.0 / exponent))
 
 
 def lame_second_moment(a: float, b: float, exponent: float) -> float:
-    """Integral of x^2 over the domain, `(4 a^3 b / n) B(3/n, 1 + 1/n)` [m^4]; exchange a and b for y^2."""
+    """Integral of x^2 over the domain, `(4 a^3 b / n) B(3/n, 1 + 1/n)` [m^4]; exchange a and b for
+    y^2.
+    """
     return lame_moment(a, b, exponent, 2.0, 0.0)
 
 
 def lame_moment(a: float, b: float, exponent: float, power_x: float, power_y: float) -> float:
-    """Integral of `|x|^i |y|^j` over the domain, powers i, j above -1, to 100 (Dirichlet's integral); i = j = 0 is the area.
+    """Integral of `|x|^i |y|^j` over the domain, powers i, j above -1, to 100 (Dirichlet's
+    integral); i = j = 0 is the area.
 
-    `4 a^(i+1) b^(j+1) / ((i+1) (j+1)) Gamma(u+1) Gamma(v+1) / Gamma(u+v+1)`, u = (i+1)/n, v = (j+1)/n [m^(i+j+2)].
-    Raises `ValueError` for n < 0.1, powers and axes outside their range, and an integral that is no double.
+    `4 a^(i+1) b^(j+1) / ((i+1) (j+1)) Gamma(u+1) Gamma(v+1) / Gamma(u+v+1)`, u = (i+1)/n, v =
+    (j+1)/n [m^(i+j+2)]. Raises `ValueError` for n < 0.1, powers and axes outside their range, and
+    an integral that is no double.
     """
     refuse_axes(a, b)
     refuse_exponent(exponent)
@@ -105,8 +112,9 @@ def refuse_exponent(exponent: float) -> None:
 def fit_patch(pressure: Field, cell_x: float, cell_y: float, origin_x: float, origin_y: float) -> LameFit:
     """Lame curve through the boundary of the cells under pressure.
 
-    pressure: float64 [rows, cols], rows along x; cell_x, cell_y [m]; origin_x, origin_y: centre of cell (0, 0) [m].
-    The boundary points are the midpoints of the edges between a cell inside and one outside. Zeros without contact.
+    pressure: float64 [rows, cols], rows along x; cell_x, cell_y [m]; origin_x, origin_y: centre of
+    cell (0, 0) [m]. The boundary points are the midpoints of the edges between a cell inside and
+    one outside. Zeros without contact.
     """
     rows, cols = pressure.shape
     cells, points, low_row, high_row, low_col, high_col = extents(pressure)
@@ -135,7 +143,8 @@ def fit_patch(pressure: Field, cell_x: float, cell_y: float, origin_x: float, or
 
 @entry
 def fit_boundary(x: Field, y: Field, half_x: float, half_y: float) -> LameFit:
-    """Minimise `sum (rho - 1)^2` over ln a, ln b, ln n for points about their mean; `x`, `y` [m] are overwritten.
+    """Minimise `sum (rho - 1)^2` over ln a, ln b, ln n for points about their mean; `x`, `y` [m]
+    are overwritten.
 
     Damped Gauss-Newton steps from the half extents [m] and n = 2, n kept within 0.3 to 20.
     """
@@ -188,7 +197,9 @@ def take_logarithms(x: Field, y: Field, centre_x: float, centre_y: float) -> Non
 
 @kernel
 def extents(pressure: Field) -> tuple[int, int, int, int, int, int]:
-    """Number of cells in contact, number of their outer edges, first and last row, first and last column."""
+    """Number of cells in contact, number of their outer edges, first and last row, first and last
+    column.
+    """
     rows, cols = pressure.shape
     cells, edges, low_row, high_row, low_col, high_col = 0, 0, rows, -1, cols, -1
     for i in range(rows):
@@ -219,7 +230,9 @@ def inside(pressure: Field, i: int, j: int) -> int:
 
 @kernel
 def boundary_points(pressure: Field, cell_x: float, cell_y: float, x: Field, y: Field) -> None:
-    """Midpoints [m] of the edges between a cell in contact and one without, from the centre of cell (0, 0)."""
+    """Midpoints [m] of the edges between a cell in contact and one without, from the centre of cell
+    (0, 0).
+    """
     rows, cols = pressure.shape
     count = 0
     for i in range(rows):
@@ -234,10 +247,12 @@ def boundary_points(pressure: Field, cell_x: float, cell_y: float, x: Field, y: 
 
 @kernel
 def normal_equations(log_x: Field, log_y: Field, log_a: float, log_b: float, log_n: float, normal: Field) -> float:
-    """`J^T J` and, in the last column, `-J^T (rho - 1)`, from ln|x| and ln|y|; returns the cost `sum (rho - 1)^2`.
+    """`J^T J` and, in the last column, `-J^T (rho - 1)`, from ln|x| and ln|y|; returns the cost
+    `sum (rho - 1)^2`.
 
-    With u = ln|x/a|, v = ln|y/b| and the share s = |x/a|^n / rho^n: `ln rho = max(u, v) + ln(1 + exp(-n |u-v|)) / n`,
-    its derivatives by ln a, ln b, ln n are `-s`, `-(1-s)` and `s u + (1-s) v - ln rho`.
+    With u = ln|x/a|, v = ln|y/b| and the share s = |x/a|^n / rho^n: `ln rho = max(u, v) + ln(1 +
+    exp(-n |u-v|)) / n`, its derivatives by ln a, ln b, ln n are `-s`, `-(1-s)` and `s u + (1-s) v -
+    ln rho`.
     """
     normal[:] = 0.0
     exponent, cost = math.exp(log_n), 0.0
@@ -260,7 +275,9 @@ def normal_equations(log_x: Field, log_y: Field, log_a: float, log_b: float, log
 
 @kernel
 def damped_step(normal: Field, damping: float) -> tuple[float, float, float]:
-    """Solve `(J^T J + damping diag) step = -J^T error` (3 x 3, symmetric positive definite) by elimination."""
+    """Solve `(J^T J + damping diag) step = -J^T error` (3 x 3, symmetric positive definite) by
+    elimination.
+    """
     floor = 1e-14 * (normal[0, 0] + normal[1, 1] + normal[2, 2])
     a00 = normal[0, 0] * (1.0 + damping) + floor
     a11 = normal[1, 1] * (1.0 + damping) + floor

@@ -1,9 +1,11 @@
-"""The domain inside a Lame curve `|x/a|^n + |y/b|^n <= 1`: inside test, boundary by arc length, mesh; n from 0.1 to 100.
+"""The domain inside a Lame curve `|x/a|^n + |y/b|^n <= 1`: inside test, boundary by arc length,
+mesh; n from 0.1 to 100.
 
-The usual parametrisation by cosines bunches its points at the corners for n > 2 and at the tips for n < 2. Here each
-octant has a parameter s from 0 (tip) to 1 (diagonal) in which it is smooth: with `t = s^max(1, 1/n)` the curve is
-`x/a = (1 + t^n)^(-1/n)`, `y/b = t x/a`, and the same with the axes exchanged. Lengths, sector areas and centroids are
-Gauss sums over fixed panels of s; against quadrature and closed forms they are good to 1e-9.
+The usual parametrisation by cosines bunches its points at the corners for n > 2 and at the tips for
+n < 2. Here each octant has a parameter s from 0 (tip) to 1 (diagonal) in which it is smooth: with
+`t = s^max(1, 1/n)` the curve is `x/a = (1 + t^n)^(-1/n)`, `y/b = t x/a`, and the same with the axes
+exchanged. Lengths, sector areas and centroids are Gauss sums over fixed panels of s; against
+quadrature and closed forms they are good to 1e-9.
 
 Source: Driver and Seat eqs 4 and 5, Tire/Road Contact eqs 5 and 6, with signed powers.
 """
@@ -27,14 +29,18 @@ LARGEST_EXPONENT = 100.0
 SLENDEREST = 1e12
 """Largest ratio of the half axes of boundary and mesh."""
 
-PANELS = 32  # of s, in each octant; the one at a tip is halved again and again, since s has fractional powers there
+# Of s, in each octant; the one at a tip is halved again and again, since s has fractional powers
+# there
+PANELS = 32
 HALVINGS = 24
 NODES, WEIGHTS = numpy.polynomial.legendre.leggauss(10)
 NEWTON_STEPS = 8
 
 
 class LameMesh(NamedTuple):
-    """Cells between rays from the centre and rings of constant rho; `sum(area)` is the area of the domain."""
+    """Cells between rays from the centre and rings of constant rho; `sum(area)` is the area of the
+    domain.
+    """
 
     x: Field  # [cells] [m] centroids, ring by ring from the centre
     y: Field  # [cells] [m]
@@ -42,7 +48,9 @@ class LameMesh(NamedTuple):
 
 
 class _Quadrant(NamedTuple):
-    """x/a, y/b and their derivatives by s: s = 0 at the tip on x, 1 on the diagonal, 2 at the tip on y."""
+    """x/a, y/b and their derivatives by s: s = 0 at the tip on x, 1 on the diagonal, 2 at the tip
+    on y.
+    """
 
     x: Field
     y: Field
@@ -51,9 +59,11 @@ class _Quadrant(NamedTuple):
 
 
 def radial_variable(x: Field, y: Field, a: float, b: float, exponent: float) -> Field:
-    """`rho = (|x/a|^n + |y/b|^n)^(1/n)` by logarithms, x and y [m] of any fitting shapes; 1 on the curve, inf beyond.
+    """`rho = (|x/a|^n + |y/b|^n)^(1/n)` by logarithms, x and y [m] of any fitting shapes; 1 on the
+    curve, inf beyond.
 
-    Raises `ValueError` for n < 0.1, axes outside 1e-100 to 1e100 m and coordinates that are not numbers.
+    Raises `ValueError` for n < 0.1, axes outside 1e-100 to 1e100 m and coordinates that are not
+    numbers.
     """
     refuse_axes(a, b)
     refuse_exponent(exponent)
@@ -75,20 +85,24 @@ def inside(x: Field, y: Field, a: float, b: float, exponent: float) -> NDArray[n
 def perimeter(a: float, b: float, exponent: float) -> float:
     """Length of the curve [m].
 
-    Raises `ValueError` for n outside 0.1 to 100, axes outside 1e-100 to 1e100 m and a ratio of theirs beyond 1e12.
+    Raises `ValueError` for n outside 0.1 to 100, axes outside 1e-100 to 1e100 m and a ratio of
+    theirs beyond 1e12.
     """
     _refuse(a, b, exponent)
     return 4.0 * float(_lengths(a, b, exponent)[-1])
 
 
 def lame_boundary(a: float, b: float, exponent: float, count: int) -> tuple[Field, Field]:
-    """x, y [m] of `count` points at equal arc lengths, from (a, 0) towards +y. Errors as `perimeter`."""
+    """x, y [m] of `count` points at equal arc lengths, from (a, 0) towards +y. Errors as
+    `perimeter`.
+    """
     _refuse(a, b, exponent)
     if count < 1:
         raise ValueError(f"Lame curve: {count} boundary points, at least 1 is needed")
     quarter = _lengths(a, b, exponent)[-1]
     number, rest = numpy.divmod(4.0 * quarter * numpy.arange(count) / count, quarter)
-    along = numpy.where(number % 2 == 0, rest, quarter - rest)  # every second quadrant runs from y to x
+    # Every second quadrant runs from y to x
+    along = numpy.where(number % 2 == 0, rest, quarter - rest)
     point = _quadrant(exponent, _at_lengths(a, b, exponent, along))
     sign_x = numpy.where((number == 0) | (number == 3), 1.0, -1.0)
     sign_y = numpy.where(number < 2, 1.0, -1.0)
@@ -96,10 +110,12 @@ def lame_boundary(a: float, b: float, exponent: float, count: int) -> tuple[Fiel
 
 
 def lame_mesh(a: float, b: float, exponent: float, rings: int, sectors: int) -> LameMesh:
-    """Mesh of rings, evenly spaced in rho, by sectors, evenly spaced along the curve (a multiple of 4).
+    """Mesh of rings, evenly spaced in rho, by sectors, evenly spaced along the curve (a multiple of
+    4).
 
-    The area is exact in each cell, since it scales with rho^2, and so are the centroids: a sum of `area` times a smooth
-    function there is its integral with an error of the second order. Errors as `perimeter`.
+    The area is exact in each cell, since it scales with rho^2, and so are the centroids: a sum of
+    `area` times a smooth function there is its integral with an error of the second order. Errors
+    as `perimeter`.
     """
     _refuse(a, b, exponent)
     if rings < 1 or sectors < 4 or sectors % 4:

@@ -1,8 +1,10 @@
-"""Lame curve through scattered contact points: the fit of `pressure/closed_form/lame.py` to their convex hull.
+"""Lame curve through scattered contact points: the fit of `pressure/closed_form/lame.py` to their
+convex hull.
 
-Taken are the corners of the hull and the points on its sides, about the centroid of the hull. A hull is convex, so the
-exponent comes out at 1 or above but for scatter; concave domains need the cells (`lame.fit_patch`). Points inside the true
-border, as those of a coarse lattice, give half axes that are short by up to one spacing.
+Taken are the corners of the hull and the points on its sides, about the centroid of the hull. A
+hull is convex, so the exponent comes out at 1 or above but for scatter; concave domains need the
+cells (`lame.fit_patch`). Points inside the true border, as those of a coarse lattice, give half
+axes that are short by up to one spacing.
 """
 
 from __future__ import annotations
@@ -27,8 +29,9 @@ FLAT = 1e-9
 def fit_points(points: Field) -> LameFit:
     """Lame curve through contact points [points, 2], x and y [m].
 
-    With fewer than 5 points on the hull, or all on one line: half extents, n = 2 and `fitted` False; without
-    points a curve of size 0 at the origin. Raises `ValueError` for a wrong shape and values that are not finite.
+    With fewer than 5 points on the hull, or all on one line: half extents, n = 2 and `fitted`
+    False; without points a curve of size 0 at the origin. Raises `ValueError` for a wrong shape and
+    values that are not finite.
     """
     points = numpy.asarray(points, dtype=float)
     if points.ndim != 2 or points.shape[1] != 2:
@@ -49,7 +52,9 @@ def fit_points(points: Field) -> LameFit:
 
 
 def hull(points: Field) -> Field:
-    """Corners of the convex hull and the points on its sides, anticlockwise [points, 2] (Andrew's monotone chain)."""
+    """Corners of the convex hull and the points on its sides, anticlockwise [points, 2] (Andrew's
+    monotone chain).
+    """
     points = numpy.asarray(points, dtype=float)
     ordered = points[numpy.lexsort((points[:, 1], points[:, 0]))]
     new = numpy.ones(len(ordered), dtype=bool)
@@ -67,7 +72,9 @@ def hull(points: Field) -> Field:
 
 @entry
 def monotone_chain(ordered: Field, slack: float, chain: NDArray[numpy.int64]) -> int:
-    """Rows of `ordered` (by x, then y) on the hull, in `chain`; returns their number. slack: twice an area [m^2]."""
+    """Rows of `ordered` (by x, then y) on the hull, in `chain`; returns their number. slack: twice
+    an area [m^2].
+    """
     count = one_side(ordered, 0, 1, slack, chain, 0) - 1
     return one_side(ordered, ordered.shape[0] - 1, -1, slack, chain, count) - 1
 

@@ -1,17 +1,21 @@
-"""Closed-form pressure on a Lame (superelliptic) contact domain: Tire/Road Contact's eqs 5-9, corrected, and its errors.
+"""Closed-form pressure on a Lame (superelliptic) contact domain: Tire/Road Contact's eqs 5-9,
+corrected, and its errors.
 
-Domain `rho <= 1`, `rho^n = |x/a|^n + |y/b|^n`, area S. For n = 2 every form here is the elliptic Hertz contact. For other
-n no closed form exists; these are estimates, and the pressure field (`pressure/field/solver.py`) is what they are measured with:
+Domain `rho <= 1`, `rho^n = |x/a|^n + |y/b|^n`, area S. For n = 2 every form here is the elliptic
+Hertz contact. For other n no closed form exists; these are estimates, and the pressure field
+(`pressure/field/solver.py`) is what they are measured with:
 
-* ansatz: `p = p0 (1 - rho^n)^(1/2)`, generalised eccentricity `k = (1 - (b/a)^n)^(1/n)`, parameter m = k^2;
+* ansatz: `p = p0 (1 - rho^n)^(1/2)`, generalised eccentricity `k = (1 - (b/a)^n)^(1/n)`, parameter
+  m = k^2;
 * equivalent ellipse: Hertz on the ellipse of the same area and aspect, `a_e = sqrt(S a / (pi b))`.
 
-Measured on gaps `(|x|^g + |y|^g)/g` under one load: g = 3, 4, 6 make domains of n = 3.8, 6.1, 11.9. There the ansatz is 29, 44,
-60 % high in the centre, 2 % above to 25 % below the true maximum (which lies near the edge) and 11 to 15 % low in the
-approach; the ellipse is 13 to 31 % high in the approach.
+Measured on gaps `(|x|^g + |y|^g)/g` under one load: g = 3, 4, 6 make domains of n = 3.8, 6.1, 11.9.
+There the ansatz is 29, 44, 60 % high in the centre, 2 % above to 25 % below the true maximum (which
+lies near the edge) and 11 to 15 % low in the approach; the ellipse is 13 to 31 % high in the
+approach.
 
-Of the printed formulas eq 9 is kept (`printed_approach`), to show its error. The printed eq 7 is infinite at the edge and
-carries 9.05 times the load on a circle; it is not offered.
+Of the printed formulas eq 9 is kept (`printed_approach`), to show its error. The printed eq 7 is
+infinite at the edge and carries 9.05 times the load on a circle; it is not offered.
 
 Source: Tire/Road Contact, eqs 5-9; Johnson (1985), Contact Mechanics, section 4.2.
 """
@@ -58,7 +62,8 @@ class LamePressure(NamedTuple):
 
 
 def eccentricity(a: float, b: float, exponent: float) -> float:
-    """`(1 - (b/a)^n)^(1/n)` of the smaller over the larger semi-axis [-]: 0 for a = b, towards 1 for a needle.
+    """`(1 - (b/a)^n)^(1/n)` of the smaller over the larger semi-axis [-]: 0 for a = b, towards 1
+    for a needle.
 
     The printed `(n r^n - 2 b^n)^(1/n) / a` with r undefined is this for `r^n = (a^n + b^n)/n`.
     """
@@ -70,8 +75,8 @@ def eccentricity(a: float, b: float, exponent: float) -> float:
 def ansatz_on_domain(a: float, b: float, exponent: float, modulus: float, load: float) -> LamePressure:
     """Ansatz on a known domain: `p0 = P / (S (2/n) B(2/n, 3/2))`, `approach = p0 b K(m) / E*`.
 
-    a, b: half axes along x and y [m]; exponent: n >= 0.1; modulus: E* [Pa]; load: [N], <= 0 gives no pressure.
-    Raises `LamePressureError`.
+    a, b: half axes along x and y [m]; exponent: n >= 0.1; modulus: E* [Pa]; load: [N], <= 0 gives
+    no pressure. Raises `LamePressureError`.
     """
     _refuse_domain(a, b, exponent)
     _refuse_modulus(modulus)
@@ -88,9 +93,10 @@ def ansatz_of_curvatures(
 ) -> LamePressure:
     """Ansatz where only the gap's curvatures A, B [1/m] and n are known.
 
-    p0 and the approach are those of the corrected eqs 8 and 9, which are Hertz's and give m; the aspect follows from
-    `m = k^2`, `b/a = (1 - m^(n/2))^(1/n)`, and a from the load balance. a lies along the smaller curvature.
-    Raises `LamePressureError`, and `HertzError` for conforming, saddle and line contact.
+    p0 and the approach are those of the corrected eqs 8 and 9, which are Hertz's and give m; the
+    aspect follows from `m = k^2`, `b/a = (1 - m^(n/2))^(1/n)`, and a from the load balance. a lies
+    along the smaller curvature. Raises `LamePressureError`, and `HertzError` for conforming, saddle
+    and line contact.
     """
     _refuse_domain(1.0, 1.0, exponent)
     load = _carried(load)
@@ -107,9 +113,11 @@ def ansatz_of_curvatures(
 
 
 def equivalent_ellipse(a: float, b: float, exponent: float, modulus: float, load: float) -> LamePressure:
-    """Hertz pressure on the ellipse with the area S and the aspect of a Lame domain: `p0 = 3 P / (2 S)`.
+    """Hertz pressure on the ellipse with the area S and the aspect of a Lame domain: `p0 = 3 P / (2
+    S)`.
 
-    Arguments and errors as `ansatz_on_domain`; the result has n = 2 and the semi-axes of the ellipse.
+    Arguments and errors as `ansatz_on_domain`; the result has n = 2 and the semi-axes of the
+    ellipse.
     """
     _refuse_domain(a, b, exponent)
     scale = math.sqrt(lame_area(a, b, exponent) / (math.pi * a * b))
@@ -117,7 +125,9 @@ def equivalent_ellipse(a: float, b: float, exponent: float, modulus: float, load
 
 
 def lame_pressure(contact: LamePressure, x: Field, y: Field) -> Field:
-    """`p0 sqrt(1 - rho^n)` [Pa] at x, y [m] (arrays that fit together), 0 outside. Raises `LamePressureError` for nan."""
+    """`p0 sqrt(1 - rho^n)` [Pa] at x, y [m] (arrays that fit together), 0 outside. Raises
+    `LamePressureError` for nan.
+    """
     x, y = numpy.asarray(x, dtype=float), numpy.asarray(y, dtype=float)
     if numpy.isnan(x).any() or numpy.isnan(y).any():
         raise LamePressureError("Lame pressure: a coordinate is nan, it must be a number")
@@ -129,10 +139,11 @@ def lame_pressure(contact: LamePressure, x: Field, y: Field) -> Field:
 
 
 def printed_approach(curvature_a: float, curvature_b: float, young: float, poisson: float, load: float) -> float:
-    """Eq 9 as printed [m], with Young's modulus [Pa] where the shear modulus belongs: too low by (2 (1 + nu))^(-2/3).
+    """Eq 9 as printed [m], with Young's modulus [Pa] where the shear modulus belongs: too low by (2
+    (1 + nu))^(-2/3).
 
-    With G in place of E it is Hertz. Raises `LamePressureError` for a Poisson ratio outside -1 to 0.5, `HertzError` as
-    `hertz_contact`.
+    With G in place of E it is Hertz. Raises `LamePressureError` for a Poisson ratio outside -1 to
+    0.5, `HertzError` as `hertz_contact`.
     """
     if not -1.0 <= poisson <= 0.5:
         raise LamePressureError(f"Lame pressure: Poisson ratio {poisson}, it must be a number from -1 to 0.5")
@@ -146,7 +157,9 @@ def _mean_over_peak(exponent: float) -> float:
 
 
 def _integral_k(aspect: float, exponent: float) -> float:
-    """Complete elliptic integral K of m = k^2, from `1 - m = 1 - (1 - aspect^n)^(2/n)` without cancellation."""
+    """Complete elliptic integral K of m = k^2, from `1 - m = 1 - (1 - aspect^n)^(2/n)` without
+    cancellation.
+    """
     power = math.exp(exponent * math.log(aspect))
     complement = -math.expm1(2.0 / exponent * math.log1p(-power)) if power < 1.0 else 1.0
     return float(elliptic_integrals(max(complement, SMALLEST_COMPLEMENT))[0])

@@ -1,9 +1,11 @@
-"""Stress inside an elastic half-space under a field of pressure and tangential traction on its surface.
+"""Stress inside an elastic half-space under a field of pressure and tangential traction on its
+surface.
 
-Each cell of the field is a uniformly loaded rectangle, whose six stresses have closed forms (Love 1929 for the pressure,
-integrals of Cerruti's solution for the traction). They are sums over corners: with u, v, z the way from a corner to the
-point and r its length, the sum over the cells is a sum over the corners of the grid, each weighted with the second
-difference D of the field there. Pressure, times D / (2 pi), nu = Poisson's ratio:
+Each cell of the field is a uniformly loaded rectangle, whose six stresses have closed forms (Love
+1929 for the pressure, integrals of Cerruti's solution for the traction). They are sums over
+corners: with u, v, z the way from a corner to the point and r its length, the sum over the cells is
+a sum over the corners of the grid, each weighted with the second difference D of the field there.
+Pressure, times D / (2 pi), nu = Poisson's ratio:
 
     zz  -t(uv, zr) - z uv/r (1/(u^2+z^2) + 1/(v^2+z^2))
     xx  -2 nu t(uv, zr) - (1-2nu) t(uv (r-z), u^2 r + z v^2) + z uv / ((u^2+z^2) r),      t(s, c) = atan(s/c), c >= 0
@@ -16,14 +18,16 @@ and traction along x, from `3x^2/r^5`, … and the potential `z ln(r+z) - r`:
     yz  -z/r                       yy  2 nu asinh(v/w) - v/r + (1-2nu) v/(r+z)
     xz  z uv/(w^2 r) - t(uv, zr)   xy  asinh(u/sqrt(v^2+z^2)) - u/r + (1-2nu) u/(r+z)
 
-Axes: x along rows, y along cols, z into the body, 0 at the surface; stresses are positive in tension. Pressure is positive
-into the body, traction is what the partner does to the surface: at z = 0 `zz = -p`, `xz = -q_x`, `yz = -q_y` in a cell,
-the mean of its neighbours on an edge. Where the stress of a jump is infinite (xy at a corner, xx along an edge that crosses
-the traction) the logarithm is cut at 1e-9 of a cell; with a smooth field the cut cancels to second order of the cell.
-Rounding grows with (distance / cell)^2: 1e-12 of the peak at 100 cells. Stress of a field against its smooth original:
-second order in the cell, and largest near the surface.
+Axes: x along rows, y along cols, z into the body, 0 at the surface; stresses are positive in
+tension. Pressure is positive into the body, traction is what the partner does to the surface: at z
+= 0 `zz = -p`, `xz = -q_x`, `yz = -q_y` in a cell, the mean of its neighbours on an edge. Where the
+stress of a jump is infinite (xy at a corner, xx along an edge that crosses the traction) the
+logarithm is cut at 1e-9 of a cell; with a smooth field the cut cancels to second order of the cell.
+Rounding grows with (distance / cell)^2: 1e-12 of the peak at 100 cells. Stress of a field against
+its smooth original: second order in the cell, and largest near the surface.
 
-Sources: Love (1929), Phil. Trans. R. Soc. A 228, 377; Johnson (1985), Contact Mechanics, sections 3.2 and 3.6.
+Sources: Love (1929), Phil. Trans. R. Soc. A 228, 377; Johnson (1985), Contact Mechanics, sections
+3.2 and 3.6.
 """
 
 from __future__ import annotations
@@ -76,8 +80,9 @@ def subsurface_stress(
     """Stresses [n, 6] [Pa] at points [n, 3] [m] (x, y, z >= 0); columns xx, yy, zz, xy, xz, yz.
 
     pressure, traction_x, traction_y: [Pa], [rows, cols], what acts on the surface; `None` for none.
-    poisson: nu of the body, -1 < nu <= 0.5. Time: about 0.1 us for each point and corner where the field is not level.
-    Raises `ValueError` for wrong shapes, points above the surface and values that are not finite.
+    poisson: nu of the body, -1 < nu <= 0.5. Time: about 0.1 us for each point and corner where the
+    field is not level. Raises `ValueError` for wrong shapes, points above the surface and values
+    that are not finite.
     """
     _refuse_grid(grid, poisson)
     points = numpy.ascontiguousarray(points, dtype=float)
@@ -104,7 +109,8 @@ def subsurface_stress(
 
 
 def principal_stresses(stress: Field) -> Field:
-    """Principal stresses [n, 3] [Pa], largest (most tensile) first, of stresses [n, 6] in the order of `Stress`.
+    """Principal stresses [n, 3] [Pa], largest (most tensile) first, of stresses [n, 6] in the order
+    of `Stress`.
 
     Raises `ValueError` for another shape and values that are not finite.
     """
@@ -114,7 +120,8 @@ def principal_stresses(stress: Field) -> Field:
 
 
 def von_mises(stress: Field) -> Field:
-    """`sqrt(((xx-yy)^2 + (yy-zz)^2 + (zz-xx)^2)/2 + 3 (xy^2 + xz^2 + yz^2))` [n] [Pa] of stresses [n, 6].
+    """`sqrt(((xx-yy)^2 + (yy-zz)^2 + (zz-xx)^2)/2 + 3 (xy^2 + xz^2 + yz^2))` [n] [Pa] of stresses
+    [n, 6].
 
     Errors as `principal_stresses`.
     """
@@ -124,7 +131,8 @@ def von_mises(stress: Field) -> Field:
 
 
 def max_shear(stress: Field) -> Field:
-    """Largest shear stress over all planes [n] [Pa]: half of the largest less the smallest principal stress.
+    """Largest shear stress over all planes [n] [Pa]: half of the largest less the smallest
+    principal stress.
 
     stress: [n, 6] [Pa]. Errors as `principal_stresses`.
     """
@@ -141,9 +149,11 @@ def _components(stress: Field) -> Field:
 def add_stresses(
     weight: Field, corners: SurfaceGrid, poisson: float, tangential: bool, points: Field, stress: Field
 ) -> None:
-    """Add the stresses of a pressure, or of a traction along x (`tangential`), to `stress` [n, 6] [Pa].
+    """Add the stresses of a pressure, or of a traction along x (`tangential`), to `stress` [n, 6]
+    [Pa].
 
-    weight: second differences D [rows+1, cols+1] [Pa] at the `corners` of the cells; points: [n, 3] [m].
+    weight: second differences D [rows+1, cols+1] [Pa] at the `corners` of the cells; points: [n, 3]
+    [m].
     """
     rows, cols = weight.shape
     cell_x, cell_y, start_x, start_y = corners
@@ -196,7 +206,9 @@ def pressure_corner(u: float, v: float, z: float, poisson: float, cut: float) ->
 
 @kernel
 def traction_corner(u: float, v: float, z: float, poisson: float, cut: float) -> Stress:
-    """Contribution of a corner, times 2 pi, for a unit second difference of the traction along x."""
+    """Contribution of a corner, times 2 pi, for a unit second difference of the traction along
+    x.
+    """
     uu, vv, zz = u * u, v * v, z * z
     r = math.sqrt(uu + vv + zz)
     soft = 1.0 - 2.0 * poisson

@@ -1,19 +1,23 @@
 """Corrections of a predicted pressure field, one convolution each, each certified by it.
 
-The prediction comes with its displacement (`pressure/field/prediction.py`), so the clearance c is known before the first
-convolution. A correction is a step along the preconditioned clearance z = M c of the free cells, made conjugate to the step
-before, s, by the response K s that is known from it:
+The prediction comes with its displacement (`pressure/field/prediction.py`), so the clearance c is
+known before the first convolution. A correction is a step along the preconditioned clearance z = M
+c of the free cells, made conjugate to the step before, s, by the response K s that is known from
+it:
 
-    d = -(z - mean z) + b s,    b = max(0, sum z K s / sum s K s),    p_new = max(0, p + a d), scaled to the load.
+    d = -(z - mean z) + b s,    b = max(0, sum z K s / sum s K s),    p_new = max(0, p + a d),
+    scaled to the load.
 
-Conjugate gradients would take one convolution for the length a and another to certify. Here a is taken from experience, one
-length for each correction by its number, and u = K p_new is evaluated afresh: that certifies the field and gives K s, clipping
-and all. Where more is needed the step is rescaled afterwards, with the factor `g = -sum c s / sum s K s`, before the next
-search direction; g^(1/4) enters the experience.
+Conjugate gradients would take one convolution for the length a and another to certify. Here a is
+taken from experience, one length for each correction by its number, and u = K p_new is evaluated
+afresh: that certifies the field and gives K s, clipping and all. Where more is needed the step is
+rescaled afterwards, with the factor `g = -sum c s / sum s K s`, before the next search direction;
+g^(1/4) enters the experience.
 
-It ends when the residual is at most the tolerance and the last correction changed the field by at most `CHANGE` times the
-tolerance in L2. The second is the better measure of the error: the error was 0.4 to 0.9 of the change where it was measured
-(tire on rough roads), while the residual weighs a clearance by its depth and hardly sees the short waves of the pressure.
+It ends when the residual is at most the tolerance and the last correction changed the field by at
+most `CHANGE` times the tolerance in L2. The second is the better measure of the error: the error
+was 0.4 to 0.9 of the change where it was measured (tire on rough roads), while the residual weighs
+a clearance by its depth and hardly sees the short waves of the pressure.
 """
 
 from __future__ import annotations
@@ -35,7 +39,8 @@ CHANGE = 6.0
 """Largest last change of the field, over the tolerance."""
 
 MOST_CORRECTIONS = 24
-"""After so many the prediction was of no use, or the tolerance asks for lengths without guessing."""
+"""After so many the prediction was of no use, or the tolerance asks for lengths without guessing.
+"""
 
 FIRST_LENGTH = 0.4
 """Length of a correction before there is experience."""
@@ -77,8 +82,9 @@ def correct(
 ) -> Corrected:
     """Correct the prediction in `pressure` and `surface` until it is certified.
 
-    approach: [m], taken where `total` is negative; total: [Pa] as in `pressure/field/solver.py:iterate`;
-    request: its tolerance, and the most corrections; lengths: [corrections] [-], learned, changed in place.
+    approach: [m], taken where `total` is negative; total: [Pa] as in
+    `pressure/field/solver.py:iterate`; request: its tolerance, and the most corrections; lengths:
+    [corrections] [-], learned, changed in place.
     """
     holds_load = total >= 0.0
     contact, pulling = list_cells(workspace)
@@ -129,7 +135,9 @@ def list_cells(workspace: SolverWorkspace) -> tuple[int, int]:
 def search_direction(
     half_space: HalfSpace, workspace: SolverWorkspace, count: int, holds_load: bool, response_known: bool
 ) -> None:
-    """New direction on the free cells; `direction` holds the step before, `response` what it displaced."""
+    """New direction on the free cells; `direction` holds the step before, `response` what it
+    displaced.
+    """
     precondition(half_space, workspace.buffers, workspace.residual, workspace.filtered)
     filtered, residual = workspace.cells.filtered, workspace.cells.residual
     direction, response = workspace.cells.direction, workspace.cells.response
@@ -163,7 +171,8 @@ def search_direction(
 def move(workspace: SolverWorkspace, count: int, pulling: int, length: float) -> tuple[int, int]:
     """Step along the direction and clip at zero; `direction` becomes minus the pressure before.
 
-    The first `pulling` cells of `left` pulled: they let go. Returns the numbers of cells in contact and of cells that left.
+    The first `pulling` cells of `left` pulled: they let go. Returns the numbers of cells in contact
+    and of cells that left.
     """
     pressure, direction = workspace.cells.pressure, workspace.cells.direction
     free, leaving = workspace.cells.free, workspace.cells.left
@@ -190,7 +199,9 @@ def move(workspace: SolverWorkspace, count: int, pulling: int, length: float) ->
 
 @kernel
 def apply_operator(half_space: HalfSpace, workspace: SolverWorkspace) -> None:
-    """Deformed surface from the pressure alone, and what it moved by in `response`; 0 where it was not known before."""
+    """Deformed surface from the pressure alone, and what it moved by in `response`; 0 where it was
+    not known before.
+    """
     surface, height, response = workspace.surface, workspace.height, workspace.response
     convolve(half_space, workspace.buffers, workspace.pressure, response)
     rows, cols = surface.shape
@@ -229,7 +240,9 @@ def accept_step(workspace: SolverWorkspace, contact: int, left: int, approach: f
 
 @kernel
 def rescale_step(workspace: SolverWorkspace, contact: int, count: int, left: int, factor: float) -> tuple[int, int]:
-    """Make the last step `factor` times as long, surface and all; returns the numbers of cells that press and that pull."""
+    """Make the last step `factor` times as long, surface and all; returns the numbers of cells that
+    press and that pull.
+    """
     surface, response = workspace.surface, workspace.response
     pressure, direction, residual = workspace.cells.pressure, workspace.cells.direction, workspace.cells.residual
     free, leaving = workspace.cells.free, workspace.cells.left

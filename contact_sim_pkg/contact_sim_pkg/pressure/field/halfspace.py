@@ -1,11 +1,14 @@
-"""The elastic half-space on a grid: influence of a loaded cell, and the displacement field of a pressure field.
+"""The elastic half-space on a grid: influence of a loaded cell, and the displacement field of a
+pressure field.
 
-The normal displacement of the surface under a pressure p is `u(x, y) = 1/(pi E*) * integral of p / distance`. With p
-constant in each cell this is a discrete convolution with Love's coefficients, done here as a *linear* convolution
-(zero-padded transforms: no periodic images). Because the coefficients are even in both directions their transform is
-real. Only the needed parts are transformed: loaded rows on the way in, grid rows on the way out.
+The normal displacement of the surface under a pressure p is `u(x, y) = 1/(pi E*) * integral of p /
+distance`. With p constant in each cell this is a discrete convolution with Love's coefficients,
+done here as a *linear* convolution (zero-padded transforms: no periodic images). Because the
+coefficients are even in both directions their transform is real. Only the needed parts are
+transformed: loaded rows on the way in, grid rows on the way out.
 
-Sources: Love (1929), Phil. Trans. R. Soc. A 228, 377; Stanley and Kato (1997), J. Tribology 119, 481.
+Sources: Love (1929), Phil. Trans. R. Soc. A 228, 377; Stanley and Kato (1997), J. Tribology 119,
+481.
 """
 
 from __future__ import annotations
@@ -30,24 +33,34 @@ MAXIMUM_CELLS = 4096
 """Cells along one side: 4096 x 4096 needs about 1.5 GB."""
 
 PRECONDITIONER_FLOOR = 1.0
-"""Wave number [1/extent of the grid] below which the preconditioner stays constant; chosen by iteration counts."""
+"""Wave number [1/extent of the grid] below which the preconditioner stays constant; chosen by
+iteration counts.
+"""
 
 LEAST_FURTHER = 1e-2
-"""Part of the influence on the farthest cell across above which something yields beside the half-space."""
+"""Part of the influence on the farthest cell across above which something yields beside the
+half-space.
+"""
 
 
 class HalfSpace(NamedTuple):
-    """A grid of `rows` x `cols` equal cells on a half-space; rows along x, cols along y; all arrays row-major."""
+    """A grid of `rows` x `cols` equal cells on a half-space; rows along x, cols along y; all arrays
+    row-major.
+    """
 
     rows: int
     cols: int
     cell_x: float  # [m] length of a cell along x
     cell_y: float  # [m] length of a cell along y
     modulus: float  # [Pa] contact modulus E*, 1/E* = (1-nu1^2)/E1 + (1-nu2^2)/E2
-    influence: Field  # [rows, cols] [m/Pa] displacement i rows and j cols away from a cell under unit pressure
-    transfer: Field  # [padded rows, padded cols/2+1] real transform of `influence`, divided by the padded size
-    preconditioner: Field  # [rows', cols'/2+1] approximate inverse of `transfer` on the unpadded grid
-    mirrored: Field  # [rows, 2 cols - 1] `influence` from cols - 1 cells on one side to as many on the other
+    # [rows, cols] [m/Pa] displacement i rows and j cols away from a cell under unit pressure
+    influence: Field
+    # [padded rows, padded cols/2+1] real transform of `influence`, divided by the padded size
+    transfer: Field
+    # [rows', cols'/2+1] approximate inverse of `transfer` on the unpadded grid
+    preconditioner: Field
+    # [rows, 2 cols - 1] `influence` from cols - 1 cells on one side to as many on the other
+    mirrored: Field
 
 
 class Buffers(NamedTuple):
@@ -67,11 +80,12 @@ def make_half_space(
 ) -> HalfSpace:
     """Influence coefficients and transforms of a grid.
 
-    rows, cols: number of cells along x and y; cell_x, cell_y: their size [m]; modulus: contact modulus E* [Pa]; further:
-    influence [m/Pa] [rows, cols] of something else that yields under the pressure, in series with the half-space; it must
-    be positive and not grow with the distance, as that of a belt does (`rigs/vehicle/tire/envelopment.py`).
-    Raises `ValueError` for sizes that are not positive and finite, counts that are not whole or outside 1 to 4096, and a
-    `further` that is negative or of another shape. A ratio cell_x/cell_y up to 100 either way is fine.
+    rows, cols: number of cells along x and y; cell_x, cell_y: their size [m]; modulus: contact
+    modulus E* [Pa]; further: influence [m/Pa] [rows, cols] of something else that yields under the
+    pressure, in series with the half-space; it must be positive and not grow with the distance, as
+    that of a belt does (`rigs/vehicle/tire/envelopment.py`). Raises `ValueError` for sizes that are
+    not positive and finite, counts that are not whole or outside 1 to 4096, and a `further` that is
+    negative or of another shape. A ratio cell_x/cell_y up to 100 either way is fine.
     """
     rows = require_count("half-space: rows", rows, least=MINIMUM_CELLS, most=MAXIMUM_CELLS)
     cols = require_count("half-space: cols", cols, least=MINIMUM_CELLS, most=MAXIMUM_CELLS)
@@ -96,8 +110,9 @@ def part_of(whole: HalfSpace, rows: int, cols: int) -> HalfSpace:
 def coarsened(fine: HalfSpace) -> HalfSpace:
     """The same surface in cells of twice the size; rows and cols must be even.
 
-    A coarse cell spreads its pressure over its four fine cells and takes the mean of their displacements: of the pairs of fine
-    cells, 1, 2 and 1 of 4 lie one cell nearer, as far and one cell farther along each side. Raises `ValueError` for an odd count.
+    A coarse cell spreads its pressure over its four fine cells and takes the mean of their
+    displacements: of the pairs of fine cells, 1, 2 and 1 of 4 lie one cell nearer, as far and one
+    cell farther along each side. Raises `ValueError` for an odd count.
     """
     if fine.rows % 2 or fine.cols % 2:
         raise ValueError(f"half-space: {fine.rows} rows, {fine.cols} cols: even numbers are needed to halve them")
@@ -129,7 +144,8 @@ def make_buffers(half_space: HalfSpace) -> Buffers:
     """Scratch arrays that fit a half-space."""
     rows, cols = half_space.rows, half_space.cols
     padded_rows = half_space.transfer.shape[0]
-    padded_cols = cols if padded_rows == rows else _padded(cols)  # a periodic transfer has no padding
+    # A periodic transfer has no padding
+    padded_cols = cols if padded_rows == rows else _padded(cols)
     plain_rows, plain_cols = _good(rows), _good(cols)
     return Buffers(
         numpy.zeros((rows, padded_cols)),
@@ -143,10 +159,11 @@ def make_buffers(half_space: HalfSpace) -> Buffers:
 
 
 def love_coefficients(rows: int, cols: int, cell_x: float, cell_y: float) -> Field:
-    """Integral of 1/distance [m] over a cell whose centre is i cells along x and j along y away; shape [rows, cols].
+    """Integral of 1/distance [m] over a cell whose centre is i cells along x and j along y away;
+    shape [rows, cols].
 
-    With `f(x, y) = x asinh(y/|x|) + y asinh(x/|y|)` the sum of f over the four corners, signs + - - +. The edges lie
-    at odd multiples of half a cell, so no argument is zero.
+    With `f(x, y) = x asinh(y/|x|) + y asinh(x/|y|)` the sum of f over the four corners, signs + - -
+    +. The edges lie at odd multiples of half a cell, so no argument is zero.
     """
     x = (numpy.arange(rows)[:, None] + numpy.array([0.5, -0.5])[None, :]) * cell_x
     y = (numpy.arange(cols)[:, None] + numpy.array([0.5, -0.5])[None, :]) * cell_y
@@ -160,7 +177,8 @@ def love_coefficients(rows: int, cols: int, cell_x: float, cell_y: float) -> Fie
 
 @entry
 def displacement(half_space: HalfSpace, buffers: Buffers, pressure: Field, result: Field) -> None:
-    """Surface displacement [m] under a pressure field [Pa], both float64 [rows, cols]; `result` is overwritten.
+    """Surface displacement [m] under a pressure field [Pa], both float64 [rows, cols]; `result` is
+    overwritten.
 
     Not checked.
     """
@@ -169,7 +187,9 @@ def displacement(half_space: HalfSpace, buffers: Buffers, pressure: Field, resul
 
 @kernel
 def convolve(half_space: HalfSpace, buffers: Buffers, field: Field, result: Field) -> None:
-    """`result = K field` by one pruned, zero-padded transform pair; `result` may be `field` itself."""
+    """`result = K field` by one pruned, zero-padded transform pair; `result` may be `field`
+    itself.
+    """
     rows, cols = field.shape
     padded, spectrum, transfer = buffers.padded, buffers.spectrum, half_space.transfer
     buffers.convolutions[0] += 1
@@ -193,7 +213,9 @@ def convolve(half_space: HalfSpace, buffers: Buffers, field: Field, result: Fiel
 
 @kernel
 def precondition(half_space: HalfSpace, buffers: Buffers, field: Field, result: Field) -> None:
-    """`result = M field`, M an approximate inverse of K: the filter E* |q| / 2 on the unpadded grid."""
+    """`result = M field`, M an approximate inverse of K: the filter E* |q| / 2 on the unpadded
+    grid.
+    """
     rows, cols = field.shape
     plain, spectrum = buffers.plain, buffers.plain_spectrum
     fits = plain.shape == field.shape
@@ -218,7 +240,9 @@ def precondition(half_space: HalfSpace, buffers: Buffers, field: Field, result: 
 
 @kernel
 def load_padded(field: Field, padded: Field) -> tuple[int, int]:
-    """Copy a field into the padded rows; returns the first row that is not all zero and the row after the last such."""
+    """Copy a field into the padded rows; returns the first row that is not all zero and the row
+    after the last such.
+    """
     rows, cols = field.shape
     first, last = rows, 0
     for i in range(rows):
@@ -250,7 +274,9 @@ def _padded(count: int) -> int:
 
 
 def _transfer(influence: Field) -> Field:
-    """Real transform of the even extension of the influence table, divided by the number of padded cells."""
+    """Real transform of the even extension of the influence table, divided by the number of padded
+    cells.
+    """
     rows, cols = influence.shape
     even = numpy.zeros((_padded(rows), _padded(cols)))
     even[:rows, :cols] = influence
@@ -260,9 +286,11 @@ def _transfer(influence: Field) -> Field:
 
 
 def _preconditioner(influence: Field, cell_x: float, cell_y: float, modulus: float) -> Field:
-    """`E* sqrt(|q|^2 + q0^2) / 2` on the unpadded grid, divided by its number of cells; q0 keeps it definite.
+    """`E* sqrt(|q|^2 + q0^2) / 2` on the unpadded grid, divided by its number of cells; q0 keeps it
+    definite.
 
-    What yields in series with the half-space adds the eigenvalues of its nearest circulant to the reciprocal.
+    What yields in series with the half-space adds the eigenvalues of its nearest circulant to the
+    reciprocal.
     """
     rows, cols = influence.shape
     plain_rows, plain_cols = _good(rows), _good(cols)
@@ -277,7 +305,9 @@ def _preconditioner(influence: Field, cell_x: float, cell_y: float, modulus: flo
 
 
 def yields_further(half_space: HalfSpace) -> bool:
-    """Whether something else yields in series with the half-space (`further` of `make_half_space`)."""
+    """Whether something else yields in series with the half-space (`further` of
+    `make_half_space`).
+    """
     size = (half_space.rows, half_space.cols, half_space.cell_x, half_space.cell_y)
     plain = love_coefficients(*size) / (numpy.pi * half_space.modulus)
     return _counts(half_space.influence - plain, half_space.influence)
@@ -288,7 +318,9 @@ def _counts(further: Field, influence: Field) -> bool:
 
 
 def _nearest_circulant(table: Field, rows: int, cols: int) -> Field:
-    """Eigenvalues of the circulant of `rows` x `cols` cells nearest to the convolution with an even table (T. Chan 1988)."""
+    """Eigenvalues of the circulant of `rows` x `cols` cells nearest to the convolution with an even
+    table (T. Chan 1988).
+    """
     for length in (rows, cols):
         near = numpy.arange(length)
         far = length - near

@@ -1,4 +1,6 @@
-"""One instant of a rolling pressure field in one compiled entry: predict, correct, certify, look outside the window, store."""
+"""One instant of a rolling pressure field in one compiled entry: predict, correct, certify, look
+outside the window, store.
+"""
 
 from __future__ import annotations
 
@@ -18,13 +20,17 @@ from contact_sim_pkg.pressure.field.solver import FieldRequest, total_of
 __all__ = ["InstantResult", "Start", "all_finite", "grown_window", "solve_instant", "store_window"]
 
 LEAST_FROM_START = 2
-"""Corrections of a start that is no prediction: on a window that has grown the first moves the new cells by its length only."""
+"""Corrections of a start that is no prediction: on a window that has grown the first moves the new
+cells by its length only.
+"""
 
 Values = NDArray[numpy.float64]
 
 
 class Start(NamedTuple):
-    """Where a solve starts: its window, the fields before, and the learned lengths of corrections."""
+    """Where a solve starts: its window, the fields before, and the learned lengths of
+    corrections.
+    """
 
     first_row: int
     first_col: int
@@ -38,12 +44,14 @@ class Start(NamedTuple):
 class InstantResult(NamedTuple):
     """Result of a solve from a prediction."""
 
-    certified: bool  # otherwise the field on the whole grid is a start, and nothing else means anything
+    # Otherwise the field on the whole grid is a start, and nothing else means anything
+    certified: bool
     corrections: int
     load: float  # [N]
     approach: float  # [m]
     residual: float  # [-]
-    window: tuple[int, int, int, int]  # first row, first column, rows, columns of the window that is needed
+    # First row, first column, rows, columns of the window that is needed
+    window: tuple[int, int, int, int]
     box: tuple[int, int, int, int]  # first and last row, first and last column of the contact
 
 
@@ -67,11 +75,12 @@ def solve_instant(
     start: Start,
     pressure: Field,
 ) -> InstantResult:
-    """Solve on the window of the size of `part` at the place of `start`; `pressure` of the whole grid is overwritten.
+    """Solve on the window of the size of `part` at the place of `start`; `pressure` of the whole
+    grid is overwritten.
 
-    gap: [rows, cols] [m] of the whole grid; pressure: [rows, cols] [Pa]; request: its iterations are corrections. The new
-    field is stored in `start.last` if this repeats an instant, else in `start.before`. What is not certified is put into
-    `pressure` as a start.
+    gap: [rows, cols] [m] of the whole grid; pressure: [rows, cols] [Pa]; request: its iterations
+    are corrections. The new field is stored in `start.last` if this repeats an instant, else in
+    `start.before`. What is not certified is put into `pressure` as a start.
     """
     rows, cols = part.rows, part.cols
     first_row, first_col, share = start.first_row, start.first_col, start.share
@@ -122,7 +131,8 @@ def load_heights(gap: Field, first_row: int, first_col: int, height: Field, line
     for i in range(rows):
         for j in range(cols):
             here = gap[first_row + i, first_col + j]
-            line[j] = here if here < line[j] else line[j]  # `min` propagates NaN, which takes four times as long
+            # `min` propagates NaN, which takes four times as long
+            line[j] = here if here < line[j] else line[j]
     least = numpy.inf
     for j in range(cols):
         least = min(least, line[j])
@@ -134,7 +144,9 @@ def load_heights(gap: Field, first_row: int, first_col: int, height: Field, line
 
 @kernel
 def put_start(workspace: SolverWorkspace, first_row: int, first_col: int, pressure: Field) -> None:
-    """Field after the corrections, as a start on the whole grid: positive and finite, zero elsewhere."""
+    """Field after the corrections, as a start on the whole grid: positive and finite, zero
+    elsewhere.
+    """
     rows, cols = workspace.pressure.shape
     pressure[:] = 0.0
     for i in range(rows):

@@ -1,8 +1,9 @@
-"""One iteration of the pressure-field solver (`pressure/field/solver.py`): evaluate, choose a direction, step, correct.
+"""One iteration of the pressure-field solver (`pressure/field/solver.py`): evaluate, choose a
+direction, step, correct.
 
-Pressure, clearance and direction differ from zero on the free cells only, about a fifth of a tire's grid. A list of them is
-kept, cells in contact first, and every sum runs over the list; whole grids are passed over only for the transforms, to
-update the surface and to look for cells that penetrate.
+Pressure, clearance and direction differ from zero on the free cells only, about a fifth of a tire's
+grid. A list of them is kept, cells in contact first, and every sum runs over the list; whole grids
+are passed over only for the transforms, to update the surface and to look for cells that penetrate.
 """
 
 from __future__ import annotations
@@ -30,7 +31,8 @@ __all__ = [
 ]
 
 ONE_BY_ONE = 64
-"""Clipped cells up to which their influence is summed directly: about the cost of one convolution."""
+"""Clipped cells up to which their influence is summed directly: about the cost of one convolution.
+"""
 
 Cells = NDArray[numpy.int64]
 Values = NDArray[numpy.float64]
@@ -41,7 +43,9 @@ class CellLists(NamedTuple):
 
     free: Cells  # cells in contact, then cells that penetrate without pressure
     left: Cells  # cells that were free and carry no pressure now
-    height: Values  # the workspace's fields of these names, the same memory as one row: compiles sooner than `ravel`
+    # The workspace's fields of these names, the same memory as one row: compiles sooner than
+    # `ravel`
+    height: Values
     pressure: Values
     surface: Values
     residual: Values
@@ -51,17 +55,21 @@ class CellLists(NamedTuple):
 
 
 class SolverWorkspace(NamedTuple):
-    """Buffers of one solve at a time; a second solve in another thread needs its own. Fields are [rows, cols]."""
+    """Buffers of one solve at a time; a second solve in another thread needs its own. Fields are
+    [rows, cols].
+    """
 
     buffers: Buffers
-    height: Field  # [m] gap above its lowest cell: differences keep their digits whatever the datum is
+    # [m] gap above its lowest cell: differences keep their digits whatever the datum is
+    height: Field
     pressure: Field  # [Pa]
     surface: Field  # [m] height + displacement
     residual: Field  # [m] clearance on the free cells, else 0
     filtered: Field  # [Pa] preconditioned residual
     direction: Field  # [Pa] search direction, 0 on cells that are not free
     response: Field  # [m] displacement of the search direction
-    residual_before: Values  # [m] clearance of the free cells one iteration earlier, in the order of their list
+    # [m] clearance of the free cells one iteration earlier, in the order of their list
+    residual_before: Values
     clipped: Values  # [Pa] pressure that the bound p >= 0 added to the cells of `left`
     cells: CellLists
 
@@ -119,9 +127,11 @@ def fresh_surface(half_space: HalfSpace, workspace: SolverWorkspace) -> None:
 
 @kernel
 def evaluate(workspace: SolverWorkspace, contact: int, left: int, approach: float, holds_load: bool) -> Evaluation:
-    """Residual of a field (and its approach, if the load is given); stores the clearance of the free cells.
+    """Residual of a field (and its approach, if the load is given); stores the clearance of the
+    free cells.
 
-    The first `contact` cells of the list are in contact, the first `left` of the other have just lost their pressure.
+    The first `contact` cells of the list are in contact, the first `left` of the other have just
+    lost their pressure.
     """
     pressure, residual = workspace.cells.pressure, workspace.cells.residual
     surface, height = workspace.cells.surface, workspace.cells.height
@@ -190,10 +200,11 @@ def join(workspace: SolverWorkspace, contact: int, approach: float) -> int:
 def search(
     half_space: HalfSpace, workspace: SolverWorkspace, count: int, slope_before: float, holds_load: bool
 ) -> tuple[float, float]:
-    """New search direction from the preconditioned clearance z; returns `sum z r`, for the next call, and `sum t r`.
+    """New search direction from the preconditioned clearance z; returns `sum z r`, for the next
+    call, and `sum t r`.
 
-    `slope_before` is that of the direction before, 0 to start again. Polak-Ribiere: `beta = sum z (r - r_before) /
-    slope_before`, at least 0. A direction that does not descend is replaced by -z.
+    `slope_before` is that of the direction before, 0 to start again. Polak-Ribiere: `beta = sum z
+    (r - r_before) / slope_before`, at least 0. A direction that does not descend is replaced by -z.
     """
     precondition(half_space, workspace.buffers, workspace.residual, workspace.filtered)
     residual, filtered = workspace.cells.residual, workspace.cells.filtered
@@ -216,7 +227,8 @@ def search(
 def advance_direction(workspace: SolverWorkspace, count: int, momentum: float, mean: float, holds_load: bool) -> float:
     """`t = -(z - mean) + momentum t` on the free cells; returns `sum t r`.
 
-    If the load is held the mean of t is removed as well: cells that left the free set had taken a part of it.
+    If the load is held the mean of t is removed as well: cells that left the free set had taken a
+    part of it.
     """
     residual, filtered = workspace.cells.residual, workspace.cells.filtered
     direction, free = workspace.cells.direction, workspace.cells.free
@@ -238,7 +250,9 @@ def advance_direction(workspace: SolverWorkspace, count: int, momentum: float, m
 
 @kernel
 def step(half_space: HalfSpace, workspace: SolverWorkspace, count: int, descent: float) -> float:
-    """Length of the step to the minimum along the direction, the surface moved by it; 0 if no step is possible."""
+    """Length of the step to the minimum along the direction, the surface moved by it; 0 if no step
+    is possible.
+    """
     direction, response = workspace.cells.direction, workspace.cells.response
     convolve(half_space, workspace.buffers, workspace.direction, workspace.response)
     free = workspace.cells.free
@@ -293,7 +307,9 @@ def move_surface(half_space: HalfSpace, workspace: SolverWorkspace, length: floa
 
 @kernel
 def hold_load(workspace: SolverWorkspace, contact: int, total: float) -> float:
-    """Scale the pressures so that they add up to `total` again; returns the factor, 1 where nothing is in contact."""
+    """Scale the pressures so that they add up to `total` again; returns the factor, 1 where nothing
+    is in contact.
+    """
     pressure, free = workspace.cells.pressure, workspace.cells.free
     present = 0.0
     for m in range(contact):

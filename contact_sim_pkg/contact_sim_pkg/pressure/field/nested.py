@@ -21,7 +21,9 @@ def halve(gap: Field, out: Field) -> None:
 
 @entry
 def double(pressure: Field, out: Field) -> tuple[int, int, int, int]:
-    """Bilinear interpolation to two by two cells each, zero where `pressure` is; returns the window, or no rows."""
+    """Bilinear interpolation to two by two cells each, zero where `pressure` is; returns the
+    window, or no rows.
+    """
     rows, cols = pressure.shape
     top, bottom, left, right = rows, -1, cols, -1
     for i in range(2 * rows):

@@ -1,8 +1,10 @@
-"""Does a field that was solved on a window hold outside it? Bounds first, direct sums where they leave a doubt.
+"""Does a field that was solved on a window hold outside it? Bounds first, direct sums where they
+leave a doubt.
 
-A window is enough if no cell outside it penetrates. The gap of a block of cells outside is not less than its lowest gap plus
-the displacement that the pressure of each block inside causes at the largest distance between the two. Only cells of blocks
-where that bound fails are evaluated, from the influence table. The bound holds for any influence that decays with distance.
+A window is enough if no cell outside it penetrates. The gap of a block of cells outside is not less
+than its lowest gap plus the displacement that the pressure of each block inside causes at the
+largest distance between the two. Only cells of blocks where that bound fails are evaluated, from
+the influence table. The bound holds for any influence that decays with distance.
 """
 
 from __future__ import annotations
@@ -21,7 +23,8 @@ BLOCK = 4
 """Cells along a side of a block."""
 
 MIDDLE, COARSE = 8, 16
-"""Cells along a side of larger blocks, which are tried first; each a multiple of the size before."""
+"""Cells along a side of larger blocks, which are tried first; each a multiple of the size before.
+"""
 
 MARGIN = 2
 """Cells around a contact that belong to its window."""
@@ -68,7 +71,9 @@ def make_block_sums(half_space: HalfSpace) -> BlockSums:
 
 @kernel
 def widened(rows: int, cols: int, top: int, bottom: int, left: int, right: int) -> tuple[int, int, int, int]:
-    """Window that holds a box of cells and the margin, with sides that the transforms are fast for."""
+    """Window that holds a box of cells and the margin, with sides that the transforms are fast
+    for.
+    """
     height = good_side(bottom - top + 1 + 2 * MARGIN, rows)
     width = good_side(right - left + 1 + 2 * MARGIN, cols)
     first_row = min(max((top + bottom + 1 - height) // 2, 0), rows - height)
@@ -97,7 +102,8 @@ def enclose(
 ) -> tuple[int, int, int, int]:
     """Smallest window that holds `window` and every cell outside it that penetrates.
 
-    Windows: first row, first column, rows, columns. gap: [rows, cols] [m]; approach: [m]; pressure: [rows, cols] [Pa].
+    Windows: first row, first column, rows, columns. gap: [rows, cols] [m]; approach: [m]; pressure:
+    [rows, cols] [Pa].
     """
     rows, cols = gap.shape
     first_row, first_col, window_rows, window_cols = window
@@ -139,7 +145,8 @@ def penetrating(
     block: tuple[int, int],
     least: float,
 ) -> tuple[int, int, int, int]:
-    """Box of the cells of a block that penetrate outside the window; all are displaced by `least` [m] at least.
+    """Box of the cells of a block that penetrate outside the window; all are displaced by `least`
+    [m] at least.
 
     window: first row and column, end row and column; block: its first row and column.
     """
@@ -160,7 +167,9 @@ def penetrating(
 
 @kernel
 def least_displacement(half_space: HalfSpace, blocks: BlockSums, i: int, j: int, side: int, depth: float) -> float:
-    """Displacement [m] that all of the `side` x `side` cells from (i, j) surely have, sought until it reaches `depth`."""
+    """Displacement [m] that all of the `side` x `side` cells from (i, j) surely have, sought until
+    it reaches `depth`.
+    """
     least = bound(half_space, blocks.coarse, i, j, side, depth)
     if least < depth:
         least = max(least, bound(half_space, blocks.middle, i, j, side, depth))
@@ -236,7 +245,9 @@ def lowest_of_block(gap: Field, i: int, j: int, most: float) -> float:
 
 @kernel
 def bound(half_space: HalfSpace, blocks: Blocks, i: int, j: int, side: int, depth: float) -> float:
-    """As `least_displacement`: the pressure of each block at the largest distance between two cells of the two blocks."""
+    """As `least_displacement`: the pressure of each block at the largest distance between two cells
+    of the two blocks.
+    """
     influence, loaded, far = half_space.influence, blocks.loaded, blocks.side - 1
     last_row, last_col = influence.shape[0] - 1, influence.shape[1] - 1
     total = 0.0
@@ -253,7 +264,9 @@ def bound(half_space: HalfSpace, blocks: Blocks, i: int, j: int, side: int, dept
 def displacement_at(
     half_space: HalfSpace, pressure: Field, line: Values, row: int, col: int, first_row: int, end_row: int
 ) -> float:
-    """Displacement [m] of one cell by a direct sum over the loaded rows; `line` [cols] is scratch."""
+    """Displacement [m] of one cell by a direct sum over the loaded rows; `line` [cols] is
+    scratch.
+    """
     cols, mirrored = pressure.shape[1], half_space.mirrored
     for j in range(cols):
         line[j] = 0.0

@@ -28,9 +28,9 @@ class PatchSummary(NamedTuple):
 def summarise(pressure: Field, cell_x: float, cell_y: float, origin_x: float, origin_y: float) -> PatchSummary:
     """Resultants of a pressure field.
 
-    pressure: [Pa], float64 [rows, cols], rows along x; cell_x, cell_y: size of a cell [m]; origin_x, origin_y: centre
-    of cell (0, 0) [m]. The sums run over the rows in order, so the same field gives the same bits.
-    Pressures >= 0, cells > 0. Not checked.
+    pressure: [Pa], float64 [rows, cols], rows along x; cell_x, cell_y: size of a cell [m];
+    origin_x, origin_y: centre of cell (0, 0) [m]. The sums run over the rows in order, so the same
+    field gives the same bits. Pressures >= 0, cells > 0. Not checked.
     """
     rows, cols = pressure.shape
     total, moment_x, moment_y, peak, cells = 0.0, 0.0, 0.0, 0.0, 0
@@ -58,10 +58,12 @@ def summarise(pressure: Field, cell_x: float, cell_y: float, origin_x: float, or
 def contact_area(pressure: Field, cell_x: float, cell_y: float) -> float:
     """Contact area [m^2] with the edge placed between cells; arguments as `summarise`.
 
-    Near the edge of an elastic contact p^2 grows like the distance from it (Johnson 1985, section 5.1). So along each line the
-    edge lies `d = p1^2 / (p2^2 - p1^2)` cells beyond the centre of the last cell in contact, p1 its pressure and p2 that of the
-    cell before, d at most 1; half a cell where the pressure does not fall outwards (a sharp-edged punch) and at the grid's
-    edge. A run of one cell counts as one cell. The mean of the areas by rows and by columns is returned. Not checked.
+    Near the edge of an elastic contact p^2 grows like the distance from it (Johnson 1985, section
+    5.1). So along each line the edge lies `d = p1^2 / (p2^2 - p1^2)` cells beyond the centre of the
+    last cell in contact, p1 its pressure and p2 that of the cell before, d at most 1; half a cell
+    where the pressure does not fall outwards (a sharp-edged punch) and at the grid's edge. A run of
+    one cell counts as one cell. The mean of the areas by rows and by columns is returned. Not
+    checked.
     """
     rows, cols = pressure.shape
     length = 0.0
@@ -82,7 +84,9 @@ def contact_area(pressure: Field, cell_x: float, cell_y: float) -> float:
 
 @kernel
 def beyond(pressure: Field, i: int, j: int, step_i: int, step_j: int) -> float:
-    """How far the contact reaches beyond its outermost cell (i, j) [cells], -1/2 to 1/2; the step leads inwards."""
+    """How far the contact reaches beyond its outermost cell (i, j) [cells], -1/2 to 1/2; the step
+    leads inwards.
+    """
     rows, cols = pressure.shape
     if not (0 <= i - step_i < rows and 0 <= j - step_j < cols and 0 <= i + step_i < rows and 0 <= j + step_j < cols):
         return 0.0

@@ -1,11 +1,13 @@
-"""The pressure field of a contact that repeats along both sides of its grid: an endless rough surface, one period of it.
+"""The pressure field of a contact that repeats along both sides of its grid: an endless rough
+surface, one period of it.
 
 The displacement of a periodic pressure is a product of transforms, `u(q) = 2 p(q) / (E* |q|)`,
 without padding. The mean displacement of an endless surface has no bound, so `u(0) = 0`: the
 approach is that of the *mean* planes. Free contacts, which is what a patch of a tire is, belong to
 `pressure/field/rolling.py`: images in a period four contact radii wide cost 3.4 % of its pressure.
 
-The solver is that of `pressure/field/solver.py`; it starts from the field on a grid of half as many cells each way.
+The solver is that of `pressure/field/solver.py`; it starts from the field on a grid of half as many
+cells each way.
 
 Source: Westergaard (1939), J. Appl. Mech. 6, A49; Johnson, Contact Mechanics (1985), eq. 13.1 ff.
 """
@@ -26,13 +28,16 @@ TOLERANCE_OF_HALF = 1e-2
 
 
 def make_periodic_half_space(rows: int, cols: int, cell_x: float, cell_y: float, modulus: float) -> HalfSpace:
-    """As `make_half_space` for one period of a surface that repeats after `rows` and `cols` cells. Errors as there."""
+    """As `make_half_space` for one period of a surface that repeats after `rows` and `cols` cells.
+    Errors as there.
+    """
     free = make_half_space(rows, cols, cell_x, cell_y, modulus)
     wave_x = 2.0 * numpy.pi * numpy.fft.fftfreq(rows, cell_x)[:, None]
     wave_y = 2.0 * numpy.pi * numpy.fft.rfftfreq(cols, cell_y)[None, :]
     wave = numpy.hypot(wave_x, wave_y)
     compliance = numpy.divide(2.0, modulus * wave, out=numpy.zeros_like(wave), where=wave > 0.0)
-    influence = numpy.fft.irfft2(compliance, (rows, cols))  # even along both sides, as the solver's direct sums ask for
+    # Even along both sides, as the solver's direct sums ask for
+    influence = numpy.fft.irfft2(compliance, (rows, cols))
     mirrored = numpy.concatenate([influence[:, :0:-1], influence], axis=1)
     return free._replace(
         influence=numpy.ascontiguousarray(influence),
@@ -53,7 +58,9 @@ class PeriodicField:
         self._gap_of_half: Field = numpy.zeros((half_space.rows // 2, half_space.cols // 2))
 
     def solve_at_load(self, gap: Field, load: float, tolerance: float, max_iterations: int) -> FieldResult:
-        """As `field_solver.solve_at_load`, into `pressure`. A period has no edge, so the status EDGE does not occur."""
+        """As `field_solver.solve_at_load`, into `pressure`. A period has no edge, so the status
+        EDGE does not occur.
+        """
         self._start(gap, load, max_iterations)
         result = solve_at_load(
             self.half_space, self._workspace, gap, load, tolerance, max_iterations, self.pressure

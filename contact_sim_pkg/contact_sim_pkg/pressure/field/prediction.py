@@ -1,12 +1,15 @@
-"""Prediction of a field from the two before it: pressure and displacement, carried along with the road.
+"""Prediction of a field from the two before it: pressure and displacement, carried along with the
+road.
 
-The roughness of the road is carried through the contact, so the field changes slowly in the *road's* frame. Pressure p and
-displacement u = K p of the two fields before, shifted by the cells travelled, are extrapolated by the same amount,
+The roughness of the road is carried through the contact, so the field changes slowly in the
+*road's* frame. Pressure p and displacement u = K p of the two fields before, shifted by the cells
+travelled, are extrapolated by the same amount,
 
     p = p1 + t (p1 - p2),    u = u1 + t (u1 - u2),    t = EXTRAPOLATION,
 
-so that u = K p still holds, without a convolution: as long as negative pressures are left as they are. Both are scaled by one
-number, to the load where that is given and to the least energy, `sum p (d - g) / sum p u`, where the approach d is.
+so that u = K p still holds, without a convolution: as long as negative pressures are left as they
+are. Both are scaled by one number, to the load where that is given and to the least energy, `sum p
+(d - g) / sum p u`, where the approach d is.
 """
 
 from __future__ import annotations
@@ -23,7 +26,9 @@ from contact_sim_pkg.pressure.field.iteration import SolverWorkspace
 __all__ = ["EXTRAPOLATION", "PreviousField", "make_previous_field", "predict", "scale_to", "start_from", "store"]
 
 EXTRAPOLATION = 0.75
-"""Full extrapolation, 1, carries more of the errors of the fields before into the next; chosen by error and convolutions."""
+"""Full extrapolation, 1, carries more of the errors of the fields before into the next; chosen by
+error and convolutions.
+"""
 
 SCALES = (0.5, 2.0)
 """Least and largest factor of a prediction at a given approach."""
@@ -32,11 +37,14 @@ Place = NDArray[numpy.int64]
 
 
 class PreviousField(NamedTuple):
-    """A field that was solved on a window of the whole grid; outside it the pressure is zero and u is not known."""
+    """A field that was solved on a window of the whole grid; outside it the pressure is zero and u
+    is not known.
+    """
 
     pressure: Field  # [Pa] [rows, cols] of the whole grid, meant within the window only
     displacement: Field  # [m] the same
-    place: Place  # first row, first column, end row, end column of the window; cells travelled since
+    # First row, first column, end row, end column of the window; cells travelled since
+    place: Place
 
 
 def make_previous_field(half_space: HalfSpace) -> PreviousField:
@@ -49,7 +57,9 @@ def make_previous_field(half_space: HalfSpace) -> PreviousField:
 def predict(
     workspace: SolverWorkspace, first_row: int, first_col: int, last: PreviousField, before: PreviousField, share: float
 ) -> None:
-    """Prediction on the window at (first_row, first_col): pressure, and u in `surface`, infinite where it is not known."""
+    """Prediction on the window at (first_row, first_col): pressure, and u in `surface`, infinite
+    where it is not known.
+    """
     pressure, surface = workspace.pressure, workspace.surface
     rows, cols = pressure.shape
     for i in range(rows):
@@ -82,7 +92,9 @@ def start_from(
 
 @kernel
 def stored_part(field: PreviousField, row: int, first_col: int, cols: int) -> tuple[int, int, int]:
-    """Row of a stored field that lies at `row` now, and the first and end column of a window's row that it holds."""
+    """Row of a stored field that lies at `row` now, and the first and end column of a window's row
+    that it holds.
+    """
     top, start, bottom, end, moved = field.place
     row += moved
     if not top <= row < bottom:
@@ -92,7 +104,8 @@ def stored_part(field: PreviousField, row: int, first_col: int, cols: int) -> tu
 
 @kernel
 def scale_to(workspace: SolverWorkspace, approach: float, total: float) -> bool:
-    """Scale the prediction to the sum `total` [Pa], or where that is negative to the approach; u becomes the surface.
+    """Scale the prediction to the sum `total` [Pa], or where that is negative to the approach; u
+    becomes the surface.
 
     False where it is of no use.
     """
@@ -122,7 +135,8 @@ def store(
 ) -> tuple[int, int, int, int]:
     """Store a solved window, and write its pressure into the whole grid, zero around it.
 
-    Returns first and last row, first and last column of the contact; where there is none the last are negative.
+    Returns first and last row, first and last column of the contact; where there is none the last
+    are negative.
     """
     rows, cols = workspace.pressure.shape
     field.place[0], field.place[1] = first_row, first_col

@@ -1,11 +1,14 @@
-"""The pressure field of a contact that rolls: each field starts from a prediction, on the cells that it needs.
+"""The pressure field of a contact that rolls: each field starts from a prediction, on the cells
+that it needs.
 
-Prediction and its displacement come from the two fields before (`pressure/field/prediction.py`); corrections follow, each certified
-by its own convolution (`pressure/field/follow.py`). Where that does not converge the solver of `pressure/field/solver.py` goes on.
-Without a field before the start is the field on a grid of half as many cells each way, itself started like that.
+Prediction and its displacement come from the two fields before (`pressure/field/prediction.py`);
+corrections follow, each certified by its own convolution (`pressure/field/follow.py`). Where that
+does not converge the solver of `pressure/field/solver.py` goes on. Without a field before the start
+is the field on a grid of half as many cells each way, itself started like that.
 
-Window: the solver works on the box of the contact before and a margin. A window is enough if no cell outside it penetrates,
-which is checked after each solve (`pressure/field/outside.py`). Where one penetrates the window grows and the solve goes on.
+Window: the solver works on the box of the contact before and a margin. A window is enough if no
+cell outside it penetrates, which is checked after each solve (`pressure/field/outside.py`). Where
+one penetrates the window grows and the solve goes on.
 """
 
 from __future__ import annotations
@@ -53,10 +56,14 @@ MOST_TRAVEL = 0.1
 NOWHERE = (0, -1, 0, -1)
 
 NEW, REPEAT, START = 0, 1, 2
-"""Lengths of corrections are learned apart for a new instant, another solve at the same, and a start from nothing."""
+"""Lengths of corrections are learned apart for a new instant, another solve at the same, and a
+start from nothing.
+"""
 
 FEW_CORRECTIONS = 2
-"""Of a grid where a belt yields beside the half-space: corrections of learned length do not converge there, gradients do."""
+"""Of a grid where a belt yields beside the half-space: corrections of learned length do not
+converge there, gradients do.
+"""
 
 FROM_PRESSURE = -1.0
 """In place of a share of extrapolation: start from the pressure on the whole grid."""
@@ -68,12 +75,15 @@ Box = tuple[int, int, int, int]
 class RollingField:
     """One pressure field, and the fields of the two instants before. Rows lie along the travel.
 
-    `roll` begins an instant and sets how far the road moved, `solve_at_load` or `solve_at_approach` solves there; `pressure`
-    [Pa] is the field. A solve without `roll` repeats the instant: it starts from the last field, which it replaces.
+    `roll` begins an instant and sets how far the road moved, `solve_at_load` or `solve_at_approach`
+    solves there; `pressure` [Pa] is the field. A solve without `roll` repeats the instant: it
+    starts from the last field, which it replaces.
     """
 
     def __init__(self, half_space: HalfSpace) -> None:
-        """Take the whole grid; tables of a window's size are made when it first comes (about 1 ms) and kept."""
+        """Take the whole grid; tables of a window's size are made when it first comes (about 1 ms)
+        and kept.
+        """
         self.half_space = half_space
         self.pressure: Field = numpy.zeros((half_space.rows, half_space.cols))
         self._last, self._before = make_previous_field(half_space), make_previous_field(half_space)
@@ -93,7 +103,9 @@ class RollingField:
         return sum(int(part.workspace.buffers.convolutions[0]) for part in self._parts.values())
 
     def roll(self, cells: int) -> None:
-        """A new instant: the road moved by `cells` rows towards row 0 since the last field; negative: the other way."""
+        """A new instant: the road moved by `cells` rows towards row 0 since the last field;
+        negative: the other way.
+        """
         self._cells = int(cells) + (self._cells or 0)
 
     def reset(self) -> None:
@@ -103,11 +115,15 @@ class RollingField:
         self.pressure.fill(0.0)
 
     def solve_at_load(self, gap: Field, load: float, tolerance: float, max_iterations: int) -> FieldResult:
-        """As `pressure/field/solver.py:solve_at_load`, into `pressure`. BAD_INPUT leaves the fields before as they were."""
+        """As `pressure/field/solver.py:solve_at_load`, into `pressure`. BAD_INPUT leaves the fields
+        before as they were.
+        """
         return self._solve(gap, FieldRequest(float(load), True, float(tolerance), int(max_iterations)))
 
     def solve_at_approach(self, gap: Field, approach: float, tolerance: float, max_iterations: int) -> FieldResult:
-        """As `pressure/field/solver.py:solve_at_approach`, into `pressure`. BAD_INPUT leaves the fields before as they were."""
+        """As `pressure/field/solver.py:solve_at_approach`, into `pressure`. BAD_INPUT leaves the
+        fields before as they were.
+        """
         return self._solve(gap, FieldRequest(float(approach), False, float(tolerance), int(max_iterations)))
 
     def _solve(self, gap: Field, request: FieldRequest) -> FieldResult:
@@ -121,7 +137,8 @@ class RollingField:
         share, lengths = (0.0, REPEAT) if repeats else (EXTRAPOLATION if self._instants > 1 else 0.0, NEW)
         if window is None:
             window, share, lengths = self._start(gap, request), FROM_PRESSURE, START
-        # Correct on a window that grows until no cell outside penetrates; the solver goes on where that fails.
+        # Correct on a window that grows until no cell outside penetrates; the solver goes on where
+        # that fails.
         while True:
             start = Start(
                 first_row=window.first_row,
@@ -143,7 +160,9 @@ class RollingField:
             window, share, lengths = GridWindow(*found.window), FROM_PRESSURE, START
 
     def _begin(self) -> bool:
-        """Carry the fields before to where the road is now; whether this is another solve at the same instant."""
+        """Carry the fields before to where the road is now; whether this is another solve at the
+        same instant.
+        """
         repeats = self._cells is None and self._instants > 0
         for field in (self._last, self._before):
             field.place[4] += self._cells or 0
@@ -158,7 +177,9 @@ class RollingField:
             self._instants = min(self._instants + 1, 2)
 
     def _expected(self) -> GridWindow | None:
-        """Where the contact will be: around the place of the last; None where no field before is of use."""
+        """Where the contact will be: around the place of the last; None where no field before is of
+        use.
+        """
         if self._instants == 0 or self._box == NOWHERE:
             return None
         top, bottom, left, right = self._box
@@ -166,7 +187,9 @@ class RollingField:
         return window if abs(self._last.place[4]) <= MOST_TRAVEL * window.rows else None
 
     def _start(self, gap: Field, request: FieldRequest) -> GridWindow:
-        """Start from the field on a grid of half as many cells each way, itself started like that, or from nothing."""
+        """Start from the field on a grid of half as many cells each way, itself started like that,
+        or from nothing.
+        """
         half, whole = self._half, GridWindow(0, 0, self.half_space.rows, self.half_space.cols)
         if half is None:
             self.pressure.fill(0.0)
@@ -183,7 +206,9 @@ class RollingField:
         return solve_instant(self.half_space, part.half_space, part.workspace, gap, request, start, self.pressure)
 
     def _settle(self, window: GridWindow, gap: Field, request: FieldRequest, spent: int, repeats: bool) -> FieldResult:
-        """Solve from the start in `pressure`, on windows that grow until no cell outside penetrates."""
+        """Solve from the start in `pressure`, on windows that grow until no cell outside
+        penetrates.
+        """
         result = self._solve_in(window, gap, request, spent)
         while result.status in (CONVERGED, EDGE):
             grown = self._grown(window, gap, result.approach)
@@ -241,7 +266,9 @@ def _half_of(whole: HalfSpace) -> RollingField | None:
 
 @cache
 def compile_now() -> None:
-    """Compile all of it on a grid of four cells: a path that was never taken may be needed in the middle of a run."""
+    """Compile all of it on a grid of four cells: a path that was never taken may be needed in the
+    middle of a run.
+    """
     half_space, field, wide = make_half_space(2, 2, 1.0, 1.0, 1.0), numpy.zeros((2, 2)), numpy.zeros((4, 4))
     part, previous = make_part(half_space, 2, 2), make_previous_field(half_space)
     all_finite(field)

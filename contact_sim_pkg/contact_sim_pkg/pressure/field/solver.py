@@ -1,21 +1,24 @@
 """The pressure field of a one-sided contact on a half-space, for a given approach or a given load.
 
-With p the pressure, u = K p the displacement (`pressure/field/halfspace.py`), g0 the gap of the undeformed surfaces and d the
-approach, the clearance `c = u + g0 - d` satisfies in each cell `p >= 0, c >= 0, p c = 0`.
+With p the pressure, u = K p the displacement (`pressure/field/halfspace.py`), g0 the gap of the
+undeformed surfaces and d the approach, the clearance `c = u + g0 - d` satisfies in each cell `p >=
+0, c >= 0, p c = 0`.
 
-Method: preconditioned conjugate gradients (Polak-Ribiere, beta >= 0) on the free cells {p > 0} and {p = 0, c < 0}: a
-penetrating cell joins the search direction without a restart. The displacement of the direction updates the clearance,
-so an ordinary iteration takes one convolution. Where the step would pull, p is set to zero and the clearance is
-corrected: cell by cell from the influence table when few are concerned, by one more convolution when many are. A given
-load is held by removing the mean of the direction and rescaling; the approach is then the mean of u + g0 in contact.
-Conjugate gradients with active set: Polonsky and Keer (1999), Wear 231, 206. Preconditioner: |q|, the symbol of K^-1.
+Method: preconditioned conjugate gradients (Polak-Ribiere, beta >= 0) on the free cells {p > 0} and
+{p = 0, c < 0}: a penetrating cell joins the search direction without a restart. The displacement of
+the direction updates the clearance, so an ordinary iteration takes one convolution. Where the step
+would pull, p is set to zero and the clearance is corrected: cell by cell from the influence table
+when few are concerned, by one more convolution when many are. A given load is held by removing the
+mean of the direction and rescaling; the approach is then the mean of u + g0 in contact. Conjugate
+gradients with active set: Polonsky and Keer (1999), Wear 231, 206. Preconditioner: |q|, the symbol
+of K^-1.
 
 The residual that is returned is computed from the returned pressure by a convolution of its own:
 
     residual = (sum p |c| + max(0, -c over p = 0) sum p) / sum p u
 
-a number without unit, 0 for the exact field. `sum p u > 0` is twice the elastic energy, so nothing is divided by the
-roughness or the size of the grid, and a flat surface is no special case.
+a number without unit, 0 for the exact field. `sum p u > 0` is twice the elastic energy, so nothing
+is divided by the roughness or the size of the grid, and a flat surface is no special case.
 """
 
 from __future__ import annotations
@@ -106,11 +109,13 @@ def solve_at_approach(
 ) -> FieldResult:
     """Pressure field at a given approach.
 
-    gap: height of the undeformed gap [m], float64 [rows, cols], any datum; approach: rigid approach [m] against that
-    datum; tolerance: on the residual [-]; pressure: float64 [rows, cols] [Pa], in: start (zeros when nothing is known),
-    out: the field, exactly zero where there is no contact. Without contact the field and the load are zero and the
-    status is CONVERGED. With EDGE and NOT_CONVERGED the field is returned as it is; BAD_INPUT leaves it untouched.
-    Raises `ValueError` for arrays of the wrong shape or type, a tolerance below 0, iterations that are no whole number >= 0.
+    gap: height of the undeformed gap [m], float64 [rows, cols], any datum; approach: rigid approach
+    [m] against that datum; tolerance: on the residual [-]; pressure: float64 [rows, cols] [Pa], in:
+    start (zeros when nothing is known), out: the field, exactly zero where there is no contact.
+    Without contact the field and the load are zero and the status is CONVERGED. With EDGE and
+    NOT_CONVERGED the field is returned as it is; BAD_INPUT leaves it untouched. Raises `ValueError`
+    for arrays of the wrong shape or type, a tolerance below 0, iterations that are no whole number
+    >= 0.
     """
     _refuse(half_space, gap, pressure, tolerance, max_iterations)
     request = FieldRequest(float(approach), False, float(tolerance), int(max_iterations))
@@ -126,7 +131,8 @@ def solve_at_load(
     max_iterations: int,
     pressure: Field,
 ) -> FieldResult:
-    """Pressure field that carries a given load [N] >= 0, and its approach; the rest as `solve_at_approach`.
+    """Pressure field that carries a given load [N] >= 0, and its approach; the rest as
+    `solve_at_approach`.
 
     Zero load gives a zero field and the approach of first touch, the smallest gap.
     """
@@ -163,7 +169,9 @@ def _refuse(half_space: HalfSpace, gap: Field, pressure: Field, tolerance: float
 
 @entry
 def first_bad_cell(gap: Field) -> int:
-    """Row-major index of the first cell that is not finite, or -1. The array has two axes, which is not checked."""
+    """Row-major index of the first cell that is not finite, or -1. The array has two axes, which is
+    not checked.
+    """
     rows, cols = gap.shape
     for i in range(rows):
         for j in range(cols):
@@ -243,10 +251,11 @@ def total_of(pressure: Field) -> float:
 
 @kernel
 def start_at_load(half_space: HalfSpace, height: Field, load: float, total: float, pressure: Field) -> None:
-    """Scale the start pressure to the load; without one, take a pressure proportional to an overlap that carries it.
+    """Scale the start pressure to the load; without one, take a pressure proportional to an overlap
+    that carries it.
 
-    The overlap's volume V and area A carry `0.6 E* V / sqrt(A / pi)`, exact for a sphere (4 sqrt(2) / (3 pi)); its
-    approach is found by bisection. Beyond the highest cell the whole grid is loaded.
+    The overlap's volume V and area A carry `0.6 E* V / sqrt(A / pi)`, exact for a sphere (4 sqrt(2)
+    / (3 pi)); its approach is found by bisection. Beyond the highest cell the whole grid is loaded.
     """
     rows, cols = height.shape
     present = total_of(pressure)
@@ -293,7 +302,9 @@ def iterate(
     tolerance: float,
     max_iterations: int,
 ) -> FieldResult:
-    """Conjugate gradients from the given pressure; `total` [Pa] is the sum of p to hold, or -1 for a given approach."""
+    """Conjugate gradients from the given pressure; `total` [Pa] is the sum of p to hold, or -1 for
+    a given approach.
+    """
     holds_load = total > 0.0
     refresh, fresh, blocked = True, False, False
     best, stale, slope, iterations = numpy.inf, 0, 0.0, 0
@@ -319,7 +330,8 @@ def iterate(
         blocked = length == 0.0
         contact, left = part(workspace, state.free, length)
         iterations += 1
-        refresh = left > ONE_BY_ONE  # as dear as summing the clipped pressure, and what certifies as well
+        # As dear as summing the clipped pressure, and what certifies as well
+        refresh = left > ONE_BY_ONE
         fresh = False
         if not refresh:
             move_surface(half_space, workspace, length, left)

@@ -1,7 +1,8 @@
-"""The fast Fourier transforms of compiled code: `rocket_fft`, imported without what it does for SciPy.
+"""The fast Fourier transforms of compiled code: `rocket_fft`, imported without what it does for
+SciPy.
 
-Where SciPy is installed, `rocket_fft` imports `scipy.fft` to serve it too. The core calls its own functions only, and that
-import takes as long as a quarter of a node's start.
+Where SciPy is installed, `rocket_fft` imports `scipy.fft` to serve it too. The core calls its own
+functions only, and that import takes as long as a quarter of a node's start.
 """
 
 from __future__ import annotations

@@ -1,10 +1,12 @@
-"""The part of a grid that can be in contact: a field at a given approach is solved there, and is zero elsewhere.
+"""The part of a grid that can be in contact: a field at a given approach is solved there, and is
+zero elsewhere.
 
-Pressure pushes the surface away, never towards the other body, so a cell in contact has `gap = approach - u < approach`.
-The contact therefore lies among the cells whose gap is below the approach, and the solution on any window that holds all
-of them *is* the solution on the whole grid. A tire touches about an eighth of its grid and the window is about a third, so the
-transforms take a third of the time. One cell more on each side keeps the contact off the window's edge, except where that
-is the grid's edge.
+Pressure pushes the surface away, never towards the other body, so a cell in contact has `gap =
+approach - u < approach`. The contact therefore lies among the cells whose gap is below the
+approach, and the solution on any window that holds all of them *is* the solution on the whole grid.
+A tire touches about an eighth of its grid and the window is about a third, so the transforms take a
+third of the time. One cell more on each side keeps the contact off the window's edge, except where
+that is the grid's edge.
 
 Windows come in sizes of `STEP` cells, so that a handful of influence tables serves a whole run.
 """
@@ -33,7 +35,9 @@ STEP = 4
 
 
 class GridWindow(NamedTuple):
-    """Rows `first_row ... first_row + rows - 1` and columns alike; no rows where nothing overlaps."""
+    """Rows `first_row ... first_row + rows - 1` and columns alike; no rows where nothing
+    overlaps.
+    """
 
     first_row: int
     first_col: int
@@ -51,7 +55,9 @@ class Part(NamedTuple):
 
 
 class WindowedSolver:
-    """Fields on one grid. Tables of a window's size are made when it first comes (about 1 ms) and kept."""
+    """Fields on one grid. Tables of a window's size are made when it first comes (about 1 ms) and
+    kept.
+    """
 
     def __init__(self, half_space: HalfSpace) -> None:
         """Take the whole grid."""
@@ -85,7 +91,9 @@ class WindowedSolver:
     def solve_at_load(
         self, gap: Field, load: float, tolerance: float, max_iterations: int, pressure: Field
     ) -> FieldResult:
-        """As `field_solver.solve_at_load`, on the whole grid: without the approach no window is known to hold the contact."""
+        """As `field_solver.solve_at_load`, on the whole grid: without the approach no window is
+        known to hold the contact.
+        """
         return solve_at_load(self.half_space, self._whole, gap, load, tolerance, max_iterations, pressure)
 
     def _part(self, rows: int, cols: int) -> Part:
@@ -103,9 +111,11 @@ def make_part(whole: HalfSpace, rows: int, cols: int) -> Part:
 
 @entry
 def overlap_window(gap: Field, approach: float, pressure: Field) -> tuple[int, int, int, int]:
-    """Smallest window of an allowed size that holds every cell with `gap < approach` [m] and its neighbours.
+    """Smallest window of an allowed size that holds every cell with `gap < approach` [m] and its
+    neighbours.
 
-    No rows where no cell overlaps; the whole grid where a number is not finite, which the solver refuses.
+    No rows where no cell overlaps; the whole grid where a number is not finite, which the solver
+    refuses.
     """
     rows, cols = gap.shape
     if not acceptable(gap, pressure):

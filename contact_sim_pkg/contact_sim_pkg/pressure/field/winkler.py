@@ -1,11 +1,13 @@
-"""Winkler bed: independent springs, `p = k max(approach - gap, 0)`, the cheapest pressure field of a rough contact.
+"""Winkler bed: independent springs, `p = k max(approach - gap, 0)`, the cheapest pressure field of
+a rough contact.
 
 A cell knows nothing of its neighbours. With k from Hertz, load and approach on a smooth road are
 right; on a sphere the contact is sqrt(2) times too wide and the peak pressure 2/3 of Hertz's. Use
 the pressure field (`pressure/field/solver.py`) where the shape of the pressure matters.
 
-At a given load the approach is exact: the load is a convex, piecewise linear function of it, on which Newton steps from
-the right end after finitely many, at most one for each cell (about ten in practice).
+At a given load the approach is exact: the load is a convex, piecewise linear function of it, on
+which Newton steps from the right end after finitely many, at most one for each cell (about ten in
+practice).
 
 Source: Johnson (1985), Contact Mechanics, section 4.3.
 """
@@ -34,7 +36,8 @@ class WinklerResult(NamedTuple):
 
 
 def bed_stiffness(curvature_a: float, curvature_b: float, modulus: float, load: float) -> float:
-    """`k = 2 P sqrt(A B) / (pi approach^2)` [Pa/m]: the bed that has Hertz's approach at this load on a smooth gap.
+    """`k = 2 P sqrt(A B) / (pi approach^2)` [Pa/m]: the bed that has Hertz's approach at this load
+    on a smooth gap.
 
     curvature_a, curvature_b: of the gap A x^2 + B y^2 [1/m]; modulus: E* [Pa]; load: P [N] > 0.
     Raises `ValueError` for P <= 0 and a stiffness that is no number, else as `hertz_contact`.
@@ -56,9 +59,10 @@ def winkler_at_approach(
 ) -> WinklerResult:
     """Pressure field at a given approach.
 
-    gap: height of the undeformed gap [m], float64 [rows, cols], any datum; stiffness: k [Pa/m]; cell_x, cell_y [m];
-    approach: [m] against the datum; pressure: float64 [rows, cols] [Pa], overwritten.
-    Raises `ValueError` for wrong shapes and values that are not finite or not positive.
+    gap: height of the undeformed gap [m], float64 [rows, cols], any datum; stiffness: k [Pa/m];
+    cell_x, cell_y [m]; approach: [m] against the datum; pressure: float64 [rows, cols] [Pa],
+    overwritten. Raises `ValueError` for wrong shapes and values that are not finite or not
+    positive.
     """
     _refuse(gap, stiffness, cell_x, cell_y, approach, "approach [m]", pressure)
     return press(gap, float(stiffness), float(cell_x * cell_y), float(approach), pressure)
@@ -67,7 +71,9 @@ def winkler_at_approach(
 def winkler_at_load(
     gap: Field, stiffness: float, cell_x: float, cell_y: float, load: float, pressure: Field
 ) -> WinklerResult:
-    """Pressure field that carries a load [N]; for load <= 0 zeros and the approach of first touch. Rest as before."""
+    """Pressure field that carries a load [N]; for load <= 0 zeros and the approach of first touch.
+    Rest as before.
+    """
     _refuse(gap, stiffness, cell_x, cell_y, load, "load [N]", pressure)
     cell = float(cell_x * cell_y)
     approach = approach_at_load(gap, float(stiffness) * cell, float(load))
@@ -76,7 +82,9 @@ def winkler_at_load(
 
 @entry
 def press(gap: Field, stiffness: float, cell: float, approach: float, pressure: Field) -> WinklerResult:
-    """`winkler_at_approach` without its checks, for compiled callers; cell: area of a cell [m^2]."""
+    """`winkler_at_approach` without its checks, for compiled callers; cell: area of a cell
+    [m^2].
+    """
     rows, cols = gap.shape
     total, cells = 0.0, 0
     for i in range(rows):
@@ -92,9 +100,11 @@ def press(gap: Field, stiffness: float, cell: float, approach: float, pressure: 
 
 @entry
 def approach_at_load(gap: Field, cell_stiffness: float, load: float) -> float:
-    """Approach [m] at which the bed carries a load [N]; cell_stiffness: k times the area of a cell [N/m].
+    """Approach [m] at which the bed carries a load [N]; cell_stiffness: k times the area of a cell
+    [N/m].
 
-    Newton from the highest cell down: `approach = (P / (k cell) + sum of the gaps below it) / (their number)`.
+    Newton from the highest cell down: `approach = (P / (k cell) + sum of the gaps below it) /
+    (their number)`.
     """
     low, high = limits(gap)
     if not load > 0.0:
@@ -124,7 +134,9 @@ def limits(gap: Field) -> tuple[float, float]:
 
 @kernel
 def below(gap: Field, datum: float, approach: float) -> tuple[int, float]:
-    """Number of cells with `gap - datum <= approach` and the sum of their `gap - datum`, row by row."""
+    """Number of cells with `gap - datum <= approach` and the sum of their `gap - datum`, row by
+    row.
+    """
     rows, cols = gap.shape
     cells, total = 0, 0.0
     for i in range(rows):

@@ -11,7 +11,7 @@ import math
 
 import numpy
 
-from contact_sim_pkg.compiled.jit import kernel, piece
+from contact_sim_pkg.compiled.jit import inline_kernel, kernel
 from contact_sim_pkg.rigid.problem import SPACE
 
 TURNS = 20
@@ -19,7 +19,7 @@ SETTLED = 1.0e-15
 STOPS = 1.0e-7  # of the greatest velocity: slip below it is left to the solvers
 
 
-@piece
+@inline_kernel
 def _delassus(J, W, row, a, b):
     """Element (a, b) of ``J W J'`` of one contact of one body."""
     total = W[0, 0] if a == b else 0.0
@@ -29,7 +29,7 @@ def _delassus(J, W, row, a, b):
     return total
 
 
-@piece
+@inline_kernel
 def _stop_all(nn, n1, n2, t11, t12, t22, q_n, q_1, q_2):
     """Impulse after which the contact point rests: Cramer's rule."""
     i_nn, i_n1, i_n2 = t11 * t22 - t12 * t12, n2 * t12 - n1 * t22, n1 * t12 - n2 * t11

@@ -17,11 +17,11 @@ import numpy
 
 from contact_sim_pkg.compiled.arrays import Vector
 from contact_sim_pkg.compiled.jit import kernel
-from contact_sim_pkg.integrate.interface import register
+from contact_sim_pkg.integrate.interface import register_rig
 from contact_sim_pkg.laws.elastic_law import elastic_energy, elastic_force
-from contact_sim_pkg.laws.normal_force import normal_force, tension_margin
+from contact_sim_pkg.laws.normal_force import normal_force, tension_event
 from contact_sim_pkg.laws.parameters import Friction, NormalDissipative, NormalElastic
-from contact_sim_pkg.laws.point_friction import point_friction, point_stick_margin
+from contact_sim_pkg.laws.point_friction import point_friction, point_stick_event
 from contact_sim_pkg.rigid.body import Ground, Motion, RigidBody, contact_count, contact_rows
 from contact_sim_pkg.rigid.body_state import fill_motion, fill_rates, fill_turn, places_of
 from contact_sim_pkg.rigid.motion.motion import contact_velocities
@@ -138,7 +138,7 @@ def _rate(rig, drive, mode, time, state, out):
 
 
 @kernel
-def _margins(rig, drive, mode, time, state, derivative, out):
+def _event_functions(rig, drive, mode, time, state, derivative, out):
     look(rig, state)
     points, width = rig.gap.shape[0], rig.body.width
     for point in range(points):
@@ -147,11 +147,11 @@ def _margins(rig, drive, mode, time, state, derivative, out):
         if out[point] <= 0.0:
             continue
         loss = NormalDissipative(mode[point])
-        out[points + point] = tension_margin(rig.contact.elastic, loss, -rig.gap[point], -rig.u[point * width], 1.0)
+        out[points + point] = tension_event(rig.contact.elastic, loss, -rig.gap[point], -rig.u[point * width], 1.0)
         normal = _normal(rig, mode, point)
         if normal * rig.contact.friction.coefficient_kinetic > 0.0:
             s_1, s_2, v_1, v_2 = _tangents(rig, state, point)
-            out[2 * points + point] = point_stick_margin(rig.contact.friction, normal, s_1, s_2, v_1, v_2)
+            out[2 * points + point] = point_stick_event(rig.contact.friction, normal, s_1, s_2, v_1, v_2)
 
 
 @kernel
@@ -161,18 +161,18 @@ def set_loss(rig, mode, point):
 
 
 @kernel
-def _switch(rig, drive, mode, time, state, event, side):
+def _mode_transition(rig, drive, mode, time, state, event, direction):
     points, width = rig.gap.shape[0], rig.body.width
     if event >= points:
-        return side
+        return direction
     look(rig, state)
-    if side > 0.0:
+    if direction > 0.0:
         set_loss(rig, mode, event)
     else:
         place = _first_deflection(rig) + event * (width - 1)
         for k in range(width - 1):
             state[place + k] = 0.0
-    return side
+    return direction
 
 
 @kernel
@@ -192,4 +192,4 @@ def stored_energy(rig, state):
     return normal, springs
 
 
-register(CompliantBody, _rate, _margins, _switch, _need_rate)
+register_rig(CompliantBody, _rate, _event_functions, _mode_transition, _need_rate)

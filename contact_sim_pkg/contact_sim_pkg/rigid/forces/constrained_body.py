@@ -13,7 +13,7 @@ from __future__ import annotations
 import math
 
 from contact_sim_pkg.compiled.jit import borrowing_kernel
-from contact_sim_pkg.integrate.interface import register
+from contact_sim_pkg.integrate.interface import register_rig
 from contact_sim_pkg.rigid.body import RigidBody, lies_on
 from contact_sim_pkg.rigid.body_state import fill_rates, places_of
 from contact_sim_pkg.rigid.forces.constraint_forces import (
@@ -39,14 +39,14 @@ from contact_sim_pkg.rigid.forces.constraint_forces import (
 from contact_sim_pkg.rigid.problem import PLANE
 
 GOING, ENDED = 0, 1  # the last of the modes: whether every mode still lasts
-MARGINS_A_CONTACT = 2
+EVENTS_A_CONTACT = 2
 SLACK = 1.0e-10  # of the speed: so far back slip may go, as its start and its end are known to rounding alone
 LARGEST_MARGIN = 1.0e3  # of a gap, so that its integral stays small and regula falsi finds where it closes
 
 
 def held_states(body: RigidBody, contacts: int) -> int:
     """Number of state variables."""
-    return places_of(body.width) + len(body.load) + 2 + contacts * (body.width + MARGINS_A_CONTACT)
+    return places_of(body.width) + len(body.load) + 2 + contacts * (body.width + EVENTS_A_CONTACT)
 
 
 @borrowing_kernel
@@ -60,7 +60,7 @@ def _rate(rig, drive, mode, time, state, out):
     for i in range(out.shape[0]):
         out[i] = 0.0
     if mode[mode.shape[0] - 1] == ENDED:
-        for margin in range(out.shape[0] - MARGINS_A_CONTACT * (mode.shape[0] - 1), out.shape[0]):
+        for margin in range(out.shape[0] - EVENTS_A_CONTACT * (mode.shape[0] - 1), out.shape[0]):
             out[margin] = 1.0
         return
     look(rig, state)
@@ -83,7 +83,7 @@ def _rate(rig, drive, mode, time, state, out):
 def _fill_margins(rig, mode, out):
     """The event functions at the state looked at, into the last entries of ``out``."""
     contacts, width, force, u = mode.shape[0] - 1, rig.body.width, rig.rows[FORCE], rig.rows[VELOCITY]
-    place = out.shape[0] - MARGINS_A_CONTACT * contacts
+    place = out.shape[0] - EVENTS_A_CONTACT * contacts
     for i in range(contacts):
         row, end, extent = i * width, place + i, place + contacts + i
         gap = rig.contacts[GAP, i] - rig.contacts[DEEP, i]
@@ -104,7 +104,7 @@ def _fill_margins(rig, mode, out):
 
 
 @borrowing_kernel
-def _margins(rig, drive, mode, time, state, derivative, out):
+def _event_functions(rig, drive, mode, time, state, derivative, out):
     place = derivative.shape[0] - out.shape[0]
     for margin in range(out.shape[0]):
         out[margin] = derivative[place + margin]
@@ -134,7 +134,7 @@ def _give_way(rig, i):
 
 
 @borrowing_kernel
-def _switch(rig, drive, mode, time, state, event, side):
+def _mode_transition(rig, drive, mode, time, state, event, direction):
     contacts = mode.shape[0] - 1
     i = event - contacts if event >= contacts else event
     if event >= contacts and mode[i] == SLIDES:
@@ -155,4 +155,4 @@ def _need_rate(rig, mode):
     return True
 
 
-register(HeldBody, _rate, _margins, _switch, _need_rate)
+register_rig(HeldBody, _rate, _event_functions, _mode_transition, _need_rate)

@@ -13,7 +13,7 @@ import math
 import numpy
 
 from contact_sim_pkg.compiled.arrays import Vector
-from contact_sim_pkg.compiled.jit import kernel, piece
+from contact_sim_pkg.compiled.jit import inline_kernel, kernel
 from contact_sim_pkg.rigid.geometry.face_points import (
     FACE,
     R_N,
@@ -38,7 +38,7 @@ def make_face_workspace(contacts: int) -> Vector:
     return numpy.zeros((contacts + ORDER, FACE))
 
 
-@piece
+@inline_kernel
 def _worst_break(mu, face, count, v, w, light, lever, c):
     """Residual of `problem.residual`, from the wrench of the impulses."""
     f, m = (0.0, 0.0, 0.0), (0.0, 0.0, 0.0)

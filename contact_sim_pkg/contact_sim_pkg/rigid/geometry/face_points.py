@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import numpy
 
-from contact_sim_pkg.compiled.jit import piece
+from contact_sim_pkg.compiled.jit import inline_kernel
 from contact_sim_pkg.rigid.problem import INACTIVE, SPACE
 
 FLAT = 1.0e-9  # of the greatest arm: points this much out of the plane are no face
@@ -16,7 +16,7 @@ NARROW = 1.0e-9  # of the size of the face, to the power 3: points this near to 
 R_N, R_T, R_S, A, B, ROW, D_T, D_S, FACE = 0, 1, 2, 3, 4, 5, 6, 7, 8
 
 
-@piece
+@inline_kernel
 def _arm_of(J, row):
     """Arm of a contact in its own axes (normal, tangent, tangent) from its rows of the Jacobian."""
     r_n, r_t, r_s = 0.0, 0.0, 0.0
@@ -27,7 +27,7 @@ def _arm_of(J, row):
     return r_n, r_t, r_s
 
 
-@piece
+@inline_kernel
 def read_face(J, friction, face):
     """Arms and rows of the active contacts, one a row of ``face``; their number, 0 where axes or friction differ."""
     first, count = -1, numpy.int64(0)  # a literal 0 would compile what takes the count once more, for that number
@@ -49,7 +49,7 @@ def read_face(J, friction, face):
     return count
 
 
-@piece
+@inline_kernel
 def in_axes(J, row, x, y, z):
     """A vector in the axes of a contact."""
     return (
@@ -59,7 +59,7 @@ def in_axes(J, row, x, y, z):
     )
 
 
-@piece
+@inline_kernel
 def tensor_in_axes(J, row, W):
     """Inverse inertia in the axes of a contact: nn, nt, ns, tt, ts, ss."""
     a = (J[row, 0], J[row, 1], J[row, 2])
@@ -78,7 +78,7 @@ def tensor_in_axes(J, row, W):
     )
 
 
-@piece
+@inline_kernel
 def _image(W, x, y, z):
     return (
         W[3, 3] * x + W[3, 4] * y + W[3, 5] * z,
@@ -87,7 +87,7 @@ def _image(W, x, y, z):
     )
 
 
-@piece
+@inline_kernel
 def inverse(m):
     """Inverse of a symmetric 3 by 3 tensor (aa, ab, ac, bb, bc, cc)."""
     aa, ab, ac, bb, bc, cc = m
@@ -97,7 +97,7 @@ def inverse(m):
     return i_aa * d, i_ab * d, i_ac * d, (aa * cc - ac * ac) * d, (ab * ac - aa * bc) * d, (aa * bb - ab * ab) * d
 
 
-@piece
+@inline_kernel
 def times(m, x):
     """Symmetric tensor times vector."""
     return (
@@ -107,12 +107,12 @@ def times(m, x):
     )
 
 
-@piece
+@inline_kernel
 def cross(a, b):
     return a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]
 
 
-@piece
+@inline_kernel
 def centre(face, count):
     """Arms about their mean into ``face``; the mean arm, sums of their products (tt, ts, ss), and whether the points are a face."""
     n, t, s = 0.0, 0.0, 0.0

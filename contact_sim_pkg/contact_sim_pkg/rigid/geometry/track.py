@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import NamedTuple
 
 from contact_sim_pkg.compiled.arrays import Vector
-from contact_sim_pkg.compiled.jit import piece
+from contact_sim_pkg.compiled.jit import inline_kernel
 from contact_sim_pkg.rigid.body import RigidBody
 from contact_sim_pkg.rigid.motion.motion import STUCK
 
@@ -45,7 +45,7 @@ def read_track(track: Vector, columns: tuple[int, int, int, int, int, int], widt
     )  # fmt: skip
 
 
-@piece
+@inline_kernel
 def record_sample(body, motion, work, row):
     """State at the end of a sample and which points stick, into a row of the track (`track_columns`)."""
     place = 0
@@ -66,14 +66,14 @@ def record_sample(body, motion, work, row):
         row[place + i] = 1.0 if work.flags[i] == STUCK else 0.0
 
 
-@piece
+@inline_kernel
 def add_impulse(work, row, column):
     """The impulses of a piece to those of its sample."""
     for k in range(work.impulse.shape[0]):
         row[column + k] += work.impulse[k]
 
 
-@piece
+@inline_kernel
 def repeat_to_the_end(count, track):
     """The last sample over and over: nothing moved in it, and nothing will."""
     for sample in range(count[SAMPLE], count[SAMPLES]):

@@ -15,9 +15,14 @@ import numpy
 
 from contact_sim_pkg.compiled.arrays import Modes, Vector
 from contact_sim_pkg.compiled.jit import entry, kernel
-from contact_sim_pkg.integrate.dormand_prince import DormandPrinceWorkspace, integrate, make_workspace, set_sides
+from contact_sim_pkg.integrate.dormand_prince import (
+    DormandPrinceWorkspace,
+    integrate,
+    make_workspace,
+    set_event_directions,
+)
 from contact_sim_pkg.integrate.drive import Drive
-from contact_sim_pkg.integrate.interface import register
+from contact_sim_pkg.integrate.interface import register_rig
 from contact_sim_pkg.rigid.parameters import ImpactPath
 from contact_sim_pkg.rigid.results import NOT_CONVERGED, SOLVED
 
@@ -27,7 +32,7 @@ PHASE, WANTED = 0, 1
 STOPPED_SLIP = 34.0  # slip of exp(-34) = 2e-15 of the impact speed counts as none
 TOLERANCE = 1.0e-13
 LONGEST = 1.0e15  # of tau, in units of 1/A_nn
-MARGINS = 3
+EVENT_FUNCTIONS = 3
 SECULAR_STEPS = 60
 
 
@@ -52,7 +57,9 @@ class PathRig(NamedTuple):
 def make_path_workspace() -> PathWorkspace:
     """Work space of one path."""
     zeros = numpy.zeros
-    return PathWorkspace(zeros(STATES), zeros(STATES), zeros(1, numpy.int64), zeros(1), make_workspace(STATES, MARGINS))
+    return PathWorkspace(
+        zeros(STATES), zeros(STATES), zeros(1, numpy.int64), zeros(1), make_workspace(STATES, EVENT_FUNCTIONS)
+    )
 
 
 @kernel
@@ -77,14 +84,14 @@ def _rate(rig, drive, mode, time, state, out):
 
 
 @kernel
-def _margins(rig, drive, mode, time, state, derivative, out):
+def _event_functions(rig, drive, mode, time, state, derivative, out):
     out[0] = -state[NORMAL] if mode[0] == COMPRESSION else 1.0
     out[1] = rig.wanted[0] - state[WORK] if mode[0] == RESTITUTION else 1.0
     out[2] = state[LOG_SLIP] + STOPPED_SLIP if mode[0] < STOPPED else 1.0
 
 
 @kernel
-def _switch(rig, drive, mode, time, state, event, side):
+def _mode_transition(rig, drive, mode, time, state, event, direction):
     if event == 0:
         mode[0] = RESTITUTION
         rig.wanted[0] = -(rig.contact.restitution**2) * state[WORK]
@@ -104,7 +111,7 @@ def _need_rate(rig, mode):
     return False
 
 
-register(PathRig, _rate, _margins, _switch, _need_rate)
+register_rig(PathRig, _rate, _event_functions, _mode_transition, _need_rate)
 
 
 @kernel
@@ -186,7 +193,7 @@ def spatial_impact(contact: ImpactPath, u_n: float, u_1: float, u_2: float, work
         drive = Drive(0.0, end, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
         work.integrator.step[0] = 0.01 / (contact.nn + contact.t11 + contact.t22)
         work.wanted[0] = -1.0
-        set_sides(rig, drive, mode, 0.0, work.state, work.integrator)
+        set_event_directions(rig, drive, mode, 0.0, work.state, work.integrator)
         status = integrate(rig, drive, mode, end, work.state, work.scale, work.integrator)
         compressing = work.wanted[0] < 0.0
     if mode[0] == STOPPED:

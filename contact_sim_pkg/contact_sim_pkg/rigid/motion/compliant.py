@@ -17,7 +17,7 @@ from contact_sim_pkg.integrate.dormand_prince import (
     DormandPrinceWorkspace,
     integrate,
     make_workspace,
-    set_sides,
+    set_event_directions,
 )
 from contact_sim_pkg.integrate.drive import Drive
 from contact_sim_pkg.laws.parameters import Friction, NormalElastic
@@ -79,7 +79,7 @@ def _begin(rig: CompliantBody, mode: Vector, state: Vector, work: DormandPrinceW
     for point in range(rig.gap.shape[0]):
         set_loss(rig, mode, point)
     drive = Drive(0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
-    set_sides(rig, drive, mode, 0.0, state, work)
+    set_event_directions(rig, drive, mode, 0.0, state, work)
 
 
 @entry
@@ -163,7 +163,7 @@ class MovedBody:
     def sticks(self) -> numpy.typing.NDArray[numpy.bool_]:
         """Which points stick at the end of the last interval."""
         touches = self.rig.gap < 0.0
-        return numpy.asarray(touches & (self.work.side[2 * self.contacts :] > 0.0))
+        return numpy.asarray(touches & (self.work.event_direction[2 * self.contacts :] > 0.0))
 
     def _scales(self) -> Vector:
         """Size of each state: depth and speed of the swing of the body at rest on one point.

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import math
 
-from contact_sim_pkg.compiled.jit import kernel, piece
+from contact_sim_pkg.compiled.jit import inline_kernel, kernel
 from contact_sim_pkg.rigid.geometry.face_points import D_S, D_T, R_S, R_T, ROW, A, B
 
 TURNS = 15  # of the directions of slip
@@ -18,7 +18,7 @@ STOPS = 1.0e-7  # of the speed before: slip below it is left to the solvers
 WIDE = 3
 
 
-@piece
+@inline_kernel
 def _slip_sums(face, count, v_t, v_s, w_n):
     """Directions of slip into ``face``, their sums and moments, the greatest change and the least slip."""
     d_t, d_s, tt, st, ts, ss, change, least = 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, math.inf
@@ -35,7 +35,7 @@ def _slip_sums(face, count, v_t, v_s, w_n):
     return (d_t, d_s, tt, st, ts, ss), change, least
 
 
-@piece
+@inline_kernel
 def _slid(mu, face, count, mean, spread, F, v, w, w_n, light, inertia, d):
     """Slopes of the load over the face for given directions of slip, and the motion in the plane that they leave."""
     tt, ts, ss = spread
@@ -54,7 +54,7 @@ def _slid(mu, face, count, mean, spread, F, v, w, w_n, light, inertia, d):
     return b, g, v[1] + f_t * light, v[2] + f_s * light, w_n
 
 
-@piece
+@inline_kernel
 def _write_slide(mu, face, count, a, b, g, c):
     """Impulses of the sliding face; whether all press."""
     presses = True
@@ -65,7 +65,7 @@ def _write_slide(mu, face, count, a, b, g, c):
     return presses
 
 
-@piece
+@inline_kernel
 def _broyden(H, top, r, last, step):
     """Broyden's update of the inverse derivative, from row ``top`` of H on, from the change of the residual along ``step``."""
     y = (r[0] - last[0], r[1] - last[1], r[2] - last[2])
@@ -82,7 +82,7 @@ def _broyden(H, top, r, last, step):
             H[top + i, k] += H[top + i, WIDE + k]
 
 
-@piece
+@inline_kernel
 def _rows_times(H, top, x):
     return (
         H[top, 0] * x[0] + H[top, 1] * x[1] + H[top, 2] * x[2],
@@ -91,7 +91,7 @@ def _rows_times(H, top, x):
     )
 
 
-@piece
+@inline_kernel
 def _slide_straight(mu, face, count, mean, spread, F, v, light, c):
     """Impulses of a face that does not turn: one slip, along the velocity before, for all points."""
     tt, ts, ss = spread
@@ -105,7 +105,7 @@ def _slide_straight(mu, face, count, mean, spread, F, v, light, c):
     return _write_slide(mu, face, count, F / count, part * (ss * t - ts * s), part * (tt * s - ts * t), c)
 
 
-@piece
+@inline_kernel
 def slide_on_face(mu, face, count, mean, spread, F, v, w, light, inertia, c):
     """Impulses of a face that slides on; whether they were found and all press."""
     if w[0] == 0.0 and w[1] == 0.0 and w[2] == 0.0 and _slide_straight(mu, face, count, mean, spread, F, v, light, c):

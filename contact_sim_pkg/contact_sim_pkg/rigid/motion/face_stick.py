@@ -10,7 +10,7 @@ from __future__ import annotations
 
 import math
 
-from contact_sim_pkg.compiled.jit import kernel, piece
+from contact_sim_pkg.compiled.jit import inline_kernel, kernel
 from contact_sim_pkg.rigid.geometry.face_points import ROW, A, B, cross
 
 STEPS = 25
@@ -22,7 +22,7 @@ LIFT = 1.0e-14  # of the trace, on the diagonal, for contacts whose loads no wre
 ORDER = 6
 
 
-@piece
+@inline_kernel
 def stick_on_face(mu, face, count, mean, spread, F, T, c):
     """Impulses of least norm that stop the body; whether all lie in their cones.
 
@@ -74,7 +74,7 @@ def _within_cones(mu, face, count, size, wrench, z, c):
     return missed <= NEAR * load
 
 
-@piece
+@inline_kernel
 def _evaluate(mu, face, count, size, wrench, z, c):
     """Impulses ``c`` of the multipliers, the dual function, and by how much their wrench misses."""
     dual = -_dot(wrench, z)
@@ -95,7 +95,7 @@ def _evaluate(mu, face, count, size, wrench, z, c):
     return dual, (m_0, m_1, m_2, m_3, m_4, m_5)
 
 
-@piece
+@inline_kernel
 def _fill_derivative(mu, face, count, size, z):
     """Derivative of the wrench by the multipliers, lower half, into the last rows of ``face``."""
     top = face.shape[0] - ORDER
@@ -130,7 +130,7 @@ def _add_direction(face, top, weight, n, t, s, a, b):
             face[top + i, k] += weight * g[i] * g[k]
 
 
-@piece
+@inline_kernel
 def _solved(face, miss):
     """Newton's step, ``-derivative^-1 miss``, by Cholesky's factors in the last rows of ``face``."""
     top, right = face.shape[0] - ORDER, ORDER
@@ -155,12 +155,12 @@ def _solved(face, miss):
     )  # fmt: skip
 
 
-@piece
+@inline_kernel
 def _dot(x, y):
     return x[0] * y[0] + x[1] * y[1] + x[2] * y[2] + x[3] * y[3] + x[4] * y[4] + x[5] * y[5]
 
 
-@piece
+@inline_kernel
 def _moved(z, length, step):
     return (
         z[0] + length * step[0], z[1] + length * step[1], z[2] + length * step[2],
@@ -168,6 +168,6 @@ def _moved(z, length, step):
     )  # fmt: skip
 
 
-@piece
+@inline_kernel
 def _greatest(x):
     return max(abs(x[0]), abs(x[1]), abs(x[2]), abs(x[3]), abs(x[4]), abs(x[5]))

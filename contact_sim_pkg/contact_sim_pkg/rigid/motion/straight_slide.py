@@ -12,7 +12,7 @@ from __future__ import annotations
 import math
 from typing import NamedTuple
 
-from contact_sim_pkg.compiled.jit import piece
+from contact_sim_pkg.compiled.jit import inline_kernel
 from contact_sim_pkg.rigid.motion.active_contacts import DRIFT
 from contact_sim_pkg.rigid.motion.motion import APART, HELD, STUCK
 from contact_sim_pkg.rigid.motion.slip import SLOW, SWERVE
@@ -39,7 +39,7 @@ class Face(NamedTuple):
 NO_FACE = Face(0, 0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
 
 
-@piece
+@inline_kernel
 def rests(motion, work, size):
     """Whether nothing moves, the held points stick on the ground and no other touches it: a piece of time then changes nothing."""
     resting = True
@@ -51,7 +51,7 @@ def rests(motion, work, size):
     return resting
 
 
-@piece
+@inline_kernel
 def _slides_straight(body, ground, motion, work):
     """Whether a body slides over a plane without turning and without a torque, every point on the ground held."""
     straight, slides = ground.profile.nodes.shape[0] == 0 and body.friction > 0.0, False
@@ -64,7 +64,7 @@ def _slides_straight(body, ground, motion, work):
     return straight and slides
 
 
-@piece
+@inline_kernel
 def _place(body, J, first, row):
     """Arm of a contact along the tangents, and along the normal, from the moments of its rows."""
     if body.width == PLANE:
@@ -77,7 +77,7 @@ def _place(body, J, first, row):
     return t, s, h
 
 
-@piece
+@inline_kernel
 def straight_face(body, ground, motion, work, face):
     """The held points of a body that slides straight on, about their mean into ``face`` [points, 3 or more]."""
     count, first, height, mean_t, mean_s = 0, 0, 0.0, 0.0, 0.0
@@ -105,7 +105,7 @@ def straight_face(body, ground, motion, work, face):
     return Face(count, first, height, mean_t, mean_s, ss / whole, -ts / whole, tt / whole)
 
 
-@piece
+@inline_kernel
 def _tangential(body, J, row, x):
     """A velocity of the centre of mass along the tangents of a contact."""
     t, s = 0.0, 0.0
@@ -116,7 +116,7 @@ def _tangential(body, J, row, x):
     return t, s
 
 
-@piece
+@inline_kernel
 def _press(body, face, points, push, d_t, d_s, impulse):
     """Loads of least norm under a body that is pushed by ``push`` [N s] and slides along d, and its friction; whether all press."""
     rise = body.friction * points.height
@@ -132,7 +132,7 @@ def _press(body, face, points, push, d_t, d_s, impulse):
     return presses
 
 
-@piece
+@inline_kernel
 def slide_straight(body, motion, work, face, points, time, still):
     """One piece of ``time`` [s]: state, ``work.impulse``; returns the energy lost in [J], -1 (nothing taken) where slip may end.
 

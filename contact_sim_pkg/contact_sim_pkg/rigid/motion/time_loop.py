@@ -16,7 +16,7 @@ import numpy
 import numpy.typing
 
 from contact_sim_pkg.compiled.arrays import Vector
-from contact_sim_pkg.compiled.jit import entry, piece
+from contact_sim_pkg.compiled.jit import entry, inline_kernel
 from contact_sim_pkg.rigid.body import Ground, Motion, RigidBody
 from contact_sim_pkg.rigid.contact.single import single_impulses
 from contact_sim_pkg.rigid.geometry.face import face_impulses, make_face_workspace
@@ -89,7 +89,7 @@ def make_march_workspace(points: int) -> MarchWorkspace:
     )  # fmt: skip
 
 
-@piece
+@inline_kernel
 def _spin(body, motion):
     spin = 0.0
     for k in range(body.width, motion.velocity.shape[0]):
@@ -97,7 +97,7 @@ def _spin(body, motion):
     return spin
 
 
-@piece
+@inline_kernel
 def _longest(body, ground, motion, turn, size):
     """Longest piece in [s] over which the body turns by at most ``turn`` [rad] and stays near one cell of the ground."""
     spin, speed = _spin(body, motion), 0.0
@@ -110,7 +110,7 @@ def _longest(body, ground, motion, turn, size):
     return longest
 
 
-@piece
+@inline_kernel
 def _longest_flight(body, ground, motion, size, left):
     """Longest piece in [s] of the flight of the next ``left`` [s]."""
     turn = LARGEST_PLANAR_TURN if body.width == PLANE else LARGEST_TURN
@@ -122,7 +122,7 @@ def _longest_flight(body, ground, motion, size, left):
     return longest
 
 
-@piece
+@inline_kernel
 def _one_in_the_plane(work, i):
     """Impulse of the one held point of a planar body by its closed modes."""
     J, W, row = work.J, work.W, 2 * i
@@ -137,7 +137,7 @@ def _one_in_the_plane(work, i):
     return 0.0
 
 
-@piece
+@inline_kernel
 def _free_contacts(body, ground, motion, work, time, still):
     """Velocities ``q`` of the contacts after ``time`` without impulses, and who takes part.
 
@@ -163,7 +163,7 @@ def _free_contacts(body, ground, motion, work, time, still):
     return first, second, held, bent
 
 
-@piece
+@inline_kernel
 def _attempt(body, ground, motion, work, march, time, still):
     """Closed form of the held contacts over ``time`` into ``work.impulse``; its residual, inf where there is none."""
     first, second, held, bent = _free_contacts(body, ground, motion, work, time, still)
@@ -185,7 +185,7 @@ def _attempt(body, ground, motion, work, march, time, still):
     return numpy.inf if bent else face_impulses(work.J, work.W, work.free, friction, march.face, work.impulse)
 
 
-@piece
+@inline_kernel
 def _support(body, ground, motion, work, march, time, size, still):
     """Hold the points over ``time`` in closed form; False where it turns, and for general solvers or an event."""
     if turns(body, ground, motion, work, motion.velocity, size):

@@ -13,14 +13,14 @@ from typing import NamedTuple
 import numpy
 
 from contact_sim_pkg.compiled.arrays import Modes, Vector
-from contact_sim_pkg.compiled.jit import entry, kernel, piece
+from contact_sim_pkg.compiled.jit import entry, inline_kernel, kernel
 from contact_sim_pkg.compiled.results import DONE, NOT_FINITE
 from contact_sim_pkg.integrate.dormand_prince import DormandPrinceWorkspace, integrate, make_workspace
 from contact_sim_pkg.integrate.drive import Drive
 from contact_sim_pkg.integrate.interface import rate
 from contact_sim_pkg.rigid.body import Ground, Motion, RigidBody, contact_count
 from contact_sim_pkg.rigid.body_state import places_of
-from contact_sim_pkg.rigid.forces.constrained_body import GOING, MARGINS_A_CONTACT, first_of_time, held_states
+from contact_sim_pkg.rigid.forces.constrained_body import EVENTS_A_CONTACT, GOING, first_of_time, held_states
 from contact_sim_pkg.rigid.forces.constraint_forces import (
     DEEP,
     FIRST,
@@ -91,7 +91,7 @@ def make_turn_workspace(
     scale[:places] = [size] * width + [1.0] * turns
     scale[places : places + len(body.load)] = [speed] * width + [speed / size] * (len(body.load) - width)
     rig.unit[:] = speed, body.mass * gravity, LANDED * size, math.sqrt(size / gravity)
-    workspace = make_workspace(states, MARGINS_A_CONTACT * contacts)
+    workspace = make_workspace(states, EVENTS_A_CONTACT * contacts)
     return TurnWorkspace(rig, numpy.zeros(contacts + 1, numpy.int64), numpy.zeros(states), tolerance * scale, workspace)
 
 
@@ -126,7 +126,7 @@ def _set_modes(body, motion, work, turn, gives_way):
     return found
 
 
-@piece
+@inline_kernel
 def _set_flags(work, turn):
     """Which held contacts stick, which slide, and which are held no longer."""
     for i in range(work.flags.shape[0]):
@@ -135,7 +135,7 @@ def _set_flags(work, turn):
             work.flags[i] = STUCK if mode == STICKS else (HELD if mode == SLIDES else TOUCHING)
 
 
-@piece
+@inline_kernel
 def _set_start(body, motion, work, turn):
     """The motion as the state of the rig."""
     rig, state = turn.rig, turn.state
@@ -154,7 +154,7 @@ def _set_start(body, motion, work, turn):
     _put_velocity(motion, state)
 
 
-@piece
+@inline_kernel
 def _put_velocity(motion, state):
     """The velocities of a motion into the state."""
     v = motion.velocity
@@ -167,14 +167,14 @@ def _put_velocity(motion, state):
         state[7 + k], state[10 + k] = v[k], w[k]
 
 
-@piece
+@inline_kernel
 def _starts_well(body, drive, turn):
     """Whether the modes hold at the start: what shall stick does not slip, forces are within their limits."""
     rig, mode, integrator = turn.rig, turn.mode, turn.integrator
     values = integrator.inside_rate
     rate(rig, drive, mode, 0.0, turn.state, values)
     good = True
-    for margin in range(values.shape[0] - integrator.margin.shape[0], values.shape[0]):
+    for margin in range(values.shape[0] - integrator.event_value.shape[0], values.shape[0]):
         good = good and values[margin] > -BEYOND
     for i in range(mode.shape[0] - 1):
         row, u = i * body.width, rig.rows[VELOCITY]
@@ -184,7 +184,7 @@ def _starts_well(body, drive, turn):
     return good
 
 
-@piece
+@inline_kernel
 def _stop_at_the_start(turn):
     """Take what the modes forbid from the velocities of the state, which was looked at; its impulses and their work stand there."""
     rig, state, u = turn.rig, turn.state, turn.rig.rows[VELOCITY]
@@ -200,7 +200,7 @@ def _stop_at_the_start(turn):
     _put_velocity(rig.motion, state)
 
 
-@piece
+@inline_kernel
 def _take_end(body, motion, work, turn, drive, still):
     """The end of the path as the motion; its impulses into ``work.impulse``. Velocities that the modes forbid are taken out."""
     rig, state = turn.rig, turn.state
@@ -221,7 +221,7 @@ def _take_end(body, motion, work, turn, drive, still):
         motion.velocity[k] = rig.motion.velocity[k] if abs(rig.motion.velocity[k]) > still else 0.0
 
 
-@piece
+@inline_kernel
 def _move(body, motion, work, turn, left, still):
     """Integrate over ``left`` [s] or to the end of a mode: the time, 0 where nothing was changed, and whether a mode ended.
 
@@ -233,8 +233,8 @@ def _move(body, motion, work, turn, left, still):
     if not _starts_well(body, drive, turn):
         return 0.0, False
     _stop_at_the_start(turn)
-    for margin in range(integrator.side.shape[0]):
-        integrator.side[margin] = 1.0
+    for margin in range(integrator.event_direction.shape[0]):
+        integrator.event_direction[margin] = 1.0
     integrator.last_event[0] = -math.inf
     integrator.step[1] = MOST_STEPS * (1.0 + left / rig.unit[SECONDS])
     if integrator.step[0] < SHORTENED * left:

@@ -11,9 +11,9 @@ from contact_sim_pkg.compiled.vectors import copy_row
 from contact_sim_pkg.integrate.dormand_prince import DormandPrinceWorkspace, integrate
 from contact_sim_pkg.integrate.interface import rate
 from contact_sim_pkg.laws.elastic_law import elastic_energy
-from contact_sim_pkg.laws.foam_hysteresis import memory_energy
+from contact_sim_pkg.laws.foam_hysteresis import hysteresis_energy
 from contact_sim_pkg.laws.friction import APART as UNLOADED
-from contact_sim_pkg.laws.friction import STICK, following_deflection, stick_margin
+from contact_sim_pkg.laws.friction import STICK, following_deflection, stick_event
 from contact_sim_pkg.rigs.backrest import motion as backrest
 from contact_sim_pkg.rigs.backrest.contact_search import move_point, place_of
 from contact_sim_pkg.rigs.backrest.episodes import open_episode
@@ -46,7 +46,7 @@ def _first_friction(friction, rig, mode, point, normal, state):
     if friction is None:
         return
     velocity = backrest.tangential_velocity(rig, 0.0, state, point)
-    if stick_margin(friction, normal, 0.0, velocity) < 0.0:
+    if stick_event(friction, normal, 0.0, velocity) < 0.0:
         mode.doing[FRICTION, point] = 1 if velocity > 0.0 else -1
 
 
@@ -68,8 +68,8 @@ def start(rig: Backrest, mode: BackrestMode, state: Vector, work: DormandPrinceW
     open_episode(rig, mode, points, 0.0, 0.0, state, 0.0)
     for c in range(points):
         mode.lasting[points, DEEPEST] = max(mode.lasting[points, DEEPEST], mode.lasting[c, DEEPEST])
-    for j in range(work.side.shape[0]):
-        work.side[j] = 1.0
+    for j in range(work.event_direction.shape[0]):
+        work.event_direction[j] = 1.0
     work.last_event[0] = -numpy.inf
 
 
@@ -179,7 +179,7 @@ def energies(rig: Backrest, mode: BackrestMode, time: float, state: Vector) -> t
         stored += 0.5 * rig.modal[STIFFNESS, i] * state[i] ** 2
     for c in range(rig.places.shape[1]):
         share = rig.places[SHARE, c]
-        held = memory_energy(rig.contact.hysteresis, state, c)
+        held = hysteresis_energy(rig.contact.hysteresis, state, c)
         if mode.doing[CONTACT, c] != APART:
             approach, approach_rate = backrest.approach_of(rig, state, c)
             held += _spring_energy(rig.contact.friction, rig, mode, c, time, approach, approach_rate, state)

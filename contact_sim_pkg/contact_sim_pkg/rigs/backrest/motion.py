@@ -23,12 +23,12 @@ from __future__ import annotations
 import math
 
 from contact_sim_pkg.compiled.jit import borrowing_kernel
-from contact_sim_pkg.integrate.interface import register
+from contact_sim_pkg.integrate.interface import register_rig
 from contact_sim_pkg.laws.elastic_law import elastic_force
-from contact_sim_pkg.laws.foam_hysteresis import factor_rate, memory_factor, memory_rate
+from contact_sim_pkg.laws.foam_hysteresis import hysteresis_factor, hysteresis_factor_rate, hysteresis_rate
 from contact_sim_pkg.laws.friction import APART as UNLOADED
-from contact_sim_pkg.laws.friction import STICK, following_deflection, friction_force, slip_margin, stick_margin
-from contact_sim_pkg.laws.normal_force import normal_force, normal_force_rate, tension_margin
+from contact_sim_pkg.laws.friction import STICK, following_deflection, friction_force, slip_event, stick_event
+from contact_sim_pkg.laws.normal_force import normal_force, normal_force_rate, tension_event
 from contact_sim_pkg.rigs.backrest.contact_search import move_point
 from contact_sim_pkg.rigs.backrest.episodes import begin_episode, end_episode, note_loss, note_turn
 from contact_sim_pkg.rigs.backrest.parameters import (
@@ -71,7 +71,7 @@ def state_count(modes: int, points: int, remembers: bool = False) -> int:
     return memory_offset(modes, points) + (points if remembers else 0) + 2
 
 
-def margin_count(points: int) -> int:
+def event_count(points: int) -> int:
     """Number of event functions."""
     return EVENTS_A_POINT * points
 
@@ -122,7 +122,7 @@ def unit_normal(rig, mode, point, approach, approach_rate, state):
     """Normal force in [N] of the whole law at this approach; 0 where the point is apart or released."""
     if mode.doing[CONTACT, point] == APART or mode.doing[CONTACT, point] == RELEASED:
         return 0.0
-    factor = memory_factor(rig.contact.hysteresis, state, point)
+    factor = hysteresis_factor(rig.contact.hysteresis, state, point)
     return normal_force(rig.contact.elastic, rig.contact.dissipative, approach, approach_rate, factor)
 
 
@@ -170,7 +170,7 @@ def _point_rates(rig, mode, point, time, state, out):
     _displacement, slide_velocity, _acceleration = slide_of(rig, time)
     rubbed = share * tangential * velocity
     elastic_power = elastic_force(rig.contact.elastic, approach) * approach_rate
-    memory_rate(rig.contact.hysteresis, elastic_power, state, out, point)
+    hysteresis_rate(rig.contact.hysteresis, elastic_power, state, out, point)
     lost = power - share * elastic_power
     return share * tangential * slide_velocity, lost + rubbed
 
@@ -185,7 +185,7 @@ def _rate(rig, drive, mode, time, state, out):
             out[2 * modes + c] = 0.0
             out[2 * modes + points + c] = 0.0
             out[2 * modes + 2 * points + c] = 0.0
-            memory_rate(rig.contact.hysteresis, 0.0, state, out, c)
+            hysteresis_rate(rig.contact.hysteresis, 0.0, state, out, c)
             continue
         supplied_here, lost_here = _point_rates(rig, mode, c, time, state, out)
         supplied += supplied_here
@@ -197,7 +197,7 @@ def _rate(rig, drive, mode, time, state, out):
 
 
 @borrowing_kernel
-def _friction_margin(friction, rig, mode, point, time, approach, approach_rate, state, derivative):
+def _friction_event(friction, rig, mode, point, time, approach, approach_rate, state, derivative):
     if friction is None:
         return 1.0
     doing = mode.doing[FRICTION, point]
@@ -207,27 +207,29 @@ def _friction_margin(friction, rig, mode, point, time, approach, approach_rate, 
     normal = unit_normal(rig, mode, point, approach, approach_rate, state)
     velocity = tangential_velocity(rig, time, state, point)
     if doing == STICK:
-        return stick_margin(friction, normal, state[2 * modes + point], velocity)
+        return stick_event(friction, normal, state[2 * modes + point], velocity)
     _displacement, _velocity, acceleration = slide_of(rig, time)
     approach_acceleration = 0.0
     for i in range(modes):
         approach_acceleration += rig.coupling[SHAPE, point, i] * derivative[modes + i]
         acceleration -= rig.coupling[SLOPE, point, i] * derivative[modes + i]
     contact = rig.contact
-    factor = memory_factor(contact.hysteresis, state, point)
+    factor = hysteresis_factor(contact.hysteresis, state, point)
     normal_rate = normal_force_rate(
         contact.elastic, contact.dissipative, approach, approach_rate, approach_acceleration, factor
     )
-    normal_rate += factor_rate(contact.hysteresis, derivative, point) * elastic_force(contact.elastic, approach)
-    return slip_margin(friction, doing, velocity, acceleration, normal, normal_rate)
+    normal_rate += hysteresis_factor_rate(contact.hysteresis, derivative, point) * elastic_force(
+        contact.elastic, approach
+    )
+    return slip_event(friction, doing, velocity, acceleration, normal, normal_rate)
 
 
 @borrowing_kernel
-def _tension_margin(rig, doing, point, approach, approach_rate, state):
+def _tension_event(rig, doing, point, approach, approach_rate, state):
     if doing in (APART, CLOSING):
         return 1.0
-    factor = memory_factor(rig.contact.hysteresis, state, point)
-    margin = tension_margin(rig.contact.elastic, rig.contact.dissipative, approach, approach_rate, factor)
+    factor = hysteresis_factor(rig.contact.hysteresis, state, point)
+    margin = tension_event(rig.contact.elastic, rig.contact.dissipative, approach, approach_rate, factor)
     return -margin if doing == RELEASED else margin
 
 
@@ -239,16 +241,16 @@ def _turn_margin(doing, approach_rate):
 
 
 @borrowing_kernel
-def _margins(rig, drive, mode, time, state, derivative, out):
+def _event_functions(rig, drive, mode, time, state, derivative, out):
     points = rig.places.shape[1]
     move_point(rig.search, rig, state)
     for c in range(points):
         approach, approach_rate = approach_of(rig, state, c)
         doing = mode.doing[CONTACT, c]
         out[c] = -approach if doing == APART else approach
-        out[points + c] = _tension_margin(rig, doing, c, approach, approach_rate, state)
+        out[points + c] = _tension_event(rig, doing, c, approach, approach_rate, state)
         out[2 * points + c] = _turn_margin(doing, approach_rate)
-        out[3 * points + c] = _friction_margin(
+        out[3 * points + c] = _friction_event(
             rig.contact.friction, rig, mode, c, time, approach, approach_rate, state, derivative
         )
 
@@ -321,7 +323,7 @@ def _pass_kinematic(rig, mode, event_point, turns, time, state):
 
 
 @borrowing_kernel
-def _switch(rig, drive, mode, time, state, event, side):
+def _mode_transition(rig, drive, mode, time, state, event, direction):
     points = rig.places.shape[1]
     point = event % points
     kind = event // points
@@ -354,4 +356,4 @@ def _need_rate(rig, mode):
     return _slips(rig.contact.friction, mode)
 
 
-register(Backrest, _rate, _margins, _switch, _need_rate)
+register_rig(Backrest, _rate, _event_functions, _mode_transition, _need_rate)

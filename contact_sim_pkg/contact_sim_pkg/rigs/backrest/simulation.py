@@ -14,7 +14,7 @@ from contact_sim_pkg.pressure.mat import spread_force
 from contact_sim_pkg.records.messages import VibrationBlock
 from contact_sim_pkg.rigs.backrest import entries
 from contact_sim_pkg.rigs.backrest.model import build_backrest
-from contact_sim_pkg.rigs.backrest.motion import margin_count
+from contact_sim_pkg.rigs.backrest.motion import event_count
 from contact_sim_pkg.rigs.backrest.outputs import BackrestRecord, block_outputs
 from contact_sim_pkg.rigs.backrest.parameters import ENDED, MOST_EPISODES, make_mode
 from contact_sim_pkg.run.block_simulation import BlockResult, InputBlock, refuse_out_of_turn
@@ -42,7 +42,7 @@ class BackrestSimulation:
         states, points = len(self.model.start), len(self.model.rig.gaps)
         self.state: Vector = self.model.start.copy()
         self._mode = make_mode(points)
-        self._work = make_workspace(states, margin_count(points))
+        self._work = make_workspace(states, event_count(points))
         self._peak_force = numpy.zeros(points + 1)
         self._next_block = 0
         entries.start(self.model.rig, self._mode, self.state, self._work)

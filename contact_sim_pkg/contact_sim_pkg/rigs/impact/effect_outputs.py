@@ -1,6 +1,8 @@
-"""What the effects of the impact rig say of one impact; one function an effect, none where the scene does not name it.
+"""What the effects of the impact rig say of one impact; one function an effect, none where the
+scene does not name it.
 
-Frequency, damping and k_p are those of the free impact that the touch finds; depth, speed and forces those of the contact itself.
+Frequency, damping and k_p are those of the free impact that the touch finds; depth, speed and
+forces those of the contact itself.
 """
 
 from __future__ import annotations
@@ -140,7 +142,9 @@ def history_of(model: ImpactModel, effect: dict[str, Any], block: int, impact: F
 
 
 def gauge_readings(model: ImpactModel, number: int, *values: float) -> list[float]:
-    """The values with the noise of the gauges: of the scene's seed and the impact's number, so the same in every run."""
+    """The values with the noise of the gauges: of the scene's seed and the impact's number, so the
+    same in every run.
+    """
     noise = model.effects.get("gauge_noise")
     if noise is None:
         return list(values)

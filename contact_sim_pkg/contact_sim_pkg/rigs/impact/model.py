@@ -1,4 +1,6 @@
-"""Resolved scene of the impact rig -> sphere, machine, programme of releases, and the contact law of any touch."""
+"""Resolved scene of the impact rig -> sphere, machine, programme of releases, and the contact law
+of any touch.
+"""
 
 from __future__ import annotations
 
@@ -32,7 +34,9 @@ class Release(NamedTuple):
 
 
 class FirstContact(NamedTuple):
-    """What a touch finds: the free impact at its speed, and the law that the contact follows under weight."""
+    """What a touch finds: the free impact at its speed, and the law that the contact follows under
+    weight.
+    """
 
     half_space: Material  # alone; that of the impact is both bodies in series
     impact: FreeImpact
@@ -41,7 +45,9 @@ class FirstContact(NamedTuple):
 
 @dataclass(frozen=True)
 class MaterialState:
-    """The sample's E' and tan(beta) at a temperature and speed: the same everywhere, or by a table and a shift."""
+    """The sample's E' and tan(beta) at a temperature and speed: the same everywhere, or by a table
+    and a shift.
+    """
 
     sample: Material
     shift: Shift | None = None
@@ -50,7 +56,9 @@ class MaterialState:
     keep: bool = False
 
     def at(self, temperature: float, rate: float) -> Material:
-        """At ``temperature`` [K] and ``rate``, a speed or a frequency. Raises ImpactError outside law and table."""
+        """At ``temperature`` [K] and ``rate``, a speed or a frequency. Raises ImpactError outside
+        law and table.
+        """
         if self.shift is None or self.table is None:
             return self.sample
         stands = equivalent_temperature(self.shift, temperature, rate, self.table_rate)
@@ -88,7 +96,8 @@ class ImpactModel:
     def touch(self, speed: float, temperature: float) -> FirstContact:
         """The contact of a touch at ``speed`` [m/s]. Raises ImpactError outside the model.
 
-        Frequency and viscous force are those of the free impact at that speed, or at ``_speed_of_weight`` where that is higher.
+        Frequency and viscous force are those of the free impact at that speed, or at
+        ``_speed_of_weight`` where that is higher.
         """
         half_space, impact = self._impact(max(speed, SLOWEST_STATE), temperature)
         gravity = self.machine.gravity if isinstance(self.machine, Drop) else 0.0
@@ -104,7 +113,9 @@ class ImpactModel:
         return shares(touch.half_space.storage_modulus, body)[0]
 
     def _impact(self, speed: float, temperature: float) -> tuple[Material, FreeImpact]:
-        """Material of the half-space at this touch, and the free impact; with a shift by frequency both settle together."""
+        """Material of the half-space at this touch, and the free impact; with a shift by frequency
+        both settle together.
+        """
         half_space = self.half_space.at(temperature, self.half_space.table_rate if self.by_frequency else speed)
         impact = self._solve(half_space, speed)
         for _ in range(ROUNDS if self.by_frequency else 0):
@@ -121,10 +132,12 @@ class ImpactModel:
 
 
 def _speed_of_weight(impact: FreeImpact, gravity: float) -> float:
-    """Speed in [m/s] whose free impact has the frequency of the swing on the static depth x_s, ``w^2 = 3/2 g/x_s``.
+    """Speed in [m/s] whose free impact has the frequency of the swing on the static depth x_s,
+    ``w^2 = 3/2 g/x_s``.
 
-    A slower touch is a swing under the weight rather than a blow: it is no slower than that, and with the frequency of its free
-    impact the viscous force would grow without bound as the speed falls. 0 without weight. By ``tau ~ V^(-1/5)``.
+    A slower touch is a swing under the weight rather than a blow: it is no slower than that, and
+    with the frequency of its free impact the viscous force would grow without bound as the speed
+    falls. 0 without weight. By ``tau ~ V^(-1/5)``.
     """
     if gravity == 0.0:
         return 0.0

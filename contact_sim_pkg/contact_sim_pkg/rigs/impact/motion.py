@@ -1,6 +1,8 @@
-"""Motion of the sphere from release to release: pieces of flight, contact and rest, each known in closed form or by its own series.
+"""Motion of the sphere from release to release: pieces of flight, contact and rest, each known in
+closed form or by its own series.
 
-Pieces are made when they are asked for, so a run is as long as its blocks. What is recorded has no part in it.
+Pieces are made when they are asked for, so a run is as long as its blocks. What is recorded has no
+part in it.
 """
 
 from __future__ import annotations
@@ -29,7 +31,9 @@ from contact_sim_pkg.rigs.impact.theory.errors import ImpactError
 from contact_sim_pkg.run.errors import RunError
 
 AT_REST = (
-    1.0e-12  # energy of a motion in contact, over that of the weight on the static depth, below which the sphere rests
+    # Energy of a motion in contact, over that of the weight on the static depth, below which the
+    # sphere rests
+    1.0e-12
 )
 STILL = 1.0e-9  # [m/s]: a pendulum that leaves the sample more slowly hangs at rest on it
 MOST_PIECES = 10_000  # a block
@@ -121,9 +125,11 @@ class ImpactMotion:
         return taken
 
     def time_of(self, count: int) -> float:
-        """When impact number ``count`` (from 1) of the first release has parted, [s]; 0 where the sphere comes to rest before.
+        """When impact number ``count`` (from 1) of the first release has parted, [s]; 0 where the
+        sphere comes to rest before.
 
-        Also 0 where more than `MOST_PIECES` pieces do not tell. Raises RunError where a touch is outside the model.
+        Also 0 where more than `MOST_PIECES` pieces do not tell. Raises RunError where a touch is
+        outside the model.
         """
         while self._impacts < count and math.isfinite(self.pieces[-1].end) and self.made < MOST_PIECES:
             self._extend()
@@ -281,7 +287,9 @@ def forces(law: ContactLaw, depth: Vector, speed: Vector) -> tuple[Vector, Vecto
 
 
 def course_of(impact: FinishedImpact, count: int) -> tuple[Vector, ...]:
-    """Times from the touch, depth, speed, elastic and viscous force at ``count`` even instants up to the last loss of force."""
+    """Times from the touch, depth, speed, elastic and viscous force at ``count`` even instants up
+    to the last loss of force.
+    """
     times: Vector = numpy.linspace(0.0, impact.duration, count, dtype=numpy.float64)
     depth, speed, elastic, viscous = (numpy.zeros(count) for _ in range(4))
     begin = 0.0
@@ -305,7 +313,9 @@ def _energy(law: ContactLaw, depth: float, speed: float) -> float:
 
 
 def _excess(stretch: ContactPhase) -> float:
-    """Energy above that at rest, over the work of the weight on the static depth; infinite without weight."""
+    """Energy above that at rest, over the work of the weight on the static depth; infinite without
+    weight.
+    """
     law = stretch.law
     rest = static_depth(law)
     weight = law.mass * law.gravity * rest

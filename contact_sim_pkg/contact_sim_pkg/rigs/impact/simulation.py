@@ -1,4 +1,6 @@
-"""The simulation of an impact scene, block by block. It takes no excitation: the machine releases the sphere by its programme."""
+"""The simulation of an impact scene, block by block. It takes no excitation: the machine releases
+the sphere by its programme.
+"""
 
 from __future__ import annotations
 
@@ -29,7 +31,9 @@ class ImpactSimulation:
     inputs: tuple[str, ...] = ()
 
     def __init__(self, scene: ResolvedScene) -> None:
-        """Build the model of a resolved scene; raises SceneError where a release is outside it, or its period too short."""
+        """Build the model of a resolved scene; raises SceneError where a release is outside it, or
+        its period too short.
+        """
         self.scene = scene
         self.model = build_impact(scene.data)
         self.blocks = self.model.timing.blocks
@@ -37,7 +41,9 @@ class ImpactSimulation:
         self._reset()
 
     def _refuse_short_period(self) -> None:
-        """SceneError for a period in which a release does not fall, strike and part; fewer bounces than asked for are a warning."""
+        """SceneError for a period in which a release does not fall, strike and part; fewer bounces
+        than asked for are a warning.
+        """
         model = self.model
         if len(model.releases) < 2:
             return

@@ -1,4 +1,7 @@
-"""Roller on a rotating shaft: rolling vibro-impact, tilt and yaw, damage, corrugation. Rig roller."""
+"""Roller on a rotating shaft: rolling vibro-impact, tilt and yaw, damage, corrugation.
+
+Rig roller.
+"""
 
 from contact_sim_pkg.records.contact import Contact
 from contact_sim_pkg.records.rig import Rig

@@ -1,8 +1,10 @@
-"""What a load wears: the dangerous share of the working volume over the load, measured before the run.
+"""What a load wears: the dangerous share of the working volume over the load, measured before the
+run.
 
-Under a load F stress grows as F^(1/3) and the box below the contact as F, so the share over F is a smooth function of F^(1/3):
-0 up to the load at which the largest stress meets its limit, then rising. It is measured at even places of F^(1/3) and laid
-through them by a monotone cubic (Fritsch and Carlson, 1980), so that no wear is read where nothing is dangerous.
+Under a load F stress grows as F^(1/3) and the box below the contact as F, so the share over F is a
+smooth function of F^(1/3): 0 up to the load at which the largest stress meets its limit, then
+rising. It is measured at even places of F^(1/3) and laid through them by a monotone cubic (Fritsch
+and Carlson, 1980), so that no wear is read where nothing is dangerous.
 """
 
 from __future__ import annotations
@@ -21,11 +23,14 @@ __all__ = ["Table", "damage_table"]
 Table = tuple[Vector, Vector]
 
 FINER = 32
-"""Rows of the table that is read, over those that are measured: straight between them errs by 1e-4 of a share."""
+"""Rows of the table that is read, over those that are measured: straight between them errs by 1e-4
+of a share.
+"""
 
 
 def damage_table(model: RollerModel, prefix: str = "") -> Table:
-    """Loads [N] from 0, and the dangerous share of the working volume under each; zeros where nothing wears.
+    """Loads [N] from 0, and the dangerous share of the working volume under each; zeros where
+    nothing wears.
 
     prefix: of the limits of a body.
     """

@@ -22,7 +22,9 @@ MOST_ROWS = 200
 
 
 def forecast(model: RollerModel, block: int = 0) -> RollerStability | None:
-    """Stability under the load at the start of a block; None where tilt and yaw are held. Raises RunError without static angles."""
+    """Stability under the load at the start of a block; None where tilt and yaw are held. Raises
+    RunError without static angles.
+    """
     if model.effects.get("tilt_yaw") is None:
         return None
     time = block * model.timing.block_length
@@ -50,7 +52,8 @@ def _told(model: RollerModel, block: int, curvatures: Curvatures, load: float) -
 
 
 def facts_before_run(scene: dict[str, Any]) -> dict[str, Any]:
-    """The forecast of a resolved scene as numbers with units in their names; empty where tilt and yaw are held.
+    """The forecast of a resolved scene as numbers with units in their names; empty where tilt and
+    yaw are held.
 
     Of the start, and under `worst` of the row of the programme with the largest growth rate.
     """
@@ -68,7 +71,9 @@ def facts_before_run(scene: dict[str, Any]) -> dict[str, Any]:
 
 
 def _worst_row(model: RollerModel, rows: int) -> tuple[int, float]:
-    """Row of the programme with the largest growth rate [1/s], of `MOST_ROWS` of them; none is worse than no static angles."""
+    """Row of the programme with the largest growth rate [1/s], of `MOST_ROWS` of them; none is
+    worse than no static angles.
+    """
     places = numpy.unique(numpy.linspace(0, rows - 1, min(rows, MOST_ROWS)).round().astype(int))
     rates = []
     for place in places:

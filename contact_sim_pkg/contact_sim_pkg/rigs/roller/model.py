@@ -1,4 +1,6 @@
-"""Resolved scene of the roller rig -> roller, contact over time, track; a scene that cannot run is refused."""
+"""Resolved scene of the roller rig -> roller, contact over time, track; a scene that cannot run is
+refused.
+"""
 
 from __future__ import annotations
 
@@ -30,7 +32,9 @@ __all__ = ["RollerModel", "build_roller", "refused"]
 
 RADII = ("profile_radius", "rolling_radius", "shaft_radius", "shaft_profile_radius")
 LARGEST_SLOPE = 0.5
-"""Semi-axis over the radius of the gap along it: Hertz takes the bodies as flat; at 0.5 a circle lies 7 % off its parabola."""
+"""Semi-axis over the radius of the gap along it: Hertz takes the bodies as flat; at 0.5 a circle
+lies 7 % off its parabola.
+"""
 
 
 @dataclass(frozen=True)
@@ -114,7 +118,9 @@ class RollerModel:
 
     @property
     def traction(self) -> tuple[float, float]:
-        """Over the pressure, along x and y: as `subsurface` says; along rolling by default that of the rolling friction."""
+        """Over the pressure, along x and y: as `subsurface` says; along rolling by default that of
+        the rolling friction.
+        """
         below = self.effects.get("subsurface") or {"traction_x": 0.0}
         along = below.get("traction_y")
         return float(below["traction_x"]), self.roller.rolling_friction if along is None else float(along)
@@ -211,7 +217,8 @@ def refused(sentence: str) -> SceneError:
 
 
 def _refuse_impossible(model: RollerModel) -> None:
-    """Refuse a roller without an ellipse, with a contact larger than the bodies, or without static angles.
+    """Refuse a roller without an ellipse, with a contact larger than the bodies, or without static
+    angles.
 
     Raises SceneError with what is wrong and what to change.
     """

@@ -1,4 +1,6 @@
-"""Stress under a Hertz ellipse by cubature of Boussinesq's and Cerruti's point forces: r = sin(pi s / 2) in s, uniform in angle."""
+"""Stress under a Hertz ellipse by cubature of Boussinesq's and Cerruti's point forces: r = sin(pi s
+/ 2) in s, uniform in angle.
+"""
 
 from __future__ import annotations
 
@@ -30,7 +32,9 @@ def ellipse_stress(
     radii: int,
     angles: int,
 ) -> Values:
-    """xx, yy, zz, xy, xz, yz [6] over the peak pressure at `point` (x, y, z > 0) [m]; traction: q_x / p and q_y / p."""
+    """xx, yy, zz, xy, xz, yz [6] over the peak pressure at `point` (x, y, z > 0) [m]; traction: q_x
+    / p and q_y / p.
+    """
     at_x, at_y, force = weighted_points(semi_axes, radii, angles)
     x, y, z, free = point[0] - at_x, point[1] - at_y, float(point[2]), 1.0 - 2.0 * poisson
     force, d = force / (2.0 * math.pi), numpy.sqrt(x**2 + y**2 + z**2)

@@ -1,4 +1,6 @@
-"""The roller's ride over its tracks, interval by interval: heave, wear, energy, and the error of the time acceleration."""
+"""The roller's ride over its tracks, interval by interval: heave, wear, energy, and the error of
+the time acceleration.
+"""
 
 from __future__ import annotations
 
@@ -49,7 +51,9 @@ class Ridden(NamedTuple):
 
 
 def joined(parts: list[Ridden]) -> Ridden:
-    """One stretch of several that follow each other; the place between two is the end of the first."""
+    """One stretch of several that follow each other; the place between two is the end of the
+    first.
+    """
     time, load, heave, speed = (
         numpy.concatenate([rows[0], *(row[1:] for row in rows[1:])])
         for rows in zip(*(part[:4] for part in parts), strict=True)
@@ -65,7 +69,9 @@ class Checked(NamedTuple):
 
 
 class TrackRide:
-    """The tracks, their wear, and the heave of the roller on them. An interval is a turn of the (larger) body with a track."""
+    """The tracks, their wear, and the heave of the roller on them. An interval is a turn of the
+    (larger) body with a track.
+    """
 
     def __init__(self, model: RollerModel, road: Surface | None) -> None:
         """Heights at the start; `road` is ridden as well."""
@@ -97,7 +103,9 @@ class TrackRide:
         return other
 
     def press(self, load: float, yaw: float) -> None:
-        """Press on with another load [N], at a yaw [rad]. The roller is taken to its new place at rest."""
+        """Press on with another load [N], at a yaw [rad]. The roller is taken to its new place at
+        rest.
+        """
         if (load, yaw) == self._pressed:
             return
         model = self.model
@@ -114,7 +122,9 @@ class TrackRide:
             self._shifted += self._held() - before
 
     def advance(self) -> Ridden:
-        """An interval. Raises RunError where the range of a track passes its limit, or a place is too hollow to touch."""
+        """An interval. Raises RunError where the range of a track passes its limit, or a place is
+        too hollow to touch.
+        """
         self.refuse_fast_heave()
         path = self._path()
         before = self._held()
@@ -185,7 +195,9 @@ class TrackRide:
         return float(stored) + self.heave.load * float(self.state[0])
 
     def energies(self) -> Energies:
-        """Of the heave, since the start. What moves the roller or the track between two intervals counts as supplied."""
+        """Of the heave, since the start. What moves the roller or the track between two intervals
+        counts as supplied.
+        """
         stored = float(contact_energy(self._coefficient, self.heave.bending_compliance, self._load()))
         kinetic = 0.5 * self.model.mass * float(self.state[1]) ** 2
         now = Energies(
@@ -205,7 +217,9 @@ class TrackRide:
             self.press(*pressed)
 
     def check(self) -> Checked | None:
-        """A stretch from here by the time acceleration and one by one; None where none acts, or it is too long to ride."""
+        """A stretch from here by the time acceleration and one by one; None where none acts, or it
+        is too long to ride.
+        """
         jumps = min(JUMPS, int(MOST_CHECKED / self.acceleration))
         if self.acceleration == 1.0 or jumps < 1:
             return None

@@ -26,14 +26,17 @@ from contact_sim_pkg.run.sources import make_surface
 from contact_sim_pkg.scene.resolved_scene import ResolvedScene
 
 MOST_TRACKS = 200
-"""Heights of the track that a run records, about: one at every so many blocks, and one at its end."""
+"""Heights of the track that a run records, about: one at every so many blocks, and one at its end.
+"""
 
 ROAD_CELL = 1e-3
 """[m]: a road's texture holds waves down to two of them."""
 
 
 class RollerSimulation:
-    """Owns the state of a run: a ``BlockSimulation`` (run/block_simulation.py). Only the shaft drives it."""
+    """Owns the state of a run: a ``BlockSimulation`` (run/block_simulation.py). Only the shaft
+    drives it.
+    """
 
     inputs: tuple[str, ...] = ()
 
@@ -137,7 +140,9 @@ class RollerSimulation:
         return held
 
     def _rolled(self, start: float) -> tuple[Ridden, Matrix]:
-        """All intervals of a block, and tilt, yaw and their rates [places, 4]. The load pressed on rests over an interval."""
+        """All intervals of a block, and tilt, yaw and their rates [places, 4]. The load pressed on
+        rests over an interval.
+        """
         ride = self._ride
         assert ride is not None
         parts, angles = [], []
@@ -210,7 +215,9 @@ class RollerSimulation:
         return max(1, self.blocks // MOST_TRACKS)
 
     def _check_due(self, block: int) -> bool:
-        """Whether the time acceleration is looked at behind a block: at so many even places of the run."""
+        """Whether the time acceleration is looked at behind a block: at so many even places of the
+        run.
+        """
         damage = self.model.effects.get("damage")
         checks = 0 if damage is None else int(damage["checks"])
         return block in {k * self.blocks // checks // self._every * self._every for k in range(checks)}

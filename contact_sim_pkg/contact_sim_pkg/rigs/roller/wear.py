@@ -53,7 +53,9 @@ class BodyTrack:
 
 
 def make_tracks(model: RollerModel) -> list[BodyTrack]:
-    """The tracks of a scene at its start, the shaft's first; measures the dangerous volumes where the scene asks for damage."""
+    """The tracks of a scene at its start, the shaft's first; measures the dangerous volumes where
+    the scene asks for damage.
+    """
     effect = model.effects["track_waves"]
     which, cells = str(effect["track"]), int(effect["cells"])
     radii = {"shaft": model.shaft_radius, "roller": model.roller.radius}

@@ -10,12 +10,15 @@ from contact_sim_pkg.rigs.roller.schema import Damage, Gyroscope, RollerRig, Sub
 from contact_sim_pkg.scene.schema.scene import Scene
 
 CELL_COST = 3e-6  # [s] of a cell of the volume below a contact
-TURN_COST, TRACK_COST, HEAVE_COST = 6e-5, 3e-8, 2e-7  # [s] of an interval of a track, a cell of it, a step of the heave
+# [s] of an interval of a track, a cell of it, a step of the heave
+TURN_COST, TRACK_COST, HEAVE_COST = 6e-5, 3e-8, 2e-7
 HEAVE_PHASE = 0.06  # [rad] of a step
 
 
 def work_of_roller(scene: Scene) -> Iterator[Work]:
-    """Turns of the track, steps of the heave over its cells, tilt and yaw, and the volumes below the contact."""
+    """Turns of the track, steps of the heave over its cells, tilt and yaw, and the volumes below
+    the contact.
+    """
     rig, duration = scene.section(RollerRig), scene.duration
     below, damage = scene.effect("roller", Subsurface), scene.effect("roller", Damage)
     waves, gyroscope = scene.effect("roller", TrackWaves), scene.effect("roller", Gyroscope)

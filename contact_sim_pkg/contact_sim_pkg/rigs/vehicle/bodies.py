@@ -12,7 +12,7 @@ from contact_sim_pkg.integrate.dormand_prince import make_workspace
 from contact_sim_pkg.rigs.vehicle import entries
 from contact_sim_pkg.rigs.vehicle.drive import BlockDrive
 from contact_sim_pkg.rigs.vehicle.model import Model, standing_state
-from contact_sim_pkg.rigs.vehicle.motion import MARGINS
+from contact_sim_pkg.rigs.vehicle.motion import EVENT_FUNCTIONS
 from contact_sim_pkg.rigs.vehicle.tire.footprint import effective_between
 from contact_sim_pkg.run.errors import RunError
 
@@ -66,7 +66,7 @@ class Bodies:
         """Forget everything but the buffers."""
         self.state: Vector = numpy.zeros(self.model.states)
         self.mode: Modes = numpy.zeros(1, dtype=numpy.int64)
-        self.work = make_workspace(self.model.states, MARGINS)
+        self.work = make_workspace(self.model.states, EVENT_FUNCTIONS)
 
     def stand(self, smooth: float) -> None:
         """Let the rig stand in balance on a road of height ``smooth`` [m], by its contact laws."""
@@ -102,13 +102,13 @@ class Bodies:
         """Copies of everything that a stretch changes."""
         work = self.work
         return Saved(
-            self.state.copy(), self.mode.copy(), work.side.copy(), work.step.copy(), work.last_event.copy()
+            self.state.copy(), self.mode.copy(), work.event_direction.copy(), work.step.copy(), work.last_event.copy()
         )  # fmt: skip
 
     def restore(self, saved: Saved) -> None:
         """Go back to what was saved."""
         work = self.work
-        self.state[:], self.mode[:], work.side[:], work.step[:], work.last_event[:] = saved
+        self.state[:], self.mode[:], work.event_direction[:], work.step[:], work.last_event[:] = saved
 
     def move(self, stretch: CouplingStep, starts: Offsets, ends: Offsets) -> None:
         """Move over a stretch, the offsets going straight from ``starts`` to ``ends``. RunError where the physics fails."""

@@ -1,10 +1,13 @@
-"""The pressure field as the contact itself: what drives the bodies at a field instant is the integral of the field.
+"""The pressure field as the contact itself: what drives the bodies at a field instant is the
+integral of the field.
 
-At instants of the run the half-space problem is solved for the rigid approach that the bodies have. Between two instants
-stands the field's tangent: the power law ``A x**n`` fitted to the field at its working load (``fit_tangent``), read at the
-approach plus an *offset* that makes it give exactly the field's force at the instant. The offset is a height, the
-effective road (or cushion) height; it changes linearly from instant to instant and is corrected by solving the field again at
-the new end state. What is left after the last correction is a jump at the instant, measured and published as ``field_jump``.
+At instants of the run the half-space problem is solved for the rigid approach that the bodies have.
+Between two instants stands the field's tangent: the power law ``A x**n`` fitted to the field at its
+working load (``fit_tangent``), read at the approach plus an *offset* that makes it give exactly the
+field's force at the instant. The offset is a height, the effective road (or cushion) height; it
+changes linearly from instant to instant and is corrected by solving the field again at the new end
+state. What is left after the last correction is a jump at the instant, measured and published as
+``field_jump``.
 """
 
 from __future__ import annotations
@@ -28,7 +31,9 @@ TANGENT_TOLERANCE = 1e-7  # of these two solutions: their difference is a thirti
 
 
 class FieldError(RuntimeError):
-    """The field could not be solved: contact at the grid's edge, or no convergence. The message says which."""
+    """The field could not be solved: contact at the grid's edge, or no convergence. The message
+    says which.
+    """
 
 
 class FieldEdgeError(FieldError):
@@ -43,10 +48,14 @@ def half_space_of(settings: FieldSettings) -> HalfSpace:
 
 
 class PressureField:
-    """One pressure field that follows its contact: influence tables, the solver's buffers and its last field."""
+    """One pressure field that follows its contact: influence tables, the solver's buffers and its
+    last field.
+    """
 
     def __init__(self, settings: FieldSettings, contact: str) -> None:
-        """Make influence tables and buffers for ``settings``; ``contact`` names it in messages (``tire``, ``seat``)."""
+        """Make influence tables and buffers for ``settings``; ``contact`` names it in messages
+        (``tire``, ``seat``).
+        """
         self.settings = settings
         self.contact = contact
         self.half_space: HalfSpace = half_space_of(settings)
@@ -63,18 +72,22 @@ class PressureField:
         self._row = None
 
     def roll_to(self, row: int) -> None:
-        """Row 0 of the grid lies on ``row`` of the road now. Call it before each solve; the same row again changes nothing.
+        """Row 0 of the grid lies on ``row`` of the road now. Call it before each solve; the same
+        row again changes nothing.
 
-        What is known of the field moves with the road. Several solves at one row repeat the instant: the last one counts.
+        What is known of the field moves with the road. Several solves at one row repeat the
+        instant: the last one counts.
         """
         if self._row is not None and row != self._row:
             self._field.roll(row - self._row)
         self._row = row
 
     def solve(self, gap: Field, approach: float) -> float:
-        """Solve for ``gap`` [m] (undeformed, at zero approach) and ``approach`` [m]; returns the load in [N], 0 without contact.
+        """Solve for ``gap`` [m] (undeformed, at zero approach) and ``approach`` [m]; returns the
+        load in [N], 0 without contact.
 
-        Starts from what is known of the fields before. Raises FieldError where the contact reaches the edge or does not converge.
+        Starts from what is known of the fields before. Raises FieldError where the contact reaches
+        the edge or does not converge.
         """
         s = self.settings
         result = self._field.solve_at_approach(gap, approach, s.tolerance, s.maximum_iterations)
@@ -82,7 +95,9 @@ class PressureField:
         return self.load
 
     def solve_load(self, gap: Field, load: float, tolerance: float | None = None) -> float:
-        """Solve for ``load`` [N]; returns the approach in [m]. ``tolerance`` None: that of the settings. Errors as ``solve``."""
+        """Solve for ``load`` [N]; returns the approach in [m]. ``tolerance`` None: that of the
+        settings. Errors as ``solve``.
+        """
         s = self.settings
         asked = s.tolerance if tolerance is None else tolerance
         result = self._field.solve_at_load(gap, load, asked, s.maximum_iterations)
@@ -112,9 +127,11 @@ class PressureField:
 
 
 def fit_tangent(field: PressureField, gap: Field, load: float) -> NormalElastic:
-    """Power law through the field's approach at ``load`` [N] and at 5 % more: the tangent between field instants.
+    """Power law through the field's approach at ``load`` [N] and at 5 % more: the tangent between
+    field instants.
 
-    Both are solved to 1e-7 whatever the field's own tolerance: the loss and the effective height are read from this law.
+    Both are solved to 1e-7 whatever the field's own tolerance: the loss and the effective height
+    are read from this law.
     """
     tolerance = min(TANGENT_TOLERANCE, field.settings.tolerance)
     first = field.solve_load(gap, load, tolerance)
@@ -124,9 +141,11 @@ def fit_tangent(field: PressureField, gap: Field, load: float) -> NormalElastic:
 
 
 def offset_of(elastic: ElasticLaw, field: PressureField, gap: Field, approach: float, geometric: float) -> float:
-    """Height in [m] to add to the ``geometric`` approach [m] so that the tangent law gives the field's force.
+    """Height in [m] to add to the ``geometric`` approach [m] so that the tangent law gives the
+    field's force.
 
-    ``approach`` [m] is what the field was solved at. Without contact the law's approach is minus the smallest distance.
+    ``approach`` [m] is what the field was solved at. Without contact the law's approach is minus
+    the smallest distance.
     """
     if field.load > 0.0:
         return float(approach_of_force(elastic, field.load)) - geometric

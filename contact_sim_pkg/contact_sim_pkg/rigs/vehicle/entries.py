@@ -6,11 +6,11 @@ from contact_sim_pkg.compiled.arrays import Modes, Vector
 from contact_sim_pkg.compiled.jit import borrowing_kernel, entry
 from contact_sim_pkg.compiled.results import DONE
 from contact_sim_pkg.compiled.vectors import copy_row
-from contact_sim_pkg.integrate.dormand_prince import DormandPrinceWorkspace, integrate, set_sides
+from contact_sim_pkg.integrate.dormand_prince import DormandPrinceWorkspace, integrate, set_event_directions
 from contact_sim_pkg.integrate.drive import Drive
 from contact_sim_pkg.integrate.interface import rate
 from contact_sim_pkg.laws.elastic_law import elastic_energy
-from contact_sim_pkg.laws.foam_hysteresis import memory_energy
+from contact_sim_pkg.laws.foam_hysteresis import hysteresis_energy
 from contact_sim_pkg.laws.friction import SLIP_BACKWARD, SLIP_FORWARD, following_deflection, friction_force
 from contact_sim_pkg.rigs.vehicle import motion as vehicle
 from contact_sim_pkg.rigs.vehicle import quarter_car
@@ -73,7 +73,7 @@ def start(
 ) -> None:  # fmt: skip
     """Take the sides of the event functions at the start of a run (arrays hold the first segment's two ends)."""
     drive = _segment(0.0, segment_length, 0, height, cushion, acceleration_x, acceleration_z, push)
-    set_sides(rig, drive, mode, 0.0, state, work)
+    set_event_directions(rig, drive, mode, 0.0, state, work)
 
 
 @entry
@@ -160,7 +160,7 @@ def _contact_energy(contact, approach):
 def _memory_energy(contact, state):
     if contact is None:
         return 0.0
-    return memory_energy(contact.hysteresis, state)
+    return hysteresis_energy(contact.hysteresis, state)
 
 
 @entry

@@ -21,11 +21,16 @@ foam are counted whole; what their springs hold is taken off in ``advance.energi
 from __future__ import annotations
 
 from contact_sim_pkg.compiled.jit import borrowing_kernel
-from contact_sim_pkg.integrate.interface import register
+from contact_sim_pkg.integrate.interface import register_rig
 from contact_sim_pkg.laws import normal_force as law
 from contact_sim_pkg.laws.elastic_law import elastic_force
-from contact_sim_pkg.laws.foam_hysteresis import factor_rate, memory_factor, memory_rate, turning_margin
-from contact_sim_pkg.laws.friction import APART, STICK, following_deflection, friction_force, slip_margin, stick_margin
+from contact_sim_pkg.laws.foam_hysteresis import (
+    hysteresis_factor,
+    hysteresis_factor_rate,
+    hysteresis_rate,
+    reversal_event,
+)
+from contact_sim_pkg.laws.friction import APART, STICK, following_deflection, friction_force, slip_event, stick_event
 from contact_sim_pkg.rigs.vehicle.parameters import Vehicle
 from contact_sim_pkg.rigs.vehicle.quarter_car import (
     body_power,
@@ -37,7 +42,15 @@ from contact_sim_pkg.rigs.vehicle.quarter_car import (
     tread_velocity,
 )
 
-TIRE_APPROACH, TIRE_TENSION, SEAT_APPROACH, SEAT_TENSION, SEAT_FRICTION, SEAT_TURNING, MARGINS = 0, 1, 2, 3, 4, 5, 6
+TIRE_APPROACH, TIRE_TENSION, SEAT_APPROACH, SEAT_TENSION, SEAT_FRICTION, SEAT_TURNING, EVENT_FUNCTIONS = (
+    0,
+    1,
+    2,
+    3,
+    4,
+    5,
+    6,
+)
 
 
 @borrowing_kernel
@@ -63,7 +76,7 @@ def normal_force(contact, approach, approach_rate, state):
     """Normal force of a contact in [N]; 0 where the contact is absent."""
     if contact is None:
         return 0.0
-    factor = memory_factor(contact.hysteresis, state)
+    factor = hysteresis_factor(contact.hysteresis, state)
     return law.normal_force(contact.elastic, contact.dissipative, approach, approach_rate, factor)
 
 
@@ -73,7 +86,7 @@ def _lost_power(contact, approach, approach_rate, force, state, out):
     if contact is None:
         return 0.0
     carried = elastic_force(contact.elastic, approach)
-    memory_rate(contact.hysteresis, carried * approach_rate, state, out)
+    hysteresis_rate(contact.hysteresis, carried * approach_rate, state, out)
     return (force - carried) * approach_rate
 
 
@@ -170,29 +183,31 @@ def _rate(rig, drive, mode, time, state, out):
 def _tension_of(contact, approach, approach_rate, state):
     if contact is None:
         return 1.0
-    factor = memory_factor(contact.hysteresis, state)
-    return law.tension_margin(contact.elastic, contact.dissipative, approach, approach_rate, factor)
+    factor = hysteresis_factor(contact.hysteresis, state)
+    return law.tension_event(contact.elastic, contact.dissipative, approach, approach_rate, factor)
 
 
 @borrowing_kernel
 def _turning_of(contact, approach, approach_rate):
     if contact is None:
         return 1.0
-    return turning_margin(contact.hysteresis, approach, approach_rate)
+    return reversal_event(contact.hysteresis, approach, approach_rate)
 
 
 @borrowing_kernel
 def _normal_rate(contact, approach, approach_rate, approach_acceleration, state, derivative):
     """Rate of the normal force in [N/s]; 0 where the bodies part faster than the material recovers."""
-    factor = memory_factor(contact.hysteresis, state)
+    factor = hysteresis_factor(contact.hysteresis, state)
     force_rate = law.normal_force_rate(
         contact.elastic, contact.dissipative, approach, approach_rate, approach_acceleration, factor
     )
-    return force_rate + factor_rate(contact.hysteresis, derivative) * elastic_force(contact.elastic, approach)
+    return force_rate + hysteresis_factor_rate(contact.hysteresis, derivative) * elastic_force(
+        contact.elastic, approach
+    )
 
 
 @borrowing_kernel
-def _friction_margin(friction, contact, tire, seat, mode, approach, approach_rate, state, derivative):
+def _friction_event(friction, contact, tire, seat, mode, approach, approach_rate, state, derivative):
     if friction is None:
         return 1.0
     if mode[0] == APART:
@@ -200,7 +215,7 @@ def _friction_margin(friction, contact, tire, seat, mode, approach, approach_rat
     x = _slide_index(seat)
     normal = normal_force(contact, approach, approach_rate, state)
     if mode[0] == STICK:
-        return stick_margin(friction, normal, state[x + 2], state[x + 1])
+        return stick_event(friction, normal, state[x + 2], state[x + 1])
     floor_acceleration = 0.0
     if tire is not None:
         floor_acceleration = derivative[3]
@@ -208,11 +223,11 @@ def _friction_margin(friction, contact, tire, seat, mode, approach, approach_rat
     normal_rate = _normal_rate(
         contact, approach, approach_rate, floor_acceleration - frame_acceleration, state, derivative
     )
-    return slip_margin(friction, mode[0], state[x + 1], derivative[x + 1], normal, normal_rate)
+    return slip_event(friction, mode[0], state[x + 1], derivative[x + 1], normal, normal_rate)
 
 
 @borrowing_kernel
-def _margins(rig, drive, mode, time, state, derivative, out):
+def _event_functions(rig, drive, mode, time, state, derivative, out):
     height, height_rate, cushion, cushion_rate, _a_x, _a_z = drive_at(drive, time)
     tire_x, tire_v = tire_approach(rig.tire, rig.carcass, height, height_rate, state)
     seat_x, seat_v = seat_approach(rig.tire, rig.seat, cushion, cushion_rate, state)
@@ -221,14 +236,14 @@ def _margins(rig, drive, mode, time, state, derivative, out):
     out[SEAT_APPROACH] = seat_x
     out[SEAT_TENSION] = _tension_of(rig.seat_contact, seat_x, seat_v, state)
     out[SEAT_TURNING] = _turning_of(rig.seat_contact, seat_x, seat_v)
-    out[SEAT_FRICTION] = _friction_margin(
+    out[SEAT_FRICTION] = _friction_event(
         _friction_of(rig.seat_contact), rig.seat_contact, rig.tire, rig.seat, mode, seat_x, seat_v, state, derivative
     )
 
 
 @borrowing_kernel
-def _switch_friction(friction, contact, seat, mode, approach, approach_rate, state, event, side):
-    """Switch the friction of the seat where an event of this contact has changed its sign to ``side``.
+def _friction_transition(friction, contact, seat, mode, approach, approach_rate, state, event, direction):
+    """Switch the friction of the seat where an event of this contact has changed its sign to ``direction``.
 
     Friction acts where the contact carries a load, not where bodies overlap: while they part faster than the material
     recovers the load is zero, and stick and slip would both stand at their limit of zero, each ending the other at once.
@@ -247,20 +262,20 @@ def _switch_friction(friction, contact, seat, mode, approach, approach_rate, sta
     elif event in (SEAT_APPROACH, SEAT_TENSION):
         other = _tension_of(contact, approach, approach_rate, state) if event == SEAT_APPROACH else approach
         state[x + 2] = 0.0
-        if side > 0.0 and other > 0.0:
+        if direction > 0.0 and other > 0.0:
             mode[0] = STICK if velocity == 0.0 else (1 if velocity > 0.0 else -1)
         else:
             mode[0] = APART
 
 
 @borrowing_kernel
-def _switch(rig, drive, mode, time, state, event, side):
+def _mode_transition(rig, drive, mode, time, state, event, direction):
     _height, _height_rate, cushion, cushion_rate, _a_x, _a_z = drive_at(drive, time)
     seat_x, seat_v = seat_approach(rig.tire, rig.seat, cushion, cushion_rate, state)
-    _switch_friction(
-        _friction_of(rig.seat_contact), rig.seat_contact, rig.seat, mode, seat_x, seat_v, state, event, side
+    _friction_transition(
+        _friction_of(rig.seat_contact), rig.seat_contact, rig.seat, mode, seat_x, seat_v, state, event, direction
     )
-    return 1.0 if event == SEAT_FRICTION else side
+    return 1.0 if event == SEAT_FRICTION else direction
 
 
 @borrowing_kernel
@@ -275,4 +290,4 @@ def _need_rate(rig, mode):
     return _slips(_friction_of(rig.seat_contact), mode)
 
 
-register(Vehicle, _rate, _margins, _switch, _need_rate)
+register_rig(Vehicle, _rate, _event_functions, _mode_transition, _need_rate)

@@ -11,7 +11,7 @@ import numpy
 
 from contact_sim_pkg.compiled.arrays import Vector
 from contact_sim_pkg.compiled.jit import kernel
-from contact_sim_pkg.integrate.interface import register
+from contact_sim_pkg.integrate.interface import register_rig
 from contact_sim_pkg.integrate.root_steps import REJECTED, STEPS, make_workspace
 from contact_sim_pkg.laws.one_mass.parameters import PointContact
 from contact_sim_pkg.laws.one_mass.point_contact import free_flight
@@ -45,14 +45,14 @@ def _rate(rig, drive, mode, time, state, out):  # type: ignore[no-untyped-def]
 
 
 @kernel
-def _margins(rig, drive, mode, time, state, derivative, out):  # type: ignore[no-untyped-def]
+def _event_functions(rig, drive, mode, time, state, derivative, out):  # type: ignore[no-untyped-def]
     out[0] = rig.support_amplitude * math.sin(rig.support_frequency * time) - state[0]
     out[1] = 1.0
 
 
 @kernel
-def _switch(rig, drive, mode, time, state, event, side):  # type: ignore[no-untyped-def]
-    return side
+def _mode_transition(rig, drive, mode, time, state, event, direction):  # type: ignore[no-untyped-def]
+    return direction
 
 
 @kernel
@@ -60,7 +60,7 @@ def _need_rate(rig, mode):  # type: ignore[no-untyped-def]
     return False
 
 
-register(HandWritten, _rate, _margins, _switch, _need_rate, free_flight)
+register_rig(HandWritten, _rate, _event_functions, _mode_transition, _need_rate, free_flight)
 
 
 def bounce(rig: PointContact | HandWritten) -> tuple[Vector, float]:

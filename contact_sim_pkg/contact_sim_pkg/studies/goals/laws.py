@@ -12,7 +12,7 @@ from contact_sim_pkg.compiled.jit import entry
 from contact_sim_pkg.integrate.root_steps import RootStepWorkspace, make_workspace
 from contact_sim_pkg.laws.one_mass import runs as one_mass
 from contact_sim_pkg.laws.one_mass.parameters import PointContact
-from contact_sim_pkg.laws.one_mass.point_contact import MARGINS, STATES
+from contact_sim_pkg.laws.one_mass.point_contact import EVENT_FUNCTIONS, STATES
 from contact_sim_pkg.laws.one_mass.single import empty_mode, run
 from contact_sim_pkg.records.goal import GoalPart, Measured, median_time
 from contact_sim_pkg.reference import impact
@@ -106,7 +106,7 @@ def _impact_time(loss: float, tolerance: float) -> float:
     gap = 0.001
     times, scale = numpy.array([0.0, gap / speed + lasts * (3.0 + 3.0 * loss)]), numpy.array([depth, speed]) * tolerance
     start: Vector = numpy.array([gap, -speed])
-    out, work, mode = numpy.zeros((2, STATES)), make_workspace(STATES, MARGINS, one_mass.ORDER), empty_mode()
+    out, work, mode = numpy.zeros((2, STATES)), make_workspace(STATES, EVENT_FUNCTIONS, one_mass.ORDER), empty_mode()
     return 1e6 * median_time(lambda: _many(rig, mode, start, scale, work, times, out, IMPACTS)) / IMPACTS
 
 

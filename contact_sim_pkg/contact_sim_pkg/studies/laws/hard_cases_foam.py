@@ -8,7 +8,7 @@ import math
 import numpy
 
 from contact_sim_pkg.laws.elastic_law import approach_of_force, elastic_energy, elastic_force, elastic_stiffness
-from contact_sim_pkg.laws.foam_hysteresis import memory_energy, memory_factor, memory_rate
+from contact_sim_pkg.laws.foam_hysteresis import hysteresis_energy, hysteresis_factor, hysteresis_rate
 from contact_sim_pkg.laws.parameters import FoamElastic, FoamHysteresis
 from contact_sim_pkg.records.hard_case import Finding, HardCase, at_most, exactly
 
@@ -51,9 +51,9 @@ def loss_is_never_negative() -> Finding:
     for z in numpy.linspace(-1.0, 1.0, 41):
         for power in (-3.0, 3.0):
             state, out = numpy.array([z]), numpy.zeros(1)
-            memory_rate(MEMORY, power, state, out)
+            hysteresis_rate(MEMORY, power, state, out)
             stored = MEMORY.share * MEMORY.energy * z * out[0]
-            least = min(least, ((memory_factor(MEMORY, state) - 1.0) * power - stored) / abs(power))
+            least = min(least, ((hysteresis_factor(MEMORY, state) - 1.0) * power - stored) / abs(power))
     return Finding(least, "≥ 0 to rounding", 1.0 if least >= -1e-15 else -math.inf)
 
 
@@ -64,9 +64,11 @@ def stays_within_one() -> Finding:
     beyond = 0.0
     for power in (1.0, -1.0):
         for _ in range(3000):
-            memory_rate(MEMORY, power, z, out)
+            hysteresis_rate(MEMORY, power, z, out)
             z[0] += step * out[0]
-            beyond = max(beyond, abs(z[0]) - 1.0, memory_energy(MEMORY, z) / (0.5 * MEMORY.share * MEMORY.energy) - 1.0)
+            beyond = max(
+                beyond, abs(z[0]) - 1.0, hysteresis_energy(MEMORY, z) / (0.5 * MEMORY.share * MEMORY.energy) - 1.0
+            )
     return at_most(max(0.0, beyond), 1e-12)
 
 

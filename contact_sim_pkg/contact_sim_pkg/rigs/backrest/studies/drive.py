@@ -15,7 +15,7 @@ from contact_sim_pkg.laws.parameters import GeneralDissipative, NormalElastic
 from contact_sim_pkg.reference.vehicle import Law, Occupant, normal_force, states_at_segments
 from contact_sim_pkg.rigs.backrest import entries
 from contact_sim_pkg.rigs.backrest.model import BackrestModel, build_backrest
-from contact_sim_pkg.rigs.backrest.motion import margin_count
+from contact_sim_pkg.rigs.backrest.motion import event_count
 from contact_sim_pkg.rigs.backrest.parameters import ENDED, PLACE, START, TOUCHED, make_mode
 from contact_sim_pkg.run.sources import make_sources
 from contact_sim_pkg.run.vibration_drive import VIBRATION, accelerations
@@ -57,7 +57,7 @@ def fast_run(drive: DrivenBackrest, scale: Vector) -> Motion:
     """By the bench's kernels, with the error ``scale`` [states] allowed per step. Raises ArithmeticError where they fail."""
     model, count = drive.model, len(drive.acceleration) - 1
     states, points = len(model.start), len(model.rig.gaps)
-    state, mode, work = model.start.copy(), make_mode(points), make_workspace(states, margin_count(points))
+    state, mode, work = model.start.copy(), make_mode(points), make_workspace(states, event_count(points))
     room = numpy.zeros((count, states)), numpy.zeros((count, states)), numpy.zeros((count, entries.FORCES))
     by_point = numpy.zeros((count, points, entries.POINT_COLUMNS))
     entries.start(model.rig, mode, state, work)

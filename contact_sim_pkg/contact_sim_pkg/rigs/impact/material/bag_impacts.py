@@ -1,4 +1,6 @@
-"""Impacts from a bag of the impact rig: what its gauges measured, and the rules that its scene was run with."""
+"""Impacts from a bag of the impact rig: what its gauges measured, and the rules that its scene was
+run with.
+"""
 
 from __future__ import annotations
 
@@ -27,7 +29,8 @@ def is_bag(path: Path) -> bool:
 
 
 def impacts_of_bag(path: Path) -> Impacts:
-    """The measured impacts of a bag, in the order in which they ended; `line` is the number of the impact.
+    """The measured impacts of a bag, in the order in which they ended; `line` is the number of the
+    impact.
 
     Raises BagError where it is none, MaterialError where no impact ended in it.
     """

@@ -2,4 +2,6 @@
 
 
 class MaterialError(ValueError):
-    """A file of impacts or an option that cannot be used: what is wrong, where, the value, what is allowed, the cure."""
+    """A file of impacts or an option that cannot be used: what is wrong, where, the value, what is
+    allowed, the cure.
+    """

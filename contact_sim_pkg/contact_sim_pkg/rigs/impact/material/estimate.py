@@ -7,8 +7,9 @@ does no harm and the bias of the mean falls with 1/n. Intervals: Student's t on 
 values of the single impacts, in which the common noise of k in E' and tan(beta) is counted; for E'
 in ln E'.
 
-With Gaussian noise these means are as narrow as any: k alone tells tan(beta), for what tau tells goes into E'. No unbiased reading
-of n impacts scatters less than ``|g'(k)| sigma_k/sqrt(n)`` (bound of Cramer and Rao), and this one scatters so much.
+With Gaussian noise these means are as narrow as any: k alone tells tan(beta), for what tau tells
+goes into E'. No unbiased reading of n impacts scatters less than ``|g'(k)| sigma_k/sqrt(n)`` (bound
+of Cramer and Rao), and this one scatters so much.
 """
 
 from __future__ import annotations
@@ -30,7 +31,8 @@ from contact_sim_pkg.rigs.impact.theory.inverse import group_factor, material_of
 __all__ = ["EstimatedValue", "MaterialEstimate", "around", "each_impact", "of_logarithm", "repeated_impacts", "student"]
 
 STEP = 1.0e-5  # of k, for the slopes of h and g
-ABOVE_BY_NOISE = 0.05  # of a mean restitution over 1, beside three standard errors; a larger one is no impact
+# Of a mean restitution over 1, beside three standard errors; a larger one is no impact
+ABOVE_BY_NOISE = 0.05
 FAR_OFF = 6.0  # standard deviations, estimated from the median deviation, off the median of a group
 LEAST_FAR = 0.1  # of k, and of the logarithm of the contact time, below which nothing is far off
 ABOVE_ONE = "mean restitution above 1, by noise: read as no loss"
@@ -38,7 +40,9 @@ Indices = NDArray[numpy.intp]
 
 
 class EstimatedValue(NamedTuple):
-    """A value with its standard error and the interval of the asked confidence; None where a single impact tells none."""
+    """A value with its standard error and the interval of the asked confidence; None where a single
+    impact tells none.
+    """
 
     value: float
     error: float | None
@@ -70,7 +74,9 @@ class _Curve(NamedTuple):
 
 
 def each_impact(impacts: Impacts, options: Options) -> list[dict[str, float | int | str | None]]:
-    """One row an impact; a restitution that the form does not reach gives no material and a note in its place."""
+    """One row an impact; a restitution that the form does not reach gives no material and a note in
+    its place.
+    """
     rows: list[dict[str, float | int | str | None]] = []
     for i in range(len(impacts.mass)):
         row: dict[str, float | int | str | None] = {
@@ -139,7 +145,9 @@ def _refuse_gain(impacts: Impacts, chosen: Indices) -> None:
 
 
 def _note(impacts: Impacts, chosen: Indices, times: NDArray[numpy.float64]) -> str | None:
-    """What to mind: a mean above 1, single impacts above 1 that noise does not explain, impacts far off their group."""
+    """What to mind: a mean above 1, single impacts above 1 that noise does not explain, impacts far
+    off their group.
+    """
     k, parts = impacts.restitution[chosen], []
     if k.mean() > 1.0:
         parts.append(ABOVE_ONE)
@@ -154,7 +162,9 @@ def _note(impacts: Impacts, chosen: Indices, times: NDArray[numpy.float64]) -> s
 
 
 def _far_off(values: NDArray[numpy.float64]) -> NDArray[numpy.bool_]:
-    """Which values lie far from the median, by the median deviation; of two, both where they lie far apart."""
+    """Which values lie far from the median, by the median deviation; of two, both where they lie
+    far apart.
+    """
     distance = numpy.abs(values - numpy.median(values))
     spread = 0.0 if len(values) == 2 else 1.4826 * float(numpy.median(distance))
     return numpy.asarray(distance > max(LEAST_FAR, FAR_OFF * spread))
@@ -166,7 +176,9 @@ def _group_factor(impacts: Impacts, i: int) -> float:
 
 
 def _curve(k: float, impacts: Impacts, chosen: Indices, options: Options) -> _Curve:
-    """At a mean restitution above 1 by noise, the limit without loss is taken, with the slopes from below."""
+    """At a mean restitution above 1 by noise, the limit without loss is taken, with the slopes from
+    below.
+    """
     held, weight = min(k, 1.0), _weight(impacts, chosen)
     low, high = held - STEP, min(held + STEP, 1.0)
     try:
@@ -196,7 +208,9 @@ def _standard_error(values: NDArray[numpy.float64]) -> float | None:
 
 
 def student(count: int, confidence: float) -> float:
-    """Half width of an interval in standard errors, of the mean of ``count`` values; NaN for one."""
+    """Half width of an interval in standard errors, of the mean of ``count`` values; NaN for
+    one.
+    """
     return float(stdtrit(count - 1, 0.5 + 0.5 * confidence)) if count > 1 else math.nan
 
 

@@ -1,4 +1,6 @@
-"""The picture of `bench material`: E' and tan(beta) over temperature or, with a master curve, over the reduced speed."""
+"""The picture of `bench material`: E' and tan(beta) over temperature or, with a master curve, over
+the reduced speed.
+"""
 
 from __future__ import annotations
 
@@ -16,7 +18,8 @@ __all__ = ["write_figure"]
 
 
 def write_figure(report: MaterialReport, path: Path, *, overwrite: bool = False) -> Path:
-    """Draw every impact as a dot, every group with its interval; the ending of ``path`` names the format.
+    """Draw every impact as a dot, every group with its interval; the ending of ``path`` names the
+    format.
 
     Raises FileRefusedError, see `drawing.save_picture`.
     """

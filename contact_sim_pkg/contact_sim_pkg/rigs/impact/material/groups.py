@@ -14,7 +14,9 @@ Indices = NDArray[numpy.intp]
 
 
 def groups(impacts: Impacts, options: Options) -> list[Indices]:
-    """Impacts by rising temperature, then speed: a group spans at most the temperature span and the speed ratio of the options."""
+    """Impacts by rising temperature, then speed: a group spans at most the temperature span and the
+    speed ratio of the options.
+    """
     found = []
     everything = numpy.arange(len(impacts.speed))
     temperature = impacts.temperature
@@ -25,7 +27,9 @@ def groups(impacts: Impacts, options: Options) -> list[Indices]:
 
 
 def _split(indices: Indices, values: NDArray[numpy.float64], span: float) -> list[Indices]:
-    """Sorted by value; a new part begins where the value is more than ``span`` above the part's first."""
+    """Sorted by value; a new part begins where the value is more than ``span`` above the part's
+    first.
+    """
     ordered = indices[numpy.argsort(values[indices], kind="stable")]
     parts: list[list[int]] = []
     for index in ordered.tolist():

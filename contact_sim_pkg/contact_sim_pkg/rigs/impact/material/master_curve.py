@@ -1,8 +1,10 @@
-"""Master curve: E' and tan(beta) of all temperatures and speeds over one reduced speed ``V a_T(T)/a_T(T_r)``.
+"""Master curve: E' and tan(beta) of all temperatures and speeds over one reduced speed ``V
+a_T(T)/a_T(T_r)``.
 
-WLF (Tg known, or found) or Arrhenius (activation energy known, or found). What is unknown is found as the value with which ln E' of
-all groups lies closest to one smooth curve over the logarithm of the reduced speed (Chebyshev polynomial), each weighted by its
-standard error. That needs groups of at least two speeds at two temperatures: with one speed every shift gives a curve.
+WLF (Tg known, or found) or Arrhenius (activation energy known, or found). What is unknown is found
+as the value with which ln E' of all groups lies closest to one smooth curve over the logarithm of
+the reduced speed (Chebyshev polynomial), each weighted by its standard error. That needs groups of
+at least two speeds at two temperatures: with one speed every shift gives a curve.
 """
 
 from __future__ import annotations
@@ -25,7 +27,8 @@ __all__ = ["LAWS", "MasterCurve", "master_curve"]
 LAWS = ("wlf", "arrhenius")
 Vector = NDArray[numpy.float64]
 LARGEST_DEGREE = 6
-LEAST_ERROR = 1.0e-4  # of ln E': groups of one impact, or of exact repeats, still get a finite weight
+# Of ln E': groups of one impact, or of exact repeats, still get a finite weight
+LEAST_ERROR = 1.0e-4
 ENERGIES = (5.0e3, 1.0e6)  # [J/mol] searched
 GLASS_BELOW = 150.0  # [K] below the coldest group, to where Tg is searched
 SCAN = 121
@@ -35,7 +38,8 @@ class MasterCurve(NamedTuple):
     """The law and where each group stands on the curve."""
 
     law: Shift
-    found: float | None  # Tg [K] or activation energy [J/mol] that was found; None where it was given
+    # Tg [K] or activation energy [J/mol] that was found; None where it was given
+    found: float | None
     found_error: float | None  # its standard error
     scatter: float | None  # root mean square of ln E' about the curve; None with too few groups
     reference_temperature: float  # T_r [K]
@@ -48,8 +52,9 @@ def master_curve(
 ) -> MasterCurve:
     """Shift all groups to ``reference`` [K] (that group's nearest the middle where None).
 
-    ``parameter``: Tg [K] (`wlf`) or the activation energy [J/mol] (`arrhenius`); None finds it. Raises MaterialError where
-    temperatures are missing, a temperature is outside the law, or nothing tells the parameter.
+    ``parameter``: Tg [K] (`wlf`) or the activation energy [J/mol] (`arrhenius`); None finds it.
+    Raises MaterialError where temperatures are missing, a temperature is outside the law, or
+    nothing tells the parameter.
     """
     if law not in LAWS:
         raise ValueError(f"shift '{law}': {' or '.join(LAWS)} is needed")
@@ -90,7 +95,9 @@ def _shifts(shift: Shift, temperatures: Vector, reference: float) -> Vector:
 
 
 def _distance(estimates: list[MaterialEstimate], logs: Vector) -> tuple[float, float | None]:
-    """Weighted sum of squares of ln E' about its curve, over the degrees of freedom; and the unweighted scatter."""
+    """Weighted sum of squares of ln E' about its curve, over the degrees of freedom; and the
+    unweighted scatter.
+    """
     place = numpy.log10(numpy.array([e.speed for e in estimates])) + logs
     value = numpy.log(numpy.array([e.storage_modulus.value for e in estimates]))
     degree = min(LARGEST_DEGREE, len(estimates) // 2 - 1)
@@ -113,7 +120,9 @@ def _log_error(estimate: MaterialEstimate) -> float:
 def _search(
     estimates: list[MaterialEstimate], temperatures: Vector, law: str, reference: float
 ) -> tuple[float, float | None]:
-    """Parameter of least distance: scan, then Brent between the neighbours; standard error from the curvature there."""
+    """Parameter of least distance: scan, then Brent between the neighbours; standard error from the
+    curvature there.
+    """
     speeds_at: dict[int, set[int]] = {}
     for e, t in zip(estimates, temperatures, strict=True):
         speeds_at.setdefault(round(t), set()).add(round(100 * math.log(e.speed)))
@@ -142,7 +151,9 @@ def _search(
 
 
 def _error(cost, value: float, count: int) -> float | None:  # type: ignore[no-untyped-def]
-    """From the curvature: ``sqrt(2 max(1, s^2)/c'')``, s^2 the least cost over the degrees of freedom."""
+    """From the curvature: ``sqrt(2 max(1, s^2)/c'')``, s^2 the least cost over the degrees of
+    freedom.
+    """
     step = 1.0e-3 * value
     curvature = (cost(value + step) - 2.0 * cost(value) + cost(value - step)) / step**2
     if not (math.isfinite(curvature) and curvature > 0.0):

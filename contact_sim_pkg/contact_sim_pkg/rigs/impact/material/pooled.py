@@ -1,9 +1,10 @@
 """All speeds at one temperature taken together, and whether the groups agree.
 
-A material that does not depend on speed has one E' and one tan(beta) at a temperature: its groups may be pooled, which narrows the
-intervals. Groups are weighted by their impacts; the scatter within all of them together, with N - G degrees of freedom, gives the
-interval. Agreement: the probability that groups of one material lie as far apart as these (F test of the means, one-way analysis
-of variance). Where it is small the material depends on speed, and the row says so.
+A material that does not depend on speed has one E' and one tan(beta) at a temperature: its groups
+may be pooled, which narrows the intervals. Groups are weighted by their impacts; the scatter within
+all of them together, with N - G degrees of freedom, gives the interval. Agreement: the probability
+that groups of one material lie as far apart as these (F test of the means, one-way analysis of
+variance). Where it is small the material depends on speed, and the row says so.
 """
 
 from __future__ import annotations
@@ -42,12 +43,15 @@ class Pooled(NamedTuple):
     storage_modulus: EstimatedValue  # E' [Pa]
     loss_modulus: EstimatedValue  # E'' [Pa]
     loss_tangent: EstimatedValue
-    agreement: float | None  # smaller probability of E' and tan(beta), twice, at most 1; None without repeats
+    # Smaller probability of E' and tan(beta), twice, at most 1; None without repeats
+    agreement: float | None
     note: str | None
 
 
 def pooled_speeds(estimates: list[MaterialEstimate], options: Options) -> list[Pooled]:
-    """One row for each temperature that several groups share; ``estimates`` by rising temperature, as `groups` orders them."""
+    """One row for each temperature that several groups share; ``estimates`` by rising temperature,
+    as `groups` orders them.
+    """
     found = []
     for together in _of_one_temperature(estimates, options.temperature_span):
         if len(together) > 1:
@@ -97,7 +101,9 @@ def _pool(together: list[MaterialEstimate], confidence: float) -> Pooled:
 
 
 def _mean(parts: list[EstimatedValue], counts: Vector) -> tuple[float, float, float | None]:
-    """Mean, its standard error, and the chance of groups so far apart; without repeats the groups themselves are the scatter."""
+    """Mean, its standard error, and the chance of groups so far apart; without repeats the groups
+    themselves are the scatter.
+    """
     total, number = float(counts.sum()), len(parts)
     centre = numpy.array([part.value for part in parts])
     mean = float(numpy.average(centre, weights=counts))

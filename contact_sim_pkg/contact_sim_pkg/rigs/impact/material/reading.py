@@ -1,4 +1,6 @@
-"""Reading a file of measured impacts: a line an impact, columns m, R, V0, tau, k and, where measured, T and g."""
+"""Reading a file of measured impacts: a line an impact, columns m, R, V0, tau, k and, where
+measured, T and g.
+"""
 
 from __future__ import annotations
 
@@ -67,10 +69,11 @@ class Impacts(NamedTuple):
 
 
 def read_impacts(path: Path) -> Impacts:
-    """Read ``path``: the first line that is no comment (#) names the columns, with a unit in brackets where it is not SI.
+    """Read ``path``: the first line that is no comment (#) names the columns, with a unit in
+    brackets where it is not SI.
 
-    Separated by semicolon, tab or comma. Rows without a value are passed over. Further columns are left
-    alone and noted. Raises MaterialError with the line.
+    Separated by semicolon, tab or comma. Rows without a value are passed over. Further columns are
+    left alone and noted. Raises MaterialError with the line.
     """
     lines = _lines(path)
     separator = next((mark for mark in SEPARATORS if mark in lines[0][1]), ",")

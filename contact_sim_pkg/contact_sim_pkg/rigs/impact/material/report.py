@@ -59,7 +59,9 @@ def material_report(
     reference: float | None = None,
     gravity: float | None = None,
 ) -> MaterialReport:
-    """The report on a file of impacts, or on the impact events of a bag. Raises MaterialError or BagError with one sentence."""
+    """The report on a file of impacts, or on the impact events of a bag. Raises MaterialError or
+    BagError with one sentence.
+    """
     _check(options, law)
     impacts = impacts_of_bag(path) if is_bag(path) else read_impacts(path)
     if gravity is not None:
@@ -74,9 +76,11 @@ def report_of(
     parameter: float | None = None,
     reference: float | None = None,
 ) -> MaterialReport:
-    """The report on impacts, wherever they come from; ``law`` `wlf` or `arrhenius` adds the master curve.
+    """The report on impacts, wherever they come from; ``law`` `wlf` or `arrhenius` adds the master
+    curve.
 
-    ``parameter``: Tg [K] or activation energy [J/mol], found where None; ``reference`` [K]. Raises MaterialError.
+    ``parameter``: Tg [K] or activation energy [J/mol], found where None; ``reference`` [K]. Raises
+    MaterialError.
     """
     _check(options, law)
     impacts = _struck(impacts)
@@ -87,7 +91,9 @@ def report_of(
 
 
 def _struck(impacts: Impacts) -> Impacts:
-    """Without the impacts in which the weight does more than the blow. Raises MaterialError where none is left."""
+    """Without the impacts in which the weight does more than the blow. Raises MaterialError where
+    none is left.
+    """
     if impacts.gravity is None:
         return impacts
     kept = impacts.gravity * impacts.duration / impacts.speed <= HEAVIEST
@@ -104,7 +110,9 @@ def _struck(impacts: Impacts) -> Impacts:
 
 
 def group_rows(report: MaterialReport) -> list[dict[str, Any]]:
-    """One flat row a group: state, values, standard errors, intervals, and its place on the master curve."""
+    """One flat row a group: state, values, standard errors, intervals, and its place on the master
+    curve.
+    """
     rows = []
     for i, estimate in enumerate(report.estimates):
         row: dict[str, Any] = {
@@ -119,7 +127,9 @@ def group_rows(report: MaterialReport) -> list[dict[str, Any]]:
 
 
 def pooled_rows(report: MaterialReport) -> list[dict[str, Any]]:
-    """One flat row a temperature at which there are several speeds: all its impacts as one material."""
+    """One flat row a temperature at which there are several speeds: all its impacts as one
+    material.
+    """
     return [
         {
             "T": each.temperature, "impacts": each.impacts, "groups": each.groups, "V0_low": each.slowest,
@@ -145,12 +155,16 @@ def master_row(report: MaterialReport) -> dict[str, Any] | None:
 
 
 def csv_files(path: Path) -> tuple[Path, Path]:
-    """The files that `write_csv` makes: impacts, and beside it, with `_groups` in its name, groups."""
+    """The files that `write_csv` makes: impacts, and beside it, with `_groups` in its name,
+    groups.
+    """
     return path, path.with_stem(f"{path.stem}_groups")
 
 
 def write_csv(report: MaterialReport, path: Path, *, overwrite: bool = False) -> None:
-    """Write the rows of impacts and of groups into new `csv_files`. Raises FileRefusedError, see `files.new_file`."""
+    """Write the rows of impacts and of groups into new `csv_files`. Raises FileRefusedError, see
+    `files.new_file`.
+    """
     for rows, target in zip((report.rows, group_rows(report)), csv_files(path), strict=True):
         text = io.StringIO()
         writer = csv.DictWriter(text, list(rows[0]))

@@ -1,6 +1,8 @@
-"""Free impact of a viscoelastic sphere, `X'' + zeta sqrt(X) X' + X^(3/2) = 0`, by scipy's DOP853 in time, and its elastic limit.
+"""Free impact of a viscoelastic sphere, `X'' + zeta sqrt(X) X' + X^(3/2) = 0`, by scipy's DOP853 in
+time, and its elastic limit.
 
-Slow, in the plain variables X and X', free of the bench's own code. Source: Goloshchapov, eqs 8, 9, 54.
+Slow, in the plain variables X and X', free of the bench's own code. Source: Goloshchapov, eqs 8, 9,
+54.
 """
 
 from __future__ import annotations
@@ -61,7 +63,9 @@ def severity(loss_tangent: float, end: str) -> float:
 def front_time(
     mass: float, radius: float, elastic: float, viscous: float, speed: float, shape: float, shear_speed: float
 ) -> float:
-    """Time [s] at which `(1 + sqrt 2)/4 k_p sqrt(R/x) x'` has come down to `shear_speed`, on `m x'' = -A x^1.5 - B x^0.5 x'`."""
+    """Time [s] at which `(1 + sqrt 2)/4 k_p sqrt(R/x) x'` has come down to `shear_speed`, on `m x''
+    = -A x^1.5 - B x^0.5 x'`.
+    """
     factor = (1.0 + math.sqrt(2.0)) / 4.0 * shape * math.sqrt(radius)
 
     def rate(_t: float, y: list[float]) -> list[float]:

@@ -1,6 +1,8 @@
-"""The hereditary integral `I(t) = int J(t - s) dF(s)` sample by sample: every segment by Gauss quadrature, O(N^2).
+"""The hereditary integral `I(t) = int J(t - s) dF(s)` sample by sample: every segment by Gauss
+quadrature, O(N^2).
 
-Slow twin of `rigs/impact/theory/viscoelastic/hereditary.py`, for any compliance J(t). Source: Lee and Radok (1960).
+Slow twin of `rigs/impact/theory/viscoelastic/hereditary.py`, for any compliance J(t). Source: Lee
+and Radok (1960).
 """
 
 from __future__ import annotations

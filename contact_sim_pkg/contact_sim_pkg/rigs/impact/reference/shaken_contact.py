@@ -1,4 +1,6 @@
-"""A sphere pressed on a half-space and shaken, by scipy in time: `m x'' + A x^1.5 + B sqrt(x) x' = F0 (1 + a cos(w t))`."""
+"""A sphere pressed on a half-space and shaken, by scipy in time: `m x'' + A x^1.5 + B sqrt(x) x' =
+F0 (1 + a cos(w t))`.
+"""
 
 from __future__ import annotations
 
@@ -24,7 +26,9 @@ def last_period(
     samples: int,
     tolerance: float,
 ) -> Vector:
-    """Depth [m] at even instants of the last of ``periods`` periods; start at rest on the static depth."""
+    """Depth [m] at even instants of the last of ``periods`` periods; start at rest on the static
+    depth.
+    """
 
     def rate(time: float, state: Vector) -> list[float]:
         depth = max(float(state[0]), 0.0)

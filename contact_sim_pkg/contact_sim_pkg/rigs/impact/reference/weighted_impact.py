@@ -1,4 +1,5 @@
-"""An impact of a sphere under its weight by scipy: `m x'' = m g - A x^1.5 - B sqrt(x) x'` in `u = sqrt(x)`, `dt = 2 u ds`.
+"""An impact of a sphere under its weight by scipy: `m x'' = m g - A x^1.5 - B sqrt(x) x'` in `u =
+sqrt(x)`, `dt = 2 u ds`.
 
 Slow twin of `rigs/impact/theory/contact.py`, with events of scipy's DOP853.
 """
@@ -19,7 +20,9 @@ State = Any
 def impact_under_weight(
     mass: float, gravity: float, elastic: float, viscous: float, speed: float, pulls: bool, tolerance: float = 1e-13
 ) -> tuple[float, float, float, float]:
-    """Restitution, duration [s], depth [m] and peak force [N] from the touch at ``speed`` to the loss of force."""
+    """Restitution, duration [s], depth [m] and peak force [N] from the touch at ``speed`` to the
+    loss of force.
+    """
     length = (mass * speed**2 / elastic) ** 0.4
     fall, zeta = gravity * length / speed**2, viscous * length**1.5 / (mass * speed)
 

@@ -1,7 +1,8 @@
-"""The two bodies of an impact: sphere, moduli of half-space and body, and what acts of them together.
+"""The two bodies of an impact: sphere, moduli of half-space and body, and what acts of them
+together.
 
-``1/E' = 1/E1' + 1/E2'``, ``D1 = E2'/(E1' + E2')`` the half-space's share of the approach, ``D2 = 1 - D1`` (Goloshchapov, below
-eq 6). With loss in both bodies the complex moduli stand in series.
+``1/E' = 1/E1' + 1/E2'``, ``D1 = E2'/(E1' + E2')`` the half-space's share of the approach, ``D2 = 1
+- D1`` (Goloshchapov, below eq 6). With loss in both bodies the complex moduli stand in series.
 """
 
 from __future__ import annotations
@@ -46,7 +47,8 @@ def pair(half_space: Material, body: Material | None) -> Material:
 
 
 def shares(half_space_modulus: float, body_modulus: float) -> tuple[float, float]:
-    """D1, D2: parts of the approach taken by the half-space and by the body, moduli > 0 [Pa]; the body's may be infinite (rigid).
+    """D1, D2: parts of the approach taken by the half-space and by the body, moduli > 0 [Pa]; the
+    body's may be infinite (rigid).
 
     Raises ImpactError for other moduli.
     """
@@ -57,9 +59,11 @@ def shares(half_space_modulus: float, body_modulus: float) -> tuple[float, float
 
 
 def hertz_modulus(plane_strain_modulus: float, shape_factor: float) -> float:
-    """E' in [Pa] with which the model's force is Hertz's: ``E'/k_p`` of the plane-strain modulus E*, ``F = 4/3 E* sqrt(R) x^1.5``.
+    """E' in [Pa] with which the model's force is Hertz's: ``E'/k_p`` of the plane-strain modulus
+    E*, ``F = 4/3 E* sqrt(R) x^1.5``.
 
-    At equal moduli the model is k_p (sqrt 2) times stiffer than Hertz. Both > 0; raises ImpactError otherwise.
+    At equal moduli the model is k_p (sqrt 2) times stiffer than Hertz. Both > 0; raises ImpactError
+    otherwise.
     """
     check_positive("plane-strain modulus", plane_strain_modulus, "Pa")
     check_positive("shape factor", shape_factor)

@@ -1,4 +1,5 @@
-"""One contact of a sphere under its own weight, stretch by stretch: loaded, released, perhaps loaded again, until the bodies part.
+"""One contact of a sphere under its own weight, stretch by stretch: loaded, released, perhaps
+loaded again, until the bodies part.
 
 ``m x'' = m g - F(x, x')`` with the law of ``rigs/impact/theory/closed_form/force.py``. A loaded
 stretch is solved by Taylor series (``rigs/impact/theory/closed_form/scaled_motion.py``), a released
@@ -66,7 +67,9 @@ class ContactLaw(NamedTuple):
 
 
 class Turns(NamedTuple):
-    """First turning point and largest force of a contact, seen in its first stretch; times from its touch."""
+    """First turning point and largest force of a contact, seen in its first stretch; times from its
+    touch.
+    """
 
     compression_time: float  # [s]
     depth: float  # [m]
@@ -122,7 +125,9 @@ def next_stretch(before: ContactPhase) -> ContactPhase:
 
 
 def static_depth(law: ContactLaw) -> float:
-    """Depth in [m] at which the sphere rests under its weight. Raises ImpactError for a law outside its range."""
+    """Depth in [m] at which the sphere rests under its weight. Raises ImpactError for a law outside
+    its range.
+    """
     _check_law(law)
     return _static_depth(law)
 
@@ -132,7 +137,9 @@ def _static_depth(law: ContactLaw) -> float:
 
 
 def stored(law: ContactLaw, depth: float) -> float:
-    """Elastic energy ``2/5 A x^(5/2)`` in [J]; 0 for depths [m] below 0. Raises ImpactError for a law outside its range."""
+    """Elastic energy ``2/5 A x^(5/2)`` in [J]; 0 for depths [m] below 0. Raises ImpactError for a
+    law outside its range.
+    """
     _check_law(law)
     check_number("depth", depth, "m")
     return _stored(law, depth)
@@ -143,7 +150,8 @@ def _stored(law: ContactLaw, depth: float) -> float:
 
 
 def sample(stretch: ContactPhase, times: Vector) -> tuple[Vector, Vector, Vector]:
-    """Depth [m], speed [m/s] and heat [J] since its begin at rising ``times`` [s] within the stretch, its ends outside it.
+    """Depth [m], speed [m/s] and heat [J] since its begin at rising ``times`` [s] within the
+    stretch, its ends outside it.
 
     Raises ImpactError for times that are not finite or do not rise.
     """
@@ -207,7 +215,9 @@ def _loaded(law: ContactLaw, depth: float, speed: float, *, first: bool) -> Cont
 
 
 def _released(law: ContactLaw, depth: float, speed: float) -> ContactPhase:
-    """Parabola from ``depth`` > 0, moving out, to depth 0 or to where the law pushes again, whichever comes first."""
+    """Parabola from ``depth`` > 0, moving out, to depth 0 or to where the law pushes again,
+    whichever comes first.
+    """
     parting = _first_root(0.5 * law.gravity, speed, depth)
     ratio = law.elastic / law.viscous
     slope = ratio * speed + law.gravity
@@ -230,7 +240,9 @@ def _released(law: ContactLaw, depth: float, speed: float) -> ContactPhase:
 
 
 def _first_root(square: float, slope: float, value: float, *, rising: bool = False) -> float:
-    """Least t > 0 with ``square t^2 + slope t + value = 0``, or the later one, where the function rises; infinite without any."""
+    """Least t > 0 with ``square t^2 + slope t + value = 0``, or the later one, where the function
+    rises; infinite without any.
+    """
     if square == 0.0:
         root = -value / slope if slope != 0.0 else math.inf
         return root if root > 0.0 and (not rising or slope > 0.0) else math.inf

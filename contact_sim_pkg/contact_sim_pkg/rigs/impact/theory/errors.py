@@ -10,7 +10,9 @@ class ImpactError(ValueError):
 
 
 class FoldError(ImpactError):
-    """With the end rule `gap` no consistent frequency exists above a loss tangent: the solution folds back there."""
+    """With the end rule `gap` no consistent frequency exists above a loss tangent: the solution
+    folds back there.
+    """
 
     def __init__(self, loss_tangent: float, bound: float) -> None:
         super().__init__(

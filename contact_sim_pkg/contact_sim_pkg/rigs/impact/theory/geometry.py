@@ -1,8 +1,9 @@
-"""Contact of a sphere and a half-space, or of two spheres, as plain geometry (Goloshchapov eqs 1-7).
+"""Contact of a sphere and a half-space, or of two spheres, as plain geometry (Goloshchapov eqs
+1-7).
 
-``r^2 = 2 R x - x^2 = k_p^2 R x``, ``k_p = sqrt(2 - x/R)``, x the approach, ``R = R1 R2/(R1 + R2)``. The radius is that of the rigid
-overlap: sqrt(2) times Hertz's. Exact for a sphere on a plane; for two spheres `overlap_radius` is exact, and eq 1 is
-its first order in x.
+``r^2 = 2 R x - x^2 = k_p^2 R x``, ``k_p = sqrt(2 - x/R)``, x the approach, ``R = R1 R2/(R1 + R2)``.
+The radius is that of the rigid overlap: sqrt(2) times Hertz's. Exact for a sphere on a plane; for
+two spheres `overlap_radius` is exact, and eq 1 is its first order in x.
 """
 
 from __future__ import annotations
@@ -27,7 +28,9 @@ DEEP = 0.3  # x/R above which the quadratic shape is a rough picture
 
 
 def effective_radius(radius_1: float, radius_2: float) -> float:
-    """``R1 R2/(R1 + R2)`` in [m], both > 0; either may be infinite (a plane). Raises ImpactError otherwise."""
+    """``R1 R2/(R1 + R2)`` in [m], both > 0; either may be infinite (a plane). Raises ImpactError
+    otherwise.
+    """
     curvature = 0.0
     for radius in (radius_1, radius_2):
         curvature += 1.0 / check_number("radius", radius, "m", above=0.0, infinite=True)
@@ -37,7 +40,9 @@ def effective_radius(radius_1: float, radius_2: float) -> float:
 
 
 def depth_note(depth: float, radius: float) -> str | None:
-    """None up to x/R = 0.3, a sentence up to 1; raises ImpactError above, where the shape has no meaning, and for R not above 0."""
+    """None up to x/R = 0.3, a sentence up to 1; raises ImpactError above, where the shape has no
+    meaning, and for R not above 0.
+    """
     ratio = check_number("depth", depth, "m") / check_positive("radius", radius, "m")
     if not ratio <= 1.0:
         raise ImpactError(
@@ -55,7 +60,9 @@ def shape_factor(depth: float, radius: float) -> float:
 
 
 def contact_radius(depth: float, radius: float) -> float:
-    """``sqrt(2 R x - x^2)`` in [m]; 0 without approach. Raises ImpactError for x > R and R not above 0."""
+    """``sqrt(2 R x - x^2)`` in [m]; 0 without approach. Raises ImpactError for x > R and R not
+    above 0.
+    """
     check_positive("radius", radius, "m")
     if check_number("depth", depth, "m") <= 0.0:
         return 0.0
@@ -63,7 +70,8 @@ def contact_radius(depth: float, radius: float) -> float:
 
 
 def overlap_radius(depth: float, radius_1: float, radius_2: float) -> float:
-    """Radius in [m] of the circle in which two finite spheres intersect whose centres stand ``R1 + R2 - x`` apart.
+    """Radius in [m] of the circle in which two finite spheres intersect whose centres stand ``R1 +
+    R2 - x`` apart.
 
     ``r^2 = R1^2 - d1^2``, ``d1 = (D^2 + R1^2 - R2^2)/(2 D)``.
     Raises ImpactError where one swallows the other's pole by R, and for radii not above 0.
@@ -80,7 +88,8 @@ def overlap_radius(depth: float, radius_1: float, radius_2: float) -> float:
 
 
 def depth_factor(radius: float, body_radius: float, body_share: float) -> float:
-    """``k_h = (R - D2 R2)/R2`` of the contact surface's depth ``h_x = k_h x`` (eq 6); D1 for a half-space, where R = R2.
+    """``k_h = (R - D2 R2)/R2`` of the contact surface's depth ``h_x = k_h x`` (eq 6); D1 for a
+    half-space, where R = R2.
 
     Radii > 0 [m], D2 from 0 to 1; raises ImpactError otherwise.
     """

@@ -1,9 +1,11 @@
-"""The material of a measured impact: E' and tan(beta) from contact time, restitution and speed (Goloshchapov eqs 104, 105).
+"""The material of a measured impact: E' and tan(beta) from contact time, restitution and speed
+(Goloshchapov eqs 104, 105).
 
-Every form is ``E' = q h(k)``, ``tan(beta) = g(k)`` with ``q = m/(sqrt(V0 R) tau^(5/2))``. `exact` (default) inverts the
-integrated motion: zeta from k, ``L = V0 tau/T_c``, ``E' = 3 m V0^2/(4 k_p sqrt(R) L^(5/2))``, so ``h = 3 T_c^(5/2)/(4 k_p)``,
-and ``g = pi zeta/(3 T_c)``. `corrected` and `printed`: ``h = f (1 + k)^(5/2)/(k_p k^(3/2))``, f = 5.3033 and 5.03, ``g = pi/3
-(1 - k)/(1 + k)``; without loss they give 2.15 times the E' that the motion has.
+Every form is ``E' = q h(k)``, ``tan(beta) = g(k)`` with ``q = m/(sqrt(V0 R) tau^(5/2))``. `exact`
+(default) inverts the integrated motion: zeta from k, ``L = V0 tau/T_c``, ``E' = 3 m V0^2/(4 k_p
+sqrt(R) L^(5/2))``, so ``h = 3 T_c^(5/2)/(4 k_p)``, and ``g = pi zeta/(3 T_c)``. `corrected` and
+`printed`: ``h = f (1 + k)^(5/2)/(k_p k^(3/2))``, f = 5.3033 and 5.03, ``g = pi/3 (1 - k)/(1 + k)``;
+without loss they give 2.15 times the E' that the motion has.
 """
 
 from __future__ import annotations
@@ -46,12 +48,13 @@ def material_of_impact(
     shape: str = "small",
     gravity: float = 0.0,
 ) -> Material:
-    """E' and tan(beta) of an impact of ``sphere`` at ``speed`` [m/s] that lasts ``duration`` [s] and rebounds with ``restitution``.
+    """E' and tan(beta) of an impact of ``sphere`` at ``speed`` [m/s] that lasts ``duration`` [s]
+    and rebounds with ``restitution``.
 
-    ``end`` and ``shape`` as in `solve_impact`. ``gravity`` [m/s^2] along the blow during the contact: that of a drop tower, 0 of a
-    pendulum; only the exact form knows it.
-    Raises ImpactError for a restitution that the form does not reach, for x_m > R, and for a mass, radius, speed or duration that
-    is not above 0.
+    ``end`` and ``shape`` as in `solve_impact`. ``gravity`` [m/s^2] along the blow during the
+    contact: that of a drop tower, 0 of a pendulum; only the exact form knows it. Raises ImpactError
+    for a restitution that the form does not reach, for x_m > R, and for a mass, radius, speed or
+    duration that is not above 0.
     """
     group = group_factor(sphere, speed, duration)
     check_not_negative("gravity", gravity, "m/s^2")
@@ -91,7 +94,8 @@ def reading(restitution: float, end: str = "force", form: str = "exact", weight:
 
 
 def _severity_under_weight(restitution: float, end: str, weight: float) -> tuple[float, ScaledImpact]:
-    """zeta, and the impact at it under the weight; the frequency in its viscous force stays that of the impact without weight.
+    """zeta, and the impact at it under the weight; the frequency in its viscous force stays that of
+    the impact without weight.
 
     Weight lowers the restitution, so zeta lies below that of the same restitution without it.
     """
@@ -115,10 +119,11 @@ def _severity_under_weight(restitution: float, end: str, weight: float) -> tuple
 
 
 def _under_weight(severity: float, end: str, weight: float) -> ScaledImpact:
-    """The impact at ``severity`` with ``g tau/V0 = weight``; the weight in its own units is ``weight/T_c``, T_c its own.
+    """The impact at ``severity`` with ``g tau/V0 = weight``; the weight in its own units is
+    ``weight/T_c``, T_c its own.
 
-    That is a root between 0 and the value at the T_c without weight, for the product of both grows with the weight. Raises
-    ImpactError where the weight keeps the sphere on the sample.
+    That is a root between 0 and the value at the T_c without weight, for the product of both grows
+    with the weight. Raises ImpactError where the weight keeps the sphere on the sample.
     """
     free = scaled_impact(severity, end)
     if weight == 0.0:

@@ -1,10 +1,12 @@
-"""Relations of the moduli and viscosities of an isotropic material, real or complex (Goloshchapov eqs 119-123 and below).
+"""Relations of the moduli and viscosities of an isotropic material, real or complex (Goloshchapov
+eqs 119-123 and below).
 
-``E = 3 K (1 - 2 nu) = 2 G (1 + nu) = 9 G K/(G + 3 K)``. They hold for complex values as a whole: part by part (eqs 119, 120)
-only for a real nu that does not change with frequency. nu = 1/2 is allowed where 1 - 2 nu does not divide.
+``E = 3 K (1 - 2 nu) = 2 G (1 + nu) = 9 G K/(G + 3 K)``. They hold for complex values as a whole:
+part by part (eqs 119, 120) only for a real nu that does not change with frequency. nu = 1/2 is
+allowed where 1 - 2 nu does not divide.
 
-Moduli in [Pa] have a real part above 0 (a bulk modulus may be infinite), nu one above -1, at most 1/2 where it is real. Other
-values raise ImpactError.
+Moduli in [Pa] have a real part above 0 (a bulk modulus may be infinite), nu one above -1, at most
+1/2 where it is real. Other values raise ImpactError.
 """
 
 from __future__ import annotations
@@ -58,7 +60,9 @@ def poisson_ratio(shear: Number, bulk: Number) -> Number:
 
 
 def dynamic_viscosities(modulus: complex, frequency: float) -> tuple[float, float]:
-    """``eta' = E''/w`` and ``eta'' = E'/w`` in [Pa s] of a complex modulus [Pa] at ``frequency`` [rad/s] (eq 121)."""
+    """``eta' = E''/w`` and ``eta'' = E'/w`` in [Pa s] of a complex modulus [Pa] at ``frequency``
+    [rad/s] (eq 121).
+    """
     check_positive("frequency", frequency, "rad/s")
     if not (math.isfinite(modulus.real) and math.isfinite(modulus.imag)):
         raise ImpactError(f"modulus {modulus}: a finite one is needed")

@@ -1,4 +1,5 @@
-"""A free impact of a sphere, solved: contact time, restitution, depth, forces, and its course in time.
+"""A free impact of a sphere, solved: contact time, restitution, depth, forces, and its course in
+time.
 
 The equation of motion (Goloshchapov eq 54) is integrated with the frequency that it results in
 (`rigs/impact/theory/closed_form/severity.py`, `rigs/impact/theory/closed_form/scaled_motion.py`),
@@ -62,7 +63,9 @@ class FreeImpact(NamedTuple):
 
     @property
     def damping(self) -> float:
-        """``delta = -ln k/tau`` in [1/s] (eq 69): the decay of the damped sine with this restitution and time."""
+        """``delta = -ln k/tau`` in [1/s] (eq 69): the decay of the damped sine with this
+        restitution and time.
+        """
         return -math.log(self.restitution) / self.duration
 
     @property
@@ -89,11 +92,13 @@ class ImpactCourse(NamedTuple):
 def solve_impact(
     sphere: Sphere, material: Material, speed: float, end: str = "force", shape: str = "small"
 ) -> FreeImpact:
-    """The free impact of ``sphere`` at ``speed`` V0 > 0 [m/s] on a half-space; ``material``: that of both bodies in series.
+    """The free impact of ``sphere`` at ``speed`` V0 > 0 [m/s] on a half-space; ``material``: that
+    of both bodies in series.
 
-    ``end``: contact ends where the force is zero (`force`) or where the gap opens (`gap`). ``shape``: k_p = sqrt(2) (`small`) or
-    ``sqrt(2 - x_m/R)`` (`iterate`), one constant an impact. Relative errors below 1e-13.
-    Raises FoldError with `gap` above tan(beta) = 0.40373, ImpactError for x_m > R and for numbers outside their range.
+    ``end``: contact ends where the force is zero (`force`) or where the gap opens (`gap`).
+    ``shape``: k_p = sqrt(2) (`small`) or ``sqrt(2 - x_m/R)`` (`iterate`), one constant an impact.
+    Relative errors below 1e-13. Raises FoldError with `gap` above tan(beta) = 0.40373, ImpactError
+    for x_m > R and for numbers outside their range.
     """
     _check(sphere, material, speed, shape)
     severity = severity_of_loss_tangent(material.loss_tangent, end)
@@ -109,7 +114,9 @@ def solve_impact(
 
 
 def course(impact: FreeImpact, times: Vector) -> ImpactCourse:
-    """Depth, speed and forces at rising ``times`` [s], 0 to ``impact.duration``. Raises ImpactError for other times."""
+    """Depth, speed and forces at rising ``times`` [s], 0 to ``impact.duration``. Raises ImpactError
+    for other times.
+    """
     most = impact.duration * (1.0 + LEEWAY)
     times = check_values("times", times, "s", shape=(None,), least=0.0, most=most, rising=True)
     time_unit = impact.length / impact.speed

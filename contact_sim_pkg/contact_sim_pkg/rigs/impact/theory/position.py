@@ -1,12 +1,14 @@
-"""Where the contact surface lies: depth h_x, volumes and heating of the half-space, in both variants (Goloshchapov eqs 10-40).
+"""Where the contact surface lies: depth h_x, volumes and heating of the half-space, in both
+variants (Goloshchapov eqs 10-40).
 
-Half-space: ``x1 = D1 x``. Volume of deformation V_x1, of compression V_c1 from the elastic work, heating ``dV_T = V_x1 K_T dT``.
+Half-space: ``x1 = D1 x``. Volume of deformation V_x1, of compression V_c1 from the elastic work,
+heating ``dV_T = V_x1 K_T dT``.
 
-Variant 1 (static; the border sinks): ``V_x1 = pi/2 k_c^2 R x1^2``, ``V_c1 = 8/15 k_c (E1'/K1') sqrt(R) x1^(5/2)``,
-``h_x = x1 sqrt(1 - a + K_T dT)``, ``a = 16/(5 pi k_c) sqrt(x1/R)(1 - 2 nu)``; k_c = k_p (`equal`) or
-``k_c^2 = k_p^2 (1 + x2/h_x)`` (`consistent`).
-Variant 2 (impact; the border stays on the surface): ``V_x1 = pi/2 k_x1^2 R x1^2``, ``k_x1^2 = k_p^2 x/x1``,
-``k_h^2 = k_p^2 x/h_x``, ``h_x = x1 (1 - a + K_T dT)``, ``a = 16 sqrt(D1)/(5 pi k_p) sqrt(x1/R)(1 - 2 nu)``.
+Variant 1 (static; the border sinks): ``V_x1 = pi/2 k_c^2 R x1^2``, ``V_c1 = 8/15 k_c (E1'/K1')
+sqrt(R) x1^(5/2)``, ``h_x = x1 sqrt(1 - a + K_T dT)``, ``a = 16/(5 pi k_c) sqrt(x1/R)(1 - 2 nu)``;
+k_c = k_p (`equal`) or ``k_c^2 = k_p^2 (1 + x2/h_x)`` (`consistent`). Variant 2 (impact; the border
+stays on the surface): ``V_x1 = pi/2 k_x1^2 R x1^2``, ``k_x1^2 = k_p^2 x/x1``, ``k_h^2 = k_p^2
+x/h_x``, ``h_x = x1 (1 - a + K_T dT)``, ``a = 16 sqrt(D1)/(5 pi k_p) sqrt(x1/R)(1 - 2 nu)``.
 ``E1'/K1' = 3 (1 - 2 nu)``: nu = 1/2 is allowed and gives h_x = x1.
 """
 
@@ -49,7 +51,8 @@ class Position(NamedTuple):
 def position_variant_1(depth: float, radius: float, half_space: SampleHalfSpace, rule: str = "equal") -> Position:
     """Variant 1 at approach ``depth`` x [m]; ``rule`` for k_c: `equal` or `consistent`.
 
-    Range: 0 < x <= R [m], 0 < D1 <= 1, -1 < nu <= 1/2, alpha_h below 1 + K_T dT. Raises ImpactError outside.
+    Range: 0 < x <= R [m], 0 < D1 <= 1, -1 < nu <= 1/2, alpha_h below 1 + K_T dT. Raises ImpactError
+    outside.
     """
     x1, k_p = _parts(depth, radius, half_space)
     k_c, alpha, surface = k_p, 0.0, x1

@@ -1,9 +1,9 @@
 """Time-temperature shift, with the impact speed as frequency (Goloshchapov eqs 106, 107).
 
-WLF: ``lg a_T = -C1 (T - Tg)/(C2 + T - Tg)``; Arrhenius: ``lg a_T = U/(ln 10 R_g) (1/T - 1/Tg)``. States of equal ``V a_T(T)``
-are equal: what was measured at V1 over temperature says for (V, T) what stands at T* with ``lg a_T(T*) = lg a_T(T) +
-lg(V/V1)``. Moduli, tan(beta) and k carry over; the contact time is read at T* and multiplied by ``(V/V1)^(-1/5)``, which is
-geometry.
+WLF: ``lg a_T = -C1 (T - Tg)/(C2 + T - Tg)``; Arrhenius: ``lg a_T = U/(ln 10 R_g) (1/T - 1/Tg)``.
+States of equal ``V a_T(T)`` are equal: what was measured at V1 over temperature says for (V, T)
+what stands at T* with ``lg a_T(T*) = lg a_T(T) + lg(V/V1)``. Moduli, tan(beta) and k carry over;
+the contact time is read at T* and multiplied by ``(V/V1)^(-1/5)``, which is geometry.
 """
 
 from __future__ import annotations
@@ -48,7 +48,8 @@ Shift = Wlf | Arrhenius
 
 
 def log_shift(shift: Shift, temperature: float) -> float:
-    """``lg a_T`` at ``temperature`` [K]. Raises ImpactError for WLF at T <= Tg - C2, where it has its pole.
+    """``lg a_T`` at ``temperature`` [K]. Raises ImpactError for WLF at T <= Tg - C2, where it has
+    its pole.
 
     Also for a temperature or a parameter of the shift that is not above 0.
     """
@@ -67,7 +68,10 @@ def log_shift(shift: Shift, temperature: float) -> float:
 
 
 def temperature_of_shift(shift: Shift, value: float) -> float:
-    """T in [K] with ``lg a_T = value``. Raises ImpactError where there is none, and as `log_shift`."""
+    """T in [K] with ``lg a_T = value``.
+
+    Raises ImpactError where there is none, and as `log_shift`.
+    """
     _check(shift)
     check_number("shift", value)
     if isinstance(shift, Arrhenius):
@@ -87,7 +91,8 @@ def temperature_of_shift(shift: Shift, value: float) -> float:
 
 
 def equivalent_temperature(shift: Shift, temperature: float, speed: float, table_speed: float) -> float:
-    """T* in [K] at which a table measured at ``table_speed`` stands for ``temperature`` [K] and ``speed``.
+    """T* in [K] at which a table measured at ``table_speed`` stands for ``temperature`` [K] and
+    ``speed``.
 
     Speeds or frequencies alike, > 0. Errors as `log_shift` and `temperature_of_shift`.
     """
@@ -97,7 +102,9 @@ def equivalent_temperature(shift: Shift, temperature: float, speed: float, table
 
 
 def carried_duration(duration: float, speed: float, table_speed: float) -> float:
-    """Contact time in [s] at ``speed`` from that read at T*: times ``(V/V1)^(-1/5)``; all > 0, else ImpactError."""
+    """Contact time in [s] at ``speed`` from that read at T*: times ``(V/V1)^(-1/5)``; all > 0, else
+    ImpactError.
+    """
     check_positive("duration", duration, "s")
     check_positive("speed", speed)
     check_positive("speed of the table", table_speed)
@@ -105,7 +112,9 @@ def carried_duration(duration: float, speed: float, table_speed: float) -> float
 
 
 def shift_note(shift: Shift, temperature: float) -> str | None:
-    """A sentence outside Tg to Tg + 100 K, where WLF is not meant to hold; else None. Errors as `log_shift`."""
+    """A sentence outside Tg to Tg + 100 K, where WLF is not meant to hold; else None. Errors as
+    `log_shift`.
+    """
     _check(shift)
     check_positive("temperature", temperature, "K")
     if isinstance(shift, Wlf) and not 0.0 <= temperature - shift.glass_temperature <= WLF_RANGE:

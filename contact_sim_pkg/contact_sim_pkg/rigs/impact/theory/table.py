@@ -1,7 +1,9 @@
-"""Restitution, contact time, depth and peak force over the loss tangent, by look-up: Chebyshev series in ``sqrt(tan(beta))``.
+"""Restitution, contact time, depth and peak force over the loss tangent, by look-up: Chebyshev
+series in ``sqrt(tan(beta))``.
 
-In that variable the results are smooth down to no loss: contact ends at ``u = sqrt(zeta k)``. Made at first use from 41 solutions.
-Largest error seen over both tables: 1.6e-14 in k, T_c and X_m, 6.3e-12 in the peak force.
+In that variable the results are smooth down to no loss: contact ends at ``u = sqrt(zeta k)``. Made
+at first use from 41 solutions. Largest error seen over both tables: 1.6e-14 in k, T_c and X_m,
+6.3e-12 in the peak force.
 """
 
 from __future__ import annotations
@@ -24,7 +26,9 @@ from contact_sim_pkg.rigs.impact.theory.errors import ImpactError
 __all__ = ["LIMITS", "TableEntry", "look_up"]
 
 LIMITS = {"force": 2.0, "gap": 0.3}
-"""Largest loss tangent of each end rule; `gap` stays away from its fold, where the slope has no bound."""
+"""Largest loss tangent of each end rule; `gap` stays away from its fold, where the slope has no
+bound.
+"""
 DEGREE = 40
 
 
@@ -38,7 +42,9 @@ class TableEntry(NamedTuple):
 
 
 def look_up(loss_tangent: float, end: str = "force") -> TableEntry:
-    """The consistent impact at ``loss_tangent``, 0 to the limit of the end rule. Raises ImpactError outside."""
+    """The consistent impact at ``loss_tangent``, 0 to the limit of the end rule. Raises ImpactError
+    outside.
+    """
     lowest_force(end)
     limit, loss_tangent = LIMITS[end], check_number("loss tangent", loss_tangent)
     if not 0.0 <= loss_tangent <= limit:

@@ -1,15 +1,17 @@
-"""The paper's interval procedure (figure 15): the track wears where its dangerous volume is large, and waves may grow from that.
+"""The paper's interval procedure (figure 15): the track wears where its dangerous volume is large,
+and waves may grow from that.
 
-An interval is `turns` turns of the track. The roller rides it (`rigs/roller/theory/heave.py`), the loads met give the share of
-dangerous volume `omega(F)` of each cell, and the track is lowered where it is above the mean:
+An interval is `turns` turns of the track. The roller rides it (`rigs/roller/theory/heave.py`), the
+loads met give the share of dangerous volume `omega(F)` of each cell, and the track is lowered where
+it is above the mean:
 
     w_j <- w_j - gamma delta(F_N) turns (omega_j - mean omega)
 
-The mean lowers the whole track and is told apart. W, which the roller rides, is the mean of w over the length of the contact,
-straight between the cells; the length need not be whole cells.
-Where the hardness c of a cell raises the limits, `omega_c(F) = c^3 omega(F / c^3)`: stress goes with F^(1/3), the volume that bears
-it with F.
-Small waves of n_w round the track, Omega_w = 2 pi n_w turns/s, grow by `growth_of_wave` a turn.
+The mean lowers the whole track and is told apart. W, which the roller rides, is the mean of w over
+the length of the contact, straight between the cells; the length need not be whole cells. Where the
+hardness c of a cell raises the limits, `omega_c(F) = c^3 omega(F / c^3)`: stress goes with F^(1/3),
+the volume that bears it with F. Small waves of n_w round the track, Omega_w = 2 pi n_w turns/s,
+grow by `growth_of_wave` a turn.
 """
 
 from __future__ import annotations
@@ -83,10 +85,12 @@ def make_track(
     radius: float, turn_time: float, cells: int, contact_length: float, gain: float, approach: float,
     table: tuple[Values, Values], hardness: Values | None = None,
 ) -> WearTrack:  # fmt: skip
-    """Track of `radius` [m] cut into `cells`; `table`: loads [N], rising from 0, and the shares omega of these.
+    """Track of `radius` [m] cut into `cells`; `table`: loads [N], rising from 0, and the shares
+    omega of these.
 
-    hardness: of each cell, 1 where None. turn_time [s] and radius above 0, at least 8 cells, contact_length [m], gain and
-    approach [m] at least 0. Raises `ValueError` for a table that does not rise from 0 N and values out of range.
+    hardness: of each cell, 1 where None. turn_time [s] and radius above 0, at least 8 cells,
+    contact_length [m], gain and approach [m] at least 0. Raises `ValueError` for a table that does
+    not rise from 0 N and values out of range.
     """
     for name, value, unit in (("radius", radius, "m"), ("turn time", turn_time, "s")):
         require_positive(f"track: {name}", value, unit)
@@ -118,8 +122,8 @@ def run_intervals(
     heave: Heave, track: WearTrack, turns: int, intervals: int, heights: Values, state: Values, loads: Values,
     motion: Values,
 ) -> Interval:  # fmt: skip
-    """`intervals` intervals; `heights` [cells] [m], `state` (z, z') go on in place, `loads` [cells] [N] and
-    `motion` [cells, 2] are the last ones. Not checked.
+    """`intervals` intervals; `heights` [cells] [m], `state` (z, z') go on in place, `loads` [cells]
+    [N] and `motion` [cells, 2] are the last ones. Not checked.
     """
     cells = heights.shape[0]
     path = Path(numpy.zeros(cells + 1), numpy.full(cells + 1, heave.contact_coefficient))
@@ -140,7 +144,9 @@ def run_intervals(
 
 @entry
 def wear(track: WearTrack, turns: float, loads: Values, heights: Values) -> Wear:
-    """Take off what `turns` turns under `loads` [cells] [N] cost; `heights` [cells] [m] change in place. Not checked."""
+    """Take off what `turns` turns under `loads` [cells] [N] cost; `heights` [cells] [m] change in
+    place. Not checked.
+    """
     cells, mean = heights.shape[0], 0.0
     step = track.gain * track.approach * turns
     for j in range(cells):
@@ -161,9 +167,11 @@ def _share(track: WearTrack, cell: int, load: float) -> float:
 
 @entry
 def mean_weights(width: float) -> Values:
-    """Weights of a place itself and of each place k cells before and behind it, in the mean over `width` cells about it.
+    """Weights of a place itself and of each place k cells before and behind it, in the mean over
+    `width` cells about it.
 
-    Heights go straight from place to place. width: any number not below 0; 0 takes the height of the place. Not checked.
+    Heights go straight from place to place. width: any number not below 0; 0 takes the height of
+    the place. Not checked.
     """
     half = 0.5 * width
     whole = int(half)
@@ -183,7 +191,8 @@ def mean_weights(width: float) -> Values:
 
 @entry
 def moving_mean(heights: Values, width: float, out: Values) -> None:
-    """Mean of `heights` [cells] over `width` cells about each, round the track; an `out` of one cell more is closed.
+    """Mean of `heights` [cells] over `width` cells about each, round the track; an `out` of one
+    cell more is closed.
 
     The width is at most that of the track. Not checked.
     """
@@ -211,11 +220,13 @@ def _read(places: Values, values: Values, place: float) -> float:
 
 
 def growth_of_wave(heave: Heave, track: WearTrack, waves: int, slope: float, cells: int) -> float:
-    """Growth of a small wave in a turn: `-gamma delta(F_N) F omega'(F) (k_lin / F_N) Re(1 - H)` and the moving mean's factor.
+    """Growth of a small wave in a turn: `-gamma delta(F_N) F omega'(F) (k_lin / F_N) Re(1 - H)` and
+    the moving mean's factor.
 
-    waves: n_w round the track; slope: `F d omega / dF` at F_N; `H = kappa^2 / (kappa^2 - Omega^2 + 2 i zeta kappa Omega)`.
-    Positive exactly below `kappa sqrt(1 - 4 zeta^2)` with a positive slope, but for the sign of the moving mean.
-    Raises `ValueError` for waves below 0, fewer than 8 cells and a slope that is not finite.
+    waves: n_w round the track; slope: `F d omega / dF` at F_N; `H = kappa^2 / (kappa^2 - Omega^2 +
+    2 i zeta kappa Omega)`. Positive exactly below `kappa sqrt(1 - 4 zeta^2)` with a positive slope,
+    but for the sign of the moving mean. Raises `ValueError` for waves below 0, fewer than 8 cells
+    and a slope that is not finite.
     """
     require_not_negative("growth of a wave: waves", waves)
     require("growth of a wave: slope", slope)

@@ -1,4 +1,5 @@
-"""The elliptic contact of two bodies turned against each other: semi-axes named by their direction, not by their size.
+"""The elliptic contact of two bodies turned against each other: semi-axes named by their direction,
+not by their size.
 
 The gap is `x^T G x` with `G = (Rot(yaw) diag(k11, k12) Rot(-yaw) + diag(k22, k21)) / 2`. Its
 principal curvatures are the A and B of `pressure/closed_form/hertz.py`, its principal axes those of
@@ -6,8 +7,9 @@ the ellipse: only one body turns with the yaw, so the ellipse turns by
 
     tan 2 phi = (k11 - k12) sin 2 yaw / ((k11 - k12) cos 2 yaw + k22 - k21)
 
-The paper (eq 12) takes phi = yaw. The semi-axis `along_x` is the one nearer to x: it may be the smaller, and it does not
-change its name where the two grow past each other. Source: Johnson (1985), section 4.1.
+The paper (eq 12) takes phi = yaw. The semi-axis `along_x` is the one nearer to x: it may be the
+smaller, and it does not change its name where the two grow past each other. Source: Johnson (1985),
+section 4.1.
 """
 
 from __future__ import annotations
@@ -40,7 +42,9 @@ EXACT, POLYNOMIAL = 0, 1
 Values = NDArray[numpy.float64]
 
 POLYNOMIAL_TO = 0.85
-"""Omega up to which POLYNOMIAL takes the polynomial, whose b/a is then 1 % high; beyond, the exact root."""
+"""Omega up to which POLYNOMIAL takes the polynomial, whose b/a is then 1 % high; beyond, the exact
+root.
+"""
 
 FLATTEST = 5e-13
 """Of the larger curvature of the gap: a smaller one below it is a line."""
@@ -73,10 +77,11 @@ class PrincipalCurvatures(NamedTuple):
 def contact_of_rollers(
     curvatures: Curvatures, yaw: float, modulus: float, load: float, kind: int = EXACT
 ) -> RollingContact:
-    """Contact under a load [N] at a yaw [rad]; modulus: E* [Pa]; kind: EXACT or POLYNOMIAL (the paper's eq 10).
+    """Contact under a load [N] at a yaw [rad]; modulus: E* [Pa]; kind: EXACT or POLYNOMIAL (the
+    paper's eq 10).
 
-    Zeros for a load <= 0. Raises `HertzError` where the bodies do not touch in an ellipse, for values that are not finite and for
-    another kind.
+    Zeros for a load <= 0. Raises `HertzError` where the bodies do not touch in an ellipse, for
+    values that are not finite and for another kind.
     """
     require_fields("curvatures", curvatures, finite=" ".join(Curvatures._fields), error=HertzError)
     require("roller contact: yaw", yaw, "rad", error=HertzError)
@@ -128,7 +133,8 @@ def rolling_contact(curvatures: Curvatures, yaw: float, modulus: float, load: fl
 def rolling_contacts(
     curvatures: Values, yaws: Values, modulus: float, loads: Values, kind: int, out: Values
 ) -> None:  # fmt: skip
-    """`rolling_contact` of many instants into `out` [rows, 6], columns as its fields; curvatures [rows, 4] as `Curvatures`.
+    """`rolling_contact` of many instants into `out` [rows, 6], columns as its fields; curvatures
+    [rows, 4] as `Curvatures`.
 
     Not checked.
     """
@@ -143,8 +149,8 @@ def rolling_contacts(
 def local_coefficients(
     curvatures: Curvatures, yaw: float, modulus: float, kind: int, bends: Values, out: Values
 ) -> bool:
-    """k_c [n] where the shaft curves by `k21 - bend` along rolling, bends [n] [1/m]; False where a place is too hollow to touch in
-    an ellipse. Not checked.
+    """k_c [n] where the shaft curves by `k21 - bend` along rolling, bends [n] [1/m]; False where a
+    place is too hollow to touch in an ellipse. Not checked.
     """
     for i in range(bends.shape[0]):
         here = Curvatures(

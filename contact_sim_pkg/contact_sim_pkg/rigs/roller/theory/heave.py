@@ -1,14 +1,17 @@
-"""A roller that runs over a wavy track: heave, contact load, separation and impact, cell by cell of the track.
+"""A roller that runs over a wavy track: heave, contact load, separation and impact, cell by cell of
+the track.
 
     m z'' = F - F_N - 2 zeta kappa m z',      k_c F^(2/3) + k_b F = Delta_0 + W(s) - z,      F = 0 where the right side is not
     above 0
 
-z, the height W of the track and the roller's way are counted outwards; Delta_0 is the approach at rest under F_N. Linearised
-this is eq 20 with `kappa^2 = k_lin / m`, `1 / k_lin = (2/3) k_c F_N^(-1/3) + k_b`. Each cell is passed in equal steps of the
-classical fourth-order rule, W and k_c straight over the cell. Source: Rolling Contact, eq 20 and figure 15.
+z, the height W of the track and the roller's way are counted outwards; Delta_0 is the approach at
+rest under F_N. Linearised this is eq 20 with `kappa^2 = k_lin / m`, `1 / k_lin = (2/3) k_c
+F_N^(-1/3) + k_b`. Each cell is passed in equal steps of the classical fourth-order rule, W and k_c
+straight over the cell. Source: Rolling Contact, eq 20 and figure 15.
 
-Energy: kinetic m z'^2 / 2, of the press F_N z, stored `U = (2/5) k_c F^(5/3) + k_b F^2 / 2`. The track supplies
-`F W' - (3/5) F^(5/3) k_c'`, the damper takes `2 zeta kappa m z'^2`; both are summed by the same rule.
+Energy: kinetic m z'^2 / 2, of the press F_N z, stored `U = (2/5) k_c F^(5/3) + k_b F^2 / 2`. The
+track supplies `F W' - (3/5) F^(5/3) k_c'`, the damper takes `2 zeta kappa m z'^2`; both are summed
+by the same rule.
 """
 
 from __future__ import annotations
@@ -58,7 +61,9 @@ class Path(NamedTuple):
 
 
 def closed_path(heave: Heave, heights: Values) -> Path:
-    """Round a track of `heights` [cells] [m], of the same k_c everywhere. Raises `ValueError` for heights that are not finite."""
+    """Round a track of `heights` [cells] [m], of the same k_c everywhere. Raises `ValueError` for
+    heights that are not finite.
+    """
     heights = require_values("track: heights", heights, "m", shape=(None,))
     if len(heights) == 0:
         raise ValueError("track: no heights, at least 1 is needed")
@@ -68,7 +73,9 @@ def closed_path(heave: Heave, heights: Values) -> Path:
 def make_heave(
     mass: float, damping_ratio: float, load: float, contact_coefficient: float, bending_compliance: float
 ) -> Heave:
-    """Checked values. Raises `ValueError` for values that are not finite, or not above 0 (zeta, k_b: below 0)."""
+    """Checked values. Raises `ValueError` for values that are not finite, or not above 0 (zeta,
+    k_b: below 0).
+    """
     return Heave(
         require_positive("heave: mass", mass, "kg"),
         require_not_negative("heave: zeta", damping_ratio),
@@ -99,11 +106,12 @@ def contact_energy(contact_coefficient: float, bending_compliance: float, load: 
 
 @entry
 def ride(heave: Heave, path: Path, cell_time: float, turns: int, state: Values, loads: Values, motion: Values) -> float:
-    """`turns` times over the `path`, each cell in `cell_time` [s]; returns the share of time without contact.
+    """`turns` times over the `path`, each cell in `cell_time` [s]; returns the share of time
+    without contact.
 
-    `state` (z [m], z' [m/s]) goes on in place; with two values more, the energies [J] that the track has supplied and the damper
-    taken. `loads` [cells] [N] takes the mean over the turns of the contact load at each cell, `motion` [cells, 2] z and z' there in
-    the last turn. Not checked.
+    `state` (z [m], z' [m/s]) goes on in place; with two values more, the energies [J] that the
+    track has supplied and the damper taken. `loads` [cells] [N] takes the mean over the turns of
+    the contact load at each cell, `motion` [cells, 2] z and z' there in the last turn. Not checked.
     """
     kappa = natural_frequency(heave)
     steps = max(1, int(math.ceil(kappa * cell_time / LARGEST_PHASE)))  # noqa: RUF046  # a float in compiled code
@@ -151,7 +159,9 @@ class Place(NamedTuple):
 def _step(
     heave: Heave, kappa: float, start: Place, end: Place, step: float, now: HeaveState, load: float
 ) -> tuple[HeaveState, float]:
-    """One step of the classical rule; `load` belongs to its start. Returns state and load at its end."""
+    """One step of the classical rule; `load` belongs to its start. Returns state and load at its
+    end.
+    """
     drag, k_b = 2.0 * heave.damping_ratio * kappa, heave.bending_compliance
     middle, k_middle = 0.5 * (start.height + end.height), 0.5 * (start.coefficient + end.coefficient)
     z, v = now.z, now.v

@@ -1,4 +1,5 @@
-"""Moments on a tilted and yawed roller: of the contact's pressure, of the rolling friction, of the bent shaft's friction.
+"""Moments on a tilted and yawed roller: of the contact's pressure, of the rolling friction, of the
+bent shaft's friction.
 
 With the load F, tilt psi, and the ellipse (a nearer to x, b, turned by phi) of the yaw theta:
 
@@ -7,8 +8,8 @@ With the load F, tilt psi, and the ellipse (a nearer to x, b, turned by phi) of 
     bending    M_psi = -T R cos psi (A - l + R sin psi)                          eq 17a, T = f0 Q pi a b h / J_y, h = r - approach
                M_theta = T (a^2 - b^2) sin(2 phi) / 8                            eq 17b
 
-17a is printed with `A - 1 + R cos psi` and a factor 1/2, 17b with 1/4 and phi = theta: no traction gives both factors. Source:
-Rolling Contact; the corrected factors are integrals over the ellipse.
+17a is printed with `A - 1 + R cos psi` and a factor 1/2, 17b with 1/4 and phi = theta: no traction
+gives both factors. Source: Rolling Contact; the corrected factors are integrals over the ellipse.
 """
 
 from __future__ import annotations
@@ -42,7 +43,9 @@ def moments(
     tilt: float,
     yaw: float,
 ) -> Moments:
-    """Moments of a contact under `load` [N] at angles [rad]; modulus: E* [Pa]. All are 0 without load. Not checked."""
+    """Moments of a contact under `load` [N] at angles [rad]; modulus: E* [Pa]. All are 0 without
+    load. Not checked.
+    """
     if bending is None or not load > 0.0:
         return moments_of_straight(roller, load, tilt)
     return moments_of_bent(roller, bending, load, tilt, exact_ellipse(curvatures, modulus, yaw))
@@ -57,7 +60,9 @@ def moments_of_straight(roller: Roller, load: float, tilt: float) -> Moments:
 
 @kernel
 def moments_of_bent(roller: Roller, bending: Bending, load: float, tilt: float, ellipse: YawEllipse) -> Moments:
-    """With the friction of the bent shaft, from the ellipse under 1 N at the yaw; load > 0. Not checked."""
+    """With the friction of the bent shaft, from the ellipse under 1 N at the yaw; load > 0. Not
+    checked.
+    """
     straight, arm = moments_of_straight(roller, load, tilt), roller.radius * math.sin(tilt)
     grown = numpy.cbrt(load) ** 2
     pull = bending.friction * bending.load * math.pi * grown * ellipse.product / bending.second_moment

@@ -1,15 +1,19 @@
-"""Tilt and yaw of a roller in time, by Gauss's implicit Runge-Kutta rules: they add no damping and take none away.
+"""Tilt and yaw of a roller in time, by Gauss's implicit Runge-Kutta rules: they add no damping and
+take none away.
 
     I_y psi'' + I_yz theta'' + G theta' + c_psi psi' + k_psi psi = M_psi,        G = i omega
     I_yz psi'' + I_z theta'' - G psi' + c_theta theta' + k_theta theta = M_theta
 
-One stage is the implicit midpoint rule (order 2), two have order 4, three order 6. All are symplectic: without friction and damping
-the energy errs within a bound that does not grow. The load goes straight over a step.
+One stage is the implicit midpoint rule (order 2), two have order 4, three order 6. All are
+symplectic: without friction and damping the energy errs within a bound that does not grow. The load
+goes straight over a step.
 
-Energy: kinetic and stored in the suspension, of the pressure `-F R (1 - cos psi)`, conserved where f_r = 0, nothing is bent or
-damped and F rests. Rolling, bending and a changing load supply, damping takes; both are summed by the same rule.
+Energy: kinetic and stored in the suspension, of the pressure `-F R (1 - cos psi)`, conserved where
+f_r = 0, nothing is bent or damped and F rests. Rolling, bending and a changing load supply, damping
+takes; both are summed by the same rule.
 
-Sources: eqs 8 and 18 of Rolling Contact; Hairer, Lubich, Wanner (2006), Geometric Numerical Integration, II.1.3.
+Sources: eqs 8 and 18 of Rolling Contact; Hairer, Lubich, Wanner (2006), Geometric Numerical
+Integration, II.1.3.
 """
 
 from __future__ import annotations
@@ -97,12 +101,12 @@ def march(
     roller: Roller, curvatures: Curvatures, bending: Bending | None, modulus: float, loads: Values, step: float,
     table: Values, state: Values, record: Values,
 ) -> int:  # fmt: skip
-    """Steps of `step` [s] over `loads` [steps + 1] [N]; `state` (psi, theta, psi', theta') changes in place; with two values more,
-    the energies [J] that were supplied and dissipated.
+    """Steps of `step` [s] over `loads` [steps + 1] [N]; `state` (psi, theta, psi', theta') changes
+    in place; with two values more, the energies [J] that were supplied and dissipated.
 
-    `record` [rows, 4] takes the state at the start and after every `steps / (rows - 1)` steps. Returns DONE, DIVERGED where the
-    tilt passes `LARGEST_TILT`, NO_CONVERGENCE where the step is too long for its iteration; what is not reached is NaN.
-    Not checked.
+    `record` [rows, 4] takes the state at the start and after every `steps / (rows - 1)` steps.
+    Returns DONE, DIVERGED where the tilt passes `LARGEST_TILT`, NO_CONVERGENCE where the step is
+    too long for its iteration; what is not reached is NaN. Not checked.
     """
     stages, steps = table.shape[0] - 1, loads.shape[0] - 1
     problem = TiltYawProblem(roller, curvatures, bending, modulus, empty_fit())
@@ -186,7 +190,8 @@ def _fill(problem: TiltYawProblem, load: float, state: Values, slope: Values) ->
 def _moments(problem: TiltYawProblem, bending: Bending | None, load: float, tilt: float, yaw: float) -> Moments:
     """`moments`, with the ellipse from its series over the yaw.
 
-    `bending` is an argument of its own, for numba removes the branch of an absent effect for arguments alone.
+    `bending` is an argument of its own, for numba removes the branch of an absent effect for
+    arguments alone.
     """
     if bending is not None and load > 0.0:
         ellipse = ellipse_at_yaw(problem.curvatures, problem.modulus, yaw, problem.fit)
@@ -231,7 +236,8 @@ def _copy(values: Values, out: Values) -> None:
 def accelerations(
     roller: Roller, curvatures: Values, bending: Bending | None, modulus: float, loads: Values, states: Values, out: Values
 ) -> None:  # fmt: skip
-    """psi'' and theta'' [rows, 2] [rad/s^2] of states [rows, 4] under loads [rows] [N]; curvatures [rows, 4] as `Curvatures`.
+    """psi'' and theta'' [rows, 2] [rad/s^2] of states [rows, 4] under loads [rows] [N]; curvatures
+    [rows, 4] as `Curvatures`.
 
     Not checked.
     """
@@ -263,7 +269,8 @@ class TiltYawEnergies(NamedTuple):
 
 @entry
 def energies(roller: Roller, load: float, state: Values) -> TiltYawEnergies:
-    """Under a load [N]; their sum is conserved where f_r = 0, nothing is bent, nothing damps and the load rests.
+    """Under a load [N]; their sum is conserved where f_r = 0, nothing is bent, nothing damps and
+    the load rests.
 
     Not checked: `energy` is.
     """

@@ -11,7 +11,9 @@ __all__ = ["Bending", "Curvatures", "Roller"]
 
 
 class Curvatures(NamedTuple):
-    """Of both bodies in [1/m], positive for a convex surface; yaw turns the roller's over the shaft's."""
+    """Of both bodies in [1/m], positive for a convex surface; yaw turns the roller's over the
+    shaft's.
+    """
 
     roller_axial: float  # k11, of the profile, along x
     roller_rolling: float  # k12 = 1/R, along y

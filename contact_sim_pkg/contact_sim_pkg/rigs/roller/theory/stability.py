@@ -1,9 +1,11 @@
-"""Is the rolling stable? Static angles, linear motion about them, growth rates, and the loads and dampings at which they pass zero.
+"""Is the rolling stable? Static angles, linear motion about them, growth rates, and the loads and
+dampings at which they pass zero.
 
-About the static angles the motion is `M x'' + D x' + K x = 0` with x = (tilt, yaw), D of damping and gyroscope, K of
-suspension less the slopes of the moments. Rolling friction c = f_r F R couples tilt into yaw; with any spin the characteristic
-polynomial then has no s^3 term but a linear one, so without damping a root lies in the right half-plane for either sign
-(flutter). Source: Rolling Contact, eqs 8 and 18, about the static angles instead of zero.
+About the static angles the motion is `M x'' + D x' + K x = 0` with x = (tilt, yaw), D of damping
+and gyroscope, K of suspension less the slopes of the moments. Rolling friction c = f_r F R couples
+tilt into yaw; with any spin the characteristic polynomial then has no s^3 term but a linear one, so
+without damping a root lies in the right half-plane for either sign (flutter). Source: Rolling
+Contact, eqs 8 and 18, about the static angles instead of zero.
 """
 
 from __future__ import annotations
@@ -28,7 +30,9 @@ ANGLE_STEP = 1e-4
 """[rad] of the differences that give slopes of moments; of fourth order: 1e-11 of the slope."""
 
 ROUNDING = 1e-12
-"""Of a root's size: a growth rate below it is none. The roots of an undamped motion lie on the axis but for rounding."""
+"""Of a root's size: a growth rate below it is none. The roots of an undamped motion lie on the axis
+but for rounding.
+"""
 
 
 class RollerError(ValueError):
@@ -50,7 +54,9 @@ class Stability(NamedTuple):
 
     roots: Roots  # [4] [1/s]
     growth_rate: (
-        float  # [1/s] of the fastest growing motion, negative where all decay, 0 where one neither grows nor decays
+        # [1/s] of the fastest growing motion, negative where all decay, 0 where one neither grows
+        # nor decays
+        float
     )
     frequency: float  # [Hz] of that motion; 0: divergence
     linear: Linear
@@ -59,8 +65,9 @@ class Stability(NamedTuple):
 def linearise(roller: Roller, curvatures: Curvatures, bending: Bending | None, modulus: float, load: float) -> Linear:
     """Static angles under `load` [N] and the linear motion about them.
 
-    Raises `RollerError` where there are none, and for values that are not finite, inertias, a radius or E* [Pa] not above 0, a
-    load below 0; `HertzError` where a bent shaft and the roller do not touch in an ellipse.
+    Raises `RollerError` where there are none, and for values that are not finite, inertias, a
+    radius or E* [Pa] not above 0, a load below 0; `HertzError` where a bent shaft and the roller do
+    not touch in an ellipse.
     """
     _check(roller, curvatures, bending, modulus, load)
     if roller.inertia_product**2 >= roller.inertia_tilt * roller.inertia_yaw:
@@ -118,7 +125,9 @@ def _slopes(moment: Callable[[Matrix], Matrix], angles: Matrix) -> Matrix:
 def stability(
     roller: Roller, curvatures: Curvatures, bending: Bending | None, modulus: float, load: float
 ) -> Stability:
-    """Roots of the linear motion under `load` [N] and the fastest growing one. Errors as `linearise`."""
+    """Roots of the linear motion under `load` [N] and the fastest growing one. Errors as
+    `linearise`.
+    """
     linear = linearise(roller, curvatures, bending, modulus, load)
     inverse = numpy.linalg.inv(linear.inertia)
     first_order = numpy.block([
@@ -134,7 +143,8 @@ def stability(
 def critical_load(
     roller: Roller, curvatures: Curvatures, bending: Bending | None, modulus: float, largest: float
 ) -> float | None:
-    """Smallest load [N] up to `largest` at which a motion grows; None where none does. By bisection after 200 equal steps.
+    """Smallest load [N] up to `largest` at which a motion grows; None where none does. By bisection
+    after 200 equal steps.
 
     Raises `RollerError` for values out of range, as `linearise`.
     """
@@ -156,7 +166,8 @@ def critical_load(
 def critical_damping(
     roller: Roller, curvatures: Curvatures, bending: Bending | None, modulus: float, load: float
 ) -> float:
-    """Equal damping [N m s] of tilt and yaw at which no motion grows any more, 0 where none does undamped.
+    """Equal damping [N m s] of tilt and yaw at which no motion grows any more, 0 where none does
+    undamped.
 
     Raises `RollerError` where no damping does it, and as `linearise`.
     """

@@ -1,4 +1,5 @@
-"""State of stress in the shaft under the rolling contact, in the axes of the bench: contact, traction and bending (eq 21).
+"""State of stress in the shaft under the rolling contact, in the axes of the bench: contact,
+traction and bending (eq 21).
 
 x along the shaft, y along rolling, z into the shaft from its surface. The contact part is that of
 `pressure/closed_form/hertz_stress.py` in the axes of the ellipse, turned back; bending adds `xx = Q
@@ -27,7 +28,9 @@ Values = NDArray[numpy.float64]
 def bench_stress(
     contact: RollingContact, traction_x: float, traction_y: float, poisson: float, x: float, y: float, z: float
 ) -> Stress:
-    """Contact stress [Pa] at a point [m]; traction_x, traction_y: q / p along the axes of the bench. Not checked."""
+    """Contact stress [Pa] at a point [m]; traction_x, traction_y: q / p along the axes of the
+    bench. Not checked.
+    """
     if contact.load <= 0.0:
         return Stress(0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
     c, s = math.cos(contact.angle), math.sin(contact.angle)
@@ -44,7 +47,9 @@ def bench_stress(
 
 @kernel
 def add_bending(stress: Stress, bending: Bending | None, x: float, z: float) -> Stress:
-    """The stress with the bending of the shaft; zero below its middle is not treated apart. Not checked."""
+    """The stress with the bending of the shaft; zero below its middle is not treated apart. Not
+    checked.
+    """
     if bending is None:
         return stress
     arm = bending.contact_distance - bending.load_distance + x
@@ -57,7 +62,9 @@ def bench_stresses(
     contact: RollingContact, bending: Bending | None, traction_x: float, traction_y: float, poisson: float,
     points: Values, out: Values,
 ) -> None:  # fmt: skip
-    """Stresses [n, 6] [Pa] (xx, yy, zz, xy, xz, yz) at `points` [n, 3] [m], into `out`. Not checked."""
+    """Stresses [n, 6] [Pa] (xx, yy, zz, xy, xz, yz) at `points` [n, 3] [m], into `out`. Not
+    checked.
+    """
     for i in range(points.shape[0]):
         x, y, z = points[i, 0], points[i, 1], points[i, 2]
         stress = add_bending(bench_stress(contact, traction_x, traction_y, poisson, x, y, z), bending, x, z)

@@ -1,10 +1,13 @@
-"""Dangerous volumes: where a stress passes its limit, for each component and for any of them (eqs 22 to 24).
+"""Dangerous volumes: where a stress passes its limit, for each component and for any of them (eqs
+22 to 24).
 
-`V_ij` is the volume with `|sigma_ij| > limit`, that of normal stress for i = j, of shear for i != j; `V_T` that of the union. The
-print has `sigma - limit > 0`, which is empty for the pressure. They are measured in the box `4 a x 4 b x 3 a` under the contact
-(a the larger semi-axis), on columns of cells. In each column the stress is known at depths that draw closer to the surface, from
-the surface itself on, and the depth at which it passes the limit is laid straight between two of them (`MARCHED`); or the stress
-is known at the middles of even cells, and whole cells are counted (`COUNTED`).
+`V_ij` is the volume with `|sigma_ij| > limit`, that of normal stress for i = j, of shear for i !=
+j; `V_T` that of the union. The print has `sigma - limit > 0`, which is empty for the pressure. They
+are measured in the box `4 a x 4 b x 3 a` under the contact (a the larger semi-axis), on columns of
+cells. In each column the stress is known at depths that draw closer to the surface, from the
+surface itself on, and the depth at which it passes the limit is laid straight between two of them
+(`MARCHED`); or the stress is known at the middles of even cells, and whole cells are counted
+(`COUNTED`).
 """
 
 from __future__ import annotations
@@ -49,7 +52,9 @@ EDGE_PLACES = 33
 """Each way on a side of the box, where it is asked whether a volume leaves it."""
 
 GRADING = 0.4
-"""Of the smaller semi-axis: down to about it the depths of a column are even, below they grow by a factor."""
+"""Of the smaller semi-axis: down to about it the depths of a column are even, below they grow by a
+factor.
+"""
 
 
 class Volumes(NamedTuple):
@@ -85,7 +90,9 @@ def box_volume(contact: RollingContact) -> float:
 
 
 def fills_box(volumes: Volumes, contact: RollingContact) -> bool:
-    """Whether a dangerous volume has filled its box: the true one reaches farther, its limit is too low for the box."""
+    """Whether a dangerous volume has filled its box: the true one reaches farther, its limit is too
+    low for the box.
+    """
     return contact.load > 0.0 and volumes.any > (1.0 - 1e-9) * box_volume(contact)
 
 
@@ -98,10 +105,12 @@ def dangerous_volumes(
     traction: tuple[float, float] = (0.0, 0.0),
     kind: int = MARCHED,
 ) -> Volumes:
-    """Volumes [m^3] where the stress of contact, traction and bending (None: without) passes the limits [Pa] (normal, shear).
+    """Volumes [m^3] where the stress of contact, traction and bending (None: without) passes the
+    limits [Pa] (normal, shear).
 
-    contact: of `contact_of_rollers`; all are 0 where its load is. cells: along x, y and depth. Raises `ValueError` for limits that
-    are not above 0 (they may be infinite), fewer than two cells, a Poisson ratio outside -1 < nu <= 1/2 and values not finite.
+    contact: of `contact_of_rollers`; all are 0 where its load is. cells: along x, y and depth.
+    Raises `ValueError` for limits that are not above 0 (they may be infinite), fewer than two
+    cells, a Poisson ratio outside -1 < nu <= 1/2 and values not finite.
     """
     _check(poisson, limits, cells, bending, traction)
     require_choice("dangerous volumes: kind", kind, (COUNTED, MARCHED))
@@ -141,7 +150,8 @@ def _measure(
 def leaves_box(
     contact: RollingContact, poisson: float, limits: tuple[float, float], traction: tuple[float, float] = (0.0, 0.0)
 ) -> bool:
-    """Whether a place on a side or the floor of the box is dangerous: the true volume is larger than the one in the box.
+    """Whether a place on a side or the floor of the box is dangerous: the true volume is larger
+    than the one in the box.
 
     Errors as `dangerous_volumes`.
     """
@@ -164,7 +174,8 @@ def largest_ratio(
     contact: RollingContact, poisson: float, limits: tuple[float, float], cells: tuple[int, int, int],
     bending: Bending | None = None, traction: tuple[float, float] = (0.0, 0.0),
 ) -> float:  # fmt: skip
-    """Largest stress over its limit at the places where `dangerous_volumes` looks; without bending it grows as load^(1/3).
+    """Largest stress over its limit at the places where `dangerous_volumes` looks; without bending
+    it grows as load^(1/3).
 
     0 without load. Errors as `dangerous_volumes`.
     """
@@ -229,7 +240,9 @@ def _excess(stress: Stress, loading: Loading, out: Values) -> None:
 
 @kernel
 def _depth(contact: RollingContact, k: int, nz: int) -> float:
-    """Of place k of nz, from 0 to that of the box: however slender the ellipse, its smaller axis is resolved."""
+    """Of place k of nz, from 0 to that of the box: however slender the ellipse, its smaller axis is
+    resolved.
+    """
     scale = GRADING * min(contact.along_x, contact.along_y)
     deepest = 3.0 * max(contact.along_x, contact.along_y)
     return scale * math.sinh(k / nz * math.asinh(deepest / scale))
@@ -237,7 +250,9 @@ def _depth(contact: RollingContact, k: int, nz: int) -> float:
 
 @kernel
 def _share(now: float, above: float) -> float:
-    """Of the way between two depths: the part on which the excess, laid straight between them, is above 0."""
+    """Of the way between two depths: the part on which the excess, laid straight between them, is
+    above 0.
+    """
     if now > 0.0 and above > 0.0:
         return 1.0
     if now <= 0.0 and above <= 0.0:

@@ -1,12 +1,15 @@
-"""What tilt and yaw need of the ellipse, as polynomials of the yaw: no elliptic root is sought in a step.
+"""What tilt and yaw need of the ellipse, as polynomials of the yaw: no elliptic root is sought in a
+step.
 
-Under a load F the ellipse grows as F^(1/3) and the approach as F^(2/3), so three functions of the yaw alone are left,
+Under a load F the ellipse grows as F^(1/3) and the approach as F^(2/3), so three functions of the
+yaw alone are left,
 
     a b / F^(2/3),        (a^2 - b^2) sin(2 phi) / F^(2/3),        approach / F^(2/3)
 
-each a Chebyshev series of `TERMS` terms over a yaw interval, through the exact values at its nodes. The interval is halved until
-the last two terms are below `ROUNDING` of the whole, and laid anew about a yaw that leaves it. So the series are as exact as
-the root: 1e-14, where b/a is above 0.01; for more slender ones what the root itself loses.
+each a Chebyshev series of `TERMS` terms over a yaw interval, through the exact values at its nodes.
+The interval is halved until the last two terms are below `ROUNDING` of the whole, and laid anew
+about a yaw that leaves it. So the series are as exact as the root: 1e-14, where b/a is above 0.01;
+for more slender ones what the root itself loses.
 """
 
 from __future__ import annotations
@@ -48,7 +51,8 @@ def exact_ellipse(curvatures: Curvatures, modulus: float, yaw: float) -> YawElli
 
 @entry
 def empty_fit() -> Values:
-    """Room for the series, [4, TERMS], that holds none yet: middle and half width of the interval, then one row a function.
+    """Room for the series, [4, TERMS], that holds none yet: middle and half width of the interval,
+    then one row a function.
 
     Without arguments, so not checked.
     """
@@ -59,7 +63,8 @@ def empty_fit() -> Values:
 
 @entry
 def ellipse_at_yaw(curvatures: Curvatures, modulus: float, yaw: float, fit: Values) -> YawEllipse:
-    """From the series in `fit`, laid anew where the yaw [rad] is outside; curvatures and modulus as at the first call.
+    """From the series in `fit`, laid anew where the yaw [rad] is outside; curvatures and modulus as
+    at the first call.
 
     Not checked.
     """

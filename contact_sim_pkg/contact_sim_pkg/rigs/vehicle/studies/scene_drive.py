@@ -14,7 +14,7 @@ from contact_sim_pkg.laws.parameters import Contact, GeneralDissipative, NormalE
 from contact_sim_pkg.reference.vehicle import Belt, Law, Occupant, Quarter, states_at_segments
 from contact_sim_pkg.rigs.vehicle import entries
 from contact_sim_pkg.rigs.vehicle.model import Model, build, standing_state
-from contact_sim_pkg.rigs.vehicle.motion import MARGINS
+from contact_sim_pkg.rigs.vehicle.motion import EVENT_FUNCTIONS
 from contact_sim_pkg.rigs.vehicle.parameters import Vehicle
 from contact_sim_pkg.rigs.vehicle.tire.footprint import effective_heights
 from contact_sim_pkg.run.sources import make_sources, make_travel
@@ -86,7 +86,7 @@ def fast_run(drive: SceneDrive, scale: Vector) -> tuple[Vector, Vector]:
     count, states = len(drive.height) - 1, len(drive.start)
     samples = (numpy.zeros((count, states)), numpy.zeros((count, states)), numpy.zeros((count, entries.FORCES)))
     state, mode = drive.start.copy(), numpy.zeros(1, dtype=numpy.int64)
-    work, cushion = make_workspace(states, MARGINS), numpy.zeros(count + 1)
+    work, cushion = make_workspace(states, EVENT_FUNCTIONS), numpy.zeros(count + 1)
     rig, a_x, a_z = drive.model.rig, drive.acceleration_x, drive.acceleration_z
     entries.start(rig, mode, state, work, drive.segment, drive.height[:2], cushion[:2], a_x[:2], a_z[:2], None)
     status = entries.advance(

@@ -1,15 +1,20 @@
-"""Travelling impulses of road asperities: each site of the road pushes while the contact passes over it.
+"""Travelling impulses of road asperities: each site of the road pushes while the contact passes
+over it.
 
-Sites at x = n dx, n = 1..N, N = floor(L/dx); the contact of length b is centred at x = s (s = v t). Site n acts while
-`|n dx - s| < b/2`, with its normal force F_n times sin(phi_n), phi_n the angle of its push to the road:
+Sites at x = n dx, n = 1..N, N = floor(L/dx); the contact of length b is centred at x = s (s = v t).
+Site n acts while `|n dx - s| < b/2`, with its normal force F_n times sin(phi_n), phi_n the angle of
+its push to the road:
 
-    f(x, s) = sum F_n sin(phi_n) W((n dx - s) / b) delta(x - n dx)   [N/m],     F(s) = sum over the active sites
+    f(x, s) = sum F_n sin(phi_n) W((n dx - s) / b) delta(x - n dx)   [N/m],     F(s) = sum over the
+    active sites
 
-W is 1 (rectangular), or `1 + cos(2 pi (n dx - s)/b)` (raised cosine): smooth, and of the same impulse and mean force, for
-dx = b/2, b/3, … even of the same resultant at every s. About b/dx sites act at once.
+W is 1 (rectangular), or `1 + cos(2 pi (n dx - s)/b)` (raised cosine): smooth, and of the same
+impulse and mean force, for dx = b/2, b/3, … even of the same resultant at every s. About b/dx sites
+act at once.
 
-The road between the sites and the elastic field are not in it: it is a load added to a contact, chosen by its inputs.
-Source: Tire/Road Contact eq 10, with N as the limit of the sum and delta the Dirac density.
+The road between the sites and the elastic field are not in it: it is a load added to a contact,
+chosen by its inputs. Source: Tire/Road Contact eq 10, with N as the limit of the sum and delta the
+Dirac density.
 """
 
 from __future__ import annotations
@@ -32,7 +37,9 @@ __all__ = [
 ]
 
 FORCE_SHARE = 0.1
-"""Part of the wheel load that the active sites carry together when nothing is known; a choice, not a measurement."""
+"""Part of the wheel load that the active sites carry together when nothing is known; a choice, not
+a measurement.
+"""
 
 
 class AsperityImpulses(NamedTuple):
@@ -43,7 +50,9 @@ class AsperityImpulses(NamedTuple):
 
 
 def site_count(road_length: float, spacing: float) -> int:
-    """`N = floor(L/dx + 1e-9)`: a length that is a whole number of spacings counts its last site."""
+    """`N = floor(L/dx + 1e-9)`: a length that is a whole number of spacings counts its last
+    site.
+    """
     if not (0.0 < spacing < math.inf and 0.0 <= road_length < math.inf):
         raise ValueError(f"asperities: spacing {spacing} m, road length {road_length} m; both finite, spacing above 0")
     return math.floor(road_length / spacing + 1e-9)
@@ -54,8 +63,8 @@ def make_asperities(
 ) -> AsperityImpulses:
     """Sites with given forces F_n [N] and angles phi_n [rad] (pi/2: straight up), one entry a site.
 
-    spacing: dx [m]; contact_length: b [m]. Raises `ValueError` for sizes that are not positive, rows of different
-    length and values that are not finite.
+    spacing: dx [m]; contact_length: b [m]. Raises `ValueError` for sizes that are not positive,
+    rows of different length and values that are not finite.
     """
     for name, value in (("spacing", spacing), ("contact length", contact_length)):
         if not 0.0 < value < math.inf:
@@ -75,7 +84,9 @@ def make_asperities(
 def default_asperities(
     load: float, spacing: float, contact_length: float, slope: Vector, raised_cosine: bool = False
 ) -> AsperityImpulses:
-    """Without data: `F_n = 0.1 P dx / b`, `phi_n = pi/2 - atan h'(n dx)`; slope: h' of the road at the sites [-]."""
+    """Without data: `F_n = 0.1 P dx / b`, `phi_n = pi/2 - atan h'(n dx)`; slope: h' of the road at
+    the sites [-].
+    """
     slope = numpy.asarray(slope, dtype=float)
     force = numpy.full(slope.shape, FORCE_SHARE * load * spacing / contact_length)
     return make_asperities(spacing, contact_length, force, 0.5 * math.pi - numpy.arctan(slope), raised_cosine)
@@ -83,7 +94,9 @@ def default_asperities(
 
 @entry
 def asperity_force(asperities: AsperityImpulses, travel: float) -> float:
-    """Resultant [N] with the contact centred at `travel` [m]; 0 where no site is under it, NaN for NaN."""
+    """Resultant [N] with the contact centred at `travel` [m]; 0 where no site is under it, NaN for
+    NaN.
+    """
     if math.isnan(travel):
         return math.nan
     first, last = active_sites(asperities, travel)
@@ -95,9 +108,11 @@ def asperity_force(asperities: AsperityImpulses, travel: float) -> float:
 
 @entry
 def asperity_density(asperities: AsperityImpulses, travel: float, start: float, cell: float, out: Vector) -> None:
-    """Line density [N/m] on cells: `out[i]` is the mean of f over start + i cell to start + (i + 1) cell [m].
+    """Line density [N/m] on cells: `out[i]` is the mean of f over start + i cell to start + (i + 1)
+    cell [m].
 
-    A site on the border of two cells counts to the right one. Sites outside the cells are left out. cell > 0. NaN for NaN.
+    A site on the border of two cells counts to the right one. Sites outside the cells are left out.
+    cell > 0. NaN for NaN.
     """
     for i in range(out.shape[0]):
         out[i] = math.nan if math.isnan(travel) else 0.0
@@ -110,7 +125,9 @@ def asperity_density(asperities: AsperityImpulses, travel: float, start: float, 
 
 @kernel
 def active_sites(asperities: AsperityImpulses, travel: float) -> tuple[int, int]:
-    """First site that may act, and the one after the last; those on the border are sorted out by the window."""
+    """First site that may act, and the one after the last; those on the border are sorted out by
+    the window.
+    """
     half = 0.5 * asperities.contact_length
     sites = asperities.push.shape[0]
     if math.isnan(travel):

@@ -1,26 +1,32 @@
-"""Brush friction of a rolling tire: elastic bristles that stick to the road or slide, one a cell of the pressure field.
+"""Brush friction of a rolling tire: elastic bristles that stick to the road or slide, one a cell of
+the pressure field.
 
-Contact frame: x forward, y left, z up, origin in the road below the wheel centre, which travels with v along x. The belt
-runs backwards with (1 + kappa) v through the contact, the road with v, and sideways with -v tan(alpha) (ISO 8855):
+Contact frame: x forward, y left, z up, origin in the road below the wheel centre, which travels
+with v along x. The belt runs backwards with (1 + kappa) v through the contact, the road with v, and
+sideways with -v tan(alpha) (ISO 8855):
 
 * `kappa = (omega R_e - v)/v`: driving positive, -1 is a locked wheel;
-* `alpha` is the angle from the wheel's x axis to its velocity, positive to the left: the wheel drifts to the left, the
-  road drags the tread to the right, F_y is negative, and M_z is positive, turning the wheel into its velocity.
+* `alpha` is the angle from the wheel's x axis to its velocity, positive to the left: the wheel
+  drifts to the left, the road drags the tread to the right, F_y is negative, and M_z is positive,
+  turning the wheel into its velocity.
 
-A bristle stands in the belt, its tip on the road. While it sticks, its deflection u grows by the way of the road relative to
-the belt, `(kappa, -tan alpha) v dt`; the shear on the tire is `tau_i = k_i u_i`. It sticks up to `mu_s p`. Then the tip slides
-along tau with `|tau| = mu_k p`, until a trial stress falls below that. Bristles enter the contact, and leave it, unstrained.
+A bristle stands in the belt, its tip on the road. While it sticks, its deflection u grows by the
+way of the road relative to the belt, `(kappa, -tan alpha) v dt`; the shear on the tire is `tau_i =
+k_i u_i`. It sticks up to `mu_s p`. Then the tip slides along tau with `|tau| = mu_k p`, until a
+trial stress falls below that. Bristles enter the contact, and leave it, unstrained.
 
-Normal and shear problem are not coupled: for a rigid road and an incompressible tread (nu = 1/2) Cerruti's normal
-displacement, with its factor 1 - 2 nu, is zero. The bristles do not influence each other (Kalker's simplified theory).
+Normal and shear problem are not coupled: for a rigid road and an incompressible tread (nu = 1/2)
+Cerruti's normal displacement, with its factor 1 - 2 nu, is zero. The bristles do not influence each
+other (Kalker's simplified theory).
 
-Bristles are carried in whole cells of the belt, and the part of a cell that is left is kept as `phase`: nothing is smeared. A step
-of many cells is marched cell by cell; the pressure goes linearly in time from the field before to the present one, *in the
-contact frame*, where it stands still on a smooth road. So the result for a constant pressure does not depend on the step.
-A cell is in contact up to its borders; there the bristles begin to grow.
+Bristles are carried in whole cells of the belt, and the part of a cell that is left is kept as
+`phase`: nothing is smeared. A step of many cells is marched cell by cell; the pressure goes
+linearly in time from the field before to the present one, *in the contact frame*, where it stands
+still on a smooth road. So the result for a constant pressure does not depend on the step. A cell is
+in contact up to its borders; there the bristles begin to grow.
 
-Source: Pacejka, Tire and Vehicle Dynamics, ch. 3; Kalker, A fast algorithm for the simplified theory of rolling contact
-(FASTSIM), Vehicle System Dynamics 11 (1982).
+Source: Pacejka, Tire and Vehicle Dynamics, ch. 3; Kalker, A fast algorithm for the simplified
+theory of rolling contact (FASTSIM), Vehicle System Dynamics 11 (1982).
 """
 
 from __future__ import annotations
@@ -53,7 +59,9 @@ LEAST_WAY = 1e-12
 
 
 APART, STICKS, SLIPS = 0, 1, 2
-"""What the bristle of a cell does: it carries no pressure, its tip holds to the road, or slides over it."""
+"""What the bristle of a cell does: it carries no pressure, its tip holds to the road, or slides
+over it.
+"""
 
 
 class BrushState(NamedTuple):
@@ -61,11 +69,15 @@ class BrushState(NamedTuple):
 
     bristles: Bristles
     before: Field  # [Pa] pressure of the last field, [PAD + rows + PAD, cols]
-    place: Vector  # [3] phase of the belt's lattice [cells], origin_x of the last field [m], 1 once there was a field
+    # [3] phase of the belt's lattice [cells], origin_x of the last field [m], 1 once there was a
+    # field
+    place: Vector
 
 
 class PatchGrid(NamedTuple):
-    """Where a pressure field lies in the contact frame: centre of cell (0, 0), and the cells [m]."""
+    """Where a pressure field lies in the contact frame: centre of cell (0, 0), and the cells
+    [m].
+    """
 
     origin_x: float
     origin_y: float
@@ -82,18 +94,23 @@ class RollingStep(NamedTuple):
 
 
 class BrushResult(NamedTuple):
-    """Force and moment on the tire, about the origin of the contact frame, and what the step cost."""
+    """Force and moment on the tire, about the origin of the contact frame, and what the step
+    cost.
+    """
 
     force_x: float  # [N] sum of tau_x A
     force_y: float  # [N] sum of tau_y A
     moment_z: float  # [N m] sum of (x tau_y - y tau_x) A
     sliding_share: float  # sliding cells among those in contact, 0 without contact
     dissipated: float  # [J] work of friction during the step, tau times sliding way; >= 0
-    released: float  # [J] elastic energy of the bristles that left the contact during the step, lost as well; >= 0
+    # [J] elastic energy of the bristles that left the contact during the step, lost as well; >= 0
+    released: float
 
 
 def make_brush_state(rows: int, cols: int) -> BrushState:
-    """Unstrained bristles for pressure fields of `rows` x `cols` cells. Raises `ValueError` for an empty grid."""
+    """Unstrained bristles for pressure fields of `rows` x `cols` cells. Raises `ValueError` for an
+    empty grid.
+    """
     if rows < 1 or cols < 1:
         raise ValueError(f"brush: grid of {rows} x {cols} cells, it must have at least one row and one column")
     shape = (rows + 2 * PAD, cols)
@@ -104,9 +121,11 @@ def make_brush_state(rows: int, cols: int) -> BrushState:
 
 
 def brush_state_on(state: BrushState, rows: int, cols: int, cell_x: float) -> BrushState:
-    """The same bristles for fields of another size with the same cells and middle column; what does not fit is dropped.
+    """The same bristles for fields of another size with the same cells and middle column; what does
+    not fit is dropped.
 
-    Row 0 of the next field may lie anywhere: `advance_brush` finds it by its `origin_x`. Errors as in `make_brush_state`.
+    Row 0 of the next field may lie anywhere: `advance_brush` finds it by its `origin_x`. Errors as
+    in `make_brush_state`.
     """
     moved = make_brush_state(rows, cols)
     old_rows, old_cols = state.before.shape[0] - 2 * PAD, state.before.shape[1]
@@ -129,10 +148,11 @@ def _remembered(state: BrushState) -> tuple[NDArray[Any], ...]:
 
 
 def rolling_step(travel: float, slip: float, slip_angle: float) -> RollingStep:
-    """Ways for a `travel` v dt [m] at the longitudinal slip kappa [-] and the slip angle alpha [rad].
+    """Ways for a `travel` v dt [m] at the longitudinal slip kappa [-] and the slip angle alpha
+    [rad].
 
-    Raises `ValueError` where a number is not finite or the slip angle is not within +-pi/2. A wheel that spins at
-    standstill has no slip: give its ways to `RollingStep`.
+    Raises `ValueError` where a number is not finite or the slip angle is not within +-pi/2. A wheel
+    that spins at standstill has no slip: give its ways to `RollingStep`.
     """
     for name, value in (("travel", travel), ("slip", slip), ("slip angle", slip_angle)):
         if not math.isfinite(value):
@@ -147,12 +167,14 @@ def advance_brush(
     brush: Brush, state: BrushState, grid: PatchGrid, pressure: Field, step: RollingStep,
     shear_x: NDArray[numpy.float64], shear_y: NDArray[numpy.float64], mode: NDArray[numpy.uint8],
 ) -> BrushResult:  # fmt: skip
-    """Carry the bristles through one step that ends with the field `pressure` [Pa] >= 0, float64 [rows, cols].
+    """Carry the bristles through one step that ends with the field `pressure` [Pa] >= 0, float64
+    [rows, cols].
 
-    grid: where that field lies; cells must be those of the state's fields before. The first field of a state counts as
-    having stood since before the step. Written, on the cells of `pressure`: shear_x, shear_y, the stress on the tire [Pa], and
-    mode: APART, STICKS or SLIPS. Raises `ValueError` where a field is not on the cells of the state.
-    Ways that are not finite give forces that are not. Cost: about one visit of each loaded cell for each cell of belt travel.
+    grid: where that field lies; cells must be those of the state's fields before. The first field
+    of a state counts as having stood since before the step. Written, on the cells of `pressure`:
+    shear_x, shear_y, the stress on the tire [Pa], and mode: APART, STICKS or SLIPS. Raises
+    `ValueError` where a field is not on the cells of the state. Ways that are not finite give
+    forces that are not. Cost: about one visit of each loaded cell for each cell of belt travel.
     """
     rows, cols = state.before.shape[0] - 2 * PAD, state.before.shape[1]
     for field_rows, field_cols in (pressure.shape, shear_x.shape, shear_y.shape, mode.shape):
@@ -184,7 +206,9 @@ def march_all(
     cell_x: float,
     step: RollingStep,
 ) -> tuple[float, float, float]:
-    """March the whole step, stretch by stretch; returns the new phase, work of friction and released energy [J/m^2]."""
+    """March the whole step, stretch by stretch; returns the new phase, work of friction and
+    released energy [J/m^2].
+    """
     cells = abs(step.belt) / cell_x
     if not LEAST_WAY <= cells < math.inf:
         cells = 0.0
@@ -209,10 +233,12 @@ def write_shear(
     brush: Brush, bristles: Bristles, grid: PatchGrid, pressure: Field, phase: float, shear_x: Field, shear_y: Field,
     mode: NDArray[numpy.uint8],
 ) -> tuple[float, float, float, float]:  # fmt: skip
-    """Shear [Pa] at the centres of the cells; returns its sums (x, y, moment) and the share of sliding cells.
+    """Shear [Pa] at the centres of the cells; returns its sums (x, y, moment) and the share of
+    sliding cells.
 
-    A centre lies between two bristles: deflections are interpolated, a bristle out of contact does not count; the nearer one
-    tells whether the cell slides. The limit is that of the cell's own pressure.
+    A centre lies between two bristles: deflections are interpolated, a bristle out of contact does
+    not count; the nearer one tells whether the cell slides. The limit is that of the cell's own
+    pressure.
     """
     rows, cols = pressure.shape
     near, far = (0, 1) if phase <= 0.5 else (1, 0)
@@ -242,7 +268,9 @@ def write_shear(
 def stress_between(
     brush: Brush, bristles: Bristles, near: int, far: int, j: int, weight: float, pressure: float
 ) -> tuple[float, float]:
-    """Stress [Pa] between two bristles, the far one with `weight`: `mu_k p` where the near one slides, else up to `mu_s p`."""
+    """Stress [Pa] between two bristles, the far one with `weight`: `mu_k p` where the near one
+    slides, else up to `mu_s p`.
+    """
     x = bristles.deflection_x[near, j] + weight * (bristles.deflection_x[far, j] - bristles.deflection_x[near, j])
     y = bristles.deflection_y[near, j] + weight * (bristles.deflection_y[far, j] - bristles.deflection_y[near, j])
     tau_x, tau_y = brush.stiffness_x * x, brush.stiffness_y * y

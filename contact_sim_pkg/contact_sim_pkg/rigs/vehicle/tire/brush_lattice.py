@@ -1,4 +1,6 @@
-"""Pressure fields on the lattice of the bristles: padded copies, the lattice that moves, the field between two instants."""
+"""Pressure fields on the lattice of the bristles: padded copies, the lattice that moves, the field
+between two instants.
+"""
 
 from __future__ import annotations
 
@@ -12,7 +14,9 @@ __all__ = ["blend", "copy_field", "loaded_window", "place_on"]
 
 @kernel
 def place_on(bristles: Bristles, before: Field, phase: float, offset: float) -> float:
-    """Put bristles and last pressure on a lattice that lies `offset` [cells] further ahead; returns the new phase [cells]."""
+    """Put bristles and last pressure on a lattice that lies `offset` [cells] further ahead; returns
+    the new phase [cells].
+    """
     phase += offset
     cells = math.floor(phase)
     shift_rows(bristles.deflection_x, cells)
@@ -38,7 +42,9 @@ def shift_rows(values: Field | Flags, cells: int) -> None:
 
 @kernel
 def resample(before: Field, offset: float, scratch: Field) -> None:
-    """`before` at points `offset` [cells] ahead of its rows, linear; zero where the nearest cell is not loaded."""
+    """`before` at points `offset` [cells] ahead of its rows, linear; zero where the nearest cell is
+    not loaded.
+    """
     rows, cols = before.shape
     base = math.floor(offset)
     weight = offset - base
@@ -55,7 +61,9 @@ def resample(before: Field, offset: float, scratch: Field) -> None:
 
 @kernel
 def copy_rows(source: Field, target: Field) -> None:
-    """Copy all of one field into another of the same shape; quicker to compile than an assignment of slices."""
+    """Copy all of one field into another of the same shape; quicker to compile than an assignment
+    of slices.
+    """
     for i in range(source.shape[0]):
         for j in range(source.shape[1]):
             target[i, j] = source[i, j]
@@ -71,7 +79,9 @@ def copy_field(pressure: Field, padded: Field) -> None:
 
 @kernel
 def loaded_window(before: Field, pressure: Field) -> LoadedWindow:
-    """Labels of all bristles that can be under load before, at or between two fields; none without load."""
+    """Labels of all bristles that can be under load before, at or between two fields; none without
+    load.
+    """
     rows, cols = pressure.shape
     top, bottom, left, right = rows, -1, cols, -1
     for i in range(rows):

@@ -1,7 +1,9 @@
-"""The march of the bristles of `rigs/vehicle/tire/brush.py` through the contact: one stretch of at most one cell at a time.
+"""The march of the bristles of `rigs/vehicle/tire/brush.py` through the contact: one stretch of at
+most one cell at a time.
 
-A bristle with the label m stands `phase` cells behind the centre of row m, 0 <= phase <= 1: in the cell m as long as phase <= 1/2,
-then in the cell m - 1. Labels shift by whole cells, values are never mixed, so nothing is smeared on the way.
+A bristle with the label m stands `phase` cells behind the centre of row m, 0 <= phase <= 1: in the
+cell m as long as phase <= 1/2, then in the cell m - 1. Labels shift by whole cells, values are
+never mixed, so nothing is smeared on the way.
 """
 
 from __future__ import annotations
@@ -29,7 +31,9 @@ __all__ = [
 ]
 
 PAD = 2
-"""Rows before the first and after the last that are never loaded: a march reads and writes beyond the grid."""
+"""Rows before the first and after the last that are never loaded: a march reads and writes beyond
+the grid.
+"""
 
 ROUNDING = 1e-12
 """A trial stress within this part of the limit is at the limit."""
@@ -38,7 +42,9 @@ NEWTON_STEPS = 20
 """Most steps of `unit_slide`; one for equal stiffnesses, 2 to 5 else."""
 
 LAST_EXCESS = 1e-4
-"""Relative excess of the stress at which one more Newton step suffices: its error is about the square of this."""
+"""Relative excess of the stress at which one more Newton step suffices: its error is about the
+square of this.
+"""
 
 LEAST_LIMIT = 1e-100
 """Limits [Pa] below it are zero: the squares of smaller stresses are not numbers to divide by."""
@@ -57,7 +63,9 @@ class Bristles(NamedTuple):
 
 
 class LoadedWindow(NamedTuple):
-    """Labels `first ... last - 1` (counted from the first padding row) and columns `left ... right - 1`."""
+    """Labels `first ... last - 1` (counted from the first padding row) and columns `left ... right
+    - 1`.
+    """
 
     first: int
     last: int
@@ -100,15 +108,18 @@ def next_stretch(phase: float, remaining: float, backward: bool) -> BeltSegment:
 def march(
     brush: Brush, bristles: Bristles, window: LoadedWindow, stretch: BeltSegment, slide_x: float, slide_y: float
 ) -> tuple[float, float]:
-    """Carry every bristle of the window along one stretch; the road slides `slide_x`, `slide_y` [m] for each cell of way.
+    """Carry every bristle of the window along one stretch; the road slides `slide_x`, `slide_y` [m]
+    for each cell of way.
 
-    Returns the work [J/m^2] of friction and the elastic energy [J/m^2] of the bristles that left the contact.
+    Returns the work [J/m^2] of friction and the elastic energy [J/m^2] of the bristles that left
+    the contact.
     """
     pressure, sliding = bristles.pressure, bristles.sliding
     deflection_x, deflection_y = bristles.deflection_x, bristles.deflection_y
     dissipated, released = 0.0, 0.0
     for n in range(window.last - window.first):
-        m = window.first + n if stretch.read == 0 else window.last - 1 - n  # never read what was just written
+        # Never read what was just written
+        m = window.first + n if stretch.read == 0 else window.last - 1 - n
         source, target = m - stretch.read, m - stretch.write
         for j in range(window.left, window.right):
             x, y, slid = deflection_x[source, j], deflection_y[source, j], sliding[source, j]
@@ -130,9 +141,11 @@ def carry(
     brush: Brush, x: float, y: float, slid: int, here: float, following: float, stretch: BeltSegment,
     slide_x: float, slide_y: float,
 ) -> tuple[float, float, numpy.uint8, float]:  # fmt: skip
-    """One bristle along one stretch that ends under load: it grows in the loaded cells, then it sticks or slides.
+    """One bristle along one stretch that ends under load: it grows in the loaded cells, then it
+    sticks or slides.
 
-    here, following: pressure [Pa] of the cells m and m - 1. Returns deflection [m], flag and work of friction [J/m^2].
+    here, following: pressure [Pa] of the cells m and m - 1. Returns deflection [m], flag and work
+    of friction [J/m^2].
     """
     share = (stretch.share_here if here > 0.0 else 0.0) + (stretch.share_next if following > 0.0 else 0.0)
     grown_x, grown_y = x + share * slide_x, y + share * slide_y
@@ -147,9 +160,11 @@ def carry(
 
 @kernel
 def slide_onto(brush: Brush, x: float, y: float, slid: int, pressure: float) -> tuple[float, float, numpy.uint8, float]:
-    """Deflection [m], flag, and `unit_slide` [m/Pa] of a bristle with the trial deflection `x`, `y` [m].
+    """Deflection [m], flag, and `unit_slide` [m/Pa] of a bristle with the trial deflection `x`, `y`
+    [m].
 
-    It sticks up to `mu_s p` (up to `mu_k p` if it slid), and slides on to `mu_k p`. At the very limit a flag stays as it is.
+    It sticks up to `mu_s p` (up to `mu_k p` if it slid), and slides on to `mu_k p`. At the very
+    limit a flag stays as it is.
     """
     holds = (brush.coefficient_kinetic if slid else brush.coefficient_static) * pressure
     trial = shear_of(brush, x, y)
@@ -174,10 +189,12 @@ def shear_of(brush: Brush, x: float, y: float) -> float:
 
 @kernel
 def unit_slide(brush: Brush, trial_x: float, trial_y: float, limit: float) -> float:
-    """Sliding distance over stress [m/Pa]: the w >= 0 with `|tau(w)| = limit`, `tau_i(w) = trial_i / (1 + w k_i)`.
+    """Sliding distance over stress [m/Pa]: the w >= 0 with `|tau(w)| = limit`, `tau_i(w) = trial_i
+    / (1 + w k_i)`.
 
-    The tip slides along the stress, `w tau`, as Coulomb's law asks. Newton's method on 1/|tau(w)| = 1/limit, which is
-    linear in w for equal stiffnesses and nearly so else (Moré and Sorensen 1983). limit > 0 in [Pa].
+    The tip slides along the stress, `w tau`, as Coulomb's law asks. Newton's method on 1/|tau(w)| =
+    1/limit, which is linear in w for equal stiffnesses and nearly so else (Moré and Sorensen 1983).
+    limit > 0 in [Pa].
     """
     if brush.stiffness_x == brush.stiffness_y:
         return (math.sqrt(trial_x * trial_x + trial_y * trial_y) / limit - 1.0) / brush.stiffness_x

@@ -1,9 +1,10 @@
 """The height that a smooth tire sees: the road averaged with the pressure of the footprint.
 
-By the reciprocal theorem (Betti) a small roughness h(x, y) under a contact of fixed pressure p changes the approach by
-``integral(p h) / integral(p)``: exact to first order in h. The weights are the Hertz pressure ``sqrt(1 - (x/a)^2 - (y/b)^2)`` of
-the standing load. It drives the point contact everywhere, and between two field instants it tells how the effective
-height changes with the travel; at the instants the pressure field itself decides.
+By the reciprocal theorem (Betti) a small roughness h(x, y) under a contact of fixed pressure p
+changes the approach by ``integral(p h) / integral(p)``: exact to first order in h. The weights are
+the Hertz pressure ``sqrt(1 - (x/a)^2 - (y/b)^2)`` of the standing load. It drives the point contact
+everywhere, and between two field instants it tells how the effective height changes with the
+travel; at the instants the pressure field itself decides.
 """
 
 from __future__ import annotations
@@ -27,14 +28,16 @@ def effective_heights(
 ) -> bool:  # fmt: skip
     """Weighted mean height in [m] for each wheel position ``travel`` [m], written into ``out``.
 
-    ``height`` [rows, cols] in [m] on the road lattice (node (i, j) at x = (first_row + i) cell_x, y = (j - (cols-1)/2) cell_y);
-    ``semi_axis_x``, ``semi_axis_y`` [m] of the footprint. The mean is taken with the wheel over a node and laid as a cubic with
-    continuous slope (Catmull-Rom) between the nodes: there the steep edge of the weights would cross the nodes one by one, and each
-    would show as a jerk. Returns False where the lattice does not hold the footprint.
+    ``height`` [rows, cols] in [m] on the road lattice (node (i, j) at x = (first_row + i) cell_x, y
+    = (j - (cols-1)/2) cell_y); ``semi_axis_x``, ``semi_axis_y`` [m] of the footprint. The mean is
+    taken with the wheel over a node and laid as a cubic with continuous slope (Catmull-Rom) between
+    the nodes: there the steep edge of the weights would cross the nodes one by one, and each would
+    show as a jerk. Returns False where the lattice does not hold the footprint.
     """
     weights = _weights(height.shape[1], cell_x, cell_y, semi_axis_x, semi_axis_y)
     reach = weights.shape[0] // 2
-    means = numpy.zeros(4)  # at the node before the one behind the wheel, at that, and at the two ahead
+    # At the node before the one behind the wheel, at that, and at the two ahead
+    means = numpy.zeros(4)
     place, known = 0, False
     for k in range(travel.shape[0]):
         node = int(math.floor(travel[k] / cell_x))  # noqa: RUF046  # a float in compiled code
@@ -91,11 +94,13 @@ def tire_gap(
     height: Heights, first_row: int, cell_x: float, cell_y: float, radius_rolling: float, radius_lateral: float,
     first: int, travel: float, out: Vector,
 ) -> bool:  # fmt: skip
-    """Undeformed gap in [m] of the tire whose lowest point stands at height 0 over the road, written into ``out`` [rows, cols].
+    """Undeformed gap in [m] of the tire whose lowest point stands at height 0 over the road,
+    written into ``out`` [rows, cols].
 
-    ``g = x^2/(2 R_rolling) + y^2/(2 R_lateral) - h``; row 0 of ``out`` is lattice row ``first``, x counts from ``travel`` [m].
-    Cells coincide with road nodes, so no height is interpolated; the road may be wider than ``out`` by an even number of
-    columns. Returns False where the lattice does not hold the grid.
+    ``g = x^2/(2 R_rolling) + y^2/(2 R_lateral) - h``; row 0 of ``out`` is lattice row ``first``, x
+    counts from ``travel`` [m]. Cells coincide with road nodes, so no height is interpolated; the
+    road may be wider than ``out`` by an even number of columns. Returns False where the lattice
+    does not hold the grid.
     """
     rows, cols = out.shape
     if first < first_row or first + rows > first_row + height.shape[0] or cols > height.shape[1]:
@@ -116,12 +121,14 @@ def touches_beyond(
     height: Heights, first_row: int, radius_rolling: float, radius_lateral: float, first: int, travel: float,
     approach: float, modulus: float, cell_x: float, cell_y: float, pressure: Pressures, rows: int, cols: int,
 ) -> bool:  # fmt: skip
-    """Whether the road touches the tire outside the grid of ``pressure`` [Pa], on a larger one of ``rows`` x ``cols`` cells.
+    """Whether the road touches the tire outside the grid of ``pressure`` [Pa], on a larger one of
+    ``rows`` x ``cols`` cells.
 
-    A cell outside touches where its gap (``tire_gap``) is less than ``approach`` [m] minus the displacement
-    ``sum(p cell_x cell_y / (pi E* r))`` that the pressure causes there; ``modulus`` is E* [Pa]. The larger grid has the same cells
-    and the same middle; its row 0 is lattice row ``first``. Cells that the lattice does not hold are taken not to touch. A belt
-    yields further and leaves more room, so with one this may say that a cell touches which does not.
+    A cell outside touches where its gap (``tire_gap``) is less than ``approach`` [m] minus the
+    displacement ``sum(p cell_x cell_y / (pi E* r))`` that the pressure causes there; ``modulus`` is
+    E* [Pa]. The larger grid has the same cells and the same middle; its row 0 is lattice row
+    ``first``. Cells that the lattice does not hold are taken not to touch. A belt yields further
+    and leaves more room, so with one this may say that a cell touches which does not.
     """
     own_rows, own_cols = pressure.shape
     top, left = rows // 2 - own_rows // 2, (cols - own_cols) // 2
@@ -154,12 +161,14 @@ def _sunk(pressure: Pressures, row: int, col: int, modulus: float, cell_x: float
 
 @entry
 def effective_between(smooth: Vector, offset: float, offset_end: float, out: Vector) -> None:
-    """Effective height of the road in [m] from one field to the next, written into ``out``: ``smooth`` [m] and an offset [m].
+    """Effective height of the road in [m] from one field to the next, written into ``out``:
+    ``smooth`` [m] and an offset [m].
 
-    The offset goes straight to its end. What the smooth height has beside a straight line is right to first order in the
-    roughness only: at an edge it falls in a curve where the tire, which stands on the edge, does not, and the offset takes
-    nearly all of it back. So it counts as far as the offset leaves it alone: ``1 - 4 |change of offset| / range of smooth``,
-    and no more from a quarter on.
+    The offset goes straight to its end. What the smooth height has beside a straight line is right
+    to first order in the roughness only: at an edge it falls in a curve where the tire, which
+    stands on the edge, does not, and the offset takes nearly all of it back. So it counts as far as
+    the offset leaves it alone: ``1 - 4 |change of offset| / range of smooth``, and no more from a
+    quarter on.
     """
     last = smooth.shape[0] - 1
     highest, lowest = smooth[0], smooth[0]

@@ -1,21 +1,24 @@
-"""Memory of the tread rubber in a rolling pressure field: Kelvin-Voigt and Maxwell branches, cell by cell.
+"""Memory of the tread rubber in a rolling pressure field: Kelvin-Voigt and Maxwell branches, cell
+by cell.
 
-For a half-space whose Poisson's ratio does not change in time the elastic-viscoelastic correspondence holds at every point of
-its surface, loaded or not: with the elastic operator K of the long-time modulus,
+For a half-space whose Poisson's ratio does not change in time the elastic-viscoelastic
+correspondence holds at every point of its surface, loaded or not: with the elastic operator K of
+the long-time modulus,
 
-    K p(t) = integral of [1 + T dirac(t-s) + sum r_k exp(-(t-s)/t_k)] u'(s) ds = u + T u' + sum q_k,    q_k' = r_k u' - q_k/t_k.
+    K p(t) = integral of [1 + T dirac(t-s) + sum r_k exp(-(t-s)/t_k)] u'(s) ds = u + T u' + sum q_k,
+    q_k' = r_k u' - q_k/t_k.
 
-Over a step h in which u changes linearly (T: backward difference) q_k becomes `a_k q_k + w_k (u - u_before)`, a_k = exp(-h/t_k),
-w_k = r_k (t_k/h)(1 - a_k), so that
+Over a step h in which u changes linearly (T: backward difference) q_k becomes `a_k q_k + w_k (u -
+u_before)`, a_k = exp(-h/t_k), w_k = r_k (t_k/h)(1 - a_k), so that
 
     u = K p / s + g,    s = 1 + T/h + sum w_k,    g = [(T/h + sum w_k) u_before - sum a_k q_k] / s:
 
-an elastic contact with the modulus raised by s, and the gap raised by g. The contact may grow, shrink and move. Material points
-of a rolling tread lie still against the road, so u and q are carried on the road's lattice; rows that enter are taken to be as the
-row beside them.
+an elastic contact with the modulus raised by s, and the gap raised by g. The contact may grow,
+shrink and move. Material points of a rolling tread lie still against the road, so u and q are
+carried on the road's lattice; rows that enter are taken to be as the row beside them.
 
-Sources: Lee and Radok (1960), J. Appl. Mech. 27, 438; Johnson, Contact Mechanics, 6.5; Taylor, Pister and Goudreau (1970),
-Int. J. Num. Meth. Eng. 2, 45 (exponential update).
+Sources: Lee and Radok (1960), J. Appl. Mech. 27, 438; Johnson, Contact Mechanics, 6.5; Taylor,
+Pister and Goudreau (1970), Int. J. Num. Meth. Eng. 2, 45 (exponential update).
 """
 
 from __future__ import annotations
@@ -40,19 +43,25 @@ def _weights(tread: TreadViscoelasticity, step: float) -> tuple[float, Field, Fi
 
 
 def stiffening(tread: TreadViscoelasticity, step: float) -> float:
-    """`s = 1 + T/h + sum r_k (t_k/h)(1 - exp(-h/t_k))` [-]: modulus over a step h [s] against the long-time modulus."""
+    """`s = 1 + T/h + sum r_k (t_k/h)(1 - exp(-h/t_k))` [-]: modulus over a step h [s] against the
+    long-time modulus.
+    """
     viscous, weights, _decay = _weights(tread, step)
     return 1.0 + viscous + float(weights.sum())
 
 
 class TreadMemory:
-    """Displacement of the tread's surface and the branches' share of it on one grid, from field instant to field instant.
+    """Displacement of the tread's surface and the branches' share of it on one grid, from field
+    instant to field instant.
 
-    `move_to` the row of the instant, solve with the gap raised by `gap`, then `keep` the pressure that was found.
+    `move_to` the row of the instant, solve with the gap raised by `gap`, then `keep` the pressure
+    that was found.
     """
 
     def __init__(self, settings: FieldSettings, relaxed: float, tread: TreadViscoelasticity, step: float) -> None:
-        """Grid of `settings`; `relaxed` [Pa]: its contact modulus at long times; `step` [s] between two field instants."""
+        """Grid of `settings`; `relaxed` [Pa]: its contact modulus at long times; `step` [s] between
+        two field instants.
+        """
         size = (settings.rows, settings.cols, settings.cell_x, settings.cell_y)
         self._relaxed = make_half_space(*size, relaxed)
         self._viscous, self._weights, self._decay = _weights(tread, step)
@@ -71,7 +80,9 @@ class TreadMemory:
             field.fill(0.0)
 
     def settle(self, row: int, pressure: Field) -> None:
-        """The tread has stood under `pressure` [Pa] for long, with its first row at lattice row `row`."""
+        """The tread has stood under `pressure` [Pa] for long, with its first row at lattice row
+        `row`.
+        """
         self._row = row
         displacement(self._relaxed, self._buffers, pressure, self._displacement)
         self._branches.fill(0.0)
@@ -100,7 +111,9 @@ class TreadMemory:
 
 @entry
 def shift_rows(field: Field, cells: int) -> None:
-    """Move all rows by `cells` towards row 0 (negative: away); rows that enter are copies of the row at that side."""
+    """Move all rows by `cells` towards row 0 (negative: away); rows that enter are copies of the
+    row at that side.
+    """
     rows, cols = field.shape
     for k in range(rows):
         i = k if cells >= 0 else rows - 1 - k  # a row is read before it is written

@@ -1,8 +1,10 @@
-"""Flight of the sphere between two impacts: free fall in a drop tower, or the swing of a pendulum that strikes at its lowest point.
+"""Flight of the sphere between two impacts: free fall in a drop tower, or the swing of a pendulum
+that strikes at its lowest point.
 
-The approach x is negative in flight. Drop: ``x = x0 + v0 t + g t^2/2``. Pendulum of length l: ``x = l phi``, ``sin(phi/2) = -kappa
-cd(w0 (t - t_turn))``, ``w0 = sqrt(g/l)``, ``kappa = sin(phi_max/2)`` (Landau and Lifshitz, Mechanics, 11), at any amplitude; its
-weight has no part along the blow at the lowest point.
+The approach x is negative in flight. Drop: ``x = x0 + v0 t + g t^2/2``. Pendulum of length l: ``x =
+l phi``, ``sin(phi/2) = -kappa cd(w0 (t - t_turn))``, ``w0 = sqrt(g/l)``, ``kappa = sin(phi_max/2)``
+(Landau and Lifshitz, Mechanics, 11), at any amplitude; its weight has no part along the blow at the
+lowest point.
 """
 
 from __future__ import annotations
@@ -37,7 +39,9 @@ Machine = Drop | Pendulum
 
 
 class Flight(NamedTuple):
-    """A flight from the sample to its highest point and back; or, from the highest point on, its second half."""
+    """A flight from the sample to its highest point and back; or, from the highest point on, its
+    second half.
+    """
 
     machine: Machine
     speed: float  # [m/s] at the sample, both ways
@@ -72,14 +76,17 @@ class Flight(NamedTuple):
 def rebound(machine: Machine, speed: float) -> Flight:
     """Flight that leaves the sample with ``speed`` > 0 [m/s].
 
-    Raises ImpactError where a pendulum would not swing back, and for a speed, gravity or length that is not above 0.
+    Raises ImpactError where a pendulum would not swing back, and for a speed, gravity or length
+    that is not above 0.
     """
     _check(machine, speed)
     return Flight(machine, speed, 0.0)
 
 
 def fall(machine: Machine, speed: float) -> Flight:
-    """Flight from rest at the height from which the sample is reached with ``speed`` > 0 [m/s]. Errors as `rebound`."""
+    """Flight from rest at the height from which the sample is reached with ``speed`` > 0 [m/s].
+    Errors as `rebound`.
+    """
     _check(machine, speed)
     return Flight(machine, speed, half_time(machine, speed))
 

@@ -1,7 +1,9 @@
-"""Elastic and viscous force of the impact (Goloshchapov eqs 8, 9), and the same as the general normal law.
+"""Elastic and viscous force of the impact (Goloshchapov eqs 8, 9), and the same as the general
+normal law.
 
-``F_c = 4/3 k_p E' sqrt(R) x^(3/2)``, ``F_b = 4 k_p sqrt(R) (E''/w) x' x^(1/2)``, w the angular frequency of the impact; x <= 0: no
-force. It is the case n = 3/2, p = 1/2, q = 1 of ``laws/general_dissipative.py``.
+``F_c = 4/3 k_p E' sqrt(R) x^(3/2)``, ``F_b = 4 k_p sqrt(R) (E''/w) x' x^(1/2)``, w the angular
+frequency of the impact; x <= 0: no force. It is the case n = 3/2, p = 1/2, q = 1 of
+``laws/general_dissipative.py``.
 """
 
 from __future__ import annotations
@@ -33,7 +35,9 @@ def elastic_coefficient(storage_modulus: float, radius: float, shape_factor: flo
 
 
 def viscous_coefficient(loss_modulus: float, radius: float, shape_factor: float, frequency: float) -> float:
-    """B in [N s/m^1.5] of E'' >= 0 [Pa], R [m], k_p and ``frequency`` [rad/s], all > 0; raises ImpactError otherwise."""
+    """B in [N s/m^1.5] of E'' >= 0 [Pa], R [m], k_p and ``frequency`` [rad/s], all > 0; raises
+    ImpactError otherwise.
+    """
     check_not_negative("loss modulus", loss_modulus, "Pa")
     check_positive("radius", radius, "m")
     check_positive("shape factor", shape_factor)
@@ -42,14 +46,18 @@ def viscous_coefficient(loss_modulus: float, radius: float, shape_factor: float,
 
 
 def elastic_force(coefficient: float, depth: float) -> float:
-    """F_c in [N] of A >= 0; 0 for ``depth <= 0`` [m]. Raises ImpactError for a negative A and a depth that is not finite."""
+    """F_c in [N] of A >= 0; 0 for ``depth <= 0`` [m]. Raises ImpactError for a negative A and a
+    depth that is not finite.
+    """
     check_not_negative("coefficient", coefficient, "N/m^1.5")
     check_number("depth", depth, "m")
     return coefficient * depth * math.sqrt(depth) if depth > 0.0 else 0.0
 
 
 def viscous_force(coefficient: float, depth: float, speed: float) -> float:
-    """F_b in [N] of B >= 0, negative on the way out; 0 for ``depth <= 0`` [m]; speed in [m/s]. Errors as `elastic_force`."""
+    """F_b in [N] of B >= 0, negative on the way out; 0 for ``depth <= 0`` [m]; speed in [m/s].
+    Errors as `elastic_force`.
+    """
     check_not_negative("coefficient", coefficient, "N s/m^1.5")
     check_number("depth", depth, "m")
     check_number("speed", speed, "m/s")
@@ -57,7 +65,8 @@ def viscous_force(coefficient: float, depth: float, speed: float) -> float:
 
 
 def lowest_force(end: str) -> float:
-    """Bound of the total force in [N] that an end rule sets: 0 for `force` (no pull), -inf for `gap`.
+    """Bound of the total force in [N] that an end rule sets: 0 for `force` (no pull), -inf for
+    `gap`.
 
     Raises ValueError for another rule.
     """
@@ -67,7 +76,9 @@ def lowest_force(end: str) -> float:
 
 
 def normal_law(elastic: float, viscous: float, end: str) -> tuple[NormalElastic, GeneralDissipative]:
-    """The pair of tuples that any rig takes as its contact: A x^1.5 + B x^0.5 x'; A > 0, B >= 0, else ImpactError."""
+    """The pair of tuples that any rig takes as its contact: A x^1.5 + B x^0.5 x'; A > 0, B >= 0,
+    else ImpactError.
+    """
     check_positive("elastic", elastic, "N/m^1.5")
     check_not_negative("viscous", viscous, "N s/m^1.5")
     return NormalElastic(float(elastic), 1.5), GeneralDissipative(float(viscous), 0.5, 1.0, 0.0, lowest_force(end))

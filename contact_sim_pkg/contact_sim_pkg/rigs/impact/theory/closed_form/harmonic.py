@@ -1,8 +1,9 @@
 """Steady harmonic motion: complex modulus and complex stress (Goloshchapov eqs 90-102, corrected).
 
-``sigma* = sigma_0 e^(i w t)``, ``eps* = eps_0 e^(i (w t - beta))``, ``E* = sigma*/eps* = E' + i E''``, ``tan(beta) = E''/E'``.
-Parts of sigma*: ``sigma' = eps_0 (E' cos(a) - E'' sin(a))``, ``sigma'' = eps_0 (E' sin(a) + E'' cos(a))``, a = w t - beta. As
-printed (eqs 96, 98, 100) sigma' has a plus, which makes it ``sigma_0 cos(w t - 2 beta)`` in place of ``sigma_0 cos(w t)``.
+``sigma* = sigma_0 e^(i w t)``, ``eps* = eps_0 e^(i (w t - beta))``, ``E* = sigma*/eps* = E' + i
+E''``, ``tan(beta) = E''/E'``. Parts of sigma*: ``sigma' = eps_0 (E' cos(a) - E'' sin(a))``,
+``sigma'' = eps_0 (E' sin(a) + E'' cos(a))``, a = w t - beta. As printed (eqs 96, 98, 100) sigma'
+has a plus, which makes it ``sigma_0 cos(w t - 2 beta)`` in place of ``sigma_0 cos(w t)``.
 """
 
 from __future__ import annotations
@@ -27,13 +28,16 @@ class ComplexStress(NamedTuple):
 
 
 def complex_modulus(material: Material) -> complex:
-    """``E* = E' + i E''`` in [Pa]. Raises ImpactError for E' not above 0 and a loss tangent below 0."""
+    """``E* = E' + i E''`` in [Pa]. Raises ImpactError for E' not above 0 and a loss tangent below
+    0.
+    """
     check_fields("material", material, positive="storage_modulus", not_negative="loss_tangent")
     return complex(material.storage_modulus, material.loss_modulus)
 
 
 def material_of_amplitudes(stress: float, strain: float, phase: float) -> Material:
-    """E' and tan(beta) from the amplitudes of stress [Pa] and strain and the phase beta [rad], 0 to below pi/2 (eqs 91-93).
+    """E' and tan(beta) from the amplitudes of stress [Pa] and strain and the phase beta [rad], 0 to
+    below pi/2 (eqs 91-93).
 
     Amplitudes > 0; raises ImpactError otherwise.
     """
@@ -50,7 +54,8 @@ def complex_stress(
 
     No cotangent, so no loss is no pole.
 
-    Raises ImpactError for a material, amplitude, frequency or times outside their range, ValueError for another form.
+    Raises ImpactError for a material, amplitude, frequency or times outside their range, ValueError
+    for another form.
     """
     check_positive("amplitude of the strain", strain)
     check_positive("frequency", frequency, "rad/s")

@@ -1,9 +1,10 @@
-"""The micro-impact wave: how fast the border of the contact and the front around it grow (Goloshchapov eqs 75-80).
+"""The micro-impact wave: how fast the border of the contact and the front around it grow
+(Goloshchapov eqs 75-80).
 
-``r' = k_p sqrt(R) x'/(2 sqrt x)``, ``r_AW' = (1 + sqrt 2)/2 r'``: without bound at first touch. The front is faster than the
-shear wave, ``V_s = sqrt(G'/rho)``, for 0 < t < t_s; a speed asked for in that phase is given as V_s and flagged. t_s is the
-root of r_AW' = V_s on the integrated motion; cheaper: on the damped sine (eq 80), and for small times ``[k_p sqrt(R)(1 + sqrt
-2)/4]^2 V0/V_s^2``.
+``r' = k_p sqrt(R) x'/(2 sqrt x)``, ``r_AW' = (1 + sqrt 2)/2 r'``: without bound at first touch. The
+front is faster than the shear wave, ``V_s = sqrt(G'/rho)``, for 0 < t < t_s; a speed asked for in
+that phase is given as V_s and flagged. t_s is the root of r_AW' = V_s on the integrated motion;
+cheaper: on the damped sine (eq 80), and for small times ``[k_p sqrt(R)(1 + sqrt 2)/4]^2 V0/V_s^2``.
 """
 
 from __future__ import annotations
@@ -34,7 +35,8 @@ class Front(NamedTuple):
 
 
 def border_speed(impact: FreeImpact, depth: float, speed: float, shear_speed: float) -> tuple[float, bool]:
-    """Speed of the contact's border in [m/s] (eq 76), and whether it is above the shear wave's: then it is given as V_s.
+    """Speed of the contact's border in [m/s] (eq 76), and whether it is above the shear wave's:
+    then it is given as V_s.
 
     depth [m], speed [m/s], shear_speed > 0 [m/s]; raises ImpactError otherwise.
     """
@@ -43,7 +45,8 @@ def border_speed(impact: FreeImpact, depth: float, speed: float, shear_speed: fl
 
 
 def front_speed(impact: FreeImpact, depth: float, speed: float, shear_speed: float) -> tuple[float, bool]:
-    """Speed of the wave front in [m/s] (eq 77), and whether it is above the shear wave's: then it is given as V_s.
+    """Speed of the wave front in [m/s] (eq 77), and whether it is above the shear wave's: then it
+    is given as V_s.
 
     Arguments as `border_speed`.
     """
@@ -52,7 +55,9 @@ def front_speed(impact: FreeImpact, depth: float, speed: float, shear_speed: flo
 
 
 def front_time(impact: FreeImpact, shear_speed: float) -> Front:
-    """End of the supersonic phase on the integrated motion. There is always one: the front stands still at the turning point."""
+    """End of the supersonic phase on the integrated motion. There is always one: the front stands
+    still at the turning point.
+    """
     check_positive("shear wave speed", shear_speed, "m/s")
 
     def excess(time: float) -> float:
@@ -67,7 +72,9 @@ def front_time(impact: FreeImpact, shear_speed: float) -> Front:
 
 
 def front_of_small_times(impact: FreeImpact, shear_speed: float) -> Front:
-    """The same with ``x = V0 t``, for t_s far below tau_1; heat ``8/3 k_p sqrt(R) (E''/w) V0 (V0 t_s)^(3/2)``."""
+    """The same with ``x = V0 t``, for t_s far below tau_1; heat ``8/3 k_p sqrt(R) (E''/w) V0 (V0
+    t_s)^(3/2)``.
+    """
     check_positive("shear wave speed", shear_speed, "m/s")
     time = _small_time(impact, shear_speed)
     depth = impact.speed * time
@@ -75,7 +82,9 @@ def front_of_small_times(impact: FreeImpact, shear_speed: float) -> Front:
 
 
 def front_of_damped_sine(impact: FreeImpact, shear_speed: float) -> float:
-    """t_s [s] as the root of eq 80: the damped sine of constant parameters in place of the motion. Up to tan(beta) = 0.43701."""
+    """t_s [s] as the root of eq 80: the damped sine of constant parameters in place of the motion.
+    Up to tan(beta) = 0.43701.
+    """
     check_positive("shear wave speed", shear_speed, "m/s")
     sine = damped_sine(impact.sphere, impact.material, impact.speed, "corrected", impact.shape)
 
@@ -90,7 +99,9 @@ def front_of_damped_sine(impact: FreeImpact, shear_speed: float) -> float:
 
 
 def viscous_heat(impact: FreeImpact, time: float) -> float:
-    """Work of the viscous force from first touch to ``time`` in [J], 0 to tau_1: 40 Gauss points in sqrt(t), where it is smooth."""
+    """Work of the viscous force from first touch to ``time`` in [J], 0 to tau_1: 40 Gauss points in
+    sqrt(t), where it is smooth.
+    """
     nodes, weights = numpy.polynomial.legendre.leggauss(40)
     edge = math.sqrt(time)
     root = 0.5 * edge * (nodes + 1.0)
@@ -120,5 +131,7 @@ def _small_time(impact: FreeImpact, shear_speed: float) -> float:
 
 
 def _earliest(impact: FreeImpact, shear_speed: float) -> float:
-    """A time at which the front is surely supersonic: a tenth of the formula for small times, within the compression."""
+    """A time at which the front is surely supersonic: a tenth of the formula for small times,
+    within the compression.
+    """
     return min(0.1 * _small_time(impact, shear_speed), 0.01 * impact.compression_time)

@@ -1,7 +1,9 @@
-"""Linear viscoelasticity in operator form, ``P(D) sigma = Q(D) eps`` with polynomials in ``D = d/dt`` (Goloshchapov eqs 124, 125).
+"""Linear viscoelasticity in operator form, ``P(D) sigma = Q(D) eps`` with polynomials in ``D =
+d/dt`` (Goloshchapov eqs 124, 125).
 
-n = 0 is Hooke; Kelvin-Voigt is P = 1, Q = E + eta D; Maxwell P = 1 + tau D, Q = E tau D. In harmonic motion ``E* = Q(i w)/P(i w)``.
-Moduli [Pa], viscosities [Pa s] and times [s] are above 0; other values raise ImpactError.
+n = 0 is Hooke; Kelvin-Voigt is P = 1, Q = E + eta D; Maxwell P = 1 + tau D, Q = E tau D. In
+harmonic motion ``E* = Q(i w)/P(i w)``. Moduli [Pa], viscosities [Pa s] and times [s] are above 0;
+other values raise ImpactError.
 """
 
 from __future__ import annotations
@@ -42,7 +44,9 @@ def maxwell(modulus: float, relaxation_time: float) -> Operators:
 
 
 def standard_solid(glassy_modulus: float, delayed_modulus: float, retardation_time: float) -> Operators:
-    """A spring E0 in a row with a Kelvin-Voigt element E1, tau: ``(E0 + E1 + E1 tau D) sigma = E0 E1 (1 + tau D) eps``."""
+    """A spring E0 in a row with a Kelvin-Voigt element E1, tau: ``(E0 + E1 + E1 tau D) sigma = E0
+    E1 (1 + tau D) eps``.
+    """
     check_positive("glassy modulus", glassy_modulus, "Pa")
     check_positive("delayed modulus", delayed_modulus, "Pa")
     check_positive("retardation time", retardation_time, "s")
@@ -53,7 +57,9 @@ def standard_solid(glassy_modulus: float, delayed_modulus: float, retardation_ti
 
 
 def modulus_at(operators: Operators, frequency: float) -> complex:
-    """``E* = Q(i w)/P(i w)`` in [Pa] at ``frequency`` w >= 0 [rad/s]. Raises ImpactError where P(i w) is 0."""
+    """``E* = Q(i w)/P(i w)`` in [Pa] at ``frequency`` w >= 0 [rad/s]. Raises ImpactError where P(i
+    w) is 0.
+    """
     check_not_negative("frequency", frequency, "rad/s")
     for name, coefficients in zip(("stress", "strain"), operators, strict=True):
         check_values(f"operator of the {name}", coefficients, shape=(None,))

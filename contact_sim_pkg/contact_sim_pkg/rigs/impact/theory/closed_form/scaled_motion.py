@@ -1,15 +1,17 @@
-"""The impact in its own units: ``X'' + zeta sqrt(X) X' + X^(3/2) = 0``, X(0) = 0, X'(0) = 1 (Goloshchapov eq 54).
+"""The impact in its own units: ``X'' + zeta sqrt(X) X' + X^(3/2) = 0``, X(0) = 0, X'(0) = 1
+(Goloshchapov eq 54).
 
-Units: length ``L = (m V0^2/c)^(2/5)``, ``c = 4/3 k_p E' sqrt(R)``, time ``L/V0``, force ``m V0^2/L``. With ``u = sqrt(X)``, v = X'
-and ``dt = 2 u ds`` the equation is a polynomial one,
+Units: length ``L = (m V0^2/c)^(2/5)``, ``c = 4/3 k_p E' sqrt(R)``, time ``L/V0``, force ``m
+V0^2/L``. With ``u = sqrt(X)``, v = X' and ``dt = 2 u ds`` the equation is a polynomial one,
 
     du/ds = v,   dv/ds = 2 u (weight - u (u^2 + zeta v)),   dt/ds = 2 u,   dh/ds = 2 zeta u^2 v^2,
 
-h the heat in units of ``m V0^2``, weight ``g L/V0^2`` (0 for the free impact of eq 54), so that touch and lift-off, where x^(3/2)
-and x^(1/2) have no Taylor series in t, are regular points of it. It is solved by its own Taylor series of order 20 in about twenty
-steps, to rounding; events are roots of the step's polynomials. Contact ends where the force ``u (u^2 + zeta v)`` reaches 0 on the
-way out (end rule ``force``) or where u is back at 0 (``gap``).
-Method: Jorba and Zou, A software package for the numerical integration of ODEs by Taylor methods, Exp. Math. 14 (2005).
+h the heat in units of ``m V0^2``, weight ``g L/V0^2`` (0 for the free impact of eq 54), so that
+touch and lift-off, where x^(3/2) and x^(1/2) have no Taylor series in t, are regular points of it.
+It is solved by its own Taylor series of order 20 in about twenty steps, to rounding; events are
+roots of the step's polynomials. Contact ends where the force ``u (u^2 + zeta v)`` reaches 0 on the
+way out (end rule ``force``) or where u is back at 0 (``gap``). Method: Jorba and Zou, A software
+package for the numerical integration of ODEs by Taylor methods, Exp. Math. 14 (2005).
 """
 
 from __future__ import annotations
@@ -36,7 +38,8 @@ SERIES = 7  # u, v, t, u^2, u^2 + zeta v, u v, heat
 HEAT = 6
 PEAK, TURNING, END = 0, 1, 2  # in the order in which they come
 DURATION, RESTITUTION, DEPTH, TURNING_TIME, PEAK_FORCE, PEAK_TIME = 0, 1, 2, 3, 4, 5
-REACHED_ROOT, REACHED_SPEED, REACHED_TIME, LOST, RESULTS = 6, 7, 8, 9, 10  # where the march ended, and the heat by then
+# Where the march ended, and the heat by then
+REACHED_ROOT, REACHED_SPEED, REACHED_TIME, LOST, RESULTS = 6, 7, 8, 9, 10
 
 
 class ScaledImpact(NamedTuple):
@@ -53,10 +56,11 @@ class ScaledImpact(NamedTuple):
 
 @kernel
 def _expand(zeta, weight, series):
-    """Taylor coefficients of u, v, t, h in s from those in place 0; returns the step in s that they carry.
+    """Taylor coefficients of u, v, t, h in s from those in place 0; returns the step in s that they
+    carry.
 
-    Rows: u, v, t, then u^2, u^2 + zeta v, u v and the heat. Step: radius of convergence over e^2, where the tail is
-    below rounding.
+    Rows: u, v, t, then u^2, u^2 + zeta v, u v and the heat. Step: radius of convergence over e^2,
+    where the tail is below rounding.
     """
     u, v, squared, moment, product = series[0], series[1], series[3], series[4], series[5]
     for k in range(ORDER):
@@ -107,7 +111,9 @@ def _step(series, step):
 
 @kernel
 def _event(zeta, weight, pulls, kind, u, v):
-    """Event functions, each positive before its event: largest total force, turning, end of contact."""
+    """Event functions, each positive before its event: largest total force, turning, end of
+    contact.
+    """
     moment = u * u + zeta * v
     if kind == PEAK:
         return v * moment + 2.0 * u * u * (v + zeta * (weight - u * moment))
@@ -120,7 +126,9 @@ def _event(zeta, weight, pulls, kind, u, v):
 
 @kernel
 def _locate(zeta, weight, pulls, kind, u, v, step):
-    """Root of an event function within a step in s: regula falsi (Illinois), every fourth time by halves."""
+    """Root of an event function within a step in s: regula falsi (Illinois), every fourth time by
+    halves.
+    """
     low, high = 0.0, step
     low_value = _event(zeta, weight, pulls, kind, u[0], v[0])
     high_value = _event(zeta, weight, pulls, kind, _value(u, step), _value(v, step))
@@ -177,10 +185,11 @@ def _note(zeta, kind, series, s, out):
 def solve_from(
     zeta: float, weight: float, pulls: bool, u: float, v: float, kind: int, limit: float, out: Vector
 ) -> int:
-    """Follow the contact from ``u``, ``v`` to its end; events from ``kind`` on are written into ``out`` [RESULTS].
+    """Follow the contact from ``u``, ``v`` to its end; events from ``kind`` on are written into
+    ``out`` [RESULTS].
 
-    Returns the steps taken; 0 where the contact has not ended by ``limit`` or within the largest number of steps: then the last
-    places of ``out`` hold how far it came.
+    Returns the steps taken; 0 where the contact has not ended by ``limit`` or within the largest
+    number of steps: then the last places of ``out`` hold how far it came.
     """
     series = numpy.zeros((SERIES, ORDER + 1))
     _start(u, v, series)
@@ -231,7 +240,8 @@ def _place(series, step, time):
 def sample_from(
     zeta: float, weight: float, u: float, v: float, times: Vector, depth: Vector, speed: Vector, heat: Vector
 ) -> int:
-    """Depth, speed and heat at rising ``times`` in contact, from ``u``, ``v`` on; returns how many of them were reached.
+    """Depth, speed and heat at rising ``times`` in contact, from ``u``, ``v`` on; returns how many
+    of them were reached.
 
     Those behind the end of the contact get its values and are not counted.
     """
@@ -259,9 +269,11 @@ def sample_from(
 
 
 def scaled_impact(severity: float, end: str, weight: float = 0.0) -> ScaledImpact:
-    """The impact at ``severity`` zeta, 0 to 1000, to 1e-13; ``end`` is ``force`` or ``gap``; ``weight`` ``g L/V0^2``, 0: none.
+    """The impact at ``severity`` zeta, 0 to 1000, to 1e-13; ``end`` is ``force`` or ``gap``;
+    ``weight`` ``g L/V0^2``, 0: none.
 
-    Raises ImpactError outside the range and, with ``gap``, where the mass does not come back (zeta above about 8).
+    Raises ImpactError outside the range and, with ``gap``, where the mass does not come back (zeta
+    above about 8).
     """
     check_number("severity", severity, least=0.0, most=LARGEST_SEVERITY)
     check_not_negative("weight", weight)
@@ -280,7 +292,8 @@ def scaled_impact(severity: float, end: str, weight: float = 0.0) -> ScaledImpac
 def scaled_course(severity: float, times: Vector) -> tuple[Vector, Vector]:
     """Depth and speed at rising ``times`` >= 0 within the contact, to a few units of rounding.
 
-    Raises ImpactError where a time is not reached, for times that do not rise from 0 on and a severity outside 0 to 1000.
+    Raises ImpactError where a time is not reached, for times that do not rise from 0 on and a
+    severity outside 0 to 1000.
     """
     check_number("severity", severity, least=0.0, most=LARGEST_SEVERITY)
     scaled = check_values("times", times, shape=(None,), least=0.0, rising=True)

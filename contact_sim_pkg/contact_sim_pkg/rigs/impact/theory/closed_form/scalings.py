@@ -1,11 +1,15 @@
-"""Closed forms for the impact: constant parameters of equal work, restitution, depth and time (Goloshchapov eqs 56-71).
+"""Closed forms for the impact: constant parameters of equal work, restitution, depth and time
+(Goloshchapov eqs 56-71).
 
-``m x'' + B x' + C x = 0`` with B and C constant, so that their works over the compression are those of the variable ones:
+``m x'' + B x' + C x = 0`` with B and C constant, so that their works over the compression are those
+of the variable ones:
 
-    C = 16/15 k_p E' sqrt(R x_m),   B = beta k_p E'' sqrt(R x_m)/w,   beta = 4 I1/I2 = 8 B(3/4, 3/2)/pi = 2.44079...
+    C = 16/15 k_p E' sqrt(R x_m),   B = beta k_p E'' sqrt(R x_m)/w,   beta = 4 I1/I2 = 8 B(3/4,
+    3/2)/pi = 2.44079...
 
-with I1, I2 the integrals of sqrt(s)sqrt(1 - s^2) and sqrt(1 - s^2) over 0..1 (speed of a damped sine). `printed`: beta = 16/5,
-which supposes a speed in proportion to x, so none at first touch. Cheap rungs beside `rigs/impact/theory/motion.py`.
+with I1, I2 the integrals of sqrt(s)sqrt(1 - s^2) and sqrt(1 - s^2) over 0..1 (speed of a damped
+sine). `printed`: beta = 16/5, which supposes a speed in proportion to x, so none at first touch.
+Cheap rungs beside `rigs/impact/theory/motion.py`.
 """
 
 from __future__ import annotations
@@ -32,7 +36,9 @@ __all__ = [
 FORMS = ("corrected", "printed")
 BETA = {"printed": 16.0 / 5.0, "corrected": 8.0 * math.gamma(0.75) * math.gamma(1.5) / math.gamma(2.25) / math.pi}
 LOSS_FACTORS = {"printed": 3.0, "mean_speed": 6.0, "sine": 0.75 * math.pi**2}
-"""Factor of tan(beta) in eq 61: as printed; with the whole viscous work at the mean speed; at the speed of a sine."""
+"""Factor of tan(beta) in eq 61: as printed; with the whole viscous work at the mean speed; at the
+speed of a sine.
+"""
 DURATION_FACTORS = {"printed": 5.0 / 8.0, "corrected": 15.0 / 16.0}
 NEAR_LIMIT = 0.9
 
@@ -54,8 +60,9 @@ def damped_sine(
 ) -> ClosedImpact:
     """Eqs 56-60: ``x = V0/w exp(-delta t) sin(w t)``, ``tau = pi/w``, k = exp(-pi delta/w).
 
-    s = delta/w solves ``s = c tan(beta)(1 + s^2)``, c = 15 beta/32, 1.5 as printed. Real up to tan(beta) = 1/(2c): 0.43701, printed
-    1/3. Raises ImpactError above, and for a mass, radius, modulus, speed or shape factor that is not above 0.
+    s = delta/w solves ``s = c tan(beta)(1 + s^2)``, c = 15 beta/32, 1.5 as printed. Real up to
+    tan(beta) = 1/(2c): 0.43701, printed 1/3. Raises ImpactError above, and for a mass, radius,
+    modulus, speed or shape factor that is not above 0.
     """
     _check_case(sphere, material.storage_modulus, speed, shape_factor)
     s = damping_ratio(material.loss_tangent, form)
@@ -65,7 +72,8 @@ def damped_sine(
     depth = float((speed**2 * fall**2 / stiffness) ** 0.4)
     natural = math.sqrt(stiffness * math.sqrt(depth))
     frequency = natural / math.sqrt(1.0 + s * s)
-    peak_angle = max(0.0, 3.0 * angle - math.pi)  # behind it the damper's fall outweighs the spring's rise
+    # Behind it the damper's fall outweighs the spring's rise
+    peak_angle = max(0.0, 3.0 * angle - math.pi)
     peak = sphere.mass * speed * natural**2 / frequency * math.exp(-s * peak_angle) * math.sin(2.0 * angle - peak_angle)
     return ClosedImpact(
         math.exp(-math.pi * s), math.pi / frequency, angle / frequency, depth, peak, frequency, s * frequency
@@ -73,7 +81,9 @@ def damped_sine(
 
 
 def damping_ratio(loss_tangent: float, form: str = "corrected") -> float:
-    """``s = delta/w`` of eqs 56-58, the smaller root of ``s = c tan(beta)(1 + s^2)``. Raises ImpactError above 1/(2c)."""
+    """``s = delta/w`` of eqs 56-58, the smaller root of ``s = c tan(beta)(1 + s^2)``. Raises
+    ImpactError above 1/(2c).
+    """
     check_not_negative("loss tangent", loss_tangent)
     c = 15.0 / 32.0 * _of(BETA, form)
     product = c * loss_tangent
@@ -86,7 +96,9 @@ def damping_ratio(loss_tangent: float, form: str = "corrected") -> float:
 
 
 def closed_restitution(loss_tangent: float, form: str = "printed") -> float:
-    """Eq 66: ``k = (pi - f tan(beta))/(pi + f tan(beta))``, f of `LOSS_FACTORS` (printed 3). Raises ImpactError from pi/f on."""
+    """Eq 66: ``k = (pi - f tan(beta))/(pi + f tan(beta))``, f of `LOSS_FACTORS` (printed 3). Raises
+    ImpactError from pi/f on.
+    """
     check_not_negative("loss tangent", loss_tangent)
     limit = loss_factor_limit(form)
     if loss_tangent >= limit:
@@ -132,10 +144,11 @@ def closed_duration(
     form: str = "corrected",
     shape_factor: float = SMALL_SHAPE_FACTOR,
 ) -> float:
-    """Eq 71: ``tau^2 = -2 (1 + k) ln k/((1 - k) V0^(2/5) k^(1/5)) (f m/(k_p E' sqrt R))^(4/5)``, f = 15/16, printed 5/8; in [s].
+    """Eq 71: ``tau^2 = -2 (1 + k) ln k/((1 - k) V0^(2/5) k^(1/5)) (f m/(k_p E' sqrt R))^(4/5)``, f
+    = 15/16, printed 5/8; in [s].
 
-    For k -> 1 the logarithm is a series: -ln k (1 + k)/(1 - k) -> 2. Range 0 < k <= 1, the rest above 0; raises ImpactError
-    otherwise.
+    For k -> 1 the logarithm is a series: -ln k (1 + k)/(1 - k) -> 2. Range 0 < k <= 1, the rest
+    above 0; raises ImpactError otherwise.
     """
     _check_case(sphere, storage_modulus, speed, shape_factor)
     check_number("restitution", restitution, above=0.0, most=1.0)

@@ -1,8 +1,10 @@
-"""Which severity zeta belongs to a loss tangent: the frequency in the viscous force is the impact's own, ``w = pi/tau``.
+"""Which severity zeta belongs to a loss tangent: the frequency in the viscous force is the impact's
+own, ``w = pi/tau``.
 
-``zeta = 3 tan(beta) T_c(zeta)/pi``, or ``tan(beta) = pi zeta/(3 T_c(zeta))``. With the end rule ``force`` the right-hand side rises
-for all zeta (seen up to 1000), so every loss tangent has one solution. With ``gap`` it has a largest value, 0.40373 at
-zeta = 2.2354: above it there is none (`FoldError`), below it two, of which the smaller is taken: it begins at the elastic impact.
+``zeta = 3 tan(beta) T_c(zeta)/pi``, or ``tan(beta) = pi zeta/(3 T_c(zeta))``. With the end rule
+``force`` the right-hand side rises for all zeta (seen up to 1000), so every loss tangent has one
+solution. With ``gap`` it has a largest value, 0.40373 at zeta = 2.2354: above it there is none
+(`FoldError`), below it two, of which the smaller is taken: it begins at the elastic impact.
 """
 
 from __future__ import annotations
@@ -31,7 +33,9 @@ SEVEREST = 100.0  # severity up to which a restitution is inverted
 
 
 def loss_tangent_of_severity(severity: float, end: str) -> float:
-    """``tan(beta) = pi zeta/(3 T_c)`` of a consistent impact at ``severity`` zeta. Errors as `scaled_impact`."""
+    """``tan(beta) = pi zeta/(3 T_c)`` of a consistent impact at ``severity`` zeta. Errors as
+    `scaled_impact`.
+    """
     lowest_force(end)
     if severity == 0.0:
         return 0.0
@@ -40,9 +44,11 @@ def loss_tangent_of_severity(severity: float, end: str) -> float:
 
 @functools.lru_cache(maxsize=1)
 def fold() -> tuple[float, float]:
-    """Severity and loss tangent at the fold of the end rule ``gap``: (2.2354, 0.40373), from the slope's change of sign.
+    """Severity and loss tangent at the fold of the end rule ``gap``: (2.2354, 0.40373), from the
+    slope's change of sign.
 
-    The slope is a central difference over 1e-4: the loss tangent is good to rounding, the severity to 1e-8.
+    The slope is a central difference over 1e-4: the loss tangent is good to rounding, the severity
+    to 1e-8.
     """
 
     def slope(severity: float) -> float:
@@ -68,7 +74,8 @@ def severity_of_loss_tangent(loss_tangent: float, end: str) -> float:
             raise FoldError(loss_tangent, bound)
     elif loss_tangent > LARGEST_LOSS_TANGENT:
         raise ImpactError(f"loss tangent {loss_tangent:g}: 0 to {LARGEST_LOSS_TANGENT:g} is the range of the model")
-    elastic = 3.0 * ELASTIC_DURATION / math.pi * loss_tangent  # T_c is shorter with loss (force), longer (gap)
+    # T_c is shorter with loss (force), longer (gap)
+    elastic = 3.0 * ELASTIC_DURATION / math.pi * loss_tangent
     if loss_tangent < NO_SEARCH_BELOW:
         return 3.0 * loss_tangent / math.pi * scaled_impact(elastic, end).duration
     low, high = (0.0, min(high, elastic)) if end == "force" else (min(high, 0.9 * elastic), high)
@@ -80,13 +87,16 @@ def severity_of_loss_tangent(loss_tangent: float, end: str) -> float:
 def loss_tangent_of_restitution(restitution: float, end: str) -> float:
     """``tan(beta)`` whose consistent impact ends with ``restitution``, by inversion of k(zeta).
 
-    Range: from 6.05e-4 (``force``, severity 100) or 0.0679 (``gap``, the fold), to 1. Raises ImpactError outside.
+    Range: from 6.05e-4 (``force``, severity 100) or 0.0679 (``gap``, the fold), to 1. Raises
+    ImpactError outside.
     """
     return loss_tangent_of_severity(severity_of_restitution(restitution, end), end)
 
 
 def severity_of_restitution(restitution: float, end: str) -> float:
-    """zeta with which the impact ends with ``restitution`` times its speed. Raises ImpactError outside the range."""
+    """zeta with which the impact ends with ``restitution`` times its speed. Raises ImpactError
+    outside the range.
+    """
     check_number("restitution", restitution)
     high = fold()[0] if end == "gap" else SEVEREST
     lowest = scaled_impact(high, end).restitution

@@ -1,8 +1,10 @@
-"""Stress over the contact area: shape, centre values of the elastic and the viscous part (Goloshchapov eqs 41, 42, 81-89).
+"""Stress over the contact area: shape, centre values of the elastic and the viscous part
+(Goloshchapov eqs 41, 42, 81-89).
 
-Pressure positive. ``sigma(r_i) = sigma_c f(rho)``, ``rho = r_i/r``, ``sigma_c = s F/(pi r^2)``; shapes that carry the whole force:
-`parabola` ``1 - rho^2`` with s = 2 (default) and `hertz` ``sqrt(1 - rho^2)`` with s = 3/2. `printed` is the parabola with s =
-3/2 (eq 84, a mean over a line instead of an area): it carries 3/4 of the force.
+Pressure positive. ``sigma(r_i) = sigma_c f(rho)``, ``rho = r_i/r``, ``sigma_c = s F/(pi r^2)``;
+shapes that carry the whole force: `parabola` ``1 - rho^2`` with s = 2 (default) and `hertz`
+``sqrt(1 - rho^2)`` with s = 3/2. `printed` is the parabola with s = 3/2 (eq 84, a mean over a line
+instead of an area): it carries 3/4 of the force.
 
 The viscous stress ``F_b/(pi r^2) ~ x'/sqrt(x)`` grows without bound towards first touch, while its
 force goes to 0. It is evaluated at a depth not below x_s, where the wave front has come down to the
@@ -41,7 +43,8 @@ class CentreStress(NamedTuple):
 
     elastic: float
     viscous: float
-    limited: bool  # the viscous part is that of the limiting depth: the true one has no bound towards first touch
+    # The viscous part is that of the limiting depth: the true one has no bound towards first touch
+    limited: bool
 
     @property
     def total(self) -> float:
@@ -50,7 +53,9 @@ class CentreStress(NamedTuple):
 
     @property
     def amplitude(self) -> float:
-        """``sqrt(elastic^2 + viscous^2)`` (eq 103): the amplitude of steady harmonic motion, not a stress at an instant."""
+        """``sqrt(elastic^2 + viscous^2)`` (eq 103): the amplitude of steady harmonic motion, not a
+        stress at an instant.
+        """
         return math.hypot(self.elastic, self.viscous)
 
 
@@ -59,8 +64,9 @@ def centre_stress(
 ) -> CentreStress:
     """Stress in the centre at ``depth`` x [m] and ``speed`` x' [m/s]; both parts 0 without contact.
 
-    ``limiting_depth`` x_s > 0 [m]: the viscous part is not evaluated below it, and flagged. See `micro_front.front_time`.
-    Raises ImpactError for values that are not finite and a limiting depth not above 0, ValueError for another shape.
+    ``limiting_depth`` x_s > 0 [m]: the viscous part is not evaluated below it, and flagged. See
+    `micro_front.front_time`. Raises ImpactError for values that are not finite and a limiting depth
+    not above 0, ValueError for another shape.
     """
     factor = _factor(shape)
     check_number("depth", depth, "m")
@@ -90,13 +96,15 @@ def distribution(centre: float, places: Vector, shape: str = "parabola") -> Vect
 def normal_velocity(speed: float, places: Vector) -> Vector:
     """Velocity of the surface along the normal, ``x'(1 - r_i^2/r^2)`` (eq 41).
 
-    In [m/s] at ``places`` r_i/r, 0..1; 0 from the border on. Raises ImpactError for values that are not finite.
+    In [m/s] at ``places`` r_i/r, 0..1; 0 from the border on. Raises ImpactError for values that are
+    not finite.
     """
     return check_number("speed", speed, "m/s") * numpy.clip(1.0 - check_values("places", places) ** 2, 0.0, None)
 
 
 def radial_velocity(border_speed: float, places: Vector) -> Vector:
-    """Velocity of the surface along its radius, ``r' r_i^2/r^2`` (eq 42) in [m/s] at ``places`` r_i/r, 0..1; 0 in the centre.
+    """Velocity of the surface along its radius, ``r' r_i^2/r^2`` (eq 42) in [m/s] at ``places``
+    r_i/r, 0..1; 0 in the centre.
 
     0 outside the contact. Raises ImpactError for places below 0 and values that are not finite.
     """
@@ -106,10 +114,12 @@ def radial_velocity(border_speed: float, places: Vector) -> Vector:
 
 
 def retarded_motion(impact: FreeImpact, time: float, form: str = "corrected") -> tuple[float, float, bool]:
-    """``x_s = V0/w e^(-delta t) sin(w t (1 - tau_KE/tau))`` (eq 88a), its derivative, and whether both are defined.
+    """``x_s = V0/w e^(-delta t) sin(w t (1 - tau_KE/tau))`` (eq 88a), its derivative, and whether
+    both are defined.
 
-    tau_KE = tan(beta)/w. (0, 0, False) outside 0 < t <= tau and where the sine is not positive. ``printed`` leaves the
-    factor 1 - tau_KE/tau out of the derivative (eq 88b). Raises ImpactError for a time that is not finite.
+    tau_KE = tan(beta)/w. (0, 0, False) outside 0 < t <= tau and where the sine is not positive.
+    ``printed`` leaves the factor 1 - tau_KE/tau out of the derivative (eq 88b). Raises ImpactError
+    for a time that is not finite.
     """
     check_number("time", time, "s")
     if form not in ("corrected", "printed"):
@@ -129,10 +139,11 @@ def retarded_motion(impact: FreeImpact, time: float, form: str = "corrected") ->
 def retarded_viscous_stress(
     impact: FreeImpact, time: float, limiting_depth: float, shape: str = "parabola", form: str = "corrected"
 ) -> tuple[float, bool]:
-    """Viscous stress in the centre from the retarded motion (eq 89) in [Pa], and whether it is defined and not limited.
+    """Viscous stress in the centre from the retarded motion (eq 89) in [Pa], and whether it is
+    defined and not limited.
 
-    ``s 4 E'' x_s'/(pi w k_p sqrt(R) sqrt(x_s))``; 0 where the motion is undefined; below ``limiting_depth`` that depth's.
-    Errors as `centre_stress` and `retarded_motion`.
+    ``s 4 E'' x_s'/(pi w k_p sqrt(R) sqrt(x_s))``; 0 where the motion is undefined; below
+    ``limiting_depth`` that depth's. Errors as `centre_stress` and `retarded_motion`.
     """
     _factor(shape)
     check_positive("limiting depth", limiting_depth, "m")

@@ -1,9 +1,11 @@
-"""Circular surface wave around the contact: ring, length, phase speed, height in place and time (Goloshchapov eqs 43-53, 72-74).
+"""Circular surface wave around the contact: ring, length, phase speed, height in place and time
+(Goloshchapov eqs 43-53, 72-74).
 
-Ring: ``S_w = a_k S_x``, ``a_k = (K' + p)/(K' - p)`` with the mean pressure p (eq 48 corrected), ``r_w = r/2 (sqrt(1 + a_k) -
-1)``, front ``r_AW = r + r_w``. Wave: ``xi = x_m e^(-delta (t - tau_1)) cos(w (t - tau_1) - k r)`` for t >= tau_1, ``lambda = 2
-(sqrt 2 - 1) k_p sqrt(x_m R)``, ``v = lambda w/2 pi``. Its speed is geometry: a forced near field, so the ratio to the Rayleigh
-wave is reported with it.
+Ring: ``S_w = a_k S_x``, ``a_k = (K' + p)/(K' - p)`` with the mean pressure p (eq 48 corrected),
+``r_w = r/2 (sqrt(1 + a_k) - 1)``, front ``r_AW = r + r_w``. Wave: ``xi = x_m e^(-delta (t - tau_1))
+cos(w (t - tau_1) - k r)`` for t >= tau_1, ``lambda = 2 (sqrt 2 - 1) k_p sqrt(x_m R)``, ``v = lambda
+w/2 pi``. Its speed is geometry: a forced near field, so the ratio to the Rayleigh wave is reported
+with it.
 """
 
 from __future__ import annotations
@@ -55,7 +57,8 @@ class Wave(NamedTuple):
 
 
 def ring(radius: float, mean_pressure: float, bulk_modulus: float) -> Ring:
-    """Ring around a contact of ``radius`` r [m] at ``mean_pressure`` p = F/(pi r^2) [Pa]; ``bulk_modulus`` K' may be infinite.
+    """Ring around a contact of ``radius`` r [m] at ``mean_pressure`` p = F/(pi r^2) [Pa];
+    ``bulk_modulus`` K' may be infinite.
 
     Raises ImpactError for p >= K', where the ratio has no meaning, and for p or r below 0.
     """
@@ -73,7 +76,8 @@ def ring(radius: float, mean_pressure: float, bulk_modulus: float) -> Ring:
 
 
 def surface_wave(impact: FreeImpact, shear_modulus: float, density: float, poisson_ratio: float) -> Wave:
-    """The wave that an impact leaves (eqs 72-74); the half-space's G' [Pa], density [kg/m^3] and nu give the Rayleigh speed.
+    """The wave that an impact leaves (eqs 72-74); the half-space's G' [Pa], density [kg/m^3] and nu
+    give the Rayleigh speed.
 
     Errors as `rayleigh_speed`.
     """
@@ -96,11 +100,13 @@ def surface_wave(impact: FreeImpact, shear_modulus: float, density: float, poiss
 
 
 def wave_height(wave: Wave, radii: Vector, times: Vector, spread: str = "none", form: str = "corrected") -> Vector:
-    """xi [times, radii] in [m] at distances ``radii`` [m] from the impact's centre and ``times`` [s] from first touch.
+    """xi [times, radii] in [m] at distances ``radii`` [m] from the impact's centre and ``times``
+    [s] from first touch.
 
-    0 before tau_1 and ahead of ``r_AW + v (t - tau_1)``. ``spread`` `cylindrical`: amplitude times sqrt(r_AW/r) outside r_AW.
-    ``printed``: decay from first touch on, so that the wave starts below x_m.
-    Raises ImpactError for distances below 0 and values that are not finite, ValueError for another spread or form.
+    0 before tau_1 and ahead of ``r_AW + v (t - tau_1)``. ``spread`` `cylindrical`: amplitude times
+    sqrt(r_AW/r) outside r_AW. ``printed``: decay from first touch on, so that the wave starts below
+    x_m. Raises ImpactError for distances below 0 and values that are not finite, ValueError for
+    another spread or form.
     """
     if spread not in SPREADS:
         raise ValueError(f"spread '{spread}': none or cylindrical is needed")
@@ -131,7 +137,8 @@ def shear_speed(shear_modulus: float, density: float) -> float:
 
 
 def rayleigh_speed(shear_modulus: float, density: float, poisson_ratio: float) -> float:
-    """Speed of the free surface wave in [m/s]: root of Rayleigh's cubic in ``(c/V_s)^2`` (Johnson 1985, 11.1).
+    """Speed of the free surface wave in [m/s]: root of Rayleigh's cubic in ``(c/V_s)^2`` (Johnson
+    1985, 11.1).
 
     G' > 0 [Pa], density > 0 [kg/m^3], -1 < nu <= 1/2; raises ImpactError otherwise.
     """

@@ -1,7 +1,8 @@
-"""Shear creep compliance of the usual models, ``J(t) = j0 + t/eta + sum j_i (1 - e^(-t/tau_i))``; elastic limit 1/G.
+"""Shear creep compliance of the usual models, ``J(t) = j0 + t/eta + sum j_i (1 - e^(-t/tau_i))``;
+elastic limit 1/G.
 
-Maxwell: ``1/G + t/eta``. Kelvin-Voigt: ``(1 - e^(-t/tau))/G``. Standard solid: ``1/G0 + (1 - e^(-t/tau))/G1`` (Goloshchapov
-below eq 113).
+Maxwell: ``1/G + t/eta``. Kelvin-Voigt: ``(1 - e^(-t/tau))/G``. Standard solid: ``1/G0 + (1 -
+e^(-t/tau))/G1`` (Goloshchapov below eq 113).
 """
 
 from __future__ import annotations
@@ -28,7 +29,9 @@ class Creep(NamedTuple):
 
 
 def maxwell(shear_modulus: float, viscosity: float) -> Creep:
-    """Spring and dashpot in a row; G > 0 [Pa], eta > 0 [Pa s], which may be infinite; raises ImpactError otherwise."""
+    """Spring and dashpot in a row; G > 0 [Pa], eta > 0 [Pa s], which may be infinite; raises
+    ImpactError otherwise.
+    """
     check_positive("shear modulus", shear_modulus, "Pa")
     check_number("viscosity", viscosity, "Pa s", above=0.0, infinite=True)
     return Creep(1.0 / shear_modulus, 1.0 / viscosity, (), ())
@@ -42,13 +45,17 @@ def kelvin_voigt(shear_modulus: float, retardation_time: float) -> Creep:
 
 
 def standard_solid(glassy_modulus: float, delayed_modulus: float, retardation_time: float) -> Creep:
-    """A spring G0 [Pa] in a row with a Kelvin-Voigt element G1 [Pa], tau [s]; all > 0, raises ImpactError otherwise."""
+    """A spring G0 [Pa] in a row with a Kelvin-Voigt element G1 [Pa], tau [s]; all > 0, raises
+    ImpactError otherwise.
+    """
     check_positive("glassy modulus", glassy_modulus, "Pa")
     return kelvin_voigt(delayed_modulus, retardation_time)._replace(glassy=1.0 / glassy_modulus)
 
 
 def compliance(creep: Creep, times: Vector) -> Vector:
-    """J in [1/Pa] at ``times`` >= 0 [s]. Raises ImpactError for other times, and for parameters that stand for no material."""
+    """J in [1/Pa] at ``times`` >= 0 [s]. Raises ImpactError for other times, and for parameters
+    that stand for no material.
+    """
     check(creep)
     t = check_values("times", times, "s", least=0.0)
     total = creep.glassy + creep.fluidity * t

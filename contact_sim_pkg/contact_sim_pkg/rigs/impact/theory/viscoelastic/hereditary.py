@@ -1,10 +1,11 @@
-"""Indentation of a viscoelastic half-space under a given force by the hereditary integral (Lee and Radok; Goloshchapov eqs
-108-113).
+"""Indentation of a viscoelastic half-space under a given force by the hereditary integral (Lee and
+Radok; Goloshchapov eqs 108-113).
 
-``x^(3/2) = 3 (1 - nu)/(8 sqrt R) I(t)``, ``I = int_0^t J(t - s) dF(s)``, J the shear creep compliance. A force F0 at the first
-time is a step. For exponentials I is a recursion: ``tau y' = F - y`` for each time constant, solved exactly for a force that is
-linear between samples, so the cost goes with the number of samples, not with its square. Right while the contact grows: samples
-behind its largest depth are flagged. Source: Lee and Radok, J. Appl. Mech. 27 (1960) 438.
+``x^(3/2) = 3 (1 - nu)/(8 sqrt R) I(t)``, ``I = int_0^t J(t - s) dF(s)``, J the shear creep
+compliance. A force F0 at the first time is a step. For exponentials I is a recursion: ``tau y' = F
+- y`` for each time constant, solved exactly for a force that is linear between samples, so the cost
+goes with the number of samples, not with its square. Right while the contact grows: samples behind
+its largest depth are flagged. Source: Lee and Radok, J. Appl. Mech. 27 (1960) 438.
 """
 
 from __future__ import annotations
@@ -28,7 +29,8 @@ class Indentation(NamedTuple):
     """Result at each sample."""
 
     depth: Vector  # x [m], 0 where the integral is not positive
-    growing: NDArray[numpy.bool_]  # whether the contact has grown up to there: only then the integral holds
+    # Whether the contact has grown up to there: only then the integral holds
+    growing: NDArray[numpy.bool_]
 
 
 def indentation(
@@ -36,8 +38,9 @@ def indentation(
 ) -> Indentation:
     """Depth under ``force`` [N] at rising ``times`` [s], linear between them.
 
-    ``printed``: factor 3/4 of eq 112, twice eq 110 at t = 0. Raises ImpactError for a radius not above 0 [m], a Poisson ratio
-    outside -1 < nu <= 1/2, and as `hereditary_integral`; ValueError for another form.
+    ``printed``: factor 3/4 of eq 112, twice eq 110 at t = 0. Raises ImpactError for a radius not
+    above 0 [m], a Poisson ratio outside -1 < nu <= 1/2, and as `hereditary_integral`; ValueError
+    for another form.
     """
     check_positive("radius", radius, "m")
     check_poisson_ratio(poisson_ratio)
@@ -50,9 +53,11 @@ def indentation(
 
 
 def hereditary_integral(creep: Creep, times: Vector, force: Vector) -> Vector:
-    """``I(t) = int J(t - s) dF(s)`` in [m^2] at each of ``times``; exact for a force that is linear between samples.
+    """``I(t) = int J(t - s) dF(s)`` in [m^2] at each of ``times``; exact for a force that is linear
+    between samples.
 
-    times [samples] [s], rising; force [samples] [N]. Raises ImpactError for other arrays and for a creep of no material.
+    times [samples] [s], rising; force [samples] [N]. Raises ImpactError for other arrays and for a
+    creep of no material.
     """
     check(creep)
     t, f = numpy.ascontiguousarray(times, dtype=numpy.float64), numpy.ascontiguousarray(force, dtype=numpy.float64)

@@ -34,9 +34,11 @@ def decay_time(damping: float) -> float:
 def retardation_time_of_decay(
     decay: float, loss_tangent: float, natural_frequency: float, form: str = "corrected"
 ) -> float:
-    """``tau_KE = tau_w tan(beta)/sqrt((w0 tau_w)^2 - 1)`` in [s] (eq 118 corrected), w0 the undamped frequency [rad/s].
+    """``tau_KE = tau_w tan(beta)/sqrt((w0 tau_w)^2 - 1)`` in [s] (eq 118 corrected), w0 the
+    undamped frequency [rad/s].
 
-    As printed ``tau_w tan(beta)/sqrt(1 + w0^2)``, whose w0 has a unit. Raises ImpactError where nothing oscillates, w0 tau_w <= 1.
+    As printed ``tau_w tan(beta)/sqrt(1 + w0^2)``, whose w0 has a unit. Raises ImpactError where
+    nothing oscillates, w0 tau_w <= 1.
     """
     check_positive("decay time", decay, "s")
     check_positive("natural frequency", natural_frequency, "rad/s")
