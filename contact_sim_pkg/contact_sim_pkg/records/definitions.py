@@ -88,24 +88,31 @@ class Definition(NamedTuple):
 @cache
 def texts() -> dict[str, str]:
     """The text of each definition by type name, ours with their comments; FileNotFoundError where ours are missing."""
+    ours = {f"{PACKAGE}/msg/{name}": file.read_text(encoding="utf-8") for name, file in _files().items()}
+    return {**STANDARD, **ours}
+
+
+@cache
+def _files() -> dict[str, Any]:
+    """Our `.msg` files by the name of their message."""
     folder = files("contact_sim_pkg") / "msg"
-    ours = {
-        f"{PACKAGE}/msg/{entry.name[:-4]}": entry.read_text(encoding="utf-8")
-        for entry in (folder.iterdir() if folder.is_dir() else ())
-        if entry.name.endswith(".msg")
-    }
-    if not ours:
+    found = (
+        {entry.name[:-4]: entry for entry in folder.iterdir() if entry.name.endswith(".msg")} if folder.is_dir() else {}
+    )
+    if not found:
         raise FileNotFoundError(
             f"the message definitions are missing in {folder}; install the package with its data again"
         )
-    return {**STANDARD, **ours}
+    return found
 
 
 @cache
 def definition_of(name: str) -> Definition:
     """The definition of a message by its name without the package; KeyError where there is none."""
-    type_name, text = {full.rpartition("/")[2]: (full, text) for full, text in texts().items()}[name]
-    return parsed(type_name, text)
+    for type_name, text in STANDARD.items():
+        if type_name.endswith(f"/{name}"):
+            return parsed(type_name, text)
+    return parsed(f"{PACKAGE}/msg/{name}", _files()[name].read_text(encoding="utf-8"))
 
 
 def parsed(type_name: str, text: str) -> Definition:

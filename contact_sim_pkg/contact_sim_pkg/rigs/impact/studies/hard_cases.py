@@ -7,17 +7,16 @@ from collections.abc import Callable
 
 import numpy
 
-from contact_sim_pkg.bag.messages import decode
+from contact_sim_pkg.bag.block_encoder import Output
 from contact_sim_pkg.compiled.arrays import Vector
 from contact_sim_pkg.records.hard_case import Finding, HardCase, at_most, close_to, exactly
-from contact_sim_pkg.records.messages import ContactForce, EnergyLedger, ImpactEvents
 from contact_sim_pkg.rigs.impact.reference.weighted_impact import impact_under_weight
 from contact_sim_pkg.rigs.impact.theory.bodies import Material, Sphere
 from contact_sim_pkg.rigs.impact.theory.contact import ContactLaw, touch
 from contact_sim_pkg.rigs.impact.theory.inverse import material_of_impact
 from contact_sim_pkg.rigs.impact.theory.motion import solve_impact
 from contact_sim_pkg.run.errors import RunError
-from contact_sim_pkg.run.scene_messages import Message, messages_of
+from contact_sim_pkg.run.scene_outputs import outputs_of, records_of
 from contact_sim_pkg.scene.errors import SceneError
 
 __all__ = ["CASES"]
@@ -55,29 +54,27 @@ def back_under_weight() -> Finding:
     return at_most(worst, 1e-9)
 
 
-def _forces(messages: list[Message]) -> list[Vector]:
-    return [decode(ContactForce, data).normal for name, _stamp, data in messages if name == "impact/force"]
+def _forces(outputs: list[Output]) -> list[Vector]:
+    return [block.normal for block in records_of(outputs, "impact/force")]
 
 
 def comes_to_rest() -> Finding:
     """Force [N] on rubber after the ball has bounced out: its weight."""
-    return close_to(float(_forces(messages_of("impact_rubber_drop", 1.2, BARE))[-1][-1]), 0.02 * 9.81, 1e-9)
+    return close_to(float(_forces(outputs_of("impact_rubber_drop", 1.2, BARE))[-1][-1]), 0.02 * 9.81, 1e-9)
 
 
 def no_pull() -> Finding:
     """Samples with a force below 0, or with one in flight, of a ball that bounces on a sample with tan(beta) = 1."""
-    found = messages_of("impact_rubber_drop", 0.6, BARE, "impact.sample.loss_tangent=1.0")
+    found = outputs_of("impact_rubber_drop", 0.6, BARE, "impact.sample.loss_tangent=1.0")
     wrong = 0
-    for name, _stamp, data in found:
-        if name == "impact/force":
-            block = decode(ContactForce, data)
-            wrong += int((block.normal < 0.0).sum() + (block.normal[block.approach <= 0.0] != 0.0).sum())
+    for block in records_of(found, "impact/force"):
+        wrong += int((block.normal < 0.0).sum() + (block.normal[block.approach <= 0.0] != 0.0).sum())
     return exactly(wrong, 0)
 
 
 def _ledger(*values: str) -> Finding:
-    found = messages_of("impact_rubber_drop", 1.0, BARE, *values)
-    ledger = [decode(EnergyLedger, data) for name, _stamp, data in found if name == "bench/energy"]
+    found = outputs_of("impact_rubber_drop", 1.0, BARE, *values)
+    ledger = records_of(found, "bench/energy")
     turned = max(max(each.kinetic, abs(each.potential), each.dissipated) for each in ledger)
     return at_most(max(abs(each.residual) for each in ledger) / turned, 1e-12)
 
@@ -95,16 +92,15 @@ def ledger_of_releases() -> Finding:
 def elastic_for_long() -> Finding:
     """Loss of speed over 100 impacts without loss, relative."""
     values = ("effects.impact={normal_elastic: {}}", "impact.speeds=[0.05]", "outputs.force_rate=1000")
-    found = messages_of("impact_rubber_drop", 2.0, *values)
-    speeds = numpy.concatenate([decode(ImpactEvents, d).speed for name, _s, d in found if name == "impact/events"])
+    found = outputs_of("impact_rubber_drop", 2.0, *values)
+    speeds = numpy.concatenate([each.speed for each in records_of(found, "impact/events")])
     return at_most(float(abs(speeds / 0.05 - 1.0).max()) + (0.0 if len(speeds) > 100 else 1.0), 1e-11)
 
 
 def pendulum_to_rest() -> Finding:
     """Largest change of k over the 27 impacts of a hammer on foam, 1 m/s to 1.4 nm/s; then it hangs at rest."""
-    found = messages_of("impact_pendulum", 30.0, BARE, "outputs.force_rate=100")
-    events = [decode(ImpactEvents, data) for name, _stamp, data in found if name == "impact/events"]
-    k = numpy.concatenate([each.restitution for each in events])
+    found = outputs_of("impact_pendulum", 30.0, BARE, "outputs.force_rate=100")
+    k = numpy.concatenate([each.restitution for each in records_of(found, "impact/events")])
     rests = len(k) == 27 and not _forces(found)[-1].any()
     return at_most(float(abs(k / k[0] - 1.0).max()) if rests else math.nan, 1e-9)
 
@@ -123,28 +119,28 @@ def refusals() -> Finding:
     name = "impact_rubber_drop"
     cases = (
 
-        (lambda: messages_of(name, 0.3, "effects.impact.normal_dissipative.end=gap", "impact.sample.loss_tangent=0.5"), "0.4037"),
-        (lambda: messages_of(name, 0.3, "impact.speeds=[80.0]"), "depth over radius"),
-        (lambda: messages_of(name, 0.3, shift, "impact.temperatures=[150.0]"), "pole"),
-        (lambda: messages_of(name, 0.3, shift, "impact.temperatures=[500.0]"), "beyond: keep"),
-        (lambda: messages_of(name, 0.3, "impact.machine=pendulum", "impact.speeds=[8.0]"), "longer arm"),
+        (lambda: outputs_of(name, 0.3, "effects.impact.normal_dissipative.end=gap", "impact.sample.loss_tangent=0.5"), "0.4037"),
+        (lambda: outputs_of(name, 0.3, "impact.speeds=[80.0]"), "depth over radius"),
+        (lambda: outputs_of(name, 0.3, shift, "impact.temperatures=[150.0]"), "pole"),
+        (lambda: outputs_of(name, 0.3, shift, "impact.temperatures=[500.0]"), "beyond: keep"),
+        (lambda: outputs_of(name, 0.3, "impact.machine=pendulum", "impact.speeds=[8.0]"), "longer arm"),
     )  # fmt: skip
     return exactly(sum(_refused(run, word) for run, word in cases), len(cases))
 
 
 def never_lets_go() -> Finding:
     """Impacts that end, and forces that are no number, of a ball on a sample with tan(beta) = 100: it sinks in and stays."""
-    found = messages_of("impact_rubber_drop", 0.6, "impact.sample.loss_tangent=100")
+    found = outputs_of("impact_rubber_drop", 0.6, "impact.sample.loss_tangent=100")
     bad = sum(int((~numpy.isfinite(force)).sum()) for force in _forces(found))
-    ended = sum(name == "impact/events" for name, _stamp, _data in found)
+    ended = len(records_of(found, "impact/events"))
     return exactly(bad + (0 if ended <= 1 else 1), 0)
 
 
 def steel_without_weight() -> Finding:
     """Steel on steel at 1 m/s by the pendulum: largest error of tau, x_m and F against the closed form with no loss."""
     loss = ("impact.sample.loss_tangent=0", "impact.sample.body_loss_tangent=0", "impact.machine=pendulum")
-    found = messages_of("impact_steel", 0.6, BARE, *loss, "outputs.force_rate=1000")
-    events = next(decode(ImpactEvents, data) for name, _stamp, data in found if name == "impact/events")
+    found = outputs_of("impact_steel", 0.6, BARE, *loss, "outputs.force_rate=1000")
+    events = records_of(found, "impact/events")[0]
     mass, elastic = 0.0326, 4.0 / 3.0 * math.sqrt(2.0) * 1.05e11 * math.sqrt(0.01)
     depth = (1.25 * mass / elastic) ** 0.4
     duration = 0.8 * math.sqrt(math.pi) * math.gamma(0.4) / math.gamma(0.9) * depth

@@ -12,9 +12,7 @@ from typing import Any
 
 import numpy
 
-from contact_sim_pkg.bag.messages import decode
 from contact_sim_pkg.compiled.arrays import Vector
-from contact_sim_pkg.records.messages import ContactForce
 from contact_sim_pkg.run.rigs import make_simulation
 from contact_sim_pkg.run.sources import make_sources
 from contact_sim_pkg.scene.errors import SceneError
@@ -84,9 +82,9 @@ def simulate(scene: ResolvedScene, duration: float) -> tuple[dict[str, Vector], 
     for block in range(min(simulation.blocks, round(duration / length))):
         result = simulation.advance(block, {topic: source.block(block) for topic, source in sources.items()})
         walls.append(result.wall_time)
-        for topic, _stamp, data in result.messages:
-            contact, _, kind = topic.partition("/")
+        for output in result.outputs:
+            contact, _, kind = output.topic.partition("/")
             if kind == "force":
-                forces.setdefault(contact, []).append(decode(ContactForce, data).normal)
+                forces.setdefault(contact, []).append(output.record.normal)
     joined = {contact: numpy.concatenate(parts) for contact, parts in forces.items()}
     return joined, 1e3 * statistics.median(walls) / length

@@ -2,20 +2,13 @@
 
 from __future__ import annotations
 
-from typing import Any
-
-from contact_sim_pkg.bag.messages import decode
+from contact_sim_pkg.bag.block_encoder import encode_block
 from contact_sim_pkg.records.hard_case import Finding, HardCase, at_most, exactly
-from contact_sim_pkg.records.messages import ContactForce, ContactPatch, EnergyLedger
-from contact_sim_pkg.run.scene_messages import Message, messages_of
-
-
-def _last(messages: list[Message], topic: str) -> Any:
-    return [data for name, _stamp, data in messages if name == topic][-1]
+from contact_sim_pkg.run.scene_outputs import outputs_of, records_of
 
 
 def _residual(scene_name: str, duration: float, *values: str) -> float:
-    ledger = decode(EnergyLedger, _last(messages_of(scene_name, duration, *values), "bench/energy"))
+    ledger = records_of(outputs_of(scene_name, duration, *values), "bench/energy")[-1]
     return abs(ledger.residual) / max(abs(ledger.supplied), ledger.dissipated)
 
 
@@ -36,18 +29,17 @@ def car_ledger() -> Finding:
 
 def lift_off() -> Finding:
     """Samples with a negative force behind a bump of 0.12 m, where the tire leaves the road (also counted: no flight at all)."""
-    found = messages_of("tire_bump", 1.5, "road.height=0.12")
-    forces = [decode(ContactForce, data).normal for name, _stamp, data in found if name == "tire/force"]
+    found = outputs_of("tire_bump", 1.5, "road.height=0.12")
+    forces = [block.normal for block in records_of(found, "tire/force")]
     flying = sum(int((force == 0.0).sum()) for force in forces)
     wrong = sum(int((force < 0.0).sum()) for force in forces) + (0 if flying > 10 else 1)
-    fields = [decode(ContactPatch, data) for name, _stamp, data in found if name == "tire/patch"]
-    wrong += 0 if any(patch.load == 0.0 and patch.area == 0.0 for patch in fields) else 1
+    wrong += 0 if any(patch.load == 0.0 and patch.area == 0.0 for patch in records_of(found, "tire/patch")) else 1
     return exactly(wrong, 0)
 
 
 def determinism() -> Finding:
     """Messages that differ between two runs of the same scene."""
-    first, second = messages_of("car_full_bench", 0.2), messages_of("car_full_bench", 0.2)
+    first, second = (encode_block(outputs_of("car_full_bench", 0.2)) for _ in range(2))
     return exactly(sum(one != other for one, other in zip(first, second, strict=True)), 0)
 
 

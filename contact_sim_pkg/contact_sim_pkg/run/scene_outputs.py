@@ -1,26 +1,32 @@
-"""What a shipped scene records, without a bag."""
+"""The outputs of a shipped scene, without a bag."""
 
 from __future__ import annotations
 
+from typing import Any
+
+from contact_sim_pkg.bag.block_encoder import Output
 from contact_sim_pkg.run.rigs import make_simulation
 from contact_sim_pkg.run.sources import make_sources
 from contact_sim_pkg.scene.load import load_scene
 from contact_sim_pkg.scene.overrides import set_duration, set_value
 from contact_sim_pkg.scene.resolve import resolve
 
-__all__ = ["Message", "messages_of"]
-
-Message = tuple[str, int, bytes]
+__all__ = ["outputs_of", "records_of"]
 
 
-def messages_of(scene_name: str, duration: float, *values: str) -> list[Message]:
-    """Recorded messages of a shipped scene, `values` as of `--set`, without the wall times of `bench/cost`."""
+def outputs_of(scene_name: str, duration: float, *values: str) -> list[Output]:
+    """Outputs of a shipped scene, `values` as of `--set`, without the wall times of `bench/cost`."""
     overrides = [set_duration(duration), *(set_value(value) for value in values)]
     scene = resolve(load_scene(scene_name, overrides))
     simulation, sources = make_simulation(scene), make_sources(scene)
     simulation.prepare()
-    found: list[Message] = []
+    found: list[Output] = []
     for block in range(simulation.blocks):
         result = simulation.advance(block, {topic: source.block(block) for topic, source in sources.items()})
-        found += [message for message in result.messages if message[0] != "bench/cost"]
+        found += [output for output in result.outputs if output.topic != "bench/cost"]
     return found
+
+
+def records_of(outputs: list[Output], topic: str) -> list[Any]:
+    """The records of a topic, in order."""
+    return [output.record for output in outputs if output.topic == topic]
