@@ -1,4 +1,4 @@
-"""What every rig tells in the same way: stamps, wrenches, ledger, cost."""
+"""Outputs that every rig has: stamps, wrenches, energy ledger, cost."""
 
 import numpy
 import pytest

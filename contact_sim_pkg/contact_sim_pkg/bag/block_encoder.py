@@ -21,7 +21,7 @@ class Output(NamedTuple):
 
 
 def encode_block(outputs: Iterable[Output]) -> list[Message]:
-    """The messages of a block in canonical order: by stamp, then by rank of the topic, then as they are given.
+    """Messages of a block in canonical order: by stamp, by rank of the topic, then as given.
 
     Raises MessageError where a value does not fit its field, or arrays do not fit each other.
     """

@@ -44,7 +44,7 @@ DECODERS: dict[str, Callable[[bytes], Block]] = {"road/patch": decode_road, "pla
 
 
 def _refuse_not_finite(block: Block, name: str) -> None:
-    """MessageError that says how many of the values are not finite, and the place of the first."""
+    """MessageError with the number of values that are not finite, and the place of the first."""
     value: Any = getattr(block, name)
     if not numpy.isfinite(value).all():
         bad = numpy.argwhere(~numpy.isfinite(value))

@@ -1,6 +1,7 @@
 """Records (`records/messages.py`) to the bytes of a message and back, by the names of their fields.
 
-The bytes follow the definition; an array of two sides is sent row by row. Decoded arrays are copies: writable, aligned, contiguous.
+The bytes follow the definition; an array of two sides is sent row by row. Decoded arrays are
+copies: writable, aligned, contiguous.
 """
 
 from __future__ import annotations
@@ -27,7 +28,7 @@ Record = TypeVar("Record")
 
 
 def encode(record: Any, stamp_ns: int = 0, frame_id: str = BENCH_FRAME) -> bytes:
-    """The CDR bytes of a record, stamped [ns] and in a frame; a message without a header holds neither.
+    """CDR bytes of a record with its stamp [ns] and frame; without a header it has neither.
 
     Raises MessageError where a value does not fit its field, or arrays do not fit each other.
     """
@@ -36,15 +37,18 @@ def encode(record: Any, stamp_ns: int = 0, frame_id: str = BENCH_FRAME) -> bytes
 
 
 def decode(kind: type[Record], data: bytes) -> Record:
-    """The record of a kind that the bytes hold; MessageError where they do not hold one, or its arrays do not fit."""
+    """Record of a kind from its bytes.
+
+    Raises MessageError where they do not hold one, or its arrays do not fit.
+    """
     return record_of(kind, deserialize(_codec(kind.__name__).type_name, data))
 
 
 def record_of(kind: type[Record], message: Any) -> Record:
     """The record of a message read by the definition of its bag.
 
-    A field that the bag's definition does not know has its default. Raises MessageError where arrays do not fit each other,
-    AttributeError where a field without a default is missing.
+    A field that the bag's definition does not know has its default. Raises MessageError where arrays
+    do not fit each other, AttributeError where a field without a default is missing.
     """
     made: Record = kind._make(_codec(kind.__name__).values(message))  # type: ignore[attr-defined]
     return made
@@ -56,7 +60,7 @@ def _codec(name: str) -> _Codec:
 
 
 class _Codec:
-    """How one kind of message is encoded and decoded; the places of its fields are those of its definition."""
+    """Encoder and decoder of one kind of message; fields have the places of its definition."""
 
     def __init__(self, name: str) -> None:
         definition = definition_of(name)
@@ -84,7 +88,7 @@ class _Codec:
         ]
 
     def message(self, record: Any, stamp_ns: int, frame_id: str) -> Any:
-        """The message of a record; its numbers of rows, columns and samples are those of its arrays."""
+        """Message of a record; the numbers of rows, columns and samples are those of its arrays."""
         try:
             values = list(self._values_of(record))
             for place, kind in self._kinds:
@@ -123,13 +127,13 @@ class _Codec:
             len(values[place]) for place, may_be_empty in self._columns if not may_be_empty or len(values[place])
         }
         if len(lengths) > 1:
-            told = ", ".join(f"{self._fields[place].name} has {len(values[place])}" for place, _empty in self._columns)
+            found = ", ".join(f"{self._fields[place].name} has {len(values[place])}" for place, _empty in self._columns)
             raise MessageError(
-                f"the arrays of a {self.type_name} differ in length: {told}; one value a sample is needed in each"
+                f"the arrays of a {self.type_name} differ in length: {found}; one value a sample is needed in each"
             )
 
     def values(self, message: Any) -> list[Any]:
-        """The values of a record, of a message with the same fields: arrays as copies, texts as tuples, messages as records."""
+        """Values of a record: arrays as copies, texts as tuples, messages as records."""
         try:
             values = list(self._values_of(message))
         except AttributeError:
@@ -168,7 +172,7 @@ class _Codec:
 
 
 def _values_of(names: tuple[str, ...]) -> Callable[[Any], tuple[Any, ...]]:
-    """What takes the values of these fields from a record or a message, at the speed of the interpreter's own code."""
+    """Function that reads these fields of a record or a message, in one call of compiled code."""
     if len(names) == 1:
         return lambda holder: (getattr(holder, names[0]),)
     return attrgetter(*names)

@@ -1,6 +1,6 @@
-"""The message definitions: the fields of each message, read from its `.msg` file, and the few standard ones of ROS 2 Jazzy.
+"""Message definitions: the fields of each `.msg` file, and the few standard types of ROS 2 Jazzy.
 
-A `.msg` file is the one place that says what a message holds. Phrases in the comment of an array count:
+A `.msg` file alone defines what a message holds. These phrases in the comment of an array count:
 
 * `row-major, A x B`, or `length A`: the fields A and B are its sides; a number is the size of a side,
   an array is as long as the side,
@@ -79,7 +79,7 @@ class Definition(NamedTuple):
 
     @property
     def record_fields(self) -> tuple[Field, ...]:
-        """The fields that a record has: all but the header, and the numbers that the shape of an array says already."""
+        """Fields of a record: all but the header and the sizes that the shape of an array gives."""
         return tuple(
             field for field in self.fields if field.type != HEADER and (field.is_array or field.name not in self.sides)
         )
@@ -87,7 +87,10 @@ class Definition(NamedTuple):
 
 @cache
 def texts() -> dict[str, str]:
-    """The text of each definition by type name, ours with their comments; FileNotFoundError where ours are missing."""
+    """Text of each definition by type name, ours with comments.
+
+    Raises FileNotFoundError where ours are missing.
+    """
     ours = {f"{PACKAGE}/msg/{name}": file.read_text(encoding="utf-8") for name, file in _files().items()}
     return {**STANDARD, **ours}
 
@@ -116,7 +119,10 @@ def definition_of(name: str) -> Definition:
 
 
 def parsed(type_name: str, text: str) -> Definition:
-    """The definition in the text of a `.msg` file; ValueError where a line is neither field nor constant."""
+    """Definition in the text of a `.msg` file.
+
+    Raises ValueError where a line is neither field nor constant.
+    """
     constants: dict[str, int] = {}
     fields: list[Field] = []
     above: list[str] = []

@@ -1,9 +1,9 @@
-"""Messages as records: `from contact_sim_pkg.records.messages import ContactForce`, then `ContactForce(block=3, normal=...)`.
+"""Messages as records, such as `ContactForce(block=3, sample_period=1e-3, normal=...)`.
 
-Each is made from its `.msg` file when it is first asked for: its fields by name, its constants beside them. It is a named
-tuple whose values are given by name alone, so a field may move or be added without a word elsewhere. The header and the numbers
-that say the shape of an array are no fields of it: the encoder knows them. What tools see of it stands in `messages.pyi`, which
-`make records` writes from the same files.
+Each type is made from its `.msg` file on first use: a named tuple with the fields of the message,
+its constants beside them. Values are given by name alone, so a field may move or be added without an
+edit elsewhere. The header and the sizes of arrays are no fields: the encoder fills them in. Type
+checkers read `messages.pyi`, which `python -m tests.records.message_stub` writes from the same files.
 """
 
 from __future__ import annotations

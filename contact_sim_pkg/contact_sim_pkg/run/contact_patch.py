@@ -1,4 +1,4 @@
-"""The message of a pressure field, with what is said of it beside its cells."""
+"""Record of a pressure field: its cells, and load, area, centre and boundary computed from them."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What every rig tells of a block in the same way: stamps, wrenches, energy ledger, cost."""
+"""Outputs that every rig has: stamps, wrenches, energy ledger, cost."""
 
 from __future__ import annotations
 
@@ -42,7 +42,7 @@ class BlockStamps(NamedTuple):
 
 
 def wrench_of(force: Sequence[float], torque: Sequence[float]) -> WrenchStamped:
-    """Force [N] and torque [N m] about the origin of the frame, each along x (forward), y (left) and z (up)."""
+    """Wrench of a force [N] and a torque [N m] about the origin, along x (forward), y (left), z (up)."""
     fx, fy, fz = force
     tx, ty, tz = torque
     return WrenchStamped(wrench=Wrench(force=Vector3(x=fx, y=fy, z=fz), torque=Vector3(x=tx, y=ty, z=tz)))
@@ -66,7 +66,10 @@ def contact_outputs(
 def energy_ledger(
     block: int, *, kinetic: float, potential: float, stored: float, dissipated: float, supplied: float
 ) -> EnergyLedger:
-    """The ledger [J] at a block's start, with what does not add up: supplied - kinetic - potential - stored - dissipated."""
+    """Energy ledger [J] at the start of a block.
+
+    The residual is supplied - kinetic - potential - stored - dissipated.
+    """
     return EnergyLedger(
         block=block, kinetic=kinetic, potential=potential, stored=stored, dissipated=dissipated, supplied=supplied,
         residual=supplied - kinetic - potential - stored - dissipated,
@@ -80,6 +83,6 @@ def solver_cost(stamps: BlockStamps, wall_time: float, **counted: Any) -> Solver
 
 
 def largest(outputs: Iterable[Output], part: str, column: str) -> float:
-    """Largest value of a column of all topics that end in ``part``, such as ``force``; 0 without any."""
+    """Largest value of a column of all topics that end in ``part`` (``force``); 0 without any."""
     chosen = (getattr(each.record, column) for each in outputs if each.topic.endswith(f"/{part}"))
     return max((float(value.max() if hasattr(value, "max") else value) for value in chosen), default=0.0)

@@ -1,4 +1,4 @@
-"""What the two rigs of an occupant tell of a block, combined before it is encoded."""
+"""Outputs of seat and backrest, combined before they are encoded."""
 
 import numpy
 import pytest

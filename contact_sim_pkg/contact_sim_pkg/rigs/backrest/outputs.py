@@ -1,4 +1,4 @@
-"""The outputs of the backrest: what is sampled over one block, and the columns of its messages."""
+"""Outputs of the backrest: samples of one block, and columns of its messages."""
 
 from __future__ import annotations
 

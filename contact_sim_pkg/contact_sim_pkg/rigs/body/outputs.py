@@ -1,4 +1,4 @@
-"""The outputs of a rigid body: what is sampled over one block, and the columns of its messages."""
+"""Outputs of a rigid body: samples of one block, and columns of its messages."""
 
 from __future__ import annotations
 
@@ -97,7 +97,10 @@ def block_outputs(model: BlockModel, record: BlockRecord, wall_time: float) -> l
 
 
 def _wrenches(model: BlockModel, record: BlockRecord, stamps: BlockStamps) -> Iterator[Output]:
-    """Mean wrench on the body about its centre of mass over a display period: axes of a plane ground, the world's over heights."""
+    """Mean wrench on the body about its centre of mass over a display period.
+
+    In the axes of a plane ground; in those of the world over heights.
+    """
     uneven = len(model.ground.profile.nodes) > 0
     starts = [*stamps.displayed(), model.timing.samples]
     for first, last in itertools.pairwise(starts):

@@ -1,4 +1,4 @@
-"""The outputs of the impact rig: the columns of the messages of one block."""
+"""Outputs of the impact rig: columns of the messages of one block."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ from contact_sim_pkg.run.outputs import BlockStamps, contact_outputs, energy_led
 def block_outputs(
     model: ImpactModel, block: int, state: SphereState, ended: list[FinishedImpact], pieces: int, began: float
 ) -> list[Output]:
-    """The outputs of a block; ``pieces`` of motion were made for it, work on it began at ``began`` on the performance counter."""
+    """Outputs of a block of ``pieces`` of motion; ``began``: start of its work on the performance counter [s]."""
     stamps = BlockStamps(block, model.timing)
     events = [Output("impact/events", stamps.start, _events(model, block, ended))] if ended else []
     outputs = [
@@ -75,7 +75,7 @@ def _event(model: ImpactModel, impact: FinishedImpact) -> dict[str, Any]:
 
 
 def impact_outputs(model: ImpactModel, stamps: BlockStamps, impact: FinishedImpact) -> Iterator[Output]:
-    """Course of an impact, and what the scene's effects say of it."""
+    """Course of an impact, and the outputs of the scene's effects."""
     if model.course_samples:
         times, depth, speed, elastic, viscous = course_of(impact, max(2, model.course_samples))
         course = ImpactCourse(

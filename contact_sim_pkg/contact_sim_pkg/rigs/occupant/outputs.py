@@ -1,4 +1,4 @@
-"""The outputs of the occupant: those of the rigs that it is made of, and for what both tell, one of both."""
+"""Outputs of the occupant: those of seat and backrest; motion, energy and cost are combined."""
 
 from __future__ import annotations
 

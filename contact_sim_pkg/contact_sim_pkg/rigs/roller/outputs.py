@@ -1,4 +1,4 @@
-"""The outputs of the roller: what is sampled over one block, and the columns of its messages."""
+"""Outputs of the roller: samples of one block, and columns of its messages."""
 
 from __future__ import annotations
 
@@ -66,7 +66,7 @@ def block_outputs(model: RollerModel, record: RollerRecord, wall_time: float) ->
     """The outputs of a block that took ``wall_time`` [s]."""
     stamps = BlockStamps(record.block, model.timing)
     tracks = [] if record.track is None else [_track(model, record, record.track, each) for each in record.track.tracks]
-    told: list[tuple[str, Any]] = [
+    records: list[tuple[str, Any]] = [
         ("roller/force", _force(record)), ("roller/contact", _contact(record)),
         *(("roller/stability", each) for each in [record.stability] if each is not None),
         *(("roller/track", track) for track in tracks),
@@ -74,7 +74,7 @@ def block_outputs(model: RollerModel, record: RollerRecord, wall_time: float) ->
         ("bench/motion", _motion(record)), ("bench/energy", energy_ledger(record.block, **record.energy._asdict())),
         ("bench/cost", solver_cost(stamps, wall_time, steps=record.steps)),
     ]  # fmt: skip
-    return [Output(topic, stamps.start, each) for topic, each in told]
+    return [Output(topic, stamps.start, each) for topic, each in records]
 
 
 def _force(record: RollerRecord) -> ContactForce:

@@ -1,4 +1,4 @@
-"""The outputs of the rigs tire, seat and car: what is sampled over one block, and the columns of its messages."""
+"""Outputs of the rigs tire, seat and car: samples of one block, and columns of its messages."""
 
 from __future__ import annotations
 
@@ -81,7 +81,7 @@ class BlockRecord:
         a_x: Array,
         a_z: Array,
     ) -> int:
-        """Take the samples of interval number ``interval``; returns the first of them, which is the instant of its fields."""
+        """Take the samples of an interval; returns the first of them, the instant of its fields."""
         count = sampled[0].shape[0]
         first = interval * count
         rows = slice(first, first + count)
