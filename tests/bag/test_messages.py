@@ -1,6 +1,7 @@
 """Encoded messages as an independent decoder (mcap-ros2-support) reads them, and what is refused."""
 
 import struct
+from types import SimpleNamespace
 from typing import Any
 
 import numpy
@@ -12,7 +13,7 @@ from mcap_ros2.decoder import DecoderFactory
 
 from contact_sim_pkg.bag.errors import MessageError
 from contact_sim_pkg.bag.excitation import decode_road, decode_vibration
-from contact_sim_pkg.bag.messages import decode, encode, stamp_of
+from contact_sim_pkg.bag.messages import decode, encode, record_of, stamp_of
 from contact_sim_pkg.bag.typestore import definition
 from contact_sim_pkg.records.messages import (
     BenchProgress,
@@ -257,3 +258,12 @@ def test_reals_are_no_whole_numbers() -> None:
     points = dict.fromkeys(ContactPoints._fields, numpy.zeros(2)) | {"block": 1}
     with pytest.raises(MessageError, match=r"ContactPoints cannot be encoded: .*float64.*uint8"):
         encode(ContactPoints(**points), STAMP)
+
+
+def test_a_field_that_an_older_bag_lacks_has_its_default_and_no_other_may_be_missing() -> None:
+    columns = {name: numpy.arange(3.0) for name in ("normal", "tangential", "approach", "effective_height")}
+    older = SimpleNamespace(block=1, sample_period=1e-3, **columns)
+    assert record_of(ContactForce, older).impulses.shape == (0,)
+    del older.normal
+    with pytest.raises(AttributeError, match="normal"):
+        record_of(ContactForce, older)
