@@ -37,7 +37,7 @@ def test_rms_exponent_and_roughness_are_those_of_the_class(name, seed):
 
 
 @pytest.mark.parametrize("exponent", [1.0, 1.5, 2.5, 4.0])
-def test_the_spectrum_falls_with_the_exponent_that_is_asked(exponent):
+def test_the_spectrum_falls_with_the_exponent_that_is_requested(exponent):
     height = Iso8608Road(64e-6, 4, 500.0, exponent).heights(LINE[:10000], CENTRE)[:, 0]
     n, density = spectrum(height, 500.0)
     band = (n > 0.05) & (n < 3.0)

@@ -39,7 +39,7 @@ def test_share_of_the_spectrum_along_a_line_agrees_with_quadrature(exponent):
         assert float(texture.share(numpy.array(n))) == pytest.approx(expected, abs=1e-7)
 
 
-def test_spectrum_along_and_across_is_the_one_asked_for():
+def test_spectrum_along_and_across_is_the_one_requested():
     texture = Texture(64e-8, 2.0, LONGEST, SHORTEST, 3)
     across = 4.0 * numpy.arange(512) / 512
     # the strip as lines along x: all of it, so that the mean over the lines is over all phases

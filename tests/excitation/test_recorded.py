@@ -233,7 +233,7 @@ def test_start_shifts_the_recording(plain):
 
 def test_after_the_end_the_choice_decides(plain):
     time = numpy.array([3.0, 12.0])
-    with pytest.raises(ExcitationError, match=r"recording ends after 9\.995 s, t = 12 s was asked for"):
+    with pytest.raises(ExcitationError, match=r"recording ends after 9\.995 s, t = 12 s was requested"):
         RecordedVibration(plain, RATE).acceleration(time)
     assert RecordedVibration(plain, RATE, beyond="zero").acceleration(time)[1][1] == 0.0
     repeated = RecordedVibration(plain, RATE, beyond="repeat")

@@ -1,4 +1,4 @@
-"""The asked restitution of the general law: closed forms, and one root search against an integration by scipy."""
+"""The requested restitution of the general law: closed forms, and one root search against an integration by scipy."""
 
 import math
 import re
@@ -25,7 +25,7 @@ ENDS = st.sampled_from([NEVER_PULLS, PULLS])
 FEW = settings(database=None, derandomize=True, deadline=None, max_examples=6)
 MANY = settings(FEW, max_examples=40)
 
-ASKED = (0.05, 0.1, 0.2, 1 / 3, 0.5, 0.7, 0.9, 0.98)
+REQUESTED = (0.05, 0.1, 0.2, 1 / 3, 0.5, 0.7, 0.9, 0.98)
 
 
 @pytest.mark.parametrize(
@@ -37,29 +37,29 @@ def test_the_closed_form_of_spring_and_damper_is_that_of_forty_digits(ratio):
     assert kelvin_voigt_restitution(ratio, PULLS) == pytest.approx(general_law.kelvin_voigt_at_gap(ratio), rel=1e-12)
 
 
-@pytest.mark.parametrize("asked", ASKED)
-def test_the_damping_ratio_inverts_both_closed_forms(asked):
-    at_force, at_gap = kelvin_voigt_ratio(asked, NEVER_PULLS), kelvin_voigt_ratio(asked, PULLS)
-    assert general_law.kelvin_voigt_at_force(at_force) == pytest.approx(asked, abs=1e-12)
-    assert general_law.kelvin_voigt_at_gap(at_gap) == pytest.approx(asked, abs=1e-12)
+@pytest.mark.parametrize("requested", REQUESTED)
+def test_the_damping_ratio_inverts_both_closed_forms(requested):
+    at_force, at_gap = kelvin_voigt_ratio(requested, NEVER_PULLS), kelvin_voigt_ratio(requested, PULLS)
+    assert general_law.kelvin_voigt_at_force(at_force) == pytest.approx(requested, abs=1e-12)
+    assert general_law.kelvin_voigt_at_gap(at_gap) == pytest.approx(requested, abs=1e-12)
 
 
-@pytest.mark.parametrize("asked", ASKED)
-def test_a_quadratic_rate_with_equal_exponents_has_a_closed_form(asked):
+@pytest.mark.parametrize("requested", REQUESTED)
+def test_a_quadratic_rate_with_equal_exponents_has_a_closed_form(requested):
     """p = n, q = 2: e^2 = 1/(1 + Z), from v dv = -X^n (1 + Z v |v|) dX on both ways."""
-    severity = severity_of_restitution(asked, 1.5, 1.5, 2.0, NEVER_PULLS)
-    assert 1.0 / math.sqrt(1.0 + severity) == pytest.approx(asked, abs=1e-10)
+    severity = severity_of_restitution(requested, 1.5, 1.5, 2.0, NEVER_PULLS)
+    assert 1.0 / math.sqrt(1.0 + severity) == pytest.approx(requested, abs=1e-10)
 
 
 @pytest.mark.parametrize(
     ("n", "p", "q"), [(1.5, 0.5, 1.0), (1.5, 0.0, 1.0), (1.5, 2.5, 1.0), (1.0, 0.5, 2.0), (2.0, 1.0, 1.5)]
 )
 @pytest.mark.parametrize("lowest", [NEVER_PULLS, PULLS])
-def test_the_root_search_delivers_what_is_asked_by_the_slow_twin(n, p, q, lowest):
+def test_the_root_search_delivers_what_is_requested_by_the_slow_twin(n, p, q, lowest):
     end = "force" if lowest == NEVER_PULLS else "gap"
-    for asked in ASKED:
-        severity = severity_of_restitution(asked, n, p, q, lowest)
-        assert general_law.restitution(severity, n, p, q, end) == pytest.approx(asked, abs=1e-9)
+    for requested in REQUESTED:
+        severity = severity_of_restitution(requested, n, p, q, lowest)
+        assert general_law.restitution(severity, n, p, q, end) == pytest.approx(requested, abs=1e-9)
 
 
 def test_the_published_table_of_the_sphere_comes_out():
@@ -67,11 +67,11 @@ def test_the_published_table_of_the_sphere_comes_out():
     assert restitution_of_severity(2.2354, 1.5, 0.5, 1.0, PULLS) == pytest.approx(0.0679, abs=5e-5)
 
 
-@pytest.mark.parametrize("asked", ASKED)
-def test_hunt_crossley_needs_the_same_loss_by_its_relation_and_by_the_search(asked):
-    severity = severity_of_restitution(asked, 1.5, 1.5, 1.0, NEVER_PULLS)
-    assert restitution_of_severity(severity, 1.5, 1.5, 1.0, NEVER_PULLS) == pytest.approx(asked, abs=1e-10)
-    assert severity * (1 + asked) == pytest.approx(math.log((1 + severity) / (1 - severity * asked)), rel=1e-9)
+@pytest.mark.parametrize("requested", REQUESTED)
+def test_hunt_crossley_needs_the_same_loss_by_its_relation_and_by_the_search(requested):
+    severity = severity_of_restitution(requested, 1.5, 1.5, 1.0, NEVER_PULLS)
+    assert restitution_of_severity(severity, 1.5, 1.5, 1.0, NEVER_PULLS) == pytest.approx(requested, abs=1e-10)
+    assert severity * (1 + requested) == pytest.approx(math.log((1 + severity) / (1 - severity * requested)), rel=1e-9)
 
 
 def test_the_coefficient_scales_with_mass_speed_and_stiffness():
@@ -90,20 +90,20 @@ def test_grazing_impacts_count_as_one_millimetre_a_second():
     assert slow == coefficient_of_restitution(0.5, 1e-3, 20.0, law, 0.5, 1.0, NEVER_PULLS)
 
 
-@pytest.mark.parametrize("asked", [0.0, 0.0099, 1.01, -1.0, math.nan])
-def test_a_restitution_outside_its_range_is_refused_with_its_value(asked):
-    with pytest.raises(ValueError, match=str(asked)):
-        severity_of_restitution(asked, 1.5, 0.5, 1.0, NEVER_PULLS)
+@pytest.mark.parametrize("requested", [0.0, 0.0099, 1.01, -1.0, math.nan])
+def test_a_restitution_outside_its_range_is_refused_with_its_value(requested):
+    with pytest.raises(ValueError, match=str(requested)):
+        severity_of_restitution(requested, 1.5, 0.5, 1.0, NEVER_PULLS)
 
 
 def test_no_loss_is_needed_for_a_restitution_of_one():
     assert severity_of_restitution(1.0, 1.5, 0.5, 1.0, NEVER_PULLS) == 0.0
 
 
-def dry_friction(asked, n, p):
+def dry_friction(requested, n, p):
     """q = 0 to x = 0: ``e^2 = 1 - 4 Z X^(p+1)/(p+1)``, ``X^(n+1) = (n+1)(1+e^2)/4`` from the energies; Z and X."""
-    deepest = (0.25 * (n + 1.0) * (1.0 + asked**2)) ** (1.0 / (n + 1.0))
-    return 0.25 * (p + 1.0) * (1.0 - asked**2) / deepest ** (p + 1.0), deepest
+    deepest = (0.25 * (n + 1.0) * (1.0 + requested**2)) ** (1.0 / (n + 1.0))
+    return 0.25 * (p + 1.0) * (1.0 - requested**2) / deepest ** (p + 1.0), deepest
 
 
 @pytest.mark.parametrize(
@@ -135,37 +135,37 @@ def test_a_mass_that_creeps_for_longer_than_a_thousand_units_is_held():
 
 @FEW
 @given(st.floats(1.0, 3.0), st.floats(0.0, 4.0), st.floats(0.05, 0.999), st.floats(0.1, 0.98), ENDS)
-def test_every_search_below_the_linear_rate_delivers_or_names_its_range(n, p, q, asked, lowest):
+def test_every_search_below_the_linear_rate_delivers_or_names_its_range(n, p, q, requested, lowest):
     end = "force" if lowest == NEVER_PULLS else "gap"
     try:
-        severity = severity_of_restitution(asked, n, p, q, lowest)
+        severity = severity_of_restitution(requested, n, p, q, lowest)
     except ValueError as refusal:
         stated = re.search(r"from (\S+) to 1", str(refusal))
     else:
-        assert general_law.restitution(severity, n, p, q, end) == pytest.approx(asked, abs=1e-6)
+        assert general_law.restitution(severity, n, p, q, end) == pytest.approx(requested, abs=1e-6)
         return
     assert p > n
-    assert float(stated.group(1)) > asked
+    assert float(stated.group(1)) > requested
 
 
 @settings(FEW, max_examples=15)
 @given(st.floats(1.0, 10.0), st.floats(0.0, 4.0), st.floats(1.0, 3.0), st.floats(0.01, 1.0), ENDS)
-def test_every_search_from_the_linear_rate_on_delivers(n, p, q, asked, lowest):
-    severity = severity_of_restitution(asked, n, p, q, lowest)
+def test_every_search_from_the_linear_rate_on_delivers(n, p, q, requested, lowest):
+    severity = severity_of_restitution(requested, n, p, q, lowest)
     end = "force" if lowest == NEVER_PULLS else "gap"
-    assert general_law.restitution(severity, n, p, q, end) == pytest.approx(asked, abs=2e-9)
+    assert general_law.restitution(severity, n, p, q, end) == pytest.approx(requested, abs=2e-9)
 
 
 @MANY
 @given(st.floats(1.0, 10.0), st.floats(0.0, 4.0), st.floats(1.0, 3.0), st.floats(1e-16, 1e-9))
 def test_next_to_one_the_loss_is_that_of_the_elastic_impact(n, p, q, loss):
     """1 - e = Z I, I the integral of 2 x^p v^q over the elastic way in, here by quadrature over u = x/X."""
-    asked = 1.0 - loss
+    requested = 1.0 - loss
     deepest = (0.5 * (n + 1.0)) ** (1.0 / (n + 1.0))
     area = quad(lambda u: u**p * max(0.0, 1.0 - u ** (n + 1.0)) ** (0.5 * q), 0.0, 1.0, epsabs=1e-12)[0]
-    severity = severity_of_restitution(asked, n, p, q, PULLS)
-    if asked < 1.0 and not (p == n and q == 1.0) and not (n == 1.0 and p == 0.0 and q == 1.0):
-        assert severity * 2.0 * deepest ** (p + 1.0) * area == pytest.approx(1.0 - asked, rel=1e-9)
+    severity = severity_of_restitution(requested, n, p, q, PULLS)
+    if requested < 1.0 and not (p == n and q == 1.0) and not (n == 1.0 and p == 0.0 and q == 1.0):
+        assert severity * 2.0 * deepest ** (p + 1.0) * area == pytest.approx(1.0 - requested, rel=1e-9)
 
 
 GOOD = {"restitution": 0.5, "n": 1.5, "p": 0.5, "q": 1.0, "lowest_force": NEVER_PULLS}
@@ -219,10 +219,10 @@ def test_forward_and_backward_motion_agree_below_the_linear_rate(severity):
 
 @MANY
 @given(st.floats(0.01, 1.0), ENDS)
-def test_the_damping_ratio_is_inverted_over_its_whole_range(asked, lowest):
-    ratio = kelvin_voigt_ratio(asked, lowest)
+def test_the_damping_ratio_is_inverted_over_its_whole_range(requested, lowest):
+    ratio = kelvin_voigt_ratio(requested, lowest)
     exact = general_law.kelvin_voigt_at_force if lowest == NEVER_PULLS else general_law.kelvin_voigt_at_gap
-    assert exact(ratio) == pytest.approx(asked, abs=1e-12)
+    assert exact(ratio) == pytest.approx(requested, abs=1e-12)
 
 
 @pytest.mark.parametrize("bad", [math.nan, -1e-9, math.inf])

@@ -35,7 +35,7 @@ MUTANTS = (
     Mutant("halfspace._transfer", "rows + 1", "rows", ("test_halfspace",)),
     Mutant("field/solver.overlap_approach", "0.6 *", "0.06 *", ("field/test_solver",)),
     Mutant(
-        "field/iteration.forget",
+        "field/iteration.release_cells",
         "surface[k] < approach",
         "surface[k] <= approach",
         ("field/test_solver",),
@@ -44,7 +44,10 @@ MUTANTS = (
     Mutant("lame_pressure.equivalent_ellipse", "math.pi * a * b", "4.0 * a * b", ("test_lame_pressure",)),
     Mutant("subsurface.von_mises", "3.0 *", "2.0 *", ("test_subsurface",)),
     Mutant(
-        "tread_viscoelasticity.take_step", "weights[k] * change", "weights[k] * now", ("test_tread_viscoelasticity",)
+        "tread_viscoelasticity.update_branches",
+        "weights[k] * change",
+        "weights[k] * now",
+        ("test_tread_viscoelasticity",),
     ),
     Mutant("brush.rolling_step", "(1.0 + slip)", "(1.0 - slip)", ("test_brush",)),
     Mutant("tire/brush_steps.carry", "way * stress * 0.5", "way * stress", ("test_brush",)),

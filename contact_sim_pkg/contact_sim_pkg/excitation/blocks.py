@@ -1,7 +1,7 @@
 """Numbered blocks of excitation: what one message of road and of vibration carries, and how it is
 cut out.
 
-A block depends on its number alone, so it is the same whoever asks for it and in which order.
+A block depends on its number alone, so it is the same whatever the order of requests.
 """
 
 from math import ceil, floor

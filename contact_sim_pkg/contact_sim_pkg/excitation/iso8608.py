@@ -57,7 +57,7 @@ def band_variance(roughness: float, exponent: float, low: NDArray[Any] | float, 
 
 
 class Iso8608Road:
-    """A random road, the same across the track unless a texture is asked for; it repeats after its
+    """A random road, the same across the track unless a texture is requested; it repeats after its
     length.
 
     The texture continues the spectrum below the shortest wavelength of the profile with an
@@ -100,7 +100,7 @@ class Iso8608Road:
         self.longest = min(longest_wavelength, length)
         if self.longest < longest_wavelength:
             self._notes.append(
-                f"Waves longer than the road ({length:g} m) are left out; {longest_wavelength:g} m was asked for."
+                f"Waves longer than the road ({length:g} m) are left out; {longest_wavelength:g} m was requested."
             )
         if self.shortest >= self.longest:
             raise ExcitationError(
@@ -113,7 +113,7 @@ class Iso8608Road:
     def _resolved(self, wavelength: float, cell: float, name: str) -> float:
         if wavelength < 2.0 * cell:
             self._notes.append(
-                f"Waves of the {name} below {2.0 * cell:g} m (two cells) are left out; {wavelength:g} m was asked for."
+                f"Waves of the {name} below {2.0 * cell:g} m (two cells) are left out; {wavelength:g} m was requested."
             )
         return max(wavelength, 2.0 * cell)
 

@@ -29,7 +29,7 @@ LARGEST_TABLE = 1 << 25  # numbers in values and slopes of one strip, 256 MiB
 
 class Texture:
     """One periodic strip of isotropic random surface; immutable but for the table of the track that
-    was asked last.
+    was requested last.
     """
 
     def __init__(self, scale: float, exponent: float, longest: float, shortest: float, seed: int) -> None:

@@ -21,7 +21,7 @@ LARGEST_TIME = 1e11  # [s] a time column may count from 1970
 RATE_AGREEMENT = 0.01  # stated and found rate may differ by this part
 # [g] of accelerometers, data-sheet values
 USUAL_FULL_SCALES = (1.0, 1.5, 2.0, 3.0, 4.0, 6.0, 8.0, 16.0)
-# Equal extreme samples in a row that no unclipped vibration gives but by chance
+# Equal extreme samples in succession that no unclipped vibration gives but by chance
 SHORTEST_PLATEAU = 3
 HALF_WIDTH = 32  # samples on each side of the interpolated instant
 BEYOND = ("refuse", "zero", "repeat")
@@ -35,7 +35,7 @@ class Clipping(NamedTuple):
     samples: int
     value: float  # [m/s^2] the full scale, as recorded
     first_line: int
-    longest_run: int  # samples in a row
+    longest_run: int  # samples in succession
 
 
 class RecordedVibration:
@@ -74,7 +74,8 @@ class RecordedVibration:
             the axes so that the mean lies along the vertical). remove_bias: take the mean of each
             axis (gravity and bias) off. clipped: keep (samples at full scale stay as they are), or
             refuse. full_scale: of the sensor, [m/s^2]; None: an extreme value that occurs
-                three times in a row, or twice where it is a usual full scale (2, 4, 8, 16 g …).
+                three times in succession, or twice where it is a usual full scale (2, 4, 8, 16 g
+                …).
             high_pass: corner frequency, [Hz], of a zero-phase high-pass with the gain 1 / (1 +
             (corner / f)^8); None:
                 no filter.
@@ -166,7 +167,7 @@ class RecordedVibration:
             sentence = (
                 f"{clipping.samples} of {self.samples} samples of {names[axis]} lie at the full scale of "
                 f"{clipping.value:.4g} m/s^2 (clipped; first "
-                f"in line {clipping.first_line}, at most {clipping.longest_run} in a row)"
+                f"in line {clipping.first_line}, at most {clipping.longest_run} in succession)"
             )
             if clipped == "refuse":
                 raise ExcitationError(f"{self.path}: {sentence}; keep them (clipped: keep) or take another recording")
@@ -259,7 +260,7 @@ class RecordedVibration:
         if self.beyond == "refuse" and outside.any():
             raise ExcitationError(
                 f"{self.path}: the recording ends after {(self.samples - 1) / self.rate - self.start:.6g} s, t = "
-                f"{t[outside][0]:.6g} s was asked for; "
+                f"{t[outside][0]:.6g} s was requested; "
                 "shorten the run or choose what comes after the recording (vibration.beyond: zero or repeat)"
             )
         index, weight = _interpolation(position)
@@ -331,7 +332,7 @@ def _find_clipping(table: RecordedTable, values: Array, full_scale: float | None
     """Samples at the stated full scale; where none is stated, at an extreme value that looks like
     one.
 
-    A constant signal has no extremes: only a stated full scale tells that it is clipped.
+    A constant signal has no extremes: only a stated full scale shows that it is clipped.
     """
     if full_scale is not None:
         return _clipping_at(table, numpy.abs(values) >= full_scale, full_scale)

@@ -134,7 +134,7 @@ class NoiseSignal:
     phases.
 
     Harmonics of 1 / period inside [low, high], equal amplitudes, uniform random phases: the rms
-    over one period is exactly the rms asked for, the distribution Gaussian to within the number of
+    over one period is exactly the rms requested, the distribution Gaussian to within the number of
     harmonics (at least 16). It repeats after `period`. Interpolated to 1e-6 of the rms, see
     excitation/periodic.py.
     """
@@ -197,7 +197,7 @@ class AxisSignal:
     """Sum of waveforms on each axis; an axis without a waveform rests."""
 
     def __init__(self, x: Sequence[Waveform] = (), z: Sequence[Waveform] = (), notes: Sequence[str] = ()) -> None:
-        """Take the waveforms of the axes x (forward) and z (up), and what else is to be told of
+        """Take the waveforms of the axes x (forward) and z (up), and what else is reported of
         them.
         """
         self.x, self.z, self.notes = tuple(x), tuple(z), tuple(notes)

@@ -30,7 +30,7 @@ STATE_LIMIT = 1.0e10
 UNDERESTIMATE = 20.0
 INSIDE_POINTS = 4  # event functions are evaluated at 1/5 ... 4/5 of each step
 LOCATE_ITERATIONS = 100
-ONE_SIDED = 4  # times in a row that regula falsi may move the same end
+ONE_SIDED = 4  # times in succession that regula falsi may move the same end
 
 STEPS, REJECTED, EVENTS, COUNTERS = 0, 1, 2, 3
 
@@ -280,7 +280,7 @@ def integrate(rig, drive, mode, end, state, scale, work):  # noqa: C901
                         return NOT_FINITE
                 proposed = 0.1 * step
             else:
-                # Behind a touch the error goes with step**(1 + p)
+                # Behind a touch the error scales with step**(1 + p)
                 power = -0.2 if underestimate == 1.0 else -0.4
                 proposed = step * max(0.1, 0.9 * error**power)
             work.counters[REJECTED] += 1

@@ -1,5 +1,5 @@
-"""Loss of foam without rate: one internal variable between -1 and 1 that follows the loading (Bouc
-1967, Wen 1976, Dahl 1968).
+"""Rate-independent dissipation of foam: one internal variable between -1 and 1 that follows the
+loading (Bouc 1967, Wen 1976, Dahl 1968).
 
 ``F = F_el(x) (1 + s z)``, ``z' = (u' - |u'| z)/u_0``, u the energy stored in the elastic law, u' =
 F_el x'. On a long loading z tends to 1 and the force to 1 + s times the elastic one, on unloading
@@ -12,7 +12,7 @@ Loaded from z = 0 to U and back: taken up ``U + s (U - u_0 (1 - E))``, given bac
 z_1) u_0 (1 - E))`` with ``E = exp(-U/u_0)``, ``z_1 = 1 - E``. For U >> u_0 the share lost of what
 was taken up is 2 s/(1 + s). Out of contact z stays.
 
-Where many points remember, ``place`` is the number of the point: their variables stand in a row
+Where many points have a hysteresis, ``place`` is the number of the point: their variables lie
 from ``offset`` on.
 """
 
@@ -61,8 +61,8 @@ def hysteresis_energy(hysteresis: FoamHysteresis | None, state: Vector, place: i
 
 @kernel
 def reversal_event(hysteresis: FoamHysteresis | None, approach: float, approach_rate: float) -> float:
-    """Event function of the reversals, where z' has a corner; constant without memory and out of
-    contact.
+    """Event function of the reversals, where z' has a corner; constant without hysteresis and out
+    of contact.
     """
     if hysteresis is None:
         return 1.0

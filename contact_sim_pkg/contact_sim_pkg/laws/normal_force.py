@@ -3,7 +3,7 @@ when a rig is compiled.
 
 The loss is ``None``, ``NormalDissipative`` (Hunt and Crossley) or ``GeneralDissipative``. A rig
 calls ``normal_force`` for the force, ``tension_event`` for the event that ends it before the gap
-opens, ``normal_force_rate`` where friction asks for dF/dt. ``hysteresis_factor`` multiplies the
+opens, ``normal_force_rate`` where friction needs dF/dt. ``hysteresis_factor`` multiplies the
 elastic part: 1, or what ``laws/foam_hysteresis.py`` gives. Called from Python they raise ValueError
 for a law outside its range, an argument that is nan, and a result beyond the range of numbers.
 """
@@ -125,7 +125,7 @@ def _check(
     check_loss(dissipative)
     require("approach [m]", approach, infinite=True)
     require("approach rate [m/s]", approach_rate, infinite=True)
-    require("memory factor", hysteresis_factor, least=0.0, most=2.0)
+    require("hysteresis factor", hysteresis_factor, least=0.0, most=2.0)
 
 
 def _kernels_of(loss_type: Any) -> Kernels:

@@ -1,4 +1,5 @@
-"""Restitution of the Hunt-Crossley law, exactly: which loss delivers an asked ratio of speeds.
+"""Restitution of the Hunt-Crossley law, exactly: which dissipation gives a requested ratio of
+speeds.
 
 In a free impact at speed v0, d = damping v0: ``d (1 + e) = ln[(1 + d)/(1 - d e)]``, whatever
 stiffness, exponent and mass.

@@ -10,8 +10,9 @@ bound: there the motion is followed backward in time from its end, where creepin
 departure, until the mass is out again or faster than it came.
 
 Where p > n and q is small, friction holds the mass: for q = 0 as soon as ``X**n < Z X**p`` at the
-largest approach X, for q > 0 it creeps at ``(x**(n-p)/Z)**(1/q)``. A mass is held where it needs more than
-1000 L/v0 for that. For q = 0 the law reaches restitutions down to ``sqrt((p-n)/(p+n+2))`` only.
+largest approach X, for q > 0 it creeps at ``(x**(n-p)/Z)**(1/q)``. A mass is held where it needs
+more than 1000 L/v0 for that. For q = 0 the law reaches restitutions down to ``sqrt((p-n)/(p+n+2))``
+only.
 """
 
 from __future__ import annotations

@@ -22,9 +22,9 @@ class FieldSettings(NamedTuple):
     cell_x: float  # [m]
     cell_y: float  # [m]
     modulus: float  # [Pa], plane-strain contact modulus E*
-    tolerance: float  # complementarity residual asked of the solver
+    tolerance: float  # complementarity residual requested of the solver
     maximum_iterations: int
-    corrector_passes: int  # most repetitions of a stretch with the field found at its end
+    corrector_passes: int  # most repetitions of a coupling step with the field found at its end
     belt: BeltSettings | None = None  # yields in series with the half-space
 
 

@@ -16,7 +16,7 @@ __all__ = ["Slap", "final_state"]
 
 State = NDArray[numpy.float64]
 RELATIVE, ABSOLUTE = 3.0e-14, 1.0e-16
-PIECES_A_PERIOD = 32  # events are looked for in pieces, so that no touch falls between two steps
+INTERVALS_A_PERIOD = 32  # events are looked for in intervals, so that no touch falls between two steps
 
 
 class Slap(NamedTuple):
@@ -33,18 +33,18 @@ class Slap(NamedTuple):
     damping: float  # [s/m]
 
 
-def final_state(slap: Slap, start: State, end_time: float, piece: float | None = None) -> State:
+def final_state(slap: Slap, start: State, end_time: float, interval: float | None = None) -> State:
     """State [z, v] in [m, m/s] at `end_time` [s], from `start` at time 0, to about 1e-13.
 
-    `piece`: longest stretch in [s] that is integrated at once; a 32nd of the support's period where
+    `interval`: longest span in [s] that is integrated at once; a 32nd of the support's period where
     not given.
     """
-    if piece is None:
-        piece = 2.0 * math.pi / slap.frequency / PIECES_A_PERIOD if slap.frequency > 0.0 else end_time / 200.0
+    if interval is None:
+        interval = 2.0 * math.pi / slap.frequency / INTERVALS_A_PERIOD if slap.frequency > 0.0 else end_time / 200.0
     time, state = 0.0, numpy.array(start, dtype=float)
     touching = _approach(slap, time, state)[0] > 0.0 or _approach(slap, time, state)[1] > 0.0
     while time < end_time:
-        until = min(end_time, time + piece)
+        until = min(end_time, time + interval)
         time, state, changed = _advance(slap, touching, time, until, state)
         touching = touching != changed
     return state
@@ -57,7 +57,7 @@ def _approach(slap: Slap, time: float, state: State) -> tuple[float, float]:
 
 
 def _advance(slap: Slap, touching: bool, time: float, until: float, state: State) -> tuple[float, State, bool]:
-    """Up to `until` or to the change of contact; the law of the side on which the piece starts
+    """Up to `until` or to the change of contact; the law of the side on which the interval starts
     holds throughout.
     """
 

@@ -102,7 +102,7 @@ def energetic_by_path(A: Vector, friction: float, restitution: float, u: Vector)
 
 
 def _friction_ratio(A: Vector, friction: float, slip: float | None) -> float:
-    """Tangential over normal impulse on a piece of the path; ``None``: the contact point holds, or
+    """Tangential over normal impulse on a part of the path; ``None``: the contact point holds, or
     slip starts anew.
     """
     if slip is not None:

@@ -188,7 +188,7 @@ def test_missing_cells_are_filled_along_the_cross_section_and_then_along_the_roa
     assert "6 of 20 cells" in surface.describe()["notes"][0]
 
 
-def test_missing_cells_become_holes_of_the_depth_that_is_asked(tmp_path):
+def test_missing_cells_become_holes_of_the_depth_that_is_requested(tmp_path):
     filled = road(tmp_path, with_holes(), **HOLES, missing="fill")
     holes = road(tmp_path, with_holes(), **HOLES, missing="hole", hole_depth=0.25)
     x, y = 0.5 * numpy.arange(5), numpy.array([-0.3, -0.1, 0.1, 0.3])
@@ -210,7 +210,7 @@ def test_settings_of_the_file_are_refused_until_the_user_decides(tmp_path):
         road(tmp_path, extra=MODIFIERS)
 
 
-def test_settings_of_the_file_are_ignored_or_applied_as_asked(tmp_path):
+def test_settings_of_the_file_are_ignored_or_applied_as_requested(tmp_path):
     plain = road(tmp_path)
     ignored = road(tmp_path, extra=MODIFIERS, file_settings="ignore")
     applied = road(tmp_path, extra=MODIFIERS, file_settings="apply")

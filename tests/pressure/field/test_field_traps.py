@@ -1,4 +1,4 @@
-"""Traps of pressure-field solvers, asked of every way into the field: static, windowed, rolling; load and approach given."""
+"""Traps of pressure-field solvers, requested of every way into the field: static, windowed, rolling; load and approach given."""
 
 import math
 from functools import cache

@@ -1,4 +1,4 @@
-"""The traps of pressure-field solvers, asked of the periodic field; its judge is a dense matrix summed from cosines."""
+"""The traps of pressure-field solvers, requested of the periodic field; its judge is a dense matrix summed from cosines."""
 
 import math
 from functools import cache

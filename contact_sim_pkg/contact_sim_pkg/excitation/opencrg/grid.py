@@ -53,9 +53,9 @@ def make_grid(header: Header, layout: CrgLayout, values: NDArray[numpy.float64],
         height[rows] *= scale_z
         height[rows] += banking[rows, None] * layout.v
         height[rows] += elevation[rows, None]
-    stretch = _largest_stretch(header, layout, heading)
+    scale = _largest_scale(header, layout, heading)
     return Grid(
-        layout.u_start, layout.u_increment, layout.v, height, missing, float(heading[-1] - heading[0]), stretch
+        layout.u_start, layout.u_increment, layout.v, height, missing, float(heading[-1] - heading[0]), scale
     )  # fmt: skip
 
 
@@ -106,7 +106,7 @@ def _agree(
 
 
 def _heading(header: Header, layout: CrgLayout, values: NDArray[numpy.float64]) -> NDArray[numpy.float64]:
-    """Heading in [rad] of each piece of the reference line (piece i ends in row i), checked against
+    """Heading in [rad] of each part of the reference line (part i ends in row i), checked against
     the header's ends."""
     start, end = _stated(header, "phi")
     column = _column(header, layout, values, "phi", 1)
@@ -124,8 +124,8 @@ def _heading(header: Header, layout: CrgLayout, values: NDArray[numpy.float64]) 
                 1e-3,
                 "rad",
             )
-    pieces = layout.u_increment * numpy.exp(1j * heading[1:])
-    travelled = complex(pieces.sum())
+    parts = layout.u_increment * numpy.exp(1j * heading[1:])
+    travelled = complex(parts.sum())
     tolerance = 0.01 + 1e-3 * layout.u_increment * len(heading)
     for what, part in (("x", travelled.real), ("y", travelled.imag)):
         first, last = _stated(header, what)
@@ -161,7 +161,7 @@ def _elevation(header: Header, layout: CrgLayout, values: NDArray[numpy.float64]
     return elevation
 
 
-def _largest_stretch(header: Header, layout: CrgLayout, heading: NDArray[numpy.float64]) -> float:
+def _largest_scale(header: Header, layout: CrgLayout, heading: NDArray[numpy.float64]) -> float:
     curvature = numpy.diff(heading[1:], prepend=heading[1]) / layout.u_increment
     reach = numpy.maximum(
         curvature * layout.v[0], curvature * layout.v[-1]

@@ -60,7 +60,7 @@ class OpenCrgRoad:
                 outermost value kept to the edge), hole (the filled surface lowered by hole_depth).
             hole_depth: depth of such a hole, [m]. border_u: beyond the ends: none (an error), zero,
             constant (the last cross section), repeat, reflect; None:
-                as the file asks for where its settings are applied, else constant, the default of
+                as the file specifies where its settings are applied, else constant, the default of
                 the format.
             border_v: the same beyond the sides. level: origin (height 0 on the reference line at
             the file's start, as the reference library evaluates by
@@ -189,7 +189,9 @@ class OpenCrgRoad:
             lines[:, outside_v] = 0.0
         return numpy.ascontiguousarray(lines)
 
-    def _inside(self, value: Array, low: float, high: float, border: str, name: str, asked: Array) -> tuple[Array, Any]:
+    def _inside(
+        self, value: Array, low: float, high: float, border: str, name: str, requested: Array
+    ) -> tuple[Array, Any]:
         """Positions brought into [low, high] by the border mode, and where the height is 0
         instead.
         """
@@ -197,7 +199,7 @@ class OpenCrgRoad:
         if not outside.any():
             return numpy.clip(value, low, high), None
         if border == "none":
-            worst = float(asked[outside][0])
+            worst = float(requested[outside][0])
             raise ExcitationError(
                 f"{self.path}: {name} = {worst:g} m lies outside of the road; shorten the run or say how the road "
                 f"goes on (road.border_{'u' if name == 'x' else 'v'}: zero, keep, repeat or reflect)"

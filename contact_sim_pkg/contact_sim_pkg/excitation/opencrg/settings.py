@@ -1,4 +1,4 @@
-"""What an OpenCRG file itself asks an evaluator to do: its options and modifiers, as far as they
+"""What an OpenCRG file itself requests of an evaluator: its options and modifiers, as far as they
 touch heights over (u, v)."""
 
 from typing import NamedTuple

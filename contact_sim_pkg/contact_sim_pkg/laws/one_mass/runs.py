@@ -1,5 +1,5 @@
-"""Runs of the one-mass rigs with one asked tolerance, for the studies: state at given times, and
-what it took.
+"""Runs of the one-mass rigs with one requested tolerance, for the studies: state at given times,
+and what it took.
 """
 
 from __future__ import annotations
@@ -19,7 +19,7 @@ from contact_sim_pkg.laws.parameters import NormalDissipative, NormalElastic
 __all__ = ["OneMassCourse", "RunFailureError", "free_impact", "impact_speeds", "integrate", "seat_slap"]
 
 ORDER = (
-    # Of the integrator: its steps are not cut short by a drive, and it is the cheaper one below a
+    # Of the integrator: its steps are not cut short by a drive, and it is the less expensive one below a
     # tolerance of 1e-4
     8
 )
@@ -35,7 +35,7 @@ class RunFailureError(RuntimeError):
 
 
 class OneMassCourse(NamedTuple):
-    """States at the asked times, and the integrator's counts."""
+    """States at the requested times, and the integrator's counts."""
 
     states: Vector  # [times, states]
     status: int

@@ -82,7 +82,7 @@ def theta_wave(phases: ArrayLike, matrix: ArrayLike, direction: ArrayLike) -> Ar
 
 
 def poisson_wave(phases: ArrayLike, matrix: ArrayLike, direction: ArrayLike) -> Array:
-    """As ``theta_wave``, always by Poisson's sum: dear where -B is large, and a check of the
+    """As ``theta_wave``, always by Poisson's sum: expensive where -B is large, and a check of the
     lattice sum anywhere.
     """
     eta, b = _checked(phases, matrix)

@@ -1,5 +1,5 @@
-"""Ladder of the interaction of two phases: plain sum of one-phase waves, fitted ansatz, lattice sum
-of the theta function.
+"""Work-precision study of the interaction of two phases: plain sum of one-phase waves, fitted
+ansatz, lattice sum of the theta function.
 
 B11 = -2.2, B22 = -3.1, k = (1, 1.6); B12 is what ties the phases together. Distances are rms over
 both phases, relative to the rms of the plain sum. The lattice sum is compared with Poisson's sum of

@@ -1,6 +1,6 @@
-"""Ladder of the periodic contact motion: linear resonance, exact quadratic oscillator (cnoidal),
-integrated motion; and the steady response to a shaken seat written with few functions: S_lin, the
-cnoidal ansatz, harmonics of as many unknowns.
+"""Work-precision study of the periodic contact motion: linear resonance, exact quadratic oscillator
+(cnoidal), integrated motion; and the steady response to a shaken seat written with few functions:
+S_lin, the cnoidal ansatz, harmonics of as many unknowns.
 
 The free motion is that of the back rest's mass under its own weight, released at rest deeper than
 its balance by a part of it.

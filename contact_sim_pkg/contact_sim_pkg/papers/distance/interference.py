@@ -47,7 +47,7 @@ class Interference(NamedTuple):
     normal: Field  # [3] outward of body 1 where the ball touches it, towards body 2
     # The ball touches each body once: d is the penetration depth and `normal` its only direction
     one_foot_each: bool
-    # The ball touches one body only: one lies inside the other, as far as the ball can tell
+    # The ball touches one body only: one lies inside the other, as far as the ball shows
     nested: bool
     residual: float  # [-] of the KKT conditions, relative to the pair's size
 

@@ -1,5 +1,5 @@
-"""Ladder of the contact search: bounding spheres, support points, the paper's genetic search,
-Newton on the conditions.
+"""Work-precision study of the contact search: bounding spheres, support points, the paper's genetic
+search, Newton on the conditions.
 """
 
 from __future__ import annotations
@@ -49,7 +49,7 @@ def bodies(apart: float) -> tuple[ConvexBody, ConvexBody]:
 
 
 def rows() -> list[Row]:
-    """Apart and overlapping; value and error of each rung."""
+    """Apart and overlapping; value and error of each fidelity level."""
     found: list[Row] = []
     for case in _cases():
         for name, call in _rungs(case).items():

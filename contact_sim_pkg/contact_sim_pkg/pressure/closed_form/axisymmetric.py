@@ -7,7 +7,7 @@ Profile height f(r) above its tip [m], contact radius a [m], E* [Pa]:
     load      P(a) = 2 E* a^2 integral over 0..pi/2 of sin(t)^2 f'(a sin t) dt
     pressure  p(r) = (E*/pi) integral over r..a of d'(s) / sqrt(s^2 - r^2) ds
 
-The pressure is integrated by parts, so that the slope f' is all that is asked of a profile. With s
+The pressure is integrated by parts, so that the slope f' is all that a profile must supply. With s
 = r cosh(u), U = acosh(a/r):
 
     p(r) = (E*/pi) [ (d(a) - d(r)) / sqrt(a^2 - r^2) + integral over 0..U of (d(s) - d(r)) cosh(u) /

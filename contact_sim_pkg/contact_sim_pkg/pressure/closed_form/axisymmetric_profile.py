@@ -42,7 +42,8 @@ Profile = PowerProfile | SlopeProfile
 
 
 def tabulated_profile(radius: Field, height: Field) -> SlopeProfile:
-    """Profile through points: monotone cubic pieces (Fritsch and Carlson 1980), level at the tip.
+    """Profile through points: monotone cubic polynomials (Fritsch and Carlson 1980), level at the
+    tip.
 
     radius: [m] rising from 0; height: [m] not falling, both float64 [points], at least 3 points.
     Raises `AxisymmetricError` for other tables.

@@ -1,4 +1,4 @@
-"""Cheaper ways to the shape of a Hertz ellipse than the exact root of
+"""Less expensive formulas for the shape of a Hertz ellipse than the exact root of
 `pressure/closed_form/hertz.py`, each with its error.
 
 With Omega = (B - A)/(A + B), m = 1 - (b/a)^2:

@@ -142,8 +142,8 @@ def _sectors(a: float, b: float, exponent: float, count: int) -> tuple[Field, Fi
     s, weight = _gauss(cuts[:-1], cuts[1:])
     point = _quadrant(exponent, s)
     rate = 0.5 * a * b * (point.x * point.slope_y - point.y * point.slope_x) * weight
-    pieces = numpy.stack([rate, a * point.x * rate, b * point.y * rate]).sum(axis=-1)
-    area, first_x, first_y = numpy.add.reduceat(pieces, numpy.searchsorted(cuts, bounds[:-1]), axis=1)
+    parts = numpy.stack([rate, a * point.x * rate, b * point.y * rate]).sum(axis=-1)
+    area, first_x, first_y = numpy.add.reduceat(parts, numpy.searchsorted(cuts, bounds[:-1]), axis=1)
     return area, 2.0 / 3.0 * first_x / area, 2.0 / 3.0 * first_y / area
 
 

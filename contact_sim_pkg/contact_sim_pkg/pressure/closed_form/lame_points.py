@@ -20,7 +20,7 @@ __all__ = ["FEWEST_POINTS", "fit_points", "hull"]
 Field = NDArray[numpy.float64]
 
 FEWEST_POINTS = 5
-"""With fewer on the hull the half axes and the exponent cannot be told apart."""
+"""With fewer on the hull the half axes and the exponent cannot be distinguished."""
 
 FLAT = 1e-9
 """Of the hull's extent: how far from a side a point may lie and still be on it."""

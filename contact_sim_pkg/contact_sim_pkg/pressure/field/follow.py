@@ -39,7 +39,7 @@ CHANGE = 6.0
 """Largest last change of the field, over the tolerance."""
 
 MOST_CORRECTIONS = 24
-"""After so many the prediction was of no use, or the tolerance asks for lengths without guessing.
+"""After so many the prediction was of no use, or the tolerance needs lengths without guessing.
 """
 
 FIRST_LENGTH = 0.4

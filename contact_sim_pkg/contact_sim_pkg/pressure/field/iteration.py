@@ -94,7 +94,7 @@ def make_workspace(half_space: HalfSpace) -> SolverWorkspace:
 
 @kernel
 def begin(workspace: SolverWorkspace) -> int:
-    """Forget the solve before; lists the cells in contact and returns their number."""
+    """Reset from the solve before; lists the cells in contact and returns their number."""
     pressure, residual, direction = workspace.pressure, workspace.residual, workspace.direction
     free = workspace.cells.free
     rows, cols = pressure.shape
@@ -141,7 +141,7 @@ def evaluate(workspace: SolverWorkspace, contact: int, left: int, approach: floa
         for m in range(contact):
             mean += surface[free[m]]
         approach = mean / max(float(contact), 1.0)
-    forget(workspace, left, approach)
+    release_cells(workspace, left, approach)
     complementarity, energy, total = 0.0, 0.0, 0.0
     for m in range(contact):
         k = free[m]
@@ -163,7 +163,7 @@ def evaluate(workspace: SolverWorkspace, contact: int, left: int, approach: floa
 
 
 @kernel
-def forget(workspace: SolverWorkspace, left: int, approach: float) -> None:
+def release_cells(workspace: SolverWorkspace, left: int, approach: float) -> None:
     """Cells that lost their pressure and do not penetrate are not free any more."""
     surface = workspace.cells.surface
     residual, direction = workspace.cells.residual, workspace.cells.direction

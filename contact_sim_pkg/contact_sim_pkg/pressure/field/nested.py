@@ -1,4 +1,4 @@
-"""Where nothing is known: the field on a grid of half as many cells each way as a start."""
+"""Start without a field before: the field on a grid of half as many cells each way as a start."""
 
 from __future__ import annotations
 

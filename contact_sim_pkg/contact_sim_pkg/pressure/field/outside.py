@@ -1,5 +1,5 @@
 """Does a field that was solved on a window hold outside it? Bounds first, direct sums where they
-leave a doubt.
+do not decide.
 
 A window is enough if no cell outside it penetrates. The gap of a block of cells outside is not less
 than its lowest gap plus the displacement that the pressure of each block inside causes at the
@@ -167,8 +167,8 @@ def penetrating(
 
 @kernel
 def least_displacement(half_space: HalfSpace, blocks: BlockSums, i: int, j: int, side: int, depth: float) -> float:
-    """Displacement [m] that all of the `side` x `side` cells from (i, j) surely have, sought until
-    it reaches `depth`.
+    """Displacement [m] that all of the `side` x `side` cells from (i, j) have at least, computed
+    until it reaches `depth`.
     """
     least = bound(half_space, blocks.coarse, i, j, side, depth)
     if least < depth:

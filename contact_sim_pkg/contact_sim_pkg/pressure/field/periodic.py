@@ -36,7 +36,7 @@ def make_periodic_half_space(rows: int, cols: int, cell_x: float, cell_y: float,
     wave_y = 2.0 * numpy.pi * numpy.fft.rfftfreq(cols, cell_y)[None, :]
     wave = numpy.hypot(wave_x, wave_y)
     compliance = numpy.divide(2.0, modulus * wave, out=numpy.zeros_like(wave), where=wave > 0.0)
-    # Even along both sides, as the solver's direct sums ask for
+    # Even along both sides, as the solver's direct sums require
     influence = numpy.fft.irfft2(compliance, (rows, cols))
     mirrored = numpy.concatenate([influence[:, :0:-1], influence], axis=1)
     return free._replace(

@@ -70,7 +70,7 @@ BAD_INPUT = 3
 SENTENCES = {
     CONVERGED: "the pressure field is certified to the tolerance",
     EDGE: "the contact reaches the edge of the grid, so load may be missing; enlarge the grid",
-    NOT_CONVERGED: "the residual is above the tolerance after the allowed iterations; allow more or ask for less",
+    NOT_CONVERGED: "the residual is above the tolerance after the allowed iterations; allow more or request less",
     BAD_INPUT: "gap, approach or load is not a finite number, or the load or a pressure of the start is negative",
 }
 """What each status means, ready for a message."""
@@ -330,7 +330,7 @@ def iterate(
         blocked = length == 0.0
         contact, left = part(workspace, state.free, length)
         iterations += 1
-        # As dear as summing the clipped pressure, and what certifies as well
+        # As expensive as summing the clipped pressure, and what certifies as well
         refresh = left > ONE_BY_ONE
         fresh = False
         if not refresh:

@@ -1,5 +1,5 @@
-"""Winkler bed: independent springs, `p = k max(approach - gap, 0)`, the cheapest pressure field of
-a rough contact.
+"""Winkler bed: independent springs, `p = k max(approach - gap, 0)`, the least expensive pressure
+field of a rough contact.
 
 A cell knows nothing of its neighbours. With k from Hertz, load and approach on a smooth road are
 right; on a sphere the contact is sqrt(2) times too wide and the peak pressure 2/3 of Hertz's. Use

@@ -48,7 +48,7 @@ def wave_of(model: ImpactModel, effect: dict[str, Any], block: int, impact: Fini
     """Ring and circular wave."""
     half_space, free = impact.touch.half_space, impact.touch.impact
     wave = surface_wave.surface_wave(free, _shear_modulus(model, impact), model.density, model.poisson_ratio)
-    turns = impact.stretches[0].turns
+    turns = impact.phases[0].turns
     assert turns is not None
     radius = free.shape * math.sqrt(free.sphere.radius * turns.depth)
     loose = 1.0 - 2.0 * model.poisson_ratio

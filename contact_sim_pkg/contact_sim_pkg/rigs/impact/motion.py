@@ -1,7 +1,7 @@
-"""Motion of the sphere from release to release: pieces of flight, contact and rest, each known in
+"""Motion of the sphere from release to release: segments of flight, contact and rest, each known in
 closed form or by its own series.
 
-Pieces are made when they are asked for, so a run is as long as its blocks. What is recorded has no
+Segments are made on request, so a run is as long as its blocks. What is recorded has no
 part in it.
 """
 
@@ -21,7 +21,7 @@ from contact_sim_pkg.rigs.impact.theory.contact import (
     PARTED,
     ContactLaw,
     ContactPhase,
-    next_stretch,
+    next_phase,
     sample,
     static_depth,
     stored,
@@ -36,7 +36,7 @@ AT_REST = (
     1.0e-12
 )
 STILL = 1.0e-9  # [m/s]: a pendulum that leaves the sample more slowly hangs at rest on it
-MOST_PIECES = 10_000  # a block
+MOST_SEGMENTS = 10_000  # a block
 
 
 class Held(NamedTuple):
@@ -52,8 +52,8 @@ class Rest(NamedTuple):
     law: ContactLaw
 
 
-class Piece(NamedTuple):
-    """A stretch of time with one kind of motion."""
+class MotionSegment(NamedTuple):
+    """A phase of time with one kind of motion."""
 
     begin: float  # [s]
     end: float  # [s], infinite where nothing ends it
@@ -85,7 +85,7 @@ class FinishedImpact(NamedTuple):
     start: float  # [s]
     temperature: float  # [K]
     touch: FirstContact
-    stretches: tuple[ContactPhase, ...]
+    phases: tuple[ContactPhase, ...]
     duration: float  # [s] to the last loss of force
     parted: float  # [s] simulated time of the end of the overlap
     loss_depth: float  # [m]
@@ -104,7 +104,7 @@ class ImpactMotion:
         self._ended: list[FinishedImpact] = []
         self._contact: list[ContactPhase] = []
         self._touch: tuple[float, float, FirstContact] | None = None
-        self.pieces: list[Piece] = []
+        self.segments: list[MotionSegment] = []
         self.made = 0
         self._append(fall(model.machine, model.releases[0].speed), 0.0, 0.0, 0.0)
 
@@ -114,8 +114,8 @@ class ImpactMotion:
         return self.model.releases[self._release]
 
     def forget_before(self, time: float) -> None:
-        """Drop pieces that ended before ``time`` [s]."""
-        self.pieces = [piece for piece in self.pieces if piece.end > time]
+        """Drop segments that ended before ``time`` [s]."""
+        self.segments = [segment for segment in self.segments if segment.end > time]
 
     def take_ended(self, time: float) -> list[FinishedImpact]:
         """The impacts whose overlap ended up to ``time`` [s], each once."""
@@ -128,10 +128,10 @@ class ImpactMotion:
         """When impact number ``count`` (from 1) of the first release has parted, [s]; 0 where the
         sphere comes to rest before.
 
-        Also 0 where more than `MOST_PIECES` pieces do not tell. Raises RunError where a touch is
-        outside the model.
+        Also 0 where more than `MOST_SEGMENTS` segments do not decide. Raises RunError where a touch
+        is outside the model.
         """
-        while self._impacts < count and math.isfinite(self.pieces[-1].end) and self.made < MOST_PIECES:
+        while self._impacts < count and math.isfinite(self.segments[-1].end) and self.made < MOST_SEGMENTS:
             self._extend()
         return self._ended[count - 1].parted if self._impacts >= count else 0.0
 
@@ -139,27 +139,28 @@ class ImpactMotion:
         """The state at rising ``times`` [s]. Raises RunError where a touch is outside the model."""
         self._reach(float(times[-1]))
         columns = numpy.zeros((len(SphereState._fields), len(times)))
-        for piece in self.pieces:
-            inside = (times >= piece.begin) & (times < piece.end)
+        for segment in self.segments:
+            inside = (times >= segment.begin) & (times < segment.end)
             if inside.any():
-                columns[:, inside] = self._of_piece(piece, times[inside])
+                columns[:, inside] = self._states_of(segment, times[inside])
         return SphereState(*columns)
 
     def _reach(self, time: float) -> None:
-        """Make pieces until one covers ``time``."""
+        """Make segments until one covers ``time``."""
         made = 0
-        while self.pieces[-1].end <= time:
+        while self.segments[-1].end <= time:
             self._extend()
             made += 1
-            if made > MOST_PIECES:
+            if made > MOST_SEGMENTS:
                 raise RunError(
-                    f"{self.pieces[-1].begin:.6g} s: more than {MOST_PIECES} impacts and flights in one block; the sphere hardly "
+                    f"{self.segments[-1].begin:.6g} s: more than {MOST_SEGMENTS} impacts and flights in one "
+                    "block; the sphere hardly "
                     "bounces any more; end the run earlier, or let it be caught after some bounces"
                 )
 
     def _append(self, motion: Held | Flight | ContactPhase | Rest, begin: float, heat: float, supplied: float) -> None:
         duration = motion.duration if isinstance(motion, (Flight, ContactPhase)) else math.inf
-        self.pieces.append(Piece(begin, min(begin + duration, self._next_release()), motion, heat, supplied))
+        self.segments.append(MotionSegment(begin, min(begin + duration, self._next_release()), motion, heat, supplied))
         self.made += 1
 
     def _next_release(self) -> float:
@@ -167,7 +168,7 @@ class ImpactMotion:
         return self.model.releases[following].time if following < len(self.model.releases) else math.inf
 
     def _extend(self) -> None:
-        last = self.pieces[-1]
+        last = self.segments[-1]
         if last.end == self._next_release():
             self._lift(last)
         elif isinstance(last.motion, Flight):
@@ -184,11 +185,11 @@ class ImpactMotion:
                     rest, last.end, heat + lost - _energy(rest.law, static_depth(rest.law), 0.0), last.supplied
                 )
             else:
-                self._append(next_stretch(last.motion), last.end, heat, last.supplied)
+                self._append(next_phase(last.motion), last.end, heat, last.supplied)
 
-    def _lift(self, last: Piece) -> None:
+    def _lift(self, last: MotionSegment) -> None:
         """The next release takes the sphere from wherever it is."""
-        now = self._of_piece(last, numpy.array([last.end]))
+        now = self._states_of(last, numpy.array([last.end]))
         names = SphereState._fields
         kinetic, potential, held, heat, supplied = (
             float(now[names.index(name), 0]) for name in ("kinetic", "potential", "stored", "heat", "supplied")
@@ -200,7 +201,7 @@ class ImpactMotion:
         # what the sample still stores under the lifted sphere becomes heat
         self._append(flight, last.end, heat + held, supplied + energy - kinetic - potential)
 
-    def _begin_contact(self, last: Piece, flight: Flight) -> None:
+    def _begin_contact(self, last: MotionSegment, flight: Flight) -> None:
         try:
             found = self.model.touch(flight.speed, self.release.temperature)
         except ImpactError as error:
@@ -208,17 +209,17 @@ class ImpactMotion:
         self._touch, self._contact = (last.end, flight.speed, found), []
         self._append(touch(found.law, flight.speed), last.end, last.heat, last.supplied)
 
-    def _part(self, last: Piece, stretch: ContactPhase, heat: float) -> None:
+    def _part(self, last: MotionSegment, phase: ContactPhase, heat: float) -> None:
         assert self._touch is not None
         self._close(last.end)
         self._bounces += 1
-        mass, speed = self.model.sphere.mass, -stretch.last_speed
+        mass, speed = self.model.sphere.mass, -phase.last_speed
         if self.model.bounces and self._bounces >= self.model.bounces:
             held = self._held()
             self._append(held, last.end, heat, last.supplied + held.potential - 0.5 * mass * speed**2)
             return
-        if stretch.law.gravity == 0.0 and speed < STILL:
-            self._append(Rest(stretch.law), last.end, heat + 0.5 * mass * speed**2, last.supplied)
+        if phase.law.gravity == 0.0 and speed < STILL:
+            self._append(Rest(phase.law), last.end, heat + 0.5 * mass * speed**2, last.supplied)
             return
         self._append(rebound(self.model.machine, speed), last.end, heat, last.supplied)
 
@@ -228,12 +229,12 @@ class ImpactMotion:
         return Held(float(approach[0]), self.model.sphere.mass * float(flight.potential(approach)[0]))
 
     def _close(self, parted: float) -> None:
-        """Write down the impact; its force was lost at the end of its last loaded stretch."""
+        """Write down the impact; its force was lost at the end of its last loaded phase."""
         assert self._touch is not None
         start, speed, found = self._touch
-        loaded = max(i for i, stretch in enumerate(self._contact) if stretch.kind == LOADED)
+        loaded = max(i for i, phase in enumerate(self._contact) if phase.kind == LOADED)
         last = self._contact[loaded]
-        duration = math.fsum(stretch.duration for stretch in self._contact[: loaded + 1])
+        duration = math.fsum(phase.duration for phase in self._contact[: loaded + 1])
         self._ended.append(
             FinishedImpact(
                 number=self._impacts,
@@ -241,7 +242,7 @@ class ImpactMotion:
                 start=start,
                 temperature=self.release.temperature,
                 touch=found,
-                stretches=tuple(self._contact),
+                phases=tuple(self._contact),
                 duration=duration,
                 parted=parted,
                 loss_depth=last.last_depth,
@@ -251,13 +252,13 @@ class ImpactMotion:
         )
         self._impacts += 1
 
-    def _of_piece(self, piece: Piece, times: Vector) -> NDArray[numpy.float64]:
+    def _states_of(self, segment: MotionSegment, times: Vector) -> NDArray[numpy.float64]:
         """Rows as the fields of `SphereState`."""
-        since, mass = times - piece.begin, self.model.sphere.mass
+        since, mass = times - segment.begin, self.model.sphere.mass
         out = numpy.zeros((len(SphereState._fields), len(times)))
         depth, speed, acceleration, elastic, viscous, kinetic, potential, held, heat, supplied = out
-        heat[:], supplied[:] = piece.heat, piece.supplied
-        motion = piece.motion
+        heat[:], supplied[:] = segment.heat, segment.supplied
+        motion = segment.motion
         if isinstance(motion, Held):
             depth[:], potential[:] = motion.approach, motion.potential
         elif isinstance(motion, Flight):
@@ -293,12 +294,12 @@ def course_of(impact: FinishedImpact, count: int) -> tuple[Vector, ...]:
     times: Vector = numpy.linspace(0.0, impact.duration, count, dtype=numpy.float64)
     depth, speed, elastic, viscous = (numpy.zeros(count) for _ in range(4))
     begin = 0.0
-    for stretch in impact.stretches:
-        inside = (times >= begin) & (times <= begin + stretch.duration * (1.0 + 1e-12))
-        depth[inside], speed[inside], _heat = sample(stretch, times[inside] - begin)
-        if stretch.kind == LOADED:
-            elastic[inside], viscous[inside] = forces(stretch.law, depth[inside], speed[inside])
-        begin += stretch.duration
+    for phase in impact.phases:
+        inside = (times >= begin) & (times <= begin + phase.duration * (1.0 + 1e-12))
+        depth[inside], speed[inside], _heat = sample(phase, times[inside] - begin)
+        if phase.kind == LOADED:
+            elastic[inside], viscous[inside] = forces(phase.law, depth[inside], speed[inside])
+        begin += phase.duration
     return times, depth, speed, elastic, viscous
 
 
@@ -312,12 +313,12 @@ def _energy(law: ContactLaw, depth: float, speed: float) -> float:
     return 0.5 * law.mass * speed**2 + stored(law, depth) - law.mass * law.gravity * depth
 
 
-def _excess(stretch: ContactPhase) -> float:
+def _excess(phase: ContactPhase) -> float:
     """Energy above that at rest, over the work of the weight on the static depth; infinite without
     weight.
     """
-    law = stretch.law
+    law = phase.law
     rest = static_depth(law)
     weight = law.mass * law.gravity * rest
-    excess = _energy(law, stretch.last_depth, stretch.last_speed) - _energy(law, rest, 0.0)
+    excess = _energy(law, phase.last_depth, phase.last_speed) - _energy(law, rest, 0.0)
     return abs(excess) / weight if weight > 0.0 else math.inf

@@ -18,9 +18,9 @@ from contact_sim_pkg.run.outputs import BlockStamps, contact_outputs, energy_led
 
 
 def block_outputs(
-    model: ImpactModel, block: int, state: SphereState, ended: list[FinishedImpact], pieces: int, began: float
+    model: ImpactModel, block: int, state: SphereState, ended: list[FinishedImpact], segments: int, began: float
 ) -> list[Output]:
-    """Outputs of a block of ``pieces`` of motion; ``began``: start of its work on the performance counter [s]."""
+    """Outputs of a block of ``segments`` of motion; ``began``: start of its work on the performance counter [s]."""
     stamps = BlockStamps(block, model.timing)
     events = [Output("impact/events", stamps.start, _events(model, block, ended))] if ended else []
     outputs = [
@@ -29,7 +29,7 @@ def block_outputs(
         Output("bench/motion", stamps.start, _motion(stamps, state)),
         Output("bench/energy", stamps.start, _ledger(model, block, state)),
     ]  # fmt: skip
-    cost = solver_cost(stamps, time.perf_counter() - began, steps=pieces, events=len(ended))
+    cost = solver_cost(stamps, time.perf_counter() - began, steps=segments, events=len(ended))
     return [*outputs, Output("bench/cost", stamps.start, cost)]
 
 
@@ -57,7 +57,7 @@ def _events(model: ImpactModel, block: int, ended: list[FinishedImpact]) -> Impa
 
 
 def _event(model: ImpactModel, impact: FinishedImpact) -> dict[str, Any]:
-    law, turns, free = impact.touch.law, impact.stretches[0].turns, impact.touch.impact
+    law, turns, free = impact.touch.law, impact.phases[0].turns, impact.touch.impact
     assert turns is not None
     restitution = -impact.loss_speed / impact.speed
     closing = -0.5 * law.mass * impact.speed**2 - law.mass * law.gravity * turns.depth

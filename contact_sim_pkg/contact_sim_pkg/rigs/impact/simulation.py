@@ -42,7 +42,7 @@ class ImpactSimulation:
 
     def _refuse_short_period(self) -> None:
         """SceneError for a period in which a release does not fall, strike and part; fewer bounces
-        than asked for are a warning.
+        than requested are a warning.
         """
         model = self.model
         if len(model.releases) < 2:
@@ -51,7 +51,7 @@ class ImpactSimulation:
         needed, speed = 0.0, 0.0
         for release in {(each.speed, each.temperature): each for each in model.releases}.values():
             alone = dataclasses.replace(model, releases=(release._replace(time=0.0),))
-            with contextlib.suppress(RunError):  # the run itself tells it
+            with contextlib.suppress(RunError):  # the run itself reports it
                 needed, speed = max((needed, speed), (ImpactMotion(alone).time_of(1), release.speed))
         if period <= needed:
             sentence = (
@@ -90,7 +90,7 @@ class ImpactSimulation:
 
 
 def _peak(impact: FinishedImpact) -> float:
-    turns = impact.stretches[0].turns
+    turns = impact.phases[0].turns
     return 0.0 if turns is None else turns.peak_force
 
 

@@ -10,7 +10,14 @@ from numpy.typing import NDArray
 from contact_sim_pkg.compiled.arrays import Vector
 from contact_sim_pkg.rigs.roller.energy import Energies
 from contact_sim_pkg.rigs.roller.model import RollerModel
-from contact_sim_pkg.rigs.roller.theory.motion import DIVERGED, DONE, LARGEST_TILT, energies, gauss_rule, march
+from contact_sim_pkg.rigs.roller.theory.motion import (
+    DIVERGED,
+    DONE,
+    LARGEST_TILT,
+    energies,
+    gauss_rule,
+    integrate_tilt_yaw,
+)
 from contact_sim_pkg.rigs.roller.theory.stability import stability
 from contact_sim_pkg.run.errors import RunError
 
@@ -70,7 +77,7 @@ class TiltYaw:
         return float(energies(self.model.roller, self._load, self.state).potential)
 
     def energies(self) -> Energies:
-        """Since the start. A load that jumps between two stretches supplies."""
+        """Since the start. A load that jumps between two phases supplies."""
         now = energies(self.model.roller, self._load, self.state)
         state = self.state
         return Energies(now.kinetic, now.potential, now.stored, float(state[5]), float(state[4]) + self._shifted).less(
@@ -79,7 +86,7 @@ class TiltYaw:
 
     def _march(self, at: float, loads: Vector, step: float, rows: int, start: float) -> Matrix:
         model, record = self.model, numpy.empty((rows, 4))
-        status = march(
+        status = integrate_tilt_yaw(
             model.roller,
             model.programme.curvatures_at(at),
             model.bending,

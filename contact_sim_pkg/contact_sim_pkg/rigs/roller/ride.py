@@ -51,7 +51,7 @@ class Ridden(NamedTuple):
 
 
 def joined(parts: list[Ridden]) -> Ridden:
-    """One stretch of several that follow each other; the place between two is the end of the
+    """One section of several that follow each other; the place between two is the end of the
     first.
     """
     time, load, heave, speed = (
@@ -62,7 +62,7 @@ def joined(parts: list[Ridden]) -> Ridden:
 
 
 class Checked(NamedTuple):
-    """The time acceleration beside the same stretch ridden one by one."""
+    """The time acceleration beside the same section ridden one by one."""
 
     intervals: int
     error: float  # of the change of heights, rms, over the change; NaN where nothing changes
@@ -217,7 +217,7 @@ class TrackRide:
             self.press(*pressed)
 
     def check(self) -> Checked | None:
-        """A stretch from here by the time acceleration and one by one; None where none acts, or it
+        """A section from here by the time acceleration and one by one; None where none acts, or it
         is too long to ride.
         """
         jumps = min(JUMPS, int(MOST_CHECKED / self.acceleration))
@@ -231,7 +231,7 @@ class TrackRide:
                 fast.advance()
             for _ in range(count):
                 slow.advance()
-        except (RunError, ExcitationError):  # worn out, or the road ends in the stretch
+        except (RunError, ExcitationError):  # worn out, or the road ends in the section
             return Checked(count, math.nan)
         starts, ends, others = (
             numpy.concatenate([each.heights for each in side.tracks]) for side in (self, slow, fast)

@@ -71,7 +71,7 @@ class RollerSimulation:
 
     def prepare(self) -> None:
         """Compile or load every kernel that the scene needs, by a block."""
-        with contextlib.suppress(RunError):  # the run itself tells it
+        with contextlib.suppress(RunError):  # the run itself reports it
             self._advance(0)
         if self.model.effects.get("subsurface") is not None:
             self._volumes(

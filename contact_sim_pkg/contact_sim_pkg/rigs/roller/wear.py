@@ -54,7 +54,7 @@ class BodyTrack:
 
 def make_tracks(model: RollerModel) -> list[BodyTrack]:
     """The tracks of a scene at its start, the shaft's first; measures the dangerous volumes where
-    the scene asks for damage.
+    the scene has damage.
     """
     effect = model.effects["track_waves"]
     which, cells = str(effect["track"]), int(effect["cells"])

@@ -99,8 +99,8 @@ class PressureField:
         settings. Errors as ``solve``.
         """
         s = self.settings
-        asked = s.tolerance if tolerance is None else tolerance
-        result = self._field.solve_at_load(gap, load, asked, s.maximum_iterations)
+        requested = s.tolerance if tolerance is None else tolerance
+        result = self._field.solve_at_load(gap, load, requested, s.maximum_iterations)
         self._accept(result, gap)
         return float(result.approach)
 

@@ -1,4 +1,4 @@
-"""A contact under weight: loaded and released stretches against scipy, energy, the sphere that comes to rest."""
+"""A contact under weight: loaded and released phases against scipy, energy, the sphere that comes to rest."""
 
 import math
 
@@ -12,7 +12,7 @@ from contact_sim_pkg.rigs.impact.theory.contact import (
     PARTED,
     RELEASED,
     ContactLaw,
-    next_stretch,
+    next_phase,
     sample,
     static_depth,
     stored,
@@ -31,7 +31,7 @@ def law_of(loss_tangent, speed, gravity, end="force", modulus=8e6):
 def stretches_of(law, speed, most=200):
     found = [touch(law, speed)]
     while found[-1].next_kind != PARTED and len(found) < most:
-        found.append(next_stretch(found[-1]))
+        found.append(next_phase(found[-1]))
     return found
 
 
@@ -81,11 +81,11 @@ def test_without_weight_it_is_the_free_impact():
 def test_energy_before_is_energy_after_and_heat(end, loss_tangent, speed):
     law, _impact = law_of(loss_tangent, speed, 9.81, end)
     found = stretches_of(law, speed)
-    heat = math.fsum(stretch.heat for stretch in found)
+    heat = math.fsum(phase.heat for phase in found)
     last = found[-1]
     after = 0.5 * law.mass * last.last_speed**2 + stored(law, last.last_depth) - law.mass * 9.81 * last.last_depth
     assert heat + after == pytest.approx(0.5 * law.mass * speed**2, rel=1e-12)
-    assert all(stretch.heat >= -1e-18 for stretch in found)
+    assert all(phase.heat >= -1e-18 for phase in found)
 
 
 def test_a_slow_sphere_comes_to_rest_where_the_weight_holds_it():
@@ -100,9 +100,9 @@ def test_a_slow_sphere_comes_to_rest_where_the_weight_holds_it():
 def test_a_sphere_that_falls_back_into_the_overlap_is_caught_where_the_law_pushes_again():
     law, _impact = law_of(0.2, 0.02, 9.81)
     found = stretches_of(law, 0.02, most=12)
-    caught = [stretch for stretch in found if stretch.kind == RELEASED and stretch.next_kind == LOADED]
-    for stretch in caught:
-        pushes = law.elastic * stretch.last_depth + law.viscous * stretch.last_speed
-        assert stretch.last_depth > 0.0
-        assert pushes == pytest.approx(0.0, abs=1e-9 * law.elastic * stretch.last_depth)
+    caught = [phase for phase in found if phase.kind == RELEASED and phase.next_kind == LOADED]
+    for phase in caught:
+        pushes = law.elastic * phase.last_depth + law.viscous * phase.last_speed
+        assert phase.last_depth > 0.0
+        assert pushes == pytest.approx(0.0, abs=1e-9 * law.elastic * phase.last_depth)
     assert found[-1].next_kind in (LOADED, PARTED)

@@ -202,7 +202,7 @@ def _(found, law, speed):
 PARTED = contact.touch(contact.ContactLaw(1.0, 0.0, 1e6, 0.0, "force"), 1.0)
 
 
-@holds(contact.next_stretch, before=st.builds(contact.touch, LAW, SPEED).filter(lambda s: s.next_kind != contact.PARTED),
+@holds(contact.next_phase, before=st.builds(contact.touch, LAW, SPEED).filter(lambda s: s.next_kind != contact.PARTED),
        outside=({"before": PARTED},))  # fmt: skip
 def _(found, before):
     check_stretch(found, before.law)
@@ -213,16 +213,16 @@ def _(found, before):
         assert found.last_depth == close(found.depth + found.speed * t + 0.5 * g * t * t, abs=1e-12 * found.depth)
 
 
-@holds(contact.sample, stretch=st.builds(contact.touch, LAW, SPEED), times=st.just(numpy.array([0.0])),
+@holds(contact.sample, phase=st.builds(contact.touch, LAW, SPEED), times=st.just(numpy.array([0.0])),
        outside=({"times": [0.1, 0.05]},))  # fmt: skip
-def _(found, stretch, times):
-    law, end = stretch.law, min(stretch.duration, 10.0 * stretch.turns.compression_time)
-    depth, speed, heat = contact.sample(stretch, numpy.linspace(0.0, end, 9))
-    start = energy(law, 0.0, stretch.speed)
+def _(found, phase, times):
+    law, end = phase.law, min(phase.duration, 10.0 * phase.turns.compression_time)
+    depth, speed, heat = contact.sample(phase, numpy.linspace(0.0, end, 9))
+    start = energy(law, 0.0, phase.speed)
     for x, v, h in zip(depth, speed, heat, strict=True):
         assert energy(law, x, v) + h == close(start, abs=1e-9 * start)
-    later = contact.sample(stretch, numpy.linspace(0.0, end, 9)[1:] - 1e-6 * end)[0]
-    assert (depth[1:] - later) / (1e-6 * end) == close(speed[1:], abs=1e-4 * stretch.speed)
+    later = contact.sample(phase, numpy.linspace(0.0, end, 9)[1:] - 1e-6 * end)[0]
+    assert (depth[1:] - later) / (1e-6 * end) == close(speed[1:], abs=1e-4 * phase.speed)
 
 
 @holds(contact.static_depth, law=LAW)

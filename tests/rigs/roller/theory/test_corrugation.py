@@ -79,7 +79,7 @@ def test_the_mean_of_a_wave_does_not_hang_on_the_cells(cells):
 
 
 def test_the_moving_mean_takes_its_part_of_the_growth():
-    """Over 21.5 cells the wave of 6 grows by its mean, here by the trapezoidal rule, less; in the march as in the closed form."""
+    """Over 21.5 cells the wave of 6 grows by its mean, here by the trapezoidal rule, less; in the ride as in the closed form."""
     wide = 21.5 * 2.0 * math.pi * 0.005 / CELLS
     theory = growth_of_wave(HEAVE, track(5e-3, width=wide, turn=6 * TURN), 6, 3.0, CELLS)
     narrow = growth_of_wave(HEAVE, track(5e-3, width=0.0, turn=6 * TURN), 6, 3.0, CELLS)

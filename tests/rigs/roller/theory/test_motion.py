@@ -8,7 +8,7 @@ from scipy.integrate import solve_ivp
 from tests.rigs.roller.bench import BENDING, CURVATURES, MODULUS, ROLLER
 
 from contact_sim_pkg.rigs.roller.theory.moments import moments
-from contact_sim_pkg.rigs.roller.theory.motion import DIVERGED, DONE, energy, gauss_rule, march
+from contact_sim_pkg.rigs.roller.theory.motion import DIVERGED, DONE, energy, gauss_rule, integrate_tilt_yaw
 from contact_sim_pkg.rigs.roller.theory.stability import critical_damping, stability
 
 START = (1e-3, -5e-4, 0.1, 0.2)
@@ -16,7 +16,7 @@ START = (1e-3, -5e-4, 0.1, 0.2)
 
 def run(roller, bending, loads, step, stages=2, start=START, rows=2):
     state, record = numpy.array(start), numpy.empty((rows, 4))
-    status = march(
+    status = integrate_tilt_yaw(
         roller, CURVATURES, bending, MODULUS, numpy.asarray(loads, float), step, gauss_rule(stages), state, record
     )
     return status, record

@@ -268,7 +268,7 @@ def six(draw):
     return numpy.append(draw(STATE), [0.0, 0.0])
 
 
-@holds(motion.march, roller=ROLLER, curvatures=st.just(BODIES), bending=BENDING, modulus=st.just(E),
+@holds(motion.integrate_tilt_yaw, roller=ROLLER, curvatures=st.just(BODIES), bending=BENDING, modulus=st.just(E),
        loads=st.builds(lambda one, other: numpy.linspace(one, other, 101), FORCE, FORCE), step=st.just(2e-5),
        table=st.just(motion.gauss_rule(3)), state=six(), record=st.builds(lambda: numpy.zeros((2, 4))), examples=6)  # fmt: skip
 def _(found, roller, curvatures, bending, modulus, loads, step, table, state, record):

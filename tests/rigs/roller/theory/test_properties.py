@@ -287,7 +287,7 @@ def at_load(contact, factor):
 
 
 @holds(volumes.dangerous_volumes, contact=SMOOTH, poisson=st.floats(0.0, 0.5), limits=LIMITS,
-       cells=CELLS, traction=st.tuples(TRACTION, TRACTION), kind=st.sampled_from([volumes.COUNTED, volumes.MARCHED]),
+       cells=CELLS, traction=st.tuples(TRACTION, TRACTION), kind=st.sampled_from([volumes.COUNTED, volumes.INTERPOLATED]),
        outside=(*WRONG, {"cells": (1, 2, 2)}, {"kind": 2}), examples=8)  # fmt: skip
 def _(found, contact, poisson, limits, cells, traction, kind):
     """Of the union: no less than each, no more than all; with the load and limits c^3 and c times, c^3 times as large."""

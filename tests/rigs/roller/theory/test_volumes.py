@@ -11,7 +11,7 @@ from tests.rigs.roller.bench import BENDING, CURVATURES, MODULUS
 from contact_sim_pkg.pressure.closed_form.hertz_stress import EllipseLoad, ellipse_stress
 from contact_sim_pkg.rigs.roller.theory.ellipse import RollingContact, contact_of_rollers
 from contact_sim_pkg.rigs.roller.theory.stress import bench_stresses
-from contact_sim_pkg.rigs.roller.theory.volumes import COUNTED, MARCHED, box_volume, dangerous_volumes, leaves_box
+from contact_sim_pkg.rigs.roller.theory.volumes import COUNTED, INTERPOLATED, box_volume, dangerous_volumes, leaves_box
 
 CIRCLE = RollingContact(1.0, 1.0, 0.0, 1.0, 1.0, 1.0)  # a unit circle of unit pressure
 NEVER = 1e300
@@ -72,7 +72,7 @@ def volume_of_the_normal_stress(limit):
     return quad(lambda r: 2.0 * math.pi * r * height(r), 0.0, 3.0, limit=200, epsrel=1e-4)[0]
 
 
-@pytest.mark.parametrize(("kind", "error"), [(COUNTED, 0.02), (MARCHED, 0.004)])
+@pytest.mark.parametrize(("kind", "error"), [(COUNTED, 0.02), (INTERPOLATED, 0.004)])
 def test_the_volume_of_one_component(kind, error):
     limit = 0.3
     found = dangerous_volumes(CIRCLE, 0.3, (limit, NEVER), (48, 48, 48), kind=kind)
@@ -109,7 +109,7 @@ def test_a_dangerous_layer_at_the_surface_is_seen(limits, traction, error):
     """Traction takes the largest stress to the surface; beside cells counted one by one, 80 x 80 x 200."""
     contact = contact_of_rollers(CURVATURES, 0.0, MODULUS, 100.0)
     fine = dangerous_volumes(contact, 0.3, limits, (80, 80, 200), None, traction, COUNTED)
-    found = dangerous_volumes(contact, 0.3, limits, (32, 40, 16), None, traction, MARCHED)
+    found = dangerous_volumes(contact, 0.3, limits, (32, 40, 16), None, traction, INTERPOLATED)
     assert found.any == pytest.approx(fine.any, rel=error)
 
 
@@ -118,7 +118,7 @@ def test_a_slender_ellipse_keeps_its_volume(profile):
     """The stress lives within the smaller axis; beside counted cells that are even over what is dangerous: b/a 0.13 to 0.02."""
     contact = contact_of_rollers(CURVATURES._replace(roller_axial=1.0 / profile), 0.0, MODULUS, 100.0)
     fine = dangerous_volumes(contact, 0.3, (2.6e8, 1.5e8), (32, 40, 600), kind=COUNTED)
-    found = dangerous_volumes(contact, 0.3, (2.6e8, 1.5e8), (32, 40, 16), kind=MARCHED)
+    found = dangerous_volumes(contact, 0.3, (2.6e8, 1.5e8), (32, 40, 16), kind=INTERPOLATED)
     assert found.any == pytest.approx(fine.any, rel=0.03)
     assert found.zz == pytest.approx(fine.zz, rel=0.03)
 

@@ -11,7 +11,7 @@ from contact_sim_pkg.pressure.settings import FieldSettings
 from contact_sim_pkg.reference import halfspace as reference
 from contact_sim_pkg.rigs.vehicle.contact_field import PressureField
 from contact_sim_pkg.rigs.vehicle.tire.parameters import TreadViscoelasticity
-from contact_sim_pkg.rigs.vehicle.tire.tread_viscoelasticity import TreadMemory, stiffening
+from contact_sim_pkg.rigs.vehicle.tire.tread_viscoelasticity import TreadState, stiffening
 
 Field = NDArray[numpy.float64]
 RELAXED, RADIUS, STEP = 4e6, 0.3, 2e-3
@@ -30,7 +30,7 @@ class Pressing:
     """A field and its memory, solved step by step."""
 
     def __init__(self, tread: TreadViscoelasticity, step: float = STEP, settings: FieldSettings = SETTINGS) -> None:
-        self.memory = TreadMemory(settings, RELAXED, tread, step)
+        self.memory = TreadState(settings, RELAXED, tread, step)
         self.field = PressureField(settings._replace(modulus=RELAXED * stiffening(tread, step)), "tire")
 
     def at_approach(self, gap: Field, approach: float) -> float:

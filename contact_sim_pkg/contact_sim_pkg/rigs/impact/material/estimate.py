@@ -7,9 +7,9 @@ does no harm and the bias of the mean falls with 1/n. Intervals: Student's t on 
 values of the single impacts, in which the common noise of k in E' and tan(beta) is counted; for E'
 in ln E'.
 
-With Gaussian noise these means are as narrow as any: k alone tells tan(beta), for what tau tells
-goes into E'. No unbiased reading of n impacts scatters less than ``|g'(k)| sigma_k/sqrt(n)`` (bound
-of Cramer and Rao), and this one scatters so much.
+With Gaussian noise these means are as narrow as any: k alone determines tan(beta), for what tau
+determines goes into E'. No unbiased reading of n impacts scatters less than ``|g'(k)|
+sigma_k/sqrt(n)`` (bound of Cramer and Rao), and this one scatters so much.
 """
 
 from __future__ import annotations
@@ -40,8 +40,8 @@ Indices = NDArray[numpy.intp]
 
 
 class EstimatedValue(NamedTuple):
-    """A value with its standard error and the interval of the asked confidence; None where a single
-    impact tells none.
+    """A value with its standard error and the interval of the requested confidence; None where a
+    single impact has none.
     """
 
     value: float
@@ -51,7 +51,7 @@ class EstimatedValue(NamedTuple):
 
 
 class MaterialEstimate(NamedTuple):
-    """What repeated impacts say of the material."""
+    """Material estimated from repeated impacts."""
 
     impacts: int
     temperature: float | None  # [K], mean
@@ -102,7 +102,7 @@ def repeated_impacts(impacts: Impacts, chosen: Indices, options: Options) -> Mat
     """The material from the impacts ``chosen``, taken as repeats of one state of it.
 
     Impacts far off the others of the group are named in the note; they count all the same.
-    Raises MaterialError where k tells none, or lies above 1 by more than noise.
+    Raises MaterialError where k determines none, or lies above 1 by more than noise.
     """
     k = impacts.restitution[chosen]
     _refuse_gain(impacts, chosen)

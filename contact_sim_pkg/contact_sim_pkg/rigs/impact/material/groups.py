@@ -20,9 +20,9 @@ def groups(impacts: Impacts, options: Options) -> list[Indices]:
     found = []
     everything = numpy.arange(len(impacts.speed))
     temperature = impacts.temperature
-    pieces = [everything] if temperature is None else _split(everything, temperature, options.temperature_span)
-    for piece in pieces:
-        found += _split(piece, numpy.log(impacts.speed), float(numpy.log(options.speed_ratio)))
+    parts = [everything] if temperature is None else _split(everything, temperature, options.temperature_span)
+    for part in parts:
+        found += _split(part, numpy.log(impacts.speed), float(numpy.log(options.speed_ratio)))
     return found
 
 

@@ -54,7 +54,7 @@ def master_curve(
 
     ``parameter``: Tg [K] (`wlf`) or the activation energy [J/mol] (`arrhenius`); None finds it.
     Raises MaterialError where temperatures are missing, a temperature is outside the law, or
-    nothing tells the parameter.
+    nothing determines the parameter.
     """
     if law not in LAWS:
         raise ValueError(f"shift '{law}': {' or '.join(LAWS)} is needed")
@@ -128,7 +128,8 @@ def _search(
         speeds_at.setdefault(round(t), set()).add(round(100 * math.log(e.speed)))
     if len(speeds_at) < 2 or len(estimates) < 6 or max(map(len, speeds_at.values())) < 2:
         raise MaterialError(
-            f"master curve: {len(estimates)} groups at {len(speeds_at)} temperatures do not tell the shift; at least 6 groups with "
+            f"master curve: {len(estimates)} groups at {len(speeds_at)} temperatures do not "
+            "determine the shift; at least 6 groups with "
             "several speeds at several temperatures do, or give Tg or the activation energy"
         )
     coldest = float(temperatures.min())

@@ -116,9 +116,9 @@ def _free(found: FirstContact) -> Answer:
 def _run(model: ImpactModel) -> Answer:
     """Law of the touch, and the contact by it."""
     speed, temperature = model.releases[0].speed, model.releases[0].temperature
-    stretch = touch(model.touch(speed, temperature).law, speed)
-    assert stretch.turns is not None
-    return -stretch.last_speed / speed, stretch.duration, stretch.turns.depth, stretch.turns.peak_force
+    phase = touch(model.touch(speed, temperature).law, speed)
+    assert phase.turns is not None
+    return -phase.last_speed / speed, phase.duration, phase.turns.depth, phase.turns.peak_force
 
 
 def _milliseconds(way: Callable[[], Answer]) -> float:

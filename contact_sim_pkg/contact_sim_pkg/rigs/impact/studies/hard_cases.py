@@ -33,9 +33,9 @@ def under_weight() -> Finding:
         for speed in (2.0, 0.5, 0.3):
             free = solve_impact(SPHERE, Material(8.0e6, loss_tangent), speed)
             law = ContactLaw(SPHERE.mass, 9.81, free.elastic, free.viscous, "force")
-            stretch = touch(law, speed)
-            assert stretch.turns is not None
-            found = (-stretch.last_speed / speed, stretch.duration, stretch.turns.depth, stretch.turns.peak_force)
+            phase = touch(law, speed)
+            assert phase.turns is not None
+            found = (-phase.last_speed / speed, phase.duration, phase.turns.depth, phase.turns.peak_force)
             exact = impact_under_weight(SPHERE.mass, 9.81, free.elastic, free.viscous, speed, False)
             worst = max(worst, *(abs(one / other - 1.0) for one, other in zip(found, exact, strict=True)))
     return at_most(worst, 1e-9)
@@ -47,9 +47,9 @@ def back_under_weight() -> Finding:
     for loss_tangent in (0.02, 0.2, 1.0):
         for speed in (2.0, 0.2):
             free = solve_impact(SPHERE, Material(8.0e6, loss_tangent), speed)
-            stretch = touch(ContactLaw(SPHERE.mass, 9.81, free.elastic, free.viscous, "force"), speed)
-            k = -stretch.last_speed / speed
-            found = material_of_impact(SPHERE, speed, stretch.duration, k, gravity=9.81)
+            phase = touch(ContactLaw(SPHERE.mass, 9.81, free.elastic, free.viscous, "force"), speed)
+            k = -phase.last_speed / speed
+            found = material_of_impact(SPHERE, speed, phase.duration, k, gravity=9.81)
             worst = max(worst, abs(found.storage_modulus / 8.0e6 - 1.0), abs(found.loss_tangent / loss_tangent - 1.0))
     return at_most(worst, 1e-9)
 

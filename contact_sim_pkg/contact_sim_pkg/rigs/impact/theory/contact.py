@@ -1,12 +1,12 @@
-"""One contact of a sphere under its own weight, stretch by stretch: loaded, released, perhaps
+"""One contact of a sphere under its own weight, phase by phase: loaded, released, perhaps
 loaded again, until the bodies part.
 
 ``m x'' = m g - F(x, x')`` with the law of ``rigs/impact/theory/closed_form/force.py``. A loaded
-stretch is solved by Taylor series (``rigs/impact/theory/closed_form/scaled_motion.py``), a released
+phase is solved by Taylor series (``rigs/impact/theory/closed_form/scaled_motion.py``), a released
 one, between the loss of force and the end of the overlap, is a parabola: the sample recovers there
 without pushing, and turns what it still stores into heat. A sphere that falls back before the
 overlap has ended is caught by the sample as soon as the law pushes again, ``A x + B x' > 0``. A
-sphere that comes to rest never parts: such a contact is followed in stretches of bounded length.
+sphere that comes to rest never parts: such a contact is followed in phases of bounded length.
 """
 
 from __future__ import annotations
@@ -45,7 +45,7 @@ __all__ = [
     "ContactLaw",
     "ContactPhase",
     "Turns",
-    "next_stretch",
+    "next_phase",
     "sample",
     "static_depth",
     "stored",
@@ -53,7 +53,7 @@ __all__ = [
 ]
 
 LOADED, RELEASED, PARTED = "loaded", "released", "parted"
-LONGEST = 60.0  # of a loaded stretch, in units of L/V: about twenty contact times
+LONGEST = 60.0  # of a loaded phase, in units of L/V: about twenty contact times
 
 
 class ContactLaw(NamedTuple):
@@ -67,7 +67,7 @@ class ContactLaw(NamedTuple):
 
 
 class Turns(NamedTuple):
-    """First turning point and largest force of a contact, seen in its first stretch; times from its
+    """First turning point and largest force of a contact, seen in its first phase; times from its
     touch.
     """
 
@@ -93,7 +93,7 @@ class ContactPhase(NamedTuple):
 
 
 class _Units(NamedTuple):
-    """Scales of a loaded stretch."""
+    """Scales of a loaded phase."""
 
     length: float  # [m]
     speed: float  # [m/s]
@@ -106,7 +106,7 @@ class _Units(NamedTuple):
 
 
 def touch(law: ContactLaw, speed: float) -> ContactPhase:
-    """First stretch of the contact that begins at depth 0 with ``speed`` > 0 [m/s].
+    """First phase of the contact that begins at depth 0 with ``speed`` > 0 [m/s].
 
     Raises ImpactError for a law or a speed outside its range, ValueError for another end rule.
     """
@@ -115,10 +115,10 @@ def touch(law: ContactLaw, speed: float) -> ContactPhase:
     return _loaded(law, 0.0, speed, first=True)
 
 
-def next_stretch(before: ContactPhase) -> ContactPhase:
-    """The stretch behind one whose ``next_kind`` is not PARTED; raises ImpactError where it is."""
+def next_phase(before: ContactPhase) -> ContactPhase:
+    """The phase behind one whose ``next_kind`` is not PARTED; raises ImpactError where it is."""
     if before.next_kind == PARTED:
-        raise ImpactError("next stretch: the bodies have parted, there is none")
+        raise ImpactError("next phase: the bodies have parted, there is none")
     if before.next_kind == LOADED:
         return _loaded(before.law, before.last_depth, before.last_speed, first=False)
     return _released(before.law, before.last_depth, before.last_speed)
@@ -149,21 +149,21 @@ def _stored(law: ContactLaw, depth: float) -> float:
     return float(0.4 * law.elastic * max(depth, 0.0) ** 2.5)
 
 
-def sample(stretch: ContactPhase, times: Vector) -> tuple[Vector, Vector, Vector]:
+def sample(phase: ContactPhase, times: Vector) -> tuple[Vector, Vector, Vector]:
     """Depth [m], speed [m/s] and heat [J] since its begin at rising ``times`` [s] within the
-    stretch, its ends outside it.
+    phase, its ends outside it.
 
     Raises ImpactError for times that are not finite or do not rise.
     """
-    t = numpy.clip(check_values("times", times, "s", shape=(None,), rising=True), 0.0, stretch.duration)
-    law = stretch.law
-    if stretch.kind == RELEASED:
-        depth = stretch.depth + (stretch.speed + 0.5 * law.gravity * t) * t
+    t = numpy.clip(check_values("times", times, "s", shape=(None,), rising=True), 0.0, phase.duration)
+    law = phase.law
+    if phase.kind == RELEASED:
+        depth = phase.depth + (phase.speed + 0.5 * law.gravity * t) * t
         held = numpy.array([_stored(law, float(x)) for x in depth])
-        return depth, stretch.speed + law.gravity * t, _stored(law, stretch.depth) - held
-    units = _units(law, stretch.depth, stretch.speed)
+        return depth, phase.speed + law.gravity * t, _stored(law, phase.depth) - held
+    units = _units(law, phase.depth, phase.speed)
     depth, speed, heat = (numpy.zeros(len(t)) for _ in range(3))
-    root, pace = math.sqrt(stretch.depth / units.length), stretch.speed / units.speed
+    root, pace = math.sqrt(phase.depth / units.length), phase.speed / units.speed
     sample_from(units.severity, units.weight, u=root, v=pace, times=t / units.time, depth=depth, speed=speed, heat=heat)
     return depth * units.length, speed * units.speed, heat * law.mass * units.speed**2
 

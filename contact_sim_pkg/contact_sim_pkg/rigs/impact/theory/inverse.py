@@ -31,7 +31,7 @@ FACTORS = {"corrected": 15.0 / 16.0 * 2.0**2.5, "printed": 5.03}
 
 
 class RestitutionReading(NamedTuple):
-    """What a restitution alone says."""
+    """Material constants that a restitution alone determines."""
 
     modulus_factor: float  # h k_p: E' = q (h k_p)/k_p
     loss_tangent: float  # g

@@ -26,8 +26,8 @@ from contact_sim_pkg.rigs.roller.theory.ellipse import EXACT, POLYNOMIAL, contac
 from contact_sim_pkg.rigs.roller.theory.heave import Heave, Path, ride
 from contact_sim_pkg.rigs.roller.theory.load_split import load_of_approach
 from contact_sim_pkg.rigs.roller.theory.moments import moments
-from contact_sim_pkg.rigs.roller.theory.motion import gauss_rule, march
-from contact_sim_pkg.rigs.roller.theory.volumes import MARCHED, Volumes, dangerous_volumes
+from contact_sim_pkg.rigs.roller.theory.motion import gauss_rule, integrate_tilt_yaw
+from contact_sim_pkg.rigs.roller.theory.volumes import INTERPOLATED, Volumes, dangerous_volumes
 from contact_sim_pkg.scene.resolved_scene import ResolvedScene
 
 __all__ = ["ACCURACY", "PARTS", "rows"]
@@ -114,9 +114,11 @@ def _tilt_yaw(model: RollerModel) -> Rows:
         def run(
             state: Vector = state, record: Any = record, loads: Vector = loads, rule: Any = rule, n: int = steps
         ) -> None:
-            march(roller, curvatures, model.bending, model.modulus, loads, SPAN / n, rule, state, record)
+            integrate_tilt_yaw(roller, curvatures, model.bending, model.modulus, loads, SPAN / n, rule, state, record)
 
-        march(roller, curvatures, model.bending, model.modulus, loads[:2], SPAN / steps, rule, state.copy(), record)
+        integrate_tilt_yaw(
+            roller, curvatures, model.bending, model.modulus, loads[:2], SPAN / steps, rule, state.copy(), record
+        )
         _, cost = timed_once(run)
         error = float(abs(state[:2] - right).max() / abs(start[:2]).max())
         name = f"order {2 * stages}, {2.0 * math.pi / phase:.3g} steps a period"
@@ -172,7 +174,7 @@ def _volumes(model: RollerModel) -> Rows:
     def measure(share: float) -> Volumes:
         cut = tuple(max(2, round(share * number)) for number in cells)
         return dangerous_volumes(
-            contact, model.poisson_ratio, limits, (cut[0], cut[1], cut[2]), None, traction, MARCHED
+            contact, model.poisson_ratio, limits, (cut[0], cut[1], cut[2]), None, traction, INTERPOLATED
         )
 
     measure(0.01)

@@ -24,7 +24,7 @@ from contact_sim_pkg.rigs.roller.theory.ellipse import contact_of_rollers
 from contact_sim_pkg.rigs.roller.theory.heave import Heave, closed_path, make_heave, natural_frequency, ride
 from contact_sim_pkg.rigs.roller.theory.load_split import load_of_approach
 from contact_sim_pkg.rigs.roller.theory.moments import moments
-from contact_sim_pkg.rigs.roller.theory.motion import DIVERGED, LARGEST_TILT, energy, gauss_rule, march
+from contact_sim_pkg.rigs.roller.theory.motion import DIVERGED, LARGEST_TILT, energy, gauss_rule, integrate_tilt_yaw
 from contact_sim_pkg.rigs.roller.theory.parameters import Bending, Curvatures
 from contact_sim_pkg.rigs.roller.theory.stability import RollerError, critical_damping, stability
 from contact_sim_pkg.rigs.roller.theory.volumes import box_volume, dangerous_volumes, fills_box, leaves_box
@@ -64,7 +64,9 @@ def divergence_is_told() -> Finding:
     """F R above k_psi, no spin: status, and the last tilt finite."""
     still, state = ROLLER._replace(spin=0.0, rolling_friction=0.0), numpy.array([1e-6, 0.0, 0.0, 0.0])
     record = numpy.empty((2, 4))
-    status = march(still, CURVATURES, None, MODULUS, numpy.full(400_001, 3100.0), 1e-5, gauss_rule(2), state, record)
+    status = integrate_tilt_yaw(
+        still, CURVATURES, None, MODULUS, numpy.full(400_001, 3100.0), 1e-5, gauss_rule(2), state, record
+    )
     return exactly(float(status) if LARGEST_TILT < abs(state[0]) < 1.0 else math.nan, float(DIVERGED))
 
 
@@ -72,7 +74,9 @@ def energy_is_kept() -> Finding:
     """No friction, 1e4 spin periods: largest relative change of the energy."""
     free, state = ROLLER._replace(rolling_friction=0.0), numpy.array([1e-3, -5e-4, 0.1, 0.2])
     steps, record = 1_000_000, numpy.empty((201, 4))
-    march(free, CURVATURES, None, MODULUS, numpy.full(steps + 1, 300.0), 200.0 / steps, gauss_rule(2), state, record)
+    integrate_tilt_yaw(
+        free, CURVATURES, None, MODULUS, numpy.full(steps + 1, 300.0), 200.0 / steps, gauss_rule(2), state, record
+    )
     energies = numpy.array([energy(free, 300.0, each) for each in record])
     return at_most(float(abs(energies / energies[0] - 1.0).max()), 1e-6)
 
@@ -87,7 +91,7 @@ def flutter_grows_as_its_root() -> Finding:
     values, vectors = numpy.linalg.eig(matrix.T)
     left, state, record = vectors[:, values.real.argmax()], numpy.array([1e-7, 2e-7, 0.0, 0.0]), numpy.empty((2, 4))
     first = abs(left @ state)
-    march(ROLLER, CURVATURES, None, MODULUS, numpy.full(40_001, 300.0), 5e-5, gauss_rule(3), state, record)
+    integrate_tilt_yaw(ROLLER, CURVATURES, None, MODULUS, numpy.full(40_001, 300.0), 5e-5, gauss_rule(3), state, record)
     return close_to(math.log(abs(left @ state) / first) / 2.0 / float(values.real.max()), 1.0, 1e-4)
 
 

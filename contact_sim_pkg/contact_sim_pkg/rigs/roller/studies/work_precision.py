@@ -29,9 +29,9 @@ from contact_sim_pkg.rigs.roller.theory.corrugation import growth_of_wave, make_
 from contact_sim_pkg.rigs.roller.theory.ellipse import contact_of_rollers
 from contact_sim_pkg.rigs.roller.theory.heave import make_heave
 from contact_sim_pkg.rigs.roller.theory.load_split import load_of_approach, parallel_contact_load
-from contact_sim_pkg.rigs.roller.theory.motion import gauss_rule, march
+from contact_sim_pkg.rigs.roller.theory.motion import gauss_rule, integrate_tilt_yaw
 from contact_sim_pkg.rigs.roller.theory.stability import linearise
-from contact_sim_pkg.rigs.roller.theory.volumes import COUNTED, MARCHED, dangerous_volumes
+from contact_sim_pkg.rigs.roller.theory.volumes import COUNTED, INTERPOLATED, dangerous_volumes
 
 __all__ = [
     "MOTION_PART",
@@ -118,8 +118,8 @@ def volume_rows() -> list[Row]:
     right, ms = timed_once(lambda: measure(finest, COUNTED))
     found = []
     for cells, kind, name in (
-        ((32, 32, 32), COUNTED, "count"), ((16, 20, 12), MARCHED, "depth between two middles"),
-        ((32, 40, 16), MARCHED, "depth between two middles"), ((64, 64, 48), MARCHED, "depth between two middles"),
+        ((32, 32, 32), COUNTED, "count"), ((16, 20, 12), INTERPOLATED, "depth between two middles"),
+        ((32, 40, 16), INTERPOLATED, "depth between two middles"), ((64, 64, 48), INTERPOLATED, "depth between two middles"),
     ):  # fmt: skip
         value, cost = timed_once(lambda cells=cells, kind=kind: measure(cells, kind))  # type: ignore[misc]
         rung = Rung(name, cost, "x".join(map(str, cells)))
@@ -151,7 +151,7 @@ def motion_rows() -> list[Row]:
 
     def nonlinear(stages: int, steps: int) -> Values:
         state, record = start.copy(), numpy.empty((2, 4))
-        march(
+        integrate_tilt_yaw(
             ROLLER,
             CURVATURES,
             None,

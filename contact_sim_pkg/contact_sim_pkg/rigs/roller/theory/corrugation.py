@@ -7,11 +7,11 @@ it is above the mean:
 
     w_j <- w_j - gamma delta(F_N) turns (omega_j - mean omega)
 
-The mean lowers the whole track and is told apart. W, which the roller rides, is the mean of w over
+The mean lowers the whole track and is kept apart. W, which the roller rides, is the mean of w over
 the length of the contact, straight between the cells; the length need not be whole cells. Where the
-hardness c of a cell raises the limits, `omega_c(F) = c^3 omega(F / c^3)`: stress goes with F^(1/3),
-the volume that bears it with F. Small waves of n_w round the track, Omega_w = 2 pi n_w turns/s,
-grow by `growth_of_wave` a turn.
+hardness c of a cell raises the limits, `omega_c(F) = c^3 omega(F / c^3)`: stress scales with
+F^(1/3), the volume that bears it with F. Small waves of n_w round the track, Omega_w = 2 pi n_w
+turns/s, grow by `growth_of_wave` a turn.
 """
 
 from __future__ import annotations

@@ -39,7 +39,7 @@ __all__ = [
     "energies",
     "energy",
     "gauss_rule",
-    "march",
+    "integrate_tilt_yaw",
 ]
 
 Values = NDArray[numpy.float64]
@@ -97,7 +97,7 @@ def gauss_rule(stages: int) -> Values:
 
 
 @entry
-def march(
+def integrate_tilt_yaw(
     roller: Roller, curvatures: Curvatures, bending: Bending | None, modulus: float, loads: Values, step: float,
     table: Values, state: Values, record: Values,
 ) -> int:  # fmt: skip

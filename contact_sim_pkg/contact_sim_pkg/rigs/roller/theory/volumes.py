@@ -6,7 +6,7 @@ j; `V_T` that of the union. The print has `sigma - limit > 0`, which is empty fo
 are measured in the box `4 a x 4 b x 3 a` under the contact (a the larger semi-axis), on columns of
 cells. In each column the stress is known at depths that draw closer to the surface, from the
 surface itself on, and the depth at which it passes the limit is laid straight between two of them
-(`MARCHED`); or the stress is known at the middles of even cells, and whole cells are counted
+(`INTERPOLATED`); or the stress is known at the middles of even cells, and whole cells are counted
 (`COUNTED`).
 """
 
@@ -33,7 +33,7 @@ from contact_sim_pkg.rigs.roller.theory.stress import add_bending, bench_stress,
 
 __all__ = [
     "COUNTED",
-    "MARCHED",
+    "INTERPOLATED",
     "Volumes",
     "box_volume",
     "dangerous_volumes",
@@ -44,12 +44,12 @@ __all__ = [
 
 Values = NDArray[numpy.float64]
 
-COUNTED, MARCHED = 0, 1
+COUNTED, INTERPOLATED = 0, 1
 
 COMPONENTS = 6
 
 EDGE_PLACES = 33
-"""Each way on a side of the box, where it is asked whether a volume leaves it."""
+"""Each way on a side of the box, where it is checked whether a volume leaves it."""
 
 GRADING = 0.4
 """Of the smaller semi-axis: down to about it the depths of a column are even, below they grow by a
@@ -103,7 +103,7 @@ def dangerous_volumes(
     cells: tuple[int, int, int] = (32, 40, 16),
     bending: Bending | None = None,
     traction: tuple[float, float] = (0.0, 0.0),
-    kind: int = MARCHED,
+    kind: int = INTERPOLATED,
 ) -> Volumes:
     """Volumes [m^3] where the stress of contact, traction and bending (None: without) passes the
     limits [Pa] (normal, shear).
@@ -113,7 +113,7 @@ def dangerous_volumes(
     cells, a Poisson ratio outside -1 < nu <= 1/2 and values not finite.
     """
     _check(poisson, limits, cells, bending, traction)
-    require_choice("dangerous volumes: kind", kind, (COUNTED, MARCHED))
+    require_choice("dangerous volumes: kind", kind, (COUNTED, INTERPOLATED))
     out = numpy.zeros(COMPONENTS + 1)
     if contact.load > 0.0:
         loading = _loading(poisson, limits, traction)
@@ -135,8 +135,8 @@ def _measure(
         for j in range(ny):
             y = ((j + 0.5) / ny - 0.5) * width
             before = 0.0
-            for k in range(nz + 1 if kind == MARCHED else nz):
-                z = _depth(contact, k, nz) if kind == MARCHED else depth * (k + 0.5) / nz
+            for k in range(nz + 1 if kind == INTERPOLATED else nz):
+                z = _depth(contact, k, nz) if kind == INTERPOLATED else depth * (k + 0.5) / nz
                 _excess(_stress_at(contact, bending, loading, x, y, z), loading, now)
                 for c in range(COMPONENTS + 1):
                     if kind == COUNTED:

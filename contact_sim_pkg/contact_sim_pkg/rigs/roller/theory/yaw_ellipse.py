@@ -1,5 +1,5 @@
-"""What tilt and yaw need of the ellipse, as polynomials of the yaw: no elliptic root is sought in a
-step.
+"""What tilt and yaw need of the ellipse, as polynomials of the yaw: no elliptic root is solved for
+in a step.
 
 Under a load F the ellipse grows as F^(1/3) and the approach as F^(2/3), so three functions of the
 yaw alone are left,

@@ -20,7 +20,7 @@ Cerruti's normal displacement, with its factor 1 - 2 nu, is zero. The bristles d
 other (Kalker's simplified theory).
 
 Bristles are carried in whole cells of the belt, and the part of a cell that is left is kept as
-`phase`: nothing is smeared. A step of many cells is marched cell by cell; the pressure goes
+`phase`: nothing is smeared. A step of many cells is advanced cell by cell; the pressure goes
 linearly in time from the field before to the present one, *in the contact frame*, where it stands
 still on a smooth road. So the result for a constant pressure does not depend on the step. A cell is
 in contact up to its borders; there the bristles begin to grow.
@@ -40,7 +40,14 @@ from numpy.typing import NDArray
 from contact_sim_pkg.compiled.arrays import Vector
 from contact_sim_pkg.compiled.jit import entry, kernel
 from contact_sim_pkg.rigs.vehicle.tire.brush_lattice import blend, copy_field, loaded_window, place_on
-from contact_sim_pkg.rigs.vehicle.tire.brush_steps import PAD, Bristles, Field, LoadedWindow, march, next_stretch
+from contact_sim_pkg.rigs.vehicle.tire.brush_steps import (
+    PAD,
+    Bristles,
+    Field,
+    LoadedWindow,
+    advance_bristles,
+    next_segment,
+)
 from contact_sim_pkg.rigs.vehicle.tire.parameters import Brush
 
 __all__ = [
@@ -65,7 +72,7 @@ over it.
 
 
 class BrushState(NamedTuple):
-    """What the bristles of one contact remember; written by `advance_brush`."""
+    """State of the bristles of one contact; written by `advance_brush`."""
 
     bristles: Bristles
     before: Field  # [Pa] pressure of the last field, [PAD + rows + PAD, cols]
@@ -132,7 +139,7 @@ def brush_state_on(state: BrushState, rows: int, cols: int, cell_x: float) -> Br
     if (cols - old_cols) % 2:
         raise ValueError(f"brush: from {old_cols} to {cols} columns, the two must differ by an even number")
     more_rows, more_cols = (rows - old_rows) // 2, (cols - old_cols) // 2
-    for source, target in zip(_remembered(state), _remembered(moved), strict=True):
+    for source, target in zip(_arrays_of(state), _arrays_of(moved), strict=True):
         row, col = max(0, -more_rows) + PAD, max(0, -more_cols)
         part = source[row : row + min(rows, old_rows), col : col + min(cols, old_cols)]
         row, col = max(0, more_rows) + PAD, max(0, more_cols)
@@ -142,7 +149,7 @@ def brush_state_on(state: BrushState, rows: int, cols: int, cell_x: float) -> Br
     return moved
 
 
-def _remembered(state: BrushState) -> tuple[NDArray[Any], ...]:
+def _arrays_of(state: BrushState) -> tuple[NDArray[Any], ...]:
     bristles = state.bristles
     return bristles.deflection_x, bristles.deflection_y, bristles.sliding, state.before
 
@@ -186,7 +193,7 @@ def advance_brush(
     if first_field:
         copy_field(pressure, state.before)
     window = loaded_window(state.before, pressure)
-    phase, dissipated, released = march_all(brush, state, pressure, window, phase, grid.cell_x, step)
+    phase, dissipated, released = advance_step(brush, state, pressure, window, phase, grid.cell_x, step)
     copy_field(pressure, state.before)
     state.place[0], state.place[1], state.place[2] = phase, grid.origin_x, 1.0
     area = grid.cell_x * grid.cell_y
@@ -197,7 +204,7 @@ def advance_brush(
 
 
 @kernel
-def march_all(
+def advance_step(
     brush: Brush,
     state: BrushState,
     pressure: Field,
@@ -206,7 +213,7 @@ def march_all(
     cell_x: float,
     step: RollingStep,
 ) -> tuple[float, float, float]:
-    """March the whole step, stretch by stretch; returns the new phase, work of friction and
+    """Advance over the whole step, segment by segment; returns the new phase, work of friction and
     released energy [J/m^2].
     """
     cells = abs(step.belt) / cell_x
@@ -217,13 +224,13 @@ def march_all(
     remaining = cells
     dissipated, released = 0.0, 0.0
     while True:
-        stretch = next_stretch(phase, remaining, step.belt < 0.0)
-        remaining -= stretch.length
+        segment = next_segment(phase, remaining, step.belt < 0.0)
+        remaining -= segment.length
         blend(state.before, pressure, 1.0 - remaining / over, window, state.bristles.pressure)
-        work, energy = march(brush, state.bristles, window, stretch, slide_x, slide_y)
+        work, energy = advance_bristles(brush, state.bristles, window, segment, slide_x, slide_y)
         dissipated += work
         released += energy
-        phase = stretch.end - stretch.write
+        phase = segment.end - segment.write
         if remaining <= 0.0:
             return phase, dissipated, released
 
@@ -237,7 +244,7 @@ def write_shear(
     sliding cells.
 
     A centre lies between two bristles: deflections are interpolated, a bristle out of contact does
-    not count; the nearer one tells whether the cell slides. The limit is that of the cell's own
+    not count; the nearer one decides whether the cell slides. The limit is that of the cell's own
     pressure.
     """
     rows, cols = pressure.shape

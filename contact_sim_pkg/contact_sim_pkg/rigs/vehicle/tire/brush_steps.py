@@ -1,4 +1,4 @@
-"""The march of the bristles of `rigs/vehicle/tire/brush.py` through the contact: one stretch of at
+"""Advance of the bristles of `rigs/vehicle/tire/brush.py` through the contact: one segment of at
 most one cell at a time.
 
 A bristle with the label m stands `phase` cells behind the centre of row m, 0 <= phase <= 1: in the
@@ -24,15 +24,15 @@ __all__ = [
     "Field",
     "Flags",
     "LoadedWindow",
-    "march",
-    "next_stretch",
+    "advance_bristles",
+    "next_segment",
     "slide_onto",
     "unit_slide",
 ]
 
 PAD = 2
-"""Rows before the first and after the last that are never loaded: a march reads and writes beyond
-the grid.
+"""Rows before the first and after the last that are never loaded: an advance reads and writes
+beyond the grid.
 """
 
 ROUNDING = 1e-12
@@ -59,7 +59,7 @@ class Bristles(NamedTuple):
     deflection_x: Field  # [m] tip on the road ahead of its root in the belt
     deflection_y: Field  # [m] to the left
     sliding: Flags  # 1 where the tip slides
-    pressure: Field  # [Pa] at the end of the present stretch
+    pressure: Field  # [Pa] at the end of the present segment
 
 
 class LoadedWindow(NamedTuple):
@@ -85,7 +85,7 @@ class BeltSegment(NamedTuple):
 
 
 @kernel
-def next_stretch(phase: float, remaining: float, backward: bool) -> BeltSegment:
+def next_segment(phase: float, remaining: float, backward: bool) -> BeltSegment:
     """The way to the next centre of a cell, or less where less is `remaining` [cells]."""
     if remaining <= 0.0:
         here = 1.0 if phase <= 0.5 else 0.0
@@ -105,10 +105,10 @@ def next_stretch(phase: float, remaining: float, backward: bool) -> BeltSegment:
 
 
 @kernel
-def march(
-    brush: Brush, bristles: Bristles, window: LoadedWindow, stretch: BeltSegment, slide_x: float, slide_y: float
+def advance_bristles(
+    brush: Brush, bristles: Bristles, window: LoadedWindow, segment: BeltSegment, slide_x: float, slide_y: float
 ) -> tuple[float, float]:
-    """Carry every bristle of the window along one stretch; the road slides `slide_x`, `slide_y` [m]
+    """Carry every bristle of the window along one segment; the road slides `slide_x`, `slide_y` [m]
     for each cell of way.
 
     Returns the work [J/m^2] of friction and the elastic energy [J/m^2] of the bristles that left
@@ -119,14 +119,14 @@ def march(
     dissipated, released = 0.0, 0.0
     for n in range(window.last - window.first):
         # Never read what was just written
-        m = window.first + n if stretch.read == 0 else window.last - 1 - n
-        source, target = m - stretch.read, m - stretch.write
+        m = window.first + n if segment.read == 0 else window.last - 1 - n
+        source, target = m - segment.read, m - segment.write
         for j in range(window.left, window.right):
             x, y, slid = deflection_x[source, j], deflection_y[source, j], sliding[source, j]
             here, following = pressure[m, j], pressure[m - 1, j]
-            if (following if stretch.end > 0.5 else here) > 0.0:
+            if (following if segment.end > 0.5 else here) > 0.0:
                 x, y, slid, work = carry(
-                    brush, x, y, slid, here, following, stretch=stretch, slide_x=slide_x, slide_y=slide_y
+                    brush, x, y, slid, here, following, segment=segment, slide_x=slide_x, slide_y=slide_y
                 )
                 dissipated += work
             else:
@@ -138,18 +138,18 @@ def march(
 
 @kernel
 def carry(
-    brush: Brush, x: float, y: float, slid: int, here: float, following: float, stretch: BeltSegment,
+    brush: Brush, x: float, y: float, slid: int, here: float, following: float, segment: BeltSegment,
     slide_x: float, slide_y: float,
 ) -> tuple[float, float, numpy.uint8, float]:  # fmt: skip
-    """One bristle along one stretch that ends under load: it grows in the loaded cells, then it
+    """One bristle along one segment that ends under load: it grows in the loaded cells, then it
     sticks or slides.
 
     here, following: pressure [Pa] of the cells m and m - 1. Returns deflection [m], flag and work
     of friction [J/m^2].
     """
-    share = (stretch.share_here if here > 0.0 else 0.0) + (stretch.share_next if following > 0.0 else 0.0)
+    share = (segment.share_here if here > 0.0 else 0.0) + (segment.share_next if following > 0.0 else 0.0)
     grown_x, grown_y = x + share * slide_x, y + share * slide_y
-    at_end = here + stretch.end * (following - here)
+    at_end = here + segment.end * (following - here)
     new_x, new_y, slides, way = slide_onto(brush, grown_x, grown_y, slid, at_end)
     if way <= 0.0:
         return new_x, new_y, slides, 0.0
@@ -192,9 +192,9 @@ def unit_slide(brush: Brush, trial_x: float, trial_y: float, limit: float) -> fl
     """Sliding distance over stress [m/Pa]: the w >= 0 with `|tau(w)| = limit`, `tau_i(w) = trial_i
     / (1 + w k_i)`.
 
-    The tip slides along the stress, `w tau`, as Coulomb's law asks. Newton's method on 1/|tau(w)| =
-    1/limit, which is linear in w for equal stiffnesses and nearly so else (Moré and Sorensen 1983).
-    limit > 0 in [Pa].
+    The tip slides along the stress, `w tau`, as Coulomb's law requires. Newton's method on
+    1/|tau(w)| = 1/limit, which is linear in w for equal stiffnesses and nearly so else (Moré and
+    Sorensen 1983). limit > 0 in [Pa].
     """
     if brush.stiffness_x == brush.stiffness_y:
         return (math.sqrt(trial_x * trial_x + trial_y * trial_y) / limit - 1.0) / brush.stiffness_x

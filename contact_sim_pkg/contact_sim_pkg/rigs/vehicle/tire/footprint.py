@@ -3,7 +3,7 @@
 By the reciprocal theorem (Betti) a small roughness h(x, y) under a contact of fixed pressure p
 changes the approach by ``integral(p h) / integral(p)``: exact to first order in h. The weights are
 the Hertz pressure ``sqrt(1 - (x/a)^2 - (y/b)^2)`` of the standing load. It drives the point contact
-everywhere, and between two field instants it tells how the effective height changes with the
+everywhere, and between two field instants it determines how the effective height changes with the
 travel; at the instants the pressure field itself decides.
 """
 

@@ -14,7 +14,7 @@ from contact_sim_pkg.rigs.vehicle.contact_model import FieldGrids
 from contact_sim_pkg.rigs.vehicle.field_driver import Gap, Support
 from contact_sim_pkg.rigs.vehicle.tire.footprint import tire_gap, touches_beyond
 from contact_sim_pkg.rigs.vehicle.tire.model import TireGeometry, Tread, relaxed_grids
-from contact_sim_pkg.rigs.vehicle.tire.tread_viscoelasticity import TreadMemory
+from contact_sim_pkg.rigs.vehicle.tire.tread_viscoelasticity import TreadState
 from contact_sim_pkg.run.errors import RunError
 
 
@@ -31,39 +31,39 @@ class RoadSupport(Support):
         self._gaps = {} if grids is None else {
             field.settings.rows: numpy.empty((field.settings.rows, field.settings.cols)) for field in grids.both()
         }  # fmt: skip
-        self._memory: TreadMemory | None = None
+        self._tread_state: TreadState | None = None
         if tread is not None and grids is not None:
             wide = grids.wide.settings
-            self._memory = TreadMemory(wide, tread.relaxed_modulus, tread.viscoelasticity, tread.step)
+            self._tread_state = TreadState(wide, tread.relaxed_modulus, tread.viscoelasticity, tread.step)
             self._pressed = numpy.zeros((wide.rows, wide.cols))
             self.remembers = True
 
     def reset(self) -> None:
         """See Support."""
         super().reset()
-        if self._memory is not None:
-            self._memory.reset()
+        if self._tread_state is not None:
+            self._tread_state.reset()
 
     def place(self, road: Any, travel: float) -> None:
         """The block's road, and the travel of the wheel centre in [m]."""
         self._road, self.travel = road, travel
-        if self._memory is not None and self.grids is not None:
-            self._memory.move_to(self.road_row(self.grids.wide.settings))
+        if self._tread_state is not None and self.grids is not None:
+            self._tread_state.move_to(self.road_row(self.grids.wide.settings))
 
     def stand(self, load: float) -> float:
         """See Support; a tread with memory has stood there for long."""
-        if self._memory is None or self._tread is None or self.grids is None:
+        if self._tread_state is None or self._tread is None or self.grids is None:
             return super().stand(load)
-        self._memory.reset()
+        self._tread_state.reset()
         relaxed = relaxed_grids(self.grids, self._tread)
         approach, field = self._stand_on(relaxed, load)
-        self._memory.settle(self.road_row(relaxed.wide.settings), self._on_wide(field.pressure))
+        self._tread_state.settle(self.road_row(relaxed.wide.settings), self._on_wide(field.pressure))
         return approach
 
     def keep(self) -> None:
         """The last field is the one of its instant: the tread remembers it."""
-        if self._memory is not None and self.published is not None:
-            self._memory.keep(self._on_wide(self.published.pressure))
+        if self._tread_state is not None and self.published is not None:
+            self._tread_state.keep(self._on_wide(self.published.pressure))
 
     def _on_wide(self, pressure: Gap) -> Gap:
         """A pressure field on the wide grid, which both grids share their middle with."""
@@ -92,8 +92,8 @@ class RoadSupport(Support):
             raise RunError(
                 f"road/patch: block {road.block} does not reach over the pressure grid at {self.travel:.6g} m"
             )
-        if self._memory is not None:
-            whole = self._memory.gap
+        if self._tread_state is not None:
+            whole = self._tread_state.gap
             row, col = whole.shape[0] // 2 - settings.rows // 2, (whole.shape[1] - settings.cols) // 2
             out += whole[row : row + settings.rows, col : col + settings.cols]
         return out

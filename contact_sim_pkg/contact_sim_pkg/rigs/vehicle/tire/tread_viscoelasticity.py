@@ -1,5 +1,5 @@
-"""Memory of the tread rubber in a rolling pressure field: Kelvin-Voigt and Maxwell branches, cell
-by cell.
+"""Viscoelasticity of the tread rubber in a rolling pressure field: Kelvin-Voigt and Maxwell
+branches, cell by cell.
 
 For a half-space whose Poisson's ratio does not change in time the elastic-viscoelastic
 correspondence holds at every point of its surface, loaded or not: with the elastic operator K of
@@ -31,7 +31,7 @@ from contact_sim_pkg.pressure.field.halfspace import displacement, make_buffers,
 from contact_sim_pkg.pressure.settings import FieldSettings
 from contact_sim_pkg.rigs.vehicle.tire.parameters import TreadViscoelasticity
 
-__all__ = ["TreadMemory", "stiffening"]
+__all__ = ["TreadState", "stiffening"]
 
 Field = NDArray[numpy.float64]
 
@@ -50,7 +50,7 @@ def stiffening(tread: TreadViscoelasticity, step: float) -> float:
     return 1.0 + viscous + float(weights.sum())
 
 
-class TreadMemory:
+class TreadState:
     """Displacement of the tread's surface and the branches' share of it on one grid, from field
     instant to field instant.
 
@@ -86,7 +86,7 @@ class TreadMemory:
         self._row = row
         displacement(self._relaxed, self._buffers, pressure, self._displacement)
         self._branches.fill(0.0)
-        self._remember()
+        self._update_gap()
 
     def move_to(self, row: int) -> None:
         """The tread rolled on: its first row is lattice row `row` now."""
@@ -95,16 +95,16 @@ class TreadMemory:
             shift_rows(self._displacement, cells)
             for branch in self._branches:
                 shift_rows(branch, cells)
-            self._remember()
+            self._update_gap()
 
     def keep(self, pressure: Field) -> None:
-        """Take over the pressure [Pa] that was found with the present `gap`."""
+        """Store the pressure [Pa] that was found with the present `gap`."""
         displacement(self._raised, self._buffers, pressure, self._pressed)
-        take_step(self._pressed, self.gap, self._weights, self._decay, self._displacement, self._branches)
-        self._remember()
+        update_branches(self._pressed, self.gap, self._weights, self._decay, self._displacement, self._branches)
+        self._update_gap()
 
-    def _remember(self) -> None:
-        remembered_gap(
+    def _update_gap(self) -> None:
+        viscoelastic_gap(
             self._displacement, self._branches, self._viscous, self._weights, self._decay, self.gap
         )  # fmt: skip
 
@@ -123,7 +123,9 @@ def shift_rows(field: Field, cells: int) -> None:
 
 
 @entry
-def remembered_gap(displaced: Field, branches: Field, viscous: float, weights: Field, decay: Field, gap: Field) -> None:
+def viscoelastic_gap(
+    displaced: Field, branches: Field, viscous: float, weights: Field, decay: Field, gap: Field
+) -> None:
     """`g = [(T/h + sum w) u - sum a q] / s`, see the module."""
     held = viscous
     for k in range(weights.shape[0]):
@@ -137,7 +139,9 @@ def remembered_gap(displaced: Field, branches: Field, viscous: float, weights: F
 
 
 @entry
-def take_step(pressed: Field, gap: Field, weights: Field, decay: Field, displaced: Field, branches: Field) -> None:
+def update_branches(
+    pressed: Field, gap: Field, weights: Field, decay: Field, displaced: Field, branches: Field
+) -> None:
     """`u = K p / s + g`, `q = a q + w (u - u_before)`."""
     for i in range(gap.shape[0]):
         for j in range(gap.shape[1]):

@@ -20,7 +20,7 @@ def test_a_drop_is_a_parabola():
 
 
 @pytest.mark.parametrize("machine", [Drop(9.81), Pendulum(9.81, 0.5), Pendulum(1.62, 0.9)])
-def test_a_fall_begins_at_rest_and_ends_at_the_asked_speed(machine):
+def test_a_fall_begins_at_rest_and_ends_at_the_requested_speed(machine):
     flight = fall(machine, 1.2)
     approach, rate = flight.at(numpy.array([0.0, flight.duration]))
     assert rate[0] == pytest.approx(0.0, abs=1e-7)

@@ -2,9 +2,10 @@
 (Goloshchapov eqs 75-80).
 
 ``r' = k_p sqrt(R) x'/(2 sqrt x)``, ``r_AW' = (1 + sqrt 2)/2 r'``: without bound at first touch. The
-front is faster than the shear wave, ``V_s = sqrt(G'/rho)``, for 0 < t < t_s; a speed asked for in
+front is faster than the shear wave, ``V_s = sqrt(G'/rho)``, for 0 < t < t_s; a speed requested in
 that phase is given as V_s and flagged. t_s is the root of r_AW' = V_s on the integrated motion;
-cheaper: on the damped sine (eq 80), and for small times ``[k_p sqrt(R)(1 + sqrt 2)/4]^2 V0/V_s^2``.
+less expensive: on the damped sine (eq 80), and for small times ``[k_p sqrt(R)(1 + sqrt 2)/4]^2
+V0/V_s^2``.
 """
 
 from __future__ import annotations

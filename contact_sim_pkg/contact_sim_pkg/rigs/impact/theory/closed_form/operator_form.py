@@ -44,7 +44,7 @@ def maxwell(modulus: float, relaxation_time: float) -> Operators:
 
 
 def standard_solid(glassy_modulus: float, delayed_modulus: float, retardation_time: float) -> Operators:
-    """A spring E0 in a row with a Kelvin-Voigt element E1, tau: ``(E0 + E1 + E1 tau D) sigma = E0
+    """A spring E0 in series with a Kelvin-Voigt element E1, tau: ``(E0 + E1 + E1 tau D) sigma = E0
     E1 (1 + tau D) eps``.
     """
     check_positive("glassy modulus", glassy_modulus, "Pa")

@@ -38,7 +38,7 @@ SERIES = 7  # u, v, t, u^2, u^2 + zeta v, u v, heat
 HEAT = 6
 PEAK, TURNING, END = 0, 1, 2  # in the order in which they come
 DURATION, RESTITUTION, DEPTH, TURNING_TIME, PEAK_FORCE, PEAK_TIME = 0, 1, 2, 3, 4, 5
-# Where the march ended, and the heat by then
+# Where the integration ended, and the heat by then
 REACHED_ROOT, REACHED_SPEED, REACHED_TIME, LOST, RESULTS = 6, 7, 8, 9, 10
 
 

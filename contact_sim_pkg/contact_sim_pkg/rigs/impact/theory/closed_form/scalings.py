@@ -9,7 +9,7 @@ of the variable ones:
 
 with I1, I2 the integrals of sqrt(s)sqrt(1 - s^2) and sqrt(1 - s^2) over 0..1 (speed of a damped
 sine). `printed`: beta = 16/5, which supposes a speed in proportion to x, so none at first touch.
-Cheap rungs beside `rigs/impact/theory/motion.py`.
+Inexpensive formulas beside `rigs/impact/theory/motion.py`.
 """
 
 from __future__ import annotations

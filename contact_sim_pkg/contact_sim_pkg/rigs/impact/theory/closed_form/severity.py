@@ -108,7 +108,7 @@ def severity_of_restitution(restitution: float, end: str) -> float:
 
 
 def _bracket_below(loss_tangent: float, high: float) -> float:
-    """A severity with a smaller loss tangent than asked."""
+    """A severity with a smaller loss tangent than requested."""
     low = 0.5 * high
     while loss_tangent_of_severity(low, "force") > loss_tangent:
         low *= 0.5

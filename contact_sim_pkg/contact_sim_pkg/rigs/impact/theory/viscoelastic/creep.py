@@ -29,7 +29,7 @@ class Creep(NamedTuple):
 
 
 def maxwell(shear_modulus: float, viscosity: float) -> Creep:
-    """Spring and dashpot in a row; G > 0 [Pa], eta > 0 [Pa s], which may be infinite; raises
+    """Spring and dashpot in series; G > 0 [Pa], eta > 0 [Pa s], which may be infinite; raises
     ImpactError otherwise.
     """
     check_positive("shear modulus", shear_modulus, "Pa")
@@ -45,7 +45,7 @@ def kelvin_voigt(shear_modulus: float, retardation_time: float) -> Creep:
 
 
 def standard_solid(glassy_modulus: float, delayed_modulus: float, retardation_time: float) -> Creep:
-    """A spring G0 [Pa] in a row with a Kelvin-Voigt element G1 [Pa], tau [s]; all > 0, raises
+    """A spring G0 [Pa] in series with a Kelvin-Voigt element G1 [Pa], tau [s]; all > 0, raises
     ImpactError otherwise.
     """
     check_positive("glassy modulus", glassy_modulus, "Pa")

@@ -4,7 +4,7 @@ Radok; Goloshchapov eqs 108-113).
 ``x^(3/2) = 3 (1 - nu)/(8 sqrt R) I(t)``, ``I = int_0^t J(t - s) dF(s)``, J the shear creep
 compliance. A force F0 at the first time is a step. For exponentials I is a recursion: ``tau y' = F
 - y`` for each time constant, solved exactly for a force that is linear between samples, so the cost
-goes with the number of samples, not with its square. Right while the contact grows: samples behind
+scales with the number of samples, not with its square. Right while the contact grows: samples after
 its largest depth are flagged. Source: Lee and Radok, J. Appl. Mech. 27 (1960) 438.
 """
 
@@ -74,7 +74,7 @@ def hereditary_integral(creep: Creep, times: Vector, force: Vector) -> Vector:
 def _recursion(
     glassy: float, fluidity: float, compliances: Vector, retardation: Vector, times: Vector, force: Vector, out: Vector
 ) -> None:
-    """March over the samples: one internal variable a time constant, one for the fluid."""
+    """Loop over the samples: one internal variable a time constant, one for the fluid."""
     delayed = numpy.zeros(compliances.shape[0])
     impulse = 0.0
     out[0] = glassy * force[0]
