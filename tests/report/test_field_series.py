@@ -5,7 +5,7 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
-from contact_sim_pkg.report.field_series import AROUND_LARGEST_LOAD, FieldPass
+from contact_sim_pkg.report.field_series import AROUND_LARGEST_LOAD, FieldReader
 
 CELL = 0.01  # [m]
 
@@ -21,9 +21,9 @@ def message(pressure, load=None, origin=(0.0, 0.0)):
 
 
 def passed(messages):
-    fields = FieldPass()
+    fields = FieldReader()
     for number, each in enumerate(messages):
-        fields.take(0.01 * number, each)
+        fields.add(0.01 * number, each)
     return fields.finish()
 
 

@@ -1,4 +1,4 @@
-"""Contact points taken in one by one."""
+"""Contact points read one by one."""
 
 from types import SimpleNamespace
 
@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from contact_sim_pkg.bag.errors import BagError
-from contact_sim_pkg.report.point_reading import PointPass
+from contact_sim_pkg.report.point_reading import PointReader
 
 
 def instant(*normal, state=None):
@@ -19,9 +19,9 @@ def instant(*normal, state=None):
 
 
 def taken(*instants):
-    points = PointPass()
+    points = PointReader()
     for number, each in enumerate(instants):
-        points.take(0.1 * number, each)
+        points.add(0.1 * number, each)
     return points.finish()
 
 

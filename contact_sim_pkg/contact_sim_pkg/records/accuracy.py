@@ -42,7 +42,9 @@ class AccuracyStudy(NamedTuple):
     rows: Rows
     parts: tuple[AccuracyPart, ...]
     first_call: Callable[[Any], float | None] | None = None
-    """resolved scene -> seconds of the first solve of what compiles longest; None where the scene has none"""
+    """resolved scene -> seconds of the first solve of what compiles longest; None where the scene
+    has none
+    """
 
 
 INTEGRATOR = AccuracyPart("integrator", "time integration, point contacts: error", "time integration, point contacts")

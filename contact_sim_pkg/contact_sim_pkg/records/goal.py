@@ -13,7 +13,9 @@ REPEATS = 7
 
 
 class Measured(NamedTuple):
-    """One figure; `most` or `least` is its goal, both None where it has none. `value` is None where it could not be measured."""
+    """One figure; `most` or `least` is its goal, both None where it has none. `value` is None where
+    it could not be measured.
+    """
 
     what: str
     value: float | None

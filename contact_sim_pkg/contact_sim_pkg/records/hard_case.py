@@ -1,4 +1,6 @@
-"""A hard case: a computed value beside an expectation that shares no code with it, and the margin that is left."""
+"""A hard case: a computed value beside an expectation that shares no code with it, and the margin
+that is left.
+"""
 
 from __future__ import annotations
 

@@ -14,7 +14,7 @@ class SeriesReader:
     Attributes:
         name: of the series in `Recording.series`.
         types: message types that it reads, `package/msg/Type`.
-        reader: class without arguments. ``take(time, type, message)`` takes the messages in the order
+        reader: class without arguments. ``add(time, type, message)`` reads the messages in the order
             of the bag, `time` in [s]; ``finish()`` returns the series, or None.
     """
 

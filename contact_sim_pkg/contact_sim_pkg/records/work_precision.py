@@ -1,4 +1,6 @@
-"""A work-precision study: one quantity by several methods, error beside time. Its rows, and the time of a call."""
+"""A work-precision study: one quantity by several methods, error beside time. Its rows, and the
+time of a call.
+"""
 
 from __future__ import annotations
 
@@ -39,7 +41,8 @@ class WorkPrecision(NamedTuple):
 
 
 def milliseconds(call: Callable[[], object]) -> float:
-    """Median processor time of a call in ms, of one thread: on a quiet core that is its wall time, on a busy one it still is.
+    """Median processor time of a call in ms, of one thread: on a quiet core that is its wall time,
+    on a busy one it still is.
 
     The first call, which may compile, does not count.
     """

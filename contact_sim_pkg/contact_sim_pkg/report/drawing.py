@@ -1,4 +1,6 @@
-"""Drawing for the page: one style, and SVG that takes its colours from the page: light, dark or print."""
+"""Drawing for the page: one style, and SVG that takes its colours from the page: light, dark or
+print.
+"""
 
 from __future__ import annotations
 
@@ -85,7 +87,9 @@ class Picture(NamedTuple):
 
 
 def new_figure(height: float, rows: int = 1, cols: int = 1, **options: Any) -> tuple[Figure, list[Axes]]:
-    """A figure of the page's width and `height` [inch], and its axes, row by row. Call inside `style()`."""
+    """A figure of the page's width and `height` [inch], and its axes, row by row. Call inside
+    `style()`.
+    """
     figure = Figure(figsize=(WIDTH, height), layout="constrained")
     axes = figure.subplots(rows, cols, squeeze=False, **options)
     return figure, [each for row in axes for each in row]
@@ -101,7 +105,9 @@ BAND = " Band: smallest to largest value of each 350th of the time; line: its me
 
 
 def draw_series(axes: Axes, time: FloatArray, values: FloatArray, **line: Any) -> str:
-    """A series as a line; a long one as the band that it fills with its mean as a line, and `BAND` for the caption."""
+    """A series as a line; a long one as the band that it fills with its mean as a line, and `BAND`
+    for the caption.
+    """
     if values.size <= 2 * BANDS:
         axes.plot(time, values, **line)
         return ""
@@ -124,7 +130,8 @@ def check_picture(path: Path, inputs: Iterable[Path | None] = (), *, overwrite: 
 
 
 def save_picture(figure: Figure, path: str | Path, *, overwrite: bool = False, **options: Any) -> Path:
-    """Write a figure into a new file, whose ending names the format; options as of `Figure.savefig`.
+    """Write a figure into a new file, whose ending names the format; options as of
+    `Figure.savefig`.
 
     Raises:
         FileRefusedError: as `check_picture`. OSError: it cannot be written.

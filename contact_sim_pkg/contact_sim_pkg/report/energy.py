@@ -1,4 +1,4 @@
-"""How well an energy ledger adds up."""
+"""Residual of an energy ledger."""
 
 from __future__ import annotations
 

@@ -1,4 +1,6 @@
-"""What was run, as rows of text for the page: scene, effects, grids, tolerances, excitation, versions."""
+"""What was run, as rows of text for the page: scene, effects, grids, tolerances, excitation,
+versions.
+"""
 
 from __future__ import annotations
 
@@ -81,7 +83,9 @@ def version_rows(recording: Recording) -> list[Row]:
 
 
 def warnings(recording: Recording) -> list[str]:
-    """What a reader must know before the numbers: an unfinished bag, a run that failed or was stopped, those of the rig."""
+    """What a reader must know before the numbers: an unfinished bag, a run that failed or was
+    stopped, those of the rig.
+    """
     found = list(recording.notes)
     ended = recording.metadata.get("ended", "finished")
     if ended != "finished":

@@ -1,4 +1,6 @@
-"""The pressure fields of one topic, taken in one by one: a minute of them would not fit into a small memory."""
+"""The pressure fields of one topic, read one by one: a minute of them would not fit into a small
+memory.
+"""
 
 from __future__ import annotations
 
@@ -19,15 +21,16 @@ HISTORY_ROWS = 4000
 """Most rows of the history of the line load."""
 
 
-class FieldPass:
+class FieldReader:
     """Scalars of all fields, a few whole fields, and the line load along x over time.
 
-    A contact that outgrows its grid is solved on a wider one of the same cells, so fields of two sizes may come. Mean and
-    history are taken over the widest, cells laid over each other by their place in the contact's frame.
+    A contact that outgrows its grid is solved on a wider one of the same cells, so fields of two
+    sizes may come. Mean and history are taken over the widest, cells laid over each other by their
+    place in the contact's frame.
     """
 
     def __init__(self) -> None:
-        """Nothing taken in yet."""
+        """Nothing read yet."""
         self._scalars: list[tuple[float, ...]] = []
         self._total: FloatArray = np.zeros((0, 0))
         self._widest: Any = None
@@ -38,8 +41,10 @@ class FieldPass:
         self._first: tuple[float, Any] | None = None
         self._touch: tuple[float, Any] | None = None
 
-    def take(self, time: float, message: Any) -> None:
-        """Take in the field at `time` [s]. BagError for a field that does not fill its grid, or on cells of another size."""
+    def add(self, time: float, message: Any) -> None:
+        """Read the field at `time` [s]. BagError for a field that does not fill its grid, or on
+        cells of another size.
+        """
         if len(message.pressure) != message.rows * message.cols:
             raise BagError(
                 f"the field at {time:.6f} s has {len(message.pressure)} values for {message.rows} x {message.cols} cells"
@@ -55,9 +60,9 @@ class FieldPass:
         self._scalars.append((time, *(float(getattr(message, name)) for name in SCALARS), *size))
         line = np.zeros(self._widest.rows)
         line[row : row + message.rows] = pressure.sum(axis=1, dtype=np.float64) * message.cell_y
-        self._history_time.take(np.array([time]))
-        self._history.take(line)
-        self._event.take(time, message)
+        self._history_time.add(np.array([time]))
+        self._history.add(line)
+        self._event.add(time, message)
         if self._highest is None or message.peak > self._highest.peak:
             self._highest, self._highest_time = message, time
 
@@ -83,9 +88,9 @@ class FieldPass:
             self._widest, self._total = message, total
 
     def finish(self) -> FieldSeries:
-        """The series of all fields taken in; at least one."""
+        """The series of all fields read; at least one."""
         if self._first is None:
-            raise BagError("no field was taken in")
+            raise BagError("no field was read")
         time, *columns = np.array(self._scalars).T
         return FieldSeries(
             time=time,
@@ -111,8 +116,8 @@ class _LargestLoad:
         self._load = -math.inf
         self._wanted = 0
 
-    def take(self, time: float, message: Any) -> None:
-        """Take in the next field; the first of several equal loads counts."""
+    def add(self, time: float, message: Any) -> None:
+        """Read the next field; the first of several equal loads counts."""
         self._recent.append((time, message))
         if message.load > self._load:
             self._load, self._wanted = message.load, AROUND_LARGEST_LOAD + 1

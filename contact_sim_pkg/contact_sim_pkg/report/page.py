@@ -37,7 +37,9 @@ def is_page(path: Path) -> bool:
 
 
 def environment() -> Environment:
-    """Templates of the pages. Pictures are the one thing marked as safe markup; all else is escaped."""
+    """Templates of the pages. Pictures are the one thing marked as safe markup; all else is
+    escaped.
+    """
     return Environment(
         loader=PackageLoader(__package__, "templates"), autoescape=True, undefined=StrictUndefined, trim_blocks=True,
         lstrip_blocks=True,

@@ -1,4 +1,6 @@
-"""The contact points of one topic, taken in instant by instant: only one of them and counts are kept of every instant."""
+"""The contact points of one topic, read instant by instant: only one of them and counts are kept of
+every instant.
+"""
 
 from __future__ import annotations
 
@@ -14,11 +16,13 @@ STATES = range(APART, SLIPS + 1)
 COUNTS = ("apart", "touching", "sticking", "slipping")
 
 
-class PointPass:
-    """Counts of the states, the course of point 1, and all points at first touch and at the largest force."""
+class PointReader:
+    """Counts of the states, the course of point 1, and all points at first touch and at the largest
+    force.
+    """
 
     def __init__(self) -> None:
-        """Nothing taken in yet."""
+        """Nothing read yet."""
         self._rows: list[tuple[float, ...]] = []
         self._points = 0
         self._first: int | None = None
@@ -28,8 +32,10 @@ class PointPass:
         self._heaviest: tuple[float, Any] | None = None
         self._load = -1.0
 
-    def take(self, time: float, message: Any) -> None:
-        """Take in the points at `time` [s]. BagError for arrays of different length or another number of points."""
+    def add(self, time: float, message: Any) -> None:
+        """Read the points at `time` [s]. BagError for arrays of different length or another number
+        of points.
+        """
         count = len(message.x)
         if any(len(getattr(message, name)) != count for name in ("y", "state", *OF_POINT_1)) or not count:
             raise BagError(f"the contact points at {time:.6f} s have arrays of different length, or none at all")
@@ -53,9 +59,9 @@ class PointPass:
         self._before = load
 
     def finish(self) -> PointSeries:
-        """The series of all instants taken in; at least one."""
+        """The series of all instants read; at least one."""
         if self._touch is None or self._heaviest is None:
-            raise BagError("no contact points were taken in")
+            raise BagError("no contact points were read")
         columns = dict(zip(("time", *COUNTS, *OF_POINT_1), np.array(self._rows).T, strict=True))
         number = self._first or 0
         return PointSeries(

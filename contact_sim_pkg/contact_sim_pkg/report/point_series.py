@@ -32,7 +32,9 @@ class PointSnapshot(NamedTuple):
 
 
 class PointSeries(NamedTuple):
-    """Points of one contact over time. Point 1 is the one that carries most at the first instant with a force."""
+    """Points of one contact over time. Point 1 is the one that carries most at the first instant
+    with a force.
+    """
 
     time: FloatArray
     """[s]"""

@@ -17,8 +17,8 @@ from contact_sim_pkg.bag.reader import Bag
 from contact_sim_pkg.bag.texts import scene_of_text
 from contact_sim_pkg.bag.typestore import store_of_definition
 from contact_sim_pkg.records.rig import load
-from contact_sim_pkg.report.field_series import FieldPass
-from contact_sim_pkg.report.point_reading import PointPass
+from contact_sim_pkg.report.field_series import FieldReader
+from contact_sim_pkg.report.point_reading import PointReader
 from contact_sim_pkg.report.rig_reports import series_readers
 from contact_sim_pkg.report.series import (
     ContactSeries,
@@ -51,7 +51,8 @@ def read_recording(bag: Bag) -> Recording:
     """Read every series, in one pass over the bag.
 
     Raises:
-        BagError: a message does not fit its definition, or a chunk is damaged and bad chunks are not skipped.
+        BagError: a message does not fit its definition, or a chunk is damaged and bad chunks are
+            not skipped.
     """
     read = _read_types()
     kinds = {row.type: row.definition for row in bag.topics.values() if row.type in read}
@@ -93,7 +94,9 @@ def read_recording(bag: Bag) -> Recording:
 
 @contextmanager
 def scenes_fit(bags: Sequence[Bag]) -> Iterator[None]:
-    """What fails inside on a scene that this version would not run, or on another definition, is a BagError that names it."""
+    """What fails inside on a scene that this version would not run, or on another definition, is a
+    BagError that names it.
+    """
     try:
         yield
     except (BagError, OSError):
@@ -113,11 +116,13 @@ def scenes_fit(bags: Sequence[Bag]) -> Iterator[None]:
 
 
 class Decoded(NamedTuple):
-    """Messages of the series by topic; fields, points and what only one rig records are read one by one, for they are large."""
+    """Messages of the series by topic; fields, points and what only one rig records are read one by
+    one, for they are large.
+    """
 
     series: dict[str, list[tuple[int, Any]]]
-    fields: dict[str, FieldPass]
-    points: dict[str, PointPass]
+    fields: dict[str, FieldReader]
+    points: dict[str, PointReader]
     of_rigs: dict[tuple[str, str], Any]
     """readers by the name of their series and the namespace of their topics"""
 
@@ -148,15 +153,15 @@ def _decode(bag: Bag, stores: dict[str, Typestore]) -> Decoded:
             where = f"{bag.path}: the message of {message.topic} at {seconds:.6f} s"
             raise BagError(f"{where} does not fit the definition in the bag: {error}") from None
         if message.type == PATCH:
-            decoded.fields.setdefault(message.topic, FieldPass()).take(seconds, value)
+            decoded.fields.setdefault(message.topic, FieldReader()).add(seconds, value)
         elif message.type == POINTS:
-            decoded.points.setdefault(message.topic, PointPass()).take(seconds, value)
+            decoded.points.setdefault(message.topic, PointReader()).add(seconds, value)
         elif message.type in readers:
             reader = readers[message.type]
             place = reader.name, message.topic.rpartition("/")[0]
             if place not in decoded.of_rigs:
                 decoded.of_rigs[place] = load(reader.reader)()
-            decoded.of_rigs[place].take(seconds, message.type, value)
+            decoded.of_rigs[place].add(seconds, message.type, value)
         else:
             decoded.series.setdefault(message.topic, []).append((message.log_time, value))
     return decoded
@@ -169,7 +174,9 @@ def contact_name(topic: str) -> str:
 
 
 def _contact_names(bag: Bag) -> dict[str, str]:
-    """Contact of each topic, by its name in the bag; BagError where two topics of a type call theirs the same."""
+    """Contact of each topic, by its name in the bag; BagError where two topics of a type call
+    theirs the same.
+    """
     names: dict[str, str] = {}
     seen: dict[tuple[str, str], str] = {}
     for name, row in bag.topics.items():
@@ -183,7 +190,9 @@ def _contact_names(bag: Bag) -> dict[str, str]:
 
 
 def _duration(series: list[ContactSeries | MotionSeries], scene: dict[str, Any], bag: Bag) -> float:
-    """End of the last sample; without samples the end of the last block, as far as the scene tells its length."""
+    """End of the last sample; without samples the end of the last block, as far as the scene tells
+    its length.
+    """
     if series:
         return max(float(each.time[-1]) + each.sample_period for each in series)
     block_length = scene.get("block_length")
@@ -225,10 +234,10 @@ def _motion(columns: dict[str, Any]) -> MotionSeries:
     )
 
 
-def _episodes(columns: Callable[[str, tuple[str, ...]], dict[str, Any]], topic: str, held: bool) -> EpisodeSeries:
+def _episodes(columns: Callable[[str, tuple[str, ...]], dict[str, Any]], topic: str, recorded: bool) -> EpisodeSeries:
     """Episodes of a topic; it carries nothing where none ended."""
     names = EpisodeSeries._fields
-    return episode_series(columns(topic, names) if held else {name: [] for name in names})
+    return episode_series(columns(topic, names) if recorded else {name: [] for name in names})
 
 
 def _cost(columns: dict[str, Any]) -> CostSeries:

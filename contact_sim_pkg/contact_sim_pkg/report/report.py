@@ -1,4 +1,6 @@
-"""The report of a bag: one HTML page with every picture inside, without scripts and without anything to load."""
+"""The report of a bag: one HTML page with every picture inside, without scripts and without
+anything to load.
+"""
 
 from __future__ import annotations
 

@@ -1,4 +1,6 @@
-"""What the rigs of a recording add to its numbers; found through the registry. Loads no drawing of pictures."""
+"""What the rigs of a recording add to its numbers; found through the registry. Loads no drawing of
+pictures.
+"""
 
 from __future__ import annotations
 
@@ -54,7 +56,9 @@ def rig_warnings(recording: Recording) -> list[str]:
 
 
 def drive_period(recording: Recording) -> float | None:
-    """Period [s] of the drive of a run, that of a rig or of the vibration; None for one without cycles."""
+    """Period [s] of the drive of a run, that of a rig or of the vibration; None for one without
+    cycles.
+    """
     for each in reports_of(recording):
         period: float | None = load(each.drive_period)(recording.scene) if each.drive_period else None
         if period is not None:

@@ -20,7 +20,9 @@ SUFFIXES = {
     "_m": "m",
     "_s": "s",
 }
-"""Endings of the keys that an excitation describes itself with, longest first where one ends another."""
+"""Endings of the keys that an excitation describes itself with, longest first where one ends
+another.
+"""
 
 
 class Row(NamedTuple):
@@ -31,7 +33,8 @@ class Row(NamedTuple):
 
 
 def scene_rows(value: Any, location: tuple[str, ...] = (), shown_from: int = 0) -> list[Row]:
-    """Values of a scene, or of the part at `location`, with the units of the schema; None is left out.
+    """Values of a scene, or of the part at `location`, with the units of the schema; None is left
+    out.
 
     Args:
         value: of the scene at `location`.
@@ -56,7 +59,9 @@ def scene_value(value: Any, location: tuple[str, ...]) -> str:
 
 
 def described_rows(value: Any, label: str = "") -> list[Row]:
-    """Values that an excitation describes itself with; the unit is the end of the key (`frequency_Hz`)."""
+    """Values that an excitation describes itself with; the unit is the end of the key
+    (`frequency_Hz`).
+    """
     if value is None or value in ([], {}):
         return []
     if isinstance(value, dict):

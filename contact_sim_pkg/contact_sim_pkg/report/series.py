@@ -75,7 +75,9 @@ class FieldSeries(NamedTuple):
     """[m^2]"""
     lame_a: FloatArray
     lame_b: FloatArray
-    """[m] semi-axes along x and y of the Lame curve through the contact's boundary; 0 without contact"""
+    """[m] semi-axes along x and y of the Lame curve through the contact's boundary; 0 without
+    contact
+    """
     lame_n: FloatArray
     """exponent of that curve"""
     length: FloatArray
@@ -200,7 +202,9 @@ class Recording(NamedTuple):
     notes: list[str]
     """what the bag says is missing in it"""
     metadata: dict[str, str]
-    """texts kept with the recording: versions, excitation, how the run ended; the scene is not among them"""
+    """texts kept with the recording: versions, excitation, how the run ended; the scene is not
+    among them
+    """
     topics: list[TopicCount]
     contacts: dict[str, ContactSeries]
     fields: dict[str, FieldSeries]
@@ -212,4 +216,6 @@ class Recording(NamedTuple):
     episodes: EpisodeSeries | None = None
     points: PointSeries | None = None
     series: Mapping[str, Any] = MappingProxyType({})
-    """what only one rig records, by the name of its `records.report.SeriesReader`; what the bag does not hold is absent"""
+    """what only one rig records, by the name of its `records.report.SeriesReader`; what the bag
+    does not hold is absent
+    """

@@ -1,6 +1,7 @@
 """The numbers of a run that a person or a script asks for first.
 
-A run that a signal ends still prints them, so what only one rig needs and takes long to load is loaded there.
+A run that a signal ends still prints them, so what only one rig needs and takes long to load is
+loaded there.
 """
 
 from __future__ import annotations
@@ -19,16 +20,18 @@ from contact_sim_pkg.report.signal.episodes import slap_numbers
 
 
 def summarise(bag: Bag) -> dict[str, Any]:
-    """Summary numbers of a bag; see `summarise_recording`. Raises BagError where the bag cannot be read."""
+    """Summary numbers of a bag; see `summarise_recording`. Raises BagError where the bag cannot be
+    read.
+    """
     return summarise_recording(read_recording(bag))
 
 
 def summarise_recording(recording: Recording) -> dict[str, Any]:
     """Summary numbers, ready for JSON: SI units in the names, None where a number is not defined.
 
-    Sections that the run does not have are absent: `slaps` without contact episodes, `energy` without a
-    ledger, `solver` without cost messages, the pressure of a contact without a field. Rigs add sections
-    and numbers of their contacts (`records.report`).
+    Sections that the run does not have are absent: `slaps` without contact episodes, `energy`
+    without a ledger, `solver` without cost messages, the pressure of a contact without a field.
+    Rigs add sections and numbers of their contacts (`records.report`).
     """
     summary: dict[str, Any] = {
         "scene": recording.scene.get("name"),
@@ -56,7 +59,9 @@ def summarise_recording(recording: Recording) -> dict[str, Any]:
 
 
 def force_numbers(contact: ContactSeries) -> dict[str, Any]:
-    """Load in [N], share of the time without contact (0 .. 1), number of lift-offs: from a load to none."""
+    """Load in [N], share of the time without contact (0 .. 1), number of lift-offs: from a load to
+    none.
+    """
     apart = contact.normal <= 0.0
     return {
         "load_mean_N": float(contact.normal.mean()),
@@ -68,7 +73,9 @@ def force_numbers(contact: ContactSeries) -> dict[str, Any]:
 
 
 def field_numbers(field: FieldSeries | None) -> dict[str, Any]:
-    """Largest pressure and when, mean contact area over all recorded instants; empty without a field."""
+    """Largest pressure and when, mean contact area over all recorded instants; empty without a
+    field.
+    """
     if field is None:
         return {}
     return {
@@ -79,7 +86,9 @@ def field_numbers(field: FieldSeries | None) -> dict[str, Any]:
 
 
 def energy_numbers(ledger: LedgerSeries) -> dict[str, Any]:
-    """Work supplied and dissipated at the end in [J]; largest residual, plain and over the throughput (at least 1e-6 J)."""
+    """Work supplied and dissipated at the end in [J]; largest residual, plain and over the
+    throughput (at least 1e-6 J).
+    """
     return {
         "supplied_J": float(ledger.supplied[-1]),
         "dissipated_J": float(ledger.dissipated[-1]),
@@ -90,7 +99,9 @@ def energy_numbers(ledger: LedgerSeries) -> dict[str, Any]:
 
 
 def solver_numbers(cost: CostSeries) -> dict[str, Any]:
-    """Steps, events and iterations over the run; wall time of the physics; largest field residual and jump."""
+    """Steps, events and iterations over the run; wall time of the physics; largest field residual
+    and jump.
+    """
     wall = float(cost.wall_time.sum())
     simulated = float((cost.real_time_factor * cost.wall_time).sum())
     return {

@@ -20,7 +20,9 @@ class Tile(NamedTuple):
 
 
 def tiles(summary: dict[str, Any], of_rigs: Sequence[Tile] = ()) -> list[Tile]:
-    """Key numbers of a summary from `summarise`, and those of the rigs; numbers that are not defined have no tile."""
+    """Key numbers of a summary from `summarise`, and those of the rigs; numbers that are not
+    defined have no tile.
+    """
     found: list[Tile] = []
     for name, contact in summary["contacts"].items():
         found += _contact_tiles(name, contact)
@@ -30,7 +32,7 @@ def tiles(summary: dict[str, Any], of_rigs: Sequence[Tile] = ()) -> list[Tile]:
     if energy.get("residual_relative") is not None:
         scale = max(energy["throughput_J"], AT_REST)
         detail = f"{number(energy['residual_max_J'])} J of {number(scale)} J"
-        found.append(Tile("energy that does not add up", number(energy["residual_relative"]), "", detail))
+        found.append(Tile("energy balance residual", number(energy["residual_relative"]), "", detail))
     solver = summary.get("solver", {})
     if solver.get("physics_real_time_factor") is not None:
         detail = f"without recording and messages; {solver['steps']} steps, {solver['events']} events"

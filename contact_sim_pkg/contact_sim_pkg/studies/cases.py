@@ -1,4 +1,6 @@
-"""Where the studies find their cases: those that belong to no rig are listed here, by room; rigs bring theirs."""
+"""Where the studies find their cases: those that belong to no rig are listed here, by room; rigs
+bring theirs.
+"""
 
 from __future__ import annotations
 

@@ -1,4 +1,6 @@
-"""How long a scene takes to its first answer in a fresh process: `python -m contact_sim_pkg.studies.first_call SCENE`."""
+"""How long a scene takes to its first answer in a fresh process: `python -m
+contact_sim_pkg.studies.first_call SCENE`.
+"""
 
 from __future__ import annotations
 
@@ -8,7 +10,9 @@ import time
 
 
 def main(scene_name: str) -> None:
-    """Write one JSON object: seconds from the start of the imports to a block done, and of the first field solve (or null)."""
+    """Write one JSON object: seconds from the start of the imports to a block done, and of the
+    first field solve (or null).
+    """
     began = time.perf_counter()
     from contact_sim_pkg.records.registry import rigs
     from contact_sim_pkg.run.rigs import make_simulation

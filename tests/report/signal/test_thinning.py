@@ -11,7 +11,7 @@ from contact_sim_pkg.report.signal.thinning import ThinnedRows
 def taken(rows, limit, reduce=np.mean):
     table = ThinnedRows(limit, reduce)
     for row in rows:
-        table.take(row)
+        table.add(row)
     return table
 
 
@@ -53,7 +53,7 @@ def test_memory_is_bounded_and_extremes_survive(size, limit):
 def test_rows_taken_before_a_widening_are_padded():
     table = taken([np.ones(2)] * 3, 4)
     table.widen(1, 2)
-    table.take(np.full(5, 3.0))
+    table.add(np.full(5, 3.0))
 
     np.testing.assert_array_equal(table.finish(), [[0, 1, 1, 0, 0], [1.5, 2, 2, 1.5, 1.5]])
 

@@ -8,7 +8,7 @@ from contact_sim_pkg.bag.errors import BagError
 from contact_sim_pkg.bag.messages import decode
 from contact_sim_pkg.bag.reader import open_bag
 from contact_sim_pkg.records.messages import ContactPatch
-from contact_sim_pkg.report.reading import FieldPass
+from contact_sim_pkg.report.reading import FieldReader
 from contact_sim_pkg.report.summary import summarise
 from contact_sim_pkg.rigs.vehicle.simulation import Simulation
 from contact_sim_pkg.run.offline import run_offline
@@ -60,9 +60,9 @@ def test_the_mean_lays_cells_over_each_other_by_their_place(order):
     wide = numpy.arange(48.0).reshape(6, 8)
     narrow = numpy.full((2, 4), 100.0)
     messages = [patch(wide, (-0.03, -0.04)), patch(narrow, (-0.01, -0.02))]
-    fields = FieldPass()
+    fields = FieldReader()
     for number in order:
-        fields.take(0.01 * number, messages[number])
+        fields.add(0.01 * number, messages[number])
     expected = wide.copy()
     expected[2:4, 2:6] += 100.0
     series = fields.finish()
@@ -71,9 +71,9 @@ def test_the_mean_lays_cells_over_each_other_by_their_place(order):
 
 
 def test_fields_on_other_cells_are_refused():
-    fields = FieldPass()
-    fields.take(0.0, patch(numpy.ones((4, 4))))
+    fields = FieldReader()
+    fields.add(0.0, patch(numpy.ones((4, 4))))
     with pytest.raises(BagError, match="same cells"):
-        fields.take(0.01, patch(numpy.ones((4, 4)), cell=0.02))
+        fields.add(0.01, patch(numpy.ones((4, 4)), cell=0.02))
     with pytest.raises(BagError, match="must hold the other"):
-        fields.take(0.01, patch(numpy.ones((6, 2))))
+        fields.add(0.01, patch(numpy.ones((6, 2))))

@@ -107,7 +107,7 @@ def test_polynomial_power_and_table_are_worse_than_the_exact_root():
 def test_on_a_smooth_road_the_closed_form_is_exact_and_the_field_converges_to_it(smooth_rows):
     for given in GIVEN:
         assert error_of(smooth_rows, FIELD, "Hertz ellipse", given) < 1e-13
-        errors = [error_of(smooth_rows, FIELD, tier.name, given) for tier in ladder_smooth.TIERS]
+        errors = [error_of(smooth_rows, FIELD, tier.name, given) for tier in ladder_smooth.LEVELS]
         assert errors == sorted(errors, reverse=True)
         assert errors[-1] < 4e-3
     assert error_of(smooth_rows, "approach", "FFT-CG reference", GIVEN[0]) < 2e-5
@@ -116,14 +116,14 @@ def test_on_a_smooth_road_the_closed_form_is_exact_and_the_field_converges_to_it
 
 def test_on_a_rough_road_the_winkler_bed_is_far_off_and_the_tiers_come_closer(rough_rows):
     for given in GIVEN:
-        errors = [error_of(rough_rows, FIELD, tier.name, ROUGH[given]) for tier in ladder_smooth.TIERS]
+        errors = [error_of(rough_rows, FIELD, tier.name, ROUGH[given]) for tier in ladder_smooth.LEVELS]
         assert error_of(rough_rows, FIELD, "Winkler bed", ROUGH[given]) > 0.5 > errors[0]
         assert errors[-1] < errors[1] < 0.2
         assert error_of(rough_rows, PEAK, "Winkler bed", ROUGH[given]) > 0.5
 
 
 def test_what_is_given_comes_back_exactly(rough_rows):
-    for tier in ladder_smooth.TIERS:
+    for tier in ladder_smooth.LEVELS:
         assert error_of(rough_rows, FORCE, tier.name, ROUGH[GIVEN[0]]) < 1e-8
         assert error_of(rough_rows, "approach", tier.name, ROUGH[GIVEN[1]]) == 0.0
 
@@ -136,7 +136,7 @@ def test_grid_error_stands_beside_solver_error_and_bounds_the_error_with_it(roug
             row["error"]
             <= 1.1 * (row["solver_error"] + row["grid_error"] + row["solver_error"] * row["grid_error"]) + 1e-12
         )
-    last = ladder_smooth.TIERS[-1].name
+    last = ladder_smooth.LEVELS[-1].name
     for given in GIVEN:
         assert error_of(rough_rows, FIELD, last, ROUGH[given], key="solver_error") < 1e-4
         assert error_of(rough_rows, FIELD, last, ROUGH[given], key="grid_error") > 1e-3
@@ -147,8 +147,8 @@ def test_grid_error_stands_beside_solver_error_and_bounds_the_error_with_it(roug
 def test_two_tiers_differ_on_a_further_road_by_little_more_than_both_announce_at_most(rough_rows, seed, given):
     assert seed not in ladder_rough.SEEDS
     value = LOAD if given == GIVEN[0] else 7.6e-3
-    answers = [solve(patch_problem(tier.cells, seed), given, value, tier.tolerance) for tier in ladder_smooth.TIERS]
-    pairs = zip(ladder_smooth.TIERS, answers, strict=True)
+    answers = [solve(patch_problem(tier.cells, seed), given, value, tier.tolerance) for tier in ladder_smooth.LEVELS]
+    pairs = zip(ladder_smooth.LEVELS, answers, strict=True)
     for (coarse, one), (fine, other) in itertools.combinations(pairs, 2):
         for quantity, difference in distances(one, other).items():
             announced = [error_of(rough_rows, quantity, tier.name, ROUGH[given]) for tier in (coarse, fine)]

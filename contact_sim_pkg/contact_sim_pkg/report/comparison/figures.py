@@ -38,7 +38,9 @@ class Run(NamedTuple):
     recording: Recording
 
     def steady(self) -> tuple[float, float | None]:
-        """Start [s] of the last cycles of the drive, and its period [s]; 0 and None for a drive without cycles."""
+        """Start [s] of the last cycles of the drive, and its period [s]; 0 and None for a drive
+        without cycles.
+        """
         period = drive_period(self.recording)
         return steady_start(self.recording.duration, period), period
 
@@ -80,7 +82,9 @@ def _over_cycles(run: Run, time: FloatArray, values: FloatArray) -> tuple[FloatA
 
 
 def loop_comparison(key: str, name: str, runs: list[Run], title: str) -> Picture:
-    """Normal force over approach, of point 1 too where there are many, and friction over tangential displacement."""
+    """Normal force over approach, of point 1 too where there are many, and friction over tangential
+    displacement.
+    """
     panels: list[tuple[str, str, str, Callable[[Recording], Loop | None]]] = [
         ("normal force, N", "approach, mm", "whole contact", lambda each: normal_loop(each.contacts[name]))
     ]
@@ -152,7 +156,9 @@ def _loop_works(name: str, runs: list[Run], *, friction: bool) -> str:
 
 
 def area_comparison(key: str, name: str, runs: list[Run], title: str) -> Picture | None:
-    """Figure 7: area over S_ref through one impact and over the last cycles; None where a run lacks it."""
+    """Figure 7: area over S_ref through one impact and over the last cycles; None where a run lacks
+    it.
+    """
     fields = [run.recording.fields.get(name) for run in runs]
     areas = [None if field is None else area_ratio(field) for field in fields]
     drawn = [(run, area) for run, area in zip(runs, areas, strict=True) if area is not None]

@@ -34,7 +34,9 @@ class Labels(NamedTuple):
 
 
 def differences(scenes: Sequence[dict[str, Any]]) -> list[Difference]:
-    """Values that are not the same in all scenes, in the order of the first scene that has them; how it is run comes last."""
+    """Values that are not the same in all scenes, in the order of the first scene that has them;
+    how it is run comes last.
+    """
     flat = [dict(_leaves(scene)) for scene in scenes]
     keys = dict.fromkeys(key for each in flat for key in each if key)  # a bag without a scene has the empty key
     found = []
@@ -46,7 +48,9 @@ def differences(scenes: Sequence[dict[str, Any]]) -> list[Difference]:
 
 
 def labels(recordings: Sequence[Recording]) -> Labels:
-    """The first value that alone tells all runs apart; else all of them together, if few; else the names of the bags."""
+    """The first value that alone tells all runs apart; else all of them together, if few; else the
+    names of the bags.
+    """
     found = differences([each.scene for each in recordings])
     for each in found:
         if len(set(each.values)) == len(recordings):

@@ -1,4 +1,6 @@
-"""Tables of a comparison: in which values of their scenes the runs differ, and their main numbers side by side."""
+"""Tables of a comparison: in which values of their scenes the runs differ, and their main numbers
+side by side.
+"""
 
 from __future__ import annotations
 

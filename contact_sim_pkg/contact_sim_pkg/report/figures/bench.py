@@ -12,7 +12,7 @@ from contact_sim_pkg.report.summary import solver_numbers
 
 
 def energy_balance(ledger: LedgerSeries) -> Picture:
-    """Work in, energy held and lost, and below them the residual over the throughput."""
+    """Work in, energy stored and dissipated, and below them the residual over the throughput."""
     figure, axes = new_figure(4.0, 2, sharex=True, height_ratios=[2, 1])
     held = ledger.kinetic + ledger.potential + ledger.stored
     axes[0].plot(*envelope(ledger.time, ledger.supplied), color=INK, label="supplied")
@@ -35,7 +35,7 @@ def energy_balance(ledger: LedgerSeries) -> Picture:
     axes[1].set_xlim(ledger.time[0], max(ledger.time[-1], ledger.time[0] + 1e-3))
     caption = (
         f"Energy since the start: {ledger.supplied[-1]:.4g} J supplied, {ledger.dissipated[-1]:.4g} J dissipated at "
-        f"the end. What does not add up is at most {np.abs(ledger.residual).max():.2g} J, "
+        f"the end. The residual is at most {np.abs(ledger.residual).max():.2g} J, "
         f"{relative_residual(ledger):.1e} of {named}: the error of the time integration."
     )
     return picture("bench-energy", figure, "Energy ledger over time and its residual", caption)
@@ -77,7 +77,7 @@ def _cost_caption(cost: CostSeries) -> str:
     return text + (
         f" Pressure fields: {numbers['field_iterations']} iterations, largest relative residual "
         f"{numbers['field_residual_max']:.1e}; they were solved for "
-        f"{numbers['stretches']} stretches of the run ({numbers['stretches_repeated']} taken again, shorter), on which a force is "
-        f"wrong by an estimated {numbers['coupling_error_max']:.2g} of its standing load at most; where two stretches meet a force "
+        f"{numbers['stretches']} coupling steps ({numbers['stretches_repeated']} repeated, shorter), in which a force is "
+        f"wrong by an estimated {numbers['coupling_error_max']:.2g} of its standing load at most; where two steps meet a force "
         f"jumped by at most {numbers['field_jump_max_N']:.3g} N."
     )

@@ -1,4 +1,5 @@
-"""Pictures of one contact: load and approach over time, load over approach, pressure maps, peak and area.
+"""Pictures of one contact: load and approach over time, load over approach, pressure maps, peak and
+area.
 
 `key` is an identifier on the page, `name` what the contact is called in texts.
 """
@@ -61,7 +62,9 @@ def contact_section(number: int, name: str, recording: Recording) -> Section:
 
 
 def load_over_time(key: str, name: str, contact: ContactSeries) -> Picture:
-    """Normal force with lift-off shaded, other forces where there are any, approach; common time axis."""
+    """Normal force with lift-off shaded, other forces where there are any, approach; common time
+    axis.
+    """
     unit, scale = force_unit(contact)
     others = [(f"friction force, {unit}", contact.tangential * scale)] if np.any(contact.tangential) else []
     if contact.impulses.size == contact.time.size:
@@ -106,7 +109,9 @@ def force_unit(contact: ContactSeries) -> tuple[str, float]:
 
 
 def load_over_approach(key: str, name: str, contact: ContactSeries) -> Picture | None:
-    """Load-deflection curve of the whole run; its opening is the loss. None where nothing yields: the contact is rigid."""
+    """Load-deflection curve of the whole run; its opening is the loss. None where nothing yields:
+    the contact is rigid.
+    """
     if contact.approach.max() <= LEAST_APPROACH:
         return None
     figure, (axes,) = new_figure(3.1)
@@ -182,7 +187,9 @@ def footprint_over_time(key: str, name: str, field: FieldSeries) -> Picture:
 
 
 def _at_a_bound(field: FieldSeries) -> str:
-    """What the exponent says where the fit stands at the end of its range: no Lamé curve lies along that boundary."""
+    """What the exponent says where the fit stands at the end of its range: no Lamé curve lies along
+    that boundary.
+    """
     touching = field.area > 0.0
     low, high = FIT_EXPONENTS
     exponent = field.lame_n[touching]

@@ -1,4 +1,6 @@
-"""Maps and surfaces of a field on the cells of a contact: seen from above, forward up, left to the left."""
+"""Maps and surfaces of a field on the cells of a contact: seen from above, forward up, left to the
+left.
+"""
 
 from __future__ import annotations
 
@@ -57,7 +59,9 @@ class Quantity(NamedTuple):
 
 
 def robust_limits(values: FloatArray, few: float) -> Normalize:
-    """From 0 to the largest value; where the share `few` of those above 0 is far higher than the others, to what these reach."""
+    """From 0 to the largest value; where the share `few` of those above 0 is far higher than the
+    others, to what these reach.
+    """
     above = values[values > 0.0]
     if not above.size:
         return Normalize(0.0, 1.0)
@@ -138,7 +142,9 @@ def draw_outline(axes: Axes, field: PressureMap, colour: str = INK) -> None:
 
 
 def surface_and_map(field: PressureMap, quantity: Quantity, window: Window, outline: bool) -> Figure:
-    """A surface picture on the left, the same values as a map on the right; one colour scale for both."""
+    """A surface picture on the left, the same values as a map on the right; one colour scale for
+    both.
+    """
     limits = Normalize(min(0.0, float(np.nanmin(quantity.values))), float(np.nanmax(quantity.values)))
     figure = Figure(figsize=(WIDTH, 3.3))
     surface: Any = figure.add_axes((-0.03, 0.03, 0.47, 1.03), projection="3d")

@@ -16,12 +16,13 @@ COLUMNS = 700
 def bands(
     time: NDArray[np.float64], values: NDArray[np.float64], columns: int = BANDS
 ) -> tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.float64], NDArray[np.float64]]:
-    """Time in the middle of each of `columns` stretches, [columns], with the smallest, mean and largest value of each.
+    """Time in the middle of each of `columns` intervals, [columns], with the smallest, mean and
+    largest value of each.
 
     Args:
         time: any unit, ascending, one dimension.
         values: any unit, same shape, no nan, at least `columns` of them.
-        columns: number of stretches, > 0.
+        columns: number of intervals, > 0.
     """
     edges = np.linspace(0, values.size, columns + 1).astype(np.int64)
     lengths = np.diff(edges)
@@ -32,22 +33,22 @@ def bands(
 def envelope(
     time: NDArray[np.float64], values: NDArray[np.float64], columns: int = COLUMNS
 ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """Smallest and largest value of each of `columns` stretches, in the order in which they occur.
+    """Smallest and largest value of each of `columns` intervals, in the order in which they occur.
 
-    A series of at most 2 * columns samples is returned as it is. The line through the result covers the same pixels as
-    the line through all samples, and its extremes are those of the series.
+    A series of at most 2 * columns samples is returned as it is. The line through the result covers
+    the same pixels as the line through all samples, and its extremes are those of the series.
 
     Args:
         time: any unit, ascending, one dimension.
         values: any unit, same shape, no nan.
-        columns: number of stretches, > 0.
+        columns: number of intervals, > 0.
     """
     if values.size <= 2 * columns:
         return time, values
     edges = np.linspace(0, values.size, columns + 1).astype(np.int64)
     picks = np.empty((columns, 2), dtype=np.int64)
     for column, (start, stop) in enumerate(pairwise(edges)):
-        stretch = values[start:stop]
-        picks[column] = start + stretch.argmin(), start + stretch.argmax()
+        interval = values[start:stop]
+        picks[column] = start + interval.argmin(), start + interval.argmax()
     order = np.sort(picks, axis=1).ravel()
     return time[order], values[order]

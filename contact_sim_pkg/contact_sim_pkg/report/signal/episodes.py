@@ -28,7 +28,9 @@ def durations(slaps: EpisodeSeries) -> FloatArray:
 
 
 def slap_numbers(episodes: EpisodeSeries) -> dict[str, Any]:
-    """Number of slaps, and of each: start and end [s], restitution, works [J], largest force [N] and approach [m]."""
+    """Number of slaps, and of each: start and end [s], restitution, works [J], largest force [N]
+    and approach [m].
+    """
     slaps = episodes.slaps()
     count = len(slaps.start)
     return {

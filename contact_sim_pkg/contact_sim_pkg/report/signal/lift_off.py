@@ -9,7 +9,9 @@ from contact_sim_pkg.report.series import ContactSeries
 
 
 def lifted_intervals(contact: ContactSeries) -> NDArray[np.float64]:
-    """Start and end [s] of each stretch without load, [stretches, 2]; it ends at the first sample with load again."""
+    """Start and end [s] of each interval without load, [intervals, 2]; it ends at the first sample
+    with load again.
+    """
     apart = np.concatenate([[False], contact.normal <= 0.0, [False]])
     changes = np.flatnonzero(apart[1:] != apart[:-1]).reshape(-1, 2)
     ends = np.append(contact.time, contact.time[-1] + contact.sample_period)

@@ -1,4 +1,6 @@
-"""Loops of a force over the displacement it works on, and the steady part of a run that they are drawn for."""
+"""Loops of a force over the displacement it works on, and the steady part of a run that they are
+drawn for.
+"""
 
 from __future__ import annotations
 
@@ -13,7 +15,9 @@ from contact_sim_pkg.report.series import ContactSeries, FieldSeries, FloatArray
 LAST_CYCLES = 2
 """Cycles of the drive at the end of a run that stand for its steady state."""
 FEW_INSTANTS = 100
-"""Fewer of them in the last cycles would make corners of a loop: it is shown as dots, over the second half of the run."""
+"""Fewer of them in the last cycles would make corners of a loop: it is shown as dots, over the
+second half of the run.
+"""
 
 
 class Loop(NamedTuple):
@@ -32,7 +36,9 @@ class Loop(NamedTuple):
         return Loop(*(column[chosen] for column in self))
 
     def steady(self, begin: float) -> tuple[Loop, bool]:
-        """What stands for the steady state of a run whose last cycles begin at `begin` [s]; whether it is shown as dots."""
+        """What stands for the steady state of a run whose last cycles begin at `begin` [s]; whether
+        it is shown as dots.
+        """
         last = self.since(begin)
         if begin <= 0.0 or last.time.size >= FEW_INSTANTS:
             return last, False
@@ -62,7 +68,9 @@ def period_of(section: dict[str, Any]) -> float | None:
 
 
 def steady_start(end: float, period: float | None, cycles: int = LAST_CYCLES) -> float:
-    """Time [s] from which the last `cycles` cycles run to `end` [s]; 0 without a period or in a shorter run."""
+    """Time [s] from which the last `cycles` cycles run to `end` [s]; 0 without a period or in a
+    shorter run.
+    """
     return 0.0 if period is None else max(0.0, end - cycles * period)
 
 
@@ -77,11 +85,13 @@ def point_loop(points: PointSeries) -> Loop:
 
 
 def tangential_loop(contact: ContactSeries, points: PointSeries) -> Loop:
-    """Friction of point 1 on the seat back, F_t of the paper's eq 9, over the displacement of the back along it.
+    """Friction of point 1 on the seat back, F_t of the paper's eq 9, over the displacement of the
+    back along it.
 
-    A single point is the whole contact, whose force is recorded at the full rate; its displacement, recorded at the rate of the
-    fields, is then taken between by a cubic spline. Of one of many points both are at the rate of the fields. (The bag has
-    the force on the back, of the other sign.)
+    A single point is the whole contact, whose force is recorded at the full rate; its displacement,
+    recorded at the rate of the fields, is then taken between by a cubic spline. Of one of many
+    points both are at the rate of the fields. (The bag has the force on the back, of the other
+    sign.)
     """
     if points.points > 1 or points.time.size < 4:
         return Loop(points.time, points.displacement, -points.tangential)
@@ -97,7 +107,9 @@ def loop_work(loop: Loop) -> float:
 
 
 def area_ratio(field: FieldSeries) -> AreaRatio | None:
-    """S(t)/S_ref; S_ref is the area of the first field, at rest under the static load. None where that is not in the bag."""
+    """S(t)/S_ref; S_ref is the area of the first field, at rest under the static load. None where
+    that is not in the bag.
+    """
     if field.time[0] > 0.0 or field.area[0] <= 0.0:
         return None
     reference = float(field.area[0])

@@ -1,7 +1,7 @@
 """Peaks of a sampled signal, raw and through a low-pass filter that shifts nothing in time.
 
-A contact on a sharp edge makes peaks of one or two milliseconds that say as much about the solver as about the tire; the
-filtered peak is the one to compare between models.
+A contact on a sharp edge makes peaks of one or two milliseconds that say as much about the solver
+as about the tire; the filtered peak is the one to compare between models.
 """
 
 from __future__ import annotations
@@ -22,7 +22,7 @@ ORDER = 2
 
 
 class Peak(NamedTuple):
-    """The largest sample in the direction asked for."""
+    """The largest sample in the direction requested."""
 
     time: float
     """[s]"""
@@ -31,11 +31,12 @@ class Peak(NamedTuple):
 
 
 def low_pass(values: FloatArray, sample_rate: float, cutoff: float = CUTOFF) -> FloatArray | None:
-    """Butterworth filter of order 2, forward and backward (zero phase); None where the rate is too low for the cutoff.
+    """Butterworth filter of order 2, forward and backward (zero phase); None where the rate is too
+    low for the cutoff.
 
-    One pass has the gain g with g^2 = 1/(1 + (tan(pi f/fs)/tan(pi f0/fs))^4); f0 is chosen so that the two passes have the
-    gain 1/sqrt(2) at the cutoff: `tan(pi f0/fs) = tan(pi cutoff/fs) / (sqrt(2) - 1)^(1/4)`. The signal is continued at its
-    ends by its odd reflection.
+    One pass has the gain g with g^2 = 1/(1 + (tan(pi f/fs)/tan(pi f0/fs))^4); f0 is chosen so that
+    the two passes have the gain 1/sqrt(2) at the cutoff: `tan(pi f0/fs) = tan(pi cutoff/fs) /
+    (sqrt(2) - 1)^(1/4)`. The signal is continued at its ends by its odd reflection.
 
     Args:
         values: one dimension, any unit.

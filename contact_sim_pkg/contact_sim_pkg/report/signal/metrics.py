@@ -45,7 +45,9 @@ def ride_metrics(acceleration: NDArray[np.float64], sample_rate: float, weightin
 
 
 def seat_factor(seat: float, floor: float) -> float:
-    """SEAT = 100 seat / floor in per cent, from two weighted rms values or two VDVs; nan for a floor at rest."""
+    """SEAT = 100 seat / floor in per cent, from two weighted rms values or two VDVs; nan for a
+    floor at rest.
+    """
     return 100.0 * seat / floor if floor > 0.0 else math.nan
 
 

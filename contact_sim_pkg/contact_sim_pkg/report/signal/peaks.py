@@ -33,7 +33,9 @@ class PeakRow(NamedTuple):
 
 
 def filtered_signals(contact: ContactSeries, motion: MotionSeries | None) -> list[FilteredSignal]:
-    """Normal force, and the wheel's acceleration where it is recorded; empty where sampling is too slow for the filter."""
+    """Normal force, and the wheel's acceleration where it is recorded; empty where sampling is too
+    slow for the filter.
+    """
     found = [_signal("normal force", "N", contact.time, contact.normal, contact.sample_period)]
     if motion is not None and WHEEL in motion.acceleration:
         wheel = motion.acceleration[WHEEL]

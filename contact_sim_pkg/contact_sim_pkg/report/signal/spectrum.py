@@ -9,9 +9,13 @@ import scipy.signal
 from numpy.typing import NDArray
 
 SEGMENT_TIME = 4.0
-"""[s] a segment of a long record: 0.25 Hz resolution, fine for a seat's resonance at 4 Hz (1 Hz wide or more)."""
+"""[s] a segment of a long record: 0.25 Hz resolution, fine for a seat's resonance at 4 Hz (1 Hz
+wide or more).
+"""
 LEAST_SEGMENTS = 8
-"""Segments (half overlapping) that a shorter record is cut into; the coherence of one segment would always be 1."""
+"""Segments (half overlapping) that a shorter record is cut into; the coherence of one segment would
+always be 1.
+"""
 
 
 class Density(NamedTuple):
@@ -40,7 +44,9 @@ class Transmissibility(NamedTuple):
 
 
 def segment_samples(samples: int, sample_rate: float) -> int:
-    """Samples a segment: 4 s, or less so that a short record still gives 8 half-overlapping segments."""
+    """Samples a segment: 4 s, or less so that a short record still gives 8 half-overlapping
+    segments.
+    """
     wanted = round(SEGMENT_TIME * sample_rate)
     affordable = 2 * samples // (LEAST_SEGMENTS + 1)
     return max(1, min(wanted, affordable))

@@ -1,4 +1,6 @@
-"""Rows that arrive one by one and never take more than a bounded memory: groups of 1, 2, 4, … rows become one."""
+"""Rows that arrive one by one and never take more than a bounded memory: groups of 1, 2, 4, … rows
+become one.
+"""
 
 from __future__ import annotations
 
@@ -16,11 +18,12 @@ Reduction = Callable[..., Any]
 class ThinnedRows:
     """A table that grows by rows and halves itself whenever it holds `limit` of them.
 
-    Every kept row stands for `group` rows in a row, except for the last one, which may stand for fewer.
+    Every kept row stands for `group` rows in a row, except for the last one, which may stand for
+    fewer.
     """
 
     def __init__(self, limit: int, reduce: Reduction = np.mean) -> None:
-        """Nothing taken in yet; `limit` is even and at least 2."""
+        """Nothing read yet; `limit` is even and at least 2."""
         if limit < 2 or limit % 2:
             raise ValueError(f"thinned rows: limit = {limit}, allowed are even numbers from 2")
         self.group = 1
@@ -28,8 +31,8 @@ class ThinnedRows:
         self._kept: list[FloatArray] = []
         self._open: list[FloatArray] = []
 
-    def take(self, row: FloatArray) -> None:
-        """Take in one row, of the same length as all before."""
+    def add(self, row: FloatArray) -> None:
+        """Add a row, of the same length as all before."""
         self._open.append(np.asarray(row, dtype=np.float64))
         if len(self._open) < self.group:
             return
@@ -41,10 +44,10 @@ class ThinnedRows:
             self.group *= 2
 
     def widen(self, before: int, after: int) -> None:
-        """Put zeros in front of and behind the values of every row taken in so far."""
+        """Put zeros in front of and behind the values of every row added so far."""
         self._kept, self._open = ([np.pad(row, (before, after)) for row in rows] for rows in (self._kept, self._open))
 
     def finish(self) -> FloatArray:
-        """The table, [rows, values]; at least one row was taken in."""
+        """The table, [rows, values]; at least one row was read."""
         rest = [self._reduce(self._open, axis=0)] if self._open else []
         return np.array([*self._kept, *rest])

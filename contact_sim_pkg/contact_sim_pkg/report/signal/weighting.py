@@ -5,10 +5,11 @@ H(s) = Hh Hl Ht Hs with s = j 2 pi f and omega_i = 2 pi f_i:
 * high-pass   Hh = s^2 / (s^2 + sqrt(2) omega_1 s + omega_1^2)
 * low-pass    Hl = omega_2^2 / (s^2 + sqrt(2) omega_2 s + omega_2^2)
 * transition  Ht = (1 + s/omega_3) / (1 + s/(Q4 omega_4) + (s/omega_4)^2)
-* step        Hs = (f5/f6)^2 (1 + s/(Q5 omega_5) + (s/omega_5)^2) / (1 + s/(Q6 omega_6) + (s/omega_6)^2)
+* step        Hs = (f5/f6)^2 (1 + s/(Q5 omega_5) + (s/omega_5)^2) / (1 + s/(Q6 omega_6) +
+(s/omega_6)^2)
 
-The weighting of a recorded signal is done in the frequency domain with this exact complex response. A digital filter
-would be up to 6 % low at 80 Hz for data sampled at 476 Hz.
+The weighting of a recorded signal is done in the frequency domain with this exact complex response.
+A digital filter would be up to 6 % low at 80 Hz for data sampled at 476 Hz.
 """
 
 from __future__ import annotations
@@ -78,8 +79,8 @@ def response(weighting: Weighting, frequency: NDArray[np.float64]) -> NDArray[np
 def apply_weighting(weighting: Weighting, acceleration: NDArray[np.float64], sample_rate: float) -> NDArray[np.float64]:
     """Weighted acceleration [m/s^2], same shape as the input.
 
-    The signal is taken as 0 outside the record and padded with zeros, so that its end does not leak into its start.
-    The mean stays in: take it out first where it is an offset of the sensor.
+    The signal is taken as 0 outside the record and padded with zeros, so that its end does not leak
+    into its start. The mean stays in: take it out first where it is an offset of the sensor.
 
     Args:
         weighting: parameters.
@@ -87,7 +88,8 @@ def apply_weighting(weighting: Weighting, acceleration: NDArray[np.float64], sam
         sample_rate: [Hz] > 0.
 
     Raises:
-        ValueError: the rate is not a positive number, or the signal has no or more than one dimension.
+        ValueError: the rate is not a positive number, or the signal has no or more than one
+            dimension.
     """
     if not (np.isfinite(sample_rate) and sample_rate > 0.0):
         raise ValueError(f"sample_rate is {sample_rate} Hz; a signal can only be weighted at a known rate above 0")

@@ -1,4 +1,6 @@
-"""Accuracy of the occupant rig: the studies of seat and seat back, their quantities named by the contact."""
+"""Accuracy of the occupant rig: the studies of seat and seat back, their quantities named by the
+contact.
+"""
 
 from __future__ import annotations
 
@@ -16,8 +18,8 @@ __all__ = ["ACCURACY"]
 def _named(contact: str, study: AccuracyStudy) -> AccuracyStudy:
     """The study with rows under the name of a contact."""
 
-    def rows(name: str, scene: ResolvedScene, tell: Callable[[str], None]) -> list[dict[str, Any]]:
-        return [{**row, "quantity": f"{contact}: {row['quantity']}"} for row in study.rows(name, scene, tell)]
+    def rows(name: str, scene: ResolvedScene, notify: Callable[[str], None]) -> list[dict[str, Any]]:
+        return [{**row, "quantity": f"{contact}: {row['quantity']}"} for row in study.rows(name, scene, notify)]
 
     return study._replace(rows=rows)
 

@@ -29,7 +29,8 @@ def error_lines(
 
     Args:
         rows: of a study.
-        head: column of a row -> heading of the line's first columns; a column without a value is left out.
+        head: column of a row -> heading of the line's first columns; a column without a value is
+            left out.
         key: columns in which the rows of a line agree.
         errors: of a row, by their headings.
         cost: column of the time, and its heading.

@@ -19,7 +19,9 @@ SPAN = 10.0  # the time axis shows at least this ratio, so that noise does not l
 
 
 def write_plot(rows: list[dict[str, Any]], path: str | Path, *, overwrite: bool = False) -> Path:
-    """Draw the rows of `scene_study.study`, one panel a part that is there; the ending of `path` names the format."""
+    """Draw the rows of `scene_study.study`, one panel a part that is there; the ending of `path`
+    names the format.
+    """
     panels: dict[str, list[dict[str, Any]]] = {}
     for title in dict.fromkeys(part.panel for part in parts_of_rigs()):
         of_panel = [part for part in parts_of_rigs() if part.panel == title]
@@ -32,7 +34,8 @@ def write_plot(rows: list[dict[str, Any]], path: str | Path, *, overwrite: bool 
 def _drawable(rows: list[dict[str, Any]]) -> tuple[list[dict[str, Any]], str]:
     """The rows that logarithmic axes can show, and in words what became of the others.
 
-    An error of 0 is drawn at a power of ten below the smallest one; a row without an error or a time is left out.
+    An error of 0 is drawn at a power of ten below the smallest one; a row without an error or a
+    time is left out.
     """
     known = [row for row in rows if row["error"] is not None and math.isfinite(row["error"])]
     known = [row for row in known if row["error"] >= 0.0 and (row["ms_per_simulated_s"] or 0.0) > 0.0]
@@ -86,7 +89,7 @@ def _finer(row: dict[str, Any]) -> float:
 
 
 def _name_points(axis: Any, rows: list[dict[str, Any]]) -> None:
-    """Say what was asked at the points of the first line of each part: tolerance or rung."""
+    """Write what was requested at the points of the first line of each part: tolerance or rung."""
     for part in dict.fromkeys((row["part"], row["rung"] == CHECK) for row in rows):
         if part[0] == "field grid":
             continue  # the same rungs as those of the solver

@@ -1,9 +1,11 @@
-"""`bench accuracy SCENE`: what accuracy costs in time, for each tolerance, grid and rung that the scene can be run with.
+"""`bench accuracy SCENE`: what accuracy costs in time, for each tolerance, grid and rung that the
+scene can be run with.
 
-Columns of a row: `quantity`, `part` (what is varied: integrator, coupling, field solver, …), `rung`, `grid`, `tolerance`,
-`error` (relative), `reference` (what the error is against, and whether it is own code),
-`ms_per_simulated_s`, and in a new process the time to the first answer: `first_call_s`, with nothing compiled, and
-`next_start_s`, with the kernels on disk. How to read it: `docs/accuracy.md`.
+Columns of a row: `quantity`, `part` (what is varied: integrator, coupling, field solver, …),
+`rung`, `grid`, `tolerance`, `error` (relative), `reference` (what the error is against, and whether
+it is own code), `ms_per_simulated_s`, and in a new process the time to the first answer:
+`first_call_s`, with nothing compiled, and `next_start_s`, with the kernels on disk. How to read it:
+`docs/accuracy.md`.
 """
 
 from __future__ import annotations
@@ -40,7 +42,7 @@ COLUMNS = (
 
 def study(scene_name: str, progress: Callable[[str], None] | None = None) -> list[dict[str, Any]]:
     """All rows for a scene by name or path. Takes 30 to 90 s. Raises what a bad scene raises."""
-    tell = progress or (lambda text: None)
+    notify = progress or (lambda text: None)
     scene = load_resolved(scene_name)
     rig = scene.data["rig"]
     studies = studies_of(rig)
@@ -51,9 +53,9 @@ def study(scene_name: str, progress: Callable[[str], None] | None = None) -> lis
             "runs with --set integrator.relative_tolerance=… instead"
         )
         raise SceneError([Fault(scene_name, 0, 0, "rig", sentence)])
-    tell("first call in a new process: everything is compiled, then again from the disk")
+    notify("first call in a new process: everything is compiled, then again from the disk")
     first, again = first_call_times(scene_name)
-    rows = [row for each in studies for row in each.rows(scene_name, scene, tell)]
+    rows = [row for each in studies for row in each.rows(scene_name, scene, notify)]
     for row in rows:
         key = "field" if row["part"].startswith("field") else "simulation"
         row["first_call_s"], row["next_start_s"] = first[key], again[key]
@@ -61,7 +63,8 @@ def study(scene_name: str, progress: Callable[[str], None] | None = None) -> lis
 
 
 def first_call_times(scene_name: str) -> tuple[dict[str, float | None], dict[str, float | None]]:
-    """Seconds until the first block and the first field solve are done in a new process: compiled anew, and from the disk.
+    """Seconds until the first block and the first field solve are done in a new process: compiled
+    anew, and from the disk.
 
     None where it could not be measured.
     """

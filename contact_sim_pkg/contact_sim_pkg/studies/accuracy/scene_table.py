@@ -1,4 +1,6 @@
-"""The rows of an accuracy study as a person reads them: a table a part, one line a tolerance, grid or fidelity level."""
+"""The rows of an accuracy study as a person reads them: a table a part, one line a tolerance, grid
+or fidelity level.
+"""
 
 from __future__ import annotations
 
@@ -12,7 +14,9 @@ COST = ("ms_per_simulated_s", "ms per simulated s")
 
 
 def sections(rows: list[Row]) -> list[Section]:
-    """Tables in the order of the rigs and their parts, those without rows left out; then the start in a new process."""
+    """Tables in the order of the rigs and their parts, those without rows left out; then the start
+    in a new process.
+    """
     found = [_table(part, [row for row in rows if part.holds(row)]) for part in parts_of_rigs()]
     return [section for section in found if section.rows] + [_start_up(rows)]
 

@@ -1,9 +1,12 @@
-"""`bench accuracy RIG`: each quantity of a rig by inexpensive and expensive methods on the same input.
+"""`bench accuracy RIG`: each quantity of a rig by inexpensive and expensive methods on the same
+input.
 
-Columns of a row: `rig`, `part` (the study), `case` (the input), `quantity`, `rung`, `grid`, `tolerance`, `value` and `expected`
-(SI; null for an L2 distance), `error` (relative, against `reference`), and where a grid is solved its two parts: `solver_error`,
-against the same grid to 1e-10, and `grid_error`, of the converged grid against the reference; `ms_per_call` (processor time
-of one thread, median of many calls, compiled and warm, fields from nothing). How to read it: `docs/accuracy.md`.
+Columns of a row: `rig`, `part` (the study), `case` (the input), `quantity`, `rung`, `grid`,
+`tolerance`, `value` and `expected` (SI; null for an L2 distance), `error` (relative, against
+`reference`), and where a grid is solved its two parts: `solver_error`, against the same grid to
+1e-10, and `grid_error`, of the converged grid against the reference; `ms_per_call` (processor time
+of one thread, median of many calls, compiled and warm, fields from nothing). How to read it:
+`docs/accuracy.md`.
 """
 
 from __future__ import annotations

@@ -64,7 +64,9 @@ def _lines(axis: Any, rows: list[Row], colour: str, style: Any, rungs: list[str]
 
 
 def _given(row: Row, rows: list[Row]) -> bool:
-    """Whether the quantity is what was asked for, and so comes back to rounding on every rung of the case."""
+    """Whether the quantity is what was requested, and so comes back to rounding on every rung of
+    the case.
+    """
     return all(
         other["error"] <= ROUNDING for other in rows if (_case(other), _quantity(other)) == (_case(row), _quantity(row))
     )
@@ -83,7 +85,7 @@ def _case(row: Row) -> str:
 
 
 def _rung(row: Row) -> str:
-    """A rung; solved grids are told apart by their cells, their tiers are not named."""
+    """A rung; solved grids are told apart by their cells, their levels are not named."""
     if row["grid"] is None:
         return str(row["rung"])
     name = str(row["rung"]) if row["solver_error"] is None else str(row["rung"]).split()[0]

@@ -15,7 +15,9 @@ COST = ("ms_per_call", "ms a call")
 
 
 def sections(rows: list[Row]) -> list[Section]:
-    """In the order of the study; where every line is a grid, the error's two parts stand beside each other."""
+    """In the order of the study; where every line is a grid, the error's two parts stand beside
+    each other.
+    """
     found = []
     for part, case in dict.fromkeys((row["part"], row["case"]) for row in rows):
         chosen = [row for row in rows if (row["part"], row["case"]) == (part, case)]
@@ -24,7 +26,9 @@ def sections(rows: list[Row]) -> list[Section]:
 
 
 def _lines(rows: list[Row]) -> list[Row]:
-    """One line a fidelity level, grid and tolerance: errors by quantity, whole or as solver and grid, then the time."""
+    """One line a fidelity level, grid and tolerance: errors by quantity, whole or as solver and
+    grid, then the time.
+    """
     names = list(dict.fromkeys(row["quantity"] for row in rows))
     shown = [name for name in names if any(row["error"] > ROUNDING for row in rows if row["quantity"] == name)] or names
     divided = all(row["solver_error"] is not None for row in rows)

@@ -1,7 +1,9 @@
-"""`bench effects SCENE`: each effect on or off, its measured cost, the outputs it feeds, and whether the scene calls for it.
+"""`bench effects SCENE`: each effect on or off, its measured cost, the outputs it feeds, and
+whether the scene calls for it.
 
-Each effect of the scene's contacts is taken out (or put in, where it is absent and can be) and the scene run again, the two
-kinds of run by turns, so that what else the machine does hits both alike; the median of the pairs counts.
+Each effect of the scene's contacts is taken out (or put in, where it is absent and can be) and the
+scene run again, the two kinds of run by turns, so that what else the machine does hits both alike;
+the median of the pairs counts.
 """
 
 from __future__ import annotations
@@ -35,22 +37,24 @@ NOTHING: dict[str, Any] = {**dict.fromkeys(MEASURES), "changes": []}
 
 
 def study(scene_name: str, progress: Callable[[str], None] | None = None) -> list[dict[str, Any]]:
-    """One row a contact and effect: contact, effect, on, topics, cost with and without, changes, called for.
+    """One row a contact and effect: contact, effect, on, topics, cost with and without, changes,
+    called for.
 
-    `duration` [s] simulated in each run, `cost_with`, `cost_without` [ms per simulated second], `cost` (median difference of the
-    pairs), `cost_noise` (half the range of these differences: a cost below it is none that was seen), `cost_share` (`cost` over
-    `cost_with`), `load_mean_change` and `load_rms_change` (relative, of the normal force), `changes` (of each output that the
-    effect feeds, the field that changes most: `ablation_changes`), `called_for` (`needed`, `not needed` or `no rule`), `verdict`
-    (`as it should be`, `on but not needed`, `off but needed`, `not available`, `carries the load`) and `why`. Raises what a
-    bad scene raises.
+    `duration` [s] simulated in each run, `cost_with`, `cost_without` [ms per simulated second],
+    `cost` (median difference of the pairs), `cost_noise` (half the range of these differences: a
+    cost below it is none that was seen), `cost_share` (`cost` over `cost_with`), `load_mean_change`
+    and `load_rms_change` (relative, of the normal force), `changes` (of each output that the effect
+    feeds, the field that changes most: `ablation_changes`), `called_for` (`needed`, `not needed` or
+    `no rule`), `verdict` (`as it should be`, `on but not needed`, `off but needed`, `not
+    available`, `carries the load`) and `why`. Raises what a bad scene raises.
     """
-    tell = progress or (lambda text: None)
+    notify = progress or (lambda text: None)
     scene = load_resolved(scene_name)
     rows = []
     for contact in rigs()[scene.data["rig"]].contacts:
         for effect in contact.effects:
-            tell(f"{contact.name}: {effect.name}")
-            rows.append(_row(scene_name, scene, contact, effect, tell))
+            notify(f"{contact.name}: {effect.name}")
+            rows.append(_row(scene_name, scene, contact, effect, notify))
     return rows
 
 
@@ -107,7 +111,7 @@ def _percent(change: float | None) -> str:
 
 
 def _row(
-    scene_name: str, scene: ResolvedScene, contact: Contact, effect: Effect, tell: Callable[[str], None]
+    scene_name: str, scene: ResolvedScene, contact: Contact, effect: Effect, notify: Callable[[str], None]
 ) -> dict[str, Any]:
     named = scene.data["effects"].get(contact.name) or {}
     on = named.get(effect.name) is not None
@@ -128,7 +132,7 @@ def _row(
         return {**row, **NOTHING, "called_for": "no rule", "verdict": "not available", "why": why}
     try:
         present = scene if on else _with(scene, scene_name, contact, effect)
-        pair = paired(present, without(present, (contact.name, effect.name)), tell)
+        pair = paired(present, without(present, (contact.name, effect.name)), notify)
     except (SceneError, RunError) as error:
         return {**row, **NOTHING, "called_for": "no rule", "verdict": "not available", "why": _reason(error)}
     replaced = [] if on else _excluded(scene, contact, effect)

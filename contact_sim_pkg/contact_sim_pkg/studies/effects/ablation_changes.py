@@ -1,9 +1,10 @@
 """What an effect changes of the outputs it feeds: for each topic the field that changes most.
 
-The change of a field is the root mean square of its difference between the run with the effect and the one without it, over the
-larger root mean square of the two: 0 where nothing changes, 1.4 where they have nothing to do with each other. A field that is
-zero, or rounding, in one of the two runs has no relative change: its root mean square in the other is told, with its unit. What
-is rounding in both is no change.
+The change of a field is the root mean square of its difference between the run with the effect and
+the one without it, over the larger root mean square of the two: 0 where nothing changes, 1.4 where
+they have nothing to do with each other. A field that is zero, or rounding, in one of the two runs
+has no relative change: its root mean square in the other is reported, with its unit. What is
+rounding in both is no change.
 """
 
 from __future__ import annotations
@@ -33,10 +34,12 @@ NONE = numpy.zeros((0, 0))
 
 
 class Change(NamedTuple):
-    """Of a topic's field that changes most; `change` None where no ratio says it: `field` then has the reason.
+    """Of a topic's field that changes most; `change` None where no ratio says it: `field` then has
+    the reason.
 
-    The topic is in one run alone; or its fields have other lengths (points, bodies, events), and those that can be compared do
-    not differ. Or the field is zero in one of the runs: `size` is its root mean square in the other, `unit` as the message says.
+    The topic is in one run alone; or its fields have other lengths (points, bodies, events), and
+    those that can be compared do not differ. Or the field is zero in one of the runs: `size` is its
+    root mean square in the other, `unit` as the message says.
     """
 
     topic: str
@@ -59,7 +62,9 @@ def changes_of(with_it: Messages, without_it: Messages, topics: Iterable[str]) -
 
 
 def _of_topic(topic: str, fields: dict[str, Vector], others: dict[str, Vector]) -> list[Change]:
-    """The field that changes most by ratio, then at most `NAMED` of those that are zero in one run, or what no number says."""
+    """The field that changes most by ratio, then at most `NAMED` of those that are zero in one run,
+    or what no number says.
+    """
     largest, alone = Change(topic, "unchanged", 0.0), []
     other = [name for name in {**fields, **others} if fields.get(name, NONE).shape != others.get(name, NONE).shape]
     for name in sorted(fields.keys() - set(other)):
@@ -77,7 +82,9 @@ def _of_topic(topic: str, fields: dict[str, Vector], others: dict[str, Vector]) 
 
 
 def _compared(values: Vector, others: Vector) -> tuple[float, float | None]:
-    """Relative change, and the root mean square of the one run where the field is zero in the other."""
+    """Relative change, and the root mean square of the one run where the field is zero in the
+    other.
+    """
     known = numpy.isfinite(values) & numpy.isfinite(others)
     values, others = values[known], others[known]
     small, large = sorted(float(numpy.linalg.norm(each)) for each in (values, others))
@@ -89,7 +96,9 @@ def _compared(values: Vector, others: Vector) -> tuple[float, float | None]:
 
 
 def unit_of(topic: str, field: str) -> str:
-    """Of a field of a topic in the first brackets of its line in the message, in rad for a turn; "SI" where there are none."""
+    """Of a field of a topic in the first brackets of its line in the message, in rad for a turn;
+    "SI" where there are none.
+    """
     name = field.split(" of ")[0]
     if name.startswith("wrench."):
         return "N m" if "torque" in name else "N"

@@ -1,8 +1,10 @@
-"""Pairs of runs of `bench effects`: a scene with an effect and without it, by turns, as long as the time for them allows.
+"""Pairs of runs of `bench effects`: a scene with an effect and without it, by turns, as long as the
+time for them allows.
 
-Both runs of all pairs hold the same blocks: up to `DURATION`, fewer where the slower scene would take more than its part of
-`SECONDS`. What a block costs is the median over the blocks; where the work falls into few of them (an impact, a check), the
-median says nothing: each run is then made up to `RUNS_OF_BURSTS` times, and the mean of each block's least time counts.
+Both runs of all pairs hold the same blocks: up to `DURATION`, fewer where the slower scene would
+take more than its part of `SECONDS`. What a block costs is the median over the blocks; where the
+work falls into few of them (an impact, a check), the median says nothing: each run is then made up
+to `RUNS_OF_BURSTS` times, and the mean of each block's least time counts.
 """
 
 from __future__ import annotations
@@ -36,7 +38,9 @@ Messages = list[tuple[str, int, bytes]]
 
 
 class AblationRun(NamedTuple):
-    """One run: cost, the normal force of each contact [N], what the rules look at, and all that it said."""
+    """One run: cost, the normal force of each contact [N], what the rules look at, and all that it
+    said.
+    """
 
     cost: float  # [ms] per simulated second
     forces: dict[str, Vector]
@@ -45,7 +49,9 @@ class AblationRun(NamedTuple):
 
 
 class Pair(NamedTuple):
-    """A run with and one without the effect, each with the median of its costs; costs of each pair apart."""
+    """A run with and one without the effect, each with the median of its costs; costs of each pair
+    apart.
+    """
 
     with_it: AblationRun
     without_it: AblationRun
@@ -59,16 +65,18 @@ class _Plan(NamedTuple):
     bursts: bool
 
 
-def paired(first: ResolvedScene, second: ResolvedScene, tell: Callable[[str], None]) -> Pair:
-    """Both scenes by turns. Compiled first: nearly all the time of a first study goes there, and it tells so."""
+def paired(first: ResolvedScene, second: ResolvedScene, notify: Callable[[str], None]) -> Pair:
+    """Both scenes by turns. Compiled first: nearly all the time of a first study goes there, and it
+    tells so.
+    """
     began = time.perf_counter()
     for name, scene in (("with", first), ("without", second)):
-        tell(f"  kernels {name} it: compiled, or from the disk")
+        notify(f"  kernels {name} it: compiled, or from the disk")
         _prepared(scene)
     plan, length = _plan(first, second), float(first.data["block_length"])
     often = "" if plan.repeats == 1 else f", each {plan.repeats} times"
     what = f"{PAIRS} runs of {plan.blocks * length:.3g} s of both by turns{often}"
-    tell(f"  {what}, behind {time.perf_counter() - began:.0f} s of preparation")
+    notify(f"  {what}, behind {time.perf_counter() - began:.0f} s of preparation")
     pairs = [(_run(first, plan), _run(second, plan)) for _ in range(PAIRS)]
     costs = [statistics.median(pair[place].cost for pair in pairs) for place in (0, 1)]
     differences = [one.cost - other.cost for one, other in pairs]
@@ -100,7 +108,9 @@ def _run(scene: ResolvedScene, plan: _Plan) -> AblationRun:
 def _walls(
     scene: ResolvedScene, blocks: int, most_time: float = numpy.inf
 ) -> tuple[list[float], Messages, list[dict[str, Any]]]:
-    """Wall time of each block [s], all messages, all inputs; up to the block in which `most_time` [s] ends."""
+    """Wall time of each block [s], all messages, all inputs; up to the block in which `most_time`
+    [s] ends.
+    """
     sources, simulation = make_sources(scene), _prepared(scene)
     walls: list[float] = []
     messages: Messages = []

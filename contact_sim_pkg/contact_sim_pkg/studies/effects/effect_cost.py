@@ -1,4 +1,6 @@
-"""What an absent effect costs: the elastic rig with the loss left out, beside the same rig written by hand without it."""
+"""What an absent effect costs: the elastic rig with the loss left out, beside the same rig written
+by hand without it.
+"""
 
 from __future__ import annotations
 
@@ -25,7 +27,9 @@ END = 20.0  # [s]
 
 
 class HandWritten(NamedTuple):
-    """`PointContact` as one would write it for a Hertz contact without any loss, the moving support included. State [z, v]."""
+    """`PointContact` as one would write it for a Hertz contact without any loss, the moving support
+    included. State [z, v].
+    """
 
     mass: float
     gravity: float

@@ -1,12 +1,16 @@
-"""The rolling pressure field against its reference: error, time and convolutions of a solve, cold and in a sequence.
+"""The rolling pressure field against its reference: error, time and convolutions of a solve, cold
+and in a sequence.
 
-    python -m contact_sim_pkg.studies.field.field_benchmark [--grid 128x96] [--cells 1] [--seeds 5] [--steps 200] [--json]
+    python -m contact_sim_pkg.studies.field.field_benchmark [--grid 128x96] [--cells 1] [--seeds 5]
+    [--steps 200] [--json]
 
-The problem is that of `rolling_problem`. Error: `|p - p_ref| / |p_ref|` in L2, p_ref on the same grid to 1e-12. Time: from
-heights and load in memory to the certified field; one thread, warm, without tables and compilation. A solver's tolerance says
-little, so times are read at an asked error, by interpolation of both logarithms between tolerances. Sequences: the median and
-the 95th percentile over the steps from the third on, of all seeds. Cold: median over the seeds of the median of nine solves.
-Beside it stands the time of a fixed piece of work, before and after: where the two differ the machine was not quiet.
+The problem is that of `rolling_problem`. Error: `|p - p_ref| / |p_ref|` in L2, p_ref on the same
+grid to 1e-12. Time: from heights and load in memory to the certified field; one thread, warm,
+without tables and compilation. A solver's tolerance says little, so times are read at a requested
+error, by interpolation of both logarithms between tolerances. Sequences: the median and the 95th
+percentile over the steps from the third on, of all seeds. Cold: median over the seeds of the median
+of nine solves. Beside it stands the time of a fixed amount of work, before and after: where the two
+differ the machine was not quiet.
 """
 
 from __future__ import annotations
@@ -143,7 +147,7 @@ def _roll(pressure: Field, cells: int) -> None:
 
 
 def calibrate() -> float:
-    """Milliseconds of a fixed piece of work: a pair of transforms of 256 x 256, the median of 25."""
+    """Milliseconds of a fixed amount of work: a pair of transforms of 256 x 256, the median of 25."""
     field, walls = numpy.ones((256, 256)), []
     for _ in range(25):
         began = time.perf_counter()
@@ -153,18 +157,18 @@ def calibrate() -> float:
 
 
 def rows_of(
-    grid: str, cells: int, seeds: int, steps: int, kinds: tuple[str, ...], tell: Callable[[str], None]
+    grid: str, cells: int, seeds: int, steps: int, kinds: tuple[str, ...], notify: Callable[[str], None]
 ) -> list[dict[str, Any]]:
     """One row a solver and tolerance."""
     problems = [rolling_problem(grid, seed, cells) for seed in range(1, seeds + 1)]
-    tell(f"{grid}: references")
+    notify(f"{grid}: references")
     wanted = [
         references(problem, steps if any(kind not in (COLD, NESTED) for kind in kinds) else 1) for problem in problems
     ]
     rows: list[dict[str, Any]] = []
     for kind in kinds:
         for tolerance in TOLERANCES[kind]:
-            tell(f"{grid}: {kind}, {tolerance:g}")
+            notify(f"{grid}: {kind}, {tolerance:g}")
             if kind in (COLD, NESTED):
                 found = [
                     cold(problem, kind, tolerance, fields[0]) for problem, fields in zip(problems, wanted, strict=True)
@@ -197,7 +201,9 @@ def rows_of(
 
 
 def read_at(rows: list[dict[str, Any]], asked: float, column: str = "ms") -> float | None:
-    """The time (or another column) at an asked error: both logarithms interpolated; None outside what was measured."""
+    """The time (or another column) at a requested error: both logarithms interpolated; None outside
+    what was measured.
+    """
     points = sorted((row["error"], row[column]) for row in rows)
     for (low, slow), (high, fast) in itertools.pairwise(points):
         if low <= asked <= high and low < high:

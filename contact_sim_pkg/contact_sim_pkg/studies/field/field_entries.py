@@ -1,7 +1,9 @@
-"""Every way into the pressure field behind one call, so that what must hold is asked of all of them.
+"""Every way into the pressure field behind one call, so that what must hold is asked of all of
+them.
 
-Static, windowed and rolling, each at a given load and at a given approach; rolling also with two fields behind it, of another
-gap and of this one a cell further, so that prediction and window take part.
+Static, windowed and rolling, each at a given load and at a given approach; rolling also with two
+fields behind it, of another gap and of this one a cell further, so that prediction and window take
+part.
 """
 
 from __future__ import annotations
@@ -77,7 +79,9 @@ def _rolled_approach(half_space: HalfSpace, gap: Field, asked: Asked) -> tuple[F
 
 
 def _rolled(half_space: HalfSpace, gap: Field, asked: Asked) -> RollingField:
-    """A field with two steps behind it: a bowl around the middle, and (where it has heights) this gap one row earlier."""
+    """A field with two steps behind it: a bowl around the middle, and (where it has heights) this
+    gap one row earlier.
+    """
     field = RollingField(half_space)
     x = (numpy.arange(half_space.rows) - 0.5 * (half_space.rows - 1)) * half_space.cell_x
     y = (numpy.arange(half_space.cols) - 0.5 * (half_space.cols - 1)) * half_space.cell_y

@@ -1,4 +1,5 @@
-"""Hard cases of the pressure field asked of every way in: static, windowed, rolling; load and approach given.
+"""Hard cases of the pressure field asked of every way in: static, windowed, rolling; load and
+approach given.
 
 Each value is the worst over all of them.
 """
@@ -29,7 +30,9 @@ def exact(gap: Field, approach: float) -> tuple[Field, float]:
 
 
 def worst_error(gap: Field, approach: float, expected: Field | None = None, status: int = CONVERGED) -> float:
-    """Largest relative L2 distance to `expected` (dense least squares), infinite where a status is another."""
+    """Largest relative L2 distance to `expected` (dense least squares), infinite where a status is
+    another.
+    """
     pressure_expected = exact(gap, approach)[0] if expected is None else expected
     asked = Asked(float(pressure_expected.sum()) * CELL**2, approach, TOLERANCE)
     worst = 0.0
@@ -127,7 +130,9 @@ def not_finite() -> Finding:
 
 
 def verified() -> Finding:
-    """Largest true residual over the asked one, by the dense matrix from the returned field alone."""
+    """Largest true residual over the requested one, by the dense matrix from the returned field
+    alone.
+    """
     gap, worst = bowl() + 1e-3 * numpy.random.default_rng(3).standard_normal((SIDE, SIDE)), 0.0
     load = exact(gap, 0.005)[1]
     for tolerance in (1e-1, 1e-3, 1e-6):
@@ -175,7 +180,9 @@ def quarter_of_the_box() -> Finding:
 
 
 def loads_held() -> Finding:
-    """Largest relative difference of a field's integral from the asked load, from 1e-9 N to 1 MN."""
+    """Largest relative difference of a field's integral from the requested load, from 1e-9 N to 1
+    MN.
+    """
     worst = 0.0
     for name in filter(holds_load, ENTRIES):
         for load in (1e-9, 1.0, 1e3, 1e6):

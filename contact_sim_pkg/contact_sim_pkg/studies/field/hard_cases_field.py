@@ -48,7 +48,9 @@ def solved(gap: Field, approach: float, tolerance: float = 1e-12, limit: int = 4
 
 
 def field_error(gap: Field, approach: float) -> float:
-    """Relative L2 distance to the dense non-negative least squares; infinite where the solver does not converge."""
+    """Relative L2 distance to the dense non-negative least squares; infinite where the solver does
+    not converge.
+    """
     pressure, result = solved(gap, approach)
     if result.status != CONVERGED:
         return math.inf
@@ -57,7 +59,9 @@ def field_error(gap: Field, approach: float) -> float:
 
 
 def influence() -> Finding:
-    """Largest relative error of the displacement under one loaded cell: no logarithm of 0 on its edges."""
+    """Largest relative error of the displacement under one loaded cell: no logarithm of 0 on its
+    edges.
+    """
     pressure, result = numpy.zeros((SIDE, SIDE)), numpy.zeros((SIDE, SIDE))
     pressure[5, 7] = 1.0
     displacement(grid(), make_buffers(grid()), pressure, result)
@@ -71,7 +75,9 @@ def smooth() -> Finding:
 
 
 def rough() -> Finding:
-    """White noise of 2 mm and a single-cell spike of 20 mm against dense non-negative least squares."""
+    """White noise of 2 mm and a single-cell spike of 20 mm against dense non-negative least
+    squares.
+    """
     gap = bowl() + numpy.random.default_rng(20).normal(0.0, 0.002, (SIDE, SIDE))
     gap[10, 13] -= 0.02
     gap -= gap.min()

@@ -15,7 +15,9 @@ MODULUS, LOAD = 4.0e6, 3335.0
 
 
 def sphere() -> Finding:
-    """Relative error of a, p0 and the approach for equal radii, where the ellipse's relations are 0/0."""
+    """Relative error of a, p0 and the approach for equal radii, where the ellipse's relations are
+    0/0.
+    """
     radius = 0.3
     found = hertz_contact(0.5 / radius, 0.5 / radius, MODULUS, LOAD)
     a = (3.0 * LOAD * radius / (4.0 * MODULUS)) ** (1.0 / 3.0)
@@ -25,7 +27,9 @@ def sphere() -> Finding:
 
 
 def slender() -> Finding:
-    """Largest relative error of approach, axes and pressure for 1 - Omega from 1e-1 to 2e-12, against 50 digits."""
+    """Largest relative error of approach, axes and pressure for 1 - Omega from 1e-1 to 2e-12,
+    against 50 digits.
+    """
     worst = 0.0
     for gap in (1e-1, 1e-3, 1e-6, 1e-9, 2e-12):
         small, large = 0.5 * gap, 1.0 - 0.5 * gap
@@ -47,7 +51,9 @@ def no_load() -> Finding:
 
 
 def refused_surfaces() -> Finding:
-    """How many of four surfaces without elliptic contact are refused: conforming, saddle, line, practically a line."""
+    """How many of four surfaces without elliptic contact are refused: conforming, saddle, line,
+    practically a line.
+    """
     refused = 0
     for curvatures in ((-1.0, -2.0), (-0.1, 1.0), (0.0, 1.0), (1e-14, 1.0)):
         try:

@@ -1,7 +1,8 @@
-"""`bench goals`: what the bench is asked to reach, measured in one run on this machine.
+"""`bench goals`: what the bench is to reach, measured in one run on this machine.
 
-Times are medians of warm calls on one thread with no Python inside the loop of our side; scipy's right-hand sides are Python,
-which is most of its time. Runs on nodes start as a user starts them and are recorded. A goal that is missed is shown, no more.
+Times are medians of warm calls on one thread with no Python inside the loop of our side; scipy's
+right-hand sides are Python, which is most of its time. Runs on nodes start as a user starts them
+and are recorded. A goal that is missed is shown, no more.
 """
 
 from __future__ import annotations
@@ -30,7 +31,8 @@ def parts() -> list[GoalPart]:
 
 
 def study(progress: Callable[[str], None] | None = None) -> list[dict[str, Any]]:
-    """Rows: part, what, measured (null where it could not be), unit, goal, reached (null: no goal, or not measured), note.
+    """Rows: part, what, measured (null where it could not be), unit, goal, reached (null: no goal,
+    or not measured), note.
 
     Takes one to two minutes.
     """

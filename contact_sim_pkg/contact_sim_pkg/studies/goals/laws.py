@@ -1,4 +1,6 @@
-"""Goals of the integrator and of the contact laws: error and time of single contacts, beside scipy and closed forms."""
+"""Goals of the integrator and of the contact laws: error and time of single contacts, beside scipy
+and closed forms.
+"""
 
 from __future__ import annotations
 
@@ -33,7 +35,9 @@ IMPACTS = 200  # in one compiled loop
 
 
 def seat_slap() -> list[Measured]:
-    """Time to an error of 1e-8 m, and each solver's error and time over the tolerances, at equal error beside ours."""
+    """Time to an error of 1e-8 m, and each solver's error and time over the tolerances, at equal
+    error beside ours.
+    """
     own = work_of.own_work()
     enough = work_of.cheapest(own, SLAP_ERROR)
     cost, note = (
@@ -56,7 +60,9 @@ def seat_slap() -> list[Measured]:
 
 
 def _work_of(run: work_of.SlapCost, own: list[work_of.SlapCost] | None = None) -> Measured:
-    """One run as a row: its time, and in the note its error and how much cheaper ours is with an error as small."""
+    """One run as a row: its time, and in the note its error and how much less ours takes with an
+    error as small.
+    """
     note = f"error {run.error:.1e} m"
     equal = None if own is None else work_of.cheapest(own, run.error)
     if equal is not None:
@@ -84,7 +90,9 @@ def _many(
 
 
 def impacts() -> list[Measured]:
-    """Worst error of the restitution over five losses, and the median time of an impact, at the tolerance that is enough."""
+    """Worst error of the restitution over five losses, and the median time of an impact, at the
+    tolerance that is enough.
+    """
     found = []
     for asked, most in ((1e-6, 6.0), (1e-9, 25.0)):
         for tolerance in TOLERANCES:
@@ -111,7 +119,9 @@ def _impact_time(loss: float, tolerance: float) -> float:
 
 
 def steel() -> list[Measured]:
-    """A contact of 69 µs with an outer tick of 1 ms: worst error of duration, depth and force within 100 steps."""
+    """A contact of 69 µs with an outer tick of 1 ms: worst error of duration, depth and force
+    within 100 steps.
+    """
     for tolerance in TOLERANCES:
         duration, depth, force, steps = impacts_of.steel_impact(tolerance)
         worst = max(duration, depth, force)
@@ -125,7 +135,9 @@ def steel() -> list[Measured]:
 
 
 def stick_slip() -> list[Measured]:
-    """Period of the rigid law, extrapolated from stiff friction springs, against the closed form; and what tolerances deliver."""
+    """Period of the rigid law, extrapolated from stiff friction springs, against the closed form;
+    and what tolerances deliver.
+    """
     exact = period_of_rigid_law(hard_cases_friction.stick_slip(1.0, 0.0)[1])
     error = abs(hard_cases_friction.period_of_the_rigid_law().value / exact - 1.0)
     worst = hard_cases_friction.error_follows_the_tolerance().value
@@ -136,7 +148,9 @@ def stick_slip() -> list[Measured]:
 
 
 def absent_effect() -> list[Measured]:
-    """The rig with the loss left out, beside the same rig written by hand without it: at most 2 % or 1 ns a step."""
+    """The rig with the loss left out, beside the same rig written by hand without it: at most 2 %
+    or 1 ns a step.
+    """
     with_effect, absent, by_hand = absent_effect_cost()
     allowed = max(2.0, 100.0 / by_hand)
     return [

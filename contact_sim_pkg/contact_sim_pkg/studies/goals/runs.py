@@ -22,7 +22,9 @@ LONGEST = 300.0  # [s] for a run that compiles
 
 
 def on_nodes() -> list[Measured]:
-    """Warm start-up and real-time factor of the full bench on nodes, recorded, as a user starts it; medians of the runs."""
+    """Warm start-up and real-time factor of the full bench on nodes, recorded, as a user starts it;
+    medians of the runs.
+    """
     facts: list[dict[str, Any]] = []
     note = ""
     with tempfile.TemporaryDirectory() as folder:

@@ -1,8 +1,10 @@
-"""`bench hard`: the hard cases of the models that are built, each with value, expectation, margin and verdict.
+"""`bench hard`: the hard cases of the models that are built, each with value, expectation, margin
+and verdict.
 
-A case computes a value with the bench's own kernels and compares it with an expectation that shares no code with them: a
-closed form, multiple precision, scipy, or a plain count. The margin is the part of the allowance that is left: 1 where value
-and expectation agree, 0 at the limit, negative where the case fails.
+A case computes a value with the bench's own kernels and compares it with an expectation that shares
+no code with them: a closed form, multiple precision, scipy, or a plain count. The margin is the
+part of the allowance that is left: 1 where value and expectation agree, 0 at the limit, negative
+where the case fails.
 """
 
 from __future__ import annotations
@@ -33,7 +35,9 @@ def all_cases() -> list[HardCase]:
 
 
 def evaluate(case: HardCase) -> dict[str, Any]:
-    """One row of the table; a case that raises fails with its error as the expectation that was not met."""
+    """One row of the table; a case that raises fails with its error as the expectation that was not
+    met.
+    """
     try:
         finding = case.find()
     except Exception as error:  # noqa: BLE001 - a table of cases goes on past a broken one, and says so
@@ -44,7 +48,9 @@ def evaluate(case: HardCase) -> dict[str, Any]:
 
 
 def study(model: str | None = None, progress: Callable[[str], None] | None = None) -> list[dict[str, Any]]:
-    """Rows of all cases, or of those of one `model`: model, case, value, expectation, margin, verdict (`pass` or `fail`)."""
+    """Rows of all cases, or of those of one `model`: model, case, value, expectation, margin,
+    verdict (`pass` or `fail`).
+    """
     rows = []
     for case in all_cases():
         if model is not None and case.model != model:

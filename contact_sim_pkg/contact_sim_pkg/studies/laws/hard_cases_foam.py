@@ -25,7 +25,9 @@ def without_indentation() -> Finding:
 
 
 def first_touch() -> Finding:
-    """Force and energy at 1e-15 m against the linear start, which differ by less than 1e-12: largest relative error."""
+    """Force and energy at 1e-15 m against the linear start, which differ by less than 1e-12:
+    largest relative error.
+    """
     start = FOAM.area / FOAM.thickness * (FOAM.modulus + FOAM.densification * FOAM.densification_exponent)
     x = 1e-15
     errors = (elastic_force(FOAM, x) / (start * x) - 1.0, elastic_energy(FOAM, x) / (0.5 * start * x * x) - 1.0)
@@ -46,7 +48,9 @@ def inverse() -> Finding:
 
 
 def loss_is_never_negative() -> Finding:
-    """Least rate of loss over the loading's power, over z and both directions: (F - F_el) x' less the rate of what is stored."""
+    """Least rate of loss over the loading's power, over z and both directions: (F - F_el) x' less
+    the rate of what is stored.
+    """
     least = math.inf
     for z in numpy.linspace(-1.0, 1.0, 41):
         for power in (-3.0, 3.0):
@@ -58,7 +62,9 @@ def loss_is_never_negative() -> Finding:
 
 
 def stays_within_one() -> Finding:
-    """z over 60 energies of loading and of unloading, and what it stores over 1/2 s u_0: largest beyond 1."""
+    """z over 60 energies of loading and of unloading, and what it stores over 1/2 s u_0: largest
+    beyond 1.
+    """
     z, step = numpy.array([0.0]), 0.01
     out = numpy.zeros(1)
     beyond = 0.0

@@ -1,4 +1,6 @@
-"""Hard cases of friction: stick-slip, stick without creep, sliding to rest, contact that is lost while it slips."""
+"""Hard cases of friction: stick-slip, stick without creep, sliding to rest, contact that is lost
+while it slips.
+"""
 
 from __future__ import annotations
 
@@ -24,18 +26,24 @@ AT_REST_ON_BELT = numpy.array([0.0, BELT_SPEED, 0.0])
 
 
 def stick_slip(stiffness: float, damping: float) -> tuple[BeltSlider, StickSlip]:
-    """The stick-slip oscillator of the goals with a friction spring, and the same case for the twin."""
+    """The stick-slip oscillator of the goals with a friction spring, and the same case for the
+    twin.
+    """
     rig = BeltSlider(MASS, SPRING, BELT_SPEED, LOAD, Friction(stiffness, damping, STATIC, KINETIC))
     return rig, StickSlip(MASS, SPRING, BELT_SPEED, LOAD, stiffness, damping, STATIC, KINETIC)
 
 
 def scale_of(stiffness: float) -> Vector:
-    """Position [m] and speed [m/s] of the motion, and the deflection [m] that the friction spring reaches."""
+    """Position [m] and speed [m/s] of the motion, and the deflection [m] that the friction spring
+    reaches.
+    """
     return numpy.array([0.05, 0.3, STATIC * LOAD / stiffness])
 
 
 def stick_slip_error(stiffness: float, damping: float, tolerance: float) -> float:
-    """Worst error of position and speed, over those of the motion, once in stick (3 s) and once in slip (3.3 s)."""
+    """Worst error of position and speed, over those of the motion, once in stick (3 s) and once in
+    slip (3.3 s).
+    """
     rig, case = stick_slip(stiffness, damping)
     scale, ends = scale_of(stiffness), (3.0, 3.3)
     found = [integrate(rig, AT_REST_ON_BELT, scale * tolerance, numpy.array([0.0, end])).states[-1] for end in ends]
@@ -46,13 +54,17 @@ def stick_slip_error(stiffness: float, damping: float, tolerance: float) -> floa
 
 
 def error_follows_the_tolerance() -> Finding:
-    """Largest error over asked tolerance, 1e-3 to 1e-11, friction springs of 1e4, 1e5 and 1e6 N/m."""
+    """Largest error over requested tolerance, 1e-3 to 1e-11, friction springs of 1e4, 1e5 and 1e6
+    N/m.
+    """
     springs = ((1.0e4, 140.0), (1.0e5, 400.0), (1.0e6, 1.0e3))
     return at_most(max(stick_slip_error(*spring, 10.0**-p) * 10.0**p for spring in springs for p in range(3, 12)), 10.0)
 
 
 def stick_slip_period(stiffness: float, damping: float, tolerance: float) -> float:
-    """Period [s]: the state in stick one period of the rigid law later, set right by the speed in stick."""
+    """Period [s]: the state in stick one period of the rigid law later, set right by the speed in
+    stick.
+    """
     rig, case = stick_slip(stiffness, damping)
     period = period_of_rigid_law(case)
     stuck = 5.0 * period  # the first slip comes after 0.4 s, the stick that starts 4 periods later holds this instant
@@ -79,7 +91,9 @@ def period_of_the_rigid_law() -> Finding:
 
 
 def no_creep() -> Finding:
-    """Creep [m/s] of a mass held by friction against a spring at 80 % of the limit, after its ringing has died out."""
+    """Creep [m/s] of a mass held by friction against a spring at 80 % of the limit, after its
+    ringing has died out.
+    """
     rig = BeltSlider(MASS, SPRING, 0.0, LOAD, Friction(1.0e5, 500.0, STATIC, KINETIC))
     held = 0.8 * STATIC * LOAD / SPRING
     scale = numpy.array([1e-3, 1e-2, 1e-3]) * 1e-10
@@ -88,7 +102,9 @@ def no_creep() -> Finding:
 
 
 def slide_to_rest() -> Finding:
-    """Distance [m] from 2 m/s to rest: v0^2/(2 mu g), less the release of the friction spring in closed form."""
+    """Distance [m] from 2 m/s to rest: v0^2/(2 mu g), less the release of the friction spring in
+    closed form.
+    """
     friction = Friction(1.0e6, 1.4e3, KINETIC, KINETIC)
     rig = BeltSlider(MASS, 0.0, 0.0, LOAD, friction)
     scale = numpy.array([1.0, 1.0, 1e-3]) * 1e-12
@@ -101,7 +117,9 @@ def slide_to_rest() -> Finding:
 
 
 def equal_ratios() -> Finding:
-    """Status after 200 slip reversals with mu_s = mu_k, where slip ends exactly on the limit of stick."""
+    """Status after 200 slip reversals with mu_s = mu_k, where slip ends exactly on the limit of
+    stick.
+    """
     rig = BeltSlider(MASS, 1.0e4, 0.0, LOAD, Friction(1.0e6, 0.0, KINETIC, KINETIC))
     course = integrate(
         rig,
@@ -114,7 +132,9 @@ def equal_ratios() -> Finding:
 
 
 def slide_with_lift_off() -> tuple[Vector, Vector, float]:
-    """Seat rig shaken in x and z until it leaves the cushion: forces, states, and the ledger's residual over its dissipation."""
+    """Seat rig shaken in x and z until it leaves the cushion: forces, states, and the ledger's
+    residual over its dissipation.
+    """
     mass, gravity = 50.0, 9.81
     friction = Friction(2.0e4, 200.0, 0.4, 0.35)
     contact = Contact(NormalElastic(2.73e5, 1.5), NormalDissipative(1.0), friction)
@@ -142,7 +162,9 @@ def slide_with_lift_off() -> tuple[Vector, Vector, float]:
 
 
 def apart_without_friction() -> Finding:
-    """Largest friction force and spring deflection while the occupant is off the cushion (which happens)."""
+    """Largest friction force and spring deflection while the occupant is off the cushion (which
+    happens).
+    """
     forces, states, _residual = slide_with_lift_off()
     apart = forces[:, entries.SEAT_APPROACH] < 0.0
     if apart.sum() < 100:
@@ -152,7 +174,9 @@ def apart_without_friction() -> Finding:
 
 
 def within_the_limit() -> Finding:
-    """Largest friction force over its static limit, over all samples in contact, slip while the load vanishes included."""
+    """Largest friction force over its static limit, over all samples in contact, slip while the
+    load vanishes included.
+    """
     forces, _states, _residual = slide_with_lift_off()
     limit = STATIC * forces[:, entries.SEAT_NORMAL]
     return at_most(float((numpy.abs(forces[:, entries.SEAT_TANGENTIAL]) - limit).max()), 1e-6)

@@ -1,4 +1,6 @@
-"""Hard cases of the general normal law: no indentation, first touch, both ends of contact, powers of the rate below one."""
+"""Hard cases of the general normal law: no indentation, first touch, both ends of contact, powers
+of the rate below one.
+"""
 
 from __future__ import annotations
 
@@ -40,7 +42,9 @@ def without_indentation() -> Finding:
 
 
 def never_pulls() -> Finding:
-    """Smallest force with the end rule force, at depths down to 1e-300 m and parting speeds up to 1e6 m/s."""
+    """Smallest force with the end rule force, at depths down to 1e-300 m and parting speeds up to
+    1e6 m/s.
+    """
     values = [
         normal_force(SPHERE, _loss(1e5, p, q), x, -v, 1.0)
         for p, q in POWERS
@@ -81,7 +85,9 @@ def critical_damper() -> Finding:
 
 
 def overdamped_stays() -> Finding:
-    """Damping ratio 3, pulling until x = 0: the mass never leaves; its approach is above 0 (and the tolerance) after 1.5 s."""
+    """Damping ratio 3, pulling until x = 0: the mass never leaves; its approach is above 0 (and the
+    tolerance) after 1.5 s.
+    """
     end = _end_of(SPRING, _damper(3.0, PULLS), duration=1.5)
     return Finding(-float(end[0]), "> 0", 1.0 if end[0] < 0.0 else -math.inf)
 
@@ -96,7 +102,9 @@ def below_linear() -> Finding:
 
 
 def asked_of_every_law() -> Finding:
-    """Largest error of the delivered restitution over 0.05 to 0.98, nine pairs of powers and both ends."""
+    """Largest error of the delivered restitution over 0.05 to 0.98, nine pairs of powers and both
+    ends.
+    """
     worst = 0.0
     pairs = ((0.0, 1.0), (0.5, 1.0), (1.5, 1.0), (2.5, 1.0), (1.5, 2.0), (0.5, 2.0), (0.7, 1.3), (1.0, 1.0), (3.0, 3.0))
     for p, q in pairs:
@@ -119,7 +127,9 @@ def works_and_speeds() -> Finding:
 
 
 def works_under_weight() -> Finding:
-    """A heavy slow impact: the works' sum against kinetic and potential energy, relative to the impact's energy."""
+    """A heavy slow impact: the works' sum against kinetic and potential energy, relative to the
+    impact's energy.
+    """
     end = _end_of(SPHERE, _loss(3000.0, 0.5, 1.0), gravity=9.81, duration=0.4)
     energy = 0.5 * MASS * SPEED**2
     change = 0.5 * MASS * (end[1] ** 2 - SPEED**2) + MASS * 9.81 * (end[0] - 1e-3)

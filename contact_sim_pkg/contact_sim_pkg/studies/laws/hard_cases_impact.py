@@ -1,4 +1,6 @@
-"""Hard cases of contact dynamics: impacts, approach phases, stiff and short contacts, slapping, bouncing to rest."""
+"""Hard cases of contact dynamics: impacts, approach phases, stiff and short contacts, slapping,
+bouncing to rest.
+"""
 
 from __future__ import annotations
 
@@ -23,7 +25,9 @@ PHASES = 20
 
 
 def restitution_found(loss: float, tolerance: float, gap: float, law: NormalElastic = LAW) -> float:
-    """Ratio of the speeds after and before a free impact with `loss` d = damping v0, started `gap` [m] above."""
+    """Ratio of the speeds after and before a free impact with `loss` d = damping v0, started `gap`
+    [m] above.
+    """
     rig = free_impact(MASS, law, loss / SPEED)
     depth = impact.deepest_approach(MASS, SPEED, law.coefficient, law.exponent, loss / SPEED)
     lasts = impact.elastic_impact(MASS, SPEED, law.coefficient, law.exponent)[0]
@@ -32,14 +36,16 @@ def restitution_found(loss: float, tolerance: float, gap: float, law: NormalElas
 
 
 def asked_restitution() -> Finding:
-    """Largest error of the delivered restitution over the asked 0.05 to 0.98."""
+    """Largest error of the delivered restitution over the requested 0.05 to 0.98."""
     ratios = (0.05, 0.1, 0.3, 0.5, 0.8, 0.98)
     errors = [abs(restitution_found(impact.damping_of_restitution(e, SPEED) * SPEED, 1e-11, 0.01) - e) for e in ratios]
     return at_most(max(errors), 1e-9)
 
 
 def approach_phases() -> Finding:
-    """Largest error of e over 20 approach phases at tolerance 1e-6: no step goes blindly into the contact."""
+    """Largest error of e over 20 approach phases at tolerance 1e-6: no step goes blindly into the
+    contact.
+    """
     return at_most(max(phase_errors(0.5, 1e-6)), 3e-6)
 
 
@@ -50,7 +56,7 @@ def phase_errors(loss: float, tolerance: float, law: NormalElastic = LAW) -> lis
 
 
 def tolerance_is_met() -> Finding:
-    """Largest error over asked tolerance, 1e-3 to 1e-11, worst of five phases: at most 5."""
+    """Largest error over requested tolerance, 1e-3 to 1e-11, worst of five phases: at most 5."""
     exact = impact.restitution(0.5)
     worst = 0.0
     for power in range(3, 12):
@@ -62,7 +68,9 @@ def tolerance_is_met() -> Finding:
 
 
 def order_of_error() -> Finding:
-    """Slope of log error over log tolerance, 1e-3 to 1e-10, from the worst of eight approach phases; at least 0.8."""
+    """Slope of log error over log tolerance, 1e-3 to 1e-10, from the worst of eight approach
+    phases; at least 0.8.
+    """
     exact = impact.restitution(0.5)
     powers = range(3, 11)
     errors = [max(abs(restitution_found(0.5, 10.0**-p, 0.002 * (i + 0.21)) - exact) for i in range(8)) for p in powers]
@@ -71,7 +79,9 @@ def order_of_error() -> Finding:
 
 
 def no_energy_without_source() -> Finding:
-    """Largest restitution of an elastic impact over 20 approach phases at the loosest tolerance, above 1."""
+    """Largest restitution of an elastic impact over 20 approach phases at the loosest tolerance,
+    above 1.
+    """
     found = [restitution_found(1e-12, 1e-3, 0.003 * (i + 0.37) / PHASES) for i in range(PHASES)]
     return at_most(max(0.0, max(found) - 1.0), 1e-2)
 
@@ -82,14 +92,18 @@ def very_stiff() -> Finding:
 
 
 def steel_ball() -> tuple[PointContact, tuple[float, float, float]]:
-    """Steel ball on a steel flat at 1 m/s: the rig, and duration [s], depth [m] and force [N] in closed form."""
+    """Steel ball on a steel flat at 1 m/s: the rig, and duration [s], depth [m] and force [N] in
+    closed form.
+    """
     mass = STEEL_DENSITY * 4.0 / 3.0 * math.pi * STEEL_RADIUS**3
     law = NormalElastic(impact.sphere_coefficient(STEEL_RADIUS, 210e9, 0.3), 1.5)
     return free_impact(mass, law, None), impact.elastic_impact(mass, 1.0, law.coefficient, law.exponent)
 
 
 def steel_impact(tolerance: float, gap: float = 3.3e-4) -> tuple[float, float, float, int]:
-    """Relative errors of duration, depth and peak force with an outer tick of 1 ms, and the steps taken, rejected ones included."""
+    """Relative errors of duration, depth and peak force with an outer tick of 1 ms, and the steps
+    taken, rejected ones included.
+    """
     rig, (lasts, depth, force) = steel_ball()
     scale = numpy.array([depth, 1.0]) * tolerance
     whole = integrate(rig, numpy.array([gap, -1.0]), scale, numpy.array([0.0, 1e-3]))
@@ -108,7 +122,9 @@ def microsecond_contact() -> Finding:
 
 
 def slap_error(tolerance: float, phase: float = 0.0) -> float:
-    """Error of the seat slap after 4 s, relative to the scales of the motion; the start is raised by `phase` [m]."""
+    """Error of the seat slap after 4 s, relative to the scales of the motion; the start is raised
+    by `phase` [m].
+    """
     rig, start, scales = seat_slap()
     begin = start + numpy.array([phase, 0.0])
     found = integrate(rig, begin, scales * tolerance, numpy.array([0.0, 4.0])).states[-1]
@@ -133,7 +149,9 @@ def seat_slap_position() -> Finding:
 
 
 def flight_over_fast_support() -> Finding:
-    """A long flight over a support at 200 Hz: the first touch is met, whatever the free flight would allow as a step."""
+    """A long flight over a support at 200 Hz: the first touch is met, whatever the free flight
+    would allow as a step.
+    """
     rig = PointContact(1.0, 9.81, 2.0e-3, 2.0 * math.pi * 200.0, NormalElastic(1.0e6, 1.5), NormalDissipative(0.1))
     start = numpy.array([0.05, 0.0])
     found = integrate(rig, start, numpy.array([1e-3, 1.0]) * 1e-11, numpy.array([0.0, 0.12])).states[-1]
@@ -141,7 +159,9 @@ def flight_over_fast_support() -> Finding:
 
 
 def pull_out() -> Finding:
-    """A support that jumps away at 20 m/s: state against the twin, the contact is lost without a pull."""
+    """A support that jumps away at 20 m/s: state against the twin, the contact is lost without a
+    pull.
+    """
     rig = PointContact(1.0, 0.0, 0.5, 40.0, NormalElastic(1.0e5, 1.5), NormalDissipative(2.0))
     start = numpy.array([0.0, 0.0])
     found = integrate(rig, start, numpy.array([0.1, 10.0]) * 1e-10, numpy.array([0.0, 0.3])).states[-1]
@@ -184,7 +204,9 @@ def thousand_bounces() -> Finding:
 
 
 def energy_never_rises() -> Finding:
-    """Largest rise of the energy between samples with loss, relative to the start: at most 10 tolerances."""
+    """Largest rise of the energy between samples with loss, relative to the start: at most 10
+    tolerances.
+    """
     rig, start = _dropped()
     times = numpy.linspace(0.0, 5.0, 5001, dtype=numpy.float64)
     states = integrate(rig, start, numpy.array([1e-3, 1.0]) * 1e-8, times).states

@@ -1,4 +1,4 @@
-"""Hard cases of the normal law and of the restitution that is asked for."""
+"""Hard cases of the normal law and of the restitution that is requested."""
 
 from __future__ import annotations
 
@@ -39,13 +39,17 @@ def never_pulls() -> Finding:
 
 
 def low_restitution() -> Finding:
-    """Largest relative error of the damping for e below 1/3, where the usual start lies beyond the pole."""
+    """Largest relative error of the damping for e below 1/3, where the usual start lies beyond the
+    pole.
+    """
     ratios = (0.333, 0.3, 0.2, 0.1, 0.05, 0.02)
     return at_most(max(_damping_error(e, 0.7) for e in ratios), 1e-12)
 
 
 def high_restitution() -> Finding:
-    """Largest relative error of the damping for e up to 1 - 1e-6, where the relation has a double root."""
+    """Largest relative error of the damping for e up to 1 - 1e-6, where the relation has a double
+    root.
+    """
     ratios = (0.4, 0.7, 0.9, 0.99, 0.999, 0.9999, 0.999999)
     return at_most(max(_damping_error(e, 0.7) for e in ratios), 1e-8)
 

@@ -1,7 +1,8 @@
-"""Published formulas for the Hunt-Crossley loss that delivers an asked restitution: `d = damping v0` from e, each as printed.
+"""Published formulas for the Hunt-Crossley loss that delivers a requested restitution: `d = damping
+v0` from e, each as printed.
 
-None is exact; what each really gives is in `bench accuracy seat`, part "restitution from B". The exact relation is
-`d (1 + e) = ln[(1 + d)/(1 - d e)]` (`laws/restitution.py`).
+None is exact; what each really gives is in `bench accuracy seat`, part "restitution from B". The
+exact relation is `d (1 + e) = ln[(1 + d)/(1 - d e)]` (`laws/restitution.py`).
 """
 
 from __future__ import annotations
@@ -12,7 +13,9 @@ __all__ = ["FORMULAS"]
 
 
 def hunt_crossley(e: float) -> float:
-    """`3/2 (1 - e)`: Hunt and Crossley 1975, for e near 1; the usual one beside Driver and Seat's eq 8."""
+    """`3/2 (1 - e)`: Hunt and Crossley 1975, for e near 1; the usual one beside Driver and Seat's
+    eq 8.
+    """
     return 1.5 * (1.0 - e)
 
 

@@ -1,8 +1,10 @@
-"""Work and precision on the seat slap: error after 4 s and time, for each tolerance, ours beside scipy's LSODA and DOP853.
+"""Work and precision on the seat slap: error after 4 s and time, for each tolerance, ours beside
+scipy's LSODA and DOP853.
 
-60 kg on a one-sided foam law over a floor at 5 Hz and 1.3 g, 20 touches (`one_mass.seat_slap`). Times are wall times on one
-thread over 4 simulated seconds; ours is compiled, scipy's right-hand side is Python, which is most of its time. scipy takes steps
-of at most 10 ms, without which it steps over touches at loose tolerances.
+60 kg on a one-sided foam law over a floor at 5 Hz and 1.3 g, 20 touches (`one_mass.seat_slap`).
+Times are wall times on one thread over 4 simulated seconds; ours is compiled, scipy's right-hand
+side is Python, which is most of its time. scipy takes steps of at most 10 ms, without which it
+steps over touches at loose tolerances.
 """
 
 from __future__ import annotations
@@ -63,7 +65,8 @@ def scipy_work(method: str) -> list[SlapCost]:
 
 
 def cheapest(work: list[SlapCost], error: float) -> SlapCost | None:
-    """The cheapest run whose error, and that of all tighter ones, is at most `error` [m]; None where none is.
+    """The cheapest run whose error, and that of all tighter ones, is at most `error` [m]; None
+    where none is.
 
     `work` goes from loose to tight: one run that is right by chance does not count.
     """

@@ -1,8 +1,10 @@
-"""Ladder of the restitution: what a free impact gives back when the loss is set by each formula for an asked restitution.
+"""Work-precision study of the restitution: what a free impact gives back when the loss is set by
+each formula for a requested restitution.
 
-Hunt-Crossley by five published formulas and by the exact relation; a linear spring and damper by the formula that lets the
-contact pull and by the one that does not; the viscoelastic sphere (Kuwabara and Kono) by Hunt-Crossley's loss at the depth of
-the elastic impact, and by the root of e(Z). Every value is a free impact integrated by the bench's own kernels.
+Hunt-Crossley by five published formulas and by the exact relation; a linear spring and damper by
+the formula that lets the contact pull and by the one that does not; the viscoelastic sphere
+(Kuwabara and Kono) by Hunt-Crossley's loss at the depth of the elastic impact, and by the root of
+e(Z). Every value is a free impact integrated by the bench's own kernels.
 """
 
 from __future__ import annotations
@@ -26,7 +28,7 @@ __all__ = ["ASKED", "PART", "WORK_PRECISION", "delivered", "rows"]
 PART = "restitution from B"
 ASKED = (0.05, 0.1, 0.3, 0.5, 0.7, 0.8, 0.9, 0.95, 0.98)
 QUANTITY = "restitution"
-REFERENCE = "the restitution that was asked for; free impact integrated to 1e-12"
+REFERENCE = "the restitution that was requested; free impact integrated to 1e-12"
 MASS, SPEED = 20.0, 0.5  # [kg], [m/s]
 SPHERE, SPRING = NormalElastic(1.0e5, 1.5), NormalElastic(1.0e5, 1.0)
 TOLERANCE = 1.0e-12
@@ -35,7 +37,7 @@ Ways = dict[str, Callable[[float], GeneralDissipative]]
 
 
 def rows() -> list[Row]:
-    """Each law, each asked restitution, each way to its loss."""
+    """Each law, each requested restitution, each way to its loss."""
     found = []
     for law, elastic, ways in (
         ("Hunt-Crossley", SPHERE, _hunt_crossley()),
@@ -83,7 +85,9 @@ def _spring_and_damper() -> Ways:
 
 
 def _sphere() -> Ways:
-    """B of the sphere from Hunt-Crossley's: the same force at the depth of the elastic impact; or exactly."""
+    """B of the sphere from Hunt-Crossley's: the same force at the depth of the elastic impact; or
+    exactly.
+    """
     length = (MASS * SPEED**2 / SPHERE.coefficient) ** (1.0 / (SPHERE.exponent + 1.0))
     depth = impact.elastic_impact(MASS, SPEED, SPHERE.coefficient, SPHERE.exponent)[1]
 

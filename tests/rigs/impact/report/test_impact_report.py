@@ -10,7 +10,7 @@ from contact_sim_pkg.report.reading import read_recording
 from contact_sim_pkg.report.report import render
 from contact_sim_pkg.report.summary import summarise_recording
 from contact_sim_pkg.rigs.impact.report.figures_material import material_of_run
-from contact_sim_pkg.rigs.impact.report.series import MOST_COURSES, ImpactPass
+from contact_sim_pkg.rigs.impact.report.series import MOST_COURSES, ImpactReader
 from contact_sim_pkg.run.offline import run_offline
 from contact_sim_pkg.scene.load import load_scene
 from contact_sim_pkg.scene.overrides import set_value
@@ -77,4 +77,4 @@ def test_many_impacts_keep_the_courses_of_the_first_alone(tmp_path):
 
 
 def test_nothing_taken_is_no_series():
-    assert ImpactPass().finish() is None
+    assert ImpactReader().finish() is None

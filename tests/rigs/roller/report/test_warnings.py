@@ -34,24 +34,24 @@ def warned(*tracks, rate=2000.0):
     return warnings_of(RollerSeries(numpy.zeros(4), contact, list(tracks), [], []))
 
 
-def test_a_run_whose_stretches_agree_is_not_warned_of():
+def test_a_run_whose_intervals_agree_is_not_warned_of():
     assert warned(track(checked=4.0, error=0.09)) == []
 
 
-def test_a_time_acceleration_that_errs_is_told_with_its_largest_error():
+def test_a_time_acceleration_that_errs_is_reported_with_its_largest_error():
     (sentence,) = warned(track(checked=4.0, error=0.02), track(checked=4.0, error=0.5), track(checked=4.0, error=0.3))
-    assert "2 of 3 stretches" in sentence
+    assert "2 of 3 intervals" in sentence
     assert "time acceleration of 1000" in sentence
     assert "at most 0.5" in sentence
 
 
-def test_a_track_worn_far_is_told_with_its_share_of_the_radius():
+def test_a_track_worn_far_is_reported_with_its_share_of_the_radius():
     (sentence,) = warned(track(lowered=1e-3))
     assert "20 % of its radius" in sentence
 
 
 @pytest.mark.parametrize(("waves", "rate", "seen"), [(4, 2000.0, True), (11, 2000.0, False), (11, 5000.0, True)])
-def test_waves_faster_than_half_the_rate_are_told(waves, rate, seen):
+def test_waves_faster_than_half_the_rate_are_reported(waves, rate, seen):
     assert bool(warned(track(waves=waves), rate=rate)) is not seen
 
 

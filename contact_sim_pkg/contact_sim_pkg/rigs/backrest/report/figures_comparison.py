@@ -1,4 +1,6 @@
-"""Figure 3 of several runs: contact points on the contact domain at first touch and at the largest force, run beside run."""
+"""Figure 3 of several runs: contact points on the contact domain at first touch and at the largest
+force, run beside run.
+"""
 
 from __future__ import annotations
 
@@ -36,7 +38,9 @@ def comparison_pictures(key: str, name: str, runs: list[Run]) -> list[Picture]:
 
 
 def domain_comparison(key: str, name: str, runs: list[Run]) -> Picture | None:
-    """One column for each run, first touch above largest force; None where no run has fields and points of this contact."""
+    """One column for each run, first touch above largest force; None where no run has fields and
+    points of this contact.
+    """
     found = [each for run in runs if (each := _domain(run, name)) is not None]
     if not found:
         return None

@@ -1,4 +1,6 @@
-"""Pictures of the contact domain of a backrest: contact points with the fitted Lamé curve, maps through a slap, area ratio."""
+"""Pictures of the contact domain of a backrest: contact points with the fitted Lamé curve, maps
+through a slap, area ratio.
+"""
 
 from __future__ import annotations
 
@@ -25,7 +27,9 @@ CURVE_POINTS = 361
 
 
 def lame_curve(fit: LameFit) -> tuple[FloatArray, FloatArray]:
-    """x and y [m] along the curve |x/a|^n + |y/b|^n = 1 about its centre, once around (Driver and Seat, eq 5)."""
+    """x and y [m] along the curve |x/a|^n + |y/b|^n = 1 about its centre, once around (Driver and
+    Seat, eq 5).
+    """
     angle = np.linspace(0.0, 2.0 * np.pi, CURVE_POINTS)
     power = 2.0 / fit.exponent
     x = fit.centre_x + fit.a * np.sign(np.cos(angle)) * np.abs(np.cos(angle)) ** power
@@ -42,7 +46,9 @@ def fit_of(field: PressureMap) -> LameFit:
 
 
 def contact_domain(key: str, name: str, field: FieldSeries, points: PointSeries | None) -> Picture:
-    """Figure 3: contact points on the domain at first touch and at the largest force, with the fitted curve."""
+    """Figure 3: contact points on the domain at first touch and at the largest force, with the
+    fitted curve.
+    """
     pairs = [(field.touch or field.first, points.touch if points else None)]
     pairs.append((field.heaviest, points.heaviest if points else None))
     window = common_window([shown.field for shown, _ in pairs])
@@ -82,7 +88,9 @@ def highest_kilopascals(fields: list[PressureMap]) -> float:
 def draw_domain(
     axes: Axes, field: PressureMap, points: PointSnapshot | None, window: Window, limits: Normalize
 ) -> AxesImage:
-    """Pressure [kPa] of the loaded cells, their edge, the Lamé curve through it, and the points that carry."""
+    """Pressure [kPa] of the loaded cells, their edge, the Lamé curve through it, and the points
+    that carry.
+    """
     loaded = np.where(field.pressure > 0.0, field.pressure * 1e-3, np.nan)
     image = draw_map(axes, field, loaded, PRESSURE_COLOURS, limits)
     draw_outline(axes, field)
@@ -128,7 +136,9 @@ def _points_sentence(points: PointSeries | None) -> str:
 
 
 def slap_stages(key: str, name: str, field: FieldSeries) -> Picture:
-    """Pressure maps at up to eight instants of the contact around the largest force, one colour scale."""
+    """Pressure maps at up to eight instants of the contact around the largest force, one colour
+    scale.
+    """
     stages = chosen_stages(field)
     window = common_window([each.field for each in stages])
     rows = -(-len(stages) // COLUMNS)
@@ -155,7 +165,9 @@ def slap_stages(key: str, name: str, field: FieldSeries) -> Picture:
 
 
 def chosen_stages(field: FieldSeries) -> list[Snapshot]:
-    """At most `STAGES` of the fields with load in a row around the largest one, evenly spread, that one among them."""
+    """At most `STAGES` of the fields with load in a row around the largest one, evenly spread, that
+    one among them.
+    """
     middle = next(number for number, each in enumerate(field.event) if each is field.heaviest)
     first = last = middle
     while first > 0 and field.event[first - 1].load > 0.0:
@@ -169,7 +181,9 @@ def chosen_stages(field: FieldSeries) -> list[Snapshot]:
 
 
 def area_over_time(key: str, name: str, field: FieldSeries, slaps: EpisodeSeries) -> Picture | None:
-    """Figure 7: S(t)/S_ref over the run and over one impact; None where the bag does not hold the contact at rest."""
+    """Figure 7: S(t)/S_ref over the run and over one impact; None where the bag does not hold the
+    contact at rest.
+    """
     area = area_ratio(field)
     if area is None:
         return None

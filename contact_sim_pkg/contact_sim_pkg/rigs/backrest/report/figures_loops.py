@@ -1,4 +1,6 @@
-"""Loops of a backrest: normal force over approach, friction over tangential displacement (Driver and Seat, figures 4 to 6)."""
+"""Loops of a backrest: normal force over approach, friction over tangential displacement (Driver
+and Seat, figures 4 to 6).
+"""
 
 from __future__ import annotations
 
@@ -24,7 +26,9 @@ LOOP_POINTS = 4000
 
 
 def force_loops(key: str, name: str, recording: Recording) -> Picture:
-    """Figures 4 to 6: normal force over approach of point 1 and of the whole back, friction over tangential displacement."""
+    """Figures 4 to 6: normal force over approach of point 1 and of the whole back, friction over
+    tangential displacement.
+    """
     contact, points = recording.contacts[name], recording.points
     panels = [("approach, mm", "normal force, N", "whole contact", normal_loop(contact))]
     if points is not None and points.points > 1:

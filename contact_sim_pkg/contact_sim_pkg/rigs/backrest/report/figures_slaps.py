@@ -1,4 +1,6 @@
-"""Pictures of slaps: force with slaps marked, restitution and duration of each, shares of stick, slip and lift-off."""
+"""Pictures of slaps: force with slaps marked, restitution and duration of each, shares of stick,
+slip and lift-off.
+"""
 
 from __future__ import annotations
 
@@ -22,7 +24,9 @@ STATE_COLOURS = {
 
 
 def force_with_slaps(key: str, name: str, contact: ContactSeries, slaps: EpisodeSeries) -> Picture:
-    """Normal force, friction where there is any, and approach over time; lift-off shaded, each slap marked."""
+    """Normal force, friction where there is any, and approach over time; lift-off shaded, each slap
+    marked.
+    """
     unit, scale = force_unit(contact)
     panels = [(f"normal force, {unit}", contact.normal * scale)]
     panels += [(f"friction on back, {unit}", contact.tangential * scale)] if contact.tangential.any() else []
@@ -103,7 +107,9 @@ def restitution_over_time(key: str, name: str, slaps: EpisodeSeries) -> Picture 
 
 
 def share_over_time(key: str, name: str, recording: Recording) -> Picture | None:
-    """Shares of the states over the cycles of the drive; None without points, and where they all do the same throughout."""
+    """Shares of the states over the cycles of the drive; None without points, and where they all do
+    the same throughout.
+    """
     points = recording.points
     if points is None:
         return None

@@ -1,4 +1,6 @@
-"""Numbers behind the pictures of the backrest: loops, area ratio, shares of stick and slip, duration of slaps."""
+"""Numbers behind the pictures of the backrest: loops, area ratio, shares of stick and slip,
+duration of slaps.
+"""
 
 from __future__ import annotations
 
@@ -13,14 +15,14 @@ from contact_sim_pkg.report.signal.loops import period_of, vibration_period
 BACKREST = "backrest"
 """Name of the contact that these numbers belong to."""
 SHARE_ROWS = 200
-"""Most stretches over which shares are taken where nothing drives in cycles."""
+"""Most intervals over which shares are taken where nothing drives in cycles."""
 
 
 class Shares(NamedTuple):
-    """Parts of the time, taken over all candidate points, of each stretch."""
+    """Parts of the time, taken over all candidate points, of each interval."""
 
     edges: FloatArray
-    """[s] [stretches + 1]"""
+    """[s] [intervals + 1]"""
     apart: FloatArray
     touching: FloatArray
     """carries, no friction in the scene"""
@@ -29,7 +31,9 @@ class Shares(NamedTuple):
 
 
 def drive_period(scene: dict[str, Any]) -> float | None:
-    """Period [s] of a sinusoidal vibration, or of the sliding where there is no vibration; None for any other drive."""
+    """Period [s] of a sinusoidal vibration, or of the sliding where there is no vibration; None for
+    any other drive.
+    """
     if isinstance(scene.get("vibration"), dict):
         return vibration_period(scene)
     backrest = scene.get("backrest")
@@ -38,7 +42,9 @@ def drive_period(scene: dict[str, Any]) -> float | None:
 
 
 def state_shares(points: PointSeries, period: float | None) -> Shares:
-    """Shares over each cycle of the drive, the last one as far as it goes; without one over at most `SHARE_ROWS` stretches."""
+    """Shares over each cycle of the drive, the last one as far as it goes; without one over at most
+    `SHARE_ROWS` intervals.
+    """
     begin, step = float(points.time[0]), _interval(points.time)
     end = float(points.time[-1]) + step
     if period is None:

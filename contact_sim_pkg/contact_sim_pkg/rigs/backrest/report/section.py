@@ -1,4 +1,6 @@
-"""The part of the page on a backrest: contact, contact domain, slaps and slips; what the run lacks is absent."""
+"""The part of the page on a backrest: contact, contact domain, slaps and slips; what the run lacks
+is absent.
+"""
 
 from __future__ import annotations
 

@@ -1,7 +1,9 @@
-"""Accuracy and cost of the backrest rig: the asked tolerance, and for a shell the number of modes.
+"""Accuracy and cost of the backrest rig: the requested tolerance, and for a shell the number of
+modes.
 
-Errors are relative: *motion* is the largest error of a point's approach over the largest excursion of any, *normal force* and
-*friction* are the largest over the largest value, *instants of touch* the largest over the mean time between touches.
+Errors are relative: *motion* is the largest error of a point's approach over the largest excursion
+of any, *normal force* and *friction* are the largest over the largest value, *instants of touch*
+the largest over the mean time between touches.
 """
 
 from __future__ import annotations
@@ -29,20 +31,22 @@ REPEATS, LONG = 7, 0.5  # runs that are timed, and the time [s] from which one i
 TWIN = "scipy DOP853, no shared code"
 OWN = f"own code, tolerance {TIGHT:.0e}"
 Row = dict[str, Any]
-Tell = Callable[[str], None]
+Notify = Callable[[str], None]
 
 
-def tolerance_rows(_scene_name: str, scene: ResolvedScene, tell: Tell) -> list[Row]:
-    """Motion, forces and instants of touch for each tolerance: against scipy, and what its twin lacks against own code."""
+def tolerance_rows(_scene_name: str, scene: ResolvedScene, notify: Notify) -> list[Row]:
+    """Motion, forces and instants of touch for each tolerance: against scipy, and what its twin
+    lacks against own code.
+    """
     shell = _shell(scene) is not None
     drive = drive_of(scene, SHELL_DURATION if shell else DURATION)
-    tell(f"integrator: reference for {(len(drive.acceleration) - 1) * drive.segment:g} s")
+    notify(f"integrator: reference for {(len(drive.acceleration) - 1) * drive.segment:g} s")
     twin = slow_run(drive)
     rubs = drive.model.rig.contact.friction is not None
     own = fast_run(drive, _scale(scene, drive, TIGHT)) if twin is None or rubs else None
     rows = []
     for tolerance in TOLERANCES:
-        tell(f"integrator: tolerance {tolerance:.0e}")
+        notify(f"integrator: tolerance {tolerance:.0e}")
         found, cost = _timed(drive, _scale(scene, drive, tolerance))
         head = {"part": "integrator", "rung": "", "grid": "", "tolerance": tolerance, "ms_per_simulated_s": cost}
         exact = own if twin is None else twin
@@ -54,20 +58,22 @@ def tolerance_rows(_scene_name: str, scene: ResolvedScene, tell: Tell) -> list[R
     return rows
 
 
-def mode_rows(_scene_name: str, scene: ResolvedScene, tell: Tell) -> list[Row]:
-    """The same quantities for each number of modes of a shell, against the most modes at a tight tolerance."""
+def mode_rows(_scene_name: str, scene: ResolvedScene, notify: Notify) -> list[Row]:
+    """The same quantities for each number of modes of a shell, against the most modes at a tight
+    tolerance.
+    """
     if _shell(scene) is None:
         return []
     searched = scene.data["effects"]["backrest"].get("contact_search") is not None
     counts = tuple(count for count in MODE_COUNTS if not searched or count <= MOST_SEARCHED)
     most = f"{counts[-1]} modes"
-    tell(f"modes: reference, {most}")
+    notify(f"modes: reference, {most}")
     finest = drive_of(_with_modes(scene, counts[-1]), SHELL_DURATION)
     exact = fast_run(finest, _scale(scene, finest, TIGHT))
     tolerance = float(scene.data["integrator"]["relative_tolerance"])
     rows = []
     for count in counts:
-        tell(f"modes: {count}")
+        notify(f"modes: {count}")
         drive = drive_of(_with_modes(scene, count), SHELL_DURATION)
         found, cost = _timed(drive, drive.model.scale)
         rung = f"{count} mode{'s' if count > 1 else ''}"

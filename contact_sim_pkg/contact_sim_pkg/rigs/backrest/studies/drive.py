@@ -1,4 +1,6 @@
-"""Drive of a backrest scene for the studies, and runs over it: by the bench's kernels, and by scipy from its twin."""
+"""Drive of a backrest scene for the studies, and runs over it: by the bench's kernels, and by scipy
+from its twin.
+"""
 
 from __future__ import annotations
 
@@ -54,7 +56,9 @@ def drive_of(scene: ResolvedScene, duration: float) -> DrivenBackrest:
 
 
 def fast_run(drive: DrivenBackrest, scale: Vector) -> Motion:
-    """By the bench's kernels, with the error ``scale`` [states] allowed per step. Raises ArithmeticError where they fail."""
+    """By the bench's kernels, with the error ``scale`` [states] allowed per step. Raises
+    ArithmeticError where they fail.
+    """
     model, count = drive.model, len(drive.acceleration) - 1
     states, points = len(model.start), len(model.rig.gaps)
     state, mode, work = model.start.copy(), make_mode(points), make_workspace(states, event_count(points))
@@ -82,7 +86,8 @@ def fast_run(drive: DrivenBackrest, scale: Vector) -> Motion:
 
 
 def slow_run(drive: DrivenBackrest) -> Motion | None:
-    """By scipy, without code of the kernels; None for a back that the twin does not know: a shell, or one on foam.
+    """By scipy, without code of the kernels; None for a back that the twin does not know: a shell,
+    or one on foam.
 
     Friction does not act on the normal motion of a back without modes, and is not worked out.
     """
@@ -111,7 +116,9 @@ def _law(elastic: object, loss: object) -> Law | None:
 
 
 def _touches(drive: DrivenBackrest, pressed: float, approach: Vector, speed: Vector) -> Vector:
-    """Instants at which free flight ends: the root of its cubic, the acceleration being straight in each segment."""
+    """Instants at which free flight ends: the root of its cubic, the acceleration being straight in
+    each segment.
+    """
     length, shaking = drive.segment, drive.acceleration
     found = []
     for i in numpy.flatnonzero((approach[:-1] < 0.0) & (approach[1:] >= 0.0)):

@@ -1,4 +1,6 @@
-"""Hard cases of the backrest rig: violent slaps, chatter, grazing, friction that vanishes, one point, energy."""
+"""Hard cases of the backrest rig: violent slaps, chatter, grazing, friction that vanishes, one
+point, energy.
+"""
 
 from __future__ import annotations
 
@@ -37,7 +39,9 @@ def violent_slaps() -> Finding:
 
 
 def _periods(amplitude: float) -> int:
-    """Drive periods after which the motion repeats within 1e-5 m, 5 Hz at ``amplitude`` [g], behind 8 s; 0 for none up to 8."""
+    """Drive periods after which the motion repeats within 1e-5 m, 5 Hz at ``amplitude`` [g], behind
+    8 s; 0 for none up to 8.
+    """
     values = f"vibration.amplitude={GRAVITY * amplitude}", "vibration.frequency=5", "duration=12"
     settled = _run("seat_slap", *values, TIGHT, duration=12.0).approach[8000:, 0]
     shifts = (count for count in range(1, 9) if numpy.ptp(settled[200 * count :] - settled[: -200 * count]) < 1e-5)
@@ -50,7 +54,9 @@ def period_doubling() -> Finding:
 
 
 def chattering_touches() -> Finding:
-    """Largest difference of an instant of touch from scipy's, [s], 2 s near the amplitude that lifts off, restitution 0.9."""
+    """Largest difference of an instant of touch from scipy's, [s], 2 s near the amplitude that
+    lifts off, restitution 0.9.
+    """
     found, twin = _against_twin(*CHATTER, duration=2.0)
     if len(found.touches) != len(twin.touches) or len(twin.touches) == 0:
         return exactly(len(found.touches), max(1, len(twin.touches)))
@@ -58,7 +64,9 @@ def chattering_touches() -> Finding:
 
 
 def at_rest_under_nothing() -> Finding:
-    """Largest motion [m] of a back that is not shaken: it grazes nothing, slaps nothing, drifts nowhere."""
+    """Largest motion [m] of a back that is not shaken: it grazes nothing, slaps nothing, drifts
+    nowhere.
+    """
     found = _run("seat_slap", "vibration.amplitude=0", TIGHT)
     return at_most(float(numpy.abs(found.approach - found.approach[0]).max()) + len(found.touches), 1e-12)
 
@@ -85,19 +93,23 @@ def no_force_without_overlap() -> Finding:
 
 
 def energy_of_violent_slaps() -> Finding:
-    """Residual of the energy over the work supplied, 6 g for 2 s, asked 1e-10."""
+    """Residual of the energy over the work supplied, 6 g for 2 s, requested 1e-10."""
     found = _run(*VIOLENT)
     return at_most(abs(found.residual / found.supplied), 1e-9)
 
 
 def one_point() -> Finding:
-    """A shell with one contact point: residual of the energy over the work supplied, 9 modes, asked 1e-10."""
+    """A shell with one contact point: residual of the energy over the work supplied, 9 modes,
+    requested 1e-10.
+    """
     found = _run(*ONE_POINT, duration=0.5)
     return at_most(abs(found.residual / found.supplied), 1e-8)
 
 
 def weight_of_kept_contact() -> Finding:
-    """Mean force [N] over ten periods of 5 Hz with contact kept, against the weight: the mean acceleration is zero."""
+    """Mean force [N] over ten periods of 5 Hz with contact kept, against the weight: the mean
+    acceleration is zero.
+    """
     found = _run("seat_slap", "vibration.frequency=5", "vibration.amplitude=2", TIGHT, duration=4.0)
     return close_to(float(found.normal[2000:4000].mean()), 45.6 * GRAVITY, 0.5)
 

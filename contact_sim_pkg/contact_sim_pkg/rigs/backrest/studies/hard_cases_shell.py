@@ -24,7 +24,9 @@ PLATE = BACK._replace(radius_1=math.inf, radius_2=math.inf)
 
 
 def plate_limit() -> Finding:
-    """Largest relative error of the 25 frequencies at R = inf and at R = 1e9 m against `sqrt(D/(rho h)) (alpha^2+beta^2)`."""
+    """Largest relative error of the 25 frequencies at R = inf and at R = 1e9 m against `sqrt(D/(rho
+    h)) (alpha^2+beta^2)`.
+    """
     order = numpy.arange(1.0, 6.0) * math.pi
     waves = (order[:, None] / PLATE.length_1) ** 2 + (order / PLATE.length_2) ** 2
     speed = PLATE.thickness * math.sqrt(PLATE.young / (PLATE.density * 12.0 * (1.0 - PLATE.poisson**2)))
@@ -40,7 +42,9 @@ def vanishing_thickness() -> Finding:
 
 
 def thick_shell() -> Finding:
-    """How many of four shells thicker than a tenth of the shorter side are refused; one of exactly a tenth is not."""
+    """How many of four shells thicker than a tenth of the shorter side are refused; one of exactly
+    a tenth is not.
+    """
     natural_frequencies(BACK._replace(thickness=0.1 * BACK.length_1), 1)
     refused = 0
     for thickness in (0.0401, 0.045, 0.5, math.nan):
@@ -60,7 +64,9 @@ def point_load() -> Finding:
 
 
 def corners() -> Finding:
-    """Share of 400 boundary points of a square at n = 100 that lie within 10 % of a corner; evenly spread: a tenth."""
+    """Share of 400 boundary points of a square at n = 100 that lie within 10 % of a corner; evenly
+    spread: a tenth.
+    """
     x, y = lame_boundary(1.0, 1.0, 100.0, 400)
     return close_to(float(((abs(x) > 0.9) & (abs(y) > 0.9)).mean()), 0.1, 0.02)
 
@@ -89,7 +95,9 @@ def astroid() -> Finding:
 
 
 def few_contact_points() -> Finding:
-    """Sets of 1 to 4 points, and of 20 on a line, that come back with n = 2 and are marked as not fitted."""
+    """Sets of 1 to 4 points, and of 20 on a line, that come back with n = 2 and are marked as not
+    fitted.
+    """
     corner = numpy.array([[0.0, 0.0], [0.1, 0.0], [0.1, 0.2], [0.0, 0.2]])
     line = numpy.linspace(0.0, 1.0, 20)[:, None] * numpy.array([[0.3, 0.1]])
     fits = [fit_points(numpy.asarray(points)) for points in (corner[:1], corner[:2], corner[:3], corner, line)]

@@ -1,4 +1,6 @@
-"""Hard cases of what a back touches with and what it touches: foam at the seat back, and the search of the contact point."""
+"""Hard cases of what a back touches with and what it touches: foam at the seat back, and the search
+of the contact point.
+"""
 
 from __future__ import annotations
 
@@ -62,7 +64,9 @@ def _search() -> ContactSearch:
 
 
 def _depth(shape: Vector, place: Vector) -> float:
-    """Depth in [m] of the shell at a place, from the sines and the paraboloid: nothing of the search's."""
+    """Depth in [m] of the shell at a place, from the sines and the paraboloid: nothing of the
+    search's.
+    """
     orders = numpy.arange(1, round(len(shape) ** 0.5) + 1) * numpy.pi
     sines = numpy.outer(numpy.sin(orders * place[0] / WIDTH), numpy.sin(orders * place[1] / HEIGHT)).ravel()
     away = numpy.array([place[0] - 0.5 * WIDTH, place[1] - 0.5 * HEIGHT])
@@ -80,7 +84,9 @@ def _deepest(shape: Vector) -> float:
 
 
 def nearest_of_many_crests() -> Finding:
-    """Ten shells bent by 2 and by 50 mm in nine modes: by how much a place lies deeper than the one found [m]."""
+    """Ten shells bent by 2 and by 50 mm in nine modes: by how much a place lies deeper than the one
+    found [m].
+    """
     search, random = _search(), numpy.random.default_rng(7)
     short = 0.0
     for size in (0.002, 0.05) * 5:
@@ -90,7 +96,9 @@ def nearest_of_many_crests() -> Finding:
 
 
 def nearest_on_the_rim() -> Finding:
-    """A shell bent hollow by 1 m touches where its sines are zero: depth in the middle of its shorter gap, -L2^2/(8 R2) [m]."""
+    """A shell bent hollow by 1 m touches where its sines are zero: depth in the middle of its
+    shorter gap, -L2^2/(8 R2) [m].
+    """
     search = _search()
     hollow = numpy.zeros(9)
     hollow[0] = -1.0
@@ -99,7 +107,9 @@ def nearest_on_the_rim() -> Finding:
 
 
 def point_that_moves() -> Finding:
-    """Residual of the energy over the work supplied: a force whose point moves keeps its potential, 9 modes, 1 s."""
+    """Residual of the energy over the work supplied: a force whose point moves keeps its potential,
+    9 modes, 1 s.
+    """
     return at_most(_unbalanced(_run(*SHELL, duration=1.0)), 1e-6)
 
 

@@ -1,4 +1,6 @@
-"""Ladder of the shell's linear response: 1, 4, 9 and 25 modes against a plate's single series and against 40 401 modes."""
+"""Work-precision study of the shell's linear response: 1, 4, 9 and 25 modes against a plate's
+single series and against 40 401 modes.
+"""
 
 from __future__ import annotations
 
@@ -29,7 +31,9 @@ STATIC, STEADY = "static deflection", "steady amplitude at 5.25 Hz"
 
 
 def rows() -> list[Row]:
-    """Deflection at the crown: 20 N in the middle, at rest; the same force as an amplitude at (0.4 L1, 0.35 L2)."""
+    """Deflection at the crown: 20 N in the middle, at rest; the same force as an amplitude at (0.4
+    L1, 0.35 L2).
+    """
     rigidity = PLATE.young * PLATE.thickness**3 / (12.0 * (1.0 - PLATE.poisson**2))
     levy = plate_centre_deflection(PLATE.length_1, PLATE.length_2, rigidity, float(LOAD[0]))
     questions: tuple[tuple[str, str, Callable[[int], float], float, str], ...] = (
@@ -52,7 +56,9 @@ def _static(shell: ShallowShell, count: int) -> float:
 
 
 def steady_amplitude(shell: ShallowShell, count: int, frequency: float = 5.25) -> float:
-    """Amplitude [m] at the crown under `20 N sin(2 pi f t)` at (0.4 L1, 0.35 L2), modal damping 0.1."""
+    """Amplitude [m] at the crown under `20 N sin(2 pi f t)` at (0.4 L1, 0.35 L2), modal damping
+    0.1.
+    """
     modes, at_force = shell_modes(shell, count, MIDDLE), shell_modes(shell, count, SHAKEN)
     omega = 2.0 * math.pi * frequency
     stiffness = modes.modal_mass * (modes.frequencies**2 - omega**2 + 2j * DAMPING * modes.frequencies * omega)

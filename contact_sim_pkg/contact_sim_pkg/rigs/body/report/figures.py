@@ -1,4 +1,6 @@
-"""Pictures of a rigid body's run: its way over the ground, its motion, the states of its contacts, what they pushed."""
+"""Pictures of a rigid body's run: its way over the ground, its motion, the states of its contacts,
+what they pushed.
+"""
 
 from __future__ import annotations
 
@@ -20,7 +22,9 @@ NARROW = 0.3  # of a way's height: narrower is drawn beside time
 
 
 def way(poses: BlockPoses) -> Picture:
-    """Outlines of the body on its way, seen from the side; beside each other in time where it only goes up and down."""
+    """Outlines of the body on its way, seen from the side; beside each other in time where it only
+    goes up and down.
+    """
     samples = chosen(poses)
     shapes = [outline(poses, int(sample)) for sample in samples]
     every = np.vstack(shapes)

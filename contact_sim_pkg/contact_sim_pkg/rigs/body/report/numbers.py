@@ -13,13 +13,16 @@ BLOCK = "block"
 """Name of the contact."""
 
 REST_SPEED = 1.0e-12
-"""In [m/s] and [rad/s]: a slower body rests. The scheme `stepping` leaves its rounding, some 1e-17, where one has come to rest."""
+"""In [m/s] and [rad/s]: a slower body rests. The scheme `stepping` leaves its rounding, some 1e-17,
+where one has come to rest.
+"""
 
 
 def block_numbers(recording: Recording) -> dict[str, Any]:
     """Section `block` of the summary; none without motion.
 
-    Runs of samples in contact, largest impulse of one, when the body moved last, where it ends; speeds at the end.
+    Runs of samples in contact, largest impulse of one, when the body moved last, where it ends;
+    speeds at the end.
     """
     contact, moving = recording.contacts.get(BLOCK), recording.motion
     if contact is None or moving is None:

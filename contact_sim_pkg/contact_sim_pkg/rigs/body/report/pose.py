@@ -47,7 +47,9 @@ def poses_of(scene: dict[str, Any], motion: MotionSeries) -> BlockPoses:
 
 
 def outline(poses: BlockPoses, sample: int) -> FloatArray:
-    """Closed outline [corners, 2] of the body in x and z, in [m]: the hull of its points, or the circle of a sphere."""
+    """Closed outline [corners, 2] of the body in x and z, in [m]: the hull of its points, or the
+    circle of a sphere.
+    """
     body, centre = poses.model.body, poses.centre[sample, [0, 2]]
     if len(body.points) == 1:
         circle = np.column_stack([np.cos(CIRCLE), np.sin(CIRCLE)])
@@ -58,7 +60,9 @@ def outline(poses: BlockPoses, sample: int) -> FloatArray:
 
 
 def mark(poses: BlockPoses, sample: int) -> FloatArray:
-    """A point [2] that is fixed to the body, so that its turning is seen: a corner, or a place on a sphere's surface."""
+    """A point [2] that is fixed to the body, so that its turning is seen: a corner, or a place on a
+    sphere's surface.
+    """
     body = poses.model.body
     if len(body.points) > 1:
         return np.asarray(poses.centre[sample, [0, 2]] + _points(poses, sample)[0])
@@ -76,7 +80,9 @@ def _points(poses: BlockPoses, sample: int) -> FloatArray:
 
 
 def chosen(poses: BlockPoses) -> NDArray[np.int64]:
-    """Samples at even distances along the way, turning counted: the first and the last are among them."""
+    """Samples at even distances along the way, turning counted: the first and the last are among
+    them.
+    """
     size = float(np.linalg.norm(poses.model.body.points, axis=1).max()) + poses.model.body.radius
     moved = np.linalg.norm(np.diff(poses.centre, axis=0), axis=1)
     turned = size * np.linalg.norm(poses.spin[1:], axis=1) * np.diff(poses.time)

@@ -1,10 +1,12 @@
-"""Accuracy and cost of the block rig: scheme and step in time, facets of the friction cone, and the contact model.
+"""Accuracy and cost of the block rig: scheme and step in time, facets of the friction cone, and the
+contact model.
 
-*path* is the largest distance of the centre of mass from where the reference has it at the same instant, over the size of the body;
-*end* is that distance at the end; *turn* is the angle between the two orientations at the end, in [rad]. The reference is the
-scene's own rigid contact with located events. Against it the compliant contact shows a difference of two models, not an error: they
-meet as the stiffness grows only where slip neither stops nor reverses within an impact. A way that ends without an answer has no
-row, and the study says why as it goes.
+*path* is the largest distance of the centre of mass from where the reference has it at the same
+instant, over the size of the body; *end* is that distance at the end; *turn* is the angle between
+the two orientations at the end, in [rad]. The reference is the scene's own rigid contact with
+located events. Against it the compliant contact shows a difference of two models, not an error:
+they meet as the stiffness grows only where slip neither stops nor reverses within an impact. A way
+that ends without an answer has no row, and the study says why as it goes.
 """
 
 from __future__ import annotations
@@ -46,23 +48,23 @@ OWN = "own code, located events, the true cone"
 RIGID = "the rigid contact of the scene: a difference of models"
 REPEATS = 3
 Row = dict[str, Any]
-Tell = Callable[[str], None]
+Notify = Callable[[str], None]
 
 
-def scheme_rows(_scene_name: str, scene: ResolvedScene, tell: Tell) -> list[Row]:
+def scheme_rows(_scene_name: str, scene: ResolvedScene, notify: Notify) -> list[Row]:
     """Fixed steps, and located events for their time, against located events."""
     model = _rigid(scene)
-    tell("scheme: located events")
+    notify("scheme: located events")
     exact, cost = _path(model, scene)
     rows = []
     for step in STEPS:
-        tell(f"scheme: steps of {1e3 * step:g} ms")
+        notify(f"scheme: steps of {1e3 * step:g} ms")
         way = dataclasses.replace(model, scheme="stepping", step=step)
-        rows += _compared(SCHEME_PART, f"stepping, {1e3 * step:g} ms", OWN, way, scene, exact, tell)
+        rows += _compared(SCHEME_PART, f"stepping, {1e3 * step:g} ms", OWN, way, scene, exact, notify)
     return rows + _rows(SCHEME_PART, "located", cost, OWN, exact, exact, model)
 
 
-def facet_rows(_scene_name: str, scene: ResolvedScene, tell: Tell) -> list[Row]:
+def facet_rows(_scene_name: str, scene: ResolvedScene, notify: Notify) -> list[Row]:
     """Polygons in place of the cone, in space."""
     model = _rigid(scene)
     if model.body.width == PLANE:
@@ -70,24 +72,26 @@ def facet_rows(_scene_name: str, scene: ResolvedScene, tell: Tell) -> list[Row]:
     exact, cost = _path(model, scene)
     rows = []
     for facets in FACETS:
-        tell(f"friction cone: {facets} facets")
+        notify(f"friction cone: {facets} facets")
         way = dataclasses.replace(model, facets=facets)
-        rows += _compared(CONE_PART, f"{facets} facets", OWN, way, scene, exact, tell)
+        rows += _compared(CONE_PART, f"{facets} facets", OWN, way, scene, exact, notify)
     return rows + _rows(CONE_PART, "true cone", cost, OWN, exact, exact, model)
 
 
-def turn_rows(_scene_name: str, scene: ResolvedScene, tell: Tell) -> list[Row]:
-    """The body of the scene, tipping over on a corner or an edge that holds, by tolerance; that of the scene is one of them."""
+def turn_rows(_scene_name: str, scene: ResolvedScene, notify: Notify) -> list[Row]:
+    """The body of the scene, tipping over on a corner or an edge that holds, by tolerance; that of
+    the scene is one of them.
+    """
     case = tipping(_rigid(scene).body)
     if case is None:
         return []
     rows: list[Row] = []
     for tolerance in sorted({*TOLERANCES, float(scene.data["integrator"]["relative_tolerance"])}, reverse=True):
-        tell(f"turning on held contacts: tolerance {tolerance:g}")
+        notify(f"turning on held contacts: tolerance {tolerance:g}")
         try:
             error = tip_error(case, tolerance)
         except ArithmeticError as failure:
-            tell(f"{TURN_PART}: tolerance {tolerance:g} has no answer: {failure}")
+            notify(f"{TURN_PART}: tolerance {tolerance:g} has no answer: {failure}")
             continue
         cost = milliseconds(lambda tolerance=tolerance: tip(case, tolerance)) / case.duration  # type: ignore[misc]
         rows.append({
@@ -97,26 +101,26 @@ def turn_rows(_scene_name: str, scene: ResolvedScene, tell: Tell) -> list[Row]:
     return rows
 
 
-def contact_rows(_scene_name: str, scene: ResolvedScene, tell: Tell) -> list[Row]:
+def contact_rows(_scene_name: str, scene: ResolvedScene, notify: Notify) -> list[Row]:
     """The compliant twin by stiffness, its friction spring as stiff, against the rigid contact."""
     model = _rigid(scene)
     exact, cost = _path(model, scene)
     rows = []
     for stiffness in STIFFNESSES:
-        tell(f"contact model: {stiffness:.0e} N/m")
+        notify(f"contact model: {stiffness:.0e} N/m")
         contact = compliant_contact(model.body, NormalElastic(stiffness, 1.0), stiffness)
         way = dataclasses.replace(model, contact=contact)
-        rows += _compared(COMPLIANT_PART, f"compliant, {stiffness:.0e} N/m", RIGID, way, scene, exact, tell)
+        rows += _compared(COMPLIANT_PART, f"compliant, {stiffness:.0e} N/m", RIGID, way, scene, exact, notify)
     return rows + _rows(COMPLIANT_PART, "rigid", cost, RIGID, exact, exact, model)
 
 
 def _compared(
-    part: str, rung: str, reference: str, way: BlockModel, scene: ResolvedScene, exact: tuple[Vector, Vector], tell: Tell
+    part: str, rung: str, reference: str, way: BlockModel, scene: ResolvedScene, exact: tuple[Vector, Vector], notify: Notify
 ) -> list[Row]:  # fmt: skip
     try:
         found, cost = _path(way, scene)
     except RunError as error:
-        tell(f"{part}: {rung} has no answer: {error}")
+        notify(f"{part}: {rung} has no answer: {error}")
         return []
     return _rows(part, rung, cost, reference, found, exact, way)
 
@@ -126,7 +130,9 @@ def _rigid(scene: ResolvedScene) -> BlockModel:
 
 
 def _path(model: BlockModel, scene: ResolvedScene) -> tuple[tuple[Vector, Vector], float]:
-    """Positions [ticks, width] with the orientation at the end, and the least time [ms] per simulated second."""
+    """Positions [ticks, width] with the orientation at the end, and the least time [ms] per
+    simulated second.
+    """
     duration = min(LONGEST, float(scene.data["duration"]))
     costs: list[float] = []
     found: tuple[Vector, Vector] = (numpy.zeros((0, 0)), numpy.zeros((0, 0)))

@@ -1,8 +1,8 @@
 """A box that slides on its face across a slope: its slip turns downhill, and the friction with it.
 
-The box does not turn, so that its centre of mass moves as a point with friction, `v' = g_t - mu g_n v/|v|`, g_t and g_n the parts
-of gravity along and across the slope. The reference is scipy's DOP853 at 1e-13 on this equation, which shares no code with the
-rigid bodies.
+The box does not turn, so that its centre of mass moves as a point with friction, `v' = g_t - mu g_n
+v/|v|`, g_t and g_n the parts of gravity along and across the slope. The reference is scipy's DOP853
+at 1e-13 on this equation, which shares no code with the rigid bodies.
 """
 
 from __future__ import annotations
@@ -28,7 +28,9 @@ UPHILL, ACROSS, DURATION = 0.5, 1.0, 0.3  # [m/s], [m/s], [s]
 
 
 def cross(tolerance: float) -> LocatedBody:
-    """The box after the duration in one call, at a tolerance; ArithmeticError where it has no answer."""
+    """The box after the duration in one call, at a tolerance; ArithmeticError where it has no
+    answer.
+    """
     rotation = numpy.array(
         [[math.cos(ANGLE), 0.0, -math.sin(ANGLE)], [0.0, 1.0, 0.0], [math.sin(ANGLE), 0.0, math.cos(ANGLE)]]
     )
@@ -47,7 +49,9 @@ def cross(tolerance: float) -> LocatedBody:
 
 
 def cross_error(tolerance: float) -> float:
-    """Distance of the centre of mass from where the point is at the end, over the length of the box."""
+    """Distance of the centre of mass from where the point is at the end, over the length of the
+    box.
+    """
     position = cross(tolerance).motion.position
     uphill = math.cos(ANGLE) * position[0] + math.sin(ANGLE) * position[2]
     return float(math.hypot(*(numpy.array([uphill, position[1]]) - _reference()))) / SIDES[0]

@@ -1,4 +1,6 @@
-"""Goals of rigid contact: time of impacts and of solves inside compiled loops, and errors of motions."""
+"""Goals of rigid contact: time of impacts and of solves inside compiled loops, and errors of
+motions.
+"""
 
 from __future__ import annotations
 
@@ -27,7 +29,9 @@ IMPACTS, SOLVES = 100_000, 100_000
 
 @entry
 def _impacts(states: Vector, rule: int, friction: float, restitution: float, out: Vector) -> None:
-    """From angle and velocity [n, 4] of the 1 kg block to its velocity after the impact of its lowest corner [n, 3]."""
+    """From angle and velocity [n, 4] of the 1 kg block to its velocity after the impact of its
+    lowest corner [n, 3].
+    """
     radius, inertia = SIDE / numpy.sqrt(2.0), SIDE * SIDE / 6.0
     for i in range(states.shape[0]):
         lean = numpy.pi / 4.0 - states[i, 0]
@@ -44,7 +48,9 @@ def _impacts(states: Vector, rule: int, friction: float, restitution: float, out
 
 @entry
 def _pairs(J: Vector, W: Vector, velocities: Vector, friction: Vector, work: PairWorkspace, out: Vector) -> float:
-    """Two contacts of one body in the plane, from velocity before [n, 3] to velocity after; the worst residual."""
+    """Two contacts of one body in the plane, from velocity before [n, 3] to velocity after; the
+    worst residual.
+    """
     worst = 0.0
     q, c = numpy.zeros(4), numpy.zeros(4)
     for i in range(velocities.shape[0]):
@@ -120,7 +126,9 @@ REFERENCES = {
 
 
 def _against_references() -> list[Measured]:
-    """Random impacts of the block against other methods, their energy, redundant contacts and a great mass ratio."""
+    """Random impacts of the block against other methods, their energy, redundant contacts and a
+    great mass ratio.
+    """
     cases = {case.case: case for case in hard_cases_rigid.CASES}
     return [Measured(what, cases[what].find().value, "", most) for what, most in REFERENCES.items()]
 

@@ -1,4 +1,6 @@
-"""Hard cases of a body on the ground: no friction, parting while sliding is wedged, restitution at rest; and the compliant twin."""
+"""Hard cases of a body on the ground: no friction, parting while sliding is wedged, restitution at
+rest; and the compliant twin.
+"""
 
 from __future__ import annotations
 
@@ -24,7 +26,9 @@ SIDE, STIFFNESS, TICK = 0.1, 1e6, 1e-3
 
 
 def without_friction() -> Finding:
-    """Tangential velocity [m/s] that a frictionless block which slides on its face at 2 m/s loses in 1 s."""
+    """Tangential velocity [m/s] that a frictionless block which slides on its face at 2 m/s loses
+    in 1 s.
+    """
     block = regular_block(SIDE, 1.0, 0.0, 0.3)
     motion = placed(block, numpy.array([0.0, 0.5 * SIDE]), numpy.array([2.0, 0.0, 0.0]))
     body = LocatedBody(block, slope(2), motion)
@@ -33,7 +37,9 @@ def without_friction() -> Finding:
 
 
 def parting() -> Finding:
-    """Impulse [N s] on a contact that parts while sliding on has a negative denominator: of three answers the one without."""
+    """Impulse [N s] on a contact that parts while sliding on has a negative denominator: of three
+    answers the one without.
+    """
     rows, inverse = block_corner(math.pi / 4 - math.atan(0.5))
     mobility = rows * inverse @ rows.T
     contact = PlanarContact(float(mobility[0, 0]), float(mobility[0, 1]), float(mobility[1, 1]), 1.6, 0.2)
@@ -63,7 +69,9 @@ def _advance(body: MovedBody) -> None:
 
 
 def compliant_energy() -> Finding:
-    """Largest gain of energy in 1 ms of a box that tumbles over a compliant ground for 1 s, over the energy at the start."""
+    """Largest gain of energy in 1 ms of a box that tumbles over a compliant ground for 1 s, over
+    the energy at the start.
+    """
     shape = box((0.2, 0.3, 0.1), 2.0, 0.4, 0.5)
     motion = placed(shape, numpy.array([0.0, 0.0, 0.4]), numpy.array([1.0, 0.3, 0.0, 3.0, 5.0, 0.3]))
     body, worst = _moved(shape, slope(3), motion), 0.0

@@ -59,7 +59,9 @@ def _growth(rule: int) -> float:
 
 
 def _deviation(rule: int) -> float:
-    """Greatest error of the velocity after random impacts, over the greatest velocity before, rotation times the side."""
+    """Greatest error of the velocity after random impacts, over the greatest velocity before,
+    rotation times the side.
+    """
     worst, scale = 0.0, numpy.array([1.0, 1.0, SIDE])
     by_reference = newton_by_enumeration if rule == NEWTON else energetic_by_path
     for J, W, v, contact in _random_impacts(COMPARED_IMPACTS, 2):
@@ -111,7 +113,9 @@ def wedged() -> Finding:
 
 
 def painleve() -> Finding:
-    """Slip [m/s] after an impact in which sliding on has a negative denominator: the contact jams at once."""
+    """Slip [m/s] after an impact in which sliding on has a negative denominator: the contact jams
+    at once.
+    """
     J, W = block_corner(math.pi / 4 - math.atan(0.5))
     A = J * W @ J.T
     contact = PlanarContact(float(A[0, 0]), float(A[0, 1]), float(A[1, 1]), 1.6, 0.2)

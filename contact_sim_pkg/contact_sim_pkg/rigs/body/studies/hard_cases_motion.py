@@ -1,4 +1,6 @@
-"""Hard cases of rigid bodies in time: endless bounces, rest, stops of slip, energy, two corners at once, fast spin."""
+"""Hard cases of rigid bodies in time: endless bounces, rest, stops of slip, energy, two corners at
+once, fast spin.
+"""
 
 from __future__ import annotations
 

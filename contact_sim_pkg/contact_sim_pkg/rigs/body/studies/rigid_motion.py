@@ -1,4 +1,6 @@
-"""Motions of rigid bodies whose end is known in closed form: for the ladder, the hard cases and the goals."""
+"""Motions of rigid bodies whose end is known in closed form: for work-precision studies, hard cases
+and the goals.
+"""
 
 from __future__ import annotations
 
@@ -37,7 +39,9 @@ def _sliding(step: float | None) -> LocatedBody | SteppedBody:
 
 
 def cube_for_a_second(speed: float) -> None:
-    """A cube on a plane for 1 s with states at every tick; ``speed`` [m/s] along the plane at the start."""
+    """A cube on a plane for 1 s with states at every tick; ``speed`` [m/s] along the plane at the
+    start.
+    """
     cube = box((SIDE, SIDE, SIDE), 1.0, FRICTION, 0.0)
     motion = placed(cube, numpy.array([0.0, 0.0, 0.5 * SIDE]), numpy.array([speed, 0.0, 0.0, 0.0, 0.0, 0.0]))
     _checked(LocatedBody(cube, slope(3), motion).advance_over(TICK, round(1.0 / TICK))[0])
@@ -68,7 +72,9 @@ def bounce_to_rest(restitution: float = RESTITUTION, tick: float = 0.05) -> tupl
 
 
 def bounced(step: float | None, duration: float = 1.0) -> float:
-    """Error over 1 m of the height of the same ball after ``duration`` [s], two impacts on; ``step`` [s], None: located."""
+    """Error over 1 m of the height of the same ball after ``duration`` [s], two impacts on;
+    ``step`` [s], None: located.
+    """
     ball = sphere(RADIUS, 1.0, FRICTION, RESTITUTION)
     motion = placed(ball, numpy.array([0.0, 0.0, HEIGHT + RADIUS]), numpy.zeros(6))
     if step is None:

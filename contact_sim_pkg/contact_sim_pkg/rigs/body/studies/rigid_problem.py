@@ -1,4 +1,4 @@
-"""Contact problems of known answer, for the ladder and the hard cases of rigid bodies."""
+"""Contact problems of known answer, for work-precision studies and hard cases of rigid bodies."""
 
 from __future__ import annotations
 
@@ -20,7 +20,9 @@ SIDE = 0.1  # [m] of the block of Identifiability
 
 
 class Case(NamedTuple):
-    """One solve: Jacobian, inverse inertia, velocities before, friction of every contact, rows of a contact."""
+    """One solve: Jacobian, inverse inertia, velocities before, friction of every contact, rows of a
+    contact.
+    """
 
     J: Vector
     W: Vector
@@ -60,7 +62,9 @@ def random_face(seed: int, contacts: int, width: int) -> Case:
 
 
 def stack(ratio: float) -> Case:
-    """1 kg on the ground under ``ratio`` kg, both falling: coordinates are two heights and two shifts."""
+    """1 kg on the ground under ``ratio`` kg, both falling: coordinates are two heights and two
+    shifts.
+    """
     J = numpy.zeros((4, 4))
     J[0, 0], J[1, 2], J[2, :2], J[3, 2:] = 1.0, 1.0, (-1.0, 1.0), (-1.0, 1.0)
     W = numpy.diag([1.0, 1.0 / ratio, 1.0, 1.0 / ratio])
@@ -69,7 +73,9 @@ def stack(ratio: float) -> Case:
 
 
 def milliseconds_of_a_solve(case: Case, rung: int = NEWTON, facets: int = 0, sweeps: int = 20) -> float:
-    """Of one solve in [ms], within a compiled loop: neither the call from Python nor the set-up of arrays counts."""
+    """Of one solve in [ms], within a compiled loop: neither the call from Python nor the set-up of
+    arrays counts.
+    """
     problem, solver = _set_up(case, rung, facets, sweeps)
     c = numpy.zeros(len(case.J))
 

@@ -1,7 +1,9 @@
-"""A body that tips over on a held corner, or in space on a held edge: a compound pendulum, `(J + m r^2) phi'' = m g r sin phi`.
+"""A body that tips over on a held corner, or in space on a held edge: a compound pendulum, `(J + m
+r^2) phi'' = m g r sin phi`.
 
-phi is the angle of the centre of mass from the vertical above the corner, r its distance, J the moment of inertia about the
-centre of mass. The reference is scipy's DOP853 at 1e-13 on this equation, which shares no code with the rigid bodies.
+phi is the angle of the centre of mass from the vertical above the corner, r its distance, J the
+moment of inertia about the centre of mass. The reference is scipy's DOP853 at 1e-13 on this
+equation, which shares no code with the rigid bodies.
 """
 
 from __future__ import annotations
@@ -37,7 +39,9 @@ class Tipping(NamedTuple):
 
 
 def tipping(body: RigidBody) -> Tipping | None:
-    """``body`` of high friction and no load but its weight, on the first corner on which it can tip; None where there is none."""
+    """``body`` of high friction and no load but its weight, on the first corner on which it can
+    tip; None where there is none.
+    """
     if body.radius > 0.0:
         return None
     load = numpy.zeros_like(body.load)
@@ -78,7 +82,9 @@ def _pendulum(body: RigidBody, reach: float, first: float, last: float) -> tuple
 
 
 def tip(case: Tipping, tolerance: float) -> LocatedBody:
-    """The body after the duration in one call, at a tolerance; ArithmeticError where it has no answer."""
+    """The body after the duration in one call, at a tolerance; ArithmeticError where it has no
+    answer.
+    """
     body, width = case.body, case.body.width
     place = numpy.zeros(width)
     place[[0, width - 1]] = -_turn(case.turned) @ case.lever
@@ -93,7 +99,9 @@ def tip(case: Tipping, tolerance: float) -> LocatedBody:
 
 
 def tip_error(case: Tipping, tolerance: float) -> float:
-    """Distance of the centre of mass from where the pendulum has it at the end, over its distance from the corner."""
+    """Distance of the centre of mass from where the pendulum has it at the end, over its distance
+    from the corner.
+    """
     position = tip(case, tolerance).motion.position[[0, case.body.width - 1]]
     return float(numpy.linalg.norm(position + _turn(case.end) @ case.lever) / numpy.linalg.norm(case.lever))
 

@@ -1,7 +1,8 @@
-"""Ladders of rigid contact: the solver of the contact problem, the facets of the friction cone, the step in time, the tolerance
-of a body that turns on held contacts.
+"""Work-precision studies of rigid contact: the solver of the contact problem, the facets of the
+friction cone, the step in time, the tolerance of a body that turns on held contacts.
 
-Times of a contact problem are those of one solve in a compiled loop; of a motion, those of the whole run.
+Times of a contact problem are those of one solve in a compiled loop; of a motion, those of the
+whole run.
 """
 
 from __future__ import annotations
@@ -82,7 +83,9 @@ def solver_rows() -> list[Row]:
 
 
 def cone_rows() -> list[Row]:
-    """A point that slides on in any direction: worst error of its velocity by number of facets; 0 is the true cone."""
+    """A point that slides on in any direction: worst error of its velocity by number of facets; 0
+    is the true cone.
+    """
     J, W, friction = contact_rows(numpy.zeros((1, 3)), SPACE), numpy.diag([1.0, 1.0, 1.0, 2.0, 2.0, 2.0]), 0.5
     found = []
     for facets in FACETS:
@@ -98,7 +101,9 @@ def cone_rows() -> list[Row]:
 
 
 def step_rows() -> list[Row]:
-    """A block that slides to a stop, and a ball after two bounces, by fixed steps and located; times are of the whole run."""
+    """A block that slides to a stop, and a ball after two bounces, by fixed steps and located;
+    times are of the whole run.
+    """
     cases = {
         "block slides to a stop, 1 s": rigid_motion.slide_error, "ball after 1 s and two bounces": rigid_motion.bounced,
     }  # fmt: skip
@@ -112,7 +117,9 @@ def step_rows() -> list[Row]:
 
 
 def turn_rows() -> list[Row]:
-    """Bodies that tip over on a corner and on an edge, and one whose slip turns, by the tolerance of their integration."""
+    """Bodies that tip over on a corner and on an edge, and one whose slip turns, by the tolerance
+    of their integration.
+    """
     found = []
     for name, case in (
         ("block on a corner", regular_block(0.1, 1.0, 1.0, 0.0)),

@@ -12,7 +12,7 @@ IMPACT_REPORT = ContactReport(
         SeriesReader(
             name="impacts",
             types=tuple(f"contact_msgs_defs/msg/Impact{kind}" for kind in _KINDS),
-            reader=f"{__name__}.series:ImpactPass",
+            reader=f"{__name__}.series:ImpactReader",
         ),
     ),
     sections=f"{__name__}.section:impact_sections",

@@ -1,4 +1,6 @@
-"""Pictures of impacts in time: bounces, force over time, force over depth, front speeds, position of the contact surface."""
+"""Pictures of impacts in time: bounces, force over time, force over depth, front speeds, position
+of the contact surface.
+"""
 
 from __future__ import annotations
 
@@ -44,7 +46,9 @@ def bounces(impacts: ImpactSeries, motion: MotionSeries | None) -> Picture:
 
 
 def force_over_time(impacts: ImpactSeries) -> Picture | None:
-    """Forces over the first impact, and the form of the total force of all kept ones: the paper's figs 4 and 5."""
+    """Forces over the first impact, and the form of the total force of all kept ones: the paper's
+    figs 4 and 5.
+    """
     if not impacts.courses:
         return None
     course = impacts.courses[0]
@@ -81,7 +85,9 @@ def force_over_time(impacts: ImpactSeries) -> Picture | None:
 
 
 def force_over_depth(impacts: ImpactSeries) -> Picture | None:
-    """Loops of the first impacts; beside them the depth that the hereditary integral gives under the first one's force."""
+    """Loops of the first impacts; beside them the depth that the hereditary integral gives under
+    the first one's force.
+    """
     if not impacts.courses:
         return None
     figure, (axes,) = new_figure(2.9)

@@ -1,4 +1,6 @@
-"""Maps of one impact: stress over the contact radius in time, and the surface wave as a space-time picture."""
+"""Maps of one impact: stress over the contact radius in time, and the surface wave as a space-time
+picture.
+"""
 
 from __future__ import annotations
 

@@ -1,4 +1,6 @@
-"""E' and tan(beta) from the impacts of a run, over temperature or speed, beside what the scene put in."""
+"""E' and tan(beta) from the impacts of a run, over temperature or speed, beside what the scene put
+in.
+"""
 
 from __future__ import annotations
 
@@ -18,7 +20,7 @@ SPEEDS = ("o", "s", "^", "D", "v", "P", "X")
 
 
 def material_of_run(impacts: ImpactSeries, scene: dict[str, Any]) -> MaterialReport | None:
-    """E' and tan(beta) from what the gauges measured; None where they tell none."""
+    """E' and tan(beta) from what the gauges measured; None where they determine none."""
     e = impacts.events
     loss = ((scene.get("effects") or {}).get("impact") or {}).get("normal_dissipative") or {}
     options = Options(

@@ -17,7 +17,9 @@ def summary_numbers(recording: Recording) -> dict[str, Any]:
 
 
 def impact_numbers(impacts: ImpactSeries) -> dict[str, Any]:
-    """Count and extremes, and of the first hundred impacts start, speed, duration, restitution, depth, peak force."""
+    """Count and extremes, and of the first hundred impacts start, speed, duration, restitution,
+    depth, peak force.
+    """
     e = impacts.events
     first = slice(0, 100)
     return {

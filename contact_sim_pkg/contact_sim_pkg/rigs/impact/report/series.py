@@ -1,4 +1,6 @@
-"""Messages of the impact rig, taken in one by one: all events, the courses of the first impacts, and the first of each effect."""
+"""Messages of the impact rig, read one by one: all events, the courses of the first impacts, and
+the first of each effect.
+"""
 
 from __future__ import annotations
 
@@ -53,7 +55,9 @@ def impact_warnings(recording: Recording) -> list[str]:
 
 
 def missing_impacts(impacts: ImpactSeries | None, scene: dict[str, Any]) -> list[str]:
-    """A sentence where fewer impacts took place than the scene asks for: ``bounces`` of each release, at least one."""
+    """A sentence where fewer impacts took place than the scene asks for: ``bounces`` of each
+    release, at least one.
+    """
     rig = scene.get("impact")
     if scene.get("rig") != "impact" or not isinstance(rig, dict):
         return []
@@ -70,17 +74,17 @@ def missing_impacts(impacts: ImpactSeries | None, scene: dict[str, Any]) -> list
     return [sentence]
 
 
-class ImpactPass:
-    """Takes messages in the order of the bag."""
+class ImpactReader:
+    """Reads messages in the order of the bag."""
 
     def __init__(self) -> None:
-        """Nothing taken."""
+        """Nothing read yet."""
         self._events: list[ImpactEvents] = []
         self._courses: list[ImpactCourse] = []
         self._first: dict[type, Any] = {}
 
-    def take(self, _time: float, type_name: str, message: Any) -> None:
-        """Take a message of one of its types. Raises MessageError where its arrays do not fit."""
+    def add(self, _time: float, type_name: str, message: Any) -> None:
+        """Read a message of one of its types. Raises MessageError where its arrays do not fit."""
         if type_name == EVENTS:
             self._events.append(record_of(ImpactEvents, message))
             return
@@ -92,7 +96,7 @@ class ImpactPass:
             self._first[kind] = record_of(kind, message)
 
     def finish(self) -> ImpactSeries | None:
-        """What was taken; None where no impact ended."""
+        """What was read; None where no impact ended."""
         if not self._events:
             return None
         names = [name for name in ImpactEvents._fields if name != "block"]

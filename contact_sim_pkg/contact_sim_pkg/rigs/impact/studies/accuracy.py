@@ -1,7 +1,9 @@
-"""Accuracy and cost of the impact rig: the first impact of a scene by each way to it, against scipy.
+"""Accuracy and cost of the impact rig: the first impact of a scene by each way to it, against
+scipy.
 
-No tolerance acts on this rig: its series are at rounding. What costs accuracy is the way: closed forms, equivalent constants, the
-table, the free impact without weight, and the run's own contact under weight. A way that has no answer has no row.
+No tolerance acts on this rig: its series are at rounding. What costs accuracy is the way: closed
+forms, equivalent constants, the table, the free impact without weight, and the run's own contact
+under weight. A way that has no answer has no row.
 """
 
 from __future__ import annotations
@@ -40,19 +42,19 @@ REPEATS = 21
 Answer = tuple[float, float, float, float]
 
 
-def way_rows(_scene_name: str, scene: ResolvedScene, tell: Callable[[str], None]) -> list[dict[str, Any]]:
+def way_rows(_scene_name: str, scene: ResolvedScene, notify: Callable[[str], None]) -> list[dict[str, Any]]:
     """Restitution, contact time, depth and peak force of the first impact by each way."""
     model = build_impact(scene.data)
     release = model.releases[0]
     found = model.touch(release.speed, release.temperature)
     law = found.law
-    tell("impact: reference")
+    notify("impact: reference")
     exact = impact_under_weight(law.mass, law.gravity, law.elastic, law.viscous, release.speed, law.end == "gap")
     span = min(LONGEST, float(scene.data["duration"]))
     rate = len(ImpactMotion(model).take_ended(span)) / span
     rows = []
     for name, way in _ways(model, found).items():
-        tell(f"impact: {name}")
+        notify(f"impact: {name}")
         try:
             answer = way()
         except ImpactError:

@@ -1,4 +1,6 @@
-"""Goals of the sphere's impact: steel to 1e-8 within 100 steps, rubber that follows the tolerance, a material from 100 impacts."""
+"""Goals of the sphere's impact: steel to 1e-8 within 100 steps, rubber that follows the tolerance,
+a material from 100 impacts.
+"""
 
 from __future__ import annotations
 
@@ -29,7 +31,9 @@ def goals() -> list[Measured]:
 
 
 def _steel() -> list[Measured]:
-    """Each approach phase of the ball in the rig's integrator, with an outer tick of 1 ms; and the series of the impact rig."""
+    """Each approach phase of the ball in the rig's integrator, with an outer tick of 1 ms; and the
+    series of the impact rig.
+    """
     gaps = [1e-3 * (0.01 + phase / 25.0) for phase in range(20)]
     found = [cases.rig_with_a_tick(5e-9, gap) for gap in gaps]
     worst, steps = max(error for error, _steps in found), max(count for _error, count in found)
@@ -52,7 +56,9 @@ def _rubber() -> list[Measured]:
 
 
 def _material() -> list[Measured]:
-    """The worst of 40 sets, and the part of the 95 % intervals that hold the truth: 80 of them, so 0.88 to 1 is their noise."""
+    """The worst of 40 sets, and the part of the 95 % intervals that hold the truth: 80 of them, so
+    0.88 to 1 is their noise.
+    """
     errors, held = numpy.zeros((RUNS, 2)), 0
     for seed in range(RUNS):
         found = _reading(seed)

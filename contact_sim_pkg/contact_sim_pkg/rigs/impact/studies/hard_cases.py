@@ -1,4 +1,6 @@
-"""Hard cases of the impact rig: weight, rest, endless bounces, laws without an answer, gauges, and what a bag gives back."""
+"""Hard cases of the impact rig: weight, rest, endless bounces, laws without an answer, gauges, and
+what a bag gives back.
+"""
 
 from __future__ import annotations
 
@@ -64,7 +66,9 @@ def comes_to_rest() -> Finding:
 
 
 def no_pull() -> Finding:
-    """Samples with a force below 0, or with one in flight, of a ball that bounces on a sample with tan(beta) = 1."""
+    """Samples with a force below 0, or with one in flight, of a ball that bounces on a sample with
+    tan(beta) = 1.
+    """
     found = outputs_of("impact_rubber_drop", 0.6, BARE, "impact.sample.loss_tangent=1.0")
     wrong = 0
     for block in records_of(found, "impact/force"):
@@ -85,7 +89,9 @@ def ledger_of_a_bounce() -> Finding:
 
 
 def ledger_of_releases() -> Finding:
-    """The same where the machine takes the ball out of its second contact for the next release, and catches it."""
+    """The same where the machine takes the ball out of its second contact for the next release, and
+    catches it.
+    """
     return _ledger("impact.repeats=40", "impact.period=0.4365", "impact.bounces=2")
 
 
@@ -98,7 +104,9 @@ def elastic_for_long() -> Finding:
 
 
 def pendulum_to_rest() -> Finding:
-    """Largest change of k over the 27 impacts of a hammer on foam, 1 m/s to 1.4 nm/s; then it hangs at rest."""
+    """Largest change of k over the 27 impacts of a hammer on foam, 1 m/s to 1.4 nm/s; then it hangs
+    at rest.
+    """
     found = outputs_of("impact_pendulum", 30.0, BARE, "outputs.force_rate=100")
     k = numpy.concatenate([each.restitution for each in records_of(found, "impact/events")])
     rests = len(k) == 27 and not _forces(found)[-1].any()
@@ -114,7 +122,9 @@ def _refused(run: Callable[[], object], *words: str) -> int:
 
 
 def refusals() -> Finding:
-    """Scenes without an answer that are refused by name: fold, deeper than the radius, pole of WLF, beyond the table, pendulum."""
+    """Scenes without an answer that are refused by name: fold, deeper than the radius, pole of WLF,
+    beyond the table, pendulum.
+    """
     shift = "effects.impact={normal_elastic: {}, shift: {}}"
     name = "impact_rubber_drop"
     cases = (
@@ -129,7 +139,9 @@ def refusals() -> Finding:
 
 
 def never_lets_go() -> Finding:
-    """Impacts that end, and forces that are no number, of a ball on a sample with tan(beta) = 100: it sinks in and stays."""
+    """Impacts that end, and forces that are no number, of a ball on a sample with tan(beta) = 100:
+    it sinks in and stays.
+    """
     found = outputs_of("impact_rubber_drop", 0.6, "impact.sample.loss_tangent=100")
     bad = sum(int((~numpy.isfinite(force)).sum()) for force in _forces(found))
     ended = len(records_of(found, "impact/events"))
@@ -137,7 +149,9 @@ def never_lets_go() -> Finding:
 
 
 def steel_without_weight() -> Finding:
-    """Steel on steel at 1 m/s by the pendulum: largest error of tau, x_m and F against the closed form with no loss."""
+    """Steel on steel at 1 m/s by the pendulum: largest error of tau, x_m and F against the closed
+    form with no loss.
+    """
     loss = ("impact.sample.loss_tangent=0", "impact.sample.body_loss_tangent=0", "impact.machine=pendulum")
     found = outputs_of("impact_steel", 0.6, BARE, *loss, "outputs.force_rate=1000")
     events = records_of(found, "impact/events")[0]

@@ -1,4 +1,6 @@
-"""Hard cases of the sphere's impact (Goloshchapov): limits, folds, ends of formulas, invariants, a steel ball."""
+"""Hard cases of the sphere's impact (Goloshchapov): limits, folds, ends of formulas, invariants, a
+steel ball.
+"""
 
 from __future__ import annotations
 
@@ -56,7 +58,9 @@ def without_indentation() -> Finding:
 
 
 def stress_at_touch() -> Finding:
-    """Viscous stress over that of x_s, for depths from 1e-300 m to x_s: limited to it, and flagged below."""
+    """Viscous stress over that of x_s, for depths from 1e-300 m to x_s: limited to it, and flagged
+    below.
+    """
     impact = _sample()
     limit = micro_front.front_time(impact, SHEAR_SPEED).depth
     at_limit = stress.centre_stress(impact, limit, 2.0, limit)
@@ -73,7 +77,9 @@ def front_at_touch() -> Finding:
 
 
 def no_tension() -> Finding:
-    """Largest pull over the peak force at the end of a contact, tan(beta) 0.01 to 1, end rule force."""
+    """Largest pull over the peak force at the end of a contact, tan(beta) 0.01 to 1, end rule
+    force.
+    """
     worst = 0.0
     for loss_tangent in (0.01, 0.1, 0.3, 1.0):
         impact = _sample(loss_tangent)
@@ -99,7 +105,9 @@ def at_the_fold() -> Finding:
 
 
 def no_plastic_impact() -> Finding:
-    """Eq 66 refuses tan(beta) from pi/3 on and warns above 0.9 of it: refusals and warnings of six values."""
+    """Eq 66 refuses tan(beta) from pi/3 on and warns above 0.9 of it: refusals and warnings of six
+    values.
+    """
     limit = math.pi / 3.0
     refusals = [_refused(lambda t=t: closed_forms.closed_restitution(t)) for t in (0.999 * limit, limit, 1.2, 1.5708)]  # type: ignore[misc]
     warnings = [closed_forms.restitution_note(part * limit) is not None for part in (0.89, 0.91)]
@@ -107,7 +115,9 @@ def no_plastic_impact() -> Finding:
 
 
 def complex_root() -> Finding:
-    """Eqs 56-58 refuse what has no real root, printed above 1/3 and corrected above 0.43701, and nothing below."""
+    """Eqs 56-58 refuse what has no real root, printed above 1/3 and corrected above 0.43701, and
+    nothing below.
+    """
     expected = {"printed": 1.0 / 3.0, "corrected": 0.43701}
     found = [
         _refused(lambda t=t, form=form: closed_forms.damping_ratio(t, form)) is (sign > 0.0)  # type: ignore[misc]
@@ -118,7 +128,9 @@ def complex_root() -> Finding:
 
 
 def no_loss_limit() -> Finding:
-    """Eq 71 at k = 1 - 1e-15 over its limit 2 (15/16)^(4/5)..., in units of (m/(k_p E' sqrt R))^(2/5) V0^(-1/5)."""
+    """Eq 71 at k = 1 - 1e-15 over its limit 2 (15/16)^(4/5)..., in units of (m/(k_p E' sqrt
+    R))^(2/5) V0^(-1/5).
+    """
     unit = (SPHERE.mass / (SMALL_SHAPE_FACTOR * 8e6 * math.sqrt(SPHERE.radius))) ** 0.4
     found = closed_forms.closed_duration(SPHERE, 8e6, 1.0, 1.0 - 1e-15)
     return close_to(found / unit, 2.0 * (15.0 / 16.0) ** 0.4, 1e-13)
@@ -164,7 +176,9 @@ def wlf_pole() -> Finding:
 
 
 def shrinking_contact() -> Finding:
-    """Samples of a load and unload whose flag is wrong: the hereditary integral holds up to the largest depth only."""
+    """Samples of a load and unload whose flag is wrong: the hereditary integral holds up to the
+    largest depth only.
+    """
     times = numpy.linspace(0.0, 0.02, 401, dtype=numpy.float64)
     found = hereditary.indentation(
         creep.standard_solid(5e6, 2e6, 3e-3), times, 10.0 * numpy.sin(math.pi * times / 0.02), 0.01, 0.5
@@ -181,7 +195,9 @@ def deeper_than_radius() -> Finding:
 
 
 def incompressible() -> Finding:
-    """nu = 1/2: h_x over x1 in both variants, and E of G and an endless K over 3 G; a bulk modulus is refused."""
+    """nu = 1/2: h_x over x1 in both variants, and E of G and an endless K over 3 G; a bulk modulus
+    is refused.
+    """
     half_space = position.SampleHalfSpace(0.8, 0.5)
     ratios = [
         position.position_variant_1(1e-3, 0.01, half_space).surface_depth / 8e-4,
@@ -194,12 +210,16 @@ def incompressible() -> Finding:
 
 
 def grazing() -> Finding:
-    """Restitution at 1e-12 m/s over that at 1 m/s: the viscous sphere does not get stickier when it is slow."""
+    """Restitution at 1e-12 m/s over that at 1 m/s: the viscous sphere does not get stickier when it
+    is slow.
+    """
     return close_to(_sample(speed=1e-12).restitution / _sample(speed=1.0).restitution, 1.0, 1e-12)
 
 
 def invariants() -> Finding:
-    """k of V0, x_m ~ V0^(4/5), tau ~ V0^(-1/5), tau of E' doubled 2^(-2/5): largest relative deviation."""
+    """k of V0, x_m ~ V0^(4/5), tau ~ V0^(-1/5), tau of E' doubled 2^(-2/5): largest relative
+    deviation.
+    """
     worst = 0.0
     for loss_tangent in (0.01, 0.2, 1.0):
         one, stiff = _sample(loss_tangent, 1.0), solve_impact(SPHERE, Material(1.6e7, loss_tangent), 1.0)
@@ -213,7 +233,9 @@ def invariants() -> Finding:
 
 
 def steel_sphere() -> tuple[FreeImpact, tuple[float, float, float]]:
-    """The steel ball at 1 m/s as a case of the sphere's impact, and its duration, depth and force in closed form."""
+    """The steel ball at 1 m/s as a case of the sphere's impact, and its duration, depth and force
+    in closed form.
+    """
     mass = STEEL_DENSITY * 4.0 / 3.0 * math.pi * STEEL_RADIUS**3
     coefficient = elastic_reference.sphere_coefficient(STEEL_RADIUS, 210e9, 0.3)
     modulus = hertz_modulus(0.75 * coefficient / math.sqrt(STEEL_RADIUS), SMALL_SHAPE_FACTOR)
@@ -234,7 +256,9 @@ def steel_steps() -> Finding:
 
 
 def rig_with_a_tick(tolerance: float = 5e-9, gap: float = 3.3e-4) -> tuple[float, int]:
-    """The same ball in the rig, outer tick 1 ms: largest relative error of duration, depth and force; steps, rejected ones too."""
+    """The same ball in the rig, outer tick 1 ms: largest relative error of duration, depth and
+    force; steps, rejected ones too.
+    """
     found, (lasts, depth, force) = steel_sphere()
     rig = PointContact(found.sphere.mass, 0.0, 0.0, 0.0, *found.normal_law)
     scale = numpy.array([depth, 1.0]) * tolerance
@@ -261,7 +285,9 @@ RUBBERS, PHASES = (0.0, 0.02, 0.05, 0.1, 0.2, 0.4, 1.0), 20
 
 
 def rubber_error(loss_tangent: float, tolerance: float, phase: int) -> float:
-    """Larger error of restitution and of contact time over its value, of the rubber's law in the rig, from one of 20 starts."""
+    """Larger error of restitution and of contact time over its value, of the rubber's law in the
+    rig, from one of 20 starts.
+    """
     found = _sample(loss_tangent)
     rig = PointContact(SPHERE.mass, 0.0, 0.0, 0.0, *found.normal_law)
     scale = numpy.array([found.depth, found.speed]) * tolerance
@@ -279,7 +305,7 @@ def rubber_errors() -> dict[float, float]:
 
 
 def rubber_in_the_rig() -> Finding:
-    """Largest error over asked tolerance."""
+    """Largest error over requested tolerance."""
     return at_most(max(error / tolerance for tolerance, error in rubber_errors().items()), 10.0)
 
 

@@ -1,8 +1,9 @@
-"""Ladder of the sphere's impact: restitution, duration, depth and peak force from the loss tangent, at several prices.
+"""Work-precision study of the sphere's impact: restitution, duration, depth and peak force from the
+loss tangent, by inexpensive and expensive methods.
 
-Closed forms (Goloshchapov eqs 66, 68, 71), equivalent constant parameters (eqs 56-60), a table, and the integrated motion with its
-own frequency, all against a slow integration in time by scipy. Both end rules of contact; a form that has no answer at a
-loss tangent has no row there.
+Closed forms (Goloshchapov eqs 66, 68, 71), equivalent constant parameters (eqs 56-60), a table, and
+the integrated motion with its own frequency, all against a slow integration in time by scipy. Both
+end rules of contact; a form that has no answer at a loss tangent has no row there.
 """
 
 from __future__ import annotations

@@ -1,4 +1,6 @@
-"""Ladders of what is read from an impact: the material from contact time and restitution, and the end of the supersonic front."""
+"""Work-precision studies of what is read from an impact: the material from contact time and
+restitution, and the end of the supersonic front.
+"""
 
 from __future__ import annotations
 
@@ -45,7 +47,9 @@ def rows() -> list[Row]:
 
 
 def front_rows() -> list[Row]:
-    """Each impact speed: t_s by the formula for small times, by the damped sine, on the integrated motion."""
+    """Each impact speed: t_s by the formula for small times, by the damped sine, on the integrated
+    motion.
+    """
     found = []
     for speed in SPEEDS:
         impact = solve_impact(SPHERE, Material(MODULUS, FRONT_TANGENT), speed)

@@ -1,10 +1,12 @@
-"""Ladders of the sample's memory: depth under a force course, and the steady motion of a shaken contact.
+"""Work-precision studies of the sample's memory: depth under a force course, and the steady motion
+of a shaken contact.
 
-History: a standard solid under the force of an impact. Kelvin and Voigt's element of the same complex modulus at the impact's
-frequency, internal variables on few and on many samples, against the hereditary integral by quadrature.
+History: a standard solid under the force of an impact. Kelvin and Voigt's element of the same
+complex modulus at the impact's frequency, internal variables on few and on many samples, against
+the hereditary integral by quadrature.
 
-Complex response: a sphere pressed on rubber by F0 and shaken by a part of it. Amplitude and phase of the linearised contact,
-harmonic balance, time integration.
+Complex response: a sphere pressed on rubber by F0 and shaken by a part of it. Amplitude and phase
+of the linearised contact, harmonic balance, time integration.
 """
 
 from __future__ import annotations
@@ -40,7 +42,9 @@ POINTS = 64  # instants a period
 
 
 def history_rows() -> list[Row]:
-    """Retarded compliance small and large against the instant one; depth at the turning point and at its largest."""
+    """Retarded compliance small and large against the instant one; depth at the turning point and
+    at its largest.
+    """
     found = []
     impact = solve_impact(SPHERE, Material(MODULUS, 0.2), SPEED)
     times: Vector = numpy.linspace(0.0, impact.compression_time, SAMPLES, dtype=numpy.float64)
@@ -71,7 +75,9 @@ def history_rows() -> list[Row]:
 
 
 def response_rows() -> list[Row]:
-    """Small and large shaking: half the range of the depth, and phase of its first harmonic behind the force."""
+    """Small and large shaking: half the range of the depth, and phase of its first harmonic behind
+    the force.
+    """
     found = []
     elastic, viscous, frequency = _contact()
     for part in PARTS:
@@ -145,7 +151,9 @@ def _linear(part: float) -> Vector:
 
 
 def _balanced(part: float, harmonics: int) -> Vector:
-    """Fourier coefficients for which the equation of motion holds in ``harmonics`` harmonics and the mean."""
+    """Fourier coefficients for which the equation of motion holds in ``harmonics`` harmonics and
+    the mean.
+    """
     elastic, viscous, frequency = _contact()
     angle = 2.0 * math.pi * numpy.arange(POINTS) / POINTS
     orders = numpy.arange(harmonics + 1)

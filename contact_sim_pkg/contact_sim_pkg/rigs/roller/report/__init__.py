@@ -12,7 +12,7 @@ ROLLER_REPORT = ContactReport(
         SeriesReader(
             name="roller",
             types=tuple(f"contact_msgs_defs/msg/Roller{kind}" for kind in _KINDS),
-            reader=f"{__name__}.series:RollerPass",
+            reader=f"{__name__}.series:RollerReader",
         ),
     ),
     sections=f"{__name__}.section:roller_sections",

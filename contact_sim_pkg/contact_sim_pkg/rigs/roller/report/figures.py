@@ -1,4 +1,6 @@
-"""Pictures of the roller rig in time: contact, motion, track, spectrogram of the load, stability over load and speed."""
+"""Pictures of the roller rig in time: contact, motion, track, spectrogram of the load, stability
+over load and speed.
+"""
 
 from __future__ import annotations
 
@@ -62,15 +64,17 @@ def motion_over_time(roller: RollerSeries) -> Picture | None:
         place.set_ylabel(label)
     axes[-1].set_xlabel("simulated time, s")
     figure.align_ylabels(axes)
-    told = ""
+    known = ""
     if roller.stability:
         first = roller.stability[0]
-        told = f" Told before the run: growth rate {first.growth_rate:+.4g} 1/s at {first.frequency:.5g} Hz."
-    return picture("roller-motion", figure, "Tilt, yaw and heave over time", f"Motion of the roller.{told}")
+        known = f" Known before the run: growth rate {first.growth_rate:+.4g} 1/s at {first.frequency:.5g} Hz."
+    return picture("roller-motion", figure, "Tilt, yaw and heave over time", f"Motion of the roller.{known}")
 
 
 def track_pictures(roller: RollerSeries) -> list[Picture]:
-    """Heights round each body's circumference over cycles, and the error of the time acceleration where it was looked at."""
+    """Heights round each body's circumference over cycles, and the error of the time acceleration
+    where it was looked at.
+    """
     bodies = dict.fromkeys(each.body for each in roller.tracks)
     tracks = {body: [each for each in roller.tracks if each.body == body] for body in bodies}
     found = [_track_over_cycles(body, rows) for body, rows in tracks.items() if len(rows) > 1]
@@ -116,26 +120,28 @@ def _acceleration_error(checked: list[RollerTrack]) -> Picture:
     axes.legend(loc="lower left", bbox_to_anchor=(0.0, 1.0), fontsize=7.5)
     axes.set_xlabel("cycles")
     axes.set_ylabel("error of the change")
-    told = [error for error in errors if np.isfinite(error)]
-    worst = f"{min(told):.2g} to {max(told):.2g}" if told else "none could be told"
+    finite = [error for error in errors if np.isfinite(error)]
+    worst = f"{min(finite):.2g} to {max(finite):.2g}" if finite else "none could be measured"
     first = checked[0]
     caption = (
         f"Each turn that is ridden stands for {first.cycles / first.turns:.6g}. At {len(checked)} places of the run the next "
         f"{first.checked:.6g} turns were ridden by that time acceleration and turn by turn; the difference of the heights' "
-        f"change over the change turn by turn, rms: {worst}. While waves grow, the errors of the stretches add up over the run."
+        f"change over the change turn by turn, rms: {worst}. While waves grow, the errors of the intervals add up over the run."
     )
     return picture("roller-acceleration", figure, "Interval procedure beside every turn ridden", caption)
 
 
 def load_spectrogram(roller: RollerSeries) -> Picture | None:
-    """Amplitudes of the load over frequency and time; None where it does not change or the run is short."""
+    """Amplitudes of the load over frequency and time; None where it does not change or the run is
+    short.
+    """
     load, part = roller.contact.load, len(roller.contact.load) // SPECTRUM_PARTS
     if part < 32 or np.ptp(load) <= 1e-9 * float(load.max()):
         return None
-    pieces = load[: part * SPECTRUM_PARTS].reshape(SPECTRUM_PARTS, part)
+    parts = load[: part * SPECTRUM_PARTS].reshape(SPECTRUM_PARTS, part)
     window = np.hanning(part)
-    pieces = (pieces - pieces.mean(axis=1, keepdims=True)) * window
-    sizes = 2.0 * np.abs(np.fft.rfft(pieces, axis=1)) / window.sum()
+    parts = (parts - parts.mean(axis=1, keepdims=True)) * window
+    sizes = 2.0 * np.abs(np.fft.rfft(parts, axis=1)) / window.sum()
     frequency = np.fft.rfftfreq(part, roller.contact.period)
     figure, (axes,) = new_figure(3.0)
     levels = np.log10(np.maximum(sizes, 1e-9 * sizes.max()))

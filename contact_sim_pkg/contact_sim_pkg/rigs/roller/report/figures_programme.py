@@ -19,7 +19,9 @@ RADII = (
 
 
 def programme_over_time(roller: RollerSeries, scene: dict[str, Any]) -> Picture | None:
-    """Load pressed on, and the radii of the contact where they change; None without a programme that changes anything."""
+    """Load pressed on, and the radii of the contact where they change; None without a programme
+    that changes anything.
+    """
     programme = build_roller(scene).programme
     if not programme.turns_bodies and float(np.ptp(programme.load)) == 0.0:
         return None

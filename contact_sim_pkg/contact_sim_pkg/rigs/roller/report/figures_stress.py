@@ -90,7 +90,7 @@ def _stress_picture(found: RollerVolumes, scene: dict[str, Any]) -> Picture:
             f"{found.with_bending[-1] * 1e9:.4g} mm³, {100.0 * found.with_bending[-1] / found.working_volume:.4g} %."
         )
     if leaves_box(contact, model.poisson_ratio, (found.normal_limit, found.shear_limit), model.traction):
-        caption += " The true volume reaches beyond the box in which it is measured; higher limits tell more."
+        caption += " The true volume reaches beyond the box in which it is measured; higher limits show more."
     name = f"roller-stress-{round(found.time * 1e6)}"
     return picture(name, figure, "Normal and shear stress and dangerous volume in two planes", caption)
 
@@ -98,7 +98,9 @@ def _stress_picture(found: RollerVolumes, scene: dict[str, Any]) -> Picture:
 def _stresses(
     contact: RollingContact, model: RollerModel, points: FloatArray, with_bending: bool = False
 ) -> FloatArray:
-    """Of contact and traction, and of the shaft's bending where it is asked for and the scene has it."""
+    """Of contact and traction, and of the shaft's bending where it is requested and the scene has
+    it.
+    """
     out = np.zeros((len(points), 6))
     bending = model.bending if with_bending else None
     bench_stresses(contact, bending, *model.traction, model.poisson_ratio, points, out)
@@ -106,7 +108,9 @@ def _stresses(
 
 
 def _largest_shear(contact: RollingContact, model: RollerModel, a: float) -> float:
-    """Largest |sigma_xz| in the plane y = 0 [Pa]: of a grid, then of ever smaller ones about its largest."""
+    """Largest |sigma_xz| in the plane y = 0 [Pa]: of a grid, then of ever smaller ones about its
+    largest.
+    """
     x, z, reach = 0.0, a, np.array([2.0 * a, a])
     largest = 0.0
     for _ in range(ZOOMS):

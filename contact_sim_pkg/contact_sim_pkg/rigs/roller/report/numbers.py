@@ -21,7 +21,9 @@ def summary_numbers(recording: Recording) -> dict[str, Any]:
 
 
 def roller_numbers(roller: RollerSeries) -> dict[str, Any]:
-    """Largest pressure, stability as told, track at the end, dangerous volumes; what the run lacks is absent."""
+    """Largest pressure, stability as known before the run, track at the end, dangerous volumes;
+    what the run lacks is absent.
+    """
     numbers: dict[str, Any] = {
         "peak_pressure_max_Pa": float(roller.contact.peak_pressure.max()),
         "tilt_max_rad": float(abs(roller.contact.tilt).max()),

@@ -19,7 +19,9 @@ from contact_sim_pkg.rigs.roller.report.tables import stability_table, volume_ta
 
 
 def roller_sections(number: int, recording: Recording) -> list[Section]:
-    """Call inside `drawing.style()`; the general section where the bag holds no state of the roller."""
+    """Call inside `drawing.style()`; the general section where the bag holds no state of the
+    roller.
+    """
     roller = roller_of(recording)
     if roller is None:
         return [contact_section(number, "roller", recording)]
@@ -27,10 +29,10 @@ def roller_sections(number: int, recording: Recording) -> list[Section]:
     first = [
         programme_over_time(roller, scene), contact_over_time(roller), motion_over_time(roller), load_spectrogram(roller),
     ]  # fmt: skip
-    stable, told = stability_map(roller, scene), stability_table(roller.stability, float(scene["block_length"]))
+    stable, table = stability_map(roller, scene), stability_table(roller.stability, float(scene["block_length"]))
     return [
         Section("roller", "Rolling contact", [each for each in first if each is not None], []),
-        Section("stability", "Stability of tilt and yaw", [stable] if stable else [], [told] if told else []),
+        Section("stability", "Stability of tilt and yaw", [stable] if stable else [], [table] if table else []),
         Section("track", "Track", track_pictures(roller), []),
         Section(
             "stress", "Stress and dangerous volumes", stress_pictures(roller, scene), volume_tables(roller.volumes)

@@ -34,16 +34,16 @@ def roller_of(recording: Recording) -> RollerSeries | None:
     return recording.series.get("roller")
 
 
-class RollerPass:
-    """Takes messages in the order of the bag."""
+class RollerReader:
+    """Reads messages in the order of the bag."""
 
     def __init__(self) -> None:
-        """Nothing taken."""
+        """Nothing read yet."""
         self._taken: dict[Any, list[Any]] = {kind: [] for kind in KINDS.values()}
         self._times: list[FloatArray] = []
 
-    def take(self, seconds: float, type_name: str, message: Any) -> None:
-        """Take a message of one of its types. Raises MessageError where its arrays do not fit."""
+    def add(self, seconds: float, type_name: str, message: Any) -> None:
+        """Read a message of one of its types. Raises MessageError where its arrays do not fit."""
         kind = KINDS[type_name]
         value = record_of(kind, message)
         self._taken[kind].append(value)
@@ -51,7 +51,7 @@ class RollerPass:
             self._times.append(seconds + value.period * np.arange(len(value.load), dtype=np.float64))
 
     def finish(self) -> RollerSeries | None:
-        """What was taken; None without a contact."""
+        """What was read; None without a contact."""
         blocks = self._taken[RollerContact]
         if not blocks:
             return None

@@ -1,4 +1,6 @@
-"""Tables of the roller's page: stability under each load told, dangerous volumes of each component and of their union."""
+"""Tables of the roller's page: stability under each load told, dangerous volumes of each component
+and of their union.
+"""
 
 from __future__ import annotations
 
@@ -15,9 +17,9 @@ MOST_ROWS = 40
 """Of a table."""
 
 
-def stability_table(told: list[RollerStability], block_length: float) -> Table | None:
+def stability_table(stability: list[RollerStability], block_length: float) -> Table | None:
     """One row for each load told; None where there is none."""
-    if not told:
+    if not stability:
         return None
     header = ("from, s", "load, N", "growth rate, 1/s", "frequency, Hz", "static tilt, mrad", "static yaw, mrad",
               "critical load, N", "critical damping, N m s")  # fmt: skip
@@ -26,13 +28,15 @@ def stability_table(told: list[RollerStability], block_length: float) -> Table |
             f"{each.block * block_length:.5g}", f"{each.load:.5g}", f"{each.growth_rate:+.4g}", f"{each.frequency:.5g}",
             f"{each.tilt * 1e3:.4g}", f"{each.yaw * 1e3:.4g}", _critical_load(each), _or_none(each.critical_damping),
         )
-        for each in told[:MOST_ROWS]
+        for each in stability[:MOST_ROWS]
     ]  # fmt: skip
-    return Table(f"Tilt and yaw under each load of the run{_left_out(len(told))}", header, rows)
+    return Table(f"Tilt and yaw under each load of the run{_left_out(len(stability))}", header, rows)
 
 
 def volume_tables(volumes: list[RollerVolumes]) -> list[Table]:
-    """Volumes in mm³ and shares of V_k, of the contact alone and, where the shaft bends, with its bending."""
+    """Volumes in mm³ and shares of V_k, of the contact alone and, where the shaft bends, with its
+    bending.
+    """
     if not volumes:
         return []
     bent = [each for each in volumes if len(each.with_bending)]

@@ -1,4 +1,6 @@
-"""What a reader must know before the numbers of a roller: time acceleration that errs, a track worn far, samples too rare."""
+"""What a reader must know before the numbers of a roller: time acceleration that errs, a track worn
+far, samples too rare.
+"""
 
 from __future__ import annotations
 
@@ -9,9 +11,11 @@ from contact_sim_pkg.report.series import Recording
 from contact_sim_pkg.rigs.roller.report.series import RollerSeries, roller_of
 
 LARGEST_ERROR = 0.1
-"""Of the change of heights over a stretch ridden both ways: beyond it is warned."""
+"""Of the change of heights over an interval ridden both ways: beyond it is warned."""
 LARGEST_LOSS = 0.05
-"""Of a body's radius, worn off by the mean: beyond it is warned, as its curvature stays that of the scene."""
+"""Of a body's radius, worn off by the mean: beyond it is warned, as its curvature stays that of the
+scene.
+"""
 LARGEST_UNSEEN = 0.1
 """Of the load's variation round a track: what lies above half the sample rate may be so much."""
 LEAST_VARIATION = 0.01
@@ -38,7 +42,7 @@ def _acceleration(tracks: list[RollerTrack]) -> str:
     if not wrong:
         return ""
     return (
-        f"In {len(wrong)} of {len(checked)} stretches ridden both ways the time acceleration of "
+        f"In {len(wrong)} of {len(checked)} intervals ridden both ways the time acceleration of "
         f"{wrong[0].cycles / wrong[0].turns:.6g} errs by more than {LARGEST_ERROR:g} of the change of the track's heights "
         f"(at most {max(each.check_error for each in wrong):.3g}), first after {wrong[0].cycles:.6g} cycles: from there on the "
         "track is not that of every turn ridden; a lower roller.acceleration errs less."
@@ -71,7 +75,9 @@ def _sampling(roller: RollerSeries) -> str:
 
 
 def variation_above(track: RollerTrack, frequency: float) -> tuple[float, float]:
-    """Rms [N] of the load round a track about its mean, and of what of it lies above a frequency [Hz]."""
+    """Rms [N] of the load round a track about its mean, and of what of it lies above a frequency
+    [Hz].
+    """
     sizes = np.abs(np.fft.rfft(track.load)) ** 2 / len(track.load) ** 2 * 2.0
     tones = np.arange(len(sizes)) / track.turn_time
     return float(np.sqrt(sizes[1:].sum())), float(np.sqrt(sizes[tones > frequency].sum()))

@@ -1,7 +1,9 @@
-"""Accuracy and cost of the roller rig: ellipse, tilt and yaw, heave, dangerous volumes, time acceleration of a scene.
+"""Accuracy and cost of the roller rig: ellipse, tilt and yaw, heave, dangerous volumes, time
+acceleration of a scene.
 
-Each part is measured where the scene has its effect. References: 50 digits (ellipse), scipy (motions; the moments and loads are own
-code), three times finer cells (volumes), every turn ridden (time acceleration).
+Each part is measured where the scene has its effect. References: 50 digits (ellipse), scipy
+(motions; the moments and loads are own code), three times finer cells (volumes), every turn ridden
+(time acceleration).
 """
 
 from __future__ import annotations
@@ -43,12 +45,12 @@ FINER = 3.0
 ACCELERATIONS = (0.1, 1.0, 10.0)
 
 
-def rows(_scene_name: str, scene: ResolvedScene, tell: Callable[[str], None]) -> Rows:
+def rows(_scene_name: str, scene: ResolvedScene, notify: Callable[[str], None]) -> Rows:
     """All parts that the scene has."""
     model = build_roller(scene.data)
     found: Rows = []
     for part, measure in zip(PARTS, (_ellipse, _tilt_yaw, _heave, _volumes, _acceleration), strict=True):
-        tell(f"roller: {part}")
+        notify(f"roller: {part}")
         found += [{"part": part, **row} for row in measure(model)]
     return found
 

@@ -1,4 +1,6 @@
-"""Goals of the roller rig: time of a stress point, of a dangerous volume, and of an hour of the rig."""
+"""Goals of the roller rig: time of a stress point, of a dangerous volume, and of an hour of the
+rig.
+"""
 
 from __future__ import annotations
 
@@ -19,7 +21,9 @@ JUMP = 100
 
 
 def goals() -> list[Measured]:
-    """Points all through the working volume; the hour is 720 000 turns of the shaft, heave and wear."""
+    """Points all through the working volume; the hour is 720 000 turns of the shaft, heave and
+    wear.
+    """
     contact = contact_of_rollers(CURVATURES, 0.0, MODULUS, LOAD)
     largest = max(contact.along_x, contact.along_y)
     box = numpy.array([[2.0 * contact.along_x, 2.0 * contact.along_y, 1.5 * largest]])

@@ -1,4 +1,6 @@
-"""Hard cases of the roller rig: separation, divergence, flutter, mass matrix, resonance, axes that swap, surface, limits."""
+"""Hard cases of the roller rig: separation, divergence, flutter, mass matrix, resonance, axes that
+swap, surface, limits.
+"""
 
 from __future__ import annotations
 
@@ -82,7 +84,9 @@ def energy_is_kept() -> Finding:
 
 
 def flutter_grows_as_its_root() -> Finding:
-    """Spin and rolling friction without damping: growth over 2 s over that of the root, in the mode's own coordinate."""
+    """Spin and rolling friction without damping: growth over 2 s over that of the root, in the
+    mode's own coordinate.
+    """
     found = stability(ROLLER, CURVATURES, None, MODULUS, 300.0)
     inverse = numpy.linalg.inv(found.linear.inertia)
     matrix = numpy.block([
@@ -118,7 +122,9 @@ def resonance() -> Finding:
 
 
 def axes_keep_their_names() -> Finding:
-    """Largest jump of the axes while the ellipse grows from long along y to long along x, over their change without it."""
+    """Largest jump of the axes while the ellipse grows from long along y to long along x, over
+    their change without it.
+    """
     sizes = [
         contact_of_rollers(Curvatures(3.0, 0.0, k, 0.0), 0.0, MODULUS, LOAD)[:2] for k in numpy.linspace(2.9, 3.1, 201)
     ]
@@ -140,15 +146,19 @@ def nothing_is_worn_below_the_limits() -> Finding:
 
 
 def everything_is_dangerous() -> Finding:
-    """Limits next to 0: V_T over the box, with the flag that says so; limits above the pressure: nothing, and no flag."""
+    """Limits next to 0: V_T over the box, with the flag that says so; limits above the pressure:
+    nothing, and no flag.
+    """
     contact = contact_of_rollers(CURVATURES, 0.0, MODULUS, LOAD)
     full, none = (dangerous_volumes(contact, POISSON, (limit, limit), (8, 8, 6)) for limit in (1e-6, 1e11))
-    told = fills_box(full, contact) and not fills_box(none, contact) and none.any == 0.0
-    return close_to(full.any / box_volume(contact) if told else math.nan, 1.0, 1e-12)
+    seen = fills_box(full, contact) and not fills_box(none, contact) and none.any == 0.0
+    return close_to(full.any / box_volume(contact) if seen else math.nan, 1.0, 1e-12)
 
 
 def towards_the_surface() -> Finding:
-    """Under a circle from z = 0.03 a to 1e-12 a, off the axis: distance to the surface values over 2.1 times the depth, worst."""
+    """Under a circle from z = 0.03 a to 1e-12 a, off the axis: distance to the surface values over
+    2.1 times the depth, worst.
+    """
     worst, surface = (
         0.0,
         ellipse_stress(EllipseLoad(1.0, 1.0, 1.0, 0.0, 0.0), POISSON, numpy.array([(0.5, 0.0, 0.0)]))[0],
@@ -165,7 +175,9 @@ def towards_the_surface() -> Finding:
 
 
 def slender_volumes() -> Finding:
-    """Profile radii up to 10 m, b/a down to 0.009: V_T of the usual cells over that of cells counted one by one, worst."""
+    """Profile radii up to 10 m, b/a down to 0.009: V_T of the usual cells over that of cells
+    counted one by one, worst.
+    """
     worst = 0.0
     for curvature in (10.0, 1.0, 0.1):
         contact = contact_of_rollers(CURVATURES._replace(roller_axial=curvature), 0.0, MODULUS, LOAD)
@@ -176,21 +188,25 @@ def slender_volumes() -> Finding:
 
 
 def damage_at_the_surface() -> Finding:
-    """Traction 0.4, limits that the surface alone passes: V_T over that of four times as many depths."""
+    """Traction 0.4, limits that the surface alone passes: V_T over that of four times as many
+    depths.
+    """
     contact, limits, pulled = contact_of_rollers(CURVATURES, 0.0, MODULUS, LOAD), (2.2e9, 6.5e8), (0.0, 0.4)
     usual = dangerous_volumes(contact, POISSON, limits, (32, 40, 16), None, pulled).any
     return close_to(usual / dangerous_volumes(contact, POISSON, limits, (32, 40, 64), None, pulled).any, 1.0, 0.05)
 
 
 def a_volume_that_leaves_its_box() -> Finding:
-    """Told where a side or the floor of the box is dangerous, and not where none is: answers that are right, of two."""
+    """Reported where a side or the floor of the box is dangerous, and not where none is: answers
+    that are right, of two.
+    """
     contact = contact_of_rollers(CURVATURES, 0.0, MODULUS, 300.0)
-    told = leaves_box(contact, POISSON, (1e8, 3e7)) and not leaves_box(contact, POISSON, (2e9, 1e9))
-    return exactly(float(told), 1.0)
+    seen = leaves_box(contact, POISSON, (1e8, 3e7)) and not leaves_box(contact, POISSON, (2e9, 1e9))
+    return exactly(float(seen), 1.0)
 
 
 def neutral_without_damping() -> Finding:
-    """No friction, no damping, any spin: growth rate and damping asked for, largest."""
+    """No friction, no damping, any spin: growth rate and damping requested, largest."""
     still = [ROLLER._replace(rolling_friction=0.0, spin=spin) for spin in (0.0, 10.0, 300.0, 3e4)]
     rates = [abs(stability(each, CURVATURES, None, MODULUS, 300.0).growth_rate) for each in still]
     dampings = [critical_damping(each, CURVATURES, None, MODULUS, 300.0) for each in still]

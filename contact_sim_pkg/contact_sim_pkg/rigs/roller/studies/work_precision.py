@@ -1,4 +1,6 @@
-"""Ladders of the roller rig: stress under the contact, dangerous volume, tilt and yaw in time, load split, growth of a wave."""
+"""Work-precision studies of the roller rig: stress under the contact, dangerous volume, tilt and
+yaw in time, load split, growth of a wave.
+"""
 
 from __future__ import annotations
 
@@ -178,7 +180,9 @@ def motion_rows() -> list[Row]:
 
 
 def split_rows() -> list[Row]:
-    """Contact load of the bench by both modes; the parallel one against the least complementary energy."""
+    """Contact load of the bench by both modes; the parallel one against the least complementary
+    energy.
+    """
     contact = contact_of_rollers(CURVATURES, 0.0, MODULUS, LOAD)
     k_c = contact.approach / LOAD ** (2.0 / 3.0)
 
@@ -214,7 +218,9 @@ def split_rows() -> list[Row]:
 
 
 def wave_rows() -> list[Row]:
-    """A wave of 0.1 nm, two round the track, share (F/F_N)^3: growth a turn by cells of the track and turns an interval."""
+    """A wave of 0.1 nm, two round the track, share (F/F_N)^3: growth a turn by cells of the track
+    and turns an interval.
+    """
     contact = contact_of_rollers(CURVATURES, 0.0, MODULUS, LOAD)
     heave = make_heave(MASS, 0.05, LOAD, contact.approach / LOAD ** (2.0 / 3.0), BENDING_COMPLIANCE)
     loads = numpy.linspace(0.0, 4.0 * LOAD, 4001, dtype=numpy.float64)

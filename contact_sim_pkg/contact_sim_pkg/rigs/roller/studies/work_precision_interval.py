@@ -1,4 +1,6 @@
-"""Ladder of the interval procedure: one turn of the track stands for many; against every turn ridden."""
+"""Work-precision study of the interval procedure: one turn of the track stands for many; against
+every turn ridden.
+"""
 
 from __future__ import annotations
 
@@ -50,7 +52,9 @@ def _ridden(heave: Heave, track: WearTrack, jump: int, intervals: int, heights: 
 
 
 def rows() -> list[Row]:
-    """Change of the heights over 20 s of the rig, rms, over the change with every turn ridden; time of a second of the rig."""
+    """Change of the heights over 20 s of the rig, rms, over the change with every turn ridden; time
+    of a second of the rig.
+    """
     heave, track = _bench()
     found = []
     for case, size in STARTS.items():
@@ -75,7 +79,9 @@ def rows() -> list[Row]:
 
 
 def hour(jump: int) -> float:
-    """Seconds that an hour of the rig takes, heave and wear: 720 000 turns, each that is ridden stands for `jump`."""
+    """Seconds that an hour of the rig takes, heave and wear: 720 000 turns, each that is ridden
+    stands for `jump`.
+    """
     heave, track = _bench()
     heights = 1e-9 * numpy.random.default_rng(1).uniform(-1.0, 1.0, CELLS)
     _ridden(heave, track, jump, 1, heights, numpy.zeros(2))

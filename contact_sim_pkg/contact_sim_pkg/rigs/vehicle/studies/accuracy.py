@@ -14,9 +14,11 @@ _COUPLING = AccuracyPart(
 )
 
 ACCURACY = (
-    AccuracyStudy(lambda _name, scene, tell: tolerance_rows(scene, tell), (INTEGRATOR,)),
+    AccuracyStudy(lambda _name, scene, notify: tolerance_rows(scene, notify), (INTEGRATOR,)),
     AccuracyStudy(coupling_rows, (_COUPLING,)),
     AccuracyStudy(
-        lambda _name, scene, tell: field_rows(scene, tell), (*field_parts("tire"), *field_parts("seat")), first_solve
+        lambda _name, scene, notify: field_rows(scene, notify),
+        (*field_parts("tire"), *field_parts("seat")),
+        first_solve,
     ),
 )

@@ -1,7 +1,9 @@
-"""Accuracy and cost of the coupling: the error that is allowed between two solutions of the pressure fields.
+"""Accuracy and cost of the coupling: the error that is allowed between two solutions of the
+pressure fields.
 
-The error is that of the normal force at every sample of the run, against a run that allows 1e-5 and may make its stretches a
-quarter as long. `error` is the largest over the largest force; the quantity ending in `(rms)` is relative to the mean force.
+The error is that of the normal force at every sample of the run, against a run that allows 1e-5 and
+may make its coupling steps a quarter as long. `error` is the largest over the largest force; the
+quantity ending in `(rms)` is relative to the mean force.
 """
 
 from __future__ import annotations
@@ -27,16 +29,18 @@ FINEST, FINER_RATE = 1e-5, 4
 PART = "coupling"
 
 
-def coupling_rows(scene_name: str, scene: ResolvedScene, tell: Callable[[str], None]) -> list[dict[str, Any]]:
-    """Rows of each contact with a field, at the grids that the scene asks for; none where it has no field."""
+def coupling_rows(scene_name: str, scene: ResolvedScene, notify: Callable[[str], None]) -> list[dict[str, Any]]:
+    """Rows of each contact with a field, at the grids that the scene asks for; none where it has no
+    field.
+    """
     contacts = [name for name, effects in scene.data["effects"].items() if effects and effects.get("contact_field")]
     if not contacts:
         return []
-    tell(f"coupling: reference, tolerance {FINEST:.0e}")
+    notify(f"coupling: reference, tolerance {FINEST:.0e}")
     exact, every = _reference(scene_name, scene)
     rows = []
     for tolerance in TOLERANCES:
-        tell(f"coupling: tolerance {tolerance:.0e}")
+        notify(f"coupling: tolerance {tolerance:.0e}")
         forces, cost = simulate(load_resolved(scene_name, f"integrator.coupling_tolerance={tolerance}"), DURATION)
         for contact in contacts:
             field = scene.data["effects"][contact]["contact_field"]
@@ -73,7 +77,9 @@ def _reference(scene_name: str, scene: ResolvedScene) -> tuple[dict[str, Vector]
 
 
 def simulate(scene: ResolvedScene, duration: float) -> tuple[dict[str, Vector], float]:
-    """Normal force [N] of each contact over `duration` [s], and ms per simulated second of the simulation alone."""
+    """Normal force [N] of each contact over `duration` [s], and ms per simulated second of the
+    simulation alone.
+    """
     sources, simulation = make_sources(scene), make_simulation(scene)
     simulation.prepare()
     length = float(scene.data["block_length"])

@@ -1,4 +1,6 @@
-"""Accuracy and cost of the pressure fields: error of the grid beside error of the solver, for each rung."""
+"""Accuracy and cost of the pressure fields: error of the grid beside error of the solver, for each
+rung.
+"""
 
 from __future__ import annotations
 
@@ -39,7 +41,9 @@ DENSE = "dense NNLS (scipy), no shared code"
 
 
 class FieldProblem(NamedTuple):
-    """One contact's field: grid, gaps [m] at consecutive instants (one, where the shape is fixed), standing load [N]."""
+    """One contact's field: grid, gaps [m] at consecutive instants (one, where the shape is fixed),
+    standing load [N].
+    """
 
     settings: FieldSettings
     contact: str
@@ -55,19 +59,23 @@ class FieldSolution(NamedTuple):
     seconds: float  # median a solve, started from the field before
 
 
-def field_rows(scene: ResolvedScene, tell: Callable[[str], None]) -> list[dict[str, Any]]:
-    """Rows of each contact whose pressure field the scene asks for: solver, grid, and the check against another code."""
+def field_rows(scene: ResolvedScene, notify: Callable[[str], None]) -> list[dict[str, Any]]:
+    """Rows of each contact whose pressure field the scene asks for: solver, grid, and the check
+    against another code.
+    """
     rows: list[dict[str, Any]] = []
     contacts: tuple[str, ...] = ("tire", "seat")
     for contact in contacts:
         if (scene.data["effects"].get(contact) or {}).get("contact_field"):
-            rows += _rungs(scene, contact, tell)
-            rows += _independent(scene, contact, tell)
+            rows += _rungs(scene, contact, notify)
+            rows += _independent(scene, contact, notify)
     return rows
 
 
 def first_solve(scene: ResolvedScene) -> float | None:
-    """Seconds that the scene's first field takes, its tables and kernels included; None where it has no field."""
+    """Seconds that the scene's first field takes, its tables and kernels included; None where it
+    has no field.
+    """
     if not any((effects or {}).get("contact_field") for effects in scene.data["effects"].values()):
         return None
     began = time.perf_counter()
@@ -76,7 +84,9 @@ def first_solve(scene: ResolvedScene) -> float | None:
 
 
 def bench_solves(scene: ResolvedScene, cells: Cells, tolerance: float) -> tuple[float, float, float]:
-    """The tire's field: ms of a solve from nothing and from the field before (medians), and its worst L2 error at 1e-10."""
+    """The tire's field: ms of a solve from nothing and from the field before (medians), and its
+    worst L2 error at 1e-10.
+    """
     problem = _problem(scene, "tire", cells, tolerance)
     warm = _solve(problem)
     walls = []
@@ -89,16 +99,16 @@ def bench_solves(scene: ResolvedScene, cells: Cells, tolerance: float) -> tuple[
     return 1e3 * statistics.median(walls), 1e3 * warm.seconds, _errors(warm, converged)["pressure (L2)"]
 
 
-def _rungs(scene: ResolvedScene, contact: str, tell: Callable[[str], None]) -> list[dict[str, Any]]:
+def _rungs(scene: ResolvedScene, contact: str, notify: Callable[[str], None]) -> list[dict[str, Any]]:
     grids = {"tire": TireField, "seat": SeatField}[contact].levels
     finest = (2 * grids[-1].rows, 2 * grids[-1].cols)
-    tell(f"{contact} field: reference grid {finest[0]}x{finest[1]}")
+    notify(f"{contact} field: reference grid {finest[0]}x{finest[1]}")
     reference = _solve(_problem(scene, contact, finest, grids[-1].tolerance), FEW)
     rate = float(scene.data["outputs"]["field_rate"])
     rows = []
     for level, grid in zip(LEVELS, grids, strict=True):
         cells = grid.cells
-        tell(f"{contact} field: rung {level.name}, {cells[0]}x{cells[1]}")
+        notify(f"{contact} field: rung {level.name}, {cells[0]}x{cells[1]}")
         found = _solve(_problem(scene, contact, cells, grid.tolerance))
         converged = _solve(_problem(scene, contact, cells, CONVERGED_TOLERANCE))
         shared = {
@@ -114,10 +124,10 @@ def _rungs(scene: ResolvedScene, contact: str, tell: Callable[[str], None]) -> l
     return rows
 
 
-def _independent(scene: ResolvedScene, contact: str, tell: Callable[[str], None]) -> list[dict[str, Any]]:
+def _independent(scene: ResolvedScene, contact: str, notify: Callable[[str], None]) -> list[dict[str, Any]]:
     """The solver on a small grid against dense non-negative least squares at the same approach."""
     cells = (CHECK_ROWS, CHECK_COLS)
-    tell(f"{contact} field: dense check on {cells[0]}x{cells[1]}")
+    notify(f"{contact} field: dense check on {cells[0]}x{cells[1]}")
     problem = _problem(scene, contact, cells, CONVERGED_TOLERANCE)
     settings, gap = problem.settings, problem.gaps[len(problem.gaps) // 2]
     approach = PressureField(settings, contact).solve_load(gap, problem.load)
@@ -142,7 +152,9 @@ def _independent(scene: ResolvedScene, contact: str, tell: Callable[[str], None]
 
 
 def _problem(scene: ResolvedScene, contact: str, cells: Cells, tolerance: float) -> FieldProblem:
-    """The field of one contact on a grid of `cells`, its gaps at the instants and the standing load."""
+    """The field of one contact on a grid of `cells`, its gaps at the instants and the standing
+    load.
+    """
     model = build(scene.data)
     grids = model.tire_field if contact == "tire" else model.seat_field
     assert grids is not None
@@ -190,7 +202,9 @@ def _first(solution: FieldSolution, count: int) -> FieldSolution:
 
 
 def _errors(found: FieldSolution, exact: FieldSolution) -> dict[str, float]:
-    """Worst relative error over the instants, of the approach, the peak, the area and the field (means over the coarser cells)."""
+    """Worst relative error over the instants, of the approach, the peak, the area and the field
+    (means over the coarser cells).
+    """
     values: dict[str, list[float]] = {"approach": [], "peak pressure": [], "contact area": [], "pressure (L2)": []}
     pairs = zip(found.pressures, exact.pressures, found.approaches, exact.approaches, strict=True)
     for one, other, approach, exact_approach in pairs:
@@ -204,7 +218,9 @@ def _errors(found: FieldSolution, exact: FieldSolution) -> dict[str, float]:
 
 
 def _onto(fine: Field, shape: tuple[int, ...]) -> Field:
-    """Means over the cells of a coarser grid of `shape`: the integral, interpolated at the coarser edges, differentiated."""
+    """Means over the cells of a coarser grid of `shape`: the integral, interpolated at the coarser
+    edges, differentiated.
+    """
     result = fine
     for axis in (0, 1):
         lines = numpy.moveaxis(result, axis, 0)

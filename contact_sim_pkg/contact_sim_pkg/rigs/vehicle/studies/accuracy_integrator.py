@@ -1,4 +1,4 @@
-"""Accuracy and cost of the time integration, with point contacts: the asked tolerance."""
+"""Accuracy and cost of the time integration, with point contacts: the requested tolerance."""
 
 from __future__ import annotations
 
@@ -31,15 +31,17 @@ REPEATS = 9
 TWIN = "scipy DOP853, no shared code"
 
 
-def tolerance_rows(scene: ResolvedScene, tell: Callable[[str], None]) -> list[dict[str, Any]]:
-    """Motion and normal forces of the scene's rig with point contacts, for each tolerance of the integrator."""
+def tolerance_rows(scene: ResolvedScene, notify: Callable[[str], None]) -> list[dict[str, Any]]:
+    """Motion and normal forces of the scene's rig with point contacts, for each tolerance of the
+    integrator.
+    """
     drive = drive_of(scene, DURATION)
-    tell(f"integrator: reference for {DURATION:g} s")
+    notify(f"integrator: reference for {DURATION:g} s")
     asked = float(scene.data["integrator"]["relative_tolerance"])
     exact, exact_forces, reference = _reference(drive, asked)
     rows = []
     for tolerance in TOLERANCES:
-        tell(f"integrator: tolerance {tolerance:.0e}")
+        notify(f"integrator: tolerance {tolerance:.0e}")
         scale = drive.model.scale * (tolerance / asked)
         states, forces = fast_run(drive, scale)
         cost = 1e3 * _timed(partial(fast_run, drive, scale)) / (len(drive.height) - 1) / drive.segment
@@ -52,7 +54,9 @@ def tolerance_rows(scene: ResolvedScene, tell: Callable[[str], None]) -> list[di
 
 
 def _reference(drive: SceneDrive, asked: float) -> tuple[Vector, list[Vector], str]:
-    """States, normal forces and where they come from: scipy where its twin knows the laws of the contacts, own code else."""
+    """States, normal forces and where they come from: scipy where its twin knows the laws of the
+    contacts, own code else.
+    """
     if twin_knows(drive.model.rig):
         states = slow_run(drive)[:-1]
         return states, _forces(drive, states), TWIN
@@ -80,7 +84,9 @@ def _timed(call: Callable[[], object]) -> float:
 
 
 def _motion_error(found: Vector, exact: Vector) -> float:
-    """Largest error of a state over the largest excursion of that state from its start, over all samples."""
+    """Largest error of a state over the largest excursion of that state from its start, over all
+    samples.
+    """
     excursion = numpy.abs(exact - exact[0]).max(axis=0)
     moving = excursion > 1e-9 * excursion.max()
     return float((numpy.abs(found - exact).max(axis=0)[moving] / excursion[moving]).max())
@@ -99,7 +105,9 @@ def _normal(drive: SceneDrive, forces: Vector) -> list[Vector]:
 
 
 def _forces(drive: SceneDrive, states: Vector) -> list[Vector]:
-    """Normal forces from the twin's states, by the twin's law; seen from the right of each instant, as the samples are."""
+    """Normal forces from the twin's states, by the twin's law; seen from the right of each instant,
+    as the samples are.
+    """
     rig, height = drive.model.rig, drive.height
     rate = numpy.diff(height) / drive.segment
     tire_law, seat_law = twin_laws(rig)

@@ -28,7 +28,9 @@ def car_ledger() -> Finding:
 
 
 def lift_off() -> Finding:
-    """Samples with a negative force behind a bump of 0.12 m, where the tire leaves the road (also counted: no flight at all)."""
+    """Samples with a negative force behind a bump of 0.12 m, where the tire leaves the road (also
+    counted: no flight at all).
+    """
     found = outputs_of("tire_bump", 1.5, "road.height=0.12")
     forces = [block.normal for block in records_of(found, "tire/force")]
     flying = sum(int((force == 0.0).sum()) for force in forces)

@@ -1,4 +1,6 @@
-"""Hard cases of the tire beside its field: closed forms on Lame domains, other profiles, stress below, asperities, the road."""
+"""Hard cases of the tire beside its field: closed forms on Lame domains, other profiles, stress
+below, asperities, the road.
+"""
 
 from __future__ import annotations
 
@@ -32,7 +34,9 @@ MODULUS, LOAD = 4.0e6, 4000.0
 
 
 def real_eccentricity() -> Finding:
-    """Domains where the printed k^n is not within 0 to 1 although the corrected one is (counted: 6 of 6)."""
+    """Domains where the printed k^n is not within 0 to 1 although the corrected one is (counted: 6
+    of 6).
+    """
     domains = [(1.0, 1.0, n) for n in (1.0, 1.5, 3.5, 4.0)] + [(2.0, 1.9, 1.2), (1.1, 1.0, 6.0)]
     right = 0
     for a, b, n in domains:
@@ -107,9 +111,11 @@ def stress_in_the_surface() -> Finding:
 
 
 def planes() -> Finding:
-    """Relative error of the load that planes below carry: integral of zz under a pressure, of xz under a traction.
+    """Relative error of the load that planes below carry: integral of zz under a pressure, of xz
+    under a traction.
 
-    In polar coordinates to 300 depths; beyond it a point force still has 1.5 z/R of its shear, which is added.
+    In polar coordinates to 300 depths; beyond it a point force still has 1.5 z/R of its shear,
+    which is added.
     """
     grid, field, worst = SurfaceGrid(0.1, 0.1, -0.05, -0.05), numpy.ones((2, 2)), 0.0
     for depth in (0.2, 1.0):
@@ -139,7 +145,9 @@ def asperities_off_the_road() -> Finding:
 
 
 def short_waves() -> Finding:
-    """Power of the road above half the lattice's rate over that of the road, cell 0.25 m, 0.1 m waves asked for."""
+    """Power of the road above half the lattice's rate over that of the road, cell 0.25 m, 0.1 m
+    waves requested.
+    """
     road = Iso8608Road(256e-6, 1, 200.0, shortest_wavelength=0.1, lattice_cell=0.25)
     x = numpy.arange(8192, dtype=numpy.float64) * (200.0 / 8192)
     heights = road.heights(x, numpy.zeros(1))[:, 0]

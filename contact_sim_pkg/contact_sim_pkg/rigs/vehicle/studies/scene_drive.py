@@ -1,4 +1,6 @@
-"""A scene's rig with point contacts, and what drives it over a time, as arrays: for studies that leave out bag and fields."""
+"""A scene's rig with point contacts, and what drives it over a time, as arrays: for studies that
+leave out bag and fields.
+"""
 
 from __future__ import annotations
 
@@ -36,7 +38,9 @@ class SceneDrive(NamedTuple):
 
 
 def without(scene: ResolvedScene, *effects: tuple[str, str]) -> ResolvedScene:
-    """The scene less some effects, each as (contact, effect), and what needs them; one that it does not name is passed over."""
+    """The scene less some effects, each as (contact, effect), and what needs them; one that it does
+    not name is passed over.
+    """
     data: dict[str, Any] = copy.deepcopy(scene.data)
     for contact, effect in effects:
         for name in (effect, *dependents_of(contact, effect)):
@@ -47,7 +51,9 @@ def without(scene: ResolvedScene, *effects: tuple[str, str]) -> ResolvedScene:
 
 
 def drive_of(scene: ResolvedScene, duration: float) -> SceneDrive:
-    """Drive of the scene's rig with point contacts over `duration` [s], without friction (it does not act on z) and impulses."""
+    """Drive of the scene's rig with point contacts over `duration` [s], without friction (it does
+    not act on z) and impulses.
+    """
     left_out = ("contact_field", "friction", "asperity_impulses")
     effects = [(contact, effect) for contact in ("tire", "seat") for effect in left_out]
     plain = without(scene, *effects)
@@ -82,7 +88,9 @@ def _fill_heights(model: Model, patch: Any, positions: Vector, out: Vector) -> N
 
 
 def fast_run(drive: SceneDrive, scale: Vector) -> tuple[Vector, Vector]:
-    """States and forces (columns of `rigs/vehicle/entries.py`) at the starts of all segments, by the bench's kernels."""
+    """States and forces (columns of `rigs/vehicle/entries.py`) at the starts of all segments, by
+    the bench's kernels.
+    """
     count, states = len(drive.height) - 1, len(drive.start)
     samples = (numpy.zeros((count, states)), numpy.zeros((count, states)), numpy.zeros((count, entries.FORCES)))
     state, mode = drive.start.copy(), numpy.zeros(1, dtype=numpy.int64)
@@ -98,7 +106,9 @@ def fast_run(drive: SceneDrive, scale: Vector) -> tuple[Vector, Vector]:
 
 
 def slow_run(drive: SceneDrive) -> Vector:
-    """Mechanical states at the ends of all segments by the twin that shares no code with the kernels."""
+    """Mechanical states at the ends of all segments by the twin that shares no code with the
+    kernels.
+    """
     quarter, occupant = _twins(drive.model.rig)
     return states_at_segments(
         drive.model.rig.gravity, quarter, occupant, drive.start[:-2], drive.segment, drive.height,
@@ -115,7 +125,9 @@ def twin_laws(rig: Vehicle) -> tuple[Law | None, Law | None]:
 
 
 def twin_knows(rig: Vehicle) -> bool:
-    """Whether the laws of all contacts are among those that the twin has: power laws without memory."""
+    """Whether the laws of all contacts are among those that the twin has: power laws without
+    memory.
+    """
     present = ((rig.tire, rig.tire_contact), (rig.seat, rig.seat_contact))
     return all(_is_known(contact) for part, contact in present if part is not None)
 

@@ -7,7 +7,7 @@ import pytest
 from tests.report import rolling_bag as known
 
 from contact_sim_pkg.bag.errors import BagError
-from contact_sim_pkg.rigs.vehicle.tire.report.road_series import RoadPass
+from contact_sim_pkg.rigs.vehicle.tire.report.road_series import RoadReader
 
 
 def message(patch):
@@ -17,9 +17,9 @@ def message(patch):
 
 @pytest.fixture(scope="module")
 def road():
-    passing = RoadPass()
+    passing = RoadReader()
     for block in range(100):
-        passing.take(block * known.BLOCK_LENGTH, "", message(known.road(block)))
+        passing.add(block * known.BLOCK_LENGTH, "", message(known.road(block)))
     return passing.finish()
 
 
@@ -44,8 +44,8 @@ def test_the_strip_holds_the_extremes_beside_the_middle():
     height = patch.height.copy()
     beside = known.COLS // 2 + 5  # 27.5 mm from the middle
     height[:, beside], height[:, 0] = 0.02, 0.5  # the last one lies far outside
-    passing = RoadPass()
-    passing.take(0.0, "", message(patch._replace(height=height)))
+    passing = RoadReader()
+    passing.add(0.0, "", message(patch._replace(height=height)))
 
     road = passing.finish()
 
@@ -58,4 +58,4 @@ def test_a_block_that_does_not_fill_its_grid_is_refused():
     broken.rows += 1
 
     with pytest.raises(BagError, match=r"has 14400 heights for 151 x 96 nodes"):
-        RoadPass().take(0.0, "", broken)
+        RoadReader().add(0.0, "", broken)

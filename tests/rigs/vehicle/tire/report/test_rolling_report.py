@@ -16,7 +16,7 @@ from contact_sim_pkg.report.signal.peaks import filtered_signals, peak_rows
 from contact_sim_pkg.report.summary import summarise_recording
 from contact_sim_pkg.rigs.vehicle.tire.report.closed_form import tire_reference
 from contact_sim_pkg.rigs.vehicle.tire.report.figures_footprint import STAGES, chosen_stages
-from contact_sim_pkg.rigs.vehicle.tire.report.figures_road import Rolling, stretches
+from contact_sim_pkg.rigs.vehicle.tire.report.figures_road import Rolling, road_sections
 from contact_sim_pkg.rigs.vehicle.tire.report.tables import footprint_table, load_table
 
 HEAVY_TIME = known.HEAVY_BLOCK * known.BLOCK_LENGTH
@@ -106,7 +106,7 @@ def test_peaks_stand_raw_and_filtered_side_by_side(recording):
 def test_the_shown_stretch_holds_the_largest_load_and_what_comes_after(recording, reference):
     field = recording.fields["tire"]
 
-    near, whole = stretches(Rolling(recording.contacts["tire"], field, recording.series["road"], reference))
+    near, whole = road_sections(Rolling(recording.contacts["tire"], field, recording.series["road"], reference))
 
     place = HEAVY_TIME * known.SPEED
     assert near.start == pytest.approx(place - 1.0)

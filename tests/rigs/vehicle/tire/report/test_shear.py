@@ -11,7 +11,7 @@ from tests.report.page import Page
 from contact_sim_pkg.bag.errors import BagError
 from contact_sim_pkg.report.reading import read_recording
 from contact_sim_pkg.report.report import write_report
-from contact_sim_pkg.rigs.vehicle.tire.report.shear_series import ShearPass
+from contact_sim_pkg.rigs.vehicle.tire.report.shear_series import ShearReader
 
 FRICTION_TOPICS = (*known.TOPICS, "tire/shear")
 
@@ -25,9 +25,9 @@ def message(force_x, force_y, sliding_share=0.5):
 
 
 def passed(*messages):
-    fields = ShearPass()
+    fields = ShearReader()
     for number, each in enumerate(messages):
-        fields.take(0.1 * number, "", each)
+        fields.add(0.1 * number, "", each)
     return fields.finish()
 
 

@@ -1,4 +1,6 @@
-"""Vibration of a recording: the signals of floor and seat surface, their metrics, and the key numbers of the page."""
+"""Vibration of a recording: the signals of floor and seat surface, their metrics, and the key
+numbers of the page.
+"""
 
 from __future__ import annotations
 
@@ -27,7 +29,9 @@ class RideSignals(NamedTuple):
 
 
 def ride_signals(motion: MotionSeries | None) -> RideSignals | None:
-    """Floor and seat surface; None for a rig without a seat, or a recording of fewer than 2 samples."""
+    """Floor and seat surface; None for a rig without a seat, or a recording of fewer than 2
+    samples.
+    """
     if motion is None or motion.time.size < 2:
         return None
     seat = next((motion.acceleration[name] for name in SEAT_BODIES if name in motion.acceleration), None)

@@ -1,4 +1,6 @@
-"""Ladder of the contact area: Hertz, Lame fit, cells counted, cells with the edge between them; smooth and rough."""
+"""Work-precision study of the contact area: Hertz, Lame fit, cells counted, cells with the edge
+between them; smooth and rough.
+"""
 
 from __future__ import annotations
 
@@ -16,7 +18,7 @@ from contact_sim_pkg.records.work_precision import Row, Rung, WorkPrecision, mil
 from contact_sim_pkg.rigs.vehicle.studies.work_precision.fields import AREA, GIVEN, solve
 from contact_sim_pkg.rigs.vehicle.studies.work_precision.patch_problem import CURVATURES, LOAD, MODULUS, patch_problem
 from contact_sim_pkg.rigs.vehicle.studies.work_precision.rough import OWN, SEED, finest
-from contact_sim_pkg.rigs.vehicle.studies.work_precision.smooth import REFERENCE, TIERS, exact_answer
+from contact_sim_pkg.rigs.vehicle.studies.work_precision.smooth import LEVELS, REFERENCE, exact_answer
 
 __all__ = ["PART", "WORK_PRECISION", "rows"]
 
@@ -29,19 +31,19 @@ TOLERANCE = 1e-6  # of the fields that are measured: what is left is the measure
 def rows() -> list[Row]:
     """Areas of converged fields; time is that of the measure alone."""
     found: list[Row] = []
-    smooth = ("smooth road", None, exact_answer(TIERS[0].cells).area, REFERENCE)
+    smooth = ("smooth road", None, exact_answer(LEVELS[0].cells).area, REFERENCE)
     rough = ("rough road", SEED, finest().area, f"{OWN}, edge between cells")
     for case, seed, expected, reference in (smooth, rough):
         arguments = (*CURVATURES, MODULUS, LOAD)
         rung = Rung("Hertz πab, smooth road", milliseconds(lambda arguments=arguments: hertz_contact(*arguments)))  # type: ignore[misc]
         contact = hertz_contact(*arguments)
         found.append(_row(case, rung, reference, math.pi * contact.a * contact.b, expected))
-        for tier in TIERS:
-            problem = patch_problem(tier.cells, seed)
+        for level in LEVELS:
+            problem = patch_problem(level.cells, seed)
             pressure = solve(problem, GIVEN[0], LOAD, TOLERANCE).pressure
             assert pressure is not None
             for name, measure in measures(problem.half_space, pressure).items():
-                grid = "{}x{}".format(*tier.cells)
+                grid = "{}x{}".format(*level.cells)
                 found.append(_row(case, Rung(name, milliseconds(measure), grid), reference, measure(), expected))
     return found
 

@@ -1,4 +1,6 @@
-"""Ladder of the elliptic contact: polynomial, power fit, table, exact root; against 50 digits."""
+"""Work-precision study of the elliptic contact: polynomial, power fit, table, exact root; against
+50 digits.
+"""
 
 from __future__ import annotations
 

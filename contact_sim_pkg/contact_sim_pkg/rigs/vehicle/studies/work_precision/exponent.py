@@ -1,7 +1,8 @@
-"""Ladder of a contact whose gap is no paraboloid, `(|x|^g + |y|^g)/g`: closed forms on the Lame domain against the field.
+"""Work-precision study of a contact whose gap is no paraboloid, `(|x|^g + |y|^g)/g`: closed forms
+on the Lame domain against the field.
 
-E* = 1, P = 1. The domain (a, b, n) of the closed forms is fitted to the reference, so what is left is the error of the pressure
-that they put on it.
+E* = 1, P = 1. The domain (a, b, n) of the closed forms is fitted to the reference, so what is left
+is the error of the pressure that they put on it.
 """
 
 from __future__ import annotations

@@ -1,4 +1,6 @@
-"""Pressure fields of a patch on any grid and to any tolerance, and the distance of one answer from another."""
+"""Pressure fields of a patch on any grid and to any tolerance, and the distance of one answer from
+another.
+"""
 
 from __future__ import annotations
 
@@ -77,7 +79,8 @@ class PatchSolver:
         self._field = RollingField(problem.half_space)
 
     def solve(self, given: str, value: float, tolerance: float) -> Answer:
-        """The field at a load [N] or an approach [m]; its array is overwritten by the next call. given: one of `GIVEN`.
+        """The field at a load [N] or an approach [m]; its array is overwritten by the next call.
+        given: one of `GIVEN`.
 
         Raises `RuntimeError` where the field is not certified, or reaches the edge of the patch.
         """
@@ -104,7 +107,9 @@ def timed(rung: FieldRung, problem: PatchProblem, given: str, value: float) -> t
 
 
 def distances(found: Answer, exact: Answer) -> dict[str, float]:
-    """Relative distance of each quantity; fields are compared by their means over the coarser grid's cells."""
+    """Relative distance of each quantity; fields are compared by their means over the coarser
+    grid's cells.
+    """
     errors = {
         FORCE: relative(found.force, exact.force), APPROACH: relative(found.approach, exact.approach),
         PEAK: relative(found.peak, exact.peak), AREA: relative(found.area, exact.area),
@@ -119,7 +124,9 @@ def distances(found: Answer, exact: Answer) -> dict[str, float]:
 def rows_of(
     part: str, case: str, rung: Rung, reference: str, found: Answer, exact: Answer, converged: Answer | None = None
 ) -> list[Row]:
-    """Rows of all quantities; `converged`: the same grid to 1e-10, which divides the error into solver's and grid's."""
+    """Rows of all quantities; `converged`: the same grid to 1e-10, which divides the error into
+    solver's and grid's.
+    """
     rows = rows_of_errors(part, case, rung, reference, [errors_of(found, exact, converged)])
     values = dict(zip(QUANTITIES, zip(found[:4], exact[:4], strict=True), strict=False))
     for line in rows:

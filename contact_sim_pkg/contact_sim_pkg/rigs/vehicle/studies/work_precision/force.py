@@ -1,9 +1,11 @@
-"""Ladder of the normal force of the tire: linear spring, power law, the field on three grids; smooth and rough road.
+"""Work-precision study of the normal force of the tire: linear spring, power law, the field on
+three grids; smooth and rough road.
 
-The cheap laws are laid through the field once: the power law goes through the field at the load P and at 1.05 P (the law that
-stands between two field instants of a run), the spring is its tangent at P. Then each rung is asked for the force at the
-approaches, and for the approach at the loads, of a range around P; the worst error of the range counts. Not in the time of the
-laws: the two solves that lay them.
+The inexpensive laws go through the field once: the power law goes through the field at the load P
+and at 1.05 P (the law that stands between two field instants of a run), the spring is its tangent
+at P. Then each of them gives the force at the approaches, and for the approach at the loads, of
+a range around P; the worst error of the range counts. Not in the time of the laws: the two solves
+that lay them.
 """
 
 from __future__ import annotations
@@ -20,7 +22,7 @@ from contact_sim_pkg.rigs.vehicle.contact_field import TANGENT_LOAD_STEP
 from contact_sim_pkg.rigs.vehicle.studies.work_precision.fields import APPROACH, FORCE, GIVEN, FieldRung, PatchSolver
 from contact_sim_pkg.rigs.vehicle.studies.work_precision.patch_problem import LOAD, patch_problem
 from contact_sim_pkg.rigs.vehicle.studies.work_precision.rough import FINEST, SEED
-from contact_sim_pkg.rigs.vehicle.studies.work_precision.smooth import REFERENCE, TIERS, exact_answer
+from contact_sim_pkg.rigs.vehicle.studies.work_precision.smooth import LEVELS, REFERENCE, exact_answer
 
 __all__ = ["PART", "WORK_PRECISION", "laws_through", "rows"]
 
@@ -43,7 +45,7 @@ def rows() -> list[Row]:
     """Each road, each range."""
     found: list[Row] = []
     for road, seed in ROADS.items():
-        laws = [*laws_through(seed), *(_field_law(tier, seed) for tier in TIERS)]
+        laws = [*laws_through(seed), *(_field_law(level, seed) for level in LEVELS)]
         exact = _smooth_approach if seed is None else _rough_approach
         reference = REFERENCE if seed is None else FINE
         for name, factors in RANGES.items():
@@ -57,8 +59,8 @@ def rows() -> list[Row]:
 
 
 def laws_through(seed: int | None) -> list[TangentLaw]:
-    """Spring and power law through the field of the reference tier."""
-    solver, tolerance = PatchSolver(patch_problem(TIERS[-1].cells, seed)), TIERS[-1].tolerance
+    """Spring and power law through the field of the finest level."""
+    solver, tolerance = PatchSolver(patch_problem(LEVELS[-1].cells, seed)), LEVELS[-1].tolerance
     first = solver.solve(GIVEN[0], LOAD, tolerance).approach
     second = solver.solve(GIVEN[0], LOAD * TANGENT_LOAD_STEP, tolerance).approach
     exponent = math.log(TANGENT_LOAD_STEP) / math.log(second / first)
@@ -79,12 +81,12 @@ def laws_through(seed: int | None) -> list[TangentLaw]:
     ]
 
 
-def _field_law(tier: FieldRung, seed: int | None) -> TangentLaw:
-    solver, tolerance = PatchSolver(patch_problem(tier.cells, seed)), tier.tolerance
+def _field_law(level: FieldRung, seed: int | None) -> TangentLaw:
+    solver, tolerance = PatchSolver(patch_problem(level.cells, seed)), level.tolerance
     standing = solver.solve(GIVEN[0], LOAD, tolerance).approach
     cost = milliseconds(lambda: solver.solve(GIVEN[1], standing, tolerance))
     return TangentLaw(
-        Rung(tier.name, cost, "{}x{}".format(*tier.cells), tolerance),
+        Rung(level.name, cost, "{}x{}".format(*level.cells), tolerance),
         lambda approach: solver.solve(GIVEN[1], approach, tolerance).force,
         lambda load: solver.solve(GIVEN[0], load, tolerance).approach,
     )
@@ -92,7 +94,7 @@ def _field_law(tier: FieldRung, seed: int | None) -> TangentLaw:
 
 def _smooth_approach(factor: float) -> float:
     """Hertz: the approach goes with the load to the power of 2/3."""
-    return exact_answer(TIERS[0].cells).approach * float(factor ** (2.0 / 3.0))
+    return exact_answer(LEVELS[0].cells).approach * float(factor ** (2.0 / 3.0))
 
 
 @functools.cache

@@ -1,8 +1,10 @@
-"""One tire patch, smooth or rough, on any grid: every grid sees the same surfaces at its own cell centres.
+"""One tire patch, smooth or rough, on any grid: every grid sees the same surfaces at its own cell
+centres.
 
-The patch, the crown, the modulus, the load and the road are those of `rolling_problem`. There coarser grids take every second
-node, which moves the crown over the road by half a node from grid to grid. Here the road is summed from its waves at the cell
-centres, so that what is left between two grids is the error of the grid alone.
+The patch, the crown, the modulus, the load and the road are those of `rolling_problem`. There
+coarser grids take every second node, which moves the crown over the road by half a node from grid
+to grid. Here the road is summed from its waves at the cell centres, so that what is left between
+two grids is the error of the grid alone.
 """
 
 from __future__ import annotations
@@ -70,9 +72,11 @@ def centres(count: int, cell: float) -> Field:
 
 
 def road_heights(seed: int, x: Field, y: Field) -> Field:
-    """Heights [m] of the road of `rolling_problem`, [len(x), len(y)], at x, y [m] from the middle of the patch.
+    """Heights [m] of the road of `rolling_problem`, [len(x), len(y)], at x, y [m] from the middle
+    of the patch.
 
-    The road has no wave above half its sampling rate, so the sum over its waves goes through its nodes and is exact between.
+    The road has no wave above half its sampling rate, so the sum over its waves goes through its
+    nodes and is exact between.
     """
     waves = _waves(seed)
     along = numpy.arange(waves.shape[0]) - waves.shape[0] // 2

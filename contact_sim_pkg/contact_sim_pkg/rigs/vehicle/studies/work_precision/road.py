@@ -1,8 +1,10 @@
-"""Ladder of a random road: 20 sines, 400 sines, inverse FFT; power by third octaves against the integral of the spectrum.
+"""Work-precision study of a random road: 20 sines, 400 sines, inverse FFT; power by third octaves
+against the integral of the spectrum.
 
-ISO 8608 class C, 0.011 to 2.83 cycles/m. Sines stand at the geometric means of bins of equal ratio, where
-`2 G(n) dn` is twice the exact power of the bin, so the variance of the whole band is exact for any number of them; what few
-sines miss is how the power is spread: third octaves with no sine, or two. Time: 1000 heights along the road, which is made.
+ISO 8608 class C, 0.011 to 2.83 cycles/m. Sines stand at the geometric means of bins of equal ratio,
+where `2 G(n) dn` is twice the exact power of the bin, so the variance of the whole band is exact
+for any number of them; what few sines miss is how the power is spread: third octaves with no sine,
+or two. Time: 1000 heights along the road, which is made.
 """
 
 from __future__ import annotations

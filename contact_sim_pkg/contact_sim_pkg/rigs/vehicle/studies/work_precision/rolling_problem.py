@@ -1,9 +1,11 @@
-"""A tire patch rolling over a rough road: the problem that solvers of a rolling pressure field are compared on.
+"""A tire patch rolling over a rough road: the problem that solvers of a rolling pressure field are
+compared on.
 
-E = 5 MPa, nu = 0.49 on a rigid road, 4 kN, a patch of 0.20 m (rolling) x 0.15 m, crown radii 0.3 m (rolling) and 0.5 m
-(lateral). The road is an isotropic Gaussian surface, 1.6 m x 0.4 m and periodic; the one-sided spectrum of any of its
-profiles is `256e-6 m^3 (n / 0.1)^-2` for wave numbers n of 5 to 200 cycles/m (ISO 8608 class C continued to texture). It is
-made at 0.2/256 m; coarser grids take every second node.
+E = 5 MPa, nu = 0.49 on a rigid road, 4 kN, a patch of 0.20 m (rolling) x 0.15 m, crown radii 0.3 m
+(rolling) and 0.5 m (lateral). The road is an isotropic Gaussian surface, 1.6 m x 0.4 m and
+periodic; the one-sided spectrum of any of its profiles is `256e-6 m^3 (n / 0.1)^-2` for wave
+numbers n of 5 to 200 cycles/m (ISO 8608 class C continued to texture). It is made at 0.2/256 m;
+coarser grids take every second node.
 """
 
 from __future__ import annotations
@@ -45,7 +47,9 @@ class RollingProblem(NamedTuple):
 
 
 def rough_road(seed: int) -> Field:
-    """Heights in [m] of the finest road: white noise, filtered by the root of the spectrum `(G 0.1^2 / 4) |n|^-3`."""
+    """Heights in [m] of the finest road: white noise, filtered by the root of the spectrum `(G
+    0.1^2 / 4) |n|^-3`.
+    """
     wave = numpy.hypot(numpy.fft.fftfreq(ROAD[0], FINEST)[:, None], numpy.fft.rfftfreq(ROAD[1], FINEST)[None, :])
     inside = (wave >= LOWEST) & (wave <= HIGHEST)
     density = numpy.where(inside, 0.25 * ROUGHNESS * 0.01 * numpy.where(inside, wave, 1.0) ** -3.0, 0.0)

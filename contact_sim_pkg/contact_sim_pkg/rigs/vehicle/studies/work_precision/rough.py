@@ -1,4 +1,6 @@
-"""Ladder of the pressure field on a rough road: Winkler bed, tiers of the field, every grid and tolerance, another code."""
+"""Work-precision study of the pressure field on a rough road: Winkler bed, fidelity levels of the
+field, every grid and tolerance, another code.
+"""
 
 from __future__ import annotations
 
@@ -29,7 +31,7 @@ from contact_sim_pkg.rigs.vehicle.studies.work_precision.patch_problem import (
     PatchProblem,
     patch_problem,
 )
-from contact_sim_pkg.rigs.vehicle.studies.work_precision.smooth import FIELD_CELLS, TIERS
+from contact_sim_pkg.rigs.vehicle.studies.work_precision.smooth import FIELD_CELLS, LEVELS
 
 __all__ = [
     "CHECK_PART",
@@ -61,12 +63,14 @@ DENSE = "dense NNLS (scipy), no shared code"
 
 
 def rows() -> list[Row]:
-    """A Winkler bed and the tiers, at a given load and at the approach that the finest grid has there."""
+    """A Winkler bed and the fidelity levels, at a given load and at the approach that the finest
+    grid has there.
+    """
     found: list[Row] = []
     for given in GIVEN:
         found += _winkler(given)
-        for tier in TIERS:
-            found += _field(PART, tier, given)
+        for level in LEVELS:
+            found += _field(PART, level, given)
     return found
 
 
@@ -77,7 +81,9 @@ def grid_rows() -> list[Row]:
 
 
 def check_rows() -> list[Row]:
-    """The solver on 24 x 24 cells against dense non-negative least squares, at its approach and at its load."""
+    """The solver on 24 x 24 cells against dense non-negative least squares, at its approach and at
+    its load.
+    """
     problem = patch_problem(CHECK_CELLS, SEED)
     half_space, cells = problem.half_space, CHECK_CELLS
     influence = dense_influence(*cells, half_space.cell_x, half_space.cell_y, MODULUS)
@@ -112,7 +118,7 @@ def _value(given: str, seed: int) -> float:
 
 
 def _tier_of(cells: Cells, tolerance: float) -> str:
-    names = {(tier.cells, tier.tolerance): tier.name for tier in TIERS}
+    names = {(level.cells, level.tolerance): level.name for level in LEVELS}
     return names.get((cells, tolerance), "FFT-CG")
 
 

@@ -1,4 +1,6 @@
-"""Ladder of the pressure field on a smooth road: closed forms and grids against Hertz in 50 digits."""
+"""Work-precision study of the pressure field on a smooth road: closed forms and grids against Hertz
+in 50 digits.
+"""
 
 from __future__ import annotations
 
@@ -28,14 +30,14 @@ from contact_sim_pkg.rigs.vehicle.studies.work_precision.patch_problem import (
     patch_problem,
 )
 
-__all__ = ["FIELD_CELLS", "PART", "REFERENCE", "TIERS", "WORK_PRECISION", "exact_answer", "rows"]
+__all__ = ["FIELD_CELLS", "LEVELS", "PART", "REFERENCE", "WORK_PRECISION", "exact_answer", "rows"]
 
 Field = NDArray[numpy.float64]
 
 PART = "pressure field, smooth road"
 REFERENCE = "elliptic Hertz, mpmath, 50 digits, no shared code"
 FIELD_CELLS = (128, 96)
-TIERS = (
+LEVELS = (
     FieldRung("FFT-CG force", (64, 48), 1e-2),
     FieldRung("FFT-CG field", FIELD_CELLS, 1e-3),
     FieldRung("FFT-CG reference", (256, 192), 1e-6),
@@ -46,15 +48,15 @@ SAMPLES = 8  # along a side of a cell, for the mean of the closed form over it
 def rows() -> list[Row]:
     """At the load of the patch, and at the approach that Hertz has there."""
     found: list[Row] = []
-    exact = {tier.cells: exact_answer(tier.cells) for tier in TIERS}
+    exact = {level.cells: exact_answer(level.cells) for level in LEVELS}
     for given in GIVEN:
         value = LOAD if given == GIVEN[0] else exact[FIELD_CELLS].approach
         found += _closed_forms(given, value, exact[FIELD_CELLS])
-        for tier in TIERS:
-            problem = patch_problem(tier.cells)
-            rung, answer = timed(tier, problem, given, value)
+        for level in LEVELS:
+            problem = patch_problem(level.cells)
+            rung, answer = timed(level, problem, given, value)
             converged = solve(problem, given, value, 1e-10)
-            found += rows_of(PART, given, rung, REFERENCE, answer, exact[tier.cells], converged)
+            found += rows_of(PART, given, rung, REFERENCE, answer, exact[level.cells], converged)
     return found
 
 

@@ -8,10 +8,10 @@ TIRE_REPORT = ContactReport(
     contact="tire",
     series=(
         SeriesReader(
-            name="road", types=("contact_msgs_defs/msg/RoadPatch",), reader=f"{__name__}.road_series:RoadPass"
+            name="road", types=("contact_msgs_defs/msg/RoadPatch",), reader=f"{__name__}.road_series:RoadReader"
         ),
         SeriesReader(
-            name="shear", types=("contact_msgs_defs/msg/ContactShear",), reader=f"{__name__}.shear_series:ShearPass"
+            name="shear", types=("contact_msgs_defs/msg/ContactShear",), reader=f"{__name__}.shear_series:ShearReader"
         ),
     ),
     sections=f"{__name__}.section:tire_sections",

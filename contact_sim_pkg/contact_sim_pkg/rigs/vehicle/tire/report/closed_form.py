@@ -1,4 +1,6 @@
-"""The state that a tire's contact is compared with: at rest on a flat road, in closed form; with a belt, by its field."""
+"""The state that a tire's contact is compared with: at rest on a flat road, in closed form; with a
+belt, by its field.
+"""
 
 from __future__ import annotations
 
@@ -15,11 +17,15 @@ from contact_sim_pkg.rigs.vehicle.lattice import contact_modulus, field_settings
 from contact_sim_pkg.rigs.vehicle.tire.report.numbers import standing_load_of
 
 REFERENCE_TOLERANCE = 1e-6
-"""Of the field at rest: what a run is measured by must not carry the error of the run's own tolerance."""
+"""Of the field at rest: what a run is measured by must not carry the error of the run's own
+tolerance.
+"""
 
 
 class TireReference(NamedTuple):
-    """Contact of the scene's radii and modulus under the standing load: elliptic Hertz, or the field of tread and belt."""
+    """Contact of the scene's radii and modulus under the standing load: elliptic Hertz, or the
+    field of tread and belt.
+    """
 
     load: float
     """[N]"""
@@ -39,7 +45,9 @@ class TireReference(NamedTuple):
     area: float
     """[m^2]"""
     belt: BeltSettings | None = None
-    """what yields beside the tread; with it the contact is no ellipse, its semi-axes are those of the fitted curve"""
+    """what yields beside the tread; with it the contact is no ellipse, its semi-axes are those of
+    the fitted curve
+    """
 
     @property
     def how(self) -> str:
@@ -48,7 +56,9 @@ class TireReference(NamedTuple):
 
 
 def tire_reference(scene: dict[str, Any]) -> TireReference | None:
-    """Reference of a resolved scene; None where the scene has no tire or its numbers make no elliptic contact."""
+    """Reference of a resolved scene; None where the scene has no tire or its numbers make no
+    elliptic contact.
+    """
     tire, load = scene.get("tire"), standing_load_of(scene)
     if not isinstance(tire, dict) or load is None:
         return None
@@ -75,7 +85,9 @@ def tire_reference(scene: dict[str, Any]) -> TireReference | None:
 
 
 def _on_belt(scene: dict[str, Any], reference: TireReference) -> TireReference | None:
-    """The reference of a tire whose belt yields beside the tread; as it was without a belt, None where no grid holds it."""
+    """The reference of a tire whose belt yields beside the tread; as it was without a belt, None
+    where no grid holds it.
+    """
     effects = (scene.get("effects") or {}).get("tire") or {}
     if not effects.get("envelopment"):
         return reference

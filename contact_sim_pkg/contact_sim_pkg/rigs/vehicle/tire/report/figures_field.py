@@ -1,4 +1,6 @@
-"""Pictures of what a pressure field does: displacement of the surface, pressure over the reference, stress below."""
+"""Pictures of what a pressure field does: displacement of the surface, pressure over the reference,
+stress below.
+"""
 
 from __future__ import annotations
 
@@ -71,7 +73,9 @@ def relative_pressure_picture(key: str, snapshot: Snapshot, reference: TireRefer
 
 
 def stress_picture(key: str, snapshot: Snapshot, poisson_ratio: float) -> Picture | None:
-    """Von Mises stress in the plane along the rolling direction, and stresses over depth below its largest value."""
+    """Von Mises stress in the plane along the rolling direction, and stresses over depth below its
+    largest value.
+    """
     plane = stress_plane(snapshot.field, poisson_ratio)
     if plane is None:
         return None

@@ -19,7 +19,9 @@ REACH = 0.5
 
 
 def chosen_stages(field: FieldSeries, travel: WheelTravel | None) -> list[Snapshot]:
-    """At most `STAGES` fields around the largest load, evenly among those within `REACH` of it, the heaviest included."""
+    """At most `STAGES` fields around the largest load, evenly among those within `REACH` of it, the
+    heaviest included.
+    """
     event, heaviest = field.event, field.heaviest
     middle = next(number for number, each in enumerate(event) if each is heaviest)
     reach = len(event)

@@ -53,8 +53,9 @@ class Rolling(NamedTuple):
     reference: TireReference | None
 
 
-def stretches(rolling: Rolling) -> list[RoadSection]:
-    """The stretch around the largest load (of a field, where there are any), then the whole way where that is longer.
+def road_sections(rolling: Rolling) -> list[RoadSection]:
+    """The section around the largest load (of a field, where there are any), then the whole way
+    where that is longer.
 
     None where the wheel stands.
     """
@@ -78,30 +79,32 @@ def _focus(rolling: Rolling) -> float:
     return float(rolling.contact.time[int(rolling.contact.normal.argmax())])
 
 
-def along_the_road(key: str, name: str, rolling: Rolling, stretch: RoadSection) -> Picture:
-    """Normal force raw and filtered, the footprint's line load, and the road below, on one axis of distance."""
+def along_the_road(key: str, name: str, rolling: Rolling, section: RoadSection) -> Picture:
+    """Normal force raw and filtered, the footprint's line load, and the road below, on one axis of
+    distance.
+    """
     with_field = rolling.field is not None
     ratios = [3, 2.2, 2] if with_field else [3, 2]
     figure, axes = new_figure(5.4 if with_field else 4.0, len(ratios), sharex=True, height_ratios=ratios)
-    band = _draw_force(axes[0], rolling, stretch)
+    band = _draw_force(axes[0], rolling, section)
     if rolling.field is not None:
-        _draw_line_load(figure, axes[1], rolling.field, rolling.road, stretch)
-    _draw_road(axes[-1], rolling, stretch)
-    axes[-1].set_xlim(stretch.start, stretch.end)
+        _draw_line_load(figure, axes[1], rolling.field, rolling.road, section)
+    _draw_road(axes[-1], rolling, section)
+    axes[-1].set_xlim(section.start, section.end)
     axes[-1].set_xlabel("distance travelled, m")
     figure.align_ylabels(axes)
     return picture(
-        f"{key}-road-{stretch.start:.0f}-{stretch.end:.0f}", figure,
-        f"Force, footprint and road of the {name} from {stretch.start:.2f} to {stretch.end:.2f} m",
-        _caption(rolling, stretch) + band,
+        f"{key}-road-{section.start:.0f}-{section.end:.0f}", figure,
+        f"Force, footprint and road of the {name} from {section.start:.2f} to {section.end:.2f} m",
+        _caption(rolling, section) + band,
     )  # fmt: skip
 
 
-def _draw_force(axes: Axes, rolling: Rolling, stretch: RoadSection) -> str:
+def _draw_force(axes: Axes, rolling: Rolling, section: RoadSection) -> str:
     """Returns what the caption says of a long series, which is drawn as a band."""
     contact, travel = rolling.contact, rolling.road.travel
     distance = travel.at(contact.time)
-    inside = _inside(distance, stretch)
+    inside = _inside(distance, section)
     filtered = low_pass(contact.normal, 1.0 / contact.sample_period)
     raw = "raw" if filtered is not None else "normal force"
     band = draw_series(axes, distance[inside], contact.normal[inside] * 1e-3, color=MUTED, linewidth=0.8, label=raw)
@@ -112,7 +115,7 @@ def _draw_force(axes: Axes, rolling: Rolling, stretch: RoadSection) -> str:
         axes.axhline(load, color=INK, linewidth=0.8, linestyle=(0, (4, 3)), label="at rest")
     intervals = lifted_intervals(contact)
     lifted = np.column_stack([travel.at(intervals[:, 0]), travel.at(intervals[:, 1])])
-    lifted = lifted[(lifted[:, 1] >= stretch.start) & (lifted[:, 0] <= stretch.end)]
+    lifted = lifted[(lifted[:, 1] >= section.start) & (lifted[:, 0] <= section.end)]
     corners = [[(start, 0.0), (start, 1.0), (end, 1.0), (end, 0.0)] for start, end in lifted]
     label = "lift-off" if corners else None
     bands = PolyCollection(
@@ -126,10 +129,10 @@ def _draw_force(axes: Axes, rolling: Rolling, stretch: RoadSection) -> str:
     return band
 
 
-def _draw_line_load(figure: Figure, axes: Axes, field: FieldSeries, road: RoadSeries, stretch: RoadSection) -> None:
+def _draw_line_load(figure: Figure, axes: Axes, field: FieldSeries, road: RoadSeries, section: RoadSection) -> None:
     """Every field a column at its place, as wide as the way to its neighbours."""
     distance = road.travel.at(field.history_time)
-    moving = np.concatenate([[True], np.diff(distance) > 0.0]) & _inside(distance, stretch)
+    moving = np.concatenate([[True], np.diff(distance) > 0.0]) & _inside(distance, section)
     if np.count_nonzero(moving) < 2:
         axes.text(0.5, 0.5, "the wheel does not move", transform=axes.transAxes, ha="center", color=MUTED)
         return
@@ -151,9 +154,9 @@ def _draw_line_load(figure: Figure, axes: Axes, field: FieldSeries, road: RoadSe
     bar.ax.spines["outline"].set_visible(False)
 
 
-def _draw_road(axes: Axes, rolling: Rolling, stretch: RoadSection) -> None:
+def _draw_road(axes: Axes, rolling: Rolling, section: RoadSection) -> None:
     road, contact = rolling.road, rolling.contact
-    inside = _inside(road.distance, stretch)
+    inside = _inside(road.distance, section)
     distance = road.distance[inside]
     if np.any(road.high[inside] - road.low[inside] > 1e-6):
         low, high = envelope(distance, road.low[inside] * 1e3), envelope(distance, road.high[inside] * 1e3)
@@ -162,11 +165,11 @@ def _draw_road(axes: Axes, rolling: Rolling, stretch: RoadSection) -> None:
         )
     axes.plot(*envelope(distance, road.middle[inside] * 1e3), color=INK, linewidth=0.9, label="road")
     way = road.travel.at(contact.time)
-    shown = _inside(way, stretch) & (contact.normal > 0.0)
-    followed = np.where(shown, contact.effective_height * 1e3, np.nan)[_inside(way, stretch)]
+    shown = _inside(way, section) & (contact.normal > 0.0)
+    followed = np.where(shown, contact.effective_height * 1e3, np.nan)[_inside(way, section)]
     stride = max(1, followed.size // 4000)
     axes.plot(
-        way[_inside(way, stretch)][::stride],
+        way[_inside(way, section)][::stride],
         followed[::stride],
         color=ACCENT,
         linewidth=0.9,
@@ -178,10 +181,10 @@ def _draw_road(axes: Axes, rolling: Rolling, stretch: RoadSection) -> None:
     axes.set_ylim(low_end, high_end + 0.25 * (high_end - low_end))
 
 
-def _caption(rolling: Rolling, stretch: RoadSection) -> str:
+def _caption(rolling: Rolling, section: RoadSection) -> str:
     contact, travel = rolling.contact, rolling.road.travel
     distance = travel.at(contact.time)
-    inside = _inside(distance, stretch)
+    inside = _inside(distance, section)
     place = int(np.flatnonzero(inside)[contact.normal[inside].argmax()])
     lifted = float((contact.normal[inside] <= 0.0).mean())
     text = (
@@ -203,5 +206,5 @@ def _caption(rolling: Rolling, stretch: RoadSection) -> str:
     )
 
 
-def _inside(distance: FloatArray, stretch: RoadSection) -> NDArray[np.bool_]:
-    return np.asarray((distance >= stretch.start) & (distance <= stretch.end))
+def _inside(distance: FloatArray, section: RoadSection) -> NDArray[np.bool_]:
+    return np.asarray((distance >= section.start) & (distance <= section.end))

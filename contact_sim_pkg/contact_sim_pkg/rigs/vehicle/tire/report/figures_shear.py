@@ -1,4 +1,6 @@
-"""Pictures of the friction of a rolling tire: forces over time and over slip, shear and stick and slip of the cells."""
+"""Pictures of the friction of a rolling tire: forces over time and over slip, shear and stick and
+slip of the cells.
+"""
 
 from __future__ import annotations
 
@@ -17,7 +19,7 @@ from contact_sim_pkg.rigs.vehicle.tire.report.shear_series import ShearMap, Shea
 
 APART, STICKS, SLIPS = ContactShear.APART, ContactShear.STICKS, ContactShear.SLIPS
 STATE_COLOURS = ("#2f7fb5", "#e08a2e")
-"""Sticks, slips: told apart by everyone."""
+"""Sticks, slips: colours that everyone can tell apart."""
 LEAST_SPREAD = 1e-3
 """Slip, or slip angle [rad], must vary by that much for a curve over it."""
 ARROWS = 14
@@ -53,7 +55,9 @@ def friction_over_time(key: str, name: str, shear: ShearSeries) -> Picture:
 
 
 def friction_over_slip(key: str, name: str, shear: ShearSeries, field: FieldSeries | None) -> Picture | None:
-    """Force over load against slip, and side force and moment against slip angle; None where slip does not vary."""
+    """Force over load against slip, and side force and moment against slip angle; None where slip
+    does not vary.
+    """
     along, across = float(np.ptp(shear.slip)) > LEAST_SPREAD, float(np.ptp(shear.slip_angle)) > LEAST_SPREAD
     if field is None or not (along or across):
         return None
@@ -97,7 +101,9 @@ def _wide_slip_axis(axes: Axes, slip: FloatArray) -> None:
 
 
 def shear_maps(key: str, name: str, shear: ShearSeries) -> Picture:
-    """Shear with arrows, and which cells stick and slip, where the forces along and across are largest."""
+    """Shear with arrows, and which cells stick and slip, where the forces along and across are
+    largest.
+    """
     shown = shear.largest
     windows = [loaded_window(_loaded(each)) for each in shown]
     height = float(np.clip(windows[0].aspect * 0.36 * WIDTH, 1.2, 3.2)) + 0.75

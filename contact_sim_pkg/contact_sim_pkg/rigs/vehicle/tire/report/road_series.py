@@ -1,4 +1,6 @@
-"""The road under the wheel's track from `road/patch`, taken in block by block; neighbouring blocks overlap."""
+"""The road under the wheel's track from `road/patch`, read block by block; neighbouring blocks
+overlap.
+"""
 
 from __future__ import annotations
 
@@ -47,18 +49,18 @@ def road_of(recording: Recording) -> RoadSeries | None:
     return recording.series.get("road")
 
 
-class RoadPass:
+class RoadReader:
     """Travel over time, and the road's profile over distance in the middle of the track."""
 
     def __init__(self) -> None:
-        """Nothing taken in yet."""
+        """Nothing read yet."""
         self._travel: list[tuple[float, float]] = []
         self._end = (0.0, 0.0)
         self._next_row: int | None = None
         self._middle, self._low, self._high = (ThinnedRows(ROWS, reduce) for reduce in (np.mean, np.min, np.max))
 
-    def take(self, time: float, _type: str, message: Any) -> None:
-        """Take in the block that starts at `time` [s]. BagError for one that does not fill its grid."""
+    def add(self, time: float, _type: str, message: Any) -> None:
+        """Read the block that starts at `time` [s]. BagError for one that does not fill its grid."""
         if len(message.height) != message.rows * message.cols:
             raise BagError(
                 f"the road at {time:.6f} s has {len(message.height)} heights for {message.rows} x {message.cols} nodes"
@@ -79,15 +81,15 @@ class RoadPass:
         middle = height[skipped:, np.abs(y) <= 0.51 * message.cell_y].mean(axis=1)
         x = (message.first_row + skipped + np.arange(len(strip))) * message.cell_x
         for row in np.column_stack([x, middle, strip.min(axis=1), strip.max(axis=1)]):
-            self._middle.take(row[:2])
-            self._low.take(row[2:3])
-            self._high.take(row[3:4])
+            self._middle.add(row[:2])
+            self._low.add(row[2:3])
+            self._high.add(row[3:4])
         self._next_row = message.first_row + message.rows
 
     def finish(self) -> RoadSeries:
-        """The series of all blocks taken in; at least one."""
+        """The series of all blocks read; at least one."""
         if self._next_row is None:
-            raise BagError("no road was taken in")
+            raise BagError("no road was read")
         time, travel = np.array([*self._travel, self._end]).T
         x, middle = self._middle.finish().T
         low: FloatArray = self._low.finish()[:, 0]

@@ -15,7 +15,7 @@ from contact_sim_pkg.rigs.vehicle.tire.report.figures_field import (
     stress_picture,
 )
 from contact_sim_pkg.rigs.vehicle.tire.report.figures_footprint import footprint_stages
-from contact_sim_pkg.rigs.vehicle.tire.report.figures_road import Rolling, along_the_road, stretches
+from contact_sim_pkg.rigs.vehicle.tire.report.figures_road import Rolling, along_the_road, road_sections
 from contact_sim_pkg.rigs.vehicle.tire.report.figures_shear import friction_over_slip, friction_over_time, shear_maps
 from contact_sim_pkg.rigs.vehicle.tire.report.numbers import TIRE, standing_load_of
 from contact_sim_pkg.rigs.vehicle.tire.report.road_series import road_of
@@ -27,7 +27,9 @@ FRICTION_KEY = "friction"
 
 
 def tire_sections(number: int, recording: Recording) -> list[Section]:
-    """Contact, rolling tire and friction. Call inside `drawing.style()`; the recording has a contact of this name."""
+    """Contact, rolling tire and friction. Call inside `drawing.style()`; the recording has a
+    contact of this name.
+    """
     rolling = _rolling_section(recording)
     friction = Section(FRICTION_KEY, "Friction of the tire", _friction_pictures(recording))
     return [contact_section(number, TIRE, recording), rolling, friction]
@@ -41,7 +43,7 @@ def _rolling_section(recording: Recording) -> Section:
     pictures: list[Picture] = []
     if road is not None:
         rolling = Rolling(contact, field, road, reference)
-        pictures += [along_the_road(KEY, TIRE, rolling, stretch) for stretch in stretches(rolling)]
+        pictures += [along_the_road(KEY, TIRE, rolling, section) for section in road_sections(rolling)]
     if signals:
         pictures.append(peak_curves(KEY, TIRE, signals))
     if field is not None:

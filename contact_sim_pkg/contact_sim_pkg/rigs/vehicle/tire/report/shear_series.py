@@ -1,4 +1,4 @@
-"""The shear fields of a rolling tire, taken in one by one."""
+"""The shear fields of a rolling tire, read one by one."""
 
 from __future__ import annotations
 
@@ -61,7 +61,9 @@ class ShearSeries(NamedTuple):
     dissipated: FloatArray
     """[J] since the instant before"""
     largest: list[ShearMap]
-    """where the force along, and where that across, is largest while some cells stick; one where the other is small"""
+    """where the force along, and where that across, is largest while some cells stick; one where
+    the other is small
+    """
 
 
 def shear_of(recording: Recording) -> ShearSeries | None:
@@ -69,16 +71,18 @@ def shear_of(recording: Recording) -> ShearSeries | None:
     return recording.series.get("shear")
 
 
-class ShearPass:
-    """Scalars of all fields, and the whole fields with the largest force along and across that still stick somewhere."""
+class ShearReader:
+    """Scalars of all fields, and the whole fields with the largest force along and across that
+    still stick somewhere.
+    """
 
     def __init__(self) -> None:
-        """Nothing taken in yet."""
+        """Nothing read yet."""
         self._scalars: list[tuple[float, ...]] = []
         self._largest: dict[str, tuple[float, Any]] = {}
 
-    def take(self, time: float, _type: str, message: Any) -> None:
-        """Take in the field at `time` [s]. BagError for one that does not fill its grid."""
+    def add(self, time: float, _type: str, message: Any) -> None:
+        """Read the field at `time` [s]. BagError for one that does not fill its grid."""
         cells = message.rows * message.cols
         if any(len(values) != cells for values in (message.shear_x, message.shear_y, message.state)):
             raise BagError(f"the shear at {time:.6f} s does not fill its {message.rows} x {message.cols} cells")
@@ -89,9 +93,9 @@ class ShearPass:
                 self._largest[name] = (time, message)
 
     def finish(self) -> ShearSeries:
-        """The series of all fields taken in; at least one."""
+        """The series of all fields read; at least one."""
         if not self._scalars:
-            raise BagError("no shear was taken in")
+            raise BagError("no shear was read")
         time, *columns = np.array(self._scalars).T
         along, across = (self._largest[name] for name in ("force_x", "force_y"))
         force_x, force_y = abs(along[1].force_x), abs(across[1].force_y)
@@ -104,7 +108,9 @@ class ShearPass:
 
 
 def _worth(name: str, message: Any) -> tuple[bool, float]:
-    """Order of what is shown: cells that stick and cells that slip say more than a footprint that slides as a whole."""
+    """Order of what is shown: cells that stick and cells that slip say more than a footprint that
+    slides as a whole.
+    """
     return message.sliding_share <= MOSTLY, abs(getattr(message, name))
 
 

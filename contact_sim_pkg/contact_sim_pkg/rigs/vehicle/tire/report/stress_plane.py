@@ -1,4 +1,6 @@
-"""Stress below the surface under a recorded pressure field, in the plane along the rolling direction."""
+"""Stress below the surface under a recorded pressure field, in the plane along the rolling
+direction.
+"""
 
 from __future__ import annotations
 
@@ -15,7 +17,9 @@ COLUMNS, DEPTHS = 81, 49
 REACH = 1.5
 """Half length of the plane over that of the loaded cells."""
 MOST_TERMS = 2e7
-"""Points times cells: 2 s of work. A larger field is averaged over 2 x 2 cells, as often as it takes."""
+"""Points times cells: 2 s of work. A larger field is averaged over 2 x 2 cells, as often as it
+takes.
+"""
 
 
 class StressPlane(NamedTuple):
@@ -38,8 +42,9 @@ class StressPlane(NamedTuple):
 def stress_plane(field: PressureMap, poisson_ratio: float) -> StressPlane | None:
     """Stresses under a pressure field; None for a field without load.
 
-    The plane is `REACH` times as long as the loaded cells, and as deep as the loaded cells are long or wide, whichever is
-    less. Its first row lies one cell deep: above, the steps between the cells are seen rather than the field.
+    The plane is `REACH` times as long as the loaded cells, and as deep as the loaded cells are long
+    or wide, whichever is less. Its first row lies one cell deep: above, the steps between the cells
+    are seen rather than the field.
 
     Raises:
         ValueError: Poisson's ratio is not within -1 (excluded) and 0.5.

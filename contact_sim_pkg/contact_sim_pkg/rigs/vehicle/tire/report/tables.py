@@ -21,7 +21,9 @@ NAMED_LIFT_OFFS = 6
 
 
 def footprint_table(field: FieldSeries, reference: TireReference | None) -> Table:
-    """Load, pressure and size of the footprint: at rest on a flat road, over the run, at the largest load."""
+    """Load, pressure and size of the footprint: at rest on a flat road, over the run, at the
+    largest load.
+    """
     touching = field.load > 0.0
     heaviest = int(field.load.argmax())
 
@@ -65,7 +67,9 @@ def _at_rest(reference: TireReference | None) -> list[float]:
 
 
 def load_table(contact: ContactSeries, travel: WheelTravel | None, standing: float | None) -> Table:
-    """What the road did to the load: extremes, dynamic load coefficient, lift-offs and when they were."""
+    """What the road did to the load: extremes, dynamic load coefficient, lift-offs and when they
+    were.
+    """
     numbers = load_numbers(contact, standing)
     intervals = lifted_intervals(contact)
     rows = [
