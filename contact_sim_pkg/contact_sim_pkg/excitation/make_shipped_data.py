@@ -66,8 +66,10 @@ def stone_road() -> bytes:
     """The OpenCRG file (KRBI) of the setts."""
     height = stone_heights()
     rows, sections = height.shape
+    # Reference line.
     heading = HEADING_CHANGE * numpy.linspace(0.0, 1.0, rows - 1)
     end = INCREMENT * numpy.exp(1j * heading).sum()
+    # Header.
     lines = [
         "$CT",
         "Stone setts, generated from a seed; no measured road.",
@@ -94,6 +96,7 @@ def stone_road() -> bytes:
         "$",
         "$" * 72,
     ]
+    # Rows of heading and heights, filled up to whole records.
     payload = numpy.column_stack((numpy.concatenate(([numpy.nan], heading)), height)).astype(">f4").tobytes()
     fill = numpy.full(-len(payload) % 80 // 4, numpy.nan, dtype=">f4").tobytes()
     return "".join(f"{line}\n" for line in lines).encode("latin-1") + payload + fill

@@ -104,6 +104,7 @@ class RecordedVibration:
         self.path, self.tilt, self.beyond, self.high_pass, self.start = Path(path), tilt, beyond, high_pass, start
         self.sample_rate = sample_rate
         self._notes: list[str] = []
+        # Columns, rate and units.
         table = read_table(self.path)
         self.rate = self._settle_rate(table, rate, table.time(time))
         self.remove_bias = remove_bias
@@ -114,12 +115,14 @@ class RecordedVibration:
         )
         if self._unit_assumed:
             refuse_other_unit(table.file, raw)
+        # Section that is used.
         self.samples = len(table.lines)
         self.duration = self.samples / self.rate
         if not 0.0 <= start < self.duration:
             raise ExcitationError(
                 f"{path}: start is {start} s; allowed: 0 to below the recording's {self.duration:g} s"
             )
+        # Clipping is looked for before gravity is removed.
         self.clipping = {axis: _find_clipping(table, raw[axis], full_scale) for axis in ("x", "z") if axis in raw}
         self._report_clipping(names, clipped)
         self._remove_gravity(raw, names)
@@ -177,6 +180,7 @@ class RecordedVibration:
         """Bias, gravity and tilt: what the mean says, and what is done about it."""
         self.bias = {axis: float(values.mean()) for axis, values in raw.items()}
         total = sqrt(sum(value**2 for value in self.bias.values()))
+        # Direction of gravity from the means of the axes.
         mean = self.bias.get("z", 0.0)
         if mean < -0.5 * STANDARD_GRAVITY:
             raise ExcitationError(
@@ -192,6 +196,7 @@ class RecordedVibration:
                 f"The mean is {total:.4g} m/s^2 (standard gravity {STANDARD_GRAVITY:.4g}) and "
                 f"{degrees(self.tilt_angle):.3g} degrees off the vertical axis; the tilt was {done}."
             )
+        # Axes made upright, means removed, then filtered.
         turned = _turn_upright(raw, self.bias) if self.tilt == "correct" else raw
         self._notes.append(
             "The mean of each axis (gravity and bias) was " + ("removed." if self.remove_bias else "not removed.")

@@ -86,6 +86,7 @@ def read_table(path: Path) -> RecordedTable:
     blocks = _line_blocks(path)
     comments: list[str] = []
     head: list[tuple[int, str]] = []
+    # Comments before the header.
     for head in blocks:
         comments += [line for _, line in head if line[0] in COMMENT]
         head = _without_comments(head)
@@ -93,10 +94,12 @@ def read_table(path: Path) -> RecordedTable:
             break
     if not head:
         raise _too_short(path, 0)
+    # Names and units.
     separator = next((mark for mark in SEPARATORS if mark in head[0][1]), None)
     names, factors = _names(path, *head[0], separator)
     columns = [array("d") for _ in names]
     numbers = array("q")
+    # Numbers, a block of lines at a time.
     for numbered in chain([head[1:]], (_without_comments(block) for block in blocks)):
         values = _parse(path, numbered, names, separator)
         for column, part in zip(columns, values.T, strict=True):
@@ -104,6 +107,7 @@ def read_table(path: Path) -> RecordedTable:
         numbers.extend(number for number, _ in numbered)
     if len(numbers) < 2:
         raise _too_short(path, len(numbers))
+    # Columns in SI units.
     named = {name: numpy.frombuffer(column) for name, column in zip(names, columns, strict=True)}
     for name, factor in factors.items():
         named[name] = named[name] if factor == 1.0 else named[name] * factor
@@ -147,6 +151,7 @@ def _line_blocks(path: Path, *, text: bool = True) -> Iterator[Any]:
                 raise ExcitationError(
                     f"{path}: the file has {size} bytes, at most {LARGEST_FILE} are read; cut the recording"
                 )
+            # Whole lines of each block; the rest goes before the next.
             start = 0
             while block := file.read(BLOCK):
                 content, newline, after = block.rpartition(b"\n")
@@ -235,6 +240,7 @@ def _names(path: Path, number: int, line: str, separator: str | None) -> tuple[l
     names: list[str] = []
     factors: dict[str, float] = {}
     for field in line.split(separator):
+        # Name and unit of a column.
         match = re.fullmatch(r'"?\s*([^\[("]*?)\s*(?:[\[(]([^\])]*)[\])])?\s*"?', field.strip())
         if match is None or not match.group(1) or _is_number(match.group(1)):
             raise ExcitationError(
@@ -250,6 +256,7 @@ def _names(path: Path, number: int, line: str, separator: str | None) -> tuple[l
         names.append(match.group(1).lower())
         if unit is not None:
             factors[names[-1]] = UNITS[unit]
+    # Each name once.
     for name in names:
         if names.count(name) > 1:
             raise ExcitationError(f"{path}, line {number}: column '{name}' is named twice")

@@ -115,6 +115,7 @@ def _interpolated_change(rig, drive, mode, course, bracket, state, work):
     From the interpolated states; also the number of that function.
     """
     low, high = bracket
+    # Event function that has changed, and its value at the upper end.
     event = -1
     if high < 1.0:
         _event_values_inside(rig, drive, mode, course, high, state, work)
@@ -123,6 +124,7 @@ def _interpolated_change(rig, drive, mode, course, bracket, state, work):
     else:
         event = _farthest_beyond(work.event_value, work.event_direction)
         high_value = work.event_value[event] * work.event_direction[event]
+    # Regula falsi on the interpolated states.
     low_value = numpy.nan
     middle = 0.5 * (low + high)
     for _ in range(INTERPOLATED_ITERATIONS):

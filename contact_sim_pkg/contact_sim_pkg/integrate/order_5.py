@@ -27,6 +27,7 @@ def step_of_order_5(stages, rig, drive, mode, course, state, out):
     """Step from ``state`` along ``course`` into ``out``; the first row of ``stages`` must hold the
     rate at its start.
     """
+    # Stages 2 to 6 at their nodes, then the result with the weights of order 5.
     k = stages
     n = state.shape[0]
     for i in range(n):

@@ -113,10 +113,12 @@ def foam_approach_of_force(foam: FoamElastic, force: float) -> float:
     """
     if force <= 0.0:
         return 0.0
+    # Bracket.
     low, high = 0.0, foam.thickness
     while foam_force(foam, high) < force:
         low = high
         high *= 2.0
+    # Newton's method, bisection where it leaves the bracket.
     x = 0.5 * (low + high)
     for _ in range(NEWTON_STEPS):
         difference = foam_force(foam, x) - force

@@ -283,6 +283,7 @@ def _falling_root(
     At most 55 + 100 evaluations. Raises ValueError where the function is above ``target`` up to
     ``highest``.
     """
+    # Bracket of factors of 4.
     low, high = math.log(start), math.log(start)
     low_value = high_value = value(start) - target
     while high_value > 0.0:
@@ -298,6 +299,7 @@ def _falling_root(
         high, high_value = low, low_value
         low -= math.log(4.0)
         low_value = value(math.exp(low)) - target
+    # Regula falsi (Illinois) on the logarithm.
     kept = 0
     for _ in range(100):
         middle = high - high_value * (high - low) / (high_value - low_value)

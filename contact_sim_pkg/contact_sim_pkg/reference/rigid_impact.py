@@ -80,6 +80,7 @@ def energetic_by_path(A: Vector, friction: float, restitution: float, u: Vector)
     impulse, wanted = 0.0, numpy.nan
     slip = -numpy.sign(u[1]) if u[1] != 0.0 else None
     while True:
+        # A part of the path: up to the end of compression or restitution, or of slip.
         ratio = _friction_ratio(A, friction, slip)
         compressing = bool(numpy.isnan(wanted))
         events = [_ends_at(0, 1.0) if compressing else _ends_at(3, 1.0, wanted)]
@@ -89,7 +90,9 @@ def energetic_by_path(A: Vector, friction: float, restitution: float, u: Vector)
             _rate, (0.0, 1e6 * numpy.abs(u).max() / A[0, 0]), state, "DOP853", events=events, args=(A, ratio),
             rtol=1e-13, atol=1e-15 * numpy.abs(u).max(),
         )  # fmt: skip
+        # State at its end.
         impulse, state = impulse + float(course.t[-1]), course.y[:, -1].copy()
+        # Slip has ended: the point sticks, or slips anew where friction is too low.
         if len(events) > 1 and len(course.t_events[1]):
             state[1] = 0.0
             slip = None if abs(A[0, 1]) <= friction * A[1, 1] else -numpy.sign(A[0, 1])

@@ -112,6 +112,7 @@ def _heading(header: Header, layout: CrgLayout, values: NDArray[numpy.float64]) 
     column = _column(header, layout, values, "phi", 1)
     if column is None:
         column = numpy.full(len(values), start or 0.0)
+    # Heading without jumps, checked against the header.
     heading = numpy.asarray(numpy.unwrap(column), dtype=numpy.float64)
     for place, stated, found in (("start", start, heading[0]), ("end", end, heading[-1])):
         if stated is not None:
@@ -124,6 +125,7 @@ def _heading(header: Header, layout: CrgLayout, values: NDArray[numpy.float64]) 
                 1e-3,
                 "rad",
             )
+    # Position at the end by summing the parts.
     parts = layout.u_increment * numpy.exp(1j * heading[1:])
     travelled = complex(parts.sum())
     tolerance = 0.01 + 1e-3 * layout.u_increment * len(heading)

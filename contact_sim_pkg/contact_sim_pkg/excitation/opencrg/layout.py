@@ -45,12 +45,14 @@ def make_layout(header: Header) -> CrgLayout:
         raise _fault(
             header, increment.line, f"REFERENCE_LINE_INCREMENT is {increment.number:g} m; allowed: 1e-6 to 1e4 m"
         )
+    # Columns by their role, grid lines from the road parameters.
     reference, sections = _sort_channels(header)
     u_start = _number(header, "reference_line_start_u", 0.0)
     notes = _note_virtual(header, u_start, increment.number)
     v = _lateral_positions(header, sections)
     rows = _count_rows(header, u_start, increment.number)
     columns = len(header.channels)
+    # Refused before anything is allocated.
     if rows is not None and rows * columns > MOST_CELLS:
         raise ExcitationError(
             f"{header.file}: the header asks for {rows} x {columns} numbers ({8e-9 * rows * columns:.3g} GB), limit "
@@ -80,6 +82,7 @@ def _sort_channels(header: Header) -> tuple[dict[str, int], list[tuple[int, Chan
     reference: dict[str, int] = {}
     sections: list[tuple[int, Channel]] = []
     for index, channel in enumerate(header.channels):
+        # Unit of the channel.
         is_section = channel.name.startswith("long section")
         unit = "m" if is_section else _UNITS.get(channel.name)
         if unit is None:
@@ -93,6 +96,7 @@ def _sort_channels(header: Header) -> tuple[dict[str, int], list[tuple[int, Chan
         if is_section:
             sections.append((index, channel))
             continue
+        # Channels of the reference line, once each.
         short = channel.name.split()[-1]
         if short in reference:
             raise _fault(header, channel.line, f"channel '{channel.name}' is defined a second time")
@@ -161,6 +165,7 @@ def _lateral_positions(header: Header, sections: list[tuple[int, Channel]]) -> N
 
 def _check_explicit(header: Header, sections: list[tuple[int, Channel]], v: NDArray[numpy.float64]) -> None:
     falling = numpy.flatnonzero(numpy.diff(v) <= 0.0)
+    # Rising positions within the limits.
     if falling.size:
         index = int(falling[0]) + 1
         raise _fault(
@@ -172,6 +177,7 @@ def _check_explicit(header: Header, sections: list[tuple[int, Channel]], v: NDAr
         raise ExcitationError(
             f"{header.file}: a long section lies at v = {v[abs(v).argmax()]:g} m; allowed: within +-10000 m"
         )
+    # The road parameters must agree.
     tolerance = 5.1e-4 + AGREEMENT * float(numpy.diff(v).min(initial=1.0))
     for key, found in (("long_section_v_right", v[0]), ("long_section_v_left", v[-1])):
         if key in header.road and abs(header.road[key].number - found) > tolerance:

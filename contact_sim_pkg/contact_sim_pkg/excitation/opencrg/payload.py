@@ -96,6 +96,7 @@ def _read_text(data: bytes, header: Header, layout: CrgLayout, width: int) -> ND
     stream = BytesIO(data)
     stream.seek(header.payload_start)
     count = max((number for number, line in enumerate(stream, start=1) if line.strip()), default=0)
+    # Lines that the layout needs, against those of the file.
     per_line = RECORD // width
     lines_per_row = -(-layout.columns // per_line)
     rows = layout.rows if layout.rows is not None else max(-(-count // lines_per_row), 2)
@@ -109,6 +110,7 @@ def _read_text(data: bytes, header: Header, layout: CrgLayout, width: int) -> ND
         raise ExcitationError(
             f"{header.file}: {rows} x {layout.columns} numbers are above the limit of {MOST_CELLS}; cut the road"
         )
+    # Fields of each line into its row.
     values = numpy.empty((rows, layout.columns))
     stream.seek(header.payload_start)
     for index, line in enumerate(islice(stream, count)):

@@ -114,11 +114,13 @@ class OpenCrgRoad:
                 f"{header.file}: {grid.missing} of {grid.height.size} cells have no height; say how they are treated "
                 "(road.missing_cells: fill or hole)"
             )
+        # Missing cells.
         height, holes = grid.height, None
         if grid.missing:
             holes = numpy.isnan(height)
             fill_missing(height)
         self.lowest, self.highest = float(height.min()), float(height.max())
+        # Height of the reference line.
         nearest = int(numpy.argmin(numpy.abs(grid.v)))
         on_line = (
             float(numpy.interp(0.0, grid.v, height[0])) if grid.v[0] <= 0.0 <= grid.v[-1] else float(height[0, nearest])
@@ -126,6 +128,7 @@ class OpenCrgRoad:
         self.removed = {"origin": on_line, "mean": float(height.mean()), "raw": 0.0}[self.level]
         if self.missing == "hole" and holes is not None:
             numpy.subtract(height, self.hole_depth, out=height, where=holes)
+        # Level and offset.
         height -= self.removed
         height += settings.offset_z
         self._height = numpy.ascontiguousarray(height)
@@ -224,21 +227,25 @@ class OpenCrgRoad:
 
     def _notes(self) -> list[str]:
         grid, notes = self._grid, [*self._layout_notes, *self._settings.notes]
+        # Missing cells.
         if grid.missing:
             done = {"fill": "filled along their cross section", "hole": f"made holes of {self.hole_depth:g} m depth"}[
                 self.missing
             ]
             notes.append(f"{grid.missing} of {grid.height.size} cells have no measured height; {done}.")
+        # Level.
         if self.removed:
             what = {"origin": "the height on the reference line at the file's start", "mean": "the mean height"}[
                 self.level
             ]
             notes.append(f"{self.removed:.6g} m, {what}, was taken off all heights.")
+        # Curvature of the reference line.
         if grid.largest_stretch > 1e-3:
             notes.append(
                 f"The reference line is curved (heading changes by {grid.heading_change:.3g} rad); a path at the "
                 f"road's edge is up to {100.0 * grid.largest_stretch:.2g} % longer or shorter than its x."
             )
+        # Seam.
         if self.border_u == "repeat":
             seam = float(numpy.abs(grid.height[-1] - grid.height[0]).max())
             notes.append(

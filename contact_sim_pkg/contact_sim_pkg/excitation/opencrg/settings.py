@@ -45,6 +45,7 @@ def read_settings(header: Header, policy: str) -> FileSettings:
         raise ExcitationError(
             f"{header.file}: policy '{policy}' for the file's own settings is unknown; allowed: {', '.join(POLICIES)}"
         )
+    # Settings that change something.
     entries = {**header.options, **header.modifiers}
     active = {key: value for key, value in entries.items() if key in _NEUTRAL and value.number != _NEUTRAL[key]}
     names = ", ".join(f"{key.upper()} = {value.number:g} (line {value.line})" for key, value in active.items())
@@ -52,6 +53,7 @@ def read_settings(header: Header, policy: str) -> FileSettings:
         raise ExcitationError(
             f"{header.file}: the file asks for {names}; say what is done with them (road.file_settings: apply or ignore)"
         )
+    # Not applied: noted.
     if policy != "apply":
         note = (f"Settings of the file that were not applied: {names}.",) if active else ()
         return FileSettings(1.0, 0.0, None, None, note)
@@ -62,6 +64,7 @@ def read_settings(header: Header, policy: str) -> FileSettings:
                 "(road.file_settings: ignore) and choose road.missing_cells, road.remove_mean, road.border_u and "
                 "road.border_v yourself"
             )
+    # Applied: noted as well.
     scale, offset = (
         entries[key].number if key in entries else neutral
         for key, neutral in (("scale_z_grid", 1.0), ("refline_offset_z", 0.0))

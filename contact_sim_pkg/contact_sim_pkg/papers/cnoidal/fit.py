@@ -62,11 +62,13 @@ def fit_ansatz(samples: Array, phases: Array, *, nonlinear: bool = True) -> Ansa
     unknowns = 1 + (5 if nonlinear else 3) * terms
     if len(samples) < unknowns or size == 0.0:
         raise ValueError(f"{len(samples)} samples with a spread of {size:g} cannot fix {unknowns} unknowns")
+    # Unknowns of order 1.
     scaled = (samples - mean) / size
 
     def difference(values: Array) -> Array:
         return _ansatz(phases, nonlinear, values) - scaled
 
+    # Elliptic parameters stay below 1.
     low, high = numpy.full(unknowns, -numpy.inf), numpy.full(unknowns, numpy.inf)
     low[1 + terms : 1 + 2 * terms], high[1 + terms : 1 + 2 * terms] = 0.0, LARGEST_PARAMETER
     found = least_squares(

@@ -175,9 +175,11 @@ def pair_program(body_1: ConvexBody, body_2: ConvexBody, origin: Field, size: fl
     """The problem in (p1, p2), lengths from `origin` over `size`."""
     planes, quadrics = body_1.offsets.size, body_1.centres.shape[0]
     all_planes, all_quadrics = planes + body_2.offsets.size, quadrics + body_2.centres.shape[0]
+    # Cost: half the squared distance of the two points.
     quadratic = numpy.eye(6)
     for j in range(3):
         quadratic[j, 3 + j], quadratic[3 + j, j] = -1.0, -1.0
+    # Planes and quadrics of both bodies.
     rows, bounds = numpy.zeros((all_planes, 6)), numpy.empty(all_planes)
     curved, centres = numpy.zeros((all_quadrics, 6, 6)), numpy.zeros((all_quadrics, 6))
     put_planes(body_1, origin, size, rows, bounds, 0, 0)
@@ -253,6 +255,7 @@ def equality_step(program: Program, point: Point, active: NDArray[numpy.int64]) 
     size, number = point.unknowns.size, active.size
     matrix, right = numpy.zeros((size + number, size + number)), numpy.empty(size + number)
     curvature, slope = hessian(program, point.multipliers), stationarity(program, point)
+    # Stationarity, and the active constraints as equations.
     for j in range(size):
         right[j] = -slope[j]
         for m in range(size):
@@ -264,6 +267,7 @@ def equality_step(program: Program, point: Point, active: NDArray[numpy.int64]) 
         for j in range(size):
             matrix[j, size + a] = point.gradients[active[a], j]
             matrix[size + a, j] = point.gradients[active[a], j]
+    # Newton step of unknowns and multipliers.
     step = solve_linear(matrix, right)
     multipliers = numpy.zeros(point.values.size)
     for a in range(number):

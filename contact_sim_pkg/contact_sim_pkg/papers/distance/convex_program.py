@@ -257,6 +257,7 @@ def hessian(program: Program, multipliers: Field) -> Field:
 def newton_step(program: Program, point: Point, target: float) -> tuple[Field, Field]:
     """Step of the unknowns and of the multipliers, the latter eliminated."""
     size, count = point.unknowns.size, point.values.size
+    # Newton's system with the multipliers eliminated.
     matrix = hessian(program, point.multipliers)
     right = moved_by(numpy.zeros(size), -1.0, stationarity(program, point))
     for i in range(count):
@@ -266,11 +267,13 @@ def newton_step(program: Program, point: Point, target: float) -> tuple[Field, F
             right[j] += push * point.gradients[i, j]
             for m in range(size):
                 matrix[j, m] += weight * point.gradients[i, j] * point.gradients[i, m]
+    # Regularised relative to its diagonal.
     largest = 0.0
     for j in range(size):
         largest = max(largest, matrix[j, j])
     for j in range(size):
         matrix[j, j] += REGULARISATION * largest
+    # Step of the unknowns, then of the multipliers.
     step = solve_linear(matrix, right)
     multiplier_step = numpy.empty(count)
     for i in range(count):

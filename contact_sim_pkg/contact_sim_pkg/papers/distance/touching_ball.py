@@ -53,6 +53,7 @@ def largest_ball(body_1: ConvexBody, body_2: ConvexBody, origin: Field, size: fl
     """Largest ball inside both bodies, searched from a point `origin` [3] [m] near both; size: of
     the pair [m].
     """
+    # First cuts at the origin.
     constraints = gather(body_1, body_2, origin, size)
     cuts = make_cuts(constraints, MOST_ROUNDS + 1)
     middle: Field = numpy.zeros(3)
@@ -61,18 +62,22 @@ def largest_ball(body_1: ConvexBody, body_2: ConvexBody, origin: Field, size: fl
     add_cuts(constraints, cuts, middle)
     best, best_error, rounds = cluster(cuts, numpy.zeros(cuts.offsets.size), middle, radius), math.inf, 0
     while rounds < MOST_ROUNDS and best_error > CONVERGED and radius < FARTHEST:
+        # Ball under the cuts, with the centre in a trust region.
         rounds += 1
         program = ball_under_planes(cuts, middle, radius, half_width)
         centre = first_three(program.unknowns)
         ball = touch(constraints, cluster(cuts, program.multipliers, centre, program.unknowns[3]))
+        # Kept where it fulfils the conditions better.
         error = ball_residual(constraints, ball)
         if error < best_error:
             best, best_error = ball, error
         add_cuts(constraints, cuts, centre)
+        # Trust region by the ratio of the gain to the predicted one.
         held, promised = least_depth(constraints, centre) - radius, program.unknowns[3] - radius
         half_width *= 2.0 if held > 0.5 * promised else (1.0 if held > 0.1 * promised else 0.5)
         if held > 0.0:
             middle, radius = centre, radius + held
+    # Back to the scale of the bodies.
     normal, feet_1, feet_2 = holding_feet(constraints, best)
     centre = numpy.empty(3)
     for j in range(3):
@@ -113,13 +118,16 @@ def ball_under_planes(cuts: Cuts, middle: Field, radius: float, half_width: floa
     """
     count = cuts.used[0]
     rows, bounds = numpy.zeros((count + 6, 4)), numpy.empty(count + 6)
+    # Cuts: the ball lies below each plane.
     for i in range(count):
         bounds[i], rows[i, 3] = cuts.offsets[i], 1.0
+        # Trust region about the middle.
         for j in range(3):
             rows[i, j] = cuts.normals[i, j]
     for j in range(3):
         rows[count + j, j], rows[count + 3 + j, j] = 1.0, -1.0
         bounds[count + j], bounds[count + 3 + j] = half_width + middle[j], half_width - middle[j]
+    # Largest radius, from a point inside.
     cost, start = numpy.zeros(4), numpy.empty(4)
     cost[3], start[3] = -1.0, radius - half_width
     for j in range(3):

@@ -106,13 +106,16 @@ def equations(constraints: Constraints, ball: Ball) -> tuple[float, Field, Field
     feet = ball.multipliers.size
     size, planes = 4 + 4 * feet, constraints.offsets.size
     right, matrix, turn = numpy.zeros(size), numpy.zeros((size, size)), numpy.zeros((3, 3))
+    # Multipliers add up to 1.
     right[3] = -1.0
     for k in range(feet):
         row, constraint = 4 + 4 * k, ball.constraints[k]
+        # Value, normal and derivative of the normal at the foot on this constraint.
         if constraint < planes:
             value = plane_foot(constraints, constraint, ball.points[k], ball.normals[k], turn)
         else:
             value = quadric_foot(constraints, constraint - planes, ball.points[k], ball.normals[k], turn)
+        # Balance of the normals, foot on the ball, foot on the constraint.
         right[3] += ball.multipliers[k]
         matrix[3, row + 3] = 1.0
         right[row + 3] = value
@@ -127,6 +130,7 @@ def equations(constraints: Constraints, ball: Ball) -> tuple[float, Field, Field
             for m in range(3):
                 matrix[j, row + m] = ball.multipliers[k] * turn[j, m]
                 matrix[row + j, row + m] = (1.0 if j == m else 0.0) - ball.radius * turn[j, m]
+    # Norm of all equations.
     total = 0.0
     for part in right:
         total += part * part
@@ -173,6 +177,7 @@ def quadric_foot(constraints: Constraints, k: int, point: Field, normal: Field, 
 def newton_move(ball: Ball, right: Field, matrix: Field) -> Ball:
     """The ball moved by the least-squares solution of `matrix step = -right`."""
     size = right.size
+    # Normal equations of the Newton step, damped: the matrix may be singular.
     normal_matrix, normal_right = numpy.zeros((size, size)), numpy.zeros(size)
     for i in range(size):
         for j in range(size):
@@ -186,6 +191,7 @@ def newton_move(ball: Ball, right: Field, matrix: Field) -> Ball:
     for j in range(size):
         normal_matrix[j, j] += DAMPING * largest
     step = solve_linear(normal_matrix, normal_right)
+    # Step of centre, feet, multipliers and radius.
     centre, points, multipliers = ball.centre.copy(), ball.points.copy(), ball.multipliers.copy()
     for j in range(3):
         centre[j] += step[j]

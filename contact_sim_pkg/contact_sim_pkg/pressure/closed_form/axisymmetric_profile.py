@@ -52,6 +52,7 @@ def tabulated_profile(radius: Field, height: Field) -> SlopeProfile:
     _refuse_table(radius, height)
     step = numpy.diff(radius)
     secant = numpy.diff(height) / step
+    # Slopes at the points: weighted harmonic means of the secants.
     knot_slope = numpy.zeros(radius.size)
     knot_slope[-1] = secant[-1]
     left, right = secant[:-1], secant[1:]
@@ -61,6 +62,7 @@ def tabulated_profile(radius: Field, height: Field) -> SlopeProfile:
     knot_slope[1:-1] = numpy.where(left * right > 0.0, harmonic, 0.0)
 
     def slope(r: Field) -> Field:
+        # Quadratic slope between two points.
         i = numpy.clip(numpy.searchsorted(radius, r, side="right") - 1, 0, step.size - 1)
         z = (r - radius[i]) / step[i]
         start, end = knot_slope[i], knot_slope[i + 1]

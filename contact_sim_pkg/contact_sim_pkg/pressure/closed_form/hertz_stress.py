@@ -163,6 +163,7 @@ def _confocal(a2: float, b2: float, x: float, y: float, z: float) -> float:
 @kernel
 def _integrate(a2: float, b2: float, x: float, y: float, z: float, root: float) -> Integrals:
     """The integrals from `root` to infinity."""
+    # Panels of equal width in the variable that resolves the transition of the integrand.
     p0, q0 = 1.0 / (a2 + root), 1.0 / (b2 + root)
     turn = _turning(a2, b2, x, y, z, root)
     end = math.asinh(FARTHEST * math.sqrt(max(a2, b2)) / turn)
@@ -171,6 +172,7 @@ def _integrate(a2: float, b2: float, x: float, y: float, z: float, root: float) 
     i_p = i_q = i_s = i_xx = i_xy = f_xxx = f_xxy = f_yyy = f_yyx = xxx = xxy = yyy = yyx = 0.0
     for k in range(panels):
         for i in range(len(NODES)):
+            # Gauss point: the variable w, and the factors that the integrals share.
             grown = math.exp(half * (2 * k + 1 + NODES[i]))
             w, slope = 0.5 * turn * (grown - 1.0 / grown), 0.5 * turn * (grown + 1.0 / grown)
             s = root + w * w
@@ -180,6 +182,7 @@ def _integrate(a2: float, b2: float, x: float, y: float, z: float, root: float) 
             u, v, ratio = x * s * p, y * s * q, z / height
             of_p, of_q, left = weight * p, weight * q, 1.0 - ratio
             cube = 1.0 / (height * height)
+            # Integrals of the pressure, then those of its derivatives.
             i_p += of_p
             i_q += of_q
             i_s += weight / s

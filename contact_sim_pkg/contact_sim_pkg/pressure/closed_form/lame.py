@@ -118,15 +118,18 @@ def fit_patch(pressure: Field, cell_x: float, cell_y: float, origin_x: float, or
     """
     rows, cols = pressure.shape
     cells, points, low_row, high_row, low_col, high_col = extents(pressure)
+    # No contact.
     if cells == 0:
         centre_x, centre_y = origin_x + 0.5 * (rows - 1) * cell_x, origin_y + 0.5 * (cols - 1) * cell_y
         return LameFit(0.0, 0.0, 2.0, centre_x, centre_y, 0.0, False)
+    # Rectangle around the contact; too few cells have no shape.
     half_x = 0.5 * (high_row - low_row + 1) * cell_x
     half_y = 0.5 * (high_col - low_col + 1) * cell_y
     if cells < FEWEST_CELLS:
         centre_x = origin_x + 0.5 * (low_row + high_row) * cell_x
         centre_y = origin_y + 0.5 * (low_col + high_col) * cell_y
         return LameFit(half_x, half_y, 2.0, centre_x, centre_y, 0.0, False)
+    # Curve through the boundary.
     x, y = numpy.empty(points), numpy.empty(points)
     boundary_points(pressure, cell_x, cell_y, x, y)
     fit = fit_boundary(x, y, half_x, half_y)
@@ -155,11 +158,13 @@ def fit_boundary(x: Field, y: Field, half_x: float, half_y: float) -> LameFit:
 def fit_centred(x: Field, y: Field, half_x: float, half_y: float, centre_x: float, centre_y: float) -> LameFit:
     """`fit_boundary` about a centre that is known [m]."""
     take_logarithms(x, y, centre_x, centre_y)
+    # Start: the ellipse in the rectangle.
     log_a, log_b, log_n = math.log(half_x), math.log(half_y), math.log(2.0)
     normal, trial = numpy.empty((3, 4)), numpy.empty((3, 4))
     cost = normal_equations(x, y, log_a, log_b, log_n, normal)
     damping = 1e-3
     for _ in range(FIT_STEPS):
+        # Levenberg-Marquardt on the logarithms.
         step_a, step_b, step_n = damped_step(normal, damping)
         trial_n = min(max(log_n + step_n, math.log(FIT_EXPONENTS[0])), math.log(FIT_EXPONENTS[1]))
         trial_cost = normal_equations(x, y, log_a + step_a, log_b + step_b, trial_n, trial)

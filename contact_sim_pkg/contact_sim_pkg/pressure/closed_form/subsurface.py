@@ -159,6 +159,7 @@ def add_stresses(
     cell_x, cell_y, start_x, start_y = corners
     cut = CUT * min(cell_x, cell_y)
     for k in range(points.shape[0]):
+        # Sum over the corners with a second difference.
         x, y, z = points[k, 0] - start_x, points[k, 1] - start_y, points[k, 2]
         xx, yy, zz, xy, xz, yz = 0.0, 0.0, 0.0, 0.0, 0.0, 0.0
         for i in range(rows):
@@ -212,6 +213,7 @@ def traction_corner(u: float, v: float, z: float, poisson: float, cut: float) ->
     uu, vv, zz = u * u, v * v, z * z
     r = math.sqrt(uu + vv + zz)
     soft = 1.0 - 2.0 * poisson
+    # Logarithms, cut close to the corner.
     log_v = math.asinh(v / max(math.sqrt(uu + zz), cut))
     log_u = math.asinh(u / max(math.sqrt(vv + zz), cut))
     if r == 0.0:
@@ -220,6 +222,7 @@ def traction_corner(u: float, v: float, z: float, poisson: float, cut: float) ->
     xy = log_u - u / r + lean_u
     yy = 2.0 * poisson * log_v - v / r + lean_v
     depth = math.atan2(u * v, z * r)
+    # On the surface.
     if z == 0.0:
         return Stress(2.0 * log_v + v / r - lean_v, yy, 0.0, xy, -depth, 0.0)
     bend = 1.0 / ((uu + zz) * r)

@@ -93,19 +93,23 @@ def correct(
         state = evaluate(workspace, contact, 0, approach, holds_load)
         if contact == 0 or not abs(state.approach) < numpy.inf:
             break
+        # A step of the learned length, scaled to the load.
         search_direction(half_space, workspace, state.free, holds_load, response_known)
         contact, left = move(workspace, state.free, pulling, lengths[correction])
         factor = hold_load(workspace, contact, total) if holds_load else 1.0
         if contact == 0 or not 0.0 < factor < numpy.inf:
             break
+        # Its field, certified by the convolution.
         apply_operator(half_space, workspace)
         change = accept_step(workspace, contact, left, state.approach)
         state = evaluate(workspace, contact, left, approach, holds_load)
+        # Length learned for next time.
         longer = lengths[correction] * math.sqrt(math.sqrt(change.factor))
         lengths[correction] = min(max(longer, LENGTHS[0]), LENGTHS[1])
         enough = correction + 1 >= least_corrections and change.size <= CHANGE * request.tolerance
         if enough and state.residual <= request.tolerance:
             return Corrected(True, correction + 1, state.approach, state.residual)
+        # Not enough: the step with its best length, then another.
         contact, pulling = rescale_step(workspace, contact, state.free, left, change.factor)
         response_known = True
     return Corrected(False, 0, approach, numpy.inf)
@@ -142,6 +146,7 @@ def search_direction(
     filtered, residual = workspace.cells.filtered, workspace.cells.residual
     direction, response = workspace.cells.direction, workspace.cells.response
     free = workspace.cells.free
+    # Mean of z, and its product with the response to the step before.
     total, across, along = 0.0, 0.0, 0.0
     for m in range(count):
         k = free[m]
@@ -151,6 +156,7 @@ def search_direction(
             along += direction[k] * response[k]
     mean = total / max(float(count), 1.0) if holds_load else 0.0
     momentum = max(across / along, 0.0) if along > 0.0 else 0.0
+    # Direction conjugate to that step.
     surplus, descent = 0.0, 0.0
     for m in range(count):
         k = free[m]
@@ -158,6 +164,7 @@ def search_direction(
         direction[k] = value
         surplus += value
         descent += value * residual[k]
+    # Steepest descent where it does not descend; under a load without mean.
     if descent >= 0.0:
         for m in range(count):
             direction[free[m]] = mean - filtered[free[m]]
@@ -176,10 +183,12 @@ def move(workspace: SolverWorkspace, count: int, pulling: int, length: float) ->
     """
     pressure, direction = workspace.cells.pressure, workspace.cells.direction
     free, leaving = workspace.cells.free, workspace.cells.left
+    # Cells that pulled: without pressure.
     for m in range(pulling):
         k = leaving[m]
         direction[k] = -pressure[k]
         pressure[k] = 0.0
+    # The step, clipped at zero.
     contact, left = 0, pulling
     for m in range(count):
         k = free[m]
@@ -219,6 +228,7 @@ def accept_step(workspace: SolverWorkspace, contact: int, left: int, approach: f
     surface, response = workspace.cells.surface, workspace.cells.response
     free, leaving = workspace.cells.free, workspace.cells.left
     work, curvature, size, norm = 0.0, 0.0, 0.0, 0.0
+    # Sums over the cells in contact.
     for m in range(contact):
         k = free[m]
         p = pressure[k]
@@ -228,12 +238,14 @@ def accept_step(workspace: SolverWorkspace, contact: int, left: int, approach: f
         curvature += step * response[k]
         size += step * step
         norm += p * p
+    # Sums over the cells that lost their pressure.
     for m in range(left):
         k = leaving[m]
         step = direction[k]
         work += (surface[k] - response[k] - approach) * step
         curvature += step * response[k]
         size += step * step
+    # Length with the least energy along the step.
     factor = min(max(-work / curvature, FACTORS[0]), FACTORS[1]) if curvature > 0.0 else 1.0
     return Correction(factor, math.sqrt(size / norm))
 
@@ -248,6 +260,7 @@ def rescale_step(workspace: SolverWorkspace, contact: int, count: int, left: int
     free, leaving = workspace.cells.free, workspace.cells.left
     further = factor - 1.0
     rows, cols = surface.shape
+    # Surface of the longer step.
     for i in range(rows):
         for j in range(cols):
             surface[i, j] += further * response[i, j]
@@ -255,6 +268,7 @@ def rescale_step(workspace: SolverWorkspace, contact: int, count: int, left: int
         direction[leaving[m]] = 0.0
     for m in range(count):
         residual[free[m]] = 0.0
+    # Pressures of the longer step, split by their sign.
     pressing, pulling = 0, 0
     for m in range(contact):
         k = free[m]

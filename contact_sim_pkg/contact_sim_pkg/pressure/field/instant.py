@@ -86,22 +86,26 @@ def solve_instant(
     first_row, first_col, share = start.first_row, start.first_col, start.share
     prescribed, holds_load = request.prescribed, request.holds_load
     window, cell = (first_row, first_col, rows, cols), whole.cell_x * whole.cell_y
+    # Prediction from the fields before, or the pressure on the whole grid as a start.
     datum = load_heights(gap, first_row, first_col, workspace.height, workspace.clipped)
     if share >= 0.0:
         predict(workspace, first_row, first_col, start.last, start.before, share)
     else:
         start_from(part, workspace, first_row, first_col, pressure)
+    # Corrections until the field is certified.
     total, approach = (prescribed / cell, 0.0) if holds_load else (-1.0, prescribed - datum)
     if (holds_load or approach > 0.0) and scale_to(workspace, approach, total):
         target = start.last if start.repeats else start.before
         least = 1 if share >= 0.0 else LEAST_FROM_START
         found = correct(part, workspace, approach, total, request, least, start.lengths)
         if found.certified:
+            # Certified: stored, and the window that it needs.
             box = store(workspace, first_row, first_col, target, pressure)
             approach = found.approach + datum if holds_load else prescribed
             window = enclose(whole, gap, approach, pressure, window)
             load = total_of(workspace.pressure) * cell
             return InstantResult(True, found.corrections, load, approach, found.residual, window, box)
+    # Not certified: a start for the solver.
     put_start(workspace, first_row, first_col, pressure)
     return InstantResult(False, 0, 0.0, prescribed, numpy.inf, window, (0, 0, 0, 0))
 

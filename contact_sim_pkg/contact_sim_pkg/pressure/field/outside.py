@@ -112,6 +112,7 @@ def enclose(
     blocks, added = make_block_sums(half_space), False
     for i in range(0, rows, BLOCK):
         for j in range(0, cols, BLOCK):
+            # Blocks outside the window whose lowest gap is below the approach.
             inside_rows = first_row <= i and min(i + BLOCK, rows) <= end_row
             if inside_rows and first_col <= j and min(j + BLOCK, cols) <= end_col:
                 continue
@@ -121,12 +122,14 @@ def enclose(
             if not added:
                 add_up(pressure, blocks)
                 added = True
+            # Cells of a block that the bound does not clear.
             least = least_displacement(half_space, blocks, i, j, BLOCK, depth)
             if least < depth:
                 ends = (first_row, first_col, end_row, end_col)
                 box = penetrating(half_space, gap, approach, pressure, blocks, ends, block=(i, j), least=least)
                 top, bottom = min(top, box[0]), max(bottom, box[1])
                 left, right = min(left, box[2]), max(right, box[3])
+    # The old contact and what penetrates beside it.
     if bottom < 0:
         return first_row, first_col, window_rows, window_cols
     top, bottom = min(top, first_row + MARGIN), max(bottom, end_row - 1 - MARGIN)

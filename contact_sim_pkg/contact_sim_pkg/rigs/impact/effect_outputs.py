@@ -50,6 +50,7 @@ def wave_of(model: ImpactModel, effect: dict[str, Any], block: int, impact: Fini
     wave = surface_wave.surface_wave(free, _shear_modulus(model, impact), model.density, model.poisson_ratio)
     turns = impact.phases[0].turns
     assert turns is not None
+    # Ring around the contact at its largest force.
     radius = free.shape * math.sqrt(free.sphere.radius * turns.depth)
     loose = 1.0 - 2.0 * model.poisson_ratio
     bulk = half_space.storage_modulus / (3.0 * loose) if loose > 0.0 else math.inf
@@ -57,6 +58,7 @@ def wave_of(model: ImpactModel, effect: dict[str, Any], block: int, impact: Fini
         ring = surface_wave.ring(radius, turns.peak_force / (math.pi * radius**2), bulk)
     except ImpactError as error:
         raise RunError(f"{impact.start:.6g} s, surface_waves of impact {impact.number}: {error}") from None
+    # Height over times and radii.
     times: Vector = numpy.linspace(0.0, effect["times"] * impact.duration, int(effect["instants"]), dtype=numpy.float64)
     far = wave.start_radius + effect["lengths"] * wave.length
     radii: Vector = numpy.linspace(0.0, far, int(effect["places"]), dtype=numpy.float64)
@@ -90,6 +92,7 @@ def position_of(model: ImpactModel, effect: dict[str, Any], block: int, impact: 
     half_space = position.SampleHalfSpace(
         model.half_space_share(impact.touch), model.poisson_ratio, float(effect["expansion"]), float(effect["heating"])
     )
+    # Position at each instant of the course.
     times, depth, _speed, _elastic, _viscous = course_of(impact, int(effect["instants"]))
     radius = model.sphere.radius
     try:
@@ -101,6 +104,7 @@ def position_of(model: ImpactModel, effect: dict[str, Any], block: int, impact: 
         ]  # fmt: skip
     except ImpactError as error:
         raise RunError(f"{impact.start:.6g} s, thermal_volume of impact {impact.number}: {error}") from None
+    # Columns of the message, 0 without contact.
     names = {
         "surface_depth": "surface_depth", "compression": "alpha", "volume": "volume",
         "compression_volume": "compression_volume", "heating_volume": "heating_volume",

@@ -169,6 +169,7 @@ def build_impact(scene: dict[str, Any]) -> ImpactModel:
         effects=effects,
         seed=int(scene["seed"]),
     )
+    # Each release once, so that an impossible one is refused before the run.
     for release in dict.fromkeys((release.speed, release.temperature) for release in model.releases):
         try:
             fall(model.machine, release[0])

@@ -232,6 +232,7 @@ class ImpactMotion:
         """Write down the impact; its force was lost at the end of its last loaded phase."""
         assert self._touch is not None
         start, speed, found = self._touch
+        # The contact lasts to the end of its last loaded phase.
         loaded = max(i for i, phase in enumerate(self._contact) if phase.kind == LOADED)
         last = self._contact[loaded]
         duration = math.fsum(phase.duration for phase in self._contact[: loaded + 1])
@@ -259,6 +260,7 @@ class ImpactMotion:
         depth, speed, acceleration, elastic, viscous, kinetic, potential, held, heat, supplied = out
         heat[:], supplied[:] = segment.heat, segment.supplied
         motion = segment.motion
+        # Depth, speed and forces by the kind of motion.
         if isinstance(motion, Held):
             depth[:], potential[:] = motion.approach, motion.potential
         elif isinstance(motion, Flight):
@@ -274,6 +276,7 @@ class ImpactMotion:
             if motion.kind == LOADED:
                 elastic[:], viscous[:] = forces(motion.law, depth, speed)
             acceleration[:] = motion.law.gravity - (elastic + viscous) / mass
+        # Energies.
         kinetic[:] = 0.5 * mass * speed**2
         if isinstance(motion, (ContactPhase, Rest)):
             held[:] = [stored(motion.law, float(x)) for x in depth]

@@ -99,6 +99,7 @@ class TiltYaw:
         )
         if status == DONE:
             return record
+        # Time at which the record ends.
         if status == DIVERGED:
             place = start + step * float(numpy.flatnonzero(numpy.isnan(record[:, 0]))[0]) * (len(loads) - 1) / (
                 rows - 1

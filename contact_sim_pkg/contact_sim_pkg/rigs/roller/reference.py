@@ -35,6 +35,7 @@ def ellipse_stress(
     """xx, yy, zz, xy, xz, yz [6] over the peak pressure at `point` (x, y, z > 0) [m]; traction: q_x
     / p and q_y / p.
     """
+    # Point forces that add up to the pressure.
     at_x, at_y, force = weighted_points(semi_axes, radii, angles)
     x, y, z, free = point[0] - at_x, point[1] - at_y, float(point[2]), 1.0 - 2.0 * poisson
     force, d = force / (2.0 * math.pi), numpy.sqrt(x**2 + y**2 + z**2)
@@ -57,6 +58,7 @@ def ellipse_stress(
             )
         ])  # fmt: skip
 
+    # Sum over the forces: Boussinesq for the pressure, Cerruti for the traction.
     (xx, xy, xz), (yy, _xy, yz) = pushed(x, y), pushed(y, x)
     sums = numpy.array([float((force * part).sum()) for part in (xx, yy, -3.0 * z**3 / d**5, xy, xz, yz)])
     return sums + traction[0] * dragged(x, y) + traction[1] * dragged(y, x)[[1, 0, 2, 3, 5, 4]]

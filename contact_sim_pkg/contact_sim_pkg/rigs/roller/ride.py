@@ -127,14 +127,17 @@ class TrackRide:
         """
         self.refuse_fast_heave()
         path = self._path()
+        # The start of this interval lies on the worn track: its change supplies energy.
         before = self._held()
         self._height, self._coefficient = float(path.height[0]), float(path.coefficient[0])
         self._shifted += self._held() - before
         cell_time = self.interval_time / self.cells
+        # Heave over the interval.
         self.free = ride(self.heave, path, cell_time, 1, self.state, self.loads, self.motion)
         self._height, self._coefficient = float(path.height[-1]), float(path.coefficient[-1])
         self.intervals += 1
         for each in self.tracks:
+            # Wear of each track by the loads on its cells.
             each.loads = self.loads.reshape(each.turns, -1).mean(axis=0)
             each.turned += each.turns
             each.lowered += wear(each.track, float(each.turns), each.loads, each.heights).lowered
@@ -144,6 +147,7 @@ class TrackRide:
                     f"{each.turned * self.acceleration:.6g} cycles, more than {each.track.largest_range:.4g} m: used up; a lower "
                     "damage.gain or roller.acceleration, or a shorter duration, ends before"
                 )
+        # Course of the interval.
         heave, speed = numpy.vstack([self.motion, self.state[:2]]).T
         time: Vector = numpy.arange(self.cells + 1, dtype=numpy.float64) * cell_time
         return Ridden(time, numpy.append(self.loads, self._load()), heave, speed, self.free)

@@ -99,6 +99,7 @@ class RollerSimulation:
         start, samples = block * timing.block_length, timing.samples
         times: Vector = numpy.arange(samples + 1, dtype=numpy.float64) * (timing.block_length / samples)
         energy = self._energy()
+        # Loads, heave and angles of a load pressed on, or of the ride.
         if self._ride is None:
             loads = self._pressed(start, times)
             heave: Matrix = numpy.zeros((2, len(times)))
@@ -110,6 +111,7 @@ class RollerSimulation:
             heave = numpy.stack([numpy.interp(times, ridden.time, values) for values in (ridden.heave, ridden.speed)])
             angles = numpy.stack([numpy.interp(times, ridden.time, column) for column in turned.T], axis=1)
             steps = len(ridden.time) - 1
+        # Contacts of the rollers at each sample.
         curvatures, contacts = model.programme.curvatures_over(start + times[:-1]), numpy.zeros((samples, 6))
         angles = numpy.ascontiguousarray(angles[:-1])
         rolling_contacts(curvatures, angles[:, 1].copy(), model.modulus, loads[:-1], model.kind, contacts)

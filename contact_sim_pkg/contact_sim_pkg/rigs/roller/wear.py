@@ -60,10 +60,12 @@ def make_tracks(model: RollerModel) -> list[BodyTrack]:
     which, cells = str(effect["track"]), int(effect["cells"])
     radii = {"shaft": model.shaft_radius, "roller": model.roller.radius}
     bodies = ("shaft", "roller") if which == "both" else (which,)
+    # On the larger of two bodies the cells are as long as on the smaller.
     least, most = (pick(radii[body] for body in bodies) for pick in (min, max))
     found: list[BodyTrack] = []
     for body in bodies:
         number = cells * round(radii[body] / least)
+        # The seed's waves are on the first body alone, roughness on each.
         heights = _first_heights(effect, [model.seed, 1] if found else model.seed, number, waves=not found)
         table = damage_table(model, PREFIX[body])
         turn_time = model.turn_time * radii[body] / model.shaft_radius

@@ -23,12 +23,14 @@ def work_of_roller(scene: Scene) -> Iterator[Work]:
     below, damage = scene.effect("roller", Subsurface), scene.effect("roller", Damage)
     waves, gyroscope = scene.effect("roller", TrackWaves), scene.effect("roller", Gyroscope)
     bodies = 2 if waves is not None and waves.track == "both" else 1
+    # Stress below the surface.
     if below is not None:
         cells = below.cells_x * below.cells_y * below.cells_z
         yield Work("cells of subsurface", 2.0 * cells * len(below.instants), CELL_COST)
         if damage is not None and waves is not None:
             yield Work("cells of damage.table_rows", float(bodies * cells * damage.table_rows), CELL_COST)
     outputs = duration * scene.outputs.force_rate
+    # Wear of the track.
     if waves is not None and rig.speed > 0.0:
         radii = (rig.shaft_radius, rig.radius)
         turned = {"shaft": radii[0], "roller": radii[1]}.get(waves.track, max(radii))
@@ -41,6 +43,7 @@ def work_of_roller(scene: Scene) -> Iterator[Work]:
         outputs = intervals * cells
         steps = max(1.0, _heave_frequency(rig) * length / cells / HEAVE_PHASE)
         yield Work("cells of the track", outputs, TRACK_COST + steps * HEAVE_COST)
+    # Tilt and yaw.
     if scene.effect("roller", TiltYawSection) is not None:
         inertia = min(rig.inertia_tilt, rig.inertia_yaw)
         spin = (0.0 if gyroscope is None else gyroscope.inertia_spin) * 2.0 * math.pi * rig.speed

@@ -35,6 +35,7 @@ def impacts_of_bag(path: Path) -> Impacts:
     Raises BagError where it is none, MaterialError where no impact ended in it.
     """
     bag = open_bag(path)
+    # Topic of the impact events, with at least one.
     topic = next((name for name, row in bag.topics.items() if row.type == EVENTS), None)
     if topic is None or bag.count(topic) == 0:
         what = "has no impact events; the rig impact records them" if topic is None else "holds no impact that ended"
@@ -44,6 +45,7 @@ def impacts_of_bag(path: Path) -> Impacts:
     def column(name: str) -> Any:
         return numpy.concatenate([*columns[name]]).astype(numpy.float64)
 
+    # Columns of all messages; without gravity none is handed on.
     gravity = column("gravity")
     return Impacts(
         file=str(path),

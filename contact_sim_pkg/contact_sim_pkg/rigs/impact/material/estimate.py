@@ -106,6 +106,7 @@ def repeated_impacts(impacts: Impacts, chosen: Indices, options: Options) -> Mat
     """
     k = impacts.restitution[chosen]
     _refuse_gain(impacts, chosen)
+    # Moduli from the means of times and restitution.
     times = numpy.array([_group_factor(impacts, int(i)) ** -0.4 for i in chosen])
     curve = _curve(float(k.mean()), impacts, chosen, options)
     scale = impacts.speed[chosen] * impacts.duration[chosen] / impacts.radius[chosen]
@@ -115,6 +116,7 @@ def repeated_impacts(impacts: Impacts, chosen: Indices, options: Options) -> Mat
         raise MaterialError(f"{_where(impacts, chosen)}: {error}") from error
     storage = float(times.mean()) ** -2.5 * math.exp(curve.log_factor) / shape
     tangent = curve.loss_tangent
+    # Errors from the scatter, by the slopes of the moduli over time and restitution.
     deviation = k - k.mean()
     log_storage = -2.5 * times / times.mean() + curve.log_factor_slope * deviation
     log_error, factor = _standard_error(log_storage), student(len(chosen), options.confidence)

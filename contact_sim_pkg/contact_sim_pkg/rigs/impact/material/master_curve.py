@@ -123,6 +123,7 @@ def _search(
     """Parameter of least distance: scan, then Brent between the neighbours; standard error from the
     curvature there.
     """
+    # Several speeds at several temperatures are needed.
     speeds_at: dict[int, set[int]] = {}
     for e, t in zip(estimates, temperatures, strict=True):
         speeds_at.setdefault(round(t), set()).add(round(100 * math.log(e.speed)))
@@ -132,6 +133,7 @@ def _search(
             "determine the shift; at least 6 groups with "
             "several speeds at several temperatures do, or give Tg or the activation energy"
         )
+    # Scan of the parameter's range.
     coldest = float(temperatures.min())
     low, high = (max(20.0, coldest - GLASS_BELOW), coldest + 40.0) if law == "wlf" else ENERGIES
     grid = numpy.linspace(low, high, SCAN) if law == "wlf" else numpy.geomspace(low, high, SCAN)
@@ -143,6 +145,7 @@ def _search(
             return math.inf
 
     costs = numpy.array([cost(float(value)) for value in grid])
+    # Refined between the neighbours of the best.
     best = int(numpy.argmin(costs))
     if best in (0, len(grid) - 1) or not math.isfinite(costs[best]):
         raise MaterialError(f"master curve: no value from {low:g} to {high:g} brings the groups together; give it")

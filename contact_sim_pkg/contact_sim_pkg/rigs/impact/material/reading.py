@@ -78,6 +78,7 @@ def read_impacts(path: Path) -> Impacts:
     lines = _lines(path)
     separator = next((mark for mark in SEPARATORS if mark in lines[0][1]), ",")
     rows = [(number, next(csv.reader([text], delimiter=separator))) for number, text in lines]
+    # Columns by their names, each number in SI units.
     header, unused = _header(path, *rows[0])
     values: dict[str, list[float]] = {name: [] for name in header}
     for number, fields in rows[1:]:
@@ -126,6 +127,7 @@ def _header(path: Path, number: int, fields: list[str]) -> tuple[dict[str, tuple
     found: dict[str, tuple[int, float, float]] = {}
     unused = []
     for place, field in enumerate(fields):
+        # Name and unit of a column.
         match = re.fullmatch(r"\s*([^\[(]*?)\s*(?:[\[(]\s*([^\])]*?)\s*[\])])?\s*", field)
         label, unit = (match.group(1), match.group(2)) if match else (field.strip(), None)
         name = next((name for name, names in COLUMNS.items() if label.lower() in names), None)
@@ -139,6 +141,7 @@ def _header(path: Path, number: int, fields: list[str]) -> tuple[dict[str, tuple
                 f"{path}, line {number}: unit '{unit}' of column '{label}' is not read; {', '.join(UNITS[name])} are"
             )
         found[name] = (place, UNITS[name][unit] if unit else 1.0, OFFSETS.get(unit or "", 0.0))
+    # Columns that every file has.
     missing = [name for name in COLUMNS if name not in found and name not in OPTIONAL]
     if missing:
         raise MaterialError(

@@ -43,6 +43,7 @@ def impact(zeta: float, end: str) -> Reference:
         return y[0] if end == "gap" or zeta == 0.0 else y[0] + zeta * y[1]
 
     turning.terminal = leaving.terminal = True  # type: ignore[attr-defined]
+    # Closing and opening phase.
     closing = solve_ivp(rate, (0.0, 10.0), [0.0, 1.0], events=turning, dense_output=True, **ACCURACY)
     opening = solve_ivp(rate, (0.0, 1e3), [closing.y[0, -1], 0.0], events=leaving, **ACCURACY)
     first = float(closing.t[-1])

@@ -36,6 +36,7 @@ def last_period(
         force = load * (1.0 + part * math.cos(frequency * time)) - elastic * depth * root - viscous * root * state[1]
         return [float(state[1]), force / mass]
 
+    # Last of many periods, from the static depth.
     period = 2.0 * math.pi / frequency
     start = (load / elastic) ** (2.0 / 3.0)
     times = (periods - 1 + numpy.arange(samples) / samples) * period

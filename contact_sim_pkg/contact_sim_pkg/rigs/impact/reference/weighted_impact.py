@@ -23,6 +23,7 @@ def impact_under_weight(
     """Restitution, duration [s], depth [m] and peak force [N] from the touch at ``speed`` to the
     loss of force.
     """
+    # Scaled motion in the variable s with dt = 2 u ds, u the root of the depth.
     length = (mass * speed**2 / elastic) ** 0.4
     fall, zeta = gravity * length / speed**2, viscous * length**1.5 / (mass * speed)
 
@@ -44,6 +45,7 @@ def impact_under_weight(
         rate, (0.0, 50.0), [0.0, 1.0, 0.0], method="DOP853", events=events, rtol=tolerance, atol=tolerance,
         dense_output=True,
     )  # fmt: skip
+    # Turning point, end of the contact, and the largest force between them.
     turned, ended = found.y_events[0][0], found.y_events[1][-1]
 
     def pull(s: float) -> float:

@@ -186,11 +186,13 @@ def _loaded(law: ContactLaw, depth: float, speed: float, *, first: bool) -> Cont
     units, out = _units(law, depth, speed), numpy.zeros(RESULTS)
     pulls = lowest_force(law.end) < 0.0
     root, pace = math.sqrt(depth / units.length), speed / units.speed
+    # Scaled motion up to the loss of the force.
     steps = solve_from(
         units.severity, units.weight, pulls=pulls, u=root, v=pace, kind=PEAK if first else END, limit=LONGEST, out=out
     )
     if steps > 0:
         out[REACHED_TIME], out[REACHED_SPEED] = out[DURATION], -out[RESTITUTION]
+    # The bodies part there, or the sample is released behind the sphere.
     last_depth = float(out[REACHED_ROOT] ** 2 * units.length)
     parts = steps > 0 and (pulls or law.viscous == 0.0 or last_depth <= 1.0e-14 * units.length)
     turns = None

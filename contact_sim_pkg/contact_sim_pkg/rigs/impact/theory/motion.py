@@ -140,9 +140,11 @@ def _in_units(
     sphere: Sphere, material: Material, speed: float, end: str, factor: float, severity: float, scaled: ScaledImpact
 ) -> FreeImpact:
     coefficient = elastic_coefficient(material.storage_modulus, sphere.radius, factor)
+    # Units of length, time and force.
     length = float((sphere.mass * speed**2 / coefficient) ** 0.4)
     time_unit, force_unit = length / speed, sphere.mass * speed**2 / length
     duration = scaled.duration * time_unit
+    # Viscous coefficient at the frequency of this impact.
     viscous = viscous_coefficient(material.loss_modulus, sphere.radius, factor, math.pi / duration)
     return FreeImpact(
         sphere=sphere,

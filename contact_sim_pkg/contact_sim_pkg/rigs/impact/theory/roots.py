@@ -21,6 +21,7 @@ def bracketed_root(function: Callable[[float], float], low: float, high: float, 
     """
     low, high = require("low end", low), require("high end", high)
     require_positive("relative resolution", relative)
+    # Both ends, with a change of sign between them.
     low_value, high_value = function(low), function(high)
     for end, value in ((low, low_value), (high, high_value)):
         require(f"function at {end:g}:", value, infinite=True)
@@ -28,6 +29,7 @@ def bracketed_root(function: Callable[[float], float], low: float, high: float, 
         return low if low_value == 0.0 else high
     if (low_value > 0.0) == (high_value > 0.0):
         raise ArithmeticError(f"no change of sign between {low:g} and {high:g}")
+    # Regula falsi (Illinois), every eighth time bisection.
     kept = 0
     for i in range(ITERATIONS):
         width = high - low
@@ -38,6 +40,7 @@ def bracketed_root(function: Callable[[float], float], low: float, high: float, 
         inside = min(low, high) < middle < max(low, high)
         if not inside or i % 8 == 7:
             middle = low + 0.5 * width
+        # Not nearer to an end than half the resolution.
         if abs(middle - low) < 0.5 * resolution or abs(high - middle) < 0.5 * resolution:
             step = 0.5 * resolution if width > 0.0 else -0.5 * resolution
             middle = low + step if abs(middle - low) < abs(high - middle) else high - step

@@ -92,6 +92,7 @@ def make_track(
     contact_length [m], gain and approach [m] at least 0. Raises `ValueError` for a table that does
     not rise from 0 N and values out of range.
     """
+    # Values within their ranges.
     for name, value, unit in (("radius", radius, "m"), ("turn time", turn_time, "s")):
         require_positive(f"track: {name}", value, unit)
     for name, value, unit in (("contact length", contact_length, "m"), ("gain", gain, ""), ("approach", approach, "m")):
@@ -104,6 +105,7 @@ def make_track(
     hard = require_values(
         "track: hardness", numpy.ones(cells) if hardness is None else hardness, shape=(cells,), above=0.0
     )
+    # Contact length over the length of a cell.
     within = contact_length / (2.0 * math.pi * radius / cells)
     return WearTrack(
         turn_time=turn_time,

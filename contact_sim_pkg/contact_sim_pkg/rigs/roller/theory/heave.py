@@ -114,6 +114,7 @@ def ride(heave: Heave, path: Path, cell_time: float, turns: int, state: Values, 
     the contact load at each cell, `motion` [cells, 2] z and z' there in the last turn. Not checked.
     """
     kappa = natural_frequency(heave)
+    # Steps that resolve the natural motion.
     steps = max(1, int(math.ceil(kappa * cell_time / LARGEST_PHASE)))  # noqa: RUF046  # a float in compiled code
     step = cell_time / steps
     rest = heave.contact_coefficient * heave.load ** (2.0 / 3.0) + heave.bending_compliance * heave.load
@@ -122,6 +123,7 @@ def ride(heave: Heave, path: Path, cell_time: float, turns: int, state: Values, 
     total = HeaveState(state[0], state[1], 0.0, 0.0)
     for _ in range(turns):
         for j in range(loads.shape[0]):
+            # Height and coefficient are linear over a cell.
             rise = (path.height[j + 1] - path.height[j]) / steps
             soften = (path.coefficient[j + 1] - path.coefficient[j]) / steps
             load = load_of_approach(path.coefficient[j], heave.bending_compliance, rest + path.height[j] - total.z)
@@ -129,6 +131,7 @@ def ride(heave: Heave, path: Path, cell_time: float, turns: int, state: Values, 
             motion[j, 0], motion[j, 1] = total.z, total.v
             for i in range(steps):
                 free += 1 if load == 0.0 else 0
+                # Loads are sampled at the cells' starts, the heave goes on in steps.
                 start = Place(rest + path.height[j] + rise * i, path.coefficient[j] + soften * i)
                 end = Place(rest + path.height[j] + rise * (i + 1), path.coefficient[j] + soften * (i + 1))
                 total, load = _step(heave, kappa, start, end, step, total, load)
@@ -165,6 +168,7 @@ def _step(
     drag, k_b = 2.0 * heave.damping_ratio * kappa, heave.bending_compliance
     middle, k_middle = 0.5 * (start.height + end.height), 0.5 * (start.coefficient + end.coefficient)
     z, v = now.z, now.v
+    # The four slopes of the classical Runge-Kutta rule.
     a1 = (load - heave.load) / heave.mass - drag * v
     v2 = v + 0.5 * step * a1
     f2 = load_of_approach(k_middle, k_b, middle - z - 0.5 * step * v)
@@ -175,11 +179,13 @@ def _step(
     v4 = v + step * a3
     f4 = load_of_approach(end.coefficient, k_b, end.height - z - step * v3)
     a4 = (f4 - heave.load) / heave.mass - drag * v4
+    # Work of the road and of the damper by the same rule.
     pushed = (end.height - start.height) / 6.0 * (load + 2.0 * f2 + 2.0 * f3 + f4)
     if end.coefficient != start.coefficient:
         softened = load ** (5.0 / 3.0) + 2.0 * f2 ** (5.0 / 3.0) + 2.0 * f3 ** (5.0 / 3.0) + f4 ** (5.0 / 3.0)
         pushed -= 0.1 * (end.coefficient - start.coefficient) * softened
     lost = drag * heave.mass * step / 6.0 * (v * v + 2.0 * v2 * v2 + 2.0 * v3 * v3 + v4 * v4)
+    # New state.
     z += step / 6.0 * (v + 2.0 * v2 + 2.0 * v3 + v4)
     v += step / 6.0 * (a1 + 2.0 * a2 + 2.0 * a3 + a4)
     after = HeaveState(z, v, now.supplied + pushed, now.dissipated + lost)

@@ -112,6 +112,7 @@ def integrate_tilt_yaw(
     problem = TiltYawProblem(roller, curvatures, bending, modulus, empty_fit())
     scratch = StageArrays(table, numpy.zeros((stages, 4)), numpy.zeros(4))
     slopes = scratch.slopes
+    # First guess of all stages: the rate at the start.
     _fill(problem, loads[0], state, slopes[0])
     for i in range(1, stages):
         _copy(slopes[0], slopes[i])
@@ -119,11 +120,13 @@ def integrate_tilt_yaw(
     record[:, :] = numpy.nan
     _copy(state, record[0])
     for n in range(steps):
+        # Stages of this step, and the energies that they transfer.
         load_step = LoadStep(step, loads[n], loads[n + 1])
         if not _solve(problem, load_step, state, scratch):
             return NO_CONVERGENCE
         if state.shape[0] > 4:
             _sum_powers(problem, load_step, state, scratch)
+        # New state.
         for j in range(4):
             for i in range(stages):
                 state[j] += step * table[stages, i] * slopes[i, j]
@@ -146,6 +149,7 @@ def _solve(problem: TiltYawProblem, load_step: LoadStep, state: Values, scratch:
     before, terms = numpy.inf, _largest_term(problem.roller, load, state)
     for _ in range(ITERATIONS):
         change, size = 0.0, terms
+        # Slopes of all stages from those of the last iteration.
         for i in range(stages):
             for j in range(4):
                 total = 0.0
@@ -157,6 +161,7 @@ def _solve(problem: TiltYawProblem, load_step: LoadStep, state: Values, scratch:
             _fill(problem, here, trial, slopes[i])
             change = max(change, abs(slopes[i, 2] - old_tilt), abs(slopes[i, 3] - old_yaw))
             size = max(size, abs(slopes[i, 2]), abs(slopes[i, 3]))
+        # Converged to rounding.
         if change <= 4e-16 * size or (change <= 1e-12 * size and change >= before):
             return True
         before = change

@@ -80,6 +80,7 @@ def linearise(roller: Roller, curvatures: Curvatures, bending: Bending | None, m
     def moment(angles: Matrix) -> Matrix:
         return numpy.array(moments(roller, curvatures, bending, modulus, load, float(angles[0]), float(angles[1])))
 
+    # Static angles by Newton's method.
     angles = numpy.zeros(2)
     for _ in range(50):
         stiffness = springs - _slopes(moment, angles)
@@ -92,6 +93,7 @@ def linearise(roller: Roller, curvatures: Curvatures, bending: Bending | None, m
             break
         if not abs(angles).max() < 1.0:
             raise RollerError(f"roller: no static angles below 1 rad under {load:.6g} N")
+    # Mass, damping with gyroscopic terms, and stiffness about them.
     gyro = roller.inertia_spin * roller.spin
     return Linear(
         float(angles[0]), float(angles[1]),

@@ -131,6 +131,7 @@ def _measure(
     ground = length * width / (nx * ny)
     now, above = numpy.zeros(COMPONENTS + 1), numpy.zeros(COMPONENTS + 1)
     for i in range(nx):
+        # Each column of the box, down from the surface.
         x = ((i + 0.5) / nx - 0.5) * length
         for j in range(ny):
             y = ((j + 0.5) / ny - 0.5) * width
@@ -139,6 +140,7 @@ def _measure(
                 z = _depth(contact, k, nz) if kind == INTERPOLATED else depth * (k + 0.5) / nz
                 _excess(_stress_at(contact, bending, loading, x, y, z), loading, now)
                 for c in range(COMPONENTS + 1):
+                    # Whole cells, or the part of the depth between two values.
                     if kind == COUNTED:
                         out[c] += ground * depth / nz if now[c] > 0.0 else 0.0
                     elif k > 0:

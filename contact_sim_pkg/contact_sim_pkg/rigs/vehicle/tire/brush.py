@@ -248,6 +248,7 @@ def write_shear(
     pressure.
     """
     rows, cols = pressure.shape
+    # The centre of a cell lies between the bristle near to it and the one beyond.
     near, far = (0, 1) if phase <= 0.5 else (1, 0)
     weight = min(phase, 1.0 - phase)
     sum_x, sum_y, moment, loaded, sliding = 0.0, 0.0, 0.0, 0, 0
@@ -258,6 +259,7 @@ def write_shear(
             shear_x[i, j], shear_y[i, j], mode[i, j] = 0.0, 0.0, APART
             if not pressure[i, j] > 0.0:
                 continue
+            # Shear, and the sums of force and moment.
             counts = weight if 0 <= beyond < rows and pressure[beyond, j] > 0.0 else 0.0
             tau_x, tau_y = stress_between(brush, bristles, PAD + i + near, PAD + i + far, j, counts, pressure[i, j])
             shear_x[i, j], shear_y[i, j] = tau_x, tau_y
@@ -265,6 +267,7 @@ def write_shear(
             sum_y += tau_y
             moment += x * tau_y - (grid.origin_y + j * grid.cell_y) * tau_x
             loaded += 1
+            # The nearer bristle decides between stick and slip.
             slips = bristles.sliding[PAD + i + near, j] != 0
             mode[i, j] = SLIPS if slips else STICKS
             sliding += 1 if slips else 0

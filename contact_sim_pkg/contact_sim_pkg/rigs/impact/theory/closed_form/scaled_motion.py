@@ -63,6 +63,7 @@ def _expand(zeta, weight, series):
     where the tail is below rounding.
     """
     u, v, squared, moment, product = series[0], series[1], series[3], series[4], series[5]
+    # Coefficients of the next order by Cauchy products.
     for k in range(ORDER):
         total = 0.0
         for i in range(k + 1):
@@ -82,6 +83,7 @@ def _expand(zeta, weight, series):
         series[HEAT, k + 1] = 2.0 * zeta * lost / (k + 1)
         u[k + 1] = v[k] / (k + 1)
         v[k + 1] = 2.0 * (weight * u[k] - total) / (k + 1)
+    # Step from the last two coefficients (Jorba and Zou 2005).
     radius = math.inf
     for k in range(ORDER - 1, ORDER + 1):
         size = max(abs(u[k]), abs(v[k]))
@@ -194,6 +196,7 @@ def solve_from(
     series = numpy.zeros((SERIES, ORDER + 1))
     _start(u, v, series)
     for count in range(1, LARGEST_STEPS + 1):
+        # Taylor series of this step, and the events within it.
         step = _expand(zeta, weight, series)
         while kind <= END:
             if _event(zeta, weight, pulls, kind, _value(series[0], step), _value(series[1], step)) > 0.0:
