@@ -28,9 +28,9 @@ class Rig:
         takes: further sections that it may have; those of its contacts are defaults where absent.
         simulation: ``module:class`` of a `run.block_simulation.BlockSimulation` that takes a resolved scene.
         report: ``module:name`` of the `records.report.ContactReport` of each contact that has one.
-        road_strip: ``module:function`` of a resolved scene -> the strip of road that its tire needs;
+        road_strip: ``module:function`` of the plain data of a resolved scene -> the strip of road that its tire needs;
             empty: it rides on none.
-        work: ``module:function`` of a typed scene -> parts of its work beside that of blocks and fields;
+        work: ``module:function`` of a resolved scene -> parts of its work beside that of blocks and fields;
             empty: none.
         unused_axes: plain data of its effects by contact -> axes whose vibration moves nothing.
         accuracy: modules whose `ACCURACY` holds `records.accuracy.AccuracyStudy`: `bench accuracy SCENE`.

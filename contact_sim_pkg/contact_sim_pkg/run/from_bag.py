@@ -77,7 +77,7 @@ def refuse_other_scene(path: Path, scene: ResolvedScene) -> None:
             f"{path}: the excitation comes from the bag, and {', '.join(changed)} {'is' if len(changed) == 1 else 'are'} not "
             "as it was recorded with; leave these keys as they are in the bag's scene, or run without --from-bag"
         )
-    blocks = make_timing(scene.data, True).blocks
+    blocks = make_timing(scene, True).blocks
     for topic in input_names(scene):
         bag.refuse_other_definition(topic)
         first, held = next(bag.messages(topic), None), bag.count(topic)

@@ -11,8 +11,8 @@ from collections.abc import Iterable, Iterator
 from typing import NamedTuple
 
 from contact_sim_pkg.records.work import STEP_COST, Work
+from contact_sim_pkg.scene.resolved_scene import ResolvedScene
 from contact_sim_pkg.scene.schema.laws import FrictionSection, GeneralLoss, HuntCrossley, PowerLaw
-from contact_sim_pkg.scene.schema.scene import Scene
 from contact_sim_pkg.scene.timing import make_timing
 
 __all__ = ["Link", "integrator_steps", "links_of_laws", "power_law_link", "segments"]
@@ -30,20 +30,22 @@ class Link(NamedTuple):
     damping: float  # [N s/m]
 
 
-def segments(scene: Scene) -> Work:
+def segments(scene: ResolvedScene) -> Work:
     """Segments of the linear drive: at least one step each."""
-    timing = make_timing(scene.model_dump(exclude_none=True), True)
+    timing = make_timing(scene, True)
     return Work("segments between two samples of drive or output", scene.duration / timing.segment_length, STEP_COST)
 
 
-def integrator_steps(scene: Scene, contact: str, links: Iterable[Link], cost: float = STEP_COST) -> Iterator[Work]:
+def integrator_steps(
+    scene: ResolvedScene, contact: str, links: Iterable[Link], cost: float = STEP_COST
+) -> Iterator[Work]:
     """Steps that each link alone would take; ``cost`` [s] of one."""
     for link in links:
         rate = max(math.sqrt(link.stiffness / link.mass) / SWING, link.damping / link.mass / DAMPED)
         yield Work(f"steps of the integrator for {contact}.{link.name}", rate * scene.duration, cost)
 
 
-def links_of_laws(scene: Scene, contact: str, mass: float, load: float) -> Iterator[Link]:
+def links_of_laws(scene: ResolvedScene, contact: str, mass: float, load: float) -> Iterator[Link]:
     """The laws of a contact that touches with a ``mass`` [kg], at its depth under the ``load`` [N] at rest."""
     elastic, friction = scene.effect(contact, PowerLaw), scene.effect(contact, FrictionSection)
     if elastic is not None and load > 0.0:

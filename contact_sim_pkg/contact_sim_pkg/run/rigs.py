@@ -36,5 +36,5 @@ def forecast_of(scene: ResolvedScene) -> Forecast | None:
     if not name:
         return None
     module = load(name)
-    facts = module.facts_before_run(scene.data)
+    facts = module.facts_before_run(scene)
     return Forecast(facts, module.sentence_before_run(facts)) if facts else None

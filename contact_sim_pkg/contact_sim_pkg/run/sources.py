@@ -35,11 +35,11 @@ class Source(Protocol):
         """What was found and done, for the report."""
 
 
-def make_travel(scene: dict[str, Any]) -> Travel:
+def make_travel(scene: ResolvedScene) -> Travel:
     """Speed programme of a resolved scene."""
-    travel = scene["travel"]
-    points = travel.get("points") or [(0.0, travel["speed"])]
-    return Travel([(float(time), float(speed)) for time, speed in points])
+    assert scene.travel is not None
+    points = scene.travel.points or [[0.0, scene.travel.speed or 0.0]]
+    return Travel([(time, speed) for time, speed in points])
 
 
 def make_sources(scene: ResolvedScene) -> dict[str, Source]:
@@ -48,27 +48,26 @@ def make_sources(scene: ResolvedScene) -> dict[str, Source]:
     Raises ExcitationError for a file that cannot be read or an excitation that cannot be made.
     """
     sources: dict[str, Source] = {}
-    if scene.data.get("road") and scene.data.get("travel"):
+    if scene.road is not None and scene.travel is not None:
         sources["road/patch"] = make_road(scene)
-    if scene.data.get("vibration"):
+    if scene.vibration is not None:
         sources["platform/vibration"] = make_vibration(scene)
     return sources
 
 
 def make_road(scene: ResolvedScene) -> RoadBlocks:
     """The road of a resolved scene, on the lattice of its tire."""
-    data = scene.data
     lattice = road_lattice(scene)
     half_length = (lattice.road_rows // 2 + 1) * lattice.cell_x
     surface = make_surface(scene, lattice.cell_x)
-    if data["road"]["kind"] == "opencrg":
+    if scene.data["road"]["kind"] == "opencrg":
         from contact_sim_pkg.excitation.opencrg.road import OpenCrgRoad
 
         if isinstance(surface, OpenCrgRoad):
             half_width = 0.5 * (lattice.road_cols - 1) * lattice.cell_y
             surface.refuse_steep_track(numpy.linspace(-half_width, half_width, lattice.road_cols, dtype=numpy.float64))
     return RoadBlocks(
-        surface, make_travel(data), data["block_length"], lattice.cell_x, lattice.cell_y, half_length, lattice.road_cols
+        surface, make_travel(scene), scene.block_length, lattice.cell_x, lattice.cell_y, half_length, lattice.road_cols
     )
 
 

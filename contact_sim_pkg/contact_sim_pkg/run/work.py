@@ -13,8 +13,8 @@ from contact_sim_pkg.records.rig import load
 from contact_sim_pkg.records.work import Work
 from contact_sim_pkg.scene.errors import Fault, SceneError
 from contact_sim_pkg.scene.resolved_scene import ResolvedScene
+from contact_sim_pkg.scene.schema.fields import given
 from contact_sim_pkg.scene.schema.pressure_field import PressureFieldSection
-from contact_sim_pkg.scene.schema.scene import Scene
 
 __all__ = ["BOUND", "estimated_work", "refuse_long"]
 
@@ -28,22 +28,20 @@ FIELD_COST = 1e-6  # [s] of a cell of a pressure field
 
 def estimated_work(scene: ResolvedScene) -> list[Work]:
     """Parts of the work of a resolved scene, the largest first."""
-    typed = scene.typed
-    blocks = Work("blocks", typed.duration / typed.block_length, BLOCK_COST)
-    parts = [blocks, *_fields(typed)]
-    if named := rigs()[typed.rig].work:
-        parts += load(named)(typed)
+    parts = [Work("blocks", scene.duration / scene.block_length, BLOCK_COST), *_fields(scene)]
+    if named := rigs()[scene.rig].work:
+        parts += load(named)(scene)
     return sorted(parts, key=lambda part: part.seconds, reverse=True)
 
 
 def refuse_long(scene: ResolvedScene, *, allowed: bool) -> str:
     """Report of the work before the run; empty where it is short. SceneError beyond the bound, unless ``allowed``."""
     parts = estimated_work(scene)
-    total, bound = sum(part.seconds for part in parts), max(BOUND, scene.typed.duration)
+    total, bound = sum(part.seconds for part in parts), max(BOUND, scene.duration)
     report = f"about {parts[0].number:.2g} {parts[0].what}, {_time(total)} of computing"
     if total > bound and not allowed:
         cure = f"more than {_time(bound)}; --allow-long lifts the bound, a shorter duration takes less"
-        raise SceneError([Fault(scene.typed.name, 0, 0, "", f"{report}, {cure}")])
+        raise SceneError([Fault(str(scene.data["name"]), 0, 0, "", f"{report}, {cure}")])
     return report if total > LONG else ""
 
 
@@ -54,11 +52,11 @@ def _time(seconds: float) -> str:
     return f"{seconds:.2g} s"
 
 
-def _fields(scene: Scene) -> Iterator[Work]:
+def _fields(scene: ResolvedScene) -> Iterator[Work]:
     """Cells of the pressure fields, solved as often as they are published at least."""
     for contact in rigs()[scene.rig].contacts:
         field = scene.effect(contact.name, PressureFieldSection)
         if field is not None:
-            rows, cols = field.cells(scene.accuracy)
             solved = scene.duration * scene.outputs.field_rate
-            yield Work(f"cells of {contact.name}.contact_field", rows * cols * solved, FIELD_COST)
+            number = given(field.rows) * given(field.cols) * solved
+            yield Work(f"cells of {contact.name}.contact_field", number, FIELD_COST)

@@ -5,18 +5,44 @@ from __future__ import annotations
 import hashlib
 from collections.abc import Mapping
 from dataclasses import dataclass, field
-from functools import cached_property
 from io import StringIO
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from types import SimpleNamespace
+from typing import TYPE_CHECKING, Any, TypeVar
 
 from ruamel.yaml import YAML
 
 from contact_sim_pkg.files import open_regular_file
+from contact_sim_pkg.records.registry import contacts, rigs
+from contact_sim_pkg.records.rig import load
 from contact_sim_pkg.scene.errors import Fault, SceneError
 
 if TYPE_CHECKING:
-    from contact_sim_pkg.scene.schema.scene import Scene
+    from contact_sim_pkg.scene.schema.fields import Section
+    from contact_sim_pkg.scene.schema.general import Integrator, Outputs
+    from contact_sim_pkg.scene.schema.road import Road, Slip, TravelSection
+    from contact_sim_pkg.scene.schema.vibration import Vibration
+
+Kind = TypeVar("Kind", bound="Section")
+
+
+class _Plain(SimpleNamespace):
+    """Keys of a section as attributes; a key that the data leave out is None."""
+
+    def __getattr__(self, name: str) -> Any:
+        if name.startswith("_"):
+            raise AttributeError(name)
+        return None
+
+
+def plain(data: Mapping[str, Any] | None) -> Any:
+    """Plain data of a section with its keys as attributes, None where there are none.
+
+    It stands for a section of the schema where a node starts without the schema; the data were checked before.
+    """
+    if data is None:
+        return None
+    return _Plain(**{key: plain(value) if isinstance(value, dict) else value for key, value in data.items()})
 
 
 @dataclass(frozen=True)
@@ -31,12 +57,77 @@ class ResolvedScene:
     data: dict[str, Any]
     files: Mapping[str, Path] = field(default_factory=dict, compare=False)
 
-    @cached_property
-    def typed(self) -> Scene:
-        """The same scene with typed sections, of which the parameters of kernels are made; reads the schema."""
-        from contact_sim_pkg.scene.schema.scene import Scene
+    @property
+    def rig(self) -> str:
+        """Name of the rig."""
+        return str(self.data["rig"])
 
-        return Scene.model_validate(self.data)
+    @property
+    def duration(self) -> float:
+        """Simulated time in [s]."""
+        return float(self.data["duration"])
+
+    @property
+    def block_length(self) -> float:
+        """Simulated time in [s] of a block."""
+        return float(self.data["block_length"])
+
+    @property
+    def seed(self) -> int:
+        """Seed of all random numbers."""
+        return int(self.data["seed"])
+
+    @property
+    def outputs(self) -> Outputs:
+        """Rates of the outputs."""
+        outputs: Outputs = plain(self.data["outputs"])
+        return outputs
+
+    @property
+    def integrator(self) -> Integrator:
+        """Tolerances of the time integration."""
+        integrator: Integrator = plain(self.data["integrator"])
+        return integrator
+
+    @property
+    def travel(self) -> TravelSection | None:
+        """Speed programme."""
+        travel: TravelSection | None = plain(self.data.get("travel"))
+        return travel
+
+    @property
+    def slip(self) -> Slip | None:
+        """Slip programme of a tire."""
+        slip: Slip | None = plain(self.data.get("slip"))
+        return slip
+
+    @property
+    def road(self) -> Road | None:
+        """Road under the rig."""
+        road: Road | None = plain(self.data.get("road"))
+        return road
+
+    @property
+    def vibration(self) -> Vibration | None:
+        """Vibration of the floor."""
+        vibration: Vibration | None = plain(self.data.get("vibration"))
+        return vibration
+
+    def section(self, kind: type[Kind]) -> Kind:
+        """The section of a contact of the rig by its class. Raises KeyError where the rig has none."""
+        for contact in rigs()[self.rig].contacts:
+            if load(contact.section) is kind:
+                return kind.model_validate(self.data[contact.name])
+        raise KeyError(f"the rig {self.rig} has no section {kind.__name__}")
+
+    def effect(self, contact: str, kind: type[Kind]) -> Kind | None:
+        """The effect of a contact by the class of its keys, or one below it; None where the scene calls for none."""
+        named = self.data["effects"].get(contact) or {}
+        for record in contacts()[contact].effects:
+            if named.get(record.name) is not None and issubclass(found := load(record.section), kind):
+                effect: Kind = found.model_validate(named[record.name])
+                return effect
+        return None
 
     def to_yaml(self) -> str:
         """The data as YAML 1.2; `resolve.read_resolved` reads the same data from it, to the bit."""
@@ -70,11 +161,6 @@ class ResolvedScene:
             sentence = f"{path} has another content than the scene was resolved with: sha256 {found}, stated {stated}"
             raise SceneError([Fault("resolved scene", 0, 0, where, sentence)])
         return path
-
-
-def effects_at(scene: dict[str, Any], contact: str) -> dict[str, Any]:
-    """Effects that a resolved scene names at a contact, with their parameters."""
-    return scene["effects"].get(contact) or {}
 
 
 def sha256_of(path: Path) -> str:

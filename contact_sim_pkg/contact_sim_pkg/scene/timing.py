@@ -4,7 +4,10 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from typing import Any
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from contact_sim_pkg.scene.resolved_scene import ResolvedScene
 
 
 @dataclass(frozen=True)
@@ -30,19 +33,19 @@ class Timing:
         return self.intervals * self.segments // self.sample_every
 
 
-def make_timing(scene: dict[str, Any], with_field: bool, parts: int = 1) -> Timing:
+def make_timing(scene: ResolvedScene, with_field: bool, parts: int = 1) -> Timing:
     """Cut of a block into segments, at least ``parts`` a sample of the forces; the loader has checked that every rate fits it."""
-    length = float(scene["block_length"])
-    samples = round(length * scene["outputs"]["force_rate"])
-    intervals = round(length * scene["outputs"]["field_rate"]) if with_field else 1
-    vibration = round(length * scene["vibration"]["sample_rate"]) if scene.get("vibration") else 1
+    length, outputs, shaken = scene.block_length, scene.outputs, scene.vibration
+    samples = round(length * outputs.force_rate)
+    intervals = round(length * outputs.field_rate) if with_field else 1
+    vibration = 1 if shaken is None else round(length * shaken.sample_rate)
     segments = math.lcm(samples * parts, intervals, vibration)
     return Timing(
         length,
-        round(scene["duration"] / length),
+        round(scene.duration / length),
         intervals,
         segments // intervals,
         segments // samples,
         segments // vibration,
-        round(length * scene["outputs"]["display_rate"]),
+        round(length * outputs.display_rate),
     )

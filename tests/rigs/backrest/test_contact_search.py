@@ -22,7 +22,7 @@ def shell(modes, *values):
         "backrest.preload=20",
     )
     scene = resolved("seat_slap", *common, f"effects.backrest.shell_modes.modes={modes}", *values)
-    return build_backrest(scene.data).rig
+    return build_backrest(scene).rig
 
 
 def depth(q, place):

@@ -35,7 +35,7 @@ def transmissibility(frequency):
 def shell(*values):
     """The scene's back as a shell, without friction."""
     scene = resolved("seat_slap", *FRICTIONLESS, "effects.backrest.shell_modes={}", "backrest.preload=20", *values)
-    return build_backrest(scene.data).rig
+    return build_backrest(scene).rig
 
 
 @pytest.mark.parametrize(("frequency", "amplitude"), [(4.75, 1.5), (5.75, 1.5), (6.25, 1.5), (6.25, 0.9)])

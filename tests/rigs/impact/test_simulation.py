@@ -188,7 +188,7 @@ def test_restitution_of_a_pendulum_does_not_depend_on_speed_and_times_scale_down
 
 
 def test_a_slow_touch_under_weight_swings_with_the_frequency_of_small_swings_at_rest():
-    model = build_impact(resolved("impact_rubber_drop").data)
+    model = build_impact(resolved("impact_rubber_drop"))
     fast, slow, slower = (model.touch(speed, 293.15) for speed in (0.032, 0.02, 1e-9))
     static = static_depth(slow.law)
     swing = numpy.sqrt(1.5 * slow.law.elastic * numpy.sqrt(static) / slow.law.mass)

@@ -17,7 +17,7 @@ SMALL = tuple(f"effects.roller.subsurface.cells_{axis}={number}" for axis, numbe
 @pytest.mark.parametrize("load", [26.5, 53.0, 79.5, 150.0, 238.5, 500.0])
 def test_between_its_rows_the_table_is_the_volume_under_that_load(load):
     """Steps of the shipped programme, whose loads are no rows of the table: to 1.5 % of few cells."""
-    model = build_roller(resolved("roller_programme", *SMALL).data)
+    model = build_roller(resolved("roller_programme", *SMALL))
     curvatures = model.programme.curvatures_at(0.0)
     working = box_volume(model.contact(26.5, 0.0, curvatures))
     volumes = dangerous_volumes(model.contact(load, 0.0, curvatures), model.poisson_ratio, *volume_settings(model))
@@ -27,10 +27,10 @@ def test_between_its_rows_the_table_is_the_volume_under_that_load(load):
 def test_the_table_rises_from_the_load_at_which_a_limit_is_met():
     """Limit of all stress at p0 of 100 N: 0 up to that load, for the largest stress is the pressure itself; more beyond."""
     scene = resolved("roller_corrugation", *SMALL)
-    plain = build_roller(scene.data)
+    plain = build_roller(scene)
     pressure = plain.contact(100.0, 0.0, plain.programme.curvatures_at(0.0)).peak_pressure
     limits = (f"effects.roller.subsurface.normal_limit={pressure}", "effects.roller.subsurface.shear_limit=1e12")
-    loads, shares = damage_table(build_roller(resolved("roller_corrugation", *SMALL, *limits).data))
+    loads, shares = damage_table(build_roller(resolved("roller_corrugation", *SMALL, *limits)))
     assert loads[shares > 0.0].min() == pytest.approx(100.0, rel=0.08)
     assert (numpy.diff(shares) >= 0.0).all()
     assert shares[-1] > 0.0
@@ -52,6 +52,6 @@ def test_a_yaw_that_is_held_is_that_of_the_contact_and_its_volumes():
     model = build_roller(resolved(
         "roller_steady", "roller.programme=null", "roller.profile_radius=0", "roller.shaft_profile_radius=0", "roller.yaw=0.7",
         "effects.roller.subsurface.instants=[0.0]", "roller.radius=0.3", "roller.load=70",
-    ).data)  # fmt: skip
+    ))  # fmt: skip
     assert model.held_yaw == 0.7
     assert model.contact(70.0, model.held_yaw, model.programme.curvatures_at(0.0)).peak_pressure > 0.0

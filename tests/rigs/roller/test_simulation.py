@@ -340,11 +340,11 @@ def test_a_roller_that_tips_over_under_its_load_is_told():
 
 def test_the_traction_along_rolling_is_that_of_the_friction_where_none_is_given():
     friction = "effects.roller.rolling_friction.coefficient=0.02"
-    model = build_roller(resolved("roller_hour", friction).data)
+    model = build_roller(resolved("roller_hour", friction))
     assert model.traction == (0.0, 0.02)
-    own = build_roller(resolved("roller_hour", friction, "effects.roller.subsurface.traction_y=0.1").data)
+    own = build_roller(resolved("roller_hour", friction, "effects.roller.subsurface.traction_y=0.1"))
     assert own.traction == (0.0, 0.1)
-    assert build_roller(resolved("roller_steady").data).traction == (0.0, 0.0)
+    assert build_roller(resolved("roller_steady")).traction == (0.0, 0.0)
 
 
 def test_radii_that_do_not_divide_are_refused_for_a_track_on_both():

@@ -15,7 +15,7 @@ TIRE = "effects.tire"
 
 
 def model(*values, name="tire_bump"):
-    return build(resolved(name, *values).data)
+    return build(resolved(name, *values))
 
 
 def test_a_loss_by_damping_or_by_default_reaches_the_contact():

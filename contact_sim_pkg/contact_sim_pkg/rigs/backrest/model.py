@@ -4,23 +4,25 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import numpy
 from numpy.typing import NDArray
 
 from contact_sim_pkg.compiled.arrays import Vector
 from contact_sim_pkg.laws.elastic_law import approach_of_force, elastic_energy, elastic_force, elastic_stiffness
-from contact_sim_pkg.laws.parameters import Contact, FoamHysteresis, Friction
+from contact_sim_pkg.laws.parameters import Contact, Friction
 from contact_sim_pkg.pressure.mat import paraboloid_gap
 from contact_sim_pkg.records.constants import GRAVITY
+from contact_sim_pkg.rigs.backrest import schema
 from contact_sim_pkg.rigs.backrest.entries import find_point
 from contact_sim_pkg.rigs.backrest.motion import memory_offset, state_count
 from contact_sim_pkg.rigs.backrest.parameters import Backrest, ContactSearch
 from contact_sim_pkg.rigs.backrest.shell import ShallowShell, ShellModes, crown_gap, shell_modes
-from contact_sim_pkg.rigs.vehicle.contact_model import elastic_of, loss_of
+from contact_sim_pkg.run.contact_laws import elastic_law, friction, hysteresis, normal_loss
 from contact_sim_pkg.scene.errors import Fault, SceneError
-from contact_sim_pkg.scene.resolved_scene import effects_at
+from contact_sim_pkg.scene.resolved_scene import ResolvedScene
+from contact_sim_pkg.scene.schema.fields import given
 from contact_sim_pkg.scene.timing import Timing, make_timing
 
 REFERENCE_SURFACE = 0.02  # [m^2] of the back to which the contact law belongs: a point has its part of it
@@ -78,34 +80,34 @@ class _Form(NamedTuple):
     motion: NDArray[numpy.float64]
 
 
-def build_backrest(scene: dict[str, Any]) -> BackrestModel:
+def build_backrest(scene: ResolvedScene) -> BackrestModel:
     """Parameters of a resolved scene. Raises ShellError for a shell that is not possible, SceneError for too deep a rest."""
-    backrest, effects = scene["backrest"], effects_at(scene, "backrest")
-    mat = _mat(backrest, effects.get("shell_modes"))
-    form = _one_mass(backrest) if effects.get("shell_modes") is None else _shell(backrest, effects["shell_modes"], mat)
+    backrest, shell = scene.section(schema.BackrestSection), scene.effect("backrest", schema.ShellModesSection)
+    mat = _mat(backrest, shell)
+    form = _one_mass(backrest) if shell is None else _shell(backrest, shell, mat)
     search = None
-    if effects.get("contact_search") is not None:
-        search = _search(backrest, effects["shell_modes"], mat)
+    if shell is not None and scene.effect("backrest", schema.ContactSearchSection) is not None:
+        search = _search(backrest, shell, mat)
         mat, form = mat._replace(by_points=False, bent=form.shapes), _with_one_point(form)
-    preload = _preload(scene)
-    sliding = backrest["sliding"]
-    modal = [form.mass, form.stiffness, form.damping, preload * form.at_preload, _moving_mass(scene) * form.at_shaking]
+    preload, sliding = given(backrest.preload), backrest.sliding
+    shaken = backrest.mass if shell is None else preload / GRAVITY  # a shell is pressed by the weight of what is shaken
+    modal = [form.mass, form.stiffness, form.damping, preload * form.at_preload, shaken * form.at_shaking]
     rig = Backrest(
         numpy.stack(modal), numpy.stack([form.shapes, form.slopes]), numpy.stack([form.gaps, form.shares]),
-        _contact(scene, len(form.mass), len(form.gaps)), float(sliding["amplitude"]),
-        2.0 * math.pi * float(sliding["frequency"]), search,
+        _contact(scene, shaken, len(form.mass), len(form.gaps)), sliding.amplitude, 2.0 * math.pi * sliding.frequency,
+        search,
     )  # fmt: skip
     start = resting_state(rig)
     approach = float((rig.shapes @ start[: len(form.mass)] - rig.gaps).max())
-    _refuse_deep(backrest["back"], preload, approach)
-    scale = _scale(rig, approach, preload, float(scene["integrator"]["relative_tolerance"]))
+    _refuse_deep(backrest.back, preload, approach)
+    scale = _scale(rig, approach, preload, given(scene.integrator.relative_tolerance))
     timing = make_timing(scene, True)
     return BackrestModel(rig, timing, scale, start, form.names, form.motion, mat, form.point_x, form.point_y)
 
 
-def _refuse_deep(back: dict[str, Any], preload: float, approach: float) -> None:
+def _refuse_deep(back: schema.Back, preload: float, approach: float) -> None:
     """A preload that presses the back in deeper than its smaller radius: no contact law of a curved body reaches there."""
-    radius = min(float(back["radius_up"]), float(back["radius_across"]))
+    radius = min(back.radius_up, back.radius_across)
     if approach > radius:
         sentence = (
             f"{preload:g} N press the back {approach:.3g} m into the seat back, deeper than its smaller radius of {radius:g} m; "
@@ -114,76 +116,60 @@ def _refuse_deep(back: dict[str, Any], preload: float, approach: float) -> None:
         raise SceneError([Fault("scene", 0, 0, "backrest.preload", sentence)])
 
 
-def _contact(scene: dict[str, Any], modes: int, points: int) -> Contact:
-    effects = effects_at(scene, "backrest")
-    friction, memory = effects.get("friction"), effects.get("foam_hysteresis")
-    keys = ("stiffness", "damping", "coefficient_static", "coefficient_kinetic")
-    rubbing = None if friction is None else Friction(*(float(friction[key]) for key in keys))
-    offset = memory_offset(modes, points)
-    remembering = None if memory is None else FoamHysteresis(offset, float(memory["share"]), float(memory["energy"]))
-    law = elastic_of(effects)
-    return Contact(law, loss_of(scene, "backrest", law, _moving_mass(scene)), rubbing, remembering)
+def _contact(scene: ResolvedScene, mass: float, modes: int, points: int) -> Contact:
+    """Laws of the contact; ``mass`` [kg] is what a free impact moves."""
+    law, memory = elastic_law(scene, "backrest"), hysteresis(scene, "backrest", memory_offset(modes, points))
+    return Contact(law, normal_loss(scene, "backrest", law, mass), friction(scene, "backrest"), memory)
 
 
-def _moving_mass(scene: dict[str, Any]) -> float:
-    """Mass in [kg] that the seat back's acceleration shakes: the occupant's, or the one that presses a shell with its weight."""
-    shell = effects_at(scene, "backrest").get("shell_modes")
-    return float(scene["backrest"]["mass"]) if shell is None else _preload(scene) / GRAVITY
-
-
-def _preload(scene: dict[str, Any]) -> float:
-    return float(scene["backrest"]["preload"])
-
-
-def _mat(backrest: dict[str, Any], shell: dict[str, Any] | None) -> Mat:
-    back, cells = backrest["back"], backrest["mat"]
-    rows = int(cells["rows"] if shell is None else shell["points_up"])
-    cols = int(cells["cols"] if shell is None else shell["points_across"])
-    cell_x, cell_y = float(back["height"]) / rows, float(back["width"]) / cols
+def _mat(backrest: schema.BackrestSection, shell: schema.ShellModesSection | None) -> Mat:
+    back, cells = backrest.back, backrest.mat
+    rows, cols = (cells.rows, cells.cols) if shell is None else (shell.points_up, shell.points_across)
+    cell_x, cell_y = back.height / rows, back.width / cols
     x, y = (
         (numpy.arange(n, dtype=numpy.float64) - 0.5 * (n - 1)) * cell for n, cell in ((rows, cell_x), (cols, cell_y))
     )
-    gap = paraboloid_gap(x, y, float(back["radius_up"]), float(back["radius_across"]))
+    gap = paraboloid_gap(x, y, back.radius_up, back.radius_across)
     return Mat(cell_x, cell_y, x, y, gap, shell is not None)
 
 
-def _one_mass(backrest: dict[str, Any]) -> _Form:
+def _one_mass(backrest: schema.BackrestSection) -> _Form:
     one, none = numpy.ones(1), numpy.zeros(1)
-    mass = numpy.array([float(backrest["mass"])])
+    mass = numpy.array([backrest.mass])
     return _Form(
         mass, none, none.copy(), one, one.copy(), numpy.ones((1, 1)), numpy.zeros((1, 1)), none.copy(), one.copy(),
         none.copy(), none.copy(), ("occupant_x",), -numpy.ones((1, 1)),
     )  # fmt: skip
 
 
-def _shallow_shell(backrest: dict[str, Any], effect: dict[str, Any]) -> ShallowShell:
-    back = backrest["back"]
+def _shallow_shell(backrest: schema.BackrestSection, effect: schema.ShellModesSection) -> ShallowShell:
+    back = backrest.back
     return ShallowShell(
-        float(back["width"]), float(back["height"]), float(effect["thickness"]), float(effect["young_modulus"]),
-        float(effect["poisson_ratio"]), float(effect["density"]), float(back["radius_across"]), float(back["radius_up"]),
+        back.width, back.height, effect.thickness, effect.young_modulus, effect.poisson_ratio, effect.density,
+        back.radius_across, back.radius_up,
     )  # fmt: skip
 
 
-def _shell(backrest: dict[str, Any], effect: dict[str, Any], mat: Mat) -> _Form:
+def _shell(backrest: schema.BackrestSection, effect: schema.ShellModesSection, mat: Mat) -> _Form:
     shell = _shallow_shell(backrest, effect)
     width, height = shell.length_1, shell.length_2
     point_x, point_y = (grid.ravel() for grid in numpy.meshgrid(mat.x, mat.y, indexing="ij"))
     places = numpy.column_stack([point_y + 0.5 * width, point_x + 0.5 * height])
     middle = (0.5 * width, 0.5 * height)
-    exciter = (float(effect["shaken_across"]) * width, float(effect["shaken_up"]) * height)
-    modes = shell_modes(shell, int(effect["modes"]), places)
-    at_middle, at_exciter = shell_modes(shell, int(effect["modes"]), numpy.array([middle, exciter])).shapes
+    exciter = (effect.shaken_across * width, effect.shaken_up * height)
+    modes = shell_modes(shell, effect.modes, places)
+    at_middle, at_exciter = shell_modes(shell, effect.modes, numpy.array([middle, exciter])).shapes
     share = mat.cell_x * mat.cell_y / REFERENCE_SURFACE
     mass = numpy.full(len(modes.frequencies), modes.modal_mass)
     return _Form(
-        mass, mass * modes.frequencies**2, 2.0 * float(effect["damping_ratio"]) * mass * modes.frequencies, at_middle,
+        mass, mass * modes.frequencies**2, 2.0 * effect.damping_ratio * mass * modes.frequencies, at_middle,
         at_exciter, modes.shapes, 0.5 * shell.thickness * modes.slopes_y, crown_gap(shell, places),
         numpy.full(len(places), share), point_x, point_y, ("crown_x", *_mode_names(modes)),
         -numpy.vstack([at_middle, numpy.eye(len(mass))]),
     )  # fmt: skip
 
 
-def _search(backrest: dict[str, Any], effect: dict[str, Any], mat: Mat) -> ContactSearch:
+def _search(backrest: schema.BackrestSection, effect: schema.ShellModesSection, mat: Mat) -> ContactSearch:
     """Search over the cells' centres and the sides."""
     shell = _shallow_shell(backrest, effect)
     width, height = shell.length_1, shell.length_2
@@ -192,7 +178,7 @@ def _search(backrest: dict[str, Any], effect: dict[str, Any], mat: Mat) -> Conta
         for middle, side in ((mat.x, height), (mat.y, width))
     )
     places = numpy.stack(numpy.meshgrid(up, across, indexing="ij")[::-1], axis=-1).reshape(-1, 2)
-    modes = shell_modes(shell, int(effect["modes"]), places)
+    modes = shell_modes(shell, effect.modes, places)
     rim = numpy.full((len(up) + 2, len(across) + 2), -numpy.inf)
     return ContactSearch(
         width, height, 1.0 / shell.radius_1, 1.0 / shell.radius_2, 0.5 * shell.thickness,

@@ -34,7 +34,7 @@ class BackrestSimulation:
     def __init__(self, scene: ResolvedScene) -> None:
         """Build the parameters of a resolved scene; the back rests under its preload."""
         self.scene = scene
-        self.model = build_backrest(scene.data)
+        self.model = build_backrest(scene)
         self.blocks = self.model.timing.blocks
         self._reset()
 

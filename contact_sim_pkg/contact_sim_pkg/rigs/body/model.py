@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from typing import Any
 
 import numpy
 from numpy.typing import NDArray
@@ -25,8 +24,10 @@ from contact_sim_pkg.rigid.forces.compliant_body import CompliantContact
 from contact_sim_pkg.rigid.motion.compliant import compliant_contact
 from contact_sim_pkg.rigid.parameters import RULE_NAMES
 from contact_sim_pkg.rigid.problem import PLANE, SPACE
+from contact_sim_pkg.rigs.body import schema
 from contact_sim_pkg.rigs.body.hull import homogeneous_hull
-from contact_sim_pkg.scene.resolved_scene import effects_at
+from contact_sim_pkg.scene.resolved_scene import ResolvedScene
+from contact_sim_pkg.scene.schema.fields import given
 from contact_sim_pkg.scene.timing import Timing, make_timing
 
 __all__ = ["BlockModel", "build_block", "rise_at_start"]
@@ -55,39 +56,28 @@ class BlockModel:
     tolerance: float  # of the integration of a compliant contact, and of a body that turns on held points
 
 
-def build_block(scene: dict[str, Any]) -> BlockModel:
+def build_block(scene: ResolvedScene) -> BlockModel:
     """Parameters of a resolved scene."""
-    block, effects = scene["block"], effects_at(scene, "block")
-    law = effects["rigid_contact"]
-    width = PLANE if block["motion"] == "plane" else SPACE
+    block, law = scene.section(schema.Block), given(scene.effect("block", schema.RigidContact))
+    width = PLANE if block.motion == "plane" else SPACE
     points, radius, inertia, axes = _shape(block, width)
-    mass = float(block["mass"])
-    vectors = {
-        name: numpy.array(block[name], float)
-        for name in ("position", "velocity", "rotation", "angular_velocity", "force", "torque")
-    }
-    weight = numpy.array([0.0, 0.0, -mass * float(block["gravity"])])
-    load = _generalised(vectors["force"] + weight, vectors["torque"], width)
-    body = RigidBody(width, mass, inertia, points, radius, float(law["friction"]), float(law["restitution"]), load)
-    ground = laid_under(body, _ground(block["ground"], width))
-    start = _start(body, vectors, axes)
+    force, torque = numpy.array(block.force, float), numpy.array(block.torque, float)
+    weight = numpy.array([0.0, 0.0, -block.mass * block.gravity])
+    load = _generalised(force + weight, torque, width)
+    body = RigidBody(width, block.mass, inertia, points, radius, law.friction, law.restitution, load)
+    ground = laid_under(body, _ground(block.ground, width))
     return BlockModel(
-        body, ground, start, axes, make_timing(scene, True), RULE_NAMES[law["rule"]], str(law["scheme"]), float(law["step"]),
-        int(law["facets"]), float(block["gravity"]), vectors["force"], vectors["torque"],
-        _compliant(body, effects.get("compliant_contact")), float(scene["integrator"]["relative_tolerance"]),
+        body, ground, _start(body, block, axes), axes, make_timing(scene, True), RULE_NAMES[law.rule], law.scheme,
+        law.step, law.facets, block.gravity, force, torque,
+        _compliant(body, scene.effect("block", schema.CompliantContact)), given(scene.integrator.relative_tolerance),
     )  # fmt: skip
 
 
-def _compliant(body: RigidBody, asked: dict[str, Any] | None) -> CompliantContact | None:
-    if asked is None:
+def _compliant(body: RigidBody, law: schema.CompliantContact | None) -> CompliantContact | None:
+    if law is None:
         return None
-    elastic, damping = (
-        NormalElastic(float(asked["stiffness"]), float(asked["exponent"])),
-        asked.get("tangential_damping"),
-    )
-    return compliant_contact(
-        body, elastic, float(asked["tangential_stiffness"]), None if damping is None else float(damping)
-    )
+    elastic = NormalElastic(law.stiffness, law.exponent)
+    return compliant_contact(body, elastic, law.tangential_stiffness, law.tangential_damping)
 
 
 def _generalised(force: Vector, torque: Vector, width: int) -> Vector:
@@ -95,17 +85,17 @@ def _generalised(force: Vector, torque: Vector, width: int) -> Vector:
     return numpy.array([force[0], force[2], -torque[1]]) if width == PLANE else numpy.concatenate([force, torque])
 
 
-def _shape(block: dict[str, Any], width: int) -> tuple[Matrix, float, Vector, Matrix]:
+def _shape(block: schema.Block, width: int) -> tuple[Matrix, float, Vector, Matrix]:
     """Points and radius in [m], inertia in [kg m^2], principal axes."""
-    mass, axes = float(block["mass"]), numpy.eye(3)
-    if block["shape"] == "sphere":
-        radius = float(block["radius"])
+    mass, axes = block.mass, numpy.eye(3)
+    if block.shape == "sphere":
+        radius = block.radius
         share = 0.4 * mass * radius**2
         return numpy.zeros((1, width)), radius, numpy.full(1 if width == PLANE else 3, share), axes
-    if block["shape"] == "points":
-        hull = homogeneous_hull(block["points"], mass)
+    if block.points is not None:
+        hull = homogeneous_hull(block.points, mass)
         return numpy.ascontiguousarray(hull.corners), 0.0, hull.inertia, axes if width == PLANE else hull.axes
-    x, y, z = (float(side) for side in block["sides"])
+    x, y, z = block.sides
     if width == PLANE:
         corners = 0.5 * numpy.array([[-x, -z], [x, -z], [x, z], [-x, z]])
         return corners, 0.0, numpy.array([mass * (x * x + z * z) / 12.0]), axes
@@ -114,10 +104,10 @@ def _shape(block: dict[str, Any], width: int) -> tuple[Matrix, float, Vector, Ma
     return numpy.ascontiguousarray(grid * numpy.array([x, y, z])), 0.0, inertia, axes
 
 
-def _ground(ground: dict[str, Any], width: int) -> Ground:
-    if ground.get("heights") is None:
-        return slope(width, float(ground["slope"]))
-    return height_field(width, numpy.array(ground["heights"], float), float(ground["start"]), float(ground["distance"]))
+def _ground(ground: schema.BlockGround, width: int) -> Ground:
+    if ground.heights is None:
+        return slope(width, ground.slope)
+    return height_field(width, numpy.array(ground.heights, float), ground.start, ground.distance)
 
 
 def rotation_of(vector: Vector) -> Matrix:
@@ -130,26 +120,28 @@ def rotation_of(vector: Vector) -> Matrix:
     return numpy.asarray(numpy.eye(3) + math.sin(angle) * cross + (1.0 - math.cos(angle)) * cross @ cross)
 
 
-def _start(body: RigidBody, vectors: dict[str, Vector], axes: Matrix) -> Motion:
-    place, velocity, spin = vectors["position"], vectors["velocity"], vectors["angular_velocity"]
+def _start(body: RigidBody, block: schema.Block, axes: Matrix) -> Motion:
+    place, velocity, spin, rotation = (
+        numpy.array(vector, float)
+        for vector in (block.position, block.velocity, block.angular_velocity, block.rotation)
+    )
     if body.width == PLANE:
         rates = numpy.array([velocity[0], velocity[2], -spin[1]])
-        return placed(body, place[[0, 2]], rates, angle=-float(vectors["rotation"][1]))
-    turned = rotation_of(vectors["rotation"]) @ axes
+        return placed(body, place[[0, 2]], rates, angle=-float(rotation[1]))
+    turned = rotation_of(rotation) @ axes
     return placed(body, place, numpy.concatenate([velocity, spin]), rotation=turned)
 
 
-def rise_at_start(block: dict[str, Any]) -> float:
-    """How far in [m] the z of a body of the plain data of a section `block` has to rise out of its ground; 0 above or on it.
+def rise_at_start(block: schema.Block) -> float:
+    """How far in [m] the z of a body has to rise out of its ground; 0 above or on it.
 
     The rise tells more than the gap: of a polygon that a peak pierces from below and leaves again, no corner lies below the ground.
     """
-    width = PLANE if block["motion"] == "plane" else SPACE
+    width = PLANE if block.motion == "plane" else SPACE
     points, radius, inertia, axes = _shape(block, width)
-    names = ("position", "velocity", "rotation", "angular_velocity")
     body = RigidBody(width, 1.0, inertia, points, radius, 0.0, 0.0, numpy.zeros(3 * (width - 1)))
-    start = _start(body, {name: numpy.array(block[name], float) for name in names}, axes)
-    ground = laid_under(body, _ground(block["ground"], width))
+    start = _start(body, block, axes)
+    ground = laid_under(body, _ground(block.ground, width))
     rise = rise_to_ground(body, ground, start)
     size = float(numpy.linalg.norm(body.points, axis=1).max()) + body.radius
     return rise if rise > BELOW * size else 0.0

@@ -80,7 +80,7 @@ def _shape(block: Block) -> Iterator[Breach]:
 def _above_ground(block: Block) -> Iterator[Breach]:
     from contact_sim_pkg.rigs.body.model import rise_at_start  # needs the compiled core, as this rig alone does
 
-    rise = rise_at_start(block.model_dump())
+    rise = rise_at_start(block)
     if rise > 0.0:
         sentence = f"puts the body into the ground at the start; raise its z by {show(rise)} m"
         yield Breach("block.position", sentence, ("block.ground",))

@@ -36,7 +36,7 @@ class BlockBodySimulation:
     def __init__(self, scene: ResolvedScene) -> None:
         """Build the parameters of a resolved scene."""
         self.scene = scene
-        self.model = build_block(scene.data)
+        self.model = build_block(scene)
         self.blocks = self.model.timing.blocks
         self._reset()
 

@@ -8,13 +8,13 @@ from collections.abc import Iterator
 from contact_sim_pkg.records.work import Work
 from contact_sim_pkg.rigs.body.schema import Block, CompliantContact, RigidContact
 from contact_sim_pkg.run.integrator_work import Link, integrator_steps, power_law_link, segments
-from contact_sim_pkg.scene.schema.scene import Scene
+from contact_sim_pkg.scene.resolved_scene import ResolvedScene
 
 PIECE_COST, STEPPED_COST = 6e-6, 5e-5  # [s] of a sub-step of a flight; of a step of the scheme stepping
 PLANAR_TURN, SPATIAL_TURN = 0.2, 0.02  # [rad] of a sub-step
 
 
-def work_of_block(scene: Scene) -> Iterator[Work]:
+def work_of_block(scene: ResolvedScene) -> Iterator[Work]:
     """Sub-steps of flight or steps of the rigid scheme; steps of the integrator where the contact is compliant."""
     block, compliant = scene.section(Block), scene.effect("block", CompliantContact)
     if compliant is not None:

@@ -8,8 +8,7 @@ forces those of the contact itself.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
-from typing import Any
+from collections.abc import Iterator
 
 import numpy
 
@@ -17,6 +16,7 @@ from contact_sim_pkg.compiled.arrays import Vector
 from contact_sim_pkg.records.messages import ImpactFront, ImpactHistory, ImpactPosition, ImpactStress, ImpactWave
 from contact_sim_pkg.rigs.impact.model import ImpactModel
 from contact_sim_pkg.rigs.impact.motion import FinishedImpact, course_of
+from contact_sim_pkg.rigs.impact.schema_effects import ContactStress, History, MicroFront, SurfaceWaves, ThermalVolume
 from contact_sim_pkg.rigs.impact.theory import position
 from contact_sim_pkg.rigs.impact.theory.closed_form import micro_front, stress, surface_wave
 from contact_sim_pkg.rigs.impact.theory.errors import ImpactError
@@ -27,12 +27,12 @@ from contact_sim_pkg.run.errors import RunError
 FINE = 401  # instants of the force that the hereditary integral takes
 
 
-def stress_of(model: ImpactModel, effect: dict[str, Any], block: int, impact: FinishedImpact) -> ImpactStress:
+def stress_of(model: ImpactModel, effect: ContactStress, block: int, impact: FinishedImpact) -> ImpactStress:
     """Stress over the contact radius, elastic and viscous."""
-    times, depth, speed, _elastic, _viscous = course_of(impact, int(effect["instants"]))
+    times, depth, speed, _elastic, _viscous = course_of(impact, effect.instants)
     limit = micro_front.front_time(impact.touch.impact, _shear_speed(model, impact)).depth
-    places: Vector = numpy.linspace(0.0, 1.0, int(effect["places"]), dtype=numpy.float64)
-    free, shape = impact.touch.impact, effect["shape"]
+    places: Vector = numpy.linspace(0.0, 1.0, effect.places, dtype=numpy.float64)
+    free, shape = impact.touch.impact, effect.shape
     centres = [stress.centre_stress(free, float(x), float(v), limit, shape) for x, v in zip(depth, speed, strict=True)]
     over = stress.distribution(1.0, places, shape)
     radius: Vector = free.shape * numpy.sqrt(free.sphere.radius * numpy.maximum(depth, 0.0))
@@ -44,7 +44,7 @@ def stress_of(model: ImpactModel, effect: dict[str, Any], block: int, impact: Fi
     )  # fmt: skip
 
 
-def wave_of(model: ImpactModel, effect: dict[str, Any], block: int, impact: FinishedImpact) -> ImpactWave:
+def wave_of(model: ImpactModel, effect: SurfaceWaves, block: int, impact: FinishedImpact) -> ImpactWave:
     """Ring and circular wave."""
     half_space, free = impact.touch.half_space, impact.touch.impact
     wave = surface_wave.surface_wave(free, _shear_modulus(model, impact), model.density, model.poisson_ratio)
@@ -59,10 +59,10 @@ def wave_of(model: ImpactModel, effect: dict[str, Any], block: int, impact: Fini
     except ImpactError as error:
         raise RunError(f"{impact.start:.6g} s, surface_waves of impact {impact.number}: {error}") from None
     # Height over times and radii.
-    times: Vector = numpy.linspace(0.0, effect["times"] * impact.duration, int(effect["instants"]), dtype=numpy.float64)
-    far = wave.start_radius + effect["lengths"] * wave.length
-    radii: Vector = numpy.linspace(0.0, far, int(effect["places"]), dtype=numpy.float64)
-    height = surface_wave.wave_height(wave, radii, times, effect["spread"])
+    times: Vector = numpy.linspace(0.0, effect.times * impact.duration, effect.instants, dtype=numpy.float64)
+    far = wave.start_radius + effect.lengths * wave.length
+    radii: Vector = numpy.linspace(0.0, far, effect.places, dtype=numpy.float64)
+    height = surface_wave.wave_height(wave, radii, times, effect.spread)
     return ImpactWave(
         block=block, number=impact.number, start=impact.start, amplitude=wave.amplitude, length=wave.length,
         frequency=wave.frequency, damping=wave.damping, speed=wave.speed, relative_speed=wave.relative_speed,
@@ -71,11 +71,11 @@ def wave_of(model: ImpactModel, effect: dict[str, Any], block: int, impact: Fini
     )  # fmt: skip
 
 
-def front_of(model: ImpactModel, effect: dict[str, Any], block: int, impact: FinishedImpact) -> ImpactFront:
+def front_of(model: ImpactModel, effect: MicroFront, block: int, impact: FinishedImpact) -> ImpactFront:
     """Border and front of the micro-impact."""
     shear, free = _shear_speed(model, impact), impact.touch.impact
     front = micro_front.front_time(free, shear)
-    times, depth, speed, _elastic, _viscous = course_of(impact, int(effect["instants"]))
+    times, depth, speed, _elastic, _viscous = course_of(impact, effect.instants)
     states = [(float(x), float(v)) for x, v in zip(depth, speed, strict=True)]
     fronts = [micro_front.front_speed(free, x, v, shear) for x, v in states]
     borders = [micro_front.border_speed(free, x, v, shear)[0] for x, v in states]
@@ -87,19 +87,19 @@ def front_of(model: ImpactModel, effect: dict[str, Any], block: int, impact: Fin
     )  # fmt: skip
 
 
-def position_of(model: ImpactModel, effect: dict[str, Any], block: int, impact: FinishedImpact) -> ImpactPosition:
+def position_of(model: ImpactModel, effect: ThermalVolume, block: int, impact: FinishedImpact) -> ImpactPosition:
     """Depth of the contact surface and volumes."""
     half_space = position.SampleHalfSpace(
-        model.half_space_share(impact.touch), model.poisson_ratio, float(effect["expansion"]), float(effect["heating"])
+        model.half_space_share(impact.touch), model.poisson_ratio, effect.expansion, effect.heating
     )
     # Position at each instant of the course.
-    times, depth, _speed, _elastic, _viscous = course_of(impact, int(effect["instants"]))
+    times, depth, _speed, _elastic, _viscous = course_of(impact, effect.instants)
     radius = model.sphere.radius
     try:
         found = [
             None if x <= 0.0
-            else position.position_variant_2(float(x), radius, half_space) if effect["variant"] == 2
-            else position.position_variant_1(float(x), radius, half_space, effect["border_factor"])
+            else position.position_variant_2(float(x), radius, half_space) if effect.variant == 2
+            else position.position_variant_1(float(x), radius, half_space, effect.border_factor)
             for x in depth
         ]  # fmt: skip
     except ImpactError as error:
@@ -114,18 +114,18 @@ def position_of(model: ImpactModel, effect: dict[str, Any], block: int, impact: 
         for column, name in names.items()
     }
     return ImpactPosition(
-        block=block, number=impact.number, start=impact.start, variant=int(effect["variant"]), time=times, **columns
+        block=block, number=impact.number, start=impact.start, variant=effect.variant, time=times, **columns
     )
 
 
-def history_of(model: ImpactModel, effect: dict[str, Any], block: int, impact: FinishedImpact) -> ImpactHistory:
+def history_of(model: ImpactModel, effect: History, block: int, impact: FinishedImpact) -> ImpactHistory:
     """Depth by the hereditary integral, with the elastic limit that the impact's own law has."""
     free = impact.touch.impact
     material, frequency = free.material, free.frequency
     # elastic limit of Lee and Radok, x^1.5 = 3 (1 - nu) F/(8 sqrt(R) G), made that of F = A x^1.5
     modulus = 0.5 * free.shape * material.storage_modulus * (1.0 - model.poisson_ratio)
     tangent = max(material.loss_tangent, 1.0e-12)
-    if effect["model"] == "kelvin_voigt":
+    if effect.model == "kelvin_voigt":
         law = creep.kelvin_voigt(modulus, retardation_time(frequency, tangent))
     else:
         stiff = modulus * (1.0 + tangent**2)
@@ -138,7 +138,7 @@ def history_of(model: ImpactModel, effect: dict[str, Any], block: int, impact: F
         block=block,
         number=impact.number,
         start=impact.start,
-        model=effect["model"],
+        model=effect.model,
         time=times,
         depth=found.depth,
         valid=found.growing.astype(numpy.uint8),
@@ -149,10 +149,10 @@ def gauge_readings(model: ImpactModel, number: int, *values: float) -> list[floa
     """The values with the noise of the gauges: of the scene's seed and the impact's number, so the
     same in every run.
     """
-    noise = model.effects.get("gauge_noise")
+    noise = model.noise
     if noise is None:
         return list(values)
-    spread = numpy.array([noise["speed"], noise["duration"], noise["restitution"]])
+    spread = numpy.array([noise.speed, noise.duration, noise.restitution])
     drawn = numpy.random.Generator(numpy.random.Philox(key=[model.seed, number])).standard_normal(3)
     return [float(v) for v in numpy.array(values) * numpy.maximum(1.0 + spread * drawn, 1.0e-3)]
 
@@ -166,11 +166,18 @@ def _shear_speed(model: ImpactModel, impact: FinishedImpact) -> float:
     return surface_wave.shear_speed(_shear_modulus(model, impact), model.density)
 
 
-EFFECT_MESSAGES: dict[str, tuple[str, Callable[..., Any]]] = {
-    "contact_stress": ("stress", stress_of),
-    "surface_waves": ("wave", wave_of),
-    "micro_front": ("front", front_of),
-    "thermal_volume": ("position", position_of),
-    "history": ("history", history_of),
-}
-"""Effect -> its topic and its function."""
+def effect_outputs(
+    model: ImpactModel, block: int, impact: FinishedImpact
+) -> Iterator[tuple[str, ImpactStress | ImpactWave | ImpactFront | ImpactPosition | ImpactHistory]]:
+    """Topic below `impact/` and record of each effect that the scene calls for."""
+    recorded = model.recorded
+    if recorded.stress is not None:
+        yield "stress", stress_of(model, recorded.stress, block, impact)
+    if recorded.wave is not None:
+        yield "wave", wave_of(model, recorded.wave, block, impact)
+    if recorded.front is not None:
+        yield "front", front_of(model, recorded.front, block, impact)
+    if recorded.position is not None:
+        yield "position", position_of(model, recorded.position, block, impact)
+    if recorded.history is not None:
+        yield "history", history_of(model, recorded.history, block, impact)

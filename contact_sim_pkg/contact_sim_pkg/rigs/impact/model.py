@@ -6,11 +6,20 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import numpy
 from numpy.typing import NDArray
 
+from contact_sim_pkg.rigs.impact import schema, schema_effects
+from contact_sim_pkg.rigs.impact.schema_effects import (
+    ContactStress,
+    GaugeNoise,
+    History,
+    MicroFront,
+    SurfaceWaves,
+    ThermalVolume,
+)
 from contact_sim_pkg.rigs.impact.theory.bodies import Material, Sphere, pair, shares
 from contact_sim_pkg.rigs.impact.theory.closed_form.flight import Drop, Machine, Pendulum, fall
 from contact_sim_pkg.rigs.impact.theory.contact import ContactLaw
@@ -18,7 +27,8 @@ from contact_sim_pkg.rigs.impact.theory.errors import ImpactError
 from contact_sim_pkg.rigs.impact.theory.motion import FreeImpact, solve_impact
 from contact_sim_pkg.rigs.impact.theory.shift import Arrhenius, Shift, Wlf, equivalent_temperature
 from contact_sim_pkg.scene.errors import Fault, SceneError
-from contact_sim_pkg.scene.resolved_scene import effects_at
+from contact_sim_pkg.scene.resolved_scene import ResolvedScene
+from contact_sim_pkg.scene.schema.fields import given
 from contact_sim_pkg.scene.timing import Timing, make_timing
 
 SLOWEST_STATE = 1.0e-3  # [m/s]: below, the sample's state by a shift is that of this speed
@@ -41,6 +51,16 @@ class FirstContact(NamedTuple):
     half_space: Material  # alone; that of the impact is both bodies in series
     impact: FreeImpact
     law: ContactLaw
+
+
+class Recorded(NamedTuple):
+    """Effects that add a topic, by its name below `impact/`."""
+
+    stress: ContactStress | None
+    wave: SurfaceWaves | None
+    front: MicroFront | None
+    position: ThermalVolume | None
+    history: History | None
 
 
 @dataclass(frozen=True)
@@ -90,7 +110,8 @@ class ImpactModel:
     shape: str
     poisson_ratio: float
     density: float  # [kg/m^3]
-    effects: dict[str, Any]
+    recorded: Recorded
+    noise: GaugeNoise | None
     seed: int
 
     def touch(self, speed: float, temperature: float) -> FirstContact:
@@ -145,29 +166,33 @@ def _speed_of_weight(impact: FreeImpact, gravity: float) -> float:
     return float(impact.speed * (math.sqrt(1.5 * gravity / static) / impact.frequency) ** 5)
 
 
-def build_impact(scene: dict[str, Any]) -> ImpactModel:
+def build_impact(scene: ResolvedScene) -> ImpactModel:
     """Model of a resolved scene. Raises SceneError where a release is outside the model."""
-    impact, effects = scene["impact"], effects_at(scene, "impact")
-    sample, loss = impact["sample"], effects.get("normal_dissipative")
-    body = sample.get("body_modulus")
-    shift = effects.get("shift")
+    impact, loss = scene.section(schema.ImpactSection), scene.effect("impact", schema_effects.SphereLoss)
+    sample, shift = impact.sample, scene.effect("impact", schema_effects.Shift)
+    body = sample.body_modulus
+    recorded = Recorded(
+        scene.effect("impact", ContactStress), scene.effect("impact", SurfaceWaves), scene.effect("impact", MicroFront),
+        scene.effect("impact", ThermalVolume), scene.effect("impact", History),
+    )  # fmt: skip
     model = ImpactModel(
         timing=make_timing(scene, False),
-        sphere=Sphere(float(impact["mass"]), float(impact["radius"])),
+        sphere=Sphere(impact.mass, impact.radius),
         machine=_machine(impact),
         releases=_releases(impact),
-        bounces=int(impact["bounces"]),
-        course_samples=int(impact["course_samples"]),
+        bounces=impact.bounces,
+        course_samples=impact.course_samples,
         half_space=_material(sample, shift),
-        body=None if body is None else Material(float(body), float(sample["body_loss_tangent"])),
-        by_frequency=shift is not None and shift["rate"] == "frequency",
+        body=None if body is None else Material(body, sample.body_loss_tangent),
+        by_frequency=shift is not None and shift.rate == "frequency",
         lossy=loss is not None,
-        end="force" if loss is None else loss["end"],
-        shape=impact["shape_factor"],
-        poisson_ratio=float(sample["poisson_ratio"]),
-        density=float(sample["density"]),
-        effects=effects,
-        seed=int(scene["seed"]),
+        end="force" if loss is None else loss.end,
+        shape=impact.shape_factor,
+        poisson_ratio=given(sample.poisson_ratio),
+        density=given(sample.density),
+        recorded=recorded,
+        noise=scene.effect("impact", GaugeNoise),
+        seed=scene.seed,
     )
     # Each release once, so that an impossible one is refused before the run.
     for release in dict.fromkeys((release.speed, release.temperature) for release in model.releases):
@@ -181,31 +206,28 @@ def build_impact(scene: dict[str, Any]) -> ImpactModel:
     return model
 
 
-def _machine(impact: dict[str, Any]) -> Machine:
-    gravity = float(impact["gravity"])
-    return Drop(gravity) if impact["machine"] == "drop" else Pendulum(gravity, float(impact["arm"]))
+def _machine(impact: schema.ImpactSection) -> Machine:
+    return Drop(impact.gravity) if impact.machine == "drop" else Pendulum(impact.gravity, impact.arm)
 
 
-def _releases(impact: dict[str, Any]) -> tuple[Release, ...]:
-    period = float(impact.get("period") or 0.0)
+def _releases(impact: schema.ImpactSection) -> tuple[Release, ...]:
     states = [
-        (float(speed), float(temperature))
-        for temperature in impact["temperatures"]
-        for speed in impact["speeds"]
-        for _ in range(int(impact["repeats"]))
+        (speed, temperature)
+        for temperature in impact.temperatures
+        for speed in impact.speeds
+        for _ in range(impact.repeats)
     ]
-    return tuple(Release(number * period, *state) for number, state in enumerate(states))
+    return tuple(Release(number * (impact.period or 0.0), *state) for number, state in enumerate(states))
 
 
-def _material(sample: dict[str, Any], shift: dict[str, Any] | None) -> MaterialState:
-    alone = Material(float(sample["storage_modulus"]), float(sample["loss_tangent"]))
+def _material(sample: schema.Sample, shift: schema_effects.Shift | None) -> MaterialState:
+    alone = Material(given(sample.storage_modulus), given(sample.loss_tangent))
     if shift is None:
         return MaterialState(alone)
-    start = float(shift["glass_temperature"])
     law: Shift = (
-        Wlf(start, float(shift["c1"]), float(shift["c2"]))
-        if shift["law"] == "wlf"
-        else Arrhenius(start, float(shift["activation_energy"]))
+        Wlf(shift.glass_temperature, shift.c1, shift.c2)
+        if shift.law == "wlf"
+        else Arrhenius(shift.glass_temperature, shift.activation_energy)
     )
-    rate = float(shift["table_frequency" if shift["rate"] == "frequency" else "table_speed"])
-    return MaterialState(alone, law, numpy.array(shift["table"], dtype=numpy.float64), rate, shift["beyond"] == "keep")
+    rate = shift.table_frequency if shift.rate == "frequency" else shift.table_speed
+    return MaterialState(alone, law, numpy.array(shift.table, dtype=numpy.float64), rate, shift.beyond == "keep")

@@ -11,7 +11,7 @@ import numpy
 
 from contact_sim_pkg.bag.block_encoder import Output
 from contact_sim_pkg.records.messages import BodyMotion, ContactForce, EnergyLedger, ImpactCourse, ImpactEvents
-from contact_sim_pkg.rigs.impact.effect_outputs import EFFECT_MESSAGES, gauge_readings
+from contact_sim_pkg.rigs.impact.effect_outputs import effect_outputs, gauge_readings
 from contact_sim_pkg.rigs.impact.model import ImpactModel
 from contact_sim_pkg.rigs.impact.motion import FinishedImpact, SphereState, course_of
 from contact_sim_pkg.run.outputs import BlockStamps, contact_outputs, energy_ledger, solver_cost
@@ -83,9 +83,8 @@ def impact_outputs(model: ImpactModel, stamps: BlockStamps, impact: FinishedImpa
             elastic_force=elastic, viscous_force=viscous,
         )  # fmt: skip
         yield Output("impact/course", stamps.start, course)
-    for effect, (topic, make) in EFFECT_MESSAGES.items():
-        if model.effects.get(effect) is not None:
-            yield Output(f"impact/{topic}", stamps.start, make(model, model.effects[effect], stamps.block, impact))
+    for topic, record in effect_outputs(model, stamps.block, impact):
+        yield Output(f"impact/{topic}", stamps.start, record)
 
 
 def _motion(stamps: BlockStamps, state: SphereState) -> BodyMotion:

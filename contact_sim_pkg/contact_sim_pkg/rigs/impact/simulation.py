@@ -35,7 +35,7 @@ class ImpactSimulation:
         its period too short.
         """
         self.scene = scene
-        self.model = build_impact(scene.data)
+        self.model = build_impact(scene)
         self.blocks = self.model.timing.blocks
         self._refuse_short_period()
         self._reset()

@@ -28,35 +28,35 @@ of a share.
 """
 
 
-def damage_table(model: RollerModel, prefix: str = "") -> Table:
+def damage_table(model: RollerModel, body: str = "shaft") -> Table:
     """Loads [N] from 0, and the dangerous share of the working volume under each; zeros where
     nothing wears.
 
-    prefix: of the limits of a body.
+    body: "shaft" or "roller", whose limits count.
     """
-    damage = model.effects.get("damage")
-    if damage is None or model.effects.get("subsurface") is None:
+    damage = model.damage
+    if damage is None or model.subsurface is None:
         return numpy.array([0.0, 1.0]), numpy.zeros(2)
-    largest, rows = float(damage["largest_load"]) * model.largest_load, int(damage["table_rows"])
-    first = _first_dangerous_load(model, prefix)
+    largest, rows = damage.largest_load * model.largest_load, damage.table_rows
+    first = _first_dangerous_load(model, body)
     if not first < largest:
         return numpy.array([0.0, largest]), numpy.zeros(2)
     places = numpy.linspace(numpy.cbrt(first), numpy.cbrt(largest), rows)
-    shares = numpy.array([0.0, *(_share(model, prefix, float(place**3)) for place in places[1:])])
+    shares = numpy.array([0.0, *(_share(model, body, float(place**3)) for place in places[1:])])
     fine = numpy.linspace(places[0], places[-1], FINER * (rows - 1) + 1)
     read = numpy.maximum(PchipInterpolator(places, shares / places**3)(fine), 0.0) * fine**3
     return numpy.append(0.0, fine**3), numpy.append(0.0, read)
 
 
-def _first_dangerous_load(model: RollerModel, prefix: str) -> float:
+def _first_dangerous_load(model: RollerModel, body: str) -> float:
     """[N] at which the largest stress of the cells meets its limit."""
-    limits, cells, bending, traction = volume_settings(model, prefix)
+    limits, cells, bending, traction = volume_settings(model, body)
     ratio = largest_ratio(_contact(model, 1.0), model.poisson_ratio, limits, cells, bending, traction)
     return float(ratio**-3)
 
 
-def _share(model: RollerModel, prefix: str, load: float) -> float:
-    volumes = dangerous_volumes(_contact(model, load), model.poisson_ratio, *volume_settings(model, prefix))
+def _share(model: RollerModel, body: str, load: float) -> float:
+    volumes = dangerous_volumes(_contact(model, load), model.poisson_ratio, *volume_settings(model, body))
     return volumes.any / box_volume(_contact(model, float(model.programme.load[0])))
 
 

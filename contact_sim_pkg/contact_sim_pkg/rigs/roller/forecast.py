@@ -12,6 +12,7 @@ from contact_sim_pkg.rigs.roller.model import RollerModel, build_roller
 from contact_sim_pkg.rigs.roller.theory.parameters import Curvatures
 from contact_sim_pkg.rigs.roller.theory.stability import RollerError, critical_damping, critical_load, stability
 from contact_sim_pkg.run.errors import RunError
+from contact_sim_pkg.scene.resolved_scene import ResolvedScene
 
 SEARCHED = 10.0
 """Times the largest load of the run: as far as a critical load is looked for."""
@@ -25,7 +26,7 @@ def forecast(model: RollerModel, block: int = 0) -> RollerStability | None:
     """Stability under the load at the start of a block; None where tilt and yaw are held. Raises
     RunError without static angles.
     """
-    if model.effects.get("tilt_yaw") is None:
+    if not model.turns:
         return None
     time = block * model.timing.block_length
     curvatures = model.programme.curvatures_at(time)
@@ -51,7 +52,7 @@ def _told(model: RollerModel, block: int, curvatures: Curvatures, load: float) -
     )  # fmt: skip
 
 
-def facts_before_run(scene: dict[str, Any]) -> dict[str, Any]:
+def facts_before_run(scene: ResolvedScene) -> dict[str, Any]:
     """The forecast of a resolved scene as numbers with units in their names; empty where tilt and
     yaw are held.
 

@@ -6,13 +6,14 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from typing import Any
 
 import numpy
 from numpy.typing import NDArray
 
 from contact_sim_pkg.compiled.arrays import Vector
 from contact_sim_pkg.pressure.closed_form.hertz import HertzError
+from contact_sim_pkg.rigs.roller import schema
+from contact_sim_pkg.rigs.roller.schema import Damage, Subsurface, TrackWaves
 from contact_sim_pkg.rigs.roller.theory.ellipse import (
     EXACT,
     POLYNOMIAL,
@@ -25,12 +26,12 @@ from contact_sim_pkg.rigs.roller.theory.motion import LARGEST_TILT
 from contact_sim_pkg.rigs.roller.theory.parameters import Bending, Curvatures, Roller
 from contact_sim_pkg.rigs.roller.theory.stability import RollerError, linearise
 from contact_sim_pkg.scene.errors import Fault, SceneError
-from contact_sim_pkg.scene.resolved_scene import effects_at
+from contact_sim_pkg.scene.resolved_scene import ResolvedScene
+from contact_sim_pkg.scene.schema.fields import given
 from contact_sim_pkg.scene.timing import Timing, make_timing
 
 __all__ = ["RollerModel", "build_roller", "refused"]
 
-RADII = ("profile_radius", "rolling_radius", "shaft_radius", "shaft_profile_radius")
 LARGEST_SLOPE = 0.5
 """Semi-axis over the radius of the gap along it: Hertz takes the bodies as flat; at 0.5 a circle
 lies 7 % off its parabola.
@@ -97,7 +98,10 @@ class RollerModel:
     parallel: bool
     start: tuple[float, float]  # tilt and yaw [rad] from the static angles
     acceleration: float
-    effects: dict[str, Any]
+    turns: bool  # tilt and yaw are free
+    track_waves: TrackWaves | None
+    subsurface: Subsurface | None
+    damage: Damage | None
     seed: int
 
     def contact_load(self, load: float, curvatures: Curvatures) -> float:
@@ -114,16 +118,17 @@ class RollerModel:
     @property
     def held_yaw(self) -> float:
         """[rad] where the roller does not yaw; 0, about its place at rest, where it does."""
-        return 0.0 if self.effects.get("tilt_yaw") is not None else self.start[1]
+        return 0.0 if self.turns else self.start[1]
 
     @property
     def traction(self) -> tuple[float, float]:
         """Over the pressure, along x and y: as `subsurface` says; along rolling by default that of
         the rolling friction.
         """
-        below = self.effects.get("subsurface") or {"traction_x": 0.0}
-        along = below.get("traction_y")
-        return float(below["traction_x"]), self.roller.rolling_friction if along is None else float(along)
+        below, along = self.subsurface, self.roller.rolling_friction
+        if below is None:
+            return 0.0, along
+        return below.traction_x, along if below.traction_y is None else below.traction_y
 
     @property
     def largest_load(self) -> float:
@@ -131,84 +136,85 @@ class RollerModel:
         return float(self.programme.load.max())
 
 
-def build_roller(scene: dict[str, Any]) -> RollerModel:
+def build_roller(scene: ResolvedScene) -> RollerModel:
     """Model of a resolved scene. Raises SceneError where it cannot run (`build_roller_checks`)."""
-    rig, effects = scene["roller"], effects_at(scene, "roller")
-    bending, compliance = _bending(rig, effects.get("shaft_bending"))
-    law = effects["normal_elastic"]
-    modulus = 0.5 * float(rig["young_modulus"]) / (1.0 - float(rig["poisson_ratio"]) ** 2)
-    speed = float(rig["speed"])
-    turns = speed * float(rig["radius"]) / float(rig["shaft_radius"])
+    rig, law = scene.section(schema.RollerRig), given(scene.effect("roller", schema.RollerElastic))
+    bending, compliance = _bending(rig, scene.effect("roller", schema.ShaftBending))
+    modulus = 0.5 * rig.young_modulus / (1.0 - rig.poisson_ratio**2)
+    turns = rig.speed * rig.radius / rig.shaft_radius
     model = RollerModel(
         timing=make_timing(scene, False),
-        roller=_roller(rig, effects),
+        roller=_roller(scene, rig),
         modulus=modulus,
-        poisson_ratio=float(rig["poisson_ratio"]),
-        mass=float(rig["mass"]),
-        shaft_radius=float(rig["shaft_radius"]),
+        poisson_ratio=rig.poisson_ratio,
+        mass=rig.mass,
+        shaft_radius=rig.shaft_radius,
         turn_time=1.0 / turns if turns > 0.0 else math.inf,
         bending=bending,
         bending_compliance=compliance,
         programme=_programme(rig),
-        kind=POLYNOMIAL if law["ellipse"] == "polynomial" else EXACT,
-        parallel=law["split"] == "parallel" and compliance > 0.0,
-        start=(float(rig["tilt"]), float(rig["yaw"])),
-        acceleration=float(rig["acceleration"]),
-        effects=effects,
-        seed=int(scene["seed"]),
+        kind=POLYNOMIAL if law.ellipse == "polynomial" else EXACT,
+        parallel=law.split == "parallel" and compliance > 0.0,
+        start=(rig.tilt, rig.yaw),
+        acceleration=rig.acceleration,
+        turns=scene.effect("roller", schema.TiltYawSection) is not None,
+        track_waves=scene.effect("roller", TrackWaves),
+        subsurface=scene.effect("roller", Subsurface),
+        damage=scene.effect("roller", Damage),
+        seed=scene.seed,
     )
     _refuse_impossible(model)
     return model
 
 
-def _roller(rig: dict[str, Any], effects: dict[str, Any]) -> Roller:
-    gyroscope, friction = effects.get("gyroscope"), effects.get("rolling_friction")
-    named = (
-        "inertia_tilt",
-        "inertia_yaw",
-        "inertia_product",
-        "stiffness_tilt",
-        "stiffness_yaw",
-        "damping_tilt",
-        "damping_yaw",
+def _roller(scene: ResolvedScene, rig: schema.RollerRig) -> Roller:
+    gyroscope, friction = (
+        scene.effect("roller", schema.Gyroscope),
+        scene.effect("roller", schema.RollingFrictionSection),
     )
     return Roller(
-        radius=float(rig["radius"]),
-        inertia_spin=0.0 if gyroscope is None else float(gyroscope["inertia_spin"]),
-        spin=2.0 * math.pi * float(rig["speed"]),
-        rolling_friction=0.0 if friction is None else float(friction["coefficient"]),
-        **{name: float(rig[name]) for name in named},
+        radius=rig.radius,
+        inertia_spin=0.0 if gyroscope is None else gyroscope.inertia_spin,
+        spin=2.0 * math.pi * rig.speed,
+        rolling_friction=0.0 if friction is None else friction.coefficient,
+        inertia_tilt=rig.inertia_tilt,
+        inertia_yaw=rig.inertia_yaw,
+        inertia_product=rig.inertia_product,
+        stiffness_tilt=rig.stiffness_tilt,
+        stiffness_yaw=rig.stiffness_yaw,
+        damping_tilt=rig.damping_tilt,
+        damping_yaw=rig.damping_yaw,
     )
 
 
-def _bending(rig: dict[str, Any], effect: dict[str, Any] | None) -> tuple[Bending | None, float]:
+def _bending(rig: schema.RollerRig, effect: schema.ShaftBending | None) -> tuple[Bending | None, float]:
     """The bent shaft, and its compliance A^3 / 3 E J [m/N] at the contact."""
     if effect is None:
         return None, 0.0
-    radius, distance = float(rig["shaft_radius"]), float(effect["contact_distance"])
+    radius, distance = rig.shaft_radius, effect.contact_distance
     moment = 0.25 * math.pi * radius**4
-    values = (
-        float(effect["load"]),
-        distance,
-        float(effect["load_distance"]),
-        radius,
-        moment,
-        float(effect["friction"]),
-    )
-    return Bending(*values), distance**3 / (3.0 * float(rig["young_modulus"]) * moment)
+    bending = Bending(effect.load, distance, effect.load_distance, radius, moment, effect.friction)
+    return bending, distance**3 / (3.0 * rig.young_modulus * moment)
 
 
-def _programme(rig: dict[str, Any]) -> Programme:
-    given = rig.get("programme") or {}
-    times = numpy.array(given.get("time") or [0.0], float)
+def _programme(rig: schema.RollerRig) -> Programme:
+    """Load and radii over time; what the programme does not give is constant."""
+    rows = rig.programme
+    times = numpy.array([0.0] if rows is None else rows.time, float)
 
-    def column(name: str, constant: float) -> Vector:
-        return numpy.array(given.get(name) or [constant] * len(times), float)
+    def column(values: list[float] | None, constant: float) -> Vector:
+        return numpy.array(values or [constant] * len(times), float)
 
-    standing = dict(zip(RADII, ("profile_radius", "radius", "shaft_radius", "shaft_profile_radius"), strict=True))
-    radii = numpy.stack([column(name, float(rig[key])) for name, key in standing.items()], axis=1)
+    columns = [
+        column(None if rows is None else rows.profile_radius, rig.profile_radius),
+        column(None if rows is None else rows.rolling_radius, rig.radius),
+        column(None if rows is None else rows.shaft_radius, rig.shaft_radius),
+        column(None if rows is None else rows.shaft_profile_radius, rig.shaft_profile_radius),
+    ]
+    radii = numpy.stack(columns, axis=1)
     curvatures = numpy.divide(1.0, radii, out=numpy.zeros_like(radii), where=radii > 0.0)
-    return Programme(times, column("load", float(rig["load"])), curvatures, given.get("between") == "steps")
+    load = column(None if rows is None else rows.load, rig.load)
+    return Programme(times, load, curvatures, rows is not None and rows.between == "steps")
 
 
 def refused(sentence: str) -> SceneError:
@@ -226,7 +232,7 @@ def _refuse_impossible(model: RollerModel) -> None:
         curvatures = Curvatures(*(float(value) for value in row))
         _refuse_no_ellipse(model, curvatures)
         _refuse_large_contact(model, curvatures, model.contact_load(float(load), curvatures))
-    if model.effects.get("tilt_yaw") is not None:
+    if model.turns:
         _refuse_no_static_angles(model)
 
 

@@ -29,6 +29,7 @@ from contact_sim_pkg.rigs.roller.theory.heave import (
 from contact_sim_pkg.rigs.roller.theory.load_split import load_of_approach
 from contact_sim_pkg.rigs.roller.wear import make_tracks, track_under
 from contact_sim_pkg.run.errors import RunError
+from contact_sim_pkg.scene.schema.fields import given
 
 __all__ = ["Checked", "Ridden", "TrackRide", "joined"]
 
@@ -75,9 +76,9 @@ class TrackRide:
 
     def __init__(self, model: RollerModel, road: Surface | None) -> None:
         """Heights at the start; `road` is ridden as well."""
-        effect = model.effects["track_waves"]
-        self.model, self.road, self.zeta = model, road, float(effect["damping_ratio"])
-        self.local = effect["local_curvature"] == "on"
+        effect = given(model.track_waves)
+        self.model, self.road, self.zeta = model, road, effect.damping_ratio
+        self.local = effect.local_curvature == "on"
         self.acceleration = model.acceleration
         self.tracks = make_tracks(model)
         self.cells = max(len(each.heights) for each in self.tracks)
@@ -112,8 +113,7 @@ class TrackRide:
         one, here = model.contact(1.0, yaw, self.curvatures), model.contact(load, yaw, self.curvatures)
         before = None if self._pressed is None else self._held()
         self.heave: Heave = make_heave(model.mass, self.zeta, load, one.approach, model.bending_compliance)
-        damage = model.effects.get("damage")
-        gain = 0.0 if damage is None else float(damage["gain"]) * self.acceleration
+        gain = 0.0 if model.damage is None else model.damage.gain * self.acceleration
         for each in self.tracks:
             each.track = track_under(each, here, gain)
         self._pressed, self._yaw = (load, yaw), yaw

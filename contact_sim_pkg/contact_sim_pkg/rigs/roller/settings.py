@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import NamedTuple
 
 from contact_sim_pkg.rigs.roller.model import RollerModel
+from contact_sim_pkg.scene.schema.fields import given
 
 __all__ = ["VolumeSettings", "volume_settings"]
 
@@ -18,9 +19,10 @@ class VolumeSettings(NamedTuple):
     traction: tuple[float, float]
 
 
-def volume_settings(model: RollerModel, prefix: str = "") -> VolumeSettings:
-    """Of the effect `subsurface`, which the scene has; prefix: of a body's limits."""
-    below = model.effects["subsurface"]
-    limits = (float(below[f"{prefix}normal_limit"]), float(below[f"{prefix}shear_limit"]))
-    cells = (int(below["cells_x"]), int(below["cells_y"]), int(below["cells_z"]))
-    return VolumeSettings(limits, cells, None, model.traction)
+def volume_settings(model: RollerModel, body: str = "shaft") -> VolumeSettings:
+    """Of the effect `subsurface`, which the scene has, with the limits of a body."""
+    below = given(model.subsurface)
+    limits = (below.normal_limit, below.shear_limit)
+    if body == "roller":
+        limits = (below.roller_normal_limit, below.roller_shear_limit)
+    return VolumeSettings(limits, (below.cells_x, below.cells_y, below.cells_z), None, model.traction)

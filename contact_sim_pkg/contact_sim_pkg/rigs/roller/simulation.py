@@ -43,10 +43,10 @@ class RollerSimulation:
     def __init__(self, scene: ResolvedScene) -> None:
         """Build the model of a resolved scene."""
         self.scene = scene
-        self.model = build_roller(scene.data)
+        self.model = build_roller(scene)
         self.blocks = self.model.timing.blocks
-        road = make_surface(scene, ROAD_CELL) if scene.data.get("road") else None
-        self._first = None if self.model.effects.get("track_waves") is None else TrackRide(self.model, road)
+        road = make_surface(scene, ROAD_CELL) if scene.road is not None else None
+        self._first = None if self.model.track_waves is None else TrackRide(self.model, road)
         self._reset()
         self._refuse_too_fast()
 
@@ -67,13 +67,13 @@ class RollerSimulation:
         self._next_block = 0
         self._ride = None if self._first is None else self._first.copy()
         first = model.contact_load(float(model.programme.load[0]), model.programme.curvatures_at(0.0))
-        self._angles = None if model.effects.get("tilt_yaw") is None else TiltYaw(model, first)
+        self._angles = TiltYaw(model, first) if model.turns else None
 
     def prepare(self) -> None:
         """Compile or load every kernel that the scene needs, by a block."""
         with contextlib.suppress(RunError):  # the run itself reports it
             self._advance(0)
-        if self.model.effects.get("subsurface") is not None:
+        if self.model.subsurface is not None:
             self._volumes(
                 0.0, self.model.contact(1.0, self.model.held_yaw, self.model.programme.curvatures_at(0.0)), (2, 2, 2)
             )
@@ -184,15 +184,15 @@ class RollerSimulation:
         return forecast(self.model, block)
 
     def _measured(self, block: int, record: RollerRecord) -> list[RollerMeasurement]:
-        below = self.model.effects.get("subsurface")
+        below = self.model.subsurface
         if below is None:
             return []
         found = []
-        for instant in below["instants"]:
-            place = round(float(instant) / record.period) - block * self.model.timing.samples
+        for instant in below.instants:
+            place = round(instant / record.period) - block * self.model.timing.samples
             if 0 <= place < len(record.load):
                 contact = RollingContact(*(float(value) for value in record.contacts[place]))
-                found.append(self._volumes(float(instant), contact))
+                found.append(self._volumes(instant, contact))
         return found
 
     def _volumes(
@@ -220,6 +220,5 @@ class RollerSimulation:
         """Whether the time acceleration is looked at behind a block: at so many even places of the
         run.
         """
-        damage = self.model.effects.get("damage")
-        checks = 0 if damage is None else int(damage["checks"])
+        checks = 0 if self.model.damage is None else self.model.damage.checks
         return block in {k * self.blocks // checks // self._every * self._every for k in range(checks)}

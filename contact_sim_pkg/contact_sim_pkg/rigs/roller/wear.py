@@ -4,20 +4,18 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass, replace
-from typing import Any
 
 import numpy
 
 from contact_sim_pkg.compiled.arrays import Vector
 from contact_sim_pkg.rigs.roller.damage import Table, damage_table
 from contact_sim_pkg.rigs.roller.model import RollerModel
+from contact_sim_pkg.rigs.roller.schema import TrackWaves
 from contact_sim_pkg.rigs.roller.theory.corrugation import WearTrack, make_track, moving_mean
 from contact_sim_pkg.rigs.roller.theory.ellipse import RollingContact
+from contact_sim_pkg.scene.schema.fields import given
 
 __all__ = ["BodyTrack", "make_tracks", "track_under"]
-
-PREFIX = {"shaft": "", "roller": "roller_"}
-"""Of a body's keys in the scene."""
 
 
 @dataclass
@@ -56,8 +54,8 @@ def make_tracks(model: RollerModel) -> list[BodyTrack]:
     """The tracks of a scene at its start, the shaft's first; measures the dangerous volumes where
     the scene has damage.
     """
-    effect = model.effects["track_waves"]
-    which, cells = str(effect["track"]), int(effect["cells"])
+    effect = given(model.track_waves)
+    which, cells = effect.track, effect.cells
     radii = {"shaft": model.shaft_radius, "roller": model.roller.radius}
     bodies = ("shaft", "roller") if which == "both" else (which,)
     # On the larger of two bodies the cells are as long as on the smaller.
@@ -67,9 +65,9 @@ def make_tracks(model: RollerModel) -> list[BodyTrack]:
         number = cells * round(radii[body] / least)
         # The seed's waves are on the first body alone, roughness on each.
         heights = _first_heights(effect, [model.seed, 1] if found else model.seed, number, waves=not found)
-        table = damage_table(model, PREFIX[body])
+        table = damage_table(model, body)
         turn_time = model.turn_time * radii[body] / model.shaft_radius
-        hardness = _hardness(model, PREFIX[body], number)
+        hardness = _hardness(model, body, number)
         track = make_track(
             radius=radii[body],
             turn_time=turn_time,
@@ -111,19 +109,21 @@ def track_under(track: BodyTrack, contact: RollingContact, gain: float) -> WearT
     )
 
 
-def _first_heights(effect: dict[str, Any], seed: int | list[int], cells: int, waves: bool) -> Vector:
-    heights = float(effect["roughness"]) * numpy.random.default_rng(seed).uniform(-1.0, 1.0, cells)
+def _first_heights(effect: TrackWaves, seed: int | list[int], cells: int, waves: bool) -> Vector:
+    heights = effect.roughness * numpy.random.default_rng(seed).uniform(-1.0, 1.0, cells)
     place = 2.0 * math.pi * numpy.arange(cells) / cells
-    for name, wave in (("cosines", numpy.cos), ("sines", numpy.sin)) if waves else ():
-        for number, amplitude in enumerate(effect[name], start=1):
+    for amplitudes, wave in ((effect.cosines, numpy.cos), (effect.sines, numpy.sin)) if waves else ():
+        for number, amplitude in enumerate(amplitudes, start=1):
             heights += amplitude * wave(number * place)
     level: Vector = heights - heights.mean()
     return level
 
 
-def _hardness(model: RollerModel, prefix: str, cells: int) -> Vector:
-    damage = model.effects.get("damage") or {}
-    given = damage.get(f"{prefix}hardness") or [1.0]
-    places = numpy.arange(cells, dtype=numpy.float64) / cells * len(given)
-    hardness: Vector = numpy.interp(places, numpy.arange(len(given) + 1), [*given, given[0]])
+def _hardness(model: RollerModel, body: str, cells: int) -> Vector:
+    """Limits round a track over those of `subsurface`: straight between the given places, 1 where none are given."""
+    damage = model.damage
+    limits = [] if damage is None else damage.roller_hardness if body == "roller" else damage.hardness
+    limits = limits or [1.0]
+    places = numpy.arange(cells, dtype=numpy.float64) / cells * len(limits)
+    hardness: Vector = numpy.interp(places, numpy.arange(len(limits) + 1), [*limits, limits[0]])
     return hardness

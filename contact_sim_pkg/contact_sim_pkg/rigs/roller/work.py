@@ -7,7 +7,7 @@ from collections.abc import Iterator
 
 from contact_sim_pkg.records.work import STEP_COST, Work
 from contact_sim_pkg.rigs.roller.schema import Damage, Gyroscope, RollerRig, Subsurface, TiltYawSection, TrackWaves
-from contact_sim_pkg.scene.schema.scene import Scene
+from contact_sim_pkg.scene.resolved_scene import ResolvedScene
 
 CELL_COST = 3e-6  # [s] of a cell of the volume below a contact
 # [s] of an interval of a track, a cell of it, a step of the heave
@@ -15,7 +15,7 @@ TURN_COST, TRACK_COST, HEAVE_COST = 6e-5, 3e-8, 2e-7
 HEAVE_PHASE = 0.06  # [rad] of a step
 
 
-def work_of_roller(scene: Scene) -> Iterator[Work]:
+def work_of_roller(scene: ResolvedScene) -> Iterator[Work]:
     """Turns of the track, steps of the heave over its cells, tilt and yaw, and the volumes below
     the contact.
     """

@@ -26,7 +26,7 @@ SEAT = Contact(
 _SIMULATION = f"{__name__}.simulation:Simulation"
 _ACCURACY = (f"{__name__}.studies.accuracy",)
 _TIRE_REPORT, _SEAT_REPORT = f"{__name__}.tire.report:TIRE_REPORT", f"{__name__}.seat.report:SEAT_REPORT"
-_ROAD_STRIP = f"{__name__}.lattice:tire_lattice"
+_ROAD_STRIP = f"{__name__}.lattice:road_strip"
 
 RIGS = (
     Rig(

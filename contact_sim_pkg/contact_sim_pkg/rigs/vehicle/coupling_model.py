@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 import math
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 from contact_sim_pkg.laws.elastic_law import approach_of_force, elastic_stiffness
 from contact_sim_pkg.laws.parameters import Contact, NormalDissipative
 from contact_sim_pkg.rigs.vehicle.contact_model import FieldGrids
+from contact_sim_pkg.scene.resolved_scene import ResolvedScene
+from contact_sim_pkg.scene.schema.fields import given
 from contact_sim_pkg.scene.timing import Timing, make_timing
 
 LONGEST = 0.5
@@ -76,22 +78,21 @@ def longest_travel(footprint: float | None, tolerance: float) -> float:
     return footprint * (LONGEST_LOOSE if tolerance >= LOOSE else LONGEST)
 
 
-def highest_speed(scene: dict[str, Any]) -> float:
+def highest_speed(scene: ResolvedScene) -> float:
     """Highest speed in [m/s] of a resolved scene's programme, forward or backward."""
-    travel = scene["travel"]
-    points = travel.get("points") or [(0.0, travel["speed"])]
-    return max(abs(float(speed)) for _, speed in points)
+    travel = given(scene.travel)
+    return max(abs(speed) for _time, speed in travel.points or [[0.0, given(travel.speed)]])
 
 
-def coupled_timing(scene: dict[str, Any], with_field: bool, footprint: float | None) -> Timing:
+def coupled_timing(scene: ResolvedScene, with_field: bool, footprint: float | None) -> Timing:
     """Cut of a block; segments fit the shortest stretch over a ``footprint`` [m], which is None without a field on a road."""
     if footprint is None:
         return make_timing(scene, with_field)
-    way = highest_speed(scene) / float(scene["outputs"]["force_rate"])
+    way = highest_speed(scene) / scene.outputs.force_rate
     return make_timing(scene, with_field, max(1, math.ceil(way / (SHORTEST * footprint))))
 
 
-def uniform_segments(scene: dict[str, Any], footprint: float, timing: Timing) -> int:
+def uniform_segments(scene: ResolvedScene, footprint: float, timing: Timing) -> int:
     """Segments of stretches that are all equal: the most that divide an interval and are short against the ``footprint`` [m]."""
     way = highest_speed(scene) * timing.segment_length
     divisors = [n for n in range(1, timing.segments + 1) if timing.segments % n == 0]

@@ -4,17 +4,16 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from typing import Any
 
 import numpy
 from numpy.typing import NDArray
 
 from contact_sim_pkg.compiled.arrays import Vector
 from contact_sim_pkg.laws.elastic_law import approach_of_force
-from contact_sim_pkg.laws.parameters import Contact, ElasticLaw, FoamHysteresis, Friction
+from contact_sim_pkg.laws.parameters import Contact, ElasticLaw, Friction
 from contact_sim_pkg.pressure.settings import FieldSettings
 from contact_sim_pkg.records.constants import GRAVITY
-from contact_sim_pkg.rigs.vehicle.contact_model import FieldGrids, elastic_of, loss_of, make_grids, tangent_law
+from contact_sim_pkg.rigs.vehicle.contact_model import FieldGrids, make_grids, tangent_law
 from contact_sim_pkg.rigs.vehicle.coupling_model import (
     CouplingRule,
     allowance_of,
@@ -24,10 +23,14 @@ from contact_sim_pkg.rigs.vehicle.coupling_model import (
 )
 from contact_sim_pkg.rigs.vehicle.lattice import field_settings, occupant_mass, standing_load
 from contact_sim_pkg.rigs.vehicle.parameters import Seat, Vehicle
+from contact_sim_pkg.rigs.vehicle.seat import schema as seat_schema
 from contact_sim_pkg.rigs.vehicle.seat.mat import PanMat, build_pan_mat
-from contact_sim_pkg.rigs.vehicle.seat.shape import SeatShape, seat_gap
+from contact_sim_pkg.rigs.vehicle.seat.shape import SeatShape, seat_gap, shape_of
+from contact_sim_pkg.rigs.vehicle.tire import schema as tire_schema
 from contact_sim_pkg.rigs.vehicle.tire.model import Asperities, RollingFriction, TireGeometry, Tread, build_tire
-from contact_sim_pkg.scene.resolved_scene import effects_at
+from contact_sim_pkg.run.contact_laws import elastic_law, friction, hysteresis, normal_loss
+from contact_sim_pkg.scene.resolved_scene import ResolvedScene
+from contact_sim_pkg.scene.schema.fields import given
 from contact_sim_pkg.scene.timing import Timing
 
 POSITION_SCALE = 0.01  # [m], size of the approaches, at most; the integrator's tolerance is relative to it
@@ -64,16 +67,16 @@ class Model:
         return int(self.scale.shape[0])
 
 
-def build(scene: dict[str, Any]) -> Model:
+def build(scene: ResolvedScene) -> Model:
     """Parameters of a resolved scene. Raises FieldError where a pressure field cannot carry the standing load."""
-    rig_name = scene["rig"]
-    with_tire, with_seat = rig_name in ("tire", "car"), rig_name in ("seat", "car", "occupant")
-    seat_field, shape = _seat_field(scene) if with_seat else (None, None)
-    tire = build_tire(scene) if with_tire else None
+    with_tire, with_seat = scene.rig in ("tire", "car"), scene.rig in ("seat", "car", "occupant")
+    given_seat = scene.section(seat_schema.SeatSection) if with_seat else None
+    seat_field, shape = (None, None) if given_seat is None else _seat_field(scene, given_seat)
+    tire = build_tire(scene, None if given_seat is None else given_seat.occupant) if with_tire else None
     tire_field = None if tire is None else tire.field
     behind = 0 if tire is None else 4 if tire.carcass is None else 6
-    seat = _seat(scene, offset=behind) if with_seat else None
-    seat_contact = _seat_contact(scene, seat, seat_field, shape) if seat is not None else None
+    seat = None if given_seat is None else _seat(given_seat.occupant, offset=behind)
+    seat_contact = None if seat is None else _seat_contact(scene, seat, seat_field, shape)
     rig = Vehicle(GRAVITY, None, None, None, seat, seat_contact)
     if tire is not None:
         rig = rig._replace(tire=tire.tire, carcass=tire.carcass, tire_contact=tire.contact)
@@ -82,7 +85,7 @@ def build(scene: dict[str, Any]) -> Model:
     return Model(
         rig=rig,
         timing=timing,
-        scale=_scale(rig, float(scene["integrator"]["relative_tolerance"])),
+        scale=_scale(rig, given(scene.integrator.relative_tolerance)),
         bodies=_bodies(rig),
         tire_geometry=None if tire is None else tire.geometry,
         tire_field=tire_field,
@@ -91,7 +94,7 @@ def build(scene: dict[str, Any]) -> Model:
         asperities=None if tire is None else tire.asperities,
         seat_field=seat_field,
         seat_shape=shape,
-        seat_mat=None if seat is None else build_pan_mat(scene),
+        seat_mat=None if given_seat is None else build_pan_mat(scene, given_seat.body),
         corrector_passes=max(
             (field.usual.settings.corrector_passes for field in (tire_field, seat_field) if field is not None),
             default=0,
@@ -99,12 +102,12 @@ def build(scene: dict[str, Any]) -> Model:
         coupling=_coupling(
             scene, rig, footprint, timing, (tire_field, seat_field), None if tire is None else tire.tread
         ),
-        shaken=bool(scene.get("vibration")),
+        shaken=scene.vibration is not None,
     )
 
 
 def _coupling(
-    scene: dict[str, Any], rig: Vehicle, footprint: float | None, timing: Timing, fields: Fields, tread: Tread | None
+    scene: ResolvedScene, rig: Vehicle, footprint: float | None, timing: Timing, fields: Fields, tread: Tread | None
 ) -> CouplingRule | None:
     """Rule for the stretches between two solutions of the fields; ``footprint`` [m] is None without a field on a road.
 
@@ -112,9 +115,10 @@ def _coupling(
     """
     if fields == (None, None):
         return None
-    tolerance = float(scene["integrator"]["coupling_tolerance"])
-    tire_load = 0.0 if rig.tire is None else standing_load(scene)
-    seat_load = 0.0 if rig.seat is None else occupant_mass(scene) * GRAVITY
+    tolerance = given(scene.integrator.coupling_tolerance)
+    occupant = None if rig.seat is None else scene.section(seat_schema.SeatSection).occupant
+    tire_load = 0.0 if rig.tire is None else standing_load(scene.section(tire_schema.TireSection), occupant)
+    seat_load = 0.0 if occupant is None else occupant_mass(occupant) * GRAVITY
     allowances = (
         allowance_of(rig.tire_contact, fields[0], tire_load, tolerance),
         allowance_of(rig.seat_contact, fields[1], seat_load, tolerance),
@@ -124,18 +128,17 @@ def _coupling(
     return CouplingRule(tolerance, allowances, longest_travel(footprint, tolerance), shortest, segments)
 
 
-def _seat(scene: dict[str, Any], offset: int) -> Seat:
-    occupant = scene["seat"]["occupant"]
-    arrays = (numpy.array(occupant[key], dtype=numpy.float64) for key in ("masses", "stiffness", "damping"))
-    return Seat(offset, float(occupant["frame_mass"]), *arrays)
+def _seat(occupant: seat_schema.OccupantSection, offset: int) -> Seat:
+    masses, stiffness, damping = (
+        numpy.array(values, dtype=numpy.float64) for values in (occupant.masses, occupant.stiffness, occupant.damping)
+    )
+    return Seat(offset, occupant.frame_mass, masses, stiffness, damping)
 
 
-def _seat_field(scene: dict[str, Any]) -> tuple[FieldGrids | None, SeatShape | None]:
-    seat = scene["seat"]
-    settings = field_settings(scene, "seat", seat["cushion_modulus"] / (1.0 - seat["cushion_poisson"] ** 2))
-    if settings is None:
-        return None, None
-    return make_grids(settings, "seat"), SeatShape(*(float(seat["body"][key]) for key in SeatShape._fields))
+def _seat_field(scene: ResolvedScene, seat: seat_schema.SeatSection) -> tuple[FieldGrids | None, SeatShape | None]:
+    modulus = seat.cushion_modulus / (1.0 - seat.cushion_poisson**2)
+    settings = field_settings(scene.effect("seat", seat_schema.SeatField), modulus)
+    return (None, None) if settings is None else (make_grids(settings, "seat"), shape_of(seat.body))
 
 
 def seat_gap_on(shape: SeatShape, settings: FieldSettings) -> NDArray[numpy.float64]:
@@ -151,25 +154,16 @@ def seat_cells(settings: FieldSettings) -> tuple[NDArray[numpy.float64], NDArray
     return x, y
 
 
-def _seat_contact(scene: dict[str, Any], seat: Seat, field: FieldGrids | None, shape: SeatShape | None) -> Contact:
-    effects = effects_at(scene, "seat")
+def _seat_contact(scene: ResolvedScene, seat: Seat, field: FieldGrids | None, shape: SeatShape | None) -> Contact:
+    mass = occupant_mass(scene.section(seat_schema.SeatSection).occupant)
     law: ElasticLaw
     if field is not None and shape is not None:
-        law, _length = tangent_law(field, lambda grid: seat_gap_on(shape, grid), occupant_mass(scene) * GRAVITY, "seat")
+        law, _length = tangent_law(field, lambda grid: seat_gap_on(shape, grid), mass * GRAVITY, "seat")
     else:
-        law = elastic_of(effects)
-    friction = effects.get("friction")
-    rubbing = (
-        None
-        if friction is None
-        else Friction(
-            *(float(friction[key]) for key in ("stiffness", "damping", "coefficient_static", "coefficient_kinetic"))
-        )
-    )
-    memory = effects.get("foam_hysteresis")
+        law = elastic_law(scene, "seat")
+    rubbing = friction(scene, "seat")
     offset = seat.offset + 2 * (1 + len(seat.masses)) + (0 if rubbing is None else 3)
-    remembering = None if memory is None else FoamHysteresis(offset, float(memory["share"]), float(memory["energy"]))
-    return Contact(law, loss_of(scene, "seat", law, occupant_mass(scene)), rubbing, remembering)
+    return Contact(law, normal_loss(scene, "seat", law, mass), rubbing, hysteresis(scene, "seat", offset))
 
 
 def _contact_scale(contact: Contact | None, load: float, mass: float) -> tuple[float, float]:

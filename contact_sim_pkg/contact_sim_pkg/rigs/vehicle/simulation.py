@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import time
-from typing import Any
 
 import numpy
 
@@ -19,21 +18,22 @@ from contact_sim_pkg.rigs.vehicle.tire.rolling_shear import RollingShear
 from contact_sim_pkg.run.block_simulation import BlockResult, refuse_out_of_turn
 from contact_sim_pkg.run.outputs import NANOSECONDS, BlockStamps, largest
 from contact_sim_pkg.run.sources import make_travel
+from contact_sim_pkg.scene.resolved_scene import ResolvedScene
 
 
 class Simulation:
     """Owns the state of a run. ``prepare`` once, then ``advance`` block by block, in order from 0."""
 
-    def __init__(self, scene: Any) -> None:
-        """Build the parameters of a resolved scene (``scene.data`` is its plain dict)."""
+    def __init__(self, scene: ResolvedScene) -> None:
+        """Build the parameters of a resolved scene."""
         self.scene = scene
-        self.model: Model = build(scene.data)
+        self.model: Model = build(scene)
         self.blocks = self.model.timing.blocks
         inputs = [ROAD] if self.model.tire_geometry is not None else []
-        if scene.data.get("vibration"):
+        if scene.vibration is not None:
             inputs.append(VIBRATION)
         self.inputs = tuple(inputs)
-        self._travel = make_travel(scene.data) if self.model.tire_geometry is not None else None
+        self._travel = make_travel(scene) if self.model.tire_geometry is not None else None
         self._coupling = Coupling(self.model)
         friction, field = self.model.rolling_friction, self.model.tire_field
         self._shear = None if friction is None or field is None else RollingShear(friction, field.wide.settings)

@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from typing import Any
+from typing import Any, TypeVar
 
 from pydantic import BaseModel, ConfigDict, Field, field_validator
 from pydantic_core import PydanticCustomError
+
+Value = TypeVar("Value")
 
 LEAST = 1e-30
 """In size, of any number but 0: squares and quotients of smaller ones leave the range of 64-bit numbers."""
@@ -18,7 +20,7 @@ TOO_NEAR_ZERO = "too_near_zero"
 class Section(BaseModel):
     """A mapping of a scene: strict types, no unknown keys, no NaN, cannot be changed."""
 
-    model_config = ConfigDict(strict=True, extra="forbid", frozen=True, allow_inf_nan=False)
+    model_config = ConfigDict(strict=True, extra="forbid", frozen=True, allow_inf_nan=False, defer_build=True)
 
     def open_values(self, scene: Any) -> dict[str, Any]:
         """Values of the keys that a `scene.Scene` leaves open, where they follow from other keys or from `accuracy`."""
@@ -39,6 +41,12 @@ def _floats(value: Any) -> Iterator[float]:
     elif isinstance(value, list):
         for item in value:
             yield from _floats(item)
+
+
+def given(value: Value | None) -> Value:
+    """A value of a resolved scene, which leaves none open."""
+    assert value is not None
+    return value
 
 
 def number(

@@ -15,6 +15,7 @@ from contact_sim_pkg.records.contact import Contact
 from contact_sim_pkg.records.registry import contacts, rig_names, rigs
 from contact_sim_pkg.records.rig import load
 from contact_sim_pkg.scene.schema.fields import Section, choice, number, text
+from contact_sim_pkg.scene.schema.general import Integrator, Limits, Outputs
 from contact_sim_pkg.scene.schema.road import Road, Slip, TravelSection
 from contact_sim_pkg.scene.schema.vibration import Vibration
 
@@ -26,38 +27,6 @@ else:
 Kind = TypeVar("Kind", bound=Section)
 Accuracy: TypeAlias = Annotated[float, Field(ge=1e-8, le=0.1)] | Literal["realtime"]
 Pace: TypeAlias = Annotated[float, Field(ge=0.001, le=1000.0)] | Literal["realtime", "max"]
-
-
-class Outputs(Section):
-    """How often each kind of output is written; each rate gives a whole number of samples a block."""
-
-    force_rate: float = number(1.0, 1e6, "Hz", "forces and motions, one message a block", default=1000.0)
-    display_rate: float = number(1.0, 1e4, "Hz", "wrenches and scalars for plotters", default=100.0)
-    field_rate: float = number(1.0, 1e4, "Hz", "pressure fields", default=100.0)
-
-
-class Integrator(Section):
-    """Time integration."""
-
-    relative_tolerance: float | None = number(
-        1e-13, 1e-2, "", "local error of a step relative to the state; taken from accuracy when absent", default=None
-    )
-    coupling_tolerance: float | None = number(
-        1e-8,
-        1.0,
-        "",
-        "error of a contact force between two solutions of its pressure field, relative to the standing load: it sets how often"
-        " the fields are solved; less than the field's own tolerance counts as that; taken from accuracy when absent",
-        default=None,
-    )
-
-
-class Limits(Section):
-    """Caps that a scene may raise for itself."""
-
-    memory: float = number(
-        0.001, 1024.0, "GiB", "most memory that grids, roads and signals may need together", default=1.0
-    )
 
 
 class _Scene(Section):

@@ -47,7 +47,7 @@ class Motion(NamedTuple):
 
 def drive_of(scene: ResolvedScene, duration: float) -> DrivenBackrest:
     """Drive of the scene's seat back over ``duration`` [s]."""
-    model, sources = build_backrest(scene.data), make_sources(scene)
+    model, sources = build_backrest(scene), make_sources(scene)
     timing = model.timing
     blocks = max(1, min(timing.blocks, round(duration / timing.block_length)))
     forward = [accelerations(timing, block, sources[VIBRATION].block(block))[0] for block in range(blocks)]

@@ -11,6 +11,7 @@ from scipy.spatial import ConvexHull
 from contact_sim_pkg.report.series import MotionSeries
 from contact_sim_pkg.rigid.geometry.profile import heights_at
 from contact_sim_pkg.rigs.body.model import BlockModel, build_block, rotation_of
+from contact_sim_pkg.scene.resolved_scene import ResolvedScene
 
 FloatArray = NDArray[np.float64]
 
@@ -41,7 +42,7 @@ def poses_of(scene: dict[str, Any], motion: MotionSeries) -> BlockPoses:
     if "block_pitch" in motion.position:
         turning = ("roll", "pitch", "yaw")
     return BlockPoses(
-        build_block(scene), motion.time, columns(motion.position, "x", "y", "z"), columns(motion.position, *turning),
+        build_block(ResolvedScene(scene)), motion.time, columns(motion.position, "x", "y", "z"), columns(motion.position, *turning),
         columns(motion.velocity, "x", "y", "z"), columns(motion.velocity, *turning),
     )  # fmt: skip
 

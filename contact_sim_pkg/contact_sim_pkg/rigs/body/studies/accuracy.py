@@ -126,7 +126,7 @@ def _compared(
 
 
 def _rigid(scene: ResolvedScene) -> BlockModel:
-    return dataclasses.replace(build_block(scene.data), contact=None, scheme="located", facets=0)
+    return dataclasses.replace(build_block(scene), contact=None, scheme="located", facets=0)
 
 
 def _path(model: BlockModel, scene: ResolvedScene) -> tuple[tuple[Vector, Vector], float]:

@@ -44,7 +44,7 @@ Answer = tuple[float, float, float, float]
 
 def way_rows(_scene_name: str, scene: ResolvedScene, notify: Callable[[str], None]) -> list[dict[str, Any]]:
     """Restitution, contact time, depth and peak force of the first impact by each way."""
-    model = build_impact(scene.data)
+    model = build_impact(scene)
     release = model.releases[0]
     found = model.touch(release.speed, release.temperature)
     law = found.law

@@ -15,6 +15,7 @@ from contact_sim_pkg.rigs.roller.model import build_roller
 from contact_sim_pkg.rigs.roller.report.series import RollerSeries
 from contact_sim_pkg.rigs.roller.report.warnings import LARGEST_ERROR
 from contact_sim_pkg.rigs.roller.theory.stability import RollerError, stability
+from contact_sim_pkg.scene.resolved_scene import ResolvedScene
 
 OTHER = "#e08a2e"
 LEAST_CHANGE = 1e-3  # of a value's mean: less is drawn as a level line
@@ -164,7 +165,7 @@ def stability_map(roller: RollerSeries, scene: dict[str, Any]) -> Picture | None
     """Growth rate of tilt and yaw over load and speed; None where they are held."""
     if not roller.stability:
         return None
-    model = build_roller(scene)
+    model = build_roller(ResolvedScene(scene))
     at = roller.stability[0]
     curvatures = model.programme.curvatures_at(0.0)
     loads = np.linspace(0.05, 2.0, MAP_ROWS) * model.largest_load

@@ -9,6 +9,7 @@ import numpy as np
 from contact_sim_pkg.report.drawing import ACCENT, INK, MUTED, Picture, new_figure, picture
 from contact_sim_pkg.rigs.roller.model import build_roller
 from contact_sim_pkg.rigs.roller.report.series import RollerSeries
+from contact_sim_pkg.scene.resolved_scene import ResolvedScene
 
 OTHER = "#e08a2e"
 POINTS = 2000
@@ -22,7 +23,7 @@ def programme_over_time(roller: RollerSeries, scene: dict[str, Any]) -> Picture 
     """Load pressed on, and the radii of the contact where they change; None without a programme
     that changes anything.
     """
-    programme = build_roller(scene).programme
+    programme = build_roller(ResolvedScene(scene)).programme
     if not programme.turns_bodies and float(np.ptp(programme.load)) == 0.0:
         return None
     times = np.linspace(0.0, roller.time[-1], POINTS)

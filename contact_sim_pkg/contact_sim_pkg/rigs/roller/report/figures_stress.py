@@ -15,6 +15,7 @@ from contact_sim_pkg.rigs.roller.report.series import RollerSeries
 from contact_sim_pkg.rigs.roller.theory.ellipse import RollingContact
 from contact_sim_pkg.rigs.roller.theory.stress import bench_stresses
 from contact_sim_pkg.rigs.roller.theory.volumes import leaves_box
+from contact_sim_pkg.scene.resolved_scene import ResolvedScene
 
 CELLS = 61
 ZOOMS = 4
@@ -41,7 +42,7 @@ def stress_pictures(roller: RollerSeries, scene: dict[str, Any]) -> list[Picture
 
 
 def _stress_picture(found: RollerVolumes, scene: dict[str, Any]) -> Picture:
-    model = build_roller(scene)
+    model = build_roller(ResolvedScene(scene))
     contact = RollingContact(found.along_x, found.along_y, found.angle, found.peak_pressure, found.approach, found.load)
     a = max(found.along_x, found.along_y)
     side: FloatArray = np.linspace(-2.0, 2.0, CELLS, dtype=np.float64) * a

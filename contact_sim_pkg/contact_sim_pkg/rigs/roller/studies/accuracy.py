@@ -47,7 +47,7 @@ ACCELERATIONS = (0.1, 1.0, 10.0)
 
 def rows(_scene_name: str, scene: ResolvedScene, notify: Callable[[str], None]) -> Rows:
     """All parts that the scene has."""
-    model = build_roller(scene.data)
+    model = build_roller(scene)
     found: Rows = []
     for part, measure in zip(PARTS, (_ellipse, _tilt_yaw, _heave, _volumes, _acceleration), strict=True):
         notify(f"roller: {part}")
@@ -91,7 +91,7 @@ def _reference(curvatures: Any, yaw: float, modulus: float, load: float) -> tupl
 
 def _tilt_yaw(model: RollerModel) -> Rows:
     """From the start of the scene under its first load, with a tilt of 1 mrad beside."""
-    if model.effects.get("tilt_yaw") is None:
+    if not model.turns:
         return []
     curvatures, roller = model.programme.curvatures_at(0.0), model.roller
     load = model.contact_load(float(model.programme.load[0]), curvatures)
@@ -130,7 +130,7 @@ def _tilt_yaw(model: RollerModel) -> Rows:
 
 def _heave(model: RollerModel) -> Rows:
     """The first interval of the scene, from rest."""
-    if model.effects.get("track_waves") is None:
+    if model.track_waves is None:
         return []
     track = TrackRide(model, None)
     heave, path, cell_time = track.heave, track._path(), track.interval_time / track.cells
@@ -164,10 +164,10 @@ def _ridden_by_scipy(heave: Heave, path: Path, cell_time: float) -> float:
 
 def _volumes(model: RollerModel) -> Rows:
     """At the first instant of the scene; the cost is that of all its instants."""
-    below = model.effects.get("subsurface")
+    below = model.subsurface
     if below is None:
         return []
-    at = float(below["instants"][0])
+    at = below.instants[0]
     curvatures = model.programme.curvatures_at(at)
     load = model.contact_load(float(model.programme.loads(numpy.array([at]))[0]), curvatures)
     contact = model.contact(load, model.start[1], curvatures)
@@ -187,14 +187,14 @@ def _volumes(model: RollerModel) -> Rows:
         value, cost = timed_once(lambda share=share: measure(share))  # type: ignore[misc]
         error = abs(value.any / right - 1.0) if right > 0.0 else abs(value.any)
         grid = "x".join(str(max(2, round(share * number))) for number in cells)
-        cost *= len(below["instants"]) / duration
+        cost *= len(below.instants) / duration
         found.append(_row("V_T", name, error, f"own code, {FINER:g} times as many cells each way", cost, grid))
     return found
 
 
 def _acceleration(model: RollerModel) -> Rows:
     """From the start of the scene, cost of a second of the rig."""
-    if model.effects.get("damage") is None or model.acceleration == 1.0:
+    if model.damage is None or model.acceleration == 1.0:
         return []
     begun = TrackRide(model, None)
     for _ in range(20):

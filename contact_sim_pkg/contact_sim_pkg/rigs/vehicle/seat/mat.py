@@ -2,14 +2,15 @@
 
 from __future__ import annotations
 
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import numpy
 from numpy.typing import NDArray
 
 from contact_sim_pkg.compiled.arrays import Vector
-from contact_sim_pkg.rigs.vehicle.seat.shape import SeatShape, seat_gap
-from contact_sim_pkg.scene.resolved_scene import effects_at
+from contact_sim_pkg.rigs.vehicle.seat.schema import Body, PressureMat
+from contact_sim_pkg.rigs.vehicle.seat.shape import seat_gap, shape_of
+from contact_sim_pkg.scene.resolved_scene import ResolvedScene
 
 AHEAD = 0.7  # part of the length that lies forward of the tuberosities
 
@@ -25,16 +26,14 @@ class PanMat(NamedTuple):
     fields: int  # maps a block
 
 
-def build_pan_mat(scene: dict[str, Any]) -> PanMat | None:
-    """The mat of a resolved scene; None where it does not call for one."""
-    effect = effects_at(scene, "seat").get("pressure_mat")
+def build_pan_mat(scene: ResolvedScene, body: Body) -> PanMat | None:
+    """The mat of a resolved scene under a body; None where it does not call for one."""
+    effect = scene.effect("seat", PressureMat)
     if effect is None:
         return None
-    rows, cols = int(effect["rows"]), int(effect["cols"])
-    length, width = float(effect["length"]), float(effect["width"])
+    rows, cols, length, width = effect.rows, effect.cols, effect.length, effect.width
     cell_x, cell_y = length / rows, width / cols
     x: Vector = (numpy.arange(rows, dtype=numpy.float64) + 0.5) * cell_x - (1.0 - AHEAD) * length
     y: Vector = (numpy.arange(cols, dtype=numpy.float64) - 0.5 * (cols - 1)) * cell_y
-    shape = SeatShape(*(float(scene["seat"]["body"][key]) for key in SeatShape._fields))
-    fields = round(float(scene["block_length"]) * float(scene["outputs"]["field_rate"]))
-    return PanMat(cell_x, cell_y, float(x[0]), float(y[0]), seat_gap(shape, x, y), fields)
+    fields = round(scene.block_length * scene.outputs.field_rate)
+    return PanMat(cell_x, cell_y, float(x[0]), float(y[0]), seat_gap(shape_of(body), x, y), fields)

@@ -11,6 +11,8 @@ from typing import NamedTuple
 import numpy
 from numpy.typing import NDArray
 
+from contact_sim_pkg.rigs.vehicle.seat.schema import Body
+
 
 class SeatShape(NamedTuple):
     """Sizes of the shape."""
@@ -20,6 +22,11 @@ class SeatShape(NamedTuple):
     thigh_radius: float  # [m]
     thigh_length: float  # [m] forward of the lowest points
     thigh_rise: float  # [m] of the thighs' lowest line over the buttocks' lowest points
+
+
+def shape_of(body: Body) -> SeatShape:
+    """Sizes of a scene's body."""
+    return SeatShape(body.buttock_spacing, body.buttock_radius, body.thigh_radius, body.thigh_length, body.thigh_rise)
 
 
 def seat_gap(shape: SeatShape, x: NDArray[numpy.float64], y: NDArray[numpy.float64]) -> NDArray[numpy.float64]:

@@ -17,10 +17,10 @@ from contact_sim_pkg.pressure.settings import FieldSettings
 from contact_sim_pkg.records.constants import GRAVITY
 from contact_sim_pkg.reference.halfspace import dense_influence, pressure_at_approach
 from contact_sim_pkg.rigs.vehicle.contact_field import PressureField
-from contact_sim_pkg.rigs.vehicle.lattice import occupant_mass, standing_load
+from contact_sim_pkg.rigs.vehicle.lattice import occupant_mass, plain_tire, standing_load
 from contact_sim_pkg.rigs.vehicle.model import build, seat_gap_on
-from contact_sim_pkg.rigs.vehicle.seat.schema import SeatField
-from contact_sim_pkg.rigs.vehicle.tire.schema import TireField
+from contact_sim_pkg.rigs.vehicle.seat.schema import SeatField, SeatSection
+from contact_sim_pkg.rigs.vehicle.tire.schema import TireField, TireSection
 from contact_sim_pkg.run.sources import make_road, make_travel
 from contact_sim_pkg.scene.resolved_scene import ResolvedScene
 from contact_sim_pkg.scene.schema.accuracy import LEVELS
@@ -79,7 +79,7 @@ def first_solve(scene: ResolvedScene) -> float | None:
     if not any((effects or {}).get("contact_field") for effects in scene.data["effects"].values()):
         return None
     began = time.perf_counter()
-    build(scene.data)  # fits the tangent: two solves
+    build(scene)  # fits the tangent: two solves
     return time.perf_counter() - began
 
 
@@ -104,7 +104,7 @@ def _rungs(scene: ResolvedScene, contact: str, notify: Callable[[str], None]) ->
     finest = (2 * grids[-1].rows, 2 * grids[-1].cols)
     notify(f"{contact} field: reference grid {finest[0]}x{finest[1]}")
     reference = _solve(_problem(scene, contact, finest, grids[-1].tolerance), FEW)
-    rate = float(scene.data["outputs"]["field_rate"])
+    rate = scene.outputs.field_rate
     rows = []
     for level, grid in zip(LEVELS, grids, strict=True):
         cells = grid.cells
@@ -133,7 +133,7 @@ def _independent(scene: ResolvedScene, contact: str, notify: Callable[[str], Non
     approach = PressureField(settings, contact).solve_load(gap, problem.load)
     influence = dense_influence(*cells, settings.cell_x, settings.cell_y, settings.modulus)
     exact = pressure_at_approach(influence, gap, approach)
-    rate = float(scene.data["outputs"]["field_rate"])
+    rate = scene.outputs.field_rate
     rows = []
     for tolerance in CHECK_TOLERANCES:
         walls = []
@@ -155,7 +155,7 @@ def _problem(scene: ResolvedScene, contact: str, cells: Cells, tolerance: float)
     """The field of one contact on a grid of `cells`, its gaps at the instants and the standing
     load.
     """
-    model = build(scene.data)
+    model = build(scene)
     grids = model.tire_field if contact == "tire" else model.seat_field
     assert grids is not None
     usual = grids.usual.settings
@@ -166,21 +166,24 @@ def _problem(scene: ResolvedScene, contact: str, cells: Cells, tolerance: float)
     )  # fmt: skip
     if contact == "seat":
         assert model.seat_shape is not None
-        gaps, load = [seat_gap_on(model.seat_shape, settings)], occupant_mass(scene.data) * GRAVITY
+        gaps, load = (
+            [seat_gap_on(model.seat_shape, settings)],
+            occupant_mass(scene.section(SeatSection).occupant) * GRAVITY,
+        )
     else:
-        gaps, load = _tire_gaps(scene, settings), standing_load(scene.data)
+        gaps, load = _tire_gaps(scene, settings), standing_load(*plain_tire(scene.data))
     return FieldProblem(settings, contact, gaps, load)
 
 
 def _tire_gaps(scene: ResolvedScene, settings: FieldSettings) -> list[Field]:
     """Gaps [m] at consecutive field instants, heights taken at the cell centres of the grid."""
-    surface, travel = make_road(scene).surface, make_travel(scene.data)
-    step = 1.0 / float(scene.data["outputs"]["field_rate"])
-    tire = scene.data["tire"]
+    surface, travel = make_road(scene).surface, make_travel(scene)
+    step = 1.0 / scene.outputs.field_rate
+    tire = scene.section(TireSection)
     x = (numpy.arange(settings.rows, dtype=numpy.float64) - 0.5 * (settings.rows - 1)) * settings.cell_x
     y = (numpy.arange(settings.cols, dtype=numpy.float64) - 0.5 * (settings.cols - 1)) * settings.cell_y
-    crown = 0.5 * x[:, None] ** 2 / tire["radius_rolling"] + 0.5 * y[None, :] ** 2 / tire["radius_lateral"]
-    middle = min(MIDDLE, 0.5 * float(scene.data["duration"]))
+    crown = 0.5 * x[:, None] ** 2 / tire.radius_rolling + 0.5 * y[None, :] ** 2 / tire.radius_lateral
+    middle = min(MIDDLE, 0.5 * scene.duration)
     at = [travel.position(middle + i * step) for i in range(INSTANTS)]
     return [numpy.asarray(crown - surface.heights(numpy.asarray(x + position), y)) for position in at]
 

@@ -57,13 +57,13 @@ def drive_of(scene: ResolvedScene, duration: float) -> SceneDrive:
     left_out = ("contact_field", "friction", "asperity_impulses")
     effects = [(contact, effect) for contact in ("tire", "seat") for effect in left_out]
     plain = without(scene, *effects)
-    model, sources = build(plain.data), make_sources(plain)
+    model, sources = build(plain), make_sources(plain)
     timing = model.timing
     blocks = max(1, min(timing.blocks, round(duration / timing.block_length)))
     steps = timing.intervals * timing.segments
     shape = blocks * steps + 1
     height, a_x, a_z = numpy.zeros(shape), numpy.zeros(shape), numpy.zeros(shape)
-    travel = make_travel(plain.data) if model.tire_geometry is not None else None
+    travel = make_travel(plain) if model.tire_geometry is not None else None
     for block in range(blocks):
         part = slice(block * steps, (block + 1) * steps + 1)
         if travel is not None:

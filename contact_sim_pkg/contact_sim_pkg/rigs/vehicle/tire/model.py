@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Any
 
 import numpy
 from numpy.typing import NDArray
@@ -14,7 +13,7 @@ from contact_sim_pkg.laws.parameters import Contact, NormalElastic
 from contact_sim_pkg.pressure.closed_form.hertz import hertz_contact, power_law
 from contact_sim_pkg.pressure.settings import FieldSettings
 from contact_sim_pkg.records.constants import GRAVITY
-from contact_sim_pkg.rigs.vehicle.contact_model import FieldGrids, loss_of, make_grids, tangent_law
+from contact_sim_pkg.rigs.vehicle.contact_model import FieldGrids, make_grids, tangent_law
 from contact_sim_pkg.rigs.vehicle.coupling_model import coupled_timing, uniform_segments
 from contact_sim_pkg.rigs.vehicle.lattice import (
     contact_modulus,
@@ -23,9 +22,12 @@ from contact_sim_pkg.rigs.vehicle.lattice import (
     tire_lattice,
 )
 from contact_sim_pkg.rigs.vehicle.parameters import Carcass, Tire
+from contact_sim_pkg.rigs.vehicle.seat.schema import OccupantSection
+from contact_sim_pkg.rigs.vehicle.tire import schema
 from contact_sim_pkg.rigs.vehicle.tire.parameters import Brush, TreadViscoelasticity
 from contact_sim_pkg.rigs.vehicle.tire.tread_viscoelasticity import stiffening
-from contact_sim_pkg.scene.resolved_scene import effects_at
+from contact_sim_pkg.run.contact_laws import normal_loss
+from contact_sim_pkg.scene.resolved_scene import ResolvedScene
 
 
 @dataclass(frozen=True)
@@ -96,85 +98,87 @@ class TireParts:
     asperities: Asperities | None
 
 
-def build_tire(scene: dict[str, Any]) -> TireParts:
-    """Parts of a resolved scene's tire. Raises SceneError where a pressure field cannot carry the standing load."""
-    given = scene["tire"]
-    carcass, geometry = _carcass(scene), _geometry(scene)
-    tread = _tread(scene, geometry)
+def build_tire(scene: ResolvedScene, occupant: OccupantSection | None) -> TireParts:
+    """Parts of a resolved scene's tire under an ``occupant``, None where it carries none.
+
+    Raises SceneError where a pressure field cannot carry the standing load.
+    """
+    given_tire = scene.section(schema.TireSection)
+    load = standing_load(given_tire, occupant)
+    carcass, geometry = _carcass(scene), _geometry(scene, given_tire, load)
+    tread = _tread(scene, given_tire, geometry)
     tire = Tire(
-        float(given["wheel_mass"]) - (0.0 if carcass is None else carcass.belt_mass),
-        *(float(given[key]) for key in ("body_mass", "suspension_stiffness", "suspension_damping")),
-    )
-    law, length, field = _elastic(scene, geometry, tread)
-    contact = Contact(law, loss_of(scene, "tire", law, standing_load(scene) / GRAVITY), None)
-    asperities = _asperities(scene, geometry)
+        given_tire.wheel_mass - (0.0 if carcass is None else carcass.belt_mass), given_tire.body_mass,
+        given_tire.suspension_stiffness, given_tire.suspension_damping,
+    )  # fmt: skip
+    law, length, field = _elastic(scene, given_tire, load, geometry, tread)
+    contact = Contact(law, normal_loss(scene, "tire", law, load / GRAVITY), None)
+    asperities = _asperities(scene, geometry, load)
     return TireParts(tire, carcass, contact, geometry, length, field, tread, _rolling_friction(scene), asperities)
 
 
 def _elastic(
-    scene: dict[str, Any], geometry: TireGeometry, tread: Tread | None
+    scene: ResolvedScene, tire: schema.TireSection, load: float, geometry: TireGeometry, tread: Tread | None
 ) -> tuple[NormalElastic, float, FieldGrids | None]:
     """Normal law, length in [m] of the standing footprint, and the field.
 
     Hertz's law of the point contact, or a field's tangent law; a tread with memory is stiffer at once than for long, and its
     footprint, which sets its step, is Hertz's for long.
     """
-    modulus = contact_modulus(scene["tire"])
+    modulus = contact_modulus(tire)
     raised = 1.0 if tread is None else stiffening(tread.viscoelasticity, tread.step)
-    settings = field_settings(scene, "tire", modulus * raised)
+    settings = _field_settings(scene, modulus * raised)
     if settings is None:
         curvatures = (0.5 / geometry.radius_rolling, 0.5 / geometry.radius_lateral)
         return NormalElastic(float(power_law(*curvatures, modulus)), 1.5), geometry.footprint_length, None
     field = make_grids(settings, "tire")
-    law, length = tangent_law(field, lambda grid: _crown(geometry, grid), standing_load(scene), "tire")
+    law, length = tangent_law(field, lambda grid: _crown(geometry, grid), load, "tire")
     return law, length if tread is None else geometry.footprint_length, field
 
 
-def _carcass(scene: dict[str, Any]) -> Carcass | None:
-    carcass = effects_at(scene, "tire").get("carcass")
-    if carcass is None:
-        return None
-    return Carcass(4, *(float(carcass[key]) for key in ("belt_mass", "stiffness", "damping")))
+def _field_settings(scene: ResolvedScene, modulus: float) -> FieldSettings | None:
+    return field_settings(scene.effect("tire", schema.TireField), modulus, scene.effect("tire", schema.Envelopment))
 
 
-def _tread(scene: dict[str, Any], geometry: TireGeometry) -> Tread | None:
-    memory = effects_at(scene, "tire").get("tread_viscoelasticity")
+def _carcass(scene: ResolvedScene) -> Carcass | None:
+    carcass = scene.effect("tire", schema.CarcassSection)
+    return None if carcass is None else Carcass(4, carcass.belt_mass, carcass.stiffness, carcass.damping)
+
+
+def _tread(scene: ResolvedScene, tire: schema.TireSection, geometry: TireGeometry) -> Tread | None:
+    memory = scene.effect("tire", schema.TreadViscoelasticitySection)
     if memory is None:
         return None
-    pairs = numpy.array(memory["branches"], dtype=numpy.float64).reshape(-1, 2)
-    tread = TreadViscoelasticity(float(memory["retardation_time"]), pairs[:, 0].copy(), pairs[:, 1].copy())
+    pairs = numpy.array(memory.branches, dtype=numpy.float64).reshape(-1, 2)
+    tread = TreadViscoelasticity(memory.retardation_time, pairs[:, 0].copy(), pairs[:, 1].copy())
     timing = coupled_timing(scene, True, geometry.footprint_length)
     step = uniform_segments(scene, geometry.footprint_length, timing) * timing.segment_length
-    return Tread(tread, contact_modulus(scene["tire"]), step)
+    return Tread(tread, contact_modulus(tire), step)
 
 
-def _rolling_friction(scene: dict[str, Any]) -> RollingFriction | None:
-    given = effects_at(scene, "tire").get("brush")
-    if given is None:
+def _rolling_friction(scene: ResolvedScene) -> RollingFriction | None:
+    law, slip = scene.effect("tire", schema.BrushSection), scene.slip
+    if law is None:
         return None
-    keys = ("stiffness_x", "stiffness_y", "coefficient_static", "coefficient_kinetic")
-    slip = scene.get("slip") or {}
-    points = slip.get("points") or [[0.0, slip.get("longitudinal", 0.0), slip.get("angle", 0.0)]]
+    points = [[0.0, 0.0, 0.0]] if slip is None else slip.points or [[0.0, slip.longitudinal or 0.0, slip.angle or 0.0]]
     times, longitudinal, angles = numpy.array(points, dtype=numpy.float64).T.copy()
-    return RollingFriction(Brush(*(float(given[key]) for key in keys)), times, longitudinal, angles)
+    brush = Brush(law.stiffness_x, law.stiffness_y, law.coefficient_static, law.coefficient_kinetic)
+    return RollingFriction(brush, times, longitudinal, angles)
 
 
-def _asperities(scene: dict[str, Any], geometry: TireGeometry) -> Asperities | None:
-    given = effects_at(scene, "tire").get("asperity_impulses")
-    if given is None:
+def _asperities(scene: ResolvedScene, geometry: TireGeometry, load: float) -> Asperities | None:
+    law = scene.effect("tire", schema.AsperityImpulsesSection)
+    if law is None:
         return None
-    return Asperities(
-        float(given["spacing"]), geometry.footprint_length, standing_load(scene), float(given["share"]),
-        given["window"] == "raised_cosine",
-    )  # fmt: skip
+    return Asperities(law.spacing, geometry.footprint_length, load, law.share, law.window == "raised_cosine")
 
 
-def _geometry(scene: dict[str, Any]) -> TireGeometry:
-    given = scene["tire"]
-    radius_x, radius_y = float(given["radius_rolling"]), float(given["radius_lateral"])
-    footprint = hertz_contact(0.5 / radius_x, 0.5 / radius_y, contact_modulus(given), standing_load(scene))
+def _geometry(scene: ResolvedScene, tire: schema.TireSection, load: float) -> TireGeometry:
+    radius_x, radius_y, modulus = tire.radius_rolling, tire.radius_lateral, contact_modulus(tire)
+    footprint = hertz_contact(0.5 / radius_x, 0.5 / radius_y, modulus, load)
     semi_x, semi_y = (footprint.b, footprint.a) if radius_y >= radius_x else (footprint.a, footprint.b)
-    return TireGeometry(radius_x, radius_y, semi_x, semi_y, tire_lattice(scene))
+    lattice = tire_lattice(tire, _field_settings(scene, modulus), load)
+    return TireGeometry(radius_x, radius_y, semi_x, semi_y, lattice)
 
 
 def _crown(geometry: TireGeometry, grid: FieldSettings) -> NDArray[numpy.float64]:

@@ -13,8 +13,9 @@ from contact_sim_pkg.pressure.closed_form.hertz import HertzError, hertz_contact
 from contact_sim_pkg.pressure.closed_form.lame import fit_patch, lame_area
 from contact_sim_pkg.pressure.settings import BeltSettings, widened
 from contact_sim_pkg.rigs.vehicle.contact_field import FieldError, PressureField
-from contact_sim_pkg.rigs.vehicle.lattice import contact_modulus, field_settings
+from contact_sim_pkg.rigs.vehicle.lattice import contact_modulus, plain_field
 from contact_sim_pkg.rigs.vehicle.tire.report.numbers import standing_load_of
+from contact_sim_pkg.scene.resolved_scene import plain
 
 REFERENCE_TOLERANCE = 1e-6
 """Of the field at rest: what a run is measured by must not carry the error of the run's own
@@ -64,7 +65,7 @@ def tire_reference(scene: dict[str, Any]) -> TireReference | None:
         return None
     try:
         radius_x, radius_y = float(tire["radius_rolling"]), float(tire["radius_lateral"])
-        modulus, poisson = contact_modulus(tire), float(tire["poisson_ratio"])
+        modulus, poisson = contact_modulus(plain(tire)), float(tire["poisson_ratio"])
         contact = hertz_contact(0.5 / radius_x, 0.5 / radius_y, modulus, load)
     except (KeyError, TypeError, ZeroDivisionError, HertzError, ValueError):
         return None  # a scene that this version does not know: nothing to compare with
@@ -91,7 +92,7 @@ def _on_belt(scene: dict[str, Any], reference: TireReference) -> TireReference |
     effects = (scene.get("effects") or {}).get("tire") or {}
     if not effects.get("envelopment"):
         return reference
-    settings = field_settings(scene, "tire", reference.modulus)
+    settings = plain_field(scene, reference.modulus)
     if settings is None:
         return None
     grid = widened(settings)._replace(tolerance=REFERENCE_TOLERANCE)

@@ -1,0 +1,37 @@
+"""Keys of every scene beside its rig: rates of the outputs, time integration, limits."""
+
+from __future__ import annotations
+
+from contact_sim_pkg.scene.schema.fields import Section, number
+
+
+class Outputs(Section):
+    """How often each kind of output is written; each rate gives a whole number of samples a block."""
+
+    force_rate: float = number(1.0, 1e6, "Hz", "forces and motions, one message a block", default=1000.0)
+    display_rate: float = number(1.0, 1e4, "Hz", "wrenches and scalars for plotters", default=100.0)
+    field_rate: float = number(1.0, 1e4, "Hz", "pressure fields", default=100.0)
+
+
+class Integrator(Section):
+    """Time integration."""
+
+    relative_tolerance: float | None = number(
+        1e-13, 1e-2, "", "local error of a step relative to the state; taken from accuracy when absent", default=None
+    )
+    coupling_tolerance: float | None = number(
+        1e-8,
+        1.0,
+        "",
+        "error of a contact force between two solutions of its pressure field, relative to the standing load: it sets how often"
+        " the fields are solved; less than the field's own tolerance counts as that; taken from accuracy when absent",
+        default=None,
+    )
+
+
+class Limits(Section):
+    """Caps that a scene may raise for itself."""
+
+    memory: float = number(
+        0.001, 1024.0, "GiB", "most memory that grids, roads and signals may need together", default=1.0
+    )
