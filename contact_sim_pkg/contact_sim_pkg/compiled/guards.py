@@ -36,6 +36,8 @@ def require(
 ) -> float:  # fmt: skip
     """`value` as a float where it is a number within its bounds, and finite unless `infinite`;
     raises `error` otherwise.
+
+    value: a number in [unit]; bounds in the same unit; unit: for the sentence alone.
     """
     # At once, for it is called often
     if type(value) is float and above < value < below and least <= value <= most:
@@ -105,6 +107,7 @@ def require_values(
     first that is not.
 
     shape: None in it allows any length. rising: each value above the one before.
+    values: array-like of the wanted shape in [unit]; the result is float64 of that shape.
     """
     try:
         array = numpy.ascontiguousarray(values, dtype=numpy.float64)

@@ -259,7 +259,10 @@ class RecordedVibration:
             )
 
     def acceleration(self, t: Array) -> tuple[Array, Array]:
-        """See blocks.Signal; ExcitationError beyond the recording where that is refused."""
+        """See blocks.Signal; ExcitationError beyond the recording where that is refused.
+
+        t: [n] [s]; the result: forward and up, [n] each [m/s^2].
+        """
         position = (t + self.start) * self.rate
         outside = (position < -1e-6) | (position > self.samples - 1 + 1e-6)
         if self.beyond == "refuse" and outside.any():

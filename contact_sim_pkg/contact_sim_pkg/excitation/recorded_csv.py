@@ -63,6 +63,8 @@ class RecordedTable(NamedTuple):
     def time(self, name: str | None) -> NDArray[numpy.float64] | None:
         """The time column by its name, or by a usual name where none is given; None where there is
         none.
+
+        The result: [samples] [s].
         """
         if name is not None:
             return self.column(name.lower())

@@ -48,7 +48,10 @@ class Sine:
         self.amplitude, self.frequency, self.phase = amplitude, frequency, phase
 
     def values(self, t: NDArray[numpy.float64]) -> NDArray[numpy.float64]:
-        """See Waveform."""
+        """See Waveform.
+
+        t: [n] [s]; the result: [n] [m/s^2].
+        """
         return self.amplitude * numpy.sin(2.0 * pi * self.frequency * t + self.phase)
 
     def describe(self) -> dict[str, Any]:
@@ -82,7 +85,10 @@ class SweepSignal:
         self.duration, self.logarithmic = duration, logarithmic
 
     def values(self, t: NDArray[numpy.float64]) -> NDArray[numpy.float64]:
-        """See Waveform."""
+        """See Waveform.
+
+        t: [n] [s]; the result: [n] [m/s^2].
+        """
         inside = (t >= 0.0) & (t <= self.duration)
         part = numpy.where(inside, t, 0.0) / self.duration
         if self.logarithmic:
@@ -117,7 +123,10 @@ class HalfSine:
         self.peak, self.start, self.duration = peak, start, duration
 
     def values(self, t: NDArray[numpy.float64]) -> NDArray[numpy.float64]:
-        """See Waveform."""
+        """See Waveform.
+
+        t: [n] [s]; the result: [n] [m/s^2].
+        """
         part = (t - self.start) / self.duration
         return numpy.where((part > 0.0) & (part < 1.0), self.peak * numpy.sin(pi * part), 0.0)
 
@@ -182,7 +191,10 @@ class NoiseSignal:
         return synthesise(amplitude, points, self.period)
 
     def values(self, t: NDArray[numpy.float64]) -> NDArray[numpy.float64]:
-        """See Waveform."""
+        """See Waveform.
+
+        t: [n] [s]; the result: [n] [m/s^2].
+        """
         return numpy.asarray(self._table.at(t)[:, 0])
 
     def describe(self) -> dict[str, Any]:
@@ -203,7 +215,10 @@ class AxisSignal:
         self.x, self.z, self.notes = tuple(x), tuple(z), tuple(notes)
 
     def acceleration(self, t: NDArray[numpy.float64]) -> tuple[NDArray[numpy.float64], NDArray[numpy.float64]]:
-        """See blocks.Signal."""
+        """See blocks.Signal.
+
+        t: [n] [s]; the result: forward and up, [n] each [m/s^2].
+        """
         return _sum(self.x, t), _sum(self.z, t)
 
     def describe(self) -> dict[str, Any]:

@@ -65,7 +65,10 @@ class DormandPrinceWorkspace(NamedTuple):
 
 
 def make_workspace(states: int, event_count: int) -> DormandPrinceWorkspace:
-    """Workspace for a rig with ``states`` state variables and ``event_count`` event functions."""
+    """Workspace for a rig with ``states`` state variables and ``event_count`` event functions.
+
+    Its arrays: [states] or [event functions].
+    """
 
     def zeros(*shape: int) -> Vector:
         return numpy.zeros(shape)

@@ -19,6 +19,8 @@ from contact_sim_pkg.integrate.time_map import place
 def compute_stages(pair: Any, rig: Any, drive: Any, mode: Any, course: Any, state: Vector, out: Vector) -> None:
     """Step from ``state`` along ``course`` into ``out`` by ``pair``, the first of whose stages must
     be there.
+
+    state, out: [states]; the stages: [stages, states], rates over the part of the step.
     """
     stages_of = step_of_order_5 if isinstance(pair, Order5) else step_of_order_8
     stages_of(pair.stages, rig, drive, mode, course, state, out)
@@ -35,6 +37,8 @@ def _compute_stages(pair, rig, drive, mode, course, state, out):
 def estimate(pair: Any, course: Any, end_rate: Vector, scale: Vector) -> float:
     """Largest error of a state over ``scale`` that ``pair`` estimates for the step just taken along
     ``course``.
+
+    end_rate, scale: [states]; the result [-] is at most 1 where the step is within the tolerance.
     """
     if isinstance(pair, Order5):
         return float(error_of_order_5(pair.stages, course, end_rate, scale))

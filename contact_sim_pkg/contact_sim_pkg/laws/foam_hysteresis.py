@@ -25,8 +25,9 @@ from contact_sim_pkg.laws.parameters import FoamHysteresis
 
 @kernel
 def hysteresis_factor(hysteresis: FoamHysteresis | None, state: Vector, place: int = 0) -> float:
-    """Ratio of the force without rate to the elastic one, ``1 + s z``; 1 where the scene calls for
-    none.
+    """Ratio [-] of the force without rate to the elastic one, ``1 + s z``; 1 without hysteresis.
+
+    state: [states] of the rig; place: number of the point.
     """
     if hysteresis is None:
         return 1.0
@@ -63,6 +64,8 @@ def hysteresis_energy(hysteresis: FoamHysteresis | None, state: Vector, place: i
 def reversal_event(hysteresis: FoamHysteresis | None, approach: float, approach_rate: float) -> float:
     """Event function of the reversals, where z' has a corner; constant without hysteresis and out
     of contact.
+
+    approach: [m]; approach_rate: [m/s], closing positive.
     """
     if hysteresis is None:
         return 1.0

@@ -58,7 +58,10 @@ def stick_event(friction: Friction, normal: float, deflection: float, velocity: 
 
 @kernel
 def spring_is_limited(friction: Friction, mode: int, normal: float, velocity: float) -> bool:
-    """Whether the following spring is at its limit ``mu_k N/C`` against the slip."""
+    """Whether the following spring is at its limit ``mu_k N/C`` against the slip.
+
+    normal: [N] >= 0; velocity: [m/s].
+    """
     return mode * friction.damping * velocity >= 2.0 * friction.coefficient_kinetic * normal
 
 

@@ -65,6 +65,7 @@ def general_tension_event(
     force reaches zero".
 
     Infinite where the contact may pull (end rule ``gap``): there is no such event.
+    approach: [m]; approach_rate: [m/s]; the result: [N/m^min(n, p)].
     """
     if general.lowest_force < 0.0:
         return -general.lowest_force

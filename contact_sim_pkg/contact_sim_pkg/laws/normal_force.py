@@ -67,6 +67,8 @@ def tension_event(
 ) -> float:
     """Event function, positive while the contact carries: its sign change is the loss of contact
     before the gap opens.
+
+    approach: [m]; approach_rate: [m/s], closing positive; hysteresis_factor: [-].
     """
     _check(elastic, dissipative, approach, approach_rate, hysteresis_factor)
     margin = _OF_LOSS.get(type(dissipative), _USUAL)[1]
@@ -97,6 +99,7 @@ def pressure_factor(
     force.
 
     1 without contact, and where the approach is so small that the elastic force underflows to 0.
+    approach: [m]; approach_rate: [m/s], closing positive; the result: [-].
     """
     force, spring = (
         normal_force(elastic, dissipative, approach, approach_rate, hysteresis_factor),

@@ -19,6 +19,8 @@ __all__ = ["kelvin_voigt_at_force", "kelvin_voigt_at_gap", "restitution"]
 def restitution(severity: float, n: float, p: float, q: float, end: str) -> float:
     """Ratio of the speeds after and before, for `severity` Z; `end` is "force" or "gap". To about
     1e-11 for q >= 1.
+
+    All numbers: [-].
     """
 
     def force(x: float, v: float) -> float:
@@ -42,6 +44,8 @@ def restitution(severity: float, n: float, p: float, q: float, end: str) -> floa
 def kelvin_voigt_at_force(ratio: float) -> float:
     """e of a linear spring and damper with damping `ratio` zeta >= 0 that parts where the force is
     zero, in 40 digits.
+
+    ratio and the result: [-].
     """
     with mpmath.workdps(40):
         z = mpmath.mpf(ratio)
@@ -57,6 +61,8 @@ def kelvin_voigt_at_force(ratio: float) -> float:
 def kelvin_voigt_at_gap(ratio: float) -> float:
     """e where the bodies part at x = 0, after a tensile end: `exp(-pi zeta / sqrt(1 - zeta^2))`; 0
     for zeta >= 1.
+
+    ratio and the result: [-].
     """
     if ratio >= 1.0:
         return 0.0

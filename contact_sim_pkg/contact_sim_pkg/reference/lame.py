@@ -38,6 +38,8 @@ def points(a: float, b: float, exponent: float, count: int) -> tuple[Points, Poi
 def fit(x: Points, y: Points, half_x: float, half_y: float) -> tuple[float, float, float]:
     """(a, b, n) that minimise `sum (rho - 1)^2` for centred points, by scipy's trust-region
     solver.
+
+    x, y: [n] [m]; half_x, half_y: [m].
     """
 
     def deviation(unknown: Points) -> Points:

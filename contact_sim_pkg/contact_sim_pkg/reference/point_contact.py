@@ -16,7 +16,8 @@ __all__ = ["Slap", "final_state"]
 
 State = NDArray[numpy.float64]
 RELATIVE, ABSOLUTE = 3.0e-14, 1.0e-16
-INTERVALS_A_PERIOD = 32  # events are looked for in intervals, so that no touch falls between two steps
+# Events are looked for in intervals, so that no touch falls between two steps.
+INTERVALS_A_PERIOD = 32
 
 
 class Slap(NamedTuple):

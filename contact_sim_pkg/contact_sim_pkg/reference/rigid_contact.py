@@ -39,6 +39,8 @@ def _nearest_on_polygon(point: Vector, radius: float, facets: int) -> Vector:
 def coulomb_residual(A: Vector, q: Vector, c: Vector, friction: Vector, width: int, facets: int) -> float:
     """Greatest break of Signorini's and Coulomb's conditions over the greatest velocity; ``facets``
     0: the disc.
+
+    A: [n, n] [1/kg]; q, c: [n] [m/s], [N s].
     """
     u = q + A @ c
     friction = numpy.broadcast_to(friction, len(c) // width)
@@ -60,6 +62,8 @@ def coulomb_residual(A: Vector, q: Vector, c: Vector, friction: Vector, width: i
 def planar_velocity_by_enumeration(J: Vector, W: Vector, v: Vector, friction: Vector) -> Vector:
     """Velocity after the planar contacts ``J`` (rows normal, tangent a contact), from all index
     sets of eq 9.
+
+    J: [2 contacts, velocities]; W: [velocities, velocities]; v: [velocities].
     """
     contacts = len(J) // 2
     normals, tangents = J[0::2].T, J[1::2].T
@@ -81,6 +85,8 @@ def planar_velocity_by_enumeration(J: Vector, W: Vector, v: Vector, friction: Ve
 def planar_wrench_cone_split(J: Vector, wrench: Vector, friction: float) -> Vector:
     """Impulses of least norm with this wrench, all contacts sticking inside their cones: bounds by
     SLSQP, then exactly.
+
+    J: [2 contacts, 3]; wrench: [3]; the result: [2 contacts].
     """
     rows = len(J)
     found = minimize(

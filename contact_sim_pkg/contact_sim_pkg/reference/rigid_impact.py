@@ -20,6 +20,8 @@ __all__ = ["energetic_by_path", "enumerate_lcp", "newton_by_enumeration", "poiss
 def enumerate_lcp(M: Vector, q: Vector) -> list[Vector]:
     """Every solution z of ``0 <= z _|_ M z + q >= 0`` with a regular index set; up to about 12
     unknowns.
+
+    M: [n, n]; q: [n].
     """
     n = len(q)
     slack = 1e-12 * max(1.0, numpy.abs(q).max())
@@ -65,7 +67,10 @@ def newton_by_enumeration(A: Vector, friction: float, restitution: float, u: Vec
 
 
 def poisson_by_enumeration(A: Vector, friction: float, restitution: float, u: Vector) -> Vector:
-    """Impulse ``(c_n, c_t)`` by Poisson's rule: two complementarity problems in turn."""
+    """Impulse ``(c_n, c_t)`` by Poisson's rule: two complementarity problems in turn.
+
+    A: [2, 2] [1/kg]; u: [2] [m/s]; the result: [2] [N s].
+    """
     first = _one_contact(A, friction, u, 0.0)
     return first + _one_contact(A, friction, u + A @ first, restitution * first[0])
 
@@ -75,6 +80,7 @@ def energetic_by_path(A: Vector, friction: float, restitution: float, u: Vector)
     scipy's DOP853.
 
     States: normal and tangential velocity, tangential impulse, work of the normal impulse.
+    A: [2, 2] [1/kg]; u: [2] [m/s]; the result: [2] [N s].
     """
     state = numpy.array([u[0], u[1], 0.0, 0.0])
     impulse, wanted = 0.0, numpy.nan

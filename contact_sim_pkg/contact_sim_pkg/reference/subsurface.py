@@ -17,6 +17,8 @@ Six = tuple[float, float, float, float, float, float]
 def normal_point(x: float, y: float, z: float, nu: float) -> Six:
     """xx, yy, zz, xy, xz, yz of a unit force into the body (Boussinesq; Johnson 1985, eqs 3.18 in
     Cartesian form).
+
+    x, y, z: [m]; the result: [1/m^2].
     """
     r = math.sqrt(x * x + y * y + z * z)
     s, q = 1.0 - 2.0 * nu, r * (r + z)
@@ -29,7 +31,10 @@ def normal_point(x: float, y: float, z: float, nu: float) -> Six:
 
 
 def tangential_point(x: float, y: float, z: float, nu: float) -> Six:
-    """The same of a unit force along x (Cerruti; Johnson 1985, eqs 3.76)."""
+    """The same of a unit force along x (Cerruti; Johnson 1985, eqs 3.76).
+
+    x, y, z: [m]; the result: [1/m^2].
+    """
     r = math.sqrt(x * x + y * y + z * z)
     s, g = 1.0 - 2.0 * nu, r + z
     k = 1.0 / (2.0 * math.pi)
@@ -68,6 +73,8 @@ def rectangle(
 def circle_axis(depth: float, nu: float) -> tuple[float, float]:
     """zz and radial stress over p0 on the axis of a circular Hertz contact, depth over a (Johnson
     1985, eq 3.45).
+
+    depth and the result: [-].
     """
     swing = math.atan(1.0 / depth) if depth > 0.0 else 0.5 * math.pi
     zz = -1.0 / (1.0 + depth**2)
@@ -77,6 +84,8 @@ def circle_axis(depth: float, nu: float) -> tuple[float, float]:
 def line_axis(depth: float, nu: float) -> tuple[float, float, float]:
     """xx (across), yy (along the line), zz over p0 on the axis of a Hertz line contact (Johnson
     1985, eq 4.46).
+
+    depth and the result: [-].
     """
     root = math.sqrt(1.0 + depth**2)
     xx, zz = -((1.0 + 2.0 * depth**2) / root - 2.0 * depth), -1.0 / root

@@ -180,7 +180,10 @@ def _largest_scale(header: Header, layout: CrgLayout, heading: NDArray[numpy.flo
 
 def fill_missing(height: NDArray[numpy.float64]) -> None:
     """Replace missing cells in place: linear along each cross section, its outermost value kept to
-    the edge; empty cross sections linear along u between their neighbours."""
+    the edge; empty cross sections linear along u between their neighbours.
+
+    height: [rows, cols] [m], NaN where missing.
+    """
     sections = numpy.arange(height.shape[1])
     holes = numpy.isnan(height)
     some = holes.any(axis=1)

@@ -19,8 +19,8 @@ from contact_sim_pkg.laws.parameters import NormalDissipative, NormalElastic
 __all__ = ["OneMassCourse", "RunFailureError", "free_impact", "impact_speeds", "integrate", "seat_slap"]
 
 ORDER = (
-    # Of the integrator: its steps are not cut short by a drive, and it is the less expensive one below a
-    # tolerance of 1e-4
+    # Of the integrator: its steps are not cut short by a drive, and it is the less expensive one
+    # below a tolerance of 1e-4
     8
 )
 EVENT_FUNCTIONS = {

@@ -76,6 +76,8 @@ def run_with_friction(
 ) -> int:
     """As ``run``, by the integrator of the driven rigs: friction events have no root of time beside
     them that steps could use.
+
+    state, scale: [states]; times: [n] [s]; out: [n, states].
     """
     drive = _free(times[0], times[-1])
     _set_event_directions_5(rig, drive, mode, times[0], state, work)

@@ -97,6 +97,8 @@ def ansatz(fit: AnsatzFit, phases: Array) -> Array:
 def fit_harmonics(samples: Array, count: int) -> float:
     """Residual of the mean and ``count`` harmonics of one period, as that of ``fit_ansatz``; 1 + 2
     count unknowns.
+
+    samples: [n]; the result: [-].
     """
     spectrum = numpy.fft.rfft(samples - samples.mean())
     spectrum[: count + 1] = 0.0

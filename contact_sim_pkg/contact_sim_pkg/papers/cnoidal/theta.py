@@ -84,6 +84,8 @@ def theta_wave(phases: ArrayLike, matrix: ArrayLike, direction: ArrayLike) -> Ar
 def poisson_wave(phases: ArrayLike, matrix: ArrayLike, direction: ArrayLike) -> Array:
     """As ``theta_wave``, always by Poisson's sum: expensive where -B is large, and a check of the
     lattice sum anywhere.
+
+    phases: [N, n] [rad]; matrix: [N, N]; direction: [N].
     """
     eta, b = _checked(phases, matrix)
     return _modular_sums(eta, b, _direction(direction, b.shape[0]))[1]
@@ -92,6 +94,8 @@ def poisson_wave(phases: ArrayLike, matrix: ArrayLike, direction: ArrayLike) -> 
 def plain_sum(phases: ArrayLike, matrix: ArrayLike, direction: ArrayLike, *, printed: bool = False) -> Array:
     """Sum of the one-phase waves of B's diagonal (eq A5, with its constant; ``printed``
     without).
+
+    phases: [N, n] [rad]; matrix: [N, N]; direction: [N].
     """
     eta, b = _checked(phases, matrix)
     along = _direction(direction, b.shape[0])
@@ -108,8 +112,9 @@ def plain_sum(phases: ArrayLike, matrix: ArrayLike, direction: ArrayLike, *, pri
 
 
 def interaction(phases: ArrayLike, matrix: ArrayLike, direction: ArrayLike) -> Array:
-    """What the phases do to each other: ``theta_wave - plain_sum`` (eq A4); zero where B is
-    diagonal.
+    """Interaction of the phases, ``theta_wave - plain_sum`` (eq A4); zero where B is diagonal.
+
+    phases: [N, n] [rad]; matrix: [N, N]; direction: [N].
     """
     return theta_wave(phases, matrix, direction) - plain_sum(phases, matrix, direction)
 

@@ -52,7 +52,7 @@ def rows() -> list[Row]:
 
 
 def matrix_of(coupling: float) -> Array:
-    """B with the off-diagonal ``coupling``."""
+    """Matrix B [2, 2] with the off-diagonal ``coupling``."""
     return numpy.array([[-2.2, coupling], [coupling, -3.1]])
 
 

@@ -47,7 +47,10 @@ class Cuts(NamedTuple):
 
 @kernel
 def gather(body_1: ConvexBody, body_2: ConvexBody, origin: Field, size: float) -> Constraints:
-    """The constraints of both bodies."""
+    """The constraints of both bodies.
+
+    origin: [3] [m] of the local lengths; size: [m], their unit.
+    """
     planes, quadrics = body_1.offsets.size, body_1.centres.shape[0]
     all_planes, all_quadrics = planes + body_2.offsets.size, quadrics + body_2.centres.shape[0]
     found = Constraints(
@@ -68,6 +71,9 @@ def gather(body_1: ConvexBody, body_2: ConvexBody, origin: Field, size: float) -
 def put_body(
     found: Constraints, body: ConvexBody, origin: Field, size: float, plane: int, quadric: int, owner: int
 ) -> None:
+    """Write the planes and quadrics of a body from the numbers `plane` and `quadric` on; lengths over
+    `size` [m].
+    """
     for i in range(body.offsets.size):
         found.offsets[plane + i] = body.offsets[i] / size
         found.owners[plane + i] = owner
@@ -99,6 +105,7 @@ def make_cuts(constraints: Constraints, rounds: int) -> Cuts:
 
 @kernel
 def put_cut(cuts: Cuts, normal: Field, offset: float, constraint: int) -> None:
+    """Append the plane `normal . p <= offset`; normal: [3], offset: in units of the size."""
     row = cuts.used[0]
     for j in range(3):
         cuts.normals[row, j] = normal[j]
@@ -111,6 +118,8 @@ def put_cut(cuts: Cuts, normal: Field, offset: float, constraint: int) -> None:
 def add_cuts(constraints: Constraints, cuts: Cuts, point: Field) -> None:
     """The supporting planes at the feet of a point on every quadric, and their reflections in its
     planes of symmetry.
+
+    point: [3] in units of the size.
     """
     local, foot, mirrored, normal = numpy.empty(3), numpy.empty(3), numpy.empty(3), numpy.empty(3)
     for k in range(constraints.centres.shape[0]):
@@ -129,7 +138,10 @@ def add_cuts(constraints: Constraints, cuts: Cuts, point: Field) -> None:
 
 @kernel
 def to_local(constraints: Constraints, k: int, point: Field, local: Field) -> None:
-    """Coordinates of a point in the axes of quadric k."""
+    """Coordinates of a point in the axes of quadric k.
+
+    point, local: [3] in units of the size.
+    """
     for j in range(3):
         local[j] = 0.0
         for m in range(3):
@@ -138,7 +150,10 @@ def to_local(constraints: Constraints, k: int, point: Field, local: Field) -> No
 
 @kernel
 def to_world(constraints: Constraints, k: int, local: Field, normal: Field) -> float:
-    """Direction of quadric k in the world, in `normal`; returns its product with the centre."""
+    """Direction of quadric k in the world, in `normal`; returns its product with the centre.
+
+    local, normal: [3].
+    """
     product = 0.0
     for j in range(3):
         normal[j] = 0.0
@@ -150,7 +165,10 @@ def to_world(constraints: Constraints, k: int, local: Field, normal: Field) -> f
 
 @kernel
 def depth_below(constraints: Constraints, constraint: int, point: Field) -> float:
-    """Minus the signed distance of a point from one constraint."""
+    """Minus the signed distance of a point from one constraint.
+
+    point: [3]; lengths in units of the size.
+    """
     planes = constraints.offsets.size
     if constraint < planes:
         depth = constraints.offsets[constraint]
@@ -167,7 +185,10 @@ def depth_below(constraints: Constraints, constraint: int, point: Field) -> floa
 
 @kernel
 def least_depth(constraints: Constraints, point: Field) -> float:
-    """Radius of the largest ball about a point; negative outside."""
+    """Radius of the largest ball about a point; negative outside.
+
+    point: [3]; lengths in units of the size.
+    """
     least = math.inf
     for constraint in range(constraints.owners.size):
         least = min(least, depth_below(constraints, constraint, point))

@@ -104,6 +104,7 @@ def minimum_distance_from(body_1: ConvexBody, body_2: ConvexBody, start: int) ->
 
 @kernel
 def between(first: Field, second: Field) -> Field:
+    """Difference [3] of two points, `first - second`."""
     return moved_by(first, -1.0, second)
 
 
@@ -115,6 +116,7 @@ def pair_size(body_1: ConvexBody, body_2: ConvexBody) -> float:
 
 @kernel
 def length_of(vector: Field) -> float:
+    """Euclidean length of a vector [3]."""
     total = 0.0
     for part in vector:
         total += part * part
@@ -123,7 +125,10 @@ def length_of(vector: Field) -> float:
 
 @kernel
 def start_direction(start: int) -> Field:
-    """Unit vectors spread over the sphere by the golden angle; zero for start 0."""
+    """Unit vectors spread over the sphere by the golden angle; zero for start 0.
+
+    The result: [3].
+    """
     if start == 0:
         return numpy.zeros(3)
     height = 1.0 - 2.0 * ((start * 0.6180339887498949) % 1.0)
@@ -172,7 +177,10 @@ def toward_boundary(body: ConvexBody, direction: Field) -> float:
 
 @kernel
 def pair_program(body_1: ConvexBody, body_2: ConvexBody, origin: Field, size: float) -> Program:
-    """The problem in (p1, p2), lengths from `origin` over `size`."""
+    """The problem in (p1, p2), lengths from `origin` over `size`.
+
+    origin: [3] [m]; size: [m].
+    """
     planes, quadrics = body_1.offsets.size, body_1.centres.shape[0]
     all_planes, all_quadrics = planes + body_2.offsets.size, quadrics + body_2.centres.shape[0]
     # Cost: half the squared distance of the two points.
@@ -203,6 +211,9 @@ def pair_program(body_1: ConvexBody, body_2: ConvexBody, origin: Field, size: fl
 def put_planes(
     body: ConvexBody, origin: Field, size: float, rows: Field, bounds: Field, first: int, column: int
 ) -> None:
+    """Write the planes of a body as rows [planes, 6] and bounds [planes], from `first` and `column`
+    on.
+    """
     for i in range(body.offsets.size):
         bounds[first + i] = body.offsets[i] / size
         for j in range(3):
@@ -214,6 +225,7 @@ def put_planes(
 def put_quadrics(
     body: ConvexBody, origin: Field, size: float, curved: Field, centres: Field, first: int, column: int
 ) -> None:
+    """Write the quadrics of a body as matrices [quadrics, 6, 6] and centres [quadrics, 6]."""
     for k in range(body.centres.shape[0]):
         for j in range(3):
             centres[first + k, column + j] = (body.centres[k, j] - origin[j]) / size
@@ -237,7 +249,10 @@ def polish(program: Program, point: Point) -> Point:
 
 @kernel
 def active_constraints(point: Point) -> NDArray[numpy.int64]:
-    """Those whose multiplier is larger than their distance from the boundary."""
+    """Those whose multiplier is larger than their distance from the boundary.
+
+    The result: their numbers, [active].
+    """
     active = numpy.empty(point.values.size, dtype=numpy.int64)
     number = 0
     for i in range(point.values.size):
@@ -251,6 +266,8 @@ def active_constraints(point: Point) -> NDArray[numpy.int64]:
 def equality_step(program: Program, point: Point, active: NDArray[numpy.int64]) -> Point:
     """One Newton step on stationarity and `g = 0` of the active constraints; the others get no
     multiplier.
+
+    active: numbers of constraints, [active].
     """
     size, number = point.unknowns.size, active.size
     matrix, right = numpy.zeros((size + number, size + number)), numpy.empty(size + number)
@@ -284,6 +301,7 @@ def conditions(program: Program, point: Point) -> float:
     g|)|`, both lengths.
 
     The latter is zero where both are not negative and one of them is zero.
+    The result: in units of the size [-].
     """
     worst = 0.0
     for part in stationarity(program, point):

@@ -94,6 +94,7 @@ def minimise(program: Program, start: Field, tolerance: float) -> ProgramSolutio
     digits are used up.
 
     A start on or outside a constraint comes back unchanged with an infinite gap.
+    start: [n]; tolerance: in the unit of the cost [-].
     """
     count = program.flat_bounds.size + program.curved_bounds.size
     point = evaluate(program, start.copy(), numpy.zeros(count))
@@ -119,7 +120,10 @@ def minimise(program: Program, start: Field, tolerance: float) -> ProgramSolutio
 
 @kernel
 def evaluate(program: Program, unknowns: Field, multipliers: Field) -> Point:
-    """Values and gradients of all constraints."""
+    """Values and gradients of all constraints.
+
+    unknowns: [n]; multipliers: [constraints].
+    """
     flat, curved, size = program.flat_bounds.size, program.curved_bounds.size, unknowns.size
     values, gradients = numpy.empty(flat + curved), numpy.empty((flat + curved, size))
     for i in range(flat):
@@ -142,7 +146,10 @@ def evaluate(program: Program, unknowns: Field, multipliers: Field) -> Point:
 
 @kernel
 def moved_by(start: Field, length: float, step: Field) -> Field:
-    """`start + length step`, as a loop: an array expression takes much longer to compile."""
+    """`start + length step`, as a loop: an array expression takes much longer to compile.
+
+    start, step: [n].
+    """
     moved = numpy.empty(start.size)
     for j in range(start.size):
         moved[j] = start[j] + length * step[j]
@@ -187,6 +194,7 @@ def put_on_path(point: Point, target: float) -> None:
 
 @kernel
 def slope_along(program: Program, point: Point, step: Field) -> float:
+    """Slope of the Lagrangian along a step [n]."""
     total, slope = 0.0, stationarity(program, point)
     for j in range(step.size):
         total += slope[j] * step[j]
@@ -195,6 +203,7 @@ def slope_along(program: Program, point: Point, step: Field) -> float:
 
 @kernel
 def is_inside(point: Point) -> bool:
+    """Whether all constraint values [constraints] are negative."""
     inside = True
     for i in range(point.values.size):
         inside = inside and point.values[i] < 0.0
@@ -203,6 +212,7 @@ def is_inside(point: Point) -> bool:
 
 @kernel
 def norm_of(vector: Field) -> float:
+    """Euclidean norm of a vector [n]."""
     total = 0.0
     for j in range(vector.size):
         total += vector[j] * vector[j]
@@ -211,6 +221,7 @@ def norm_of(vector: Field) -> float:
 
 @kernel
 def gap_of(point: Point) -> float:
+    """`-sum lambda_i g_i` over the constraints [constraints]."""
     total = 0.0
     for i in range(point.values.size):
         total -= point.multipliers[i] * point.values[i]
@@ -232,7 +243,10 @@ def stationarity(program: Program, point: Point) -> Field:
 
 @kernel
 def residual(program: Program, point: Point, target: float) -> float:
-    """Norm of the stationarity and of `-lambda g - 1/t`."""
+    """Norm of the stationarity and of `-lambda g - 1/t`.
+
+    The result: [-], lengths over the size.
+    """
     total = 0.0
     for part in stationarity(program, point):
         total += part * part
@@ -255,7 +269,10 @@ def hessian(program: Program, multipliers: Field) -> Field:
 
 @kernel
 def newton_step(program: Program, point: Point, target: float) -> tuple[Field, Field]:
-    """Step of the unknowns and of the multipliers, the latter eliminated."""
+    """Step of the unknowns and of the multipliers, the latter eliminated.
+
+    The result: steps [n] and [constraints].
+    """
     size, count = point.unknowns.size, point.values.size
     # Newton's system with the multipliers eliminated.
     matrix = hessian(program, point.multipliers)
@@ -290,6 +307,8 @@ def line_search(
 ) -> tuple[float, Point]:
     """Longest halved step that stays inside, keeps the multipliers positive and lowers the
     residual; 0 if there is none.
+
+    step: [n]; multiplier_step: [constraints].
     """
     length = 1.0
     for i in range(point.values.size):

@@ -57,7 +57,10 @@ def supporting_plane(half_axes: Field, local: Field, normal: Field) -> float:
 
 @kernel
 def share_of(half_axis: float, local: float, smallest: float, tau: float) -> float:
-    """`h y / (t + h^2)`; zero along a cylinder and on a plane of symmetry."""
+    """`h y / (t + h^2)`; zero along a cylinder and on a plane of symmetry.
+
+    Lengths [-] over the smallest half axis.
+    """
     if local == 0.0 or half_axis == math.inf:
         return 0.0
     return half_axis * local / (tau + (half_axis - smallest) * (half_axis + smallest))
@@ -65,7 +68,10 @@ def share_of(half_axis: float, local: float, smallest: float, tau: float) -> flo
 
 @kernel
 def secular_root(half_axes: Field, local: Field, smallest: float) -> float:
-    """tau: the root, or 0 where the foot leaves the plane of symmetry."""
+    """tau: the root, or 0 where the foot leaves the plane of symmetry.
+
+    half_axes, local: [3].
+    """
     tau = 0.0
     for j in range(3):
         if half_axes[j] == smallest:
@@ -83,7 +89,10 @@ def secular_root(half_axes: Field, local: Field, smallest: float) -> float:
 
 @kernel
 def norm_and_slope(half_axes: Field, local: Field, smallest: float, tau: float) -> tuple[float, float]:
-    """|w| and d|w|/d tau, with `w_j = h_j y_j / (t + h_j^2)`."""
+    """|w| and d|w|/d tau, with `w_j = h_j y_j / (t + h_j^2)`.
+
+    half_axes, local: [3].
+    """
     square, half_slope = 0.0, 0.0
     for j in range(3):
         share = share_of(half_axes[j], local[j], smallest, tau)

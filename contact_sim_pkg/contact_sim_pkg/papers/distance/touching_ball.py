@@ -88,6 +88,7 @@ def largest_ball(body_1: ConvexBody, body_2: ConvexBody, origin: Field, size: fl
 
 @kernel
 def first_three(values: Field) -> Field:
+    """The first three of the values, [3]."""
     found = numpy.empty(3)
     for j in range(3):
         found[j] = values[j]
@@ -98,6 +99,8 @@ def first_three(values: Field) -> Field:
 def holding_feet(constraints: Constraints, ball: Ball) -> tuple[Field, int, int]:
     """Normal of body 1 at its foot with the largest multiplier, and the numbers of feet on each
     body.
+
+    The normal: [3].
     """
     normal, feet, largest = numpy.zeros(3), numpy.zeros(2, numpy.int64), HOLDS
     for k in range(ball.multipliers.size):
@@ -115,6 +118,8 @@ def holding_feet(constraints: Constraints, ball: Ball) -> tuple[Field, int, int]
 def ball_under_planes(cuts: Cuts, middle: Field, radius: float, half_width: float) -> ProgramSolution:
     """Largest ball, unknowns (p, r), under all planes, p within a box about `middle`, where a ball
     of `radius` fits.
+
+    middle: [3]; lengths in units of the size.
     """
     count = cuts.used[0]
     rows, bounds = numpy.zeros((count + 6, 4)), numpy.empty(count + 6)

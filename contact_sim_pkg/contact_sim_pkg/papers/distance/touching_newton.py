@@ -54,6 +54,8 @@ class Ball(NamedTuple):
 def cluster(cuts: Cuts, multipliers: Field, centre: Field, radius: float) -> Ball:
     """The planes that hold a ball, those of one constraint and nearly one direction taken
     together.
+
+    multipliers: [cuts]; centre: [3].
     """
     constraints, normals = numpy.empty(MOST_FEET, dtype=numpy.int64), numpy.zeros((MOST_FEET, 3))
     weights, feet = numpy.zeros(MOST_FEET), 0
@@ -79,6 +81,9 @@ def cluster(cuts: Cuts, multipliers: Field, centre: Field, radius: float) -> Bal
 
 @kernel
 def same_foot(cuts: Cuts, row: int, constraint: int, normal: Field, weight: float) -> bool:
+    """Whether a cut belongs to a foot that is there: the same constraint, nearly the same
+    normal [3].
+    """
     cosine = 0.0
     for j in range(3):
         cosine += cuts.normals[row, j] * normal[j]
@@ -102,6 +107,8 @@ def touch(constraints: Constraints, ball: Ball) -> Ball:
 def equations(constraints: Constraints, ball: Ball) -> tuple[float, Field, Field]:
     """Norm of the equations, the equations and their Jacobian; sets the ball's normals. Four rows
     and columns a foot.
+
+    The equations: [4 + 4 feet], the Jacobian: [4 + 4 feet, 4 + 4 feet].
     """
     feet = ball.multipliers.size
     size, planes = 4 + 4 * feet, constraints.offsets.size
@@ -139,7 +146,10 @@ def equations(constraints: Constraints, ball: Ball) -> tuple[float, Field, Field
 
 @kernel
 def plane_foot(constraints: Constraints, i: int, point: Field, normal: Field, turn: Field) -> float:
-    """Distance of a point from plane i; its normal and the normal's derivative."""
+    """Distance of a point from plane i; its normal and the normal's derivative.
+
+    point, normal: [3]; turn: [3, 3], the derivative.
+    """
     value = -constraints.offsets[i]
     for j in range(3):
         normal[j] = constraints.normals[i, j]
@@ -153,6 +163,8 @@ def plane_foot(constraints: Constraints, i: int, point: Field, normal: Field, tu
 def quadric_foot(constraints: Constraints, k: int, point: Field, normal: Field, turn: Field) -> float:
     """`g / |grad g|` of quadric k at a point; its normal and the normal's derivative `(I - n n^T) Q
     / |Q y|`.
+
+    point, normal: [3]; turn: [3, 3], the derivative.
     """
     value, length = -1.0, 0.0
     for j in range(3):
@@ -175,7 +187,10 @@ def quadric_foot(constraints: Constraints, k: int, point: Field, normal: Field, 
 
 @kernel
 def newton_move(ball: Ball, right: Field, matrix: Field) -> Ball:
-    """The ball moved by the least-squares solution of `matrix step = -right`."""
+    """The ball moved by the least-squares solution of `matrix step = -right`.
+
+    right: [n]; matrix: [n, n].
+    """
     size = right.size
     # Normal equations of the Newton step, damped: the matrix may be singular.
     normal_matrix, normal_right = numpy.zeros((size, size)), numpy.zeros(size)
@@ -206,6 +221,8 @@ def newton_move(ball: Ball, right: Field, matrix: Field) -> Ball:
 def ball_residual(constraints: Constraints, ball: Ball) -> float:
     """Largest violation of the conditions: balance and signs of the multipliers, and depths unlike
     the least one.
+
+    The result: in units of the size [-].
     """
     least = least_depth(constraints, ball.centre)
     worst, total = 0.0, -1.0

@@ -139,7 +139,10 @@ def _ordered(curvature_a: float, curvature_b: float, modulus: float, value: floa
 
 @entry
 def contact_at_load(curvature_a: float, curvature_b: float, modulus: float, load: float) -> HertzContact:
-    """`hertz_contact` for compiled callers: A <= B. Not checked."""
+    """`hertz_contact` for compiled callers: A <= B. Not checked.
+
+    Curvatures: [1/m]; modulus: E* [Pa]; load: [N].
+    """
     if not load > 0.0:
         return HertzContact(0.0, 0.0, 0.0, 0.0, 0.0)
     return contact_of_shape(ellipse_shape(curvature_a, curvature_b), curvature_a + curvature_b, modulus, load)
@@ -157,7 +160,10 @@ def contact_of_shape(shape: EllipseShape, mean: float, modulus: float, load: flo
 
 @entry
 def contact_at_approach(curvature_a: float, curvature_b: float, modulus: float, approach: float) -> HertzContact:
-    """`hertz_contact_at_approach` for compiled callers: A <= B. Not checked."""
+    """`hertz_contact_at_approach` for compiled callers: A <= B. Not checked.
+
+    Curvatures: [1/m]; modulus: E* [Pa]; approach: [m].
+    """
     if not approach > 0.0:
         return HertzContact(0.0, 0.0, 0.0, 0.0, 0.0)
     load = stiffness_coefficient(curvature_a, curvature_b, modulus) * approach * math.sqrt(approach)
@@ -180,6 +186,7 @@ def ellipse_shape(curvature_a: float, curvature_b: float) -> EllipseShape:
     The relation of Omega and m, written for A/B and without loss of digits near a line contact, is
     `A/B = (1 - m) (K - E) / (E - (1 - m) K)`, falling from 1 to 0 while m goes from 0 to 1.
     Not checked: `hertz_contact` is.
+    Curvatures: [1/m]; the results: [-].
     """
     omega = (curvature_b - curvature_a) / (curvature_a + curvature_b)
     if omega < SERIES_BELOW:

@@ -85,7 +85,7 @@ def contacts_at_load(
 
 @kernel
 def shape_of_polynomial(curvature_a: float, curvature_b: float) -> EllipseShape:
-    """Eq 10."""
+    """Shape by the polynomial of Rolling Contact, eq 10; curvatures: [1/m], A <= B."""
     omega = (curvature_b - curvature_a) / (curvature_a + curvature_b)
     parameter = 0.0
     for i in range(10):
@@ -96,7 +96,7 @@ def shape_of_polynomial(curvature_a: float, curvature_b: float) -> EllipseShape:
 
 @kernel
 def shape_of_power(curvature_a: float, curvature_b: float) -> EllipseShape:
-    """`b/a = (A/B)^(2/3)`."""
+    """Shape by `b/a = (A/B)^(2/3)`; curvatures: [1/m], A <= B."""
     complement = (curvature_a / curvature_b) ** (4.0 / 3.0)
     integral_k, integral_e, _ = elliptic_integrals(complement)
     return EllipseShape(complement, integral_k, integral_e)
@@ -104,7 +104,10 @@ def shape_of_power(curvature_a: float, curvature_b: float) -> EllipseShape:
 
 @kernel
 def shape_of_table(table: Field, curvature_a: float, curvature_b: float) -> EllipseShape:
-    """Lagrange's cubic through the four nearest nodes."""
+    """Lagrange's cubic through the four nearest nodes.
+
+    table: [nodes, 3] of `make_shape_table`; curvatures: [1/m], A <= B.
+    """
     nodes = table.shape[0]
     place = -math.log(2.0 * curvature_a / (curvature_a + curvature_b)) / TABLE_END * (nodes - 1)
     first = min(max(int(place) - 1, 0), nodes - 4)

@@ -124,7 +124,10 @@ def _fill(load: EllipseLoad, poisson: float, points: Values, out: Values) -> Non
 
 @kernel
 def stress_under_ellipse(load: EllipseLoad, poisson: float, x: float, y: float, z: float) -> Stress:
-    """`ellipse_stress` at one point, for compiled callers. Not checked."""
+    """`ellipse_stress` at one point, for compiled callers. Not checked.
+
+    x, y, z: [m], z >= 0 into the body; the result: [Pa].
+    """
     # Lengths in units of the smaller semi-axis, stresses in units of p0.
     unit = min(load.a, load.b)
     a2, b2 = (load.a / unit) ** 2, (load.b / unit) ** 2

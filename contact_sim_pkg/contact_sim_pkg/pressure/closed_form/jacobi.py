@@ -38,6 +38,7 @@ def jacobi_cn(argument: ArrayLike, complement: float) -> Array:
     1e-15 within a few periods.
 
     Raises ValueError where 1 - m is outside 0 to 1.
+    The result: [n], as the argument.
     """
     u = numpy.asarray(argument, dtype=numpy.float64)
     integral_k, _e = quarter_period(complement)
@@ -55,7 +56,10 @@ def jacobi_cn(argument: ArrayLike, complement: float) -> Array:
 
 
 def cn_squared(argument: ArrayLike, complement: float) -> Array:
-    """cn(u; m)^2, of period 2 K; arguments as ``jacobi_cn``."""
+    """cn(u; m)^2, of period 2 K; arguments as ``jacobi_cn``.
+
+    The result: [n], as the argument.
+    """
     return jacobi_cn(argument, complement) ** 2
 
 

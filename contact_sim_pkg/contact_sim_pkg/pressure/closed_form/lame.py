@@ -186,6 +186,7 @@ def fit_centred(x: Field, y: Field, half_x: float, half_y: float, centre_x: floa
 
 @kernel
 def mean_of(values: Field) -> float:
+    """Mean of the values [n]."""
     total = 0.0
     for k in range(values.size):
         total += values[k]
@@ -194,7 +195,10 @@ def mean_of(values: Field) -> float:
 
 @kernel
 def take_logarithms(x: Field, y: Field, centre_x: float, centre_y: float) -> None:
-    """Replace the coordinates by the logarithms of their distances from the centre."""
+    """Replace the coordinates by the logarithms of their distances from the centre.
+
+    x, y: [n] [m], overwritten with ln(m).
+    """
     for k in range(x.size):
         x[k] = math.log(max(abs(x[k] - centre_x), _TINY))
         y[k] = math.log(max(abs(y[k] - centre_y), _TINY))
@@ -204,6 +208,8 @@ def take_logarithms(x: Field, y: Field, centre_x: float, centre_y: float) -> Non
 def extents(pressure: Field) -> tuple[int, int, int, int, int, int]:
     """Number of cells in contact, number of their outer edges, first and last row, first and last
     column.
+
+    pressure: [rows, cols] [Pa].
     """
     rows, cols = pressure.shape
     cells, edges, low_row, high_row, low_col, high_col = 0, 0, rows, -1, cols, -1
@@ -219,6 +225,7 @@ def extents(pressure: Field) -> tuple[int, int, int, int, int, int]:
 
 @kernel
 def neighbours(pressure: Field, i: int, j: int) -> int:
+    """Number of the four neighbours of cell (i, j) in contact; pressure: [rows, cols] [Pa]."""
     return (
         inside(pressure, i - 1, j)
         + inside(pressure, i + 1, j)
@@ -229,6 +236,9 @@ def neighbours(pressure: Field, i: int, j: int) -> int:
 
 @kernel
 def inside(pressure: Field, i: int, j: int) -> int:
+    """1 where cell (i, j) lies on the grid and carries pressure, else 0; pressure: [rows, cols]
+    [Pa].
+    """
     rows, cols = pressure.shape
     return 1 if 0 <= i < rows and 0 <= j < cols and pressure[i, j] > 0.0 else 0
 
@@ -258,6 +268,7 @@ def normal_equations(log_x: Field, log_y: Field, log_a: float, log_b: float, log
     With u = ln|x/a|, v = ln|y/b| and the share s = |x/a|^n / rho^n: `ln rho = max(u, v) + ln(1 +
     exp(-n |u-v|)) / n`, its derivatives by ln a, ln b, ln n are `-s`, `-(1-s)` and `s u + (1-s) v -
     ln rho`.
+    log_x, log_y: [n]; normal: [3, 4], overwritten.
     """
     normal[:] = 0.0
     exponent, cost = math.exp(log_n), 0.0
@@ -282,6 +293,8 @@ def normal_equations(log_x: Field, log_y: Field, log_a: float, log_b: float, log
 def damped_step(normal: Field, damping: float) -> tuple[float, float, float]:
     """Solve `(J^T J + damping diag) step = -J^T error` (3 x 3, symmetric positive definite) by
     elimination.
+
+    normal: [3, 4].
     """
     floor = 1e-14 * (normal[0, 0] + normal[1, 1] + normal[2, 2])
     a00 = normal[0, 0] * (1.0 + damping) + floor

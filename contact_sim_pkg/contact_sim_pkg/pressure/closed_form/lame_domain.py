@@ -78,7 +78,10 @@ def radial_variable(x: Field, y: Field, a: float, b: float, exponent: float) -> 
 
 
 def inside(x: Field, y: Field, a: float, b: float, exponent: float) -> NDArray[numpy.bool_]:
-    """Where `rho <= 1`. Arguments and errors as `radial_variable`."""
+    """Where `rho <= 1`. Arguments and errors as `radial_variable`.
+
+    x, y: [m], of any one shape; a, b: [m].
+    """
     return numpy.asarray(radial_variable(x, y, a, b, exponent) <= 1.0)
 
 

@@ -118,6 +118,7 @@ def equivalent_ellipse(a: float, b: float, exponent: float, modulus: float, load
 
     Arguments and errors as `ansatz_on_domain`; the result has n = 2 and the semi-axes of the
     ellipse.
+    a, b: [m]; modulus: E* [Pa]; load: [N].
     """
     _refuse_domain(a, b, exponent)
     scale = math.sqrt(lame_area(a, b, exponent) / (math.pi * a * b))

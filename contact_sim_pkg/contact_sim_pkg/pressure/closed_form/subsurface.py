@@ -181,7 +181,10 @@ def add_stresses(
 
 @kernel
 def pressure_corner(u: float, v: float, z: float, poisson: float, cut: float) -> Stress:
-    """Contribution of a corner, times 2 pi, for a unit second difference of the pressure."""
+    """Contribution of a corner, times 2 pi, for a unit second difference of the pressure.
+
+    u, v, z: [m] from the corner to the point; cut: [m].
+    """
     uu, vv, zz = u * u, v * v, z * z
     r = math.sqrt(uu + vv + zz)
     soft = 1.0 - 2.0 * poisson
@@ -209,6 +212,8 @@ def pressure_corner(u: float, v: float, z: float, poisson: float, cut: float) ->
 def traction_corner(u: float, v: float, z: float, poisson: float, cut: float) -> Stress:
     """Contribution of a corner, times 2 pi, for a unit second difference of the traction along
     x.
+
+    u, v, z: [m] from the corner to the point; cut: [m].
     """
     uu, vv, zz = u * u, v * v, z * z
     r = math.sqrt(uu + vv + zz)
@@ -238,7 +243,10 @@ def traction_corner(u: float, v: float, z: float, poisson: float, cut: float) ->
 
 @kernel
 def add_row(stress: Field, row: int, part: Stress) -> None:
-    """Add one point's sums, divided by 2 pi."""
+    """Add one point's sums, divided by 2 pi.
+
+    stress: [n, 6] [Pa].
+    """
     scale = 0.5 / math.pi
     stress[row, 0] += scale * part.xx
     stress[row, 1] += scale * part.yy

@@ -117,7 +117,10 @@ def correct(
 
 @kernel
 def list_cells(workspace: SolverWorkspace) -> tuple[int, int]:
-    """List the cells that press as free and those that pull as left; returns how many of each."""
+    """List the cells that press as free and those that pull as left; returns how many of each.
+
+    Fields: [rows, cols]; lists: row-major indices, [cells].
+    """
     pressure, residual, direction = workspace.pressure, workspace.residual, workspace.direction
     free, left = workspace.cells.free, workspace.cells.left
     rows, cols = pressure.shape
@@ -141,6 +144,8 @@ def search_direction(
 ) -> None:
     """New direction on the free cells; `direction` holds the step before, `response` what it
     displaced.
+
+    Direction and preconditioned clearance: [Pa], response: [m].
     """
     precondition(half_space, workspace.buffers, workspace.residual, workspace.filtered)
     filtered, residual = workspace.cells.filtered, workspace.cells.residual
@@ -180,6 +185,7 @@ def move(workspace: SolverWorkspace, count: int, pulling: int, length: float) ->
 
     The first `pulling` cells of `left` pulled: they let go. Returns the numbers of cells in contact
     and of cells that left.
+    length: [-] of the direction [Pa].
     """
     pressure, direction = workspace.cells.pressure, workspace.cells.direction
     free, leaving = workspace.cells.free, workspace.cells.left
@@ -223,7 +229,10 @@ def apply_operator(half_space: HalfSpace, workspace: SolverWorkspace) -> None:
 
 @kernel
 def accept_step(workspace: SolverWorkspace, contact: int, left: int, approach: float) -> Correction:
-    """Complete the step in `direction`, and judge it; `approach` is that before the step."""
+    """Complete the step in `direction`, and judge it; `approach` is that before the step.
+
+    approach: [m].
+    """
     pressure, direction = workspace.cells.pressure, workspace.cells.direction
     surface, response = workspace.cells.surface, workspace.cells.response
     free, leaving = workspace.cells.free, workspace.cells.left
@@ -254,6 +263,8 @@ def accept_step(workspace: SolverWorkspace, contact: int, left: int, approach: f
 def rescale_step(workspace: SolverWorkspace, contact: int, count: int, left: int, factor: float) -> tuple[int, int]:
     """Make the last step `factor` times as long, surface and all; returns the numbers of cells that
     press and that pull.
+
+    factor: [-].
     """
     surface, response = workspace.surface, workspace.response
     pressure, direction, residual = workspace.cells.pressure, workspace.cells.direction, workspace.cells.residual

@@ -98,7 +98,7 @@ def make_half_space(
 
 
 def part_of(whole: HalfSpace, rows: int, cols: int) -> HalfSpace:
-    """A smaller grid of the same cells: what yields under them is the same.
+    """A smaller grid, [rows, cols], of the same cells: what yields under them is the same.
 
     Raises `ValueError` for more rows or cols than the whole has, and for fewer than 1.
     """
@@ -189,6 +189,8 @@ def displacement(half_space: HalfSpace, buffers: Buffers, pressure: Field, resul
 def convolve(half_space: HalfSpace, buffers: Buffers, field: Field, result: Field) -> None:
     """`result = K field` by one pruned, zero-padded transform pair; `result` may be `field`
     itself.
+
+    field: [rows, cols] [Pa]; result: [rows, cols] [m].
     """
     rows, cols = field.shape
     padded, spectrum, transfer = buffers.padded, buffers.spectrum, half_space.transfer
@@ -215,6 +217,8 @@ def convolve(half_space: HalfSpace, buffers: Buffers, field: Field, result: Fiel
 def precondition(half_space: HalfSpace, buffers: Buffers, field: Field, result: Field) -> None:
     """`result = M field`, M an approximate inverse of K: the filter E* |q| / 2 on the unpadded
     grid.
+
+    field: [rows, cols] [m]; result: [rows, cols] [Pa].
     """
     rows, cols = field.shape
     plain, spectrum = buffers.plain, buffers.plain_spectrum
@@ -242,6 +246,8 @@ def precondition(half_space: HalfSpace, buffers: Buffers, field: Field, result: 
 def load_padded(field: Field, padded: Field) -> tuple[int, int]:
     """Copy a field into the padded rows; returns the first row that is not all zero and the row
     after the last such.
+
+    field: [rows, cols]; padded: [rows, padded cols].
     """
     rows, cols = field.shape
     first, last = rows, 0
@@ -257,7 +263,10 @@ def load_padded(field: Field, padded: Field) -> tuple[int, int]:
 
 @kernel
 def multiply(spectrum: Spectrum, factor: Field) -> None:
-    """`spectrum *= factor`, complex by real."""
+    """`spectrum *= factor`, complex by real.
+
+    Both: [rows, cols / 2 + 1] of the transform.
+    """
     for i in range(spectrum.shape[0]):
         for j in range(spectrum.shape[1]):
             spectrum[i, j] = complex(spectrum[i, j].real * factor[i, j], spectrum[i, j].imag * factor[i, j])

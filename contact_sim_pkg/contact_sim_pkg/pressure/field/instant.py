@@ -57,7 +57,10 @@ class InstantResult(NamedTuple):
 
 @entry
 def all_finite(gap: Field) -> bool:
-    """Whether every height is a finite number."""
+    """Whether every height is a finite number.
+
+    gap: [rows, cols] [m].
+    """
     faults = 0
     for i in range(gap.shape[0]):
         for j in range(gap.shape[1]):
@@ -114,7 +117,10 @@ def solve_instant(
 def store_window(
     workspace: SolverWorkspace, first_row: int, first_col: int, target: PreviousField, pressure: Field
 ) -> tuple[int, int, int, int]:
-    """Store what another solver left in the workspace; as `store`."""
+    """Store what another solver left in the workspace; as `store`.
+
+    pressure: [rows, cols] [Pa] of the whole grid.
+    """
     return store(workspace, first_row, first_col, target, pressure)
 
 
@@ -122,7 +128,10 @@ def store_window(
 def grown_window(
     whole: HalfSpace, gap: Field, approach: float, pressure: Field, window: tuple[int, int, int, int]
 ) -> tuple[int, int, int, int]:
-    """See `enclose`."""
+    """See `enclose`.
+
+    gap: [rows, cols] [m]; approach: [m]; pressure: [rows, cols] [Pa].
+    """
     return enclose(whole, gap, approach, pressure, window)
 
 
@@ -150,6 +159,8 @@ def load_heights(gap: Field, first_row: int, first_col: int, height: Field, line
 def put_start(workspace: SolverWorkspace, first_row: int, first_col: int, pressure: Field) -> None:
     """Field after the corrections, as a start on the whole grid: positive and finite, zero
     elsewhere.
+
+    pressure: [rows, cols] [Pa] of the whole grid.
     """
     rows, cols = workspace.pressure.shape
     pressure[:] = 0.0

@@ -94,7 +94,10 @@ def make_workspace(half_space: HalfSpace) -> SolverWorkspace:
 
 @kernel
 def begin(workspace: SolverWorkspace) -> int:
-    """Reset from the solve before; lists the cells in contact and returns their number."""
+    """Reset from the solve before; lists the cells in contact and returns their number.
+
+    Fields of the workspace: [rows, cols]; its list: row-major indices, [cells].
+    """
     pressure, residual, direction = workspace.pressure, workspace.residual, workspace.direction
     free = workspace.cells.free
     rows, cols = pressure.shape
@@ -132,6 +135,7 @@ def evaluate(workspace: SolverWorkspace, contact: int, left: int, approach: floa
 
     The first `contact` cells of the list are in contact, the first `left` of the other have just
     lost their pressure.
+    approach: [m], taken where the load is not prescribed.
     """
     pressure, residual = workspace.cells.pressure, workspace.cells.residual
     surface, height = workspace.cells.surface, workspace.cells.height
@@ -164,7 +168,10 @@ def evaluate(workspace: SolverWorkspace, contact: int, left: int, approach: floa
 
 @kernel
 def release_cells(workspace: SolverWorkspace, left: int, approach: float) -> None:
-    """Cells that lost their pressure and do not penetrate are not free any more."""
+    """Cells that lost their pressure and do not penetrate are not free any more.
+
+    approach: [m].
+    """
     surface = workspace.cells.surface
     residual, direction = workspace.cells.residual, workspace.cells.direction
     for m in range(left):
@@ -176,7 +183,10 @@ def release_cells(workspace: SolverWorkspace, left: int, approach: float) -> Non
 
 @kernel
 def join(workspace: SolverWorkspace, contact: int, approach: float) -> int:
-    """Append the cells that penetrate without pressure to the list; returns its length."""
+    """Append the cells that penetrate without pressure to the list; returns its length.
+
+    approach: [m].
+    """
     surface, pressure, residual = workspace.surface, workspace.pressure, workspace.residual
     free, before = workspace.cells.free, workspace.residual_before
     rows, cols = surface.shape
@@ -205,6 +215,7 @@ def search(
 
     `slope_before` is that of the direction before, 0 to start again. Polak-Ribiere: `beta = sum z
     (r - r_before) / slope_before`, at least 0. A direction that does not descend is replaced by -z.
+    Slopes: [Pa m].
     """
     precondition(half_space, workspace.buffers, workspace.residual, workspace.filtered)
     residual, filtered = workspace.cells.residual, workspace.cells.filtered
@@ -229,6 +240,7 @@ def advance_direction(workspace: SolverWorkspace, count: int, momentum: float, m
 
     If the load is held the mean of t is removed as well: cells that left the free set had taken a
     part of it.
+    momentum: [-]; mean: [Pa]; the result: [Pa m].
     """
     residual, filtered = workspace.cells.residual, workspace.cells.filtered
     direction, free = workspace.cells.direction, workspace.cells.free
@@ -252,6 +264,8 @@ def advance_direction(workspace: SolverWorkspace, count: int, momentum: float, m
 def step(half_space: HalfSpace, workspace: SolverWorkspace, count: int, descent: float) -> float:
     """Length of the step to the minimum along the direction, the surface moved by it; 0 if no step
     is possible.
+
+    descent: [Pa m]; the result: [-].
     """
     direction, response = workspace.cells.direction, workspace.cells.response
     convolve(half_space, workspace.buffers, workspace.direction, workspace.response)
@@ -269,6 +283,7 @@ def part(workspace: SolverWorkspace, count: int, length: float) -> tuple[int, in
     """Move the pressure by `length` along the direction and clip it at zero; splits the list.
 
     Returns the numbers of cells in contact and of cells that left.
+    length: [-].
     """
     pressure, direction = workspace.cells.pressure, workspace.cells.direction
     free, leaving, clipped = workspace.cells.free, workspace.cells.left, workspace.clipped
@@ -290,7 +305,10 @@ def part(workspace: SolverWorkspace, count: int, length: float) -> tuple[int, in
 
 @kernel
 def move_surface(half_space: HalfSpace, workspace: SolverWorkspace, length: float, left: int) -> None:
-    """Add the displacement of a step and of the pressure that clipping added, cell by cell."""
+    """Add the displacement of a step and of the pressure that clipping added, cell by cell.
+
+    length: [-] of the response [m].
+    """
     surface, response, mirrored = workspace.surface, workspace.response, half_space.mirrored
     rows, cols = surface.shape
     for i in range(rows):
@@ -309,6 +327,8 @@ def move_surface(half_space: HalfSpace, workspace: SolverWorkspace, length: floa
 def hold_load(workspace: SolverWorkspace, contact: int, total: float) -> float:
     """Scale the pressures so that they add up to `total` again; returns the factor, 1 where nothing
     is in contact.
+
+    total: [Pa], the sum over the cells.
     """
     pressure, free = workspace.cells.pressure, workspace.cells.free
     present = 0.0
@@ -324,7 +344,10 @@ def hold_load(workspace: SolverWorkspace, contact: int, total: float) -> float:
 
 @kernel
 def rescale(workspace: SolverWorkspace, factor: float) -> None:
-    """Scale the displacement by what the pressures were scaled by."""
+    """Scale the displacement by what the pressures were scaled by.
+
+    factor: [-]; the surface: [rows, cols] [m].
+    """
     surface, height = workspace.surface, workspace.height
     rows, cols = surface.shape
     for i in range(rows):

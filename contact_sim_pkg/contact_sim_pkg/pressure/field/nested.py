@@ -11,7 +11,10 @@ __all__ = ["double", "halve"]
 
 @entry
 def halve(gap: Field, out: Field) -> None:
-    """Means of two by two cells."""
+    """Means of two by two cells.
+
+    gap: [2 rows, 2 cols] [m]; out: [rows, cols] [m].
+    """
     for i in range(out.shape[0]):
         for j in range(out.shape[1]):
             out[i, j] = 0.25 * (
@@ -23,6 +26,8 @@ def halve(gap: Field, out: Field) -> None:
 def double(pressure: Field, out: Field) -> tuple[int, int, int, int]:
     """Bilinear interpolation to two by two cells each, zero where `pressure` is; returns the
     window, or no rows.
+
+    pressure: [rows, cols] [Pa]; out: [2 rows, 2 cols] [Pa].
     """
     rows, cols = pressure.shape
     top, bottom, left, right = rows, -1, cols, -1

@@ -73,6 +73,8 @@ def make_block_sums(half_space: HalfSpace) -> BlockSums:
 def widened(rows: int, cols: int, top: int, bottom: int, left: int, right: int) -> tuple[int, int, int, int]:
     """Window that holds a box of cells and the margin, with sides that the transforms are fast
     for.
+
+    All in [cells]; the result: first row, first column, rows, columns.
     """
     height = good_side(bottom - top + 1 + 2 * MARGIN, rows)
     width = good_side(right - left + 1 + 2 * MARGIN, cols)
@@ -183,7 +185,10 @@ def least_displacement(half_space: HalfSpace, blocks: BlockSums, i: int, j: int,
 
 @kernel
 def add_up(pressure: Field, blocks: BlockSums) -> None:
-    """Sums of the pressure over blocks of all sizes."""
+    """Sums of the pressure over blocks of all sizes.
+
+    pressure: [rows, cols] [Pa].
+    """
     add_up_cells(pressure, blocks.fine)
     add_up_blocks(blocks.fine, blocks.middle)
     add_up_blocks(blocks.middle, blocks.coarse)
@@ -191,7 +196,10 @@ def add_up(pressure: Field, blocks: BlockSums) -> None:
 
 @kernel
 def add_up_cells(pressure: Field, blocks: Blocks) -> None:
-    """Sums of the pressure over blocks of cells."""
+    """Sums of the pressure over blocks of cells.
+
+    pressure: [rows, cols] [Pa].
+    """
     rows, cols = pressure.shape
     side, sums, line = blocks.side, blocks.sums, blocks.line
     for a in range(sums.shape[0]):
@@ -250,6 +258,8 @@ def lowest_of_block(gap: Field, i: int, j: int, most: float) -> float:
 def bound(half_space: HalfSpace, blocks: Blocks, i: int, j: int, side: int, depth: float) -> float:
     """As `least_displacement`: the pressure of each block at the largest distance between two cells
     of the two blocks.
+
+    depth: [m]; the result: [m].
     """
     influence, loaded, far = half_space.influence, blocks.loaded, blocks.side - 1
     last_row, last_col = influence.shape[0] - 1, influence.shape[1] - 1

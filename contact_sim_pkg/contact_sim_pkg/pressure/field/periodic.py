@@ -30,6 +30,8 @@ TOLERANCE_OF_HALF = 1e-2
 def make_periodic_half_space(rows: int, cols: int, cell_x: float, cell_y: float, modulus: float) -> HalfSpace:
     """As `make_half_space` for one period of a surface that repeats after `rows` and `cols` cells.
     Errors as there.
+
+    cell_x, cell_y: [m]; modulus: E* [Pa].
     """
     free = make_half_space(rows, cols, cell_x, cell_y, modulus)
     wave_x = 2.0 * numpy.pi * numpy.fft.fftfreq(rows, cell_x)[:, None]
@@ -60,6 +62,8 @@ class PeriodicField:
     def solve_at_load(self, gap: Field, load: float, tolerance: float, max_iterations: int) -> FieldResult:
         """As `field_solver.solve_at_load`, into `pressure`. A period has no edge, so the status
         EDGE does not occur.
+
+        gap: [rows, cols] [m]; load: [N] a period; tolerance: [-].
         """
         self._start(gap, load, max_iterations)
         result = solve_at_load(

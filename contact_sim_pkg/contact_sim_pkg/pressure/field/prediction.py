@@ -59,6 +59,9 @@ def predict(
 ) -> None:
     """Prediction on the window at (first_row, first_col): pressure, and u in `surface`, infinite
     where it is not known.
+
+    Pressure: [rows, cols] [Pa], surface: [rows, cols] [m] of the window; share: [-] of
+    extrapolation.
     """
     pressure, surface = workspace.pressure, workspace.surface
     rows, cols = pressure.shape
@@ -82,7 +85,10 @@ def predict(
 def start_from(
     half_space: HalfSpace, workspace: SolverWorkspace, first_row: int, first_col: int, pressure: Field
 ) -> None:
-    """In place of a prediction: the pressure of the whole grid, and u by a convolution."""
+    """In place of a prediction: the pressure of the whole grid, and u by a convolution.
+
+    pressure: [rows, cols] [Pa] of the whole grid.
+    """
     rows, cols = workspace.pressure.shape
     for i in range(rows):
         for j in range(cols):
@@ -137,6 +143,7 @@ def store(
 
     Returns first and last row, first and last column of the contact; where there is none the last
     are negative.
+    pressure: [rows, cols] [Pa] of the whole grid.
     """
     rows, cols = workspace.pressure.shape
     field.place[0], field.place[1] = first_row, first_col

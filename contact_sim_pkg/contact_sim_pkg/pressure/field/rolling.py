@@ -117,12 +117,16 @@ class RollingField:
     def solve_at_load(self, gap: Field, load: float, tolerance: float, max_iterations: int) -> FieldResult:
         """As `pressure/field/solver.py:solve_at_load`, into `pressure`. BAD_INPUT leaves the fields
         before as they were.
+
+        gap: [rows, cols] [m]; load: [N]; tolerance: [-].
         """
         return self._solve(gap, FieldRequest(float(load), True, float(tolerance), int(max_iterations)))
 
     def solve_at_approach(self, gap: Field, approach: float, tolerance: float, max_iterations: int) -> FieldResult:
         """As `pressure/field/solver.py:solve_at_approach`, into `pressure`. BAD_INPUT leaves the
         fields before as they were.
+
+        gap: [rows, cols] [m]; approach: [m]; tolerance: [-].
         """
         return self._solve(gap, FieldRequest(float(approach), False, float(tolerance), int(max_iterations)))
 

@@ -142,7 +142,10 @@ def solve_at_load(
 
 
 def refuse_bad_gap(gap: Field, name: str = "gap") -> None:
-    """Raise `ValueError` naming the first cell whose height is not finite."""
+    """Raise `ValueError` naming the first cell whose height is not finite.
+
+    gap: [rows, cols] [m].
+    """
     cell = int(first_bad_cell(gap))
     if cell >= 0:
         row, col = divmod(cell, gap.shape[1])
@@ -171,6 +174,8 @@ def _refuse(half_space: HalfSpace, gap: Field, pressure: Field, tolerance: float
 def first_bad_cell(gap: Field) -> int:
     """Row-major index of the first cell that is not finite, or -1. The array has two axes, which is
     not checked.
+
+    gap: [rows, cols] [m].
     """
     rows, cols = gap.shape
     for i in range(rows):
@@ -208,7 +213,10 @@ def solve(
 
 @kernel
 def acceptable(gap: Field, pressure: Field) -> bool:
-    """All heights finite, all start pressures finite and not negative."""
+    """All heights finite, all start pressures finite and not negative.
+
+    gap: [rows, cols] [m]; pressure: [rows, cols] [Pa].
+    """
     faults = 0
     rows, cols = gap.shape
     for i in range(rows):
@@ -220,6 +228,7 @@ def acceptable(gap: Field, pressure: Field) -> bool:
 
 @kernel
 def lowest(gap: Field) -> float:
+    """Lowest height [m] of a gap [rows, cols]."""
     rows, cols = gap.shape
     least = numpy.inf
     for i in range(rows):
@@ -230,6 +239,7 @@ def lowest(gap: Field) -> float:
 
 @kernel
 def heights_above(gap: Field, datum: float, height: Field) -> None:
+    """Write `gap - datum` [m] into `height`, both [rows, cols]."""
     rows, cols = gap.shape
     for i in range(rows):
         for j in range(cols):
@@ -238,7 +248,10 @@ def heights_above(gap: Field, datum: float, height: Field) -> None:
 
 @kernel
 def total_of(pressure: Field) -> float:
-    """Sum over the cells, row by row."""
+    """Sum over the cells, row by row.
+
+    pressure: [rows, cols] [Pa].
+    """
     rows, cols = pressure.shape
     total = 0.0
     for i in range(rows):
@@ -256,6 +269,7 @@ def start_at_load(half_space: HalfSpace, height: Field, load: float, total: floa
 
     The overlap's volume V and area A carry `0.6 E* V / sqrt(A / pi)`, exact for a sphere (4 sqrt(2)
     / (3 pi)); its approach is found by bisection. Beyond the highest cell the whole grid is loaded.
+    height, pressure: [rows, cols]; load: [N]; total: [Pa].
     """
     rows, cols = height.shape
     present = total_of(pressure)
@@ -272,6 +286,9 @@ def start_at_load(half_space: HalfSpace, height: Field, load: float, total: floa
 
 @kernel
 def overlap_approach(half_space: HalfSpace, height: Field, load: float) -> float:
+    """Approach [m] above the lowest cell at which the overlap carries the load [N]; height: [rows,
+    cols] [m].
+    """
     rows, cols = height.shape
     low, high = 0.0, 0.0
     for i in range(rows):
@@ -344,6 +361,7 @@ def iterate(
 
 @kernel
 def verdict(pressure: Field, residual: float, tolerance: float) -> int:
+    """Status of a field [rows, cols] with this residual [-]."""
     if not residual <= tolerance:
         return NOT_CONVERGED
     rows, cols = pressure.shape

@@ -72,7 +72,10 @@ class WindowedSolver:
     def solve_at_approach(
         self, gap: Field, approach: float, tolerance: float, max_iterations: int, pressure: Field
     ) -> FieldResult:
-        """As `field_solver.solve_at_approach` on the whole grid; the same field, sooner."""
+        """As `field_solver.solve_at_approach` on the whole grid; the same field, sooner.
+
+        gap: [rows, cols] [m]; approach: [m]; pressure: [rows, cols] [Pa].
+        """
         rows, cols = self.half_space.rows, self.half_space.cols
         window = GridWindow(0, 0, rows, cols)
         if gap.shape == pressure.shape == (rows, cols):  # other shapes are refused below
@@ -93,6 +96,8 @@ class WindowedSolver:
     ) -> FieldResult:
         """As `field_solver.solve_at_load`, on the whole grid: without the approach no window is
         known to hold the contact.
+
+        gap: [rows, cols] [m]; load: [N]; pressure: [rows, cols] [Pa].
         """
         return solve_at_load(self.half_space, self._whole, gap, load, tolerance, max_iterations, pressure)
 
@@ -139,7 +144,10 @@ def overlap_window(gap: Field, approach: float, pressure: Field) -> tuple[int, i
 
 @entry
 def copy_window(field: Field, first_row: int, first_col: int, part: Field) -> None:
-    """Copy a window of `field` into `part`."""
+    """Copy a window of `field` into `part`.
+
+    field: [rows, cols] of the whole grid; part: [rows, cols] of the window.
+    """
     for i in range(part.shape[0]):
         for j in range(part.shape[1]):
             part[i, j] = field[first_row + i, first_col + j]
@@ -147,7 +155,10 @@ def copy_window(field: Field, first_row: int, first_col: int, part: Field) -> No
 
 @entry
 def write_window(part: Field, first_row: int, first_col: int, field: Field) -> None:
-    """Write `part` into its window of `field`, and zero around it."""
+    """Write `part` into its window of `field`, and zero around it.
+
+    part: [rows, cols] of the window; field: [rows, cols] of the whole grid.
+    """
     field[:] = 0.0
     for i in range(part.shape[0]):
         for j in range(part.shape[1]):

@@ -123,7 +123,10 @@ def approach_at_load(gap: Field, cell_stiffness: float, load: float) -> float:
 
 @kernel
 def limits(gap: Field) -> tuple[float, float]:
-    """Smallest and largest gap."""
+    """Smallest and largest gap.
+
+    gap: [rows, cols] [m].
+    """
     rows, cols = gap.shape
     low, high = numpy.inf, -numpy.inf
     for i in range(rows):
@@ -136,6 +139,8 @@ def limits(gap: Field) -> tuple[float, float]:
 def below(gap: Field, datum: float, approach: float) -> tuple[int, float]:
     """Number of cells with `gap - datum <= approach` and the sum of their `gap - datum`, row by
     row.
+
+    gap: [rows, cols] [m]; datum, approach: [m].
     """
     rows, cols = gap.shape
     cells, total = 0, 0.0

@@ -293,6 +293,8 @@ def forces(law: ContactLaw, depth: Vector, speed: Vector) -> tuple[Vector, Vecto
 def course_of(impact: FinishedImpact, count: int) -> tuple[Vector, ...]:
     """Times from the touch, depth, speed, elastic and viscous force at ``count`` even instants up
     to the last loss of force.
+
+    Times: [count] [s]; depth [m], speed [m/s] and forces [N] alike.
     """
     times: Vector = numpy.linspace(0.0, impact.duration, count, dtype=numpy.float64)
     depth, speed, elastic, viscous = (numpy.zeros(count) for _ in range(4))

@@ -124,6 +124,8 @@ class RollerModel:
     def traction(self) -> tuple[float, float]:
         """Over the pressure, along x and y: as `subsurface` says; along rolling by default that of
         the rolling friction.
+
+        The result: [-].
         """
         below, along = self.subsurface, self.roller.rolling_friction
         if below is None:

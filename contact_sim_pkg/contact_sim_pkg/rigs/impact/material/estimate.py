@@ -217,14 +217,20 @@ def student(count: int, confidence: float) -> float:
 
 
 def around(value: float, error: float | None, factor: float) -> EstimatedValue:
-    """Value with an interval of ``factor`` standard errors, not below 0."""
+    """Value with an interval of ``factor`` standard errors, not below 0.
+
+    value and error: in one unit [E', E'' in Pa; tan(beta) 1]; factor: [-].
+    """
     if error is None:
         return EstimatedValue(value, None, None, None)
     return EstimatedValue(value, error, max(0.0, value - factor * error), value + factor * error)
 
 
 def of_logarithm(value: float, error: float | None, factor: float) -> EstimatedValue:
-    """Value with an interval of ``factor`` standard errors of its logarithm, ``error``."""
+    """Value with an interval of ``factor`` standard errors of its logarithm, ``error``.
+
+    value: [Pa]; error and factor: [-].
+    """
     if error is None:
         return EstimatedValue(value, None, None, None)
     return EstimatedValue(value, value * error, value * math.exp(-factor * error), value * math.exp(factor * error))

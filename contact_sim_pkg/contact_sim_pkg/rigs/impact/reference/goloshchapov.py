@@ -30,7 +30,10 @@ class Reference(NamedTuple):
 
 
 def impact(zeta: float, end: str) -> Reference:
-    """The impact at severity `zeta` with end rule "force" or "gap"; errors about 1e-11."""
+    """The impact at severity `zeta` with end rule "force" or "gap"; errors about 1e-11.
+
+    zeta: [-]; the results in units of L, V0 and L/V0.
+    """
 
     def rate(_t: float, y: list[float]) -> list[float]:
         root = math.sqrt(max(y[0], 0.0))
@@ -56,7 +59,10 @@ def impact(zeta: float, end: str) -> Reference:
 
 
 def severity(loss_tangent: float, end: str) -> float:
-    """zeta of the consistent impact: `tan(beta) = pi zeta/(3 T_c)`, by Brent's method."""
+    """zeta of the consistent impact: `tan(beta) = pi zeta/(3 T_c)`, by Brent's method.
+
+    loss_tangent and the result: [-].
+    """
     high = 2.2353 if end == "gap" else 12.0
     return float(brentq(lambda z: math.pi * z / (3.0 * impact(z, end).duration) - loss_tangent, 1e-9, high, xtol=1e-14))
 
@@ -85,7 +91,10 @@ def front_time(
 
 
 def elastic_limit() -> tuple[float, float]:
-    """T_c and X_m without loss: `X_m = (5/4)^(2/5)`, `T_c = (4/5) B(2/5, 1/2) X_m`."""
+    """T_c and X_m without loss: `X_m = (5/4)^(2/5)`, `T_c = (4/5) B(2/5, 1/2) X_m`.
+
+    In units of L/V0 and L [-].
+    """
     with mpmath.workdps(30):
         depth = mpmath.mpf("1.25") ** mpmath.mpf("0.4")
         return float(mpmath.mpf("0.8") * mpmath.beta(mpmath.mpf("0.4"), 0.5) * depth), float(depth)

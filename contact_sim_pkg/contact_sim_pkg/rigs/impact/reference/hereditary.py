@@ -18,7 +18,10 @@ Vector = NDArray[numpy.float64]
 
 
 def integral(compliance: Callable[[Vector], Vector], times: Vector, force: Vector) -> Vector:
-    """I at each of `times` for a force linear between samples; the first force is a step."""
+    """I at each of `times` for a force linear between samples; the first force is a step.
+
+    times: [n] [s]; force: [n] [N]; compliance: [1/Pa].
+    """
     nodes, weights = numpy.polynomial.legendre.leggauss(64)
     out = numpy.zeros(len(times))
     for n, now in enumerate(times):

@@ -42,6 +42,8 @@ def effective_radius(radius_1: float, radius_2: float) -> float:
 def depth_note(depth: float, radius: float) -> str | None:
     """None up to x/R = 0.3, a sentence up to 1; raises ImpactError above, where the shape has no
     meaning, and for R not above 0.
+
+    depth, radius: [m].
     """
     ratio = check_number("depth", depth, "m") / check_positive("radius", radius, "m")
     if not ratio <= 1.0:

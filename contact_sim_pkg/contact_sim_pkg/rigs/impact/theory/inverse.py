@@ -75,6 +75,7 @@ def reading(restitution: float, end: str = "force", form: str = "exact", weight:
     """h, g and the depth of a restitution k; ``weight`` is ``g tau/V0``.
 
     Raises ImpactError outside the range of the form, ValueError for another form.
+    restitution and weight: [-].
     """
     if not 0.0 <= weight <= HEAVIEST:
         raise ImpactError(
@@ -150,7 +151,10 @@ def _under_weight(severity: float, end: str, weight: float) -> ScaledImpact:
 
 
 def shape_of_depth(depth: float, radius: float, shape: str) -> float:
-    """k_p by the rule ``shape``; raises ImpactError for a depth above the radius."""
+    """k_p by the rule ``shape``; raises ImpactError for a depth above the radius.
+
+    depth, radius: [m]; the result: [-].
+    """
     if shape not in SHAPE_RULES:
         raise ValueError(f"shape factor '{shape}': small or iterate is needed")
     depth_note(depth, radius)

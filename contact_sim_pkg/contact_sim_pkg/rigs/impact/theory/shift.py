@@ -114,6 +114,8 @@ def carried_duration(duration: float, speed: float, table_speed: float) -> float
 def shift_note(shift: Shift, temperature: float) -> str | None:
     """A sentence outside Tg to Tg + 100 K, where WLF is not meant to hold; else None. Errors as
     `log_shift`.
+
+    temperature: [K].
     """
     _check(shift)
     check_positive("temperature", temperature, "K")

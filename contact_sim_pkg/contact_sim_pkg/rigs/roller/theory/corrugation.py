@@ -174,6 +174,7 @@ def mean_weights(width: float) -> Values:
 
     Heights go straight from place to place. width: any number not below 0; 0 takes the height of
     the place. Not checked.
+    width: [cells]; the result: [k].
     """
     half = 0.5 * width
     whole = int(half)
@@ -229,6 +230,7 @@ def growth_of_wave(heave: Heave, track: WearTrack, waves: int, slope: float, cel
     2 i zeta kappa Omega)`. Positive exactly below `kappa sqrt(1 - 4 zeta^2)` with a positive slope,
     but for the sign of the moving mean. Raises `ValueError` for waves below 0, fewer than 8 cells
     and a slope that is not finite.
+    The result: [-] a turn.
     """
     require_not_negative("growth of a wave: waves", waves)
     require("growth of a wave: slope", slope)

@@ -100,7 +100,10 @@ def contact_of_rollers(
 
 @entry
 def principal_curvatures(curvatures: Curvatures, yaw: float) -> PrincipalCurvatures:
-    """Coefficients of the gap along its principal axes. Not checked."""
+    """Coefficients of the gap along its principal axes. Not checked.
+
+    yaw: [rad]; the results: [1/m].
+    """
     differ = curvatures.roller_axial - curvatures.roller_rolling
     mean = 0.25 * (
         curvatures.roller_axial + curvatures.roller_rolling + curvatures.shaft_axial + curvatures.shaft_rolling
@@ -115,7 +118,10 @@ def principal_curvatures(curvatures: Curvatures, yaw: float) -> PrincipalCurvatu
 
 @entry
 def rolling_contact(curvatures: Curvatures, yaw: float, modulus: float, load: float, kind: int) -> RollingContact:
-    """`contact_of_rollers` for compiled callers. Not checked."""
+    """`contact_of_rollers` for compiled callers. Not checked.
+
+    yaw: [rad]; modulus: E* [Pa]; load: [N].
+    """
     if not load > 0.0:
         return RollingContact(0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
     principal = principal_curvatures(curvatures, yaw)

@@ -75,6 +75,8 @@ def make_heave(
 ) -> Heave:
     """Checked values. Raises `ValueError` for values that are not finite, or not above 0 (zeta,
     k_b: below 0).
+
+    mass: [kg]; load: [N]; contact_coefficient: k_c [m/N^(2/3)]; bending_compliance: k_b [m/N].
     """
     return Heave(
         require_positive("heave: mass", mass, "kg"),

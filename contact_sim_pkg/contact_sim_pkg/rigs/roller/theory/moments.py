@@ -53,7 +53,10 @@ def moments(
 
 @kernel
 def moments_of_straight(roller: Roller, load: float, tilt: float) -> Moments:
-    """Of pressure and rolling alone. Not checked."""
+    """Of pressure and rolling alone. Not checked.
+
+    load: [N]; tilt: [rad]; the results: [N m].
+    """
     about_y = max(load, 0.0) * roller.radius * math.sin(tilt)
     return Moments(about_y, roller.rolling_friction * about_y)
 
@@ -62,6 +65,8 @@ def moments_of_straight(roller: Roller, load: float, tilt: float) -> Moments:
 def moments_of_bent(roller: Roller, bending: Bending, load: float, tilt: float, ellipse: YawEllipse) -> Moments:
     """With the friction of the bent shaft, from the ellipse under 1 N at the yaw; load > 0. Not
     checked.
+
+    tilt: [rad]; the results: [N m].
     """
     straight, arm = moments_of_straight(roller, load, tilt), roller.radius * math.sin(tilt)
     grown = numpy.cbrt(load) ** 2

@@ -49,6 +49,8 @@ def bench_stress(
 def add_bending(stress: Stress, bending: Bending | None, x: float, z: float) -> Stress:
     """The stress with the bending of the shaft; zero below its middle is not treated apart. Not
     checked.
+
+    x, z: [m]; the result: [Pa].
     """
     if bending is None:
         return stress

@@ -156,6 +156,7 @@ def leaves_box(
     than the one in the box.
 
     Errors as `dangerous_volumes`.
+    limits: [Pa]; traction: [-].
     """
     _check(poisson, limits, (2, 2, 2), None, traction)
     if not contact.load > 0.0:
@@ -180,6 +181,7 @@ def largest_ratio(
     it grows as load^(1/3).
 
     0 without load. Errors as `dangerous_volumes`.
+    limits: [Pa]; traction and the result: [-].
     """
     _check(poisson, limits, cells, bending, traction)
     if not contact.load > 0.0:

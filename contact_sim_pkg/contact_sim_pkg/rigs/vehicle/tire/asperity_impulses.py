@@ -52,6 +52,8 @@ class AsperityImpulses(NamedTuple):
 def site_count(road_length: float, spacing: float) -> int:
     """`N = floor(L/dx + 1e-9)`: a length that is a whole number of spacings counts its last
     site.
+
+    road_length, spacing: [m].
     """
     if not (0.0 < spacing < math.inf and 0.0 <= road_length < math.inf):
         raise ValueError(f"asperities: spacing {spacing} m, road length {road_length} m; both finite, spacing above 0")
@@ -127,6 +129,8 @@ def asperity_density(asperities: AsperityImpulses, travel: float, start: float, 
 def active_sites(asperities: AsperityImpulses, travel: float) -> tuple[int, int]:
     """First site that may act, and the one after the last; those on the border are sorted out by
     the window.
+
+    travel: [m].
     """
     half = 0.5 * asperities.contact_length
     sites = asperities.push.shape[0]

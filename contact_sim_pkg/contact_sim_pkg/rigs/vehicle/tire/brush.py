@@ -115,8 +115,9 @@ class BrushResult(NamedTuple):
 
 
 def make_brush_state(rows: int, cols: int) -> BrushState:
-    """Unstrained bristles for pressure fields of `rows` x `cols` cells. Raises `ValueError` for an
-    empty grid.
+    """Unstrained bristles for pressure fields of [rows, cols] cells.
+
+    Raises `ValueError` for an empty grid.
     """
     if rows < 1 or cols < 1:
         raise ValueError(f"brush: grid of {rows} x {cols} cells, it must have at least one row and one column")
@@ -133,6 +134,7 @@ def brush_state_on(state: BrushState, rows: int, cols: int, cell_x: float) -> Br
 
     Row 0 of the next field may lie anywhere: `advance_brush` finds it by its `origin_x`. Errors as
     in `make_brush_state`.
+    cell_x: [m].
     """
     moved = make_brush_state(rows, cols)
     old_rows, old_cols = state.before.shape[0] - 2 * PAD, state.before.shape[1]

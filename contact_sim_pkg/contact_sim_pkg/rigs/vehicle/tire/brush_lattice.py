@@ -29,7 +29,10 @@ def place_on(bristles: Bristles, before: Field, phase: float, offset: float) -> 
 
 @kernel
 def shift_rows(values: Field | Flags, cells: int) -> None:
-    """Move row i to row i - cells, zero where nothing comes from; padding rows are cleared."""
+    """Move row i to row i - cells, zero where nothing comes from; padding rows are cleared.
+
+    values: [rows, cols].
+    """
     rows, cols = values.shape
     if cells == 0:
         return
@@ -63,6 +66,8 @@ def resample(before: Field, offset: float, scratch: Field) -> None:
 def copy_rows(source: Field, target: Field) -> None:
     """Copy all of one field into another of the same shape; quicker to compile than an assignment
     of slices.
+
+    source, target: [rows, cols].
     """
     for i in range(source.shape[0]):
         for j in range(source.shape[1]):
@@ -71,7 +76,10 @@ def copy_rows(source: Field, target: Field) -> None:
 
 @kernel
 def copy_field(pressure: Field, padded: Field) -> None:
-    """Copy a field into the padded one."""
+    """Copy a field into the padded one.
+
+    pressure: [rows, cols] [Pa]; padded: [PAD + rows + PAD, cols] [Pa].
+    """
     for i in range(pressure.shape[0]):
         for j in range(pressure.shape[1]):
             padded[PAD + i, j] = pressure[i, j]
@@ -81,6 +89,8 @@ def copy_field(pressure: Field, padded: Field) -> None:
 def loaded_window(before: Field, pressure: Field) -> LoadedWindow:
     """Labels of all bristles that can be under load before, at or between two fields; none without
     load.
+
+    before: [PAD + rows + PAD, cols] [Pa]; pressure: [rows, cols] [Pa].
     """
     rows, cols = pressure.shape
     top, bottom, left, right = rows, -1, cols, -1

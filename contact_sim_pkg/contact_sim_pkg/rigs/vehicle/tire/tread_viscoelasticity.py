@@ -113,6 +113,8 @@ class TreadState:
 def shift_rows(field: Field, cells: int) -> None:
     """Move all rows by `cells` towards row 0 (negative: away); rows that enter are copies of the
     row at that side.
+
+    field: [rows, cols].
     """
     rows, cols = field.shape
     for k in range(rows):
@@ -142,7 +144,10 @@ def viscoelastic_gap(
 def update_branches(
     pressed: Field, gap: Field, weights: Field, decay: Field, displaced: Field, branches: Field
 ) -> None:
-    """`u = K p / s + g`, `q = a q + w (u - u_before)`."""
+    """`u = K p / s + g`, `q = a q + w (u - u_before)`.
+
+    Fields: [rows, cols] [m], branches: [branches, rows, cols] [m]; weights, decay: [branches] [-].
+    """
     for i in range(gap.shape[0]):
         for j in range(gap.shape[1]):
             now = pressed[i, j] + gap[i, j]

@@ -78,6 +78,8 @@ def lowest_force(end: str) -> float:
 def normal_law(elastic: float, viscous: float, end: str) -> tuple[NormalElastic, GeneralDissipative]:
     """The pair of tuples that any rig takes as its contact: A x^1.5 + B x^0.5 x'; A > 0, B >= 0,
     else ImpactError.
+
+    elastic: A [N/m^1.5]; viscous: B [N s/m^1.5].
     """
     check_positive("elastic", elastic, "N/m^1.5")
     check_not_negative("viscous", viscous, "N s/m^1.5")

@@ -58,6 +58,8 @@ def front_speed(impact: FreeImpact, depth: float, speed: float, shear_speed: flo
 def front_time(impact: FreeImpact, shear_speed: float) -> Front:
     """End of the supersonic phase on the integrated motion. There is always one: the front stands
     still at the turning point.
+
+    shear_speed: [m/s].
     """
     check_positive("shear wave speed", shear_speed, "m/s")
 
@@ -75,6 +77,8 @@ def front_time(impact: FreeImpact, shear_speed: float) -> Front:
 def front_of_small_times(impact: FreeImpact, shear_speed: float) -> Front:
     """The same with ``x = V0 t``, for t_s far below tau_1; heat ``8/3 k_p sqrt(R) (E''/w) V0 (V0
     t_s)^(3/2)``.
+
+    shear_speed: [m/s].
     """
     check_positive("shear wave speed", shear_speed, "m/s")
     time = _small_time(impact, shear_speed)

@@ -24,20 +24,29 @@ class Operators(NamedTuple):
 
 
 def hooke(modulus: float) -> Operators:
-    """``sigma = E eps``."""
+    """``sigma = E eps``.
+
+    modulus: [Pa].
+    """
     check_positive("modulus", modulus, "Pa")
     return Operators((1.0,), (modulus,))
 
 
 def kelvin_voigt(modulus: float, viscosity: float) -> Operators:
-    """``sigma = (E + eta D) eps``."""
+    """``sigma = (E + eta D) eps``.
+
+    modulus: [Pa]; viscosity: [Pa s].
+    """
     check_positive("modulus", modulus, "Pa")
     check_positive("viscosity", viscosity, "Pa s")
     return Operators((1.0,), (modulus, viscosity))
 
 
 def maxwell(modulus: float, relaxation_time: float) -> Operators:
-    """``(1 + tau D) sigma = E tau D eps``."""
+    """``(1 + tau D) sigma = E tau D eps``.
+
+    modulus: [Pa]; relaxation_time: [s].
+    """
     check_positive("modulus", modulus, "Pa")
     check_positive("relaxation time", relaxation_time, "s")
     return Operators((1.0, relaxation_time), (0.0, modulus * relaxation_time))
@@ -46,6 +55,8 @@ def maxwell(modulus: float, relaxation_time: float) -> Operators:
 def standard_solid(glassy_modulus: float, delayed_modulus: float, retardation_time: float) -> Operators:
     """A spring E0 in series with a Kelvin-Voigt element E1, tau: ``(E0 + E1 + E1 tau D) sigma = E0
     E1 (1 + tau D) eps``.
+
+    Moduli: [Pa]; retardation_time: [s].
     """
     check_positive("glassy modulus", glassy_modulus, "Pa")
     check_positive("delayed modulus", delayed_modulus, "Pa")

@@ -247,6 +247,7 @@ def sample_from(
     of them were reached.
 
     Those behind the end of the contact get its values and are not counted.
+    times, depth, speed, heat: [n], scaled by L/V0, L, V0 and m V0^2.
     """
     series = numpy.zeros((SERIES, ORDER + 1))
     _start(u, v, series)
@@ -277,6 +278,7 @@ def scaled_impact(severity: float, end: str, weight: float = 0.0) -> ScaledImpac
 
     Raises ImpactError outside the range and, with ``gap``, where the mass does not come back (zeta
     above about 8).
+    All numbers: [-], in units of L and V0.
     """
     check_number("severity", severity, least=0.0, most=LARGEST_SEVERITY)
     check_not_negative("weight", weight)
@@ -297,6 +299,7 @@ def scaled_course(severity: float, times: Vector) -> tuple[Vector, Vector]:
 
     Raises ImpactError where a time is not reached, for times that do not rise from 0 on and a
     severity outside 0 to 1000.
+    times and the results: [n], in units of L and V0.
     """
     check_number("severity", severity, least=0.0, most=LARGEST_SEVERITY)
     scaled = check_values("times", times, shape=(None,), least=0.0, rising=True)

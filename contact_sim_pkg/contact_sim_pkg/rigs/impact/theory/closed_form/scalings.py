@@ -63,6 +63,7 @@ def damped_sine(
     s = delta/w solves ``s = c tan(beta)(1 + s^2)``, c = 15 beta/32, 1.5 as printed. Real up to
     tan(beta) = 1/(2c): 0.43701, printed 1/3. Raises ImpactError above, and for a mass, radius,
     modulus, speed or shape factor that is not above 0.
+    speed: [m/s]; shape_factor: [-].
     """
     _check_case(sphere, material.storage_modulus, speed, shape_factor)
     s = damping_ratio(material.loss_tangent, form)
@@ -83,6 +84,8 @@ def damped_sine(
 def damping_ratio(loss_tangent: float, form: str = "corrected") -> float:
     """``s = delta/w`` of eqs 56-58, the smaller root of ``s = c tan(beta)(1 + s^2)``. Raises
     ImpactError above 1/(2c).
+
+    loss_tangent and the result: [-].
     """
     check_not_negative("loss tangent", loss_tangent)
     c = 15.0 / 32.0 * _of(BETA, form)
@@ -98,6 +101,8 @@ def damping_ratio(loss_tangent: float, form: str = "corrected") -> float:
 def closed_restitution(loss_tangent: float, form: str = "printed") -> float:
     """Eq 66: ``k = (pi - f tan(beta))/(pi + f tan(beta))``, f of `LOSS_FACTORS` (printed 3). Raises
     ImpactError from pi/f on.
+
+    loss_tangent and the result: [-].
     """
     check_not_negative("loss tangent", loss_tangent)
     limit = loss_factor_limit(form)

@@ -35,6 +35,8 @@ SEVEREST = 100.0  # severity up to which a restitution is inverted
 def loss_tangent_of_severity(severity: float, end: str) -> float:
     """``tan(beta) = pi zeta/(3 T_c)`` of a consistent impact at ``severity`` zeta. Errors as
     `scaled_impact`.
+
+    severity and the result: [-].
     """
     lowest_force(end)
     if severity == 0.0:
@@ -62,6 +64,7 @@ def severity_of_loss_tangent(loss_tangent: float, end: str) -> float:
     """zeta of the consistent impact with ``loss_tangent``, 0 to 100; to a few units of rounding.
 
     Raises FoldError above the fold with the end rule ``gap``, ImpactError outside the range.
+    loss_tangent and the result: [-].
     """
     check_not_negative("loss tangent", loss_tangent)
     lowest_force(end)
@@ -89,6 +92,7 @@ def loss_tangent_of_restitution(restitution: float, end: str) -> float:
 
     Range: from 6.05e-4 (``force``, severity 100) or 0.0679 (``gap``, the fold), to 1. Raises
     ImpactError outside.
+    restitution and the result: [-].
     """
     return loss_tangent_of_severity(severity_of_restitution(restitution, end), end)
 
@@ -96,6 +100,8 @@ def loss_tangent_of_restitution(restitution: float, end: str) -> float:
 def severity_of_restitution(restitution: float, end: str) -> float:
     """zeta with which the impact ends with ``restitution`` times its speed. Raises ImpactError
     outside the range.
+
+    restitution and the result: [-].
     """
     check_number("restitution", restitution)
     high = fold()[0] if end == "gap" else SEVEREST

@@ -48,13 +48,15 @@ class CentreStress(NamedTuple):
 
     @property
     def total(self) -> float:
-        """Instantaneous sum, as the forces add up in eq 54."""
+        """Instantaneous sum [Pa], as the forces add up in eq 54."""
         return self.elastic + self.viscous
 
     @property
     def amplitude(self) -> float:
         """``sqrt(elastic^2 + viscous^2)`` (eq 103): the amplitude of steady harmonic motion, not a
         stress at an instant.
+
+        In [Pa].
         """
         return math.hypot(self.elastic, self.viscous)
 
@@ -120,6 +122,7 @@ def retarded_motion(impact: FreeImpact, time: float, form: str = "corrected") ->
     tau_KE = tan(beta)/w. (0, 0, False) outside 0 < t <= tau and where the sine is not positive.
     ``printed`` leaves the factor 1 - tau_KE/tau out of the derivative (eq 88b). Raises ImpactError
     for a time that is not finite.
+    time: [s]; the results: [m], [m/s].
     """
     check_number("time", time, "s")
     if form not in ("corrected", "printed"):
