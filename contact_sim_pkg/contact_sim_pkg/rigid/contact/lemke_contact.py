@@ -60,7 +60,7 @@ def make_contact_lemke(contacts: int, width: int, facets: int) -> ContactLemke:
 @kernel
 def _lay_out(problem, work, facets):
     """Contact, kind and direction (normal, tangents) of each row; returns the number of rows."""
-    contact, kind, direction = work.contact, work.kind, work.event_direction
+    contact, kind, direction = work.contact, work.kind, work.direction
     n, half = 0, facets // 2
     for i in range(problem.friction.shape[0]):
         count = facets + 2 if problem.friction[i] > 0.0 else 1
@@ -78,7 +78,7 @@ def _lay_out(problem, work, facets):
 @kernel
 def _fill_velocities(problem, work, n, scale, M, q):
     """Rows of contact velocities: ``E A E'`` and ``E (q + A floor)``, E the directions, in scaled contacts."""
-    A, direction, contact, width = problem.A, work.event_direction, work.contact, problem.width
+    A, direction, contact, width = problem.A, work.direction, work.contact, problem.width
     for i in range(n):
         row = contact[i] * width
         own, right = math.sqrt(A[row, row]), 0.0
@@ -136,9 +136,9 @@ def _read(problem, work, n, scale, c):
         if work.kind[i] == NORMAL:
             c[row] = problem.floor[work.contact[i]] + impulse
         elif work.kind[i] == TANGENT:
-            c[row + 1] += work.event_direction[i, 1] * impulse
+            c[row + 1] += work.direction[i, 1] * impulse
             if problem.width == SPACE:
-                c[row + 2] += work.event_direction[i, 2] * impulse
+                c[row + 2] += work.direction[i, 2] * impulse
 
 
 @kernel
