@@ -21,6 +21,7 @@ from typing import Any, NamedTuple
 
 import numpy
 
+from contact_sim_pkg.bag.messages import decode
 from contact_sim_pkg.cli.main import refusal
 from contact_sim_pkg.compiled.jit import closed
 from contact_sim_pkg.records.messages import BodyMotion, ContactForce, EnergyLedger
@@ -230,16 +231,17 @@ def _judged(messages: list[tuple[str, int, bytes]]) -> tuple[str, str]:
     """`right`, or the rule that the messages break."""
     worst = 0.0
     for topic, _stamp, data in messages:
-        decode: Any = {"bench/energy": EnergyLedger, "bench/motion": BodyMotion}.get(topic)
-        decode = ContactForce if topic.endswith("/force") else decode
-        if decode is None:
+        kind: Any = {"bench/energy": EnergyLedger, "bench/motion": BodyMotion}.get(topic)
+        kind = ContactForce if topic.endswith("/force") else kind
+        if kind is None:
             continue
-        value = decode(data)
+        value = decode(kind, data)
         for name, part in value._asdict().items():
             if not isinstance(part, (str, tuple)) and not _finite(part):
                 return "not finite", f"{topic}: {name}"
         if topic == "bench/energy":
-            through = max(1e-6, *(abs(float(part)) for part in value[1:6]))
+            works = (value.supplied, value.kinetic, value.potential, value.stored, value.dissipated)
+            through = max(1e-6, *(abs(float(part)) for part in works))
             worst = max(worst, abs(value.residual) / through)
     return ("right", "") if worst <= RESIDUAL else ("energy", f"residual {worst:.3g} of what went through")
 
