@@ -28,7 +28,14 @@ setup(
     python_requires=">=3.10,<3.14",
     packages=find_packages(include=[PACKAGE, f"{PACKAGE}.*"]),
     package_data={
-        PACKAGE: ["msg/*.msg", "scenes/*.yaml", "scenes/**/*", "rigs/**/README.md", "py.typed", "**/*.pyi"],
+        PACKAGE: [
+            "msg/*.msg",
+            "excitation/data/*",
+            "rigs/*/scenes/*.yaml",
+            "rigs/**/README.md",
+            "py.typed",
+            "**/*.pyi",
+        ],
         f"{PACKAGE}.report": ["templates/*", "templates/**/*"],
     },
     data_files=[

@@ -29,7 +29,7 @@ TEXTS = sorted(
     path
     for pattern in (
         "contact_msgs_defs/msg/*.msg",
-        "contact_sim_pkg/contact_sim_pkg/scenes/*.yaml",
+        "contact_sim_pkg/contact_sim_pkg/rigs/*/scenes/*.yaml",
         "contact_sim_pkg/config/*.yaml",
     )
     for path in ROOT.glob(pattern)

@@ -11,7 +11,7 @@ from pathlib import Path
 import numpy
 from numpy.typing import NDArray
 
-DATA = Path(__file__).resolve().parent.parent / "scenes" / "data"
+DATA = Path(__file__).resolve().parent / "data"
 ROAD_FILE, VIBRATION_FILE = "stone_road.crg", "bus_like_floor.csv"
 
 SEED = 20240601

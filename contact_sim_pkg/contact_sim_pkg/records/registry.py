@@ -6,13 +6,14 @@ Every part of the bench goes over this registry; none asks which rig it is.
 from __future__ import annotations
 
 from functools import cache
+from pathlib import Path
 
 from contact_sim_pkg.records.contact import Contact
 from contact_sim_pkg.records.effect import Effect
 from contact_sim_pkg.records.report import ContactReport
 from contact_sim_pkg.records.rig import Rig, load
 
-__all__ = ["contact_reports", "contacts", "effects", "refused_sections", "rig_names", "rigs"]
+__all__ = ["contact_reports", "contacts", "effects", "refused_sections", "rig_names", "rigs", "shipped_scenes"]
 
 _PACKAGES = "contact_sim_pkg.rigs:PACKAGES"
 
@@ -73,6 +74,25 @@ def contact_reports() -> dict[str, ContactReport]:
         report: ContactReport = load(name)
         found.setdefault(report.contact, report)
     return found
+
+
+@cache
+def shipped_scenes() -> dict[str, Path]:
+    """Files of the scenes that lie in the folders `scenes` of the rigs' packages, by name.
+
+    In the order of `Rig.scenes`, the smallest run first; those without a place there follow by name.
+
+    Raises:
+        ValueError: two scenes have the same name.
+    """
+    places = {name: place for rig in rigs().values() for name, place in rig.scenes.items()}
+    found: dict[str, Path] = {}
+    for package in load(_PACKAGES):
+        for path in sorted(Path(str(load(package).__file__)).parent.glob("scenes/*.yaml")):
+            if path.stem in found:
+                raise ValueError(f"two scenes are named {path.stem}: {found[path.stem]} and {path}; rename one of them")
+            found[path.stem] = path
+    return dict(sorted(found.items(), key=lambda item: (places.get(item[0], len(found)), item[0])))
 
 
 def refused_sections(rig: str) -> tuple[str, ...]:

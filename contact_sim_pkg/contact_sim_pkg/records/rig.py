@@ -7,7 +7,7 @@ that only records or only shakes starts without a compiler.
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from importlib import import_module
 from typing import Any
 
@@ -38,6 +38,7 @@ class Rig:
             papers on the rig included: `bench accuracy RIG`.
         goals: modules whose `GOALS` holds `records.goal.GoalPart`: `bench goals`.
         hard_cases: modules whose `CASES` holds `records.hard_case.HardCase`: `bench hard`.
+        scenes: its shipped scenes, each with its place in `bench list`: the smaller the run, the sooner.
         forecast: module whose `facts_before_run` and `sentence_before_run` report what is known
             before the run; empty: nothing.
     """
@@ -56,6 +57,7 @@ class Rig:
     work_precision: tuple[str, ...] = ()
     goals: tuple[str, ...] = ()
     hard_cases: tuple[str, ...] = ()
+    scenes: Mapping[str, int] = field(default_factory=dict)
     forecast: str = ""
 
 

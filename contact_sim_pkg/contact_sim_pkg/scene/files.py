@@ -9,8 +9,8 @@ from contact_sim_pkg.scene.schema.road import OpenCrgRoadSection
 from contact_sim_pkg.scene.schema.scene import Scene
 from contact_sim_pkg.scene.schema.vibration import RecordedSection
 
-SCENES = Path(__file__).resolve().parent.parent / "scenes"
-"""Folder of the shipped scenes; their input files are in `data/` below it."""
+SHIPPED = Path(__file__).resolve().parent.parent / "excitation"
+"""Folder whose `data/` holds the input files of the shipped scenes."""
 PACKAGE_PREFIX = "data/"
 
 
@@ -35,8 +35,8 @@ def input_files(scene: Scene) -> list[InputFile]:
 def candidates(name: str, folder: Path) -> list[Path]:
     """Places where a file is looked for: from the folder, and for `data/…` also in the package."""
     places = [folder / name]
-    if name.startswith(PACKAGE_PREFIX) and SCENES not in (folder, folder.resolve()):
-        places.append(SCENES / name)
+    if name.startswith(PACKAGE_PREFIX):
+        places.append(SHIPPED / name)
     return places
 
 

@@ -7,47 +7,14 @@ from collections.abc import Iterable
 from pathlib import Path
 from typing import NamedTuple
 
+from contact_sim_pkg.records.registry import shipped_scenes
 from contact_sim_pkg.scene.errors import Fault, SceneError
-from contact_sim_pkg.scene.files import SCENES
 from contact_sim_pkg.scene.limits import file_breaches, limit_breaches
 from contact_sim_pkg.scene.overrides import Override, apply
 from contact_sim_pkg.scene.schema.scene import Scene
 from contact_sim_pkg.scene.schema.validate import RULES, validate
 from contact_sim_pkg.scene.yaml.document import read_document
 from contact_sim_pkg.scene.yaml.nodes import MappingNode, Mark, ScalarNode
-
-ORDER = (
-    "seat_ride",
-    "block_fall",
-    "block_slope",
-    "block_zeno",
-    "block_painleve",
-    "block_identify",
-    "box_3d_tumble",
-    "roller_flutter",
-    "roller_steady",
-    "roller_corrugation",
-    "roller_hour",
-    "roller_programme",
-    "seat_slap",
-    "seat_slip",
-    "seat_shock",
-    "seat_general",
-    "seat_drop",
-    "seat_ride_full",
-    "impact_rubber_drop",
-    "impact_pendulum",
-    "impact_steel",
-    "impact_temperature_sweep",
-    "tire_bump",
-    "tire_cleat",
-    "tire_braking",
-    "tire_rough_road",
-    "tire_belgian_block",
-    "tire_texture",
-    "car_full_bench",
-)
-"""Shipped scenes, smallest first; any others follow by name."""
 
 
 class SceneEntry(NamedTuple):
@@ -87,7 +54,7 @@ def find_scene(name_or_path: str | Path) -> Path:
         return given
     names = shipped_names()
     if str(name_or_path) in names:
-        return SCENES / f"{name_or_path}.yaml"
+        return shipped_scenes()[str(name_or_path)]
     near = difflib.get_close_matches(str(name_or_path), names, n=1, cutoff=0.5)
     hint = f"; did you mean {near[0]}?" if near else ""
     sentence = f"there is no such scene (shipped are {', '.join(names)}; a file ends in .yaml){hint}"
@@ -96,8 +63,7 @@ def find_scene(name_or_path: str | Path) -> Path:
 
 def shipped_names() -> list[str]:
     """Names of the shipped scenes, smallest first."""
-    names = sorted(path.stem for path in SCENES.glob("*.yaml"))
-    return sorted(names, key=lambda name: ORDER.index(name) if name in ORDER else len(ORDER))
+    return list(shipped_scenes())
 
 
 def list_scenes() -> list[SceneEntry]:
@@ -107,9 +73,9 @@ def list_scenes() -> list[SceneEntry]:
         SceneError: a shipped scene is faulty.
     """
     entries = []
-    for name in shipped_names():
+    for name, path in shipped_scenes().items():
         scene = load_scene(name)
-        entries.append(SceneEntry(scene.name, scene.rig, scene.description, SCENES / f"{name}.yaml"))
+        entries.append(SceneEntry(scene.name, scene.rig, scene.description, path))
     return entries
 
 

@@ -23,6 +23,7 @@ RIGS = (
         help="occupant against a backrest",
         contacts=(BACKREST,),
         needs=("vibration",),
+        scenes={"seat_slap": 12, "seat_slip": 13, "seat_shock": 14, "seat_general": 15},
         simulation=f"{__name__}.simulation:BackrestSimulation",
         work=f"{__name__}.work:work_of_backrest",
         report=(f"{__name__}.report:BACKREST_REPORT",),

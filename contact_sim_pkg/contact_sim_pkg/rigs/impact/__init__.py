@@ -22,6 +22,7 @@ RIGS = (
         name="impact",
         help="sphere that strikes a sample",
         contacts=(IMPACT,),
+        scenes={"impact_rubber_drop": 18, "impact_pendulum": 19, "impact_steel": 20, "impact_temperature_sweep": 21},
         simulation=f"{__name__}.simulation:ImpactSimulation",
         report=(f"{__name__}.report:IMPACT_REPORT",),
         accuracy=(f"{__name__}.studies.accuracy",),

@@ -12,6 +12,7 @@ RIGS = (
         help="on a seat and against its back",
         contacts=(SEAT, BACKREST),
         needs=("vibration",),
+        scenes={"seat_ride_full": 17},
         simulation=f"{__name__}.simulation:OccupantSimulation",
         work=f"{__name__}.work:work_of_occupant",
         report=(

@@ -25,6 +25,13 @@ RIGS = (
         help="roller on a shaft",
         contacts=(ROLLER,),
         takes=("road",),
+        scenes={
+            "roller_flutter": 7,
+            "roller_steady": 8,
+            "roller_corrugation": 9,
+            "roller_hour": 10,
+            "roller_programme": 11,
+        },
         simulation=f"{__name__}.simulation:RollerSimulation",
         work=f"{__name__}.work:work_of_roller",
         report=(f"{__name__}.report:ROLLER_REPORT",),
