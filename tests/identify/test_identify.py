@@ -208,7 +208,7 @@ def test_refusals_are_sentences():
         (SQUARE, "give the friction coefficient and the known force of a slide"),
         (SQUARE._replace(friction=0.3), "give the known force of a slide"),
         (SQUARE._replace(wrench=push), "give the friction coefficient of a slide"),
-        (SQUARE._replace(friction=0.3, wrench=push), "no slide of the body on the ground as told was found"),
+        (SQUARE._replace(friction=0.3, wrench=push), "no slide of the body on the given ground was found"),
     ):
         with pytest.raises(IdentificationError, match=f"no flight of 3 samples.*{cure}"):
             identify(still, setup)
@@ -249,7 +249,7 @@ def test_the_edges_of_a_thin_plate_are_two_under_noise_of_the_rotation(rotation)
     for seed in range(3):
         states = motions.noisy(motions.states_of(record), seed, 1e-4, rotation)
         found = identify(states, Setup(geometry.box(sides)))
-        assert found.doubts == []
+        assert found.warnings == []
         assert abs(found.parameters[0].value - inertia) < 4.5 * found.parameters[0].deviation
 
 

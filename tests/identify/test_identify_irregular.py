@@ -120,7 +120,7 @@ def test_samples_in_single_precision_show_no_impacts_that_are_none(states, tmp_p
     assert main(["identify", str(tmp_path / "bag"), "--box", "0.1", "0.1", "0.1", "--json"]) == 0
     found = json.loads(capsys.readouterr().out)
     assert len(found["contacts"]) == len(motions.planar().bounces)
-    assert found["doubts"] == []
+    assert found["consistency_warnings"] == []
     (row,) = [row for row in found["parameters"] if row["parameter"] == "m/J"]
     assert row["value"] == pytest.approx(INERTIA, rel=1e-5)
 

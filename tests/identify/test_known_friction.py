@@ -17,14 +17,14 @@ from contact_sim_pkg.identify.contact.stacked import estimate
 from contact_sim_pkg.identify.diagnostics.balance import Side
 from contact_sim_pkg.identify.errors import IdentificationError
 from contact_sim_pkg.identify.identify import Setup, identify
-from contact_sim_pkg.identify.motion.flight import FlightState, Model, moved
+from contact_sim_pkg.identify.motion.flight import FlightModel, FlightState, moved
 from contact_sim_pkg.identify.motion.rotation import exponential
-from contact_sim_pkg.identify.motion.states import BodyStates, Noise
-from contact_sim_pkg.identify.problem import Contact, Problem, planar_basis, spatial_basis
+from contact_sim_pkg.identify.motion.states import BodyStates, SampleNoise
+from contact_sim_pkg.identify.problem import ContactSpan, IdentificationProblem, planar_basis, spatial_basis
 
 MASS, RADIUS, FRICTION, GRAVITY = 1.3, 0.05, 0.3, 9.81
 SPHERE, BLOCK = geometry.sphere(RADIUS), geometry.box([0.1, 0.14, 0.2])
-EXACT = Noise(1e-12, 1e-12, 1e-12, 1e-12)
+EXACT = SampleNoise(1e-12, 1e-12, 1e-12, 1e-12)
 
 
 def sliding_ball(force, torque=0.0, samples=200):
@@ -137,12 +137,12 @@ def test_derivatives_of_the_balance_of_friction_match_finite_differences():
     before = FlightState(0.0, *random.normal(size=(2, 3)), exponential(random.normal(size=3)), random.normal(size=3))
     change = numpy.concatenate([random.normal(size=6), 1e-9 * random.normal(size=3), random.normal(size=3)])
     after = moved(before, change)._replace(time=0.1)
-    model = Model(spatial_basis(), True, wrench.constant((1.0, 2.0, 0.3), (0.01, -0.005, 0.002)), GRAVITY)
+    model = FlightModel(spatial_basis(), True, wrench.constant((1.0, 2.0, 0.3), (0.01, -0.005, 0.002)), GRAVITY)
     ground = geometry.plane((0.1, -0.2, 1.0))
     parameters, flat = numpy.array([4e-3, 3e-3, 2e-3, 3e-4, -2e-4, 1e-4, 0.8]), numpy.zeros((12, 7))
     states = BodyStates(*(numpy.zeros((2, *shape)) for shape in ((), (3,), (3, 3), (3,), (3,))))
-    problem = Problem(states, [], [], BLOCK, ground, model, EXACT, None, friction=FRICTION)
-    contact = Contact(0, 1, 0.0, 0.1, 3, turns=False, slides=True)
+    problem = IdentificationProblem(states, [], [], BLOCK, ground, model, EXACT, None, friction=FRICTION)
+    contact = ContactSpan(0, 1, 0.0, 0.1, 3, turns=False, slides=True)
 
     def value(change_before, change_after, point):
         ends = [moved(before, change_before), moved(after, change_after)]
@@ -175,9 +175,9 @@ def one_step(force, torque=None):
     turned = numpy.stack([half.T @ rotation, half @ rotation])
     speed = numpy.array([[2.0, 0, 0], [2.0 + change[0], 0.0, change[2]]])
     states = BodyStates(numpy.array([0.0, step]), numpy.zeros((2, 3)), turned, speed, numpy.stack([0.0 * spin, spin]))
-    contact = Contact(0, 1, 0.0, step, point, turns=True, slides=True)
-    model = Model(planar_basis(), True, known, GRAVITY)
-    problem = Problem(
+    contact = ContactSpan(0, 1, 0.0, step, point, turns=True, slides=True)
+    model = FlightModel(planar_basis(), True, known, GRAVITY)
+    problem = IdentificationProblem(
         states, [(0, 0), (1, 1)], [contact], shape, geometry.plane(), model, EXACT, axis, friction=FRICTION
     )
     return estimate(problem, numpy.array([2e-3, 0.5]), numpy.array([2e-3, 0.5]))
@@ -214,9 +214,9 @@ def test_the_command_takes_the_coefficient_and_refuses_a_negative_one(tmp_path, 
 
 def test_the_balance_of_friction_needs_slip():
     still = FlightState(0.0, *numpy.zeros((2, 3)), numpy.eye(3), numpy.zeros(3))
-    model = Model(spatial_basis(), True, wrench.constant((1.0, 0.0, 0.0)), GRAVITY)
+    model = FlightModel(spatial_basis(), True, wrench.constant((1.0, 0.0, 0.0)), GRAVITY)
     states = BodyStates(*(numpy.zeros((2, *shape)) for shape in ((), (3,), (3, 3), (3,), (3,))))
-    problem = Problem(states, [], [], BLOCK, geometry.plane(), model, EXACT, None, friction=FRICTION)
+    problem = IdentificationProblem(states, [], [], BLOCK, geometry.plane(), model, EXACT, None, friction=FRICTION)
     side = Side(still, numpy.eye(12), numpy.zeros((12, 7)))
     with pytest.raises(IdentificationError, match="does not slip"):
-        friction_balance(problem, Contact(0, 1, 0.0, 0.0, 0), (side, side), numpy.ones(7))
+        friction_balance(problem, ContactSpan(0, 1, 0.0, 0.0, 0), (side, side), numpy.ones(7))

@@ -23,14 +23,14 @@ def test_a_contact_that_hides_two_impacts_is_left_out_though_few_others_are_ther
     found, off = deviations(seed, rate, noise=True)
     assert found.rank == 6
     assert max(off) < 4.5
-    assert [line[:40] for line in found.doubts] == ["1 contacts contradict the others and are"]
+    assert [line[:40] for line in found.warnings] == ["1 contacts contradict the others and are"]
 
 
 @pytest.mark.parametrize(("seed", "rate"), [(15, 100.0), (18, 50.0)])
 def test_coarse_steps_of_a_rest_that_fit_nothing_are_left_out(seed, rate):
     """They ended in a refusal, or in a search that had not converged."""
     found, off = deviations(seed, rate, noise=True)
-    assert found.doubts == []
+    assert found.warnings == []
     assert found.converged
     assert not off
 
@@ -40,13 +40,13 @@ def test_without_noise_low_rates_tell_the_inertia_within_its_deviation(seed):
     found, off = deviations(seed, 50.0, noise=False)
     assert off
     assert max(off) < 4.5
-    assert found.doubts == []
+    assert found.warnings == []
 
 
-def test_what_the_steps_of_a_rest_leave_is_no_doubt_about_the_flights():
+def test_residuals_of_the_steps_of_a_rest_give_no_warning_about_the_flights():
     """At 100 Hz the impacts of a square are two samples apart: coarse steps of a lasting contact are left, and no number."""
     exact = motions.coming_to_rest(100.0)
     for states in (exact, *(motions.noisy(exact, seed, 1e-4, 1e-3) for seed in range(3))):
         found = identify(states, Setup(geometry.box([motions.SIDE] * 3)))
         assert not found.parameters[0].identified
-        assert found.doubts == []
+        assert found.warnings == []

@@ -40,7 +40,7 @@ def test_the_deviation_of_rounded_samples_is_that_of_their_rounding(decimals):
         found = identify(states, Setup(geometry.box([motions.SIDE] * 3), gravity=9.81 / factor**2))
         inertia = found.parameters[0]
         assert inertia.identified
-        assert found.doubts == []
+        assert found.warnings == []
         off.append((inertia.value - motions.SIDE**2 / 6.0) / inertia.deviation)
     assert 0.4 < numpy.sqrt(numpy.mean(numpy.square(off))) < 1.0 + 4.0 / numpy.sqrt(2.0 * DRAWS)
     assert max(numpy.abs(off)) < 4.5
@@ -81,7 +81,7 @@ def test_rough_samples_beside_exact_rotations_tell_all_of_the_inertia(channels):
         states = slow._replace(**{name: numpy.round(getattr(slow, name), 3) for name in channels})
         found = identify(states, Setup(geometry.box(motions.LENGTHS), gravity=9.81 / factor**2))
         assert found.rank == 6
-        assert found.doubts == []
+        assert found.warnings == []
         for each, value in zip(found.parameters, truth, strict=True):
             assert abs(each.value - value) < max(4.5 * each.deviation, 1e-8 * numpy.trace(motions.SPATIAL_INERTIA))
 
@@ -92,4 +92,4 @@ def test_spins_of_three_flights_are_seen_to_be_rounded():
     assert len(numpy.unique(spin[:, 1])) == 3
     found = identify(states._replace(angular_velocity=spin), Setup(geometry.box([motions.SIDE] * 3)))
     assert abs(found.parameters[0].value - motions.SIDE**2 / 6.0) < 4.5 * found.parameters[0].deviation
-    assert found.doubts == []
+    assert found.warnings == []

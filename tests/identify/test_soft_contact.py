@@ -26,7 +26,7 @@ def test_impacts_of_many_samples_tell_the_inertia(stiffness, rate, allowed):
     found = identify(soft.bouncing_square(stiffness, rate), SQUARE)
     error, deviation = inertia(found)
     assert abs(error) < min(allowed, 4.0 * deviation)
-    assert found.doubts == []
+    assert found.warnings == []
 
 
 def test_their_impulse_is_what_the_velocities_changed_by_less_gravity():
@@ -47,7 +47,7 @@ def test_too_few_samples_are_told_and_the_deviation_grows(stiffness, rate, noise
     error, deviation = inertia(found)
     assert abs(error) < 3.0 * deviation < 0.3
     if stiffness > 1e5:
-        assert any("record faster" in line for line in found.doubts)
+        assert any("record faster" in line for line in found.warnings)
 
 
 @pytest.mark.parametrize(("stiffness", "rate"), [(1e4, 1000.0), (1e4, 5000.0), (1e5, 1000.0), (1e6, 1000.0)])

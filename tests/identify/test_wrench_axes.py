@@ -46,11 +46,11 @@ def test_noisy_motion_agrees_with_the_force_in_its_axes_and_contradicts_it_in_ot
 ):
     write(tmp_path / "bag", motions.noisy(pushed_box.motion(), 3, **NOISE), frame)
     facts, mass = told(capsys, tmp_path / "bag")
-    assert facts["doubts"] == []
+    assert facts["consistency_warnings"] == []
     assert abs(mass["value"] - pushed_box.MASS) < 4.0 * mass["standard deviation"] < 0.01 * pushed_box.MASS
     assert told(capsys, tmp_path / "bag", "--force-axes", right)[0]["parameters"] == facts["parameters"]
-    doubts = told(capsys, tmp_path / "bag", "--force-axes", wrong)[0]["doubts"]
-    assert any("the known wrench" in line for line in doubts)
+    warnings = told(capsys, tmp_path / "bag", "--force-axes", wrong)[0]["consistency_warnings"]
+    assert any("the known wrench" in line for line in warnings)
 
 
 def test_a_force_recorded_in_world_axes_at_a_lower_rate_than_the_states_misses_its_turning(tmp_path, capsys):
@@ -58,4 +58,4 @@ def test_a_force_recorded_in_world_axes_at_a_lower_rate_than_the_states_misses_i
     write(tmp_path / "bag", pushed_box.motion(), "map", 50)
     facts, mass = told(capsys, tmp_path / "bag")
     assert 2e-3 < abs(mass["value"] / pushed_box.MASS - 1.0) < 2e-2
-    assert any("the known wrench" in line for line in facts["doubts"])
+    assert any("the known wrench" in line for line in facts["consistency_warnings"])

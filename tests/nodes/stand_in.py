@@ -9,7 +9,7 @@ from rclpy.signals import SignalHandlerOptions
 
 from contact_sim_pkg.bag.messages import decode
 from contact_sim_pkg.nodes.endpoints import publisher, subscription
-from contact_sim_pkg.nodes.protocol.states import State
+from contact_sim_pkg.nodes.protocol.states import RunState
 from contact_sim_pkg.records.messages import BenchProgress
 
 
@@ -38,7 +38,7 @@ class StandIn:
 
     def wait_ready(self, listeners: int) -> None:
         """Until the run is ready and so many subscribers are matched."""
-        self.spin_until(lambda: self.progress is not None and self.progress.state >= State.READY)
+        self.spin_until(lambda: self.progress is not None and self.progress.state >= RunState.READY)
         self.spin_until(lambda: self.entry.get_subscription_count() >= listeners)
 
     def __enter__(self):

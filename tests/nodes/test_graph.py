@@ -90,7 +90,7 @@ def test_diagnostics_come_once_a_second_and_at_each_change_and_remember_a_warnin
     from builtin_interfaces.msg import Time
 
     from contact_sim_pkg.nodes import diagnostics
-    from contact_sim_pkg.nodes.protocol.states import State
+    from contact_sim_pkg.nodes.protocol.states import RunState
     from contact_sim_pkg.records.messages import BenchProgress
 
     sent: list = []
@@ -109,11 +109,11 @@ def test_diagnostics_come_once_a_second_and_at_each_change_and_remember_a_warnin
             reports.report(now, report)
         return [int.from_bytes(array.status[0].level, "little") for array in sent]
 
-    assert levels(State.READY, 0.0, 0.5, 0.99, 1.0, 1.5) == [0, 0]
-    assert levels(State.RUNNING, 1.6, 1.7) == [0]  # a change of state is not waited with
+    assert levels(RunState.READY, 0.0, 0.5, 0.99, 1.0, 1.5) == [0, 0]
+    assert levels(RunState.RUNNING, 1.6, 1.7) == [0]  # a change of state is not waited with
     reports.warn(2.0, "platform/vibration: late")
-    assert levels(State.RUNNING, 3.0, 6.9, 8.0) == [1, 1, 0]
-    assert levels(State.FAILED, 8.1, message="no block 3") == [2]
+    assert levels(RunState.RUNNING, 3.0, 6.9, 8.0) == [1, 1, 0]
+    assert levels(RunState.FAILED, 8.1, message="no block 3") == [2]
     assert (sent[0].status[0].message, sent[0].header.stamp.sec) == ("failed: no block 3", 7)
     assert sent[0].status[0].name == "rig1/contact_simulator: run"
     values = {value.key: value.value for value in sent[0].status[0].values}

@@ -11,7 +11,7 @@ from contact_sim_pkg.bag.reader import open_bag
 from contact_sim_pkg.bag.topics import TOPICS, full_name
 from contact_sim_pkg.nodes.interface_reference import (
     PARAMETERS,
-    Field,
+    FieldRow,
     message_fields,
     own_types,
     reference,
@@ -95,7 +95,7 @@ def test_a_renamed_key_is_listed(monkeypatch):
 def test_fields_of_a_message_are_read_with_unit_and_meaning():
     text = "# Head.\n\nuint8 STUCK=1   # holds\n\nfloat64[] way  # [N m^2] of the force\nstring name\n"
     assert message_fields(text) == [
-        Field("STUCK=1", "uint8", "", "holds"),
-        Field("way", "float64[]", "N m^2", "of the force"),
-        Field("name", "string", "", ""),
+        FieldRow("STUCK=1", "uint8", "", "holds"),
+        FieldRow("way", "float64[]", "N m^2", "of the force"),
+        FieldRow("name", "string", "", ""),
     ]

@@ -19,8 +19,9 @@ from contact_sim_pkg.cli.output.tables import json_option, overwrite_option, pri
 def command(what: str, plot: Path | None, overwrite: bool, as_json: bool) -> None:
     """Error against a reference beside time, for each method (work-precision study).
 
-    SCENE, a name or a path: each fidelity level, tolerance and grid. RIG (tire, seat, block, impact, roller): each quantity
-    of its contact by inexpensive and expensive formulas, on the same input. For a file named like a rig write ./NAME.
+    SCENE, a name or a path: each fidelity level, tolerance and grid. RIG (tire, seat, block,
+    impact, roller): each quantity of its contact by inexpensive and expensive formulas, on the same
+    input. For a file named like a rig write ./NAME.
     """
     from contact_sim_pkg.report.drawing import check_picture
     from contact_sim_pkg.studies.accuracy import work_precision

@@ -10,7 +10,9 @@ from contact_sim_pkg.cli.output.tables import json_option, print_json_rows, show
 @click.command("goals")
 @json_option
 def command(as_json: bool) -> None:
-    """Start-up, speed and error against their goals, measured in one run; a missed goal is shown only."""
+    """Start-up, speed and error against their goals, measured in one run; a missed goal is shown
+    only.
+    """
     from contact_sim_pkg.studies.goals import goals as benchmark
 
     rows = benchmark.study(lambda line: click.echo(line, err=True))

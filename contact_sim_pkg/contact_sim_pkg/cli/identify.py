@@ -94,23 +94,26 @@ def command(
 ) -> None:  # fmt: skip
     """Inertia and impulses of the rigid body whose motion BAG holds.
 
-    BAG: of the bench (bench/motion), or any with Odometry, or PoseStamped and TwistStamped, of the centre of mass. Contacts
-    and their modes are found. Parameters that the motion does not identify, such as the mass without a known force, are named.
+    BAG: of the bench (bench/motion), or any with Odometry, or PoseStamped and TwistStamped, of the
+    centre of mass. Contacts and their modes are found. Parameters that the motion does not
+    identify, such as the mass without a known force, are named.
 
     A cut MCAP is read as far as its whole chunks go.
 
-    Gravity acts along -z of the world frame in which the poses are given: z is up. --normal turns the ground only. Turn a
-    recording with y up or NED before, or give the weight as known force (--gravity 0 --force ...), which then fixes the mass.
+    Gravity acts along -z of the world frame in which the poses are given: z is up. --normal turns
+    the ground only. Turn a recording with y up or NED before, or give the weight as known force
+    (--gravity 0 --force ...), which then fixes the mass.
 
-    Of each contact: c_n/m, c_t/m; friction, mu for a straight slide, else a lower bound for a contact that sticks, reverses
-    or turns (JSON: friction, friction_at_least); Newton's e, the ratio -u_n+/u_n- of normal speeds (JSON:
-    newton_restitution), which with friction is not the e of an energetic or Poisson rule.
+    Of each contact: c_n/m, c_t/m; friction, mu for a straight slide, else a lower bound for a
+    contact that sticks, reverses or turns (JSON: friction, friction_at_least); Newton's e, the
+    ratio -u_n+/u_n- of normal speeds (JSON: newton_restitution), which with friction is not the e
+    of an energetic or Poisson rule.
     """
     from contact_sim_pkg.identify.contact.wrench import constant
     from contact_sim_pkg.identify.errors import IdentificationError
     from contact_sim_pkg.identify.geometry import plane
     from contact_sim_pkg.identify.identify import Setup, identify
-    from contact_sim_pkg.identify.motion.states import Noise
+    from contact_sim_pkg.identify.motion.states import SampleNoise
     from contact_sim_pkg.identify.readers.body_states import read_body_states
     from contact_sim_pkg.identify.report import rows as identification_rows
     from contact_sim_pkg.records.table import Section
@@ -125,7 +128,7 @@ def command(
     wrench = constant(force, torque)
     if force_topic is not None:
         recorded, wrench = _wrench(bag, recorded, force_topic, force_axes)
-    spreads = None if noise is None else Noise(*noise)
+    spreads = None if noise is None else SampleNoise(*noise)
     setup = Setup(shape, plane(normal, ground), wrench, gravity, spreads, friction=friction)
     for note in recorded.notes:
         click.echo(f"bench: {note}", err=True)
@@ -171,8 +174,8 @@ def _wrench(bag: Path, recorded: RecordedStates, topic: str, axes: Axes) -> tupl
     from contact_sim_pkg.identify.readers.wrenches import read_wrench
 
     samples, notes, reading = read_wrench(bag, topic, recorded, axes)
-    told = recorded._replace(notes=(*recorded.notes, *notes), reading=(*recorded.reading, reading))
-    return told, sampled(*samples)
+    states = recorded._replace(notes=(*recorded.notes, *notes), reading=(*recorded.reading, reading))
+    return states, sampled(*samples)
 
 
 def _sections(found: Identification) -> list[Section]:
@@ -183,17 +186,19 @@ def _sections(found: Identification) -> list[Section]:
     where = "motion in a plane" if found.axis is not None else "motion in space"
     title = f"Parameters: {where}, {found.flights} flights, rank {found.rank} of {found.unknowns} unknowns"
     parts = [Section(title, [_digits(row) for row in parameter_rows(found)])]
-    if found.doubts:
-        parts.append(Section("Doubts", [{"what speaks against the numbers": line} for line in found.doubts]))
+    if found.warnings:
+        parts.append(Section("Consistency warnings", [{"warning": line} for line in found.warnings]))
     if found.unobservable:
         parts.append(Section("Not identifiable", [{"what and why": line} for line in found.unobservable]))
     noise = found.noise
-    told = (
+    spreads = (
         f"noise of the samples: position {noise.position:.2g} m, rotation {noise.rotation:.2g} rad, velocity "
         f"{noise.velocity:.2g} m/s, angular velocity {noise.angular_velocity:.2g} rad/s"
     )
     parts.append(
-        Section(f"Contacts: {len(found.contacts)}", [_digits(row) for row in contact_rows(found)], f"{HEADS}; {told}")
+        Section(
+            f"Contacts: {len(found.contacts)}", [_digits(row) for row in contact_rows(found)], f"{HEADS}; {spreads}"
+        )
     )
     return parts
 

@@ -1,4 +1,6 @@
-"""The `bench` command. Bad input ends here, and only here, as a sentence on standard error and an exit status."""
+"""The `bench` command. Bad input ends here, and only here, as a sentence on standard error and an
+exit status.
+"""
 
 from __future__ import annotations
 
@@ -29,7 +31,9 @@ ONE_THREAD = ("NUMBA_NUM_THREADS", "OPENBLAS_NUM_THREADS")  # the nodes share th
 
 
 class LazyGroup(click.Group):
-    """A group whose commands are imported when they are called: `bench run` needs no plotting library."""
+    """A group whose commands are imported when they are called: `bench run` needs no plotting
+    library.
+    """
 
     def list_commands(self, ctx: click.Context) -> list[str]:
         """Names, in the order of use."""
@@ -75,7 +79,9 @@ def main(arguments: list[str] | None = None) -> int:
 
 
 def refusal(error: Exception) -> tuple[str, int] | None:
-    """Sentence and exit status of an error that stands for bad input or a named fault; None for any other."""
+    """Sentence and exit status of an error that stands for bad input or a named fault; None for any
+    other.
+    """
     from contact_sim_pkg.bag.errors import BagError
     from contact_sim_pkg.excitation.errors import ExcitationError
     from contact_sim_pkg.files import FileRefusedError

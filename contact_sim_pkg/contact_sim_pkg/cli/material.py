@@ -51,8 +51,9 @@ def command(
 ) -> None:  # fmt: skip
     """The material from measured impacts of a sphere, with intervals from repeated impacts.
 
-    From a bag of the rig impact, or from a file with one line for each impact: columns m, R, V0, tau, k and T (kg, m, m/s, s,
-    1, K; other units in brackets behind the name), g (m/s^2) where the weight acts along the blow.
+    From a bag of the rig impact, or from a file with one line for each impact: columns m, R, V0,
+    tau, k and T (kg, m, m/s, s, 1, K; other units in brackets behind the name), g (m/s^2) where the
+    weight acts along the blow.
     """
     from contact_sim_pkg.files import check_output
     from contact_sim_pkg.report import drawing

@@ -74,7 +74,9 @@ def command(
     loop: bool,
     clock: bool,
 ) -> None:
-    """Publish the messages of BAG as they were recorded: bytes, spacing, quality of service. The space key pauses."""
+    """Publish the messages of BAG as they were recorded: bytes, spacing, quality of service. The
+    space key pauses.
+    """
     from contact_sim_pkg.nodes.supervisor import node_arguments, set_default_environment
 
     set_default_environment()

@@ -34,7 +34,9 @@ class SetUpInterrupted(BaseException):
 
 
 class StopRequest:
-    """Whether a signal came: it breaks the set-up off at once, and is checked between two blocks once they are computed."""
+    """Whether a signal came: it breaks the set-up off at once, and is checked between two blocks
+    once they are computed.
+    """
 
     def __init__(self) -> None:
         """Nothing is computed yet."""
@@ -53,7 +55,7 @@ class StopRequest:
         return self.heard_at < float("inf")
 
 
-class Ended(NamedTuple):
+class RunEnd(NamedTuple):
     """How a run ended, on nodes or without."""
 
     blocks: int
@@ -78,7 +80,8 @@ def run_scene(
     as_json: bool,
     allow_long: bool,
 ) -> int:
-    """Run a scene; returns the exit status. Ends the process where a computation goes on in it that was broken off.
+    """Run a scene; returns the exit status. Ends the process where a computation goes on in it that
+    was broken off.
 
     Raises:
         SceneError, BagError, ExcitationError: refused; nothing was created.
@@ -104,7 +107,7 @@ def run_scene(
     return status
 
 
-def _told(scene: ResolvedScene, ended: Ended, forecast: dict[str, Any], *, as_json: bool) -> int:
+def _told(scene: ResolvedScene, ended: RunEnd, forecast: dict[str, Any], *, as_json: bool) -> int:
     """Report the outcome of a run; returns the exit status."""
     if ended.failure:
         print(f"bench: {ended.failure}", file=sys.stderr)
@@ -121,7 +124,7 @@ def _told(scene: ResolvedScene, ended: Ended, forecast: dict[str, Any], *, as_js
     return ended.exit_status
 
 
-def _leave_metadata(scene: ResolvedScene, ended: Ended) -> str:
+def _leave_metadata(scene: ResolvedScene, ended: RunEnd) -> str:
     """Beside a bag that its recorder could not finish; how to make it whole, empty where it is."""
     from contact_sim_pkg.bag.mcap.unfinished import leave_metadata
 
@@ -149,7 +152,7 @@ def _forecast(scene: ResolvedScene) -> dict[str, Any]:
     return {"stability": found.facts}
 
 
-def _run_offline(scene: ResolvedScene, directory: Path | None, from_bag: Path | None, display: RunDisplay) -> Ended:
+def _run_offline(scene: ResolvedScene, directory: Path | None, from_bag: Path | None, display: RunDisplay) -> RunEnd:
     from contact_sim_pkg.run.computing import Computing
     from contact_sim_pkg.run.offline import RunOutcome, run_offline
 
@@ -171,21 +174,31 @@ def _run_offline(scene: ResolvedScene, directory: Path | None, from_bag: Path | 
                 if time.monotonic() > stop.heard_at + GRACE:
                     broken_off = computing.abandon()
         except SetUpInterrupted:
-            return Ended(0, time.monotonic() - BEGAN, 0.0, None, True, "", 0, {}, computes_on=True)
+            return RunEnd(
+                blocks=0,
+                startup=time.monotonic() - BEGAN,
+                wall=0.0,
+                bag=None,
+                stopped=True,
+                failure="",
+                exit_status=0,
+                excitation={},
+                computes_on=True,
+            )
     outcome = broken_off or worker.result()
     lost = bool(outcome.loss) or (outcome.bag is not None and not outcome.bag.complete)
     failure = outcome.failure or (outcome.bag.sentence if outcome.bag is not None else "") or outcome.loss
     status = 1 if outcome.failure else 3 if lost else 0
     bag = None if outcome.bag is None else outcome.bag.path
-    return Ended(
-        outcome.blocks,
-        before + outcome.startup,
-        outcome.wall,
-        bag,
-        outcome.stopped,
-        failure,
-        status,
-        outcome.excitation,
+    return RunEnd(
+        blocks=outcome.blocks,
+        startup=before + outcome.startup,
+        wall=outcome.wall,
+        bag=bag,
+        stopped=outcome.stopped,
+        failure=failure,
+        exit_status=status,
+        excitation=outcome.excitation,
         computes_on=broken_off is not None,
     )
 
@@ -216,7 +229,7 @@ class Worker(threading.Thread, Generic[Result]):
 
 def _run_on_nodes(
     scene: ResolvedScene, directory: Path | None, from_bag: Path | None, display: RunDisplay, *, clock: bool
-) -> Ended:
+) -> RunEnd:
     import rclpy  # noqa: F401  # refused here, with the cure, where ROS is not there
     from contact_msgs_defs.msg import BenchProgress  # noqa: F401
 
@@ -226,15 +239,15 @@ def _run_on_nodes(
     before = time.monotonic() - BEGAN
     with _signals_call(supervisor.stop):
         outcome = supervisor.run(display.show, display.say)
-    return Ended(
-        outcome.blocks,
-        before + outcome.startup,
-        outcome.wall,
-        outcome.bag,
-        outcome.stopped,
-        outcome.failure,
-        outcome.exit_status,
-        outcome.excitation,
+    return RunEnd(
+        blocks=outcome.blocks,
+        startup=before + outcome.startup,
+        wall=outcome.wall,
+        bag=outcome.bag,
+        stopped=outcome.stopped,
+        failure=outcome.failure,
+        exit_status=outcome.exit_status,
+        excitation=outcome.excitation,
     )
 
 

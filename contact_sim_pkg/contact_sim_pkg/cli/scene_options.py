@@ -47,7 +47,8 @@ class SceneOptions:
         """The resolved scene: the one that was named, or that of the bag where none was.
 
         Raises:
-            SceneError: faults of the scene or of the options. BagError: the bag cannot be read or holds no scene.
+            SceneError: faults of the scene or of the options. BagError: the bag cannot be read or
+            holds no scene.
         """
         if self.scene is not None:
             from contact_sim_pkg.scene.load import load_scene

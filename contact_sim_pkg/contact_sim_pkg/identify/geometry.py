@@ -1,7 +1,8 @@
 """Shape of the body and of the ground: gaps and arms of contact.
 
-A body is the convex hull of points in body axes (origin: centre of mass), grown by a radius: box, polygon, hull (radius 0),
-sphere (one point). The ground is a plane. Gap of point i: `phi_i = n.(x + R p_i) - radius - height`.
+A body is the convex hull of points in body axes (origin: centre of mass), grown by a radius: box,
+polygon, hull (radius 0), sphere (one point). The ground is a plane. Gap of point i: `phi_i = n.(x +
+R p_i) - radius - height`.
 """
 
 from __future__ import annotations
@@ -17,7 +18,7 @@ from contact_sim_pkg.identify.motion.rotation import Array
 
 __all__ = [
     "UP",
-    "Ground",
+    "GroundPlane",
     "Shape",
     "arm",
     "arms",
@@ -44,7 +45,7 @@ class Shape(NamedTuple):
     radius: float  # [m]
 
 
-class Ground(NamedTuple):
+class GroundPlane(NamedTuple):
     """The plane `n.x = height`; n points out of it."""
 
     normal: Array  # [3], of length 1
@@ -67,7 +68,9 @@ def sphere(radius: float) -> Shape:
 
 
 def hull(points: ArrayLike, radius: float = 0.0) -> Shape:
-    """Hull of the points [k, 3] in [m], body axes from the centre of mass, grown by `radius` >= 0 [m]."""
+    """Hull of the points [k, 3] in [m], body axes from the centre of mass, grown by `radius` >= 0
+    [m].
+    """
     corners = numpy.asarray(points, dtype=numpy.float64)
     if corners.ndim != 2 or corners.shape[1:] != (3,) or not len(corners) or not numpy.isfinite(corners).all():
         raise IdentificationError(f"a hull needs points of three finite coordinates, not an array of {corners.shape}")
@@ -86,7 +89,7 @@ def _of_a_size(points: Array, radius: float) -> Shape:
     return Shape(points, radius)
 
 
-def plane(normal: ArrayLike = UP, height: float = 0.0) -> Ground:
+def plane(normal: ArrayLike = UP, height: float = 0.0) -> GroundPlane:
     """Ground with a normal of any length."""
     direction = numpy.asarray(normal, dtype=numpy.float64)
     length = float(numpy.linalg.norm(direction))
@@ -95,23 +98,25 @@ def plane(normal: ArrayLike = UP, height: float = 0.0) -> Ground:
             f"the ground needs a normal that is not zero and a height of at most {FARTHEST:g} m, not {direction.tolist()} and "
             f"{height:g}"
         )
-    return Ground(direction / length, float(height))
+    return GroundPlane(direction / length, float(height))
 
 
-def gaps(shape: Shape, ground: Ground, position: Array, rotation: Array) -> Array:
-    """Gap of each point in [m], for positions [..., 3] and rotations [..., 3, 3]: [..., k]; negative inside the ground."""
+def gaps(shape: Shape, ground: GroundPlane, position: Array, rotation: Array) -> Array:
+    """Gap of each point in [m], for positions [..., 3] and rotations [..., 3, 3]: [..., k];
+    negative inside the ground.
+    """
     heights = numpy.einsum("i,...ij,kj->...k", ground.normal, rotation, shape.points)
     lift: Array = (position @ ground.normal)[..., None] + heights - shape.radius - ground.height
     return lift
 
 
-def arm(shape: Shape, ground: Ground, rotation: Array, point: int) -> Array:
+def arm(shape: Shape, ground: GroundPlane, rotation: Array, point: int) -> Array:
     """From the centre of mass to the contact of `point`, [3] in [m], world axes."""
     reach: Array = rotation @ shape.points[point] - shape.radius * ground.normal
     return reach
 
 
-def arms(shape: Shape, ground: Ground, rotation: Array) -> Array:
+def arms(shape: Shape, ground: GroundPlane, rotation: Array) -> Array:
     """`arm` of all points, [k, 3] in [m]."""
     reaches: Array = shape.points @ rotation.T - shape.radius * ground.normal
     return reaches
@@ -122,18 +127,18 @@ def size(shape: Shape) -> float:
     return float(numpy.linalg.norm(shape.points, axis=1).max()) + shape.radius
 
 
-def flattened(shape: Shape, axis: Array, doubt: float = 0.0) -> Shape:
+def flattened(shape: Shape, axis: Array, angle_error: float = 0.0) -> Shape:
     """The same shape seen along `axis` (body axes): points in the plane through the centre of mass.
 
-    Points that lie behind each other are one, in their middle: an axis that is wrong by `doubt` [rad] parts them by that times
-    their distance along it.
+    Points that lie behind each other are one, in their middle: an axis that is wrong by
+    `angle_error` [rad] separates them by that times their distance along it.
     """
     depths = shape.points @ axis
     flat = shape.points - depths[:, None] * axis
     groups: list[list[int]] = []
     for place in range(len(flat)):
         group = next(
-            (each for each in groups if _behind(flat, depths, each[0], place, doubt, SAME * size(shape))), None
+            (each for each in groups if _behind(flat, depths, each[0], place, angle_error, SAME * size(shape))), None
         )
         if group is None:
             groups.append([place])
@@ -142,13 +147,15 @@ def flattened(shape: Shape, axis: Array, doubt: float = 0.0) -> Shape:
     return Shape(numpy.array([flat[group].mean(axis=0) for group in groups]), shape.radius)
 
 
-def _behind(flat: Array, depths: Array, first: int, second: int, doubt: float, same: float) -> bool:
+def _behind(flat: Array, depths: Array, first: int, second: int, angle_error: float, same: float) -> bool:
     """Whether two points are one, seen along the axis."""
-    apart = float(numpy.linalg.norm(flat[second] - flat[first]))
-    return apart <= same + doubt * abs(float(depths[second] - depths[first]))
+    separation = float(numpy.linalg.norm(flat[second] - flat[first]))
+    return separation <= same + angle_error * abs(float(depths[second] - depths[first]))
 
 
 def inertia_guess(shape: Shape) -> Array:
-    """I0/m [3, 3] in [m^2] of a homogeneous box around the shape: where a search starts, and the size of its unknowns."""
+    """I0/m [3, 3] in [m^2] of a homogeneous box around the shape: where a search starts, and the
+    size of its unknowns.
+    """
     sides = numpy.ptp(shape.points, axis=0) + 2.0 * shape.radius
     return numpy.diag((numpy.sum(sides**2) - sides**2) / 12.0)

@@ -1,4 +1,4 @@
-"""From sampled states to inertia, impulses and what cannot be known."""
+"""From sampled states to inertia, impulses, and the parameters that are not identifiable."""
 
 from __future__ import annotations
 
@@ -9,41 +9,41 @@ import numpy
 from contact_sim_pkg.identify.contact.contacts import ContactFinding, findings
 from contact_sim_pkg.identify.contact.coulomb import along_the_cone
 from contact_sim_pkg.identify.contact.slides import slides_of
-from contact_sim_pkg.identify.contact.stacked import Estimate
+from contact_sim_pkg.identify.contact.stacked import ParameterEstimate
 from contact_sim_pkg.identify.contact.wrench import NO_WRENCH, ExternalWrench
 from contact_sim_pkg.identify.diagnostics.noise import first_guess, limited, roundings
 from contact_sim_pkg.identify.diagnostics.possible import HIDDEN, against_the_wrench, made_up
-from contact_sim_pkg.identify.diagnostics.warnings import doubts
+from contact_sim_pkg.identify.diagnostics.warnings import consistency_warnings
 from contact_sim_pkg.identify.errors import IdentificationError
-from contact_sim_pkg.identify.geometry import Ground, Shape, flattened, gaps, plane
+from contact_sim_pkg.identify.geometry import GroundPlane, Shape, flattened, gaps, plane
 from contact_sim_pkg.identify.motion.continuity import refuse_jumps
-from contact_sim_pkg.identify.motion.flight import Model
+from contact_sim_pkg.identify.motion.flight import FlightModel
 from contact_sim_pkg.identify.motion.plane import body_axis, plane_of_motion
 from contact_sim_pkg.identify.motion.rotation import Array
-from contact_sim_pkg.identify.motion.segments import gap_doubt, inverse_mass_guess, segments, velocity_noise
-from contact_sim_pkg.identify.motion.states import BodyStates, Noise, checked
+from contact_sim_pkg.identify.motion.segments import gap_uncertainty, inverse_mass_guess, segments, velocity_noise
+from contact_sim_pkg.identify.motion.states import BodyStates, SampleNoise, checked
 from contact_sim_pkg.identify.motion.tumbling import tumbling_start
 from contact_sim_pkg.identify.motion.turning import rate_of_turn
 from contact_sim_pkg.identify.naming import hidden_by_noise, parameter_names, unobservable
-from contact_sim_pkg.identify.problem import Problem, planar_basis, spatial_basis, starting_parameters
+from contact_sim_pkg.identify.problem import IdentificationProblem, planar_basis, spatial_basis, starting_parameters
 from contact_sim_pkg.identify.search import Search
 
 __all__ = ["Identification", "Parameter", "Setup", "identify"]
 
 
 AXIS = 5.0  # times its deviation: how far the axis of the plane, a mean over all samples, may be wrong
-SLOWEST = 0.1  # of the spin that is told: slower turns contradict it, whatever noise and axes do
+SLOWEST = 0.1  # of the recorded spin: slower rotations contradict it, whatever noise and axes do
 LARGEST = 1e6  # gravity, friction coefficient, noise: beyond it a number is a mistake
 
 
 class Setup(NamedTuple):
-    """What is known besides the states."""
+    """Known quantities besides the states."""
 
     shape: Shape
-    ground: Ground = plane()
+    ground: GroundPlane = plane()
     wrench: ExternalWrench = NO_WRENCH
     gravity: float = 9.81  # [m/s^2]
-    noise: Noise | None = None  # None: taken from the flights
+    noise: SampleNoise | None = None  # None: taken from the flights
     planar: bool | None = None  # None: found from the motion
     friction: float | None = None  # known coefficient; None: unknown, a result
 
@@ -59,27 +59,28 @@ class Parameter(NamedTuple):
 
 
 class Identification(NamedTuple):
-    """What the motion tells."""
+    """Result of an identification."""
 
     parameters: list[Parameter]
     unobservable: list[str]
-    doubts: list[str]  # what speaks against the numbers
+    warnings: list[str]  # consistency warnings
     rank: int
     unknowns: int
     contacts: list[ContactFinding]
-    noise: Noise
+    noise: SampleNoise
     flights: int
     axis: Array | None  # normal of the plane of motion, None in space
     converged: bool
-    estimate: Estimate
-    problem: Problem
+    estimate: ParameterEstimate
+    problem: IdentificationProblem
 
 
 def identify(states: BodyStates, setup: Setup) -> Identification:
     """Identify inertia over mass, impulses over mass and, with a known wrench, the mass.
 
     Raises:
-        IdentificationError: states that cannot be used, a wrench that does not cover them, no flight, no contact.
+        IdentificationError: states that cannot be used, a wrench that does not cover them, no
+        flight, no contact.
     """
     states = checked(states)
     _check_setup(setup)
@@ -91,18 +92,29 @@ def identify(states: BodyStates, setup: Setup) -> Identification:
     if setup.planar and axis is None:
         raise IdentificationError("the motion is not planar: its spin changes axis, or it drifts out of the plane")
     own_axis = None if axis is None else body_axis(states, axis, guess)
-    doubt = AXIS * guess.rotation / float(numpy.sqrt(len(states.time)))
-    shape = setup.shape if own_axis is None else flattened(setup.shape, own_axis, doubt)
+    axis_error = AXIS * guess.rotation / float(numpy.sqrt(len(states.time)))
+    shape = setup.shape if own_axis is None else flattened(setup.shape, own_axis, axis_error)
     rounding = roundings(states)
     speed_noise = max(setup.noise.velocity if setup.noise else velocity_noise(states), rounding.velocity)
     parts = segments(states, shape, setup.ground, setup.wrench, setup.gravity, speed_noise, guess[:2])
     basis = spatial_basis() if axis is None else planar_basis()
-    model = Model(basis, setup.wrench.present, setup.wrench, setup.gravity)
+    model = FlightModel(basis, setup.wrench.present, setup.wrench, setup.gravity)
     lifts = gaps(shape, setup.ground, states.position, states.rotation).min(axis=1)
-    inverse_mass = inverse_mass_guess(states, lifts, setup.wrench, setup.gravity, gap_doubt(shape, guess[:2]))
+    inverse_mass = inverse_mass_guess(states, lifts, setup.wrench, setup.gravity, gap_uncertainty(shape, guess[:2]))
     start, scale = starting_parameters(shape, model, own_axis, inverse_mass)
     noise = limited(guess, states)
-    problem = Problem(states, [], [], shape, setup.ground, model, noise, axis, rounding, friction=setup.friction)
+    problem = IdentificationProblem(
+        states=states,
+        flights=[],
+        contacts=[],
+        shape=shape,
+        ground=setup.ground,
+        model=model,
+        noise=noise,
+        axis=axis,
+        rounding=rounding,
+        friction=setup.friction,
+    )
     starts = [start]
     if axis is None:
         tumbling = tumbling_start(states, parts.flights, model, noise, start)
@@ -121,12 +133,13 @@ def _check_setup(setup: Setup) -> None:
             raise IdentificationError(f"the noise of the {name.replace('_', ' ')} is 0 to {LARGEST:g}, not {value:g}")
 
 
-def _check_spin(states: BodyStates, noise: Noise) -> None:
+def _check_spin(states: BodyStates, noise: SampleNoise) -> None:
     rate = rate_of_turn(states, noise.angular_velocity)
     if rate is not None and not SLOWEST <= abs(rate) <= 1.0 / SLOWEST:
         raise IdentificationError(
-            f"the rotations turn {rate:.3g} times as fast as the angular velocities say: give these in rad/s (in degrees it would "
-            "be 0.0175) and in the axes that they are told in, no sample twice, and none rounded so much that the body stands still"
+            f"the rotations turn {rate:.3g} times as fast as the angular velocities say: give these in "
+            "rad/s (in degrees it would be 0.0175) and in the axes in which they are recorded, no sample "
+            "twice, and none rounded so much that the body stands still"
         )
 
 
@@ -140,8 +153,10 @@ def _check_wrench(states: BodyStates, wrench: ExternalWrench) -> None:
         )
 
 
-def _why_no_mass(search: Search, found: Estimate) -> str:
-    """What a slide under a known force lacks to tell the mass; empty where there is none, or it tells it."""
+def _why_no_mass(search: Search, found: ParameterEstimate) -> str:
+    """Why a slide under a known force does not identify the mass; empty where there is none, or it
+    does.
+    """
     problem = search.problem
     if problem.model.wrench.force is None:
         return ""
@@ -150,11 +165,11 @@ def _why_no_mass(search: Search, found: Estimate) -> str:
     if edges and all(edges):
         return "the known force lies along the edge of the friction cone, where it looks like more contact"
     if not edges and slides_of(problem, search.parts):
-        return "a slide under a known force tells it only where the friction coefficient is known too"
+        return "a slide under a known force identifies it only where the friction coefficient is known too"
     return ""
 
 
-def _result(found: Estimate, search: Search) -> Identification:
+def _result(found: ParameterEstimate, search: Search) -> Identification:
     problem, missing = search.problem, found.directions.missing
     spatial, model = problem.axis is None, problem.model
     names = parameter_names(spatial, model.with_mass)
@@ -170,8 +185,18 @@ def _result(found: Estimate, search: Search) -> Identification:
         [name for name, lost in zip(names, unsure & ~hidden, strict=True) if lost], wrong_way=wrong_way
     )
     contacts = findings(problem, found, search.parts, search.places, search.notes)
-    told = doubts(found, search.notes.values(), problem)
+    warnings = consistency_warnings(found, search.notes.values(), problem)
     return Identification(
-        parameters, words, told, found.directions.rank, model.unknowns, contacts, problem.noise, search.flights, problem.axis,
-        found.converged, found, problem,
-    )  # fmt: skip
+        parameters=parameters,
+        unobservable=words,
+        warnings=warnings,
+        rank=found.directions.rank,
+        unknowns=model.unknowns,
+        contacts=contacts,
+        noise=problem.noise,
+        flights=search.flights,
+        axis=problem.axis,
+        converged=found.converged,
+        estimate=found,
+        problem=problem,
+    )

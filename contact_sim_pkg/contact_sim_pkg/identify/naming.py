@@ -1,4 +1,4 @@
-"""Words for what is not identified."""
+"""Sentences about parameters that are not identified."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ PART = 1e-6  # a component of a direction below this is none
 FLAT = 0.02  # an eigenvalue below this part of the largest is zero: noise turns the directions a little
 NO_TRACE = "the known wrench leaves no trace in the motion that is large against the noise"
 WRONG_WAY = "the body moves against the known wrench"
-ALIKE = 1e-3  # of 1 - |cos|: two directions that noise may tell apart
+ALIKE = 1e-3  # of 1 - |cos|: two directions closer than that are one
 
 
 def parameter_names(spatial: bool, with_mass: bool) -> list[str]:
@@ -57,7 +57,7 @@ def unobservable(
 
 
 def hidden_by_noise(names: list[str], *, wrong_way: bool) -> list[str]:
-    """One sentence for each parameter that equations tell, but not above their noise.
+    """One sentence for each parameter that the equations identify, but not above their noise.
 
     ``wrong_way``: 1/m is below zero by more than that.
     """
@@ -92,18 +92,20 @@ def _mixed(missing: Array, parameters: Array, scale: Array, spatial: bool, reaso
     inside = missing.T @ (missing @ ray)
     if len(missing) == 1 and numpy.linalg.norm(inside - ray) < 1e-3 * numpy.linalg.norm(ray):
         return [
-            "mass is not identifiable: the torque tells I0 = m (I0/m) alone, and neither a force nor an impact tells the mass"
+            "mass is not identifiable: the torque identifies I0 = m (I0/m) alone, and neither a force nor an impact the mass"
         ]
     names = parameter_names(spatial, with_mass=True)
     why = f"; {reason}" if reason else ""
     return [
-        f"mass and inertia cannot be told apart: {_combination(line, names)} is free (one equation for two unknowns{why})"
+        f"mass and inertia cannot be separated: {_combination(line, names)} is free (one equation for two unknowns{why})"
         for line in _fewest(missing)
     ]
 
 
 def _fewest(missing: Array) -> Array:
-    """Other directions of the same space, each with a parameter of its own and as few others as that leaves: Gauss and Jordan."""
+    """Other directions of the same space, each with a parameter of its own and as few others as
+    that leaves: Gauss and Jordan.
+    """
     rows = missing.copy()
     for place in range(len(rows)):
         left = abs(rows[place:])  # 0 in the columns of earlier ones
@@ -146,7 +148,9 @@ def _single(matrix: Array, inertia: Array) -> str:
         )
     ray = inertia / numpy.linalg.norm(inertia)
     if abs(abs(numpy.sum(ray * matrix)) / numpy.linalg.norm(matrix) - 1.0) < ALIKE:
-        return "the size of I0/m is not identifiable: free tumbling tells only the ratios of the moments of inertia"
+        return (
+            "the size of I0/m is not identifiable: free tumbling identifies only the ratios of the moments of inertia"
+        )
     names = parameter_names(True, False)
     line = numpy.array([matrix[row, col] for row, col in PAIRS])
     return f"not identifiable: {_combination(line / numpy.linalg.norm(line), names)}"

@@ -6,19 +6,29 @@ from typing import NamedTuple
 
 import numpy
 
-from contact_sim_pkg.identify.geometry import Ground, Shape, inertia_guess
-from contact_sim_pkg.identify.motion.flight import FlightState, Model
+from contact_sim_pkg.identify.geometry import GroundPlane, Shape, inertia_guess
+from contact_sim_pkg.identify.motion.flight import FlightModel, FlightState
 from contact_sim_pkg.identify.motion.rotation import Array
-from contact_sim_pkg.identify.motion.states import BodyStates, Noise
+from contact_sim_pkg.identify.motion.states import BodyStates, SampleNoise
 
-__all__ = ["AXES", "Contact", "Problem", "Sweep", "planar_basis", "spatial_basis", "start_of", "starting_parameters"]
+__all__ = [
+    "AXES",
+    "ContactSpan",
+    "IdentificationProblem",
+    "ImpulseMoment",
+    "planar_basis",
+    "spatial_basis",
+    "start_of",
+    "starting_parameters",
+]
 
 AXES = "xyz"
 PAIRS = ((0, 0), (1, 1), (2, 2), (0, 1), (0, 2), (1, 2))
 
 
-class Sweep(NamedTuple):
-    """Moment of the impulses of a contact from t0 to t1 (`identify/sweep.py`): `int r' x (pi - pi(t0)) dt`, r' the rate of the arm.
+class ImpulseMoment(NamedTuple):
+    """Moment of the impulses of a contact from t0 to t1 (`identify/sweep.py`): `int r' x (pi -
+    pi(t0)) dt`, r' the rate of the arm.
 
     It is moment - kappa by_inverse_mass - (r1 - r0) x (v0 - velocity)`, v0 the velocity at t0."""
 
@@ -30,7 +40,7 @@ class Sweep(NamedTuple):
     samples: int  # while the contact lasts
 
 
-class Contact(NamedTuple):
+class ContactSpan(NamedTuple):
     """One contact between two flights."""
 
     before: int  # number of the flight
@@ -40,26 +50,28 @@ class Contact(NamedTuple):
     point: int  # of the shape
     turns: bool = True  # its moment counts: it acts at this point alone
     slides: bool = False  # the known friction counts
-    sweep: Sweep | None = None  # of a contact that lasts: the moment of its impulses
+    sweep: ImpulseMoment | None = None  # of a contact that lasts: the moment of its impulses
     located: bool = False  # an impact whose instant is no more than the root of the gap on the flight before
 
 
-EXACT = Noise(0.0, 0.0, 0.0, 0.0)
+EXACT = SampleNoise(0.0, 0.0, 0.0, 0.0)
 
 
-class Problem(NamedTuple):
+class IdentificationProblem(NamedTuple):
     """Samples, flights, contacts and model."""
 
     states: BodyStates
     flights: list[tuple[int, int]]  # first and last sample
-    contacts: list[Contact]
+    contacts: list[ContactSpan]
     shape: Shape
-    ground: Ground
-    model: Model
-    noise: Noise
+    ground: GroundPlane
+    model: FlightModel
+    noise: SampleNoise
     axis: Array | None  # normal of the plane of motion in world axes; None in space
-    rounding: Noise = EXACT  # standard deviation of the rounding of the samples
-    step_noise: Noise | None = None  # of flights of one sample, where it differs: the error of a step counts as noise
+    rounding: SampleNoise = EXACT  # standard deviation of the rounding of the samples
+    step_noise: SampleNoise | None = (
+        None  # of flights of one sample, where it differs: the error of a step counts as noise
+    )
     friction: float | None = None  # known coefficient
 
     @property
@@ -85,12 +97,17 @@ def spatial_basis() -> Array:
 
 
 def planar_basis() -> Array:
-    """One unknown, J/m about the normal of the plane; other axes never turn, so any value serves them: [1, 3, 3]."""
+    """One unknown, J/m about the normal of the plane; other axes never turn, so any value serves
+    them: [1, 3, 3].
+    """
     return numpy.eye(3)[None]
 
 
-def starting_parameters(shape: Shape, model: Model, axis: Array | None, inverse_mass: float) -> tuple[Array, Array]:
-    """A start [p] and the size of each parameter [p]: a homogeneous box, and 1/m as seen in the flights.
+def starting_parameters(
+    shape: Shape, model: FlightModel, axis: Array | None, inverse_mass: float
+) -> tuple[Array, Array]:
+    """A start [p] and the size of each parameter [p]: a homogeneous box, and 1/m as seen in the
+    flights.
 
     `axis`: normal of the plane of motion in body axes, None in space.
     """
@@ -108,7 +125,7 @@ def starting_parameters(shape: Shape, model: Model, axis: Array | None, inverse_
     return numpy.array(start), numpy.array(sizes)
 
 
-def _usual_inverse_mass(model: Model, inertia: float) -> float:
+def _usual_inverse_mass(model: FlightModel, inertia: float) -> float:
     """1/m in [1/kg] of a body that the wrench moves as gravity would."""
     wrench = model.wrench
     time = (

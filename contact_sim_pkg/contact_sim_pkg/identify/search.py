@@ -1,24 +1,26 @@
-"""The search behind an identification: locate the impacts, fit everything, take the noise from what is left, again."""
+"""The search behind an identification: locate the impacts, fit everything, take the noise from what
+is left, again.
+"""
 
 from __future__ import annotations
 
 import numpy
 
-from contact_sim_pkg.identify.contact.impacts import Touch, locate
-from contact_sim_pkg.identify.contact.lasting import NO_FLIGHT, in_words, nothing_to_begin_with, with_steps
+from contact_sim_pkg.identify.contact.impacts import ContactEvent, locate
+from contact_sim_pkg.identify.contact.lasting import lasting_note, nothing_to_identify_from, with_steps
 from contact_sim_pkg.identify.contact.slides import with_slides
-from contact_sim_pkg.identify.contact.stacked import Estimate, estimate
+from contact_sim_pkg.identify.contact.stacked import ParameterEstimate, estimate
 from contact_sim_pkg.identify.diagnostics.agreement import agreeing, contradicts
 from contact_sim_pkg.identify.diagnostics.noise import from_residuals, limited
-from contact_sim_pkg.identify.diagnostics.notes import DISAGREES, DOUBLE, SEVERAL, TOUCHES_NOTHING, UNSURE
+from contact_sim_pkg.identify.diagnostics.notes import FREE_MOTION_MISSING, ContactNote, NoteKind
 from contact_sim_pkg.identify.errors import IdentificationError
 from contact_sim_pkg.identify.motion.flight import plain_motion, state_at
 from contact_sim_pkg.identify.motion.heights import gap_deviation
 from contact_sim_pkg.identify.motion.linearised import Linearised
 from contact_sim_pkg.identify.motion.rotation import Array
-from contact_sim_pkg.identify.motion.segments import LONGEST_IMPACT, SHORTEST_FLIGHT, Segments, gap_doubt
-from contact_sim_pkg.identify.motion.states import Noise
-from contact_sim_pkg.identify.problem import Contact, Problem
+from contact_sim_pkg.identify.motion.segments import LONGEST_IMPACT, SHORTEST_FLIGHT, Segments, gap_uncertainty
+from contact_sim_pkg.identify.motion.states import SampleNoise
+from contact_sim_pkg.identify.problem import ContactSpan, IdentificationProblem
 from contact_sim_pkg.identify.sweep import pressed, sweep
 
 __all__ = ["Search"]
@@ -27,11 +29,11 @@ ROUNDS = 5
 SETTLED = 0.01  # change of the noise that ends the rounds, relative
 MISSED = 3.0  # times the deviations of the two: how far two flights may miss each other at an impact
 BESIDE_SOFT = (
-    1e-9  # of the largest value: noise beside contacts that last, so that what these tell is not lost in the rank
+    1e-9  # of the largest value: noise beside contacts that last, so that their information is not lost in the rank
 )
 CLEAR = 5.0  # times its deviation: a miss against the impulse, of an impact that lasts
 FAR = 6.0  # times its deviation: a gap that is one
-FAINT = 1e3  # times its size: standard deviation of 1/m up to which it is fitted, though it is not told
+FAINT = 1e3  # times its size: standard deviation of 1/m up to which it is fitted, though not identified
 WORSE = 5.0  # times the noise of the others: what is no flight
 
 
@@ -39,28 +41,35 @@ class Search:
     """Rounds of: locate the impacts, fit everything, take the noise from what is left."""
 
     def __init__(
-        self, problem: Problem, parts: Segments, noise: Noise | None, starts: list[Array], scale: Array
+        self,
+        problem: IdentificationProblem,
+        parts: Segments,
+        noise: SampleNoise | None,
+        starts: list[Array],
+        scale: Array,
     ) -> None:
-        """``starts``: parameters to begin with, of which those that the flights follow best are taken; ``scale``: their sizes."""
+        """``starts``: parameters to begin with, of which those that the flights follow best are
+        taken; ``scale``: their sizes.
+        """
         self.noise = None if noise is None else limited(noise, problem.states)
         self.starts, self.scale, self.parts = starts, scale, parts
         self.start = starts[-1]
         whole = [flight for flight in parts.flights if flight[1] - flight[0] + 1 >= SHORTEST_FLIGHT]
         self.problem = problem._replace(flights=whole, noise=self.noise or problem.noise)
-        self.notes: dict[int, str] = {}  # of contacts that are not used, by their place in parts.contacts
+        self.notes: dict[int, ContactNote] = {}  # of contacts that are not used, by their place in parts.contacts
         self.places: list[int] = []  # of the contacts that are used
         self.contradicting: set[int] = set()  # places of contacts that contradict the others
-        self.lasting: dict[int, str] = {}  # what contacts of many intervals do, by place
+        self.lasting: dict[int, ContactNote] = {}  # of contacts of many intervals, by place
 
-    def run(self) -> Estimate:
+    def run(self) -> ParameterEstimate:
         """All rounds."""
         for place, (first, last) in enumerate(self.parts.contacts):
             if last - first + 1 > LONGEST_IMPACT:
-                self.notes[place] = self.lasting[place] = in_words(self.problem, first, last)
+                self.notes[place] = self.lasting[place] = lasting_note(self.problem, first, last)
         if not self.problem.flights:
             self.problem = with_slides(with_steps(self.problem, self.parts), self.parts)
         if not self.problem.flights:
-            raise IdentificationError(nothing_to_begin_with(self.problem, self.lasting.values()))
+            raise IdentificationError(nothing_to_identify_from(self.problem, self.lasting.values()))
         if self.problem.contacts:
             return estimate(self.problem, self.start, self.scale)
         found = self.free = self._without_false_flights(self._flights_alone())
@@ -80,8 +89,10 @@ class Search:
         """Flights of more than a sample."""
         return sum(last > first for first, last in self.problem.flights)
 
-    def _flights_alone(self) -> Estimate:
-        """The fit of the flights without contacts from the start that serves it best, which is kept."""
+    def _flights_alone(self) -> ParameterEstimate:
+        """The fit of the flights without contacts from the start that serves it best, which is
+        kept.
+        """
         best, least, failure = None, numpy.inf, None
         for start in self.starts:
             try:
@@ -96,7 +107,7 @@ class Search:
             raise failure or IdentificationError("there is nothing to begin with")
         return best
 
-    def _fitted(self, found: Estimate) -> Estimate:
+    def _fitted(self, found: ParameterEstimate) -> ParameterEstimate:
         """Fit to the contacts; where they contradict each other, to those that agree."""
         scale = self._scale(found)
         try:
@@ -110,26 +121,28 @@ class Search:
         return estimate(self.problem, self.free.parameters, scale, self.free.flights)
 
     def _without_contradicting(self, *, half: bool) -> bool:
-        """Leave out contacts that contradict the others, judged where the flights alone are; whether there are any."""
+        """Leave out contacts that contradict the others, judged where the flights alone are;
+        whether there are any.
+        """
         linear = Linearised(self.problem, self.free.parameters, self.free.flights, self.scale)
         kept = agreeing(linear, len(self.contradicting), half=half)
         if len(kept) == len(self.places):
             return False
         out = [place for number, place in enumerate(self.places) if number not in kept]
         for place in out:
-            self._refuse(place, DISAGREES)
+            self._refuse(place, ContactNote(NoteKind.CONTRADICTS))
         self.contradicting.update(out)
         self.places = [self.places[number] for number in kept]
         self.problem = self.problem._replace(contacts=[self.problem.contacts[number] for number in kept])
         return True
 
-    def _seen(self, found: Estimate) -> Noise:
+    def _seen(self, found: ParameterEstimate) -> SampleNoise:
         return self.noise or from_residuals(found.residuals, self.problem.states)
 
-    def _take_noise(self, found: Estimate) -> None:
+    def _take_noise(self, found: ParameterEstimate) -> None:
         self.problem = self.problem._replace(noise=self._seen(found))
 
-    def _scale(self, found: Estimate) -> Array:
+    def _scale(self, found: ParameterEstimate) -> Array:
         """Sizes of the parameters; that of 1/m follows its estimate."""
         scale = self.scale.copy()
         if (
@@ -140,10 +153,12 @@ class Search:
             scale[-1] = found.parameters[-1]
         return scale
 
-    def _with_faint_mass(self, found: Estimate) -> Estimate:
-        """Fit a mass that noise hides along with the rest, so that what is known besides keeps its number.
+    def _with_faint_mass(self, found: ParameterEstimate) -> ParameterEstimate:
+        """Fit a mass that noise hides along with the rest, so that what is known besides keeps its
+        number.
 
-        Its size is taken FAINT times as large; where it is still not told, all stays as it is.
+        Its size is taken FAINT times as large; where it is still not identified, all stays as it
+        is.
         """
         if not self.problem.model.with_mass or not abs(found.directions.missing[:, -1:]).any():
             return found
@@ -152,7 +167,7 @@ class Search:
         wider = estimate(self.problem, found.parameters, scale, found.flights)
         return wider if wider.converged and wider.directions.rank > found.directions.rank else found
 
-    def _without_false_flights(self, found: Estimate) -> Estimate:
+    def _without_false_flights(self, found: ParameterEstimate) -> ParameterEstimate:
         """Leave out runs that no flight fits, such as a rest that hides in the noise."""
         if len(self.problem.flights) < 2:
             return found
@@ -164,7 +179,7 @@ class Search:
         self.problem = self.problem._replace(flights=kept)
         return estimate(self.problem, self.start, self.scale)
 
-    def _locate(self, found: Estimate) -> None:
+    def _locate(self, found: ParameterEstimate) -> None:
         """Find instant and point of each impact on the flight before it."""
         contacts, self.places = [], []
         for place, (first, last) in enumerate(self.parts.contacts):
@@ -174,7 +189,7 @@ class Search:
             if before is None or after is None:
                 if before is not None and place in self.lasting:
                     self._touch(found, place, before, (first, last))
-                self._refuse(place, f"no flight of {SHORTEST_FLIGHT} samples before or after it")
+                self._refuse(place, ContactNote(NoteKind.NO_FLIGHT_BESIDE, {"samples": SHORTEST_FLIGHT}))
             else:
                 contact = self._contact(found, place, before, after, (first, last))
                 if contact is not None:
@@ -186,45 +201,45 @@ class Search:
             noise = limited(self.problem.noise, self.problem.states, BESIDE_SOFT)
             self.problem = self.problem._replace(noise=noise)
 
-    def _without_doubles(self, contacts: list[Contact]) -> list[Contact]:
-        """Where most contacts are instants, one that seems to last between two samples is more than one impact."""
+    def _without_doubles(self, contacts: list[ContactSpan]) -> list[ContactSpan]:
+        """Where most contacts are instants, one that seems to last between two samples is more than
+        one impact.
+        """
         lasting = sum(contact.sweep is not None for contact in contacts)
         if not 0 < lasting < len(contacts) - lasting:
             return contacts
         kept = [contact.sweep is None or contact.sweep.samples > 0 for contact in contacts]
         for place, keeps in zip(self.places, kept, strict=True):
             if not keeps:
-                self._refuse(place, DOUBLE)
+                self._refuse(place, ContactNote(NoteKind.DOUBLE_IMPACT))
         self.places = [place for place, keeps in zip(self.places, kept, strict=True) if keeps]
         return [contact for contact, keeps in zip(contacts, kept, strict=True) if keeps]
 
     def _contact(
-        self, found: Estimate, place: int, before: int, after: int, interval: tuple[int, int]
-    ) -> Contact | None:
-        """One contact between two flights, or None and a note: at an instant where they meet, else as one that lasts."""
+        self, found: ParameterEstimate, place: int, before: int, after: int, interval: tuple[int, int]
+    ) -> ContactSpan | None:
+        """One contact between two flights, or None and a note: at an instant where they meet, else
+        as one that lasts.
+        """
         touch = self._touch(found, place, before, interval)
         if not touch.found:
             if abs(touch.gap) <= FAR * gap_deviation(self.problem, before):
-                self._refuse(place, UNSURE)
+                self._refuse(place, ContactNote(NoteKind.FLIGHT_TOO_SHORT))
                 return None
-            self._refuse(place, f"{TOUCHES_NOTHING}: the lowest point is {touch.gap:.3g} m above the ground there")
+            self._refuse(place, ContactNote(NoteKind.NOTHING_TOUCHED, {"gap": touch.gap}))
             return None
         if touch.together > 1:
-            self._refuse(place, f"{SEVERAL} {touch.together} corners at once: where its impulse acts is not known")
+            self._refuse(place, ContactNote(NoteKind.SEVERAL_CORNERS, {"corners": touch.together}))
             return None
         miss = self._miss(found, before, after, touch.time)
         if not miss and place not in self.lasting:
             self.notes.pop(place, None)
-            return Contact(before, after, touch.time, touch.time, touch.point, located=True)
+            return ContactSpan(before, after, touch.time, touch.time, touch.point, located=True)
         release = self._root(found, after, interval, leaving=True)
-        doubt = gap_doubt(self.problem.shape, (self.problem.noise.position, self.problem.noise.rotation))
+        uncertainty = gap_uncertainty(self.problem.shape, (self.problem.noise.position, self.problem.noise.rotation))
         lasts = release.found and release.point == touch.point and release.together == 1 and release.time > touch.time
-        if not (lasts and pressed(self.problem, touch.point, touch.time, release.time, doubt)):
-            self._refuse(
-                place,
-                f"the flights before and after miss each other by {miss:.2g} m, and between them more than one corner touches, or "
-                "one more than once",
-            )
+        if not (lasts and pressed(self.problem, touch.point, touch.time, release.time, uncertainty)):
+            self._refuse(place, ContactNote(NoteKind.FLIGHTS_MISS, {"miss": miss}))
             return None
         self.notes.pop(place, None)
         ends = [
@@ -232,45 +247,55 @@ class Search:
             for number, root in ((before, touch), (after, release))
         ]
         swept = sweep(self.problem, touch.point, *ends)
-        return Contact(before, after, touch.time, release.time, touch.point, sweep=swept)
+        return ContactSpan(before, after, touch.time, release.time, touch.point, sweep=swept)
 
-    def _touch(self, found: Estimate, place: int, flight: int, interval: tuple[int, int]) -> Touch:
+    def _touch(self, found: ParameterEstimate, place: int, flight: int, interval: tuple[int, int]) -> ContactEvent:
         """Where a contact begins: found, what goes below the ground there presses into it."""
         touch = self._root(found, flight, interval, leaving=False)
-        if touch.found and self.lasting.get(place, "").startswith(NO_FLIGHT):
-            self.lasting[place] = "lasting contact, presses into the ground"
+        note = self.lasting.get(place)
+        if touch.found and note is not None and note.kind in FREE_MOTION_MISSING:
+            self.lasting[place] = ContactNote(NoteKind.PRESSED_IN)
         return touch
 
-    def _refuse(self, place: int, why: str) -> None:
-        """Note why a contact is not used; what is known of a lasting one stays."""
-        self.notes[place] = self.lasting.get(place, why)
+    def _refuse(self, place: int, note: ContactNote) -> None:
+        """Keep the reason why a contact is not used; the note of a lasting one stays."""
+        self.notes[place] = self.lasting.get(place, note)
 
-    def _root(self, found: Estimate, flight: int, interval: tuple[int, int], *, leaving: bool) -> Touch:
+    def _root(self, found: ParameterEstimate, flight: int, interval: tuple[int, int], *, leaving: bool) -> ContactEvent:
         """Where a flight meets the ground at a contact."""
         problem, time = self.problem, self.problem.states.time
         begin, end, count = float(time[interval[0]]), float(time[interval[1] + 1]), interval[1] - interval[0] + 1
         slack = (end - begin) * min(0.5, LONGEST_IMPACT / count)
         start = 0.5 * (begin + end) if count <= LONGEST_IMPACT else end if leaving else begin
         return locate(
-            found.flights[flight], found.parameters, problem.model, problem.shape, problem.ground,
-            (begin - slack, end + slack), start, gap_deviation(self.problem, flight), leaving=leaving,
-        )  # fmt: skip
+            flight=found.flights[flight],
+            parameters=found.parameters,
+            model=problem.model,
+            shape=problem.shape,
+            ground=problem.ground,
+            bounds=(begin - slack, end + slack),
+            start=start,
+            deviation=gap_deviation(self.problem, flight),
+            leaving=leaving,
+        )
 
-    def _miss(self, found: Estimate, before: int, after: int, time: float) -> float:
-        """How far two flights miss each other at an impact, [m]; 0 where they meet as well as can be told.
+    def _miss(self, found: ParameterEstimate, before: int, after: int, time: float) -> float:
+        """How far two flights miss each other at an impact, [m]; 0 where they meet within the
+        noise.
 
-        One that lasts parts them against its impulse, by half the way of that meanwhile: a far smaller miss tells it.
+        One that lasts separates them against its impulse, by half the way of that meanwhile: a far
+        smaller miss shows it.
         """
         model, at = self.problem.model, numpy.array([time])
         ends = [plain_motion(found.flights[number], found.parameters, model, at) for number in (before, after)]
-        apart, push = (ends[1][place][0] - ends[0][place][0] for place in (0, 1))
-        miss, back = float(numpy.linalg.norm(apart)), -float(apart @ push) / float(numpy.linalg.norm(push))
+        separation, push = (ends[1][place][0] - ends[0][place][0] for place in (0, 1))
+        miss, back = float(numpy.linalg.norm(separation)), -float(separation @ push) / float(numpy.linalg.norm(push))
         lengths = [last - first + 1 for first, last in (self.problem.flights[number] for number in (before, after))]
         spread = 2.0 * self.problem.noise.position * float(numpy.sqrt(numpy.sum(1.0 / numpy.array(lengths))))
-        doubt = 12.0 * self.problem.noise.position + MISSED * sum(
+        uncertainty = 12.0 * self.problem.noise.position + MISSED * sum(
             gap_deviation(self.problem, each) for each in (before, after)
         )
-        return miss if miss > doubt or back > CLEAR * spread else 0.0
+        return miss if miss > uncertainty or back > CLEAR * spread else 0.0
 
     def _neighbours(self, first: int, last: int) -> tuple[int | None, int | None]:
         """Numbers of the flights that end and begin at a contact."""
@@ -278,10 +303,11 @@ class Search:
         begins = {flight[0]: number for number, flight in enumerate(self.problem.flights)}
         return ends.get(first), begins.get(last + 1)
 
-    def _with_steps(self, found: Estimate) -> Estimate:
-        """Add steps of lasting contacts, and of slides with known friction, where impacts and flights do not tell all.
+    def _with_steps(self, found: ParameterEstimate) -> ParameterEstimate:
+        """Add steps of lasting contacts, and of slides with known friction, where impacts and
+        flights do not identify all.
 
-        Steps that hide small impacts may tell what no parameters fit: then all stays as it is.
+        Steps that hide small impacts may contradict any parameters: then all stays as it is.
         """
         wider = with_slides(with_steps(self.problem, self.parts), self.parts)
         if len(wider.contacts) == len(self.problem.contacts):

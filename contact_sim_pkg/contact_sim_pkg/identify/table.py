@@ -6,14 +6,20 @@ from typing import NamedTuple
 
 import numpy
 
-from contact_sim_pkg.identify.contact.stacked import Estimate, estimate
+from contact_sim_pkg.identify.contact.stacked import ParameterEstimate, estimate
 from contact_sim_pkg.identify.contact.wrench import NO_WRENCH
 from contact_sim_pkg.identify.errors import IdentificationError
-from contact_sim_pkg.identify.geometry import Ground, Shape, flattened, gaps, plane
-from contact_sim_pkg.identify.motion.flight import Model
+from contact_sim_pkg.identify.geometry import GroundPlane, Shape, flattened, gaps, plane
+from contact_sim_pkg.identify.motion.flight import FlightModel
 from contact_sim_pkg.identify.motion.rotation import Array
-from contact_sim_pkg.identify.motion.states import BodyStates, Noise
-from contact_sim_pkg.identify.problem import Contact, Problem, planar_basis, spatial_basis, starting_parameters
+from contact_sim_pkg.identify.motion.states import BodyStates, SampleNoise
+from contact_sim_pkg.identify.problem import (
+    ContactSpan,
+    IdentificationProblem,
+    planar_basis,
+    spatial_basis,
+    starting_parameters,
+)
 
 __all__ = ["ImpactTable", "estimate_from_impacts", "problem_of_impacts"]
 
@@ -35,8 +41,8 @@ def problem_of_impacts(
     shape: Shape,
     noise: tuple[float, float],
     axis: Array | None = None,
-    ground: Ground | None = None,
-) -> Problem:
+    ground: GroundPlane | None = None,
+) -> IdentificationProblem:
     """The table as a problem: each side of an impact is a flight of one sample.
 
     Args:
@@ -58,12 +64,21 @@ def problem_of_impacts(
     time = numpy.repeat(numpy.arange(count, dtype=numpy.float64), 2)
     states = BodyStates(time, numpy.zeros((2 * count, 3)), numpy.repeat(table.rotation, 2, axis=0), velocity, spin)
     points = gaps(body, base, numpy.zeros((count, 3)), table.rotation).argmin(axis=1)
-    contacts = [Contact(2 * k, 2 * k + 1, float(k), float(k), int(points[k])) for k in range(count)]
-    model = Model(spatial_basis() if axis is None else planar_basis(), False, NO_WRENCH, 0.0)
+    contacts = [ContactSpan(2 * k, 2 * k + 1, float(k), float(k), int(points[k])) for k in range(count)]
+    model = FlightModel(spatial_basis() if axis is None else planar_basis(), False, NO_WRENCH, 0.0)
     flights = [(place, place) for place in range(2 * count)]
-    return Problem(states, flights, contacts, body, base, model, Noise(EXACT, EXACT, *noise), axis)
+    return IdentificationProblem(
+        states=states,
+        flights=flights,
+        contacts=contacts,
+        shape=body,
+        ground=base,
+        model=model,
+        noise=SampleNoise(EXACT, EXACT, *noise),
+        axis=axis,
+    )
 
 
-def estimate_from_impacts(problem: Problem) -> Estimate:
+def estimate_from_impacts(problem: IdentificationProblem) -> ParameterEstimate:
     """I0/m, or J/m in a plane, from a table of impacts, with its covariance and rank."""
     return estimate(problem, *starting_parameters(problem.shape, problem.model, problem.axis, 0.0))

@@ -1,4 +1,6 @@
-"""The node of the recording: holds back what comes until a block is whole, writes it in canonical order, answers."""
+"""The node of the recording: holds back what comes until a block is whole, writes it in canonical
+order, answers.
+"""
 
 from __future__ import annotations
 
@@ -32,7 +34,7 @@ from contact_sim_pkg.nodes.protocol.input_blocks import check_block
 from contact_sim_pkg.nodes.protocol.record_order import HeldMessage, RecordOrder
 from contact_sim_pkg.nodes.protocol.record_outcome import outcome_of
 from contact_sim_pkg.nodes.protocol.single_source import SingleSource
-from contact_sim_pkg.nodes.protocol.states import DONE, FAULT, LOSS, REFUSED, Follower, NodeError, State
+from contact_sim_pkg.nodes.protocol.states import DONE, FAULT, LOSS, REFUSED, Follower, NodeError, RunState
 from contact_sim_pkg.records.messages import BenchProgress, BenchRecorded, String
 from contact_sim_pkg.run.bag_content import attachments, input_names, recorded_names, result_names
 
@@ -57,7 +59,9 @@ class BagLoggerNode(LifecycleBenchNode):
         self._closed = True
 
     def configure(self) -> None:
-        """Subscribe to what the scene records. The bag is created when the run is ready, so a refused run leaves none."""
+        """Subscribe to what the scene records. The bag is created when the run is ready, so a
+        refused run leaves none.
+        """
         scene = read_scene(self._scene_name)
         self._period_ns, self._blocks, depth = block_length_ns(scene), count_blocks(scene), queue_depth(scene)
         self._path = new_directory(Path(self._directory) if self._directory else None, str(scene.data["name"]))
@@ -73,7 +77,9 @@ class BagLoggerNode(LifecycleBenchNode):
         self._run, self._block, self._news = Follower(), -1, time.monotonic()
 
     def _take(self, topic: str, data: bytes, number: int | None) -> None:
-        """Of one publisher a topic. Excitation is checked as the simulator does: what it drops takes no good block's place."""
+        """Of one publisher a topic. Excitation is checked as the simulator does: what it drops
+        takes no good block's place.
+        """
         if not self._sources[topic].accept(number, self.count_publishers(self.resolve_topic_name(topic))):
             self._left_out[f"foreign {topic}"] += 1
             self.get_logger().warning(
@@ -90,7 +96,9 @@ class BagLoggerNode(LifecycleBenchNode):
         self._hold(topic, data)
 
     def _hold(self, topic: str, data: bytes) -> None:
-        """Also before *ready* is heard: on the wire, block 0 may overtake it. What there is no place for is counted."""
+        """Also before *ready* is heard: on the wire, block 0 may overtake it. What there is no
+        place for is counted.
+        """
         if not self._closed and not self._order.hold(topic, data):
             self._left_out[f"dropped {topic}"] += 1
 
@@ -99,7 +107,7 @@ class BagLoggerNode(LifecycleBenchNode):
         if self._closed or not self._run.accept(progress):
             return
         self._news = time.monotonic()
-        if self._run.state >= State.READY and self._writer is None:
+        if self._run.state >= RunState.READY and self._writer is None:
             self._open()
         self._order.on_progress(progress.block, progress.messages_sent)
 
@@ -135,7 +143,9 @@ class BagLoggerNode(LifecycleBenchNode):
         )
 
     def tick(self, now: float) -> float:
-        """Write what is whole. Close when the run has ended and all is here, when the wait for it is over, or when asked to."""
+        """Write what is whole. Close when the run has ended and all is here, when the wait for it
+        is over, or when asked to.
+        """
         if not self.active or self._closed:
             return 1.0
         self._write_whole()

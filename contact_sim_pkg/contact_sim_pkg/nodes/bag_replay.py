@@ -1,4 +1,6 @@
-"""The node of the replay: publishes what a bag holds, with the recorded spacing, bytes and quality of service."""
+"""The node of the replay: publishes what a bag holds, with the recorded spacing, bytes and quality
+of service.
+"""
 
 from __future__ import annotations
 
@@ -16,7 +18,7 @@ from contact_sim_pkg.nodes.bench_node import LifecycleBenchNode
 from contact_sim_pkg.nodes.clock import clock_message
 from contact_sim_pkg.nodes.endpoints import message_type, publisher, refuse_strangers
 from contact_sim_pkg.nodes.parameters import declare
-from contact_sim_pkg.nodes.player import Player, Standing
+from contact_sim_pkg.nodes.player import Player, ReplayProgress
 from contact_sim_pkg.nodes.processes.audience import Audience
 from contact_sim_pkg.nodes.processes.keys import Keys
 from contact_sim_pkg.nodes.processes.process import run
@@ -34,7 +36,7 @@ DELAY_TEXT = "Least time before the first message, in s; matched subscribers are
 class BagReplayNode(LifecycleBenchNode):
     """Publishes the topics of a bag; their names count from the node's namespace. Offers `~/pause`."""
 
-    def __init__(self, show: Callable[[Standing], None] | None = None) -> None:
+    def __init__(self, show: Callable[[ReplayProgress], None] | None = None) -> None:
         """Declare the parameters; `show` hears where the replay stands, in place of the log."""
         super().__init__("bag_replay")
         self._bag_name = declare(self, "bag", "", "Directory of the bag.")
@@ -135,7 +137,7 @@ class BagReplayNode(LifecycleBenchNode):
         response.success, response.message = True, "paused" if self._held else "going on"
         return response
 
-    def _report(self, standing: Standing, now: float) -> None:
+    def _report(self, standing: ReplayProgress, now: float) -> None:
         if self._show is not None:
             self._show(standing)
         elif now - self._shown_at > SHOW_SECONDS:
@@ -166,7 +168,7 @@ def _chosen_topics(bag: Bag, chosen: str) -> list[str]:
     return [bag.topic(name.strip()).name for name in chosen.split(",")]
 
 
-def main(args: Sequence[str] | None = None, show: Callable[[Standing], None] | None = None) -> int:
+def main(args: Sequence[str] | None = None, show: Callable[[ReplayProgress], None] | None = None) -> int:
     """Run the node; returns the exit status. `show` hears where the replay stands."""
     return run(lambda: BagReplayNode(show), args)
 

@@ -1,4 +1,6 @@
-"""The base of the nodes with an expensive or failing set-up: lifecycle states, driven by the node itself unless told otherwise."""
+"""The base of the nodes with an expensive or failing set-up: lifecycle states, driven by the node
+itself unless told otherwise.
+"""
 
 from __future__ import annotations
 
@@ -17,10 +19,12 @@ SUPERVISOR_TEXT = "Process number of the supervisor that started this node; the 
 
 
 class LifecycleBenchNode(LifecycleNode):
-    """A lifecycle node for `process.run`. A derived class writes `configure`, `tick`, `stop` and `close`.
+    """A lifecycle node for `process.run`. A derived class writes `configure`, `tick`, `stop` and
+    `close`.
 
-    Configure reads, loads, compiles and creates publishers; activate lets the run begin. With `autostart` both follow the
-    start of the process. A refusal is a log line and a FAILURE of the transition.
+    Configure reads, loads, compiles and creates publishers; activate lets the run begin. With
+    `autostart` both follow the start of the process. A refusal is a log line and a FAILURE of the
+    transition.
     """
 
     exit_status: int | None = None
@@ -48,7 +52,9 @@ class LifecycleBenchNode(LifecycleNode):
             self.trigger_activate()
 
     def announce(self, sentence: str) -> None:
-        """Say where the run stands to who started the node alone or by `ros2 launch`; a supervisor shows it itself."""
+        """Say where the run stands to who started the node alone or by `ros2 launch`; a supervisor
+        shows it itself.
+        """
         if not self.supervisor:
             self.get_logger().info(sentence)
 
@@ -91,7 +97,9 @@ class LifecycleBenchNode(LifecycleNode):
         return TransitionCallbackReturn.SUCCESS
 
     def _give_back(self) -> None:
-        """Close, and destroy what `configure` has created in the graph, the last one first: it may be called again."""
+        """Close, and destroy what `configure` has created in the graph, the last one first: it may
+        be called again.
+        """
         self.close()
         for subscription in reversed(list(self.subscriptions)):
             if subscription not in self._endpoints_before:

@@ -1,4 +1,6 @@
-"""The simulator's `/clock`: one source on the graph, for several give jumps back to whoever listens."""
+"""The simulator's `/clock`: one source on the graph, for several give jumps back to whoever
+listens.
+"""
 
 from __future__ import annotations
 
@@ -22,10 +24,12 @@ def clock_message(time_ns: int) -> bytes:
 
 
 class SimulatedClock:
-    """Publishes simulated time as long as nobody else publishes a clock; says once that it does not, and why.
+    """Publishes simulated time as long as nobody else publishes a clock; says once that it does
+    not, and why.
 
-    Whoever comes second gives way. Of two simulators that began at the same moment the one with the smaller identifier stays;
-    a clock from elsewhere (a replay, another simulator) stays in any case.
+    Whoever comes second gives way. Of two simulators that began at the same moment the one with the
+    smaller identifier stays; a clock from elsewhere (a replay, another simulator) stays in any
+    case.
     """
 
     def __init__(self, node: Node, *, wanted: bool) -> None:

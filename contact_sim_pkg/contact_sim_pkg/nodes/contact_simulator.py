@@ -1,4 +1,6 @@
-"""The node of the simulation: takes a block of every input, advances, publishes what came of it, reports progress."""
+"""The node of the simulation: takes a block of every input, advances, publishes what came of it,
+reports progress.
+"""
 
 from __future__ import annotations
 
@@ -21,8 +23,8 @@ from contact_sim_pkg.nodes.protocol.pacing import Lateness, Pacer
 from contact_sim_pkg.nodes.protocol.peers import Peers
 from contact_sim_pkg.nodes.protocol.progress_report import ProgressReport
 from contact_sim_pkg.nodes.protocol.source_watch import SourceWatch
-from contact_sim_pkg.nodes.protocol.states import DONE, FAULT, State
-from contact_sim_pkg.nodes.protocol.window import Window
+from contact_sim_pkg.nodes.protocol.states import DONE, FAULT, RunState
+from contact_sim_pkg.nodes.protocol.window import BlockWindow
 from contact_sim_pkg.records.messages import BenchRecorded, String
 from contact_sim_pkg.run.bag_content import result_names
 from contact_sim_pkg.run.block_simulation import BlockResult
@@ -36,7 +38,9 @@ SAY_SECONDS = 5.0  # between two log lines about who is missing
 
 
 class ContactSimulatorNode(LifecycleBenchNode):
-    """Publishes the results of the scene, `bench/progress`, `bench/scene` and `/clock`; takes excitation and `bench/recorded`."""
+    """Publishes the results of the scene, `bench/progress`, `bench/scene` and `/clock`; takes
+    excitation and `bench/recorded`.
+    """
 
     computes = True
 
@@ -60,7 +64,7 @@ class ContactSimulatorNode(LifecycleBenchNode):
         pace = declare_pace(self, scene.data["pace"])
         self._patience = self._input_timeout + scene.data["block_length"] / pace
         self._report = ProgressReport(publisher(self, "bench/progress"), scene)
-        self._report.send(State.STARTING, "compiling")
+        self._report.send(RunState.STARTING, "compiling")
         self.announce(f"{scene.data['name']}: compiling")
         self._publishers_by_topic = {name: publisher(self, name, depth) for name in result_names(scene)}
         self._simulated_clock = SimulatedClock(self, wanted=self._publish_clock)
@@ -69,7 +73,7 @@ class ContactSimulatorNode(LifecycleBenchNode):
         self._scene_publisher.publish(encode(String(data=scene.to_yaml())))
         self._simulation = make_simulation(scene)
         self._inputs = InputBlocks(self._simulation.inputs, self._period_ns, self._simulation.blocks)
-        self._window = Window(self._simulation.blocks, logged=self._logged)
+        self._window = BlockWindow(self._simulation.blocks, logged=self._logged)
         self._pacer = Pacer(pace, scene.data["block_length"])
         self._lateness = Lateness(self._pacer)
         inputs = self._simulation.inputs
@@ -89,12 +93,14 @@ class ContactSimulatorNode(LifecycleBenchNode):
         self._said = self._advanced = time.monotonic()
 
     def tick(self, now: float) -> float:
-        """Before ready: look for peers. Then: advance; find out who holds up. At the end: wait for the logger."""
+        """Before ready: look for peers. Then: advance; find out who holds up. At the end: wait for
+        the logger.
+        """
         report = self._report
         if report is None or report.last is None or not self.active:
             return 1.0
         self._diagnostics.report(now, report.last)
-        if report.state is State.STARTING:
+        if report.state is RunState.STARTING:
             self._look_for_peers(now, report)
             return PEERS_SECONDS
         if report.state.ended:
@@ -118,7 +124,7 @@ class ContactSimulatorNode(LifecycleBenchNode):
             self._simulated_clock.start(now)
             self._sources.remember()
             self._results.remember()
-            report.send(State.READY)
+            report.send(RunState.READY)
             self.announce("ready")
         elif now - self._said > SAY_SECONDS:
             self._said = now
@@ -133,7 +139,9 @@ class ContactSimulatorNode(LifecycleBenchNode):
             self.get_logger().warning(reason, throttle_duration_sec=1.0)
 
     def _advance(self, now: float, report: ProgressReport) -> None:
-        """Do every block whose inputs are there; a scene without inputs is held back by the window and the pace alone."""
+        """Do every block whose inputs are there; a scene without inputs is held back by the window
+        and the pace alone.
+        """
         while not report.state.ended and self._may_begin(now) and self._sources.alone(now):
             blocks = self._inputs.take()
             if blocks is None:
@@ -161,14 +169,14 @@ class ContactSimulatorNode(LifecycleBenchNode):
 
     def _on_recorded(self, data: bytes) -> None:
         report = self._report
-        if report is None or report.state < State.READY:
+        if report is None or report.state < RunState.READY:
             return
         closed = self._recording.accept(decode(BenchRecorded, data))
         if closed is not None and not report.state.ended:
             self.get_logger().error(f"the logger closed its bag before the end: {closed}")
             self._diagnostics.warn(time.monotonic(), closed)
             self._recording.lost()
-            report.send(State.STOPPED, closed)
+            report.send(RunState.STOPPED, closed)
 
     def _leave(self, now: float, report: ProgressReport) -> None:
         """End the process once the bag is closed, or the wait for it is over."""
@@ -183,7 +191,7 @@ class ContactSimulatorNode(LifecycleBenchNode):
 
     def stop(self) -> None:
         """End the run after the block that is done; a second signal does not wait for the logger."""
-        if not self._end(State.STOPPED, "stopped by the user", DONE):
+        if not self._end(RunState.STOPPED, "stopped by the user", DONE):
             self.exit_status = (
                 DONE if self._report is None or not self._report.state.ended else self._recording.exit_status
             )
@@ -194,7 +202,7 @@ class ContactSimulatorNode(LifecycleBenchNode):
 
     def _give_up(self) -> bool:
         """The user wants the end, and the block that is computed does not come back."""
-        if self._report is not None and self._end(State.STOPPED, "stopped by the user", DONE):
+        if self._report is not None and self._end(RunState.STOPPED, "stopped by the user", DONE):
             self._report.settle()
             limit = time.monotonic() + CLOSE_SECONDS  # the middleware acknowledges for a process that is there
             while self.count_publishers("bench/recorded") and time.monotonic() < limit:
@@ -202,16 +210,18 @@ class ContactSimulatorNode(LifecycleBenchNode):
         return True
 
     def fault(self, sentence: str, exit_status: int) -> None:
-        """End the run in the named state FAILED, so that the logger closes its bag; before ready, end the process."""
+        """End the run in the named state FAILED, so that the logger closes its bag; before ready,
+        end the process.
+        """
         self.get_logger().error(sentence)
-        if not self._end(State.FAILED, sentence, exit_status):
+        if not self._end(RunState.FAILED, sentence, exit_status):
             self.exit_status = exit_status
 
-    def _end(self, state: State, sentence: str, exit_status: int) -> bool:
+    def _end(self, state: RunState, sentence: str, exit_status: int) -> bool:
         """End a run under way; False where there is none."""
-        if self._report is None or self._report.state not in (State.READY, State.RUNNING):
+        if self._report is None or self._report.state not in (RunState.READY, RunState.RUNNING):
             return False
-        self._recording.end(time.monotonic(), exit_status, stopped=state is State.STOPPED)
+        self._recording.end(time.monotonic(), exit_status, stopped=state is RunState.STOPPED)
         self._report.send(state, sentence)
         return True
 

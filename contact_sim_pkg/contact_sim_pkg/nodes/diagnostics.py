@@ -7,7 +7,7 @@ from rclpy.duration import Duration
 from rclpy.node import Node
 
 from contact_sim_pkg.nodes.endpoints import publisher
-from contact_sim_pkg.nodes.protocol.states import State
+from contact_sim_pkg.nodes.protocol.states import RunState
 from contact_sim_pkg.records.messages import BenchProgress
 
 PERIOD_SECONDS = 1.0
@@ -17,7 +17,9 @@ NOTHING = "none"
 
 
 class Diagnostics:
-    """One status: OK, WARN for 5 s after a warning and after a stop with loss, ERROR once the run has failed."""
+    """One status: OK, WARN for 5 s after a warning and after a stop with loss, ERROR once the run
+    has failed.
+    """
 
     def __init__(self, node: Node) -> None:
         """Nothing sent yet."""
@@ -25,7 +27,7 @@ class Diagnostics:
         self._publisher = publisher(node, "/diagnostics")
         self.late = ""  # how far the run is behind its pace; empty where it is not
         self._warning, self._warned_at = NOTHING, float("-inf")
-        self._sent_at, self._sent_state = float("-inf"), State.IDLE
+        self._sent_at, self._sent_state = float("-inf"), RunState.IDLE
 
     def warn(self, now: float, sentence: str) -> None:
         """Keep a warning; `now` is the steady clock, [s]."""
@@ -33,7 +35,7 @@ class Diagnostics:
 
     def report(self, now: float, progress: BenchProgress) -> None:
         """Send the state of the run, if that is due."""
-        state = State(progress.state)
+        state = RunState(progress.state)
         if now - self._sent_at < PERIOD_SECONDS and state is self._sent_state:
             return
         self._sent_at, self._sent_state = now, state
@@ -44,7 +46,7 @@ class Diagnostics:
         self._publisher.wait_for_all_acked(Duration(seconds=SETTLE_SECONDS))
 
     def _array(self, now: float, progress: BenchProgress) -> DiagnosticArray:
-        state = State(progress.state)
+        state = RunState(progress.state)
         level = DiagnosticStatus.WARN if now - self._warned_at < WARN_SECONDS else DiagnosticStatus.OK
         values = {
             "block": progress.block,
@@ -55,7 +57,7 @@ class Diagnostics:
             "last warning": self._warning,
         }
         status = DiagnosticStatus(
-            level=DiagnosticStatus.ERROR if state is State.FAILED else level,
+            level=DiagnosticStatus.ERROR if state is RunState.FAILED else level,
             name=f"{self._node.get_fully_qualified_name().lstrip('/')}: run",
             message=": ".join(text for text in (state.name.lower(), progress.message) if text),
             hardware_id=progress.scene,

@@ -1,4 +1,6 @@
-"""Publishers and subscriptions of the table of topics, on encoded bytes, and what the ROS graph says about them."""
+"""Publishers and subscriptions of the table of topics, on encoded bytes, and what the ROS graph
+says about them.
+"""
 
 from __future__ import annotations
 
@@ -35,7 +37,9 @@ def message_type(type_name: str) -> Any:
 
 
 def profile_of(topic: Topic, least_depth: int = 0) -> QoSProfile:
-    """The quality of service of a row of the table; deeper where the scene sends many messages a block."""
+    """The quality of service of a row of the table; deeper where the scene sends many messages a
+    block.
+    """
     latched = topic.durability == "transient_local"
     return QoSProfile(
         history=HistoryPolicy.KEEP_LAST,
@@ -54,7 +58,8 @@ def publisher(node: Node, name: str, least_depth: int = 0) -> Publisher:
 def subscription(node: Node, name: str, callback: Callable[[bytes], None], least_depth: int = 0) -> Subscription:
     """A subscription on a topic of the table that hands on the bytes as they came.
 
-    What `callback` raises is kept until `raise_kept`: the executor would print it before it passes it on.
+    What `callback` raises is kept until `raise_kept`: the executor would print it before it passes
+    it on.
     """
 
     def take(data: bytes) -> None:
@@ -66,7 +71,9 @@ def subscription(node: Node, name: str, callback: Callable[[bytes], None], least
 def numbered_subscription(
     node: Node, name: str, callback: Callable[[bytes, int | None], None], least_depth: int = 0
 ) -> Subscription:
-    """As `subscription`, with the number that the publisher gave the message; None where the middleware does not tell it."""
+    """As `subscription`, with the number that the publisher gave the message; None where the
+    middleware does not tell it.
+    """
 
     def take(*parts: Any) -> None:
         data, info = parts if len(parts) == 2 else parts[0]  # rclpy 7.1: EventsExecutor hands on both as one tuple
@@ -103,7 +110,8 @@ def raise_kept(node: Node) -> None:
 
 
 def refuse_strangers(node: Node, name: str, *, unnamed: bool = True) -> bool:
-    """Compare who publishes on a topic with what the bench allows: one publisher, of our message definition.
+    """Compare who publishes on a topic with what the bench allows: one publisher, of our message
+    definition.
 
     Args:
         node: a node that has its own publisher or subscription of the topic.
@@ -111,10 +119,12 @@ def refuse_strangers(node: Node, name: str, *, unnamed: bool = True) -> bool:
         unnamed: refuse also where the graph does not know yet what the nodes are called.
 
     Returns:
-        False where a refusal waits for the nodes' names, which the graph learns a moment after their publishers.
+        False where a refusal waits for the nodes' names, which the graph learns a moment after
+        their publishers.
 
     Raises:
-        NodeError: (refused) names the nodes where there are several, and both hashes where the definitions differ: the
+        NodeError: (refused) names the nodes where there are several, and both hashes where the
+        definitions differ: the
             wire matches topics by name alone, and would misread the bytes.
     """
     publishers = node.get_publishers_info_by_topic(name)
@@ -139,7 +149,9 @@ def refuse_strangers(node: Node, name: str, *, unnamed: bool = True) -> bool:
 
 
 def publisher_ids(node: Node, name: str) -> dict[bytes, str]:
-    """The publishers of a topic: the middleware's own name of each -> name of its node, empty where it is not known yet."""
+    """The publishers of a topic: the middleware's own name of each -> name of its node, empty where
+    it is not known yet.
+    """
     return {
         bytes(info.endpoint_gid): "" if UNKNOWN in info.node_name else describe_endpoint(info)
         for info in node.get_publishers_info_by_topic(name)

@@ -21,8 +21,8 @@ from contact_sim_pkg.nodes.processes.scene_file import (
     write_description,
 )
 from contact_sim_pkg.nodes.protocol.pacing import Pacer
-from contact_sim_pkg.nodes.protocol.states import REFUSED, Follower, NodeError, RecordedFollower, State
-from contact_sim_pkg.nodes.protocol.window import Window
+from contact_sim_pkg.nodes.protocol.states import REFUSED, Follower, NodeError, RecordedFollower, RunState
+from contact_sim_pkg.nodes.protocol.window import BlockWindow
 from contact_sim_pkg.records.messages import BenchProgress, BenchRecorded
 from contact_sim_pkg.run.sources import Source
 from contact_sim_pkg.scene.resolved_scene import ResolvedScene
@@ -30,8 +30,8 @@ from contact_sim_pkg.scene.resolved_scene import ResolvedScene
 FROM_BAG_TEXT = "Directory of a bag whose excitation is sent instead of the scene's own. Empty: the scene's own."
 GATHER_SECONDS = 0.002  # that answers gather for at pace max; the window leaves room for it
 LINGER_SECONDS = {
-    State.STOPPED: 1.0,
-    State.FAILED: 10.0,
+    RunState.STOPPED: 1.0,
+    RunState.FAILED: 10.0,
 }  # for the logger to close its bag, as the simulator waits for it
 ACKNOWLEDGE_SECONDS = 0.3  # after a signal, for what was sent to arrive
 MakeSource = Callable[[ResolvedScene], Source]
@@ -55,7 +55,7 @@ class ExcitationNode(Node):
         self._block_length_ns = block_length_ns(scene)
         logged = declare_record(self)
         self._listeners = 1 + logged  # simulator, logger
-        self._window = Window(count_blocks(scene), logged=logged)
+        self._window = BlockWindow(count_blocks(scene), logged=logged)
         pace = declare_pace(self, scene.data["pace"])
         self._pacer = Pacer(pace, float(scene.data["block_length"]))
         self.gather = GATHER_SECONDS if math.isinf(pace) else 0.0
@@ -72,21 +72,25 @@ class ExcitationNode(Node):
     def tick(self, now: float) -> float:
         """Send what is due; end when every block is answered for, or the run was ended."""
         wait = float("inf")
-        if self._run.state in (State.READY, State.RUNNING):
+        if self._run.state in (RunState.READY, RunState.RUNNING):
             wait = self._send_due(now) if self._is_heard(now) else 0.005
         if self._window.finished or self._ended(now):
             self.exit_status = 0
         return wait
 
     def _ended(self, now: float) -> bool:
-        """Whether nobody needs this node any more: what it sent last is delivered only as long as it is there."""
+        """Whether nobody needs this node any more: what it sent last is delivered only as long as
+        it is there.
+        """
         if self._run.state not in LINGER_SECONDS:
             return False
         self._leave_at = min(self._leave_at, now + LINGER_SECONDS[self._run.state])
         return self._listeners < 2 or self._recorded.closed or now > self._leave_at
 
     def _is_heard(self, now: float) -> bool:
-        """Whether everybody who needs block 0 is matched with this publisher; the simulator cannot see that."""
+        """Whether everybody who needs block 0 is matched with this publisher; the simulator cannot
+        see that.
+        """
         if self._window.next_block > 0 or self._publisher.get_subscription_count() >= self._listeners:
             self._pacer.start(now)
             return True
@@ -108,7 +112,7 @@ class ExcitationNode(Node):
 
     def _on_recorded(self, data: bytes) -> None:
         recorded = decode(BenchRecorded, data)
-        if self._run.state >= State.READY and self._recorded.accept(recorded):
+        if self._run.state >= RunState.READY and self._recorded.accept(recorded):
             self._window.on_recorded(recorded.block)
 
     def stop(self) -> None:

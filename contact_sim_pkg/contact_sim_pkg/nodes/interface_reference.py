@@ -1,7 +1,8 @@
 """The tables of `docs/interfaces.md`: topics, messages, nodes, exit codes and renamed scene keys.
 
-`python -m contact_sim_pkg.nodes.interface_reference docs/interfaces.md` writes them between the two marks of that file.
-They come from the table of topics, the `.msg` files, the rigs and `config/bench.yaml`; nothing is written twice.
+`python -m contact_sim_pkg.nodes.interface_reference docs/interfaces.md` writes them between the two
+marks of that file. They come from the table of topics, the `.msg` files, the rigs and
+`config/bench.yaml`; nothing is written twice.
 """
 
 from __future__ import annotations
@@ -99,7 +100,9 @@ def _rigs(names: list[str], condition: str) -> str:
 
 
 def _conditions(rig: str) -> Iterator[tuple[str, str]]:
-    """Topics of one rig, each with what it needs beside the rig; one effect or key is switched on at a time."""
+    """Topics of one rig, each with what it needs beside the rig; one effect or key is switched on
+    at a time.
+    """
     base = _published(rig)
     yield from ((topic, "") for topic in base)
     for contact in rigs()[rig].contacts:
@@ -116,7 +119,7 @@ def _published(rig: str, contact: str = "", effect: str = "", course: int = 0) -
     return result_topics(ResolvedScene({"rig": rig, "effects": effects, "impact": {"course_samples": course}}))
 
 
-class Field(NamedTuple):
+class FieldRow(NamedTuple):
     """One line of a message definition."""
 
     name: str
@@ -125,8 +128,10 @@ class Field(NamedTuple):
     meaning: str
 
 
-def message_fields(text: str) -> list[Field]:
-    """The fields and constants of a `.msg` text; the unit stands in brackets at the start of the comment."""
+def message_fields(text: str) -> list[FieldRow]:
+    """The fields and constants of a `.msg` text; the unit stands in brackets at the start of the
+    comment.
+    """
     found = []
     for line in text.splitlines():
         code, _, comment = line.partition("#")
@@ -136,7 +141,7 @@ def message_fields(text: str) -> list[Field]:
         unit = re.match(r"\[([^]]*)\]\s*", comment.strip())
         meaning = comment.strip()[unit.end() :] if unit else comment.strip()
         name = name.strip() if "=" in name else name.split()[0]  # a default is no part of it
-        found.append(Field(name, kind, unit.group(1) if unit else "", meaning))
+        found.append(FieldRow(name, kind, unit.group(1) if unit else "", meaning))
     return found
 
 

@@ -15,16 +15,20 @@ _KINDS: dict[type, str] = {bool: "true or false", int: "a whole number", float: 
 
 
 def declare(node: Node, name: str, default: Value, text: str, allowed: tuple[float, float] | None = None) -> Value:
-    """The value of a parameter that is fixed for the life of the node; `allowed` is the range of a number.
+    """The value of a parameter that is fixed for the life of the node; `allowed` is the range of a
+    number.
 
-    A whole number does where a decimal one is asked for. Raises NodeError (refused) for another type or beyond the range.
+    A whole number does where a decimal one is asked for. Raises NodeError (refused) for another
+    type or beyond the range.
     """
     given = _given(node, name, default)
     return _declare_fixed(node, name, _checked(name, given, default, allowed), text, allowed)
 
 
 def _given(node: Node, name: str, default: Any) -> Any:
-    """The value given to the node, of whatever type, or the default: rclpy itself takes no 5 for a 5.0."""
+    """The value given to the node, of whatever type, or the default: rclpy itself takes no 5 for a
+    5.0.
+    """
     value = node.declare_parameter(name, default, ParameterDescriptor(dynamic_typing=True)).value
     node.undeclare_parameter(name)
     return value

@@ -1,4 +1,6 @@
-"""When which message of a bag is due: rate, begin, pause, loop, and the count of what went out. Without ROS."""
+"""When which message of a bag is due: rate, begin, pause, loop, and the count of what went out.
+Without ROS.
+"""
 
 from __future__ import annotations
 
@@ -12,7 +14,7 @@ from contact_sim_pkg.bag.reader import Bag, BagMessage
 SHORTEST_PASS_NS = 100_000_000  # of a loop: a bag of one instant is not sent without end in no time
 
 
-class Standing(NamedTuple):
+class ReplayProgress(NamedTuple):
     """Where a replay stands."""
 
     simulated: float  # [s] of the recording
@@ -63,7 +65,9 @@ class Player:
         self._rewind()
 
     def _time_of(self, number: int) -> int:
-        """Recorded time of the message with this number, [ns]; where all are played, nothing is read for it."""
+        """Recorded time of the message with this number, [ns]; where all are played, nothing is
+        read for it.
+        """
         if number == 0:
             return 0
         if number >= self._held:
@@ -77,7 +81,9 @@ class Player:
         self._next = self._advance()
 
     def _advance(self) -> BagMessage | None:
-        """The next message to give out; what lies before the begin is passed over unless it is latched."""
+        """The next message to give out; what lies before the begin is passed over unless it is
+        latched.
+        """
         for message in self._messages:
             if message.topic not in self._topics:
                 continue
@@ -140,7 +146,7 @@ class Player:
     def _pass_length(self) -> int:
         return max(SHORTEST_PASS_NS, self._bag.end - self._start)
 
-    def standing(self, now: float) -> Standing:
+    def standing(self, now: float) -> ReplayProgress:
         """Where the replay stands."""
         simulated = min(self.position(now), self._bag.end) * 1e-9
-        return Standing(simulated, self._bag.end * 1e-9, self.sent, self.messages, self.passes, self.paused)
+        return ReplayProgress(simulated, self._bag.end * 1e-9, self.sent, self.messages, self.passes, self.paused)

@@ -1,4 +1,6 @@
-"""The node of the road: sends the strip of heights that the tire can touch in each block on `road/patch`."""
+"""The node of the road: sends the strip of heights that the tire can touch in each block on
+`road/patch`.
+"""
 
 from __future__ import annotations
 

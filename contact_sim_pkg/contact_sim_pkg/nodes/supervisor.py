@@ -1,4 +1,6 @@
-"""Starts the processes that a scene needs, watches them, and ends them: a whole run without `ros2 launch`."""
+"""Starts the processes that a scene needs, watches them, and ends them: a whole run without `ros2
+launch`.
+"""
 
 from __future__ import annotations
 
@@ -14,7 +16,7 @@ from contact_sim_pkg.nodes.processes.run_folder import RunFolder
 from contact_sim_pkg.nodes.processes.run_plan import planned_nodes
 from contact_sim_pkg.nodes.processes.scene_file import count_blocks, descriptions_beside, write_reason, write_scene
 from contact_sim_pkg.nodes.processes.shared_memory import mapped_segments
-from contact_sim_pkg.nodes.protocol.states import DONE, FAULT, LOSS, REFUSED, NodeError, State
+from contact_sim_pkg.nodes.protocol.states import DONE, FAULT, LOSS, REFUSED, NodeError, RunState
 from contact_sim_pkg.scene.resolved_scene import ResolvedScene
 
 if TYPE_CHECKING:
@@ -65,7 +67,8 @@ class Supervisor:
     def __init__(
         self, scene: ResolvedScene, directory: Path | None, *, from_bag: Path | None = None, clock: bool = True
     ) -> None:
-        """Prepare a run of `scene`, recorded in `directory` (None: not recorded), which must not exist.
+        """Prepare a run of `scene`, recorded in `directory` (None: not recorded), which must not
+        exist.
 
         Args:
             scene: the scene.
@@ -79,11 +82,15 @@ class Supervisor:
         self._failure, self._exit_status = "", DONE
 
     def stop(self) -> None:
-        """The user wants the end; may be called from a signal handler. The second call does not wait for the bag."""
+        """The user wants the end; may be called from a signal handler. The second call does not
+        wait for the bag.
+        """
         self._stop_count += 1
 
     def run(self, on_report: Callable[[Report], None], say: Callable[[str], None]) -> SupervisedRun:
-        """Run to the end; `on_report` hears where the run stands, `say` what the nodes say, a line at a time."""
+        """Run to the end; `on_report` hears where the run stands, `say` what the nodes say, a line
+        at a time.
+        """
         began = time.monotonic()
         set_default_environment()
         say(
@@ -125,7 +132,9 @@ class Supervisor:
     def _watch(
         self, children: Children, monitor: RunMonitor, on_report: Callable[[Report], None], folder: RunFolder
     ) -> None:
-        """Until every process has ended, one has ended badly, or the time after the user's signal is over."""
+        """Until every process has ended, one has ended badly, or the time after the user's signal
+        is over.
+        """
         looked, ended_at = 0.0, float("inf")
         fallen: Child | None = None
         while fallen is None and not children.all_ended():
@@ -152,18 +161,20 @@ class Supervisor:
             fallen = children.fallen()
         fallen = fallen or children.fallen()
         set_up_broken_off = (
-            self._asked > 0 and monitor.run.state < State.READY
+            self._asked > 0 and monitor.run.state < RunState.READY
         )  # however a node took it, nothing was lost
         if fallen is not None and not set_up_broken_off:
             self._on_fallen(fallen, monitor)
 
     def _hand_on_stop(self, children: Children, monitor: RunMonitor, now: float) -> None:
-        """A run under way is ended by its simulator, so that the bag gets whole; otherwise every process is asked to end."""
+        """A run under way is ended by its simulator, so that the bag gets whole; otherwise every
+        process is asked to end.
+        """
         if self._asked == 1 and now > self._asked_at + ASK_SECONDS:
             self._stop_count += 1
         if self._stop_count > self._asked:
             self._asked, self._asked_at = self._stop_count, min(self._asked_at, now)
-            under_way = monitor.run.state in (State.READY, State.RUNNING) and self._asked == 1
+            under_way = monitor.run.state in (RunState.READY, RunState.RUNNING) and self._asked == 1
             children.ask(*(("contact_simulator",) if under_way else ()))
 
     def _fail(self, sentence: str, exit_status: int) -> None:
@@ -172,7 +183,7 @@ class Supervisor:
     def _on_fallen(self, fallen: Child, monitor: RunMonitor) -> None:
         """Name the fault that the run reported, or else the process that ended badly."""
         last = monitor.run.last
-        reported = last.message if monitor.run.state is State.FAILED and last is not None else ""
+        reported = last.message if monitor.run.state is RunState.FAILED and last is not None else ""
         status = fallen.status if fallen.status in (REFUSED, LOSS) and not reported else FAULT
         self._fail(reported or fallen.describe_end(), status)
 
@@ -181,20 +192,26 @@ class Supervisor:
         assert last is not None
         simulated = (last.block + 1) * float(self._scene.data["block_length"])
         values = (last.real_time_factor, last.load, last.peak_pressure)
-        return Report(State(last.state).name.lower(), last.block + 1, last.blocks, simulated, *values)
+        return Report(RunState(last.state).name.lower(), last.block + 1, last.blocks, simulated, *values)
 
     def _outcome(self, monitor: RunMonitor, began: float, scene: Path) -> SupervisedRun:
         ready = monitor.ready_at or time.monotonic()
         last = monitor.recorded_at if self._directory is not None else monitor.done_at
         bag = self._directory if self._directory is not None and self._directory.is_dir() else None
-        stopped = self._asked > 0 or monitor.run.state is State.STOPPED
+        stopped = self._asked > 0 or monitor.run.state is RunState.STOPPED
         done = monitor.run.block + 1
         if not self._failure and not stopped and done < count_blocks(self._scene):
             self._fail(f"the run ended after {done} blocks without a word", FAULT)
         return SupervisedRun(
-            done, ready - began, max(0.0, last - ready), bag, stopped, self._failure, self._exit_status,
-            descriptions_beside(scene),
-        )  # fmt: skip
+            blocks=done,
+            startup=ready - began,
+            wall=max(0.0, last - ready),
+            bag=bag,
+            stopped=stopped,
+            failure=self._failure,
+            exit_status=self._exit_status,
+            excitation=descriptions_beside(scene),
+        )
 
 
 def set_default_environment() -> None:

@@ -1,4 +1,5 @@
-"""A rigid body of points with a radius (block, polygon, box, convex hull, sphere) over a ground: gaps and Jacobians.
+"""A rigid body of points with a radius (block, polygon, box, convex hull, sphere) over a ground:
+gaps and Jacobians.
 
 Every shape is the hull of spheres of one radius about its points: radius 0 for polygons and hulls,
 one point for a sphere. Against a plane that is exact, and in the plane against heights along x
@@ -69,8 +70,9 @@ def regular_block(side: float, mass: float, friction: float, restitution: float,
     corners = numpy.array([[-half, -half], [half, -half], [half, half], [-half, half]])
     inertia = numpy.array([mass * side**2 / 6.0])
     return RigidBody(
-        PLANE, mass, inertia, corners, 0.0, friction, restitution, numpy.array([0.0, -mass * gravity, 0.0])
-    )
+        width=PLANE, mass=mass, inertia=inertia, points=corners, radius=0.0, friction=friction,
+        restitution=restitution, load=numpy.array([0.0, -mass * gravity, 0.0]),
+    )  # fmt: skip
 
 
 def box(
@@ -81,14 +83,20 @@ def box(
     corners = numpy.array(list(itertools.product((-0.5 * x, 0.5 * x), (-0.5 * y, 0.5 * y), (-0.5 * z, 0.5 * z))))
     inertia = mass / 12.0 * numpy.array([y * y + z * z, x * x + z * z, x * x + y * y])
     load = numpy.array([0.0, 0.0, -mass * gravity, 0.0, 0.0, 0.0])
-    return RigidBody(SPACE, mass, inertia, corners, 0.0, friction, restitution, load)
+    return RigidBody(
+        width=SPACE, mass=mass, inertia=inertia, points=corners, radius=0.0, friction=friction,
+        restitution=restitution, load=load,
+    )  # fmt: skip
 
 
 def sphere(radius: float, mass: float, friction: float, restitution: float, gravity: float = 9.81) -> RigidBody:
     """A homogeneous sphere."""
     inertia = numpy.full(3, 0.4 * mass * radius**2)
     load = numpy.array([0.0, 0.0, -mass * gravity, 0.0, 0.0, 0.0])
-    return RigidBody(SPACE, mass, inertia, numpy.zeros((1, 3)), radius, friction, restitution, load)
+    return RigidBody(
+        width=SPACE, mass=mass, inertia=inertia, points=numpy.zeros((1, 3)), radius=radius, friction=friction,
+        restitution=restitution, load=load,
+    )  # fmt: skip
 
 
 def slope(width: int, angle: float = 0.0) -> Ground:
@@ -99,7 +107,9 @@ def slope(width: int, angle: float = 0.0) -> Ground:
 
 
 def height_field(width: int, heights: Vector, origin: float, cell: float) -> Ground:
-    """Ground through ``heights`` [nodes] at ``origin``, ``origin + cell``, ... along x in [m]: straight between them and beyond."""
+    """Ground through ``heights`` [nodes] at ``origin``, ``origin + cell``, ... along x in [m]:
+    straight between them and beyond.
+    """
     return slope(width)._replace(profile=make_profile(heights, origin, cell))
 
 
@@ -122,7 +132,9 @@ def least_gap(body: RigidBody, ground: Ground, motion: Motion) -> float:
 
 
 def rise_to_ground(body: RigidBody, ground: Ground, motion: Motion) -> float:
-    """How far in [m] the body has to be raised along z to lie on a ground that was laid under it; negative above it."""
+    """How far in [m] the body has to be raised along z to lie on a ground that was laid under it;
+    negative above it.
+    """
     if len(ground.profile.nodes) == 0:
         return -least_gap(body, ground, motion) / float(ground.normal[-1])
     corners = body.points @ motion.rotation.T + motion.position
@@ -132,7 +144,9 @@ def rise_to_ground(body: RigidBody, ground: Ground, motion: Motion) -> float:
 def placed(
     body: RigidBody, position: Vector, velocity: Vector, angle: float = 0.0, rotation: Vector | None = None
 ) -> Motion:
-    """Motion of a body at ``position`` with ``velocity``, turned by ``angle`` (plane) or ``rotation`` (space)."""
+    """Motion of a body at ``position`` with ``velocity``, turned by ``angle`` (plane) or
+    ``rotation`` (space).
+    """
     turn = numpy.eye(3) if rotation is None else numpy.array(rotation, float)
     if body.width == PLANE:
         turn = numpy.array([[math.cos(angle), -math.sin(angle)], [math.sin(angle), math.cos(angle)]])
@@ -141,7 +155,9 @@ def placed(
 
 @kernel
 def point_arm(body, rotation, i):
-    """Point ``i`` from the centre of mass in world axes (x, y, z; the plane's second coordinate is z)."""
+    """Point ``i`` from the centre of mass in world axes (x, y, z; the plane's second coordinate is
+    z).
+    """
     points = body.points
     if body.width == PLANE:
         return (
@@ -157,8 +173,12 @@ def point_arm(body, rotation, i):
 
 
 @kernel
-def _fill_row(J, row, width, a_x, a_y, a_z, r_x, r_y, r_z):
-    """Row of the Jacobian of the velocity along a at the arm r: (a, r x a); in the plane the moment turns x towards y."""
+def _fill_row(J, row, width, axis, arm):
+    """Row of the Jacobian of the velocity along an axis a at the arm r [m]: (a, r x a).
+
+    In the plane the moment turns x towards y.
+    """
+    (a_x, a_y, a_z), (r_x, r_y, r_z) = axis, arm
     if width == PLANE:
         J[row, 0], J[row, 1], J[row, 2] = a_x, a_z, r_x * a_z - r_z * a_x
         return
@@ -188,7 +208,9 @@ def _on_plane(body, ground, rotation, x, y, z, i):
 
 @kernel
 def on_profile(body, ground, rotation, x, z, i):
-    """Contact ``i`` with the heights: gap in [m], normal (x, z), arm (x, y, z), curvature in [1/m], and its face or edge."""
+    """Contact ``i`` with the heights: gap in [m], normal (x, z), arm (x, y, z), curvature in [1/m],
+    and its face or edge.
+    """
     profile, radius = ground.profile, body.radius
     if is_ridge(body, ground, i):
         slot, size = i - body.points.shape[0] * profile.reach, 0.0
@@ -211,7 +233,9 @@ def lies_on(body, ground, motion, i):
 
 @kernel
 def contact_rows(body, ground, motion, gap, J):
-    """Gap of every contact in [m], and its rows: normal, then tangent along x (and the one across in space)."""
+    """Gap of every contact in [m], and its rows: normal, then tangent along x (and the one across
+    in space).
+    """
     width, position = body.width, motion.position
     x, z = position[0], position[width - 1]
     y = position[1] if width == SPACE else 0.0
@@ -221,18 +245,20 @@ def contact_rows(body, ground, motion, gap, J):
         else:
             gap[i], n_x, n_z, r_x, r_y, r_z, _c, _f = on_profile(body, ground, motion.rotation, x, z, i)
             n_y = 0.0
-        row = i * width
+        row, arm = i * width, (r_x, r_y, r_z)
         length = math.sqrt(n_x * n_x + n_z * n_z)
         t_x, t_z = n_z / length, -n_x / length
-        _fill_row(J, row, width, n_x, n_y, n_z, r_x, r_y, r_z)
-        _fill_row(J, row + 1, width, t_x, 0.0, t_z, r_x, r_y, r_z)
+        _fill_row(J, row, width, (n_x, n_y, n_z), arm)
+        _fill_row(J, row + 1, width, (t_x, 0.0, t_z), arm)
         if width == SPACE:
             s_x, s_y, s_z = n_y * t_z, n_z * t_x - n_x * t_z, -n_y * t_x
-            _fill_row(J, row + 2, width, s_x, s_y, s_z, r_x, r_y, r_z)
+            _fill_row(J, row + 2, width, (s_x, s_y, s_z), arm)
 
 
 def pull(body: RigidBody) -> float:
-    """Acceleration in [m/s^2] by which a body measures speeds and times: of its load, and at least LEAST_PULL without weight."""
+    """Acceleration in [m/s^2] by which a body measures speeds and times: of its load, and at least
+    LEAST_PULL without weight.
+    """
     return max(float(numpy.linalg.norm(body.load[: body.width]) / body.mass), LEAST_PULL)
 
 

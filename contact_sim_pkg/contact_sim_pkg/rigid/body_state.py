@@ -1,15 +1,24 @@
 """How the integrator sees a rigid body: place and turn, then v and omega.
 
-Plane: x, z, angle; v_x, v_z, omega. Space: x, y, z, a quaternion (w, x, y, z) of any length; v in world axes, omega in body axes.
+Plane: x, z, angle; v_x, v_z, omega. Space: x, y, z, a quaternion (w, x, y, z) of any length; v in
+world axes, omega in body axes.
 """
 
 from __future__ import annotations
 
 import math
+from typing import NamedTuple
 
 from contact_sim_pkg.compiled.jit import borrowing_kernel
 from contact_sim_pkg.rigid.problem import PLANE
 from contact_sim_pkg.rigid.rotation import gyroscopic_rate
+
+
+class IntegrationSpan(NamedTuple):
+    """Interval of integration of a body that nothing drives: the drive of its rig."""
+
+    start: float  # [s]
+    length: float  # [s]
 
 
 def places_of(width: int) -> int:
@@ -33,7 +42,9 @@ def fill_turn(R, state):
 
 @borrowing_kernel
 def fill_motion(motion, state):
-    """Position, angle and velocities of the state into ``motion``, whose rotation must be there: velocities in world axes."""
+    """Position, angle and velocities of the state into ``motion``, whose rotation must be there:
+    velocities in world axes.
+    """
     R, width = motion.rotation, motion.position.shape[0]
     for k in range(width):
         motion.position[k] = state[k]
@@ -49,7 +60,9 @@ def fill_motion(motion, state):
 
 @borrowing_kernel
 def fill_rates(body, R, push, state, out):
-    """Rates of place, turn and velocities under ``push`` [coordinates], force and torque in world axes; ``R``: body to world."""
+    """Rates of place, turn and velocities under ``push`` [coordinates], force and torque in world
+    axes; ``R``: body to world.
+    """
     if body.width == PLANE:
         for k in range(3):
             out[k] = state[3 + k]

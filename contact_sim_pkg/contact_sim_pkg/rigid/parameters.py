@@ -12,7 +12,8 @@ RULE_NAMES = {"newton": NEWTON, "poisson": POISSON, "energetic": ENERGETIC}
 
 
 class PlanarContact(NamedTuple):
-    """One contact in the plane, as its impulses see the bodies: ``u+ = u + [[A_nn, A_nt], [A_nt, A_tt]] c``.
+    """One contact in the plane, as its impulses see the bodies: ``u+ = u + [[A_nn, A_nt], [A_nt,
+    A_tt]] c``.
 
     Valid: ``A_nn, A_tt > 0``, ``A_nt^2 < A_nn A_tt``, ``friction >= 0``, ``0 <= restitution <= 1``.
     """
@@ -33,7 +34,9 @@ class PlanarImpulse(NamedTuple):
 
 
 class ImpactPath(NamedTuple):
-    """One contact in space along its normal impulse: the symmetric ``A`` of normal (n) and tangents (1, 2), and friction."""
+    """One contact in space along its normal impulse: the symmetric ``A`` of normal (n) and tangents
+    (1, 2), and friction.
+    """
 
     nn: float
     n1: float

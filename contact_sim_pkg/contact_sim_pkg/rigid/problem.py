@@ -21,7 +21,9 @@ DISC = 0  # number of facets that stands for the true cone
 
 
 class ContactProblem(NamedTuple):
-    """One problem. Its ``q`` holds what the normal rows ask for: free velocity, bounce, gap over step."""
+    """One problem. Its ``q`` holds what the normal rows ask for: free velocity, bounce, gap over
+    step.
+    """
 
     A: Vector  # [rows, rows] in [1/kg], J W J'
     q: Vector  # [rows] in [m/s]
@@ -40,7 +42,9 @@ def make_problem(contacts: int, width: int, facets: int = DISC) -> ContactProble
 
 @kernel
 def fill_delassus(J, W, A):
-    """``A = J W J'``: ``J`` [rows, coordinates], ``W`` [coordinates, coordinates] the inverse inertia."""
+    """``A = J W J'``: ``J`` [rows, coordinates], ``W`` [coordinates, coordinates] the inverse
+    inertia.
+    """
     rows, coordinates = J.shape
     for i in range(rows):
         for k in range(coordinates):
@@ -77,7 +81,9 @@ def velocity_scale(problem, c):
 
 @kernel
 def residual(problem, c, u):
-    """Greatest break of Signorini's and Coulomb's conditions over the velocity scale; ``u`` is overwritten with q + A c."""
+    """Greatest break of Signorini's and Coulomb's conditions over the velocity scale; ``u`` is
+    overwritten with q + A c.
+    """
     multiply_add(problem.A, c, problem.q, u)
     scale = velocity_scale(problem, c)
     if scale == 0.0:

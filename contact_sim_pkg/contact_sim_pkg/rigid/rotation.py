@@ -1,8 +1,10 @@
-"""Rotation of a rigid body: exponential map, and the gyroscopic step that keeps energy and angular momentum.
+"""Rotation of a rigid body: exponential map, and the gyroscopic step that keeps energy and angular
+momentum.
 
-Torque-free or driven rotation in body axes by the implicit midpoint rule, ``I0 (w+ - w) + h wm x I0 wm = h tau``,
-``wm = (w + w+)/2``: free motion keeps ``w' I0 w`` and ``|I0 w|`` to rounding at any step; nine such steps of lengths that add up to
-one make a step of order 6. Source: Kahan and Li 1997 (order 6, nine stages).
+Torque-free or driven rotation in body axes by the implicit midpoint rule, ``I0 (w+ - w) + h wm x I0
+wm = h tau``, ``wm = (w + w+)/2``: free motion keeps ``w' I0 w`` and ``|I0 w|`` to rounding at any
+step; nine such steps of lengths that add up to one make a step of order 6. Source: Kahan and Li
+1997 (order 6, nine stages).
 """
 
 from __future__ import annotations
@@ -23,7 +25,9 @@ STAGES = (*_OUTER, 1.0 - 2.0 * sum(_OUTER), *_OUTER[::-1])  # of a step of order
 
 @kernel
 def rotate_by(R, w_1, w_2, w_3, h):
-    """``R <- R exp(h w x)``, w [3] the spin in body axes in [rad/s] (Rodrigues); ``R`` [3, 3] maps body to world."""
+    """``R <- R exp(h w x)``, w [3] the spin in body axes in [rad/s] (Rodrigues); ``R`` [3, 3] maps
+    body to world.
+    """
     angle = abs(h) * math.sqrt(w_1 * w_1 + w_2 * w_2 + w_3 * w_3)
     half = math.sin(0.5 * angle)
     a = h * (math.sin(angle) / angle if angle > 1.0e-8 else 1.0)
@@ -54,7 +58,9 @@ def _solve_3(m, r):
 
 @kernel
 def gyroscopic_step(inertia_1, inertia_2, inertia_3, w_1, w_2, w_3, h):
-    """Spin in body axes after ``h`` [s] of free rotation, by implicit midpoint; principal inertias in [kg m^2]."""
+    """Spin in body axes after ``h`` [s] of free rotation, by implicit midpoint; principal inertias
+    in [kg m^2].
+    """
     x, y, z = w_1, w_2, w_3
     p_1, p_2, p_3 = inertia_3 - inertia_2, inertia_1 - inertia_3, inertia_2 - inertia_1
     for _ in range(NEWTON_STEPS):
@@ -88,7 +94,9 @@ def spin_in_body(R, w):
 
 @kernel
 def gyroscopic_rate(inertia, w_1, w_2, w_3):
-    """Rate of the spin of a free body in body axes in [rad/s^2], ``I0 dw/dt = -w x I0 w``; ``inertia`` [3] in [kg m^2]."""
+    """Rate of the spin of a free body in body axes in [rad/s^2], ``I0 dw/dt = -w x I0 w``;
+    ``inertia`` [3] in [kg m^2].
+    """
     return (
         (inertia[1] - inertia[2]) * w_2 * w_3 / inertia[0],
         (inertia[2] - inertia[0]) * w_3 * w_1 / inertia[1],
@@ -115,7 +123,9 @@ def straighten(R):
 
 @kernel
 def _kick(R, inertia, load, h, w_1, w_2, w_3):
-    """Spin after the torque of ``load`` [6], world axes, has acted for ``h`` [s] on a body that does not turn."""
+    """Spin after the torque of ``load`` [6], world axes, has acted for ``h`` [s] on a body that
+    does not turn.
+    """
     return (
         w_1 + h * (R[0, 0] * load[3] + R[1, 0] * load[4] + R[2, 0] * load[5]) / inertia[0],
         w_2 + h * (R[0, 1] * load[3] + R[1, 1] * load[4] + R[2, 1] * load[5]) / inertia[1],
@@ -125,9 +135,11 @@ def _kick(R, inertia, load, h, w_1, w_2, w_3):
 
 @kernel
 def free_rotation(R, inertia, load, w_1, w_2, w_3, time):
-    """Turn ``R`` in place by ``time`` [s] of free motion, order 6; returns the spin in body axes at its end.
+    """Turn ``R`` in place by ``time`` [s] of free motion, order 6; returns the spin in body axes at
+    its end.
 
-    ``inertia`` [3] principal in [kg m^2], ``load`` [6] with the torque in world axes in its last three, in [N m].
+    ``inertia`` [3] principal in [kg m^2], ``load`` [6] with the torque in world axes in its last
+    three, in [N m].
     """
     for part in STAGES:
         h = part * time

@@ -12,11 +12,11 @@ from contact_sim_pkg.identify.contact import wrench
 from contact_sim_pkg.identify.contact.instant import impact_balance, instant
 from contact_sim_pkg.identify.diagnostics.balance import Side, balance
 from contact_sim_pkg.identify.identify import Setup, identify
-from contact_sim_pkg.identify.motion.flight import FlightState, Model, moved, rates, state_at
+from contact_sim_pkg.identify.motion.flight import FlightModel, FlightState, moved, rates, state_at
 from contact_sim_pkg.identify.motion.rotation import exponential, logarithm
 from contact_sim_pkg.identify.problem import spatial_basis
 
-MODEL = Model(spatial_basis(), True, wrench.constant((1.0, 2.0, 0.3), (0.01, -0.005, 0.002)), 9.81)
+MODEL = FlightModel(spatial_basis(), True, wrench.constant((1.0, 2.0, 0.3), (0.01, -0.005, 0.002)), 9.81)
 PARAMETERS = numpy.array([4e-3, 3e-3, 2e-3, 3e-4, -2e-4, 1e-4, 0.8])
 BOX, GROUND, POINT = geometry.hull(geometry.box(motions.LENGTHS).points, 0.01), geometry.plane(height=0.2), 3
 PUSH, DRAWS = (0.4, -0.2, 1.5), 60
@@ -107,4 +107,4 @@ def test_errors_of_the_impulses_are_as_large_as_told(place):
 
 
 def test_noise_alone_is_no_contradiction():
-    assert [draw.doubts for draw in draws()] == [[]] * DRAWS
+    assert [draw.warnings for draw in draws()] == [[]] * DRAWS

@@ -9,12 +9,12 @@ from scipy.spatial.transform import Rotation
 from tests.identify import motions
 
 from contact_sim_pkg.identify import geometry
-from contact_sim_pkg.identify.contact.lasting import in_words
+from contact_sim_pkg.identify.contact.lasting import lasting_note
 from contact_sim_pkg.identify.contact.wrench import NO_WRENCH
 from contact_sim_pkg.identify.identify import Setup, identify
-from contact_sim_pkg.identify.motion.flight import Model
-from contact_sim_pkg.identify.motion.states import BodyStates, Noise
-from contact_sim_pkg.identify.problem import Problem, spatial_basis
+from contact_sim_pkg.identify.motion.flight import FlightModel
+from contact_sim_pkg.identify.motion.states import BodyStates, SampleNoise
+from contact_sim_pkg.identify.problem import IdentificationProblem, spatial_basis
 
 FRICTION, GRAVITY, RADIUS = 0.4, 9.81, 0.05
 CORNERS = numpy.array([[0.1, 0.15, 0.0], [0.1, -0.15, 0.0], [-0.1, 0.15, 0.0], [-0.1, -0.15, 0.0]])
@@ -78,10 +78,10 @@ def told(note):
 
 def told_of_plate(states, noise):
     """A motion that is a single contact has no flight, so that its words alone are asked for."""
-    model = Model(spatial_basis(), False, NO_WRENCH, GRAVITY)
-    spread = Noise(*(noise or (1e-9, 1e-9, 1e-9, 1e-9)))
-    problem = Problem(states, [], [], geometry.hull(CORNERS), geometry.plane(), model, spread, None)
-    return told(in_words(problem, 0, len(states.time) - 2))
+    model = FlightModel(spatial_basis(), False, NO_WRENCH, GRAVITY)
+    spread = SampleNoise(*(noise or (1e-9, 1e-9, 1e-9, 1e-9)))
+    problem = IdentificationProblem(states, [], [], geometry.hull(CORNERS), geometry.plane(), model, spread, None)
+    return told(lasting_note(problem, 0, len(states.time) - 2).sentence)
 
 
 @pytest.mark.parametrize("noise", NOISE.values(), ids=NOISE)

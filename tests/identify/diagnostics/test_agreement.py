@@ -42,7 +42,7 @@ def test_two_impacts_within_a_sample_spoil_no_moment_of_inertia(seed, doubles):
         assert abs(parameter.value - expected) < 4.5 * parameter.deviation < 0.02 * INERTIA.max()
     left_out = [contact for contact in found.contacts if contact.note.startswith("contradicts the other contacts")]
     assert len(left_out) == doubles
-    assert sum(line.startswith(f"{doubles} contacts contradict the others") for line in found.doubts) == bool(doubles)
+    assert sum(line.startswith(f"{doubles} contacts contradict the others") for line in found.warnings) == bool(doubles)
 
 
 def test_what_is_left_out_was_two_impacts():
@@ -55,5 +55,5 @@ def test_what_is_left_out_was_two_impacts():
 def test_where_most_contradict_all_are_used_and_it_is_told():
     states = motions.noisy(motions.states_of(motions.planar()), 0, **COARSE)
     found = identify(states, Setup(geometry.box([0.98 * motions.SIDE] * 3)))
-    assert found.doubts[0].startswith("contacts and flights contradict each other")
+    assert found.warnings[0].startswith("contacts and flights contradict each other")
     assert len([contact for contact in found.contacts if contact.mode is not None]) == 4

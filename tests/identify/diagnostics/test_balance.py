@@ -9,11 +9,18 @@ from contact_sim_pkg.identify import geometry
 from contact_sim_pkg.identify.contact import wrench
 from contact_sim_pkg.identify.contact.stacked import estimate
 from contact_sim_pkg.identify.diagnostics.balance import Side, balance, lasting_balance
-from contact_sim_pkg.identify.motion.flight import FlightState, Model, motion, moved, plain_motion
+from contact_sim_pkg.identify.motion.flight import FlightModel, FlightState, motion, moved, plain_motion
 from contact_sim_pkg.identify.motion.rotation import exponential
 from contact_sim_pkg.identify.motion.spin import turn
-from contact_sim_pkg.identify.motion.states import BodyStates, Noise
-from contact_sim_pkg.identify.problem import Contact, Problem, Sweep, planar_basis, spatial_basis, starting_parameters
+from contact_sim_pkg.identify.motion.states import BodyStates, SampleNoise
+from contact_sim_pkg.identify.problem import (
+    ContactSpan,
+    IdentificationProblem,
+    ImpulseMoment,
+    planar_basis,
+    spatial_basis,
+    starting_parameters,
+)
 
 SIDE, MASS, STEP = 0.1, 1.3, 1e-3
 AXIS = numpy.array([0.0, 1.0, 0.0])
@@ -31,7 +38,7 @@ def state_of(random, time=0.0):
 
 
 def test_derivatives_of_a_flight_match_finite_differences():
-    state, model = state_of(numpy.random.default_rng(1)), Model(spatial_basis(), True, PUSHED, 9.81)
+    state, model = state_of(numpy.random.default_rng(1)), FlightModel(spatial_basis(), True, PUSHED, 9.81)
     times = numpy.array([-0.01, 0.07])
     found = motion(state, PARAMETERS, SCALE, model, times)
     for column in range(12):
@@ -70,7 +77,7 @@ def test_derivatives_of_the_balance_match_finite_differences():
     after = moved(
         before, numpy.concatenate([random.normal(size=6), 1e-9 * random.normal(size=3), random.normal(size=3)])
     )
-    model = Model(spatial_basis(), True, PUSHED, 9.81)
+    model = FlightModel(spatial_basis(), True, PUSHED, 9.81)
 
     def value(change_before, change_after, parameters):
         ends = sides(moved(before, change_before), moved(after, change_after))
@@ -82,9 +89,9 @@ def test_derivatives_of_the_balance_match_finite_differences():
 def test_derivatives_of_a_balance_that_lasts_match_finite_differences():
     random = numpy.random.default_rng(4)
     before, after = state_of(random), state_of(random, 0.02)
-    model = Model(spatial_basis(), True, PUSHED, 9.81)
+    model = FlightModel(spatial_basis(), True, PUSHED, 9.81)
     # Made at the state before, where the derivatives hold
-    swept = Sweep(*random.normal(size=(2, 3)), before.velocity, 0.0, 0.0, 3)
+    swept = ImpulseMoment(*random.normal(size=(2, 3)), before.velocity, 0.0, 0.0, 3)
 
     def value(change_before, change_after, parameters):
         ends = sides(moved(before, change_before), moved(after, change_after))
@@ -128,10 +135,12 @@ def step_problem(steps, force, torque):
     rotation[0::2], rotation[1::2] = exponential(-half) @ rotation[0::2], exponential(half) @ rotation[1::2]
     states = BodyStates(time, numpy.zeros((len(time), 3)), rotation, velocity, spin)
     points = [int((rotation[2 * k] @ SQUARE.points.T)[2].argmin()) for k in range(len(steps))]
-    contacts = [Contact(2 * k, 2 * k + 1, time[2 * k], time[2 * k + 1], points[k]) for k in range(len(steps))]
-    model = Model(planar_basis(), True, known, 9.81)
+    contacts = [ContactSpan(2 * k, 2 * k + 1, time[2 * k], time[2 * k + 1], points[k]) for k in range(len(steps))]
+    model = FlightModel(planar_basis(), True, known, 9.81)
     flights = [(place, place) for place in range(len(time))]
-    return Problem(states, flights, contacts, SQUARE, geometry.plane(), model, Noise(1e-12, 1e-12, 1e-12, 1e-12), AXIS)
+    return IdentificationProblem(
+        states, flights, contacts, SQUARE, geometry.plane(), model, SampleNoise(1e-12, 1e-12, 1e-12, 1e-12), AXIS
+    )
 
 
 def solved(problem):

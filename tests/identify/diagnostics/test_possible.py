@@ -1,4 +1,4 @@
-"""Values that noise alone makes up are not told, and inertia that no body of the shape has is doubted."""
+"""Values that noise alone makes up are not reported; inertia that no body of the shape has gives a warning."""
 
 import functools
 
@@ -70,7 +70,7 @@ def test_in_space_second_moments_lie_within_the_box(moments, broken):
     assert said(exact(True), [*(second.sum() - second), 0.0, 0.0, 0.0]) == [OUTSIDE] * broken
 
 
-def test_two_impacts_half_a_millisecond_apart_are_not_told_as_one_without_a_doubt():
+def test_two_impacts_half_a_millisecond_apart_are_not_reported_as_one_without_a_warning():
     random = numpy.random.default_rng(34)
     mass, friction = 10.0 ** random.uniform(-2.0, 2.0), random.uniform(0.0, 1.0)
     body = FallingBody(mass, mass * motions.SIDE**2 / 6.0 * numpy.eye(3), motions.SQUARE, friction, 0.6)
@@ -81,4 +81,4 @@ def test_two_impacts_half_a_millisecond_apart_are_not_told_as_one_without_a_doub
     assert record.bounces[1].time - record.bounces[0].time < 1e-3
     found = identify(motions.noisy(motions.states_of(record), 0, 1e-3, 1e-3, 1e-2), Setup(CUBE))
     assert any(contact.mode for contact in found.contacts)
-    assert found.doubts == [OUTSIDE]
+    assert found.warnings == [OUTSIDE]

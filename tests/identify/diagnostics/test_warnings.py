@@ -30,9 +30,9 @@ def spatial(seed=None, force=(0.0, 0.0, 0.0), **known):
 
 
 @pytest.mark.parametrize("seed", [None, 0, 1, 2])
-def test_nothing_is_doubted_where_all_is_right(seed):
+def test_no_warning_where_all_is_right(seed):
     found = right(seed)
-    assert found.doubts == []
+    assert found.warnings == []
     assert found.estimate.misfit < 1.6  # of 36 equations, in standard deviations
 
 
@@ -53,28 +53,28 @@ def test_the_misfit_of_right_data_is_one_in_the_mean():
 )
 def test_under_noise_a_contradiction_is_told_and_the_deviations_are_called_too_small(wrong):
     found = spatial(1, **wrong)
-    assert found.doubts[0].startswith("contacts and flights contradict each other")
+    assert found.warnings[0].startswith("contacts and flights contradict each other")
     assert found.estimate.misfit > 3.0
 
 
 def test_ground_a_millimetre_too_high_looks_soft_is_told_and_leaves_the_numbers_right():
-    """The body goes into the ground as told and comes out again, as on a soft one: the numbers bear it, with a doubt."""
+    """The body goes into the ground and comes out again, as on a soft one: the numbers hold, with a warning."""
     found = spatial(1, ground=geometry.plane((0.0, 0.0, 1.0), 0.001))
-    assert any("check ground and shape" in line for line in found.doubts)
+    assert any("check ground and shape" in line for line in found.warnings)
     truth = [*numpy.diag(motions.SPATIAL_INERTIA), 0.0, 0.0, 0.0]
     for parameter, expected in zip(found.parameters, truth, strict=True):
         assert parameter.identified
         assert abs(parameter.value - expected) < 4.0 * parameter.deviation
 
 
-def test_a_wrong_force_is_doubted_too():
+def test_a_wrong_force_gives_a_warning():
     found = spatial(2, FORCE, wrench=wrench.constant((1.0, 2.0, 0.9)))
-    assert found.doubts
+    assert found.warnings
 
 
 def test_a_shape_that_does_not_reach_the_ground_is_told_with_the_number_of_contacts():
     found = spatial(None, shape=geometry.sphere(0.02))
-    assert found.doubts == ["4 contacts touch nothing known: check the shape, its axes, and the ground"]
+    assert found.warnings == ["4 contacts touch no known surface: check the shape, its axes, and the ground"]
 
 
 def test_wrong_gravity_leaves_no_flight_and_says_so():
@@ -85,13 +85,13 @@ def test_wrong_gravity_leaves_no_flight_and_says_so():
         spatial(None, gravity=9.7)
 
 
-def test_contacts_without_a_flight_beside_them_are_no_reason_to_doubt():
+def test_contacts_without_a_flight_beside_them_give_no_warning():
     """The last of the bounces leave no flight of three samples between them: noted, and nothing speaks against the rest."""
     states = motions.states_of(motions.planar())
     thin = [field[::12] for field in states]
     found = identify(type(states)(*thin), Setup(geometry.box([0.1] * 3)))
     assert any(contact.note.startswith("no flight of 3 samples") for contact in found.contacts)
-    assert found.doubts == []
+    assert found.warnings == []
 
 
 def test_a_body_that_rests_below_the_ground_told_is_no_contact():
@@ -99,7 +99,7 @@ def test_a_body_that_rests_below_the_ground_told_is_no_contact():
     low = states._replace(position=states.position - [0.0, 0.0, 5.0])
     found = identify(low, Setup(geometry.box([0.1] * 3), gravity=9.0))
     assert "m below the ground" in found.contacts[0].note
-    assert found.doubts
+    assert found.warnings
 
 
 NOISES = {
@@ -119,22 +119,22 @@ def square(noise, force=(0.0, 0.0, 0.0), **known):
 
 
 @pytest.mark.parametrize("noise", NOISES)
-def test_the_square_raises_no_doubt_where_all_is_right(noise):
-    assert square(noise).doubts == []
+def test_the_square_gives_no_warning_where_all_is_right(noise):
+    assert square(noise).warnings == []
 
 
 @pytest.mark.parametrize("noise", NOISES)
 @pytest.mark.parametrize("share", [0.9, 0.98, 1.02, 1.1])
-def test_a_shape_told_too_small_or_too_large_is_doubted(noise, share):
+def test_a_shape_specified_too_small_or_too_large_gives_a_warning(noise, share):
     """One too large goes into the ground before its impact: where one interval holds all of the push, that is no soft contact."""
     found = square(noise, shape=geometry.box([share * motions.SIDE] * 3))
-    assert any("check the shape" in line for line in found.doubts)
+    assert any("check the shape" in line for line in found.warnings)
 
 
 def test_impacts_that_happen_below_the_ground_by_less_than_one_tells_are_told_by_their_mean():
     """The box is 2 % too large: its corners lie 1 mm times cos and sin of the pitch further out, under 1 mm of noise."""
     found = square("coarse", shape=geometry.box([1.02 * motions.SIDE] * 3))
-    (line,) = [line for line in found.doubts if line.startswith("impacts happen")]
+    (line,) = [line for line in found.warnings if line.startswith("impacts happen")]
     assert "below the ground in the mean" in line
 
 
@@ -143,7 +143,7 @@ def test_impacts_that_happen_below_the_ground_by_less_than_one_tells_are_told_by
 def test_under_noise_a_gravity_that_is_wrong_is_told_with_the_acceleration_that_is_missing(noise, gravity):
     found = square(noise, gravity=gravity)
     missing = free_fall.missing_acceleration(found.estimate, found.problem)
-    assert any(line.startswith("the flights accelerate by") for line in found.doubts)
+    assert any(line.startswith("the flights accelerate by") for line in found.warnings)
     assert abs(missing.value - [0.0, 0.0, gravity - 9.81]).max() < 4.5 * missing.deviation
 
 
@@ -152,7 +152,7 @@ def test_a_force_that_is_not_told_is_seen_as_the_acceleration_it_gives(noise):
     force = (1.3, 0.0, 0.7)
     found = square(noise, force)
     missing = free_fall.missing_acceleration(found.estimate, found.problem)
-    assert any(line.startswith("the flights accelerate by") for line in found.doubts)
+    assert any(line.startswith("the flights accelerate by") for line in found.warnings)
     assert abs(missing.value - numpy.array(force) / motions.MASS).max() < 4.0 * missing.deviation < 0.1
 
 
@@ -177,16 +177,16 @@ def test_a_force_that_swings_faster_than_the_flights_last_is_told_by_what_they_l
         position=states.position + numpy.outer(way, [0.0, 1.0, 0.0]),
     )
     found = identify(shaken, Setup(geometry.box([motions.SIDE] * 3), planar=False))
-    assert any("times what neighbouring samples differ by" in line for line in found.doubts)
+    assert any("times what neighbouring samples differ by" in line for line in found.warnings)
 
 
-def test_a_force_of_the_wrong_sign_is_doubted_and_not_called_faint():
+def test_a_force_of_the_wrong_sign_gives_a_warning_and_is_not_called_faint():
     """Exact, and 0.1 mm, 1 mrad: the body goes where the known force does not push it."""
     exact = motions.states_of(motions.planar(0.6, (1.0, 0.0, 0.0)))
     for states in (exact, motions.noisy(exact, 0, 1e-4, 1e-3)):
         found = identify(states, Setup(geometry.box([motions.SIDE] * 3), wrench=wrench.constant((-1.0, 0.0, 0.0))))
         assert not found.parameters[-1].identified
-        assert any(line.startswith("the body moves against the known wrench") for line in found.doubts)
+        assert any(line.startswith("the body moves against the known wrench") for line in found.warnings)
         assert not any("no trace" in line for line in found.unobservable)
 
 

@@ -7,10 +7,10 @@ from contact_sim_pkg.bag.errors import BagError
 from contact_sim_pkg.identify.errors import IdentificationError
 from contact_sim_pkg.identify.motion.continuity import refuse_jumps
 from contact_sim_pkg.identify.motion.rotation import exponential
-from contact_sim_pkg.identify.motion.states import BodyStates, Noise
+from contact_sim_pkg.identify.motion.states import BodyStates, SampleNoise
 from contact_sim_pkg.identify.readers.stamped import _refuse_early_stamp
 
-NOISE = Noise(1e-6, 1e-6, 1e-3, 1e-2)
+NOISE = SampleNoise(1e-6, 1e-6, 1e-3, 1e-2)
 CHANNELS = ("position", "rotation", "velocity", "angular velocity")
 
 
@@ -52,7 +52,7 @@ def test_true_motions_pass_with_and_without_noise(rate):
         velocity=states.velocity + 0.03 * random.standard_normal(states.velocity.shape),
         angular_velocity=1.1 * states.angular_velocity,
     )
-    refuse_jumps(noisy, Noise(1e-3, 1e-6, 0.03, 1e-2), 9.81)
+    refuse_jumps(noisy, SampleNoise(1e-3, 1e-6, 0.03, 1e-2), 9.81)
 
 
 def test_a_body_at_rest_with_rounded_samples_and_a_gap_passes():
@@ -66,7 +66,7 @@ def test_a_body_at_rest_with_rounded_samples_and_a_gap_passes():
     rest = BodyStates(
         numpy.arange(count) / 240.0, zero + 0.05, exponential(turn[:, None] * [0.0, 1.0, 0.0]), zero, zero
     )
-    refuse_jumps(rest, Noise(0.0, 0.0, 0.0, 0.0), 9.81)
+    refuse_jumps(rest, SampleNoise(0.0, 0.0, 0.0, 0.0), 9.81)
 
 
 @pytest.mark.parametrize("channel", CHANNELS)

@@ -28,7 +28,7 @@ def test_a_torque_that_was_not_told_is_the_spin_rate_that_is_missing(torque, noi
     missing = missing_spin_rate(found.estimate, found.problem)
     expected = torque / (motions.MASS * motions.SIDE**2 / 6.0)
     assert missing.value[1] == pytest.approx(expected, abs=max(5.0 * missing.deviation, 0.05 * abs(expected)))
-    assert any("check the torque" in doubt for doubt in found.doubts)
+    assert any("check the torque" in line for line in found.warnings)
 
 
 @pytest.mark.parametrize("noise", NOISES)
@@ -42,7 +42,7 @@ def test_a_spin_in_a_wrong_scale_is_told_with_its_scale(space, told, noise):
     scale = spin_scale(found.estimate, found.problem)
     first_order = 0.1 * abs(1.0 / told - 1.0) if space else 1e-9  # where the axis of the spin turns
     assert 1.0 + scale.excess == pytest.approx(1.0 / told, abs=max(5.0 * scale.deviation, first_order))
-    assert any("as fast as the spin says" in doubt for doubt in found.doubts)
+    assert any("as fast as the spin says" in line for line in found.warnings)
 
 
 @pytest.mark.parametrize("noise", NOISES)
@@ -80,4 +80,4 @@ def test_noise_within_the_plane_alone_is_found_as_large_as_it_is():
     noisy.angular_velocity[:, [0, 2]] = exact.angular_velocity[:, [0, 2]]
     found = identify(noisy._replace(rotation=exponential(pitch) @ exact.rotation), SQUARE)
     assert found.noise == pytest.approx((noise[0], noise[1], noise[2], noise[3]), rel=0.12)
-    assert found.doubts == []
+    assert found.warnings == []

@@ -8,8 +8,8 @@ from tests.identify import motions
 from contact_sim_pkg.identify import geometry
 from contact_sim_pkg.identify.contact.wrench import NO_WRENCH
 from contact_sim_pkg.identify.identify import Setup, identify
-from contact_sim_pkg.identify.motion.flight import Model
-from contact_sim_pkg.identify.motion.states import BodyStates, Noise
+from contact_sim_pkg.identify.motion.flight import FlightModel
+from contact_sim_pkg.identify.motion.states import BodyStates, SampleNoise
 from contact_sim_pkg.identify.motion.tumbling import tumbling_start
 from contact_sim_pkg.identify.problem import spatial_basis
 from contact_sim_pkg.identify.reference.falling_body import FallingBody, fall
@@ -65,7 +65,7 @@ def test_a_body_unlike_a_homogeneous_one_is_identified(noise):
     states = states if noise is None else motions.noisy(states, 3, *noise)
     found = identify(states, Setup(geometry.box(sides[[2, 0, 1]])))
     assert found.rank == 6
-    assert found.doubts == []
+    assert found.warnings == []
     for parameter, expected in zip(found.parameters[:3], numpy.diag(ROD), strict=True):
         allowed = 1e-9 * ROD.max() if noise is None else 4.5 * parameter.deviation
         assert abs(parameter.value - expected) <= allowed
@@ -77,9 +77,9 @@ def test_the_start_keeps_the_guess_where_a_body_spins_about_one_axis():
     turns = numpy.array([Rotation.from_rotvec([0.0, 0.0, 5.0 * time]).as_matrix() for time in states.time])
     spins = numpy.tile([0.0, 0.0, 5.0], (len(states.time), 1))
     guess = numpy.array([3e-3, 2e-3, 1e-3, 0.0, 0.0, 0.0])
-    flight, model = [(0, len(states.time) - 1)], Model(spatial_basis(), False, NO_WRENCH, 9.81)
+    flight, model = [(0, len(states.time) - 1)], FlightModel(spatial_basis(), False, NO_WRENCH, 9.81)
     rolling = states._replace(rotation=turns, angular_velocity=spins)
-    found = tumbling_start(rolling, flight, model, Noise(1e-6, 1e-6, 1e-6, 1e-6), guess)
+    found = tumbling_start(rolling, flight, model, SampleNoise(1e-6, 1e-6, 1e-6, 1e-6), guess)
     assert found == pytest.approx(guess, abs=1e-12)
 
 

@@ -5,7 +5,7 @@ from tests.nodes.blocks import LENGTH, vibration
 
 from contact_sim_pkg.nodes.protocol.input_blocks import InputBlocks
 from contact_sim_pkg.nodes.protocol.logger_answers import CLOSE_SECONDS, STOP_SECONDS, LoggerAnswers
-from contact_sim_pkg.nodes.protocol.window import Window
+from contact_sim_pkg.nodes.protocol.window import BlockWindow
 from contact_sim_pkg.records.messages import BenchRecorded
 
 VIBRATION = "platform/vibration"
@@ -15,7 +15,7 @@ class Run:
     """A run of 100 blocks whose logger answers for those up to `recorded`."""
 
     def __init__(self, done: int, recorded: int, *, logged: bool = True):
-        self.window = Window(100, logged=logged)
+        self.window = BlockWindow(100, logged=logged)
         self.answers = LoggerAnswers(self.window, logged=logged)
         self.inputs = InputBlocks([VIBRATION], LENGTH, 100)
         if recorded >= 0:

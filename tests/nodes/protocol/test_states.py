@@ -2,11 +2,11 @@
 
 import pytest
 
-from contact_sim_pkg.nodes.protocol.states import Follower, NodeError, RecordedFollower, State
+from contact_sim_pkg.nodes.protocol.states import Follower, NodeError, RecordedFollower, RunState
 from contact_sim_pkg.records.messages import BenchProgress, BenchRecorded
 
 
-def report(state: State, block: int) -> BenchProgress:
+def report(state: RunState, block: int) -> BenchProgress:
     return BenchProgress(
         state=int(state),
         block=block,
@@ -22,46 +22,52 @@ def report(state: State, block: int) -> BenchProgress:
 
 def test_a_run_is_followed_from_its_start_to_its_end():
     follower = Follower()
-    steps = [(State.STARTING, -1), (State.READY, -1), (State.RUNNING, 0), (State.RUNNING, 7), (State.FINISHED, 99)]
+    steps = [
+        (RunState.STARTING, -1),
+        (RunState.READY, -1),
+        (RunState.RUNNING, 0),
+        (RunState.RUNNING, 7),
+        (RunState.FINISHED, 99),
+    ]
     assert all(follower.accept(report(*step)) for step in steps)
-    assert follower.state is State.FINISHED
+    assert follower.state is RunState.FINISHED
 
 
 def test_a_run_under_way_is_another_bench():
     with pytest.raises(
         NodeError, match=r"another bench \(scene seat_ride, block 57 of 100\) .* ROS_DOMAIN_ID"
     ) as refusal:
-        Follower().accept(report(State.RUNNING, 57))
+        Follower().accept(report(RunState.RUNNING, 57))
     assert refusal.value.exit_status == 2
 
 
 def test_a_run_that_got_further_than_the_window_without_this_node_is_another_bench():
     follower = Follower()
-    follower.accept(report(State.STARTING, -1))
+    follower.accept(report(RunState.STARTING, -1))
     with pytest.raises(NodeError, match="another bench"):
-        follower.accept(report(State.RUNNING, 4))
+        follower.accept(report(RunState.RUNNING, 4))
 
 
 def test_ready_may_have_been_overwritten_by_the_first_blocks():
     follower = Follower()
-    follower.accept(report(State.STARTING, -1))
-    assert follower.accept(report(State.RUNNING, 3))
+    follower.accept(report(RunState.STARTING, -1))
+    assert follower.accept(report(RunState.RUNNING, 3))
 
 
-@pytest.mark.parametrize("state", [State.STARTING, State.READY, State.FAILED, State.STOPPED])
+@pytest.mark.parametrize("state", [RunState.STARTING, RunState.READY, RunState.FAILED, RunState.STOPPED])
 def test_a_second_bench_that_starts_beside_a_run_is_passed_over(state):
     follower = Follower()
-    follower.accept(report(State.READY, -1))
-    follower.accept(report(State.RUNNING, 12))
+    follower.accept(report(RunState.READY, -1))
+    follower.accept(report(RunState.RUNNING, 12))
     assert not follower.accept(report(state, -1))
-    assert follower.state is State.RUNNING
+    assert follower.state is RunState.RUNNING
 
 
 def test_nothing_follows_the_end():
     follower = Follower()
-    follower.accept(report(State.READY, -1))
-    follower.accept(report(State.STOPPED, 3))
-    assert not follower.accept(report(State.RUNNING, 4))
+    follower.accept(report(RunState.READY, -1))
+    follower.accept(report(RunState.STOPPED, 3))
+    assert not follower.accept(report(RunState.RUNNING, 4))
 
 
 def test_an_answer_of_the_logger_that_lies_behind_is_passed_over():

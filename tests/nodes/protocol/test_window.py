@@ -2,10 +2,10 @@
 
 import pytest
 
-from contact_sim_pkg.nodes.protocol.window import Window
+from contact_sim_pkg.nodes.protocol.window import BlockWindow
 
 
-def sent(window: Window) -> list[int]:
+def sent(window: BlockWindow) -> list[int]:
     numbers = []
     while window.open:
         numbers.append(window.take())
@@ -13,11 +13,11 @@ def sent(window: Window) -> list[int]:
 
 
 def test_blocks_up_to_four_ahead_are_sent_before_any_answer():
-    assert sent(Window(100, logged=True)) == [0, 1, 2, 3]
+    assert sent(BlockWindow(100, logged=True)) == [0, 1, 2, 3]
 
 
 def test_the_slower_of_simulator_and_logger_holds_the_window():
-    window = Window(100, logged=True)
+    window = BlockWindow(100, logged=True)
     sent(window)
     window.on_done(9)
     assert sent(window) == []
@@ -26,28 +26,28 @@ def test_the_slower_of_simulator_and_logger_holds_the_window():
 
 
 def test_without_a_logger_only_the_simulator_counts():
-    window = Window(100, logged=False)
+    window = BlockWindow(100, logged=False)
     sent(window)
     window.on_done(0)
     assert sent(window) == [4]
 
 
 def test_an_older_answer_changes_nothing():
-    window = Window(100, logged=False)
+    window = BlockWindow(100, logged=False)
     window.on_done(5)
     window.on_done(2)
     assert sent(window)[-1] == 9
 
 
 def test_no_block_beyond_the_last_one_is_sent():
-    window = Window(3, logged=True)
+    window = BlockWindow(3, logged=True)
     assert sent(window) == [0, 1, 2]
     with pytest.raises(ValueError, match="block 3 may not be sent"):
         window.take()
 
 
 def test_the_window_is_finished_when_both_have_answered_for_the_last_block():
-    window = Window(3, logged=True)
+    window = BlockWindow(3, logged=True)
     sent(window)
     window.on_done(2)
     assert not window.finished

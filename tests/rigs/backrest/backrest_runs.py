@@ -21,6 +21,8 @@ from contact_sim_pkg.rigs.backrest.parameters import (
     START,
     TOUCHED,
     Backrest,
+    BackrestSamples,
+    Shaking,
     make_mode,
 )
 
@@ -68,7 +70,8 @@ def driven(rig, acceleration, duration, tolerance=1e-9, start=None, size=0.015, 
     entries.start(rig, mode, state, work)
     before = numpy.array(entries.energies(rig, mode, 0.0, state))
     values = numpy.array([acceleration(i / rate) for i in range(count + 1)], dtype=float)
-    status = entries.advance(rig, mode, state, scale, work, 0.0, 1.0 / rate, values, sample_every, *room)
+    shaking, outputs = Shaking(0.0, 1.0 / rate, values), BackrestSamples(sample_every, *room)
+    status = entries.advance(rig, mode, state, scale, work, shaking, outputs)
     assert status == DONE
     change = numpy.array(entries.energies(rig, mode, duration, state)) - before
     rows = mode.ended[: mode.counts[ENDED]]

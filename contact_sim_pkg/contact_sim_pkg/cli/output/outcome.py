@@ -48,7 +48,9 @@ class Outcome(Protocol):
 
 
 def describe(scene: ResolvedScene, outcome: Outcome) -> dict[str, Any]:
-    """The object that `--json` prints; `bag` is None and `summary` empty where nothing was recorded."""
+    """The object that `--json` prints; `bag` is None and `summary` empty where nothing was
+    recorded.
+    """
     simulated = round(outcome.blocks * float(scene.data["block_length"]), 9)
     return {
         "scene": scene.data["name"],
@@ -69,7 +71,9 @@ def describe(scene: ResolvedScene, outcome: Outcome) -> dict[str, Any]:
 
 
 def state_of(scene: ResolvedScene, outcome: Outcome) -> str:
-    """`failed`, `stopped` (by the user, or by the end of the recording) or `finished`, as the bag says it."""
+    """`failed`, `stopped` (by the user, or by the end of the recording) or `finished`, as the bag
+    says it.
+    """
     if outcome.exit_status == 1:
         return "failed"
     blocks = round(float(scene.data["duration"]) / float(scene.data["block_length"]))
@@ -90,7 +94,9 @@ def _summary(bag: Path, *, lossy: bool) -> dict[str, Any]:
 
 
 def print_outcome(facts: dict[str, Any], outcome: Outcome) -> None:
-    """A few lines for a person, the path of the bag last; on standard error the findings in the excitation."""
+    """A few lines for a person, the path of the bag last; on standard error the findings in the
+    excitation.
+    """
     for topic, description in facts["excitation"].items():
         for note in description.get("notes", []):
             click.echo(f"{topic}: {note}", err=True)

@@ -14,7 +14,7 @@ from rich.progress import BarColumn, Progress, TextColumn, TimeRemainingColumn
 PLAIN_SECONDS = 4.0  # between two lines where standard error is no terminal
 
 
-class Standing(Protocol):
+class DisplayedProgress(Protocol):
     """State of a run, on nodes or without."""
 
     @property
@@ -31,14 +31,19 @@ class Standing(Protocol):
 
     @property
     def peak_pressure(self) -> float:
-        """Largest pressure of the last block, [Pa]; 0 without contact and where no field is computed."""
+        """Largest pressure of the last block, [Pa]; 0 without contact and where no field is
+        computed.
+        """
 
 
 class RunDisplay:
-    """A bar on a terminal, a line every five seconds elsewhere; lines of the nodes go above the bar."""
+    """A bar on a terminal, a line every five seconds elsewhere; lines of the nodes go above the
+    bar.
+    """
 
     def __init__(self, duration: float, begin: str = "0 s: set-up, or the first block", item: str = "block") -> None:
-        """Prepare for a run or a replay of `duration` simulated seconds; nothing is shown before it is entered.
+        """Prepare for a run or a replay of `duration` simulated seconds; nothing is shown before it
+        is entered.
 
         `begin` is shown before the first update; `item` is what does not come where nothing moves.
         """
@@ -51,7 +56,7 @@ class RunDisplay:
         self._bar = Progress(*columns, console=self._console, transient=True, disable=not self._console.is_terminal)
         self._task = self._bar.add_task("starting", total=duration)
 
-    def show(self, standing: Standing) -> None:
+    def show(self, standing: DisplayedProgress) -> None:
         """Show the state of the run."""
         if standing.simulated <= 0.0:
             return

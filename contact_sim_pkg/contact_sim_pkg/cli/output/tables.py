@@ -37,7 +37,9 @@ def print_json_rows(rows: Sequence[Mapping[str, Any]]) -> None:
 
 
 def show_rows(rows: Sequence[Mapping[str, Any]], as_json: bool) -> None:
-    """The rows as `{"rows": […]}`, or as a table whose columns are the keys of all rows in order of appearance."""
+    """The rows as `{"rows": […]}`, or as a table whose columns are the keys of all rows in order of
+    appearance.
+    """
     if as_json:
         print_json_rows(rows)
     else:
@@ -69,7 +71,9 @@ def _print(what: RenderableType) -> None:
 
 
 def _print_table(rows: Sequence[Mapping[str, Any]]) -> None:
-    """As wide as the terminal, or as it comes where there is none. Texts break at blanks; numbers and words never do."""
+    """As wide as the terminal, or as it comes where there is none. Texts break at blanks; numbers
+    and words never do.
+    """
     from rich.markup import escape
     from rich.table import Table
 
@@ -87,7 +91,9 @@ def _print_table(rows: Sequence[Mapping[str, Any]]) -> None:
 
 
 def _widths(columns: list[str], texts: list[list[str]], numbers: list[bool], width: int) -> list[int]:
-    """Widths of the columns: the longest word or number; what is left goes to those first that lack least."""
+    """Widths of the columns: the longest word or number; what is left goes to those first that lack
+    least.
+    """
     least: list[int] = []
     whole: list[int] = []
     for column, cells, number in zip(columns, texts, numbers, strict=True):

@@ -1,4 +1,4 @@
-"""What each contact of a motion was: instant, mode, impulses over mass with their standard deviations."""
+"""Each contact of a motion: instant, mode, impulses over mass with their standard deviations."""
 
 from __future__ import annotations
 
@@ -8,20 +8,23 @@ import numpy
 
 from contact_sim_pkg.identify.contact.instant import instant
 from contact_sim_pkg.identify.contact.modes import Mode, classify
-from contact_sim_pkg.identify.contact.stacked import Estimate
+from contact_sim_pkg.identify.contact.stacked import ParameterEstimate
 from contact_sim_pkg.identify.diagnostics.balance import Side, impulse
-from contact_sim_pkg.identify.diagnostics.notes import SEVERAL
+from contact_sim_pkg.identify.diagnostics.notes import ContactNote, NoteKind
 from contact_sim_pkg.identify.geometry import arm
 from contact_sim_pkg.identify.motion.flight import FlightState, motion, rates
 from contact_sim_pkg.identify.motion.rotation import Array, cross_matrix, logarithm
 from contact_sim_pkg.identify.motion.segments import Segments
-from contact_sim_pkg.identify.problem import Contact, Problem
+from contact_sim_pkg.identify.problem import ContactSpan, IdentificationProblem
 
 __all__ = ["ContactFinding", "findings"]
 
 
 class ContactFinding(NamedTuple):
-    """One contact; `mode` is None where it was not used, and `note` says why; its impulse stands there if two flights tell it."""
+    """One contact; `mode` is None where it was not used, `note` then gives the reason.
+
+    Its impulse is given nevertheless where two flights identify it.
+    """
 
     begin: float  # [s]
     end: float  # [s]; equal to begin for a located impact
@@ -38,7 +41,11 @@ class ContactFinding(NamedTuple):
 
 
 def findings(
-    problem: Problem, found: Estimate, parts: Segments, places: list[int], notes: dict[int, str]
+    problem: IdentificationProblem,
+    found: ParameterEstimate,
+    parts: Segments,
+    places: list[int],
+    notes: dict[int, ContactNote],
 ) -> list[ContactFinding]:
     """One entry for each contact of the motion, in the order of time."""
     used = {place: number for number, place in enumerate(places)}
@@ -47,20 +54,38 @@ def findings(
         if place in used and place not in notes:
             lines.append(_used(problem, found, used[place]))
         else:
-            lines.append(_unused(problem, found, (first, last), notes.get(place, "")))
+            lines.append(_unused(problem, found, (first, last), notes.get(place)))
     return lines
 
 
-def _unused(problem: Problem, found: Estimate, interval: tuple[int, int], note: str) -> ContactFinding:
-    """A contact of the intervals first to last; with its impulse where it is one impact of several corners at once.
+def _unused(
+    problem: IdentificationProblem, found: ParameterEstimate, interval: tuple[int, int], note: ContactNote | None
+) -> ContactFinding:
+    """A contact of the intervals first to last; with its impulse where it is one impact of several
+    corners at once.
 
-    Where the impulse acts is not known then, but its size follows from the velocities of the centre of mass alone.
+    Where the impulse acts is not known then, but its size follows from the velocities of the centre
+    of mass alone.
     """
     begin, end = float(problem.states.time[interval[0]]), float(problem.states.time[interval[1] + 1])
-    nothing = ContactFinding(begin, end, None, None, None, None, None, None, None, None, None, note)
+    nothing = ContactFinding(
+        begin=begin,
+        end=end,
+        point=None,
+        mode=None,
+        normal=None,
+        tangential=None,
+        normal_deviation=None,
+        tangential_deviation=None,
+        friction_deviation=None,
+        arm=None,
+        push=None,
+        note="" if note is None else note.sentence,
+    )
     numbers = [number for number, (_first, last) in enumerate(problem.flights) if last == interval[0]]
     later = [number for number, (first, _last) in enumerate(problem.flights) if first == interval[1] + 1]
-    if not (note.startswith(SEVERAL) and numbers and later):
+    several = note is not None and note.kind is NoteKind.SEVERAL_CORNERS
+    if not (several and numbers and later):
         return nothing
     sides = [_side(problem, found, number, 0.5 * (begin + end)) for number in (numbers[0], later[0])]
     push = impulse(sides[0].state, sides[1].state, problem.model.inverse_mass(found.parameters), problem.model)
@@ -73,7 +98,7 @@ def _unused(problem: Problem, found: Estimate, interval: tuple[int, int], note: 
     )  # fmt: skip
 
 
-def _side(problem: Problem, found: Estimate, number: int, time: float) -> Side:
+def _side(problem: IdentificationProblem, found: ParameterEstimate, number: int, time: float) -> Side:
     """A flight at an instant."""
     state = found.flights[number]
     at = motion(state, found.parameters, found.scale, problem.model, numpy.array([time]))
@@ -93,7 +118,7 @@ def _along(vector: Array) -> Array:
     return vector / length if length > 0.0 else vector
 
 
-def _used(problem: Problem, found: Estimate, number: int) -> ContactFinding:
+def _used(problem: IdentificationProblem, found: ParameterEstimate, number: int) -> ContactFinding:
     contact, (before, after) = problem.contacts[number], found.sides[number]
     inverse_mass = problem.model.inverse_mass(found.parameters)
     push = impulse(before.state, after.state, inverse_mass, problem.model)
@@ -119,28 +144,44 @@ def _used(problem: Problem, found: Estimate, number: int) -> ContactFinding:
         ratio = float(numpy.sqrt(slope @ spread @ slope))
     upward = float(numpy.sqrt(normal @ spread @ normal))
     return ContactFinding(
-        contact.begin, contact.end, contact.point, mode, mode.normal, mode.tangential, upward, across, ratio,
-        0.5 * (reaches[0] + reaches[1]), push, "" if contact.sweep is None else _course(contact, turned),
-    )  # fmt: skip
+        begin=contact.begin,
+        end=contact.end,
+        point=contact.point,
+        mode=mode,
+        normal=mode.normal,
+        tangential=mode.tangential,
+        normal_deviation=upward,
+        tangential_deviation=across,
+        friction_deviation=ratio,
+        arm=0.5 * (reaches[0] + reaches[1]),
+        push=push,
+        note="" if contact.sweep is None else _course(contact, turned),
+    )
 
 
-def _course(contact: Contact, turned: list[Array]) -> str:
+def _course(contact: ContactSpan, turned: list[Array]) -> str:
     """How long a contact lasted, and how far the body turned meanwhile."""
     angle = float(numpy.linalg.norm(logarithm(turned[1] @ turned[0].T)))
     samples = 0 if contact.sweep is None else contact.sweep.samples
     return f"lasted {1e3 * (contact.end - contact.begin):.3g} ms over {samples} samples; the body turned by {angle:.2g} rad"
 
 
-def _push_covariance(found: Estimate, first: int, second: int, before: Side, after: Side) -> Array:
-    """Covariance [3, 3] of the impulse over mass: of the states, and of the parameters they depend on."""
+def _push_covariance(found: ParameterEstimate, first: int, second: int, before: Side, after: Side) -> Array:
+    """Covariance [3, 3] of the impulse over mass: of the states, and of the parameters they depend
+    on.
+    """
     jacobian = numpy.zeros((3, len(found.state_covariance)))
     jacobian[:, 12 * first : 12 * first + 12] -= before.by_state[3:6]
     jacobian[:, 12 * second : 12 * second + 12] += after.by_state[3:6]
     return _covariance(found, jacobian, after.by_parameters[3:6] - before.by_parameters[3:6])
 
 
-def _slip_deviation(problem: Problem, found: Estimate, number: int, reach: Array, kept: Array) -> float:
-    """Largest standard deviation of the contact point's velocity after along `kept` directions, [m/s]."""
+def _slip_deviation(
+    problem: IdentificationProblem, found: ParameterEstimate, number: int, reach: Array, kept: Array
+) -> float:
+    """Largest standard deviation of the contact point's velocity after along `kept` directions,
+    [m/s].
+    """
     contact, (before, after) = problem.contacts[number], found.sides[number]
     turning = -cross_matrix(reach)
     swung = cross_matrix(after.state.angular_velocity) @ turning  # w x (d x r) for a small rotation d
@@ -156,7 +197,9 @@ def _slip_deviation(problem: Problem, found: Estimate, number: int, reach: Array
     return float(numpy.sqrt(numpy.linalg.eigvalsh(_covariance(found, jacobian, direct)).max(initial=0.0)))
 
 
-def _covariance(found: Estimate, jacobian: Array, direct: Array) -> Array:
-    """Covariance [3, 3] of what depends on all states by `jacobian` and on the parameters by `direct` besides."""
+def _covariance(found: ParameterEstimate, jacobian: Array, direct: Array) -> Array:
+    """Covariance [3, 3] of what depends on all states by `jacobian` and on the parameters by
+    `direct` besides.
+    """
     shared = jacobian @ found.state_by_parameters + direct
     return numpy.asarray(jacobian @ found.state_covariance @ jacobian.T + shared @ found.covariance @ shared.T)

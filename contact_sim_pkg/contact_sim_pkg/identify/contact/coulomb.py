@@ -2,10 +2,10 @@
 
 `f = T (pi + mu (n.pi) d)`, T the tangents of the ground, d the direction of slip, pi the contact's
 impulse over the mass (see `identify/diagnostics/balance.py`). It is linear in kappa = 1/m with the
-factor `-h T (F + mu (n.F) d)`: a known force F tells the mass, unless it lies along the edge of the
-friction cone, where it looks like more contact. The arm of the impulse does not enter: several
-points may touch, if all slip alike. Source: Identifiability, eq 39, corrected (F_x other than
-sigma mu F_y).
+factor `-h T (F + mu (n.F) d)`: a known force F identifies the mass, unless it lies along the edge
+of the friction cone, where it looks like more contact. The arm of the impulse does not enter:
+several points may touch, if all slip alike. Source: Identifiability, eq 39, corrected (F_x other
+than sigma mu F_y).
 """
 
 from __future__ import annotations
@@ -16,15 +16,18 @@ from contact_sim_pkg.identify.diagnostics.balance import Balance, Side, impulse
 from contact_sim_pkg.identify.errors import IdentificationError
 from contact_sim_pkg.identify.geometry import arm
 from contact_sim_pkg.identify.motion.rotation import Array, cross_matrix, mean
-from contact_sim_pkg.identify.problem import Contact, Problem
+from contact_sim_pkg.identify.problem import ContactSpan, IdentificationProblem
 
 __all__ = ["along_the_cone", "friction_balance"]
 
 EDGE = 1e-6  # of the force: what counts as along the edge of the cone
 
 
-def friction_balance(problem: Problem, contact: Contact, sides: tuple[Side, Side], parameters: Array) -> Balance:
-    """The balance of one step, on the tangents [k, 3] of the problem: value [k], derivatives [k, 12] and [k, p].
+def friction_balance(
+    problem: IdentificationProblem, contact: ContactSpan, sides: tuple[Side, Side], parameters: Array
+) -> Balance:
+    """The balance of one step, on the tangents [k, 3] of the problem: value [k], derivatives [k,
+    12] and [k, p].
 
     IdentificationError: the friction is not known, or the contact does not slip.
     """
@@ -48,7 +51,7 @@ def friction_balance(problem: Problem, contact: Contact, sides: tuple[Side, Side
     return Balance(weights @ push, parts[0] @ sides[0].by_state, parts[1] @ sides[1].by_state, by_parameters)
 
 
-def _direction(problem: Problem, contact: Contact, sides: tuple[Side, Side]) -> tuple[Array, Array]:
+def _direction(problem: IdentificationProblem, contact: ContactSpan, sides: tuple[Side, Side]) -> tuple[Array, Array]:
     """Direction of the slip half-way [3], and its derivative [3, 12] by the motion at either end."""
     before, after = sides[0].state, sides[1].state
     middle = mean(before.rotation, after.rotation)
@@ -69,8 +72,10 @@ def _direction(problem: Problem, contact: Contact, sides: tuple[Side, Side]) -> 
     return direction, by_motion
 
 
-def along_the_cone(problem: Problem, contact: Contact, sides: tuple[Side, Side]) -> bool:
-    """Whether the known force lies along the edge of the friction cone over a step, or there is none."""
+def along_the_cone(problem: IdentificationProblem, contact: ContactSpan, sides: tuple[Side, Side]) -> bool:
+    """Whether the known force lies along the edge of the friction cone over a step, or there is
+    none.
+    """
     friction, tangents = problem.friction or 0.0, problem.tangents
     force = problem.model.wrench.push(contact.begin, contact.end)
     direction, _ = _direction(problem, contact, sides)

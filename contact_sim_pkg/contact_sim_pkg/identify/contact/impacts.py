@@ -1,4 +1,6 @@
-"""Instant and point of an impact: the root of the gap on the incoming flight, and on the outgoing one where it lasts."""
+"""Instant and point of an impact: the root of the gap on the incoming flight, and on the outgoing
+one where it lasts.
+"""
 
 from __future__ import annotations
 
@@ -6,17 +8,17 @@ from typing import NamedTuple
 
 import numpy
 
-from contact_sim_pkg.identify.geometry import Ground, Shape, arms, gaps, size
-from contact_sim_pkg.identify.motion.flight import FlightState, Model, plain_motion
+from contact_sim_pkg.identify.geometry import GroundPlane, Shape, arms, gaps, size
+from contact_sim_pkg.identify.motion.flight import FlightModel, FlightState, plain_motion
 from contact_sim_pkg.identify.motion.rotation import Array
 
-__all__ = ["Touch", "locate"]
+__all__ = ["ContactEvent", "locate"]
 
 STEPS = 12
 SAME = 1e-7  # of the body's size: corners this close touch together
 
 
-class Touch(NamedTuple):
+class ContactEvent(NamedTuple):
     """Where and when a flight meets the ground."""
 
     time: float  # [s]
@@ -29,15 +31,15 @@ class Touch(NamedTuple):
 def locate(
     flight: FlightState,
     parameters: Array,
-    model: Model,
+    model: FlightModel,
     shape: Shape,
-    ground: Ground,
+    ground: GroundPlane,
     bounds: tuple[float, float],
     start: float,
     deviation: float,
     *,
     leaving: bool = False,
-) -> Touch:
+) -> ContactEvent:
     """Touch on a flight within `bounds`, by Newton's method on the gap of the point that touches first.
 
     Args:
@@ -62,16 +64,17 @@ def locate(
         point = _next(lifts, rates, time, bounds, leaving=leaving)
         rate = float(rates[point])
         if (rate <= 0.0) if leaving else (rate >= 0.0):
-            return Touch(time, point, _together(lifts, shape, deviation), False, float(lifts[point]))
+            return ContactEvent(time, point, _together(lifts, shape, deviation), False, float(lifts[point]))
         last, time = time, float(numpy.clip(time - lifts[point] / rate, *bounds))
         if abs(time - last) <= 1e-15 * max(1.0, abs(time)):
             break
     closed = abs(lifts[point]) <= max(6.0 * deviation, 1e-9 * size(shape))
-    return Touch(time, point, _together(lifts, shape, deviation), bool(closed), float(lifts[point]))
+    return ContactEvent(time, point, _together(lifts, shape, deviation), bool(closed), float(lifts[point]))
 
 
 def _next(lifts: Array, rates: Array, time: float, bounds: tuple[float, float], *, leaving: bool) -> int:
-    """The point whose gap closes first within the bounds, or opens last; the lowest where none does.
+    """The point whose gap closes first within the bounds, or opens last; the lowest where none
+    does.
 
     The lowest may be one that has just touched and goes up, while another comes down.
     """

@@ -1,9 +1,11 @@
-"""The instant of an impact, which no sample tells: the root of the gap on the flight before, with all its error.
+"""The instant of an impact, which lies between samples: the root of the gap on the flight before,
+with all its error.
 
-The gap `g = n.(x + r) - h` closes at the rate `g' = n.(v + w x r)`. An error of the flight, dx and a small rotation d,
-moves the root by `dt = -(n.dx + n.(d x l)) / g'`, l the lever from the centre of mass to the point; what the fit leaves of the gap
-moves it by `-g / g'`. Both flights are taken at that instant, so whatever is asked of them there has the error `(df/dt) dt`
-besides that of the flights: 1 mm at 1 m/s is a millisecond, in which the arm turns with the body.
+The gap `g = n.(x + r) - h` closes at the rate `g' = n.(v + w x r)`. An error of the flight, dx and
+a small rotation d, moves the root by `dt = -(n.dx + n.(d x l)) / g'`, l the lever from the centre
+of mass to the point; what the fit leaves of the gap moves it by `-g / g'`. Both flights are taken
+at that instant, so every quantity taken there has the error `(df/dt) dt` besides that of the
+flights: 1 mm at 1 m/s is a millisecond, in which the arm turns with the body.
 """
 
 from __future__ import annotations
@@ -13,35 +15,41 @@ from typing import NamedTuple
 import numpy
 
 from contact_sim_pkg.identify.diagnostics.balance import Balance, Side, balance
-from contact_sim_pkg.identify.geometry import Ground, Shape, arm
-from contact_sim_pkg.identify.motion.flight import Model, rates
+from contact_sim_pkg.identify.geometry import GroundPlane, Shape, arm
+from contact_sim_pkg.identify.motion.flight import FlightModel, rates
 from contact_sim_pkg.identify.motion.rotation import Array
 
-__all__ = ["Instant", "impact_balance", "instant"]
+__all__ = ["ImpactInstant", "impact_balance", "instant"]
 
 
-class Instant(NamedTuple):
-    """The root of the gap seen from the time of the sides, and its derivatives by the flight before."""
+class ImpactInstant(NamedTuple):
+    """The root of the gap seen from the time of the sides, and its derivatives by the flight
+    before.
+    """
 
     later: float  # [s], to first order
     by_state: Array  # [12], of the flight before
     by_parameters: Array  # [p]
 
 
-def instant(before: Side, shape: Shape, ground: Ground, point: int) -> Instant:
-    """Root of the gap of `point` on the flight before: `-g / g'` later, and how it moves with that flight."""
+def instant(before: Side, shape: Shape, ground: GroundPlane, point: int) -> ImpactInstant:
+    """Root of the gap of `point` on the flight before: `-g / g'` later, and how it moves with that
+    flight.
+    """
     state, normal = before.state, ground.normal
     reach, lever = arm(shape, ground, state.rotation, point), state.rotation @ shape.points[point]
     rate = float(normal @ (state.velocity + numpy.cross(state.angular_velocity, reach)))
     gap = float(normal @ (state.position + reach)) - ground.height
     by_motion = numpy.concatenate([normal, numpy.zeros(3), numpy.cross(lever, normal), numpy.zeros(3)])
-    return Instant(-gap / rate, -by_motion @ before.by_state / rate, -by_motion @ before.by_parameters / rate)
+    return ImpactInstant(-gap / rate, -by_motion @ before.by_state / rate, -by_motion @ before.by_parameters / rate)
 
 
 def impact_balance(
-    before: Side, after: Side, parameters: Array, model: Model, shape: Shape, ground: Ground, point: int
+    before: Side, after: Side, parameters: Array, model: FlightModel, shape: Shape, ground: GroundPlane, point: int
 ) -> Balance:
-    """The balance of one impact at the root of the gap: `f + f' dt`, to first order, and its derivatives with those of the root."""
+    """The balance of one impact at the root of the gap: `f + f' dt`, to first order, and its
+    derivatives with those of the root.
+    """
     known = (parameters, model, shape, ground, point)
     found, root = balance(before, after, *known), instant(before, shape, ground, point)
     along = [_in_time(side, parameters, model) for side in (before, after)]
@@ -54,6 +62,6 @@ def impact_balance(
     )
 
 
-def _in_time(side: Side, parameters: Array, model: Model) -> Side:
+def _in_time(side: Side, parameters: Array, model: FlightModel) -> Side:
     """The same motion with its derivative by time, [12, 1], in the place of that by the state."""
     return Side(side.state, rates(side.state, parameters, model)[:, None], numpy.zeros_like(side.by_parameters))

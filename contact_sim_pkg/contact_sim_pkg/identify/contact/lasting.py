@@ -7,26 +7,32 @@ from collections.abc import Iterable
 import numpy
 
 from contact_sim_pkg.identify.contact.sliding_friction import sliding_friction
-from contact_sim_pkg.identify.diagnostics.notes import cure_without_flights
+from contact_sim_pkg.identify.diagnostics.notes import (
+    FREE_MOTION_MISSING,
+    ContactNote,
+    NoteKind,
+    cure_without_flights,
+)
 from contact_sim_pkg.identify.geometry import UP, arm, gaps, size
 from contact_sim_pkg.identify.motion.rotation import Array
 from contact_sim_pkg.identify.motion.segments import LONGEST_IMPACT, SHORTEST_FLIGHT, Segments
-from contact_sim_pkg.identify.motion.states import Noise
-from contact_sim_pkg.identify.problem import Contact, Problem
+from contact_sim_pkg.identify.motion.states import SampleNoise
+from contact_sim_pkg.identify.problem import ContactSpan, IdentificationProblem
 
-__all__ = ["NO_FLIGHT", "in_words", "nothing_to_begin_with", "with_steps"]
+__all__ = ["lasting_note", "nothing_to_identify_from", "with_steps"]
 
 MOST = 60  # steps taken, evenly spread
 APART = 1e-3  # of the body's size: the next corner must be this much higher
 SIGMAS = 6.0
 HIGH = 0.1  # of the body's size: a gap that is no contact
 STILL = 1e-9  # of the largest speed: slip that counts as none
-NO_FLIGHT = "no free motion"  # how a note begins on what cannot be a contact
-FEW = 0.05  # share of the samples that is passed over
+FEW = 0.05  # share of the samples that is ignored
 
 
-def with_steps(problem: Problem, parts: Segments) -> Problem:
-    """The problem with the steps of all lasting contacts on one corner: a flight of one sample at each end of a step."""
+def with_steps(problem: IdentificationProblem, parts: Segments) -> IdentificationProblem:
+    """The problem with the steps of all lasting contacts on one corner: a flight of one sample at
+    each end of a step.
+    """
     steps = [
         step for first, last in parts.contacts if last - first + 1 > LONGEST_IMPACT for step in range(first + 1, last)
     ]
@@ -41,47 +47,53 @@ def with_steps(problem: Problem, parts: Segments) -> Problem:
                 numbers[sample] = len(flights)
                 flights.append((sample, sample))
         point = int(_heights(problem, step).argmin())
-        contacts.append(Contact(numbers[step], numbers[step + 1], float(time[step]), float(time[step + 1]), point))
+        contacts.append(ContactSpan(numbers[step], numbers[step + 1], float(time[step]), float(time[step + 1]), point))
     return problem._replace(flights=flights, contacts=contacts, step_noise=_step_noise(problem, steps))
 
 
-def in_words(problem: Problem, first: int, last: int) -> str:
-    """What a lasting contact over the intervals first to last does: sticks, slides (with what friction), or both."""
+def lasting_note(problem: IdentificationProblem, first: int, last: int) -> ContactNote:
+    """Finding about a lasting contact over the intervals first to last: it sticks, slides (with its
+    friction), or both.
+    """
     states, noise = problem.states, problem.noise
     samples = range(first + 1, last + 1)
     lifts = numpy.array([_heights(problem, sample).min() for sample in samples])
     lift, deep = float(numpy.median(lifts)), HIGH * size(problem.shape) + SIGMAS * noise.position
     if lift < -deep:
-        return f"{NO_FLIGHT}, {-lift:.3g} m below the ground: check the shape, its axes, and the ground"
+        return ContactNote(NoteKind.BELOW_GROUND, {"depth": -lift})
     if numpy.mean(lifts > _highest_hop(problem)) > FEW:
-        return f"{NO_FLIGHT}, up to {lifts.max():.3g} m above the ground: check gravity, wrench, axes of the twist, and shape"
+        return ContactNote(NoteKind.ABOVE_GROUND, {"height": float(lifts.max())})
     limit = SIGMAS * (noise.velocity + size(problem.shape) * noise.angular_velocity)
     slips = numpy.array([_slip(problem, sample) for sample in samples])
     floor = STILL * float(abs(states.velocity).max() + size(problem.shape) * abs(states.angular_velocity).max())
     share = float(numpy.mean(slips > max(limit, floor)))
     depth = f", {-lift:.2g} m deep" if -lift > _highest_hop(problem) else ""
     if share < FEW:
-        return f"lasting contact{depth}, sticks"
+        return ContactNote(NoteKind.LASTING, {"depth": depth, "motion": "sticks"})
     slides = "slides" if share > 1.0 - FEW else f"slides {share:.0%} of the time"
-    words = f"lasting contact{depth}, {slides}"
-    told = None if problem.model.wrench.present else sliding_friction(problem, samples)
-    friction = told.in_words() if told else ""
-    return f"{words} with {friction}" if friction else words
+    found = None if problem.model.wrench.present else sliding_friction(problem, samples)
+    friction = found.in_words() if found else ""
+    motion = f"{slides} with {friction}" if friction else slides
+    return ContactNote(NoteKind.LASTING, {"depth": depth, "motion": motion})
 
 
-def nothing_to_begin_with(problem: Problem, notes: Iterable[str]) -> str:
-    """Why a motion without a flight, of whose lasting contacts these are the notes, tells nothing, and what helps."""
-    strange = [note for note in notes if note.startswith(NO_FLIGHT)]
+def nothing_to_identify_from(problem: IdentificationProblem, notes: Iterable[ContactNote]) -> str:
+    """Why a motion without a flight identifies nothing, and a cure; ``notes``: of its lasting
+    contacts.
+    """
+    strange = [note for note in notes if note.kind in FREE_MOTION_MISSING]
     if strange:
-        return f"{strange[0]}{_missing_in_the_air(problem)}"
+        return f"{strange[0].sentence}{_missing_in_the_air(problem)}"
     cure = cure_without_flights(no_friction=problem.friction is None, no_force=problem.model.wrench.force is None)
     return f"there is no flight of {SHORTEST_FLIGHT} samples or more between contacts; {cure}"
 
 
-def _missing_in_the_air(problem: Problem) -> str:
-    """By how much the body accelerates beyond gravity where it is off the ground, in words; empty where a known wrench acts.
+def _missing_in_the_air(problem: IdentificationProblem) -> str:
+    """By how much the body accelerates beyond gravity where it is off the ground, in words; empty
+    where a known wrench acts.
 
-    A median over the intervals, for where no run of them fits free motion: exact samples contradict a wrong gravity in each.
+    A median over the intervals, for where no run of them fits free motion: exact samples contradict
+    a wrong gravity in each.
     """
     states = problem.states
     lifts = numpy.array([_heights(problem, sample).min() for sample in range(len(states.time))])
@@ -93,8 +105,10 @@ def _missing_in_the_air(problem: Problem) -> str:
     return f"; there it accelerates by ({x:.3g}, {y:.3g}, {z:.3g}) m/s^2 more than gravity makes it"
 
 
-def _highest_hop(problem: Problem) -> float:
-    """Height in [m] of a hop between two impacts that is too short to be a flight, g T^2 / 8, and what noise adds."""
+def _highest_hop(problem: IdentificationProblem) -> float:
+    """Height in [m] of a hop between two impacts that is too short to be a flight, g T^2 / 8, and
+    what noise adds.
+    """
     longest = (LONGEST_IMPACT + 1) * float(numpy.median(numpy.diff(problem.states.time)))
     noise, length = problem.noise, size(problem.shape)
     return (
@@ -102,7 +116,7 @@ def _highest_hop(problem: Problem) -> float:
     )
 
 
-def _slip(problem: Problem, sample: int) -> float:
+def _slip(problem: IdentificationProblem, sample: int) -> float:
     """Speed of the lowest point along the ground, [m/s]."""
     states, normal = problem.states, problem.ground.normal
     point = int(_heights(problem, sample).argmin())
@@ -111,8 +125,10 @@ def _slip(problem: Problem, sample: int) -> float:
     return float(numpy.linalg.norm(velocity - (velocity @ normal) * normal))
 
 
-def _step_noise(problem: Problem, steps: list[int]) -> Noise:
-    """Noise of the samples at the ends of steps: the error of the midpoint rule, from third differences, counts as noise."""
+def _step_noise(problem: IdentificationProblem, steps: list[int]) -> SampleNoise:
+    """Noise of the samples at the ends of steps: the error of the midpoint rule, from third
+    differences, counts as noise.
+    """
     states, noise = problem.states, problem.noise
     inner = [step for step in steps if 1 <= step < len(states.time) - 2]
     errors = []
@@ -124,20 +140,22 @@ def _step_noise(problem: Problem, steps: list[int]) -> Noise:
     )
 
 
-def _heights(problem: Problem, sample: int) -> Array:
+def _heights(problem: IdentificationProblem, sample: int) -> Array:
     states = problem.states
     return gaps(problem.shape, problem.ground, states.position[sample], states.rotation[sample])
 
 
-def _one_corner(problem: Problem, step: int) -> bool:
-    """Whether the same corner, and no other, is down at both ends of a step; a soft ground lets it in."""
+def _one_corner(problem: IdentificationProblem, step: int) -> bool:
+    """Whether the same corner, and no other, is down at both ends of a step; a soft ground lets it
+    in.
+    """
     ends = [_heights(problem, sample) for sample in (step, step + 1)]
     if max(end.min() for end in ends) > _highest_hop(problem):
         return False
     if len(ends[0]) == 1:
         return True
     length = float(numpy.ptp(problem.shape.points))
-    pressed = -size(problem.shape)  # deeper than that is no soft ground, but another one than told
+    pressed = -size(problem.shape)  # deeper than that is no soft ground, but another one than specified
     levels = [max(end.min(), 0.0) if end.min() > pressed else end.min() for end in ends]
     second = min(float(numpy.partition(end, 1)[1] - level) for end, level in zip(ends, levels, strict=True))
     same = ends[0].argmin() == ends[1].argmin()

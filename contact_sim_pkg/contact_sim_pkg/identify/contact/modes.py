@@ -1,4 +1,4 @@
-"""Mode of one contact from its velocities and impulse, and what they tell of friction and restitution."""
+"""Mode of one contact from its velocities and impulse, with friction and restitution."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ from typing import NamedTuple
 
 import numpy
 
-from contact_sim_pkg.identify.geometry import Ground
+from contact_sim_pkg.identify.geometry import GroundPlane
 from contact_sim_pkg.identify.motion.rotation import Array
 
 __all__ = ["REVERSED", "SLIDE", "STICK", "Mode", "classify"]
@@ -31,20 +31,21 @@ class Mode(NamedTuple):
 
 
 def classify(
-    push: Array, before: Array, after: Array, deviation: float, ground: Ground, push_deviation: float = 0.0
+    push: Array, before: Array, after: Array, deviation: float, ground: GroundPlane, push_deviation: float = 0.0
 ) -> Mode:
     """Stick, slide, or slide with reversed slip.
 
-    Friction opposes the slip at every instant of an impact, so `|c_t|/c_n <= mu`, with the equal sign only where the slip kept
-    its direction. Slip that sticks, reverses, or turns on the way leaves the bound. It kept its direction where the impulse
-    lies against the slip before or after, and the slip did not reverse.
+    Friction opposes the slip at every instant of an impact, so `|c_t|/c_n <= mu`, with the equal
+    sign only where the slip kept its direction. Slip that sticks, reverses, or turns on the way
+    leaves the bound. It kept its direction where the impulse lies against the slip before or after,
+    and the slip did not reverse.
 
     Args:
         push: impulse over mass, [3] in [m/s].
         before: velocity of the contact point before, [3].
         after: the same after.
         deviation: standard deviation of a component of the slip, [m/s].
-        ground: its normal tells normal from tangential.
+        ground: its normal separates normal from tangential.
         push_deviation: standard deviation of the tangential impulse over mass, [m/s].
     """
     normal = float(push @ ground.normal)
@@ -65,7 +66,7 @@ def classify(
 
 
 def _against(along: Array, slip: Array, deviation: float, push_deviation: float) -> bool:
-    """Whether a tangential impulse lies against a slip, as far as noise lets it be told; that of no friction does."""
+    """Whether a tangential impulse lies against a slip, within the noise; that of no friction does."""
     strength, speed = float(numpy.linalg.norm(along)), float(numpy.linalg.norm(slip))
     if strength == 0.0:
         return True

@@ -1,4 +1,5 @@
-"""Steps of a lasting contact that slides with a known friction coefficient: what they tell of the mass under a known force.
+"""Steps of a lasting contact that slides with a known friction coefficient: their information on
+the mass under a known force.
 
 Points may touch together where all slip alike, as those of a block that slides on its face do.
 """
@@ -13,8 +14,8 @@ from contact_sim_pkg.identify.diagnostics.noise import limited
 from contact_sim_pkg.identify.geometry import arm, gaps, size
 from contact_sim_pkg.identify.motion.rotation import Array
 from contact_sim_pkg.identify.motion.segments import LONGEST_IMPACT, MEDIAN_OF_GAUSS, Segments
-from contact_sim_pkg.identify.motion.states import Noise
-from contact_sim_pkg.identify.problem import Contact, Problem
+from contact_sim_pkg.identify.motion.states import SampleNoise
+from contact_sim_pkg.identify.problem import ContactSpan, IdentificationProblem
 
 __all__ = ["Slide", "slides_of", "slip_of", "with_slides"]
 
@@ -35,7 +36,7 @@ class Slide(NamedTuple):
     turn: float  # [rad] by which the slip turns
 
 
-def slides_of(problem: Problem, parts: Segments) -> list[Slide]:
+def slides_of(problem: IdentificationProblem, parts: Segments) -> list[Slide]:
     """All runs of two samples or more, in lasting contacts, of slip that never stops or reverses."""
     found = []
     for begin, end in parts.contacts:
@@ -50,8 +51,10 @@ def slides_of(problem: Problem, parts: Segments) -> list[Slide]:
     return found
 
 
-def with_slides(problem: Problem, parts: Segments) -> Problem:
-    """The problem with steps of all slides; the same where friction is not known or there is no force."""
+def with_slides(problem: IdentificationProblem, parts: Segments) -> IdentificationProblem:
+    """The problem with steps of all slides; the same where friction is not known or there is no
+    force.
+    """
     if problem.friction is None or problem.model.wrench.force is None:
         return problem
     slides, noise = slides_of(problem, parts), problem.step_noise or problem.noise
@@ -68,7 +71,7 @@ def with_slides(problem: Problem, parts: Segments) -> Problem:
     return _joined(wider, steps)
 
 
-def _joined(problem: Problem, steps: list[tuple[int, int]]) -> Problem:
+def _joined(problem: IdentificationProblem, steps: list[tuple[int, int]]) -> IdentificationProblem:
     """The problem with these steps, which share the states at their ends."""
     flights, contacts, time = list(problem.flights), list(problem.contacts), problem.states.time
     numbers = {first: number for number, (first, last) in enumerate(flights) if first == last}
@@ -79,20 +82,24 @@ def _joined(problem: Problem, steps: list[tuple[int, int]]) -> Problem:
                 flights.append((sample, sample))
         point = int(_heights(problem, begin).argmin())
         times = (float(time[begin]), float(time[end]))
-        contacts.append(Contact(numbers[begin], numbers[end], *times, point, turns=False, slides=True))
+        contacts.append(ContactSpan(numbers[begin], numbers[end], *times, point, turns=False, slides=True))
     return problem._replace(flights=flights, contacts=contacts)
 
 
-def _length(problem: Problem, slide: Slide) -> int:
-    """Samples of a step: MOST steps in a row, or shorter ones, so that what a turning slip misses stays below the noise."""
+def _length(problem: IdentificationProblem, slide: Slide) -> int:
+    """Samples of a step: MOST steps in a row, or shorter ones, so that what a turning slip misses
+    stays below the noise.
+    """
     samples = slide.last - slide.first
     count = numpy.ceil((_missed(problem, slide, samples) / _noise(problem, slide)) ** (1.0 / 3.0))
     return max(1, int(samples / max(MOST, count)))
 
 
-def _noise(problem: Problem, slide: Slide) -> float:
-    """Of a velocity component in [m/s], from fourth differences over the slide: smooth motion hardly adds to them."""
-    noise, rounding = problem.noise.velocity, limited(Noise(0.0, 0.0, 0.0, 0.0), problem.states).velocity
+def _noise(problem: IdentificationProblem, slide: Slide) -> float:
+    """Of a velocity component in [m/s], from fourth differences over the slide: smooth motion
+    hardly adds to them.
+    """
+    noise, rounding = problem.noise.velocity, limited(SampleNoise(0.0, 0.0, 0.0, 0.0), problem.states).velocity
     if slide.last - slide.first < FOURTH:
         return noise
     fourth = numpy.diff(problem.states.velocity[slide.first : slide.last + 1], n=4, axis=0)
@@ -100,27 +107,33 @@ def _noise(problem: Problem, slide: Slide) -> float:
     return max(rounding, min(noise, spread))
 
 
-def _missed(problem: Problem, slide: Slide, length: int) -> float:
-    """Largest error of the balance of a step of `length` samples, since it takes one direction of slip: [m/s]."""
+def _missed(problem: IdentificationProblem, slide: Slide, length: int) -> float:
+    """Largest error of the balance of a step of `length` samples, since it takes one direction of
+    slip: [m/s].
+    """
     states, share = problem.states, length / (slide.last - slide.first)
     jump = states.velocity[slide.last] - states.velocity[slide.first]
     return CURVED * slide.turn**2 * float(numpy.linalg.norm(jump)) * share**3
 
 
-def _slip(problem: Problem, sample: int) -> Array:
-    """Slip of the points that touch, [3] in [m/s]; zero where they slip slowly, or differently, or nothing touches."""
+def _slip(problem: IdentificationProblem, sample: int) -> Array:
+    """Slip of the points that touch, [3] in [m/s]; zero where they slip slowly, or differently, or
+    nothing touches.
+    """
     mean, alike = slip_of(problem, sample)
     return mean if alike else numpy.zeros(3)
 
 
-def slip_of(problem: Problem, sample: int) -> tuple[Array, bool]:
-    """Mean slip of the points that touch, [3] in [m/s], zero where it is slow or nothing touches; whether all slip alike."""
+def slip_of(problem: IdentificationProblem, sample: int) -> tuple[Array, bool]:
+    """Mean slip of the points that touch, [3] in [m/s], zero where it is slow or nothing touches;
+    whether all slip alike.
+    """
     states, noise, length = problem.states, problem.noise, size(problem.shape)
     heights, flat = _heights(problem, sample), problem.tangents.T @ problem.tangents
     if heights.min() > HIGH * length + SIGMAS * noise.position:
         return numpy.zeros(3), True
-    doubt = SIGMAS * (noise.position + length * noise.rotation)
-    touching = numpy.flatnonzero(heights <= heights.min() + max(TOUCH * length, doubt))
+    uncertainty = SIGMAS * (noise.position + length * noise.rotation)
+    touching = numpy.flatnonzero(heights <= heights.min() + max(TOUCH * length, uncertainty))
     reaches = [arm(problem.shape, problem.ground, states.rotation[sample], int(point)) for point in touching]
     velocity, spin = states.velocity[sample], states.angular_velocity[sample]
     slips = numpy.array([flat @ (velocity + numpy.cross(spin, reach)) for reach in reaches])
@@ -136,6 +149,6 @@ def _angle(first: Array, last: Array) -> float:
     return float(numpy.arctan2(across, float(first @ last)))
 
 
-def _heights(problem: Problem, sample: int) -> Array:
+def _heights(problem: IdentificationProblem, sample: int) -> Array:
     states = problem.states
     return gaps(problem.shape, problem.ground, states.position[sample], states.rotation[sample])

@@ -1,9 +1,10 @@
 """Friction of a contact that lasts, from its pushes and its slip.
 
-Friction opposes the slip of each point at every instant, so that the push over the mass of a step keeps `|pi_t| <= mu pi_n`, and
-`-sum(d pi_t) / sum(pi_n) <= mu` for any unit vectors d along the ground. It is mu where all points slip along one d all the time, a
-lower bound where the slip turns, reverses, or differs between points. Pushes are taken along d, the direction of the mean slip,
-since the noise of |pi_t| would add up; along one d all but that of the first and last velocity cancels.
+Friction opposes the slip of each point at every instant, so that the push over the mass of a step
+keeps `|pi_t| <= mu pi_n`, and `-sum(d pi_t) / sum(pi_n) <= mu` for any unit vectors d along the
+ground. It is mu where all points slip along one d all the time, a lower bound where the slip turns,
+reverses, or differs between points. Pushes are taken along d, the direction of the mean slip, since
+the noise of |pi_t| would add up; along one d all but that of the first and last velocity cancels.
 """
 
 from __future__ import annotations
@@ -16,30 +17,33 @@ from contact_sim_pkg.identify.contact.modes import STRAIGHT
 from contact_sim_pkg.identify.contact.slides import slip_of
 from contact_sim_pkg.identify.geometry import UP, size
 from contact_sim_pkg.identify.motion.rotation import Array
-from contact_sim_pkg.identify.problem import Problem
+from contact_sim_pkg.identify.problem import IdentificationProblem
 
 __all__ = ["SlidingFriction", "sliding_friction"]
 
 SIGMAS = 6.0
-TOLD = 3.0  # standard deviations: a bound below says nothing
+SIGNIFICANT = 3.0  # standard deviations: a bound below is empty
 
 
 class SlidingFriction(NamedTuple):
-    """What a slide tells of mu."""
+    """Estimate or lower bound of mu from a slide."""
 
     value: float
     deviation: float  # standard deviation
     straight: bool  # it is mu; a lower bound otherwise
 
     def in_words(self) -> str:
-        """Such as `friction 0.3 ± 0.001`, or `friction >= 0.3 ± 0.001`; empty where a bound says nothing."""
-        if not self.straight and self.value <= TOLD * self.deviation:
+        """Such as `friction 0.3 ± 0.001`, or `friction >= 0.3 ± 0.001`; empty where a bound says
+        nothing.
+        """
+        if not self.straight and self.value <= SIGNIFICANT * self.deviation:
             return ""
         return f"friction {'' if self.straight else '>= '}{max(self.value, 0.0):.3g} ± {self.deviation:.1g}"
 
 
-def sliding_friction(problem: Problem, samples: range) -> SlidingFriction | None:
-    """From the steps between neighbouring samples of a contact whose points slip at both ends; None where there is none.
+def sliding_friction(problem: IdentificationProblem, samples: range) -> SlidingFriction | None:
+    """From the steps between neighbouring samples of a contact whose points slip at both ends; None
+    where there is none.
 
     No external force may act.
     """
@@ -69,8 +73,8 @@ def sliding_friction(problem: Problem, samples: range) -> SlidingFriction | None
     return SlidingFriction(value, deviation, straight)
 
 
-def _along(problem: Problem, slips: Array, push: Array, direction: Array) -> bool:
-    """Whether slips [n, 3] lie along a direction and the push against it, as far as noise lets it be told."""
+def _along(problem: IdentificationProblem, slips: Array, push: Array, direction: Array) -> bool:
+    """Whether slips [n, 3] lie along a direction and the push against it, within the noise."""
     noise, ground = problem.noise, problem.ground
     spread = noise.velocity + size(problem.shape) * noise.angular_velocity
     along = push - (push @ ground.normal) * ground.normal

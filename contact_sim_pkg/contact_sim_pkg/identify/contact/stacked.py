@@ -1,10 +1,11 @@
 """Stacked nonlinear least squares with errors in all variables.
 
-Unknown are the state of every flight and the parameters. Samples are fitted, weighted by their noise; the balances of all
-contacts are kept exactly. Each flight is condensed by QR to its state, the states are eliminated through the balances, and
-what is left is a whitened regressor G of the parameters alone: rank, estimate and covariance come from its singular values.
-A Gauss-Newton step is exact least squares; velocity, spin, position and orientation all carry their noise, so that large
-noise does not pull the estimate down as a plain regression does.
+Unknown are the state of every flight and the parameters. Samples are fitted, weighted by their
+noise; the balances of all contacts are kept exactly. Each flight is condensed by QR to its state,
+the states are eliminated through the balances, and what is left is a whitened regressor G of the
+parameters alone: rank, estimate and covariance come from its singular values. A Gauss-Newton step
+is exact least squares; velocity, spin, position and orientation all carry their noise, so that
+large noise does not pull the estimate down as a plain regression does.
 """
 
 from __future__ import annotations
@@ -19,16 +20,16 @@ from contact_sim_pkg.identify.errors import IdentificationError
 from contact_sim_pkg.identify.motion.flight import FlightState, moved
 from contact_sim_pkg.identify.motion.linearised import DIVERGES, Linearised
 from contact_sim_pkg.identify.motion.rotation import Array
-from contact_sim_pkg.identify.problem import Problem, start_of
+from contact_sim_pkg.identify.problem import IdentificationProblem, start_of
 
-__all__ = ["Estimate", "estimate"]
+__all__ = ["ParameterEstimate", "estimate"]
 
 ITERATIONS = 40
 WILD = 1e3  # change of a state over the size of its kind: no fit of this motion
 CONVERGED = 1e-12  # last change of a parameter over its size
 
 
-class Estimate(NamedTuple):
+class ParameterEstimate(NamedTuple):
     """Parameters, flights and what is known of them."""
 
     parameters: Array  # [p]; where a direction is not identified, its start
@@ -48,7 +49,9 @@ class Estimate(NamedTuple):
     freedom: int  # equations beyond the unknowns, of which `misfit` is the mean
 
 
-def estimate(problem: Problem, start: Array, scale: Array, flights: list[FlightState] | None = None) -> Estimate:
+def estimate(
+    problem: IdentificationProblem, start: Array, scale: Array, flights: list[FlightState] | None = None
+) -> ParameterEstimate:
     """Fit flights and parameters.
 
     Args:
@@ -77,9 +80,11 @@ def estimate(problem: Problem, start: Array, scale: Array, flights: list[FlightS
             break
     linear = Linearised(problem, parameters, states, scale)
     spread, sensitivity = linear.state_covariance()
-    return Estimate(
-        parameters, linear.covariance(), linear.split, scale, states, linear.sides, spread, sensitivity,
-        linear.residuals, iterations, change < 1e-6, *linear.misfit(),
+    misfit, freedom = linear.misfit()
+    return ParameterEstimate(
+        parameters=parameters, covariance=linear.covariance(), directions=linear.split, scale=scale, flights=states,
+        sides=linear.sides, state_covariance=spread, state_by_parameters=sensitivity, residuals=linear.residuals,
+        iterations=iterations, converged=change < 1e-6, misfit=misfit, freedom=freedom,
     )  # fmt: skip
 
 

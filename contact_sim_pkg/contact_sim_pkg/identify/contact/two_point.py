@@ -1,6 +1,7 @@
-"""The cheap ways: one impact alone, two velocity samples, no noise model.
+"""The inexpensive methods: one impact alone, two velocity samples, no noise model.
 
-Source: Identifiability, eq 44 with the sign of its errata, and its form in space: `S a + h W x S W = R^T (r x pi)`.
+Source: Identifiability, eq 44 with the sign of its errata, and its form in space: `S a + h W x S W
+= R^T (r x pi)`.
 """
 
 from __future__ import annotations
@@ -18,7 +19,7 @@ __all__ = ["TwoPoint", "one_impact", "two_point"]
 
 
 class TwoPoint(NamedTuple):
-    """What one planar step tells."""
+    """Impulses over mass and m/J from one planar step."""
 
     normal: float  # c_n/m, [m/s]
     tangential: float  # c_t/m, [m/s]
@@ -40,7 +41,8 @@ def two_point(
         gravity: [m/s^2].
 
     Raises:
-        IdentificationError: the impulse passes through the centre of mass, so that it says nothing on the inertia.
+        IdentificationError: the impulse passes through the centre of mass, so that it says nothing
+        on the inertia.
     """
     tangential, normal = float(after[0] - before[0]), float(after[1] - before[1]) + passed * gravity
     moment = reach[0] * normal - reach[1] * tangential
@@ -59,7 +61,7 @@ def one_impact(
     passed: float = 0.0,
     gravity: float = 9.81,
 ) -> tuple[Array, int]:
-    """I0/m of smallest norm that fits one impact in space, by linear least squares, and how many of its six are told.
+    """I0/m of smallest norm that fits one impact in space, by linear least squares, and the number of its six that are identified.
 
     Args:
         rotation: body to world, [3, 3].

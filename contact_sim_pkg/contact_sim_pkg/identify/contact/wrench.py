@@ -1,4 +1,6 @@
-"""A known wrench on the body besides gravity and contact: a force at the centre of mass and a torque, in world axes."""
+"""A known wrench on the body besides gravity and contact: a force at the centre of mass and a
+torque, in world axes.
+"""
 
 from __future__ import annotations
 
@@ -76,7 +78,9 @@ def constant(force: ArrayLike | None = None, torque: ArrayLike | None = None) ->
 
 
 def sampled(time: Array, force: Array | None, torque: Array | None) -> ExternalWrench:
-    """Force and torque [n, 3] at `time` [n] in [s], linear between; IdentificationError where something is not finite."""
+    """Force and torque [n, 3] at `time` [n] in [s], linear between; IdentificationError where
+    something is not finite.
+    """
     if len(time) < 2 or not (numpy.diff(time) > 0.0).all():
         raise IdentificationError(f"a wrench over time needs two or more instants that grow; there are {len(time)}")
     return ExternalWrench(

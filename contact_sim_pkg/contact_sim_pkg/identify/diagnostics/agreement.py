@@ -1,10 +1,12 @@
-"""Contacts that agree with each other: the sum of squares that the best parameters leave, against its chi-square distribution.
+"""Contacts that agree with each other: the sum of squares that the best parameters leave, against
+its chi-square distribution.
 
-Where all contacts together leave more than noise explains, those are left out, one after the other, without which the least is
-left, until the others agree. More than half stay, with an equation beyond what they tell. Where more would have to go, all are
-used, and the contradiction is told. Where all of them fit nothing, half is enough, with SURE equations.
-One impact that was two within a sample is such a contact. Source: data snooping of geodesy, W. Baarda, A testing procedure for
-use in geodetic networks, 1968.
+Where all contacts together leave more than noise explains, those are left out, one after the other,
+without which the least is left, until the others agree. More than half stay, with an equation more
+than they determine. Where more would have to go, all are used, and the contradiction is reported.
+Where all of them fit nothing, half is enough, with SURE equations. One impact that was two within a
+sample is such a contact. Source: data snooping of geodesy, W. Baarda, A testing procedure for use
+in geodetic networks, 1968.
 """
 
 from __future__ import annotations
@@ -12,7 +14,7 @@ from __future__ import annotations
 import numpy
 from scipy.stats import chi2
 
-from contact_sim_pkg.identify.contact.stacked import Estimate
+from contact_sim_pkg.identify.contact.stacked import ParameterEstimate
 from contact_sim_pkg.identify.motion.linearised import Linearised
 
 __all__ = ["SLIGHT", "agreeing", "contradicts"]
@@ -22,8 +24,10 @@ SURE = 2  # equations left over by which half of the contacts agree: a single on
 SLIGHT = 1e-6  # standard deviation over the size of a parameter, contradictions counted, below which they do not matter
 
 
-def contradicts(found: Estimate) -> bool:
-    """Whether contacts and flights contradict each other by more than noise explains, and by so much that it matters."""
+def contradicts(found: ParameterEstimate) -> bool:
+    """Whether contacts and flights contradict each other by more than noise explains, and by so
+    much that it matters.
+    """
     if not found.freedom:
         return False
     spread = float((numpy.sqrt(numpy.diag(found.covariance)) / found.scale).max(initial=0.0))

@@ -1,9 +1,10 @@
 """Balance of angular momentum over one contact, divided by the mass, and its derivatives.
 
-`f = A2 w2 - A1 w1 - r x pi - h kappa tau`, A = R S R^T, `pi = v2 - v1 + h g z - h kappa F` the contact's impulse over the
-mass, r from the centre of mass to the contact. Impact: h = 0. Lasting contact: one step of length h; R1 and R2 are half
-a step before and after the mean rotation. A contact that lasts over several samples takes both rotations as they are and the
-moment of its impulses from `identify/sweep.py`: `f = A2 w2 - A1 w1 - r2 x pi + int r' x pi dt - h kappa tau`.
+`f = A2 w2 - A1 w1 - r x pi - h kappa tau`, A = R S R^T, `pi = v2 - v1 + h g z - h kappa F` the
+contact's impulse over the mass, r from the centre of mass to the contact. Impact: h = 0. Lasting
+contact: one step of length h; R1 and R2 are half a step before and after the mean rotation. A
+contact that lasts over several samples takes both rotations as they are and the moment of its
+impulses from `identify/sweep.py`: `f = A2 w2 - A1 w1 - r2 x pi + int r' x pi dt - h kappa tau`.
 Source: Identifiability, eqs 19-31 and 39, corrected: linear in S and kappa.
 """
 
@@ -13,16 +14,18 @@ from typing import NamedTuple
 
 import numpy
 
-from contact_sim_pkg.identify.geometry import UP, Ground, Shape, arm
-from contact_sim_pkg.identify.motion.flight import FlightState, Model
+from contact_sim_pkg.identify.geometry import UP, GroundPlane, Shape, arm
+from contact_sim_pkg.identify.motion.flight import FlightModel, FlightState
 from contact_sim_pkg.identify.motion.rotation import Array, angular_inertia, cross_matrix, exponential, mean
-from contact_sim_pkg.identify.problem import Sweep
+from contact_sim_pkg.identify.problem import ImpulseMoment
 
 __all__ = ["Balance", "Side", "balance", "impulse", "lasting_balance"]
 
 
 class Side(NamedTuple):
-    """The motion at one end of a contact, and its derivatives by the flight's state and by the parameters."""
+    """The motion at one end of a contact, and its derivatives by the flight's state and by the
+    parameters.
+    """
 
     state: FlightState
     by_state: Array  # [12, 12], or [12, k] by any other k numbers
@@ -38,7 +41,7 @@ class Balance(NamedTuple):
     by_parameters: Array  # [3, p]
 
 
-def impulse(before: FlightState, after: FlightState, inverse_mass: float, model: Model) -> Array:
+def impulse(before: FlightState, after: FlightState, inverse_mass: float, model: FlightModel) -> Array:
     """pi: impulse of the contact over the mass, [3] in [m/s]."""
     passed = after.time - before.time
     free = passed * model.gravity * UP - inverse_mass * model.wrench.push(before.time, after.time)
@@ -46,7 +49,7 @@ def impulse(before: FlightState, after: FlightState, inverse_mass: float, model:
 
 
 def balance(
-    before: Side, after: Side, parameters: Array, model: Model, shape: Shape, ground: Ground, point: int
+    before: Side, after: Side, parameters: Array, model: FlightModel, shape: Shape, ground: GroundPlane, point: int
 ) -> Balance:
     """The balance of one contact at `point` of the shape."""
     first, second = before.state, after.state
@@ -71,7 +74,14 @@ def balance(
 
 
 def lasting_balance(
-    before: Side, after: Side, parameters: Array, model: Model, shape: Shape, ground: Ground, point: int, swept: Sweep
+    before: Side,
+    after: Side,
+    parameters: Array,
+    model: FlightModel,
+    shape: Shape,
+    ground: GroundPlane,
+    point: int,
+    swept: ImpulseMoment,
 ) -> Balance:
     """The balance of one contact at `point` that lasts from `before` to `after`."""
     first, second = before.state, after.state
@@ -111,7 +121,9 @@ def _of_motion(sign: float, inertia: Array, spin: Array, reach: Array, turning: 
 def _by_motion(
     inertias: list[Array], spins: tuple[Array, Array], push: Array, lever: Array, reach: Array
 ) -> tuple[Array, Array]:
-    """Derivatives [3, 12] by the motion before and after; a small rotation of either turns the mean by half of it."""
+    """Derivatives [3, 12] by the motion before and after; a small rotation of either turns the mean
+    by half of it.
+    """
     turning = cross_matrix(push) @ -cross_matrix(lever)
     for sign, inertia, spin in ((-1.0, inertias[0], spins[0]), (1.0, inertias[1], spins[1])):
         turning = turning + sign * (inertia @ cross_matrix(spin) - cross_matrix(inertia @ spin))

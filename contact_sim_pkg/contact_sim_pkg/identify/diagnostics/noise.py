@@ -8,7 +8,7 @@ import numpy
 
 from contact_sim_pkg.identify.motion.rotation import Array, logarithm
 from contact_sim_pkg.identify.motion.segments import MEDIAN_OF_GAUSS, SHORTEST_FLIGHT
-from contact_sim_pkg.identify.motion.states import BodyStates, Noise
+from contact_sim_pkg.identify.motion.states import BodyStates, SampleNoise
 
 __all__ = ["first_guess", "from_residuals", "limited", "roundings", "sample_noise", "shared_rounding"]
 
@@ -22,10 +22,10 @@ FEWEST = 3  # different values that are multiples, such as the spins of three fl
 SECOND = numpy.sqrt(6.0)  # noise of a second difference over that of a value
 
 
-def first_guess(states: BodyStates) -> Noise:
+def first_guess(states: BodyStates) -> SampleNoise:
     """From medians of second differences, which impacts do not move; smooth motion adds to it."""
     if len(states.time) < 5:
-        return limited(Noise(0.0, 0.0, 0.0, 0.0), states)
+        return limited(SampleNoise(0.0, 0.0, 0.0, 0.0), states)
     turns = logarithm(states.rotation[1:] @ numpy.swapaxes(states.rotation[:-1], -1, -2))
     channels = (
         numpy.diff(states.position, n=2, axis=0), numpy.diff(turns, axis=0), numpy.diff(states.velocity, n=2, axis=0),
@@ -33,14 +33,16 @@ def first_guess(states: BodyStates) -> Noise:
     )  # fmt: skip
     steps = (_step(states.position), 0.0, _step(states.velocity), _step(states.angular_velocity))
     spreads = [max(_spread(channel), step / ROUNDED) for channel, step in zip(channels, steps, strict=True)]
-    return limited(Noise(*spreads), states)
+    return limited(SampleNoise(*spreads), states)
 
 
-def from_residuals(residuals: Sequence[Array], states: BodyStates) -> Noise:
-    """From what flights leave of their samples, [n, 12] in the order dx, dv, rotation, dw, and not less than their rounding.
+def from_residuals(residuals: Sequence[Array], states: BodyStates) -> SampleNoise:
+    """From what flights leave of their samples, [n, 12] in the order dx, dv, rotation, dw, and not
+    less than their rounding.
 
-    A component without noise of its own, as those out of a plane that a camera films, is not counted; nor are the single samples
-    of a contact that lasts: what its steps leave is the error of their rule (`identify/contact/lasting.py`).
+    A component without noise of its own, as those out of a plane that a camera films, is not
+    counted; nor are the single samples of a contact that lasts: what its steps leave is the error
+    of their rule (`identify/contact/lasting.py`).
     """
     flights = [rest for rest in residuals if len(rest) >= SHORTEST_FLIGHT]
     spreads, steps = [], (_step(states.position), _step(states.velocity), 0.0, _step(states.angular_velocity))
@@ -52,14 +54,15 @@ def from_residuals(residuals: Sequence[Array], states: BodyStates) -> Noise:
         spread = float(numpy.sqrt(total[noisy].mean() / free)) if free and noisy.any() else 0.0
         spreads.append(max(spread, steps[channel] / ROUNDED))
     position, velocity, rotation, angular_velocity = spreads
-    return limited(Noise(position, rotation, velocity, angular_velocity), states)
+    return limited(SampleNoise(position, rotation, velocity, angular_velocity), states)
 
 
-def limited(noise: Noise, states: BodyStates, floor: float = FLOOR) -> Noise:
-    """Not below `floor` times the largest value of each channel, that of rounding, nor below BESIDE the noise of the roughest.
+def limited(noise: SampleNoise, states: BodyStates, floor: float = FLOOR) -> SampleNoise:
+    """Not below `floor` times the largest value of each channel, that of rounding, nor below BESIDE
+    the noise of the roughest.
 
-    Rotations that are exact beside rounded spins would tell the ratios of the inertia so well that its size, which the spins tell,
-    would count as not told.
+    Rotations that are exact beside rounded spins would identify the ratios of the inertia so well
+    that its size, from the spins, would count as not identified.
     """
     largest = (
         float(abs(states.position).max()), 1.0, float(abs(states.velocity).max()),
@@ -67,21 +70,24 @@ def limited(noise: Noise, states: BodyStates, floor: float = FLOOR) -> Noise:
     )  # fmt: skip
     sizes = [size + 1e-3 for size in largest]
     least = max(floor, BESIDE * max(value / size for value, size in zip(noise, sizes, strict=True)))
-    return Noise(*(max(value, least * size) for value, size in zip(noise, sizes, strict=True)))
+    return SampleNoise(*(max(value, least * size) for value, size in zip(noise, sizes, strict=True)))
 
 
-def roundings(states: BodyStates) -> Noise:
-    """Standard deviations of the rounding of samples that are stored with few decimals or in single precision; 0 otherwise.
+def roundings(states: BodyStates) -> SampleNoise:
+    """Standard deviations of the rounding of samples that are stored with few decimals or in single
+    precision; 0 otherwise.
 
     Of rotations, which come from rounded quaternions, it is not seen.
     """
     channels = (states.position, states.velocity, states.angular_velocity)
     position, velocity, angular_velocity = (_step(values) / ROUNDED for values in channels)
-    return Noise(position, 0.0, velocity, angular_velocity)
+    return SampleNoise(position, 0.0, velocity, angular_velocity)
 
 
-def sample_noise(noise: Noise, rounding: Noise, states: BodyStates, run: slice) -> Array:
-    """Of each sample of a flight in the order dx, dv, rotation, dw, [12]; `noise`, or rounding where the samples share more."""
+def sample_noise(noise: SampleNoise, rounding: SampleNoise, states: BodyStates, run: slice) -> Array:
+    """Of each sample of a flight in the order dx, dv, rotation, dw, [12]; `noise`, or rounding
+    where the samples share more.
+    """
     place, speed, spin = (
         numpy.maximum(getattr(noise, name), shared_rounding(getattr(states, name)[run], getattr(rounding, name)))
         for name in ("position", "velocity", "angular_velocity")
@@ -90,11 +96,12 @@ def sample_noise(noise: Noise, rounding: Noise, states: BodyStates, run: slice) 
 
 
 def shared_rounding(values: Array, rounding: float) -> Array:
-    """What counts as noise of each of the samples [n, k] of a flight so that their mean is as uncertain as rounding leaves it, [k].
+    """What counts as noise of each of the samples [n, k] of a flight so that their mean is as
+    uncertain as rounding leaves it, [k].
 
-    Errors of rounding differ from sample to sample only where the increments of the rounded values do. A spin that is constant, or
-    a velocity that falls by whole steps, keeps one error for all n samples, r = 1: `rounding sqrt(n / r)`, r - 1 changes of
-    the increment.
+    Errors of rounding differ from sample to sample only where the increments of the rounded values
+    do. A spin that is constant, or a velocity that falls by whole steps, keeps one error for all n
+    samples, r = 1: `rounding sqrt(n / r)`, r - 1 changes of the increment.
     """
     if rounding == 0.0:
         return numpy.zeros(values.shape[1])
@@ -103,7 +110,8 @@ def shared_rounding(values: Array, rounding: float) -> Array:
 
 
 def _step(values: Array) -> float:
-    """Step of which all values are multiples: a power of ten, or that of single precision; 0 where there is none.
+    """Step of which all values are multiples: a power of ten, or that of single precision; 0 where
+    there is none.
 
     A channel counts that takes FEWEST values or more: of a constant anything is a multiple.
     """

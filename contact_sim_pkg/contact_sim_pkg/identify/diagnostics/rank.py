@@ -1,4 +1,6 @@
-"""Which combinations of parameters a set of measurements tells: singular values of the whitened, scaled regressor."""
+"""The combinations of parameters that measurements identify: singular values of the whitened,
+scaled regressor.
+"""
 
 from __future__ import annotations
 
@@ -30,10 +32,11 @@ class Split(NamedTuple):
 def split(regressor: Array, *, with_mass: bool) -> Split:
     """Directions that are identified and those that are not.
 
-    A direction counts as identified where its singular value is above 1e-8 of the largest, and its standard deviation
-    (one over the singular value) below the size of the parameters. The largest is that of its own kind: inertia and 1/m are
-    brought to one size first, since exact velocities may tell the mass 1e8 times better than rounded rotations tell the inertia.
-    That is allowed, for the rounding of a QR decomposition is that of each column.
+    A direction counts as identified where its singular value is above 1e-8 of the largest, and its
+    standard deviation (one over the singular value) below the size of the parameters. The largest
+    is that of its own kind: inertia and 1/m are brought to one size first, since exact velocities
+    may identify the mass 1e8 times better than rounded rotations the inertia. That is allowed, for
+    the rounding of a QR decomposition is that of each column.
 
     Args:
         regressor: [rows, p], each row of unit noise, each column times the size of its parameter.
@@ -42,9 +45,9 @@ def split(regressor: Array, *, with_mass: bool) -> Split:
     rows, count = regressor.shape
     if rows < count:
         regressor = numpy.concatenate([regressor, numpy.zeros((count - rows, count))])
-    told, hidden = _apart(regressor, _kinds(regressor, with_mass))
-    left, values, right = numpy.linalg.svd(regressor @ told.T, full_matrices=False)
-    directions, kept = right @ told, values > 1.0
+    visible, hidden = _separated(regressor, _kinds(regressor, with_mass))
+    left, values, right = numpy.linalg.svd(regressor @ visible.T, full_matrices=False)
+    directions, kept = right @ visible, values > 1.0
     return Split(directions[kept], values[kept], left[:rows, kept], numpy.concatenate([directions[~kept], hidden]))
 
 
@@ -56,8 +59,8 @@ def _kinds(regressor: Array, with_mass: bool) -> Array:
     return numpy.where(sizes > 0.0, sizes, 1.0)
 
 
-def _apart(regressor: Array, sizes: Array) -> tuple[Array, Array]:
-    """Orthonormal directions that the columns over their `sizes` tell, and the others, rows."""
+def _separated(regressor: Array, sizes: Array) -> tuple[Array, Array]:
+    """Orthonormal directions that the columns over their `sizes` determine, and the others, rows."""
     _, values, right = numpy.linalg.svd(regressor / sizes, full_matrices=False)
     silent = right[values <= SMALLEST * float(values.max(initial=0.0))] / sizes
     whole, _ = numpy.linalg.qr(silent.T, mode="complete")

@@ -1,4 +1,6 @@
-"""What speaks against the numbers of an identification: contradictions that noise does not explain, contacts that make no sense."""
+"""Consistency warnings of an identification: contradictions beyond noise, contacts that touch
+nothing.
+"""
 
 from __future__ import annotations
 
@@ -7,73 +9,80 @@ from collections.abc import Iterable
 
 import numpy
 
-from contact_sim_pkg.identify.contact.lasting import NO_FLIGHT
-from contact_sim_pkg.identify.contact.stacked import Estimate
+from contact_sim_pkg.identify.contact.stacked import ParameterEstimate
 from contact_sim_pkg.identify.diagnostics.agreement import SLIGHT, contradicts
 from contact_sim_pkg.identify.diagnostics.noise import first_guess, from_residuals
-from contact_sim_pkg.identify.diagnostics.notes import DISAGREES, TOUCHES_NOTHING
+from contact_sim_pkg.identify.diagnostics.notes import FREE_MOTION_MISSING, ContactNote, NoteKind
 from contact_sim_pkg.identify.diagnostics.possible import against_the_wrench, impossible
 from contact_sim_pkg.identify.geometry import size
 from contact_sim_pkg.identify.motion.free_fall import missing_acceleration
 from contact_sim_pkg.identify.motion.heights import mean_gap
 from contact_sim_pkg.identify.motion.turning import missing_spin_rate, spin_scale
-from contact_sim_pkg.identify.problem import Contact, Problem
+from contact_sim_pkg.identify.problem import ContactSpan, IdentificationProblem
 from contact_sim_pkg.identify.sweep import FEW
 
-__all__ = ["doubts"]
+__all__ = ["consistency_warnings"]
 
 SIGMAS = 5.0  # how far from zero a mean of all flights or impacts
 LEAST_SCALE = 1e-5  # of the spin: less is that of stamps which were rounded
 SMOOTH = 5.0  # times the noise of neighbouring samples: what flights leave is no noise
 
 
-def doubts(found: Estimate, notes: Iterable[str], problem: Problem) -> list[str]:
-    """One sentence each; none where everything fits.
+def consistency_warnings(
+    found: ParameterEstimate, notes: Iterable[ContactNote], problem: IdentificationProblem
+) -> list[str]:
+    """One sentence for each inconsistency; none where everything fits.
 
     Args:
         found: the estimate.
         notes: of the contacts that are not used.
-        problem: that it answers.
+        problem: the problem that it solves.
     """
-    told, notes = [], list(notes)
+    warnings, kinds = [], [note.kind for note in notes]
+    # The fit as a whole: convergence, misfit, sign of the mass, possible inertia.
     if not found.converged:
-        told.append("the search has not converged: the numbers are not to be trusted")
+        warnings.append("the search has not converged: the numbers are not to be trusted")
     if contradicts(found):
         friction = ", the friction coefficient" if any(contact.slides for contact in problem.contacts) else ""
-        told.append(
+        warnings.append(
             f"contacts and flights contradict each other by {found.misfit:.3g} times what the noise explains: check the shape, the "
             f"ground, gravity, the wrench{friction}, the stamps and the noise; the standard deviations are too small"
         )
     if against_the_wrench(found, problem):
-        told.append(
+        warnings.append(
             f"the body moves against the known wrench, as if 1/m were {found.parameters[-1]:.3g} 1/kg: check the sign of the "
             "wrench, its axes and its stamps"
         )
-    told += impossible(found, problem)
-    told += [*_falling(found, problem), *_turning(found, problem), *_above(found, problem)]
+    warnings += impossible(found, problem)
+    warnings += [*_falling(found, problem), *_turning(found, problem), *_above(found, problem)]
+    # Single contacts: too few samples, nothing touched, contradictions.
     short = [contact for contact in problem.contacts if _hidden(contact, problem)]
     if short:
         longest = 1e3 * max(contact.end - contact.begin for contact in short)
-        told.append(
+        warnings.append(
             f"{len(short)} contacts last up to {longest:.2g} ms with fewer than {len(FEW)} samples each, so that the course of "
             "their force is open: record faster if the contact is soft, check ground and shape if it is not"
         )
-    nothing = sum(note.startswith(TOUCHES_NOTHING) for note in notes)
+    nothing = kinds.count(NoteKind.NOTHING_TOUCHED)
     if nothing:
-        told.append(f"{nothing} contacts touch nothing known: check the shape, its axes, and the ground")
-    alone = sum(note.startswith(DISAGREES) for note in notes)
+        warnings.append(f"{nothing} contacts touch no known surface: check the shape, its axes, and the ground")
+    alone = kinds.count(NoteKind.CONTRADICTS)
     if alone:
-        told.append(
+        warnings.append(
             f"{alone} contacts contradict the others and are left out: two impacts taken as one? See their notes"
         )
-    strange = sum(note.startswith(NO_FLIGHT) for note in notes)
+    strange = sum(kind in FREE_MOTION_MISSING for kind in kinds)
     if strange:
-        told.append("the body does not move as a free one where it is off the ground: see the notes of the contacts")
-    return told
+        warnings.append(
+            "the body does not move as a free one where it is off the ground: see the notes of the contacts"
+        )
+    return warnings
 
 
-def _falling(found: Estimate, problem: Problem) -> list[str]:
-    """Flights that do not fall as gravity and wrench say: all of them by the same, or by more than neighbouring samples differ."""
+def _falling(found: ParameterEstimate, problem: IdentificationProblem) -> list[str]:
+    """Flights that do not fall as gravity and wrench say: all of them by the same, or by more than
+    neighbouring samples differ.
+    """
     fastest = float(abs(problem.states.velocity).max())
     missing = missing_acceleration(found, problem)
     length = float(numpy.linalg.norm(missing.value))
@@ -95,8 +104,10 @@ def _falling(found: Estimate, problem: Problem) -> list[str]:
     return []
 
 
-def _turning(found: Estimate, problem: Problem) -> list[str]:
-    """Flights whose rotation and spin contradict each other, or what inertia and torque make of them."""
+def _turning(found: ParameterEstimate, problem: IdentificationProblem) -> list[str]:
+    """Flights whose rotation and spin contradict each other, or what inertia and torque make of
+    them.
+    """
     scale = spin_scale(found, problem)
     if abs(scale.excess) > max(SIGMAS * scale.deviation, LEAST_SCALE):
         line = (
@@ -132,7 +143,7 @@ def _factor(excess: float) -> str:
     return f"{1.0 + excess:.{places}f}"
 
 
-def _above(found: Estimate, problem: Problem) -> list[str]:
+def _above(found: ParameterEstimate, problem: IdentificationProblem) -> list[str]:
     """Impacts that happen above or below the ground."""
     gap = mean_gap(found, problem)
     if abs(gap.value) <= SIGMAS * gap.deviation:
@@ -145,7 +156,7 @@ def _above(found: Estimate, problem: Problem) -> list[str]:
     return [line]
 
 
-def _hidden(contact: Contact, problem: Problem) -> bool:
+def _hidden(contact: ContactSpan, problem: IdentificationProblem) -> bool:
     """Whether a contact lasts, and too few samples tell how."""
     swept = contact.sweep
     if swept is None or swept.samples >= len(FEW):

@@ -1,7 +1,9 @@
-"""Samples that no motion has: a jump of position or rotation that the velocities do not explain, a velocity that they deny.
+"""Samples that no motion has: a jump of position or rotation that the velocities do not explain, a
+velocity that they deny.
 
-Impacts change velocities at once, never positions. From sample to sample a body goes ``(v_i + v_{i+1}) dt/2``, but for at most
-``|v_{i+1} - v_i| dt/2`` where the change comes early or late in the step. Rotations likewise, with angular velocities.
+Impacts change velocities at once, never positions. From sample to sample a body goes ``(v_i +
+v_{i+1}) dt/2``, but for at most ``|v_{i+1} - v_i| dt/2`` where the change comes early or late in
+the step. Rotations likewise, with angular velocities.
 """
 
 from __future__ import annotations
@@ -10,7 +12,7 @@ import numpy
 
 from contact_sim_pkg.identify.errors import IdentificationError
 from contact_sim_pkg.identify.motion.rotation import Array, logarithm
-from contact_sim_pkg.identify.motion.states import BodyStates, Noise
+from contact_sim_pkg.identify.motion.states import BodyStates, SampleNoise
 
 __all__ = ["refuse_jumps"]
 
@@ -21,11 +23,12 @@ ALONE = 100.0  # times the median step: a first or last sample so far off has a 
 LEAST = 1e-3  # of the span of a channel, which rounding of samples at rest may reach
 LEAST_TURN = 0.01  # [rad], likewise
 WIDEST_STEP = 5.0  # times the median step: over a gap anything may have happened
-WIDEST_TURN = 1.0  # [rad] in a step: above, the turns are not told apart
+WIDEST_TURN = 1.0  # [rad] in a step: above, rotations are ambiguous
 
 
-def refuse_jumps(states: BodyStates, noise: Noise, gravity: float) -> None:
-    """Raise IdentificationError for the worst sample that no motion has, by channel, number, time and size.
+def refuse_jumps(states: BodyStates, noise: SampleNoise, gravity: float) -> None:
+    """Raise IdentificationError for the worst sample that no motion has, by channel, number, time
+    and size.
 
     Args:
         states: checked.
@@ -39,9 +42,25 @@ def refuse_jumps(states: BodyStates, noise: Noise, gravity: float) -> None:
     places = numpy.diff(states.position, axis=0)
     _refuse_lone_velocity("velocity", "m/s", states.time, places, states.velocity, noise[0], noise[2])
     _refuse_lone_velocity("angular velocity", "rad/s", states.time, turns, states.angular_velocity, noise[1], noise[3])
-    _refuse("position", "m", states.time, places, states.velocity, noise[0], noise[2], slack)
     _refuse(
-        "rotation", "rad", states.time, turns, states.angular_velocity, noise[1], noise[3], LEAST_TURN + 0.0 * slack
+        name="position",
+        unit="m",
+        time=states.time,
+        gone=places,
+        speed=states.velocity,
+        noise=noise[0],
+        speed_noise=noise[2],
+        slack=slack,
+    )
+    _refuse(
+        name="rotation",
+        unit="rad",
+        time=states.time,
+        gone=turns,
+        speed=states.angular_velocity,
+        noise=noise[1],
+        speed_noise=noise[3],
+        slack=LEAST_TURN + 0.0 * slack,
     )
 
 
@@ -51,7 +70,7 @@ def _refuse_lone_stamp(time: Array, steps: Array) -> None:
         if step > ALONE * usual:
             raise IdentificationError(
                 f"sample {sample} (t = {time[sample]:.6g} s) lies {step:.4g} s {side} the others, which are {usual:.3g} s "
-                "apart: its stamp is wrong; correct it or take the sample out"
+                "from each other: its stamp is wrong; correct it or remove the sample"
             )
 
 
@@ -66,21 +85,23 @@ def _refuse(
     nearby = _widest(change, 2)
     size = numpy.maximum(fastest[1:], fastest[:-1])
     allowed = (CHANGES * nearby + SHARE * size) * steps + slack + SIGMAS * (noise + speed_noise * steps)
-    told_apart = steps <= WIDEST_STEP * numpy.median(steps)
+    comparable = steps <= WIDEST_STEP * numpy.median(steps)
     if unit == "rad":
-        told_apart &= size * steps < WIDEST_TURN
-    worst = int(numpy.argmax(numpy.where(told_apart, off / numpy.maximum(allowed, 1e-300), 0.0)))
-    if told_apart[worst] and off[worst] > allowed[worst]:
+        comparable &= size * steps < WIDEST_TURN
+    worst = int(numpy.argmax(numpy.where(comparable, off / numpy.maximum(allowed, 1e-300), 0.0)))
+    if comparable[worst] and off[worst] > allowed[worst]:
         raise IdentificationError(
             f"the {name} jumps by {off[worst]:.3g} {unit} between samples {worst} and {worst + 1} (t = {time[worst]:.6g} s), where "
-            f"the velocities leave room for {allowed[worst]:.2g} {unit}: a sample or a stamp is wrong; take it out or correct it"
+            f"the velocities leave room for {allowed[worst]:.2g} {unit}: a sample or a stamp is wrong; remove or correct it"
         )
 
 
 def _refuse_lone_velocity(
     name: str, unit: str, time: Array, gone: Array, speed: Array, noise: float, speed_noise: float
 ) -> None:
-    """A velocity unlike both its neighbours, while the body goes from the one to the other as they say."""
+    """A velocity unlike both its neighbours, while the body goes from the one to the other as they
+    say.
+    """
     lone = speed[1:-1] - 0.5 * (speed[:-2] + speed[2:])
     span = time[2:] - time[:-2]
     denied = numpy.linalg.norm(gone[1:] + gone[:-1] - 0.5 * (speed[:-2] + speed[2:]) * span[:, None], axis=1)
@@ -91,7 +112,7 @@ def _refuse_lone_velocity(
         worst = int(numpy.argmax(numpy.where(wrong, size, 0.0)))
         raise IdentificationError(
             f"the {name} of sample {worst + 1} (t = {time[worst + 1]:.6g} s) is {size[worst]:.3g} {unit} off both its neighbours, "
-            "and the body does not move so: the sample is wrong; take it out or correct it"
+            "and the body does not move so: the sample is wrong; remove or correct it"
         )
 
 

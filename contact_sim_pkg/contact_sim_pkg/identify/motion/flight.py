@@ -1,7 +1,9 @@
-"""One flight: state at its first sample, its motion at any time, and how that depends on state and parameters.
+"""One flight: state at its first sample, its motion at any time, and how that depends on state and
+parameters.
 
 State: (position, velocity, rotation, angular velocity) in world axes; a change of it is 12 numbers
-(dx, dv, small rotation in world axes, dw). Parameters p: I0/m = sum p_i E_i, then 1/m where a wrench is known.
+(dx, dv, small rotation in world axes, dw). Parameters p: I0/m = sum p_i E_i, then 1/m where a
+wrench is known.
 """
 
 from __future__ import annotations
@@ -15,12 +17,12 @@ from contact_sim_pkg.identify.geometry import UP
 from contact_sim_pkg.identify.motion.rotation import Array, exponential, logarithm
 from contact_sim_pkg.identify.motion.spin import spin_rate, turn
 
-__all__ = ["FlightState", "Model", "Motion", "motion", "moved", "plain_motion", "rates", "state_at"]
+__all__ = ["FlightModel", "FlightMotion", "FlightState", "motion", "moved", "plain_motion", "rates", "state_at"]
 
-STEP = 3e-6  # of the central differences, in [rad] and relative: errors of 1e-10, below what the rank test asks for
+STEP = 3e-6  # of the central differences, in [rad] and relative: errors of 1e-10, below the threshold of the rank test
 
 
-class Model(NamedTuple):
+class FlightModel(NamedTuple):
     """What a flight needs besides its state."""
 
     basis: Array  # E_i, [q, 3, 3]
@@ -39,7 +41,7 @@ class Model(NamedTuple):
         return inertia
 
     def inverse_mass(self, parameters: Array) -> float:
-        """1/m in [1/kg]; 0 where there is no wrench that could tell."""
+        """1/m in [1/kg]; 0 where there is no wrench that could identify it."""
         return float(parameters[-1]) if self.with_mass else 0.0
 
 
@@ -53,7 +55,7 @@ class FlightState(NamedTuple):
     angular_velocity: Array  # [3]
 
 
-class Motion(NamedTuple):
+class FlightMotion(NamedTuple):
     """Motion at n instants and its derivatives, rows in the order dx, dv, rotation, dw."""
 
     position: Array  # [n, 3]
@@ -74,7 +76,7 @@ def moved(state: FlightState, change: Array) -> FlightState:
 
 
 def plain_motion(
-    state: FlightState, parameters: Array, model: Model, times: Array
+    state: FlightState, parameters: Array, model: FlightModel, times: Array
 ) -> tuple[Array, Array, Array, Array]:
     """Position, velocity, rotation and angular velocity at the times, without derivatives."""
     position, velocity = _path(state, model.inverse_mass(parameters), model, times)
@@ -85,14 +87,16 @@ def plain_motion(
     return position, velocity, rotation[0], angular_velocity[0]
 
 
-def state_at(state: FlightState, parameters: Array, model: Model, time: float) -> FlightState:
+def state_at(state: FlightState, parameters: Array, model: FlightModel, time: float) -> FlightState:
     """The state of a flight at another instant."""
     position, velocity, rotation, spin = plain_motion(state, parameters, model, numpy.array([time]))
     return FlightState(time, position[0], velocity[0], rotation[0], spin[0])
 
 
-def rates(state: FlightState, parameters: Array, model: Model) -> Array:
-    """How fast a flight changes at its state: (v, kappa F - g z, w, w'), [12] per second, in the order of a change."""
+def rates(state: FlightState, parameters: Array, model: FlightModel) -> Array:
+    """How fast a flight changes at its state: (v, kappa F - g z, w, w'), [12] per second, in the
+    order of a change.
+    """
     wrench, inverse_mass, at = model.wrench, model.inverse_mass(parameters), numpy.array([state.time])
     force = numpy.zeros(3) if wrench.force is None else numpy.asarray(wrench.force.value(at))[0]
     moment = inverse_mass * wrench.torque_at(at)[0]
@@ -101,7 +105,7 @@ def rates(state: FlightState, parameters: Array, model: Model) -> Array:
     return numpy.concatenate([state.velocity, fall, state.angular_velocity, turning])
 
 
-def motion(state: FlightState, parameters: Array, scale: Array, model: Model, times: Array) -> Motion:
+def motion(state: FlightState, parameters: Array, scale: Array, model: FlightModel, times: Array) -> FlightMotion:
     """Motion and derivatives; `scale` [p] is the size of each parameter."""
     if not (times != state.time).any():
         return _standing(state, model, len(times))
@@ -121,14 +125,15 @@ def motion(state: FlightState, parameters: Array, scale: Array, model: Model, ti
     if model.with_mass:
         by_parameters[:, :3, -1] = model.wrench.shift(state.time, times)
         by_parameters[:, 3:6, -1] = model.wrench.push(state.time, times)
-    return Motion(position, velocity, rotation[0], angular_velocity[0], by_state, by_parameters)
+    return FlightMotion(position, velocity, rotation[0], angular_velocity[0], by_state, by_parameters)
 
 
-def _without_size(turning: Array, parameters: Array, scale: Array, model: Model) -> Array:
-    """Derivatives of rotation and spin [n, 6, p] by the parameters: the sizes of I0 and m together leave the turn as it is.
+def _without_size(turning: Array, parameters: Array, scale: Array, model: FlightModel) -> Array:
+    """Derivatives of rotation and spin [n, 6, p] by the parameters: the sizes of I0 and m together
+    leave the turn as it is.
 
-    By Euler's theorem `sum p_i d/dp_i = 0`, without a torque for I0/m alone: what rounding leaves of that is taken out, as it would
-    tell a size that no flight tells.
+    By Euler's theorem `sum p_i d/dp_i = 0`, without a torque for I0/m alone: what rounding leaves
+    of that is taken out, as it would identify a size that no flight identifies.
     """
     ray: Array = parameters.copy()
     if model.wrench.torque is None:
@@ -138,15 +143,17 @@ def _without_size(turning: Array, parameters: Array, scale: Array, model: Model)
     return numpy.asarray(turning - (turning @ ray)[..., None] * weights / (ray @ weights))
 
 
-def _standing(state: FlightState, model: Model, samples: int) -> Motion:
+def _standing(state: FlightState, model: FlightModel, samples: int) -> FlightMotion:
     """The state itself, for flights of a single instant."""
     fields = [numpy.repeat(field[None], samples, axis=0) for field in state[1:]]
     position, velocity, rotation, angular_velocity = fields
     by_state = numpy.repeat(numpy.eye(12)[None], samples, axis=0)
-    return Motion(position, velocity, rotation, angular_velocity, by_state, numpy.zeros((samples, 12, model.unknowns)))
+    return FlightMotion(
+        position, velocity, rotation, angular_velocity, by_state, numpy.zeros((samples, 12, model.unknowns))
+    )
 
 
-def _path(state: FlightState, inverse_mass: float, model: Model, times: Array) -> tuple[Array, Array]:
+def _path(state: FlightState, inverse_mass: float, model: FlightModel, times: Array) -> tuple[Array, Array]:
     """Position and velocity of the centre of mass under gravity and the known force."""
     passed = (times - state.time)[:, None]
     fall = model.gravity * UP
@@ -156,9 +163,11 @@ def _path(state: FlightState, inverse_mass: float, model: Model, times: Array) -
 
 
 def _copies(
-    state: FlightState, parameters: Array, scale: Array, model: Model, times: Array
+    state: FlightState, parameters: Array, scale: Array, model: FlightModel, times: Array
 ) -> tuple[Array, Array, Array]:
-    """The motion, then its 6 + p copies perturbed ahead, then behind; and the size of each perturbation."""
+    """The motion, then its 6 + p copies perturbed ahead, then behind; and the size of each
+    perturbation.
+    """
     speed = STEP * max(1.0, float(numpy.linalg.norm(state.angular_velocity)))
     steps = numpy.concatenate([numpy.full(3, STEP), numpy.full(3, speed), STEP * scale])
     moves = numpy.concatenate([numpy.zeros((1, len(steps))), numpy.diag(steps), -numpy.diag(steps)])

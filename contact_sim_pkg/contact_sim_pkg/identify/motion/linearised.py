@@ -1,7 +1,8 @@
-"""The stacked problem linearised at parameters and states: each flight condensed, the balances of all contacts whitened.
+"""The stacked problem linearised at parameters and states: each flight condensed, the balances of
+all contacts whitened.
 
-Each flight is condensed by QR to its state, the states are eliminated through the balances, and what is left is a whitened
-regressor G of the parameters alone.
+Each flight is condensed by QR to its state, the states are eliminated through the balances, and
+what is left is a whitened regressor G of the parameters alone.
 """
 
 from __future__ import annotations
@@ -19,9 +20,9 @@ from contact_sim_pkg.identify.diagnostics.balance import Balance, Side, balance,
 from contact_sim_pkg.identify.diagnostics.noise import sample_noise
 from contact_sim_pkg.identify.diagnostics.rank import Split, split
 from contact_sim_pkg.identify.errors import IdentificationError
-from contact_sim_pkg.identify.motion.flight import FlightState, Motion, motion
+from contact_sim_pkg.identify.motion.flight import FlightMotion, FlightState, motion
 from contact_sim_pkg.identify.motion.rotation import Array, logarithm
-from contact_sim_pkg.identify.problem import Contact, Problem
+from contact_sim_pkg.identify.problem import ContactSpan, IdentificationProblem
 
 __all__ = ["DIVERGES", "Linearised"]
 
@@ -34,7 +35,9 @@ DIVERGES = (
 
 
 class _Balances(NamedTuple):
-    """Balances before they are whitened: `errors e + regressor dp = rest`, e the errors of all states and sweeps."""
+    """Balances before they are whitened: `errors e + regressor dp = rest`, e the errors of all
+    states and sweeps.
+    """
 
     errors: Array
     regressor: Array
@@ -42,7 +45,9 @@ class _Balances(NamedTuple):
 
 
 class _Condensed(NamedTuple):
-    """One flight after QR: `triangle dz + coupling dp = rest` and `tail dp = tail_rest`, unit noise."""
+    """One flight after QR: `triangle dz + coupling dp = rest` and `tail dp = tail_rest`, unit
+    noise.
+    """
 
     triangle: Array  # [12, 12]
     coupling: Array  # [12, p]
@@ -54,7 +59,9 @@ class _Condensed(NamedTuple):
 class Linearised:
     """The problem linearised at parameters and states."""
 
-    def __init__(self, problem: Problem, parameters: Array, states: list[FlightState], scale: Array) -> None:
+    def __init__(
+        self, problem: IdentificationProblem, parameters: Array, states: list[FlightState], scale: Array
+    ) -> None:
         self.problem, self.parameters, self.scale = problem, parameters, scale
         self.residuals: list[Array] = []
         self._condensed: list[_Condensed] = []
@@ -87,7 +94,9 @@ class Linearised:
         return numpy.asarray(root @ root.T)
 
     def state_covariance(self) -> tuple[Array, Array]:
-        """Covariance of all states at given parameters, and how an error of the parameters moves them."""
+        """Covariance of all states at given parameters, and how an error of the parameters moves
+        them.
+        """
         inverse = block_diag(*(numpy.linalg.inv(flight.triangle) for flight in self._condensed))
         white = self._white[:, : len(inverse)]
         kept = numpy.eye(len(inverse)) - white.T @ white
@@ -95,18 +104,22 @@ class Linearised:
         return inverse @ kept @ inverse.T, -inverse @ (coupling + white.T @ self._white_regressor)
 
     def misfit(self) -> tuple[float, int]:
-        """Root mean square of what the parameters leave of all balances and flights, and how many equations are left over."""
+        """Root mean square of what the parameters leave of all balances and flights, and how many
+        equations are left over.
+        """
         square, freedom = self._left(self._white_rest, self.split.rank)
         return float(numpy.sqrt(square / freedom)) if freedom else 0.0, freedom
 
     def redundancy(self, contacts: Sequence[int]) -> int:
-        """Equations of these contacts beyond the directions that they add to what the flights tell."""
+        """Equations of these contacts beyond the directions that they add to those of the flights."""
         _, regressor, rest = self._whitened(contacts)
         alone, together = (self._split(self._with_flights(part, rest)[0]) for part in (regressor[:0], regressor))
         return len(rest) - (together.rank - alone.rank)
 
     def contradiction(self, contacts: Sequence[int]) -> tuple[float, int]:
-        """Sum of squares that the best parameters would leave, were these the only contacts, and the equations left over."""
+        """Sum of squares that the best parameters would leave, were these the only contacts, and
+        the equations left over.
+        """
         _, regressor, rest = self._whitened(contacts)
         together, all_rest = self._with_flights(regressor, rest)
         kept = self._split(together)
@@ -120,7 +133,8 @@ class Linearised:
     def _left(self, rest: Array, rank: int) -> tuple[float, int]:
         """Sum of the squares of balances and flights, and their number beyond `rank`.
 
-        The last row of a flight's triangle is the noise of its samples, whatever the parameters are: it does not count.
+        The last row of a flight's triangle is the noise of its samples, whatever the parameters
+        are: it does not count.
         """
         square, rows = float(rest @ rest), len(rest)
         for flight in self._condensed:
@@ -128,7 +142,7 @@ class Linearised:
             rows += max(0, len(flight.tail_rest) - 1)
         return square, max(0, rows - rank)
 
-    def _flight(self, number: int, state: FlightState, links: Array) -> Motion:
+    def _flight(self, number: int, state: FlightState, links: Array) -> FlightMotion:
         """Condense a flight; its motion at the times of its contacts."""
         problem = self.problem
         first, last = problem.flights[number]
@@ -139,17 +153,19 @@ class Linearised:
             sorted_motion = motion(state, self.parameters, self.scale, problem.model, times[order])
         if not all(numpy.isfinite(field).all() for field in sorted_motion):
             raise IdentificationError(DIVERGES)
-        whole = Motion(*(field[back] for field in sorted_motion))
+        whole = FlightMotion(*(field[back] for field in sorted_motion))
         count = last - first + 1
         rest = _measured(problem, first, last, whole)
         self.residuals.append(rest)
         noise = problem.step_noise if first == last and problem.step_noise is not None else problem.noise
         weights = 1.0 / sample_noise(noise, problem.rounding, problem.states, slice(first, last + 1))
         self._condensed.append(_condensed(whole, rest, weights, standing=not (times != state.time).any()))
-        return Motion(*(field[count:] for field in whole))
+        return FlightMotion(*(field[count:] for field in whole))
 
     def _contacts(self) -> tuple[list[slice], _Balances]:
-        """The balances of all contacts by the errors of all states, then by those of each balance whose contact lasts."""
+        """The balances of all contacts by the errors of all states, then by those of each balance
+        whose contact lasts.
+        """
         problem = self.problem
         balances = [
             _balance(problem, contact, sides, self.parameters)
@@ -172,7 +188,9 @@ class Linearised:
         return lines, _Balances(errors, regressor, rest)
 
     def _whitened(self, contacts: Sequence[int]) -> _Balances:
-        """Balances of these contacts as `white e + regressor dp = rest`, rows of `white` orthonormal; e the errors."""
+        """Balances of these contacts as `white e + regressor dp = rest`, rows of `white`
+        orthonormal; e the errors.
+        """
         chosen = [line for number in contacts for line in range(self._lines[number].start, self._lines[number].stop)]
         errors, regressor, rest = (part[chosen] for part in self._balances)
         if not len(chosen):
@@ -189,7 +207,7 @@ class Linearised:
             numpy.concatenate([rest, *(flight.tail_rest for flight in self._condensed)]),
         )
 
-    def _eliminate(self, contact: Contact, found: Balance, errors: Array, regressor: Array, rest: Array) -> None:
+    def _eliminate(self, contact: ContactSpan, found: Balance, errors: Array, regressor: Array, rest: Array) -> None:
         """Put one balance into its rows, the states replaced by those of the flights."""
         regressor += found.by_parameters
         rest -= found.value
@@ -201,7 +219,9 @@ class Linearised:
             rest -= through @ flight.rest
 
 
-def _balance(problem: Problem, contact: Contact, sides: tuple[Side, Side], parameters: Array) -> Balance:
+def _balance(
+    problem: IdentificationProblem, contact: ContactSpan, sides: tuple[Side, Side], parameters: Array
+) -> Balance:
     """What a contact says: of the moment, of the known friction, or of both, one below the other."""
     parts = []
     if contact.turns:
@@ -214,7 +234,7 @@ def _balance(problem: Problem, contact: Contact, sides: tuple[Side, Side], param
     return Balance(*(numpy.concatenate(fields) for fields in zip(*parts, strict=True)))
 
 
-def _condensed(whole: Motion, rest: Array, weights: Array, *, standing: bool) -> _Condensed:
+def _condensed(whole: FlightMotion, rest: Array, weights: Array, *, standing: bool) -> _Condensed:
     """QR of a flight's samples; a single sample that is the state itself needs none."""
     count, unknowns = len(rest), whole.by_parameters.shape[2]
     if standing and count == 1:
@@ -233,7 +253,7 @@ def _triangle(rows: Array) -> Array:
     return numpy.asarray(numpy.linalg.qr(rows, mode="r"))
 
 
-def _measured(problem: Problem, first: int, last: int, predicted: Motion) -> Array:
+def _measured(problem: IdentificationProblem, first: int, last: int, predicted: FlightMotion) -> Array:
     """Measured minus predicted, [n, 12] in the order dx, dv, rotation, dw."""
     chosen, count = slice(first, last + 1), last - first + 1
     states = problem.states
@@ -247,7 +267,7 @@ def _measured(problem: Problem, first: int, last: int, predicted: Motion) -> Arr
     return numpy.concatenate(parts, axis=1)
 
 
-def _link_times(problem: Problem) -> list[Array]:
+def _link_times(problem: IdentificationProblem) -> list[Array]:
     """Times of the contacts of each flight: those that end it, then those that begin it."""
     found: list[list[float]] = [[] for _ in problem.flights]
     for contact in problem.contacts:
@@ -256,7 +276,7 @@ def _link_times(problem: Problem) -> list[Array]:
     return [numpy.array(sorted(set(times))) for times in found]
 
 
-def _sides(contact: Contact, motions: list[Motion], links: list[Array]) -> tuple[Side, Side]:
+def _sides(contact: ContactSpan, motions: list[FlightMotion], links: list[Array]) -> tuple[Side, Side]:
     sides = []
     for number, time in ((contact.before, contact.begin), (contact.after, contact.end)):
         at = motions[number]

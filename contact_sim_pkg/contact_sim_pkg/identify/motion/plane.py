@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import numpy
 
-from contact_sim_pkg.identify.geometry import Ground
+from contact_sim_pkg.identify.geometry import GroundPlane
 from contact_sim_pkg.identify.motion.rotation import Array
-from contact_sim_pkg.identify.motion.states import BodyStates, Noise
+from contact_sim_pkg.identify.motion.states import BodyStates, SampleNoise
 
 __all__ = ["body_axis", "plane_of_motion"]
 
@@ -15,10 +15,12 @@ FLOOR = 1e-9  # of the largest speed
 LEVEL = 1e-6  # allowed component of the axis along the ground's normal
 
 
-def plane_of_motion(states: BodyStates, ground: Ground, noise: Noise) -> Array | None:
-    """Normal of the plane in world axes [3], its largest component positive; None where the motion is spatial.
+def plane_of_motion(states: BodyStates, ground: GroundPlane, noise: SampleNoise) -> Array | None:
+    """Normal of the plane in world axes [3], its largest component positive; None where the motion
+    is spatial.
 
-    In a plane the spin keeps one axis, level with the ground, and the speed along that axis never changes.
+    In a plane the spin keeps one axis, level with the ground, and the speed along that axis never
+    changes.
     """
     spins = states.angular_velocity
     _, values, axes = numpy.linalg.svd(spins / numpy.sqrt(len(spins)), full_matrices=False)
@@ -33,13 +35,13 @@ def plane_of_motion(states: BodyStates, ground: Ground, noise: Noise) -> Array |
     return _named(axis, SIGMAS * noise.angular_velocity / float(values[0])) if straight and kept and level else None
 
 
-def body_axis(states: BodyStates, axis: Array, noise: Noise) -> Array:
+def body_axis(states: BodyStates, axis: Array, noise: SampleNoise) -> Array:
     """The normal of the plane in body axes [3]: the mean over all samples."""
     mean = numpy.einsum("nji,j->i", states.rotation, axis)
     return _named(mean / numpy.linalg.norm(mean), SIGMAS * noise.rotation)
 
 
-def _named(axis: Array, doubt: float) -> Array:
-    """A coordinate axis where one lies within the doubt, else the axis as it is."""
+def _named(axis: Array, angle_error: float) -> Array:
+    """A coordinate axis where one lies within ``angle_error`` [rad], else the axis as it is."""
     nearest = numpy.round(axis)
-    return nearest if float(numpy.linalg.norm(axis - nearest)) <= max(doubt, 1e-9) else axis
+    return nearest if float(numpy.linalg.norm(axis - nearest)) <= max(angle_error, 1e-9) else axis

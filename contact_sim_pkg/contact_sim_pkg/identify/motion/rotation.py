@@ -28,7 +28,8 @@ def exponential(vector: Array) -> Array:
 def logarithm(matrix: Array) -> Array:
     """Rotation vectors in [rad], at most pi long, of rotations [..., 3, 3]: [..., 3].
 
-    From the antisymmetric part up to 2 rad; scipy does the larger ones, where that part loses its digits.
+    From the antisymmetric part up to 2 rad; scipy does the larger ones, where that part loses its
+    digits.
     """
     sines = 0.5 * (matrix[..., [2, 0, 1], [1, 2, 0]] - matrix[..., [1, 2, 0], [2, 0, 1]])
     sine, cosine = numpy.sqrt(numpy.sum(sines * sines, axis=-1)), 0.5 * (numpy.trace(matrix, axis1=-2, axis2=-1) - 1.0)

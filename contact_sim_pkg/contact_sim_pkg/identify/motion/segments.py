@@ -1,8 +1,9 @@
 """Flights and contacts of a sampled motion.
 
-An interval between two samples holds a contact where `v2 - v1 + h g z - kappa int F dt` is larger than noise explains (the
-0.9999 quantile of chi-square) and the body is close to the ground, or is far larger; or where the body stays on the ground.
-Neighbouring ones are one contact; more than three in a row are a lasting one.
+An interval between two samples holds a contact where `v2 - v1 + h g z - kappa int F dt` is larger
+than noise explains (the 0.9999 quantile of chi-square) and the body is close to the ground, or is
+far larger; or where the body stays on the ground. Neighbouring ones are one contact; more than
+three in a row are a lasting one.
 """
 
 from __future__ import annotations
@@ -13,7 +14,7 @@ import numpy
 from scipy.stats import chi2
 
 from contact_sim_pkg.identify.contact.wrench import ExternalWrench
-from contact_sim_pkg.identify.geometry import UP, Ground, Shape, gaps, size
+from contact_sim_pkg.identify.geometry import UP, GroundPlane, Shape, gaps, size
 from contact_sim_pkg.identify.motion.rotation import Array
 from contact_sim_pkg.identify.motion.states import BodyStates
 
@@ -21,7 +22,7 @@ __all__ = [
     "LONGEST_IMPACT",
     "SHORTEST_FLIGHT",
     "Segments",
-    "gap_doubt",
+    "gap_uncertainty",
     "inverse_mass_guess",
     "segments",
     "velocity_noise",
@@ -45,9 +46,11 @@ class Segments(NamedTuple):
 
 
 def velocity_noise(states: BodyStates) -> float:
-    """Standard deviation of a velocity component in [m/s], from the median change of the acceleration between intervals.
+    """Standard deviation of a velocity component in [m/s], from the median change of the
+    acceleration between intervals.
 
-    Impacts do not move the median. Intervals may differ; stamps that are off count as noise of the velocity.
+    Impacts do not move the median. Intervals may differ; stamps that are off count as noise of the
+    velocity.
     """
     if len(states.time) < 5:
         return 0.0
@@ -59,17 +62,20 @@ def velocity_noise(states: BodyStates) -> float:
 
 
 def inverse_mass_guess(
-    states: BodyStates, lifts: Array, wrench: ExternalWrench, gravity: float, doubt: float = 0.0
+    states: BodyStates, lifts: Array, wrench: ExternalWrench, gravity: float, uncertainty: float = 0.0
 ) -> float:
-    """1/m in [1/kg] from the intervals off the ground: median of e.f/f.f; 0 without a force, or where all are on the ground.
+    """1/m in [1/kg] from the intervals off the ground: median of e.f/f.f; 0 without a force, or
+    where all are on the ground.
 
     Below zero where the body moves against the force.
 
-    `lifts` [n]: smallest gaps, known to `doubt`, in [m].
+    `lifts` [n]: smallest gaps, known to `uncertainty`, in [m].
     """
     pushes = _pushes(states, wrench)
     strength = numpy.einsum("ni,ni->n", pushes, pushes)
-    chosen = (strength > 0.0) & (numpy.minimum(lifts[1:], lifts[:-1]) > max(doubt, 0.02 * float(numpy.ptp(lifts))))
+    chosen = (strength > 0.0) & (
+        numpy.minimum(lifts[1:], lifts[:-1]) > max(uncertainty, 0.02 * float(numpy.ptp(lifts)))
+    )
     if not chosen.any():
         return 0.0
     jumps = _jumps(states, gravity)
@@ -79,7 +85,7 @@ def inverse_mass_guess(
 def segments(
     states: BodyStates,
     shape: Shape,
-    ground: Ground,
+    ground: GroundPlane,
     wrench: ExternalWrench,
     gravity: float,
     noise: float,
@@ -97,37 +103,41 @@ def segments(
         place_noise: of one component of position [m] and of rotation [rad].
     """
     lifts = gaps(shape, ground, states.position, states.rotation).min(axis=1)
-    doubt = gap_doubt(shape, place_noise)
-    inverse_mass = inverse_mass_guess(states, lifts, wrench, gravity, doubt)
+    uncertainty = gap_uncertainty(shape, place_noise)
+    inverse_mass = inverse_mass_guess(states, lifts, wrench, gravity, uncertainty)
     jumps = _jumps(states, gravity) - inverse_mass * _pushes(states, wrench)
     deviation = max(noise, FLOOR * float(abs(states.velocity).max()))
     strength = numpy.einsum("ni,ni->n", jumps, jumps) / (chi2.ppf(QUANTILE, 3) * 2.0 * deviation**2 + 1e-300)
     near = _near(states, lifts, ground, place_noise[0])
-    hit = (strength > 1.0) & (near | (strength > CERTAIN)) | _down(states, lifts, gravity, doubt)
-    return Segments(*_runs(hit | _pressed_in(jumps, lifts < -doubt, deviation)))
+    hit = (strength > 1.0) & (near | (strength > CERTAIN)) | _down(states, lifts, gravity, uncertainty)
+    return Segments(*_runs(hit | _pressed_in(jumps, lifts < -uncertainty, deviation)))
 
 
-def gap_doubt(shape: Shape, place_noise: tuple[float, float]) -> float:
-    """How large a gap noise can feign, [m]."""
+def gap_uncertainty(shape: Shape, place_noise: tuple[float, float]) -> float:
+    """Largest gap in [m] that noise can feign."""
     length = size(shape)
     return SIGMAS * (place_noise[0] + length * place_noise[1]) + TOUCH * length
 
 
-def _down(states: BodyStates, lifts: Array, gravity: float, doubt: float) -> Array:
-    """Intervals in which the body stays on the ground for longer than a hop that noise could hide would last."""
-    low = abs(lifts) <= doubt
+def _down(states: BodyStates, lifts: Array, gravity: float, uncertainty: float) -> Array:
+    """Intervals in which the body stays on the ground for longer than a hop that noise could hide
+    would last.
+    """
+    low = abs(lifts) <= uncertainty
     joined = low[1:] & low[:-1]
     edges = numpy.flatnonzero(numpy.diff(numpy.concatenate([[0], joined.astype(int), [0]])))
-    longest = numpy.sqrt(8.0 * doubt / gravity) if gravity > 0.0 else numpy.inf
+    longest = numpy.sqrt(8.0 * uncertainty / gravity) if gravity > 0.0 else numpy.inf
     for first, last in edges.reshape(-1, 2):
         joined[first:last] = states.time[last] - states.time[first] > longest
     return numpy.asarray(joined)
 
 
 def _pressed_in(jumps: Array, below: Array, deviation: float) -> Array:
-    """Intervals of soft contacts: the body comes from above, is below the ground, and is pushed more than noise explains.
+    """Intervals of soft contacts: the body comes from above, is below the ground, and is pushed
+    more than noise explains.
 
-    A push of many short intervals may hide in the noise of each. Where one interval holds all of it, it was an impact.
+    A push of many short intervals may hide in the noise of each. Where one interval holds all of
+    it, it was an impact.
     """
     found = numpy.zeros(len(jumps), dtype=bool)
     edges = numpy.flatnonzero(numpy.diff(numpy.concatenate([[0], below.astype(int), [0]])))
@@ -140,14 +150,16 @@ def _pressed_in(jumps: Array, below: Array, deviation: float) -> Array:
 
 
 def _at_once(jumps: Array, limit: float) -> bool:
-    """Whether one interval holds all of a push: it was an impact, and the ground or the shape is not where it is told to be."""
+    """Whether one interval holds all of a push: it was an impact, and the ground or the shape is
+    not where it is specified.
+    """
     sizes = numpy.einsum("ni,ni->n", jumps, jumps)
     largest = int(sizes.argmax())
     rest = numpy.sum(jumps, axis=0) - jumps[largest]
     return bool(sizes[largest] > limit >= 0.5 * float(rest @ rest))
 
 
-def _near(states: BodyStates, lifts: Array, ground: Ground, position_noise: float) -> Array:
+def _near(states: BodyStates, lifts: Array, ground: GroundPlane, position_noise: float) -> Array:
     """Intervals in which the body can reach the ground: the gap is within one interval's way."""
     steps = numpy.diff(states.time)
     rates = abs(numpy.diff(lifts)) / steps

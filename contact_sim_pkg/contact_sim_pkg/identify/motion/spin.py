@@ -1,7 +1,8 @@
 """Rotation of a free rigid body: `S W' + W x S W = kappa R^T tau`, `R' = R [W]`, in body axes.
 
-S = I0/m and kappa = 1/m. Solved by Picard iteration on Chebyshev nodes over stretches in which the body turns by half a
-radian: errors of rounding size, and many copies with perturbed starts or parameters at once.
+S = I0/m and kappa = 1/m. Solved by Picard iteration on Chebyshev nodes over segments in which the
+body turns by half a radian: errors of rounding size, and many copies with perturbed starts or
+parameters at once.
 """
 
 from __future__ import annotations
@@ -17,7 +18,7 @@ from contact_sim_pkg.identify.motion.rotation import Array, exponential
 __all__ = ["spin_rate", "turn"]
 
 NODES = 20
-TURN = 0.5  # [rad] a stretch
+SEGMENT_ROTATION = 0.5  # [rad]
 SWEEPS = 60
 STEADY = 4e-16  # change of a sweep that ends the iteration, relative
 
@@ -54,7 +55,7 @@ def turn(
     found = numpy.empty((len(rotation), len(times), 7))
     for side in (times >= begin, times < begin):
         if side.any():
-            found[:, side] = _march(start, begin, times[side], model)
+            found[:, side] = _states_along(start, begin, times[side], model)
     matrices = _matrix(found[..., :4])
     return matrices, numpy.einsum("cnij,cnj->cni", matrices, found[..., 4:])
 
@@ -62,7 +63,8 @@ def turn(
 def spin_rate(rotation: Array, angular_velocity: Array, inertia: Array, moment: Array) -> Array:
     """`w' = R S^-1 (R^T k - W x S W)`, W = R^T w, of one body: [3] in [rad/s^2], world axes.
 
-    `moment` is k = kappa tau, torque over mass, [3] in [m^2/s^2], world axes; `w' = R W'` since `w x w = 0`.
+    `moment` is k = kappa tau, torque over mass, [3] in [m^2/s^2], world axes; `w' = R W'` since `w
+    x w = 0`.
     """
     spin, own = rotation.T @ angular_velocity, rotation.T @ moment
     return rotation @ numpy.linalg.solve(inertia, own - numpy.cross(spin, inertia @ spin))
@@ -71,18 +73,18 @@ def spin_rate(rotation: Array, angular_velocity: Array, inertia: Array, moment: 
 _Model = tuple[Array, Array, Array, ExternalWrench]
 
 
-def _march(start: Array, begin: float, times: Array, model: _Model) -> Array:
-    """States [c, n, 7] at times on one side of `begin`, stretch by stretch."""
+def _states_along(start: Array, begin: float, times: Array, model: _Model) -> Array:
+    """States [c, n, 7] at times on one side of `begin`, segment by segment."""
     forward = bool(times[-1] >= begin)
     end = float(times[-1] if forward else times[0])
     fastest = float(numpy.linalg.norm(start[:, 4:], axis=1).max()) + 1.0
-    count = max(1, int(numpy.ceil(abs(end - begin) * fastest / TURN)))
+    count = max(1, int(numpy.ceil(abs(end - begin) * fastest / SEGMENT_ROTATION)))
     edges = begin + (end - begin) * numpy.arange(count + 1) / count
     edges[-1] = end
     found = numpy.empty((len(start), len(times), 7))
     done = numpy.zeros(len(times), dtype=bool)
     for low, high in itertools.pairwise(edges):
-        values = _stretch(start, low, high, model)
+        values = _segment(start, low, high, model)
         inside = ~done & ((times <= high) if forward else (times >= high))
         if inside.any():
             place = (2.0 * times[inside] - low - high) / (high - low) if high != low else numpy.full(inside.sum(), -1.0)
@@ -93,7 +95,7 @@ def _march(start: Array, begin: float, times: Array, model: _Model) -> Array:
     return found
 
 
-def _stretch(start: Array, low: float, high: float, model: _Model) -> Array:
+def _segment(start: Array, low: float, high: float, model: _Model) -> Array:
     """Values at the nodes, [c, NODES, 7], the first at `low` and the last at `high`."""
     nodes, _, integrals = _basis()
     times = low + 0.5 * (high - low) * (nodes + 1.0)
@@ -124,7 +126,9 @@ def _rate(values: Array, times: Array, model: _Model) -> Array:
 
 @cache
 def _basis() -> tuple[Array, Array, Array]:
-    """Chebyshev nodes from -1 to 1; values at the nodes to coefficients; values to integrals from -1 to each node."""
+    """Chebyshev nodes from -1 to 1; values at the nodes to coefficients; values to integrals from
+    -1 to each node.
+    """
     nodes = -numpy.cos(numpy.pi * numpy.arange(NODES) / (NODES - 1))
     chebyshev = numpy.polynomial.chebyshev
     coefficients = numpy.linalg.inv(chebyshev.chebvander(nodes, NODES - 1))

@@ -9,7 +9,7 @@ import numpy
 from contact_sim_pkg.identify.errors import IdentificationError
 from contact_sim_pkg.identify.motion.rotation import Array
 
-__all__ = ["BodyStates", "Noise", "checked"]
+__all__ = ["BodyStates", "SampleNoise", "checked"]
 
 FEWEST = 4  # samples
 LARGEST = 1e12  # SI value of a sample
@@ -26,7 +26,7 @@ class BodyStates(NamedTuple):
     angular_velocity: Array  # [n, 3], [rad/s]
 
 
-class Noise(NamedTuple):
+class SampleNoise(NamedTuple):
     """Standard deviation of one component of each channel."""
 
     position: float  # [m]
@@ -36,7 +36,9 @@ class Noise(NamedTuple):
 
 
 def checked(states: BodyStates) -> BodyStates:
-    """The same states; IdentificationError where a shape, a value, the order of time or a rotation is wrong."""
+    """The same states; IdentificationError where a shape, a value, the order of time or a rotation
+    is wrong.
+    """
     samples = len(states.time)
     if samples < FEWEST:
         raise IdentificationError(f"the motion has {samples} samples; an identification needs at least {FEWEST}")

@@ -1,18 +1,19 @@
 """Inertia of a body that tumbles freely, up to its size: where the search in space starts.
 
-In flight the angular momentum over the mass is `R S R^T w = L0 + kappa int tau dt`, linear in the six numbers of S = I0/m and in
-kappa = 1/m. What is left of it about its mean over each flight is made least at a fixed trace of S, weighted by the noise, with the
-guess as it is where the motion does not tell: five numbers of a body that tumbles in all directions.
+In flight the angular momentum over the mass is `R S R^T w = L0 + kappa int tau dt`, linear in the
+six numbers of S = I0/m and in kappa = 1/m. What is left of it about its mean over each flight is
+made least at a fixed trace of S, weighted by the noise, with the guess as it is where the motion
+does not identify it: five numbers of a body that tumbles in all directions.
 """
 
 from __future__ import annotations
 
 import numpy
 
-from contact_sim_pkg.identify.motion.flight import Model
+from contact_sim_pkg.identify.motion.flight import FlightModel
 from contact_sim_pkg.identify.motion.rotation import Array
 from contact_sim_pkg.identify.motion.segments import SHORTEST_FLIGHT
-from contact_sim_pkg.identify.motion.states import BodyStates, Noise
+from contact_sim_pkg.identify.motion.states import BodyStates, SampleNoise
 
 __all__ = ["tumbling_start"]
 
@@ -25,16 +26,17 @@ SHAPES = numpy.array([  # changes of (xx, yy, zz, xy, xz, yz) that leave the tra
 
 
 def tumbling_start(
-    states: BodyStates, flights: list[tuple[int, int]], model: Model, noise: Noise, guess: Array
+    states: BodyStates, flights: list[tuple[int, int]], model: FlightModel, noise: SampleNoise, guess: Array
 ) -> Array | None:
-    """Parameters to begin with, [p]; None where no body has such an inertia, or no flight is long enough.
+    """Parameters to begin with, [p]; None where no body has such an inertia, or no flight is long
+    enough.
 
     Args:
         states: the motion.
         flights: first and last sample of each.
         model: in space.
         noise: of the samples.
-        guess: parameters of which the trace is kept, and all that the flights do not tell, [p].
+        guess: parameters of which the trace is kept, and all that the flights do not identify, [p].
     """
     blocks = [
         _about_the_mean(states, flight, model) for flight in flights if flight[1] - flight[0] + 1 >= SHORTEST_FLIGHT
@@ -58,8 +60,10 @@ def tumbling_start(
     return found if moments.min() >= -SLACK * trace else None
 
 
-def _about_the_mean(states: BodyStates, flight: tuple[int, int], model: Model) -> Array:
-    """What each parameter makes of the angular momentum of a flight less its mean and the impulse of the torque, [3 n, p]."""
+def _about_the_mean(states: BodyStates, flight: tuple[int, int], model: FlightModel) -> Array:
+    """What each parameter makes of the angular momentum of a flight less its mean and the impulse
+    of the torque, [3 n, p].
+    """
     first, last = flight
     chosen = numpy.unique(numpy.linspace(first, last, min(MOST, last - first + 1)).round().astype(int))
     turns, spins = states.rotation[chosen], states.angular_velocity[chosen]
@@ -67,5 +71,5 @@ def _about_the_mean(states: BodyStates, flight: tuple[int, int], model: Model) -
     if model.with_mass:
         columns.append(-model.wrench.twist(float(states.time[first]), states.time[chosen]))
     rows: Array = numpy.stack(columns, axis=2)
-    apart: Array = (rows - rows.mean(axis=0)).reshape(-1, rows.shape[2])
-    return apart
+    centred: Array = (rows - rows.mean(axis=0)).reshape(-1, rows.shape[2])
+    return centred

@@ -1,8 +1,9 @@
-"""Whether rotation and spin of the flights belong together, and turn as inertia and the known torque say.
+"""Whether rotation and spin of the flights belong together, and turn as inertia and the known
+torque say.
 
 What `found` leaves of them is measured minus model, in world axes: small rotations r and spins s.
 Where an angular acceleration a is missing in the model, r and s are `c0 + c1 t + a t^2 / 2` and `c1
-+ a t`, as for position and velocity (`identify/motion/free_fall.py`). Where the spin is told 1/k
++ a t`, as for position and velocity (`identify/motion/free_fall.py`). Where the spin is recorded 1/k
 times too fast, the rate of r along the spin less s is `(k - 1) w`, whatever the model has made of
 both: in space to first order in k - 1, of a spin whose axis hardly turns within a flight.
 """
@@ -13,18 +14,18 @@ from typing import NamedTuple
 
 import numpy
 
-from contact_sim_pkg.identify.contact.stacked import Estimate
+from contact_sim_pkg.identify.contact.stacked import ParameterEstimate
 from contact_sim_pkg.identify.diagnostics.noise import first_guess, sample_noise
 from contact_sim_pkg.identify.motion.free_fall import FEWEST, MissingAcceleration, long_flights, mean_over_flights
 from contact_sim_pkg.identify.motion.rotation import logarithm
-from contact_sim_pkg.identify.motion.states import BodyStates, Noise
-from contact_sim_pkg.identify.problem import Problem
+from contact_sim_pkg.identify.motion.states import BodyStates, SampleNoise
+from contact_sim_pkg.identify.problem import IdentificationProblem
 
 __all__ = ["SpinScale", "missing_spin_rate", "rate_of_turn", "spin_scale"]
 
 ROUGH = 5.0  # times the noise of neighbouring samples: what flights leave beyond that is no noise
-SIGNIFICANT = 20.0  # times its noise: a spin that tells a rate of turn
-TURN = 0.2  # [rad], told by the spin, that rotations are compared over
+SIGNIFICANT = 20.0  # times its noise: a spin that identifies a rate of rotation
+TURN = 0.2  # [rad] by the spin, over which rotations are compared
 ROTATION = 6  # column of what is left, of 12
 
 
@@ -32,15 +33,15 @@ class SpinScale(NamedTuple):
     """By how much faster than the spin says the rotations turn."""
 
     excess: float  # k - 1
-    deviation: float  # standard deviation; infinite where no flight tells
+    deviation: float  # standard deviation; infinite where no flight identifies it
 
 
-def missing_spin_rate(found: Estimate, problem: Problem) -> MissingAcceleration:
+def missing_spin_rate(found: ParameterEstimate, problem: IdentificationProblem) -> MissingAcceleration:
     """Angular acceleration of all flights beyond that of the model, [rad/s^2], world axes."""
     return mean_over_flights(found, problem, ROTATION, _noise(problem))
 
 
-def spin_scale(found: Estimate, problem: Problem) -> SpinScale:
+def spin_scale(found: ParameterEstimate, problem: IdentificationProblem) -> SpinScale:
     """k - 1, where the rotations of the flights turn k times as fast as the spin says."""
     noise, total, weights = _noise(problem), 0.0, 0.0
     for run, rest in long_flights(found, problem):
@@ -63,10 +64,11 @@ def spin_scale(found: Estimate, problem: Problem) -> SpinScale:
 
 
 def rate_of_turn(states: BodyStates, noise: float) -> float | None:
-    """How many times as fast as the spin says the rotations turn: a median over spans of TURN; None where that is open.
+    """How many times as fast as the spin says the rotations turn: a median over spans of TURN; None
+    where that is open.
 
-    Before any flight is known: for spins in another unit. It asks for spins of SIGNIFICANT times their `noise` [rad/s], and for
-    a radian in all. Spans of a turn that shows beside rounded rotations.
+    Before any flight is known: for spins in another unit. It needs spins of SIGNIFICANT times their
+    `noise` [rad/s], and a radian in all. Spans of a turn that shows beside rounded rotations.
     """
     if len(states.time) < FEWEST:
         return None
@@ -76,16 +78,18 @@ def rate_of_turn(states: BodyStates, noise: float) -> float | None:
     if total < 1.0 or usual < SIGNIFICANT * noise:
         return None
     span = min(max(1, round(TURN * len(steps) / total)), len(steps) // 2)
-    told = numpy.concatenate([numpy.zeros((1, 3)), numpy.cumsum(spin * steps[:, None], axis=0)])
-    told = told[span:] - told[:-span]
+    recorded = numpy.concatenate([numpy.zeros((1, 3)), numpy.cumsum(spin * steps[:, None], axis=0)])
+    recorded = recorded[span:] - recorded[:-span]
     turns = logarithm(states.rotation[span:] @ numpy.swapaxes(states.rotation[:-span], -1, -2))
-    squares = numpy.einsum("ni,ni->n", told, told)
+    squares = numpy.einsum("ni,ni->n", recorded, recorded)
     fast = squares >= numpy.median(squares)
-    return float(numpy.median(numpy.einsum("ni,ni->n", turns, told)[fast] / squares[fast]))
+    return float(numpy.median(numpy.einsum("ni,ni->n", turns, recorded)[fast] / squares[fast]))
 
 
-def _noise(problem: Problem) -> Noise:
-    """Of rotation and spin that of the flights, but no more than ROUGH times that of neighbours, which no misfit raises."""
+def _noise(problem: IdentificationProblem) -> SampleNoise:
+    """Of rotation and spin that of the flights, but no more than ROUGH times that of neighbours,
+    which no misfit raises.
+    """
     rough, noise = first_guess(problem.states), problem.noise
     return noise._replace(
         rotation=min(noise.rotation, ROUGH * rough.rotation),

@@ -1,6 +1,8 @@
-"""Bags of anyone: MCAP and SQLite of ROS 2, and ROS 1, read by rosbags; an MCAP that is cut or damaged, as far as whole chunks go.
+"""Bags of anyone: MCAP and SQLite of ROS 2, and ROS 1, read by rosbags; an MCAP that is cut or
+damaged, as far as whole chunks go.
 
-rosbags wants a whole file. Where it gives up, the reader of this package takes what can be read of an MCAP.
+rosbags wants a whole file. Where it gives up, the reader of this package takes what can be read of
+an MCAP.
 """
 
 from __future__ import annotations
@@ -38,7 +40,8 @@ class _UnreadableError(Exception):
 
 
 def use_bag(path: Path, use: Callable[[AnyBag], Result]) -> Result:
-    """What `use` makes of the bag; it may be called twice, the second time with what can be read of a damaged one.
+    """What `use` makes of the bag; it may be called twice, the second time with what can be read of
+    a damaged one.
 
     Raises:
         BagError: nothing of the bag can be read.
@@ -59,7 +62,9 @@ def use_bag(path: Path, use: Callable[[AnyBag], Result]) -> Result:
 
 
 def _place_of(path: Path) -> Path:
-    """The path, or the only file with messages in a directory without metadata; its files are regular ones that can be opened."""
+    """The path, or the only file with messages in a directory without metadata; its files are
+    regular ones that can be opened.
+    """
     if not path.exists():
         raise BagError(f"there is no bag {path}; give the directory or the file of a bag")
     place, files = path, [path]
@@ -83,7 +88,9 @@ def _place_of(path: Path) -> Path:
 
 
 def _whole(place: Path, use: Callable[[AnyBag], Result]) -> Result:
-    """By rosbags. Its parsers meet damaged bytes with errors of many kinds, from its own to those of SQLite."""
+    """By rosbags. Its parsers meet damaged bytes with errors of many kinds, from its own to those
+    of SQLite.
+    """
     reader: Any = None
     try:
         reader = AnyReader([place], default_typestore=get_typestore(Stores.ROS2_JAZZY))

@@ -1,14 +1,16 @@
-"""In which axes the vectors of a topic are, the world's or the body's, and why; both are told to who reads the result.
+"""In which axes the vectors of a topic are, the world's or the body's, and why; both are reported
+with the result.
 
-A header names the frame of its vectors. One rule for twists and wrenches: that of the poses is the world; any other is taken as the
-body's, and so is an empty one beside poses that name theirs, since what is measured on a body is in its axes: a guess, told as one.
+A header names the frame of its vectors. One rule for twists and wrenches: that of the poses is the
+world; any other is taken as the body's, and so is an empty one beside poses that name theirs, since
+what is measured on a body is in its axes: a guess, reported as one.
 """
 
 from __future__ import annotations
 
 from typing import Literal, NamedTuple
 
-__all__ = ["Axes", "Reading", "Subject", "reading", "reading_as_asked", "reading_of_frames"]
+__all__ = ["Axes", "AxesChoice", "Subject", "reading", "reading_as_requested", "reading_of_frames"]
 
 Axes = Literal["auto", "world", "body"]
 
@@ -21,17 +23,19 @@ class Subject(NamedTuple):
     option: str  # which overrides its axes
 
 
-class Reading(NamedTuple):
+class AxesChoice(NamedTuple):
     """Axes in which the vectors of a topic are read."""
 
     body: bool
     note: str  # which, and why
 
 
-def reading_of_frames(subject: Subject, own: str, poses: str, asked: Axes) -> Reading:
-    """By the frames that the headers of the vectors and of the poses name, unless axes are asked for."""
-    if asked != "auto":
-        return reading_as_asked(subject, asked)
+def reading_of_frames(subject: Subject, own: str, poses: str, requested: Axes) -> AxesChoice:
+    """By the frames that the headers of the vectors and of the poses name, unless axes are
+    requested.
+    """
+    if requested != "auto":
+        return reading_as_requested(subject, requested)
     if own == poses:
         return reading(subject, False, f"its frame_id is that of the poses, {poses!r}")
     if not own:
@@ -41,14 +45,14 @@ def reading_of_frames(subject: Subject, own: str, poses: str, asked: Axes) -> Re
     )
 
 
-def reading_as_asked(subject: Subject, asked: Axes) -> Reading:
+def reading_as_requested(subject: Subject, requested: Axes) -> AxesChoice:
     """In the axes that the option names."""
     what, topic, option = subject
-    return Reading(asked == "body", f"the {what} of {topic} is read in {asked} axes: {option} {asked}")
+    return AxesChoice(requested == "body", f"the {what} of {topic} is read in {requested} axes: {option} {requested}")
 
 
-def reading(subject: Subject, body: bool, why: str) -> Reading:
+def reading(subject: Subject, body: bool, why: str) -> AxesChoice:
     """In body or world axes, with the option for who knows better."""
     what, topic, option = subject
     axes, other = ("body", "world") if body else ("world", "body")
-    return Reading(body, f"the {what} of {topic} is read in {axes} axes: {why}; if it is not so: {option} {other}")
+    return AxesChoice(body, f"the {what} of {topic} is read in {axes} axes: {why}; if it is not so: {option} {other}")

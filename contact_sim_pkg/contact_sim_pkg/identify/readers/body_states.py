@@ -1,4 +1,5 @@
-"""States of a rigid body from a bag: ours (`bench/motion`), or anyone's with Odometry, or PoseStamped and TwistStamped.
+"""States of a rigid body from a bag: ours (`bench/motion`), or anyone's with Odometry, or
+PoseStamped and TwistStamped.
 
 Foreign bags are read as `identify/readers/any_bag.py` says. The twist of an Odometry is in body
 axes, as its definition says; that of a TwistStamped is in the frame that its header names
@@ -33,7 +34,9 @@ NORM = 0.01  # allowed difference of a quaternion's length from 1
 
 
 class RecordedStates(NamedTuple):
-    """States, their time counted from the first sample: a float holds seconds since 1970 to 1e-7 only."""
+    """States, their time counted from the first sample: a float holds seconds since 1970 to 1e-7
+    only.
+    """
 
     states: BodyStates
     origin: int  # [ns], stamp of the first sample
@@ -48,10 +51,10 @@ def read_body_states(
     """States of the body in world axes.
 
     Args:
-        path: directory or file of the bag.
-        topic: of Odometry or PoseStamped; the only one of its kind where it is None, or `bench/motion` of a bag of ours.
-        twist_topic: of TwistStamped; the only one where it is None.
-        twist_axes: of the twist; `auto`: as the message says, which `reading` tells.
+        path: directory or file of the bag. topic: of Odometry or PoseStamped; the only one of its
+        kind where it is None, or `bench/motion` of a bag of ours. twist_topic: of TwistStamped; the
+        only one where it is None. twist_axes: of the twist; `auto`: by the definition of the
+        message; `reading` reports the choice.
 
     Raises:
         BagError: no bag, no such topic, several to choose from, or stamps that do not fit.
@@ -63,10 +66,11 @@ def read_body_states(
 
 
 def bench_states(bag: Bag) -> RecordedStates:
-    """States from `bench/motion`: coordinates that end in x, z and pitch (plane), or x, y, z and rotation_x, _y, _z.
+    """States from `bench/motion`: coordinates that end in x, z and pitch (plane), or x, y, z and
+    rotation_x, _y, _z.
 
-    Pitch is the angle about y; rotation_x to _z are a rotation vector, body to world, whose velocity is the angular
-    velocity in world axes.
+    Pitch is the angle about y; rotation_x to _z are a rotation vector, body to world, whose
+    velocity is the angular velocity in world axes.
     """
     bag.refuse_other_definition(MOTION)
     blocks = [(message.data, decode(BodyMotion, message.data)) for message in bag.messages(MOTION)]

@@ -1,4 +1,6 @@
-"""Stamped messages of others: the topic that holds them, their stamps and vectors, one sample a stamp."""
+"""Stamped messages of others: the topic that holds them, their stamps and vectors, one sample a
+stamp.
+"""
 
 from __future__ import annotations
 
@@ -52,7 +54,9 @@ def chosen(bag: AnyBag, topic: str | None, types: tuple[str, ...], option: str) 
 
 
 def all_messages(bag: AnyBag, topic: str) -> list[Any]:
-    """The messages of a topic; BagError where there is none, or a stamp lies far before those recorded earlier."""
+    """The messages of a topic; BagError where there is none, or a stamp lies far before those
+    recorded earlier.
+    """
     messages = list(bag.read(topic))
     if not messages:
         raise BagError(f"{topic} of {bag.path} holds no message")
@@ -84,7 +88,8 @@ def vectors(values: list[Any]) -> Array:
 
 
 def one_a_stamp(samples: Samples, topic: str) -> tuple[Samples, tuple[str, ...]]:
-    """Of samples in the order of time the first of each stamp; what others of it were, unless they repeat the first.
+    """Of samples in the order of time the first of each stamp; what others of it were, unless they
+    repeat the first.
 
     Raises:
         BagError: there are far fewer stamps than messages.

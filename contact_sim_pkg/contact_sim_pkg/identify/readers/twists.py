@@ -1,4 +1,4 @@
-"""Which twist belongs to which pose, and in which axes it is; both are told to the person who reads the result."""
+"""Which twist belongs to which pose, and in which axes it is; both are reported with the result."""
 
 from __future__ import annotations
 
@@ -7,7 +7,14 @@ from typing import Any, NamedTuple
 import numpy
 
 from contact_sim_pkg.bag.errors import BagError
-from contact_sim_pkg.identify.readers.axes import Axes, Reading, Subject, reading, reading_as_asked, reading_of_frames
+from contact_sim_pkg.identify.readers.axes import (
+    Axes,
+    AxesChoice,
+    Subject,
+    reading,
+    reading_as_requested,
+    reading_of_frames,
+)
 
 __all__ = ["Pairs", "pairs_of", "reading_of_odometry", "reading_of_twists"]
 
@@ -22,11 +29,13 @@ class Pairs(NamedTuple):
     notes: tuple[str, ...]  # one where messages of either found no partner
 
 
-def reading_of_odometry(message: Any, topic: str, asked: Axes) -> Reading:
-    """By its definition the twist of an Odometry is in the frame of its child_frame_id; world if that is frame_id."""
+def reading_of_odometry(message: Any, topic: str, requested: Axes) -> AxesChoice:
+    """By its definition the twist of an Odometry is in the frame of its child_frame_id; world if
+    that is frame_id.
+    """
     frame, child, twist = message.header.frame_id, message.child_frame_id, _twist(topic)
-    if asked != "auto":
-        return reading_as_asked(twist, asked)
+    if requested != "auto":
+        return reading_as_requested(twist, requested)
     if frame and child == frame:
         return reading(twist, False, f"its child_frame_id is its frame_id, {frame!r}")
     if child:
@@ -34,9 +43,9 @@ def reading_of_odometry(message: Any, topic: str, asked: Axes) -> Reading:
     return reading(twist, True, "an Odometry has it in the frame of its child; its child_frame_id is empty")
 
 
-def reading_of_twists(pose: Any, twist: Any, topic: str, asked: Axes) -> Reading:
+def reading_of_twists(pose: Any, twist: Any, topic: str, requested: Axes) -> AxesChoice:
     """The twist of a TwistStamped is in the frame of its header."""
-    return reading_of_frames(_twist(topic), twist.header.frame_id, pose.header.frame_id, asked)
+    return reading_of_frames(_twist(topic), twist.header.frame_id, pose.header.frame_id, requested)
 
 
 def _twist(topic: str) -> Subject:

@@ -1,7 +1,8 @@
 """A known wrench on the body, from WrenchStamped messages beside its poses, in world axes.
 
-A wrench in body axes is turned by the rotation of the poses: between its samples it goes along straight lines in the axes in which
-it was recorded, and is turned at each of its stamps and at each pose within its time.
+A wrench in body axes is turned by the rotation of the poses: between its samples it goes along
+straight lines in the axes in which it was recorded, and is turned at each of its stamps and at each
+pose within its time.
 """
 
 from __future__ import annotations
@@ -45,13 +46,12 @@ def read_wrench(path: Path, topic: str, recorded: RecordedStates, axes: Axes = "
     """The wrench of a topic of the bag that holds the states.
 
     Args:
-        path: of the bag.
-        topic: of WrenchStamped.
-        recorded: the states.
-        axes: of the wrench; `auto`: by the frames that the headers name (`identify/readers/axes.py`).
+        path: of the bag. topic: of WrenchStamped. recorded: the states. axes: of the wrench;
+        `auto`: by the frames that the headers name (`identify/readers/axes.py`).
 
     Raises:
-        BagError: no such topic, no message, stamps that do not fit, or a wrench in body axes at no time of the poses.
+        BagError: no such topic, no message, stamps that do not fit, or a wrench in body axes at no
+        time of the poses.
     """
     return use_bag(path, lambda bag: _read(bag, topic, recorded, axes))
 

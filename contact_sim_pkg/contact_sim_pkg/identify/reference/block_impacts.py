@@ -1,7 +1,8 @@
-"""Random impacts of a square block on a corner, by closed modes: velocities before and after, to identify from.
+"""Random impacts of a square block on a corner, by closed modes: velocities before and after, to
+identify from.
 
-Newton's restitution 0 and Coulomb friction in the plane x-z, pitch about +y: stick if the impulse lies in the cone, else
-slide against the slip before, else against the opposite.
+Newton's restitution 0 and Coulomb friction in the plane x-z, pitch about +y: stick if the impulse
+lies in the cone, else slide against the slip before, else against the opposite.
 """
 
 from __future__ import annotations
@@ -29,7 +30,9 @@ class BlockImpacts(NamedTuple):
 def random_block_impacts(
     random: numpy.random.Generator, count: int, side: float = 0.1, friction: float = 0.4
 ) -> BlockImpacts:
-    """Impacts with angle 0.1 to 0.7 rad, v_x ±2 m/s, v_z -3 to -1 m/s, spin ±5 rad/s, of a homogeneous square."""
+    """Impacts with angle 0.1 to 0.7 rad, v_x ±2 m/s, v_z -3 to -1 m/s, spin ±5 rad/s, of a
+    homogeneous square.
+    """
     rows: list[tuple[float, Array, Array]] = []
     while len(rows) < count:
         angle, forward = random.uniform(0.1, 0.7), random.uniform(-2.0, 2.0)

@@ -1,8 +1,9 @@
-"""Motion of a rigid body that falls and bounces on the plane z = 0, written in another way than the bench's own solvers.
+"""Motion of a rigid body that falls and bounces on the plane z = 0, written in another way than the
+bench's own solvers.
 
-Angular momentum in world axes is kept (`L' = tau`, `R' = [w] R`, `w = R I0^-1 R^T L`), integrated by scipy's DOP853 with the
-impacts as its events; the impulse of an impact is a direct solution of the 3 x 3 contact system (sticking) or lies on the
-friction cone against the slip before (sliding).
+Angular momentum in world axes is kept (`L' = tau`, `R' = [w] R`, `w = R I0^-1 R^T L`), integrated
+by scipy's DOP853 with the impacts as its events; the impulse of an impact is a direct solution of
+the 3 x 3 contact system (sticking) or lies on the friction cone against the slip before (sliding).
 """
 
 from __future__ import annotations
@@ -124,7 +125,9 @@ def _at(body: FallingBody, inverse: Array, state: Array) -> tuple[Array, Array, 
 
 
 def _impact(body: FallingBody, inverse: Array, state: Array, time: float) -> tuple[Array, Bounce]:
-    """Newton's restitution along z; sticking if the impulse lies in the friction cone, else sliding against the slip before."""
+    """Newton's restitution along z; sticking if the impulse lies in the friction cone, else sliding
+    against the slip before.
+    """
     rotation = state[6:15].reshape(3, 3)
     inverse_world = rotation @ inverse @ rotation.T
     reach = rotation @ body.corners[int((rotation @ body.corners.T)[2].argmin())] - numpy.array([0.0, 0.0, body.radius])

@@ -16,7 +16,8 @@ LARGEST = 1_000_000  # bytes
 
 
 def hull_of_file(path: Path) -> Shape:
-    """The hull of the points in a CSV file of three columns x, y, z in [m], body axes from the centre of mass.
+    """The hull of the points in a CSV file of three columns x, y, z in [m], body axes from the
+    centre of mass.
 
     Raises:
         IdentificationError: a line that is not three finite numbers, or no line at all.

@@ -1,4 +1,6 @@
-"""Picture of an identification: the motion with its contacts, the impulses over mass, the inertia that each impact tells."""
+"""Picture of an identification: the motion with its contacts, the impulses over mass, the inertia
+that each impact tells.
+"""
 
 from __future__ import annotations
 
@@ -18,7 +20,9 @@ COLOURS = {"stick": ACCENT, "slide": "#b8551b", "slide, reversed": "#7a3b9e"}
 
 
 def write_plot(found: Identification, path: str | Path, *, overwrite: bool = False) -> Path:
-    """Draw; the ending of `path` names the format. Raises FileRefusedError, see `drawing.save_picture`."""
+    """Draw; the ending of `path` names the format. Raises FileRefusedError, see
+    `drawing.save_picture`.
+    """
     with style():
         figure, axes = new_figure(7.0, 3)
         figure.set_facecolor("white")
@@ -42,7 +46,9 @@ def _height(axis: Any, found: Identification) -> None:
 
 
 def _impulses(axis: Any, found: Identification) -> None:
-    """Normal impulses as circles, tangential ones as squares, in the colour of the mode; grey where its point is not known."""
+    """Normal impulses as circles, tangential ones as squares, in the colour of the mode; grey where
+    its point is not known.
+    """
     told = [contact for contact in found.contacts if contact.normal is not None]
     for mode, colour in (*COLOURS.items(), (None, MUTED)):
         chosen = [contact for contact in told if (None if contact.mode is None else contact.mode.mode) == mode]

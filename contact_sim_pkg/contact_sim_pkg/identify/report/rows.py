@@ -17,7 +17,9 @@ SIGMAS = 3.0  # a bound of friction below this many standard deviations says not
 
 
 def parameter_rows(found: Identification) -> list[dict[str, Any]]:
-    """Name, value, standard deviation, unit and whether it is identified; what follows from the parameters comes last."""
+    """Name, value, standard deviation, unit and whether it is identified; what follows from the
+    parameters comes last.
+    """
     return [_row(parameter) for parameter in [*found.parameters, *derived(found)]]
 
 
@@ -30,7 +32,9 @@ def _row(parameter: Parameter) -> dict[str, Any]:
 
 
 def derived(found: Identification) -> list[Parameter]:
-    """m/J in the plane, the principal values of I0/m in space; mass and moments of inertia where 1/m is identified."""
+    """m/J in the plane, the principal values of I0/m in space; mass and moments of inertia where
+    1/m is identified.
+    """
     inertia_known = all(parameter.identified for parameter in found.parameters if parameter.name != "1/m")
     lines = []
     if found.axis is not None:
@@ -91,7 +95,9 @@ def _contact(contact: ContactFinding, mass: float | None) -> dict[str, Any]:
 
 
 def _friction(mode: Mode, contact: ContactFinding) -> float | str | None:
-    """mu where the contact slid straight on, else the bound that the impulse leaves, if it says anything."""
+    """mu where the contact slid straight on, else the bound that the impulse leaves, if it says
+    anything.
+    """
     bound, spread = mode.friction_at_least, contact.friction_deviation or 0.0
     if mode.friction is not None or bound is None or bound <= SIGMAS * spread:
         return mode.friction
@@ -108,7 +114,7 @@ def facts(found: Identification) -> dict[str, Any]:
         "converged": found.converged,
         "parameters": parameter_rows(found),
         "not_identifiable": found.unobservable,
-        "doubts": found.doubts,
+        "consistency_warnings": found.warnings,
         "misfit": found.estimate.misfit,
         "contacts": [_contact_facts(contact) for contact in found.contacts],
         "noise": {

@@ -1,4 +1,6 @@
-"""Goals of the identification: error of m/J and of the impulses without noise, and what noise leaves from ten impacts."""
+"""Goals of the identification: error of m/J and of the impulses without noise, and what noise
+leaves from ten impacts.
+"""
 
 from __future__ import annotations
 

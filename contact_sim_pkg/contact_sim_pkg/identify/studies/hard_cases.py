@@ -1,4 +1,6 @@
-"""Hard cases of the identification: what must be named instead of computed, impacts between samples, noise in everything."""
+"""Hard cases of the identification: what must be named instead of computed, impacts between
+samples, noise in everything.
+"""
 
 from __future__ import annotations
 
@@ -8,7 +10,7 @@ import numpy
 
 from contact_sim_pkg.identify import geometry
 from contact_sim_pkg.identify.contact import wrench
-from contact_sim_pkg.identify.contact.stacked import Estimate
+from contact_sim_pkg.identify.contact.stacked import ParameterEstimate
 from contact_sim_pkg.identify.identify import Identification, Setup, identify
 from contact_sim_pkg.identify.motion.rotation import Array, exponential
 from contact_sim_pkg.identify.motion.states import BodyStates
@@ -38,8 +40,8 @@ def _record(force: tuple[float, float, float] = (0.0, 0.0, 0.0)) -> Record:
 
 
 @functools.cache
-def _found(force: tuple[float, float, float] = (0.0, 0.0, 0.0), *, told: bool = False) -> Identification:
-    setup = Setup(SQUARE, wrench=wrench.constant(force) if told else wrench.NO_WRENCH)
+def _found(force: tuple[float, float, float] = (0.0, 0.0, 0.0), *, known: bool = False) -> Identification:
+    setup = Setup(SQUARE, wrench=wrench.constant(force) if known else wrench.NO_WRENCH)
     return identify(BodyStates(*_record(force)[:5]), setup)
 
 
@@ -61,7 +63,7 @@ def _lowest(rotation: Array) -> Array:
     return numpy.asarray(corners[corners[:, 2].argmin()])
 
 
-def _spatial(table: ImpactTable) -> Estimate:
+def _spatial(table: ImpactTable) -> ParameterEstimate:
     return estimate_from_impacts(problem_of_impacts(table, BOX, (1e-12, 1e-11)))
 
 
@@ -76,7 +78,9 @@ def two_impacts() -> Finding:
 
 
 def two_impacts_named() -> Finding:
-    """Distance of the unobservable direction, as a matrix, from c c^T with c across both changes of spin."""
+    """Distance of the unobservable direction, as a matrix, from c c^T with c across both changes of
+    spin.
+    """
     table = _table(2)
     found = _spatial(table)
     line = found.directions.missing[0] * found.scale
@@ -117,7 +121,7 @@ def mass_without_force() -> Finding:
 
 def mass_with_force() -> Finding:
     """The mass with a known force."""
-    return close_to(1.0 / _found(FORCE, told=True).parameters[-1].value, MASS, 1e-9 * MASS)
+    return close_to(1.0 / _found(FORCE, known=True).parameters[-1].value, MASS, 1e-9 * MASS)
 
 
 @functools.cache

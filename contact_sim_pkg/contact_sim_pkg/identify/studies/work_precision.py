@@ -1,8 +1,9 @@
-"""Ladder of the identification: m/J of a block from tables of impacts by the two-point formula, least squares on one impact, and
-the stacked least squares with errors in all variables.
+"""Work-precision study of the identification: m/J of a block from tables of impacts by the
+two-point formula, least squares on one impact, and the stacked least squares with errors in all
+variables.
 
-The median error of the two-point formula and of one impact is taken over single impacts; the mean of two-point values over ten
-impacts shows what its unequal errors cost; all see the same noise.
+The median error of the two-point formula and of one impact is taken over single impacts; the mean
+of two-point values over ten impacts shows what its unequal errors cost; all see the same noise.
 """
 
 from __future__ import annotations

@@ -1,4 +1,6 @@
-"""Who listens to a replay: the subscribers that are there when it begins are matched before the first message."""
+"""Who listens to a replay: the subscribers that are there when it begins are matched before the
+first message.
+"""
 
 from __future__ import annotations
 
@@ -19,7 +21,9 @@ LONGEST_SECONDS = 10.0  # for the subscribers that are known to be matched
 
 
 class Audience:
-    """The subscriptions of some topics, as the graph shows them and as the publishers are matched with them."""
+    """The subscriptions of some topics, as the graph shows them and as the publishers are matched
+    with them.
+    """
 
     def __init__(self, node: Node, publishers: Mapping[str, Publisher], delay: float) -> None:
         """Look from `node`; `delay` is the least time to wait, [s]."""
@@ -29,7 +33,9 @@ class Audience:
         self._unfit: set[str] = set()
 
     def is_there(self, now: float) -> bool:
-        """Whether the graph has been quiet for a while and everybody in it that can be matched is; `now`: steady clock, [s]."""
+        """Whether the graph has been quiet for a while and everybody in it that can be matched is;
+        `now`: steady clock, [s].
+        """
         if self._seen is None:
             self._began = now
         busy, self._looked = now - self._looked > BUSY_SECONDS, now
@@ -68,7 +74,9 @@ class Audience:
 
 
 def _why_not(offered: QoSProfile, wanted: QoSProfile) -> str:
-    """Why a subscription cannot be served; empty where it can. (What the graph says of deadlines is not what was asked for.)"""
+    """Why a subscription cannot be served; empty where it can. (What the graph says of deadlines is
+    not what was asked for.)
+    """
     if wanted.reliability == ReliabilityPolicy.RELIABLE and offered.reliability == ReliabilityPolicy.BEST_EFFORT:
         return "it asks for reliable delivery, the topic was recorded as best effort"
     if wanted.durability == DurabilityPolicy.TRANSIENT_LOCAL and offered.durability == DurabilityPolicy.VOLATILE:

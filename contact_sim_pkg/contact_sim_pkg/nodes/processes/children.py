@@ -1,4 +1,6 @@
-"""Child processes of a run: started in a session of their own, watched, ended in reverse order. Without ROS."""
+"""Child processes of a run: started in a session of their own, watched, ended in reverse order.
+Without ROS.
+"""
 
 from __future__ import annotations
 
@@ -16,7 +18,9 @@ LEAST_SECONDS = 0.1  # that a process has to end once it was asked, where an ear
 
 
 class ErrorLines:
-    """Hands lines of the processes on; errors at the end only, and not those that the failure of the run says already."""
+    """Hands lines of the processes on; errors at the end only, and not those that the failure of
+    the run says already.
+    """
 
     def __init__(self, say: Callable[[str], None]) -> None:
         """Nothing held."""
@@ -40,7 +44,9 @@ class ErrorLines:
 
 
 class Child:
-    """One process; what it writes on its standard error is handed on line by line, and the last line is kept."""
+    """One process; what it writes on its standard error is handed on line by line, and the last
+    line is kept.
+    """
 
     def __init__(
         self, name: str, command: Sequence[str], environment: Mapping[str, str], say: Callable[[str], None]
@@ -82,12 +88,16 @@ class Child:
 
     @property
     def fell(self) -> bool:
-        """Whether the process ended badly. One that was asked to end may do so before it has learnt to catch signals."""
+        """Whether the process ended badly. One that was asked to end may do so before it has learnt
+        to catch signals.
+        """
         asked_away = self.asked_to_end and self.status == -signal.SIGTERM
         return self.status not in (None, 0) and not asked_away
 
     def look(self) -> None:
-        """Keep in mind which shared memory the process has mapped, so that it can be removed if the process is killed."""
+        """Keep in mind which shared memory the process has mapped, so that it can be removed if the
+        process is killed.
+        """
         if self.status is None:
             self.segments |= mapped_segments(self.process.pid)
 
@@ -148,9 +158,11 @@ class Children:
         return set().union(*(child.segments for child in self._children))
 
     def end(self, grace: float = GRACE_SECONDS) -> list[str]:
-        """End what still lives, in reverse order of the start, by SIGTERM, `grace` seconds later by SIGKILL.
+        """End what still lives, in reverse order of the start, by SIGTERM, `grace` seconds later by
+        SIGKILL.
 
-        Returns the names of those that had to be killed. Shared memory of killed processes is removed.
+        Returns the names of those that had to be killed. Shared memory of killed processes is
+        removed.
         """
         killed = []
         limit = time.monotonic() + grace

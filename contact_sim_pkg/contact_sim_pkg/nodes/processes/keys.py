@@ -11,10 +11,14 @@ from typing import Any
 
 
 class Keys:
-    """Takes the terminal of the standard input into single-key mode until `close`; Ctrl-C stays a signal."""
+    """Takes the terminal of the standard input into single-key mode until `close`; Ctrl-C stays a
+    signal.
+    """
 
     def __init__(self) -> None:
-        """Leave a terminal alone that belongs to another process group: this one runs in the background."""
+        """Leave a terminal alone that belongs to another process group: this one runs in the
+        background.
+        """
         self._descriptor = -1
         self._before: Any = None
         try:

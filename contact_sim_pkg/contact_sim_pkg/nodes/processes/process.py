@@ -1,4 +1,6 @@
-"""The life of a node's process: start, spin, signals, end. Exit status 0 on every signal, no traceback."""
+"""The life of a node's process: start, spin, signals, end. Exit status 0 on every signal, no
+traceback.
+"""
 
 from __future__ import annotations
 
@@ -48,7 +50,9 @@ class BenchNode(Protocol):
         """Whatever takes long: compile, open; a signal may break it off."""
 
     def tick(self, now: float) -> float:
-        """Look after what no message triggers; `now` is the steady clock, [s]. Returns how long to wait at most, [s]."""
+        """Look after what no message triggers; `now` is the steady clock, [s]. Returns how long to
+        wait at most, [s].
+        """
 
     def stop(self) -> None:
         """The user wants the end: begin to end cleanly."""
@@ -57,7 +61,9 @@ class BenchNode(Protocol):
         """Something failed: say so, close what is open, set the exit status."""
 
     def abandon(self) -> bool:
-        """From another thread: end the run if this node computes right now; whether it did. For nodes that compute."""
+        """From another thread: end the run if this node computes right now; whether it did. For
+        nodes that compute.
+        """
 
 
 class StopSignals:
@@ -78,7 +84,9 @@ class StopSignals:
             raise Interrupted
 
     def leave_what_computes(self, node: Any) -> None:
-        """From now on a node that computes on behind a signal is ended by a thread of its own, in good order."""
+        """From now on a node that computes on behind a signal is ended by a thread of its own, in
+        good order.
+        """
         reading, writing = os.pipe()
         os.set_blocking(writing, False)
         signal.set_wakeup_fd(writing, warn_on_full_buffer=False)
@@ -95,7 +103,9 @@ class StopSignals:
 
 
 def make_executor() -> Executor:
-    """The executor with the least cost per message (8 times less); the plain one where rclpy does not have it."""
+    """The executor with the least cost per message (8 times less); the plain one where rclpy does
+    not have it.
+    """
     try:
         from rclpy.experimental import EventsExecutor
     except ImportError:
@@ -106,12 +116,13 @@ def make_executor() -> Executor:
 def hear(executor: Executor, wait: float, gather: float = 0.0) -> None:
     """Run the callbacks of what has come.
 
-    A process that handles several messages at a time is woken less often, which leaves the cores to the simulation.
+    A process that handles several messages at a time is woken less often, which leaves the cores to
+    the simulation.
 
     Args:
-        executor: as `make_executor` makes it.
-        wait: how long to wait for a message, [s].
-        gather: where above 0, sleep for that long, [s], and then handle all that has come, without waiting for more.
+        executor: as `make_executor` makes it. wait: how long to wait for a message, [s]. gather:
+        where above 0, sleep for that long, [s], and then handle all that has come, without waiting
+        for more.
     """
     plain = isinstance(executor, SingleThreadedExecutor)
     if gather > 0.0 and not plain:
@@ -123,10 +134,11 @@ def hear(executor: Executor, wait: float, gather: float = 0.0) -> None:
 
 
 def step_back() -> None:
-    """Let this thread, and those it starts, wait for its turn when it wakes instead of pushing another off its core.
+    """Let this thread, and those it starts, wait for its turn when it wakes instead of pushing
+    another off its core.
 
-    DDS wakes threads some 20 times a block. Under the usual policy each of them interrupts the simulation where both cores are
-    busy. A policy that the caller chose is kept.
+    DDS wakes threads some 20 times a block. Under the usual policy each of them interrupts the
+    simulation where both cores are busy. A policy that the caller chose is kept.
     """
     _change_policy(os.SCHED_OTHER, os.SCHED_BATCH)
 

@@ -1,7 +1,9 @@
-"""The temporary folder of a supervised run, which nothing leaves behind, not even a supervisor that is killed. Without ROS.
+"""The temporary folder of a supervised run, which nothing leaves behind, not even a supervisor that
+is killed. Without ROS.
 
-The supervisor and each node hold a shared lock on one file of the folder; the lock of a process dies with it. Whoever gets the
-lock alone is the last one: it removes the shared memory that the run is known to have used, and the folder.
+The supervisor and each node hold a shared lock on one file of the folder; the lock of a process
+dies with it. Whoever gets the lock alone is the last one: it removes the shared memory that the run
+is known to have used, and the folder.
 """
 
 from __future__ import annotations
@@ -61,7 +63,9 @@ class RunFolder:
 
 
 def hold(folder: Path, lock: Path | None = None) -> None:
-    """Take part in the run of this folder for the life of the process; nothing where the folder is not one of a supervisor."""
+    """Take part in the run of this folder for the life of the process; nothing where the folder is
+    not one of a supervisor.
+    """
     with suppress(OSError):
         if folder not in _held:
             descriptor = os.open(lock or folder / LOCK, os.O_RDWR | os.O_NOFOLLOW | os.O_CLOEXEC)
@@ -72,7 +76,8 @@ def hold(folder: Path, lock: Path | None = None) -> None:
 def leave() -> None:
     """An orphan ends: where it is the last process of its run, it removes what is left.
 
-    Orphans take turns, and each keeps its turn until the system ends it: a process uses its shared memory as long as it is there.
+    Orphans take turns, and each keeps its turn until the system ends it: a process uses its shared
+    memory as long as it is there.
     """
     for folder, descriptor in _held.items():
         with suppress(OSError):
@@ -95,7 +100,9 @@ def _remove_left(folder: Path) -> None:
 
 
 def _remove_if_last(folder: Path, descriptor: int, more: Iterable[str] = ()) -> None:
-    """Where nobody else holds the lock, remove the segments that the folder names (and `more`) if nobody uses them, and it."""
+    """Where nobody else holds the lock, remove the segments that the folder names (and `more`) if
+    nobody uses them, and it.
+    """
     known = _read_segments(folder) | set(more)
     if _locked(descriptor):
         remove_unused(known)

@@ -1,4 +1,6 @@
-"""The supervisor's own ears: what it hears on `bench/progress` and `bench/recorded`, with the steady clock beside it."""
+"""The supervisor's own ears: what it hears on `bench/progress` and `bench/recorded`, with the
+steady clock beside it.
+"""
 
 from __future__ import annotations
 
@@ -13,7 +15,7 @@ from rclpy.signals import SignalHandlerOptions
 from contact_sim_pkg.bag.messages import decode
 from contact_sim_pkg.nodes.endpoints import raise_kept, subscription
 from contact_sim_pkg.nodes.processes.process import hear, make_executor, step_back
-from contact_sim_pkg.nodes.protocol.states import Follower, RecordedFollower, State
+from contact_sim_pkg.nodes.protocol.states import Follower, RecordedFollower, RunState
 from contact_sim_pkg.records.messages import BenchProgress, BenchRecorded
 
 GATHER_SECONDS = 0.01  # that reports gather for; what the times of a run are exact to
@@ -48,7 +50,7 @@ class RunMonitor:
     def _on_progress(self, data: bytes) -> None:
         if self.run.accept(decode(BenchProgress, data)):
             now = time.monotonic()
-            if self.run.state >= State.READY and not self.ready_at:
+            if self.run.state >= RunState.READY and not self.ready_at:
                 self.ready_at = now
             self.done_at = now
 

@@ -1,4 +1,6 @@
-"""Which nodes a run of a scene has, and the parameters of each. Without ROS: the supervisor and the launch file read it."""
+"""Which nodes a run of a scene has, and the parameters of each. Without ROS: the supervisor and the
+launch file read it.
+"""
 
 from __future__ import annotations
 
@@ -21,7 +23,8 @@ class PlannedNode(NamedTuple):
 def planned_nodes(
     scene: ResolvedScene, scene_path: Path, directory: Path | None, from_bag: Path | None = None, *, clock: bool = True
 ) -> list[PlannedNode]:
-    """The nodes of a run, in the order of their start: the logger first, to be ended last, the simulator last.
+    """The nodes of a run, in the order of their start: the logger first, to be ended last, the
+    simulator last.
 
     Args:
         scene: the scene.

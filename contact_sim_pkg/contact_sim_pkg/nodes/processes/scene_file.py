@@ -17,7 +17,9 @@ REASON = ".reason.json"
 
 
 def write_scene(scene: ResolvedScene, folder: Path) -> Path:
-    """Write a resolved scene, and where its input files are; returns what a node is given as its scene."""
+    """Write a resolved scene, and where its input files are; returns what a node is given as its
+    scene.
+    """
     path = folder / f"scene{RESOLVED}"
     path.write_text(scene.to_yaml(), encoding="utf-8")
     _write_beside(path, FILES, {where: str(file) for where, file in scene.files.items()})
@@ -28,7 +30,8 @@ def read_scene(scene: str) -> ResolvedScene:
     """The resolved scene behind a node's parameter.
 
     Args:
-        scene: what `write_scene` returned, or the name of a shipped scene, or the path of a scene file.
+        scene: what `write_scene` returned, or the name of a shipped scene, or the path of a scene
+        file.
 
     Raises:
         SceneError: the scene is faulty or not there.
@@ -51,7 +54,9 @@ def write_description(scene: str, topic: str, description: dict[str, Any]) -> No
 
 
 def read_descriptions(scene: str, resolved: ResolvedScene) -> dict[str, dict[str, Any]]:
-    """What each excitation found and did: as its node left it, or found out here where there is no supervisor."""
+    """What each excitation found and did: as its node left it, or found out here where there is no
+    supervisor.
+    """
     if scene.endswith(RESOLVED):
         return descriptions_beside(Path(scene))
     from contact_sim_pkg.run.sources import make_sources
@@ -68,7 +73,9 @@ def descriptions_beside(scene: Path) -> dict[str, dict[str, Any]]:
 
 
 def write_reason(scene: Path, reason: str) -> None:
-    """Leave why a run ends early beside a scene of the supervisor, for the logger, before the nodes are asked to end."""
+    """Leave why a run ends early beside a scene of the supervisor, for the logger, before the nodes
+    are asked to end.
+    """
     _write_beside(scene, REASON, {"reason": reason})
 
 

@@ -1,4 +1,6 @@
-"""Shared-memory segments of the middleware: a process that is killed leaves them behind, so whoever kills it removes them."""
+"""Shared-memory segments of the middleware: a process that is killed leaves them behind, so whoever
+kills it removes them.
+"""
 
 from __future__ import annotations
 
@@ -21,9 +23,11 @@ def mapped_segments(process: int) -> set[str]:
 
 
 def remove_unused(names: Iterable[str]) -> list[str]:
-    """Remove those of the segments that no other living process has mapped or open; returns what was removed.
+    """Remove those of the segments that no other living process has mapped or open; returns what
+    was removed.
 
-    This process does not count: the middleware keeps its mappings until the process ends, also after the last node.
+    This process does not count: the middleware keeps its mappings until the process ends, also
+    after the last node.
     """
     wanted = {name + ending for name in names for ending in COMPANION_ENDINGS}
     if not wanted:
@@ -43,7 +47,9 @@ def remove_unused(names: Iterable[str]) -> list[str]:
 
 @contextmanager
 def _owner_is_dead(lock: Path) -> Iterator[bool]:
-    """Hold the lock that the owner of a segment holds as long as it lives; False where it does. No lock: nobody owns it."""
+    """Hold the lock that the owner of a segment holds as long as it lives; False where it does. No
+    lock: nobody owns it.
+    """
     try:
         descriptor = os.open(lock, os.O_RDWR | os.O_NOFOLLOW | os.O_CLOEXEC)
     except OSError:

@@ -1,4 +1,5 @@
-"""The SROS2 policy of the bench, made from the table of topics: each node may do what it does, and nothing else.
+"""The SROS2 policy of the bench, made from the table of topics: each node may do what it does, and
+nothing else.
 
     python -m contact_sim_pkg.nodes.processes.sros2_policy > contact_sim_pkg/config/sros2_policy.xml
 

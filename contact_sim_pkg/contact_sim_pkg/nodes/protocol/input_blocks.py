@@ -1,6 +1,8 @@
-"""Excitation blocks as they come in: checked against the protocol, held until their turn, without ROS.
+"""Excitation blocks as they come in: checked against the protocol, held until their turn, without
+ROS.
 
-A block is never held over, ramped, clamped or invented: a bad one is dropped, counted and named, and the run waits for a good one.
+A block is never held over, ramped, clamped or invented: a bad one is dropped, counted and named,
+and the run waits for a good one.
 """
 
 from __future__ import annotations
@@ -30,7 +32,9 @@ def check_road(data: bytes, block_length: float) -> RoadPatch:
 
 
 def check_vibration(data: bytes, block_length: float) -> VibrationBlock:
-    """The samples that the bytes hold; MessageError where they are malformed, absurd or do not fill the block."""
+    """The samples that the bytes hold; MessageError where they are malformed, absurd or do not fill
+    the block.
+    """
     vibration = decode_vibration(data)
     intervals = len(vibration.acceleration_x) - 1
     if abs(intervals * vibration.sample_period - block_length) > 1e-6 * block_length:
@@ -55,8 +59,8 @@ def _within(name: str, block: int, values: NDArray[numpy.floating], bound: float
 def check_block(topic: str, data: bytes, block_length_ns: int, blocks: int) -> Block:
     """The block that the bytes hold.
 
-    Raises MessageError where they are malformed, a value is not finite or absurd, the number is not one of the scene, or
-    number and stamp disagree (stamp = number x block length).
+    Raises MessageError where they are malformed, a value is not finite or absurd, the number is not
+    one of the scene, or number and stamp disagree (stamp = number x block length).
     """
     block = _CHECKS[topic](data, block_length_ns * 1e-9)
     stamp = stamp_of(data)

@@ -1,10 +1,12 @@
-"""What the simulator makes of the logger's answers: how far it may go, who holds the run up, when it may leave. Without ROS."""
+"""What the simulator makes of the logger's answers: how far it may go, who holds the run up, when
+it may leave. Without ROS.
+"""
 
 from __future__ import annotations
 
 from contact_sim_pkg.nodes.protocol.input_blocks import InputBlocks
 from contact_sim_pkg.nodes.protocol.states import DONE, FAULT, LOSS, RecordedFollower
-from contact_sim_pkg.nodes.protocol.window import Window
+from contact_sim_pkg.nodes.protocol.window import BlockWindow
 from contact_sim_pkg.records.messages import BenchRecorded
 
 CLOSE_SECONDS = 10.0  # for the logger to close its bag after the last block
@@ -14,7 +16,7 @@ STOP_SECONDS = 1.0  # for the same after a signal
 class LoggerAnswers:
     """The logger as the simulator knows it from `bench/recorded`."""
 
-    def __init__(self, window: Window, *, logged: bool) -> None:
+    def __init__(self, window: BlockWindow, *, logged: bool) -> None:
         """Nothing heard; `logged`: the run has a logger."""
         self._window, self._logged = window, logged
         self._follower = RecordedFollower()
@@ -38,18 +40,24 @@ class LoggerAnswers:
         self.exit_status = LOSS
 
     def end(self, now: float, exit_status: int = DONE, *, stopped: bool = False) -> None:
-        """The run has ended, at `now` of the steady clock, [s]; after a signal the logger is waited for shortly."""
+        """The run has ended, at `now` of the steady clock, [s]; after a signal the logger is waited
+        for shortly.
+        """
         self.exit_status = exit_status
         self._leave_at = now + (STOP_SECONDS if stopped else CLOSE_SECONDS)
 
     def status_to_leave(self, now: float) -> int | None:
-        """The exit status when the simulator may leave after the end; None while it waits for the bag to be closed."""
+        """The exit status when the simulator may leave after the end; None while it waits for the
+        bag to be closed.
+        """
         if not self.deserted:
             return self.exit_status
         return (self.exit_status or FAULT) if now > self._leave_at else None
 
     def who_holds_up(self, inputs: InputBlocks) -> str:
-        """Who keeps the next block from being done. A source waits for the logger as the simulator does."""
+        """Who keeps the next block from being done. A source waits for the logger as the simulator
+        does.
+        """
         if inputs.missing() and self._window.open:
             return inputs.describe_missing()
         return (

@@ -6,7 +6,9 @@ import math
 
 
 def parse_pace(pace: str | float) -> float:
-    """Simulated seconds per second: 1 for `realtime`, infinity for `max`, else the number itself; ValueError where it is none."""
+    """Simulated seconds per second: 1 for `realtime`, infinity for `max`, else the number itself;
+    ValueError where it is none.
+    """
     if pace == "realtime":
         return 1.0
     if pace == "max":
@@ -24,7 +26,9 @@ LATE_IN_A_ROW = 100  # blocks done late, one after the other, before it is said
 
 
 class Pacer:
-    """Block k is due k block_length / factor after the start. A late run catches up; simulated time is never skipped."""
+    """Block k is due k block_length / factor after the start. A late run catches up; simulated time
+    is never skipped.
+    """
 
     def __init__(self, factor: float, block_length: float) -> None:
         """Not started: nothing is due.
@@ -53,7 +57,9 @@ class Pacer:
 
 
 class Lateness:
-    """Counts the blocks that were done later than a block's time after they were due; simulated time is never skipped."""
+    """Counts the blocks that were done later than a block's time after they were due; simulated
+    time is never skipped.
+    """
 
     def __init__(self, pacer: Pacer) -> None:
         """No block done."""
@@ -61,9 +67,11 @@ class Lateness:
         self.late = self._in_a_row = 0
 
     def block_done(self, block: int, now: float, factor: float) -> str:
-        """Count a block done at `now` of the steady clock, [s], at `factor` simulated seconds per second so far.
+        """Count a block done at `now` of the steady clock, [s], at `factor` simulated seconds per
+        second so far.
 
-        Returns a sentence from the hundredth late block in a row on; empty where the run is in time, or has no pace.
+        Returns a sentence from the hundredth late block in a row on; empty where the run is in
+        time, or has no pace.
         """
         interval = self._pacer.interval
         behind = now - interval * (block + 2) - self._pacer.began

@@ -26,9 +26,11 @@ class Peers:
         *,
         supervised: bool,
     ) -> None:
-        """Look from `node` at its own subscriptions and publishers; `recorded` is None where nothing is recorded.
+        """Look from `node` at its own subscriptions and publishers; `recorded` is None where
+        nothing is recorded.
 
-        A supervisor (`supervised`) must hear of the progress too, or it would take a short run for a silent one.
+        A supervisor (`supervised`) must hear of the progress too, or it would take a short run for
+        a silent one.
         """
         self._node, self._inputs, self._outputs = node, inputs, outputs
         self._progress, self._recorded = progress, recorded
@@ -38,7 +40,8 @@ class Peers:
     def missing(self) -> list[str]:
         """What is not matched yet, one text each; empty when everybody is there.
 
-        Raises NodeError (refused) for a second publisher on an input or an output, a second bench, or another message definition.
+        Raises NodeError (refused) for a second publisher on an input or an output, a second bench,
+        or another message definition.
         """
         self._began = time.monotonic() if self._began is None else self._began
         checked = [

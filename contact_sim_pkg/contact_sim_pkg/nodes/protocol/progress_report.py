@@ -9,7 +9,7 @@ from rclpy.publisher import Publisher
 
 from contact_sim_pkg.bag.messages import encode
 from contact_sim_pkg.nodes.processes.scene_file import block_length_ns, count_blocks
-from contact_sim_pkg.nodes.protocol.states import State
+from contact_sim_pkg.nodes.protocol.states import RunState
 from contact_sim_pkg.records.messages import BenchProgress
 from contact_sim_pkg.run.block_simulation import BlockResult
 from contact_sim_pkg.scene.resolved_scene import ResolvedScene
@@ -23,7 +23,7 @@ class ProgressReport:
     def __init__(self, publisher: Publisher, scene: ResolvedScene) -> None:
         """Nothing sent; state IDLE."""
         self.publisher = publisher
-        self.state = State.IDLE
+        self.state = RunState.IDLE
         self._scene = str(scene.data["name"])
         self._blocks, self._period_ns = count_blocks(scene), block_length_ns(scene)
         self._block, self._sent = -1, 0
@@ -31,9 +31,9 @@ class ProgressReport:
         self._began: float | None = None
         self.last: BenchProgress | None = None
 
-    def send(self, state: State, message: str = "") -> None:
+    def send(self, state: RunState, message: str = "") -> None:
         """Report a state, with one sentence for a person."""
-        if state is State.READY:
+        if state is RunState.READY:
             self._began = time.monotonic()
         self.state = state
         elapsed = 0.0 if self._began is None else time.monotonic() - self._began
@@ -56,7 +56,7 @@ class ProgressReport:
         """Report a block, whose messages were sent before; FINISHED with the last one of the scene."""
         self._block, self._sent = block, self._sent + len(result.messages)
         self._load, self._peak = result.load, result.peak_pressure
-        self.send(State.FINISHED if block == self._blocks - 1 else State.RUNNING)
+        self.send(RunState.FINISHED if block == self._blocks - 1 else RunState.RUNNING)
 
     @property
     def real_time_factor(self) -> float:

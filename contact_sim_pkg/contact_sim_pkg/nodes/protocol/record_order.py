@@ -1,4 +1,6 @@
-"""The logger's order: messages are held per block, and given out in canonical order once a block is whole. Without ROS."""
+"""The logger's order: messages are held per block, and given out in canonical order once a block is
+whole. Without ROS.
+"""
 
 from __future__ import annotations
 
@@ -21,10 +23,12 @@ class HeldMessage(NamedTuple):
 
 
 class RecordOrder:
-    """Holds what came until the simulator has said how many messages belong to the blocks done so far.
+    """Holds what came until the simulator has said how many messages belong to the blocks done so
+    far.
 
-    Blocks 0 ... b are whole when their excitation is there and the simulator's messages stamped inside them are as many as
-    it says it has sent up to b. Topics overtake each other on the wire, so no arrival order is assumed.
+    Blocks 0 ... b are whole when their excitation is there and the simulator's messages stamped
+    inside them are as many as it says it has sent up to b. Topics overtake each other on the wire,
+    so no arrival order is assumed.
     """
 
     def __init__(self, excitation: Iterable[str], block_length_ns: int) -> None:
@@ -39,7 +43,9 @@ class RecordOrder:
         self.given_out = 0
 
     def hold(self, topic: str, data: bytes) -> bool:
-        """Keep one message; False where it belongs to a block that is whole, repeats a block of excitation, or is far ahead."""
+        """Keep one message; False where it belongs to a block that is whole, repeats a block of
+        excitation, or is far ahead.
+        """
         stamp = stamp_of(data)
         block = stamp // self._block_length_ns
         if block <= self.last_block:
@@ -93,7 +99,9 @@ class RecordOrder:
         return self._sent[last] - self._sent[self.last_block] - here + lacking
 
     def take_rest(self) -> list[HeldMessage]:
-        """Everything up to the last block done, whole or not, in canonical order: what is left when messages were lost."""
+        """Everything up to the last block done, whole or not, in canonical order: what is left when
+        messages were lost.
+        """
         last = max(self._sent)
         messages = [message for block in sorted(self._held) if block <= last for message in sorted(self._held[block])]
         self._held.clear()

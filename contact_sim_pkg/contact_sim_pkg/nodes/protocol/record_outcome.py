@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 
 from contact_sim_pkg.bag.metadata import LACKING
-from contact_sim_pkg.nodes.protocol.states import Follower, State
+from contact_sim_pkg.nodes.protocol.states import Follower, RunState
 
 UNSAID = "the recording was ended before the simulator said that the run had ended"
 
@@ -22,7 +22,7 @@ def outcome_of(
         lacking: messages of the blocks done that never came.
         counts: what was left out, by its name; what is 0 is not mentioned.
     """
-    failure = reason or (run.last.message if run.last is not None and run.state is State.FAILED else "")
+    failure = reason or (run.last.message if run.last is not None and run.state is RunState.FAILED else "")
     ended = "failed" if reason else run.state.name.lower()
     if not failure and not run.state.ended:
         ended, failure = "stopped", UNSAID

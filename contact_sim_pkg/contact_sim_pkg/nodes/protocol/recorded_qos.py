@@ -14,7 +14,9 @@ DEEPEST = 1_000_000  # messages kept
 
 
 def profile_of_recorded(text: str) -> QoSProfile:
-    """The first profile of a rosbag2 list of offered profiles; reliable, volatile and 10 deep where nothing is stored."""
+    """The first profile of a rosbag2 list of offered profiles; reliable, volatile and 10 deep where
+    nothing is stored.
+    """
     try:
         profiles = (values_of_text(text, "quality of service") if text.strip() else None) or [{}]
         stored: dict[str, Any] = dict(profiles[0])

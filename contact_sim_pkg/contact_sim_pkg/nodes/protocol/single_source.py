@@ -1,4 +1,6 @@
-"""The blocks of one topic come from one publisher: what another one sends is told apart before it counts. Without ROS."""
+"""The blocks of one topic come from one publisher: what another one sends is told apart before it
+counts. Without ROS.
+"""
 
 from __future__ import annotations
 
@@ -6,9 +8,10 @@ from __future__ import annotations
 class SingleSource:
     """Tells the messages of a run's publisher from those of another one.
 
-    A publisher numbers its own messages 1, 2, 3, …, whatever they hold, and reliable delivery keeps their order. So the
-    messages of one publisher rise by one each. Those of a second one repeat numbers, fall behind, or leap; a leap is also
-    what lost messages look like, and then the graph decides: it knows a publisher before its first message is delivered.
+    A publisher numbers its own messages 1, 2, 3, …, whatever they hold, and reliable delivery keeps
+    their order. So the messages of one publisher rise by one each. Those of a second one repeat
+    numbers, fall behind, or leap; a leap is also what lost messages look like, and then the graph
+    decides: it knows a publisher before its first message is delivered.
     """
 
     def __init__(self) -> None:
@@ -19,8 +22,9 @@ class SingleSource:
         """Whether a message is of the run's publisher.
 
         Args:
-            number: the publisher's own number of the message; None where the middleware does not tell it.
-            publishers: publishers of the topic that the graph shows now (0: the publisher has left meanwhile).
+            number: the publisher's own number of the message; None where the middleware does not
+            tell it. publishers: publishers of the topic that the graph shows now (0: the publisher
+            has left meanwhile).
         """
         alone = publishers <= 1
         if number is None:

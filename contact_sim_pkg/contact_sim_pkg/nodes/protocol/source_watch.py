@@ -1,4 +1,6 @@
-"""The simulator's look at who publishes beside it while it runs: one publisher a topic, the one that was there at *ready*."""
+"""The simulator's look at who publishes beside it while it runs: one publisher a topic, the one
+that was there at *ready*.
+"""
 
 from __future__ import annotations
 
@@ -12,7 +14,9 @@ SILENT_SECONDS = 3.0  # that a second publisher may stay without a message: a se
 
 
 class SourceWatch:
-    """No block counts while a topic has a second publisher; what that one sends ends the run, and so does its staying."""
+    """No block counts while a topic has a second publisher; what that one sends ends the run, and
+    so does its staying.
+    """
 
     def __init__(
         self, names: Mapping[str, str], count: Callable[[str], int], publishers: Callable[[str], Mapping[bytes, str]]
@@ -20,9 +24,9 @@ class SourceWatch:
         """Nothing heard.
 
         Args:
-            names: topic of an input -> its name in the graph.
-            count: how many publishers of a topic the graph shows; asked for each block.
-            publishers: the publishers of a topic, as `endpoints.publisher_ids` gives them; asked for when there are two.
+            names: topic of an input -> its name in the graph. count: how many publishers of a topic
+            the graph shows; asked for each block. publishers: the publishers of a topic, as
+            `endpoints.publisher_ids` gives them; asked for when there are two.
         """
         self._in_graph = dict(names)
         self._sources = {topic: SingleSource() for topic in names}
@@ -37,7 +41,9 @@ class SourceWatch:
         self._own = {topic: set(self._publishers(name)) for topic, name in self._in_graph.items()}
 
     def accept(self, topic: str, number: int | None, now: float) -> bool:
-        """Whether a message is of the run's publisher; `number` as the publisher gave it, `now` the steady clock, [s]."""
+        """Whether a message is of the run's publisher; `number` as the publisher gave it, `now` the
+        steady clock, [s].
+        """
         if self._sources[topic].accept(number, self._count(self._in_graph[topic])):
             return True
         self._sent.setdefault(topic, now)
@@ -45,10 +51,12 @@ class SourceWatch:
         return False
 
     def alone(self, now: float) -> bool:
-        """Whether the next block may count: every topic has one publisher, and nobody else has sent anything.
+        """Whether the next block may count: every topic has one publisher, and nobody else has sent
+        anything.
 
         Raises:
-            NodeError: (fault) a second publisher has sent a message, or stays; its node and the topic are named.
+            NodeError: (fault) a second publisher has sent a message, or stays; its node and the
+            topic are named.
         """
         for topic in self._sources:
             if self._count(self._in_graph[topic]) > 1:

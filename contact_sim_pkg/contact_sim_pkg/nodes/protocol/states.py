@@ -17,7 +17,7 @@ class NodeError(Exception):
         self.exit_status = exit_status
 
 
-class State(IntEnum):
+class RunState(IntEnum):
     """The constants of `BenchProgress.msg`."""
 
     IDLE = BenchProgress.IDLE
@@ -31,7 +31,7 @@ class State(IntEnum):
     @property
     def ended(self) -> bool:
         """No further block will be done."""
-        return self >= State.FINISHED
+        return self >= RunState.FINISHED
 
 
 REFUSED, LOSS, FAULT, DONE = 2, 3, 1, 0  # exit statuses
@@ -40,14 +40,15 @@ REFUSED, LOSS, FAULT, DONE = 2, 3, 1, 0  # exit statuses
 class Follower:
     """What a node knows of its run from `bench/progress`.
 
-    A node is a peer that *ready* waits for, and without its answers the run does not get further than the window. Whatever
-    is further on, before *ready* was seen, belongs to another bench. Later on, a report that lies behind what was already
-    seen comes from another bench that is starting on the same topics, and is passed over.
+    A node is a peer that *ready* waits for, and without its answers the run does not get further
+    than the window. Whatever is further on, before *ready* was seen, belongs to another bench.
+    Later on, a report that lies behind what was already seen comes from another bench that is
+    starting on the same topics, and is passed over.
     """
 
     def __init__(self, *, answers: bool = True) -> None:
         """Nothing seen yet; `answers`: the run waits for this node's answers or blocks."""
-        self.state = State.IDLE
+        self.state = RunState.IDLE
         self.block = -1
         self.last: BenchProgress | None = None
         self._answers = answers
@@ -57,11 +58,11 @@ class Follower:
 
         Raises NodeError (refused) where it is that of another bench's run under way.
         """
-        state = State(progress.state)
-        if self.state is State.IDLE:
-            foreign = progress.block >= 0 or state > State.READY
+        state = RunState(progress.state)
+        if self.state is RunState.IDLE:
+            foreign = progress.block >= 0 or state > RunState.READY
         else:
-            foreign = self._answers and self.state is State.STARTING and progress.block >= AHEAD
+            foreign = self._answers and self.state is RunState.STARTING and progress.block >= AHEAD
         if foreign:
             raise NodeError(
                 f"another bench (scene {progress.scene}, block {progress.block} of {progress.blocks}) runs on "
@@ -75,7 +76,9 @@ class Follower:
 
 
 class RecordedFollower:
-    """What a node knows from `bench/recorded`: answers that lie behind what was already seen are passed over."""
+    """What a node knows from `bench/recorded`: answers that lie behind what was already seen are
+    passed over.
+    """
 
     def __init__(self) -> None:
         """Nothing held yet."""

@@ -3,8 +3,9 @@
 AHEAD = 4  # blocks; with 1 the processes wait for each other (740 instead of 1075-1300 blocks/s)
 
 
-class Window:
-    """Block k may be sent when k <= (last block done) + ahead and k <= (last block recorded) + ahead.
+class BlockWindow:
+    """Block k may be sent when k <= (last block done) + ahead and k <= (last block recorded) +
+    ahead.
 
     Without a logger the second condition falls away.
     """

@@ -12,7 +12,7 @@ import numpy
 from contact_sim_pkg.compiled.arrays import Vector
 from contact_sim_pkg.compiled.jit import entry
 from contact_sim_pkg.rigid.contact.cone_path import candidates_by_path
-from contact_sim_pkg.rigid.contact.solver import NEAREST, NEWTON, REFINE, Solution, Solver, solve_and_split
+from contact_sim_pkg.rigid.contact.solver import NEAREST, NEWTON, REFINE, ContactSolution, Solver, solve_and_split
 from contact_sim_pkg.rigid.problem import DISC, SPACE, ContactProblem, residual
 from contact_sim_pkg.rigid.results import CONTACT_NOT_FINITE, NOT_CONVERGED, SOLVED, UNIQUE
 
@@ -24,12 +24,13 @@ CLOSE = 1.0e-10  # residual for which no path is asked: that of a slip of 1e-13 
 @entry
 def solve_over_and_over(
     problem: ContactProblem, J: Vector, W: Vector, solver: Solver, c: Vector, times: int
-) -> Solution:
-    """`solve_and_split`, ``times`` times, each again from no load: the ladder's time of one solve is without the call from Python.
+) -> ContactSolution:
+    """`solve_and_split`, ``times`` times, each again from no load: the ladder's time of one solve
+    is without the call from Python.
 
     An entry of its own for that would compile all solvers once more.
     """
-    found = Solution(NOT_CONVERGED, UNIQUE, numpy.inf, 0)
+    found = ContactSolution(NOT_CONVERGED, UNIQUE, numpy.inf, 0)
     for solve in range(times):
         for row in range(c.shape[0] if solve > 0 else 0):
             c[row] = 0.0
@@ -37,11 +38,13 @@ def solve_over_and_over(
     return found
 
 
-def contact_impulses(problem: ContactProblem, J: Vector, W: Vector, solver: Solver, c: Vector) -> Solution:
-    """Impulses of ``problem`` into ``c`` [rows], with the least-norm split of the load; ``problem.A`` must be ``J W J'``.
+def contact_impulses(problem: ContactProblem, J: Vector, W: Vector, solver: Solver, c: Vector) -> ContactSolution:
+    """Impulses of ``problem`` into ``c`` [rows], with the least-norm split of the load;
+    ``problem.A`` must be ``J W J'``.
 
-    SOLVED: the residual is at most 1e-12 on the true cone, up to CLOSE where a slip comes to nothing at the edge of the cone; or
-    conditions that contradict each other by rounding are met as nearly as the residual says, up to NEAREST.
+    SOLVED: the residual is at most 1e-12 on the true cone, up to CLOSE where a slip comes to
+    nothing at the edge of the cone; or conditions that contradict each other by rounding are met as
+    nearly as the residual says, up to NEAREST.
     """
     found = solve_over_and_over(problem, J, W, solver, c, 1)
     if found.status in (SOLVED, CONTACT_NOT_FINITE):
@@ -54,12 +57,14 @@ def contact_impulses(problem: ContactProblem, J: Vector, W: Vector, solver: Solv
 
 
 def _by_nearest_motion(
-    problem: ContactProblem, J: Vector, W: Vector, solver: Solver, c: Vector, found: Solution
-) -> Solution:
-    """The answer at the contact velocities nearest to ``q`` that a motion of the bodies gives, where only rounding lies between.
+    problem: ContactProblem, J: Vector, W: Vector, solver: Solver, c: Vector, found: ContactSolution
+) -> ContactSolution:
+    """The answer at the contact velocities nearest to ``q`` that a motion of the bodies gives,
+    where only rounding lies between.
 
-    Contacts that are wedged in meet any approach ``J v`` with finite impulses, but none that no motion gives, however small. A
-    body that moves at 1 m/s and approaches at 1e-10 m/s has rounding of 1e-6 in its approach.
+    Contacts that are wedged in meet any approach ``J v`` with finite impulses, but none that no
+    motion gives, however small. A body that moves at 1 m/s and approaches at 1e-10 m/s has rounding
+    of 1e-6 in its approach.
     """
     near = nearest_motion(J, problem.q, NEAREST)
     if near is None:
@@ -73,13 +78,19 @@ def _by_nearest_motion(
 
 
 def nearest_motion(J: Vector, q: Vector, most: float) -> Vector | None:
-    """The contact velocities ``J v`` nearest to ``q`` [rows]; None where they differ by more than ``most`` of its largest."""
+    """The contact velocities ``J v`` nearest to ``q`` [rows]; None where they differ by more than
+    ``most`` of its largest.
+    """
     near: Vector = J @ numpy.linalg.lstsq(J, q)[0]
     return near if numpy.abs(near - q).max() <= most * numpy.abs(q).max() else None
 
 
-def _by_path(problem: ContactProblem, J: Vector, W: Vector, solver: Solver, c: Vector, found: Solution) -> Solution:
-    """The first end of a path that Newton's method brings to an answer, into ``c``; else ``found``, and ``c`` as it is."""
+def _by_path(
+    problem: ContactProblem, J: Vector, W: Vector, solver: Solver, c: Vector, found: ContactSolution
+) -> ContactSolution:
+    """The first end of a path that Newton's method brings to an answer, into ``c``; else ``found``,
+    and ``c`` as it is.
+    """
     refining = solver._replace(rung=REFINE)
     for candidate in candidates_by_path(problem):
         ended = solve_over_and_over(problem, J, W, refining, candidate, 1)

@@ -1,7 +1,8 @@
 """Projections on the friction cone, its base, and on a ray of it.
 
-Cone: ``|c_t| <= mu c_n``. Polyhedral cone: its base is the regular polygon with vertices at angles ``2 pi k / facets`` on the
-disc of radius ``mu c_n``. ``facets = 0`` stands for the disc; in the plane the second tangent is 0 and both are the same.
+Cone: ``|c_t| <= mu c_n``. Polyhedral cone: its base is the regular polygon with vertices at angles
+``2 pi k / facets`` on the disc of radius ``mu c_n``. ``facets = 0`` stands for the disc; in the
+plane the second tangent is 0 and both are the same.
 """
 
 from __future__ import annotations
@@ -30,7 +31,9 @@ def sector_axis(x, y, facets):
 
 @kernel
 def project_on_polygon(x, y, radius, facets):
-    """Nearest point of the regular polygon with vertices at radius ``radius``; a point and its nearest share a sector."""
+    """Nearest point of the regular polygon with vertices at radius ``radius``; a point and its
+    nearest share a sector.
+    """
     if x == 0.0 and y == 0.0:
         return 0.0, 0.0
     half = math.pi / facets

@@ -1,10 +1,13 @@
-"""Equations of contacts with the true friction cone in space while each keeps its mode, and how far each is from leaving it.
+"""Equations of contacts with the true friction cone in space while each keeps its mode, and how far
+each is from leaving it.
 
-Normal: at its floor, or touching (``u_n = 0``). Tangential: sliding (``c_t = -mu c_n d``, ``u_t = s d``, the direction d at an
-angle; unknowns angle and s) or sticking (``u_t = 0``, unknowns c_t). Where ``mu c_n`` cannot be but 0 there is no tangential part.
-In these unknowns the equations are smooth up to the ends of a mode, also where a slip stops. The problem carries a cover: its
-velocities are ``q + t d + (A + shift I) c``, its floors ``(1 - t/T) floor``. At ``t = T`` nothing but ``c = 0`` solves it, at
-``t = 0`` it is the one that was given. Contacts are scaled by sqrt(A_nn,i), velocities by the greatest.
+Normal: at its floor, or touching (``u_n = 0``). Tangential: sliding (``c_t = -mu c_n d``, ``u_t = s
+d``, the direction d at an angle; unknowns angle and s) or sticking (``u_t = 0``, unknowns c_t).
+Where ``mu c_n`` cannot be but 0 there is no tangential part. In these unknowns the equations are
+smooth up to the ends of a mode, also where a slip stops. The problem carries a cover: its
+velocities are ``q + t d + (A + shift I) c``, its floors ``(1 - t/T) floor``. At ``t = T`` nothing
+but ``c = 0`` solves it, at ``t = 0`` it is the one that was given. Contacts are scaled by
+sqrt(A_nn,i), velocities by the greatest.
 """
 
 from __future__ import annotations
@@ -18,14 +21,14 @@ import numpy.typing
 from contact_sim_pkg.compiled.arrays import Vector
 from contact_sim_pkg.rigid.problem import SPACE, ContactProblem
 
-__all__ = ["NORMAL", "TANGENTIAL", "ContactModes", "State"]
+__all__ = ["NORMAL", "TANGENTIAL", "ContactModes", "ModeEquations"]
 
-NORMAL, TANGENTIAL = 0, 1  # kinds of modes, columns of `State.margins`
+NORMAL, TANGENTIAL = 0, 1  # kinds of modes, columns of `ModeEquations.margins`
 GOLDEN = 0.6180339887498949
 TANGENTIAL_COVER = 0.3  # over 1 + mu: less than what friction could turn into a push against the cover
 
 
-class State(NamedTuple):
+class ModeEquations(NamedTuple):
     """The equations at one set of unknowns."""
 
     unknowns: Vector  # [equations + 1], the last is t
@@ -84,8 +87,10 @@ class ContactModes:
         x[self._along], x[self._along + 1] = self._impulse[self._stuck, 1], self._impulse[self._stuck, 2]
         return x
 
-    def evaluate(self, x: Vector) -> State:
-        """Values and slopes of the equations, impulses, velocities and margins at the unknowns ``x``."""
+    def evaluate(self, x: Vector) -> ModeEquations:
+        """Values and slopes of the equations, impulses, velocities and margins at the unknowns
+        ``x``.
+        """
         c, slopes = self._impulses(x)
         u = self.q + x[-1] * self.cover + self.A @ c
         values, gradient = u[self._rows], self.A[self._rows] @ slopes
@@ -95,7 +100,7 @@ class ContactModes:
             values[place + a] -= slip * part
             gradient[place + a, turn] -= slip * change
             gradient[place + a, turn + 1] -= part
-        return State(x, values, gradient, c, u, self._margins(x, c, u))
+        return ModeEquations(x, values, gradient, c, u, self._margins(x, c, u))
 
     def _impulses(self, x: Vector) -> tuple[Vector, Vector]:
         """Impulses [rows] and their slopes [rows, unknowns]."""
@@ -124,7 +129,7 @@ class ContactModes:
         margins[self._stuck, TANGENTIAL] = self.friction[self._stuck] * c[row] - numpy.hypot(c[row + 1], c[row + 2])
         return margins
 
-    def switch(self, state: State, contact: int, kind: int) -> None:
+    def switch(self, state: ModeEquations, contact: int, kind: int) -> None:
         """Contact ``contact`` leaves its mode at ``state``, for the one beside it."""
         self._t, self._impulse = state.unknowns[-1], state.impulse.reshape(-1, SPACE).copy()
         self._angle[self._slid], self._slip[self._slid] = state.unknowns[self._turn], state.unknowns[self._turn + 1]
@@ -137,7 +142,7 @@ class ContactModes:
                 self._angle[contact], self._slip[contact] = math.atan2(against[2], against[1]), 0.0
         self._lay_out()
 
-    def _switch_normal(self, state: State, i: int) -> None:
+    def _switch_normal(self, state: ModeEquations, i: int) -> None:
         self.touching[i] = not self.touching[i]
         if self.floor[i] > 0.0 or self.friction[i] == 0.0:
             return
@@ -147,7 +152,7 @@ class ContactModes:
             self.sliding[i], self._angle[i] = True, math.atan2(slip[1], slip[0])
             self._slip[i] = math.hypot(slip[0], slip[1])
 
-    def impulses(self, state: State) -> Vector:
+    def impulses(self, state: ModeEquations) -> Vector:
         """Impulses [rows] in [N s]."""
         return state.impulse * self._scale / self._own
 
@@ -159,7 +164,9 @@ def _direction(angle: Vector) -> tuple[tuple[Vector, Vector], tuple[Vector, Vect
 
 
 def _cover(friction: Vector, way: int) -> Vector:
-    """Covering velocities d [rows]: apart between 1 and 2, and a little along; no two alike, so that no two modes end at once."""
+    """Covering velocities d [rows]: apart between 1 and 2, and a little along; no two alike, so
+    that no two modes end at once.
+    """
     cover = numpy.zeros((len(friction), SPACE))
     part = GOLDEN * (way + 1) * numpy.arange(1, len(friction) + 1)
     part -= numpy.floor(part)

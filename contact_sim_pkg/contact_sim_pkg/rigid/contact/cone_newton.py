@@ -1,8 +1,10 @@
-"""Newton's method on the contact problem with the true (second-order) friction cone, from a start nearby.
+"""Newton's method on the contact problem with the true (second-order) friction cone, from a start
+nearby.
 
-Conditions as one equation (Alart and Curnier 1991): ``c_n = max(floor, c_n - u_n)``, ``c_t = projection of c_t - u_t on the
-disc of radius mu c_n``, in contacts scaled by sqrt(A_nn,i). Its derivative is singular where contacts are redundant, but the
-step exists: elimination with complete pivoting finds one.
+Conditions as one equation (Alart and Curnier 1991): ``c_n = max(floor, c_n - u_n)``, ``c_t =
+projection of c_t - u_t on the disc of radius mu c_n``, in contacts scaled by sqrt(A_nn,i). Its
+derivative is singular where contacts are redundant, but the step exists: elimination with complete
+pivoting finds one.
 """
 
 from __future__ import annotations
@@ -101,7 +103,7 @@ def _fill(problem, work, c):
             for a in range(1, problem.width):
                 _velocity_row(problem, work, row + a, u[row + a])
         else:
-            _slide_rows(problem, work, c, row, friction, x, y, radius)
+            _slide_rows(problem, work, c, row, friction, x=x, y=y, radius=radius)
 
 
 @kernel

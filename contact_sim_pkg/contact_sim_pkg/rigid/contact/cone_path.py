@@ -1,11 +1,14 @@
-"""Contacts with the true friction cone in space by Lemke's path: the last rung, for what Newton's method does not settle.
+"""Contacts with the true friction cone in space by Lemke's path: the last rung, for what Newton's
+method does not settle.
 
-The problem is covered as in Lemke's method, ``q + t d``: for great t nothing but ``c = 0`` solves it, and from there the solutions
-form a path that, where the normals of the contacts are alike (a plane), is bounded and so ends at ``t = 0``, however it turns in
-between. With the true cone it is smooth but for the points where a contact changes its mode, instead of straight between pivots:
-it is followed by tangent and Newton's method, and what goes on at a change is the mode beside. Plain numpy: one in a hundred of
-random problems asks for it, and nothing needs to be compiled for it. Source: Cottle, Pang, Stone, The Linear Complementarity
-Problem, 4.4; Allgower, Georg, Numerical Continuation Methods, 2 and 6.
+The problem is covered as in Lemke's method, ``q + t d``: for great t nothing but ``c = 0`` solves
+it, and from there the solutions form a path that, where the normals of the contacts are alike (a
+plane), is bounded and so ends at ``t = 0``, however it turns in between. With the true cone it is
+smooth but for the points where a contact changes its mode, instead of straight between pivots: it
+is followed by tangent and Newton's method, and what goes on at a change is the mode beside. Plain
+numpy: one in a hundred of random problems asks for it, and nothing needs to be compiled for it.
+Source: Cottle, Pang, Stone, The Linear Complementarity Problem, 4.4; Allgower, Georg, Numerical
+Continuation Methods, 2 and 6.
 """
 
 from __future__ import annotations
@@ -17,7 +20,7 @@ import numpy
 import numpy.typing
 
 from contact_sim_pkg.compiled.arrays import Vector
-from contact_sim_pkg.rigid.contact.cone_modes import ContactModes, State
+from contact_sim_pkg.rigid.contact.cone_modes import ContactModes, ModeEquations
 from contact_sim_pkg.rigid.problem import ContactProblem
 
 __all__ = ["candidates_by_path"]
@@ -44,7 +47,7 @@ class PathLostError(Exception):
     """The path goes off, or rounding hides where it leads."""
 
 
-def _tangent(state: State) -> Vector:
+def _tangent(state: ModeEquations) -> Vector:
     """Unit vector along the path, its sense open."""
     if len(state.values) == 0:
         return numpy.ones(1)
@@ -52,14 +55,14 @@ def _tangent(state: State) -> Vector:
     return tangent
 
 
-def _next_tangent(state: State, before: Vector) -> Vector:
+def _next_tangent(state: ModeEquations, before: Vector) -> Vector:
     """Unit vector along the path in the sense of the tangent ``before``."""
     along = numpy.linalg.solve(numpy.vstack([state.slopes, before]), numpy.append(numpy.zeros(len(state.values)), 1.0))
     tangent: Vector = along / numpy.linalg.norm(along)
     return tangent
 
 
-def _corrected(modes: ContactModes, guess: Vector, tangent: Vector) -> tuple[State, int] | None:
+def _corrected(modes: ContactModes, guess: Vector, tangent: Vector) -> tuple[ModeEquations, int] | None:
     """The point of the path nearest to ``guess`` across ``tangent``, and the corrections it took."""
     x = guess
     for count in range(CORRECTIONS + 1):
@@ -77,13 +80,17 @@ def _corrected(modes: ContactModes, guess: Vector, tangent: Vector) -> tuple[Sta
     return None
 
 
-def _crossed(state: State, watched: numpy.typing.NDArray[numpy.bool_]) -> Vector:
+def _crossed(state: ModeEquations, watched: numpy.typing.NDArray[numpy.bool_]) -> Vector:
     """Margins of the watched modes [..], and t last."""
     return numpy.append(state.margins[watched], state.unknowns[-1])
 
 
-def _event(modes: ContactModes, start: State, end: State, tangent: Vector, length: float) -> tuple[State, int] | None:
-    """First point between ``start`` and ``end`` at which a watched margin or t is 0, and the place of that in `_crossed`."""
+def _event(
+    modes: ContactModes, start: ModeEquations, end: ModeEquations, tangent: Vector, length: float
+) -> tuple[ModeEquations, int] | None:
+    """First point between ``start`` and ``end`` at which a watched margin or t is 0, and the place
+    of that in `_crossed`.
+    """
     watched = start.margins > ENTERED
     low, high, above, below = 0.0, length, _crossed(start, watched), _crossed(end, watched)
     state, first = end, int(below.argmin())
@@ -108,7 +115,7 @@ def _event(modes: ContactModes, start: State, end: State, tangent: Vector, lengt
     return state, first
 
 
-def _turned(modes: ContactModes, state: State, contact: int, kind: int) -> tuple[State, Vector]:
+def _turned(modes: ContactModes, state: ModeEquations, contact: int, kind: int) -> tuple[ModeEquations, Vector]:
     """The path from the mode beside on: the margin of the new mode grows along it."""
     modes.switch(state, contact, kind)
     begun = modes.evaluate(modes.unknowns())
@@ -118,8 +125,12 @@ def _turned(modes: ContactModes, state: State, contact: int, kind: int) -> tuple
     return begun, tangent if grows else -tangent
 
 
-def _forward(modes: ContactModes, state: State, tangent: Vector, length: float) -> tuple[State, Vector, int] | None:
-    """One step: the state, its tangent and the corrections it took; None where the step is too long."""
+def _forward(
+    modes: ContactModes, state: ModeEquations, tangent: Vector, length: float
+) -> tuple[ModeEquations, Vector, int] | None:
+    """One step: the state, its tangent and the corrections it took; None where the step is too
+    long.
+    """
     found = _corrected(modes, state.unknowns + length * tangent, tangent)
     if found is None:
         return None
@@ -131,7 +142,9 @@ def _forward(modes: ContactModes, state: State, tangent: Vector, length: float) 
 
 
 def follow(modes: ContactModes, steps: Iterator[int]) -> Vector:
-    """Impulses [rows] in [N s] at the end of the path; takes its ``steps`` from what is left; raises `PathLostError`."""
+    """Impulses [rows] in [N s] at the end of the path; takes its ``steps`` from what is left;
+    raises `PathLostError`.
+    """
     state = modes.evaluate(modes.unknowns())
     tangent, length = _tangent(state), 1.0
     if tangent[-1] > 0.0:  # t falls
@@ -159,7 +172,9 @@ def follow(modes: ContactModes, steps: Iterator[int]) -> Vector:
 
 
 def candidates_by_path(problem: ContactProblem) -> Iterator[Vector]:
-    """Impulses [rows] near a solution of ``problem`` (in space, true cone), one for each way that leads to one."""
+    """Impulses [rows] near a solution of ``problem`` (in space, true cone), one for each way that
+    leads to one.
+    """
     steps = iter(range(ALL_STEPS))
     for way in range(WAYS):
         for shift in SHIFTS:

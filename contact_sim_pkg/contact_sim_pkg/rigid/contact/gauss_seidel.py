@@ -1,4 +1,6 @@
-"""Projected Gauss-Seidel: sweep over the contacts, each normal impulse cut off at its floor, each friction impulse at the cone."""
+"""Projected Gauss-Seidel: sweep over the contacts, each normal impulse cut off at its floor, each
+friction impulse at the cone.
+"""
 
 from __future__ import annotations
 
@@ -17,7 +19,9 @@ def _row_velocity(problem, c, row):
 
 @kernel
 def _tangential_bound(problem, row):
-    """Bound of the tangential block of ``A`` from above, which makes the projected step a contraction."""
+    """Bound of the tangential block of ``A`` from above, which makes the projected step a
+    contraction.
+    """
     if problem.width != SPACE:
         return problem.A[row + 1, row + 1]
     return max(problem.A[row + 1, row + 1], problem.A[row + 2, row + 2]) + abs(problem.A[row + 1, row + 2])
@@ -25,7 +29,9 @@ def _tangential_bound(problem, row):
 
 @kernel
 def sweep(problem, c):
-    """One sweep over all contacts, ``c`` [rows] in place; returns the greatest change of a velocity, A_ii dc."""
+    """One sweep over all contacts, ``c`` [rows] in place; returns the greatest change of a
+    velocity, A_ii dc.
+    """
     change = 0.0
     for i in range(problem.friction.shape[0]):
         row = i * problem.width
@@ -48,7 +54,8 @@ def sweep(problem, c):
 
 @kernel
 def gauss_seidel(problem, c, sweeps, tolerance):
-    """At most ``sweeps`` sweeps from the ``c`` that is given, until velocities change by less than ``tolerance`` [m/s].
+    """At most ``sweeps`` sweeps from the ``c`` that is given, until velocities change by less than
+    ``tolerance`` [m/s].
 
     Returns the number of sweeps; how good the answer is, `problem.residual` tells.
     """

@@ -1,8 +1,10 @@
-"""Lemke's method for the linear complementarity problem ``0 <= z _|_ w = M z + q >= 0``, lexicographic against cycling.
+"""Lemke's method for the linear complementarity problem ``0 <= z _|_ w = M z + q >= 0``,
+lexicographic against cycling.
 
-Tableau ``w - M z - d z0 = q``, d > 0 the covering vector, ones unless set: columns w, z, z0, q. The columns of w hold the
-inverse of the basis: with them ties are broken lexicographically, and the end result is refined against the problem as it was
-given. Source: Cottle, Pang, Stone, The Linear Complementarity Problem, 4.4 and 4.9.
+Tableau ``w - M z - d z0 = q``, d > 0 the covering vector, ones unless set: columns w, z, z0, q. The
+columns of w hold the inverse of the basis: with them ties are broken lexicographically, and the end
+result is refined against the problem as it was given. Source: Cottle, Pang, Stone, The Linear
+Complementarity Problem, 4.4 and 4.9.
 """
 
 from __future__ import annotations
@@ -75,7 +77,9 @@ def _pivot(tableau, row, column, n):
 
 @kernel
 def _comes_first(tableau, row, other, column, n):
-    """Whether ``row`` leaves before ``other``: lexicographic order of (q, inverse basis) over the entering column."""
+    """Whether ``row`` leaves before ``other``: lexicographic order of (q, inverse basis) over the
+    entering column.
+    """
     for k in range(n + 1):
         j = 2 * n + 1 if k == 0 else k - 1
         mine, theirs = tableau[row, j] / tableau[row, column], tableau[other, j] / tableau[other, column]
@@ -143,7 +147,9 @@ def _read_solution(work, n):
 
 @kernel
 def complementarity_residual(work, n):
-    """Greatest ``|min(z_i, w_i)|`` of ``work.z`` in the problem that ``work`` holds, over 1 or the greatest unknown."""
+    """Greatest ``|min(z_i, w_i)|`` of ``work.z`` in the problem that ``work`` holds, over 1 or the
+    greatest unknown.
+    """
     M, q, z, worst, greatest = work.M, work.q, work.z, 0.0, 1.0
     for i in range(n):
         w = q[i]
@@ -158,7 +164,9 @@ def complementarity_residual(work, n):
 
 @kernel
 def solve_in_basis(work, n):
-    """Solve for another ``work.q`` in the basis of the last call of `lemke`; False where that is no longer the solution's."""
+    """Solve for another ``work.q`` in the basis of the last call of `lemke`; False where that is no
+    longer the solution's.
+    """
     tableau, q, last = work.tableau, work.q, 2 * n + 1
     for i in range(n):
         total = 0.0
@@ -174,9 +182,11 @@ def solve_in_basis(work, n):
 
 @kernel
 def lemke(work: LemkeWorkspace, n: int) -> int:
-    """Solve the first ``n`` rows of ``work.M``, ``work.q`` (entries of order 1) into ``work.z``; returns a status.
+    """Solve the first ``n`` rows of ``work.M``, ``work.q`` (entries of order 1) into ``work.z``;
+    returns a status.
 
-    SOLVED; RAY where no variable can leave; NOT_CONVERGED after 40 pivots a row; CONTACT_NOT_FINITE.
+    SOLVED; RAY where no variable can leave; NOT_CONVERGED after 40 pivots a row;
+    CONTACT_NOT_FINITE.
     """
     _set_up(work, n)
     q, z, tableau, basis = work.q, work.z, work.tableau, work.basis

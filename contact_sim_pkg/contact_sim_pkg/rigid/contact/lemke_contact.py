@@ -1,8 +1,10 @@
-"""The contact problem as a linear complementarity problem: normal impulses, friction along each facet's direction, slip bound.
+"""The contact problem as a linear complementarity problem: normal impulses, friction along each
+facet's direction, slip bound.
 
-Per contact ``c_n, c_t (one a direction), lambda``: ``0 <= c_t _|_ lambda + D'u >= 0``, ``0 <= lambda _|_ mu c_n - sum c_t >= 0``.
-A contact without friction has its normal row only. Contact i is scaled by sqrt(A_nn,i), so that masses of any ratio meet
-rows of order 1. Source: Identifiability eq 9.
+Per contact ``c_n, c_t (one a direction), lambda``: ``0 <= c_t _|_ lambda + D'u >= 0``, ``0 <=
+lambda _|_ mu c_n - sum c_t >= 0``. A contact without friction has its normal row only. Contact i is
+scaled by sqrt(A_nn,i), so that masses of any ratio meet rows of order 1. Source: Identifiability eq
+9.
 """
 
 from __future__ import annotations
@@ -77,7 +79,9 @@ def _lay_out(problem, work, facets):
 
 @kernel
 def _fill_velocities(problem, work, n, scale, M, q):
-    """Rows of contact velocities: ``E A E'`` and ``E (q + A floor)``, E the directions, in scaled contacts."""
+    """Rows of contact velocities: ``E A E'`` and ``E (q + A floor)``, E the directions, in scaled
+    contacts.
+    """
     A, direction, contact, width = problem.A, work.direction, work.contact, problem.width
     for i in range(n):
         row = contact[i] * width
@@ -151,7 +155,9 @@ def _shift(work, n, shift):
 
 @kernel
 def _move_center(work, n, shift):
-    """Center of the next pass: the last answer; returns the change of velocity, and the greatest impulse."""
+    """Center of the next pass: the last answer; returns the change of velocity, and the greatest
+    impulse.
+    """
     kind, center, q, z = work.kind, work.center, work.lemke.q, work.lemke.z
     change, greatest = 0.0, 0.0
     for i in range(n):
@@ -175,10 +181,11 @@ def _close(work, n, shift):
 
 @kernel
 def _solve(work, n):
-    """Lemke's method; where many redundant contacts leave it only pivots that are rounding, proximal point iteration.
+    """Lemke's method; where many redundant contacts leave it only pivots that are rounding,
+    proximal point iteration.
 
-    Each pass solves a problem that is not degenerate, ``M + s I`` on the contact rows, about the last answer, and so ends
-    on an answer of the problem itself. Without end (impulses grow): RAY.
+    Each pass solves a problem that is not degenerate, ``M + s I`` on the contact rows, about the
+    last answer, and so ends on an answer of the problem itself. Without end (impulses grow): RAY.
     """
     shift, holds, status = 0.0, False, SOLVED
     for i in range(n):
@@ -204,7 +211,9 @@ def _solve(work, n):
 
 @kernel
 def _cover(work, n, attempt):
-    """Covering vector of an attempt: ones, then other ways to the solution, between 1 and 2 by the golden ratio."""
+    """Covering vector of an attempt: ones, then other ways to the solution, between 1 and 2 by the
+    golden ratio.
+    """
     for i in range(n):
         part = GOLDEN * (i + 1) * attempt
         work.lemke.cover[i] = 1.0 + part - math.floor(part)
@@ -234,10 +243,11 @@ def _still_normals(work, n):
 
 @kernel
 def solve_by_lemke(problem, work, facets, c):
-    """Impulses ``c`` [rows] of the problem with ``facets`` friction directions a contact (plane: 2); returns a status.
+    """Impulses ``c`` [rows] of the problem with ``facets`` friction directions a contact (plane:
+    2); returns a status.
 
-    A contact in a Painleve state answers an approach of any size, rounding as well, with a jam: where the pivots cannot tell
-    it from 0, it is 0.
+    A contact in a Painleve state answers an approach of any size, rounding as well, with a jam:
+    where the pivots cannot tell it from 0, it is 0.
     """
     scale = _scale(problem)
     if scale == 0.0:

@@ -1,4 +1,6 @@
-"""A force of a contact that is known but for a part along a line, which redundant contacts leave open: where it is in its cone."""
+"""A force of a contact that is known but for a part along a line, which redundant contacts leave
+open: where it is in its cone.
+"""
 
 from __future__ import annotations
 
@@ -9,7 +11,9 @@ from contact_sim_pkg.compiled.jit import borrowing_kernel
 
 @borrowing_kernel
 def contact_arm(J, row):
-    """Arm of the contact whose rows start at ``row``: half the sum of ``a x (r x a)`` over its three axes a."""
+    """Arm of the contact whose rows start at ``row``: half the sum of ``a x (r x a)`` over its
+    three axes a.
+    """
     x, y, z = 0.0, 0.0, 0.0
     for k in range(row, row + 3):
         x += 0.5 * (J[k, 1] * J[k, 5] - J[k, 2] * J[k, 4])
@@ -20,11 +24,13 @@ def contact_arm(J, row):
 
 @borrowing_kernel
 def reach_in_cone(J, force, friction, row, x, y, z):
-    """A force that moves along the unit vector (x, y, z), in the cone of the contact whose rows start at ``row``.
+    """A force that moves along the unit vector (x, y, z), in the cone of the contact whose rows
+    start at ``row``.
 
-    Returns how far from the edge of the cone it can come in [N], and the least and the greatest distance in [N] that it may move
-    (`nan` where it never comes into the cone). With ``f + s a`` the roots of ``(mu f_n + s mu a_n)^2 = |f_t + s a_t|^2`` are both
-    ends; where the line itself runs within a cone (``mu |a_n| >= |a_t|``) there is one end, and no limit to the first number.
+    Returns how far from the edge of the cone it can come in [N], and the least and the greatest
+    distance in [N] that it may move (`nan` where it never comes into the cone). With ``f + s a``
+    the roots of ``(mu f_n + s mu a_n)^2 = |f_t + s a_t|^2`` are both ends; where the line itself
+    runs within a cone (``mu |a_n| >= |a_t|``) there is one end, and no limit to the first number.
     """
     n = J[row, 0] * x + J[row, 1] * y + J[row, 2] * z
     first = J[row + 1, 0] * x + J[row + 1, 1] * y + J[row + 1, 2] * z

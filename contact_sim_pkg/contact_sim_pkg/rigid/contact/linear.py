@@ -32,9 +32,11 @@ def _greatest(matrix, step, n):
 
 @kernel
 def solve_consistent(matrix, right, x, order, n):
-    """Solve ``matrix x = right`` (first ``n`` rows and columns), both overwritten; returns the rank.
+    """Solve ``matrix x = right`` (first ``n`` rows and columns), both overwritten; returns the
+    rank.
 
-    Where the rank is short the unknowns that are left over are 0. ``order`` [n] integers is work space.
+    Where the rank is short the unknowns that are left over are 0. ``order`` [n] integers is work
+    space.
     """
     for i in range(n):
         order[i] = i

@@ -1,9 +1,11 @@
-"""How redundant contacts share their load: the split of least norm, which depends on nothing but the wrench and the modes.
+"""How redundant contacts share their load: the split of least norm, which depends on nothing but
+the wrench and the modes.
 
-Least ``sum c_n^2 + |c_t|^2`` over all impulses with the same wrench ``J'c``, each in its own cone: nothing where the contact
-separates, the ray against the slip where it slides, the friction cone where it sticks. It is the projection ``c = P(J y)`` on
-these cones, with one multiplier y per coordinate of the bodies: Newton's method on ``J' P(J y) = wrench``, whose dual is
-convex with one derivative. Source: the least-norm choice is ours.
+Least ``sum c_n^2 + |c_t|^2`` over all impulses with the same wrench ``J'c``, each in its own cone:
+nothing where the contact separates, the ray against the slip where it slides, the friction cone
+where it sticks. It is the projection ``c = P(J y)`` on these cones, with one multiplier y per
+coordinate of the bodies: Newton's method on ``J' P(J y) = wrench``, whose dual is convex with one
+derivative. Source: the least-norm choice is ours.
 """
 
 from __future__ import annotations
@@ -46,14 +48,24 @@ def make_split_workspace(rows: int, coordinates: int) -> SplitWorkspace:
     """Work space for ``rows`` contact rows on bodies with ``coordinates`` coordinates."""
     zeros, n = numpy.zeros, coordinates
     return SplitWorkspace(
-        zeros(n), zeros(n), zeros(n), zeros(n), zeros(n), zeros(n), zeros(n), zeros((n, n)), zeros(n, numpy.int64),
-        zeros(rows),
-    )  # fmt: skip
+        y=zeros(n),
+        trial=zeros(n),
+        wrench=zeros(n),
+        miss=zeros(n),
+        right=zeros(n),
+        step=zeros(n),
+        scale=zeros(n),
+        hessian=zeros((n, n)),
+        order=zeros(n, numpy.int64),
+        c=zeros(rows),
+    )
 
 
 @kernel
 def _project(problem, u, limit, i, a, facets):
-    """Projection of the three numbers ``a`` (normal, two tangents) on the cone of contact ``i`` with velocity ``u``."""
+    """Projection of the three numbers ``a`` (normal, two tangents) on the cone of contact ``i``
+    with velocity ``u``.
+    """
     row = i * problem.width
     if u[row] > limit:
         return 0.0, 0.0, 0.0
@@ -107,7 +119,9 @@ def _pull(J, work, y, row):
 
 @kernel
 def _fill_hessian(problem, J, work, u, limit, y, facets):
-    """``J' dP J`` by central differences of the projections along their own coordinates, which are linear in pieces."""
+    """``J' dP J`` by central differences of the projections along their own coordinates, which are
+    linear in pieces.
+    """
     n = y.shape[0]
     for k in range(n):
         for m in range(n):
@@ -156,7 +170,9 @@ def _first_multiplier(J, work):
 
 @kernel
 def _descend(problem, J, work, u, limit, dual, facets):
-    """One Newton step on the dual, halved until it falls; returns the new value and whether it fell."""
+    """One Newton step on the dual, halved until it falls; returns the new value and whether it
+    fell.
+    """
     n = work.y.shape[0]
     slope = 0.0
     _fill_hessian(problem, J, work, u, limit, work.y, facets)
@@ -187,10 +203,11 @@ def _descend(problem, J, work, u, limit, dual, facets):
 
 @kernel
 def split_load(problem, J, W, u, scale, facets, c, work):
-    """Replace ``c`` [rows] by the split of least norm with the same wrench; False where it was not found and c is kept.
+    """Replace ``c`` [rows] by the split of least norm with the same wrench; False where it was not
+    found and c is kept.
 
-    ``J`` [rows, coordinates], ``W`` the inverse inertia, ``u`` = q + A c [rows] the velocities that stay as they are, ``scale``
-    their greatest. In the plane ``facets`` is not read.
+    ``J`` [rows, coordinates], ``W`` the inverse inertia, ``u`` = q + A c [rows] the velocities that
+    stay as they are, ``scale`` their greatest. In the plane ``facets`` is not read.
     """
     n = work.y.shape[0]
     facets = DISC if problem.width == PLANE else facets

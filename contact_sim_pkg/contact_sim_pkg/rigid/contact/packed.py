@@ -1,4 +1,5 @@
-"""Solve the contacts of a body that take part, and those alone: of all that it can have few are active at a time.
+"""Solve the contacts of a body that take part, and those alone: of all that it can have few are
+active at a time.
 
 The arrays of a solve are made once for each number of active contacts. Bookkeeping around
 `rigid/contact/solver.py` and `rigid/impact/law.py`.
@@ -12,7 +13,7 @@ import numpy
 
 from contact_sim_pkg.compiled.arrays import Vector
 from contact_sim_pkg.rigid.contact.answers import contact_impulses
-from contact_sim_pkg.rigid.contact.solver import NEWTON, SWEEPS, Solution, Solver, make_solver
+from contact_sim_pkg.rigid.contact.solver import NEWTON, SWEEPS, ContactSolution, Solver, make_solver
 from contact_sim_pkg.rigid.impact.law import ImpactWorkspace, impact_impulses, make_impact_workspace
 from contact_sim_pkg.rigid.motion.motion import MotionWorkspace
 from contact_sim_pkg.rigid.problem import DISC, ContactProblem, make_problem
@@ -32,12 +33,16 @@ class _Room(NamedTuple):
 
 
 class PackedSolver:
-    """Impulses of the active contacts of a `MotionWorkspace`, into its ``impulse``; those of the others are 0."""
+    """Impulses of the active contacts of a `MotionWorkspace`, into its ``impulse``; those of the
+    others are 0.
+    """
 
     def __init__(
         self, coordinates: int, width: int, facets: int = DISC, rung: int = NEWTON, sweeps: int = SWEEPS
     ) -> None:
-        """Of a body with ``coordinates`` coordinates; ``rung`` and ``sweeps`` of the solver of held contacts."""
+        """Of a body with ``coordinates`` coordinates; ``rung`` and ``sweeps`` of the solver of held
+        contacts.
+        """
         self._coordinates, self._width, self._facets, self._rung, self._sweeps = (
             coordinates,
             width,
@@ -47,25 +52,32 @@ class PackedSolver:
         )
         self._rooms: dict[int, _Room] = {}
 
-    def hold(self, work: MotionWorkspace) -> Solution:
+    def hold(self, work: MotionWorkspace) -> ContactSolution:
         """Contacts of ``work.problem`` that are held."""
         rows, room = self._pack(work)
         work.impulse[:] = 0.0
         if len(rows) == 0:
-            return Solution(SOLVED, UNIQUE, 0.0, 0)
+            return ContactSolution(SOLVED, UNIQUE, 0.0, 0)
         found = contact_impulses(room.problem, room.jacobian, work.W, room.solver, room.impulse)
         work.impulse[rows] = room.impulse
         return found
 
-    def collide(self, work: MotionWorkspace, rule: int) -> Solution:
+    def collide(self, work: MotionWorkspace, rule: int) -> ContactSolution:
         """Impact of the active contacts from the contact velocities ``work.u``."""
         rows, room = self._pack(work)
         work.impulse[:] = 0.0
         if len(rows) == 0:
-            return Solution(SOLVED, UNIQUE, 0.0, 0)
+            return ContactSolution(SOLVED, UNIQUE, 0.0, 0)
         restitution = work.restitution[rows[:: self._width] // self._width]
         found = impact_impulses(
-            room.problem, room.jacobian, work.W, work.u[rows], restitution, rule, room.impact, room.impulse
+            room.problem,
+            J=room.jacobian,
+            W=work.W,
+            u=work.u[rows],
+            restitution=restitution,
+            rule=rule,
+            work=room.impact,
+            c=room.impulse,
         )
         work.impulse[rows] = room.impulse
         return found

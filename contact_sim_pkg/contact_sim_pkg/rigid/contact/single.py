@@ -1,8 +1,10 @@
-"""One contact in space that stays on the ground: it sticks, or it slides on; closed form but for the direction of slip.
+"""One contact in space that stays on the ground: it sticks, or it slides on; closed form but for
+the direction of slip.
 
-The impulse that stops all slip is taken where it lies in the cone. Sliding, ``c_n`` follows from the normal row for a given
-direction, and the direction is that of the slip which is left, found by iteration; for a sphere it is the one before. Source:
-Identifiability eqs 12-18 and 32-38, corrected.
+The impulse that stops all slip is taken where it lies in the cone. Sliding, ``c_n`` follows from
+the normal row for a given direction, and the direction is that of the slip which is left, found by
+iteration; for a sphere it is the one before. Source: Identifiability eqs 12-18 and 32-38,
+corrected.
 """
 
 from __future__ import annotations
@@ -30,8 +32,13 @@ def _delassus(J, W, row, a, b):
 
 
 @inline_kernel
-def _stop_all(nn, n1, n2, t11, t12, t22, q_n, q_1, q_2):
-    """Impulse after which the contact point rests: Cramer's rule."""
+def _stop_all(delassus, velocity):
+    """Impulse after which the contact point is at rest, by Cramer's rule.
+
+    ``delassus``: elements nn, n1, n2, 11, 12, 22 of ``J W J'`` in [1/kg]; ``velocity``: its rows in
+    [m/s].
+    """
+    (nn, n1, n2, t11, t12, t22), (q_n, q_1, q_2) = delassus, velocity
     i_nn, i_n1, i_n2 = t11 * t22 - t12 * t12, n2 * t12 - n1 * t22, n1 * t12 - n2 * t11
     part = -1.0 / (nn * i_nn + n1 * i_n1 + n2 * i_n2)
     i_11, i_12, i_22 = nn * t22 - n2 * n2, n1 * n2 - nn * t12, nn * t11 - n1 * n1
@@ -44,16 +51,18 @@ def _stop_all(nn, n1, n2, t11, t12, t22, q_n, q_1, q_2):
 
 @kernel
 def single_impulses(J, W, q, friction, i, c):
-    """Impulse of contact ``i`` into its rows of ``c``; returns the residual, inf where it is left to the solvers.
+    """Impulse of contact ``i`` into its rows of ``c``; returns the residual, inf where it is left
+    to the solvers.
 
-    ``J`` [rows, 6], ``W`` [6, 6] of one body in space, ``q`` [rows] what the rows ask for, ``friction`` its ratio.
+    ``J`` [rows, 6], ``W`` [6, 6] of one body in space, ``q`` [rows] what the rows ask for,
+    ``friction`` its ratio.
     """
     row = SPACE * i
     nn, n1, n2 = _delassus(J, W, row, 0, 0), _delassus(J, W, row, 0, 1), _delassus(J, W, row, 0, 2)
     t11, t12, t22 = _delassus(J, W, row, 1, 1), _delassus(J, W, row, 1, 2), _delassus(J, W, row, 2, 2)
     q_n, q_1, q_2 = q[row], q[row + 1], q[row + 2]
     scale = max(abs(q_n), abs(q_1), abs(q_2))
-    c_n, c_1, c_2 = _stop_all(nn, n1, n2, t11, t12, t22, q_n, q_1, q_2)
+    c_n, c_1, c_2 = _stop_all((nn, n1, n2, t11, t12, t22), (q_n, q_1, q_2))
     found = c_n >= 0.0 and c_1 * c_1 + c_2 * c_2 <= friction * friction * c_n * c_n
     u_1, u_2, turn, slides = q_1, q_2, 0, False
     d_1, d_2 = 0.0, 0.0

@@ -1,10 +1,12 @@
-"""One contact in space that slides: the direction of slip as the root of one equation, found between brackets.
+"""One contact in space that slides: the direction of slip as the root of one equation, found
+between brackets.
 
-For a direction d of slip ``c_t = -mu c_n d``, and ``c_n = -q_n / s`` with ``s = A_nn - mu A_nt d`` keeps the normal velocity at
-zero. d is right where the slip that is left, ``u_t = q_t + A_tn c_n + A_tt c_t``, points along it: ``u_t x d = 0``,
-``u_t d >= 0``. Times s this is a trigonometric polynomial of the angle of d. A floor of the normal impulse takes the place of
-``-q_n / s`` where that is below it. Newton's method finds the direction in most cases; this is for those in which it turns
-round and round. Source: Identifiability eqs 32-38, with the direction of slip free.
+For a direction d of slip ``c_t = -mu c_n d``, and ``c_n = -q_n / s`` with ``s = A_nn - mu A_nt d``
+keeps the normal velocity at zero. d is right where the slip that is left, ``u_t = q_t + A_tn c_n +
+A_tt c_t``, points along it: ``u_t x d = 0``, ``u_t d >= 0``. Times s this is a trigonometric
+polynomial of the angle of d. A floor of the normal impulse takes the place of ``-q_n / s`` where
+that is below it. Newton's method finds the direction in most cases; this is for those in which it
+turns round and round. Source: Identifiability eqs 32-38, with the direction of slip free.
 """
 
 from __future__ import annotations
@@ -30,7 +32,9 @@ def _across(A, q, friction, floor, at_floor, angle):
 
 @kernel
 def _slides(A, q, friction, floor, at_floor, angle, c):
-    """Impulse for one direction into ``c``; whether it is admissible and the slip that it leaves points along the direction."""
+    """Impulse for one direction into ``c``; whether it is admissible and the slip that it leaves
+    points along the direction.
+    """
     d_1, d_2 = math.cos(angle), math.sin(angle)
     slope = A[0, 0] - friction * (A[0, 1] * d_1 + A[0, 2] * d_2)
     if not (at_floor or slope > 0.0):

@@ -1,8 +1,9 @@
 """Solve a contact problem by a rung of the ladder, and name how it ended.
 
-Rungs: MODES (closed formulas, one contact in the plane), GAUSS_SEIDEL (cheap: a fixed number of sweeps), LEMKE (exact in the
-plane and for a polyhedral cone; for the true cone in space the start of Newton's method) and NEWTON (default): Newton's
-method from a few sweeps, certified by its residual, and LEMKE wherever it does not settle or the cone is polyhedral.
+Rungs: MODES (closed formulas, one contact in the plane), GAUSS_SEIDEL (cheap: a fixed number of
+sweeps), LEMKE (exact in the plane and for a polyhedral cone; for the true cone in space the start
+of Newton's method) and NEWTON (default): Newton's method from a few sweeps, certified by its
+residual, and LEMKE wherever it does not settle or the cone is polyhedral.
 """
 
 from __future__ import annotations
@@ -51,7 +52,7 @@ class Solver(NamedTuple):
     passed: Vector  # [rows], answer of the last pass
 
 
-class Solution(NamedTuple):
+class ContactSolution(NamedTuple):
     """How a contact solve ended; the impulses are in the array that was handed in."""
 
     status: int  # results.SOLVED ...
@@ -63,11 +64,22 @@ class Solution(NamedTuple):
 def make_solver(
     contacts: int, coordinates: int, width: int, facets: int = DISC, rung: int = NEWTON, sweeps: int = SWEEPS
 ) -> Solver:
-    """Work space for problems of up to ``contacts`` contacts on bodies with ``coordinates`` coordinates."""
+    """Work space for problems of up to ``contacts`` contacts on bodies with ``coordinates``
+    coordinates.
+    """
     rows = contacts * width
     lemke = make_contact_lemke(contacts, width, facets if facets != DISC else START_FACETS)
     newton, split = make_newton_workspace(rows), make_split_workspace(rows, coordinates)
-    return Solver(rung, sweeps, lemke, newton, split, numpy.zeros(rows), numpy.zeros(rows), numpy.zeros(rows))
+    return Solver(
+        rung=rung,
+        sweeps=sweeps,
+        lemke=lemke,
+        newton=newton,
+        split=split,
+        center=numpy.zeros(rows),
+        weight=numpy.zeros(rows),
+        passed=numpy.zeros(rows),
+    )
 
 
 @inline_kernel
@@ -107,9 +119,11 @@ def _by_direction(problem, solver, c):
 
 @inline_kernel
 def _exactly(problem, solver, start, attempts, c):
-    """Newton's method from ``c`` (``start``) or a few sweeps; Lemke; on the true cone Newton from there, with facets turned.
+    """Newton's method from ``c`` (``start``) or a few sweeps; Lemke; on the true cone Newton from
+    there, with facets turned.
 
-    At most ``attempts`` times: the facets of a further one are turned to the slip that the last one found.
+    At most ``attempts`` times: the facets of a further one are turned to the slip that the last one
+    found.
     """
     plane = problem.width == PLANE
     on_disc = not plane and problem.facets == DISC
@@ -149,7 +163,9 @@ def may_share_load(problem):
 
 @inline_kernel
 def _about(problem, weight, sign, center):
-    """Add (sign 1) or take away (-1) the proximal terms: ``A + s I``, ``q - s center``, s of the row in ``weight``."""
+    """Add (sign 1) or take away (-1) the proximal terms: ``A + s I``, ``q - s center``, s of the
+    row in ``weight``.
+    """
     for row in range(problem.q.shape[0]):
         problem.A[row, row] += sign * weight[row]
         problem.q[row] -= sign * weight[row] * center[row]
@@ -157,7 +173,9 @@ def _about(problem, weight, sign, center):
 
 @inline_kernel
 def _begin(solver, attempt, c):
-    """What an attempt starts from: a pass from the one before, POLISH from the last pass, ALONE from no impulse."""
+    """What an attempt starts from: a pass from the one before, POLISH from the last pass, ALONE
+    from no impulse.
+    """
     if attempt < POLISH:
         copy_row(c, solver.center)
         return
@@ -177,13 +195,14 @@ def _change(problem, solver, c):
 
 @inline_kernel
 def _by_passes(problem, solver, c):
-    """Redundant contacts: proximal point iteration from no load, each pass of which has one solution.
+    """Redundant contacts: proximal point iteration from no load, each pass of which has one
+    solution.
 
-    How the load is shared decides, where points slide in different directions, the friction and so the velocity: the answer
-    picked here does not depend on the order of the contacts. Source: Rockafellar 1976.
-    Passes go on without end where redundant contacts contradict each other by rounding of gaps or arms, and squeeze each other
-    until one slips: Newton's method then goes on from the last, without the proximal term. One contact, and what has no pass, is
-    solved ALONE.
+    How the load is shared decides, where points slide in different directions, the friction and so
+    the velocity: the answer picked here does not depend on the order of the contacts. Source:
+    Rockafellar 1976. Passes go on without end where redundant contacts contradict each other by
+    rounding of gaps or arms, and squeeze each other until one slips: Newton's method then goes on
+    from the last, without the proximal term. One contact, and what has no pass, is solved ALONE.
     """
     part = PASS_WEIGHT if solver.rung == NEWTON and may_share_load(problem) else 0.0
     for row in range(c.shape[0]):
@@ -223,8 +242,9 @@ def _quiet(problem):
 
 
 @inline_kernel
-def solve_contact(problem: ContactProblem, solver: Solver, c: Vector) -> Solution:
-    """Impulses of ``problem`` into ``c`` [rows]; zeros where the status is RAY or CONTACT_NOT_FINITE.
+def solve_contact(problem: ContactProblem, solver: Solver, c: Vector) -> ContactSolution:
+    """Impulses of ``problem`` into ``c`` [rows]; zeros where the status is RAY or
+    CONTACT_NOT_FINITE.
 
     MODES needs one contact in the plane. Gauss-Seidel starts from the ``c`` that is given.
     """
@@ -244,21 +264,21 @@ def solve_contact(problem: ContactProblem, solver: Solver, c: Vector) -> Solutio
     if status != SOLVED and status != NOT_CONVERGED:
         for i in range(c.shape[0]):
             c[i] = 0.0
-        return Solution(status, UNIQUE, numpy.inf, swept)
-    return Solution(status, UNIQUE, residual(problem, c, u), swept)
+        return ContactSolution(status, UNIQUE, numpy.inf, swept)
+    return ContactSolution(status, UNIQUE, residual(problem, c, u), swept)
 
 
 @inline_kernel
-def solve_and_split(problem: ContactProblem, J: Vector, W: Vector, solver: Solver, c: Vector) -> Solution:
+def solve_and_split(problem: ContactProblem, J: Vector, W: Vector, solver: Solver, c: Vector) -> ContactSolution:
     """`solve_contact`, then the least-norm split of the load; flagged where the split is a choice."""
     found = solve_contact(problem, solver, c)
     if found.status != SOLVED or not may_share_load(problem):
         return found
     u, kept = solver.newton.velocity, solver.newton.best
     copy_row(c, kept)
-    split_load(problem, J, W, u, velocity_scale(problem, c), problem.facets, c, solver.split)
+    split_load(problem, J, W, u, scale=velocity_scale(problem, c), facets=problem.facets, c=c, work=solver.split)
     after = residual(problem, c, u)
     if after > GOOD and after > found.residual:
         copy_row(kept, c)
         after = residual(problem, c, u)
-    return Solution(SOLVED, SPLIT_NOT_UNIQUE, after, found.work)
+    return ContactSolution(SOLVED, SPLIT_NOT_UNIQUE, after, found.work)

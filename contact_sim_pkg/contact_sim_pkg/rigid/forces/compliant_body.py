@@ -1,12 +1,15 @@
-"""A rigid body on a ground that its points press into: the compliant twin of ``rigid/motion/located.py``.
+"""A rigid body on a ground that its points press into: the compliant twin of
+``rigid/motion/located.py``.
 
-Each point carries a Hunt and Crossley force ``A x**n (1 + lambda x')`` of its own depth x, and the friction of
-``laws/point_friction.py``. lambda is set at every touch from the speed of approach there, ``lambda = d/x'``, d the loss that
-delivers the asked restitution (``laws/restitution.py``): then the ratio of speeds is the asked one at any speed and for
-any mass at the point. Below ``slowest`` the speed counts as that, so that a resting contact is damped.
+Each point carries a Hunt and Crossley force ``A x**n (1 + lambda x')`` of its own depth x, and the
+friction of ``laws/point_friction.py``. lambda is set at every touch from the speed of approach
+there, ``lambda = d/x'``, d the loss that delivers the asked restitution (``laws/restitution.py``):
+then the ratio of speeds is the asked one at any speed and for any mass at the point. Below
+``slowest`` the speed counts as that, so that a resting contact is damped.
 
-State: [place and turn] [v, omega] (`rigid/body_state.py`) [spring deflection of each point] [impulse of each point, normal then
-tangents, in N s] [work dissipated or lent to friction springs, in J]. Mode: lambda of each point.
+State: [place and turn] [v, omega] (`rigid/body_state.py`) [spring deflection of each point]
+[impulse of each point, normal then tangents, in N s] [work dissipated or lent to friction springs,
+in J]. Mode: lambda of each point.
 """
 
 from __future__ import annotations
@@ -31,7 +34,7 @@ MARGINS_A_POINT = 3  # approach, tension, stick
 FREE = 0.0  # lambda of a point that has not touched
 
 
-class CompliantContact(NamedTuple):
+class CompliantLaw(NamedTuple):
     """What acts at each point."""
 
     elastic: NormalElastic
@@ -46,7 +49,7 @@ class CompliantBody(NamedTuple):
 
     body: RigidBody
     ground: Ground
-    contact: CompliantContact
+    contact: CompliantLaw
     motion: Motion  # of the state last looked at
     gap: Vector  # [points]
     J: Vector  # [rows, coordinates]
@@ -54,13 +57,20 @@ class CompliantBody(NamedTuple):
     push: Vector  # [coordinates] force and torque of all contacts and loads, world axes
 
 
-def make_rig(body: RigidBody, ground: Ground, contact: CompliantContact) -> CompliantBody:
+def make_rig(body: RigidBody, ground: Ground, contact: CompliantLaw) -> CompliantBody:
     """The rig, with its arrays."""
     width, points, coordinates, zeros = body.width, contact_count(body, ground), len(body.load), numpy.zeros
     motion = Motion(zeros(width), zeros(1), zeros((width, width)), zeros(coordinates))
     rows = points * width
     return CompliantBody(
-        body, ground, contact, motion, zeros(points), zeros((rows, coordinates)), zeros(rows), zeros(coordinates)
+        body=body,
+        ground=ground,
+        contact=contact,
+        motion=motion,
+        gap=zeros(points),
+        J=zeros((rows, coordinates)),
+        u=zeros(rows),
+        push=zeros(coordinates),
     )
 
 
@@ -86,7 +96,9 @@ def look(rig, state):
 
 @kernel
 def _tangents(rig, state, point):
-    """Deflection of a point's spring and its slip velocity, two components each; the second is 0 in the plane."""
+    """Deflection of a point's spring and its slip velocity, two components each; the second is 0 in
+    the plane.
+    """
     width = rig.body.width
     place = _first_deflection(rig) + point * (width - 1)
     if width == PLANE:
@@ -103,7 +115,9 @@ def _normal(rig, mode, point):
 
 @kernel
 def _add_point(rig, mode, point, state, out):
-    """Add a touching point's forces to ``rig.push``; fills its rates and returns the lost power, or lent to the spring."""
+    """Add a touching point's forces to ``rig.push``; fills its rates and returns the lost power, or
+    lent to the spring.
+    """
     width = rig.body.width
     first = _first_deflection(rig)
     row, place = point * width, first + point * (width - 1)
@@ -156,7 +170,9 @@ def _event_functions(rig, drive, mode, time, state, derivative, out):
 
 @kernel
 def set_loss(rig, mode, point):
-    """lambda of a point that touches, of the speed at which it does; the rig must have looked at the state."""
+    """lambda of a point that touches, of the speed at which it does; the rig must have looked at
+    the state.
+    """
     mode[point] = rig.contact.loss / max(-rig.u[point * rig.body.width], rig.contact.slowest)
 
 

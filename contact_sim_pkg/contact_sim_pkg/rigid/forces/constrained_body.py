@@ -1,11 +1,13 @@
-"""A rigid body on held contacts in time, as a rig of the integrator: what a turn calls for. Each contact keeps its mode.
+"""A rigid body on held contacts in time, as a rig of the integrator: what a turn calls for. Each
+contact keeps its mode.
 
-A mode ends where a normal force or a slip comes to 0, a sticking force leaves its cone, a free contact lands, or a held one comes
-to the end of a face of the ground. The forces: `rigid/forces/constraint_forces.py`.
+A mode ends where a normal force or a slip comes to 0, a sticking force leaves its cone, a free
+contact lands, or a held one comes to the end of a face of the ground. The forces:
+`rigid/forces/constraint_forces.py`.
 
-State: [place and turn] [v, omega] (`rigid/body_state.py`) [time in s] [work of friction in J] [impulse of each row in N s]
-[integral of each event function: so the rate of a state holds all that is asked of it]. Source: Hairer and Wanner,
-Solving Ordinary Differential Equations II, VII.2.
+State: [place and turn] [v, omega] (`rigid/body_state.py`) [time in s] [work of friction in J]
+[impulse of each row in N s] [integral of each event function: so the rate of a state holds all that
+is asked of it]. Source: Hairer and Wanner, Solving Ordinary Differential Equations II, VII.2.
 """
 
 from __future__ import annotations
@@ -112,7 +114,9 @@ def _event_functions(rig, drive, mode, time, state, derivative, out):
 
 @borrowing_kernel
 def _goes_round(rig, i):
-    """Whether the slip of contact ``i`` has come at right angles to where it went and goes on; it then counts from there."""
+    """Whether the slip of contact ``i`` has come at right angles to where it went and goes on; it
+    then counts from there.
+    """
     if rig.body.width == PLANE:
         return False
     u, row = rig.rows[VELOCITY], i * rig.body.width

@@ -57,10 +57,20 @@ def make_held_body(body: RigidBody, ground: Ground) -> HeldBody:
     width, contacts, coordinates, zeros = body.width, contact_count(body, ground), len(body.load), numpy.zeros
     motion, rows = Motion(zeros(width), zeros(1), zeros((width, width)), zeros(coordinates)), contacts * width
     return HeldBody(
-        body, ground, zeros((width, width)), motion, zeros((rows, coordinates)), zeros((coordinates, coordinates)),
-        zeros((6, contacts)), zeros((4, rows)), zeros((3, rows, rows)), zeros((coordinates, rows)), zeros((2, coordinates)),
-        zeros((2, rows), numpy.int64), zeros(4),
-    )  # fmt: skip
+        body=body,
+        ground=ground,
+        start=zeros((width, width)),
+        motion=motion,
+        J=zeros((rows, coordinates)),
+        W=zeros((coordinates, coordinates)),
+        contacts=zeros((6, contacts)),
+        rows=zeros((4, rows)),
+        matrices=zeros((3, rows, rows)),
+        columns=zeros((coordinates, rows)),
+        push=zeros((2, coordinates)),
+        order=zeros((2, rows), numpy.int64),
+        unit=zeros(4),
+    )
 
 
 @borrowing_kernel
@@ -81,7 +91,9 @@ def look(rig, state):
 
 @borrowing_kernel
 def slip_direction(rig, i):
-    """Unit direction of the slip of contact ``i``: that of the start where it hardly slips, and always in the plane."""
+    """Unit direction of the slip of contact ``i``: that of the start where it hardly slips, and
+    always in the plane.
+    """
     first, second = rig.contacts[FIRST, i], rig.contacts[SECOND, i]
     if rig.body.width == PLANE:
         return first, second
@@ -107,7 +119,9 @@ def _list_rows(rig, mode):
 
 @borrowing_kernel
 def _pattern(rig, mode, row, part):
-    """How much of row ``part`` of its contact belongs to the unknown force of ``row``: 1 and 0, or a unit along the cone's edge."""
+    """How much of row ``part`` of its contact belongs to the unknown force of ``row``: 1 and 0, or
+    a unit along the cone's edge.
+    """
     width = rig.body.width
     i = row // width
     if mode[i] == STICKS:
@@ -193,7 +207,8 @@ def _fill_free_acceleration(rig):
 def _share_friction(rig, i, j):
     """Forces of two sticking contacts along the line through them, of which only the sum is known.
 
-    As little as can be is moved from one to the other so that both stay in their cones; what is spare is that of both.
+    As little as can be is moved from one to the other so that both stay in their cones; what is
+    spare is that of both.
     """
     force, spare, a, b = rig.rows[FORCE], rig.contacts[SPARE], 3 * i, 3 * j
     x_i, y_i, z_i = contact_arm(rig.J, a)
@@ -262,7 +277,8 @@ def fill_forces(rig, mode):
 
 @borrowing_kernel
 def stop_rows(rig, mode, impulse):
-    """Take the rest of the velocity from the held rows of ``rig.motion``, which was looked at, by impulses along their forces.
+    """Take the rest of the velocity from the held rows of ``rig.motion``, which was looked at, by
+    impulses along their forces.
 
     They are added to ``impulse`` [rows] in [N s].
     """

@@ -1,4 +1,5 @@
-"""A body on a flat face, all of whose points stick or all of whose points slide: the impulses of least norm without pivoting.
+"""A body on a flat face, all of whose points stick or all of whose points slide: the impulses of
+least norm without pivoting.
 
 `rigid/motion/face_stick.py` shares the wrench that stops the body among the points, within their
 friction cones; `rigid/motion/face_slide.py`: all slide. Either answer is taken only if it meets
@@ -20,6 +21,8 @@ from contact_sim_pkg.rigid.geometry.face_points import (
     R_S,
     R_T,
     ROW,
+    FaceContact,
+    FaceMotion,
     centre,
     cross,
     in_axes,
@@ -39,8 +42,10 @@ def make_face_workspace(contacts: int) -> Vector:
 
 
 @inline_kernel
-def _worst_break(mu, face, count, v, w, light, lever, c):
+def _worst_break(contact, motion, c):
     """Residual of `problem.residual`, from the wrench of the impulses."""
+    mu, face, count = contact.friction, contact.points, contact.contacts
+    v, w, light, lever = motion.velocity, motion.spin, motion.inverse_mass, motion.inverse_inertia
     f, m = (0.0, 0.0, 0.0), (0.0, 0.0, 0.0)
     for j in range(count):
         row = int(face[j, ROW])
@@ -71,11 +76,12 @@ def _worst_break(mu, face, count, v, w, light, lever, c):
 
 @kernel
 def face_impulses(J, W, velocity, friction, face, c):
-    """Impulses ``c`` [rows] of one body on a flat face, of least norm; returns the residual, inf where none is found.
+    """Impulses ``c`` [rows] of one body on a flat face, of least norm; returns the residual, inf
+    where none is found.
 
-    ``J`` [rows, 6] and ``W`` [6, 6] of one body in space, ``velocity`` [6] without the contacts, ``friction`` [contacts], INACTIVE
-    for those that take no part; three or more must, in one plane. ``face``: `make_face_workspace`.
-    Rows of ``c`` that take no part are left alone.
+    ``J`` [rows, 6] and ``W`` [6, 6] of one body in space, ``velocity`` [6] without the contacts,
+    ``friction`` [contacts], INACTIVE for those that take no part; three or more must, in one plane.
+    ``face``: `make_face_workspace`. Rows of ``c`` that take no part are left alone.
     """
     count = read_face(J, friction, face)
     if count < 3:
@@ -91,9 +97,10 @@ def face_impulses(J, W, velocity, friction, face, c):
     inertia = inverse(lever)
     stop, mass = times(inertia, w), 1.0 / light
     F, T = (-mass * v[0], -mass * v[1], -mass * v[2]), (-stop[0], -stop[1], -stop[2])
-    found = stick_on_face(mu, face, count, mean, spread, F, T, c)
+    contact, motion = FaceContact(mu, face, count, mean, spread), FaceMotion(v, w, light, lever, inertia)
+    found = stick_on_face(contact, F, T, c)
     if not found and mu > 0.0:
-        found = slide_on_face(mu, face, count, mean, spread, F[0], v, w, light, inertia, c)
+        found = slide_on_face(contact, motion, F[0], c)
     if not found:
         return numpy.inf
-    return _worst_break(mu, face, count, v, w, light, lever, c)
+    return _worst_break(contact, motion, c)

@@ -1,12 +1,17 @@
-"""The contacts of a body that lie on one plane: arms in the axes of the plane, their mean, and small tensors in these axes.
+"""The contacts of a body that lie on one plane: arms in the axes of the plane, their mean, and
+small tensors in these axes.
 
-Axes (normal, tangents) of the contacts, which all have the same; arms r about the centre of mass, rho about their mean.
+Axes (normal, tangents) of the contacts, which all have the same; arms r about the centre of mass,
+rho about their mean.
 """
 
 from __future__ import annotations
 
+from typing import NamedTuple
+
 import numpy
 
+from contact_sim_pkg.compiled.arrays import Vector
 from contact_sim_pkg.compiled.jit import inline_kernel
 from contact_sim_pkg.rigid.problem import INACTIVE, SPACE
 
@@ -14,6 +19,26 @@ FLAT = 1.0e-9  # of the greatest arm: points this much out of the plane are no f
 NARROW = 1.0e-9  # of the size of the face, to the power 3: points this near to a line are no face
 # columns of a face: arm, arm about the mean, row, direction of slip
 R_N, R_T, R_S, A, B, ROW, D_T, D_S, FACE = 0, 1, 2, 3, 4, 5, 6, 7, 8
+
+
+class FaceContact(NamedTuple):
+    """Contacts of a body on one plane, in the axes of the plane."""
+
+    friction: float  # Coulomb's ratio mu
+    points: Vector  # [contacts + work rows, FACE]
+    contacts: int  # number of them
+    mean: tuple[float, float, float]  # [m] mean arm
+    spread: tuple[float, float, float]  # [m^2] sums of products of the arms about their mean: tt, ts, ss
+
+
+class FaceMotion(NamedTuple):
+    """Motion and inertia of the body before the impulses, in the axes of the plane."""
+
+    velocity: tuple[float, float, float]  # [m/s] of the centre of mass
+    spin: tuple[float, float, float]  # [rad/s]
+    inverse_mass: float  # [1/kg]
+    inverse_inertia: tuple[float, float, float, float, float, float]  # [1/(kg m^2)] nn, nt, ns, tt, ts, ss
+    inertia: tuple[float, float, float, float, float, float]  # [kg m^2]
 
 
 @inline_kernel
@@ -29,7 +54,9 @@ def _arm_of(J, row):
 
 @inline_kernel
 def read_face(J, friction, face):
-    """Arms and rows of the active contacts, one a row of ``face``; their number, 0 where axes or friction differ."""
+    """Arms and rows of the active contacts, one a row of ``face``; their number, 0 where axes or
+    friction differ.
+    """
     first, count = -1, numpy.int64(0)  # a literal 0 would compile what takes the count once more, for that number
     for i in range(friction.shape[0]):
         if friction[i] == INACTIVE:
@@ -114,7 +141,9 @@ def cross(a, b):
 
 @inline_kernel
 def centre(face, count):
-    """Arms about their mean into ``face``; the mean arm, sums of their products (tt, ts, ss), and whether the points are a face."""
+    """Arms about their mean into ``face``; the mean arm, sums of their products (tt, ts, ss), and
+    whether the points are a face.
+    """
     n, t, s = 0.0, 0.0, 0.0
     for j in range(count):
         n, t, s = n + face[j, R_N], t + face[j, R_T], s + face[j, R_S]

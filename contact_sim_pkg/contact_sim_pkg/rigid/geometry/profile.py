@@ -1,9 +1,12 @@
-"""A ground of heights at even distances along x, the same across: what of a body can touch it, and where.
+"""A ground of heights at even distances along x, the same across: what of a body can touch it, and
+where.
 
-It is straight from height to height, and beyond its ends. The faces that follow each other over peaks are one convex piece; in a
-valley two pieces meet. A point of a body (with its sphere) can meet every piece within its reach, so that in a valley it has two
-contacts, each with a gap that changes steadily. In the plane the edges of a polygon meet the peaks too. Contacts are numbered: for
-each point ``reach`` pieces (piece number modulo reach), then ``ridges`` peaks (their number modulo ridges).
+It is straight from height to height, and beyond its ends. The faces that follow each other over
+peaks are one convex piece; in a valley two pieces meet. A point of a body (with its sphere) can
+meet every piece within its reach, so that in a valley it has two contacts, each with a gap that
+changes steadily. In the plane the edges of a polygon meet the peaks too. Contacts are numbered: for
+each point ``reach`` pieces (piece number modulo reach), then ``ridges`` peaks (their number modulo
+ridges).
 """
 
 from __future__ import annotations
@@ -45,7 +48,9 @@ def flat() -> Profile:
 
 
 def make_profile(heights: Vector, origin: float, cell: float) -> Profile:
-    """Ground through ``heights`` [m] (two or more) at ``origin``, ``origin + cell``, ... along x in [m]."""
+    """Ground through ``heights`` [m] (two or more) at ``origin``, ``origin + cell``, ... along x in
+    [m].
+    """
     z = numpy.array(heights, float)
     bend = numpy.diff(numpy.diff(z) / cell)
     ends = numpy.array([0, *(numpy.flatnonzero(abs(bend) > STRAIGHT) + 1), len(z) - 1])
@@ -59,7 +64,9 @@ def make_profile(heights: Vector, origin: float, cell: float) -> Profile:
 
 
 def fitted(profile: Profile, width: int, points: Vector, radius: float) -> Profile:
-    """The profile with the numbers of contacts that a body of ``points`` [points, width] and ``radius`` [m] can have at once."""
+    """The profile with the numbers of contacts that a body of ``points`` [points, width] and
+    ``radius`` [m] can have at once.
+    """
     if len(profile.nodes) == 0:
         return profile
     reach = _most_within(profile.nodes[:, PIECE], 2.0 * radius / profile.cell) + 1
@@ -73,7 +80,9 @@ def fitted(profile: Profile, width: int, points: Vector, radius: float) -> Profi
 
 
 def _most_within(count: Vector, cells: float) -> int:
-    """Greatest growth of a count that grows along the nodes within so many cells and two more at each end."""
+    """Greatest growth of a count that grows along the nodes within so many cells and two more at
+    each end.
+    """
     ends = numpy.minimum(numpy.arange(len(count)) + math.floor(cells) + 5, len(count) - 1)
     return int((count[ends] - count).max())
 
@@ -87,9 +96,11 @@ def heights_at(profile: Profile, x: Vector) -> Vector:
 
 
 def clearance(profile: Profile, corners: Vector, radius: float) -> float:
-    """Least gap in [m] between the spheres of ``radius`` about ``corners`` [points, 2] (x, z) and the ground.
+    """Least gap in [m] between the spheres of ``radius`` about ``corners`` [points, 2] (x, z) and
+    the ground.
 
-    Of a fitted profile the peaks under the polygon of the corners count too. Below the ground it is negative.
+    Of a fitted profile the peaks under the polygon of the corners count too. Below the ground it is
+    negative.
     """
     x_0, z_0, low, high, slopes = _faces(profile)
     x, z = corners[:, :1], corners[:, 1:]
@@ -107,9 +118,11 @@ def clearance(profile: Profile, corners: Vector, radius: float) -> float:
 
 
 def rise_needed(profile: Profile, corners: Vector, radius: float) -> float:
-    """How far in [m] the body of `clearance` has to be raised along z to lie on the ground; negative above it.
+    """How far in [m] the body of `clearance` has to be raised along z to lie on the ground;
+    negative above it.
 
-    The ground at x' asks for a middle ``sqrt(r^2 - (x' - x)^2)`` above it: most where a face is tangent, or at its end beside that.
+    The ground at x' asks for a middle ``sqrt(r^2 - (x' - x)^2)`` above it: most where a face is
+    tangent, or at its end beside that.
     """
     x_0, z_0, low, high, slopes = _faces(profile)
     x, z = corners[:, :1], corners[:, 1:]
@@ -157,7 +170,9 @@ def _face(profile, j):
 
 @kernel
 def _gap_of_corner(profile, slot, x, z, first, last):
-    """Gap of a point without radius to a piece: the greatest distance from its faces first to last; its normal and run of faces."""
+    """Gap of a point without radius to a piece: the greatest distance from its faces first to last;
+    its normal and run of faces.
+    """
     gap, n_x, n_z, feature = -math.inf, 0.0, 1.0, -1
     for j in range(max(first, 0), min(last + 1, profile.nodes.shape[0] - 1)):
         if int(profile.nodes[j, PIECE]) % profile.reach != slot:
@@ -183,8 +198,9 @@ def _lies_below(profile, slot, x, z):
 def _gap_of_sphere(profile, slot, x, z, radius):
     """Gap of a sphere to a piece, its normal, and the curvature 1/distance where a peak touches it.
 
-    From a middle outside the piece the nearest of the faces that look at it and of the peaks counts: below the plane of a face lies
-    all that is behind a sharp peak. Inside it is the nearest plane of a face.
+    From a middle outside the piece the nearest of the faces that look at it and of the peaks
+    counts: below the plane of a face lies all that is behind a sharp peak. Inside it is the nearest
+    plane of a face.
     """
     first, last = _face_at(profile, x - radius) - 1, _face_at(profile, x + radius) + 1
     if _lies_below(profile, slot, x, z):
@@ -220,7 +236,9 @@ def _gap_of_sphere(profile, slot, x, z, radius):
 
 @kernel
 def point_on_profile(profile, slot, x, z, radius):
-    """Gap in [m] of a sphere about (x, z) to the piece of a slot; normal (x, z), curvature in [1/m], and the run of a corner."""
+    """Gap in [m] of a sphere about (x, z) to the piece of a slot; normal (x, z), curvature in
+    [1/m], and the run of a corner.
+    """
     if radius > 0.0:
         gap, n_x, n_z, curvature = _gap_of_sphere(profile, slot, x, z, radius)
         return gap, n_x, n_z, curvature, -1
@@ -238,7 +256,9 @@ def _corner(points, rotation, i):
 
 @kernel
 def _edge(profile, points, rotation, e):
-    """Start of an edge of the polygon from the centre of mass, its direction once round, and its length."""
+    """Start of an edge of the polygon from the centre of mass, its direction once round, and its
+    length.
+    """
     count = profile.order.shape[0]
     a_x, a_z = _corner(points, rotation, profile.order[e])
     b_x, b_z = _corner(points, rotation, profile.order[(e + 1) % count])
@@ -248,9 +268,11 @@ def _edge(profile, points, rotation, e):
 
 @kernel
 def ridge_on_polygon(profile, slot, points, rotation, x, z, size):
-    """Gap in [m] of a polygon at (x, z) to the peak of a slot: the greatest of its distances from the edges.
+    """Gap in [m] of a polygon at (x, z) to the peak of a slot: the greatest of its distances from
+    the edges.
 
-    Then the normal towards the body, the peak from the centre of mass, and the edge (-1: no peak is near).
+    Then the normal towards the body, the peak from the centre of mass, and the edge (-1: no peak is
+    near).
     """
     last = min(_face_at(profile, x + size) + 1, profile.nodes.shape[0] - 1)
     for node in range(max(_face_at(profile, x - size) - 1, 0), last + 1):
@@ -269,9 +291,11 @@ def ridge_on_polygon(profile, slot, points, rotation, x, z, size):
 
 @kernel
 def time_to_kink(profile, points, rotation, feature, is_ridge, x, r_x, r_z, along, slip):
-    """Time in [s] until a contact has gone over a peak, at ``slip`` [m/s] along the tangent, whose x is ``along``.
+    """Time in [s] until a contact has gone over a peak, at ``slip`` [m/s] along the tangent, whose
+    x is ``along``.
 
-    A corner at x leaves its face, or a ridge at the arm (r_x, r_z) its edge; inf where that lies ahead of neither.
+    A corner at x leaves its face, or a ridge at the arm (r_x, r_z) its edge; inf where that lies
+    ahead of neither.
     """
     if feature < 0 or slip == 0.0:
         return math.inf

@@ -1,10 +1,11 @@
 """Which contacts a step of `rigid/motion/stepping.py` takes: those that close within it, and those
 that it would drive into the ground.
 
-A decision about each contact by the sign of a number, such as its gap at the end of the step, falls differently for two corners
-that tie up to rounding, and a box that lands flat would then be struck at one alone and tumble. So contacts whose numbers differ
-from one inside by rounding, or by less than a fixed step resolves, are inside as well: one decision for all that tie.
-Source: Stewart and Trinkle 1996; own.
+A decision about each contact by the sign of a number, such as its gap at the end of the step, falls
+differently for two corners that tie up to rounding, and a box that lands flat would then be struck
+at one alone and tumble. So contacts whose numbers differ from one inside by rounding, or by less
+than a fixed step resolves, are inside as well: one decision for all that tie. Source: Stewart and
+Trinkle 1996; own.
 """
 
 from __future__ import annotations
@@ -33,9 +34,11 @@ TIES = 1.0e-3  # of the way of a contact in a step, or of its speed: closer ones
 
 @kernel
 def bound_with_ties(body, work, margin, part, rounding):
-    """The bound up to which a ``margin`` counts as negative: the greatest negative one, and all that tie with it in a row.
+    """The bound up to which a ``margin`` counts as negative: the greatest negative one, and all
+    that tie with it in a row.
 
-    Margins tie within ``rounding`` and ``part`` of the contact's normal velocity. -inf where none is negative.
+    Margins tie within ``rounding`` and ``part`` of the contact's normal velocity. -inf where none
+    is negative.
     """
     bound = -math.inf
     for i in range(margin.shape[0]):
@@ -77,7 +80,8 @@ def _take_within(body, work, margin, step, length):
 def _ask(body, work, margin, step, rest_speed, speed):
     """The problem of the contacts that are held; 1, or 2 where one of them bounces.
 
-    Those bounce that approach faster than ``rest_speed``, with restitution; ``margin`` is overwritten.
+    Those bounce that approach faster than ``rest_speed``, with restitution; ``margin`` is
+    overwritten.
     """
     found, width = 1, body.width
     for i in range(margin.shape[0]):
@@ -108,7 +112,8 @@ def begin_step(
 ) -> tuple[int, float]:
     """Velocity without contact in ``work.free``, the contacts within reach and their problem.
 
-    Returns 0: none is in reach, 1: they are held, 2: one bounces; and the angle turned in [rad]. ``margin`` [points]: room.
+    Returns 0: none is in reach, 1: they are held, 2: one bounces; and the angle turned in [rad].
+    ``margin`` [points]: room.
     """
     look(body, ground, motion, work)
     free_velocity(body, motion, work, step)
@@ -135,7 +140,8 @@ def reach_further(
     step: float,
     rest_speed: float,
 ) -> int:
-    """Take the contacts too that ``work.impulse`` would drive into the ground by the end of the step, and make the problem anew.
+    """Take the contacts too that ``work.impulse`` would drive into the ground by the end of the
+    step, and make the problem anew.
 
     Returns 0 where there are none, else as `begin_step`. ``change`` [coordinates]: room.
     """

@@ -14,7 +14,7 @@ SAMPLE, SAMPLES, EVENTS, SOLVES, COLLIDED, STOPS, SHORT, RESTS, COUNTS = 0, 1, 2
 BRIEF = 1.0e-3  # of the time left or of the longest piece: a piece below it was cut short by an event
 
 
-class Track(NamedTuple):
+class SampleTrack(NamedTuple):
     """State at the end of each sample, and the impulses over it."""
 
     position: Vector  # [samples, width] in [m]
@@ -26,7 +26,9 @@ class Track(NamedTuple):
 
 
 def track_columns(body: RigidBody, contacts: int) -> tuple[int, int, int, int, int, int]:
-    """Where angle, rotation, velocity, impulse and sticking points start in a row of the track, and its length."""
+    """Where angle, rotation, velocity, impulse and sticking points start in a row of the track, and
+    its length.
+    """
     width, coordinates = body.width, len(body.load)
     rotation = width + 1
     velocity = rotation + width * width
@@ -35,11 +37,11 @@ def track_columns(body: RigidBody, contacts: int) -> tuple[int, int, int, int, i
     return width, rotation, velocity, impulse, sticks, sticks + contacts
 
 
-def read_track(track: Vector, columns: tuple[int, int, int, int, int, int], width: int) -> Track:
+def read_track(track: Vector, columns: tuple[int, int, int, int, int, int], width: int) -> SampleTrack:
     """The rows of a track by `track_columns`."""
     angle, rotation, velocity, impulse, sticks, _length = columns
     turned = track[:, rotation:velocity].reshape(len(track), width, width)
-    return Track(
+    return SampleTrack(
         track[:, :angle], track[:, angle], turned, track[:, velocity:impulse], track[:, impulse:sticks],
         track[:, sticks:],
     )  # fmt: skip
@@ -47,7 +49,9 @@ def read_track(track: Vector, columns: tuple[int, int, int, int, int, int], widt
 
 @inline_kernel
 def record_sample(body, motion, work, row):
-    """State at the end of a sample and which points stick, into a row of the track (`track_columns`)."""
+    """State at the end of a sample and which points stick, into a row of the track
+    (`track_columns`).
+    """
     place = 0
     for k in range(body.width):
         row[place] = motion.position[k]

@@ -1,10 +1,10 @@
 """Impact of any number of contacts at once by the rules of Newton, Poisson and the energetic one.
 
-Energetic, several contacts: compression without bounce, then each contact gives back ``s e_i`` of its compression impulse, with
-the greatest s in [0, 1] for which the normal works give back at most ``e_i^2`` of what they took and no kinetic energy is gained.
-Several contacts are a row of contact solves, each compiled, called from Python. Source: Brogliato,
-Nonsmooth Mechanics. Planar and one contact:
-`rigid/impact/planar_impact.py`; one contact in space: `rigid/impact/path.py`.
+Energetic, several contacts: compression without bounce, then each contact gives back ``s e_i`` of
+its compression impulse, with the greatest s in [0, 1] for which the normal works give back at most
+``e_i^2`` of what they took and no kinetic energy is gained. Several contacts are a row of contact
+solves, each compiled, called from Python. Source: Brogliato, Nonsmooth Mechanics. Planar and one
+contact: `rigid/impact/planar_impact.py`; one contact in space: `rigid/impact/path.py`.
 """
 
 from __future__ import annotations
@@ -16,7 +16,7 @@ import numpy
 
 from contact_sim_pkg.compiled.arrays import Vector
 from contact_sim_pkg.rigid.contact.answers import contact_impulses
-from contact_sim_pkg.rigid.contact.solver import Solution, Solver, make_solver
+from contact_sim_pkg.rigid.contact.solver import ContactSolution, Solver, make_solver
 from contact_sim_pkg.rigid.impact.path import FIRST, IMPULSE, SECOND, PathWorkspace, make_path_workspace, spatial_impact
 from contact_sim_pkg.rigid.impact.planar_impact import planar_impact
 from contact_sim_pkg.rigid.parameters import ENERGETIC, NEWTON, ImpactPath, PlanarContact
@@ -50,38 +50,41 @@ def make_impact_workspace(contacts: int, coordinates: int, width: int, facets: i
 def impact_impulses(
     problem: ContactProblem, J: Vector, W: Vector, u: Vector, restitution: Vector, rule: int, work: ImpactWorkspace,
     c: Vector,
-) -> Solution:  # fmt: skip
+) -> ContactSolution:  # fmt: skip
     """Impulses ``c`` [rows] of the impact from the contact velocities ``u`` [rows].
 
-    ``problem.A`` must be ``J W J'`` and hold the friction; its ``q`` and ``floor`` are overwritten. ``restitution`` [contacts].
-    Contacts that touch without approaching take part, else they would be driven in. The residual of an energetic impulse of one
-    contact is 0: it obeys Coulomb's law along its path, not in the sum.
+    ``problem.A`` must be ``J W J'`` and hold the friction; its ``q`` and ``floor`` are overwritten.
+    ``restitution`` [contacts]. Contacts that touch without approaching take part, else they would
+    be driven in. The residual of an energetic impulse of one contact is 0: it obeys Coulomb's law
+    along its path, not in the sum.
     """
     touching = numpy.flatnonzero(problem.friction >= 0.0)
     c[:] = 0.0
     if not (u[touching * problem.width] < 0.0).any():
-        return Solution(SOLVED, UNIQUE, 0.0, 0)
+        return ContactSolution(SOLVED, UNIQUE, 0.0, 0)
     only = int(touching[0])
     if len(touching) == 1 and problem.width == PLANE:
         return _one_in_the_plane(problem, only, u, float(restitution[only]), rule, c)
     if len(touching) == 1 and rule == ENERGETIC:
         return _one_in_space(problem, only, u, float(restitution[only]), work, c)
-    return _several(problem, J, W, u, restitution, rule, work, c)
+    return _several(problem, J, W, u, restitution, rule=rule, work=work, c=c)
 
 
-def _one_in_the_plane(problem: ContactProblem, i: int, u: Vector, restitution: float, rule: int, c: Vector) -> Solution:
+def _one_in_the_plane(
+    problem: ContactProblem, i: int, u: Vector, restitution: float, rule: int, c: Vector
+) -> ContactSolution:
     A, row = problem.A, i * PLANE
     contact = PlanarContact(
         float(A[row, row]), float(A[row, row + 1]), float(A[row + 1, row + 1]), float(problem.friction[i]), restitution
     )
     impulse = planar_impact(contact, rule, float(u[row]), float(u[row + 1]))
     c[row], c[row + 1] = impulse.normal, impulse.tangential
-    return Solution(SOLVED, UNIQUE, 0.0, 0)
+    return ContactSolution(SOLVED, UNIQUE, 0.0, 0)
 
 
 def _one_in_space(
     problem: ContactProblem, i: int, u: Vector, restitution: float, work: ImpactWorkspace, c: Vector
-) -> Solution:
+) -> ContactSolution:
     n, s, t = range(i * SPACE, (i + 1) * SPACE)
     A = problem.A
     parts = (A[n, n], A[n, s], A[n, t], A[s, s], A[s, t], A[t, t], problem.friction[i], restitution)
@@ -89,13 +92,13 @@ def _one_in_space(
     status = spatial_impact(contact, float(u[n]), float(u[s]), float(u[t]), work.path)
     if status == SOLVED:
         c[n], c[s], c[t] = work.path.state[IMPULSE], work.path.state[FIRST], work.path.state[SECOND]
-    return Solution(status, UNIQUE, 0.0, 0)
+    return ContactSolution(status, UNIQUE, 0.0, 0)
 
 
 def _several(
     problem: ContactProblem, J: Vector, W: Vector, u: Vector, restitution: Vector, rule: int, work: ImpactWorkspace,
     c: Vector,
-) -> Solution:  # fmt: skip
+) -> ContactSolution:  # fmt: skip
     problem.q[:], problem.floor[:], work.compression[:] = u, 0.0, 0.0
     if rule == NEWTON:
         problem.q[:: problem.width] += restitution * numpy.minimum(0.0, u[:: problem.width])
@@ -112,8 +115,10 @@ def _several(
 
 def _give_back(
     problem: ContactProblem, J: Vector, W: Vector, restitution: Vector, share: float, work: ImpactWorkspace
-) -> Solution:
-    """Second phase: at least ``share e_i`` of each compression impulse; velocities afterwards in ``work.after``."""
+) -> ContactSolution:
+    """Second phase: at least ``share e_i`` of each compression impulse; velocities afterwards in
+    ``work.after``.
+    """
     problem.q[:] = work.compressed
     problem.floor[:] = share * restitution * work.compression[:: problem.width]
     work.restitution[:] = 0.0
@@ -123,7 +128,9 @@ def _give_back(
 
 
 def _left(problem: ContactProblem, u: Vector, restitution: Vector, work: ImpactWorkspace) -> float:
-    """Part left of the work that may be given back, or of the kinetic energy, whichever is smaller; below 0: too much came back."""
+    """Part left of the work that may be given back, or of the kinetic energy, whichever is smaller;
+    below 0: too much came back.
+    """
     normal = slice(None, None, problem.width)
     returned = 0.5 * float(work.restitution[normal] @ (work.compressed + work.after)[normal])
     taken = 0.5 * work.compression[normal] * (u + work.compressed)[normal]
@@ -136,8 +143,10 @@ def _left(problem: ContactProblem, u: Vector, restitution: Vector, work: ImpactW
 
 def _restore(
     problem: ContactProblem, J: Vector, W: Vector, u: Vector, restitution: Vector, rule: int, work: ImpactWorkspace
-) -> Solution:
-    """Restitution phase: share 1; where that gives back too much, the greatest share that does not, by regula falsi and halving."""
+) -> ContactSolution:
+    """Restitution phase: share 1; where that gives back too much, the greatest share that does not,
+    by regula falsi and halving.
+    """
     found = _give_back(problem, J, W, restitution, 1.0, work)
     if rule != ENERGETIC:
         return found

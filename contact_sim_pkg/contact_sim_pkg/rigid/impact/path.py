@@ -1,9 +1,11 @@
-"""The energetic impact of one contact in space: the path of the slip along the normal impulse, an equation of its own.
+"""The energetic impact of one contact in space: the path of the slip along the normal impulse, an
+equation of its own.
 
-Slip ``u_t = r (cos a, sin a) = r s``, ``dp = r dtau``, ``f = A_tn - mu A_tt s``: ``da/dtau`` is f across s, ``d ln r/dtau`` f
-along s, ``du_n/dtau = r (A_nn - mu A_nt s)``; regular as the slip stops, far out in tau. From a stop on the path is straight:
-stick where ``|A_tt^-1 A_tn| <= mu``, else slip along the s with ``A_tn - mu A_tt s = k s, k > 0``. Source: Stronge
-1990; Batlle 1996. Integrated by `integrate/dormand_prince.py`.
+Slip ``u_t = r (cos a, sin a) = r s``, ``dp = r dtau``, ``f = A_tn - mu A_tt s``: ``da/dtau`` is f
+across s, ``d ln r/dtau`` f along s, ``du_n/dtau = r (A_nn - mu A_nt s)``; regular as the slip
+stops, far out in tau. From a stop on the path is straight: stick where ``|A_tt^-1 A_tn| <= mu``,
+else slip along the s with ``A_tn - mu A_tt s = k s, k > 0``. Source: Stronge 1990; Batlle 1996.
+Integrated by `integrate/dormand_prince.py`.
 """
 
 from __future__ import annotations
@@ -21,8 +23,8 @@ from contact_sim_pkg.integrate.dormand_prince import (
     make_workspace,
     set_event_directions,
 )
-from contact_sim_pkg.integrate.drive import Drive
 from contact_sim_pkg.integrate.interface import register_rig
+from contact_sim_pkg.rigid.body_state import IntegrationSpan
 from contact_sim_pkg.rigid.parameters import ImpactPath
 from contact_sim_pkg.rigid.results import NOT_CONVERGED, SOLVED
 
@@ -47,7 +49,9 @@ class PathWorkspace(NamedTuple):
 
 
 class PathRig(NamedTuple):
-    """What the integrator sees: the contact, and the work that is wanted back (known when compression ends)."""
+    """What the integrator sees: the contact, and the work that is wanted back (known when
+    compression ends).
+    """
 
     contact: ImpactPath
     wanted: Vector
@@ -116,7 +120,9 @@ register_rig(PathRig, _rate, _event_functions, _mode_transition, _need_rate)
 
 @kernel
 def _held_direction(contact):
-    """Tangential over normal impulse once slip has stopped, as a vector: it sticks, or slips along one direction."""
+    """Tangential over normal impulse once slip has stopped, as a vector: it sticks, or slips along
+    one direction.
+    """
     determinant = contact.t11 * contact.t22 - contact.t12**2
     hold_1 = -(contact.t22 * contact.n1 - contact.t12 * contact.n2) / determinant
     hold_2 = -(contact.t11 * contact.n2 - contact.t12 * contact.n1) / determinant
@@ -179,7 +185,9 @@ def _start(contact, u_n, u_1, u_2, speed, work):
 
 @entry
 def spatial_impact(contact: ImpactPath, u_n: float, u_1: float, u_2: float, work: PathWorkspace) -> int:
-    """Run the path from the contact velocity (approaching, ``u_n < 0``) to its end; the impulses stand in ``work.state``."""
+    """Run the path from the contact velocity (approaching, ``u_n < 0``) to its end; the impulses
+    stand in ``work.state``.
+    """
     speed = math.sqrt(u_n * u_n + u_1 * u_1 + u_2 * u_2)
     _start(contact, u_n, u_1, u_2, speed, work)
     rig = PathRig(contact, work.wanted, speed)
@@ -190,7 +198,7 @@ def spatial_impact(contact: ImpactPath, u_n: float, u_1: float, u_2: float, work
     if work.state[LOG_SLIP] > -STOPPED_SLIP:
         mode[0] = COMPRESSION
         end = LONGEST / contact.nn
-        drive = Drive(0.0, end, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
+        drive = IntegrationSpan(0.0, end)
         work.integrator.step[0] = 0.01 / (contact.nn + contact.t11 + contact.t22)
         work.wanted[0] = -1.0
         set_event_directions(rig, drive, mode, 0.0, work.state, work.integrator)

@@ -1,7 +1,9 @@
-"""One impact of one planar contact, in closed form, by the rules of Newton, Poisson and Stronge (energetic).
+"""One impact of one planar contact, in closed form, by the rules of Newton, Poisson and Stronge
+(energetic).
 
-Velocities of the contact point: u_n along the normal (negative: approaching), u_t along the tangent; impulses c_n, c_t;
-``u+ = u + A c``. Source: Identifiability eqs 12-18 and 32-38, corrected; Stronge 1990.
+Velocities of the contact point: u_n along the normal (negative: approaching), u_t along the
+tangent; impulses c_n, c_t; ``u+ = u + A c``. Source: Identifiability eqs 12-18 and 32-38,
+corrected; Stronge 1990.
 """
 
 from __future__ import annotations
@@ -24,7 +26,9 @@ def _sign(value):
 
 @kernel
 def _slide_impulse(contact, q_n, q_t, sign, floor):
-    """Impulse that slides with friction ``sign mu c_n``, and by how much it breaks its conditions (0: valid)."""
+    """Impulse that slides with friction ``sign mu c_n``, and by how much it breaks its conditions
+    (0: valid).
+    """
     denominator = contact.normal + sign * contact.friction * contact.coupling
     if denominator <= 0.0:  # Painleve: no sliding this way
         return 0.0, 0.0, math.inf
@@ -36,7 +40,9 @@ def _slide_impulse(contact, q_n, q_t, sign, floor):
 
 @kernel
 def _slide_modes(contact, q_n, q_t, floor):
-    """The valid one of the two ways to slide; where rounding leaves none, the one that breaks its conditions least."""
+    """The valid one of the two ways to slide; where rounding leaves none, the one that breaks its
+    conditions least.
+    """
     first = -1.0 if q_t > 0.0 else 1.0
     c_n, c_t, broken = _slide_impulse(contact, q_n, q_t, first, floor)
     if broken == 0.0:
@@ -49,11 +55,13 @@ def _slide_modes(contact, q_n, q_t, floor):
 
 @kernel
 def contact_modes(contact: PlanarContact, q_n: float, q_t: float, floor: float) -> PlanarImpulse:
-    """Solve ``0 <= c_n - floor  _|_  q_n + A_nn c_n + A_nt c_t >= 0`` with Coulomb friction on the velocity ``q_t + ...``.
+    """Solve ``0 <= c_n - floor  _|_  q_n + A_nn c_n + A_nt c_t >= 0`` with Coulomb friction on the
+    velocity ``q_t + ...``.
 
-    A complete solver of one planar contact: separation, stick, slide, reversed slide are tried in this order. ``q_n``,
-    ``q_t`` [m/s] are the velocities without the impulse (``q_n`` with the bounce that is asked for), ``floor`` [N s] the
-    least normal impulse (0, or Poisson's). While the contact approaches the answer is unique for every friction.
+    A complete solver of one planar contact: separation, stick, slide, reversed slide are tried in
+    this order. ``q_n``, ``q_t`` [m/s] are the velocities without the impulse (``q_n`` with the
+    bounce that is asked for), ``floor`` [N s] the least normal impulse (0, or Poisson's). While the
+    contact approaches the answer is unique for every friction.
     """
     limit = contact.friction * floor
     c_t = min(max(-(q_t + contact.coupling * floor) / contact.tangential, -limit), limit)
@@ -76,7 +84,9 @@ def contact_modes(contact: PlanarContact, q_n: float, q_t: float, floor: float) 
 
 @kernel
 def _poisson_impulse(contact, u_n, u_t):
-    """Compression by the step without bounce, then at least ``e`` times its normal impulse; the two are one sum here."""
+    """Compression by the step without bounce, then at least ``e`` times its normal impulse; the two
+    are one sum here.
+    """
     first = contact_modes(contact, u_n, u_t, 0.0)
     if first.mode == SEPARATE:
         return first
@@ -101,7 +111,9 @@ def _slopes(contact, slip):
 
 @kernel
 def _after_stop(contact):
-    """Friction sign once slip has stopped: held where friction suffices, else slip starts again, pushed by the normal."""
+    """Friction sign once slip has stopped: held where friction suffices, else slip starts again,
+    pushed by the normal.
+    """
     if abs(contact.coupling) <= contact.friction * contact.tangential:
         return HELD
     return -_sign(contact.coupling)
@@ -117,10 +129,12 @@ def _stop_distance(u_t, slope):
 
 @kernel
 def energetic_impulse(contact: PlanarContact, u_n: float, u_t: float) -> PlanarImpulse:
-    """Impact along its normal impulse p until the normal force has given back ``e^2`` of the work it took.
+    """Impact along its normal impulse p until the normal force has given back ``e^2`` of the work
+    it took.
 
-    u_n(p), u_t(p) are straight pieces with at most one change, where slip stops: each ends by a linear formula (slip
-    stops, compression ends) or a quadratic one (work reached). Exact to rounding; the kinetic energy never grows.
+    u_n(p), u_t(p) are straight pieces with at most one change, where slip stops: each ends by a
+    linear formula (slip stops, compression ends) or a quadratic one (work reached). Exact to
+    rounding; the kinetic energy never grows.
     """
     if u_n >= 0.0:
         return PlanarImpulse(0.0, 0.0, SEPARATE)
@@ -152,7 +166,9 @@ def energetic_impulse(contact: PlanarContact, u_n: float, u_t: float) -> PlanarI
 
 @kernel
 def impact_impulse(contact: PlanarContact, rule: int, u_n: float, u_t: float) -> PlanarImpulse:
-    """Impulse of one planar impact by ``rule`` (parameters.NEWTON, POISSON, ENERGETIC) from ``u_n``, ``u_t`` in [m/s]."""
+    """Impulse of one planar impact by ``rule`` (parameters.NEWTON, POISSON, ENERGETIC) from
+    ``u_n``, ``u_t`` in [m/s].
+    """
     if u_n >= 0.0:
         return PlanarImpulse(0.0, 0.0, SEPARATE)
     if rule == NEWTON:

@@ -1,4 +1,5 @@
-"""Two contacts of one body in the plane: Lemke's method at its fixed order 8, and the least-norm split in closed form.
+"""Two contacts of one body in the plane: Lemke's method at its fixed order 8, and the least-norm
+split in closed form.
 
 Unknowns ``c_n, c_t+, c_t-, lambda`` of each contact. The dictionary ``basic = q + T nonbasic``
 holds the columns that are not in the basis alone (8 by 10 with z0), so a pivot is 80 products. Ties
@@ -69,7 +70,9 @@ def _assemble(J, W, q, first, second, work):
 
 @inline_kernel
 def _set_up(A, q, mu_first, mu_second, speed, work):
-    """The dictionary of the start, in units of the first normal inverse mass and of ``speed``; returns the unit of impulse."""
+    """The dictionary of the start, in units of the first normal inverse mass and of ``speed``;
+    returns the unit of impulse.
+    """
     T, unit = work.tableau, 1.0 / A[0, 0]
     part = 1.0 / speed
     for i in range(ORDER):
@@ -110,7 +113,9 @@ def _exchange(T, row, column):
 
 @inline_kernel
 def _leaving(T, column, row_of_z0):
-    """Row of the basic variable that meets 0 first as the other one of ``column`` grows, z0 in a tie; -1: none or another tie."""
+    """Row of the basic variable that meets 0 first as the other one of ``column`` grows, z0 in a
+    tie; -1: none or another tie.
+    """
     best, least, tied = -1, numpy.inf, False
     for i in range(ORDER):
         if T[i, column] < -SMALL:
@@ -185,7 +190,9 @@ def _range(n, t, z_n, z_t, mu, low, high):
 
 @inline_kernel
 def _share(J, first, second, mu_first, mu_second, c):
-    """Split of least norm where both contacts stick: along the vector of impulses without a wrench, as far as the cones allow."""
+    """Split of least norm where both contacts stick: along the vector of impulses without a wrench,
+    as far as the cones allow.
+    """
     rows = (2 * first, 2 * first + 1, 2 * second, 2 * second + 1)
     x = (J[rows[0], 0], J[rows[1], 0], J[rows[2], 0], J[rows[3], 0])
     y = (J[rows[0], 1], J[rows[1], 1], J[rows[2], 1], J[rows[3], 1])
@@ -221,9 +228,11 @@ def _broken(A, q, mu, c, i):
 
 @kernel
 def pair_impulses(J, W, q, friction, first, second, work, c):
-    """Impulses ``c`` [rows] of the contacts ``first`` and ``second`` of one body in the plane, of least norm; returns the residual.
+    """Impulses ``c`` [rows] of the contacts ``first`` and ``second`` of one body in the plane, of
+    least norm; returns the residual.
 
-    ``J`` [rows, 3], ``W`` [3, 3], ``q`` [rows] what the rows ask for, ``friction`` [contacts] above 0. inf: no answer here.
+    ``J`` [rows, 3], ``W`` [3, 3], ``q`` [rows] what the rows ask for, ``friction`` [contacts] above
+    0. inf: no answer here.
     """
     _assemble(J, W, q, first, second, work)
     A, own, mu_first, mu_second = work.A, work.q, friction[first], friction[second]

@@ -1,4 +1,5 @@
-"""Points on the ground: when a rebound ends in rest, what holds them over a piece of time, where a point lands.
+"""Points on the ground: when a rebound ends in rest, what holds them over a piece of time, where a
+point lands.
 
 Each function is one step of `rigid/motion/time_loop.py` and `rigid/motion/located.py`, which solve
 the contact problems between them. A rebound below the rest speed ends after ``2 u/(a (1 - e))``,
@@ -40,7 +41,9 @@ HOLD_SWEEPS = 20
 def survey_points(
     body: RigidBody, ground: Ground, motion: Motion, work: MotionWorkspace, size: float, gravity: float
 ) -> tuple[float, bool]:
-    """Gaps and contact velocities; returns the velocity [m/s] that counts as rounding, and whether a touching point approaches."""
+    """Gaps and contact velocities; returns the velocity [m/s] that counts as rounding, and whether
+    a touching point approaches.
+    """
     look(body, ground, motion, work)
     scale = math.sqrt(gravity * size)
     for k in range(motion.velocity.shape[0]):
@@ -71,7 +74,9 @@ def finish_impact(body: RigidBody, motion: Motion, work: MotionWorkspace, rest_s
 
 @kernel
 def _turning_acceleration(body, ground, motion, J, i):
-    """``w x (w x r)`` of the point of contact ``i`` along its rows; the sphere about the point rolls and does not count."""
+    """``w x (w x r)`` of the point of contact ``i`` along its rows; the sphere about the point
+    rolls and does not count.
+    """
     v, R, row, width = motion.velocity, motion.rotation, i * body.width, body.width
     x, y, z = point_arm(body, R, i // ground.profile.reach)
     if width == PLANE:
@@ -88,7 +93,9 @@ def _turning_acceleration(body, ground, motion, J, i):
 
 @kernel
 def path_acceleration(body, ground, motion, J, i):
-    """Accelerations of contact ``i`` along its rows in [m/s^2] at constant velocities: its arm turns, the ground is curved."""
+    """Accelerations of contact ``i`` along its rows in [m/s^2] at constant velocities: its arm
+    turns, the ground is curved.
+    """
     if ground.profile.nodes.shape[0] == 0:
         return _turning_acceleration(body, ground, motion, J, i)
     v, row, width = motion.velocity, i * body.width, body.width
@@ -107,7 +114,9 @@ def path_acceleration(body, ground, motion, J, i):
 
 @kernel
 def _gyroscopic_acceleration(body, motion, work, row):
-    """Along ``row`` of a contact, from the spin that a body in space changes by itself: ``I dw/dt = -w x Iw``."""
+    """Along ``row`` of a contact, from the spin that a body in space changes by itself: ``I dw/dt =
+    -w x Iw``.
+    """
     R = motion.rotation
     w = spin_in_body(R, motion.velocity)
     gain = gyroscopic_rate(body.inertia, w[0], w[1], w[2])
@@ -119,7 +128,9 @@ def _gyroscopic_acceleration(body, motion, work, row):
 
 @kernel
 def _normal_acceleration(body, ground, motion, work, i):
-    """Of a point without contact forces: from the load, from its path, and from the gyroscopic term."""
+    """Of a point without contact forces: from the load, from its path, and from the gyroscopic
+    term.
+    """
     total = path_acceleration(body, ground, motion, work.J, i)[0]
     if body.width != PLANE:
         total += _gyroscopic_acceleration(body, motion, work, i * body.width)
@@ -131,7 +142,9 @@ def _normal_acceleration(body, ground, motion, work, i):
 
 @kernel
 def drop_spin(body, velocity, size, still):
-    """Set spins of ``velocity`` to 0 that move no point of the body faster than ``still`` [m/s]: they are rounding."""
+    """Set spins of ``velocity`` to 0 that move no point of the body faster than ``still`` [m/s]:
+    they are rounding.
+    """
     for k in range(body.width, velocity.shape[0]):
         if abs(velocity[k]) * size <= still:
             velocity[k] = 0.0
@@ -139,10 +152,12 @@ def drop_spin(body, velocity, size, still):
 
 @kernel
 def hold_back(body, motion, work, size, still):
-    """Take the rest of the normal velocity from held points, one after the other (it is below the rest speed).
+    """Take the rest of the normal velocity from held points, one after the other (it is below the
+    rest speed).
 
-    The impulses that this takes, towards the ground, are added to ``work.impulse``. On a slope the normal velocity of a body that
-    slides has rounding, and taking it from one point after the other spins the body by as much: `drop_spin`.
+    The impulses that this takes, towards the ground, are added to ``work.impulse``. On a slope the
+    normal velocity of a body that slides has rounding, and taking it from one point after the other
+    spins the body by as much: `drop_spin`.
     """
     n = motion.velocity.shape[0]
     for _ in range(HOLD_SWEEPS):
@@ -171,12 +186,14 @@ def hold_back(body, motion, work, size, still):
 def settle_points(
     body: RigidBody, ground: Ground, motion: Motion, work: MotionWorkspace, rest_speed: float, size: float, still: float
 ) -> tuple[float, bool]:
-    """Hold the points whose rebound is below the rest speed and that the load presses down, or may be by what holds the others.
+    """Hold the points whose rebound is below the rest speed and that the load presses down, or may
+    be by what holds the others.
 
     Also those that approach by rounding and that nothing takes away.
 
-    Returns the time in [s] that their last bounces take, and whether any point is held. ``work.impulse`` is what takes the
-    speed of their rebound from them: the weight carries them over the last bounces, and this much less.
+    Returns the time in [s] that their last bounces take, and whether any point is held.
+    ``work.impulse`` is what takes the speed of their rebound from them: the weight carries them
+    over the last bounces, and this much less.
     """
     wait, held = 0.0, False
     for row in range(work.impulse.shape[0]):
@@ -208,7 +225,8 @@ def settle_points(
 def prepare_attempt(
     body: RigidBody, ground: Ground, motion: Motion, work: MotionWorkspace, time: float, bend: float
 ) -> None:
-    """The problem of the held points over ``time`` [s], without bounce; ``work.free`` is the velocity without them.
+    """The problem of the held points over ``time`` [s], without bounce; ``work.free`` is the
+    velocity without them.
 
     ``bend`` 1 takes the turn of arms and normals over the piece along, 0 leaves it out.
     """
@@ -234,7 +252,9 @@ def prepare_attempt(
 def landing_part(
     body: RigidBody, ground: Ground, motion: Motion, work: MotionWorkspace, time: float, size: float
 ) -> tuple[float, int]:
-    """Displacement over ``time`` [s]; the part of it after which the first free contact lands, and which (1, -1: none does)."""
+    """Displacement over ``time`` [s]; the part of it after which the first free contact lands, and
+    which (1, -1: none does).
+    """
     displace(body, motion, work.free, work, time)
     part, first, near = 1.0, -1, LANDED * size
     for i in range(work.flags.shape[0]):
@@ -256,7 +276,9 @@ def landing_part(
 
 @entry
 def gap_after(body: RigidBody, ground: Ground, motion: Motion, work: MotionWorkspace, time: float, i: int) -> float:
-    """Gap in [m] of contact ``i`` after the piece of ``time`` [s] whose velocity at its end is in ``work.free``."""
+    """Gap in [m] of contact ``i`` after the piece of ``time`` [s] whose velocity at its end is in
+    ``work.free``.
+    """
     displace(body, motion, work.free, work, time)
     return max(work.gap[i], 0.0) + gap_change(body, ground, motion, work, i)
 
@@ -270,6 +292,17 @@ def time_to_peak(body, ground, motion, work):
         if work.flags[i] >= HELD:
             _gap, _n_x, n_z, r_x, _y, r_z, _c, feature = on_profile(body, ground, motion.rotation, x, z, i)
             ridge, slip = is_ridge(body, ground, i), work.u[i * width + 1]
-            time = time_to_kink(profile, body.points, motion.rotation, feature, ridge, x + r_x, r_x, r_z, n_z, slip)
+            time = time_to_kink(
+                profile,
+                body.points,
+                motion.rotation,
+                feature,
+                is_ridge=ridge,
+                x=x + r_x,
+                r_x=r_x,
+                r_z=r_z,
+                along=n_z,
+                slip=slip,
+            )
             least = min(least, time)
     return least

@@ -1,4 +1,6 @@
-"""A rigid body on compliant contact in time: the twin of ``located.LocatedBody``, by the integrator with error control."""
+"""A rigid body on compliant contact in time: the twin of ``located.LocatedBody``, by the integrator
+with error control.
+"""
 
 from __future__ import annotations
 
@@ -19,15 +21,14 @@ from contact_sim_pkg.integrate.dormand_prince import (
     make_workspace,
     set_event_directions,
 )
-from contact_sim_pkg.integrate.drive import Drive
 from contact_sim_pkg.laws.parameters import Friction, NormalElastic
 from contact_sim_pkg.laws.restitution import LOWEST_RESTITUTION, damping_of_restitution
 from contact_sim_pkg.rigid.body import Ground, Motion, RigidBody, contact_count, laid_under, pull
-from contact_sim_pkg.rigid.body_state import places_of
+from contact_sim_pkg.rigid.body_state import IntegrationSpan, places_of
 from contact_sim_pkg.rigid.forces.compliant_body import (
     MARGINS_A_POINT,
     CompliantBody,
-    CompliantContact,
+    CompliantLaw,
     look,
     make_rig,
     set_loss,
@@ -46,12 +47,16 @@ SMALLEST_LOSS = 1e-9  # so that the slowest speed is never 0
 
 
 def asked_loss(restitution: float) -> float:
-    """lambda times the speed of approach with which a touch ends with ``restitution``; below 0.01 it counts as 0.01."""
+    """lambda times the speed of approach with which a touch ends with ``restitution``; below 0.01
+    it counts as 0.01.
+    """
     return damping_of_restitution(max(restitution, LOWEST_RESTITUTION), 1.0)
 
 
 def resting_swing(body: RigidBody, elastic: NormalElastic) -> tuple[float, float]:
-    """Depth in [m] of a body at rest on one point under its `pull`, and its frequency there in [rad/s]."""
+    """Depth in [m] of a body at rest on one point under its `pull`, and its frequency there in
+    [rad/s].
+    """
     weight = body.mass * pull(body)
     depth = (weight / elastic.coefficient) ** (1.0 / elastic.exponent)
     return depth, math.sqrt(elastic.exponent * weight / (depth * body.mass))
@@ -59,18 +64,20 @@ def resting_swing(body: RigidBody, elastic: NormalElastic) -> tuple[float, float
 
 def compliant_contact(
     body: RigidBody, elastic: NormalElastic, tangential_stiffness: float, tangential_damping: float | None = None
-) -> CompliantContact:
-    """The contact of ``body`` with the restitution and friction that it has; ``tangential_damping`` None: critical for its mass.
+) -> CompliantLaw:
+    """The contact of ``body`` with the restitution and friction that it has; ``tangential_damping``
+    None: critical for its mass.
 
-    Below the speed ``n d g/(2 w)``, n the exponent, g the `pull` and w the frequency of the body at rest on one point, the loss no
-    longer grows: a body at rest is then about critically damped, and bounces as slow as that hardly leave the ground. A body
-    without weight is measured as if 0.1 m/s^2 pulled it, and rebounds faster than asked below that speed.
+    Below the speed ``n d g/(2 w)``, n the exponent, g the `pull` and w the frequency of the body at
+    rest on one point, the loss no longer grows: a body at rest is then about critically damped, and
+    bounces as slow as that hardly leave the ground. A body without weight is measured as if 0.1
+    m/s^2 pulled it, and rebounds faster than asked below that speed.
     """
     loss, (depth, frequency) = asked_loss(body.restitution), resting_swing(body, elastic)
     damping = tangential_damping or 2.0 * math.sqrt(tangential_stiffness * body.mass)
     friction = Friction(tangential_stiffness, damping, body.friction, body.friction)
     slowest = 0.5 * max(loss, SMALLEST_LOSS) * depth * frequency
-    return CompliantContact(elastic, friction, loss, slowest, TOUCH * float(body_size(body)))
+    return CompliantLaw(elastic, friction, loss, slowest, TOUCH * float(body_size(body)))
 
 
 @entry
@@ -78,19 +85,20 @@ def _begin(rig: CompliantBody, mode: Vector, state: Vector, work: DormandPrinceW
     look(rig, state)
     for point in range(rig.gap.shape[0]):
         set_loss(rig, mode, point)
-    drive = Drive(0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
+    drive = IntegrationSpan(0.0, 1.0)
     set_event_directions(rig, drive, mode, 0.0, state, work)
 
 
 @entry
 def _advance(
-    rig: CompliantBody, mode: Vector, state: Vector, scale: Vector, work: DormandPrinceWorkspace, start: float, interval: float,
-    pieces: int,
+    rig: CompliantBody, mode: Vector, state: Vector, scale: Vector, work: DormandPrinceWorkspace,
+    interval: IntegrationSpan, substeps: int,
 ) -> int:  # fmt: skip
-    for piece in range(pieces):
-        begin = start + interval * piece / pieces
-        drive = Drive(begin, interval / pieces, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
-        status = integrate(rig, drive, mode, start + interval * (piece + 1) / pieces, state, scale, work)
+    for substep in range(substeps):
+        begin = interval.start + interval.length * substep / substeps
+        drive = IntegrationSpan(begin, interval.length / substeps)
+        end = interval.start + interval.length * (substep + 1) / substeps
+        status = integrate(rig, drive, mode, end, state, scale, work)
         if status != DONE:
             return status
     look(rig, state)
@@ -112,9 +120,11 @@ class MovedBody:
     """One body on compliant contact, and where it stands. ``motion`` changes in place."""
 
     def __init__(
-        self, body: RigidBody, ground: Ground, motion: Motion, contact: CompliantContact, tolerance: float
+        self, body: RigidBody, ground: Ground, motion: Motion, contact: CompliantLaw, tolerance: float
     ) -> None:
-        """Take a body at the start; ``tolerance`` is the error a step may make, relative to depth and speed of an impact."""
+        """Take a body at the start; ``tolerance`` is the error a step may make, relative to depth
+        and speed of an impact.
+        """
         ground = laid_under(body, ground)
         self.body, self.ground, self.motion, self.contacts = body, ground, motion, contact_count(body, ground)
         self.rig = make_rig(body, ground, contact)
@@ -131,12 +141,15 @@ class MovedBody:
         _begin(self.rig, self.mode, self.state, self.work)
 
     def advance(self, interval: float) -> int:
-        """One interval in [s]; returns a status of `compiled/results.py`, whose sentence `sentence_of` gives."""
+        """One interval in [s]; returns a status of `compiled/results.py`, whose sentence
+        `sentence_of` gives.
+        """
         width, state = self.body.width, self.state
         spin = float(numpy.abs(self.motion.velocity[width:]).sum())
-        pieces = max(1, math.ceil(interval / LONGEST_PIECE), math.ceil(interval * spin / LARGEST_TURN))
+        substeps = max(1, math.ceil(interval / LONGEST_PIECE), math.ceil(interval * spin / LARGEST_TURN))
         state[self._impulses] = 0.0
-        status = int(_advance(self.rig, self.mode, state, self.scale, self.work, self.time, interval, pieces))
+        span = IntegrationSpan(self.time, interval)
+        status = int(_advance(self.rig, self.mode, state, self.scale, self.work, span, substeps))
         if status != DONE:
             return status
         self.time += interval
@@ -168,8 +181,8 @@ class MovedBody:
     def _scales(self) -> Vector:
         """Size of each state: depth and speed of the swing of the body at rest on one point.
 
-        They are below those of an impact, which the error control then meets the better; with larger ones a body at rest would
-        be shaken loose by the errors of its own steps.
+        They are below those of an impact, which the error control then meets the better; with
+        larger ones a body at rest would be shaken loose by the errors of its own steps.
         """
         body, width = self.body, self.body.width
         depth, frequency = resting_swing(body, self.rig.contact.elastic)

@@ -1,8 +1,9 @@
 """A body on a flat face all of whose points slide.
 
-The body keeps to the plane and its load is linear over the face, ``N_i = a + b rho_t + g rho_s``, which is the split of least norm
-where the points slide alike. The directions of slip are those after the step: in closed form where the body does not turn
-(`rigid/motion/straight_slide.py`), else by Broyden's method on the motion in the plane. Source: Goyal, Ruina and Papadopoulos 1991.
+The body keeps to the plane and its load is linear over the face, ``N_i = a + b rho_t + g rho_s``,
+which is the split of least norm where the points slide alike. The directions of slip are those
+after the step: in closed form where the body does not turn (`rigid/motion/straight_slide.py`), else
+by Broyden's method on the motion in the plane. Source: Goyal, Ruina and Papadopoulos 1991.
 """
 
 from __future__ import annotations
@@ -20,7 +21,9 @@ WIDE = 3
 
 @inline_kernel
 def _slip_sums(face, count, v_t, v_s, w_n):
-    """Directions of slip into ``face``, their sums and moments, the greatest change and the least slip."""
+    """Directions of slip into ``face``, their sums and moments, the greatest change and the least
+    slip.
+    """
     d_t, d_s, tt, st, ts, ss, change, least = 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, math.inf
     for j in range(count):
         u_t, u_s = v_t - w_n * face[j, R_S], v_s + w_n * face[j, R_T]
@@ -36,9 +39,13 @@ def _slip_sums(face, count, v_t, v_s, w_n):
 
 
 @inline_kernel
-def _slid(mu, face, count, mean, spread, F, v, w, w_n, light, inertia, d):
-    """Slopes of the load over the face for given directions of slip, and the motion in the plane that they leave."""
-    tt, ts, ss = spread
+def _slid(contact, motion, F, w_n, d):
+    """Slopes of the load over the face for given directions of slip, and the resulting motion in
+    the plane.
+    """
+    mu, face, count, mean = contact.friction, contact.points, contact.contacts, contact.mean
+    v, w, light, inertia = motion.velocity, motion.spin, motion.inverse_mass, motion.inertia
+    tt, ts, ss = contact.spread
     a, r, gain = F / count, mean[0] * mu, w_n - w[0]
     ask_t = inertia[1] * gain - inertia[3] * w[1] - inertia[4] * w[2] - mean[2] * F - r * a * d[1]
     ask_s = inertia[2] * gain - inertia[4] * w[1] - inertia[5] * w[2] + mean[1] * F + r * a * d[0]
@@ -55,8 +62,9 @@ def _slid(mu, face, count, mean, spread, F, v, w, w_n, light, inertia, d):
 
 
 @inline_kernel
-def _write_slide(mu, face, count, a, b, g, c):
+def _write_slide(contact, a, b, g, c):
     """Impulses of the sliding face; whether all press."""
+    mu, face, count = contact.friction, contact.points, contact.contacts
     presses = True
     for j in range(count):
         load, row = a + b * face[j, A] + g * face[j, B], int(face[j, ROW])
@@ -67,7 +75,9 @@ def _write_slide(mu, face, count, a, b, g, c):
 
 @inline_kernel
 def _broyden(H, top, r, last, step):
-    """Broyden's update of the inverse derivative, from row ``top`` of H on, from the change of the residual along ``step``."""
+    """Broyden's update of the inverse derivative, from row ``top`` of H on, from the change of the
+    residual along ``step``.
+    """
     y = (r[0] - last[0], r[1] - last[1], r[2] - last[2])
     image = _rows_times(H, top, y)
     along = step[0] * image[0] + step[1] * image[1] + step[2] * image[2]
@@ -92,9 +102,11 @@ def _rows_times(H, top, x):
 
 
 @inline_kernel
-def _slide_straight(mu, face, count, mean, spread, F, v, light, c):
+def _slide_straight(contact, motion, F, c):
     """Impulses of a face that does not turn: one slip, along the velocity before, for all points."""
-    tt, ts, ss = spread
+    mu, face, count, mean = contact.friction, contact.points, contact.contacts, contact.mean
+    v, light = motion.velocity, motion.inverse_mass
+    tt, ts, ss = contact.spread
     speed = math.sqrt(v[1] * v[1] + v[2] * v[2])
     if not speed - mu * F * light > STOPS * speed:
         return False
@@ -102,21 +114,26 @@ def _slide_straight(mu, face, count, mean, spread, F, v, light, c):
     t, s = rise * d_t + mean[1], rise * d_s + mean[2]
     for j in range(count):
         face[j, D_T], face[j, D_S] = d_t, d_s
-    return _write_slide(mu, face, count, F / count, part * (ss * t - ts * s), part * (tt * s - ts * t), c)
+    return _write_slide(contact, F / count, part * (ss * t - ts * s), part * (tt * s - ts * t), c)
 
 
 @inline_kernel
-def slide_on_face(mu, face, count, mean, spread, F, v, w, light, inertia, c):
-    """Impulses of a face that slides on; whether they were found and all press."""
-    if w[0] == 0.0 and w[1] == 0.0 and w[2] == 0.0 and _slide_straight(mu, face, count, mean, spread, F, v, light, c):
+def slide_on_face(contact, motion, F, c):
+    """Impulses ``c`` [rows] of a face that slides on; whether they were found and all press.
+
+    ``F``: normal impulse in [N s] of the whole face.
+    """
+    w = motion.spin
+    if w[0] == 0.0 and w[1] == 0.0 and w[2] == 0.0 and _slide_straight(contact, motion, F, c):
         return True
-    return _slide_and_turn(mu, face, count, mean, spread, F, v, w, light, inertia, c)
+    return _slide_and_turn(contact, motion, F, c)
 
 
 @kernel
-def _slide_and_turn(mu, face, count, mean, spread, F, v, w, light, inertia, c):
+def _slide_and_turn(contact, motion, F, c):
     """The motion in the plane by Broyden's method, and its impulses."""
-    top, size = face.shape[0] - 3, math.sqrt(spread[0] + spread[2])
+    face, count, v, w = contact.points, contact.contacts, motion.velocity, motion.spin
+    top, size = face.shape[0] - 3, math.sqrt(contact.spread[0] + contact.spread[2])
     speed = abs(v[1]) + abs(v[2]) + size * abs(w[0])
     v_t, v_s, w_n = v[1], v[2], w[0]
     last, step, b, g = (0.0, 0.0, 0.0), (0.0, 0.0, 0.0), 0.0, 0.0
@@ -125,11 +142,11 @@ def _slide_and_turn(mu, face, count, mean, spread, F, v, w, light, inertia, c):
         if not least > (STOPS * speed) ** 2:
             return False
         if turn == 1 and change <= SETTLED:  # the directions of the motion that they leave
-            return _write_slide(mu, face, count, F / count, b, g, c)
-        b, g, to_t, to_s, to_n = _slid(mu, face, count, mean, spread, F, v, w, w_n, light, inertia, d)
+            return _write_slide(contact, F / count, b, g, c)
+        b, g, to_t, to_s, to_n = _slid(contact, motion, F, w_n, d)
         r = (to_t - v_t, to_s - v_s, size * (to_n - w_n))
         if turn > 1 and change <= SETTLED and abs(r[0]) + abs(r[1]) + abs(r[2]) <= SETTLED * speed:
-            return _write_slide(mu, face, count, F / count, b, g, c)
+            return _write_slide(contact, F / count, b, g, c)
         if turn == 0:
             step = r
             for i in range(3):

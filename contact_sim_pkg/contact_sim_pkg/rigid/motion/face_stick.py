@@ -1,9 +1,11 @@
-"""A body on a flat face all of whose points stick: the impulses of least norm that stop it, each within its friction cone.
+"""A body on a flat face all of whose points stick: the impulses of least norm that stop it, each
+within its friction cone.
 
-Without bounds ``c_i = p + y x rho_i`` with ``sum c_i = F``, ``sum rho_i x c_i = X``, which is closed form. Where that leaves a cone
-they are the projections ``c_i = P(p + y x rho_i)`` on the cones, with six multipliers (p, y) again: the conditions of Karush, Kuhn
-and Tucker for the least norm. Newton's method on the two sums, whose derivative is symmetric, with steps halved until the dual
-function ``1/2 sum |c_i|^2 - F p - X y`` falls. Source: the least-norm choice is ours.
+Without bounds ``c_i = p + y x rho_i`` with ``sum c_i = F``, ``sum rho_i x c_i = X``, which is
+closed form. Where that leaves a cone they are the projections ``c_i = P(p + y x rho_i)`` on the
+cones, with six multipliers (p, y) again: the conditions of Karush, Kuhn and Tucker for the least
+norm. Newton's method on the two sums, whose derivative is symmetric, with steps halved until the
+dual function ``1/2 sum |c_i|^2 - F p - X y`` falls. Source: the least-norm choice is ours.
 """
 
 from __future__ import annotations
@@ -23,14 +25,16 @@ ORDER = 6
 
 
 @inline_kernel
-def stick_on_face(mu, face, count, mean, spread, F, T, c):
+def stick_on_face(contact, F, T, c):
     """Impulses of least norm that stop the body; whether all lie in their cones.
 
-    ``F``, ``T``: the wrench about the centre of mass that stops it. The last ``ORDER`` rows of ``face`` are work space.
+    ``F``, ``T``: the wrench about the centre of mass that stops it. The last ``ORDER`` rows of
+    ``face`` are work space.
     """
+    mu, face, count, mean = contact.friction, contact.points, contact.contacts, contact.mean
     if F[1] * F[1] + F[2] * F[2] > mu * mu * F[0] * F[0]:
         return False  # more than friction on the whole can hold
-    tt, ts, ss = spread
+    tt, ts, ss = contact.spread
     moved, share = cross(mean, F), 1.0 / count
     x_n, x_t, x_s = T[0] - moved[0], T[1] - moved[1], T[2] - moved[2]
     part, whole = 1.0 / (tt * ss - ts * ts), 1.0 / (tt + ss)
@@ -46,26 +50,28 @@ def stick_on_face(mu, face, count, mean, spread, F, T, c):
         return holds
     size = math.sqrt((tt + ss) * share)
     wrench = (F[0], F[1], F[2], x_n / size, x_t / size, x_s / size)
-    return _within_cones(mu, face, count, size, wrench, (F_n, F_t, F_s, size * y_n, size * y_t, size * y_s), c)
+    return _within_cones(contact, size, wrench, (F_n, F_t, F_s, size * y_n, size * y_t, size * y_s), c)
 
 
 @kernel
-def _within_cones(mu, face, count, size, wrench, z, c):
-    """Newton's method from the multipliers ``z`` (moments over ``size`` [m]); whether the wrench is met."""
-    load = wrench[0]
-    dual, miss = _evaluate(mu, face, count, size, wrench, z, c)
+def _within_cones(contact, size, wrench, z, c):
+    """Newton's method from the multipliers ``z`` (moments over ``size`` [m]); whether the wrench is
+    met.
+    """
+    face, load = contact.points, wrench[0]
+    dual, miss = _evaluate(contact, size, wrench, z, c)
     missed = _greatest(miss)
     for _ in range(STEPS):
         if missed <= EXACT * load:
             return True
-        _fill_derivative(mu, face, count, size, z)
+        _fill_derivative(contact, size, z)
         step = _solved(face, miss)
         slope, length, fell = _dot(miss, step), 1.0, False
         before, tries = missed, 0
         start, first = z, dual
         while not fell and tries < HALVINGS:
             z = _moved(start, length, step)
-            dual, miss = _evaluate(mu, face, count, size, wrench, z, c)
+            dual, miss = _evaluate(contact, size, wrench, z, c)
             missed = _greatest(miss)
             fell = dual <= first + DESCENT * length * slope or missed < 0.5 * before
             length, tries = 0.5 * length, tries + 1
@@ -75,8 +81,9 @@ def _within_cones(mu, face, count, size, wrench, z, c):
 
 
 @inline_kernel
-def _evaluate(mu, face, count, size, wrench, z, c):
+def _evaluate(contact, size, wrench, z, c):
     """Impulses ``c`` of the multipliers, the dual function, and by how much their wrench misses."""
+    mu, face, count = contact.friction, contact.points, contact.contacts
     dual = -_dot(wrench, z)
     m_0, m_1, m_2, m_3, m_4, m_5 = -wrench[0], -wrench[1], -wrench[2], -wrench[3], -wrench[4], -wrench[5]
     for j in range(count):
@@ -96,8 +103,9 @@ def _evaluate(mu, face, count, size, wrench, z, c):
 
 
 @inline_kernel
-def _fill_derivative(mu, face, count, size, z):
+def _fill_derivative(contact, size, z):
     """Derivative of the wrench by the multipliers, lower half, into the last rows of ``face``."""
+    mu, face, count = contact.friction, contact.points, contact.contacts
     top = face.shape[0] - ORDER
     for i in range(ORDER):
         for k in range(ORDER):
@@ -107,13 +115,13 @@ def _fill_derivative(mu, face, count, size, z):
         n, t, s = z[0] + z[4] * b - z[5] * a, z[1] - z[3] * b, z[2] + z[3] * a
         length = math.sqrt(t * t + s * s)
         if n >= 0.0 and length <= mu * n:
-            _add_direction(face, top, 1.0, 1.0, 0.0, 0.0, a, b)
-            _add_direction(face, top, 1.0, 0.0, 1.0, 0.0, a, b)
-            _add_direction(face, top, 1.0, 0.0, 0.0, 1.0, a, b)
+            _add_direction(face, top, 1.0, (1.0, 0.0, 0.0), (a, b))
+            _add_direction(face, top, 1.0, (0.0, 1.0, 0.0), (a, b))
+            _add_direction(face, top, 1.0, (0.0, 0.0, 1.0), (a, b))
         elif n + mu * length > 0.0:  # along the ray, and round the cone
             e_t, e_s, ray = t / length, s / length, 1.0 / (1.0 + mu * mu)
-            _add_direction(face, top, ray, 1.0, mu * e_t, mu * e_s, a, b)
-            _add_direction(face, top, mu * ray * (n + mu * length) / length, 0.0, -e_s, e_t, a, b)
+            _add_direction(face, top, ray, (1.0, mu * e_t, mu * e_s), (a, b))
+            _add_direction(face, top, mu * ray * (n + mu * length) / length, (0.0, -e_s, e_t), (a, b))
     trace = 0.0
     for i in range(ORDER):
         trace += face[top + i, i]
@@ -122,8 +130,9 @@ def _fill_derivative(mu, face, count, size, z):
 
 
 @kernel
-def _add_direction(face, top, weight, n, t, s, a, b):
+def _add_direction(face, top, weight, impulse, place):
     """Add ``weight g g'``, g the wrench of a unit impulse (n, t, s) at (a, b)."""
+    (n, t, s), (a, b) = impulse, place
     g = (n, t, s, a * s - b * t, b * n, -a * n)
     for i in range(ORDER):
         for k in range(i + 1):

@@ -1,7 +1,8 @@
 """Free flight of a rigid body to its first touch of the ground.
 
-The centre of mass moves exactly under a uniform load, the spin in space by a step of order 6; the touch is the root of a point's
-gap, whose change is summed free of cancellation, so that its time is as exact as the state. Source: Identifiability eqs 10, 11.
+The centre of mass moves exactly under a uniform load, the spin in space by a step of order 6; the
+touch is the root of a point's gap, whose change is summed free of cancellation, so that its time is
+as exact as the state. Source: Identifiability eqs 10, 11.
 """
 
 from __future__ import annotations
@@ -49,7 +50,9 @@ def _moved(body, motion, work, i, k):
 
 @kernel
 def gap_change(body, ground, motion, work, i):
-    """Change of the gap of contact ``i`` over the displacement; against a plane free of cancellation."""
+    """Change of the gap of contact ``i`` over the displacement; against a plane free of
+    cancellation.
+    """
     if ground.profile.nodes.shape[0] > 0:
         x, z = motion.position[0] + work.shift[0], motion.position[body.width - 1] + work.shift[body.width - 1]
         return on_profile(body, ground, work.turned, x, z, i)[0] - work.gap[i]
@@ -61,7 +64,9 @@ def gap_change(body, ground, motion, work, i):
 
 @kernel
 def _clearance(body, ground, motion, work, i, time):
-    """Gap of contact ``i`` after ``time``, of which the displacement is known; over ``time`` where it starts on the ground."""
+    """Gap of contact ``i`` after ``time``, of which the displacement is known; over ``time`` where
+    it starts on the ground.
+    """
     change = gap_change(body, ground, motion, work, i)
     if work.flags[i] != APART:
         return change / time
@@ -69,9 +74,12 @@ def _clearance(body, ground, motion, work, i, time):
 
 
 @kernel
-def _root(body, ground, motion, work, i, low, high, above, below):
-    """Time of the touch of point ``i`` between ``low`` and ``high`` by regula falsi (Illinois)."""
-    side = 0
+def _root(body, ground, motion, work, i, times, gaps):
+    """Time in [s] of the touch of point ``i`` between two ``times`` by regula falsi (Illinois).
+
+    ``gaps``: of the point at both, the first above 0 and the second below.
+    """
+    (low, high), (above, below), side = times, gaps, 0
     for _ in range(ROOT_STEPS):
         if high - low <= 2.0e-16 * high:
             break
@@ -114,7 +122,9 @@ def travel_bound(body, motion, time):
 
 @kernel
 def is_clear(body, ground, motion, time):
-    """Whether a body in the air stays above the greatest height in ``time`` [s], and within the heights."""
+    """Whether a body in the air stays above the greatest height in ``time`` [s], and within the
+    heights.
+    """
     profile, reach = ground.profile, travel_bound(body, motion, time) + body_size(body)
     x, last = motion.position[0], profile.nodes.shape[0] - 1
     inside = x - reach > profile.origin and x + reach < profile.origin + last * profile.cell
@@ -123,7 +133,9 @@ def is_clear(body, ground, motion, time):
 
 @kernel
 def _stays_away(body, ground, motion, work, time):
-    """Whether every point starts in the air, farther from the ground than the body can move in ``time`` [s]."""
+    """Whether every point starts in the air, farther from the ground than the body can move in
+    ``time`` [s].
+    """
     away, reach = True, travel_bound(body, motion, time)
     for i in range(work.gap.shape[0]):
         away = away and work.flags[i] == APART and work.gap[i] > reach
@@ -157,7 +169,7 @@ def _first_touch(body, ground, motion, work, piece, before, after):
             if after[i] < 0.0:
                 touch = low
                 if before[i] > 0.0:
-                    touch = _root(body, ground, motion, work, i, low, time, before[i], after[i])
+                    touch = _root(body, ground, motion, work, i, (low, time), (before[i], after[i]))
                 if touch < first or point < 0:
                     first, point = touch, i
             before[i] = after[i]
@@ -171,7 +183,8 @@ def _first_touch(body, ground, motion, work, piece, before, after):
 def fly_to_touch(
     body: RigidBody, ground: Ground, motion: Motion, work: MotionWorkspace, piece: float, before: Vector, after: Vector
 ) -> tuple[float, int]:
-    """Free flight to the first touch or the end of ``piece`` [s]; returns the time flown and the point, -1: none.
+    """Free flight to the first touch or the end of ``piece`` [s]; returns the time flown and the
+    point, -1: none.
 
     ``before``, ``after`` [points] are work space.
     """

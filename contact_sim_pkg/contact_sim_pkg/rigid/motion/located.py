@@ -1,10 +1,12 @@
-"""A rigid body in time with located events: flight to the first touch, impact at an instant, sliding and rest in between.
+"""A rigid body in time with located events: flight to the first touch, impact at an instant,
+sliding and rest in between.
 
 `rigid/motion/time_loop.py` goes on by itself in compiled code, over all output samples of a call.
 What it cannot do, an impact or a piece of time that takes the general solvers or holds an event, is
 done here, by compiled steps (`rigid/motion/active_contacts.py`, `rigid/contact/solver.py`,
 `rigid/impact/law.py`) called from Python: in one compiled function of all of them every solver
-would be compiled again. Source: Identifiability eqs 9-11; Brogliato, Nonsmooth Mechanics (event-driven schemes).
+would be compiled again. Source: Identifiability eqs 9-11; Brogliato, Nonsmooth Mechanics
+(event-driven schemes).
 """
 
 from __future__ import annotations
@@ -33,7 +35,7 @@ from contact_sim_pkg.rigid.geometry.track import (
     STILL,
     STOPS,
     TIME,
-    Track,
+    SampleTrack,
     read_track,
     track_columns,
 )
@@ -65,7 +67,7 @@ from contact_sim_pkg.rigid.results import (
     TOO_MANY_IMPACTS,
 )
 
-__all__ = ["Impact", "LocatedBody", "Track"]
+__all__ = ["LocatedBody", "LocatedImpact", "SampleTrack"]
 
 MOST_IMPACTS = 100_000  # in one interval
 REST = 1.0e-6  # rest speed over sqrt(g L)
@@ -76,7 +78,7 @@ LONGER = 4.0  # times, from one try for modes that fit to the next
 STICKS = 1.0e-9  # of the speed before the impact: slip below it counts as none
 
 
-class Impact(NamedTuple):
+class LocatedImpact(NamedTuple):
     """One impact, of all points that touch."""
 
     time: float  # [s] from the start of the interval
@@ -98,10 +100,12 @@ class LocatedBody:
         facets: int = DISC,
         tolerance: float = TOLERANCE,
     ) -> None:
-        """Take a body in the air or on the ground; ``motion`` is its state at the start, with no point below the ground.
+        """Take a body in the air or on the ground; ``motion`` is its state at the start, with no
+        point below the ground.
 
-        ``tolerance``: the error that a step may make while the body turns on held points, relative to its size and the speed of
-        a fall by it, or slides round a bend. Flight, rest and sliding straight on are exact whatever it is.
+        ``tolerance``: the error that a step may make while the body turns on held points, relative
+        to its size and the speed of a fall by it, or slides round a bend. Flight, rest and sliding
+        straight on are exact whatever it is.
         """
         ground = laid_under(body, ground)
         self._body, self.ground, self.motion, self.rule = body, ground, motion, rule
@@ -115,19 +119,28 @@ class LocatedBody:
         self._turning = make_turn_workspace(body, ground, self.size, self.gravity, tolerance)
         self.rest_speed = REST * math.sqrt(self.gravity * self.size)
         self.landing_speed = max(self.rest_speed, LANDS * math.sqrt(2.0 * held.LANDED * self.gravity * self.size))
-        self.impacts: list[Impact] = []  # of the last call
+        self.impacts: list[LocatedImpact] = []  # of the last call
         self.rested = math.nan  # [s] from the start of the call: when the last bounce ended
         self.impulse = numpy.zeros(points * body.width)  # [rows] in [N s] over the last call
         self._friction_turns = body.width != PLANE and facets == DISC  # with the slip
         self._pieces = SupportedPieces(
-            body, ground, motion, self.work, self._solver, self._march.clock, self._march.counts, self.size
+            body=body,
+            ground=ground,
+            motion=motion,
+            work=self.work,
+            solver=self._solver,
+            clock=self._march.clock,
+            counts=self._march.counts,
+            size=self.size,
         )
         held.survey_points(body, ground, motion, self.work, self.size, self.gravity)
         self.work.flags[:] = numpy.where(self.work.gap <= 1e-9 * self.size, 1, 0)
 
     @property
     def body(self) -> RigidBody:
-        """The body; one of another load, mass, friction or restitution may take its place between two calls."""
+        """The body; one of another load, mass, friction or restitution may take its place between
+        two calls.
+        """
         return self._body
 
     @body.setter
@@ -161,11 +174,15 @@ class LocatedBody:
         return float(self._march.clock[RESIDUAL])
 
     def advance(self, interval: float) -> int:
-        """One interval in [s]; returns a status of `rigid/results.py`, whose sentence says what went wrong."""
+        """One interval in [s]; returns a status of `rigid/results.py`, whose sentence says what
+        went wrong.
+        """
         return self.advance_over(interval, 1)[0]
 
-    def advance_over(self, interval: float, samples: int) -> tuple[int, Track]:
-        """``samples`` intervals in [s]; returns a status and the states at their ends (up to where it failed)."""
+    def advance_over(self, interval: float, samples: int) -> tuple[int, SampleTrack]:
+        """``samples`` intervals in [s]; returns a status and the states at their ends (up to where
+        it failed).
+        """
         clock, count = self._march.clock, self._march.counts
         track = numpy.zeros((samples, self._columns[-1]))
         self.impacts = []
@@ -174,9 +191,17 @@ class LocatedBody:
         status = SOLVED
         while status == SOLVED:
             request = advance_samples(
-                self.body, self.ground, self.motion, self.work, self._march, self.size, self.gravity, self.rest_speed,
-                self._columns[3], track,
-            )  # fmt: skip
+                self.body,
+                self.ground,
+                self.motion,
+                self.work,
+                self._march,
+                size=self.size,
+                gravity=self.gravity,
+                rest_speed=self.rest_speed,
+                impulse_column=self._columns[3],
+                track=track,
+            )
             if request == DONE:
                 break
             if count[SHORT] > MOST_SHORT:
@@ -198,7 +223,9 @@ class LocatedBody:
         track[self._march.counts[SAMPLE], self._columns[3] : self._columns[4]] += self.work.impulse
 
     def _pass(self, track: Vector) -> int:
-        """The time that the march left: a body that turns on held contacts, or a piece that takes the general solvers."""
+        """The time that the march left: a body that turns on held contacts, or a piece that takes
+        the general solvers.
+        """
         clock, pieces, parts = self._march.clock, self._pieces, (self.body, self.ground, self.motion, self.work)
         piece, still = float(clock[PIECE]), float(clock[STILL])
         over, turning = None, turns(*parts, self.motion.velocity, self.size)
@@ -221,13 +248,17 @@ class LocatedBody:
         return status
 
     def _next_try(self) -> float:
-        """Time in [s] after which modes may fit again, where slip goes through 0: ever longer within a sample, so that it ends."""
+        """Time in [s] after which modes may fit again, where slip goes through 0: ever longer
+        within a sample, so that it ends.
+        """
         stops = self._march.counts[STOPS]
         self._march.counts[STOPS] += 1
         return INSTANT * math.sqrt(self.size / self.gravity) * LONGER**stops if stops < MOST_STOPS else math.inf
 
     def _turn(self, still: float, track: Vector) -> bool:
-        """Turn the body on its held contacts for as long as they keep their modes; False where no mode fits."""
+        """Turn the body on its held contacts for as long as they keep their modes; False where no
+        mode fits.
+        """
         if self._march.counts[STOPS] >= MOST_STOPS:
             return False
         status, _part, _stretch = self._pieces.attempt(INSTANT * math.sqrt(self.size / self.gravity), still)
@@ -237,13 +268,24 @@ class LocatedBody:
         """With what each held contact does at this instant in the work space."""
         parts, march = (self.body, self.ground, self.motion, self.work), self._march
         list_features(*parts)
-        moved = turn_held(self.body, self.motion, self.work, self._turning, march.clock, march.counts, track, still)
+        moved = turn_held(
+            self.body,
+            self.motion,
+            self.work,
+            turn=self._turning,
+            clock=march.clock,
+            count=march.counts,
+            track=track,
+            still=still,
+        )
         if moved:
             stay_on_the_ground(*parts, self.size, still)
         return bool(moved)
 
     def warm_up(self) -> None:
-        """Call every compiled step once, so that none is compiled in the middle of a run; the state is spoiled."""
+        """Call every compiled step once, so that none is compiled in the middle of a run; the state
+        is spoiled.
+        """
         body, ground, motion, work = self.body, self.ground, self.motion, self.work
         for contacts in (len(work.flags), 1):  # an impact of several, and of one
             work.flags[:], work.u[:: body.width] = APART, -self.rest_speed
@@ -280,7 +322,7 @@ class LocatedBody:
         points = tuple(int(i) for i in numpy.flatnonzero(work.impulse[::width]))
         modes = tuple(self._mode(before, i) for i in points)
         time = float(count[SAMPLE] * clock[INTERVAL] + clock[TIME])
-        self.impacts.append(Impact(time, points, work.impulse.copy(), modes, energy - self.kinetic_energy()))
+        self.impacts.append(LocatedImpact(time, points, work.impulse.copy(), modes, energy - self.kinetic_energy()))
         self._add_impulse(track)
         clock[LOST] += self.impacts[-1].lost
         count[EVENTS] += 1

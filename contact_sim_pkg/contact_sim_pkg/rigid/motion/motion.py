@@ -1,4 +1,6 @@
-"""What both time-stepping schemes share: work space, free flight, displacement, the contact problem of the points that touch."""
+"""What both time-stepping schemes share: work space, free flight, displacement, the contact problem
+of the points that touch.
+"""
 
 from __future__ import annotations
 
@@ -24,7 +26,9 @@ APART, TOUCHING, HELD, STUCK = (
 
 
 class MotionWorkspace(NamedTuple):
-    """Arrays of a body's motion; ``flags`` and ``impulse`` are results as well. The solvers have their own."""
+    """Arrays of a body's motion; ``flags`` and ``impulse`` are results as well. The solvers have
+    their own.
+    """
 
     problem: ContactProblem
     J: Vector  # [rows, coordinates]
@@ -47,11 +51,21 @@ def make_motion_workspace(body: RigidBody, ground: Ground, facets: int = DISC) -
     points, width = contact_count(body, ground), body.width
     coordinates, rows, zeros = len(body.load), points * width, numpy.zeros
     return MotionWorkspace(
-        make_problem(points, width, facets), zeros((rows, coordinates)), zeros((coordinates, coordinates)), zeros(points),
-        zeros(rows), zeros(rows), zeros(points), zeros(coordinates), zeros(width), zeros((width, width)), zeros(1),
-        zeros(points, numpy.int64), zeros(coordinates),
-        zeros(points, numpy.int64),
-    )  # fmt: skip
+        problem=make_problem(points, width, facets),
+        J=zeros((rows, coordinates)),
+        W=zeros((coordinates, coordinates)),
+        gap=zeros(points),
+        u=zeros(rows),
+        impulse=zeros(rows),
+        restitution=zeros(points),
+        free=zeros(coordinates),
+        shift=zeros(width),
+        turned=zeros((width, width)),
+        turn=zeros(1),
+        flags=zeros(points, numpy.int64),
+        push=zeros(coordinates),
+        feature=zeros(points, numpy.int64),
+    )
 
 
 @kernel
@@ -74,7 +88,9 @@ def contact_velocities(J, velocity, u):
 
 @kernel
 def take_part(body, work, least):
-    """Fill ``A`` and the friction: points with a flag of ``least`` or more take part, the others are INACTIVE."""
+    """Fill ``A`` and the friction: points with a flag of ``least`` or more take part, the others
+    are INACTIVE.
+    """
     problem, flags, width = work.problem, work.flags, body.width
     A, friction = problem.A, problem.friction
     fill_delassus(work.J, work.W, A)
@@ -122,7 +138,9 @@ def apply_impulse(J, W, c, velocity):
 
 @kernel
 def free_velocity(body, motion, work, time):
-    """Velocity after ``time`` [s] without contact, into ``work.free``: load, and the gyroscopic term by implicit midpoint."""
+    """Velocity after ``time`` [s] without contact, into ``work.free``: load, and the gyroscopic
+    term by implicit midpoint.
+    """
     free, velocity, load, W = work.free, motion.velocity, body.load, work.W
     n = velocity.shape[0]
     for k in range(n):
@@ -142,7 +160,9 @@ def free_velocity(body, motion, work, time):
 
 @kernel
 def displace(body, motion, end, work, time):
-    """Displacement over ``time`` from the mean of the velocities at its ends, exact for uniform acceleration."""
+    """Displacement over ``time`` from the mean of the velocities at its ends, exact for uniform
+    acceleration.
+    """
     v, shift, turned, R = motion.velocity, work.shift, work.turned, motion.rotation
     for k in range(body.width):
         shift[k] = 0.5 * time * (v[k] + end[k])
@@ -189,7 +209,9 @@ def commit(body, motion, end, work):
 
 @kernel
 def turns_alike(body):
-    """Whether the moments of inertia are equal: the inverse inertia then does not turn with the body."""
+    """Whether the moments of inertia are equal: the inverse inertia then does not turn with the
+    body.
+    """
     alike = True
     for k in range(body.inertia.shape[0]):
         alike = alike and body.inertia[k] == body.inertia[0]
@@ -200,7 +222,8 @@ def turns_alike(body):
 def carry_spin(body, motion, end, work):
     """Turn the spin of ``end`` from the axes of the start of the piece to those of its end (space).
 
-    That keeps the angular momentum in the axes of the body; one of equal moments of inertia keeps its spin in space.
+    That keeps the angular momentum in the axes of the body; one of equal moments of inertia keeps
+    its spin in space.
     """
     if body.width == PLANE or turns_alike(body):
         return
@@ -211,7 +234,9 @@ def carry_spin(body, motion, end, work):
 
 @kernel
 def free_motion(body, motion, work, time):
-    """Displacement, rotation and velocity after ``time`` [s] without contact; ``work.free`` is in the axes at its end."""
+    """Displacement, rotation and velocity after ``time`` [s] without contact; ``work.free`` is in
+    the axes at its end.
+    """
     v, free, load, R, turned = motion.velocity, work.free, body.load, motion.rotation, work.turned
     for k in range(body.width):
         gain = time * load[k] / body.mass

@@ -1,4 +1,5 @@
-"""Slip of held points, where it stops, and whether a piece of time goes straight: neither rows of contacts nor slips turn in it.
+"""Slip of held points, where it stops, and whether a piece of time goes straight: neither rows of
+contacts nor slips turn in it.
 
 What goes straight is solved in one piece of any length (`rigid/motion/time_loop.py`,
 `rigid/motion/straight_slide.py`); what turns is integrated (`rigid/motion/turning.py`). Source:
@@ -34,7 +35,8 @@ def slip_of(body, work, velocity, i):
 
 @entry
 def slip_turns(body: RigidBody, motion: Motion, work: MotionWorkspace, still: float) -> bool:
-    """Whether a held contact in space slides at the start of a piece and in another direction at its end, ``work.free``.
+    """Whether a held contact in space slides at the start of a piece and in another direction at
+    its end, ``work.free``.
 
     ``still`` [m/s]: what counts as rounding.
     """
@@ -54,7 +56,9 @@ def slip_turns(body: RigidBody, motion: Motion, work: MotionWorkspace, still: fl
 def stop_of_slip(
     body: RigidBody, ground: Ground, motion: Motion, work: MotionWorkspace, time: float, size: float, still: float
 ) -> tuple[float, float]:
-    """Velocity at the end of the piece in ``work.free``; part of it after which slip first stops, and how many pieces it lasts."""
+    """Velocity at the end of the piece in ``work.free``; part of it after which slip first stops,
+    and how many pieces it lasts.
+    """
     apply_impulse(work.J, work.W, work.impulse, work.free)
     for k in range(body.width):
         if abs(work.free[k]) <= still:
@@ -82,7 +86,8 @@ def stop_of_slip(
 def turns(
     body: RigidBody, ground: Ground, motion: Motion, work: MotionWorkspace, velocity: Vector, size: float
 ) -> bool:
-    """Whether rows of held contacts turn or bend at ``velocity``: a body with an extent spins, or a contact's path is curved.
+    """Whether rows of held contacts turn or bend at ``velocity``: a body with an extent spins, or a
+    contact's path is curved.
 
     A ball of unequal moments of inertia turns too.
     """

@@ -1,10 +1,12 @@
-"""A rigid body in time at a fixed step, of first order: contacts within reach are solved once a step, in velocities and impulses.
+"""A rigid body in time at a fixed step, of first order: contacts within reach are solved once a
+step, in velocities and impulses.
 
-A contact is in reach where its gap is closed or closes within the step, of itself or by what the others take from the body
-(`rigid/geometry/reach.py`); all in reach meet ``gap/h + u_n+ >= 0``. Where one
-approaches faster than the rest speed 2 g h, with restitution, the step ends on the ground by the same rows, and the velocity
-after it is that of the impact law: a bounce above the ground would gain height, and a body that bounces would never rest.
-Source: Identifiability eqs 9, 14; Stewart and Trinkle 1996.
+A contact is in reach where its gap is closed or closes within the step, of itself or by what the
+others take from the body (`rigid/geometry/reach.py`); all in reach meet ``gap/h + u_n+ >= 0``.
+Where one approaches faster than the rest speed 2 g h, with restitution, the step ends on the ground
+by the same rows, and the velocity after it is that of the impact law: a bounce above the ground
+would gain height, and a body that bounces would never rest. Source: Identifiability eqs 9, 14;
+Stewart and Trinkle 1996.
 """
 
 from __future__ import annotations
@@ -18,7 +20,7 @@ from contact_sim_pkg.compiled.jit import entry
 from contact_sim_pkg.rigid.body import Ground, Motion, RigidBody, contact_count, laid_under
 from contact_sim_pkg.rigid.contact.answers import nearest_motion
 from contact_sim_pkg.rigid.contact.packed import PackedSolver
-from contact_sim_pkg.rigid.contact.solver import NEWTON, Solution
+from contact_sim_pkg.rigid.contact.solver import NEWTON, ContactSolution
 from contact_sim_pkg.rigid.geometry.reach import begin_step, reach_further
 from contact_sim_pkg.rigid.motion.motion import (
     MotionWorkspace,
@@ -41,7 +43,9 @@ CLOSED_AT_ONCE = 1.0e-3  # of the contact velocities: by so much those of a step
 
 @entry
 def end_step(body: RigidBody, motion: Motion, work: MotionWorkspace, landing: Vector, step: float) -> None:
-    """Take the impulses; the position follows from the velocity that those of ``landing`` [rows] would give."""
+    """Take the impulses; the position follows from the velocity that those of ``landing`` [rows]
+    would give.
+    """
     for k in range(work.free.shape[0]):
         motion.velocity[k] = work.free[k]
     apply_impulse(work.J, work.W, landing, motion.velocity)
@@ -58,7 +62,9 @@ class SteppedBody:
         self, body: RigidBody, ground: Ground, motion: Motion, step: float, rule: int = ENERGETIC,
         facets: int = DISC, rung: int = NEWTON, sweeps: int = 20,
     ) -> None:  # fmt: skip
-        """``step`` in [s]; ``facets`` of the friction cone, ``rung`` and ``sweeps`` of the solver of held contacts."""
+        """``step`` in [s]; ``facets`` of the friction cone, ``rung`` and ``sweeps`` of the solver
+        of held contacts.
+        """
         ground = laid_under(body, ground)
         self.body, self.ground, self.motion, self.step, self.rule = body, ground, motion, step, rule
         points, coordinates = contact_count(body, ground), len(body.load)
@@ -114,7 +120,7 @@ class SteppedBody:
         self.residual = max(self.residual, float(found.residual)) if math.isfinite(found.residual) else math.inf
         return int(found.status)
 
-    def _land(self) -> Solution:
+    def _land(self) -> ContactSolution:
         """The contacts in reach without bounce."""
         found = self._solver.hold(self.work)
         if found.status in (SOLVED, NOT_CONVERGED) and not found.residual <= CONTRADICTS and self._meets_a_motion():
@@ -122,16 +128,19 @@ class SteppedBody:
         return found
 
     def _reach_further(self) -> int:
-        """Contacts that those in reach drive into the ground: 0 there are none, 1 they are held too, 2 they or others bounce."""
+        """Contacts that those in reach drive into the ground: 0 there are none, 1 they are held
+        too, 2 they or others bounce.
+        """
         return int(
             reach_further(self.body, self.motion, self.work, self._margin, self._change, self.step, self.rest_speed)
         )
 
     def _meets_a_motion(self) -> bool:
-        """Take the contact velocities nearest to those asked for that a motion of the body gives; False where they are far.
+        """Take the contact velocities nearest to those asked for that a motion of the body gives;
+        False where they are far.
 
-        A step that closes unlike gaps of points that stick asks for velocities that differ from any motion by the tilt that it
-        takes away: an error of first order.
+        A step that closes unlike gaps of points that stick asks for velocities that differ from any
+        motion by the tilt that it takes away: an error of first order.
         """
         work = self.work
         rows = numpy.repeat(work.problem.friction >= 0.0, self.body.width)

@@ -1,10 +1,12 @@
-"""Pieces of time of a held body that need no survey and no solver: it rests, or it slides on over a plane without turning.
+"""Pieces of time of a held body that need no survey and no solver: it rests, or it slides on over a
+plane without turning.
 
-At rest the next sample repeats the last one. A body that slides without turning has one slip for all its points. It lies along the
-velocity w that the load alone would leave, so friction takes ``mu Q/m`` from it, Q the normal impulse on the whole body. No moment
-about the centre of mass is left, ``sum N_i r_i x (n - mu d) = 0``, and so the loads of least norm are linear over the face,
-``N_i = Q/k + b rho_t,i + g rho_s,i`` with ``sum N_i r_i = -mu h d Q``, h the height of the face over the centre of mass.
-Source: Identifiability eqs 12-18, with the split of least norm.
+At rest the next sample repeats the last one. A body that slides without turning has one slip for
+all its points. It lies along the velocity w that the load alone would leave, so friction takes ``mu
+Q/m`` from it, Q the normal impulse on the whole body. No moment about the centre of mass is left,
+``sum N_i r_i x (n - mu d) = 0``, and so the loads of least norm are linear over the face, ``N_i =
+Q/k + b rho_t,i + g rho_s,i`` with ``sum N_i r_i = -mu h d Q``, h the height of the face over the
+centre of mass. Source: Identifiability eqs 12-18, with the split of least norm.
 """
 
 from __future__ import annotations
@@ -29,19 +31,20 @@ class Face(NamedTuple):
     held: int
     row: int  # of the first, whose axes all have
     height: float  # [m] over the centre of mass, negative
-    mean_t: float  # [m]
-    mean_s: float  # [m]
-    inverse_tt: float  # [1/m^2], of the sums of products of the places about their mean
-    inverse_ts: float
-    inverse_ss: float
+    mean: tuple[float, float]  # [m] along the tangents t, s
+    inverse_spread: tuple[
+        float, float, float
+    ]  # [1/m^2] tt, ts, ss, of the sums of products of the places about their mean
 
 
-NO_FACE = Face(0, 0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
+NO_FACE = Face(held=0, row=0, height=0.0, mean=(0.0, 0.0), inverse_spread=(0.0, 0.0, 0.0))
 
 
 @inline_kernel
 def rests(motion, work, size):
-    """Whether nothing moves, the held points stick on the ground and no other touches it: a piece of time then changes nothing."""
+    """Whether nothing moves, the held points stick on the ground and no other touches it: a piece
+    of time then changes nothing.
+    """
     resting = True
     for k in range(motion.velocity.shape[0]):
         resting = resting and motion.velocity[k] == 0.0
@@ -53,7 +56,9 @@ def rests(motion, work, size):
 
 @inline_kernel
 def _slides_straight(body, ground, motion, work):
-    """Whether a body slides over a plane without turning and without a torque, every point on the ground held."""
+    """Whether a body slides over a plane without turning and without a torque, every point on the
+    ground held.
+    """
     straight, slides = ground.profile.nodes.shape[0] == 0 and body.friction > 0.0, False
     for k in range(body.width):
         slides = slides or motion.velocity[k] != 0.0
@@ -79,7 +84,9 @@ def _place(body, J, first, row):
 
 @inline_kernel
 def straight_face(body, ground, motion, work, face):
-    """The held points of a body that slides straight on, about their mean into ``face`` [points, 3 or more]."""
+    """The held points of a body that slides straight on, about their mean into ``face`` [points, 3
+    or more].
+    """
     count, first, height, mean_t, mean_s = 0, 0, 0.0, 0.0, 0.0
     tt, ts, ss = 0.0, 0.0, 0.0
     if _slides_straight(body, ground, motion, work):
@@ -99,10 +106,10 @@ def straight_face(body, ground, motion, work, face):
         t, s = face[j, T], face[j, S]
         tt, ts, ss = tt + t * t, ts + t * s, ss + s * s
     if body.width == PLANE:
-        return Face(count, first, height, mean_t, mean_s, 1.0 / tt, 0.0, 0.0)
+        return Face(count, first, height, (mean_t, mean_s), (1.0 / tt, 0.0, 0.0))
     size, whole = tt + ss, tt * ss - ts * ts
     count = count if whole > NARROW * size * size else 0
-    return Face(count, first, height, mean_t, mean_s, ss / whole, -ts / whole, tt / whole)
+    return Face(count, first, height, (mean_t, mean_s), (ss / whole, -ts / whole, tt / whole))
 
 
 @inline_kernel
@@ -118,10 +125,13 @@ def _tangential(body, J, row, x):
 
 @inline_kernel
 def _press(body, face, points, push, d_t, d_s, impulse):
-    """Loads of least norm under a body that is pushed by ``push`` [N s] and slides along d, and its friction; whether all press."""
+    """Loads of least norm under a body that is pushed by ``push`` [N s] and slides along d, and its
+    friction; whether all press.
+    """
     rise = body.friction * points.height
-    t, s = -push * (rise * d_t + points.mean_t), -push * (rise * d_s + points.mean_s)
-    b, g = points.inverse_tt * t + points.inverse_ts * s, points.inverse_ts * t + points.inverse_ss * s
+    t, s = -push * (rise * d_t + points.mean[0]), -push * (rise * d_s + points.mean[1])
+    tt, ts, ss = points.inverse_spread
+    b, g = tt * t + ts * s, ts * t + ss * s
     presses = True
     for j in range(points.held):
         load, row = push / points.held + b * face[j, T] + g * face[j, S], int(face[j, ROW])
@@ -134,7 +144,8 @@ def _press(body, face, points, push, d_t, d_s, impulse):
 
 @inline_kernel
 def slide_straight(body, motion, work, face, points, time, still):
-    """One piece of ``time`` [s]: state, ``work.impulse``; returns the energy lost in [J], -1 (nothing taken) where slip may end.
+    """One piece of ``time`` [s]: state, ``work.impulse``; returns the energy lost in [J], -1
+    (nothing taken) where slip may end.
 
     ``still`` [m/s]: what counts as rounding. ``work.impulse`` is 0 for contacts that are not held.
     """

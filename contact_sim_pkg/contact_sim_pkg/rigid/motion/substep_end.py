@@ -1,8 +1,10 @@
-"""The end of a piece of time with held contacts: it becomes the state, the contacts stay on the ground, the energy is kept.
+"""The end of a piece of time with held contacts: it becomes the state, the contacts stay on the
+ground, the energy is kept.
 
-The impulses were found with the normals at the start. Half of the normal ones then act along the normals at the end, so that they
-do no work to second order; contacts that a turn has left beside the ground are put back; what is left of the error in energy goes
-into the speed. Source: Hairer and Wanner, Solving Ordinary Differential Equations II, VII.2 (projection).
+The impulses were found with the normals at the start. Half of the normal ones then act along the
+normals at the end, so that they do no work to second order; contacts that a turn has left beside
+the ground are put back; what is left of the error in energy goes into the speed. Source: Hairer and
+Wanner, Solving Ordinary Differential Equations II, VII.2 (projection).
 """
 
 from __future__ import annotations
@@ -36,7 +38,9 @@ SLIGHT = 0.5  # of the kinetic energy: the greatest error of a piece that is mad
 
 @kernel
 def _lift(body, ground, motion, work, size):
-    """Put held contacts back on the ground: the curved paths of turning bodies leave them beside it by errors of third order."""
+    """Put held contacts back on the ground: the curved paths of turning bodies leave them beside it
+    by errors of third order.
+    """
     W, J, R = work.W, work.J, motion.rotation
     for _ in range(LIFTS):
         moved = False
@@ -68,7 +72,9 @@ def _lift(body, ground, motion, work, size):
 
 @kernel
 def _fill_push(body, work, part):
-    """``part`` of the normal impulses, as momentum, added to ``work.push``, which is cleared first where the part is negative."""
+    """``part`` of the normal impulses, as momentum, added to ``work.push``, which is cleared first
+    where the part is negative.
+    """
     for k in range(work.push.shape[0]):
         total = 0.0
         for i in range(work.flags.shape[0]):
@@ -78,7 +84,9 @@ def _fill_push(body, work, part):
 
 @kernel
 def _turn_push(body, motion, work):
-    """Let half of the normal impulses act along the normals at the end of the piece: they then do no work to second order."""
+    """Let half of the normal impulses act along the normals at the end of the piece: they then do
+    no work to second order.
+    """
     _fill_push(body, work, 0.5)
     for k in range(work.push.shape[0]):
         for m in range(work.push.shape[0]):
@@ -110,7 +118,9 @@ def _mechanical_energy(body, motion):
 
 @kernel
 def _friction_work(body, ground, motion, work, time):
-    """Of the tangential impulses on the mean slip of a piece of ``time`` [s], in [J]; arms and normals turn meanwhile."""
+    """Of the tangential impulses on the mean slip of a piece of ``time`` [s], in [J]; arms and
+    normals turn meanwhile.
+    """
     total = 0.0
     for i in range(work.flags.shape[0]):
         row = i * body.width
@@ -126,7 +136,9 @@ def _friction_work(body, ground, motion, work, time):
 
 @kernel
 def _keep_energy(body, motion, energy):
-    """Scale the velocities of a turning body to ``energy`` [J]: that makes good the error of a piece, if it is slight."""
+    """Scale the velocities of a turning body to ``energy`` [J]: that makes good the error of a
+    piece, if it is slight.
+    """
     v, turns, driven = motion.velocity, False, False
     for k in range(body.width, v.shape[0]):
         turns, driven = turns or v[k] != 0.0, driven or body.load[k] != 0.0
@@ -161,7 +173,9 @@ def list_features(body: RigidBody, ground: Ground, motion: Motion, work: MotionW
 def stay_on_the_ground(
     body: RigidBody, ground: Ground, motion: Motion, work: MotionWorkspace, size: float, still: float
 ) -> None:
-    """Let contacts go that left the ground or went over a peak, put the others back on it, normal velocities to 0."""
+    """Let contacts go that left the ground or went over a peak, put the others back on it, normal
+    velocities to 0.
+    """
     look(body, ground, motion, work)
     for i in range(work.flags.shape[0]):
         speed = work.u[i * body.width]

@@ -1,7 +1,8 @@
-"""Pieces of time with held contacts by the general solvers: what no closed form and no path of `rigid/motion/turning.py` takes.
+"""Pieces of time with held contacts by the general solvers: what no closed form and no path of
+`rigid/motion/turning.py` takes.
 
-A velocity step with contact impulses, exact where the body does not turn; it ends where the first slip stops or the first free
-contact lands. Source: Identifiability eqs 9-11.
+A velocity step with contact impulses, exact where the body does not turn; it ends where the first
+slip stops or the first free contact lands. Source: Identifiability eqs 9-11.
 """
 
 from __future__ import annotations
@@ -35,7 +36,9 @@ MOST_STOPS = 20  # that are located in one interval: an edge that pivots may sli
 
 
 class SupportedPieces:
-    """Of one body, which changes in place; ``clock`` and ``counts`` are those of its march (`rigid/geometry/track.py`)."""
+    """Of one body, which changes in place; ``clock`` and ``counts`` are those of its march
+    (`rigid/geometry/track.py`).
+    """
 
     def __init__(
         self, body: RigidBody, ground: Ground, motion: Motion, work: MotionWorkspace, solver: PackedSolver, clock: Vector,
@@ -70,7 +73,9 @@ class SupportedPieces:
         return SOLVED, part, stretch
 
     def slip_turns(self, time: float, still: float, found: Attempt) -> bool:
-        """Whether a slip turns over ``time`` [s], or before it stops where it stops by then: the last attempt is ``found``."""
+        """Whether a slip turns over ``time`` [s], or before it stops where it stops by then: the
+        last attempt is ``found``.
+        """
         part = found[1]
         for _ in range(STOP_HALVINGS):
             if part == 1.0:
@@ -80,7 +85,8 @@ class SupportedPieces:
         return bool(slip_turns(self.body, self.motion, self.work, still))
 
     def hold(self, piece: float, still: float, found: Attempt | None = None) -> tuple[int, float]:
-        """Held contacts over at most ``piece`` [s], ended where a slip stops or a point lands; returns (status, time).
+        """Held contacts over at most ``piece`` [s], ended where a slip stops or a point lands;
+        returns (status, time).
 
         ``found``: the attempt over ``piece``, where it stands in the work space.
         """
@@ -99,7 +105,9 @@ class SupportedPieces:
         return status, time
 
     def _to_the_landing(self, time: float, still: float) -> tuple[int, float]:
-        """The time, up to ``time``, at which the first free contact is on the ground; the piece up to it is in the work space."""
+        """The time, up to ``time``, at which the first free contact is on the ground; the piece up
+        to it is in the work space.
+        """
         parts = (self.body, self.ground, self.motion, self.work)
         for _ in range(LANDING_STEPS):
             part, first = held.landing_part(*parts, time, self.size)
@@ -123,7 +131,9 @@ class SupportedPieces:
         return SOLVED, time
 
     def _to_the_stop(self, piece: float, still: float) -> tuple[int, float]:
-        """The time at which the first sliding point stops: a piece in which it still slides gives its deceleration."""
+        """The time at which the first sliding point stops: a piece in which it still slides gives
+        its deceleration.
+        """
         probe, part, stretch, status = piece, 0.0, math.inf, SOLVED
         for _ in range(STOP_HALVINGS):
             probe *= 0.5
@@ -138,13 +148,17 @@ class SupportedPieces:
         return status, time
 
     def _goes_straight(self, still: float) -> bool:
-        """Whether neither rows of contacts nor slips turn in the last attempt: its impulses then grow with time."""
+        """Whether neither rows of contacts nor slips turn in the last attempt: its impulses then
+        grow with time.
+        """
         parts = (self.body, self.ground, self.motion, self.work)
         turning = any(turns(*parts, velocity, self.size) for velocity in (self.motion.velocity, self.work.free))
         return not turning and not slip_turns(self.body, self.motion, self.work, still)
 
     def _prolong(self, probe: float, time: float, still: float) -> None:
-        """The attempt over ``probe`` [s] brought to the stop after ``time``, where a solve has no firm ground: stick meets slip."""
+        """The attempt over ``probe`` [s] brought to the stop after ``time``, where a solve has no
+        firm ground: stick meets slip.
+        """
         parts = (self.body, self.ground, self.motion, self.work)
         held.prepare_attempt(*parts, time, 1.0)
         self.work.impulse[:] *= time / probe

@@ -1,4 +1,5 @@
-"""The located steps of a body between impacts, over any number of output samples in one compiled call.
+"""The located steps of a body between impacts, over any number of output samples in one compiled
+call.
 
 Flight, and held points that a closed form solves (a face, an edge in the plane, a point:
 `rigid/geometry/face.py`, `rigid/impact/planar_pair.py`, `rigid/contact/single.py`) with no event in
@@ -99,7 +100,9 @@ def _spin(body, motion):
 
 @inline_kernel
 def _longest(body, ground, motion, turn, size):
-    """Longest piece in [s] over which the body turns by at most ``turn`` [rad] and stays near one cell of the ground."""
+    """Longest piece in [s] over which the body turns by at most ``turn`` [rad] and stays near one
+    cell of the ground.
+    """
     spin, speed = _spin(body, motion), 0.0
     longest = turn / spin if spin > 0.0 else math.inf
     if ground.profile.nodes.shape[0] > 0:
@@ -165,7 +168,9 @@ def _free_contacts(body, ground, motion, work, time, still):
 
 @inline_kernel
 def _attempt(body, ground, motion, work, march, time, still):
-    """Closed form of the held contacts over ``time`` into ``work.impulse``; its residual, inf where there is none."""
+    """Closed form of the held contacts over ``time`` into ``work.impulse``; its residual, inf where
+    there is none.
+    """
     first, second, held, bent = _free_contacts(body, ground, motion, work, time, still)
     for row in range(work.impulse.shape[0]):
         work.impulse[row] = 0.0
@@ -174,7 +179,7 @@ def _attempt(body, ground, motion, work, march, time, still):
         if held == 1:
             return _one_in_the_plane(work, first)
         return (
-            pair_impulses(work.J, work.W, q, friction, first, second, march.pair, work.impulse)
+            pair_impulses(work.J, work.W, q, friction, first, second=second, work=march.pair, c=work.impulse)
             if held == 2
             else numpy.inf
         )
@@ -187,7 +192,9 @@ def _attempt(body, ground, motion, work, march, time, still):
 
 @inline_kernel
 def _support(body, ground, motion, work, march, time, size, still):
-    """Hold the points over ``time`` in closed form; False where it turns, and for general solvers or an event."""
+    """Hold the points over ``time`` in closed form; False where it turns, and for general solvers
+    or an event.
+    """
     if turns(body, ground, motion, work, motion.velocity, size):
         return False
     residual = _attempt(body, ground, motion, work, march, time, still)
@@ -208,11 +215,13 @@ def advance_samples(
     body: RigidBody, ground: Ground, motion: Motion, work: MotionWorkspace, march: MarchWorkspace, size: float,
     gravity: float, rest_speed: float, impulse_column: int, track: Vector,
 ) -> int:  # fmt: skip
-    """Go on from where ``march`` stands, up to the end of its samples (DONE) or to what it cannot do: COLLIDE, SUPPORT.
+    """Go on from where ``march`` stands, up to the end of its samples (DONE) or to what it cannot
+    do: COLLIDE, SUPPORT.
 
     PAUSE: so many pieces are done, or too many short ones, that the caller should look.
 
-    ``track`` [samples, columns]: the impulses of each sample are added up in it, the states written at its end.
+    ``track`` [samples, columns]: the impulses of each sample are added up in it, the states written
+    at its end.
     """
     clock, count, pieces = march.clock, march.counts, 0
     points = NO_FACE
@@ -249,7 +258,7 @@ def advance_samples(
                 clock[PIECE] = passed
                 count[RESTS] = count[SAMPLE] + 1 if resting and passed >= clock[INTERVAL] else 0
                 count[SOLVES] += 1
-                if not _support(body, ground, motion, work, march, passed, size, still):
+                if not _support(body, ground, motion, work, march, time=passed, size=size, still=still):
                     return SUPPORT
                 add_impulse(work, track[count[SAMPLE]], impulse_column)
                 clock[LOST] += take_piece(body, ground, motion, work, passed, size, still)

@@ -1,8 +1,9 @@
 """A piece of time with held contacts in which the body turns: the path of
 `rigid/forces/constrained_body.py`, integrated with error control.
 
-Which contacts stick, slide or part is what the contact problem over an instant says; the piece ends where one of these modes does.
-Source: Hairer and Wanner, Solving Ordinary Differential Equations II, VII.2 (index reduction, projection).
+Which contacts stick, slide or part is what the contact problem over an instant says; the piece ends
+where one of these modes does. Source: Hairer and Wanner, Solving Ordinary Differential Equations
+II, VII.2 (index reduction, projection).
 """
 
 from __future__ import annotations
@@ -16,10 +17,9 @@ from contact_sim_pkg.compiled.arrays import Modes, Vector
 from contact_sim_pkg.compiled.jit import entry, inline_kernel, kernel
 from contact_sim_pkg.compiled.results import DONE, NOT_FINITE
 from contact_sim_pkg.integrate.dormand_prince import DormandPrinceWorkspace, integrate, make_workspace
-from contact_sim_pkg.integrate.drive import Drive
 from contact_sim_pkg.integrate.interface import rate
 from contact_sim_pkg.rigid.body import Ground, Motion, RigidBody, contact_count
-from contact_sim_pkg.rigid.body_state import places_of
+from contact_sim_pkg.rigid.body_state import IntegrationSpan, places_of
 from contact_sim_pkg.rigid.forces.constrained_body import EVENTS_A_CONTACT, GOING, first_of_time, held_states
 from contact_sim_pkg.rigid.forces.constraint_forces import (
     DEEP,
@@ -82,7 +82,9 @@ class TurnWorkspace(NamedTuple):
 def make_turn_workspace(
     body: RigidBody, ground: Ground, size: float, gravity: float, tolerance: float
 ) -> TurnWorkspace:
-    """Work space; ``tolerance``: the error a step may make, relative to the body's size and the speed of a fall from it."""
+    """Work space; ``tolerance``: the error a step may make, relative to the body's size and the
+    speed of a fall from it.
+    """
     contacts, rig = contact_count(body, ground), make_held_body(body, ground)
     size = size if size > 0.0 else 1.0  # a point does not turn
     states, places, speed = held_states(body, contacts), places_of(body.width), math.sqrt(gravity * size)
@@ -97,9 +99,11 @@ def make_turn_workspace(
 
 @kernel
 def _set_modes(body, motion, work, turn, gives_way):
-    """Modes from the impulses of an instant; ``work.free`` is the velocity at its end. Slip counts the turn of arms over it.
+    """Modes from the impulses of an instant; ``work.free`` is the velocity at its end. Slip counts
+    the turn of arms over it.
 
-    ``gives_way``: a contact that has used up its friction starts to slide against it. Returns whether there is one.
+    ``gives_way``: a contact that has used up its friction starts to slide against it. Returns
+    whether there is one.
     """
     rig, mode = turn.rig, turn.mode
     contacts, instant, found = mode.shape[0] - 1, INSTANT * rig.unit[SECONDS], False
@@ -169,7 +173,9 @@ def _put_velocity(motion, state):
 
 @inline_kernel
 def _starts_well(body, drive, turn):
-    """Whether the modes hold at the start: what shall stick does not slip, forces are within their limits."""
+    """Whether the modes hold at the start: what shall stick does not slip, forces are within their
+    limits.
+    """
     rig, mode, integrator = turn.rig, turn.mode, turn.integrator
     values = integrator.inside_rate
     rate(rig, drive, mode, 0.0, turn.state, values)
@@ -186,7 +192,9 @@ def _starts_well(body, drive, turn):
 
 @inline_kernel
 def _stop_at_the_start(turn):
-    """Take what the modes forbid from the velocities of the state, which was looked at; its impulses and their work stand there."""
+    """Take what the modes forbid from the velocities of the state, which was looked at; its
+    impulses and their work stand there.
+    """
     rig, state, u = turn.rig, turn.state, turn.rig.rows[VELOCITY]
     first = first_of_time(rig) + 2
     impulse, done = state[first : first + u.shape[0]], 0.0
@@ -202,7 +210,9 @@ def _stop_at_the_start(turn):
 
 @inline_kernel
 def _take_end(body, motion, work, turn, drive, still):
-    """The end of the path as the motion; its impulses into ``work.impulse``. Velocities that the modes forbid are taken out."""
+    """The end of the path as the motion; its impulses into ``work.impulse``. Velocities that the
+    modes forbid are taken out.
+    """
     rig, state = turn.rig, turn.state
     place = first_of_time(rig) + 2
     turn.mode[turn.mode.shape[0] - 1] = GOING
@@ -223,12 +233,14 @@ def _take_end(body, motion, work, turn, drive, still):
 
 @inline_kernel
 def _move(body, motion, work, turn, left, still):
-    """Integrate over ``left`` [s] or to the end of a mode: the time, 0 where nothing was changed, and whether a mode ended.
+    """Integrate over ``left`` [s] or to the end of a mode: the time, 0 where nothing was changed,
+    and whether a mode ended.
 
-    Where slip comes near 0 without stopping, its direction whirls ever faster: the path ends before, if it has come that far.
+    Where slip comes near 0 without stopping, its direction whirls ever faster: the path ends
+    before, if it has come that far.
     """
     rig, integrator, last = turn.rig, turn.integrator, turn.mode.shape[0] - 1
-    drive = Drive(0.0, left, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
+    drive = IntegrationSpan(0.0, left)
     _set_start(body, motion, work, turn)
     if not _starts_well(body, drive, turn):
         return 0.0, False
@@ -253,7 +265,8 @@ def turn_held(
     body: RigidBody, motion: Motion, work: MotionWorkspace, turn: TurnWorkspace, clock: Vector, count: Modes, track: Vector,
     still: float,
 ) -> bool:  # fmt: skip
-    """Bring a body whose held contacts turn on to the end of a mode or of the piece, on a plane through all samples up to there.
+    """Bring a body whose held contacts turn on to the end of a mode or of the piece, on a plane
+    through all samples up to there.
 
     ``work.impulse`` and ``work.free`` are those of an instant with the contacts as they are; what
     each then does is left in ``work.flags``. Clock, counts and track go on as in

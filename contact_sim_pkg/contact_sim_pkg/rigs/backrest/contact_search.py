@@ -1,9 +1,12 @@
-"""Moving contact point: where a bent shell comes nearest to the flat seat it faces (Driver and Seat, eqs 1 and 2).
+"""Moving contact point: where a bent shell comes nearest to the flat seat it faces (Driver and
+Seat, eqs 1 and 2).
 
-``d = max over the shell of sum_i q_i phi_i(x, y) - dx^2/2R1 - dy^2/2R2`` is the least distance of the two surfaces (negative) or
-the depth to which one enters the other, along the seat's normal. Every crest of a coarse grid of candidate points, those on the
-sides included, is climbed by Newton steps within the sides, and the highest is taken. Since the gradient vanishes at the point
-found, or a side holds it, ``dd/dq_i = phi_i`` there: the force of a law ``F(d)`` keeps its potential while its point moves.
+``d = max over the shell of sum_i q_i phi_i(x, y) - dx^2/2R1 - dy^2/2R2`` is the least distance of
+the two surfaces (negative) or the depth to which one enters the other, along the seat's normal.
+Every crest of a coarse grid of candidate points, those on the sides included, is climbed by Newton
+steps within the sides, and the highest is taken. Since the gradient vanishes at the point found, or
+a side holds it, ``dd/dq_i = phi_i`` there: the force of a law ``F(d)`` keeps its potential while
+its point moves.
 """
 
 from __future__ import annotations
@@ -53,7 +56,9 @@ def _depth(search, state, x, y):
 
 @borrowing_kernel
 def _take_depths(search, state):
-    """Depth at every candidate point into ``search.depths``, whose outermost rows and columns stay -infinity."""
+    """Depth at every candidate point into ``search.depths``, whose outermost rows and columns stay
+    -infinity.
+    """
     rows, cols = search.depths.shape[0] - 2, search.depths.shape[1] - 2
     for i in range(rows):
         for j in range(cols):
@@ -82,7 +87,9 @@ def _held(place, slope, length):
 
 @borrowing_kernel
 def _uphill(slope, bend, length):
-    """Step along one direction: to the crest of the parabola where there is one, else a part of the side uphill."""
+    """Step along one direction: to the crest of the parabola where there is one, else a part of the
+    side uphill.
+    """
     return -slope / bend if bend < 0.0 else math.copysign(0.05 * length, slope)
 
 
@@ -125,7 +132,9 @@ def _climbed(search, state, x, y):
 
 @borrowing_kernel
 def nearest_point(search: ContactSearch, state: Vector) -> tuple[float, float]:
-    """Place in [m] over the shell's sides at which the depth is largest; ``state`` begins with the modal coordinates [m]."""
+    """Place in [m] over the shell's sides at which the depth is largest; ``state`` begins with the
+    modal coordinates [m].
+    """
     _take_depths(search, state)
     cols = search.depths.shape[1] - 2
     best_x, best_y, depth = 0.5 * search.length_1, 0.5 * search.length_2, -math.inf
@@ -140,7 +149,9 @@ def nearest_point(search: ContactSearch, state: Vector) -> tuple[float, float]:
 
 @borrowing_kernel
 def move_point(search, rig, state):
-    """Write shapes, slopes and gap of the nearest point into the rig's one contact point; nothing where none is searched."""
+    """Write shapes, slopes and gap of the nearest point into the rig's one contact point; nothing
+    where none is searched.
+    """
     if search is None:
         return
     x, y = nearest_point(search, state)
@@ -156,7 +167,9 @@ def move_point(search, rig, state):
 
 @borrowing_kernel
 def place_of(search, state):
-    """Place in [m] of the moving point from the shell's middle, along its two sides; 0, 0 where none is searched."""
+    """Place in [m] of the moving point from the shell's middle, along its two sides; 0, 0 where
+    none is searched.
+    """
     if search is None:
         return 0.0, 0.0
     x, y = nearest_point(search, state)

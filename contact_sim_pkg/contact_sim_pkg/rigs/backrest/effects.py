@@ -1,6 +1,7 @@
 """Effects of the contact between back and seat back.
 
-A scene calls for friction where the back slides along the seat back, for a loss where the contact opens.
+A scene calls for friction where the back slides along the seat back, for a loss where the contact
+opens.
 """
 
 from __future__ import annotations

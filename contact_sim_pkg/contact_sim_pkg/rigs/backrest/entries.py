@@ -1,4 +1,6 @@
-"""Compiled entries of the backrest rig: start, advance over a row of segments with samples, energies of a state."""
+"""Compiled entries of the backrest rig: start, advance over a row of segments with samples,
+energies of a state.
+"""
 
 from __future__ import annotations
 
@@ -32,6 +34,8 @@ from contact_sim_pkg.rigs.backrest.parameters import (
     Backrest,
     BackrestDrive,
     BackrestMode,
+    BackrestSamples,
+    Shaking,
 )
 
 NORMAL, TANGENTIAL, APPROACH, FORCES = 0, 1, 2, 3  # columns of the whole contact
@@ -125,26 +129,24 @@ def _observe(rig, mode, time, state, whole, by_point):
 
 @entry
 def advance(
-    rig: Backrest, mode: BackrestMode, state: Vector, scale: Vector, work: DormandPrinceWorkspace, begin: float,
-    segment_length: float,
-    acceleration: Vector, sample_every: int, sampled_states: Vector, sampled_rates: Vector, sampled_forces: Vector,
-    sampled_points: Vector,
+    rig: Backrest, mode: BackrestMode, state: Vector, scale: Vector, work: DormandPrinceWorkspace, shaking: Shaking,
+    samples: BackrestSamples,
 ) -> int:  # fmt: skip
-    """Advance ``state`` over ``len(acceleration) - 1`` segments of ``segment_length`` in [s] from time ``begin``.
+    """Advance ``state`` [states] over the segments of ``shaking``, and fill ``samples`` on the way.
 
-    ``acceleration`` [m/s^2]: of the seat back at the ends of the segments, linear between. Every ``sample_every``-th segment's
-    start is sampled: state, rates, forces of the whole contact (columns ``NORMAL ...``) and of the points (``[samples, points,
-    POINT_COLUMNS]``), on the back. Returns a status of ``compiled/results.py``; ``mode``, ``state``, ``work`` change in place.
+    ``scale`` [states]: error allowed per step. Returns a status of ``compiled/results.py``;
+    ``mode``, ``state``, ``work`` and ``samples`` change in place.
     """
-    row = 0
+    row, begin, length, acceleration = 0, shaking.begin, shaking.segment_length, shaking.acceleration
     for i in range(acceleration.shape[0] - 1):
-        drive = BackrestDrive(begin + i * segment_length, segment_length, acceleration[i], acceleration[i + 1])
-        if i % sample_every == 0:
-            copy_row(state, sampled_states[row])
-            rate(rig, drive, mode, drive.start, state, sampled_rates[row])
-            _observe(rig, mode, drive.start, state, sampled_forces[row], sampled_points[row])
+        drive = BackrestDrive(begin + i * length, length, acceleration[i], acceleration[i + 1])
+        # Sample the start of the segment, then integrate to its end.
+        if i % samples.every == 0:
+            copy_row(state, samples.states[row])
+            rate(rig, drive, mode, drive.start, state, samples.rates[row])
+            _observe(rig, mode, drive.start, state, samples.forces[row], samples.points[row])
             row += 1
-        status = integrate(rig, drive, mode, begin + (i + 1) * segment_length, state, scale, work)
+        status = integrate(rig, drive, mode, begin + (i + 1) * length, state, scale, work)
         if status != DONE:
             return status
     return DONE
@@ -169,7 +171,9 @@ def _spring_energy(friction, rig, mode, point, time, approach, approach_rate, st
 
 @entry
 def energies(rig: Backrest, mode: BackrestMode, time: float, state: Vector) -> tuple[float, float, float, float, float]:
-    """Kinetic, potential (of the preload), stored energy, work supplied, work dissipated, all in [J], of ``state``."""
+    """Kinetic, potential (of the preload), stored energy, work supplied, work dissipated, all in
+    [J], of ``state``.
+    """
     modes = rig.modal.shape[1]
     move_point(rig.search, rig, state)
     kinetic, potential, stored, returned = 0.0, 0.0, 0.0, 0.0
@@ -182,7 +186,16 @@ def energies(rig: Backrest, mode: BackrestMode, time: float, state: Vector) -> t
         held = hysteresis_energy(rig.contact.hysteresis, state, c)
         if mode.doing[CONTACT, c] != APART:
             approach, approach_rate = backrest.approach_of(rig, state, c)
-            held += _spring_energy(rig.contact.friction, rig, mode, c, time, approach, approach_rate, state)
+            held += _spring_energy(
+                rig.contact.friction,
+                rig,
+                mode,
+                point=c,
+                time=time,
+                approach=approach,
+                approach_rate=approach_rate,
+                state=state,
+            )
             stored += share * elastic_energy(rig.contact.elastic, approach)
         stored += share * held
         returned += share * held  # counted as dissipated when it was put in

@@ -1,8 +1,10 @@
-"""Contact episodes of the backrest rig: when they begin and end, and the works between (Driver and Seat, eqs 10 and 11).
+"""Contact episodes of the backrest rig: when they begin and end, and the works between (Driver and
+Seat, eqs 10 and 11).
 
-An episode of a point lasts from a touch to the last loss of its force: where the bodies part faster than the material recovers,
-and close again before they are apart, it goes on. One of the whole contact lasts from the first point's touch until no point
-carries. Works of closing and opening are integrated states, whose values at the beginning are taken off at the end.
+An episode of a point lasts from a touch to the last loss of its force: where the bodies part faster
+than the material recovers, and close again before they are apart, it goes on. One of the whole
+contact lasts from the first point's touch until no point carries. Works of closing and opening are
+integrated states, whose values at the beginning are taken off at the end.
 """
 
 from __future__ import annotations
@@ -24,7 +26,9 @@ from contact_sim_pkg.rigs.backrest.parameters import (
 
 @borrowing_kernel
 def _works(rig, state, point):
-    """Works of closing and opening in [J] since the start of the run, of one point or (``point`` = points) of all."""
+    """Works of closing and opening in [J] since the start of the run, of one point or (``point`` =
+    points) of all.
+    """
     modes, points = rig.modal.shape[1], rig.places.shape[1]
     closing, opening = 2 * modes + points, 2 * modes + 2 * points
     if point < points:

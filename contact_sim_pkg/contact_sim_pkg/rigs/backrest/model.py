@@ -62,7 +62,7 @@ class BackrestModel:
     point_y: Vector  # [points] [m]
 
 
-class _Form(NamedTuple):
+class _ModalBack(NamedTuple):
     """The back in modal form, as one mass or as a shell."""
 
     mass: Vector
@@ -81,7 +81,9 @@ class _Form(NamedTuple):
 
 
 def build_backrest(scene: ResolvedScene) -> BackrestModel:
-    """Parameters of a resolved scene. Raises ShellError for a shell that is not possible, SceneError for too deep a rest."""
+    """Parameters of a resolved scene. Raises ShellError for a shell that is not possible,
+    SceneError for too deep a rest.
+    """
     backrest, shell = scene.section(schema.BackrestSection), scene.effect("backrest", schema.ShellModesSection)
     mat = _mat(backrest, shell)
     form = _one_mass(backrest) if shell is None else _shell(backrest, shell, mat)
@@ -102,11 +104,23 @@ def build_backrest(scene: ResolvedScene) -> BackrestModel:
     _refuse_deep(backrest.back, preload, approach)
     scale = _scale(rig, approach, preload, given(scene.integrator.relative_tolerance))
     timing = make_timing(scene, True)
-    return BackrestModel(rig, timing, scale, start, form.names, form.motion, mat, form.point_x, form.point_y)
+    return BackrestModel(
+        rig=rig,
+        timing=timing,
+        scale=scale,
+        start=start,
+        coordinates=form.names,
+        motion=form.motion,
+        mat=mat,
+        point_x=form.point_x,
+        point_y=form.point_y,
+    )
 
 
 def _refuse_deep(back: schema.Back, preload: float, approach: float) -> None:
-    """A preload that presses the back in deeper than its smaller radius: no contact law of a curved body reaches there."""
+    """A preload that presses the back in deeper than its smaller radius: no contact law of a curved
+    body reaches there.
+    """
     radius = min(back.radius_up, back.radius_across)
     if approach > radius:
         sentence = (
@@ -133,24 +147,41 @@ def _mat(backrest: schema.BackrestSection, shell: schema.ShellModesSection | Non
     return Mat(cell_x, cell_y, x, y, gap, shell is not None)
 
 
-def _one_mass(backrest: schema.BackrestSection) -> _Form:
+def _one_mass(backrest: schema.BackrestSection) -> _ModalBack:
     one, none = numpy.ones(1), numpy.zeros(1)
     mass = numpy.array([backrest.mass])
-    return _Form(
-        mass, none, none.copy(), one, one.copy(), numpy.ones((1, 1)), numpy.zeros((1, 1)), none.copy(), one.copy(),
-        none.copy(), none.copy(), ("occupant_x",), -numpy.ones((1, 1)),
-    )  # fmt: skip
+    return _ModalBack(
+        mass=mass,
+        stiffness=none,
+        damping=none.copy(),
+        at_preload=one,
+        at_shaking=one.copy(),
+        shapes=numpy.ones((1, 1)),
+        slopes=numpy.zeros((1, 1)),
+        gaps=none.copy(),
+        shares=one.copy(),
+        point_x=none.copy(),
+        point_y=none.copy(),
+        names=("occupant_x",),
+        motion=-numpy.ones((1, 1)),
+    )
 
 
 def _shallow_shell(backrest: schema.BackrestSection, effect: schema.ShellModesSection) -> ShallowShell:
     back = backrest.back
     return ShallowShell(
-        back.width, back.height, effect.thickness, effect.young_modulus, effect.poisson_ratio, effect.density,
-        back.radius_across, back.radius_up,
-    )  # fmt: skip
+        length_1=back.width,
+        length_2=back.height,
+        thickness=effect.thickness,
+        young=effect.young_modulus,
+        poisson=effect.poisson_ratio,
+        density=effect.density,
+        radius_1=back.radius_across,
+        radius_2=back.radius_up,
+    )
 
 
-def _shell(backrest: schema.BackrestSection, effect: schema.ShellModesSection, mat: Mat) -> _Form:
+def _shell(backrest: schema.BackrestSection, effect: schema.ShellModesSection, mat: Mat) -> _ModalBack:
     shell = _shallow_shell(backrest, effect)
     width, height = shell.length_1, shell.length_2
     point_x, point_y = (grid.ravel() for grid in numpy.meshgrid(mat.x, mat.y, indexing="ij"))
@@ -161,12 +192,21 @@ def _shell(backrest: schema.BackrestSection, effect: schema.ShellModesSection, m
     at_middle, at_exciter = shell_modes(shell, effect.modes, numpy.array([middle, exciter])).shapes
     share = mat.cell_x * mat.cell_y / REFERENCE_SURFACE
     mass = numpy.full(len(modes.frequencies), modes.modal_mass)
-    return _Form(
-        mass, mass * modes.frequencies**2, 2.0 * effect.damping_ratio * mass * modes.frequencies, at_middle,
-        at_exciter, modes.shapes, 0.5 * shell.thickness * modes.slopes_y, crown_gap(shell, places),
-        numpy.full(len(places), share), point_x, point_y, ("crown_x", *_mode_names(modes)),
-        -numpy.vstack([at_middle, numpy.eye(len(mass))]),
-    )  # fmt: skip
+    return _ModalBack(
+        mass=mass,
+        stiffness=mass * modes.frequencies**2,
+        damping=2.0 * effect.damping_ratio * mass * modes.frequencies,
+        at_preload=at_middle,
+        at_shaking=at_exciter,
+        shapes=modes.shapes,
+        slopes=0.5 * shell.thickness * modes.slopes_y,
+        gaps=crown_gap(shell, places),
+        shares=numpy.full(len(places), share),
+        point_x=point_x,
+        point_y=point_y,
+        names=("crown_x", *_mode_names(modes)),
+        motion=-numpy.vstack([at_middle, numpy.eye(len(mass))]),
+    )
 
 
 def _search(backrest: schema.BackrestSection, effect: schema.ShellModesSection, mat: Mat) -> ContactSearch:
@@ -181,12 +221,20 @@ def _search(backrest: schema.BackrestSection, effect: schema.ShellModesSection, 
     modes = shell_modes(shell, effect.modes, places)
     rim = numpy.full((len(up) + 2, len(across) + 2), -numpy.inf)
     return ContactSearch(
-        width, height, 1.0 / shell.radius_1, 1.0 / shell.radius_2, 0.5 * shell.thickness,
-        math.isqrt(len(modes.frequencies)), places, modes.shapes, crown_gap(shell, places), rim,
-    )  # fmt: skip
+        length_1=width,
+        length_2=height,
+        curvature_1=1.0 / shell.radius_1,
+        curvature_2=1.0 / shell.radius_2,
+        lever=0.5 * shell.thickness,
+        side=math.isqrt(len(modes.frequencies)),
+        places=places,
+        candidates=modes.shapes,
+        gaps=crown_gap(shell, places),
+        depths=rim,
+    )
 
 
-def _with_one_point(form: _Form) -> _Form:
+def _with_one_point(form: _ModalBack) -> _ModalBack:
     """The shell with a point in its middle, which the search then moves; it carries the whole law."""
     modes, origin = len(form.mass), numpy.zeros(1)
     return form._replace(
@@ -208,7 +256,8 @@ def _spring_scale(friction: Friction | None, size: float, preload: float) -> flo
 
 
 def _size_and_frequency(rig: Backrest, approach: float, preload: float) -> tuple[float, float]:
-    """Size in [m] and frequency in [rad/s] of the motion: of a swing about the ``approach`` [m] at rest, or of a slap.
+    """Size in [m] and frequency in [rad/s] of the motion: of a swing about the ``approach`` [m] at
+    rest, or of a slap.
 
     A stiff contact turns a small error of place into a large one of force.
     """
@@ -224,7 +273,9 @@ def _size_and_frequency(rig: Backrest, approach: float, preload: float) -> tuple
 
 
 def _scale(rig: Backrest, approach: float, preload: float, tolerance: float) -> Vector:
-    """Error allowed per step and state: displacements relative to the approach at rest, works to that of the preload on it."""
+    """Error allowed per step and state: displacements relative to the approach at rest, works to
+    that of the preload on it.
+    """
     modes, points = len(rig.mass), len(rig.gaps)
     size, frequency = _size_and_frequency(rig, approach, preload)
     position, velocity = size * tolerance, size * frequency * tolerance
@@ -239,7 +290,9 @@ def _scale(rig: Backrest, approach: float, preload: float, tolerance: float) -> 
 
 
 def resting_state(rig: Backrest) -> Vector:
-    """State at rest under the preload: the least of the convex energy ``q K q / 2 - P q + sum_c share A d**(n+1) / (n+1)``."""
+    """State at rest under the preload: the least of the convex energy ``q K q / 2 - P q + sum_c
+    share A d**(n+1) / (n+1)``.
+    """
     modes, law = len(rig.mass), rig.contact.elastic
     q = numpy.zeros(modes)
     if not rig.stiffness.any():

@@ -1,21 +1,26 @@
-"""Backrest rig: an occupant's back pressed on a shaken seat back, which slaps and slips (Driver and Seat, eqs 6 to 11).
+"""Backrest rig: an occupant's back pressed on a shaken seat back, which slaps and slips (Driver and
+Seat, eqs 6 to 11).
 
-Everything is seen from the seat back, an accelerated frame; x points forward, out of the seat back. The back moves in modal
-coordinates q, positive towards the seat, with one mass as the case of one mode without stiffness:
+Everything is seen from the seat back, an accelerated frame; x points forward, out of the seat back.
+The back moves in modal coordinates q, positive towards the seat, with one mass as the case of one
+mode without stiffness:
 
 * ``M_i q_i'' = P_i + m_i a(t) - K_i q_i - C_i q_i' - sum_c phi_ci F_c + sum_c s_ci T_c``, a the seat back's acceleration;
 * approach of point c: ``d_c = sum_i phi_ci q_i - gap_c``; its velocity along the seat: ``u_c = u(t) - sum_i s_ci q_i'``,
-  ``u(t) = X w cos(w t)`` the rigid sliding and ``s_ci = (h/2) dphi_ci/dx`` the motion of a shell's face;
-* normal force ``F_c = share_c F(d_c, d_c')``, friction ``T_c`` of ``laws/friction.py`` with spring, damper and limit of the
-  same share: the law belongs to the whole back, so the force does not change with the number of points.
+  ``u(t) = X w cos(w t)`` the rigid sliding and ``s_ci = (h/2) dphi_ci/dx`` the motion of a shell's
+  face;
+* normal force ``F_c = share_c F(d_c, d_c')``, friction ``T_c`` of ``laws/friction.py`` with spring,
+damper and limit of the
+  same share: the law belongs to the whole back, so the force does not change with the number of
+  points.
 
-Touch, turning point, loss of contact (end rule ``force``: the material recovers more slowly than the bodies part), stick and
-slip of every point are located events. Works of closing and opening are integrated per point, so that an episode's restitution
-is ``sqrt(W_r / -W_c)``.
+Touch, turning point, loss of contact (end rule ``force``: the material recovers more slowly than
+the bodies part), stick and slip of every point are located events. Works of closing and opening are
+integrated per point, so that an episode's restitution is ``sqrt(W_r / -W_c)``.
 
-State: [q, q'] [spring deflection of each point] [work of closing] [work of opening, of each point] [what the foam remembers at
-each point, where it does] [supplied, dissipated].
-Every event function is positive while the present mode of its point lasts.
+State: [q, q'] [spring deflection of each point] [work of closing] [work of opening, of each point]
+[what the foam remembers at each point, where it does] [supplied, dissipated]. Every event function
+is positive while the present mode of its point lasts.
 """
 
 from __future__ import annotations
@@ -119,7 +124,9 @@ def seat_acceleration(drive, time):
 
 @borrowing_kernel
 def unit_normal(rig, mode, point, approach, approach_rate, state):
-    """Normal force in [N] of the whole law at this approach; 0 where the point is apart or released."""
+    """Normal force in [N] of the whole law at this approach; 0 where the point is apart or
+    released.
+    """
     if mode.doing[CONTACT, point] == APART or mode.doing[CONTACT, point] == RELEASED:
         return 0.0
     factor = hysteresis_factor(rig.contact.hysteresis, state, point)
@@ -128,7 +135,9 @@ def unit_normal(rig, mode, point, approach, approach_rate, state):
 
 @borrowing_kernel
 def unit_friction(friction, rig, mode, point, time, normal, state):
-    """Friction force in [N] of the whole law, and the velocity along the seat in [m/s]; 0 without friction."""
+    """Friction force in [N] of the whole law, and the velocity along the seat in [m/s]; 0 without
+    friction.
+    """
     if friction is None:
         return 0.0, 0.0
     velocity = tangential_velocity(rig, time, state, point)
@@ -138,7 +147,9 @@ def unit_friction(friction, rig, mode, point, time, normal, state):
 
 @borrowing_kernel
 def _free_rates(rig, acceleration, state, out):
-    """Modal forces without contact, into the places of the accelerations; returns supplied and lost power."""
+    """Modal forces without contact, into the places of the accelerations; returns supplied and lost
+    power.
+    """
     modes = rig.modal.shape[1]
     supplied = 0.0
     lost = 0.0
@@ -251,7 +262,15 @@ def _event_functions(rig, drive, mode, time, state, derivative, out):
         out[points + c] = _tension_event(rig, doing, c, approach, approach_rate, state)
         out[2 * points + c] = _turn_margin(doing, approach_rate)
         out[3 * points + c] = _friction_event(
-            rig.contact.friction, rig, mode, c, time, approach, approach_rate, state, derivative
+            rig.contact.friction,
+            rig,
+            mode,
+            point=c,
+            time=time,
+            approach=approach,
+            approach_rate=approach_rate,
+            state=state,
+            derivative=derivative,
         )
 
 
@@ -306,7 +325,9 @@ def _pass_friction(friction, rig, mode, point, time, approach, approach_rate, st
 
 @borrowing_kernel
 def _pass_kinematic(rig, mode, event_point, turns, time, state):
-    """Let the event's point touch, leave or turn, and with it every other whose event falls on the same instant."""
+    """Let the event's point touch, leave or turn, and with it every other whose event falls on the
+    same instant.
+    """
     for c in range(rig.places.shape[1]):
         approach, approach_rate = approach_of(rig, state, c)
         doing = mode.doing[CONTACT, c]
@@ -333,7 +354,9 @@ def _mode_transition(rig, drive, mode, time, state, event, direction):
         return 1.0
     approach, approach_rate = approach_of(rig, state, point)
     if kind == FRICTION_EVENT:
-        _pass_friction(rig.contact.friction, rig, mode, point, time, approach, approach_rate, state)
+        _pass_friction(
+            rig.contact.friction, rig, mode, point, time, approach=approach, approach_rate=approach_rate, state=state
+        )
     elif mode.doing[CONTACT, point] == RELEASED:
         _load(rig, mode, point, time, approach_rate, state)
     else:

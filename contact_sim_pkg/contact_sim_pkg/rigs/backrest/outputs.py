@@ -48,7 +48,9 @@ class BackrestRecord:
         )  # fmt: skip
 
     def take_episodes(self, model: BackrestModel, mode: BackrestMode, peak: Array) -> None:
-        """Take the episodes that ended; ``peak`` [points + 1] [N] carries the largest force of those that last."""
+        """Take the episodes that ended; ``peak`` [points + 1] [N] carries the largest force of
+        those that last.
+        """
         timing = model.timing
         times = self.block * timing.block_length + numpy.arange(timing.samples) * timing.block_length / timing.samples
         forces = numpy.column_stack([self.points[:, :, columns.POINT_NORMAL], self.forces[:, columns.NORMAL]])
@@ -128,9 +130,11 @@ def _ledger(record: BackrestRecord) -> EnergyLedger:
 
 
 def _motion(model: BackrestModel, record: BackrestRecord) -> dict[str, Any]:
-    """Names, positions, velocities and accelerations of ``bench/motion``; positions relative to the seat back.
+    """Names, positions, velocities and accelerations of ``bench/motion``; positions relative to the
+    seat back.
 
-    Modal coordinates are relative in their acceleration as well; that of the seat back is added to the others'.
+    Modal coordinates are relative in their acceleration as well; that of the seat back is added to
+    the others'.
     """
     modes = len(model.rig.mass)
     position = model.motion @ record.states[:, :modes].T

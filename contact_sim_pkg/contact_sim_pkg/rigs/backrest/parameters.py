@@ -1,4 +1,6 @@
-"""Parameters, drive and discrete state of the backrest rig (``rigs/backrest/motion.py``), in SI units."""
+"""Parameters, drive and discrete state of the backrest rig (``rigs/backrest/motion.py``), in SI
+units.
+"""
 
 from __future__ import annotations
 
@@ -36,7 +38,9 @@ OVERLAPPING, ENDED = 0, 1  # entries of BackrestMode.counts
 
 
 class ContactSearch(NamedTuple):
-    """What the search for a shell's nearest point needs (``rigs/backrest/contact_search.py``); it begins at candidate points."""
+    """What the search for a shell's nearest point needs (``rigs/backrest/contact_search.py``); it
+    begins at candidate points.
+    """
 
     length_1: float  # [m] sides
     length_2: float  # [m]
@@ -53,7 +57,8 @@ class ContactSearch(NamedTuple):
 class Backrest(NamedTuple):
     """A back in modal form with its candidate contact points; one mass is one mode with one point.
 
-    Vectors of one length are the rows of one array: a kernel compiles the faster the fewer arrays it is handed.
+    Vectors of one length are the rows of one array: a kernel compiles the faster the fewer arrays
+    it is handed.
     """
 
     modal: Vector  # [MODAL_ROWS, modes]
@@ -104,8 +109,28 @@ class BackrestDrive(NamedTuple):
     acceleration_1: float
 
 
+class Shaking(NamedTuple):
+    """Motion of the seat back over a series of segments of one length, linear within each."""
+
+    begin: float  # [s]
+    segment_length: float  # [s]
+    acceleration: Vector  # [segments + 1] [m/s^2] at the ends of the segments
+
+
+class BackrestSamples(NamedTuple):
+    """Outputs of a run, sampled at the starts of segments; forces act on the back."""
+
+    every: int  # segments from sample to sample
+    states: Vector  # [samples, states]
+    rates: Vector  # [samples, states]
+    forces: Vector  # [samples, FORCES] of the whole contact
+    points: Vector  # [samples, points, POINT_COLUMNS]
+
+
 class BackrestMode(NamedTuple):
-    """Discrete state of the rig, and its contact episodes: one a point, and one, the last, of the whole contact."""
+    """Discrete state of the rig, and its contact episodes: one a point, and one, the last, of the
+    whole contact.
+    """
 
     doing: Modes  # [DOING_ROWS, points]
     lasting: Vector  # [points + 1, LASTING_COLUMNS] start [s], when the force was last lost [s], works of closing and opening

@@ -1,8 +1,9 @@
 """Slow twins of the backrest rig, integrated by scipy; they share no code with the kernels.
 
-``slapping_mass``: one mass on a Hunt-Crossley seat back under preload and a sine, phase by phase with located events.
-``slapping_normal``: the force of that mass at given instants. ``sliding_friction``: friction under a given force, step by step.
-``slapping_points``: modal coordinates with many contact points, in one go at a tight tolerance.
+``slapping_mass``: one mass on a Hunt-Crossley seat back under preload and a sine, phase by phase
+with located events. ``slapping_normal``: the force of that mass at given instants.
+``sliding_friction``: friction under a given force, step by step. ``slapping_points``: modal
+coordinates with many contact points, in one go at a tight tolerance.
 """
 
 from __future__ import annotations
@@ -19,7 +20,9 @@ Vector = NDArray[numpy.float64]
 
 
 class SlappingMass(NamedTuple):
-    """``m w'' = P + m a sin(2 pi f t) - A w**n (1 + damping w')``, the contact force never negative."""
+    """``m w'' = P + m a sin(2 pi f t) - A w**n (1 + damping w')``, the contact force never
+    negative.
+    """
 
     mass: float  # [kg]
     preload: float  # [N]
@@ -61,10 +64,12 @@ def slapping_normal(body: SlappingMass, times: Vector, tolerance: float = 1e-12)
 def sliding_friction(
     normal: Vector, velocity: Vector, step: float, ratio: float, stiffness: float, damping: float
 ) -> Vector:
-    """Friction [N] of a spring-damper within ``ratio`` times ``normal`` [N], sampled each ``step`` [s] as ``velocity`` [m/s] is.
+    """Friction [N] of a spring-damper within ``ratio`` times ``normal`` [N], sampled each ``step``
+    [s] as ``velocity`` [m/s] is.
 
-    Friction with stick (Driver and Seat, eq 9) in steps, of first order: trial ``C (s + v h) + D v``; beyond the
-    limit the force is the limit and ``C s = F - D v``, at most the limit against the slip; without normal force ``s = 0``.
+    Friction with stick (Driver and Seat, eq 9) in steps, of first order: trial ``C (s + v h) + D
+    v``; beyond the limit the force is the limit and ``C s = F - D v``, at most the limit against
+    the slip; without normal force ``s = 0``.
     """
     force, s = numpy.zeros(len(normal)), 0.0
     for k in range(1, len(normal)):
@@ -125,7 +130,9 @@ def _phase(body: SlappingMass, touching: bool, span: tuple[float, float], state:
 
 
 class SlappingPoints(NamedTuple):
-    """``M q'' = P + m a(t) - K q - C q' - sum_c phi_c share_c A d_c**n max(0, 1 + damping d_c')``, ``d_c = phi_c q - gap_c``."""
+    """``M q'' = P + m a(t) - K q - C q' - sum_c phi_c share_c A d_c**n max(0, 1 + damping d_c')``,
+    ``d_c = phi_c q - gap_c``.
+    """
 
     mass: Vector  # [modes]
     stiffness: Vector
@@ -143,7 +150,9 @@ class SlappingPoints(NamedTuple):
 def slapping_points(
     body: SlappingPoints, start: Vector, acceleration: Callable[[float], float], times: Vector, tolerance: float = 1e-11
 ) -> NDArray[numpy.float64]:
-    """[len(times), 2 modes] q and q' at ``times`` [s], from ``start`` [2 modes] at the first of them."""
+    """[len(times), 2 modes] q and q' at ``times`` [s], from ``start`` [2 modes] at the first of
+    them.
+    """
     modes = len(body.mass)
 
     def rates(t: float, y: Vector) -> Vector:

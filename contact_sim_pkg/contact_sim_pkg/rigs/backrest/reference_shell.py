@@ -14,9 +14,11 @@ __all__ = ["plate_centre_deflection", "shell_frequencies"]
 
 
 def plate_centre_deflection(side_1: float, side_2: float, rigidity: float, load: float) -> float:
-    """Deflection [m] under a load in the middle of a simply supported plate (Timoshenko, Plates and Shells, eq 146).
+    """Deflection [m] under a load in the middle of a simply supported plate (Timoshenko, Plates and
+    Shells, eq 146).
 
-    `P a^2 / (2 pi^3 D) sum over odd m of (tanh(u) - u / cosh(u)^2) / m^3, u = m pi b / (2 a)`, 30 digits.
+    `P a^2 / (2 pi^3 D) sum over odd m of (tanh(u) - u / cosh(u)^2) / m^3, u = m pi b / (2 a)`, 30
+    digits.
     """
     with mpmath.workdps(30):
 
@@ -29,17 +31,20 @@ def plate_centre_deflection(side_1: float, side_2: float, rigidity: float, load:
 
 
 def shell_frequencies(shell: Mapping[str, float], count: int, cells: int = 40) -> NDArray[numpy.float64]:
-    """The lowest angular frequencies [rad/s] of Donnell's equations by finite differences, extrapolated from two grids.
+    """The lowest angular frequencies [rad/s] of Donnell's equations by finite differences,
+    extrapolated from two grids.
 
-    `D Lap^2 w + Lap_k F = omega^2 rho h w`, `Lap^2 F = E h Lap_k w`, `Lap_k = d_xx / R2 + d_yy / R1`, with w, Lap w, F
-    and Lap F zero on the edges. shell: the fields of `ShallowShell` by name.
+    `D Lap^2 w + Lap_k F = omega^2 rho h w`, `Lap^2 F = E h Lap_k w`, `Lap_k = d_xx / R2 + d_yy /
+    R1`, with w, Lap w, F and Lap F zero on the edges. shell: the fields of `ShallowShell` by name.
     """
     coarse, fine = (_differences(shell, count, n) for n in (cells, 2 * cells))
     return (4.0 * fine - coarse) / 3.0
 
 
 def _differences(shell: Mapping[str, float], count: int, cells: int) -> NDArray[numpy.float64]:
-    """One grid of `cells` by `cells`; the pair (w, F / (E h)) as a generalised problem, inverted around zero."""
+    """One grid of `cells` by `cells`; the pair (w, F / (E h)) as a generalised problem, inverted
+    around zero.
+    """
 
     def second(length: float) -> scipy.sparse.dia_matrix:
         ones = numpy.ones(cells - 1)

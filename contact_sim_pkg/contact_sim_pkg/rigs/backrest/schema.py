@@ -17,7 +17,9 @@ SHELL_PRELOAD = 20.0  # [N]; the weight of the mass would bend the default shell
 
 
 class Back(Section):
-    """Form of the back: a doubly curved surface over a flat seat back, which it touches first in its middle."""
+    """Form of the back: a doubly curved surface over a flat seat back, which it touches first in
+    its middle.
+    """
 
     width: float = number(0.05, 5.0, "m", "width of the back", default=0.40)
     height: float = number(0.05, 5.0, "m", "height of the back", default=0.50)
@@ -26,14 +28,18 @@ class Back(Section):
 
 
 class Sliding(Section):
-    """Rigid sliding of the back along the seat back, up and down: amplitude · sin(2π frequency t); acts in friction."""
+    """Rigid sliding of the back along the seat back, up and down: amplitude · sin(2π frequency t);
+    acts in friction.
+    """
 
     amplitude: float = number(0.0, 1.0, "m", "amplitude of the displacement; 0: none", default=0.0)
     frequency: float = number(0.0, 1000.0, "Hz", "frequency of the sliding", above=True, default=5.25)
 
 
 class MatSection(Section):
-    """Pressure mat on the seat back: the cells of `backrest/patch`; a shell has the cells of its points instead."""
+    """Pressure mat on the seat back: the cells of `backrest/patch`; a shell has the cells of its
+    points instead.
+    """
 
     rows: int = number(4, 256, "", "cells up the back", default=40)
     cols: int = number(4, 256, "", "cells across the back", default=32)
@@ -60,7 +66,9 @@ class BackrestSection(Section):
 
 
 class BackElastic(PowerLaw):
-    """Elastic force of the back in the seat back: coefficient · approach^exponent, for the whole back."""
+    """Elastic force of the back in the seat back: coefficient · approach^exponent, for the whole
+    back.
+    """
 
     coefficient: float = number(
         1.0, 1e12, "N/m^exponent", "A; by default 447 N at 14.91 mm: 45.6 kg have 5 Hz", default=2.457e5
@@ -68,7 +76,9 @@ class BackElastic(PowerLaw):
 
 
 class BackLoss(HuntCrossley):
-    """Hunt-Crossley loss: elastic force · (1 + damping · approach rate), never pulling; or `restitution` at a speed."""
+    """Hunt-Crossley loss: elastic force · (1 + damping · approach rate), never pulling; or
+    `restitution` at a speed.
+    """
 
     usual_damping = 1.949743421626532
 
@@ -76,7 +86,9 @@ class BackLoss(HuntCrossley):
 
 
 class BackGeneralLoss(GeneralLoss):
-    """General law of the back in the seat back: as that of the cushion, with a coefficient of its own."""
+    """General law of the back in the seat back: as that of the cushion, with a coefficient of its
+    own.
+    """
 
     usual_coefficient = 4.7905e5
 
@@ -87,7 +99,9 @@ class BackGeneralLoss(GeneralLoss):
 
 
 class BackFriction(FrictionSection):
-    """Friction between back and seat back: a spring and damper that sticks, up to the Coulomb limit; for the whole back."""
+    """Friction between back and seat back: a spring and damper that sticks, up to the Coulomb
+    limit; for the whole back.
+    """
 
     coefficient_static: float = number(0.0, 5.0, "", "static friction; cloth 0.3 to 0.6", above=True, default=0.4)
     coefficient_kinetic: float = number(
@@ -106,7 +120,9 @@ class BackFriction(FrictionSection):
 
 
 class ShellModesSection(Section):
-    """The back as a doubly curved shallow shell in modal form with candidate contact points, in place of one mass."""
+    """The back as a doubly curved shallow shell in modal form with candidate contact points, in
+    place of one mass.
+    """
 
     modes: int = number(1, 25, "", "modes: 1, 4, 9 or 25 (m and n up to 1, 2, 3 or 5)", default=9)
     points_up: int = number(1, 64, "", "candidate contact points up the back", default=20)
@@ -131,5 +147,5 @@ class ShellModesSection(Section):
 
 
 class ContactSearchSection(Section):
-    """One contact point that moves: where the bent shell comes nearest to the seat back, searched at every step; it carries the
-    whole law, in place of candidate points with a share each."""
+    """One contact point that moves: where the bent shell comes nearest to the seat back, searched
+    at every step; it carries the whole law, in place of candidate points with a share each."""

@@ -11,11 +11,15 @@ from contact_sim_pkg.scene.schema.catalog import show
 from contact_sim_pkg.scene.schema.scene import Scene
 
 MOST_SEARCHED = 9
-"""Modes with which the nearest point of the back moves without jumps; with 25 the energy no longer balances (0.6 % seen)."""
+"""Modes with which the nearest point of the back moves without jumps; with 25 the energy no longer
+balances (0.6 % seen).
+"""
 
 
 def backrest_breaches(scene: Scene) -> Iterator[Breach]:
-    """A shell that is not thin or not shallow, a number of modes that is not offered, sliding without friction."""
+    """A shell that is not thin or not shallow, a number of modes that is not offered, sliding
+    without friction.
+    """
     backrest = scene.section(BackrestSection)
     if backrest.sliding.amplitude > 0.0 and scene.effect("backrest", BackFriction) is None:
         sentence = f"{show(backrest.sliding.amplitude)} m act through friction, which the scene does not name; add it"

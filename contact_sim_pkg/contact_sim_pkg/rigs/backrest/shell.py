@@ -1,18 +1,22 @@
-"""Doubly curved shallow shell with simply supported edges in modal form: frequencies, mode shapes, static deflection.
+"""Doubly curved shallow shell with simply supported edges in modal form: frequencies, mode shapes,
+static deflection.
 
-Sides L1, L2 from a corner (x along L1, y along L2), thickness h, radii of curvature R1 along L1 and R2 along L2. With
-`alpha = m pi / L1`, `beta = n pi / L2`, `D = E h^3 / (12 (1 - nu^2))` and a deflection w, positive outwards,
+Sides L1, L2 from a corner (x along L1, y along L2), thickness h, radii of curvature R1 along L1 and
+R2 along L2. With `alpha = m pi / L1`, `beta = n pi / L2`, `D = E h^3 / (12 (1 - nu^2))` and a
+deflection w, positive outwards,
 
     w(x, y, t) = sum q_mn(t) phi_mn(x, y),   phi_mn = sin(alpha x) sin(beta y),   modal mass M = rho h L1 L2 / 4
     omega_mn^2 = (D (alpha^2 + beta^2)^2 + E h ((alpha^2 / R2 + beta^2 / R1) / (alpha^2 + beta^2))^2) / (rho h)
     M (q_mn'' + 2 zeta omega_mn q_mn' + omega_mn^2 q_mn) = sum of point forces times phi_mn at their points
 
-R = inf is the flat plate, exactly. A shape counts to the first power, so q_mn is the deflection at the crest of its mode.
+R = inf is the flat plate, exactly. A shape counts to the first power, so q_mn is the deflection at
+the crest of its mode.
 
-Range: thin (h at most 0.1 of the shorter side, where transverse shear already lowers a plate's frequencies by some
-percent), shallow (rise L^2 / (8 R) at most 0.2 L) and w small against h and the rise: the theory is linear in w.
-Source: Driver and Seat eqs 3 and 6, reduced by Donnell, Mushtari and Vlasov; Soedel (2004), Vibrations of Shells
-and Plates, sections 6.7 and 8; Timoshenko and Woinowsky-Krieger (1959), section 34, for the plate.
+Range: thin (h at most 0.1 of the shorter side, where transverse shear already lowers a plate's
+frequencies by some percent), shallow (rise L^2 / (8 R) at most 0.2 L) and w small against h and the
+rise: the theory is linear in w. Source: Driver and Seat eqs 3 and 6, reduced by Donnell, Mushtari
+and Vlasov; Soedel (2004), Vibrations of Shells and Plates, sections 6.7 and 8; Timoshenko and
+Woinowsky-Krieger (1959), section 34, for the plate.
 """
 
 from __future__ import annotations
@@ -77,8 +81,9 @@ class ShellModes(NamedTuple):
 def shell_modes(shell: ShallowShell, count: int, points: Field) -> ShellModes:
     """The first `count` modes (1, 4, 9, 25 or another square number) at points of the shell.
 
-    points: [points, 2], x in 0..L1 and y in 0..L2 [m]. A point of the face that touches the seat moves tangentially
-    by -(h/2) dw/dx, -(h/2) dw/dy with the rotation of the director. Raises `ShellError`.
+    points: [points, 2], x in 0..L1 and y in 0..L2 [m]. A point of the face that touches the seat
+    moves tangentially by -(h/2) dw/dx, -(h/2) dw/dy with the rotation of the director. Raises
+    `ShellError`.
     """
     orders, alpha, beta = _wave_numbers(shell, count)
     points = _points(shell, points)
@@ -101,10 +106,11 @@ def natural_frequencies(shell: ShallowShell, count: int) -> Field:
 
 
 def static_deflection(shell: ShallowShell, count: int, loads: Field, load_points: Field, points: Field) -> Field:
-    """Deflection [m] at `points` [points, 2] under constant point loads [N] at `load_points` [loads, 2].
+    """Deflection [m] at `points` [points, 2] under constant point loads [N] at `load_points`
+    [loads, 2].
 
-    `w = sum_mn phi_mn sum_k P_k phi_mn(k) / (M omega_mn^2)` over the first `count` modes. Raises `ShellError`,
-    also for loads that are not finite.
+    `w = sum_mn phi_mn sum_k P_k phi_mn(k) / (M omega_mn^2)` over the first `count` modes. Raises
+    `ShellError`, also for loads that are not finite.
     """
     at_loads = shell_modes(shell, count, load_points)
     at_points = shell_modes(shell, count, points)
@@ -118,7 +124,8 @@ def static_deflection(shell: ShallowShell, count: int, loads: Field, load_points
 
 
 def crown_gap(shell: ShallowShell, points: Field) -> Field:
-    """Gap [m] at `points` [points, 2] to a flat seat that touches the crown: `dx^2/(2 R1) + dy^2/(2 R2)`.
+    """Gap [m] at `points` [points, 2] to a flat seat that touches the crown: `dx^2/(2 R1) + dy^2/(2
+    R2)`.
 
     dx, dy: from the middle of the shell. Raises `ShellError`.
     """

@@ -16,7 +16,7 @@ from contact_sim_pkg.rigs.backrest import entries
 from contact_sim_pkg.rigs.backrest.model import build_backrest
 from contact_sim_pkg.rigs.backrest.motion import event_count
 from contact_sim_pkg.rigs.backrest.outputs import BackrestRecord, block_outputs
-from contact_sim_pkg.rigs.backrest.parameters import ENDED, MOST_EPISODES, make_mode
+from contact_sim_pkg.rigs.backrest.parameters import ENDED, MOST_EPISODES, BackrestSamples, Shaking, make_mode
 from contact_sim_pkg.run.block_simulation import BlockResult, InputBlock, refuse_out_of_turn
 from contact_sim_pkg.run.errors import RunError
 from contact_sim_pkg.run.outputs import largest
@@ -71,10 +71,9 @@ class BackrestSimulation:
         record.start_energy[:] = self._start_energy
         self._work.counters[:] = 0.0
         self._mode.counts[ENDED] = 0
-        status = entries.advance(
-            model.rig, self._mode, self.state, model.scale, self._work, start, timing.segment_length, forward,
-            timing.sample_every, record.states, record.rates, record.forces, record.points,
-        )  # fmt: skip
+        shaking = Shaking(start, timing.segment_length, forward)
+        samples = BackrestSamples(timing.sample_every, record.states, record.rates, record.forces, record.points)
+        status = entries.advance(model.rig, self._mode, self.state, model.scale, self._work, shaking, samples)
         if status != DONE:
             raise RunError(f"block {block}, {start:.6g} s: {SENTENCES[status]}")
         ended = int(self._mode.counts[ENDED])
@@ -94,7 +93,9 @@ class BackrestSimulation:
         return [interval * timing.segments // timing.sample_every for interval in range(timing.intervals)]
 
     def _pressure(self, record: BackrestRecord, sample: int) -> Array:
-        """Pressure on the cells of the mat [rows, cols] [Pa]: that of its points, or the force of the one contact spread."""
+        """Pressure on the cells of the mat [rows, cols] [Pa]: that of its points, or the force of
+        the one contact spread.
+        """
         mat, model = self.model.mat, self.model
         if mat.by_points:
             normal = record.points[sample, :, entries.POINT_NORMAL]

@@ -7,7 +7,9 @@ from contact_sim_pkg.rigs.body.effects import BLOCK_EFFECTS
 __all__ = ["RIGS"]
 
 RIGID_INTEGRATION = 1e-8
-"""Loosest for a rigid body that turns on sticking points: the impacts that follow multiply its errors."""
+"""Loosest for a rigid body that turns on sticking points: the impacts that follow multiply its
+errors.
+"""
 
 BLOCK = Contact(
     name="block",

@@ -1,4 +1,6 @@
-"""Where a rigid body can touch the ground at its output samples: gap of the lowest contact, arms of all contacts."""
+"""Where a rigid body can touch the ground at its output samples: gap of the lowest contact, arms of
+all contacts.
+"""
 
 from __future__ import annotations
 
@@ -13,7 +15,9 @@ Array = NDArray[numpy.float64]
 
 
 def gaps(model: BlockModel, position: Array, rotation: Array) -> Array:
-    """Least distance in [m] of the body from the ground at each of its poses [samples, width], [samples, width, width]."""
+    """Least distance in [m] of the body from the ground at each of its poses [samples, width],
+    [samples, width, width].
+    """
     body, ground = model.body, model.ground
     if len(ground.profile.nodes):
         poses = (Motion(place, numpy.zeros(1), turn, body.load) for place, turn in zip(position, rotation, strict=True))

@@ -1,7 +1,7 @@
 """Volume, centre of mass and inertia of a homogeneous convex hull, in the plane and in space.
 
-The hull is cut into simplices from one point: ``integral x x' = d V (S S' + sum p p') / ((n+1)(n+2))`` over a simplex of corners p,
-S their sum, n the dimension.
+The hull is cut into simplices from one point: ``integral x x' = d V (S S' + sum p p') /
+((n+1)(n+2))`` over a simplex of corners p, S their sum, n the dimension.
 """
 
 from __future__ import annotations

@@ -20,7 +20,7 @@ from contact_sim_pkg.rigid.body import (
     rise_to_ground,
     slope,
 )
-from contact_sim_pkg.rigid.forces.compliant_body import CompliantContact
+from contact_sim_pkg.rigid.forces.compliant_body import CompliantLaw
 from contact_sim_pkg.rigid.motion.compliant import compliant_contact
 from contact_sim_pkg.rigid.parameters import RULE_NAMES
 from contact_sim_pkg.rigid.problem import PLANE, SPACE
@@ -52,7 +52,7 @@ class BlockModel:
     gravity: float  # [m/s^2]
     force: Vector  # [3] known, in [N]
     torque: Vector  # [3] known, in [N m]
-    contact: CompliantContact | None  # in place of impulses; None: rigid
+    contact: CompliantLaw | None  # in place of impulses; None: rigid
     tolerance: float  # of the integration of a compliant contact, and of a body that turns on held points
 
 
@@ -64,16 +64,36 @@ def build_block(scene: ResolvedScene) -> BlockModel:
     force, torque = numpy.array(block.force, float), numpy.array(block.torque, float)
     weight = numpy.array([0.0, 0.0, -block.mass * block.gravity])
     load = _generalised(force + weight, torque, width)
-    body = RigidBody(width, block.mass, inertia, points, radius, law.friction, law.restitution, load)
+    body = RigidBody(
+        width=width,
+        mass=block.mass,
+        inertia=inertia,
+        points=points,
+        radius=radius,
+        friction=law.friction,
+        restitution=law.restitution,
+        load=load,
+    )
     ground = laid_under(body, _ground(block.ground, width))
     return BlockModel(
-        body, ground, _start(body, block, axes), axes, make_timing(scene, True), RULE_NAMES[law.rule], law.scheme,
-        law.step, law.facets, block.gravity, force, torque,
-        _compliant(body, scene.effect("block", schema.CompliantContact)), given(scene.integrator.relative_tolerance),
-    )  # fmt: skip
+        body=body,
+        ground=ground,
+        start=_start(body, block, axes),
+        axes=axes,
+        timing=make_timing(scene, True),
+        rule=RULE_NAMES[law.rule],
+        scheme=law.scheme,
+        step=law.step,
+        facets=law.facets,
+        gravity=block.gravity,
+        force=force,
+        torque=torque,
+        contact=_compliant(body, scene.effect("block", schema.CompliantContact)),
+        tolerance=given(scene.integrator.relative_tolerance),
+    )
 
 
-def _compliant(body: RigidBody, law: schema.CompliantContact | None) -> CompliantContact | None:
+def _compliant(body: RigidBody, law: schema.CompliantContact | None) -> CompliantLaw | None:
     if law is None:
         return None
     elastic = NormalElastic(law.stiffness, law.exponent)
@@ -135,11 +155,21 @@ def _start(body: RigidBody, block: schema.Block, axes: Matrix) -> Motion:
 def rise_at_start(block: schema.Block) -> float:
     """How far in [m] the z of a body has to rise out of its ground; 0 above or on it.
 
-    The rise tells more than the gap: of a polygon that a peak pierces from below and leaves again, no corner lies below the ground.
+    The rise tells more than the gap: of a polygon that a peak pierces from below and leaves again,
+    no corner lies below the ground.
     """
     width = PLANE if block.motion == "plane" else SPACE
     points, radius, inertia, axes = _shape(block, width)
-    body = RigidBody(width, 1.0, inertia, points, radius, 0.0, 0.0, numpy.zeros(3 * (width - 1)))
+    body = RigidBody(
+        width=width,
+        mass=1.0,
+        inertia=inertia,
+        points=points,
+        radius=radius,
+        friction=0.0,
+        restitution=0.0,
+        load=numpy.zeros(3 * (width - 1)),
+    )
     start = _start(body, block, axes)
     ground = laid_under(body, _ground(block.ground, width))
     rise = rise_to_ground(body, ground, start)

@@ -24,8 +24,10 @@ SPACE_NAMES = ("block_x", "block_y", "block_z", "block_rotation_x", "block_rotat
 
 
 @dataclass
-class BlockRecord:
-    """Samples of one block: states at the starts of the samples and at its end, forces as means over each sample."""
+class BodyRecord:
+    """Samples of one block: states at the starts of the samples and at its end, forces as means
+    over each sample.
+    """
 
     block: int
     position: Array  # [samples + 1, width]
@@ -41,13 +43,14 @@ class BlockRecord:
     steps: int = 0
 
     @classmethod
-    def empty(cls, model: BlockModel, block: int) -> BlockRecord:
+    def empty(cls, model: BlockModel, block: int) -> BodyRecord:
         """Room for one block of ``model``."""
         samples, width, contacts = model.timing.samples, model.body.width, contact_count(model.body, model.ground)
         zeros, ends = numpy.zeros, samples + 1
         return cls(
-            block, zeros((ends, width)), zeros(ends), zeros((ends, width, width)), zeros((ends, len(model.body.load))),
-            zeros(samples), zeros((samples, contacts, width)), zeros((samples, contacts), numpy.int64),
+            block, position=zeros((ends, width)), angle=zeros(ends), rotation=zeros((ends, width, width)),
+            velocity=zeros((ends, len(model.body.load))), gap=zeros(samples), force=zeros((samples, contacts, width)),
+            states=zeros((samples, contacts), numpy.int64),
         )  # fmt: skip
 
     def take_start(self, motion: Motion) -> None:
@@ -60,7 +63,9 @@ class BlockRecord:
         self.rotation[sample], self.velocity[sample] = motion.rotation, motion.velocity
 
     def take_impulses(self, model: BlockModel, force: Array, stuck: NDArray[numpy.bool_]) -> None:
-        """Mean forces over all samples, [samples, rows] in [N], and which contacts stick, [samples, contacts]."""
+        """Mean forces over all samples, [samples, rows] in [N], and which contacts stick, [samples,
+        contacts].
+        """
         self.force[:] = force.reshape(self.force.shape)
         self.states[:] = numpy.where(
             self.force[:, :, 0] > 0.0, numpy.where(stuck, ContactPoints.STICKS, ContactPoints.SLIPS), 0
@@ -71,7 +76,7 @@ class BlockRecord:
         self.gap[:] = gaps(model, self.position[:-1], self.rotation[:-1])
 
 
-def block_outputs(model: BlockModel, record: BlockRecord, wall_time: float) -> list[Output]:
+def block_outputs(model: BlockModel, record: BodyRecord, wall_time: float) -> list[Output]:
     """The outputs of a block that took ``wall_time`` [s]."""
     stamps = BlockStamps(record.block, model.timing)
     normal, tangential = record.force[:, :, 0].sum(axis=1), record.force[:, :, 1].sum(axis=1)
@@ -96,7 +101,7 @@ def block_outputs(model: BlockModel, record: BlockRecord, wall_time: float) -> l
     ]  # fmt: skip
 
 
-def _wrenches(model: BlockModel, record: BlockRecord, stamps: BlockStamps) -> Iterator[Output]:
+def _wrenches(model: BlockModel, record: BodyRecord, stamps: BlockStamps) -> Iterator[Output]:
     """Mean wrench on the body about its centre of mass over a display period.
 
     In the axes of a plane ground; in those of the world over heights.
@@ -108,8 +113,10 @@ def _wrenches(model: BlockModel, record: BlockRecord, stamps: BlockStamps) -> It
         yield Output("block/wrench", stamps.at(first), wrench, "bench" if uneven else "")
 
 
-def _on_a_plane(model: BlockModel, record: BlockRecord, first: int, last: int) -> tuple[list[float], list[float]]:
-    """Force (along, across, normal) and torque of the samples from first to last, of the forces and where they act."""
+def _on_a_plane(model: BlockModel, record: BodyRecord, first: int, last: int) -> tuple[list[float], list[float]]:
+    """Force (along, across, normal) and torque of the samples from first to last, of the forces and
+    where they act.
+    """
     force = record.force[first:last].mean(axis=0)  # [contacts, width]
     arms = in_ground_axes(model, _in_space(contact_arms(model, record.position[first], record.rotation[first])))
     across = float(force[:, 2].sum()) if model.body.width != PLANE else 0.0
@@ -117,8 +124,10 @@ def _on_a_plane(model: BlockModel, record: BlockRecord, first: int, last: int) -
     return [float(force[:, 1].sum()), across, float(force[:, 0].sum())], torque.tolist()
 
 
-def _over_heights(model: BlockModel, record: BlockRecord, first: int, last: int) -> tuple[list[float], list[float]]:
-    """Force and torque of the samples from first to last: each face has axes of its own, which momentum does not need."""
+def _over_heights(model: BlockModel, record: BodyRecord, first: int, last: int) -> tuple[list[float], list[float]]:
+    """Force and torque of the samples from first to last: each face has axes of its own, which
+    momentum does not need.
+    """
     ends, time = [first, last], (last - first) * model.timing.block_length / model.timing.samples
     force, torque = resultant(model.body, record.rotation[ends], record.velocity[ends], time)
     return force.tolist(), torque.tolist()
@@ -134,7 +143,7 @@ def _forces_in_space(force: Array) -> Array:
     return numpy.column_stack([force[:, 1], across, force[:, 0]])
 
 
-def _points(model: BlockModel, record: BlockRecord, stamps: BlockStamps) -> Iterator[Output]:
+def _points(model: BlockModel, record: BodyRecord, stamps: BlockStamps) -> Iterator[Output]:
     """The candidate contacts at the field rate, forces as means from one field to the next."""
     timing = model.timing
     for interval in range(timing.intervals):
@@ -149,8 +158,10 @@ def _points(model: BlockModel, record: BlockRecord, stamps: BlockStamps) -> Iter
         yield Output("block/points", stamps.at(first), points)
 
 
-def _coordinates(model: BlockModel, record: BlockRecord) -> tuple[tuple[str, ...], Array, Array]:
-    """Names, positions and velocities [coordinates, samples + 1]; pitch is positive from z to x, as a rotation about y."""
+def _coordinates(model: BlockModel, record: BodyRecord) -> tuple[tuple[str, ...], Array, Array]:
+    """Names, positions and velocities [coordinates, samples + 1]; pitch is positive from z to x, as
+    a rotation about y.
+    """
     if model.body.width == PLANE:
         position = numpy.vstack([record.position.T, -record.angle])
         return PLANE_NAMES, position, record.velocity.T * numpy.array([[1.0], [1.0], [-1.0]])
@@ -159,7 +170,9 @@ def _coordinates(model: BlockModel, record: BlockRecord) -> tuple[tuple[str, ...
 
 
 def rotation_vector(rotation: Array) -> Array:
-    """Rotation vector in [rad], of length 0 to pi, of a rotation matrix; by its quaternion, exact near 0 and pi."""
+    """Rotation vector in [rad], of length 0 to pi, of a rotation matrix; by its quaternion, exact
+    near 0 and pi.
+    """
     m = rotation
     trace = float(numpy.trace(m))
     squares = numpy.array([1.0 + trace, *(1.0 - trace + 2.0 * m[i, i] for i in range(3))])

@@ -1,4 +1,6 @@
-"""Resultant of all contacts over uneven ground, whose faces have axes of their own: from the balance of momentum."""
+"""Resultant of all contacts over uneven ground, whose faces have axes of their own: from the
+balance of momentum.
+"""
 
 from __future__ import annotations
 
@@ -14,9 +16,11 @@ Array = NDArray[numpy.float64]
 
 
 def resultant(body: RigidBody, rotation: Array, velocity: Array, time: float) -> tuple[Array, Array]:
-    """Mean force [3] in [N] and torque about the centre of mass [3] in [N m] of the contacts between two states, world axes.
+    """Mean force [3] in [N] and torque about the centre of mass [3] in [N m] of the contacts
+    between two states, world axes.
 
-    F = m (v2 - v1)/T - load, M = (L2 - L1)/T - torque, L = R I R^T w; impacts in between count in full. Source: Newton, Euler.
+    F = m (v2 - v1)/T - load, M = (L2 - L1)/T - torque, L = R I R^T w; impacts in between count in
+    full. Source: Newton, Euler.
 
     Args:
         body: mass, principal moments, weight and known wrench.

@@ -1,4 +1,6 @@
-"""The rigid body of the rig block, the ground under it, and the contact between them (Identifiability)."""
+"""The rigid body of the rig block, the ground under it, and the contact between them
+(Identifiability).
+"""
 
 from __future__ import annotations
 
@@ -22,9 +24,11 @@ def _vector(unit: str, meaning: str, default: list[float], most: str = "") -> li
 
 
 class BlockGround(Section):
-    """Ground: a plane that rises along x, or heights at even distances along x, the same across and straight on beyond the ends.
+    """Ground: a plane that rises along x, or heights at even distances along x, the same across and
+    straight on beyond the ends.
 
-    In the plane corners and edges of the body meet the heights; in space its corners alone, so peaks between them go unseen.
+    In the plane corners and edges of the body meet the heights; in space its corners alone, so
+    peaks between them go unseen.
     """
 
     slope: float = number(-1.4, 1.4, "rad", "angle at which the plane rises along x", default=0.0)
@@ -66,7 +70,9 @@ class Block(Section):
 
 
 class RigidContact(Section):
-    """Rigid contact: no penetration, Coulomb friction with true stick, impacts by a rule; solved as complementarity."""
+    """Rigid contact: no penetration, Coulomb friction with true stick, impacts by a rule; solved as
+    complementarity.
+    """
 
     friction: float = number(0.0, 5.0, "", "Coulomb friction μ", default=0.3)
     restitution: float = number(0.0, 1.0, "", "restitution of the rule", default=0.3)
@@ -82,11 +88,12 @@ class RigidContact(Section):
 
 
 class CompliantContact(Section):
-    """Compliant contact in place of the impulses: the points press into the ground. Friction and restitution are those of
-    rigid_contact.
+    """Compliant contact in place of the impulses: the points press into the ground. Friction and
+    restitution are those of rigid_contact.
 
-    Hunt-Crossley force in each point, its loss set at every touch so that it ends with the asked restitution (below 0.01: 0.01);
-    spring and damper along the ground that stick, with a Coulomb limit. Stiffer is nearer to rigid, and dearer.
+    Hunt-Crossley force in each point, its loss set at every touch so that it ends with the asked
+    restitution (below 0.01: 0.01); spring and damper along the ground that stick, with a Coulomb
+    limit. Stiffer is nearer to rigid, and dearer.
     """
 
     stiffness: float = number(1.0, 1e12, "N/m^exponent", "of a point, normal to the ground", default=1e6)

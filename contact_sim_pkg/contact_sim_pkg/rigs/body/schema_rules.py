@@ -14,7 +14,9 @@ FLAT = 1e-9  # volume of a hull over that of its box: below it has none
 
 
 def block_breaches(scene: Scene) -> Iterator[Breach]:
-    """A shape that has no volume, motion out of the plane, a friction cone without middle, a step that does not fit."""
+    """A shape that has no volume, motion out of the plane, a friction cone without middle, a step
+    that does not fit.
+    """
     block = scene.section(Block)
     faults = list(_shape(block))
     yield from faults

@@ -18,7 +18,7 @@ from contact_sim_pkg.rigid.problem import PLANE
 from contact_sim_pkg.rigid.results import SENTENCES, SOLVED, STICK
 from contact_sim_pkg.rigs.body.geometry import contact_arms
 from contact_sim_pkg.rigs.body.model import BlockModel, build_block
-from contact_sim_pkg.rigs.body.outputs import BlockRecord, block_outputs
+from contact_sim_pkg.rigs.body.outputs import BodyRecord, block_outputs
 from contact_sim_pkg.run.block_simulation import BlockResult, InputBlock, refuse_out_of_turn
 from contact_sim_pkg.run.errors import RunError
 from contact_sim_pkg.run.outputs import largest
@@ -29,7 +29,9 @@ WARM_UP_IMPACT = 1e-4  # [m] above the ground, from which the warm-up drops the 
 
 
 class BlockBodySimulation:
-    """Owns the state of a run: a ``BlockSimulation`` (run/block_simulation.py). Nothing drives it but gravity and known forces."""
+    """Owns the state of a run: a ``BlockSimulation`` (run/block_simulation.py). Nothing drives it
+    but gravity and known forces.
+    """
 
     inputs: tuple[str, ...] = ()
 
@@ -65,7 +67,7 @@ class BlockBodySimulation:
         began = time.perf_counter()
         refuse_out_of_turn(block, self._next_block)
         timing = self.model.timing
-        record = BlockRecord.empty(self.model, block)
+        record = BodyRecord.empty(self.model, block)
         self._ledger(record)
         events, solves = getattr(self.body, "events", 0), getattr(self.body, "solves", 0)
         if isinstance(self.body, LocatedBody):
@@ -80,7 +82,7 @@ class BlockBodySimulation:
         outputs = block_outputs(self.model, record, time.perf_counter() - began)
         return BlockResult(outputs, largest(outputs, "force", "normal"), 0.0, time.perf_counter() - began)
 
-    def _run_located(self, body: LocatedBody, record: BlockRecord, block: int) -> None:
+    def _run_located(self, body: LocatedBody, record: BodyRecord, block: int) -> None:
         """All samples of a block in one call."""
         timing = self.model.timing
         interval = timing.block_length / timing.samples
@@ -97,7 +99,7 @@ class BlockBodySimulation:
             stuck[sample, list(impact.points)] |= numpy.array(impact.modes) == STICK
         record.take_impulses(self.model, track.impulse / interval, stuck)
 
-    def _run_samples(self, record: BlockRecord, block: int) -> None:
+    def _run_samples(self, record: BodyRecord, block: int) -> None:
         """One call a sample."""
         timing = self.model.timing
         interval = timing.block_length / timing.samples
@@ -124,8 +126,10 @@ class BlockBodySimulation:
         slow: NDArray[numpy.bool_] = (numpy.abs(velocity[:, 1:]).max(axis=1) <= 1e-9 * scale) & (work.flags >= HELD)
         return slow
 
-    def _known_work(self, record: BlockRecord) -> float:
-        """Of the known force and torque over a block in [J]; the turn in space is the sum of those from sample to sample."""
+    def _known_work(self, record: BodyRecord) -> float:
+        """Of the known force and torque over a block in [J]; the turn in space is the sum of those
+        from sample to sample.
+        """
         model, moved = self.model, record.position[-1] - record.position[0]
         if model.body.width == PLANE:
             turned = float(record.angle[-1] - record.angle[0])
@@ -142,14 +146,16 @@ class BlockBodySimulation:
         kinetic = 0.5 * body.mass * float(speed @ speed) + 0.5 * float(body.inertia @ spin**2)
         return kinetic, body.mass * self.model.gravity * float(motion.position[-1])
 
-    def _ledger(self, record: BlockRecord) -> None:
+    def _ledger(self, record: BodyRecord) -> None:
         kinetic, potential = self._kinetic_potential()
         changes = (kinetic - self._start[0], potential - self._start[1])
         record.energy[:] = (*changes, getattr(self.body, "stored", 0.0), self.body.dissipated, self._supplied)
 
 
 def move(body: Body, model: BlockModel, interval: float, where: str = "block") -> None:
-    """Move ``body`` by ``interval`` [s]. Raises RunError, which begins with ``where``, if it cannot be done."""
+    """Move ``body`` by ``interval`` [s]. Raises RunError, which begins with ``where``, if it cannot
+    be done.
+    """
     status = status_after(body, model, interval)
     if status != SOLVED:
         why = sentence_of(status) if isinstance(body, MovedBody) else SENTENCES[status]
@@ -163,7 +169,9 @@ def status_after(body: Body, model: BlockModel, interval: float) -> int:
 
 
 def body_of(model: BlockModel, motion: Motion) -> Body:
-    """The body of a scene at ``motion``, which changes in place, under the scheme and contact of ``model``."""
+    """The body of a scene at ``motion``, which changes in place, under the scheme and contact of
+    ``model``.
+    """
     if model.contact is not None:
         return MovedBody(model.body, model.ground, motion, model.contact, model.tolerance)
     if model.scheme == "located":

@@ -15,7 +15,9 @@ PLANAR_TURN, SPATIAL_TURN = 0.2, 0.02  # [rad] of a sub-step
 
 
 def work_of_block(scene: ResolvedScene) -> Iterator[Work]:
-    """Sub-steps of flight or steps of the rigid scheme; steps of the integrator where the contact is compliant."""
+    """Sub-steps of flight or steps of the rigid scheme; steps of the integrator where the contact
+    is compliant.
+    """
     block, compliant = scene.section(Block), scene.effect("block", CompliantContact)
     if compliant is not None:
         yield segments(scene)
@@ -40,7 +42,9 @@ def work_of_block(scene: ResolvedScene) -> Iterator[Work]:
 
 
 def _turned(block: Block, duration: float) -> float:
-    """Angle [rad] that a body turns in ``duration`` [s]: the faster, the longer a known torque turns it."""
+    """Angle [rad] that a body turns in ``duration`` [s]: the faster, the longer a known torque
+    turns it.
+    """
     plane = block.motion == "plane"
     corners = [block.sides, [0.0, 0.0, 0.0]] if block.points is None else block.points
     size = 2.0 * block.radius if block.shape == "sphere" else max(math.dist(corners[0], other) for other in corners)

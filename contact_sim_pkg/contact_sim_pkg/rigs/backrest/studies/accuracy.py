@@ -19,7 +19,7 @@ import numpy
 from contact_sim_pkg.records.accuracy import INTEGRATOR, AccuracyPart, AccuracyStudy
 from contact_sim_pkg.rigs.backrest.schema_rules import MOST_SEARCHED
 from contact_sim_pkg.rigs.backrest.shell import MODE_COUNTS
-from contact_sim_pkg.rigs.backrest.studies.drive import DrivenBackrest, Motion, drive_of, fast_run, slow_run
+from contact_sim_pkg.rigs.backrest.studies.drive import BackrestMotion, DrivenBackrest, drive_of, fast_run, slow_run
 from contact_sim_pkg.scene.resolved_scene import ResolvedScene
 
 __all__ = ["ACCURACY", "mode_rows", "tolerance_rows"]
@@ -97,7 +97,7 @@ def _scale(scene: ResolvedScene, drive: DrivenBackrest, tolerance: float) -> Any
     return drive.model.scale * (tolerance / float(scene.data["integrator"]["relative_tolerance"]))
 
 
-def _timed(drive: DrivenBackrest, scale: Any) -> tuple[Motion, float]:
+def _timed(drive: DrivenBackrest, scale: Any) -> tuple[BackrestMotion, float]:
     """A run, and the shortest processor time of some [ms] per simulated second."""
     run = partial(fast_run, drive, scale)
     found = run()
@@ -109,7 +109,7 @@ def _timed(drive: DrivenBackrest, scale: Any) -> tuple[Motion, float]:
     return found, 1e3 * min(times) / (len(drive.acceleration) - 1) / drive.segment
 
 
-def _errors(found: Motion, exact: Motion) -> dict[str, float]:
+def _errors(found: BackrestMotion, exact: BackrestMotion) -> dict[str, float]:
     excursion = numpy.abs(exact.approach - exact.approach[0]).max()
     errors = {
         "motion": float(numpy.abs(found.approach - exact.approach).max() / excursion),

@@ -18,12 +18,12 @@ from contact_sim_pkg.reference.vehicle import Law, Occupant, normal_force, state
 from contact_sim_pkg.rigs.backrest import entries
 from contact_sim_pkg.rigs.backrest.model import BackrestModel, build_backrest
 from contact_sim_pkg.rigs.backrest.motion import event_count
-from contact_sim_pkg.rigs.backrest.parameters import ENDED, PLACE, START, TOUCHED, make_mode
+from contact_sim_pkg.rigs.backrest.parameters import ENDED, PLACE, START, TOUCHED, BackrestSamples, Shaking, make_mode
 from contact_sim_pkg.run.sources import make_sources
 from contact_sim_pkg.run.vibration_drive import VIBRATION, accelerations
 from contact_sim_pkg.scene.resolved_scene import ResolvedScene
 
-__all__ = ["DrivenBackrest", "Motion", "drive_of", "fast_run", "slow_run"]
+__all__ = ["BackrestMotion", "DrivenBackrest", "drive_of", "fast_run", "slow_run"]
 
 
 class DrivenBackrest(NamedTuple):
@@ -34,7 +34,7 @@ class DrivenBackrest(NamedTuple):
     acceleration: Vector  # [m/s^2] at the ends of all segments
 
 
-class Motion(NamedTuple):
+class BackrestMotion(NamedTuple):
     """What a run gives, at the starts of all segments."""
 
     approach: NDArray[numpy.float64]  # [samples, points] [m]
@@ -55,7 +55,7 @@ def drive_of(scene: ResolvedScene, duration: float) -> DrivenBackrest:
     return DrivenBackrest(model, timing.segment_length, joined)
 
 
-def fast_run(drive: DrivenBackrest, scale: Vector) -> Motion:
+def fast_run(drive: DrivenBackrest, scale: Vector) -> BackrestMotion:
     """By the bench's kernels, with the error ``scale`` [states] allowed per step. Raises
     ArithmeticError where they fail.
     """
@@ -66,9 +66,8 @@ def fast_run(drive: DrivenBackrest, scale: Vector) -> Motion:
     by_point = numpy.zeros((count, points, entries.POINT_COLUMNS))
     entries.start(model.rig, mode, state, work)
     before = numpy.array(entries.energies(model.rig, mode, 0.0, state))
-    status = entries.advance(
-        model.rig, mode, state, scale, work, 0.0, drive.segment, drive.acceleration, 1, *room, by_point
-    )
+    shaking, samples = Shaking(0.0, drive.segment, drive.acceleration), BackrestSamples(1, *room, by_point)
+    status = entries.advance(model.rig, mode, state, scale, work, shaking, samples)
     if status != DONE:
         raise ArithmeticError(SENTENCES[status])
     rows = numpy.vstack([mode.ended[: mode.counts[ENDED], : mode.lasting.shape[1]], mode.lasting[points]])
@@ -78,14 +77,14 @@ def fast_run(drive: DrivenBackrest, scale: Vector) -> Motion:
     kinetic, potential, stored, supplied, dissipated = (
         numpy.array(entries.energies(model.rig, mode, count * drive.segment, state)) - before
     )
-    return Motion(
+    return BackrestMotion(
         by_point[:, :, entries.POINT_APPROACH].copy(), forces[:, entries.NORMAL], forces[:, entries.TANGENTIAL],
         numpy.unique(touches),  # the last episode may have ended
         float(supplied), float(supplied - kinetic - potential - stored - dissipated),
     )  # fmt: skip
 
 
-def slow_run(drive: DrivenBackrest) -> Motion | None:
+def slow_run(drive: DrivenBackrest) -> BackrestMotion | None:
     """By scipy, without code of the kernels; None for a back that the twin does not know: a shell,
     or one on foam.
 
@@ -99,11 +98,12 @@ def slow_run(drive: DrivenBackrest) -> Motion | None:
     pressed, still = float(rig.preload[0]) / mass, numpy.zeros(len(drive.acceleration))
     back = Occupant(mass, none, none, none, law)
     found = states_at_segments(
-        pressed, None, back, -drive.model.start[:2], drive.segment, still, still, drive.acceleration
-    )
+        pressed, None, back, -drive.model.start[:2], drive.segment, cushion=still, height=still,
+        acceleration=drive.acceleration,
+    )  # fmt: skip
     approach, speed = -found[:, 0], -found[:, 1]
     forces = numpy.array([normal_force(law, x, v) for x, v in zip(approach[:-1], speed[:-1], strict=True)])
-    return Motion(approach[:-1, None], forces, numpy.zeros(0), _touches(drive, pressed, approach, speed))
+    return BackrestMotion(approach[:-1, None], forces, numpy.zeros(0), _touches(drive, pressed, approach, speed))
 
 
 def _law(elastic: object, loss: object) -> Law | None:

@@ -7,7 +7,7 @@ from __future__ import annotations
 import numpy
 
 from contact_sim_pkg.records.hard_case import Finding, HardCase, at_most, close_to, exactly
-from contact_sim_pkg.rigs.backrest.studies.drive import Motion, drive_of, fast_run, slow_run
+from contact_sim_pkg.rigs.backrest.studies.drive import BackrestMotion, drive_of, fast_run, slow_run
 from contact_sim_pkg.scene.resolve import load_resolved
 
 MODEL = "backrest"
@@ -20,12 +20,12 @@ ONE_POINT = (
 )  # fmt: skip
 
 
-def _run(*scene: str, duration: float = 2.0) -> Motion:
+def _run(*scene: str, duration: float = 2.0) -> BackrestMotion:
     drive = drive_of(load_resolved(*scene), duration)
     return fast_run(drive, drive.model.scale)
 
 
-def _against_twin(*scene: str, duration: float) -> tuple[Motion, Motion]:
+def _against_twin(*scene: str, duration: float) -> tuple[BackrestMotion, BackrestMotion]:
     drive = drive_of(load_resolved(*scene), duration)
     twin = slow_run(drive)
     assert twin is not None

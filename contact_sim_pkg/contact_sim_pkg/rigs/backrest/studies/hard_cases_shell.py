@@ -19,7 +19,9 @@ from contact_sim_pkg.records.hard_case import Finding, HardCase, at_most, close_
 from contact_sim_pkg.rigs.backrest.reference_shell import plate_centre_deflection
 from contact_sim_pkg.rigs.backrest.shell import ShallowShell, ShellError, natural_frequencies, static_deflection
 
-BACK = ShallowShell(0.40, 0.50, 0.030, 0.6e6, 0.45, 1050.0, 0.6, 1.5)
+BACK = ShallowShell(
+    length_1=0.40, length_2=0.50, thickness=0.030, young=0.6e6, poisson=0.45, density=1050.0, radius_1=0.6, radius_2=1.5
+)
 PLATE = BACK._replace(radius_1=math.inf, radius_2=math.inf)
 
 

@@ -11,7 +11,7 @@ from contact_sim_pkg.compiled.arrays import Vector
 from contact_sim_pkg.records.hard_case import Finding, HardCase, at_most, close_to, exactly
 from contact_sim_pkg.rigs.backrest.contact_search import nearest_point
 from contact_sim_pkg.rigs.backrest.parameters import ContactSearch
-from contact_sim_pkg.rigs.backrest.studies.drive import Motion, drive_of, fast_run
+from contact_sim_pkg.rigs.backrest.studies.drive import BackrestMotion, drive_of, fast_run
 from contact_sim_pkg.scene.resolve import load_resolved
 
 FOAM, SEARCH = "foam at the back", "contact search"
@@ -27,12 +27,12 @@ SHELL = (
 WIDTH, HEIGHT, RADII = 0.40, 0.50, (0.6, 1.5)  # [m], of the back of `seat_slap`
 
 
-def _run(*scene: str, duration: float) -> Motion:
+def _run(*scene: str, duration: float) -> BackrestMotion:
     drive = drive_of(load_resolved(*scene), duration)
     return fast_run(drive, drive.model.scale)
 
 
-def _unbalanced(motion: Motion) -> float:
+def _unbalanced(motion: BackrestMotion) -> float:
     return abs(motion.residual / motion.supplied)
 
 

@@ -19,7 +19,9 @@ __all__ = ["PART", "WORK_PRECISION", "rows"]
 Field = NDArray[numpy.float64]
 
 PART = "shell response"
-BACK = ShallowShell(0.40, 0.50, 0.030, 0.6e6, 0.45, 1050.0, 0.6, 1.5)
+BACK = ShallowShell(
+    length_1=0.40, length_2=0.50, thickness=0.030, young=0.6e6, poisson=0.45, density=1050.0, radius_1=0.6, radius_2=1.5
+)
 PLATE = BACK._replace(radius_1=math.inf, radius_2=math.inf)
 DAMPING = 0.1
 MIDDLE = numpy.array([[0.20, 0.25]])

@@ -55,7 +55,7 @@ def _pairs(J: Vector, W: Vector, velocities: Vector, friction: Vector, work: Pai
     q, c = numpy.zeros(4), numpy.zeros(4)
     for i in range(velocities.shape[0]):
         contact_velocities(J, velocities[i], q)  # type: ignore[no-untyped-call]
-        worst = max(worst, pair_impulses(J, W, q, friction, 0, 1, work, c))  # type: ignore[no-untyped-call]
+        worst = max(worst, pair_impulses(J, W, q, friction, first=0, second=1, work=work, c=c))  # type: ignore[no-untyped-call]
         for k in range(3):
             out[i, k] = velocities[i, k]
         apply_impulse(J, W, c, out[i])  # type: ignore[no-untyped-call]

@@ -19,7 +19,7 @@ from contact_sim_pkg.rigid.problem import PLANE, SPACE, make_problem
 from contact_sim_pkg.rigid.results import RAY
 from contact_sim_pkg.rigs.body.studies.rigid_problem import (
     SIDE,
-    Case,
+    ContactCase,
     block_corner,
     contact_rows,
     random_face,
@@ -94,7 +94,7 @@ def quarter_loads() -> Finding:
     corners = numpy.array([[x, y, -0.1] for x in (-0.2, 0.2) for y in (-0.3, 0.3)])
     W = numpy.diag([0.5, 0.5, 0.5, 8.0, 9.0, 7.0])
     v = numpy.array([0.0, 0.0, -9.81, 0.0, 0.0, 0.0])
-    c, _solution = solve(Case(contact_rows(corners, SPACE), W, v, numpy.full(4, 0.3), SPACE))
+    c, _solution = solve(ContactCase(contact_rows(corners, SPACE), W, v, numpy.full(4, 0.3), SPACE))
     return close_to(float(c[::3].max()) / (2.0 * 9.81), 0.25, 1e-9)
 
 

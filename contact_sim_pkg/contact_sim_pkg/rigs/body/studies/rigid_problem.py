@@ -11,15 +11,15 @@ from contact_sim_pkg.compiled.arrays import Vector
 from contact_sim_pkg.records.work_precision import milliseconds
 from contact_sim_pkg.rigid import problem as contact_problem
 from contact_sim_pkg.rigid.contact.answers import contact_impulses, solve_over_and_over
-from contact_sim_pkg.rigid.contact.solver import NEWTON, Solution, Solver, make_solver
+from contact_sim_pkg.rigid.contact.solver import NEWTON, ContactSolution, Solver, make_solver
 
-__all__ = ["Case", "block_corner", "contact_rows", "milliseconds_of_a_solve", "random_face", "solve", "stack"]
+__all__ = ["ContactCase", "block_corner", "contact_rows", "milliseconds_of_a_solve", "random_face", "solve", "stack"]
 
 SOLVES = 200  # in a compiled loop, whose time is that of one so many times
 SIDE = 0.1  # [m] of the block of Identifiability
 
 
-class Case(NamedTuple):
+class ContactCase(NamedTuple):
     """One solve: Jacobian, inverse inertia, velocities before, friction of every contact, rows of a
     contact.
     """
@@ -50,7 +50,7 @@ def contact_rows(points: Vector, width: int) -> Vector:
     return numpy.array(rows)
 
 
-def random_face(seed: int, contacts: int, width: int) -> Case:
+def random_face(seed: int, contacts: int, width: int) -> ContactCase:
     """A body that falls, sliding and turning, on ``contacts`` points of a flat face."""
     generator = numpy.random.default_rng(seed)
     points = generator.uniform(-1.0, 1.0, (contacts, width))
@@ -58,10 +58,10 @@ def random_face(seed: int, contacts: int, width: int) -> Case:
     W = numpy.diag([1.0, 1.0, 3.0] if width == contact_problem.PLANE else [1.0, 1.0, 1.0, 3.0, 4.0, 5.0])
     v = generator.uniform(-1.0, 1.0, len(W))
     v[width - 1] -= 1.0
-    return Case(contact_rows(points, width), W, v, generator.uniform(0.2, 0.8, contacts), width)
+    return ContactCase(contact_rows(points, width), W, v, generator.uniform(0.2, 0.8, contacts), width)
 
 
-def stack(ratio: float) -> Case:
+def stack(ratio: float) -> ContactCase:
     """1 kg on the ground under ``ratio`` kg, both falling: coordinates are two heights and two
     shifts.
     """
@@ -69,10 +69,10 @@ def stack(ratio: float) -> Case:
     J[0, 0], J[1, 2], J[2, :2], J[3, 2:] = 1.0, 1.0, (-1.0, 1.0), (-1.0, 1.0)
     W = numpy.diag([1.0, 1.0 / ratio, 1.0, 1.0 / ratio])
     v = numpy.array([-9.81, -9.81, 0.1, 0.3])
-    return Case(J, W, v, numpy.full(2, 0.5), contact_problem.PLANE)
+    return ContactCase(J, W, v, numpy.full(2, 0.5), contact_problem.PLANE)
 
 
-def milliseconds_of_a_solve(case: Case, rung: int = NEWTON, facets: int = 0, sweeps: int = 20) -> float:
+def milliseconds_of_a_solve(case: ContactCase, rung: int = NEWTON, facets: int = 0, sweeps: int = 20) -> float:
     """Of one solve in [ms], within a compiled loop: neither the call from Python nor the set-up of
     arrays counts.
     """
@@ -85,14 +85,14 @@ def milliseconds_of_a_solve(case: Case, rung: int = NEWTON, facets: int = 0, swe
     return max(0.0, over_and_over(SOLVES + 1) - over_and_over(1)) / SOLVES
 
 
-def solve(case: Case, rung: int = NEWTON, facets: int = 0, sweeps: int = 20) -> tuple[Vector, Solution]:
+def solve(case: ContactCase, rung: int = NEWTON, facets: int = 0, sweeps: int = 20) -> tuple[Vector, ContactSolution]:
     """Impulses of a case without restitution, and how the solve ended."""
     problem, solver = _set_up(case, rung, facets, sweeps)
     c = numpy.zeros(len(case.J))
     return c, contact_impulses(problem, case.J, case.W, solver, c)
 
 
-def _set_up(case: Case, rung: int, facets: int, sweeps: int) -> tuple[contact_problem.ContactProblem, Solver]:
+def _set_up(case: ContactCase, rung: int, facets: int, sweeps: int) -> tuple[contact_problem.ContactProblem, Solver]:
     contacts = len(case.friction)
     problem = contact_problem.make_problem(contacts, case.width, facets)
     problem.A[:] = case.J @ case.W @ case.J.T

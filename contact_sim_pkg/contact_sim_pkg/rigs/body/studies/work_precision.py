@@ -21,7 +21,7 @@ from contact_sim_pkg.rigid.contact.solver import GAUSS_SEIDEL, LEMKE, MODES, NEW
 from contact_sim_pkg.rigid.problem import PLANE, SPACE
 from contact_sim_pkg.rigs.body.studies import crossing_body, rigid_motion, tipping_body
 from contact_sim_pkg.rigs.body.studies.rigid_problem import (
-    Case,
+    ContactCase,
     contact_rows,
     milliseconds_of_a_solve,
     random_face,
@@ -54,7 +54,7 @@ FACETS = (4, 8, 16, 32, 0)
 TOLERANCES = (1e-3, 1e-4, 1e-6, 1e-8, 1e-10, 1e-12)
 
 
-def _velocity_error(case: Case, c: Vector, expected: Vector) -> float:
+def _velocity_error(case: ContactCase, c: Vector, expected: Vector) -> float:
     """Greatest difference of the velocities after the impact, over the greatest velocity before."""
     after = case.v + case.W @ case.J.T @ c
     return float(numpy.abs(after - expected).max() / numpy.abs(case.v).max())
@@ -89,7 +89,7 @@ def cone_rows() -> list[Row]:
     J, W, friction = contact_rows(numpy.zeros((1, 3)), SPACE), numpy.diag([1.0, 1.0, 1.0, 2.0, 2.0, 2.0]), 0.5
     found = []
     for facets in FACETS:
-        worst, case = 0.0, Case(J, W, numpy.zeros(6), numpy.full(1, friction), SPACE)
+        worst, case = 0.0, ContactCase(J, W, numpy.zeros(6), numpy.full(1, friction), SPACE)
         for angle in numpy.linspace(0.0, math.pi, DIRECTIONS):
             slip = numpy.array([math.cos(angle), math.sin(angle), 0.0, 0.0, 0.0, 0.0])
             case = case._replace(v=3.0 * slip - numpy.eye(6)[2])
