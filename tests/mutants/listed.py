@@ -22,7 +22,7 @@ MUTANTS = (
     Mutant("friction.spring_is_limited", "2.0 *", "1.0 *", ("test_friction",)),
     Mutant("friction.following_deflection", "max(along, -limit)", "along", ("test_friction",)),
     Mutant("friction.stick_event", "coefficient_static", "coefficient_kinetic", ("test_friction",)),
-    Mutant("normal_dissipative.loss_factor", "max(0.0, ", "max(-1.0, ", ("test_force_laws",)),
+    Mutant("normal_dissipative.dissipation_factor", "max(0.0, ", "max(-1.0, ", ("test_force_laws",)),
     Mutant("general_dissipative.rate_power", "0.5 * (", "1.0 * (", ("test_general_dissipative",)),
     Mutant("general_dissipative.general_force_rate", "p * thickness", "thickness", ("test_general_dissipative",)),
     Mutant("foam_hysteresis.hysteresis_energy", "0.5 *", "1.0 *", ("test_foam",)),

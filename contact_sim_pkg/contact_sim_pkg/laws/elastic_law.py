@@ -2,9 +2,9 @@
 law, or foam.
 
 The functions are those of ``laws/normal_elastic.py``, and call them for a ``NormalElastic``; a
-``FoamElastic`` has its own (``laws/foam_elastic.py``). Rigs and losses call these. Called from
-Python they check what they are given: a law within its range (``laws/parameters.py``), an argument
-that is a number, a result within the range of numbers; compiled they check nothing.
+``FoamElastic`` has its own (``laws/foam_elastic.py``). Rigs and dissipative laws call these. Called
+from Python they check what they are given: a law within its range (``laws/parameters.py``), an
+argument that is a number, a result within the range of numbers; compiled they check nothing.
 """
 
 from __future__ import annotations

@@ -4,9 +4,9 @@ loading (Bouc 1967, Wen 1976, Dahl 1968).
 ``F = F_el(x) (1 + s z)``, ``z' = (u' - |u'| z)/u_0``, u the energy stored in the elastic law, u' =
 F_el x'. On a long loading z tends to 1 and the force to 1 + s times the elastic one, on unloading
 to 1 - s; a reversal is passed over in the energy u_0. Driven by the energy in place of the
-displacement, the loss is a part of the load, the force never pulls (s < 1), and the balance closes:
-``(F - F_el) x' = d/dt (1/2 s u_0 z^2) + s |u'| z^2``: stored beside u is ``1/2 s u_0 z^2``, what is
-lost is never negative.
+displacement, the dissipation is a part of the load, the force never pulls (s < 1), and the balance
+closes: ``(F - F_el) x' = d/dt (1/2 s u_0 z^2) + s |u'| z^2``: stored beside u is ``1/2 s u_0 z^2``,
+what is lost is never negative.
 
 Loaded from z = 0 to U and back: taken up ``U + s (U - u_0 (1 - E))``, given back ``U - s (U - (1 +
 z_1) u_0 (1 - E))`` with ``E = exp(-U/u_0)``, ``z_1 = 1 - E``. For U >> u_0 the share lost of what

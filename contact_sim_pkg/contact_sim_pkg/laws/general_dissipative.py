@@ -1,11 +1,11 @@
-"""Loss of the general normal law ``F = A x**n + B x**p sgn(x') |x'|**q`` for an approach x > 0,
-else 0 (Driver and Seat eq 8).
+"""Dissipation of the general normal law ``F = A x**n + B x**p sgn(x') |x'|**q`` for an approach x >
+0, else 0 (Driver and Seat eq 8).
 
 Special cases: p = 0, q = 1, n = 1 the linear spring and damper (Kelvin and Voigt; the force jumps
 by B v0 at first touch); p = n, q = 1 Hunt and Crossley; n = 3/2, p = 1/2, q = 1 the viscoelastic
 sphere of Kuwabara and Kono, which Goloshchapov's impact shares; B = 0 the elastic law.
 
-End of contact: where p < n the loss outweighs the spring before x is back at 0. With ``lowest_force
+End of contact: where p < n the dissipation outweighs the spring before x is back at 0. With ``lowest_force
 = 0`` contact is lost where F reaches 0 (end rule ``force``: no adhesion); with ``-inf`` it lasts,
 pulling, until x = 0 (end rule ``gap``).
 
@@ -53,8 +53,8 @@ def general_force(
     """
     if approach <= 0.0:
         return 0.0
-    loss = general.coefficient * approach**general.approach_exponent * rate_power(general, approach_rate)
-    return max(general.lowest_force, hysteresis_factor * elastic_force(elastic, approach) + loss)
+    dissipation = general.coefficient * approach**general.approach_exponent * rate_power(general, approach_rate)
+    return max(general.lowest_force, hysteresis_factor * elastic_force(elastic, approach) + dissipation)
 
 
 @kernel
@@ -71,8 +71,8 @@ def general_tension_event(
         return -general.lowest_force
     x = max(approach, SMALLEST_APPROACH)
     order = min(elastic_order(elastic), general.approach_exponent)
-    loss = general.coefficient * rate_power(general, approach_rate) * x ** (general.approach_exponent - order)
-    return hysteresis_factor * elastic_force(elastic, x) / x**order + loss
+    dissipation = general.coefficient * rate_power(general, approach_rate) * x ** (general.approach_exponent - order)
+    return hysteresis_factor * elastic_force(elastic, x) / x**order + dissipation
 
 
 @kernel

@@ -1,5 +1,5 @@
-"""Loss in one contact, after Hunt and Crossley: ``F = A x**n (1 + damping x')``, contact lost when
-F reaches 0.
+"""Dissipation in one contact, after Hunt and Crossley: ``F = A x**n (1 + damping x')``, contact
+lost when F reaches 0.
 
 The factor multiplies the elastic pressure of each cell as well as the elastic force of a point
 contact, so that the force stays the integral of the pressure. No force jump at first touch, no
@@ -15,13 +15,15 @@ from contact_sim_pkg.laws.parameters import NormalDissipative
 
 
 @kernel
-def loss_factor(dissipative: NormalDissipative | None, approach_rate: float, hysteresis_factor: float = 1.0) -> float:
+def dissipation_factor(
+    dissipative: NormalDissipative | None, approach_rate: float, hysteresis_factor: float = 1.0
+) -> float:
     """Ratio of the contact force to the elastic force at ``approach_rate`` in [m/s] (closing
     positive), >= 0.
 
-    1 where the scene calls for no loss; 0 where the bodies part faster than the material recovers.
-    ``hysteresis_factor``: the ratio that a loss without rate, as foam has, gives alone
-    (``laws/foam_hysteresis.py``); 1 without it.
+    1 where the scene calls for no dissipation; 0 where the bodies part faster than the material
+    recovers. ``hysteresis_factor``: the ratio that a dissipation without rate, as foam has, gives
+    alone (``laws/foam_hysteresis.py``); 1 without it.
     """
     if dissipative is None:
         return hysteresis_factor
@@ -31,7 +33,7 @@ def loss_factor(dissipative: NormalDissipative | None, approach_rate: float, hys
 @kernel
 def hunt_crossley_force(elastic, dissipative, approach, approach_rate, hysteresis_factor):
     """Contact force in [N]; ``dissipative`` may be ``None``."""
-    return elastic_force(elastic, approach) * loss_factor(dissipative, approach_rate, hysteresis_factor)
+    return elastic_force(elastic, approach) * dissipation_factor(dissipative, approach_rate, hysteresis_factor)
 
 
 @kernel
@@ -58,6 +60,6 @@ def hunt_crossley_force_rate(elastic, dissipative, approach, approach_rate, appr
     """
     if hunt_crossley_tension_event(dissipative, approach_rate, hysteresis_factor) <= 0.0:
         return 0.0
-    slope = elastic_stiffness(elastic, approach) * loss_factor(dissipative, approach_rate, hysteresis_factor)
-    loss = _damping_of(dissipative) * elastic_force(elastic, approach)
-    return slope * approach_rate + loss * approach_acceleration
+    slope = elastic_stiffness(elastic, approach) * dissipation_factor(dissipative, approach_rate, hysteresis_factor)
+    dissipation = _damping_of(dissipative) * elastic_force(elastic, approach)
+    return slope * approach_rate + dissipation * approach_acceleration

@@ -1,9 +1,9 @@
-"""The normal force of a contact: elastic law and loss together, picked by the class of the loss
-when a rig is compiled.
+"""The normal force of a contact: elastic law and dissipation together, picked by the class of the
+dissipation when a rig is compiled.
 
-The loss is ``None``, ``NormalDissipative`` (Hunt and Crossley) or ``GeneralDissipative``. A rig
-calls ``normal_force`` for the force, ``tension_event`` for the event that ends it before the gap
-opens, ``normal_force_rate`` where friction needs dF/dt. ``hysteresis_factor`` multiplies the
+The dissipation is ``None``, ``NormalDissipative`` (Hunt and Crossley) or ``GeneralDissipative``. A
+rig calls ``normal_force`` for the force, ``tension_event`` for the event that ends it before the
+gap opens, ``normal_force_rate`` where friction needs dF/dt. ``hysteresis_factor`` multiplies the
 elastic part: 1, or what ``laws/foam_hysteresis.py`` gives. Called from Python they raise ValueError
 for a law outside its range, an argument that is nan, and a result beyond the range of numbers.
 """
@@ -23,7 +23,7 @@ from contact_sim_pkg.laws.normal_dissipative import (
     hunt_crossley_force_rate,
     hunt_crossley_tension_event,
 )
-from contact_sim_pkg.laws.parameters import ElasticLaw, GeneralDissipative, NormalLoss
+from contact_sim_pkg.laws.parameters import ElasticLaw, GeneralDissipative, NormalDissipation
 
 
 @kernel
@@ -33,14 +33,14 @@ def _event_without_approach(elastic, dissipative, approach, approach_rate, hyste
 
 Kernels = tuple[Callable[..., Any], Callable[..., Any], Callable[..., Any]]
 _USUAL: Kernels = (hunt_crossley_force, _event_without_approach, hunt_crossley_force_rate)
-_OF_LOSS: dict[Any, Kernels] = {
+_OF_DISSIPATION: dict[Any, Kernels] = {
     GeneralDissipative: (general_force, general_tension_event, general_force_rate),
 }
 
 
 def normal_force(
     elastic: ElasticLaw,
-    dissipative: NormalLoss | None,
+    dissipative: NormalDissipation | None,
     approach: float,
     approach_rate: float,
     hysteresis_factor: float,
@@ -52,7 +52,9 @@ def normal_force(
     """
     _check(elastic, dissipative, approach, approach_rate, hysteresis_factor)
     value = float(
-        _OF_LOSS.get(type(dissipative), _USUAL)[0](elastic, dissipative, approach, approach_rate, hysteresis_factor)
+        _OF_DISSIPATION.get(type(dissipative), _USUAL)[0](
+            elastic, dissipative, approach, approach_rate, hysteresis_factor
+        )
     )
     require("force [N] of this law", value)
     return value
@@ -60,7 +62,7 @@ def normal_force(
 
 def tension_event(
     elastic: ElasticLaw,
-    dissipative: NormalLoss | None,
+    dissipative: NormalDissipation | None,
     approach: float,
     approach_rate: float,
     hysteresis_factor: float,
@@ -71,13 +73,13 @@ def tension_event(
     approach: [m]; approach_rate: [m/s], closing positive; hysteresis_factor: [-].
     """
     _check(elastic, dissipative, approach, approach_rate, hysteresis_factor)
-    margin = _OF_LOSS.get(type(dissipative), _USUAL)[1]
+    margin = _OF_DISSIPATION.get(type(dissipative), _USUAL)[1]
     return float(margin(elastic, dissipative, approach, approach_rate, hysteresis_factor))
 
 
 def normal_force_rate(
     elastic: ElasticLaw,
-    dissipative: NormalLoss | None,
+    dissipative: NormalDissipation | None,
     approach: float,
     approach_rate: float,
     approach_acceleration: float,
@@ -86,14 +88,18 @@ def normal_force_rate(
     """dF/dt in [N/s] at ``approach_acceleration`` [m/s^2], ``hysteresis_factor`` held."""
     _check(elastic, dissipative, approach, approach_rate, hysteresis_factor)
     require("approach acceleration [m/s^2]", approach_acceleration, infinite=True)
-    force_rate = _OF_LOSS.get(type(dissipative), _USUAL)[2]
+    force_rate = _OF_DISSIPATION.get(type(dissipative), _USUAL)[2]
     value = float(force_rate(elastic, dissipative, approach, approach_rate, approach_acceleration, hysteresis_factor))
     require("rate of the force [N/s] of this law", value)
     return value
 
 
 def pressure_factor(
-    elastic: ElasticLaw, dissipative: NormalLoss | None, approach: float, approach_rate: float, hysteresis_factor: float
+    elastic: ElasticLaw,
+    dissipative: NormalDissipation | None,
+    approach: float,
+    approach_rate: float,
+    hysteresis_factor: float,
 ) -> float:
     """Ratio of the contact force to the elastic one: with it the elastic pressures add up to the
     force.
@@ -108,10 +114,10 @@ def pressure_factor(
     return force / spring if spring > 0.0 else 1.0
 
 
-def check_loss(dissipative: NormalLoss | None) -> None:
-    """Raises ValueError where a parameter of the loss is outside its range."""
+def check_dissipation(dissipative: NormalDissipation | None) -> None:
+    """Raises ValueError where a parameter of the dissipation is outside its range."""
     if isinstance(dissipative, GeneralDissipative):
-        require_not_negative("loss coefficient", dissipative.coefficient)
+        require_not_negative("dissipation coefficient", dissipative.coefficient)
         require("approach exponent p", dissipative.approach_exponent, least=0.0, most=4.0)
         require("rate exponent q", dissipative.rate_exponent, least=0.0, most=3.0)
         require_not_negative("smoothing speed [m/s]", dissipative.smoothing_speed)
@@ -122,17 +128,21 @@ def check_loss(dissipative: NormalLoss | None) -> None:
 
 
 def _check(
-    elastic: ElasticLaw, dissipative: NormalLoss | None, approach: float, approach_rate: float, hysteresis_factor: float
+    elastic: ElasticLaw,
+    dissipative: NormalDissipation | None,
+    approach: float,
+    approach_rate: float,
+    hysteresis_factor: float,
 ) -> None:
     check_elastic(elastic)
-    check_loss(dissipative)
+    check_dissipation(dissipative)
     require("approach [m]", approach, infinite=True)
     require("approach rate [m/s]", approach_rate, infinite=True)
     require("hysteresis factor", hysteresis_factor, least=0.0, most=2.0)
 
 
-def _kernels_of(loss_type: Any) -> Kernels:
-    return _OF_LOSS.get(getattr(loss_type, "instance_class", None), _USUAL)
+def _kernels_of(dissipation_type: Any) -> Kernels:
+    return _OF_DISSIPATION.get(getattr(dissipation_type, "instance_class", None), _USUAL)
 
 
 @kernel_overload(normal_force)

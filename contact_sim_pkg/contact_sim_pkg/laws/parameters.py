@@ -33,15 +33,15 @@ ElasticLaw: TypeAlias = NormalElastic | FoamElastic
 
 
 class NormalDissipative(NamedTuple):
-    """Hunt-Crossley loss: the elastic force is multiplied by 1 + damping * approach_rate, and never
-    pulls.
+    """Hunt-Crossley dissipation: the elastic force is multiplied by 1 + damping * approach_rate,
+    and never pulls.
     """
 
     damping: float  # [s/m], >= 0
 
 
 class GeneralDissipative(NamedTuple):
-    """Loss of the general law: ``B x**p sgn(x') |x'|**q`` is added to the elastic force
+    """Dissipation of the general law: ``B x**p sgn(x') |x'|**q`` is added to the elastic force
     (``laws/general_dissipative.py``).
     """
 
@@ -57,11 +57,11 @@ class GeneralDissipative(NamedTuple):
     )
 
 
-NormalLoss: TypeAlias = NormalDissipative | GeneralDissipative
+NormalDissipation: TypeAlias = NormalDissipative | GeneralDissipative
 
 
 class FoamHysteresis(NamedTuple):
-    """Loss of foam without rate: an internal variable that follows the loading
+    """Dissipation of foam without rate: an internal variable that follows the loading
     (``laws/foam_hysteresis.py``).
     """
 
@@ -87,6 +87,6 @@ class Contact(NamedTuple):
     """
 
     elastic: ElasticLaw
-    dissipative: NormalLoss | None
+    dissipative: NormalDissipation | None
     friction: Friction | None
     hysteresis: FoamHysteresis | None = None

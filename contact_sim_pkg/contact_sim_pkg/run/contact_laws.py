@@ -4,7 +4,13 @@ from __future__ import annotations
 
 from contact_sim_pkg.laws import parameters
 from contact_sim_pkg.laws.general_dissipative import SMOOTHING
-from contact_sim_pkg.laws.parameters import ElasticLaw, GeneralDissipative, NormalDissipative, NormalElastic, NormalLoss
+from contact_sim_pkg.laws.parameters import (
+    ElasticLaw,
+    GeneralDissipative,
+    NormalDissipation,
+    NormalDissipative,
+    NormalElastic,
+)
 from contact_sim_pkg.laws.restitution import damping_of_restitution
 from contact_sim_pkg.laws.restitution_law import NEVER_PULLS, PULLS, coefficient_of_restitution
 from contact_sim_pkg.scene.errors import Fault, SceneError
@@ -32,7 +38,7 @@ def elastic_law(scene: ResolvedScene, contact: str) -> ElasticLaw:
     )
 
 
-def normal_loss(scene: ResolvedScene, contact: str, elastic: ElasticLaw, mass: float) -> NormalLoss | None:
+def normal_loss(scene: ResolvedScene, contact: str, elastic: ElasticLaw, mass: float) -> NormalDissipation | None:
     """Loss of a contact, from its damping or its restitution; None where the scene calls for none.
 
     ``mass`` [kg] is what a free impact with the requested restitution moves. Raises SceneError where the law does not

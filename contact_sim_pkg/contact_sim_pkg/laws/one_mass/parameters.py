@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import NamedTuple
 
-from contact_sim_pkg.laws.parameters import Friction, NormalElastic, NormalLoss
+from contact_sim_pkg.laws.parameters import Friction, NormalDissipation, NormalElastic
 
 
 class PointContact(NamedTuple):
@@ -18,7 +18,7 @@ class PointContact(NamedTuple):
     support_amplitude: float  # [m]
     support_frequency: float  # [rad/s]
     elastic: NormalElastic
-    dissipative: NormalLoss | None
+    dissipative: NormalDissipation | None
 
 
 class ImpactWorks(NamedTuple):

@@ -18,11 +18,9 @@ from contact_sim_pkg.laws.parameters import NormalDissipative, NormalElastic
 
 __all__ = ["OneMassCourse", "RunFailureError", "free_impact", "impact_speeds", "integrate", "seat_slap"]
 
-ORDER = (
-    # Of the integrator: its steps are not cut short by a drive, and it is the less expensive one
-    # below a tolerance of 1e-4
-    8
-)
+# Of the integrator: its steps are not cut short by a drive, and it is the less expensive one below
+# a tolerance of 1e-4.
+ORDER = 8
 EVENT_FUNCTIONS = {
     PointContact: point_contact.EVENT_FUNCTIONS,
     ImpactWorks: impact_works.EVENT_FUNCTIONS,

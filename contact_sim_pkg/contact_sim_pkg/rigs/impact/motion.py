@@ -30,11 +30,9 @@ from contact_sim_pkg.rigs.impact.theory.contact import (
 from contact_sim_pkg.rigs.impact.theory.errors import ImpactError
 from contact_sim_pkg.run.errors import RunError
 
-AT_REST = (
-    # Energy of a motion in contact, over that of the weight on the static depth, below which the
-    # sphere rests
-    1.0e-12
-)
+# Energy of a motion in contact, over that of the weight on the static depth, below which the
+# sphere rests
+AT_REST = 1.0e-12
 STILL = 1.0e-9  # [m/s]: a pendulum that leaves the sample more slowly hangs at rest on it
 MOST_SEGMENTS = 10_000  # a block
 

@@ -116,9 +116,16 @@ class RollerSimulation:
         angles = numpy.ascontiguousarray(angles[:-1])
         rolling_contacts(curvatures, angles[:, 1].copy(), model.modulus, loads[:-1], model.kind, contacts)
         return RollerRecord(
-            block, timing.block_length / samples, loads[:-1], heave[:, :-1], angles,
-            self._acceleration(curvatures, loads[:-1], angles, heave[1, :-1]), contacts, steps, energy,
-        )  # fmt: skip
+            block=block,
+            period=timing.block_length / samples,
+            load=loads[:-1],
+            heave=heave[:, :-1],
+            angles=angles,
+            acceleration=self._acceleration(curvatures, loads[:-1], angles, heave[1, :-1]),
+            contacts=contacts,
+            steps=steps,
+            energy=energy,
+        )
 
     def _energy(self) -> Energies:
         parts = [part.energies() for part in (self._ride, self._angles) if part is not None]

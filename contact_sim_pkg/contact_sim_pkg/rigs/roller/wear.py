@@ -120,7 +120,9 @@ def _first_heights(effect: TrackWaves, seed: int | list[int], cells: int, waves:
 
 
 def _hardness(model: RollerModel, body: str, cells: int) -> Vector:
-    """Limits round a track over those of `subsurface`: straight between the given places, 1 where none are given."""
+    """Limits round a track over those of `subsurface`: straight between the given places, 1
+    where none are given.
+    """
     damage = model.damage
     limits = [] if damage is None else damage.roller_hardness if body == "roller" else damage.hardness
     limits = limits or [1.0]

@@ -36,7 +36,15 @@ def field_settings(
     assert passes is not None
     belt = None if envelopment is None else BeltSettings(envelopment.tension, envelopment.foundation)
     return FieldSettings(
-        rows, cols, field.length / rows, field.width / cols, modulus, tolerance, FIELD_ITERATIONS, passes, belt
+        rows=rows,
+        cols=cols,
+        cell_x=field.length / rows,
+        cell_y=field.width / cols,
+        modulus=modulus,
+        tolerance=tolerance,
+        maximum_iterations=FIELD_ITERATIONS,
+        corrector_passes=passes,
+        belt=belt,
     )
 
 

@@ -6,7 +6,7 @@ import math
 
 import numpy
 
-from contact_sim_pkg.laws.normal_dissipative import loss_factor
+from contact_sim_pkg.laws.normal_dissipative import dissipation_factor
 from contact_sim_pkg.laws.normal_elastic import elastic_energy, elastic_force, elastic_stiffness
 from contact_sim_pkg.laws.parameters import NormalDissipative, NormalElastic
 from contact_sim_pkg.laws.restitution import damping_of_restitution
@@ -35,7 +35,7 @@ def smallest_indentation() -> Finding:
 def never_pulls() -> Finding:
     """Smallest loss factor while the bodies part faster than the material recovers."""
     loss = NormalDissipative(1.0)
-    return exactly(min(loss_factor(loss, -speed) for speed in (1.0, 1.0 + 1e-12, 2.0, 1e3, 1e300)), 0.0)
+    return exactly(min(dissipation_factor(loss, -speed) for speed in (1.0, 1.0 + 1e-12, 2.0, 1e3, 1e300)), 0.0)
 
 
 def low_restitution() -> Finding:

@@ -16,7 +16,7 @@ import numpy
 
 from contact_sim_pkg.laws.one_mass.parameters import PointContact
 from contact_sim_pkg.laws.one_mass.runs import integrate
-from contact_sim_pkg.laws.parameters import GeneralDissipative, NormalElastic, NormalLoss
+from contact_sim_pkg.laws.parameters import GeneralDissipative, NormalDissipation, NormalElastic
 from contact_sim_pkg.laws.restitution import damping_of_restitution
 from contact_sim_pkg.laws.restitution_law import NEVER_PULLS, PULLS, kelvin_voigt_ratio, severity_of_restitution
 from contact_sim_pkg.records.work_precision import Row, Rung, WorkPrecision, milliseconds, relative, row
@@ -55,7 +55,9 @@ def rows() -> list[Row]:
     return found
 
 
-def delivered(elastic: NormalElastic, loss: NormalLoss | None, mass: float = MASS, speed: float = SPEED) -> float:
+def delivered(
+    elastic: NormalElastic, loss: NormalDissipation | None, mass: float = MASS, speed: float = SPEED
+) -> float:
     """Ratio of the speeds after and before a free impact, integrated to 1e-12 of depth and speed."""
     depth = impact.elastic_impact(mass, speed, elastic.coefficient, elastic.exponent)[1]
     rig = PointContact(mass, 0.0, 0.0, 0.0, elastic, loss)

@@ -114,7 +114,17 @@ def build_tire(scene: ResolvedScene, occupant: OccupantSection | None) -> TirePa
     law, length, field = _elastic(scene, given_tire, load, geometry, tread)
     contact = Contact(law, normal_loss(scene, "tire", law, load / GRAVITY), None)
     asperities = _asperities(scene, geometry, load)
-    return TireParts(tire, carcass, contact, geometry, length, field, tread, _rolling_friction(scene), asperities)
+    return TireParts(
+        tire=tire,
+        carcass=carcass,
+        contact=contact,
+        geometry=geometry,
+        footprint_length=length,
+        field=field,
+        tread=tread,
+        rolling_friction=_rolling_friction(scene),
+        asperities=asperities,
+    )
 
 
 def _elastic(

@@ -85,9 +85,16 @@ class RoadSupport(Support):
         assert geometry is not None
         out = self._gaps[settings.rows]
         inside = tire_gap(
-            road.height, road.first_row, settings.cell_x, settings.cell_y, geometry.radius_rolling,
-            geometry.radius_lateral, self.road_row(settings), self.travel, out,
-        )  # fmt: skip
+            road.height,
+            road.first_row,
+            cell_x=settings.cell_x,
+            cell_y=settings.cell_y,
+            radius_rolling=geometry.radius_rolling,
+            radius_lateral=geometry.radius_lateral,
+            first=self.road_row(settings),
+            travel=self.travel,
+            out=out,
+        )
         if not inside:
             raise RunError(
                 f"road/patch: block {road.block} does not reach over the pressure grid at {self.travel:.6g} m"
@@ -128,11 +135,23 @@ class RoadSupport(Support):
         geometry, road, settings = self._geometry, self._road, field.settings
         assert geometry is not None
         rows, cols = geometry.lattice.road_rows, geometry.lattice.road_cols
-        return bool(touches_beyond(
-            road.height, road.first_row, geometry.radius_rolling, geometry.radius_lateral,
-            round(self.travel / settings.cell_x) - rows // 2, self.travel, approach, settings.modulus, settings.cell_x,
-            settings.cell_y, field.pressure, rows, cols,
-        ))  # fmt: skip
+        return bool(
+            touches_beyond(
+                road.height,
+                road.first_row,
+                radius_rolling=geometry.radius_rolling,
+                radius_lateral=geometry.radius_lateral,
+                first=round(self.travel / settings.cell_x) - rows // 2,
+                travel=self.travel,
+                approach=approach,
+                modulus=settings.modulus,
+                cell_x=settings.cell_x,
+                cell_y=settings.cell_y,
+                pressure=field.pressure,
+                rows=rows,
+                cols=cols,
+            )
+        )
 
     def origin(self, settings: FieldSettings) -> tuple[float, float]:
         """See Support."""

@@ -64,7 +64,14 @@ class RollingShear:
         step = rolling_step(travel - before, *friction.slips_at(0.5 * (self._time + time)))
         grid = PatchGrid(origin_x - row * wide.cell_x, origin_y - col * wide.cell_y, wide.cell_x, wide.cell_y)
         result = advance_brush(
-            friction.brush, self._bristles, grid, self._pressure, step, self._shear_x, self._shear_y, self._state
+            friction.brush,
+            self._bristles,
+            grid,
+            self._pressure,
+            step,
+            shear_x=self._shear_x,
+            shear_y=self._shear_y,
+            mode=self._state,
         )
         self._time, self._travel = time, travel
         shear_x, shear_y = self._shear_x[part].copy(), self._shear_y[part].copy()
