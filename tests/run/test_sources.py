@@ -14,6 +14,7 @@ def notes(*values):
 def test_a_sine_that_its_samples_follow_to_the_accuracy_has_no_note():
     assert notes() == []
     assert notes("accuracy=1e-6", "vibration.sample_rate=12500") == []
+    assert notes("accuracy=realtime") == []
 
 
 @pytest.mark.parametrize(("values", "rate"), [(["accuracy=1e-6"], 12_500), (["vibration.frequency=40"], 4000)])

@@ -16,9 +16,11 @@ from contact_sim_pkg.records.messages import RoadPatch, VibrationBlock
 from contact_sim_pkg.records.registry import rigs
 from contact_sim_pkg.records.rig import load
 from contact_sim_pkg.scene.resolved_scene import ResolvedScene
+from contact_sim_pkg.scene.schema.accuracy import requested
 
 if TYPE_CHECKING:
     from contact_sim_pkg.excitation.signals import Waveform
+    from contact_sim_pkg.scene.schema.vibration import SweepSection, Vibration
 
 BORDER_NAMES = {"refuse": "none", "zero": "zero", "keep": "constant", "repeat": "repeat", "reflect": "reflect"}
 USUAL_RATES = (1000, 2000, 2500, 4000, 5000, 10_000, 12_500, 20_000, 25_000, 40_000, 50_000, 100_000)
@@ -60,7 +62,7 @@ def make_road(scene: ResolvedScene) -> RoadBlocks:
     lattice = road_lattice(scene)
     half_length = (lattice.road_rows // 2 + 1) * lattice.cell_x
     surface = make_surface(scene, lattice.cell_x)
-    if scene.data["road"]["kind"] == "opencrg":
+    if scene.road is not None and scene.road.kind == "opencrg":
         from contact_sim_pkg.excitation.opencrg.road import OpenCrgRoad
 
         if isinstance(surface, OpenCrgRoad):
@@ -73,69 +75,91 @@ def make_road(scene: ResolvedScene) -> RoadBlocks:
 
 def road_lattice(scene: ResolvedScene) -> RoadLattice:
     """The strip of road that the rig of a resolved scene needs."""
-    lattice: RoadLattice = load(rigs()[scene.data["rig"]].road_strip)(scene.data)
+    lattice: RoadLattice = load(rigs()[scene.rig].road_strip)(scene.data)
     return lattice
 
 
 def make_surface(scene: ResolvedScene, cell: float) -> Surface:
     """The surface of a resolved scene's road; `cell` [m] is the finest spacing at which it is asked. Raises ExcitationError."""
-    road = scene.data["road"]
-    kind = road["kind"]
-    if kind == "iso8608":
+    road = scene.road
+    assert road is not None
+    if road.kind == "iso8608":
         from contact_sim_pkg.excitation.iso8608 import Iso8608Road, roughness_of_class
 
-        roughness = roughness_of_class(road["roughness_class"]) if road.get("roughness_class") else road["roughness"]
-        texture = road.get("texture") or {}
+        roughness = road.roughness if road.roughness_class is None else roughness_of_class(road.roughness_class)
+        assert roughness is not None
         return Iso8608Road(
-            roughness, scene.data["seed"], road["length"], road["exponent"], road["shortest_wavelength"],
-            road["longest_wavelength"], texture.get("shortest_wavelength"), cell,
+            roughness, scene.seed, road.length, road.exponent, road.shortest_wavelength, road.longest_wavelength,
+            None if road.texture is None else road.texture.shortest_wavelength, cell,
         )  # fmt: skip
-    if kind == "opencrg":
+    if road.kind == "opencrg":
         from contact_sim_pkg.excitation.opencrg.road import OpenCrgRoad
 
         return OpenCrgRoad(
-            scene.file_path("road.file"), road["start"], road["track_offset"], road["missing_cells"],
-            road["hole_depth"], BORDER_NAMES[road["border_u"]], BORDER_NAMES[road["border_v"]],
-            "mean" if road["remove_mean"] else "origin", road["file_settings"],
+            scene.file_path("road.file"), road.start, road.track_offset, road.missing_cells, road.hole_depth,
+            BORDER_NAMES[road.border_u], BORDER_NAMES[road.border_v], "mean" if road.remove_mean else "origin",
+            road.file_settings,
         )  # fmt: skip
     from contact_sim_pkg.excitation.obstacles import FlatRoad, Obstacle
 
-    if kind == "flat":
+    if road.kind == "flat":
         return FlatRoad()
-    height = road["depth"] if kind == "pothole" else road["height"]
-    return Obstacle(kind, road["position"], height, road["length"], road.get("edge") or 0.0, road.get("period"))
+    if road.kind == "step":
+        return Obstacle(road.kind, road.position, road.height, road.length)
+    if road.kind == "bump":
+        return Obstacle(road.kind, road.position, road.height, road.length, period=road.period)
+    height = road.depth if road.kind == "pothole" else road.height
+    return Obstacle(road.kind, road.position, height, road.length, road.edge, road.period)
 
 
 def make_vibration(scene: ResolvedScene) -> VibrationBlocks:
     """The vibration of a resolved scene."""
-    vibration = scene.data["vibration"]
-    return VibrationBlocks(_signal(scene, vibration), scene.data["block_length"], vibration["sample_rate"])
+    vibration = scene.vibration
+    assert vibration is not None
+    return VibrationBlocks(_signal(scene, vibration), scene.block_length, vibration.sample_rate)
 
 
-def _signal(scene: ResolvedScene, vibration: dict[str, Any]) -> Signal:
-    kind = vibration["kind"]
-    if kind == "recorded":
+def _signal(scene: ResolvedScene, vibration: Vibration) -> Signal:
+    if vibration.kind == "recorded":
         from contact_sim_pkg.excitation.recorded import RecordedVibration
 
         recording = RecordedVibration(
-            scene.file_path("vibration.file"), vibration.get("rate"), vibration["vertical_column"],
-            vibration["forward_column"], time=vibration.get("time_column"),
-            tilt="correct" if vibration["correct_tilt"] else "keep", beyond=vibration["beyond"],
-            start=vibration["start"], sample_rate=vibration["sample_rate"], unused=_unused_axes(scene.data),
-            unit=vibration.get("unit"),
+            scene.file_path("vibration.file"), vibration.rate, vibration.vertical_column, vibration.forward_column,
+            time=vibration.time_column, tilt="correct" if vibration.correct_tilt else "keep", beyond=vibration.beyond,
+            start=vibration.start, sample_rate=vibration.sample_rate,
+            unused=rigs()[scene.rig].unused_axes(scene.data["effects"]), unit=vibration.unit,
         )  # fmt: skip
-        recording.refuse_longer_run(float(scene.data["duration"]))
+        recording.refuse_longer_run(scene.duration)
         return recording
-    from contact_sim_pkg.excitation.signals import AxisSignal
+    from contact_sim_pkg.excitation.signals import AxisSignal, HalfSine, NoiseSignal, Sine, SweepSignal
 
-    wave, notes = _wave(scene.data, vibration), _notes(vibration, float(scene.data["accuracy"]))
-    return AxisSignal(x=(wave,), notes=notes) if vibration["axis"] == "x" else AxisSignal(z=(wave,), notes=notes)
+    wave: Waveform
+    fastest = 0.0  # [Hz] of a sine, whose samples are joined by straight lines
+    if vibration.kind == "sine":
+        wave, fastest = Sine(vibration.amplitude, vibration.frequency), vibration.frequency
+    elif vibration.kind == "noise":
+        wave = NoiseSignal(vibration.rms, vibration.low, vibration.high, scene.seed)
+    elif vibration.kind == "half_sine":
+        wave = HalfSine(vibration.amplitude, vibration.start, vibration.duration)
+    else:
+        wave = SweepSignal(
+            vibration.amplitude, vibration.start_frequency, vibration.end_frequency, _sweep_duration(vibration)
+        )
+        fastest = max(vibration.start_frequency, vibration.end_frequency)
+    notes = _notes(fastest, vibration.sample_rate, requested(scene.accuracy))
+    return AxisSignal(x=(wave,), notes=notes) if vibration.axis == "x" else AxisSignal(z=(wave,), notes=notes)
 
 
-def _notes(vibration: dict[str, Any], accuracy: float) -> list[str]:
+def _sweep_duration(sweep: SweepSection) -> float:
+    """Time [s] from the start frequency to the end frequency: as given, else by the octaves per minute."""
+    if sweep.duration is not None:
+        return sweep.duration
+    assert sweep.octaves_per_minute is not None
+    return 60.0 * abs(math.log2(sweep.end_frequency / sweep.start_frequency)) / sweep.octaves_per_minute
+
+
+def _notes(fastest: float, rate: float, accuracy: float) -> list[str]:
     """Where the straight lines between samples are further off than the asked accuracy: ``1 - cos(pi f / rate)`` of a sine."""
-    fastest = max(float(vibration.get(key, 0.0)) for key in ("frequency", "start_frequency", "end_frequency"))
-    rate = float(vibration["sample_rate"])
     off = 1.0 - math.cos(math.pi * fastest / rate)
     if off <= accuracy:
         return []
@@ -146,25 +170,3 @@ def _notes(vibration: dict[str, Any], accuracy: float) -> list[str]:
         f"off; vibration.sample_rate: {enough} leaves {1.0 - math.cos(math.pi * fastest / enough):.2g}."
     )
     return [sentence]
-
-
-def _unused_axes(scene: dict[str, Any]) -> str:
-    """Axes whose acceleration moves nothing in this scene, so that a recording need not have them."""
-    return rigs()[scene["rig"]].unused_axes(scene["effects"])
-
-
-def _wave(scene: dict[str, Any], vibration: dict[str, Any]) -> Waveform:
-    from contact_sim_pkg.excitation.signals import HalfSine, NoiseSignal, Sine, SweepSignal
-
-    kind = vibration["kind"]
-    if kind == "sine":
-        return Sine(vibration["amplitude"], vibration["frequency"])
-    if kind == "noise":
-        return NoiseSignal(vibration["rms"], vibration["low"], vibration["high"], scene["seed"])
-    if kind == "half_sine":
-        return HalfSine(vibration["amplitude"], vibration["start"], vibration["duration"])
-    start, end = vibration["start_frequency"], vibration["end_frequency"]
-    duration = vibration.get("duration")
-    if duration is None:
-        duration = 60.0 * abs(math.log2(end / start)) / vibration["octaves_per_minute"]
-    return SweepSignal(vibration["amplitude"], start, end, duration)

@@ -73,6 +73,12 @@ class ResolvedScene:
         return float(self.data["block_length"])
 
     @property
+    def accuracy(self) -> float | str:
+        """Requested relative error, or `realtime`."""
+        accuracy: float | str = self.data["accuracy"]
+        return accuracy
+
+    @property
     def seed(self) -> int:
         """Seed of all random numbers."""
         return int(self.data["seed"])

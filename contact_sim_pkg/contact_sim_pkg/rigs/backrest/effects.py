@@ -17,7 +17,9 @@ __all__ = ["BACKREST_EFFECTS"]
 
 
 def _friction(scene: ResolvedScene, _observed: Observed) -> Verdict:
-    slides = float(scene.data["backrest"]["sliding"]["amplitude"])
+    from contact_sim_pkg.rigs.backrest.schema import BackrestSection
+
+    slides = scene.section(BackrestSection).sliding.amplitude
     return slides > 0.0, f"the back slides {slides:g} m along the seat back"
 
 

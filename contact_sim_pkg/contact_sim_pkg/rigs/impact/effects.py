@@ -21,7 +21,9 @@ def _loss(_scene: ResolvedScene, _observed: Observed) -> Verdict:
 
 
 def _shift(scene: ResolvedScene, _observed: Observed) -> Verdict:
-    temperatures = scene.data["impact"]["temperatures"]
+    from contact_sim_pkg.rigs.impact.schema import ImpactSection
+
+    temperatures = scene.section(ImpactSection).temperatures
     coldest, warmest = min(temperatures), max(temperatures)
     return coldest < warmest, f"the sample is {coldest:g} to {warmest:g} K warm"
 

@@ -21,11 +21,13 @@ DEMAND = 0.3  # of mu N
 def _friction(scene: ResolvedScene, observed: Observed) -> Verdict:
     if observed.forward == 0.0:
         return False, "no fore-aft input"
-    occupant = scene.data["seat"]["occupant"]
-    mass = float(occupant["frame_mass"] + sum(occupant["masses"]))
-    friction = (scene.data["effects"].get("seat") or {}).get("friction") or {}
-    limit = float(friction.get("coefficient_static", 0.4)) * float(observed.forces["seat"].min())
-    demand = mass * observed.forward
+    from contact_sim_pkg.rigs.vehicle.lattice import occupant_mass
+    from contact_sim_pkg.rigs.vehicle.seat.schema import SeatSection
+    from contact_sim_pkg.scene.schema.laws import FrictionSection
+
+    friction = scene.effect("seat", FrictionSection) or FrictionSection()
+    limit = friction.coefficient_static * float(observed.forces["seat"].min())
+    demand = occupant_mass(scene.section(SeatSection).occupant) * observed.forward
     share = demand / limit if limit > 0.0 else float("inf")
     return share > DEMAND, f"fore-aft demand up to {share:.2g} of mu N, limit {DEMAND:g}"
 

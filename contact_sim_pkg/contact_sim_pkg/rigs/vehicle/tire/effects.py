@@ -22,7 +22,6 @@ __all__ = ["TIRE_EFFECTS"]
 SHORT_WAVE = 0.4  # [m], three patch lengths
 FOOTPRINT = 0.13  # [m], one patch length
 AXLE_FREQUENCY, AXLE_SHARE = 30.0, 0.05  # [Hz], and the part of the force's variance above it that counts as content
-SHARP_ROADS = ("step", "cleat", "pothole", "ramp", "bump")
 
 
 def _field(scene: ResolvedScene, _observed: Observed) -> Verdict:
@@ -36,34 +35,34 @@ def _envelopment(scene: ResolvedScene, _observed: Observed) -> Verdict:
 
 def _short_waves(scene: ResolvedScene, limit: float, lengths: str) -> Verdict:
     """Whether the road holds waves or edges shorter than ``limit`` [m]."""
-    road = scene.data["road"]
-    kind = road["kind"]
-    if kind == "flat":
+    road = scene.road
+    if road is None or road.kind == "flat":
         return False, "the road is flat: the point contact is exact"
-    if kind == "iso8608":
-        texture = road.get("texture") or {}
-        shortest = float(texture.get("shortest_wavelength") or road["shortest_wavelength"])
+    if road.kind == "iso8608":
+        shortest = road.shortest_wavelength if road.texture is None else road.texture.shortest_wavelength
         return shortest < limit, f"shortest wave of the road {shortest:g} m, limit {limit:g} m ({lengths})"
-    if kind == "opencrg":
+    if road.kind == "opencrg":
         return True, f"a measured road holds waves down to its grid, below {lengths}"
-    edge, length = road.get("edge"), float(road.get("edge") or road["length"])
-    sharp = kind in SHARP_ROADS and (kind != "bump" or length < limit)
-    return sharp, f"{kind} with {'edges' if edge else 'a length'} of {length:g} m, limit {limit:g} m ({lengths})"
+    edge = road.edge if road.kind in ("cleat", "pothole") else 0.0
+    length = edge or road.length
+    sharp = road.kind != "bump" or length < limit
+    return sharp, f"{road.kind} with {'edges' if edge else 'a length'} of {length:g} m, limit {limit:g} m ({lengths})"
 
 
 def _carcass(scene: ResolvedScene, observed: Observed) -> Verdict:
     force = observed.forces["tire"] - observed.forces["tire"].mean()
     power = numpy.abs(numpy.fft.rfft(force)) ** 2
-    fast = numpy.fft.rfftfreq(len(force), 1.0 / float(scene.data["outputs"]["force_rate"])) > AXLE_FREQUENCY
+    fast = numpy.fft.rfftfreq(len(force), 1.0 / scene.outputs.force_rate) > AXLE_FREQUENCY
     share = float(power[fast].sum() / power.sum()) if power.sum() > 0.0 else 0.0
     why = f"{100.0 * share:.2g} % of the force's variance above {AXLE_FREQUENCY:g} Hz, limit {100.0 * AXLE_SHARE:g} %"
     return share > AXLE_SHARE, why
 
 
 def _brush(scene: ResolvedScene, _observed: Observed) -> Verdict:
-    slip = scene.data.get("slip") or {}
-    points = slip.get("points") or [[0.0, slip.get("longitudinal", 0.0), slip.get("angle", 0.0)]]
-    largest = max(abs(float(value)) for point in points for value in point[1:])
+    slip = scene.slip
+    constant = [0.0, 0.0, 0.0] if slip is None else [0.0, slip.longitudinal or 0.0, slip.angle or 0.0]
+    points = [constant] if slip is None else slip.points or [constant]
+    largest = max(abs(value) for point in points for value in point[1:])
     return largest > 0.0, f"largest slip that the scene asks for: {largest:g}"
 
 
