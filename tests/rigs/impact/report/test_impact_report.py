@@ -50,7 +50,7 @@ def test_an_effect_that_is_off_has_no_picture(tmp_path):
 
 def test_a_run_that_ends_before_the_touch_has_a_page_without_impacts(tmp_path):
     early = recording_of(tmp_path, "impact_rubber_drop", "duration=0.1")
-    assert early.impacts is None
+    assert "impacts" not in early.series
     assert shown(render(early)) == []
     assert "impacts" not in summarise_recording(early)
 
@@ -72,8 +72,8 @@ def test_the_material_of_the_run_is_that_of_its_scene(rubber):
 
 def test_many_impacts_keep_the_courses_of_the_first_alone(tmp_path):
     many = recording_of(tmp_path, "impact_steel", "impact.speeds=[0.05]", "duration=0.5", "outputs.force_rate=1000")
-    assert len(many.impacts.events.number) > MOST_COURSES
-    assert [each.number for each in many.impacts.courses] == list(range(MOST_COURSES))
+    assert len(many.series["impacts"].events.number) > MOST_COURSES
+    assert [each.number for each in many.series["impacts"].courses] == list(range(MOST_COURSES))
 
 
 def test_nothing_taken_is_no_series():
