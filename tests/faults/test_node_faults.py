@@ -99,8 +99,8 @@ def test_an_unexpected_exception_of_a_callback_is_said_once_and_ends_the_node(ro
     """The bag is closed by `fault`, and nothing is done after it."""
     from contact_sim_pkg.nodes.bench_node import LifecycleBenchNode
     from contact_sim_pkg.nodes.clock import clock_message
-    from contact_sim_pkg.nodes.endpoints import publisher, subscription
     from contact_sim_pkg.nodes.processes.process import run
+    from contact_sim_pkg.nodes.protocol.endpoints import publisher, subscription
 
     done: list[str] = []
 
@@ -186,8 +186,8 @@ def test_a_hundred_starts_and_ends_under_messages_say_nothing(ros, capfd):
     """Nodes are destroyed after their executor has returned, so no callback runs meanwhile."""
     from contact_sim_pkg.nodes.bench_node import LifecycleBenchNode
     from contact_sim_pkg.nodes.clock import clock_message
-    from contact_sim_pkg.nodes.endpoints import publisher, subscription
     from contact_sim_pkg.nodes.processes.process import run
+    from contact_sim_pkg.nodes.protocol.endpoints import publisher, subscription
 
     heard: list[int] = []
 

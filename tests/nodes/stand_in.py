@@ -8,7 +8,7 @@ from rclpy.node import Node
 from rclpy.signals import SignalHandlerOptions
 
 from contact_sim_pkg.bag.messages import decode
-from contact_sim_pkg.nodes.endpoints import publisher, subscription
+from contact_sim_pkg.nodes.protocol.endpoints import publisher, subscription
 from contact_sim_pkg.nodes.protocol.states import RunState
 from contact_sim_pkg.records.messages import BenchProgress
 

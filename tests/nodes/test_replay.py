@@ -39,7 +39,7 @@ def listener():
     from tests.nodes.stand_in import StandIn
 
     from contact_sim_pkg.bag.topics import topic_of
-    from contact_sim_pkg.nodes.endpoints import message_type, profile_of
+    from contact_sim_pkg.nodes.protocol.endpoints import message_type, profile_of
 
     with StandIn("listener", topic="road/patch") as node:
 
@@ -79,7 +79,7 @@ def test_a_subscriber_that_cannot_be_served_is_named_and_not_waited_for(bag, rep
     from rclpy.qos import DurabilityPolicy, QoSProfile
     from std_msgs.msg import String
 
-    from contact_sim_pkg.nodes.endpoints import message_type
+    from contact_sim_pkg.nodes.protocol.endpoints import message_type
 
     latched = QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL)
     kind = message_type("contact_msgs_defs/msg/ContactForce")

@@ -2,7 +2,7 @@
 
 Names are relative (a namespace puts itself in front) except `/clock` and `/diagnostics`, which ROS shares between all
 nodes. The rank is the position in the table; at equal stamps, a bag holds the messages of a block in order of rank.
-`docs/interfaces.md` shows the table, made by `nodes/interface_reference.py`.
+`docs/interfaces.md` shows the table, made by `nodes/processes/interface_reference.py`.
 """
 
 from typing import Literal, NamedTuple

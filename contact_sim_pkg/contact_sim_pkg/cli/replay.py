@@ -77,7 +77,7 @@ def command(
     """Publish the messages of BAG as they were recorded: bytes, spacing, quality of service. The
     space key pauses.
     """
-    from contact_sim_pkg.nodes.supervisor import node_arguments, set_default_environment
+    from contact_sim_pkg.nodes.processes.environment import node_arguments, set_default_environment
 
     set_default_environment()
     from contact_sim_pkg.bag.reader import open_bag

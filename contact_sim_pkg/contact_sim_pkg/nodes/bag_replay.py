@@ -16,12 +16,12 @@ from std_srvs.srv import SetBool
 from contact_sim_pkg.bag.reader import Bag, open_bag
 from contact_sim_pkg.nodes.bench_node import LifecycleBenchNode
 from contact_sim_pkg.nodes.clock import clock_message
-from contact_sim_pkg.nodes.endpoints import message_type, publisher, refuse_strangers
 from contact_sim_pkg.nodes.parameters import declare
-from contact_sim_pkg.nodes.player import Player, ReplayProgress
 from contact_sim_pkg.nodes.processes.audience import Audience
 from contact_sim_pkg.nodes.processes.keys import Keys
 from contact_sim_pkg.nodes.processes.process import run
+from contact_sim_pkg.nodes.protocol.endpoints import message_type, publisher, refuse_strangers
+from contact_sim_pkg.nodes.protocol.player import Player, ReplayProgress
 from contact_sim_pkg.nodes.protocol.recorded_qos import profile_of_recorded
 from contact_sim_pkg.nodes.protocol.states import DONE, REFUSED, NodeError
 

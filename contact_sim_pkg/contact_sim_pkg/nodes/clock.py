@@ -10,7 +10,7 @@ from rclpy.topic_endpoint_info import TopicEndpointInfo
 
 from contact_sim_pkg.bag.encoding import SECOND
 from contact_sim_pkg.bag.messages import encode
-from contact_sim_pkg.nodes.endpoints import UNKNOWN, describe_endpoint, publisher
+from contact_sim_pkg.nodes.protocol.endpoints import UNKNOWN, describe_endpoint, publisher
 from contact_sim_pkg.records.messages import Clock, Time
 
 CLOCK = "/clock"

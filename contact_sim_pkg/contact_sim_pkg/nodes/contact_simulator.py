@@ -13,10 +13,10 @@ from contact_sim_pkg.compiled.jit import closed
 from contact_sim_pkg.nodes.bench_node import LifecycleBenchNode
 from contact_sim_pkg.nodes.clock import SimulatedClock
 from contact_sim_pkg.nodes.diagnostics import Diagnostics
-from contact_sim_pkg.nodes.endpoints import numbered_subscription, publisher, publisher_ids, subscription
 from contact_sim_pkg.nodes.parameters import declare, declare_input_timeout, declare_pace, declare_record, declare_scene
 from contact_sim_pkg.nodes.processes.process import run
 from contact_sim_pkg.nodes.processes.scene_file import block_length_ns, queue_depth, read_scene
+from contact_sim_pkg.nodes.protocol.endpoints import numbered_subscription, publisher, publisher_ids, subscription
 from contact_sim_pkg.nodes.protocol.input_blocks import InputBlocks
 from contact_sim_pkg.nodes.protocol.logger_answers import LoggerAnswers
 from contact_sim_pkg.nodes.protocol.pacing import Lateness, Pacer

@@ -6,7 +6,7 @@ from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus, KeyValue
 from rclpy.duration import Duration
 from rclpy.node import Node
 
-from contact_sim_pkg.nodes.endpoints import publisher
+from contact_sim_pkg.nodes.protocol.endpoints import publisher
 from contact_sim_pkg.nodes.protocol.states import RunState
 from contact_sim_pkg.records.messages import BenchProgress
 

@@ -11,7 +11,6 @@ from rclpy.node import Node
 
 from contact_sim_pkg.bag.messages import decode, encode
 from contact_sim_pkg.nodes.bench_node import SUPERVISOR_TEXT
-from contact_sim_pkg.nodes.endpoints import publisher, subscription
 from contact_sim_pkg.nodes.parameters import declare, declare_pace, declare_record, declare_scene
 from contact_sim_pkg.nodes.processes.scene_file import (
     block_length_ns,
@@ -20,6 +19,7 @@ from contact_sim_pkg.nodes.processes.scene_file import (
     read_scene,
     write_description,
 )
+from contact_sim_pkg.nodes.protocol.endpoints import publisher, subscription
 from contact_sim_pkg.nodes.protocol.pacing import Pacer
 from contact_sim_pkg.nodes.protocol.states import REFUSED, Follower, NodeError, RecordedFollower, RunState
 from contact_sim_pkg.nodes.protocol.window import BlockWindow

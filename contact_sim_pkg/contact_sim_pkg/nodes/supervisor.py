@@ -7,58 +7,27 @@ from __future__ import annotations
 import os
 import sys
 import time
-from collections.abc import Callable, Mapping
+from collections.abc import Callable
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import TYPE_CHECKING
 
-from contact_sim_pkg.nodes.processes.children import GRACE_SECONDS, Child, Children, ErrorLines
+from contact_sim_pkg.nodes.processes.children import Child, Children, ErrorLines
+from contact_sim_pkg.nodes.processes.environment import node_arguments, set_default_environment
 from contact_sim_pkg.nodes.processes.run_folder import RunFolder
 from contact_sim_pkg.nodes.processes.run_plan import planned_nodes
 from contact_sim_pkg.nodes.processes.scene_file import count_blocks, descriptions_beside, write_reason, write_scene
 from contact_sim_pkg.nodes.processes.shared_memory import mapped_segments
+from contact_sim_pkg.nodes.processes.stop_requests import StopRequests
+from contact_sim_pkg.nodes.processes.supervised_run import Report, SupervisedRun, report_of
 from contact_sim_pkg.nodes.protocol.states import DONE, FAULT, LOSS, REFUSED, NodeError, RunState
 from contact_sim_pkg.scene.resolved_scene import ResolvedScene
 
 if TYPE_CHECKING:
     from contact_sim_pkg.nodes.processes.run_monitor import RunMonitor
 
-DEFAULT_ENVIRONMENT = {  # each only where the caller has not set it
-    "ROS_AUTOMATIC_DISCOVERY_RANGE": "LOCALHOST",
-    "NUMBA_NUM_THREADS": "1",
-    "OPENBLAS_NUM_THREADS": "1",
-    "RCUTILS_CONSOLE_OUTPUT_FORMAT": "{severity} {name}: {message}",
-}
 LOOK_SECONDS = 0.05  # between two looks at the processes
 SEGMENT_SECONDS = 1.0  # between two looks at their shared memory
 END_SECONDS = 15.0  # for the processes to end by themselves once the run has ended
-ASK_SECONDS = 0.9  # after the user's signal, for the simulator to end the run; then every process is asked
-STOP_SECONDS = 1.7  # after the user's signal, for all processes to end; then they are killed
-LEAST_GRACE = 0.1  # from asking a process to killing it
-
-
-class Report(NamedTuple):
-    """Where a supervised run stands, for the display."""
-
-    state: str
-    block: int  # blocks done
-    blocks: int
-    simulated: float  # [s]
-    real_time_factor: float
-    load: float  # [N]
-    peak_pressure: float  # [Pa]
-
-
-class SupervisedRun(NamedTuple):
-    """How a supervised run ended."""
-
-    blocks: int  # done
-    startup: float  # [s] from the call to ready
-    wall: float  # [s] from ready to the last message recorded
-    bag: Path | None  # None where nothing was recorded
-    stopped: bool  # ended by the user before the last block
-    failure: str  # sentence of the fault that ended it; empty where there is none
-    exit_status: int
-    excitation: dict[str, dict[str, Any]]  # by topic, what was found in it and done about it
 
 
 class Supervisor:
@@ -77,20 +46,17 @@ class Supervisor:
             clock: publish simulated time on `/clock`, unless somebody else does.
         """
         self._scene, self._directory, self._from_bag, self._clock = scene, directory, from_bag, clock
-        self._stop_count = 0
-        self._asked, self._asked_at = 0, float("inf")
+        self._stops = StopRequests()
         self._failure, self._exit_status = "", DONE
 
     def stop(self) -> None:
         """The user wants the end; may be called from a signal handler. The second call does not
         wait for the bag.
         """
-        self._stop_count += 1
+        self._stops.add()
 
     def run(self, on_report: Callable[[Report], None], say: Callable[[str], None]) -> SupervisedRun:
-        """Run to the end; `on_report` hears where the run stands, `say` what the nodes say, a line
-        at a time.
-        """
+        """Run to the end; `on_report` gets the state of the run, `say` the lines of the nodes."""
         began = time.monotonic()
         set_default_environment()
         say(
@@ -118,7 +84,7 @@ class Supervisor:
         """End what still lives; the logger keeps in its bag who died of what."""
         if self._failure:
             write_reason(scene, self._failure)
-        killed = children.end(max(LEAST_GRACE, min(GRACE_SECONDS, self._asked_at + STOP_SECONDS - time.monotonic())))
+        killed = children.end(self._stops.grace(time.monotonic()))
         bag = self._directory
         unclosed = bag is not None and bag.is_dir() and not (bag / "metadata.yaml").exists()
         if "bag_logger" in killed and unclosed and not self._failure:
@@ -149,9 +115,10 @@ class Supervisor:
                 children.look()
                 folder.keep_segments(children.segments() | mapped_segments(os.getpid()))
             if monitor.run.last is not None:
-                on_report(self._report(monitor))
-            self._hand_on_stop(children, monitor, now)
-            if now > self._asked_at + STOP_SECONDS:
+                on_report(report_of(monitor.run.last, float(self._scene.data["block_length"])))
+            under_way = monitor.run.state in (RunState.READY, RunState.RUNNING)
+            self._stops.hand_on(children, now, under_way=under_way)
+            if self._stops.expired(now):
                 return
             if monitor.run.state.ended:
                 ended_at = min(ended_at, now)
@@ -160,22 +127,10 @@ class Supervisor:
                 return
             fallen = children.fallen()
         fallen = fallen or children.fallen()
-        set_up_broken_off = (
-            self._asked > 0 and monitor.run.state < RunState.READY
-        )  # however a node took it, nothing was lost
+        # However a node reacted to the end of its set-up, nothing was lost.
+        set_up_broken_off = self._stops.any and monitor.run.state < RunState.READY
         if fallen is not None and not set_up_broken_off:
             self._on_fallen(fallen, monitor)
-
-    def _hand_on_stop(self, children: Children, monitor: RunMonitor, now: float) -> None:
-        """A run under way is ended by its simulator, so that the bag gets whole; otherwise every
-        process is asked to end.
-        """
-        if self._asked == 1 and now > self._asked_at + ASK_SECONDS:
-            self._stop_count += 1
-        if self._stop_count > self._asked:
-            self._asked, self._asked_at = self._stop_count, min(self._asked_at, now)
-            under_way = monitor.run.state in (RunState.READY, RunState.RUNNING) and self._asked == 1
-            children.ask(*(("contact_simulator",) if under_way else ()))
 
     def _fail(self, sentence: str, exit_status: int) -> None:
         self._failure, self._exit_status = sentence, exit_status
@@ -187,18 +142,11 @@ class Supervisor:
         status = fallen.status if fallen.status in (REFUSED, LOSS) and not reported else FAULT
         self._fail(reported or fallen.describe_end(), status)
 
-    def _report(self, monitor: RunMonitor) -> Report:
-        last = monitor.run.last
-        assert last is not None
-        simulated = (last.block + 1) * float(self._scene.data["block_length"])
-        values = (last.real_time_factor, last.load, last.peak_pressure)
-        return Report(RunState(last.state).name.lower(), last.block + 1, last.blocks, simulated, *values)
-
     def _outcome(self, monitor: RunMonitor, began: float, scene: Path) -> SupervisedRun:
         ready = monitor.ready_at or time.monotonic()
         last = monitor.recorded_at if self._directory is not None else monitor.done_at
         bag = self._directory if self._directory is not None and self._directory.is_dir() else None
-        stopped = self._asked > 0 or monitor.run.state is RunState.STOPPED
+        stopped = self._stops.any or monitor.run.state is RunState.STOPPED
         done = monitor.run.block + 1
         if not self._failure and not stopped and done < count_blocks(self._scene):
             self._fail(f"the run ended after {done} blocks without a word", FAULT)
@@ -212,23 +160,3 @@ class Supervisor:
             exit_status=self._exit_status,
             excitation=descriptions_beside(scene),
         )
-
-
-def set_default_environment() -> None:
-    """What every process of the bench wants from its environment, where the caller has not set it."""
-    for name, value in DEFAULT_ENVIRONMENT.items():
-        os.environ.setdefault(name, value)
-
-
-def node_arguments(parameters: Mapping[str, str | float | bool]) -> list[str]:
-    """The ROS arguments that give a node these parameters; nothing is logged into the user's home."""
-    arguments = ["--ros-args", "--disable-external-lib-logs"]
-    for name, value in parameters.items():
-        arguments += ["-p", f"{name}:={_yaml(value)}"]
-    return arguments
-
-
-def _yaml(value: str | float | bool) -> str:
-    if isinstance(value, bool):
-        return str(value).lower()
-    return "'" + value.replace("'", "''") + "'" if isinstance(value, str) else repr(value)

@@ -20,7 +20,7 @@ sys.stdin.read()
 TAKES_PART = """
 import sys
 from pathlib import Path
-from contact_sim_pkg.nodes import run_folder, shared_memory
+from contact_sim_pkg.nodes.processes import run_folder, shared_memory
 shared_memory.FOLDER = Path(sys.argv[2])
 run_folder.hold(Path(sys.argv[1]))
 print("in", flush=True)

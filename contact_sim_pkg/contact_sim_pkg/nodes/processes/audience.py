@@ -12,7 +12,7 @@ from rclpy.publisher import Publisher
 from rclpy.qos import DurabilityPolicy, QoSProfile, ReliabilityPolicy
 from rclpy.topic_endpoint_info import TopicEndpointInfo
 
-from contact_sim_pkg.nodes.endpoints import UNKNOWN, describe_endpoint
+from contact_sim_pkg.nodes.protocol.endpoints import UNKNOWN, describe_endpoint
 
 QUIET_SECONDS = 0.5  # without news of the graph before it counts as known
 BUSY_SECONDS = 0.2  # between two looks: the machine is busy, and others may not have had their turn to answer

@@ -23,8 +23,8 @@ from rclpy.task import Future
 
 from contact_sim_pkg.bag.errors import BagError
 from contact_sim_pkg.excitation.errors import ExcitationError
-from contact_sim_pkg.nodes.endpoints import raise_kept
 from contact_sim_pkg.nodes.processes.run_folder import leave
+from contact_sim_pkg.nodes.protocol.endpoints import raise_kept
 from contact_sim_pkg.nodes.protocol.states import FAULT, REFUSED, NodeError
 from contact_sim_pkg.run.errors import RunError
 from contact_sim_pkg.scene.errors import SceneError

@@ -13,8 +13,8 @@ from rclpy.node import Node
 from rclpy.signals import SignalHandlerOptions
 
 from contact_sim_pkg.bag.messages import decode
-from contact_sim_pkg.nodes.endpoints import raise_kept, subscription
 from contact_sim_pkg.nodes.processes.process import hear, make_executor, step_back
+from contact_sim_pkg.nodes.protocol.endpoints import raise_kept, subscription
 from contact_sim_pkg.nodes.protocol.states import Follower, RecordedFollower, RunState
 from contact_sim_pkg.records.messages import BenchProgress, BenchRecorded
 

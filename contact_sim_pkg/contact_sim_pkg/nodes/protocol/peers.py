@@ -8,7 +8,7 @@ from rclpy.node import Node
 from rclpy.publisher import Publisher
 from rclpy.subscription import Subscription
 
-from contact_sim_pkg.nodes.endpoints import refuse_strangers
+from contact_sim_pkg.nodes.protocol.endpoints import refuse_strangers
 
 NAME_SECONDS = 3.0  # for the graph to learn a stranger's name before it is refused without one
 

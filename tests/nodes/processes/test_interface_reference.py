@@ -9,7 +9,7 @@ from tests.bench_process import resolved
 
 from contact_sim_pkg.bag.reader import open_bag
 from contact_sim_pkg.bag.topics import TOPICS, full_name
-from contact_sim_pkg.nodes.interface_reference import (
+from contact_sim_pkg.nodes.processes.interface_reference import (
     PARAMETERS,
     FieldRow,
     message_fields,
@@ -23,7 +23,7 @@ from contact_sim_pkg.scene.load import shipped_names
 from contact_sim_pkg.scene.renamed_keys import RENAMED
 from contact_sim_pkg.scene.schema.catalog import catalog, without_kinds
 
-ROOT = Path(__file__).resolve().parents[2]
+ROOT = Path(__file__).resolve().parents[3]
 TEXT = (ROOT / PARAMETERS).read_text(encoding="utf-8")
 
 
@@ -36,7 +36,7 @@ def rows():
 
 def test_the_tables_of_the_document_are_those_of_the_code():
     text = (ROOT / "docs" / "interfaces.md").read_text(encoding="utf-8")
-    command = "python -m contact_sim_pkg.nodes.interface_reference docs/interfaces.md"
+    command = "python -m contact_sim_pkg.nodes.processes.interface_reference docs/interfaces.md"
     assert with_tables(text, TEXT) == text, f"run: {command}"
 
 

@@ -5,7 +5,7 @@ from typing import NamedTuple
 import pytest
 
 from contact_sim_pkg.bag.errors import BagError
-from contact_sim_pkg.nodes.player import Player
+from contact_sim_pkg.nodes.protocol.player import Player
 
 
 class Entry(NamedTuple):

@@ -1,0 +1,33 @@
+"""Environment and ROS arguments of the processes of the bench. Without ROS."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Mapping
+
+DEFAULT_ENVIRONMENT = {  # each only where the caller has not set it
+    "ROS_AUTOMATIC_DISCOVERY_RANGE": "LOCALHOST",
+    "NUMBA_NUM_THREADS": "1",
+    "OPENBLAS_NUM_THREADS": "1",
+    "RCUTILS_CONSOLE_OUTPUT_FORMAT": "{severity} {name}: {message}",
+}
+
+
+def set_default_environment() -> None:
+    """Set the environment of every process of the bench, where the caller has not."""
+    for name, value in DEFAULT_ENVIRONMENT.items():
+        os.environ.setdefault(name, value)
+
+
+def node_arguments(parameters: Mapping[str, str | float | bool]) -> list[str]:
+    """The ROS arguments that give a node these parameters; nothing is logged into the user's home."""
+    arguments = ["--ros-args", "--disable-external-lib-logs"]
+    for name, value in parameters.items():
+        arguments += ["-p", f"{name}:={_yaml(value)}"]
+    return arguments
+
+
+def _yaml(value: str | float | bool) -> str:
+    if isinstance(value, bool):
+        return str(value).lower()
+    return "'" + value.replace("'", "''") + "'" if isinstance(value, str) else repr(value)

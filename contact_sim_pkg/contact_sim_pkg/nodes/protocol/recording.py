@@ -1,0 +1,117 @@
+"""The bag of a run while it is recorded: messages held until their block is whole, then written. Without ROS."""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Callable
+from contextlib import suppress
+from pathlib import Path
+from typing import Any, NamedTuple
+
+from contact_sim_pkg.bag.errors import BagError
+from contact_sim_pkg.bag.messages import encode
+from contact_sim_pkg.bag.metadata import recorded_topics
+from contact_sim_pkg.bag.writer import BagSummary, BagWriter
+from contact_sim_pkg.nodes.protocol.record_order import HeldMessage, RecordOrder
+from contact_sim_pkg.nodes.protocol.record_outcome import outcome_of
+from contact_sim_pkg.nodes.protocol.states import REFUSED, Follower, NodeError
+from contact_sim_pkg.records.messages import BenchRecorded, String
+from contact_sim_pkg.run.bag_content import attachments, input_names, recorded_names
+from contact_sim_pkg.scene.resolved_scene import ResolvedScene
+
+
+class ClosedBag(NamedTuple):
+    """End of a recording."""
+
+    summary: BagSummary
+    lacking: int  # messages of the blocks done that never came
+
+    @property
+    def lossy(self) -> bool:
+        """Whether something was lost."""
+        return bool(self.lacking) or not self.summary.complete
+
+
+class Recording:
+    """Messages of a run in canonical order, and the bag that they are written to."""
+
+    def __init__(self, path: Path, scene: ResolvedScene, block_length_ns: int) -> None:
+        """Nothing held; the bag `path` is not created before `open`."""
+        self.path, self._scene, self._block_length_ns = path, scene, block_length_ns
+        self.order = RecordOrder(input_names(scene), block_length_ns)
+        self.left_out = Counter[str]()
+        self.block = -1
+        self.closed = False
+        self._writer: BagWriter | None = None
+
+    @property
+    def is_open(self) -> bool:
+        """Whether there is a bag that is not closed."""
+        return self._writer is not None and not self.closed
+
+    @property
+    def created(self) -> bool:
+        """Whether the bag was created."""
+        return self._writer is not None
+
+    def hold(self, topic: str, data: bytes) -> None:
+        """Keep a message, also before the bag is created: on the wire, block 0 may overtake *ready*.
+
+        A message that has no place is counted in `left_out`.
+        """
+        if not self.closed and not self.order.hold(topic, data):
+            self.left_out[f"dropped {topic}"] += 1
+
+    def open(self, resolve_name: Callable[[str], str], descriptions: dict[str, dict[str, Any]]) -> None:
+        """Create the bag, with the scene as its first message; NodeError (refused) where that fails.
+
+        Args:
+            resolve_name: full name in the graph of a topic.
+            descriptions: findings in the excitation and their treatment, by topic.
+        """
+        topics = recorded_topics(recorded_names(self._scene), resolve_name)
+        try:
+            self._writer = BagWriter(self.path, topics, attachments(self._scene, descriptions))
+        except BagError as error:
+            raise NodeError(str(error), REFUSED) from None
+        self._writer.write("bench/scene", 0, encode(String(data=self._scene.to_yaml())))
+
+    def write_whole(self) -> bool:
+        """Write the blocks that are whole; whether there was one."""
+        self._write(self.order.take_whole())
+        grown = self.order.last_block > self.block
+        self.block = max(self.block, self.order.last_block)
+        return grown
+
+    def _write(self, messages: list[HeldMessage]) -> None:
+        if self._writer is not None:
+            for message in messages:
+                self._writer.write(message.topic, message.stamp, message.data)
+
+    def answer(self, *, closed: bool = False, sentence: str = "") -> bytes:
+        """The bytes of `bench/recorded` at the last block that is whole."""
+        held = self.order.given_out + self.created  # the scene's text is one message
+        value = BenchRecorded(
+            block=self.block, messages=held, closed=closed, bag=str(self.path), message=sentence
+        )  # fmt: skip
+        return encode(value, (self.block + 1) * self._block_length_ns)
+
+    def close(self, run: Follower, reason: str, on_block: Callable[[], None]) -> ClosedBag | None:
+        """Close the bag with what is whole, or with all that came of an ended run; None without an open bag.
+
+        Args:
+            run: the run as the logger has followed it.
+            reason: why the supervisor ended it; empty where it did not.
+            on_block: called where a further block was written.
+        """
+        writer, was_open, self.closed = self._writer, self.is_open, True
+        if writer is None or not was_open:
+            return None
+        lacking = self.order.missing() if run.state.ended else 0
+        with suppress(BagError):  # where the bag itself is what failed; its summary says so
+            if self.write_whole():
+                on_block()
+            if run.state.ended:
+                self._write(self.order.take_rest())
+        outcome = outcome_of(run, self.block + 1, reason=reason, lacking=lacking, counts=self.left_out)
+        return ClosedBag(writer.close(outcome), lacking)
