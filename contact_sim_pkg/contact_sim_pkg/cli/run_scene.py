@@ -93,11 +93,11 @@ def run_scene(
         refuse_other_scene(from_bag, scene)
         for line in cautions(from_bag):
             print(line, file=sys.stderr)
-    directory = new_directory(out, str(scene.data["name"])) if record else None
+    directory = new_directory(out, scene.name) if record else None
     _tell_work(scene, allow_long)
     forecast = _forecast(scene)
     run = _run_offline if offline else partial(_run_on_nodes, clock=clock)
-    with RunDisplay(float(scene.data["duration"])) as display:
+    with RunDisplay(scene.duration) as display:
         ended = run(scene, directory, from_bag, display)
     status = _told(scene, ended, forecast, as_json=as_json)
     if ended.computes_on:
@@ -138,7 +138,7 @@ def _tell_work(scene: ResolvedScene, allow_long: bool) -> None:
 
     report = refuse_long(scene, allowed=allow_long)
     if report:
-        print(f"{scene.data['name']}: {report}", file=sys.stderr)
+        print(f"{scene.name}: {report}", file=sys.stderr)
 
 
 def _forecast(scene: ResolvedScene) -> dict[str, Any]:
@@ -148,7 +148,7 @@ def _forecast(scene: ResolvedScene) -> dict[str, Any]:
     found = forecast_of(scene)
     if found is None:
         return {}
-    print(f"{scene.data['name']}: {found.sentence}", file=sys.stderr)
+    print(f"{scene.name}: {found.sentence}", file=sys.stderr)
     return {"stability": found.facts}
 
 

@@ -58,7 +58,7 @@ class BagLoggerNode(LifecycleBenchNode):
         """
         scene = read_scene(self._scene_name)
         self._period_ns, self._blocks, depth = block_length_ns(scene), count_blocks(scene), queue_depth(scene)
-        path = new_directory(Path(self._directory) if self._directory else None, str(scene.data["name"]))
+        path = new_directory(Path(self._directory) if self._directory else None, scene.name)
         self._scene, self._recording = scene, Recording(path, scene, self._period_ns)
         self._sources = {name: SingleSource() for name in (*result_names(scene), *input_names(scene))}
         self._inputs = set(input_names(scene))

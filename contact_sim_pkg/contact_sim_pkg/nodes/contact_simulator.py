@@ -62,10 +62,10 @@ class ContactSimulatorNode(LifecycleBenchNode):
         scene = read_scene(self._scene_name)
         self._period_ns, depth = block_length_ns(scene), queue_depth(scene)
         pace = declare_pace(self, scene.data["pace"])
-        self._patience = self._input_timeout + scene.data["block_length"] / pace
+        self._patience = self._input_timeout + scene.block_length / pace
         self._report = ProgressReport(publisher(self, "bench/progress"), scene)
         self._report.send(RunState.STARTING, "compiling")
-        self.announce(f"{scene.data['name']}: compiling")
+        self.announce(f"{scene.name}: compiling")
         self._publishers_by_topic = {name: publisher(self, name, depth) for name in result_names(scene)}
         self._simulated_clock = SimulatedClock(self, wanted=self._publish_clock)
         self._diagnostics = Diagnostics(self)
@@ -74,7 +74,7 @@ class ContactSimulatorNode(LifecycleBenchNode):
         self._simulation = make_simulation(scene)
         self._inputs = InputBlocks(self._simulation.inputs, self._period_ns, self._simulation.blocks)
         self._window = BlockWindow(self._simulation.blocks, logged=self._logged)
-        self._pacer = Pacer(pace, scene.data["block_length"])
+        self._pacer = Pacer(pace, scene.block_length)
         self._lateness = Lateness(self._pacer)
         inputs = self._simulation.inputs
         names = {topic: self.resolve_topic_name(topic) for topic in inputs}

@@ -57,7 +57,7 @@ class ExcitationNode(Node):
         self._listeners = 1 + logged  # simulator, logger
         self._window = BlockWindow(count_blocks(scene), logged=logged)
         pace = declare_pace(self, scene.data["pace"])
-        self._pacer = Pacer(pace, float(scene.data["block_length"]))
+        self._pacer = Pacer(pace, scene.block_length)
         self.gather = GATHER_SECONDS if math.isinf(pace) else 0.0
         self._run, self._recorded = Follower(), RecordedFollower()
         self._leave_at = math.inf

@@ -16,8 +16,8 @@ EXCITATION_KEY = "excitation"
 
 def input_names(scene: ResolvedScene) -> list[str]:
     """Excitation topics that the scene calls for."""
-    names = ["road/patch"] if scene.data.get("road") and scene.data.get("travel") else []
-    return names + (["platform/vibration"] if scene.data.get("vibration") else [])
+    names = ["road/patch"] if scene.road is not None and scene.travel is not None else []
+    return names + (["platform/vibration"] if scene.vibration is not None else [])
 
 
 def result_names(scene: ResolvedScene) -> list[str]:

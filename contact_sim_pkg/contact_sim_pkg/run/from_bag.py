@@ -82,7 +82,7 @@ def refuse_other_scene(path: Path, scene: ResolvedScene) -> None:
         bag.refuse_other_definition(topic)
         first, held = next(bag.messages(topic), None), bag.count(topic)
         if first is None or held < blocks:
-            cure = f"; ask for --duration {held * scene.data['block_length']:g}" if held else ""
+            cure = f"; ask for --duration {held * scene.block_length:g}" if held else ""
             raise BagError(f"{path}: {topic} holds {held} blocks, the scene needs {blocks}{cure}")
         _refuse_misfit(path, topic, DECODERS[topic](first.data), scene)
 
@@ -123,7 +123,8 @@ def _refuse_misfit(path: Path, topic: str, first: RoadPatch | VibrationBlock, sc
                 f"{needed[0]} of {needed[1]:.6g} m x {needed[2]:.6g} m; keep effects.tire.contact_field as recorded"
             )
         return
-    samples = round(scene.data["block_length"] * scene.data["vibration"]["sample_rate"]) + 1
+    assert scene.vibration is not None
+    samples = round(scene.block_length * scene.vibration.sample_rate) + 1
     if len(first.acceleration_z) != samples:
         raise BagError(
             f"{path}: {topic} was recorded with {len(first.acceleration_z)} samples a block, the scene needs {samples}; keep "

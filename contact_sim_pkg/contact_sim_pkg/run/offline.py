@@ -103,7 +103,7 @@ def run_offline(
                 if stop is not None and stop():
                     stopped = True
                     break
-                progress = _one_block(simulation, sources, block, scene.data["block_length"], writer, first, computing)
+                progress = _one_block(simulation, sources, block, scene.block_length, writer, first, computing)
                 done = block + 1
                 if on_progress is not None:
                     on_progress(progress)

@@ -12,14 +12,14 @@ from contact_sim_pkg.scene.resolved_scene import ResolvedScene
 
 def make_simulation(scene: ResolvedScene) -> BlockSimulation:
     """The simulation of a resolved scene's rig. Raises what its parts raise on a scene that cannot run."""
-    simulation: BlockSimulation = load(rigs()[scene.data["rig"]].simulation)(scene)
+    simulation: BlockSimulation = load(rigs()[scene.rig].simulation)(scene)
     return simulation
 
 
 def result_topics(scene: ResolvedScene) -> list[str]:
     """Recorded topics that the simulator publishes for the scene."""
-    own = [topic for contact in rigs()[scene.data["rig"]].contacts for topic in contact.published(scene.data)]
-    last = dict.fromkeys(topic for contact in rigs()[scene.data["rig"]].contacts for topic in contact.bench_topics)
+    own = [topic for contact in rigs()[scene.rig].contacts for topic in contact.published(scene.data)]
+    last = dict.fromkeys(topic for contact in rigs()[scene.rig].contacts for topic in contact.bench_topics)
     return [*own, *last, "bench/motion", "bench/energy", "bench/cost"]
 
 
@@ -32,7 +32,7 @@ class Forecast(NamedTuple):
 
 def forecast_of(scene: ResolvedScene) -> Forecast | None:
     """What the rig reports before the run; None where it reports nothing. Raises RunError where the scene cannot run."""
-    name = rigs()[scene.data["rig"]].forecast
+    name = rigs()[scene.rig].forecast
     if not name:
         return None
     module = load(name)

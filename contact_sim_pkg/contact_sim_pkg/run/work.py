@@ -41,7 +41,7 @@ def refuse_long(scene: ResolvedScene, *, allowed: bool) -> str:
     report = f"about {parts[0].number:.2g} {parts[0].what}, {_time(total)} of computing"
     if total > bound and not allowed:
         cure = f"more than {_time(bound)}; --allow-long lifts the bound, a shorter duration takes less"
-        raise SceneError([Fault(str(scene.data["name"]), 0, 0, "", f"{report}, {cure}")])
+        raise SceneError([Fault(scene.name, 0, 0, "", f"{report}, {cure}")])
     return report if total > LONG else ""
 
 

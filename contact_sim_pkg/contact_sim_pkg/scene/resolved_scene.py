@@ -58,6 +58,11 @@ class ResolvedScene:
     files: Mapping[str, Path] = field(default_factory=dict, compare=False)
 
     @property
+    def name(self) -> str:
+        """Name of the scene and of its bags."""
+        return str(self.data["name"])
+
+    @property
     def rig(self) -> str:
         """Name of the rig."""
         return str(self.data["rig"])

@@ -51,11 +51,11 @@ def describe(scene: ResolvedScene, outcome: Outcome) -> dict[str, Any]:
     """The object that `--json` prints; `bag` is None and `summary` empty where nothing was
     recorded.
     """
-    simulated = round(outcome.blocks * float(scene.data["block_length"]), 9)
+    simulated = round(outcome.blocks * scene.block_length, 9)
     return {
-        "scene": scene.data["name"],
+        "scene": scene.name,
         "effects": scene.data["effects"],
-        "accuracy": scene.data["accuracy"],
+        "accuracy": scene.accuracy,
         "ended": state_of(scene, outcome),
         "failure": outcome.failure or None,
         "simulated_s": simulated,
@@ -76,7 +76,7 @@ def state_of(scene: ResolvedScene, outcome: Outcome) -> str:
     """
     if outcome.exit_status == 1:
         return "failed"
-    blocks = round(float(scene.data["duration"]) / float(scene.data["block_length"]))
+    blocks = round(scene.duration / scene.block_length)
     return "stopped" if outcome.blocks < blocks else "finished"
 
 

@@ -91,19 +91,18 @@ def read_reason(scene: str) -> str:
 
 def block_length_ns(scene: ResolvedScene) -> int:
     """Simulated time of a block, [ns]."""
-    return round(float(scene.data["block_length"]) * 1e9)
+    return round(scene.block_length * 1e9)
 
 
 def count_blocks(scene: ResolvedScene) -> int:
     """Number of blocks of the scene."""
-    return round(float(scene.data["duration"]) / float(scene.data["block_length"]))
+    return round(scene.duration / scene.block_length)
 
 
 def queue_depth(scene: ResolvedScene) -> int:
     """Depth that holds what a topic carries in 8 blocks, twice the window of 4."""
-    rates = scene.data["outputs"]
-    highest = max(float(rates["field_rate"]), float(rates["display_rate"]))
-    return 8 * math.ceil(highest * float(scene.data["block_length"]))
+    highest = max(scene.outputs.field_rate, scene.outputs.display_rate)
+    return 8 * math.ceil(highest * scene.block_length)
 
 
 def _beside(path: Path, ending: str) -> Path:

@@ -24,7 +24,7 @@ class ProgressReport:
         """Nothing sent; state IDLE."""
         self.publisher = publisher
         self.state = RunState.IDLE
-        self._scene = str(scene.data["name"])
+        self._scene = scene.name
         self._blocks, self._period_ns = count_blocks(scene), block_length_ns(scene)
         self._block, self._sent = -1, 0
         self._load = self._peak = 0.0
