@@ -115,7 +115,7 @@ class Supervisor:
                 children.look()
                 folder.keep_segments(children.segments() | mapped_segments(os.getpid()))
             if monitor.run.last is not None:
-                on_report(report_of(monitor.run.last, float(self._scene.data["block_length"])))
+                on_report(report_of(monitor.run.last, self._scene.block_length))
             under_way = monitor.run.state in (RunState.READY, RunState.RUNNING)
             self._stops.hand_on(children, now, under_way=under_way)
             if self._stops.expired(now):
