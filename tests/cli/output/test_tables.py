@@ -19,7 +19,7 @@ ROWS = [
 
 def terminal(monkeypatch, columns):
     monkeypatch.setattr(sys.stdout, "isatty", lambda: True)
-    monkeypatch.setattr(shutil, "get_terminal_size", lambda: os.terminal_size((columns, 24)))
+    monkeypatch.setattr(shutil, "get_terminal_size", lambda *_arguments, **_options: os.terminal_size((columns, 24)))
 
 
 def test_a_pipe_gets_one_line_a_row(capsys):
