@@ -25,9 +25,8 @@ PATCHES = {
 
 
 def text_of(name: str) -> str:
-    """The patch as `git diff` writes it; empty where there is none yet."""
-    path = FOLDER / f"{name}.patch"
-    return path.read_text(encoding="utf-8") if path.exists() else ""
+    """The patch as `git diff` writes it."""
+    return (FOLDER / f"{name}.patch").read_text(encoding="utf-8")
 
 
 def shared_files(name: str) -> list[str]:

@@ -1,4 +1,4 @@
-"""The patches of a new topic and a new column apply, do what they say, and edit few shared files by hand."""
+"""The patches apply, bring what they say, and edit few shared files by hand."""
 
 import shutil
 import subprocess
@@ -33,7 +33,38 @@ assert decode(SolverCost, encode(cost)) == cost
 """
 
 
-@pytest.mark.parametrize(("name", "use"), [("topic", TOPIC), ("column", COLUMN)])
+RIG = """
+import numpy
+from contact_sim_pkg.records.registry import rigs
+from contact_sim_pkg.run.rigs import make_simulation
+from contact_sim_pkg.scene.load import load_scene, shipped_names
+from contact_sim_pkg.scene.resolve import resolve
+
+assert "indenter" in rigs() and "indenter_press" in shipped_names()
+simulation = make_simulation(resolve(load_scene("indenter_press")))
+records = [output.record for block in range(simulation.blocks) for output in simulation.advance(block, {}).outputs]
+normal = numpy.concatenate([record.normal for record in records if type(record).__name__ == "ContactForce"])
+depth = 1e-3 * numpy.sin(2.0 * numpy.pi * numpy.arange(1000) / 1000)
+assert numpy.allclose(normal, 2.0 * 0.01 * 1e6 * numpy.maximum(depth, 0.0), rtol=1e-9, atol=1e-9)
+"""
+EFFECT = """
+from contact_sim_pkg.rigs.impact.effect_outputs import gauge_readings
+from contact_sim_pkg.rigs.impact.model import build_impact
+from contact_sim_pkg.scene.load import load_scene
+from contact_sim_pkg.scene.overrides import set_value
+from contact_sim_pkg.scene.resolve import resolve
+
+def readings(*assignments):
+    scene = resolve(load_scene("impact_rubber_drop", [set_value(each) for each in assignments]))
+    return gauge_readings(build_impact(scene), 1, 2.0, 4.0, 0.5)
+
+assert readings() == [2.0, 4.0, 0.5]
+assert readings("effects.impact.gauge_bias.share=0.25") == [2.5, 5.0, 0.625]
+"""
+USES = {"rig": RIG, "effect": EFFECT, "topic": TOPIC, "column": COLUMN}
+
+
+@pytest.mark.parametrize(("name", "use"), USES.items())
 def test_a_patch_brings_what_it_says(tmp_path, name, use):
     for package in ("contact_msgs_defs", "contact_sim_pkg"):
         shutil.copytree(ROOT / package, tmp_path / package, symlinks=True, ignore=shutil.ignore_patterns("__pycache__"))
@@ -49,6 +80,6 @@ def test_a_patch_brings_what_it_says(tmp_path, name, use):
     assert done.returncode == 0, done.stderr
 
 
-@pytest.mark.parametrize("name", ["topic", "column"])
+@pytest.mark.parametrize("name", USES)
 def test_few_shared_files_are_edited_by_hand(name):
     assert len(shared_files(name)) <= 3

@@ -47,7 +47,7 @@ def test_an_absent_effect_is_not_listed():
 
     rows = facts.effect_rows(recording(scene=scene))["seat"]
 
-    assert rows == [("elastic normal force", "on"), ("pressure field", "rows 40, length 0.6 m")]
+    assert rows == [("elastic force", "on"), ("pressure field", "rows 40, length 0.6 m")]
 
 
 def test_notes_of_the_excitation_stand_apart_from_its_values():

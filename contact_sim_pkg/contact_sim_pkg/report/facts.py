@@ -7,28 +7,13 @@ from __future__ import annotations
 from typing import Any, NamedTuple
 
 from contact_sim_pkg.bag.texts import excitation_of_text
+from contact_sim_pkg.records.registry import effects
 from contact_sim_pkg.report.rig_reports import rig_warnings
 from contact_sim_pkg.report.rows import Row, described_rows, plain_name, scene_rows
 from contact_sim_pkg.report.series import Recording
 
 EXCITATION_KEY = "excitation"
 OUTCOME_KEYS = ("ended", "failure", "blocks_done", "wall_s", "stopped")
-EFFECT_NAMES = {
-    "normal_elastic": "elastic normal force",
-    "normal_dissipative": "loss in the normal direction",
-    "foam": "foam with plateau and densification",
-    "foam_hysteresis": "loss of foam without rate",
-    "general_dissipative": "loss after the general law",
-    "friction": "friction with true stick",
-    "contact_field": "pressure field",
-    "shift": "time-temperature shift",
-    "contact_stress": "stress over the contact",
-    "surface_waves": "circular surface wave",
-    "micro_front": "front of the micro-impact",
-    "thermal_volume": "position and volumes of the contact",
-    "history": "hereditary indentation",
-    "gauge_noise": "noise of the gauges",
-}
 
 
 class ExcitationFacts(NamedTuple):
@@ -50,14 +35,14 @@ def run_rows(recording: Recording) -> list[Row]:
 
 def effect_rows(recording: Recording) -> dict[str, list[Row]]:
     """By contact: each effect that acts, with its parameters, grids and tolerances."""
-    effects = recording.scene.get("effects")
-    if not isinstance(effects, dict):
+    of_contacts = recording.scene.get("effects")
+    if not isinstance(of_contacts, dict):
         return {}
     return {
         str(contact): [
             _effect_row(str(contact), str(name), values) for name, values in named.items() if values is not None
         ]
-        for contact, named in effects.items()
+        for contact, named in of_contacts.items()
         if isinstance(named, dict)
     }
 
@@ -100,7 +85,8 @@ def _effect_row(contact: str, name: str, values: Any) -> Row:
     given = {key: value for key, value in values.items() if value != []}
     settings = scene_rows(given, ("effects", contact, name), shown_from=3) if given else []
     text = ", ".join(f"{row.label} {row.value}".strip() for row in settings)
-    return Row(EFFECT_NAMES.get(name, plain_name(name)), text or "on")
+    record = effects().get(name, {}).get(contact)
+    return Row(plain_name(name) if record is None else record.help, text or "on")
 
 
 def _sentences(notes: Any) -> list[str]:
