@@ -18,7 +18,7 @@ class Scaled:
     def __init__(self, problem, sequence):
         self.field = reference_fields(problem, 1)[0]
 
-    def forget(self):
+    def reset(self):
         pass
 
     def solve(self, gap, cells, tolerance):
