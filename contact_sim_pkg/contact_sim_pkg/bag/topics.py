@@ -41,13 +41,19 @@ IMPACT = "an impact"
 
 
 def _latched(name: str, type_name: str, kind: Kind, rate: str, *, recorded: bool = False) -> Topic:
-    return Topic(name, type_name, 0, "reliable", "transient_local", 1, recorded, not recorded, kind, rate)
+    return Topic(
+        name, type_name, rank=0, reliability="reliable", durability="transient_local", depth=1, recorded=recorded,
+        wall_time=not recorded, kind=kind, rate=rate,
+    )  # fmt: skip
 
 
 def _samples(
     name: str, type_name: str, rate: str = SAMPLES, *, kind: Kind = "result", wall_time: bool = False
 ) -> Topic:
-    return Topic(name, type_name, 0, "reliable", "volatile", 10, True, wall_time, kind, rate)
+    return Topic(
+        name, type_name, rank=0, reliability="reliable", durability="volatile", depth=10, recorded=True,
+        wall_time=wall_time, kind=kind, rate=rate,
+    )  # fmt: skip
 
 
 _TABLE = (
@@ -97,20 +103,15 @@ _TABLE = (
     _samples("bench/cost", "contact_msgs_defs/msg/SolverCost", BLOCK, kind="cost", wall_time=True),
     _latched("bench/progress", "contact_msgs_defs/msg/BenchProgress", "state", "a block, and a change of state"),
     _latched("bench/recorded", "contact_msgs_defs/msg/BenchRecorded", "state", "a block, and the end"),
-    Topic("/clock", "rosgraph_msgs/msg/Clock", 0, "best_effort", "volatile", 1, False, False, "clock", BLOCK),
     Topic(
-        "/diagnostics",
-        "diagnostic_msgs/msg/DiagnosticArray",
-        0,
-        "reliable",
-        "volatile",
-        10,
-        False,
-        True,
-        "health",
-        "1 Hz, and a change of state",
+        "/clock", "rosgraph_msgs/msg/Clock", rank=0, reliability="best_effort", durability="volatile", depth=1,
+        recorded=False, wall_time=False, kind="clock", rate=BLOCK,
     ),
-)
+    Topic(
+        "/diagnostics", "diagnostic_msgs/msg/DiagnosticArray", rank=0, reliability="reliable", durability="volatile",
+        depth=10, recorded=False, wall_time=True, kind="health", rate="1 Hz, and a change of state",
+    ),
+)  # fmt: skip
 
 TOPICS: dict[str, Topic] = {topic.name: topic._replace(rank=rank) for rank, topic in enumerate(_TABLE)}
 RECORDED: tuple[str, ...] = tuple(name for name, topic in TOPICS.items() if topic.recorded)

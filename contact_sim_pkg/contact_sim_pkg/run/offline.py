@@ -83,7 +83,10 @@ def run_offline(
 
     def ended() -> RunOutcome:
         summary = None if writer is None else writer.close(_outcome(done, simulation.blocks, failure, stopped, first))
-        return RunOutcome(done, startup, time.perf_counter() - first, summary, stopped, failure, descriptions, loss)
+        return RunOutcome(
+            blocks=done, startup=startup, wall=time.perf_counter() - first, bag=summary, stopped=stopped, failure=failure,
+            excitation=descriptions, loss=loss,
+        )  # fmt: skip
 
     compilation = ExitStack()  # closed while the blocks run; open again behind a thread that does not come back
 

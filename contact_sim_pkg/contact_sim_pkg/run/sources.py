@@ -89,16 +89,17 @@ def make_surface(scene: ResolvedScene, cell: float) -> Surface:
         roughness = road.roughness if road.roughness_class is None else roughness_of_class(road.roughness_class)
         assert roughness is not None
         return Iso8608Road(
-            roughness, scene.seed, road.length, road.exponent, road.shortest_wavelength, road.longest_wavelength,
-            None if road.texture is None else road.texture.shortest_wavelength, cell,
+            roughness, scene.seed, road.length, road.exponent,
+            shortest_wavelength=road.shortest_wavelength, longest_wavelength=road.longest_wavelength,
+            texture_wavelength=None if road.texture is None else road.texture.shortest_wavelength, lattice_cell=cell,
         )  # fmt: skip
     if road.kind == "opencrg":
         from contact_sim_pkg.excitation.opencrg.road import OpenCrgRoad
 
         return OpenCrgRoad(
-            scene.file_path("road.file"), road.start, road.track_offset, road.missing_cells, road.hole_depth,
-            BORDER_NAMES[road.border_u], BORDER_NAMES[road.border_v], "mean" if road.remove_mean else "origin",
-            road.file_settings,
+            scene.file_path("road.file"), start=road.start, lateral_offset=road.track_offset, missing=road.missing_cells,
+            hole_depth=road.hole_depth, border_u=BORDER_NAMES[road.border_u], border_v=BORDER_NAMES[road.border_v],
+            level="mean" if road.remove_mean else "origin", file_settings=road.file_settings,
         )  # fmt: skip
     from contact_sim_pkg.excitation.obstacles import FlatRoad, Obstacle
 
