@@ -21,11 +21,11 @@ from contact_sim_pkg.scene.overrides import set_value
 from contact_sim_pkg.scene.resolve import resolve
 
 make_simulation(resolve(load_scene(sys.argv[1], [set_value(value) for value in sys.argv[2:]]))).prepare()
-print(*sorted({entry.__module__.rpartition(".")[2] for entry in never_called() if ".rigid." in entry.__module__}))
+print(*sorted({entry.__module__.partition(".rigid.")[2] for entry in never_called() if ".rigid." in entry.__module__}))
 """
 LAW = "effects.block.rigid_contact"
-PLANE, SPACE = "planar_impact", "impact_path"  # each for one number of axes alone
-SPRINGS, STEPPING = "compliant", ("stepping", "reach")
+PLANE, SPACE = "impact.planar_impact", "impact.path"  # each for one number of axes alone
+SPRINGS, STEPPING = "motion.compliant", ("motion.stepping", "geometry.reach")
 
 
 @pytest.mark.parametrize(

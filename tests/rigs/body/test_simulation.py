@@ -365,7 +365,7 @@ def test_a_box_that_tumbles_above_heights_feels_no_wrench():
     assert numpy.ptp(velocity[3:], axis=1).max() > 1.0
     for wrench in of(messages, "block/wrench", WrenchStamped):
         assert wrench.wrench.force == pytest.approx((0.0, 0.0, 0.0), abs=1e-8)
-        assert wrench.torque == pytest.approx((0.0, 0.0, 0.0), abs=1e-8)
+        assert wrench.wrench.torque == pytest.approx((0.0, 0.0, 0.0), abs=1e-8)
 
 
 def test_a_box_that_rolls_over_its_edges_has_the_forces_of_the_asked_accuracy():

@@ -57,9 +57,9 @@ def test_a_given_shift_places_every_group():
     assert nearest.reference_temperature == 295.0
 
 
-def test_one_speed_or_one_temperature_does_not_tell_the_shift():
+def test_one_speed_or_one_temperature_does_not_determine_the_shift():
     for groups in (states(Wlf(223.0), speeds=(1.0,)), states(Wlf(223.0), temperatures=(300,)), states(Wlf(223.0))[:4]):
-        with pytest.raises(MaterialError, match="do not tell the shift"):
+        with pytest.raises(MaterialError, match="determine the shift"):
             master_curve(groups, "wlf")
 
 
