@@ -95,7 +95,7 @@ class RollerModel:
     bending_compliance: float  # k_b [m/N]; 0: the shaft does not bend
     programme: Programme
     kind: int  # of the ellipse
-    parallel: bool
+    shares_load: bool
     start: tuple[float, float]  # tilt and yaw [rad] from the static angles
     acceleration: float
     turns: bool  # tilt and yaw are free
@@ -106,7 +106,7 @@ class RollerModel:
 
     def contact_load(self, load: float, curvatures: Curvatures) -> float:
         """F_c [N] of the load pressed on."""
-        if not self.parallel:
+        if not self.shares_load:
             return load
         coefficient = contact_of_rollers(curvatures, self.held_yaw, self.modulus, 1.0, self.kind).approach
         return parallel_contact_load(coefficient, self.bending_compliance, load)
@@ -156,7 +156,7 @@ def build_roller(scene: ResolvedScene) -> RollerModel:
         bending_compliance=compliance,
         programme=_programme(rig),
         kind=POLYNOMIAL if law.ellipse == "polynomial" else EXACT,
-        parallel=law.split == "parallel" and compliance > 0.0,
+        shares_load=law.split == "parallel" and compliance > 0.0,
         start=(rig.tilt, rig.yaw),
         acceleration=rig.acceleration,
         turns=scene.effect("roller", schema.TiltYawSection) is not None,

@@ -135,7 +135,7 @@ class RollerSimulation:
         """Loads [times] on the contact at rest."""
         programme = self.model.programme
         pressed = programme.loads(start + times)
-        if not self.model.parallel:
+        if not self.model.shares_load:
             return pressed
         return numpy.array([
             self.model.contact_load(float(load), programme.curvatures_at(start + float(time)))
