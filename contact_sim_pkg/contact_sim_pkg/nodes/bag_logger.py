@@ -59,14 +59,13 @@ class BagLoggerNode(LifecycleBenchNode):
         scene = read_scene(self._scene_name)
         self._period_ns, self._blocks, depth = block_length_ns(scene), count_blocks(scene), queue_depth(scene)
         path = new_directory(Path(self._directory) if self._directory else None, scene.name)
+        self._run, self._news, self._leave_at = Follower(), time.monotonic(), float("inf")
         self._scene, self._recording = scene, Recording(path, scene, self._period_ns)
         self._sources = {name: SingleSource() for name in (*result_names(scene), *input_names(scene))}
         self._inputs = set(input_names(scene))
         self._answers = publisher(self, "bench/recorded")
         kept = [numbered_subscription(self, name, partial(self._take, name), depth) for name in self._sources]
         self._kept = [*kept, subscription(self, "bench/progress", self._on_progress)]
-        self._leave_at = float("inf")
-        self._run, self._news = Follower(), time.monotonic()
 
     def _take(self, topic: str, data: bytes, number: int | None) -> None:
         """Accept one publisher a topic. Excitation is checked as the simulator does: a block that it
