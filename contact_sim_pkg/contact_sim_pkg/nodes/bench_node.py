@@ -1,5 +1,5 @@
 """The base of the nodes with an expensive or failing set-up: lifecycle states, driven by the node
-itself unless told otherwise.
+itself unless `autostart` is false.
 """
 
 from __future__ import annotations

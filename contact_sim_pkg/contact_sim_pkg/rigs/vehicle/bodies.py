@@ -1,4 +1,6 @@
-"""The bodies of a vehicle rig in a run: their state, and how it moves between given heights of road and cushion."""
+"""The bodies of a vehicle rig in a run: their state, and how it moves between given heights of road
+and cushion.
+"""
 
 from __future__ import annotations
 
@@ -43,7 +45,7 @@ class CouplingStep(NamedTuple):
 
 
 class Saved(NamedTuple):
-    """Everything that a stretch changes."""
+    """Everything that a coupling step changes."""
 
     state: Vector
     mode: Modes
@@ -92,14 +94,16 @@ class Bodies:
         return mass * rig.gravity
 
     def start(self, first: BlockDrive, offsets: Offsets) -> None:
-        """Take the sides of the event functions at the start of a run; ``first`` is its first segment."""
+        """Take the sides of the event functions at the start of a run; ``first`` is its first
+        segment.
+        """
         entries.start(
             self.model.rig, self.mode, self.state, self.work, self.model.timing.segment_length, first.smooth + offsets[0],
             numpy.full(2, offsets[1]), first.acceleration_x, first.acceleration_z, first.push,
         )  # fmt: skip
 
     def save(self) -> Saved:
-        """Copies of everything that a stretch changes."""
+        """Copies of everything that a coupling step changes."""
         work = self.work
         return Saved(
             self.state.copy(), self.mode.copy(), work.event_direction.copy(), work.step.copy(), work.last_event.copy()
@@ -110,23 +114,27 @@ class Bodies:
         work = self.work
         self.state[:], self.mode[:], work.event_direction[:], work.step[:], work.last_event[:] = saved
 
-    def move(self, stretch: CouplingStep, starts: Offsets, ends: Offsets) -> None:
-        """Move over a stretch, the offsets going straight from ``starts`` to ``ends``. RunError where the physics fails."""
-        timing, drive = self.model.timing, stretch.drive
-        points = stretch.segments + 1
+    def move(self, step: CouplingStep, starts: Offsets, ends: Offsets) -> None:
+        """Move over a coupling step, the offsets going straight from ``starts`` to ``ends``.
+        RunError where the physics fails.
+        """
+        timing, drive = self.model.timing, step.drive
+        points = step.segments + 1
         height, cushion = self._height[:points], self._cushion[:points]
         effective_between(drive.smooth, starts[0], ends[0], height)
         cushion[:] = numpy.linspace(starts[1], ends[1], points)
         status = entries.advance(
-            self.model.rig, self.mode, self.state, self.model.scale, self.work, stretch.start, stretch.segment_length, height,
-            cushion, drive.acceleration_x, drive.acceleration_z, drive.push, timing.sample_every, stretch.behind_sample,
-            *stretch.sampled,
+            self.model.rig, self.mode, self.state, self.model.scale, self.work, step.start, step.segment_length, height,
+            cushion, drive.acceleration_x, drive.acceleration_z, drive.push, timing.sample_every, step.behind_sample,
+            *step.sampled,
         )  # fmt: skip
         if status != DONE:
-            raise RunError(f"block {stretch.block}, {stretch.start:.6g} s: {SENTENCES[status]}")
+            raise RunError(f"block {step.block}, {step.start:.6g} s: {SENTENCES[status]}")
 
     def energies(self, height: float, cushion: float) -> Vector:
-        """Energies in [J] of the state over given heights in [m] (order of ``rigs/vehicle/entries.energies``)."""
+        """Energies in [J] of the state over given heights in [m] (order of
+        ``rigs/vehicle/entries.energies``).
+        """
         return numpy.array(entries.energies(self.model.rig, self.mode, self.state, height, cushion))
 
     def supply(self, energy: float) -> None:

@@ -1,16 +1,20 @@
-"""Bodies and pressure fields in turn: how a rig goes from one solution of its fields to the next, and how far at once.
+"""Bodies and pressure fields in turn: how a rig goes from one solution of its fields to the next,
+and how far at once.
 
-From one solution to the next each contact stands on its tangent law and on a height whose offset goes straight (decision 0004).
-A stretch is as long as that allows:
+From one solution to the next each contact stands on its tangent law and on a height whose offset
+goes straight (decision 0004). A coupling step is as long as that allows:
 
 * No longer than a part of the footprint, so that no obstacle that the tire passes falls between two fields.
-* The offset's slopes over this stretch, s1 over h1, and the one before, s0 over h0, tell its curvature; a straight line misses
-  a parabola of it by ``|s1 - s0| h1**2 / (4 (h0 + h1))`` at most. Above the allowed height the stretch is taken again, shorter.
-* With a loss the rate of the height matters too: over this stretch it may err by ``|s1 - s0| h1 / (h0 + h1)``.
-* No error makes a stretch so short that the solver's own error of the field would be felt as a speed.
-* Where the rig or its contact fails within a stretch, a shorter one is tried before that counts.
+* The slopes of the effective-height correction over this coupling step, s1 over h1, and the one
+  before, s0 over h0, give its curvature; a straight line misses a parabola of it by
+  ``|s1 - s0| h1**2 / (4 (h0 + h1))`` at most. Above the allowed height the coupling step is taken
+  again, shorter.
+* With a loss the rate of the height matters too: over this coupling step it may err by ``|s1 - s0| h1 / (h0 + h1)``.
+* No error makes a coupling step so short that the solver's own error of the field would be felt as a speed.
+* Where the rig or its contact fails within a coupling step, a shorter one is tried before that counts.
 
-A tread with memory has one step for all its stretches: they are all of the same length, and the error is only told.
+A tread with memory has one step for all its coupling steps: they are all of the same length, and
+the error is only reported.
 """
 
 from __future__ import annotations
@@ -32,17 +36,15 @@ from contact_sim_pkg.rigs.vehicle.outputs import BlockRecord, FieldRecord
 from contact_sim_pkg.rigs.vehicle.tire.road_field import RoadSupport
 from contact_sim_pkg.run.errors import RunError
 
-SHRINK, GROW = 0.25, 2.0  # least and largest ratio of a stretch to the one before
-AGAIN = 0.7  # largest ratio of a stretch that is taken again
+SHRINK, GROW = 0.25, 2.0  # least and largest ratio of a coupling step to the one before
+AGAIN = 0.7  # largest ratio of a coupling step that is taken again
 SAFETY = 0.8
-SLOPE = (
-    0.3  # part of the largest error of a rate that counts: it is that of an instant, the allowed one is of a stretch
-)
+SLOPE = 0.3  # part of the largest error of a rate that counts: it is that of an instant, the allowed one is of a coupling step
 SETTLED = 0.5  # an offset that changes by this part of what is allowed is not corrected again
 
 
 class Passed(NamedTuple):
-    """What a stretch came to."""
+    """Outcome of a coupling step."""
 
     error: float  # estimated, over the allowed one
     ends: Offsets  # [m] that the bodies moved on
@@ -50,7 +52,9 @@ class Passed(NamedTuple):
 
 
 class Coupling:
-    """Bodies and what supports them; ``start`` once, then ``advance`` interval by interval. ``sampled``: the samples of one."""
+    """Bodies and what supports them; ``start`` once, then ``advance`` interval by interval.
+    ``sampled``: the samples of one.
+    """
 
     def __init__(self, model: Model) -> None:
         """Make buffers and supports of ``model``."""
@@ -72,7 +76,7 @@ class Coupling:
     def reset(self) -> None:
         """Forget everything but the buffers."""
         self.bodies.reset()
-        self._proposed = float(self.model.timing.segments)  # length of the next stretch in segments
+        self._proposed = float(self.model.timing.segments)  # length of the next coupling step in segments
         for support in self.supports:
             support.reset()
 
@@ -88,7 +92,9 @@ class Coupling:
         bodies.start(first, self._offsets())
 
     def energies(self, smooth: float) -> Vector:
-        """Energies in [J] at the present instant, over a ``smooth`` height in [m] (order of ``rigs/vehicle/entries.energies``)."""
+        """Energies in [J] at the present instant, over a ``smooth`` height in [m] (order of
+        ``rigs/vehicle/entries.energies``).
+        """
         return self.bodies.energies(smooth + self.tire.offset, self.seat.offset)
 
     def copy_published(self) -> tuple[FieldRecord | None, FieldRecord | None]:
@@ -96,7 +102,7 @@ class Coupling:
         return self.tire.copy_published(), self.seat.copy_published()
 
     def advance(self, block: int, interval: int, whole: BlockDrive, record: BlockRecord) -> None:
-        """One interval between published fields, in one or several stretches.
+        """One interval between published fields, in one or several coupling steps.
 
         Raises RunError where the physics ends in a named failure.
         """
@@ -106,16 +112,18 @@ class Coupling:
             count = self._count(whole, first, timing.segments - done)
             row = -(-done // timing.sample_every)
             states, rates, forces = self.sampled
-            stretch = CouplingStep(
+            step = CouplingStep(
                 block, (block * timing.intervals * timing.segments + first) * timing.segment_length,
                 timing.segment_length, whole.part(first, count),
                 done + count == timing.segments, (states[row:], rates[row:], forces[row:]), done % timing.sample_every,
             )  # fmt: skip
-            if self._pass(stretch, record):
+            if self._pass(step, record):
                 done += count
 
     def _count(self, whole: BlockDrive, first: int, left: int) -> int:
-        """Segments of the next stretch from segment ``first`` on; ``left`` segments are left of the interval."""
+        """Segments of the next coupling step from segment ``first`` on; ``left`` segments are left
+        of the interval.
+        """
         rule = self.model.coupling
         if rule is None:
             return left
@@ -126,12 +134,12 @@ class Coupling:
         pieces = -(-left // max(1, int(longest)))
         return -(-left // pieces)
 
-    def _pass(self, stretch: CouplingStep, record: BlockRecord) -> bool:
-        """Pass a stretch; False where a shorter one must be tried, with all as it was."""
-        saved, count = self.bodies.save(), stretch.segments
+    def _pass(self, step: CouplingStep, record: BlockRecord) -> bool:
+        """Pass a coupling step; False where a shorter one must be tried, with all as it was."""
+        saved, count = self.bodies.save(), step.segments
         least = self._shortest
         try:
-            passed = self._corrected(stretch, saved)
+            passed = self._corrected(step, saved)
         except RunError:
             if not self._by_error or count == 1:
                 raise
@@ -147,33 +155,37 @@ class Coupling:
         record.stretches += 1
         if self.model.coupling is not None:
             record.coupling_error = max(record.coupling_error, passed.error * self.model.coupling.tolerance)
-        self._close(stretch, passed, record)
+        self._close(step, passed, record)
         return True
 
-    def _corrected(self, stretch: CouplingStep, saved: Saved) -> Passed:
-        """Predict, solve the fields at the end, correct; an error that calls for a shorter stretch ends it early."""
+    def _corrected(self, step: CouplingStep, saved: Saved) -> Passed:
+        """Predict, solve the fields at the end, correct; an error that calls for a shorter coupling
+        step ends it early.
+        """
         most = self.model.corrector_passes
-        solved = [stretch.last or not support.calm for support in self.supports]
-        ends = found = (self.tire.expected(stretch.segments), self.seat.expected(stretch.segments))
+        solved = [step.last or not support.calm for support in self.supports]
+        ends = found = (self.tire.expected(step.segments), self.seat.expected(step.segments))
         error = 0.0
         for passes_left in range(most, -1, -1):
             if passes_left < most:
                 self.bodies.restore(saved)
-            self.bodies.move(stretch, self._offsets(), ends)
+            self.bodies.move(step, self._offsets(), ends)
             # between published fields the last offsets stand as they are, unless the field is remembered
-            if passes_left or stretch.last or not most or self.tire.remembers:
-                found = self._solve(stretch, solved, ends)
+            if passes_left or step.last or not most or self.tire.remembers:
+                found = self._solve(step, solved, ends)
             if passes_left == most:
-                error = self._error(found, stretch)
-                if self._by_error and stretch.segments > self._shortest and error > 1.0:
+                error = self._error(found, step)
+                if self._by_error and step.segments > self._shortest and error > 1.0:
                     break
-            if not passes_left or self._settled(ends, found, stretch.duration):
+            if not passes_left or self._settled(ends, found, step.duration):
                 break
             ends = found
         return Passed(error, ends, found)
 
     def _settled(self, ends: Offsets, found: Offsets, duration: float) -> bool:
-        """Whether offsets found need no correction: small as heights, and as speeds over a stretch of ``duration`` [s]."""
+        """Whether offsets found need no correction: small as heights, and as speeds over a coupling
+        step of ``duration`` [s].
+        """
         return all(
             abs(a - b) <= SETTLED * min(allowed.height, allowed.speed * duration)
             for a, b, allowed in zip(ends, found, self._allowances, strict=True)
@@ -182,13 +194,17 @@ class Coupling:
     def _offsets(self) -> Offsets:
         return self.tire.offset, self.seat.offset
 
-    def _solve(self, stretch: CouplingStep, solved: list[bool], expected: Offsets) -> Offsets:
-        """Offsets that belong to the fields at the end of the stretch; those ``expected`` where none is solved."""
-        tire = self._solve_tire(stretch.drive, -1, stretch.block) if solved[0] else expected[0]
-        return tire, self._solve_seat(stretch.block) if solved[1] else expected[1]
+    def _solve(self, step: CouplingStep, solved: list[bool], expected: Offsets) -> Offsets:
+        """Offsets that belong to the fields at the end of the coupling step; those ``expected``
+        where none is solved.
+        """
+        tire = self._solve_tire(step.drive, -1, step.block) if solved[0] else expected[0]
+        return tire, self._solve_seat(step.block) if solved[1] else expected[1]
 
     def _solve_tire(self, drive: BlockDrive, point: int, block: int) -> float:
-        """Solve the tire's field at the present state; returns the offset that belongs to it, 0 without a field."""
+        """Solve the tire's field at the present state; returns the offset that belongs to it, 0
+        without a field.
+        """
         if self.tire.grids is None:
             return 0.0
         self.tire.place(drive.road, float(drive.travel[point]))
@@ -197,26 +213,30 @@ class Coupling:
         )
 
     def _solve_seat(self, block: int) -> float:
-        """Solve the seat's field at the present state; returns the offset that belongs to it, 0 without a field."""
+        """Solve the seat's field at the present state; returns the offset that belongs to it, 0
+        without a field.
+        """
         approach = self.bodies.seat_approach(0.0)
         return self.seat.solve(approach, approach, block)
 
-    def _error(self, found: Offsets, stretch: CouplingStep) -> float:
+    def _error(self, found: Offsets, step: CouplingStep) -> float:
         """Largest height, or rate of it, that a straight offset misses, over the allowed one."""
-        worst, count = 0.0, stretch.segments
+        worst, count = 0.0, step.segments
         for support, offset, allowed in zip(self.supports, found, self._allowances, strict=True):
-            turned = support.turn(offset, count) / stretch.segment_length
+            turned = support.turn(offset, count) / step.segment_length
             worst = max(worst, support.bend(offset, count) / allowed.height, SLOPE * turned / allowed.speed)
         return worst
 
-    def _close(self, stretch: CouplingStep, passed: Passed, record: BlockRecord) -> None:
-        """Take the fields and their offsets over; the energy that the remaining jump brings in counts as supplied."""
+    def _close(self, step: CouplingStep, passed: Passed, record: BlockRecord) -> None:
+        """Take the fields and their offsets over; the energy that the remaining jump brings in
+        counts as supplied.
+        """
         self.tire.keep()
-        height, cushion = float(stretch.drive.smooth[-1]) + passed.ends[0], passed.ends[1]
+        height, cushion = float(step.drive.smooth[-1]) + passed.ends[0], passed.ends[1]
         approaches = (self.bodies.tire_approach(height), self.bodies.seat_approach(cushion))
         pairs = zip(self.supports, approaches, passed.ends, passed.found, self._allowances, strict=True)
         for support, approach, end, offset, allowed in pairs:
-            support.take(offset, stretch.segments, stretch.last or not support.calm, allowed.height)
+            support.take(offset, step.segments, step.last or not support.calm, allowed.height)
             change = offset - end
             if support.contact is None or change == 0.0:
                 continue

@@ -13,24 +13,26 @@ from contact_sim_pkg.scene.schema.fields import given
 from contact_sim_pkg.scene.timing import Timing, make_timing
 
 LONGEST = 0.5
-"""Of the standing footprint's length, from one solution of the tire's field to the next: every obstacle is felt by two."""
+"""Of the standing footprint's length, from one solution of the tire's field to the next: every
+obstacle is felt by two.
+"""
 
 LONGEST_LOOSE, LOOSE = 1.0, 0.1
 """The same where an error of `LOOSE` or more is allowed: every obstacle is felt by one."""
 
 LONGEST_UNIFORM = 0.125
-"""The same where the stretches cannot be chosen by their error."""
+"""The same where the coupling steps cannot be chosen by their error."""
 
 SHORTEST = 0.1
-"""Of the standing footprint's length: a stretch may be as short as this."""
+"""Of the standing footprint's length: a coupling step may be as short as this."""
 
 
 SHORTEST_FOR_NOISE = 1e-3
-"""[s]; a stretch may always be as short as this."""
+"""[s]; a coupling step may always be as short as this."""
 
 
 class Allowance(NamedTuple):
-    """What a stretch may miss of the effective height of one contact."""
+    """What a coupling step may miss of the effective height of one contact."""
 
     height: float = math.inf  # [m]
     speed: float = math.inf  # [m/s] of its rate
@@ -38,21 +40,23 @@ class Allowance(NamedTuple):
 
 
 class CouplingRule(NamedTuple):
-    """Lengths that a stretch between two solutions of the fields may have, and what it may miss."""
+    """Lengths that a coupling step between two solutions of the fields may have, and what it may
+    miss.
+    """
 
     tolerance: float  # error of a force over the standing load
     allowances: tuple[Allowance, Allowance]  # of tire and seat
     longest_travel: float  # [m]
-    shortest: int  # segments: no error alone makes a stretch shorter
-    segments: int | None  # of each stretch, where all must be equal; None: chosen by the error
+    shortest: int  # segments: no error alone makes a coupling step shorter
+    segments: int | None  # of each coupling step, where all must be equal; None: chosen by the error
 
 
 def allowance_of(contact: Contact | None, field: FieldGrids | None, load: float, tolerance: float) -> Allowance:
-    """What changes the force of a contact under ``load`` [N] by the part ``tolerance`` of it: a height, or a speed through its
-    loss.
+    """What changes the force of a contact under ``load`` [N] by the part ``tolerance`` of it: a
+    height, or a speed through its loss.
 
-    A field is solved to a tolerance of its own: its error would be taken for changes of the height, so less than that counts
-    as that.
+    A field is solved to a tolerance of its own: its error would be taken for changes of the height,
+    so less than that counts as that.
     """
     if contact is None:
         return Allowance()
@@ -67,12 +71,16 @@ def allowance_of(contact: Contact | None, field: FieldGrids | None, load: float,
 
 
 def shortest_time(allowance: Allowance) -> float:
-    """Time in [s] over which the solver's error of a height is no more than the allowed speed; at most `SHORTEST_FOR_NOISE`."""
+    """Time in [s] over which the solver's error of a height is no more than the allowed speed; at
+    most `SHORTEST_FOR_NOISE`.
+    """
     return min(allowance.noise / allowance.speed, SHORTEST_FOR_NOISE)
 
 
 def longest_travel(footprint: float | None, tolerance: float) -> float:
-    """Longest way in [m] of a stretch over a ``footprint`` [m], which is None without a field on a road."""
+    """Longest way in [m] of a coupling step over a ``footprint`` [m], which is None without a field
+    on a road.
+    """
     if footprint is None:
         return math.inf
     return footprint * (LONGEST_LOOSE if tolerance >= LOOSE else LONGEST)
@@ -85,7 +93,9 @@ def highest_speed(scene: ResolvedScene) -> float:
 
 
 def coupled_timing(scene: ResolvedScene, with_field: bool, footprint: float | None) -> Timing:
-    """Cut of a block; segments fit the shortest stretch over a ``footprint`` [m], which is None without a field on a road."""
+    """Cut of a block; segments fit the shortest coupling step over a ``footprint`` [m], which is
+    None without a field on a road.
+    """
     if footprint is None:
         return make_timing(scene, with_field)
     way = highest_speed(scene) / scene.outputs.force_rate
@@ -93,7 +103,9 @@ def coupled_timing(scene: ResolvedScene, with_field: bool, footprint: float | No
 
 
 def uniform_segments(scene: ResolvedScene, footprint: float, timing: Timing) -> int:
-    """Segments of stretches that are all equal: the most that divide an interval and are short against the ``footprint`` [m]."""
+    """Segments of coupling steps that are all equal: the most that divide an interval and are short
+    against the ``footprint`` [m].
+    """
     way = highest_speed(scene) * timing.segment_length
     divisors = [n for n in range(1, timing.segments + 1) if timing.segments % n == 0]
     return max(n for n in divisors if n == 1 or n * way <= LONGEST_UNIFORM * footprint)

@@ -1,4 +1,6 @@
-"""What supports a body at one contact: the effective height of road or cushion, and the pressure field that sets it."""
+"""What supports a body at one contact: the effective height of road or cushion, and the pressure
+field that sets it.
+"""
 
 from __future__ import annotations
 
@@ -24,15 +26,19 @@ CALM = 0.1
 
 
 class Support(ABC):
-    """The support of one contact; ``offset`` [m] is what its field adds to the smooth height, 0 without a field."""
+    """The support of one contact; ``offset`` [m] is what its field adds to the smooth height, 0
+    without a field.
+    """
 
     still = False  # the support has always the same form
-    remembers = False  # the field of each stretch's end decides on those after it
+    remembers = False  # the field of each coupling step's end decides on those after it
 
     def __init__(self, grids: FieldGrids | None, contact: Contact | None) -> None:
-        """Take the pressure field (None: the smooth height is all there is) and the contact whose law it serves."""
+        """Take the pressure field (None: the smooth height is all there is) and the contact whose
+        law it serves.
+        """
         self.grids, self.contact = grids, contact
-        self.offset = 0.0  # [m] at the end of the last stretch
+        self.offset = 0.0  # [m] at the end of the last coupling step
         self._solved = 0.0  # [m] offset at the last solution of the field
         self._since = 0  # segments since then
         self._slope = 0.0  # [m] of the offset a segment, between the last two solutions
@@ -54,11 +60,15 @@ class Support(ABC):
         self._slope, self._since, self._count, self.calm = 0.0, 0, 1, False
 
     def expected(self, count: int) -> float:
-        """Offset in [m] after a stretch of ``count`` segments if it goes on as between the last two solutions."""
+        """Offset in [m] after a coupling step of ``count`` segments if it goes on as between the
+        last two solutions.
+        """
         return self._solved + self._slope * (self._since + count)
 
     def bend(self, offset: float, count: int) -> float:
-        """Largest distance in [m] of the straight line to ``offset`` [m], ``count`` segments on, from a parabola through three."""
+        """Largest distance in [m] of the straight line to ``offset`` [m], ``count`` segments on,
+        from a parabola through three.
+        """
         span = self._since + count
         slope = (offset - self._solved) / span
         return abs(slope - self._slope) * span**2 / (4.0 * (self._count + span))
@@ -69,7 +79,9 @@ class Support(ABC):
         return abs((offset - self._solved) / span - self._slope) * span / (self._count + span)
 
     def take(self, offset: float, count: int, solved: bool, allowed: float) -> None:
-        """A stretch of ``count`` segments is done; ``offset`` [m] was found there, or expected; ``allowed`` [m] is its error."""
+        """A coupling step of ``count`` segments is done; ``offset`` [m] was found there, or
+        expected; ``allowed`` [m] is its error.
+        """
         span = self._since + count
         if solved:
             self.calm = self.still and abs(offset - self.expected(count)) <= CALM * allowed
@@ -78,10 +90,11 @@ class Support(ABC):
         self._since, self.offset = span, offset
 
     def solve(self, approach: float, geometric: float, block: int) -> float:
-        """Solve the field at ``approach`` [m]; returns the offset to the ``geometric`` approach [m] of the smooth height.
+        """Solve the field at ``approach`` [m]; returns the offset to the ``geometric`` approach [m]
+        of the smooth height.
 
-        Where the contact outgrows the usual grid, or touches beyond it, the wide one takes over. Raises RunError where that is
-        too small as well.
+        Where the contact outgrows the usual grid, or touches beyond it, the wide one takes over.
+        Raises RunError where that is too small as well.
         """
         if self.grids is None or self.contact is None:
             return 0.0
@@ -101,12 +114,16 @@ class Support(ABC):
         return offset
 
     def stand(self, load: float) -> float:
-        """Approach in [m] at which the field carries ``load`` [N]; the start of a run. Errors as ``solve``."""
+        """Approach in [m] at which the field carries ``load`` [N]; the start of a run. Errors as
+        ``solve``.
+        """
         assert self.grids is not None
         return self._stand_on(self.grids, load)[0]
 
     def _stand_on(self, grids: FieldGrids, load: float) -> tuple[float, PressureField]:
-        """Approach in [m] under ``load`` [N] and the field that carries it: the usual one, or the wide one."""
+        """Approach in [m] under ``load`` [N] and the field that carries it: the usual one, or the
+        wide one.
+        """
         for field in grids.both():
             try:
                 field.roll_to(self.road_row(field.settings))
@@ -140,7 +157,8 @@ class Support(ABC):
         return None if self.published is None else self.published._replace(pressure=self.published.pressure.copy())
 
     def with_loss(self, found: FieldRecord, approach: float, rate: float) -> FieldRecord:
-        """The elastic field with the loss of the contact's law, so that its integral is the force at its instant.
+        """The elastic field with the loss of the contact's law, so that its integral is the force
+        at its instant.
 
         ``approach`` [m] and its ``rate`` [m/s] are those of the smooth contact.
         """
@@ -164,11 +182,15 @@ class Support(ABC):
         return 0
 
     def touches_beyond(self, grids: FieldGrids, approach: float) -> bool:
-        """Whether the contact just solved on the usual grid at ``approach`` [m] goes on outside it: it stands before a wall."""
+        """Whether the contact just solved on the usual grid at ``approach`` [m] goes on outside it:
+        it stands before a wall.
+        """
         return False
 
     def refuse_beyond(self, grids: FieldGrids, approach: float, block: int) -> None:  # noqa: B027  # most have nothing there
-        """Raise RunError where the contact just solved on the wide grid at ``approach`` [m] goes on outside it."""
+        """Raise RunError where the contact just solved on the wide grid at ``approach`` [m] goes on
+        outside it.
+        """
 
     @abstractmethod
     def gap(self, settings: FieldSettings) -> Gap:

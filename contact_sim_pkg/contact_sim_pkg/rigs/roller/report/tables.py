@@ -1,5 +1,5 @@
-"""Tables of the roller's page: stability under each load told, dangerous volumes of each component
-and of their union.
+"""Tables of the roller's page: stability under each reported load, dangerous volumes of each
+component and of their union.
 """
 
 from __future__ import annotations
@@ -18,7 +18,7 @@ MOST_ROWS = 40
 
 
 def stability_table(stability: list[RollerStability], block_length: float) -> Table | None:
-    """One row for each load told; None where there is none."""
+    """One row for each reported load; None where there is none."""
     if not stability:
         return None
     header = ("from, s", "load, N", "growth rate, 1/s", "frequency, Hz", "static tilt, mrad", "static yaw, mrad",
