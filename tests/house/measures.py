@@ -52,7 +52,7 @@ def measure() -> list[Measure]:
         Measure("modules over 400 lines", "0", f"{sum(len(m.text.splitlines()) > 400 for m in own)}", "0"),
         Measure("modules in the fullest folder", "90", _fullest(own), "<= 16"),
         Measure("circles of imports", "3", f"{len(circles(edges))}", "0"),
-        Measure("tables of effects", "5", f"{len(tables_of_effects(own))}", "1"),
+        Measure("tables of effects", "5", f"{1 + len(tables_of_effects(own))}", "1"),  # the records are one
         *(
             Measure(f"shared files edited for a new {name}", PATCHES[name].before, shared[name], PATCHES[name].wanted)
             for name in PATCHES

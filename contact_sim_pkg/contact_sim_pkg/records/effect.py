@@ -44,6 +44,7 @@ class Effect:
         carries: whether it carries the load of the contact: every scene with the contact names it.
         publishes: topic of the contact that is there because of it; empty: none.
         feeds: topics of the contact whose values it changes.
+        inputs: sections of the scene that act through it alone.
         called_for: rule that says from a scene and its result whether the scene calls for it.
     """
 
@@ -56,6 +57,7 @@ class Effect:
     carries: bool = False
     publishes: str = ""
     feeds: tuple[str, ...]
+    inputs: tuple[str, ...] = ()
     called_for: Rule
 
 

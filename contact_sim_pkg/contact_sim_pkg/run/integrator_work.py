@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable, Iterator
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 from contact_sim_pkg.records.work import STEP_COST, Work
 from contact_sim_pkg.scene.resolved_scene import ResolvedScene
@@ -18,7 +18,7 @@ from contact_sim_pkg.scene.timing import make_timing
 __all__ = ["Link", "integrator_steps", "links_of_laws", "power_law_link", "segments"]
 
 SWING, DAMPED = 1.2, 3.3  # [rad], [time constants] of a step
-SPEED = 0.5  # [m/s] at which a loss is taken
+SPEED = 0.5  # [m/s] at which a dissipative law is linearised
 
 
 class Link(NamedTuple):
@@ -46,23 +46,29 @@ def integrator_steps(
 
 
 def links_of_laws(scene: ResolvedScene, contact: str, mass: float, load: float) -> Iterator[Link]:
-    """The laws of a contact that touches with a ``mass`` [kg], at its depth under the ``load`` [N] at rest."""
-    elastic, friction = scene.effect(contact, PowerLaw), scene.effect(contact, FrictionSection)
-    if elastic is not None and load > 0.0:
-        general, loss = scene.effect(contact, GeneralLoss), scene.effect(contact, HuntCrossley)
-        depth = (load / elastic.coefficient) ** (1.0 / elastic.exponent)
-        if general is not None and general.coefficient is not None:
-            power = general.rate_exponent
-            slope = general.coefficient * depth**general.approach_exponent
-            yield Link("general_dissipative", mass, 0.0, slope * (max(power, 1.0) * SPEED ** (power - 1.0)))
-        damping = 0.0 if loss is None else loss.damping or 0.0
-        yield Link("normal_dissipative", mass, 0.0, damping * load)
-        yield power_law_link("normal_elastic", mass, load, elastic.coefficient, elastic.exponent)
-    if friction is not None:
-        yield Link("friction", mass, friction.stiffness, friction.damping)
+    """The laws of a contact as springs and dampers of the ``mass`` [kg], linear at the ``load`` [N] at rest."""
+    elastic = scene.effect(contact, PowerLaw)
+    depth = 0.0 if elastic is None else (load / elastic.coefficient) ** (1.0 / elastic.exponent)
+    for record, keys in scene.effects_at(contact):
+        yield Link(record.name, mass, *_tangent(keys, load, depth))
+
+
+def _tangent(law: Any, load: float, depth: float) -> tuple[float, float]:
+    """Stiffness [N/m] and damping [N s/m] of a law at its ``load`` [N] and ``depth`` [m]."""
+    if isinstance(law, FrictionSection):
+        return law.stiffness, law.damping
+    if load > 0.0:
+        if isinstance(law, PowerLaw):
+            return law.exponent * load / depth, 0.0
+        if isinstance(law, HuntCrossley):
+            return 0.0, (law.damping or 0.0) * load
+        if isinstance(law, GeneralLoss) and law.coefficient is not None:
+            power = law.rate_exponent
+            return 0.0, law.coefficient * depth**law.approach_exponent * max(power, 1.0) * SPEED ** (power - 1.0)
+    return 0.0, 0.0
 
 
 def power_law_link(name: str, mass: float, load: float, coefficient: float, exponent: float) -> Link:
-    """The tangent of coefficient · depth^exponent at the ``load`` [N]."""
+    """Tangent of the force coefficient · depth^exponent [N] at the ``load`` [N], above 0."""
     depth = (load / coefficient) ** (1.0 / exponent)
     return Link(name, mass, exponent * load / depth, 0.0)

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
+import copy
 import hashlib
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
 from io import StringIO
 from pathlib import Path
@@ -13,6 +14,7 @@ from typing import TYPE_CHECKING, Any, TypeVar
 from ruamel.yaml import YAML
 
 from contact_sim_pkg.files import open_regular_file
+from contact_sim_pkg.records.effect import Effect
 from contact_sim_pkg.records.registry import contacts, rigs
 from contact_sim_pkg.records.rig import load
 from contact_sim_pkg.scene.errors import Fault, SceneError
@@ -133,12 +135,27 @@ class ResolvedScene:
 
     def effect(self, contact: str, kind: type[Kind]) -> Kind | None:
         """The effect of a contact by the class of its keys, or one below it; None where the scene calls for none."""
+        return next((keys for _record, keys in self.effects_at(contact) if isinstance(keys, kind)), None)
+
+    def effects_at(self, contact: str) -> Iterator[tuple[Effect, Section]]:
+        """Effects that the scene calls for at a contact with their keys, in the order of the records."""
         named = self.data["effects"].get(contact) or {}
         for record in contacts()[contact].effects:
-            if named.get(record.name) is not None and issubclass(found := load(record.section), kind):
-                effect: Kind = found.model_validate(named[record.name])
-                return effect
-        return None
+            if named.get(record.name) is not None:
+                yield record, load(record.section).model_validate(named[record.name])
+
+    def without(self, *effects: Effect) -> ResolvedScene:
+        """The scene less some effects, those that need them, and the sections that act through them alone."""
+        data = copy.deepcopy(self.data)
+        for contact in rigs()[self.rig].contacts:
+            left_out = [record for record in contact.effects if record in effects]
+            while left_out:
+                record = left_out.pop()
+                (data["effects"].get(contact.name) or {}).pop(record.name, None)
+                for section in record.inputs:
+                    data.pop(section, None)
+                left_out += [other for other in contact.effects if record.name in other.needs]
+        return ResolvedScene(data, self.files)
 
     def to_yaml(self) -> str:
         """The data as YAML 1.2; `resolve.read_resolved` reads the same data from it, to the bit."""

@@ -1,9 +1,9 @@
-"""`bench effects`: what stands in the table of a scene, and what an effect is said to change."""
+"""`bench effects`: rows of a scene, and the reported changes of an effect."""
 
 import numpy
 import pytest
 
-from contact_sim_pkg.bag.messages import encode
+from contact_sim_pkg.bag.block_encoder import Output
 from contact_sim_pkg.records.effect import Observed
 from contact_sim_pkg.records.messages import RollerContact
 from contact_sim_pkg.records.registry import effects
@@ -14,7 +14,7 @@ from contact_sim_pkg.studies.effects.ablation_changes import Change, changes_of,
 def contact(**values):
     columns = {name: numpy.ones(4) for name in RollerContact._fields if name not in ("block", "period")}
     columns.update(values)
-    return [("roller/contact", 0, encode(RollerContact(block=0, period=0.01, **columns), 0))]
+    return [Output("roller/contact", 0, RollerContact(block=0, period=0.01, **columns))]
 
 
 def test_the_change_is_that_of_the_field_that_changes_most():
@@ -25,7 +25,7 @@ def test_the_change_is_that_of_the_field_that_changes_most():
     assert found.change == pytest.approx((2.0 / 6.0) ** 0.5, rel=1e-12)
 
 
-def test_nothing_changes_between_two_equal_runs_and_what_one_lacks_is_told():
+def test_nothing_changes_between_two_equal_runs_and_a_missing_topic_is_reported():
     assert changes_of(contact(), contact(), ["roller/contact", "roller/track"]) == [
         Change("roller/contact", "unchanged", 0.0)
     ]
@@ -38,8 +38,8 @@ def test_rounding_in_both_runs_is_no_change():
     assert changes_of(tiny, contact(tilt=numpy.full(4, -2e-17)), ["roller/contact"])[0].field == "unchanged"
 
 
-def test_a_field_that_is_zero_in_one_run_is_told_with_its_unit_and_not_as_a_ratio():
-    """rms of (3, 4, 0, 0) is 2.5; what changes by ratio is told beside it."""
+def test_a_field_that_is_zero_in_one_run_is_reported_with_its_unit_and_not_as_a_ratio():
+    """rms of (3, 4, 0, 0) is 2.5; the ratio of another field stands beside it."""
     rounding = contact(tilt=numpy.full(4, 1e-12))
     large = contact(tilt=numpy.array([3.0, 4.0, 0.0, 0.0]), yaw=numpy.full(4, 1.25))
     for runs in ((rounding, large), (large, rounding)):
@@ -60,7 +60,7 @@ def test_the_unit_of_a_field_is_that_of_its_message(topic, field, unit):
     assert unit_of(topic, field) == unit
 
 
-def test_another_number_of_values_is_told():
+def test_another_number_of_values_is_reported():
     """A shell has 320 points in place of one."""
     [found] = changes_of(contact() * 2, contact(), ["roller/contact"])
     assert found.field.startswith("of another length: ")

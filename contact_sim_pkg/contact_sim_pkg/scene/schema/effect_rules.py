@@ -11,15 +11,6 @@ from contact_sim_pkg.scene.errors import Breach
 from contact_sim_pkg.scene.schema.scene import Scene
 
 
-def dependents_of(contact: str, effect: str) -> set[str]:
-    """Effects of a contact that cannot act without ``effect``, those that need them included."""
-    found: set[str] = set()
-    for record in contacts()[contact].effects:
-        if effect in record.needs:
-            found |= {record.name} | dependents_of(contact, record.name)
-    return found
-
-
 def effect_breaches(scene: Scene) -> Iterator[Breach]:
     """Contacts that the rig lacks or leaves without elastic force; effects without what they need, or that exclude."""
     own = rigs()[scene.rig].contacts

@@ -1,9 +1,8 @@
-"""`bench effects SCENE`: each effect on or off, its measured cost, the outputs it feeds, and
-whether the scene calls for it.
+"""`bench effects SCENE`: cost of each effect, its outputs, and whether the scene calls for it.
 
-Each effect of the scene's contacts is taken out (or put in, where it is absent and can be) and the
-scene run again, the two kinds of run by turns, so that what else the machine does hits both alike;
-the median of the pairs counts.
+Each effect of the scene's contacts is removed, or added where it is absent and can act, and the
+scene runs again. Runs with and without it alternate, so that other load of the machine slows both
+alike; the median of the pairs counts.
 """
 
 from __future__ import annotations
@@ -16,7 +15,6 @@ from contact_sim_pkg.records.contact import Contact
 from contact_sim_pkg.records.effect import Effect
 from contact_sim_pkg.records.registry import rigs
 from contact_sim_pkg.records.table import Section
-from contact_sim_pkg.rigs.vehicle.studies.scene_drive import without
 from contact_sim_pkg.run.errors import RunError
 from contact_sim_pkg.scene.errors import SceneError
 from contact_sim_pkg.scene.overrides import set_value
@@ -31,22 +29,22 @@ LEDGER = "bench/energy"
 MEASURES = (
     "duration", "cost_with", "cost_without", "cost", "cost_noise", "cost_share", "load_mean_change", "load_rms_change",
 )  # fmt: skip
-STEADY = 1.0e-9  # of the greatest force: a spread of it below this is rounding, which has no ratio
+STEADY = 1.0e-9  # of the largest force: a spread below it is rounding, which has no ratio
 NOTHING: dict[str, Any] = {**dict.fromkeys(MEASURES), "changes": []}
 """Measures of an effect that is not measured."""
 
 
 def study(scene_name: str, progress: Callable[[str], None] | None = None) -> list[dict[str, Any]]:
-    """One row a contact and effect: contact, effect, on, topics, cost with and without, changes,
-    called for.
+    """One row for each contact and effect: contact, effect, on, topics, costs, changes, verdict.
 
     `duration` [s] simulated in each run, `cost_with`, `cost_without` [ms per simulated second],
     `cost` (median difference of the pairs), `cost_noise` (half the range of these differences: a
-    cost below it is none that was seen), `cost_share` (`cost` over `cost_with`), `load_mean_change`
+    cost below it was not resolved), `cost_share` (`cost` over `cost_with`), `load_mean_change`
     and `load_rms_change` (relative, of the normal force), `changes` (of each output that the effect
     feeds, the field that changes most: `ablation_changes`), `called_for` (`needed`, `not needed` or
     `no rule`), `verdict` (`as it should be`, `on but not needed`, `off but needed`, `not
-    available`, `carries the load`) and `why`. Raises what a bad scene raises.
+    available`, `carries the load`) and `why`. `progress` receives each phase as a sentence. Raises
+    SceneError where the scene is wrong.
     """
     notify = progress or (lambda text: None)
     scene = load_resolved(scene_name)
@@ -59,7 +57,7 @@ def study(scene_name: str, progress: Callable[[str], None] | None = None) -> lis
 
 
 def sections(rows: list[dict[str, Any]]) -> list[Section]:
-    """The same rows as a person reads them."""
+    """Tables of the rows: cost, changes, verdicts, outputs."""
     cost = [
         {
             "contact": row["contact"], "effect": row["effect"], "on": row["on"], "with": row["cost_with"],
@@ -92,8 +90,8 @@ def sections(rows: list[dict[str, Any]]) -> list[Section]:
         Section(
             "what the effect changes",
             changes,
-            "of each output the field that changes most: rms of the difference over the larger rms; of what is 0 in one run the "
-            "rms in the other",
+            "of each output the field that changes most: rms of the difference over the larger rms; "
+            "of what is 0 in one run the rms in the other",
         ),
         Section("called for by the scene?", reasons),
         Section("outputs that the effect feeds", feeds, f"and each of them {' and '.join(BENCH_TOPICS)}"),
@@ -117,27 +115,23 @@ def _row(
     on = named.get(effect.name) is not None
     topics = [f"{contact.name}/{name}" for name in effect.feeds] + list(BENCH_TOPICS)
     row: dict[str, Any] = {"contact": contact.name, "effect": effect.name, "on": on, "topics": topics}
+    # No pair of runs: the contact needs the effect, or the effect needs another, or a run fails.
+    unmeasured = {**row, **NOTHING, "called_for": "no rule", "verdict": "not available"}
     if effect.carries:
         why = "without it the contact carries no load"
-        return {
-            **row,
-            **NOTHING,
-            "called_for": "needed",
-            "verdict": "carries the load",
-            "why": why,
-        }
+        return {**unmeasured, "called_for": "needed", "verdict": "carries the load", "why": why}
     missing = " and ".join(name for name in effect.needs if named.get(name) is None)
     if missing:
-        why = f"needs {missing}, which the scene does not name"
-        return {**row, **NOTHING, "called_for": "no rule", "verdict": "not available", "why": why}
+        return {**unmeasured, "why": f"needs {missing}, which the scene does not name"}
     try:
         present = scene if on else _with(scene, scene_name, contact, effect)
-        pair = paired(present, without(present, (contact.name, effect.name)), notify)
+        pair = paired(present, present.without(effect), notify)
     except (SceneError, RunError) as error:
-        return {**row, **NOTHING, "called_for": "no rule", "verdict": "not available", "why": _reason(error)}
+        return {**unmeasured, "why": _reason(error)}
+    # An absent effect that replaces another is a choice of the model: no rule calls for it.
     replaced = [] if on else _excluded(scene, contact, effect)
     needed, why = (
-        (None, f"a choice of the model in place of {' and '.join(replaced)}")
+        (None, f"a choice of the model in place of {' and '.join(each.name for each in replaced)}")
         if replaced
         else effect.called_for(present, pair.with_it.observed)
     )
@@ -158,22 +152,21 @@ def _reason(error: SceneError | RunError) -> str:
 
 def _with(scene: ResolvedScene, scene_name: str, contact: Contact, effect: Effect) -> ResolvedScene:
     """The scene with one more effect, all its defaults, in place of those that it excludes."""
-    bare = without(scene, *((contact.name, name) for name in _excluded(scene, contact, effect)))
-    asked = set_value(f"effects.{contact.name}.{effect.name}={{}}")
-    return ResolvedScene(read_explicit(bare.to_yaml(), scene_name, [asked]), scene.files)
+    bare = scene.without(*_excluded(scene, contact, effect))
+    added = set_value(f"effects.{contact.name}.{effect.name}={{}}")
+    return ResolvedScene(read_explicit(bare.to_yaml(), scene_name, [added]), scene.files)
 
 
-def _excluded(scene: ResolvedScene, contact: Contact, effect: Effect) -> list[str]:
-    """What the scene names and the effect would take the place of."""
-    named = scene.data["effects"].get(contact.name) or {}
+def _excluded(scene: ResolvedScene, contact: Contact, effect: Effect) -> list[Effect]:
+    """Effects of the scene that the effect excludes."""
     return [
-        other.name for other in contact.effects
-        if named.get(other.name) is not None and (other.name in effect.excludes or effect.name in other.excludes)
+        other for other, _keys in scene.effects_at(contact.name)
+        if other.name in effect.excludes or effect.name in other.excludes
     ]  # fmt: skip
 
 
 def _measures(pair: Pair, contact: str, topics: list[str]) -> dict[str, Any]:
-    force, bare = pair.with_it.forces[contact], pair.without_it.forces[contact]
+    force, bare = pair.with_it.observed.forces[contact], pair.without_it.observed.forces[contact]
     spread, bare_spread = float(force.std()), float(bare.std())
     least = STEADY * float(abs(bare).max())
     cost = statistics.median(pair.differences)
@@ -182,6 +175,6 @@ def _measures(pair: Pair, contact: str, topics: list[str]) -> dict[str, Any]:
         0.5 * (max(pair.differences) - min(pair.differences)), cost / pair.with_it.cost,
         float(force.mean() / bare.mean() - 1.0), spread / bare_spread - 1.0 if bare_spread > least else 0.0,
     )  # fmt: skip
-    seen = [topic for topic in topics if topic != LEDGER]
-    changes = changes_of(pair.with_it.messages, pair.without_it.messages, seen)
+    compared = [topic for topic in topics if topic != LEDGER]
+    changes = changes_of(pair.with_it.outputs, pair.without_it.outputs, compared)
     return {**dict(zip(MEASURES, values, strict=True)), "changes": [change._asdict() for change in changes]}

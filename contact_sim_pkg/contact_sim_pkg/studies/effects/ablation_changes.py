@@ -9,37 +9,32 @@ rounding in both is no change.
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator
 from typing import Any, NamedTuple
 
 import numpy
 
-from contact_sim_pkg.bag.columns import stacked
+from contact_sim_pkg.bag.block_encoder import Output
 from contact_sim_pkg.bag.topics import TOPICS
-from contact_sim_pkg.bag.typestore import definition, installed_types
+from contact_sim_pkg.bag.typestore import definition
 from contact_sim_pkg.compiled.arrays import Vector
 
 __all__ = ["Change", "changes_of", "unit_of"]
 
-Messages = list[tuple[str, int, bytes]]
-
-NOT_PHYSICS = ("time", "log_time", "stamp")
+TIME = "time"  # instants of samples are no physics
 ROUNDING = 1e-15  # in SI units: a root mean square below it is rounding, of the middle of a symmetric map for instance
-
-
 ZERO = 1e-6  # of the root mean square of the other run: a field below it is zero beside it
-TURNS = (" of block_pitch", " of block_rotation")  # in the names of coordinates
+ANGULAR = (" of block_pitch", " of block_rotation")  # in the names of coordinates
 NAMED = 3  # most fields of another length that are named
 NONE = numpy.zeros((0, 0))
 
 
 class Change(NamedTuple):
-    """Of a topic's field that changes most; `change` None where no ratio says it: `field` then has
-    the reason.
+    """Change of the field of a topic that changes most, in ratio to its larger root mean square.
 
-    The topic is in one run alone; or its fields have other lengths (points, bodies, events), and
-    those that can be compared do not differ. Or the field is zero in one of the runs: `size` is its
-    root mean square in the other, `unit` as the message says.
+    `change` is None where there is no ratio. `field` has the reason: the topic is in one run alone;
+    or its fields have other lengths (points, bodies, events), and those of equal lengths are equal.
+    Or the field is zero in one of the runs: `size` is its root mean square in the other, in `unit`.
     """
 
     topic: str
@@ -49,21 +44,22 @@ class Change(NamedTuple):
     unit: str = ""
 
 
-def changes_of(with_it: Messages, without_it: Messages, topics: Iterable[str]) -> list[Change]:
-    """One for each of the topics that is in one of the runs, as named."""
+def changes_of(with_it: list[Output], without_it: list[Output], topics: Iterable[str]) -> list[Change]:
+    """Changes between the outputs of two runs: for each topic those of one field or of a few."""
     found = []
     for topic in topics:
-        sides = [[(stamp, data) for name, stamp, data in run if name == topic] for run in (with_it, without_it)]
+        sides = [[each.record for each in run if each.topic == topic] for run in (with_it, without_it)]
         if all(sides):
-            found += _of_topic(topic, *(_fields(topic, side) for side in sides))
+            found += _of_topic(topic, *(_fields(side) for side in sides))
         elif any(sides):
             found.append(Change(topic, "only with it" if sides[0] else "only without it", None))
     return found
 
 
 def _of_topic(topic: str, fields: dict[str, Vector], others: dict[str, Vector]) -> list[Change]:
-    """The field that changes most by ratio, then at most `NAMED` of those that are zero in one run,
-    or what no number says.
+    """The field that changes most by ratio, then at most `NAMED` of those that are zero in one run.
+
+    Where neither exists, the fields of other lengths by name.
     """
     largest, alone = Change(topic, "unchanged", 0.0), []
     other = [name for name in {**fields, **others} if fields.get(name, NONE).shape != others.get(name, NONE).shape]
@@ -82,11 +78,9 @@ def _of_topic(topic: str, fields: dict[str, Vector], others: dict[str, Vector]) 
 
 
 def _compared(values: Vector, others: Vector) -> tuple[float, float | None]:
-    """Relative change, and the root mean square of the one run where the field is zero in the
-    other.
-    """
-    known = numpy.isfinite(values) & numpy.isfinite(others)
-    values, others = values[known], others[known]
+    """Relative change; where the field is zero in one run, its root mean square in the other."""
+    finite = numpy.isfinite(values) & numpy.isfinite(others)
+    values, others = values[finite], others[finite]
     small, large = sorted(float(numpy.linalg.norm(each)) for each in (values, others))
     if not large > ROUNDING * values.size**0.5:
         return 0.0, None
@@ -96,8 +90,9 @@ def _compared(values: Vector, others: Vector) -> tuple[float, float | None]:
 
 
 def unit_of(topic: str, field: str) -> str:
-    """Of a field of a topic in the first brackets of its line in the message, in rad for a turn;
-    "SI" where there are none.
+    """Unit of a field of a topic: in the first brackets of its line in the message definition.
+
+    [rad] in place of [m] for an angular coordinate; "SI" where the line has no brackets.
     """
     name = field.split(" of ")[0]
     if name.startswith("wrench."):
@@ -106,30 +101,33 @@ def unit_of(topic: str, field: str) -> str:
         code, _, comment = line.partition("#")
         if code.split()[-1:] == [name.split(".")[0]] and "[" in comment:
             unit = comment[comment.index("[") + 1 :].split("]")[0].split(",")[0]
-            return unit.replace("m", "rad", 1) if any(turn in field for turn in TURNS) else unit
+            return unit.replace("m", "rad", 1) if any(each in field for each in ANGULAR) else unit
     return "SI"
 
 
-def _fields(topic: str, messages: list[tuple[int, bytes]]) -> dict[str, Vector]:
-    """Real numbers of all messages by field, each body's on their own."""
-    store, type_name = installed_types(), TOPICS[topic].type
-    decoded = [(stamp, store.deserialize_cdr(data, type_name)) for stamp, data in messages]
-    columns = stacked(decoded, store, type_name, None)
+def _fields(records: list[Any]) -> dict[str, Vector]:
+    """Real numbers of all records of a topic by field, each body's on their own."""
+    rows: dict[str, list[Any]] = {}
+    for record in records:
+        for name, value in _leaves(record):
+            rows.setdefault(name, []).append(numpy.atleast_1d(value))
+    bodies = getattr(records[0], "bodies", None)
     fields: dict[str, Vector] = {}
-    for name, column in columns.items():
-        if name in NOT_PHYSICS:
+    for name, parts in rows.items():
+        if name == TIME or not all(numpy.issubdtype(part.dtype, numpy.floating) for part in parts):
             continue
-        rows = [numpy.atleast_1d(numpy.asarray(row)) for row in column]
-        if not all(numpy.issubdtype(row.dtype, numpy.floating) for row in rows):
-            continue
-        if "bodies" in columns and rows[0].size > 1:
-            fields.update(_by_body(name, columns["bodies"], rows))
+        if bodies is not None and parts[0].size > 1:
+            table = numpy.concatenate([part.reshape(len(bodies), -1) for part in parts], axis=1, dtype=numpy.float64)
+            fields |= {f"{name} of {body}": row for body, row in zip(bodies, table, strict=True)}
         else:
-            fields[name] = numpy.concatenate(rows).astype(numpy.float64)
+            fields[name] = numpy.concatenate([part.ravel() for part in parts], dtype=numpy.float64)
     return fields
 
 
-def _by_body(name: str, bodies: Any, rows: list[Any]) -> dict[str, Vector]:
-    names = [str(each) for each in bodies[0]]
-    table = numpy.concatenate([row.reshape(len(names), -1) for row in rows], axis=1).astype(numpy.float64)
-    return {f"{name} of {body}": table[place] for place, body in enumerate(names)}
+def _leaves(record: Any, prefix: str = "") -> Iterator[tuple[str, Any]]:
+    """Fields of a record by dotted name, those of the records in it included."""
+    for name, value in zip(record._fields, record, strict=True):
+        if hasattr(value, "_fields"):
+            yield from _leaves(value, f"{prefix}{name}.")
+        else:
+            yield f"{prefix}{name}", value

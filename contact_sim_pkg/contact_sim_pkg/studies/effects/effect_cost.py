@@ -1,6 +1,4 @@
-"""What an absent effect costs: the elastic rig with the loss left out, beside the same rig written
-by hand without it.
-"""
+"""Cost of an absent effect: a rig with its dissipation absent, and the same rig written without it."""
 
 from __future__ import annotations
 
@@ -27,9 +25,7 @@ END = 20.0  # [s]
 
 
 class HandWritten(NamedTuple):
-    """`PointContact` as one would write it for a Hertz contact without any loss, the moving support
-    included. State [z, v].
-    """
+    """`PointContact` written for a Hertz contact without dissipation on a moving base; state [z, v]."""
 
     mass: float
     gravity: float
@@ -68,7 +64,10 @@ register_rig(HandWritten, _rate, _event_functions, _mode_transition, _need_rate,
 
 
 def bounce(rig: PointContact | HandWritten) -> tuple[Vector, float]:
-    """States at 1001 instants of 20 s of bouncing from 5 cm, and ns a step."""
+    """States at 1001 instants of 20 s of bouncing from 5 cm, and the cost of a step [ns].
+
+    States: [instants, 2], height [m] and velocity [m/s].
+    """
     times: Vector = numpy.linspace(0.0, END, 1001, dtype=numpy.float64)
     out, work, state = numpy.zeros((1001, 2)), make_workspace(2, 2), numpy.array([0.05, 0.0])
     began = time.perf_counter()
@@ -78,14 +77,14 @@ def bounce(rig: PointContact | HandWritten) -> tuple[Vector, float]:
 
 
 def rigs() -> tuple[PointContact, PointContact, HandWritten]:
-    """The same bounce with loss, with the loss absent, and by hand."""
+    """The same bounce with dissipation, with it absent, and written by hand."""
     law = NormalElastic(1.0e6, 1.5)
     absent = PointContact(1.0, 9.81, 0.0, 0.0, law, None)
     return absent._replace(dissipative=NormalDissipative(1e-3)), absent, HandWritten(1.0, 9.81, 0.0, 0.0, 1.0e6)
 
 
 def absent_effect_cost() -> tuple[float, float, float]:
-    """ns a step with the loss, with it absent, and by hand: medians of runs by turns."""
+    """Cost of a step [ns] with dissipation, with it absent, and by hand: medians of alternating runs."""
     costs: list[list[float]] = [[], [], []]
     cases: tuple[PointContact | HandWritten, ...] = rigs()
     for rig in cases:

@@ -4,7 +4,6 @@ leave out bag and fields.
 
 from __future__ import annotations
 
-import copy
 from typing import Any, NamedTuple
 
 import numpy
@@ -19,11 +18,16 @@ from contact_sim_pkg.rigs.vehicle.model import Model, build, standing_state
 from contact_sim_pkg.rigs.vehicle.motion import EVENT_FUNCTIONS
 from contact_sim_pkg.rigs.vehicle.parameters import Vehicle
 from contact_sim_pkg.rigs.vehicle.tire.footprint import effective_heights
+from contact_sim_pkg.rigs.vehicle.tire.schema import AsperityImpulsesSection
 from contact_sim_pkg.run.sources import make_sources, make_travel
 from contact_sim_pkg.scene.resolve import ResolvedScene
-from contact_sim_pkg.scene.schema.effect_rules import dependents_of
+from contact_sim_pkg.scene.schema.laws import FrictionSection
+from contact_sim_pkg.scene.schema.pressure_field import PressureFieldSection
 
-__all__ = ["SceneDrive", "drive_of", "fast_run", "slow_run", "twin_laws", "without"]
+__all__ = ["SceneDrive", "drive_of", "fast_run", "slow_run", "twin_laws"]
+
+LEFT_OUT = (PressureFieldSection, FrictionSection, AsperityImpulsesSection)
+"""Effects of fields, of impulses, and of what does not act on z."""
 
 
 class SceneDrive(NamedTuple):
@@ -37,26 +41,13 @@ class SceneDrive(NamedTuple):
     start: Vector
 
 
-def without(scene: ResolvedScene, *effects: tuple[str, str]) -> ResolvedScene:
-    """The scene less some effects, each as (contact, effect), and what needs them; one that it does
-    not name is passed over.
-    """
-    data: dict[str, Any] = copy.deepcopy(scene.data)
-    for contact, effect in effects:
-        for name in (effect, *dependents_of(contact, effect)):
-            (data["effects"].get(contact) or {}).pop(name, None)
-    if "brush" not in (data["effects"].get("tire") or {}):
-        data.pop("slip", None)
-    return ResolvedScene(data, scene.files)
-
-
 def drive_of(scene: ResolvedScene, duration: float) -> SceneDrive:
-    """Drive of the scene's rig with point contacts over `duration` [s], without friction (it does
-    not act on z) and impulses.
+    """Drive of the scene's rig with point contacts, less the effects `LEFT_OUT`, over `duration` [s].
+
+    Whole blocks, one at least; the road as effective heights [m] of the footprint.
     """
-    left_out = ("contact_field", "friction", "asperity_impulses")
-    effects = [(contact, effect) for contact in ("tire", "seat") for effect in left_out]
-    plain = without(scene, *effects)
+    named = [each for contact in ("tire", "seat") for each in scene.effects_at(contact)]
+    plain = scene.without(*(record for record, keys in named if isinstance(keys, LEFT_OUT)))
     model, sources = build(plain), make_sources(plain)
     timing = model.timing
     blocks = max(1, min(timing.blocks, round(duration / timing.block_length)))
