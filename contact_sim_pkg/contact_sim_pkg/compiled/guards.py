@@ -37,7 +37,8 @@ def require(
     """`value` as a float where it is a number within its bounds, and finite unless `infinite`;
     raises `error` otherwise.
 
-    value: a number in [unit]; bounds in the same unit; unit: for the sentence alone.
+    value: a number in `unit`, dimensionless where that is empty; bounds in the same unit. `unit` is
+    for the sentence alone.
     """
     # At once, for it is called often
     if type(value) is float and above < value < below and least <= value <= most:
@@ -55,22 +56,22 @@ def require(
 
 
 def require_positive(name: str, value: Any, unit: str = "", *, error: Error = ValueError) -> float:
-    """`value` where it is finite and above 0."""
+    """`value` where it is finite and above 0; in `unit`, dimensionless where that is empty."""
     return require(name, value, unit, above=0.0, error=error)
 
 
 def require_not_negative(name: str, value: Any, unit: str = "", *, error: Error = ValueError) -> float:
-    """`value` where it is finite and at least 0."""
+    """`value` where it is finite and at least 0; in `unit`, dimensionless where that is empty."""
     return require(name, value, unit, least=0.0, error=error)
 
 
 def require_poisson_ratio(value: Any, *, error: Error = ValueError) -> float:
-    """`value` where it lies above -1 and not above 1/2."""
+    """Poisson ratio `value` [1] where it lies above -1 and not above 1/2."""
     return require("Poisson ratio", value, above=-1.0, most=0.5, error=error)
 
 
 def require_count(name: str, value: Any, *, least: int = 1, most: float = math.inf, error: Error = ValueError) -> int:
-    """`value` where it is a whole number from `least` to `most`."""
+    """`value` [1] where it is a whole number from `least` to `most`."""
     number = require(name, value, least=least, most=most, error=error)
     if number != math.floor(number):
         raise error(f"{name} {value}: a whole number is needed")
@@ -106,8 +107,9 @@ def require_values(
     """`values` as a contiguous array where all are finite and within bounds; the sentence names the
     first that is not.
 
-    shape: None in it allows any length. rising: each value above the one before.
-    values: array-like of the wanted shape in [unit]; the result is float64 of that shape.
+    shape: None in it allows any length. rising: each value above the one before. values: array-like
+    of the required shape, in `unit`, dimensionless where that is empty; the result is float64 of
+    that shape.
     """
     try:
         array = numpy.ascontiguousarray(values, dtype=numpy.float64)

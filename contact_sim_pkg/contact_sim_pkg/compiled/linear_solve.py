@@ -21,6 +21,7 @@ def solve_linear(matrix: Field, right: Field) -> Field:
     """
     size = right.size
     for column in range(size):
+        # Largest pivot of the column, its row moved up
         pivot = column
         for row in range(column + 1, size):
             if abs(matrix[row, column]) > abs(matrix[pivot, column]):
@@ -33,6 +34,7 @@ def solve_linear(matrix: Field, right: Field) -> Field:
             for k in range(column, size):
                 matrix[row, k] -= factor * matrix[column, k]
             right[row] -= factor * right[column]
+    # Back substitution
     for row in range(size - 1, -1, -1):
         for k in range(row + 1, size):
             right[row] -= matrix[row, k] * right[k]

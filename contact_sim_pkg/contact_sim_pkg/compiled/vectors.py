@@ -8,7 +8,7 @@ from contact_sim_pkg.compiled.jit import kernel
 
 @kernel
 def copy_row(source: Vector, target: Vector) -> None:
-    """Write ``source`` [n] into ``target`` [n].
+    """Write ``source`` [numbers] into ``target`` [numbers].
 
     In place of ``target[:] = source``, for which numba compiles the text of an error about shapes
     into every caller: 2 s.

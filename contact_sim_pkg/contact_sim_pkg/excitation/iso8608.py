@@ -38,10 +38,10 @@ def roughness_of_class(name: str) -> float:
 
 
 def band_variance(roughness: float, exponent: float, low: NDArray[Any] | float, high: NDArray[Any] | float) -> Any:
-    """Variance in [m^2] of the wave numbers from low to high in [cycles/m]: the integral of G(n).
+    """Variance [m^2] of the wave numbers from low to high [1/m]: the integral of G(n).
 
-    roughness >= 0 [m^3], exponent finite, 0 < low <= high, numbers or arrays of one shape;
-    ExcitationError otherwise.
+    roughness: >= 0 [m^3]; exponent: finite; 0 < low <= high: numbers, or arrays [bands] of one
+    shape, which is that of the result. ExcitationError otherwise.
     """
     require_not_negative("roughness", roughness, "m^3", error=ExcitationError)
     require("exponent", exponent, error=ExcitationError)
@@ -98,6 +98,7 @@ class Iso8608Road:
         self._notes: list[str] = []
         self.shortest = self._resolved(shortest_wavelength, lattice_cell, "profile")
         self.longest = min(longest_wavelength, length)
+        # A periodic road holds no wave longer than itself
         if self.longest < longest_wavelength:
             self._notes.append(
                 f"Waves longer than the road ({length:g} m) are left out; {longest_wavelength:g} m was requested."
@@ -185,6 +186,7 @@ class Iso8608Road:
             "rms_m": sqrt(self.profile_rms**2 + texture_rms**2),
             "interpolation_error_relative_to_rms": 1e-6,
         }
+        # Notes last: they are text for a reader
         notes = list(self._notes)
         if self.texture is not None:
             notes.append(self.texture.note())

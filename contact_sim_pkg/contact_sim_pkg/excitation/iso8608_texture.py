@@ -50,6 +50,7 @@ class Texture:
                 f"a texture with waves up to {longest:g} m does not fit its strip of {STRIP_WIDTH:g} m; let the "
                 f"profile go down to {STRIP_WIDTH:g} m or less"
             )
+        # Waves of the plane: half the spectrum along the track, both signs across it
         self.longest, self.shortest, self.exponent = longest, shortest, exponent
         along = numpy.arange(int(STRIP_LENGTH / shortest) + 1)
         half = int(STRIP_WIDTH / shortest)

@@ -108,6 +108,7 @@ def floor_vibration() -> str:
     samples = round(RATE * DURATION)
     frequency = numpy.fft.rfftfreq(samples, 1.0 / RATE)
     axes = numpy.zeros((3, samples))
+    # Resonances of the vehicle: bands of random phase, each axis with its own rms
     for centre, width, *rms in MODES:
         shape = numpy.exp(-0.5 * ((frequency - centre) / (width * centre)) ** 2) * (frequency > 0.3)
         for axis in range(3):
@@ -115,10 +116,12 @@ def floor_vibration() -> str:
             wave = numpy.fft.irfft(shape * phase, samples)
             axes[axis] += rms[axis] / numpy.sqrt(numpy.mean(wave**2)) * wave
     time = numpy.arange(samples) / RATE
+    # Shocks: half sines
     for start, peak in SHOCKS:
         part = (time - start) / 0.012
         axes[2] += numpy.where((part > 0.0) & (part < 1.0), peak * numpy.sin(numpy.pi * part), 0.0)
     axes[2] += 9.80665
+    # A sensor that is tilted, biased and of limited range
     forward, up = axes[0].copy(), axes[2].copy()
     axes[0] = numpy.cos(TILT) * forward + numpy.sin(TILT) * up
     axes[2] = numpy.cos(TILT) * up - numpy.sin(TILT) * forward

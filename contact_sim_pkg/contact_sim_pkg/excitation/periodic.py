@@ -35,7 +35,7 @@ class PeriodicTable:
     """Values and slopes of periodic functions, one a column, on an even lattice over one period."""
 
     def __init__(self, value: NDArray[numpy.float64], slope: NDArray[numpy.float64], period: float) -> None:
-        """Take value [m] and slope [-], both [points, columns], and the period in [m]."""
+        """Take value [m] and slope [1], both [points, columns], and the period in [m]."""
         self.value, self.slope, self.period = value, slope, period
         self.step = period / len(value)
 

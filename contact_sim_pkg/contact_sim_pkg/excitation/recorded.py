@@ -144,6 +144,7 @@ class RecordedVibration:
                 else f"The rate of {stated:g} Hz is as stated; a comment in the file says so too."
             )
             return stated
+        # Two statements of the rate must agree
         found = _found_rate(table, time)
         if table.nominal_rate is not None:
             self._compare(table.nominal_rate, table, found, "the time column", "a comment states")
@@ -234,6 +235,7 @@ class RecordedVibration:
             )
         if self.sample_rate is not None and self.sample_rate < self.rate and not self.sample_rate > 0.0:
             raise ExcitationError(f"{self.path}: sample_rate is {self.sample_rate} Hz; it must be above 0")
+        # Mirrored at the end: the periodic transform sees no jump
         mirrored = numpy.concatenate((values, values[::-1]))
         frequency = numpy.fft.rfftfreq(len(mirrored), 1.0 / self.rate)
         gain = numpy.ones(len(frequency))
@@ -241,6 +243,7 @@ class RecordedVibration:
             with numpy.errstate(divide="ignore"):
                 gain /= 1.0 + (self.high_pass / frequency) ** 8
         if self.sample_rate is not None and self.sample_rate < self.rate:
+            # Anti-alias filter: cosine flank from 0.4 to 0.5 of the new rate
             flank = numpy.clip((frequency / self.sample_rate - 0.4) / 0.1, 0.0, 1.0)
             gain *= 0.5 * (1.0 + numpy.cos(numpy.pi * flank))
         if (gain == 1.0).all():
@@ -272,6 +275,7 @@ class RecordedVibration:
                 "shorten the run or choose what comes after the recording (vibration.beyond: zero or repeat)"
             )
         index, weight = _interpolation(position)
+        # Samples beyond the ends: the first ones again, or zero
         index = index % self.samples if self.beyond == "repeat" else numpy.clip(index, 0, self.samples - 1)
         if self.beyond == "zero":
             weight[outside] = 0.0
@@ -347,6 +351,7 @@ def _find_clipping(table: RecordedTable, values: Array, full_scale: float | None
     found = Clipping(0, 0.0, 0, 0)
     if values.max() == values.min():
         return found
+    # A plateau at an extreme, or a usual full scale that is reached more than once
     for extreme in (float(values.max()), float(values.min())):
         clipping = _clipping_at(table, values == extreme, abs(extreme))
         if clipping.longest_run >= SHORTEST_PLATEAU or (clipping.samples > 1 and _is_usual_full_scale(extreme)):

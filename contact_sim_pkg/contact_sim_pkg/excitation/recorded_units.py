@@ -20,7 +20,7 @@ Array = NDArray[numpy.float64]
 
 
 def signed_column(table: RecordedTable, name: str, unit: str | None) -> Array:
-    """One axis in [m/s^2]; ExcitationError where a value is none that can be measured."""
+    """One axis, [samples] in [m/s^2]; ExcitationError where a value is none that can be measured."""
     plain = name.removeprefix("-").lower()
     column = table.column(plain)
     factor = 1.0 if unit is None or plain in table.with_unit else UNITS[unit]
@@ -35,12 +35,15 @@ def signed_column(table: RecordedTable, name: str, unit: str | None) -> Array:
 
 
 def refuse_other_unit(file: str, raw: dict[str, Array]) -> None:
-    """Refuse values that are not in m/s^2 by what they say: gravity, a steady acceleration or an
+    """Refuse values that are not in m/s^2 by what they show: gravity, a steady acceleration or an
     rms that cannot be.
+
+    raw: [samples] of each axis, as if in [m/s^2].
     """
     mean = sqrt(sum(float(values.mean()) ** 2 for values in raw.values()))
     rms = max(float(values.std()) for values in raw.values())
     cure = "state the unit (vibration.unit: m/s^2, g or mg; or in the header, such as z [g])"
+    # A mean of 1 or 1000 is gravity in g or mg
     for unit, gravity in (("g", 1.0), ("mg", 1000.0)):
         if abs(mean - gravity) <= GRAVITY_AGREEMENT * gravity:
             raise ExcitationError(

@@ -168,6 +168,7 @@ class NoiseSignal:
         _require("noise", "period", period, 1e-3, 1e5, "s")
         if not isinstance(seed, int) or seed < 0:
             raise ExcitationError(f"seed of the noise is {seed!r}; allowed: a whole number from 0")
+        # The harmonics of the period that lie in the band
         first, last = ceil(low * period * (1.0 - 1e-12)), floor(high * period * (1.0 + 1e-12))
         if last - first + 1 < 16:
             raise ExcitationError(

@@ -53,7 +53,7 @@ class GroundPlane(NamedTuple):
 
 
 def box(lengths: ArrayLike) -> Shape:
-    """Box of the lengths [3] in [m] along the body axes, its centre of mass in the middle."""
+    """Box of the lengths [x, y, z] in [m] along the body axes, its centre of mass in the middle."""
     sides = numpy.asarray(lengths, dtype=numpy.float64)
     if sides.shape != (3,) or not (numpy.isfinite(sides).all() and (sides > 0.0).all()):
         raise IdentificationError(f"a box needs three lengths above 0 m, not {sides.tolist()}")
@@ -90,7 +90,7 @@ def _of_a_size(points: Array, radius: float) -> Shape:
 
 
 def plane(normal: ArrayLike = UP, height: float = 0.0) -> GroundPlane:
-    """Ground with a normal of any length."""
+    """Ground with a normal [x, y, z] of any length above 0, at `height` [m] along it."""
     direction = numpy.asarray(normal, dtype=numpy.float64)
     length = float(numpy.linalg.norm(direction))
     if direction.shape != (3,) or not (numpy.isfinite(length) and length > 0.0 and abs(height) <= FARTHEST):
@@ -102,8 +102,10 @@ def plane(normal: ArrayLike = UP, height: float = 0.0) -> GroundPlane:
 
 
 def gaps(shape: Shape, ground: GroundPlane, position: Array, rotation: Array) -> Array:
-    """Gap of each point in [m], for positions [..., 3] and rotations [..., 3, 3]: [..., k];
-    negative inside the ground.
+    """Gaps [m] of the points [points, 3] of the shape at positions [..., 3] and rotations [..., 3,
+    3]: [..., points].
+
+    Negative inside the ground.
     """
     heights = numpy.einsum("i,...ij,kj->...k", ground.normal, rotation, shape.points)
     lift: Array = (position @ ground.normal)[..., None] + heights - shape.radius - ground.height
@@ -111,7 +113,8 @@ def gaps(shape: Shape, ground: GroundPlane, position: Array, rotation: Array) ->
 
 
 def arm(shape: Shape, ground: GroundPlane, rotation: Array, point: int) -> Array:
-    """From the centre of mass to the contact of `point`, [3] in [m], world axes."""
+    """Vector [x, y, z] in [m] from the centre of mass to the contact of `point`, world axes;
+    rotation: [3, 3]."""
     reach: Array = rotation @ shape.points[point] - shape.radius * ground.normal
     return reach
 

@@ -88,6 +88,7 @@ def identify(states: BodyStates, setup: Setup) -> Identification:
     guess = setup.noise or first_guess(states)
     _check_spin(states, guess)
     refuse_jumps(states, guess, setup.gravity)
+    # A planar motion has one inertia, about the normal of its plane
     axis = None if setup.planar is False else plane_of_motion(states, setup.ground, guess)
     if setup.planar and axis is None:
         raise IdentificationError("the motion is not planar: its spin changes axis, or it drifts out of the plane")
@@ -96,6 +97,7 @@ def identify(states: BodyStates, setup: Setup) -> Identification:
     shape = setup.shape if own_axis is None else flattened(setup.shape, own_axis, axis_error)
     rounding = roundings(states)
     speed_noise = max(setup.noise.velocity if setup.noise else velocity_noise(states), rounding.velocity)
+    # Flights and contacts, the model of a flight, and where the search starts
     parts = segments(states, shape, setup.ground, setup.wrench, setup.gravity, speed_noise, guess[:2])
     basis = spatial_basis() if axis is None else planar_basis()
     model = FlightModel(basis, setup.wrench.present, setup.wrench, setup.gravity)
@@ -174,6 +176,7 @@ def _result(found: ParameterEstimate, search: Search) -> Identification:
     spatial, model = problem.axis is None, problem.model
     names = parameter_names(spatial, model.with_mass)
     deviations = numpy.sqrt(numpy.diag(found.covariance))
+    # Not identifiable: outside the rank, or not above the noise
     hidden, unsure = abs(missing).max(axis=0, initial=0.0) >= HIDDEN, made_up(found, problem)
     parameters = [
         Parameter(name, "1/kg" if name == "1/m" else "m^2", float(value), float(deviation), not lost)

@@ -106,13 +106,14 @@ def planar_basis() -> Array:
 def starting_parameters(
     shape: Shape, model: FlightModel, axis: Array | None, inverse_mass: float
 ) -> tuple[Array, Array]:
-    """A start [p] and the size of each parameter [p]: a homogeneous box, and 1/m as seen in the
-    flights.
+    """A start and the size of each parameter, both [parameters]: a homogeneous box, and 1/m as seen
+    in the flights.
 
-    `axis`: normal of the plane of motion in body axes, None in space.
+    axis: normal of the plane of motion in body axes, None in space; inverse_mass: [1/kg].
     """
     guess = inertia_guess(shape)
     size = float(numpy.trace(guess)) / 3.0
+    # In a plane one moment of inertia, in space six numbers
     if axis is not None:
         start = [float(axis @ guess @ axis)]
         sizes = list(start)

@@ -66,6 +66,7 @@ class Search:
         for place, (first, last) in enumerate(self.parts.contacts):
             if last - first + 1 > LONGEST_IMPACT:
                 self.notes[place] = self.lasting[place] = lasting_note(self.problem, first, last)
+        # Without flights the steps of lasting contacts are all there is
         if not self.problem.flights:
             self.problem = with_slides(with_steps(self.problem, self.parts), self.parts)
         if not self.problem.flights:
@@ -73,6 +74,7 @@ class Search:
         if self.problem.contacts:
             return estimate(self.problem, self.start, self.scale)
         found = self.free = self._without_false_flights(self._flights_alone())
+        # The noise decides which contacts count, the fit shows the noise: until both agree
         for _ in range(ROUNDS):
             self._take_noise(found)
             before = self.problem.noise
@@ -195,6 +197,7 @@ class Search:
                 if contact is not None:
                     contacts.append(contact)
                     self.places.append(place)
+        # A sweep is as exact as the samples, which rounding bounds
         contacts = self._without_doubles(contacts)
         self.problem = self.problem._replace(contacts=contacts)
         if any(contact.sweep is not None for contact in contacts):
@@ -231,10 +234,12 @@ class Search:
         if touch.together > 1:
             self._refuse(place, ContactNote(NoteKind.SEVERAL_CORNERS, {"corners": touch.together}))
             return None
+        # An impact: both flights meet at the instant of contact
         miss = self._miss(found, before, after, touch.time)
         if not miss and place not in self.lasting:
             self.notes.pop(place, None)
             return ContactSpan(before, after, touch.time, touch.time, touch.point, located=True)
+        # A contact that lasts: from the touch before to the release behind it
         release = self._root(found, after, interval, leaving=True)
         uncertainty = gap_uncertainty(self.problem.shape, (self.problem.noise.position, self.problem.noise.rotation))
         lasts = release.found and release.point == touch.point and release.together == 1 and release.time > touch.time

@@ -23,7 +23,7 @@ FEW = (0.5, 0.25)  # of the largest that the integral can be: its error with no 
 
 
 def inside(problem: IdentificationProblem, begin: float, end: float) -> NDArray[numpy.intp]:
-    """Samples strictly between two instants."""
+    """Numbers [samples] of the samples strictly between two instants [s]."""
     time = problem.states.time
     return numpy.flatnonzero((time > begin) & (time < end))
 

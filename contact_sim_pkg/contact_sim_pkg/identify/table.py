@@ -49,7 +49,7 @@ def problem_of_impacts(
         table: the impacts.
         shape: of the body; its lowest point is the contact.
         noise: standard deviation of a component of velocity [m/s] and of angular velocity [rad/s].
-        axis: normal of the plane of motion, the same in world and body axes; None in space.
+        axis: normal [x, y, z] of the plane of motion, the same in world and body axes; None in space.
         ground: level at height 0 where it is None.
 
     Raises:
@@ -61,6 +61,7 @@ def problem_of_impacts(
     body = shape if axis is None else flattened(shape, axis)
     pairs = ((table.velocity_before, table.velocity_after), (table.spin_before, table.spin_after))
     velocity, spin = (numpy.stack(pair, axis=1).reshape(-1, 3) for pair in pairs)
+    # Two samples an impact, at whole numbers as times: no flight connects them
     time = numpy.repeat(numpy.arange(count, dtype=numpy.float64), 2)
     states = BodyStates(time, numpy.zeros((2 * count, 3)), numpy.repeat(table.rotation, 2, axis=0), velocity, spin)
     points = gaps(body, base, numpy.zeros((count, 3)), table.rotation).argmin(axis=1)

@@ -81,6 +81,7 @@ def make_workspace(states: int, event_count: int) -> DormandPrinceWorkspace:
         event_direction=zeros(event_count),
         event_value=zeros(event_count),
         step=zeros(2),
+        # No event so far
         last_event=numpy.full(1, -numpy.inf),
         counters=zeros(COUNTERS),
     )

@@ -63,7 +63,7 @@ def free_flight(
     """Cross a phase without contact force in closed form, where the rig is in one: from ``time``
     [s] to an event or ``end``.
 
-    ``direction`` [event functions]: sign of each event function. ``state`` changes in place.
+    ``direction`` [event_functions]: sign of each event function. ``state`` changes in place.
     Returns the time reached in [s], which is ``time`` where the rig is not in free flight, and the
     number of the event there, -1 where there is none. Event functions that matter in contact only
     may change their sign on the way; the integrator stores their signs again.

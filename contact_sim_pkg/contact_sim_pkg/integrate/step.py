@@ -38,7 +38,7 @@ def estimate(pair: Any, course: Any, end_rate: Vector, scale: Vector) -> float:
     """Largest error of a state over ``scale`` that ``pair`` estimates for the step just taken along
     ``course``.
 
-    end_rate, scale: [states]; the result [-] is at most 1 where the step is within the tolerance.
+    end_rate, scale: [states]; the result [1] is at most 1 where the step is within the tolerance.
     """
     if isinstance(pair, Order5):
         return float(error_of_order_5(pair.stages, course, end_rate, scale))
@@ -53,7 +53,7 @@ def _estimate(pair, course, end_rate, scale):
 
 
 def power_of(pair: Any) -> float:
-    """The error that ``pair`` estimates scales with the step to this power."""
+    """Power [1] of the step size with which the error that ``pair`` estimates scales."""
     return POWER_5 if isinstance(pair, Order5) else POWER_8
 
 

@@ -57,6 +57,7 @@ def make_workspace(states: int, event_count: int, order: int = 5) -> RootStepWor
     def zeros(*shape: int) -> Vector:
         return numpy.zeros(shape)
 
+    # The stages belong to the Runge-Kutta pair
     if order == 5:
         pair: order_5.Order5 | order_8.Order8 = order_5.Order5(zeros(order_5.STAGES, states))
     elif order == 8:
@@ -78,6 +79,7 @@ def make_workspace(states: int, event_count: int, order: int = 5) -> RootStepWor
         first_step=zeros(2 * event_count),
         reach=zeros(2 * event_count),
         last_kind=numpy.zeros(1, dtype=numpy.int64),
+        # No event so far, none expected
         expected=numpy.full(1, numpy.inf),
         expected_reach=zeros(1),
         last_event=numpy.full(1, -numpy.inf),

@@ -40,7 +40,7 @@ def elastic_force(elastic: ElasticLaw, approach: float) -> float:
 
 
 def elastic_order(elastic: ElasticLaw) -> float:
-    """Power [-] of the approach with which the force begins at first touch."""
+    """Power [1] of the approach with which the force begins at first contact."""
     check_elastic(elastic)
     return float(_OF_LAW.get(type(elastic), _POWER)[1](elastic))
 

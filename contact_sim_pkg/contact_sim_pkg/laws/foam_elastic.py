@@ -81,7 +81,7 @@ def foam_force(foam: FoamElastic, approach: float) -> float:
 
 @kernel
 def foam_order(foam: FoamElastic) -> float:
-    """Power [-] of the approach with which the force begins: 1."""
+    """Power [1] of the approach with which the force begins: 1."""
     return 1.0
 
 

@@ -25,7 +25,7 @@ from contact_sim_pkg.laws.parameters import FoamHysteresis
 
 @kernel
 def hysteresis_factor(hysteresis: FoamHysteresis | None, state: Vector, place: int = 0) -> float:
-    """Ratio [-] of the force without rate to the elastic one, ``1 + s z``; 1 without hysteresis.
+    """Ratio [1] of the force without rate to the elastic one, ``1 + s z``; 1 without hysteresis.
 
     state: [states] of the rig; place: number of the point.
     """
@@ -38,7 +38,8 @@ def hysteresis_factor(hysteresis: FoamHysteresis | None, state: Vector, place: i
 def hysteresis_rate(
     hysteresis: FoamHysteresis | None, elastic_power: float, state: Vector, out: Vector, place: int = 0
 ) -> None:
-    """Write z' for ``elastic_power`` u' in [W]."""
+    """Write z' for ``elastic_power`` u' [W] into ``out`` [states]; state: [states] of the rig;
+    place: number of the point."""
     if hysteresis is not None:
         z = state[hysteresis.offset + place]
         out[hysteresis.offset + place] = (elastic_power - abs(elastic_power) * z) / hysteresis.energy
@@ -46,7 +47,8 @@ def hysteresis_rate(
 
 @kernel
 def hysteresis_factor_rate(hysteresis: FoamHysteresis | None, derivative: Vector, place: int = 0) -> float:
-    """Rate of ``hysteresis_factor`` in [1/s], from the derivative of the state."""
+    """Rate [1/s] of ``hysteresis_factor``, from the derivative [states] of the state; 0 without
+    hysteresis."""
     if hysteresis is None:
         return 0.0
     return hysteresis.share * derivative[hysteresis.offset + place]
@@ -54,7 +56,8 @@ def hysteresis_factor_rate(hysteresis: FoamHysteresis | None, derivative: Vector
 
 @kernel
 def hysteresis_energy(hysteresis: FoamHysteresis | None, state: Vector, place: int = 0) -> float:
-    """Energy stored beside the elastic law in [J]."""
+    """Energy [J] stored beside the elastic law, in the state [states] of the rig; 0 without
+    hysteresis."""
     if hysteresis is None:
         return 0.0
     return 0.5 * hysteresis.share * hysteresis.energy * state[hysteresis.offset + place] ** 2

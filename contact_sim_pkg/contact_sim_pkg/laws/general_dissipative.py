@@ -26,7 +26,8 @@ SMALLEST_APPROACH = 1.0e-60  # [m], below it the tension margin stands for its l
 
 @kernel
 def rate_power(general: GeneralDissipative, approach_rate: float) -> float:
-    """``sgn(x') |x'|**q`` in [(m/s)^q], smooth at ``x' = 0`` where q < 1."""
+    """``sgn(x') |x'|**q`` in [(m/s)^q] of the approach rate x' [m/s], smooth at ``x' = 0`` where q
+    < 1."""
     size = approach_rate * approach_rate + general.smoothing_speed * general.smoothing_speed
     if size == 0.0:
         return 0.0
@@ -35,7 +36,7 @@ def rate_power(general: GeneralDissipative, approach_rate: float) -> float:
 
 @kernel
 def rate_power_slope(general: GeneralDissipative, approach_rate: float) -> float:
-    """Derivative of ``rate_power`` by x', in [(m/s)^(q-1)]."""
+    """Derivative of ``rate_power`` by the approach rate x' [m/s], in [(m/s)^(q-1)]."""
     squared = approach_rate * approach_rate
     size = squared + general.smoothing_speed * general.smoothing_speed
     if size == 0.0:

@@ -25,7 +25,7 @@ def elastic_force(elastic: NormalElastic, approach: float) -> float:
 
 @kernel
 def elastic_order(elastic: NormalElastic) -> float:
-    """Power [-] of the approach with which the force begins at first touch."""
+    """Power [1] of the approach with which the force begins at first contact."""
     return elastic.exponent
 
 

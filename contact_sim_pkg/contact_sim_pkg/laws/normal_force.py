@@ -56,6 +56,7 @@ def normal_force(
             elastic, dissipative, approach, approach_rate, hysteresis_factor
         )
     )
+    # A law may overflow within the allowed range of its arguments
     require("force [N] of this law", value)
     return value
 
@@ -70,7 +71,7 @@ def tension_event(
     """Event function, positive while the contact carries: its sign change is the loss of contact
     before the gap opens.
 
-    approach: [m]; approach_rate: [m/s], closing positive; hysteresis_factor: [-].
+    approach: [m]; approach_rate: [m/s], closing positive; hysteresis_factor: [1].
     """
     _check(elastic, dissipative, approach, approach_rate, hysteresis_factor)
     margin = _OF_DISSIPATION.get(type(dissipative), _USUAL)[1]
@@ -105,7 +106,7 @@ def pressure_factor(
     force.
 
     1 without contact, and where the approach is so small that the elastic force underflows to 0.
-    approach: [m]; approach_rate: [m/s], closing positive; the result: [-].
+    approach: [m]; approach_rate: [m/s], closing positive; the result: [1].
     """
     force, spring = (
         normal_force(elastic, dissipative, approach, approach_rate, hysteresis_factor),

@@ -32,7 +32,7 @@ def damping_of_restitution(restitution: float, impact_speed: float) -> float:
 
 
 def check_restitution(restitution: float) -> None:
-    """Raises ValueError outside 0.01 to 1."""
+    """Raises ValueError for a coefficient of restitution [1] outside 0.01 to 1."""
     if not LOWEST_RESTITUTION <= restitution <= 1.0:
         raise ValueError(f"restitution {restitution} is outside {LOWEST_RESTITUTION} to 1; below, use a plastic stop")
 

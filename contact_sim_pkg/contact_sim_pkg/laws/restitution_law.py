@@ -55,7 +55,7 @@ def kelvin_voigt_restitution(ratio: float, lowest_force: float) -> float:
     ``lowest_force`` 0: the bodies part where the force is zero; -inf: where x = 0, after a tensile
     end; for a ratio >= 1 never. Raises ValueError for a ratio outside 0 to 1e100 and another lowest
     force.
-    ratio: [-]; lowest_force: [N].
+    ratio: [1]; lowest_force: [N].
     """
     require("damping ratio", ratio, least=0.0, most=1.0e100)
     _check_end(lowest_force)
@@ -75,7 +75,7 @@ def kelvin_voigt_ratio(restitution: float, lowest_force: float) -> float:
     """Damping ratio of a linear spring and damper that delivers ``restitution``; 0.01 to 1. Raises
     ValueError outside.
 
-    restitution and the result: [-]; lowest_force: [N].
+    restitution and the result: [1]; lowest_force: [N].
     """
     check_restitution(restitution)
     _check_end(lowest_force)
@@ -94,7 +94,7 @@ def restitution_of_severity(severity: float, n: float, p: float, q: float, lowes
     Z: 0 to 1e20; n: 1 to 10; p: 0 to 4; q: 0 to 3; ``lowest_force``: 0 or -inf. Below q = 1 a
     return with less than 1e-4 of the speed counts as 0. Raises ValueError outside, ArithmeticError
     where the integration fails.
-    severity, n, p, q and the result: [-]; lowest_force: [N].
+    severity, n, p, q and the result: [1]; lowest_force: [N].
     """
     require("severity Z", severity, least=0.0, most=HIGHEST_SEVERITY)
     _check_law(n, p, q, lowest_force)
@@ -197,7 +197,7 @@ def severity_of_restitution(restitution: float, n: float, p: float, q: float, lo
 
     n: 1 to 10; p: 0 to 4; q: 0 to 3; ``lowest_force``: 0 or -inf. Raises ValueError outside, and
     where no loss of this kind gives so small a restitution, with the range that it reaches.
-    restitution, n, p, q and the result: [-]; lowest_force: [N].
+    restitution, n, p, q and the result: [1]; lowest_force: [N].
     """
     check_restitution(restitution)
     _check_law(n, p, q, lowest_force)
@@ -264,6 +264,7 @@ def coefficient_of_restitution(
     require("elastic coefficient A [N/m^n]", elastic.coefficient, least=SIZES[0], most=SIZES[1])
     n, speed = elastic.exponent, effective_speed(impact_speed)
     severity = severity_of_restitution(restitution, n, p, q, lowest_force)
+    # Length scale L of the impact turns the dimensionless severity Z into B
     length = (mass * speed**2 / elastic.coefficient) ** (1.0 / (n + 1.0))
     return float(severity * elastic.coefficient * length ** (n - p) / speed**q)
 

@@ -126,6 +126,7 @@ def parsed(type_name: str, text: str) -> Definition:
     constants: dict[str, int] = {}
     fields: list[Field] = []
     above: list[str] = []
+    # The comment lines above the first field describe the message
     for line in text.splitlines():
         statement, _mark, comment = (part.strip() for part in line.partition("#"))
         constant, field = _CONSTANT.match(statement), _FIELD.match(statement)

@@ -28,18 +28,21 @@ class HardCase(NamedTuple):
 
 
 def close_to(value: float, expected: float, allowed: float) -> Finding:
-    """`value` within `allowed` (absolute, same unit) of `expected`."""
+    """Finding that `value` lies within `allowed` (absolute) of `expected`; all in one unit, the
+    margin [1]."""
     error = abs(value - expected)
     margin = 1.0 - error / allowed if math.isfinite(error) else -math.inf
     return Finding(value, f"{expected:.10g} ± {allowed:.2g}", margin)
 
 
 def at_most(value: float, limit: float) -> Finding:
-    """`value`, a size that is not negative, at most `limit`."""
+    """Finding that `value`, a size that is not negative, is at most `limit` (same unit); the margin
+    [1]."""
     margin = 1.0 - value / limit if math.isfinite(value) else -math.inf
     return Finding(value, f"≤ {limit:.3g}", margin)
 
 
 def exactly(value: float, expected: float) -> Finding:
-    """`value` equal to `expected` to the last bit, as for counts, codes and true zeros."""
+    """Finding that `value` equals `expected` (same unit) to the last bit, as counts, codes and true
+    zeros do; margin [1]."""
     return Finding(value, f"= {expected:.10g}", 1.0 if value == expected else -math.inf)

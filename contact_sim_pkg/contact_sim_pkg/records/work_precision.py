@@ -41,14 +41,15 @@ class WorkPrecision(NamedTuple):
 
 
 def milliseconds(call: Callable[[], object]) -> float:
-    """Median processor time of a call in ms, of one thread: on a quiet core that is its wall time,
-    on a busy one it still is.
+    """Median processor time [ms] of a call in one thread: the wall time on an idle core, and
+    independent of the load on a busy one.
 
     The first call, which may compile, does not count.
     """
     call()
     began = time.thread_time()
     call()
+    # Short calls are timed in groups, so that the clock's resolution does not matter
     group = max(1, int(SHORTEST_SAMPLE / max(time.thread_time() - began, 1e-7)))
     samples: list[float] = []
     while len(samples) < FEWEST or (sum(samples) * group < BUDGET and len(samples) < MOST):
@@ -60,14 +61,14 @@ def milliseconds(call: Callable[[], object]) -> float:
 
 
 def timed_once(call: Callable[[], Answer]) -> tuple[Answer, float]:
-    """The answer of a call that is too dear to repeat, and its processor time in ms."""
+    """Result of a call that is too expensive to repeat, and its processor time [ms]."""
     began = time.thread_time()
     answer = call()
     return answer, 1e3 * (time.thread_time() - began)
 
 
 def relative(value: float, expected: float) -> float:
-    """`|value / expected - 1|`."""
+    """Relative error [1] of `value` against `expected` (same unit): `|value / expected - 1|`."""
     return abs(value / expected - 1.0)
 
 
@@ -84,7 +85,8 @@ def row(
     solver_error: float | None = None,
     grid_error: float | None = None,
 ) -> Row:
-    """One row of the study, without the rig."""
+    """One row of the study, without the rig. Errors are relative [1]; value and expected have the
+    unit of the quantity."""
     return {
         "part": part, "case": case, "quantity": quantity, "rung": rung.name, "grid": rung.grid, "tolerance": rung.tolerance,
         "value": value, "expected": expected, "error": error, "solver_error": solver_error, "grid_error": grid_error,

@@ -58,9 +58,8 @@ def slip_starts(case: StickSlip, count: int) -> list[float]:
 
 
 def state_at(case: StickSlip, end: float) -> NDArray[numpy.float64]:
-    """Position [m], speed [m/s] and spring deflection [m] at `end` [s], from the same start; the
-    deflection is that of stick.
-    """
+    """State at `end` [s], from the same start: position [m], speed [m/s], spring deflection [m],
+    which is that of stick; [states]."""
     time, state, sticks = 0.0, numpy.array([0.0, case.belt_speed, 0.0]), True
     while time < end:
         time, state = (_stick if sticks else _slip)(case, time, state, end)

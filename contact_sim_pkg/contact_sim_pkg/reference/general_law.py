@@ -20,7 +20,7 @@ def restitution(severity: float, n: float, p: float, q: float, end: str) -> floa
     """Ratio of the speeds after and before, for `severity` Z; `end` is "force" or "gap". To about
     1e-11 for q >= 1.
 
-    All numbers: [-].
+    All numbers: [1].
     """
 
     def force(x: float, v: float) -> float:
@@ -45,7 +45,7 @@ def kelvin_voigt_at_force(ratio: float) -> float:
     """e of a linear spring and damper with damping `ratio` zeta >= 0 that parts where the force is
     zero, in 40 digits.
 
-    ratio and the result: [-].
+    ratio and the result: [1].
     """
     with mpmath.workdps(40):
         z = mpmath.mpf(ratio)
@@ -62,7 +62,7 @@ def kelvin_voigt_at_gap(ratio: float) -> float:
     """e where the bodies part at x = 0, after a tensile end: `exp(-pi zeta / sqrt(1 - zeta^2))`; 0
     for zeta >= 1.
 
-    ratio and the result: [-].
+    ratio and the result: [1].
     """
     if ratio >= 1.0:
         return 0.0

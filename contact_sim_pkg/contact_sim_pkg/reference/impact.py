@@ -22,7 +22,8 @@ DIGITS = 40
 
 
 def restitution(loss: float) -> float:
-    """e of `d (1 + e) = ln[(1 + d)/(1 - d e)]` for `loss` d = damping * v0 > 0, by bisection."""
+    """Coefficient of restitution e [1] by bisection: `d (1 + e) = ln[(1 + d)/(1 - d e)]`, `loss` d
+    = damping * v0 > 0 [1]."""
     with mpmath.workdps(DIGITS):
         d = mpmath.mpf(loss)
         low, high = mpmath.mpf(0), min(mpmath.mpf(1), 1 / d)

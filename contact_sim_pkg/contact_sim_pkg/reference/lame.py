@@ -70,7 +70,8 @@ def _graph(along: float, across: float, n: mpmath.mpf) -> mpmath.mpf:
 
 
 def moment(a: float, b: float, exponent: float, power_x: float, power_y: float) -> float:
-    """Integral of `|x|^i |y|^j` over the domain, by quadrature in x [m^(i+j+2)]."""
+    """Integral of `|x|^i |y|^j` over the domain [m^(i+j+2)], by quadrature in x; a, b: half axes
+    [m]; exponent, i, j: [1]."""
     n, i, j = (mpmath.mpf(value) for value in (exponent, power_x, power_y))
     quarter = mpmath.quad(lambda u: u**i * (1 - u**n) ** ((j + 1) / n) / (j + 1), [0, 0.25, 0.5, 0.75, 0.9, 0.99, 1])
     return float(4 * a ** (i + 1) * b ** (j + 1) * quarter)

@@ -24,13 +24,12 @@ def ansatz_load(a: float, b: float, exponent: float) -> float:
 
 
 def printed_eccentricity_power(a: float, b: float, exponent: float, radius_power: float) -> float:
-    """`k^n = (n r^n - 2 b^n) / a^n`, printed below eq 7, with r^n given."""
+    """`k^n = (n r^n - 2 b^n) / a^n` [1], printed below eq 7, with r^n given; a, b: half axes [m]."""
     return float((exponent * radius_power - 2.0 * b**exponent) / a**exponent)
 
 
 def printed_shape_load() -> float:
-    """Load of the printed eq 7 over the right load, on a circle: shape `E(arcsin(1 - r),
-    0)^(-2/3)`, 1 in the centre.
-    """
+    """Load of the printed eq 7 over the right load [1], on a circle: shape `E(arcsin(1 - r),
+    0)^(-2/3)`, 1 in the centre."""
     integral = mpmath.quad(lambda r: r * (mpmath.asin(1 - r) * 2 / mpmath.pi) ** (-mpmath.mpf(2) / 3), [0, 0.5, 1])
     return float(3 * integral)

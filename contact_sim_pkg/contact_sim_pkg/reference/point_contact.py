@@ -83,8 +83,9 @@ def terminal_piece(
     until: float,
     state: State,
 ) -> tuple[float, State, bool]:
-    """Integrate until `change` passes zero in `direction`; returns time, state, and whether it did
-    before `until`.
+    """Integrate from `time` [s] until `change` passes zero in `direction`, at most to `until` [s].
+
+    state: [states]. Returns the time [s] and the state reached, and whether it was the zero.
     """
     change.terminal, change.direction = True, direction  # type: ignore[attr-defined]
     found = solve_ivp(rate, (time, until), state, "DOP853", events=change, rtol=RELATIVE, atol=ABSOLUTE)

@@ -48,6 +48,8 @@ def coulomb_residual(A: Vector, q: Vector, c: Vector, friction: Vector, width: i
     worst = 0.0
     for i, ratio in enumerate(friction):
         row, weight = i * width, A[i * width, i * width]
+        # Tangential impulse as the nearest point of the friction disc, or polygon, to impulse less
+        # slip
         radius = ratio * max(c[row], 0.0)
         point = c[row + 1 : row + width] - u[row + 1 : row + width] / weight
         if width == 2 or facets == 0:
@@ -70,6 +72,7 @@ def planar_velocity_by_enumeration(J: Vector, W: Vector, v: Vector, friction: Ve
     D = numpy.hstack([tangents, -tangents])
     E = numpy.vstack([numpy.eye(contacts), numpy.eye(contacts)])
     G = numpy.hstack([normals, D])
+    # Complementarity problem of normal impulses, friction impulses and slip speeds
     M = numpy.zeros((4 * contacts, 4 * contacts))
     M[: 3 * contacts, : 3 * contacts] = G.T @ W @ G
     M[contacts : 3 * contacts, 3 * contacts :] = E
@@ -86,7 +89,8 @@ def planar_wrench_cone_split(J: Vector, wrench: Vector, friction: float) -> Vect
     """Impulses of least norm with this wrench, all contacts sticking inside their cones: bounds by
     SLSQP, then exactly.
 
-    J: [2 contacts, 3]; wrench: [3]; the result: [2 contacts].
+    J: [rows, 3], rows normal, tangent of each contact; wrench: [3]; friction: [1]; the result:
+    [rows], in the unit of `J^-T wrench`.
     """
     rows = len(J)
     found = minimize(

@@ -27,6 +27,7 @@ def enumerate_lcp(M: Vector, q: Vector) -> list[Vector]:
     slack = 1e-12 * max(1.0, numpy.abs(q).max())
     found: list[Vector] = []
     for chosen in itertools.product((False, True), repeat=n):
+        # Unknowns of the set from M z + q = 0 on it, the others zero
         index = numpy.flatnonzero(chosen)
         z = numpy.zeros(n)
         if len(index):

@@ -71,21 +71,18 @@ def rectangle(
 
 
 def circle_axis(depth: float, nu: float) -> tuple[float, float]:
-    """zz and radial stress over p0 on the axis of a circular Hertz contact, depth over a (Johnson
-    1985, eq 3.45).
-
-    depth and the result: [-].
-    """
+    """zz and radial stress over p0 [1] on the axis of a circular Hertz contact (Johnson 1985, eq
+    3.45); depth: over a [1]; nu: [1]."""
     swing = math.atan(1.0 / depth) if depth > 0.0 else 0.5 * math.pi
     zz = -1.0 / (1.0 + depth**2)
     return zz, -(1.0 + nu) * (1.0 - depth * swing) - 0.5 * zz
 
 
 def line_axis(depth: float, nu: float) -> tuple[float, float, float]:
-    """xx (across), yy (along the line), zz over p0 on the axis of a Hertz line contact (Johnson
+    """xx (across), yy (along the line), zz over p0 [1] on the axis of a Hertz line contact (Johnson
     1985, eq 4.46).
 
-    depth and the result: [-].
+    depth: over the half width [1]; nu: [1].
     """
     root = math.sqrt(1.0 + depth**2)
     xx, zz = -((1.0 + 2.0 * depth**2) / root - 2.0 * depth), -1.0 / root

@@ -187,6 +187,7 @@ def _rate(gravity: float, quarter: Quarter | None, occupant: Occupant | None, dr
             z_w, z_b, v_w, v_b = state[:4]
             link = quarter.stiffness * (z_w - z_b) + quarter.damping * (v_w - v_b)
             force = normal_force(quarter.law, *_tire(quarter, drive, time, state))
+            # The rigid ring lies between road and wheel: the wheel feels its sidewalls
             if quarter.belt is not None:
                 belt, (z_r, v_r) = quarter.belt, state[4:6]
                 sidewalls = belt.stiffness * (z_r - z_w) + belt.damping * (v_r - v_w)

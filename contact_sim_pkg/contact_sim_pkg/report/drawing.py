@@ -87,9 +87,8 @@ class Picture(NamedTuple):
 
 
 def new_figure(height: float, rows: int = 1, cols: int = 1, **options: Any) -> tuple[Figure, list[Axes]]:
-    """A figure of the page's width and `height` [inch], and its axes, row by row. Call inside
-    `style()`.
-    """
+    """A figure of the page's width and `height` [in], and its axes, row by row. Call inside
+    `style()`."""
     figure = Figure(figsize=(WIDTH, height), layout="constrained")
     axes = figure.subplots(rows, cols, squeeze=False, **options)
     return figure, [each for row in axes for each in row]
@@ -105,8 +104,10 @@ BAND = " Band: smallest to largest value of each 350th of the time; line: its me
 
 
 def draw_series(axes: Axes, time: FloatArray, values: FloatArray, **line: Any) -> str:
-    """A series as a line; a long one as the band that it fills with its mean as a line, and `BAND`
-    for the caption.
+    """Draw values [samples] over time [samples] as a line, a long series as the band that it fills
+    with its mean as a line.
+
+    Returns `BAND` for the caption in the latter case.
     """
     if values.size <= 2 * BANDS:
         axes.plot(time, values, **line)

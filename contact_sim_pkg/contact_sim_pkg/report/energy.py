@@ -21,5 +21,5 @@ def residual_scale(ledger: LedgerSeries) -> float:
 
 
 def relative_residual(ledger: LedgerSeries) -> float:
-    """Largest |residual| over `residual_scale`."""
+    """Largest |residual| over `residual_scale` [1]."""
     return float(np.abs(ledger.residual).max()) / residual_scale(ledger)

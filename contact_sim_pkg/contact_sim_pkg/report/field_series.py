@@ -52,12 +52,14 @@ class FieldReader:
         self._widen(time, message)
         row, col = _place(message, self._widest)
         pressure = np.reshape(message.pressure, (message.rows, message.cols))
+        # Sum over time, at the place of this grid in the widest one
         self._total[row : row + message.rows, col : col + message.cols] += pressure
         size = _size(pressure, message)
         self._first = self._first or (time, message)
         if self._touch is None and message.load > 0.0 and self._scalars and self._scalars[-1][1] <= 0.0:
             self._touch = time, message
         self._scalars.append((time, *(float(getattr(message, name)) for name in SCALARS), *size))
+        # Line load along x for the space-time picture
         line = np.zeros(self._widest.rows)
         line[row : row + message.rows] = pressure.sum(axis=1, dtype=np.float64) * message.cell_y
         self._history_time.add(np.array([time]))
@@ -80,6 +82,7 @@ class FieldReader:
                 f"{message.cell_y} m, another one on {before.rows} x {before.cols} of {before.cell_x} x {before.cell_y} m; "
                 "one grid must hold the other, with the same cells"
             )
+        # What was summed so far moves into the wider grid
         if wider and shape != (before.rows, before.cols):
             row, col = _place(before, message)
             total = np.zeros(shape)

@@ -63,6 +63,7 @@ def read_recording(bag: Bag) -> Recording:
         kind = bag.topics[topic].type
         return stacked(decoded[topic], stores[kind], kind, names)
 
+    # Contacts of bags from before a column was added lack it
     topics = {kind: [name for name in decoded if bag.topics[name].type == kind] for kind in SERIES_TYPES}
     known = {name for name, _ in stores[FORCE].fielddefs[FORCE][1]} if topics[FORCE] else set()
     contact_columns = (*CONTACT_COLUMNS, IMPULSES) if IMPULSES in known else CONTACT_COLUMNS
@@ -104,6 +105,7 @@ def scenes_fit(bags: Sequence[Bag]) -> Iterator[None]:
     except Exception:
         from contact_sim_pkg.scene.resolve import read_explicit
 
+        # First suspect the scenes, then the definitions of messages
         for text, path in [(bag.scene, bag.path) for bag in bags if bag.scene is not None]:
             try:
                 read_explicit(text, f"scene of {path}")
@@ -152,6 +154,7 @@ def _decode(bag: Bag, stores: dict[str, Typestore]) -> Decoded:
         except (SerdeError, AssertionError) as error:
             where = f"{bag.path}: the message of {message.topic} at {seconds:.6f} s"
             raise BagError(f"{where} does not fit the definition in the bag: {error}") from None
+        # Fields and points are reduced as they are read; they would not fit into memory
         if message.type == PATCH:
             decoded.fields.setdefault(message.topic, FieldReader()).add(seconds, value)
         elif message.type == POINTS:

@@ -43,6 +43,7 @@ def write_report(bag: Bag, out: Path | None = None, *, overwrite: bool = False) 
     path = bag.path.parent / FILE_NAME if out is None else out
     read = (bag.path, bag.path.parent)
     check_output(path, read, overwrite=overwrite, ours=is_page)
+    # Everything is read before the file is touched
     page = render(read_recording(bag))
     with new_file(path, read, overwrite=overwrite, ours=is_page) as file:
         file.write(page.encode())
@@ -55,6 +56,7 @@ def render(recording: Recording) -> str:
     page: str = (
         environment()
         .get_template(TEMPLATE)
+        # The template has the layout; every text is escaped there
         .render(
             title=recording.scene.get("name") or recording.name,
             description=recording.scene.get("description") or "",

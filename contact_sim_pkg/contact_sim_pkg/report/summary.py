@@ -46,6 +46,7 @@ def summarise_recording(recording: Recording) -> dict[str, Any]:
             for name, series in recording.contacts.items()
         },
     }
+    # Sections by what the recording holds
     if recording.episodes is not None:
         summary["slaps"] = slap_numbers(recording.episodes)
     summary |= summary_numbers(recording)
@@ -103,6 +104,7 @@ def solver_numbers(cost: CostSeries) -> dict[str, Any]:
     and jump.
     """
     wall = float(cost.wall_time.sum())
+    # Real-time factor of the whole run, not the mean of its blocks
     simulated = float((cost.real_time_factor * cost.wall_time).sum())
     return {
         "blocks": int(cost.time.size),

@@ -41,7 +41,8 @@ def tiles(summary: dict[str, Any], of_rigs: Sequence[Tile] = ()) -> list[Tile]:
 
 
 def number(value: float) -> str:
-    """Three digits; very small and large ones as 1.2·10⁻⁸."""
+    """Text of a value (any unit, dimensionless too) in three digits; very small and large ones as
+    1.2·10⁻⁸."""
     if value != 0.0 and not 1e-3 <= abs(value) < 1e6:
         mantissa, exponent = f"{value:.1e}".split("e")
         return f"{mantissa}·10{str(int(exponent)).translate(SUPERSCRIPT)}"

@@ -89,6 +89,7 @@ def _file_fault(file: InputFile, folder: Path) -> str:
         return f"the file {file.name!r} {kind}; looked for {looked}"
     largest = LARGEST_ROAD_FILE if file.where == "road.file" else LARGEST_SIGNAL_FILE
     try:
+        # Opened once: size and kind are those of the file that was opened
         with open_regular_file(path) as stream:
             size = os.fstat(stream.fileno()).st_size
     except FileRefusedError as error:

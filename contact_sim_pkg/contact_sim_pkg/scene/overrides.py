@@ -51,12 +51,12 @@ def set_value(assignment: str) -> Override:
 
 
 def set_duration(text: str | float) -> Override:
-    """`--duration S`."""
+    """`--duration S`: simulated time [s]."""
     return _option("--duration", ("duration",), text)
 
 
 def set_pace(text: str | float) -> Override:
-    """`--pace realtime|max|FACTOR`."""
+    """`--pace realtime|max|FACTOR`: simulated over wall time [1]."""
     return _option("--pace", ("pace",), text)
 
 
@@ -71,7 +71,7 @@ def set_vibration(file: str | Path) -> Override:
 
 
 def set_rate(text: str | float) -> Override:
-    """`--rate R`: sampling rate of the vibration file."""
+    """`--rate R`: sampling rate of the vibration file [Hz]."""
     return _option("--rate", ("vibration", "rate"), text)
 
 

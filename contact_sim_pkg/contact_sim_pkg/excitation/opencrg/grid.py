@@ -32,12 +32,11 @@ def make_grid(header: Header, layout: CrgLayout, values: NDArray[numpy.float64],
 
     height(u, v) = scale_z z(u, v) + banking(u) v + start_z + integral of slope du
 
-    `values` is worked on in place: the road is held once.
+    `values` [rows, channels] holds heights [m] and channels of the reference line; it is worked on
+    in place, so that the road is in memory once. scale_z: [1].
 
-    Raises:
-        ExcitationError: absurd heights, a reference line that bends so sharply that the grid
-        overlaps itself, or an end
-            of the reference line that disagrees with the header.
+    Raises `ExcitationError` for absurd heights, a reference line that bends so sharply that the
+    grid overlaps itself, or an end of the reference line that disagrees with the header.
     """
     first, last = layout.section_columns[0], layout.section_columns[-1]
     together = last - first + 1 == len(layout.section_columns)

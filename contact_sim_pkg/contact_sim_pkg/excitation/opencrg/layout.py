@@ -125,6 +125,7 @@ def _note_virtual(header: Header, u_start: float, increment: float) -> tuple[str
         )
     if fields[0] != "m":
         raise _fault(header, line, f"unit of the virtual channel is '{fields[0]}'; only m is read")
+    # The file prints START_U with three decimals
     notes: list[str] = []
     for name, stated, found in (("START_U", u_start, float(fields[1])), ("INCREMENT", increment, float(fields[2]))):
         if abs(stated - found) > max(AGREEMENT * increment, 5.1e-4 if name == "START_U" else 0.0):

@@ -78,6 +78,7 @@ class OpenCrgRoad:
         data = _read(self.path)
         header = parse_header(data, str(path))
         self._settings = read_settings(header, file_settings)
+        # The numbers of the file and the grid are large: each goes as soon as it is used
         layout = make_layout(header)
         values = read_payload(data, header, layout)
         del data
@@ -143,6 +144,7 @@ class OpenCrgRoad:
         position, outside_u = self._inside(
             (x + self.start) / grid.u_increment, 0.0, float(cells), self.border_u, "x", x
         )
+        # Linear along u between two cross sections; `_lines` interpolates across
         left = numpy.minimum(position.astype(numpy.int64), cells - 1)
         weight = (position - left)[:, None]
         table, first = self._lines(y, left)

@@ -40,6 +40,7 @@ def friction_balance(
     weights = tangents + friction * numpy.outer(tangents @ direction, problem.ground.normal)
     strength = friction * float(problem.ground.normal @ push)
     parts = []
+    # Derivatives by the velocities before and after: of the impulse, and of the slip
     for sign in (-1.0, 1.0):
         block = strength * tangents @ by_motion
         block[:, 3:6] += sign * weights

@@ -44,7 +44,7 @@ def locate(
 
     Args:
         flight: the incoming flight.
-        parameters: of the model.
+        parameters: of the model, [parameters].
         model: of flights.
         shape: of the body.
         ground: below it.

@@ -49,6 +49,8 @@ def impact_balance(
 ) -> Balance:
     """The balance of one impact at the root of the gap: `f + f' dt`, to first order, and its
     derivatives with those of the root.
+
+    parameters: [parameters]; point: number of the corner.
     """
     known = (parameters, model, shape, ground, point)
     found, root = balance(before, after, *known), instant(before, shape, ground, point)

@@ -36,10 +36,12 @@ def with_steps(problem: IdentificationProblem, parts: Segments) -> Identificatio
     steps = [
         step for first, last in parts.contacts if last - first + 1 > LONGEST_IMPACT for step in range(first + 1, last)
     ]
+    # Steps that rest on one corner, spread over the motion where there are many
     steps = [step for step in steps if _one_corner(problem, step)]
     if len(steps) > MOST:
         steps = [steps[place] for place in numpy.linspace(0, len(steps) - 1, MOST).round().astype(int)]
     flights, contacts, time = list(problem.flights), list(problem.contacts), problem.states.time
+    # Neighbouring steps share the flight of the sample between them
     numbers: dict[int, int] = {}
     for step in steps:
         for sample in (step, step + 1):
@@ -58,12 +60,14 @@ def lasting_note(problem: IdentificationProblem, first: int, last: int) -> Conta
     states, noise = problem.states, problem.noise
     samples = range(first + 1, last + 1)
     lifts = numpy.array([_heights(problem, sample).min() for sample in samples])
+    # A body inside the ground, or above it: the input contradicts a contact
     lift, deep = float(numpy.median(lifts)), HIGH * size(problem.shape) + SIGMAS * noise.position
     if lift < -deep:
         return ContactNote(NoteKind.BELOW_GROUND, {"depth": -lift})
     if numpy.mean(lifts > _highest_hop(problem)) > FEW:
         return ContactNote(NoteKind.ABOVE_GROUND, {"height": float(lifts.max())})
     limit = SIGMAS * (noise.velocity + size(problem.shape) * noise.angular_velocity)
+    # Share of the time in which the contact slides
     slips = numpy.array([_slip(problem, sample) for sample in samples])
     floor = STILL * float(abs(states.velocity).max() + size(problem.shape) * abs(states.angular_velocity).max())
     share = float(numpy.mean(slips > max(limit, floor)))

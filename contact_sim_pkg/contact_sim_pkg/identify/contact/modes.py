@@ -41,8 +41,8 @@ def classify(
     and the slip did not reverse.
 
     Args:
-        push: impulse over mass, [3] in [m/s].
-        before: velocity of the contact point before, [3].
+        push: impulse over mass, [x, y, z] in [m/s].
+        before: velocity of the contact point before, [x, y, z] in [m/s].
         after: the same after.
         deviation: standard deviation of a component of the slip, [m/s].
         ground: its normal separates normal from tangential.
@@ -52,12 +52,14 @@ def classify(
     along = push - normal * ground.normal
     tangential = float(numpy.linalg.norm(along))
     approach, departure = float(before @ ground.normal), float(after @ ground.normal)
+    # Slip before and after, and the mode that it shows
     slips = [velocity - (velocity @ ground.normal) * ground.normal for velocity in (before, after)]
     speeds = [float(numpy.linalg.norm(slip)) for slip in slips]
     smallest = max(SIGMAS * deviation, FLOOR * float(numpy.linalg.norm(before)))
     mode = SLIDE if slips[0] @ slips[1] >= 0.0 else REVERSED
     if speeds[1] <= smallest:
         mode = STICK
+    # The ratio of impulses is the friction only where the slip kept its direction
     ratio = tangential / normal if normal > 0.0 else None
     against = [_against(along, slip, deviation, push_deviation) for slip in slips if numpy.linalg.norm(slip) > smallest]
     friction = ratio if mode == SLIDE and any(against) else None

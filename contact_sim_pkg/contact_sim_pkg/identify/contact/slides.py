@@ -125,9 +125,8 @@ def _slip(problem: IdentificationProblem, sample: int) -> Array:
 
 
 def slip_of(problem: IdentificationProblem, sample: int) -> tuple[Array, bool]:
-    """Mean slip of the points that touch, [3] in [m/s], zero where it is slow or nothing touches;
-    whether all slip alike.
-    """
+    """Mean slip [x, y, z] in [m/s] of the points in contact at a sample, zero where it is slow or
+    nothing is; whether all slip alike."""
     states, noise, length = problem.states, problem.noise, size(problem.shape)
     heights, flat = _heights(problem, sample), problem.tangents.T @ problem.tangents
     if heights.min() > HIGH * length + SIGMAS * noise.position:

@@ -56,8 +56,8 @@ def estimate(
 
     Args:
         problem: samples, flights, contacts.
-        start: parameters to begin with, [p].
-        scale: size of each parameter, [p].
+        start: parameters to begin with, [parameters].
+        scale: size of each parameter, [parameters].
         flights: states to begin with; those of the first samples where there are none.
 
     Raises:

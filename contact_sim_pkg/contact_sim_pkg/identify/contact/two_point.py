@@ -34,7 +34,7 @@ def two_point(
     `c_t/m = dv_x`, `c_n/m = dv_y + h g`, `m/J = dw / (r_x c_n/m - r_y c_t/m)`.
 
     Args:
-        before: v_x, v_y in [m/s] and spin in [rad/s] before, [3].
+        before: [v_x, v_y, spin] before, in [m/s] and [rad/s].
         after: the same after.
         reach: from the centre of mass to the contact, [m].
         passed: time between the two, [s].
@@ -46,6 +46,7 @@ def two_point(
     """
     tangential, normal = float(after[0] - before[0]), float(after[1] - before[1]) + passed * gravity
     moment = reach[0] * normal - reach[1] * tangential
+    # An impulse through the centre of mass turns no body
     if abs(moment) <= 1e-12 * float(numpy.hypot(*reach)) * float(numpy.hypot(tangential, normal)):
         raise IdentificationError(
             "m/J is not identifiable from this impact: its impulse passes through the centre of mass"

@@ -68,7 +68,7 @@ def _integral(course: _Course | None, begin: float, end: Array | float) -> Array
 
 
 def constant(force: ArrayLike | None = None, torque: ArrayLike | None = None) -> ExternalWrench:
-    """The same force and torque [3] all the time, in world axes."""
+    """The same force [x, y, z] [N] and torque [x, y, z] [N m] all the time, in world axes."""
     time = numpy.array([0.0, 1.0])
     values = [
         None if each is None else numpy.tile(numpy.asarray(each, dtype=numpy.float64), (2, 1))

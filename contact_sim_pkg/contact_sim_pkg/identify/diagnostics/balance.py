@@ -42,7 +42,7 @@ class Balance(NamedTuple):
 
 
 def impulse(before: FlightState, after: FlightState, inverse_mass: float, model: FlightModel) -> Array:
-    """pi: impulse of the contact over the mass, [3] in [m/s]."""
+    """pi: impulse of the contact over the mass, [x, y, z] in [m/s]; inverse_mass: [1/kg]."""
     passed = after.time - before.time
     free = passed * model.gravity * UP - inverse_mass * model.wrench.push(before.time, after.time)
     return numpy.asarray(after.velocity - before.velocity + free)
@@ -51,9 +51,14 @@ def impulse(before: FlightState, after: FlightState, inverse_mass: float, model:
 def balance(
     before: Side, after: Side, parameters: Array, model: FlightModel, shape: Shape, ground: GroundPlane, point: int
 ) -> Balance:
-    """The balance of one contact at `point` of the shape."""
+    """The balance of one contact at `point` of the shape; parameters: [parameters].
+
+    Value: [3] in [m^2/s]; derivatives by the states before and after [3, 12], by the parameters [3,
+    parameters].
+    """
     first, second = before.state, after.state
     inertia, inverse_mass = model.inertia(parameters), model.inverse_mass(parameters)
+    # Orientation in the middle of the step, and the rotations half a step before and after it
     middle = mean(first.rotation, second.rotation)
     half = 0.25 * (second.time - first.time) * (first.angular_velocity + second.angular_velocity)
     turned = [exponential(-half) @ middle, exponential(half) @ middle]
@@ -63,6 +68,7 @@ def balance(
     reach = arm(shape, ground, middle, point)
     twist = model.wrench.twist(first.time, second.time)
     value = inertias[1] @ spins[1] - inertias[0] @ spins[0] - numpy.cross(reach, push) - inverse_mass * twist
+    # Derivatives: by both states, then by the parameters, directly and through the states
     locals_ = _by_motion(inertias, spins, push, middle @ shape.points[point], reach)
     direct = numpy.zeros((3, model.unknowns))
     for place, part in enumerate(model.basis):
@@ -83,7 +89,12 @@ def lasting_balance(
     point: int,
     swept: ImpulseMoment,
 ) -> Balance:
-    """The balance of one contact at `point` that lasts from `before` to `after`."""
+    """The balance of one contact at `point` that lasts from `before` to `after`; parameters:
+    [parameters].
+
+    Value: [3] in [m^2/s]; derivatives by the states before and after [3, 12], by the parameters [3,
+    parameters].
+    """
     first, second = before.state, after.state
     inertia, inverse_mass = model.inertia(parameters), model.inverse_mass(parameters)
     inertias = [angular_inertia(state.rotation, inertia) for state in (first, second)]

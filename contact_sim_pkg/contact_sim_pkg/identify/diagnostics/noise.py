@@ -58,8 +58,8 @@ def from_residuals(residuals: Sequence[Array], states: BodyStates) -> SampleNois
 
 
 def limited(noise: SampleNoise, states: BodyStates, floor: float = FLOOR) -> SampleNoise:
-    """Not below `floor` times the largest value of each channel, that of rounding, nor below BESIDE
-    the noise of the roughest.
+    """Not below `floor` [1] times the largest value of each channel, that of rounding, nor below
+    BESIDE the noise of the roughest.
 
     Rotations that are exact beside rounded spins would identify the ratios of the inertia so well
     that its size, from the spins, would count as not identified.
@@ -85,8 +85,10 @@ def roundings(states: BodyStates) -> SampleNoise:
 
 
 def sample_noise(noise: SampleNoise, rounding: SampleNoise, states: BodyStates, run: slice) -> Array:
-    """Of each sample of a flight in the order dx, dv, rotation, dw, [12]; `noise`, or rounding
-    where the samples share more.
+    """Standard deviations of each sample of a flight in the order dx, dv, rotation, dw: [channels],
+    12 in [m], [m/s], [rad], [rad/s].
+
+    `noise`, or rounding where the samples share more.
     """
     place, speed, spin = (
         numpy.maximum(getattr(noise, name), shared_rounding(getattr(states, name)[run], getattr(rounding, name)))
@@ -96,12 +98,13 @@ def sample_noise(noise: SampleNoise, rounding: SampleNoise, states: BodyStates, 
 
 
 def shared_rounding(values: Array, rounding: float) -> Array:
-    """What counts as noise of each of the samples [n, k] of a flight so that their mean is as
-    uncertain as rounding leaves it, [k].
+    """Deviation [columns] to use for each of the samples [samples, columns] of a flight so that
+    their mean is as uncertain as rounding leaves it.
 
     Errors of rounding differ from sample to sample only where the increments of the rounded values
     do. A spin that is constant, or a velocity that falls by whole steps, keeps one error for all n
-    samples, r = 1: `rounding sqrt(n / r)`, r - 1 changes of the increment.
+    samples, r = 1: `rounding sqrt(n / r)`, r - 1 changes of the increment. `rounding` and result in
+    the unit of the values: [m], [m/s] or [rad/s].
     """
     if rounding == 0.0:
         return numpy.zeros(values.shape[1])

@@ -27,8 +27,8 @@ OUTSIDE = (
 
 
 def made_up(found: ParameterEstimate, problem: IdentificationProblem) -> Array:
-    """Which parameters noise could have made up, [p]: deviation above a third of the value, or
-    below zero where none can be.
+    """Which parameters noise alone could explain, [parameters]: deviation above a third of the
+    value, or below zero where none can be.
 
     Products of inertia may be zero: theirs is compared with their size. 1/m and moments of inertia
     are above zero.

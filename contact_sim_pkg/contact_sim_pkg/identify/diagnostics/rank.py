@@ -45,8 +45,10 @@ def split(regressor: Array, *, with_mass: bool) -> Split:
     rows, count = regressor.shape
     if rows < count:
         regressor = numpy.concatenate([regressor, numpy.zeros((count - rows, count))])
+    # Columns brought to one size, those without information apart
     visible, hidden = _separated(regressor, _kinds(regressor, with_mass))
     left, values, right = numpy.linalg.svd(regressor @ visible.T, full_matrices=False)
+    # Rows have unit noise: a singular value above 1 is a deviation below the size
     directions, kept = right @ visible, values > 1.0
     return Split(directions[kept], values[kept], left[:rows, kept], numpy.concatenate([directions[~kept], hidden]))
 

@@ -85,6 +85,7 @@ def _falling(found: ParameterEstimate, problem: IdentificationProblem) -> list[s
     """
     fastest = float(abs(problem.states.velocity).max())
     missing = missing_acceleration(found, problem)
+    # The same acceleration is missing in all flights
     length = float(numpy.linalg.norm(missing.value))
     if length > SIGMAS * missing.deviation and length * missing.longest > SLIGHT * fastest:
         x, y, z = missing.value
@@ -94,6 +95,7 @@ def _falling(found: ParameterEstimate, problem: IdentificationProblem) -> list[s
             "and impacts that the samples smear or miss"
         )
         return [line]
+    # The fit leaves more than neighbouring samples differ by
     left, rough = from_residuals(found.residuals, problem.states).velocity, first_guess(problem.states).velocity
     if left > SMOOTH * rough and left > SLIGHT * fastest:
         line = (
@@ -115,6 +117,7 @@ def _turning(found: ParameterEstimate, problem: IdentificationProblem) -> list[s
             f"{scale.deviation:.2g}): check the scale and the axes of the spin, the torque, and the stamps"
         )
         return [line]
+    # The same angular acceleration is missing in all flights
     fastest, missing = float(abs(problem.states.angular_velocity).max()), missing_spin_rate(found, problem)
     length = float(numpy.linalg.norm(missing.value))
     if length > SIGMAS * missing.deviation and length * missing.longest > SLIGHT * fastest:
@@ -124,6 +127,7 @@ def _turning(found: ParameterEstimate, problem: IdentificationProblem) -> list[s
             f"(standard deviation {missing.deviation:.2g}): check the torque"
         )
         return [line]
+    # The fit leaves more than neighbouring samples differ by
     left, rough = from_residuals(found.residuals, problem.states), first_guess(problem.states)
     spins, turns = left.angular_velocity / rough.angular_velocity, left.rotation / rough.rotation
     size = max(left.rotation, left.angular_velocity / max(fastest, 1e-300))

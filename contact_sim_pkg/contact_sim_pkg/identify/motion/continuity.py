@@ -37,6 +37,7 @@ def refuse_jumps(states: BodyStates, noise: SampleNoise, gravity: float) -> None
     """
     steps = numpy.diff(states.time)
     _refuse_lone_stamp(states.time, steps)
+    # Increments of rotation and position from sample to sample, and what gravity makes of them
     turns = logarithm(states.rotation[1:] @ numpy.swapaxes(states.rotation[:-1], -1, -2))
     slack = 2.0 * gravity * steps**2 + LEAST * float(numpy.ptp(states.position, axis=0).max())
     places = numpy.diff(states.position, axis=0)
@@ -79,12 +80,14 @@ def _refuse(
 ) -> None:
     """One kind of motion: `gone` [n-1, 3] from sample to sample, `speed` [n, 3] at the samples."""
     steps = numpy.diff(time)
+    # Distance from the mean of the velocities, allowed by their changes nearby
     off = numpy.linalg.norm(gone - 0.5 * (speed[1:] + speed[:-1]) * steps[:, None], axis=1)
     change = numpy.linalg.norm(numpy.diff(speed, axis=0), axis=1)
     fastest = numpy.linalg.norm(speed, axis=1)
     nearby = _widest(change, 2)
     size = numpy.maximum(fastest[1:], fastest[:-1])
     allowed = (CHANGES * nearby + SHARE * size) * steps + slack + SIGMAS * (noise + speed_noise * steps)
+    # A gap in the record, or a large rotation, has no such bound
     comparable = steps <= WIDEST_STEP * numpy.median(steps)
     if unit == "rad":
         comparable &= size * steps < WIDEST_TURN

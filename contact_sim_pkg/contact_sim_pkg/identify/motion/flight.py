@@ -67,7 +67,8 @@ class FlightMotion(NamedTuple):
 
 
 def moved(state: FlightState, change: Array) -> FlightState:
-    """The state changed by 12 numbers."""
+    """The state after a change [changes] of 12 numbers (dx, dv, small rotation, dw) in [m], [m/s],
+    [rad], [rad/s]."""
     rotation = exponential(change[6:9]) @ state.rotation
     return FlightState(
         state.time, state.position + change[:3], state.velocity + change[3:6], rotation,
@@ -78,7 +79,11 @@ def moved(state: FlightState, change: Array) -> FlightState:
 def plain_motion(
     state: FlightState, parameters: Array, model: FlightModel, times: Array
 ) -> tuple[Array, Array, Array, Array]:
-    """Position, velocity, rotation and angular velocity at the times, without derivatives."""
+    """Position, velocity, angular velocity [times, 3] and rotation [times, 3, 3] at the times [s],
+    without derivatives.
+
+    Returned in the order position, velocity, rotation, angular velocity; parameters: [parameters].
+    """
     position, velocity = _path(state, model.inverse_mass(parameters), model, times)
     rotation, angular_velocity = turn(
         state.rotation[None], state.angular_velocity[None], model.inertia(parameters)[None],
@@ -88,15 +93,14 @@ def plain_motion(
 
 
 def state_at(state: FlightState, parameters: Array, model: FlightModel, time: float) -> FlightState:
-    """The state of a flight at another instant."""
+    """The state of a flight at another time [s]; parameters: [parameters]."""
     position, velocity, rotation, spin = plain_motion(state, parameters, model, numpy.array([time]))
     return FlightState(time, position[0], velocity[0], rotation[0], spin[0])
 
 
 def rates(state: FlightState, parameters: Array, model: FlightModel) -> Array:
-    """How fast a flight changes at its state: (v, kappa F - g z, w, w'), [12] per second, in the
-    order of a change.
-    """
+    """Rates of a flight at its state: (v, kappa F - g z, w, w'), [changes] per [s], in the order of
+    a change; parameters: [parameters]."""
     wrench, inverse_mass, at = model.wrench, model.inverse_mass(parameters), numpy.array([state.time])
     force = numpy.zeros(3) if wrench.force is None else numpy.asarray(wrench.force.value(at))[0]
     moment = inverse_mass * wrench.torque_at(at)[0]
@@ -106,7 +110,8 @@ def rates(state: FlightState, parameters: Array, model: FlightModel) -> Array:
 
 
 def motion(state: FlightState, parameters: Array, scale: Array, model: FlightModel, times: Array) -> FlightMotion:
-    """Motion and derivatives; `scale` [p] is the size of each parameter."""
+    """Motion at the times [times] [s] and its derivatives; scale: size of each parameter,
+    [parameters]."""
     if not (times != state.time).any():
         return _standing(state, model, len(times))
     position, velocity = _path(state, model.inverse_mass(parameters), model, times)

@@ -51,6 +51,7 @@ def mean_over_flights(
     for run, rest in long_flights(found, problem):
         time = problem.states.time[run] - problem.states.time[run.start]
         columns = slice(first, first + 6)
+        # Of the three axes the largest: one weight a flight
         spreads = sample_noise(noise, problem.rounding, problem.states, run)[columns].reshape(2, 3).max(axis=1)
         value, weight = _of_flight(time, rest[:, columns], spreads)
         total = total + weight * value

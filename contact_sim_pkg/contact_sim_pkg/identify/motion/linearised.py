@@ -180,6 +180,7 @@ class Linearised:
             numpy.zeros((total, problem.model.unknowns)),
             numpy.zeros(total),
         )
+        # The states of the flights are eliminated; a sweep has an error of its own
         for contact, found, own in zip(problem.contacts, balances, lines, strict=True):
             self._eliminate(contact, found, errors[own], regressor[own], rest[own])
             if contact.sweep is not None:

@@ -16,8 +16,8 @@ LEVEL = 1e-6  # allowed component of the axis along the ground's normal
 
 
 def plane_of_motion(states: BodyStates, ground: GroundPlane, noise: SampleNoise) -> Array | None:
-    """Normal of the plane in world axes [3], its largest component positive; None where the motion
-    is spatial.
+    """Normal [x, y, z] of the plane in world axes, its largest component positive; None where the
+    motion is spatial.
 
     In a plane the spin keeps one axis, level with the ground, and the speed along that axis never
     changes.
@@ -36,7 +36,7 @@ def plane_of_motion(states: BodyStates, ground: GroundPlane, noise: SampleNoise)
 
 
 def body_axis(states: BodyStates, axis: Array, noise: SampleNoise) -> Array:
-    """The normal of the plane in body axes [3]: the mean over all samples."""
+    """Normal [x, y, z] of the plane in body axes: the mean over all samples; axis: in world axes."""
     mean = numpy.einsum("nji,j->i", states.rotation, axis)
     return _named(mean / numpy.linalg.norm(mean), SIGMAS * noise.rotation)
 

@@ -41,7 +41,8 @@ def logarithm(matrix: Array) -> Array:
 
 
 def from_quaternion(quaternion: Array) -> Array:
-    """Rotations of quaternions [..., 4] in the order w, x, y, z; they need not be of length 1."""
+    """Rotations [n, 3, 3] of quaternions [n, 4] in the order w, x, y, z, or of any leading shape;
+    they need not be of length 1."""
     quaternions = numpy.asarray(quaternion, dtype=numpy.float64)
     scalar_last = numpy.roll(quaternions.reshape(-1, 4), -1, axis=1)
     matrices: Array = Rotation.from_quat(scalar_last).as_matrix()
@@ -55,6 +56,6 @@ def mean(first: Array, second: Array) -> Array:
 
 
 def angular_inertia(rotation: Array, inertia: Array) -> Array:
-    """`R S R^T`: an inertia given in body axes, in world axes."""
+    """`R S R^T`: an inertia [3, 3] given in body axes, in world axes [3, 3]; rotation: [3, 3]."""
     turned: Array = rotation @ inertia @ rotation.T
     return turned

@@ -69,7 +69,7 @@ def inverse_mass_guess(
 
     Below zero where the body moves against the force.
 
-    `lifts` [n]: smallest gaps, known to `uncertainty`, in [m].
+    `lifts` [samples]: smallest gaps, known to `uncertainty`, in [m].
     """
     pushes = _pushes(states, wrench)
     strength = numpy.einsum("ni,ni->n", pushes, pushes)
@@ -105,9 +105,11 @@ def segments(
     lifts = gaps(shape, ground, states.position, states.rotation).min(axis=1)
     uncertainty = gap_uncertainty(shape, place_noise)
     inverse_mass = inverse_mass_guess(states, lifts, wrench, gravity, uncertainty)
+    # Changes of velocity that gravity and the wrench do not explain
     jumps = _jumps(states, gravity) - inverse_mass * _pushes(states, wrench)
     deviation = max(noise, FLOOR * float(abs(states.velocity).max()))
     strength = numpy.einsum("ni,ni->n", jumps, jumps) / (chi2.ppf(QUANTILE, 3) * 2.0 * deviation**2 + 1e-300)
+    # A contact: a change beyond noise near the ground, a certain one anywhere, or rest on it
     near = _near(states, lifts, ground, place_noise[0])
     hit = (strength > 1.0) & (near | (strength > CERTAIN)) | _down(states, lifts, gravity, uncertainty)
     return Segments(*_runs(hit | _pressed_in(jumps, lifts < -uncertainty, deviation)))

@@ -49,6 +49,7 @@ def turn(
     if wrench.torque is None and not numpy.ptp(inertia - inertia[:, :1, :1] * numpy.eye(3)):
         vectors = (times - begin)[None, :, None] * angular_velocity[:, None, :]
         return exponential(vectors) @ rotation[:, None], numpy.broadcast_to(angular_velocity[:, None], vectors.shape)
+    # In body axes, as quaternion and spin; times before and after the start apart
     spin = numpy.einsum("cji,cj->ci", rotation, angular_velocity)
     start = numpy.concatenate([_quaternion(rotation), spin], axis=1)
     model: _Model = (inertia, numpy.asarray(numpy.linalg.inv(inertia)), inverse_mass, wrench)
@@ -61,10 +62,10 @@ def turn(
 
 
 def spin_rate(rotation: Array, angular_velocity: Array, inertia: Array, moment: Array) -> Array:
-    """`w' = R S^-1 (R^T k - W x S W)`, W = R^T w, of one body: [3] in [rad/s^2], world axes.
+    """`w' = R S^-1 (R^T k - W x S W)`, W = R^T w, of one body: [x, y, z] in [rad/s^2], world axes.
 
-    `moment` is k = kappa tau, torque over mass, [3] in [m^2/s^2], world axes; `w' = R W'` since `w
-    x w = 0`.
+    `moment` is k = kappa tau, torque over mass, [x, y, z] in [m^2/s^2], world axes; `w' = R W'`
+    since `w x w = 0`. rotation, inertia: [3, 3].
     """
     spin, own = rotation.T @ angular_velocity, rotation.T @ moment
     return rotation @ numpy.linalg.solve(inertia, own - numpy.cross(spin, inertia @ spin))
@@ -84,6 +85,7 @@ def _states_along(start: Array, begin: float, times: Array, model: _Model) -> Ar
     found = numpy.empty((len(start), len(times), 7))
     done = numpy.zeros(len(times), dtype=bool)
     for low, high in itertools.pairwise(edges):
+        # Solved on the nodes of the segment, then interpolated to the times inside
         values = _segment(start, low, high, model)
         inside = ~done & ((times <= high) if forward else (times >= high))
         if inside.any():

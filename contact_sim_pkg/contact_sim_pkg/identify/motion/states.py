@@ -60,6 +60,7 @@ def checked(states: BodyStates) -> BodyStates:
             f"time does not grow from sample {place} to {place + 1} ({states.time[place]:.9g} s to "
             f"{states.time[place + 1]:.9g} s); sort the samples and drop repeated ones"
         )
+    # Rotations are orthogonal
     turned = numpy.einsum("nji,njk->nik", states.rotation, states.rotation) - numpy.eye(3)
     if abs(turned).max() > ORTHOGONAL:
         raise IdentificationError(

@@ -28,7 +28,7 @@ SHAPES = numpy.array([  # changes of (xx, yy, zz, xy, xz, yz) that leave the tra
 def tumbling_start(
     states: BodyStates, flights: list[tuple[int, int]], model: FlightModel, noise: SampleNoise, guess: Array
 ) -> Array | None:
-    """Parameters to begin with, [p]; None where no body has such an inertia, or no flight is long
+    """Parameters to begin with, [parameters]; None where no body has such an inertia, or no flight is long
     enough.
 
     Args:
@@ -47,13 +47,16 @@ def tumbling_start(
     size = float(guess[:3].sum()) / 3.0
     fastest = float(numpy.linalg.norm(states.angular_velocity, axis=1).max())
     spread = size * (noise.angular_velocity + fastest * noise.rotation)
+    # Unknowns: the shape of the inertia at a given size, and 1/m
     free = numpy.zeros((len(SHAPES) + model.with_mass, len(guess)))
     free[: len(SHAPES), :6] = size * SHAPES
     if model.with_mass:
         free[-1, -1] = guess[-1]
+    # Least squares, regularised towards the guess
     system = numpy.concatenate([rows @ free.T / spread, numpy.eye(len(free))])
     right = numpy.concatenate([-rows @ guess / spread, numpy.zeros(len(free))])
     found: Array = guess + numpy.linalg.lstsq(system, right)[0] @ free
+    # A body has no negative second moment
     inertia = model.inertia(found)
     trace = float(numpy.trace(inertia))
     moments = numpy.linalg.eigvalsh(0.5 * trace * numpy.eye(3) - inertia)

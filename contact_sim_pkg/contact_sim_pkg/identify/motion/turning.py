@@ -53,6 +53,7 @@ def spin_scale(found: ParameterEstimate, problem: IdentificationProblem) -> Spin
         along, time = spin / speed[:, None], problem.states.time[run]
         centred, size = time - time.mean(), float(speed.mean())
         lever = float(centred @ centred)
+        # Rate at which the rotations run ahead of the spin, along the spin
         rate = float(centred @ numpy.einsum("ni,ni->n", turns, along)) / lever
         excess = rate - float(numpy.einsum("ni,ni->n", spins, along).mean())
         spin_noise = float(sample_noise(noise, problem.rounding, problem.states, run)[ROTATION + 3 :].max())
@@ -78,6 +79,7 @@ def rate_of_turn(states: BodyStates, noise: float) -> float | None:
     if total < 1.0 or usual < SIGNIFICANT * noise:
         return None
     span = min(max(1, round(TURN * len(steps) / total)), len(steps) // 2)
+    # Rotation over each span: by the spins, and by the rotations
     recorded = numpy.concatenate([numpy.zeros((1, 3)), numpy.cumsum(spin * steps[:, None], axis=0)])
     recorded = recorded[span:] - recorded[:-span]
     turns = logarithm(states.rotation[span:] @ numpy.swapaxes(states.rotation[:-span], -1, -2))

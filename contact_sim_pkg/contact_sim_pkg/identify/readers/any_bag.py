@@ -50,6 +50,7 @@ def use_bag(path: Path, use: Callable[[AnyBag], Result]) -> Result:
     try:
         return _whole(place, use)
     except _UnreadableError as error:
+        # rosbags reads whole files only: what is left of a damaged one is read by our reader
         bag = _what_is_left(place)
         if bag is None:
             raise BagError(
@@ -77,6 +78,7 @@ def _place_of(path: Path) -> Path:
                 f"the directory {path} has no {METADATA} and {len(files)} files of messages; give one of them"
             )
         place = files[0]
+    # A pipe or a socket would block the reader
     for file in files:
         try:
             open_regular_file(file).close()

@@ -150,6 +150,7 @@ def _foreign(bag: AnyBag, topic: str | None, twist_topic: str | None, twist_axes
         poses = [message.pose for message in messages]
         twist_name = chosen(bag, twist_topic, (TWIST,), "--twist-topic")
         other = all_messages(bag, twist_name)
+        # A pose and a twist of one stamp make a state
         pairs, alone = pairs_of(time, [stamp(message) for message in other], (name, twist_name))
         time, poses = [time[first] for first, _ in pairs], [poses[first] for first, _ in pairs]
         twists = [other[second].twist for _, second in pairs]

@@ -100,6 +100,7 @@ def one_a_stamp(samples: Samples, topic: str) -> tuple[Samples, tuple[str, ...]]
             f"the {len(first)} messages on {topic} have {first.sum()} stamps; allowed: one stamp each. Let the publisher fill in "
             "header.stamp"
         )
+    # For each message the first one of its stamp
     of_stamp = numpy.maximum.accumulate(numpy.where(first, numpy.arange(len(first)), 0))
     rows = numpy.column_stack([field.reshape(len(first), -1) for field in samples])
     other = int(((rows != rows[of_stamp]).any(axis=1) & ~first).sum())

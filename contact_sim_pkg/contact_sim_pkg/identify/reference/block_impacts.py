@@ -30,8 +30,10 @@ class BlockImpacts(NamedTuple):
 def random_block_impacts(
     random: numpy.random.Generator, count: int, side: float = 0.1, friction: float = 0.4
 ) -> BlockImpacts:
-    """Impacts with angle 0.1 to 0.7 rad, v_x ±2 m/s, v_z -3 to -1 m/s, spin ±5 rad/s, of a
-    homogeneous square.
+    """Impacts of a homogeneous square of `side` [m]: angle 0.1 to 0.7 rad, v_x ±2 m/s, v_z -3 to -1
+    m/s, spin ±5 rad/s.
+
+    friction: [1]; arrays of the result: [impacts, 3, 3] and [impacts, 3].
     """
     rows: list[tuple[float, Array, Array]] = []
     while len(rows) < count:
@@ -41,6 +43,7 @@ def random_block_impacts(
         if after is not None:
             rows.append((angle, before, after))
     angles, before, after = (numpy.array(column) for column in zip(*rows, strict=True))
+    # From the plane to space: pitch about y
     sine, cosine, zero = numpy.sin(angles), numpy.cos(angles), numpy.zeros(count)
     one = numpy.ones(count)
     turned = numpy.stack([cosine, zero, sine, zero, one, zero, -sine, zero, cosine], axis=1).reshape(-1, 3, 3)
@@ -60,6 +63,7 @@ def _impact(angle: float, before: Array, side: float, friction: float) -> Array 
     rows = numpy.stack([normal, tangent])
     if normal @ before >= 0.0:
         return None
+    # Stick, where the impulse lies in the cone; else slide in either direction
     impulse = -numpy.linalg.solve(rows @ mobility @ rows.T, rows @ before)
     if abs(impulse[1]) <= friction * impulse[0]:
         return numpy.asarray(before + mobility @ rows.T @ impulse)

@@ -67,10 +67,12 @@ def fall(
     rate: float = 1000.0,
     most: int = 1000,
 ) -> Record:
-    """Samples at `rate` [1/s] from 0 to `duration` [s], or to the impact after the `most`-th.
+    """Samples [samples, 3] and [samples, 3, 3] at `rate` [1/s] from 0 to `duration` [s], or to the
+    impact after the `most`-th.
 
-    The start is above the ground. The record ends early where two impacts follow each other within 1e-6 s.
-    """  # fmt: skip
+    The start is above the ground. The record ends early where two impacts follow each other within
+    1e-6 s.
+    """
     inverse = numpy.linalg.inv(body.inertia)
     momentum = rotation @ body.inertia @ rotation.T @ angular_velocity
     state = numpy.concatenate([position, velocity, rotation.ravel(), momentum])
@@ -84,6 +86,7 @@ def fall(
 
     touch: Any = height
     touch.terminal, touch.direction = True, -1.0
+    # One flight and one impact after the other
     while True:
         found = _flight(body, inverse, state, now, times[-1], touch)
         end, state = float(found.t[-1]), found.y[:, -1]

@@ -26,6 +26,7 @@ def hull_of_file(path: Path) -> Shape:
     text = read_regular_file(path, LARGEST).decode("utf-8", "replace")
     points = []
     for number, line in enumerate(text.splitlines(), start=1):
+        # Commas or blanks; # begins a comment
         words = line.split("#")[0].replace(",", " ").split()
         if not words:
             continue

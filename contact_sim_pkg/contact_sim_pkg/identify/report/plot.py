@@ -50,6 +50,7 @@ def _impulses(axis: Any, found: Identification) -> None:
     its point is not known.
     """
     told = [contact for contact in found.contacts if contact.normal is not None]
+    # Grey points have no mode
     for mode, colour in (*COLOURS.items(), (None, MUTED)):
         chosen = [contact for contact in told if (None if contact.mode is None else contact.mode.mode) == mode]
         if not chosen:

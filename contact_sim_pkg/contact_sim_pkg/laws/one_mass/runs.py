@@ -61,6 +61,7 @@ def integrate(
     rest = (numpy.array([mode]), state, numpy.asarray(scale, dtype=float))
     instants = numpy.asarray(times, float)
     work: RootStepWorkspace | dormand_prince.DormandPrinceWorkspace
+    # The integrator of the driven rigs locates friction events
     if isinstance(rig, BeltSlider):
         work = dormand_prince.make_workspace(len(state), margins)
         status = run_with_friction(rig, *rest, work, instants, out)
@@ -89,8 +90,9 @@ def impact_speeds(
 
 
 def seat_slap() -> tuple[PointContact, Vector, Vector]:
-    """60 kg on a one-sided foam law over a floor at 5 Hz and 1.3 g: rig, start, and the scales [m,
-    m/s] of the motion.
+    """Seat slap: 60 kg on a one-sided foam law over a floor at 5 Hz and 1.3 g.
+
+    Returns the rig, its start [m, m/s] and the scales [m, m/s] of the motion, both [states].
     """
     mass, gravity = 60.0, 9.81
     frequency = 2.0 * numpy.pi * 5.0

@@ -50,6 +50,7 @@ def run(
     drive = _free(times[0], times[-1])
     set_event_directions(rig, drive, mode, times[0], state, work)
     copy_row(state, out[0])
+    # One segment between two output times after the other; events do not end a segment
     status = 0
     for i in range(times.shape[0] - 1):
         drive = _free(times[i], times[i + 1])
@@ -82,6 +83,7 @@ def run_with_friction(
     drive = _free(times[0], times[-1])
     _set_event_directions_5(rig, drive, mode, times[0], state, work)
     copy_row(state, out[0])
+    # One segment between two output times after the other
     status = 0
     for i in range(times.shape[0] - 1):
         drive = _free(times[i], times[i + 1])

@@ -78,9 +78,8 @@ def released_at(oscillator: QuadraticOscillator, start: float) -> CnoidalMotion:
 
 
 def position(motion: CnoidalMotion, times: ArrayLike) -> Array:
-    """y in [m] at ``times`` [s]; ``motion.start`` at t = 0. Raises ValueError for a time that is
-    not finite.
-    """
+    """y [m] at ``times`` [times] [s], in their shape; ``motion.start`` at t = 0. Raises ValueError
+    for a time that is not finite."""
     t = numpy.asarray(times, dtype=numpy.float64)
     if not numpy.isfinite(t).all():
         raise ValueError("a time of the motion is not a finite number")

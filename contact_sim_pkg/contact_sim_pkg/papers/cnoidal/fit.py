@@ -95,10 +95,10 @@ def ansatz(fit: AnsatzFit, phases: Array) -> Array:
 
 
 def fit_harmonics(samples: Array, count: int) -> float:
-    """Residual of the mean and ``count`` harmonics of one period, as that of ``fit_ansatz``; 1 + 2
-    count unknowns.
+    """Residual [1] of the mean and ``count`` harmonics of one period, as that of ``fit_ansatz``; 1
+    + 2 count unknowns.
 
-    samples: [n]; the result: [-].
+    samples: [samples] of the period.
     """
     spectrum = numpy.fft.rfft(samples - samples.mean())
     spectrum[: count + 1] = 0.0

@@ -53,6 +53,7 @@ def exact_period(elastic: NormalElastic, mass: float, preload: float, deepest: f
     lowest = brentq(lambda x: potential(x) - level, -1e3 * rest, rest, xtol=1e-16, rtol=1e-15)
     middle, half = 0.5 * (deepest + lowest), 0.5 * (deepest - lowest)
 
+    # dt over the angle of a sine along the path: no singularity at the turning points
     def slowness(angle: float) -> float:
         left = level - potential(middle + half * math.sin(angle))
         return half * math.cos(angle) / math.sqrt(2.0 / mass * left) if left > 0.0 else 0.0

@@ -65,16 +65,19 @@ def theta(phases: ArrayLike, matrix: ArrayLike) -> Array:
 
 
 def log_theta(phases: ArrayLike, matrix: ArrayLike) -> Array:
-    """ln Theta, [...]. Raises ThetaError where B is not symmetric and negative definite, or needs
-    more than 2e6 terms.
+    """ln Theta [...] at phases [..., phases]; matrix B: [phases, phases].
+
+    Raises ThetaError where B is not symmetric and negative definite, or needs more than 2e6 terms.
     """
     eta, b = _checked(phases, matrix)
     return _sums(eta, b, numpy.zeros(b.shape[0]))[0]
 
 
 def theta_wave(phases: ArrayLike, matrix: ArrayLike, direction: ArrayLike) -> Array:
-    """``2 d^2 ln Theta/dx^2`` along ``direction`` d(eta)/dx [N]: wave numbers, or frequencies for
-    eq A4.
+    """``2 d^2 ln Theta/dx^2`` [...] along ``direction`` d(eta)/dx [phases]: wave numbers, or
+    frequencies for eq A4.
+
+    phases: [..., phases]; matrix B: [phases, phases].
     """
     eta, b = _checked(phases, matrix)
     along = _direction(direction, b.shape[0])
@@ -120,8 +123,9 @@ def interaction(phases: ArrayLike, matrix: ArrayLike, direction: ArrayLike) -> A
 
 
 def one_phase(entry: float, wave_number: float) -> OnePhase:
-    """The wave of one phase with B = ``entry``, -1e100 to -1e-100. Raises ThetaError outside, and
-    for a wave number beyond 1e50.
+    """The wave of one phase with B = ``entry`` [1], -1e100 to -1e-100, and a wave number [1/m].
+
+    Raises ThetaError outside, and for a wave number beyond 1e50.
     """
     if not -LARGEST_ENTRY <= entry <= -LEAST_EIGENVALUE:
         raise ThetaError(

@@ -38,6 +38,7 @@ def rows() -> list[Row]:
         plain = theta.plain_sum(phases, matrix, WAVE_NUMBERS)
         size = float(numpy.sqrt(numpy.mean(plain**2)))
         fitted, fit_ms = timed_once(functools.partial(_fitted, exact, phases))
+        # From inexpensive to exact
         for rung, value in (
             (Rung("sum of one-phase cn²", _cost(theta.plain_sum, matrix)), plain),
             (Rung("fitted ansatz (A6)", fit_ms), fitted),
@@ -52,7 +53,7 @@ def rows() -> list[Row]:
 
 
 def matrix_of(coupling: float) -> Array:
-    """Matrix B [2, 2] with the off-diagonal ``coupling``."""
+    """Matrix B [2, 2] with the off-diagonal ``coupling`` [1]."""
     return numpy.array([[-2.2, coupling], [coupling, -3.1]])
 
 

@@ -81,6 +81,7 @@ def put_body(
             found.normals[plane + i, j] = body.normals[i, j]
             found.offsets[plane + i] -= body.normals[i, j] * origin[j] / size
     for k in range(body.centres.shape[0]):
+        # Quadrics are numbered behind all planes
         found.owners[found.offsets.size + quadric + k] = owner
         for j in range(3):
             found.centres[quadric + k, j] = (body.centres[k, j] - origin[j]) / size
@@ -105,7 +106,8 @@ def make_cuts(constraints: Constraints, rounds: int) -> Cuts:
 
 @kernel
 def put_cut(cuts: Cuts, normal: Field, offset: float, constraint: int) -> None:
-    """Append the plane `normal . p <= offset`; normal: [3], offset: in units of the size."""
+    """Append the plane `normal . p <= offset` of a constraint; normal: [3]; offset: over the size
+    [1]."""
     row = cuts.used[0]
     for j in range(3):
         cuts.normals[row, j] = normal[j]
@@ -150,7 +152,8 @@ def to_local(constraints: Constraints, k: int, point: Field, local: Field) -> No
 
 @kernel
 def to_world(constraints: Constraints, k: int, local: Field, normal: Field) -> float:
-    """Direction of quadric k in the world, in `normal`; returns its product with the centre.
+    """Write the direction of quadric k in the world into `normal`; returns its product with the
+    centre, over the size [1].
 
     local, normal: [3].
     """
@@ -165,10 +168,7 @@ def to_world(constraints: Constraints, k: int, local: Field, normal: Field) -> f
 
 @kernel
 def depth_below(constraints: Constraints, constraint: int, point: Field) -> float:
-    """Minus the signed distance of a point from one constraint.
-
-    point: [3]; lengths in units of the size.
-    """
+    """Minus the signed distance of a point [3] from one constraint, both over the size [1]."""
     planes = constraints.offsets.size
     if constraint < planes:
         depth = constraints.offsets[constraint]
@@ -185,10 +185,7 @@ def depth_below(constraints: Constraints, constraint: int, point: Field) -> floa
 
 @kernel
 def least_depth(constraints: Constraints, point: Field) -> float:
-    """Radius of the largest ball about a point; negative outside.
-
-    point: [3]; lengths in units of the size.
-    """
+    """Radius of the largest ball about a point [3]; negative outside; lengths over the size [1]."""
     least = math.inf
     for constraint in range(constraints.owners.size):
         least = min(least, depth_below(constraints, constraint, point))

@@ -58,7 +58,7 @@ class Closest(NamedTuple):
     point_1: Field  # [3] [m] of body 1
     point_2: Field  # [3] [m] of body 2
     overlap: bool  # distance below 1e-9 of the pair's size
-    residual: float  # [-] of the KKT conditions, relative to the pair's size
+    residual: float  # [1] of the KKT conditions, relative to the pair's size
     starts: int  # starting points used
 
 
@@ -87,10 +87,12 @@ def minimum_distance_from(body_1: ConvexBody, body_2: ConvexBody, start: int) ->
         toward_boundary(body_1, direction),
         toward_boundary(body_2, moved_by(numpy.zeros(3), -1.0, direction)),
     )
+    # Both points, about the middle of the bodies and over their size
     unknowns = numpy.empty(6)
     for j in range(3):
         unknowns[j] = (body_1.inside[j] - origin[j] + first * direction[j]) / size
         unknowns[3 + j] = (body_2.inside[j] - origin[j] - second * direction[j]) / size
+    # Interior points, then Newton steps on the active constraints
     found = minimise(program, unknowns, SMALLEST_GAP)
     point = polish(program, evaluate(program, found.unknowns, found.multipliers))
     point_1, point_2 = numpy.empty(3), numpy.empty(3)
@@ -116,7 +118,7 @@ def pair_size(body_1: ConvexBody, body_2: ConvexBody) -> float:
 
 @kernel
 def length_of(vector: Field) -> float:
-    """Euclidean length of a vector [3]."""
+    """Euclidean length of a vector [3], in its unit: [m], or over the size [1]."""
     total = 0.0
     for part in vector:
         total += part * part
@@ -160,6 +162,7 @@ def toward_boundary(body: ConvexBody, direction: Field) -> float:
         for j in range(3):
             rise += body.normals[i, j] * direction[j]
             depth -= body.normals[i, j] * body.inside[j]
+        # Distance to each plane, then to each quadric, along the direction
         if rise > 0.0:
             way = min(way, depth / rise)
     for k in range(body.centres.shape[0]):
@@ -211,8 +214,10 @@ def pair_program(body_1: ConvexBody, body_2: ConvexBody, origin: Field, size: fl
 def put_planes(
     body: ConvexBody, origin: Field, size: float, rows: Field, bounds: Field, first: int, column: int
 ) -> None:
-    """Write the planes of a body as rows [planes, 6] and bounds [planes], from `first` and `column`
-    on.
+    """Write the planes of a body as rows [planes, 6] and bounds [planes] [1], from `first` and
+    `column` on.
+
+    origin: [3] in [m]; size: [m].
     """
     for i in range(body.offsets.size):
         bounds[first + i] = body.offsets[i] / size
@@ -225,7 +230,11 @@ def put_planes(
 def put_quadrics(
     body: ConvexBody, origin: Field, size: float, curved: Field, centres: Field, first: int, column: int
 ) -> None:
-    """Write the quadrics of a body as matrices [quadrics, 6, 6] and centres [quadrics, 6]."""
+    """Write the quadrics of a body as matrices [quadrics, 6, 6] and centres [quadrics, 6], from
+    `first` and `column` on.
+
+    origin: [3] in [m]; size: [m]; the results are over the size [1].
+    """
     for k in range(body.centres.shape[0]):
         for j in range(3):
             centres[first + k, column + j] = (body.centres[k, j] - origin[j]) / size
@@ -297,11 +306,10 @@ def equality_step(program: Program, point: Point, active: NDArray[numpy.int64]) 
 
 @kernel
 def conditions(program: Program, point: Point) -> float:
-    """Largest violation: of stationarity, and for each constraint `|min(lambda |grad g|, -g / |grad
-    g|)|`, both lengths.
+    """Largest violation [1]: of stationarity, and for each constraint `|min(lambda |grad g|, -g /
+    |grad g|)|`, lengths over the size.
 
     The latter is zero where both are not negative and one of them is zero.
-    The result: in units of the size [-].
     """
     worst = 0.0
     for part in stationarity(program, point):

@@ -51,7 +51,7 @@ class ConvexBody(NamedTuple):
 
 
 def sphere(centre: ArrayLike, radius: float) -> ConvexBody:
-    """Ball of a radius [m] about `centre` [3] [m]. Raises `BodyError`."""
+    """Ball of a radius [m] about `centre` [x, y, z] in [m]. Raises `BodyError`."""
     return ellipsoid(centre, (radius, radius, radius))
 
 
@@ -87,7 +87,7 @@ def quadric(centre: ArrayLike, matrix: ArrayLike) -> ConvexBody:
 
 
 def half_space(normal: ArrayLike, offset: float) -> ConvexBody:
-    """`n^T p <= offset` [m], n the unit vector along `normal` [3]. Raises `BodyError`."""
+    """`n^T p <= offset` [m], n the unit vector along `normal` [x, y, z]. Raises `BodyError`."""
     direction = _vector(normal, "normal")
     length = float(numpy.linalg.norm(direction))
     if length == 0.0 or not math.isfinite(offset):

@@ -93,8 +93,8 @@ def minimise(program: Program, start: Field, tolerance: float) -> ProgramSolutio
     """Minimum from a start inside every constraint, until the gap is below `tolerance` or the
     digits are used up.
 
-    A start on or outside a constraint comes back unchanged with an infinite gap.
-    start: [n]; tolerance: in the unit of the cost [-].
+    start: [n]; tolerance: in the unit of the cost [1]. A start on or outside a constraint is
+    returned unchanged with an infinite gap.
     """
     count = program.flat_bounds.size + program.curved_bounds.size
     point = evaluate(program, start.copy(), numpy.zeros(count))
@@ -132,6 +132,7 @@ def evaluate(program: Program, unknowns: Field, multipliers: Field) -> Point:
             value += program.flat_rows[i, j] * unknowns[j]
             gradients[i, j] = program.flat_rows[i, j]
         values[i] = value
+    # Quadrics: value and gradient share the product with the matrix
     for k in range(curved):
         value = -program.curved_bounds[k]
         for j in range(size):
@@ -148,7 +149,7 @@ def evaluate(program: Program, unknowns: Field, multipliers: Field) -> Point:
 def moved_by(start: Field, length: float, step: Field) -> Field:
     """`start + length step`, as a loop: an array expression takes much longer to compile.
 
-    start, step: [n].
+    start, step: [n]; length: [1].
     """
     moved = numpy.empty(start.size)
     for j in range(start.size):
@@ -162,7 +163,8 @@ def centred(program: Program, point: Point, target: float) -> Point:
     there from anywhere inside.
 
     With `lambda_i = -target / g_i` the step is `newton_step`'s. The slope along a step decides on
-    its length, since the cost over a small target has no digits left for a difference.
+    its length, since the cost over a small target has no digits left for a difference. target: 1/t
+    in the unit of the cost [1].
     """
     put_on_path(point, target)
     for _ in range(MOST_CENTRING_STEPS):
@@ -171,6 +173,7 @@ def centred(program: Program, point: Point, target: float) -> Point:
         if slope < CENTRED * CENTRED * target:
             break
         moved = point
+        # Halved until inside, with most of the slope gone
         for _ in range(MOST_HALVINGS):
             moved = evaluate(program, moved_by(point.unknowns, length, step), point.multipliers.copy())
             if is_inside(moved):
@@ -187,14 +190,14 @@ def centred(program: Program, point: Point, target: float) -> Point:
 
 @kernel
 def put_on_path(point: Point, target: float) -> None:
-    """Set `lambda_i = -target / g_i`."""
+    """Set `lambda_i = -target / g_i`; target: 1/t in the unit of the cost [1]."""
     for i in range(point.values.size):
         point.multipliers[i] = -target / point.values[i]
 
 
 @kernel
 def slope_along(program: Program, point: Point, step: Field) -> float:
-    """Slope of the Lagrangian along a step [n]."""
+    """Slope of the Lagrangian along a step [n], in the unit of the cost [1]."""
     total, slope = 0.0, stationarity(program, point)
     for j in range(step.size):
         total += slope[j] * step[j]
@@ -212,7 +215,7 @@ def is_inside(point: Point) -> bool:
 
 @kernel
 def norm_of(vector: Field) -> float:
-    """Euclidean norm of a vector [n]."""
+    """Euclidean norm of a vector [n], in its unit [1]."""
     total = 0.0
     for j in range(vector.size):
         total += vector[j] * vector[j]
@@ -221,7 +224,7 @@ def norm_of(vector: Field) -> float:
 
 @kernel
 def gap_of(point: Point) -> float:
-    """`-sum lambda_i g_i` over the constraints [constraints]."""
+    """`-sum lambda_i g_i` over the constraints [constraints], in the unit of the cost [1]."""
     total = 0.0
     for i in range(point.values.size):
         total -= point.multipliers[i] * point.values[i]
@@ -243,10 +246,8 @@ def stationarity(program: Program, point: Point) -> Field:
 
 @kernel
 def residual(program: Program, point: Point, target: float) -> float:
-    """Norm of the stationarity and of `-lambda g - 1/t`.
-
-    The result: [-], lengths over the size.
-    """
+    """Norm [1] of the stationarity and of `-lambda g - 1/t`, lengths over the size; target: 1/t
+    [1]."""
     total = 0.0
     for part in stationarity(program, point):
         total += part * part
@@ -269,10 +270,8 @@ def hessian(program: Program, multipliers: Field) -> Field:
 
 @kernel
 def newton_step(program: Program, point: Point, target: float) -> tuple[Field, Field]:
-    """Step of the unknowns and of the multipliers, the latter eliminated.
-
-    The result: steps [n] and [constraints].
-    """
+    """Step of the unknowns [n] and of the multipliers [constraints], the latter eliminated; target:
+    1/t in the unit of the cost [1]."""
     size, count = point.unknowns.size, point.values.size
     # Newton's system with the multipliers eliminated.
     matrix = hessian(program, point.multipliers)
@@ -305,15 +304,16 @@ def newton_step(program: Program, point: Point, target: float) -> tuple[Field, F
 def line_search(
     program: Program, point: Point, step: Field, multiplier_step: Field, target: float
 ) -> tuple[float, Point]:
-    """Longest halved step that stays inside, keeps the multipliers positive and lowers the
+    """Longest halved step [1] that stays inside, keeps the multipliers positive and lowers the
     residual; 0 if there is none.
 
-    step: [n]; multiplier_step: [constraints].
+    step: [n]; multiplier_step: [constraints]; target: 1/t in the unit of the cost [1].
     """
     length = 1.0
     for i in range(point.values.size):
         if multiplier_step[i] < 0.0:
             length = min(length, -0.99 * point.multipliers[i] / multiplier_step[i])
+    # Halved from the longest step that keeps the multipliers positive
     before = residual(program, point, target)
     for _ in range(MOST_HALVINGS):
         multipliers = moved_by(point.multipliers, length, multiplier_step)

@@ -57,10 +57,8 @@ def supporting_plane(half_axes: Field, local: Field, normal: Field) -> float:
 
 @kernel
 def share_of(half_axis: float, local: float, smallest: float, tau: float) -> float:
-    """`h y / (t + h^2)`; zero along a cylinder and on a plane of symmetry.
-
-    Lengths [-] over the smallest half axis.
-    """
+    """`h y / (t + h^2)` [1]; zero along a cylinder and on a plane of symmetry. Lengths over the
+    smallest half axis."""
     if local == 0.0 or half_axis == math.inf:
         return 0.0
     return half_axis * local / (tau + (half_axis - smallest) * (half_axis + smallest))
@@ -68,9 +66,9 @@ def share_of(half_axis: float, local: float, smallest: float, tau: float) -> flo
 
 @kernel
 def secular_root(half_axes: Field, local: Field, smallest: float) -> float:
-    """tau: the root, or 0 where the foot leaves the plane of symmetry.
+    """tau [1]: the root, or 0 where the foot leaves the plane of symmetry.
 
-    half_axes, local: [3].
+    half_axes, local: [3], lengths over the smallest half axis.
     """
     tau = 0.0
     for j in range(3):
@@ -89,9 +87,9 @@ def secular_root(half_axes: Field, local: Field, smallest: float) -> float:
 
 @kernel
 def norm_and_slope(half_axes: Field, local: Field, smallest: float, tau: float) -> tuple[float, float]:
-    """|w| and d|w|/d tau, with `w_j = h_j y_j / (t + h_j^2)`.
+    """|w| and d|w|/d tau [1], with `w_j = h_j y_j / (t + h_j^2)`.
 
-    half_axes, local: [3].
+    half_axes, local: [3], lengths over the smallest half axis.
     """
     square, half_slope = 0.0, 0.0
     for j in range(3):

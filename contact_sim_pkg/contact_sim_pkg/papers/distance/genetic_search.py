@@ -36,7 +36,7 @@ ACTIVE = 1e-4
 class GeneticResult(NamedTuple):
     value: float  # [m] distance, or interference d
     points: Field  # [2, 3] closest points, or [1, 3] centre of the ball [m]
-    residual: float  # [-] of the optimality conditions, lengths relative to the pair
+    residual: float  # [1] of the optimality conditions, lengths relative to the pair
     evaluations: int  # of the cost, local search included
 
 

@@ -49,7 +49,7 @@ class Interference(NamedTuple):
     one_foot_each: bool
     # The ball touches one body only: one lies inside the other, as far as the ball shows
     nested: bool
-    residual: float  # [-] of the KKT conditions, relative to the pair's size
+    residual: float  # [1] of the KKT conditions, relative to the pair's size
 
 
 def interference(body_1: ConvexBody, body_2: ConvexBody) -> Interference:

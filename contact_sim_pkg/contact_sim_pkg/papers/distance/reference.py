@@ -31,6 +31,7 @@ def ellipsoid_distance(one: Ellipsoid, other: Ellipsoid, starts: int = 5) -> flo
             [1.0 - (p - c) @ q @ (p - c) for p, (c, q) in zip((points[:3], points[3:]), (one, other), strict=True)]
         )
 
+    # Best feasible run of several perturbed starts
     for _ in range(starts):
         begin = numpy.concatenate([one[0], other[0]]) + 0.1 * random.standard_normal(6)
         found = scipy.optimize.minimize(

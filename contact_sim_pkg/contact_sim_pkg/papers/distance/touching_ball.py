@@ -44,7 +44,7 @@ class BallResult(NamedTuple):
     normal: Field
     feet_1: int  # on body 1
     feet_2: int
-    residual: float  # [-] of the conditions
+    residual: float  # [1] of the conditions
     rounds: int
 
 
@@ -119,7 +119,7 @@ def ball_under_planes(cuts: Cuts, middle: Field, radius: float, half_width: floa
     """Largest ball, unknowns (p, r), under all planes, p within a box about `middle`, where a ball
     of `radius` fits.
 
-    middle: [3]; lengths in units of the size.
+    middle: [3]; half_width: of the box; all lengths over the size [1].
     """
     count = cuts.used[0]
     rows, bounds = numpy.zeros((count + 6, 4)), numpy.empty(count + 6)

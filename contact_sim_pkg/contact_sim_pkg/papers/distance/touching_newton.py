@@ -52,15 +52,15 @@ class Ball(NamedTuple):
 
 @kernel
 def cluster(cuts: Cuts, multipliers: Field, centre: Field, radius: float) -> Ball:
-    """The planes that hold a ball, those of one constraint and nearly one direction taken
-    together.
+    """The planes that support a ball, those of one constraint and nearly one direction merged.
 
-    multipliers: [cuts]; centre: [3].
+    multipliers: [cuts]; centre: [3]; lengths over the size [1].
     """
     constraints, normals = numpy.empty(MOST_FEET, dtype=numpy.int64), numpy.zeros((MOST_FEET, 3))
     weights, feet = numpy.zeros(MOST_FEET), 0
     for row in range(cuts.used[0]):
         if multipliers[row] > SMALLEST_MULTIPLIER:
+            # Sum of the normals of a foot, weighted by the multipliers
             foot = 0
             while foot < feet and not same_foot(cuts, row, constraints[foot], normals[foot], weights[foot]):
                 foot += 1
@@ -72,6 +72,7 @@ def cluster(cuts: Cuts, multipliers: Field, centre: Field, radius: float) -> Bal
                     normals[foot, j] += multipliers[row] * cuts.normals[row, j]
     points = numpy.empty((MOST_FEET, 3))
     for foot in range(feet):
+        # Unit normals, and the feet on the ball
         length = math.sqrt(normals[foot, 0] ** 2 + normals[foot, 1] ** 2 + normals[foot, 2] ** 2)
         for j in range(3):
             normals[foot, j] /= length
@@ -81,8 +82,10 @@ def cluster(cuts: Cuts, multipliers: Field, centre: Field, radius: float) -> Bal
 
 @kernel
 def same_foot(cuts: Cuts, row: int, constraint: int, normal: Field, weight: float) -> bool:
-    """Whether a cut belongs to a foot that is there: the same constraint, nearly the same
-    normal [3].
+    """Whether a cut belongs to a foot that is there: the same constraint, nearly the same normal
+    [3].
+
+    normal: sum of unit normals weighted by multipliers, weight: sum of these [1].
     """
     cosine = 0.0
     for j in range(3):
@@ -105,8 +108,8 @@ def touch(constraints: Constraints, ball: Ball) -> Ball:
 
 @kernel
 def equations(constraints: Constraints, ball: Ball) -> tuple[float, Field, Field]:
-    """Norm of the equations, the equations and their Jacobian; sets the ball's normals. Four rows
-    and columns a foot.
+    """Norm [1] of the equations, the equations and their Jacobian; sets the ball's normals. Four
+    rows and columns a foot.
 
     The equations: [4 + 4 feet], the Jacobian: [4 + 4 feet, 4 + 4 feet].
     """
@@ -146,7 +149,7 @@ def equations(constraints: Constraints, ball: Ball) -> tuple[float, Field, Field
 
 @kernel
 def plane_foot(constraints: Constraints, i: int, point: Field, normal: Field, turn: Field) -> float:
-    """Distance of a point from plane i; its normal and the normal's derivative.
+    """Distance of a point from plane i, over the size [1]; its normal and the normal's derivative.
 
     point, normal: [3]; turn: [3, 3], the derivative.
     """
@@ -161,8 +164,8 @@ def plane_foot(constraints: Constraints, i: int, point: Field, normal: Field, tu
 
 @kernel
 def quadric_foot(constraints: Constraints, k: int, point: Field, normal: Field, turn: Field) -> float:
-    """`g / |grad g|` of quadric k at a point; its normal and the normal's derivative `(I - n n^T) Q
-    / |Q y|`.
+    """`g / |grad g|` [1] of quadric k at a point; its normal and the normal's derivative `(I - n
+    n^T) Q / |Q y|`.
 
     point, normal: [3]; turn: [3, 3], the derivative.
     """
@@ -173,6 +176,7 @@ def quadric_foot(constraints: Constraints, k: int, point: Field, normal: Field, 
             normal[j] += constraints.shapes[k, j, m] * (point[m] - constraints.centres[k, m])
         value += normal[j] * (point[j] - constraints.centres[k, j])
         length += normal[j] ** 2
+    # Unit normal, then its derivative
     length = math.sqrt(length)
     for j in range(3):
         normal[j] /= length
@@ -219,10 +223,10 @@ def newton_move(ball: Ball, right: Field, matrix: Field) -> Ball:
 
 @kernel
 def ball_residual(constraints: Constraints, ball: Ball) -> float:
-    """Largest violation of the conditions: balance and signs of the multipliers, and depths unlike
-    the least one.
+    """Largest violation [1] of the conditions: balance and signs of the multipliers, and depths
+    unlike the least one.
 
-    The result: in units of the size [-].
+    Depths are over the size.
     """
     least = least_depth(constraints, ball.centre)
     worst, total = 0.0, -1.0

@@ -100,7 +100,9 @@ def pressure(profile: Profile, modulus: float, radius: float, r: Field) -> Field
     distance = numpy.asarray(r, dtype=float)
     if not numpy.all(distance >= 0.0):
         raise AxisymmetricError("axisymmetric contact: a distance r from the axis is negative or not a number")
+    # One quadrature a distance
     inside = [_pressure_integral(profile, radius, float(x)) if x < radius else 0.0 for x in distance.ravel()]
+    # A pull beyond the error of quadrature: the contact is no disc
     if min(inside, default=0.0) < -PULL * approach_at_radius(profile, radius) / max(radius, 1e-300):
         raise AxisymmetricError(
             f"axisymmetric contact: negative pressure within a = {radius} m: the contact is not one disc, the profile falls "
@@ -228,6 +230,7 @@ def _rising_root(function: Callable[[float], float], target: float, profile: Slo
         return 0.0
     low, high = _bracket(function, target, profile, name)
     error_low, error_high = function(low) - target, function(high) - target
+    # A root between low and high at every iteration
     for _ in range(200):
         middle = high - error_high * (high - low) / (error_high - error_low)
         error = function(middle) - target
@@ -236,6 +239,7 @@ def _rising_root(function: Callable[[float], float], target: float, profile: Slo
         if error * error_high < 0.0:
             low, error_low = high, error_high
         else:
+            # The end that stays gets a smaller error, so that it moves at the next iteration
             keep = 1.0 - error / error_high
             error_low *= keep if keep > 0.0 else 0.5
         if abs(error) <= 2e-16 * target:

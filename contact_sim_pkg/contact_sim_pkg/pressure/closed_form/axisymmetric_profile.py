@@ -26,13 +26,13 @@ class PowerProfile(NamedTuple):
     """`f(r) = C r^k`: cone k = 1, paraboloid k = 2 (C = 1/(2R)), flatter tips above."""
 
     coefficient: float  # [m^(1-k)] C > 0
-    exponent: float  # [-] k >= 1
+    exponent: float  # [1] k >= 1
 
 
 class SlopeProfile(NamedTuple):
     """A profile by its slope."""
 
-    slope: Callable[[Field], Field]  # f'(r) [-] of an array of radii [m]
+    slope: Callable[[Field], Field]  # f'(r) [1] of an array of radii [m]
     breaks: tuple[float, ...] = ()  # [m] rising radii > 0 where f' or a derivative of it jumps
     reach: float = math.inf  # [m] largest radius the slope is known for
     nodes: int = 48  # Gauss points between two breaks

@@ -75,9 +75,9 @@ class HertzError(ValueError):
 class EllipseShape(NamedTuple):
     """What depends on the ratio of curvatures alone."""
 
-    complement: float  # [-] 1 - m = (b/a)^2
-    integral_k: float  # [-] K(m)
-    integral_e: float  # [-] E(m)
+    complement: float  # [1] 1 - m = (b/a)^2
+    integral_k: float  # [1] K(m)
+    integral_e: float  # [1] E(m)
 
 
 class HertzContact(NamedTuple):
@@ -124,6 +124,7 @@ def _ordered(curvature_a: float, curvature_b: float, modulus: float, value: floa
             raise HertzError(f"Hertz contact: {label} is {number}, it must be a finite number")
     if modulus <= 0.0:
         raise HertzError(f"Hertz contact: E* is {modulus} Pa, it must be above 0")
+    # An elliptic contact needs both curvatures above 0, and their ratio within the range of doubles
     smaller, larger = sorted((float(curvature_a), float(curvature_b)))
     total = smaller + larger
     if total <= 0.0:
@@ -186,7 +187,7 @@ def ellipse_shape(curvature_a: float, curvature_b: float) -> EllipseShape:
     The relation of Omega and m, written for A/B and without loss of digits near a line contact, is
     `A/B = (1 - m) (K - E) / (E - (1 - m) K)`, falling from 1 to 0 while m goes from 0 to 1.
     Not checked: `hertz_contact` is.
-    Curvatures: [1/m]; the results: [-].
+    Curvatures: [1/m]; the results: [1].
     """
     omega = (curvature_b - curvature_a) / (curvature_a + curvature_b)
     if omega < SERIES_BELOW:
@@ -227,9 +228,10 @@ def ellipse_shape(curvature_a: float, curvature_b: float) -> EllipseShape:
 
 @kernel
 def log_ratio_slope(complement: float, integral_k: float, integral_e: float, difference: float) -> float:
-    """Derivative of `ln(A/B)` by `s = ln(1 - m)`, with D = K - E and N = E - (1-m) K.
+    """Derivative [1] of `ln(A/B)` by `s = ln(1 - m)`, with D = K - E and N = E - (1-m) K.
 
     `1 - (1-m) (D'/D - N'/N)`, where `D' = dD/dm = (N / (1-m) + D) / (2 m)` and `N' = K / 2`.
+    complement: 1 - m [1]; integral_k, integral_e, difference: K, E, K - E [1].
     """
     parameter = 1.0 - complement
     below = integral_e - complement * integral_k
@@ -240,7 +242,8 @@ def log_ratio_slope(complement: float, integral_k: float, integral_e: float, dif
 
 @entry
 def elliptic_integrals(complement: float) -> tuple[float, float, float]:
-    """K(m), E(m) and K(m) - E(m) from 1 - m in (0, 1] by the arithmetic-geometric mean.
+    """K(m), E(m) and K(m) - E(m) [1] from the complement 1 - m in (0, 1] by the
+    arithmetic-geometric mean.
 
     `K = pi / (2 agm)`, `K - E = K sum 2^(n-1) c_n^2`; the sum starts with c_0^2 = m.
     """

@@ -71,6 +71,7 @@ def contacts_at_load(
         if not load > 0.0:
             out[k, 0], out[k, 1], out[k, 2], out[k, 3] = 0.0, 0.0, 0.0, 0.0
             continue
+        # Shape of the ellipse from the ratio of the curvatures, then its size from the load
         if kind == POLYNOMIAL:
             shape = shape_of_polynomial(a, b)
         elif kind == POWER:

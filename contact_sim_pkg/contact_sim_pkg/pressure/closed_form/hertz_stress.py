@@ -67,8 +67,8 @@ class EllipseLoad(NamedTuple):
     a: float  # [m] semi-axis along x, > 0
     b: float  # [m] along y, > 0; either may be the larger
     peak_pressure: float  # [Pa], >= 0
-    traction_x: float  # [-] q_x / p
-    traction_y: float  # [-] q_y / p
+    traction_x: float  # [1] q_x / p
+    traction_y: float  # [1] q_y / p
 
 
 class Integrals(NamedTuple):
@@ -109,6 +109,7 @@ def ellipse_stress(load: EllipseLoad, poisson: float, points: Values) -> Values:
     if len(points) and points[:, 2].min() < 0.0:
         row = int(points[:, 2].argmin())
         raise ValueError(f"Hertz ellipse: point {row} has z = {points[row, 2]} m, it must be at least 0")
+    # One integral a point, compiled
     out = numpy.empty((len(points), 6))
     _fill(EllipseLoad(*(float(value) for value in load)), float(poisson), points, out)
     return out

@@ -22,9 +22,8 @@ TERMS = 5
 
 
 def quarter_period(complement: float) -> tuple[float, float]:
-    """K(m) and E(m) from ``complement`` 1 - m, 0 <= 1 - m <= 1; at 0 they are infinite and 1.
-    Raises ValueError outside.
-    """
+    """K(m) and E(m) [1] from ``complement`` 1 - m, 0 <= 1 - m <= 1; at 0 they are infinite and 1.
+    Raises ValueError outside."""
     if not 0.0 <= complement <= 1.0:
         raise ValueError(f"the complement 1 - m of an elliptic function is {complement}, it must be 0 to 1")
     if complement == 0.0:
@@ -34,11 +33,10 @@ def quarter_period(complement: float) -> tuple[float, float]:
 
 
 def jacobi_cn(argument: ArrayLike, complement: float) -> Array:
-    """cn(u; m) at ``argument`` u, any real number, from ``complement`` 1 - m; absolute error about
-    1e-15 within a few periods.
+    """cn(u; m) [1] at ``argument`` u [arguments], any real numbers, from ``complement`` 1 - m [1].
 
-    Raises ValueError where 1 - m is outside 0 to 1.
-    The result: [n], as the argument.
+    The result has the shape of the argument; its absolute error is about 1e-15 within a few
+    periods. Raises ValueError where 1 - m is outside 0 to 1.
     """
     u = numpy.asarray(argument, dtype=numpy.float64)
     integral_k, _e = quarter_period(complement)
@@ -56,10 +54,7 @@ def jacobi_cn(argument: ArrayLike, complement: float) -> Array:
 
 
 def cn_squared(argument: ArrayLike, complement: float) -> Array:
-    """cn(u; m)^2, of period 2 K; arguments as ``jacobi_cn``.
-
-    The result: [n], as the argument.
-    """
+    """cn(u; m)^2 [1], of period 2 K, at u [arguments]; arguments and errors as ``jacobi_cn``."""
     return jacobi_cn(argument, complement) ** 2
 
 

@@ -49,10 +49,10 @@ _TINY = 1e-300
 class LameFit(NamedTuple):
     a: float  # [m] along x
     b: float  # [m] along y
-    exponent: float  # [-] n; 2 when not fitted
+    exponent: float  # [1] n; 2 when not fitted
     centre_x: float  # [m] mean of the boundary points
     centre_y: float  # [m]
-    deviation: float  # [-] root mean square of rho - 1 over the boundary
+    deviation: float  # [1] root mean square of rho - 1 over the boundary
     fitted: bool  # False: fewer than 8 cells; half extents and n = 2
 
 
@@ -77,8 +77,10 @@ def lame_moment(a: float, b: float, exponent: float, power_x: float, power_y: fl
     integral); i = j = 0 is the area.
 
     `4 a^(i+1) b^(j+1) / ((i+1) (j+1)) Gamma(u+1) Gamma(v+1) / Gamma(u+v+1)`, u = (i+1)/n, v =
-    (j+1)/n [m^(i+j+2)]. Raises `ValueError` for n < 0.1, powers and axes outside their range, and
-    an integral that is no double.
+    (j+1)/n [m^(i+j+2)].
+
+    a, b: half axes [m]; exponent n, powers i and j: [1]. Raises `ValueError` for n < 0.1, powers
+    and axes outside their range, and an integral that is no double.
     """
     refuse_axes(a, b)
     refuse_exponent(exponent)
@@ -89,6 +91,7 @@ def lame_moment(a: float, b: float, exponent: float, power_x: float, power_y: fl
         logarithm += (power + 1.0) * math.log(axis)
     if abs(logarithm) > LARGEST_LOGARITHM:
         raise ValueError(f"Lame curve: the moment is of the order exp({logarithm:.4g}), outside the range of numbers")
+    # Range checked above by the logarithm; now the powers themselves
     u, v = (power_x + 1.0) / exponent, (power_y + 1.0) / exponent
     gammas = math.exp(math.lgamma(u + 1.0) + math.lgamma(v + 1.0) - math.lgamma(u + v + 1.0))
     scale = math.pow(a, power_x + 1.0) / (power_x + 1.0) * (math.pow(b, power_y + 1.0) / (power_y + 1.0))
@@ -96,14 +99,14 @@ def lame_moment(a: float, b: float, exponent: float, power_x: float, power_y: fl
 
 
 def refuse_axes(a: float, b: float) -> None:
-    """Raises `ValueError` for half axes outside 1e-100 to 1e100 m."""
+    """Raises `ValueError` for half axes a, b [m] outside 1e-100 to 1e100 m."""
     for name, value in (("a", a), ("b", b)):
         if not 1e-100 <= value <= 1e100:
             raise ValueError(f"Lame curve: half axis {name} = {value} m, it must be a number from 1e-100 to 1e100")
 
 
 def refuse_exponent(exponent: float) -> None:
-    """Raises `ValueError` for n < 0.1."""
+    """Raises `ValueError` for an exponent n [1] below 0.1."""
     if not exponent >= SMALLEST_EXPONENT:
         raise ValueError(f"Lame curve: exponent n = {exponent}, allowed from {SMALLEST_EXPONENT}")
 
@@ -186,7 +189,7 @@ def fit_centred(x: Field, y: Field, half_x: float, half_y: float, centre_x: floa
 
 @kernel
 def mean_of(values: Field) -> float:
-    """Mean of the values [n]."""
+    """Mean of the values [points] [m]."""
     total = 0.0
     for k in range(values.size):
         total += values[k]
@@ -263,16 +266,16 @@ def boundary_points(pressure: Field, cell_x: float, cell_y: float, x: Field, y: 
 @kernel
 def normal_equations(log_x: Field, log_y: Field, log_a: float, log_b: float, log_n: float, normal: Field) -> float:
     """`J^T J` and, in the last column, `-J^T (rho - 1)`, from ln|x| and ln|y|; returns the cost
-    `sum (rho - 1)^2`.
+    `sum (rho - 1)^2` [1].
 
     With u = ln|x/a|, v = ln|y/b| and the share s = |x/a|^n / rho^n: `ln rho = max(u, v) + ln(1 +
     exp(-n |u-v|)) / n`, its derivatives by ln a, ln b, ln n are `-s`, `-(1-s)` and `s u + (1-s) v -
-    ln rho`.
-    log_x, log_y: [n]; normal: [3, 4], overwritten.
+    ln rho`. log_x, log_y: [points]; normal: [3, 4], overwritten.
     """
     normal[:] = 0.0
     exponent, cost = math.exp(log_n), 0.0
     for k in range(log_x.size):
+        # Radial variable of the point; the exponential never overflows
         u, v = log_x[k] - log_a, log_y[k] - log_b
         smaller = math.exp(-exponent * abs(u - v))
         larger_share = 1.0 / (1.0 + smaller)
@@ -280,6 +283,7 @@ def normal_equations(log_x: Field, log_y: Field, log_a: float, log_b: float, log
         log_rho = max(u, v) + math.log1p(smaller) / exponent
         rho = math.exp(log_rho)
         error = rho - 1.0
+        # Gradient of rho by ln a, ln b, ln n
         by_a, by_b, by_n = -rho * share, rho * (share - 1.0), rho * (share * u + (1.0 - share) * v - log_rho)
         cost += error * error
         row = (by_a, by_b, by_n, -error)
@@ -291,10 +295,11 @@ def normal_equations(log_x: Field, log_y: Field, log_a: float, log_b: float, log
 
 @kernel
 def damped_step(normal: Field, damping: float) -> tuple[float, float, float]:
-    """Solve `(J^T J + damping diag) step = -J^T error` (3 x 3, symmetric positive definite) by
+    """Step of (ln a, ln b, ln n) [1] from `(J^T J + damping diag) step = -J^T error` by
     elimination.
 
-    normal: [3, 4].
+    normal: [3, 4] of `normal_equations`, symmetric and positive definite in its first three
+    columns; damping: [1].
     """
     floor = 1e-14 * (normal[0, 0] + normal[1, 1] + normal[2, 2])
     a00 = normal[0, 0] * (1.0 + damping) + floor

@@ -78,9 +78,9 @@ def radial_variable(x: Field, y: Field, a: float, b: float, exponent: float) -> 
 
 
 def inside(x: Field, y: Field, a: float, b: float, exponent: float) -> NDArray[numpy.bool_]:
-    """Where `rho <= 1`. Arguments and errors as `radial_variable`.
+    """Where `rho <= 1`; errors as `radial_variable`.
 
-    x, y: [m], of any one shape; a, b: [m].
+    x, y: [points] [m], or any one shape, which is that of the result; a, b: [m].
     """
     return numpy.asarray(radial_variable(x, y, a, b, exponent) <= 1.0)
 
@@ -116,9 +116,9 @@ def lame_mesh(a: float, b: float, exponent: float, rings: int, sectors: int) -> 
     """Mesh of rings, evenly spaced in rho, by sectors, evenly spaced along the curve (a multiple of
     4).
 
-    The area is exact in each cell, since it scales with rho^2, and so are the centroids: a sum of
-    `area` times a smooth function there is its integral with an error of the second order. Errors
-    as `perimeter`.
+    The area [m^2] is exact in each cell, since it scales with rho^2, and so are the centroids [m]:
+    a sum of `area` times a smooth function there is its integral with an error of the second order.
+    a, b: half axes [m]. Errors as `perimeter`.
     """
     _refuse(a, b, exponent)
     if rings < 1 or sectors < 4 or sectors % 4:

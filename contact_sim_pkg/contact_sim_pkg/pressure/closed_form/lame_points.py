@@ -41,11 +41,13 @@ def fit_points(points: Field) -> LameFit:
     if points.shape[0] == 0:
         return LameFit(0.0, 0.0, 2.0, 0.0, 0.0, 0.0, False)
     low, high = points.min(axis=0), points.max(axis=0)
+    # Too few corners, or a hull without area: its half extents
     border = hull(points)
     half, centre = 0.5 * (high - low), 0.5 * (low + high)
     area, centroid = _centroid(border)
     if len(border) < FEWEST_POINTS or not area > FLAT * half[0] * half[1]:
         return LameFit(float(half[0]), float(half[1]), 2.0, float(centre[0]), float(centre[1]), 0.0, False)
+    # The exponent about the centroid, from the extents of the hull on
     x, y = border.T.copy()
     start = abs(border - centroid).max(axis=0)
     return fit_centred(x, y, float(start[0]), float(start[1]), float(centroid[0]), float(centroid[1]))
@@ -72,8 +74,10 @@ def hull(points: Field) -> Field:
 
 @entry
 def monotone_chain(ordered: Field, slack: float, chain: NDArray[numpy.int64]) -> int:
-    """Rows of `ordered` (by x, then y) on the hull, in `chain`; returns their number. slack: twice
-    an area [m^2].
+    """Write the rows of `ordered` [points, 2] (by x, then y) that lie on the hull into `chain` [2
+    points + 1]; returns their number.
+
+    slack: twice an area [m^2].
     """
     count = one_side(ordered, 0, 1, slack, chain, 0) - 1
     return one_side(ordered, ordered.shape[0] - 1, -1, slack, chain, count) - 1
@@ -81,7 +85,12 @@ def monotone_chain(ordered: Field, slack: float, chain: NDArray[numpy.int64]) ->
 
 @kernel
 def one_side(ordered: Field, first: int, step: int, slack: float, chain: NDArray[numpy.int64], start: int) -> int:
-    """Lower side (step 1) or upper side (step -1): no corner turns right by more than the slack."""
+    """Append the lower side (step 1) or the upper side (step -1) of the hull to `chain`, from
+    `start` on; returns the end.
+
+    ordered: [points, 2] [m] by x, then y; slack: twice an area [m^2], by which no corner turns
+    right.
+    """
     count = start
     for k in range(ordered.shape[0]):
         row = first + step * k

@@ -57,15 +57,16 @@ class LamePressure(NamedTuple):
     approach: float  # [m]
     a: float  # [m] along x
     b: float  # [m] along y
-    exponent: float  # [-] n
+    exponent: float  # [1] n
     peak_pressure: float  # [Pa] in the centre
 
 
 def eccentricity(a: float, b: float, exponent: float) -> float:
-    """`(1 - (b/a)^n)^(1/n)` of the smaller over the larger semi-axis [-]: 0 for a = b, towards 1
+    """`(1 - (b/a)^n)^(1/n)` of the smaller over the larger semi-axis [1]: 0 for a = b, towards 1
     for a needle.
 
-    The printed `(n r^n - 2 b^n)^(1/n) / a` with r undefined is this for `r^n = (a^n + b^n)/n`.
+    a, b: semi-axes [m]. The printed `(n r^n - 2 b^n)^(1/n) / a` with r undefined is this for `r^n =
+    (a^n + b^n)/n`.
     """
     _refuse_domain(a, b, exponent)
     ratio = min(a, b) / max(a, b)
@@ -103,9 +104,11 @@ def ansatz_of_curvatures(
     hertz = hertz_contact(curvature_a, curvature_b, modulus, load)
     if load == 0.0:
         return LamePressure(0.0, 0.0, 0.0, 0.0, exponent, 0.0)
+    # Aspect of the domain from the parameter m of the Hertz ellipse
     complement = (hertz.b / hertz.a) ** 2
     power = 0.5 * exponent * math.log1p(-complement) if complement < 1.0 else -math.inf
     aspect = (-math.expm1(power)) ** (1.0 / exponent)
+    # Size from the load, orientation from the curvatures
     unit_area = lame_area(1.0, aspect, exponent) * _mean_over_peak(exponent)
     a = math.sqrt(load / (hertz.peak_pressure * unit_area))
     along_x, along_y = (a, aspect * a) if curvature_a <= curvature_b else (aspect * a, a)
@@ -152,7 +155,7 @@ def printed_approach(curvature_a: float, curvature_b: float, young: float, poiss
 
 
 def _mean_over_peak(exponent: float) -> float:
-    """`(2/n) B(2/n, 3/2)` [-]: 2/3 for the ellipse, 1 for the rectangle."""
+    """`(2/n) B(2/n, 3/2)` [1]: 2/3 for the ellipse, 1 for the rectangle."""
     first = 2.0 / exponent
     return first * math.exp(math.lgamma(first) + math.lgamma(1.5) - math.lgamma(first + 1.5))
 

@@ -60,14 +60,14 @@ class Corrected(NamedTuple):
     certified: bool  # otherwise the rest means nothing
     corrections: int
     approach: float  # [m]
-    residual: float  # [-]
+    residual: float  # [1]
 
 
 class Correction(NamedTuple):
     """What the last correction did."""
 
-    factor: float  # [-] by which it should have been longer
-    size: float  # [-] L2 norm over that of the field
+    factor: float  # [1] by which it should have been longer
+    size: float  # [1] L2 norm over that of the field
 
 
 @kernel
@@ -84,7 +84,7 @@ def correct(
 
     approach: [m], taken where `total` is negative; total: [Pa] as in
     `pressure/field/solver.py:iterate`; request: its tolerance, and the most corrections; lengths:
-    [corrections] [-], learned, changed in place.
+    [corrections] [1], learned, changed in place.
     """
     holds_load = total >= 0.0
     contact, pulling = list_cells(workspace)
@@ -127,6 +127,7 @@ def list_cells(workspace: SolverWorkspace) -> tuple[int, int]:
     contact, pulling = 0, 0
     for i in range(rows):
         for j in range(cols):
+            # Zero outside the lists, which the transforms rely on
             residual[i, j] = 0.0
             direction[i, j] = 0.0
             if pressure[i, j] > 0.0:
@@ -185,7 +186,7 @@ def move(workspace: SolverWorkspace, count: int, pulling: int, length: float) ->
 
     The first `pulling` cells of `left` pulled: they let go. Returns the numbers of cells in contact
     and of cells that left.
-    length: [-] of the direction [Pa].
+    length: [1] of the direction [Pa].
     """
     pressure, direction = workspace.cells.pressure, workspace.cells.direction
     free, leaving = workspace.cells.free, workspace.cells.left
@@ -264,7 +265,7 @@ def rescale_step(workspace: SolverWorkspace, contact: int, count: int, left: int
     """Make the last step `factor` times as long, surface and all; returns the numbers of cells that
     press and that pull.
 
-    factor: [-].
+    factor: [1].
     """
     surface, response = workspace.surface, workspace.response
     pressure, direction, residual = workspace.cells.pressure, workspace.cells.direction, workspace.cells.residual

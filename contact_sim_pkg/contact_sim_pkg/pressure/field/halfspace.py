@@ -91,6 +91,7 @@ def make_half_space(
     cols = require_count("half-space: cols", cols, least=MINIMUM_CELLS, most=MAXIMUM_CELLS)
     for name, value, unit in (("cell_x", cell_x, "m"), ("cell_y", cell_y, "m"), ("modulus", modulus, "Pa")):
         require_positive(f"half-space: {name}", value, unit)
+    # In series with the half-space: displacements under one pressure add up
     influence = love_coefficients(rows, cols, cell_x, cell_y) / (numpy.pi * modulus)
     if further is not None:
         influence += require_values("half-space: further", further, "m/Pa", shape=(rows, cols), least=0.0)
@@ -199,6 +200,7 @@ def convolve(half_space: HalfSpace, buffers: Buffers, field: Field, result: Fiel
     if first >= last:
         result[:] = 0.0
         return
+    # Rows without pressure have no spectrum: they are not transformed
     spectrum[:first] = 0.0
     spectrum[last:] = 0.0
     rocket_fft.r2c(padded[first:last], spectrum[first:last], buffers.col_axis, True, 1.0, 1)
@@ -206,6 +208,7 @@ def convolve(half_space: HalfSpace, buffers: Buffers, field: Field, result: Fiel
     multiply(spectrum, transfer)
     rocket_fft.c2c(spectrum, spectrum, buffers.row_axis, False, 1.0, 1)
     rocket_fft.c2r(spectrum[:rows], padded, buffers.col_axis, False, 1.0, 1)
+    # Unpad, and leave the padding zero for the next call
     for i in range(rows):
         for j in range(cols):
             result[i, j] = padded[i, j]
@@ -222,6 +225,7 @@ def precondition(half_space: HalfSpace, buffers: Buffers, field: Field, result: 
     """
     rows, cols = field.shape
     plain, spectrum = buffers.plain, buffers.plain_spectrum
+    # The transform has a size of small prime factors; a grid of another size is padded
     fits = plain.shape == field.shape
     if fits:
         rocket_fft.r2c(field, spectrum, buffers.col_axis, True, 1.0, 1)

@@ -38,7 +38,7 @@ class Start(NamedTuple):
     before: PreviousField
     repeats: bool  # another solve at the instant of `last`
     share: float  # of extrapolation; negative: start from the pressure on the whole grid
-    lengths: Values  # [corrections] [-]
+    lengths: Values  # [corrections] [1]
 
 
 class InstantResult(NamedTuple):
@@ -49,7 +49,7 @@ class InstantResult(NamedTuple):
     corrections: int
     load: float  # [N]
     approach: float  # [m]
-    residual: float  # [-]
+    residual: float  # [1]
     # First row, first column, rows, columns of the window that is needed
     window: tuple[int, int, int, int]
     box: tuple[int, int, int, int]  # first and last row, first and last column of the contact
@@ -137,7 +137,11 @@ def grown_window(
 
 @kernel
 def load_heights(gap: Field, first_row: int, first_col: int, height: Field, line: Values) -> float:
-    """Gap of a window above its lowest cell, which is returned; `line` [cols] is scratch."""
+    """Copy the gap [rows, cols] of a window, from its lowest cell up, into `height` [rows, cols];
+    returns that lowest gap [m].
+
+    first_row, first_col: of the window in the whole gap; line: [cols], scratch.
+    """
     rows, cols = height.shape
     for j in range(cols):
         line[j] = numpy.inf

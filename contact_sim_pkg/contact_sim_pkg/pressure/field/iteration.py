@@ -78,7 +78,7 @@ class Evaluation(NamedTuple):
     """What one evaluation finds."""
 
     approach: float  # [m]
-    residual: float  # [-]
+    residual: float  # [1]
     free: int  # cells in the list
 
 
@@ -108,6 +108,7 @@ def begin(workspace: SolverWorkspace) -> int:
             residual[i, j] = 0.0
             direction[i, j] = 0.0
             found += 1 if pressure[i, j] > 0.0 else 0
+        # Most rows of a grid have no contact
         if found == 0:
             continue
         for j in range(cols):
@@ -195,6 +196,7 @@ def join(workspace: SolverWorkspace, contact: int, approach: float) -> int:
         found = 0
         for j in range(cols):
             found += 1 if surface[i, j] < approach and pressure[i, j] == 0.0 else 0
+        # Few rows have a cell that joins
         if found == 0:
             continue
         for j in range(cols):
@@ -226,9 +228,11 @@ def search(
         slope += filtered[k] * residual[k]
         change += filtered[k] * (residual[k] - before[m])
         total += filtered[k]
+    # A prescribed load: directions keep the sum of the pressures
     mean = total / max(float(count), 1.0) if holds_load else 0.0
     momentum = max(change / slope_before, 0.0) if slope_before > 0.0 else 0.0
     descent = advance_direction(workspace, count, momentum, mean, holds_load)
+    # Restart along the preconditioned clearance
     if descent >= 0.0:
         descent = advance_direction(workspace, count, 0.0, mean, holds_load)
     return slope, descent
@@ -240,7 +244,7 @@ def advance_direction(workspace: SolverWorkspace, count: int, momentum: float, m
 
     If the load is held the mean of t is removed as well: cells that left the free set had taken a
     part of it.
-    momentum: [-]; mean: [Pa]; the result: [Pa m].
+    momentum: [1]; mean: [Pa]; the result: [Pa m].
     """
     residual, filtered = workspace.cells.residual, workspace.cells.filtered
     direction, free = workspace.cells.direction, workspace.cells.free
@@ -254,6 +258,7 @@ def advance_direction(workspace: SolverWorkspace, count: int, momentum: float, m
         clearance += residual[k]
     if not holds_load:
         return descent
+    # Mean of the direction off, so that the load stays
     surplus = total / max(float(count), 1.0)
     for m in range(count):
         direction[free[m]] -= surplus
@@ -265,7 +270,7 @@ def step(half_space: HalfSpace, workspace: SolverWorkspace, count: int, descent:
     """Length of the step to the minimum along the direction, the surface moved by it; 0 if no step
     is possible.
 
-    descent: [Pa m]; the result: [-].
+    descent: [Pa m]; the result: [1].
     """
     direction, response = workspace.cells.direction, workspace.cells.response
     convolve(half_space, workspace.buffers, workspace.direction, workspace.response)
@@ -280,10 +285,11 @@ def step(half_space: HalfSpace, workspace: SolverWorkspace, count: int, descent:
 
 @kernel
 def part(workspace: SolverWorkspace, count: int, length: float) -> tuple[int, int]:
-    """Move the pressure by `length` along the direction and clip it at zero; splits the list.
+    """Move the pressure by `length` [1] along the direction and clip it at zero; splits the list of
+    free cells.
 
-    Returns the numbers of cells in contact and of cells that left.
-    length: [-].
+    Returns the numbers of cells in contact and of cells that left; the clipped pressures [Pa] of
+    the latter are stored.
     """
     pressure, direction = workspace.cells.pressure, workspace.cells.direction
     free, leaving, clipped = workspace.cells.free, workspace.cells.left, workspace.clipped
@@ -291,6 +297,7 @@ def part(workspace: SolverWorkspace, count: int, length: float) -> tuple[int, in
     for m in range(count):
         k = free[m]
         p = pressure[k] + length * direction[k]
+        # Cells in contact stay at the head of the list
         if p > 0.0:
             pressure[k] = p
             free[contact] = k
@@ -307,7 +314,7 @@ def part(workspace: SolverWorkspace, count: int, length: float) -> tuple[int, in
 def move_surface(half_space: HalfSpace, workspace: SolverWorkspace, length: float, left: int) -> None:
     """Add the displacement of a step and of the pressure that clipping added, cell by cell.
 
-    length: [-] of the response [m].
+    length: [1] of the response [m].
     """
     surface, response, mirrored = workspace.surface, workspace.response, half_space.mirrored
     rows, cols = surface.shape
@@ -346,7 +353,7 @@ def hold_load(workspace: SolverWorkspace, contact: int, total: float) -> float:
 def rescale(workspace: SolverWorkspace, factor: float) -> None:
     """Scale the displacement by what the pressures were scaled by.
 
-    factor: [-]; the surface: [rows, cols] [m].
+    factor: [1]; the surface: [rows, cols] [m].
     """
     surface, height = workspace.surface, workspace.height
     rows, cols = surface.shape

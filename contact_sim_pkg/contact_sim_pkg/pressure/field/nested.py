@@ -39,11 +39,13 @@ def double(pressure: Field, out: Field) -> tuple[int, int, int, int]:
             next_to = min(max(col + 2 * (j % 2) - 1, 0), cols - 1)
             out[i, j] = 0.0
             if pressure[row, col] > 0.0:
+                # Bilinear weights of a cell of half the size
                 near = 0.75 * pressure[row, col] + 0.25 * pressure[row, next_to]
                 far = 0.75 * pressure[beside, col] + 0.25 * pressure[beside, next_to]
                 out[i, j] = 0.75 * near + 0.25 * far
                 top, bottom = min(top, row), max(bottom, row)
                 left, right = min(left, col), max(right, col)
+    # No contact: an empty window
     if bottom < 0:
         return 0, 0, 0, 0
     return widened(2 * rows, 2 * cols, 2 * top, 2 * bottom + 1, 2 * left, 2 * right + 1)

@@ -162,8 +162,10 @@ def penetrating(
     for row in range(i, min(i + BLOCK, rows)):
         for col in range(j, min(j + BLOCK, cols)):
             depth = approach - gap[row, col]
+            # Above the lower bound, or inside the window: decided
             if depth <= least or (first_row <= row < end_row and first_col <= col < end_col):
                 continue
+            # Direct sum of the pressure over this one cell
             if displacement_at(half_space, pressure, blocks.fine.line, row, col, first_row, end_row) < depth:
                 top, bottom = min(top, row), max(bottom, row)
                 left, right = min(left, col), max(right, col)

@@ -35,6 +35,7 @@ def summarise(pressure: Field, cell_x: float, cell_y: float, origin_x: float, or
     rows, cols = pressure.shape
     total, moment_x, moment_y, peak, cells = 0.0, 0.0, 0.0, 0.0, 0
     for i in range(rows):
+        # Sums by row first: their order is part of the result
         row_total, row_moment = 0.0, 0.0
         for j in range(cols):
             p = pressure[i, j]
@@ -45,6 +46,7 @@ def summarise(pressure: Field, cell_x: float, cell_y: float, origin_x: float, or
         total += row_total
         moment_x += row_total * i
         moment_y += row_moment
+    # No contact: zero force in the centre of the grid
     if total <= 0.0:
         return PatchSummary(
             0.0, 0.0, 0.0, 0.0, origin_x + 0.5 * (rows - 1) * cell_x, origin_y + 0.5 * (cols - 1) * cell_y
@@ -84,8 +86,11 @@ def contact_area(pressure: Field, cell_x: float, cell_y: float) -> float:
 
 @kernel
 def beyond(pressure: Field, i: int, j: int, step_i: int, step_j: int) -> float:
-    """How far the contact reaches beyond its outermost cell (i, j) [cells], -1/2 to 1/2; the step
+    """Reach of the contact beyond its outermost cell (i, j), -1/2 to 1/2 of a cell [1]; the step
     leads inwards.
+
+    pressure: [rows, cols] [Pa]. The square of the pressure is continued as a line (exact for a
+    Hertz edge).
     """
     rows, cols = pressure.shape
     if not (0 <= i - step_i < rows and 0 <= j - step_j < cols and 0 <= i + step_i < rows and 0 <= j + step_j < cols):

@@ -63,7 +63,7 @@ class PeriodicField:
         """As `field_solver.solve_at_load`, into `pressure`. A period has no edge, so the status
         EDGE does not occur.
 
-        gap: [rows, cols] [m]; load: [N] a period; tolerance: [-].
+        gap: [rows, cols] [m]; load: [N] a period; tolerance: [1].
         """
         self._start(gap, load, max_iterations)
         result = solve_at_load(

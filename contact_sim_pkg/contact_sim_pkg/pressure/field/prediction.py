@@ -60,12 +60,13 @@ def predict(
     """Prediction on the window at (first_row, first_col): pressure, and u in `surface`, infinite
     where it is not known.
 
-    Pressure: [rows, cols] [Pa], surface: [rows, cols] [m] of the window; share: [-] of
+    Pressure: [rows, cols] [Pa], surface: [rows, cols] [m] of the window; share: [1] of
     extrapolation.
     """
     pressure, surface = workspace.pressure, workspace.surface
     rows, cols = pressure.shape
     for i in range(rows):
+        # Last field where its window holds this row; zero, and unknown, elsewhere
         row, start, end = stored_part(last, first_row + i, first_col, cols)
         for j in range(cols):
             pressure[i, j], surface[i, j] = 0.0, numpy.inf
@@ -74,6 +75,7 @@ def predict(
             surface[i, j] = last.displacement[row, first_col + j]
         if share == 0.0:
             continue
+        # Linear extrapolation where both fields are known
         row, start_before, end_before = stored_part(before, first_row + i, first_col, cols)
         for j in range(max(start, start_before), min(end, end_before)):
             p, u = pressure[i, j], surface[i, j]
@@ -125,6 +127,7 @@ def scale_to(workspace: SolverWorkspace, approach: float, total: float) -> bool:
                 present += p
                 work += p * (approach - height[i, j])
                 energy += p * surface[i, j]
+    # At an approach: the scale of least energy, within bounds
     factor = total / present if total >= 0.0 else min(max(work / energy, SCALES[0]), SCALES[1])
     if not (present > 0.0 and energy > 0.0 and 0.0 < factor < numpy.inf):
         return False
@@ -146,6 +149,7 @@ def store(
     pressure: [rows, cols] [Pa] of the whole grid.
     """
     rows, cols = workspace.pressure.shape
+    # Place of the window, and no travel since
     field.place[0], field.place[1] = first_row, first_col
     field.place[2], field.place[3], field.place[4] = first_row + rows, first_col + cols, 0
     pressure[:] = 0.0
@@ -159,6 +163,7 @@ def store(
             pressure[first_row + i, first_col + j] = p
             if p > 0.0:
                 first, end = min(first, j), j
+        # Box of the contact
         if end >= 0:
             top, bottom = min(top, i), i
             left, right = min(left, first), max(right, end)

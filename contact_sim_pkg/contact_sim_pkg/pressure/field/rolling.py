@@ -118,7 +118,7 @@ class RollingField:
         """As `pressure/field/solver.py:solve_at_load`, into `pressure`. BAD_INPUT leaves the fields
         before as they were.
 
-        gap: [rows, cols] [m]; load: [N]; tolerance: [-].
+        gap: [rows, cols] [m]; load: [N]; tolerance: [1].
         """
         return self._solve(gap, FieldRequest(float(load), True, float(tolerance), int(max_iterations)))
 
@@ -126,7 +126,7 @@ class RollingField:
         """As `pressure/field/solver.py:solve_at_approach`, into `pressure`. BAD_INPUT leaves the
         fields before as they were.
 
-        gap: [rows, cols] [m]; approach: [m]; tolerance: [-].
+        gap: [rows, cols] [m]; approach: [m]; tolerance: [1].
         """
         return self._solve(gap, FieldRequest(float(approach), False, float(tolerance), int(max_iterations)))
 
@@ -280,6 +280,7 @@ def compile_now() -> None:
     start = Start(
         first_row=0, first_col=0, last=previous, before=previous, repeats=False, share=FROM_PRESSURE, lengths=lengths
     )
+    # The arguments have the types of a run; their values do not matter
     solve_instant(half_space, part.half_space, part.workspace, field, FieldRequest(1.0, True, 1.0, 1), start, field)
     solve_at_load(half_space, part.workspace, field, 1.0, 1.0, 1, field)
     store_window(part.workspace, 0, 0, previous, field)

@@ -84,7 +84,7 @@ class FieldRequest(NamedTuple):
 
     prescribed: float  # load [N] where `holds_load`, else approach [m] against the datum of the gap
     holds_load: bool
-    tolerance: float  # [-] on the residual
+    tolerance: float  # [1] on the residual
     max_iterations: int
 
 
@@ -95,7 +95,7 @@ class FieldResult(NamedTuple):
     iterations: int  # conjugate gradient steps
     load: float  # [N] sum of the pressure times the cell area
     approach: float  # [m] rigid approach, against the same datum as the gap
-    residual: float  # [-] certified on the returned field, see the module text
+    residual: float  # [1] certified on the returned field, see the module text
 
 
 def solve_at_approach(
@@ -110,7 +110,7 @@ def solve_at_approach(
     """Pressure field at a given approach.
 
     gap: height of the undeformed gap [m], float64 [rows, cols], any datum; approach: rigid approach
-    [m] against that datum; tolerance: on the residual [-]; pressure: float64 [rows, cols] [Pa], in:
+    [m] against that datum; tolerance: on the residual [1]; pressure: float64 [rows, cols] [Pa], in:
     start (zeros when nothing is known), out: the field, exactly zero where there is no contact.
     Without contact the field and the load are zero and the status is CONVERGED. With EDGE and
     NOT_CONVERGED the field is returned as it is; BAD_INPUT leaves it untouched. Raises `ValueError`
@@ -118,6 +118,7 @@ def solve_at_approach(
     >= 0.
     """
     _refuse(half_space, gap, pressure, tolerance, max_iterations)
+    # Floats and whole numbers: other types would compile another version
     request = FieldRequest(float(approach), False, float(tolerance), int(max_iterations))
     return solve(half_space, workspace, gap, request, pressure)
 
@@ -196,11 +197,13 @@ def solve(
     prescribed, holds_load = request.prescribed, request.holds_load
     if not (numpy.isfinite(prescribed) and (prescribed >= 0.0 or not holds_load) and acceptable(gap, pressure)):
         return FieldResult(BAD_INPUT, 0, 0.0, numpy.nan, numpy.inf)
+    # Nothing to carry, or above the surface: no contact
     touch = lowest(gap)
     if prescribed == 0.0 if holds_load else prescribed <= touch:
         pressure[:] = 0.0
         return FieldResult(CONVERGED, 0, 0.0, touch if holds_load else prescribed, 0.0)
     total = prescribed / (half_space.cell_x * half_space.cell_y) if holds_load else -1.0
+    # Heights above the lowest cell: no digits lost to the datum
     heights_above(gap, touch, workspace.height)
     heights_above(pressure, 0.0, workspace.pressure)
     if holds_load:
@@ -296,6 +299,7 @@ def overlap_approach(half_space: HalfSpace, height: Field, load: float) -> float
             high = max(high, height[i, j])
     cell = half_space.cell_x * half_space.cell_y
     for _ in range(12):
+        # Bisection: the overlap as a punch of its own area
         middle = 0.5 * (low + high)
         volume, cells = 0.0, 0.0
         for i in range(rows):
@@ -361,7 +365,7 @@ def iterate(
 
 @kernel
 def verdict(pressure: Field, residual: float, tolerance: float) -> int:
-    """Status of a field [rows, cols] with this residual [-]."""
+    """Status of a pressure field [rows, cols] [Pa] with this residual [1]; tolerance: [1]."""
     if not residual <= tolerance:
         return NOT_CONVERGED
     rows, cols = pressure.shape

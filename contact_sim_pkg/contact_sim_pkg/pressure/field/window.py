@@ -137,6 +137,7 @@ def overlap_window(gap: Field, approach: float, pressure: Field) -> tuple[int, i
             left, right = min(left, first), max(right, last)
     if bottom < 0:
         return 0, 0, 0, 0
+    # Sizes in steps, so that few transforms are prepared; moved inside the grid
     height = min(rows, -(-(bottom - top + 3) // STEP) * STEP)
     width = min(cols, -(-(right - left + 3) // STEP) * STEP)
     return max(0, min(top - 1, rows - height)), max(0, min(left - 1, cols - width)), height, width

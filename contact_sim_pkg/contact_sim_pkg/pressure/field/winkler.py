@@ -112,6 +112,7 @@ def approach_at_load(gap: Field, cell_stiffness: float, load: float) -> float:
     approach = high - low
     wanted = load / cell_stiffness
     previous = -1
+    # Fewer springs touch at each iteration; the number no longer changing is the solution
     for _ in range(gap.size + 1):
         cells, total = below(gap, low, approach)
         if cells == 0 or cells == previous:

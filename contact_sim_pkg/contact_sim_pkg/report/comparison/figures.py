@@ -95,6 +95,7 @@ def loop_comparison(key: str, name: str, runs: list[Run], title: str) -> Picture
         panels.append(
             ("friction force, N", "tangential displacement, mm", label, lambda each: _friction_loop(name, each))
         )
+    # One panel a loop, all runs in it
     figure, axes = new_figure(3.3, 1, len(panels))
     for place, (along, across, label, loop_of) in zip(axes, panels, strict=True):
         for run in runs:
@@ -167,11 +168,13 @@ def area_comparison(key: str, name: str, runs: list[Run], title: str) -> Picture
     slapping = [(run, area, slap) for run, area in drawn if (slap := _last_slap(run)) is not None]
     cyclic = all(run.steady()[1] for run, _ in drawn)
     figure, axes = new_figure(2.9, 1, 2 if slapping else 1)
+    # Left: through one impact
     for run, area, (start, end) in slapping:
         during = (area.time >= start) & (area.time <= end)
         axes[0].plot((area.time[during] - start) * 1e3, area.ratio[during], color=run.colour, label=run.label)
     if slapping:
         axes[0].set_xlabel("time since the touch, ms")
+    # Right, or alone: over the last cycles of the drive
     for run, area in drawn:
         time, ratio = _over_cycles(run, area.time, area.ratio) if cyclic else (area.time, area.ratio)
         axes[-1].plot(*envelope(time, ratio), color=run.colour, linewidth=0.9, label=run.label)
@@ -217,6 +220,7 @@ def slap_comparison(key: str, name: str, runs: list[Run], title: str) -> Picture
     axes[1].set_ylabel("duration, ms")
     axes[1].set_xlabel("simulated time of the touch, s")
     axes[1].set_xlim(left=0.0)
+    # Axes from zero, with room above the largest value
     tops = (
         max(float(slaps.restitution.max()) for _, slaps in found),
         max(float(durations(each).max()) for _, each in found) * 1e3,

@@ -49,6 +49,7 @@ def write_comparison(bags: Sequence[Bag], out: Path | None = None, *, overwrite:
     path = Path(FILE_NAME) if out is None else out
     read = [file for each in bags for file in (each.path, each.path.parent)]
     check_output(path, read, overwrite=overwrite, ours=is_page)
+    # Everything is read before the file is touched
     page = render_comparison([read_recording(bag) for bag in bags])
     with new_file(path, read, overwrite=overwrite, ours=is_page) as file:
         file.write(page.encode())

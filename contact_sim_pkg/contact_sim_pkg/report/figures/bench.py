@@ -72,6 +72,7 @@ def _cost_caption(cost: CostSeries) -> str:
         f"from run to run. {numbers['steps']} time steps, {numbers['rejected_steps']} rejected, "
         f"{numbers['events']} events."
     )
+    # A run without pressure fields
     if not numbers["field_iterations"]:
         return text
     return text + (

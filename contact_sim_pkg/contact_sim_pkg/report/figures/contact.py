@@ -78,6 +78,7 @@ def load_over_time(key: str, name: str, contact: ContactSeries) -> Picture:
     for place, (label, values) in zip(axes[1:-1], others, strict=True):
         _line(place, contact.time, values, label)
     _line(axes[-1], contact.time, contact.approach * 1e3, "approach, mm")
+    # A line at zero where contact is lost
     if contact.approach.min() <= 0.0:
         axes[-1].axhline(0.0, color=MUTED, linewidth=0.7)
     axes[-1].set_xlabel("simulated time, s")
@@ -115,6 +116,7 @@ def load_over_approach(key: str, name: str, contact: ContactSeries) -> Picture |
     if contact.approach.max() <= LEAST_APPROACH:
         return None
     figure, (axes,) = new_figure(3.1)
+    # A path of few points is enough for the eye, and keeps the page small
     stride = max(1, contact.normal.size // LOOP_POINTS)
     unit, scale = force_unit(contact)
     axes.plot(
@@ -227,7 +229,7 @@ def _line(axes: Axes, time: NDArray[np.float64], values: NDArray[np.float64], la
 
 
 def shade(axes: Axes, intervals: NDArray[np.float64]) -> None:
-    """Bands over the whole height, all in one path."""
+    """Shade intervals [intervals, 2] of time [s] over the whole height, all in one path."""
     corners = [[(start, 0.0), (start, 1.0), (end, 1.0), (end, 0.0)] for start, end in intervals]
     bands = PolyCollection(
         corners, transform=axes.get_xaxis_transform(), facecolor=SHADE, edgecolor=SHADE, linewidth=0.5, zorder=0

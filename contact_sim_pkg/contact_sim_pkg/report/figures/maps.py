@@ -59,8 +59,10 @@ class Quantity(NamedTuple):
 
 
 def robust_limits(values: FloatArray, few: float) -> Normalize:
-    """From 0 to the largest value; where the share `few` of those above 0 is far higher than the
-    others, to what these reach.
+    """Limits of a colour scale for values [rows, cols], in their unit: from 0 to the largest.
+
+    Where the share `few` [1] of those above 0 is far higher than the others, the limit is what
+    these reach.
     """
     above = values[values > 0.0]
     if not above.size:
@@ -70,12 +72,13 @@ def robust_limits(values: FloatArray, few: float) -> Normalize:
 
 
 def extension(values: FloatArray, limits: Normalize) -> str:
-    """How the colour bar of these values ends: with an arrow where some lie above it."""
+    """End of the colour bar of values [rows, cols]: with an arrow where some lie above its limits."""
     return "max" if limits.vmax is not None and np.any(values > limits.vmax) else "neither"
 
 
 def loaded_window(field: PressureMap, margin: float = 2.0) -> Window:
-    """The loaded cells with `margin` cells around them; the whole grid where none is loaded."""
+    """Window [mm] of the loaded cells with `margin` [1] cells around them; the whole grid where
+    none is loaded."""
     rows, cols = (np.flatnonzero(field.pressure.any(axis=axis)) for axis in (1, 0))
     if not rows.size:
         return whole_window(field)
@@ -110,7 +113,7 @@ def extent(field: PressureMap) -> tuple[float, float, float, float]:
 def draw_map(
     axes: Axes, field: PressureMap, values: FloatArray, colours: str | Colormap, limits: Normalize
 ) -> AxesImage:
-    """Values of the cells as they are, not interpolated; nan is blank."""
+    """Draw values [rows, cols] of the cells as they are, not interpolated; nan is blank."""
     image = axes.imshow(
         values, origin="lower", extent=extent(field), cmap=colours, norm=limits, interpolation="nearest", aspect="equal"
     )

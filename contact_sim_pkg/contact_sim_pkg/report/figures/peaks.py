@@ -20,6 +20,7 @@ def peak_curves(key: str, name: str, signals: list[FilteredSignal]) -> Picture:
         _draw(place, signal)
     for place in axes[len(signals) :]:
         place.set_axis_off()
+    # Numbers of the caption: each peak raw and filtered
     parts = []
     for signal in signals:
         soft = _filtered_peak(signal)

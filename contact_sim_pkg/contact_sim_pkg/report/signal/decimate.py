@@ -38,10 +38,8 @@ def envelope(
     A series of at most 2 * columns samples is returned as it is. The line through the result covers
     the same pixels as the line through all samples, and its extremes are those of the series.
 
-    Args:
-        time: any unit, ascending, one dimension.
-        values: any unit, same shape, no nan.
-        columns: number of intervals, > 0.
+    time: [samples], any unit, ascending; values: [samples], any unit, no nan; columns: number of
+    intervals, > 0. The result: time and values, [2 columns].
     """
     if values.size <= 2 * columns:
         return time, values
@@ -50,5 +48,6 @@ def envelope(
     for column, (start, stop) in enumerate(pairwise(edges)):
         interval = values[start:stop]
         picks[column] = start + interval.argmin(), start + interval.argmax()
+    # In the order of time
     order = np.sort(picks, axis=1).ravel()
     return time[order], values[order]

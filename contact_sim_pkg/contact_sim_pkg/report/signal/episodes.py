@@ -22,7 +22,7 @@ def slaps_of(episodes: EpisodeSeries | None) -> EpisodeSeries:
 
 
 def durations(slaps: EpisodeSeries) -> FloatArray:
-    """From the touch to the loss of force in [s], of each slap."""
+    """Durations [s] of slaps, from first contact to the last loss of force, [slaps]."""
     lasted: FloatArray = slaps.end - slaps.start
     return lasted
 

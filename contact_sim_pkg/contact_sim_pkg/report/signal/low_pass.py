@@ -39,12 +39,13 @@ def low_pass(values: FloatArray, sample_rate: float, cutoff: float = CUTOFF) -> 
     (sqrt(2) - 1)^(1/4)`. The signal is continued at its ends by its odd reflection.
 
     Args:
-        values: one dimension, any unit.
+        values: [samples], any unit.
         sample_rate: [Hz] > 0.
         cutoff: [Hz] > 0.
     """
     if not 2.0 * cutoff < sample_rate or values.size < 2:
         return None
+    # Corner of one pass, so that both together have -3 dB at the cutoff
     widened = math.tan(math.pi * cutoff / sample_rate) / (math.sqrt(2.0) - 1.0) ** 0.25
     corner = math.atan(widened) / math.pi * sample_rate
     sections = scipy.signal.butter(ORDER, corner, fs=sample_rate, output="sos")
@@ -54,12 +55,12 @@ def low_pass(values: FloatArray, sample_rate: float, cutoff: float = CUTOFF) -> 
 
 
 def highest(time: FloatArray, values: FloatArray) -> Peak:
-    """The first of the largest samples."""
+    """The first of the largest of values [samples], with its time [samples] in [s]."""
     place = int(values.argmax())
     return Peak(float(time[place]), float(values[place]))
 
 
 def lowest(time: FloatArray, values: FloatArray) -> Peak:
-    """The first of the smallest samples."""
+    """The first of the smallest of values [samples], with its time [samples] in [s]."""
     place = int(values.argmin())
     return Peak(float(time[place]), float(values[place]))

@@ -28,7 +28,7 @@ def ride_metrics(acceleration: NDArray[np.float64], sample_rate: float, weightin
     """Metrics of one acceleration signal over its whole length; its mean is removed first.
 
     Args:
-        acceleration: [m/s^2] at least one sample, gravity may be included.
+        acceleration: [samples] in [m/s^2], at least one sample, gravity may be included.
         sample_rate: [Hz] > 0.
         weighting: frequency weighting; Wk for the vertical at seat and floor.
     """
@@ -45,12 +45,11 @@ def ride_metrics(acceleration: NDArray[np.float64], sample_rate: float, weightin
 
 
 def seat_factor(seat: float, floor: float) -> float:
-    """SEAT = 100 seat / floor in per cent, from two weighted rms values or two VDVs; nan for a
-    floor at rest.
-    """
+    """SEAT = 100 seat / floor [%], from two weighted rms values or two VDVs (same unit); nan for a
+    floor at rest."""
     return 100.0 * seat / floor if floor > 0.0 else math.nan
 
 
 def root_mean_square(values: NDArray[np.float64]) -> float:
-    """sqrt(mean(values^2)), in the unit of the values."""
+    """sqrt(mean(values^2)) of values [samples] [m/s^2], in their unit."""
     return float(np.sqrt(np.mean(np.square(values))))

@@ -45,8 +45,7 @@ class Transmissibility(NamedTuple):
 
 def segment_samples(samples: int, sample_rate: float) -> int:
     """Samples a segment: 4 s, or less so that a short record still gives 8 half-overlapping
-    segments.
-    """
+    segments; sample_rate: [Hz]."""
     wanted = round(SEGMENT_TIME * sample_rate)
     affordable = 2 * samples // (LEAST_SEGMENTS + 1)
     return max(1, min(wanted, affordable))
@@ -79,6 +78,7 @@ def transmissibility(source: NDArray[np.float64], target: NDArray[np.float64], s
     _, power_target = scipy.signal.welch(target, sample_rate, nperseg=length)
     _, cross = scipy.signal.csd(source, target, sample_rate, nperseg=length)
     with np.errstate(divide="ignore", invalid="ignore"):
+        # H1 estimate: noise of the target averages out
         ratio = cross / power_source
         coherence = np.abs(cross) ** 2 / (power_source * power_target)
     defined = power_source > 0.0

@@ -65,7 +65,7 @@ def response(weighting: Weighting, frequency: NDArray[np.float64]) -> NDArray[np
 
     Args:
         weighting: parameters.
-        frequency: [Hz] >= 0, any shape.
+        frequency: [Hz] >= 0, [frequencies] or any shape, which is that of the result.
     """
     s = (2j * np.pi * np.asarray(frequency, dtype=np.float64)).astype(np.complex128)
     omega_1, omega_2, omega_3, omega_4 = (2.0 * np.pi * corner for corner in weighting[1:5])
@@ -84,7 +84,7 @@ def apply_weighting(weighting: Weighting, acceleration: NDArray[np.float64], sam
 
     Args:
         weighting: parameters.
-        acceleration: [m/s^2], one dimension, gravity not included.
+        acceleration: [samples] in [m/s^2], gravity not included.
         sample_rate: [Hz] > 0.
 
     Raises:
@@ -95,6 +95,7 @@ def apply_weighting(weighting: Weighting, acceleration: NDArray[np.float64], sam
         raise ValueError(f"sample_rate is {sample_rate} Hz; a signal can only be weighted at a known rate above 0")
     if acceleration.ndim != 1:
         raise ValueError(f"acceleration has {acceleration.ndim} dimensions; give one signal at a time")
+    # Padded by the decay of the filter, to a size that transforms fast
     length = scipy.fft.next_fast_len(acceleration.size + round(PADDING_TIME * sample_rate), real=True)
     spectrum = scipy.fft.rfft(acceleration, length)
     spectrum *= response(weighting, scipy.fft.rfftfreq(length, 1.0 / sample_rate))

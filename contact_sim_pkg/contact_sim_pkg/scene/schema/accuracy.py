@@ -26,15 +26,16 @@ LEVELS: tuple[Level, ...] = (Level("force", 1e-2), Level("field", 1e-3), Level("
 
 
 def requested(accuracy: float | str) -> float:
-    """The accuracy as a number."""
+    """The requested relative accuracy as a number [1]."""
     return FASTEST if isinstance(accuracy, str) else accuracy
 
 
 def level_of(accuracy: float | str) -> int:
-    """Place in `LEVELS` of the least expensive level that reaches the requested accuracy."""
+    """Place in `LEVELS` of the least expensive level that reaches the requested relative accuracy
+    [1]."""
     return next(place for place, level in enumerate(LEVELS) if requested(accuracy) >= level.accuracy)
 
 
 def integration_tolerance(accuracy: float | str, loosest: float) -> float:
-    """Relative tolerance of a time step, at most ``loosest``."""
+    """Relative tolerance [1] of a time step, at most ``loosest`` [1]."""
     return min(loosest, INTEGRATION_SHARE * requested(accuracy))

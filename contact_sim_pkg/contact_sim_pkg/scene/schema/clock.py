@@ -18,7 +18,8 @@ ROUNDED = Fraction(1, 10**9)  # of a whole number of blocks: a duration this nea
 
 
 def exact(value: float) -> Fraction:
-    """The shortest decimal number that reads as this float."""
+    """The shortest decimal number that reads as this float; in its unit, here times in [s] and
+    rates in [Hz]."""
     return Fraction(repr(value))
 
 

@@ -59,7 +59,8 @@ def number(
     above: bool = False,
     example: float | None = None,
 ) -> Any:
-    """A number or whole number from low to high; `above`: low itself is not allowed.
+    """A number or whole number from low to high, all in `unit` (`[1]`: dimensionless); `above`: low
+    itself is not allowed.
 
     `example` is a valid value of a field that has no default.
     """

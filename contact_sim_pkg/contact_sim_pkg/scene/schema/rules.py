@@ -84,6 +84,7 @@ def _road(scene: Scene) -> Iterator[Breach]:
             "road", "shortest_wavelength", road.shortest_wavelength, "longest_wavelength", road.longest_wavelength, "m"
         )
         yield from _rising("road", "shortest_wavelength", road.shortest_wavelength, "length", road.length, "m")
+        # The texture continues the profile to shorter waves
         if road.texture is not None:
             shortest = road.texture.shortest_wavelength
             yield from _rising(
@@ -127,6 +128,7 @@ def _vibration(scene: Scene) -> Iterator[Breach]:
                 f"the shock at {show(vibration.start)} s lies behind the end of the run ({show(scene.duration)} s)"
             )
             yield Breach("vibration.start", sentence, ("duration",))
+        # A shock of few samples would have another impulse than its formula
         if vibration.duration * vibration.sample_rate < SAMPLES_OF_A_SHOCK * (1.0 - 1e-9):
             sentence = (
                 f"{show(vibration.duration)} s hold {vibration.duration * vibration.sample_rate:.3g} samples; a shock needs "

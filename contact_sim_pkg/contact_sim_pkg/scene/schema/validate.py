@@ -42,6 +42,7 @@ def validate(root: MappingNode, file: str, known: Iterable[Fault] = (), rules: I
     """
     validator = _Validator(root, [*known, *take_new_names(root)])
     scene = validator.types()
+    # Rules between keys need all types to be right
     if scene is not None:
         scene._file = file
         for rule in rules:
@@ -97,6 +98,7 @@ class _Validator:
         else:
             node = self._node(path)
             self._add(path, bad_value(entry, node) if node is not None else "is not allowed")
+        # The rest of the scene is checked with a value that the schema allows
         key = path[: len(without_kinds(entry.location))]
         self._faulty.append(".".join(map(str, key)))
         _mend(plain, key, entry)

@@ -49,6 +49,7 @@ def read_document(path: Path) -> Document:
             raise SceneError([start.fault("", "is a directory; a scene is a YAML file")])
         if not path.exists():
             raise SceneError([start.fault("", "there is no such file")])
+        # Bounded before it is read: a file may be endless
         content = read_regular_file(path, LARGEST_FILE, "a scene has at most 1 MiB")
     except OSError as error:
         raise SceneError([start.fault("", f"cannot be read: {error.strerror}")]) from error
@@ -140,6 +141,7 @@ def _compose(text: str, start: Mark, composer: Composer) -> Node:
     except RecursionError as error:
         raise SceneError([start.fault("", "is nested too deeply")]) from error
     except ReaderError as error:
+        # The reader counts characters, people count lines
         line = text.count("\n", 0, error.position) + 1
         column = error.position - text.rfind("\n", 0, error.position)
         place = Mark(start.source, line * bool(start.line), column * bool(start.line))

@@ -71,7 +71,8 @@ def to_plain(node: Node) -> Any:
 
 
 def read_scalar(raw: str) -> str | int | float | bool | None:
-    """What an unquoted scalar is read as; text unless it is null, boolean or a finite JSON number."""
+    """Value of an unquoted scalar; text unless it is null, boolean or a finite JSON number
+    (dimensionless)."""
     if raw in _WORDS:
         return _WORDS[raw]
     if _INTEGER.fullmatch(raw) and len(raw) <= 18:

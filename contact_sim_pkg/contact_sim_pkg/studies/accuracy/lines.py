@@ -40,6 +40,7 @@ def error_lines(
     for row in rows:
         place = tuple(row[name] for name in key)
         first = {heading: row[name] for name, heading in head.items() if row[name] is not None or name in key}
+        # Rows of one key meet in a line; its time is that of the last
         lines.setdefault(place, first).update(errors(row))
         times[place] = {cost[1]: row[cost[0]]}
     return [{**line, **times[place]} for place, line in lines.items()]

@@ -44,6 +44,7 @@ def write_panels(
     figure, axes = pyplot.subplots(
         high, wide, figsize=(size[0] * wide, size[1] * high), squeeze=False, layout="constrained"
     )
+    # The last row may have empty places
     for axis in axes.flat[len(panels) :]:
         axis.set_visible(False)
     for axis, (title, rows) in zip(axes.flat, panels.items(), strict=False):

@@ -56,6 +56,7 @@ def study(scene_name: str, progress: Callable[[str], None] | None = None) -> lis
     notify("first call in a new process: everything is compiled, then again from the disk")
     first, again = first_call_times(scene_name)
     rows = [row for each in studies for row in each.rows(scene_name, scene, notify)]
+    # Start-up time is that of the code a row measures
     for row in rows:
         key = "field" if row["part"].startswith("field") else "simulation"
         row["first_call_s"], row["next_start_s"] = first[key], again[key]
@@ -63,7 +64,7 @@ def study(scene_name: str, progress: Callable[[str], None] | None = None) -> lis
 
 
 def first_call_times(scene_name: str) -> tuple[dict[str, float | None], dict[str, float | None]]:
-    """Seconds until the first block and the first field solve are done in a new process: compiled
+    """Times [s] until the first block and the first field solve are done in a new process: compiled
     anew, and from the disk.
 
     None where it could not be measured.

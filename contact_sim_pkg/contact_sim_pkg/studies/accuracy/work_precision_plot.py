@@ -40,6 +40,7 @@ def _panel(axis: Any, rows: list[Row]) -> None:
         axis.plot([], [], color="0.3", linestyle=STYLES[cases.index(case) % len(STYLES)], label=case)
     for rung in rungs:
         axis.plot([], [], MARKERS[rungs.index(rung) % len(MARKERS)], color="0.3", label=rung)
+    # Legend entries above have no data: colour, line and marker each stand alone
     axis.set_xscale("log")
     axis.set_yscale("log")
     for side in (axis.xaxis, axis.yaxis):

@@ -62,7 +62,7 @@ REFERENCE, CAP, COLD_REPEATS, SKIPPED = 1e-12, 1000, 9, 3
 class Sequence(NamedTuple):
     """One solver at one tolerance, by steps; the first steps count for nothing."""
 
-    errors: list[float]  # [-]
+    errors: list[float]  # [1]
     seconds: list[float]
     processor_seconds: list[float]  # of this thread: less, where others take turns on its core
     convolutions: list[int]
@@ -85,7 +85,8 @@ def references(problem: RollingProblem, steps: int) -> list[Field]:
 
 
 def sequence(problem: RollingProblem, kind: str, tolerance: float, fields: list[Field]) -> Sequence:
-    """Errors against `fields`, and the cost of each step."""
+    """Relative errors [1] against `fields`, and the time [s] and convolutions of each step;
+    tolerance: on the residual [1]."""
     solve, count = _solver(problem, kind, tolerance)
     if kind == ROLLING:  # tables of windows are made as they come: not counted
         for step in range(len(fields)):
@@ -107,7 +108,8 @@ def sequence(problem: RollingProblem, kind: str, tolerance: float, fields: list[
 
 
 def cold(problem: RollingProblem, kind: str, tolerance: float, reference: Field) -> Sequence:
-    """The first step nine times over, each from nothing."""
+    """Errors [1] and times [s] of the first step nine times over, each without a previous field;
+    tolerance: on the residual [1]."""
     sequence(problem, kind, tolerance, [reference])
     return sequence(problem._replace(cells=0), kind, tolerance, [reference] * COLD_REPEATS)
 
@@ -117,6 +119,7 @@ def _solver(
 ) -> tuple[Callable[[Field, int], tuple[Field, FieldResult]], Callable[[], int]]:
     half_space = problem.half_space
     if kind in (ROLLING, NESTED):
+        # These carry fields from one step to the next
         rolling = RollingField(half_space)
 
         def solve_rolling(gap: Field, cells: int) -> tuple[Field, FieldResult]:
@@ -126,6 +129,7 @@ def _solver(
             return rolling.pressure, rolling.solve_at_load(gap, LOAD, tolerance, CAP)
 
         return solve_rolling, lambda: rolling.convolutions
+    # These start from the field of the step before, shifted or not, or from zero
     workspace, pressure = make_workspace(half_space), numpy.zeros((half_space.rows, half_space.cols))
 
     def solve(gap: Field, cells: int) -> tuple[Field, FieldResult]:
@@ -147,7 +151,7 @@ def _roll(pressure: Field, cells: int) -> None:
 
 
 def calibrate() -> float:
-    """Milliseconds of a fixed amount of work: a pair of transforms of 256 x 256, the median of 25."""
+    """Time [ms] of a fixed amount of work: a pair of transforms of 256 x 256, the median of 25."""
     field, walls = numpy.ones((256, 256)), []
     for _ in range(25):
         began = time.perf_counter()
@@ -201,9 +205,8 @@ def rows_of(
 
 
 def read_at(rows: list[dict[str, Any]], asked: float, column: str = "ms") -> float | None:
-    """The time (or another column) at a requested error: both logarithms interpolated; None outside
-    what was measured.
-    """
+    """Time [ms] (or another column) at a requested relative error [1]: both logarithms
+    interpolated; None outside what was measured."""
     points = sorted((row["error"], row[column]) for row in rows)
     for (low, slow), (high, fast) in itertools.pairwise(points):
         if low <= asked <= high and low < high:

@@ -24,14 +24,17 @@ TOLERANCE = 1e-11
 
 
 def exact(gap: Field, approach: float) -> tuple[Field, float]:
-    """Pressure and load by dense non-negative least squares."""
+    """Pressure [rows, cols] [Pa] and load [N] by dense non-negative least squares; gap: [rows,
+    cols] [m], approach: [m]."""
     pressure = reference.pressure_at_approach(dense(), gap, approach)
     return pressure, float(pressure.sum()) * CELL**2
 
 
 def worst_error(gap: Field, approach: float, expected: Field | None = None, status: int = CONVERGED) -> float:
-    """Largest relative L2 distance to `expected` (dense least squares), infinite where a status is
-    another.
+    """Largest relative L2 distance [1] to `expected` (dense least squares), infinite where a status
+    is another.
+
+    gap: [rows, cols] [m]; approach: [m]; expected: [rows, cols] [Pa].
     """
     pressure_expected = exact(gap, approach)[0] if expected is None else expected
     asked = Asked(float(pressure_expected.sum()) * CELL**2, approach, TOLERANCE)

@@ -42,14 +42,17 @@ def bowl(radius: float = 0.5) -> Field:
 
 
 def solved(gap: Field, approach: float, tolerance: float = 1e-12, limit: int = 400) -> tuple[Field, FieldResult]:
-    """Field and result at an approach."""
+    """Pressure [rows, cols] [Pa] and result at an approach [m]; gap: [rows, cols] [m]; tolerance:
+    on the residual [1]."""
     pressure = numpy.zeros((SIDE, SIDE))
     return pressure, solve_at_approach(grid(), make_workspace(grid()), gap, approach, tolerance, limit, pressure)
 
 
 def field_error(gap: Field, approach: float) -> float:
-    """Relative L2 distance to the dense non-negative least squares; infinite where the solver does
-    not converge.
+    """Relative L2 distance [1] to the dense non-negative least squares; infinite where the solver
+    does not converge.
+
+    gap: [rows, cols] [m]; approach: [m].
     """
     pressure, result = solved(gap, approach)
     if result.status != CONVERGED:

@@ -44,11 +44,13 @@ def seat_slap() -> list[Measured]:
         (None, "no tolerance reaches it") if enough is None else (enough.cost, f"tolerance {enough.tolerance:.1e}")
     )
     found = [Measured("seat slap to 1e-8 m", cost, "µs per simulated s", most=100.0, note=note)]
+    # Error that a run has over the one it was requested to have
     shares = [impacts_of.slap_error(tolerance) / tolerance for tolerance in SLAP_TOLERANCES]
     note = "1e-4 to 1e-11, larger of position and speed over those of the motion"
     found.append(Measured("seat slap, largest error over asked tolerance", max(shares), "times", most=10.0, note=note))
     found.append(Measured("seat slap, least error over asked tolerance", min(shares), "times", least=0.1, note=note))
     found += [_work_of(run) for run in own]
+    # Peers at equal error
     for method in ("LSODA", "DOP853"):
         peer = work_of.scipy_work(method)
         best = work_of.cheapest(peer, SLAP_ERROR)

@@ -26,23 +26,23 @@ AT_REST_ON_BELT = numpy.array([0.0, BELT_SPEED, 0.0])
 
 
 def stick_slip(stiffness: float, damping: float) -> tuple[BeltSlider, StickSlip]:
-    """The stick-slip oscillator of the goals with a friction spring, and the same case for the
-    twin.
-    """
+    """Stick-slip oscillator of the goals with a friction spring, and the same case for the
+    reference; stiffness: [N/m], damping: [N s/m]."""
     rig = BeltSlider(MASS, SPRING, BELT_SPEED, LOAD, Friction(stiffness, damping, STATIC, KINETIC))
     return rig, StickSlip(MASS, SPRING, BELT_SPEED, LOAD, stiffness, damping, STATIC, KINETIC)
 
 
 def scale_of(stiffness: float) -> Vector:
-    """Position [m] and speed [m/s] of the motion, and the deflection [m] that the friction spring
-    reaches.
-    """
+    """Scales [states] of the motion: position [m], speed [m/s], and the deflection [m] that the
+    friction spring reaches."""
     return numpy.array([0.05, 0.3, STATIC * LOAD / stiffness])
 
 
 def stick_slip_error(stiffness: float, damping: float, tolerance: float) -> float:
-    """Worst error of position and speed, over those of the motion, once in stick (3 s) and once in
-    slip (3.3 s).
+    """Largest error [1] of position and speed, over those of the motion, once in stick (3 s) and
+    once in slip (3.3 s).
+
+    stiffness: [N/m]; damping: [N s/m]; tolerance: relative [1].
     """
     rig, case = stick_slip(stiffness, damping)
     scale, ends = scale_of(stiffness), (3.0, 3.3)
@@ -132,8 +132,10 @@ def equal_ratios() -> Finding:
 
 
 def slide_with_lift_off() -> tuple[Vector, Vector, float]:
-    """Seat rig shaken in x and z until it leaves the cushion: forces, states, and the ledger's
-    residual over its dissipation.
+    """Seat rig shaken in x and z until it leaves the cushion.
+
+    Returns the forces [samples, forces], the states [samples, states] and the residual of the
+    ledger over its dissipation [1].
     """
     mass, gravity = 50.0, 9.81
     friction = Friction(2.0e4, 200.0, 0.4, 0.35)
@@ -143,6 +145,7 @@ def slide_with_lift_off() -> tuple[Vector, Vector, float]:
     count = 4000
     times = numpy.arange(count + 1) * 1e-3
     a_x, a_z = 6.0 * numpy.sin(2 * math.pi * 3.1 * times), 14.0 * numpy.sin(2 * math.pi * 4.0 * times)
+    # Start at rest under its own weight
     zeros = numpy.zeros(count + 1)
     state = numpy.zeros(7)
     state[0] = -((mass * gravity / 2.73e5) ** (2.0 / 3.0))

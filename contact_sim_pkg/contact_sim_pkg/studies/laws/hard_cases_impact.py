@@ -50,7 +50,11 @@ def approach_phases() -> Finding:
 
 
 def phase_errors(loss: float, tolerance: float, law: NormalElastic = LAW) -> list[float]:
-    """Error of e at each approach phase."""
+    """Errors [1] of the coefficient of restitution, one for each phase of the first contact within
+    a step.
+
+    loss: damping times impact speed [1]; tolerance: relative [1].
+    """
     exact = impact.restitution(loss)
     return [abs(restitution_found(loss, tolerance, 0.003 * (i + 0.37) / PHASES, law) - exact) for i in range(PHASES)]
 
@@ -101,8 +105,10 @@ def steel_ball() -> tuple[PointContact, tuple[float, float, float]]:
 
 
 def steel_impact(tolerance: float, gap: float = 3.3e-4) -> tuple[float, float, float, int]:
-    """Relative errors of duration, depth and peak force with an outer tick of 1 ms, and the steps
-    taken, rejected ones included.
+    """Relative errors [1] of duration, depth and peak force with output every 1 ms, and the steps,
+    rejected ones included.
+
+    tolerance: relative [1]; gap: height of the fall at constant speed [m].
     """
     rig, (lasts, depth, force) = steel_ball()
     scale = numpy.array([depth, 1.0]) * tolerance
@@ -132,7 +138,7 @@ def slap_error(tolerance: float, phase: float = 0.0) -> float:
 
 
 def slap_reference(rig: PointContact, start: Vector, end: float = 4.0) -> Vector:
-    """The same run by the slow twin."""
+    """State [states] at `end` [s] of the same run, by the slow reference."""
     damping = rig.dissipative.damping if isinstance(rig.dissipative, NormalDissipative) else 0.0
     twin = Slap(
         rig.mass, rig.gravity, rig.support_amplitude, rig.support_frequency, rig.elastic.coefficient, rig.elastic.exponent,

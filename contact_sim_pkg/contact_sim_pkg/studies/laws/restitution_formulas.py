@@ -13,29 +13,29 @@ __all__ = ["FORMULAS"]
 
 
 def hunt_crossley(e: float) -> float:
-    """`3/2 (1 - e)`: Hunt and Crossley 1975, for e near 1; the usual one beside Driver and Seat's
-    eq 8.
-    """
+    """d = `3/2 (1 - e)` [1]: Hunt and Crossley 1975, for e near 1; the usual one beside Driver and
+    Seat's eq 8."""
     return 1.5 * (1.0 - e)
 
 
 def lankarani_nikravesh(e: float) -> float:
-    """`3/4 (1 - e^2)`: Lankarani and Nikravesh 1990, for e near 1."""
+    """d = `3/4 (1 - e^2)` [1]: Lankarani and Nikravesh 1990, for e near 1."""
     return 0.75 * (1.0 - e * e)
 
 
 def flores(e: float) -> float:
-    """`8 (1 - e)/(5 e)`: Flores, Machado, Silva and Martins 2011."""
+    """d = `8 (1 - e)/(5 e)` [1]: Flores, Machado, Silva and Martins 2011."""
     return 1.6 * (1.0 - e) / e
 
 
 def gonthier(e: float) -> float:
-    """`(1 - e^2)/e`: Gonthier, McPhee, Lange and Piedboeuf 2004, first term; right for e towards 0."""
+    """d = `(1 - e^2)/e` [1]: Gonthier, McPhee, Lange and Piedboeuf 2004, first term; right for e
+    towards 0."""
     return (1.0 - e * e) / e
 
 
 def hu_guo(e: float) -> float:
-    """`3 (1 - e)/(2 e)`: Hu and Guo 2015."""
+    """d = `3 (1 - e)/(2 e)` [1]: Hu and Guo 2015."""
     return 1.5 * (1.0 - e) / e
 
 

@@ -58,7 +58,8 @@ def rows() -> list[Row]:
 def delivered(
     elastic: NormalElastic, loss: NormalDissipation | None, mass: float = MASS, speed: float = SPEED
 ) -> float:
-    """Ratio of the speeds after and before a free impact, integrated to 1e-12 of depth and speed."""
+    """Ratio [1] of the speeds after and before a free impact, integrated to 1e-12 of depth and
+    speed; mass: [kg], speed: [m/s]."""
     depth = impact.elastic_impact(mass, speed, elastic.coefficient, elastic.exponent)[1]
     rig = PointContact(mass, 0.0, 0.0, 0.0, elastic, loss)
     scale = numpy.array([depth, speed]) * TOLERANCE
