@@ -208,7 +208,7 @@ def test_a_scene_of_wrong_types_gives_a_page_or_a_sentence(capsys, tmp_path, mak
 @pytest.mark.fault("B10", "E12")
 @pytest.mark.parametrize("text", [name for name in TEXTS if name not in ("empty", "blank", "null")])
 def test_a_quality_of_service_that_cannot_be_used_is_refused_by_name(text):
-    from contact_sim_pkg.nodes.protocol.recorded_qos import profile_of_recorded
+    from contact_sim_pkg.nodes.protocol.recorded_publisher import profile_of_recorded
     from contact_sim_pkg.nodes.protocol.states import NodeError
 
     with pytest.raises(NodeError, match=r"the stored quality of service .* cannot be used") as caught:

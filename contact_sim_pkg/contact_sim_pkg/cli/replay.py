@@ -92,7 +92,7 @@ def command(
     with RunDisplay(recorded.end * 1e-9, "waiting for the subscribers", "message") as display:
         status = main(
             ["bench", *node_arguments(parameters), *rules],
-            lambda standing: display.update(standing.simulated, standing.describe()),
+            lambda progress: display.update(progress.simulated, progress.describe()),
         )
     context.exit(status)
 

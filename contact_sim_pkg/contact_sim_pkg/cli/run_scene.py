@@ -233,7 +233,7 @@ def _run_on_nodes(
     import rclpy  # noqa: F401  # refused here, with the cure, where ROS is not there
     from contact_msgs_defs.msg import BenchProgress  # noqa: F401
 
-    from contact_sim_pkg.nodes.supervisor import Supervisor
+    from contact_sim_pkg.nodes.processes.supervisor import Supervisor
 
     supervisor = Supervisor(scene, directory, from_bag=from_bag, clock=clock)
     before = time.monotonic() - BEGAN

@@ -1,6 +1,4 @@
-"""The node of the recording: holds back what comes until a block is whole, writes it in canonical
-order, answers.
-"""
+"""The node of the recording: writes the messages of whole blocks in canonical order, and answers."""
 
 from __future__ import annotations
 
@@ -11,7 +9,6 @@ from pathlib import Path
 
 from rclpy.duration import Duration
 
-from contact_sim_pkg.bag.errors import MessageError
 from contact_sim_pkg.bag.messages import decode
 from contact_sim_pkg.bag.names import new_directory
 from contact_sim_pkg.nodes.bench_node import LifecycleBenchNode
@@ -19,28 +16,24 @@ from contact_sim_pkg.nodes.parameters import declare, declare_input_timeout, dec
 from contact_sim_pkg.nodes.processes.process import run
 from contact_sim_pkg.nodes.processes.scene_file import (
     block_length_ns,
-    count_blocks,
     queue_depth,
     read_descriptions,
     read_reason,
     read_scene,
 )
 from contact_sim_pkg.nodes.protocol.endpoints import numbered_subscription, publisher, subscription
-from contact_sim_pkg.nodes.protocol.input_blocks import check_block
 from contact_sim_pkg.nodes.protocol.recording import Recording
-from contact_sim_pkg.nodes.protocol.single_source import SingleSource
 from contact_sim_pkg.nodes.protocol.states import DONE, FAULT, LOSS, Follower, RunState
 from contact_sim_pkg.records.messages import BenchProgress
-from contact_sim_pkg.run.bag_content import input_names, result_names
 
 BAG_TEXT = "Directory of the bag, which must not exist. Empty: bags/SCENE_TIME_RANDOM of the current directory."
 GATHER_SECONDS = 0.002  # that messages gather for; the window leaves room for it
-STOP_SECONDS = 0.5  # that a signal waits for the simulator's last word
+STOP_SECONDS = 0.5  # from a signal to closing, for the simulator's last messages
 SETTLE_SECONDS = 1.0  # for the last answer to be acknowledged
 
 
 class BagLoggerNode(LifecycleBenchNode):
-    """Takes every recorded topic of the scene as it came; answers on `bench/recorded`."""
+    """Subscribes to every recorded topic of the scene; answers on `bench/recorded`."""
 
     gather = GATHER_SECONDS
 
@@ -57,37 +50,21 @@ class BagLoggerNode(LifecycleBenchNode):
         refused run leaves none.
         """
         scene = read_scene(self._scene_name)
-        self._period_ns, self._blocks, depth = block_length_ns(scene), count_blocks(scene), queue_depth(scene)
         path = new_directory(Path(self._directory) if self._directory else None, scene.name)
         self._run, self._news, self._leave_at = Follower(), time.monotonic(), float("inf")
-        self._scene, self._recording = scene, Recording(path, scene, self._period_ns)
-        self._sources = {name: SingleSource() for name in (*result_names(scene), *input_names(scene))}
-        self._inputs = set(input_names(scene))
+        self._scene, self._recording = scene, Recording(path, scene, block_length_ns(scene))
         self._answers = publisher(self, "bench/recorded")
-        kept = [numbered_subscription(self, name, partial(self._take, name), depth) for name in self._sources]
+        kept = [
+            numbered_subscription(self, name, partial(self._on_message, name), queue_depth(scene))
+            for name in self._recording.topics
+        ]
         self._kept = [*kept, subscription(self, "bench/progress", self._on_progress)]
 
-    def _take(self, topic: str, data: bytes, number: int | None) -> None:
-        """Accept one publisher a topic. Excitation is checked as the simulator does: a block that it
-        drops takes no good block's place.
-        """
-        recording = self._recording
-        if recording is None:
-            return
-        if not self._sources[topic].accept(number, self.count_publishers(self.resolve_topic_name(topic))):
-            recording.left_out[f"foreign {topic}"] += 1
-            self.get_logger().warning(
-                f"{topic}: another node publishes here too; its messages are not recorded", throttle_duration_sec=1.0
-            )
-            return
-        try:
-            if topic in self._inputs:
-                check_block(topic, data, self._period_ns, self._blocks)
-        except MessageError as error:
-            recording.left_out[f"dropped {topic}"] += 1
-            self.get_logger().warning(f"{topic}: {error}; not recorded", throttle_duration_sec=1.0)
-            return
-        recording.hold(topic, data)
+    def _on_message(self, topic: str, data: bytes, number: int | None) -> None:
+        if self._recording is not None:
+            publishers = self.count_publishers(self.resolve_topic_name(topic))
+            if reason := self._recording.accept(topic, data, number, publishers):
+                self.get_logger().warning(reason, throttle_duration_sec=1.0)
 
     def _on_progress(self, data: bytes) -> None:
         recording, progress = self._recording, decode(BenchProgress, data)
@@ -100,9 +77,7 @@ class BagLoggerNode(LifecycleBenchNode):
         recording.order.on_progress(progress.block, progress.messages_sent)
 
     def tick(self, now: float) -> float:
-        """Write what is whole. Close when the run has ended and all is here, when the wait for it
-        is over, or when asked to.
-        """
+        """Write whole blocks; close once the run has ended and all is here, or no wait is left."""
         recording = self._recording
         if not self.active or recording is None or recording.closed:
             return 1.0
@@ -121,7 +96,7 @@ class BagLoggerNode(LifecycleBenchNode):
         self.exit_status = LOSS if self._close_bag(sentence) else DONE
 
     def stop(self) -> None:
-        """Wait shortly for what the simulator has still sent, then close."""
+        """Wait shortly for the last messages of the simulator, then close."""
         if self._recording is None or not self._recording.created or self._leave_at < float("inf"):
             self._leave_at = 0.0
             self.close()
@@ -130,18 +105,18 @@ class BagLoggerNode(LifecycleBenchNode):
             self._leave_at = time.monotonic() + STOP_SECONDS
 
     def fault(self, sentence: str, exit_status: int) -> None:
-        """Say what failed, close the bag with what is whole, end the process."""
+        """Log the failure, close the bag with the whole blocks, end the process."""
         self.get_logger().error(sentence)
         recording = self._recording is not None and self._recording.is_open
         self._close_bag(sentence)
         self.exit_status = LOSS if recording and exit_status == FAULT else exit_status
 
     def close(self) -> None:
-        """Close the bag with what is whole; the second time nothing happens."""
+        """Close the bag with the whole blocks; the second time nothing happens."""
         self._close_bag("")
 
     def _close_bag(self, sentence: str) -> bool:
-        """Close the bag, answer, and give the answer time to arrive; whether something was lost."""
+        """Close the bag, answer, and wait for the answer to arrive; whether something was lost."""
         recording = self._recording
         if recording is None:
             return False
@@ -150,9 +125,7 @@ class BagLoggerNode(LifecycleBenchNode):
         if end is None:
             return False
         summary = end.summary
-        said = "" if sentence in summary.sentence else sentence
-        reasons = "; ".join(text for text in (said, summary.sentence) if text)
-        self._answers.publish(recording.answer(closed=True, sentence=reasons))
+        self._answers.publish(recording.answer(closed=True, sentence=end.describe(sentence)))
         self._answers.wait_for_all_acked(Duration(seconds=SETTLE_SECONDS))
         self.announce(f"bag: {recording.path}, {summary.messages} messages")
         if not summary.complete:

@@ -1,6 +1,4 @@
-"""The node of the replay: publishes what a bag holds, with the recorded spacing, bytes and quality
-of service.
-"""
+"""The node of the replay: publishes a bag with its recorded spacing, bytes and quality of service."""
 
 from __future__ import annotations
 
@@ -10,26 +8,25 @@ from pathlib import Path
 from typing import Any
 
 from rclpy.duration import Duration
-from rclpy.publisher import Publisher
 from std_srvs.srv import SetBool
 
-from contact_sim_pkg.bag.reader import Bag, open_bag
+from contact_sim_pkg.bag.reader import open_bag
 from contact_sim_pkg.nodes.bench_node import LifecycleBenchNode
 from contact_sim_pkg.nodes.clock import clock_message
 from contact_sim_pkg.nodes.parameters import declare
 from contact_sim_pkg.nodes.processes.audience import Audience
 from contact_sim_pkg.nodes.processes.keys import Keys
 from contact_sim_pkg.nodes.processes.process import run
-from contact_sim_pkg.nodes.protocol.endpoints import message_type, publisher, refuse_strangers
-from contact_sim_pkg.nodes.protocol.player import Player, ReplayProgress
-from contact_sim_pkg.nodes.protocol.recorded_qos import profile_of_recorded
+from contact_sim_pkg.nodes.protocol.endpoints import publisher, refuse_strangers
+from contact_sim_pkg.nodes.protocol.player import Player, ReplayProgress, chosen_topics
+from contact_sim_pkg.nodes.protocol.recorded_publisher import recorded_publisher
 from contact_sim_pkg.nodes.protocol.states import DONE, REFUSED, NodeError
 
 CLOCK_RATE = 40.0  # [Hz] of the steady clock
 BATCH = 200  # messages between two looks at signals; what a volatile topic keeps for a subscriber that is behind
 SETTLE_SECONDS = 1.0
 LOOK_SECONDS = 0.05  # between two looks at the graph, at keys and at a pause
-SHOW_SECONDS = 5.0  # between two lines about where the replay stands
+SHOW_SECONDS = 5.0  # between two log lines about the progress
 DELAY_TEXT = "Least time before the first message, in s; matched subscribers are waited for in any case."
 
 
@@ -37,7 +34,7 @@ class BagReplayNode(LifecycleBenchNode):
     """Publishes the topics of a bag; their names count from the node's namespace. Offers `~/pause`."""
 
     def __init__(self, show: Callable[[ReplayProgress], None] | None = None) -> None:
-        """Declare the parameters; `show` hears where the replay stands, in place of the log."""
+        """Declare the parameters; `show` is called with the progress, in place of the log."""
         super().__init__("bag_replay")
         self._bag_name = declare(self, "bag", "", "Directory of the bag.")
         self._rate = declare(self, "rate", 1.0, "Recorded seconds per second.", (0.001, 1000.0))
@@ -49,11 +46,9 @@ class BagReplayNode(LifecycleBenchNode):
         self._loop = declare(self, "loop", False, "Begin again after the end; the recorded time then jumps back.")
         self._chosen = declare(self, "topics", "", "Names of the topics to replay, separated by commas. Empty: all.")
         self._with_clock = declare(self, "clock", False, "Publish the recorded time on /clock, 40 times a second.")
-        self._publishers_by_topic: dict[str, Publisher] = {}
-        self._clock_publisher: Publisher | None = None
         self._show = show
         self._player: Player | None = None
-        self._began = self._held = False
+        self._began = self._paused = False
         self._clock_due = self._shown_at = 0.0
         self._keys = Keys()
         self._pause = self.create_service(SetBool, "~/pause", self._on_pause)
@@ -63,7 +58,7 @@ class BagReplayNode(LifecycleBenchNode):
         if not self._bag_name:
             raise NodeError("parameter bag is empty; give the directory of a bag", REFUSED)
         bag = open_bag(Path(self._bag_name))
-        names = _chosen_topics(bag, self._chosen)
+        names = chosen_topics(bag, self._chosen)
         latched = {name for name in names if "transient_local" in bag.topics[name].offered_qos}
         self._player = Player(
             bag, names, latched,
@@ -71,44 +66,30 @@ class BagReplayNode(LifecycleBenchNode):
         )  # fmt: skip
         for note in bag.notes:
             self.get_logger().warning(note)
-        for name in names:
-            row = bag.topics[name]
-            profile = profile_of_recorded(row.offered_qos)
-            profile.depth = profile.depth if name in latched else max(profile.depth, BATCH)
-            self._publishers_by_topic[name] = self.create_publisher(message_type(row.type), name.lstrip("/"), profile)
-            self._refuse_other_definition(name, row.type_hash)
+        self._publishers_by_topic = {name: recorded_publisher(self, bag.topics[name], BATCH) for name in names}
         self._clock_publisher = publisher(self, "/clock") if self._with_clock else None
         self._audience = Audience(self, self._publishers_by_topic, self._delay)
-
-    def _refuse_other_definition(self, name: str, recorded: str) -> None:
-        for info in self.get_publishers_info_by_topic(name.lstrip("/")):
-            installed = str(info.topic_type_hash)
-            if info.node_name == self.get_name() and recorded and installed != recorded:
-                raise NodeError(
-                    f"{name} was recorded with another definition of {info.topic_type} than the installed one "
-                    f"({recorded}, {installed}); replay it with the package that it was recorded with",
-                    REFUSED,
-                )
 
     def tick(self, now: float) -> float:
         """Wait for the subscribers, then publish what is due."""
         player = self._player
-        if player is None or not (self._began or (self.active and self._audience.is_there(now))):
+        if player is None or not (self._began or (self.active and self._audience.is_complete(now))):
             return LOOK_SECONDS
         if not self._began:
             self._begin()
-        self._hold_or_go_on(player, now)
+        self._pause_or_resume(player, now)
         for _ in range(BATCH):
-            message = player.take(now)
+            message = player.next_due(now)
             if message is None:
                 break
             self._publishers_by_topic[message.topic].publish(message.data)
         if self._clock_publisher is not None and now >= self._clock_due:
             self._clock_due = now + 1.0 / CLOCK_RATE
             self._clock_publisher.publish(clock_message(player.position(now)))
-        self._report(player.standing(now), now)
+        self._report(player.progress(now), now)
         if player.done:
-            self._settle()
+            for entry in self._publishers_by_topic.values():
+                entry.wait_for_all_acked(Duration(seconds=SETTLE_SECONDS))
             self.exit_status = DONE
         return player.wait(now)
 
@@ -124,52 +105,42 @@ class BagReplayNode(LifecycleBenchNode):
             f"{subscriptions} subscriptions on {topics} of {len(names)} topics{keys}" if names else "nothing to replay"
         )
 
-    def _hold_or_go_on(self, player: Player, now: float) -> None:
+    def _pause_or_resume(self, player: Player, now: float) -> None:
         if self._keys.pressed().count(" ") % 2:
-            self._held = not self._held
-        if self._held or not self.active:
+            self._paused = not self._paused
+        if self._paused or not self.active:
             player.pause(now)
         else:
             player.resume(now)
 
     def _on_pause(self, request: Any, response: Any) -> Any:
-        self._held = bool(request.data)
-        response.success, response.message = True, "paused" if self._held else "going on"
+        self._paused = bool(request.data)
+        response.success, response.message = True, "paused" if self._paused else "going on"
         return response
 
-    def _report(self, standing: ReplayProgress, now: float) -> None:
+    def _report(self, progress: ReplayProgress, now: float) -> None:
         if self._show is not None:
-            self._show(standing)
+            self._show(progress)
         elif now - self._shown_at > SHOW_SECONDS:
             self._shown_at = now
-            self.get_logger().info(standing.describe())
-
-    def _settle(self) -> None:
-        for entry in self._publishers_by_topic.values():
-            entry.wait_for_all_acked(Duration(seconds=SETTLE_SECONDS))
+            self.get_logger().info(progress.describe())
 
     def stop(self) -> None:
         """End at once."""
         self.exit_status = DONE
 
     def destroy_node(self) -> None:
-        """Say how many messages went out, and give the terminal back."""
+        """Report how many messages were sent, and restore the terminal."""
         self._keys.close()
         if self._player is not None and self._began:
-            sent, held, passes = self._player.sent, self._player.messages, self._player.passes
+            sent, of, passes = self._player.sent, self._player.messages, self._player.passes
             before = f" in pass {passes + 1}" if passes else ""
-            self.get_logger().info(f"{sent} of {held} messages went out{before}")
+            self.get_logger().info(f"{sent} of {of} messages went out{before}")
         super().destroy_node()
 
 
-def _chosen_topics(bag: Bag, chosen: str) -> list[str]:
-    if not chosen:
-        return [name for name in bag.topics if bag.count(name)]
-    return [bag.topic(name.strip()).name for name in chosen.split(",")]
-
-
 def main(args: Sequence[str] | None = None, show: Callable[[ReplayProgress], None] | None = None) -> int:
-    """Run the node; returns the exit status. `show` hears where the replay stands."""
+    """Run the node; returns the exit status. `show` is called with the progress."""
     return run(lambda: BagReplayNode(show), args)
 
 

@@ -1,4 +1,4 @@
-"""When a replay gives out which message: rate, begin, pause, loop; on an injected clock."""
+"""Due times of the messages of a replay: rate, begin, pause, loop; on an injected clock."""
 
 from typing import NamedTuple
 
@@ -41,7 +41,7 @@ def play(player, seconds, step=0.005, begin=0.0):
     came = []
     for count in range(round(seconds / step) + 1):
         now = begin + count * step
-        while (message := player.take(now)) is not None:
+        while (message := player.next_due(now)) is not None:
             came.append((now, message))
     return came
 
@@ -49,14 +49,14 @@ def play(player, seconds, step=0.005, begin=0.0):
 @pytest.mark.parametrize("rate", [0.5, 1.0, 3.0])
 def test_each_message_comes_when_it_is_due_and_the_count_is_whole(rate):
     player = Player(Recorded(), ALL, ["/text"], rate=rate)
-    assert play(player, 1.0) == []  # paused until it is told to go on
+    assert play(player, 1.0) == []  # paused until `resume`
     player.resume(2.0)
     came = play(player, 0.3, begin=2.0)
     assert [message for _, message in came] == list(Recorded.entries)
     for now, message in came:
         assert -1e-9 < now - 2.0 - message.log_time * 1e-9 / rate < 0.005 + 1e-9
     assert player.done
-    assert (player.standing(3.0).sent, player.messages) == (18, 18)
+    assert (player.progress(3.0).sent, player.messages) == (18, 18)
 
 
 def test_a_begin_passes_over_all_but_what_is_latched():

@@ -2,8 +2,7 @@
 
 import pytest
 
-from contact_sim_pkg.nodes.protocol.single_source import SingleSource
-from contact_sim_pkg.nodes.protocol.source_watch import NAME_SECONDS, SILENT_SECONDS, SourceWatch
+from contact_sim_pkg.nodes.protocol.single_source import NAME_SECONDS, SILENT_SECONDS, SingleSource, SourceWatch
 from contact_sim_pkg.nodes.protocol.states import NodeError
 
 TOPIC = "platform/vibration"
@@ -51,7 +50,7 @@ class Graph:
     def __init__(self):
         self.shown = {b"own": "/vibration"}
         self.watch = SourceWatch({TOPIC: "/platform/vibration"}, lambda _: len(self.shown), lambda _: self.shown)
-        self.watch.remember()
+        self.watch.store_own()
 
 
 @pytest.fixture

@@ -32,7 +32,7 @@ class Audience:
         self._changed_at = self._began = self._looked = float("-inf")
         self._unfit: set[str] = set()
 
-    def is_there(self, now: float) -> bool:
+    def is_complete(self, now: float) -> bool:
         """Whether the graph has been quiet for a while and everybody in it that can be matched is;
         `now`: steady clock, [s].
         """

@@ -1,6 +1,4 @@
-"""When which message of a bag is due: rate, begin, pause, loop, and the count of what went out.
-Without ROS.
-"""
+"""Due times of the messages of a bag: rate, begin, pause, loop, and how many were sent. Without ROS."""
 
 from __future__ import annotations
 
@@ -15,7 +13,7 @@ SHORTEST_PASS_NS = 100_000_000  # of a loop: a bag of one instant is not sent wi
 
 
 class ReplayProgress(NamedTuple):
-    """Where a replay stands."""
+    """Progress of a replay."""
 
     simulated: float  # [s] of the recording
     end: float  # [s] of the recording
@@ -32,7 +30,7 @@ class ReplayProgress(NamedTuple):
 
 
 class Player:
-    """Gives out the messages of some topics of a bag, each when it is due. Paused until `resume`."""
+    """Messages of some topics of a bag, each when it is due. Paused until `resume`."""
 
     def __init__(
         self, bag: Bag, topics: Collection[str], latched: Collection[str], *,
@@ -41,9 +39,9 @@ class Player:
         """Find the begin.
 
         Args:
-            bag: what is played.
-            topics: names in the bag of what is given out.
-            latched: those of them of which messages before the begin are given out too, at once.
+            bag: the bag.
+            topics: names in the bag of the topics to replay.
+            latched: those of them whose messages before the begin are sent too, at once.
             start: recorded time to begin at, [s].
             start_message: number of the message to begin at, among those of the topics, from 0.
             rate: recorded seconds per second.
@@ -53,7 +51,7 @@ class Player:
             BagError: the begin lies after the end, or the bag is damaged.
         """
         self._bag, self._topics, self._latched = bag, set(topics), set(latched)
-        self._held = sum(bag.count(name) for name in self._topics)
+        self._total = sum(bag.count(name) for name in self._topics)
         self._first, self._rate, self._loop = start_message, rate, loop
         self._start = max(round(start * 1e9), self._time_of(start_message))
         if self._start > bag.end:
@@ -65,64 +63,62 @@ class Player:
         self._rewind()
 
     def _time_of(self, number: int) -> int:
-        """Recorded time of the message with this number, [ns]; where all are played, nothing is
-        read for it.
-        """
+        """Recorded time of the message with this number, [ns]; nothing is read for number 0."""
         if number == 0:
             return 0
-        if number >= self._held:
-            raise BagError(f"start_message is {number}, {self._bag.path} holds {self._held} messages to replay, from 0")
+        if number >= self._total:
+            raise BagError(
+                f"start_message is {number}, {self._bag.path} holds {self._total} messages to replay, from 0"
+            )
         chosen = (message for message in self._bag.messages() if message.topic in self._topics)
         return next(message.log_time for index, message in enumerate(chosen) if index == number)
 
     def _rewind(self) -> None:
-        self.sent, self._passed_over = 0, 0
+        self.sent, self._skipped = 0, 0
         self._messages: Iterator[BagMessage] = self._bag.messages()
         self._next = self._advance()
 
     def _advance(self) -> BagMessage | None:
-        """The next message to give out; what lies before the begin is passed over unless it is
-        latched.
-        """
+        """The next message to send; those before the begin are skipped unless they are latched."""
         for message in self._messages:
             if message.topic not in self._topics:
                 continue
-            early = message.log_time < self._start or self.sent + self._passed_over < self._first
+            early = message.log_time < self._start or self.sent + self._skipped < self._first
             if not early or message.topic in self._latched:
                 return message
-            self._passed_over += 1
+            self._skipped += 1
         return None
 
     @property
     def paused(self) -> bool:
-        """Whether time stands still."""
+        """Whether the recorded time is stopped."""
         return math.isinf(self._resumed_at)
 
     @property
     def done(self) -> bool:
-        """Whether nothing is left to give out."""
+        """Whether nothing is left to send."""
         return self._next is None and not self._loop
 
     @property
     def messages(self) -> int:
-        """Messages of a pass; the ones passed over before the begin do not count."""
-        return self._held - self._passed_over
+        """Messages of a pass; those skipped before the begin do not count."""
+        return self._total - self._skipped
 
     def position(self, now: float) -> int:
         """Recorded time, [ns], at this instant of the steady clock, [s]."""
         return self._base if self.paused else self._base + round((now - self._resumed_at) * self._rate * 1e9)
 
     def pause(self, now: float) -> None:
-        """Let time stand still."""
+        """Stop the recorded time."""
         self._base, self._resumed_at = self.position(now), math.inf
 
     def resume(self, now: float) -> None:
-        """Let time go on."""
+        """Let the recorded time go on."""
         if self.paused:
             self._resumed_at = now
 
-    def take(self, now: float) -> BagMessage | None:
-        """The next message, if it is due; a loop begins again once the last one is out."""
+    def next_due(self, now: float) -> BagMessage | None:
+        """The next message, if it is due at `now`, [s]; a loop begins again once the last one is sent."""
         if self.paused:
             return None
         if self._next is None and self._loop and self.position(now) - self._start >= self._pass_length():
@@ -146,7 +142,17 @@ class Player:
     def _pass_length(self) -> int:
         return max(SHORTEST_PASS_NS, self._bag.end - self._start)
 
-    def standing(self, now: float) -> ReplayProgress:
-        """Where the replay stands."""
+    def progress(self, now: float) -> ReplayProgress:
+        """Progress at `now` of the steady clock, [s]."""
         simulated = min(self.position(now), self._bag.end) * 1e-9
         return ReplayProgress(simulated, self._bag.end * 1e-9, self.sent, self.messages, self.passes, self.paused)
+
+
+def chosen_topics(bag: Bag, chosen: str) -> list[str]:
+    """Full names of the topics with these names, separated by commas; empty: all with messages.
+
+    Raises BagError for a topic that the bag does not have.
+    """
+    if not chosen:
+        return [name for name in bag.topics if bag.count(name)]
+    return [bag.topic(name.strip()).name for name in chosen.split(",")]

@@ -1,4 +1,6 @@
-"""The bag of a run while it is recorded: messages held until their block is whole, then written. Without ROS."""
+"""The bag of a run while it is recorded: messages kept until their block is whole, then written.
+Without ROS.
+"""
 
 from __future__ import annotations
 
@@ -8,15 +10,18 @@ from contextlib import suppress
 from pathlib import Path
 from typing import Any, NamedTuple
 
-from contact_sim_pkg.bag.errors import BagError
+from contact_sim_pkg.bag.errors import BagError, MessageError
 from contact_sim_pkg.bag.messages import encode
 from contact_sim_pkg.bag.metadata import recorded_topics
 from contact_sim_pkg.bag.writer import BagSummary, BagWriter
+from contact_sim_pkg.nodes.processes.scene_file import count_blocks
+from contact_sim_pkg.nodes.protocol.input_blocks import check_block
 from contact_sim_pkg.nodes.protocol.record_order import HeldMessage, RecordOrder
 from contact_sim_pkg.nodes.protocol.record_outcome import outcome_of
+from contact_sim_pkg.nodes.protocol.single_source import SingleSource
 from contact_sim_pkg.nodes.protocol.states import REFUSED, Follower, NodeError
 from contact_sim_pkg.records.messages import BenchRecorded, String
-from contact_sim_pkg.run.bag_content import attachments, input_names, recorded_names
+from contact_sim_pkg.run.bag_content import attachments, input_names, recorded_names, result_names
 from contact_sim_pkg.scene.resolved_scene import ResolvedScene
 
 
@@ -25,6 +30,11 @@ class ClosedBag(NamedTuple):
 
     summary: BagSummary
     lacking: int  # messages of the blocks done that never came
+
+    def describe(self, sentence: str) -> str:
+        """Why the bag is closed: `sentence`, and what the bag itself reports beyond it."""
+        reason = "" if sentence in self.summary.sentence else sentence
+        return "; ".join(text for text in (reason, self.summary.sentence) if text)
 
     @property
     def lossy(self) -> bool:
@@ -36,8 +46,10 @@ class Recording:
     """Messages of a run in canonical order, and the bag that they are written to."""
 
     def __init__(self, path: Path, scene: ResolvedScene, block_length_ns: int) -> None:
-        """Nothing held; the bag `path` is not created before `open`."""
+        """No message yet; the bag `path` is not created before `open`; block length in [ns]."""
         self.path, self._scene, self._block_length_ns = path, scene, block_length_ns
+        self._inputs, self._blocks = set(input_names(scene)), count_blocks(scene)
+        self._sources = {name: SingleSource() for name in (*result_names(scene), *self._inputs)}
         self.order = RecordOrder(input_names(scene), block_length_ns)
         self.left_out = Counter[str]()
         self.block = -1
@@ -54,13 +66,33 @@ class Recording:
         """Whether the bag was created."""
         return self._writer is not None
 
-    def hold(self, topic: str, data: bytes) -> None:
+    @property
+    def topics(self) -> tuple[str, ...]:
+        """Topics whose messages are recorded."""
+        return tuple(self._sources)
+
+    def accept(self, topic: str, data: bytes, number: int | None, publishers: int) -> str:
         """Keep a message, also before the bag is created: on the wire, block 0 may overtake *ready*.
 
-        A message that has no place is counted in `left_out`.
+        One publisher a topic is accepted, by the rule of `SingleSource.accept`. Excitation is
+        checked as the simulator does: a block that it drops must not replace a good one. Messages
+        left out are counted in `left_out`.
+
+        Returns:
+            Why the message is not recorded; empty where it is, or where its block is already whole.
         """
+        if not self._sources[topic].accept(number, publishers):
+            self.left_out[f"foreign {topic}"] += 1
+            return f"{topic}: another node publishes here too; its messages are not recorded"
+        try:
+            if topic in self._inputs:
+                check_block(topic, data, self._block_length_ns, self._blocks)
+        except MessageError as error:
+            self.left_out[f"dropped {topic}"] += 1
+            return f"{topic}: {error}; not recorded"
         if not self.closed and not self.order.hold(topic, data):
             self.left_out[f"dropped {topic}"] += 1
+        return ""
 
     def open(self, resolve_name: Callable[[str], str], descriptions: dict[str, dict[str, Any]]) -> None:
         """Create the bag, with the scene as its first message; NodeError (refused) where that fails.

@@ -1,13 +1,17 @@
-"""The quality of service that a bag has stored for a topic, as rclpy's profile."""
+"""Publishers of a replay: quality of service and message definition as the bag has stored them."""
 
 from __future__ import annotations
 
 from typing import Any
 
+from rclpy.node import Node
+from rclpy.publisher import Publisher
 from rclpy.qos import DurabilityPolicy, HistoryPolicy, QoSProfile, ReliabilityPolicy
 
 from contact_sim_pkg.bag.errors import BagError
+from contact_sim_pkg.bag.metadata import RecordedTopic
 from contact_sim_pkg.bag.texts import values_of_text
+from contact_sim_pkg.nodes.protocol.endpoints import message_type
 from contact_sim_pkg.nodes.protocol.states import REFUSED, NodeError
 
 DEEPEST = 1_000_000  # messages kept
@@ -31,3 +35,24 @@ def profile_of_recorded(text: str) -> QoSProfile:
         )
     except (BagError, KeyError, ValueError, TypeError, IndexError, OverflowError) as error:
         raise NodeError(f"the stored quality of service {text[:100]!r} cannot be used: {error}", REFUSED) from None
+
+
+def recorded_publisher(node: Node, row: RecordedTopic, least_depth: int) -> Publisher:
+    """A publisher of `node` for a topic of a bag, in the node's namespace.
+
+    A volatile topic keeps at least `least_depth` messages. Raises NodeError (refused) where the
+    topic was recorded with another definition of its type than the installed one.
+    """
+    profile, name = profile_of_recorded(row.offered_qos), row.name.lstrip("/")
+    if profile.durability != DurabilityPolicy.TRANSIENT_LOCAL:
+        profile.depth = max(profile.depth, least_depth)
+    made = node.create_publisher(message_type(row.type), name, profile)
+    for info in node.get_publishers_info_by_topic(name):
+        installed = str(info.topic_type_hash)
+        if info.node_name == node.get_name() and row.type_hash and installed != row.type_hash:
+            raise NodeError(
+                f"{row.name} was recorded with another definition of {info.topic_type} than the installed one "
+                f"({row.type_hash}, {installed}); replay it with the package that it was recorded with",
+                REFUSED,
+            )
+    return made

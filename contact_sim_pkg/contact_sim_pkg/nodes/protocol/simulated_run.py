@@ -1,0 +1,114 @@
+"""The simulator's side of a run: when a block may begin, what is reported after it, what ends the
+run. Without ROS.
+"""
+
+from __future__ import annotations
+
+import math
+
+from contact_sim_pkg.nodes.processes.scene_file import block_length_ns
+from contact_sim_pkg.nodes.protocol.input_blocks import Block, InputBlocks
+from contact_sim_pkg.nodes.protocol.logger_answers import LoggerAnswers
+from contact_sim_pkg.nodes.protocol.pacing import Lateness, Pacer
+from contact_sim_pkg.nodes.protocol.progress_report import ProgressReport
+from contact_sim_pkg.nodes.protocol.states import DONE, FAULT, NodeError, RunState
+from contact_sim_pkg.nodes.protocol.window import BlockWindow
+from contact_sim_pkg.records.messages import BenchRecorded
+from contact_sim_pkg.run.block_simulation import BlockResult, BlockSimulation
+from contact_sim_pkg.scene.resolved_scene import ResolvedScene
+
+
+class SimulatedRun:
+    """One run as its simulator advances it, from *ready* to the exit status."""
+
+    def __init__(
+        self, simulation: BlockSimulation, report: ProgressReport, scene: ResolvedScene, pace: float,
+        *, logged: bool, input_timeout: float,
+    ) -> None:  # fmt: skip
+        """A run before *ready*.
+
+        Args:
+            simulation: advances the blocks.
+            report: publishes the state of the run.
+            scene: the scene of the simulation.
+            pace: simulated seconds per second, > 0; infinity: as fast as it can.
+            logged: the run has a logger.
+            input_timeout: longest wait for a block that is due, [s].
+        """
+        self.simulation, self.report = simulation, report
+        self.inputs = InputBlocks(simulation.inputs, block_length_ns(scene), simulation.blocks)
+        self.window = BlockWindow(simulation.blocks, logged=logged)
+        self.logger = LoggerAnswers(self.window, logged=logged)
+        self.late = ""  # sentence about a run behind its pace; empty where it is not
+        self._pacer = Pacer(pace, scene.block_length)
+        self._lateness = Lateness(self._pacer)
+        self._timeout, self._advanced = input_timeout + scene.block_length / pace, math.inf
+
+    @property
+    def state(self) -> RunState:
+        """State of the run as reported last."""
+        return self.report.state
+
+    def start(self, now: float) -> None:
+        """Report READY; time counts from `now` of the steady clock, [s]."""
+        self._advanced = now
+        self._pacer.start(now)
+        self.report.send(RunState.READY)
+
+    def wait(self, now: float) -> float:
+        """Time until the next block may begin by pace alone, [s]; infinity where a message decides."""
+        if self.simulation.inputs or not self.window.open:
+            return math.inf
+        return self._pacer.wait(self.window.next_block, now)
+
+    def may_begin(self, now: float) -> bool:
+        """Whether window and pace allow the next block at `now` of the steady clock, [s].
+
+        A scene with inputs has its pace from their sources.
+        """
+        return not self.state.ended and self.window.open and (bool(self.simulation.inputs) or self.wait(now) <= 0.0)
+
+    def next_block(self) -> tuple[int, dict[str, Block]] | None:
+        """Number and inputs of the next block; None while an input is missing."""
+        blocks = self.inputs.take()
+        return None if blocks is None else (self.window.take(), blocks)
+
+    def on_done(self, number: int, result: BlockResult, now: float) -> None:
+        """Report a block whose messages are published; `now`: steady clock, [s]."""
+        self.window.on_done(number)
+        self._advanced = now
+        self.report.block_done(number, result)
+        self.late = self._lateness.block_done(number, now, self.report.real_time_factor)
+        if self.state.ended:
+            self.logger.end(now)
+
+    def refuse_standstill(self, now: float) -> None:
+        """Raise NodeError (fault) where no block was done for too long at `now` of the steady clock, [s]."""
+        if now - self._advanced > self._timeout and not self.state.ended:
+            raise NodeError(f"{self.logger.who_holds_up(self.inputs)} (waited {self._timeout:g} s)", FAULT)
+
+    def on_recorded(self, recorded: BenchRecorded) -> str:
+        """Accept an answer of the logger; the reason why it closed its bag before the end, else empty."""
+        if self.state < RunState.READY:
+            return ""
+        reason = self.logger.accept(recorded)
+        if reason is None or self.state.ended:
+            return ""
+        self.logger.lost()
+        self.report.send(RunState.STOPPED, reason)
+        return reason
+
+    def stop(self, now: float) -> int | None:
+        """End a run under way at the user's request, `now` of the steady clock, [s].
+
+        Returns the exit status where nothing is left to end, so that the process may leave at once.
+        """
+        return None if self.end(RunState.STOPPED, "stopped by the user", now) else self.logger.exit_status
+
+    def end(self, state: RunState, sentence: str, now: float, exit_status: int = DONE) -> bool:
+        """End a run under way at `now` of the steady clock, [s]; False where there is none."""
+        if self.state not in (RunState.READY, RunState.RUNNING):
+            return False
+        self.logger.end(now, exit_status, stopped=state is RunState.STOPPED)
+        self.report.send(state, sentence)
+        return True
