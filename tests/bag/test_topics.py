@@ -7,6 +7,9 @@ from rosbags.rosbag2.metadata import parse_qos
 from contact_sim_pkg.bag.errors import BagError
 from contact_sim_pkg.bag.topics import RECORDED, TOPICS, full_name, offered_qos, topic_of
 from contact_sim_pkg.bag.typestore import installed_types
+from contact_sim_pkg.records import registry
+from contact_sim_pkg.records.contact import Contact
+from contact_sim_pkg.records.topic import FORCE, PATCH, ContactTopic
 
 
 def test_names_are_relative_except_the_two_that_ros_shares() -> None:
@@ -18,6 +21,17 @@ def test_ranks_are_the_positions_and_the_scene_comes_first() -> None:
     assert [topic.rank for topic in TOPICS.values()] == list(range(len(TOPICS)))
     assert RECORDED[0] == "bench/scene"
     assert topic_of("road/patch").rank < topic_of("tire/force").rank
+
+
+def test_a_further_contact_leaves_the_order_of_the_other_topics(monkeypatch: pytest.MonkeyPatch) -> None:
+    before, contacts = [topic.name for topic in registry.contact_topics()], registry.contacts()
+    added = (FORCE, PATCH, ContactTopic("momentum", "contact_msgs_defs/msg/BodyMotion"))
+    punch = Contact(name="punch", help="", section="", section_help="", effects=(), topics=added)
+    monkeypatch.setattr(registry, "contacts", lambda: {**contacts, "punch": punch})
+    names = [topic.name for topic in registry.contact_topics()]
+    assert [name for name in names if not name.startswith("punch/")] == before
+    assert names.index("roller/force") < names.index("punch/force") < names.index("tire/wrench")
+    assert names[-1] == "punch/momentum"
 
 
 def test_every_type_is_known() -> None:

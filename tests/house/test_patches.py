@@ -20,7 +20,7 @@ momentum = numpy.arange(6.0).reshape(2, 3)
 record = BodyMomentum(block=4, sample_period=0.1, momentum=momentum)
 [(topic, stamp, data)] = encode_block([Output("block/momentum", 10, record)])
 assert numpy.array_equal(decode(BodyMomentum, data).momentum, momentum)
-assert "momentum" in rigs()["block"].contacts[0].topics
+assert "momentum" in [topic.name for topic in rigs()["block"].contacts[0].topics]
 """
 COLUMN = """
 from contact_sim_pkg.bag.messages import decode, encode

@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from functools import cached_property
 from typing import Any
 
 from contact_sim_pkg.records.effect import Effect
+from contact_sim_pkg.records.topic import FORCE, WRENCH, ContactTopic
 
 __all__ = ["LOOSEST_INTEGRATION", "Contact"]
 
@@ -26,8 +27,7 @@ class Contact:
         section_help: what the section describes, in a phrase.
         effects: in the order of the documentation; a field's topic follows this order too.
         rules: ``module:function`` of rules between keys, each a scene -> its breaches.
-        topics: names of the topics that it always has.
-        topics_of_keys: further topics by the key of its section that switches them on.
+        topics: its recorded topics, in the order of a bag.
         bench_topics: further topics below `bench/`, by their whole name.
         loosest_integration: plain data of its effects by name -> largest relative tolerance of the
             time integration.
@@ -39,8 +39,7 @@ class Contact:
     section_help: str
     effects: tuple[Effect, ...]
     rules: tuple[str, ...] = ()
-    topics: tuple[str, ...] = ("force", "wrench")
-    topics_of_keys: Mapping[str, str] = field(default_factory=dict)
+    topics: tuple[ContactTopic, ...] = (FORCE, WRENCH)
     bench_topics: tuple[str, ...] = ()
     loosest_integration: Callable[[Mapping[str, Any]], float] = lambda _effects: LOOSEST_INTEGRATION
 
@@ -50,8 +49,13 @@ class Contact:
         return next(effect.name for effect in self.effects if effect.carries)
 
     def published(self, scene: Mapping[str, Any]) -> list[str]:
-        """Topics of the contact that the plain data of a resolved scene calls for."""
+        """Topics of the contact that the plain data of a resolved scene calls for, by whole name."""
         keys, named = scene.get(self.name) or {}, scene["effects"].get(self.name) or {}
-        own = [*self.topics, *(topic for key, topic in self.topics_of_keys.items() if keys.get(key))]
-        own += [effect.publishes for effect in self.effects if effect.publishes and named.get(effect.name) is not None]
-        return [f"{self.name}/{topic}" for topic in own]
+        return [f"{self.name}/{topic.name}" for topic in self.topics if self._calls_for(topic, keys, named)]
+
+    def _calls_for(self, topic: ContactTopic, keys: Mapping[str, Any], named: Mapping[str, Any]) -> bool:
+        """Whether the key and one of the effects that a topic needs are there."""
+        publishers = [effect.name for effect in self.effects if effect.publishes == topic.name]
+        return (not topic.key or bool(keys.get(topic.key))) and (
+            not publishers or any(named.get(name) is not None for name in publishers)
+        )

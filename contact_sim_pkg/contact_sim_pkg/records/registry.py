@@ -6,14 +6,18 @@ Every part of the bench goes over this registry; none asks which rig it is.
 from __future__ import annotations
 
 from functools import cache
+from operator import itemgetter
 from pathlib import Path
 
 from contact_sim_pkg.records.contact import Contact
 from contact_sim_pkg.records.effect import Effect
 from contact_sim_pkg.records.report import ContactReport
 from contact_sim_pkg.records.rig import Rig, load
+from contact_sim_pkg.records.topic import COMMON, Topic, recorded_topic
 
-__all__ = ["contact_reports", "contacts", "effects", "refused_sections", "rig_names", "rigs", "shipped_scenes"]
+__all__ = [
+    "contact_reports", "contact_topics", "contacts", "effects", "refused_sections", "rig_names", "rigs", "shipped_scenes",
+]  # fmt: skip
 
 _PACKAGES = "contact_sim_pkg.rigs:PACKAGES"
 
@@ -54,6 +58,21 @@ def contacts() -> dict[str, Contact]:
                     f"two contacts are named {contact.name}: one of the rig {rig.name}; rename one of them"
                 )
     return found
+
+
+def contact_topics() -> tuple[Topic, ...]:
+    """Topics of all contacts in canonical order: those of `COMMON`, each for all contacts, then the
+    others, contact by contact.
+
+    A further rig at the end of the packages leaves the order of the topics before it.
+    """
+    places = {topic.name: place for place, topic in enumerate(COMMON)}
+    found = [
+        (places.get(topic.name, len(places)), recorded_topic(f"{contact.name}/{topic.name}", topic.type, topic.rate))
+        for contact in contacts().values()
+        for topic in contact.topics
+    ]
+    return tuple(topic for _, topic in sorted(found, key=itemgetter(0)))
 
 
 @cache

@@ -126,5 +126,5 @@ def test_a_record_names_effects_and_topics_that_its_contact_has(contact):
     assert [effect.name for effect in contact.effects if effect.carries] == [contact.carrier]
     for effect in contact.effects:
         assert {*effect.needs, *effect.excludes} <= {*names} - {effect.name}
-        assert f"{contact.name}/{effect.publishes or contact.topics[0]}" in TOPICS
+        assert f"{contact.name}/{effect.publishes or contact.topics[0].name}" in TOPICS
         assert not effect.publishes or effect.publishes in effect.feeds

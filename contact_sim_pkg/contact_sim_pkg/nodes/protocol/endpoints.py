@@ -16,8 +16,9 @@ from rclpy.qos import DurabilityPolicy, HistoryPolicy, QoSProfile, ReliabilityPo
 from rclpy.subscription import Subscription
 from rclpy.topic_endpoint_info import TopicEndpointInfo
 
-from contact_sim_pkg.bag.topics import Topic, topic_of
+from contact_sim_pkg.bag.topics import topic_of
 from contact_sim_pkg.nodes.protocol.states import REFUSED, NodeError
+from contact_sim_pkg.records.topic import Topic
 
 KEPT = "error_of_a_subscription"  # attribute of a node
 UNKNOWN = "_NODE_NAME_UNKNOWN_"  # what the graph says before it has heard the node's name

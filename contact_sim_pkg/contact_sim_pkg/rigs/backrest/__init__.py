@@ -2,6 +2,7 @@
 
 from contact_sim_pkg.records.contact import Contact
 from contact_sim_pkg.records.rig import Rig
+from contact_sim_pkg.records.topic import FORCE, PATCH, POINTS, WRENCH
 from contact_sim_pkg.rigs.backrest.effects import BACKREST_EFFECTS
 
 __all__ = ["BACKREST", "RIGS"]
@@ -13,7 +14,7 @@ BACKREST = Contact(
     section_help="occupant against a seat back (rig backrest); defaults where absent",
     effects=BACKREST_EFFECTS,
     rules=(f"{__name__}.schema_rules:backrest_breaches",),
-    topics=("force", "wrench", "patch", "points"),
+    topics=(FORCE, WRENCH, PATCH, POINTS),
     bench_topics=("bench/episodes",),
 )
 

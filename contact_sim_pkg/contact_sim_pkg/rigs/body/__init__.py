@@ -2,6 +2,7 @@
 
 from contact_sim_pkg.records.contact import LOOSEST_INTEGRATION, Contact
 from contact_sim_pkg.records.rig import Rig
+from contact_sim_pkg.records.topic import FORCE, POINTS, WRENCH
 from contact_sim_pkg.rigs.body.effects import BLOCK_EFFECTS
 
 __all__ = ["RIGS"]
@@ -18,7 +19,7 @@ BLOCK = Contact(
     section_help="rigid body over the ground (rig block); defaults where absent",
     effects=BLOCK_EFFECTS,
     rules=(f"{__name__}.schema_rules:block_breaches",),
-    topics=("force", "wrench", "points"),
+    topics=(FORCE, WRENCH, POINTS),
     loosest_integration=lambda effects: (
         RIGID_INTEGRATION if effects.get("compliant_contact") is None else LOOSEST_INTEGRATION
     ),

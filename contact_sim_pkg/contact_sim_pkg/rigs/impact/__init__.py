@@ -2,9 +2,12 @@
 
 from contact_sim_pkg.records.contact import Contact
 from contact_sim_pkg.records.rig import Rig
+from contact_sim_pkg.records.topic import FORCE, WRENCH, ContactTopic
 from contact_sim_pkg.rigs.impact.effects import IMPACT_EFFECTS
 
 __all__ = ["RIGS"]
+
+AN_IMPACT = "an impact"  # when a message comes
 
 IMPACT = Contact(
     name="impact",
@@ -13,8 +16,17 @@ IMPACT = Contact(
     section_help="impact of a sphere on a sample (rig impact); defaults where absent",
     effects=IMPACT_EFFECTS,
     rules=(f"{__name__}.schema_rules:impact_breaches",),
-    topics=("force", "wrench", "events"),
-    topics_of_keys={"course_samples": "course"},
+    topics=(
+        FORCE,
+        WRENCH,
+        ContactTopic("events", "contact_msgs_defs/msg/ImpactEvents", "a block in which an impact ended"),
+        ContactTopic("course", "contact_msgs_defs/msg/ImpactCourse", AN_IMPACT, key="course_samples"),
+        ContactTopic("stress", "contact_msgs_defs/msg/ImpactStress", AN_IMPACT),
+        ContactTopic("wave", "contact_msgs_defs/msg/ImpactWave", AN_IMPACT),
+        ContactTopic("front", "contact_msgs_defs/msg/ImpactFront", AN_IMPACT),
+        ContactTopic("position", "contact_msgs_defs/msg/ImpactPosition", AN_IMPACT),
+        ContactTopic("history", "contact_msgs_defs/msg/ImpactHistory", AN_IMPACT),
+    ),
 )
 
 RIGS = (

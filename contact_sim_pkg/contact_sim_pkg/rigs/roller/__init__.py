@@ -5,6 +5,7 @@ Rig roller.
 
 from contact_sim_pkg.records.contact import Contact
 from contact_sim_pkg.records.rig import Rig
+from contact_sim_pkg.records.topic import BLOCK, FORCE, ContactTopic
 from contact_sim_pkg.rigs.roller.effects import ROLLER_EFFECTS
 
 __all__ = ["RIGS"]
@@ -16,7 +17,17 @@ ROLLER = Contact(
     section_help="roller on a rotating shaft (rig roller); defaults where absent",
     effects=ROLLER_EFFECTS,
     rules=(f"{__name__}.schema_rules:roller_breaches",),
-    topics=("force", "contact"),
+    topics=(
+        FORCE,
+        ContactTopic(
+            "stability",
+            "contact_msgs_defs/msg/RollerStability",
+            "the first block, and each in which the load changed",
+        ),
+        ContactTopic("contact", "contact_msgs_defs/msg/RollerContact"),
+        ContactTopic("track", "contact_msgs_defs/msg/RollerTrack", BLOCK),
+        ContactTopic("volumes", "contact_msgs_defs/msg/RollerVolumes", "`effects.roller.subsurface.instants`"),
+    ),
 )
 
 RIGS = (

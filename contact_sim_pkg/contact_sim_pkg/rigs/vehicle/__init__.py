@@ -2,6 +2,7 @@
 
 from contact_sim_pkg.records.contact import Contact
 from contact_sim_pkg.records.rig import Rig
+from contact_sim_pkg.records.topic import FIELD, FORCE, PATCH, WRENCH, ContactTopic
 from contact_sim_pkg.rigs.vehicle.seat.effects import SEAT_EFFECTS
 from contact_sim_pkg.rigs.vehicle.tire.effects import TIRE_EFFECTS
 
@@ -14,6 +15,7 @@ TIRE = Contact(
     section_help="quarter car and tire (rigs tire and car); defaults where absent",
     effects=TIRE_EFFECTS,
     rules=tuple(f"{__name__}.tire.schema_rules:{name}" for name in ("slip_breaches", "tire_effect_breaches")),
+    topics=(FORCE, WRENCH, PATCH, ContactTopic("shear", "contact_msgs_defs/msg/ContactShear", FIELD)),
 )
 SEAT = Contact(
     name="seat",
@@ -22,6 +24,7 @@ SEAT = Contact(
     section_help="occupant and cushion (rigs seat and car); defaults where absent",
     effects=SEAT_EFFECTS,
     rules=(f"{__name__}.seat.schema_rules:occupant_breaches",),
+    topics=(FORCE, WRENCH, PATCH),
 )
 _SIMULATION = f"{__name__}.simulation:Simulation"
 _ACCURACY = (f"{__name__}.studies.accuracy",)
