@@ -16,6 +16,7 @@ from contact_sim_pkg.bag.errors import BagError
 from contact_sim_pkg.bag.reader import Bag
 from contact_sim_pkg.bag.texts import scene_of_text
 from contact_sim_pkg.bag.typestore import store_of_definition
+from contact_sim_pkg.records.messages import SolverCost
 from contact_sim_pkg.records.rig import load
 from contact_sim_pkg.report.field_series import FieldReader
 from contact_sim_pkg.report.point_reading import PointReader
@@ -71,7 +72,7 @@ def read_recording(bag: Bag) -> Recording:
     contacts = {contact_of[name]: _contact(columns(name, contact_columns)) for name in topics[FORCE]}
     motion = next((_motion(columns(name, MOTION_COLUMNS)) for name in topics[MOTION]), None)
     ledger = next((LedgerSeries(**columns(name, LedgerSeries._fields)) for name in topics[ENERGY]), None)
-    cost = next((_cost(columns(name, CostSeries._fields)) for name in topics[COST]), None)
+    cost = next((_cost(columns(name, ("time", *SolverCost._fields))) for name in topics[COST]), None)
     listed = [name for name, row in bag.topics.items() if row.type == EPISODES]
     episodes = next((_episodes(columns, name, name in decoded) for name in listed), None)
     scene = scene_of_text(bag.scene, f"scene of {bag.path}")
@@ -244,4 +245,4 @@ def _episodes(columns: Callable[[str, tuple[str, ...]], dict[str, Any]], topic: 
 
 
 def _cost(columns: dict[str, Any]) -> CostSeries:
-    return CostSeries(**{name: np.asarray(column, dtype=np.float64) for name, column in columns.items()})
+    return {name: np.asarray(column, dtype=np.float64) for name, column in columns.items()}

@@ -7,7 +7,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from types import MappingProxyType
-from typing import Any, NamedTuple
+from typing import Any, NamedTuple, TypeAlias
 
 import numpy as np
 from numpy.typing import NDArray
@@ -16,6 +16,10 @@ from contact_sim_pkg.records.messages import ContactEpisodes
 from contact_sim_pkg.report.point_series import PointSeries
 
 FloatArray = NDArray[np.float64]
+CostSeries: TypeAlias = Mapping[str, FloatArray]
+"""Columns of `bench/cost`, one value a block: `time` of the block's start [s], and the fields of
+`SolverCost.msg` by name, which gives their units.
+"""
 
 
 class ContactSeries(NamedTuple):
@@ -135,27 +139,6 @@ class LedgerSeries(NamedTuple):
     supplied: FloatArray
     residual: FloatArray
     """[J] each"""
-
-
-class CostSeries(NamedTuple):
-    """What each block cost."""
-
-    time: FloatArray
-    """[s] simulated time of the block's start"""
-    wall_time: FloatArray
-    """[s]"""
-    real_time_factor: FloatArray
-    steps: FloatArray
-    rejected_steps: FloatArray
-    events: FloatArray
-    field_iterations: FloatArray
-    field_residual: FloatArray
-    field_jump: FloatArray
-    """[N]"""
-    stretches: FloatArray
-    stretches_repeated: FloatArray
-    coupling_error: FloatArray
-    """over the standing load"""
 
 
 class EpisodeSeries(NamedTuple):

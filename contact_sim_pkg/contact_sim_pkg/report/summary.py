@@ -103,20 +103,20 @@ def solver_numbers(cost: CostSeries) -> dict[str, Any]:
     """Steps, events and iterations over the run; wall time of the physics; largest field residual
     and jump.
     """
-    wall = float(cost.wall_time.sum())
+    wall = float(cost["wall_time"].sum())
     # Real-time factor of the whole run, not the mean of its blocks
-    simulated = float((cost.real_time_factor * cost.wall_time).sum())
+    simulated = float((cost["real_time_factor"] * cost["wall_time"]).sum())
     return {
-        "blocks": int(cost.time.size),
-        "steps": int(cost.steps.sum()),
-        "rejected_steps": int(cost.rejected_steps.sum()),
-        "events": int(cost.events.sum()),
-        "field_iterations": int(cost.field_iterations.sum()),
-        "field_residual_max": float(cost.field_residual.max()),
-        "field_jump_max_N": float(cost.field_jump.max()),
-        "stretches": int(cost.stretches.sum()),
-        "stretches_repeated": int(cost.stretches_repeated.sum()),
-        "coupling_error_max": float(cost.coupling_error.max()),
+        "blocks": int(cost["time"].size),
+        "steps": int(cost["steps"].sum()),
+        "rejected_steps": int(cost["rejected_steps"].sum()),
+        "events": int(cost["events"].sum()),
+        "field_iterations": int(cost["field_iterations"].sum()),
+        "field_residual_max": float(cost["field_residual"].max()),
+        "field_jump_max_N": float(cost["field_jump"].max()),
+        "stretches": int(cost["stretches"].sum()),
+        "stretches_repeated": int(cost["stretches_repeated"].sum()),
+        "coupling_error_max": float(cost["coupling_error"].max()),
         "physics_wall_s": wall,
         "physics_real_time_factor": simulated / wall if wall > 0.0 else math.nan,
     }

@@ -44,12 +44,12 @@ def energy_balance(ledger: LedgerSeries) -> Picture:
 def real_time_factor(cost: CostSeries) -> Picture:
     """Real-time factor of the blocks over time, and how often each wall time occurs."""
     figure, axes = new_figure(2.7, 1, 2, width_ratios=[3, 2])
-    draw_series(axes[0], cost.time, cost.real_time_factor, color=ACCENT, linewidth=0.8)
+    draw_series(axes[0], cost["time"], cost["real_time_factor"], color=ACCENT, linewidth=0.8)
     axes[0].axhline(1.0, color=INK, linewidth=0.9, linestyle=(0, (4, 3)))
     axes[0].set_yscale("log")
     axes[0].set_xlabel("simulated time, s")
     axes[0].set_ylabel("real-time factor\nof the physics")
-    milliseconds = cost.wall_time * 1e3
+    milliseconds = cost["wall_time"] * 1e3
     # The slowest hundredth is counted in the last bin, so that one slow first block does not squeeze the rest.
     limit = float(np.percentile(milliseconds, 99.0)) * 1.1
     axes[1].hist(np.minimum(milliseconds, limit), bins=40, color=ACCENT)
@@ -62,8 +62,8 @@ def real_time_factor(cost: CostSeries) -> Picture:
 
 def _cost_caption(cost: CostSeries) -> str:
     numbers = solver_numbers(cost)
-    milliseconds = cost.wall_time * 1e3
-    slow = float((cost.real_time_factor < 1.0).mean())
+    milliseconds = cost["wall_time"] * 1e3
+    slow = float((cost["real_time_factor"] < 1.0).mean())
     text = (
         f"{numbers['blocks']} blocks took {numbers['physics_wall_s']:.3g} s of wall time for the physics: "
         f"{numbers['physics_real_time_factor']:.3g} times as fast as the clock. Median "
