@@ -74,7 +74,7 @@ BASES: dict[str, tuple[tuple[str, ...], ...]] = {  # rig -> shipped scenes with 
 RARE_BASES: dict[str, tuple[tuple[str, ...], ...]] = {  # what no shipped scene names: compiled for the long form alone
     "tire": (
         ("tire_bump", "effects.tire.tread_viscoelasticity={retardation_time: 0.01, branches: []}"),
-        ("tire_bump", "effects.tire.carcass={}", "effects.tire.asperity_impulses={}"),
+        ("tire_bump", "effects.tire.rigid_ring={}", "effects.tire.asperity_impulses={}"),
     ),
     "seat": (("seat_ride", "effects.seat.friction={}"),),
     "backrest": (("seat_slap", "effects.backrest.shell_modes={}"),),

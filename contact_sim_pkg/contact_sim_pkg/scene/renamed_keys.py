@@ -11,7 +11,7 @@ from typing import Any
 from contact_sim_pkg.scene.errors import Fault
 from contact_sim_pkg.scene.yaml.nodes import MappingNode, Mark
 
-RENAMED: dict[str, str] = {}
+RENAMED: dict[str, str] = {"effects.tire.carcass": "effects.tire.rigid_ring"}
 """Old key -> new key. `docs/interfaces.md` lists them; an entry stays as long as bags with the old key are read."""
 
 

@@ -8,7 +8,7 @@ from contact_sim_pkg.laws.parameters import GeneralDissipative, NormalDissipativ
 from contact_sim_pkg.pressure.settings import BeltSettings
 from contact_sim_pkg.reference import general_law
 from contact_sim_pkg.rigs.vehicle.model import build
-from contact_sim_pkg.rigs.vehicle.parameters import Carcass
+from contact_sim_pkg.rigs.vehicle.parameters import RigidRing
 from contact_sim_pkg.rigs.vehicle.tire.parameters import Brush
 
 TIRE = "effects.tire"
@@ -32,15 +32,15 @@ def test_a_loss_by_restitution_gives_that_restitution():
 
 def test_effects_that_a_scene_does_not_name_are_none():
     plain = model()
-    parts = (plain.rig.carcass, plain.tread, plain.rolling_friction, plain.asperities)
+    parts = (plain.rig.rigid_ring, plain.tread, plain.rolling_friction, plain.asperities)
     assert parts == (None, None, None, None)
     assert plain.tire_field.usual.settings.belt is None
     assert plain.rig.tire.wheel_mass == 40.0
 
 
-def test_a_carcass_takes_its_belt_from_the_wheel():
-    made = model(f"{TIRE}.carcass={{belt_mass: 9, stiffness: 4e5, damping: 50}}").rig
-    assert made.carcass == Carcass(4, 9.0, 4e5, 50.0)
+def test_the_belt_of_a_rigid_ring_is_no_part_of_the_wheel():
+    made = model(f"{TIRE}.rigid_ring={{belt_mass: 9, stiffness: 4e5, damping: 50}}").rig
+    assert made.rigid_ring == RigidRing(4, 9.0, 4e5, 50.0)
     assert made.tire.wheel_mass == 31.0
 
 

@@ -8,14 +8,14 @@ from contact_sim_pkg.scene.resolve import load_resolved
 
 CASES = {
     "tire_bump": (1.2,),
-    "tire_bump on its carcass": (1.2, "effects.tire.carcass={}"),
+    "tire_bump on a rigid ring": (1.2, "effects.tire.rigid_ring={}"),
     "seat_ride": (0.5,),
     "seat_ride on a viscoelastic cushion": (
         0.5,
         "effects.seat={normal_elastic: {}, general_dissipative: {coefficient: 8000, approach_exponent: 0.5}}",
     ),
     "car_full_bench": (0.5,),
-    "car_full_bench on its carcass": (0.3, "effects.tire.carcass={}"),
+    "car_full_bench on a rigid ring": (0.3, "effects.tire.rigid_ring={}"),
     "tire_rough_road": (0.3,),
 }
 

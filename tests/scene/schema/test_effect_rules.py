@@ -9,14 +9,14 @@ from contact_sim_pkg.records.registry import contacts, effects
 
 EFFECTS = (
     "normal_elastic", "normal_dissipative", "general_dissipative", "foam", "foam_hysteresis", "friction", "contact_field",
-    "pressure_mat", "shell_modes", "contact_search", "carcass",
+    "pressure_mat", "shell_modes", "contact_search", "rigid_ring",
     "envelopment",
     "tread_viscoelasticity", "brush", "asperity_impulses",
     "shift", "contact_stress", "surface_waves", "micro_front", "thermal_volume", "history", "gauge_noise",
     "rigid_contact", "compliant_contact",
     "tilt_yaw", "gyroscope", "rolling_friction", "shaft_bending", "track_waves", "subsurface", "damage",
 )  # fmt: skip
-TIRE_ONLY = {"carcass", "envelopment", "tread_viscoelasticity", "brush", "asperity_impulses"}
+TIRE_ONLY = {"rigid_ring", "envelopment", "tread_viscoelasticity", "brush", "asperity_impulses"}
 OF_THE_ROLLER = (
     "tilt_yaw", "gyroscope", "rolling_friction", "shaft_bending", "track_waves", "subsurface", "damage",
 )  # fmt: skip

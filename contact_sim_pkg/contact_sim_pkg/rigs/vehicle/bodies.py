@@ -19,7 +19,7 @@ from contact_sim_pkg.rigs.vehicle.tire.footprint import effective_between
 from contact_sim_pkg.run.errors import RunError
 
 Sampled = tuple[Vector, Vector, Vector]  # states, rates, forces; [samples, ...] each
-Offsets = tuple[float, float]  # [m] of tire and seat
+Corrections = tuple[float, float]  # [m] of tire and seat
 
 
 class CouplingStep(NamedTuple):
@@ -65,41 +65,39 @@ class Bodies:
         self.reset()
 
     def reset(self) -> None:
-        """Forget everything but the buffers."""
+        """Reset all but the buffers."""
         self.state: Vector = numpy.zeros(self.model.states)
         self.mode: Modes = numpy.zeros(1, dtype=numpy.int64)
         self.work = make_workspace(self.model.states, EVENT_FUNCTIONS)
 
     def stand(self, smooth: float) -> None:
-        """Let the rig stand in balance on a road of height ``smooth`` [m], by its contact laws."""
+        """Set the rig in equilibrium on a road of height ``smooth`` [m], by its contact laws."""
         self.state[:] = standing_state(self.model, smooth)
 
     def lift(self, height: float) -> None:
         """Move the whole rig up by ``height`` [m]."""
         rig = self.model.rig
-        vertical = [0, 1] if rig.carcass is None else [0, 1, rig.carcass.offset]
+        vertical = [0, 1] if rig.rigid_ring is None else [0, 1, rig.rigid_ring.offset]
         if rig.seat is not None:
             vertical += range(rig.seat.offset, rig.seat.offset + 1 + len(rig.seat.masses))
         self.state[vertical] += height
 
     def weight(self) -> float:
-        """What the tire carries at rest, in [N]."""
+        """Load [N] of the tire at rest."""
         rig = self.model.rig
         assert rig.tire is not None
         mass = rig.tire.wheel_mass + rig.tire.body_mass
-        if rig.carcass is not None:
-            mass += rig.carcass.belt_mass
+        if rig.rigid_ring is not None:
+            mass += rig.rigid_ring.belt_mass
         if rig.seat is not None:
             mass += rig.seat.frame_mass + float(rig.seat.masses.sum())
         return mass * rig.gravity
 
-    def start(self, first: BlockDrive, offsets: Offsets) -> None:
-        """Take the sides of the event functions at the start of a run; ``first`` is its first
-        segment.
-        """
+    def start(self, first: BlockDrive, corrections: Corrections) -> None:
+        """Set the event directions at the start of a run, whose first segment is ``first``."""
         entries.start(
-            self.model.rig, self.mode, self.state, self.work, self.model.timing.segment_length, first.smooth + offsets[0],
-            numpy.full(2, offsets[1]), first.acceleration_x, first.acceleration_z, first.push,
+            self.model.rig, self.mode, self.state, self.work, self.model.timing.segment_length, first.smooth + corrections[0],
+            numpy.full(2, corrections[1]), first.acceleration_x, first.acceleration_z, first.push,
         )  # fmt: skip
 
     def save(self) -> Saved:
@@ -114,9 +112,10 @@ class Bodies:
         work = self.work
         self.state[:], self.mode[:], work.event_direction[:], work.step[:], work.last_event[:] = saved
 
-    def move(self, step: CouplingStep, starts: Offsets, ends: Offsets) -> None:
-        """Move over a coupling step, the offsets going straight from ``starts`` to ``ends``.
-        RunError where the physics fails.
+    def move(self, step: CouplingStep, starts: Corrections, ends: Corrections) -> None:
+        """Move over a coupling step with corrections linear from ``starts`` to ``ends`` [m].
+
+        Raises RunError where the physics fails.
         """
         timing, drive = self.model.timing, step.drive
         points = step.segments + 1
@@ -146,7 +145,7 @@ class Bodies:
         rig = self.model.rig
         if rig.tire is None:
             return 0.0
-        return height - float(self.state[0 if rig.carcass is None else rig.carcass.offset])
+        return height - float(self.state[0 if rig.rigid_ring is None else rig.rigid_ring.offset])
 
     def seat_approach(self, cushion: float) -> float:
         """Approach in [m] of the occupant to a cushion of height ``cushion`` [m]; 0 without a seat."""

@@ -1,10 +1,9 @@
-"""The pressure field as the contact itself: what drives the bodies at a field instant is the
-integral of the field.
+"""The pressure field as the contact: at a field instant the force is the integral of the field.
 
 At instants of the run the half-space problem is solved for the rigid approach that the bodies have.
-Between two instants stands the field's tangent: the power law ``A x**n`` fitted to the field at its
-working load (``fit_tangent``), read at the approach plus an *offset* that makes it give exactly the
-field's force at the instant. The offset is a height, the effective road (or cushion) height; it
+Between two instants the field's tangent acts: the power law ``A x**n`` fitted to the field at its
+working load (``fit_tangent``), read at the approach plus an effective-height correction with which
+it equals the field's force at the instant. The correction is a height of road or cushion; it
 changes linearly from instant to instant and is corrected by solving the field again at the new end
 state. What is left after the last correction is a jump at the instant, measured and published as
 ``field_jump``.
@@ -31,9 +30,7 @@ TANGENT_TOLERANCE = 1e-7  # of these two solutions: their difference is a thirti
 
 
 class FieldError(RuntimeError):
-    """The field could not be solved: contact at the grid's edge, or no convergence. The message
-    says which.
-    """
+    """The field could not be solved: contact at the grid's edge, or no convergence."""
 
 
 class FieldEdgeError(FieldError):
@@ -48,14 +45,10 @@ def half_space_of(settings: FieldSettings) -> HalfSpace:
 
 
 class PressureField:
-    """One pressure field that follows its contact: influence tables, the solver's buffers and its
-    last field.
-    """
+    """One pressure field that follows its contact: influence tables, buffers, and the last solution."""
 
     def __init__(self, settings: FieldSettings, contact: str) -> None:
-        """Make influence tables and buffers for ``settings``; ``contact`` names it in messages
-        (``tire``, ``seat``).
-        """
+        """Make tables and buffers for ``settings``; ``contact`` (``tire``, ``seat``) is its name in messages."""
         self.settings = settings
         self.contact = contact
         self.half_space: HalfSpace = half_space_of(settings)
@@ -67,27 +60,24 @@ class PressureField:
         self.residual = 0.0
 
     def reset(self) -> None:
-        """The next field starts from nothing."""
+        """Drop the previous solution."""
         self._field.reset()
         self._row = None
 
     def roll_to(self, row: int) -> None:
-        """Row 0 of the grid lies on ``row`` of the road now. Call it before each solve; the same
-        row again changes nothing.
+        """Set ``row`` of the road under row 0 of the grid, before each solve.
 
-        What is known of the field moves with the road. Several solves at one row repeat the
-        instant: the last one counts.
+        The previous solution moves with the road. Several solves at one row repeat the instant.
         """
         if self._row is not None and row != self._row:
             self._field.roll(row - self._row)
         self._row = row
 
     def solve(self, gap: Field, approach: float) -> float:
-        """Solve for ``gap`` [m] (undeformed, at zero approach) and ``approach`` [m]; returns the
-        load in [N], 0 without contact.
+        """Load [N] at ``gap`` [rows, cols] [m] (undeformed, at zero approach) and ``approach`` [m].
 
-        Starts from what is known of the fields before. Raises FieldError where the contact reaches
-        the edge or does not converge.
+        0 without contact. Starts from the previous solution. Raises FieldError where the contact
+        reaches the edge or the solver does not converge.
         """
         s = self.settings
         result = self._field.solve_at_approach(gap, approach, s.tolerance, s.maximum_iterations)
@@ -95,9 +85,7 @@ class PressureField:
         return self.load
 
     def solve_load(self, gap: Field, load: float, tolerance: float | None = None) -> float:
-        """Solve for ``load`` [N]; returns the approach in [m]. ``tolerance`` None: that of the
-        settings. Errors as ``solve``.
-        """
+        """Approach [m] under ``load`` [N]; ``tolerance`` None: that of the settings. Errors as ``solve``."""
         s = self.settings
         requested = s.tolerance if tolerance is None else tolerance
         result = self._field.solve_at_load(gap, load, requested, s.maximum_iterations)
@@ -127,11 +115,10 @@ class PressureField:
 
 
 def fit_tangent(field: PressureField, gap: Field, load: float) -> NormalElastic:
-    """Power law through the field's approach at ``load`` [N] and at 5 % more: the tangent between
-    field instants.
+    """Power law through the field's approach at ``load`` [N] and at 5 % more: the tangent between instants.
 
-    Both are solved to 1e-7 whatever the field's own tolerance: the loss and the effective height
-    are read from this law.
+    gap: [rows, cols] [m]. Both are solved to 1e-7 whatever the field's own tolerance: dissipation
+    and effective height are read from this law.
     """
     tolerance = min(TANGENT_TOLERANCE, field.settings.tolerance)
     first = field.solve_load(gap, load, tolerance)
@@ -140,12 +127,11 @@ def fit_tangent(field: PressureField, gap: Field, load: float) -> NormalElastic:
     return NormalElastic(load / first**exponent, exponent)
 
 
-def offset_of(elastic: ElasticLaw, field: PressureField, gap: Field, approach: float, geometric: float) -> float:
-    """Height in [m] to add to the ``geometric`` approach [m] so that the tangent law gives the
-    field's force.
+def correction_of(elastic: ElasticLaw, field: PressureField, gap: Field, approach: float, geometric: float) -> float:
+    """Effective-height correction [m] of the ``geometric`` approach [m]: the law then has the field's force.
 
-    ``approach`` [m] is what the field was solved at. Without contact the law's approach is minus
-    the smallest distance.
+    ``field`` was solved at ``gap`` [rows, cols] [m] and ``approach`` [m]. Without contact the law's
+    approach is minus the smallest distance.
     """
     if field.load > 0.0:
         return float(approach_of_force(elastic, field.load)) - geometric

@@ -51,7 +51,7 @@ def _tangential(friction, seat, mode, normal, state):
 def _observe(rig, drive, mode, state, out):
     """Forces, approaches and heights of both contacts at the start of the segment."""
     height, height_rate, cushion, cushion_rate, _a_x, _a_z = quarter_car.drive_at(drive, drive.start)
-    tire_x, tire_v = quarter_car.tire_approach(rig.tire, rig.carcass, height, height_rate, state)
+    tire_x, tire_v = quarter_car.tire_approach(rig.tire, rig.rigid_ring, height, height_rate, state)
     seat_x, seat_v = vehicle.seat_approach(rig.tire, rig.seat, cushion, cushion_rate, state)
     seat_normal = vehicle.normal_force(rig.seat_contact, seat_x, seat_v, state)
     out[TIRE_NORMAL] = vehicle.normal_force(rig.tire_contact, tire_x, tire_v, state)
@@ -113,12 +113,16 @@ def _tire_energies(tire, gravity, state):
 
 
 @borrowing_kernel
-def _carcass_energies(carcass, gravity, state):
-    if carcass is None:
+def _rigid_ring_energies(rigid_ring, gravity, state):
+    if rigid_ring is None:
         return 0.0, 0.0, 0.0
-    belt = carcass.offset
-    kinetic = 0.5 * carcass.belt_mass * state[belt + 1] ** 2
-    return kinetic, gravity * carcass.belt_mass * state[belt], 0.5 * carcass.stiffness * (state[belt] - state[0]) ** 2
+    belt = rigid_ring.offset
+    kinetic = 0.5 * rigid_ring.belt_mass * state[belt + 1] ** 2
+    return (
+        kinetic,
+        gravity * rigid_ring.belt_mass * state[belt],
+        0.5 * rigid_ring.stiffness * (state[belt] - state[0]) ** 2,
+    )
 
 
 @borrowing_kernel
@@ -169,12 +173,12 @@ def energies(
 ) -> tuple[float, float, float, float, float]:
     """Kinetic, potential, stored energy, work supplied, work dissipated, all in [J], of ``state`` at given heights in [m]."""
     kinetic, potential, stored = _tire_energies(rig.tire, rig.gravity, state)
-    belt_kinetic, belt_potential, belt_stored = _carcass_energies(rig.carcass, rig.gravity, state)
+    belt_kinetic, belt_potential, belt_stored = _rigid_ring_energies(rig.rigid_ring, rig.gravity, state)
     kinetic += belt_kinetic
     potential += belt_potential
     stored += belt_stored
     seat_kinetic, seat_potential, seat_stored = _seat_energies(rig.seat, rig.gravity, state)
-    tire_x, _tire_v = quarter_car.tire_approach(rig.tire, rig.carcass, height, 0.0, state)
+    tire_x, _tire_v = quarter_car.tire_approach(rig.tire, rig.rigid_ring, height, 0.0, state)
     seat_x, _seat_v = vehicle.seat_approach(rig.tire, rig.seat, cushion, 0.0, state)
     normal = vehicle.normal_force(rig.seat_contact, seat_x, _seat_v, state)
     slide_kinetic, spring = _slide_energies(vehicle._friction_of(rig.seat_contact), rig.seat, mode, normal, state)

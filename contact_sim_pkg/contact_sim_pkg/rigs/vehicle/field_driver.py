@@ -1,6 +1,4 @@
-"""What supports a body at one contact: the effective height of road or cushion, and the pressure
-field that sets it.
-"""
+"""Contact fields of a rig: effective height of road or cushion, and the pressure field behind it."""
 
 from __future__ import annotations
 
@@ -12,7 +10,7 @@ from numpy.typing import NDArray
 from contact_sim_pkg.laws.normal_force import pressure_factor
 from contact_sim_pkg.laws.parameters import Contact
 from contact_sim_pkg.pressure.settings import FieldSettings
-from contact_sim_pkg.rigs.vehicle.contact_field import FieldEdgeError, FieldError, PressureField, offset_of
+from contact_sim_pkg.rigs.vehicle.contact_field import FieldEdgeError, FieldError, PressureField, correction_of
 from contact_sim_pkg.rigs.vehicle.contact_model import FieldGrids
 from contact_sim_pkg.rigs.vehicle.model import seat_cells, seat_gap_on
 from contact_sim_pkg.rigs.vehicle.outputs import FieldRecord
@@ -21,109 +19,107 @@ from contact_sim_pkg.run.errors import RunError
 
 Gap = NDArray[numpy.float64]
 
-CALM = 0.1
-"""Of the allowed height: an offset that differs by less from the expected one is as expected."""
+AS_PREDICTED = 0.1
+"""Of the allowed height: a correction that differs by less from the expected one is as predicted."""
 
 
-class Support(ABC):
-    """The support of one contact; ``offset`` [m] is what its field adds to the smooth height, 0
-    without a field.
+class ContactField(ABC):
+    """Pressure field of one contact as the height that the bodies stand on.
+
+    ``correction`` [m] is the effective-height correction: what the field adds to the smooth height,
+    0 without a field.
     """
 
-    still = False  # the support has always the same form
-    remembers = False  # the field of each coupling step's end decides on those after it
+    is_static = False  # the gap has always the same form
+    is_viscoelastic = False  # the field at the end of each coupling step acts on those after it
 
     def __init__(self, grids: FieldGrids | None, contact: Contact | None) -> None:
-        """Take the pressure field (None: the smooth height is all there is) and the contact whose
-        law it serves.
+        """Make the driver of the pressure field ``grids``, None for the smooth height alone.
+
+        ``contact`` has the law that stands for the field between its solutions.
         """
         self.grids, self.contact = grids, contact
-        self.offset = 0.0  # [m] at the end of the last coupling step
-        self._solved = 0.0  # [m] offset at the last solution of the field
+        self.correction = 0.0  # [m] at the end of the last coupling step
+        self._solved = 0.0  # [m] correction at the last solution of the field
         self._since = 0  # segments since then
-        self._slope = 0.0  # [m] of the offset a segment, between the last two solutions
+        self._slope = 0.0  # [m] of correction per segment, between the last two solutions
         self._count = 1  # segments between them
-        self.calm = False  # the last offset was as expected: between published fields it is not looked for
+        self.as_predicted = False  # no field needs to be solved before the next published one
         self.published: FieldRecord | None = None
         self.travel = 0.0  # [m] of the contact along the road
 
     def reset(self) -> None:
-        """Forget everything but the buffers."""
+        """Reset all but the buffers."""
         self.begin(0.0)
         self.published = None
         for field in () if self.grids is None else self.grids.both():
             field.reset()
 
-    def begin(self, offset: float) -> None:
-        """A run starts with ``offset`` [m]."""
-        self.offset = self._solved = offset
-        self._slope, self._since, self._count, self.calm = 0.0, 0, 1, False
+    def begin(self, correction: float) -> None:
+        """Start a run with ``correction`` [m]."""
+        self.correction = self._solved = correction
+        self._slope, self._since, self._count, self.as_predicted = 0.0, 0, 1, False
 
-    def expected(self, count: int) -> float:
-        """Offset in [m] after a coupling step of ``count`` segments if it goes on as between the
-        last two solutions.
-        """
+    def predicted(self, count: int) -> float:
+        """Correction [m] after a step of ``count`` segments, extrapolated from the last two solutions."""
         return self._solved + self._slope * (self._since + count)
 
-    def bend(self, offset: float, count: int) -> float:
-        """Largest distance in [m] of the straight line to ``offset`` [m], ``count`` segments on,
-        from a parabola through three.
+    def interpolation_error(self, correction: float, count: int) -> float:
+        """Largest distance [m] between the straight line to ``correction`` [m], ``count`` segments on,
+        and a parabola through the last three solutions.
         """
         span = self._since + count
-        slope = (offset - self._solved) / span
+        slope = (correction - self._solved) / span
         return abs(slope - self._slope) * span**2 / (4.0 * (self._count + span))
 
-    def turn(self, offset: float, count: int) -> float:
-        """Largest error in [m] a segment of the slope of that line against the parabola's."""
+    def slope_error(self, correction: float, count: int) -> float:
+        """Largest difference [m] per segment between the slopes of that line and of the parabola."""
         span = self._since + count
-        return abs((offset - self._solved) / span - self._slope) * span / (self._count + span)
+        return abs((correction - self._solved) / span - self._slope) * span / (self._count + span)
 
-    def take(self, offset: float, count: int, solved: bool, allowed: float) -> None:
-        """A coupling step of ``count`` segments is done; ``offset`` [m] was found there, or
-        expected; ``allowed`` [m] is its error.
+    def accept(self, correction: float, count: int, solved: bool, allowed: float) -> None:
+        """Accept a coupling step of ``count`` segments with the ``correction`` [m] at its end.
+
+        ``solved``: by a solution of the field; else it is the predicted one. ``allowed`` [m] is its error.
         """
         span = self._since + count
         if solved:
-            self.calm = self.still and abs(offset - self.expected(count)) <= CALM * allowed
-            self._slope, self._count = (offset - self._solved) / span, span
-            self._solved, span = offset, 0
-        self._since, self.offset = span, offset
+            self.as_predicted = self.is_static and abs(correction - self.predicted(count)) <= AS_PREDICTED * allowed
+            self._slope, self._count = (correction - self._solved) / span, span
+            self._solved, span = correction, 0
+        self._since, self.correction = span, correction
 
     def solve(self, approach: float, geometric: float, block: int) -> float:
-        """Solve the field at ``approach`` [m]; returns the offset to the ``geometric`` approach [m]
-        of the smooth height.
+        """Solve the field at ``approach`` [m]; returns the correction [m] of the ``geometric`` approach [m].
 
-        Where the contact outgrows the usual grid, or touches beyond it, the wide one takes over.
+        Where the contact outgrows the usual grid, or touches beyond it, the wide grid is solved.
         Raises RunError where that is too small as well.
         """
         if self.grids is None or self.contact is None:
             return 0.0
+        # The usual grid serves unless the contact reaches beyond it.
         try:
-            offset = self._solve_on(self.grids.usual, approach, geometric)
+            correction = self._solve_on(self.grids.usual, approach, geometric)
             if not self.touches_beyond(self.grids, approach):
-                return offset
+                return correction
         except FieldEdgeError:
             self.grids.usual.reset()
         except FieldError as error:
             raise RunError(f"block {block}: {error}") from None
         try:
-            offset = self._solve_on(self.grids.wide, approach, geometric)
+            correction = self._solve_on(self.grids.wide, approach, geometric)
         except FieldError as error:
             raise RunError(f"block {block}: {error}") from None
         self.refuse_beyond(self.grids, approach, block)
-        return offset
+        return correction
 
     def stand(self, load: float) -> float:
-        """Approach in [m] at which the field carries ``load`` [N]; the start of a run. Errors as
-        ``solve``.
-        """
+        """Approach [m] at which the field carries ``load`` [N] at the start of a run. Errors as ``solve``."""
         assert self.grids is not None
         return self._stand_on(self.grids, load)[0]
 
     def _stand_on(self, grids: FieldGrids, load: float) -> tuple[float, PressureField]:
-        """Approach in [m] under ``load`` [N] and the field that carries it: the usual one, or the
-        wide one.
-        """
+        """Approach [m] under ``load`` [N], and the field that carries it: the usual or the wide one."""
         for field in grids.both():
             try:
                 field.roll_to(self.road_row(field.settings))
@@ -140,8 +136,8 @@ class Support(ABC):
                 raise RunError(f"block 0: {error}") from None
         raise RunError(f"block 0: {last}")
 
-    def keep(self) -> None:  # noqa: B027  # most supports remember nothing
-        """The last field is the one of its instant: what remembers it takes it over."""
+    def store(self) -> None:  # noqa: B027  # most contacts are elastic
+        """Store the last field as that of its instant, where the material is viscoelastic."""
 
     def take_cost(self) -> tuple[int, float]:
         """Iterations since the last call, and the residual of the last field."""
@@ -157,8 +153,7 @@ class Support(ABC):
         return None if self.published is None else self.published._replace(pressure=self.published.pressure.copy())
 
     def with_loss(self, found: FieldRecord, approach: float, rate: float) -> FieldRecord:
-        """The elastic field with the loss of the contact's law, so that its integral is the force
-        at its instant.
+        """The elastic field with the dissipation of the contact's law: its integral is the force.
 
         ``approach`` [m] and its ``rate`` [m/s] are those of the smooth contact.
         """
@@ -175,22 +170,18 @@ class Support(ABC):
         self.published = FieldRecord(field.pressure, *self.origin(field.settings), approach, self.travel)
         if field.load == 0.0:  # free: the nearest place may lie beyond the usual grid
             gap = self.gap(self.grids.wide.settings)
-        return offset_of(self.contact.elastic, field, gap, approach, geometric)
+        return correction_of(self.contact.elastic, field, gap, approach, geometric)
 
     def road_row(self, settings: FieldSettings) -> int:
         """Row of the road under the first row of a grid."""
         return 0
 
     def touches_beyond(self, grids: FieldGrids, approach: float) -> bool:
-        """Whether the contact just solved on the usual grid at ``approach`` [m] goes on outside it:
-        it stands before a wall.
-        """
+        """Whether the contact solved on the usual grid at ``approach`` [m] extends beyond it, as at a wall."""
         return False
 
     def refuse_beyond(self, grids: FieldGrids, approach: float, block: int) -> None:  # noqa: B027  # most have nothing there
-        """Raise RunError where the contact just solved on the wide grid at ``approach`` [m] goes on
-        outside it.
-        """
+        """Raise RunError where the contact solved on the wide grid at ``approach`` [m] extends beyond it."""
 
     @abstractmethod
     def gap(self, settings: FieldSettings) -> Gap:
@@ -201,13 +192,13 @@ class Support(ABC):
         """Centre of cell (0, 0) in the contact's frame, x and y in [m]."""
 
 
-class CushionSupport(Support):
-    """The cushion under the occupant, whose form does not change."""
+class CushionField(ContactField):
+    """Field of the cushion under the occupant, whose gap does not change."""
 
-    still = True
+    is_static = True
 
     def __init__(self, grids: FieldGrids | None, contact: Contact | None, shape: SeatShape | None) -> None:
-        """As ``Support``; ``shape`` is the occupant's lower surface."""
+        """As ``ContactField``; ``shape`` is the occupant's lower surface."""
         super().__init__(grids, contact)
         self._gaps = {} if grids is None or shape is None else {
             field.settings.rows: seat_gap_on(shape, field.settings) for field in grids.both()
@@ -216,9 +207,9 @@ class CushionSupport(Support):
         self._origins = {rows: (float(x[0]), float(y[0])) for rows, (x, y) in cells.items()}
 
     def gap(self, settings: FieldSettings) -> Gap:
-        """See Support."""
+        """See `ContactField`."""
         return self._gaps[settings.rows]
 
     def origin(self, settings: FieldSettings) -> tuple[float, float]:
-        """See Support."""
+        """See `ContactField`."""
         return self._origins[settings.rows]

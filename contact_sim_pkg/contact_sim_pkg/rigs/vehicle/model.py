@@ -74,12 +74,12 @@ def build(scene: ResolvedScene) -> Model:
     seat_field, shape = (None, None) if given_seat is None else _seat_field(scene, given_seat)
     tire = build_tire(scene, None if given_seat is None else given_seat.occupant) if with_tire else None
     tire_field = None if tire is None else tire.field
-    behind = 0 if tire is None else 4 if tire.carcass is None else 6
+    behind = 0 if tire is None else 4 if tire.rigid_ring is None else 6
     seat = None if given_seat is None else _seat(given_seat.occupant, offset=behind)
     seat_contact = None if seat is None else _seat_contact(scene, seat, seat_field, shape)
     rig = Vehicle(GRAVITY, None, None, None, seat, seat_contact)
     if tire is not None:
-        rig = rig._replace(tire=tire.tire, carcass=tire.carcass, tire_contact=tire.contact)
+        rig = rig._replace(tire=tire.tire, rigid_ring=tire.rigid_ring, tire_contact=tire.contact)
     footprint = None if tire is None or tire_field is None else tire.footprint_length
     timing = coupled_timing(scene, tire_field is not None or seat_field is not None, footprint)
     return Model(
@@ -188,13 +188,13 @@ def _scale(rig: Vehicle, tolerance: float) -> Vector:
     scale: list[float] = []
     if rig.tire is not None:
         mass, touching = rig.tire.wheel_mass + rig.tire.body_mass + occupant, rig.tire.wheel_mass
-        if rig.carcass is not None:
-            mass, touching = mass + rig.carcass.belt_mass, rig.carcass.belt_mass
+        if rig.rigid_ring is not None:
+            mass, touching = mass + rig.rigid_ring.belt_mass, rig.rigid_ring.belt_mass
         on_road = _contact_scale(rig.tire_contact, mass * rig.gravity, touching)
         road_position, road_velocity = (size * tolerance for size in on_road)
-        wheel = (position, velocity) if rig.carcass is not None else (road_position, road_velocity)
+        wheel = (position, velocity) if rig.rigid_ring is not None else (road_position, road_velocity)
         scale += [wheel[0], seat_position, wheel[1], seat_velocity]
-        if rig.carcass is not None:
+        if rig.rigid_ring is not None:
             scale += [road_position, road_velocity]
     if rig.seat is not None:
         count = len(rig.seat.masses)
@@ -215,7 +215,7 @@ def _spring_scale(friction: Friction, load: float) -> float:
 def _bodies(rig: Vehicle) -> tuple[str, ...]:
     """Names of the coordinates that ``bench/motion`` carries, in order."""
     names: list[str] = ["wheel_z", "body_z"] if rig.tire is not None else ["floor_z"]
-    if rig.carcass is not None:
+    if rig.rigid_ring is not None:
         names.append("belt_z")
     if rig.seat is not None:
         names += ["seat_frame_z", *(f"occupant{i + 1}_z" for i in range(len(rig.seat.masses)))]
@@ -233,11 +233,11 @@ def standing_state(model: Model, height: float) -> Vector:
     if rig.tire is not None and rig.tire_contact is not None:
         carried = (rig.tire.body_mass + occupant) * rig.gravity
         on_wheel = carried + rig.tire.wheel_mass * rig.gravity
-        belt = 0.0 if rig.carcass is None else rig.carcass.belt_mass * rig.gravity
+        belt = 0.0 if rig.rigid_ring is None else rig.rigid_ring.belt_mass * rig.gravity
         state[0] = height - approach_of_force(rig.tire_contact.elastic, on_wheel + belt)
-        if rig.carcass is not None:
-            state[rig.carcass.offset] = state[0]
-            state[0] -= on_wheel / rig.carcass.stiffness
+        if rig.rigid_ring is not None:
+            state[rig.rigid_ring.offset] = state[0]
+            state[0] -= on_wheel / rig.rigid_ring.stiffness
         floor = state[1] = state[0] - carried / rig.tire.suspension_stiffness
     if rig.seat is not None and rig.seat_contact is not None:
         first = rig.seat.offset

@@ -2,7 +2,7 @@
 
 Vertical motion (z up), and the occupant's sliding on the cushion (x forward) where the scene calls for friction.
 
-* wheel  ``m_w z_w'' = F_tire - m_w g - F_susp``, ``F_susp = k (z_w - z_b) + c (z_w' - z_b')``; with a carcass the force of
+* wheel  ``m_w z_w'' = F_tire - m_w g - F_susp``, ``F_susp = k (z_w - z_b) + c (z_w' - z_b')``; with a rigid ring the force of
   its sidewalls takes the place of F_tire
 * belt   ``m_r z_r'' = F_tire - m_r g - F_side``, ``F_side = k (z_r - z_w) + c (z_r' - z_w')``
 * body   ``m_b z_b'' = F_susp - m_b g - F_seat + m_b a_z(t)`` (a_z: what the drive line gives to the free body)
@@ -34,9 +34,9 @@ from contact_sim_pkg.laws.friction import APART, STICK, following_deflection, fr
 from contact_sim_pkg.rigs.vehicle.parameters import Vehicle
 from contact_sim_pkg.rigs.vehicle.quarter_car import (
     body_power,
-    carcass_rates,
     drive_at,
     push_at,
+    rigid_ring_rates,
     tire_approach,
     tire_rates,
     tread_velocity,
@@ -160,10 +160,10 @@ def _friction_of(contact):
 @borrowing_kernel
 def _rate(rig, drive, mode, time, state, out):
     height, height_rate, cushion, cushion_rate, a_x, a_z = drive_at(drive, time)
-    tire_x, tire_v = tire_approach(rig.tire, rig.carcass, height, height_rate, state)
+    tire_x, tire_v = tire_approach(rig.tire, rig.rigid_ring, height, height_rate, state)
     tire_force = normal_force(rig.tire_contact, tire_x, tire_v, state)
     push = push_at(drive, time) if tire_x > 0.0 else 0.0
-    on_wheel, lost_in_sidewalls = carcass_rates(rig.carcass, rig.gravity, tire_force + push, state, out)
+    on_wheel, lost_in_sidewalls = rigid_ring_rates(rig.rigid_ring, rig.gravity, tire_force + push, state, out)
     seat_x, seat_v = seat_approach(rig.tire, rig.seat, cushion, cushion_rate, state)
     seat_force = normal_force(rig.seat_contact, seat_x, seat_v, state)
     lost = lost_in_sidewalls
@@ -175,7 +175,7 @@ def _rate(rig, drive, mode, time, state, out):
     lost += _lost_power(rig.seat_contact, seat_x, seat_v, seat_force, state, out)
     last = state.shape[0]
     out[last - 2] = brought + brought_x + tire_force * height_rate + seat_force * cushion_rate
-    out[last - 2] += body_power(rig.tire, a_z, state) + push * tread_velocity(rig.tire, rig.carcass, state)
+    out[last - 2] += body_power(rig.tire, a_z, state) + push * tread_velocity(rig.tire, rig.rigid_ring, state)
     out[last - 1] = lost
 
 
@@ -229,7 +229,7 @@ def _friction_event(friction, contact, tire, seat, mode, approach, approach_rate
 @borrowing_kernel
 def _event_functions(rig, drive, mode, time, state, derivative, out):
     height, height_rate, cushion, cushion_rate, _a_x, _a_z = drive_at(drive, time)
-    tire_x, tire_v = tire_approach(rig.tire, rig.carcass, height, height_rate, state)
+    tire_x, tire_v = tire_approach(rig.tire, rig.rigid_ring, height, height_rate, state)
     seat_x, seat_v = seat_approach(rig.tire, rig.seat, cushion, cushion_rate, state)
     out[TIRE_APPROACH] = tire_x
     out[TIRE_TENSION] = _tension_of(rig.tire_contact, tire_x, tire_v, state)

@@ -193,8 +193,8 @@ def _motion_rows(model: Model, record: BlockRecord) -> dict[str, Array]:
     indices: list[tuple[int, int]] = []
     if rig.tire is not None:
         indices += [(0, 2), (1, 3)]
-    if rig.carcass is not None:
-        indices.append((rig.carcass.offset, rig.carcass.offset + 1))
+    if rig.rigid_ring is not None:
+        indices.append((rig.rigid_ring.offset, rig.rigid_ring.offset + 1))
     if rig.seat is not None:
         count = 1 + len(rig.seat.masses)
         indices += [(rig.seat.offset + i, rig.seat.offset + count + i) for i in range(count)]

@@ -22,7 +22,7 @@ class Tire(NamedTuple):
     suspension_damping: float  # [N s/m]
 
 
-class Carcass(NamedTuple):
+class RigidRing(NamedTuple):
     """Belt and tread as one rigid ring that the sidewalls carry; state [belt_z, belt_v] from ``offset``.
 
     Without load the belt's height equals the wheel's. Tread contact and sidewalls then stand in series.
@@ -56,7 +56,7 @@ class Vehicle(NamedTuple):
 
     gravity: float  # [m/s^2], > 0
     tire: Tire | None
-    carcass: Carcass | None
+    rigid_ring: RigidRing | None
     tire_contact: Contact | None
     seat: Seat | None
     seat_contact: Contact | None

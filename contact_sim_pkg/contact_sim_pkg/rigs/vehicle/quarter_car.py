@@ -41,33 +41,33 @@ def push_at(drive, time):
 
 
 @borrowing_kernel
-def tread_motion(carcass, state):
-    """Height in [m] and velocity in [m/s] of what touches the road: the belt, or the wheel where there is no carcass."""
-    if carcass is None:
+def tread_motion(rigid_ring, state):
+    """Height in [m] and velocity in [m/s] of what touches the road: the belt, or the wheel without a rigid ring."""
+    if rigid_ring is None:
         return state[0], state[2]
-    return state[carcass.offset], state[carcass.offset + 1]
+    return state[rigid_ring.offset], state[rigid_ring.offset + 1]
 
 
 @borrowing_kernel
-def tire_approach(tire, carcass, height, height_rate, state):
+def tire_approach(tire, rigid_ring, height, height_rate, state):
     """Approach in [m] and its rate in [m/s]; apart where there is no tire."""
     if tire is None:
         return -1.0, 0.0
-    tread, tread_rate = tread_motion(carcass, state)
+    tread, tread_rate = tread_motion(rigid_ring, state)
     return height - tread, height_rate - tread_rate
 
 
 @borrowing_kernel
-def carcass_rates(carcass, gravity, force, state, out):
+def rigid_ring_rates(rigid_ring, gravity, force, state, out):
     """Rates of the belt; returns the force on the wheel and the power that the sidewalls take."""
-    if carcass is None:
+    if rigid_ring is None:
         return force, 0.0
-    belt = carcass.offset
+    belt = rigid_ring.offset
     closing = state[belt + 1] - state[2]
-    sidewalls = carcass.stiffness * (state[belt] - state[0]) + carcass.damping * closing
+    sidewalls = rigid_ring.stiffness * (state[belt] - state[0]) + rigid_ring.damping * closing
     out[belt] = state[belt + 1]
-    out[belt + 1] = (force - sidewalls) / carcass.belt_mass - gravity
-    return sidewalls, carcass.damping * closing * closing
+    out[belt + 1] = (force - sidewalls) / rigid_ring.belt_mass - gravity
+    return sidewalls, rigid_ring.damping * closing * closing
 
 
 @borrowing_kernel
@@ -92,7 +92,7 @@ def body_power(tire, acceleration_z, state):
 
 
 @borrowing_kernel
-def tread_velocity(tire, carcass, state):
+def tread_velocity(tire, rigid_ring, state):
     if tire is None:
         return 0.0
-    return tread_motion(carcass, state)[1]
+    return tread_motion(rigid_ring, state)[1]

@@ -98,8 +98,8 @@ class Simulation:
             self._interval(block, interval, drive, record)
         self._next_block = block + 1
         record.counters[:] = coupling.bodies.work.counters
-        for support in coupling.supports:
-            iterations, residual = support.take_cost()
+        for field in coupling.fields:
+            iterations, residual = field.take_cost()
             record.field_iterations += iterations
             record.field_residual = max(record.field_residual, residual)
         self._map_seat(record)

@@ -7,7 +7,7 @@ from collections.abc import Iterator
 from contact_sim_pkg.records.constants import GRAVITY
 from contact_sim_pkg.records.work import Work
 from contact_sim_pkg.rigs.vehicle.seat.schema import SeatSection
-from contact_sim_pkg.rigs.vehicle.tire.schema import CarcassSection, TireSection
+from contact_sim_pkg.rigs.vehicle.tire.schema import RigidRingSection, TireSection
 from contact_sim_pkg.run.integrator_work import Link, integrator_steps, links_of_laws, segments
 from contact_sim_pkg.scene.resolved_scene import ResolvedScene
 
@@ -44,9 +44,9 @@ def seat_steps(scene: ResolvedScene) -> Iterator[Work]:
 
 def tire_steps(scene: ResolvedScene) -> Iterator[Work]:
     """Steps of suspension and sidewalls; Hertz's law of the tire is softer than the latter."""
-    tire, ring = scene.section(TireSection), scene.effect("tire", CarcassSection)
+    tire, ring = scene.section(TireSection), scene.effect("tire", RigidRingSection)
     least = min(tire.wheel_mass, tire.body_mass)
     links = [Link("suspension", least, tire.suspension_stiffness, tire.suspension_damping)]
     if ring is not None:
-        links.append(Link("carcass", min(ring.belt_mass, least), ring.stiffness, ring.damping))
+        links.append(Link("rigid_ring", min(ring.belt_mass, least), ring.stiffness, ring.damping))
     yield from integrator_steps(scene, "tire", links)

@@ -12,7 +12,7 @@ def faults(maker, effects, **keys):
 @pytest.mark.parametrize(
     ("effects", "sentence"),
     [
-        ({"carcass": {"belt_mass": 40}}, "belt_mass: 40 kg is not below tire.wheel_mass (40 kg)"),
+        ({"rigid_ring": {"belt_mass": 40}}, "belt_mass: 40 kg is not below tire.wheel_mass (40 kg)"),
         ({"brush": {"coefficient_static": 0.5}}, "coefficient_kinetic: 0.75 is above coefficient_static (0.5)"),
         ({"tread_viscoelasticity": {"branches": [[0.1, 0.0]]}}, "branches.0.1: 0 s is outside 1e-06 to 10000 s"),
         ({"tread_viscoelasticity": {"branches": [[0.1, 1.0], [-1, 1.0]]}}, "branches.1.0: -1 is outside 0 to 100"),

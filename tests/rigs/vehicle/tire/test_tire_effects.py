@@ -18,7 +18,7 @@ from contact_sim_pkg.records.messages import (
 GRAVITY = 9.81
 WEIGHT = 340.0 * GRAVITY  # wheel and body of the shipped tire scenes
 FLAT = ("road={kind: flat}", "duration=0.2")
-EFFECTS = ("carcass", "envelopment", "tread_viscoelasticity")
+EFFECTS = ("rigid_ring", "envelopment", "tread_viscoelasticity")
 ALL = tuple(f"effects.tire.{name}={{}}" for name in EFFECTS)
 
 
@@ -35,7 +35,7 @@ def test_a_tire_on_a_flat_road_stands_still_under_its_weight(effects):
 
 
 def test_the_belt_stands_between_road_and_wheel_as_two_springs_in_series():
-    scene = resolved("tire_bump", *FLAT, "effects.tire.carcass={stiffness: 250000, belt_mass: 10}")
+    scene = resolved("tire_bump", *FLAT, "effects.tire.rigid_ring={stiffness: 250000, belt_mass: 10}")
     motion = decode(BodyMotion, messages_of(scene, 1)["bench/motion"][0])
     height = dict(zip(motion.bodies, motion.position[:, 0], strict=True))
     assert motion.bodies == ("wheel_z", "body_z", "belt_z")
@@ -45,7 +45,7 @@ def test_the_belt_stands_between_road_and_wheel_as_two_springs_in_series():
 
 def test_the_ledger_closes_with_a_belt_and_impulses():
     found = messages_of(
-        resolved("tire_bump", "duration=1.3", "effects.tire.carcass={}", "effects.tire.asperity_impulses={}")
+        resolved("tire_bump", "duration=1.3", "effects.tire.rigid_ring={}", "effects.tire.asperity_impulses={}")
     )
     ledger = [decode(EnergyLedger, data) for data in found["bench/energy"]]
     moved = max(abs(entry.supplied) + entry.dissipated for entry in ledger)
@@ -55,7 +55,7 @@ def test_the_ledger_closes_with_a_belt_and_impulses():
 
 def test_a_belt_softens_the_shock_of_a_bump():
     stiff = forces(messages_of(resolved("tire_bump", "duration=1.3")))
-    soft = forces(messages_of(resolved("tire_bump", "duration=1.3", "effects.tire.carcass={}")))
+    soft = forces(messages_of(resolved("tire_bump", "duration=1.3", "effects.tire.rigid_ring={}")))
     assert soft.max() < 0.9 * stiff.max()
 
 

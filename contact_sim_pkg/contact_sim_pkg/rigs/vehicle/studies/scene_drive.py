@@ -138,7 +138,7 @@ def _law(contact: Contact | None) -> Law:
 
 
 def _twins(rig: Vehicle) -> tuple[Quarter | None, Occupant | None]:
-    belt = None if rig.carcass is None else Belt(*rig.carcass[1:])
+    belt = None if rig.rigid_ring is None else Belt(*rig.rigid_ring[1:])
     quarter = None if rig.tire is None else Quarter(*rig.tire, _law(rig.tire_contact), belt)
     occupant = None if rig.seat is None else Occupant(*rig.seat[1:], _law(rig.seat_contact))
     return quarter, occupant

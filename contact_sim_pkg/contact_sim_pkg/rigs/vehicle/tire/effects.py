@@ -1,7 +1,7 @@
 """Effects of the contact between tire and road.
 
 A scene calls for them by rules of thumb of the field: the pressure field for road wavelengths below
-about three patch lengths, steps, cleats and stones, or where the pressure is requested; the carcass
+about three patch lengths, steps, cleats and stones, or where the pressure is requested; the rigid ring
 for content above 30 Hz at the axle; the envelopment for obstacles shorter than the footprint; the
 brush for slip.
 """
@@ -49,7 +49,7 @@ def _short_waves(scene: ResolvedScene, limit: float, lengths: str) -> Verdict:
     return sharp, f"{road.kind} with {'edges' if edge else 'a length'} of {length:g} m, limit {limit:g} m ({lengths})"
 
 
-def _carcass(scene: ResolvedScene, observed: Observed) -> Verdict:
+def _rigid_ring(scene: ResolvedScene, observed: Observed) -> Verdict:
     force = observed.forces["tire"] - observed.forces["tire"].mean()
     power = numpy.abs(numpy.fft.rfft(force)) ** 2
     fast = numpy.fft.rfftfreq(len(force), 1.0 / scene.outputs.force_rate) > AXLE_FREQUENCY
@@ -83,9 +83,9 @@ TIRE_EFFECTS = (
         needs=("normal_elastic",), publishes="patch", feeds=("patch", "force", "wrench"), called_for=_field,
     ),
     Effect(
-        name="carcass", section=f"{_SCHEMA}:CarcassSection", help="rigid ring on sidewalls",
+        name="rigid_ring", section=f"{_SCHEMA}:RigidRingSection", help="rigid ring on sidewalls",
         source="Pacejka, Tire and Vehicle Dynamics, 9", needs=("normal_elastic",), feeds=("force", "wrench", "patch"),
-        called_for=_carcass,
+        called_for=_rigid_ring,
     ),
     Effect(
         name="envelopment", section=f"{_SCHEMA}:Envelopment", help="belt that bends over obstacles",

@@ -21,7 +21,7 @@ from contact_sim_pkg.rigs.vehicle.lattice import (
     standing_load,
     tire_lattice,
 )
-from contact_sim_pkg.rigs.vehicle.parameters import Carcass, Tire
+from contact_sim_pkg.rigs.vehicle.parameters import RigidRing, Tire
 from contact_sim_pkg.rigs.vehicle.seat.schema import OccupantSection
 from contact_sim_pkg.rigs.vehicle.tire import schema
 from contact_sim_pkg.rigs.vehicle.tire.parameters import Brush, TreadViscoelasticity
@@ -88,7 +88,7 @@ class TireParts:
     """The tire of a rig, its contact and the effects in it."""
 
     tire: Tire
-    carcass: Carcass | None
+    rigid_ring: RigidRing | None
     contact: Contact
     geometry: TireGeometry
     footprint_length: float  # [m] along the travel under the standing load, by the field where there is one
@@ -105,10 +105,10 @@ def build_tire(scene: ResolvedScene, occupant: OccupantSection | None) -> TirePa
     """
     given_tire = scene.section(schema.TireSection)
     load = standing_load(given_tire, occupant)
-    carcass, geometry = _carcass(scene), _geometry(scene, given_tire, load)
+    rigid_ring, geometry = _rigid_ring(scene), _geometry(scene, given_tire, load)
     tread = _tread(scene, given_tire, geometry)
     tire = Tire(
-        given_tire.wheel_mass - (0.0 if carcass is None else carcass.belt_mass), given_tire.body_mass,
+        given_tire.wheel_mass - (0.0 if rigid_ring is None else rigid_ring.belt_mass), given_tire.body_mass,
         given_tire.suspension_stiffness, given_tire.suspension_damping,
     )  # fmt: skip
     law, length, field = _elastic(scene, given_tire, load, geometry, tread)
@@ -116,7 +116,7 @@ def build_tire(scene: ResolvedScene, occupant: OccupantSection | None) -> TirePa
     asperities = _asperities(scene, geometry, load)
     return TireParts(
         tire=tire,
-        carcass=carcass,
+        rigid_ring=rigid_ring,
         contact=contact,
         geometry=geometry,
         footprint_length=length,
@@ -150,9 +150,9 @@ def _field_settings(scene: ResolvedScene, modulus: float) -> FieldSettings | Non
     return field_settings(scene.effect("tire", schema.TireField), modulus, scene.effect("tire", schema.Envelopment))
 
 
-def _carcass(scene: ResolvedScene) -> Carcass | None:
-    carcass = scene.effect("tire", schema.CarcassSection)
-    return None if carcass is None else Carcass(4, carcass.belt_mass, carcass.stiffness, carcass.damping)
+def _rigid_ring(scene: ResolvedScene) -> RigidRing | None:
+    rigid_ring = scene.effect("tire", schema.RigidRingSection)
+    return None if rigid_ring is None else RigidRing(4, rigid_ring.belt_mass, rigid_ring.stiffness, rigid_ring.damping)
 
 
 def _tread(scene: ResolvedScene, tire: schema.TireSection, geometry: TireGeometry) -> Tread | None:

@@ -1,4 +1,4 @@
-"""The road under a tire as its support: grids that follow the wheel, what touches beyond them, and what the tread remembers."""
+"""Contact field of a tire: grids that follow the wheel, contact beyond them, viscoelastic tread."""
 
 from __future__ import annotations
 
@@ -11,20 +11,20 @@ from contact_sim_pkg.pressure.field.instant import grown_window
 from contact_sim_pkg.pressure.settings import FieldSettings
 from contact_sim_pkg.rigs.vehicle.contact_field import PressureField
 from contact_sim_pkg.rigs.vehicle.contact_model import FieldGrids
-from contact_sim_pkg.rigs.vehicle.field_driver import Gap, Support
+from contact_sim_pkg.rigs.vehicle.field_driver import ContactField, Gap
 from contact_sim_pkg.rigs.vehicle.tire.footprint import tire_gap, touches_beyond
 from contact_sim_pkg.rigs.vehicle.tire.model import TireGeometry, Tread, relaxed_grids
 from contact_sim_pkg.rigs.vehicle.tire.tread_viscoelasticity import TreadState
 from contact_sim_pkg.run.errors import RunError
 
 
-class RoadSupport(Support):
-    """The road under the tire; ``place`` says where the wheel stands before a field is solved."""
+class RoadField(ContactField):
+    """Field of the road under the tire; ``place`` sets the wheel before a field is solved."""
 
     def __init__(
         self, grids: FieldGrids | None, contact: Contact | None, geometry: TireGeometry | None, tread: Tread | None
     ) -> None:
-        """As ``Support``; ``geometry`` gives radii and lattice, ``tread`` the memory of the rubber (None: it has none)."""
+        """As ``ContactField``; ``geometry`` has radii and lattice, ``tread`` is None for elastic rubber."""
         super().__init__(grids, contact)
         self._geometry, self._tread = geometry, tread
         self._road: Any = None
@@ -36,22 +36,22 @@ class RoadSupport(Support):
             wide = grids.wide.settings
             self._tread_state = TreadState(wide, tread.relaxed_modulus, tread.viscoelasticity, tread.step)
             self._pressed = numpy.zeros((wide.rows, wide.cols))
-            self.remembers = True
+            self.is_viscoelastic = True
 
     def reset(self) -> None:
-        """See Support."""
+        """See `ContactField`."""
         super().reset()
         if self._tread_state is not None:
             self._tread_state.reset()
 
     def place(self, road: Any, travel: float) -> None:
-        """The block's road, and the travel of the wheel centre in [m]."""
+        """Set the road of the block and the ``travel`` [m] of the wheel centre."""
         self._road, self.travel = road, travel
         if self._tread_state is not None and self.grids is not None:
             self._tread_state.move_to(self.road_row(self.grids.wide.settings))
 
     def stand(self, load: float) -> float:
-        """See Support; a tread with memory has stood there for long."""
+        """See `ContactField`; a viscoelastic tread is relaxed."""
         if self._tread_state is None or self._tread is None or self.grids is None:
             return super().stand(load)
         self._tread_state.reset()
@@ -60,8 +60,8 @@ class RoadSupport(Support):
         self._tread_state.settle(self.road_row(relaxed.wide.settings), self._on_wide(field.pressure))
         return approach
 
-    def keep(self) -> None:
-        """The last field is the one of its instant: the tread remembers it."""
+    def store(self) -> None:
+        """See `ContactField`; the tread stores the pressure."""
         if self._tread_state is not None and self.published is not None:
             self._tread_state.keep(self._on_wide(self.published.pressure))
 
@@ -76,14 +76,15 @@ class RoadSupport(Support):
         return self._pressed
 
     def road_row(self, settings: FieldSettings) -> int:
-        """See Support."""
+        """See `ContactField`."""
         return round(self.travel / settings.cell_x) - settings.rows // 2
 
     def gap(self, settings: FieldSettings) -> Gap:
-        """See Support; cells coincide with nodes of the road. What the tread remembers is added."""
+        """See `ContactField`; cells coincide with nodes of the road. The strain of a viscoelastic tread is added."""
         geometry, road = self._geometry, self._road
         assert geometry is not None
         out = self._gaps[settings.rows]
+        # Height of the tire over the road.
         inside = tire_gap(
             road.height,
             road.first_row,
@@ -99,6 +100,7 @@ class RoadSupport(Support):
             raise RunError(
                 f"road/patch: block {road.block} does not reach over the pressure grid at {self.travel:.6g} m"
             )
+        # The middle of the wide grid is the usual one.
         if self._tread_state is not None:
             whole = self._tread_state.gap
             row, col = whole.shape[0] // 2 - settings.rows // 2, (whole.shape[1] - settings.cols) // 2
@@ -106,13 +108,13 @@ class RoadSupport(Support):
         return out
 
     def touches_beyond(self, grids: FieldGrids, approach: float) -> bool:
-        """See Support."""
+        """See `ContactField`."""
         if not self._touches(grids.usual, approach):
             return False
         return grids.usual.settings.belt is None or self._touches_with_belt(grids, approach)
 
     def _touches_with_belt(self, grids: FieldGrids, approach: float) -> bool:
-        """The same where a belt yields further than the half-space: by its own displacements on the wide grid."""
+        """The same where a belt yields further than the half-space: by its displacements on the wide grid."""
         wide, pressure = grids.wide.settings, grids.usual.pressure
         rows, cols = pressure.shape
         first_row, first_col = wide.rows // 2 - rows // 2, (wide.cols - cols) // 2
@@ -122,7 +124,7 @@ class RoadSupport(Support):
         return bool(grown_window(grids.wide.half_space, self.gap(wide), approach, pressed, window) != window)
 
     def refuse_beyond(self, grids: FieldGrids, approach: float, block: int) -> None:
-        """See Support."""
+        """See `ContactField`."""
         wide = grids.wide.settings
         if wide.belt is None and self._touches(grids.wide, approach):
             raise RunError(
@@ -132,6 +134,7 @@ class RoadSupport(Support):
 
     def _touches(self, field: PressureField, approach: float) -> bool:
         """Whether the road touches the tire outside a field's grid, as far as a tire reaches."""
+        # All nodes of the road below the tire count, not only those of the grid.
         geometry, road, settings = self._geometry, self._road, field.settings
         assert geometry is not None
         rows, cols = geometry.lattice.road_rows, geometry.lattice.road_cols
@@ -154,5 +157,5 @@ class RoadSupport(Support):
         )
 
     def origin(self, settings: FieldSettings) -> tuple[float, float]:
-        """See Support."""
+        """See `ContactField`."""
         return self.road_row(settings) * settings.cell_x - self.travel, -0.5 * (settings.cols - 1) * settings.cell_y

@@ -59,7 +59,7 @@ class TireField(PressureFieldSection):
     width: float = number(0.01, 2.0, "m", "extent across the track (left); 0.22 m are loaded at 4 kN", default=0.44)
 
 
-class CarcassSection(Section):
+class RigidRingSection(Section):
     """Sidewalls and a rigid belt ring: spring and damper in series with the tread's contact."""
 
     stiffness: float = number(

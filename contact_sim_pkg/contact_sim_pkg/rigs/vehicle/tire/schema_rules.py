@@ -7,7 +7,7 @@ from itertools import pairwise
 
 from contact_sim_pkg.rigs.vehicle.tire.schema import (
     BrushSection,
-    CarcassSection,
+    RigidRingSection,
     TireSection,
     TreadViscoelasticitySection,
 )
@@ -49,14 +49,16 @@ def slip_breaches(scene: Scene) -> Iterator[Breach]:
 
 def tire_effect_breaches(scene: Scene) -> Iterator[Breach]:
     """A belt heavier than its wheel, kinetic friction above static, branches out of range."""
-    where, wheel_mass, carcass = (
+    where, wheel_mass, rigid_ring = (
         "effects.tire",
         scene.section(TireSection).wheel_mass,
-        scene.effect("tire", CarcassSection),
+        scene.effect("tire", RigidRingSection),
     )
-    if carcass is not None and not carcass.belt_mass < wheel_mass:
-        sentence = f"{show(carcass.belt_mass)} kg is not below tire.wheel_mass ({show(wheel_mass)} kg), which holds it"
-        yield Breach(f"{where}.carcass.belt_mass", sentence, ("tire.wheel_mass",))
+    if rigid_ring is not None and not rigid_ring.belt_mass < wheel_mass:
+        sentence = (
+            f"{show(rigid_ring.belt_mass)} kg is not below tire.wheel_mass ({show(wheel_mass)} kg), which holds it"
+        )
+        yield Breach(f"{where}.rigid_ring.belt_mass", sentence, ("tire.wheel_mass",))
     brush = scene.effect("tire", BrushSection)
     if brush is not None and brush.coefficient_kinetic > brush.coefficient_static:
         sentence = f"{show(brush.coefficient_kinetic)} is above coefficient_static ({show(brush.coefficient_static)})"
