@@ -1,7 +1,8 @@
-"""Steps of the integrator that a rig with compliant contacts needs at least: those of its fastest motion.
+"""Steps of the integrator that a rig with compliant contacts needs at least: those of its fastest
+motion.
 
-The pair of order 5 passes about 1.2 rad of an undamped swing in a step, and 3.3 time constants of a damper (Hairer and Wanner,
-Solving Ordinary Differential Equations II, IV.2).
+The pair of order 5 passes about 1.2 rad of an undamped swing in a step, and 3.3 time constants of a
+damper (Hairer and Wanner, Solving Ordinary Differential Equations II, IV.2).
 """
 
 from __future__ import annotations
@@ -46,7 +47,9 @@ def integrator_steps(
 
 
 def links_of_laws(scene: ResolvedScene, contact: str, mass: float, load: float) -> Iterator[Link]:
-    """The laws of a contact as springs and dampers of the ``mass`` [kg], linear at the ``load`` [N] at rest."""
+    """The laws of a contact as springs and dampers of the ``mass`` [kg], linear at the ``load`` [N]
+    at rest.
+    """
     elastic = scene.effect(contact, PowerLaw)
     depth = 0.0 if elastic is None else (load / elastic.coefficient) ** (1.0 / elastic.exponent)
     for record, keys in scene.effects_at(contact):

@@ -32,12 +32,14 @@ def _turned(sine, cosine, first_sine, first_cosine):
 @borrowing_kernel
 def _depth(search, state, x, y):
     """Depth in [m] at a point, its gradient, and its second derivatives xx, xy, yy."""
+    # The undeformed crown is a paraboloid about the middle of the shell.
     a, b = math.pi / search.length_1, math.pi / search.length_2
     sin_a, cos_a, sin_b, cos_b = math.sin(a * x), math.cos(a * x), math.sin(b * y), math.cos(b * y)
     from_x, from_y = x - 0.5 * search.length_1, y - 0.5 * search.length_2
     depth = -0.5 * (from_x * from_x * search.curvature_1 + from_y * from_y * search.curvature_2)
     d_x, d_y = -from_x * search.curvature_1, -from_y * search.curvature_2
     d_xx, d_xy, d_yy = -search.curvature_1, 0.0, -search.curvature_2
+    # Sines of multiples follow from those before: no further call of sin.
     sin_m, cos_m = 0.0, 1.0
     for m in range(1, search.side + 1):
         sin_m, cos_m = _turned(sin_m, cos_m, sin_a, cos_a)
@@ -132,8 +134,9 @@ def _climbed(search, state, x, y):
 
 @borrowing_kernel
 def nearest_point(search: ContactSearch, state: Vector) -> tuple[float, float]:
-    """Place in [m] over the shell's sides at which the depth is largest; ``state`` begins with the
-    modal coordinates [m].
+    """Place x, y [m] over the shell at which the depth is largest.
+
+    state: begins with the modal coordinates [modes] [m].
     """
     _take_depths(search, state)
     cols = search.depths.shape[1] - 2

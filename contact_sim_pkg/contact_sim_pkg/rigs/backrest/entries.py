@@ -56,10 +56,11 @@ def _first_friction(friction, rig, mode, point, normal, state):
 
 @entry
 def start(rig: Backrest, mode: BackrestMode, state: Vector, work: DormandPrinceWorkspace) -> None:
-    """Take the discrete state that belongs to ``state`` at the start of a run, time 0."""
+    """Set the discrete state that belongs to ``state`` [states] at the start of a run, time 0."""
     points = rig.places.shape[1]
     mode.counts[OVERLAPPING] = 0
     move_point(rig.search, rig, state)
+    # Points that overlap are in contact, and stick unless they slide.
     for c in range(points):
         approach, approach_rate = backrest.approach_of(rig, state, c)
         mode.doing[CONTACT, c] = CLOSING if approach > 0.0 else APART
@@ -72,6 +73,7 @@ def start(rig: Backrest, mode: BackrestMode, state: Vector, work: DormandPrinceW
     open_episode(rig, mode, points, 0.0, 0.0, state, 0.0)
     for c in range(points):
         mode.lasting[points, DEEPEST] = max(mode.lasting[points, DEEPEST], mode.lasting[c, DEEPEST])
+    # Every event function starts on the positive side.
     for j in range(work.event_direction.shape[0]):
         work.event_direction[j] = 1.0
     work.last_event[0] = -numpy.inf
@@ -79,7 +81,7 @@ def start(rig: Backrest, mode: BackrestMode, state: Vector, work: DormandPrinceW
 
 @entry
 def find_point(rig: Backrest, state: Vector) -> None:
-    """Let the moving point of ``rig`` be where ``state`` puts it."""
+    """Set the moving point of ``rig`` by ``state`` [states]."""
     move_point(rig.search, rig, state)
 
 
@@ -110,6 +112,8 @@ def _observe(rig, mode, time, state, whole, by_point):
     whole[APPROACH] = -numpy.inf
     move_point(rig.search, rig, state)
     across, up = place_of(rig.search, state)
+    # Forces per unit of the reference surface times the share of each point; friction as it acts on
+    # the seat back.
     for c in range(rig.places.shape[1]):
         approach, approach_rate = backrest.approach_of(rig, state, c)
         normal = backrest.unit_normal(rig, mode, c, approach, approach_rate, state)
@@ -171,8 +175,10 @@ def _spring_energy(friction, rig, mode, point, time, approach, approach_rate, st
 
 @entry
 def energies(rig: Backrest, mode: BackrestMode, time: float, state: Vector) -> tuple[float, float, float, float, float]:
-    """Kinetic, potential (of the preload), stored energy, work supplied, work dissipated, all in
-    [J], of ``state``.
+    """Kinetic, potential (of the preload) and stored energy, work supplied and dissipated [J], of
+    ``state`` [states].
+
+    time: [s].
     """
     modes = rig.modal.shape[1]
     move_point(rig.search, rig, state)

@@ -188,8 +188,10 @@ def _shell(backrest: schema.BackrestSection, effect: schema.ShellModesSection, m
     places = numpy.column_stack([point_y + 0.5 * width, point_x + 0.5 * height])
     middle = (0.5 * width, 0.5 * height)
     exciter = (effect.shaken_across * width, effect.shaken_up * height)
+    # Modal shapes at the cells of the mat, in the middle (preload) and at the exciter.
     modes = shell_modes(shell, effect.modes, places)
     at_middle, at_exciter = shell_modes(shell, effect.modes, numpy.array([middle, exciter])).shapes
+    # Each cell carries the law of the whole contact times its share of the reference surface.
     share = mat.cell_x * mat.cell_y / REFERENCE_SURFACE
     mass = numpy.full(len(modes.frequencies), modes.modal_mass)
     return _ModalBack(
@@ -213,12 +215,14 @@ def _search(backrest: schema.BackrestSection, effect: schema.ShellModesSection, 
     """Search over the cells' centres and the sides."""
     shell = _shallow_shell(backrest, effect)
     width, height = shell.length_1, shell.length_2
+    # Candidates: the centres of the cells, and the edges of the shell.
     up, across = (
         numpy.clip(numpy.concatenate([[0.0], middle + 0.5 * side, [side]]), 0.0, side)
         for middle, side in ((mat.x, height), (mat.y, width))
     )
     places = numpy.stack(numpy.meshgrid(up, across, indexing="ij")[::-1], axis=-1).reshape(-1, 2)
     modes = shell_modes(shell, effect.modes, places)
+    # A rim below every depth, so that a crest on the edge is found as one inside.
     rim = numpy.full((len(up) + 2, len(across) + 2), -numpy.inf)
     return ContactSearch(
         length_1=width,
@@ -290,11 +294,13 @@ def _scale(rig: Backrest, approach: float, preload: float, tolerance: float) -> 
 
 
 def resting_state(rig: Backrest) -> Vector:
-    """State at rest under the preload: the least of the convex energy ``q K q / 2 - P q + sum_c
-    share A d**(n+1) / (n+1)``.
+    """State [states] at rest under the preload: minimum of a convex energy.
+
+    Energy: ``q K q / 2 - P q + sum_c share A d**(n+1) / (n+1)``.
     """
     modes, law = len(rig.mass), rig.contact.elastic
     q = numpy.zeros(modes)
+    # A rigid back starts at the depth of its law.
     if not rig.stiffness.any():
         q[0] = approach_of_force(law, float(rig.preload[0]))
     for _ in range(NEWTON_STEPS):
@@ -302,6 +308,7 @@ def resting_state(rig: Backrest) -> Vector:
         if numpy.abs(slope).max() <= 1e-13 * numpy.abs(rig.preload).max():
             break
         step = numpy.linalg.solve(curvature, -slope)
+        # Newton step, halved until the energy falls (Armijo).
         part = 1.0
         while part > 1e-6 and _energy_at(rig, q + part * step)[2] > energy + 1e-4 * part * float(slope @ step):
             part *= 0.5

@@ -5,9 +5,11 @@ Everything is seen from the seat back, an accelerated frame; x points forward, o
 The back moves in modal coordinates q, positive towards the seat, with one mass as the case of one
 mode without stiffness:
 
-* ``M_i q_i'' = P_i + m_i a(t) - K_i q_i - C_i q_i' - sum_c phi_ci F_c + sum_c s_ci T_c``, a the seat back's acceleration;
-* approach of point c: ``d_c = sum_i phi_ci q_i - gap_c``; its velocity along the seat: ``u_c = u(t) - sum_i s_ci q_i'``,
-  ``u(t) = X w cos(w t)`` the rigid sliding and ``s_ci = (h/2) dphi_ci/dx`` the motion of a shell's
+* ``M_i q_i'' = P_i + m_i a(t) - K_i q_i - C_i q_i' - sum_c phi_ci F_c + sum_c s_ci T_c``, a the
+  seat back's acceleration;
+* approach of point c: ``d_c = sum_i phi_ci q_i - gap_c``; its velocity along the seat: ``u_c = u(t)
+  - sum_i s_ci q_i'``, ``u(t) = X w cos(w t)`` the rigid sliding and ``s_ci = (h/2) dphi_ci/dx`` the
+    motion of a shell's
   face;
 * normal force ``F_c = share_c F(d_c, d_c')``, friction ``T_c`` of ``laws/friction.py`` with spring,
 damper and limit of the
@@ -219,6 +221,7 @@ def _friction_event(friction, rig, mode, point, time, approach, approach_rate, s
     velocity = tangential_velocity(rig, time, state, point)
     if doing == STICK:
         return stick_event(friction, normal, state[2 * modes + point], velocity)
+    # While it slides, the event needs the rates of velocity and normal force.
     _displacement, _velocity, acceleration = slide_of(rig, time)
     approach_acceleration = 0.0
     for i in range(modes):
@@ -257,6 +260,7 @@ def _event_functions(rig, drive, mode, time, state, derivative, out):
     move_point(rig.search, rig, state)
     for c in range(points):
         approach, approach_rate = approach_of(rig, state, c)
+        # Four event functions for each point: touch, tension, reversal, friction.
         doing = mode.doing[CONTACT, c]
         out[c] = -approach if doing == APART else approach
         out[points + c] = _tension_event(rig, doing, c, approach, approach_rate, state)

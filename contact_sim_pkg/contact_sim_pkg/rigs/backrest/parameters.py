@@ -14,18 +14,20 @@ from contact_sim_pkg.laws.parameters import Contact
 APART, CLOSING, OPENING, RELEASED = 0, 1, 2, 3  # what the normal contact of a point does
 MOST_EPISODES = 4096  # that can end within one block
 
-# Rows of Backrest.modal: mass [kg] > 0, stiffness [N/m], damping [N s/m], constant force towards the seat [N], and force over
-# forward acceleration of the seat back [kg]
+# Rows of Backrest.modal: mass [kg] > 0, stiffness [N/m], damping [N s/m], constant force towards
+# the seat [N], and force over forward acceleration of the seat back [kg]
 MASS, STIFFNESS, DAMPING, PRELOAD, SHAKEN, MODAL_ROWS = 0, 1, 2, 3, 4, 5
 
-# Rows of Backrest.coupling: approach over modal coordinate, and tangential velocity of the face, backwards, over modal velocity;
-# of a shell half the thickness times the slope of each mode along the slide
+# Rows of Backrest.coupling: approach over modal coordinate, and tangential velocity of the face,
+# backwards, over modal velocity; of a shell half the thickness times the slope of each mode along
+# the slide
 SHAPE, SLOPE, COUPLING_ROWS = 0, 1, 2
 
 # Rows of Backrest.places: gap at rest [m], and the part of the contact law that each point carries
 GAP, SHARE, PLACE_ROWS = 0, 1, 2
 
-# Rows of BackrestMode.doing: APART, CLOSING, OPENING or RELEASED (overlap without force); friction, see laws/friction.py
+# Rows of BackrestMode.doing: APART, CLOSING, OPENING or RELEASED (overlap without force); friction,
+# see laws/friction.py
 CONTACT, FRICTION, DOING_ROWS = 0, 1, 2
 
 # Columns of BackrestMode.lasting

@@ -51,7 +51,9 @@ def slapping_mass(body: SlappingMass, duration: float, tolerance: float = 1e-12)
 
 
 def slapping_normal(body: SlappingMass, times: Vector, tolerance: float = 1e-12) -> Vector:
-    """Contact force [N] of the motion of ``slapping_mass`` at ascending ``times`` [s] from 0."""
+    """Contact force [times] [N] of the motion of ``slapping_mass`` at ascending ``times`` [s] from
+    0.
+    """
     force = numpy.zeros(len(times))
     for touching, part in _phases(body, float(times[-1]), tolerance):
         if touching:
@@ -64,12 +66,12 @@ def slapping_normal(body: SlappingMass, times: Vector, tolerance: float = 1e-12)
 def sliding_friction(
     normal: Vector, velocity: Vector, step: float, ratio: float, stiffness: float, damping: float
 ) -> Vector:
-    """Friction [N] of a spring-damper within ``ratio`` times ``normal`` [N], sampled each ``step``
-    [s] as ``velocity`` [m/s] is.
+    """Friction [samples] [N] of a spring-damper within ``ratio`` times ``normal`` [N].
 
-    Friction with stick (Driver and Seat, eq 9) in steps, of first order: trial ``C (s + v h) + D
-    v``; beyond the limit the force is the limit and ``C s = F - D v``, at most the limit against
-    the slip; without normal force ``s = 0``.
+    normal, velocity [m/s]: [samples], each ``step`` [s]; stiffness [N/m]; damping [N s/m]. Friction
+    with stick (Driver and Seat, eq 9) in steps, of first order: trial ``C (s + v h) + D v``; beyond
+    the limit the force is the limit and ``C s = F - D v``, at most the limit against the slip;
+    without normal force ``s = 0``.
     """
     force, s = numpy.zeros(len(normal)), 0.0
     for k in range(1, len(normal)):
@@ -78,6 +80,7 @@ def sliding_friction(
             s = 0.0
             continue
         trial = stiffness * (s + v * step) + damping * v
+        # Stick within the limit; else slip, where the spring follows the limit.
         if abs(trial) <= limit:
             s, force[k] = s + v * step, trial
         else:
@@ -150,9 +153,12 @@ class SlappingPoints(NamedTuple):
 def slapping_points(
     body: SlappingPoints, start: Vector, acceleration: Callable[[float], float], times: Vector, tolerance: float = 1e-11
 ) -> NDArray[numpy.float64]:
-    """[len(times), 2 modes] q and q' at ``times`` [s], from ``start`` [2 modes] at the first of
-    them.
+    """q [m] and q' [m/s], [times, states], at ``times`` [s], from ``start`` [states] at the first
+    of them.
+
+    acceleration: time [s] -> [m/s^2].
     """
+    # Modal equations with the law of each point; q, then q'.
     modes = len(body.mass)
 
     def rates(t: float, y: Vector) -> Vector:

@@ -31,11 +31,12 @@ def plate_centre_deflection(side_1: float, side_2: float, rigidity: float, load:
 
 
 def shell_frequencies(shell: Mapping[str, float], count: int, cells: int = 40) -> NDArray[numpy.float64]:
-    """The lowest angular frequencies [rad/s] of Donnell's equations by finite differences,
-    extrapolated from two grids.
+    """The lowest angular frequencies [rad/s] of Donnell's equations, one for each of ``count``
+    modes.
 
-    `D Lap^2 w + Lap_k F = omega^2 rho h w`, `Lap^2 F = E h Lap_k w`, `Lap_k = d_xx / R2 + d_yy /
-    R1`, with w, Lap w, F and Lap F zero on the edges. shell: the fields of `ShallowShell` by name.
+    By finite differences, extrapolated from two grids: `D Lap^2 w + Lap_k F = omega^2 rho h w`,
+    `Lap^2 F = E h Lap_k w`, `Lap_k = d_xx / R2 + d_yy / R1`, with w, Lap w, F and Lap F zero on the
+    edges. shell: the fields of `ShallowShell` by name.
     """
     coarse, fine = (_differences(shell, count, n) for n in (cells, 2 * cells))
     return (4.0 * fine - coarse) / 3.0
@@ -50,6 +51,7 @@ def _differences(shell: Mapping[str, float], count: int, cells: int) -> NDArray[
         ones = numpy.ones(cells - 1)
         return scipy.sparse.diags([ones[1:], -2.0 * ones, ones[1:]], [-1, 0, 1]) * (cells / length) ** 2
 
+    # Second derivatives on the inner nodes; the biharmonic operator is the square of the Laplacian.
     unit = scipy.sparse.identity(cells - 1)
     along_x = scipy.sparse.kron(second(shell["length_1"]), unit)
     along_y = scipy.sparse.kron(unit, second(shell["length_2"]))
@@ -57,6 +59,7 @@ def _differences(shell: Mapping[str, float], count: int, cells: int) -> NDArray[
     curved = along_x / shell["radius_2"] + along_y / shell["radius_1"]
     bending = shell["thickness"] ** 2 / (12.0 * (1.0 - shell["poisson"] ** 2))
     stiffness = scipy.sparse.bmat([[bending * biharmonic, curved], [curved, -biharmonic]], format="csc")
+    # Only w has inertia: the mass matrix is singular, so the problem is inverted around zero.
     nothing = scipy.sparse.csc_matrix(biharmonic.shape)
     mass = scipy.sparse.bmat([[scipy.sparse.identity(biharmonic.shape[0]), None], [None, nothing]], format="csc")
     values = scipy.sparse.linalg.eigsh(stiffness, count, mass, sigma=0.0, return_eigenvectors=False)

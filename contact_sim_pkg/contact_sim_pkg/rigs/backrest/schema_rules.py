@@ -17,8 +17,8 @@ balances (0.6 % seen).
 
 
 def backrest_breaches(scene: Scene) -> Iterator[Breach]:
-    """A shell that is not thin or not shallow, a number of modes that is not offered, sliding
-    without friction.
+    """A shell that is not thin or not shallow, modes that are not offered, sliding without
+    friction.
     """
     backrest = scene.section(BackrestSection)
     if backrest.sliding.amplitude > 0.0 and scene.effect("backrest", BackFriction) is None:
@@ -26,6 +26,7 @@ def backrest_breaches(scene: Scene) -> Iterator[Breach]:
         yield Breach("backrest.sliding.amplitude", sentence, ("effects.backrest",))
     if scene.rig == "backrest" and getattr(scene.vibration, "axis", "x") != "x":
         yield Breach("vibration.axis", "a seat back is shaken forward; set axis: x", ("rig",))
+    # Limits of the shell: number of modes, thickness, curvature.
     shell = scene.effect("backrest", ShellModesSection)
     if shell is None:
         return

@@ -5,9 +5,10 @@ Sides L1, L2 from a corner (x along L1, y along L2), thickness h, radii of curva
 R2 along L2. With `alpha = m pi / L1`, `beta = n pi / L2`, `D = E h^3 / (12 (1 - nu^2))` and a
 deflection w, positive outwards,
 
-    w(x, y, t) = sum q_mn(t) phi_mn(x, y),   phi_mn = sin(alpha x) sin(beta y),   modal mass M = rho h L1 L2 / 4
-    omega_mn^2 = (D (alpha^2 + beta^2)^2 + E h ((alpha^2 / R2 + beta^2 / R1) / (alpha^2 + beta^2))^2) / (rho h)
-    M (q_mn'' + 2 zeta omega_mn q_mn' + omega_mn^2 q_mn) = sum of point forces times phi_mn at their points
+    w(x, y, t) = sum q_mn(t) phi_mn(x, y),   phi_mn = sin(alpha x) sin(beta y),   modal mass M = rho
+    h L1 L2 / 4 omega_mn^2 = (D (alpha^2 + beta^2)^2 + E h ((alpha^2 / R2 + beta^2 / R1) / (alpha^2
+    + beta^2))^2) / (rho h) M (q_mn'' + 2 zeta omega_mn q_mn' + omega_mn^2 q_mn) = sum of point
+    forces times phi_mn at their points
 
 R = inf is the flat plate, exactly. A shape counts to the first power, so q_mn is the deflection at
 the crest of its mode.
@@ -61,7 +62,7 @@ class ShallowShell(NamedTuple):
     length_2: float  # [m] side along y
     thickness: float  # [m]
     young: float  # [Pa]
-    poisson: float  # [-] 0 to 0.5
+    poisson: float  # [1] 0 to 0.5
     density: float  # [kg/m^3]
     radius_1: float  # [m] of curvature along x; inf: straight; negative: curved the other way
     radius_2: float  # [m] of curvature along y
@@ -72,7 +73,7 @@ class ShellModes(NamedTuple):
 
     orders: NDArray[numpy.int64]  # [modes, 2] m and n
     frequencies: Field  # [modes] [rad/s]
-    shapes: Field  # [points, modes] phi [-]
+    shapes: Field  # [points, modes] phi [1]
     slopes_x: Field  # [points, modes] d phi / dx [1/m]
     slopes_y: Field  # [points, modes] d phi / dy [1/m]
     modal_mass: float  # [kg] the same for every mode

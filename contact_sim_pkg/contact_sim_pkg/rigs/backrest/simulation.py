@@ -67,6 +67,7 @@ class BackrestSimulation:
         forward, _upward = accelerations(timing, block, inputs.get(VIBRATION))
         start = block * timing.block_length
         record = BackrestRecord.empty(model, block, forward[: -1 : timing.sample_every])
+        # Energies at the start of the block; the ledger counts from them.
         record.energy[:] = self._energies(start)
         record.start_energy[:] = self._start_energy
         self._work.counters[:] = 0.0
@@ -76,11 +77,13 @@ class BackrestSimulation:
         status = entries.advance(model.rig, self._mode, self.state, model.scale, self._work, shaking, samples)
         if status != DONE:
             raise RunError(f"block {block}, {start:.6g} s: {SENTENCES[status]}")
+        # More episodes than the buffers hold cannot be reported.
         ended = int(self._mode.counts[ENDED])
         if ended > MOST_EPISODES:
             raise RunError(f"block {block}, {start:.6g} s: {ended} contact episodes ended in it, limit {MOST_EPISODES}")
         record.counters[:] = self._work.counters
         record.take_episodes(model, self._mode, self._peak_force)
+        # Outputs of the block.
         self._next_block = block + 1
         record.maps = [(sample, self._pressure(record, sample)) for sample in self._field_samples()]
         outputs = block_outputs(model, record, time.perf_counter() - began)

@@ -146,8 +146,9 @@ def history_of(model: ImpactModel, effect: History, block: int, impact: Finished
 
 
 def gauge_readings(model: ImpactModel, number: int, *values: float) -> list[float]:
-    """The values with the noise of the gauges: of the scene's seed and the impact's number, so the
-    same in every run.
+    """Readings of the gauges: speed [m/s], duration [s] and restitution [1] with noise.
+
+    The noise follows from the scene's seed and the impact's number, so it is the same in every run.
     """
     noise = model.noise
     if noise is None:

@@ -129,7 +129,7 @@ class ImpactModel:
         return FirstContact(half_space, impact, law)
 
     def half_space_share(self, touch: FirstContact) -> float:
-        """D1 [-], the half-space's part of the approach."""
+        """D1 [1], the half-space's part of the approach."""
         body = math.inf if self.body is None else self.body.storage_modulus
         return shares(touch.half_space.storage_modulus, body)[0]
 

@@ -283,7 +283,9 @@ class ImpactMotion:
 
 
 def forces(law: ContactLaw, depth: Vector, speed: Vector) -> tuple[Vector, Vector]:
-    """Elastic and viscous force in [N] of a loaded contact."""
+    """Elastic and viscous force [N] of a loaded contact at depth [m] and speed [m/s], each
+    [samples].
+    """
     root = numpy.sqrt(depth)
     return law.elastic * depth * root, law.viscous * root * speed
 

@@ -20,7 +20,9 @@ from contact_sim_pkg.run.outputs import BlockStamps, contact_outputs, energy_led
 def block_outputs(
     model: ImpactModel, block: int, state: SphereState, ended: list[FinishedImpact], segments: int, began: float
 ) -> list[Output]:
-    """Outputs of a block of ``segments`` of motion; ``began``: start of its work on the performance counter [s]."""
+    """Outputs of a block of ``segments`` of motion; ``began``: start of its work on the performance
+    counter [s].
+    """
     stamps = BlockStamps(block, model.timing)
     events = [Output("impact/events", stamps.start, _events(model, block, ended))] if ended else []
     outputs = [

@@ -1,4 +1,6 @@
-"""Effects of the contact between sphere and sample. An effect acts when the scene names it; `{}` takes all defaults."""
+"""Effects of the contact between sphere and sample. An effect acts when the scene names it; `{}`
+takes all defaults.
+"""
 
 from __future__ import annotations
 
@@ -16,7 +18,9 @@ class SphereElastic(Section):
 
 
 class SphereLoss(Section):
-    """Viscous force 4 k_p √R (E' tan β/ω) x^(1/2) x', ω the angular frequency π/τ of the impact itself."""
+    """Viscous force 4 k_p √R (E' tan β/ω) x^(1/2) x', ω the angular frequency π/τ of the impact
+    itself.
+    """
 
     end: Literal["force", "gap"] = choice(
         "contact ends at zero force (never tensile), or at zero gap (tensile before)",
@@ -25,7 +29,9 @@ class SphereLoss(Section):
 
 
 class Shift(Section):
-    """Time-temperature shift: E' and tan β of each impact from a table over temperature, measured at one impact speed."""
+    """Time-temperature shift: E' and tan β of each impact from a table over temperature, measured
+    at one impact speed.
+    """
 
     law: Literal["wlf", "arrhenius"] = choice("Williams-Landel-Ferry, or one activation energy", default="wlf")
     glass_temperature: float = number(1.0, 2000.0, "K", "glass temperature Tg", default=223.0)
@@ -75,7 +81,9 @@ class SurfaceWaves(Section):
 
 
 class MicroFront(Section):
-    """Speed of the contact's border and of the wave front, time at which the front falls to the shear wave, as `impact/front`."""
+    """Speed of the contact's border and of the wave front, time at which the front falls to the
+    shear wave, as `impact/front`.
+    """
 
     instants: int = number(3, 1001, "", "instants of each impact", default=101)
 
@@ -91,8 +99,8 @@ class ThermalVolume(Section):
 
 
 class History(Section):
-    """Depth by the hereditary integral under the recorded force, for comparison, as `impact/history`; flagged where
-    the contact shrinks and the integral no longer holds."""
+    """Depth by the hereditary integral under the recorded force, for comparison, as
+    `impact/history`; flagged where the contact shrinks and the integral no longer holds."""
 
     model: Literal["kelvin_voigt", "maxwell"] = choice(
         "model with the complex modulus of the sample at the frequency of the impact", default="kelvin_voigt"
@@ -100,7 +108,9 @@ class History(Section):
 
 
 class GaugeNoise(Section):
-    """Noise of the gauges: relative errors of the measured values in `impact/events`, normal, from the scene's seed."""
+    """Noise of the gauges: relative errors of the measured values in `impact/events`, normal, from
+    the scene's seed.
+    """
 
     speed: float = number(0.0, 0.5, "", "standard deviation", default=0.01)
     duration: float = number(0.0, 0.5, "", "standard deviation", default=0.01)

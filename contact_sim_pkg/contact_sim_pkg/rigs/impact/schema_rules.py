@@ -14,7 +14,9 @@ from contact_sim_pkg.scene.schema.scene import Scene
 
 
 def impact_breaches(scene: Scene) -> Iterator[Breach]:
-    """Releases without a period, a pendulum that is too short, a table that does not rise or holds what is no material."""
+    """Releases without a period, a pendulum that is too short, a table that does not rise or holds
+    what is no material.
+    """
     impact, shift = scene.section(ImpactSection), scene.effect("impact", Shift)
     releases = len(impact.speeds) * len(impact.temperatures) * impact.repeats
     if releases > 1 and impact.period is None:

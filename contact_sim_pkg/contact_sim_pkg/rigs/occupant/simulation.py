@@ -1,8 +1,9 @@
 """The simulation of an occupant on a seat and against its back, block by block.
 
-Pan and back are two rigs under one floor, and one bag: upwards the occupant of the rig ``seat`` on the cushion, forward the
-moving mass or shell of the rig ``backrest``. To first order the two directions do not act on each other: friction at one contact
-does not hold the motion at the other. Motions stand side by side, energies and costs add up.
+Pan and back are two rigs under one floor, and one bag: upwards the occupant of the rig ``seat`` on
+the cushion, forward the moving mass or shell of the rig ``backrest``. To first order the two
+directions do not act on each other: friction at one contact does not hold the motion at the other.
+Motions stand side by side, energies and costs add up.
 """
 
 from __future__ import annotations

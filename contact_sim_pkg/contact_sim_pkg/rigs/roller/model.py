@@ -125,7 +125,7 @@ class RollerModel:
         """Over the pressure, along x and y: as `subsurface` says; along rolling by default that of
         the rolling friction.
 
-        The result: [-].
+        The result: [1].
         """
         below, along = self.subsurface, self.roller.rolling_friction
         if below is None:
@@ -143,6 +143,7 @@ def build_roller(scene: ResolvedScene) -> RollerModel:
     rig, law = scene.section(schema.RollerRig), given(scene.effect("roller", schema.RollerElastic))
     bending, compliance = _bending(rig, scene.effect("roller", schema.ShaftBending))
     modulus = 0.5 * rig.young_modulus / (1.0 - rig.poisson_ratio**2)
+    # Turns of the shaft per second.
     turns = rig.speed * rig.radius / rig.shaft_radius
     model = RollerModel(
         timing=make_timing(scene, False),
@@ -165,6 +166,7 @@ def build_roller(scene: ResolvedScene) -> RollerModel:
         damage=scene.effect("roller", Damage),
         seed=scene.seed,
     )
+    # A model that cannot run is refused here, before anything starts.
     _refuse_impossible(model)
     return model
 

@@ -1,4 +1,6 @@
-"""The roller pressed on a rotating shaft of the rig roller, and the effects of their contact (Rolling Contact)."""
+"""The roller pressed on a rotating shaft of the rig roller, and the effects of their contact
+(Rolling Contact).
+"""
 
 from __future__ import annotations
 
@@ -44,7 +46,9 @@ class RollerProgramme(Section):
 
 
 class RollerRig(Section):
-    """Roller in its suspension, on a shaft. x along the shaft, y along rolling, z from the roller into the shaft."""
+    """Roller in its suspension, on a shaft. x along the shaft, y along rolling, z from the roller
+    into the shaft.
+    """
 
     load: float = number(0.0, 1e7, "N", "normal load F_N", default=100.0, above=True)
     speed: float = number(0.0, 10000.0, "1/s", "turns of the roller per second", default=50.0)
@@ -117,7 +121,9 @@ class ShaftBending(Section):
 
 
 class TrackWaves(Section):
-    """The roller rides over the heights of the track: heave, load that changes, separation and impact."""
+    """The roller rides over the heights of the track: heave, load that changes, separation and
+    impact.
+    """
 
     track: Literal["shaft", "roller", "both"] = choice("body with the heights and the wear", default="shaft")
     damping_ratio: float = number(0.0, 10.0, "", "damping ratio ζ of the heave", default=0.05)

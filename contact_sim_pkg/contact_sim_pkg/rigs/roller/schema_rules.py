@@ -23,8 +23,11 @@ COLUMNS = ("load", "profile_radius", "rolling_radius", "shaft_radius", "shaft_pr
 
 
 def roller_breaches(scene: Scene) -> Iterator[Breach]:
-    """Inertias that are none, columns of unequal length, turns that do not fit a block, instants outside the run."""
+    """Inertias that are none, columns of unequal length, turns that do not fit a block, instants
+    outside the run.
+    """
     roller, law, waves = scene.section(RollerRig), _law(scene), scene.effect("roller", TrackWaves)
+    # The inertia tensor is positive definite.
     if not roller.inertia_product**2 < roller.inertia_tilt * roller.inertia_yaw:
         most = math.sqrt(roller.inertia_tilt * roller.inertia_yaw)
         sentence = (
@@ -35,6 +38,7 @@ def roller_breaches(scene: Scene) -> Iterator[Breach]:
     if law.split == "parallel" and scene.effect("roller", ShaftBending) is None:
         sentence = "parallel takes part of the load through a bent shaft; add shaft_bending, or take series"
         yield Breach("effects.roller.normal_elastic.split", sentence, ("effects.roller.shaft_bending",))
+    # Each effect has rules of its own.
     if roller.programme is not None:
         yield from _programme(roller.programme)
     if waves is not None:
@@ -73,7 +77,9 @@ def _programme(programme: RollerProgramme) -> Iterator[Breach]:
 
 
 def _track(scene: Scene, roller: RollerRig, waves: TrackWaves) -> Iterator[Breach]:
-    """A block holds whole turns of the shaft; over the heights of the track only the load may change."""
+    """A block holds whole turns of the shaft; over the heights of the track only the load may
+    change.
+    """
     if roller.speed == 0.0:
         yield Breach(
             "roller.speed",
@@ -87,6 +93,7 @@ def _track(scene: Scene, roller: RollerRig, waves: TrackWaves) -> Iterator[Breac
         sentence += "leave track_waves out"
         yield Breach("effects.roller.normal_elastic.split", sentence, ("effects.roller.track_waves",))
     yield from _whole_turns(scene, roller, waves.track)
+    # The heave over heights has one contact: only its load may change.
     programme = roller.programme
     for name in COLUMNS[1:]:
         if programme is not None and getattr(programme, name) is not None:
@@ -95,8 +102,11 @@ def _track(scene: Scene, roller: RollerRig, waves: TrackWaves) -> Iterator[Breac
 
 
 def _whole_turns(scene: Scene, roller: RollerRig, track: str) -> Iterator[Breach]:
-    """Of the track, or of the larger body where both have one; that one is then a whole multiple of the other."""
+    """Of the track, or of the larger body where both have one; that one is then a whole multiple of
+    the other.
+    """
     radii = {"shaft": exact(roller.shaft_radius), "roller": exact(roller.radius)}
+    # A turn of both bodies is one of the larger.
     if track == "both":
         ratio = max(radii.values()) / min(radii.values())
         if ratio.denominator != 1:
@@ -106,6 +116,7 @@ def _whole_turns(scene: Scene, roller: RollerRig, track: str) -> Iterator[Breach
             )
             yield Breach("roller.radius", sentence, ("roller.shaft_radius", "effects.roller.track_waves.track"))
             return
+    # In exact fractions, so that a whole number is one.
     body = max(radii, key=lambda name: radii[name]) if track == "both" else track
     rate = exact(roller.radius) / radii[body] * exact(scene.block_length)
     turns = exact(roller.speed) * rate

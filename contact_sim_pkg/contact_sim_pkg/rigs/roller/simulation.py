@@ -149,14 +149,15 @@ class RollerSimulation:
         return held
 
     def _rolled(self, start: float) -> tuple[Ridden, Matrix]:
-        """All intervals of a block, and tilt, yaw and their rates [places, 4]. The load pressed on
-        rests over an interval.
+        """All intervals of a block, and tilt, yaw and their rates, [places, 4]; the load is
+        constant over an interval.
         """
         ride = self._ride
         assert ride is not None
         parts, angles = [], []
         for number in range(ride.intervals_a_block):
             yaw = self.model.start[1] if self._angles is None else float(self._angles.state[1])
+            # The yaw at the start of the interval sets its contact.
             at = number * ride.interval_time
             ride.press(float(self.model.programme.loads(numpy.array([start + at]))[0]), yaw)
             part = ride.advance()

@@ -96,7 +96,7 @@ def make_tracks(model: RollerModel) -> list[BodyTrack]:
 
 
 def track_under(track: BodyTrack, contact: RollingContact, gain: float) -> WearTrack:
-    """Of a body, under the contact of the load pressed on."""
+    """Wear track of a body under the contact of the load pressed on; gain: gamma [1]."""
     return make_track(
         radius=track.radius,
         turn_time=track.turn_time,

@@ -45,10 +45,14 @@ def half_space_of(settings: FieldSettings) -> HalfSpace:
 
 
 class PressureField:
-    """One pressure field that follows its contact: influence tables, buffers, and the last solution."""
+    """One pressure field that follows its contact: influence tables, buffers, and the last
+    solution.
+    """
 
     def __init__(self, settings: FieldSettings, contact: str) -> None:
-        """Make tables and buffers for ``settings``; ``contact`` (``tire``, ``seat``) is its name in messages."""
+        """Make tables and buffers for ``settings``; ``contact`` (``tire``, ``seat``) is its name in
+        messages.
+        """
         self.settings = settings
         self.contact = contact
         self.half_space: HalfSpace = half_space_of(settings)
@@ -85,7 +89,9 @@ class PressureField:
         return self.load
 
     def solve_load(self, gap: Field, load: float, tolerance: float | None = None) -> float:
-        """Approach [m] under ``load`` [N]; ``tolerance`` None: that of the settings. Errors as ``solve``."""
+        """Approach [m] under ``load`` [N]; ``tolerance`` None: that of the settings. Errors as
+        ``solve``.
+        """
         s = self.settings
         requested = s.tolerance if tolerance is None else tolerance
         result = self._field.solve_at_load(gap, load, requested, s.maximum_iterations)
@@ -115,7 +121,8 @@ class PressureField:
 
 
 def fit_tangent(field: PressureField, gap: Field, load: float) -> NormalElastic:
-    """Power law through the field's approach at ``load`` [N] and at 5 % more: the tangent between instants.
+    """Power law through the field's approach at ``load`` [N] and at 5 % more: the tangent between
+    instants.
 
     gap: [rows, cols] [m]. Both are solved to 1e-7 whatever the field's own tolerance: dissipation
     and effective height are read from this law.
@@ -128,7 +135,8 @@ def fit_tangent(field: PressureField, gap: Field, load: float) -> NormalElastic:
 
 
 def correction_of(elastic: ElasticLaw, field: PressureField, gap: Field, approach: float, geometric: float) -> float:
-    """Effective-height correction [m] of the ``geometric`` approach [m]: the law then has the field's force.
+    """Effective-height correction [m] of the ``geometric`` approach [m]: the law then has the
+    field's force.
 
     ``field`` was solved at ``gap`` [rows, cols] [m] and ``approach`` [m]. Without contact the law's
     approach is minus the smallest distance.

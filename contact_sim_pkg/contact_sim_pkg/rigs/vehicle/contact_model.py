@@ -1,4 +1,6 @@
-"""What a contact of either kind is built from: its loss, the grids of its field, and the tangent law between field instants."""
+"""What a contact of either kind is built from: its loss, the grids of its field, and the tangent
+law between field instants.
+"""
 
 from __future__ import annotations
 
@@ -18,7 +20,9 @@ from contact_sim_pkg.scene.errors import Fault, SceneError
 
 @dataclass(frozen=True)
 class FieldGrids:
-    """The pressure field of one contact, and the wider one that takes over where the contact outgrows it."""
+    """The pressure field of one contact, and the wider one that takes over where the contact
+    outgrows it.
+    """
 
     usual: PressureField
     wide: PressureField
@@ -36,9 +40,11 @@ def make_grids(settings: FieldSettings, contact: str) -> FieldGrids:
 def tangent_law(
     grids: FieldGrids, gap_on: Callable[[FieldSettings], NDArray[numpy.float64]], load: float, contact: str
 ) -> tuple[NormalElastic, float]:
-    """Tangent law at the standing load, and the length in [m] of the contact there along the rows.
+    """Tangent law of a contact at its standing ``load`` [N], and the length [m] of the contact
+    along the rows.
 
-    On the wide grid where the usual one does not hold the contact. Raises SceneError where that does not either.
+    gap_on: settings of a grid -> undeformed gap [rows, cols] [m]. On the wide grid where the usual
+    one does not hold the contact. Raises SceneError where that does not either.
     """
     for field in grids.both():
         try:
@@ -46,6 +52,7 @@ def tangent_law(
             return law, int((field.pressure > 0.0).any(axis=1).sum()) * field.settings.cell_x
         except FieldError as error:
             reason = error
+    # Neither grid holds the contact: the scene is wrong.
     where = f"effects.{contact}.contact_field"
     sentence = (
         f"the contact does not fit on its grid at the standing load of {load:.6g} N: {reason}; enlarge length and width"

@@ -3,7 +3,8 @@
 From one solution to the next each contact has its tangent law and a height whose correction is
 linear in time (decision 0004). A coupling step is as long as that allows:
 
-* No longer than a part of the footprint, so that no obstacle that the tire passes falls between two fields.
+* No longer than a part of the footprint, so that no obstacle that the tire passes falls between two
+  fields.
 * The slopes of the effective-height correction over this coupling step, s1 over h1, and the one
   before, s0 over h0, give its curvature; a straight line misses a parabola of it by
   ``|s1 - s0| h1**2 / (4 (h0 + h1))`` at most. Above the allowed height the coupling step is
@@ -11,7 +12,8 @@ linear in time (decision 0004). A coupling step is as long as that allows:
 * With dissipation the rate of the height matters too: its error over this coupling step is
   ``|s1 - s0| h1 / (h0 + h1)``.
 * No error makes a coupling step so short that the solver's own error would act as a speed.
-* Where the rig or its contact fails within a coupling step, a shorter one is tried before that counts.
+* Where the rig or its contact fails within a coupling step, a shorter one is tried before that
+  counts.
 
 The coupling steps of a viscoelastic tread have one length; the error is only reported.
 """
@@ -92,7 +94,9 @@ class Coupling:
         bodies.start(first, self._corrections())
 
     def energies(self, smooth: float) -> Vector:
-        """Energies [J] at the present instant over a ``smooth`` height [m], as `entries.energies` orders them."""
+        """Energies [J] at the present instant over a ``smooth`` height [m], as `entries.energies`
+        orders them.
+        """
         return self.bodies.energies(smooth + self.tire.correction, self.seat.correction)
 
     def copy_published(self) -> tuple[FieldRecord | None, FieldRecord | None]:
@@ -166,7 +170,8 @@ class Coupling:
             if passes_left < most:
                 self.bodies.restore(saved)
             self.bodies.move(step, self._corrections(), ends)
-            # Between published fields the last corrections are kept, unless the field is viscoelastic.
+            # Between published fields the last corrections are kept, unless the field is
+            # viscoelastic.
             if passes_left or step.last or not most or self.tire.is_viscoelastic:
                 found = self._solve(step, solved, ends)
             if passes_left == most:
@@ -179,7 +184,9 @@ class Coupling:
         return StepOutcome(error, ends, found)
 
     def _settled(self, ends: Corrections, found: Corrections, duration: float) -> bool:
-        """Whether the change of the corrections is small as a height, and as a speed over ``duration`` [s]."""
+        """Whether the change of the corrections is small as a height, and as a speed over
+        ``duration`` [s].
+        """
         return all(
             abs(a - b) <= SETTLED * min(allowed.height, allowed.speed * duration)
             for a, b, allowed in zip(ends, found, self._allowances, strict=True)
@@ -189,12 +196,16 @@ class Coupling:
         return self.tire.correction, self.seat.correction
 
     def _solve(self, step: CouplingStep, solved: list[bool], expected: Corrections) -> Corrections:
-        """Corrections [m] by the fields at the end of the coupling step; ``expected`` where none is solved."""
+        """Corrections [m] by the fields at the end of the coupling step; ``expected`` where none is
+        solved.
+        """
         tire = self._solve_tire(step.drive, -1, step.block) if solved[0] else expected[0]
         return tire, self._solve_seat(step.block) if solved[1] else expected[1]
 
     def _solve_tire(self, drive: BlockDrive, point: int, block: int) -> float:
-        """Solve the tire's field at the present state; returns its correction [m], 0 without a field."""
+        """Solve the tire's field at the present state; returns its correction [m], 0 without a
+        field.
+        """
         if self.tire.grids is None:
             return 0.0
         self.tire.place(drive.road, float(drive.travel[point]))
@@ -203,7 +214,9 @@ class Coupling:
         )
 
     def _solve_seat(self, block: int) -> float:
-        """Solve the seat's field at the present state; returns its correction [m], 0 without a field."""
+        """Solve the seat's field at the present state; returns its correction [m], 0 without a
+        field.
+        """
         approach = self.bodies.seat_approach(0.0)
         return self.seat.solve(approach, approach, block)
 
@@ -218,7 +231,9 @@ class Coupling:
         return worst
 
     def _close(self, step: CouplingStep, outcome: StepOutcome, record: BlockRecord) -> None:
-        """Accept the fields and their corrections; the energy of the remaining jump counts as supplied."""
+        """Accept the fields and their corrections; the energy of the remaining jump counts as
+        supplied.
+        """
         self.tire.store()
         height, cushion = float(step.drive.smooth[-1]) + outcome.ends[0], outcome.ends[1]
         approaches = (self.bodies.tire_approach(height), self.bodies.seat_approach(cushion))

@@ -1,4 +1,6 @@
-"""What moves the rig over one block, at every segment's end: travel, smooth road height, accelerations, impulses."""
+"""What moves the rig over one block, at every segment's end: travel, smooth road height,
+accelerations, impulses.
+"""
 
 from __future__ import annotations
 

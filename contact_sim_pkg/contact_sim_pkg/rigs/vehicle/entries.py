@@ -1,4 +1,6 @@
-"""Compiled entries of the vehicle rig: advance over a row of segments with samples, and the energies of a state."""
+"""Compiled entries of the vehicle rig: advance over a row of segments with samples, and the
+energies of a state.
+"""
 
 from __future__ import annotations
 
@@ -71,7 +73,11 @@ def start(
     rig: Vehicle, mode: Modes, state: Vector, work: DormandPrinceWorkspace, segment_length: float, height: Vector, cushion: Vector,
     acceleration_x: Vector, acceleration_z: Vector, push: Vector | None,
 ) -> None:  # fmt: skip
-    """Take the sides of the event functions at the start of a run (arrays hold the first segment's two ends)."""
+    """Set the event directions at the start of a run.
+
+    Arrays hold the ends of the first segment, [2]: ``height``, ``cushion`` [m], accelerations
+    [m/s^2], ``push`` [N]; ``state``: [states]; ``segment_length`` in [s].
+    """
     drive = _segment(0.0, segment_length, 0, height, cushion, acceleration_x, acceleration_z, push)
     set_event_directions(rig, drive, mode, 0.0, state, work)
 
@@ -82,16 +88,20 @@ def advance(
     height: Vector, cushion: Vector, acceleration_x: Vector, acceleration_z: Vector, push: Vector | None,
     sample_every: int, behind_sample: int, sampled_states: Vector, sampled_rates: Vector, sampled_forces: Vector,
 ) -> int:  # fmt: skip
-    """Advance ``state`` over ``len(height) - 1`` segments of ``segment_length`` in [s] from time ``start``.
+    """Advance ``state`` over ``len(height) - 1`` segments of ``segment_length`` [s] from time
+    ``start`` [s].
 
-    ``height``, ``cushion`` [m], ``acceleration_x``, ``acceleration_z`` [m/s^2], ``push`` [N] (None: none): values at the
-    ends of the segments, linear between. Every ``sample_every``-th segment's start is sampled, the first segment lying
-    ``behind_sample`` segments behind one: state, rates (seen from the right) and the columns ``TIRE_NORMAL ...`` of the forces.
-    Returns a status of ``compiled/results.py``; ``mode``, ``state`` and ``work`` change in place.
+    ``height``, ``cushion`` [m], ``acceleration_x``, ``acceleration_z`` [m/s^2], ``push`` [N] (None:
+    none): [segments + 1] values at the ends of the segments, linear between. Every
+    ``sample_every``-th segment's start is sampled, the first segment lying ``behind_sample``
+    segments behind one: state and rates [samples, states] (rates from the right), forces [samples,
+    FORCES] in the columns ``TIRE_NORMAL ...``. Returns a status of ``compiled/results.py``;
+    ``mode``, ``state`` and ``work`` change in place.
     """
     row = 0
     for i in range(height.shape[0] - 1):
         drive = _segment(start, segment_length, i, height, cushion, acceleration_x, acceleration_z, push)
+        # Samples lie at the starts of segments.
         if (i + behind_sample) % sample_every == 0:
             copy_row(state, sampled_states[row])
             rate(rig, drive, mode, drive.start, state, sampled_rates[row])
@@ -171,12 +181,16 @@ def _memory_energy(contact, state):
 def energies(
     rig: Vehicle, mode: Modes, state: Vector, height: float, cushion: float
 ) -> tuple[float, float, float, float, float]:
-    """Kinetic, potential, stored energy, work supplied, work dissipated, all in [J], of ``state`` at given heights in [m]."""
+    """Kinetic, potential, stored energy, work supplied and dissipated [J] of ``state`` [states].
+
+    ``height`` [m] of the road, ``cushion`` [m] of the cushion.
+    """
     kinetic, potential, stored = _tire_energies(rig.tire, rig.gravity, state)
     belt_kinetic, belt_potential, belt_stored = _rigid_ring_energies(rig.rigid_ring, rig.gravity, state)
     kinetic += belt_kinetic
     potential += belt_potential
     stored += belt_stored
+    # The occupant on its cushion, whose friction has a spring and whose foam has a memory.
     seat_kinetic, seat_potential, seat_stored = _seat_energies(rig.seat, rig.gravity, state)
     tire_x, _tire_v = quarter_car.tire_approach(rig.tire, rig.rigid_ring, height, 0.0, state)
     seat_x, _seat_v = vehicle.seat_approach(rig.tire, rig.seat, cushion, 0.0, state)
@@ -185,6 +199,8 @@ def energies(
     remembered = _memory_energy(rig.seat_contact, state)
     stored += seat_stored + spring + remembered
     stored += _contact_energy(rig.tire_contact, tire_x) + _contact_energy(rig.seat_contact, seat_x)
+    # The last two states are the works supplied and dissipated; what is still stored is no loss
+    # yet.
     last = state.shape[0]
     dissipated = state[last - 1] - spring - remembered
     return kinetic + seat_kinetic + slide_kinetic, potential + seat_potential, stored, state[last - 2], dissipated

@@ -20,7 +20,8 @@ from contact_sim_pkg.run.errors import RunError
 Gap = NDArray[numpy.float64]
 
 AS_PREDICTED = 0.1
-"""Of the allowed height: a correction that differs by less from the expected one is as predicted."""
+"""Of the allowed height: a correction that differs by less from the expected one is as predicted.
+"""
 
 
 class ContactField(ABC):
@@ -61,12 +62,14 @@ class ContactField(ABC):
         self._slope, self._since, self._count, self.as_predicted = 0.0, 0, 1, False
 
     def predicted(self, count: int) -> float:
-        """Correction [m] after a step of ``count`` segments, extrapolated from the last two solutions."""
+        """Correction [m] after a step of ``count`` segments, extrapolated from the last two
+        solutions.
+        """
         return self._solved + self._slope * (self._since + count)
 
     def interpolation_error(self, correction: float, count: int) -> float:
-        """Largest distance [m] between the straight line to ``correction`` [m], ``count`` segments on,
-        and a parabola through the last three solutions.
+        """Largest distance [m] between the straight line to ``correction`` [m], ``count`` segments
+        on, and a parabola through the last three solutions.
         """
         span = self._since + count
         slope = (correction - self._solved) / span
@@ -80,7 +83,8 @@ class ContactField(ABC):
     def accept(self, correction: float, count: int, solved: bool, allowed: float) -> None:
         """Accept a coupling step of ``count`` segments with the ``correction`` [m] at its end.
 
-        ``solved``: by a solution of the field; else it is the predicted one. ``allowed`` [m] is its error.
+        ``solved``: by a solution of the field; else it is the predicted one. ``allowed`` [m] is its
+        error.
         """
         span = self._since + count
         if solved:
@@ -90,7 +94,8 @@ class ContactField(ABC):
         self._since, self.correction = span, correction
 
     def solve(self, approach: float, geometric: float, block: int) -> float:
-        """Solve the field at ``approach`` [m]; returns the correction [m] of the ``geometric`` approach [m].
+        """Solve the field at ``approach`` [m]; returns the correction [m] of the ``geometric``
+        approach [m].
 
         Where the contact outgrows the usual grid, or touches beyond it, the wide grid is solved.
         Raises RunError where that is too small as well.
@@ -114,12 +119,16 @@ class ContactField(ABC):
         return correction
 
     def stand(self, load: float) -> float:
-        """Approach [m] at which the field carries ``load`` [N] at the start of a run. Errors as ``solve``."""
+        """Approach [m] at which the field carries ``load`` [N] at the start of a run. Errors as
+        ``solve``.
+        """
         assert self.grids is not None
         return self._stand_on(self.grids, load)[0]
 
     def _stand_on(self, grids: FieldGrids, load: float) -> tuple[float, PressureField]:
-        """Approach [m] under ``load`` [N], and the field that carries it: the usual or the wide one."""
+        """Approach [m] under ``load`` [N], and the field that carries it: the usual or the wide
+        one.
+        """
         for field in grids.both():
             try:
                 field.roll_to(self.road_row(field.settings))
@@ -177,11 +186,15 @@ class ContactField(ABC):
         return 0
 
     def touches_beyond(self, grids: FieldGrids, approach: float) -> bool:
-        """Whether the contact solved on the usual grid at ``approach`` [m] extends beyond it, as at a wall."""
+        """Whether the contact solved on the usual grid at ``approach`` [m] extends beyond it, as at
+        a wall.
+        """
         return False
 
     def refuse_beyond(self, grids: FieldGrids, approach: float, block: int) -> None:  # noqa: B027  # most have nothing there
-        """Raise RunError where the contact solved on the wide grid at ``approach`` [m] extends beyond it."""
+        """Raise RunError where the contact solved on the wide grid at ``approach`` [m] extends
+        beyond it.
+        """
 
     @abstractmethod
     def gap(self, settings: FieldSettings) -> Gap:

@@ -26,9 +26,12 @@ SIGHT = 1.0  # of the tire's radius: how far the road is looked at beyond the pr
 def field_settings(
     field: PressureFieldSection | None, modulus: float, envelopment: Envelopment | None = None
 ) -> FieldSettings | None:
-    """Grid and accuracy of a resolved pressure field over a ``modulus`` [Pa]; None where the scene calls for none."""
+    """Grid and accuracy of a resolved pressure field over a ``modulus`` [Pa]; None where the scene
+    calls for none.
+    """
     if field is None:
         return None
+    # A resolved scene leaves none of these open.
     rows, cols, tolerance, passes = field.rows, field.cols, field.tolerance, field.corrector_passes
     assert rows is not None
     assert cols is not None
@@ -65,7 +68,9 @@ def standing_load(tire: TireSection, occupant: OccupantSection | None) -> float:
 
 
 def tire_lattice(tire: TireSection, settings: FieldSettings | None, load: float) -> RoadLattice:
-    """Lattice of the road under a tire: the cells of its field, or cells that hold its footprint under ``load`` [N]."""
+    """Lattice of the road under a tire: the cells of its field, or cells that hold its footprint
+    under ``load`` [N].
+    """
     if settings is not None:
         wide = widened(settings)
         road_rows = max(wide.rows, 2 * math.ceil(SIGHT * tire.radius_rolling / settings.cell_x))

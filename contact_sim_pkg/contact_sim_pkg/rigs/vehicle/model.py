@@ -1,4 +1,6 @@
-"""Resolved scene -> parameters, grids and timing: the only place where an effect that is not called for becomes ``None``."""
+"""Resolved scene -> parameters, grids and timing: the only place where an effect that is not called
+for becomes ``None``.
+"""
 
 from __future__ import annotations
 
@@ -68,18 +70,23 @@ class Model:
 
 
 def build(scene: ResolvedScene) -> Model:
-    """Parameters of a resolved scene. Raises FieldError where a pressure field cannot carry the standing load."""
+    """Parameters of a resolved scene. Raises FieldError where a pressure field cannot carry the
+    standing load.
+    """
     with_tire, with_seat = scene.rig in ("tire", "car"), scene.rig in ("seat", "car", "occupant")
     given_seat = scene.section(seat_schema.SeatSection) if with_seat else None
+    # Contacts: each with its pressure field, where the scene calls for one.
     seat_field, shape = (None, None) if given_seat is None else _seat_field(scene, given_seat)
     tire = build_tire(scene, None if given_seat is None else given_seat.occupant) if with_tire else None
     tire_field = None if tire is None else tire.field
+    # The states of the seat follow those of the quarter car: 4, or 6 with a rigid ring.
     behind = 0 if tire is None else 4 if tire.rigid_ring is None else 6
     seat = None if given_seat is None else _seat(given_seat.occupant, offset=behind)
     seat_contact = None if seat is None else _seat_contact(scene, seat, seat_field, shape)
     rig = Vehicle(GRAVITY, None, None, None, seat, seat_contact)
     if tire is not None:
         rig = rig._replace(tire=tire.tire, rigid_ring=tire.rigid_ring, tire_contact=tire.contact)
+    # A footprint on a road bounds the length of the coupling steps, and so the segments.
     footprint = None if tire is None or tire_field is None else tire.footprint_length
     timing = coupled_timing(scene, tire_field is not None or seat_field is not None, footprint)
     return Model(
@@ -109,9 +116,10 @@ def build(scene: ResolvedScene) -> Model:
 def _coupling(
     scene: ResolvedScene, rig: Vehicle, footprint: float | None, timing: Timing, fields: Fields, tread: Tread | None
 ) -> CouplingRule | None:
-    """Rule for the stretches between two solutions of the fields; ``footprint`` [m] is None without a field on a road.
+    """Rule for the coupling steps between two solutions of the fields.
 
-    The stretches of a ``tread`` with memory are its step.
+    ``footprint`` [m] is None without a field on a road. The steps of a viscoelastic ``tread`` are
+    its own.
     """
     if fields == (None, None):
         return None
@@ -119,6 +127,7 @@ def _coupling(
     occupant = None if rig.seat is None else scene.section(seat_schema.SeatSection).occupant
     tire_load = 0.0 if rig.tire is None else standing_load(scene.section(tire_schema.TireSection), occupant)
     seat_load = 0.0 if occupant is None else occupant_mass(occupant) * GRAVITY
+    # Allowed errors follow from the loads at rest.
     allowances = (
         allowance_of(rig.tire_contact, fields[0], tire_load, tolerance),
         allowance_of(rig.seat_contact, fields[1], seat_load, tolerance),
@@ -142,12 +151,16 @@ def _seat_field(scene: ResolvedScene, seat: seat_schema.SeatSection) -> tuple[Fi
 
 
 def seat_gap_on(shape: SeatShape, settings: FieldSettings) -> NDArray[numpy.float64]:
-    """Gap of the occupant over the flat cushion on the cells of a grid, in [m]."""
+    """Gap [rows, cols] [m] of the occupant over the flat cushion on the cells of a grid."""
     return seat_gap(shape, *seat_cells(settings))
 
 
 def seat_cells(settings: FieldSettings) -> tuple[NDArray[numpy.float64], NDArray[numpy.float64]]:
-    """Cell centres of the seat's grid in [m]; x counts forward from the tuberosities, which lie 0.3 of the length from its back."""
+    """Cell centres [m] of the seat's grid: x [rows] forward from the tuberosities, y [cols] to the
+    left.
+
+    The tuberosities lie 0.3 of the length from its back.
+    """
     rows, cols = numpy.arange(settings.rows, dtype=float), numpy.arange(settings.cols, dtype=float)
     x = (rows + 0.5) * settings.cell_x - 0.3 * settings.rows * settings.cell_x
     y = (cols - 0.5 * (settings.cols - 1)) * settings.cell_y
@@ -167,9 +180,11 @@ def _seat_contact(scene: ResolvedScene, seat: Seat, field: FieldGrids | None, sh
 
 
 def _contact_scale(contact: Contact | None, load: float, mass: float) -> tuple[float, float]:
-    """Sizes in [m] and [m/s] of a body's motion on a contact: of its depth under the ``load`` [N] at rest, and of its swing.
+    """Sizes in [m] and [m/s] of a body's motion on a contact: of its depth under the ``load`` [N]
+    at rest, and of its swing.
 
-    ``mass`` [kg] is that of the body which touches. A stiff contact turns a small error of place into a large one of force.
+    ``mass`` [kg] is that of the body which touches. A stiff contact turns a small error of place
+    into a large one of force.
     """
     size = POSITION_SCALE if contact is None else 2.0 * float(approach_of_force(contact.elastic, load))
     if size >= POSITION_SCALE:
@@ -207,7 +222,9 @@ def _scale(rig: Vehicle, tolerance: float) -> Vector:
 
 
 def _spring_scale(friction: Friction, load: float) -> float:
-    """Deflection in [m] of the friction spring: what it reaches under the ``load`` [N] at rest, at most the usual size."""
+    """Deflection in [m] of the friction spring: what it reaches under the ``load`` [N] at rest, at
+    most the usual size.
+    """
     reached = friction.coefficient_static * load / friction.stiffness
     return min(POSITION_SCALE, reached) if reached > 0.0 else POSITION_SCALE
 
@@ -225,11 +242,14 @@ def _bodies(rig: Vehicle) -> tuple[str, ...]:
 
 
 def standing_state(model: Model, height: float) -> Vector:
-    """State at rest in [m, m/s] under gravity on a road of effective ``height`` [m]: every force in balance."""
+    """State [states] at rest, in [m] and [m/s], under gravity on a road of effective ``height``
+    [m].
+    """
     rig = model.rig
     state = numpy.zeros(model.states)
     floor = 0.0
     occupant = 0.0 if rig.seat is None else rig.seat.frame_mass + float(rig.seat.masses.sum())
+    # Wheel, belt and body from the road up: each spring carries what is above it.
     if rig.tire is not None and rig.tire_contact is not None:
         carried = (rig.tire.body_mass + occupant) * rig.gravity
         on_wheel = carried + rig.tire.wheel_mass * rig.gravity
@@ -239,6 +259,7 @@ def standing_state(model: Model, height: float) -> Vector:
             state[rig.rigid_ring.offset] = state[0]
             state[0] -= on_wheel / rig.rigid_ring.stiffness
         floor = state[1] = state[0] - carried / rig.tire.suspension_stiffness
+    # The occupant on the cushion, its masses on their springs.
     if rig.seat is not None and rig.seat_contact is not None:
         first = rig.seat.offset
         state[first] = floor - approach_of_force(rig.seat_contact.elastic, occupant * rig.gravity)

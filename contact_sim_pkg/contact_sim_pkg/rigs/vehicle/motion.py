@@ -1,21 +1,25 @@
-"""Seat rig, tire rig and car: road -> tire -> suspension -> floor -> seat -> occupant, with any part absent.
+"""Seat rig, tire rig and car: road -> tire -> suspension -> floor -> seat -> occupant, with any
+part absent.
 
-Vertical motion (z up), and the occupant's sliding on the cushion (x forward) where the scene calls for friction.
+Vertical motion (z up), and the occupant's sliding on the cushion (x forward) where the scene calls
+for friction.
 
-* wheel  ``m_w z_w'' = F_tire - m_w g - F_susp``, ``F_susp = k (z_w - z_b) + c (z_w' - z_b')``; with a rigid ring the force of
-  its sidewalls takes the place of F_tire
+* wheel  ``m_w z_w'' = F_tire - m_w g - F_susp``, ``F_susp = k (z_w - z_b) + c (z_w' - z_b')``; with
+  a rigid ring the force of its sidewalls takes the place of F_tire
 * belt   ``m_r z_r'' = F_tire - m_r g - F_side``, ``F_side = k (z_r - z_w) + c (z_r' - z_w')``
-* body   ``m_b z_b'' = F_susp - m_b g - F_seat + m_b a_z(t)`` (a_z: what the drive line gives to the free body)
+* body   ``m_b z_b'' = F_susp - m_b g - F_seat + m_b a_z(t)`` (a_z: what the drive line gives to the
+  free body)
 * frame  ``m_0 z_0'' = F_seat - m_0 g + sum_i [k_i (z_i - z_0) + c_i (z_i' - z_0')]``
 * masses ``m_i z_i'' = -m_i g - k_i (z_i - z_0) - c_i (z_i' - z_0')``
 * slide  ``M x'' = -M a_x(t) - F_t`` relative to the seat, M the whole occupant
 
-Approaches: tire ``h(t) - z_w`` (belt: ``h(t) - z_r``), h the effective road height; seat ``z_floor + h_c(t) - z_0``, h_c that
-of the cushion.
-Without a tire the floor is the (accelerated) frame of reference: z_floor = 0 and every mass feels ``-m a_z(t)``.
-State: [z_w, z_b, v_w, v_b] [z_r, v_r] [z_0 .. z_n, v_0 .. v_n] [x, v_x, s] [z] [supplied, dissipated]; z is what a cushion of foam
-remembers (``laws/foam_hysteresis.py``), the last two are the works in [J] that the energy ledger needs. Works of friction and
-foam are counted whole; what their springs hold is taken off in ``advance.energies``.
+Approaches: tire ``h(t) - z_w`` (belt: ``h(t) - z_r``), h the effective road height; seat ``z_floor
++ h_c(t) - z_0``, h_c that of the cushion.
+Without a tire the floor is the (accelerated) frame of reference: z_floor = 0 and every mass feels
+``-m a_z(t)``. State: [z_w, z_b, v_w, v_b] [z_r, v_r] [z_0 .. z_n, v_0 .. v_n] [x, v_x, s] [z]
+[supplied, dissipated]; z is what a cushion of foam remembers (``laws/foam_hysteresis.py``), the
+last two are the works in [J] that the energy ledger needs. Works of friction and foam are counted
+whole; what their springs hold is taken off in ``advance.energies``.
 """
 
 from __future__ import annotations
@@ -82,7 +86,9 @@ def normal_force(contact, approach, approach_rate, state):
 
 @borrowing_kernel
 def _lost_power(contact, approach, approach_rate, force, state, out):
-    """Power in [W] that the loss of a contact takes: (F - F_elastic) x'. Writes the rate of what the contact remembers."""
+    """Power in [W] that the loss of a contact takes: (F - F_elastic) x'. Writes the rate of what
+    the contact remembers.
+    """
     if contact is None:
         return 0.0
     carried = elastic_force(contact.elastic, approach)
@@ -92,15 +98,19 @@ def _lost_power(contact, approach, approach_rate, force, state, out):
 
 @borrowing_kernel
 def _seat_rates(tire, seat, gravity, force, acceleration_z, state, out):
-    """Rates of frame and masses; returns the power that their links take and that the frame's inertia brings in."""
+    """Rates of frame and masses; returns the power that their links take and that the frame's
+    inertia brings in.
+    """
     if seat is None:
         return 0.0, 0.0
+    # Without a tire the seat moves in the frame of the shaken floor.
     field = -gravity
     if tire is None:
         field -= acceleration_z
     count = seat.masses.shape[0]
     z = seat.offset
     v = seat.offset + 1 + count
+    # Links between frame and masses; `brought` is the momentum that the floor accelerates.
     total = force
     lost = 0.0
     brought = seat.frame_mass * state[v]
@@ -137,7 +147,9 @@ def _slide_index(seat):
 
 @borrowing_kernel
 def _slide_rates(friction, seat, mode, normal, acceleration_x, state, out):
-    """Rates of the slide; returns the power that friction takes up and the power that the floor's x motion brings in."""
+    """Rates of the slide; returns the power that friction takes up and the power that the floor's x
+    motion brings in.
+    """
     if friction is None:
         return 0.0, 0.0
     x = _slide_index(seat)
@@ -243,13 +255,17 @@ def _event_functions(rig, drive, mode, time, state, derivative, out):
 
 @borrowing_kernel
 def _friction_transition(friction, contact, seat, mode, approach, approach_rate, state, event, direction):
-    """Switch the friction of the seat where an event of this contact has changed its sign to ``direction``.
+    """Switch the friction of the seat where an event of this contact has changed its sign to
+    ``direction``.
 
-    Friction acts where the contact carries a load, not where bodies overlap: while they part faster than the material
-    recovers the load is zero, and stick and slip would both stand at their limit of zero, each ending the other at once.
+    Friction acts where the contact carries a load, not where bodies overlap: while they part faster
+    than the material recovers the load is zero, and stick and slip would both stand at their limit
+    of zero, each ending the other at once.
     """
     if friction is None:
         return
+    # The bristle keeps its deflection from stick to slip; from slip to stick it starts at the one
+    # that follows the slip.
     x = _slide_index(seat)
     velocity = state[x + 1]
     if event == SEAT_FRICTION:
@@ -259,6 +275,7 @@ def _friction_transition(friction, contact, seat, mode, approach, approach_rate,
         else:
             state[x + 2] = following_deflection(friction, mode[0], normal, velocity)
             mode[0] = STICK
+    # A contact that gains its load starts unstrained, and sticks only from rest.
     elif event in (SEAT_APPROACH, SEAT_TENSION):
         other = _tension_of(contact, approach, approach_rate, state) if event == SEAT_APPROACH else approach
         state[x + 2] = 0.0

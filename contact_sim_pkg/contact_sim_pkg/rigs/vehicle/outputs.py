@@ -81,11 +81,14 @@ class BlockRecord:
         a_x: Array,
         a_z: Array,
     ) -> int:
-        """Take the samples of an interval; returns the first of them, the instant of its fields."""
+        """Store the samples of an interval; returns the index of the first, the instant of its
+        fields.
+        """
         count = sampled[0].shape[0]
         first = interval * count
         rows = slice(first, first + count)
         self.states[rows], self.rates[rows], self.forces[rows] = sampled
+        # The drive has more points than samples.
         stride = (len(a_x) - 1) // count
         self.floor[rows, 0], self.floor[rows, 1] = a_x[:-1:stride], a_z[:-1:stride]
         if interval == 0:
@@ -190,6 +193,7 @@ def _ledger(record: BlockRecord) -> EnergyLedger:
 def _motion_rows(model: Model, record: BlockRecord) -> dict[str, Array]:
     """Rows of ``bench/motion`` in the order of ``model.bodies``: position, velocity, acceleration."""
     rig, state, rate = model.rig, record.states, record.rates
+    # Places of position and velocity in the state, body by body.
     indices: list[tuple[int, int]] = []
     if rig.tire is not None:
         indices += [(0, 2), (1, 3)]

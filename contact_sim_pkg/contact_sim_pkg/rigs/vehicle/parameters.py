@@ -1,7 +1,7 @@
 """Parameter tuples of quarter car and seat.
 
-An effect that a scene does not call for is ``None`` in place of its tuple (decision 0001). SI units; all numbers are ``float``
-unless stated otherwise.
+An effect that a scene does not call for is ``None`` in place of its tuple (decision 0001). SI
+units; all numbers are ``float`` unless stated otherwise.
 The tuples are built in ``rigs/vehicle/model.py`` only.
 """
 
@@ -14,7 +14,9 @@ from contact_sim_pkg.laws.parameters import Contact
 
 
 class Tire(NamedTuple):
-    """Quarter vehicle on a tire; state [wheel_z, body_z, wheel_v, body_v], first in the state vector."""
+    """Quarter vehicle on a tire; state [wheel_z, body_z, wheel_v, body_v], first in the state
+    vector.
+    """
 
     wheel_mass: float  # [kg]
     body_mass: float  # [kg]
@@ -23,9 +25,11 @@ class Tire(NamedTuple):
 
 
 class RigidRing(NamedTuple):
-    """Belt and tread as one rigid ring that the sidewalls carry; state [belt_z, belt_v] from ``offset``.
+    """Belt and tread as one rigid ring that the sidewalls carry; state [belt_z, belt_v] from
+    ``offset``.
 
-    Without load the belt's height equals the wheel's. Tread contact and sidewalls then stand in series.
+    Without load the belt's height equals the wheel's. Tread contact and sidewalls then stand in
+    series.
     """
 
     offset: int  # index of belt_z in the state vector
@@ -35,10 +39,11 @@ class RigidRing(NamedTuple):
 
 
 class Seat(NamedTuple):
-    """Occupant on a cushion: a frame mass in contact, and masses that hang on it by spring and damper, in parallel.
+    """Occupant on a cushion: a frame mass in contact, and masses that hang on it by spring and
+    damper, in parallel.
 
-    State, from ``offset``: frame_z, masses_z..., frame_v, masses_v...; with friction also occupant_x, occupant_vx and
-    the deflection of the friction spring.
+    State, from ``offset``: frame_z, masses_z..., frame_v, masses_v...; with friction also
+    occupant_x, occupant_vx and the deflection of the friction spring.
     """
 
     offset: int  # index of frame_z in the state vector

@@ -1,4 +1,5 @@
-"""The quarter car inside the vehicle rig: what drives it, wheel and body on their suspension, the belt on its sidewalls.
+"""The quarter car inside the vehicle rig: what drives it, wheel and body on their suspension, the
+belt on its sidewalls.
 
 Equations and state are those of ``rigs/vehicle/motion.py``; a part that the rig lacks is ``None``.
 """
@@ -42,7 +43,9 @@ def push_at(drive, time):
 
 @borrowing_kernel
 def tread_motion(rigid_ring, state):
-    """Height in [m] and velocity in [m/s] of what touches the road: the belt, or the wheel without a rigid ring."""
+    """Height in [m] and velocity in [m/s] of what touches the road: the belt, or the wheel without
+    a rigid ring.
+    """
     if rigid_ring is None:
         return state[0], state[2]
     return state[rigid_ring.offset], state[rigid_ring.offset + 1]

@@ -1,4 +1,6 @@
-"""The simulation of one scene, block by block: the one implementation behind the offline run and the simulator node."""
+"""The simulation of one scene, block by block: the one implementation behind the offline run and
+the simulator node.
+"""
 
 from __future__ import annotations
 
@@ -84,18 +86,21 @@ class Simulation:
     def advance(self, block: int, inputs: dict[str, RoadPatch | VibrationBlock]) -> BlockResult:
         """Advance block number ``block`` with the blocks of every input topic.
 
-        Raises RunError where a block is out of turn, does not fit the scene, or the physics ends in a named failure.
+        Raises RunError where a block is out of turn, does not fit the scene, or the physics ends in
+        a named failure.
         """
         began = time.perf_counter()
         refuse_out_of_turn(block, self._next_block)
         record = BlockRecord.empty(self.model, block)
         drive = block_drive(self.model, self._travel, block, inputs.get(ROAD), inputs.get(VIBRATION))
         coupling = self._coupling
+        # The run starts from the standing state.
         if block == 0:
             coupling.start(drive)
         coupling.bodies.work.counters[:] = 0.0
         for interval in range(self.model.timing.intervals):
             self._interval(block, interval, drive, record)
+        # Cost of the block.
         self._next_block = block + 1
         record.counters[:] = coupling.bodies.work.counters
         for field in coupling.fields:
@@ -121,7 +126,9 @@ class Simulation:
         self._publish(first, fields, record)
 
     def _publish(self, sample: int, fields: tuple[FieldRecord | None, FieldRecord | None], record: BlockRecord) -> None:
-        """Take the elastic fields of an instant with the loss of their contacts, and roll the tire on to it."""
+        """Take the elastic fields of an instant with the loss of their contacts, and roll the tire
+        on to it.
+        """
         tire, seat = fields
         forces = record.forces[sample]
         if tire is not None:
@@ -137,7 +144,9 @@ class Simulation:
             record.seat_fields.append((sample, self._coupling.seat.with_loss(seat, approach, rate)))
 
     def _map_seat(self, record: BlockRecord) -> None:
-        """Spread the force of the seat's point contact over the cells of its mat, so many times a block."""
+        """Spread the force of the seat's point contact over the cells of its mat, so many times a
+        block.
+        """
         mat, contact, samples = self.model.seat_mat, self.model.rig.seat_contact, self.model.timing.samples
         if mat is None or contact is None:
             return

@@ -48,6 +48,7 @@ def study(scene_name: str, progress: Callable[[str], None] | None = None) -> lis
     """
     notify = progress or (lambda text: None)
     scene = load_resolved(scene_name)
+    # Every effect of every contact of the rig, on or off.
     rows = []
     for contact in rigs()[scene.data["rig"]].contacts:
         for effect in contact.effects:

@@ -43,7 +43,9 @@ class AblationRun(NamedTuple):
 
 
 class Pair(NamedTuple):
-    """A run with and one without the effect, each with its median cost; cost differences of the pairs."""
+    """A run with and one without the effect, each with its median cost; cost differences of the
+    pairs.
+    """
 
     with_it: AblationRun
     without_it: AblationRun
@@ -102,7 +104,9 @@ def _run(scene: ResolvedScene, plan: _Plan) -> AblationRun:
 def _walls(
     scene: ResolvedScene, blocks: int, most_time: float = numpy.inf
 ) -> tuple[list[float], list[Output], list[InputBlock]]:
-    """Wall time of each block [s], all outputs, all inputs, up to the block that exceeds `most_time` [s]."""
+    """Wall time of each block [s], all outputs, all inputs, up to the block that exceeds
+    `most_time` [s].
+    """
     sources, simulation = make_sources(scene), _prepared(scene)
     walls: list[float] = []
     outputs: list[Output] = []

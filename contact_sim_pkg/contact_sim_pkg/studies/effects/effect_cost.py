@@ -25,7 +25,9 @@ END = 20.0  # [s]
 
 
 class HandWritten(NamedTuple):
-    """`PointContact` written for a Hertz contact without dissipation on a moving base; state [z, v]."""
+    """`PointContact` written for a Hertz contact without dissipation on a moving base; state [z,
+    v].
+    """
 
     mass: float
     gravity: float
@@ -84,7 +86,9 @@ def rigs() -> tuple[PointContact, PointContact, HandWritten]:
 
 
 def absent_effect_cost() -> tuple[float, float, float]:
-    """Cost of a step [ns] with dissipation, with it absent, and by hand: medians of alternating runs."""
+    """Cost of a step [ns] with dissipation, with it absent, and by hand: medians of alternating
+    runs.
+    """
     costs: list[list[float]] = [[], [], []]
     cases: tuple[PointContact | HandWritten, ...] = rigs()
     for rig in cases:

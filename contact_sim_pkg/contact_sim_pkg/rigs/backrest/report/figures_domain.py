@@ -27,7 +27,7 @@ CURVE_POINTS = 361
 
 
 def lame_curve(fit: LameFit) -> tuple[FloatArray, FloatArray]:
-    """x and y [m] along the curve |x/a|^n + |y/b|^n = 1 about its centre, once around (Driver and
+    """x and y [m], [points], along the curve |x/a|^n + |y/b|^n = 1 about its centre (Driver and
     Seat, eq 5).
     """
     angle = np.linspace(0.0, 2.0 * np.pi, CURVE_POINTS)
@@ -51,6 +51,7 @@ def contact_domain(key: str, name: str, field: FieldSeries, points: PointSeries 
     """
     pairs = [(field.touch or field.first, points.touch if points else None)]
     pairs.append((field.heaviest, points.heaviest if points else None))
+    # One window for both instants.
     window = common_window([shown.field for shown, _ in pairs])
     height = float(np.clip(0.75 + window.aspect * 0.31 * WIDTH, 2.4, 5.2))
     figure, axes = new_figure(height, 1, 2)
@@ -146,6 +147,7 @@ def slap_stages(key: str, name: str, field: FieldSeries) -> Picture:
     figure, axes = new_figure(rows * height + 0.5, rows, COLUMNS, sharex=True, sharey=True)
     highest = max(float(each.field.pressure.max()) for each in stages) * 1e-3
     limits = Normalize(0.0, highest or 1.0)
+    # Cells without pressure are blank.
     for place, each in zip(axes, stages, strict=False):
         pressure = each.field.pressure * 1e-3
         draw_map(place, each.field, np.where(pressure > 0.0, pressure, np.nan), PRESSURE_COLOURS, limits)
@@ -200,6 +202,7 @@ def area_over_time(key: str, name: str, field: FieldSeries, slaps: EpisodeSeries
         f"contact at rest, at the start). It lies between {area.ratio.min():.3g} and {area.ratio.max():.3g}, mean "
         f"{area.ratio.mean():.3g}; all cells with a pressure above 0 count."
     )
+    # Every slap from its first touch, the heaviest in colour.
     if chosen is not None:
         for start, end in zip(slaps.start, slaps.end, strict=True):
             during = (area.time >= start) & (area.time <= end)

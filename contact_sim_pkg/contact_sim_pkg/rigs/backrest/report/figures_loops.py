@@ -39,6 +39,7 @@ def force_loops(key: str, name: str, recording: Recording) -> Picture:
         label = "point 1, friction"
         panels.append(("tangential displacement, mm", "friction force, N", label, tangential_loop(contact, points)))
     figure, axes = new_figure(3.1, 1, len(panels))
+    # The steady part is drawn in colour: its loops are the work of a cycle.
     period = drive_period(recording.scene)
     begin = steady_start(float(contact.time[-1]) + contact.sample_period, period)
     for place, (across, along, title, loop) in zip(axes, panels, strict=True):
@@ -77,6 +78,7 @@ def _caption(
         f"reaches {contact.normal.max():.4g} N at approaches up to {contact.approach.max() * 1e3:.4g} mm."
     )
     many = points is not None and points.points > 1
+    # Work of a cycle only where the force is recorded often enough.
     if period is not None and begin > 0.0:
         cycles = (float(contact.time[-1]) + contact.sample_period - begin) / period
         text += f" Grey: the whole run. In colour: the last {cycles:.0f} cycles of {1.0 / period:.4g} Hz"

@@ -119,6 +119,7 @@ def share_over_time(key: str, name: str, recording: Recording) -> Picture | None
     if len(bands) < 2:
         return None
     figure, (axes,) = new_figure(2.4)
+    # Stacked bands, the last state at the bottom.
     base: FloatArray = np.zeros(shares.apart.size)
     for label, values in reversed(bands):
         axes.stairs(

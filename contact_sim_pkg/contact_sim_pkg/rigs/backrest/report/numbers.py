@@ -42,8 +42,9 @@ def drive_period(scene: dict[str, Any]) -> float | None:
 
 
 def state_shares(points: PointSeries, period: float | None) -> Shares:
-    """Shares over each cycle of the drive, the last one as far as it goes; without one over at most
-    `SHARE_ROWS` intervals.
+    """Shares of the states over each cycle of the drive, the last one possibly incomplete.
+
+    period: of the drive [s]; None: at most `SHARE_ROWS` intervals over the run.
     """
     begin, step = float(points.time[0]), _interval(points.time)
     end = float(points.time[-1]) + step

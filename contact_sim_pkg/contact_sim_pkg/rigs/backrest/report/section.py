@@ -26,6 +26,7 @@ def backrest_sections(_number: int, recording: Recording) -> list[Section]:
         force_loops("backrest", name, recording),
     ]
     first += [share_over_time("backrest", name, recording)]
+    # The domain needs a recorded pressure map.
     domain: list[Picture | None] = []
     if field is not None:
         domain = [contact_domain("domain", name, field, recording.points)]

@@ -35,14 +35,15 @@ Notify = Callable[[str], None]
 
 
 def tolerance_rows(_scene_name: str, scene: ResolvedScene, notify: Notify) -> list[Row]:
-    """Motion, forces and instants of touch for each tolerance: against scipy, and what its twin
-    lacks against own code.
+    """Motion, forces and instants of touch for each tolerance: against scipy, else against own
+    code.
     """
     shell = _shell(scene) is not None
     drive = drive_of(scene, SHELL_DURATION if shell else DURATION)
     notify(f"integrator: reference for {(len(drive.acceleration) - 1) * drive.segment:g} s")
     twin = slow_run(drive)
     rubs = drive.model.rig.contact.friction is not None
+    # Friction, and all that the twin lacks, is compared with own code at a tight tolerance.
     own = fast_run(drive, _scale(scene, drive, TIGHT)) if twin is None or rubs else None
     rows = []
     for tolerance in TOLERANCES:
@@ -59,12 +60,11 @@ def tolerance_rows(_scene_name: str, scene: ResolvedScene, notify: Notify) -> li
 
 
 def mode_rows(_scene_name: str, scene: ResolvedScene, notify: Notify) -> list[Row]:
-    """The same quantities for each number of modes of a shell, against the most modes at a tight
-    tolerance.
-    """
+    """The same quantities for each number of modes, against the most modes at a tight tolerance."""
     if _shell(scene) is None:
         return []
     searched = scene.data["effects"]["backrest"].get("contact_search") is not None
+    # A search of the contact point allows fewer modes.
     counts = tuple(count for count in MODE_COUNTS if not searched or count <= MOST_SEARCHED)
     most = f"{counts[-1]} modes"
     notify(f"modes: reference, {most}")

@@ -74,8 +74,9 @@ class _Curve(NamedTuple):
 
 
 def each_impact(impacts: Impacts, options: Options) -> list[dict[str, float | int | str | None]]:
-    """One row an impact; a restitution that the form does not reach gives no material and a note in
-    its place.
+    """One row for each impact: T [K], V0 [m/s], tau [s], k [1], E' [Pa] and tan(beta) [1].
+
+    A restitution that the form does not reach gives no material and a note in its place.
     """
     rows: list[dict[str, float | int | str | None]] = []
     for i in range(len(impacts.mass)):
@@ -210,16 +211,16 @@ def _standard_error(values: NDArray[numpy.float64]) -> float | None:
 
 
 def student(count: int, confidence: float) -> float:
-    """Half width of an interval in standard errors, of the mean of ``count`` values; NaN for
+    """Half width of an interval in standard errors [1], of the mean of ``count`` values; NaN for
     one.
     """
     return float(stdtrit(count - 1, 0.5 + 0.5 * confidence)) if count > 1 else math.nan
 
 
 def around(value: float, error: float | None, factor: float) -> EstimatedValue:
-    """Value with an interval of ``factor`` standard errors, not below 0.
+    """Value with an interval of ``factor`` [1] standard errors, not below 0.
 
-    value and error: in one unit [E', E'' in Pa; tan(beta) 1]; factor: [-].
+    value and error: in one unit, E' and E'' in [Pa], tan(beta) in [1].
     """
     if error is None:
         return EstimatedValue(value, None, None, None)
@@ -229,7 +230,7 @@ def around(value: float, error: float | None, factor: float) -> EstimatedValue:
 def of_logarithm(value: float, error: float | None, factor: float) -> EstimatedValue:
     """Value with an interval of ``factor`` standard errors of its logarithm, ``error``.
 
-    value: [Pa]; error and factor: [-].
+    value: [Pa]; error and factor: [1].
     """
     if error is None:
         return EstimatedValue(value, None, None, None)

@@ -27,6 +27,7 @@ def write_figure(report: MaterialReport, path: Path, *, overwrite: bool = False)
     upper, lower = figure.subplots(2, 1, sharex=True)
     places, label, logarithmic = _places(report)
     for axes, name, of in ((upper, "E'", _storage), (lower, "tan_beta", _tangent)):
+        # On a master curve single impacts have no place.
         if report.master is None:
             _impacts(axes, report, name)
         _intervals(axes, report.estimates, places, of)

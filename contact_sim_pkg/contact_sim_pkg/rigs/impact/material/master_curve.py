@@ -62,11 +62,13 @@ def master_curve(
     if not numpy.isfinite(temperatures).all():
         raise MaterialError("a master curve needs the temperature of every impact: a column T")
     at = _middle(temperatures) if reference is None else reference
+    # The parameter is searched where it is not given.
     found = error = None
     if parameter is None:
         found, error = _search(estimates, temperatures, law, at)
     shift = _law(law, found if found is not None else parameter, at)
     logs = _shifts(shift, temperatures, at)
+    # Reduced speeds V a_T.
     speeds = numpy.array([e.speed for e in estimates])
     _cost, scatter = _distance(estimates, logs)
     reduced = tuple(float(v) for v in speeds * 10.0**logs)

@@ -108,9 +108,11 @@ def _mean(parts: list[EstimatedValue], counts: Vector) -> tuple[float, float, fl
     centre = numpy.array([part.value for part in parts])
     mean = float(numpy.average(centre, weights=counts))
     between = float(counts @ (centre - mean) ** 2) / (number - 1)
+    # Without repeats the scatter between groups is all there is.
     freedom = total - number
     if freedom < 1.0:
         return mean, math.sqrt(between / total), None
+    # One-way analysis of variance: scatter within groups against that between them.
     squares = sum(
         count * (count - 1.0) * part.error**2
         for count, part in zip(counts, parts, strict=True)

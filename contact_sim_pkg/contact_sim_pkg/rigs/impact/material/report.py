@@ -59,8 +59,10 @@ def material_report(
     reference: float | None = None,
     gravity: float | None = None,
 ) -> MaterialReport:
-    """The report on a file of impacts, or on the impact events of a bag. Raises MaterialError or
-    BagError with one sentence.
+    """Report on a file of impacts, or on the impact events of a bag.
+
+    parameter: of the shift law, Tg [K] or activation energy [J/mol]; reference: temperature [K];
+    gravity: [m/s^2]. Raises MaterialError or BagError with one sentence.
     """
     _check(options, law)
     impacts = impacts_of_bag(path) if is_bag(path) else read_impacts(path)

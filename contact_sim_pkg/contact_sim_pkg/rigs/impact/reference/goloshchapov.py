@@ -30,9 +30,9 @@ class Reference(NamedTuple):
 
 
 def impact(zeta: float, end: str) -> Reference:
-    """The impact at severity `zeta` with end rule "force" or "gap"; errors about 1e-11.
+    """The impact at severity `zeta` [1] with end rule "force" or "gap"; errors about 1e-11.
 
-    zeta: [-]; the results in units of L, V0 and L/V0.
+    Results in units of L, V0 and L/V0.
     """
 
     def rate(_t: float, y: list[float]) -> list[float]:
@@ -59,9 +59,8 @@ def impact(zeta: float, end: str) -> Reference:
 
 
 def severity(loss_tangent: float, end: str) -> float:
-    """zeta of the consistent impact: `tan(beta) = pi zeta/(3 T_c)`, by Brent's method.
-
-    loss_tangent and the result: [-].
+    """zeta [1] of the consistent impact: `tan(beta) = pi zeta/(3 T_c)`, by Brent's method;
+    loss_tangent: [1].
     """
     high = 2.2353 if end == "gap" else 12.0
     return float(brentq(lambda z: math.pi * z / (3.0 * impact(z, end).duration) - loss_tangent, 1e-9, high, xtol=1e-14))
@@ -91,9 +90,8 @@ def front_time(
 
 
 def elastic_limit() -> tuple[float, float]:
-    """T_c and X_m without loss: `X_m = (5/4)^(2/5)`, `T_c = (4/5) B(2/5, 1/2) X_m`.
-
-    In units of L/V0 and L [-].
+    """T_c and X_m without loss, in units of L/V0 and L [1]: `X_m = (5/4)^(2/5)`, `T_c = (4/5)
+    B(2/5, 1/2) X_m`.
     """
     with mpmath.workdps(30):
         depth = mpmath.mpf("1.25") ** mpmath.mpf("0.4")

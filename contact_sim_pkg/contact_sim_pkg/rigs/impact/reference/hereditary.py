@@ -18,9 +18,10 @@ Vector = NDArray[numpy.float64]
 
 
 def integral(compliance: Callable[[Vector], Vector], times: Vector, force: Vector) -> Vector:
-    """I at each of `times` for a force linear between samples; the first force is a step.
+    """Hereditary integral [times] [N/Pa] for a force linear between samples; the first force is a
+    step.
 
-    times: [n] [s]; force: [n] [N]; compliance: [1/Pa].
+    times: [times] [s]; force: [times] [N]; compliance: time [s] -> [1/Pa].
     """
     nodes, weights = numpy.polynomial.legendre.leggauss(64)
     out = numpy.zeros(len(times))

@@ -26,8 +26,11 @@ def last_period(
     samples: int,
     tolerance: float,
 ) -> Vector:
-    """Depth [m] at even instants of the last of ``periods`` periods; start at rest on the static
-    depth.
+    """Depth [samples] [m] at even instants of the last of ``periods`` periods, from rest on the
+    static depth.
+
+    mass: [kg]; elastic: [N/m^1.5]; viscous: [N s/m^1.5]; load: [N]; part: amplitude over load [1];
+    frequency: [rad/s].
     """
 
     def rate(time: float, state: Vector) -> list[float]:

@@ -27,6 +27,7 @@ def bounces(impacts: ImpactSeries, motion: MotionSeries | None) -> Picture:
         axes[0].plot(*envelope(motion.time, height * 1e3), color=ACCENT, linewidth=0.9)
         axes[0].axhline(0.0, color=MUTED, linewidth=0.7)
         axes[0].set_ylabel("height, mm")
+    # One point for each impact.
     for place, (label, values) in zip(axes[-len(rows) :], rows, strict=True):
         place.plot(e.start, values, linestyle="", marker="o", markersize=3.2, color=ACCENT, clip_on=False)
         place.set_ylabel(label)
@@ -97,12 +98,14 @@ def force_over_depth(impacts: ImpactSeries) -> Picture | None:
         axes.plot(course.depth * 1e3, total, color=ACCENT, alpha=shade, label="impacts" if number == 0 else None)
     first, history = impacts.courses[0], impacts.history
     axes.plot(first.depth * 1e3, first.elastic_force, color=MUTED, linestyle="--", label="elastic part of the first")
+    # The loop of the first impact is the work on the sample.
     lost = float(np.trapezoid(first.elastic_force + first.viscous_force, first.depth))
     caption = (
         f"Force over indentation of the first {len(impacts.courses)} impacts. The area of the first loop, {lost:.4g} J, is the "
         "work that the sample took up to the loss of force; part of it is still stored then, and becomes heat without pushing. "
     )
     if history is not None and history.number == first.number:
+        # The hereditary depth under the same force.
         force = np.interp(history.time, first.time, first.elastic_force + first.viscous_force)
         valid = history.valid == 1
         axes.plot(history.depth[valid] * 1e3, force[valid], color=VISCOUS, label=f"hereditary, {history.model}")
@@ -127,6 +130,7 @@ def front_over_time(impacts: ImpactSeries) -> Picture | None:
     time = front.time * 1e3
     axes.plot(time, front.front_speed, color=ACCENT, label="wave front")
     axes.plot(time, front.border_speed, color=INK, label="border of the contact")
+    # The front starts faster than the shear wave; t_s is the instant when it no longer is.
     axes.axhline(front.shear_speed, color=MUTED, linestyle="--", label="shear wave")
     axes.axvline(front.front_time * 1e3, color=VISCOUS, linewidth=0.9)
     axes.set_xlabel("time from the touch, ms")

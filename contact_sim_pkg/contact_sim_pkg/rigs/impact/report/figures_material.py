@@ -46,6 +46,7 @@ def material_picture(impacts: ImpactSeries, report: MaterialReport | None) -> Pi
     figure, (upper, lower) = new_figure(4.4, 2, sharex=True)
     upper.plot(truth, e.storage_modulus, linestyle="", marker="_", color=MUTED, markersize=9, label="put in")
     lower.plot(truth, e.loss_tangent, linestyle="", marker="_", color=MUTED, markersize=9)
+    # Over temperature, one series for each impact speed.
     speeds = sorted({_round(each.speed) for each in report.estimates}) if over_temperature else []
     for number, speed in enumerate(speeds or [None]):
         chosen = [each for each in report.estimates if speed is None or _round(each.speed) == speed]
@@ -58,6 +59,7 @@ def material_picture(impacts: ImpactSeries, report: MaterialReport | None) -> Pi
         }
         _points(upper, places, [each.storage_modulus for each in chosen], style)
         _points(lower, places, [each.loss_tangent for each in chosen], style)
+    # A logarithmic scale only where the values spread.
     if e.storage_modulus.max() > 2.0 * e.storage_modulus.min():
         upper.set_yscale("log")
     else:

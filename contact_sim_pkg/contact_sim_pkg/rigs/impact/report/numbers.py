@@ -21,6 +21,7 @@ def impact_numbers(impacts: ImpactSeries) -> dict[str, Any]:
     depth, peak force.
     """
     e = impacts.events
+    # A page lists no more than these.
     first = slice(0, 100)
     return {
         "count": len(e.number),

@@ -50,11 +50,13 @@ def way_rows(_scene_name: str, scene: ResolvedScene, notify: Callable[[str], Non
     law = found.law
     notify("impact: reference")
     exact = impact_under_weight(law.mass, law.gravity, law.elastic, law.viscous, release.speed, law.end == "gap")
+    # Impacts per simulated second, for the cost.
     span = min(LONGEST, float(scene.data["duration"]))
     rate = len(ImpactMotion(model).take_ended(span)) / span
     rows = []
     for name, way in _ways(model, found).items():
         notify(f"impact: {name}")
+        # A closed form that does not reach this material has no row.
         try:
             answer = way()
         except ImpactError:

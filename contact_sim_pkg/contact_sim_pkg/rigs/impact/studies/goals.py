@@ -63,6 +63,7 @@ def _material() -> list[Measured]:
     for seed in range(RUNS):
         found = _reading(seed)
         pairs = ((found.storage_modulus, cases.RUBBER.storage_modulus), (found.loss_tangent, TANGENT))
+        # Point errors against the truth, and whether the intervals hold it.
         errors[seed] = [abs(value.value / true - 1.0) for value, true in pairs]
         held += sum(
             value.low is not None and value.high is not None and value.low <= true <= value.high

@@ -233,8 +233,8 @@ def invariants() -> Finding:
 
 
 def steel_sphere() -> tuple[FreeImpact, tuple[float, float, float]]:
-    """The steel ball at 1 m/s as a case of the sphere's impact, and its duration, depth and force
-    in closed form.
+    """Steel ball at 1 m/s as a case of the impact, and duration [s], depth [m], force [N] in closed
+    form.
     """
     mass = STEEL_DENSITY * 4.0 / 3.0 * math.pi * STEEL_RADIUS**3
     coefficient = elastic_reference.sphere_coefficient(STEEL_RADIUS, 210e9, 0.3)
@@ -256,8 +256,10 @@ def steel_steps() -> Finding:
 
 
 def rig_with_a_tick(tolerance: float = 5e-9, gap: float = 3.3e-4) -> tuple[float, int]:
-    """The same ball in the rig, outer tick 1 ms: largest relative error of duration, depth and
-    force; steps, rejected ones too.
+    """The same ball in the rig with outer steps of 1 ms, started at the ``gap`` [m].
+
+    Largest relative error [1] of duration, depth and force at the relative ``tolerance``; number of
+    steps, rejected ones included.
     """
     found, (lasts, depth, force) = steel_sphere()
     rig = PointContact(found.sphere.mass, 0.0, 0.0, 0.0, *found.normal_law)
@@ -285,8 +287,8 @@ RUBBERS, PHASES = (0.0, 0.02, 0.05, 0.1, 0.2, 0.4, 1.0), 20
 
 
 def rubber_error(loss_tangent: float, tolerance: float, phase: int) -> float:
-    """Larger error of restitution and of contact time over its value, of the rubber's law in the
-    rig, from one of 20 starts.
+    """Larger relative error [1] of restitution and contact time of rubber in the rig, from one of
+    20 starts.
     """
     found = _sample(loss_tangent)
     rig = PointContact(SPHERE.mass, 0.0, 0.0, 0.0, *found.normal_law)
@@ -299,7 +301,9 @@ def rubber_error(loss_tangent: float, tolerance: float, phase: int) -> float:
 
 @functools.lru_cache(maxsize=1)
 def rubber_errors() -> dict[float, float]:
-    """Asked tolerance, 1e-3 to 1e-11 -> worst error over tan(beta) 0 to 1 and 20 approach phases."""
+    """Worst error [1] by requested tolerance, 1e-3 to 1e-11, over tan(beta) 0 to 1 and 20 approach
+    phases.
+    """
     tolerances = [10.0**-power for power in range(3, 12)]
     return {t: max(rubber_error(b, t, phase) for b in RUBBERS for phase in range(PHASES)) for t in tolerances}
 

@@ -57,6 +57,7 @@ def front_rows() -> list[Row]:
             SPHERE.mass, SPHERE.radius, impact.elastic, impact.viscous, speed, impact.shape, SHEAR_SPEED
         )
         for name, way in (("small times", _small), ("damped sine (eq 80)", _sine), ("integrated", _integrated)):
+            # The formulas have limits; a way that does not reach this speed has no row.
             try:
                 value = way(impact)
             except (ImpactError, ArithmeticError):

@@ -160,6 +160,7 @@ def _balanced(part: float, harmonics: int) -> Vector:
     rest = (LOAD / elastic) ** (2.0 / 3.0)
     wave = numpy.exp(1.0j * numpy.outer(angle, orders))
 
+    # Depth and its derivatives from the Fourier coefficients, scaled by the static depth.
     def depth_of(unknowns: Vector) -> tuple[Vector, Vector, Vector]:
         terms = rest * (unknowns[: harmonics + 1] + 1.0j * numpy.r_[0.0, unknowns[harmonics + 1 :]])
         moving = [numpy.real(wave @ (terms * (1.0j * orders * frequency) ** power)) for power in range(3)]
@@ -173,6 +174,7 @@ def _balanced(part: float, harmonics: int) -> Vector:
         parts: Vector = numpy.concatenate([terms.real, terms.imag[1:]])
         return parts
 
+    # Start from the static depth.
     guess = numpy.zeros(2 * harmonics + 1)
     guess[0] = 1.0
     depth: Vector = depth_of(root(residual, guess, tol=1e-12).x)[0]

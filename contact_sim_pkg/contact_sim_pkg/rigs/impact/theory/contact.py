@@ -150,10 +150,10 @@ def _stored(law: ContactLaw, depth: float) -> float:
 
 
 def sample(phase: ContactPhase, times: Vector) -> tuple[Vector, Vector, Vector]:
-    """Depth [m], speed [m/s] and heat [J] since its begin at rising ``times`` [s] within the
-    phase, its ends outside it.
+    """Depth [m], speed [m/s] and heat [J] since its begin at rising ``times`` [s] within the phase,
+    each [times].
 
-    Raises ImpactError for times that are not finite or do not rise.
+    Values at its ends outside it. Raises ImpactError for times that are not finite or do not rise.
     """
     t = numpy.clip(check_values("times", times, "s", shape=(None,), rising=True), 0.0, phase.duration)
     law = phase.law
@@ -222,6 +222,7 @@ def _released(law: ContactLaw, depth: float, speed: float) -> ContactPhase:
     """
     parting = _first_root(0.5 * law.gravity, speed, depth)
     ratio = law.elastic / law.viscous
+    # The law pushes again where A x + B v changes its sign.
     slope = ratio * speed + law.gravity
     pushing = _first_root(0.5 * law.gravity * ratio, slope, ratio * depth + speed, rising=True)
     duration = min(parting, pushing)

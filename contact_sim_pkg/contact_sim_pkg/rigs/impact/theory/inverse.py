@@ -59,6 +59,7 @@ def material_of_impact(
     group = group_factor(sphere, speed, duration)
     check_not_negative("gravity", gravity, "m/s^2")
     found = reading(restitution, end, form, gravity * duration / speed)
+    # The depth of the impact decides the shape factor k_p.
     factor = shape_of_depth(found.depth_factor * speed * duration, sphere.radius, shape)
     return Material(group * found.modulus_factor / factor, found.loss_tangent)
 
@@ -75,7 +76,7 @@ def reading(restitution: float, end: str = "force", form: str = "exact", weight:
     """h, g and the depth of a restitution k; ``weight`` is ``g tau/V0``.
 
     Raises ImpactError outside the range of the form, ValueError for another form.
-    restitution and weight: [-].
+    restitution and weight: [1].
     """
     if not 0.0 <= weight <= HEAVIEST:
         raise ImpactError(
@@ -153,7 +154,7 @@ def _under_weight(severity: float, end: str, weight: float) -> ScaledImpact:
 def shape_of_depth(depth: float, radius: float, shape: str) -> float:
     """k_p by the rule ``shape``; raises ImpactError for a depth above the radius.
 
-    depth, radius: [m]; the result: [-].
+    depth, radius: [m]; the result: [1].
     """
     if shape not in SHAPE_RULES:
         raise ValueError(f"shape factor '{shape}': small or iterate is needed")

@@ -103,6 +103,7 @@ def solve_impact(
     _check(sphere, material, speed, shape)
     severity = severity_of_loss_tangent(material.loss_tangent, end)
     scaled = scaled_impact(severity, end)
+    # The shape factor depends on the depth, the depth on the factor.
     factor = SMALL_SHAPE_FACTOR
     impact = _in_units(sphere, material, speed, end, factor, severity, scaled)
     for _ in range(ROUNDS if shape == "iterate" else 0):
@@ -114,8 +115,9 @@ def solve_impact(
 
 
 def course(impact: FreeImpact, times: Vector) -> ImpactCourse:
-    """Depth, speed and forces at rising ``times`` [s], 0 to ``impact.duration``. Raises ImpactError
-    for other times.
+    """Depth, speed and forces at rising ``times`` [s], 0 to ``impact.duration``, each [times].
+
+    Raises ImpactError for other times.
     """
     most = impact.duration * (1.0 + LEEWAY)
     times = check_values("times", times, "s", shape=(None,), least=0.0, most=most, rising=True)

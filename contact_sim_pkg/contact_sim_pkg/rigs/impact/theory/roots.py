@@ -13,11 +13,11 @@ ITERATIONS = 200
 
 def bracketed_root(function: Callable[[float], float], low: float, high: float, relative: float = 4.0e-16) -> float:
     """Where `function` changes its sign between `low` and `high`: regula falsi (Illinois), with
-    bisection where it stalls.
+    bisection.
 
-    Ends where the bracket is `relative` of its ends. Raises ArithmeticError where the ends have the
-    same sign, ValueError for ends that are not finite and where the function is not a number at one
-    of them.
+    Ends where the bracket is `relative`, dimensionless, of its ends. Raises ArithmeticError where
+    the ends have the same sign, ValueError for ends that are not finite and where the function is
+    not a number at one of them.
     """
     low, high = require("low end", low), require("high end", high)
     require_positive("relative resolution", relative)

@@ -76,6 +76,7 @@ def temperature_of_shift(shift: Shift, value: float) -> float:
     check_number("shift", value)
     if isinstance(shift, Arrhenius):
         slope = shift.activation_energy / (math.log(10.0) * GAS_CONSTANT)
+        # Arrhenius: lg a_T is linear in 1/T.
         inverse = 1.0 / shift.reference_temperature + value / slope
         if inverse <= 0.0:
             raise ImpactError(
@@ -84,6 +85,7 @@ def temperature_of_shift(shift: Shift, value: float) -> float:
         return 1.0 / inverse
     if value <= -shift.c1:
         raise ImpactError(f"shift {value:.4g}: WLF ends above {-shift.c1:g}, whatever the temperature")
+    # WLF solved for T.
     temperature = shift.glass_temperature - shift.c2 * value / (shift.c1 + value)
     if temperature <= 0.0:
         raise ImpactError(f"shift {value:.4g}: its temperature would be {temperature:.4g} K")

@@ -45,7 +45,7 @@ def look_up(loss_tangent: float, end: str = "force") -> TableEntry:
     """The consistent impact at ``loss_tangent``, 0 to the limit of the end rule. Raises ImpactError
     outside.
 
-    loss_tangent: [-].
+    loss_tangent: [1].
     """
     lowest_force(end)
     limit, loss_tangent = LIMITS[end], check_number("loss tangent", loss_tangent)

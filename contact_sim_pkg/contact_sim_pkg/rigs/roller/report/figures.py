@@ -41,6 +41,7 @@ def contact_over_time(roller: RollerSeries) -> Picture:
     for place, (values, label) in zip(axes[1:], rows, strict=True):
         draw_series(place, time, values, color=ACCENT, linewidth=0.9)
         place.set_ylabel(label)
+        # A constant has a range of its own, or rounding would fill the panel.
         if np.ptp(values) < LEAST_CHANGE * values.mean():
             place.set_ylim(0.95 * values.mean(), 1.05 * values.mean())
     axes[-1].set_xlabel("simulated time, s")
@@ -102,6 +103,7 @@ def _track_over_cycles(body: str, tracks: list[RollerTrack]) -> Picture:
     right.set_ylabel("µm")
     right.legend(loc="lower left", bbox_to_anchor=(-0.12, 1.0), ncols=2, fontsize=7.5, handlelength=1.2)
     last = tracks[-1]
+    # The strongest wave round the track, without its mean.
     strength = np.abs(np.fft.rfft(last.height))
     waves = int(strength[1:].argmax()) + 1
     caption = (
@@ -140,6 +142,7 @@ def load_spectrogram(roller: RollerSeries) -> Picture | None:
     if part < 32 or np.ptp(load) <= 1e-9 * float(load.max()):
         return None
     parts = load[: part * SPECTRUM_PARTS].reshape(SPECTRUM_PARTS, part)
+    # Short-time spectra with a Hann window; amplitudes of sines in [N].
     window = np.hanning(part)
     parts = (parts - parts.mean(axis=1, keepdims=True)) * window
     sizes = 2.0 * np.abs(np.fft.rfft(parts, axis=1)) / window.sum()
@@ -174,6 +177,7 @@ def stability_map(roller: RollerSeries, scene: dict[str, Any]) -> Picture | None
     for i, spin in enumerate(spins):
         for j, load in enumerate(loads):
             turned = model.roller._replace(spin=float(spin))
+            # A load without static angles leaves its cell blank.
             try:
                 growth[i, j] = stability(turned, curvatures, model.bending, model.modulus, float(load)).growth_rate
             except RollerError:
@@ -182,6 +186,7 @@ def stability_map(roller: RollerSeries, scene: dict[str, Any]) -> Picture | None
     largest = float(np.nanmax(np.abs(growth))) or 1.0
     turns = spins / (2.0 * np.pi)
     image = axes.pcolormesh(loads, turns, growth, cmap="RdBu_r", vmin=-largest, vmax=largest, rasterized=True)
+    # The border of stability is drawn where both signs occur.
     zero = np.nanmin(growth) < -1e-6 * largest and np.nanmax(growth) > 1e-6 * largest
     if zero:
         axes.contour(loads, turns, growth, levels=[0.0], colors=INK, linewidths=1.0)

@@ -30,6 +30,7 @@ def programme_over_time(roller: RollerSeries, scene: dict[str, Any]) -> Picture 
     figure, axes = new_figure(3.4 if programme.turns_bodies else 1.9, 2 if programme.turns_bodies else 1, sharex=True)
     if programme.turns_bodies:
         for (name, colour), curvature in zip(RADII, programme.curvatures_over(times).T, strict=True):
+            # A straight side has no radius.
             if (curvature > 0.0).all():
                 axes[0].plot(times, 1e3 / curvature, color=colour, label=name)
         axes[0].legend(loc="lower left", bbox_to_anchor=(0.0, 1.0), ncols=4, fontsize=7.5)

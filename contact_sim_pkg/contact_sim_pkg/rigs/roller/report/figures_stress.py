@@ -47,6 +47,7 @@ def _stress_picture(found: RollerVolumes, scene: dict[str, Any]) -> Picture:
     a = max(found.along_x, found.along_y)
     side: FloatArray = np.linspace(-2.0, 2.0, CELLS, dtype=np.float64) * a
     down: FloatArray = np.linspace(1e-3, 3.0, CELLS, dtype=np.float64) * a
+    # Two planes: below the surface, and through the axis along rolling.
     planes: tuple[Plane, ...] = (
         (f"z = {DEPTH} a", side, side, "y, mm", lambda u, v: (u, v, np.full_like(u, DEPTH * a))),
         ("y = 0", side, down, "z, mm", lambda u, v: (u, np.zeros_like(u), v)),
@@ -56,6 +57,8 @@ def _stress_picture(found: RollerVolumes, scene: dict[str, Any]) -> Picture:
         u, v = (part.ravel() for part in np.meshgrid(across, along))
         points = np.ascontiguousarray(np.stack(place(u, v), axis=1))
         stress, bent = _stresses(contact, model, points), _stresses(contact, model, points, with_bending=True)
+        # A point is dangerous where any stress exceeds its limit; half tone where only one of both
+        # does.
         limits = np.array([found.normal_limit] * 3 + [found.shear_limit] * 3)
         over = np.mean([(np.abs(each) > limits).any(axis=1) for each in (stress, bent)], axis=0)
         maps = ((stress[:, 2] * 1e-6, "σ_zz, MPa"), (stress[:, 4] * 1e-6, "σ_xz, MPa"), (over, OVER))

@@ -18,7 +18,7 @@ MOST_ROWS = 40
 
 
 def stability_table(stability: list[RollerStability], block_length: float) -> Table | None:
-    """One row for each reported load; None where there is none."""
+    """One row for each reported load; None where there is none. block_length: [s]."""
     if not stability:
         return None
     header = ("from, s", "load, N", "growth rate, 1/s", "frequency, Hz", "static tilt, mrad", "static yaw, mrad",

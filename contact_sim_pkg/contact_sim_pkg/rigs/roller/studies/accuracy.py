@@ -97,6 +97,7 @@ def _tilt_yaw(model: RollerModel) -> Rows:
     load = model.contact_load(float(model.programme.load[0]), curvatures)
     begun = TiltYaw(model, load)
     start = begun.state[:4] + numpy.array([1e-3, 0.0, 0.0, 0.0])
+    # The linear part of the equations for scipy; the moments are those of the bench.
     inertia = numpy.array([[roller.inertia_tilt, roller.inertia_product], [roller.inertia_product, roller.inertia_yaw]])
     gyro = roller.inertia_spin * roller.spin
     damping = numpy.array([[roller.damping_tilt, gyro], [-gyro, roller.damping_yaw]])
@@ -109,6 +110,7 @@ def _tilt_yaw(model: RollerModel) -> Rows:
     right = solve_ivp(slope, (0.0, SPAN), start, method="DOP853", rtol=1e-13, atol=1e-17).y[:2, -1]
     found = []
     for phase, stages in ((0.6, 1), (0.6, 2), (0.15, 2), (0.6, 3), (0.15, 3)):
+        # Steps by the phase of the fastest motion.
         steps = math.ceil(begun.fastest * SPAN / phase)
         state, record = start.copy(), numpy.empty((2, 4))
         loads, rule = numpy.full(steps + 1, load), gauss_rule(stages)
@@ -197,6 +199,7 @@ def _acceleration(model: RollerModel) -> Rows:
     if model.damage is None or model.acceleration == 1.0:
         return []
     begun = TrackRide(model, None)
+    # Let the wear settle before it is accelerated.
     for _ in range(20):
         begun.advance()
     found = []
@@ -206,6 +209,7 @@ def _acceleration(model: RollerModel) -> Rows:
         checked = ride_on.check()
         if checked is None or math.isnan(checked.error):
             continue
+        # Cost of one accelerated interval.
         began = time.thread_time()
         ride_on.advance()
         cost = 1e3 * (time.thread_time() - began) / (ride_on.interval_time * ride_on.acceleration)

@@ -26,6 +26,7 @@ def goals() -> list[Measured]:
     """
     contact = contact_of_rollers(CURVATURES, 0.0, MODULUS, LOAD)
     largest = max(contact.along_x, contact.along_y)
+    # Random points through the working volume.
     box = numpy.array([[2.0 * contact.along_x, 2.0 * contact.along_y, 1.5 * largest]])
     points = box * numpy.random.default_rng(1).uniform((-1.0, -1.0, 0.0), (1.0, 1.0, 2.0), (POINTS, 3))
     load = EllipseLoad(contact.along_x, contact.along_y, contact.peak_pressure, 0.0, 0.1)

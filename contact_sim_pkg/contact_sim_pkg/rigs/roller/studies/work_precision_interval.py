@@ -79,8 +79,8 @@ def rows() -> list[Row]:
 
 
 def hour(jump: int) -> float:
-    """Seconds that an hour of the rig takes, heave and wear: 720 000 turns, each that is ridden
-    stands for `jump`.
+    """Computing time [s] of an hour of the rig, heave and wear: 720 000 turns, one ridden for each
+    `jump`.
     """
     heave, track = _bench()
     heights = 1e-9 * numpy.random.default_rng(1).uniform(-1.0, 1.0, CELLS)

@@ -55,10 +55,10 @@ class WearTrack(NamedTuple):
 
     turn_time: float  # [s] of one turn
     contact_cells: float  # of the moving mean: length of the contact over that of a cell
-    gain: float  # gamma [-]; 0: the track stays as it is
+    gain: float  # gamma [1]; 0: the track stays as it is
     approach: float  # delta(F_N) [m]
     table_loads: Values  # [n] [N], rising from 0
-    table_shares: Values  # [n] omega of these, [-]
+    table_shares: Values  # [n] omega of these, [1]
     hardness: Values  # [cells] c: limits over those of the table
     largest_range: float  # [m]: a range above it ends the run
 
@@ -124,14 +124,17 @@ def run_intervals(
     heave: Heave, track: WearTrack, turns: int, intervals: int, heights: Values, state: Values, loads: Values,
     motion: Values,
 ) -> Interval:  # fmt: skip
-    """`intervals` intervals; `heights` [cells] [m], `state` (z, z') go on in place, `loads` [cells]
-    [N] and `motion` [cells, 2] are the last ones. Not checked.
+    """`intervals` intervals in a row; not checked.
+
+    heights [cells] [m] and state (z [m], z' [m/s]) change in place; loads [cells] [N] and motion
+    [cells, 2] hold the last turn.
     """
     cells = heights.shape[0]
     path = Path(numpy.zeros(cells + 1), numpy.full(cells + 1, heave.contact_coefficient))
     lowered, free = 0.0, 0.0
     lowest, highest, width = numpy.inf, 0.0, 0.0
     for n in range(intervals):
+        # The roller rides the mean over the contact; then the load of each cell wears it.
         moving_mean(heights, track.contact_cells, path.height)
         free += ride(heave, path, track.turn_time / cells, turns, state, loads, motion)
         for j in range(cells):
@@ -139,6 +142,7 @@ def run_intervals(
         worn = wear(track, turns, loads, heights)
         lowered += worn.lowered
         width = worn.range
+        # A track that is worn out ends the run.
         if not width <= track.largest_range:
             return Interval(lowest, highest, width, lowered, free / (n + 1), True)
     return Interval(lowest, highest, width, lowered, free / max(1, intervals), False)
@@ -169,12 +173,11 @@ def _share(track: WearTrack, cell: int, load: float) -> float:
 
 @entry
 def mean_weights(width: float) -> Values:
-    """Weights of a place itself and of each place k cells before and behind it, in the mean over
-    `width` cells about it.
+    """Weights [1] of a place itself and of each place k cells before and behind it, in a mean over
+    `width` cells.
 
-    Heights go straight from place to place. width: any number not below 0; 0 takes the height of
-    the place. Not checked.
-    width: [cells]; the result: [k].
+    Heights are linear between places. width: in cells, any number not below 0; 0 takes the height
+    of the place. The result: [k]. Not checked.
     """
     half = 0.5 * width
     whole = int(half)
@@ -194,10 +197,9 @@ def mean_weights(width: float) -> Values:
 
 @entry
 def moving_mean(heights: Values, width: float, out: Values) -> None:
-    """Mean of `heights` [cells] over `width` cells about each, round the track; an `out` of one
-    cell more is closed.
+    """Mean of `heights` [cells] [m] over `width` cells about each, round the track.
 
-    The width is at most that of the track. Not checked.
+    An `out` of one cell more is closed. The width is at most that of the track. Not checked.
     """
     cells, weights = heights.shape[0], mean_weights(width)
     for j in range(cells):
@@ -223,14 +225,13 @@ def _read(places: Values, values: Values, place: float) -> float:
 
 
 def growth_of_wave(heave: Heave, track: WearTrack, waves: int, slope: float, cells: int) -> float:
-    """Growth of a small wave in a turn: `-gamma delta(F_N) F omega'(F) (k_lin / F_N) Re(1 - H)` and
-    the moving mean's factor.
+    """Growth of a small wave in a turn, dimensionless.
 
-    waves: n_w round the track; slope: `F d omega / dF` at F_N; `H = kappa^2 / (kappa^2 - Omega^2 +
-    2 i zeta kappa Omega)`. Positive exactly below `kappa sqrt(1 - 4 zeta^2)` with a positive slope,
-    but for the sign of the moving mean. Raises `ValueError` for waves below 0, fewer than 8 cells
-    and a slope that is not finite.
-    The result: [-] a turn.
+    `-gamma delta(F_N) F omega'(F) (k_lin / F_N) Re(1 - H)` times the moving mean's factor; waves:
+    n_w round the track; slope: `F d omega / dF` at F_N; `H = kappa^2 / (kappa^2 - Omega^2 + 2 i
+    zeta kappa Omega)`. Positive exactly below `kappa sqrt(1 - 4 zeta^2)` with a positive slope, but
+    for the sign of the moving mean. Raises `ValueError` for waves below 0, fewer than 8 cells and a
+    slope that is not finite.
     """
     require_not_negative("growth of a wave: waves", waves)
     require("growth of a wave: slope", slope)

@@ -88,6 +88,7 @@ def contact_of_rollers(
     require_positive("roller contact: E*", modulus, "Pa", error=HertzError)
     require("roller contact: load", load, "N", error=HertzError)
     require_choice("roller contact: kind", kind, (EXACT, POLYNOMIAL), error=HertzError)
+    # Bodies that conform or touch along a line are no elliptic contact.
     principal = principal_curvatures(curvatures, yaw)
     smaller, larger = sorted(principal[:2])
     if smaller <= 0.0 or smaller < FLATTEST * larger:
@@ -139,10 +140,10 @@ def rolling_contact(curvatures: Curvatures, yaw: float, modulus: float, load: fl
 def rolling_contacts(
     curvatures: Values, yaws: Values, modulus: float, loads: Values, kind: int, out: Values
 ) -> None:  # fmt: skip
-    """`rolling_contact` of many instants into `out` [rows, 6], columns as its fields; curvatures
-    [rows, 4] as `Curvatures`.
+    """`rolling_contact` of many instants into `out` [rows, 6], columns as its fields.
 
-    Not checked.
+    curvatures: [rows, 4] [1/m] as `Curvatures`; yaws: [rows] [rad]; modulus: E* [Pa]; loads: [rows]
+    [N]. Not checked.
     """
     for i in range(yaws.shape[0]):
         here = Curvatures(curvatures[i, 0], curvatures[i, 1], curvatures[i, 2], curvatures[i, 3])

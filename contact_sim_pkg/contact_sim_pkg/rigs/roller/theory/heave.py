@@ -1,8 +1,8 @@
 """A roller that runs over a wavy track: heave, contact load, separation and impact, cell by cell of
 the track.
 
-    m z'' = F - F_N - 2 zeta kappa m z',      k_c F^(2/3) + k_b F = Delta_0 + W(s) - z,      F = 0 where the right side is not
-    above 0
+    m z'' = F - F_N - 2 zeta kappa m z',      k_c F^(2/3) + k_b F = Delta_0 + W(s) - z,      F = 0
+    where the right side is not above 0
 
 z, the height W of the track and the roller's way are counted outwards; Delta_0 is the approach at
 rest under F_N. Linearised this is eq 20 with `kappa^2 = k_lin / m`, `1 / k_lin = (2/3) k_c
@@ -47,7 +47,7 @@ class Heave(NamedTuple):
     """Mass on its contact."""
 
     mass: float  # m [kg]
-    damping_ratio: float  # zeta [-]
+    damping_ratio: float  # zeta [1]
     load: float  # F_N [N], pressed on
     contact_coefficient: float  # k_c [m/N^(2/3)]
     bending_compliance: float  # k_b [m/N]; 0: the shaft does not bend

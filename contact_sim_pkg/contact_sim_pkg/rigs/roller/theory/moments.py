@@ -5,7 +5,8 @@ With the load F, tilt psi, and the ellipse (a nearer to x, b, turned by phi) of 
 
     pressure   M_psi = F R sin psi                                               eqs 11-16
     rolling    M_theta = f_r F R sin psi                                         eq 17c, f_r signed
-    bending    M_psi = -T R cos psi (A - l + R sin psi)                          eq 17a, T = f0 Q pi a b h / J_y, h = r - approach
+    bending    M_psi = -T R cos psi (A - l + R sin psi)                          eq 17a, T = f0 Q pi
+    a b h / J_y, h = r - approach
                M_theta = T (a^2 - b^2) sin(2 phi) / 8                            eq 17b
 
 17a is printed with `A - 1 + R cos psi` and a factor 1/2, 17b with 1/4 and phi = theta: no traction

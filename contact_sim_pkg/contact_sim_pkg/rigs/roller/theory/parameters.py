@@ -29,7 +29,7 @@ class Bending(NamedTuple):
     load_distance: float  # l [m]
     radius: float  # r [m] of the shaft
     second_moment: float  # J_y = pi r^4 / 4 [m^4]
-    friction: float  # f0 [-]: the traction is -f0 times the bending stress
+    friction: float  # f0 [1]: the traction is -f0 times the bending stress
 
 
 class Roller(NamedTuple):
@@ -45,4 +45,4 @@ class Roller(NamedTuple):
     stiffness_yaw: float  # [N m/rad]
     damping_tilt: float  # [N m s/rad]
     damping_yaw: float  # [N m s/rad]
-    rolling_friction: float  # f_r [-], its sign is that of the rolling
+    rolling_friction: float  # f_r [1], its sign is that of the rolling

@@ -158,6 +158,7 @@ def critical_load(
         except RollerError:
             return True
 
+    # The first growing load of a grid, then bisection below it.
     loads = numpy.linspace(0.0, largest, 201)[1:]
     first = next((i for i, load in enumerate(loads) if grows(float(load))), None)
     if first is None:
@@ -181,6 +182,7 @@ def critical_damping(
 
     if decays(0.0):
         return 0.0
+    # Doubling finds a damping that is enough.
     high = 1e-9
     while not decays(high):
         high *= 2.0

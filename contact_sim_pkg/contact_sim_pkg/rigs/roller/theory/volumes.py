@@ -114,6 +114,7 @@ def dangerous_volumes(
     """
     _check(poisson, limits, cells, bending, traction)
     require_choice("dangerous volumes: kind", kind, (COUNTED, INTERPOLATED))
+    # Volumes of each component and of their union.
     out = numpy.zeros(COMPONENTS + 1)
     if contact.load > 0.0:
         loading = _loading(poisson, limits, traction)
@@ -156,11 +157,12 @@ def leaves_box(
     than the one in the box.
 
     Errors as `dangerous_volumes`.
-    limits: [Pa]; traction: [-].
+    limits: [Pa]; traction: [1].
     """
     _check(poisson, limits, (2, 2, 2), None, traction)
     if not contact.load > 0.0:
         return False
+    # Points on the four sides and the floor of the box.
     a, b, deepest = contact.along_x, contact.along_y, 3.0 * max(contact.along_x, contact.along_y)
     across, depths = numpy.linspace(-2.0, 2.0, EDGE_PLACES), deepest * numpy.linspace(0.0, 1.0, EDGE_PLACES) ** 2
     u, v = (part.ravel() for part in numpy.meshgrid(across, across))
@@ -181,7 +183,7 @@ def largest_ratio(
     it grows as load^(1/3).
 
     0 without load. Errors as `dangerous_volumes`.
-    limits: [Pa]; traction and the result: [-].
+    limits: [Pa]; traction and the result: [1].
     """
     _check(poisson, limits, cells, bending, traction)
     if not contact.load > 0.0:

@@ -16,7 +16,9 @@ Damping: TypeAlias = Annotated[float, Field(ge=0.0, le=1e6)]
 
 
 class OccupantSection(Section):
-    """Masses that hang in parallel on the frame mass, which sits on the cushion; Wei and Griffin 1998, two masses."""
+    """Masses that hang in parallel on the frame mass, which sits on the cushion; Wei and Griffin
+    1998, two masses.
+    """
 
     frame_mass: float = number(0.1, 1000.0, "kg", "mass in contact with the cushion", default=6.7)
     masses: list[Mass] = numbers(
@@ -46,7 +48,9 @@ class OccupantSection(Section):
 
 
 class Body(Section):
-    """Form of the body that presses into the cushion: two spheres (buttocks), two cylinders before them (thighs)."""
+    """Form of the body that presses into the cushion: two spheres (buttocks), two cylinders before
+    them (thighs).
+    """
 
     buttock_spacing: float = number(0.02, 0.5, "m", "distance between the two lowest points", default=0.13)
     buttock_radius: float = number(0.02, 0.5, "m", "radius of each sphere", default=0.12)
@@ -76,7 +80,9 @@ class SeatSection(Section):
 
 
 class PowerElastic(PowerLaw):
-    """Elastic force of the cushion: coefficient · approach^exponent. `contact_field` takes its place where both act."""
+    """Elastic force of the cushion: coefficient · approach^exponent. `contact_field` takes its
+    place where both act.
+    """
 
     coefficient: float = number(
         1.0,
@@ -88,7 +94,9 @@ class PowerElastic(PowerLaw):
 
 
 class SeatLoss(HuntCrossley):
-    """Hunt-Crossley loss: elastic force · (1 + damping · approach rate), never pulling; or `restitution` at a speed."""
+    """Hunt-Crossley loss: elastic force · (1 + damping · approach rate), never pulling; or
+    `restitution` at a speed.
+    """
 
     usual_damping = 1.0
 
@@ -96,18 +104,22 @@ class SeatLoss(HuntCrossley):
 
 
 class SeatField(PressureFieldSection):
-    """Pressure field of the cushion on a half-space; it is the contact, its integral carries the occupant."""
+    """Pressure field of the cushion on a half-space; it is the contact, its integral carries the
+    occupant.
+    """
 
     levels = (GridSection(40, 40, 1e-3, 0), GridSection(64, 64, 1e-4, 1), GridSection(96, 96, 1e-7, 3))
-    """The light frame of an occupant feels a tenth of the error that a wheel feels; the cushion does not
-    move under the body, so it needs one corrector pass fewer."""
+    """The light frame of an occupant feels a tenth of the error that a wheel feels; the cushion
+    does not move under the body, so it needs one corrector pass fewer."""
 
     length: float = number(0.05, 5.0, "m", "extent forward", default=0.6)
     width: float = number(0.05, 5.0, "m", "extent to the left", default=0.5)
 
 
 class PressureMat(Section):
-    """Pressure under the occupant of the point contact's force: spread over the cells as a bed of springs under the body would."""
+    """Pressure under the occupant of the point contact's force: spread over the cells as a bed of
+    springs under the body would.
+    """
 
     length: float = number(0.05, 5.0, "m", "extent forward", default=0.6)
     width: float = number(0.05, 5.0, "m", "extent to the left", default=0.5)

@@ -1,7 +1,9 @@
-"""The lower surface of a seated occupant, as the gap over a flat cushion: two buttocks and two thighs.
+"""The lower surface of a seated occupant, as the gap over a flat cushion: two buttocks and two
+thighs.
 
-Each is a paraboloid (buttock: radius R_b about the tuberosity) or a parabolic cylinder (thigh: radius R_t, from below the
-tuberosity forwards), raised by ``thigh_rise``; the surface is the lower envelope. x forward, y left, z up.
+Each is a paraboloid (buttock: radius R_b about the tuberosity) or a parabolic cylinder (thigh:
+radius R_t, from below the tuberosity forwards), raised by ``thigh_rise``; the surface is the lower
+envelope. x forward, y left, z up.
 """
 
 from __future__ import annotations
@@ -30,7 +32,10 @@ def shape_of(body: Body) -> SeatShape:
 
 
 def seat_gap(shape: SeatShape, x: NDArray[numpy.float64], y: NDArray[numpy.float64]) -> NDArray[numpy.float64]:
-    """Height in [m] of the occupant's lower surface over its lowest point, [len(x), len(y)], at x and y in [m]."""
+    """Height [m] of the occupant's lower surface over its lowest point, at x and y [m].
+
+    Shape [rows, cols] for x [rows] and y [cols].
+    """
     side = numpy.abs(y)[None, :] - 0.5 * shape.buttock_spacing
     along = x[:, None]
     buttock = (along**2 + side**2) / (2.0 * shape.buttock_radius)

@@ -77,12 +77,15 @@ def _reference(scene_name: str, scene: ResolvedScene) -> tuple[dict[str, Vector]
 
 
 def simulate(scene: ResolvedScene, duration: float) -> tuple[dict[str, Vector], float]:
-    """Normal force [N] of each contact over `duration` [s], and ms per simulated second of the
+    """Normal force [N] of each contact over `duration` [s], [samples], and the cost of the
     simulation alone.
+
+    Cost in ms per simulated second; arrays are one for each contact.
     """
     sources, simulation = make_sources(scene), make_simulation(scene)
     simulation.prepare()
     length = float(scene.data["block_length"])
+    # Forces of all blocks, and the wall time of each.
     forces: dict[str, list[Vector]] = {}
     walls = []
     for block in range(min(simulation.blocks, round(duration / length))):

@@ -73,9 +73,7 @@ def field_rows(scene: ResolvedScene, notify: Callable[[str], None]) -> list[dict
 
 
 def first_solve(scene: ResolvedScene) -> float | None:
-    """Seconds that the scene's first field takes, its tables and kernels included; None where it
-    has no field.
-    """
+    """Time [s] of the scene's first field, tables and kernels included; None without a field."""
     if not any((effects or {}).get("contact_field") for effects in scene.data["effects"].values()):
         return None
     began = time.perf_counter()
@@ -84,8 +82,8 @@ def first_solve(scene: ResolvedScene) -> float | None:
 
 
 def bench_solves(scene: ResolvedScene, cells: Cells, tolerance: float) -> tuple[float, float, float]:
-    """The tire's field: ms of a solve from nothing and from the field before (medians), and its
-    worst L2 error at 1e-10.
+    """Time [ms] of a solve of the tire's field, cold and from the field before (medians), and its
+    worst L2 error [1] against 1e-10.
     """
     problem = _problem(scene, "tire", cells, tolerance)
     warm = _solve(problem)

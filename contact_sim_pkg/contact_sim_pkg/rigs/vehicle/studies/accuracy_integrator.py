@@ -38,12 +38,14 @@ def tolerance_rows(scene: ResolvedScene, notify: Callable[[str], None]) -> list[
     drive = drive_of(scene, DURATION)
     notify(f"integrator: reference for {DURATION:g} s")
     asked = float(scene.data["integrator"]["relative_tolerance"])
+    # One reference for all tolerances.
     exact, exact_forces, reference = _reference(drive, asked)
     rows = []
     for tolerance in TOLERANCES:
         notify(f"integrator: tolerance {tolerance:.0e}")
         scale = drive.model.scale * (tolerance / asked)
         states, forces = fast_run(drive, scale)
+        # ms per simulated second.
         cost = 1e3 * _timed(partial(fast_run, drive, scale)) / (len(drive.height) - 1) / drive.segment
         errors = {
             "motion": _motion_error(states[:, :-2], exact),

@@ -119,6 +119,7 @@ def planes() -> Finding:
     """
     grid, field, worst = SurfaceGrid(0.1, 0.1, -0.05, -0.05), numpy.ones((2, 2)), 0.0
     for depth in (0.2, 1.0):
+        # Gauss points in radius = depth sinh(s): dense over the load, 300 depths wide.
         node, weight = numpy.polynomial.legendre.leggauss(120)
         end, farthest = math.asinh(300.0), 300.0 * depth
         stretch = 0.5 * end * (node + 1.0)
@@ -127,6 +128,7 @@ def planes() -> Finding:
         x, y = radius[:, None] * numpy.cos(angle), radius[:, None] * numpy.sin(angle)
         points = numpy.stack([x.ravel(), y.ravel(), numpy.full(x.size, depth)], axis=1)
         share = numpy.repeat(area * 0.5 * end * weight * 2.0 * math.pi / 48, 48)
+        # The load is 4 cells of 0.1 m x 0.1 m under 1 Pa: 0.04 N.
         normal = float(share @ subsurface_stress(grid, 0.3, points, field)[:, 2]) / -0.04
         shear = float(share @ subsurface_stress(grid, 0.3, points, traction_x=field)[:, 4]) / -0.04
         worst = max(worst, abs(normal - 1.0), abs(shear + 1.5 * depth / farthest - 1.0))

@@ -42,7 +42,8 @@ class SceneDrive(NamedTuple):
 
 
 def drive_of(scene: ResolvedScene, duration: float) -> SceneDrive:
-    """Drive of the scene's rig with point contacts, less the effects `LEFT_OUT`, over `duration` [s].
+    """Drive of the scene's rig with point contacts, less the effects `LEFT_OUT`, over `duration`
+    [s].
 
     Whole blocks, one at least; the road as effective heights [m] of the footprint.
     """
@@ -55,6 +56,7 @@ def drive_of(scene: ResolvedScene, duration: float) -> SceneDrive:
     shape = blocks * steps + 1
     height, a_x, a_z = numpy.zeros(shape), numpy.zeros(shape), numpy.zeros(shape)
     travel = make_travel(plain) if model.tire_geometry is not None else None
+    # Road and vibration of each block at the ends of its segments; blocks share an end.
     for block in range(blocks):
         part = slice(block * steps, (block + 1) * steps + 1)
         if travel is not None:
@@ -79,8 +81,10 @@ def _fill_heights(model: Model, patch: Any, positions: Vector, out: Vector) -> N
 
 
 def fast_run(drive: SceneDrive, scale: Vector) -> tuple[Vector, Vector]:
-    """States and forces (columns of `rigs/vehicle/entries.py`) at the starts of all segments, by
-    the bench's kernels.
+    """States [segments, states] and forces [segments, FORCES] at the starts of all segments, by the
+    bench's kernels.
+
+    scale: absolute tolerances [states]. Raises ArithmeticError where a kernel fails.
     """
     count, states = len(drive.height) - 1, len(drive.start)
     samples = (numpy.zeros((count, states)), numpy.zeros((count, states)), numpy.zeros((count, entries.FORCES)))
@@ -97,8 +101,8 @@ def fast_run(drive: SceneDrive, scale: Vector) -> tuple[Vector, Vector]:
 
 
 def slow_run(drive: SceneDrive) -> Vector:
-    """Mechanical states at the ends of all segments by the twin that shares no code with the
-    kernels.
+    """Mechanical states [segments + 1, states] at the ends of all segments, by the independent
+    twin.
     """
     quarter, occupant = _twins(drive.model.rig)
     return states_at_segments(

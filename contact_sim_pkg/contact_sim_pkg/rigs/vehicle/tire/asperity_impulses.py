@@ -76,6 +76,7 @@ def make_asperities(
         raise ValueError(
             f"asperities: forces {force.shape} and angles {angle.shape}, both must be one row of the sites"
         )
+    # Only the vertical part of a push acts.
     push = force * numpy.sin(angle)
     if not numpy.all(numpy.isfinite(push)):
         site = int(numpy.argmin(numpy.isfinite(push))) + 1
@@ -86,8 +87,10 @@ def make_asperities(
 def default_asperities(
     load: float, spacing: float, contact_length: float, slope: Vector, raised_cosine: bool = False
 ) -> AsperityImpulses:
-    """Without data: `F_n = 0.1 P dx / b`, `phi_n = pi/2 - atan h'(n dx)`; slope: h' of the road at
-    the sites [-].
+    """Asperities without data: `F_n = 0.1 P dx / b` [N], `phi_n = pi/2 - atan h'(n dx)` [rad].
+
+    load: P [N]; spacing: dx [m]; contact_length: b [m]; slope: h' of the road, dimensionless, one
+    for each site. Errors as in `make_asperities`.
     """
     slope = numpy.asarray(slope, dtype=float)
     force = numpy.full(slope.shape, FORCE_SHARE * load * spacing / contact_length)
@@ -113,8 +116,8 @@ def asperity_density(asperities: AsperityImpulses, travel: float, start: float, 
     """Line density [N/m] on cells: `out[i]` is the mean of f over start + i cell to start + (i + 1)
     cell [m].
 
-    A site on the border of two cells counts to the right one. Sites outside the cells are left out.
-    cell > 0. NaN for NaN.
+    out: [cells]; travel: s [m]. A site on the border of two cells counts to the right one. Sites
+    outside the cells are left out. cell > 0. NaN for NaN.
     """
     for i in range(out.shape[0]):
         out[i] = math.nan if math.isnan(travel) else 0.0
@@ -143,7 +146,7 @@ def active_sites(asperities: AsperityImpulses, travel: float) -> tuple[int, int]
 
 @kernel
 def window(asperities: AsperityImpulses, site: int, travel: float) -> float:
-    """W at a site [-]; 0 for `|n dx - s| >= b/2`."""
+    """Window W of a site, dimensionless, at `travel` s [m]; 0 for `|n dx - s| >= b/2`."""
     distance = (site * asperities.spacing - travel) / asperities.contact_length
     if not abs(distance) < 0.5:
         return 0.0

@@ -1,4 +1,6 @@
-"""Impulses of the road's asperities over one block: the sites of the strip that came, and their resultant over the travel."""
+"""Impulses of the road's asperities over one block: the sites of the strip that came, and their
+resultant over the travel.
+"""
 
 from __future__ import annotations
 
@@ -13,10 +15,11 @@ __all__ = ["asperity_push"]
 
 
 def asperity_push(asperities: Asperities, geometry: TireGeometry, road: RoadPatch, travel: Vector) -> Vector:
-    """Resultant in [N] for each ``travel`` [m] of the wheel centre inside the block of ``road``.
+    """Resultant [N] for each ``travel`` [m] of the wheel centre inside the block of ``road``; both
+    [points].
 
-    Sites lie at whole multiples of the spacing. The push of each follows from the slope of the road there, averaged over the
-    width of the standing footprint.
+    Sites lie at whole multiples of the spacing. The push of each follows from the slope of the road
+    there, averaged over the width of the standing footprint.
     """
     spacing, half = asperities.spacing, 0.5 * asperities.contact_length
     first = int(numpy.ceil((travel.min() - half) / spacing))

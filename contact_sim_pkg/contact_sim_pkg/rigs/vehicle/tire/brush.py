@@ -141,6 +141,7 @@ def brush_state_on(state: BrushState, rows: int, cols: int, cell_x: float) -> Br
     if (cols - old_cols) % 2:
         raise ValueError(f"brush: from {old_cols} to {cols} columns, the two must differ by an even number")
     more_rows, more_cols = (rows - old_rows) // 2, (cols - old_cols) // 2
+    # Copy the common middle of both grids; their middle columns are the same.
     for source, target in zip(_arrays_of(state), _arrays_of(moved), strict=True):
         row, col = max(0, -more_rows) + PAD, max(0, -more_cols)
         part = source[row : row + min(rows, old_rows), col : col + min(cols, old_cols)]
@@ -157,7 +158,7 @@ def _arrays_of(state: BrushState) -> tuple[NDArray[Any], ...]:
 
 
 def rolling_step(travel: float, slip: float, slip_angle: float) -> RollingStep:
-    """Ways for a `travel` v dt [m] at the longitudinal slip kappa [-] and the slip angle alpha
+    """Ways for a `travel` v dt [m] at the longitudinal slip kappa [1] and the slip angle alpha
     [rad].
 
     Raises `ValueError` where a number is not finite or the slip angle is not within +-pi/2. A wheel
@@ -189,6 +190,7 @@ def advance_brush(
     for field_rows, field_cols in (pressure.shape, shear_x.shape, shear_y.shape, mode.shape):
         if field_rows != rows or field_cols != cols:
             raise ValueError("brush: a field is not on the cells of the bristles; move them with brush_state_on")
+    # The bristles are kept on the lattice of the field: shift them from the last one to this.
     first_field = state.place[2] == 0.0
     origin_before = grid.origin_x if first_field else state.place[1]
     phase = place_on(state.bristles, state.before, state.place[0], (grid.origin_x - origin_before) / grid.cell_x)
@@ -198,6 +200,7 @@ def advance_brush(
     phase, dissipated, released = advance_step(brush, state, pressure, window, phase, grid.cell_x, step)
     copy_field(pressure, state.before)
     state.place[0], state.place[1], state.place[2] = phase, grid.origin_x, 1.0
+    # Stresses per area become forces.
     area = grid.cell_x * grid.cell_y
     force_x, force_y, moment_z, share = write_shear(
         brush, state.bristles, grid, pressure, phase, shear_x=shear_x, shear_y=shear_y, mode=mode
@@ -218,6 +221,7 @@ def advance_step(
     """Advance over the whole step, segment by segment; returns the new phase, work of friction and
     released energy [J/m^2].
     """
+    # Belt travel in cells; a standing belt slides over one segment without length.
     cells = abs(step.belt) / cell_x
     if not LEAST_WAY <= cells < math.inf:
         cells = 0.0
@@ -226,6 +230,7 @@ def advance_step(
     remaining = cells
     dissipated, released = 0.0, 0.0
     while True:
+        # The pressure changes linearly over the step, the slide is the same in each segment.
         segment = next_segment(phase, remaining, step.belt < 0.0)
         remaining -= segment.length
         blend(state.before, pressure, 1.0 - remaining / over, window, state.bristles.pressure)
@@ -242,10 +247,10 @@ def write_shear(
     brush: Brush, bristles: Bristles, grid: PatchGrid, pressure: Field, phase: float, shear_x: Field, shear_y: Field,
     mode: NDArray[numpy.uint8],
 ) -> tuple[float, float, float, float]:  # fmt: skip
-    """Shear [Pa] at the centres of the cells; returns its sums (x, y, moment) and the share of
-    sliding cells.
+    """Write the shear [Pa] at the centres of the cells, [rows, cols].
 
-    A centre lies between two bristles: deflections are interpolated, a bristle out of contact does
+    Returns its sums along x and y [Pa], their moment [Pa m] and the share of sliding cells [1]. A
+    centre lies between two bristles: deflections are interpolated, a bristle out of contact does
     not count; the nearer one decides whether the cell slides. The limit is that of the cell's own
     pressure.
     """

@@ -14,8 +14,10 @@ __all__ = ["blend", "copy_field", "loaded_window", "place_on"]
 
 @kernel
 def place_on(bristles: Bristles, before: Field, phase: float, offset: float) -> float:
-    """Put bristles and last pressure on a lattice that lies `offset` [cells] further ahead; returns
-    the new phase [cells].
+    """Move bristles and last pressure `before` [Pa] to a lattice that lies `offset` cells further
+    ahead.
+
+    phase: of the belt against the lattice [1]. Returns the new one. Arrays are [rows, cols].
     """
     phase += offset
     cells = math.floor(phase)
@@ -45,8 +47,9 @@ def shift_rows(values: Field | Flags, cells: int) -> None:
 
 @kernel
 def resample(before: Field, offset: float, scratch: Field) -> None:
-    """`before` at points `offset` [cells] ahead of its rows, linear; zero where the nearest cell is
-    not loaded.
+    """Write `before` [Pa], [rows, cols], at points `offset` cells ahead of its rows, linear.
+
+    Zero where the nearest cell is not loaded.
     """
     rows, cols = before.shape
     base = math.floor(offset)
@@ -106,7 +109,10 @@ def loaded_window(before: Field, pressure: Field) -> LoadedWindow:
 
 @kernel
 def blend(before: Field, pressure: Field, part: float, window: LoadedWindow, out: Field) -> None:
-    """Pressure when `part` of the step is done, in [window], linear in time."""
+    """Write the pressure [Pa] when `part` [1] of the step is done, linear in time.
+
+    Fields: [rows, cols], `before` and `out` with margins; only inside `window`.
+    """
     for m in range(window.first - 1, window.last):
         i = m - PAD
         inside = 0 <= i < pressure.shape[0]

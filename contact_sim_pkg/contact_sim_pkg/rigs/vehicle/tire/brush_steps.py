@@ -86,7 +86,9 @@ class BeltSegment(NamedTuple):
 
 @kernel
 def next_segment(phase: float, remaining: float, backward: bool) -> BeltSegment:
-    """The way to the next centre of a cell, or less where less is `remaining` [cells]."""
+    """Belt travel to the next centre of a cell, or `remaining` [1] cells where that is less;
+    `phase` in cells [1].
+    """
     if remaining <= 0.0:
         here = 1.0 if phase <= 0.5 else 0.0
         return BeltSegment(0.0, phase, 0, 0, here, 1.0 - here)
@@ -198,6 +200,7 @@ def unit_slide(brush: Brush, trial_x: float, trial_y: float, limit: float) -> fl
     """
     if brush.stiffness_x == brush.stiffness_y:
         return (math.sqrt(trial_x * trial_x + trial_y * trial_y) / limit - 1.0) / brush.stiffness_x
+    # Equal stiffnesses have a closed form; else Newton's method from no slide.
     way = 0.0
     for _ in range(NEWTON_STEPS):
         flat_x, flat_y = 1.0 + way * brush.stiffness_x, 1.0 + way * brush.stiffness_y

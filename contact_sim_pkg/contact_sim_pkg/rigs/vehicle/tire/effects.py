@@ -1,9 +1,9 @@
 """Effects of the contact between tire and road.
 
 A scene calls for them by rules of thumb of the field: the pressure field for road wavelengths below
-about three patch lengths, steps, cleats and stones, or where the pressure is requested; the rigid ring
-for content above 30 Hz at the axle; the envelopment for obstacles shorter than the footprint; the
-brush for slip.
+about three patch lengths, steps, cleats and stones, or where the pressure is requested; the rigid
+ring for content above 30 Hz at the axle; the envelopment for obstacles shorter than the footprint;
+the brush for slip.
 """
 
 from __future__ import annotations

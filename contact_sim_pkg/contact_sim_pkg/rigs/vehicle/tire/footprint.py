@@ -105,6 +105,7 @@ def tire_gap(
     rows, cols = out.shape
     if first < first_row or first + rows > first_row + height.shape[0] or cols > height.shape[1]:
         return False
+    # The middle columns of road and grid are the same.
     margin = (height.shape[1] - cols) // 2
     middle = 0.5 * (cols - 1)
     for i in range(rows):
@@ -134,6 +135,7 @@ def touches_beyond(
     top, left = rows // 2 - own_rows // 2, (cols - own_cols) // 2
     margin = (height.shape[1] - cols) // 2
     middle = 0.5 * (cols - 1)
+    # Rows and columns of the larger grid that the lattice holds.
     for i in range(max(0, first_row - first), min(rows, first_row + height.shape[0] - first)):
         x = (first + i) * cell_x - travel
         free = approach - 0.5 * x * x / radius_rolling
@@ -161,14 +163,13 @@ def _sunk(pressure: Pressures, row: int, col: int, modulus: float, cell_x: float
 
 @entry
 def effective_between(smooth: Vector, offset: float, offset_end: float, out: Vector) -> None:
-    """Effective height of the road in [m] from one field to the next, written into ``out``:
-    ``smooth`` [m] and an offset [m].
+    """Write the effective height [m] of the road from one field to the next, [points].
 
-    The offset goes straight to its end. What the smooth height has beside a straight line is right
-    to first order in the roughness only: at an edge it falls in a curve where the tire, which
-    stands on the edge, does not, and the offset takes nearly all of it back. So it counts as far as
-    the offset leaves it alone: ``1 - 4 |change of offset| / range of smooth``, and no more from a
-    quarter on.
+    smooth: smooth height [points] [m]; offset, offset_end: effective-height corrections [m] at the
+    ends, linear between. What the smooth height has beside a straight line is right to first order
+    in the roughness only: at an edge it falls in a curve where the tire, which stands on the edge,
+    does not, and the correction cancels nearly all of it. So its factor is ``1 - 4 |change of
+    correction| / range of smooth``, and 0 from a quarter on.
     """
     last = smooth.shape[0] - 1
     highest, lowest = smooth[0], smooth[0]
@@ -177,6 +178,7 @@ def effective_between(smooth: Vector, offset: float, offset_end: float, out: Vec
     span, change = highest - lowest, offset_end - offset
     kept = max(0.0, 1.0 - 4.0 * abs(change) / span) if span > 0.0 else 0.0
     for i in range(last + 1):
+        # The straight line stays, the rest is reduced.
         part = i / last
         straight = smooth[0] + (smooth[last] - smooth[0]) * part
         out[i] = straight + kept * (smooth[i] - straight) + offset + change * part

@@ -1,4 +1,6 @@
-"""Resolved scene -> parameters of the tire and of the effects in its contact; what is not called for is ``None``."""
+"""Resolved scene -> parameters of the tire and of the effects in its contact; what is not called
+for is ``None``.
+"""
 
 from __future__ import annotations
 
@@ -132,8 +134,8 @@ def _elastic(
 ) -> tuple[NormalElastic, float, FieldGrids | None]:
     """Normal law, length in [m] of the standing footprint, and the field.
 
-    Hertz's law of the point contact, or a field's tangent law; a tread with memory is stiffer at once than for long, and its
-    footprint, which sets its step, is Hertz's for long.
+    Hertz's law of the point contact, or a field's tangent law; a tread with memory is stiffer at
+    once than for long, and its footprint, which sets its step, is Hertz's for long.
     """
     modulus = contact_modulus(tire)
     raised = 1.0 if tread is None else stiffening(tread.viscoelasticity, tread.step)

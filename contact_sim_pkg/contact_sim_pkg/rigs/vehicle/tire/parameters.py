@@ -8,7 +8,9 @@ from contact_sim_pkg.compiled.arrays import Vector
 
 
 class Brush(NamedTuple):
-    """Bristles of a rolling tread, one a cell of its pressure field, with a Coulomb limit of their own."""
+    """Bristles of a rolling tread, one a cell of its pressure field, with a Coulomb limit of their
+    own.
+    """
 
     stiffness_x: float  # [N/m^3] shear stress per deflection, along the travel, > 0
     stiffness_y: float  # [N/m^3] sideways, > 0
@@ -17,7 +19,9 @@ class Brush(NamedTuple):
 
 
 class TreadViscoelasticity(NamedTuple):
-    """Relaxation of the tread's modulus: ``E(t) / E_long = 1 + retardation_time dirac(t) + sum ratio exp(-t / time)``."""
+    """Relaxation of the tread's modulus: ``E(t) / E_long = 1 + retardation_time dirac(t) + sum
+    ratio exp(-t / time)``.
+    """
 
     retardation_time: float  # [s], >= 0; Kelvin-Voigt
     ratios: Vector  # [branches] Maxwell modulus over the long-time modulus, >= 0

@@ -24,7 +24,9 @@ class RoadField(ContactField):
     def __init__(
         self, grids: FieldGrids | None, contact: Contact | None, geometry: TireGeometry | None, tread: Tread | None
     ) -> None:
-        """As ``ContactField``; ``geometry`` has radii and lattice, ``tread`` is None for elastic rubber."""
+        """As ``ContactField``; ``geometry`` has radii and lattice, ``tread`` is None for elastic
+        rubber.
+        """
         super().__init__(grids, contact)
         self._geometry, self._tread = geometry, tread
         self._road: Any = None
@@ -80,7 +82,9 @@ class RoadField(ContactField):
         return round(self.travel / settings.cell_x) - settings.rows // 2
 
     def gap(self, settings: FieldSettings) -> Gap:
-        """See `ContactField`; cells coincide with nodes of the road. The strain of a viscoelastic tread is added."""
+        """See `ContactField`; cells coincide with nodes of the road. The strain of a viscoelastic
+        tread is added.
+        """
         geometry, road = self._geometry, self._road
         assert geometry is not None
         out = self._gaps[settings.rows]
@@ -114,7 +118,9 @@ class RoadField(ContactField):
         return grids.usual.settings.belt is None or self._touches_with_belt(grids, approach)
 
     def _touches_with_belt(self, grids: FieldGrids, approach: float) -> bool:
-        """The same where a belt yields further than the half-space: by its displacements on the wide grid."""
+        """The same where a belt yields further than the half-space: by its displacements on the
+        wide grid.
+        """
         wide, pressure = grids.wide.settings, grids.usual.pressure
         rows, cols = pressure.shape
         first_row, first_col = wide.rows // 2 - rows // 2, (wide.cols - cols) // 2

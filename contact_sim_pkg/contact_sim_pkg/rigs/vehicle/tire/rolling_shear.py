@@ -1,4 +1,6 @@
-"""Shear of the rolling tire from published field to published field: the brush, fed with the slip programme of the scene."""
+"""Shear of the rolling tire from published field to published field: the brush, fed with the slip
+programme of the scene.
+"""
 
 from __future__ import annotations
 
@@ -53,13 +55,17 @@ class RollingShear:
         self._travel: float | None = None
 
     def advance(self, pressure: Field, origin_x: float, origin_y: float, travel: float, time: float) -> Sheared:
-        """Roll on to ``travel`` [m] at ``time`` [s], where the field is ``pressure`` [Pa] with cell (0, 0) at the origin [m]."""
+        """Roll on to ``travel`` [m] at ``time`` [s], where the field is ``pressure`` [Pa] with cell
+        (0, 0) at the origin [m].
+        """
         wide, friction = self._wide, self._friction
+        # Embed the field in the middle of the wide grid, on which the bristles live.
         row = wide.rows // 2 - pressure.shape[0] // 2
         col = (wide.cols - pressure.shape[1]) // 2
         part = (slice(row, row + pressure.shape[0]), slice(col, col + pressure.shape[1]))
         self._pressure.fill(0.0)
         self._pressure[part] = pressure
+        # The slips in the middle of the step act over all of it.
         before = self._travel if self._travel is not None else travel
         step = rolling_step(travel - before, *friction.slips_at(0.5 * (self._time + time)))
         grid = PatchGrid(origin_x - row * wide.cell_x, origin_y - col * wide.cell_y, wide.cell_x, wide.cell_y)

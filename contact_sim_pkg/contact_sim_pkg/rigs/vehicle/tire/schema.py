@@ -41,7 +41,9 @@ class HertzElastic(Section):
 
 
 class TireLoss(HuntCrossley):
-    """Hunt-Crossley loss: elastic force · (1 + damping · approach rate), never pulling; or `restitution` at a speed."""
+    """Hunt-Crossley loss: elastic force · (1 + damping · approach rate), never pulling; or
+    `restitution` at a speed.
+    """
 
     usual_damping = 0.06
 
@@ -76,7 +78,9 @@ class RigidRingSection(Section):
 
 
 class Envelopment(Section):
-    """A belt under tension on an elastic foundation yields under the pressure beside the tread, and bends over obstacles."""
+    """A belt under tension on an elastic foundation yields under the pressure beside the tread, and
+    bends over obstacles.
+    """
 
     tension: float = number(
         1.0, 1e6, "N", "tension of the belt over its width; 220 kPa on 0.3 m by 0.15 m give 9900 N", default=9900.0
@@ -87,7 +91,9 @@ class Envelopment(Section):
 
 
 class TreadViscoelasticitySection(Section):
-    """Memory of the tread rubber: a Kelvin-Voigt element and Maxwell branches beside the modulus of `tire`, cell by cell."""
+    """Memory of the tread rubber: a Kelvin-Voigt element and Maxwell branches beside the modulus of
+    `tire`, cell by cell.
+    """
 
     retardation_time: float = number(
         0.0, 10.0, "s", "viscosity over the long-time modulus (Kelvin-Voigt); 0: none", default=0.0
@@ -103,7 +109,9 @@ class TreadViscoelasticitySection(Section):
 
 
 class BrushSection(Section):
-    """Bristles that stick to the road and slip, cell by cell: longitudinal and lateral force, aligning moment."""
+    """Bristles that stick to the road and slip, cell by cell: longitudinal and lateral force,
+    aligning moment.
+    """
 
     stiffness_x: float = number(
         1e3, 1e12, "N/m^3", "shear stiffness of the tread per area, along the road (choice)", default=6e7
@@ -119,7 +127,9 @@ class BrushSection(Section):
 
 
 class AsperityImpulsesSection(Section):
-    """Push of the road's asperities on the rolling tire, site by site; they act while the tire is in contact."""
+    """Push of the road's asperities on the rolling tire, site by site; they act while the tire is
+    in contact.
+    """
 
     spacing: float = number(1e-4, 10.0, "m", "distance of two asperities along the road", default=0.02)
     share: float = number(

@@ -28,6 +28,7 @@ def slip_breaches(scene: Scene) -> Iterator[Breach]:
         yield Breach("slip", "acts through the effect brush, which the scene does not name; add effects.tire.brush: {}")
     if slip.points is None:
         return
+    # Points replace the constant slips.
     for key in ("longitudinal", "angle"):
         if getattr(slip, key) is not None:
             yield Breach(f"slip.{key}", f"{key} and points are both given; keep one", ("slip.points",))
@@ -39,6 +40,7 @@ def slip_breaches(scene: Scene) -> Iterator[Breach]:
         if not after[0] > before[0]:
             sentence = f"time {show(after[0])} s does not come after {show(before[0])} s; times must increase"
             yield Breach(f"slip.points.{index}.0", sentence, ("slip.points",))
+    # Each column has its own range.
     ranges = ((0.0, LONGEST_TIME, " s"), (LOWEST_SLIP, HIGHEST_SLIP, ""), (-LARGEST_ANGLE, LARGEST_ANGLE, " rad"))
     for index, point in enumerate(slip.points):
         for place, (value, (low, high, unit)) in enumerate(zip(point, ranges, strict=True)):
@@ -63,6 +65,7 @@ def tire_effect_breaches(scene: Scene) -> Iterator[Breach]:
     if brush is not None and brush.coefficient_kinetic > brush.coefficient_static:
         sentence = f"{show(brush.coefficient_kinetic)} is above coefficient_static ({show(brush.coefficient_static)})"
         yield Breach(f"{where}.brush.coefficient_kinetic", sentence, (f"{where}.brush.coefficient_static",))
+    # The schema bounds the number of branches, not their values.
     memory = scene.effect("tire", TreadViscoelasticitySection)
     for index, (ratio, time) in enumerate(() if memory is None else memory.branches):
         place = f"{where}.tread_viscoelasticity.branches.{index}"

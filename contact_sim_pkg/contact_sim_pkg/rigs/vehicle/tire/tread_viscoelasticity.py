@@ -43,7 +43,7 @@ def _weights(tread: TreadViscoelasticity, step: float) -> tuple[float, Field, Fi
 
 
 def stiffening(tread: TreadViscoelasticity, step: float) -> float:
-    """`s = 1 + T/h + sum r_k (t_k/h)(1 - exp(-h/t_k))` [-]: modulus over a step h [s] against the
+    """`s = 1 + T/h + sum r_k (t_k/h)(1 - exp(-h/t_k))` [1]: modulus over a step h [s] against the
     long-time modulus.
     """
     viscous, weights, _decay = _weights(tread, step)
@@ -128,7 +128,11 @@ def shift_rows(field: Field, cells: int) -> None:
 def viscoelastic_gap(
     displaced: Field, branches: Field, viscous: float, weights: Field, decay: Field, gap: Field
 ) -> None:
-    """`g = [(T/h + sum w) u - sum a q] / s`, see the module."""
+    """Write the gap `g = [(T/h + sum w) u - sum a q] / s` [m], see the module; weights are
+    dimensionless.
+
+    Fields: [rows, cols] [m], branches: [branches, rows, cols] [m]; weights, decay: [branches].
+    """
     held = viscous
     for k in range(weights.shape[0]):
         held += weights[k]
@@ -146,7 +150,7 @@ def update_branches(
 ) -> None:
     """`u = K p / s + g`, `q = a q + w (u - u_before)`.
 
-    Fields: [rows, cols] [m], branches: [branches, rows, cols] [m]; weights, decay: [branches] [-].
+    Fields: [rows, cols] [m], branches: [branches, rows, cols] [m]; weights, decay: [branches] [1].
     """
     for i in range(gap.shape[0]):
         for j in range(gap.shape[1]):

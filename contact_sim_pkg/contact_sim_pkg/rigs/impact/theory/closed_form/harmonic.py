@@ -50,17 +50,17 @@ def material_of_amplitudes(stress: float, strain: float, phase: float) -> Materi
 def complex_stress(
     material: Material, strain: float, frequency: float, times: Vector, form: str = "corrected"
 ) -> ComplexStress:
-    """Both parts at ``times`` [s], for an amplitude ``strain`` and a ``frequency`` [rad/s] above 0.
+    """Elastic and viscous stress [Pa], [times], at ``times`` [s].
 
-    No cotangent, so no loss is no pole.
-
-    Raises ImpactError for a material, amplitude, frequency or times outside their range, ValueError
-    for another form.
+    ``strain``: amplitude [1]; ``frequency``: above 0 [rad/s]. No cotangent, so a material without
+    loss is no pole. Raises ImpactError for a material, amplitude, frequency or times outside their
+    range, ValueError for another form.
     """
     check_positive("amplitude of the strain", strain)
     check_positive("frequency", frequency, "rad/s")
     if form not in ("corrected", "printed"):
         raise ValueError(f"form '{form}': corrected or printed is needed")
+    # Stress leads strain by the phase of the complex modulus.
     phase = cmath.phase(complex_modulus(material))
     angle = frequency * check_values("times", times, "s") - phase
     storage, loss = material.storage_modulus, material.loss_modulus

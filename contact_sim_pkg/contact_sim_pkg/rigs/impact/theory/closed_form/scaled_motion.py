@@ -187,11 +187,12 @@ def _note(zeta, kind, series, s, out):
 def solve_from(
     zeta: float, weight: float, pulls: bool, u: float, v: float, kind: int, limit: float, out: Vector
 ) -> int:
-    """Follow the contact from ``u``, ``v`` to its end; events from ``kind`` on are written into
-    ``out`` [RESULTS].
+    """Follow the contact from ``u``, ``v`` to its end; events from ``kind`` on go to ``out``
+    [results].
 
-    Returns the steps taken; 0 where the contact has not ended by ``limit`` or within the largest
-    number of steps: then the last places of ``out`` hold how far it came.
+    u, v, weight in units of L, V0 and V0^2/L, zeta dimensionless. Returns the steps taken; 0 where
+    the contact has not ended by ``limit`` or within the largest number of steps: then the last
+    places of ``out`` hold how far it came.
     """
     series = numpy.zeros((SERIES, ORDER + 1))
     _start(u, v, series)
@@ -229,6 +230,7 @@ def _place(series, step, time):
             high = s
         else:
             low = s
+        # Newton, or the middle where it leaves the bracket.
         slope = 2.0 * _value(series[0], s)
         following = s - error / slope if slope > 0.0 else 0.5 * (low + high)
         if not low < following < high:
@@ -244,10 +246,10 @@ def sample_from(
     zeta: float, weight: float, u: float, v: float, times: Vector, depth: Vector, speed: Vector, heat: Vector
 ) -> int:
     """Depth, speed and heat at rising ``times`` in contact, from ``u``, ``v`` on; returns how many
-    of them were reached.
+    were reached.
 
-    Those behind the end of the contact get its values and are not counted.
-    times, depth, speed, heat: [n], scaled by L/V0, L, V0 and m V0^2.
+    Those behind the end of the contact get its values and are not counted. times, depth, speed,
+    heat: [times], dimensionless: scaled by L/V0, L, V0 and m V0^2.
     """
     series = numpy.zeros((SERIES, ORDER + 1))
     _start(u, v, series)
@@ -273,12 +275,10 @@ def sample_from(
 
 
 def scaled_impact(severity: float, end: str, weight: float = 0.0) -> ScaledImpact:
-    """The impact at ``severity`` zeta, 0 to 1000, to 1e-13; ``end`` is ``force`` or ``gap``;
-    ``weight`` ``g L/V0^2``, 0: none.
+    """The impact at ``severity`` zeta, 0 to 1000, to 1e-13, dimensionless, in units of L and V0.
 
-    Raises ImpactError outside the range and, with ``gap``, where the mass does not come back (zeta
-    above about 8).
-    All numbers: [-], in units of L and V0.
+    ``end`` is ``force`` or ``gap``; ``weight`` is ``g L/V0^2``, 0: none. Raises ImpactError outside
+    the range and, with ``gap``, where the mass does not come back (zeta above about 8).
     """
     check_number("severity", severity, least=0.0, most=LARGEST_SEVERITY)
     check_not_negative("weight", weight)
@@ -295,11 +295,11 @@ def scaled_impact(severity: float, end: str, weight: float = 0.0) -> ScaledImpac
 
 
 def scaled_course(severity: float, times: Vector) -> tuple[Vector, Vector]:
-    """Depth and speed at rising ``times`` >= 0 within the contact, to a few units of rounding.
+    """Depth and speed [times] at rising ``times`` >= 0 within the contact, to a few units of
+    rounding.
 
-    Raises ImpactError where a time is not reached, for times that do not rise from 0 on and a
-    severity outside 0 to 1000.
-    times and the results: [n], in units of L and V0.
+    All are dimensionless, in units of L and V0. Raises ImpactError where a time is not reached, for
+    times that do not rise from 0 on and a severity outside 0 to 1000.
     """
     check_number("severity", severity, least=0.0, most=LARGEST_SEVERITY)
     scaled = check_values("times", times, shape=(None,), least=0.0, rising=True)

@@ -63,7 +63,7 @@ def damped_sine(
     s = delta/w solves ``s = c tan(beta)(1 + s^2)``, c = 15 beta/32, 1.5 as printed. Real up to
     tan(beta) = 1/(2c): 0.43701, printed 1/3. Raises ImpactError above, and for a mass, radius,
     modulus, speed or shape factor that is not above 0.
-    speed: [m/s]; shape_factor: [-].
+    speed: [m/s]; shape_factor: [1].
     """
     _check_case(sphere, material.storage_modulus, speed, shape_factor)
     s = damping_ratio(material.loss_tangent, form)
@@ -85,7 +85,7 @@ def damping_ratio(loss_tangent: float, form: str = "corrected") -> float:
     """``s = delta/w`` of eqs 56-58, the smaller root of ``s = c tan(beta)(1 + s^2)``. Raises
     ImpactError above 1/(2c).
 
-    loss_tangent and the result: [-].
+    loss_tangent and the result: [1].
     """
     check_not_negative("loss tangent", loss_tangent)
     c = 15.0 / 32.0 * _of(BETA, form)
@@ -102,7 +102,7 @@ def closed_restitution(loss_tangent: float, form: str = "printed") -> float:
     """Eq 66: ``k = (pi - f tan(beta))/(pi + f tan(beta))``, f of `LOSS_FACTORS` (printed 3). Raises
     ImpactError from pi/f on.
 
-    loss_tangent and the result: [-].
+    loss_tangent and the result: [1].
     """
     check_not_negative("loss tangent", loss_tangent)
     limit = loss_factor_limit(form)
@@ -115,7 +115,7 @@ def closed_restitution(loss_tangent: float, form: str = "printed") -> float:
 
 
 def restitution_note(loss_tangent: float, form: str = "printed") -> str | None:
-    """A sentence where the loss tangent, >= 0, is above 0.9 of the end of eq 66, else None."""
+    """A sentence where the loss tangent [1], >= 0, is above 0.9 of the end of eq 66, else None."""
     check_not_negative("loss tangent", loss_tangent)
     limit = loss_factor_limit(form)
     if loss_tangent <= NEAR_LIMIT * limit:
@@ -124,7 +124,7 @@ def restitution_note(loss_tangent: float, form: str = "printed") -> str | None:
 
 
 def loss_factor_limit(form: str = "printed") -> float:
-    """Loss tangent at which eq 66 gives k = 0: pi/3 as printed."""
+    """Loss tangent [1] at which eq 66 gives k = 0: pi/3 as printed."""
     return math.pi / _of(LOSS_FACTORS, form)
 
 
@@ -157,6 +157,7 @@ def closed_duration(
     """
     _check_case(sphere, storage_modulus, speed, shape_factor)
     check_number("restitution", restitution, above=0.0, most=1.0)
+    # -ln k/(1 - k), without cancellation near k = 1.
     loss = 1.0 - restitution
     ratio = 1.0 if loss == 0.0 else -math.log1p(-loss) / loss
     mass = _of(DURATION_FACTORS, form) * sphere.mass / (shape_factor * storage_modulus * math.sqrt(sphere.radius))

@@ -36,7 +36,7 @@ def loss_tangent_of_severity(severity: float, end: str) -> float:
     """``tan(beta) = pi zeta/(3 T_c)`` of a consistent impact at ``severity`` zeta. Errors as
     `scaled_impact`.
 
-    severity and the result: [-].
+    severity and the result: [1].
     """
     lowest_force(end)
     if severity == 0.0:
@@ -46,11 +46,11 @@ def loss_tangent_of_severity(severity: float, end: str) -> float:
 
 @functools.lru_cache(maxsize=1)
 def fold() -> tuple[float, float]:
-    """Severity and loss tangent at the fold of the end rule ``gap``: (2.2354, 0.40373), from the
-    slope's change of sign.
+    """Severity and loss tangent, dimensionless, at the fold of the end rule ``gap``: (2.2354,
+    0.40373).
 
-    The slope is a central difference over 1e-4: the loss tangent is good to rounding, the severity
-    to 1e-8.
+    From the slope's change of sign. The slope is a central difference over 1e-4: the loss tangent
+    is good to rounding, the severity to 1e-8.
     """
 
     def slope(severity: float) -> float:
@@ -64,7 +64,7 @@ def severity_of_loss_tangent(loss_tangent: float, end: str) -> float:
     """zeta of the consistent impact with ``loss_tangent``, 0 to 100; to a few units of rounding.
 
     Raises FoldError above the fold with the end rule ``gap``, ImpactError outside the range.
-    loss_tangent and the result: [-].
+    loss_tangent and the result: [1].
     """
     check_not_negative("loss tangent", loss_tangent)
     lowest_force(end)
@@ -92,7 +92,7 @@ def loss_tangent_of_restitution(restitution: float, end: str) -> float:
 
     Range: from 6.05e-4 (``force``, severity 100) or 0.0679 (``gap``, the fold), to 1. Raises
     ImpactError outside.
-    restitution and the result: [-].
+    restitution and the result: [1].
     """
     return loss_tangent_of_severity(severity_of_restitution(restitution, end), end)
 
@@ -101,7 +101,7 @@ def severity_of_restitution(restitution: float, end: str) -> float:
     """zeta with which the impact ends with ``restitution`` times its speed. Raises ImpactError
     outside the range.
 
-    restitution and the result: [-].
+    restitution and the result: [1].
     """
     check_number("restitution", restitution)
     high = fold()[0] if end == "gap" else SEVEREST

@@ -76,6 +76,7 @@ def centre_stress(
     check_positive("limiting depth", limiting_depth, "m")
     if depth <= 0.0:
         return CentreStress(0.0, 0.0, speed != 0.0)
+    # Contact area over depth; the viscous part is not evaluated below the limiting depth.
     area = math.pi * impact.shape**2 * impact.sphere.radius
     held = max(depth, limiting_depth)
     viscous = viscous_force(impact.viscous, held, speed) / (area * held)
@@ -85,7 +86,8 @@ def centre_stress(
 
 
 def distribution(centre: float, places: Vector, shape: str = "parabola") -> Vector:
-    """Stress in [Pa] at ``places`` r_i/r from ``centre`` outwards; 0 outside the contact.
+    """Stress [places] [Pa] at ``places`` r_i/r from ``centre`` [Pa] outwards; 0 outside the
+    contact.
 
     Raises ImpactError for values that are not finite, ValueError for another shape.
     """
@@ -96,19 +98,18 @@ def distribution(centre: float, places: Vector, shape: str = "parabola") -> Vect
 
 
 def normal_velocity(speed: float, places: Vector) -> Vector:
-    """Velocity of the surface along the normal, ``x'(1 - r_i^2/r^2)`` (eq 41).
+    """Velocity [places] [m/s] of the surface along the normal, ``x'(1 - r_i^2/r^2)`` (eq 41).
 
-    In [m/s] at ``places`` r_i/r, 0..1; 0 from the border on. Raises ImpactError for values that are
-    not finite.
+    places: r_i/r, 0..1; 0 from the border on. Raises ImpactError for values that are not finite.
     """
     return check_number("speed", speed, "m/s") * numpy.clip(1.0 - check_values("places", places) ** 2, 0.0, None)
 
 
 def radial_velocity(border_speed: float, places: Vector) -> Vector:
-    """Velocity of the surface along its radius, ``r' r_i^2/r^2`` (eq 42) in [m/s] at ``places``
-    r_i/r, 0..1; 0 in the centre.
+    """Velocity [places] [m/s] of the surface along its radius, ``r' r_i^2/r^2`` (eq 42).
 
-    0 outside the contact. Raises ImpactError for places below 0 and values that are not finite.
+    places: r_i/r, 0..1; 0 in the centre and outside the contact. Raises ImpactError for places
+    below 0 and values that are not finite.
     """
     check_number("speed of the border", border_speed, "m/s")
     places = check_values("places", places, least=0.0)
@@ -130,6 +131,7 @@ def retarded_motion(impact: FreeImpact, time: float, form: str = "corrected") ->
     slower = 1.0 - impact.material.loss_tangent / math.pi
     if not 0.0 < time <= impact.duration or slower <= 0.0:
         return 0.0, 0.0, False
+    # A damped sine, slower by tau_KE.
     frequency, damping = impact.frequency, impact.damping
     angle = frequency * time * slower
     envelope = impact.speed / frequency * math.exp(-damping * time)

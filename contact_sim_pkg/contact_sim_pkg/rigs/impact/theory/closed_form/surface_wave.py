@@ -85,6 +85,7 @@ def surface_wave(impact: FreeImpact, shear_modulus: float, density: float, poiss
     length = 2.0 * (math.sqrt(2.0) - 1.0) * radius
     speed = length * impact.frequency / (2.0 * math.pi)
     rayleigh = rayleigh_speed(shear_modulus, density, poisson_ratio)
+    # Radius at which the wave starts.
     front = radius + 0.5 * radius * (math.sqrt(1.0 + STIFF) - 1.0)
     return Wave(
         amplitude=impact.depth,
@@ -114,6 +115,7 @@ def wave_height(wave: Wave, radii: Vector, times: Vector, spread: str = "none", 
         raise ValueError(f"form '{form}': corrected or printed is needed")
     r = check_values("radii", radii, "m", shape=(None,), least=0.0)[numpy.newaxis, :]
     since = check_values("times", times, "s", shape=(None,))[:, numpy.newaxis] - wave.start_time
+    # The wave is behind its front, and decays from its start.
     reached = (since >= 0.0) & (r <= wave.start_radius + wave.speed * since)
     waited = numpy.maximum(since, 0.0)
     decay = numpy.exp(-wave.damping * (waited + (wave.start_time if form == "printed" else 0.0)))

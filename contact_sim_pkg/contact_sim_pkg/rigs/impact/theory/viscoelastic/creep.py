@@ -53,8 +53,9 @@ def standard_solid(glassy_modulus: float, delayed_modulus: float, retardation_ti
 
 
 def compliance(creep: Creep, times: Vector) -> Vector:
-    """J in [1/Pa] at ``times`` >= 0 [s]. Raises ImpactError for other times, and for parameters
-    that stand for no material.
+    """J [times] [1/Pa] at ``times`` >= 0 [s].
+
+    Raises ImpactError for other times, and for parameters that stand for no material.
     """
     check(creep)
     t = check_values("times", times, "s", least=0.0)

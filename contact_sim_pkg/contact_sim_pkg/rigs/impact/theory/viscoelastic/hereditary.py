@@ -36,7 +36,7 @@ class Indentation(NamedTuple):
 def indentation(
     creep: Creep, times: Vector, force: Vector, radius: float, poisson_ratio: float, form: str = "corrected"
 ) -> Indentation:
-    """Depth under ``force`` [N] at rising ``times`` [s], linear between them.
+    """Depth [times] [m] under ``force`` [times] [N] at rising ``times`` [s], linear between them.
 
     ``printed``: factor 3/4 of eq 112, twice eq 110 at t = 0. Raises ImpactError for a radius not
     above 0 [m], a Poisson ratio outside -1 < nu <= 1/2, and as `hereditary_integral`; ValueError

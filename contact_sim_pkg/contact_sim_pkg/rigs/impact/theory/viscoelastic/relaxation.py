@@ -47,6 +47,7 @@ def retardation_time_of_decay(
         return decay * loss_tangent / math.sqrt(1.0 + natural_frequency**2)
     if form != "corrected":
         raise ValueError(f"form '{form}': corrected or printed is needed")
+    # Below 1 nothing oscillates.
     product = natural_frequency * decay
     if product <= 1.0:
         raise ImpactError(

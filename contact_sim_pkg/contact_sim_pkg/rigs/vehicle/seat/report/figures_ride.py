@@ -70,7 +70,7 @@ def seat_transmissibility(signals: RideSignals) -> Picture | None:
 
 
 def band(frequency: NDArray[np.float64]) -> NDArray[np.bool_]:
-    """Frequencies that are drawn: above 0, up to 80 Hz."""
+    """Mask [frequencies] of the ``frequency`` [Hz] that are drawn: above 0, up to 80 Hz."""
     inside: NDArray[np.bool_] = (frequency > 0.0) & (frequency <= HIGHEST_FREQUENCY)
     return inside
 

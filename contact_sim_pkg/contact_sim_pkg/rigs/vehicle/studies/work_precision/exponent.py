@@ -66,14 +66,14 @@ def rows() -> list[Row]:
 
 
 def power_gap(cells: int, exponent: float) -> PatchProblem:
-    """The gap on a square grid, E* = 1."""
+    """Gap of bodies with a power-law profile on a square grid, dimensionless, E* = 1."""
     cell = SIDE / cells
     height = abs((numpy.arange(cells) - 0.5 * (cells - 1)) * cell) ** exponent / exponent
     return PatchProblem(make_half_space(cells, cells, cell, cell, 1.0), height[:, None] + height[None, :])
 
 
 def centre_of(answer: Answer) -> float:
-    """Mean pressure of the four cells around the centre."""
+    """Mean pressure [Pa] of the four cells around the centre."""
     assert answer.pressure is not None
     middle = answer.pressure.shape[0] // 2
     return float(answer.pressure[middle - 1 : middle + 1, middle - 1 : middle + 1].mean())

@@ -64,7 +64,9 @@ class Answer(NamedTuple):
 
 
 def answer_of(half_space: HalfSpace, pressure: Field, approach: float) -> Answer:
-    """Resultants of a field; the area with its edge between cells."""
+    """Resultants of a `pressure` [rows, cols] [Pa] at its `approach` [m]: force [N], peak [Pa],
+    area [m^2] with its edge between cells.
+    """
     cell = half_space.cell_x * half_space.cell_y
     area = contact_area(pressure, half_space.cell_x, half_space.cell_y)
     return Answer(float(pressure.sum()) * cell, approach, float(pressure.max()), float(area), pressure)
@@ -94,12 +96,12 @@ class PatchSolver:
 
 
 def solve(problem: PatchProblem, given: str, value: float, tolerance: float) -> Answer:
-    """The field once."""
+    """Solution of the problem for a `value`, an approach [m] or a load [N] as `given` says."""
     return PatchSolver(problem).solve(given, value, tolerance)
 
 
 def timed(rung: FieldRung, problem: PatchProblem, given: str, value: float) -> tuple[Rung, Answer]:
-    """A rung's answer and its time from nothing."""
+    """Answer of a fidelity level and its cold time in ms; `value`: approach [m] or load [N]."""
     solver = PatchSolver(problem)
     grid = "{}x{}".format(*rung.cells)
     cost = milliseconds(lambda: solver.solve(given, value, rung.tolerance))
@@ -107,7 +109,7 @@ def timed(rung: FieldRung, problem: PatchProblem, given: str, value: float) -> t
 
 
 def distances(found: Answer, exact: Answer) -> dict[str, float]:
-    """Relative distance of each quantity; fields are compared by their means over the coarser
+    """Relative distance [1] of each quantity; fields are compared by their means over the coarser
     grid's cells.
     """
     errors = {

@@ -65,6 +65,7 @@ def laws_through(seed: int | None) -> list[TangentLaw]:
     second = solver.solve(GIVEN[0], LOAD * TANGENT_LOAD_STEP, tolerance).approach
     exponent = math.log(TANGENT_LOAD_STEP) / math.log(second / first)
     power = NormalElastic(LOAD / first**exponent, exponent)
+    # The spring touches the power law at the load: same force, same stiffness.
     spring = NormalElastic(float(elastic_stiffness(power, first)), 1.0)
     offset = first - LOAD / spring.coefficient
     return [

@@ -11,10 +11,10 @@ from contact_sim_pkg.rigs.vehicle.tire.envelopment import belt_influence
 
 
 def surface_displacement(field: PressureMap, modulus: float, belt: BeltSettings | None = None) -> FloatArray:
-    """u(x, y) [m] = 1/(pi E*) integral of p / distance, on the cells of the field; positive into
-    the body.
+    """Displacement u(x, y) [m] = 1/(pi E*) integral of p / distance on the cells of the field,
+    [rows, cols].
 
-    With a ``belt`` its deflection is added.
+    Positive into the body. With a ``belt`` its deflection is added.
 
     Args:
         field: its pressure is all that acts.

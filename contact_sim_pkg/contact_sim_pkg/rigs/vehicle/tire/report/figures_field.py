@@ -75,6 +75,8 @@ def relative_pressure_picture(key: str, snapshot: Snapshot, reference: TireRefer
 def stress_picture(key: str, snapshot: Snapshot, poisson_ratio: float) -> Picture | None:
     """Von Mises stress in the plane along the rolling direction, and stresses over depth below its
     largest value.
+
+    poisson_ratio: of the tread, dimensionless.
     """
     plane = stress_plane(snapshot.field, poisson_ratio)
     if plane is None:

@@ -164,6 +164,7 @@ def _draw_road(axes: Axes, rolling: Rolling, section: RoadSection) -> None:
             high[0], np.interp(high[0], *low), high[1], color=SHADE, linewidth=0.0, label="strip of 0.1 m"
         )
     axes.plot(*envelope(distance, road.middle[inside] * 1e3), color=INK, linewidth=0.9, label="road")
+    # The effective height only where the tire is in contact.
     way = road.travel.at(contact.time)
     shown = _inside(way, section) & (contact.normal > 0.0)
     followed = np.where(shown, contact.effective_height * 1e3, np.nan)[_inside(way, section)]
@@ -192,6 +193,7 @@ def _caption(rolling: Rolling, section: RoadSection) -> str:
         f"{contact.normal[place]:.5g} N at {distance[place]:.3f} m. "
     )
     text += f"Without load (shaded) for {lifted:.2%} of the time. " if lifted else "The contact never opens here. "
+    # The pressure history is drawn across the footprint; its scale follows from Hertz at rest.
     if rolling.field is not None:
         group = rolling.field.history_group
         text += "Middle: pressure integrated across the width, along the footprint (forward up), one column a field"

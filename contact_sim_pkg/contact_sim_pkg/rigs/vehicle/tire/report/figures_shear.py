@@ -36,6 +36,7 @@ def friction_over_time(key: str, name: str, shear: ShearSeries) -> Picture:
         ("Mz, N m", shear.moment_z),
         ("slipping, %", 100.0 * shear.sliding_share),
     ]
+    # Panels without a signal are left out.
     panels = [panel for panel in panels if np.any(panel[1])]
     figure, axes = new_figure(0.6 + 1.1 * max(1, len(panels)), max(1, len(panels)), sharex=True)
     for place, (label, values) in zip(axes, panels, strict=False):
@@ -61,6 +62,7 @@ def friction_over_slip(key: str, name: str, shear: ShearSeries, field: FieldSeri
     along, across = float(np.ptp(shear.slip)) > LEAST_SPREAD, float(np.ptp(shear.slip_angle)) > LEAST_SPREAD
     if field is None or not (along or across):
         return None
+    # Ratios to a load near zero mean nothing: they are left out.
     load = np.interp(shear.time, field.time, field.load)
     touching = load > 0.05 * max(float(load.max()), 1e-9)
     share_x, share_y = (_over(force, load, touching) for force in (shear.force_x, shear.force_y))
@@ -80,6 +82,7 @@ def friction_over_slip(key: str, name: str, shear: ShearSeries, field: FieldSeri
             _wide_slip_axis(place, slip)
     for place in axes[len(curves) :]:
         place.set_axis_off()
+    # The largest friction used, for the caption.
     used = np.hypot(share_x, share_y)
     best = int(np.nanargmax(used)) if np.isfinite(used).any() else 0
     caption = (
@@ -108,6 +111,7 @@ def shear_maps(key: str, name: str, shear: ShearSeries) -> Picture:
     windows = [loaded_window(_loaded(each)) for each in shown]
     height = float(np.clip(windows[0].aspect * 0.36 * WIDTH, 1.2, 3.2)) + 0.75
     figure, axes = new_figure(height * len(shown) + 0.2, len(shown), 2)
+    # One row of maps for each instant: stress, state.
     for row, (each, window) in enumerate(zip(shown, windows, strict=True)):
         _draw_shear(axes[2 * row], each, window)
         _draw_state(axes[2 * row + 1], each, window)

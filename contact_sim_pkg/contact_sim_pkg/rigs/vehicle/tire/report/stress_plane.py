@@ -40,11 +40,14 @@ class StressPlane(NamedTuple):
 
 
 def stress_plane(field: PressureMap, poisson_ratio: float) -> StressPlane | None:
-    """Stresses under a pressure field; None for a field without load.
+    """Stresses [Pa] under a pressure field, [depths, columns]; None for a field without load.
 
     The plane is `REACH` times as long as the loaded cells, and as deep as the loaded cells are long
     or wide, whichever is less. Its first row lies one cell deep: above, the steps between the cells
     are seen rather than the field.
+
+    Args:
+        poisson_ratio: of the body, dimensionless.
 
     Raises:
         ValueError: Poisson's ratio is not within -1 (excluded) and 0.5.
@@ -54,10 +57,12 @@ def stress_plane(field: PressureMap, poisson_ratio: float) -> StressPlane | None
     if not rows.size:
         return None
     centre = summarise(field.pressure, field.cell_x, field.cell_y, field.origin_x, field.origin_y)
+    # Extent of the loaded cells.
     half_x = 0.5 * (rows[-1] - rows[0] + 1) * field.cell_x
     half_y = 0.5 * (cols[-1] - cols[0] + 1) * field.cell_y
     middle = field.origin_x + 0.5 * (rows[0] + rows[-1]) * field.cell_x
     first, depth = min(field.cell_x, field.cell_y), 2.0 * min(half_x, half_y)
+    # Depths are denser near the surface, where stresses change fastest.
     x = middle + np.linspace(-REACH, REACH, COLUMNS) * half_x
     z = first + (depth - first) * np.linspace(0.0, 1.0, DEPTHS) ** 2
     along, down = np.meshgrid(x, z)

@@ -67,8 +67,8 @@ def _at_rest(reference: TireReference | None) -> list[float]:
 
 
 def load_table(contact: ContactSeries, travel: WheelTravel | None, standing: float | None) -> Table:
-    """What the road did to the load: extremes, dynamic load coefficient, lift-offs and when they
-    were.
+    """Extremes of the load, dynamic load coefficient, lift-offs and their times; ``standing``: load
+    at rest [N].
     """
     numbers = load_numbers(contact, standing)
     intervals = lifted_intervals(contact)
@@ -79,6 +79,7 @@ def load_table(contact: ContactSeries, travel: WheelTravel | None, standing: flo
         ("share of the time without load", f"{100.0 * float((contact.normal <= 0.0).mean()):.3g} %"),
         ("lift-offs", str(len(intervals))),
     ]
+    # Each lift-off of the first few.
     rows += [
         (f"lift-off {place + 1}", _when(start, end, travel))
         for place, (start, end) in enumerate(intervals[:NAMED_LIFT_OFFS])
@@ -105,7 +106,9 @@ def peak_table(peaks: list[PeakRow]) -> Table:
 
 
 def text(value: float) -> str:
-    """Three digits; a dash where there is nothing."""
+    """Number with three digits, in the unit of its column ([s], [m], [N]); a dash for NaN or
+    infinity.
+    """
     return number(value) if math.isfinite(value) else "–"
 
 
