@@ -28,8 +28,8 @@ def test_a_rig_is_a_table_for_people_and_rows_for_scripts(one_study, tmp_path):
     assert "error against: integral of ISO 8608's spectrum" in shown.stdout
     assert picture.stat().st_size > 10_000
     rows = json.loads(CliRunner().invoke(command, ["tire", "--json"], catch_exceptions=False).stdout)["rows"]
-    assert {"rig", "part", "quantity", "rung", "error", "solver_error", "grid_error", "ms_per_call"} <= set(rows[0])
-    assert {row["rung"] for row in rows} == {"20 sines", "400 sines", "inverse FFT"}
+    assert {"rig", "part", "quantity", "level", "error", "solver_error", "grid_error", "ms_per_call"} <= set(rows[0])
+    assert {row["level"] for row in rows} == {"20 sines", "400 sines", "inverse FFT"}
 
 
 @pytest.mark.parametrize(

@@ -4,7 +4,7 @@ import numpy
 import pytest
 
 from contact_sim_pkg.laws.friction import (
-    APART,
+    SEPARATED,
     STICK,
     following_deflection,
     friction_force,
@@ -29,7 +29,7 @@ def test_slipping_gives_the_kinetic_limit_in_the_direction_of_slip(mode):
 
 
 def test_without_contact_there_is_no_friction():
-    assert friction_force(LAW, APART, 0.0, 1.0, 1.0) == 0.0
+    assert friction_force(LAW, SEPARATED, 0.0, 1.0, 1.0) == 0.0
     assert friction_force(None, STICK, 100.0, 1.0, 1.0) == 0.0
 
 

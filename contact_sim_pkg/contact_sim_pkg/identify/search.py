@@ -76,7 +76,7 @@ class Search:
         found = self.free = self._without_false_flights(self._flights_alone())
         # The noise decides which contacts count, the fit shows the noise: until both agree
         for _ in range(ROUNDS):
-            self._take_noise(found)
+            self._update_noise(found)
             before = self.problem.noise
             self._locate(found)
             found = self._fitted(found)
@@ -141,7 +141,7 @@ class Search:
     def _seen(self, found: ParameterEstimate) -> SampleNoise:
         return self.noise or from_residuals(found.residuals, self.problem.states)
 
-    def _take_noise(self, found: ParameterEstimate) -> None:
+    def _update_noise(self, found: ParameterEstimate) -> None:
         self.problem = self.problem._replace(noise=self._seen(found))
 
     def _scale(self, found: ParameterEstimate) -> Array:

@@ -120,7 +120,7 @@ def error_of_order_8(stages, course, scale):
     to 10 times (measured on the seat slap), so that ``INSIDE_CONTACT`` of it is returned but for
     the step that ends at an event. A step that would be accepted while that of order 3 is above 3 %
     of the change over it, and far above what is allowed, is ``TOO_LONG``: that of order 5 is small
-    by chance there (seen behind a first touch: 1e-3 off at a tolerance of 1e-6).
+    by chance there (seen behind a first contact: 1e-3 off at a tolerance of 1e-6).
     """
     k = stages
     worst = 0.0

@@ -5,7 +5,7 @@
   C`` against the slip;
 * stick ends where ``|C s + D v|`` reaches ``mu_s N``; slip ends where the slip rate ``v - s'``
   passes zero;
-* without a normal force (bodies apart, or parting faster than the material recovers) ``F_t = 0``,
+* without a normal force (bodies separated, or parting faster than the material recovers) ``F_t = 0``,
   ``s = 0``.
 
 v is the velocity of the upper body relative to the lower, F_t the force on the lower body, so that
@@ -23,7 +23,7 @@ from contact_sim_pkg.laws.parameters import Friction
 STICK = 0
 SLIP_FORWARD = 1
 SLIP_BACKWARD = -1
-APART = 2
+SEPARATED = 2
 
 
 @kernel
@@ -33,7 +33,7 @@ def friction_force(friction: Friction | None, mode: int, normal: float, deflecti
     """
     if friction is None:
         return 0.0
-    if mode == APART:
+    if mode == SEPARATED:
         return 0.0
     if mode == STICK:
         return friction.stiffness * deflection + friction.damping * velocity

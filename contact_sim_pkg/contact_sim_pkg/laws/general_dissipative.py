@@ -2,7 +2,7 @@
 0, else 0 (Driver and Seat eq 8).
 
 Special cases: p = 0, q = 1, n = 1 the linear spring and damper (Kelvin and Voigt; the force jumps
-by B v0 at first touch); p = n, q = 1 Hunt and Crossley; n = 3/2, p = 1/2, q = 1 the viscoelastic
+by B v0 at first contact); p = n, q = 1 Hunt and Crossley; n = 3/2, p = 1/2, q = 1 the viscoelastic
 sphere of Kuwabara and Kono, which Goloshchapov's impact shares; B = 0 the elastic law.
 
 End of contact: where p < n the dissipation outweighs the spring before x is back at 0. With ``lowest_force
@@ -21,7 +21,7 @@ from contact_sim_pkg.laws.elastic_law import elastic_force, elastic_order, elast
 from contact_sim_pkg.laws.parameters import ElasticLaw, GeneralDissipative
 
 SMOOTHING = 1.0e-6  # smoothing speed over reference speed where q < 1
-SMALLEST_APPROACH = 1.0e-60  # [m], below it the tension margin stands for its limit at first touch
+SMALLEST_APPROACH = 1.0e-60  # [m], below it the tension margin stands for its limit at first contact
 
 
 @kernel

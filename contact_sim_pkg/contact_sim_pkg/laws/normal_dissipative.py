@@ -2,7 +2,7 @@
 lost when F reaches 0.
 
 The factor multiplies the elastic pressure of each cell as well as the elastic force of a point
-contact, so that the force stays the integral of the pressure. No force jump at first touch, no
+contact, so that the force stays the integral of the pressure. No force jump at first contact, no
 tension (end rule ``force``). In a free impact at v0, with d = damping v0: ``d (1 + e) = ln[(1 +
 d)/(1 - d e)]``, whatever A, n and mass.
 """

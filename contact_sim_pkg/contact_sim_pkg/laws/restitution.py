@@ -14,7 +14,7 @@ from contact_sim_pkg.compiled.guards import require
 LOWEST_RESTITUTION = 0.01
 SLOWEST_IMPACT = 1.0e-3  # [m/s]; B = A d / v0 grows beyond use below (grazing impacts)
 FASTEST_IMPACT = 1.0e6  # [m/s]
-SMALL_LOSS = 1.0e-4  # below, e = 1 - 2/3 d + 4/9 d^2 is exact to d^3/3
+SMALL_DAMPING = 1.0e-4  # below, e = 1 - 2/3 d + 4/9 d^2 is exact to d^3/3
 
 
 def damping_of_restitution(restitution: float, impact_speed: float) -> float:
@@ -28,7 +28,7 @@ def damping_of_restitution(restitution: float, impact_speed: float) -> float:
     speed = effective_speed(impact_speed)
     if restitution == 1.0:
         return 0.0
-    return (_loss_near_pole(restitution) if restitution < 0.4 else _loss(restitution)) / speed
+    return (_damping_near_pole(restitution) if restitution < 0.4 else _damping(restitution)) / speed
 
 
 def check_restitution(restitution: float) -> None:
@@ -43,10 +43,10 @@ def effective_speed(impact_speed: float) -> float:
     return max(impact_speed, SLOWEST_IMPACT)
 
 
-def _loss(e: float) -> float:
+def _damping(e: float) -> float:
     """Newton on d, from 3 (1 - e)/(2 e); for e >= 0.4 the start lies below the pole d = 1/e."""
     d = 1.5 * (1.0 - e) / e
-    if d < SMALL_LOSS:
+    if d < SMALL_DAMPING:
         return 3.0 * (1.0 - e) / (1.0 + math.sqrt(1.0 - 4.0 * (1.0 - e)))
     for _ in range(50):
         value = d * (1.0 + e) - math.log1p(d) + math.log1p(-d * e)
@@ -58,7 +58,7 @@ def _loss(e: float) -> float:
     return d
 
 
-def _loss_near_pole(e: float) -> float:
+def _damping_near_pole(e: float) -> float:
     """Newton on y = ln(1 - d e), where d tends to the pole 1/e from below."""
     y = -(1.0 + e) / e + math.log((1.0 + e) / e)
     for _ in range(50):

@@ -40,7 +40,7 @@ TOLERANCE = 1.0e-13  # of the integrator, relative to L and v0; e is then good t
 LONGEST = 1.0e3  # [L / v0]
 # e = 0.01 is reached below 1e16 by all powers that are allowed
 LEAST_SEVERITY, HIGHEST_SEVERITY = 1.0e-12, 1.0e20
-SMALLEST_LOSS = 1.0e-9  # 1 - e, below which e = 1 - (first order) Z is good to 1e-11
+SMALLEST_DISSIPATION = 1.0e-9  # 1 - e, below which e = 1 - (first order) Z is good to 1e-11
 LEAST_RATIO = 1.0e-4  # of the speeds: a slower return counts as none where q < 1
 # [v0^2] energy of the backward motion with which it cannot have come from the speed v0
 RUNAWAY = 2.0
@@ -122,15 +122,17 @@ def _forward(severity: float, n: float, p: float, q: float, lowest_force: float)
     return max(0.0, float(state[1]))
 
 
-def _course(loss: float, n: float, p: float, q: float, start: tuple[float, float], *ends: Callable[..., float]) -> Any:
+def _course(
+    severity: float, n: float, p: float, q: float, start: tuple[float, float], *ends: Callable[..., float]
+) -> Any:
     """Approach and its rate [2, times] from ``start`` to the first of ``ends``, in units of L and
-    v0; a loss < 0 runs backward.
+    v0; a severity < 0 runs backward.
     """
 
     def rate(_time: float, state: tuple[float, float]) -> tuple[float, float]:
         x, v = max(state[0], 0.0), state[1]
         size = v * v + SMOOTHING * SMOOTHING
-        return v, -(x**n) - loss * x**p * v * size ** (0.5 * (q - 1.0))
+        return v, -(x**n) - severity * x**p * v * size ** (0.5 * (q - 1.0))
 
     # A trial step of a runaway motion may overflow; it is taken again
     with numpy.errstate(all="ignore"):
@@ -196,7 +198,7 @@ def severity_of_restitution(restitution: float, n: float, p: float, q: float, lo
     one root search otherwise.
 
     n: 1 to 10; p: 0 to 4; q: 0 to 3; ``lowest_force``: 0 or -inf. Raises ValueError outside, and
-    where no loss of this kind gives so small a restitution, with the range that it reaches.
+    where no dissipation of this kind gives so small a restitution, with the range that it reaches.
     restitution, n, p, q and the result: [1]; lowest_force: [N].
     """
     check_restitution(restitution)
@@ -208,8 +210,8 @@ def severity_of_restitution(restitution: float, n: float, p: float, q: float, lo
         return damping_of_restitution(restitution, 1.0)
     if n == 1.0 and p == 0.0 and q == 1.0:
         return 2.0 * kelvin_voigt_ratio(restitution, lowest_force)
-    if 1.0 - restitution < SMALLEST_LOSS:
-        return (1.0 - restitution) / _loss_of_small_severity(n, p, q)
+    if 1.0 - restitution < SMALLEST_DISSIPATION:
+        return (1.0 - restitution) / _dissipation_of_small_severity(n, p, q)
     if q >= 1.0:
         return _falling_root(lambda severity: _forward(severity, n, p, q, lowest_force), restitution)
     if p > n:
@@ -219,7 +221,7 @@ def severity_of_restitution(restitution: float, n: float, p: float, q: float, lo
     )
 
 
-def _loss_of_small_severity(n: float, p: float, q: float) -> float:
+def _dissipation_of_small_severity(n: float, p: float, q: float) -> float:
     """``(1 - e)/Z`` for Z -> 0: twice the integral of ``x**p v**q`` over the way in of the elastic
     impact.
     """
@@ -240,8 +242,8 @@ def _refuse_held(restitution: float, n: float, p: float, q: float, lowest_force:
         return
     lowest = _speed_after(at_hold, n, p, q, lowest_force, restitution, 1.0e-5)
     raise ValueError(
-        f"this law reaches restitutions from {math.floor(1e3 * lowest) / 1e3 + 1e-3:g} to 1, not {restitution}: with more loss "
-        "its friction holds the mass in the contact; choose a larger one or other exponents"
+        f"this law reaches restitutions from {math.floor(1e3 * lowest) / 1e3 + 1e-3:g} to 1, not {restitution}: "
+        "with more dissipation its friction holds the mass in the contact; choose a larger one or other exponents"
     )
 
 

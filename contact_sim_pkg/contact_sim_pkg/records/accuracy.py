@@ -33,7 +33,7 @@ class AccuracyPart(NamedTuple):
     def holds(self, row: dict[str, Any]) -> bool:
         """Whether a row belongs to this part."""
         named = row["part"] == self.part and str(row["quantity"]).startswith(self.contact)
-        return bool(named and (row["rung"] == CHECK) == self.check)
+        return bool(named and (row["level"] == CHECK) == self.check)
 
 
 class AccuracyStudy(NamedTuple):

@@ -1,6 +1,6 @@
 """The rigs that a scene can name, found through the packages that export them.
 
-Every part of the bench goes over this registry; none asks which rig it is.
+Every part of the bench goes over this registry; none depends on which rig it is.
 """
 
 from __future__ import annotations

@@ -9,13 +9,13 @@ import time
 from collections.abc import Callable
 from typing import Any, NamedTuple, TypeVar
 
-__all__ = ["COLUMNS", "Row", "Rung", "WorkPrecision", "milliseconds", "relative", "row", "timed_once"]
+__all__ = ["COLUMNS", "FidelityLevel", "Row", "WorkPrecision", "milliseconds", "relative", "row", "timed_once"]
 
 Row = dict[str, Any]
 Answer = TypeVar("Answer")
 
 COLUMNS = (
-    "rig", "part", "case", "quantity", "rung", "grid", "tolerance", "value", "expected", "error", "solver_error", "grid_error",
+    "rig", "part", "case", "quantity", "level", "grid", "tolerance", "value", "expected", "error", "solver_error", "grid_error",
     "reference", "ms_per_call",
 )  # fmt: skip
 
@@ -24,7 +24,7 @@ FEWEST, MOST = 5, 51  # samples
 BUDGET = 0.1  # [s] after which no further sample is begun
 
 
-class Rung(NamedTuple):
+class FidelityLevel(NamedTuple):
     """One way to the answer, and what a call of it costs."""
 
     name: str
@@ -76,7 +76,7 @@ def row(
     part: str,
     case: str,
     quantity: str,
-    rung: Rung,
+    level: FidelityLevel,
     reference: str,
     error: float,
     *,
@@ -88,7 +88,7 @@ def row(
     """One row of the study, without the rig. Errors are relative [1]; value and expected have the
     unit of the quantity."""
     return {
-        "part": part, "case": case, "quantity": quantity, "rung": rung.name, "grid": rung.grid, "tolerance": rung.tolerance,
+        "part": part, "case": case, "quantity": quantity, "level": level.name, "grid": level.grid, "tolerance": level.tolerance,
         "value": value, "expected": expected, "error": error, "solver_error": solver_error, "grid_error": grid_error,
-        "reference": reference, "ms_per_call": rung.ms,
+        "reference": reference, "ms_per_call": level.ms,
     }  # fmt: skip

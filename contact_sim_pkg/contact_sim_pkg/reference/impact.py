@@ -21,11 +21,11 @@ __all__ = [
 DIGITS = 40
 
 
-def restitution(loss: float) -> float:
-    """Coefficient of restitution e [1] by bisection: `d (1 + e) = ln[(1 + d)/(1 - d e)]`, `loss` d
+def restitution(damping: float) -> float:
+    """Coefficient of restitution e [1] by bisection: `d (1 + e) = ln[(1 + d)/(1 - d e)]`, `damping` d
     = damping * v0 > 0 [1]."""
     with mpmath.workdps(DIGITS):
-        d = mpmath.mpf(loss)
+        d = mpmath.mpf(damping)
         low, high = mpmath.mpf(0), min(mpmath.mpf(1), 1 / d)
         for _ in range(150):
             e = (low + high) / 2
@@ -84,7 +84,7 @@ def duration(mass: float, speed: float, coefficient: float, exponent: float, dam
 
 
 def elastic_impact(mass: float, speed: float, coefficient: float, exponent: float) -> tuple[float, float, float]:
-    """Duration [s], depth [m] and peak force [N] without loss: `T = 2/(n+1) B(1/(n+1), 1/2) x_m /
+    """Duration [s], depth [m] and peak force [N] without dissipation: `T = 2/(n+1) B(1/(n+1), 1/2) x_m /
     v0`.
     """
     with mpmath.workdps(DIGITS):

@@ -72,10 +72,10 @@ def _advance(slap: Slap, touching: bool, time: float, until: float, state: State
     def change(t: float, y: State) -> float:
         return _approach(slap, t, y)[0]
 
-    return terminal_piece(rate, change, -1.0 if touching else 1.0, time, until, state)
+    return integrate_to_event(rate, change, -1.0 if touching else 1.0, time, until, state)
 
 
-def terminal_piece(
+def integrate_to_event(
     rate: Callable[[float, State], list[float]],
     change: Callable[[float, State], float],
     direction: float,

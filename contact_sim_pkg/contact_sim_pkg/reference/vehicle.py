@@ -25,12 +25,12 @@ class Law(NamedTuple):
     coefficient: float
     exponent: float
     damping: float
-    loss: tuple[float, float, float] = (0.0, 0.0, 1.0)  # B, p, q
+    dissipation: tuple[float, float, float] = (0.0, 0.0, 1.0)  # B, p, q
     lowest: float = 0.0  # [N]; -inf where the contact may pull
 
     def unlimited(self, approach: float, rate: float) -> float:
         """The sum before it is limited, at an approach above 0."""
-        b, p, q = self.loss
+        b, p, q = self.dissipation
         viscous = b * approach**p * numpy.sign(rate) * abs(rate) ** q if b > 0.0 else 0.0
         return float(self.coefficient * approach**self.exponent * (1.0 + self.damping * rate) + viscous)
 
@@ -38,7 +38,7 @@ class Law(NamedTuple):
         """Positive while the contact does not pull; 1 where it may."""
         if self.lowest < 0.0:
             return 1.0
-        if self.loss[0] == 0.0:
+        if self.dissipation[0] == 0.0:
             return 1.0 + self.damping * rate
         return self.unlimited(max(approach, 1e-9), rate)
 
@@ -96,32 +96,42 @@ def states_at_segments(
     """States at the ends of all segments of `length` [s], [segments + 1, states]; the drive is given at the segments' ends."""
     states = numpy.empty((len(height), len(start)))
     states[0] = start
-    state, sides = numpy.array(start, dtype=float), None
+    state, directions = numpy.array(start, dtype=float), None
     for i in range(len(height) - 1):
         pairs = ((values[i], (values[i + 1] - values[i]) / length) for values in (height, cushion, acceleration))
         drive = _Drive(i * length, *pairs)
-        margins = _margins(quarter, occupant, drive)
-        if sides is None:
-            sides = [1.0 if margin(drive.start, state) >= 0.0 else -1.0 for margin in margins]
-        state = _segment(_rate(gravity, quarter, occupant, drive), margins, sides, drive.start, (i + 1) * length, state)
+        event_functions = _event_functions(quarter, occupant, drive)
+        if directions is None:
+            directions = [
+                1.0 if event_function(drive.start, state) >= 0.0 else -1.0 for event_function in event_functions
+            ]
+        rate, end = _rate(gravity, quarter, occupant, drive), (i + 1) * length
+        state = _segment(rate, event_functions, directions, drive.start, end, state)
         states[i + 1] = state
     return states
 
 
 def _segment(
     rate: Rate,
-    margins: list[Callable[[float, State], float]],
-    sides: list[float],
+    event_functions: list[Callable[[float, State], float]],
+    directions: list[float],
     time: float,
     end: float,
     state: State,
 ) -> State:
-    """One segment, from change of contact to change of contact; `sides` changes in place."""
+    """One segment, from change of contact to change of contact; `directions` changes in place."""
     while True:
-        for margin, side in zip(margins, sides, strict=True):
-            margin.terminal, margin.direction = True, -side  # type: ignore[attr-defined]
+        for event_function, direction in zip(event_functions, directions, strict=True):
+            event_function.terminal, event_function.direction = True, -direction  # type: ignore[attr-defined]
         found = solve_ivp(
-            rate, (time, end), state, "DOP853", events=margins, rtol=RELATIVE, atol=ABSOLUTE, first_step=end - time
+            rate,
+            (time, end),
+            state,
+            "DOP853",
+            events=event_functions,
+            rtol=RELATIVE,
+            atol=ABSOLUTE,
+            first_step=end - time,
         )
         state = numpy.asarray(found.y[:, -1])
         if found.status != 1:
@@ -129,7 +139,7 @@ def _segment(
         time = float(found.t[-1])
         for i, times in enumerate(found.t_events):
             if len(times):
-                sides[i] = -sides[i]
+                directions[i] = -directions[i]
         if time >= end:
             return state
 
@@ -155,22 +165,22 @@ def _cushion(
     )
 
 
-def _margins(
+def _event_functions(
     quarter: Quarter | None, occupant: Occupant | None, drive: _Drive
 ) -> list[Callable[[float, State], float]]:
     """Approach and recovery of each contact."""
-    margins: list[Callable[[float, State], float]] = []
+    event_functions: list[Callable[[float, State], float]] = []
     if quarter is not None:
-        margins += [
+        event_functions += [
             lambda t, y: _tire(quarter, drive, t, y)[0],
             lambda t, y: quarter.law.tension(*_tire(quarter, drive, t, y)),
         ]
     if occupant is not None:
-        margins += [
+        event_functions += [
             lambda t, y: _cushion(quarter, occupant, drive, t, y)[0],
             lambda t, y: occupant.law.tension(*_cushion(quarter, occupant, drive, t, y)),
         ]
-    return margins
+    return event_functions
 
 
 def _rate(gravity: float, quarter: Quarter | None, occupant: Occupant | None, drive: _Drive) -> Rate:

@@ -25,7 +25,7 @@ class ExcitationFacts(NamedTuple):
 
 
 def run_rows(recording: Recording) -> list[Row]:
-    """Rig, times, accuracy, tolerances and rates of the run, as far as the bag tells."""
+    """Rig, times, accuracy, tolerances and rates of the run, as far as the bag has them."""
     rows = [Row("simulated time", f"{recording.duration:.6g} s")]
     for key in ("rig", "block_length", "accuracy", "seed", "integrator", "outputs", "travel"):
         value = recording.scene.get(key)

@@ -17,7 +17,7 @@ COUNTS = ("apart", "touching", "sticking", "slipping")
 
 
 class PointReader:
-    """Counts of the states, the course of point 1, and all points at first touch and at the largest
+    """Counts of the states, the course of point 1, and all points at first contact and at the largest
     force.
     """
 

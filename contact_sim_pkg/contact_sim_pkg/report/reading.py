@@ -194,7 +194,7 @@ def _contact_names(bag: Bag) -> dict[str, str]:
 
 
 def _duration(series: list[ContactSeries | MotionSeries], scene: dict[str, Any], bag: Bag) -> float:
-    """End of the last sample; without samples the end of the last block, as far as the scene tells
+    """End of the last sample; without samples the end of the last block, as far as the scene has it
     its length.
     """
     if series:

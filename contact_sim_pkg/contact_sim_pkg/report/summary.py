@@ -1,4 +1,4 @@
-"""The numbers of a run that a person or a script asks for first.
+"""The numbers of a run that a person or a script needs first.
 
 A run that a signal ends still prints them, so what only one rig needs and takes long to load is
 loaded there.
@@ -63,13 +63,13 @@ def force_numbers(contact: ContactSeries) -> dict[str, Any]:
     """Load in [N], share of the time without contact (0 .. 1), number of lift-offs: from a load to
     none.
     """
-    apart = contact.normal <= 0.0
+    separated = contact.normal <= 0.0
     return {
         "load_mean_N": float(contact.normal.mean()),
         "load_min_N": float(contact.normal.min()),
         "load_max_N": float(contact.normal.max()),
-        "lifted_share": float(apart.mean()),
-        "lift_offs": int(np.count_nonzero(apart[1:] & ~apart[:-1])),
+        "lifted_share": float(separated.mean()),
+        "lift_offs": int(np.count_nonzero(separated[1:] & ~separated[:-1])),
     }
 
 

@@ -20,7 +20,7 @@ from contact_sim_pkg.scene.schema.laws import (
     Foam,
     FoamHysteresisSection,
     FrictionSection,
-    GeneralLoss,
+    GeneralDissipation,
     HuntCrossley,
     PowerLaw,
 )
@@ -44,7 +44,7 @@ def normal_loss(scene: ResolvedScene, contact: str, elastic: ElasticLaw, mass: f
     ``mass`` [kg] is what a free impact with the requested restitution moves. Raises SceneError where the law does not
     reach it.
     """
-    general, loss = scene.effect(contact, GeneralLoss), scene.effect(contact, HuntCrossley)
+    general, loss = scene.effect(contact, GeneralDissipation), scene.effect(contact, HuntCrossley)
     if general is not None:
         return _general_loss(general, contact, elastic, mass)
     if loss is None:
@@ -54,7 +54,7 @@ def normal_loss(scene: ResolvedScene, contact: str, elastic: ElasticLaw, mass: f
     return NormalDissipative(given(loss.damping))
 
 
-def _general_loss(loss: GeneralLoss, contact: str, elastic: ElasticLaw, mass: float) -> GeneralDissipative:
+def _general_loss(loss: GeneralDissipation, contact: str, elastic: ElasticLaw, mass: float) -> GeneralDissipative:
     p, q = loss.approach_exponent, loss.rate_exponent
     lowest = NEVER_PULLS if loss.end == "force" else PULLS
     smoothing = SMOOTHING * given(loss.reference_speed) if q < 1.0 else 0.0

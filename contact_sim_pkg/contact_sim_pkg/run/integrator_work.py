@@ -13,7 +13,7 @@ from typing import Any, NamedTuple
 
 from contact_sim_pkg.records.work import STEP_COST, Work
 from contact_sim_pkg.scene.resolved_scene import ResolvedScene
-from contact_sim_pkg.scene.schema.laws import FrictionSection, GeneralLoss, HuntCrossley, PowerLaw
+from contact_sim_pkg.scene.schema.laws import FrictionSection, GeneralDissipation, HuntCrossley, PowerLaw
 from contact_sim_pkg.scene.timing import make_timing
 
 __all__ = ["Link", "integrator_steps", "links_of_laws", "power_law_link", "segments"]
@@ -65,7 +65,7 @@ def _tangent(law: Any, load: float, depth: float) -> tuple[float, float]:
             return law.exponent * load / depth, 0.0
         if isinstance(law, HuntCrossley):
             return 0.0, (law.damping or 0.0) * load
-        if isinstance(law, GeneralLoss) and law.coefficient is not None:
+        if isinstance(law, GeneralDissipation) and law.coefficient is not None:
             power = law.rate_exponent
             return 0.0, law.coefficient * depth**law.approach_exponent * max(power, 1.0) * SPEED ** (power - 1.0)
     return 0.0, 0.0

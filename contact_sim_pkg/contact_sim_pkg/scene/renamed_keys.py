@@ -28,7 +28,7 @@ def sentence_of(new: str) -> str:
     return f"was renamed; write {new} in its place"
 
 
-def take_new_names(root: MappingNode) -> list[Fault]:
+def use_new_names(root: MappingNode) -> list[Fault]:
     """Move every old key of a document to its new place. Returns one fault for each, at the place of the old key.
 
     Where the new key is given too, its value stays and the old one is dropped.

@@ -16,7 +16,7 @@ from contact_sim_pkg.scene.errors import Fault, SceneError
 from contact_sim_pkg.scene.files import find_file, input_files
 from contact_sim_pkg.scene.load import load_scene
 from contact_sim_pkg.scene.overrides import Override, apply, set_value
-from contact_sim_pkg.scene.renamed_keys import take_new_names
+from contact_sim_pkg.scene.renamed_keys import use_new_names
 from contact_sim_pkg.scene.resolved_scene import ResolvedScene, sha256_of
 from contact_sim_pkg.scene.schema.accuracy import integration_tolerance, requested
 from contact_sim_pkg.scene.schema.clock import whole_duration
@@ -67,7 +67,7 @@ def read_resolved(text: str, files: Mapping[str, str | Path] | None = None, fold
     """
     source = "resolved scene"
     document = parse_document(text, source)
-    take_new_names(document.root)  # a scene that an earlier version resolved
+    use_new_names(document.root)  # a scene that an earlier version resolved
     scene = validate(document.root, source, document.faults)
     data = explicit(scene)
     open_keys = [where for where, value in _leaves(data) if _at(_dump(scene), where) != value]
@@ -85,7 +85,7 @@ def read_explicit(text: str, name: str, overrides: Sequence[Override] = ()) -> d
     Keys that were renamed since are read under their new names.
     """
     document = parse_document(text, name)
-    take_new_names(document.root)
+    use_new_names(document.root)
     faults = document.faults + apply(document.root, overrides)
     return explicit(validate(document.root, name, faults))
 

@@ -1,4 +1,4 @@
-"""Periodic motion and interaction of modes: what each rung is known to give, and what the fitted ansatz leaves."""
+"""Periodic motion and interaction of modes: what each level is known to give, and what the fitted ansatz leaves."""
 
 import numpy
 import pytest
@@ -29,9 +29,9 @@ def test_every_rung_of_the_periodic_motion_is_better_than_the_one_before():
 
 def test_the_rungs_of_the_interaction_are_known():
     rows = ladder_modes.rows()
-    plain = [row["error"] for row in rows if row["rung"].startswith("sum")]
-    fitted = [row["error"] for row in rows if row["rung"].startswith("fitted")]
-    lattice = [row["error"] for row in rows if row["rung"].startswith("theta")]
+    plain = [row["error"] for row in rows if row["level"].startswith("sum")]
+    fitted = [row["error"] for row in rows if row["level"].startswith("fitted")]
+    lattice = [row["error"] for row in rows if row["level"].startswith("theta")]
     assert plain == pytest.approx([0.178, 0.365, 0.540], abs=6e-4)
     assert all(0.5 * one < other < one for one, other in zip(plain, fitted, strict=True)), "the ansatz helps little"
     assert max(lattice) < 1e-13

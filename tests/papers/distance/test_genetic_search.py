@@ -51,8 +51,8 @@ def search_rows() -> list[dict[str, object]]:
 
 
 def test_bounds_stay_on_their_side_and_each_rung_of_the_search_is_better(search_rows: list[dict[str, object]]) -> None:
-    for case, bound in (("apart", 0.0), ("overlapping", 1.0)):
-        chosen = {row["rung"]: row for row in search_rows if row["case"] == case}
+    for case, bound in (("separated", 0.0), ("overlapping", 1.0)):
+        chosen = {row["level"]: row for row in search_rows if row["case"] == case}
         errors = [chosen[name]["error"] for name in chosen]
         assert errors[:3] == sorted(errors[:3], reverse=True)
         assert errors[2] > 1e-9 > errors[3]
@@ -69,6 +69,6 @@ def test_more_modes_come_closer_to_the_deflection() -> None:
         found = [
             row["error"]
             for row in rows
-            if (row["case"], row["quantity"]) == (case, ladder_shell.STATIC) and row["rung"] != "4 modes"
+            if (row["case"], row["quantity"]) == (case, ladder_shell.STATIC) and row["level"] != "4 modes"
         ]
         assert found == pytest.approx(errors, rel=5e-3)

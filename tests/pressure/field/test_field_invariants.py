@@ -12,7 +12,7 @@ from contact_sim_pkg.pressure.field.solver import CONVERGED, EDGE
 from contact_sim_pkg.pressure.settings import BeltSettings
 from contact_sim_pkg.reference import halfspace as reference
 from contact_sim_pkg.rigs.vehicle.tire.envelopment import belt_influence
-from contact_sim_pkg.studies.field.field_entries import ENTRIES, Asked, holds_load
+from contact_sim_pkg.studies.field.field_entries import ENTRIES, SolveRequest, holds_load
 
 SIDE, CELLS, MODULUS = 24, (1.0e-3, 1.4e-3), 6.58e6
 GRID = make_half_space(SIDE, SIDE, *CELLS, MODULUS)
@@ -65,7 +65,7 @@ def approach_at(gap, share):
 
 
 def solve(name, gap, load, approach, half_space=GRID, tolerance=1e-11):
-    return ENTRIES[name](half_space, numpy.ascontiguousarray(gap), Asked(load, approach, tolerance, 4000))
+    return ENTRIES[name](half_space, numpy.ascontiguousarray(gap), SolveRequest(load, approach, tolerance, 4000))
 
 
 def load_at(gap, approach, half_space=GRID):

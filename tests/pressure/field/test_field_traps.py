@@ -11,7 +11,7 @@ from contact_sim_pkg.pressure.field.solver import BAD_INPUT, CONVERGED, EDGE, NO
 from contact_sim_pkg.pressure.settings import FieldSettings
 from contact_sim_pkg.reference import halfspace as reference
 from contact_sim_pkg.rigs.vehicle.contact_field import FieldEdgeError, FieldError, PressureField
-from contact_sim_pkg.studies.field.field_entries import ENTRIES, Asked, holds_load
+from contact_sim_pkg.studies.field.field_entries import ENTRIES, SolveRequest, holds_load
 
 SIDE, CELL, MODULUS = 24, 0.01, 4.0e6
 GRID = make_half_space(SIDE, SIDE, CELL, CELL, MODULUS)
@@ -39,7 +39,7 @@ def exact(gap, approach):
 
 
 def solve(name, gap, load, approach, tolerance=1e-11, cap=3000):
-    return ENTRIES[name](GRID, numpy.ascontiguousarray(gap), Asked(load, approach, tolerance, cap))
+    return ENTRIES[name](GRID, numpy.ascontiguousarray(gap), SolveRequest(load, approach, tolerance, cap))
 
 
 def must_be_exact(name, gap, approach, status=CONVERGED):
@@ -208,7 +208,7 @@ def test_only_the_contact_modulus_enters_so_incompressible_is_no_singularity(nam
         modulus = 3e6 / (1.0 - poisson**2)
         half_space = make_half_space(SIDE, SIDE, CELL, CELL, modulus)
         ratio = modulus / MODULUS
-        pressure, result = ENTRIES[name](half_space, BOWL, Asked(ratio * load, 0.004, 1e-11))
+        pressure, result = ENTRIES[name](half_space, BOWL, SolveRequest(ratio * load, 0.004, 1e-11))
         assert result.status == CONVERGED
         numpy.testing.assert_allclose(pressure, ratio * expected, atol=2e-7 * ratio * expected.max())
 
@@ -220,7 +220,7 @@ def test_a_contact_of_a_quarter_of_the_box_knows_of_no_images(name):
     x = (numpy.arange(cells) - 0.5 * (cells - 1)) / cells
     gap = (x[:, None] ** 2 + x[None, :] ** 2) / (2.0 * radius)
     load, approach = 4.0 / 3.0 * semi_axis**3 / radius, semi_axis**2 / radius
-    _pressure, result = ENTRIES[name](half_space, gap, Asked(load, approach, 1e-8))
+    _pressure, result = ENTRIES[name](half_space, gap, SolveRequest(load, approach, 1e-8))
     assert result.load == pytest.approx(load, rel=1e-3)
     assert result.approach == pytest.approx(approach, rel=1e-3)
 

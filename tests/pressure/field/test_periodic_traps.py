@@ -12,7 +12,7 @@ from contact_sim_pkg.pressure.field.halfspace import make_half_space
 from contact_sim_pkg.pressure.field.periodic import PeriodicField, make_periodic_half_space
 from contact_sim_pkg.pressure.field.solver import BAD_INPUT, CONVERGED, NOT_CONVERGED
 from contact_sim_pkg.reference import halfspace as reference
-from contact_sim_pkg.studies.field.field_entries import ENTRIES, Asked
+from contact_sim_pkg.studies.field.field_entries import ENTRIES, SolveRequest
 
 SIDE, CELLS, MODULUS = 24, (1.0e-3, 1.4e-3), 6.58e6
 AREA = CELLS[0] * CELLS[1]
@@ -120,7 +120,7 @@ def test_images_cost_percents_at_a_contact_of_a_quarter_of_the_box_and_a_free_bo
     periodic = PeriodicField(make_periodic_half_space(cells, cells, 1 / cells, 1 / cells, 1.0))
     assert periodic.solve_at_load(gap, load, 1e-8, 2000).status == CONVERGED
     half_space = make_half_space(cells, cells, 1 / cells, 1 / cells, 1.0)
-    free, _result = ENTRIES["static, load"](half_space, gap, Asked(load, 0.0, 1e-8))
+    free, _result = ENTRIES["static, load"](half_space, gap, SolveRequest(load, 0.0, 1e-8))
     images, alone = (numpy.linalg.norm(p - hertz) / numpy.linalg.norm(hertz) for p in (periodic.pressure, free))
     assert images == pytest.approx(0.034, rel=0.15)
     assert alone < 0.01

@@ -11,7 +11,7 @@ from contact_sim_pkg.studies.accuracy.lines import parts_of_rigs
 
 def row(error, milliseconds=2.0, tolerance=1e-3, part="scheme in time"):
     return {
-        "quantity": "distance", "part": part, "rung": "located", "grid": None, "tolerance": tolerance, "error": error,
+        "quantity": "distance", "part": part, "level": "located", "grid": None, "tolerance": tolerance, "error": error,
         "ms_per_simulated_s": milliseconds,
     }  # fmt: skip
 

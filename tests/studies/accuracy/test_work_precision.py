@@ -1,4 +1,4 @@
-"""The ladders of the tire: cheap rungs have their known errors, dear ones converge, every row says what it is against."""
+"""The ladders of the tire: cheap levels have their known errors, dear ones converge, every row says what it is against."""
 
 import itertools
 import math
@@ -47,11 +47,11 @@ def few_samples():
 ROUGH = dict(zip(GIVEN, (f"{given}{ladder_rough.WORST}" for given in GIVEN), strict=True))
 
 
-def error_of(rows, quantity, rung, case=None, grid=None, key="error"):
+def error_of(rows, quantity, level, case=None, grid=None, key="error"):
     found = [
         row[key]
         for row in rows
-        if (row["quantity"], row["rung"]) == (quantity, rung)
+        if (row["quantity"], row["level"]) == (quantity, level)
         and case in (None, row["case"])
         and grid in (None, row["grid"])
     ]
@@ -183,7 +183,7 @@ def test_closed_forms_of_other_exponents_have_the_announced_errors(
     assert error_of(rows, ladder_exponent.CENTRE, "Lamé ansatz") == pytest.approx(centre_high, abs=0.01)
     assert error_of(rows, "approach", "Lamé ansatz") == pytest.approx(ansatz_low, abs=0.01)
     assert error_of(rows, "approach", "equivalent ellipse") == pytest.approx(ellipse_high, abs=0.01)
-    ansatz = next(row for row in rows if (row["rung"], row["quantity"]) == ("Lamé ansatz", "approach"))
+    ansatz = next(row for row in rows if (row["level"], row["quantity"]) == ("Lamé ansatz", "approach"))
     assert ansatz["value"] < ansatz["expected"]
     assert error_of(rows, "approach", "FFT-CG", grid="192x192") < 1e-4
 
@@ -196,8 +196,8 @@ def test_the_power_of_sines_is_what_their_heights_have():
 
 def test_few_sines_have_the_variance_but_not_the_spectrum():
     rows = ladder_road.rows()
-    for rung in ("20 sines", "400 sines", "inverse FFT"):
-        assert error_of(rows, "variance", rung) < 1e-6
+    for level in ("20 sines", "400 sines", "inverse FFT"):
+        assert error_of(rows, "variance", level) < 1e-6
     assert error_of(rows, "third octaves, rms", "20 sines") > 0.3
     assert error_of(rows, "third octaves, rms", "400 sines") < 0.1
     assert error_of(rows, "third octaves, rms", "inverse FFT") < 0.1
@@ -236,14 +236,14 @@ def test_every_row_has_every_column_and_the_table_and_the_plot_show_each_study(s
 def test_the_table_puts_the_grid_s_error_beside_the_solver_s():
     rows = [
         {
-            "part": "field", "case": "given load", "quantity": name, "rung": "FFT-CG", "grid": "64x48", "tolerance": 1e-2,
+            "part": "field", "case": "given load", "quantity": name, "level": "FFT-CG", "grid": "64x48", "tolerance": 1e-2,
             "error": 0.3, "solver_error": 0.1, "grid_error": 0.2, "reference": "own code", "ms_per_call": 1.5,
         }
         for name in ("approach", "peak pressure")
     ]  # fmt: skip
     (section,) = ladder_table.sections(rows)
     assert list(section.rows[0]) == [
-        "rung", "grid", "tolerance", "approach: solver", "approach: grid", "peak pressure: solver", "peak pressure: grid",
+        "level", "grid", "tolerance", "approach: solver", "approach: grid", "peak pressure: solver", "peak pressure: grid",
         "ms a call",
     ]  # fmt: skip
     assert section.note == "error against: own code"

@@ -1,12 +1,12 @@
-"""The ladder of the restitution: published formulas give what they are known to give, exact ones what is asked."""
+"""The ladder of the restitution: published formulas give what they are known to give, exact ones what is requested."""
 
 import pytest
 
 from contact_sim_pkg.records import work_precision as ladder_row
-from contact_sim_pkg.studies.laws import work_precision_restitution as ladder_restitution
+from contact_sim_pkg.studies.laws import work_precision_restitution as restitution_study
 from contact_sim_pkg.studies.laws.restitution_formulas import FORMULAS
 
-PUBLISHED = {  # e obtained, Driver and Seat's law, by asked e: in the order of FORMULAS
+PUBLISHED = {  # e obtained, Driver and Seat's law, by requested e: in the order of FORMULAS
     0.95: (0.9524, 0.9535, 0.9468, 0.9359, 0.9500),
     0.90: (0.9090, 0.9132, 0.8939, 0.8764, 0.8999),
     0.80: (0.8329, 0.8471, 0.7885, 0.7680, 0.7992),
@@ -21,25 +21,25 @@ PUBLISHED = {  # e obtained, Driver and Seat's law, by asked e: in the order of 
 def rows():
     kept = ladder_row.FEWEST, ladder_row.BUDGET
     ladder_row.FEWEST, ladder_row.BUDGET = 1, 0.0
-    yield ladder_restitution.rows()
+    yield restitution_study.rows()
     ladder_row.FEWEST, ladder_row.BUDGET = kept
 
 
-@pytest.mark.parametrize("asked", PUBLISHED)
-def test_each_published_formula_gives_what_is_known_of_it(rows, asked):
-    found = {row["rung"]: row["value"] for row in rows if row["case"] == f"Hunt-Crossley, e = {asked:g}"}
-    for name, value in zip(FORMULAS, PUBLISHED[asked], strict=True):
+@pytest.mark.parametrize("requested", PUBLISHED)
+def test_each_published_formula_gives_what_is_known_of_it(rows, requested):
+    found = {row["level"]: row["value"] for row in rows if row["case"] == f"Hunt-Crossley, e = {requested:g}"}
+    for name, value in zip(FORMULAS, PUBLISHED[requested], strict=True):
         assert found[name] == pytest.approx(value, abs=6e-5)
 
 
-@pytest.mark.parametrize("rung", ["exact relation", "closed form at F = 0", "root search of e(Z)"])
-def test_the_dear_rung_of_every_law_delivers_what_is_asked(rows, rung):
-    chosen = [row for row in rows if row["rung"] == rung]
-    assert [row["expected"] for row in chosen] == list(ladder_restitution.ASKED)
+@pytest.mark.parametrize("level", ["exact relation", "closed form at F = 0", "root search of e(Z)"])
+def test_the_exact_level_of_every_law_delivers_the_requested_restitution(rows, level):
+    chosen = [row for row in rows if row["level"] == level]
+    assert [row["expected"] for row in chosen] == list(restitution_study.REQUESTED)
     assert max(row["error"] for row in chosen) < 1e-9
 
 
 def test_half_a_period_without_its_tensile_end_gives_more_than_it_promises(rows):
-    chosen = [row for row in rows if row["rung"].startswith("half a period")]
+    chosen = [row for row in rows if row["level"].startswith("half a period")]
     assert all(row["value"] > row["expected"] for row in chosen)
     assert max(row["error"] for row in chosen) > 3.0

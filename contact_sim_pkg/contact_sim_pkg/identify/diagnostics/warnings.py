@@ -161,7 +161,7 @@ def _above(found: ParameterEstimate, problem: IdentificationProblem) -> list[str
 
 
 def _hidden(contact: ContactSpan, problem: IdentificationProblem) -> bool:
-    """Whether a contact lasts, and too few samples tell how."""
+    """Whether a contact lasts, and too few samples show how."""
     swept = contact.sweep
     if swept is None or swept.samples >= len(FEW):
         return False

@@ -1,5 +1,5 @@
 """Picture of an identification: the motion with its contacts, the impulses over mass, the inertia
-that each impact tells.
+that each impact identifies.
 """
 
 from __future__ import annotations
@@ -49,10 +49,10 @@ def _impulses(axis: Any, found: Identification) -> None:
     """Normal impulses as circles, tangential ones as squares, in the colour of the mode; grey where
     its point is not known.
     """
-    told = [contact for contact in found.contacts if contact.normal is not None]
+    known = [contact for contact in found.contacts if contact.normal is not None]
     # Grey points have no mode
     for mode, colour in (*COLOURS.items(), (None, MUTED)):
-        chosen = [contact for contact in told if (None if contact.mode is None else contact.mode.mode) == mode]
+        chosen = [contact for contact in known if (None if contact.mode is None else contact.mode.mode) == mode]
         if not chosen:
             continue
         time = [contact.begin for contact in chosen]
@@ -64,7 +64,7 @@ def _impulses(axis: Any, found: Identification) -> None:
     axis.set_title("Impulses over mass: ● normal, ■ tangential")
     axis.set_xlabel("time [s]")
     axis.set_ylabel("c/m ± 2σ [m/s]")
-    if told:
+    if known:
         axis.legend(ncols=4, loc="lower right", bbox_to_anchor=(1.0, 1.0), fontsize=8, borderaxespad=0.2)
 
 

@@ -17,7 +17,7 @@ from contact_sim_pkg.identify.contact.two_point import one_impact, two_point
 from contact_sim_pkg.identify.motion.rotation import Array
 from contact_sim_pkg.identify.reference.block_impacts import random_block_impacts
 from contact_sim_pkg.identify.table import ImpactTable, estimate_from_impacts, problem_of_impacts
-from contact_sim_pkg.records.work_precision import Row, Rung, WorkPrecision, milliseconds, row
+from contact_sim_pkg.records.work_precision import FidelityLevel, Row, WorkPrecision, milliseconds, row
 
 __all__ = ["PART", "WORK_PRECISION", "rows"]
 
@@ -48,10 +48,10 @@ def rows() -> list[Row]:
         for name, way in ways.items():
             values = numpy.array([way(table, noise) for table in tables])
             error = float(numpy.median(abs(values / TRUTH - 1.0)))
-            rung = Rung(name, milliseconds(lambda way=way, table=tables[0], noise=noise: way(table, noise)))  # type: ignore[misc]
+            level = FidelityLevel(name, milliseconds(lambda way=way, table=tables[0], noise=noise: way(table, noise)))  # type: ignore[misc]
             case = f"noise {noise:g} m/s, {SPIN_SHARE * noise:g} rad/s"
             found.append(
-                row(PART, case, QUANTITY, rung, REFERENCE, error, value=float(numpy.median(values)), expected=TRUTH)
+                row(PART, case, QUANTITY, level, REFERENCE, error, value=float(numpy.median(values)), expected=TRUTH)
             )
     return found
 

@@ -55,7 +55,7 @@ def integrate(
     `mode`: friction mode at the start (0 sticks, 1 and -1 slip). Raises RunFailureError where
     `strict` and the run fails.
     """
-    margins = EVENT_FUNCTIONS[type(rig)]
+    event_count = EVENT_FUNCTIONS[type(rig)]
     state = numpy.array(start, dtype=float)
     out = numpy.full((len(times), len(state)), numpy.nan)
     rest = (numpy.array([mode]), state, numpy.asarray(scale, dtype=float))
@@ -63,10 +63,10 @@ def integrate(
     work: RootStepWorkspace | dormand_prince.DormandPrinceWorkspace
     # The integrator of the driven rigs locates friction events
     if isinstance(rig, BeltSlider):
-        work = dormand_prince.make_workspace(len(state), margins)
+        work = dormand_prince.make_workspace(len(state), event_count)
         status = run_with_friction(rig, *rest, work, instants, out)
     else:
-        work = make_workspace(len(state), margins, ORDER)
+        work = make_workspace(len(state), event_count, ORDER)
         status = run(rig, *rest, work, instants, out)
     if strict and status != DONE:
         raise RunFailureError(SENTENCES[status])
@@ -75,7 +75,7 @@ def integrate(
 
 
 def free_impact(mass: float, elastic: NormalElastic, damping: float | None) -> PointContact:
-    """One mass against a support at rest, without gravity; `damping` [s/m] or None without loss."""
+    """One mass against a support at rest, without gravity; `damping` [s/m] or None without dissipation."""
     return PointContact(mass, 0.0, 0.0, 0.0, elastic, None if damping is None else NormalDissipative(damping))
 
 

@@ -26,7 +26,7 @@ LINEAR_BELOW = 1.0e-17  # of the way to the saddle: there m is below rounding
 
 
 class CnoidalError(ValueError):
-    """The motion that was asked for is not periodic; the text says why."""
+    """The requested motion is not periodic; the text says why."""
 
 
 class QuadraticOscillator(NamedTuple):

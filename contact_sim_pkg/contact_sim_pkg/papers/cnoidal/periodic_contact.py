@@ -24,7 +24,7 @@ __all__ = ["AMPLITUDES", "FREQUENCIES", "GRAVITY", "LAW", "MASS", "Steady", "exa
 Array = NDArray[numpy.float64]
 
 MASS, GRAVITY = 45.6, 9.81
-LAW, LOSS = NormalElastic(2.46e5, 1.5), NormalDissipative(1.950)
+LAW, DISSIPATIVE = NormalElastic(2.46e5, 1.5), NormalDissipative(1.950)
 FREQUENCIES = (4.75, 5.25, 5.75, 6.25)  # [Hz], the spine's
 AMPLITUDES = (0.5, 1.5)  # [g]
 TRANSIENT, SAMPLES = 60, 256  # periods before the one that is looked at; samples of it
@@ -67,7 +67,7 @@ def steady_response(frequency: float, amplitude: float, tolerance: float = 1e-9)
     """
     angular = 2.0 * math.pi * frequency
     stroke = amplitude * GRAVITY / angular**2
-    rig = PointContact(MASS, GRAVITY, stroke, angular, LAW, LOSS)
+    rig = PointContact(MASS, GRAVITY, stroke, angular, LAW, DISSIPATIVE)
     rest = (MASS * GRAVITY / LAW.coefficient) ** (1.0 / LAW.exponent)
     start, scale = numpy.array([-rest, stroke * angular]), numpy.array([rest, 1.0]) * tolerance
     period = 1.0 / frequency

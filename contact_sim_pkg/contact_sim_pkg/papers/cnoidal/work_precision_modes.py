@@ -16,7 +16,7 @@ import numpy
 
 from contact_sim_pkg.papers.cnoidal import theta
 from contact_sim_pkg.papers.cnoidal.fit import Array, ansatz, fit_ansatz
-from contact_sim_pkg.records.work_precision import Row, Rung, WorkPrecision, milliseconds, row, timed_once
+from contact_sim_pkg.records.work_precision import FidelityLevel, Row, WorkPrecision, milliseconds, row, timed_once
 
 __all__ = ["COUPLINGS", "PART", "WORK_PRECISION", "matrix_of", "phases_of", "rows"]
 
@@ -39,16 +39,16 @@ def rows() -> list[Row]:
         size = float(numpy.sqrt(numpy.mean(plain**2)))
         fitted, fit_ms = timed_once(functools.partial(_fitted, exact, phases))
         # From inexpensive to exact
-        for rung, value in (
-            (Rung("sum of one-phase cn²", _cost(theta.plain_sum, matrix)), plain),
-            (Rung("fitted ansatz (A6)", fit_ms), fitted),
+        for level, value in (
+            (FidelityLevel("sum of one-phase cn²", _cost(theta.plain_sum, matrix)), plain),
+            (FidelityLevel("fitted ansatz (A6)", fit_ms), fitted),
             (
-                Rung("theta lattice sum", _cost(theta.theta_wave, matrix)),
+                FidelityLevel("theta lattice sum", _cost(theta.theta_wave, matrix)),
                 theta.theta_wave(phases, matrix, WAVE_NUMBERS),
             ),
         ):
             distance = float(numpy.sqrt(numpy.mean((value - exact) ** 2))) / size
-            found.append(row(PART, f"B12 = {coupling:g}", QUANTITY, rung, REFERENCE, distance))
+            found.append(row(PART, f"B12 = {coupling:g}", QUANTITY, level, REFERENCE, distance))
     return found
 
 

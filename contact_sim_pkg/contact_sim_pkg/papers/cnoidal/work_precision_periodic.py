@@ -27,7 +27,15 @@ from contact_sim_pkg.papers.cnoidal.periodic_contact import (
     exact_period,
     steady_response,
 )
-from contact_sim_pkg.records.work_precision import Row, Rung, WorkPrecision, milliseconds, relative, row, timed_once
+from contact_sim_pkg.records.work_precision import (
+    FidelityLevel,
+    Row,
+    WorkPrecision,
+    milliseconds,
+    relative,
+    row,
+    timed_once,
+)
 
 __all__ = ["ANSATZ_PART", "PART", "RELEASES", "WORK_PRECISION", "ansatz_rows", "rows"]
 
@@ -61,12 +69,12 @@ def rows() -> list[Row]:
             ("linear resonance", linear, lambda: 2.0 * math.pi / oscillator.frequency),
             ("cnoidal", released_at(oscillator, start), lambda start=start: released_at(oscillator, start)),
         ):
-            rung = Rung(name, milliseconds(call))
-            found += _pair(case, rung, free, motion.period, position(motion, free.times))
-        rung = Rung("integrated", milliseconds(functools.partial(_integrated, start, rest, free.times, 1e-8)))
+            level = FidelityLevel(name, milliseconds(call))
+            found += _pair(case, level, free, motion.period, position(motion, free.times))
+        level = FidelityLevel("integrated", milliseconds(functools.partial(_integrated, start, rest, free.times, 1e-8)))
         states = _integrated(free.start, rest, free.times, 1e-8)
         pull = LAW.coefficient * (rest - states[-1, 0]) ** LAW.exponent / MASS - GRAVITY
-        found += _pair(case, rung, free, free.period - float(states[-1, 1] / pull), -states[:, 0])
+        found += _pair(case, level, free, free.period - float(states[-1, 1] / pull), -states[:, 0])
     return found
 
 
@@ -84,7 +92,7 @@ def ansatz_rows() -> list[Row]:
                 "5 harmonics (11 unknowns)": timed_once(functools.partial(fit_harmonics, approach, 5)),
             }
             for name, (residual, ms) in fits.items():
-                found.append(row(ANSATZ_PART, case, RESPONSE, Rung(name, ms), RESPONSE_REFERENCE, residual))
+                found.append(row(ANSATZ_PART, case, RESPONSE, FidelityLevel(name, ms), RESPONSE_REFERENCE, residual))
     return found
 
 
@@ -92,12 +100,12 @@ def _residual(approach: Array, nonlinear: bool) -> float:
     return fit_ansatz(approach, harmonics_of_period(len(approach)), nonlinear=nonlinear).residual
 
 
-def _pair(case: str, rung: Rung, free: Free, period: float, motion: Array) -> list[Row]:
+def _pair(case: str, level: FidelityLevel, free: Free, period: float, motion: Array) -> list[Row]:
     error = relative(period, free.period)
     distance = float(numpy.sqrt(numpy.mean((motion - free.motion) ** 2) / numpy.mean(free.motion**2)))
     return [
-        row(PART, case, PERIOD, rung, REFERENCE, error, value=period, expected=free.period),
-        row(PART, case, MOTION, rung, REFERENCE, distance),
+        row(PART, case, PERIOD, level, REFERENCE, error, value=period, expected=free.period),
+        row(PART, case, MOTION, level, REFERENCE, distance),
     ]
 
 

@@ -16,7 +16,7 @@ from contact_sim_pkg.papers.distance.closest import minimum_distance
 from contact_sim_pkg.papers.distance.convex_body import ConvexBody, ellipsoid
 from contact_sim_pkg.papers.distance.genetic_search import genetic_distance, genetic_interference
 from contact_sim_pkg.papers.distance.interference import interference
-from contact_sim_pkg.records.work_precision import Row, Rung, WorkPrecision, milliseconds, relative, row
+from contact_sim_pkg.records.work_precision import FidelityLevel, Row, WorkPrecision, milliseconds, relative, row
 
 __all__ = ["PART", "WORK_PRECISION", "bodies", "rows"]
 
@@ -36,44 +36,44 @@ class DistanceCase(NamedTuple):
     reference: str
 
 
-def bodies(apart: float) -> tuple[ConvexBody, ConvexBody]:
-    """The back as an ellipsoid, and a bolster of the seat whose centre is `apart` [m] further
+def bodies(separated: float) -> tuple[ConvexBody, ConvexBody]:
+    """The back as an ellipsoid, and a bolster of the seat whose centre is `separated` [m] further
     back.
     """
     lean = math.radians(20.0)
     turn = numpy.array([[math.cos(lean), 0, math.sin(lean)], [0, 1, 0], [-math.sin(lean), 0, math.cos(lean)]])
     return (
         ellipsoid([0.0, 0.0, 0.0], [0.12, 0.20, 0.30], turn),
-        ellipsoid([-0.12 - apart, 0.15, 0.05], [0.08, 0.06, 0.25]),
+        ellipsoid([-0.12 - separated, 0.15, 0.05], [0.08, 0.06, 0.25]),
     )
 
 
 def rows() -> list[Row]:
-    """Apart and overlapping; value and error of each fidelity level."""
+    """Separated and overlapping; value and error of each fidelity level."""
     found: list[Row] = []
     for case in _cases():
-        for name, call in _rungs(case).items():
-            rung, value = Rung(name, milliseconds(call)), call()
+        for name, call in _levels(case).items():
+            level, value = FidelityLevel(name, milliseconds(call)), call()
             error = relative(value, case.expected)
             found.append(
-                row(PART, case.name, case.quantity, rung, case.reference, error, value=value, expected=case.expected)
+                row(PART, case.name, case.quantity, level, case.reference, error, value=value, expected=case.expected)
             )
     return found
 
 
 def _cases() -> tuple[DistanceCase, ...]:
-    apart, close = bodies(0.15), bodies(0.04)
+    separated, close = bodies(0.15), bodies(0.04)
     distance, depth = (
         exact(*((body.centres[0], body.shapes[0]) for body in pair))
-        for exact, pair in ((reference.ellipsoid_distance, apart), (reference.separating_translation, close))
+        for exact, pair in ((reference.ellipsoid_distance, separated), (reference.separating_translation, close))
     )
     return (
-        DistanceCase("apart", apart, DISTANCE, distance, "SLSQP, then 40 digits"),
+        DistanceCase("separated", separated, DISTANCE, distance, "SLSQP, then 40 digits"),
         DistanceCase("overlapping", close, DEPTH, depth, "support functions, Nelder-Mead"),
     )
 
 
-def _rungs(case: DistanceCase) -> dict[str, Callable[[], float]]:
+def _levels(case: DistanceCase) -> dict[str, Callable[[], float]]:
     one, other = case.pair
     sign = 1.0 if case.quantity == DISTANCE else -1.0
 
@@ -97,8 +97,8 @@ def bounding_spheres(one: ConvexBody, other: ConvexBody) -> float:
     """Distance [m] of the spheres about two ellipsoids, never more than theirs; negative:
     overlap.
     """
-    apart = numpy.linalg.norm(one.centres[0] - other.centres[0])
-    return float(apart - one.half_axes[0].max() - other.half_axes[0].max())
+    separated = numpy.linalg.norm(one.centres[0] - other.centres[0])
+    return float(separated - one.half_axes[0].max() - other.half_axes[0].max())
 
 
 def support_points(one: ConvexBody, other: ConvexBody) -> float:

@@ -19,7 +19,7 @@ Field = NDArray[numpy.float64]
 
 
 class AxisymmetricError(ValueError):
-    """The profile, or what is asked of it, has no disc-shaped contact; the text says why."""
+    """The profile, or the requested contact, has no disc-shaped contact; the text says why."""
 
 
 class PowerProfile(NamedTuple):

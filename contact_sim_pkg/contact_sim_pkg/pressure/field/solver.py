@@ -135,7 +135,7 @@ def solve_at_load(
     """Pressure field that carries a given load [N] >= 0, and its approach; the rest as
     `solve_at_approach`.
 
-    Zero load gives a zero field and the approach of first touch, the smallest gap.
+    Zero load gives a zero field and the approach of first contact, the smallest gap.
     """
     _refuse(half_space, gap, pressure, tolerance, max_iterations)
     request = FieldRequest(float(load), True, float(tolerance), int(max_iterations))

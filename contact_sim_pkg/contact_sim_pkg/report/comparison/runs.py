@@ -69,7 +69,7 @@ def render_comparison(recordings: Sequence[Recording]) -> str:
         .render(
             title=title,
             warnings=[f"{each.name}: {text}" for each in recordings for text in facts.warnings(each)],
-            told_apart=difference_table(recordings, differences([each.scene for each in recordings])),
+            differences=difference_table(recordings, differences([each.scene for each in recordings])),
             numbers=number_table(runs, summaries),
             sections=_sections(runs, called.title),
         )

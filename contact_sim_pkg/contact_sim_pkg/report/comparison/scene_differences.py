@@ -1,4 +1,4 @@
-"""What tells several runs apart: the values in which their scenes differ."""
+"""The differences of several runs: the values in which their scenes differ."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from contact_sim_pkg.report.series import Recording
 
 UNIMPORTANT = ("description",)
 LAST = ("duration", "block_length", "seed", "pace", "accuracy", "integrator", "outputs", "limits", "name")
-"""How a scene is run rather than what it is: tells runs apart only where nothing else does."""
+"""How a scene is run rather than what it is: distinguishes runs only where nothing else does."""
 MOST_TOGETHER = 3
 """Values that a legend can take."""
 ABSENT = "–"
@@ -48,7 +48,7 @@ def differences(scenes: Sequence[dict[str, Any]]) -> list[Difference]:
 
 
 def labels(recordings: Sequence[Recording]) -> Labels:
-    """The first value that alone tells all runs apart; else all of them together, if few; else the
+    """The first value that alone distinguishes all runs; else all of them together, if few; else the
     names of the bags.
     """
     found = differences([each.scene for each in recordings])

@@ -110,7 +110,7 @@ def force_unit(contact: ContactSeries) -> tuple[str, float]:
 
 
 def load_over_approach(key: str, name: str, contact: ContactSeries) -> Picture | None:
-    """Load-deflection curve of the whole run; its opening is the loss. None where nothing yields:
+    """Load-deflection curve of the whole run; its opening is the dissipation. None where nothing yields:
     the contact is rigid.
     """
     if contact.approach.max() <= LEAST_APPROACH:
@@ -128,7 +128,7 @@ def load_over_approach(key: str, name: str, contact: ContactSeries) -> Picture |
     sampled = f" One in {stride} is drawn." if stride > 1 else ""
     caption = (
         f"Normal force over approach, {contact.normal.size} samples.{sampled} One curve is an elastic contact on "
-        "even ground; loops are losses, a band is uneven ground at the same approach."
+        "even ground; loops are dissipation, a band is uneven ground at the same approach."
     )
     return picture(f"{key}-loop", figure, f"Normal force of the {name} contact over its approach", caption)
 

@@ -45,7 +45,7 @@ BACKREST_EFFECTS = (
         needs=("normal_elastic",), feeds=("force", "wrench"), called_for=_LAW,
     ),
     Effect(
-        name="general_dissipative", section=f"{_SCHEMA}:BackGeneralLoss", help="loss by the general law",
+        name="general_dissipative", section=f"{_SCHEMA}:BackGeneralDissipation", help="loss by the general law",
         source="Driver and Seat", needs=("normal_elastic",), excludes=("normal_dissipative",),
         feeds=("force", "wrench", "patch"), called_for=needed_where_it_opens("backrest"),
     ),

@@ -14,7 +14,7 @@ from contact_sim_pkg.integrate.dormand_prince import DormandPrinceWorkspace, int
 from contact_sim_pkg.integrate.interface import rate
 from contact_sim_pkg.laws.elastic_law import elastic_energy
 from contact_sim_pkg.laws.foam_hysteresis import hysteresis_energy
-from contact_sim_pkg.laws.friction import APART as UNLOADED
+from contact_sim_pkg.laws.friction import SEPARATED as UNLOADED
 from contact_sim_pkg.laws.friction import STICK, following_deflection, stick_event
 from contact_sim_pkg.rigs.backrest import motion as backrest
 from contact_sim_pkg.rigs.backrest.contact_search import move_point, place_of

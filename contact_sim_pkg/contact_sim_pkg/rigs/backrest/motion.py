@@ -33,7 +33,7 @@ from contact_sim_pkg.compiled.jit import borrowing_kernel
 from contact_sim_pkg.integrate.interface import register_rig
 from contact_sim_pkg.laws.elastic_law import elastic_force
 from contact_sim_pkg.laws.foam_hysteresis import hysteresis_factor, hysteresis_factor_rate, hysteresis_rate
-from contact_sim_pkg.laws.friction import APART as UNLOADED
+from contact_sim_pkg.laws.friction import SEPARATED as UNLOADED
 from contact_sim_pkg.laws.friction import STICK, following_deflection, friction_force, slip_event, stick_event
 from contact_sim_pkg.laws.normal_force import normal_force, normal_force_rate, tension_event
 from contact_sim_pkg.rigs.backrest.contact_search import move_point

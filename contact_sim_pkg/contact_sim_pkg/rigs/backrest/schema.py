@@ -8,7 +8,7 @@ from pydantic import Field
 
 from contact_sim_pkg.records.constants import GRAVITY
 from contact_sim_pkg.scene.schema.fields import Section, number
-from contact_sim_pkg.scene.schema.laws import FrictionSection, GeneralLoss, HuntCrossley, PowerLaw
+from contact_sim_pkg.scene.schema.laws import FrictionSection, GeneralDissipation, HuntCrossley, PowerLaw
 
 if TYPE_CHECKING:
     from contact_sim_pkg.scene.schema.scene import Scene
@@ -85,7 +85,7 @@ class BackLoss(HuntCrossley):
     damping: float | None = number(0.0, 100.0, "s/m", "λ; 1.9497 by default: restitution 0.6 at 0.5 m/s", default=None)
 
 
-class BackGeneralLoss(GeneralLoss):
+class BackGeneralDissipation(GeneralDissipation):
     """General law of the back in the seat back: as that of the cushion, with a coefficient of its
     own.
     """

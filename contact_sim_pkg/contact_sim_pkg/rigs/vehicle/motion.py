@@ -34,7 +34,14 @@ from contact_sim_pkg.laws.foam_hysteresis import (
     hysteresis_rate,
     reversal_event,
 )
-from contact_sim_pkg.laws.friction import APART, STICK, following_deflection, friction_force, slip_event, stick_event
+from contact_sim_pkg.laws.friction import (
+    SEPARATED,
+    STICK,
+    following_deflection,
+    friction_force,
+    slip_event,
+    stick_event,
+)
 from contact_sim_pkg.rigs.vehicle.parameters import Vehicle
 from contact_sim_pkg.rigs.vehicle.quarter_car import (
     body_power,
@@ -222,7 +229,7 @@ def _normal_rate(contact, approach, approach_rate, approach_acceleration, state,
 def _friction_event(friction, contact, tire, seat, mode, approach, approach_rate, state, derivative):
     if friction is None:
         return 1.0
-    if mode[0] == APART:
+    if mode[0] == SEPARATED:
         return 1.0
     x = _slide_index(seat)
     normal = normal_force(contact, approach, approach_rate, state)
@@ -282,7 +289,7 @@ def _friction_transition(friction, contact, seat, mode, approach, approach_rate,
         if direction > 0.0 and other > 0.0:
             mode[0] = STICK if velocity == 0.0 else (1 if velocity > 0.0 else -1)
         else:
-            mode[0] = APART
+            mode[0] = SEPARATED
 
 
 @borrowing_kernel
@@ -299,7 +306,7 @@ def _mode_transition(rig, drive, mode, time, state, event, direction):
 def _slips(friction, mode):
     if friction is None:
         return False
-    return mode[0] != STICK and mode[0] != APART
+    return mode[0] != STICK and mode[0] != SEPARATED
 
 
 @borrowing_kernel

@@ -34,7 +34,7 @@ def block_count(scene: Scene) -> int:
 
 
 def whole_duration(scene: Scene) -> float:
-    """Duration in [s] of the scene's blocks: the one asked for, without its rounding."""
+    """Duration in [s] of the scene's blocks: the requested one without its rounding."""
     return float(_blocks(scene) * exact(scene.block_length))
 
 

@@ -7,7 +7,7 @@ from collections.abc import Iterator
 from contact_sim_pkg.records.registry import contacts
 from contact_sim_pkg.scene.errors import Breach
 from contact_sim_pkg.scene.schema.catalog import show
-from contact_sim_pkg.scene.schema.laws import Foam, FrictionSection, GeneralLoss, HuntCrossley
+from contact_sim_pkg.scene.schema.laws import Foam, FrictionSection, GeneralDissipation, HuntCrossley
 from contact_sim_pkg.scene.schema.scene import Scene
 
 
@@ -15,10 +15,10 @@ def law_breaches(scene: Scene) -> Iterator[Breach]:
     """Laws whose coefficients contradict each other, at any contact."""
     for contact in contacts():
         where = f"effects.{contact}"
-        loss = scene.effect(contact, HuntCrossley)
-        if loss is not None:
-            yield from _loss(f"{where}.normal_dissipative", loss)
-        general, friction = scene.effect(contact, GeneralLoss), scene.effect(contact, FrictionSection)
+        dissipative = scene.effect(contact, HuntCrossley)
+        if dissipative is not None:
+            yield from _hunt_crossley(f"{where}.normal_dissipative", dissipative)
+        general, friction = scene.effect(contact, GeneralDissipation), scene.effect(contact, FrictionSection)
         if general is not None:
             yield from _general(where, general, friction)
         foam = scene.effect(contact, Foam)
@@ -30,8 +30,8 @@ def law_breaches(scene: Scene) -> Iterator[Breach]:
             yield Breach(f"{where}.friction.coefficient_kinetic", sentence, (f"{where}.friction.coefficient_static",))
 
 
-def _loss(where: str, loss: HuntCrossley) -> Iterator[Breach]:
-    damping, restitution, speed = loss.damping, loss.restitution, loss.reference_speed
+def _hunt_crossley(where: str, dissipative: HuntCrossley) -> Iterator[Breach]:
+    damping, restitution, speed = dissipative.damping, dissipative.restitution, dissipative.reference_speed
     if damping is not None and restitution is not None:
         yield Breach(f"{where}.restitution", "damping and restitution are both given; keep one", (f"{where}.damping",))
     if restitution is not None and speed is None:
@@ -44,7 +44,7 @@ def _loss(where: str, loss: HuntCrossley) -> Iterator[Breach]:
         )
 
 
-def _general(where: str, general: GeneralLoss, friction: FrictionSection | None) -> Iterator[Breach]:
+def _general(where: str, general: GeneralDissipation, friction: FrictionSection | None) -> Iterator[Breach]:
     """The general law takes a coefficient or a restitution, and may pull only where nothing rubs."""
     place = f"{where}.general_dissipative"
     if general.coefficient is not None and general.restitution is not None:
@@ -61,7 +61,7 @@ def _general(where: str, general: GeneralLoss, friction: FrictionSection | None)
         yield Breach(f"{place}.end", sentence, (f"{where}.friction",))
 
 
-def _foam(where: str, foam: Foam, general: GeneralLoss | None) -> Iterator[Breach]:
+def _foam(where: str, foam: Foam, general: GeneralDissipation | None) -> Iterator[Breach]:
     """Foam begins stiffer than its plateau; the general law's restitution is known for power laws only."""
     if not foam.modulus > foam.plateau:
         sentence = f"{show(foam.modulus)} Pa is not above plateau ({show(foam.plateau)} Pa)"

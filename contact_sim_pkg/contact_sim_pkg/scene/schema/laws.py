@@ -21,7 +21,7 @@ class PowerLaw(Section):
 
 
 class HuntCrossley(Section):
-    """Hunt-Crossley loss: elastic force · (1 + damping · approach rate), never pulling; or `restitution` at a speed."""
+    """Hunt-Crossley dissipation: elastic force · (1 + damping · approach rate), never pulling; or `restitution` at a speed."""
 
     usual_damping: ClassVar[float]
     """[s/m] where a scene names neither damping nor restitution."""
@@ -56,13 +56,13 @@ class Foam(Section):
 
 
 class FoamHysteresisSection(Section):
-    """Loss without rate: the force is the elastic one times 1 + share · z, z between -1 and 1 follows the loading."""
+    """Dissipation without rate: the force is the elastic one times 1 + share · z, z between -1 and 1 follows the loading."""
 
     share: float = number(0.0, 0.9, "", "s; a long loading dissipates 2 s/(1 + s): 21 % by default", default=0.12)
     energy: float = number(1e-6, 1e6, "J", "u₀, stored energy of a reversal (choice)", above=True, default=1.0)
 
 
-class GeneralLoss(Section):
+class GeneralDissipation(Section):
     """General law: elastic force + coefficient · approach^approach_exponent · sgn(rate) |rate|^rate_exponent; in place of
     normal_dissipative. Exponents 0 and 1 are a plain damper, the elastic exponent and 1 Hunt-Crossley, 0.5 and 1 Kuwabara-Kono."""
 

@@ -1,4 +1,4 @@
-"""Rules that tie several keys of a scene together; a contradiction is a fault, never mended."""
+"""Rules that tie several keys of a scene together; a contradiction is a fault, never corrected."""
 
 from __future__ import annotations
 

@@ -9,7 +9,7 @@ from typing import Any
 from pydantic import ValidationError
 
 from contact_sim_pkg.scene.errors import Breach, Fault, SceneError
-from contact_sim_pkg.scene.renamed_keys import take_new_names
+from contact_sim_pkg.scene.renamed_keys import use_new_names
 from contact_sim_pkg.scene.schema.catalog import Entry, catalog, entry_of, without_kinds
 from contact_sim_pkg.scene.schema.effect_rules import effect_breaches, unavailable_effect
 from contact_sim_pkg.scene.schema.fields import TOO_NEAR_ZERO
@@ -40,13 +40,13 @@ def validate(root: MappingNode, file: str, known: Iterable[Fault] = (), rules: I
         SceneError: with all faults. A key with a fault of its own takes no part in the rules. A key that was renamed is
             one of them; its value is checked under the new name.
     """
-    validator = _Validator(root, [*known, *take_new_names(root)])
+    validator = _Validator(root, [*known, *use_new_names(root)])
     scene = validator.types()
     # Rules between keys need all types to be right
     if scene is not None:
         scene._file = file
         for rule in rules:
-            validator.take(rule(scene))
+            validator.add_breaches(rule(scene))
     if validator.faults or scene is None:
         raise SceneError(validator.faults)
     return scene
@@ -70,8 +70,8 @@ class _Validator:
                     self._problem(problem["type"], problem["loc"], plain)
         return None
 
-    def take(self, found: Iterable[Breach]) -> None:
-        """Take over the breaches whose keys are free of faults."""
+    def add_breaches(self, found: Iterable[Breach]) -> None:
+        """Add the breaches whose keys are free of faults."""
         for breach in found:
             used = any(
                 _within(where, faulty) or _within(faulty, where) for where in breach.uses for faulty in self._faulty
@@ -83,7 +83,7 @@ class _Validator:
         path = without_kinds(location)
         if kind == "extra_forbidden":
             self._add(path, self._unknown(location, path), at_key=True)
-            _mend(plain, path, None)
+            _replace_faulty(plain, path, None)
             return
         entry = entry_of(location)
         if entry is None:
@@ -101,7 +101,7 @@ class _Validator:
         # The rest of the scene is checked with a value that the schema allows
         key = path[: len(without_kinds(entry.location))]
         self._faulty.append(".".join(map(str, key)))
-        _mend(plain, key, entry)
+        _replace_faulty(plain, key, entry)
 
     def _unknown(self, location: Path, path: Path) -> str:
         key = str(path[-1])
@@ -168,8 +168,8 @@ def _path_of(entry: Entry, path: Path) -> Path:
     return (*path[:depth], *items)
 
 
-def _mend(plain: Any, path: Path, entry: Entry | None) -> None:
-    """Take a faulty value out; put the example of its key in where the key is required."""
+def _replace_faulty(plain: Any, path: Path, entry: Entry | None) -> None:
+    """Remove a faulty value; the example of its key replaces it where the key is required."""
     parent = plain
     for part in path[:-1]:
         parent = parent[part]

@@ -33,8 +33,8 @@ class Composer:
         self._values = 0
         self._aliases = 0
 
-    def take(self, event: Any) -> None:
-        """Take the next parser event."""
+    def handle(self, event: Any) -> None:
+        """Handle the next parser event."""
         mark = self._mark(event)
         name = type(event).__name__
         if getattr(event, "tag", None) is not None:

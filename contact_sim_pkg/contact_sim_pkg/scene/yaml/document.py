@@ -137,7 +137,7 @@ def _compose(text: str, start: Mark, composer: Composer) -> Node:
     _check_size(text, start)
     try:
         for event in YAML(typ="safe", pure=True).parse(text):
-            composer.take(event)
+            composer.handle(event)
     except RecursionError as error:
         raise SceneError([start.fault("", "is nested too deeply")]) from error
     except ReaderError as error:
@@ -173,5 +173,5 @@ def _check_lines(text: str, start: Mark) -> None:
 def _syntax_fault(error: MarkedYAMLError, start: Mark) -> Fault:
     mark = error.problem_mark or error.context_mark
     line, column = (mark.line + 1, mark.column + 1) if mark and start.line else (start.line, start.column)
-    told = [part for part in (error.context, error.problem) if part]
-    return Fault(start.source, line, column, "", "is not YAML: " + ", ".join(told))
+    parts = [part for part in (error.context, error.problem) if part]
+    return Fault(start.source, line, column, "", "is not YAML: " + ", ".join(parts))

@@ -57,7 +57,7 @@ def _panel(axis: Any, rows: list[dict[str, Any]]) -> None:
     for label in dict.fromkeys(_series(row) for row in rows):
         chosen = sorted((row for row in rows if _series(row) == label), key=_finer)
         first = next(row for row in rows if _series(row) == label)
-        style = "--s" if first["part"] == "field grid" else ":^" if first["rung"] == CHECK else "-o"
+        style = "--s" if first["part"] == "field grid" else ":^" if first["level"] == CHECK else "-o"
         colour = f"C{names.index(first['quantity'])}"
         name: str | None = label
         for exact, line in ((False, style), (True, style[-1])):  # no line leads to an error of 0
@@ -89,14 +89,14 @@ def _finer(row: dict[str, Any]) -> float:
 
 
 def _name_points(axis: Any, rows: list[dict[str, Any]]) -> None:
-    """Write what was requested at the points of the first line of each part: tolerance or rung."""
-    for part in dict.fromkeys((row["part"], row["rung"] == CHECK) for row in rows):
+    """Write what was requested at the points of the first line of each part: tolerance or level."""
+    for part in dict.fromkeys((row["part"], row["level"] == CHECK) for row in rows):
         if part[0] == "field grid":
-            continue  # the same rungs as those of the solver
-        members = [row for row in rows if (row["part"], row["rung"] == CHECK) == part]
+            continue  # the same levels as those of the solver
+        members = [row for row in rows if (row["part"], row["level"] == CHECK) == part]
         line: dict[str, dict[str, Any]] = {}
         for row in sorted(members, key=lambda row: row["error"]):
-            line[_asked(row)] = row  # the highest point of each
+            line[_requested(row)] = row  # the highest point of each
         last = (0.0, 0.0)
         for text, row in line.items():
             place = (row["ms_per_simulated_s"], row["error"])
@@ -107,16 +107,16 @@ def _name_points(axis: Any, rows: list[dict[str, Any]]) -> None:
             last = place
 
 
-def _asked(row: dict[str, Any]) -> str:
+def _requested(row: dict[str, Any]) -> str:
     by_tolerance = {part.part for part in parts_of_rigs() if not (part.level or part.contact)}
-    if row["part"] in by_tolerance or row["rung"] == CHECK:
+    if row["part"] in by_tolerance or row["level"] == CHECK:
         return f"{row['tolerance']:.0e}"
-    return f"{row['rung']} {row['grid'] or ''}".strip()
+    return f"{row['level']} {row['grid'] or ''}".strip()
 
 
 def _series(row: dict[str, Any]) -> str:
     """Rows of one line: the same quantity, and for fields the same kind of error."""
     kind = {"field grid": ", grid", "field solver": ", solver"}.get(row["part"], "")
-    if row["rung"] == CHECK:
+    if row["level"] == CHECK:
         kind = f" on {row['grid']}, against NNLS"
     return f"{row['quantity']}{kind}"

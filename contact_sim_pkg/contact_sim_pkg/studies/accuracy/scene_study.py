@@ -1,8 +1,8 @@
-"""`bench accuracy SCENE`: what accuracy costs in time, for each tolerance, grid and rung that the
+"""`bench accuracy SCENE`: what accuracy costs in time, for each tolerance, grid and level that the
 scene can be run with.
 
 Columns of a row: `quantity`, `part` (what is varied: integrator, coupling, field solver, …),
-`rung`, `grid`, `tolerance`, `error` (relative), `reference` (what the error is against, and whether
+`level`, `grid`, `tolerance`, `error` (relative), `reference` (what the error is against, and whether
 it is own code), `ms_per_simulated_s`, and in a new process the time to the first answer:
 `first_call_s`, with nothing compiled, and `next_start_s`, with the kernels on disk. How to read it:
 `docs/accuracy.md`.
@@ -35,7 +35,7 @@ def studies_of(rig: str) -> list[AccuracyStudy]:
 
 
 COLUMNS = (
-    "quantity", "part", "rung", "grid", "tolerance", "error", "reference", "ms_per_simulated_s", "first_call_s",
+    "quantity", "part", "level", "grid", "tolerance", "error", "reference", "ms_per_simulated_s", "first_call_s",
     "next_start_s",
 )  # fmt: skip
 

@@ -23,10 +23,10 @@ def sections(rows: list[Row]) -> list[Section]:
 
 def _table(part: AccuracyPart, rows: list[Row]) -> Section:
     if part.contact:
-        head = {name: name for name in ("rung", "grid", "tolerance")}
+        head = {name: name for name in ("level", "grid", "tolerance")}
         key: tuple[str, ...] = ("grid", "tolerance")
     elif part.level:
-        head, key = {"rung": part.level, "tolerance": "tolerance"}, ("rung",)
+        head, key = {"level": part.level, "tolerance": "tolerance"}, ("level",)
     else:
         head, key = {"tolerance": "tolerance"}, ("tolerance",)
     prefix = f"{part.contact} " if part.contact else ""

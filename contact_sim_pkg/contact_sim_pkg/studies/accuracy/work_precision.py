@@ -1,7 +1,7 @@
 """`bench accuracy RIG`: each quantity of a rig by inexpensive and expensive methods on the same
 input.
 
-Columns of a row: `rig`, `part` (the study), `case` (the input), `quantity`, `rung`, `grid`,
+Columns of a row: `rig`, `part` (the study), `case` (the input), `quantity`, `level`, `grid`,
 `tolerance`, `value` and `expected` (SI; null for an L2 distance), `error` (relative, against
 `reference`), and where a grid is solved its two parts: `solver_error`, against the same grid to
 1e-10, and `grid_error`, of the converged grid against the reference; `ms_per_call` (processor time

@@ -27,19 +27,19 @@ def write_plot(rows: list[Row], path: str | Path, *, overwrite: bool = False) ->
 
 
 def _panel(axis: Any, rows: list[Row]) -> None:
-    """Colour: quantity; line: case; marker: rung and grid."""
+    """Colour: quantity; line: case; marker: level and grid."""
     rows = [row for row in rows if not _given(row, rows)]
-    quantities, cases, rungs = (_distinct(map(name, rows)) for name in (_quantity, _case, _rung))
+    quantities, cases, levels = (_distinct(map(name, rows)) for name in (_quantity, _case, _level))
     for quantity in quantities:
         for case in cases:
             chosen = [row for row in rows if _quantity(row) == quantity and _case(row) == case]
-            _lines(axis, chosen, f"C{quantities.index(quantity)}", STYLES[cases.index(case) % len(STYLES)], rungs)
+            _lines(axis, chosen, f"C{quantities.index(quantity)}", STYLES[cases.index(case) % len(STYLES)], levels)
     for quantity in quantities:
         axis.plot([], [], "-", linewidth=3, color=f"C{quantities.index(quantity)}", label=quantity)
     for case in cases:
         axis.plot([], [], color="0.3", linestyle=STYLES[cases.index(case) % len(STYLES)], label=case)
-    for rung in rungs:
-        axis.plot([], [], MARKERS[rungs.index(rung) % len(MARKERS)], color="0.3", label=rung)
+    for level in levels:
+        axis.plot([], [], MARKERS[levels.index(level) % len(MARKERS)], color="0.3", label=level)
     # Legend entries above have no data: colour, line and marker each stand alone
     axis.set_xscale("log")
     axis.set_yscale("log")
@@ -52,20 +52,20 @@ def _panel(axis: Any, rows: list[Row]) -> None:
     axis.legend(fontsize=7, loc="upper center", bbox_to_anchor=(0.5, -0.1), ncols=3, frameon=False)
 
 
-def _lines(axis: Any, rows: list[Row], colour: str, style: Any, rungs: list[str]) -> None:
-    """One line through the rungs by time; where a grid has several tolerances, one a grid."""
-    several = len({(row["rung"], row["grid"]) for row in rows}) < len(rows)
+def _lines(axis: Any, rows: list[Row], colour: str, style: Any, levels: list[str]) -> None:
+    """One line through the levels by time; where a grid has several tolerances, one a grid."""
+    several = len({(row["level"], row["grid"]) for row in rows}) < len(rows)
     for grid in _distinct(row["grid"] if several else None for row in rows):
         chosen = sorted((row for row in rows if not several or row["grid"] == grid), key=lambda row: row["ms_per_call"])
         points = [(row["ms_per_call"], max(row["error"], FLOOR)) for row in chosen]
         axis.plot(*zip(*points, strict=True), color=colour, linestyle=style, linewidth=0.8, alpha=0.6)
         for row, point in zip(chosen, points, strict=True):
-            marker = MARKERS[rungs.index(_rung(row)) % len(MARKERS)]
+            marker = MARKERS[levels.index(_level(row)) % len(MARKERS)]
             axis.plot(*point, marker, color=colour, markersize=5, alpha=0.8)
 
 
 def _given(row: Row, rows: list[Row]) -> bool:
-    """Whether the quantity is what was requested, and so comes back to rounding on every rung of
+    """Whether the quantity is what was requested, and so comes back to rounding on every level of
     the case.
     """
     return all(
@@ -85,9 +85,9 @@ def _case(row: Row) -> str:
     return str(row["case"])
 
 
-def _rung(row: Row) -> str:
-    """A rung; solved grids are told apart by their cells, their levels are not named."""
+def _level(row: Row) -> str:
+    """A level; solved grids differ by their cells, their levels are not named."""
     if row["grid"] is None:
-        return str(row["rung"])
-    name = str(row["rung"]) if row["solver_error"] is None else str(row["rung"]).split()[0]
+        return str(row["level"])
+    name = str(row["level"]) if row["solver_error"] is None else str(row["level"]).split()[0]
     return f"{name} {row['grid']}"

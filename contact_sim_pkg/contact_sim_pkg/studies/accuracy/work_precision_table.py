@@ -42,5 +42,5 @@ def _lines(rows: list[Row]) -> list[Row]:
             return {f"{name}: solver": row["solver_error"], f"{name}: grid": row["grid_error"]}
         return {name: row["error"]}
 
-    key = ("rung", "grid", "tolerance")
+    key = ("level", "grid", "tolerance")
     return error_lines(rows, {name: name for name in (key if on_grids else key[:1])}, key, errors, COST)

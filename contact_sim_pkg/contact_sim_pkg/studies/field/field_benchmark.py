@@ -47,7 +47,7 @@ TOLERANCES = {
     SHIFTED: (1e-1, 3e-2, 1e-2, 3e-3, 1e-3, 1e-4, 1e-5, 1e-6),
     ROLLING: (1e-1, 3e-2, 1e-2, 3e-3, 1e-3, 1e-4, 1e-5, 1e-6),
 }
-ASKED = {COLD: (1e-3, 1e-5), NESTED: (1e-3, 1e-5), LAST: (1e-2, 1.5e-3, 3e-4, 1e-4)}
+REQUESTED = {COLD: (1e-3, 1e-5), NESTED: (1e-3, 1e-5), LAST: (1e-2, 1.5e-3, 3e-4, 1e-4)}
 GOALS = {
     ("128x96", ROLLING, 1e-2): 0.5,
     ("128x96", ROLLING, 1.5e-3): 1.0,
@@ -204,15 +204,15 @@ def rows_of(
     return rows
 
 
-def read_at(rows: list[dict[str, Any]], asked: float, column: str = "ms") -> float | None:
+def read_at(rows: list[dict[str, Any]], requested: float, column: str = "ms") -> float | None:
     """Time [ms] (or another column) at a requested relative error [1]: both logarithms
     interpolated; None outside what was measured."""
     points = sorted((row["error"], row[column]) for row in rows)
     for (low, slow), (high, fast) in itertools.pairwise(points):
-        if low <= asked <= high and low < high:
-            share = math.log(asked / low) / math.log(high / low)
+        if low <= requested <= high and low < high:
+            share = math.log(requested / low) / math.log(high / low)
             return math.exp((1.0 - share) * math.log(slow) + share * math.log(fast))
-    return points[-1][1] if points and asked > points[-1][0] else None
+    return points[-1][1] if points and requested > points[-1][0] else None
 
 
 def readings(rows: list[dict[str, Any]]) -> list[dict[str, Any]]:
@@ -220,11 +220,13 @@ def readings(rows: list[dict[str, Any]]) -> list[dict[str, Any]]:
     found = []
     for grid, kind in dict.fromkeys((row["grid"], row["solver"]) for row in rows):
         those = [row for row in rows if (row["grid"], row["solver"]) == (grid, kind)]
-        for asked in ASKED.get(kind, ASKED[LAST]):
-            read = {name: read_at(those, asked, name) for name in ("ms", "ms, 95 %", "processor ms", "convolutions")}
-            goal = GOALS.get((grid, kind, asked))
+        for requested in REQUESTED.get(kind, REQUESTED[LAST]):
+            read = {
+                name: read_at(those, requested, name) for name in ("ms", "ms, 95 %", "processor ms", "convolutions")
+            }
+            goal = GOALS.get((grid, kind, requested))
             found.append(
-                {"grid": grid, "cells": those[0]["cells"], "solver": kind, "error": asked, **read, "goal": goal}
+                {"grid": grid, "cells": those[0]["cells"], "solver": kind, "error": requested, **read, "goal": goal}
             )
     return found
 

@@ -1,4 +1,4 @@
-"""Every way into the pressure field behind one call, so that what must hold is asked of all of
+"""Every way into the pressure field behind one call, so that what must hold is checked for all of
 them.
 
 Static, windowed and rolling, each at a given load and at a given approach; rolling also with two
@@ -19,12 +19,12 @@ from contact_sim_pkg.pressure.field.rolling import RollingField
 from contact_sim_pkg.pressure.field.solver import FieldResult, make_workspace, solve_at_approach, solve_at_load
 from contact_sim_pkg.pressure.field.window import WindowedSolver
 
-__all__ = ["ENTRIES", "Asked", "Entry", "holds_load"]
+__all__ = ["ENTRIES", "Entry", "SolveRequest", "holds_load"]
 
 Field = NDArray[numpy.float64]
 
 
-class Asked(NamedTuple):
+class SolveRequest(NamedTuple):
     """One contact, by its load and by its approach, and how well it is wanted."""
 
     load: float  # [N]
@@ -33,52 +33,60 @@ class Asked(NamedTuple):
     cap: int = 2000
 
 
-Entry = Callable[[HalfSpace, Field, Asked], tuple[Field, FieldResult]]
+Entry = Callable[[HalfSpace, Field, SolveRequest], tuple[Field, FieldResult]]
 
 
-def _static_load(half_space: HalfSpace, gap: Field, asked: Asked) -> tuple[Field, FieldResult]:
+def _static_load(half_space: HalfSpace, gap: Field, request: SolveRequest) -> tuple[Field, FieldResult]:
     pressure = numpy.zeros(gap.shape)
-    arguments = (half_space, make_workspace(half_space), gap, asked.load, asked.tolerance, asked.cap, pressure)
+    arguments = (half_space, make_workspace(half_space), gap, request.load, request.tolerance, request.cap, pressure)
     return pressure, solve_at_load(*arguments)
 
 
-def _static_approach(half_space: HalfSpace, gap: Field, asked: Asked) -> tuple[Field, FieldResult]:
+def _static_approach(half_space: HalfSpace, gap: Field, request: SolveRequest) -> tuple[Field, FieldResult]:
     pressure = numpy.zeros(gap.shape)
-    arguments = (half_space, make_workspace(half_space), gap, asked.approach, asked.tolerance, asked.cap, pressure)
+    arguments = (
+        half_space,
+        make_workspace(half_space),
+        gap,
+        request.approach,
+        request.tolerance,
+        request.cap,
+        pressure,
+    )
     return pressure, solve_at_approach(*arguments)
 
 
-def _windowed_load(half_space: HalfSpace, gap: Field, asked: Asked) -> tuple[Field, FieldResult]:
+def _windowed_load(half_space: HalfSpace, gap: Field, request: SolveRequest) -> tuple[Field, FieldResult]:
     pressure, solver = numpy.zeros(gap.shape), WindowedSolver(half_space)
-    return pressure, solver.solve_at_load(gap, asked.load, asked.tolerance, asked.cap, pressure)
+    return pressure, solver.solve_at_load(gap, request.load, request.tolerance, request.cap, pressure)
 
 
-def _windowed_approach(half_space: HalfSpace, gap: Field, asked: Asked) -> tuple[Field, FieldResult]:
+def _windowed_approach(half_space: HalfSpace, gap: Field, request: SolveRequest) -> tuple[Field, FieldResult]:
     pressure, solver = numpy.zeros(gap.shape), WindowedSolver(half_space)
-    return pressure, solver.solve_at_approach(gap, asked.approach, asked.tolerance, asked.cap, pressure)
+    return pressure, solver.solve_at_approach(gap, request.approach, request.tolerance, request.cap, pressure)
 
 
-def _rolling_load(half_space: HalfSpace, gap: Field, asked: Asked) -> tuple[Field, FieldResult]:
+def _rolling_load(half_space: HalfSpace, gap: Field, request: SolveRequest) -> tuple[Field, FieldResult]:
     field = RollingField(half_space)
-    return field.pressure, field.solve_at_load(gap, asked.load, asked.tolerance, asked.cap)
+    return field.pressure, field.solve_at_load(gap, request.load, request.tolerance, request.cap)
 
 
-def _rolling_approach(half_space: HalfSpace, gap: Field, asked: Asked) -> tuple[Field, FieldResult]:
+def _rolling_approach(half_space: HalfSpace, gap: Field, request: SolveRequest) -> tuple[Field, FieldResult]:
     field = RollingField(half_space)
-    return field.pressure, field.solve_at_approach(gap, asked.approach, asked.tolerance, asked.cap)
+    return field.pressure, field.solve_at_approach(gap, request.approach, request.tolerance, request.cap)
 
 
-def _rolled_load(half_space: HalfSpace, gap: Field, asked: Asked) -> tuple[Field, FieldResult]:
-    field = _rolled(half_space, gap, asked)
-    return field.pressure, field.solve_at_load(gap, asked.load, asked.tolerance, asked.cap)
+def _rolled_load(half_space: HalfSpace, gap: Field, request: SolveRequest) -> tuple[Field, FieldResult]:
+    field = _rolled(half_space, gap, request)
+    return field.pressure, field.solve_at_load(gap, request.load, request.tolerance, request.cap)
 
 
-def _rolled_approach(half_space: HalfSpace, gap: Field, asked: Asked) -> tuple[Field, FieldResult]:
-    field = _rolled(half_space, gap, asked)
-    return field.pressure, field.solve_at_approach(gap, asked.approach, asked.tolerance, asked.cap)
+def _rolled_approach(half_space: HalfSpace, gap: Field, request: SolveRequest) -> tuple[Field, FieldResult]:
+    field = _rolled(half_space, gap, request)
+    return field.pressure, field.solve_at_approach(gap, request.approach, request.tolerance, request.cap)
 
 
-def _rolled(half_space: HalfSpace, gap: Field, asked: Asked) -> RollingField:
+def _rolled(half_space: HalfSpace, gap: Field, request: SolveRequest) -> RollingField:
     """A field with two steps behind it: a bowl around the middle, and (where it has heights) this
     gap one row earlier.
     """
@@ -87,10 +95,10 @@ def _rolled(half_space: HalfSpace, gap: Field, asked: Asked) -> RollingField:
     y = (numpy.arange(half_space.cols) - 0.5 * (half_space.cols - 1)) * half_space.cell_y
     extent = half_space.rows * half_space.cell_x
     bowl = (x[:, None] ** 2 + y[None, :] ** 2) / extent
-    field.solve_at_approach(bowl, 0.02 * extent, 1e-3, asked.cap)
+    field.solve_at_approach(bowl, 0.02 * extent, 1e-3, request.cap)
     field.roll(1)
     if numpy.isfinite(gap).all():
-        field.solve_at_approach(numpy.roll(gap, 1, axis=0), asked.approach, 1e-3, asked.cap)
+        field.solve_at_approach(numpy.roll(gap, 1, axis=0), request.approach, 1e-3, request.cap)
         field.roll(1)
     return field
 

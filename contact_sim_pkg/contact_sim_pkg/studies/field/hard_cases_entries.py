@@ -1,4 +1,4 @@
-"""Hard cases of the pressure field asked of every way in: static, windowed, rolling; load and
+"""Hard cases of the pressure field by every way in: static, windowed, rolling; load and
 approach given.
 
 Each value is the worst over all of them.
@@ -16,7 +16,7 @@ from contact_sim_pkg.pressure.field.halfspace import make_half_space
 from contact_sim_pkg.pressure.field.solver import BAD_INPUT, CONVERGED, EDGE, NOT_CONVERGED
 from contact_sim_pkg.records.hard_case import Finding, HardCase, at_most, exactly
 from contact_sim_pkg.reference import halfspace as reference
-from contact_sim_pkg.studies.field.field_entries import ENTRIES, Asked, holds_load
+from contact_sim_pkg.studies.field.field_entries import ENTRIES, SolveRequest, holds_load
 from contact_sim_pkg.studies.field.hard_cases_field import CELL, MODULUS, SIDE, bowl, dense, grid
 
 Field = NDArray[numpy.float64]
@@ -37,10 +37,10 @@ def worst_error(gap: Field, approach: float, expected: Field | None = None, stat
     gap: [rows, cols] [m]; approach: [m]; expected: [rows, cols] [Pa].
     """
     pressure_expected = exact(gap, approach)[0] if expected is None else expected
-    asked = Asked(float(pressure_expected.sum()) * CELL**2, approach, TOLERANCE)
+    request = SolveRequest(float(pressure_expected.sum()) * CELL**2, approach, TOLERANCE)
     worst = 0.0
     for solve in ENTRIES.values():
-        pressure, result = solve(grid(), gap, asked)
+        pressure, result = solve(grid(), gap, request)
         if result.status != status:
             return math.inf
         error = numpy.linalg.norm(pressure - pressure_expected) / numpy.linalg.norm(pressure_expected)
@@ -49,11 +49,11 @@ def worst_error(gap: Field, approach: float, expected: Field | None = None, stat
 
 
 def zero_load() -> Finding:
-    """Sum of all loads and pressures at load 0, and at the approach of first touch."""
+    """Sum of all loads and pressures at load 0, and at the approach of first contact."""
     gap = bowl()
     total = 0.0
     for solve in ENTRIES.values():
-        pressure, result = solve(grid(), gap, Asked(0.0, float(gap.min())))
+        pressure, result = solve(grid(), gap, SolveRequest(0.0, float(gap.min())))
         total += result.load + float(pressure.sum()) + (0.0 if result.status == CONVERGED else math.inf)
     return exactly(total, 0.0)
 
@@ -115,8 +115,8 @@ def at_each_edge() -> Finding:
     missed = 0
     for row, col in ((10, 0), (-10, 0), (0, 10), (0, -10)):
         gap = (x[:, None] - row * CELL) ** 2 + (x[None, :] - col * CELL) ** 2
-        asked = Asked(exact(gap, 0.004)[1], 0.004)
-        missed += sum(solve(grid(), gap, asked)[1].status != EDGE for solve in ENTRIES.values())
+        request = SolveRequest(exact(gap, 0.004)[1], 0.004)
+        missed += sum(solve(grid(), gap, request)[1].status != EDGE for solve in ENTRIES.values())
     return exactly(missed, 0)
 
 
@@ -127,8 +127,8 @@ def not_finite() -> Finding:
         gap = bowl()
         gap[23, 5] = bad
         for solve in ENTRIES.values():
-            taken += solve(grid(), gap, Asked(100.0, 0.004))[1].status != BAD_INPUT
-            taken += solve(grid(), bowl(), Asked(bad, bad))[1].status != BAD_INPUT
+            taken += solve(grid(), gap, SolveRequest(100.0, 0.004))[1].status != BAD_INPUT
+            taken += solve(grid(), bowl(), SolveRequest(bad, bad))[1].status != BAD_INPUT
     return exactly(taken, 0)
 
 
@@ -140,7 +140,7 @@ def verified() -> Finding:
     load = exact(gap, 0.005)[1]
     for tolerance in (1e-1, 1e-3, 1e-6):
         for solve in ENTRIES.values():
-            pressure, result = solve(grid(), gap, Asked(load, 0.005, tolerance))
+            pressure, result = solve(grid(), gap, SolveRequest(load, 0.005, tolerance))
             displacement = reference.displacement(dense(), pressure)
             clearance = displacement + gap - result.approach
             penetration = max(0.0, -float(clearance[pressure == 0.0].min(initial=0.0)))
@@ -152,8 +152,8 @@ def verified() -> Finding:
 def capped() -> Finding:
     """Ways in that call one iteration at 1e-13 converged."""
     gap = bowl() + 2e-3 * numpy.random.default_rng(5).standard_normal((SIDE, SIDE))
-    asked = Asked(exact(gap, 0.005)[1], 0.005, 1e-13, 1)
-    return exactly(sum(solve(grid(), gap, asked)[1].status != NOT_CONVERGED for solve in ENTRIES.values()), 0)
+    request = SolveRequest(exact(gap, 0.005)[1], 0.005, 1e-13, 1)
+    return exactly(sum(solve(grid(), gap, request)[1].status != NOT_CONVERGED for solve in ENTRIES.values()), 0)
 
 
 def incompressible() -> Finding:
@@ -162,7 +162,7 @@ def incompressible() -> Finding:
     modulus = 3e6 / (1.0 - 0.5**2)
     half_space, ratio, worst = make_half_space(SIDE, SIDE, CELL, CELL, modulus), modulus / MODULUS, 0.0
     for solve in ENTRIES.values():
-        pressure, result = solve(half_space, bowl(), Asked(ratio * load, 0.004, TOLERANCE))
+        pressure, result = solve(half_space, bowl(), SolveRequest(ratio * load, 0.004, TOLERANCE))
         error = numpy.linalg.norm(pressure / ratio - expected) / numpy.linalg.norm(expected)
         worst = max(worst, float(error) if result.status == CONVERGED else math.inf)
     return at_most(worst, 1e-8)
@@ -176,7 +176,7 @@ def quarter_of_the_box() -> Finding:
     gap = 0.5 * (x[:, None] ** 2 + x[None, :] ** 2)
     load, approach, worst = 4.0 / 3.0 * semi_axis**3, semi_axis**2, 0.0
     for name, solve in ENTRIES.items():
-        result = solve(half_space, gap, Asked(load, approach, 1e-8))[1]
+        result = solve(half_space, gap, SolveRequest(load, approach, 1e-8))[1]
         error = result.approach / approach - 1.0 if holds_load(name) else result.load / load - 1.0
         worst = max(worst, abs(error))
     return at_most(worst, 1e-3)
@@ -189,7 +189,7 @@ def loads_held() -> Finding:
     worst = 0.0
     for name in filter(holds_load, ENTRIES):
         for load in (1e-9, 1.0, 1e3, 1e6):
-            pressure = ENTRIES[name](grid(), bowl(), Asked(load, 1e-3, 1e-6))[0]
+            pressure = ENTRIES[name](grid(), bowl(), SolveRequest(load, 1e-3, 1e-6))[0]
             worst = max(worst, abs(float(pressure.sum()) * CELL**2 / load - 1.0))
     return at_most(worst, 1e-8)
 
@@ -199,11 +199,11 @@ def whole_cells() -> Finding:
     gap, worst = numpy.full((SIDE, SIDE), 1.0), 0.0
     rough = bowl() + 1e-3 * numpy.random.default_rng(8).standard_normal((SIDE, SIDE))
     gap[6:18, 6:18] = rough[6:18, 6:18]
-    asked = Asked(exact(gap, 0.002)[1], 0.002, TOLERANCE)
+    request = SolveRequest(exact(gap, 0.002)[1], 0.002, TOLERANCE)
     for solve in ENTRIES.values():
-        pressure = solve(grid(), gap, asked)[0]
+        pressure = solve(grid(), gap, request)[0]
         for move in ((4, -3), (-4, 2)):
-            moved = solve(grid(), numpy.roll(gap, move, (0, 1)), asked)[0]
+            moved = solve(grid(), numpy.roll(gap, move, (0, 1)), request)[0]
             difference = abs(moved - numpy.roll(pressure, move, (0, 1))).max() / pressure.max()
             worst = max(worst, float(difference))
     return at_most(worst, 1e-6)
@@ -214,7 +214,7 @@ WAYS = f"{len(ENTRIES)} ways in"
 CASES = tuple(
     HardCase(model, f"{case} ({WAYS})", functools.cache(find))
     for model, case, find in (
-        ("halfspace", "load 0 and first touch: loads and pressures", zero_load),
+        ("halfspace", "load 0 and first contact: loads and pressures", zero_load),
         ("halfspace", "perfectly flat, full contact: error against the dense solve", flat),
         ("halfspace", "wavy, full contact: error against the dense solve", full_contact),
         ("halfspace", "one cell: error against its closed form", one_cell),

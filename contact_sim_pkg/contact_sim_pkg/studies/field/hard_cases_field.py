@@ -90,11 +90,11 @@ def rough() -> Finding:
 def no_contact() -> Finding:
     """Load without contact and for load 0, with a field that is left from before."""
     left = numpy.full((SIDE, SIDE), 1e4)
-    apart = solve_at_approach(grid(), make_workspace(grid()), bowl(), -1e-6, 1e-8, 100, left)
+    separated = solve_at_approach(grid(), make_workspace(grid()), bowl(), -1e-6, 1e-8, 100, left)
     again = numpy.full((SIDE, SIDE), 1e4)
     zero = solve_at_load(grid(), make_workspace(grid()), bowl(), 0.0, 1e-8, 100, again)
-    codes = 0 if (apart.status, zero.status) == (CONVERGED, CONVERGED) else 1
-    return exactly(apart.load + zero.load + float(left.max() + again.max()) + codes, 0.0)
+    codes = 0 if (separated.status, zero.status) == (CONVERGED, CONVERGED) else 1
+    return exactly(separated.load + zero.load + float(left.max() + again.max()) + codes, 0.0)
 
 
 CASES = (

@@ -30,7 +30,7 @@ SLAP_ERROR = 1e-8  # [m]
 SLAP_TOLERANCES = tuple(10.0**-power for power in range(4, 12))
 TOLERANCES = tuple(10.0 ** (-0.25 * quarter) for quarter in range(16, 49))  # 1e-4 to 1e-12
 Modes = NDArray[numpy.int64]
-LOSSES = (0.05, 0.2, 0.5, 1.0, 3.0)
+DAMPINGS = (0.05, 0.2, 0.5, 1.0, 3.0)
 IMPACTS = 200  # in one compiled loop
 
 
@@ -47,8 +47,12 @@ def seat_slap() -> list[Measured]:
     # Error that a run has over the one it was requested to have
     shares = [impacts_of.slap_error(tolerance) / tolerance for tolerance in SLAP_TOLERANCES]
     note = "1e-4 to 1e-11, larger of position and speed over those of the motion"
-    found.append(Measured("seat slap, largest error over asked tolerance", max(shares), "times", most=10.0, note=note))
-    found.append(Measured("seat slap, least error over asked tolerance", min(shares), "times", least=0.1, note=note))
+    found.append(
+        Measured("seat slap, largest error over requested tolerance", max(shares), "times", most=10.0, note=note)
+    )
+    found.append(
+        Measured("seat slap, least error over requested tolerance", min(shares), "times", least=0.1, note=note)
+    )
     found += [_work_of(run) for run in own]
     # Peers at equal error
     for method in ("LSODA", "DOP853"):
@@ -92,29 +96,32 @@ def _many(
 
 
 def impacts() -> list[Measured]:
-    """Worst error of the restitution over five losses, and the median time of an impact, at the
+    """Worst error of the restitution over five damping numbers, and the median time of an impact, at the
     tolerance that is enough.
     """
     found = []
-    for asked, most in ((1e-6, 6.0), (1e-9, 25.0)):
+    for requested, most in ((1e-6, 6.0), (1e-9, 25.0)):
         for tolerance in TOLERANCES:
-            if all(max(impacts_of.phase_errors(loss, tolerance)) <= asked for loss in LOSSES):
+            if all(max(impacts_of.phase_errors(damping, tolerance)) <= requested for damping in DAMPINGS):
                 break
-        microseconds = statistics.median(_impact_time(loss, tolerance) for loss in LOSSES)
-        note = f"tolerance {tolerance:.1e}; worst of 5 losses and 20 approach phases"
-        found.append(Measured(f"impact, restitution to {asked:.0e}", microseconds, "µs", most=most, note=note))
+        microseconds = statistics.median(_impact_time(damping, tolerance) for damping in DAMPINGS)
+        note = f"tolerance {tolerance:.1e}; worst of 5 damping numbers and 20 approach phases"
+        found.append(Measured(f"impact, restitution to {requested:.0e}", microseconds, "µs", most=most, note=note))
     worst = impacts_of.tolerance_is_met().value
-    return [*found, Measured("impact, error over asked tolerance", worst, "times", most=10.0, note="1e-3 to 1e-11")]
+    return [*found, Measured("impact, error over requested tolerance", worst, "times", most=10.0, note="1e-3 to 1e-11")]
 
 
-def _impact_time(loss: float, tolerance: float) -> float:
+def _impact_time(damping: float, tolerance: float) -> float:
     """Microseconds of an impact."""
     speed, law = impacts_of.SPEED, impacts_of.LAW
-    rig = one_mass.free_impact(impacts_of.MASS, law, loss / speed)
-    depth = impact.deepest_approach(impacts_of.MASS, speed, law.coefficient, law.exponent, loss / speed)
+    rig = one_mass.free_impact(impacts_of.MASS, law, damping / speed)
+    depth = impact.deepest_approach(impacts_of.MASS, speed, law.coefficient, law.exponent, damping / speed)
     lasts = impact.elastic_impact(impacts_of.MASS, speed, law.coefficient, law.exponent)[0]
     gap = 0.001
-    times, scale = numpy.array([0.0, gap / speed + lasts * (3.0 + 3.0 * loss)]), numpy.array([depth, speed]) * tolerance
+    times, scale = (
+        numpy.array([0.0, gap / speed + lasts * (3.0 + 3.0 * damping)]),
+        numpy.array([depth, speed]) * tolerance,
+    )
     start: Vector = numpy.array([gap, -speed])
     out, work, mode = numpy.zeros((2, STATES)), make_workspace(STATES, EVENT_FUNCTIONS, one_mass.ORDER), empty_mode()
     return 1e6 * median_time(lambda: _many(rig, mode, start, scale, work, times, out, IMPACTS)) / IMPACTS
@@ -145,20 +152,20 @@ def stick_slip() -> list[Measured]:
     worst = hard_cases_friction.error_follows_the_tolerance().value
     return [
         Measured("stick-slip period: relative error", error, "", most=1e-9),
-        Measured("stick-slip, error over asked tolerance", worst, "times", most=10.0, note="1e-3 to 1e-11"),
+        Measured("stick-slip, error over requested tolerance", worst, "times", most=10.0, note="1e-3 to 1e-11"),
     ]
 
 
 def absent_effect() -> list[Measured]:
-    """The rig with the loss left out, beside the same rig written by hand without it: at most 2 %
+    """The rig with the dissipation left out, beside the same rig written by hand without it: at most 2 %
     or 1 ns a step.
     """
     with_effect, absent, by_hand = absent_effect_cost()
     allowed = max(2.0, 100.0 / by_hand)
     return [
         Measured("absent effect: extra time of a step", 100.0 * (absent / by_hand - 1.0), "%", most=allowed),
-        Measured("a step with the loss", with_effect, "ns"),
-        Measured("a step with the loss absent", absent, "ns"),
+        Measured("a step with the dissipation", with_effect, "ns"),
+        Measured("a step with the dissipation absent", absent, "ns"),
         Measured("a step of the rig by hand", by_hand, "ns"),
     ]
 

@@ -1,4 +1,4 @@
-"""Hard cases of foam: no indentation, tiny and crushing loads, and the energy of its loss."""
+"""Hard cases of foam: no indentation, tiny and crushing loads, and the energy that it dissipates."""
 
 from __future__ import annotations
 
@@ -47,8 +47,8 @@ def inverse() -> Finding:
     return at_most(max(abs(elastic_force(FOAM, approach_of_force(FOAM, load)) / load - 1.0) for load in loads), 1e-11)
 
 
-def loss_is_never_negative() -> Finding:
-    """Least rate of loss over the loading's power, over z and both directions: (F - F_el) x' less
+def dissipation_is_never_negative() -> Finding:
+    """Least rate of dissipation over the loading's power, over z and both directions: (F - F_el) x' less
     the rate of what is stored.
     """
     least = math.inf
@@ -80,9 +80,9 @@ def stays_within_one() -> Finding:
 
 CASES = (
     HardCase(MODEL, "x ≤ 0: largest force, slope, energy", without_indentation),
-    HardCase(MODEL, "first touch, 1e-15 m: against the linear start", first_touch),
+    HardCase(MODEL, "first contact, 1e-15 m: against the linear start", first_touch),
     HardCase(MODEL, "crushed to ten thicknesses: answers without sense", crushed),
     HardCase(MODEL, "approach of 1e-12 to 1e12 N: largest error", inverse),
-    HardCase(MODEL, "loss without rate is never negative: least share", loss_is_never_negative),
+    HardCase(MODEL, "dissipation without rate is never negative: least share", dissipation_is_never_negative),
     HardCase(MODEL, "memory stays within ±1: largest beyond", stays_within_one),
 )

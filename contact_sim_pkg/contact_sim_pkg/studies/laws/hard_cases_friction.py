@@ -67,9 +67,11 @@ def stick_slip_period(stiffness: float, damping: float, tolerance: float) -> flo
     """
     rig, case = stick_slip(stiffness, damping)
     period = period_of_rigid_law(case)
-    stuck = 5.0 * period  # the first slip comes after 0.4 s, the stick that starts 4 periods later holds this instant
+    sticking = (
+        5.0 * period
+    )  # the first slip comes after 0.4 s, the stick that starts 4 periods later holds this instant
     states = integrate(
-        rig, AT_REST_ON_BELT, scale_of(stiffness) * tolerance, numpy.array([0.0, stuck, stuck + period])
+        rig, AT_REST_ON_BELT, scale_of(stiffness) * tolerance, numpy.array([0.0, sticking, sticking + period])
     ).states
     return float(period - (states[2, 0] - states[1, 0]) / states[1, 1])
 
@@ -164,15 +166,15 @@ def slide_with_lift_off() -> tuple[Vector, Vector, float]:
     return samples[2], samples[0], abs(supplied - kinetic - potential - stored - dissipated) / dissipated
 
 
-def apart_without_friction() -> Finding:
+def separated_without_friction() -> Finding:
     """Largest friction force and spring deflection while the occupant is off the cushion (which
     happens).
     """
     forces, states, _residual = slide_with_lift_off()
-    apart = forces[:, entries.SEAT_APPROACH] < 0.0
-    if apart.sum() < 100:
-        return Finding(float(apart.sum()), "at least 100 samples apart", -math.inf)
-    held = numpy.abs(forces[apart, entries.SEAT_TANGENTIAL]).max() + numpy.abs(states[apart, 4]).max()
+    separated = forces[:, entries.SEAT_APPROACH] < 0.0
+    if separated.sum() < 100:
+        return Finding(float(separated.sum()), "at least 100 samples separated", -math.inf)
+    held = numpy.abs(forces[separated, entries.SEAT_TANGENTIAL]).max() + numpy.abs(states[separated, 4]).max()
     return exactly(float(held), 0.0)
 
 
@@ -193,11 +195,11 @@ def ledger_with_friction() -> Finding:
 CASES = (
     HardCase("stick-slip", "period of the spring-damper law [s]", period_of_the_spring_law),
     HardCase("stick-slip", "period, friction stiffness → ∞ [s]", period_of_the_rigid_law),
-    HardCase("stick-slip", "error over asked tolerance, 1e-3 to 1e-11", error_follows_the_tolerance),
+    HardCase("stick-slip", "error over requested tolerance, 1e-3 to 1e-11", error_follows_the_tolerance),
     HardCase("stick-slip", "no creep in stick at 80 % of the limit [m/s]", no_creep),
     HardCase("stick-slip", "2 m/s to rest: distance [m]", slide_to_rest),
     HardCase("stick-slip", "μs = μk, slip ends on the limit of stick: status", equal_ratios),
-    HardCase("stick-slip", "normal force jumps to 0: friction and deflection apart", apart_without_friction),
+    HardCase("stick-slip", "normal force jumps to 0: friction and deflection separated", separated_without_friction),
     HardCase("stick-slip", "μF → 0 while slipping: force beyond μs·N [N]", within_the_limit),
     HardCase("stick-slip", "energy ledger over dissipated, with lift-off", ledger_with_friction),
 )

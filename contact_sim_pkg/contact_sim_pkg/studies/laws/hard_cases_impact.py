@@ -24,18 +24,18 @@ SPEED = 0.5
 PHASES = 20
 
 
-def restitution_found(loss: float, tolerance: float, gap: float, law: NormalElastic = LAW) -> float:
-    """Ratio of the speeds after and before a free impact with `loss` d = damping v0, started `gap`
+def restitution_found(damping: float, tolerance: float, gap: float, law: NormalElastic = LAW) -> float:
+    """Ratio of the speeds after and before a free impact with `damping` d = damping times v0, started `gap`
     [m] above.
     """
-    rig = free_impact(MASS, law, loss / SPEED)
-    depth = impact.deepest_approach(MASS, SPEED, law.coefficient, law.exponent, loss / SPEED)
+    rig = free_impact(MASS, law, damping / SPEED)
+    depth = impact.deepest_approach(MASS, SPEED, law.coefficient, law.exponent, damping / SPEED)
     lasts = impact.elastic_impact(MASS, SPEED, law.coefficient, law.exponent)[0]
-    end = gap / SPEED + lasts * (3.0 + 3.0 * loss)
+    end = gap / SPEED + lasts * (3.0 + 3.0 * damping)
     return float(impact_speeds(rig, SPEED, depth, tolerance, gap, end).states[-1, 1] / SPEED)
 
 
-def asked_restitution() -> Finding:
+def requested_restitution() -> Finding:
     """Largest error of the delivered restitution over the requested 0.05 to 0.98."""
     ratios = (0.05, 0.1, 0.3, 0.5, 0.8, 0.98)
     errors = [abs(restitution_found(impact.damping_of_restitution(e, SPEED) * SPEED, 1e-11, 0.01) - e) for e in ratios]
@@ -49,14 +49,14 @@ def approach_phases() -> Finding:
     return at_most(max(phase_errors(0.5, 1e-6)), 3e-6)
 
 
-def phase_errors(loss: float, tolerance: float, law: NormalElastic = LAW) -> list[float]:
+def phase_errors(damping: float, tolerance: float, law: NormalElastic = LAW) -> list[float]:
     """Errors [1] of the coefficient of restitution, one for each phase of the first contact within
     a step.
 
-    loss: damping times impact speed [1]; tolerance: relative [1].
+    damping: damping times impact speed [1]; tolerance: relative [1].
     """
-    exact = impact.restitution(loss)
-    return [abs(restitution_found(loss, tolerance, 0.003 * (i + 0.37) / PHASES, law) - exact) for i in range(PHASES)]
+    exact = impact.restitution(damping)
+    return [abs(restitution_found(damping, tolerance, 0.003 * (i + 0.37) / PHASES, law) - exact) for i in range(PHASES)]
 
 
 def tolerance_is_met() -> Finding:
@@ -155,7 +155,7 @@ def seat_slap_position() -> Finding:
 
 
 def flight_over_fast_support() -> Finding:
-    """A long flight over a support at 200 Hz: the first touch is met, whatever the free flight
+    """A long flight over a support at 200 Hz: the first contact is met, whatever the free flight
     would allow as a step.
     """
     rig = PointContact(1.0, 9.81, 2.0e-3, 2.0 * math.pi * 200.0, NormalElastic(1.0e6, 1.5), NormalDissipative(0.1))
@@ -210,7 +210,7 @@ def thousand_bounces() -> Finding:
 
 
 def energy_never_rises() -> Finding:
-    """Largest rise of the energy between samples with loss, relative to the start: at most 10
+    """Largest rise of the energy between samples with dissipation, relative to the start: at most 10
     tolerances.
     """
     rig, start = _dropped()
@@ -238,9 +238,9 @@ def not_a_number() -> Finding:
 
 
 CASES = (
-    HardCase("impact", "restitution asked 0.05 to 0.98, delivered: largest error", asked_restitution),
+    HardCase("impact", "restitution requested 0.05 to 0.98, delivered: largest error", requested_restitution),
     HardCase("impact", "20 approach phases, no blind step: largest error of e", approach_phases),
-    HardCase("impact", "error over asked tolerance, 1e-3 to 1e-11", tolerance_is_met),
+    HardCase("impact", "error over requested tolerance, 1e-3 to 1e-11", tolerance_is_met),
     HardCase("impact", "slope of log error over log tolerance", order_of_error),
     HardCase("impact", "elastic, loosest tolerance, 20 phases: gain over 1", no_energy_without_source),
     HardCase("impact", "very stiff, ω·dt = 1e4: restitution", very_stiff),
@@ -251,7 +251,7 @@ CASES = (
     HardCase("contact and gravity", "drop: approach at rest [m]", comes_to_rest),
     HardCase("contact and gravity", "micro-bounces end: events after 20 s", micro_bounces_end),
     HardCase("contact and gravity", "1000 elastic bounces: drift of the energy", thousand_bounces),
-    HardCase("contact and gravity", "with loss the energy never rises: largest rise", energy_never_rises),
+    HardCase("contact and gravity", "with dissipation the energy never rises: largest rise", energy_never_rises),
     HardCase("integrator", "350 000 bounces in one interval: status", guard_on_events),
     HardCase("integrator", "NaN in the state: status", not_a_number),
 )

@@ -33,9 +33,9 @@ def smallest_indentation() -> Finding:
 
 
 def never_pulls() -> Finding:
-    """Smallest loss factor while the bodies part faster than the material recovers."""
-    loss = NormalDissipative(1.0)
-    return exactly(min(dissipation_factor(loss, -speed) for speed in (1.0, 1.0 + 1e-12, 2.0, 1e3, 1e300)), 0.0)
+    """Smallest dissipation factor while the bodies part faster than the material recovers."""
+    dissipative = NormalDissipative(1.0)
+    return exactly(min(dissipation_factor(dissipative, -speed) for speed in (1.0, 1.0 + 1e-12, 2.0, 1e3, 1e300)), 0.0)
 
 
 def low_restitution() -> Finding:
@@ -84,7 +84,7 @@ def grazing() -> Finding:
 CASES = (
     HardCase("any law", "x ≤ 0 gives no force, no slope, no energy", without_indentation),
     HardCase("any law", "smallest positive x: answers that are not finite or negative", smallest_indentation),
-    HardCase("Hunt-Crossley", "fast pull-out: smallest loss factor", never_pulls),
+    HardCase("Hunt-Crossley", "fast pull-out: smallest dissipation factor", never_pulls),
     HardCase("Hunt-Crossley", "e < 1/3: error of the damping", low_restitution),
     HardCase("Hunt-Crossley", "e up to 1 - 1e-6: error of the damping", high_restitution),
     HardCase("Hunt-Crossley", "e = 0.01, at the pole", lowest_restitution),

@@ -1,4 +1,4 @@
-"""Published formulas for the Hunt-Crossley loss that delivers a requested restitution: `d = damping
+"""Published formulas for the Hunt-Crossley damping that delivers a requested restitution: `d = damping
 v0` from e, each as printed.
 
 None is exact; what each really gives is in `bench accuracy seat`, part "restitution from B". The

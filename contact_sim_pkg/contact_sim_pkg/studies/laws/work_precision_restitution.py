@@ -1,9 +1,9 @@
-"""Work-precision study of the restitution: what a free impact gives back when the loss is set by
+"""Work-precision study of the restitution: what a free impact gives back when the dissipation is set by
 each formula for a requested restitution.
 
 Hunt-Crossley by five published formulas and by the exact relation; a linear spring and damper by
 the formula that lets the contact pull and by the one that does not; the viscoelastic sphere
-(Kuwabara and Kono) by Hunt-Crossley's loss at the depth of the elastic impact, and by the root of
+(Kuwabara and Kono) by Hunt-Crossley's dissipation at the depth of the elastic impact, and by the root of
 e(Z). Every value is a free impact integrated by the bench's own kernels.
 """
 
@@ -19,14 +19,14 @@ from contact_sim_pkg.laws.one_mass.runs import integrate
 from contact_sim_pkg.laws.parameters import GeneralDissipative, NormalDissipation, NormalElastic
 from contact_sim_pkg.laws.restitution import damping_of_restitution
 from contact_sim_pkg.laws.restitution_law import NEVER_PULLS, PULLS, kelvin_voigt_ratio, severity_of_restitution
-from contact_sim_pkg.records.work_precision import Row, Rung, WorkPrecision, milliseconds, relative, row
+from contact_sim_pkg.records.work_precision import FidelityLevel, Row, WorkPrecision, milliseconds, relative, row
 from contact_sim_pkg.reference import impact
 from contact_sim_pkg.studies.laws.restitution_formulas import FORMULAS
 
-__all__ = ["ASKED", "PART", "WORK_PRECISION", "delivered", "rows"]
+__all__ = ["PART", "REQUESTED", "WORK_PRECISION", "delivered", "rows"]
 
 PART = "restitution from B"
-ASKED = (0.05, 0.1, 0.3, 0.5, 0.7, 0.8, 0.9, 0.95, 0.98)
+REQUESTED = (0.05, 0.1, 0.3, 0.5, 0.7, 0.8, 0.9, 0.95, 0.98)
 QUANTITY = "restitution"
 REFERENCE = "the restitution that was requested; free impact integrated to 1e-12"
 MASS, SPEED = 20.0, 0.5  # [kg], [m/s]
@@ -37,53 +37,62 @@ Ways = dict[str, Callable[[float], GeneralDissipative]]
 
 
 def rows() -> list[Row]:
-    """Each law, each requested restitution, each way to its loss."""
+    """Each law, each requested restitution, each way to its dissipation."""
     found = []
     for law, elastic, ways in (
         ("Hunt-Crossley", SPHERE, _hunt_crossley()),
         ("spring and damper, no tension", SPRING, _spring_and_damper()),
         ("viscoelastic sphere", SPHERE, _sphere()),
     ):
-        for asked in ASKED:
-            for name, loss_of in ways.items():
-                rung = Rung(name, milliseconds(lambda loss_of=loss_of, asked=asked: loss_of(asked)))  # type: ignore[misc]
-                value = delivered(elastic, loss_of(asked))
-                error = relative(value, asked)
+        for requested in REQUESTED:
+            for name, law_of in ways.items():
+                level = FidelityLevel(name, milliseconds(lambda law_of=law_of, requested=requested: law_of(requested)))  # type: ignore[misc]
+                value = delivered(elastic, law_of(requested))
+                error = relative(value, requested)
                 found.append(
-                    row(PART, f"{law}, e = {asked:g}", QUANTITY, rung, REFERENCE, error, value=value, expected=asked)
+                    row(
+                        PART,
+                        f"{law}, e = {requested:g}",
+                        QUANTITY,
+                        level,
+                        REFERENCE,
+                        error,
+                        value=value,
+                        expected=requested,
+                    )
                 )
     return found
 
 
 def delivered(
-    elastic: NormalElastic, loss: NormalDissipation | None, mass: float = MASS, speed: float = SPEED
+    elastic: NormalElastic, dissipative: NormalDissipation | None, mass: float = MASS, speed: float = SPEED
 ) -> float:
     """Ratio [1] of the speeds after and before a free impact, integrated to 1e-12 of depth and
     speed; mass: [kg], speed: [m/s]."""
     depth = impact.elastic_impact(mass, speed, elastic.coefficient, elastic.exponent)[1]
-    rig = PointContact(mass, 0.0, 0.0, 0.0, elastic, loss)
+    rig = PointContact(mass, 0.0, 0.0, 0.0, elastic, dissipative)
     scale = numpy.array([depth, speed]) * TOLERANCE
     end = integrate(rig, numpy.array([0.0, -speed]), scale, numpy.array([0.0, 2000.0 * depth / speed])).states[-1]
     return float(end[1] / speed)
 
 
 def _hunt_crossley() -> Ways:
-    def loss(d: float) -> GeneralDissipative:
+    def dissipative(d: float) -> GeneralDissipative:
         return GeneralDissipative(SPHERE.coefficient * d / SPEED, SPHERE.exponent, 1.0, 0.0, NEVER_PULLS)
 
-    ways: Ways = {name: lambda e, of=of: loss(of(e)) for name, of in FORMULAS.items()}  # type: ignore[misc]
-    ways["exact relation"] = lambda e: loss(damping_of_restitution(e, 1.0))
+    ways: Ways = {name: lambda e, of=of: dissipative(of(e)) for name, of in FORMULAS.items()}  # type: ignore[misc]
+    ways["exact relation"] = lambda e: dissipative(damping_of_restitution(e, 1.0))
     return ways
 
 
 def _spring_and_damper() -> Ways:
-    def loss(ratio: float) -> GeneralDissipative:
+    def dissipative(ratio: float) -> GeneralDissipative:
         damper = 2.0 * ratio * math.sqrt(SPRING.coefficient * MASS)
         return GeneralDissipative(damper, 0.0, 1.0, 0.0, NEVER_PULLS)
 
     return {
-        "half a period, exp(-πζ/√(1-ζ²))": lambda e: loss(kelvin_voigt_ratio(e, PULLS)),
-        "closed form at F = 0": lambda e: loss(kelvin_voigt_ratio(e, NEVER_PULLS)),
+        "half a period, exp(-πζ/√(1-ζ²))": lambda e: dissipative(kelvin_voigt_ratio(e, PULLS)),
+        "closed form at F = 0": lambda e: dissipative(kelvin_voigt_ratio(e, NEVER_PULLS)),
     }
 
 
@@ -94,16 +103,16 @@ def _sphere() -> Ways:
     length = (MASS * SPEED**2 / SPHERE.coefficient) ** (1.0 / (SPHERE.exponent + 1.0))
     depth = impact.elastic_impact(MASS, SPEED, SPHERE.coefficient, SPHERE.exponent)[1]
 
-    def loss(coefficient: float) -> GeneralDissipative:
+    def dissipative(coefficient: float) -> GeneralDissipative:
         return GeneralDissipative(coefficient, 0.5, 1.0, 0.0, NEVER_PULLS)
 
     def exact(e: float) -> GeneralDissipative:
         severity_of_restitution.cache_clear()  # the time of a search, not of a look-up
         severity = severity_of_restitution(e, SPHERE.exponent, 0.5, 1.0, NEVER_PULLS)
-        return loss(severity * SPHERE.coefficient * length / SPEED)
+        return dissipative(severity * SPHERE.coefficient * length / SPEED)
 
     return {
-        "Hunt-Crossley's loss at the elastic depth": lambda e: loss(
+        "Hunt-Crossley's dissipation at the elastic depth": lambda e: dissipative(
             SPHERE.coefficient * damping_of_restitution(e, SPEED) * depth
         ),
         "root search of e(Z)": exact,

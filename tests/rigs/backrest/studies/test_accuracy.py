@@ -81,7 +81,7 @@ def test_friction_is_measured_where_the_scene_has_it():
 
 def test_more_modes_of_a_shell_come_nearer_to_the_most():
     rows = by_quantity(accuracy_cost_backrest.mode_rows("seat_slap", load_resolved("seat_slap", *SMALL_SHELL), quiet))
-    motion = {row["rung"]: row["error"] for row in rows["motion"]}
+    motion = {row["level"]: row["error"] for row in rows["motion"]}
     assert list(motion) == ["1 mode", "4 modes", "9 modes", "25 modes"]
     assert motion["1 mode"] > motion["9 modes"] > 1e3 * motion["25 modes"]
     assert accuracy_cost_backrest.mode_rows("seat_slap", load_resolved("seat_slap"), quiet) == []

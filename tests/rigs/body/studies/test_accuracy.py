@@ -14,7 +14,7 @@ def quiet(_line):
 
 
 def errors(rows, quantity):
-    return {row["rung"]: row["error"] for row in rows if row["quantity"] == quantity}
+    return {row["level"]: row["error"] for row in rows if row["quantity"] == quantity}
 
 
 @pytest.fixture(scope="module")

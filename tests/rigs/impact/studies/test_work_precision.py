@@ -1,4 +1,4 @@
-"""The ladders of the sphere's impact: published errors of the cheap rungs, dear rungs that meet the reference."""
+"""The ladders of the sphere's impact: published errors of the cheap levels, dear levels that meet the reference."""
 
 import pytest
 
@@ -22,15 +22,15 @@ def rows():
     return ladder_impact.rows()
 
 
-def value_of(rows, loss_tangent, quantity, rung, end="force", key="value"):
+def value_of(rows, loss_tangent, quantity, level, end="force", key="value"):
     case = f"tan β = {loss_tangent:g}, end {end}"
-    found = [row[key] for row in rows if (row["case"], row["quantity"], row["rung"]) == (case, quantity, rung)]
+    found = [row[key] for row in rows if (row["case"], row["quantity"], row["level"]) == (case, quantity, level)]
     return found[0] if found else None
 
 
-@pytest.mark.parametrize("rung", ["table", "integrated"])
-def test_the_dear_rungs_meet_the_reference_in_every_quantity(rows, rung):
-    chosen = [row for row in rows if row["rung"] == rung]
+@pytest.mark.parametrize("level", ["table", "integrated"])
+def test_the_dear_rungs_meet_the_reference_in_every_quantity(rows, level):
+    chosen = [row for row in rows if row["level"] == level]
     assert {row["quantity"] for row in chosen} == set(ladder_impact.QUANTITIES)
     assert max(row["error"] for row in chosen) < 1e-9
     assert len(chosen) >= 60
@@ -40,12 +40,12 @@ def test_the_dear_rungs_meet_the_reference_in_every_quantity(rows, rung):
     ("loss_tangent", "of_66", "printed", "corrected"), [(0.01, 0.9811, 0.9540, 0.9647), (0.2, 0.6793, 0.3509, 0.4672)]
 )
 def test_the_published_restitutions_of_the_cheap_rungs_come_out(rows, loss_tangent, of_66, printed, corrected):
-    for rung, expected in (
+    for level, expected in (
         ("closed forms, printed", of_66),
         ("equivalent constants, printed", printed),
         ("equivalent constants, corrected", corrected),
     ):
-        assert value_of(rows, loss_tangent, "restitution", rung) == pytest.approx(expected, abs=5.1e-5)
+        assert value_of(rows, loss_tangent, "restitution", level) == pytest.approx(expected, abs=5.1e-5)
 
 
 def test_a_form_without_an_answer_has_no_row(rows):
@@ -66,15 +66,15 @@ def test_the_corrected_constants_are_nearer_where_the_bodies_part_at_the_gap(row
 
 def test_the_material_comes_back_by_the_motion_and_twice_as_stiff_by_the_closed_form():
     found = ladder_impact_material.rows()
-    assert max(row["error"] for row in found if row["rung"] == "exact") < 1e-9
-    first = next(row for row in found if (row["rung"], row["quantity"]) == ("corrected", "E'"))
+    assert max(row["error"] for row in found if row["level"] == "exact") < 1e-9
+    first = next(row for row in found if (row["level"], row["quantity"]) == ("corrected", "E'"))
     assert first["value"] / first["expected"] == pytest.approx(2.2, abs=0.05)
 
 
 def test_the_front_s_formulas_come_nearer_for_slow_impacts():
     found = ladder_impact_material.front_rows()
-    assert max(row["error"] for row in found if row["rung"] == "integrated") < 1e-9
-    small = [row["error"] for row in found if row["rung"] == "small times"]
+    assert max(row["error"] for row in found if row["level"] == "integrated") < 1e-9
+    small = [row["error"] for row in found if row["level"] == "small times"]
     assert small == sorted(small)
     assert small[-1] < 2e-3
 

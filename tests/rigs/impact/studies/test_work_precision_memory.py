@@ -1,4 +1,4 @@
-"""Ladders of the sample's memory: dear rungs meet the reference, cheap ones are as wrong as their idea is."""
+"""Ladders of the sample's memory: dear levels meet the reference, cheap ones are as wrong as their idea is."""
 
 import pytest
 
@@ -16,7 +16,7 @@ def few_samples():
 
 
 def errors(rows, quantity, case):
-    return {row["rung"]: row["error"] for row in rows if row["quantity"] == quantity and case in row["case"]}
+    return {row["level"]: row["error"] for row in rows if row["quantity"] == quantity and case in row["case"]}
 
 
 def test_internal_variables_are_exact_on_the_same_samples_and_a_single_element_is_not_the_solid():

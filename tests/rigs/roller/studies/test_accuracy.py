@@ -32,12 +32,12 @@ def test_a_scene_has_the_parts_of_its_effects(name, tmp_path):
 
 
 def test_dearer_ways_err_less():
-    errors = {(row["part"], row["quantity"], row["rung"]): row["error"] for row in rows_of("roller_programme")}
+    errors = {(row["part"], row["quantity"], row["level"]): row["error"] for row in rows_of("roller_programme")}
     assert errors["ellipse", "peak pressure", "AGM and Newton"] < 1e-13
     assert 1e-6 < errors["ellipse", "peak pressure", "polynomial (eq 10)"] < 1e-3
-    angles = [error for (part, _quantity, _rung), error in errors.items() if part == "tilt and yaw"]
+    angles = [error for (part, _quantity, _level), error in errors.items() if part == "tilt and yaw"]
     assert angles[0] > angles[1] > angles[2] > angles[4]
     assert angles[-1] < 1e-8
     assert errors["heave", "heave over the track's range", "as it is run, order 4"] < 1e-6
-    jumps = [error for (part, _quantity, _rung), error in errors.items() if part == "time acceleration"]
+    jumps = [error for (part, _quantity, _level), error in errors.items() if part == "time acceleration"]
     assert 0.0 < jumps[0] < jumps[-1] < 0.05

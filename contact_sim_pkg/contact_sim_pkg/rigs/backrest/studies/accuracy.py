@@ -49,7 +49,7 @@ def tolerance_rows(_scene_name: str, scene: ResolvedScene, notify: Notify) -> li
     for tolerance in TOLERANCES:
         notify(f"integrator: tolerance {tolerance:.0e}")
         found, cost = _timed(drive, _scale(scene, drive, tolerance))
-        head = {"part": "integrator", "rung": "", "grid": "", "tolerance": tolerance, "ms_per_simulated_s": cost}
+        head = {"part": "integrator", "level": "", "grid": "", "tolerance": tolerance, "ms_per_simulated_s": cost}
         exact = own if twin is None else twin
         assert exact is not None
         errors = _errors(found, exact)
@@ -77,7 +77,7 @@ def mode_rows(_scene_name: str, scene: ResolvedScene, notify: Notify) -> list[Ro
         drive = drive_of(_with_modes(scene, count), SHELL_DURATION)
         found, cost = _timed(drive, drive.model.scale)
         rung = f"{count} mode{'s' if count > 1 else ''}"
-        head = {"part": "modes", "rung": rung, "grid": "", "tolerance": tolerance, "ms_per_simulated_s": cost}
+        head = {"part": "modes", "level": rung, "grid": "", "tolerance": tolerance, "ms_per_simulated_s": cost}
         rows += [_row(head, name, error, f"{most}, {OWN}") for name, error in _errors(found, exact).items()]
     return rows
 

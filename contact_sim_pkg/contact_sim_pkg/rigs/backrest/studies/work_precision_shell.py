@@ -4,13 +4,14 @@ single series and against 40 401 modes.
 
 from __future__ import annotations
 
+import functools
 import math
 from collections.abc import Callable
 
 import numpy
 from numpy.typing import NDArray
 
-from contact_sim_pkg.records.work_precision import Row, Rung, WorkPrecision, milliseconds, relative, row
+from contact_sim_pkg.records.work_precision import FidelityLevel, Row, WorkPrecision, milliseconds, relative, row
 from contact_sim_pkg.rigs.backrest.reference_shell import plate_centre_deflection
 from contact_sim_pkg.rigs.backrest.shell import MODE_COUNTS, ShallowShell, shell_modes, static_deflection
 
@@ -46,7 +47,8 @@ def rows() -> list[Row]:
     found: list[Row] = []
     for case, quantity, answer, expected, reference in questions:
         for count in MODE_COUNTS:
-            rung = Rung(f"{count} mode{'s' if count > 1 else ''}", milliseconds(lambda c=count, a=answer: a(c)))  # type: ignore[misc]
+            name = f"{count} mode{'s' if count > 1 else ''}"
+            rung = FidelityLevel(name, milliseconds(functools.partial(answer, count)))
             value = answer(count)
             error = relative(value, expected)
             found.append(row(PART, case, quantity, rung, reference, error, value=value, expected=expected))

@@ -95,7 +95,7 @@ def turn_rows(_scene_name: str, scene: ResolvedScene, notify: Notify) -> list[Ro
             continue
         cost = milliseconds(lambda tolerance=tolerance: tip(case, tolerance)) / case.duration  # type: ignore[misc]
         rows.append({
-            "quantity": "position", "part": TURN_PART, "rung": f"{tolerance:g}", "grid": "", "tolerance": tolerance,
+            "quantity": "position", "part": TURN_PART, "level": f"{tolerance:g}", "grid": "", "tolerance": tolerance,
             "error": error, "reference": REFERENCE, "ms_per_simulated_s": cost,
         })  # fmt: skip
     return rows
@@ -161,7 +161,7 @@ def _rows(
     apart = numpy.linalg.norm(found[0] - exact[0], axis=1) / (points.max() + model.body.radius)
     values = {"path": apart.max(), "end": apart[-1], "turn": _angle(found[1].T @ exact[1])}
     head = {
-        "part": part, "rung": rung, "grid": "", "tolerance": None, "reference": reference, "ms_per_simulated_s": cost
+        "part": part, "level": rung, "grid": "", "tolerance": None, "reference": reference, "ms_per_simulated_s": cost
     }  # fmt: skip
     return [{"quantity": quantity, "error": float(error), **head} for quantity, error in values.items()]
 

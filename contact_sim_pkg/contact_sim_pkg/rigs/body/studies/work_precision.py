@@ -14,7 +14,7 @@ from collections.abc import Callable
 import numpy
 
 from contact_sim_pkg.compiled.arrays import Vector
-from contact_sim_pkg.records.work_precision import Row, Rung, WorkPrecision, milliseconds, row
+from contact_sim_pkg.records.work_precision import FidelityLevel, Row, WorkPrecision, milliseconds, row
 from contact_sim_pkg.reference.rigid_contact import planar_velocity_by_enumeration
 from contact_sim_pkg.rigid.body import box, regular_block
 from contact_sim_pkg.rigid.contact.solver import GAUSS_SEIDEL, LEMKE, MODES, NEWTON
@@ -78,7 +78,7 @@ def solver_rows() -> list[Row]:
         for rung, kind, sweeps in rungs:
             ms = milliseconds_of_a_solve(case, kind, 0, sweeps)
             error = _velocity_error(case, solve(case, kind, 0, sweeps)[0], expected)
-            found.append(row(SOLVER_PART, name, "velocity", Rung(rung, ms), ENUMERATION, error))
+            found.append(row(SOLVER_PART, name, "velocity", FidelityLevel(rung, ms), ENUMERATION, error))
     return found
 
 
@@ -96,7 +96,9 @@ def cone_rows() -> list[Row]:
             worst = max(worst, _velocity_error(case, solve(case, NEWTON, facets)[0], (3.0 - friction) * slip))
         ms = milliseconds_of_a_solve(case, NEWTON, facets)
         name = f"{facets} facets" if facets else "true cone"
-        found.append(row(CONE_PART, "sliding point, worst direction", "velocity", Rung(name, ms), POINT_MASS, worst))
+        found.append(
+            row(CONE_PART, "sliding point, worst direction", "velocity", FidelityLevel(name, ms), POINT_MASS, worst)
+        )
     return found
 
 
@@ -112,7 +114,7 @@ def step_rows() -> list[Row]:
         for step in STEPS:
             ms = milliseconds(lambda run=run, step=step: run(step))  # type: ignore[misc]
             rung = "located" if step is None else f"stepping, {1e3 * step:g} ms"
-            found.append(row(STEP_PART, name, "position", Rung(rung, ms), CLOSED, run(step)))
+            found.append(row(STEP_PART, name, "position", FidelityLevel(rung, ms), CLOSED, run(step)))
     return found
 
 
@@ -139,7 +141,7 @@ def _by_tolerance(
     """A row for each tolerance; times of the whole run."""
     found = []
     for tolerance in TOLERANCES:
-        rung = Rung(f"located, {tolerance:g}", milliseconds(lambda at=tolerance: run(at)), tolerance=tolerance)  # type: ignore[misc]
+        rung = FidelityLevel(f"located, {tolerance:g}", milliseconds(lambda at=tolerance: run(at)), tolerance=tolerance)  # type: ignore[misc]
         found.append(row(TURN_PART, name, "position", rung, reference, error_of(tolerance)))
     return found
 

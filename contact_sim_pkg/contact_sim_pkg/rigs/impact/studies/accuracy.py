@@ -61,7 +61,7 @@ def way_rows(_scene_name: str, scene: ResolvedScene, notify: Callable[[str], Non
             answer = way()
         except ImpactError:
             continue
-        head: dict[str, Any] = {"part": "first impact", "rung": name, "grid": "", "tolerance": None, "reference": TWIN}
+        head: dict[str, Any] = {"part": "first impact", "level": name, "grid": "", "tolerance": None, "reference": TWIN}
         head["ms_per_simulated_s"] = _milliseconds(way) * rate
         rows += [
             {"quantity": quantity, "error": abs(value / true - 1.0), **head}

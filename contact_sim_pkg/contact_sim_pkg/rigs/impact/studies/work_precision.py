@@ -11,7 +11,7 @@ from __future__ import annotations
 import functools
 from collections.abc import Callable
 
-from contact_sim_pkg.records.work_precision import Row, Rung, WorkPrecision, milliseconds, relative, row
+from contact_sim_pkg.records.work_precision import FidelityLevel, Row, WorkPrecision, milliseconds, relative, row
 from contact_sim_pkg.rigs.impact.reference import goloshchapov
 from contact_sim_pkg.rigs.impact.theory.bodies import Material, Sphere
 from contact_sim_pkg.rigs.impact.theory.closed_form.force import elastic_coefficient, elastic_force
@@ -53,7 +53,7 @@ def rows() -> list[Row]:
                     answer = way(loss_tangent)
                 except ImpactError:
                     continue
-                rung = Rung(name, milliseconds(lambda way=way, loss_tangent=loss_tangent: way(loss_tangent)))  # type: ignore[misc]
+                rung = FidelityLevel(name, milliseconds(lambda way=way, loss_tangent=loss_tangent: way(loss_tangent)))  # type: ignore[misc]
                 found += [
                     row(PART, f"tan β = {loss_tangent:g}, end {end}", quantity, rung, REFERENCE, relative(value, true),
                         value=value, expected=true)

@@ -6,7 +6,7 @@ from __future__ import annotations
 
 import functools
 
-from contact_sim_pkg.records.work_precision import Row, Rung, WorkPrecision, milliseconds, relative, row
+from contact_sim_pkg.records.work_precision import FidelityLevel, Row, WorkPrecision, milliseconds, relative, row
 from contact_sim_pkg.rigs.impact.reference import goloshchapov
 from contact_sim_pkg.rigs.impact.studies.work_precision import MODULUS, SPEED, SPHERE, reference
 from contact_sim_pkg.rigs.impact.theory.bodies import Material
@@ -34,7 +34,7 @@ def rows() -> list[Row]:
         restitution, duration, _depth, _force = reference(loss_tangent, "force")
         for form in FORMS:
             read = functools.partial(material_of_impact, SPHERE, SPEED, duration, restitution, "force", form)
-            rung, material = Rung(form, milliseconds(read)), read()
+            rung, material = FidelityLevel(form, milliseconds(read)), read()
             for name, value, true in (
                 ("E'", material.storage_modulus, MODULUS),
                 ("tan β", material.loss_tangent, loss_tangent),
@@ -62,7 +62,7 @@ def front_rows() -> list[Row]:
                 value = way(impact)
             except (ImpactError, ArithmeticError):
                 continue
-            rung = Rung(name, milliseconds(functools.partial(way, impact)))
+            rung = FidelityLevel(name, milliseconds(functools.partial(way, impact)))
             error = relative(value, expected)
             found.append(
                 row(

@@ -19,7 +19,15 @@ import numpy
 from scipy.optimize import root
 
 from contact_sim_pkg.compiled.arrays import Vector
-from contact_sim_pkg.records.work_precision import Row, Rung, WorkPrecision, milliseconds, relative, row, timed_once
+from contact_sim_pkg.records.work_precision import (
+    FidelityLevel,
+    Row,
+    WorkPrecision,
+    milliseconds,
+    relative,
+    row,
+    timed_once,
+)
 from contact_sim_pkg.rigs.impact.reference import hereditary, shaken_contact
 from contact_sim_pkg.rigs.impact.studies.work_precision import MODULUS, SPEED, SPHERE
 from contact_sim_pkg.rigs.impact.theory.bodies import Material
@@ -60,7 +68,7 @@ def history_rows() -> list[Row]:
         }
         case = f"standard solid, retarded over instant compliance {1.0 / ratio:g}"
         for name, way in ways.items():
-            value, rung = way(), Rung(name, milliseconds(way))
+            value, rung = way(), FidelityLevel(name, milliseconds(way))
             error = relative(value, expected)
             found.append(
                 row(HISTORY_PART, case, QUANTITY, rung, HISTORY_REFERENCE, error, value=value, expected=expected)
@@ -68,7 +76,7 @@ def history_rows() -> list[Row]:
         call = functools.partial(hereditary.integral, functools.partial(creep.compliance, solid), times, force)
         spent = timed_once(call)[1]
         found.append(
-            row(HISTORY_PART, case, QUANTITY, Rung("quadrature", spent), HISTORY_REFERENCE, 0.0,
+            row(HISTORY_PART, case, QUANTITY, FidelityLevel("quadrature", spent), HISTORY_REFERENCE, 0.0,
                 value=expected, expected=expected)
         )  # fmt: skip
     return found
@@ -96,7 +104,7 @@ def response_rows() -> list[Row]:
         }
         for name, way in ways.items():
             depth, spent = timed_once(way)
-            rung = Rung(name, milliseconds(way) if spent < 50.0 else spent)
+            rung = FidelityLevel(name, milliseconds(way) if spent < 50.0 else spent)
             for quantity, value, true in zip(
                 ("half range of the depth", "phase"), _reading(depth), expected, strict=True
             ):

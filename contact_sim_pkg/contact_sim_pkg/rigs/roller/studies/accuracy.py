@@ -57,7 +57,7 @@ def rows(_scene_name: str, scene: ResolvedScene, notify: Callable[[str], None]) 
 
 def _row(quantity: str, rung: str, error: float, against: str, cost: float, grid: str = "") -> dict[str, Any]:
     return {
-        "quantity": quantity, "rung": rung, "grid": grid, "tolerance": None, "error": error, "reference": against,
+        "quantity": quantity, "level": rung, "grid": grid, "tolerance": None, "error": error, "reference": against,
         "ms_per_simulated_s": cost,
     }  # fmt: skip
 

@@ -14,7 +14,15 @@ import scipy.optimize
 from numpy.typing import NDArray
 
 from contact_sim_pkg.pressure.closed_form.hertz_stress import EllipseLoad, ellipse_stress
-from contact_sim_pkg.records.work_precision import Row, Rung, WorkPrecision, milliseconds, relative, row, timed_once
+from contact_sim_pkg.records.work_precision import (
+    FidelityLevel,
+    Row,
+    WorkPrecision,
+    milliseconds,
+    relative,
+    row,
+    timed_once,
+)
 from contact_sim_pkg.rigs.roller import reference
 from contact_sim_pkg.rigs.roller.studies.paper_bench import (
     BENDING_COMPLIANCE,
@@ -103,7 +111,7 @@ def stress_rows() -> list[Row]:
         for name, way in _stress_ways(load, points):
             value = way()
             error = float(abs(value - right[: len(value)]).max())
-            rung = Rung(name, milliseconds(way) / len(value))
+            rung = FidelityLevel(name, milliseconds(way) / len(value))
             found.append(row(STRESS_PART, f"z = {depth:g} b", "largest error over p0", rung, FORCES, error))
     return found
 
@@ -124,7 +132,7 @@ def volume_rows() -> list[Row]:
         ((32, 40, 16), INTERPOLATED, "depth between two middles"), ((64, 64, 48), INTERPOLATED, "depth between two middles"),
     ):  # fmt: skip
         value, cost = timed_once(lambda cells=cells, kind=kind: measure(cells, kind))  # type: ignore[misc]
-        rung = Rung(name, cost, "x".join(map(str, cells)))
+        rung = FidelityLevel(name, cost, "x".join(map(str, cells)))
         reference_name = f"count, {'x'.join(map(str, finest))} ({1e-3 * ms:.0f} s)"
         found.append(row(
             VOLUME_PART, f"{LOAD:g} N", "V_T", rung, reference_name, relative(value, right), value=value, expected=right,
@@ -167,11 +175,11 @@ def motion_rows() -> list[Row]:
         return state
 
     right = scipy.integrate.solve_ivp(slope, (0.0, span), start, method="DOP853", rtol=3e-14, atol=1e-15).y[:, -1]
-    ways = [(Rung("eigenvalues, linear", milliseconds(eigenmodes)), eigenmodes())]
+    ways = [(FidelityLevel("eigenvalues, linear", milliseconds(eigenmodes)), eigenmodes())]
     for stages, steps in ((1, 1000), (1, 10000), (2, 500), (2, 2000), (3, 500), (3, 2000)):
         name = ("implicit midpoint", "Gauss, order 4", "Gauss, order 6")[stages - 1]
         cost = milliseconds(lambda stages=stages, steps=steps: nonlinear(stages, steps))  # type: ignore[misc]
-        ways.append((Rung(name, cost, f"{steps} steps"), nonlinear(stages, steps)))
+        ways.append((FidelityLevel(name, cost, f"{steps} steps"), nonlinear(stages, steps)))
     return [
         row(MOTION_PART, "0.05 rad, 0.1 s", "angles", rung, "scipy DOP853 at 3e-14",
             float(abs(value[:2] - right[:2]).max() / 0.05))
@@ -207,7 +215,7 @@ def split_rows() -> list[Row]:
                 SPLIT_PART,
                 f"{LOAD:g} N",
                 "contact load",
-                Rung(name, cost),
+                FidelityLevel(name, cost),
                 reference_name,
                 error,
                 value=value,
@@ -240,7 +248,7 @@ def wave_rows() -> list[Row]:
             )
         )
         value = math.log(abs(numpy.fft.rfft(heights)[2]) / first) / (count * turns)
-        rung = Rung(f"{turns} turns an interval", cost / 320.0, f"{cells} cells")
+        rung = FidelityLevel(f"{turns} turns an interval", cost / 320.0, f"{cells} cells")
         found.append(row(
             WAVE_PART, "two waves", "growth a turn", rung, "linear theory", relative(value, right), value=value, expected=right,
         ))  # fmt: skip

@@ -9,7 +9,7 @@ import math
 import numpy
 from numpy.typing import NDArray
 
-from contact_sim_pkg.records.work_precision import Row, Rung, WorkPrecision, row, timed_once
+from contact_sim_pkg.records.work_precision import FidelityLevel, Row, WorkPrecision, row, timed_once
 from contact_sim_pkg.rigs.roller.studies.paper_bench import (
     BENDING_COMPLIANCE,
     CURVATURES,
@@ -72,7 +72,7 @@ def rows() -> list[Row]:
         reference = f"every turn ridden, {cost * RATE / TURNS:.3g} ms a second of the rig"
         for jump in JUMPS:
             value, cost = timed_once(lambda run=run, jump=jump: run(jump))  # type: ignore[misc]
-            rung = Rung(f"a turn stands for {jump}", cost * RATE / TURNS, f"{CELLS} cells")
+            rung = FidelityLevel(f"a turn stands for {jump}", cost * RATE / TURNS, f"{CELLS} cells")
             error = float(numpy.linalg.norm(value - right)) / change
             found.append(row(PART, case, f"change over {TURNS} turns", rung, reference, error))
     return found

@@ -53,7 +53,7 @@ SEAT_EFFECTS = (
         needs=("normal_elastic",), excludes=("contact_field",), feeds=("force", "wrench"), called_for=_LAW,
     ),
     Effect(
-        name="general_dissipative", section=f"{_LAWS}:GeneralLoss", help="loss by the general law",
+        name="general_dissipative", section=f"{_LAWS}:GeneralDissipation", help="loss by the general law",
         needs=("normal_elastic",), excludes=("normal_dissipative",), feeds=("force", "wrench", "patch"),
         called_for=needed_where_it_opens("seat"),
     ),

@@ -52,7 +52,7 @@ def coupling_rows(scene_name: str, scene: ResolvedScene, notify: Callable[[str],
             }
             rows += [
                 {
-                    "quantity": f"{contact} force{kind}", "part": PART, "rung": "", "grid": f"{field['rows']}x{field['cols']}",
+                    "quantity": f"{contact} force{kind}", "part": PART, "level": "", "grid": f"{field['rows']}x{field['cols']}",
                     "tolerance": tolerance, "error": error, "reference": f"own code, tolerance {FINEST:.0e}",
                     "ms_per_simulated_s": cost,
                 }

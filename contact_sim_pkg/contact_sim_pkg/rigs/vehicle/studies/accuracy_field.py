@@ -110,7 +110,7 @@ def _rungs(scene: ResolvedScene, contact: str, notify: Callable[[str], None]) ->
         found = _solve(_problem(scene, contact, cells, grid.tolerance))
         converged = _solve(_problem(scene, contact, cells, CONVERGED_TOLERANCE))
         shared = {
-            "rung": level.name, "grid": f"{cells[0]}x{cells[1]}", "tolerance": grid.tolerance,
+            "level": level.name, "grid": f"{cells[0]}x{cells[1]}", "tolerance": grid.tolerance,
             "ms_per_simulated_s": 1e3 * found.seconds * rate,
         }  # fmt: skip
         for name, error in _errors(found, converged).items():
@@ -142,7 +142,7 @@ def _independent(scene: ResolvedScene, contact: str, notify: Callable[[str], Non
             walls.append(time.perf_counter() - began)
         error = float(numpy.linalg.norm(field.pressure - exact) / numpy.linalg.norm(exact))
         rows.append({
-            "quantity": f"{contact} pressure (L2), cold", "part": "field solver", "rung": "check",
+            "quantity": f"{contact} pressure (L2), cold", "part": "field solver", "level": "check",
             "grid": f"{cells[0]}x{cells[1]}", "tolerance": tolerance, "error": error, "reference": DENSE,
             "ms_per_simulated_s": 1e3 * statistics.median(walls) * rate,
         })  # fmt: skip

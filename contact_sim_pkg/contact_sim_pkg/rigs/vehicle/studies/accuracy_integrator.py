@@ -70,7 +70,7 @@ def _row(
     quantity: str, part: str, grid: str, tolerance: float, error: float, reference: str, cost: float
 ) -> dict[str, Any]:
     return {
-        "quantity": quantity, "part": part, "rung": "", "grid": grid, "tolerance": tolerance, "error": error,
+        "quantity": quantity, "part": part, "level": "", "grid": grid, "tolerance": tolerance, "error": error,
         "reference": reference, "ms_per_simulated_s": cost,
     }  # fmt: skip
 

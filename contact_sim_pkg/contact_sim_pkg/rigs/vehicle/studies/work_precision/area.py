@@ -4,6 +4,7 @@ between them; smooth and rough.
 
 from __future__ import annotations
 
+import functools
 import math
 from collections.abc import Callable
 
@@ -14,7 +15,7 @@ from contact_sim_pkg.pressure.closed_form.hertz import hertz_contact
 from contact_sim_pkg.pressure.closed_form.lame import fit_patch, lame_area
 from contact_sim_pkg.pressure.field.halfspace import HalfSpace
 from contact_sim_pkg.pressure.field.patch import contact_area, summarise
-from contact_sim_pkg.records.work_precision import Row, Rung, WorkPrecision, milliseconds, relative, row
+from contact_sim_pkg.records.work_precision import FidelityLevel, Row, WorkPrecision, milliseconds, relative, row
 from contact_sim_pkg.rigs.vehicle.studies.work_precision.fields import AREA, GIVEN, solve
 from contact_sim_pkg.rigs.vehicle.studies.work_precision.patch_problem import CURVATURES, LOAD, MODULUS, patch_problem
 from contact_sim_pkg.rigs.vehicle.studies.work_precision.rough import OWN, SEED, finest
@@ -35,7 +36,7 @@ def rows() -> list[Row]:
     rough = ("rough road", SEED, finest().area, f"{OWN}, edge between cells")
     for case, seed, expected, reference in (smooth, rough):
         arguments = (*CURVATURES, MODULUS, LOAD)
-        rung = Rung("Hertz πab, smooth road", milliseconds(lambda arguments=arguments: hertz_contact(*arguments)))  # type: ignore[misc]
+        rung = FidelityLevel("Hertz πab, smooth road", milliseconds(functools.partial(hertz_contact, *arguments)))
         contact = hertz_contact(*arguments)
         found.append(_row(case, rung, reference, math.pi * contact.a * contact.b, expected))
         for level in LEVELS:
@@ -44,7 +45,9 @@ def rows() -> list[Row]:
             assert pressure is not None
             for name, measure in measures(problem.half_space, pressure).items():
                 grid = "{}x{}".format(*level.cells)
-                found.append(_row(case, Rung(name, milliseconds(measure), grid), reference, measure(), expected))
+                found.append(
+                    _row(case, FidelityLevel(name, milliseconds(measure), grid), reference, measure(), expected)
+                )
     return found
 
 
@@ -63,7 +66,7 @@ def measures(half_space: HalfSpace, pressure: Field) -> dict[str, Callable[[], f
     }
 
 
-def _row(case: str, rung: Rung, reference: str, value: float, expected: float) -> Row:
+def _row(case: str, rung: FidelityLevel, reference: str, value: float, expected: float) -> Row:
     error = relative(value, expected)
     return row(PART, case, AREA, rung, reference, error, value=float(value), expected=expected)
 

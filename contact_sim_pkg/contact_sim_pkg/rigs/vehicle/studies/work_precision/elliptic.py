@@ -14,7 +14,7 @@ from contact_sim_pkg.pressure.closed_form.hertz_fits import (
     contacts_at_load,
     make_shape_table,
 )
-from contact_sim_pkg.records.work_precision import Row, Rung, WorkPrecision, milliseconds, relative, row
+from contact_sim_pkg.records.work_precision import FidelityLevel, Row, WorkPrecision, milliseconds, relative, row
 from contact_sim_pkg.reference import hertz as reference
 from contact_sim_pkg.rigs.vehicle.studies.work_precision.patch_problem import CURVATURES, LOAD, MODULUS
 
@@ -44,7 +44,7 @@ def rows() -> list[Row]:
         out = numpy.empty((MANY, 4))
         for name, kind in RUNGS:
             arguments = (kind, table, curvature_a, curvature_b, MODULUS, LOAD, out)
-            rung = Rung(name, milliseconds(lambda arguments=arguments: contacts_at_load(*arguments)) / MANY)  # type: ignore[misc]
+            rung = FidelityLevel(name, milliseconds(lambda arguments=arguments: contacts_at_load(*arguments)) / MANY)  # type: ignore[misc]
             for quantity, value, right in zip(QUANTITIES, out[0].tolist(), expected, strict=True):
                 error = relative(value, right)
                 found.append(row(PART, case, quantity, rung, REFERENCE, error, value=value, expected=right))

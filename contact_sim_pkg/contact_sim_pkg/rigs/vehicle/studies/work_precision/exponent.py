@@ -18,7 +18,7 @@ from contact_sim_pkg.pressure.closed_form.lame_pressure import (
     lame_pressure,
 )
 from contact_sim_pkg.pressure.field.halfspace import make_half_space
-from contact_sim_pkg.records.work_precision import Row, Rung, WorkPrecision, milliseconds, relative, row
+from contact_sim_pkg.records.work_precision import FidelityLevel, Row, WorkPrecision, milliseconds, relative, row
 from contact_sim_pkg.rigs.vehicle.studies.work_precision.fields import (
     CONVERGED,
     GIVEN,
@@ -89,7 +89,7 @@ def _closed_forms(case: str, fit: LameFit, exact: Answer) -> list[Row]:
     found: list[Row] = []
     domain = (fit.a, fit.b, fit.exponent, 1.0, 1.0)
     for name, form in (("Lamé ansatz", ansatz_on_domain), ("equivalent ellipse", equivalent_ellipse)):
-        rung = Rung(name, milliseconds(lambda form=form, domain=domain: form(*domain)))  # type: ignore[misc]
+        rung = FidelityLevel(name, milliseconds(lambda form=form, domain=domain: form(*domain)))  # type: ignore[misc]
         contact = form(*domain)
         found += rows_of(PART, case, rung, REFERENCE, _answer(contact), exact)
         found.append(_centre(case, rung, contact.peak_pressure, centre_of(exact)))
@@ -104,7 +104,7 @@ def _answer(contact: LamePressure) -> Answer:
     return Answer(contact.load, contact.approach, contact.peak_pressure, area, pressure)
 
 
-def _centre(case: str, rung: Rung, value: float, expected: float) -> Row:
+def _centre(case: str, rung: FidelityLevel, value: float, expected: float) -> Row:
     return row(PART, case, CENTRE, rung, REFERENCE, relative(value, expected), value=value, expected=expected)
 
 

@@ -14,7 +14,7 @@ from contact_sim_pkg.pressure.field.patch import contact_area
 from contact_sim_pkg.pressure.field.rolling import RollingField
 from contact_sim_pkg.pressure.field.solver import CONVERGED as CERTIFIED
 from contact_sim_pkg.pressure.field.solver import SENTENCES
-from contact_sim_pkg.records.work_precision import Row, Rung, milliseconds, relative, row
+from contact_sim_pkg.records.work_precision import FidelityLevel, Row, milliseconds, relative, row
 from contact_sim_pkg.rigs.vehicle.studies.work_precision.patch_problem import Cells, PatchProblem, means_over
 
 __all__ = [
@@ -100,12 +100,12 @@ def solve(problem: PatchProblem, given: str, value: float, tolerance: float) -> 
     return PatchSolver(problem).solve(given, value, tolerance)
 
 
-def timed(rung: FieldRung, problem: PatchProblem, given: str, value: float) -> tuple[Rung, Answer]:
+def timed(rung: FieldRung, problem: PatchProblem, given: str, value: float) -> tuple[FidelityLevel, Answer]:
     """Answer of a fidelity level and its cold time in ms; `value`: approach [m] or load [N]."""
     solver = PatchSolver(problem)
     grid = "{}x{}".format(*rung.cells)
     cost = milliseconds(lambda: solver.solve(given, value, rung.tolerance))
-    return Rung(rung.name, cost, grid, rung.tolerance), solver.solve(given, value, rung.tolerance)
+    return FidelityLevel(rung.name, cost, grid, rung.tolerance), solver.solve(given, value, rung.tolerance)
 
 
 def distances(found: Answer, exact: Answer) -> dict[str, float]:
@@ -124,7 +124,13 @@ def distances(found: Answer, exact: Answer) -> dict[str, float]:
 
 
 def rows_of(
-    part: str, case: str, rung: Rung, reference: str, found: Answer, exact: Answer, converged: Answer | None = None
+    part: str,
+    case: str,
+    rung: FidelityLevel,
+    reference: str,
+    found: Answer,
+    exact: Answer,
+    converged: Answer | None = None,
 ) -> list[Row]:
     """Rows of all quantities; `converged`: the same grid to 1e-10, which divides the error into
     solver's and grid's.
@@ -151,7 +157,7 @@ def errors_of(found: Answer, exact: Answer, converged: Answer | None = None) -> 
     return Errors(distances(found, exact), distances(found, converged), distances(converged, exact))
 
 
-def rows_of_errors(part: str, case: str, rung: Rung, reference: str, errors: list[Errors]) -> list[Row]:
+def rows_of_errors(part: str, case: str, rung: FidelityLevel, reference: str, errors: list[Errors]) -> list[Row]:
     """Rows of all quantities with the worst of several errors."""
 
     def worst(quantity: str, which: int) -> float | None:

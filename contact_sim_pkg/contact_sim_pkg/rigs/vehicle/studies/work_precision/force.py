@@ -17,7 +17,7 @@ from typing import NamedTuple
 
 from contact_sim_pkg.laws.normal_elastic import approach_of_force, elastic_force, elastic_stiffness
 from contact_sim_pkg.laws.parameters import NormalElastic
-from contact_sim_pkg.records.work_precision import Row, Rung, WorkPrecision, milliseconds, relative, row
+from contact_sim_pkg.records.work_precision import FidelityLevel, Row, WorkPrecision, milliseconds, relative, row
 from contact_sim_pkg.rigs.vehicle.contact_field import TANGENT_LOAD_STEP
 from contact_sim_pkg.rigs.vehicle.studies.work_precision.fields import APPROACH, FORCE, GIVEN, FieldRung, PatchSolver
 from contact_sim_pkg.rigs.vehicle.studies.work_precision.patch_problem import LOAD, patch_problem
@@ -36,7 +36,7 @@ FINE = "own code, grid 512x384 to 1e-6"
 class TangentLaw(NamedTuple):
     """Force and approach of a rung."""
 
-    rung: Rung
+    rung: FidelityLevel
     force: Callable[[float], float]  # [m] -> [N]
     approach: Callable[[float], float]  # [N] -> [m]
 
@@ -70,12 +70,12 @@ def laws_through(seed: int | None) -> list[TangentLaw]:
     offset = first - LOAD / spring.coefficient
     return [
         TangentLaw(
-            Rung("linear spring", milliseconds(lambda: elastic_force(spring, first - offset))),
+            FidelityLevel("linear spring", milliseconds(lambda: elastic_force(spring, first - offset))),
             lambda approach: float(elastic_force(spring, approach - offset)),
             lambda load: offset + float(approach_of_force(spring, load)),
         ),
         TangentLaw(
-            Rung("power law", milliseconds(lambda: elastic_force(power, first))),
+            FidelityLevel("power law", milliseconds(lambda: elastic_force(power, first))),
             lambda approach: float(elastic_force(power, approach)),
             lambda load: float(approach_of_force(power, load)),
         ),
@@ -87,7 +87,7 @@ def _field_law(level: FieldRung, seed: int | None) -> TangentLaw:
     standing = solver.solve(GIVEN[0], LOAD, tolerance).approach
     cost = milliseconds(lambda: solver.solve(GIVEN[1], standing, tolerance))
     return TangentLaw(
-        Rung(level.name, cost, "{}x{}".format(*level.cells), tolerance),
+        FidelityLevel(level.name, cost, "{}x{}".format(*level.cells), tolerance),
         lambda approach: solver.solve(GIVEN[1], approach, tolerance).force,
         lambda load: solver.solve(GIVEN[0], load, tolerance).approach,
     )

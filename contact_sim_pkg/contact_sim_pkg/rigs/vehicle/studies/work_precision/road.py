@@ -16,7 +16,7 @@ import numpy
 from numpy.typing import NDArray
 
 from contact_sim_pkg.excitation.iso8608 import Iso8608Road, band_variance, roughness_of_class
-from contact_sim_pkg.records.work_precision import Row, Rung, WorkPrecision, milliseconds, relative, row
+from contact_sim_pkg.records.work_precision import FidelityLevel, Row, WorkPrecision, milliseconds, relative, row
 
 __all__ = ["PART", "WORK_PRECISION", "SineRoad", "rows", "third_octaves"]
 
@@ -92,7 +92,7 @@ def rows() -> list[Row]:
     found: list[Row] = []
     for name, road in roads.items():
         power = numpy.array([road.power(*edges[i : i + 2]) for i in range(len(edges) - 1)])
-        rung = Rung(name, milliseconds(lambda road=road: road.heights(x)))  # type: ignore[misc]
+        rung = FidelityLevel(name, milliseconds(lambda road=road: road.heights(x)))  # type: ignore[misc]
         total, right = float(road.power(0.0, math.inf)), float(expected.sum())
         share = power / expected - 1.0
         head = (PART, "class C")

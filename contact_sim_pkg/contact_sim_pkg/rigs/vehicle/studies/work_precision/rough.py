@@ -9,7 +9,7 @@ import functools
 import numpy
 
 from contact_sim_pkg.pressure.field.winkler import bed_stiffness, winkler_at_approach, winkler_at_load
-from contact_sim_pkg.records.work_precision import Row, Rung, WorkPrecision, milliseconds
+from contact_sim_pkg.records.work_precision import FidelityLevel, Row, WorkPrecision, milliseconds
 from contact_sim_pkg.reference.halfspace import dense_influence, pressure_at_approach
 from contact_sim_pkg.rigs.vehicle.studies.work_precision.fields import (
     CONVERGED,
@@ -145,7 +145,7 @@ def _winkler(given: str) -> list[Row]:
         cell = half_space.cell_x * half_space.cell_y
         found = found._replace(area=float(numpy.count_nonzero(pressure)) * cell)  # its edge is no root
         errors.append(errors_of(found, finest(seed)))
-    rung = Rung("Winkler bed", milliseconds(lambda: solve_given(*arguments)), "{}x{}".format(*FIELD_CELLS))
+    rung = FidelityLevel("Winkler bed", milliseconds(lambda: solve_given(*arguments)), "{}x{}".format(*FIELD_CELLS))
     return rows_of_errors(PART, f"{given}{WORST}", rung, OWN, errors)
 
 

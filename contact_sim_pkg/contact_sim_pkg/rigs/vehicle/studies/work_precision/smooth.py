@@ -18,7 +18,7 @@ from contact_sim_pkg.pressure.closed_form.lame_pressure import (
     equivalent_ellipse,
     lame_pressure,
 )
-from contact_sim_pkg.records.work_precision import Row, Rung, WorkPrecision, milliseconds
+from contact_sim_pkg.records.work_precision import FidelityLevel, Row, WorkPrecision, milliseconds
 from contact_sim_pkg.reference import hertz as reference
 from contact_sim_pkg.rigs.vehicle.studies.work_precision.fields import GIVEN, Answer, FieldRung, rows_of, solve, timed
 from contact_sim_pkg.rigs.vehicle.studies.work_precision.patch_problem import (
@@ -87,17 +87,19 @@ def _along_axes(a: float, b: float) -> tuple[float, float]:
 def _closed_forms(given: str, value: float, exact: Answer) -> list[Row]:
     hertz = hertz_contact if given == GIVEN[0] else hertz_contact_at_approach
     arguments = (*CURVATURES, MODULUS, value)
-    rung = Rung("Hertz ellipse", milliseconds(lambda: hertz(*arguments)))
+    rung = FidelityLevel("Hertz ellipse", milliseconds(lambda: hertz(*arguments)))
     found = rows_of(PART, given, rung, REFERENCE, _of_hertz(hertz(*arguments)), exact)
     if given != GIVEN[0]:
         return found  # the domain of an ansatz is known for a load only
-    rung = Rung("Lamé ansatz of A, B, n", milliseconds(lambda: ansatz_of_curvatures(*CURVATURES, 2.0, MODULUS, LOAD)))
+    rung = FidelityLevel(
+        "Lamé ansatz of A, B, n", milliseconds(lambda: ansatz_of_curvatures(*CURVATURES, 2.0, MODULUS, LOAD))
+    )
     answer = _of_lame(ansatz_of_curvatures(*CURVATURES, 2.0, MODULUS, LOAD))
     found += rows_of(PART, given, rung, REFERENCE, answer, exact)
     fit = _fitted()
     for name, form in (("Lamé ansatz, domain fitted", ansatz_on_domain), ("equivalent ellipse", equivalent_ellipse)):
         domain = (fit.a, fit.b, fit.exponent, MODULUS, LOAD)
-        rung = Rung(name, milliseconds(lambda form=form, domain=domain: form(*domain)))  # type: ignore[misc]
+        rung = FidelityLevel(name, milliseconds(lambda form=form, domain=domain: form(*domain)))  # type: ignore[misc]
         found += rows_of(PART, given, rung, REFERENCE, _of_lame(form(*domain)), exact)
     return found
 
