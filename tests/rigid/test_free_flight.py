@@ -14,7 +14,7 @@ from contact_sim_pkg.laws.one_mass.parameters import PointContact
 from contact_sim_pkg.laws.one_mass.point_contact import free_flight
 from contact_sim_pkg.laws.parameters import NormalElastic
 
-APART = numpy.array([-1.0, 1.0])
+SEPARATED = numpy.array([-1.0, 1.0])
 END = 1.0
 
 
@@ -28,7 +28,7 @@ def _drive():
 
 def _fly(rig, height, velocity):
     state = numpy.array([height, velocity])
-    reached, event = free_flight(rig, _drive(), numpy.zeros(1, dtype=numpy.int64), 0.0, END, state, APART)
+    reached, event = free_flight(rig, _drive(), numpy.zeros(1, dtype=numpy.int64), 0.0, END, state, SEPARATED)
     return reached, event, state
 
 
@@ -76,12 +76,12 @@ def test_a_mass_that_has_just_left_flies_and_is_not_taken_for_one_that_touches()
 
 def test_a_mass_in_contact_does_not_fly():
     state = numpy.array([-0.01, 0.0])
-    found = free_flight(_rig(9.81, 0.0, 0.0), _drive(), numpy.zeros(1, dtype=numpy.int64), 0.0, END, state, -APART)
+    found = free_flight(_rig(9.81, 0.0, 0.0), _drive(), numpy.zeros(1, dtype=numpy.int64), 0.0, END, state, -SEPARATED)
     assert found == (0.0, -1)
 
 
 def test_a_rig_without_a_closed_form_does_not_fly():
-    assert flight_of_any((1.0,), _drive(), None, 0.25, END, numpy.zeros(2), APART) == (0.25, -1)
+    assert flight_of_any((1.0,), _drive(), None, 0.25, END, numpy.zeros(2), SEPARATED) == (0.25, -1)
 
 
 def test_a_state_that_is_no_number_does_not_fly():

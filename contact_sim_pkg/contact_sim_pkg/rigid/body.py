@@ -31,7 +31,7 @@ from contact_sim_pkg.rigid.geometry.profile import (
 )
 from contact_sim_pkg.rigid.problem import PLANE, SPACE
 
-LEAST_PULL = 0.1  # [m/s^2]
+LEAST_ACCELERATION = 0.1  # [m/s^2]
 
 
 class RigidBody(NamedTuple):
@@ -44,7 +44,8 @@ class RigidBody(NamedTuple):
     radius: float  # of the sphere about each point, in [m]
     friction: float
     restitution: float
-    load: Vector  # [coordinates], gravity times mass and any known force and torque, in world axes, in [N], [N m]
+    # [coordinates], gravity times mass and any known force and torque, in world axes, in [N], [N m]
+    load: Vector
 
 
 class Ground(NamedTuple):
@@ -65,7 +66,9 @@ class Motion(NamedTuple):
 
 
 def regular_block(side: float, mass: float, friction: float, restitution: float, gravity: float = 9.81) -> RigidBody:
-    """The square block of Identifiability: four corners, inertia ``m s^2/6``."""
+    """The square block of Identifiability: four corners at ``side`` [m], inertia ``m s^2/6`` of
+    ``mass`` [kg]; ``gravity`` [m/s^2].
+    """
     half = 0.5 * side
     corners = numpy.array([[-half, -half], [half, -half], [half, half], [-half, half]])
     inertia = numpy.array([mass * side**2 / 6.0])
@@ -78,7 +81,7 @@ def regular_block(side: float, mass: float, friction: float, restitution: float,
 def box(
     sides: tuple[float, float, float], mass: float, friction: float, restitution: float, gravity: float = 9.81
 ) -> RigidBody:
-    """A homogeneous box of the three ``sides`` in [m]."""
+    """A homogeneous box of the three ``sides`` in [m] and ``mass`` [kg]; ``gravity`` [m/s^2]."""
     x, y, z = sides
     corners = numpy.array(list(itertools.product((-0.5 * x, 0.5 * x), (-0.5 * y, 0.5 * y), (-0.5 * z, 0.5 * z))))
     inertia = mass / 12.0 * numpy.array([y * y + z * z, x * x + z * z, x * x + y * y])
@@ -90,7 +93,7 @@ def box(
 
 
 def sphere(radius: float, mass: float, friction: float, restitution: float, gravity: float = 9.81) -> RigidBody:
-    """A homogeneous sphere."""
+    """A homogeneous sphere of ``radius`` [m] and ``mass`` [kg]; ``gravity`` [m/s^2]."""
     inertia = numpy.full(3, 0.4 * mass * radius**2)
     load = numpy.array([0.0, 0.0, -mass * gravity, 0.0, 0.0, 0.0])
     return RigidBody(
@@ -113,18 +116,18 @@ def height_field(width: int, heights: Vector, origin: float, cell: float) -> Gro
     return slope(width)._replace(profile=make_profile(heights, origin, cell))
 
 
-def laid_under(body: RigidBody, ground: Ground) -> Ground:
+def fitted_ground(body: RigidBody, ground: Ground) -> Ground:
     """The ground, with room for all contacts that ``body`` can have with it."""
     return ground._replace(profile=fitted(ground.profile, body.width, body.points, body.radius))
 
 
 def contact_count(body: RigidBody, ground: Ground) -> int:
-    """Number of contacts of a body with a ground that was laid under it."""
+    """Number of contacts of a body with a ground that was fitted to it."""
     return len(body.points) * ground.profile.reach + ground.profile.ridges
 
 
 def least_gap(body: RigidBody, ground: Ground, motion: Motion) -> float:
-    """Least distance in [m] of the body from a ground that was laid under it; negative below it."""
+    """Least distance in [m] of the body from a ground that was fitted to it; negative below it."""
     corners = body.points @ motion.rotation.T + motion.position
     if len(ground.profile.nodes):
         return clearance(ground.profile, numpy.ascontiguousarray(corners[:, [0, -1]]), body.radius)
@@ -132,7 +135,7 @@ def least_gap(body: RigidBody, ground: Ground, motion: Motion) -> float:
 
 
 def rise_to_ground(body: RigidBody, ground: Ground, motion: Motion) -> float:
-    """How far in [m] the body has to be raised along z to lie on a ground that was laid under it;
+    """How far in [m] the body has to be raised along z to lie on a ground that was fitted to it;
     negative above it.
     """
     if len(ground.profile.nodes) == 0:
@@ -144,8 +147,8 @@ def rise_to_ground(body: RigidBody, ground: Ground, motion: Motion) -> float:
 def placed(
     body: RigidBody, position: Vector, velocity: Vector, angle: float = 0.0, rotation: Vector | None = None
 ) -> Motion:
-    """Motion of a body at ``position`` with ``velocity``, turned by ``angle`` (plane) or
-    ``rotation`` (space).
+    """Motion of a body at ``position`` [width] in [m] with ``velocity`` [coordinates] in [m/s] and
+    [rad/s], turned by ``angle`` [rad] (plane) or ``rotation`` [3, 3] (space).
     """
     turn = numpy.eye(3) if rotation is None else numpy.array(rotation, float)
     if body.width == PLANE:
@@ -225,7 +228,9 @@ def on_profile(body, ground, rotation, x, z, i):
 
 @kernel
 def lies_on(body, ground, motion, i):
-    """Face or edge that contact ``i`` lies on, -1 on a plane; it changes in valleys and over peaks."""
+    """Face or edge that contact ``i`` lies on, -1 on a plane; it changes in valleys and over
+    peaks.
+    """
     if ground.profile.nodes.shape[0] == 0:
         return -1
     return on_profile(body, ground, motion.rotation, motion.position[0], motion.position[body.width - 1], i)[7]
@@ -240,12 +245,14 @@ def contact_rows(body, ground, motion, gap, J):
     x, z = position[0], position[width - 1]
     y = position[1] if width == SPACE else 0.0
     for i in range(gap.shape[0]):
+        # gap, normal and arm of the place of contact
         if ground.profile.nodes.shape[0] == 0:
             gap[i], n_x, n_y, n_z, r_x, r_y, r_z = _on_plane(body, ground, motion.rotation, x, y, z, i)
         else:
             gap[i], n_x, n_z, r_x, r_y, r_z, _c, _f = on_profile(body, ground, motion.rotation, x, z, i)
             n_y = 0.0
         row, arm = i * width, (r_x, r_y, r_z)
+        # tangents: along x in the ground, then across, both at right angles to the normal
         length = math.sqrt(n_x * n_x + n_z * n_z)
         t_x, t_z = n_z / length, -n_x / length
         _fill_row(J, row, width, (n_x, n_y, n_z), arm)
@@ -255,16 +262,18 @@ def contact_rows(body, ground, motion, gap, J):
             _fill_row(J, row + 2, width, (s_x, s_y, s_z), arm)
 
 
-def pull(body: RigidBody) -> float:
-    """Acceleration in [m/s^2] by which a body measures speeds and times: of its load, and at least
-    LEAST_PULL without weight.
+def load_acceleration(body: RigidBody) -> float:
+    """Acceleration in [m/s^2] from which rest speeds and times follow: of the load, and at least
+    LEAST_ACCELERATION without weight.
     """
-    return max(float(numpy.linalg.norm(body.load[: body.width]) / body.mass), LEAST_PULL)
+    return max(float(numpy.linalg.norm(body.load[: body.width]) / body.mass), LEAST_ACCELERATION)
 
 
 @entry
-def look_at_contacts(body: RigidBody, ground: Ground, motion: Motion, gap: Vector, jacobian: Vector) -> None:
-    """`contact_rows` for callers from Python."""
+def contact_kinematics(body: RigidBody, ground: Ground, motion: Motion, gap: Vector, jacobian: Vector) -> None:
+    """`contact_rows` for callers from Python: ``gap`` [contacts] in [m], ``jacobian`` [rows,
+    coordinates].
+    """
     contact_rows(body, ground, motion, gap, jacobian)
 
 

@@ -68,12 +68,14 @@ def fill_rates(body, R, push, state, out):
             out[k] = state[3 + k]
             out[3 + k] = push[k] / (body.mass if k < 2 else body.inertia[0])
         return
+    # the quaternion changes by half its product with the spin in body axes
     w, x, y, z = state[3], state[4], state[5], state[6]
     a, b, c = state[10], state[11], state[12]
     out[3] = -0.5 * (x * a + y * b + z * c)
     out[4] = 0.5 * (w * a + y * c - z * b)
     out[5] = 0.5 * (w * b + z * a - x * c)
     out[6] = 0.5 * (w * c + x * b - y * a)
+    # Euler: gyroscopic torque, and the torque turned into body axes
     inertia = body.inertia
     gain = gyroscopic_rate(inertia, a, b, c)
     for k in range(3):

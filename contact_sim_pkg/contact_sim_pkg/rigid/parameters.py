@@ -7,7 +7,8 @@ from typing import NamedTuple
 # Restitution rules.
 NEWTON = 0  # velocities: u_n+ = -e u_n
 POISSON = 1  # impulses: restitution impulse = e times compression impulse
-ENERGETIC = 2  # works: the normal impulse gives back e^2 of the work it took (Stronge); never gains kinetic energy
+# works: the normal impulse gives back e^2 of the work it took (Stronge); never gains kinetic energy
+ENERGETIC = 2
 RULE_NAMES = {"newton": NEWTON, "poisson": POISSON, "energetic": ENERGETIC}
 
 

@@ -1,8 +1,9 @@
 """The contact problem in impulses and contact velocities, and how well an answer meets it.
 
-For contacts i with impulse ``c_i = (c_n, c_t)`` and velocity ``u = q + A c`` (rows: normal, then one tangent in the plane,
-two in space): ``0 <= c_n - floor  _|_  u_n >= 0`` and Coulomb's law, ``c_t`` in the disc (or polygon) of radius ``mu c_n``
-and of greatest dissipation against ``u_t``. Source: Identifiability eqs 5-9, corrected.
+For contacts i with impulse ``c_i = (c_n, c_t)`` and velocity ``u = q + A c`` (rows: normal, then
+one tangent in the plane, two in space): ``0 <= c_n - floor  _|_  u_n >= 0`` and Coulomb's law,
+``c_t`` in the disc (or polygon) of radius ``mu c_n`` and of greatest dissipation against ``u_t``.
+Source: Identifiability eqs 5-9, corrected.
 """
 
 from __future__ import annotations
@@ -16,19 +17,21 @@ from contact_sim_pkg.compiled.jit import kernel
 from contact_sim_pkg.rigid.contact.cone import project_on_base
 
 PLANE, SPACE = 2, 3  # rows of a contact
-INACTIVE = -1.0  # friction of a contact that takes no part: its rows of A are 1 on the diagonal and 0 beside it
+# friction of a contact that takes no part: its rows of A are 1 on the diagonal and 0 beside it
+INACTIVE = -1.0
 DISC = 0  # number of facets that stands for the true cone
 
 
 class ContactProblem(NamedTuple):
-    """One problem. Its ``q`` holds what the normal rows ask for: free velocity, bounce, gap over
-    step.
+    """One problem. Its ``q`` holds the requirement of the normal rows: free velocity, bounce, gap
+    over step.
     """
 
     A: Vector  # [rows, rows] in [1/kg], J W J'
     q: Vector  # [rows] in [m/s]
     friction: Vector  # [contacts]
-    floor: Vector  # [contacts], least normal impulse in [N s]; 0 but for the second phase of an impact
+    # [contacts], least normal impulse in [N s]; 0 but for the second phase of an impact
+    floor: Vector
     width: int  # rows of a contact: PLANE or SPACE
     facets: int  # of the friction cone in space, even; DISC: the second-order cone
 

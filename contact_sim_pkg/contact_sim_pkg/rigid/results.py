@@ -14,7 +14,7 @@ SENTENCES = {
     SOLVED: "the contact conditions hold",
     RAY: "the contact conditions have no solution that pivoting can reach (as of a body wedged by friction or by restitution): "
     "state unchanged",
-    NOT_CONVERGED: "the iteration ended before the residual that was asked for; the residual is returned",
+    NOT_CONVERGED: "the iteration ended before the requested residual; the residual is returned",
     CONTACT_NOT_FINITE: "an input of the contact solve is not finite: state unchanged",
     TOO_MANY_IMPACTS: "more than 100000 impacts in one call: raise the rest speed or lower the restitution",
     TOO_MANY_EVENTS: "more than 100000 events in one output sample hardly bring the motion on: take scheme: stepping or "
@@ -32,5 +32,6 @@ MODE_NAMES = {SEPARATE: "separate", STICK: "stick", SLIDE: "slide", REVERSE: "re
 
 # Flags, added up: what a caller may want to know about a solved contact.
 UNIQUE = 0
-SPLIT_NOT_UNIQUE = 1  # the impulses share the load in more than one way; the one of least norm is returned
+# the impulses share the load in more than one way; the one of least norm is returned
+SPLIT_NOT_UNIQUE = 1
 JAM = 2  # Painleve: sliding on would push the bodies into each other; the slip stops at once

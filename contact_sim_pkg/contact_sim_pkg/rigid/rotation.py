@@ -65,6 +65,7 @@ def gyroscopic_step(inertia_1, inertia_2, inertia_3, w_1, w_2, w_3, h):
     p_1, p_2, p_3 = inertia_3 - inertia_2, inertia_1 - inertia_3, inertia_2 - inertia_1
     for _ in range(NEWTON_STEPS):
         m_1, m_2, m_3 = 0.5 * (w_1 + x), 0.5 * (w_2 + y), 0.5 * (w_3 + z)
+        # Newton's method on the midpoint rule
         right = (
             -(inertia_1 * (x - w_1) + h * p_1 * m_2 * m_3),
             -(inertia_2 * (y - w_2) + h * p_2 * m_3 * m_1),
@@ -105,8 +106,10 @@ def gyroscopic_rate(inertia, w_1, w_2, w_3):
 
 
 @kernel
-def straighten(R):
-    """Take rounding out of a rotation matrix: one step to rows of unit length and at right angles."""
+def orthonormalize(R):
+    """Take rounding out of a rotation matrix: one step to rows of unit length and at right
+    angles.
+    """
     for i in range(3):
         a, b, c = R[i, 0], R[i, 1], R[i, 2]
         length = a * a + b * b + c * c

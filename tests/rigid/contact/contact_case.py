@@ -11,7 +11,9 @@ COORDINATES = {PLANE: 3, SPACE: 6}
 
 
 def contact_rows(points, width):
-    """J [rows, coordinates] of contact points relative to the centre of mass: normal up, then the tangents."""
+    """J [rows, coordinates] of contact points relative to the centre of mass: normal up, then the
+    tangents.
+    """
     rows = []
     for point in points:
         if width == PLANE:
@@ -22,7 +24,9 @@ def contact_rows(points, width):
 
 
 def face_points(generator, contacts, width, height=0.3):
-    """Points on a flat face below the centre of mass: normals of rank 2 in the plane, 3 in space."""
+    """Points on a flat face below the centre of mass: normals of rank 2 in the plane, 3 in
+    space.
+    """
     points = generator.uniform(-1.0, 1.0, (contacts, width))
     points[:, -1] = -height
     return points
@@ -47,9 +51,9 @@ def problem_of(J, W, q, friction, width, facets=0):
     return problem
 
 
-def solve(J, W, q, friction, width, facets=0, rung=NEWTON, sweeps=20):
+def solve(J, W, q, friction, width, facets=0, method=NEWTON, sweeps=20):
     """Impulses and how the solve ended."""
     problem = problem_of(J, W, q, friction, width, facets)
     c = numpy.zeros(len(J))
-    solver = make_solver(len(problem.friction), J.shape[1], width, facets, rung, sweeps)
+    solver = make_solver(len(problem.friction), J.shape[1], width, facets, method, sweeps)
     return c, contact_impulses(problem, J, W, solver, c)

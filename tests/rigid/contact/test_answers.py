@@ -1,4 +1,6 @@
-"""Contacts whose velocities are no motion of the body by rounding: residuals by their definition."""
+"""Contacts whose velocities are no motion of the body by rounding: residuals by their
+definition.
+"""
 
 import math
 
@@ -23,15 +25,17 @@ def wedged(generator):
     return numpy.array(rows), numpy.diag([1.0, 1.0, 300.0])
 
 
-@pytest.mark.parametrize("rung", [LEMKE, NEWTON])
-def test_a_wedged_body_that_hardly_moves_has_an_answer_in_spite_of_rounding(rung):
-    """Any motion has one; of 300 velocities with rounding some ten had none, or one whose conditions do not meet exactly."""
+@pytest.mark.parametrize("method", [LEMKE, NEWTON])
+def test_a_wedged_body_that_hardly_moves_has_an_answer_in_spite_of_rounding(method):
+    """Any motion has one; of 300 velocities with rounding some ten had none, or one whose
+    conditions do not meet exactly.
+    """
     generator = numpy.random.default_rng(1)
     for _ in range(300):
         J, W = wedged(generator)
         friction = generator.choice([0.7, 2.0])
         q = J @ (1e-10 * generator.normal(size=3) * [1.0, 1.0, 10.0]) + ROUNDING * generator.normal(size=4)
-        c, solution = solve(J, W, q, friction, PLANE, rung=rung)
+        c, solution = solve(J, W, q, friction, PLANE, method=method)
         assert solution.status == SOLVED
         assert coulomb_residual(J @ W @ J.T, q, c, friction, PLANE, 0) <= 10.0 * ROUNDING / numpy.abs(q).max() + 1e-12
 
@@ -40,5 +44,5 @@ def test_walls_that_ask_for_more_than_rounding_have_no_answer():
     """Two walls that both want to be left at once: no motion leaves both."""
     J = numpy.array([[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [-1.0, 0.0, 0.0], [0.0, 1.0, 0.0]])
     q = numpy.array([1e-10, 0.0, -1e-10 - 1e-15, 0.0])
-    c, solution = solve(J, numpy.eye(3), q, 0.5, PLANE, rung=LEMKE)
+    c, solution = solve(J, numpy.eye(3), q, 0.5, PLANE, method=LEMKE)
     assert (solution.status, c.any()) == (RAY, False)

@@ -1,4 +1,6 @@
-"""Closed forms of held points (a face, an edge in the plane, one point): against conditions, enumeration, the general solvers."""
+"""Closed forms of active points (a face, an edge in the plane, one point): against conditions,
+enumeration, the general solvers.
+"""
 
 import math
 
@@ -67,8 +69,9 @@ def test_a_face_that_slides_without_turning_gets_what_the_general_solver_finds()
         J, W = contact_rows(BOX, SPACE), numpy.diag([0.5, 0.5, 0.5, 120.0, 200.0, 150.0])
         v = numpy.array([speed * math.cos(angle), speed * math.sin(angle), -9.81e-3, 0.0, 0.0, 0.0])
         c, residual = closed(0, J, W, v, numpy.full(4, 0.5))
-        general, _solution = solve(J, W, J @ v, 0.5, SPACE, rung=NEWTON)
-        if residual <= 1e-12 and abs(math.sin(2.0 * angle)) < 1e-3:  # along an axis of the box the body does not turn
+        general, _solution = solve(J, W, J @ v, 0.5, SPACE, method=NEWTON)
+        # along an axis of the box the body does not turn
+        if residual <= 1e-12 and abs(math.sin(2.0 * angle)) < 1e-3:
             assert numpy.abs(c - general).max() <= 1e-9 * numpy.abs(general).max()
         found += residual <= 1e-12
         assert numpy.abs((J @ (v + W @ J.T @ c))[::3]).max() <= 1e-13

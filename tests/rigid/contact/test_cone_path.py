@@ -1,4 +1,6 @@
-"""Contacts on the true cone by Lemke's path, and what the solver that falls back on it leaves: residuals by their definition."""
+"""Contacts on the true cone by Lemke's path, and what the solver that falls back on it leaves:
+residuals by their definition.
+"""
 
 import math
 
@@ -15,7 +17,9 @@ SHIFT = 1.0e-8  # of the scaled diagonal along the paths: its end is that far fr
 
 
 def case_on_a_plane(generator, contacts):
-    """J, W and velocities of a body on contacts at any height whose normals are alike: arms, inertias, masses over decades."""
+    """J, W and velocities of a body on contacts at any height whose normals are alike: arms,
+    inertias, masses over decades.
+    """
     J = contact_rows(generator.normal(size=(contacts, 3)) * 10.0 ** generator.uniform(-1.0, 1.0), SPACE)
     turn = numpy.linalg.qr(generator.normal(size=(3, 3)))[0]
     mass = 10.0 ** generator.uniform(-3.0, 3.0)
@@ -27,7 +31,9 @@ def case_on_a_plane(generator, contacts):
 
 
 def case_of_a_stack(generator, contacts):
-    """J, W and velocities of a body on half of the contacts that carries another, of any mass, on the rest."""
+    """J, W and velocities of a body on half of the contacts that carries another, of any mass, on
+    the rest.
+    """
     below = max(1, contacts // 2)
     lower, upper = (
         contact_rows(face, SPACE) for face in (generator.uniform(-1.0, 1.0, (contacts, 3)) for _ in range(2))
@@ -41,7 +47,9 @@ def case_of_a_stack(generator, contacts):
 
 
 def broken(A, q, c, friction, floor):
-    """Signorini's condition with floors and Coulomb's law on the disc, over the greatest velocity."""
+    """Signorini's condition with floors and Coulomb's law on the disc, over the greatest
+    velocity.
+    """
     u, worst = q + A @ c, 0.0
     scale = max(numpy.abs(q).max(), (numpy.diag(A) * c)[::SPACE].max())
     for i, ratio in enumerate(friction):
@@ -67,9 +75,11 @@ def test_every_problem_on_a_plane_is_solved(contacts):
 
 @pytest.mark.parametrize("contacts", range(2, 9))
 def test_problems_of_a_body_on_a_body_are_solved_or_refused_by_status_at_mass_ratios_up_to_a_million(contacts):
-    """Normals are alike, so each has a solution; impulses are up to 1e6 times what free bodies of this approach take.
+    """Normals are alike, so each has a solution; impulses are up to 1e6 times what free bodies of
+    this approach take.
 
-    Rounding, which differs between processors, may leave one of the sixty unsolved: then the status says so.
+    Rounding, which differs between processors, may leave one of the sixty unsolved: then the status
+    says so.
     """
     generator = numpy.random.default_rng(200 + contacts)
     refused = 0

@@ -1,4 +1,6 @@
-"""Solvers of the contact problem: residuals, agreement with enumeration and with each other, redundancy, mass ratios, statuses."""
+"""Solvers of the contact problem: residuals, agreement with enumeration and with each other,
+redundancy, mass ratios, statuses.
+"""
 
 import math
 
@@ -22,22 +24,24 @@ def signorini_and_coulomb(J, W, q, c, friction, width, facets):
     return coulomb_residual(J @ W @ J.T, q, c, friction, width, facets)
 
 
-@pytest.mark.parametrize("rung", [LEMKE, NEWTON])
+@pytest.mark.parametrize("method", [LEMKE, NEWTON])
 @pytest.mark.parametrize(("width", "facets"), [(PLANE, 0), (SPACE, 4), (SPACE, 10), (SPACE, 0)])
 @pytest.mark.parametrize("contacts", [1, 2, 4])
-def test_the_residual_of_signorini_and_coulomb_is_rounding(contacts, width, facets, rung):
+def test_the_residual_of_signorini_and_coulomb_is_rounding(contacts, width, facets, method):
     generator = numpy.random.default_rng(contacts)
     for _ in range(40):
         J, W, v = random_case(generator, contacts, width)
         friction = generator.uniform(0.0, 1.0, contacts)
-        c, solution = solve(J, W, J @ v, friction, width, facets, rung)
+        c, solution = solve(J, W, J @ v, friction, width, facets, method)
         assert solution.status == SOLVED
         assert signorini_and_coulomb(J, W, J @ v, c, friction, width, facets) <= RESIDUAL
         assert solution.residual <= RESIDUAL
 
 
 def test_one_contact_of_a_body_of_any_shape_is_solved():
-    """Arms and inertias over four decades, friction up to 5; Newton's method alone turns round and round in 0.4 % of them."""
+    """Arms and inertias over four decades, friction up to 5; Newton's method alone turns round and
+    round in 0.4 % of them.
+    """
     generator = numpy.random.default_rng(7)
     for _ in range(1200):
         J = contact_rows(generator.normal(size=(1, 3)) * 10.0 ** generator.uniform(-1.0, 1.0), SPACE)
@@ -57,19 +61,19 @@ def test_two_planar_contacts_give_the_velocity_of_the_index_sets():
     for _ in range(60):
         J, W, v = random_case(generator, 2, PLANE)
         friction = generator.uniform(0.0, 0.8, 2)
-        c, _solution = solve(J, W, J @ v, friction, PLANE, rung=LEMKE)
+        c, _solution = solve(J, W, J @ v, friction, PLANE, method=LEMKE)
         expected = planar_velocity_by_enumeration(J, W, v, friction)
         assert numpy.abs(v + W @ J.T @ c - expected).max() <= 1e-11
 
 
-def test_the_rungs_agree_on_one_planar_contact():
+def test_the_methods_agree_on_one_planar_contact():
     generator = numpy.random.default_rng(8)
     for _ in range(60):
         J, W, v = random_case(generator, 1, PLANE)
-        by_rung = [solve(J, W, J @ v, 0.6, PLANE, rung=rung)[0] for rung in (MODES, LEMKE, NEWTON)]
-        swept, _solution = solve(J, W, J @ v, 0.6, PLANE, rung=GAUSS_SEIDEL, sweeps=2000)
-        for c in (*by_rung[1:], swept):
-            assert numpy.abs(c - by_rung[0]).max() <= 1e-10
+        by_method = [solve(J, W, J @ v, 0.6, PLANE, method=method)[0] for method in (MODES, LEMKE, NEWTON)]
+        swept, _solution = solve(J, W, J @ v, 0.6, PLANE, method=GAUSS_SEIDEL, sweeps=2000)
+        for c in (*by_method[1:], swept):
+            assert numpy.abs(c - by_method[0]).max() <= 1e-10
 
 
 @pytest.mark.parametrize("width", [PLANE, SPACE])
@@ -90,14 +94,14 @@ def test_sixteen_contacts_of_low_rank_are_solved_whatever_their_order(width):
 
 
 @pytest.mark.parametrize("ratio", [1.0, 1e2, 1e4, 1e6])
-@pytest.mark.parametrize("rung", [LEMKE, NEWTON])
-def test_a_light_body_under_a_heavy_one_is_solved_at_every_mass_ratio(ratio, rung):
+@pytest.mark.parametrize("method", [LEMKE, NEWTON])
+def test_a_light_body_under_a_heavy_one_is_solved_at_every_mass_ratio(ratio, method):
     """Two bodies of one coordinate each, stacked: weights m g under gravity over one second."""
     J = numpy.array([[1.0, 0.0], [0.0, 0.0], [-1.0, 1.0], [0.0, 0.0]])
     J = numpy.hstack([J, numpy.array([[0.0, 0.0], [1.0, 0.0], [0.0, 0.0], [-1.0, 1.0]])])
     W = numpy.diag([1.0, 1.0 / ratio, 1.0, 1.0 / ratio])
     q = J @ numpy.array([-9.81, -9.81, 0.1, 0.3])
-    c, solution = solve(J, W, q, 0.5, PLANE, rung=rung)
+    c, solution = solve(J, W, q, 0.5, PLANE, method=method)
     assert solution.residual <= RESIDUAL
     assert c[2] == pytest.approx(9.81 * ratio, rel=1e-9)  # condition number 4 ratio
     assert c[0] == pytest.approx(9.81 * (1.0 + ratio), rel=1e-9)
@@ -113,7 +117,9 @@ def test_a_box_on_four_corners_shares_its_weight_in_quarters():
 
 @pytest.mark.parametrize("friction", [0.0, 0.4])
 def test_the_split_is_the_one_of_least_norm_that_scipy_finds(friction):
-    """Two corners of a block that rests, pulled sideways and turned: all splits of one wrench inside the cones."""
+    """Two corners of a block that rests, pulled sideways and turned: all splits of one wrench
+    inside the cones.
+    """
     J, W = contact_rows([[-0.1, -0.1], [0.2, -0.1], [0.05, -0.1]], PLANE), numpy.diag([1.0, 1.0, 30.0])
     v = numpy.array([0.2 * friction, -1.0, 0.5])
     c, _solution = solve(J, W, J @ v, friction, PLANE)
@@ -157,7 +163,9 @@ def test_without_friction_the_tangents_are_left_alone():
 
 @pytest.mark.parametrize(("width", "facets", "seed"), [(PLANE, 0, 1), (SPACE, 4, 2), (SPACE, 8, 3)])
 def test_eight_contacts_at_any_height_are_solved_with_a_polyhedral_cone(width, facets, seed):
-    """Normals alike, so that a solution exists; one way of pivoting ends on a ray by rounding in some of a thousand."""
+    """Normals alike, so that a solution exists; one way of pivoting ends on a ray by rounding in
+    some of a thousand.
+    """
     generator = numpy.random.default_rng(seed)
     coordinates = 3 if width == PLANE else 6
     for _ in range(400 if width == PLANE else 60):
@@ -171,10 +179,10 @@ def test_eight_contacts_at_any_height_are_solved_with_a_polyhedral_cone(width, f
 
 
 def test_a_body_wedged_between_two_walls_that_both_bounce_ends_with_a_named_status():
-    """Two facing normals that both ask to separate: no impulse does that."""
+    """Two facing normals that both require separation: no impulse does that."""
     J, W = numpy.array([[1.0, 0.0], [0.0, 1.0], [-1.0, 0.0], [0.0, 1.0]]), numpy.eye(2)
-    for rung in (LEMKE, NEWTON):
-        c, solution = solve(J, W, numpy.array([-1.0, 0.2, -1.0, 0.2]), 0.5, PLANE, rung=rung)
+    for method in (LEMKE, NEWTON):
+        c, solution = solve(J, W, numpy.array([-1.0, 0.2, -1.0, 0.2]), 0.5, PLANE, method=method)
         assert solution.status == RAY
         assert (c == 0.0).all()
 
@@ -193,10 +201,10 @@ def test_a_contact_that_jams_stands_or_slides_on_but_never_sinks_or_ends_without
 
 
 @pytest.mark.parametrize("bad", [math.nan, math.inf])
-@pytest.mark.parametrize("rung", [MODES, LEMKE, NEWTON])
-def test_a_velocity_that_is_no_number_ends_with_a_named_status(bad, rung):
+@pytest.mark.parametrize("method", [MODES, LEMKE, NEWTON])
+def test_a_velocity_that_is_no_number_ends_with_a_named_status(bad, method):
     J, W = contact_rows([[0.1, -0.1]], PLANE), numpy.eye(3)
-    c, solution = solve(J, W, numpy.array([bad, 0.0]), 0.5, PLANE, rung=rung)
+    c, solution = solve(J, W, numpy.array([bad, 0.0]), 0.5, PLANE, method=method)
     assert solution.status == CONTACT_NOT_FINITE
     assert (c == 0.0).all()
 
@@ -204,5 +212,5 @@ def test_a_velocity_that_is_no_number_ends_with_a_named_status(bad, rung):
 def test_gauss_seidel_reports_the_residual_that_it_left():
     J, W = contact_rows([[-0.5, -1.0], [0.7, -1.0]], PLANE), numpy.diag([1.0, 1.0, 50.0])
     v = numpy.array([0.1, -1.0, 0.4])
-    residuals = [solve(J, W, J @ v, 0.5, PLANE, rung=GAUSS_SEIDEL, sweeps=n)[1].residual for n in (2, 10, 40)]
+    residuals = [solve(J, W, J @ v, 0.5, PLANE, method=GAUSS_SEIDEL, sweeps=n)[1].residual for n in (2, 10, 40)]
     assert residuals[0] > residuals[1] > residuals[2]

@@ -1,4 +1,6 @@
-"""Accelerations of held contacts on their paths, against differences of the contact velocities ``J(q) v`` at constant v."""
+"""Accelerations of active contacts on their paths, against differences of the contact velocities
+``J(q) v`` at constant v.
+"""
 
 import math
 
@@ -11,9 +13,9 @@ from contact_sim_pkg.rigid.body import (
     RigidBody,
     box,
     contact_count,
+    contact_kinematics,
+    fitted_ground,
     height_field,
-    laid_under,
-    look_at_contacts,
     placed,
     regular_block,
     slope,
@@ -53,7 +55,7 @@ def speeds(body, ground, motion):
     """Gaps, rows, and velocities [contacts, width] of the contacts."""
     contacts = contact_count(body, ground)
     gap, rows = numpy.zeros(contacts), numpy.zeros((contacts * body.width, len(body.load)))
-    look_at_contacts(body, ground, motion, gap, rows)
+    contact_kinematics(body, ground, motion, gap, rows)
     return gap, rows, (rows @ motion.velocity).reshape(contacts, body.width)
 
 
@@ -85,7 +87,7 @@ CASES = [
 @pytest.mark.parametrize(("body", "ground", "place", "rate"), CASES)
 def test_the_normal_acceleration_of_a_path_is_the_second_rate_of_the_gap(body, ground, place, rate):
     """At constant velocities; of a contact whose gap turns with the feature that it is near to."""
-    ground = laid_under(body, ground)
+    ground = fitted_ground(body, ground)
     motion = placed(body, place, rate, angle=0.3, rotation=TURNED)
     gap, rows, _speeds = speeds(body, ground, motion)
     found = numpy.zeros((len(gap), 3))
@@ -99,9 +101,9 @@ def test_the_normal_acceleration_of_a_path_is_the_second_rate_of_the_gap(body, g
 
 
 @pytest.mark.parametrize(("body", "ground", "place", "rate"), CASES)
-def test_the_tangential_acceleration_of_a_held_path_is_the_rate_of_the_slip(body, ground, place, rate):
+def test_the_tangential_acceleration_of_an_active_path_is_the_rate_of_the_slip(body, ground, place, rate):
     """Of the contact nearest to the ground, at a velocity that keeps its gap."""
-    ground = laid_under(body, ground)
+    ground = fitted_ground(body, ground)
     motion = placed(body, place, rate, angle=0.3, rotation=TURNED)
     if (
         body.radius > 0.0

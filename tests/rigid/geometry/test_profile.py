@@ -1,4 +1,6 @@
-"""Bodies over heights along x: gaps at peaks and in valleys, rest where two faces meet, what never ends is refused by name."""
+"""Bodies over heights along x: gaps at peaks and in valleys, rest where two faces meet, what never
+ends is refused by name.
+"""
 
 import math
 
@@ -9,10 +11,10 @@ from contact_sim_pkg.rigid.body import (
     RigidBody,
     box,
     contact_count,
+    contact_kinematics,
+    fitted_ground,
     height_field,
-    laid_under,
     least_gap,
-    look_at_contacts,
     placed,
     regular_block,
     rise_to_ground,
@@ -51,15 +53,17 @@ def energy(located):
 
 
 def gaps_of(body, ground, motion):
-    ground = laid_under(body, ground)
+    ground = fitted_ground(body, ground)
     contacts = contact_count(body, ground)
     gap, rows = numpy.zeros(contacts), numpy.zeros((contacts * body.width, len(body.load)))
-    look_at_contacts(body, ground, motion, gap, rows)
+    contact_kinematics(body, ground, motion, gap, rows)
     return gap, rows
 
 
 def run(located, duration, interval=0.01):
-    """Advance; energy may not grow, the body may not go below the ground by more than a billionth of its size."""
+    """Advance; energy may not grow, the body may not go below the ground by more than a billionth
+    of its size.
+    """
     last = energy(located)
     scale = abs(last) + located.body.mass * GRAVITY * located.size
     for _ in range(round(duration / interval)):
@@ -104,7 +108,7 @@ def test_the_gap_of_a_ball_over_heights_is_its_true_distance(steepness):
             for z in numpy.linspace(-0.1, heights.max() + 0.15, 25):
                 expected = distance_to_heights(heights, -0.3, 0.05, x, z) - radius
                 motion = placed(body, [x, z], numpy.zeros(3))
-                assert least_gap(body, laid_under(body, ground), motion) == pytest.approx(expected, abs=1e-13)
+                assert least_gap(body, fitted_ground(body, ground), motion) == pytest.approx(expected, abs=1e-13)
                 if abs(expected) < min(0.045, radius):
                     seen += 1
                     assert gaps_of(body, ground, motion)[0].min() == pytest.approx(expected, abs=1e-13)
@@ -133,12 +137,14 @@ def test_a_ball_is_seen_wherever_it_lies_on_heights_of_one_slope():
                     assert abs(gaps_of(body, ground, placed(body, place, numpy.zeros(3)))[0].min()) <= 1e-13
 
 
-def test_a_body_in_the_heights_is_told_how_far_to_rise():
-    """Against bisection of its least gap; a ball on a face of slope s: its depth times ``sqrt(1 + s^2)``."""
+def test_the_rise_out_of_the_heights_is_reported():
+    """Against bisection of its least gap; a ball on a face of slope s: its depth times ``sqrt(1 +
+    s^2)``.
+    """
     random = numpy.random.default_rng(5)
     for _ in range(20):
         for body in (ball(0.12, 0.3, 0.3), polygon(random, 0.3, 0.3)):
-            ground = laid_under(body, height_field(PLANE, random.uniform(-0.2, 0.0, 12), -0.3, 0.05))
+            ground = fitted_ground(body, height_field(PLANE, random.uniform(-0.2, 0.0, 12), -0.3, 0.05))
             motion = placed(body, random.uniform(-0.3, 0.3, 2), numpy.zeros(3))
             low, high = -3.0, 3.0
             for _ in range(60):
@@ -147,7 +153,7 @@ def test_a_body_in_the_heights_is_told_how_far_to_rise():
                 low, high = (low, middle) if least_gap(body, ground, raised) >= 0.0 else (middle, high)
             assert rise_to_ground(body, ground, motion) == pytest.approx(high, abs=1e-13)
     body = ball(0.1, 0.3, 0.3)
-    ground = laid_under(body, height_field(PLANE, [0.0, 2.0], 0.0, 1.0))
+    ground = fitted_ground(body, height_field(PLANE, [0.0, 2.0], 0.0, 1.0))
     rise = rise_to_ground(body, ground, placed(body, [0.3, 0.6], numpy.zeros(3)))
     assert rise == pytest.approx(0.1 * math.sqrt(5.0), rel=1e-14)
     for width in (2, 3):
@@ -181,7 +187,9 @@ def test_a_ball_rests_in_a_valley_on_both_faces():
 
 
 def test_a_sphere_that_slides_along_a_valley_rolls_there():
-    """No slip at either face: speed over spin is the arm of the axis through both contacts, r/sqrt(2)."""
+    """No slip at either face: speed over spin is the arm of the axis through both contacts,
+    r/sqrt(2).
+    """
     radius = 0.05
     body = sphere(radius, 1.0, 0.3, 0.5)
     motion = placed(body, [0.3, 0.0, 1.0], [0.0, 0.1, 0.0, 0.0, 0.0, 0.0])

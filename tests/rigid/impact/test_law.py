@@ -57,7 +57,9 @@ def test_one_contact_in_space_with_planar_data_gets_the_planar_impulse():
 
 
 def path_by_scipy(A, friction, restitution, u):
-    """Impulse of the energetic rule in space while the slip does not stop: the plain path over the normal impulse."""
+    """Impulse of the energetic rule in space while the slip does not stop: the plain path over the
+    normal impulse.
+    """
 
     def rate(_p, y):
         s = y[1:3] / numpy.linalg.norm(y[1:3])
@@ -113,7 +115,9 @@ def test_one_contact_in_space_never_gains_kinetic_energy():
 
 @pytest.mark.parametrize("width", [PLANE, SPACE])
 def test_several_contacts_give_back_no_more_than_the_square_of_restitution_of_the_work_they_took(width):
-    """Energetic rule: the normal work of both phases, from the impulses of an impact with e and of one without."""
+    """Energetic rule: the normal work of both phases, from the impulses of an impact with e and of
+    one without.
+    """
     generator = numpy.random.default_rng(6)
     work = make_impact_workspace(2, COORDINATES[width], width)
     shares = []
@@ -134,7 +138,9 @@ def test_several_contacts_give_back_no_more_than_the_square_of_restitution_of_th
 
 
 def test_a_block_on_two_corners_falls_flat_and_rebounds_without_turning():
-    """Symmetric: both corners give back e of their share, so the block rises straight with e times its speed."""
+    """Symmetric: both corners give back e of their share, so the block rises straight with e times
+    its speed.
+    """
     J, W = contact_rows([[-0.1, -0.1], [0.1, -0.1]], PLANE), numpy.diag([1.0, 1.0, 600.0])
     for rule in (NEWTON, POISSON, ENERGETIC):
         c, _solution = impact(J, W, numpy.array([0.0, -2.0, 0.0]), 0.3, 0.5, rule, PLANE)

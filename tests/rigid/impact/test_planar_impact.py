@@ -1,4 +1,6 @@
-"""Impacts of one planar contact against enumeration of index sets and against the impulse path integrated by scipy."""
+"""Impacts of one planar contact against enumeration of index sets and against the impulse path
+integrated by scipy.
+"""
 
 import math
 
@@ -15,7 +17,9 @@ EACH_MODE = 50
 
 
 def block_corner(theta, mass=1.0, side=SIDE):
-    """J_n, J_t of the lowest corner of the block of Identifiability (eqs 41 and 42), and its inverse masses."""
+    """J_n, J_t of the lowest corner of the block of Identifiability (eqs 41 and 42), and its
+    inverse masses.
+    """
     radius = side / math.sqrt(2.0)
     j_n = numpy.array([0.0, 1.0, -radius * math.sin(math.pi / 4 - theta)])
     j_t = numpy.array([1.0, 0.0, radius * math.cos(math.pi / 4 - theta)])
@@ -39,7 +43,9 @@ def contact_of(A, friction, restitution):
 
 
 def velocity_error(J, W, v, c, expected):
-    """As the goals measure it: largest difference over largest velocity, rotations times the side."""
+    """As the goals measure it: largest difference over largest velocity, rotations times the
+    side.
+    """
     scale = numpy.array([1.0, 1.0, SIDE])
     return numpy.abs(scale * W * (J.T @ (c - expected))).max() / numpy.abs(scale * v).max()
 

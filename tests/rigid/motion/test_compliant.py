@@ -1,4 +1,6 @@
-"""A rigid body on compliant contact: it tends to the rigid laws as the contact gets stiffer, and never gains energy."""
+"""A rigid body on compliant contact: it tends to the rigid laws as the contact gets stiffer, and
+never gains energy.
+"""
 
 import math
 
@@ -10,7 +12,7 @@ from contact_sim_pkg.compiled.results import DONE, NOT_FINITE
 from contact_sim_pkg.laws.parameters import NormalElastic
 from contact_sim_pkg.rigid.body import box, height_field, placed, regular_block, slope, sphere
 from contact_sim_pkg.rigid.motion.compliant import (
-    MovedBody,
+    CompliantMotion,
     compliant_contact,
     quaternion_of,
     resting_swing,
@@ -23,7 +25,7 @@ GRAVITY, RADIUS, SIDE, TICK = 9.81, 0.05, 0.1, 1e-3
 
 def moved(body, ground, motion, stiffness, exponent=1.0, tolerance=1e-6, tangential=None):
     law = compliant_contact(body, NormalElastic(stiffness, exponent), tangential or stiffness)
-    return MovedBody(body, ground, motion, law, tolerance)
+    return CompliantMotion(body, ground, motion, law, tolerance)
 
 
 def run(body, duration, tick=TICK):
@@ -68,7 +70,7 @@ def test_a_body_at_rest_swings_with_the_slope_of_its_force_law(exponent):
     ("restitution", "exponent", "stiffnesses"),
     [(0.8, 1.0, (1e6, 1e8)), (0.8, 1.5, (1e9, 1e11)), (0.3, 1.0, (1e8, 1e10))],
 )
-def test_bounces_are_as_high_as_the_asked_restitution_says_the_better_the_stiffer(restitution, exponent, stiffnesses):
+def test_bounces_are_as_high_as_the_restitution_requires_the_better_the_stiffer(restitution, exponent, stiffnesses):
     expected = restitution ** (2.0 * numpy.arange(1, 4))
     errors = []
     for stiffness in stiffnesses:
@@ -84,7 +86,7 @@ def _on_flat(pair):
 
 
 @pytest.mark.parametrize("speed", [0.5, 2.0, 8.0])
-def test_the_ratio_of_speeds_is_the_asked_one_at_any_speed_and_mass(speed):
+def test_the_ratio_of_speeds_is_the_requested_one_at_any_speed_and_mass(speed):
     body, motion = ball(0.6, height=1e-3, velocity=(0.0, 0.0, -speed))
     body = body._replace(mass=3.7, load=3.7 * body.load)
     system = moved(body, slope(3), motion, 1e11)
@@ -188,7 +190,9 @@ def test_without_loss_and_friction_the_energy_stays():
 
 
 def test_in_the_air_it_flies_as_the_rigid_body_does():
-    """Against the event scheme, whose free rotation is another method (composed implicit midpoint)."""
+    """Against the event scheme, whose free rotation is another method (composed implicit
+    midpoint).
+    """
     body, ground, motion = _tumble()
     motion.position[2] = 10.0
     rigid = LocatedBody(body, ground, placed(body, motion.position, motion.velocity))

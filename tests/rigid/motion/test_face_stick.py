@@ -1,4 +1,6 @@
-"""A face that sticks with points at the edge of their cones: closed form, scipy's SLSQP, Dykstra's alternating projections."""
+"""A face that sticks with points at the edge of their cones: closed form, scipy's SLSQP, Dykstra's
+alternating projections.
+"""
 
 import math
 
@@ -14,12 +16,15 @@ from contact_sim_pkg.rigid.motion.located import LocatedBody
 from contact_sim_pkg.rigid.results import SOLVED
 
 W = numpy.diag([1.0, 1.0, 1.0, 600.0, 600.0, 600.0])
-LENGTHS = numpy.array([1.0, 1.0, 1.0, 20.0, 20.0, 20.0])  # moments in units near those of the forces
+# moments in units near those of the forces
+LENGTHS = numpy.array([1.0, 1.0, 1.0, 20.0, 20.0, 20.0])
 CORNERS = numpy.array([[x, y, -0.05] for x in (-0.05, 0.05) for y in (-0.05, 0.05)])
 
 
 def random_case(generator, corners=None):
-    """Points of a face, friction, and impulses within the cones: the body stops where it is asked for their wrench."""
+    """Points of a face, friction, and impulses within the cones: the body stops where it is asked
+    for their wrench.
+    """
     contacts = int(generator.integers(3, 8))
     points = numpy.column_stack([generator.uniform(-0.1, 0.1, (contacts, 2)), numpy.full(contacts, -0.05)])
     points = points if corners is None else corners
@@ -43,7 +48,9 @@ def onto_cones(c, friction):
 
 
 def least_by_projections(J, wrench, friction, rounds=20_000):
-    """The nearest point to 0 of all impulses with the wrench and in their cones, by Dykstra's method from 0."""
+    """The nearest point to 0 of all impulses with the wrench and in their cones, by Dykstra's
+    method from 0.
+    """
     A, b = LENGTHS[:, None] * J.T, LENGTHS * wrench
     back = numpy.linalg.pinv(A)
     x, kept, last = numpy.zeros(len(J)), numpy.zeros(len(J)), math.inf
@@ -115,7 +122,9 @@ def test_the_split_of_a_sticking_face_is_that_of_sequential_quadratic_programmin
 
 @pytest.mark.parametrize("degrees", [15.0, 16.0, 16.6])
 def test_upper_corners_on_a_slope_hold_what_their_cones_let_them_and_lower_ones_the_rest(degrees):
-    """Loads ``W/4 (cos a -+ sin a)`` from the moment (a cube), friction ``mu N`` above and the rest of ``W sin a`` below."""
+    """Loads ``W/4 (cos a -+ sin a)`` from the moment (a cube), friction ``mu N`` above and the rest
+    of ``W sin a`` below.
+    """
     lean, friction, weight, tick = math.radians(degrees), 0.3, 9.81, 1e-3
     body = box((0.1, 0.1, 0.1), 1.0, friction, 0.0)
     body = body._replace(load=numpy.array([-weight * math.sin(lean), 0.0, -weight * math.cos(lean), 0.0, 0.0, 0.0]))
@@ -124,13 +133,15 @@ def test_upper_corners_on_a_slope_hold_what_their_cones_let_them_and_lower_ones_
     assert status == SOLVED
     force = track.impulse[-1].reshape(-1, 3) / tick
     lower = body.points[:, 0] < 0.0
-    held = body.points[:, 2] < 0.0
+    active = body.points[:, 2] < 0.0
     upper_load = 0.25 * weight * (math.cos(lean) - math.sin(lean))
     lower_load = 0.25 * weight * (math.cos(lean) + math.sin(lean))
     lower_hold = 0.5 * weight * math.sin(lean) - friction * upper_load
-    assert force[held & ~lower] == pytest.approx(numpy.array([[upper_load, friction * upper_load, 0.0]] * 2), abs=1e-11)
-    assert force[held & lower] == pytest.approx(numpy.array([[lower_load, lower_hold, 0.0]] * 2), abs=1e-11)
-    assert not force[~held].any()
+    assert force[active & ~lower] == pytest.approx(
+        numpy.array([[upper_load, friction * upper_load, 0.0]] * 2), abs=1e-11
+    )
+    assert force[active & lower] == pytest.approx(numpy.array([[lower_load, lower_hold, 0.0]] * 2), abs=1e-11)
+    assert not force[~active].any()
     assert numpy.array_equal(located.motion.position, [0.0, 0.0, 0.05])
 
 

@@ -1,4 +1,6 @@
-"""Corners that land while another is held: found where they touch, whatever the interval, so that no energy comes of it."""
+"""Corners that land while another is active: found where they touch, whatever the interval, so that
+no energy comes of it.
+"""
 
 import math
 
@@ -14,7 +16,9 @@ GRAVITY = 9.81
 
 
 def wheel(corners, radius, angle, spin):
-    """A regular polygon on one corner of two, about which it turns down a slope (positive spin turns x towards z)."""
+    """A regular polygon on one corner of two, about which it turns down a slope (positive spin
+    turns x towards z).
+    """
     around = 2.0 * math.pi * numpy.arange(corners) / corners - 0.5 * math.pi
     points = radius * numpy.column_stack([numpy.cos(around), numpy.sin(around)])
     inertia = radius**2 / 6.0 * (2.0 + math.cos(2.0 * math.pi / corners))
@@ -33,7 +37,7 @@ def wheel(corners, radius, angle, spin):
 @pytest.mark.parametrize(
     ("corners", "radius", "angle", "spin"), [(8, 0.1, 0.05, 3.0), (4, 0.1, 0.5, 9.0), (6, 1.0, 0.2, 3.0)]
 )
-def test_a_wheel_of_corners_loses_what_its_ledger_says_and_sinks_nowhere(corners, radius, angle, spin, interval):
+def test_a_wheel_of_corners_loses_the_energy_of_its_ledger_and_sinks_nowhere(corners, radius, angle, spin, interval):
     located = wheel(corners, radius, angle, spin)
     body, motion = located.body, located.motion
 

@@ -94,7 +94,8 @@ def test_a_sphere_that_lands_with_slip_rolls_with_five_sevenths_of_its_speed():
 @pytest.mark.parametrize("interval", [1e-3, 0.1])
 @pytest.mark.parametrize("angle", [0.0, 0.3])
 def test_a_ball_that_rolls_or_slides_keeps_its_side_spin_and_its_line_at_any_interval(angle, interval):
-    """Slip keeps its direction and falls by 7/2 mu g, the ball ends at 5/7 of its speed; across a slope it gains 5/7 g sin(angle).
+    """Slip keeps its direction and falls by 7/2 mu g, the ball ends at 5/7 of its speed; across a
+    slope it gains 5/7 g sin(angle).
 
     The spin about the normal has no torque.
     """
@@ -180,7 +181,9 @@ def test_a_box_thrown_at_random_comes_to_rest_and_does_not_creep(seed):
 
 
 def test_a_rod_that_pivots_fast_lifts_off_where_its_end_would_be_pulled():
-    """Its end stays down while ``m (g + path) >= 0``: a body turning at w about its end needs ``w^2 r`` from its weight."""
+    """Its end stays down while ``m (g + path) >= 0``: a body turning at w about its end needs ``w^2
+    r`` from its weight.
+    """
     rod = regular_block(0.1, 1.0, 5.0, 0.0)._replace(
         points=numpy.array([[-0.5, 0.0], [0.5, 0.0]]), inertia=numpy.array([1.0 / 12.0])
     )
@@ -191,7 +194,7 @@ def test_a_rod_that_pivots_fast_lifts_off_where_its_end_would_be_pulled():
         assert (located.impulse[::2].max() == 0.0) == leaves
 
 
-def test_corner_impacts_stick_slide_or_reverse_as_the_friction_says():
+def test_corner_impacts_stick_slide_or_reverse_as_the_friction_requires():
     found = set()
     for friction, speed, spin in ((1.0, 0.0, 0.0), (0.1, 2.0, 0.0), (0.1, 0.05, 0.0), (0.1, -0.05, 0.0)):
         block = regular_block(0.1, 1.0, friction, 0.3)
@@ -216,8 +219,10 @@ def test_a_sphere_on_a_height_field_that_is_a_plane_moves_as_on_that_plane():
 
 
 @pytest.mark.parametrize("pressed", [True, False])
-def test_a_corner_is_held_where_the_spin_that_changes_by_itself_presses_it_down(pressed):
-    """Without ``dw/dt = -I^-1 (w x Iw)`` in it the acceleration of the corner has the other sign: held or free turns round."""
+def test_a_corner_is_active_where_the_spin_that_changes_by_itself_presses_it_down(pressed):
+    """Without ``dw/dt = -I^-1 (w x Iw)`` in it the acceleration of the corner has the other sign:
+    active or free turns round.
+    """
     generator = numpy.random.default_rng(5)
     body, found = box((0.3, 0.2, 0.05), 1.0, 0.5, 0.0), 0
     while found < 5:

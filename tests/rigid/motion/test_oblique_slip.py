@@ -1,4 +1,6 @@
-"""Bodies in space that slide across a slope: the slip turns, and with it the friction. Against own equations and scipy's DOP853."""
+"""Bodies in space that slide across a slope: the slip turns, and with it the friction. Against own
+equations and scipy's DOP853.
+"""
 
 import math
 
@@ -50,7 +52,9 @@ def test_a_box_that_slides_across_a_slope_follows_its_curved_path_at_any_interva
 
 @pytest.mark.parametrize("interval", [1e-3, 0.01, 0.1])
 def test_a_ball_that_slips_across_a_slope_turns_its_slip_and_comes_to_roll(interval):
-    """``v' = g_t - mu g_n s``, ``w' = (r x f)/J``, s the direction of slip; it rolls from where slip is 0: v' = 5/7 g_t."""
+    """``v' = g_t - mu g_n s``, ``w' = (r x f)/J``, s the direction of slip; it rolls from where
+    slip is 0: v' = 5/7 g_t.
+    """
     radius, friction, duration = 0.05, 0.3, 0.3
     ball = body([[0.0, 0.0, 0.0]], [0.4 * radius**2] * 3, radius, friction)
     velocity, spin = -0.5 * ALONG + 0.7 * ACROSS, 5.0 * ALONG - 20.0 * ACROSS

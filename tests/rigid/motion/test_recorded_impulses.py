@@ -1,4 +1,6 @@
-"""Bodies thrown at random on slopes: the impulses that are recorded are all there are, and friction gives no work."""
+"""Bodies thrown at random on slopes: the impulses that are recorded are all there are, and friction
+gives no work.
+"""
 
 import math
 
@@ -15,7 +17,9 @@ GRAVITY = 9.81
 
 
 def thrown(seed, width):
-    """A polygon of 3 to 7 corners or a hull of 4 to 7, of 0.1 m, over a slope of up to 0.6 rad; and the axes of its contacts."""
+    """A polygon of 3 to 7 corners or a hull of 4 to 7, of 0.1 m, over a slope of up to 0.6 rad; and
+    the axes of its contacts.
+    """
     random = numpy.random.default_rng(seed)
     count = int(random.integers(3 if width == PLANE else 4, 8))
     points = random.normal(size=(count, width))
@@ -51,7 +55,9 @@ def thrown(seed, width):
     ],
 )
 def test_the_momentum_of_a_sample_is_that_of_the_load_and_of_what_is_recorded(width, seed, allowed):
-    """Each seed left 2e-7 to 8e-7 of the speed of a fall: what stopped a slip of 1e-7 m/s for good was written nowhere."""
+    """Each seed left 2e-7 to 8e-7 of the speed of a fall: what stopped a slip of 1e-7 m/s for good
+    was written nowhere.
+    """
     located, axes = thrown(seed, width)
     body, motion = located.body, located.motion
     unit = body.mass * math.sqrt(GRAVITY * located.size)

@@ -1,4 +1,6 @@
-"""Hulls thrown at random on steep heights: energy never grows, nothing sinks, bounces end. Each seed was one that did otherwise."""
+"""Hulls thrown at random on steep heights: energy never grows, nothing sinks, bounces end. Each
+seed was one that did otherwise.
+"""
 
 import math
 
@@ -35,7 +37,9 @@ def thrown(seed):
 
 @pytest.mark.parametrize("seed", [7, 14, 19])
 def test_points_that_stick_and_slip_on_steep_faces_gain_no_energy_and_do_not_sink(seed):
-    """14, 19: two stick, whose forces along the line between them were not shared; 7: the slip of one goes through 0."""
+    """14, 19: two stick, whose forces along the line between them were not shared; 7: the slip of
+    one goes through 0.
+    """
     located = thrown(seed)
     mass, motion = located.body.mass, located.motion
     least, rise = math.inf, 0.0
@@ -47,8 +51,10 @@ def test_points_that_stick_and_slip_on_steep_faces_gain_no_energy_and_do_not_sin
     assert rise <= 1e-9
 
 
-def test_a_point_that_lands_beside_a_held_one_comes_to_rest():
-    """With 0.6 a bounce of 1 m/s is below 1e-6 m/s after 27 impacts: two points cannot take a hundred in a millisecond."""
+def test_a_point_that_lands_beside_an_active_one_comes_to_rest():
+    """With 0.6 a bounce of 1 m/s is below 1e-6 m/s after 27 impacts: two points cannot take a
+    hundred in a millisecond.
+    """
     located = thrown(0)
     for _ in range(1300):
         assert located.advance(1e-3) == SOLVED
@@ -74,7 +80,9 @@ def test_faces_in_one_line_are_one(friction, rise, cell):
 
 
 def kerb():
-    """A flat triangle that slides off a kerb on its long edge: the kerb's edge passes from one edge of the triangle to the next."""
+    """A flat triangle that slides off a kerb on its long edge: the kerb's edge passes from one edge
+    of the triangle to the next.
+    """
     points = numpy.array([[-0.139, 0.0195], [0.228, -0.0567], [-0.089, 0.0372]])
     points -= points.mean(axis=0)
     load = numpy.array([0.0, -3.6 * GRAVITY, 0.0])
@@ -85,7 +93,9 @@ def kerb():
 
 
 def test_a_body_that_goes_over_kerbs_loses_no_momentum_that_is_not_recorded():
-    """Momentum over each sample is that of the weight and of the recorded impulses at most; energy that of the ledger."""
+    """Momentum over each sample is that of the weight and of the recorded impulses at most; energy
+    that of the ledger.
+    """
     located = kerb()
     body, motion = located.body, located.motion
     energy = located.kinetic_energy() - body.load[1] * motion.position[1]

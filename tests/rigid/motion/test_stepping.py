@@ -1,4 +1,6 @@
-"""Rigid bodies at a fixed step: first order against closed forms, restitution that the gap does not take away."""
+"""Rigid bodies at a fixed step: first order against closed forms, restitution that the gap does not
+take away.
+"""
 
 import math
 
@@ -25,7 +27,7 @@ def test_the_error_of_the_sliding_distance_is_of_first_order():
 
 
 @pytest.mark.parametrize("step", [2e-3, 1e-3, 3e-4])
-def test_a_drop_comes_back_with_the_restitution_that_was_asked_for(step):
+def test_a_drop_comes_back_with_the_requested_restitution(step):
     ball = sphere(0.05, 1.0, 0.3, 0.7)
     motion = placed(ball, [0.0, 0.0, 0.25], numpy.zeros(6))
     body = SteppedBody(ball, slope(3), motion, step)
@@ -53,9 +55,11 @@ def test_a_step_in_which_the_body_turns_by_more_than_a_radian_is_refused():
 
 @pytest.mark.parametrize("step", [1e-3, 2e-4])
 def test_a_tumbling_box_comes_to_rest_on_four_corners(step):
-    """On an edge and on a face the contacts contradict each other: a step cannot close unlike gaps of four corners that stick.
+    """On an edge and on a face the contacts contradict each other: a step cannot close unlike gaps
+    of four corners that stick.
 
-    A tilt by ε closed in a step leaves a slip of ε times its own speed, here some 1e-9 m/s: that of the nearest motion is taken.
+    A tilt by ε closed in a step leaves a slip of ε times its own speed, here some 1e-9 m/s: that of
+    the nearest motion is taken.
     """
     body = box((0.2, 0.3, 0.1), 2.0, 0.4, 0.5)
     turned = Rotation.from_rotvec([0.3, -0.2, 0.7]).as_matrix()
@@ -77,7 +81,9 @@ def test_a_tumbling_box_comes_to_rest_on_four_corners(step):
 
 @pytest.mark.parametrize("seed", [3, 8, 18, 30])
 def test_a_box_with_friction_of_one_and_more_tumbles_on_the_true_cone_to_the_end(seed):
-    """Edges whose ends drift apart by rounding squeeze themselves up to the cone: every step has a solution on a plane."""
+    """Edges whose ends drift from each other by rounding squeeze themselves up to the cone: every
+    step has a solution on a plane.
+    """
     generator = numpy.random.default_rng(seed)
     friction, sides = float(generator.choice([1.0, 2.0, 5.0])), generator.uniform(0.05, 0.4, 3)
     body = box(tuple(sides), 1.0, friction, float(generator.choice([0.0, 0.5])))
@@ -101,7 +107,9 @@ def flat(width, friction, restitution):
 
 
 def energies(body, height, step, time):
-    """Energy over the one at the start, every 50 steps, of ``body`` dropped from ``height``, its centre of mass 0.05 m up."""
+    """Energy over the one at the start, every 50 steps, of ``body`` dropped from ``height``, its
+    centre of mass 0.05 m up.
+    """
     motion = placed(body, [*[0.0] * (body.width - 1), height], numpy.zeros(len(body.load)))
     stepped, found = SteppedBody(body, slope(body.width), motion, step), []
     for _ in range(round(time / step / 50)):
@@ -116,9 +124,11 @@ def energies(body, height, step, time):
 @pytest.mark.parametrize("friction", [0.0, 0.3])
 @pytest.mark.parametrize("width", [2, 3])
 def test_a_box_dropped_flat_from_any_height_bounces_as_a_ball_and_does_not_tumble(width, friction, restitution):
-    """At round heights and steps the gaps of its corners at the end of a step are 0 up to rounding, of either sign.
+    """At round heights and steps the gaps of its corners at the end of a step are 0 up to rounding,
+    of either sign.
 
-    Box and ball may meet the ground a step apart, which is a part 2 h v/z of the energy of the fall z, at each bounce.
+    Box and ball may meet the ground a step apart, which is a part 2 h v/z of the energy of the fall
+    z, at each bounce.
     """
     body, ball = flat(width, friction, restitution), sphere(0.05, 1.0, friction, restitution)
     for height in numpy.round(numpy.arange(0.1, 1.3, 0.05), 2):
@@ -136,7 +146,9 @@ def test_at_finer_steps_too(width, step, time):
 
 
 def tilted(tilt, restitution, friction, deep, step, steps):
-    """A block that falls: at the end of step ``steps``, which lands, its low corner would be ``deep`` m in the ground."""
+    """A block that falls: at the end of step ``steps``, which lands, its low corner would be
+    ``deep`` m in the ground.
+    """
     body = regular_block(0.1, 1.0, friction, restitution)
     fallen = 0.5 * 9.81 * step**2 * steps * (steps + 1)
     height = fallen + 0.05 * (math.cos(tilt) + math.sin(tilt)) - deep
@@ -146,8 +158,12 @@ def tilted(tilt, restitution, friction, deep, step, steps):
 
 @pytest.mark.parametrize("tilt", [1e-13, 1e-9, 1e-6])
 @pytest.mark.parametrize("restitution", [0.0, 0.5, 1.0])
-def test_corners_further_apart_than_rounding_but_less_than_a_step_resolves_are_struck_at_once(tilt, restitution):
-    """One corner is in the ground at the end of the step and the other above it, 5e-5 of the way of the step at most."""
+def test_corners_farther_from_each_other_than_rounding_but_less_than_a_step_resolves_are_struck_at_once(
+    tilt, restitution
+):
+    """One corner is in the ground at the end of the step and the other above it, 5e-5 of the way of
+    the step at most.
+    """
     step, steps = 1e-3, 200
     stepped, motion = tilted(tilt, restitution, 0.3, 0.05 * tilt, step, steps)
     assert stepped.advance(steps + 1) == SOLVED
@@ -158,7 +174,9 @@ def test_corners_further_apart_than_rounding_but_less_than_a_step_resolves_are_s
 @pytest.mark.parametrize("friction", [0.0, 0.3])
 @pytest.mark.parametrize("restitution", [0.0, 0.5, 1.0])
 def test_a_corner_that_another_drives_into_the_ground_is_in_reach_too(friction, restitution):
-    """The low corner stops 0.9 of its way v h early; that adds 0.2 of it to the way of the other (J = m s^2/6), 0.1 above."""
+    """The low corner stops 0.9 of its way v h early; that adds 0.2 of it to the way of the other (J
+    = m s^2/6), 0.1 above.
+    """
     step, steps = 1e-3, 200
     way = 9.81 * step**2 * steps
     stepped, motion = tilted(way / 0.1, restitution, friction, 0.9 * way, step, steps)
@@ -181,7 +199,9 @@ def test_corners_that_tie_at_the_rest_speed_bounce_alike(spin, restitution):
 @pytest.mark.parametrize("restitution", [0.3, 0.8, 0.95])
 @pytest.mark.parametrize("step", [2e-3, 1e-3, 3e-4])
 def test_a_ball_that_bounces_comes_to_rest(step, restitution):
-    """A step ends on the ground before the ball leaves it again: a bounce above it would give height, in small ones without end."""
+    """A step ends on the ground before the ball leaves it again: a bounce above it would give
+    height, in small ones without end.
+    """
     ball = sphere(0.05, 1.0, 0.3, restitution)
     motion = placed(ball, [0.0, 0.0, 0.15], numpy.zeros(6))
     fall = math.sqrt(2.0 * 0.1 / 9.81)
@@ -206,7 +226,9 @@ def test_a_ball_that_bounces_without_loss_never_rises_above_its_start(step):
 
 @pytest.mark.parametrize("step", [1e-3, 1e-4])
 def test_a_box_that_tumbles_down_a_slope_comes_to_rest(step):
-    """Friction of 0.6 holds it on 0.2 rad; four corners that stick ask a step for what no motion of the box gives."""
+    """Friction of 0.6 holds it on 0.2 rad; four corners that stick require of a step what no motion
+    of the box gives.
+    """
     body = box((0.2, 0.3, 0.1), 1.0, 0.6, 0.5)
     turned = Rotation.from_rotvec([0.3, -0.2, 0.7]).as_matrix()
     motion = placed(body, [0.0, 0.0, 0.5], [0.5, 0.0, 0.0, 3.0, 5.0, 0.3], rotation=turned)

@@ -1,4 +1,6 @@
-"""A body at rest or sliding straight on: against closed forms, and against a call a sample, each surveyed and solved."""
+"""A body at rest or sliding straight on: against closed forms, and against a call a sample, each
+surveyed and solved.
+"""
 
 import math
 
@@ -58,7 +60,7 @@ def test_many_samples_in_one_call_are_those_of_a_call_a_sample(case):
     assert at_once.dissipated == pytest.approx(one_by_one.dissipated, abs=1e-12)
 
 
-def test_a_box_that_slides_to_a_stop_comes_as_far_as_coulomb_says_and_loses_its_energy():
+def test_a_box_that_slides_to_a_stop_comes_as_far_as_coulomb_friction_allows_and_loses_its_energy():
     body = cube((1.2, 1.6, 0.0), leaning(0.0))
     assert body.advance_over(TICK, 1000)[0] == SOLVED
     far = 2.0**2 / (2.0 * 0.3 * GRAVITY)
@@ -69,8 +71,10 @@ def test_a_box_that_slides_to_a_stop_comes_as_far_as_coulomb_says_and_loses_its_
 
 @pytest.mark.parametrize("size", [1e-3, 0.1, 1.0, 10.0])
 @pytest.mark.parametrize("angle", [-0.3, -0.2, -0.107, -0.05, 0.0, 0.05, 0.13, 0.2, 0.28])
-def test_a_box_that_slides_straight_on_a_slope_stops_where_coulomb_says_at_any_accuracy(angle, size):
-    """Up and down, turned about the normal by any angle: v^2/(2 a), a = g (mu cos +- sin). Rounded on a slope."""
+def test_a_box_that_slides_straight_on_a_slope_stops_where_coulomb_friction_requires_at_any_accuracy(angle, size):
+    """Up and down, turned about the normal by any angle: v^2/(2 a), a = g (mu cos +- sin). Rounded
+    on a slope.
+    """
     normal = numpy.array([-math.sin(angle), 0.0, math.cos(angle)])
     along = numpy.array([math.cos(angle), 0.0, math.sin(angle)])
     body, speed = box((size, 0.8 * size, 0.6 * size), size**3, 0.4, 0.3), 3.0 * math.sqrt(GRAVITY * size)
@@ -88,15 +92,17 @@ def test_a_box_that_slides_straight_on_a_slope_stops_where_coulomb_says_at_any_a
 
 
 def test_a_sliding_box_presses_where_the_moment_of_its_friction_asks_it_to():
-    """Front and back corners carry ``W/4 (1 +- 2 mu h/a)``, a the length along the slide, h the height of the centre."""
+    """Front and back corners carry ``W/4 (1 +- 2 mu h/a)``, a the length along the slide, h the
+    height of the centre.
+    """
     body = cube((2.0, 0.0, 0.0), leaning(0.0))
     track = body.advance_over(TICK, 20)[1]
     loads = track.impulse[-1, ::3] / TICK
     front = body.body.points[:, 0] > 0.0
-    held = loads > 0.0
+    active = loads > 0.0
     quarter, shift = 2.0 * GRAVITY / 4.0, 2.0 * 0.3 * 0.05 / 0.2
-    assert loads[held & front] == pytest.approx([quarter * (1.0 + shift)] * 2, rel=1e-12)
-    assert loads[held & ~front] == pytest.approx([quarter * (1.0 - shift)] * 2, rel=1e-12)
+    assert loads[active & front] == pytest.approx([quarter * (1.0 + shift)] * 2, rel=1e-12)
+    assert loads[active & ~front] == pytest.approx([quarter * (1.0 - shift)] * 2, rel=1e-12)
     assert track.impulse[-1, 1::3].sum() == pytest.approx(-0.3 * 2.0 * GRAVITY * TICK, rel=1e-12)
 
 

@@ -1,4 +1,6 @@
-"""Bodies that turn on held contacts, against their own equations of motion integrated by scipy, and against first integrals."""
+"""Bodies that turn on active contacts, against their own equations of motion integrated by scipy,
+and against first integrals.
+"""
 
 import math
 
@@ -102,7 +104,9 @@ def test_the_error_of_a_pivot_falls_with_the_tolerance(tolerance):
 
 @pytest.mark.parametrize(("start", "end"), [(0.2, 0.6), (0.4, 1.2)])
 def test_a_rod_falls_on_a_smooth_floor_in_the_time_of_its_energy_integral(start, end):
-    """``w^2 = (w_0^2 (I + m l^2 sin^2 a_0) + 2 m g l (cos a_0 - cos a))/(I + m l^2 sin^2 a)``, l half the length."""
+    """``w^2 = (w_0^2 (I + m l^2 sin^2 a_0) + 2 m g l (cos a_0 - cos a))/(I + m l^2 sin^2 a)``, l
+    half the length.
+    """
     body, spin = rod(0.0), 1.0
     m, half, inertia = body.mass, 0.2, float(body.inertia[0])
 
@@ -146,8 +150,10 @@ def test_a_corner_that_sticks_begins_to_slide_when_its_force_leaves_the_cone(fri
     ("friction", "modes"),
     [(0.1, (STICKS, 1, -1)), (0.3, (STICKS, 1, -1)), (0.35, (STICKS, 1, STICKS, -1)), (0.5, (STICKS, -1))],
 )
-def test_the_end_of_a_falling_rod_slides_forward_and_back_as_friction_says(friction, modes):
-    """What ends each mode is found by scipy; the last lasts to 0.54 s, when the rod is about to hit the ground."""
+def test_the_end_of_a_falling_rod_slides_forward_and_back_as_friction_requires(friction, modes):
+    """What ends each mode is found by scipy; the last lasts to 0.54 s, when the rod is about to hit
+    the ground.
+    """
     body = rod(friction)
     state, duration = on_corner(body, TIP, STICKS, 0.05, 0.2), 0.54
     moments, expected = path_of_modes(body, TIP, modes, state, duration)
@@ -189,7 +195,9 @@ def test_a_box_that_falls_about_an_edge_is_a_compound_pendulum():
 
 
 def leaning_box(friction, lean):
-    """A tall box tilted about a lower edge along x, along which gravity leans: the two corners bear unequal loads."""
+    """A tall box tilted about a lower edge along x, along which gravity leans: the two corners bear
+    unequal loads.
+    """
     body = box((0.1, 0.1, 0.16), 2.0, friction, 0.0)
     weight = 2.0 * GRAVITY
     load = numpy.array([-weight * math.sin(lean), 0.0, -weight * math.cos(lean), 0.0, 0.0, 0.0])
@@ -200,7 +208,9 @@ def leaning_box(friction, lean):
 
 @pytest.mark.parametrize("lean", [0.1, 0.3])
 def test_corners_that_share_the_friction_along_an_edge_unequally_stay_in_their_cones(lean):
-    """The box turns as a pendulum under what gravity is left across the edge; the forces add up to what momentum asks."""
+    """The box turns as a pendulum under what gravity is left across the edge; the forces add up to
+    what momentum requires.
+    """
     body, motion = leaning_box(0.6, lean)
     start, duration = motion.position.copy(), 0.05
     flat = RigidBody(PLANE, 2.0, body.inertia[:1], numpy.array([[0.05, -0.08]]), 0.0, 0.6, 0.0, body.load[[1, 2, 3]])
@@ -259,7 +269,9 @@ def test_a_top_whose_tip_slides_follows_coulombs_law_in_space(friction, spin):
 
 
 def turning_cases():
-    """Bodies that only turn on held contacts: a rod that slides and sticks, a box on an edge, tops on a tip."""
+    """Bodies that only turn on active contacts: a rod that slides and sticks, a box on an edge,
+    tops on a tip.
+    """
     fall = rod(0.35)
     yield pytest.param(fall, planar_motion(fall, on_corner(fall, TIP, STICKS, 0.05, 0.2)), 0.54, id="rod")
     yield pytest.param(*leaning_box(0.6, 0.3), 0.05, id="edge")
@@ -290,21 +302,23 @@ def test_turning_keeps_energy_and_momentum_and_does_not_depend_on_the_output(bod
 
 
 def test_an_end_of_a_rod_that_only_the_force_on_the_other_presses_down_stays_on_its_wall():
-    """Between two smooth walls at right angles: ``(1 + k) f'' = -(sqrt(2) g/l)(cos f - sin f)``, k = 4 I/(m l^2), f from one wall.
+    """Between two smooth walls at right angles: ``(1 + k) f'' = -(sqrt(2) g/l)(cos f - sin f)``, k
+    = 4 I/(m l^2), f from one wall.
 
-    At first the spin alone would lift the second end, by 0.1 g/sqrt(2), while the force on the first lets it press on its wall.
+    At first the spin alone would lift the second end, by 0.1 g/sqrt(2), while the force on the
+    first lets it press on its wall.
     """
     length, share, start = 0.2, 0.3, math.radians(30.0)
-    half, pull = 0.5 * length, GRAVITY / math.sqrt(2.0)
-    rate = math.sqrt(1.1 * pull / (half * math.cos(start)))
+    half, load_acceleration = 0.5 * length, GRAVITY / math.sqrt(2.0)
+    rate = math.sqrt(1.1 * load_acceleration / (half * math.cos(start)))
 
     def motion_of(_time, state):
-        return state[1], -pull / (half * (1.0 + share)) * (math.cos(state[0]) - math.sin(state[0]))
+        return state[1], -load_acceleration / (half * (1.0 + share)) * (math.cos(state[0]) - math.sin(state[0]))
 
     def pressures(state):
         f, speed, gain = *state, motion_of(0.0, state)[1]
-        on_first = pull + half * (math.cos(f) * gain - math.sin(f) * speed**2)
-        return on_first, pull - half * (math.sin(f) * gain + math.cos(f) * speed**2)
+        on_first = load_acceleration + half * (math.cos(f) * gain - math.sin(f) * speed**2)
+        return on_first, load_acceleration - half * (math.sin(f) * gain + math.cos(f) * speed**2)
 
     load = numpy.array([0.0, -GRAVITY, 0.0])
     ends = numpy.array([[-half, 0.0], [half, 0.0]])

@@ -1,6 +1,8 @@
-"""Paths of bodies that turn on one corner, by equations of motion of their own and scipy: what the held contacts are held against.
+"""Paths of bodies that turn on one corner, by equations of motion of their own and scipy: the
+reference of active contacts.
 
-The ground is z = 0; gravity is the load of the body, which may lean. In the plane an angle turns x towards z.
+The ground is z = 0; gravity is the load of the body, which may lean. In the plane an angle turns x
+towards z.
 """
 
 import numpy
@@ -18,7 +20,8 @@ def corner_arm(body, corner, angle):
 
 
 def corner_force(body, corner, mode, angle, spin):
-    """Angular acceleration, and the force of the ground (x, z), of a body in the plane on one corner.
+    """Angular acceleration, and the force of the ground (x, z), of a body in the plane on one
+    corner.
 
     Sticking: the compound pendulum. Sliding: ``z'' = -d2/dt2 (R p)_z`` with ``f_x = -mu f_z mode``.
     """
@@ -33,7 +36,9 @@ def corner_force(body, corner, mode, angle, spin):
 
 
 def on_corner(body, corner, mode, angle, spin=0.0, slip=0.0):
-    """State (x, z, angle, v_x, v_z, spin, impulse x, impulse z) of a body whose corner is at the origin and slips at ``slip``."""
+    """State (x, z, angle, v_x, v_z, spin, impulse x, impulse z) of a body whose corner is at the
+    origin and slips at ``slip``.
+    """
     x, z = corner_arm(body, corner, angle)
     return numpy.array([-x, -z, angle, slip + spin * z, -spin * x, spin, 0.0, 0.0])
 
@@ -44,7 +49,9 @@ def slip_of_corner(body, corner, state):
 
 
 def spare_of_corner(body, corner, mode, state):
-    """What ends a mode where it falls to 0: the friction left of a corner that sticks, the slip of one that slides."""
+    """What ends a mode where it falls to 0: the friction left of a corner that sticks, the slip of
+    one that slides.
+    """
     if mode != STICKS:
         return mode * slip_of_corner(body, corner, state)
     _turn, x, z = corner_force(body, corner, mode, state[2], state[5])
@@ -57,7 +64,9 @@ def normal_force(body, corner, mode, state):
 
 
 def planar_path(body, corner, mode, state, duration, ends_at=None):
-    """Time and state after ``duration``, or where ``ends_at`` (`spare_of_corner`, `normal_force`) falls to 0 before."""
+    """Time and state after ``duration``, or where ``ends_at`` (`spare_of_corner`, `normal_force`)
+    falls to 0 before.
+    """
 
     def rate(_time, y):
         turn, x, z = corner_force(body, corner, mode, y[2], y[5])
@@ -76,7 +85,9 @@ def planar_path(body, corner, mode, state, duration, ends_at=None):
 
 
 def path_of_modes(body, corner, modes, state, duration):
-    """The path through ``modes``, each to its end and the last up to ``duration``: the moments of change, and the state."""
+    """The path through ``modes``, each to its end and the last up to ``duration``: the moments of
+    change, and the state.
+    """
     moments = [0.0]
     for mode in modes[:-1]:
         time, state = planar_path(body, corner, mode, state, duration - moments[-1], spare_of_corner)
@@ -85,7 +96,9 @@ def path_of_modes(body, corner, modes, state, duration):
 
 
 def turned_by(rate, duration, state):
-    """A state that ends with a quaternion (x, y, z, w) and a spin in body axes, after ``duration``; ``rate(R, state)``."""
+    """A state that ends with a quaternion (x, y, z, w) and a spin in body axes, after ``duration``;
+    ``rate(R, state)``.
+    """
 
     def whole(_time, y):
         x, y_, z, w = y[-7:-3]
@@ -98,9 +111,11 @@ def turned_by(rate, duration, state):
 
 
 def top_path(body, tip, rotation, spin, duration):
-    """Position, rotation and velocity (world axes) of a body that turns about its ``tip`` at the origin: Euler's equations.
+    """Position, rotation and velocity (world axes) of a body that turns about its ``tip`` at the
+    origin: Euler's equations.
 
-    ``I_O w' = c x R' load - w x I_O w`` with the centre of mass at c and the inertia about the tip; ``spin`` in body axes.
+    ``I_O w' = c x R' load - w x I_O w`` with the centre of mass at c and the inertia about the tip;
+    ``spin`` in body axes.
     """
     c = -body.points[tip]
     about = numpy.diag(body.inertia) + body.mass * (c @ c * numpy.eye(3) - numpy.outer(c, c))
@@ -114,23 +129,26 @@ def top_path(body, tip, rotation, spin, duration):
 
 
 def sliding_tip_path(body, tip, rotation, velocity, spin, duration):
-    """The same of a body whose ``tip`` starts at the origin and slides on z = 0 with friction ``-mu N s``.
+    """The same of a body whose ``tip`` starts at the origin and slides on z = 0 with friction ``-mu
+    N s``.
 
-    The centre of mass is at ``z = -(R p)_z``, which gives N. ``velocity`` (x, y) of the centre of mass.
+    The centre of mass is at ``z = -(R p)_z``, which gives N. ``velocity`` (x, y) of the centre of
+    mass.
     """
     m, inertia, p = body.mass, body.inertia, body.points[tip]
 
     def rate(R, y):
         w, arm, height_row = y[-3:], R @ p, R[2]
-        still = -numpy.cross(w, inertia * w) / inertia  # spin rate without contact
+        rounding = -numpy.cross(w, inertia * w) / inertia  # spin rate without contact
         bend = numpy.cross(w, numpy.cross(w, p))
         slip = y[2:4] + (R @ numpy.cross(w, p))[:2]
-        along = numpy.array([*(-body.friction * slip / numpy.linalg.norm(slip)), 1.0])  # force per N
+        # force per N
+        along = numpy.array([*(-body.friction * slip / numpy.linalg.norm(slip)), 1.0])
         push = R.T @ numpy.cross(arm, along) / inertia  # spin rate per N
-        normal = (-body.load[2] / m - height_row @ (numpy.cross(still, p) + bend)) / (
+        normal = (-body.load[2] / m - height_row @ (numpy.cross(rounding, p) + bend)) / (
             1.0 / m + height_row @ numpy.cross(push, p)
         )
-        return [y[2], y[3], *((normal * along + body.load[:3]) / m)[:2]], still + normal * push
+        return [y[2], y[3], *((normal * along + body.load[:3]) / m)[:2]], rounding + normal * push
 
     start = [*(-(rotation @ p)[:2]), *velocity, *Rotation.from_matrix(rotation).as_quat(), *spin]
     end = turned_by(rate, duration, start)

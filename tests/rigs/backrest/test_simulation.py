@@ -43,7 +43,7 @@ def test_a_preload_that_presses_deeper_than_the_back_is_round_is_refused():
         make_simulation(resolved("seat_slap", "backrest.preload=1e6"))
 
 
-def test_a_run_says_what_its_scene_lists_and_nothing_else(slap_and_slip):
+def test_a_run_publishes_what_its_scene_lists_and_nothing_else(slap_and_slip):
     scene, messages = slap_and_slip
     assert {name for name, _stamp, _data in messages} == set(result_topics(scene))
 

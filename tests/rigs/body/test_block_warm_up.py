@@ -1,4 +1,6 @@
-"""What a run of a body calls is compiled before it starts: afterwards a call with no compiled version is an error."""
+"""What a run of a body calls is compiled before it starts: afterwards a call with no compiled
+version is an error.
+"""
 
 import math
 import subprocess
@@ -41,7 +43,8 @@ SPRINGS, STEPPING = "motion.compliant", ("motion.stepping", "geometry.reach")
 def test_the_warm_up_leaves_out_other_models_alone(scene, others):
     """In a process of its own: here another test may have called what the warm-up did not."""
     done = subprocess.run([sys.executable, "-c", LEFT_OUT, *scene], capture_output=True, text=True, check=True)
-    assert set(done.stdout.split()) - {"body"} <= others  # of `body`: gaps at a pose, for pictures and the springs
+    # of `body`: gaps at a pose, for pictures and the springs
+    assert set(done.stdout.split()) - {"body"} <= others
 
 
 STRAIGHT = (
@@ -59,7 +62,9 @@ BODIES = (
 @pytest.mark.parametrize("body", BODIES)
 @pytest.mark.parametrize("facets", [0, 8])
 def test_a_body_that_slides_straight_in_space_stops_and_rests(body, facets):
-    """After ``v / (mu g)``, over ``v^2 / (2 mu g)``; with eight facets the friction along a vertex is the same."""
+    """After ``v / (mu g)``, over ``v^2 / (2 mu g)``; with eight facets the friction along a vertex
+    is the same.
+    """
     velocity = (1.3, 0.0) if facets else (1.2, 0.5)
     values = (
         *STRAIGHT[:3],

@@ -1,4 +1,6 @@
-"""Runs of the rig block: what the bag of a scene holds, that it adds up, and what its motion tells."""
+"""Runs of the rig block: what the bag of a scene holds, that it adds up, and what its motion
+tells.
+"""
 
 import json
 import math
@@ -48,7 +50,7 @@ def rows(messages):
 
 
 @pytest.mark.parametrize("name", SCENES)
-def test_a_run_says_what_its_scene_lists_and_loses_no_energy_unnoticed(name):
+def test_a_run_publishes_what_its_scene_lists_and_loses_no_energy_unnoticed(name):
     scene, messages = run(name)
     assert {topic for topic, _stamp, _data in messages} == set(result_topics(scene))
     ledgers = of(messages, "bench/energy", EnergyLedger)
@@ -111,7 +113,7 @@ COMPLIANT = "effects.block.compliant_contact={}"
 
 
 @pytest.mark.parametrize("name", ["block_fall", "block_slope", "box_3d_tumble"])
-def test_the_compliant_twin_of_a_scene_says_the_same_topics_and_closes_its_ledger(name):
+def test_the_compliant_twin_of_a_scene_publishes_the_same_topics_and_closes_its_ledger(name):
     scene, messages = run(name, COMPLIANT, "duration=1.0")
     assert {topic for topic, _stamp, _data in messages} == set(result_topics(scene))
     ledgers = of(messages, "bench/energy", EnergyLedger)
@@ -151,8 +153,8 @@ def test_a_sphere_rolls_over_a_ground_of_heights():
 
 
 def test_a_body_that_starts_in_the_ground_is_refused_with_the_rise():
-    told = r"block\.position: puts the body into the ground at the start; raise its z by 0\.05 m"
-    with pytest.raises(SceneError, match=told):
+    sentence = r"block\.position: puts the body into the ground at the start; raise its z by 0\.05 m"
+    with pytest.raises(SceneError, match=sentence):
         resolved("block_zeno", "block.position=[0,0,0]")
 
 
@@ -171,7 +173,7 @@ def test_a_body_raised_by_what_the_refusal_tells_is_accepted_and_by_less_is_not(
 
 
 @pytest.mark.parametrize(
-    ("name", "value", "told"),
+    ("name", "value", "sentence"),
     [
         (
             "block_slope",
@@ -186,8 +188,8 @@ def test_a_body_raised_by_what_the_refusal_tells_is_accepted_and_by_less_is_not(
         ),
     ],
 )
-def test_keys_without_meaning_and_lists_of_another_length_are_refused(name, value, told):
-    with pytest.raises(SceneError, match=told):
+def test_keys_without_meaning_and_lists_of_another_length_are_refused(name, value, sentence):
+    with pytest.raises(SceneError, match=sentence):
         resolved(name, value)
 
 
@@ -293,12 +295,16 @@ def test_every_body_runs_over_every_ground(values, ground):
     assert numpy.diff(totals).max() <= 1e-6
     depth = max(block.approach.max() for block in of(messages, "block/force", ContactForce))
     if ground == VALLEYS and "block.motion=space" in values and "block.shape=sphere" not in values:
-        return  # in space the corners alone of a box or hull meet heights, so that a peak goes into its faces
+        # in space the corners alone of a box or hull meet heights, so that a peak goes into its
+        # faces
+        return
     assert depth <= 1e-7
 
 
 def test_a_compliant_ball_bounces_on_a_peak_sharper_than_a_right_angle():
-    """A mass on a spring while it touches, `y = g/w^2 (cos wt - 1) - v/w sin wt`; it rises at the speed that it came with."""
+    """A mass on a spring while it touches, `y = g/w^2 (cos wt - 1) - v/w sin wt`; it rises at the
+    speed that it came with.
+    """
     drop, stiffness, duration = 0.1, 1e5, 0.25
     _scene, messages = run(
         "block_zeno", "block.ground={heights: [0, 0.2, 0], start: -0.1, distance: 0.1}",
@@ -335,7 +341,9 @@ def test_a_ball_that_rests_in_a_valley_is_pushed_up_with_its_weight():
 @pytest.mark.parametrize("motion", ["plane", "space"])
 @pytest.mark.parametrize("scheme", ["located", "stepping"])
 def test_the_wrench_of_a_ball_that_rolls_down_a_slope_of_heights_is_that_of_rolling(scheme, motion):
-    """In world axes: N = m g cos a along the normal, friction 2/7 m g sin a up the slope, and its moment R about the centre."""
+    """In world axes: N = m g cos a along the normal, friction 2/7 m g sin a up the slope, and its
+    moment R about the centre.
+    """
     angle, radius = math.atan(0.2), 0.05
     height = radius / math.cos(angle)
     ball = (
@@ -353,7 +361,9 @@ def test_the_wrench_of_a_ball_that_rolls_down_a_slope_of_heights_is_that_of_roll
 
 
 def test_a_box_that_tumbles_above_heights_feels_no_wrench():
-    """Its momentum changes by its weight alone, its angular momentum not at all, though its spin does."""
+    """Its momentum changes by its weight alone, its angular momentum not at all, though its spin
+    does.
+    """
     _scene, messages = run(
         "box_3d_tumble",
         "duration=0.5",
@@ -368,18 +378,20 @@ def test_a_box_that_tumbles_above_heights_feels_no_wrench():
         assert wrench.wrench.torque == pytest.approx((0.0, 0.0, 0.0), abs=1e-8)
 
 
-def test_a_box_that_rolls_over_its_edges_has_the_forces_of_the_asked_accuracy():
-    """An error of a turn on held points comes back many times greater from the impacts behind it."""
+def test_a_box_that_rolls_over_its_edges_has_the_forces_of_the_requested_accuracy():
+    """An error of a turn on active points comes back many times greater from the impacts
+    behind it.
+    """
     found, tight = (
         numpy.concatenate(
             [
                 each.normal
                 for each in of(
-                    run("box_3d_tumble", "duration=1.2", f"accuracy={asked}")[1], "block/force", ContactForce
+                    run("box_3d_tumble", "duration=1.2", f"accuracy={tolerance}")[1], "block/force", ContactForce
                 )
             ]
         )
-        for asked in (1e-3, 1e-8)
+        for tolerance in (1e-3, 1e-8)
     )
     assert tight.max() > 100.0
     assert numpy.abs(found - tight).max() <= 1e-3 * tight.max()

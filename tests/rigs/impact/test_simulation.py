@@ -66,7 +66,7 @@ def rubber():
     return run("impact_rubber_drop")
 
 
-def test_a_run_says_what_its_scene_lists_and_nothing_else(rubber):
+def test_a_run_publishes_what_its_scene_lists_and_nothing_else(rubber):
     scene, messages = rubber
     assert {name for name, _stamp, _data in messages} == set(result_topics(scene))
 

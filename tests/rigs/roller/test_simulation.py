@@ -59,7 +59,7 @@ def column(messages, name):
 
 
 @pytest.mark.parametrize("name", SHORT)
-def test_a_run_says_what_its_scene_lists(name):
+def test_a_run_publishes_what_its_scene_lists(name):
     scene, messages = run(name, *SHORT[name])
     assert {topic for topic, _stamp, _data in messages} == set(result_topics(scene))
 

@@ -1,5 +1,5 @@
-"""Contact impulses as Python asks for them: the ladder of `rigid/contact/solver.py`, and what goes
-on where it ends without an answer.
+"""Contact impulses for callers from Python: the methods of `rigid/contact/solver.py`, and what
+follows where they end without an answer.
 
 A second solve at velocities that rounding has not put out of reach, then Lemke's path on the true
 cone in space (`rigid/contact/cone_path.py`).
@@ -16,17 +16,21 @@ from contact_sim_pkg.rigid.contact.solver import NEAREST, NEWTON, REFINE, Contac
 from contact_sim_pkg.rigid.problem import DISC, SPACE, ContactProblem, residual
 from contact_sim_pkg.rigid.results import CONTACT_NOT_FINITE, NOT_CONVERGED, SOLVED, UNIQUE
 
-__all__ = ["contact_impulses", "nearest_motion", "solve_over_and_over"]
+__all__ = ["contact_impulses", "nearest_motion", "solve_repeatedly"]
 
-CLOSE = 1.0e-10  # residual for which no path is asked: that of a slip of 1e-13 m/s, say, which neither ends nor goes on
+CLOSE = (
+    # residual for which no path is followed: that of a slip of 1e-13 m/s, say, which neither ends
+    # nor goes on
+    1.0e-10
+)
 
 
 @entry
-def solve_over_and_over(
+def solve_repeatedly(
     problem: ContactProblem, J: Vector, W: Vector, solver: Solver, c: Vector, times: int
 ) -> ContactSolution:
-    """`solve_and_split`, ``times`` times, each again from no load: the ladder's time of one solve
-    is without the call from Python.
+    """`solve_and_split` into ``c`` [rows], ``times`` times, each again from no load: the time of
+    one solve in a study is without the call from Python.
 
     An entry of its own for that would compile all solvers once more.
     """
@@ -46,12 +50,12 @@ def contact_impulses(problem: ContactProblem, J: Vector, W: Vector, solver: Solv
     nothing at the edge of the cone; or conditions that contradict each other by rounding are met as
     nearly as the residual says, up to NEAREST.
     """
-    found = solve_over_and_over(problem, J, W, solver, c, 1)
+    found = solve_repeatedly(problem, J, W, solver, c, 1)
     if found.status in (SOLVED, CONTACT_NOT_FINITE):
         return found
     found = _by_nearest_motion(problem, J, W, solver, c, found)
     on_disc = problem.width == SPACE and problem.facets == DISC
-    if found.status != SOLVED and found.residual > CLOSE and solver.rung == NEWTON and on_disc:
+    if found.status != SOLVED and found.residual > CLOSE and solver.method == NEWTON and on_disc:
         found = _by_path(problem, J, W, solver, c, found)
     return found._replace(status=SOLVED) if found.residual <= NEAREST else found
 
@@ -70,7 +74,7 @@ def _by_nearest_motion(
     if near is None:
         return found
     trial = numpy.zeros_like(c)
-    ended = solve_over_and_over(problem._replace(q=near), J, W, solver, trial, 1)
+    ended = solve_repeatedly(problem._replace(q=near), J, W, solver, trial, 1)
     if ended.status != SOLVED:
         return found
     c[:] = trial
@@ -78,8 +82,8 @@ def _by_nearest_motion(
 
 
 def nearest_motion(J: Vector, q: Vector, most: float) -> Vector | None:
-    """The contact velocities ``J v`` nearest to ``q`` [rows]; None where they differ by more than
-    ``most`` of its largest.
+    """The contact velocities ``J v`` nearest to ``q`` [rows] in [m/s]; None where they differ by
+    more than ``most`` of its largest.
     """
     near: Vector = J @ numpy.linalg.lstsq(J, q)[0]
     return near if numpy.abs(near - q).max() <= most * numpy.abs(q).max() else None
@@ -91,9 +95,9 @@ def _by_path(
     """The first end of a path that Newton's method brings to an answer, into ``c``; else ``found``,
     and ``c`` as it is.
     """
-    refining = solver._replace(rung=REFINE)
+    refining = solver._replace(method=REFINE)
     for candidate in candidates_by_path(problem):
-        ended = solve_over_and_over(problem, J, W, refining, candidate, 1)
+        ended = solve_repeatedly(problem, J, W, refining, candidate, 1)
         if ended.status == SOLVED:
             c[:] = candidate
             return ended

@@ -23,9 +23,10 @@ from contact_sim_pkg.rigid.problem import SPACE, ContactProblem
 
 __all__ = ["NORMAL", "TANGENTIAL", "ContactModes", "ModeEquations"]
 
-NORMAL, TANGENTIAL = 0, 1  # kinds of modes, columns of `ModeEquations.margins`
+NORMAL, TANGENTIAL = 0, 1  # kinds of modes, columns of `ModeEquations.event_values`
 GOLDEN = 0.6180339887498949
-TANGENTIAL_COVER = 0.3  # over 1 + mu: less than what friction could turn into a push against the cover
+# over 1 + mu: less than what friction could turn into a push against the cover
+TANGENTIAL_COVER = 0.3
 
 
 class ModeEquations(NamedTuple):
@@ -36,7 +37,8 @@ class ModeEquations(NamedTuple):
     slopes: Vector  # [equations, equations + 1]
     impulse: Vector  # [rows], scaled
     velocity: Vector  # [rows], scaled
-    margins: Vector  # [contacts, 2]; below 0: the mode of the contact has ended; inf: no such mode
+    # [contacts, 2]; below 0: the mode of the contact has ended; inf: no such mode
+    event_values: Vector
 
 
 class ContactModes:
@@ -72,24 +74,26 @@ class ContactModes:
         first = numpy.cumsum(counts) - counts
         self._unknowns = int(counts.sum()) + 1
         self._rows = numpy.flatnonzero(numpy.stack([self.touching, self.rubbing, self.rubbing], axis=1))
-        self._held = numpy.flatnonzero(self.touching)
-        self._slid = numpy.flatnonzero(self.rubbing & self.sliding)
-        self._stuck = numpy.flatnonzero(self.rubbing & ~self.sliding)
-        self._normal, second = first[self._held], first + self.touching
-        self._turn, self._along = second[self._slid], second[self._stuck]  # of the angle; of the first tangent
-        self._place = numpy.searchsorted(self._rows, SPACE * self._slid + 1)  # of their first equation of slip
+        self._active = numpy.flatnonzero(self.touching)
+        self._sliding = numpy.flatnonzero(self.rubbing & self.sliding)
+        self._sticking = numpy.flatnonzero(self.rubbing & ~self.sliding)
+        self._normal, second = first[self._active], first + self.touching
+        # of the angle; of the first tangent
+        self._turn, self._along = second[self._sliding], second[self._sticking]
+        # of their first equation of slip
+        self._place = numpy.searchsorted(self._rows, SPACE * self._sliding + 1)
 
     def unknowns(self) -> Vector:
         """Of all contacts in their modes, and t."""
         x = numpy.full(self._unknowns, self._t)
-        x[self._normal] = self._impulse[self._held, 0]
-        x[self._turn], x[self._turn + 1] = self._angle[self._slid], self._slip[self._slid]
-        x[self._along], x[self._along + 1] = self._impulse[self._stuck, 1], self._impulse[self._stuck, 2]
+        x[self._normal] = self._impulse[self._active, 0]
+        x[self._turn], x[self._turn + 1] = self._angle[self._sliding], self._slip[self._sliding]
+        x[self._along], x[self._along + 1] = self._impulse[self._sticking, 1], self._impulse[self._sticking, 2]
         return x
 
     def evaluate(self, x: Vector) -> ModeEquations:
-        """Values and slopes of the equations, impulses, velocities and margins at the unknowns
-        ``x``.
+        """Values and slopes of the equations, impulses, velocities and event values at the
+        unknowns ``x``.
         """
         c, slopes = self._impulses(x)
         u = self.q + x[-1] * self.cover + self.A @ c
@@ -100,41 +104,46 @@ class ContactModes:
             values[place + a] -= slip * part
             gradient[place + a, turn] -= slip * change
             gradient[place + a, turn + 1] -= part
-        return ModeEquations(x, values, gradient, c, u, self._margins(x, c, u))
+        return ModeEquations(x, values, gradient, c, u, self._event_values(x, c, u))
 
     def _impulses(self, x: Vector) -> tuple[Vector, Vector]:
         """Impulses [rows] and their slopes [rows, unknowns]."""
         c, slopes = numpy.zeros(len(self.q)), numpy.zeros((len(self.q), len(x)))
         c[::SPACE], slopes[::SPACE, -1] = self._floor(x[-1]), -self.floor / self.begin
-        held, stuck, slid = SPACE * self._held, SPACE * self._stuck, SPACE * self._slid
-        c[held], slopes[held, -1] = x[self._normal], 0.0
-        slopes[held, self._normal] = 1.0
-        friction = self.friction[self._slid]
+        active, sticking, sliding = SPACE * self._active, SPACE * self._sticking, SPACE * self._sliding
+        c[active], slopes[active, -1] = x[self._normal], 0.0
+        slopes[active, self._normal] = 1.0
+        friction = self.friction[self._sliding]
         for a, part, change in zip((0, 1), *_direction(x[self._turn]), strict=True):
-            c[slid + 1 + a] = -friction * c[slid] * part
-            slopes[slid + 1 + a] = -(friction * part)[:, None] * slopes[slid]
-            slopes[slid + 1 + a, self._turn] -= friction * c[slid] * change
-            c[stuck + 1 + a] = x[self._along + a]
-            slopes[stuck + 1 + a, self._along + a] = 1.0
+            c[sliding + 1 + a] = -friction * c[sliding] * part
+            slopes[sliding + 1 + a] = -(friction * part)[:, None] * slopes[sliding]
+            slopes[sliding + 1 + a, self._turn] -= friction * c[sliding] * change
+            c[sticking + 1 + a] = x[self._along + a]
+            slopes[sticking + 1 + a, self._along + a] = 1.0
         return c, slopes
 
     def _floor(self, t: float) -> Vector:
         return self.floor * (1.0 - t / self.begin)
 
-    def _margins(self, x: Vector, c: Vector, u: Vector) -> Vector:
-        margins = numpy.full((len(self.friction), 2), math.inf)
-        margins[:, NORMAL] = numpy.where(self.touching, c[::SPACE] - self._floor(x[-1]), u[::SPACE])
-        margins[self._slid, TANGENTIAL] = x[self._turn + 1]
-        row = SPACE * self._stuck
-        margins[self._stuck, TANGENTIAL] = self.friction[self._stuck] * c[row] - numpy.hypot(c[row + 1], c[row + 2])
-        return margins
+    def _event_values(self, x: Vector, c: Vector, u: Vector) -> Vector:
+        event_values = numpy.full((len(self.friction), 2), math.inf)
+        event_values[:, NORMAL] = numpy.where(self.touching, c[::SPACE] - self._floor(x[-1]), u[::SPACE])
+        event_values[self._sliding, TANGENTIAL] = x[self._turn + 1]
+        row = SPACE * self._sticking
+        event_values[self._sticking, TANGENTIAL] = self.friction[self._sticking] * c[row] - numpy.hypot(
+            c[row + 1], c[row + 2]
+        )
+        return event_values
 
-    def switch(self, state: ModeEquations, contact: int, kind: int) -> None:
+    def change_mode(self, state: ModeEquations, contact: int, kind: int) -> None:
         """Contact ``contact`` leaves its mode at ``state``, for the one beside it."""
         self._t, self._impulse = state.unknowns[-1], state.impulse.reshape(-1, SPACE).copy()
-        self._angle[self._slid], self._slip[self._slid] = state.unknowns[self._turn], state.unknowns[self._turn + 1]
+        self._angle[self._sliding], self._slip[self._sliding] = (
+            state.unknowns[self._turn],
+            state.unknowns[self._turn + 1],
+        )
         if kind == NORMAL:
-            self._switch_normal(state, contact)
+            self._change_normal_mode(state, contact)
         else:
             self.sliding[contact] = not self.sliding[contact]
             against = -self._impulse[contact]
@@ -142,7 +151,7 @@ class ContactModes:
                 self._angle[contact], self._slip[contact] = math.atan2(against[2], against[1]), 0.0
         self._lay_out()
 
-    def _switch_normal(self, state: ModeEquations, i: int) -> None:
+    def _change_normal_mode(self, state: ModeEquations, i: int) -> None:
         self.touching[i] = not self.touching[i]
         if self.floor[i] > 0.0 or self.friction[i] == 0.0:
             return
@@ -164,8 +173,8 @@ def _direction(angle: Vector) -> tuple[tuple[Vector, Vector], tuple[Vector, Vect
 
 
 def _cover(friction: Vector, way: int) -> Vector:
-    """Covering velocities d [rows]: apart between 1 and 2, and a little along; no two alike, so
-    that no two modes end at once.
+    """Covering velocities d [rows]: of separation between 1 and 2, and a little along; no two
+    alike, so that no two modes end at once.
     """
     cover = numpy.zeros((len(friction), SPACE))
     part = GOLDEN * (way + 1) * numpy.arange(1, len(friction) + 1)

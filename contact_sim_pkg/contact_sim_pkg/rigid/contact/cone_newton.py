@@ -23,7 +23,8 @@ from contact_sim_pkg.rigid.results import NOT_CONVERGED, SOLVED
 
 ITERATIONS = 30
 STALLED = 4  # iterations without a better residual after which the method ends
-GOOD, ENOUGH = 1.0e-12, 1.0e-15  # residual that counts as solved; residual at which no further step is taken
+# residual that counts as solved; residual at which no further step is taken
+GOOD, ENOUGH = 1.0e-12, 1.0e-15
 
 
 class NewtonWorkspace(NamedTuple):
@@ -88,10 +89,12 @@ def _fill(problem, work, c):
         row = i * problem.width
         weight, friction, floor = problem.A[row, row], problem.friction[i], problem.floor[i]
         u = work.velocity
+        # normal row: the contact presses, or its impulse is at the floor
         if c[row] - u[row] / weight > floor:
             _velocity_row(problem, work, row, u[row])
         else:
             _impulse_row(problem, work, row, c[row] - floor)
+        # tangential rows: no friction, stick (velocity 0), or slip on the edge of the disc
         x, y = c[row + 1] - u[row + 1] / weight, 0.0
         if problem.width == SPACE:
             y = c[row + 2] - u[row + 2] / weight
@@ -112,6 +115,7 @@ def solve_by_newton(problem, work, c):
     rows = problem.q.shape[0]
     best, waited = numpy.inf, 0
     for _ in range(ITERATIONS):
+        # the best iterate is kept: a step of the semismooth equation may lead away
         now = residual(problem, c, work.velocity)
         if now < best:
             best, waited = now, 0
@@ -121,6 +125,7 @@ def solve_by_newton(problem, work, c):
             waited += 1
         if best <= ENOUGH or waited >= STALLED or not now < numpy.inf:
             break
+        # singular where contacts are redundant; the system has a solution all the same
         _fill(problem, work, c)
         solve_consistent(work.matrix, work.right, work.step, work.order, rows)
         for i in range(rows):

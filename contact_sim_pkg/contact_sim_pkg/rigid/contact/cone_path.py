@@ -1,4 +1,4 @@
-"""Contacts with the true friction cone in space by Lemke's path: the last rung, for what Newton's
+"""Contacts with the true friction cone in space by Lemke's path: the last method, for what Newton's
 method does not settle.
 
 The problem is covered as in Lemke's method, ``q + t d``: for great t nothing but ``c = 0`` solves
@@ -6,7 +6,7 @@ it, and from there the solutions form a path that, where the normals of the cont
 plane), is bounded and so ends at ``t = 0``, however it turns in between. With the true cone it is
 smooth but for the points where a contact changes its mode, instead of straight between pivots: it
 is followed by tangent and Newton's method, and what goes on at a change is the mode beside. Plain
-numpy: one in a hundred of random problems asks for it, and nothing needs to be compiled for it.
+numpy: one in a hundred of random problems needs it, and nothing needs to be compiled for it.
 Source: Cottle, Pang, Stone, The Linear Complementarity Problem, 4.4; Allgower, Georg, Numerical
 Continuation Methods, 2 and 6.
 """
@@ -25,20 +25,23 @@ from contact_sim_pkg.rigid.problem import ContactProblem
 
 __all__ = ["candidates_by_path"]
 
-SHIFTS = (1.0e-10, 1.0e-8)  # of the diagonal: redundant contacts have one answer; Newton's method takes it away
+# of the diagonal: redundant contacts have one answer; Newton's method takes it away
+SHIFTS = (1.0e-10, 1.0e-8)
 WAYS = 8  # covers that are tried with each shift
 STEPS = 300  # of one path; most that end take 15 to 120
 ALL_STEPS = 2000
-SHORTEST = 1.0e-12  # step, and the margin that is 0
-ENTERED = 1.0e-12  # margin of a mode that has just begun
-MET = 1.0e-13  # margin at an end
+SHORTEST = 1.0e-12  # step, and the event value that is 0
+ENTERED = 1.0e-12  # event value of a mode that has just begun
+MET = 1.0e-13  # event value at an end
 CORRECTIONS, QUICK = 8, 3  # of Newton's method; of a step after which the next one may be longer
 SOLVED_TO, GOOD_ENOUGH = 1.0e-13, 1.0e-10  # equations, of 1 and the greatest unknown
 LONGER, SHORTER = 1.7, 0.3
 STRAIGHT = 0.8  # least cosine between the tangents of a step
 TRIALS = 60
 GREATEST = (
-    1.0e-2  # impulse, in the greatest of a step without friction, over 1 / shift: an answer at infinity ends there
+    # impulse, in the greatest of a step without friction, over 1 / shift: an answer at infinity
+    # ends there
+    1.0e-2
 )
 PROBE = 1.0e-7
 
@@ -63,7 +66,9 @@ def _next_tangent(state: ModeEquations, before: Vector) -> Vector:
 
 
 def _corrected(modes: ContactModes, guess: Vector, tangent: Vector) -> tuple[ModeEquations, int] | None:
-    """The point of the path nearest to ``guess`` across ``tangent``, and the corrections it took."""
+    """The point of the path nearest to ``guess`` across ``tangent``, and the corrections it
+    took.
+    """
     x = guess
     for count in range(CORRECTIONS + 1):
         state = modes.evaluate(x)
@@ -81,25 +86,27 @@ def _corrected(modes: ContactModes, guess: Vector, tangent: Vector) -> tuple[Mod
 
 
 def _crossed(state: ModeEquations, watched: numpy.typing.NDArray[numpy.bool_]) -> Vector:
-    """Margins of the watched modes [..], and t last."""
-    return numpy.append(state.margins[watched], state.unknowns[-1])
+    """Event values of the watched modes [modes], and t last."""
+    return numpy.append(state.event_values[watched], state.unknowns[-1])
 
 
 def _event(
     modes: ContactModes, start: ModeEquations, end: ModeEquations, tangent: Vector, length: float
 ) -> tuple[ModeEquations, int] | None:
-    """First point between ``start`` and ``end`` at which a watched margin or t is 0, and the place
-    of that in `_crossed`.
+    """First point between ``start`` and ``end`` at which a watched event value or t is 0, and the
+    place of that in `_crossed`.
     """
-    watched = start.margins > ENTERED
+    watched = start.event_values > ENTERED
     low, high, above, below = 0.0, length, _crossed(start, watched), _crossed(end, watched)
     state, first = end, int(below.argmin())
     for trial in range(TRIALS):
+        # regula falsi towards the first value that changed its sign; every third trial halves
         gone = numpy.flatnonzero(below < 0.0)
         if len(gone) == 0:
             break
         share = float((above[gone] / (above[gone] - below[gone])).min()) if trial % 3 < 2 else 0.5
         middle = low + (high - low) * share
+        # back onto the path, across the tangent
         found = _corrected(modes, start.unknowns + middle * tangent, tangent)
         if found is None:
             return None
@@ -108,6 +115,7 @@ def _event(
         first = int(now.argmin())
         if abs(now[first]) <= MET:
             break
+        # the bracket keeps its start before the event and its end behind
         if now[first] < 0.0:
             high, below = middle, now
         else:
@@ -116,12 +124,12 @@ def _event(
 
 
 def _turned(modes: ContactModes, state: ModeEquations, contact: int, kind: int) -> tuple[ModeEquations, Vector]:
-    """The path from the mode beside on: the margin of the new mode grows along it."""
-    modes.switch(state, contact, kind)
+    """The path from the mode beside on: its event value grows along it."""
+    modes.change_mode(state, contact, kind)
     begun = modes.evaluate(modes.unknowns())
     tangent = _tangent(begun)
     ahead = modes.evaluate(begun.unknowns + PROBE * tangent)
-    grows = ahead.margins[contact, kind] >= begun.margins[contact, kind]
+    grows = ahead.event_values[contact, kind] >= begun.event_values[contact, kind]
     return begun, tangent if grows else -tangent
 
 
@@ -135,7 +143,7 @@ def _forward(
     if found is None:
         return None
     after = _next_tangent(found[0], tangent)
-    entered = (state.margins <= ENTERED) & (found[0].margins < 0.0)
+    entered = (state.event_values <= ENTERED) & (found[0].event_values < 0.0)
     if not after @ tangent >= STRAIGHT or entered.any():
         return None
     return found[0], after, found[1]
@@ -151,7 +159,7 @@ def follow(modes: ContactModes, steps: Iterator[int]) -> Vector:
         tangent = -tangent
     for _ in steps:
         step = _forward(modes, state, tangent, length)
-        watched = state.margins > ENTERED
+        watched = state.event_values > ENTERED
         ends = step is not None and _crossed(step[0], watched).min() < 0.0
         event = _event(modes, state, step[0], tangent, length) if step is not None and ends else None
         size = 1.0 + float(numpy.abs(state.unknowns).max())

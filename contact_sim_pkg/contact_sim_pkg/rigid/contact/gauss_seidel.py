@@ -36,9 +36,11 @@ def sweep(problem, c):
     for i in range(problem.friction.shape[0]):
         row = i * problem.width
         weight = problem.A[row, row]
+        # normal impulse that brings its row to rest, cut off at the floor
         before = c[row]
         c[row] = max(problem.floor[i], before - _row_velocity(problem, c, row) / weight)
         change = max(change, weight * abs(c[row] - before))
+        # friction: a projected step, with the impulses found so far
         bound = _tangential_bound(problem, row)
         t_1, t_2, s_2 = c[row + 1], 0.0, 0.0
         s_1 = _row_velocity(problem, c, row + 1)
@@ -57,7 +59,7 @@ def gauss_seidel(problem, c, sweeps, tolerance):
     """At most ``sweeps`` sweeps from the ``c`` that is given, until velocities change by less than
     ``tolerance`` [m/s].
 
-    Returns the number of sweeps; how good the answer is, `problem.residual` tells.
+    Returns the number of sweeps; `problem.residual` is the measure of the answer.
     """
     for count in range(sweeps):
         if sweep(problem, c) <= tolerance:

@@ -18,7 +18,8 @@ from contact_sim_pkg.compiled.arrays import Vector
 from contact_sim_pkg.compiled.jit import kernel
 from contact_sim_pkg.rigid.results import CONTACT_NOT_FINITE, NOT_CONVERGED, RAY, SOLVED
 
-PIVOT_TOLERANCE = 1.0e-10  # entries are of order 1: contact rows are scaled by their own inverse mass
+# entries are of order 1: contact rows are scaled by their own inverse mass
+PIVOT_TOLERANCE = 1.0e-10
 TIE_TOLERANCE = 1.0e-11
 BASIS_TOLERANCE = 1.0e-15
 REFINEMENTS = 3
@@ -123,11 +124,14 @@ def _basic_part(M, basis, row, x, n):
 
 @kernel
 def _read_solution(work, n):
-    """Basic values refined against M and q, then into ``work.z``; rounding below zero is cut off."""
+    """Basic values refined against M and q, then into ``work.z``; rounding below zero is cut
+    off.
+    """
     tableau, basis, z, correction, last = work.tableau, work.basis, work.z, work.correction, 2 * n + 1
     M, q = work.M, work.q
     for i in range(n):
         z[i] = tableau[i, last]
+    # the columns of w hold the inverse of the basis: refine against M and q as they were given
     for _ in range(REFINEMENTS):
         for i in range(n):
             correction[i] = q[i] - _basic_part(M, basis, i, z, n)
@@ -137,10 +141,12 @@ def _read_solution(work, n):
                 total += tableau[i, j] * correction[j]
             z[i] += total
     for i in range(n):
+        # values of the basic variables, refined
         tableau[i, last] = z[i]
     for i in range(n):
         z[i] = 0.0
     for i in range(n):
+        # of these the z; the w and z0 do not count
         if n <= basis[i] < 2 * n:
             z[basis[i] - n] = max(0.0, tableau[i, last])
 
@@ -190,6 +196,7 @@ def lemke(work: LemkeWorkspace, n: int) -> int:
     """
     _set_up(work, n)
     q, z, tableau, basis = work.q, work.z, work.tableau, work.basis
+    # z0 enters at the row that needs most of it: all w are then at least 0
     row = 0
     for i in range(n):
         z[i] = 0.0
@@ -199,6 +206,7 @@ def lemke(work: LemkeWorkspace, n: int) -> int:
             row = i
     if q[row] >= 0.0:
         return SOLVED
+    # the complement of what left enters next, until z0 leaves
     entering = 2 * n
     for _ in range(PIVOTS_PER_ROW * n):
         leaving = basis[row]

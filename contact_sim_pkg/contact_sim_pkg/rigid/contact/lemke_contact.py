@@ -50,7 +50,9 @@ class ContactLemke(NamedTuple):
 
 
 def make_contact_lemke(contacts: int, width: int, facets: int) -> ContactLemke:
-    """Work space for up to ``contacts`` contacts; in the plane ``facets`` is 2 whatever is given."""
+    """Work space for up to ``contacts`` contacts; in the plane ``facets`` is 2 whatever is
+    given.
+    """
     size = contacts * (2 + (2 if width == PLANE else facets))
     integers = numpy.zeros(size, numpy.int64)
     return ContactLemke(
@@ -86,11 +88,13 @@ def _fill_velocities(problem, work, n, scale, M, q):
     for i in range(n):
         row = contact[i] * width
         own, right = math.sqrt(A[row, row]), 0.0
+        # right side: velocity of the row with the contacts at their floors
         for a in range(width):
             right += direction[i, a] * problem.q[row + a]
             for j in range(problem.floor.shape[0]):
                 right += direction[i, a] * A[row + a, j * width] * problem.floor[j]
         q[i] = right / (own * scale)
+        # matrix: velocity of row i by a unit impulse along the direction of row j
         for j in range(n):
             column = contact[j] * width
             total = 0.0
@@ -191,8 +195,10 @@ def _solve(work, n):
     for i in range(n):
         work.center[i] = 0.0
     for attempt in range(PROXIMAL_PASSES):
+        # the pivots are repeated only where the last basis no longer holds the answer
         if not holds:
             status = lemke(work.lemke, n)
+        # the first try is the problem itself; then the proximal term makes each pass regular
         if attempt == 0:
             if status == SOLVED and complementarity_residual(work.lemke, n) <= GOOD:
                 return SOLVED
@@ -201,6 +207,7 @@ def _solve(work, n):
             continue
         if status != SOLVED:
             break
+        # ended: the velocity no longer changes, or the impulses grow without end
         change, greatest = _move_center(work, n, shift)
         if change <= PROXIMAL_END or greatest > PROXIMAL_LIMIT:
             break
@@ -232,8 +239,8 @@ def _solve_by_ways(work, n):
 
 
 @kernel
-def _still_normals(work, n):
-    """Take normal velocities that are rounding as 0; whether there are any."""
+def _zero_rounding_normals(work, n):
+    """Set normal velocities that are rounding to 0; whether there are any."""
     q, found = work.lemke.q, False
     for i in range(n):
         if work.kind[i] == NORMAL and q[i] != 0.0 and abs(q[i]) <= ROUNDING:
@@ -247,18 +254,21 @@ def solve_by_lemke(problem, work, facets, c):
     2); returns a status.
 
     A contact in a Painleve state answers an approach of any size, rounding as well, with a jam:
-    where the pivots cannot tell it from 0, it is 0.
+    where the pivots cannot distinguish it from 0, it is 0.
     """
     scale = _scale(problem)
+    # nothing moves and no impulse is required
     if scale == 0.0:
         for i in range(c.shape[0]):
             c[i] = 0.0
         return SOLVED
+    # rows of normals, friction directions and bounds, scaled to order 1
     n = _lay_out(problem, work, facets)
     _fill_velocities(problem, work, n, scale, work.lemke.M, work.lemke.q)
     _fill_bounds(problem, work, n, scale, work.lemke.M, work.lemke.q)
+    # an approach that is rounding may lead onto a ray: once more without it
     status = _solve_by_ways(work, n)
-    if status == RAY and _still_normals(work, n):
+    if status == RAY and _zero_rounding_normals(work, n):
         status = _solve_by_ways(work, n)
     if status == SOLVED:
         _read(problem, work, n, scale, c)

@@ -32,17 +32,21 @@ def reach_in_cone(J, force, friction, row, x, y, z):
     the roots of ``(mu f_n + s mu a_n)^2 = |f_t + s a_t|^2`` are both ends; where the line itself
     runs within a cone (``mu |a_n| >= |a_t|``) there is one end, and no limit to the first number.
     """
+    # the line in the axes of the contact
     n = J[row, 0] * x + J[row, 1] * y + J[row, 2] * z
     first = J[row + 1, 0] * x + J[row + 1, 1] * y + J[row + 1, 2] * z
     second = J[row + 2, 0] * x + J[row + 2, 1] * y + J[row + 2, 2] * z
     square, steep, limit = first * first + second * second, friction * n, friction * force[row]
     along, across = force[row + 1] * first + force[row + 2] * second, force[row + 1] * second - force[row + 2] * first
+    # coefficients of the quadratic equation of both ends
     opening, middle = steep * steep - square, limit * steep - along
     root = limit * limit * square - 2.0 * limit * steep * along - across * across
     root += steep * steep * (force[row + 1] * force[row + 1] + force[row + 2] * force[row + 2])
+    # the line runs within the cone in one direction: one end
     if opening >= 0.0:
         end = (-middle + math.copysign(math.sqrt(max(root, 0.0)), n)) / opening
         return math.inf, end if n > 0.0 else -math.inf, math.inf if n > 0.0 else end
+    # distance from the edge of the cone at the best place of the line
     room = ((limit * square - steep * along) - abs(across) * math.sqrt(-opening)) / square
     if room < 0.0:
         return room, math.nan, math.nan

@@ -42,6 +42,7 @@ def solve_consistent(matrix, right, x, order, n):
         order[i] = i
     first, rank = 0.0, n
     for step in range(n):
+        # complete pivoting: a pivot that is rounding ends the elimination
         greatest, row, column = _greatest(matrix, step, n)
         if step == 0:
             first = greatest
@@ -55,6 +56,7 @@ def solve_consistent(matrix, right, x, order, n):
                 right[i] -= factor * right[step]
                 for j in range(step, n):
                     matrix[i, j] -= factor * matrix[step, j]
+    # unknowns beyond the rank are 0; the others by back substitution
     for i in range(rank, n):
         x[order[i]] = 0.0
     for i in range(rank - 1, -1, -1):

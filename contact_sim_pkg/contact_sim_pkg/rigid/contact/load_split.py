@@ -24,7 +24,8 @@ from contact_sim_pkg.rigid.problem import DISC, PLANE, SPACE
 
 ITERATIONS = 60
 HALVINGS = 30
-ZERO_VELOCITY = 1.0e-9  # of the velocity scale: below it a contact touches, below it a contact point sticks
+# of the velocity scale: below it a contact touches, below it a contact point sticks
+ZERO_VELOCITY = 1.0e-9
 WRENCH_TOLERANCE = 1.0e-15
 ACCEPTED = 1.0e-12  # a split that misses the wrench by more is not used
 
@@ -90,17 +91,20 @@ def _impulses(problem, J, work, u, limit, y, facets):
     """``work.c = P(J y)`` and ``work.miss = J'c - wrench``; returns the dual function."""
     coordinates = y.shape[0]
     dual = 0.0
+    # dual: -wrench y + 1/2 |P(J y)|^2
     for k in range(coordinates):
         work.miss[k] = -work.wrench[k]
         dual -= work.wrench[k] * y[k]
     for i in range(problem.friction.shape[0]):
         row = i * problem.width
+        # impulses of one contact, without its cone
         a = (
             _pull(J, work, y, row),
             _pull(J, work, y, row + 1),
             _pull(J, work, y, row + 2) if problem.width == SPACE else 0.0,
         )
         p = _project(problem, u, limit, i, a, facets)
+        # each in its cone; what its wrench adds to the miss
         for b in range(problem.width):
             work.c[row + b] = p[b]
             dual += 0.5 * p[b] * p[b]
@@ -133,8 +137,10 @@ def _fill_hessian(problem, J, work, u, limit, y, facets):
             _pull(J, work, y, row + 1),
             _pull(J, work, y, row + 2) if problem.width == SPACE else 0.0,
         )
+        # step of the difference, in the impulse of the contact
         size = 1.0e-6 * (abs(a[0]) + abs(a[1]) + abs(a[2])) + 1.0e-300
         for b in range(problem.width):
+            # along one coordinate of the impulse at a time
             shift = (size if b == 0 else 0.0, size if b == 1 else 0.0, size if b == 2 else 0.0)
             more = _project(problem, u, limit, i, (a[0] + shift[0], a[1] + shift[1], a[2] + shift[2]), facets)
             less = _project(problem, u, limit, i, (a[0] - shift[0], a[1] - shift[1], a[2] - shift[2]), facets)
@@ -176,6 +182,7 @@ def _descend(problem, J, work, u, limit, dual, facets):
     n = work.y.shape[0]
     slope = 0.0
     _fill_hessian(problem, J, work, u, limit, work.y, facets)
+    # Newton step; a little on the diagonal for wrenches that no contact can give
     trace = 0.0
     for k in range(n):
         trace += work.hessian[k, k]
@@ -187,6 +194,7 @@ def _descend(problem, J, work, u, limit, dual, facets):
     solve_consistent(work.hessian, work.right, work.step, work.order, n)
     for k in range(n):
         slope += work.trial[k] * work.step[k]
+    # line search: the dual falls by part of its slope, or the miss halves
     length, before = 1.0, _greatest(work.trial)
     for _ in range(HALVINGS):
         for k in range(n):

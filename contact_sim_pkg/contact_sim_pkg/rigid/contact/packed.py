@@ -1,5 +1,5 @@
-"""Solve the contacts of a body that take part, and those alone: of all that it can have few are
-active at a time.
+"""Solve the active contacts of a body, and those alone: of all that it can have few are active at
+a time.
 
 The arrays of a solve are made once for each number of active contacts. Bookkeeping around
 `rigid/contact/solver.py` and `rigid/impact/law.py`.
@@ -38,22 +38,22 @@ class PackedSolver:
     """
 
     def __init__(
-        self, coordinates: int, width: int, facets: int = DISC, rung: int = NEWTON, sweeps: int = SWEEPS
+        self, coordinates: int, width: int, facets: int = DISC, method: int = NEWTON, sweeps: int = SWEEPS
     ) -> None:
-        """Of a body with ``coordinates`` coordinates; ``rung`` and ``sweeps`` of the solver of held
-        contacts.
+        """Of a body with ``coordinates`` coordinates; ``method`` and ``sweeps`` of the solver of
+        active contacts.
         """
-        self._coordinates, self._width, self._facets, self._rung, self._sweeps = (
+        self._coordinates, self._width, self._facets, self._method, self._sweeps = (
             coordinates,
             width,
             facets,
-            rung,
+            method,
             sweeps,
         )
         self._rooms: dict[int, _Room] = {}
 
     def hold(self, work: MotionWorkspace) -> ContactSolution:
-        """Contacts of ``work.problem`` that are held."""
+        """Impulses of the active contacts over a step without bounce."""
         rows, room = self._pack(work)
         work.impulse[:] = 0.0
         if len(rows) == 0:
@@ -100,7 +100,7 @@ class PackedSolver:
         return _Room(
             make_problem(contacts, width, facets),
             numpy.zeros((rows, coordinates)),
-            make_solver(contacts, coordinates, width, facets, self._rung, self._sweeps),
+            make_solver(contacts, coordinates, width, facets, self._method, self._sweeps),
             make_impact_workspace(contacts, coordinates, width, facets),
             numpy.zeros(rows),
         )

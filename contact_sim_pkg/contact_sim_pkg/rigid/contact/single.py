@@ -54,18 +54,21 @@ def single_impulses(J, W, q, friction, i, c):
     """Impulse of contact ``i`` into its rows of ``c``; returns the residual, inf where it is left
     to the solvers.
 
-    ``J`` [rows, 6], ``W`` [6, 6] of one body in space, ``q`` [rows] what the rows ask for,
+    ``J`` [rows, 6], ``W`` [6, 6] of one body in space, ``q`` [rows] required by the rows,
     ``friction`` its ratio.
     """
     row = SPACE * i
+    # A = J W J' of the contact
     nn, n1, n2 = _delassus(J, W, row, 0, 0), _delassus(J, W, row, 0, 1), _delassus(J, W, row, 0, 2)
     t11, t12, t22 = _delassus(J, W, row, 1, 1), _delassus(J, W, row, 1, 2), _delassus(J, W, row, 2, 2)
     q_n, q_1, q_2 = q[row], q[row + 1], q[row + 2]
     scale = max(abs(q_n), abs(q_1), abs(q_2))
+    # stick, if the impulse that stops all slip is within the cone
     c_n, c_1, c_2 = _stop_all((nn, n1, n2, t11, t12, t22), (q_n, q_1, q_2))
     found = c_n >= 0.0 and c_1 * c_1 + c_2 * c_2 <= friction * friction * c_n * c_n
     u_1, u_2, turn, slides = q_1, q_2, 0, False
     d_1, d_2 = 0.0, 0.0
+    # slip: fixed-point iteration on its direction
     while not found and turn < TURNS:
         slip = math.sqrt(u_1 * u_1 + u_2 * u_2)
         if not slip > STOPS * scale:
@@ -75,6 +78,7 @@ def single_impulses(J, W, q, friction, i, c):
         if turn > 0 and change <= SETTLED:
             found, slides = True, True
         else:
+            # normal velocity by a unit of normal impulse that slides; 0 or less: Painleve
             slope = nn - friction * (n1 * d_1 + n2 * d_2)
             if not slope > 0.0:
                 return numpy.inf
@@ -85,6 +89,7 @@ def single_impulses(J, W, q, friction, i, c):
     if not (found and c_n >= 0.0):
         return numpy.inf
     c[row], c[row + 1], c[row + 2] = c_n, c_1, c_2
+    # residual of the rows that must be 0
     scale = max(scale, nn * c_n)
     broken = abs(q_n + nn * c_n + n1 * c_1 + n2 * c_2)
     if not slides:

@@ -1,9 +1,9 @@
-"""Solve a contact problem by a rung of the ladder, and name how it ended.
+"""Solve a contact problem by one of four methods, and name how it ended.
 
-Rungs: MODES (closed formulas, one contact in the plane), GAUSS_SEIDEL (cheap: a fixed number of
-sweeps), LEMKE (exact in the plane and for a polyhedral cone; for the true cone in space the start
-of Newton's method) and NEWTON (default): Newton's method from a few sweeps, certified by its
-residual, and LEMKE wherever it does not settle or the cone is polyhedral.
+Methods: MODES (closed formulas, one contact in the plane), GAUSS_SEIDEL (inexpensive: a fixed
+number of sweeps), LEMKE (exact in the plane and for a polyhedral cone; for the true cone in space
+the start of Newton's method) and NEWTON (default): Newton's method from a few sweeps, certified by
+its residual, and LEMKE wherever it does not settle or the cone is polyhedral.
 """
 
 from __future__ import annotations
@@ -30,19 +30,21 @@ REFINE = 4  # Newton's method alone, from the impulses that are given
 SOLVER_NAMES = {"modes": MODES, "gauss_seidel": GAUSS_SEIDEL, "lemke": LEMKE, "newton": NEWTON}
 START_FACETS = 8  # of the polyhedral cone from which Newton's method starts on the true one
 TURNS = 30  # times the facets are turned to the slip where Newton's method alone does not settle
-SWEEPS = 20  # of Gauss-Seidel unless told
+SWEEPS = 20  # of Gauss-Seidel unless specified
 FIRST_SWEEPS = 6  # before Newton's method
 PASS_WEIGHT = 1.0e-3  # of the proximal term, in A_nn of the contact
 PASS_END = 1.0e-16  # change of velocity, of the greatest, at which the passes end
 PASSES = 20
 POLISH, ALONE = PASSES, PASSES + 1  # what follows the passes
-NEAREST = 1.0e-6  # of the greatest velocity: conditions that contradict each other by no more do so by rounding of their velocities
+# of the greatest velocity: conditions that contradict each other by no more do so by rounding of
+# their velocities
+NEAREST = 1.0e-6
 
 
 class Solver(NamedTuple):
-    """Which rung, and its work space."""
+    """A method and its work space."""
 
-    rung: int
+    method: int
     sweeps: int  # of Gauss-Seidel
     lemke: ContactLemke
     newton: NewtonWorkspace
@@ -62,7 +64,7 @@ class ContactSolution(NamedTuple):
 
 
 def make_solver(
-    contacts: int, coordinates: int, width: int, facets: int = DISC, rung: int = NEWTON, sweeps: int = SWEEPS
+    contacts: int, coordinates: int, width: int, facets: int = DISC, method: int = NEWTON, sweeps: int = SWEEPS
 ) -> Solver:
     """Work space for problems of up to ``contacts`` contacts on bodies with ``coordinates``
     coordinates.
@@ -71,7 +73,7 @@ def make_solver(
     lemke = make_contact_lemke(contacts, width, facets if facets != DISC else START_FACETS)
     newton, split = make_newton_workspace(rows), make_split_workspace(rows, coordinates)
     return Solver(
-        rung=rung,
+        method=method,
         sweeps=sweeps,
         lemke=lemke,
         newton=newton,
@@ -129,8 +131,9 @@ def _exactly(problem, solver, start, attempts, c):
     on_disc = not plane and problem.facets == DISC
     facets = 2 if plane else (START_FACETS if on_disc else problem.facets)
     status = SOLVED
-    swept = solver.rung == NEWTON and (plane or on_disc)
+    swept = solver.method == NEWTON and (plane or on_disc)
     for attempt in range(attempts):
+        # a few sweeps make a start for Newton; later starts are those of Lemke
         if swept and attempt == 0:
             if not start:
                 gauss_seidel(problem, c, FIRST_SWEEPS, 0.0)
@@ -138,12 +141,14 @@ def _exactly(problem, solver, start, attempts, c):
             status = solve_by_lemke(problem, solver.lemke, facets, c)
             if status != SOLVED or not on_disc:
                 break
+        # certified by its residual; one sliding contact has a bracketed equation of its own
         status, _residual = solve_by_newton(problem, solver.newton, c)
         if status != SOLVED and on_disc and problem.friction.shape[0] == 1:
             status = _by_direction(problem, solver, c)
         if status == SOLVED:
             break
         if on_disc:
+            # the facets of the next start turn to the slip found
             residual(problem, c, solver.newton.velocity)
             _turn_facets(problem, solver.lemke, solver.newton.velocity)
     for i in range(problem.friction.shape[0]):
@@ -204,27 +209,32 @@ def _by_passes(problem, solver, c):
     rounding of gaps or arms, and squeeze each other until one slips: Newton's method then goes on
     from the last, without the proximal term. One contact, and what has no pass, is solved ALONE.
     """
-    part = PASS_WEIGHT if solver.rung == NEWTON and may_share_load(problem) else 0.0
+    # proximal terms, where the load can be shared in more than one way
+    part = PASS_WEIGHT if solver.method == NEWTON and may_share_load(problem) else 0.0
     for row in range(c.shape[0]):
         first = row - row % problem.width
         c[row], solver.weight[row] = 0.0, part * problem.A[first, first]
     status, attempt, passed = NOT_CONVERGED, 0 if part > 0.0 else ALONE, False
     while attempt <= ALONE:
+        # one problem with the proximal terms of this pass
         _begin(solver, attempt, c)
         _about(problem, solver.weight, 1.0, solver.center)
         status = _exactly(problem, solver, 0 < attempt < ALONE, 1 if attempt == POLISH else TURNS, c)
         _about(problem, solver.weight, -1.0, solver.center)
+        # the last ones are without proximal terms: polished, or solved alone
         if attempt >= POLISH:
             attempt = ALONE if attempt == POLISH and status != SOLVED else ALONE + 1
             continue
         if status != SOLVED:
             attempt = POLISH if passed else ALONE
             continue
+        # a pass that was solved: go on until velocities no longer change
         copy_row(c, solver.passed)
         passed = True
         attempt = attempt + 1 if _change(problem, solver, c) > PASS_END else POLISH
         if attempt == POLISH and residual(problem, c, solver.newton.velocity) <= GOOD:
             break
+    # contradictions that are rounding: the last pass is the answer
     if status != SOLVED and passed and residual(problem, solver.passed, solver.newton.velocity) <= NEAREST:
         copy_row(solver.passed, c)
         status = NOT_CONVERGED
@@ -232,8 +242,8 @@ def _by_passes(problem, solver, c):
 
 
 @inline_kernel
-def _quiet(problem):
-    """No velocity and no floor for contacts that take no part."""
+def _clear_inactive(problem):
+    """No velocity and no floor for inactive contacts."""
     for i in range(problem.friction.shape[0]):
         if problem.friction[i] < 0.0:
             problem.floor[i] = 0.0
@@ -249,18 +259,20 @@ def solve_contact(problem: ContactProblem, solver: Solver, c: Vector) -> Contact
     MODES needs one contact in the plane. Gauss-Seidel starts from the ``c`` that is given.
     """
     u = solver.newton.velocity
-    _quiet(problem)
+    # inactive contacts must not set the scale
+    _clear_inactive(problem)
     status, swept = SOLVED, 0
     if not _is_finite(problem):
         status = CONTACT_NOT_FINITE
-    elif solver.rung == GAUSS_SEIDEL:
+    elif solver.method == GAUSS_SEIDEL:
         swept = gauss_seidel(problem, c, solver.sweeps, 0.0)
-    elif solver.rung == MODES and problem.q.shape[0] == PLANE and problem.width == PLANE:
+    elif solver.method == MODES and problem.q.shape[0] == PLANE and problem.width == PLANE:
         _by_modes(problem, c)
-    elif solver.rung == REFINE:
+    elif solver.method == REFINE:
         status, _residual = solve_by_newton(problem, solver.newton, c)
     else:
         status = _by_passes(problem, solver, c)
+    # no answer: no impulse either
     if status != SOLVED and status != NOT_CONVERGED:
         for i in range(c.shape[0]):
             c[i] = 0.0
@@ -270,7 +282,7 @@ def solve_contact(problem: ContactProblem, solver: Solver, c: Vector) -> Contact
 
 @inline_kernel
 def solve_and_split(problem: ContactProblem, J: Vector, W: Vector, solver: Solver, c: Vector) -> ContactSolution:
-    """`solve_contact`, then the least-norm split of the load; flagged where the split is a choice."""
+    """`solve_contact` into ``c`` [rows], then the least-norm split of the load."""
     found = solve_contact(problem, solver, c)
     if found.status != SOLVED or not may_share_load(problem):
         return found

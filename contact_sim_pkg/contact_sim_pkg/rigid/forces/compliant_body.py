@@ -3,9 +3,9 @@
 
 Each point carries a Hunt and Crossley force ``A x**n (1 + lambda x')`` of its own depth x, and the
 friction of ``laws/point_friction.py``. lambda is set at every touch from the speed of approach
-there, ``lambda = d/x'``, d the loss that delivers the asked restitution (``laws/restitution.py``):
-then the ratio of speeds is the asked one at any speed and for any mass at the point. Below
-``slowest`` the speed counts as that, so that a resting contact is damped.
+there, ``lambda = d/x'``, d the loss that delivers the requested restitution
+(``laws/restitution.py``): then the ratio of speeds is the requested one at any speed and for any
+mass at the point. Below ``slowest`` the speed counts as that, so that a resting contact is damped.
 
 State: [place and turn] [v, omega] (`rigid/body_state.py`) [spring deflection of each point]
 [impulse of each point, normal then tangents, in N s] [work dissipated or lent to friction springs,
@@ -30,7 +30,7 @@ from contact_sim_pkg.rigid.body_state import fill_motion, fill_rates, fill_turn,
 from contact_sim_pkg.rigid.motion.motion import contact_velocities
 from contact_sim_pkg.rigid.problem import PLANE
 
-MARGINS_A_POINT = 3  # approach, tension, stick
+EVENTS_PER_POINT = 3  # approach, tension, stick
 FREE = 0.0  # lambda of a point that has not touched
 
 
@@ -41,7 +41,9 @@ class CompliantLaw(NamedTuple):
     friction: Friction  # of one ratio; damping > 0
     loss: float  # lambda x' at the touch, >= 0: `damping_of_restitution` at 1 m/s
     slowest: float  # [m/s] approach that counts at least when lambda is set, > 0
-    touch: float  # [m] depth at which a touch begins and ends: above the rounding of a body that is laid on its ground
+    # [m] depth at which a touch begins and ends: above the rounding of a body that is laid on its
+    # ground
+    touch: float
 
 
 class CompliantBody(NamedTuple):
@@ -85,8 +87,10 @@ def _first_deflection(rig):
 
 
 @kernel
-def look(rig, state):
-    """Motion, gaps, Jacobian and point velocities of a state, into the rig's arrays."""
+def update_contacts(rig, state):
+    """Motion, gaps, Jacobian and point velocities of a ``state`` [states], into the rig's
+    arrays.
+    """
     motion = rig.motion
     fill_turn(motion.rotation, state)
     fill_motion(motion, state)
@@ -122,23 +126,26 @@ def _add_point(rig, mode, point, state, out):
     first = _first_deflection(rig)
     row, place = point * width, first + point * (width - 1)
     impulse = first + rig.gap.shape[0] * (width - 1) + row
+    # forces of the point, and rates of its spring and of its impulse
     normal = _normal(rig, mode, point)
     s_1, s_2, v_1, v_2 = _tangents(rig, state, point)
     force_1, force_2, rate_1, rate_2 = point_friction(rig.contact.friction, normal, s_1, s_2, v_1, v_2)
     out[place], out[impulse], out[impulse + 1] = rate_1, normal, -force_1
+    # as force and torque on the body
     for k in range(rig.push.shape[0]):
         rig.push[k] += rig.J[row, k] * normal - rig.J[row + 1, k] * force_1
     if width != PLANE:
         out[place + 1], out[impulse + 2] = rate_2, -force_2
         for k in range(rig.push.shape[0]):
             rig.push[k] -= rig.J[row + 2, k] * force_2
+    # power lost: damping of the normal force, friction with what its spring stores
     elastic = elastic_force(rig.contact.elastic, -rig.gap[point])
     return (elastic - normal) * rig.u[row] + force_1 * v_1 + force_2 * v_2
 
 
 @kernel
 def _rate(rig, drive, mode, time, state, out):
-    look(rig, state)
+    update_contacts(rig, state)
     for i in range(_first_deflection(rig), state.shape[0]):
         out[i] = 0.0
     for k in range(rig.push.shape[0]):
@@ -153,11 +160,12 @@ def _rate(rig, drive, mode, time, state, out):
 
 @kernel
 def _event_functions(rig, drive, mode, time, state, derivative, out):
-    look(rig, state)
+    update_contacts(rig, state)
     points, width = rig.gap.shape[0], rig.body.width
     for point in range(points):
         out[point] = -rig.gap[point] - rig.contact.touch
-        out[points + point], out[2 * points + point] = 1.0, -1.0  # in the air, and slipping when it lands
+        # in the air, and slipping when it lands
+        out[points + point], out[2 * points + point] = 1.0, -1.0
         if out[point] <= 0.0:
             continue
         loss = NormalDissipative(mode[point])
@@ -181,7 +189,7 @@ def _mode_transition(rig, drive, mode, time, state, event, direction):
     points, width = rig.gap.shape[0], rig.body.width
     if event >= points:
         return direction
-    look(rig, state)
+    update_contacts(rig, state)
     if direction > 0.0:
         set_loss(rig, mode, event)
     else:
@@ -199,7 +207,7 @@ def _need_rate(rig, mode):
 @kernel
 def stored_energy(rig, state):
     """Energy of the contacts and of the friction springs, in [J]; looks at the state."""
-    look(rig, state)
+    update_contacts(rig, state)
     normal, springs = 0.0, 0.0
     for point in range(rig.gap.shape[0]):
         normal += elastic_energy(rig.contact.elastic, -rig.gap[point])

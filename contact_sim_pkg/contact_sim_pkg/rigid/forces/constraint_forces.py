@@ -1,6 +1,6 @@
-"""Forces of held contacts, each in its mode: it sticks, it slides, or it is free.
+"""Forces of active contacts, each in its mode: it sticks, it slides, or it is free.
 
-They keep the contacts on the ground: ``J a + b = 0`` for the normal row of each held contact and
+They keep the contacts on the ground: ``J a + b = 0`` for the normal row of each active contact and
 for the tangents of those that stick, with ``a = W (load + gyroscopic torque + J' f)`` and b the
 acceleration of the contact at constant velocities (`rigid/motion/active_contacts.py`); a sliding
 contact has ``f_t = -mu f_n s``, s the direction of slip. Where the rows are dependent the forces of
@@ -30,33 +30,38 @@ FREE, SLIDES, STICKS = 0, 1, 2  # modes of a contact
 GAP, FIRST, SECOND, DEEP, SPARE, PLACE = 0, 1, 2, 3, 4, 5  # rows of `contacts`
 VELOCITY, FORCE, RIGHT, ANSWER = 0, 1, 2, 3  # rows of `rows`
 SPEED, NEWTONS, NEAR, SECONDS = 0, 1, 2, 3  # entries of `unit`
-PLENTY = 1.0e3  # times the weight: of friction left, where contacts may squeeze each other without end
+# times the weight: of friction left, where contacts may squeeze each other without end
+PLENTY = 1.0e3
 SLIGHT_SLIP = 1.0e-7  # of the speed: below it slip has the direction that it starts with
 
 
-class HeldBody(NamedTuple):
+class ConstrainedBody(NamedTuple):
     """The body, its ground, and arrays to work in."""
 
     body: RigidBody
     ground: Ground
-    start: Vector  # [width, width], rotation at the start; the quaternion of the state turns on from there
+    # [width, width], rotation at the start; the quaternion of the state turns on from there
+    start: Vector
     motion: Motion  # of the state last looked at
     J: Vector  # [rows, coordinates]
     W: Vector  # [coordinates, coordinates]
-    contacts: Vector  # [6, contacts]: gap [m], slip's direction, depth at the start, friction left, face at the start
+    # [6, contacts]: gap [m], slip's direction, depth at the start, friction left, face at the start
+    contacts: Vector
     rows: Vector  # [4, rows]
     matrices: Vector  # [3, rows, rows]
     columns: Vector  # [coordinates, rows], accelerations by a unit of each unknown force
-    push: Vector  # [2, coordinates]: acceleration without contact, then force and torque of everything
-    order: Modes  # [2, rows]: the rows that are held, and work space
-    unit: Vector  # [4]: speed in [m/s], force in [N], gap in [m] at which a contact has landed, time in [s]
+    # [2, coordinates]: acceleration without contact, then force and torque of everything
+    push: Vector
+    order: Modes  # [2, rows]: the rows that are active, and work space
+    # [4]: speed in [m/s], force in [N], gap in [m] at which a contact has landed, time in [s]
+    unit: Vector
 
 
-def make_held_body(body: RigidBody, ground: Ground) -> HeldBody:
-    """The rig over a ground that was laid under ``body``."""
+def make_constrained_body(body: RigidBody, ground: Ground) -> ConstrainedBody:
+    """The rig over a ground that was fitted to ``body``."""
     width, contacts, coordinates, zeros = body.width, contact_count(body, ground), len(body.load), numpy.zeros
     motion, rows = Motion(zeros(width), zeros(1), zeros((width, width)), zeros(coordinates)), contacts * width
-    return HeldBody(
+    return ConstrainedBody(
         body=body,
         ground=ground,
         start=zeros((width, width)),
@@ -74,7 +79,7 @@ def make_held_body(body: RigidBody, ground: Ground) -> HeldBody:
 
 
 @borrowing_kernel
-def look(rig, state):
+def update_contacts(rig, state):
     """Motion, gaps, rows, inertia and contact velocities of a state, into the rig's arrays."""
     motion, R, start = rig.motion, rig.motion.rotation, rig.start
     fill_turn(R, state)
@@ -106,7 +111,7 @@ def slip_direction(rig, i):
 
 @borrowing_kernel
 def _list_rows(rig, mode):
-    """The rows that are held, into ``rig.order``; returns how many."""
+    """The rows that are active, into ``rig.order``; returns how many."""
     width, count = rig.body.width, 0
     for i in range(mode.shape[0] - 1):
         if mode[i] == FREE:
@@ -136,7 +141,7 @@ def _pattern(rig, mode, row, part):
 
 @borrowing_kernel
 def _fill_system(rig, mode, count):
-    """Accelerations by the unknown forces, and of the held rows by them."""
+    """Accelerations by the unknown forces, and of the active rows by them."""
     J, W, width, matrix = rig.J, rig.W, rig.body.width, rig.matrices[0]
     n = W.shape[0]
     for place in range(count):
@@ -144,12 +149,14 @@ def _fill_system(rig, mode, count):
         base = row // width * width
         for k in range(n):
             rig.columns[k, place] = 0.0
+        # acceleration of the body by a unit of the unknown force
         for part in range(width):
             share = _pattern(rig, mode, row, part)
             if share != 0.0:
                 for k in range(n):
                     for m in range(n):
                         rig.columns[k, place] += share * W[k, m] * J[base + part, m]
+    # its part along each active row
     for i in range(count):
         row = rig.order[0, i]
         for place in range(count):
@@ -168,6 +175,7 @@ def _solve(rig, count):
         answer[i] = right[i]
         for j in range(count):
             copy[i, j] = matrix[i, j]
+    # full rank: the only answer
     if solve_consistent(copy, answer, rig.rows[FORCE], order, count) == count:
         for i in range(count):
             answer[i] = rig.rows[FORCE, i]
@@ -175,6 +183,7 @@ def _solve(rig, count):
     for i in range(count):
         answer[i] = right[i]
         for j in range(count):
+            # short of rank: f = M' y with M M' y = right is the answer of least norm
             square[i, j] = 0.0
             for k in range(count):
                 square[i, j] += matrix[i, k] * matrix[j, k]
@@ -211,22 +220,27 @@ def _share_friction(rig, i, j):
     spare is that of both.
     """
     force, spare, a, b = rig.rows[FORCE], rig.contacts[SPARE], 3 * i, 3 * j
+    # unit vector from one contact to the other
     x_i, y_i, z_i = contact_arm(rig.J, a)
     x, y, z = contact_arm(rig.J, b)
     x, y, z = x - x_i, y - y_i, z - z_i
     length = math.sqrt(x * x + y * y + z * z)
     x, y, z = x / length, y / length, z / length
+    # how far a force along it leaves each contact in its cone
     room_i, low, high = reach_in_cone(rig.J, force, rig.body.friction, a, x, y, z)
     room_j, low_j, high_j = reach_in_cone(rig.J, force, rig.body.friction, b, -x, -y, -z)
     room = min(room_i, room_j)
+    # outside of both cones or never inside: the mode has ended, nothing is shared
     if room < 0.0:
         spare[i], spare[j] = room, room
     if room < 0.0 or math.isnan(low + high) or math.isnan(low_j + high_j):
         return
+    # the part that both cones allow
     low, high = max(low, low_j), min(high, high_j)
     spare[i] = min(room, 0.5 * (high - low), PLENTY * rig.unit[NEWTONS])
     spare[j] = spare[i]
     moved = min(max(0.0, low), high) if low <= high else 0.5 * (low + high)
+    # equal and opposite along the line: no change of the wrench
     for part in range(3):
         along_i = rig.J[a + part, 0] * x + rig.J[a + part, 1] * y + rig.J[a + part, 2] * z
         along_j = rig.J[b + part, 0] * x + rig.J[b + part, 1] * y + rig.J[b + part, 2] * z
@@ -255,6 +269,7 @@ def fill_forces(rig, mode):
     _fill_free_acceleration(rig)
     J, width, right, force = rig.J, rig.body.width, rig.rows[RIGHT], rig.rows[FORCE]
     count = _list_rows(rig, mode)
+    # required accelerations: against those of the path and of the load
     for place in range(count):
         row = rig.order[0, place]
         i = row // width
@@ -265,6 +280,7 @@ def fill_forces(rig, mode):
             right[place] -= J[row, k] * rig.push[0, k]
     _fill_system(rig, mode, count)
     _solve(rig, count)
+    # unknown forces as normal and tangential forces of their contacts
     for row in range(force.shape[0]):
         force[row] = 0.0
     for place in range(count):
@@ -277,7 +293,7 @@ def fill_forces(rig, mode):
 
 @borrowing_kernel
 def stop_rows(rig, mode, impulse):
-    """Take the rest of the velocity from the held rows of ``rig.motion``, which was looked at, by
+    """Take the rest of the velocity from the active rows of ``rig.motion``, which was looked at, by
     impulses along their forces.
 
     They are added to ``impulse`` [rows] in [N s].

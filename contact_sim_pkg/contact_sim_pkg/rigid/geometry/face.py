@@ -37,7 +37,7 @@ from contact_sim_pkg.rigid.problem import SPACE
 
 
 def make_face_workspace(contacts: int) -> Vector:
-    """Work space for a body of ``contacts`` contacts."""
+    """Work space [contacts + 6, 8] for a body of ``contacts`` contacts."""
     return numpy.zeros((contacts + ORDER, FACE))
 
 
@@ -86,16 +86,19 @@ def face_impulses(J, W, velocity, friction, face, c):
     count = read_face(J, friction, face)
     if count < 3:
         return numpy.inf
+    # arms about their mean; points near to a line have no face
     mean, spread, is_face = centre(face, count)
     if not is_face:
         return numpy.inf
     first = int(face[0, ROW])
     mu, light = friction[first // SPACE], W[0, 0]
+    # everything in the axes of the plane: normal, tangents
     v = in_axes(J, first, velocity[0], velocity[1], velocity[2])
     w = in_axes(J, first, velocity[3], velocity[4], velocity[5])
     lever = tensor_in_axes(J, first, W)
     inertia = inverse(lever)
     stop, mass = times(inertia, w), 1.0 / light
+    # wrench that stops the body; shared within the cones, or all points slide
     F, T = (-mass * v[0], -mass * v[1], -mass * v[2]), (-stop[0], -stop[1], -stop[2])
     contact, motion = FaceContact(mu, face, count, mean, spread), FaceMotion(v, w, light, lever, inertia)
     found = stick_on_face(contact, F, T, c)

@@ -28,7 +28,8 @@ class FaceContact(NamedTuple):
     points: Vector  # [contacts + work rows, FACE]
     contacts: int  # number of them
     mean: tuple[float, float, float]  # [m] mean arm
-    spread: tuple[float, float, float]  # [m^2] sums of products of the arms about their mean: tt, ts, ss
+    # [m^2] sums of products of the arms about their mean: tt, ts, ss
+    spread: tuple[float, float, float]
 
 
 class FaceMotion(NamedTuple):
@@ -37,7 +38,8 @@ class FaceMotion(NamedTuple):
     velocity: tuple[float, float, float]  # [m/s] of the centre of mass
     spin: tuple[float, float, float]  # [rad/s]
     inverse_mass: float  # [1/kg]
-    inverse_inertia: tuple[float, float, float, float, float, float]  # [1/(kg m^2)] nn, nt, ns, tt, ts, ss
+    # [1/(kg m^2)] nn, nt, ns, tt, ts, ss
+    inverse_inertia: tuple[float, float, float, float, float, float]
     inertia: tuple[float, float, float, float, float, float]  # [kg m^2]
 
 
@@ -57,7 +59,8 @@ def read_face(J, friction, face):
     """Arms and rows of the active contacts, one a row of ``face``; their number, 0 where axes or
     friction differ.
     """
-    first, count = -1, numpy.int64(0)  # a literal 0 would compile what takes the count once more, for that number
+    # a literal 0 would compile what takes the count once more, for that number
+    first, count = -1, numpy.int64(0)
     for i in range(friction.shape[0]):
         if friction[i] == INACTIVE:
             continue

@@ -30,10 +30,9 @@ HEIGHT, PIECE, PEAK, RUN, END = 0, 1, 2, 3, 4  # columns of the nodes
 class Profile(NamedTuple):
     """Heights, and what of them a body can touch at once."""
 
-    nodes: (
-        Vector  # [nodes, 5]: height in [m]; of the face that starts there its convex piece; number of its peak (-1: none); of the
-        # straight run of faces that it belongs to the first node and the last
-    )
+    # [nodes, 5]: height in [m]; of the face that starts there its convex piece; number of its peak
+    # (-1: none); of the straight run of faces that it belongs to the first node and the last
+    nodes: Vector
     origin: float  # [m], x of node 0
     cell: float  # [m]
     order: Numbers  # [points] of a polygon, once round; none for other bodies
@@ -48,17 +47,17 @@ def flat() -> Profile:
 
 
 def make_profile(heights: Vector, origin: float, cell: float) -> Profile:
-    """Ground through ``heights`` [m] (two or more) at ``origin``, ``origin + cell``, ... along x in
-    [m].
+    """Ground through ``heights`` [nodes] in [m] (two or more) at ``origin``, ``origin + cell``, ...
+    along x in [m].
     """
     z = numpy.array(heights, float)
-    bend = numpy.diff(numpy.diff(z) / cell)
-    ends = numpy.array([0, *(numpy.flatnonzero(abs(bend) > STRAIGHT) + 1), len(z) - 1])
+    slope_change = numpy.diff(numpy.diff(z) / cell)
+    ends = numpy.array([0, *(numpy.flatnonzero(abs(slope_change) > STRAIGHT) + 1), len(z) - 1])
     run = numpy.minimum(numpy.searchsorted(ends, numpy.arange(len(z)), side="right") - 1, len(ends) - 2)
     nodes = numpy.column_stack([z, numpy.zeros(len(z)), numpy.full(len(z), -1.0), ends[run], ends[run + 1]])
-    nodes[1:-1, PIECE] = numpy.cumsum(bend > STRAIGHT)
+    nodes[1:-1, PIECE] = numpy.cumsum(slope_change > STRAIGHT)
     nodes[-1, PIECE] = nodes[-2, PIECE]
-    tops = numpy.flatnonzero(bend < -STRAIGHT) + 1
+    tops = numpy.flatnonzero(slope_change < -STRAIGHT) + 1
     nodes[tops, PEAK] = numpy.arange(len(tops))
     return flat()._replace(nodes=nodes, origin=float(origin), cell=float(cell), top=float(z.max()))
 
@@ -88,7 +87,9 @@ def _most_within(count: Vector, cells: float) -> int:
 
 
 def heights_at(profile: Profile, x: Vector) -> Vector:
-    """Heights in [m] at places ``x`` in [m]; beyond its ends the ground goes straight on."""
+    """Heights [places] in [m] at ``x`` [places] in [m]; beyond its ends the ground goes straight
+    on.
+    """
     place = (x - profile.origin) / profile.cell
     face = numpy.clip(numpy.floor(place).astype(int), 0, len(profile.nodes) - 2)
     start, end = profile.nodes[face, HEIGHT], profile.nodes[face + 1, HEIGHT]
@@ -104,13 +105,16 @@ def clearance(profile: Profile, corners: Vector, radius: float) -> float:
     """
     x_0, z_0, low, high, slopes = _faces(profile)
     x, z = corners[:, :1], corners[:, 1:]
+    # nearest place of each face to each corner
     rise = z - z_0[:-1] - slopes * (x - x_0[:-1])
     foot = numpy.clip(x + rise * slopes / (1.0 + slopes**2), low, high)
     away = numpy.hypot(x - foot, z - z_0[:-1] - slopes * (foot - x_0[:-1])).min(axis=1)
+    # a corner below a face counts as negative
     below = (numpy.where((x >= low) & (x <= high), rise, math.inf) < 0.0).any(axis=1)
     gap = float((numpy.where(below, -away, away) - radius).min())
     if profile.ridges == 0:
         return gap
+    # depth of each peak below the nearest edge of the polygon, negative inside
     peaks, start, edges = _peaks_and_edges(profile, corners)
     outward = numpy.column_stack([edges[:, 1], -edges[:, 0]]) / numpy.linalg.norm(edges, axis=1)[:, None]
     depths = ((peaks[:, None, :] - start) * outward).sum(axis=2).max(axis=1)
@@ -118,20 +122,22 @@ def clearance(profile: Profile, corners: Vector, radius: float) -> float:
 
 
 def rise_needed(profile: Profile, corners: Vector, radius: float) -> float:
-    """How far in [m] the body of `clearance` has to be raised along z to lie on the ground;
-    negative above it.
+    """How far in [m] the body of `clearance`, with ``corners`` [points, 2], has to be raised along
+    z to lie on the ground; negative above it.
 
-    The ground at x' asks for a middle ``sqrt(r^2 - (x' - x)^2)`` above it: most where a face is
+    The ground at x' requires a middle ``sqrt(r^2 - (x' - x)^2)`` above it: most where a face is
     tangent, or at its end beside that.
     """
     x_0, z_0, low, high, slopes = _faces(profile)
     x, z = corners[:, :1], corners[:, 1:]
+    # where the sphere of a corner meets each face when it is raised from below
     place = numpy.clip(x + radius * slopes / numpy.sqrt(1.0 + slopes**2), low, high)
     under = radius**2 - (place - x) ** 2
-    asked = z_0[:-1] + slopes * (place - x_0[:-1]) + numpy.sqrt(numpy.maximum(under, 0.0)) - z
-    rise = float(asked[under >= 0.0].max())
+    required = z_0[:-1] + slopes * (place - x_0[:-1]) + numpy.sqrt(numpy.maximum(under, 0.0)) - z
+    rise = float(required[under >= 0.0].max())
     if profile.ridges == 0:
         return rise
+    # each peak must come out below the lowest edge above it
     peaks, start, edges = _peaks_and_edges(profile, corners)
     start, edges = start[edges[:, 0] != 0.0], edges[edges[:, 0] != 0.0]
     share = (peaks[:, :1] - start[:, 0]) / edges[:, 0]
@@ -148,7 +154,9 @@ def _faces(profile: Profile) -> tuple[Vector, Vector, Vector, Vector, Vector]:
 
 
 def _peaks_and_edges(profile: Profile, corners: Vector) -> tuple[Vector, Vector, Vector]:
-    """Peaks (x, z); starts of the edges of the polygon of ``corners``, once round, and the edges."""
+    """Peaks (x, z); starts of the edges of the polygon of ``corners``, once round, and the
+    edges.
+    """
     x, z, _low, _high, _slopes = _faces(profile)
     start = corners[profile.order]
     return numpy.column_stack([x, z])[profile.nodes[:, PEAK] >= 0.0], start, numpy.roll(start, -1, axis=0) - start
@@ -219,14 +227,16 @@ def _gap_of_sphere(profile, slot, x, z, radius):
                 gap, n_x, n_z, curvature = distance, -t_z, t_x, 0.0
             continue
         node = j if along < 0.0 else j + 1
-        if profile.nodes[node - 1, PIECE] != profile.nodes[node, PIECE]:  # a valley is met by the faces beside it
+        # a valley is met by the faces beside it
+        if profile.nodes[node - 1, PIECE] != profile.nodes[node, PIECE]:
             continue
         beyond = along if along < 0.0 else along - length
         away = math.sqrt(beyond * beyond + distance * distance)
         if away >= gap or away == 0.0:
             continue
         gap, n_x, n_z, curvature = away, -t_z, t_x, 0.0
-        if profile.nodes[node, PEAK] >= 0.0:  # where two faces are one, rounding alone lies between them
+        # where two faces are one, rounding alone lies between them
+        if profile.nodes[node, PEAK] >= 0.0:
             curvature = 1.0 / away
             n_x, n_z = (beyond * t_x - distance * t_z) / away, (beyond * t_z + distance * t_x) / away
     if gap == math.inf:
@@ -274,12 +284,14 @@ def ridge_on_polygon(profile, slot, points, rotation, x, z, size):
     Then the normal towards the body, the peak from the centre of mass, and the edge (-1: no peak is
     near).
     """
+    # the nodes below the polygon
     last = min(_face_at(profile, x + size) + 1, profile.nodes.shape[0] - 1)
     for node in range(max(_face_at(profile, x - size) - 1, 0), last + 1):
         if profile.nodes[node, PEAK] < 0.0 or int(profile.nodes[node, PEAK]) % profile.ridges != slot:
             continue
         r_x, r_z = profile.origin + node * profile.cell - x, profile.nodes[node, HEIGHT] - z
         gap, n_x, n_z, feature = -math.inf, 0.0, 1.0, -1
+        # inside all edges is negative: the nearest edge has the greatest distance
         for e in range(profile.order.shape[0]):
             a_x, a_z, d_x, d_z, _length = _edge(profile, points, rotation, e)
             distance = d_z * (r_x - a_x) - d_x * (r_z - a_z)
@@ -302,7 +314,8 @@ def time_to_kink(profile, points, rotation, feature, is_ridge, x, r_x, r_z, alon
     if is_ridge:
         a_x, a_z, d_x, d_z, length = _edge(profile, points, rotation, feature)
         place = d_x * (r_x - a_x) + d_z * (r_z - a_z)
-        rate = -slip  # the normal is the direction of the edge turned to the left, so both point alike
+        # the normal is the direction of the edge turned to the left, so both point alike
+        rate = -slip
         left = length - place if rate > 0.0 else place
     else:
         last = int(profile.nodes[feature, END])

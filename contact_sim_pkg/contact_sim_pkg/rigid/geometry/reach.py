@@ -17,19 +17,21 @@ from contact_sim_pkg.compiled.jit import entry, kernel
 from contact_sim_pkg.rigid.body import Ground, Motion, RigidBody
 from contact_sim_pkg.rigid.motion.flight import body_size
 from contact_sim_pkg.rigid.motion.motion import (
-    APART,
-    HELD,
+    ACTIVE,
+    SEPARATED,
     MotionWorkspace,
     apply_impulse,
     contact_velocities,
+    fill_active_problem,
     free_velocity,
-    look,
-    take_part,
+    update_contacts,
 )
 
 GAP_TOLERANCE = 1.0e-9  # [m]
 ROUNDING = 1.0e-11  # of the lengths and velocities that a number is made of: closer ones tie
-TIES = 1.0e-3  # of the way of a contact in a step, or of its speed: closer ones tie too, far below the error of a step
+# of the way of a contact in a step, or of its speed: closer ones tie too, far below the error of a
+# step
+TIES = 1.0e-3
 
 
 @kernel
@@ -66,37 +68,41 @@ def _scales(body, motion, work, step):
 
 
 @kernel
-def _take_within(body, work, margin, step, length):
-    """Contacts apart whose ``margin`` [m] is negative, or ties with such a one, are held; how many."""
+def _activate_within(body, work, margin, step, length):
+    """Separated contacts whose ``margin`` [m] is negative, or ties with such a one, become active;
+    how many.
+    """
     bound, taken = bound_with_ties(body, work, margin, TIES * step, ROUNDING * length), 0
     for i in range(margin.shape[0]):
-        if work.flags[i] == APART and margin[i] <= bound:
-            work.flags[i] = HELD
+        if work.flags[i] == SEPARATED and margin[i] <= bound:
+            work.flags[i] = ACTIVE
             taken += 1
     return taken
 
 
 @kernel
-def _ask(body, work, margin, step, rest_speed, speed):
-    """The problem of the contacts that are held; 1, or 2 where one of them bounces.
+def _fill_problem(body, work, margin, step, rest_speed, speed):
+    """The problem of the contacts that are active; 1, or 2 where one of them bounces.
 
     Those bounce that approach faster than ``rest_speed``, with restitution; ``margin`` is
     overwritten.
     """
     found, width = 1, body.width
+    # fast ones, and those that tie with one, bounce
     for i in range(margin.shape[0]):
-        margin[i] = work.u[i * width] + rest_speed if work.flags[i] == HELD else math.inf
+        margin[i] = work.u[i * width] + rest_speed if work.flags[i] == ACTIVE else math.inf
     bound = bound_with_ties(body, work, margin, TIES, ROUNDING * speed)
     for i in range(margin.shape[0]):
-        held, row = work.flags[i] == HELD, i * width
+        active, row = work.flags[i] == ACTIVE, i * width
         fast = margin[i] <= bound and body.restitution > 0.0
         found = 2 if fast else found
         work.restitution[i] = body.restitution if fast else 0.0
         work.problem.floor[i] = 0.0
+        # the normal row closes the gap at the end of the step
         for k in range(row, row + width):
-            work.problem.q[k] = work.u[k] if held else 0.0
-        work.problem.q[row] += work.gap[i] / step if held else 0.0
-    take_part(body, work, HELD)
+            work.problem.q[k] = work.u[k] if active else 0.0
+        work.problem.q[row] += work.gap[i] / step if active else 0.0
+    fill_active_problem(body, work, ACTIVE)
     return found
 
 
@@ -112,22 +118,24 @@ def begin_step(
 ) -> tuple[int, float]:
     """Velocity without contact in ``work.free``, the contacts within reach and their problem.
 
-    Returns 0: none is in reach, 1: they are held, 2: one bounces; and the angle turned in [rad].
-    ``margin`` [points]: room.
+    Returns 0: none is in reach, 1: they are active, 2: one bounces; and the angle turned in [rad].
+    ``margin`` [points]: room; ``step`` [s], ``rest_speed`` [m/s].
     """
-    look(body, ground, motion, work)
+    # the free motion over the step
+    update_contacts(body, ground, motion, work)
     free_velocity(body, motion, work, step)
     contact_velocities(work.J, work.free, work.u)
     turn = 0.0
     for k in range(body.width, work.free.shape[0]):
         turn = max(turn, step * abs(work.free[k]))
+    # contacts that are closed, or close within the step
     length, speed = _scales(body, motion, work, step)
     for i in range(margin.shape[0]):
-        work.flags[i] = APART
+        work.flags[i] = SEPARATED
         margin[i] = min(work.gap[i] - GAP_TOLERANCE, work.gap[i] + step * work.u[i * body.width])
-    if _take_within(body, work, margin, step, length) == 0:
+    if _activate_within(body, work, margin, step, length) == 0:
         return 0, turn
-    return _ask(body, work, margin, step, rest_speed, speed), turn
+    return _fill_problem(body, work, margin, step, rest_speed, speed), turn
 
 
 @entry
@@ -143,17 +151,20 @@ def reach_further(
     """Take the contacts too that ``work.impulse`` would drive into the ground by the end of the
     step, and make the problem anew.
 
-    Returns 0 where there are none, else as `begin_step`. ``change`` [coordinates]: room.
+    Returns 0 where there are none, else as `begin_step`. ``change`` [coordinates]: room; ``step``
+    [s], ``rest_speed`` [m/s].
     """
+    # change of velocity by the impulses found
     for k in range(change.shape[0]):
         change[k] = 0.0
     apply_impulse(work.J, work.W, work.impulse, change)
+    # gaps at the end of the step of the contacts left out so far
     length, speed = _scales(body, motion, work, step)
     for i in range(margin.shape[0]):
         row, after = i * body.width, work.u[i * body.width]
         for k in range(change.shape[0]):
             after += work.J[row, k] * change[k]
-        margin[i] = work.gap[i] + step * after + GAP_TOLERANCE if work.flags[i] == APART else math.inf
-    if _take_within(body, work, margin, step, length) == 0:
+        margin[i] = work.gap[i] + step * after + GAP_TOLERANCE if work.flags[i] == SEPARATED else math.inf
+    if _activate_within(body, work, margin, step, length) == 0:
         return 0
-    return _ask(body, work, margin, step, rest_speed, speed)
+    return _fill_problem(body, work, margin, step, rest_speed, speed)

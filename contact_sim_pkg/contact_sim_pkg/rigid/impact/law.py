@@ -54,14 +54,16 @@ def impact_impulses(
     """Impulses ``c`` [rows] of the impact from the contact velocities ``u`` [rows].
 
     ``problem.A`` must be ``J W J'`` and hold the friction; its ``q`` and ``floor`` are overwritten.
-    ``restitution`` [contacts]. Contacts that touch without approaching take part, else they would
-    be driven in. The residual of an energetic impulse of one contact is 0: it obeys Coulomb's law
-    along its path, not in the sum.
+    ``restitution`` [contacts]. Contacts that touch without approaching are active too, else they
+    would be driven in. The residual of an energetic impulse of one contact is 0: it obeys Coulomb's
+    law along its path, not in the sum.
     """
+    # nothing approaches: no impact
     touching = numpy.flatnonzero(problem.friction >= 0.0)
     c[:] = 0.0
     if not (u[touching * problem.width] < 0.0).any():
         return ContactSolution(SOLVED, UNIQUE, 0.0, 0)
+    # one contact has closed forms or a path of its own
     only = int(touching[0])
     if len(touching) == 1 and problem.width == PLANE:
         return _one_in_the_plane(problem, only, u, float(restitution[only]), rule, c)
@@ -147,14 +149,17 @@ def _restore(
     """Restitution phase: share 1; where that gives back too much, the greatest share that does not,
     by regula falsi and halving.
     """
+    # full restitution, if the works allow it
     found = _give_back(problem, J, W, restitution, 1.0, work)
     if rule != ENERGETIC:
         return found
     left = _left(problem, u, restitution, work) if found.status == SOLVED else -math.inf
     if left >= 0.0:
         return found
+    # bracket of the greatest admissible share: 0 always is
     low, high, at_low, at_high = 0.0, 1.0, math.nan, left
     for attempt in range(TRIALS):
+        # bisection every third time, else regula falsi, a little to the safe side
         share = 0.5 * (low + high)
         if attempt % 3 and math.isfinite(at_low + at_high):
             share = low + (high - low) * at_low / (at_low - at_high) - 0.25 * SHARE_FOUND
@@ -167,4 +172,5 @@ def _restore(
             high, at_high = share, left
         if high - low <= SHARE_FOUND or (left >= 0.0 and left <= SLACK):
             break
+    # the last share that was admissible
     return found if left >= 0.0 else _give_back(problem, J, W, restitution, low, work)

@@ -119,7 +119,7 @@ register_rig(PathRig, _rate, _event_functions, _mode_transition, _need_rate)
 
 
 @kernel
-def _held_direction(contact):
+def _direction_after_stop(contact):
     """Tangential over normal impulse once slip has stopped, as a vector: it sticks, or slips along
     one direction.
     """
@@ -129,7 +129,8 @@ def _held_direction(contact):
     mu = contact.friction
     if math.hypot(hold_1, hold_2) <= mu:
         return hold_1, hold_2
-    low, high = 0.0, math.hypot(contact.n1, contact.n2)  # |(mu A_tt + k)^-1 A_tn| = 1 has one root k in between
+    # |(mu A_tt + k)^-1 A_tn| = 1 has one root k in between
+    low, high = 0.0, math.hypot(contact.n1, contact.n2)
     for _ in range(SECULAR_STEPS):
         k = 0.5 * (low + high)
         a, b, d = mu * contact.t11 + k, mu * contact.t12, mu * contact.t22 + k
@@ -147,8 +148,10 @@ def _held_direction(contact):
 
 @kernel
 def _straight_end(contact, state, wanted, compressing):
-    """From the stop of the slip to the end of the impact, in closed form; with which the path ends."""
-    follow_1, follow_2 = _held_direction(contact)
+    """From the stop of the slip to the end of the impact, in closed form; with which the path
+    ends.
+    """
+    follow_1, follow_2 = _direction_after_stop(contact)
     slope = contact.nn + contact.n1 * follow_1 + contact.n2 * follow_2
     length, speed = 0.0, state[NORMAL]
     if compressing:
@@ -185,16 +188,18 @@ def _start(contact, u_n, u_1, u_2, speed, work):
 
 @entry
 def spatial_impact(contact: ImpactPath, u_n: float, u_1: float, u_2: float, work: PathWorkspace) -> int:
-    """Run the path from the contact velocity (approaching, ``u_n < 0``) to its end; the impulses
-    stand in ``work.state``.
+    """Follow the path from the contact velocity in [m/s] (approaching, ``u_n < 0``) to its end; the
+    impulses in [N s] are left in ``work.state``; returns a status.
     """
     speed = math.sqrt(u_n * u_n + u_1 * u_1 + u_2 * u_2)
     _start(contact, u_n, u_1, u_2, speed, work)
     rig = PathRig(contact, work.wanted, speed)
     mode = work.mode
+    # without slip the whole path is straight
     mode[0] = STOPPED
     compressing = True
     status = 0
+    # slip: compression and restitution by the integrator, until slip stops or the work is back
     if work.state[LOG_SLIP] > -STOPPED_SLIP:
         mode[0] = COMPRESSION
         end = LONGEST / contact.nn
@@ -204,6 +209,7 @@ def spatial_impact(contact: ImpactPath, u_n: float, u_1: float, u_2: float, work
         set_event_directions(rig, drive, mode, 0.0, work.state, work.integrator)
         status = integrate(rig, drive, mode, end, work.state, work.scale, work.integrator)
         compressing = work.wanted[0] < 0.0
+    # from the stop of the slip on in closed form
     if mode[0] == STOPPED:
         _straight_end(contact, work.state, work.wanted[0], compressing)
     return SOLVED if status == 0 and mode[0] >= STOPPED else NOT_CONVERGED

@@ -16,7 +16,8 @@ from contact_sim_pkg.rigid.results import REVERSE, SEPARATE, SLIDE, STICK
 
 __all__ = ["contact_modes", "energetic_impulse", "impact_impulse", "planar_impact"]
 
-FORWARD, BACKWARD, HELD = 1.0, -1.0, 0.0  # sign of the friction impulse, 0 while the point sticks
+# sign of the friction impulse, 0 while the point sticks
+FORWARD, BACKWARD, STICKING = 1.0, -1.0, 0.0
 
 
 @kernel
@@ -60,9 +61,10 @@ def contact_modes(contact: PlanarContact, q_n: float, q_t: float, floor: float) 
 
     A complete solver of one planar contact: separation, stick, slide, reversed slide are tried in
     this order. ``q_n``, ``q_t`` [m/s] are the velocities without the impulse (``q_n`` with the
-    bounce that is asked for), ``floor`` [N s] the least normal impulse (0, or Poisson's). While the
+    required bounce), ``floor`` [N s] the least normal impulse (0, or Poisson's). While the
     contact approaches the answer is unique for every friction.
     """
+    # at the floor: it separates, or friction of the floor alone
     limit = contact.friction * floor
     c_t = min(max(-(q_t + contact.coupling * floor) / contact.tangential, -limit), limit)
     if q_n + contact.normal * floor + contact.coupling * c_t >= 0.0:
@@ -70,12 +72,14 @@ def contact_modes(contact: PlanarContact, q_n: float, q_t: float, floor: float) 
             return PlanarImpulse(0.0, 0.0, SEPARATE)
         u_t = q_t + contact.coupling * floor
         return PlanarImpulse(floor, c_t, STICK if abs(c_t) < limit else (SLIDE if u_t * q_t >= 0.0 else REVERSE))
+    # stick: both velocities are brought to 0
     determinant = contact.normal * contact.tangential - contact.coupling**2
     c_n = -(contact.tangential * q_n - contact.coupling * q_t) / determinant
     c_t = -(contact.normal * q_t - contact.coupling * q_n) / determinant
     broken = max(abs(c_t) - contact.friction * c_n, floor - c_n) * contact.tangential
     if broken <= 0.0:
         return PlanarImpulse(c_n, c_t, STICK)
+    # slip, one way or the other; where rounding denies all three, the nearest
     slide_n, slide_t, slide_broken, mode = _slide_modes(contact, q_n, q_t, floor)
     if slide_broken <= broken:
         return PlanarImpulse(slide_n, slide_t, mode)
@@ -101,8 +105,10 @@ def _poisson_impulse(contact, u_n, u_t):
 
 @kernel
 def _slopes(contact, slip):
-    """(du_n/dp, du_t/dp, dc_t/dp) along the normal impulse p for friction sign ``slip``, 0: stick."""
-    if slip == HELD:
+    """(du_n/dp, du_t/dp, dc_t/dp) along the normal impulse p for friction sign ``slip``, 0:
+    stick.
+    """
+    if slip == STICKING:
         follow = -contact.coupling / contact.tangential
         return contact.normal + contact.coupling * follow, 0.0, follow
     friction = slip * contact.friction
@@ -111,11 +117,11 @@ def _slopes(contact, slip):
 
 @kernel
 def _after_stop(contact):
-    """Friction sign once slip has stopped: held where friction suffices, else slip starts again,
-    pushed by the normal.
+    """Friction sign once slip has stopped: sticking where friction suffices, else slip starts
+    again, pushed by the normal.
     """
     if abs(contact.coupling) <= contact.friction * contact.tangential:
-        return HELD
+        return STICKING
     return -_sign(contact.coupling)
 
 
@@ -129,8 +135,8 @@ def _stop_distance(u_t, slope):
 
 @kernel
 def energetic_impulse(contact: PlanarContact, u_n: float, u_t: float) -> PlanarImpulse:
-    """Impact along its normal impulse p until the normal force has given back ``e^2`` of the work
-    it took.
+    """Impact from ``u_n``, ``u_t`` [m/s] along its normal impulse p [N s] until the normal force
+    has given back ``e^2`` of the work it took.
 
     u_n(p), u_t(p) are straight pieces with at most one change, where slip stops: each ends by a
     linear formula (slip stops, compression ends) or a quadratic one (work reached). Exact to
@@ -139,7 +145,7 @@ def energetic_impulse(contact: PlanarContact, u_n: float, u_t: float) -> PlanarI
     if u_n >= 0.0:
         return PlanarImpulse(0.0, 0.0, SEPARATE)
     slip = -_sign(u_t) if u_t != 0.0 else _after_stop(contact)
-    mode = SLIDE if slip != HELD else STICK
+    mode = SLIDE if slip != STICKING else STICK
     slope_n, slope_t, slope_c = _slopes(contact, slip)
     c_n, c_t, work = 0.0, 0.0, 0.0
     stop = _stop_distance(u_t, slope_t)
@@ -147,7 +153,7 @@ def energetic_impulse(contact: PlanarContact, u_n: float, u_t: float) -> PlanarI
         c_n, c_t, work = stop, slope_c * stop, (u_n + 0.5 * slope_n * stop) * stop
         u_n, u_t, stop = u_n + slope_n * stop, 0.0, math.inf
         slip = _after_stop(contact)
-        mode = STICK if slip == HELD else REVERSE
+        mode = STICK if slip == STICKING else REVERSE
         slope_n, slope_t, slope_c = _slopes(contact, slip)
     length = -u_n / slope_n
     c_n, c_t, work = c_n + length, c_t + slope_c * length, work + 0.5 * u_n * length
@@ -161,7 +167,7 @@ def energetic_impulse(contact: PlanarContact, u_n: float, u_t: float) -> PlanarI
     slip = _after_stop(contact)
     slope_n, slope_t, slope_c = _slopes(contact, slip)
     length = 2.0 * wanted / (u_n + math.sqrt(u_n * u_n + 2.0 * slope_n * wanted))
-    return PlanarImpulse(c_n + length, c_t + slope_c * length, STICK if slip == HELD else REVERSE)
+    return PlanarImpulse(c_n + length, c_t + slope_c * length, STICK if slip == STICKING else REVERSE)
 
 
 @kernel
@@ -180,5 +186,5 @@ def impact_impulse(contact: PlanarContact, rule: int, u_n: float, u_t: float) ->
 
 @entry
 def planar_impact(contact: PlanarContact, rule: int, u_n: float, u_t: float) -> PlanarImpulse:
-    """``impact_impulse`` for callers from Python."""
+    """`impact_impulse` for callers from Python; ``u_n``, ``u_t`` in [m/s]."""
     return impact_impulse(contact, rule, u_n, u_t)

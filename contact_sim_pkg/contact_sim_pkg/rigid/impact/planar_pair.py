@@ -23,7 +23,8 @@ ORDER, ARTIFICIAL, RIGHT, COLUMNS = 8, 8, 9, 10
 PIVOTS = 60
 SMALL = 1.0e-10  # pivots below it are rounding; the tableau has entries of order 1
 TIE = 1.0e-12
-COVER = (1.0, 1.13, 1.29, 0.83, 1.07, 1.21, 1.37, 0.91)  # column of z0: positive, uneven against ties
+# column of z0: positive, uneven against ties
+COVER = (1.0, 1.13, 1.29, 0.83, 1.07, 1.21, 1.37, 0.91)
 UNCOVER = tuple(1.0 / part for part in COVER)
 STICKS = 1.0e-9  # of the velocity scale: slip below it is none
 
@@ -81,6 +82,7 @@ def _set_up(A, q, mu_first, mu_second, speed, work):
             T[i, j] = 0.0
         T[i, ARTIFICIAL] = COVER[i]
     work.other[ARTIFICIAL] = 2 * ORDER
+    # blocks of A: normal, friction along either direction
     for a in range(2):
         for b in range(2):
             nn, nt = unit * A[2 * a, 2 * b], unit * A[2 * a, 2 * b + 1]
@@ -89,6 +91,7 @@ def _set_up(A, q, mu_first, mu_second, speed, work):
             T[i, j], T[i, j + 1], T[i, j + 2] = nn, nt, -nt
             T[i + 1, j], T[i + 1, j + 1], T[i + 1, j + 2] = tn, tt, -tt
             T[i + 2, j], T[i + 2, j + 1], T[i + 2, j + 2] = -tn, -tt, tt
+        # friction bound of the contact, and the right sides
         i = 4 * a
         T[i + 1, i + 3], T[i + 2, i + 3] = 1.0, 1.0
         T[i + 3, i], T[i + 3, i + 1], T[i + 3, i + 2] = mu_first if a == 0 else mu_second, -1.0, -1.0
@@ -135,6 +138,7 @@ def _leaving(T, column, row_of_z0):
 def _pivot_to_the_end(work):
     """Lemke's path; whether z0 left the basis."""
     T, basic, other = work.tableau, work.basic, work.other
+    # z0 enters at the row that needs most of it
     low, row = numpy.inf, 0
     for i in range(ORDER):
         deepest = T[i, RIGHT] * UNCOVER[i]
@@ -149,6 +153,7 @@ def _pivot_to_the_end(work):
         basic[row], other[column] = other[column], leaving
         if leaving == 2 * ORDER:
             return True
+        # the complement of what left enters next
         wanted = leaving + ORDER if leaving < ORDER else leaving - ORDER
         for j in range(ORDER + 1):
             if other[j] == wanted:
@@ -197,6 +202,7 @@ def _share(J, first, second, mu_first, mu_second, c):
     x = (J[rows[0], 0], J[rows[1], 0], J[rows[2], 0], J[rows[3], 0])
     y = (J[rows[0], 1], J[rows[1], 1], J[rows[2], 1], J[rows[3], 1])
     m = (J[rows[0], 2], J[rows[1], 2], J[rows[2], 2], J[rows[3], 2])
+    # the vector without a wrench: minors of the 3 by 4 matrix J' of both contacts
     p_01, p_02, p_03 = y[0] * m[1] - y[1] * m[0], y[0] * m[2] - y[2] * m[0], y[0] * m[3] - y[3] * m[0]
     p_12, p_13, p_23 = y[1] * m[2] - y[2] * m[1], y[1] * m[3] - y[3] * m[1], y[2] * m[3] - y[3] * m[2]
     z_0 = x[1] * p_23 - x[2] * p_13 + x[3] * p_12
@@ -206,8 +212,10 @@ def _share(J, first, second, mu_first, mu_second, c):
     square = z_0 * z_0 + z_1 * z_1 + z_2 * z_2 + z_3 * z_3
     if square <= 0.0:
         return
+    # how far both contacts stay in their cones
     low, high = _range(c[0], c[1], z_0, z_1, mu_first, -numpy.inf, numpy.inf)
     low, high = _range(c[2], c[3], z_2, z_3, mu_second, low, high)
+    # least norm along it
     length = -(z_0 * c[0] + z_1 * c[1] + z_2 * c[2] + z_3 * c[3]) / square
     length = min(max(length, low), high)
     c[0], c[1], c[2], c[3] = c[0] + length * z_0, c[1] + length * z_1, c[2] + length * z_2, c[3] + length * z_3
@@ -231,11 +239,12 @@ def pair_impulses(J, W, q, friction, first, second, work, c):
     """Impulses ``c`` [rows] of the contacts ``first`` and ``second`` of one body in the plane, of
     least norm; returns the residual.
 
-    ``J`` [rows, 3], ``W`` [3, 3], ``q`` [rows] what the rows ask for, ``friction`` [contacts] above
+    ``J`` [rows, 3], ``W`` [3, 3], ``q`` [rows] required by the rows, ``friction`` [contacts] above
     0. inf: no answer here.
     """
     _assemble(J, W, q, first, second, work)
     A, own, mu_first, mu_second = work.A, work.q, friction[first], friction[second]
+    # frictionless contacts and no velocity are left to the general solver
     speed = max(abs(own[0]), abs(own[1]), abs(own[2]), abs(own[3]))
     if not 0.0 < speed < numpy.inf or mu_first <= 0.0 or mu_second <= 0.0:
         return numpy.inf
@@ -245,8 +254,10 @@ def pair_impulses(J, W, q, friction, first, second, work, c):
     _read(work, impulse)
     x = work.c
     limit = STICKS * speed
+    # both press and stick: the load can be shared in more than one way
     if x[0] > 0.0 and x[2] > 0.0 and abs(_velocity(A, own, x, 1)) <= limit and abs(_velocity(A, own, x, 3)) <= limit:
         _share(J, first, second, mu_first, mu_second, x)
     c[2 * first], c[2 * first + 1], c[2 * second], c[2 * second + 1] = x[0], x[1], x[2], x[3]
+    # residual in the velocities, of the greatest
     scale = max(speed, A[0, 0] * x[0], A[2, 2] * x[2])
     return max(_broken(A, own, mu_first, x, 0), _broken(A, own, mu_second, x, 2)) / scale

@@ -1,4 +1,4 @@
-"""Points on the ground: when a rebound ends in rest, what holds them over a piece of time, where a
+"""Points on the ground: when a rebound ends in rest, what holds them over a sub-step, where a
 point lands.
 
 Each function is one step of `rigid/motion/time_loop.py` and `rigid/motion/located.py`, which solve
@@ -15,24 +15,25 @@ from contact_sim_pkg.rigid.body import Ground, Motion, RigidBody, is_ridge, on_p
 from contact_sim_pkg.rigid.geometry.profile import time_to_kink
 from contact_sim_pkg.rigid.motion.flight import gap_change
 from contact_sim_pkg.rigid.motion.motion import (
-    APART,
-    HELD,
-    STUCK,
+    ACTIVE,
+    SEPARATED,
+    STICKING,
     TOUCHING,
     MotionWorkspace,
     apply_impulse,
     contact_velocities,
     displace,
+    fill_active_problem,
     free_velocity,
-    look,
-    take_part,
+    update_contacts,
 )
 from contact_sim_pkg.rigid.problem import PLANE
 from contact_sim_pkg.rigid.rotation import gyroscopic_rate, spin_in_body
 
-STILL = 1.0e-13  # of the speed scale: below it a velocity is rounding
+ROUNDING_SPEED = 1.0e-13  # of the speed scale: below it a velocity is rounding
 LANDED = 1.0e-11  # of the size: a point this far below the ground has landed
-DRIFT = 1.0e-10  # of the size: a gap of a held point that is taken back, which turning bodies call for
+# of the size: a gap of an active point that is closed again, which turning bodies need
+DRIFT = 1.0e-10
 LEAVES = 1.0e-9  # [m/s^2]: less is the rounding of an acceleration
 HOLD_SWEEPS = 20
 
@@ -44,31 +45,35 @@ def survey_points(
     """Gaps and contact velocities; returns the velocity [m/s] that counts as rounding, and whether
     a touching point approaches.
     """
-    look(body, ground, motion, work)
+    update_contacts(body, ground, motion, work)
     scale = math.sqrt(gravity * size)
     for k in range(motion.velocity.shape[0]):
         scale = max(scale, abs(motion.velocity[k]) * (1.0 if k < body.width else size))
-    still, found = STILL * scale, False
+    rounding, found = ROUNDING_SPEED * scale, False
     for i in range(work.flags.shape[0]):
-        found = found or (work.flags[i] == TOUCHING and work.u[i * body.width] < -still)
-    return still, found
+        found = found or (work.flags[i] == TOUCHING and work.u[i * body.width] < -rounding)
+    return rounding, found
 
 
 @entry
 def prepare_impact(body: RigidBody, work: MotionWorkspace, rest_speed: float) -> None:
-    """The problem of all points on the ground; those slower than ``rest_speed`` do not bounce."""
+    """The problem of all points on the ground; those slower than ``rest_speed`` [m/s] do not
+    bounce.
+    """
     for i in range(work.flags.shape[0]):
         work.restitution[i] = body.restitution if work.u[i * body.width] < -rest_speed else 0.0
-    take_part(body, work, TOUCHING)
+    fill_active_problem(body, work, TOUCHING)
 
 
 @entry
 def finish_impact(body: RigidBody, motion: Motion, work: MotionWorkspace, rest_speed: float) -> None:
-    """Take the impulses; held points that now leave faster than ``rest_speed`` are held no longer."""
+    """Apply the impulses; active points that now leave faster than ``rest_speed`` [m/s] are active
+    no longer.
+    """
     apply_impulse(work.J, work.W, work.impulse, motion.velocity)
     contact_velocities(work.J, motion.velocity, work.u)
     for i in range(work.flags.shape[0]):
-        if work.flags[i] >= HELD and work.u[i * body.width] > rest_speed:
+        if work.flags[i] >= ACTIVE and work.u[i * body.width] > rest_speed:
             work.flags[i] = TOUCHING
 
 
@@ -107,7 +112,8 @@ def path_acceleration(body, ground, motion, J, i):
     _gap, n_x, n_z, _x, _y, _z, curvature, _feature = on_profile(body, ground, motion.rotation, x, z, i)
     along = v[0] * n_z - v[width - 1] * n_x
     normal, first, second = _turning_acceleration(body, ground, motion, J, i)
-    if width != PLANE:  # over a peak the arm of a sphere turns with the normal, about which it spins
+    # over a peak the arm of a sphere turns with the normal, about which it spins
+    if width != PLANE:
         second -= body.radius * curvature * along * (v[3] * n_x + v[5] * n_z)
     return normal + curvature * along * along, first, second
 
@@ -141,18 +147,18 @@ def _normal_acceleration(body, ground, motion, work, i):
 
 
 @kernel
-def drop_spin(body, velocity, size, still):
-    """Set spins of ``velocity`` to 0 that move no point of the body faster than ``still`` [m/s]:
+def drop_spin(body, velocity, size, rounding):
+    """Set spins of ``velocity`` to 0 that move no point of the body faster than ``rounding`` [m/s]:
     they are rounding.
     """
     for k in range(body.width, velocity.shape[0]):
-        if abs(velocity[k]) * size <= still:
+        if abs(velocity[k]) * size <= rounding:
             velocity[k] = 0.0
 
 
 @kernel
-def hold_back(body, motion, work, size, still):
-    """Take the rest of the normal velocity from held points, one after the other (it is below the
+def remove_normal_velocity(body, motion, work, size, rounding):
+    """Remove the rest of the normal velocity of active points, one after the other (it is below the
     rest speed).
 
     The impulses that this takes, towards the ground, are added to ``work.impulse``. On a slope the
@@ -160,11 +166,12 @@ def hold_back(body, motion, work, size, still):
     spins the body by as much: `drop_spin`.
     """
     n = motion.velocity.shape[0]
+    # Gauss-Seidel sweeps over the active normals, until none moves
     for _ in range(HOLD_SWEEPS):
         moved = False
         for i in range(work.flags.shape[0]):
             row, speed, weight = i * body.width, 0.0, 0.0
-            if work.flags[i] >= HELD:
+            if work.flags[i] >= ACTIVE:
                 for k in range(n):
                     speed += work.J[row, k] * motion.velocity[k]
             if speed == 0.0:
@@ -172,80 +179,90 @@ def hold_back(body, motion, work, size, still):
             moved = True
             for k in range(n):
                 for m in range(n):
+                    # inverse mass of the contact along its normal
                     weight += work.J[row, k] * work.W[k, m] * work.J[row, m]
+            # impulse that stops it
             work.impulse[row] -= speed / weight
             for k in range(n):
                 for m in range(n):
                     motion.velocity[k] -= work.W[k, m] * work.J[row, m] * speed / weight
         if not moved:
             break
-    drop_spin(body, motion.velocity, size, still)
+    drop_spin(body, motion.velocity, size, rounding)
 
 
 @kernel
 def settle_points(
-    body: RigidBody, ground: Ground, motion: Motion, work: MotionWorkspace, rest_speed: float, size: float, still: float
+    body: RigidBody,
+    ground: Ground,
+    motion: Motion,
+    work: MotionWorkspace,
+    rest_speed: float,
+    size: float,
+    rounding: float,
 ) -> tuple[float, bool]:
-    """Hold the points whose rebound is below the rest speed and that the load presses down, or may
-    be by what holds the others.
+    """Make points active whose rebound is below the rest speed and that the load, or may be the
+    others, press down.
 
     Also those that approach by rounding and that nothing takes away.
 
-    Returns the time in [s] that their last bounces take, and whether any point is held.
+    Returns the time in [s] that their last bounces take, and whether any point is active.
     ``work.impulse`` is what takes the speed of their rebound from them: the weight carries them
     over the last bounces, and this much less.
     """
-    wait, held = 0.0, False
+    wait, active = 0.0, False
     for row in range(work.impulse.shape[0]):
         work.impulse[row] = 0.0
     for i in range(work.flags.shape[0]):
         speed = work.u[i * body.width]
-        if work.flags[i] == HELD or work.flags[i] == STUCK:
-            held = True
+        if work.flags[i] == ACTIVE or work.flags[i] == STICKING:
+            active = True
             continue
-        if work.flags[i] == APART or abs(speed) > rest_speed:
+        if work.flags[i] == SEPARATED or abs(speed) > rest_speed:
             continue
         acceleration = _normal_acceleration(body, ground, motion, work, i)
         if acceleration < 0.0 or (
             speed < 0.0 and acceleration < LEAVES
         ):  # without weight rounding alone may drive it in
-            if speed > still and acceleration < 0.0 and body.restitution < 1.0:
+            if speed > rounding and acceleration < 0.0 and body.restitution < 1.0:
                 wait = max(wait, 2.0 * speed / (-acceleration * (1.0 - body.restitution)))
-            work.flags[i] = HELD
-            held = True
-    if held:
+            work.flags[i] = ACTIVE
+            active = True
+    if active:
         for i in range(work.flags.shape[0]):
             if work.flags[i] == TOUCHING and abs(work.u[i * body.width]) <= rest_speed:
-                work.flags[i] = HELD
-        hold_back(body, motion, work, size, still)
-    return wait, held
+                work.flags[i] = ACTIVE
+        remove_normal_velocity(body, motion, work, size, rounding)
+    return wait, active
 
 
 @entry
 def prepare_attempt(
-    body: RigidBody, ground: Ground, motion: Motion, work: MotionWorkspace, time: float, bend: float
+    body: RigidBody, ground: Ground, motion: Motion, work: MotionWorkspace, time: float, curved: float
 ) -> None:
-    """The problem of the held points over ``time`` [s], without bounce; ``work.free`` is the
+    """The problem of the active points over ``time`` [s], without bounce; ``work.free`` is the
     velocity without them.
 
-    ``bend`` 1 takes the turn of arms and normals over the piece along, 0 leaves it out.
+    ``curved`` 1 counts how arms and normals turn over the sub-step, 0 leaves it out.
     """
-    take_part(body, work, HELD)
+    fill_active_problem(body, work, ACTIVE)
     free_velocity(body, motion, work, time)
     q = work.problem.q
+    # velocities at the end of the sub-step without contact
     contact_velocities(work.J, work.free, q)
     for i in range(work.flags.shape[0]):
         work.problem.floor[i] = 0.0
         row = i * body.width
-        if work.flags[i] < HELD:
+        if work.flags[i] < ACTIVE:
             for k in range(row, row + body.width):
                 q[k] = 0.0
             continue
+        # their change by the curved path of the contact
         gain = path_acceleration(body, ground, motion, work.J, i)
-        q[row] += bend * time * gain[0]
-        q[row + 1] += bend * time * gain[1]
+        q[row] += curved * time * gain[0]
+        q[row + 1] += curved * time * gain[1]
         if body.width != PLANE:
-            q[row + 2] += bend * time * gain[2]
+            q[row + 2] += curved * time * gain[2]
 
 
 @entry
@@ -258,7 +275,7 @@ def landing_part(
     displace(body, motion, work.free, work, time)
     part, first, near = 1.0, -1, LANDED * size
     for i in range(work.flags.shape[0]):
-        if work.flags[i] >= HELD:
+        if work.flags[i] >= ACTIVE:
             continue
         above, speed = max(work.gap[i], 0.0), work.u[i * body.width]
         change = gap_change(body, ground, motion, work, i)
@@ -276,8 +293,8 @@ def landing_part(
 
 @entry
 def gap_after(body: RigidBody, ground: Ground, motion: Motion, work: MotionWorkspace, time: float, i: int) -> float:
-    """Gap in [m] of contact ``i`` after the piece of ``time`` [s] whose velocity at its end is in
-    ``work.free``.
+    """Gap in [m] of contact ``i`` after the sub-step of ``time`` [s] whose velocity at its end is
+    in ``work.free``.
     """
     displace(body, motion, work.free, work, time)
     return max(work.gap[i], 0.0) + gap_change(body, ground, motion, work, i)
@@ -289,8 +306,9 @@ def time_to_peak(body, ground, motion, work):
     profile, width, least = ground.profile, body.width, math.inf
     x, z = motion.position[0], motion.position[width - 1]
     for i in range(work.flags.shape[0]):
-        if work.flags[i] >= HELD:
+        if work.flags[i] >= ACTIVE:
             _gap, _n_x, n_z, r_x, _y, r_z, _c, feature = on_profile(body, ground, motion.rotation, x, z, i)
+            # a corner leaves its face, a peak its edge of the body
             ridge, slip = is_ridge(body, ground, i), work.u[i * width + 1]
             time = time_to_kink(
                 profile,

@@ -23,41 +23,42 @@ from contact_sim_pkg.integrate.dormand_prince import (
 )
 from contact_sim_pkg.laws.parameters import Friction, NormalElastic
 from contact_sim_pkg.laws.restitution import LOWEST_RESTITUTION, damping_of_restitution
-from contact_sim_pkg.rigid.body import Ground, Motion, RigidBody, contact_count, laid_under, pull
+from contact_sim_pkg.rigid.body import Ground, Motion, RigidBody, contact_count, fitted_ground, load_acceleration
 from contact_sim_pkg.rigid.body_state import IntegrationSpan, places_of
 from contact_sim_pkg.rigid.forces.compliant_body import (
-    MARGINS_A_POINT,
+    EVENTS_PER_POINT,
     CompliantBody,
     CompliantLaw,
-    look,
     make_rig,
     set_loss,
     state_count,
     stored_energy,
+    update_contacts,
 )
 from contact_sim_pkg.rigid.motion.flight import body_size
 from contact_sim_pkg.rigid.problem import PLANE
 
-__all__ = ["MovedBody", "asked_loss", "compliant_contact", "sentence_of"]
+__all__ = ["CompliantMotion", "compliant_contact", "requested_loss", "sentence_of"]
 
-LARGEST_TURN = 0.2  # [rad] of a piece that is integrated at once, so that no touch is stepped over
-LONGEST_PIECE = 0.02  # [s]
+# [rad] of a sub-step that is integrated at once, so that no contact event is missed
+LARGEST_TURN = 0.2
+LONGEST_SUBSTEP = 0.02  # [s]
 TOUCH = 1e-12  # of the body's size
 SMALLEST_LOSS = 1e-9  # so that the slowest speed is never 0
 
 
-def asked_loss(restitution: float) -> float:
-    """lambda times the speed of approach with which a touch ends with ``restitution``; below 0.01
-    it counts as 0.01.
+def requested_loss(restitution: float) -> float:
+    """lambda [s/m] times the speed of approach [m/s] with which a contact ends with ``restitution``
+    (below 0.01: 0.01).
     """
     return damping_of_restitution(max(restitution, LOWEST_RESTITUTION), 1.0)
 
 
 def resting_swing(body: RigidBody, elastic: NormalElastic) -> tuple[float, float]:
-    """Depth in [m] of a body at rest on one point under its `pull`, and its frequency there in
-    [rad/s].
+    """Depth in [m] of a body at rest on one point under its `load_acceleration`, and its frequency
+    there in [rad/s].
     """
-    weight = body.mass * pull(body)
+    weight = body.mass * load_acceleration(body)
     depth = (weight / elastic.coefficient) ** (1.0 / elastic.exponent)
     return depth, math.sqrt(elastic.exponent * weight / (depth * body.mass))
 
@@ -65,15 +66,15 @@ def resting_swing(body: RigidBody, elastic: NormalElastic) -> tuple[float, float
 def compliant_contact(
     body: RigidBody, elastic: NormalElastic, tangential_stiffness: float, tangential_damping: float | None = None
 ) -> CompliantLaw:
-    """The contact of ``body`` with the restitution and friction that it has; ``tangential_damping``
-    None: critical for its mass.
+    """The contact of ``body`` with its restitution and friction; ``tangential_stiffness`` in [N/m],
+    ``tangential_damping`` in [N s/m], None: critical for its mass.
 
-    Below the speed ``n d g/(2 w)``, n the exponent, g the `pull` and w the frequency of the body at
-    rest on one point, the loss no longer grows: a body at rest is then about critically damped, and
-    bounces as slow as that hardly leave the ground. A body without weight is measured as if 0.1
-    m/s^2 pulled it, and rebounds faster than asked below that speed.
+    Below the speed ``n d g/(2 w)``, n the exponent, g the `load_acceleration` and w the frequency
+    of the body at rest on one point, the loss no longer grows: a body at rest is then about
+    critically damped, and bounces as slow as that hardly leave the ground. A body without weight is
+    measured as if 0.1 m/s^2 pulled it, and rebounds faster than requested below that speed.
     """
-    loss, (depth, frequency) = asked_loss(body.restitution), resting_swing(body, elastic)
+    loss, (depth, frequency) = requested_loss(body.restitution), resting_swing(body, elastic)
     damping = tangential_damping or 2.0 * math.sqrt(tangential_stiffness * body.mass)
     friction = Friction(tangential_stiffness, damping, body.friction, body.friction)
     slowest = 0.5 * max(loss, SMALLEST_LOSS) * depth * frequency
@@ -82,7 +83,7 @@ def compliant_contact(
 
 @entry
 def _begin(rig: CompliantBody, mode: Vector, state: Vector, work: DormandPrinceWorkspace) -> None:
-    look(rig, state)
+    update_contacts(rig, state)
     for point in range(rig.gap.shape[0]):
         set_loss(rig, mode, point)
     drive = IntegrationSpan(0.0, 1.0)
@@ -101,14 +102,14 @@ def _advance(
         status = integrate(rig, drive, mode, end, state, scale, work)
         if status != DONE:
             return status
-    look(rig, state)
+    update_contacts(rig, state)
     return DONE
 
 
 @entry
 def look_at(rig: CompliantBody, state: Vector) -> None:
-    """Motion, gaps and point velocities of a state, into the rig's arrays."""
-    look(rig, state)
+    """Motion, gaps and point velocities of a ``state`` [states], into the rig's arrays."""
+    update_contacts(rig, state)
 
 
 @entry
@@ -116,8 +117,8 @@ def _stored(rig: CompliantBody, state: Vector) -> tuple[float, float]:
     return stored_energy(rig, state)
 
 
-class MovedBody:
-    """One body on compliant contact, and where it stands. ``motion`` changes in place."""
+class CompliantMotion:
+    """One body on compliant contact, and the state of its run. ``motion`` changes in place."""
 
     def __init__(
         self, body: RigidBody, ground: Ground, motion: Motion, contact: CompliantLaw, tolerance: float
@@ -125,17 +126,18 @@ class MovedBody:
         """Take a body at the start; ``tolerance`` is the error a step may make, relative to depth
         and speed of an impact.
         """
-        ground = laid_under(body, ground)
+        ground = fitted_ground(body, ground)
         self.body, self.ground, self.motion, self.contacts = body, ground, motion, contact_count(body, ground)
         self.rig = make_rig(body, ground, contact)
         self.state, self.mode = _state_of(body, motion, self.contacts), numpy.zeros(self.contacts)
         self.size = float(body_size(body))
         self.scale = tolerance * self._scales()
-        self.work = make_workspace(len(self.state), MARGINS_A_POINT * self.contacts)
+        self.work = make_workspace(len(self.state), EVENTS_PER_POINT * self.contacts)
         self.time = 0.0
         rows = self.contacts * body.width
         self._impulses = slice(len(self.state) - 1 - rows, len(self.state) - 1)
-        self.impulse = numpy.zeros(rows)  # [N s] over the last interval: normal, then tangents, of each point
+        # [N s] over the last interval: normal, then tangents, of each point
+        self.impulse = numpy.zeros(rows)
         self.stored = 0.0  # [J] in contacts and friction springs
         self.dissipated = 0.0  # [J] in all
         _begin(self.rig, self.mode, self.state, self.work)
@@ -146,7 +148,8 @@ class MovedBody:
         """
         width, state = self.body.width, self.state
         spin = float(numpy.abs(self.motion.velocity[width:]).sum())
-        substeps = max(1, math.ceil(interval / LONGEST_PIECE), math.ceil(interval * spin / LARGEST_TURN))
+        # short enough that no contact event is stepped over
+        substeps = max(1, math.ceil(interval / LONGEST_SUBSTEP), math.ceil(interval * spin / LARGEST_TURN))
         state[self._impulses] = 0.0
         span = IntegrationSpan(self.time, interval)
         status = int(_advance(self.rig, self.mode, state, self.scale, self.work, span, substeps))
@@ -154,10 +157,12 @@ class MovedBody:
             return status
         self.time += interval
         if width != PLANE:
+            # the quaternion keeps unit length
             state[3:7] /= numpy.linalg.norm(state[3:7])
         for mine, found in zip(self.motion, self.rig.motion, strict=True):
             mine[:] = found
         self.impulse[:] = state[self._impulses]
+        # the state counts what friction springs hold as lost
         contacts, springs = _stored(self.rig, state)
         self.stored = float(contacts + springs)
         self.dissipated = float(state[-1] - springs)
@@ -193,7 +198,7 @@ class MovedBody:
 
 
 def sentence_of(status: int) -> str:
-    """What a status says."""
+    """The sentence of a status."""
     return SENTENCES[status]
 
 

@@ -14,7 +14,7 @@ from contact_sim_pkg.compiled.jit import inline_kernel, kernel
 from contact_sim_pkg.rigid.geometry.face_points import D_S, D_T, R_S, R_T, ROW, A, B
 
 TURNS = 15  # of the directions of slip
-SETTLED = 1.0e-15  # change of a direction at which they are taken
+SETTLED = 1.0e-15  # change of a direction at which they are accepted
 STOPS = 1.0e-7  # of the speed before: slip below it is left to the solvers
 WIDE = 3
 
@@ -39,7 +39,7 @@ def _slip_sums(face, count, v_t, v_s, w_n):
 
 
 @inline_kernel
-def _slid(contact, motion, F, w_n, d):
+def _motion_of_slide(contact, motion, F, w_n, d):
     """Slopes of the load over the face for given directions of slip, and the resulting motion in
     the plane.
     """
@@ -47,12 +47,15 @@ def _slid(contact, motion, F, w_n, d):
     v, w, light, inertia = motion.velocity, motion.spin, motion.inverse_mass, motion.inertia
     tt, ts, ss = contact.spread
     a, r, gain = F / count, mean[0] * mu, w_n - w[0]
-    ask_t = inertia[1] * gain - inertia[3] * w[1] - inertia[4] * w[2] - mean[2] * F - r * a * d[1]
-    ask_s = inertia[2] * gain - inertia[4] * w[1] - inertia[5] * w[2] + mean[1] * F + r * a * d[0]
+    # moments about the tangents that keep the body to the plane
+    required_t = inertia[1] * gain - inertia[3] * w[1] - inertia[4] * w[2] - mean[2] * F - r * a * d[1]
+    required_s = inertia[2] * gain - inertia[4] * w[1] - inertia[5] * w[2] + mean[1] * F + r * a * d[0]
+    # two equations for the slopes of the load
     m_11, m_12, m_21, m_22 = ts + r * d[4], ss + r * d[5], -tt - r * d[2], -ts - r * d[3]
     part = 1.0 / (m_11 * m_22 - m_12 * m_21)
-    b, g = (m_22 * ask_t - m_12 * ask_s) * part, (m_11 * ask_s - m_21 * ask_t) * part
+    b, g = (m_22 * required_t - m_12 * required_s) * part, (m_11 * required_s - m_21 * required_t) * part
     f_t, f_s = -mu * (a * d[0] + b * d[2] + g * d[3]), -mu * (a * d[1] + b * d[4] + g * d[5])
+    # moment of friction about the normal
     turn = 0.0
     for j in range(count):
         load = a + b * face[j, A] + g * face[j, B]
@@ -103,7 +106,9 @@ def _rows_times(H, top, x):
 
 @inline_kernel
 def _slide_straight(contact, motion, F, c):
-    """Impulses of a face that does not turn: one slip, along the velocity before, for all points."""
+    """Impulses of a face that does not turn: one slip, along the velocity before, for all
+    points.
+    """
     mu, face, count, mean = contact.friction, contact.points, contact.contacts, contact.mean
     v, light = motion.velocity, motion.inverse_mass
     tt, ts, ss = contact.spread
@@ -143,7 +148,7 @@ def _slide_and_turn(contact, motion, F, c):
             return False
         if turn == 1 and change <= SETTLED:  # the directions of the motion that they leave
             return _write_slide(contact, F / count, b, g, c)
-        b, g, to_t, to_s, to_n = _slid(contact, motion, F, w_n, d)
+        b, g, to_t, to_s, to_n = _motion_of_slide(contact, motion, F, w_n, d)
         r = (to_t - v_t, to_s - v_s, size * (to_n - w_n))
         if turn > 1 and change <= SETTLED and abs(r[0]) + abs(r[1]) + abs(r[2]) <= SETTLED * speed:
             return _write_slide(contact, F / count, b, g, c)

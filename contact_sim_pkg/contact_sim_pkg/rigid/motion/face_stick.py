@@ -20,7 +20,7 @@ HALVINGS = 12
 EXACT = 1.0e-15  # of the load: a wrench missed by no more is met
 NEAR = 1.0e-13  # of the load: met as well where it gets no better
 DESCENT = 1.0e-4  # part of the slope by which the dual function must fall
-LIFT = 1.0e-14  # of the trace, on the diagonal, for contacts whose loads no wrench tells apart
+LIFT = 1.0e-14  # of the trace, on the diagonal, for contacts whose loads no wrench distinguishes
 ORDER = 6
 
 
@@ -64,17 +64,20 @@ def _within_cones(contact, size, wrench, z, c):
     for _ in range(STEPS):
         if missed <= EXACT * load:
             return True
+        # Newton step on the wrench that is missed
         _fill_derivative(contact, size, z)
         step = _solved(face, miss)
         slope, length, fell = _dot(miss, step), 1.0, False
         before, tries = missed, 0
         start, first = z, dual
+        # halved until the dual function falls, or the miss halves
         while not fell and tries < HALVINGS:
             z = _moved(start, length, step)
             dual, miss = _evaluate(contact, size, wrench, z, c)
             missed = _greatest(miss)
             fell = dual <= first + DESCENT * length * slope or missed < 0.5 * before
             length, tries = 0.5 * length, tries + 1
+        # rounding: it gets no better
         if not fell or (missed <= NEAR * load and missed > 0.1 * before):
             break
     return missed <= NEAR * load
@@ -141,7 +144,9 @@ def _add_direction(face, top, weight, impulse, place):
 
 @inline_kernel
 def _solved(face, miss):
-    """Newton's step, ``-derivative^-1 miss``, by Cholesky's factors in the last rows of ``face``."""
+    """Newton's step, ``-derivative^-1 miss``, by Cholesky's factors in the last rows of
+    ``face``.
+    """
     top, right = face.shape[0] - ORDER, ORDER
     for i in range(ORDER):
         for k in range(i + 1):

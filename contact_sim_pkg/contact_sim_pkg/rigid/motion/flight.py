@@ -12,11 +12,18 @@ import math
 from contact_sim_pkg.compiled.arrays import Vector
 from contact_sim_pkg.compiled.jit import kernel
 from contact_sim_pkg.rigid.body import Ground, Motion, RigidBody, on_profile
-from contact_sim_pkg.rigid.motion.motion import APART, TOUCHING, MotionWorkspace, commit, free_motion, look
+from contact_sim_pkg.rigid.motion.motion import (
+    SEPARATED,
+    TOUCHING,
+    MotionWorkspace,
+    commit,
+    free_motion,
+    update_contacts,
+)
 from contact_sim_pkg.rigid.problem import PLANE
 
 ROOT_STEPS = 100
-PARTS = 4  # of a piece that are looked at, so that a point that dips and rises is seen
+PARTS = 4  # of a sub-step that are looked at, so that a point that dips and rises is seen
 TOUCH = 1.0e-9  # of the body's size: a second point this near takes part in the impact
 
 
@@ -68,7 +75,7 @@ def _clearance(body, ground, motion, work, i, time):
     it starts on the ground.
     """
     change = gap_change(body, ground, motion, work, i)
-    if work.flags[i] != APART:
+    if work.flags[i] != SEPARATED:
         return change / time
     return max(work.gap[i], 0.0) + change
 
@@ -83,11 +90,13 @@ def _root(body, ground, motion, work, i, times, gaps):
     for _ in range(ROOT_STEPS):
         if high - low <= 2.0e-16 * high:
             break
+        # a chord that rounding throws out of the bracket is replaced by the middle
         time = low + (high - low) * above / (above - below)
         if not low < time < high:
             time = 0.5 * (low + high)
         free_motion(body, motion, work, time)
         value = _clearance(body, ground, motion, work, i, time)
+        # Illinois: the end that stays twice counts half
         if value > 0.0:
             low, above = time, value
             below = 0.5 * below if side == 1 else below
@@ -114,7 +123,8 @@ def travel_bound(body, motion, time):
     for k in range(body.inertia.shape[0]):
         lightest = min(lightest, body.inertia[k])
     reach = time * (speed + 0.5 * time * push / body.mass)
-    if spin + moment > 0.0:  # free spin keeps its energy: it grows at most by the root of the ratio of the inertias
+    # free spin keeps its energy: it grows at most by the root of the ratio of the inertias
+    if spin + moment > 0.0:
         grown = spin * math.sqrt(_greatest_inertia(body.inertia) / lightest) + time * moment / lightest
         reach += time * size * grown
     return reach
@@ -138,7 +148,7 @@ def _stays_away(body, ground, motion, work, time):
     """
     away, reach = True, travel_bound(body, motion, time)
     for i in range(work.gap.shape[0]):
-        away = away and work.flags[i] == APART and work.gap[i] > reach
+        away = away and work.flags[i] == SEPARATED and work.gap[i] > reach
     return away if ground.profile.nodes.shape[0] == 0 else away and is_clear(body, ground, motion, time)
 
 
@@ -152,20 +162,23 @@ def _greatest_inertia(inertia):
 
 
 @kernel
-def _first_touch(body, ground, motion, work, piece, before, after):
-    """Time of the first touch within ``piece`` and its point, -1 where there is none."""
+def _first_touch(body, ground, motion, work, substep, before, after):
+    """Time of the first touch within ``substep`` and its point, -1 where there is none."""
     points = work.gap.shape[0]
+    # a contact that starts on the ground is known by its velocity
     for i in range(points):
-        before[i] = work.u[i * body.width] if work.flags[i] != APART else max(work.gap[i], 0.0)
-    low, first, point = 0.0, piece, -1
-    if _stays_away(body, ground, motion, work, piece):
+        before[i] = work.u[i * body.width] if work.flags[i] != SEPARATED else max(work.gap[i], 0.0)
+    low, first, point = 0.0, substep, -1
+    if _stays_away(body, ground, motion, work, substep):
         return first, point
+    # gaps at the ends of a few parts: a point that dips and rises is seen
     for part in range(1, PARTS + 1):
-        time = part * piece / PARTS
+        time = part * substep / PARTS
         free_motion(body, motion, work, time)
         for i in range(points):
             after[i] = _clearance(body, ground, motion, work, i, time)
         for i in range(points):
+            # the first root of all points that came down
             if after[i] < 0.0:
                 touch = low
                 if before[i] > 0.0:
@@ -181,19 +194,26 @@ def _first_touch(body, ground, motion, work, piece, before, after):
 
 @kernel
 def fly_to_touch(
-    body: RigidBody, ground: Ground, motion: Motion, work: MotionWorkspace, piece: float, before: Vector, after: Vector
+    body: RigidBody,
+    ground: Ground,
+    motion: Motion,
+    work: MotionWorkspace,
+    substep: float,
+    before: Vector,
+    after: Vector,
 ) -> tuple[float, int]:
-    """Free flight to the first touch or the end of ``piece`` [s]; returns the time flown and the
+    """Free flight to the first touch or the end of ``substep`` [s]; returns the time flown and the
     point, -1: none.
 
     ``before``, ``after`` [points] are work space.
     """
     size = body_size(body)
-    time, point = _first_touch(body, ground, motion, work, piece, before, after)
+    time, point = _first_touch(body, ground, motion, work, substep, before, after)
     free_motion(body, motion, work, time)
     commit(body, motion, work.free, work)
-    look(body, ground, motion, work)
+    update_contacts(body, ground, motion, work)
+    # points that come down together take part in one impact
     for i in range(work.flags.shape[0]):
         touches = i == point or work.gap[i] <= TOUCH * size
-        work.flags[i] = TOUCHING if touches else APART
+        work.flags[i] = TOUCHING if touches else SEPARATED
     return time, point

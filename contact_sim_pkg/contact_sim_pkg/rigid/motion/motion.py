@@ -14,15 +14,13 @@ from contact_sim_pkg.compiled.arrays import Vector
 from contact_sim_pkg.compiled.jit import inline_kernel, kernel
 from contact_sim_pkg.rigid.body import Ground, RigidBody, contact_count, contact_rows, fill_inverse_inertia
 from contact_sim_pkg.rigid.problem import DISC, INACTIVE, PLANE, ContactProblem, fill_delassus, make_problem
-from contact_sim_pkg.rigid.rotation import free_rotation, gyroscopic_step, rotate_by, spin_in_body, straighten
+from contact_sim_pkg.rigid.rotation import free_rotation, gyroscopic_step, orthonormalize, rotate_by, spin_in_body
 
 Flags = numpy.typing.NDArray[numpy.int64]
-APART, TOUCHING, HELD, STUCK = (
-    0,
-    1,
-    2,
-    3,
-)  # a point: in the air; on the ground for an instant; held, sliding; held, sticking
+SEPARATED, TOUCHING, ACTIVE, STICKING = 0, 1, 2, 3
+"""States of a contact: in the air; on the ground for an instant; active, which slides unless it is
+sticking. A flag of ACTIVE or more is an active contact.
+"""
 
 
 class MotionWorkspace(NamedTuple):
@@ -37,8 +35,8 @@ class MotionWorkspace(NamedTuple):
     u: Vector  # [rows]
     impulse: Vector  # [rows], of the last contact solve
     restitution: Vector  # [points]
-    free: Vector  # [coordinates], velocity at the end of the piece
-    shift: Vector  # [width], displacement of the centre of mass over the piece
+    free: Vector  # [coordinates], velocity at the end of the sub-step
+    shift: Vector  # [width], displacement of the centre of mass over the sub-step
     turned: Vector  # [width, width], rotation at its end
     turn: Vector  # [1], angle turned, in the plane
     flags: Flags  # [contacts]
@@ -47,7 +45,7 @@ class MotionWorkspace(NamedTuple):
 
 
 def make_motion_workspace(body: RigidBody, ground: Ground, facets: int = DISC) -> MotionWorkspace:
-    """Work space of ``body`` over a ground that was laid under it."""
+    """Work space of ``body`` over a ground that was fitted to it."""
     points, width = contact_count(body, ground), body.width
     coordinates, rows, zeros = len(body.load), points * width, numpy.zeros
     return MotionWorkspace(
@@ -69,7 +67,7 @@ def make_motion_workspace(body: RigidBody, ground: Ground, facets: int = DISC) -
 
 
 @kernel
-def look(body, ground, motion, work):
+def update_contacts(body, ground, motion, work):
     """Gaps, Jacobian, inverse inertia and contact velocities of the state as it is."""
     contact_rows(body, ground, motion, work.gap, work.J)
     fill_inverse_inertia(body, motion.rotation, work.W)
@@ -87,9 +85,9 @@ def contact_velocities(J, velocity, u):
 
 
 @kernel
-def take_part(body, work, least):
-    """Fill ``A`` and the friction: points with a flag of ``least`` or more take part, the others
-    are INACTIVE.
+def fill_active_problem(body, work, least):
+    """Fill ``A`` and the friction: points with a flag of ``least`` or more are in the problem, the
+    others are INACTIVE.
     """
     problem, flags, width = work.problem, work.flags, body.width
     A, friction = problem.A, problem.friction
@@ -172,7 +170,8 @@ def displace(body, motion, end, work, time):
         work.turn[0] = 0.5 * time * (v[2] + end[2])
         turn_in_plane(R, work.turn[0], turned)
         return
-    first, last = spin_in_body(R, v), spin_in_body(R, end)  # ``end`` is given in the axes of the start
+    # ``end`` is given in the axes of the start
+    first, last = spin_in_body(R, v), spin_in_body(R, end)
     rotate_by(turned, 0.5 * (first[0] + last[0]), 0.5 * (first[1] + last[1]), 0.5 * (first[2] + last[2]), time)
 
 
@@ -194,7 +193,7 @@ def set_turn(R, angle):
 
 @kernel
 def commit(body, motion, end, work):
-    """Take the displacement and the velocity ``end`` as the state."""
+    """Make the displacement and the velocity ``end`` the state."""
     R = motion.rotation
     for k in range(end.shape[0]):
         motion.velocity[k] = end[k]
@@ -208,7 +207,7 @@ def commit(body, motion, end, work):
 
 
 @kernel
-def turns_alike(body):
+def has_equal_inertias(body):
     """Whether the moments of inertia are equal: the inverse inertia then does not turn with the
     body.
     """
@@ -220,12 +219,13 @@ def turns_alike(body):
 
 @kernel
 def carry_spin(body, motion, end, work):
-    """Turn the spin of ``end`` from the axes of the start of the piece to those of its end (space).
+    """Turn the spin of ``end`` from the axes of the start of the sub-step to those of its end
+    (space).
 
     That keeps the angular momentum in the axes of the body; one of equal moments of inertia keeps
     its spin in space.
     """
-    if body.width == PLANE or turns_alike(body):
+    if body.width == PLANE or has_equal_inertias(body):
         return
     w, turned = spin_in_body(motion.rotation, end), work.turned
     for k in range(3):
@@ -238,6 +238,7 @@ def free_motion(body, motion, work, time):
     the axes at its end.
     """
     v, free, load, R, turned = motion.velocity, work.free, body.load, motion.rotation, work.turned
+    # centre of mass: exact under a uniform load
     for k in range(body.width):
         gain = time * load[k] / body.mass
         free[k] = v[k] + gain
@@ -250,11 +251,13 @@ def free_motion(body, motion, work, time):
         work.turn[0] = time * (v[2] + 0.5 * gain)
         turn_in_plane(R, work.turn[0], turned)
         return
+    # spin in space: without spin and torque nothing turns
     w = spin_in_body(R, v)
     if w[0] == 0.0 and w[1] == 0.0 and w[2] == 0.0 and load[3] == 0.0 and load[4] == 0.0 and load[5] == 0.0:
         free[3], free[4], free[5] = 0.0, 0.0, 0.0
         return
+    # else by the step of order 6, in body axes
     w = free_rotation(turned, body.inertia, load, w[0], w[1], w[2], time)
-    straighten(turned)
+    orthonormalize(turned)
     for k in range(3):
         free[3 + k] = turned[k, 0] * w[0] + turned[k, 1] * w[1] + turned[k, 2] * w[2]

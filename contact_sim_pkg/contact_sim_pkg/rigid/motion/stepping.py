@@ -17,7 +17,7 @@ import numpy
 
 from contact_sim_pkg.compiled.arrays import Vector
 from contact_sim_pkg.compiled.jit import entry
-from contact_sim_pkg.rigid.body import Ground, Motion, RigidBody, contact_count, laid_under
+from contact_sim_pkg.rigid.body import Ground, Motion, RigidBody, contact_count, fitted_ground
 from contact_sim_pkg.rigid.contact.answers import nearest_motion
 from contact_sim_pkg.rigid.contact.packed import PackedSolver
 from contact_sim_pkg.rigid.contact.solver import NEWTON, ContactSolution
@@ -37,14 +37,15 @@ from contact_sim_pkg.rigid.results import NOT_CONVERGED, SOLVED, SPIN_TOO_FAST
 __all__ = ["SteppedBody"]
 
 LARGEST_TURN = 1.0  # [rad] of a step
-CONTRADICTS = 1.0e-10  # residual of contacts that ask for what no motion gives
-CLOSED_AT_ONCE = 1.0e-3  # of the contact velocities: by so much those of a step may differ from a motion of the body
+CONTRADICTS = 1.0e-10  # residual of contacts that require what no motion gives
+# of the contact velocities: by so much those of a step may differ from a motion of the body
+CLOSED_AT_ONCE = 1.0e-3
 
 
 @entry
 def end_step(body: RigidBody, motion: Motion, work: MotionWorkspace, landing: Vector, step: float) -> None:
-    """Take the impulses; the position follows from the velocity that those of ``landing`` [rows]
-    would give.
+    """Apply the impulses; the position after ``step`` [s] follows from the velocity that those of
+    ``landing`` [rows] would give.
     """
     for k in range(work.free.shape[0]):
         motion.velocity[k] = work.free[k]
@@ -60,21 +61,22 @@ class SteppedBody:
 
     def __init__(
         self, body: RigidBody, ground: Ground, motion: Motion, step: float, rule: int = ENERGETIC,
-        facets: int = DISC, rung: int = NEWTON, sweeps: int = 20,
+        facets: int = DISC, method: int = NEWTON, sweeps: int = 20,
     ) -> None:  # fmt: skip
-        """``step`` in [s]; ``facets`` of the friction cone, ``rung`` and ``sweeps`` of the solver
-        of held contacts.
+        """``step`` in [s]; ``facets`` of the friction cone, ``method`` and ``sweeps`` of the solver
+        of active contacts.
         """
-        ground = laid_under(body, ground)
+        ground = fitted_ground(body, ground)
         self.body, self.ground, self.motion, self.step, self.rule = body, ground, motion, step, rule
         points, coordinates = contact_count(body, ground), len(body.load)
         self.work = make_motion_workspace(body, ground, facets)
-        self._solver = PackedSolver(coordinates, body.width, facets, rung, sweeps)
+        self._solver = PackedSolver(coordinates, body.width, facets, method, sweeps)
         weight = float(numpy.linalg.norm(body.load[: body.width]) / body.mass)
         self.rest_speed = 2.0 * step * weight
         self.impulse = numpy.zeros(points * body.width)  # [rows] in [N s] over the last call
         self._margin, self._change = numpy.zeros(points), numpy.zeros(coordinates)
-        self._landing = numpy.zeros(points * body.width)  # [rows] in [N s] of a step, without bounce
+        # [rows] in [N s] of a step, without bounce
+        self._landing = numpy.zeros(points * body.width)
         self.dissipated = 0.0  # [J] by contacts, in all
         self.residual = 0.0  # largest of the last call
         self.impacts = 0
@@ -85,17 +87,20 @@ class SteppedBody:
         self.impulse[:] = 0.0
         self.residual = 0.0
         for _ in range(steps):
+            # contacts within reach, and the velocity without them
             found, turn = begin_step(
                 self.body, self.ground, self.motion, work, self._margin, self.step, self.rest_speed
             )
             if not turn <= LARGEST_TURN:
                 return SPIN_TOO_FAST
+            # their impulses; a body in the air has none
             if found:
                 status = self._solve(bounces=found == 2)
                 if status != SOLVED:
                     return status
             else:
                 work.impulse[:], self._landing[:] = 0.0, 0.0
+            # books, then the state at the end of the step
             self.impulse += work.impulse
             self.dissipated -= self._work_of_contacts()
             end_step(self.body, self.motion, work, self._landing, self.step)
@@ -128,7 +133,7 @@ class SteppedBody:
         return found
 
     def _reach_further(self) -> int:
-        """Contacts that those in reach drive into the ground: 0 there are none, 1 they are held
+        """Contacts that those in reach drive into the ground: 0 there are none, 1 they are active
         too, 2 they or others bounce.
         """
         return int(
@@ -136,10 +141,10 @@ class SteppedBody:
         )
 
     def _meets_a_motion(self) -> bool:
-        """Take the contact velocities nearest to those asked for that a motion of the body gives;
+        """Replace the required contact velocities by the nearest ones of a motion of the body;
         False where they are far.
 
-        A step that closes unlike gaps of points that stick asks for velocities that differ from any
+        A step that closes unlike gaps of points that stick requires velocities that differ from any
         motion by the tilt that it takes away: an error of first order.
         """
         work = self.work

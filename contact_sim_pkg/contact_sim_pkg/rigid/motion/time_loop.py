@@ -1,11 +1,11 @@
 """The located steps of a body between impacts, over any number of output samples in one compiled
 call.
 
-Flight, and held points that a closed form solves (a face, an edge in the plane, a point:
+Flight, and active points that a closed form solves (a face, an edge in the plane, a point:
 `rigid/geometry/face.py`, `rigid/impact/planar_pair.py`, `rigid/contact/single.py`) with no event in
-the piece. For everything else, an impact or a piece that takes the general solvers or holds an
-event, the call returns and says what it asks for; `rigid/motion/located.py` does that step and
-calls again. So the general solvers are compiled once, apart.
+the sub-step. For everything else, an impact or a sub-step that needs the general solvers or holds
+an event, the call returns with a request; `rigid/motion/located.py` does that step and calls again.
+So the general solvers are compiled once, on their own.
 """
 
 from __future__ import annotations
@@ -14,7 +14,6 @@ import math
 from typing import NamedTuple
 
 import numpy
-import numpy.typing
 
 from contact_sim_pkg.compiled.arrays import Vector
 from contact_sim_pkg.compiled.jit import entry, inline_kernel
@@ -23,24 +22,9 @@ from contact_sim_pkg.rigid.contact.single import single_impulses
 from contact_sim_pkg.rigid.geometry.face import face_impulses, make_face_workspace
 from contact_sim_pkg.rigid.geometry.track import (
     BRIEF,
-    CLOCKS,
-    COLLIDED,
-    COUNTS,
-    EVENTS,
-    INTERVAL,
-    LOST,
-    PIECE,
-    RESIDUAL,
-    RESTED,
-    RESTS,
-    SAMPLE,
-    SAMPLES,
-    SHORT,
-    SOLVES,
-    STILL,
-    STOPS,
-    TIME,
+    RunState,
     add_impulse,
+    make_run_state,
     record_sample,
     repeat_to_the_end,
 )
@@ -54,39 +38,41 @@ from contact_sim_pkg.rigid.motion.active_contacts import (
     time_to_peak,
 )
 from contact_sim_pkg.rigid.motion.flight import fly_to_touch, is_clear
-from contact_sim_pkg.rigid.motion.motion import HELD, MotionWorkspace, contact_velocities, free_velocity
-from contact_sim_pkg.rigid.motion.slip import slip_turns, stop_of_slip, turns
-from contact_sim_pkg.rigid.motion.straight_slide import NO_FACE, rests, slide_straight, straight_face
-from contact_sim_pkg.rigid.motion.substep_end import take_piece
+from contact_sim_pkg.rigid.motion.motion import ACTIVE, MotionWorkspace, contact_velocities, free_velocity
+from contact_sim_pkg.rigid.motion.slip import contacts_turn, slip_turns, stop_of_slip
+from contact_sim_pkg.rigid.motion.straight_slide import NO_FACE, is_at_rest, slide_straight, straight_face
+from contact_sim_pkg.rigid.motion.substep_end import accept_substep
 from contact_sim_pkg.rigid.parameters import PlanarContact
 from contact_sim_pkg.rigid.problem import DISC, INACTIVE, PLANE
 
-DONE, COLLIDE, SUPPORT, PAUSE = 0, 1, 2, 3  # what a call ends with
-LARGEST_TURN = 0.02  # [rad] of a piece of free flight in space, where the spin is of order 6
-LARGEST_PLANAR_TURN = 0.2  # [rad] of a piece of free flight in the plane, which is exact: it only has to find the touch
-CELL_PART = 0.1  # of a cell of the ground that a body passes in a piece
-MOST_SHORT = 100_000  # such pieces in one sample: there is no end
-PAUSE_AFTER = 10_000  # pieces, so that a run can be broken off
-GOOD = 1.0e-12  # residual of a closed form that is taken
+# how a call ends: at the end of its samples, or with a request
+DONE, COLLIDE, SOLVE, PAUSE = 0, 1, 2, 3
+LARGEST_TURN = 0.02  # [rad] of a sub-step of free flight in space, where the spin is of order 6
+LARGEST_PLANAR_TURN = (
+    # [rad] of a sub-step of free flight in the plane, which is exact: it only has to find the touch
+    0.2
+)
+CELL_PART = 0.1  # of a cell of the ground that a body passes in a sub-step
+MOST_SHORT = 100_000  # such sub-steps in one sample: there is no end
+PAUSE_AFTER = 10_000  # sub-steps, so that a run can be broken off
+GOOD = 1.0e-12  # residual of a closed form that is accepted
 
 
-class MarchWorkspace(NamedTuple):
-    """Where a march stands, and its arrays."""
+class TimeLoopWorkspace(NamedTuple):
+    """State of the run, and arrays of the loop."""
 
-    clock: Vector  # [CLOCKS]: time in the interval, interval, time of rest from the start, energy lost, residual, ...
-    counts: numpy.typing.NDArray[numpy.int64]  # [COUNTS]
+    run: RunState  # [1]
     face: Vector  # `make_face_workspace`
     pair: PairWorkspace
     before: Vector  # [points]
     after: Vector  # [points]
 
 
-def make_march_workspace(points: int) -> MarchWorkspace:
+def make_time_loop_workspace(points: int) -> TimeLoopWorkspace:
     """Work space of a body of ``points`` contacts."""
     zeros = numpy.zeros
-    return MarchWorkspace(
-        zeros(CLOCKS), zeros(COUNTS, numpy.int64), make_face_workspace(points), make_pair_workspace(), zeros(points),
-        zeros(points),
+    return TimeLoopWorkspace(
+        make_run_state(), make_face_workspace(points), make_pair_workspace(), zeros(points), zeros(points)
     )  # fmt: skip
 
 
@@ -100,8 +86,8 @@ def _spin(body, motion):
 
 @inline_kernel
 def _longest(body, ground, motion, turn, size):
-    """Longest piece in [s] over which the body turns by at most ``turn`` [rad] and stays near one
-    cell of the ground.
+    """Longest sub-step in [s] over which the body turns by at most ``turn`` [rad] and stays near
+    one cell of the ground.
     """
     spin, speed = _spin(body, motion), 0.0
     longest = turn / spin if spin > 0.0 else math.inf
@@ -115,7 +101,7 @@ def _longest(body, ground, motion, turn, size):
 
 @inline_kernel
 def _longest_flight(body, ground, motion, size, left):
-    """Longest piece in [s] of the flight of the next ``left`` [s]."""
+    """Longest sub-step in [s] of the flight of the next ``left`` [s]."""
     turn = LARGEST_PLANAR_TURN if body.width == PLANE else LARGEST_TURN
     longest = _longest(body, ground, motion, turn, size)
     if longest < left and ground.profile.nodes.shape[0] > 0:
@@ -127,7 +113,7 @@ def _longest_flight(body, ground, motion, size, left):
 
 @inline_kernel
 def _one_in_the_plane(work, i):
-    """Impulse of the one held point of a planar body by its closed modes."""
+    """Impulse of the one active point of a planar body by its closed modes."""
     J, W, row = work.J, work.W, 2 * i
     nn, nt, tt = 0.0, 0.0, 0.0
     for k in range(3):
@@ -141,139 +127,148 @@ def _one_in_the_plane(work, i):
 
 
 @inline_kernel
-def _free_contacts(body, ground, motion, work, time, still):
-    """Velocities ``q`` of the contacts after ``time`` without impulses, and who takes part.
+def _free_contacts(body, ground, motion, work, time, rounding):
+    """Velocities ``q`` of the contacts after ``time`` without impulses, and which are active.
 
-    Returns the first two held contacts, how many are held, and whether the path of one bends.
+    Returns the first two active contacts, how many are active, and whether the path of one bends.
     """
     free_velocity(body, motion, work, time)
     contact_velocities(work.J, work.free, work.problem.q)
-    held, bent = 0, False
+    active, curved = 0, False
     none = numpy.int64(-1)  # a literal -1 would compile the closed forms once more, for that number
     first, second = none, none
     for i in range(work.flags.shape[0]):
         work.problem.friction[i] = INACTIVE
-        if work.flags[i] >= HELD:
+        if work.flags[i] >= ACTIVE:
             work.problem.friction[i] = body.friction
             place = numpy.int64(i)
-            first, second, held = (place if held == 0 else first), (place if held == 1 else second), held + 1
+            first, second, active = (place if active == 0 else first), (place if active == 1 else second), active + 1
             gain, row = path_acceleration(body, ground, motion, work.J, i), i * body.width
             work.problem.q[row] += time * gain[0]
             work.problem.q[row + 1] += time * gain[1]
             if body.width != PLANE:
                 work.problem.q[row + 2] += time * gain[2]
-            bent = bent or time * abs(gain[0]) > still
-    return first, second, held, bent
+            curved = curved or time * abs(gain[0]) > rounding
+    return first, second, active, curved
 
 
 @inline_kernel
-def _attempt(body, ground, motion, work, march, time, still):
-    """Closed form of the held contacts over ``time`` into ``work.impulse``; its residual, inf where
-    there is none.
+def _attempt(body, ground, motion, work, loop, time, rounding):
+    """Closed form of the active contacts over ``time`` into ``work.impulse``; its residual, inf
+    where there is none.
     """
-    first, second, held, bent = _free_contacts(body, ground, motion, work, time, still)
+    first, second, active, curved = _free_contacts(body, ground, motion, work, time, rounding)
     for row in range(work.impulse.shape[0]):
         work.impulse[row] = 0.0
     q, friction = work.problem.q, work.problem.friction
     if body.width == PLANE:
-        if held == 1:
+        if active == 1:
             return _one_in_the_plane(work, first)
         return (
-            pair_impulses(work.J, work.W, q, friction, first, second=second, work=march.pair, c=work.impulse)
-            if held == 2
+            pair_impulses(work.J, work.W, q, friction, first, second=second, work=loop.pair, c=work.impulse)
+            if active == 2
             else numpy.inf
         )
     if work.problem.facets != DISC:
         return numpy.inf  # the closed forms in space are those of the true cone
-    if held == 1:
+    if active == 1:
         return single_impulses(work.J, work.W, q, body.friction, first, work.impulse)
-    return numpy.inf if bent else face_impulses(work.J, work.W, work.free, friction, march.face, work.impulse)
+    return numpy.inf if curved else face_impulses(work.J, work.W, work.free, friction, loop.face, work.impulse)
 
 
 @inline_kernel
-def _support(body, ground, motion, work, march, time, size, still):
-    """Hold the points over ``time`` in closed form; False where it turns, and for general solvers
+def _solve_closed_form(body, ground, motion, work, loop, time, size, rounding):
+    """The sub-step of ``time`` in closed form; False where the body turns, and for general solvers
     or an event.
     """
-    if turns(body, ground, motion, work, motion.velocity, size):
+    if contacts_turn(body, ground, motion, work, motion.velocity, size):
         return False
-    residual = _attempt(body, ground, motion, work, march, time, still)
+    residual = _attempt(body, ground, motion, work, loop, time, rounding)
     if not residual <= GOOD:
         return False
-    part, _stretch = stop_of_slip(body, ground, motion, work, time, size, still)
-    if turns(body, ground, motion, work, work.free, size) or slip_turns(body, motion, work, still):
+    part, _duration = stop_of_slip(body, ground, motion, work, time, size, rounding)
+    if contacts_turn(body, ground, motion, work, work.free, size) or slip_turns(body, motion, work, rounding):
         return False
     if part < 1.0 or landing_part(body, ground, motion, work, time, size)[1] >= 0:
         return False
-    clock = march.clock
-    clock[RESIDUAL] = max(clock[RESIDUAL], residual)
+    run = loop.run[0]
+    run.residual = max(run.residual, residual)
     return True
 
 
 @entry
 def advance_samples(
-    body: RigidBody, ground: Ground, motion: Motion, work: MotionWorkspace, march: MarchWorkspace, size: float,
+    body: RigidBody, ground: Ground, motion: Motion, work: MotionWorkspace, loop: TimeLoopWorkspace, size: float,
     gravity: float, rest_speed: float, impulse_column: int, track: Vector,
 ) -> int:  # fmt: skip
-    """Go on from where ``march`` stands, up to the end of its samples (DONE) or to what it cannot
-    do: COLLIDE, SUPPORT.
+    """Go on from the state ``loop.run``, up to the end of its samples (DONE) or to what needs the
+    general solvers: an impact (COLLIDE), a sub-step with active contacts (SOLVE).
 
-    PAUSE: so many pieces are done, or too many short ones, that the caller should look.
+    PAUSE: so many sub-steps are done, or too many short ones, that the caller should check.
+    ``size`` [m] of the body, ``gravity`` [m/s^2], ``rest_speed`` [m/s].
 
     ``track`` [samples, columns]: the impulses of each sample are added up in it, the states written
     at its end.
     """
-    clock, count, pieces = march.clock, march.counts, 0
+    run, substeps = loop.run[0], 0
     points = NO_FACE
-    while count[SAMPLE] < count[SAMPLES]:
-        while clock[TIME] < clock[INTERVAL]:
-            left = clock[INTERVAL] - clock[TIME]
-            if points.held > 0:
-                lost = slide_straight(body, motion, work, march.face, points, left, clock[STILL])
+    while run.sample < run.samples:
+        while run.time < run.interval:
+            left = run.interval - run.time
+            # a straight slide goes on without survey and solver
+            if points.active > 0:
+                lost = slide_straight(body, motion, work, loop.face, points, left, run.rounding)
                 if lost >= 0.0:
-                    clock[LOST] += lost
-                    clock[TIME] = clock[INTERVAL]
-                    count[SOLVES] += 1
-                    add_impulse(work, track[count[SAMPLE]], impulse_column)
+                    run.dissipated += lost
+                    run.time = run.interval
+                    run.solves += 1
+                    add_impulse(work, track[run.sample], impulse_column)
                     continue
                 points = NO_FACE
-            still, approaches = survey_points(body, ground, motion, work, size, gravity)
-            clock[STILL] = still
-            if approaches and count[COLLIDED] == 0:
+            # survey: an approach is an impact, which the caller solves
+            rounding, approaches = survey_points(body, ground, motion, work, size, gravity)
+            run.rounding = rounding
+            if approaches and run.collided == 0:
                 return COLLIDE
-            count[COLLIDED] = 0
-            wait, holds = settle_points(body, ground, motion, work, rest_speed, size, still)
+            run.collided = 0
+            # slow rebounds end: their contacts become active
+            wait, holds = settle_points(body, ground, motion, work, rest_speed, size, rounding)
             if wait > 0.0:
-                clock[RESTED] = count[SAMPLE] * clock[INTERVAL] + clock[TIME] + wait
+                run.rest_time = run.sample * run.interval + run.time + wait
             if holds:
-                add_impulse(work, track[count[SAMPLE]], impulse_column)
-                resting = rests(motion, work, size)
-                if resting and count[RESTS] > 0 and count[RESTS] == count[SAMPLE]:
-                    repeat_to_the_end(count, track)
+                add_impulse(work, track[run.sample], impulse_column)
+                resting = is_at_rest(motion, work, size)
+                # nothing moved over a whole sample: all further ones are the same
+                if resting and run.resting > 0 and run.resting == run.sample:
+                    repeat_to_the_end(run, track)
                     return DONE
+                # active contacts: a closed form over the sub-step, or a solve request
                 longest = min(left, _longest(body, ground, motion, math.inf, size))
                 passed = longest
                 if ground.profile.nodes.shape[0] > 0:
                     passed = min(longest, time_to_peak(body, ground, motion, work))
-                clock[PIECE] = passed
-                count[RESTS] = count[SAMPLE] + 1 if resting and passed >= clock[INTERVAL] else 0
-                count[SOLVES] += 1
-                if not _support(body, ground, motion, work, march, time=passed, size=size, still=still):
-                    return SUPPORT
-                add_impulse(work, track[count[SAMPLE]], impulse_column)
-                clock[LOST] += take_piece(body, ground, motion, work, passed, size, still)
-                points = straight_face(body, ground, motion, work, march.face)
+                run.substep = passed
+                run.resting = run.sample + 1 if resting and passed >= run.interval else 0
+                run.solves += 1
+                if not _solve_closed_form(body, ground, motion, work, loop, time=passed, size=size, rounding=rounding):
+                    return SOLVE
+                add_impulse(work, track[run.sample], impulse_column)
+                run.dissipated += accept_substep(body, ground, motion, work, passed, size, rounding)
+                points = straight_face(body, ground, motion, work, loop.face)
             else:
+                # flight to the first contact
                 longest = min(left, _longest_flight(body, ground, motion, size, left))
-                passed, point = fly_to_touch(body, ground, motion, work, longest, march.before, march.after)
-                count[EVENTS] += 1 if point >= 0 else 0
-            count[SHORT] += 1 if passed < BRIEF * longest else 0
-            clock[TIME] = clock[INTERVAL] if passed >= left else clock[TIME] + passed
-            pieces += 1
-            if pieces > PAUSE_AFTER or count[SHORT] > MOST_SHORT:
+                passed, point = fly_to_touch(body, ground, motion, work, longest, loop.before, loop.after)
+                run.events += 1 if point >= 0 else 0
+            # progress; the caller looks at long runs and at sub-steps that events cut short
+            run.short += 1 if passed < BRIEF * longest else 0
+            run.time = run.interval if passed >= left else run.time + passed
+            substeps += 1
+            if substeps > PAUSE_AFTER or run.short > MOST_SHORT:
                 return PAUSE
-        record_sample(body, motion, work, track[count[SAMPLE]])
-        count[SAMPLE] += 1
-        clock[TIME] = 0.0
-        count[STOPS], count[SHORT] = 0, 0
+        # the end of a sample
+        record_sample(body, motion, work, track[run.sample])
+        run.sample += 1
+        run.time = 0.0
+        run.stops, run.short = 0, 0
     return DONE

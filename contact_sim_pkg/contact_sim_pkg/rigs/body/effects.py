@@ -7,7 +7,7 @@ from contact_sim_pkg.records.effect import Effect, choice_of_model
 __all__ = ["BLOCK_EFFECTS"]
 
 _SCHEMA = f"{__package__}.schema"
-_RIGID = choice_of_model("rigid or compliant is a choice of the model: stiffer is nearer to rigid, and dearer")
+_RIGID = choice_of_model("rigid or compliant is a choice of the model: stiffer is nearer to rigid, and more expensive")
 
 BLOCK_EFFECTS = (
     Effect(

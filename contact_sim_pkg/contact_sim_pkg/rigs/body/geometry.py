@@ -7,7 +7,7 @@ from __future__ import annotations
 import numpy
 from numpy.typing import NDArray
 
-from contact_sim_pkg.rigid.body import Motion, contact_count, least_gap, look_at_contacts
+from contact_sim_pkg.rigid.body import Motion, contact_count, contact_kinematics, least_gap
 from contact_sim_pkg.rigid.problem import PLANE
 from contact_sim_pkg.rigs.body.model import BlockModel
 
@@ -34,7 +34,7 @@ def contact_arms(model: BlockModel, position: Array, rotation: Array) -> Array:
     contacts, width = contact_count(body, ground), body.width
     gap, jacobian = numpy.zeros(contacts), numpy.zeros((contacts * width, len(body.load)))
     pose = Motion(position.copy(), numpy.zeros(1), rotation.copy(), numpy.zeros(len(body.load)))
-    look_at_contacts(body, ground, pose, gap, jacobian)
+    contact_kinematics(body, ground, pose, gap, jacobian)
     rows = jacobian.reshape(contacts, width, -1)
     if width == PLANE:  # rows (a, r x a): the moments are the arm, in the axes of the contact
         return numpy.asarray(rows[:, 0, 2:] * rows[:, 1, :2] - rows[:, 1, 2:] * rows[:, 0, :2])
@@ -42,7 +42,9 @@ def contact_arms(model: BlockModel, position: Array, rotation: Array) -> Array:
 
 
 def in_ground_axes(model: BlockModel, arms: Array) -> Array:
-    """Arms (x, y, z) in the axes of a plane ground: along its slope, across, along its normal."""
+    """Arms [contacts, 3] (x, y, z) in [m] in the axes of a plane ground: along its slope, across,
+    along its normal.
+    """
     sine, cosine = -float(model.ground.normal[0]), float(model.ground.normal[-1])
     along, up = cosine * arms[:, 0] + sine * arms[:, 2], cosine * arms[:, 2] - sine * arms[:, 0]
     return numpy.column_stack([along, arms[:, 1], up])

@@ -23,7 +23,8 @@ class Hull(NamedTuple):
 
     volume: float  # [m^2] in the plane, [m^3] in space
     centre: Array  # [n] of mass, as the points were given
-    axes: Array  # [n, n] principal axes as columns, as the points were given; the unit matrix in the plane
+    # [n, n] principal axes as columns, as the points were given; the unit matrix in the plane
+    axes: Array
     corners: Array  # [corners, n] from the centre, in principal axes
     inertia: Array  # [1] or [3] in [kg m^2]
 
@@ -38,6 +39,7 @@ def homogeneous_hull(points: list[list[float]], mass: float) -> Hull:
         raise ArithmeticError("the points span no volume") from None
     middle = given.mean(axis=0)
     volume, first, second = 0.0, numpy.zeros(size), numpy.zeros((size, size))
+    # volume and moments of the simplices about the middle of the points
     for simplex in hull.simplices:
         corners = given[simplex] - middle
         part = abs(float(numpy.linalg.det(corners))) / math.factorial(size)
@@ -46,6 +48,7 @@ def homogeneous_hull(points: list[list[float]], mass: float) -> Hull:
         first += part * total / (size + 1)
         second += part * (numpy.outer(total, total) + corners.T @ corners) / ((size + 1) * (size + 2))
     centre = first / volume
+    # second moments about the centre of mass; the principal axes are right-handed
     spread = mass * (second / volume - numpy.outer(centre, centre))
     outer = given[hull.vertices] - middle - centre
     if size == 2:

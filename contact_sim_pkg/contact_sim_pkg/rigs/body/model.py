@@ -14,8 +14,8 @@ from contact_sim_pkg.rigid.body import (
     Ground,
     Motion,
     RigidBody,
+    fitted_ground,
     height_field,
-    laid_under,
     placed,
     rise_to_ground,
     slope,
@@ -53,14 +53,16 @@ class BlockModel:
     force: Vector  # [3] known, in [N]
     torque: Vector  # [3] known, in [N m]
     contact: CompliantLaw | None  # in place of impulses; None: rigid
-    tolerance: float  # of the integration of a compliant contact, and of a body that turns on held points
+    # of the integration of a compliant contact, and of a body that turns on active points
+    tolerance: float
 
 
 def build_block(scene: ResolvedScene) -> BlockModel:
-    """Parameters of a resolved scene."""
+    """Parameters of a resolved scene, in SI units."""
     block, law = scene.section(schema.Block), given(scene.effect("block", schema.RigidContact))
     width = PLANE if block.motion == "plane" else SPACE
     points, radius, inertia, axes = _shape(block, width)
+    # known forces and gravity act at the centre of mass
     force, torque = numpy.array(block.force, float), numpy.array(block.torque, float)
     weight = numpy.array([0.0, 0.0, -block.mass * block.gravity])
     load = _generalised(force + weight, torque, width)
@@ -74,7 +76,8 @@ def build_block(scene: ResolvedScene) -> BlockModel:
         restitution=law.restitution,
         load=load,
     )
-    ground = laid_under(body, _ground(block.ground, width))
+    # room for all contacts of this body
+    ground = fitted_ground(body, _ground(block.ground, width))
     return BlockModel(
         body=body,
         ground=ground,
@@ -155,11 +158,12 @@ def _start(body: RigidBody, block: schema.Block, axes: Matrix) -> Motion:
 def rise_at_start(block: schema.Block) -> float:
     """How far in [m] the z of a body has to rise out of its ground; 0 above or on it.
 
-    The rise tells more than the gap: of a polygon that a peak pierces from below and leaves again,
+    The rise covers more than the gap: of a polygon that a peak pierces from below and leaves again,
     no corner lies below the ground.
     """
     width = PLANE if block.motion == "plane" else SPACE
     points, radius, inertia, axes = _shape(block, width)
+    # mass, surface and load do not matter here
     body = RigidBody(
         width=width,
         mass=1.0,
@@ -171,7 +175,8 @@ def rise_at_start(block: schema.Block) -> float:
         load=numpy.zeros(3 * (width - 1)),
     )
     start = _start(body, block, axes)
-    ground = laid_under(body, _ground(block.ground, width))
+    ground = fitted_ground(body, _ground(block.ground, width))
+    # rounding does not count
     rise = rise_to_ground(body, ground, start)
     size = float(numpy.linalg.norm(body.points, axis=1).max()) + body.radius
     return rise if rise > BELOW * size else 0.0

@@ -37,7 +37,8 @@ class BodyRecord:
     gap: Array  # [samples], of the lowest contact
     force: Array  # [samples, contacts, width], normal, then tangents
     states: NDArray[numpy.int64]  # [samples, contacts]
-    energy: Array = field(default_factory=lambda: numpy.zeros(5))  # kinetic, potential, stored, dissipated, supplied
+    # kinetic, potential, stored, dissipated, supplied
+    energy: Array = field(default_factory=lambda: numpy.zeros(5))
     residual: float = 0.0
     events: int = 0
     steps: int = 0
@@ -62,13 +63,13 @@ class BodyRecord:
         self.position[sample], self.angle[sample] = motion.position, motion.angle[0]
         self.rotation[sample], self.velocity[sample] = motion.rotation, motion.velocity
 
-    def take_impulses(self, model: BlockModel, force: Array, stuck: NDArray[numpy.bool_]) -> None:
+    def take_impulses(self, model: BlockModel, force: Array, sticking: NDArray[numpy.bool_]) -> None:
         """Mean forces over all samples, [samples, rows] in [N], and which contacts stick, [samples,
         contacts].
         """
         self.force[:] = force.reshape(self.force.shape)
         self.states[:] = numpy.where(
-            self.force[:, :, 0] > 0.0, numpy.where(stuck, ContactPoints.STICKS, ContactPoints.SLIPS), 0
+            self.force[:, :, 0] > 0.0, numpy.where(sticking, ContactPoints.STICKS, ContactPoints.SLIPS), 0
         )
 
     def look(self, model: BlockModel) -> None:
@@ -175,6 +176,7 @@ def rotation_vector(rotation: Array) -> Array:
     """
     m = rotation
     trace = float(numpy.trace(m))
+    # from the largest component of the quaternion, which loses no digits
     squares = numpy.array([1.0 + trace, *(1.0 - trace + 2.0 * m[i, i] for i in range(3))])
     greatest = int(squares.argmax())
     if greatest == 0:
@@ -188,6 +190,7 @@ def rotation_vector(rotation: Array) -> Array:
             m[j, i] + m[i, j],
             m[k, i] + m[i, k],
         )
+    # of both signs the one with an angle up to pi
     quaternion /= numpy.linalg.norm(quaternion)
     if quaternion[0] < 0.0:
         quaternion = -quaternion

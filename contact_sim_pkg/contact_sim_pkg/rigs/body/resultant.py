@@ -32,6 +32,7 @@ def resultant(body: RigidBody, rotation: Array, velocity: Array, time: float) ->
     force = body.mass * (velocity[1, :width] - velocity[0, :width]) / time - body.load[:width]
     if width == PLANE:
         spin = body.inertia[0] * (velocity[1, 2] - velocity[0, 2]) / time - body.load[2]
-        return numpy.array([force[0], 0.0, force[1]]), numpy.array([0.0, -spin, 0.0])  # about y it turns from z to x
+        # about y it turns from z to x
+        return numpy.array([force[0], 0.0, force[1]]), numpy.array([0.0, -spin, 0.0])
     momenta = [turn @ (body.inertia * (turn.T @ spin)) for turn, spin in zip(rotation, velocity[:, 3:], strict=True)]
     return force, (momenta[1] - momenta[0]) / time - body.load[3:]

@@ -91,9 +91,9 @@ class CompliantContact(Section):
     """Compliant contact in place of the impulses: the points press into the ground. Friction and
     restitution are those of rigid_contact.
 
-    Hunt-Crossley force in each point, its loss set at every touch so that it ends with the asked
-    restitution (below 0.01: 0.01); spring and damper along the ground that stick, with a Coulomb
-    limit. Stiffer is nearer to rigid, and dearer.
+    Hunt-Crossley force in each point, its loss set at every touch so that it ends with the
+    requested restitution (below 0.01: 0.01); spring and damper along the ground that stick, with a
+    Coulomb limit. Stiffer is nearer to rigid, and more expensive.
     """
 
     stiffness: float = number(1.0, 1e12, "N/m^exponent", "of a point, normal to the ground", default=1e6)

@@ -20,6 +20,7 @@ def block_breaches(scene: Scene) -> Iterator[Breach]:
     block = scene.section(Block)
     faults = list(_shape(block))
     yield from faults
+    # a shape that is wrong has no lowest point
     if not faults:
         yield from _above_ground(block)
     if block.motion == "plane":
@@ -29,6 +30,7 @@ def block_breaches(scene: Scene) -> Iterator[Breach]:
             f"{show(block.ground.slope)} rad has no meaning beside heights; put the slope into them or remove one"
         )
         yield Breach("block.ground.slope", sentence, ("block.ground.heights",))
+    # rules of the contact
     law = scene.effect("block", RigidContact)
     if law is None:
         return
@@ -80,7 +82,8 @@ def _shape(block: Block) -> Iterator[Breach]:
 
 
 def _above_ground(block: Block) -> Iterator[Breach]:
-    from contact_sim_pkg.rigs.body.model import rise_at_start  # needs the compiled core, as this rig alone does
+    # needs the compiled core, as this rig alone does
+    from contact_sim_pkg.rigs.body.model import rise_at_start
 
     rise = rise_at_start(block)
     if rise > 0.0:

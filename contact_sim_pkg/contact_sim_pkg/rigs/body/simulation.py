@@ -10,9 +10,9 @@ from numpy.typing import NDArray
 from scipy.spatial.transform import Rotation
 
 from contact_sim_pkg.rigid.body import Motion, rise_to_ground
-from contact_sim_pkg.rigid.motion.compliant import MovedBody, sentence_of
+from contact_sim_pkg.rigid.motion.compliant import CompliantMotion, sentence_of
 from contact_sim_pkg.rigid.motion.located import LocatedBody
-from contact_sim_pkg.rigid.motion.motion import HELD
+from contact_sim_pkg.rigid.motion.motion import ACTIVE
 from contact_sim_pkg.rigid.motion.stepping import SteppedBody
 from contact_sim_pkg.rigid.problem import PLANE
 from contact_sim_pkg.rigid.results import SENTENCES, SOLVED, STICK
@@ -24,7 +24,7 @@ from contact_sim_pkg.run.errors import RunError
 from contact_sim_pkg.run.outputs import largest
 from contact_sim_pkg.scene.resolved_scene import ResolvedScene
 
-Body: TypeAlias = LocatedBody | SteppedBody | MovedBody
+Body: TypeAlias = LocatedBody | SteppedBody | CompliantMotion
 WARM_UP_IMPACT = 1e-4  # [m] above the ground, from which the warm-up drops the body
 
 
@@ -93,18 +93,18 @@ class BlockBodySimulation:
             raise RunError(f"block {block}, {at:.6g} s: {SENTENCES[status]}")
         record.position[1:], record.angle[1:], record.rotation[1:] = track.position, track.angle, track.rotation
         record.velocity[1:], record.residual = track.velocity, body.residual
-        stuck = track.sticks > 0.0
+        sticking = track.sticks > 0.0
         for impact in body.impacts:
             sample = min(int(impact.time / interval), timing.samples - 1)
-            stuck[sample, list(impact.points)] |= numpy.array(impact.modes) == STICK
-        record.take_impulses(self.model, track.impulse / interval, stuck)
+            sticking[sample, list(impact.points)] |= numpy.array(impact.modes) == STICK
+        record.take_impulses(self.model, track.impulse / interval, sticking)
 
     def _run_samples(self, record: BodyRecord, block: int) -> None:
         """One call a sample."""
         timing = self.model.timing
         interval = timing.block_length / timing.samples
         rows = len(self.body.impulse)
-        force, stuck = (
+        force, sticking = (
             numpy.zeros((timing.samples, rows)),
             numpy.zeros((timing.samples, rows // self.model.body.width), bool),
         )
@@ -113,17 +113,17 @@ class BlockBodySimulation:
             at = block * timing.block_length + sample * interval
             move(self.body, self.model, interval, f"block {block}, {at:.6g} s")
             record.take_state(sample + 1, self.body.motion)
-            force[sample], stuck[sample] = self.body.impulse / interval, self._sticks()
+            force[sample], sticking[sample] = self.body.impulse / interval, self._sticks()
             record.residual = max(record.residual, getattr(self.body, "residual", 0.0))
-        record.take_impulses(self.model, force, stuck)
+        record.take_impulses(self.model, force, sticking)
 
     def _sticks(self) -> NDArray[numpy.bool_]:
-        if isinstance(self.body, MovedBody):
+        if isinstance(self.body, CompliantMotion):
             return self.body.sticks()
         work, width = self.body.work, self.model.body.width
         velocity = (work.J @ self.body.motion.velocity).reshape(-1, width)
         scale = max(float(numpy.abs(self.body.motion.velocity).max()), 1e-9)
-        slow: NDArray[numpy.bool_] = (numpy.abs(velocity[:, 1:]).max(axis=1) <= 1e-9 * scale) & (work.flags >= HELD)
+        slow: NDArray[numpy.bool_] = (numpy.abs(velocity[:, 1:]).max(axis=1) <= 1e-9 * scale) & (work.flags >= ACTIVE)
         return slow
 
     def _known_work(self, record: BodyRecord) -> float:
@@ -158,7 +158,7 @@ def move(body: Body, model: BlockModel, interval: float, where: str = "block") -
     """
     status = status_after(body, model, interval)
     if status != SOLVED:
-        why = sentence_of(status) if isinstance(body, MovedBody) else SENTENCES[status]
+        why = sentence_of(status) if isinstance(body, CompliantMotion) else SENTENCES[status]
         raise RunError(f"{where}: {why}")
 
 
@@ -173,7 +173,7 @@ def body_of(model: BlockModel, motion: Motion) -> Body:
     ``model``.
     """
     if model.contact is not None:
-        return MovedBody(model.body, model.ground, motion, model.contact, model.tolerance)
+        return CompliantMotion(model.body, model.ground, motion, model.contact, model.tolerance)
     if model.scheme == "located":
         return LocatedBody(model.body, model.ground, motion, model.rule, model.facets, model.tolerance)
     return SteppedBody(model.body, model.ground, motion, model.step, model.rule, model.facets)

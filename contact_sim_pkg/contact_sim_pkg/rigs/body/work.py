@@ -10,7 +10,8 @@ from contact_sim_pkg.rigs.body.schema import Block, CompliantContact, RigidConta
 from contact_sim_pkg.run.integrator_work import Link, integrator_steps, power_law_link, segments
 from contact_sim_pkg.scene.resolved_scene import ResolvedScene
 
-PIECE_COST, STEPPED_COST = 6e-6, 5e-5  # [s] of a sub-step of a flight; of a step of the scheme stepping
+# [s] of a sub-step of a flight; of a step of the scheme stepping
+SUBSTEP_COST, STEPPED_COST = 6e-6, 5e-5
 PLANAR_TURN, SPATIAL_TURN = 0.2, 0.02  # [rad] of a sub-step
 
 
@@ -21,6 +22,7 @@ def work_of_block(scene: ResolvedScene) -> Iterator[Work]:
     block, compliant = scene.section(Block), scene.effect("block", CompliantContact)
     if compliant is not None:
         yield segments(scene)
+        # springs that limit the step of the integrator
         links = [
             Link("normal_dissipative", block.mass, 0.0, 0.0),
             power_law_link(
@@ -33,11 +35,12 @@ def work_of_block(scene: ResolvedScene) -> Iterator[Work]:
     if law.scheme == "stepping":
         yield Work("steps of rigid_contact.step", scene.duration / law.step, STEPPED_COST)
         return
+    # flight is cut into sub-steps of bounded rotation
     angle = _turned(block, scene.duration)
     yield Work(
-        "pieces of flight of a body that spins",
+        "sub-steps of flight of a body that spins",
         angle / (PLANAR_TURN if block.motion == "plane" else SPATIAL_TURN),
-        PIECE_COST,
+        SUBSTEP_COST,
     )
 
 

@@ -70,14 +70,17 @@ def test_instants_are_spread_along_the_way_with_both_ends(recorded):
 def test_the_numbers_are_those_of_the_bounces(recorded):
     numbers = summarise_recording(recorded("block_zeno"))["block"]
     first = math.sqrt(2.0 * GRAVITY)
-    assert numbers["impulse_max_Ns"] > 1.8 * first  # the weight at rest until the end counts as one contact
+    # the weight at rest until the end counts as one contact
+    assert numbers["impulse_max_Ns"] > 1.8 * first
     assert numbers["at_rest_from_s"] == pytest.approx(math.sqrt(2.0 / GRAVITY) * 9.0, abs=2e-3)
     assert numbers["end"]["block_z"] == pytest.approx(0.05, abs=1e-12)
     assert numbers["impulse_total_Ns"] == pytest.approx(GRAVITY * 5.0, rel=1e-6)
 
 
 def test_a_body_that_rests_up_to_rounding_rests(tmp_path):
-    """A block thrown along the ground at 1 m/s with friction 0.3 stops after v/(μg), at a fixed step within two of them."""
+    """A block thrown along the ground at 1 m/s with friction 0.3 stops after v/(μg), at a fixed
+    step within two of them.
+    """
     values = "scheme=stepping", "friction=0.3"
     changed = [set_value(f"effects.block.rigid_contact.{value}") for value in values]
     start = [

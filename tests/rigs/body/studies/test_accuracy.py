@@ -1,4 +1,6 @@
-"""Cost of accuracy of the block rig: steps, facets and the compliant contact against located rigid contact."""
+"""Cost of accuracy of the block rig: steps, facets and the compliant contact against located rigid
+contact.
+"""
 
 from itertools import pairwise
 
@@ -35,7 +37,7 @@ def test_a_stiffer_contact_comes_nearer_to_the_rigid_one_that_slides_to_a_stop(s
     assert all(later < 0.2 * earlier for earlier, later in pairwise(end))
 
 
-def test_turning_on_a_held_corner_follows_the_tolerance(slope_scene):
+def test_turning_on_a_sticking_corner_follows_the_tolerance(slope_scene):
     rows = accuracy_cost_block.turn_rows("", slope_scene, quiet)
     found = {row["tolerance"]: row["error"] for row in rows}
     assert float(slope_scene.data["integrator"]["relative_tolerance"]) in found

@@ -30,6 +30,7 @@ def way(poses: BlockPoses) -> Picture:
     every = np.vstack(shapes)
     low, high = every.min(axis=0), every.max(axis=0)
     width, height = high - low
+    # a body that only goes up and down is drawn over time
     spread = width < NARROW * height
     figure, (axis,) = new_figure(float(np.clip(6.6 * height / max(width, 1e-9) + 0.9, 2.0, TALLEST)))
     if spread:
@@ -70,6 +71,7 @@ def _beside_time(axis: Axes, poses: BlockPoses) -> None:
 def motion(poses: BlockPoses) -> Picture:
     """Velocity of the centre of mass and spin over time."""
     rows = [(poses.velocity, "v", "velocity, m/s"), (poses.spin, "ω", "spin, rad/s")]
+    # components that stay 0 are not drawn
     rows = [row for row in rows if np.any(row[0])] or rows[:1]
     figure, axes = new_figure(0.6 + 1.5 * len(rows), len(rows), sharex=True)
     for axis, (values, letter, label) in zip(axes, rows, strict=True):

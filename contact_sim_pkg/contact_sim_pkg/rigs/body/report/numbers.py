@@ -29,6 +29,7 @@ def block_numbers(recording: Recording) -> dict[str, Any]:
         return {}
     bursts = _bursts(contact)
     moves = np.flatnonzero(np.any([np.abs(values) > REST_SPEED for values in moving.velocity.values()], axis=0))
+    # at rest: nothing moves in the last sample
     resting = len(moves) == 0 or moves[-1] < len(moving.time) - 1
     numbers = {
         "contacts": len(bursts),

@@ -17,7 +17,7 @@ FloatArray = NDArray[np.float64]
 
 CIRCLE = np.linspace(0.0, 2.0 * np.pi, 49)
 MOST = 16  # outlines of a picture
-APART = 0.4  # of the body's size between two outlines, at least
+SEPARATED = 0.4  # of the body's size between two outlines, at least
 
 
 class BlockPoses(NamedTuple):
@@ -81,8 +81,8 @@ def _points(poses: BlockPoses, sample: int) -> FloatArray:
 
 
 def chosen(poses: BlockPoses) -> NDArray[np.int64]:
-    """Samples at even distances along the way, turning counted: the first and the last are among
-    them.
+    """Numbers [samples] of samples at even distances along the way, turning counted: the first and
+    the last are among them.
     """
     size = float(np.linalg.norm(poses.model.body.points, axis=1).max()) + poses.model.body.radius
     moved = np.linalg.norm(np.diff(poses.centre, axis=0), axis=1)
@@ -90,13 +90,13 @@ def chosen(poses: BlockPoses) -> NDArray[np.int64]:
     way = np.concatenate([[0.0], np.cumsum(moved + 0.5 * turned)])
     if way[-1] == 0.0:
         return np.zeros(1, np.int64)
-    count = int(np.clip(way[-1] / (APART * size), 2, MOST))
+    count = int(np.clip(way[-1] / (SEPARATED * size), 2, MOST))
     found = np.searchsorted(way, np.linspace(0.0, way[-1], count), side="left")
     return np.asarray(np.unique(np.minimum(found, len(way) - 1)), np.int64)
 
 
 def ground_line(poses: BlockPoses, first: float, last: float) -> tuple[FloatArray, FloatArray]:
-    """Heights of the ground in [m] between two places x in [m]."""
+    """Places [nodes] and heights [nodes] of the ground in [m] between two places x in [m]."""
     ground = poses.model.ground
     profile = ground.profile
     if len(profile.nodes) == 0:

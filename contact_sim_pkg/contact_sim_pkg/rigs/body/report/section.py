@@ -11,7 +11,9 @@ from contact_sim_pkg.rigs.body.report.pose import poses_of
 
 
 def block_sections(number: int, recording: Recording) -> list[Section]:
-    """Call inside `drawing.style()`; the way of the body is left out where the bag holds no scene."""
+    """Call inside `drawing.style()`; the way of the body is left out where the bag holds no
+    scene.
+    """
     if recording.motion is None:
         return [contact_section(number, BLOCK, recording)]
     contact = recording.contacts[BLOCK]

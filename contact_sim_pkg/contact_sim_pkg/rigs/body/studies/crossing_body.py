@@ -28,8 +28,8 @@ UPHILL, ACROSS, DURATION = 0.5, 1.0, 0.3  # [m/s], [m/s], [s]
 
 
 def cross(tolerance: float) -> LocatedBody:
-    """The box after the duration in one call, at a tolerance; ArithmeticError where it has no
-    answer.
+    """The box after 0.3 [s] in one call, at a dimensionless tolerance; ArithmeticError where it has
+    no answer.
     """
     rotation = numpy.array(
         [[math.cos(ANGLE), 0.0, -math.sin(ANGLE)], [0.0, 1.0, 0.0], [math.sin(ANGLE), 0.0, math.cos(ANGLE)]]
@@ -50,7 +50,7 @@ def cross(tolerance: float) -> LocatedBody:
 
 def cross_error(tolerance: float) -> float:
     """Distance of the centre of mass from where the point is at the end, over the length of the
-    box.
+    box: dimensionless, as is the tolerance.
     """
     position = cross(tolerance).motion.position
     uphill = math.cos(ANGLE) * position[0] + math.sin(ANGLE) * position[2]
@@ -60,10 +60,10 @@ def cross_error(tolerance: float) -> float:
 @functools.cache
 def _reference() -> Vector:
     """Where the point is at the end, uphill and across, [2] in [m]."""
-    pull, press = numpy.array([-GRAVITY * math.sin(ANGLE), 0.0]), GRAVITY * math.cos(ANGLE)
+    downhill, press = numpy.array([-GRAVITY * math.sin(ANGLE), 0.0]), GRAVITY * math.cos(ANGLE)
 
     def rate(_time: float, state: Vector) -> Vector:
-        gain = pull - FRICTION * press * state[2:] / numpy.linalg.norm(state[2:])
+        gain = downhill - FRICTION * press * state[2:] / numpy.linalg.norm(state[2:])
         return numpy.concatenate([state[2:], gain])
 
     path = solve_ivp(rate, (0.0, DURATION), [0.0, 0.0, UPHILL, ACROSS], "DOP853", rtol=1e-13, atol=1e-15)

@@ -133,7 +133,7 @@ def _against_references() -> list[Measured]:
     return [Measured(what, cases[what].find().value, "", most) for what, most in REFERENCES.items()]
 
 
-def _marches() -> list[Measured]:
+def _time_loops() -> list[Measured]:
     """A second of a cube with states at every millisecond."""
     found = []
     for what, speed in (("rests", 0.0), ("slides to a stop", rigid_motion.SPEED)):
@@ -148,7 +148,7 @@ def goals() -> list[Measured]:
     return [
         *_impact_times(),
         *_solve_times(),
-        *_marches(),
+        *_time_loops(),
         *_against_references(),
         Measured("16 contacts of rank 3: residual", redundant_residual().value, "", 1e-12),
         Measured(

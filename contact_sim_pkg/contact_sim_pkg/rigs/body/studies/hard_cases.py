@@ -13,7 +13,7 @@ from contact_sim_pkg.laws.parameters import NormalElastic
 from contact_sim_pkg.records.hard_case import Finding, HardCase, at_most
 from contact_sim_pkg.rigid.body import Ground, Motion, RigidBody, box, placed, regular_block, slope
 from contact_sim_pkg.rigid.impact.planar_impact import planar_impact
-from contact_sim_pkg.rigid.motion.compliant import MovedBody, compliant_contact
+from contact_sim_pkg.rigid.motion.compliant import CompliantMotion, compliant_contact
 from contact_sim_pkg.rigid.motion.located import LocatedBody
 from contact_sim_pkg.rigid.parameters import ENERGETIC, PlanarContact
 from contact_sim_pkg.rigid.results import SOLVED
@@ -57,12 +57,12 @@ def restitution_at_rest() -> Finding:
     return at_most(worst, 1e-15)
 
 
-def _moved(body: RigidBody, ground: Ground, motion: Motion) -> MovedBody:
+def _moved(body: RigidBody, ground: Ground, motion: Motion) -> CompliantMotion:
     contact = compliant_contact(body, NormalElastic(STIFFNESS, 1.0), STIFFNESS)
-    return MovedBody(body, ground, motion, contact, 1e-7)
+    return CompliantMotion(body, ground, motion, contact, 1e-7)
 
 
-def _advance(body: MovedBody) -> None:
+def _advance(body: CompliantMotion) -> None:
     status = body.advance(TICK)
     if status != DONE:
         raise ArithmeticError(SENTENCES[status])
@@ -83,7 +83,7 @@ def compliant_energy() -> Finding:
     return at_most(worst / start, 1e-9)
 
 
-def _energy(body: MovedBody) -> float:
+def _energy(body: CompliantMotion) -> float:
     shape, motion = body.body, body.motion
     spin = motion.rotation.T @ motion.velocity[3:]
     kinetic = 0.5 * shape.mass * motion.velocity[:3] @ motion.velocity[:3] + 0.5 * shape.inertia @ spin**2
@@ -101,7 +101,9 @@ def compliant_slide() -> Finding:
 
 
 def compliant_creep() -> Finding:
-    """Mean speed [m/s] in the second after the first of a block on a compliant slope of 15 degrees."""
+    """Mean speed [m/s] in the second after the first of a block on a compliant slope of 15
+    degrees.
+    """
     angle = math.radians(15.0)
     block = regular_block(SIDE, 1.0, 0.3, 0.3)
     at = 0.5 * SIDE * numpy.array([-math.sin(angle), math.cos(angle)])

@@ -1,4 +1,6 @@
-"""Hard cases of rigid contact: redundancy, mass ratio, Painleve, wedged bodies, energy of impacts."""
+"""Hard cases of rigid contact: redundancy, mass ratio, Painleve, wedged bodies, energy of
+impacts.
+"""
 
 from __future__ import annotations
 
@@ -104,7 +106,9 @@ def heavy_on_light() -> Finding:
 
 
 def wedged() -> Finding:
-    """Status of a body between two walls that both ask it to leave faster, which no impulse can do."""
+    """Status of a body between two walls that both require it to leave faster, which no impulse
+    can do.
+    """
     J = numpy.array([[1.0, 0.0], [0.0, 1.0], [-1.0, 0.0], [0.0, 1.0]])
     problem = make_problem(2, PLANE)
     problem.A[:], problem.q[:], problem.friction[:] = J @ J.T, (-1.0, 0.2, -1.0, 0.2), 0.5

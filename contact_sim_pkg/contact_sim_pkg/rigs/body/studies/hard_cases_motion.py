@@ -51,7 +51,9 @@ def too_fast() -> Finding:
 
 
 def tunnelling() -> Finding:
-    """Lowest gap [m] of a block of 1 mm that falls at 100 m/s, at the ends of intervals of 10 ms."""
+    """Lowest gap [m] of a block of 1 mm that falls at 100 m/s, at the ends of intervals of 10
+    ms.
+    """
     block = regular_block(0.001, 1e-3, 0.3, 0.5)
     motion = placed(block, numpy.array([0.0, 0.5]), numpy.array([0.0, -100.0, 0.0]), angle=0.3)
     body, lowest = LocatedBody(block, slope(2), motion), math.inf

@@ -48,7 +48,9 @@ def cube_for_a_second(speed: float) -> None:
 
 
 def slide_error(step: float | None, tick: float = TICK) -> float:
-    """Relative error of the distance in which a block at 2 m/s stops; ``step`` [s], None: located."""
+    """Relative error of the distance in which a block at 2 m/s stops; ``step`` [s], None:
+    located.
+    """
     body = _sliding(step)
     if isinstance(body, LocatedBody):
         for _ in range(round(1.0 / tick)):
@@ -101,7 +103,7 @@ def creep(duration: float = 10.0, tick: float = 0.01) -> float:
 
 
 def elastic_drift(bounces: int = 1000) -> float:
-    """Largest relative change of the energy of a ball over elastic bounces."""
+    """Largest change of the energy of a ball over elastic bounces, of its energy: dimensionless."""
     ball = sphere(RADIUS, 1.0, 0.0, 1.0)
     motion = placed(ball, numpy.array([0.0, 0.0, 0.1 + RADIUS]), numpy.zeros(6))
     body, impacts = LocatedBody(ball, slope(3), motion), 0

@@ -10,7 +10,7 @@ import numpy
 from contact_sim_pkg.compiled.arrays import Vector
 from contact_sim_pkg.records.work_precision import milliseconds
 from contact_sim_pkg.rigid import problem as contact_problem
-from contact_sim_pkg.rigid.contact.answers import contact_impulses, solve_over_and_over
+from contact_sim_pkg.rigid.contact.answers import contact_impulses, solve_repeatedly
 from contact_sim_pkg.rigid.contact.solver import NEWTON, ContactSolution, Solver, make_solver
 
 __all__ = ["ContactCase", "block_corner", "contact_rows", "milliseconds_of_a_solve", "random_face", "solve", "stack"]
@@ -32,7 +32,9 @@ class ContactCase(NamedTuple):
 
 
 def block_corner(theta: float) -> tuple[Vector, Vector]:
-    """J (normal, tangent) of the lowest corner of the 1 kg block, and its inverse masses [3]."""
+    """J [2, 3] (normal, tangent) of the lowest corner of the 1 kg block at the angle ``theta``
+    [rad], and its inverse masses [3] in [1/kg], [1/(kg m^2)].
+    """
     radius = SIDE / math.sqrt(2.0)
     j_n = [0.0, 1.0, -radius * math.sin(math.pi / 4 - theta)]
     j_t = [1.0, 0.0, radius * math.cos(math.pi / 4 - theta)]
@@ -40,7 +42,9 @@ def block_corner(theta: float) -> tuple[Vector, Vector]:
 
 
 def contact_rows(points: Vector, width: int) -> Vector:
-    """J of contact points relative to the centre of mass: normal up, then the tangents."""
+    """J [rows, coordinates] of contact ``points`` [contacts, width] in [m] from the centre of mass:
+    normal up, then the tangents.
+    """
     rows: list[list[float]] = []
     for point in points:
         if width == contact_problem.PLANE:
@@ -62,7 +66,7 @@ def random_face(seed: int, contacts: int, width: int) -> ContactCase:
 
 
 def stack(ratio: float) -> ContactCase:
-    """1 kg on the ground under ``ratio`` kg, both falling: coordinates are two heights and two
+    """1 kg on the ground under ``ratio`` [kg], both falling: coordinates are two heights and two
     shifts.
     """
     J = numpy.zeros((4, 4))
@@ -72,30 +76,30 @@ def stack(ratio: float) -> ContactCase:
     return ContactCase(J, W, v, numpy.full(2, 0.5), contact_problem.PLANE)
 
 
-def milliseconds_of_a_solve(case: ContactCase, rung: int = NEWTON, facets: int = 0, sweeps: int = 20) -> float:
+def milliseconds_of_a_solve(case: ContactCase, method: int = NEWTON, facets: int = 0, sweeps: int = 20) -> float:
     """Of one solve in [ms], within a compiled loop: neither the call from Python nor the set-up of
     arrays counts.
     """
-    problem, solver = _set_up(case, rung, facets, sweeps)
+    problem, solver = _set_up(case, method, facets, sweeps)
     c = numpy.zeros(len(case.J))
 
-    def over_and_over(times: int) -> float:
-        return milliseconds(lambda: solve_over_and_over(problem, case.J, case.W, solver, c, times))
+    def repeated(times: int) -> float:
+        return milliseconds(lambda: solve_repeatedly(problem, case.J, case.W, solver, c, times))
 
-    return max(0.0, over_and_over(SOLVES + 1) - over_and_over(1)) / SOLVES
+    return max(0.0, repeated(SOLVES + 1) - repeated(1)) / SOLVES
 
 
-def solve(case: ContactCase, rung: int = NEWTON, facets: int = 0, sweeps: int = 20) -> tuple[Vector, ContactSolution]:
-    """Impulses of a case without restitution, and how the solve ended."""
-    problem, solver = _set_up(case, rung, facets, sweeps)
+def solve(case: ContactCase, method: int = NEWTON, facets: int = 0, sweeps: int = 20) -> tuple[Vector, ContactSolution]:
+    """Impulses [rows] in [N s] of a case without restitution, and how the solve ended."""
+    problem, solver = _set_up(case, method, facets, sweeps)
     c = numpy.zeros(len(case.J))
     return c, contact_impulses(problem, case.J, case.W, solver, c)
 
 
-def _set_up(case: ContactCase, rung: int, facets: int, sweeps: int) -> tuple[contact_problem.ContactProblem, Solver]:
+def _set_up(case: ContactCase, method: int, facets: int, sweeps: int) -> tuple[contact_problem.ContactProblem, Solver]:
     contacts = len(case.friction)
     problem = contact_problem.make_problem(contacts, case.width, facets)
     problem.A[:] = case.J @ case.W @ case.J.T
     problem.q[:] = case.J @ case.v
     problem.friction[:] = case.friction
-    return problem, make_solver(contacts, case.J.shape[1], case.width, facets, rung, sweeps)
+    return problem, make_solver(contacts, case.J.shape[1], case.width, facets, method, sweeps)

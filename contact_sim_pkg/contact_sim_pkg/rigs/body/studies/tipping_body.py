@@ -1,5 +1,5 @@
-"""A body that tips over on a held corner, or in space on a held edge: a compound pendulum, `(J + m
-r^2) phi'' = m g r sin phi`.
+"""A body that tips over on a corner that sticks, or in space on an edge: a compound pendulum, `(J +
+m r^2) phi'' = m g r sin phi`.
 
 phi is the angle of the centre of mass from the vertical above the corner, r its distance, J the
 moment of inertia about the centre of mass. The reference is scipy's DOP853 at 1e-13 on this
@@ -24,12 +24,13 @@ __all__ = ["REFERENCE", "Tipping", "tip", "tip_error", "tipping"]
 
 REFERENCE = "scipy DOP853 at 1e-13 on the equation of a pendulum, no shared code"
 FIRST, LAST = 0.1, 0.5  # [rad] of phi; less where another corner comes down before
-SAME, CLEAR = 1e-9, 0.02  # of the distance from the corner: corners of one edge; how high the others must be
-GRIP = 2.0  # friction: the corner is held throughout
+# of the distance from the corner: corners of one edge; how high the others must be
+SAME, CLEAR = 1e-9, 0.02
+GRIP = 2.0  # friction: the corner sticks throughout
 
 
 class Tipping(NamedTuple):
-    """The body, what it stands on, and where it is after a time."""
+    """The body, the corner that it tips on, and where it is after a time."""
 
     body: RigidBody
     lever: Vector  # [2], x and z from the centre of mass to the corner in body axes
@@ -59,7 +60,7 @@ def tipping(body: RigidBody) -> Tipping | None:
 
 
 def _stands_alone(points: Vector, lever: Vector, turned: float) -> bool:
-    """Whether all other corners are above the one that the body is held on."""
+    """Whether all other corners are above the one that the body tips on."""
     heights = (points - lever) @ _turn(turned)[1]
     others = numpy.linalg.norm(points - lever, axis=1) > SAME * float(numpy.hypot(*lever))
     return bool((heights[others] > CLEAR * float(numpy.hypot(*lever))).all())
@@ -68,7 +69,8 @@ def _stands_alone(points: Vector, lever: Vector, turned: float) -> bool:
 def _pendulum(body: RigidBody, reach: float, first: float, last: float) -> tuple[float, float]:
     """Time [s] in which phi grows from ``first``, at rest, to ``last`` [rad], and phi then."""
     inertia = float(body.inertia[0] if body.width == PLANE else body.inertia[1])
-    strength = -float(body.load[body.width - 1]) * reach / (inertia + body.mass * reach**2)  # [1/s^2]
+    # [1/s^2]
+    strength = -float(body.load[body.width - 1]) * reach / (inertia + body.mass * reach**2)
 
     def arrived(_time: float, state: Vector) -> float:
         return float(state[0]) - last
@@ -82,8 +84,8 @@ def _pendulum(body: RigidBody, reach: float, first: float, last: float) -> tuple
 
 
 def tip(case: Tipping, tolerance: float) -> LocatedBody:
-    """The body after the duration in one call, at a tolerance; ArithmeticError where it has no
-    answer.
+    """The body after ``case.duration`` [s] in one call, at a dimensionless tolerance;
+    ArithmeticError where it has no answer.
     """
     body, width = case.body, case.body.width
     place = numpy.zeros(width)
@@ -100,7 +102,7 @@ def tip(case: Tipping, tolerance: float) -> LocatedBody:
 
 def tip_error(case: Tipping, tolerance: float) -> float:
     """Distance of the centre of mass from where the pendulum has it at the end, over its distance
-    from the corner.
+    from the corner: dimensionless, as is the tolerance.
     """
     position = tip(case, tolerance).motion.position[[0, case.body.width - 1]]
     return float(numpy.linalg.norm(position + _turn(case.end) @ case.lever) / numpy.linalg.norm(case.lever))

@@ -1,5 +1,5 @@
 """Work-precision studies of rigid contact: the solver of the contact problem, the facets of the
-friction cone, the step in time, the tolerance of a body that turns on held contacts.
+friction cone, the step in time, the tolerance of a body that turns on active contacts.
 
 Times of a contact problem are those of one solve in a compiled loop; of a motion, those of the
 whole run.
