@@ -18,7 +18,8 @@ _KERNELS = "compiled.jit"
 
 
 def kernel_sources(package: Path) -> list[Path]:
-    """Modules below the folder ``package`` that import the decorators of kernels, and what these import, sorted.
+    """Modules below the folder ``package`` that import the decorators of kernels, and what these
+    import, sorted.
 
     An edit of a report, a schema or a node changes no machine code and keeps the cache.
     """

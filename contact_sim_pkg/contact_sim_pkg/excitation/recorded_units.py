@@ -20,7 +20,9 @@ Array = NDArray[numpy.float64]
 
 
 def signed_column(table: RecordedTable, name: str, unit: str | None) -> Array:
-    """One axis, [samples] in [m/s^2]; ExcitationError where a value is none that can be measured."""
+    """One axis, [samples] in [m/s^2]; ExcitationError where a value is none that can be
+    measured.
+    """
     plain = name.removeprefix("-").lower()
     column = table.column(plain)
     factor = 1.0 if unit is None or plain in table.with_unit else UNITS[unit]

@@ -81,7 +81,9 @@ class IdentificationProblem(NamedTuple):
 
     @property
     def tangents(self) -> Array:
-        """Directions along the ground, of length 1: [1, 3] in the plane of motion, [2, 3] in space."""
+        """Directions along the ground, of length 1: [1, 3] in the plane of motion, [2, 3] in
+        space.
+        """
         normal = self.ground.normal
         first = numpy.cross(numpy.eye(3)[abs(normal).argmin()] if self.axis is None else self.axis, normal)
         first = first / numpy.linalg.norm(first)

@@ -1,4 +1,6 @@
-"""Impacts as a table: one velocity sample before and one after each, orientation and contact known."""
+"""Impacts as a table: one velocity sample before and one after each, orientation and contact
+known.
+"""
 
 from __future__ import annotations
 
@@ -49,7 +51,8 @@ def problem_of_impacts(
         table: the impacts.
         shape: of the body; its lowest point is the contact.
         noise: standard deviation of a component of velocity [m/s] and of angular velocity [rad/s].
-        axis: normal [x, y, z] of the plane of motion, the same in world and body axes; None in space.
+        axis: normal [x, y, z] of the plane of motion, the same in world and body axes; None in
+            space.
         ground: level at height 0 where it is None.
 
     Raises:

@@ -7,9 +7,10 @@ With the strain ``e = x/h``, the stretch ``l = 1 - e``, the area S of the block 
 p_d ((l**-r - 1)/r + ln l)]``.
 
 The first term rises with the modulus E_0 and bends to the plateau p_0, the second is the
-densification: it grows as l**(-r-1), and no force closes the block. Slope at first contact ``S (E_0 +
-r p_d)/h``. Below a stretch of 1e-3 the law goes on along its tangent. Source: Hill 1978; Storakers
-1986: U = sum of 2 mu_i/a_i^2 (sum of l^a_i - 3 - a_i ln J) for nu = 0, as seat foams are fitted.
+densification: it grows as l**(-r-1), and no force closes the block. Slope at first contact ``S (E_0
++ r p_d)/h``. Below a stretch of 1e-3 the law goes on along its tangent. Source: Hill 1978;
+Storakers 1986: U = sum of 2 mu_i/a_i^2 (sum of l^a_i - 3 - a_i ln J) for nu = 0, as seat foams are
+fitted.
 """
 
 from __future__ import annotations

@@ -5,7 +5,7 @@
   C`` against the slip;
 * stick ends where ``|C s + D v|`` reaches ``mu_s N``; slip ends where the slip rate ``v - s'``
   passes zero;
-* without a normal force (bodies separated, or parting faster than the material recovers) ``F_t = 0``,
+* ``F_t = 0`` without a normal force (separated, or parting faster than the material recovers),
   ``s = 0``.
 
 v is the velocity of the upper body relative to the lower, F_t the force on the lower body, so that

@@ -5,9 +5,9 @@ Special cases: p = 0, q = 1, n = 1 the linear spring and damper (Kelvin and Voig
 by B v0 at first contact); p = n, q = 1 Hunt and Crossley; n = 3/2, p = 1/2, q = 1 the viscoelastic
 sphere of Kuwabara and Kono, which Goloshchapov's impact shares; B = 0 the elastic law.
 
-End of contact: where p < n the dissipation outweighs the spring before x is back at 0. With ``lowest_force
-= 0`` contact is lost where F reaches 0 (end rule ``force``: no adhesion); with ``-inf`` it lasts,
-pulling, until x = 0 (end rule ``gap``).
+End of contact: where p < n the dissipation outweighs the spring before x is back at 0. With
+``lowest_force = 0`` contact is lost where F reaches 0 (end rule ``force``: no adhesion); with
+``-inf`` it lasts, pulling, until x = 0 (end rule ``gap``).
 
 q < 1 has an infinite slope at x' = 0. ``|x'|**(q-1)`` is then evaluated at ``sqrt(x'^2 + s^2)``, s
 the smoothing speed, 1e-6 of the reference speed: the force is wrong by less than 1e-6 of itself

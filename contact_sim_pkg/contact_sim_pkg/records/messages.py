@@ -1,9 +1,10 @@
 """Messages as records, such as `ContactForce(block=3, sample_period=1e-3, normal=...)`.
 
 Each type is made from its `.msg` file on first use: a named tuple with the fields of the message,
-its constants beside them. Values are given by name alone, so a field may move or be added without an
-edit elsewhere. The header and the sizes of arrays are no fields: the encoder fills them in. Type
-checkers read `messages.pyi`, which `python -m tests.records.message_stub` writes from the same files.
+its constants beside them. Values are given by name alone, so a field may move or be added without
+an edit elsewhere. The header and the sizes of arrays are no fields: the encoder fills them in. Type
+checkers read `messages.pyi`, which `python -m tests.records.message_stub` writes from the same
+files.
 """
 
 from __future__ import annotations

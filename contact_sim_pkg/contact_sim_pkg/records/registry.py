@@ -87,7 +87,9 @@ def effects() -> dict[str, dict[str, Effect]]:
 
 @cache
 def contact_reports() -> dict[str, ContactReport]:
-    """Reports of the contacts of all rigs, by contact; where rigs share a contact, that of the first rig counts."""
+    """Reports of the contacts of all rigs, by contact; where rigs share a contact, that of the
+    first rig counts.
+    """
     found: dict[str, ContactReport] = {}
     for name in dict.fromkeys(name for rig in rigs().values() for name in rig.report):
         report: ContactReport = load(name)
@@ -99,7 +101,8 @@ def contact_reports() -> dict[str, ContactReport]:
 def shipped_scenes() -> dict[str, Path]:
     """Files of the scenes that lie in the folders `scenes` of the rigs' packages, by name.
 
-    In the order of `Rig.scenes`, the smallest run first; those without a place there follow by name.
+    In the order of `Rig.scenes`, the smallest run first; those without a place there follow by
+    name.
 
     Raises:
         ValueError: two scenes have the same name.

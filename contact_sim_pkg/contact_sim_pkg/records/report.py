@@ -1,4 +1,6 @@
-"""What a rig adds to the report of a bag. Functions are named as ``module:name`` and loaded on use."""
+"""What a rig adds to the report of a bag. Functions are named as ``module:name`` and loaded on
+use.
+"""
 
 from __future__ import annotations
 
@@ -14,8 +16,8 @@ class SeriesReader:
     Attributes:
         name: of the series in `Recording.series`.
         types: message types that it reads, `package/msg/Type`.
-        reader: class without arguments. ``add(time, type, message)`` reads the messages in the order
-            of the bag, `time` in [s]; ``finish()`` returns the series, or None.
+        reader: class without arguments. ``add(time, type, message)`` reads the messages in the
+            order of the bag, `time` in [s]; ``finish()`` returns the series, or None.
     """
 
     name: str
@@ -30,7 +32,8 @@ class ContactReport:
     Attributes:
         contact: its name.
         series: readers of its own messages.
-        sections: (number of the contact, recording) -> sections of the page, in place of the general one.
+        sections: (number of the contact, recording) -> sections of the page, in place of the
+            general one.
         closing_sections: (recording) -> sections that follow those of all contacts.
         contact_numbers: (recording) -> numbers of the contact in the summary.
         numbers: (recording) -> further sections of the summary by their keys.

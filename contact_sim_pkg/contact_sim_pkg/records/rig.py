@@ -26,19 +26,22 @@ class Rig:
         contacts: each needs a normal force; its own section of the scene has its name.
         needs: sections that the scene must have.
         takes: further sections that it may have; those of its contacts are defaults where absent.
-        simulation: ``module:class`` of a `run.block_simulation.BlockSimulation` that takes a resolved scene.
+        simulation: ``module:class`` of a `run.block_simulation.BlockSimulation` that takes a
+            resolved scene.
         report: ``module:name`` of the `records.report.ContactReport` of each contact that has one.
-        road_strip: ``module:function`` of the plain data of a resolved scene -> the strip of road that its tire needs;
-            empty: it rides on none.
-        work: ``module:function`` of a resolved scene -> parts of its work beside that of blocks and fields;
-            empty: none.
+        road_strip: ``module:function`` of the plain data of a resolved scene -> the strip of road
+            that its tire needs; empty: it rides on none.
+        work: ``module:function`` of a resolved scene -> parts of its work beside that of blocks and
+            fields; empty: none.
         unused_axes: plain data of its effects by contact -> axes whose vibration moves nothing.
-        accuracy: modules whose `ACCURACY` holds `records.accuracy.AccuracyStudy`: `bench accuracy SCENE`.
-        work_precision: modules whose `WORK_PRECISION` holds `records.work_precision.WorkPrecision`, those of
-            papers on the rig included: `bench accuracy RIG`.
+        accuracy: modules whose `ACCURACY` holds `records.accuracy.AccuracyStudy`: `bench accuracy
+            SCENE`.
+        work_precision: modules whose `WORK_PRECISION` holds `records.work_precision.WorkPrecision`,
+            those of papers on the rig included: `bench accuracy RIG`.
         goals: modules whose `GOALS` holds `records.goal.GoalPart`: `bench goals`.
         hard_cases: modules whose `CASES` holds `records.hard_case.HardCase`: `bench hard`.
-        scenes: its shipped scenes, each with its place in `bench list`: the smaller the run, the sooner.
+        scenes: its shipped scenes, each with its place in `bench list`: the smaller the run, the
+            sooner.
         forecast: module whose `facts_before_run` and `sentence_before_run` report what is known
             before the run; empty: nothing.
     """
@@ -62,7 +65,9 @@ class Rig:
 
 
 def load(named: str) -> Any:
-    """The object behind ``module:name``, or the module behind ``module``. Raises what its import raises."""
+    """The object behind ``module:name``, or the module behind ``module``. Raises what its import
+    raises.
+    """
     module, _, name = named.partition(":")
     found = import_module(module)
     return getattr(found, name) if name else found

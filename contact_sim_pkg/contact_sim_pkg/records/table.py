@@ -1,4 +1,6 @@
-"""A part of a study's table as a person reads it: a heading, rows, and a line below. The flat rows are for scripts."""
+"""A part of a study's table as a person reads it: a heading, rows, and a line below. The flat rows
+are for scripts.
+"""
 
 from __future__ import annotations
 

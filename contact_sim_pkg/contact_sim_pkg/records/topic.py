@@ -37,7 +37,9 @@ class Topic(NamedTuple):
 
     @property
     def frame(self) -> str:
-        """The frame of its messages: that of the contact that the topic is named after, else the bench's fixed frame."""
+        """The frame of its messages: that of the contact that the topic is named after, else the
+        bench's fixed frame.
+        """
         first = self.name.partition("/")[0]
         return f"{first}_contact" if self.kind == "result" and first != "bench" else "bench"
 
@@ -45,7 +47,9 @@ class Topic(NamedTuple):
 def recorded_topic(
     name: str, type_name: str, rate: str = SAMPLES, *, kind: Kind = "result", wall_time: bool = False
 ) -> Topic:
-    """A topic that every bag of its scene holds, reliable and volatile; its rank follows in the table."""
+    """A topic that every bag of its scene holds, reliable and volatile; its rank follows in the
+    table.
+    """
     return Topic(
         name, type_name, rank=0, reliability="reliable", durability="volatile", depth=10, recorded=True,
         wall_time=wall_time, kind=kind, rate=rate,
@@ -55,7 +59,8 @@ def recorded_topic(
 class ContactTopic(NamedTuple):
     """One recorded topic of a contact.
 
-    It is there in every run of the rig, unless it needs a key, or an effect names it in `publishes`.
+    It is there in every run of the rig, unless it needs a key, or an effect names it in
+    `publishes`.
     """
 
     name: str  # below that of the contact

@@ -22,7 +22,8 @@ DIGITS = 40
 
 
 def restitution(damping: float) -> float:
-    """Coefficient of restitution e [1] by bisection: `d (1 + e) = ln[(1 + d)/(1 - d e)]`, `damping` d
+    """Coefficient of restitution e [1] by bisection: `d (1 + e) = ln[(1 + d)/(1 - d e)]`, `damping`
+    d
     = damping * v0 > 0 [1]."""
     with mpmath.workdps(DIGITS):
         d = mpmath.mpf(damping)
@@ -84,8 +85,8 @@ def duration(mass: float, speed: float, coefficient: float, exponent: float, dam
 
 
 def elastic_impact(mass: float, speed: float, coefficient: float, exponent: float) -> tuple[float, float, float]:
-    """Duration [s], depth [m] and peak force [N] without dissipation: `T = 2/(n+1) B(1/(n+1), 1/2) x_m /
-    v0`.
+    """Duration [s], depth [m] and peak force [N] without dissipation: `T = 2/(n+1) B(1/(n+1), 1/2)
+    x_m / v0`.
     """
     with mpmath.workdps(DIGITS):
         m, v, a, n = (mpmath.mpf(value) for value in (mass, speed, coefficient, exponent))

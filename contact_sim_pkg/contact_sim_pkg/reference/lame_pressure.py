@@ -24,7 +24,9 @@ def ansatz_load(a: float, b: float, exponent: float) -> float:
 
 
 def printed_eccentricity_power(a: float, b: float, exponent: float, radius_power: float) -> float:
-    """`k^n = (n r^n - 2 b^n) / a^n` [1], printed below eq 7, with r^n given; a, b: half axes [m]."""
+    """`k^n = (n r^n - 2 b^n) / a^n` [1], printed below eq 7, with r^n given; a, b: half axes
+    [m].
+    """
     return float((exponent * radius_power - 2.0 * b**exponent) / a**exponent)
 
 

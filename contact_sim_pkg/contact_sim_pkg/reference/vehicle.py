@@ -1,6 +1,8 @@
-"""Seat, tire and car rigs with point contacts, vertical motion, by scipy's DOP853 from event to event; free of kernel code.
+"""Seat, tire and car rigs with point contacts, vertical motion, by scipy's DOP853 from event to
+event; free of kernel code.
 
-The drive (heights of road and cushion, acceleration of the floor) is linear in each segment, as in the rigs.
+The drive (heights of road and cushion, acceleration of the floor) is linear in each segment, as in
+the rigs.
 """
 
 from __future__ import annotations
@@ -20,7 +22,9 @@ RELATIVE, ABSOLUTE = 1.0e-12, 1.0e-14
 
 
 class Law(NamedTuple):
-    """`F = coefficient x^exponent (1 + damping x') + B x^p sgn(x') |x'|^q` for x > 0, never below `lowest`."""
+    """`F = coefficient x^exponent (1 + damping x') + B x^p sgn(x') |x'|^q` for x > 0, never below
+    `lowest`.
+    """
 
     coefficient: float
     exponent: float
@@ -44,7 +48,9 @@ class Law(NamedTuple):
 
 
 class Belt(NamedTuple):
-    """Belt ring [kg] on its sidewalls [N/m], [N s/m]; state [z_r, v_r] behind that of the quarter car."""
+    """Belt ring [kg] on its sidewalls [N/m], [N s/m]; state [z_r, v_r] behind that of the quarter
+    car.
+    """
 
     mass: float
     stiffness: float
@@ -68,7 +74,9 @@ class Quarter(NamedTuple):
 
 
 class Occupant(NamedTuple):
-    """Frame mass in contact and masses that hang on it [kg], [N/m], [N s/m]; state [z_0 .. z_n, v_0 .. v_n]."""
+    """Frame mass in contact and masses that hang on it [kg], [N/m], [N s/m]; state [z_0 .. z_n, v_0
+    .. v_n].
+    """
 
     frame_mass: float
     masses: State
@@ -93,7 +101,9 @@ def states_at_segments(
     gravity: float, quarter: Quarter | None, occupant: Occupant | None, start: State, length: float,
     height: State, cushion: State, acceleration: State,
 ) -> State:  # fmt: skip
-    """States at the ends of all segments of `length` [s], [segments + 1, states]; the drive is given at the segments' ends."""
+    """States at the ends of all segments of `length` [s], [segments + 1, states]; the drive is
+    given at the segments' ends.
+    """
     states = numpy.empty((len(height), len(start)))
     states[0] = start
     state, directions = numpy.array(start, dtype=float), None

@@ -21,7 +21,8 @@ from numpy.typing import NDArray
 from contact_sim_pkg.files import FileRefusedError, check_output, new_file
 from contact_sim_pkg.report.signal.decimate import BANDS, bands
 
-# Each colour stands for a variable of the page's style sheet; the value is what is seen where that is missing.
+# Each colour stands for a variable of the page's style sheet; the value is what is seen where that
+# is missing.
 INK = "#1c2126"
 MUTED = "#69727b"
 RULE = "#d9dee2"

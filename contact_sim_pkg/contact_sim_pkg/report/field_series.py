@@ -142,7 +142,9 @@ def _snapshot(time: float, message: Any) -> Snapshot:
 
 
 def _size(pressure: Any, message: Any) -> tuple[float, float]:
-    """Length and width [m] between the outermost loaded cells, these included; zeros without load."""
+    """Length and width [m] between the outermost loaded cells, these included; zeros without
+    load.
+    """
     rows, cols = (np.flatnonzero(pressure.any(axis=axis)) for axis in (1, 0))
     if not rows.size:
         return 0.0, 0.0

@@ -17,8 +17,8 @@ COUNTS = ("apart", "touching", "sticking", "slipping")
 
 
 class PointReader:
-    """Counts of the states, the course of point 1, and all points at first contact and at the largest
-    force.
+    """Counts of the states, the course of point 1, and all points at first contact and at the
+    largest force.
     """
 
     def __init__(self) -> None:

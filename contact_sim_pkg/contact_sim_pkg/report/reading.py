@@ -1,4 +1,6 @@
-"""Bag -> `Recording`. Topics are found by message type, so a rig may call its contacts as it likes."""
+"""Bag -> `Recording`. Topics are found by message type, so a rig may call its contacts as it
+likes.
+"""
 
 from __future__ import annotations
 

@@ -20,7 +20,9 @@ def series_readers() -> dict[str, SeriesReader]:
 
 
 def reports_of(recording: Recording) -> list[ContactReport]:
-    """Reports of the contacts that the bag holds, that its rig has, or of which it holds a series."""
+    """Reports of the contacts that the bag holds, that its rig has, or of which it holds a
+    series.
+    """
     rig = rigs().get(str(recording.scene.get("rig")))
     contacts = {*recording.contacts, *(contact.name for contact in (rig.contacts if rig is not None else ()))}
     return [

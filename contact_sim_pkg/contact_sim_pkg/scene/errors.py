@@ -42,12 +42,14 @@ class SceneError(ValueError):
 
 @dataclass(frozen=True, slots=True)
 class Breach:
-    """A rule that ties several keys together and does not hold; becomes a `Fault` when its place is looked up.
+    """A rule that ties several keys together and does not hold; becomes a `Fault` when its place is
+    looked up.
 
     Attributes:
         where: dotted path of the key that the fault is shown at.
         sentence: what is wrong, the values, what is allowed.
-        uses: further keys that the rule looked at; a breach is not reported where one of them has a fault of its own.
+        uses: further keys that the rule looked at; a breach is not reported where one of them has a
+            fault of its own.
     """
 
     where: str

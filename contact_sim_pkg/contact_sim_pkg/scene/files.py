@@ -1,4 +1,6 @@
-"""Input files that a scene names: where they are found, and the checksum that ties a run to their content."""
+"""Input files that a scene names: where they are found, and the checksum that ties a run to their
+content.
+"""
 
 from __future__ import annotations
 
@@ -15,7 +17,9 @@ PACKAGE_PREFIX = "data/"
 
 
 class InputFile(NamedTuple):
-    """A file that a scene names: the dotted path of the key, the name, the checksum if the scene states one."""
+    """A file that a scene names: the dotted path of the key, the name, the checksum if the scene
+    states one.
+    """
 
     where: str
     name: str

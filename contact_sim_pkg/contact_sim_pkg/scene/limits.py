@@ -39,7 +39,9 @@ class Need(NamedTuple):
 
 
 def limit_breaches(scene: Scene) -> Iterator[Breach]:
-    """Scenes that are too large: memory, samples, points of a random road, cells along a side of a field."""
+    """Scenes that are too large: memory, samples, points of a random road, cells along a side of a
+    field.
+    """
     yield from _samples(scene)
     yield from _road_points(scene)
     needs = list(memory_needs(scene))
@@ -64,7 +66,9 @@ def memory_needs(scene: Scene) -> Iterator[Need]:
 
 
 def file_memory(where: str, path: Path) -> int:
-    """Memory in [bytes] that reading an input file takes, as its reader counts it; the reader is imported when there is a file."""
+    """Memory in [bytes] that reading an input file takes, as its reader counts it; the reader is
+    imported when there is a file.
+    """
     from contact_sim_pkg.excitation import recorded_csv
     from contact_sim_pkg.excitation.opencrg import road as opencrg
 
@@ -73,7 +77,9 @@ def file_memory(where: str, path: Path) -> int:
 
 
 def file_breaches(scene: Scene) -> Iterator[Breach]:
-    """Input files that are missing, unreadable, too large, or have another content than the scene states."""
+    """Input files that are missing, unreadable, too large, or have another content than the scene
+    states.
+    """
     for file in input_files(scene):
         sentence = _file_fault(file, Path(scene.file).parent)
         if sentence:

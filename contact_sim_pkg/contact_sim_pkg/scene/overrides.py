@@ -1,4 +1,6 @@
-"""Values that command-line options put into a scene before it is validated; their faults name the option."""
+"""Values that command-line options put into a scene before it is validated; their faults name the
+option.
+"""
 
 from __future__ import annotations
 
@@ -26,7 +28,8 @@ class Override:
         option: the option as typed; stands for the file in faults.
         path: keys from the root.
         node: the value; None removes the key.
-        file_section: `road` or `vibration` where the value is a file that takes the place of this section.
+        file_section: `road` or `vibration` where the value is a file that takes the place of this
+            section.
     """
 
     option: str
@@ -36,7 +39,8 @@ class Override:
 
 
 def set_value(assignment: str) -> Override:
-    """`--set a.b.c=value`; the value is read as YAML, items of lists are counted from 0. `null` removes the key.
+    """`--set a.b.c=value`; the value is read as YAML, items of lists are counted from 0. `null`
+    removes the key.
 
     Raises:
         SceneError: no `=`, an empty key, or a value that is not YAML.
@@ -61,12 +65,16 @@ def set_pace(text: str | float) -> Override:
 
 
 def set_road(file: str | Path) -> Override:
-    """`--road FILE`: an OpenCRG file in place of the scene's road; the name counts from the current folder."""
+    """`--road FILE`: an OpenCRG file in place of the scene's road; the name counts from the current
+    folder.
+    """
     return _file("--road", "road", file)
 
 
 def set_vibration(file: str | Path) -> Override:
-    """`--vibration FILE`: a recorded vibration in place of the scene's; give its rate with `set_rate` after it."""
+    """`--vibration FILE`: a recorded vibration in place of the scene's; give its rate with
+    `set_rate` after it.
+    """
     return _file("--vibration", "vibration", file)
 
 
@@ -76,7 +84,9 @@ def set_rate(text: str | float) -> Override:
 
 
 def apply(root: MappingNode, overrides: Iterable[Override]) -> list[Fault]:
-    """Put the values into the document, in order; later ones win. Returns the faults of paths that lead nowhere."""
+    """Put the values into the document, in order; later ones win. Returns the faults of paths that
+    lead nowhere.
+    """
     faults = []
     for override in overrides:
         mark = Mark(override.option, 0, 0)
@@ -130,7 +140,9 @@ def _kind(section: MappingNode) -> str:
 
 
 def _put(root: MappingNode, path: tuple[str, ...], value: Node, mark: Mark) -> str:
-    """Put one value in, making sections on the way; the sentence of the fault where the path leads nowhere."""
+    """Put one value in, making sections on the way; the sentence of the fault where the path leads
+    nowhere.
+    """
     node: Node = root
     for depth, key in enumerate(path[:-1]):
         if isinstance(node, MappingNode) and key not in node.entries:

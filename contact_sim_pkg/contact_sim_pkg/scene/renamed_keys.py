@@ -1,7 +1,8 @@
-"""Scene keys that were renamed: a scene with an old key is refused, a scene that stands in an old bag is read.
+"""Scene keys that were renamed: a scene with an old key is refused, a scene that stands in an old
+bag is read.
 
-A key is a dotted path from the root of the document, such as `effects.tire.brush`. The path of a section stands for all
-keys below it. Knows no schema, so that a bag is read without it.
+A key is a dotted path from the root of the document, such as `effects.tire.brush`. The path of a
+section stands for all keys below it. Knows no schema, so that a bag is read without it.
 """
 
 from __future__ import annotations
@@ -12,11 +13,15 @@ from contact_sim_pkg.scene.errors import Fault
 from contact_sim_pkg.scene.yaml.nodes import MappingNode, Mark
 
 RENAMED: dict[str, str] = {"effects.tire.carcass": "effects.tire.rigid_ring"}
-"""Old key -> new key. `docs/interfaces.md` lists them; an entry stays as long as bags with the old key are read."""
+"""Old key -> new key. `docs/interfaces.md` lists them; an entry stays as long as bags with the old
+key are read.
+"""
 
 
 def new_key(path: tuple[str, ...]) -> str:
-    """The key that has taken the place of this one or of a section above it; empty where it was not renamed."""
+    """The key that has taken the place of this one or of a section above it; empty where it was not
+    renamed.
+    """
     for length in range(len(path), 0, -1):
         if (found := RENAMED.get(".".join(path[:length]))) is not None:
             return ".".join([found, *path[length:]])
@@ -29,7 +34,8 @@ def sentence_of(new: str) -> str:
 
 
 def use_new_names(root: MappingNode) -> list[Fault]:
-    """Move every old key of a document to its new place. Returns one fault for each, at the place of the old key.
+    """Move every old key of a document to its new place. Returns one fault for each, at the place
+    of the old key.
 
     Where the new key is given too, its value stays and the old one is dropped.
     """
@@ -48,7 +54,9 @@ def use_new_names(root: MappingNode) -> list[Fault]:
 
 
 def with_new_names(scene: dict[str, Any]) -> dict[str, Any]:
-    """The plain data of a recorded scene with every old key moved to its new place, in the data itself."""
+    """The plain data of a recorded scene with every old key moved to its new place, in the data
+    itself.
+    """
     for old, new in RENAMED.items():
         *parents, name = old.split(".")
         section: Any = scene

@@ -1,7 +1,9 @@
-"""Accuracy to explicit grids and tolerances: the resolved scene, stored in the bag, gives the same bits again.
+"""Accuracy to explicit grids and tolerances: the resolved scene, stored in the bag, gives the same
+bits again.
 
-A resolved scene is itself a scene: the same keys, every default written out, nothing left to be taken from `accuracy`,
-and the checksum of each input file. Reading it back and resolving it once more changes nothing.
+A resolved scene is itself a scene: the same keys, every default written out, nothing left to be
+taken from `accuracy`, and the checksum of each input file. Reading it back and resolving it once
+more changes nothing.
 """
 
 from __future__ import annotations
@@ -30,7 +32,8 @@ __all__ = ["ResolvedScene", "explicit", "load_resolved", "read_explicit", "read_
 
 
 def resolve(scene: Scene) -> ResolvedScene:
-    """Turn accuracy into explicit grids and tolerances, write out every default, take the checksums of input files.
+    """Turn accuracy into explicit grids and tolerances, write out every default, take the checksums
+    of input files.
 
     Raises:
         SceneError: an input file is not there.
@@ -57,13 +60,13 @@ def read_resolved(text: str, files: Mapping[str, str | Path] | None = None, fold
 
     Args:
         text: the YAML text.
-        files: where input files are, by the dotted path of the key; others are looked for from `folder` and in the
-            package.
+        files: where input files are, by the dotted path of the key; others are looked for from
+            `folder` and in the package.
         folder: where relative file names start.
 
     Raises:
-        SceneError: the text is not a valid scene, or leaves something open. Input files are looked for, not
-            required: a bag can be read where they are not; `file_path` asks for them.
+        SceneError: the text is not a valid scene, or leaves something open. Input files are looked
+            for, not required: a bag can be read where they are not; `file_path` asks for them.
     """
     source = "resolved scene"
     document = parse_document(text, source)
@@ -80,7 +83,8 @@ def read_resolved(text: str, files: Mapping[str, str | Path] | None = None, fold
 
 
 def read_explicit(text: str, name: str, overrides: Sequence[Override] = ()) -> dict[str, Any]:
-    """The data of a resolved scene that stands in a bag, with ``overrides`` applied, made explicit and checked again.
+    """The data of a resolved scene that stands in a bag, with ``overrides`` applied, made explicit
+    and checked again.
 
     Keys that were renamed since are read under their new names.
     """
@@ -91,7 +95,9 @@ def read_explicit(text: str, name: str, overrides: Sequence[Override] = ()) -> d
 
 
 def explicit(scene: Scene) -> dict[str, Any]:
-    """The scene as a plain dict with every default and everything that follows from `accuracy` written out."""
+    """The scene as a plain dict with every default and everything that follows from `accuracy`
+    written out.
+    """
     contacts = rigs()[scene.rig].contacts
     absent: dict[str, Any] = {contact.name: {} for contact in contacts if getattr(scene, contact.name) is None}
     whole = Scene.model_validate({**_dump(scene), **absent})  # the schema fills in the defaults

@@ -40,7 +40,8 @@ class _Plain(SimpleNamespace):
 def plain(data: Mapping[str, Any] | None) -> Any:
     """Plain data of a section with its keys as attributes, None where there are none.
 
-    It stands for a section of the schema where a node starts without the schema; the data were checked before.
+    It stands for a section of the schema where a node starts without the schema; the data were
+    checked before.
     """
     if data is None:
         return None
@@ -53,7 +54,8 @@ class ResolvedScene:
 
     Attributes:
         data: plain dict of dicts, lists, texts and numbers, in the keys of the scene schema.
-        files: where each input file was found, by the dotted path of its key; not part of the data and not compared.
+        files: where each input file was found, by the dotted path of its key; not part of the data
+            and not compared.
     """
 
     data: dict[str, Any]
@@ -127,25 +129,33 @@ class ResolvedScene:
         return vibration
 
     def section(self, kind: type[Kind]) -> Kind:
-        """The section of a contact of the rig by its class. Raises KeyError where the rig has none."""
+        """The section of a contact of the rig by its class. Raises KeyError where the rig has
+        none.
+        """
         for contact in rigs()[self.rig].contacts:
             if load(contact.section) is kind:
                 return kind.model_validate(self.data[contact.name])
         raise KeyError(f"the rig {self.rig} has no section {kind.__name__}")
 
     def effect(self, contact: str, kind: type[Kind]) -> Kind | None:
-        """The effect of a contact by the class of its keys, or one below it; None where the scene calls for none."""
+        """The effect of a contact by the class of its keys, or one below it; None where the scene
+        calls for none.
+        """
         return next((keys for _record, keys in self.effects_at(contact) if isinstance(keys, kind)), None)
 
     def effects_at(self, contact: str) -> Iterator[tuple[Effect, Section]]:
-        """Effects that the scene calls for at a contact with their keys, in the order of the records."""
+        """Effects that the scene calls for at a contact with their keys, in the order of the
+        records.
+        """
         named = self.data["effects"].get(contact) or {}
         for record in contacts()[contact].effects:
             if named.get(record.name) is not None:
                 yield record, load(record.section).model_validate(named[record.name])
 
     def without(self, *effects: Effect) -> ResolvedScene:
-        """The scene less some effects, those that need them, and the sections that act through them alone."""
+        """The scene less some effects, those that need them, and the sections that act through them
+        alone.
+        """
         data = copy.deepcopy(self.data)
         for contact in rigs()[self.rig].contacts:
             left_out = [record for record in contact.effects if record in effects]
@@ -170,14 +180,18 @@ class ResolvedScene:
 
     @classmethod
     def from_own_yaml(cls, text: str, files: Mapping[str, str | Path]) -> ResolvedScene:
-        """Read what `to_yaml` wrote in this very run, without checking it again: a node starts without the schema."""
+        """Read what `to_yaml` wrote in this very run, without checking it again: a node starts
+        without the schema.
+        """
         return cls(YAML(typ="safe", pure=True).load(text), {where: Path(path) for where, path in files.items()})
 
     def file_path(self, where: str) -> Path:
-        """The input file of a key (`road.file`, `vibration.file`), its content checked against the checksum.
+        """The input file of a key (`road.file`, `vibration.file`), its content checked against the
+        checksum.
 
         Raises:
-            SceneError: not found, or its content differs from the one that the scene was resolved with.
+            SceneError: not found, or its content differs from the one that the scene was resolved
+                with.
         """
         section = where.split(".")[0]
         name, stated = self.data[section]["file"], self.data[section]["sha256"]

@@ -12,7 +12,9 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class Timing:
-    """How a block is cut: blocks into intervals (field instants), intervals into segments (linear drive) and samples."""
+    """How a block is cut: blocks into intervals (field instants), intervals into segments (linear
+    drive) and samples.
+    """
 
     block_length: float  # [s]
     blocks: int
@@ -34,7 +36,9 @@ class Timing:
 
 
 def make_timing(scene: ResolvedScene, with_field: bool, parts: int = 1) -> Timing:
-    """Cut of a block into segments, at least ``parts`` a sample of the forces; the loader has checked that every rate fits it."""
+    """Cut of a block into segments, at least ``parts`` a sample of the forces; the loader has
+    checked that every rate fits it.
+    """
     length, outputs, shaken = scene.block_length, scene.outputs, scene.vibration
     samples = round(length * outputs.force_rate)
     intervals = round(length * outputs.field_rate) if with_field else 1

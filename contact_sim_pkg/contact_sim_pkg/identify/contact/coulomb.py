@@ -53,7 +53,9 @@ def friction_balance(
 
 
 def _direction(problem: IdentificationProblem, contact: ContactSpan, sides: tuple[Side, Side]) -> tuple[Array, Array]:
-    """Direction of the slip half-way [3], and its derivative [3, 12] by the motion at either end."""
+    """Direction of the slip half-way [3], and its derivative [3, 12] by the motion at either
+    end.
+    """
     before, after = sides[0].state, sides[1].state
     middle = mean(before.rotation, after.rotation)
     reach = arm(problem.shape, problem.ground, middle, contact.point)

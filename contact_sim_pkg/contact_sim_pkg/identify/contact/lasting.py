@@ -1,4 +1,6 @@
-"""Steps of a lasting contact: each interval gives one balance (Identifiability, eq 39 corrected)."""
+"""Steps of a lasting contact: each interval gives one balance (Identifiability, eq 39
+corrected).
+"""
 
 from __future__ import annotations
 

@@ -68,7 +68,9 @@ def classify(
 
 
 def _against(along: Array, slip: Array, deviation: float, push_deviation: float) -> bool:
-    """Whether a tangential impulse lies against a slip, within the noise; that of no friction does."""
+    """Whether a tangential impulse lies against a slip, within the noise; that of no friction
+    does.
+    """
     strength, speed = float(numpy.linalg.norm(along)), float(numpy.linalg.norm(slip))
     if strength == 0.0:
         return True

@@ -37,7 +37,9 @@ class Slide(NamedTuple):
 
 
 def slides_of(problem: IdentificationProblem, parts: Segments) -> list[Slide]:
-    """All runs of two samples or more, in lasting contacts, of slip that never stops or reverses."""
+    """All runs of two samples or more, in lasting contacts, of slip that never stops or
+    reverses.
+    """
     found = []
     for begin, end in parts.contacts:
         if end - begin + 1 <= LONGEST_IMPACT:

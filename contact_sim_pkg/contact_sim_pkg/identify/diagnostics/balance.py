@@ -121,7 +121,9 @@ def lasting_balance(
 
 
 def _of_motion(sign: float, inertia: Array, spin: Array, reach: Array, turning: Array) -> Array:
-    """Derivative [3, 12] by the motion at one end, whose angular momentum and impulse count `sign`."""
+    """Derivative [3, 12] by the motion at one end, whose angular momentum and impulse count
+    `sign`.
+    """
     block = numpy.zeros((3, 12))
     block[:, 3:6] = -sign * cross_matrix(reach)
     block[:, 6:9] = turning + sign * (inertia @ cross_matrix(spin) - cross_matrix(inertia @ spin))

@@ -62,7 +62,9 @@ def _kinds(regressor: Array, with_mass: bool) -> Array:
 
 
 def _separated(regressor: Array, sizes: Array) -> tuple[Array, Array]:
-    """Orthonormal directions that the columns over their `sizes` determine, and the others, rows."""
+    """Orthonormal directions that the columns over their `sizes` determine, and the others,
+    rows.
+    """
     _, values, right = numpy.linalg.svd(regressor / sizes, full_matrices=False)
     silent = right[values <= SMALLEST * float(values.max(initial=0.0))] / sizes
     whole, _ = numpy.linalg.qr(silent.T, mode="complete")

@@ -111,7 +111,9 @@ class Linearised:
         return float(numpy.sqrt(square / freedom)) if freedom else 0.0, freedom
 
     def redundancy(self, contacts: Sequence[int]) -> int:
-        """Equations of these contacts beyond the directions that they add to those of the flights."""
+        """Equations of these contacts beyond the directions that they add to those of the
+        flights.
+        """
         _, regressor, rest = self._whitened(contacts)
         alone, together = (self._split(self._with_flights(part, rest)[0]) for part in (regressor[:0], regressor))
         return len(rest) - (together.rank - alone.rank)
@@ -223,7 +225,9 @@ class Linearised:
 def _balance(
     problem: IdentificationProblem, contact: ContactSpan, sides: tuple[Side, Side], parameters: Array
 ) -> Balance:
-    """What a contact says: of the moment, of the known friction, or of both, one below the other."""
+    """What a contact says: of the moment, of the known friction, or of both, one below the
+    other.
+    """
     parts = []
     if contact.turns:
         known = (*sides, parameters, problem.model, problem.shape, problem.ground, contact.point)

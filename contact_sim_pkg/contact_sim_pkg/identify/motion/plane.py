@@ -36,7 +36,9 @@ def plane_of_motion(states: BodyStates, ground: GroundPlane, noise: SampleNoise)
 
 
 def body_axis(states: BodyStates, axis: Array, noise: SampleNoise) -> Array:
-    """Normal [x, y, z] of the plane in body axes: the mean over all samples; axis: in world axes."""
+    """Normal [x, y, z] of the plane in body axes: the mean over all samples; axis: in world
+    axes.
+    """
     mean = numpy.einsum("nji,j->i", states.rotation, axis)
     return _named(mean / numpy.linalg.norm(mean), SIGMAS * noise.rotation)
 

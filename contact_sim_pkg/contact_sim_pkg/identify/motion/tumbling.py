@@ -28,8 +28,8 @@ SHAPES = numpy.array([  # changes of (xx, yy, zz, xy, xz, yz) that leave the tra
 def tumbling_start(
     states: BodyStates, flights: list[tuple[int, int]], model: FlightModel, noise: SampleNoise, guess: Array
 ) -> Array | None:
-    """Parameters to begin with, [parameters]; None where no body has such an inertia, or no flight is long
-    enough.
+    """Parameters to begin with, [parameters]; None where no body has such an inertia, or no flight
+    is long enough.
 
     Args:
         states: the motion.

@@ -3,9 +3,9 @@ torque say.
 
 What `found` leaves of them is measured minus model, in world axes: small rotations r and spins s.
 Where an angular acceleration a is missing in the model, r and s are `c0 + c1 t + a t^2 / 2` and `c1
-+ a t`, as for position and velocity (`identify/motion/free_fall.py`). Where the spin is recorded 1/k
-times too fast, the rate of r along the spin less s is `(k - 1) w`, whatever the model has made of
-both: in space to first order in k - 1, of a spin whose axis hardly turns within a flight.
++ a t`, as for position and velocity (`identify/motion/free_fall.py`). Where the spin is recorded
+1/k times too fast, the rate of r along the spin less s is `(k - 1) w`, whatever the model has made
+of both: in space to first order in k - 1, of a spin whose axis hardly turns within a flight.
 """
 
 from __future__ import annotations

@@ -74,7 +74,9 @@ def pairs_of(poses: list[int], twists: list[int], topics: tuple[str, str]) -> Pa
 
 
 def _partners(stamps: list[int], others: list[int]) -> list[int | None]:
-    """For each stamp the place of the first other one that is the same, None where there is none."""
+    """For each stamp the place of the first other one that is the same, None where there is
+    none.
+    """
     order = numpy.argsort(numpy.array(others), kind="stable")
     ordered = numpy.array(others)[order]
     near = numpy.clip(numpy.searchsorted(ordered, numpy.array(stamps) - SAME), 0, len(ordered) - 1)

@@ -75,7 +75,9 @@ def integrate(
 
 
 def free_impact(mass: float, elastic: NormalElastic, damping: float | None) -> PointContact:
-    """One mass against a support at rest, without gravity; `damping` [s/m] or None without dissipation."""
+    """One mass against a support at rest, without gravity; `damping` [s/m] or None without
+    dissipation.
+    """
     return PointContact(mass, 0.0, 0.0, 0.0, elastic, None if damping is None else NormalDissipative(damping))
 
 

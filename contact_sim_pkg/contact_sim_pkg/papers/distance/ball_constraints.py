@@ -71,8 +71,8 @@ def gather(body_1: ConvexBody, body_2: ConvexBody, origin: Field, size: float) -
 def put_body(
     found: Constraints, body: ConvexBody, origin: Field, size: float, plane: int, quadric: int, owner: int
 ) -> None:
-    """Write the planes and quadrics of a body from the numbers `plane` and `quadric` on; lengths over
-    `size` [m].
+    """Write the planes and quadrics of a body from the numbers `plane` and `quadric` on; lengths
+    over `size` [m].
     """
     for i in range(body.offsets.size):
         found.offsets[plane + i] = body.offsets[i] / size

@@ -71,8 +71,8 @@ def winkler_at_approach(
 def winkler_at_load(
     gap: Field, stiffness: float, cell_x: float, cell_y: float, load: float, pressure: Field
 ) -> WinklerResult:
-    """Pressure field that carries a load [N]; for load <= 0 zeros and the approach of first contact.
-    Rest as before.
+    """Pressure field that carries a load [N]; for load <= 0 zeros and the approach of first
+    contact. Rest as before.
     """
     _refuse(gap, stiffness, cell_x, cell_y, load, "load [N]", pressure)
     cell = float(cell_x * cell_y)

@@ -1,4 +1,6 @@
-"""Pictures that lay several runs of one rig over each other: forces over time, loops, area, slaps."""
+"""Pictures that lay several runs of one rig over each other: forces over time, loops, area,
+slaps.
+"""
 
 from __future__ import annotations
 

@@ -48,8 +48,8 @@ def differences(scenes: Sequence[dict[str, Any]]) -> list[Difference]:
 
 
 def labels(recordings: Sequence[Recording]) -> Labels:
-    """The first value that alone distinguishes all runs; else all of them together, if few; else the
-    names of the bags.
+    """The first value that alone distinguishes all runs; else all of them together, if few; else
+    the names of the bags.
     """
     found = differences([each.scene for each in recordings])
     for each in found:

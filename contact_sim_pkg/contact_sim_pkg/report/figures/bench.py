@@ -50,7 +50,8 @@ def real_time_factor(cost: CostSeries) -> Picture:
     axes[0].set_xlabel("simulated time, s")
     axes[0].set_ylabel("real-time factor\nof the physics")
     milliseconds = cost["wall_time"] * 1e3
-    # The slowest hundredth is counted in the last bin, so that one slow first block does not squeeze the rest.
+    # The slowest hundredth is counted in the last bin, so that one slow first block does not
+    # squeeze the rest.
     limit = float(np.percentile(milliseconds, 99.0)) * 1.1
     axes[1].hist(np.minimum(milliseconds, limit), bins=40, color=ACCENT)
     axes[1].set_xlabel("wall time of a block, ms")

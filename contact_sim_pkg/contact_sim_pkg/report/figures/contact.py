@@ -110,8 +110,8 @@ def force_unit(contact: ContactSeries) -> tuple[str, float]:
 
 
 def load_over_approach(key: str, name: str, contact: ContactSeries) -> Picture | None:
-    """Load-deflection curve of the whole run; its opening is the dissipation. None where nothing yields:
-    the contact is rigid.
+    """Load-deflection curve of the whole run; its opening is the dissipation. None where nothing
+    yields: the contact is rigid.
     """
     if contact.approach.max() <= LEAST_APPROACH:
         return None

@@ -17,7 +17,9 @@ from contact_sim_pkg.report.drawing import INK, MUTED, WIDTH
 from contact_sim_pkg.report.series import FloatArray, PressureMap
 
 FAR_HIGHER = 1.5
-"""A colour scale leaves out a few values if the largest is that many times what the others reach."""
+"""A colour scale leaves out a few values if the largest is that many times what the others
+reach.
+"""
 SURFACE_LINES = 64
 """Most lines of a surface picture in each direction."""
 
@@ -72,7 +74,9 @@ def robust_limits(values: FloatArray, few: float) -> Normalize:
 
 
 def extension(values: FloatArray, limits: Normalize) -> str:
-    """End of the colour bar of values [rows, cols]: with an arrow where some lie above its limits."""
+    """End of the colour bar of values [rows, cols]: with an arrow where some lie above its
+    limits.
+    """
     return "max" if limits.vmax is not None and np.any(values > limits.vmax) else "neither"
 
 

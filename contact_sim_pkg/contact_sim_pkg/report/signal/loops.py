@@ -75,7 +75,9 @@ def steady_start(end: float, period: float | None, cycles: int = LAST_CYCLES) ->
 
 
 def normal_loop(contact: ContactSeries) -> Loop:
-    """Normal force of the whole contact over the approach of its deepest point, at the full rate."""
+    """Normal force of the whole contact over the approach of its deepest point, at the full
+    rate.
+    """
     return Loop(contact.time, contact.approach, contact.normal)
 
 

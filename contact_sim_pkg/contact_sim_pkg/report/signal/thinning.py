@@ -12,7 +12,9 @@ from numpy.typing import NDArray
 
 FloatArray = NDArray[np.float64]
 Reduction = Callable[..., Any]
-"""`numpy.mean`, `numpy.min` or `numpy.max`: what becomes of a group of rows, called with `axis=0`."""
+"""`numpy.mean`, `numpy.min` or `numpy.max`: what becomes of a group of rows, called with
+`axis=0`.
+"""
 
 
 class ThinnedRows:

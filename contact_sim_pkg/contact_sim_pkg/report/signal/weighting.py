@@ -21,7 +21,9 @@ import scipy.fft
 from numpy.typing import NDArray
 
 PADDING_TIME = 10.0
-"""[s] of zeros behind a signal: the response of the 0.4 Hz high-pass has died out to e^-17 by then."""
+"""[s] of zeros behind a signal: the response of the 0.4 Hz high-pass has died out to e^-17 by
+then.
+"""
 
 
 class UpwardStep(NamedTuple):

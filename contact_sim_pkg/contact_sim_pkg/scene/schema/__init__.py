@@ -1,1 +1,3 @@
-"""The scene as a schema: keys with type, unit, range, default and meaning, and the rules between them."""
+"""The scene as a schema: keys with type, unit, range, default and meaning, and the rules between
+them.
+"""

@@ -1,7 +1,8 @@
-"""What a requested accuracy stands for: fidelity levels of pressure fields, tolerances of the time integration.
+"""What a requested accuracy stands for: fidelity levels of pressure fields, tolerances of the time
+integration.
 
-The figures behind the levels are those of `bench accuracy`, which measures each of them against a reference on the
-user's machine. The grids of a contact lie with its keys.
+The figures behind the levels are those of `bench accuracy`, which measures each of them against a
+reference on the user's machine. The grids of a contact lie with its keys.
 """
 
 from __future__ import annotations

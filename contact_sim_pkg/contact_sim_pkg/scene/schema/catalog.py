@@ -1,4 +1,6 @@
-"""Every key of the scene schema as a flat table: for fault sentences, suggestions and `docs/scenes.md`."""
+"""Every key of the scene schema as a flat table: for fault sentences, suggestions and
+`docs/scenes.md`.
+"""
 
 from __future__ import annotations
 
@@ -68,7 +70,9 @@ def catalog() -> dict[Location, Entry]:
 
 
 def entry_of(location: tuple[str | int, ...]) -> Entry | None:
-    """The key that a pydantic error location lies in; items of lists and members of unions belong to their key."""
+    """The key that a pydantic error location lies in; items of lists and members of unions belong
+    to their key.
+    """
     table, names = catalog(), tuple(part for part in location if isinstance(part, str))
     for length in range(len(names), 0, -1):
         if names[:length] in table:
@@ -77,7 +81,9 @@ def entry_of(location: tuple[str | int, ...]) -> Entry | None:
 
 
 def without_kinds(location: tuple[str | int, ...]) -> tuple[str | int, ...]:
-    """The location as a path in the document: pydantic puts the kind of a section behind its name."""
+    """The location as a path in the document: pydantic puts the kind of a section behind its
+    name.
+    """
     entry = catalog().get((str(location[0]),)) if location else None
     if entry is not None and entry.kind == "kinds" and len(location) > 1 and location[1] in entry.words:
         return (location[0], *location[2:])

@@ -1,7 +1,9 @@
-"""Times that must fit together: blocks in the duration, samples in a block, all in whole nanoseconds.
+"""Times that must fit together: blocks in the duration, samples in a block, all in whole
+nanoseconds.
 
-Decimal fractions are taken as they are written (0.01 is 1/100), so nothing hangs on rounding. A duration may be the sum of floats,
-such as 0.47000000000000003: it is taken as the whole number of blocks that it is meant to be.
+Decimal fractions are taken as they are written (0.01 is 1/100), so nothing hangs on rounding. A
+duration may be the sum of floats, such as 0.47000000000000003: it is taken as the whole number of
+blocks that it is meant to be.
 """
 
 from __future__ import annotations
@@ -39,7 +41,9 @@ def whole_duration(scene: Scene) -> float:
 
 
 def _blocks(scene: Scene) -> Fraction:
-    """Blocks in the duration: a whole number, unless the duration is further than ROUNDED from it."""
+    """Blocks in the duration: a whole number, unless the duration is further than ROUNDED from
+    it.
+    """
     blocks = exact(scene.duration) / exact(scene.block_length)
     whole = round(blocks)
     return Fraction(whole) if abs(blocks - whole) <= ROUNDED * whole else blocks

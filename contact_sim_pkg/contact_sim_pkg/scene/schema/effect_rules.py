@@ -1,4 +1,6 @@
-"""Rules between effects: which a contact offers, what each needs, which exclude each other, by their records."""
+"""Rules between effects: which a contact offers, what each needs, which exclude each other, by
+their records.
+"""
 
 from __future__ import annotations
 
@@ -12,7 +14,9 @@ from contact_sim_pkg.scene.schema.scene import Scene
 
 
 def effect_breaches(scene: Scene) -> Iterator[Breach]:
-    """Contacts that the rig lacks or leaves without elastic force; effects without what they need, or that exclude."""
+    """Contacts that the rig lacks or leaves without elastic force; effects without what they need,
+    or that exclude.
+    """
     own = rigs()[scene.rig].contacts
     for contact in contacts().values():
         where, name = f"effects.{contact.name}", contact.name

@@ -1,4 +1,6 @@
-"""Building stones of the scene schema: a section, and fields with unit, range, default and one line of help."""
+"""Building stones of the scene schema: a section, and fields with unit, range, default and one line
+of help.
+"""
 
 from __future__ import annotations
 
@@ -11,7 +13,9 @@ from pydantic_core import PydanticCustomError
 Value = TypeVar("Value")
 
 LEAST = 1e-30
-"""In size, of any number but 0: squares and quotients of smaller ones leave the range of 64-bit numbers."""
+"""In size, of any number but 0: squares and quotients of smaller ones leave the range of 64-bit
+numbers.
+"""
 
 TOO_NEAR_ZERO = "too_near_zero"
 """The fault of a smaller one."""
@@ -23,7 +27,9 @@ class Section(BaseModel):
     model_config = ConfigDict(strict=True, extra="forbid", frozen=True, allow_inf_nan=False, defer_build=True)
 
     def open_values(self, scene: Any) -> dict[str, Any]:
-        """Values of the keys that a `scene.Scene` leaves open, where they follow from other keys or from `accuracy`."""
+        """Values of the keys that a `scene.Scene` leaves open, where they follow from other keys or
+        from `accuracy`.
+        """
         return {}
 
     @field_validator("*")

@@ -6,7 +6,9 @@ from contact_sim_pkg.scene.schema.fields import Section, number
 
 
 class Outputs(Section):
-    """How often each kind of output is written; each rate gives a whole number of samples a block."""
+    """How often each kind of output is written; each rate gives a whole number of samples a
+    block.
+    """
 
     force_rate: float = number(1.0, 1e6, "Hz", "forces and motions, one message a block", default=1000.0)
     display_rate: float = number(1.0, 1e4, "Hz", "wrenches and scalars for plotters", default=100.0)

@@ -45,7 +45,9 @@ def _hunt_crossley(where: str, dissipative: HuntCrossley) -> Iterator[Breach]:
 
 
 def _general(where: str, general: GeneralDissipation, friction: FrictionSection | None) -> Iterator[Breach]:
-    """The general law takes a coefficient or a restitution, and may pull only where nothing rubs."""
+    """The general law takes a coefficient or a restitution, and may pull only where nothing
+    rubs.
+    """
     place = f"{where}.general_dissipative"
     if general.coefficient is not None and general.restitution is not None:
         sentence = "coefficient and restitution are both given; keep one"
@@ -62,7 +64,9 @@ def _general(where: str, general: GeneralDissipation, friction: FrictionSection 
 
 
 def _foam(where: str, foam: Foam, general: GeneralDissipation | None) -> Iterator[Breach]:
-    """Foam begins stiffer than its plateau; the general law's restitution is known for power laws only."""
+    """Foam begins stiffer than its plateau; the general law's restitution is known for power laws
+    only.
+    """
     if not foam.modulus > foam.plateau:
         sentence = f"{show(foam.modulus)} Pa is not above plateau ({show(foam.plateau)} Pa)"
         yield Breach(f"{where}.foam.modulus", sentence, (f"{where}.foam.plateau",))

@@ -21,7 +21,9 @@ class PowerLaw(Section):
 
 
 class HuntCrossley(Section):
-    """Hunt-Crossley dissipation: elastic force · (1 + damping · approach rate), never pulling; or `restitution` at a speed."""
+    """Hunt-Crossley dissipation: elastic force · (1 + damping · approach rate), never pulling; or
+    `restitution` at a speed.
+    """
 
     usual_damping: ClassVar[float]
     """[s/m] where a scene names neither damping nor restitution."""
@@ -39,7 +41,9 @@ class HuntCrossley(Section):
 
 
 class Foam(Section):
-    """Foam block under an even load, with plateau and densification; its force takes the place of that of normal_elastic."""
+    """Foam block under an even load, with plateau and densification; its force takes the place of
+    that of normal_elastic.
+    """
 
     area: float = number(1e-3, 10.0, "m^2", "loaded area; under an occupant 0.10 to 0.15", default=0.12)
     thickness: float = number(0.005, 2.0, "m", "thickness of the unloaded block", default=0.08)
@@ -56,18 +60,23 @@ class Foam(Section):
 
 
 class FoamHysteresisSection(Section):
-    """Dissipation without rate: the force is the elastic one times 1 + share · z, z between -1 and 1 follows the loading."""
+    """Dissipation without rate: the force is the elastic one times 1 + share · z, z between -1 and
+    1 follows the loading.
+    """
 
     share: float = number(0.0, 0.9, "", "s; a long loading dissipates 2 s/(1 + s): 21 % by default", default=0.12)
     energy: float = number(1e-6, 1e6, "J", "u₀, stored energy of a reversal (choice)", above=True, default=1.0)
 
 
 class GeneralDissipation(Section):
-    """General law: elastic force + coefficient · approach^approach_exponent · sgn(rate) |rate|^rate_exponent; in place of
-    normal_dissipative. Exponents 0 and 1 are a plain damper, the elastic exponent and 1 Hunt-Crossley, 0.5 and 1 Kuwabara-Kono."""
+    """General law: elastic force + coefficient · approach^approach_exponent · sgn(rate)
+    |rate|^rate_exponent; in place of normal_dissipative. Exponents 0 and 1 are a plain damper, the
+    elastic exponent and 1 Hunt-Crossley, 0.5 and 1 Kuwabara-Kono."""
 
     usual_coefficient: ClassVar[float] = 2.73e5
-    """Where a scene names neither coefficient nor restitution: the elastic one times damping, by default."""
+    """Where a scene names neither coefficient nor restitution: the elastic one times damping, by
+    default.
+    """
 
     coefficient: float | None = number(
         0.0, 1e12, "N/m^p/(m/s)^q", "B; 2.73e5 by default: with the default exponents 500 N s/m at 498 N",
@@ -96,7 +105,9 @@ class GeneralDissipation(Section):
 
 
 class FrictionSection(Section):
-    """Friction at a contact that deforms: a spring and damper that sticks, up to the Coulomb limit."""
+    """Friction at a contact that deforms: a spring and damper that sticks, up to the Coulomb
+    limit.
+    """
 
     coefficient_static: float = number(0.0, 5.0, "", "static friction; cloth 0.3 to 0.6", above=True, default=0.4)
     coefficient_kinetic: float = number(

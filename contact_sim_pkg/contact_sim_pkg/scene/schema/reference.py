@@ -1,6 +1,7 @@
 """The tables of `docs/scenes.md`: every key of the schema with unit, range, default and meaning.
 
-`python -m contact_sim_pkg.scene.schema.reference docs/scenes.md` writes them between the two marks of that file.
+`python -m contact_sim_pkg.scene.schema.reference docs/scenes.md` writes them between the two marks
+of that file.
 """
 
 from __future__ import annotations

@@ -1,4 +1,6 @@
-"""Roads of a scene: flat, ISO 8608, single obstacles, OpenCRG files; and the speed programme on them."""
+"""Roads of a scene: flat, ISO 8608, single obstacles, OpenCRG files; and the speed programme on
+them.
+"""
 
 from __future__ import annotations
 
@@ -20,7 +22,9 @@ PERIOD_HELP = "distance to the next equal obstacle; without it there is one"
 
 
 class TravelSection(Section):
-    """How fast the wheel rolls: `speed`, or `points` of a piecewise linear speed; one of the two."""
+    """How fast the wheel rolls: `speed`, or `points` of a piecewise linear speed; one of the
+    two.
+    """
 
     speed: float | None = number(0.0, 100.0, "m/s", "constant speed", default=None)
     points: list[SpeedPoint] | None = numbers(
@@ -34,7 +38,9 @@ class TravelSection(Section):
 
 
 class Slip(Section):
-    """Slip of the rolling tire over time, for the effect `brush`: constant values, or `points` straight between them."""
+    """Slip of the rolling tire over time, for the effect `brush`: constant values, or `points`
+    straight between them.
+    """
 
     longitudinal: float | None = number(
         -1.0,
@@ -63,7 +69,9 @@ class FlatRoadSection(Section):
 
 
 class TextureSection(Section):
-    """Fine surface below the shortest wavelength of an ISO 8608 profile, equal in all directions."""
+    """Fine surface below the shortest wavelength of an ISO 8608 profile, equal in all
+    directions.
+    """
 
     shortest_wavelength: float = number(
         0.001,
@@ -75,7 +83,9 @@ class TextureSection(Section):
 
 
 class Iso8608RoadSection(Section):
-    """Random road with the spectrum G(n) = roughness (n / 0.1 c/m)^-exponent; `roughness_class` or `roughness`."""
+    """Random road with the spectrum G(n) = roughness (n / 0.1 c/m)^-exponent; `roughness_class` or
+    `roughness`.
+    """
 
     kind: Literal["iso8608"]
     roughness_class: RoughnessClass | None = choice("ISO 8608 class, taken at its geometric mean", default=None)
@@ -129,7 +139,9 @@ class StepRoad(Section):
 
 
 class PotholeRoad(Section):
-    """A hole across the road. A wheel of radius r drops at most r - √(r² - (length/2)²), whatever the depth."""
+    """A hole across the road. A wheel of radius r drops at most r - √(r² - (length/2)²), whatever
+    the depth.
+    """
 
     kind: Literal["pothole"]
     position: float = number(-1e6, 1e6, "m", POSITION_HELP, example=3.0)

@@ -26,7 +26,9 @@ SAMPLES_OF_A_SHOCK = 10
 
 
 def breaches(scene: Scene) -> Iterator[Breach]:
-    """All breaches of rules between keys, those of the contacts included; rules between effects are in `effect_rules`."""
+    """All breaches of rules between keys, those of the contacts included; rules between effects are
+    in `effect_rules`.
+    """
     of_contacts = (load(rule)(scene) for contact in rigs()[scene.rig].contacts for rule in contact.rules)
     return chain(
         _sections(scene),

@@ -1,7 +1,7 @@
 """The scene: every key with its type, unit, range, default and meaning.
 
-The sections and effects of the contacts come from the records of the rigs; this module knows none by
-name. `docs/scenes.md` is made from here.
+The sections and effects of the contacts come from the records of the rigs; this module knows none
+by name. `docs/scenes.md` is made from here.
 """
 
 from __future__ import annotations
@@ -71,7 +71,9 @@ class _Scene(Section):
 
     @property
     def file(self) -> str:
-        """Path of the file that the scene was read from; its folder is where relative file names start."""
+        """Path of the file that the scene was read from; its folder is where relative file names
+        start.
+        """
         return self._file
 
     def section(self, kind: type[Kind]) -> Kind:
@@ -80,7 +82,9 @@ class _Scene(Section):
         return next((each for each in found if isinstance(each, kind)), None) or kind()
 
     def effect(self, contact: str, kind: type[Kind]) -> Kind | None:
-        """The effect of a contact by the class of its keys; None where the scene does not call for it."""
+        """The effect of a contact by the class of its keys; None where the scene does not call for
+        it.
+        """
         named = getattr(self.effects, contact)  # type: ignore[attr-defined]
         return next((each for _name, each in named or () if isinstance(each, kind)), None)
 

@@ -37,8 +37,8 @@ def validate(root: MappingNode, file: str, known: Iterable[Fault] = (), rules: I
         rules: what must hold between keys.
 
     Raises:
-        SceneError: with all faults. A key with a fault of its own takes no part in the rules. A key that was renamed is
-            one of them; its value is checked under the new name.
+        SceneError: with all faults. A key with a fault of its own takes no part in the rules. A key
+            that was renamed is one of them; its value is checked under the new name.
     """
     validator = _Validator(root, [*known, *use_new_names(root)])
     scene = validator.types()
@@ -60,7 +60,9 @@ class _Validator:
         self._taken = {(fault.file, fault.line, fault.column, fault.where) for fault in faults}
 
     def types(self) -> Scene | None:
-        """The scene, faulty keys replaced by their defaults or examples so that rules can still look at the rest."""
+        """The scene, faulty keys replaced by their defaults or examples so that rules can still
+        look at the rest.
+        """
         plain = to_plain(self._root)
         for _ in range(MOST_ROUNDS):
             try:

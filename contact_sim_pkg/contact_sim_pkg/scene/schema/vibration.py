@@ -47,7 +47,9 @@ class SineSection(Section):
 
 
 class SweepSection(Section):
-    """A sine of rising or falling frequency, logarithmic in time; `octaves_per_minute` or `duration`."""
+    """A sine of rising or falling frequency, logarithmic in time; `octaves_per_minute` or
+    `duration`.
+    """
 
     kind: Literal["sweep"]
     start_frequency: float = _frequency("frequency at the start", 0.5)
@@ -91,9 +93,11 @@ AccelerationUnit: TypeAlias = Literal["m/s^2", "g", "mg"]
 
 
 class RecordedSection(Section):
-    """A recorded acceleration (CSV), its mean (gravity, bias) taken off; give `rate` or `time_column`.
+    """A recorded acceleration (CSV), its mean (gravity, bias) taken off; give `rate` or
+    `time_column`.
 
-    An axis that moves nothing in the scene (upwards at a seat back, forward under a seat without friction) needs no column.
+    An axis that moves nothing in the scene (upwards at a seat back, forward under a seat without
+    friction) needs no column.
     """
 
     kind: Literal["recorded"]

@@ -9,7 +9,9 @@ from contact_sim_pkg.scene.errors import Fault, SceneError
 from contact_sim_pkg.scene.yaml.nodes import ListNode, MappingNode, Mark, Node, ScalarNode, read_scalar
 
 MOST_VALUES = 10_000
-"""Most keys, values and containers of a scene file, aliases counted with all that they stand for."""
+"""Most keys, values and containers of a scene file, aliases counted with all that they stand
+for.
+"""
 DEEPEST_NESTING = 20
 """Deepest nesting of lists and mappings."""
 MOST_ALIASES = 32
@@ -20,7 +22,9 @@ class Composer:
     """Builds nodes from parser events; counts and limits while doing so."""
 
     def __init__(self, start: Mark, faults: list[Fault], plain: bool = False, most_values: int = MOST_VALUES) -> None:
-        """Args: `plain`: null is a value, and no scene is spoken of; `most_values`: limit in place of `MOST_VALUES`."""
+        """Args: `plain`: null is a value, and no scene is spoken of; `most_values`: limit in place
+        of `MOST_VALUES`.
+        """
         self.root: Node | None = None
         self._plain, self._most_values = plain, most_values
         self._subject = "text" if plain else "scene"

@@ -94,7 +94,8 @@ def parse_value(text: str, option: str) -> Node:
 
 
 def parse_plain(text: str, source: str, most_values: int = MOST_VALUES) -> Any:
-    """Plain data from any YAML text from outside, within the limits of a scene but that of its lines; null is a value.
+    """Plain data from any YAML text from outside, within the limits of a scene but that of its
+    lines; null is a value.
 
     Raises:
         SceneError: as `read_document`, with `source` as the file's name.

@@ -94,7 +94,9 @@ def punch() -> Finding:
 
 
 def white_noise() -> Finding:
-    """No cell knows its neighbour; the rim stays free, so that the status is the same everywhere."""
+    """No cell knows its neighbour; the rim stays free, so that the status is the same
+    everywhere.
+    """
     gap = numpy.full((SIDE, SIDE), 1.0)
     gap[1:-1, 1:-1] = 1e-3 * numpy.random.default_rng(6).standard_normal((SIDE - 2, SIDE - 2))
     return at_most(worst_error(gap, 1e-3), 1e-6)

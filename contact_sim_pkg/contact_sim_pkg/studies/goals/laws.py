@@ -96,8 +96,8 @@ def _many(
 
 
 def impacts() -> list[Measured]:
-    """Worst error of the restitution over five damping numbers, and the median time of an impact, at the
-    tolerance that is enough.
+    """Worst error of the restitution over five damping numbers, and the median time of an impact,
+    at the tolerance that is enough.
     """
     found = []
     for requested, most in ((1e-6, 6.0), (1e-9, 25.0)):
@@ -157,8 +157,8 @@ def stick_slip() -> list[Measured]:
 
 
 def absent_effect() -> list[Measured]:
-    """The rig with the dissipation left out, beside the same rig written by hand without it: at most 2 %
-    or 1 ns a step.
+    """The rig with the dissipation left out, beside the same rig written by hand without it: at
+    most 2 % or 1 ns a step.
     """
     with_effect, absent, by_hand = absent_effect_cost()
     allowed = max(2.0, 100.0 / by_hand)

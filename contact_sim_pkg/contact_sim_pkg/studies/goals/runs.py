@@ -31,7 +31,8 @@ def on_nodes() -> list[Measured]:
         for number in range(RUNS + 1):
             command = [sys.executable, "-m", "contact_sim_pkg.cli.main", "run", SCENE, "--pace", "max", "--json"]
             command += ["--out", str(Path(folder) / str(number))]
-            # away from the checkout, whose folder of message files has the name of the package made from them
+            # away from the checkout, whose folder of message files has the name of the package made
+            # from them
             done = subprocess.run(command, cwd=folder, capture_output=True, text=True, timeout=LONGEST, check=False)
             if done.returncode != 0:
                 note = (done.stderr.strip().splitlines() or ["no reason given"])[-1]

@@ -1,4 +1,6 @@
-"""Hard cases of foam: no indentation, tiny and crushing loads, and the energy that it dissipates."""
+"""Hard cases of foam: no indentation, tiny and crushing loads, and the energy that it
+dissipates.
+"""
 
 from __future__ import annotations
 
@@ -48,8 +50,8 @@ def inverse() -> Finding:
 
 
 def dissipation_is_never_negative() -> Finding:
-    """Least rate of dissipation over the loading's power, over z and both directions: (F - F_el) x' less
-    the rate of what is stored.
+    """Least rate of dissipation over the loading's power, over z and both directions: (F - F_el) x'
+    less the rate of what is stored.
     """
     least = math.inf
     for z in numpy.linspace(-1.0, 1.0, 41):

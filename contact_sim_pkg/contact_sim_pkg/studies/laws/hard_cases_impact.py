@@ -25,8 +25,8 @@ PHASES = 20
 
 
 def restitution_found(damping: float, tolerance: float, gap: float, law: NormalElastic = LAW) -> float:
-    """Ratio of the speeds after and before a free impact with `damping` d = damping times v0, started `gap`
-    [m] above.
+    """Ratio of the speeds after and before a free impact with `damping` d = damping times v0,
+    started `gap` [m] above.
     """
     rig = free_impact(MASS, law, damping / SPEED)
     depth = impact.deepest_approach(MASS, SPEED, law.coefficient, law.exponent, damping / SPEED)
@@ -210,8 +210,8 @@ def thousand_bounces() -> Finding:
 
 
 def energy_never_rises() -> Finding:
-    """Largest rise of the energy between samples with dissipation, relative to the start: at most 10
-    tolerances.
+    """Largest rise of the energy between samples with dissipation, relative to the start: at most
+    10 tolerances.
     """
     rig, start = _dropped()
     times = numpy.linspace(0.0, 5.0, 5001, dtype=numpy.float64)

@@ -1,5 +1,5 @@
-"""Published formulas for the Hunt-Crossley damping that delivers a requested restitution: `d = damping
-v0` from e, each as printed.
+"""Published formulas for the Hunt-Crossley damping that delivers a requested restitution: `d =
+damping v0` from e, each as printed.
 
 None is exact; what each really gives is in `bench accuracy seat`, part "restitution from B". The
 exact relation is `d (1 + e) = ln[(1 + d)/(1 - d e)]` (`laws/restitution.py`).

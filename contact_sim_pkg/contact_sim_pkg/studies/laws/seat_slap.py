@@ -41,7 +41,9 @@ class SlapCost(NamedTuple):
 
 
 def own_work() -> list[SlapCost]:
-    """Our runs, tolerance 1e-4 to 1e-12; error against scipy's DOP853 at 3e-14 from event to event."""
+    """Our runs, tolerance 1e-4 to 1e-12; error against scipy's DOP853 at 3e-14 from event to
+    event.
+    """
     rig, start, scales = one_mass.seat_slap()
     exact, times = _exact(rig, start), numpy.array([0.0, END])
     found = []

@@ -1,10 +1,10 @@
-"""Work-precision study of the restitution: what a free impact gives back when the dissipation is set by
-each formula for a requested restitution.
+"""Work-precision study of the restitution: what a free impact gives back when the dissipation is
+set by each formula for a requested restitution.
 
 Hunt-Crossley by five published formulas and by the exact relation; a linear spring and damper by
 the formula that lets the contact pull and by the one that does not; the viscoelastic sphere
-(Kuwabara and Kono) by Hunt-Crossley's dissipation at the depth of the elastic impact, and by the root of
-e(Z). Every value is a free impact integrated by the bench's own kernels.
+(Kuwabara and Kono) by Hunt-Crossley's dissipation at the depth of the elastic impact, and by the
+root of e(Z). Every value is a free impact integrated by the bench's own kernels.
 """
 
 from __future__ import annotations
