@@ -28,10 +28,8 @@ SEPARATE = 0
 STICK = 1
 SLIDE = 2  # keeps the direction of slip it came with
 REVERSE = 3  # slip stopped and started the other way
-MODE_NAMES = {SEPARATE: "separate", STICK: "stick", SLIDE: "slide", REVERSE: "reverse"}
 
 # Flags, added up: what a caller may want to know about a solved contact.
 UNIQUE = 0
 # the impulses share the load in more than one way; the one of least norm is returned
 SPLIT_NOT_UNIQUE = 1
-JAM = 2  # Painleve: sliding on would push the bodies into each other; the slip stops at once

@@ -49,7 +49,7 @@ def test_a_point_is_named_by_what_was_asked_and_by_no_grid_that_is_not_there(axe
 
 def test_every_part_of_a_block_s_study_has_a_panel():
     drawn = {part.part for part in parts_of_rigs()}
-    assert {"scheme in time", "turning on held contacts", "friction cone", "contact model"} <= drawn
+    assert {"scheme in time", "turning on active contacts", "friction cone", "contact model"} <= drawn
 
 
 @pytest.mark.parametrize("rows", [[], [row(math.nan)], [row(0.0)], [row(0.0), row(0.0, part="friction cone")]])

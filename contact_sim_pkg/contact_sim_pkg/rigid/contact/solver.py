@@ -27,7 +27,6 @@ from contact_sim_pkg.rigid.results import CONTACT_NOT_FINITE, NOT_CONVERGED, SOL
 
 MODES, GAUSS_SEIDEL, LEMKE, NEWTON = 0, 1, 2, 3
 REFINE = 4  # Newton's method alone, from the impulses that are given
-SOLVER_NAMES = {"modes": MODES, "gauss_seidel": GAUSS_SEIDEL, "lemke": LEMKE, "newton": NEWTON}
 START_FACETS = 8  # of the polyhedral cone from which Newton's method starts on the true one
 TURNS = 30  # times the facets are turned to the slip where Newton's method alone does not settle
 SWEEPS = 20  # of Gauss-Seidel unless specified

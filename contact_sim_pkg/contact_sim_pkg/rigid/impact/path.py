@@ -30,7 +30,6 @@ from contact_sim_pkg.rigid.results import NOT_CONVERGED, SOLVED
 
 ANGLE, LOG_SLIP, NORMAL, WORK, IMPULSE, FIRST, SECOND, STATES = 0, 1, 2, 3, 4, 5, 6, 7
 COMPRESSION, RESTITUTION, STOPPED, ENDED = 0, 1, 2, 3  # phases
-PHASE, WANTED = 0, 1
 STOPPED_SLIP = 34.0  # slip of exp(-34) = 2e-15 of the impact speed counts as none
 TOLERANCE = 1.0e-13
 LONGEST = 1.0e15  # of tau, in units of 1/A_nn

@@ -16,8 +16,7 @@ from contact_sim_pkg.rigid.results import REVERSE, SEPARATE, SLIDE, STICK
 
 __all__ = ["contact_modes", "energetic_impulse", "impact_impulse", "planar_impact"]
 
-# sign of the friction impulse, 0 while the point sticks
-FORWARD, BACKWARD, STICKING = 1.0, -1.0, 0.0
+STICKING = 0.0  # in place of the sign of the friction impulse
 
 
 @kernel

@@ -107,12 +107,6 @@ def _advance(
 
 
 @entry
-def look_at(rig: CompliantBody, state: Vector) -> None:
-    """Motion, gaps and point velocities of a ``state`` [states], into the rig's arrays."""
-    update_contacts(rig, state)
-
-
-@entry
 def _stored(rig: CompliantBody, state: Vector) -> tuple[float, float]:
     return stored_energy(rig, state)
 

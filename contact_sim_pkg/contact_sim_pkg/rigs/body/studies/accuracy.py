@@ -36,7 +36,7 @@ __all__ = ["ACCURACY",
 ]  # fmt: skip
 
 SCHEME_PART, CONE_PART, COMPLIANT_PART, TURN_PART = (
-    "scheme in time", "friction cone", "contact model", "turning on held contacts",
+    "scheme in time", "friction cone", "contact model", "turning on active contacts",
 )  # fmt: skip
 TOLERANCES = (1e-3, 1e-4, 1e-6, 1e-8, 1e-10, 1e-12)
 LONGEST = 1.0  # [s] of the scene
@@ -87,7 +87,7 @@ def turn_rows(_scene_name: str, scene: ResolvedScene, notify: Notify) -> list[Ro
         return []
     rows: list[Row] = []
     for tolerance in sorted({*TOLERANCES, float(scene.data["integrator"]["relative_tolerance"])}, reverse=True):
-        notify(f"turning on held contacts: tolerance {tolerance:g}")
+        notify(f"turning on active contacts: tolerance {tolerance:g}")
         try:
             error = tip_error(case, tolerance)
         except ArithmeticError as failure:
@@ -115,14 +115,14 @@ def contact_rows(_scene_name: str, scene: ResolvedScene, notify: Notify) -> list
 
 
 def _compared(
-    part: str, rung: str, reference: str, way: BlockModel, scene: ResolvedScene, exact: tuple[Vector, Vector], notify: Notify
+    part: str, level: str, reference: str, way: BlockModel, scene: ResolvedScene, exact: tuple[Vector, Vector], notify: Notify
 ) -> list[Row]:  # fmt: skip
     try:
         found, cost = _path(way, scene)
     except RunError as error:
-        notify(f"{part}: {rung} has no answer: {error}")
+        notify(f"{part}: {level} has no answer: {error}")
         return []
-    return _rows(part, rung, cost, reference, found, exact, way)
+    return _rows(part, level, cost, reference, found, exact, way)
 
 
 def _rigid(scene: ResolvedScene) -> BlockModel:
@@ -155,13 +155,14 @@ def _positions(model: BlockModel, motion: Motion, ticks: int) -> Iterator[Vector
 
 
 def _rows(
-    part: str, rung: str, cost: float, reference: str, found: tuple[Vector, Vector], exact: tuple[Vector, Vector], model: BlockModel
+    part: str, level: str, cost: float, reference: str, found: tuple[Vector, Vector], exact: tuple[Vector, Vector],
+    model: BlockModel,
 ) -> list[Row]:  # fmt: skip
     points = numpy.linalg.norm(model.body.points, axis=1)
     apart = numpy.linalg.norm(found[0] - exact[0], axis=1) / (points.max() + model.body.radius)
     values = {"path": apart.max(), "end": apart[-1], "turn": _angle(found[1].T @ exact[1])}
     head = {
-        "part": part, "level": rung, "grid": "", "tolerance": None, "reference": reference, "ms_per_simulated_s": cost
+        "part": part, "level": level, "grid": "", "tolerance": None, "reference": reference, "ms_per_simulated_s": cost
     }  # fmt: skip
     return [{"quantity": quantity, "error": float(error), **head} for quantity, error in values.items()]
 
@@ -181,8 +182,8 @@ ACCURACY = tuple(
             "rigid contact, scheme in time", "scheme",
         ),
         (
-            turn_rows, TURN_PART, "body that turns on held contacts: distance over that from the corner",
-            "body that turns on held contacts", "",
+            turn_rows, TURN_PART, "body that turns on active contacts: distance over that from the corner",
+            "body that turns on active contacts", "",
         ),
         (facet_rows, CONE_PART, "friction cone: the same", "rigid contact, friction cone", "cone"),
         (

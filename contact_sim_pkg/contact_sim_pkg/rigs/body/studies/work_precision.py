@@ -44,7 +44,7 @@ __all__ = [
 SOLVER_PART = "post-impact velocity: solver"
 CONE_PART = "friction cone in space"
 STEP_PART = "rigid contact in time: end position"
-TURN_PART = "body that turns on held contacts: end position"
+TURN_PART = "body that turns on active contacts: end position"
 CLOSED = "closed form"
 ENUMERATION = "all index sets, numpy, no shared code"
 POINT_MASS = "closed form of a sliding point"
@@ -61,7 +61,7 @@ def _velocity_error(case: ContactCase, c: Vector, expected: Vector) -> float:
 
 
 def solver_rows() -> list[Row]:
-    """One and two contacts in the plane, and a stack of mass ratio 100, by every rung."""
+    """One and two contacts in the plane, and a stack of mass ratio 100, by every level."""
     cases = {
         "one contact": random_face(1, 1, PLANE), "two contacts of a face": random_face(2, 2, PLANE),
         "1 kg under 100 kg": stack(100.0),
@@ -69,16 +69,16 @@ def solver_rows() -> list[Row]:
     found = []
     for name, case in cases.items():
         expected = planar_velocity_by_enumeration(case.J, case.W, case.v, case.friction)
-        rungs = [
+        levels = [
             ("Gauss-Seidel, 20 sweeps", GAUSS_SEIDEL, 20), ("Gauss-Seidel, 2000 sweeps", GAUSS_SEIDEL, 2000),
             ("Lemke", LEMKE, 0), ("Newton, Lemke where it stalls", NEWTON, 0),
         ]  # fmt: skip
         if len(case.friction) == 1:
-            rungs.append(("closed modes", MODES, 0))
-        for rung, kind, sweeps in rungs:
+            levels.append(("closed modes", MODES, 0))
+        for level, kind, sweeps in levels:
             ms = milliseconds_of_a_solve(case, kind, 0, sweeps)
             error = _velocity_error(case, solve(case, kind, 0, sweeps)[0], expected)
-            found.append(row(SOLVER_PART, name, "velocity", FidelityLevel(rung, ms), ENUMERATION, error))
+            found.append(row(SOLVER_PART, name, "velocity", FidelityLevel(level, ms), ENUMERATION, error))
     return found
 
 
@@ -113,8 +113,8 @@ def step_rows() -> list[Row]:
     for name, run in cases.items():
         for step in STEPS:
             ms = milliseconds(lambda run=run, step=step: run(step))  # type: ignore[misc]
-            rung = "located" if step is None else f"stepping, {1e3 * step:g} ms"
-            found.append(row(STEP_PART, name, "position", FidelityLevel(rung, ms), CLOSED, run(step)))
+            level = "located" if step is None else f"stepping, {1e3 * step:g} ms"
+            found.append(row(STEP_PART, name, "position", FidelityLevel(level, ms), CLOSED, run(step)))
     return found
 
 
@@ -141,8 +141,9 @@ def _by_tolerance(
     """A row for each tolerance; times of the whole run."""
     found = []
     for tolerance in TOLERANCES:
-        rung = FidelityLevel(f"located, {tolerance:g}", milliseconds(lambda at=tolerance: run(at)), tolerance=tolerance)  # type: ignore[misc]
-        found.append(row(TURN_PART, name, "position", rung, reference, error_of(tolerance)))
+        time = milliseconds(lambda at=tolerance: run(at))  # type: ignore[misc]
+        level = FidelityLevel(f"located, {tolerance:g}", time, tolerance=tolerance)
+        found.append(row(TURN_PART, name, "position", level, reference, error_of(tolerance)))
     return found
 
 
