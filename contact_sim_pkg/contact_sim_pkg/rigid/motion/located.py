@@ -25,7 +25,7 @@ from contact_sim_pkg.rigid.motion.flight import body_size
 from contact_sim_pkg.rigid.motion.motion import ACTIVE, SEPARATED, STICKING, TOUCHING, make_motion_workspace
 from contact_sim_pkg.rigid.motion.slip import contacts_turn, slip_turns
 from contact_sim_pkg.rigid.motion.substep_end import accept_substep, list_features, stay_on_the_ground
-from contact_sim_pkg.rigid.motion.supported import MOST_STOPS, SubstepSolver
+from contact_sim_pkg.rigid.motion.substep_solver import MOST_STOPS, SubstepSolver
 from contact_sim_pkg.rigid.motion.time_loop import (
     COLLIDE,
     DONE,
