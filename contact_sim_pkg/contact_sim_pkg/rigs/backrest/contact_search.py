@@ -24,7 +24,7 @@ CLOSE = 1.0e-13  # of a step over the side
 
 
 @borrowing_kernel
-def _turned(sine, cosine, first_sine, first_cosine):
+def _next_multiple(sine, cosine, first_sine, first_cosine):
     """Sine and cosine of the next multiple of an angle."""
     return sine * first_cosine + cosine * first_sine, cosine * first_cosine - sine * first_sine
 
@@ -42,10 +42,10 @@ def _depth(search, state, x, y):
     # Sines of multiples follow from those before: no further call of sin.
     sin_m, cos_m = 0.0, 1.0
     for m in range(1, search.side + 1):
-        sin_m, cos_m = _turned(sin_m, cos_m, sin_a, cos_a)
+        sin_m, cos_m = _next_multiple(sin_m, cos_m, sin_a, cos_a)
         sin_n, cos_n = 0.0, 1.0
         for n in range(1, search.side + 1):
-            sin_n, cos_n = _turned(sin_n, cos_n, sin_b, cos_b)
+            sin_n, cos_n = _next_multiple(sin_n, cos_n, sin_b, cos_b)
             q = state[(m - 1) * search.side + n - 1]
             depth += q * sin_m * sin_n
             d_x += q * m * a * cos_m * sin_n
@@ -57,7 +57,7 @@ def _depth(search, state, x, y):
 
 
 @borrowing_kernel
-def _take_depths(search, state):
+def _compute_depths(search, state):
     """Depth at every candidate point into ``search.depths``, whose outermost rows and columns stay
     -infinity.
     """
@@ -82,26 +82,26 @@ def _is_crest(depths, i, j):
 
 
 @borrowing_kernel
-def _held(place, slope, length):
-    """Whether a side holds the point, which would go on beyond it."""
+def _beyond(place, slope, length):
+    """Whether a point on a side would go on beyond it."""
     return (place <= 0.0 and slope < 0.0) or (place >= length and slope > 0.0)
 
 
 @borrowing_kernel
-def _uphill(slope, bend, length):
+def _uphill(slope, curvature, length):
     """Step along one direction: to the crest of the parabola where there is one, else a part of the
     side uphill.
     """
-    return -slope / bend if bend < 0.0 else math.copysign(0.05 * length, slope)
+    return -slope / curvature if curvature < 0.0 else math.copysign(0.05 * length, slope)
 
 
 @borrowing_kernel
 def _step_uphill(search, x, y, slopes):
     """Newton step towards the crest, within the directions in which no side holds the point."""
     _depth_here, d_x, d_y, d_xx, d_xy, d_yy = slopes
-    if _held(x, d_x, search.length_1):
-        return 0.0, 0.0 if _held(y, d_y, search.length_2) else _uphill(d_y, d_yy, search.length_2)
-    if _held(y, d_y, search.length_2):
+    if _beyond(x, d_x, search.length_1):
+        return 0.0, 0.0 if _beyond(y, d_y, search.length_2) else _uphill(d_y, d_yy, search.length_2)
+    if _beyond(y, d_y, search.length_2):
         return _uphill(d_x, d_xx, search.length_1), 0.0
     determinant = d_xx * d_yy - d_xy * d_xy
     if d_xx < 0.0 and determinant > 0.0:
@@ -138,7 +138,7 @@ def nearest_point(search: ContactSearch, state: Vector) -> tuple[float, float]:
 
     state: begins with the modal coordinates [modes] [m].
     """
-    _take_depths(search, state)
+    _compute_depths(search, state)
     cols = search.depths.shape[1] - 2
     best_x, best_y, depth = 0.5 * search.length_1, 0.5 * search.length_2, -math.inf
     for c in range(search.places.shape[0]):

@@ -189,10 +189,10 @@ def energies(rig: Backrest, mode: BackrestMode, time: float, state: Vector) -> t
         stored += 0.5 * rig.modal[STIFFNESS, i] * state[i] ** 2
     for c in range(rig.places.shape[1]):
         share = rig.places[SHARE, c]
-        held = hysteresis_energy(rig.contact.hysteresis, state, c)
+        stored_here = hysteresis_energy(rig.contact.hysteresis, state, c)
         if mode.doing[CONTACT, c] != APART:
             approach, approach_rate = backrest.approach_of(rig, state, c)
-            held += _spring_energy(
+            stored_here += _spring_energy(
                 rig.contact.friction,
                 rig,
                 mode,
@@ -203,7 +203,7 @@ def energies(rig: Backrest, mode: BackrestMode, time: float, state: Vector) -> t
                 state=state,
             )
             stored += share * elastic_energy(rig.contact.elastic, approach)
-        stored += share * held
-        returned += share * held  # counted as dissipated when it was put in
+        stored += share * stored_here
+        returned += share * stored_here  # counted as dissipated when it was put in
     last = state.shape[0]
     return kinetic, potential, stored, state[last - 2], state[last - 1] - returned

@@ -42,7 +42,9 @@ def _works(rig, state, point):
 
 @borrowing_kernel
 def open_episode(rig, mode, place, time, approach, state, touched):
-    """Note the beginning of the episode of a point, or (``place`` = points) of the whole contact."""
+    """Note the beginning of the episode of a point, or (``place`` = points) of the whole
+    contact.
+    """
     closing, opening = _works(rig, state, place)
     lasting = mode.lasting
     lasting[place, START] = time

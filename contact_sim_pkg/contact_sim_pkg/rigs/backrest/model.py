@@ -239,7 +239,9 @@ def _search(backrest: schema.BackrestSection, effect: schema.ShellModesSection, 
 
 
 def _with_one_point(form: _ModalBack) -> _ModalBack:
-    """The shell with a point in its middle, which the search then moves; it carries the whole law."""
+    """The shell with a point in its middle, which the search then moves; it carries the
+    whole law.
+    """
     modes, origin = len(form.mass), numpy.zeros(1)
     return form._replace(
         shapes=form.at_preload.reshape(1, modes).copy(), slopes=numpy.zeros((1, modes)), gaps=origin, shares=numpy.ones(1),
@@ -252,7 +254,9 @@ def _mode_names(modes: ShellModes) -> tuple[str, ...]:
 
 
 def _spring_scale(friction: Friction | None, size: float, preload: float) -> float:
-    """Deflection [m] of the friction spring: what it reaches under the preload, at most ``size``."""
+    """Deflection [m] of the friction spring: what it reaches under the preload, at most
+    ``size``.
+    """
     if friction is None:
         return numpy.inf
     reached = friction.coefficient_static * preload / friction.stiffness
@@ -289,7 +293,7 @@ def _scale(rig: Backrest, approach: float, preload: float, tolerance: float) -> 
     parts = [numpy.full(modes, position), numpy.full(modes, velocity), numpy.full(points, spring)]
     parts.append(numpy.full(2 * points, work))
     if rig.contact.hysteresis is not None:
-        parts.append(numpy.full(points, tolerance))  # what the foam remembers runs from -1 to 1
+        parts.append(numpy.full(points, tolerance))  # the hysteresis variable lies between -1 and 1
     return numpy.concatenate([*parts, numpy.full(2, work)])
 
 

@@ -21,8 +21,8 @@ the bodies part), stick and slip of every point are located events. Works of clo
 integrated per point, so that an episode's restitution is ``sqrt(W_r / -W_c)``.
 
 State: [q, q'] [spring deflection of each point] [work of closing] [work of opening, of each point]
-[what the foam remembers at each point, where it does] [supplied, dissipated]. Every event function
-is positive while the present mode of its point lasts.
+[hysteresis variable of the foam at each point, where it has one] [supplied, dissipated]. Every
+event function is positive while the present mode of its point lasts.
 """
 
 from __future__ import annotations
@@ -69,13 +69,13 @@ AT_REST = 1.0e-9  # [m/s]: below, a point so near to contact may as well stay wh
 
 
 def memory_offset(modes: int, points: int) -> int:
-    """Where the variables of a foam that remembers stand in the state."""
+    """Index of the first hysteresis variable of the foam in the state."""
     return 2 * modes + 3 * points
 
 
-def state_count(modes: int, points: int, remembers: bool = False) -> int:
+def state_count(modes: int, points: int, hysteresis: bool = False) -> int:
     """Number of state variables."""
-    return memory_offset(modes, points) + (points if remembers else 0) + 2
+    return memory_offset(modes, points) + (points if hysteresis else 0) + 2
 
 
 def event_count(points: int) -> int:
@@ -243,12 +243,12 @@ def _tension_event(rig, doing, point, approach, approach_rate, state):
     if doing in (APART, CLOSING):
         return 1.0
     factor = hysteresis_factor(rig.contact.hysteresis, state, point)
-    margin = tension_event(rig.contact.elastic, rig.contact.dissipative, approach, approach_rate, factor)
-    return -margin if doing == RELEASED else margin
+    tension = tension_event(rig.contact.elastic, rig.contact.dissipative, approach, approach_rate, factor)
+    return -tension if doing == RELEASED else tension
 
 
 @borrowing_kernel
-def _turn_margin(doing, approach_rate):
+def _reversal_event(doing, approach_rate):
     if doing == CLOSING:
         return approach_rate
     return -approach_rate if doing == OPENING else 1.0
@@ -264,7 +264,7 @@ def _event_functions(rig, drive, mode, time, state, derivative, out):
         doing = mode.doing[CONTACT, c]
         out[c] = -approach if doing == APART else approach
         out[points + c] = _tension_event(rig, doing, c, approach, approach_rate, state)
-        out[2 * points + c] = _turn_margin(doing, approach_rate)
+        out[2 * points + c] = _reversal_event(doing, approach_rate)
         out[3 * points + c] = _friction_event(
             rig.contact.friction,
             rig,
@@ -338,12 +338,12 @@ def _pass_kinematic(rig, mode, event_point, turns, time, state):
         passes = (
             abs(approach) <= SIMULTANEOUS and abs(approach_rate) > AT_REST and (approach_rate > 0.0) == (doing == APART)
         )
-        turned = _turn_margin(doing, approach_rate) < 0.0
+        is_reversed = _reversal_event(doing, approach_rate) < 0.0
         if c == event_point:
-            passes, turned = not turns, turns
+            passes, is_reversed = not turns, turns
         if passes:
             _pass_approach(rig, mode, c, time, approach, approach_rate, state)
-        elif turned:
+        elif is_reversed:
             _pass_turn(mode, c, approach)
 
 

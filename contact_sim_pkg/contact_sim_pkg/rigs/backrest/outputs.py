@@ -47,8 +47,8 @@ class BackrestRecord:
             numpy.zeros((samples, columns.FORCES)), numpy.zeros((samples, points, columns.POINT_COLUMNS)), forward,
         )  # fmt: skip
 
-    def take_episodes(self, model: BackrestModel, mode: BackrestMode, peak: Array) -> None:
-        """Take the episodes that ended; ``peak`` [points + 1] [N] carries the largest force of
+    def store_episodes(self, model: BackrestModel, mode: BackrestMode, peak: Array) -> None:
+        """Store the episodes that ended; ``peak`` [points + 1] [N] carries the largest force of
         those that last.
         """
         timing = model.timing

@@ -1,4 +1,6 @@
-"""Shallow shell and plate by other ways: finite differences of the equations, Levy's single series."""
+"""Shallow shell and plate by other ways: finite differences of the equations, Levy's single
+series.
+"""
 
 from __future__ import annotations
 

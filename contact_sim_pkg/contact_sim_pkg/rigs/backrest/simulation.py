@@ -82,7 +82,7 @@ class BackrestSimulation:
         if ended > MOST_EPISODES:
             raise RunError(f"block {block}, {start:.6g} s: {ended} contact episodes ended in it, limit {MOST_EPISODES}")
         record.counters[:] = self._work.counters
-        record.take_episodes(model, self._mode, self._peak_force)
+        record.store_episodes(model, self._mode, self._peak_force)
         # Outputs of the block.
         self._next_block = block + 1
         record.maps = [(sample, self._pressure(record, sample)) for sample in self._field_samples()]

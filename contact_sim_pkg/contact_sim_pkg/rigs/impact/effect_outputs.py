@@ -82,8 +82,8 @@ def front_of(model: ImpactModel, effect: MicroFront, block: int, impact: Finishe
     return ImpactFront(
         block=block, number=impact.number, start=impact.start, shear_speed=shear, front_time=front.time,
         front_depth=front.depth, front_heat=front.heat, time=times, border_speed=numpy.array(borders),
-        front_speed=numpy.array([speed for speed, _held in fronts]),
-        supersonic=numpy.array([held for _speed, held in fronts], dtype=numpy.uint8),
+        front_speed=numpy.array([speed for speed, _supersonic in fronts]),
+        supersonic=numpy.array([supersonic for _speed, supersonic in fronts], dtype=numpy.uint8),
     )  # fmt: skip
 
 

@@ -33,11 +33,11 @@ from contact_sim_pkg.run.errors import RunError
 # Energy of a motion in contact, over that of the weight on the static depth, below which the
 # sphere rests
 AT_REST = 1.0e-12
-STILL = 1.0e-9  # [m/s]: a pendulum that leaves the sample more slowly hangs at rest on it
+AT_REST = 1.0e-9  # [m/s]: a pendulum that leaves the sample more slowly hangs at rest on it
 MOST_SEGMENTS = 10_000  # a block
 
 
-class Held(NamedTuple):
+class Caught(NamedTuple):
     """The sphere in the machine's catch, at the height of its release."""
 
     approach: float  # [m], negative
@@ -55,7 +55,7 @@ class MotionSegment(NamedTuple):
 
     begin: float  # [s]
     end: float  # [s], infinite where nothing ends it
-    motion: Held | Flight | ContactPhase | Rest
+    motion: Caught | Flight | ContactPhase | Rest
     heat: float  # [J] that the sample has turned into heat before it
     supplied: float  # [J] that the machine has supplied before it
 
@@ -92,7 +92,7 @@ class FinishedImpact(NamedTuple):
 
 
 class ImpactMotion:
-    """The sphere's motion. ``state(times)`` gives it, ``take_ended`` the impacts that ended."""
+    """The sphere's motion. ``state(times)`` gives it, ``pop_ended`` the impacts that ended."""
 
     def __init__(self, model: ImpactModel) -> None:
         """The first release, at time 0."""
@@ -111,16 +111,16 @@ class ImpactMotion:
         """The release that the sphere moves by."""
         return self.model.releases[self._release]
 
-    def forget_before(self, time: float) -> None:
+    def drop_before(self, time: float) -> None:
         """Drop segments that ended before ``time`` [s]."""
         self.segments = [segment for segment in self.segments if segment.end > time]
 
-    def take_ended(self, time: float) -> list[FinishedImpact]:
+    def pop_ended(self, time: float) -> list[FinishedImpact]:
         """The impacts whose overlap ended up to ``time`` [s], each once."""
         self._reach(time)
-        taken = [impact for impact in self._ended if impact.parted <= time]
+        ended = [impact for impact in self._ended if impact.parted <= time]
         self._ended = [impact for impact in self._ended if impact.parted > time]
-        return taken
+        return ended
 
     def time_of(self, count: int) -> float:
         """When impact number ``count`` (from 1) of the first release has parted, [s]; 0 where the
@@ -156,7 +156,9 @@ class ImpactMotion:
                     "bounces any more; end the run earlier, or let it be caught after some bounces"
                 )
 
-    def _append(self, motion: Held | Flight | ContactPhase | Rest, begin: float, heat: float, supplied: float) -> None:
+    def _append(
+        self, motion: Caught | Flight | ContactPhase | Rest, begin: float, heat: float, supplied: float
+    ) -> None:
         duration = motion.duration if isinstance(motion, (Flight, ContactPhase)) else math.inf
         self.segments.append(MotionSegment(begin, min(begin + duration, self._next_release()), motion, heat, supplied))
         self.made += 1
@@ -186,18 +188,18 @@ class ImpactMotion:
                 self._append(next_phase(last.motion), last.end, heat, last.supplied)
 
     def _lift(self, last: MotionSegment) -> None:
-        """The next release takes the sphere from wherever it is."""
+        """Start the next release, wherever the sphere is."""
         now = self._states_of(last, numpy.array([last.end]))
         names = SphereState._fields
-        kinetic, potential, held, heat, supplied = (
+        kinetic, potential, in_sample, heat, supplied = (
             float(now[names.index(name), 0]) for name in ("kinetic", "potential", "stored", "heat", "supplied")
         )
         self._release += 1
         self._bounces, self._contact, self._touch = 0, [], None
         flight = fall(self.model.machine, self.release.speed)
         energy = 0.5 * self.model.sphere.mass * flight.speed**2
-        # what the sample still stores under the lifted sphere becomes heat
-        self._append(flight, last.end, heat + held, supplied + energy - kinetic - potential)
+        # What the sample still stores under the lifted sphere becomes heat.
+        self._append(flight, last.end, heat + in_sample, supplied + energy - kinetic - potential)
 
     def _begin_contact(self, last: MotionSegment, flight: Flight) -> None:
         try:
@@ -213,18 +215,18 @@ class ImpactMotion:
         self._bounces += 1
         mass, speed = self.model.sphere.mass, -phase.last_speed
         if self.model.bounces and self._bounces >= self.model.bounces:
-            held = self._held()
-            self._append(held, last.end, heat, last.supplied + held.potential - 0.5 * mass * speed**2)
+            caught = self._catch()
+            self._append(caught, last.end, heat, last.supplied + caught.potential - 0.5 * mass * speed**2)
             return
-        if phase.law.gravity == 0.0 and speed < STILL:
+        if phase.law.gravity == 0.0 and speed < AT_REST:
             self._append(Rest(phase.law), last.end, heat + 0.5 * mass * speed**2, last.supplied)
             return
         self._append(rebound(self.model.machine, speed), last.end, heat, last.supplied)
 
-    def _held(self) -> Held:
+    def _catch(self) -> Caught:
         flight = fall(self.model.machine, self.release.speed)
         approach = flight.at(numpy.zeros(1))[0]
-        return Held(float(approach[0]), self.model.sphere.mass * float(flight.potential(approach)[0]))
+        return Caught(float(approach[0]), self.model.sphere.mass * float(flight.potential(approach)[0]))
 
     def _close(self, parted: float) -> None:
         """Write down the impact; its force was lost at the end of its last loaded phase."""
@@ -255,11 +257,11 @@ class ImpactMotion:
         """Rows as the fields of `SphereState`."""
         since, mass = times - segment.begin, self.model.sphere.mass
         out = numpy.zeros((len(SphereState._fields), len(times)))
-        depth, speed, acceleration, elastic, viscous, kinetic, potential, held, heat, supplied = out
+        depth, speed, acceleration, elastic, viscous, kinetic, potential, stored_energy, heat, supplied = out
         heat[:], supplied[:] = segment.heat, segment.supplied
         motion = segment.motion
         # Depth, speed and forces by the kind of motion.
-        if isinstance(motion, Held):
+        if isinstance(motion, Caught):
             depth[:], potential[:] = motion.approach, motion.potential
         elif isinstance(motion, Flight):
             depth[:], speed[:] = motion.at(since)
@@ -277,7 +279,7 @@ class ImpactMotion:
         # Energies.
         kinetic[:] = 0.5 * mass * speed**2
         if isinstance(motion, (ContactPhase, Rest)):
-            held[:] = [stored(motion.law, float(x)) for x in depth]
+            stored_energy[:] = [stored(motion.law, float(x)) for x in depth]
             potential[:] = -mass * motion.law.gravity * depth
         return out
 

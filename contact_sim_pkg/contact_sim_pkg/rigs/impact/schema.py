@@ -51,7 +51,9 @@ class Sample(Section):
 
 
 class ImpactSection(Section):
-    """A sphere that strikes a sample: drop tower or pendulum, one release or a programme of them."""
+    """A sphere that strikes a sample: drop tower or pendulum, one release or a programme of
+    them.
+    """
 
     machine: Literal["drop", "pendulum"] = choice(
         "drop tower, or pendulum that strikes at its lowest point", default="drop"

@@ -81,10 +81,10 @@ class ImpactSimulation:
         times: Vector = (block * timing.samples + numpy.arange(timing.samples, dtype=numpy.float64)) * period
         made = self.motion.made
         state = self.motion.state(times)
-        ended = self.motion.take_ended((block + 1) * timing.block_length)
+        ended = self.motion.pop_ended((block + 1) * timing.block_length)
         self._next_block = block + 1
         outputs = block_outputs(self.model, block, state, ended, self.motion.made - made, began)
-        self.motion.forget_before((block + 1) * timing.block_length)
+        self.motion.drop_before((block + 1) * timing.block_length)
         largest = [float((state.elastic + state.viscous).max()), *(_peak(impact) for impact in ended)]
         return BlockResult(outputs, max(largest), 0.0, time.perf_counter() - began)
 

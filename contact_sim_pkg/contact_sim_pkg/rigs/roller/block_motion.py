@@ -47,9 +47,9 @@ class TiltYaw:
 
     def advance(self, start: float, times: Vector, loads: Vector) -> Matrix:
         """States [times, 4] at even `times` [s] from `start` [s] on, under `loads` [N]."""
-        before = self._held()
+        before = self._potential()
         self._load = float(loads[0])
-        self._shifted += self._held() - before
+        self._shifted += self._potential() - before
         self._load = float(loads[-1])
         model, length = self.model, float(times[1] - times[0])
         parts = self.parts(start, length)
@@ -58,10 +58,12 @@ class TiltYaw:
         if model.programme.turns_bodies:
             for i in range(len(times) - 1):
                 middle = start + float(times[i]) + 0.5 * length
-                pair = self._march(middle, _finer(loads[i : i + 2], parts), length / parts, 2, start + float(times[i]))
+                pair = self._integrate(
+                    middle, _finer(loads[i : i + 2], parts), length / parts, 2, start + float(times[i])
+                )
                 record[i : i + 2] = pair
             return record
-        return self._march(start, _finer(loads, parts), length / parts, len(times), start)
+        return self._integrate(start, _finer(loads, parts), length / parts, len(times), start)
 
     def parts(self, start: float, length: float) -> int:
         """Steps in a `length` [s] from `start` [s] on. Raises RunError where they are too many."""
@@ -73,7 +75,7 @@ class TiltYaw:
             )
         return parts
 
-    def _held(self) -> float:
+    def _potential(self) -> float:
         return float(energies(self.model.roller, self._load, self.state).potential)
 
     def energies(self) -> Energies:
@@ -84,7 +86,7 @@ class TiltYaw:
             self._start
         )
 
-    def _march(self, at: float, loads: Vector, step: float, rows: int, start: float) -> Matrix:
+    def _integrate(self, at: float, loads: Vector, step: float, rows: int, start: float) -> Matrix:
         model, record = self.model, numpy.empty((rows, 4))
         status = integrate_tilt_yaw(
             model.roller,

@@ -42,7 +42,7 @@ MOST_CHECKED = 1000
 
 
 class Ridden(NamedTuple):
-    """A stretch of the ride, cell by cell."""
+    """A segment of the ride, cell by cell."""
 
     time: Vector  # [cells + 1] [s] from its start
     load: Vector  # [N]
@@ -104,14 +104,14 @@ class TrackRide:
         return other
 
     def press(self, load: float, yaw: float) -> None:
-        """Press on with another load [N], at a yaw [rad]. The roller is taken to its new place at
+        """Press on with another load [N], at a yaw [rad]. The roller moves to its new place at
         rest.
         """
         if (load, yaw) == self._pressed:
             return
         model = self.model
         one, here = model.contact(1.0, yaw, self.curvatures), model.contact(load, yaw, self.curvatures)
-        before = None if self._pressed is None else self._held()
+        before = None if self._pressed is None else self._stored()
         self.heave: Heave = make_heave(model.mass, self.zeta, load, one.approach, model.bending_compliance)
         gain = 0.0 if model.damage is None else model.damage.gain * self.acceleration
         for each in self.tracks:
@@ -119,7 +119,7 @@ class TrackRide:
         self._pressed, self._yaw = (load, yaw), yaw
         self._coefficient = one.approach
         if before is not None:
-            self._shifted += self._held() - before
+            self._shifted += self._stored() - before
 
     def advance(self) -> Ridden:
         """An interval. Raises RunError where the range of a track passes its limit, or a place is
@@ -128,9 +128,9 @@ class TrackRide:
         self.refuse_fast_heave()
         path = self._path()
         # The start of this interval lies on the worn track: its change supplies energy.
-        before = self._held()
+        before = self._stored()
         self._height, self._coefficient = float(path.height[0]), float(path.coefficient[0])
-        self._shifted += self._held() - before
+        self._shifted += self._stored() - before
         cell_time = self.interval_time / self.cells
         # Heave over the interval.
         self.free = ride(self.heave, path, cell_time, 1, self.state, self.loads, self.motion)
@@ -193,7 +193,7 @@ class TrackRide:
         approach = rest + self._height - float(self.state[0])
         return float(load_of_approach(self._coefficient, self.heave.bending_compliance, approach))
 
-    def _held(self) -> float:
+    def _stored(self) -> float:
         """Stored and potential energy [J]."""
         stored = contact_energy(self._coefficient, self.heave.bending_compliance, self._load())
         return float(stored) + self.heave.load * float(self.state[0])

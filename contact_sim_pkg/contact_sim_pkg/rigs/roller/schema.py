@@ -96,7 +96,7 @@ class RollerElastic(Section):
 
 
 class TiltYawSection(Section):
-    """The roller tilts and yaws; without it both angles are held."""
+    """The roller tilts and yaws; without it both angles are fixed."""
 
 
 class Gyroscope(Section):

@@ -103,7 +103,7 @@ class RollerSimulation:
         if self._ride is None:
             loads = self._pressed(start, times)
             heave: Matrix = numpy.zeros((2, len(times)))
-            angles = self._held(times) if self._angles is None else self._angles.advance(start, times, loads)
+            angles = self._fixed_angles(times) if self._angles is None else self._angles.advance(start, times, loads)
             steps = samples
         else:
             ridden, turned = self._rolled(start)
@@ -142,11 +142,11 @@ class RollerSimulation:
             for load, time in zip(pressed, times, strict=True)
         ])  # fmt: skip
 
-    def _held(self, times: Vector) -> Matrix:
+    def _fixed_angles(self, times: Vector) -> Matrix:
         """Angles [times, 4] that do not move."""
-        held = numpy.zeros((len(times), 4))
-        held[:, :2] = self.model.start
-        return held
+        fixed = numpy.zeros((len(times), 4))
+        fixed[:, :2] = self.model.start
+        return fixed
 
     def _rolled(self, start: float) -> tuple[Ridden, Matrix]:
         """All intervals of a block, and tilt, yaw and their rates, [places, 4]; the load is
@@ -162,7 +162,7 @@ class RollerSimulation:
             ride.press(float(self.model.programme.loads(numpy.array([start + at]))[0]), yaw)
             part = ride.advance()
             moved = (
-                self._held(part.time)
+                self._fixed_angles(part.time)
                 if self._angles is None
                 else self._angles.advance(start + at, part.time, part.load)
             )

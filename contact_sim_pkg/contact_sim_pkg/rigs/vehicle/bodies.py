@@ -55,7 +55,9 @@ class Saved(NamedTuple):
 
 
 class Bodies:
-    """State of the bodies of ``model``; heights are smooth heights and what the fields add to them."""
+    """State of the bodies of ``model``; heights are smooth heights and what the fields add
+    to them.
+    """
 
     def __init__(self, model: Model) -> None:
         """Make the buffers."""
@@ -148,7 +150,9 @@ class Bodies:
         return height - float(self.state[0 if rig.rigid_ring is None else rig.rigid_ring.offset])
 
     def seat_approach(self, cushion: float) -> float:
-        """Approach in [m] of the occupant to a cushion of height ``cushion`` [m]; 0 without a seat."""
+        """Approach in [m] of the occupant to a cushion of height ``cushion`` [m]; 0 without
+        a seat.
+        """
         rig = self.model.rig
         if rig.seat is None:
             return 0.0

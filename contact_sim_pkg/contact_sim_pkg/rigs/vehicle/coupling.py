@@ -135,7 +135,9 @@ class Coupling:
         return -(-left // steps)
 
     def _advance_step(self, step: CouplingStep, record: BlockRecord) -> bool:
-        """Advance by a coupling step; False where a shorter one must be tried from the same state."""
+        """Advance by a coupling step; False where a shorter one must be tried from the same
+        state.
+        """
         saved, count = self.bodies.save(), step.segments
         least = self._shortest
         # A failure within the step counts only where no shorter step can avoid it.

@@ -171,7 +171,7 @@ def _contact_energy(contact, approach):
 
 
 @borrowing_kernel
-def _memory_energy(contact, state):
+def _hysteresis_energy(contact, state):
     if contact is None:
         return 0.0
     return hysteresis_energy(contact.hysteresis, state)
@@ -196,11 +196,11 @@ def energies(
     seat_x, _seat_v = vehicle.seat_approach(rig.tire, rig.seat, cushion, 0.0, state)
     normal = vehicle.normal_force(rig.seat_contact, seat_x, _seat_v, state)
     slide_kinetic, spring = _slide_energies(vehicle._friction_of(rig.seat_contact), rig.seat, mode, normal, state)
-    remembered = _memory_energy(rig.seat_contact, state)
-    stored += seat_stored + spring + remembered
+    hysteresis = _hysteresis_energy(rig.seat_contact, state)
+    stored += seat_stored + spring + hysteresis
     stored += _contact_energy(rig.tire_contact, tire_x) + _contact_energy(rig.seat_contact, seat_x)
     # The last two states are the works supplied and dissipated; what is still stored is no loss
     # yet.
     last = state.shape[0]
-    dissipated = state[last - 1] - spring - remembered
+    dissipated = state[last - 1] - spring - hysteresis
     return kinetic + seat_kinetic + slide_kinetic, potential + seat_potential, stored, state[last - 2], dissipated

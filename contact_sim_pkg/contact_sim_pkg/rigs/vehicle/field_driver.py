@@ -1,4 +1,6 @@
-"""Contact fields of a rig: effective height of road or cushion, and the pressure field behind it."""
+"""Contact fields of a rig: effective height of road or cushion, and the pressure field
+behind it.
+"""
 
 from __future__ import annotations
 
@@ -76,7 +78,9 @@ class ContactField(ABC):
         return abs(slope - self._slope) * span**2 / (4.0 * (self._count + span))
 
     def slope_error(self, correction: float, count: int) -> float:
-        """Largest difference [m] per segment between the slopes of that line and of the parabola."""
+        """Largest difference [m] per segment between the slopes of that line and of the
+        parabola.
+        """
         span = self._since + count
         return abs((correction - self._solved) / span - self._slope) * span / (self._count + span)
 
@@ -148,7 +152,7 @@ class ContactField(ABC):
     def store(self) -> None:  # noqa: B027  # most contacts are elastic
         """Store the last field as that of its instant, where the material is viscoelastic."""
 
-    def take_cost(self) -> tuple[int, float]:
+    def pop_cost(self) -> tuple[int, float]:
         """Iterations since the last call, and the residual of the last field."""
         if self.grids is None:
             return 0, 0.0

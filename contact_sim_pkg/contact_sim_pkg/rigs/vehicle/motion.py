@@ -17,9 +17,10 @@ Approaches: tire ``h(t) - z_w`` (belt: ``h(t) - z_r``), h the effective road hei
 + h_c(t) - z_0``, h_c that of the cushion.
 Without a tire the floor is the (accelerated) frame of reference: z_floor = 0 and every mass feels
 ``-m a_z(t)``. State: [z_w, z_b, v_w, v_b] [z_r, v_r] [z_0 .. z_n, v_0 .. v_n] [x, v_x, s] [z]
-[supplied, dissipated]; z is what a cushion of foam remembers (``laws/foam_hysteresis.py``), the
-last two are the works in [J] that the energy ledger needs. Works of friction and foam are counted
-whole; what their springs hold is taken off in ``advance.energies``.
+[supplied, dissipated]; z is the hysteresis variable of a foam cushion
+(``laws/foam_hysteresis.py``), the last two are the works in [J] that the energy ledger needs. Works
+of friction and foam are counted whole; what their springs hold is taken off in
+``advance.energies``.
 """
 
 from __future__ import annotations
@@ -53,7 +54,7 @@ from contact_sim_pkg.rigs.vehicle.quarter_car import (
     tread_velocity,
 )
 
-TIRE_APPROACH, TIRE_TENSION, SEAT_APPROACH, SEAT_TENSION, SEAT_FRICTION, SEAT_TURNING, EVENT_FUNCTIONS = (
+TIRE_APPROACH, TIRE_TENSION, SEAT_APPROACH, SEAT_TENSION, SEAT_FRICTION, SEAT_REVERSAL, EVENT_FUNCTIONS = (
     0,
     1,
     2,
@@ -93,8 +94,8 @@ def normal_force(contact, approach, approach_rate, state):
 
 @borrowing_kernel
 def _lost_power(contact, approach, approach_rate, force, state, out):
-    """Power in [W] that the loss of a contact takes: (F - F_elastic) x'. Writes the rate of what
-    the contact remembers.
+    """Power in [W] that the loss of a contact takes: (F - F_elastic) x'. Writes the rate of the
+    hysteresis variable.
     """
     if contact is None:
         return 0.0
@@ -207,7 +208,7 @@ def _tension_of(contact, approach, approach_rate, state):
 
 
 @borrowing_kernel
-def _turning_of(contact, approach, approach_rate):
+def _reversal_of(contact, approach, approach_rate):
     if contact is None:
         return 1.0
     return reversal_event(contact.hysteresis, approach, approach_rate)
@@ -215,7 +216,9 @@ def _turning_of(contact, approach, approach_rate):
 
 @borrowing_kernel
 def _normal_rate(contact, approach, approach_rate, approach_acceleration, state, derivative):
-    """Rate of the normal force in [N/s]; 0 where the bodies part faster than the material recovers."""
+    """Rate of the normal force in [N/s]; 0 where the bodies part faster than the material
+    recovers.
+    """
     factor = hysteresis_factor(contact.hysteresis, state)
     force_rate = law.normal_force_rate(
         contact.elastic, contact.dissipative, approach, approach_rate, approach_acceleration, factor
@@ -254,7 +257,7 @@ def _event_functions(rig, drive, mode, time, state, derivative, out):
     out[TIRE_TENSION] = _tension_of(rig.tire_contact, tire_x, tire_v, state)
     out[SEAT_APPROACH] = seat_x
     out[SEAT_TENSION] = _tension_of(rig.seat_contact, seat_x, seat_v, state)
-    out[SEAT_TURNING] = _turning_of(rig.seat_contact, seat_x, seat_v)
+    out[SEAT_REVERSAL] = _reversal_of(rig.seat_contact, seat_x, seat_v)
     out[SEAT_FRICTION] = _friction_event(
         _friction_of(rig.seat_contact), rig.seat_contact, rig.tire, rig.seat, mode, seat_x, seat_v, state, derivative
     )

@@ -72,7 +72,7 @@ class BlockRecord:
             numpy.zeros((samples, 3)),
         )
 
-    def take(
+    def store_samples(
         self,
         interval: int,
         sampled: tuple[Array, Array, Array],
@@ -96,8 +96,8 @@ class BlockRecord:
             self.start_energy[:] = energy if start_energy is None else start_energy
         return first
 
-    def take_shear(self, sample: int, found: FieldRecord, rolled: Sheared) -> None:
-        """Take the shear under a field; its resultants hold until the next."""
+    def store_shear(self, sample: int, found: FieldRecord, rolled: Sheared) -> None:
+        """Store the shear under a field; its resultants are constant until the next."""
         result = rolled.result
         self.shears.append((sample, found, rolled))
         self.friction[sample:] = (result.force_x, result.force_y, result.moment_z)
@@ -191,7 +191,9 @@ def _ledger(record: BlockRecord) -> EnergyLedger:
 
 
 def _motion_rows(model: Model, record: BlockRecord) -> dict[str, Array]:
-    """Rows of ``bench/motion`` in the order of ``model.bodies``: position, velocity, acceleration."""
+    """Rows of ``bench/motion`` in the order of ``model.bodies``: position, velocity,
+    acceleration.
+    """
     rig, state, rate = model.rig, record.states, record.rates
     # Places of position and velocity in the state, body by body.
     indices: list[tuple[int, int]] = []

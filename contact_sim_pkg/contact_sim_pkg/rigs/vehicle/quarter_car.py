@@ -53,7 +53,7 @@ def tread_motion(rigid_ring, state):
 
 @borrowing_kernel
 def tire_approach(tire, rigid_ring, height, height_rate, state):
-    """Approach in [m] and its rate in [m/s]; apart where there is no tire."""
+    """Approach in [m] and its rate in [m/s]; separated where there is no tire."""
     if tire is None:
         return -1.0, 0.0
     tread, tread_rate = tread_motion(rigid_ring, state)
@@ -62,7 +62,9 @@ def tire_approach(tire, rigid_ring, height, height_rate, state):
 
 @borrowing_kernel
 def rigid_ring_rates(rigid_ring, gravity, force, state, out):
-    """Rates of the belt; returns the force on the wheel and the power that the sidewalls take."""
+    """Rates of the belt; returns the force on the wheel and the power that the sidewalls
+    dissipate.
+    """
     if rigid_ring is None:
         return force, 0.0
     belt = rigid_ring.offset
@@ -75,7 +77,7 @@ def rigid_ring_rates(rigid_ring, gravity, force, state, out):
 
 @borrowing_kernel
 def tire_rates(tire, gravity, force, seat_force, acceleration_z, state, out):
-    """Rates of wheel and body; returns the power that the suspension takes."""
+    """Rates of wheel and body; returns the power that the suspension dissipates."""
     if tire is None:
         return 0.0
     closing = state[2] - state[3]

@@ -24,7 +24,9 @@ from contact_sim_pkg.scene.resolved_scene import ResolvedScene
 
 
 class Simulation:
-    """Owns the state of a run. ``prepare`` once, then ``advance`` block by block, in order from 0."""
+    """Owns the state of a run. ``prepare`` once, then ``advance`` block by block, in order
+    from 0.
+    """
 
     def __init__(self, scene: ResolvedScene) -> None:
         """Build the parameters of a resolved scene."""
@@ -104,7 +106,7 @@ class Simulation:
         self._next_block = block + 1
         record.counters[:] = coupling.bodies.work.counters
         for field in coupling.fields:
-            iterations, residual = field.take_cost()
+            iterations, residual = field.pop_cost()
             record.field_iterations += iterations
             record.field_residual = max(record.field_residual, residual)
         self._map_seat(record)
@@ -122,7 +124,7 @@ class Simulation:
         fields = self._coupling.copy_published()
         self._coupling.advance(block, interval, whole, record)
         accelerations = drive.acceleration_x, drive.acceleration_z
-        first = record.take(interval, self._coupling.sampled, energy, self._start_energy, *accelerations)
+        first = record.store_samples(interval, self._coupling.sampled, energy, self._start_energy, *accelerations)
         self._publish(first, fields, record)
 
     def _publish(self, sample: int, fields: tuple[FieldRecord | None, FieldRecord | None], record: BlockRecord) -> None:
@@ -138,7 +140,7 @@ class Simulation:
             if self._shear is not None:
                 time = BlockStamps(record.block, self.model.timing).at(sample) / NANOSECONDS
                 rolled = self._shear.advance(tire.pressure, tire.origin_x, tire.origin_y, tire.travel, time)
-                record.take_shear(sample, tire, rolled)
+                record.store_shear(sample, tire, rolled)
         if seat is not None:
             approach, rate = float(forces[columns.SEAT_APPROACH]), float(forces[columns.SEAT_RATE])
             record.seat_fields.append((sample, self._coupling.seat.with_loss(seat, approach, rate)))

@@ -82,7 +82,9 @@ def paired(first: ResolvedScene, second: ResolvedScene, notify: Callable[[str], 
 
 
 def _plan(first: ResolvedScene, second: ResolvedScene) -> _Plan:
-    """Number of blocks that both scenes simulate in their part of the time, from a trial of each."""
+    """Number of blocks that both scenes simulate in their part of the time, from a trial of
+    each.
+    """
     part = SECONDS / (2 * PAIRS)
     trials = [_walls(scene, _most_blocks(scene), part)[0] for scene in (first, second)]
     bursts = any(numpy.mean(walls) > BURST * numpy.median(walls) for walls in trials)

@@ -1,4 +1,6 @@
-"""Cost of an absent effect: a rig with its dissipation absent, and the same rig written without it."""
+"""Cost of an absent effect: a rig with its dissipation absent, and the same rig written
+without it.
+"""
 
 from __future__ import annotations
 

@@ -58,7 +58,9 @@ def thick_shell() -> Finding:
 
 
 def point_load() -> Finding:
-    """Deflection under a load in the middle of the plate, 10 201 modes, over Levy's single series."""
+    """Deflection under a load in the middle of the plate, 10 201 modes, over Levy's single
+    series.
+    """
     middle = numpy.array([[0.5 * PLATE.length_1, 0.5 * PLATE.length_2]])
     rigidity = PLATE.young * PLATE.thickness**3 / (12.0 * (1.0 - PLATE.poisson**2))
     exact = plate_centre_deflection(PLATE.length_1, PLATE.length_2, rigidity, 20.0)

@@ -37,7 +37,9 @@ def _unbalanced(motion: BackrestMotion) -> float:
 
 
 def slaps_on_foam() -> Finding:
-    """Residual of the energy over the work supplied: foam that remembers and damps, 1.5 g, 2 s."""
+    """Residual of the energy over the work supplied: foam with hysteresis and damping, 1.5
+    g, 2 s.
+    """
     found = _run(*FOAM_BACK, duration=2.0)
     if len(found.touches) < 5:
         return exactly(len(found.touches), 5)

@@ -64,11 +64,11 @@ def missing_impacts(impacts: ImpactSeries | None, scene: dict[str, Any]) -> list
     releases = len(rig["speeds"]) * len(rig["temperatures"]) * int(rig["repeats"])
     each = max(int(rig["bounces"]), 1)
     counts = np.zeros(0) if impacts is None else np.unique(impacts.events.release, return_counts=True)[1]
-    done, asked = int(np.minimum(counts, each).sum()), releases * each
-    if done >= asked:
+    done, requested = int(np.minimum(counts, each).sum()), releases * each
+    if done >= requested:
         return []
     sentence = (
-        f"{done} of {asked} impacts took place ({releases} releases, {each} of each): make duration or impact.period longer; "
+        f"{done} of {requested} impacts took place ({releases} releases, {each} of each): make duration or impact.period longer; "
         "a sphere that comes to rest, or does not part any more, has no further ones."
     )
     return [sentence]

@@ -52,7 +52,7 @@ def way_rows(_scene_name: str, scene: ResolvedScene, notify: Callable[[str], Non
     exact = impact_under_weight(law.mass, law.gravity, law.elastic, law.viscous, release.speed, law.end == "gap")
     # Impacts per simulated second, for the cost.
     span = min(LONGEST, float(scene.data["duration"]))
-    rate = len(ImpactMotion(model).take_ended(span)) / span
+    rate = len(ImpactMotion(model).pop_ended(span)) / span
     rows = []
     for name, way in _ways(model, found).items():
         notify(f"impact: {name}")

@@ -59,13 +59,13 @@ def _material() -> list[Measured]:
     """The worst of 40 sets, and the part of the 95 % intervals that hold the truth: 80 of them, so
     0.88 to 1 is their noise.
     """
-    errors, held = numpy.zeros((RUNS, 2)), 0
+    errors, covered = numpy.zeros((RUNS, 2)), 0
     for seed in range(RUNS):
         found = _reading(seed)
         pairs = ((found.storage_modulus, cases.RUBBER.storage_modulus), (found.loss_tangent, TANGENT))
         # Point errors against the truth, and whether the intervals hold it.
         errors[seed] = [abs(value.value / true - 1.0) for value, true in pairs]
-        held += sum(
+        covered += sum(
             value.low is not None and value.high is not None and value.low <= true <= value.high
             for value, true in pairs
         )
@@ -75,7 +75,7 @@ def _material() -> list[Measured]:
         Measured("material: error of tan beta", 100.0 * float(errors[:, 1].max()), "%", most=2.0, note=note),
         Measured(
             "material: 95 % intervals that hold the truth",
-            held / (2.0 * RUNS),
+            covered / (2.0 * RUNS),
             "",
             least=0.88,
             note=f"{2 * RUNS} of them",

@@ -79,8 +79,8 @@ def no_pull() -> Finding:
 def _ledger(*values: str) -> Finding:
     found = outputs_of("impact_rubber_drop", 1.0, BARE, *values)
     ledger = records_of(found, "bench/energy")
-    turned = max(max(each.kinetic, abs(each.potential), each.dissipated) for each in ledger)
-    return at_most(max(abs(each.residual) for each in ledger) / turned, 1e-12)
+    exchanged = max(max(each.kinetic, abs(each.potential), each.dissipated) for each in ledger)
+    return at_most(max(abs(each.residual) for each in ledger) / exchanged, 1e-12)
 
 
 def ledger_of_a_bounce() -> Finding:

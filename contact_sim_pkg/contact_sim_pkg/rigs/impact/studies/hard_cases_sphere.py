@@ -160,7 +160,9 @@ def volumes_outside() -> Finding:
 
 
 def printed_numbers() -> Finding:
-    """alpha_h of both variants at nu 0.4, D1 0.8, x/R 0.1: 0.04180 and 0.0374; largest difference."""
+    """alpha_h of both variants at nu 0.4, D1 0.8, x/R 0.1: 0.04180 and 0.0374; largest
+    difference.
+    """
     half_space = position.SampleHalfSpace(0.8, 0.4)
     first = position.position_variant_1(1e-3, 0.01, half_space).alpha
     second = position.position_variant_2(1e-3, 0.01, half_space).alpha

@@ -159,8 +159,8 @@ def sample(phase: ContactPhase, times: Vector) -> tuple[Vector, Vector, Vector]:
     law = phase.law
     if phase.kind == RELEASED:
         depth = phase.depth + (phase.speed + 0.5 * law.gravity * t) * t
-        held = numpy.array([_stored(law, float(x)) for x in depth])
-        return depth, phase.speed + law.gravity * t, _stored(law, phase.depth) - held
+        stored = numpy.array([_stored(law, float(x)) for x in depth])
+        return depth, phase.speed + law.gravity * t, _stored(law, phase.depth) - stored
     units = _units(law, phase.depth, phase.speed)
     depth, speed, heat = (numpy.zeros(len(t)) for _ in range(3))
     root, pace = math.sqrt(phase.depth / units.length), phase.speed / units.speed
@@ -252,8 +252,8 @@ def _first_root(square: float, slope: float, value: float, *, rising: bool = Fal
     inside = slope**2 - 4.0 * square * value
     if inside < 0.0:
         return math.inf
-    turned = -0.5 * (slope + math.copysign(math.sqrt(inside), slope))
-    roots = sorted(root for root in (turned / square, value / turned if turned != 0.0 else math.inf) if root > 0.0)
+    half = -0.5 * (slope + math.copysign(math.sqrt(inside), slope))
+    roots = sorted(root for root in (half / square, value / half if half != 0.0 else math.inf) if root > 0.0)
     if rising:
         roots = [root for root in roots if 2.0 * square * root + slope > 0.0]
     return roots[0] if roots else math.inf

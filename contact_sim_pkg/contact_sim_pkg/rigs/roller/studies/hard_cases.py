@@ -53,7 +53,9 @@ def no_contact() -> Finding:
 
 
 def separation_is_told() -> Finding:
-    """A wave of 1 mm throws the roller off: share of the time without contact, all values finite."""
+    """A wave of 1 mm throws the roller off: share of the time without contact, all values
+    finite.
+    """
     track = 1e-3 * numpy.cos(4.0 * math.pi * numpy.arange(CELLS) / CELLS)
     state, loads = numpy.zeros(2), numpy.zeros(CELLS)
     heave = _heave()

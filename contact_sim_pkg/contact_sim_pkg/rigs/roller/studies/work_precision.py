@@ -141,7 +141,9 @@ def volume_rows() -> list[Row]:
 
 
 def motion_rows() -> list[Row]:
-    """A large swing of the undamped roller under 300 N for 0.1 s: 30 periods of the faster motion."""
+    """A large swing of the undamped roller under 300 N for 0.1 s: 30 periods of the faster
+    motion.
+    """
     span, start = 0.1, numpy.array([0.05, -0.03, 0.0, 0.0])
     linear = linearise(ROLLER, CURVATURES, None, MODULUS, 300.0)
     inverse = numpy.linalg.inv(linear.inertia)

@@ -64,11 +64,11 @@ SEAT_EFFECTS = (
     Effect(
         name="contact_field", section=f"{_SCHEMA}:SeatField", help="pressure field", source="Johnson, Contact Mechanics, 5.4",
         needs=("normal_elastic",), publishes="patch", feeds=("patch", "force", "wrench"),
-        called_for=choice_of_model("needed where the pressure under the occupant is asked for"),
+        called_for=choice_of_model("needed where the pressure under the occupant is requested"),
     ),
     Effect(
         name="pressure_mat", section=f"{_SCHEMA}:PressureMat", help="pressure map of a point contact",
         needs=("normal_elastic",), excludes=("contact_field",), publishes="patch", feeds=("patch",),
-        called_for=choice_of_model("needed where a map of the pressure is asked for"),
+        called_for=choice_of_model("needed where a map of the pressure is requested"),
     ),
 )  # fmt: skip

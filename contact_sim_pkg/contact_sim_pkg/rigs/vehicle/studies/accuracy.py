@@ -1,4 +1,6 @@
-"""Accuracy studies of a scene of tire and seat: integrator, coupling of bodies and fields, fields."""
+"""Accuracy studies of a scene of tire and seat: integrator, coupling of bodies and fields,
+fields.
+"""
 
 from __future__ import annotations
 

@@ -190,9 +190,9 @@ def _solve(problem: FieldProblem, count: int = INSTANTS) -> FieldSolution:
     field = PressureField(problem.settings, problem.contact)
     pressures, approaches, walls = [], [], []
     for i in range(count):
-        asked = problem.load * (1.0 + LOAD_SWING * math.sin(0.7 * i))
+        load = problem.load * (1.0 + LOAD_SWING * math.sin(0.7 * i))
         began = time.perf_counter()
-        approaches.append(field.solve_load(problem.gaps[min(i, len(problem.gaps) - 1)], asked))
+        approaches.append(field.solve_load(problem.gaps[min(i, len(problem.gaps) - 1)], load))
         walls.append(time.perf_counter() - began)
         pressures.append(field.pressure.copy())
     return FieldSolution(pressures, numpy.array(approaches), statistics.median(walls[1:]))

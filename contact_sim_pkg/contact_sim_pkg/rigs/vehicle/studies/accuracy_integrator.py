@@ -17,7 +17,7 @@ from contact_sim_pkg.rigs.vehicle.studies.scene_drive import (
     drive_of,
     fast_run,
     slow_run,
-    twin_knows,
+    twin_covers,
     twin_laws,
 )
 from contact_sim_pkg.scene.resolved_scene import ResolvedScene
@@ -37,13 +37,13 @@ def tolerance_rows(scene: ResolvedScene, notify: Callable[[str], None]) -> list[
     """
     drive = drive_of(scene, DURATION)
     notify(f"integrator: reference for {DURATION:g} s")
-    asked = float(scene.data["integrator"]["relative_tolerance"])
+    requested = float(scene.data["integrator"]["relative_tolerance"])
     # One reference for all tolerances.
-    exact, exact_forces, reference = _reference(drive, asked)
+    exact, exact_forces, reference = _reference(drive, requested)
     rows = []
     for tolerance in TOLERANCES:
         notify(f"integrator: tolerance {tolerance:.0e}")
-        scale = drive.model.scale * (tolerance / asked)
+        scale = drive.model.scale * (tolerance / requested)
         states, forces = fast_run(drive, scale)
         # ms per simulated second.
         cost = 1e3 * _timed(partial(fast_run, drive, scale)) / (len(drive.height) - 1) / drive.segment
@@ -55,14 +55,14 @@ def tolerance_rows(scene: ResolvedScene, notify: Callable[[str], None]) -> list[
     return rows
 
 
-def _reference(drive: SceneDrive, asked: float) -> tuple[Vector, list[Vector], str]:
-    """States, normal forces and where they come from: scipy where its twin knows the laws of the
+def _reference(drive: SceneDrive, requested: float) -> tuple[Vector, list[Vector], str]:
+    """States, normal forces and where they come from: scipy where its twin covers the laws of the
     contacts, own code else.
     """
-    if twin_knows(drive.model.rig):
+    if twin_covers(drive.model.rig):
         states = slow_run(drive)[:-1]
         return states, _forces(drive, states), TWIN
-    states, forces = fast_run(drive, drive.model.scale * (TIGHT / asked))
+    states, forces = fast_run(drive, drive.model.scale * (TIGHT / requested))
     return states[:, :-2], _normal(drive, forces), f"own code, tolerance {TIGHT:.0e}"
 
 

@@ -122,8 +122,8 @@ def planes() -> Finding:
         # Gauss points in radius = depth sinh(s): dense over the load, 300 depths wide.
         node, weight = numpy.polynomial.legendre.leggauss(120)
         end, farthest = math.asinh(300.0), 300.0 * depth
-        stretch = 0.5 * end * (node + 1.0)
-        radius, area = depth * numpy.sinh(stretch), depth**2 * numpy.sinh(stretch) * numpy.cosh(stretch)
+        argument = 0.5 * end * (node + 1.0)
+        radius, area = depth * numpy.sinh(argument), depth**2 * numpy.sinh(argument) * numpy.cosh(argument)
         angle = numpy.arange(48) / 48 * 2.0 * math.pi
         x, y = radius[:, None] * numpy.cos(angle), radius[:, None] * numpy.sin(angle)
         points = numpy.stack([x.ravel(), y.ravel(), numpy.full(x.size, depth)], axis=1)

@@ -119,21 +119,21 @@ def twin_laws(rig: Vehicle) -> tuple[Law | None, Law | None]:
     )
 
 
-def twin_knows(rig: Vehicle) -> bool:
+def twin_covers(rig: Vehicle) -> bool:
     """Whether the laws of all contacts are among those that the twin has: power laws without
-    memory.
+    hysteresis.
     """
     present = ((rig.tire, rig.tire_contact), (rig.seat, rig.seat_contact))
-    return all(_is_known(contact) for part, contact in present if part is not None)
+    return all(_is_covered(contact) for part, contact in present if part is not None)
 
 
-def _is_known(contact: Contact | None) -> bool:
+def _is_covered(contact: Contact | None) -> bool:
     return contact is not None and isinstance(contact.elastic, NormalElastic) and contact.hysteresis is None
 
 
 def _law(contact: Contact | None) -> Law:
     if contact is None or not isinstance(contact.elastic, NormalElastic) or contact.hysteresis is not None:
-        raise ValueError("the slow twin knows power laws without memory only; leave out foam and foam_hysteresis")
+        raise ValueError("the slow twin covers power laws without hysteresis only; leave out foam and foam_hysteresis")
     coefficient, exponent, loss = contact.elastic.coefficient, contact.elastic.exponent, contact.dissipative
     if isinstance(loss, GeneralDissipative):
         powers = loss.coefficient, loss.approach_exponent, loss.rate_exponent

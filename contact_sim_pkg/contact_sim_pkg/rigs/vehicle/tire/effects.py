@@ -26,7 +26,7 @@ AXLE_FREQUENCY, AXLE_SHARE = 30.0, 0.05  # [Hz], and the part of the force's var
 
 def _field(scene: ResolvedScene, _observed: Observed) -> Verdict:
     short, why = _short_waves(scene, SHORT_WAVE, "three patch lengths")
-    return short, f"{why}, unless the pressure itself is asked for" if short is False else why
+    return short, f"{why}, unless the pressure itself is requested" if short is False else why
 
 
 def _envelopment(scene: ResolvedScene, _observed: Observed) -> Verdict:
@@ -63,7 +63,7 @@ def _brush(scene: ResolvedScene, _observed: Observed) -> Verdict:
     constant = [0.0, 0.0, 0.0] if slip is None else [0.0, slip.longitudinal or 0.0, slip.angle or 0.0]
     points = [constant] if slip is None else slip.points or [constant]
     largest = max(abs(value) for point in points for value in point[1:])
-    return largest > 0.0, f"largest slip that the scene asks for: {largest:g}"
+    return largest > 0.0, f"largest slip of the scene: {largest:g}"
 
 
 _SCHEMA = f"{__package__}.schema"

@@ -44,11 +44,11 @@ def steady_strip(
     """
     a = half_length
 
-    def margin(x: float) -> float:
+    def excess(x: float) -> float:
         return static * pressure(x) - stiffness * slip * (a - x)
 
     # Bristles stick ahead of the border and slide behind it.
-    border = brentq(margin, -a, a * (1.0 - 1e-9), xtol=1e-15)
+    border = brentq(excess, -a, a * (1.0 - 1e-9), xtol=1e-15)
     total, moment = 0.0, 0.0
     for stress, low, high in (
         (lambda x: kinetic * pressure(x), -a, border),

@@ -65,7 +65,7 @@ class RoadField(ContactField):
     def store(self) -> None:
         """See `ContactField`; the tread stores the pressure."""
         if self._tread_state is not None and self.published is not None:
-            self._tread_state.keep(self._on_wide(self.published.pressure))
+            self._tread_state.store(self._on_wide(self.published.pressure))
 
     def _on_wide(self, pressure: Gap) -> Gap:
         """A pressure field on the wide grid, which both grids share their middle with."""

@@ -49,7 +49,7 @@ class RollingShear:
         self.reset()
 
     def reset(self) -> None:
-        """Forget everything: a tire that stands unstrained."""
+        """Reset to a standing, unstrained tire."""
         self._bristles = make_brush_state(self._wide.rows, self._wide.cols)
         self._time = 0.0
         self._travel: float | None = None

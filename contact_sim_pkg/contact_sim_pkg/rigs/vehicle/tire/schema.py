@@ -37,7 +37,9 @@ class TireSection(Section):
 
 
 class HertzElastic(Section):
-    """Elastic force of the tire: elliptic Hertz contact, from the radii and the modulus of `tire`."""
+    """Elastic force of the tire: elliptic Hertz contact, from the radii and the modulus of
+    `tire`.
+    """
 
 
 class TireLoss(HuntCrossley):
@@ -53,7 +55,9 @@ class TireLoss(HuntCrossley):
 
 
 class TireField(PressureFieldSection):
-    """Pressure field of the tire on a half-space; it is the contact, its integral drives the wheel."""
+    """Pressure field of the tire on a half-space; it is the contact, its integral drives
+    the wheel.
+    """
 
     levels = (GridSection(48, 64, 1e-2, 1), GridSection(96, 128, 1e-3, 2), GridSection(192, 256, 1e-6, 4))
 

@@ -66,8 +66,8 @@ def tire_effect_breaches(scene: Scene) -> Iterator[Breach]:
         sentence = f"{show(brush.coefficient_kinetic)} is above coefficient_static ({show(brush.coefficient_static)})"
         yield Breach(f"{where}.brush.coefficient_kinetic", sentence, (f"{where}.brush.coefficient_static",))
     # The schema bounds the number of branches, not their values.
-    memory = scene.effect("tire", TreadViscoelasticitySection)
-    for index, (ratio, time) in enumerate(() if memory is None else memory.branches):
+    tread = scene.effect("tire", TreadViscoelasticitySection)
+    for index, (ratio, time) in enumerate(() if tread is None else tread.branches):
         place = f"{where}.tread_viscoelasticity.branches.{index}"
         if not 0.0 <= ratio <= 100.0:
             yield Breach(f"{place}.0", f"{show(ratio)} is outside 0 to 100")

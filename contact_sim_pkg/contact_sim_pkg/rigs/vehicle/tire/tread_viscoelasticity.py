@@ -75,7 +75,7 @@ class TreadState:
         self.gap: Field = numpy.zeros(shape)  # [m] to be added to the gap at the present instant
 
     def reset(self) -> None:
-        """Forget everything: an unloaded tread."""
+        """Reset to an unloaded tread."""
         for field in (self._displacement, self._branches, self.gap):
             field.fill(0.0)
 
@@ -97,7 +97,7 @@ class TreadState:
                 shift_rows(branch, cells)
             self._update_gap()
 
-    def keep(self, pressure: Field) -> None:
+    def store(self, pressure: Field) -> None:
         """Store the pressure [Pa] that was found with the present `gap`."""
         displacement(self._raised, self._buffers, pressure, self._pressed)
         update_branches(self._pressed, self.gap, self._weights, self._decay, self._displacement, self._branches)
@@ -133,15 +133,15 @@ def viscoelastic_gap(
 
     Fields: [rows, cols] [m], branches: [branches, rows, cols] [m]; weights, decay: [branches].
     """
-    held = viscous
+    ratio = viscous
     for k in range(weights.shape[0]):
-        held += weights[k]
+        ratio += weights[k]
     for i in range(gap.shape[0]):
         for j in range(gap.shape[1]):
-            total = held * displaced[i, j]
+            total = ratio * displaced[i, j]
             for k in range(weights.shape[0]):
                 total -= decay[k] * branches[k, i, j]
-            gap[i, j] = total / (1.0 + held)
+            gap[i, j] = total / (1.0 + ratio)
 
 
 @entry

@@ -42,7 +42,7 @@ def border_speed(impact: FreeImpact, depth: float, speed: float, shear_speed: fl
     depth [m], speed [m/s], shear_speed > 0 [m/s]; raises ImpactError otherwise.
     """
     _check_state(depth, speed, shear_speed)
-    return _held(_border(impact, depth, speed), shear_speed)
+    return _limited(_border(impact, depth, speed), shear_speed)
 
 
 def front_speed(impact: FreeImpact, depth: float, speed: float, shear_speed: float) -> tuple[float, bool]:
@@ -52,7 +52,7 @@ def front_speed(impact: FreeImpact, depth: float, speed: float, shear_speed: flo
     Arguments as `border_speed`.
     """
     _check_state(depth, speed, shear_speed)
-    return _held(FRONT_OVER_BORDER * _border(impact, depth, speed), shear_speed)
+    return _limited(FRONT_OVER_BORDER * _border(impact, depth, speed), shear_speed)
 
 
 def front_time(impact: FreeImpact, shear_speed: float) -> Front:
@@ -126,7 +126,7 @@ def _border(impact: FreeImpact, depth: float, speed: float) -> float:
     return 0.5 * impact.shape * math.sqrt(impact.sphere.radius / depth) * speed
 
 
-def _held(speed: float, shear_speed: float) -> tuple[float, bool]:
+def _limited(speed: float, shear_speed: float) -> tuple[float, bool]:
     supersonic = speed > shear_speed
     return (shear_speed if supersonic else speed), supersonic
 

@@ -78,8 +78,8 @@ def centre_stress(
         return CentreStress(0.0, 0.0, speed != 0.0)
     # Contact area over depth; the viscous part is not evaluated below the limiting depth.
     area = math.pi * impact.shape**2 * impact.sphere.radius
-    held = max(depth, limiting_depth)
-    viscous = viscous_force(impact.viscous, held, speed) / (area * held)
+    evaluated = max(depth, limiting_depth)
+    viscous = viscous_force(impact.viscous, evaluated, speed) / (area * evaluated)
     return CentreStress(
         factor * elastic_force(impact.elastic, depth) / (area * depth), factor * viscous, depth < limiting_depth
     )

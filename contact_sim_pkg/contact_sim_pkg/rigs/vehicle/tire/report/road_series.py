@@ -60,7 +60,9 @@ class RoadReader:
         self._middle, self._low, self._high = (ThinnedRows(ROWS, reduce) for reduce in (np.mean, np.min, np.max))
 
     def add(self, time: float, _type: str, message: Any) -> None:
-        """Read the block that starts at `time` [s]. BagError for one that does not fill its grid."""
+        """Read the block that starts at `time` [s]. BagError for one that does not fill its
+        grid.
+        """
         if len(message.height) != message.rows * message.cols:
             raise BagError(
                 f"the road at {time:.6f} s has {len(message.height)} heights for {message.rows} x {message.cols} nodes"
