@@ -49,7 +49,7 @@ def test_more_than_ten_minutes_are_refused_by_name_unless_they_are_allowed(scene
 
 
 @pytest.mark.parametrize("name", shipped_names())
-def test_nothing_is_told_of_a_shipped_scene(name):
+def test_nothing_is_reported_of_a_shipped_scene(name):
     scene = resolved(name)
     assert refuse_long(scene, allowed=False) == ""
     assert sum(part.seconds for part in estimated_work(scene)) < BOUND

@@ -57,7 +57,7 @@ def test_the_energy_of_a_back_on_foam_balances_with_loss_of_both_kinds():
     assert abs(found.residual) <= 1e-7 * found.supplied
 
 
-def test_a_slow_slap_on_foam_returns_what_the_memory_leaves():
+def test_a_slow_slap_on_foam_returns_what_the_hysteresis_leaves():
     """Of a long loading the share 2 s/(1 + s) is lost, here with U >> u_0 and no other loss."""
     rig = one_mass(FOAM, None, preload=0.0, memory=(SHARE, 1e-3))
     start = numpy.zeros(8)

@@ -103,13 +103,13 @@ def test_touches_and_losses_fall_on_the_instants_that_scipy_finds(frequency, amp
 
 @pytest.mark.parametrize("tolerance", [1e-4, 1e-6, 1e-8, 1e-10])
 @pytest.mark.parametrize("friction", [None, FRICTION])
-def test_the_energy_of_slaps_and_slips_balances_to_the_asked_tolerance(friction, tolerance):
+def test_the_energy_of_slaps_and_slips_balances_to_the_requested_tolerance(friction, tolerance):
     found = driven(one_mass(friction=friction, amplitude=0.01), sine(1.5 * GRAVITY, 5.25), 2.0, tolerance)
     assert abs(found.residual) <= 10.0 * tolerance * found.supplied
 
 
 @pytest.mark.parametrize("asked", [0.05, 0.3, 0.6, 0.9, 0.98])
-def test_the_restitution_of_a_free_slap_is_the_ratio_of_speeds_and_the_asked_one(asked):
+def test_the_restitution_of_a_free_slap_is_the_ratio_of_speeds_and_the_requested_one(asked):
     speed = 0.5
     loss = LOSS._replace(damping=damping_of_restitution(asked, speed))
     rig = one_mass(loss=loss, preload=0.0)

@@ -76,7 +76,7 @@ def test_slaps_and_slips_leave_the_energy_ledger_closed(slap_and_slip):
     assert numpy.all(numpy.diff([entry.dissipated for entry in ledger]) >= -1e-9)
 
 
-def test_every_slap_gives_back_less_work_than_it_took(slap_and_slip):
+def test_every_slap_returns_less_work_than_it_received(slap_and_slip):
     _scene, messages = slap_and_slip
     blocks = of(messages, "bench/episodes", ContactEpisodes)
     ratio = numpy.concatenate([block.restitution for block in blocks])

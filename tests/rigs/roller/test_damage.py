@@ -36,7 +36,7 @@ def test_the_table_rises_from_the_load_at_which_a_limit_is_met():
     assert shares[-1] > 0.0
 
 
-def test_below_both_limits_a_run_takes_nothing_off_the_track():
+def test_below_both_limits_a_run_wears_nothing():
     """p0 1.22 GPa of 26.5 N under limits of 1.4 GPa."""
     limits = ("effects.roller.subsurface.normal_limit=1.4e9", "effects.roller.subsurface.shear_limit=1.4e9")
     short = ("duration=0.1", "effects.roller.subsurface.instants=[0.0]", *limits, *SMALL)
@@ -47,7 +47,7 @@ def test_below_both_limits_a_run_takes_nothing_off_the_track():
     assert (tracks[-1].height == tracks[0].height).all()
 
 
-def test_a_yaw_that_is_held_is_that_of_the_contact_and_its_volumes():
+def test_a_fixed_yaw_is_that_of_the_contact_and_its_volumes():
     """Straight cylinders at 0.7 rad: at a yaw of 0 they would touch in a line."""
     model = build_roller(resolved(
         "roller_steady", "roller.programme=null", "roller.profile_radius=0", "roller.shaft_profile_radius=0", "roller.yaw=0.7",

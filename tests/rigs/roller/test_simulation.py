@@ -75,7 +75,7 @@ def test_the_stability_is_that_of_the_sheet():
     assert "stable: decays" in damped.sentence
 
 
-def test_the_worst_row_of_a_programme_is_told_before_the_run():
+def test_the_worst_row_of_a_programme_is_reported_before_the_run():
     """With damping 2e-5 the motion is lost above 380 N (sheet); a ramp from 80 to 400 N passes it, one to 300 N does not."""
     damped = ("roller.damping_tilt=2e-5", "roller.damping_yaw=2e-5", "roller.load=80")
     ramp = "roller.programme={{time: [0, 1], load: [80, {}]}}"
@@ -92,7 +92,7 @@ def test_a_roller_without_friction_and_damping_is_said_to_be_neutral():
     assert "neutral: neither grows nor decays; critical load 3000 N, critical damping 0 N m s" in facts.sentence
 
 
-def test_the_amplitude_grows_at_the_rate_that_was_told():
+def test_the_amplitude_grows_at_the_reported_rate():
     """A straight line through the logarithm of an amplitude from energy-like squares, both motions of the start included."""
     _scene, messages = run("roller_flutter", "duration=4.0", "roller.tilt=1e-6")
     told = of(messages, RollerStability)[0]
@@ -247,7 +247,7 @@ def test_a_road_without_track_waves_is_refused():
         resolved("roller_flutter", "road.kind=flat")
 
 
-def test_the_softness_of_the_contact_follows_a_held_yaw():
+def test_the_softness_of_the_contact_follows_a_fixed_yaw():
     """A roller held at 0.5 rad: kappa of the contact at that yaw, seen in the decay of its heave."""
     from contact_sim_pkg.rigs.roller.theory.heave import make_heave, natural_frequency
 
@@ -278,7 +278,7 @@ def test_the_track_s_own_curvature_stiffens_the_crests_no_more_than_the_theory_o
         run("roller_corrugation", *deep, "effects.roller.track_waves.local_curvature='on'")
 
 
-def test_the_time_acceleration_is_held_against_every_turn_ridden():
+def test_the_time_acceleration_is_checked_against_every_turn_ridden():
     """Five turns in one are near to each of them ridden while the wave is small; nothing is looked at where each is ridden."""
     _scene, messages = run("roller_corrugation", "duration=0.2", "effects.roller.damage.table_rows=4")
     tracks = [each for each in of(messages, RollerTrack) if each.checked]
@@ -334,7 +334,7 @@ def test_a_roller_that_tips_over_at_once_is_prepared_and_fails_in_its_run():
         simulation.advance(0, {})
 
 
-def test_a_roller_that_tips_over_under_its_load_is_told():
+def test_a_roller_that_tips_over_under_its_load_is_reported():
     with pytest.raises(RunError, match=r"the roller tips over, .* a lower load"):
         run("roller_flutter", "duration=0.1", "roller.load=5000")
 

@@ -64,13 +64,13 @@ SLOW_TREAD = (
 
 
 @pytest.mark.parametrize(("force", "field"), [(1000, 100), (4000, 1000), (4000, 2000), (8000, 100)])
-def test_the_memory_of_the_tread_steps_as_its_stretches(force, field):
+def test_the_coupling_steps_of_a_viscoelastic_tread_are_its_own(force, field):
     scene = resolved("tire_bump", *SLOW_TREAD, f"outputs.force_rate={force}", f"outputs.field_rate={field}")
     model = Simulation(scene).model
     assert model.tread.step == pytest.approx(model.coupling.segments * model.timing.segment_length, rel=1e-12)
 
 
-def test_a_tread_with_memory_meets_a_kerb_with_the_same_force_at_every_rate():
+def test_a_viscoelastic_tread_meets_a_kerb_with_the_same_force_at_every_rate():
     peaks = [run(*SLOW_TREAD, f"outputs.field_rate={rate}")[0].max() for rate in (100, 500, 1000)]
     shorter = run(*SLOW_TREAD, "outputs.field_rate=4000", "outputs.force_rate=4000")[0].max()  # four times as short
     assert peaks == pytest.approx([shorter] * 3, rel=0.06)
@@ -108,13 +108,13 @@ def test_a_wheel_that_stands_is_solved_once_a_field():
     assert all(cost.stretches == 1 for cost in costs)
 
 
-def test_an_edge_is_taken_in_shorter_stretches():
+def test_coupling_steps_are_shorter_over_an_edge():
     _force, costs = run(ROADS["kerb"])
     assert sum(cost.stretches_repeated for cost in costs) > 0
     assert max(cost.stretches for cost in costs) > min(cost.stretches for cost in costs)
 
 
-def test_samples_keep_their_instants_where_stretches_end_between_them():
+def test_samples_keep_their_instants_where_coupling_steps_end_between_them():
     """At 40 m/s four segments make a sample; with 1000 fields a second each sample starts an interval of its own."""
     fast = "travel={speed: 40.0}"
     force, _costs = run(fast, ROADS["pothole"])

@@ -80,7 +80,7 @@ def test_the_general_law_takes_the_place_of_the_usual_loss():
     assert pulling == GeneralDissipative(400.0, 0.0, 0.5, 0.5e-6, -numpy.inf)
 
 
-def test_the_general_law_delivers_the_asked_restitution_of_the_whole_occupant():
+def test_the_general_law_delivers_the_requested_restitution_of_the_whole_occupant():
     loss = seat_loss("restitution: 0.6", "reference_speed: 0.4", "approach_exponent: 0.5")
     mass, stiffness, n = 50.8, 2.73e5, 1.5
     length = (mass * 0.4**2 / stiffness) ** (1.0 / (n + 1.0))

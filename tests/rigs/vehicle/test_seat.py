@@ -84,7 +84,7 @@ def twin_force(times, shaking, coefficient, damping):
 
 
 @pytest.mark.parametrize("asked", [1e-2, 1e-3])
-def test_the_force_of_a_contact_as_stiff_as_the_schema_lets_is_as_accurate_as_asked(asked):
+def test_the_force_of_a_contact_at_the_stiffest_of_the_schema_is_as_accurate_as_requested(asked):
     """Its depth at rest is 0.6 um: an error of place that means nothing on a cushion is all of its force."""
     scene = resolved(
         "seat_ride",

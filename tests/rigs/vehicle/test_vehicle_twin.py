@@ -21,7 +21,7 @@ CASES = {
 
 
 @pytest.mark.parametrize("name", CASES)
-def test_the_rig_follows_its_twin_to_the_asked_tolerance(name):
+def test_the_rig_follows_its_twin_to_the_requested_tolerance(name):
     duration, *values = CASES[name]
     scene = load_resolved(name.split()[0], *values)
     drive = drive_of(scene, duration)

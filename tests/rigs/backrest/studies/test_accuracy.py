@@ -32,7 +32,7 @@ def slap_rows():
     return accuracy_cost_backrest.tolerance_rows("seat_slap", load_resolved("seat_slap"), quiet)
 
 
-def test_a_slap_s_error_falls_with_the_asked_tolerance(slap_rows):
+def test_a_slap_s_error_falls_with_the_requested_tolerance(slap_rows):
     quantities = by_quantity(slap_rows)
     assert set(quantities) == {"motion", "normal force", "friction", "instants of touch"}
     for name, rows in quantities.items():

@@ -76,5 +76,5 @@ def test_many_impacts_keep_the_courses_of_the_first_alone(tmp_path):
     assert [each.number for each in many.series["impacts"].courses] == list(range(MOST_COURSES))
 
 
-def test_nothing_taken_is_no_series():
+def test_a_bag_without_impacts_has_no_series():
     assert ImpactReader().finish() is None

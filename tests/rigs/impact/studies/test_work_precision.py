@@ -5,7 +5,7 @@ import pytest
 from contact_sim_pkg.records import work_precision as ladder_row
 from contact_sim_pkg.rigs.impact.studies import work_precision as ladder_impact
 from contact_sim_pkg.rigs.impact.studies import work_precision_material as ladder_impact_material
-from contact_sim_pkg.rigs.impact.studies import work_precision_memory as ladder_impact_memory
+from contact_sim_pkg.rigs.impact.studies import work_precision_memory as memory_studies
 from contact_sim_pkg.studies.accuracy import work_precision as ladder
 
 
@@ -29,7 +29,7 @@ def value_of(rows, loss_tangent, quantity, level, end="force", key="value"):
 
 
 @pytest.mark.parametrize("level", ["table", "integrated"])
-def test_the_dear_rungs_meet_the_reference_in_every_quantity(rows, level):
+def test_the_expensive_levels_meet_the_reference_in_every_quantity(rows, level):
     chosen = [row for row in rows if row["level"] == level]
     assert {row["quantity"] for row in chosen} == set(ladder_impact.QUANTITIES)
     assert max(row["error"] for row in chosen) < 1e-9
@@ -39,7 +39,7 @@ def test_the_dear_rungs_meet_the_reference_in_every_quantity(rows, level):
 @pytest.mark.parametrize(
     ("loss_tangent", "of_66", "printed", "corrected"), [(0.01, 0.9811, 0.9540, 0.9647), (0.2, 0.6793, 0.3509, 0.4672)]
 )
-def test_the_published_restitutions_of_the_cheap_rungs_come_out(rows, loss_tangent, of_66, printed, corrected):
+def test_the_published_restitutions_of_the_inexpensive_levels_come_out(rows, loss_tangent, of_66, printed, corrected):
     for level, expected in (
         ("closed forms, printed", of_66),
         ("equivalent constants, printed", printed),
@@ -79,11 +79,11 @@ def test_the_front_s_formulas_come_nearer_for_slow_impacts():
     assert small[-1] < 2e-3
 
 
-def test_the_rig_is_one_of_the_ladders():
+def test_the_rig_has_a_work_precision_study():
     assert [entry.part for entry in ladder.studies_of("impact")] == [
         ladder_impact.PART,
         ladder_impact_material.PART,
         ladder_impact_material.FRONT_PART,
-        ladder_impact_memory.HISTORY_PART,
-        ladder_impact_memory.RESPONSE_PART,
+        memory_studies.HISTORY_PART,
+        memory_studies.RESPONSE_PART,
     ]

@@ -3,7 +3,7 @@
 import pytest
 
 from contact_sim_pkg.records import work_precision as ladder_row
-from contact_sim_pkg.rigs.impact.studies import work_precision_memory as ladder_impact_memory
+from contact_sim_pkg.rigs.impact.studies import work_precision_memory as memory_studies
 from contact_sim_pkg.studies.accuracy import work_precision as ladder
 
 
@@ -20,7 +20,7 @@ def errors(rows, quantity, case):
 
 
 def test_internal_variables_are_exact_on_the_same_samples_and_a_single_element_is_not_the_solid():
-    rows = ladder_impact_memory.history_rows()
+    rows = memory_studies.history_rows()
     for case in ("compliance 0.25", "compliance 1"):
         found = errors(rows, "depth at the turning point", case)
         assert found["internal variables, 400 samples"] < 1e-12
@@ -31,7 +31,7 @@ def test_internal_variables_are_exact_on_the_same_samples_and_a_single_element_i
 
 
 def test_harmonic_balance_converges_and_the_linear_answer_fails_with_the_square_of_the_shaking():
-    rows = ladder_impact_memory.response_rows()
+    rows = memory_studies.response_rows()
     small, large = (errors(rows, "half range of the depth", f"by {part:g} of") for part in (0.05, 0.3))
     assert large["harmonic balance, 6 harmonics"] < 1e-7
     assert small["time integration over 50 periods"] < 1e-7
@@ -40,6 +40,6 @@ def test_harmonic_balance_converges_and_the_linear_answer_fails_with_the_square_
     assert falling == sorted(falling, reverse=True)
 
 
-def test_both_ladders_stand_under_impact():
+def test_both_studies_stand_under_impact():
     parts = {each.part for each in ladder.studies_of("impact")}
     assert {"viscoelastic history", "complex response"} <= parts

@@ -28,7 +28,7 @@ def law_of(loss_tangent, speed, gravity, end="force", modulus=8e6):
     return ContactLaw(SPHERE.mass, gravity, impact.elastic, impact.viscous, end), impact
 
 
-def stretches_of(law, speed, most=200):
+def phases_of(law, speed, most=200):
     found = [touch(law, speed)]
     while found[-1].next_kind != PARTED and len(found) < most:
         found.append(next_phase(found[-1]))
@@ -80,7 +80,7 @@ def test_without_weight_it_is_the_free_impact():
 @pytest.mark.parametrize("speed", [3.0, 0.08])
 def test_energy_before_is_energy_after_and_heat(end, loss_tangent, speed):
     law, _impact = law_of(loss_tangent, speed, 9.81, end)
-    found = stretches_of(law, speed)
+    found = phases_of(law, speed)
     heat = math.fsum(phase.heat for phase in found)
     last = found[-1]
     after = 0.5 * law.mass * last.last_speed**2 + stored(law, last.last_depth) - law.mass * 9.81 * last.last_depth
@@ -90,7 +90,7 @@ def test_energy_before_is_energy_after_and_heat(end, loss_tangent, speed):
 
 def test_a_slow_sphere_comes_to_rest_where_the_weight_holds_it():
     law, _impact = law_of(0.2, 0.005, 9.81)
-    last = stretches_of(law, 0.005, most=12)[-1]
+    last = phases_of(law, 0.005, most=12)[-1]
     assert last.kind == LOADED
     assert last.next_kind == LOADED
     assert last.last_depth == pytest.approx(static_depth(law), rel=1e-9)
@@ -99,7 +99,7 @@ def test_a_slow_sphere_comes_to_rest_where_the_weight_holds_it():
 
 def test_a_sphere_that_falls_back_into_the_overlap_is_caught_where_the_law_pushes_again():
     law, _impact = law_of(0.2, 0.02, 9.81)
-    found = stretches_of(law, 0.02, most=12)
+    found = phases_of(law, 0.02, most=12)
     caught = [phase for phase in found if phase.kind == RELEASED and phase.next_kind == LOADED]
     for phase in caught:
         pushes = law.elastic * phase.last_depth + law.viscous * phase.last_speed

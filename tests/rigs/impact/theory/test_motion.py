@@ -77,7 +77,7 @@ def test_the_frequency_in_the_viscous_force_is_that_of_the_contact_time():
 
 
 @pytest.mark.parametrize("end", ["force", "gap"])
-def test_the_course_starts_and_ends_as_the_end_rule_says(end):
+def test_the_course_starts_and_ends_by_the_end_rule(end):
     found = solve_impact(SPHERE, RUBBER, 2.0, end)
     run = course(found, numpy.linspace(0.0, found.duration, 501))
     assert run.force.max() == pytest.approx(found.peak_force, rel=1e-4)

@@ -176,7 +176,7 @@ def energy(law, depth, speed):
     return 0.5 * law.mass * speed**2 + 0.4 * law.elastic * max(depth, 0.0) ** 2.5 - law.mass * law.gravity * depth
 
 
-def check_stretch(found, law):
+def check_phase(found, law):
     before, after = energy(law, found.depth, found.speed), energy(law, found.last_depth, found.last_speed)
     assert found.heat >= -1e-12 * before
     size = 0.5 * law.mass * max(found.speed, found.last_speed, key=abs) ** 2 + abs(before)
@@ -186,7 +186,7 @@ def check_stretch(found, law):
 
 @holds(contact.touch, law=LAW, speed=SPEED, outside=({"speed": 0.0},))
 def _(found, law, speed):
-    check_stretch(found, law)
+    check_phase(found, law)
     assert (found.depth, found.speed, found.kind) == (0.0, speed, contact.LOADED)
     if law.gravity == 0.0:
         length = (law.mass * speed**2 / law.elastic) ** 0.4
@@ -205,7 +205,7 @@ PARTED = contact.touch(contact.ContactLaw(1.0, 0.0, 1e6, 0.0, "force"), 1.0)
 @holds(contact.next_phase, before=st.builds(contact.touch, LAW, SPEED).filter(lambda s: s.next_kind != contact.PARTED),
        outside=({"before": PARTED},))  # fmt: skip
 def _(found, before):
-    check_stretch(found, before.law)
+    check_phase(found, before.law)
     assert (found.depth, found.speed) == (before.last_depth, before.last_speed)
     if found.kind == contact.RELEASED:  # free of force
         t, g = found.duration, before.law.gravity

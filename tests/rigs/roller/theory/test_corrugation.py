@@ -45,7 +45,7 @@ def test_a_wave_grows_if_it_is_slower_than_the_natural_frequency(share):
     assert (growth(2, turn=turn) > 0.0) is (share < 1.0)
 
 
-def mean_of_straight_pieces(heights, place, width):
+def mean_of_straight_segments(heights, place, width):
     """By the trapezoidal rule over all bends of the track between both ends."""
     low, high = place - 0.5 * width, place + 0.5 * width
     places = numpy.unique([low, *range(math.ceil(low), math.floor(high) + 1), high])
@@ -57,7 +57,7 @@ def mean_of_straight_pieces(heights, place, width):
 def test_the_moving_mean_is_the_mean_over_the_length_whole_cells_or_not(width):
     heights, out = numpy.random.default_rng(3).standard_normal(60), numpy.empty(61)
     moving_mean(heights, width, out)
-    wanted = [mean_of_straight_pieces(heights, place, width) for place in range(60)]
+    wanted = [mean_of_straight_segments(heights, place, width) for place in range(60)]
     assert out[:60] == pytest.approx(wanted, abs=1e-13)
     assert out[60] == out[0]
 
@@ -98,7 +98,7 @@ def test_without_gain_the_track_stays_as_it_is():
     assert found.lowered == 0.0
 
 
-def test_a_share_that_is_even_lowers_the_whole_track_and_is_told_apart():
+def test_a_share_that_is_even_lowers_the_whole_track_and_is_reported_separately():
     heights, state, loads = numpy.zeros(CELLS), numpy.zeros(2), numpy.zeros(CELLS)
     found = run_intervals(
         HEAVE, track(0.05, numpy.full(4001, 0.5)), 3, 10, heights, state, loads, numpy.zeros((CELLS, 2))

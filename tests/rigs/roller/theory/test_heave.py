@@ -50,7 +50,7 @@ def test_small_waves_give_the_linear_load(waves):
     assert loads == pytest.approx(expected, abs=2e-3 * swing)
 
 
-def test_a_large_wave_throws_the_roller_off_as_scipy_says():
+def test_a_large_wave_separates_the_roller_as_in_scipy():
     """0.1 mm, two waves: separation and impact. Straight lines between the cells in both."""
     track = 1e-4 * numpy.cos(4.0 * math.pi * numpy.arange(CELLS) / CELLS)
     state, loads = numpy.zeros(2), numpy.zeros(CELLS)

@@ -32,6 +32,6 @@ def test_the_load_of_an_approach(approach, compliance):
     assert load_of_approach(K_C, compliance, approach) == pytest.approx(expected, rel=1e-13)
 
 
-def test_apart_there_is_no_load():
+def test_separated_bodies_carry_no_load():
     assert load_of_approach(K_C, K_B, 0.0) == load_of_approach(K_C, K_B, -1.0) == 0.0
     assert parallel_contact_load(K_C, K_B, 0.0) == 0.0

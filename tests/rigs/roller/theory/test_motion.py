@@ -108,7 +108,7 @@ def test_a_bent_roller_comes_to_rest_at_its_static_angles():
     assert record[-1, :2] == pytest.approx([rest.tilt, rest.yaw], abs=1e-13)
 
 
-def test_a_roller_that_tips_over_is_told():
+def test_a_roller_that_tips_over_is_reported():
     status, record = run(ROLLER, None, numpy.full(20001, 3500.0), 1e-5, rows=11)
     assert status == DIVERGED
     assert numpy.isfinite(record[0]).all()

@@ -80,7 +80,7 @@ def test_the_volume_of_one_component(kind, error):
     assert (found.xy, found.xz, found.yz) == (0.0, 0.0, 0.0)
 
 
-def test_it_reaches_as_deep_as_the_axis_says():
+def test_it_reaches_as_deep_as_on_the_axis():
     """z = a sqrt(p0 / limit - 1): 140 against 40 MPa gives 1.581 a. Here 1.999 a and 2.001 a from a column of the box."""
     for depth, inside in ((1.999, True), (2.001, False)):
         limit = 1.0 / (1.0 + 2.0**2)
@@ -124,7 +124,7 @@ def test_a_slender_ellipse_keeps_its_volume(profile):
 
 
 @pytest.mark.parametrize(("limits", "leaves"), [((2.6e8, 1.5e8), False), ((1e8, 3e7), True), ((1e12, 1e12), False)])
-def test_a_volume_that_leaves_its_box_is_told(limits, leaves):
+def test_a_volume_that_leaves_its_box_is_reported(limits, leaves):
     """Beside a box that is three times as large each way."""
     contact = contact_of_rollers(CURVATURES, 0.0, MODULUS, 100.0)
     wide = numpy.linspace(-6.0, 6.0, 61)

@@ -288,7 +288,7 @@ def test_a_hole_in_the_contact_frees_the_bristles_that_pass_it():
     assert not contact.shear_y[20:24].any()
 
 
-def test_at_standstill_everything_is_held():
+def test_at_standstill_every_bristle_sticks():
     contact = hertz_contact(STICKY, 40, 20, (0.08, 0.06), 0.4e6)
     moving = contact.roll(0.0137, 0.05, 0.1, 12)
     stresses = contact.shear_x.copy(), contact.shear_y.copy()

@@ -39,7 +39,7 @@ def test_a_wall_comes_without_jerks_between_the_nodes():
     assert numpy.diff(height).max() / numpy.diff(PLACES)[0] < 1.03 * 0.1 * 0.75 / 0.06
 
 
-def test_a_lattice_that_does_not_hold_the_footprint_is_told():
+def test_a_lattice_that_does_not_hold_the_footprint_is_reported():
     out = numpy.empty(1)
     for place in (0.05, 0.75):
         flat = numpy.zeros((ROWS, COLS), dtype=numpy.float32)

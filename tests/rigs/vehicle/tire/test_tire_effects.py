@@ -84,7 +84,7 @@ def test_a_scene_without_impulses_has_no_samples_of_them():
     assert forces(found, "impulses").size == 0
 
 
-def test_a_tread_with_memory_drags_and_an_elastic_one_does_not():
+def test_a_viscoelastic_tread_drags_and_an_elastic_one_does_not():
     rolling = (*FLAT, "travel.speed=5", "outputs.field_rate=500")
     centre = {}
     for name, effects in (("elastic", ()), ("memory", ALL[2:])):

@@ -53,7 +53,7 @@ def test_the_modulus_over_a_step_is_the_mean_of_the_relaxation_over_it() -> None
     assert stiffening(KELVIN_VOIGT, STEP) == pytest.approx(1.0 + 6e-3 / STEP)
 
 
-def test_a_held_sphere_relaxes_as_the_modulus_does() -> None:
+def test_a_fixed_sphere_relaxes_as_the_modulus_does() -> None:
     pressing, gap = Pressing(TREAD), sphere(SETTINGS)
     elastic = PressureField(SETTINGS, "tire").solve(gap, 4e-3)
     for step in range(1, 30):
@@ -157,7 +157,7 @@ def test_a_slow_and_a_fast_wheel_roll_with_less_drag_than_one_between() -> None:
     assert ahead["between"] > 5.0 * max(abs(ahead["slow"]), abs(ahead["fast"]))
 
 
-def test_a_reset_tread_remembers_nothing() -> None:
+def test_a_reset_tread_is_unstrained() -> None:
     pressing, gap = Pressing(TREAD), sphere(SETTINGS)
     first = pressing.at_approach(gap, 4e-3)
     pressing.at_approach(gap, 4e-3)

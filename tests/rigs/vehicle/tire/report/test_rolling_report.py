@@ -103,7 +103,7 @@ def test_peaks_stand_raw_and_filtered_side_by_side(recording):
     assert rows["wheel acceleration, m/s², down"].raw.value == pytest.approx(-known.WHEEL_AMPLITUDE)
 
 
-def test_the_shown_stretch_holds_the_largest_load_and_what_comes_after(recording, reference):
+def test_the_shown_segment_holds_the_largest_load_and_what_comes_after(recording, reference):
     field = recording.fields["tire"]
 
     near, whole = road_sections(Rolling(recording.contacts["tire"], field, recording.series["road"], reference))
