@@ -2,7 +2,7 @@
 Seat, eqs 10 and 11).
 
 An episode of a point lasts from a touch to the last loss of its force: where the bodies part faster
-than the material recovers, and close again before they are apart, it goes on. One of the whole
+than the material recovers, and close again before they separate, it goes on. One of the whole
 contact lasts from the first point's touch until no point carries. Works of closing and opening are
 integrated states, whose values at the beginning are taken off at the end.
 """
@@ -93,7 +93,7 @@ def _close_episode(rig, mode, place, state):
 
 @borrowing_kernel
 def end_episode(rig, mode, point, state):
-    """A point is apart."""
+    """A point separates."""
     mode.counts[OVERLAPPING] -= 1
     places = 2 if mode.counts[OVERLAPPING] == 0 else 1
     for k in range(places):

@@ -126,7 +126,7 @@ def seat_acceleration(drive, time):
 
 @borrowing_kernel
 def unit_normal(rig, mode, point, approach, approach_rate, state):
-    """Normal force in [N] of the whole law at this approach; 0 where the point is apart or
+    """Normal force in [N] of the whole law at this approach; 0 where the point is separated or
     released.
     """
     if mode.doing[CONTACT, point] == APART or mode.doing[CONTACT, point] == RELEASED:

@@ -68,7 +68,7 @@ class BackrestRecord:
 
 
 def block_outputs(model: BackrestModel, record: BackrestRecord, wall_time: float) -> list[Output]:
-    """The outputs of a block that took ``wall_time`` [s]."""
+    """Outputs of a block, computed in ``wall_time`` [s]."""
     stamps = BlockStamps(record.block, model.timing)
     normal, tangential, approach = record.forces.T
     force = ContactForce(

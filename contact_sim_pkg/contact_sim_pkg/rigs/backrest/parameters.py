@@ -142,7 +142,7 @@ class BackrestMode(NamedTuple):
 
 
 def make_mode(points: int) -> BackrestMode:
-    """Discrete state of ``points`` points, all apart."""
+    """Discrete state of ``points`` points, all separated."""
 
     doing, counts = numpy.zeros((DOING_ROWS, points), dtype=numpy.int64), numpy.zeros(2, dtype=numpy.int64)
     lasting, ended = numpy.zeros((points + 1, LASTING_COLUMNS)), numpy.zeros((MOST_EPISODES, ENDED_COLUMNS))

@@ -54,7 +54,7 @@ STEEPEST = 0.2
 
 
 class ShellError(ValueError):
-    """The shell, a number of modes or a point is not possible; the text says why."""
+    """The shell, a number of modes or a point is not possible."""
 
 
 class ShallowShell(NamedTuple):

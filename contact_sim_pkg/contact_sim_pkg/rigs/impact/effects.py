@@ -29,7 +29,7 @@ def _shift(scene: ResolvedScene, _observed: Observed) -> Verdict:
 
 
 _SCHEMA = f"{__package__}.schema_effects"
-_MORE = choice_of_model("says more of the same impact, and changes no force")
+_MORE = choice_of_model("adds outputs of the same impact, and changes no force")
 
 IMPACT_EFFECTS = (
     Effect(

@@ -35,7 +35,7 @@ class TiltYaw:
     """Tilt and yaw from the static angles on."""
 
     def __init__(self, model: RollerModel, load: float) -> None:
-        """At rest, off the static angles under `load` [N] by what the scene says."""
+        """At rest, off the static angles under `load` [N] by the start angles of the scene."""
         self.model, self.rules = model, (gauss_rule(2), gauss_rule(3))
         curvatures = model.programme.curvatures_at(0.0)
         found = stability(model.roller, curvatures, model.bending, model.modulus, load)

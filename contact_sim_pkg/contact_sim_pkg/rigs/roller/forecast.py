@@ -1,4 +1,4 @@
-"""What is told of a roller's stability before its run."""
+"""Report on the stability of a roller before its run."""
 
 from __future__ import annotations
 

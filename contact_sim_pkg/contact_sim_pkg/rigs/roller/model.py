@@ -122,8 +122,8 @@ class RollerModel:
 
     @property
     def traction(self) -> tuple[float, float]:
-        """Over the pressure, along x and y: as `subsurface` says; along rolling by default that of
-        the rolling friction.
+        """Over the pressure, along x and y: as `subsurface` sets it; along rolling by default that
+        of the rolling friction.
 
         The result: [1].
         """

@@ -63,7 +63,7 @@ class RollerRecord:
 
 
 def block_outputs(model: RollerModel, record: RollerRecord, wall_time: float) -> list[Output]:
-    """The outputs of a block that took ``wall_time`` [s]."""
+    """Outputs of a block, computed in ``wall_time`` [s]."""
     stamps = BlockStamps(record.block, model.timing)
     tracks = [] if record.track is None else [_track(model, record, record.track, each) for each in record.track.tracks]
     records: list[tuple[str, Any]] = [

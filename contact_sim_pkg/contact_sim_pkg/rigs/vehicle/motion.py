@@ -74,7 +74,7 @@ def _floor(tire, state):
 
 @borrowing_kernel
 def seat_approach(tire, seat, cushion, cushion_rate, state):
-    """Approach in [m] and its rate in [m/s]; apart where there is no seat."""
+    """Approach in [m] and its rate in [m/s]; separated where there is no seat."""
     if seat is None:
         return -1.0, 0.0
     floor, floor_rate = _floor(tire, state)

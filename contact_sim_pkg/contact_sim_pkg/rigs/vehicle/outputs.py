@@ -104,7 +104,7 @@ class BlockRecord:
 
 
 def block_outputs(model: Model, record: BlockRecord, wall_time: float) -> list[Output]:
-    """The outputs of a block that took ``wall_time`` [s]."""
+    """Outputs of a block, computed in ``wall_time`` [s]."""
     stamps, forces = BlockStamps(record.block, model.timing), record.forces
     outputs: list[Output] = []
     # contacts: force and wrenches of the resultant, then the fields under it

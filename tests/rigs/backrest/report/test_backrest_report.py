@@ -46,7 +46,7 @@ def test_captions_tell_the_numbers_of_the_closed_form(page):
     slaps = known.touches(5.0).size
     assert f"{slaps} slaps that ended within the run" in text
     assert "0.5 to 0.5, mean 0.5" in text
-    assert f"The slaps took {slaps * 6} J in all" in text
+    assert f"The slaps dissipated {slaps * 6} J in all" in text
     assert "S_ref = 80 cm²" in text
     assert "between 0 and 6, mean" in text
     assert "of 6 points carry; 1 marks" in text

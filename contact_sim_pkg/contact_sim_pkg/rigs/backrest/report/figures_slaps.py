@@ -100,8 +100,8 @@ def restitution_over_time(key: str, name: str, slaps: EpisodeSeries) -> Picture 
     caption = (
         f"Restitution e = √(W_r/−W_c) of each slap, from the works of opening and closing: {slaps.restitution.min():.4g} to "
         f"{slaps.restitution.max():.4g}, mean {slaps.restitution.mean():.4g}. In a driven contact it is not the restitution that "
-        f"the scene asks of a free impact: the drive works on while it lasts. Duration from the touch to the last loss of force, "
-        f"{lasted.min() * 1e3:.4g} to {lasted.max() * 1e3:.4g} ms. The slaps took {-lost.sum():.4g} J in all."
+        f"the scene sets for a free impact: the drive works on while it lasts. Duration from the touch to the last loss of force, "
+        f"{lasted.min() * 1e3:.4g} to {lasted.max() * 1e3:.4g} ms. The slaps dissipated {-lost.sum():.4g} J in all."
     )
     return picture(f"{key}-restitution", figure, f"Restitution and duration of each slap of the {name}", caption)
 

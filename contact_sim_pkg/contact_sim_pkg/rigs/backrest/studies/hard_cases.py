@@ -88,8 +88,8 @@ def friction_that_vanishes() -> Finding:
 def no_force_without_overlap() -> Finding:
     """Samples of a 6 g slap with a negative force, or with one where the back is off the seat."""
     found = _run(*VIOLENT)
-    apart = found.approach[:, 0] <= 0.0
-    return exactly(int((found.normal < 0.0).sum() + (found.normal[apart] != 0.0).sum()), 0)
+    separated = found.approach[:, 0] <= 0.0
+    return exactly(int((found.normal < 0.0).sum() + (found.normal[separated] != 0.0).sum()), 0)
 
 
 def energy_of_violent_slaps() -> Finding:

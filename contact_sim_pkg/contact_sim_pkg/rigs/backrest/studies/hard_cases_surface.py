@@ -54,9 +54,9 @@ def foam_that_bottoms_out() -> Finding:
 def foam_that_is_left() -> Finding:
     """Samples with a force below zero, or with one where the back is off the foam, 6 g for 1 s."""
     found = _run(*FOAM_BACK, "vibration.amplitude=58.86", duration=1.0)
-    apart = found.approach[:, 0] <= 0.0
-    wrong = (found.normal < 0.0).sum() + (found.normal[apart] != 0.0).sum()
-    return exactly(int(wrong) if apart.any() else -1, 0)
+    separated = found.approach[:, 0] <= 0.0
+    wrong = (found.normal < 0.0).sum() + (found.normal[separated] != 0.0).sum()
+    return exactly(int(wrong) if separated.any() else -1, 0)
 
 
 def _search() -> ContactSearch:

@@ -4,7 +4,7 @@ A material that does not depend on speed has one E' and one tan(beta) at a tempe
 may be pooled, which narrows the intervals. Groups are weighted by their impacts; the scatter within
 all of them together, with N - G degrees of freedom, gives the interval. Agreement: the probability
 that groups of one material lie as far apart as these (F test of the means, one-way analysis of
-variance). Where it is small the material depends on speed, and the row says so.
+variance). Where it is small the material depends on speed, and the row reports it.
 """
 
 from __future__ import annotations

@@ -41,7 +41,7 @@ __all__ = [
 
 
 class MaterialReport(NamedTuple):
-    """What a file of impacts says."""
+    """Report on a file of impacts."""
 
     impacts: Impacts
     options: Options

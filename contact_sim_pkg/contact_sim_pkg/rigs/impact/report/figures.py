@@ -102,7 +102,7 @@ def force_over_depth(impacts: ImpactSeries) -> Picture | None:
     lost = float(np.trapezoid(first.elastic_force + first.viscous_force, first.depth))
     caption = (
         f"Force over indentation of the first {len(impacts.courses)} impacts. The area of the first loop, {lost:.4g} J, is the "
-        "work that the sample took up to the loss of force; part of it is still stored then, and becomes heat without pushing. "
+        "work on the sample up to the loss of force; part of it is still stored then, and becomes heat without pushing. "
     )
     if history is not None and history.number == first.number:
         # The hereditary depth under the same force.

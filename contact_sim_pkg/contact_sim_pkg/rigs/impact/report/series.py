@@ -55,7 +55,7 @@ def impact_warnings(recording: Recording) -> list[str]:
 
 
 def missing_impacts(impacts: ImpactSeries | None, scene: dict[str, Any]) -> list[str]:
-    """A sentence where fewer impacts took place than the scene asks for: ``bounces`` of each
+    """A sentence where fewer impacts took place than the scene requests: ``bounces`` of each
     release, at least one.
     """
     rig = scene.get("impact")

@@ -50,7 +50,7 @@ def _rubber() -> list[Measured]:
     ratio, slope = cases.rubber_in_the_rig().value, cases.rubber_slope().value
     note = "1e-3 to 1e-11, tan beta 0 to 1, worst of 20 approach phases"
     return [
-        Measured("rubber, error of k and T over asked tolerance", ratio, "times", most=10.0, note=note),
+        Measured("rubber, error of k and T over requested tolerance", ratio, "times", most=10.0, note=note),
         Measured("rubber, slope of log error over log tolerance", slope, "", least=0.8, note=note),
     ]
 

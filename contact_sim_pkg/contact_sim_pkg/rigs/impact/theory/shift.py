@@ -1,7 +1,7 @@
 """Time-temperature shift, with the impact speed as frequency (Goloshchapov eqs 106, 107).
 
 WLF: ``lg a_T = -C1 (T - Tg)/(C2 + T - Tg)``; Arrhenius: ``lg a_T = U/(ln 10 R_g) (1/T - 1/Tg)``.
-States of equal ``V a_T(T)`` are equal: what was measured at V1 over temperature says for (V, T)
+States of equal ``V a_T(T)`` are equal: what was measured at V1 over temperature holds for (V, T)
 the value at T* with ``lg a_T(T*) = lg a_T(T) + lg(V/V1)``. Moduli, tan(beta) and k carry over;
 the contact time is read at T* and multiplied by ``(V/V1)^(-1/5)``, which is geometry.
 """

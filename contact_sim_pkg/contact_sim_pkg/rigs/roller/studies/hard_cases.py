@@ -148,7 +148,7 @@ def nothing_is_worn_below_the_limits() -> Finding:
 
 
 def everything_is_dangerous() -> Finding:
-    """Limits next to 0: V_T over the box, with the flag that says so; limits above the pressure:
+    """Limits next to 0: V_T over the box, with its flag; limits above the pressure:
     nothing, and no flag.
     """
     contact = contact_of_rollers(CURVATURES, 0.0, MODULUS, LOAD)
@@ -237,7 +237,7 @@ CASES = [
     HardCase(ROLLING, "F R above the tilt stiffness", divergence_is_told),
     HardCase(ROLLING, "1e4 spin periods without friction", energy_is_kept),
     HardCase(ROLLING, "flutter without damping", flutter_grows_as_its_root),
-    HardCase(ROLLING, "neither friction nor damping: growth and damping asked for", neutral_without_damping),
+    HardCase(ROLLING, "neither friction nor damping: growth and damping requested", neutral_without_damping),
     HardCase(ROLLING, "inertia that is no mass matrix", singular_inertia_is_refused),
     HardCase(ROLLING, "track wave at the natural frequency", resonance),
     HardCase(ROLLING, "the ellipse's axes swap their size", axes_keep_their_names),

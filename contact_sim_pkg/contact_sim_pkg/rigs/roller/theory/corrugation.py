@@ -7,11 +7,11 @@ it is above the mean:
 
     w_j <- w_j - gamma delta(F_N) turns (omega_j - mean omega)
 
-The mean lowers the whole track and is kept apart. W, which the roller rides, is the mean of w over
-the length of the contact, straight between the cells; the length need not be whole cells. Where the
-hardness c of a cell raises the limits, `omega_c(F) = c^3 omega(F / c^3)`: stress scales with
-F^(1/3), the volume that bears it with F. Small waves of n_w round the track, Omega_w = 2 pi n_w
-turns/s, grow by `growth_of_wave` a turn.
+The mean lowers the whole track and is counted separately. W, which the roller rides, is the mean of
+w over the length of the contact, straight between the cells; the length need not be whole cells.
+Where the hardness c of a cell raises the limits, `omega_c(F) = c^3 omega(F / c^3)`: stress scales
+with F^(1/3), the volume that bears it with F. Small waves of n_w round the track, Omega_w = 2 pi
+n_w turns/s, grow by `growth_of_wave` a turn.
 """
 
 from __future__ import annotations
@@ -64,7 +64,7 @@ class WearTrack(NamedTuple):
 
 
 class Wear(NamedTuple):
-    """What an interval took off."""
+    """Wear of an interval."""
 
     lowered: float  # [m] by the mean
     range: float  # [m] max w - min w behind it
@@ -76,7 +76,7 @@ class Interval(NamedTuple):
     lowest_load: float  # [N] of the means of the cells
     highest_load: float
     range: float  # [m] max w - min w behind the interval
-    lowered: float  # [m] what the mean took off
+    lowered: float  # [m] by the mean
     free: float  # share of time without contact
     ended: bool  # the range has passed its limit
 

@@ -111,10 +111,10 @@ def principal_curvatures(curvatures: Curvatures, yaw: float) -> PrincipalCurvatu
     )
     even = 0.25 * (differ * math.cos(2.0 * yaw) + curvatures.shaft_axial - curvatures.shaft_rolling)
     odd = 0.25 * differ * math.sin(2.0 * yaw)
-    apart = math.hypot(even, odd)
+    half_difference = math.hypot(even, odd)
     if even >= 0.0:
-        return PrincipalCurvatures(mean + apart, mean - apart, 0.5 * math.atan2(odd, even))
-    return PrincipalCurvatures(mean - apart, mean + apart, 0.5 * math.atan2(-odd, -even))
+        return PrincipalCurvatures(mean + half_difference, mean - half_difference, 0.5 * math.atan2(odd, even))
+    return PrincipalCurvatures(mean - half_difference, mean + half_difference, 0.5 * math.atan2(-odd, -even))
 
 
 @entry

@@ -36,7 +36,7 @@ but for rounding.
 
 
 class RollerError(ValueError):
-    """The roller has no static angles, or its inertias are none; the text says why."""
+    """The roller has no static angles, or its inertias are none."""
 
 
 class Linear(NamedTuple):

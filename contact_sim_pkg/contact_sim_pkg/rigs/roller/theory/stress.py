@@ -47,8 +47,8 @@ def bench_stress(
 
 @kernel
 def add_bending(stress: Stress, bending: Bending | None, x: float, z: float) -> Stress:
-    """The stress with the bending of the shaft; zero below its middle is not treated apart. Not
-    checked.
+    """The stress with the bending of the shaft; zero below its middle is not treated separately.
+    Not checked.
 
     x, z: [m]; the result: [Pa].
     """

@@ -30,7 +30,7 @@ PART = "coupling"
 
 
 def coupling_rows(scene_name: str, scene: ResolvedScene, notify: Callable[[str], None]) -> list[dict[str, Any]]:
-    """Rows of each contact with a field, at the grids that the scene asks for; none where it has no
+    """Rows of each contact with a field, at the grids of the scene; none where it has no
     field.
     """
     contacts = [name for name, effects in scene.data["effects"].items() if effects and effects.get("contact_field")]

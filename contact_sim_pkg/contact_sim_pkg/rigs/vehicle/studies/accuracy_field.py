@@ -60,7 +60,7 @@ class FieldSolution(NamedTuple):
 
 
 def field_rows(scene: ResolvedScene, notify: Callable[[str], None]) -> list[dict[str, Any]]:
-    """Rows of each contact whose pressure field the scene asks for: solver, grid, and the check
+    """Rows of each contact whose pressure field the scene has: solver, grid, and the check
     against another code.
     """
     rows: list[dict[str, Any]] = []

@@ -66,7 +66,7 @@ def hertz_power() -> Finding:
 
 
 def one_cell_area() -> Finding:
-    """A patch of one cell: its area is the cell, and its Lame fit says that it is none."""
+    """A patch of one cell: its area is the cell, and its Lame fit reports that there is none."""
     pressure = numpy.zeros((8, 8))
     pressure[3, 5] = 1e5
     fit = fit_patch(pressure, 0.01, 0.02, 0.0, 0.0)

@@ -44,7 +44,7 @@ NEAR_LIMIT = 0.9
 
 
 class ClosedImpact(NamedTuple):
-    """What a closed form says of an impact, in SI units."""
+    """Impact by a closed form, in SI units."""
 
     restitution: float
     duration: float  # [s]

@@ -96,7 +96,7 @@ class PatchSolver:
 
 
 def solve(problem: PatchProblem, given: str, value: float, tolerance: float) -> Answer:
-    """Solution of the problem for a `value`, an approach [m] or a load [N] as `given` says."""
+    """Solution of the problem for a `value`, an approach [m] or a load [N] by `given`."""
     return PatchSolver(problem).solve(given, value, tolerance)
 
 

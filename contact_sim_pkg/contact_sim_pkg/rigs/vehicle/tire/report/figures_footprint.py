@@ -41,7 +41,7 @@ def footprint_stages(key: str, name: str, field: FieldSeries, travel: WheelTrave
     rows = -(-len(stages) // COLUMNS)
     height = float(np.clip(window.aspect * 0.2 * WIDTH, 0.5, 2.6)) + 0.34
     figure, axes = new_figure(rows * height + 0.5, rows, COLUMNS, sharex=True, sharey=True)
-    # One colour scale that a few peaks do not stretch.
+    # One colour scale that a few peaks do not widen.
     pressures = np.concatenate([each.field.pressure.ravel() for each in stages]) * 1e-3
     limits = robust_limits(pressures, 0.02)
     for place, each in zip(axes, stages, strict=False):

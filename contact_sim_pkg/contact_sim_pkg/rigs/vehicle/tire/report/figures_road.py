@@ -101,7 +101,7 @@ def along_the_road(key: str, name: str, rolling: Rolling, section: RoadSection) 
 
 
 def _draw_force(axes: Axes, rolling: Rolling, section: RoadSection) -> str:
-    """Returns what the caption says of a long series, which is drawn as a band."""
+    """Returns the sentence of the caption on a long series, which is drawn as a band."""
     contact, travel = rolling.contact, rolling.road.travel
     distance = travel.at(contact.time)
     inside = _inside(distance, section)

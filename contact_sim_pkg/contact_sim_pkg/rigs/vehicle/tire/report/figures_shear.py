@@ -19,7 +19,7 @@ from contact_sim_pkg.rigs.vehicle.tire.report.shear_series import ShearMap, Shea
 
 APART, STICKS, SLIPS = ContactShear.APART, ContactShear.STICKS, ContactShear.SLIPS
 STATE_COLOURS = ("#2f7fb5", "#e08a2e")
-"""Sticks, slips: colours that everyone can tell apart."""
+"""Sticks, slips: colours that everyone distinguishes."""
 LEAST_SPREAD = 1e-3
 """Slip, or slip angle [rad], must vary by that much for a curve over it."""
 ARROWS = 14
@@ -50,7 +50,7 @@ def friction_over_time(key: str, name: str, shear: ShearSeries) -> Picture:
         f"Friction of the {name} on its tread: {_largest(shear, 'force_x', 'Fx', 'N')}, {_largest(shear, 'force_y', 'Fy', 'N')}, "
         f"{_largest(shear, 'moment_z', 'Mz', 'N m')}, about the point below the wheel's centre. Slip κ = (ωR − v)/v, negative "
         "when braking; a positive slip angle makes Fy negative (ISO 8855). Slipping: share of the cells in contact. "
-        f"Friction and bristles that leave the contact took {shear.dissipated.sum():.5g} J."
+        f"Friction and bristles that leave the contact dissipated {shear.dissipated.sum():.5g} J."
     )
     return picture(f"{key}-time", figure, f"Friction of the {name} over time", caption)
 

@@ -39,7 +39,7 @@ class ShearMap(NamedTuple):
     shear_y: FloatArray
     """[Pa] [rows, cols] on the tire"""
     state: NDArray[np.uint8]
-    """[rows, cols] 0 apart, 1 sticks, 2 slips"""
+    """[rows, cols] 0 separated, 1 sticks, 2 slips"""
 
 
 class ShearSeries(NamedTuple):
