@@ -14,8 +14,8 @@ from contact_sim_pkg.scene.schema.scene import Scene
 
 
 def impact_breaches(scene: Scene) -> Iterator[Breach]:
-    """Releases without a period, a pendulum that is too short, a table that does not rise or holds
-    what is no material.
+    """Releases without a period, a pendulum that is too short, a shift table that is no
+    material.
     """
     impact, shift = scene.section(ImpactSection), scene.effect("impact", Shift)
     releases = len(impact.speeds) * len(impact.temperatures) * impact.repeats
@@ -23,6 +23,7 @@ def impact_breaches(scene: Scene) -> Iterator[Breach]:
         yield Breach(
             "impact.period", f"is missing; {releases} releases need the time from one to the next", ("impact",)
         )
+    # A pendulum has the most speed from the horizontal: V^2 = 2 g L.
     if impact.machine == "pendulum":
         most = math.sqrt(2.0 * impact.gravity * impact.arm)
         for index, speed in enumerate(impact.speeds):

@@ -76,8 +76,8 @@ def mode_rows(_scene_name: str, scene: ResolvedScene, notify: Notify) -> list[Ro
         notify(f"modes: {count}")
         drive = drive_of(_with_modes(scene, count), SHELL_DURATION)
         found, cost = _timed(drive, drive.model.scale)
-        rung = f"{count} mode{'s' if count > 1 else ''}"
-        head = {"part": "modes", "level": rung, "grid": "", "tolerance": tolerance, "ms_per_simulated_s": cost}
+        fidelity = f"{count} mode{'s' if count > 1 else ''}"
+        head = {"part": "modes", "level": fidelity, "grid": "", "tolerance": tolerance, "ms_per_simulated_s": cost}
         rows += [_row(head, name, error, f"{most}, {OWN}") for name, error in _errors(found, exact).items()]
     return rows
 

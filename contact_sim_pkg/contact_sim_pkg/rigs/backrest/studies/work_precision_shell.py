@@ -48,10 +48,10 @@ def rows() -> list[Row]:
     for case, quantity, answer, expected, reference in questions:
         for count in MODE_COUNTS:
             name = f"{count} mode{'s' if count > 1 else ''}"
-            rung = FidelityLevel(name, milliseconds(functools.partial(answer, count)))
+            fidelity = FidelityLevel(name, milliseconds(functools.partial(answer, count)))
             value = answer(count)
             error = relative(value, expected)
-            found.append(row(PART, case, quantity, rung, reference, error, value=value, expected=expected))
+            found.append(row(PART, case, quantity, fidelity, reference, error, value=value, expected=expected))
     return found
 
 

@@ -53,9 +53,9 @@ def rows() -> list[Row]:
                     answer = way(loss_tangent)
                 except ImpactError:
                     continue
-                rung = FidelityLevel(name, milliseconds(lambda way=way, loss_tangent=loss_tangent: way(loss_tangent)))  # type: ignore[misc]
+                fidelity = FidelityLevel(name, milliseconds(functools.partial(way, loss_tangent)))
                 found += [
-                    row(PART, f"tan β = {loss_tangent:g}, end {end}", quantity, rung, REFERENCE, relative(value, true),
+                    row(PART, f"tan β = {loss_tangent:g}, end {end}", quantity, fidelity, REFERENCE, relative(value, true),
                         value=value, expected=true)
                     for quantity, value, true in zip(QUANTITIES, answer, expected, strict=True)
                 ]  # fmt: skip

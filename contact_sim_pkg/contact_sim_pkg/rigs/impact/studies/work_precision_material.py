@@ -34,14 +34,14 @@ def rows() -> list[Row]:
         restitution, duration, _depth, _force = reference(loss_tangent, "force")
         for form in FORMS:
             read = functools.partial(material_of_impact, SPHERE, SPEED, duration, restitution, "force", form)
-            rung, material = FidelityLevel(form, milliseconds(read)), read()
+            fidelity, material = FidelityLevel(form, milliseconds(read)), read()
             for name, value, true in (
                 ("E'", material.storage_modulus, MODULUS),
                 ("tan β", material.loss_tangent, loss_tangent),
             ):
                 error = relative(value, true)
                 found.append(
-                    row(PART, f"tan β = {loss_tangent:g}", name, rung, REFERENCE, error, value=value, expected=true)
+                    row(PART, f"tan β = {loss_tangent:g}", name, fidelity, REFERENCE, error, value=value, expected=true)
                 )
     return found
 
@@ -62,14 +62,14 @@ def front_rows() -> list[Row]:
                 value = way(impact)
             except (ImpactError, ArithmeticError):
                 continue
-            rung = FidelityLevel(name, milliseconds(functools.partial(way, impact)))
+            fidelity = FidelityLevel(name, milliseconds(functools.partial(way, impact)))
             error = relative(value, expected)
             found.append(
                 row(
                     FRONT_PART,
                     f"V0 = {speed:g} m/s",
                     "t_s",
-                    rung,
+                    fidelity,
                     FRONT_REFERENCE,
                     error,
                     value=value,

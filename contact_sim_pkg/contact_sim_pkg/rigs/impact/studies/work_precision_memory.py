@@ -68,10 +68,10 @@ def history_rows() -> list[Row]:
         }
         case = f"standard solid, retarded over instant compliance {1.0 / ratio:g}"
         for name, way in ways.items():
-            value, rung = way(), FidelityLevel(name, milliseconds(way))
+            value, fidelity = way(), FidelityLevel(name, milliseconds(way))
             error = relative(value, expected)
             found.append(
-                row(HISTORY_PART, case, QUANTITY, rung, HISTORY_REFERENCE, error, value=value, expected=expected)
+                row(HISTORY_PART, case, QUANTITY, fidelity, HISTORY_REFERENCE, error, value=value, expected=expected)
             )
         call = functools.partial(hereditary.integral, functools.partial(creep.compliance, solid), times, force)
         spent = timed_once(call)[1]
@@ -104,13 +104,13 @@ def response_rows() -> list[Row]:
         }
         for name, way in ways.items():
             depth, spent = timed_once(way)
-            rung = FidelityLevel(name, milliseconds(way) if spent < 50.0 else spent)
+            fidelity = FidelityLevel(name, milliseconds(way) if spent < 50.0 else spent)
             for quantity, value, true in zip(
                 ("half range of the depth", "phase"), _reading(depth), expected, strict=True
             ):
                 error = relative(value, true)
                 found.append(
-                    row(RESPONSE_PART, f"shaken by {part:g} of the load", quantity, rung, RESPONSE_REFERENCE, error,
+                    row(RESPONSE_PART, f"shaken by {part:g} of the load", quantity, fidelity, RESPONSE_REFERENCE, error,
                         value=value, expected=true)
                 )  # fmt: skip
     return found

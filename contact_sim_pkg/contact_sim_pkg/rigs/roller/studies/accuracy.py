@@ -55,9 +55,9 @@ def rows(_scene_name: str, scene: ResolvedScene, notify: Callable[[str], None]) 
     return found
 
 
-def _row(quantity: str, rung: str, error: float, against: str, cost: float, grid: str = "") -> dict[str, Any]:
+def _row(quantity: str, fidelity: str, error: float, against: str, cost: float, grid: str = "") -> dict[str, Any]:
     return {
-        "quantity": quantity, "level": rung, "grid": grid, "tolerance": None, "error": error, "reference": against,
+        "quantity": quantity, "level": fidelity, "grid": grid, "tolerance": None, "error": error, "reference": against,
         "ms_per_simulated_s": cost,
     }  # fmt: skip
 

@@ -111,8 +111,8 @@ def stress_rows() -> list[Row]:
         for name, way in _stress_ways(load, points):
             value = way()
             error = float(abs(value - right[: len(value)]).max())
-            rung = FidelityLevel(name, milliseconds(way) / len(value))
-            found.append(row(STRESS_PART, f"z = {depth:g} b", "largest error over p0", rung, FORCES, error))
+            fidelity = FidelityLevel(name, milliseconds(way) / len(value))
+            found.append(row(STRESS_PART, f"z = {depth:g} b", "largest error over p0", fidelity, FORCES, error))
     return found
 
 
@@ -132,10 +132,10 @@ def volume_rows() -> list[Row]:
         ((32, 40, 16), INTERPOLATED, "depth between two middles"), ((64, 64, 48), INTERPOLATED, "depth between two middles"),
     ):  # fmt: skip
         value, cost = timed_once(lambda cells=cells, kind=kind: measure(cells, kind))  # type: ignore[misc]
-        rung = FidelityLevel(name, cost, "x".join(map(str, cells)))
+        fidelity = FidelityLevel(name, cost, "x".join(map(str, cells)))
         reference_name = f"count, {'x'.join(map(str, finest))} ({1e-3 * ms:.0f} s)"
         found.append(row(
-            VOLUME_PART, f"{LOAD:g} N", "V_T", rung, reference_name, relative(value, right), value=value, expected=right,
+            VOLUME_PART, f"{LOAD:g} N", "V_T", fidelity, reference_name, relative(value, right), value=value, expected=right,
         ))  # fmt: skip
     return found
 
@@ -183,9 +183,9 @@ def motion_rows() -> list[Row]:
         cost = milliseconds(lambda stages=stages, steps=steps: nonlinear(stages, steps))  # type: ignore[misc]
         ways.append((FidelityLevel(name, cost, f"{steps} steps"), nonlinear(stages, steps)))
     return [
-        row(MOTION_PART, "0.05 rad, 0.1 s", "angles", rung, "scipy DOP853 at 3e-14",
+        row(MOTION_PART, "0.05 rad, 0.1 s", "angles", fidelity, "scipy DOP853 at 3e-14",
             float(abs(value[:2] - right[:2]).max() / 0.05))
-        for rung, value in ways
+        for fidelity, value in ways
     ]  # fmt: skip
 
 
@@ -250,9 +250,9 @@ def wave_rows() -> list[Row]:
             )
         )
         value = math.log(abs(numpy.fft.rfft(heights)[2]) / first) / (count * turns)
-        rung = FidelityLevel(f"{turns} turns an interval", cost / 320.0, f"{cells} cells")
+        fidelity = FidelityLevel(f"{turns} turns an interval", cost / 320.0, f"{cells} cells")
         found.append(row(
-            WAVE_PART, "two waves", "growth a turn", rung, "linear theory", relative(value, right), value=value, expected=right,
+            WAVE_PART, "two waves", "growth a turn", fidelity, "linear theory", relative(value, right), value=value, expected=right,
         ))  # fmt: skip
     return found
 

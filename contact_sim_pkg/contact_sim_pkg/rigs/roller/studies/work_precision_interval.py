@@ -72,9 +72,9 @@ def rows() -> list[Row]:
         reference = f"every turn ridden, {cost * RATE / TURNS:.3g} ms a second of the rig"
         for jump in JUMPS:
             value, cost = timed_once(lambda run=run, jump=jump: run(jump))  # type: ignore[misc]
-            rung = FidelityLevel(f"a turn stands for {jump}", cost * RATE / TURNS, f"{CELLS} cells")
+            fidelity = FidelityLevel(f"a turn stands for {jump}", cost * RATE / TURNS, f"{CELLS} cells")
             error = float(numpy.linalg.norm(value - right)) / change
-            found.append(row(PART, case, f"change over {TURNS} turns", rung, reference, error))
+            found.append(row(PART, case, f"change over {TURNS} turns", fidelity, reference, error))
     return found
 
 

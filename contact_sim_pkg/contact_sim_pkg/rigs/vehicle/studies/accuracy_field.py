@@ -1,5 +1,5 @@
 """Accuracy and cost of the pressure fields: error of the grid beside error of the solver, for each
-rung.
+level.
 """
 
 from __future__ import annotations
@@ -106,7 +106,7 @@ def _rungs(scene: ResolvedScene, contact: str, notify: Callable[[str], None]) ->
     rows = []
     for level, grid in zip(LEVELS, grids, strict=True):
         cells = grid.cells
-        notify(f"{contact} field: rung {level.name}, {cells[0]}x{cells[1]}")
+        notify(f"{contact} field: level {level.name}, {cells[0]}x{cells[1]}")
         found = _solve(_problem(scene, contact, cells, grid.tolerance))
         converged = _solve(_problem(scene, contact, cells, CONVERGED_TOLERANCE))
         shared = {

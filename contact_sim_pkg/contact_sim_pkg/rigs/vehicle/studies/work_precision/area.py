@@ -36,9 +36,9 @@ def rows() -> list[Row]:
     rough = ("rough road", SEED, finest().area, f"{OWN}, edge between cells")
     for case, seed, expected, reference in (smooth, rough):
         arguments = (*CURVATURES, MODULUS, LOAD)
-        rung = FidelityLevel("Hertz πab, smooth road", milliseconds(functools.partial(hertz_contact, *arguments)))
+        fidelity = FidelityLevel("Hertz πab, smooth road", milliseconds(functools.partial(hertz_contact, *arguments)))
         contact = hertz_contact(*arguments)
-        found.append(_row(case, rung, reference, math.pi * contact.a * contact.b, expected))
+        found.append(_row(case, fidelity, reference, math.pi * contact.a * contact.b, expected))
         for level in LEVELS:
             problem = patch_problem(level.cells, seed)
             pressure = solve(problem, GIVEN[0], LOAD, TOLERANCE).pressure
@@ -66,9 +66,9 @@ def measures(half_space: HalfSpace, pressure: Field) -> dict[str, Callable[[], f
     }
 
 
-def _row(case: str, rung: FidelityLevel, reference: str, value: float, expected: float) -> Row:
+def _row(case: str, fidelity: FidelityLevel, reference: str, value: float, expected: float) -> Row:
     error = relative(value, expected)
-    return row(PART, case, AREA, rung, reference, error, value=float(value), expected=expected)
+    return row(PART, case, AREA, fidelity, reference, error, value=float(value), expected=expected)
 
 
 WORK_PRECISION = (WorkPrecision(PART, rows),)

@@ -4,6 +4,8 @@
 
 from __future__ import annotations
 
+import functools
+
 import numpy
 
 from contact_sim_pkg.pressure.closed_form.hertz_fits import (
@@ -21,7 +23,7 @@ from contact_sim_pkg.rigs.vehicle.studies.work_precision.patch_problem import CU
 __all__ = ["PART", "WORK_PRECISION", "rows"]
 
 PART = "elliptic contact"
-RUNGS = (
+FIDELITIES = (
     ("polynomial (eq 10)", POLYNOMIAL), ("power b/a = (A/B)^(2/3)", POWER), ("table in ln(1-Ω)", TABLE),
     ("AGM and Newton", EXACT),
 )  # fmt: skip
@@ -42,12 +44,12 @@ def rows() -> list[Row]:
         expected = (exact.approach, exact.a, exact.b, exact.peak_pressure)
         curvature_a, curvature_b = numpy.full(MANY, smaller), numpy.full(MANY, larger)
         out = numpy.empty((MANY, 4))
-        for name, kind in RUNGS:
+        for name, kind in FIDELITIES:
             arguments = (kind, table, curvature_a, curvature_b, MODULUS, LOAD, out)
-            rung = FidelityLevel(name, milliseconds(lambda arguments=arguments: contacts_at_load(*arguments)) / MANY)  # type: ignore[misc]
+            fidelity = FidelityLevel(name, milliseconds(functools.partial(contacts_at_load, *arguments)) / MANY)
             for quantity, value, right in zip(QUANTITIES, out[0].tolist(), expected, strict=True):
                 error = relative(value, right)
-                found.append(row(PART, case, quantity, rung, REFERENCE, error, value=value, expected=right))
+                found.append(row(PART, case, quantity, fidelity, REFERENCE, error, value=value, expected=right))
     return found
 
 

@@ -23,7 +23,7 @@ from contact_sim_pkg.rigs.vehicle.studies.work_precision.fields import (
     CONVERGED,
     GIVEN,
     Answer,
-    FieldRung,
+    FieldFidelity,
     rows_of,
     solve,
     timed,
@@ -38,10 +38,10 @@ PART = "gap of exponent above 2"
 EXPONENTS = (3.0, 4.0)
 SIDE, FINEST = 2.3, 384  # length of the grid; cells along it
 REFERENCE = "own code, grid 384x384 to 1e-8"
-RUNGS = (
-    FieldRung("FFT-CG", (48, 48), 1e-2),
-    FieldRung("FFT-CG", (96, 96), 1e-3),
-    FieldRung("FFT-CG", (192, 192), 1e-6),
+FIDELITIES = (
+    FieldFidelity("FFT-CG", (48, 48), 1e-2),
+    FieldFidelity("FFT-CG", (96, 96), 1e-3),
+    FieldFidelity("FFT-CG", (192, 192), 1e-6),
 )
 CENTRE = "pressure in the centre"
 
@@ -55,9 +55,9 @@ def rows() -> list[Row]:
         exact = solve(finest, GIVEN[0], 1.0, 1e-8)
         fit = _fit(finest, exact)
         found += _closed_forms(f"{case}, domain n = {fit.exponent:.2g}", fit, exact)
-        for rung in RUNGS:
-            problem = power_gap(rung.cells[0], exponent)
-            described, answer = timed(rung, problem, GIVEN[0], 1.0)
+        for fidelity in FIDELITIES:
+            problem = power_gap(fidelity.cells[0], exponent)
+            described, answer = timed(fidelity, problem, GIVEN[0], 1.0)
             converged = solve(problem, GIVEN[0], 1.0, CONVERGED)
             head = (PART, f"{case}, domain n = {fit.exponent:.2g}")
             found += rows_of(*head, described, REFERENCE, answer, exact, converged)
@@ -89,10 +89,10 @@ def _closed_forms(case: str, fit: LameFit, exact: Answer) -> list[Row]:
     found: list[Row] = []
     domain = (fit.a, fit.b, fit.exponent, 1.0, 1.0)
     for name, form in (("Lamé ansatz", ansatz_on_domain), ("equivalent ellipse", equivalent_ellipse)):
-        rung = FidelityLevel(name, milliseconds(lambda form=form, domain=domain: form(*domain)))  # type: ignore[misc]
+        fidelity = FidelityLevel(name, milliseconds(lambda form=form, domain=domain: form(*domain)))  # type: ignore[misc]
         contact = form(*domain)
-        found += rows_of(PART, case, rung, REFERENCE, _answer(contact), exact)
-        found.append(_centre(case, rung, contact.peak_pressure, centre_of(exact)))
+        found += rows_of(PART, case, fidelity, REFERENCE, _answer(contact), exact)
+        found.append(_centre(case, fidelity, contact.peak_pressure, centre_of(exact)))
     return found
 
 
@@ -104,8 +104,8 @@ def _answer(contact: LamePressure) -> Answer:
     return Answer(contact.load, contact.approach, contact.peak_pressure, area, pressure)
 
 
-def _centre(case: str, rung: FidelityLevel, value: float, expected: float) -> Row:
-    return row(PART, case, CENTRE, rung, REFERENCE, relative(value, expected), value=value, expected=expected)
+def _centre(case: str, fidelity: FidelityLevel, value: float, expected: float) -> Row:
+    return row(PART, case, CENTRE, fidelity, REFERENCE, relative(value, expected), value=value, expected=expected)
 
 
 WORK_PRECISION = (WorkPrecision(PART, rows),)

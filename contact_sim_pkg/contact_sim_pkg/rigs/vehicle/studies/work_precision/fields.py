@@ -27,7 +27,7 @@ __all__ = [
     "PEAK",
     "QUANTITIES",
     "Answer",
-    "FieldRung",
+    "FieldFidelity",
     "PatchSolver",
     "answer_of",
     "distances",
@@ -45,7 +45,7 @@ CONVERGED = 1e-10
 CAP = 2000
 
 
-class FieldRung(NamedTuple):
+class FieldFidelity(NamedTuple):
     """A grid and a tolerance."""
 
     name: str
@@ -100,12 +100,12 @@ def solve(problem: PatchProblem, given: str, value: float, tolerance: float) -> 
     return PatchSolver(problem).solve(given, value, tolerance)
 
 
-def timed(rung: FieldRung, problem: PatchProblem, given: str, value: float) -> tuple[FidelityLevel, Answer]:
+def timed(fidelity: FieldFidelity, problem: PatchProblem, given: str, value: float) -> tuple[FidelityLevel, Answer]:
     """Answer of a fidelity level and its cold time in ms; `value`: approach [m] or load [N]."""
     solver = PatchSolver(problem)
-    grid = "{}x{}".format(*rung.cells)
-    cost = milliseconds(lambda: solver.solve(given, value, rung.tolerance))
-    return FidelityLevel(rung.name, cost, grid, rung.tolerance), solver.solve(given, value, rung.tolerance)
+    grid = "{}x{}".format(*fidelity.cells)
+    cost = milliseconds(lambda: solver.solve(given, value, fidelity.tolerance))
+    return FidelityLevel(fidelity.name, cost, grid, fidelity.tolerance), solver.solve(given, value, fidelity.tolerance)
 
 
 def distances(found: Answer, exact: Answer) -> dict[str, float]:
@@ -126,7 +126,7 @@ def distances(found: Answer, exact: Answer) -> dict[str, float]:
 def rows_of(
     part: str,
     case: str,
-    rung: FidelityLevel,
+    fidelity: FidelityLevel,
     reference: str,
     found: Answer,
     exact: Answer,
@@ -135,7 +135,7 @@ def rows_of(
     """Rows of all quantities; `converged`: the same grid to 1e-10, which divides the error into
     solver's and grid's.
     """
-    rows = rows_of_errors(part, case, rung, reference, [errors_of(found, exact, converged)])
+    rows = rows_of_errors(part, case, fidelity, reference, [errors_of(found, exact, converged)])
     values = dict(zip(QUANTITIES, zip(found[:4], exact[:4], strict=True), strict=False))
     for line in rows:
         line["value"], line["expected"] = values.get(line["quantity"], (None, None))
@@ -157,7 +157,7 @@ def errors_of(found: Answer, exact: Answer, converged: Answer | None = None) -> 
     return Errors(distances(found, exact), distances(found, converged), distances(converged, exact))
 
 
-def rows_of_errors(part: str, case: str, rung: FidelityLevel, reference: str, errors: list[Errors]) -> list[Row]:
+def rows_of_errors(part: str, case: str, fidelity: FidelityLevel, reference: str, errors: list[Errors]) -> list[Row]:
     """Rows of all quantities with the worst of several errors."""
 
     def worst(quantity: str, which: int) -> float | None:
@@ -168,7 +168,7 @@ def rows_of_errors(part: str, case: str, rung: FidelityLevel, reference: str, er
             part,
             case,
             quantity,
-            rung,
+            fidelity,
             reference,
             max(each.total[quantity] for each in errors),
             solver_error=worst(quantity, 1),

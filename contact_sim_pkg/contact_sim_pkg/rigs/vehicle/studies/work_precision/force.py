@@ -19,7 +19,13 @@ from contact_sim_pkg.laws.normal_elastic import approach_of_force, elastic_force
 from contact_sim_pkg.laws.parameters import NormalElastic
 from contact_sim_pkg.records.work_precision import FidelityLevel, Row, WorkPrecision, milliseconds, relative, row
 from contact_sim_pkg.rigs.vehicle.contact_field import TANGENT_LOAD_STEP
-from contact_sim_pkg.rigs.vehicle.studies.work_precision.fields import APPROACH, FORCE, GIVEN, FieldRung, PatchSolver
+from contact_sim_pkg.rigs.vehicle.studies.work_precision.fields import (
+    APPROACH,
+    FORCE,
+    GIVEN,
+    FieldFidelity,
+    PatchSolver,
+)
 from contact_sim_pkg.rigs.vehicle.studies.work_precision.patch_problem import LOAD, patch_problem
 from contact_sim_pkg.rigs.vehicle.studies.work_precision.rough import FINEST, SEED
 from contact_sim_pkg.rigs.vehicle.studies.work_precision.smooth import LEVELS, REFERENCE, exact_answer
@@ -34,9 +40,9 @@ FINE = "own code, grid 512x384 to 1e-6"
 
 
 class TangentLaw(NamedTuple):
-    """Force and approach of a rung."""
+    """Force and approach of a fidelity level."""
 
-    rung: FidelityLevel
+    fidelity: FidelityLevel
     force: Callable[[float], float]  # [m] -> [N]
     approach: Callable[[float], float]  # [N] -> [m]
 
@@ -53,8 +59,8 @@ def rows() -> list[Row]:
             for law in laws:
                 worst_force = max(relative(law.force(approach), load) for load, approach in points)
                 worst_approach = max(relative(law.approach(load), approach) for load, approach in points)
-                found.append(row(PART, f"{road}, {name}", FORCE, law.rung, reference, worst_force))
-                found.append(row(PART, f"{road}, {name}", APPROACH, law.rung, reference, worst_approach))
+                found.append(row(PART, f"{road}, {name}", FORCE, law.fidelity, reference, worst_force))
+                found.append(row(PART, f"{road}, {name}", APPROACH, law.fidelity, reference, worst_approach))
     return found
 
 
@@ -82,7 +88,7 @@ def laws_through(seed: int | None) -> list[TangentLaw]:
     ]
 
 
-def _field_law(level: FieldRung, seed: int | None) -> TangentLaw:
+def _field_law(level: FieldFidelity, seed: int | None) -> TangentLaw:
     solver, tolerance = PatchSolver(patch_problem(level.cells, seed)), level.tolerance
     standing = solver.solve(GIVEN[0], LOAD, tolerance).approach
     cost = milliseconds(lambda: solver.solve(GIVEN[1], standing, tolerance))

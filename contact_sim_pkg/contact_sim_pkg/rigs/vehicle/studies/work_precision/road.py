@@ -92,13 +92,13 @@ def rows() -> list[Row]:
     found: list[Row] = []
     for name, road in roads.items():
         power = numpy.array([road.power(*edges[i : i + 2]) for i in range(len(edges) - 1)])
-        rung = FidelityLevel(name, milliseconds(lambda road=road: road.heights(x)))  # type: ignore[misc]
+        fidelity = FidelityLevel(name, milliseconds(lambda road=road: road.heights(x)))  # type: ignore[misc]
         total, right = float(road.power(0.0, math.inf)), float(expected.sum())
         share = power / expected - 1.0
         head = (PART, "class C")
-        found.append(row(*head, "variance", rung, REFERENCE, relative(total, right), value=total, expected=right))
-        found.append(row(*head, "third octaves, rms", rung, REFERENCE, float(numpy.sqrt(numpy.mean(share**2)))))
-        found.append(row(*head, "third octaves, worst", rung, REFERENCE, float(abs(share).max())))
+        found.append(row(*head, "variance", fidelity, REFERENCE, relative(total, right), value=total, expected=right))
+        found.append(row(*head, "third octaves, rms", fidelity, REFERENCE, float(numpy.sqrt(numpy.mean(share**2)))))
+        found.append(row(*head, "third octaves, worst", fidelity, REFERENCE, float(abs(share).max())))
     return found
 
 

@@ -15,7 +15,7 @@ from contact_sim_pkg.rigs.vehicle.studies.work_precision.fields import (
     CONVERGED,
     GIVEN,
     Answer,
-    FieldRung,
+    FieldFidelity,
     answer_of,
     errors_of,
     rows_of,
@@ -76,8 +76,10 @@ def rows() -> list[Row]:
 
 def grid_rows() -> list[Row]:
     """Error of the solver and of the grid for each grid and tolerance."""
-    rungs = [FieldRung(_tier_of(cells, tolerance), cells, tolerance) for cells in GRIDS for tolerance in TOLERANCES]
-    return [line for given in GIVEN for rung in rungs for line in _field(GRIDS_PART, rung, given)]
+    fidelities = [
+        FieldFidelity(_level_of(cells, tolerance), cells, tolerance) for cells in GRIDS for tolerance in TOLERANCES
+    ]
+    return [line for given in GIVEN for fidelity in fidelities for line in _field(GRIDS_PART, fidelity, given)]
 
 
 def check_rows() -> list[Row]:
@@ -92,8 +94,8 @@ def check_rows() -> list[Row]:
     found: list[Row] = []
     for given, value in zip(GIVEN, (exact.force, approach), strict=True):
         for tolerance in CHECK_TOLERANCES:
-            rung, answer = timed(FieldRung("check", cells, tolerance), problem, given, value)
-            found += rows_of(CHECK_PART, given, rung, DENSE, answer, exact)
+            fidelity, answer = timed(FieldFidelity("check", cells, tolerance), problem, given, value)
+            found += rows_of(CHECK_PART, given, fidelity, DENSE, answer, exact)
     return found
 
 
@@ -117,18 +119,18 @@ def _value(given: str, seed: int) -> float:
     return LOAD if given == GIVEN[0] else finest(seed).approach
 
 
-def _tier_of(cells: Cells, tolerance: float) -> str:
+def _level_of(cells: Cells, tolerance: float) -> str:
     names = {(level.cells, level.tolerance): level.name for level in LEVELS}
     return names.get((cells, tolerance), "FFT-CG")
 
 
-def _field(part: str, rung: FieldRung, given: str) -> list[Row]:
+def _field(part: str, fidelity: FieldFidelity, given: str) -> list[Row]:
     """Worst error over the roads; time on the first."""
-    described, _answer = timed(rung, _problem(rung.cells, SEED), given, _value(given, SEED))
+    described, _answer = timed(fidelity, _problem(fidelity.cells, SEED), given, _value(given, SEED))
     errors = []
     for seed in SEEDS:
-        found = solve(_problem(rung.cells, seed), given, _value(given, seed), rung.tolerance)
-        errors.append(errors_of(found, finest(seed), _converged(rung.cells, given, seed)))
+        found = solve(_problem(fidelity.cells, seed), given, _value(given, seed), fidelity.tolerance)
+        errors.append(errors_of(found, finest(seed), _converged(fidelity.cells, given, seed)))
     return rows_of_errors(part, f"{given}{WORST}", described, OWN, errors)
 
 
@@ -145,8 +147,8 @@ def _winkler(given: str) -> list[Row]:
         cell = half_space.cell_x * half_space.cell_y
         found = found._replace(area=float(numpy.count_nonzero(pressure)) * cell)  # its edge is no root
         errors.append(errors_of(found, finest(seed)))
-    rung = FidelityLevel("Winkler bed", milliseconds(lambda: solve_given(*arguments)), "{}x{}".format(*FIELD_CELLS))
-    return rows_of_errors(PART, f"{given}{WORST}", rung, OWN, errors)
+    fidelity = FidelityLevel("Winkler bed", milliseconds(lambda: solve_given(*arguments)), "{}x{}".format(*FIELD_CELLS))
+    return rows_of_errors(PART, f"{given}{WORST}", fidelity, OWN, errors)
 
 
 WORK_PRECISION = (

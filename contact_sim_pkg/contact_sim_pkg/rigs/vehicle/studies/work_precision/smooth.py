@@ -20,7 +20,14 @@ from contact_sim_pkg.pressure.closed_form.lame_pressure import (
 )
 from contact_sim_pkg.records.work_precision import FidelityLevel, Row, WorkPrecision, milliseconds
 from contact_sim_pkg.reference import hertz as reference
-from contact_sim_pkg.rigs.vehicle.studies.work_precision.fields import GIVEN, Answer, FieldRung, rows_of, solve, timed
+from contact_sim_pkg.rigs.vehicle.studies.work_precision.fields import (
+    GIVEN,
+    Answer,
+    FieldFidelity,
+    rows_of,
+    solve,
+    timed,
+)
 from contact_sim_pkg.rigs.vehicle.studies.work_precision.patch_problem import (
     CURVATURES,
     LOAD,
@@ -38,9 +45,9 @@ PART = "pressure field, smooth road"
 REFERENCE = "elliptic Hertz, mpmath, 50 digits, no shared code"
 FIELD_CELLS = (128, 96)
 LEVELS = (
-    FieldRung("FFT-CG force", (64, 48), 1e-2),
-    FieldRung("FFT-CG field", FIELD_CELLS, 1e-3),
-    FieldRung("FFT-CG reference", (256, 192), 1e-6),
+    FieldFidelity("FFT-CG force", (64, 48), 1e-2),
+    FieldFidelity("FFT-CG field", FIELD_CELLS, 1e-3),
+    FieldFidelity("FFT-CG reference", (256, 192), 1e-6),
 )
 SAMPLES = 8  # along a side of a cell, for the mean of the closed form over it
 
@@ -54,9 +61,9 @@ def rows() -> list[Row]:
         found += _closed_forms(given, value, exact[FIELD_CELLS])
         for level in LEVELS:
             problem = patch_problem(level.cells)
-            rung, answer = timed(level, problem, given, value)
+            fidelity, answer = timed(level, problem, given, value)
             converged = solve(problem, given, value, 1e-10)
-            found += rows_of(PART, given, rung, REFERENCE, answer, exact[level.cells], converged)
+            found += rows_of(PART, given, fidelity, REFERENCE, answer, exact[level.cells], converged)
     return found
 
 
@@ -87,25 +94,25 @@ def _along_axes(a: float, b: float) -> tuple[float, float]:
 def _closed_forms(given: str, value: float, exact: Answer) -> list[Row]:
     hertz = hertz_contact if given == GIVEN[0] else hertz_contact_at_approach
     arguments = (*CURVATURES, MODULUS, value)
-    rung = FidelityLevel("Hertz ellipse", milliseconds(lambda: hertz(*arguments)))
-    found = rows_of(PART, given, rung, REFERENCE, _of_hertz(hertz(*arguments)), exact)
+    fidelity = FidelityLevel("Hertz ellipse", milliseconds(lambda: hertz(*arguments)))
+    found = rows_of(PART, given, fidelity, REFERENCE, _of_hertz(hertz(*arguments)), exact)
     if given != GIVEN[0]:
         return found  # the domain of an ansatz is known for a load only
-    rung = FidelityLevel(
+    fidelity = FidelityLevel(
         "Lamé ansatz of A, B, n", milliseconds(lambda: ansatz_of_curvatures(*CURVATURES, 2.0, MODULUS, LOAD))
     )
     answer = _of_lame(ansatz_of_curvatures(*CURVATURES, 2.0, MODULUS, LOAD))
-    found += rows_of(PART, given, rung, REFERENCE, answer, exact)
+    found += rows_of(PART, given, fidelity, REFERENCE, answer, exact)
     fit = _fitted()
     for name, form in (("Lamé ansatz, domain fitted", ansatz_on_domain), ("equivalent ellipse", equivalent_ellipse)):
         domain = (fit.a, fit.b, fit.exponent, MODULUS, LOAD)
-        rung = FidelityLevel(name, milliseconds(lambda form=form, domain=domain: form(*domain)))  # type: ignore[misc]
-        found += rows_of(PART, given, rung, REFERENCE, _of_lame(form(*domain)), exact)
+        fidelity = FidelityLevel(name, milliseconds(lambda form=form, domain=domain: form(*domain)))  # type: ignore[misc]
+        found += rows_of(PART, given, fidelity, REFERENCE, _of_lame(form(*domain)), exact)
     return found
 
 
 def _fitted() -> LameFit:
-    """Lame curve of the patch as the field rung finds it."""
+    """Lame curve of the patch by the finest field."""
     problem = patch_problem(FIELD_CELLS)
     pressure = solve(problem, GIVEN[0], LOAD, 1e-3).pressure
     assert pressure is not None
