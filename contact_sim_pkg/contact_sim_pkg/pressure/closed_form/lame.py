@@ -22,7 +22,6 @@ __all__ = [
     "fit_patch",
     "lame_area",
     "lame_moment",
-    "lame_second_moment",
     "refuse_axes",
     "refuse_exponent",
 ]
@@ -63,13 +62,6 @@ def lame_area(a: float, b: float, exponent: float) -> float:
     refuse_axes(a, b)
     refuse_exponent(exponent)
     return 4.0 * a * b * math.exp(2.0 * math.lgamma(1.0 + 1.0 / exponent) - math.lgamma(1.0 + 2.0 / exponent))
-
-
-def lame_second_moment(a: float, b: float, exponent: float) -> float:
-    """Integral of x^2 over the domain, `(4 a^3 b / n) B(3/n, 1 + 1/n)` [m^4]; exchange a and b for
-    y^2.
-    """
-    return lame_moment(a, b, exponent, 2.0, 0.0)
 
 
 def lame_moment(a: float, b: float, exponent: float, power_x: float, power_y: float) -> float:

@@ -25,16 +25,6 @@ def exact(value: float) -> Fraction:
     return Fraction(repr(value))
 
 
-def block_nanoseconds(scene: Scene) -> int:
-    """Length of a block in [ns], exact."""
-    return int(exact(scene.block_length) * NANOSECONDS)
-
-
-def block_count(scene: Scene) -> int:
-    """Number of blocks of the scene."""
-    return int(_blocks(scene))
-
-
 def whole_duration(scene: Scene) -> float:
     """Duration in [s] of the scene's blocks: the requested one without its rounding."""
     return float(_blocks(scene) * exact(scene.block_length))
