@@ -156,8 +156,8 @@ class RollerSimulation:
         assert ride is not None
         parts, angles = [], []
         for number in range(ride.intervals_a_block):
-            yaw = self.model.start[1] if self._angles is None else float(self._angles.state[1])
             # The yaw at the start of the interval sets its contact.
+            yaw = self.model.start[1] if self._angles is None else float(self._angles.state[1])
             at = number * ride.interval_time
             ride.press(float(self.model.programme.loads(numpy.array([start + at]))[0]), yaw)
             part = ride.advance()
