@@ -1,14 +1,14 @@
-"""The genetic search against closed forms, and the ladders of contact search and shell."""
+"""The genetic search against closed forms, and the work-precision studies of contact search and shell."""
 
 from __future__ import annotations
 
 import numpy
 import pytest
 
-from contact_sim_pkg.papers.distance import work_precision as ladder_closest
+from contact_sim_pkg.papers.distance import work_precision as study_closest
 from contact_sim_pkg.papers.distance.convex_body import box, ellipsoid, half_space, sphere
 from contact_sim_pkg.papers.distance.genetic_search import genetic_distance, genetic_interference
-from contact_sim_pkg.rigs.backrest.studies import work_precision_shell as ladder_shell
+from contact_sim_pkg.rigs.backrest.studies import work_precision_shell as study_shell
 
 SPHERES = sphere([0, 0, 0], 0.3), sphere([0.3, 0.5, 0.1], 0.1)
 GAP = float(numpy.linalg.norm([0.3, 0.5, 0.1])) - 0.4
@@ -47,7 +47,7 @@ def test_the_genetic_interference_is_that_of_spheres_and_half_space() -> None:
 
 @pytest.fixture(scope="module")
 def search_rows() -> list[dict[str, object]]:
-    return ladder_closest.rows()
+    return study_closest.rows()
 
 
 def test_bounds_stay_on_their_side_and_each_rung_of_the_search_is_better(search_rows: list[dict[str, object]]) -> None:
@@ -64,11 +64,11 @@ def test_bounds_stay_on_their_side_and_each_rung_of_the_search_is_better(search_
 
 
 def test_more_modes_come_closer_to_the_deflection() -> None:
-    rows = ladder_shell.rows()
+    rows = study_shell.rows()
     for case, errors in (("plate", [0.1237, 0.0359, 0.0165]), ("back", [0.223, 0.0682, 0.0315])):
         found = [
             row["error"]
             for row in rows
-            if (row["case"], row["quantity"]) == (case, ladder_shell.STATIC) and row["level"] != "4 modes"
+            if (row["case"], row["quantity"]) == (case, study_shell.STATIC) and row["level"] != "4 modes"
         ]
         assert found == pytest.approx(errors, rel=5e-3)

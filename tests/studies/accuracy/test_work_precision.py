@@ -1,4 +1,4 @@
-"""The ladders of the tire: cheap levels have their known errors, dear ones converge, every row says what it is against."""
+"""Work-precision studies of the tire: known errors of inexpensive levels, convergence of the others, a reference in every row."""
 
 import itertools
 import math
@@ -6,13 +6,13 @@ import math
 import numpy
 import pytest
 
-from contact_sim_pkg.records import work_precision as ladder_row
-from contact_sim_pkg.rigs.vehicle.studies.work_precision import area as ladder_area
-from contact_sim_pkg.rigs.vehicle.studies.work_precision import elliptic as ladder_elliptic
-from contact_sim_pkg.rigs.vehicle.studies.work_precision import exponent as ladder_exponent
-from contact_sim_pkg.rigs.vehicle.studies.work_precision import road as ladder_road
-from contact_sim_pkg.rigs.vehicle.studies.work_precision import rough as ladder_rough
-from contact_sim_pkg.rigs.vehicle.studies.work_precision import smooth as ladder_smooth
+from contact_sim_pkg.records import work_precision as study_row
+from contact_sim_pkg.rigs.vehicle.studies.work_precision import area as study_area
+from contact_sim_pkg.rigs.vehicle.studies.work_precision import elliptic as study_elliptic
+from contact_sim_pkg.rigs.vehicle.studies.work_precision import exponent as study_exponent
+from contact_sim_pkg.rigs.vehicle.studies.work_precision import road as study_road
+from contact_sim_pkg.rigs.vehicle.studies.work_precision import rough as study_rough
+from contact_sim_pkg.rigs.vehicle.studies.work_precision import smooth as study_smooth
 from contact_sim_pkg.rigs.vehicle.studies.work_precision.fields import (
     FIELD,
     FORCE,
@@ -30,21 +30,21 @@ from contact_sim_pkg.rigs.vehicle.studies.work_precision.patch_problem import (
     road_heights,
 )
 from contact_sim_pkg.rigs.vehicle.studies.work_precision.rolling_problem import FINEST, FIRST, rough_road
-from contact_sim_pkg.studies.accuracy import work_precision as ladder
-from contact_sim_pkg.studies.accuracy import work_precision_plot as ladder_plot
-from contact_sim_pkg.studies.accuracy import work_precision_table as ladder_table
+from contact_sim_pkg.studies.accuracy import work_precision as whole_study
+from contact_sim_pkg.studies.accuracy import work_precision_plot as study_plot
+from contact_sim_pkg.studies.accuracy import work_precision_table as study_table
 
 
 @pytest.fixture(scope="module", autouse=True)
 def few_samples():
     """Times are not looked at here."""
-    kept = ladder_row.FEWEST, ladder_row.BUDGET
-    ladder_row.FEWEST, ladder_row.BUDGET = 1, 0.0
+    kept = study_row.FEWEST, study_row.BUDGET
+    study_row.FEWEST, study_row.BUDGET = 1, 0.0
     yield
-    ladder_row.FEWEST, ladder_row.BUDGET = kept
+    study_row.FEWEST, study_row.BUDGET = kept
 
 
-ROUGH = dict(zip(GIVEN, (f"{given}{ladder_rough.WORST}" for given in GIVEN), strict=True))
+ROUGH = dict(zip(GIVEN, (f"{given}{study_rough.WORST}" for given in GIVEN), strict=True))
 
 
 def error_of(rows, quantity, level, case=None, grid=None, key="error"):
@@ -61,17 +61,17 @@ def error_of(rows, quantity, level, case=None, grid=None, key="error"):
 
 @pytest.fixture(scope="module")
 def smooth_rows():
-    return ladder_smooth.rows()
+    return study_smooth.rows()
 
 
 @pytest.fixture(scope="module")
 def rough_rows():
-    return ladder_rough.rows()
+    return study_rough.rows()
 
 
 @pytest.fixture(scope="module")
 def exponent_rows():
-    return ladder_exponent.rows()
+    return study_exponent.rows()
 
 
 def test_the_road_of_the_patch_goes_through_the_nodes_of_the_road():
@@ -97,7 +97,7 @@ def test_means_over_cells_refuse_grids_that_do_not_fit():
 
 
 def test_polynomial_power_and_table_are_worse_than_the_exact_root():
-    rows = ladder_elliptic.rows()
+    rows = study_elliptic.rows()
     for case in dict.fromkeys(row["case"] for row in rows):
         assert error_of(rows, "peak pressure", "AGM and Newton", case) < 1e-14
         assert 1e-14 < error_of(rows, "peak pressure", "table in ln(1-Ω)", case) < 1e-6
@@ -107,7 +107,7 @@ def test_polynomial_power_and_table_are_worse_than_the_exact_root():
 def test_on_a_smooth_road_the_closed_form_is_exact_and_the_field_converges_to_it(smooth_rows):
     for given in GIVEN:
         assert error_of(smooth_rows, FIELD, "Hertz ellipse", given) < 1e-13
-        errors = [error_of(smooth_rows, FIELD, tier.name, given) for tier in ladder_smooth.LEVELS]
+        errors = [error_of(smooth_rows, FIELD, level.name, given) for level in study_smooth.LEVELS]
         assert errors == sorted(errors, reverse=True)
         assert errors[-1] < 4e-3
     assert error_of(smooth_rows, "approach", "FFT-CG reference", GIVEN[0]) < 2e-5
@@ -116,16 +116,16 @@ def test_on_a_smooth_road_the_closed_form_is_exact_and_the_field_converges_to_it
 
 def test_on_a_rough_road_the_winkler_bed_is_far_off_and_the_tiers_come_closer(rough_rows):
     for given in GIVEN:
-        errors = [error_of(rough_rows, FIELD, tier.name, ROUGH[given]) for tier in ladder_smooth.LEVELS]
+        errors = [error_of(rough_rows, FIELD, level.name, ROUGH[given]) for level in study_smooth.LEVELS]
         assert error_of(rough_rows, FIELD, "Winkler bed", ROUGH[given]) > 0.5 > errors[0]
         assert errors[-1] < errors[1] < 0.2
         assert error_of(rough_rows, PEAK, "Winkler bed", ROUGH[given]) > 0.5
 
 
 def test_what_is_given_comes_back_exactly(rough_rows):
-    for tier in ladder_smooth.LEVELS:
-        assert error_of(rough_rows, FORCE, tier.name, ROUGH[GIVEN[0]]) < 1e-8
-        assert error_of(rough_rows, "approach", tier.name, ROUGH[GIVEN[1]]) == 0.0
+    for level in study_smooth.LEVELS:
+        assert error_of(rough_rows, FORCE, level.name, ROUGH[GIVEN[0]]) < 1e-8
+        assert error_of(rough_rows, "approach", level.name, ROUGH[GIVEN[1]]) == 0.0
 
 
 def test_grid_error_stands_beside_solver_error_and_bounds_the_error_with_it(rough_rows):
@@ -136,7 +136,7 @@ def test_grid_error_stands_beside_solver_error_and_bounds_the_error_with_it(roug
             row["error"]
             <= 1.1 * (row["solver_error"] + row["grid_error"] + row["solver_error"] * row["grid_error"]) + 1e-12
         )
-    last = ladder_smooth.LEVELS[-1].name
+    last = study_smooth.LEVELS[-1].name
     for given in GIVEN:
         assert error_of(rough_rows, FIELD, last, ROUGH[given], key="solver_error") < 1e-4
         assert error_of(rough_rows, FIELD, last, ROUGH[given], key="grid_error") > 1e-3
@@ -145,19 +145,19 @@ def test_grid_error_stands_beside_solver_error_and_bounds_the_error_with_it(roug
 @pytest.mark.parametrize("given", GIVEN)
 @pytest.mark.parametrize("seed", [21, 25])
 def test_two_tiers_differ_on_a_further_road_by_little_more_than_both_announce_at_most(rough_rows, seed, given):
-    assert seed not in ladder_rough.SEEDS
+    assert seed not in study_rough.SEEDS
     value = LOAD if given == GIVEN[0] else 7.6e-3
-    answers = [solve(patch_problem(tier.cells, seed), given, value, tier.tolerance) for tier in ladder_smooth.LEVELS]
-    pairs = zip(ladder_smooth.LEVELS, answers, strict=True)
+    answers = [solve(patch_problem(level.cells, seed), given, value, level.tolerance) for level in study_smooth.LEVELS]
+    pairs = zip(study_smooth.LEVELS, answers, strict=True)
     for (coarse, one), (fine, other) in itertools.combinations(pairs, 2):
         for quantity, difference in distances(one, other).items():
-            announced = [error_of(rough_rows, quantity, tier.name, ROUGH[given]) for tier in (coarse, fine)]
+            announced = [error_of(rough_rows, quantity, level.name, ROUGH[given]) for level in (coarse, fine)]
             assert difference <= 1.25 * sum(announced) + 1e-12, (quantity, coarse, fine)
 
 
 def test_the_check_is_against_dense_least_squares_and_falls_with_the_tolerance():
-    rows = ladder_rough.check_rows()
-    assert {row["reference"] for row in rows} == {ladder_rough.DENSE}
+    rows = study_rough.check_rows()
+    assert {row["reference"] for row in rows} == {study_rough.DENSE}
     for given in GIVEN:
         errors = [row["error"] for row in rows if (row["case"], row["quantity"]) == (given, FIELD)]
         assert errors[0] < 0.1
@@ -165,7 +165,7 @@ def test_the_check_is_against_dense_least_squares_and_falls_with_the_tolerance()
 
 
 def test_an_edge_between_cells_comes_closest_to_the_area():
-    rows = ladder_area.rows()
+    rows = study_area.rows()
     for case in ("smooth road", "rough road"):
         for grid in ("64x48", "128x96", "256x192"):
             between = error_of(rows, "contact area", "cells, edge between them", case, grid)
@@ -180,7 +180,7 @@ def test_closed_forms_of_other_exponents_have_the_announced_errors(
     exponent_rows, exponent, centre_high, ansatz_low, ellipse_high
 ):
     rows = [row for row in exponent_rows if row["case"].startswith(f"gap exponent {exponent:g}")]
-    assert error_of(rows, ladder_exponent.CENTRE, "Lamé ansatz") == pytest.approx(centre_high, abs=0.01)
+    assert error_of(rows, study_exponent.CENTRE, "Lamé ansatz") == pytest.approx(centre_high, abs=0.01)
     assert error_of(rows, "approach", "Lamé ansatz") == pytest.approx(ansatz_low, abs=0.01)
     assert error_of(rows, "approach", "equivalent ellipse") == pytest.approx(ellipse_high, abs=0.01)
     ansatz = next(row for row in rows if (row["level"], row["quantity"]) == ("Lamé ansatz", "approach"))
@@ -189,13 +189,13 @@ def test_closed_forms_of_other_exponents_have_the_announced_errors(
 
 
 def test_the_power_of_sines_is_what_their_heights_have():
-    road = ladder_road.sine_road(20)
+    road = study_road.sine_road(20)
     x = numpy.arange(400_000) * 0.1
     assert road.heights(x).var() == pytest.approx(road.power(0.0, math.inf), rel=0.01)
 
 
 def test_few_sines_have_the_variance_but_not_the_spectrum():
-    rows = ladder_road.rows()
+    rows = study_road.rows()
     for level in ("20 sines", "400 sines", "inverse FFT"):
         assert error_of(rows, "variance", level) < 1e-6
     assert error_of(rows, "third octaves, rms", "20 sines") > 0.3
@@ -219,17 +219,17 @@ def test_a_field_that_is_not_certified_ends_the_study():
 
 
 def test_every_row_has_every_column_and_the_table_and_the_plot_show_each_study(smooth_rows, monkeypatch, tmp_path):
-    studies = (*ladder_road.WORK_PRECISION, ladder_row.WorkPrecision(ladder_smooth.PART, lambda: smooth_rows))
-    monkeypatch.setattr(ladder, "studies_of", lambda _rig: studies)
-    told: list[str] = []
-    rows = ladder.study("rig", told.append)
-    assert told == ["rig: road", "rig: pressure field, smooth road"]
-    assert all(tuple(row) == ladder_row.COLUMNS for row in rows)
+    studies = (*study_road.WORK_PRECISION, study_row.WorkPrecision(study_smooth.PART, lambda: smooth_rows))
+    monkeypatch.setattr(whole_study, "studies_of", lambda _rig: studies)
+    notes: list[str] = []
+    rows = whole_study.study("rig", notes.append)
+    assert notes == ["rig: road", "rig: pressure field, smooth road"]
+    assert all(tuple(row) == study_row.COLUMNS for row in rows)
     assert all(row["ms_per_call"] > 0.0 and row["reference"] for row in rows)
-    sections = ladder_table.sections(rows)
-    assert [section.title for section in sections][1:] == [f"{ladder_smooth.PART}: {given}" for given in GIVEN]
+    sections = study_table.sections(rows)
+    assert [section.title for section in sections][1:] == [f"{study_smooth.PART}: {given}" for given in GIVEN]
     assert FORCE not in sections[1].rows[0], "the given quantity has no column"
-    path = ladder_plot.write_plot(rows, tmp_path / "plot.png")
+    path = study_plot.write_plot(rows, tmp_path / "plot.png")
     assert path.read_bytes().startswith(b"\x89PNG")
 
 
@@ -241,7 +241,7 @@ def test_the_table_puts_the_grid_s_error_beside_the_solver_s():
         }
         for name in ("approach", "peak pressure")
     ]  # fmt: skip
-    (section,) = ladder_table.sections(rows)
+    (section,) = study_table.sections(rows)
     assert list(section.rows[0]) == [
         "level", "grid", "tolerance", "approach: solver", "approach: grid", "peak pressure: solver", "peak pressure: grid",
         "ms a call",

@@ -1,8 +1,8 @@
-"""The ladder of the restitution: published formulas give what they are known to give, exact ones what is requested."""
+"""The study of the restitution: published formulas give what they are known to give, exact ones what is requested."""
 
 import pytest
 
-from contact_sim_pkg.records import work_precision as ladder_row
+from contact_sim_pkg.records import work_precision as study_row
 from contact_sim_pkg.studies.laws import work_precision_restitution as restitution_study
 from contact_sim_pkg.studies.laws.restitution_formulas import FORMULAS
 
@@ -19,10 +19,10 @@ PUBLISHED = {  # e obtained, Driver and Seat's law, by requested e: in the order
 
 @pytest.fixture(scope="module")
 def rows():
-    kept = ladder_row.FEWEST, ladder_row.BUDGET
-    ladder_row.FEWEST, ladder_row.BUDGET = 1, 0.0
+    kept = study_row.FEWEST, study_row.BUDGET
+    study_row.FEWEST, study_row.BUDGET = 1, 0.0
     yield restitution_study.rows()
-    ladder_row.FEWEST, ladder_row.BUDGET = kept
+    study_row.FEWEST, study_row.BUDGET = kept
 
 
 @pytest.mark.parametrize("requested", PUBLISHED)

@@ -1,34 +1,34 @@
-"""Periodic motion and interaction of modes: what each level is known to give, and what the fitted ansatz leaves."""
+"""Periodic motion and interaction of modes: known errors of the levels, and the residual of the fitted ansatz."""
 
 import numpy
 import pytest
 
-from contact_sim_pkg.papers.cnoidal import work_precision_modes as ladder_modes
-from contact_sim_pkg.papers.cnoidal import work_precision_periodic as ladder_periodic
+from contact_sim_pkg.papers.cnoidal import work_precision_modes as study_modes
+from contact_sim_pkg.papers.cnoidal import work_precision_periodic as study_periodic
 from contact_sim_pkg.papers.cnoidal.fit import ansatz, fit_ansatz, fit_harmonics, harmonics_of_period
 from contact_sim_pkg.papers.cnoidal.periodic_contact import steady_response
-from contact_sim_pkg.records import work_precision as ladder_row
+from contact_sim_pkg.records import work_precision as study_row
 
 
 @pytest.fixture(scope="module", autouse=True)
 def few_samples():
-    kept = ladder_row.FEWEST, ladder_row.BUDGET
-    ladder_row.FEWEST, ladder_row.BUDGET = 1, 0.0
+    kept = study_row.FEWEST, study_row.BUDGET
+    study_row.FEWEST, study_row.BUDGET = 1, 0.0
     yield
-    ladder_row.FEWEST, ladder_row.BUDGET = kept
+    study_row.FEWEST, study_row.BUDGET = kept
 
 
 def test_every_rung_of_the_periodic_motion_is_better_than_the_one_before():
-    rows = ladder_periodic.rows()
+    rows = study_periodic.rows()
     for case in dict.fromkeys(row["case"] for row in rows):
-        for quantity in (ladder_periodic.PERIOD, ladder_periodic.MOTION):
+        for quantity in (study_periodic.PERIOD, study_periodic.MOTION):
             errors = [row["error"] for row in rows if (row["case"], row["quantity"]) == (case, quantity)]
             assert errors[0] > 1.9 * errors[1] > 1e3 * errors[2]
             assert errors[2] < 1e-9
 
 
 def test_the_rungs_of_the_interaction_are_known():
-    rows = ladder_modes.rows()
+    rows = study_modes.rows()
     plain = [row["error"] for row in rows if row["level"].startswith("sum")]
     fitted = [row["error"] for row in rows if row["level"].startswith("fitted")]
     lattice = [row["error"] for row in rows if row["level"].startswith("theta")]
