@@ -19,7 +19,9 @@ Getter = Callable[[Any], Any]
 def stacked(
     messages: Iterable[tuple[int, Any]], store: Typestore, type_name: str, fields: tuple[str, ...] | None
 ) -> dict[str, Any]:
-    """Columns of the messages (log time in [ns], object) as `Bag.columns` describes them; BagError: unknown field."""
+    """Columns of the messages (log time in [ns], object) as `Bag.columns` describes them; BagError:
+    unknown field.
+    """
     getters = dict(_getters(store, type_name, "", lambda message: message))
     derived = {"log_time", "time"} if "stamp" in getters else {"log_time"}
     unknown = set(fields or ()) - set(getters) - derived
@@ -47,7 +49,9 @@ def _column(rows: list[Any]) -> Any:
 
 
 def _getters(store: Typestore, type_name: str, prefix: str, reach: Getter) -> Iterable[tuple[str, Getter]]:
-    """Name and getter of each leaf; a header's leaves lose their prefix, a time is one integer in [ns]."""
+    """Name and getter of each leaf; a header's leaves lose their prefix, a time is one integer in
+    [ns].
+    """
     for name, (kind, detail) in store.fielddefs[type_name][1]:
         full = f"{prefix}{name}"
         getter = _then(reach, name)

@@ -1,8 +1,8 @@
 """Message objects to CDR bytes and back, without a word about the fields of any message.
 
-The bytes are little-endian CDR with the header 00 01 00 00, filled up with zeros to a multiple of 4: what DDS
-delivers to a `raw` subscription when these bytes are given to `publisher.publish(bytes)`. Alignment gaps hold zeros,
-so equal values give equal bytes.
+The bytes are little-endian CDR with the header 00 01 00 00, filled up with zeros to a multiple of
+4: what DDS delivers to a `raw` subscription when these bytes are given to
+`publisher.publish(bytes)`. Alignment gaps hold zeros, so equal values give equal bytes.
 """
 
 import struct
@@ -43,7 +43,9 @@ def serialize(message: Any, type_name: str) -> bytes:
 
 
 def deserialize(type_name: str, data: bytes) -> Any:
-    """The message that the bytes hold; its arrays are views of them. MessageError where they do not hold one."""
+    """The message that the bytes hold; its arrays are views of them. MessageError where they do not
+    hold one.
+    """
     try:
         return installed_types().deserialize_cdr(data, type_name)
     except (SerdeError, struct.error, ValueError, IndexError, AssertionError) as error:
@@ -51,7 +53,9 @@ def deserialize(type_name: str, data: bytes) -> Any:
 
 
 def stamp_of(data: bytes) -> int:
-    """The stamp in [ns] of an encoded message whose first field is a header or a stamp: 8 bytes at offset 4."""
+    """The stamp in [ns] of an encoded message whose first field is a header or a stamp: 8 bytes at
+    offset 4.
+    """
     if len(data) < 12 or data[:2] not in (b"\0\1", b"\0\0"):
         raise MessageError(f"{len(data)} bytes that begin with {data[:4].hex(' ') or 'nothing'} hold no stamp")
     seconds, nanoseconds = struct.unpack_from("<iI" if data[1] else ">iI", data, 4)

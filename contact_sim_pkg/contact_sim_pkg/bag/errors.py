@@ -18,7 +18,9 @@ class RecordingStoppedError(BagError):
 
 
 class CorruptChunkError(BagError):
-    """A chunk fails its checksum or cannot be taken apart; `start` and `end` are its log times in [ns]."""
+    """A chunk fails its checksum or cannot be taken apart; `start` and `end` are its log times in
+    [ns].
+    """
 
     def __init__(self, sentence: str, start: int, end: int) -> None:
         """Keep the time range beside the sentence."""

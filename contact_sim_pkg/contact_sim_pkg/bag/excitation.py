@@ -1,4 +1,6 @@
-"""Blocks of the excitation as they come in, over a topic or from a bag: one that a rig could not be driven with is refused."""
+"""Blocks of the excitation as they come in, over a topic or from a bag: one that a rig could not be
+driven with is refused.
+"""
 
 from __future__ import annotations
 
@@ -16,7 +18,9 @@ FEWEST_SAMPLES = 2
 
 
 def decode_road(data: bytes) -> RoadPatch:
-    """A block of road; MessageError where its grid does not fit, a spacing is not above 0 or a value not finite."""
+    """A block of road; MessageError where its grid does not fit, a spacing is not above 0 or a
+    value not finite.
+    """
     patch = decode(RoadPatch, data)
     for name in ("travel_start", "travel_end", "height"):
         _refuse_not_finite(patch, name)
@@ -26,7 +30,9 @@ def decode_road(data: bytes) -> RoadPatch:
 
 
 def decode_vibration(data: bytes) -> VibrationBlock:
-    """A block of vibration; MessageError where samples and arrays disagree, or a value is not finite."""
+    """A block of vibration; MessageError where samples and arrays disagree, or a value is not
+    finite.
+    """
     vibration = decode(VibrationBlock, data)
     samples = len(vibration.acceleration_x)
     if samples < FEWEST_SAMPLES:

@@ -47,8 +47,8 @@ def decode(kind: type[Record], data: bytes) -> Record:
 def record_of(kind: type[Record], message: Any) -> Record:
     """The record of a message read by the definition of its bag.
 
-    A field that the bag's definition does not know has its default. Raises MessageError where arrays
-    do not fit each other, AttributeError where a field without a default is missing.
+    A field that the bag's definition does not know has its default. Raises MessageError where
+    arrays do not fit each other, AttributeError where a field without a default is missing.
     """
     made: Record = kind._make(_codec(kind.__name__).values(message))  # type: ignore[attr-defined]
     return made

@@ -1,4 +1,6 @@
-"""`metadata.yaml` as rosbag2 of Jazzy writes it (version 9), and what a bag says about the software that wrote it."""
+"""`metadata.yaml` as rosbag2 of Jazzy writes it (version 9), and what a bag says about the software
+that wrote it.
+"""
 
 import hashlib
 import json
@@ -43,7 +45,8 @@ class RecordedTopic(NamedTuple):
 def recorded_topics(
     names: Sequence[str] = RECORDED, shown: Callable[[str], str] = full_name
 ) -> tuple[RecordedTopic, ...]:
-    """The given topics of the table, in order of rank, with the definitions installed; BagError for an unknown name.
+    """The given topics of the table, in order of rank, with the definitions installed; BagError for
+    an unknown name.
 
     `shown` gives the name in the bag, that of the graph: namespace and remapping included.
     """
@@ -127,13 +130,17 @@ def serialized_metadata(
     extent: Extent,
     custom: Mapping[str, str],
 ) -> dict[str, str]:
-    """The MCAP metadata record `rosbag2`, from which `ros2 bag reindex` and `info` read a lone file."""
+    """The MCAP metadata record `rosbag2`, from which `ros2 bag reindex` and `info` read a lone
+    file.
+    """
     information = _information(file_name, topics, counts, extent, custom)
     return {"serialized_metadata": _dump(information), "ROS_DISTRO": "jazzy"}
 
 
 def files_of_bag(path: Path) -> list[str]:
-    """The files that the `metadata.yaml` at `path` lists; BagError where it cannot be read or lists none as it should."""
+    """The files that the `metadata.yaml` at `path` lists; BagError where it cannot be read or lists
+    none as it should.
+    """
     try:
         text = read_regular_file(path, LARGEST_METADATA).decode("utf-8", "replace")
     except OSError as error:

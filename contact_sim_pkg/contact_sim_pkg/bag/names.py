@@ -12,16 +12,20 @@ _LONGEST_SCENE = 70  # leaves room for the time and the random suffix
 
 
 def safe_name(text: str, longest: int = LONGEST_NAME) -> str:
-    """One path component of `[A-Za-z0-9._-]` made from any text: not hidden, not `.` or `..`, never empty.
+    """One path component of `[A-Za-z0-9._-]` made from any text: not hidden, not `.` or `..`, never
+    empty.
 
-    Every other character becomes `_`; leading dots and dashes go; what is longer than `longest` is cut.
+    Every other character becomes `_`; leading dots and dashes go; what is longer than `longest` is
+    cut.
     """
     name = re.sub(r"[^A-Za-z0-9._-]+", "_", text, flags=re.ASCII).lstrip(".-")[:longest]
     return name if name.strip("_") else "bag"
 
 
 def new_directory(given: Path | None, scene_name: str) -> Path:
-    """Where a run is recorded: the directory given, or the default one. Raises BagError where that exists already."""
+    """Where a run is recorded: the directory given, or the default one. Raises BagError where that
+    exists already.
+    """
     directory = default_directory(scene_name) if given is None else given
     if directory.exists() or directory.is_symlink():
         raise BagError(f"{directory} exists already; a bag is never overwritten, give another directory")
@@ -31,6 +35,8 @@ def new_directory(given: Path | None, scene_name: str) -> Path:
 def default_directory(
     scene_name: str, root: Path = Path("bags"), now: datetime | None = None, token: str | None = None
 ) -> Path:
-    """`root`/SCENE_UTCTIME_RANDOM: the scene's name made safe, time to the second, six random hexadecimal digits."""
+    """`root`/SCENE_UTCTIME_RANDOM: the scene's name made safe, time to the second, six random
+    hexadecimal digits.
+    """
     moment = (now or datetime.now(timezone.utc)).strftime("%Y%m%dT%H%M%SZ")
     return root / f"{safe_name(scene_name, _LONGEST_SCENE)}_{moment}_{token or secrets.token_hex(3)}"

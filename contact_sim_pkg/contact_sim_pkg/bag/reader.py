@@ -1,6 +1,8 @@
-"""A bag as it was recorded, finished or not: topics, messages in file order, columns for plots and studies.
+"""A bag as it was recorded, finished or not: topics, messages in file order, columns for plots and
+studies.
 
-Types come from the definitions in the bag, not from those installed. Nothing is ever changed on disk.
+Types come from the definitions in the bag, not from those installed. Nothing is ever changed on
+disk.
 """
 
 from collections.abc import Iterator
@@ -47,7 +49,9 @@ class BagMessage(NamedTuple):
 
 
 class Bag:
-    """A bag that is read. `notes` says in one line each what is missing; `complete` is True where nothing is."""
+    """A bag that is read. `notes` says in one line each what is missing; `complete` is True where
+    nothing is.
+    """
 
     def __init__(self, path: Path, layout: Layout, skip_bad: bool) -> None:
         """Take a layout that was read from the MCAP file at `path`; `open_bag` does that."""
@@ -61,7 +65,9 @@ class Bag:
             self.notes.append(f"{unknown} messages of {path.name} cannot be read: what says their topic is damaged")
         self._stores: dict[str, Typestore] = {}
         self.metadata: dict[str, str] = {}
-        """The texts kept at the start and at the end of the recording: scene, versions, how it ended."""
+        """The texts kept at the start and at the end of the recording: scene, versions, how it
+        ended.
+        """
         self.scene: str | None = None
         """The resolved scene as YAML; None in a bag without one."""
         self._take_texts()
@@ -75,7 +81,9 @@ class Bag:
 
     @property
     def not_copied(self) -> str:
-        """What of the file the reader passes over and a recovery leaves out, in one line; empty where there is nothing."""
+        """What of the file the reader passes over and a recovery leaves out, in one line; empty
+        where there is nothing.
+        """
         names = [record.name for record in self._layout.records if record.name not in (RECORD, OUTCOME, ROSBAG2)]
         parts = [f"the metadata record {name!r}" for name in names]
         if self._layout.attachments:
@@ -103,7 +111,9 @@ class Bag:
         self.notes.append(f"{sentence} and are left out" if "texts" in sentence else f"{sentence}, which is taken")
 
     def _recorded_scene(self) -> str | None:
-        """The text of the first message on `bench/scene`, under the checksum of its chunk; None without one."""
+        """The text of the first message on `bench/scene`, under the checksum of its chunk; None
+        without one.
+        """
         for name, row in self.topics.items():
             if SCENE_TOPIC in (row.relative_name, _relative(name)) and row.type == SCENE_TYPE and self.count(name):
                 first = next(self.messages(name), None)
@@ -111,7 +121,8 @@ class Bag:
         return None
 
     def topic(self, name: str) -> RecordedTopic:
-        """The topic shown as `name` or `/name`, or the only one that is called so or `/namespace/name`, or has its type.
+        """The topic shown as `name` or `/name`, or the only one that is called so or
+        `/namespace/name`, or has its type.
 
         By type only where the table has no other topic of that type. BagError: none, or many.
         """
@@ -128,12 +139,16 @@ class Bag:
         raise BagError(f"{self.path} has {many} {name!r}; it has {', '.join(self.topics) or 'none at all'}")
 
     def hash_of(self, topic: str) -> str:
-        """The hash `RIHS01_…` of the topic's type as the bag states it, or else by the definition in the bag."""
+        """The hash `RIHS01_…` of the topic's type as the bag states it, or else by the definition
+        in the bag.
+        """
         row = self.topic(topic)
         return row.type_hash or self._types(row).hash_rihs01(row.type)
 
     def refuse_other_definition(self, topic: str) -> None:
-        """BagError where a topic has not the installed definition of our type, by which its bytes would be read."""
+        """BagError where a topic has not the installed definition of our type, by which its bytes
+        would be read.
+        """
         row = self.topic(topic)
         needed = TOPICS[topic].type if topic in TOPICS else row.type
         if row.type != needed or self._types(row).hash_rihs01(row.type) != type_hash(needed):
@@ -168,7 +183,8 @@ class Bag:
     def messages(self, topic: str | None = None) -> Iterator[BagMessage]:
         """All messages, or those of one topic, in file order.
 
-        Raises CorruptChunkError at a damaged chunk, which names its time range; with `skip_bad` a note is kept instead.
+        Raises CorruptChunkError at a damaged chunk, which names its time range; with `skip_bad` a
+        note is kept instead.
         """
         wanted = None if topic is None else self.topic(topic).name
         numbers = {number for number, channel in self._layout.channels.items() if wanted in (None, channel.topic)}
@@ -184,7 +200,9 @@ class Bag:
                 yield from self._messages_of(records, numbers)
 
     def decoded(self, topic: str) -> Iterator[tuple[int, Any]]:
-        """Log time in [ns] and message object of each message of a topic, by the bag's own definition of its type."""
+        """Log time in [ns] and message object of each message of a topic, by the bag's own
+        definition of its type.
+        """
         row = self.topic(topic)
         store = self._types(row)
         for message in self.messages(topic):
@@ -202,9 +220,9 @@ class Bag:
             fields: names of the columns wanted; all where it is None.
 
         Returns:
-            `log_time` and, with a header, `stamp` as int64 [ns] and `time`, the stamp in [s]; then one entry a field,
-            nested ones with dots (`wrench.force.z`): scalars as [messages], arrays of one length as [messages, length],
-            arrays that differ in length as a list.
+            `log_time` and, with a header, `stamp` as int64 [ns] and `time`, the stamp in [s]; then
+            one entry a field, nested ones with dots (`wrench.force.z`): scalars as [messages],
+            arrays of one length as [messages, length], arrays that differ in length as a list.
 
         Raises:
             BagError: no such topic or field, or a message does not fit its definition.
@@ -237,11 +255,13 @@ def open_bag(path: Path | str, *, skip_bad: bool = False) -> Bag:
 
     Args:
         path: the bag's directory, or its `.mcap` file.
-        skip_bad: go on after a damaged chunk, and without damaged texts, instead of stopping at them.
+        skip_bad: go on after a damaged chunk, and without damaged texts, instead of stopping at
+            them.
 
     Raises:
-        BagError: there is no bag, it is of another storage, it is spread over several files, or its texts do not hold: their
-            checksum fails, or its metadata and `bench/scene` hold different scenes.
+        BagError: there is no bag, it is of another storage, it is spread over several files, or its
+            texts do not hold: their checksum fails, or its metadata and `bench/scene` hold
+                different scenes.
     """
     place = Path(path)
     file_path = _file_of(place) if place.is_dir() else place

@@ -1,4 +1,6 @@
-"""Texts that stand in a bag, read as data within the limits of `scene/yaml/document.py`: whoever made the bag is a stranger."""
+"""Texts that stand in a bag, read as data within the limits of `scene/yaml/document.py`: whoever
+made the bag is a stranger.
+"""
 
 from collections.abc import Callable
 from typing import Any
@@ -14,7 +16,9 @@ __all__ = ["excitation_of_text", "scene_of_text", "values_of_text"]
 
 
 def values_of_text(text: str, where: str, read: Callable[..., Any] = parse_plain, **limits: int) -> Any:
-    """What a YAML text holds (JSON with `read=parse_json`); BagError, with `where` it stands, beyond what is allowed."""
+    """What a YAML text holds (JSON with `read=parse_json`); BagError, with `where` it stands,
+    beyond what is allowed.
+    """
     try:
         return read(text, where, **limits)
     except SceneError as error:
@@ -22,7 +26,8 @@ def values_of_text(text: str, where: str, read: Callable[..., Any] = parse_plain
 
 
 def scene_of_text(text: str | None, where: str) -> dict[str, Any]:
-    """The mapping of a recorded scene, its values unchecked, keys that were renamed since under their new names.
+    """The mapping of a recorded scene, its values unchecked, keys that were renamed since under
+    their new names.
 
     Empty where there is no text. BagError: no mapping.
     """
@@ -33,7 +38,9 @@ def scene_of_text(text: str | None, where: str) -> dict[str, Any]:
 
 
 def excitation_of_text(text: str | None, where: str) -> dict[str, dict[str, Any]]:
-    """What each excitation found and did, by topic, with its `notes` as a list of texts. BagError: anything else."""
+    """What each excitation found and did, by topic, with its `notes` as a list of texts. BagError:
+    anything else.
+    """
     found = {} if text is None else values_of_text(text, where, parse_json)
     if not isinstance(found, dict) or not all(isinstance(each, dict) for each in found.values()):
         raise BagError(f"{where}: is no JSON object of objects, one a topic")

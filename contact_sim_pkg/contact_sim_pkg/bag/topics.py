@@ -57,7 +57,9 @@ def topic_of(name: str) -> Topic:
 
 
 def full_name(name: str, namespace: str = "") -> str:
-    """The name as the ROS graph and a bag show it: `tire/force` in namespace `rig2` is `/rig2/tire/force`."""
+    """The name as the ROS graph and a bag show it: `tire/force` in namespace `rig2` is
+    `/rig2/tire/force`.
+    """
     if name.startswith("/"):
         return name
     prefix = namespace.strip("/")
@@ -68,7 +70,9 @@ _FOREVER = "{sec: 9223372036, nsec: 854775807}"
 
 
 def offered_qos(topic: Topic) -> str:
-    """The quality of service of a topic as rosbag2 stores it: a YAML list of one profile, names for the policies."""
+    """The quality of service of a topic as rosbag2 stores it: a YAML list of one profile, names for
+    the policies.
+    """
     return (
         f"- history: keep_last\n  depth: {topic.depth}\n"
         f"  reliability: {topic.reliability}\n  durability: {topic.durability}\n"

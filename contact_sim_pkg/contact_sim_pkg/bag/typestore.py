@@ -1,10 +1,11 @@
 """The message definitions as rosbags holds them: types, texts for a bag, hashes.
 
-rosbags knows all of Jazzy, but making its classes takes 0.4 s in each process; the few that are needed stand in
-`records/definitions.py`, and a test compares their hashes with those of rosbags.
+rosbags knows all of Jazzy, but making its classes takes 0.4 s in each process; the few that are
+needed stand in `records/definitions.py`, and a test compares their hashes with those of rosbags.
 
-Nothing here needs ROS to be installed. A bag carries its definitions, so a reader builds its store from the bag
-(`store_of_definition`); only what this version writes comes from the installed definitions.
+Nothing here needs ROS to be installed. A bag carries its definitions, so a reader builds its store
+from the bag (`store_of_definition`); only what this version writes comes from the installed
+definitions.
 """
 
 from functools import cache
@@ -32,7 +33,8 @@ def installed_types() -> Typestore:
 
 @cache
 def definition(type_name: str) -> str:
-    """The `ros2msg` text of a type: its definition, then each dependency after a line of `=` and `MSG: package/Type`.
+    """The `ros2msg` text of a type: its definition, then each dependency after a line of `=` and
+    `MSG: package/Type`.
 
     Ours are given with their comments, which hold unit, frame and order of each field.
     """
@@ -49,7 +51,8 @@ def type_hash(type_name: str) -> str:
 
 
 def store_of_definition(type_name: str, text: str) -> Typestore:
-    """A store that knows one type, from its `ros2msg` text with dependencies, and nothing installed.
+    """A store that knows one type, from its `ros2msg` text with dependencies, and nothing
+    installed.
 
     Raises BagError where the text is no definition, or one of its dependencies is missing.
     """

@@ -1,4 +1,6 @@
-"""What the results of a bag depend on beside its scene: the versions that recorded it, beside those of another bag or of here."""
+"""What the results of a bag depend on beside its scene: the versions that recorded it, beside those
+of another bag or of here.
+"""
 
 from collections.abc import Mapping, Sequence
 
@@ -14,7 +16,9 @@ HARMLESS = ("numpy", "numba", "python")  # named; results are compared all the s
 
 
 def versions_of(bag: Bag) -> dict[str, str]:
-    """Versions of software, and hashes of our message definitions by type, that a bag was recorded with, where it says so."""
+    """Versions of software, and hashes of our message definitions by type, that a bag was recorded
+    with, where it says so.
+    """
     known = {topic.type for topic in TOPICS.values()}
     ours = {row.type: bag.hash_of(name) for name, row in bag.topics.items() if row.type in known}
     return {key: bag.metadata[key] for key in software_versions("") if key in bag.metadata} | ours
@@ -42,10 +46,12 @@ def differences_from(bag: Bag, installed: Mapping[str, str]) -> str:
 
 
 def differences_of_bags(bags: Sequence[Bag], *, across: bool = False) -> list[str]:
-    """A line for each bag whose results are compared with those of the first and whose versions differ from its own.
+    """A line for each bag whose results are compared with those of the first and whose versions
+    differ from its own.
 
     Raises:
-        BagError: package, kernels or message definitions differ, and it was not said that bags are compared `across` them.
+        BagError: package, kernels or message definitions differ, and it was not said that bags are
+            compared `across` them.
     """
     told = []
     for bag in bags[1:]:

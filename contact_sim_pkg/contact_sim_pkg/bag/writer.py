@@ -1,9 +1,10 @@
-"""A bag under construction: one MCAP file in a new directory, and `metadata.yaml` beside it when it is closed.
+"""A bag under construction: one MCAP file in a new directory, and `metadata.yaml` beside it when it
+is closed.
 
-A chunk is closed 0.1 s (steady clock) after its first message or at 1 MiB, and handed to the operating system at
-once, so `kill -9` loses at most 0.2 s of recording. The disk is synced at most once a second, outside the lock, by a
-thread of the writer's own, which also guards the disk's reserve; a caller that is busy with a block loses nothing by
-it.
+A chunk is closed 0.1 s (steady clock) after its first message or at 1 MiB, and handed to the
+operating system at once, so `kill -9` loses at most 0.2 s of recording. The disk is synced at most
+once a second, outside the lock, by a thread of the writer's own, which also guards the disk's
+reserve; a caller that is busy with a block loses nothing by it.
 """
 
 import threading
@@ -49,7 +50,9 @@ class BagSummary(NamedTuple):
 
 
 class BagWriter:
-    """Writes encoded messages in the order in which they are given; may be used from several threads."""
+    """Writes encoded messages in the order in which they are given; may be used from several
+    threads.
+    """
 
     def __init__(
         self,
@@ -66,7 +69,8 @@ class BagWriter:
 
         Args:
             directory: the bag's directory, which must not exist.
-            topics: what will be recorded; every recorded topic of the table, without a namespace, where it is None.
+            topics: what will be recorded; every recorded topic of the table, without a namespace,
+                where it is None.
             attachments: texts kept in the bag and in `metadata.yaml`: scene, versions.
             reserve_bytes: free space of the disk, [bytes], below which the recording is closed.
             clock: steady clock, [s].
@@ -74,7 +78,8 @@ class BagWriter:
             background: run `maintain` every 0.05 s in a thread; without it the caller does.
 
         Raises:
-            BagError: the directory exists or cannot be created, or less than the reserve is free; nothing is left.
+            BagError: the directory exists or cannot be created, or less than the reserve is free;
+                nothing is left.
         """
         free = free_bytes() if free_bytes else free_bytes_at(directory)
         if free < reserve_bytes:
@@ -115,7 +120,9 @@ class BagWriter:
             raise
 
     def _begin(self) -> dict[str, int]:
-        """Header, attachments, schemas and channels; the attachments stand in front, so a cut bag has them."""
+        """Header, attachments, schemas and channels; the attachments stand in front, so a cut bag
+        has them.
+        """
         self._writer.start(profile="ros2", library=LIBRARY)
         if self._attachments:
             self._writer.add_metadata(RECORD, sealed(self._attachments))
@@ -197,14 +204,16 @@ class BagWriter:
             self._fault = error
 
     def close(self, outcome: Mapping[str, str] | None = None) -> BagSummary:
-        """End the bag and check it: the file is opened again and its counts compared with those kept here.
+        """End the bag and check it: the file is opened again and its counts compared with those
+        kept here.
 
         Args:
             outcome: texts to keep beside the attachments: how the run ended, what was dropped.
 
         Returns:
-            What the bag holds. `complete` is False where a write failed, the disk's reserve was reached, or the file
-            does not hold what was written; `sentence` says which. A second call returns the same.
+            What the bag holds. `complete` is False where a write failed, the disk's reserve was
+            reached, or the file does not hold what was written; `sentence` says which. A second
+            call returns the same.
         """
         self._closing.set()
         if self._thread.is_alive():
@@ -248,7 +257,9 @@ class BagWriter:
             self._fault = RecordingStoppedError(sentence)
 
     def _finish(self, outcome: dict[str, str], stopped: str = "") -> None:
-        """Write the end, close the file, compare what it holds with the counts; called once, with the lock held."""
+        """Write the end, close the file, compare what it holds with the counts; called once, with
+        the lock held.
+        """
         reasons = [stopped, str(self._fault) if self._fault else self._write_end(outcome)]
         try:
             self._file.sync()

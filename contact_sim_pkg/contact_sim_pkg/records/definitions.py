@@ -3,8 +3,7 @@
 A `.msg` file alone defines what a message holds. These phrases in the comment of an array count:
 
 * `row-major, A x B`, or `length A`: the fields A and B are its sides; a number is the size of a
-  side,
-  an array is as long as the side,
+  side, an array is as long as the side,
 * `empty without`: the array may be empty, and is where it is not given.
 
 Arrays without such sides, which are not a side themselves, have one length in a message.

@@ -1,4 +1,6 @@
-"""What the bag of a scene holds: its topics, and the texts kept with it. The same for the offline run and the logger node."""
+"""What the bag of a scene holds: its topics, and the texts kept with it. The same for the offline
+run and the logger node.
+"""
 
 from __future__ import annotations
 
@@ -31,7 +33,9 @@ def recorded_names(scene: ResolvedScene) -> list[str]:
 
 
 def attachments(scene: ResolvedScene, excitation: dict[str, dict[str, Any]]) -> dict[str, str]:
-    """Texts for the bag: resolved scene, versions, and what each excitation found and did (JSON by topic)."""
+    """Texts for the bag: resolved scene, versions, and what each excitation found and did (JSON by
+    topic).
+    """
     return {
         SCENE_KEY: scene.to_yaml(),
         **software_versions(kernel_fingerprint()),
@@ -40,5 +44,7 @@ def attachments(scene: ResolvedScene, excitation: dict[str, dict[str, Any]]) -> 
 
 
 def kernel_fingerprint() -> str:
-    """Name of the kernels' sources: what a result depends on beside the scene and the versions. Starts no compiler."""
+    """Name of the kernels' sources: what a result depends on beside the scene and the versions.
+    Starts no compiler.
+    """
     return digest_of_sources(Path(__file__).parents[1])[:20]

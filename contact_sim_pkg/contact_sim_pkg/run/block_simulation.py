@@ -46,5 +46,6 @@ class BlockSimulation(Protocol):
     def advance(self, block: int, inputs: dict[str, InputBlock]) -> BlockResult:
         """Advance block number ``block``, in order from 0, with the blocks of every input topic.
 
-        Raises RunError where a block is out of turn, does not fit the scene, or the physics ends in a named failure.
+        Raises RunError where a block is out of turn, does not fit the scene, or the physics ends in
+        a named failure.
         """

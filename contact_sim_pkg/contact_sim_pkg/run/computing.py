@@ -1,4 +1,6 @@
-"""A computation in compiled code, and another thread that may end the run meanwhile: kernels release the interpreter lock."""
+"""A computation in compiled code, and another thread that may end the run meanwhile: kernels
+release the interpreter lock.
+"""
 
 from __future__ import annotations
 
@@ -11,7 +13,9 @@ Ended = TypeVar("Ended")
 
 
 class Computing(Generic[Ended]):
-    """Lets another thread end a run whose computation does not come back: while it lasts nothing is written."""
+    """Lets another thread end a run whose computation does not come back: while it lasts nothing is
+    written.
+    """
 
     def __init__(self) -> None:
         """Nothing is computed; `end` closes what is open once something is."""
@@ -20,7 +24,9 @@ class Computing(Generic[Ended]):
         self.end: Callable[[], Ended] | None = None
 
     def call(self, function: Callable[..., Result], *arguments: Any) -> Result:
-        """``function(*arguments)``; does not return where another thread has ended the run meanwhile."""
+        """``function(*arguments)``; does not return where another thread has ended the run
+        meanwhile.
+        """
         self._idle.release()
         try:
             return function(*arguments)
@@ -28,7 +34,9 @@ class Computing(Generic[Ended]):
             self._idle.acquire()
 
     def abandon(self) -> Ended | None:
-        """From another thread: end the run, if it computes right now. None where it does not, or nothing is open yet."""
+        """From another thread: end the run, if it computes right now. None where it does not, or
+        nothing is open yet.
+        """
         if self.end is None or not self._idle.acquire(blocking=False):
             return None
         return self.end()

@@ -29,7 +29,9 @@ __all__ = ["elastic_law", "friction", "hysteresis", "normal_loss"]
 
 
 def elastic_law(scene: ResolvedScene, contact: str) -> ElasticLaw:
-    """Elastic law of a contact without pressure field: its foam where the scene names one, its power law otherwise."""
+    """Elastic law of a contact without pressure field: its foam where the scene names one, its
+    power law otherwise.
+    """
     foam, power = scene.effect(contact, Foam), given(scene.effect(contact, PowerLaw))
     if foam is None:
         return NormalElastic(power.coefficient, power.exponent)
@@ -41,8 +43,8 @@ def elastic_law(scene: ResolvedScene, contact: str) -> ElasticLaw:
 def normal_loss(scene: ResolvedScene, contact: str, elastic: ElasticLaw, mass: float) -> NormalDissipation | None:
     """Loss of a contact, from its damping or its restitution; None where the scene calls for none.
 
-    ``mass`` [kg] is what a free impact with the requested restitution moves. Raises SceneError where the law does not
-    reach it.
+    ``mass`` [kg] is what a free impact with the requested restitution moves. Raises SceneError
+    where the law does not reach it.
     """
     general, loss = scene.effect(contact, GeneralDissipation), scene.effect(contact, HuntCrossley)
     if general is not None:
@@ -80,6 +82,8 @@ def friction(scene: ResolvedScene, contact: str) -> parameters.Friction | None:
 
 
 def hysteresis(scene: ResolvedScene, contact: str, offset: int) -> parameters.FoamHysteresis | None:
-    """Hysteresis of a contact, its internal variable at ``offset`` of the state; None where the scene calls for none."""
+    """Hysteresis of a contact, its internal variable at ``offset`` of the state; None where the
+    scene calls for none.
+    """
     law = scene.effect(contact, FoamHysteresisSection)
     return None if law is None else parameters.FoamHysteresis(offset, law.share, law.energy)

@@ -15,7 +15,8 @@ def contact_patch(
 ) -> ContactPatch:
     """Load, peak, area, centre and Lamé curve of ``pressure`` [rows, cols] [Pa].
 
-    ``grid``: sizes of a cell and centre of the first one, each along rows and columns, in [m]; ``approach`` [m].
+    ``grid``: sizes of a cell and centre of the first one, each along rows and columns, in [m];
+    ``approach`` [m].
     """
     total, shape = summarise(pressure, *grid), fit_patch(pressure, *grid)
     cell_x, cell_y, origin_x, origin_y = grid

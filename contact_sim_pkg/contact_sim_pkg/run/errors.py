@@ -2,4 +2,6 @@
 
 
 class RunError(RuntimeError):
-    """A run that cannot go on: a guard, a field that does not solve, a missing block. The message names block and cause."""
+    """A run that cannot go on: a guard, a field that does not solve, a missing block. The message
+    names block and cause.
+    """

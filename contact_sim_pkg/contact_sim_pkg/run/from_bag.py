@@ -1,4 +1,6 @@
-"""The excitation of an earlier run: its recorded blocks drive the simulation again, with other effects or another accuracy."""
+"""The excitation of an earlier run: its recorded blocks drive the simulation again, with other
+effects or another accuracy.
+"""
 
 from __future__ import annotations
 
@@ -52,23 +54,28 @@ class BagSource:
 
 
 def sources_from_bag(path: Path, scene: ResolvedScene) -> dict[str, Source]:
-    """Sources of every input that ``scene`` calls for, from the bag at ``path``; BagError as `refuse_other_scene`."""
+    """Sources of every input that ``scene`` calls for, from the bag at ``path``; BagError as
+    `refuse_other_scene`.
+    """
     refuse_other_scene(path, scene)
     bag = open_bag(path)
     return {topic: BagSource(bag, topic) for topic in input_names(scene)}
 
 
 def cautions(path: Path) -> list[str]:
-    """What who runs a bag again must know, a line each: what it lacks, and that other versions recorded it."""
+    """What who runs a bag again must know, a line each: what it lacks, and that other versions
+    recorded it.
+    """
     bag = open_bag(path)
     return [*bag.notes, *filter(None, [differences_from(bag, installed_versions(kernel_fingerprint()))])]
 
 
 def refuse_other_scene(path: Path, scene: ResolvedScene) -> None:
-    """Raise BagError where the bag's excitation is not the one that ``scene`` describes, or does not fit it.
+    """Raise BagError where the bag's excitation is not the one that ``scene`` describes, or does
+    not fit it.
 
-    The bag lacks a topic or blocks, its own scene has another excitation, or it was recorded on another road lattice or
-    sample rate.
+    The bag lacks a topic or blocks, its own scene has another excitation, or it was recorded on
+    another road lattice or sample rate.
     """
     bag = open_bag(path)
     changed = _changed_keys(bag, scene)
@@ -88,7 +95,9 @@ def refuse_other_scene(path: Path, scene: ResolvedScene) -> None:
 
 
 def _changed_keys(bag: Bag, scene: ResolvedScene) -> list[str]:
-    """Dotted keys that made the recorded excitation and are another in ``scene``; none where the bag holds no scene."""
+    """Dotted keys that made the recorded excitation and are another in ``scene``; none where the
+    bag holds no scene.
+    """
     text = bag.scene
     if text is None:
         return []

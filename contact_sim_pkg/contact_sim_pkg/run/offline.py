@@ -61,10 +61,11 @@ def run_offline(
 ) -> RunOutcome:
     """Run ``scene`` and record it in ``directory``, which must not exist (None: no recording).
 
-    ``sources`` replaces the scene's own excitation (a bag's, for one). ``stop`` is asked once all is compiled, where nothing has
-    been created yet, and before each block. A fault of the
-    physics or of the excitation ends the run, as does a write that fails: the bag is closed and the outcome names it. Raises
-    what a bad scene, file or directory raises, before anything is created. ``computing`` lets another thread end it within a block.
+    ``sources`` replaces the scene's own excitation (a bag's, for one). ``stop`` is asked once all
+    is compiled, where nothing has been created yet, and before each block. A fault of the
+    physics or of the excitation ends the run, as does a write that fails: the bag is closed and the
+    outcome names it. Raises what a bad scene, file or directory raises, before anything is created.
+    ``computing`` lets another thread end it within a block.
     """
     began, computing = time.perf_counter(), computing or Computing()
     sources = make_sources(scene) if sources is None else sources

@@ -42,7 +42,9 @@ class BlockStamps(NamedTuple):
 
 
 def wrench_of(force: Sequence[float], torque: Sequence[float]) -> WrenchStamped:
-    """Wrench of a force [N] and a torque [N m] about the origin, along x (forward), y (left), z (up)."""
+    """Wrench of a force [N] and a torque [N m] about the origin, along x (forward), y (left), z
+    (up).
+    """
     fx, fy, fz = force
     tx, ty, tz = torque
     return WrenchStamped(wrench=Wrench(force=Vector3(x=fx, y=fy, z=fz), torque=Vector3(x=tx, y=ty, z=tz)))
@@ -53,7 +55,8 @@ def contact_outputs(
 ) -> Iterator[Output]:
     """Resultant of a contact at the full rate, and its wrench at the display rate.
 
-    ``lateral`` [samples, 2]: force along y [N] and moment about z [N m] on the upper body; 0 where it is not given.
+    ``lateral`` [samples, 2]: force along y [N] and moment about z [N m] on the upper body; 0 where
+    it is not given.
     """
     yield Output(f"{name}/force", stamps.start, force)
     vertical = force.normal + force.impulses if len(force.impulses) else force.normal

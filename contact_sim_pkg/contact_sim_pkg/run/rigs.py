@@ -11,7 +11,9 @@ from contact_sim_pkg.scene.resolved_scene import ResolvedScene
 
 
 def make_simulation(scene: ResolvedScene) -> BlockSimulation:
-    """The simulation of a resolved scene's rig. Raises what its parts raise on a scene that cannot run."""
+    """The simulation of a resolved scene's rig. Raises what its parts raise on a scene that cannot
+    run.
+    """
     simulation: BlockSimulation = load(rigs()[scene.rig].simulation)(scene)
     return simulation
 
@@ -31,7 +33,9 @@ class Forecast(NamedTuple):
 
 
 def forecast_of(scene: ResolvedScene) -> Forecast | None:
-    """What the rig reports before the run; None where it reports nothing. Raises RunError where the scene cannot run."""
+    """What the rig reports before the run; None where it reports nothing. Raises RunError where the
+    scene cannot run.
+    """
     name = rigs()[scene.rig].forecast
     if not name:
         return None

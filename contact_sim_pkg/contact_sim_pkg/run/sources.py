@@ -1,6 +1,8 @@
-"""The excitation of a scene as sources of numbered blocks: the one place where a scene's road and vibration are made.
+"""The excitation of a scene as sources of numbered blocks: the one place where a scene's road and
+vibration are made.
 
-Kinds of excitation are imported where they are made: a node that sends a sine starts without what a recording needs.
+Kinds of excitation are imported where they are made: a node that sends a sine starts without what a
+recording needs.
 """
 
 from __future__ import annotations
@@ -45,7 +47,8 @@ def make_travel(scene: ResolvedScene) -> Travel:
 
 
 def make_sources(scene: ResolvedScene) -> dict[str, Source]:
-    """Sources of the input topics that a resolved scene calls for. A road without `travel` is no topic: the rig reads it itself.
+    """Sources of the input topics that a resolved scene calls for. A road without `travel` is no
+    topic: the rig reads it itself.
 
     Raises ExcitationError for a file that cannot be read or an excitation that cannot be made.
     """
@@ -80,7 +83,9 @@ def road_lattice(scene: ResolvedScene) -> RoadLattice:
 
 
 def make_surface(scene: ResolvedScene, cell: float) -> Surface:
-    """The surface of a resolved scene's road; `cell` [m] is the finest spacing at which it is asked. Raises ExcitationError."""
+    """The surface of a resolved scene's road; `cell` [m] is the finest spacing at which it is
+    asked. Raises ExcitationError.
+    """
     road = scene.road
     assert road is not None
     if road.kind == "iso8608":
@@ -152,7 +157,9 @@ def _signal(scene: ResolvedScene, vibration: Vibration) -> Signal:
 
 
 def _sweep_duration(sweep: SweepSection) -> float:
-    """Time [s] from the start frequency to the end frequency: as given, else by the octaves per minute."""
+    """Time [s] from the start frequency to the end frequency: as given, else by the octaves per
+    minute.
+    """
     if sweep.duration is not None:
         return sweep.duration
     assert sweep.octaves_per_minute is not None
@@ -160,7 +167,9 @@ def _sweep_duration(sweep: SweepSection) -> float:
 
 
 def _notes(fastest: float, rate: float, accuracy: float) -> list[str]:
-    """Where the straight lines between samples are further off than the asked accuracy: ``1 - cos(pi f / rate)`` of a sine."""
+    """Where the straight lines between samples are further off than the asked accuracy: ``1 -
+    cos(pi f / rate)`` of a sine.
+    """
     off = 1.0 - math.cos(math.pi * fastest / rate)
     if off <= accuracy:
         return []

@@ -1,7 +1,9 @@
-"""The work of a run, estimated from its scene before anything starts: steps, cells and turns times what each costs.
+"""The work of a run, estimated from its scene before anything starts: steps, cells and turns times
+what each costs.
 
-The costs are those of one core of a usual machine (2 GHz), so that a scene is refused or not wherever it runs. What depends on
-the motion itself is left out: the estimate is the least that is sure. Each rig counts its own parts.
+The costs are those of one core of a usual machine (2 GHz), so that a scene is refused or not
+wherever it runs. What depends on the motion itself is left out: the estimate is the least that is
+sure. Each rig counts its own parts.
 """
 
 from __future__ import annotations
@@ -35,7 +37,9 @@ def estimated_work(scene: ResolvedScene) -> list[Work]:
 
 
 def refuse_long(scene: ResolvedScene, *, allowed: bool) -> str:
-    """Report of the work before the run; empty where it is short. SceneError beyond the bound, unless ``allowed``."""
+    """Report of the work before the run; empty where it is short. SceneError beyond the bound,
+    unless ``allowed``.
+    """
     parts = estimated_work(scene)
     total, bound = sum(part.seconds for part in parts), max(BOUND, scene.duration)
     report = f"about {parts[0].number:.2g} {parts[0].what}, {_time(total)} of computing"

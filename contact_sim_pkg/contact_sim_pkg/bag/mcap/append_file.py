@@ -1,7 +1,9 @@
-"""A new file that only grows, in a new directory; every error of the operating system is one sentence.
+"""A new file that only grows, in a new directory; every error of the operating system is one
+sentence.
 
-A write that fails is taken back, so the file always ends with a whole record. Nothing is buffered here: what `write`
-returned from survives the death of the process, what `sync` returned from survives the death of the machine.
+A write that fails is taken back, so the file always ends with a whole record. Nothing is buffered
+here: what `write` returned from survives the death of the process, what `sync` returned from
+survives the death of the machine.
 """
 
 import errno
@@ -83,7 +85,9 @@ def free_bytes_at(path: Path) -> int:
 
 
 def create_directory(directory: Path) -> None:
-    """Create a directory that must not exist; its parents may. BagError where it exists or cannot be created."""
+    """Create a directory that must not exist; its parents may. BagError where it exists or cannot
+    be created.
+    """
     try:
         directory.parent.mkdir(parents=True, exist_ok=True)
         directory.mkdir()
@@ -98,7 +102,9 @@ def create_directory(directory: Path) -> None:
 
 
 def create_file(directory: Path, name: str) -> AppendFile:
-    """Create and lock a file that must not exist, without following a link; BagError where that fails."""
+    """Create and lock a file that must not exist, without following a link; BagError where that
+    fails.
+    """
     flags = os.O_RDWR | os.O_CREAT | os.O_EXCL | os.O_NOFOLLOW | os.O_CLOEXEC
     try:
         descriptor = os.open(directory / name, flags, 0o644)

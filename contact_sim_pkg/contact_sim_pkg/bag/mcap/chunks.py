@@ -12,7 +12,9 @@ LARGEST_RECORD = 256 << 20  # [bytes] of one record, packed or unpacked; our chu
 
 
 def decompressed(chunk: Chunk) -> Chunk:
-    """The chunk with its content unpacked; ValueError where that is damaged or larger than stated or allowed."""
+    """The chunk with its content unpacked; ValueError where that is damaged or larger than stated
+    or allowed.
+    """
     if chunk.uncompressed_size > LARGEST_RECORD:
         raise ValueError(f"it claims {chunk.uncompressed_size} bytes, limit {LARGEST_RECORD}")
     content = _unpack(chunk.compression, chunk.data, chunk.uncompressed_size)

@@ -1,7 +1,8 @@
-"""Where the parts of an MCAP file stand: from its summary, or, where it was cut off, from a walk over its records.
+"""Where the parts of an MCAP file stand: from its summary, or, where it was cut off, from a walk
+over its records.
 
-Nothing is believed before it was checked: a record is read when its length fits into the file and below a limit, a
-chunk is taken apart when its checksum holds. The file is never changed.
+Nothing is believed before it was checked: a record is read when its length fits into the file and
+below a limit, a chunk is taken apart when its checksum holds. The file is never changed.
 """
 
 import struct
@@ -39,7 +40,9 @@ class ChunkPlace(NamedTuple):
 
 
 class Layout(NamedTuple):
-    """Everything about a file but its messages; `note` says what is missing, and is empty where nothing is."""
+    """Everything about a file but its messages; `note` says what is missing, and is empty where
+    nothing is.
+    """
 
     chunks: list[ChunkPlace]
     schemas: dict[int, Schema]
@@ -63,7 +66,9 @@ def read_layout(file: IO[bytes], name: str) -> Layout:
 
 
 def counts_on_disk(path: Path) -> tuple[dict[str, int], bool]:
-    """Messages by topic that the file lists, and whether it is finished with each chunk in its place; else empty."""
+    """Messages by topic that the file lists, and whether it is finished with each chunk in its
+    place; else empty.
+    """
     try:
         with path.open("rb") as file:
             layout = read_layout(file, path.name)
@@ -78,7 +83,9 @@ def counts_on_disk(path: Path) -> tuple[dict[str, int], bool]:
 
 
 def chunk_records(file: IO[bytes], place: ChunkPlace, name: str) -> list[McapRecord]:
-    """Schemas, channels and messages of one chunk in file order; CorruptChunkError where it is damaged."""
+    """Schemas, channels and messages of one chunk in file order; CorruptChunkError where it is
+    damaged.
+    """
     try:
         opcode, length = _head(file, place.offset)
         if opcode != Opcode.CHUNK or length != place.length - _HEAD or length > LARGEST_RECORD:
@@ -125,7 +132,9 @@ def _from_summary(file: IO[bytes], name: str) -> Layout | None:
 
 
 def _summary_is_whole(file: IO[bytes]) -> bool:
-    """Whether the file ends with a footer, and the summary has the checksum that the footer states (0: none stated)."""
+    """Whether the file ends with a footer, and the summary has the checksum that the footer states
+    (0: none stated).
+    """
     tail = _HEAD + 20 + len(MAGIC)
     end = file.seek(0, 2)
     file.seek(max(0, end - tail))
@@ -155,7 +164,9 @@ def _metadata(file: IO[bytes], length: int) -> Metadata:
 
 
 def _indexed(file: IO[bytes], index: MetadataIndex) -> Metadata:
-    """The metadata record of an index, which has a checksum, as the name in it; a checksum that fails where it cannot be read."""
+    """The metadata record of an index, which has a checksum, as the name in it; a checksum that
+    fails where it cannot be read.
+    """
     try:
         if _head(file, index.offset) != (Opcode.METADATA, index.length - _HEAD):
             raise ValueError
@@ -165,7 +176,9 @@ def _indexed(file: IO[bytes], index: MetadataIndex) -> Metadata:
 
 
 def _walk(file: IO[bytes], name: str) -> Layout:
-    """The layout from the records themselves, up to the first that is cut off or cannot be believed."""
+    """The layout from the records themselves, up to the first that is cut off or cannot be
+    believed.
+    """
     found = Layout([], {}, {}, {}, [], 0, False, "")
     end, damaged_records, attachments = file.seek(0, 2), 0, 0
     last_is_whole = True
@@ -200,7 +213,9 @@ def _why_not(opcode: int, length: int, left: int) -> str:
 
 
 def _take(file: IO[bytes], place: ChunkPlace, opcode: int, found: Layout, name: str) -> bool:
-    """Add one record of the walk; False where it is damaged (a chunk stays listed, so that a reader meets it)."""
+    """Add one record of the walk; False where it is damaged (a chunk stays listed, so that a reader
+    meets it).
+    """
     length = place.length - _HEAD
     try:
         if opcode == Opcode.CHUNK:

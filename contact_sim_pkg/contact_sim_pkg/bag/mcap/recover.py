@@ -12,7 +12,9 @@ from contact_sim_pkg.bag.writer import BagWriter
 
 
 class Recovery(NamedTuple):
-    """What was brought over; `lossless` is False where anything is missing, and `sentence` says what."""
+    """What was brought over; `lossless` is False where anything is missing, and `sentence` says
+    what.
+    """
 
     path: Path
     messages: int
@@ -21,7 +23,8 @@ class Recovery(NamedTuple):
 
 
 def recover(source: Path | str, target: Path) -> Recovery:
-    """Write every readable message of a bag into a new bag, with its definitions, times, numbers and texts.
+    """Write every readable message of a bag into a new bag, with its definitions, times, numbers
+    and texts.
 
     Args:
         source: directory or `.mcap` file of the bag, finished or not.
@@ -51,7 +54,9 @@ def recover(source: Path | str, target: Path) -> Recovery:
 
 
 def _with_readable_quality(bag: Bag) -> tuple[tuple[RecordedTopic, ...], list[str]]:
-    """The topics of the bag, without a quality of service that cannot be read, and a sentence on each of those."""
+    """The topics of the bag, without a quality of service that cannot be read, and a sentence on
+    each of those.
+    """
     topics, lost = [], []
     for row in bag.topics.values():
         try:

@@ -14,15 +14,16 @@ METADATA = "metadata.yaml"
 
 
 def leave_metadata(directory: Path, outcome: Mapping[str, str]) -> str:
-    """Write the `metadata.yaml` of a bag that was not finished, with what can be read of it; the `.mcap` is not touched.
+    """Write the `metadata.yaml` of a bag that was not finished, with what can be read of it; the
+    `.mcap` is not touched.
 
     Args:
         directory: directory of the bag; nobody records it any more.
         outcome: how the run ended, as the recorder would have kept it.
 
     Returns:
-        What the bag holds and how to make a whole one of it; empty where the bag is finished, is being recorded, or cannot be
-        read at all.
+        What the bag holds and how to make a whole one of it; empty where the bag is finished, is
+        being recorded, or cannot be read at all.
     """
     try:
         bag = open_bag(directory, skip_bad=True)

@@ -1,8 +1,8 @@
 """The tables of `docs/interfaces.md`: topics, messages, nodes, exit codes and renamed scene keys.
 
-`python -m contact_sim_pkg.nodes.processes.interface_reference docs/interfaces.md` writes them between the two
-marks of that file. They come from the table of topics, the `.msg` files, the rigs and
-`config/bench.yaml`; nothing is written twice.
+`python -m contact_sim_pkg.nodes.processes.interface_reference docs/interfaces.md` writes them
+between the two marks of that file. They come from the table of topics, the `.msg` files, the rigs
+and `config/bench.yaml`; nothing is written twice.
 """
 
 from __future__ import annotations

@@ -10,7 +10,9 @@ LEAST_GRACE = 0.1  # from asking a process to killing it
 
 
 class StopRequests:
-    """Counts the requests; a run under way is first ended by its simulator, so that the bag is whole."""
+    """Counts the requests; a run under way is first ended by its simulator, so that the bag is
+    whole.
+    """
 
     def __init__(self) -> None:
         """No request."""
@@ -26,7 +28,9 @@ class StopRequests:
         return self._handed_on > 0
 
     def hand_on(self, children: Children, now: float, *, under_way: bool) -> None:
-        """Ask the simulator of a run `under_way` to end, or else every process; `now`: steady clock, [s]."""
+        """Ask the simulator of a run `under_way` to end, or else every process; `now`: steady
+        clock, [s].
+        """
         if self._handed_on == 1 and now > self._first_at + ASK_SECONDS:
             self._count += 1
         if self._count > self._handed_on:
@@ -34,9 +38,13 @@ class StopRequests:
             children.ask(*(("contact_simulator",) if under_way and self._handed_on == 1 else ()))
 
     def expired(self, now: float) -> bool:
-        """Whether the time for the processes to end by themselves is over; `now`: steady clock, [s]."""
+        """Whether the time for the processes to end by themselves is over; `now`: steady clock,
+        [s].
+        """
         return now > self._first_at + STOP_SECONDS
 
     def grace(self, now: float) -> float:
-        """Time in [s] from asking the processes that are left to killing them; `now`: steady clock, [s]."""
+        """Time in [s] from asking the processes that are left to killing them; `now`: steady clock,
+        [s].
+        """
         return max(LEAST_GRACE, min(GRACE_SECONDS, self._first_at + STOP_SECONDS - now))

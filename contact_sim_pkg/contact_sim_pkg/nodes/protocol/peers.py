@@ -47,7 +47,8 @@ class Peers:
         self._results = watch({topic: entry.topic_name for topic, entry in outputs.items()}, interval=RESULTS_SECONDS)
 
     def complete(self, now: float) -> bool:
-        """Whether everybody is there at `now` of the steady clock, [s]; the log names who is missing.
+        """Whether everybody is there at `now` of the steady clock, [s]; the log names who is
+        missing.
 
         The publishers that are there are then those of the run.
 
@@ -77,7 +78,8 @@ class Peers:
         absent = [
             f"the names of {t}'s publishers" for t in checked if not refuse_strangers(self._node, t, unnamed=unnamed)
         ]
-        # matched publishers of the inputs, followers of the progress, then logger and its subscriptions
+        # matched publishers of the inputs, followers of the progress, then logger and its
+        # subscriptions
         absent += [
             f"a publisher of {topic}" for topic, entry in self._inputs.items() if _publishers(self._node, entry) < 1
         ]
@@ -91,7 +93,8 @@ class Peers:
         return absent
 
     def alone(self, now: float) -> bool:
-        """Whether nobody else publishes results or inputs of the run at `now` of the steady clock, [s].
+        """Whether nobody else publishes results or inputs of the run at `now` of the steady clock,
+        [s].
 
         Raises NodeError (fault) as `SourceWatch.alone`.
         """

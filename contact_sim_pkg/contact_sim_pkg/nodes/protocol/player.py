@@ -1,4 +1,6 @@
-"""Due times of the messages of a bag: rate, begin, pause, loop, and how many were sent. Without ROS."""
+"""Due times of the messages of a bag: rate, begin, pause, loop, and how many were sent. Without
+ROS.
+"""
 
 from __future__ import annotations
 
@@ -118,7 +120,9 @@ class Player:
             self._resumed_at = now
 
     def next_due(self, now: float) -> BagMessage | None:
-        """The next message, if it is due at `now`, [s]; a loop begins again once the last one is sent."""
+        """The next message, if it is due at `now`, [s]; a loop begins again once the last one is
+        sent.
+        """
         if self.paused:
             return None
         if self._next is None and self._loop and self.position(now) - self._start >= self._pass_length():

@@ -72,7 +72,8 @@ class Recording:
         return tuple(self._sources)
 
     def accept(self, topic: str, data: bytes, number: int | None, publishers: int) -> str:
-        """Keep a message, also before the bag is created: on the wire, block 0 may overtake *ready*.
+        """Keep a message, also before the bag is created: on the wire, block 0 may overtake
+        *ready*.
 
         One publisher a topic is accepted, by the rule of `SingleSource.accept`. Excitation is
         checked as the simulator does: a block that it drops must not replace a good one. Messages
@@ -95,7 +96,8 @@ class Recording:
         return ""
 
     def open(self, resolve_name: Callable[[str], str], descriptions: dict[str, dict[str, Any]]) -> None:
-        """Create the bag, with the scene as its first message; NodeError (refused) where that fails.
+        """Create the bag, with the scene as its first message; NodeError (refused) where that
+        fails.
 
         Args:
             resolve_name: full name in the graph of a topic.
@@ -129,7 +131,8 @@ class Recording:
         return encode(value, (self.block + 1) * self._block_length_ns)
 
     def close(self, run: Follower, reason: str, on_block: Callable[[], None]) -> ClosedBag | None:
-        """Close the bag with what is whole, or with all that came of an ended run; None without an open bag.
+        """Close the bag with what is whole, or with all that came of an ended run; None without an
+        open bag.
 
         Args:
             run: the run as the logger has followed it.

@@ -83,12 +83,16 @@ class SimulatedRun:
             self.logger.end(now)
 
     def refuse_standstill(self, now: float) -> None:
-        """Raise NodeError (fault) where no block was done for too long at `now` of the steady clock, [s]."""
+        """Raise NodeError (fault) where no block was done for too long at `now` of the steady
+        clock, [s].
+        """
         if now - self._advanced > self._timeout and not self.state.ended:
             raise NodeError(f"{self.logger.who_holds_up(self.inputs)} (waited {self._timeout:g} s)", FAULT)
 
     def on_recorded(self, recorded: BenchRecorded) -> str:
-        """Accept an answer of the logger; the reason why it closed its bag before the end, else empty."""
+        """Accept an answer of the logger; the reason why it closed its bag before the end, else
+        empty.
+        """
         if self.state < RunState.READY:
             return ""
         reason = self.logger.accept(recorded)
