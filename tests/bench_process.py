@@ -82,7 +82,7 @@ class Nodes:
         """Wait for a condition of a run under way; fails after the time, or once a node has ended badly or all have ended."""
 
         def over() -> str:
-            fallen = self._children.fallen()
+            fallen = self._children.first_failed()
             return fallen.describe_end() if fallen else "all nodes have ended" if self.ended() else ""
 
         wait_until(condition, seconds, over)

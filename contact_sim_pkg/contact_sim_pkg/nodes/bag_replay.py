@@ -78,6 +78,7 @@ class BagReplayNode(LifecycleBenchNode):
         if not self._began:
             self._begin()
         self._pause_or_resume(player, now)
+        # a batch at a time, so that signals and the service for a pause are never kept waiting
         for _ in range(BATCH):
             message = player.next_due(now)
             if message is None:

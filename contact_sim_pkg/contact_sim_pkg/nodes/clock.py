@@ -1,6 +1,4 @@
-"""The simulator's `/clock`: one source on the graph, for several give jumps back to whoever
-listens.
-"""
+"""The simulator's `/clock`: one source in the graph, since of several a subscriber gets jumps back."""
 
 from __future__ import annotations
 
@@ -24,10 +22,10 @@ def clock_message(time_ns: int) -> bytes:
 
 
 class SimulatedClock:
-    """Publishes simulated time as long as nobody else publishes a clock; says once that it does
+    """Publishes simulated time as long as nobody else publishes a clock; warns once that it does
     not, and why.
 
-    Whoever comes second gives way. Of two simulators that began at the same moment the one with the
+    The second one gives way. Of two simulators that began at the same moment the one with the
     smaller identifier stays; a clock from elsewhere (a replay, another simulator) stays in any
     case.
     """
@@ -36,7 +34,7 @@ class SimulatedClock:
         """Nothing is published before `start`."""
         self._node = node
         self._publisher: Publisher | None = None
-        self._undecided = wanted  # until it was said that another clock is there
+        self._undecided = wanted  # until the warning about another clock
         self._looked = self._began = 0.0
 
     def start(self, now: float) -> None:
@@ -52,7 +50,7 @@ class SimulatedClock:
             self._publisher.publish(clock_message(time_ns))
 
     def _look(self, now: float) -> None:
-        """Give way to another clock; say so as soon as the graph knows its node's name."""
+        """Give way to another clock; warn as soon as the graph knows its node's name."""
         self._looked = now
         if not self._undecided:
             return
@@ -66,7 +64,7 @@ class SimulatedClock:
             self._node.destroy_publisher(self._publisher)
             self._publisher = None
         if self._publisher is None and (named or (others and now - self._began > NAME_SECONDS)):
-            self._say(others)
+            self._warn(others)
 
     def _is_own(self, info: TopicEndpointInfo) -> bool:
         return (info.node_name, info.node_namespace) == (self._node.get_name(), self._node.get_namespace())
@@ -75,7 +73,7 @@ class SimulatedClock:
         before = any(list(other.endpoint_gid) < list(mine.endpoint_gid) for mine in own)
         return before or other.node_name != self._node.get_name()
 
-    def _say(self, others: list[TopicEndpointInfo]) -> None:
+    def _warn(self, others: list[TopicEndpointInfo]) -> None:
         self._undecided = False
         names = ", ".join(sorted(describe_endpoint(info) for info in others))
         self._node.get_logger().warning(

@@ -1,4 +1,4 @@
-"""What the simulator reports on `/diagnostics`, once a second and at every change of state."""
+"""The simulator's report on `/diagnostics`, once a second and at every change of state."""
 
 from __future__ import annotations
 
@@ -47,6 +47,7 @@ class Diagnostics:
 
     def _array(self, now: float, progress: BenchProgress) -> DiagnosticArray:
         state = RunState(progress.state)
+        # a failed run overrides the level of a warning
         level = DiagnosticStatus.WARN if now - self._warned_at < WARN_SECONDS else DiagnosticStatus.OK
         values = {
             "block": progress.block,

@@ -101,7 +101,7 @@ class ExcitationNode(Node):
             wait = self._pacer.wait(self._window.next_block, now)
             if wait > 0.0:
                 return wait
-            number = self._window.take()
+            number = self._window.next_number()
             self._publisher.publish(encode(self._source.block(number), number * self._block_length_ns))
         return float("inf")
 

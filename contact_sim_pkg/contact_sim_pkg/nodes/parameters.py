@@ -16,9 +16,9 @@ _KINDS: dict[type, str] = {bool: "true or false", int: "a whole number", float: 
 
 def declare(node: Node, name: str, default: Value, text: str, allowed: tuple[float, float] | None = None) -> Value:
     """The value of a parameter that is fixed for the life of the node; `allowed` is the range of a
-    number.
+    number, in the unit that `text` names ([s], or dimensionless).
 
-    A whole number does where a decimal one is asked for. Raises NodeError (refused) for another
+    A whole number is accepted for a decimal one. Raises NodeError (refused) for another
     type or beyond the range.
     """
     given = _given(node, name, default)
@@ -26,7 +26,7 @@ def declare(node: Node, name: str, default: Value, text: str, allowed: tuple[flo
 
 
 def _given(node: Node, name: str, default: Any) -> Any:
-    """The value given to the node, of whatever type, or the default: rclpy itself takes no 5 for a
+    """The value given to the node, of whatever type, or the default: rclpy itself accepts no 5 for a
     5.0.
     """
     value = node.declare_parameter(name, default, ParameterDescriptor(dynamic_typing=True)).value
@@ -69,7 +69,7 @@ def declare_record(node: Node) -> bool:
 
 
 def declare_pace(node: Node, of_scene: str | float) -> float:
-    """Simulated seconds per second; the scene's own where the parameter is empty."""
+    """Pace as simulated seconds per second [1]; the scene's own where the parameter is empty."""
     text = "Pace: realtime, max, or simulated seconds per second, 0.001 to 1000. Empty: that of the scene."
     if node.has_parameter("pace"):  # the node is configured again
         pace = str(node.get_parameter("pace").value)
@@ -82,6 +82,6 @@ def declare_pace(node: Node, of_scene: str | float) -> float:
 
 
 def declare_input_timeout(node: Node) -> float:
-    """How long a missing block is waited for."""
+    """Longest wait for a missing block, [s]."""
     text = "Time of the steady clock, in s, after which a block that does not come ends the run."
     return declare(node, "input_timeout", 5.0, text, (0.1, 3600.0))

@@ -41,7 +41,7 @@ def until(condition):
 def test_a_process_that_fails_is_named_with_its_status_and_its_last_line(children):
     code = "import sys; print('first', file=sys.stderr); print('the road ends', file=sys.stderr); sys.exit(4)"
     child = children.start("road_profile", [sys.executable, "-c", code])
-    until(lambda: children.fallen() is not None)
+    until(lambda: children.first_failed() is not None)
     assert child.describe_end() == "road_profile ended with status 4; it said last: the road ends"
 
 
@@ -49,14 +49,14 @@ def test_a_killed_process_is_named_with_its_signal(children):
     child = children.start(
         "vibration", [sys.executable, "-c", "import os, signal; os.kill(os.getpid(), signal.SIGKILL)"]
     )
-    until(lambda: children.fallen() is not None)
+    until(lambda: children.first_failed() is not None)
     assert child.describe_end().startswith("vibration was ended by SIGKILL")
 
 
 def test_a_process_that_ends_well_has_not_fallen(children):
     children.start("vibration", [sys.executable, "-c", ""])
     until(children.all_ended)
-    assert children.fallen() is None
+    assert children.first_failed() is None
 
 
 def test_processes_are_ended_in_reverse_order(children, said):
@@ -115,6 +115,6 @@ def test_an_error_that_is_the_failure_of_the_run_is_not_said_twice(failure, expe
     said: list[str] = []
     lines = ErrorLines(said.append)
     for line in ("ERROR a: no block 3", "INFO a: begun", "[FATAL] [1.0] [b]: lost"):
-        lines.hear(line)
+        lines.add(line)
     lines.release(failure)
     assert said == expected

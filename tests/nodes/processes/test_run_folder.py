@@ -22,7 +22,7 @@ import sys
 from pathlib import Path
 from contact_sim_pkg.nodes.processes import run_folder, shared_memory
 shared_memory.FOLDER = Path(sys.argv[2])
-run_folder.hold(Path(sys.argv[1]))
+run_folder.join(Path(sys.argv[1]))
 print("in", flush=True)
 sys.stdin.read()
 run_folder.leave()

@@ -18,11 +18,11 @@ def inputs():
 
 def test_blocks_are_taken_when_every_input_has_the_next_one(inputs):
     assert inputs.offer(VIBRATION, vibration(0)) == ""
-    assert inputs.take() is None
+    assert inputs.next_blocks() is None
     assert inputs.offer(ROAD, road(0)) == ""
-    taken = inputs.take()
+    taken = inputs.next_blocks()
     assert {topic: block.block for topic, block in taken.items()} == {ROAD: 0, VIBRATION: 0}
-    assert inputs.take() is None
+    assert inputs.next_blocks() is None
 
 
 @pytest.mark.fault("B7")
@@ -30,7 +30,7 @@ def test_a_missing_block_is_named_with_its_input_and_the_last_good_one(inputs):
     for block in range(3):
         inputs.offer(VIBRATION, vibration(block))
     inputs.offer(ROAD, road(0))
-    inputs.take()
+    inputs.next_blocks()
     assert inputs.describe_missing() == "block 1 of road/patch is missing (the last good one was block 0)"
 
 
@@ -75,7 +75,7 @@ def test_a_second_block_of_the_same_number_is_not_mixed_in(inputs):
     inputs.offer(VIBRATION, vibration(0, value=1.0))
     assert "came a second time" in inputs.offer(VIBRATION, vibration(0, value=2.0))
     inputs.offer(ROAD, road(0))
-    assert inputs.take()[VIBRATION].acceleration_z[0] == 1.0
+    assert inputs.next_blocks()[VIBRATION].acceleration_z[0] == 1.0
     assert "came a second time" in inputs.offer(VIBRATION, vibration(0))
 
 
@@ -86,7 +86,7 @@ def test_a_thousand_bad_blocks_leave_no_trace_but_their_count(inputs):
         inputs.offer(VIBRATION, vibration(0, value=float("nan")))
     assert inputs.offer(VIBRATION, vibration(0, value=2.0)) == ""
     inputs.offer(ROAD, road(0))
-    assert inputs.take()[VIBRATION].acceleration_z.tolist() == [2.0] * 11
+    assert inputs.next_blocks()[VIBRATION].acceleration_z.tolist() == [2.0] * 11
     assert inputs.dropped == {ROAD: 0, VIBRATION: 1000}
 
 
@@ -110,7 +110,7 @@ def test_shuffled_and_repeated_blocks_are_taken_in_order_once():
     taken = []
     for number in numbers:
         inputs.offer(VIBRATION, vibration(number))
-        while (blocks := inputs.take()) is not None:
+        while (blocks := inputs.next_blocks()) is not None:
             taken.append(blocks[VIBRATION].block)
     assert taken == list(range(60))
     assert inputs.dropped[VIBRATION] == 60

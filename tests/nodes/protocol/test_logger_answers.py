@@ -24,12 +24,12 @@ class Run:
             )
         for block in range(done + 1):
             self.inputs.offer(VIBRATION, vibration(block))
-            self.inputs.take()
-            self.window.take()
+            self.inputs.next_blocks()
+            self.window.next_number()
             self.window.on_done(block)
 
     def who(self) -> str:
-        return self.answers.who_holds_up(self.inputs)
+        return self.answers.cause_of_delay(self.inputs)
 
 
 def test_a_logger_that_does_not_answer_is_named_and_the_source_that_waits_for_it_is_not():

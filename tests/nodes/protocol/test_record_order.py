@@ -52,11 +52,11 @@ def test_any_order_of_arrival_gives_the_canonical_order():
             if topic is None:
                 order.on_progress(content, 4 * (content + 1))
             else:
-                assert order.hold(topic, content)
-            given += order.take_whole()
+                assert order.add(topic, content)
+            given += order.release_whole()
         assert [(message.topic, message.data) for message in given] == expected
         assert order.last_block == blocks - 1
-        assert order.given_out == len(expected)
+        assert order.released == len(expected)
         assert order.missing() == 0
 
 
@@ -64,49 +64,49 @@ def test_a_block_is_held_back_until_its_excitation_and_its_last_message_are_ther
     order = RecordOrder([VIBRATION], LENGTH)
     order.on_progress(0, 4)
     for topic, data in results(0):
-        order.hold(topic, data)
-    assert order.take_whole() == []
+        order.add(topic, data)
+    assert order.release_whole() == []
     assert order.missing() == 1
-    order.hold(VIBRATION, vibration(0))
-    assert len(order.take_whole()) == 5
+    order.add(VIBRATION, vibration(0))
+    assert len(order.release_whole()) == 5
 
 
 def test_a_report_that_was_overwritten_by_the_next_one_is_not_needed():
     order = RecordOrder([VIBRATION], LENGTH)
     for topic, data in everything(3):
-        order.hold(topic, data)
+        order.add(topic, data)
     order.on_progress(2, 12)
-    assert len(order.take_whole()) == 15
+    assert len(order.release_whole()) == 15
 
 
 def test_excitation_that_was_not_simulated_stays_out_of_the_bag():
     order = RecordOrder([VIBRATION], LENGTH)
     for topic, data in [*everything(1), (VIBRATION, vibration(1)), (VIBRATION, vibration(2))]:
-        order.hold(topic, data)
+        order.add(topic, data)
     order.on_progress(0, 4)
-    assert len(order.take_whole()) == 5
-    assert order.take_rest() == []
+    assert len(order.release_whole()) == 5
+    assert order.release_rest() == []
 
 
 def test_a_block_of_excitation_that_comes_twice_is_held_once():
     order = RecordOrder([VIBRATION], LENGTH)
-    assert order.hold(VIBRATION, vibration(0))
-    assert not order.hold(VIBRATION, vibration(0))
+    assert order.add(VIBRATION, vibration(0))
+    assert not order.add(VIBRATION, vibration(0))
 
 
 def test_what_is_left_after_a_loss_is_given_out_and_the_loss_counted():
     order = RecordOrder([VIBRATION], LENGTH)
     for topic, data in everything(3)[:-1]:
-        order.hold(topic, data)
+        order.add(topic, data)
     order.on_progress(1, 8)
     order.on_progress(2, 12)
-    assert len(order.take_whole()) == 10
+    assert len(order.release_whole()) == 10
     assert order.missing() == 1
-    assert len(order.take_rest()) == 4
+    assert len(order.release_rest()) == 4
 
 
 @pytest.mark.fault("B6")
 def test_the_logger_holds_no_more_blocks_to_come_than_the_simulator():
     order = RecordOrder([VIBRATION], LENGTH)
-    kept = [order.hold(VIBRATION, vibration(block)) for block in range(1000)]
+    kept = [order.add(VIBRATION, vibration(block)) for block in range(1000)]
     assert kept.count(True) == FARTHEST_AHEAD

@@ -1,6 +1,6 @@
 """How a run ended is in its bag: state, blocks, who died of what, what never came."""
 
-from contact_sim_pkg.nodes.protocol.record_outcome import UNSAID, outcome_of
+from contact_sim_pkg.nodes.protocol.record_outcome import UNREPORTED, outcome_of
 from contact_sim_pkg.nodes.protocol.states import Follower, RunState
 from contact_sim_pkg.records.messages import BenchProgress
 
@@ -42,7 +42,7 @@ def test_a_fault_that_the_simulator_names_is_the_failure():
 
 def test_a_recording_whose_simulator_fell_silent_says_so():
     outcome = outcome_of(followed(RunState.READY, RunState.RUNNING), 1)
-    assert (outcome["ended"], outcome["failure"]) == ("stopped", UNSAID)
+    assert (outcome["ended"], outcome["failure"]) == ("stopped", UNREPORTED)
 
 
 def test_what_never_came_and_what_was_left_out_is_counted():

@@ -8,7 +8,7 @@ from contact_sim_pkg.nodes.protocol.window import BlockWindow
 def sent(window: BlockWindow) -> list[int]:
     numbers = []
     while window.open:
-        numbers.append(window.take())
+        numbers.append(window.next_number())
     return numbers
 
 
@@ -43,7 +43,7 @@ def test_no_block_beyond_the_last_one_is_sent():
     window = BlockWindow(3, logged=True)
     assert sent(window) == [0, 1, 2]
     with pytest.raises(ValueError, match="block 3 may not be sent"):
-        window.take()
+        window.next_number()
 
 
 def test_the_window_is_finished_when_both_have_answered_for_the_last_block():

@@ -12,35 +12,35 @@ from collections.abc import Callable, Mapping, Sequence
 
 from contact_sim_pkg.nodes.processes.shared_memory import mapped_segments, remove_unused
 
-GRACE_SECONDS = 4.0  # from the signal that asks to the one that kills
+GRACE_SECONDS = 4.0  # from SIGTERM to SIGKILL
 KILL_SECONDS = 1.0
-LEAST_SECONDS = 0.1  # that a process has to end once it was asked, where an earlier one has used up the time
+LEAST_SECONDS = 0.1  # from SIGTERM to SIGKILL where an earlier process has used up the time
 
 
 class ErrorLines:
-    """Hands lines of the processes on; errors at the end only, and not those that the failure of
-    the run says already.
+    """Hands lines of the processes on; errors at the end only, and without those that the failure of
+    the run names already.
     """
 
-    def __init__(self, say: Callable[[str], None]) -> None:
-        """Nothing held."""
-        self._say, self._held = say, list[str]()
+    def __init__(self, on_line: Callable[[str], None]) -> None:
+        """No line yet."""
+        self._on_line, self._errors = on_line, list[str]()
 
-    def hear(self, line: str) -> None:
+    def add(self, line: str) -> None:
         """One line of a process."""
         severity = line.split(maxsplit=1)[0].strip("[]")
         if severity in ("ERROR", "FATAL") and "Traceback" not in line:
-            self._held.append(line)
+            self._errors.append(line)
         else:
-            self._say(line)
+            self._on_line(line)
 
     def release(self, failure: str) -> None:
-        """Hand on the errors held; `failure` is printed by the caller, empty where there is none."""
-        for line in self._held:
+        """Hand on the errors; `failure` is printed by the caller, empty where there is none."""
+        for line in self._errors:
             text = line.partition(": ")[2] or line
             if not failure or (text not in failure and failure not in line):
-                self._say(line)
-        self._held.clear()
+                self._on_line(line)
+        self._errors.clear()
 
 
 class Child:
@@ -49,14 +49,15 @@ class Child:
     """
 
     def __init__(
-        self, name: str, command: Sequence[str], environment: Mapping[str, str], say: Callable[[str], None]
+        self, name: str, command: Sequence[str], environment: Mapping[str, str], on_line: Callable[[str], None]
     ) -> None:
         """Start the process."""
         self.name = name
         self.last_line = ""
-        self.asked_to_end = False
+        self.end_requested = False
         self.segments: set[str] = set()
-        self._say = say
+        self._on_line = on_line
+        # a session of its own: Ctrl-C in the terminal reaches the supervisor alone
         self.process = subprocess.Popen(
             command,
             env=dict(environment),
@@ -79,32 +80,32 @@ class Child:
     def _hand_on(self, line: str) -> None:
         if line:
             self.last_line = line
-            self._say(line)
+            self._on_line(line)
 
     @property
     def status(self) -> int | None:
-        """Exit status, negative for a signal; None while the process lives."""
+        """Exit status, negative for a signal; None while the process runs."""
         return self.process.poll()
 
     @property
-    def fell(self) -> bool:
-        """Whether the process ended badly. One that was asked to end may do so before it has learnt
-        to catch signals.
+    def failed(self) -> bool:
+        """Whether the process ended badly. One that was requested to end may do so before it
+        catches signals.
         """
-        asked_away = self.asked_to_end and self.status == -signal.SIGTERM
-        return self.status not in (None, 0) and not asked_away
+        ended_on_request = self.end_requested and self.status == -signal.SIGTERM
+        return self.status not in (None, 0) and not ended_on_request
 
-    def look(self) -> None:
-        """Keep in mind which shared memory the process has mapped, so that it can be removed if the
+    def record_segments(self) -> None:
+        """Store which shared memory the process has mapped, so that it can be removed if the
         process is killed.
         """
         if self.status is None:
             self.segments |= mapped_segments(self.process.pid)
 
-    def ask_to_end(self, *, again: bool = False) -> None:
+    def request_end(self, *, again: bool = False) -> None:
         """SIGTERM, once unless `again`."""
-        if self.status is None and (again or not self.asked_to_end):
-            self.asked_to_end = True
+        if self.status is None and (again or not self.end_requested):
+            self.end_requested = True
             self.process.send_signal(signal.SIGTERM)
 
     def describe_end(self) -> str:
@@ -123,34 +124,34 @@ class Child:
 class Children:
     """All processes of a run, in the order in which they were started."""
 
-    def __init__(self, environment: Mapping[str, str], say: Callable[[str], None]) -> None:
+    def __init__(self, environment: Mapping[str, str], on_line: Callable[[str], None]) -> None:
         """Nothing started."""
-        self._environment, self._say = environment, say
+        self._environment, self._on_line = environment, on_line
         self._children: list[Child] = []
 
     def start(self, name: str, command: Sequence[str]) -> Child:
         """Start one more process."""
-        child = Child(name, command, self._environment, self._say)
+        child = Child(name, command, self._environment, self._on_line)
         self._children.append(child)
         return child
 
-    def look(self) -> None:
-        """See `Child.look`."""
+    def record_segments(self) -> None:
+        """See `Child.record_segments`."""
         for child in self._children:
-            child.look()
+            child.record_segments()
 
-    def ask(self, *names: str) -> None:
-        """Ask these processes to end, or all, in reverse order of the start."""
+    def request_end(self, *names: str) -> None:
+        """Request these processes to end, or all, in reverse order of the start."""
         for child in reversed(self._children):
             if not names or child.name in names:
-                child.ask_to_end(again=True)
+                child.request_end(again=True)
 
-    def fallen(self) -> Child | None:
+    def first_failed(self) -> Child | None:
         """A process that ended badly, the first one started of several."""
-        return next((child for child in self._children if child.fell), None)
+        return next((child for child in self._children if child.failed), None)
 
     def all_ended(self) -> bool:
-        """Whether no process lives any more."""
+        """Whether every process has ended."""
         return all(child.status is not None for child in self._children)
 
     def segments(self) -> set[str]:
@@ -158,7 +159,7 @@ class Children:
         return set().union(*(child.segments for child in self._children))
 
     def end(self, grace: float = GRACE_SECONDS) -> list[str]:
-        """End what still lives, in reverse order of the start, by SIGTERM, `grace` seconds later by
+        """End the processes left, in reverse order of the start, by SIGTERM, `grace` seconds later by
         SIGKILL.
 
         Returns the names of those that had to be killed. Shared memory of killed processes is
@@ -167,10 +168,10 @@ class Children:
         killed = []
         limit = time.monotonic() + grace
         for child in reversed(self._children):
-            child.look()
-            child.ask_to_end()
+            child.record_segments()
+            child.request_end()
             if not _wait(child, max(LEAST_SECONDS, limit - time.monotonic())):
-                child.look()
+                child.record_segments()
                 child.process.kill()
                 _wait(child, KILL_SECONDS)
                 killed.append(child.name)

@@ -20,7 +20,10 @@ def set_default_environment() -> None:
 
 
 def node_arguments(parameters: Mapping[str, str | float | bool]) -> list[str]:
-    """The ROS arguments that give a node these parameters; nothing is logged into the user's home."""
+    """ROS arguments with the parameters of a node, each in its own unit ([s] for times).
+
+    Nothing is logged into the user's home.
+    """
     arguments = ["--ros-args", "--disable-external-lib-logs"]
     for name, value in parameters.items():
         arguments += ["-p", f"{name}:={_yaml(value)}"]

@@ -31,34 +31,34 @@ from contact_sim_pkg.scene.errors import SceneError
 
 REFUSALS = (SceneError, ExcitationError, BagError)
 LONGEST_WAIT = 0.05  # [s] between two looks at signals and at the parent
-ANSWER_SECONDS = 0.5  # from a signal to what the node does about it; compiled code takes no signal
-_NEVER = Future()  # what is waited for by who waits for nothing
+ANSWER_SECONDS = 0.5  # from a signal to the node's reaction; compiled code receives no signal
+_NEVER = Future()  # a future that is never done
 
 
 class Interrupted(BaseException):
-    """A signal that came while the node was being set up."""
+    """A signal during the set-up of the node."""
 
 
 class BenchNode(Protocol):
-    """What `run` asks of a node beside being one of rclpy."""
+    """Interface of a node for `run`, beside that of rclpy."""
 
     exit_status: int | None  # set when the process shall end
-    gather: float  # [s] between two looks at what has come; 0 handles each message at once
+    gather: float  # [s] between two batches of messages; 0 handles each message at once
     computes: bool  # the others make way for this node's thread
 
     def start(self) -> None:
-        """Whatever takes long: compile, open; a signal may break it off."""
+        """The slow part of the set-up: compile, open; a signal may break it off."""
 
     def tick(self, now: float) -> float:
-        """Look after what no message triggers; `now` is the steady clock, [s]. Returns how long to
-        wait at most, [s].
+        """Work that no message triggers; `now` is the steady clock, [s]. Returns the longest wait,
+        [s].
         """
 
     def stop(self) -> None:
         """The user wants the end: begin to end cleanly."""
 
     def fault(self, sentence: str, exit_status: int) -> None:
-        """Something failed: say so, close what is open, set the exit status."""
+        """Log a failure, close what is open, set the exit status."""
 
     def abandon(self) -> bool:
         """From another thread: end the run if this node computes right now; whether it did. For
@@ -73,7 +73,7 @@ class StopSignals:
         """Take the three signals over."""
         self.count = 0
         self.breaks_off = True  # a signal ends the set-up at once; later the node ends by itself
-        self.answered = 0  # signals that the node has done something about
+        self.answered = 0  # signals that the node has reacted to
         for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
             signal.signal(number, self._on_signal)
 
@@ -113,16 +113,17 @@ def make_executor() -> Executor:
     return EventsExecutor()
 
 
-def hear(executor: Executor, wait: float, gather: float = 0.0) -> None:
-    """Run the callbacks of what has come.
+def handle_messages(executor: Executor, wait: float, gather: float = 0.0) -> None:
+    """Run the callbacks of received messages.
 
     A process that handles several messages at a time is woken less often, which leaves the cores to
     the simulation.
 
     Args:
-        executor: as `make_executor` makes it. wait: how long to wait for a message, [s]. gather:
-        where above 0, sleep for that long, [s], and then handle all that has come, without waiting
-        for more.
+        executor: as `make_executor` returns it.
+        wait: longest wait for a message, [s].
+        gather: where above 0, sleep for that long, [s], and then handle every message received,
+            without waiting for more.
     """
     plain = isinstance(executor, SingleThreadedExecutor)
     if gather > 0.0 and not plain:
@@ -133,9 +134,8 @@ def hear(executor: Executor, wait: float, gather: float = 0.0) -> None:
         executor.spin_until_future_complete(_NEVER, timeout_sec=0.0)  # all that is queued, where `spin_once` takes one
 
 
-def step_back() -> None:
-    """Let this thread, and those it starts, wait for its turn when it wakes instead of pushing
-    another off its core.
+def use_batch_policy() -> None:
+    """Keep this thread, and those it starts, from interrupting another one when they wake.
 
     DDS wakes threads some 20 times a block. Under the usual policy each of them interrupts the
     simulation where both cores are busy. A policy that the caller chose is kept.
@@ -143,8 +143,8 @@ def step_back() -> None:
     _change_policy(os.SCHED_OTHER, os.SCHED_BATCH)
 
 
-def step_forward() -> None:
-    """Take this thread, not those it has started, back to the usual policy."""
+def use_usual_policy() -> None:
+    """Return this thread, not those it has started, to the usual policy."""
     _change_policy(os.SCHED_BATCH, os.SCHED_OTHER)
 
 
@@ -159,26 +159,26 @@ def run(make_node: Callable[[], Any], args: Sequence[str] | None = None) -> int:
     signals = StopSignals()
     node: Any = None
     try:
-        step_back()
+        use_batch_policy()
         _init(args)
         node = make_node()
         if node.computes:
             signals.leave_what_computes(node)
-            step_forward()
+            use_usual_policy()
         node.start()
         signals.breaks_off = False
         return _spin(node, signals)
     except Interrupted:
         return 0
     except NodeError as error:
-        _say(node, str(error))
+        _log_fatal(node, str(error))
         return error.exit_status
     except (
         *REFUSALS,
         ParameterException,
         NameValidationException,
     ) as error:  # the last two: rclpy's own parameters and names
-        _say(node, " ".join(str(error).split()))
+        _log_fatal(node, " ".join(str(error).split()))
         return REFUSED
     except rclpy_implementation.RCLError:
         if rclpy.ok():
@@ -210,7 +210,7 @@ def _spin(node: Any, signals: StopSignals) -> int:
         try:
             wait = node.tick(time.monotonic())
             if node.exit_status is None:
-                hear(executor, min(wait, LONGEST_WAIT), node.gather)
+                handle_messages(executor, min(wait, LONGEST_WAIT), node.gather)
                 raise_kept(node)
         except ExternalShutdownException:
             break
@@ -236,5 +236,5 @@ def _orphaned(supervisor: int) -> bool:
     return bool(supervisor) and os.getppid() != supervisor
 
 
-def _say(node: Any, sentence: str) -> None:
+def _log_fatal(node: Any, sentence: str) -> None:
     (node.get_logger() if node is not None else get_logger("bench")).fatal(sentence)

@@ -1,9 +1,9 @@
 """The temporary folder of a supervised run, which nothing leaves behind, not even a supervisor that
 is killed. Without ROS.
 
-The supervisor and each node hold a shared lock on one file of the folder; the lock of a process
-dies with it. Whoever gets the lock alone is the last one: it removes the shared memory that the run
-is known to have used, and the folder.
+The supervisor and each node have a shared lock on one file of the folder; the lock of a process
+ends with it. The process that gets the lock alone is the last one: it removes the shared memory
+that the run has used, and the folder.
 """
 
 from __future__ import annotations
@@ -26,26 +26,26 @@ TURN = "turn"
 TURN_SECONDS = 3.0  # that an orphan waits for those before it
 SEGMENTS = "segments"  # names of shared-memory segments, one a line
 
-_held: dict[Path, int] = {}  # folder -> descriptor of its lock, for the life of this process
+_locks: dict[Path, int] = {}  # folder -> descriptor of its lock, for the life of this process
 
 
 class RunFolder:
     """The folder of a run that this process supervises; a context manager."""
 
     def __init__(self) -> None:
-        """Remove what earlier runs left, create the folder and hold its lock."""
+        """Remove what earlier runs left, create the folder and lock it."""
         root = Path(tempfile.gettempdir())
         for folder in root.glob(f"{PREFIX}*"):
             _remove_left(folder)
         self.path = Path(tempfile.mkdtemp(prefix=PREFIX))
         draft = self.path / f".{LOCK}"
         draft.touch(mode=0o600)
-        hold(self.path, draft)
-        draft.rename(self.path / LOCK)  # a folder that has a lock has it held
+        join(self.path, draft)
+        draft.rename(self.path / LOCK)  # a folder with a lock file is locked
         self._segments: set[str] = set()
 
     def keep_segments(self, names: Iterable[str]) -> None:
-        """Keep in mind on disk which shared memory the run uses, for whoever is the last."""
+        """Store on disk which shared memory the run uses, for the process that ends last."""
         if not self._segments.issuperset(names):
             self._segments.update(names)
             _write_segments(self.path, self._segments)
@@ -58,19 +58,19 @@ class RunFolder:
         self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
     ) -> None:
         """Remove the folder."""
-        os.close(_held.pop(self.path))
+        os.close(_locks.pop(self.path))
         shutil.rmtree(self.path, ignore_errors=True)
 
 
-def hold(folder: Path, lock: Path | None = None) -> None:
+def join(folder: Path, lock: Path | None = None) -> None:
     """Take part in the run of this folder for the life of the process; nothing where the folder is
     not one of a supervisor.
     """
     with suppress(OSError):
-        if folder not in _held:
+        if folder not in _locks:
             descriptor = os.open(lock or folder / LOCK, os.O_RDWR | os.O_NOFOLLOW | os.O_CLOEXEC)
             fcntl.flock(descriptor, fcntl.LOCK_SH)
-            _held[folder] = descriptor
+            _locks[folder] = descriptor
 
 
 def leave() -> None:
@@ -79,7 +79,7 @@ def leave() -> None:
     Orphans take turns, and each keeps its turn until the system ends it: a process uses its shared
     memory as long as it is there.
     """
-    for folder, descriptor in _held.items():
+    for folder, descriptor in _locks.items():
         with suppress(OSError):
             turn = os.open(folder / TURN, os.O_RDWR | os.O_CREAT | os.O_NOFOLLOW | os.O_CLOEXEC, 0o600)
             limit = time.monotonic() + TURN_SECONDS
@@ -100,7 +100,7 @@ def _remove_left(folder: Path) -> None:
 
 
 def _remove_if_last(folder: Path, descriptor: int, more: Iterable[str] = ()) -> None:
-    """Where nobody else holds the lock, remove the segments that the folder names (and `more`) if
+    """Where nobody else has the lock, remove the segments that the folder names (and `more`) if
     nobody uses them, and it.
     """
     known = _read_segments(folder) | set(more)

@@ -1,6 +1,4 @@
-"""The supervisor's own ears: what it hears on `bench/progress` and `bench/recorded`, with the
-steady clock beside it.
-"""
+"""The supervisor's view of a run: `bench/progress` and `bench/recorded`, with the steady clock."""
 
 from __future__ import annotations
 
@@ -13,7 +11,7 @@ from rclpy.node import Node
 from rclpy.signals import SignalHandlerOptions
 
 from contact_sim_pkg.bag.messages import decode
-from contact_sim_pkg.nodes.processes.process import hear, make_executor, step_back
+from contact_sim_pkg.nodes.processes.process import handle_messages, make_executor, use_batch_policy
 from contact_sim_pkg.nodes.protocol.endpoints import raise_kept, subscription
 from contact_sim_pkg.nodes.protocol.states import Follower, RecordedFollower, RunState
 from contact_sim_pkg.records.messages import BenchProgress, BenchRecorded
@@ -26,7 +24,7 @@ class RunMonitor:
 
     def __init__(self, arguments: Sequence[str] = ()) -> None:
         """Join the graph; `arguments` are those of ROS (`--ros-args …`)."""
-        step_back()
+        use_batch_policy()
         rclpy.init(args=list(arguments), signal_handler_options=SignalHandlerOptions.NO)
         self._node = Node("bench_run", start_parameter_services=False, enable_rosout=False)
         self._executor = make_executor()
@@ -39,11 +37,11 @@ class RunMonitor:
         ]
 
     def spin(self, seconds: float) -> None:
-        """Hear what comes, for at most this long; NodeError where another bench is heard."""
+        """Handle messages for at most this long, [s]; NodeError where another bench publishes."""
         limit = time.monotonic() + seconds
         left = seconds
         while left >= 0.0:
-            hear(self._executor, left, GATHER_SECONDS)
+            handle_messages(self._executor, left, GATHER_SECONDS)
             raise_kept(self._node)
             left = limit - time.monotonic()
 

@@ -7,7 +7,7 @@ import math
 from pathlib import Path
 from typing import Any
 
-from contact_sim_pkg.nodes.processes.run_folder import hold
+from contact_sim_pkg.nodes.processes.run_folder import join
 from contact_sim_pkg.scene.resolved_scene import ResolvedScene
 
 RESOLVED = ".resolved.yaml"  # ending of a scene that needs no resolving; its input files stand in the file below
@@ -38,7 +38,7 @@ def read_scene(scene: str) -> ResolvedScene:
     """
     if scene.endswith(RESOLVED):
         path = Path(scene)
-        hold(path.parent)
+        join(path.parent)
         files = json.loads(_beside(path, FILES).read_text(encoding="utf-8"))
         return ResolvedScene.from_own_yaml(path.read_text(encoding="utf-8"), files)
     from contact_sim_pkg.scene.load import load_scene
@@ -100,7 +100,7 @@ def count_blocks(scene: ResolvedScene) -> int:
 
 
 def queue_depth(scene: ResolvedScene) -> int:
-    """Depth that holds what a topic carries in 8 blocks, twice the window of 4."""
+    """Depth for the messages of a topic in 8 blocks, twice the window of 4."""
     highest = max(scene.outputs.field_rate, scene.outputs.display_rate)
     return 8 * math.ceil(highest * scene.block_length)
 

@@ -55,15 +55,15 @@ class Supervisor:
         """
         self._stops.add()
 
-    def run(self, on_report: Callable[[Report], None], say: Callable[[str], None]) -> SupervisedRun:
-        """Run to the end; `on_report` gets the state of the run, `say` the lines of the nodes."""
+    def run(self, on_report: Callable[[Report], None], on_line: Callable[[str], None]) -> SupervisedRun:
+        """Run to the end; `on_report` gets the state of the run, `on_line` the lines of the nodes."""
         began = time.monotonic()
         set_default_environment()
-        say(
+        on_line(
             f"ROS_DOMAIN_ID is {os.environ.get('ROS_DOMAIN_ID', '0')}, discovery {os.environ['ROS_AUTOMATIC_DISCOVERY_RANGE']}"
         )
-        errors = ErrorLines(say)
-        children = Children(os.environ, errors.hear)
+        errors = ErrorLines(on_line)
+        children = Children(os.environ, errors.add)
         with RunFolder() as folder:
             try:
                 scene = write_scene(self._scene, folder.path)
@@ -81,7 +81,7 @@ class Supervisor:
                 errors.release(self._failure)
 
     def _end_all(self, children: Children, scene: Path) -> None:
-        """End what still lives; the logger keeps in its bag who died of what."""
+        """End the processes left; the logger stores in its bag which one failed, and how."""
         if self._failure:
             write_reason(scene, self._failure)
         killed = children.end(self._stops.grace(time.monotonic()))
@@ -102,8 +102,8 @@ class Supervisor:
         is over.
         """
         looked, ended_at = 0.0, float("inf")
-        fallen: Child | None = None
-        while fallen is None and not children.all_ended():
+        failed: Child | None = None
+        while failed is None and not children.all_ended():
             try:
                 monitor.spin(LOOK_SECONDS)
             except NodeError as error:
@@ -112,7 +112,7 @@ class Supervisor:
             now = time.monotonic()
             if now - looked > SEGMENT_SECONDS:
                 looked = now
-                children.look()
+                children.record_segments()
                 folder.keep_segments(children.segments() | mapped_segments(os.getpid()))
             if monitor.run.last is not None:
                 on_report(report_of(monitor.run.last, self._scene.block_length))
@@ -125,22 +125,22 @@ class Supervisor:
             if now - ended_at > END_SECONDS:
                 self._fail(f"the nodes did not end {END_SECONDS:g} s after the run", FAULT)
                 return
-            fallen = children.fallen()
-        fallen = fallen or children.fallen()
+            failed = children.first_failed()
+        failed = failed or children.first_failed()
         # However a node reacted to the end of its set-up, nothing was lost.
         set_up_broken_off = self._stops.any and monitor.run.state < RunState.READY
-        if fallen is not None and not set_up_broken_off:
-            self._on_fallen(fallen, monitor)
+        if failed is not None and not set_up_broken_off:
+            self._on_failed(failed, monitor)
 
     def _fail(self, sentence: str, exit_status: int) -> None:
         self._failure, self._exit_status = sentence, exit_status
 
-    def _on_fallen(self, fallen: Child, monitor: RunMonitor) -> None:
+    def _on_failed(self, failed: Child, monitor: RunMonitor) -> None:
         """Name the fault that the run reported, or else the process that ended badly."""
         last = monitor.run.last
         reported = last.message if monitor.run.state is RunState.FAILED and last is not None else ""
-        status = fallen.status if fallen.status in (REFUSED, LOSS) and not reported else FAULT
-        self._fail(reported or fallen.describe_end(), status)
+        status = failed.status if failed.status in (REFUSED, LOSS) and not reported else FAULT
+        self._fail(reported or failed.describe_end(), status)
 
     def _outcome(self, monitor: RunMonitor, began: float, scene: Path) -> SupervisedRun:
         ready = monitor.ready_at or time.monotonic()

@@ -1,5 +1,5 @@
-"""Publishers and subscriptions of the table of topics, on encoded bytes, and what the ROS graph
-says about them.
+"""Publishers and subscriptions of the table of topics, on encoded bytes, and the entries of the ROS
+graph about them.
 """
 
 from __future__ import annotations
@@ -21,8 +21,8 @@ from contact_sim_pkg.nodes.protocol.states import REFUSED, NodeError
 from contact_sim_pkg.records.topic import Topic
 
 KEPT = "error_of_a_subscription"  # attribute of a node
-UNKNOWN = "_NODE_NAME_UNKNOWN_"  # what the graph says before it has heard the node's name
-NUMBER = "publication_sequence_number"  # in what rclpy tells of a message
+UNKNOWN = "_NODE_NAME_UNKNOWN_"  # in the graph until the node's name has arrived
+NUMBER = "publication_sequence_number"  # key in the info that rclpy adds to a message
 
 
 @cache
@@ -57,31 +57,31 @@ def publisher(node: Node, name: str, least_depth: int = 0) -> Publisher:
 
 
 def subscription(node: Node, name: str, callback: Callable[[bytes], None], least_depth: int = 0) -> Subscription:
-    """A subscription on a topic of the table that hands on the bytes as they came.
+    """A subscription on a topic of the table that hands on the received bytes.
 
     What `callback` raises is kept until `raise_kept`: the executor would print it before it passes
     it on.
     """
 
-    def take(data: bytes) -> None:
+    def receive(data: bytes) -> None:
         _call(node, callback, data)
 
-    return _subscribe(node, name, take, least_depth)
+    return _subscribe(node, name, receive, least_depth)
 
 
 def numbered_subscription(
     node: Node, name: str, callback: Callable[[bytes, int | None], None], least_depth: int = 0
 ) -> Subscription:
     """As `subscription`, with the number that the publisher gave the message; None where the
-    middleware does not tell it.
+    middleware does not number.
     """
 
-    def take(*parts: Any) -> None:
+    def receive(*parts: Any) -> None:
         data, info = parts if len(parts) == 2 else parts[0]  # rclpy 7.1: EventsExecutor hands on both as one tuple
         _call(node, callback, data, info.get(NUMBER))
 
-    take.__signature__ = _DATA_AND_INFO  # type: ignore[attr-defined]  # by which rclpy sees that the number is wanted
-    return _subscribe(node, name, take, least_depth)
+    receive.__signature__ = _DATA_AND_INFO  # type: ignore[attr-defined]  # by which rclpy sees that the number is wanted
+    return _subscribe(node, name, receive, least_depth)
 
 
 _DATA_AND_INFO = inspect.Signature(
@@ -89,9 +89,9 @@ _DATA_AND_INFO = inspect.Signature(
 )
 
 
-def _subscribe(node: Node, name: str, take: Callable[..., None], least_depth: int) -> Subscription:
+def _subscribe(node: Node, name: str, receive: Callable[..., None], least_depth: int) -> Subscription:
     topic = topic_of(name)
-    return node.create_subscription(message_type(topic.type), name, take, profile_of(topic, least_depth), raw=True)
+    return node.create_subscription(message_type(topic.type), name, receive, profile_of(topic, least_depth), raw=True)
 
 
 def _call(node: Node, callback: Callable[..., None], *given: Any) -> None:
@@ -130,6 +130,7 @@ def refuse_strangers(node: Node, name: str, *, unnamed: bool = True) -> bool:
     """
     publishers = node.get_publishers_info_by_topic(name)
     ours = {_hash(info) for info in node.get_subscriptions_info_by_topic(name) if info.node_name == node.get_name()}
+    # both checks wait for names, so that a refusal can name the nodes
     others = [info for info in publishers if ours and _hash(info) not in ours]
     if (others or len(publishers) > 1) and not unnamed and any(UNKNOWN in info.node_name for info in publishers):
         return False

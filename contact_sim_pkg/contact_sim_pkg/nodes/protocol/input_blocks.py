@@ -1,8 +1,8 @@
-"""Excitation blocks as they come in: checked against the protocol, held until their turn, without
+"""Received excitation blocks: checked against the protocol, kept until their number is due. Without
 ROS.
 
-A block is never held over, ramped, clamped or invented: a bad one is dropped, counted and named,
-and the run waits for a good one.
+A block is never repeated, ramped, clamped or invented: a bad one is dropped, counted and named, and
+the run waits for a good one.
 """
 
 from __future__ import annotations
@@ -19,21 +19,26 @@ from contact_sim_pkg.records.messages import RoadPatch, VibrationBlock
 
 Block = RoadPatch | VibrationBlock
 
-FARTHEST_AHEAD = 64  # blocks held per input; the window of a well-behaved source is 4
+FARTHEST_AHEAD = 64  # blocks kept per input; the window of a well-behaved source is 4
 LARGEST_HEIGHT = 1.0e3  # [m]
 LARGEST_ACCELERATION = 1.0e4  # [m/s^2]
 
 
 def check_road(data: bytes, block_length: float) -> RoadPatch:
-    """The strip that the bytes hold; MessageError where it is malformed or a height absurd."""
+    """The decoded strip, heights [m] as [rows, cols]; `block_length` [s] has no part in it.
+
+    Raises MessageError where it is malformed or a height is beyond `LARGEST_HEIGHT`.
+    """
     patch = decode_road(data)
     _within("height", patch.block, patch.height, LARGEST_HEIGHT, "m")
     return patch
 
 
 def check_vibration(data: bytes, block_length: float) -> VibrationBlock:
-    """The samples that the bytes hold; MessageError where they are malformed, absurd or do not fill
-    the block.
+    """The decoded samples [m/s^2] of a block of `block_length` [s].
+
+    Raises MessageError where they are malformed, beyond `LARGEST_ACCELERATION`, or do not fill the
+    block.
     """
     vibration = decode_vibration(data)
     intervals = len(vibration.acceleration_x) - 1
@@ -57,7 +62,7 @@ def _within(name: str, block: int, values: NDArray[numpy.floating], bound: float
 
 
 def check_block(topic: str, data: bytes, block_length_ns: int, blocks: int) -> Block:
-    """The block that the bytes hold.
+    """The decoded block.
 
     Raises MessageError where they are malformed, a value is not finite or absurd, the number is not
     one of the scene, or number and stamp disagree (stamp = number x block length).
@@ -72,30 +77,30 @@ def check_block(topic: str, data: bytes, block_length_ns: int, blocks: int) -> B
 
 
 class InputBlocks:
-    """The blocks of all inputs of one simulator, taken in order of their numbers."""
+    """The blocks of all inputs of one simulator, in order of their numbers."""
 
     def __init__(self, topics: Iterable[str], block_length_ns: int, blocks: int) -> None:
-        """Nothing held; block 0 is next."""
-        self._held: dict[str, dict[int, Block]] = {topic: {} for topic in topics}
+        """No block; block 0 is next."""
+        self._waiting: dict[str, dict[int, Block]] = {topic: {} for topic in topics}
         self._block_length_ns, self._blocks = block_length_ns, blocks
-        self._last = dict.fromkeys(self._held, -1)
-        self.dropped = dict.fromkeys(self._held, 0)
+        self._last = dict.fromkeys(self._waiting, -1)
+        self.dropped = dict.fromkeys(self._waiting, 0)
         self.next_block = 0
 
     def offer(self, topic: str, data: bytes) -> str:
-        """Hold a block until its turn; returns why it was dropped, or an empty text."""
+        """Keep a block until its number is due; returns why it was dropped, or an empty text."""
         try:
             block = check_block(topic, data, self._block_length_ns, self._blocks)
         except MessageError as error:
             return self._drop(topic, str(error))
-        number, held = block.block, self._held[topic]
-        if number < self.next_block or number in held:
+        number, waiting = block.block, self._waiting[topic]
+        if number < self.next_block or number in waiting:
             return self._drop(topic, f"block {number} came a second time")
         if number >= self.next_block + FARTHEST_AHEAD:
             return self._drop(
                 topic, f"block {number} came while block {self.next_block} is due; at most {FARTHEST_AHEAD} ahead"
             )
-        held[number] = block
+        waiting[number] = block
         self._last[topic] = max(self._last[topic], number)
         return ""
 
@@ -103,20 +108,20 @@ class InputBlocks:
         self.dropped[topic] += 1
         return f"{topic}: {reason}; dropped ({self.dropped[topic]} so far)"
 
-    def take(self) -> dict[str, Block] | None:
+    def next_blocks(self) -> dict[str, Block] | None:
         """The next block of every input, or None while one is missing."""
         if self.missing():
             return None
-        blocks = {topic: held.pop(self.next_block) for topic, held in self._held.items()}
+        blocks = {topic: waiting.pop(self.next_block) for topic, waiting in self._waiting.items()}
         self.next_block += 1
         return blocks
 
     def missing(self) -> tuple[str, ...]:
-        """The inputs that the next block is missing on."""
-        return tuple(topic for topic, held in self._held.items() if self.next_block not in held)
+        """Topics of the inputs that lack the next block."""
+        return tuple(topic for topic, waiting in self._waiting.items() if self.next_block not in waiting)
 
     def describe_missing(self) -> str:
-        """Which input lacks which block, and what came last."""
+        """Sentence on which input lacks which block, and on its last good block."""
         parts = []
         for topic in self.missing():
             last = (

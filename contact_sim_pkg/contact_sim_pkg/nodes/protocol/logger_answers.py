@@ -1,5 +1,5 @@
-"""What the simulator makes of the logger's answers: how far it may go, who holds the run up, when
-it may leave. Without ROS.
+"""Answers of the logger as the simulator uses them: how far it may go, who delays the run, when it
+may leave. Without ROS.
 """
 
 from __future__ import annotations
@@ -17,14 +17,14 @@ class LoggerAnswers:
     """The logger as the simulator knows it from `bench/recorded`."""
 
     def __init__(self, window: BlockWindow, *, logged: bool) -> None:
-        """Nothing heard; `logged`: the run has a logger."""
+        """No answer yet; `logged`: the run has a logger."""
         self._window, self._logged = window, logged
         self._follower = RecordedFollower()
         self._leave_at = float("inf")
         self.exit_status = DONE  # of the run, once it has ended
 
     def accept(self, recorded: BenchRecorded) -> str | None:
-        """Take an answer; why the logger has closed its bag, None while it has not."""
+        """Accept an answer; why the logger has closed its bag, None while it has not."""
         if not self._follower.accept(recorded):
             return None
         self._window.on_recorded(recorded.block)
@@ -54,8 +54,8 @@ class LoggerAnswers:
             return self.exit_status
         return (self.exit_status or FAULT) if now > self._leave_at else None
 
-    def who_holds_up(self, inputs: InputBlocks) -> str:
-        """Who keeps the next block from being done. A source waits for the logger as the simulator
+    def cause_of_delay(self, inputs: InputBlocks) -> str:
+        """Sentence on who delays the next block. A source waits for the logger as the simulator
         does.
         """
         if inputs.missing() and self._window.open:

@@ -6,8 +6,9 @@ import math
 
 
 def parse_pace(pace: str | float) -> float:
-    """Simulated seconds per second: 1 for `realtime`, infinity for `max`, else the number itself;
-    ValueError where it is none.
+    """Pace as simulated seconds per second [1]: 1 for `realtime`, infinity for `max`, else the number.
+
+    Raises ValueError where it is not a number from 0.001 to 1000.
     """
     if pace == "realtime":
         return 1.0
@@ -22,7 +23,7 @@ def parse_pace(pace: str | float) -> float:
     return factor
 
 
-LATE_IN_A_ROW = 100  # blocks done late, one after the other, before it is said
+LATE_IN_A_ROW = 100  # blocks done late, one after the other, before it is reported
 
 
 class Pacer:

@@ -52,6 +52,7 @@ class Player:
         Raises:
             BagError: the begin lies after the end, or the bag is damaged.
         """
+        # the begin is the later of the offset and the time of the first message
         self._bag, self._topics, self._latched = bag, set(topics), set(latched)
         self._total = sum(bag.count(name) for name in self._topics)
         self._first, self._rate, self._loop = start_message, rate, loop

@@ -1,4 +1,4 @@
-"""What the simulator says on `bench/progress`."""
+"""The simulator's reports on `bench/progress`."""
 
 from __future__ import annotations
 
@@ -37,6 +37,7 @@ class ProgressReport:
             self._began = time.monotonic()
         self.state = state
         elapsed = 0.0 if self._began is None else time.monotonic() - self._began
+        # the stamp is the end of the last block done; the speed counts from block 0
         simulated_ns = (self._block + 1) * self._period_ns
         factor = simulated_ns * 1e-9 / elapsed if elapsed > 0.0 else 0.0
         self.last = BenchProgress(

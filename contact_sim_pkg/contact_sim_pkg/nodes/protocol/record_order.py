@@ -1,4 +1,4 @@
-"""The logger's order: messages are held per block, and given out in canonical order once a block is
+"""The logger's order: messages wait per block, and are released in canonical order once a block is
 whole. Without ROS.
 """
 
@@ -12,7 +12,7 @@ from contact_sim_pkg.bag.topics import topic_of
 from contact_sim_pkg.nodes.protocol.input_blocks import FARTHEST_AHEAD
 
 
-class HeldMessage(NamedTuple):
+class BlockMessage(NamedTuple):
     """One message; the tuples sort in canonical order within a block."""
 
     stamp: int  # [ns]
@@ -23,26 +23,25 @@ class HeldMessage(NamedTuple):
 
 
 class RecordOrder:
-    """Holds what came until the simulator has said how many messages belong to the blocks done so
-    far.
+    """Messages that wait until the simulator reports how many belong to the blocks done so far.
 
     Blocks 0 ... b are whole when their excitation is there and the simulator's messages stamped
-    inside them are as many as it says it has sent up to b. Topics overtake each other on the wire,
+    inside them are as many as it reports to have sent up to b. Topics overtake each other on the wire,
     so no arrival order is assumed.
     """
 
     def __init__(self, excitation: Iterable[str], block_length_ns: int) -> None:
-        """Nothing held; no block whole."""
+        """No message; no block whole."""
         self._excitation = {topic: set[int]() for topic in excitation}
         self._block_length_ns = block_length_ns
-        self._held: dict[int, list[HeldMessage]] = {}
+        self._waiting: dict[int, list[BlockMessage]] = {}
         self._sequence: dict[str, int] = {}
         self._sent = {-1: 0}  # last block done -> messages of the simulator up to it
-        self._results: dict[int, int] = {}  # block -> messages of the simulator held or given out
+        self._results: dict[int, int] = {}  # block -> messages of the simulator waiting or released
         self.last_block = -1
-        self.given_out = 0
+        self.released = 0
 
-    def hold(self, topic: str, data: bytes) -> bool:
+    def add(self, topic: str, data: bytes) -> bool:
         """Keep one message; False where it belongs to a block that is whole, repeats a block of
         excitation, or is far ahead.
         """
@@ -57,7 +56,7 @@ class RecordOrder:
         else:
             self._results[block] = self._results.get(block, 0) + 1
         sequence = self._sequence[topic] = self._sequence.get(topic, -1) + 1
-        self._held.setdefault(block, []).append(HeldMessage(stamp, topic_of(topic).rank, sequence, topic, data))
+        self._waiting.setdefault(block, []).append(BlockMessage(stamp, topic_of(topic).rank, sequence, topic, data))
         return True
 
     def on_progress(self, block: int, messages_sent: int) -> None:
@@ -65,20 +64,20 @@ class RecordOrder:
         if block > self.last_block:
             self._sent[block] = messages_sent
 
-    def take_whole(self) -> list[HeldMessage]:
+    def release_whole(self) -> list[BlockMessage]:
         """The messages of all blocks that are whole now and were not before, in canonical order."""
         target = max((block for block in self._sent if block > self.last_block and self._is_whole(block)), default=None)
         if target is None:
             return []
-        messages: list[HeldMessage] = []
+        messages: list[BlockMessage] = []
         for block in range(self.last_block + 1, target + 1):
-            messages += sorted(self._held.pop(block, ()))
+            messages += sorted(self._waiting.pop(block, ()))
             for seen in self._excitation.values():
                 seen.discard(block)
             self._results.pop(block, None)
         self._sent = {block: sent for block, sent in self._sent.items() if block >= target}
         self.last_block = target
-        self.given_out += len(messages)
+        self.released += len(messages)
         return messages
 
     def _is_whole(self, block: int) -> bool:
@@ -98,13 +97,15 @@ class RecordOrder:
         )
         return self._sent[last] - self._sent[self.last_block] - here + lacking
 
-    def take_rest(self) -> list[HeldMessage]:
-        """Everything up to the last block done, whole or not, in canonical order: what is left when
+    def release_rest(self) -> list[BlockMessage]:
+        """Everything up to the last block done, whole or not, in canonical order; it is needed where
         messages were lost.
         """
         last = max(self._sent)
-        messages = [message for block in sorted(self._held) if block <= last for message in sorted(self._held[block])]
-        self._held.clear()
-        self.given_out += len(messages)
+        messages = [
+            message for block in sorted(self._waiting) if block <= last for message in sorted(self._waiting[block])
+        ]
+        self._waiting.clear()
+        self.released += len(messages)
         self.last_block = max(self.last_block, last)
         return messages

@@ -7,7 +7,7 @@ from collections.abc import Mapping
 from contact_sim_pkg.bag.metadata import LACKING
 from contact_sim_pkg.nodes.protocol.states import Follower, RunState
 
-UNSAID = "the recording was ended before the simulator said that the run had ended"
+UNREPORTED = "the recording was ended before the simulator said that the run had ended"
 
 
 def outcome_of(
@@ -16,16 +16,17 @@ def outcome_of(
     """The texts that end a bag.
 
     Args:
-        run: what the logger has heard of the run.
-        blocks_done: blocks that the bag holds whole.
-        reason: why the supervisor ended the run: who died of what; empty where it did not.
+        run: the run as the logger has followed it.
+        blocks_done: whole blocks in the bag.
+        reason: why the supervisor ended the run, with the process that failed; empty where it did not.
         lacking: messages of the blocks done that never came.
         counts: what was left out, by its name; what is 0 is not mentioned.
     """
+    # the supervisor's reason overrides the simulator's last report
     failure = reason or (run.last.message if run.last is not None and run.state is RunState.FAILED else "")
     ended = "failed" if reason else run.state.name.lower()
     if not failure and not run.state.ended:
-        ended, failure = "stopped", UNSAID
+        ended, failure = "stopped", UNREPORTED
     outcome = {"ended": ended, "blocks_done": str(blocks_done), "failure": failure}
     if lacking:
         outcome[LACKING] = f"{lacking} messages of the blocks done never came"

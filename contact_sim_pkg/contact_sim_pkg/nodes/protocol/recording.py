@@ -16,7 +16,7 @@ from contact_sim_pkg.bag.metadata import recorded_topics
 from contact_sim_pkg.bag.writer import BagSummary, BagWriter
 from contact_sim_pkg.nodes.processes.scene_file import count_blocks
 from contact_sim_pkg.nodes.protocol.input_blocks import check_block
-from contact_sim_pkg.nodes.protocol.record_order import HeldMessage, RecordOrder
+from contact_sim_pkg.nodes.protocol.record_order import BlockMessage, RecordOrder
 from contact_sim_pkg.nodes.protocol.record_outcome import outcome_of
 from contact_sim_pkg.nodes.protocol.single_source import SingleSource
 from contact_sim_pkg.nodes.protocol.states import REFUSED, Follower, NodeError
@@ -82,6 +82,7 @@ class Recording:
         Returns:
             Why the message is not recorded; empty where it is, or where its block is already whole.
         """
+        # a foreign message is left out before its content counts for anything
         if not self._sources[topic].accept(number, publishers):
             self.left_out[f"foreign {topic}"] += 1
             return f"{topic}: another node publishes here too; its messages are not recorded"
@@ -91,7 +92,7 @@ class Recording:
         except MessageError as error:
             self.left_out[f"dropped {topic}"] += 1
             return f"{topic}: {error}; not recorded"
-        if not self.closed and not self.order.hold(topic, data):
+        if not self.closed and not self.order.add(topic, data):
             self.left_out[f"dropped {topic}"] += 1
         return ""
 
@@ -112,26 +113,26 @@ class Recording:
 
     def write_whole(self) -> bool:
         """Write the blocks that are whole; whether there was one."""
-        self._write(self.order.take_whole())
+        self._write(self.order.release_whole())
         grown = self.order.last_block > self.block
         self.block = max(self.block, self.order.last_block)
         return grown
 
-    def _write(self, messages: list[HeldMessage]) -> None:
+    def _write(self, messages: list[BlockMessage]) -> None:
         if self._writer is not None:
             for message in messages:
                 self._writer.write(message.topic, message.stamp, message.data)
 
     def answer(self, *, closed: bool = False, sentence: str = "") -> bytes:
         """The bytes of `bench/recorded` at the last block that is whole."""
-        held = self.order.given_out + self.created  # the scene's text is one message
+        count = self.order.released + self.created  # the scene's text is one message
         value = BenchRecorded(
-            block=self.block, messages=held, closed=closed, bag=str(self.path), message=sentence
+            block=self.block, messages=count, closed=closed, bag=str(self.path), message=sentence
         )  # fmt: skip
         return encode(value, (self.block + 1) * self._block_length_ns)
 
     def close(self, run: Follower, reason: str, on_block: Callable[[], None]) -> ClosedBag | None:
-        """Close the bag with what is whole, or with all that came of an ended run; None without an
+        """Close the bag with what is whole, or with every message of an ended run; None without an
         open bag.
 
         Args:
@@ -147,6 +148,6 @@ class Recording:
             if self.write_whole():
                 on_block()
             if run.state.ended:
-                self._write(self.order.take_rest())
+                self._write(self.order.release_rest())
         outcome = outcome_of(run, self.block + 1, reason=reason, lacking=lacking, counts=self.left_out)
         return ClosedBag(writer.close(outcome), lacking)

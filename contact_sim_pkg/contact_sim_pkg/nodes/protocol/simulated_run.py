@@ -70,8 +70,8 @@ class SimulatedRun:
 
     def next_block(self) -> tuple[int, dict[str, Block]] | None:
         """Number and inputs of the next block; None while an input is missing."""
-        blocks = self.inputs.take()
-        return None if blocks is None else (self.window.take(), blocks)
+        blocks = self.inputs.next_blocks()
+        return None if blocks is None else (self.window.next_number(), blocks)
 
     def on_done(self, number: int, result: BlockResult, now: float) -> None:
         """Report a block whose messages are published; `now`: steady clock, [s]."""
@@ -87,7 +87,7 @@ class SimulatedRun:
         clock, [s].
         """
         if now - self._advanced > self._timeout and not self.state.ended:
-            raise NodeError(f"{self.logger.who_holds_up(self.inputs)} (waited {self._timeout:g} s)", FAULT)
+            raise NodeError(f"{self.logger.cause_of_delay(self.inputs)} (waited {self._timeout:g} s)", FAULT)
 
     def on_recorded(self, recorded: BenchRecorded) -> str:
         """Accept an answer of the logger; the reason why it closed its bag before the end, else

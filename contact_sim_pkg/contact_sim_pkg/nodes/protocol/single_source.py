@@ -15,7 +15,7 @@ SILENT_SECONDS = 3.0  # that a second publisher may stay without a message: a se
 class SingleSource:
     """Separates the messages of a run's publisher from those of another one.
 
-    A publisher numbers its own messages 1, 2, 3, …, whatever they hold, and reliable delivery keeps
+    A publisher numbers its own messages 1, 2, 3, …, whatever their content, and reliable delivery keeps
     their order. So the messages of one publisher rise by one each. Those of a second one repeat
     numbers, fall behind, or leap; a leap is also what lost messages look like, and then the graph
     decides: it knows a publisher before its first message is delivered.
@@ -97,6 +97,7 @@ class SourceWatch:
         if now - self._looked < self._interval:
             return not self._sent and not self._seen
         self._looked = now
+        # a second publisher in the graph is forgiven where it leaves again without a message
         for topic in self._sources:
             if self._count(self._in_graph[topic]) > 1:
                 self._seen.setdefault(topic, now)

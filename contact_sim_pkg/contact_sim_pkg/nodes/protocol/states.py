@@ -9,7 +9,7 @@ from contact_sim_pkg.records.messages import BenchProgress, BenchRecorded
 
 
 class NodeError(Exception):
-    """What a node cannot go on with: one sentence, and the exit status that belongs to it."""
+    """A fault that ends a node: one sentence, and the exit status that belongs to it."""
 
     def __init__(self, sentence: str, exit_status: int = 1) -> None:
         """Keep the exit status beside the sentence."""
@@ -38,16 +38,16 @@ REFUSED, LOSS, FAULT, DONE = 2, 3, 1, 0  # exit statuses
 
 
 class Follower:
-    """What a node knows of its run from `bench/progress`.
+    """A run as a node follows it on `bench/progress`.
 
     A node is a peer that *ready* waits for, and without its answers the run does not get further
     than the window. Whatever is further on, before *ready* was seen, belongs to another bench.
-    Later on, a report that lies behind what was already seen comes from another bench that is
-    starting on the same topics, and is passed over.
+    Later on, a report that lies behind an earlier one comes from another bench that is
+    starting on the same topics, and is ignored.
     """
 
     def __init__(self, *, answers: bool = True) -> None:
-        """Nothing seen yet; `answers`: the run waits for this node's answers or blocks."""
+        """No report yet; `answers`: the run waits for this node's answers or blocks."""
         self.state = RunState.IDLE
         self.block = -1
         self.last: BenchProgress | None = None
@@ -58,6 +58,7 @@ class Follower:
 
         Raises NodeError (refused) where it is that of another bench's run under way.
         """
+        # a run under way that this node did not see begin is that of another bench
         state = RunState(progress.state)
         if self.state is RunState.IDLE:
             foreign = progress.block >= 0 or state > RunState.READY
@@ -76,12 +77,12 @@ class Follower:
 
 
 class RecordedFollower:
-    """What a node knows from `bench/recorded`: answers that lie behind what was already seen are
-    passed over.
+    """Answers of `bench/recorded` as a node follows them; one that lies behind an earlier one is
+    ignored.
     """
 
     def __init__(self) -> None:
-        """Nothing held yet."""
+        """No answer yet."""
         self.block = -1
         self.messages = 0
         self.closed = False

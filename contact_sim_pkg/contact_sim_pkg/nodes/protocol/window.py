@@ -21,7 +21,7 @@ class BlockWindow:
         self.done = max(self.done, block)
 
     def on_recorded(self, block: int) -> None:
-        """The logger holds all blocks up to this one; an older answer changes nothing."""
+        """The logger has all blocks up to this one; an older answer changes nothing."""
         self.recorded = max(self.recorded, block)
 
     @property
@@ -34,7 +34,7 @@ class BlockWindow:
         """Whether the next block may be sent."""
         return self.next_block <= min(self.answered + self.ahead, self.blocks - 1)
 
-    def take(self) -> int:
+    def next_number(self) -> int:
         """The number of the block to send now; the window must be open."""
         if not self.open:
             raise ValueError(
