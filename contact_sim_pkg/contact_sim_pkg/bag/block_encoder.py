@@ -1,4 +1,4 @@
-"""The messages of one block, of the records that a rig gives with their topics and stamps."""
+"""Messages of one block, from the records of a rig with their topics and stamps."""
 
 from __future__ import annotations
 

@@ -28,6 +28,7 @@ def stacked(
     if unknown:
         raise BagError(f"{type_name} has no field {', '.join(sorted(unknown))}; it has {', '.join(getters)}")
     wanted = {name: getter for name, getter in getters.items() if fields is None or name in fields or name == "stamp"}
+    # one pass over the messages, which may be an iterator over the file
     values: dict[str, list[Any]] = {"log_time": [], **{name: [] for name in wanted}}
     for log_time, message in messages:
         values["log_time"].append(log_time)

@@ -1,4 +1,4 @@
-"""What can go wrong with messages and bags; the text of each error is one sentence for a person."""
+"""Errors of messages and bags; the text of each error is one sentence for a person."""
 
 
 class BagError(Exception):
@@ -6,7 +6,7 @@ class BagError(Exception):
 
 
 class MessageError(BagError):
-    """Bytes that do not hold the message they should hold, or values that do not fit the message."""
+    """Bytes that are not the expected message, or values that do not fit it."""
 
 
 class BagWriteError(BagError):
@@ -18,7 +18,7 @@ class RecordingStoppedError(BagError):
 
 
 class CorruptChunkError(BagError):
-    """A chunk fails its checksum or cannot be taken apart; `start` and `end` are its log times in
+    """A chunk fails its checksum or cannot be unpacked; `start` and `end` are its log times in
     [ns].
     """
 

@@ -1,5 +1,5 @@
-"""Blocks of the excitation as they come in, over a topic or from a bag: one that a rig could not be
-driven with is refused.
+"""Blocks of the excitation, received on a topic or from a bag: one that cannot drive a rig is
+refused.
 """
 
 from __future__ import annotations

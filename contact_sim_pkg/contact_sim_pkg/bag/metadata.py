@@ -1,5 +1,5 @@
-"""`metadata.yaml` as rosbag2 of Jazzy writes it (version 9), and what a bag says about the software
-that wrote it.
+"""`metadata.yaml` as rosbag2 of Jazzy writes it (version 9), and the versions of the software
+that wrote a bag.
 """
 
 import hashlib
@@ -22,7 +22,7 @@ from contact_sim_pkg.files import read_regular_file
 from contact_sim_pkg.scene.yaml.document import LARGEST_FILE as LARGEST_METADATA
 
 RECORD = "contact_bench"  # name of the MCAP metadata record
-LACKING = "lacking"  # key of the outcome that says which messages of the blocks done never came
+LACKING = "lacking"  # key of the outcome, with the messages of the blocks done that never came
 OUTCOME = f"{RECORD}_outcome"  # of the one at the end
 ROSBAG2 = "rosbag2"  # of the one that rosbag2 reads
 SCENE_KEY = "scene"
@@ -31,7 +31,7 @@ CHECKSUM_KEY = "texts_sha256"
 
 
 class RecordedTopic(NamedTuple):
-    """One topic of a bag: `key` is what the writer is asked for, `name` what the bag shows."""
+    """One topic of a bag: `key` is its name for the writer, `name` that in the bag."""
 
     key: str
     name: str
@@ -50,6 +50,7 @@ def recorded_topics(
 
     `shown` gives the name in the bag, that of the graph: namespace and remapping included.
     """
+    # channels are numbered in this order, whatever the order of `names`
     rows = sorted((topic_of(name) for name in names), key=lambda topic: topic.rank)
     return tuple(
         RecordedTopic(
@@ -164,6 +165,7 @@ def _information(
     custom: Mapping[str, str],
 ) -> dict[str, Any]:
     duration = {"nanoseconds": extent.end - extent.start}
+    # the one file spans the whole bag, so both entries have the same extent
     start = {"nanoseconds_since_epoch": extent.start}
     total = sum(counts[topic.key] for topic in topics)
     return {

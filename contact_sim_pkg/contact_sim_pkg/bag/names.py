@@ -1,4 +1,4 @@
-"""Where a bag is put when the user did not say, and names that cannot leave that place."""
+"""Default directory of a bag, and names that cannot leave it."""
 
 import re
 import secrets
@@ -23,7 +23,7 @@ def safe_name(text: str, longest: int = LONGEST_NAME) -> str:
 
 
 def new_directory(given: Path | None, scene_name: str) -> Path:
-    """Where a run is recorded: the directory given, or the default one. Raises BagError where that
+    """Directory of a recording: the one given, or the default one. Raises BagError where that
     exists already.
     """
     directory = default_directory(scene_name) if given is None else given

@@ -49,9 +49,7 @@ class BagMessage(NamedTuple):
 
 
 class Bag:
-    """A bag that is read. `notes` says in one line each what is missing; `complete` is True where
-    nothing is.
-    """
+    """A bag that is read. `notes` are lines on what is missing; `complete` is True without any."""
 
     def __init__(self, path: Path, layout: Layout, skip_bad: bool) -> None:
         """Take a layout that was read from the MCAP file at `path`; `open_bag` does that."""
@@ -81,7 +79,7 @@ class Bag:
 
     @property
     def not_copied(self) -> str:
-        """What of the file the reader passes over and a recovery leaves out, in one line; empty
+        """Line on parts of the file that the reader skips and a recovery leaves out; empty
         where there is nothing.
         """
         names = [record.name for record in self._layout.records if record.name not in (RECORD, OUTCOME, ROSBAG2)]
@@ -263,6 +261,7 @@ def open_bag(path: Path | str, *, skip_bad: bool = False) -> Bag:
             texts do not hold: their checksum fails, or its metadata and `bench/scene` hold
                 different scenes.
     """
+    # the metadata file names the .mcap of a directory; a lone file needs none
     place = Path(path)
     file_path = _file_of(place) if place.is_dir() else place
     try:

@@ -16,7 +16,7 @@ __all__ = ["excitation_of_text", "scene_of_text", "values_of_text"]
 
 
 def values_of_text(text: str, where: str, read: Callable[..., Any] = parse_plain, **limits: int) -> Any:
-    """What a YAML text holds (JSON with `read=parse_json`); BagError, with `where` it stands,
+    """Values of a YAML text (JSON with `read=parse_json`); BagError, with `where` it stands,
     beyond what is allowed.
     """
     try:
@@ -38,7 +38,7 @@ def scene_of_text(text: str | None, where: str) -> dict[str, Any]:
 
 
 def excitation_of_text(text: str | None, where: str) -> dict[str, dict[str, Any]]:
-    """What each excitation found and did, by topic, with its `notes` as a list of texts. BagError:
+    """Description of each excitation, by topic, with its `notes` as a list of texts. BagError:
     anything else.
     """
     found = {} if text is None else values_of_text(text, where, parse_json)

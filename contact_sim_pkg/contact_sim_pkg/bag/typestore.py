@@ -1,4 +1,4 @@
-"""The message definitions as rosbags holds them: types, texts for a bag, hashes.
+"""The message definitions for rosbags: types, texts for a bag, hashes.
 
 rosbags knows all of Jazzy, but making its classes takes 0.4 s in each process; the few that are
 needed stand in `records/definitions.py`, and a test compares their hashes with those of rosbags.
@@ -36,7 +36,7 @@ def definition(type_name: str) -> str:
     """The `ros2msg` text of a type: its definition, then each dependency after a line of `=` and
     `MSG: package/Type`.
 
-    Ours are given with their comments, which hold unit, frame and order of each field.
+    Ours are given with their comments, which state unit, frame and order of each field.
     """
     generated, _ = installed_types().generate_msgdef(type_name, ros_version=2)
     head, *dependencies = generated.split(_SEPARATOR)

@@ -1,4 +1,4 @@
-"""What the results of a bag depend on beside its scene: the versions that recorded it, beside those
+"""Dependence of a bag's results beside its scene: the versions that recorded it, beside those
 of another bag or of here.
 """
 
@@ -50,17 +50,17 @@ def differences_of_bags(bags: Sequence[Bag], *, across: bool = False) -> list[st
     differ from its own.
 
     Raises:
-        BagError: package, kernels or message definitions differ, and it was not said that bags are
-            compared `across` them.
+        BagError: package, kernels or message definitions differ, and it is not requested that bags
+            are compared `across` them.
     """
-    told = []
+    lines = []
     for bag in bags[1:]:
         found = version_differences(versions_of(bags[0]), versions_of(bag))
         sentence = f"{bags[0].path} and {bag.path} were recorded by different versions: {_listed(found)}"
         if set(found) - set(HARMLESS) and not across:
             raise BagError(f"{sentence}; give --across-versions to compare their results all the same")
-        told += [sentence] if found else []
-    return told
+        lines += [sentence] if found else []
+    return lines
 
 
 def _listed(found: Mapping[str, str]) -> str:

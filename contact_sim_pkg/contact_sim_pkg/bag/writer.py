@@ -40,7 +40,7 @@ LIBRARY = "contact_bench"
 
 
 class BagSummary(NamedTuple):
-    """What a closed bag holds; `sentence` says what is missing, and is empty where nothing is."""
+    """Content of a closed bag; `sentence` names what is missing, and is empty where nothing is."""
 
     path: Path
     messages: int
@@ -74,7 +74,7 @@ class BagWriter:
             attachments: texts kept in the bag and in `metadata.yaml`: scene, versions.
             reserve_bytes: free space of the disk, [bytes], below which the recording is closed.
             clock: steady clock, [s].
-            free_bytes: free space of the disk, [bytes]; asks the operating system where it is None.
+            free_bytes: free space of the disk, [bytes]; from the operating system where it is None.
             background: run `maintain` every 0.05 s in a thread; without it the caller does.
 
         Raises:
@@ -171,6 +171,7 @@ class BagWriter:
                 raise BagError(
                     f"topic {topic!r} is not recorded in {self.path}; recorded are {', '.join(self._channels)}"
                 )
+            # counts and times grow only once the writer has accepted the message
             number = self._counts[topic] if sequence is None else sequence
             try:
                 self._writer.add_message(
@@ -211,8 +212,8 @@ class BagWriter:
             outcome: texts to keep beside the attachments: how the run ended, what was dropped.
 
         Returns:
-            What the bag holds. `complete` is False where a write failed, the disk's reserve was
-            reached, or the file does not hold what was written; `sentence` says which. A second
+            Content of the bag. `complete` is False where a write failed, the disk's reserve was
+            reached, or the file does not hold what was written; `sentence` names it. A second
             call returns the same.
         """
         self._closing.set()
@@ -257,8 +258,8 @@ class BagWriter:
             self._fault = RecordingStoppedError(sentence)
 
     def _finish(self, outcome: dict[str, str], stopped: str = "") -> None:
-        """Write the end, close the file, compare what it holds with the counts; called once, with
-        the lock held.
+        """Write the end, close the file, compare its content with the counts; called once, under
+        the lock.
         """
         reasons = [stopped, str(self._fault) if self._fault else self._write_end(outcome)]
         try:

@@ -128,6 +128,7 @@ def command(
     wrench = constant(force, torque)
     if force_topic is not None:
         recorded, wrench = _wrench(bag, recorded, force_topic, force_axes)
+    # notes first: a refusal ends the command before anything else is shown
     spreads = None if noise is None else SampleNoise(*noise)
     setup = Setup(shape, plane(normal, ground), wrench, gravity, spreads, friction=friction)
     for note in recorded.notes:
@@ -179,7 +180,7 @@ def _wrench(bag: Path, recorded: RecordedStates, topic: str, axes: Axes) -> tupl
 
 
 def _sections(found: Identification) -> list[Section]:
-    """Parameters, what stays unidentified, contacts."""
+    """Sections of the tables: parameters, warnings, what is not identifiable, contacts."""
     from contact_sim_pkg.identify.report.rows import contact_rows, parameter_rows
     from contact_sim_pkg.records.table import Section
 

@@ -79,7 +79,7 @@ def main(arguments: list[str] | None = None) -> int:
 
 
 def refusal(error: Exception) -> tuple[str, int] | None:
-    """Sentence and exit status of an error that stands for bad input or a named fault; None for any
+    """Sentence and exit status of an error for bad input or a named fault; None for any
     other.
     """
     from contact_sim_pkg.bag.errors import BagError
@@ -90,6 +90,7 @@ def refusal(error: Exception) -> tuple[str, int] | None:
     from contact_sim_pkg.run.errors import RunError
     from contact_sim_pkg.scene.errors import SceneError
 
+    # status 2: refused before the start; 1: failed while running
     if isinstance(error, (SceneError, BagError, ExcitationError, IdentificationError, MaterialError)):
         return str(error), 2
     if isinstance(error, RunError):

@@ -36,6 +36,7 @@ def command(bags: tuple[Path, ...], out: Path | None, skip_bad: bool, across_ver
     for each in recorded:
         for note in each.notes:
             click.echo(note if len(bags) == 1 else f"{each.path.parent.name}: {note}", err=True)
+    # a page of several bags compares their versions, a page of one those of this installation
     here = installed_versions(kernel_fingerprint())
     others = differences_of_bags(recorded, across=across_versions) or [
         differences_from(each, here) for each in recorded

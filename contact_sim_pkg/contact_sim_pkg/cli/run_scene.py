@@ -1,4 +1,4 @@
-"""What `bench run` does: resolve, run on nodes or without, show progress, report the outcome."""
+"""`bench run`: resolve, run on nodes or without, show progress, report the outcome."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ if TYPE_CHECKING:
     from contact_sim_pkg.scene.resolved_scene import ResolvedScene
 
 Result = TypeVar("Result")
-GRACE = 0.5  # [s] for the block that is computed when a signal comes
+GRACE = 0.5  # [s] from a signal to the end of the block that is computed
 LOOK = 0.1  # [s] between two looks at signals
 SIGNALS = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)
 
@@ -34,25 +34,25 @@ class SetUpInterrupted(BaseException):
 
 
 class StopRequest:
-    """Whether a signal came: it breaks the set-up off at once, and is checked between two blocks
-    once they are computed.
+    """Whether there was a signal: it breaks the set-up off at once, and is checked between two
+    blocks once they are computed.
     """
 
     def __init__(self) -> None:
         """Nothing is computed yet."""
-        self.heard_at = float("inf")  # of the monotonic clock
+        self.requested_at = float("inf")  # of the monotonic clock
         self._computes = False
 
-    def hear(self) -> None:
-        """A signal came. Raises `SetUpInterrupted` until the run has checked once."""
-        self.heard_at = min(self.heard_at, time.monotonic())
+    def on_signal(self) -> None:
+        """A signal. Raises `SetUpInterrupted` until the run has checked once."""
+        self.requested_at = min(self.requested_at, time.monotonic())
         if not self._computes:
             raise SetUpInterrupted
 
     def __call__(self) -> bool:
-        """Whether one came; the first check marks the start of the run."""
+        """Whether there was one; the first check marks the start of the run."""
         self._computes = True
-        return self.heard_at < float("inf")
+        return self.requested_at < float("inf")
 
 
 class RunEnd(NamedTuple):
@@ -65,7 +65,7 @@ class RunEnd(NamedTuple):
     stopped: bool
     failure: str
     exit_status: int
-    excitation: dict[str, dict[str, Any]]  # by topic, what was found in it and done about it
+    excitation: dict[str, dict[str, Any]]  # by topic, findings in it and their treatment
     computes_on: bool = False  # a thread of this process that nothing can stop
 
 
@@ -80,8 +80,8 @@ def run_scene(
     as_json: bool,
     allow_long: bool,
 ) -> int:
-    """Run a scene; returns the exit status. Ends the process where a computation goes on in it that
-    was broken off.
+    """Run a scene; returns the exit status. Ends the process where an abandoned computation
+    still runs in it.
 
     Raises:
         SceneError, BagError, ExcitationError: refused; nothing was created.
@@ -93,13 +93,15 @@ def run_scene(
         refuse_other_scene(from_bag, scene)
         for line in cautions(from_bag):
             print(line, file=sys.stderr)
+    # everything that can be refused comes before the first process or file
     directory = new_directory(out, scene.name) if record else None
-    _tell_work(scene, allow_long)
+    _report_work(scene, allow_long)
     forecast = _forecast(scene)
     run = _run_offline if offline else partial(_run_on_nodes, clock=clock)
     with RunDisplay(scene.duration) as display:
         ended = run(scene, directory, from_bag, display)
-    status = _told(scene, ended, forecast, as_json=as_json)
+    status = _report_outcome(scene, ended, forecast, as_json=as_json)
+    # compiled code that does not return would keep the interpreter from ending
     if ended.computes_on:
         sys.stdout.flush()
         sys.stderr.flush()
@@ -107,7 +109,7 @@ def run_scene(
     return status
 
 
-def _told(scene: ResolvedScene, ended: RunEnd, forecast: dict[str, Any], *, as_json: bool) -> int:
+def _report_outcome(scene: ResolvedScene, ended: RunEnd, forecast: dict[str, Any], *, as_json: bool) -> int:
     """Report the outcome of a run; returns the exit status."""
     if ended.failure:
         print(f"bench: {ended.failure}", file=sys.stderr)
@@ -132,7 +134,7 @@ def _leave_metadata(scene: ResolvedScene, ended: RunEnd) -> str:
     return "" if ended.bag is None else leave_metadata(ended.bag, outcome)
 
 
-def _tell_work(scene: ResolvedScene, allow_long: bool) -> None:
+def _report_work(scene: ResolvedScene, allow_long: bool) -> None:
     """One line on standard error where the run is long. Raises SceneError beyond the bound."""
     from contact_sim_pkg.run.work import refuse_long
 
@@ -166,12 +168,13 @@ def _run_offline(scene: ResolvedScene, directory: Path | None, from_bag: Path | 
     computing = Computing[RunOutcome]()
     worker = Worker(run_offline, scene, directory, display.show, stop, sources, computing)
     broken_off: RunOutcome | None = None
-    with _signals_call(stop.hear):
+    # the run has a thread of its own: this one waits for signals, and gives a block `GRACE` to end
+    with _signals_call(stop.on_signal):
         try:
             worker.start()
             while worker.is_alive() and broken_off is None:
                 worker.join(LOOK)
-                if time.monotonic() > stop.heard_at + GRACE:
+                if time.monotonic() > stop.requested_at + GRACE:
                     broken_off = computing.abandon()
         except SetUpInterrupted:
             return RunEnd(
@@ -204,7 +207,7 @@ def _run_offline(scene: ResolvedScene, directory: Path | None, from_bag: Path | 
 
 
 class Worker(threading.Thread, Generic[Result]):
-    """A call in a thread of its own, so that this one hears signals while compiled code runs."""
+    """A call in a thread of its own, so that this one receives signals while compiled code runs."""
 
     def __init__(self, function: Callable[..., Result], *arguments: Any) -> None:
         """Not started yet."""
@@ -221,7 +224,7 @@ class Worker(threading.Thread, Generic[Result]):
             self._error = error
 
     def result(self) -> Result:
-        """What the call returned; raises its error."""
+        """Result of the call; raises its error."""
         if self._error is not None:
             raise self._error
         return self._results[0]
@@ -238,7 +241,7 @@ def _run_on_nodes(
     supervisor = Supervisor(scene, directory, from_bag=from_bag, clock=clock)
     before = time.monotonic() - BEGAN
     with _signals_call(supervisor.stop):
-        outcome = supervisor.run(display.show, display.say)
+        outcome = supervisor.run(display.show, display.print_line)
     return RunEnd(
         blocks=outcome.blocks,
         startup=before + outcome.startup,

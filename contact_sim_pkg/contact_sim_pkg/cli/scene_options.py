@@ -97,6 +97,7 @@ def scene_options(function: Callable[..., Any]) -> Callable[..., Any]:
         options = SceneOptions(**{name: values.pop(name) for name in names})
         return function(options=options, **values)
 
+    # the decorator applied last is the first in `--help`
     for decorate in reversed(decorators):
         collect = decorate(collect)
     return collect

@@ -32,7 +32,7 @@ class LifecycleBenchNode(LifecycleNode):
     computes = False
 
     def __init__(self, name: str) -> None:
-        """Declare what all of these nodes have."""
+        """Declare the parameters of all of these nodes."""
         super().__init__(name)
         self.supervisor = declare(self, "supervisor", 0, SUPERVISOR_TEXT)
         self._autostart = declare(self, "autostart", True, "Configure and activate at the start of the process.")
@@ -44,7 +44,7 @@ class LifecycleBenchNode(LifecycleNode):
         raise NotImplementedError
 
     def close(self) -> None:
-        """Give back what `configure` opened; may be called more than once."""
+        """Release what `configure` opened; may be called more than once."""
 
     def start(self) -> None:
         """Go through the transitions, unless a manager does."""
@@ -52,14 +52,14 @@ class LifecycleBenchNode(LifecycleNode):
             self.trigger_activate()
 
     def announce(self, sentence: str) -> None:
-        """Say where the run stands to who started the node alone or by `ros2 launch`; a supervisor
+        """Log the progress of the run for a node started alone or by `ros2 launch`; a supervisor
         shows it itself.
         """
         if not self.supervisor:
             self.get_logger().info(sentence)
 
     def fault(self, sentence: str, exit_status: int) -> None:
-        """Say what failed, close, and end the process with this status."""
+        """Log the failure, close, and end the process with this status."""
         self.get_logger().error(sentence)
         self.close()
         self.exit_status = exit_status
@@ -72,7 +72,7 @@ class LifecycleBenchNode(LifecycleNode):
         except (NodeError, RunError, *REFUSALS) as error:
             refusal = getattr(error, "exit_status", FAULT if isinstance(error, RunError) else REFUSED)
             self.get_logger().error(str(error))
-            self._give_back()
+            self._release()
             self.exit_status = refusal if self._autostart else None
             return TransitionCallbackReturn.FAILURE
         except Exception as error:  # noqa: BLE001  # the lifecycle would swallow it without a word
@@ -87,16 +87,16 @@ class LifecycleBenchNode(LifecycleNode):
         return super().on_activate(state)
 
     def on_deactivate(self, state: LifecycleState) -> TransitionCallbackReturn:
-        """Hold the run."""
+        """Pause the run."""
         self.active = False
         return super().on_deactivate(state)
 
     def on_cleanup(self, state: LifecycleState) -> TransitionCallbackReturn:
-        """Give back what `configure` opened."""
-        self._give_back()
+        """Release what `configure` opened."""
+        self._release()
         return TransitionCallbackReturn.SUCCESS
 
-    def _give_back(self) -> None:
+    def _release(self) -> None:
         """Close, and destroy what `configure` has created in the graph, the last one first: it may
         be called again.
         """
@@ -109,7 +109,7 @@ class LifecycleBenchNode(LifecycleNode):
                 self.destroy_publisher(publisher)
 
     def on_shutdown(self, state: LifecycleState) -> TransitionCallbackReturn:
-        """Give everything back and end the process."""
+        """Release everything and end the process."""
         self.close()
         self.exit_status = 0 if self.exit_status is None else self.exit_status
         return TransitionCallbackReturn.SUCCESS

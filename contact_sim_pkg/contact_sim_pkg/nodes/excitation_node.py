@@ -1,4 +1,4 @@
-"""What the two excitation nodes share: they send numbered blocks as far as answers and pace allow."""
+"""Base of the two excitation nodes: numbered blocks, sent as far as answers and pace allow."""
 
 from __future__ import annotations
 
@@ -73,13 +73,13 @@ class ExcitationNode(Node):
         """Send what is due; end when every block is answered for, or the run was ended."""
         wait = float("inf")
         if self._run.state in (RunState.READY, RunState.RUNNING):
-            wait = self._send_due(now) if self._is_heard(now) else 0.005
+            wait = self._send_due(now) if self._is_matched(now) else 0.005
         if self._window.finished or self._ended(now):
             self.exit_status = 0
         return wait
 
     def _ended(self, now: float) -> bool:
-        """Whether nobody needs this node any more: what it sent last is delivered only as long as
+        """Whether nobody needs this node any more: its last messages are delivered only as long as
         it is there.
         """
         if self._run.state not in LINGER_SECONDS:
@@ -87,7 +87,7 @@ class ExcitationNode(Node):
         self._leave_at = min(self._leave_at, now + LINGER_SECONDS[self._run.state])
         return self._listeners < 2 or self._recorded.closed or now > self._leave_at
 
-    def _is_heard(self, now: float) -> bool:
+    def _is_matched(self, now: float) -> bool:
         """Whether everybody who needs block 0 is matched with this publisher; the simulator cannot
         see that.
         """
@@ -121,7 +121,7 @@ class ExcitationNode(Node):
         self.exit_status = 0
 
     def fault(self, sentence: str, exit_status: int) -> None:
-        """Say what failed and end the process."""
+        """Log the failure and end the process."""
         self.get_logger().error(sentence)
         self.exit_status = exit_status
 

@@ -26,8 +26,8 @@ def declare(node: Node, name: str, default: Value, text: str, allowed: tuple[flo
 
 
 def _given(node: Node, name: str, default: Any) -> Any:
-    """The value given to the node, of whatever type, or the default: rclpy itself accepts no 5 for a
-    5.0.
+    """The value given to the node, of whatever type, or the default: rclpy itself accepts no 5 for
+    a 5.0.
     """
     value = node.declare_parameter(name, default, ParameterDescriptor(dynamic_typing=True)).value
     node.undeclare_parameter(name)

@@ -37,7 +37,7 @@ class AccuracyPart(NamedTuple):
 
 
 class AccuracyStudy(NamedTuple):
-    """What is measured of a scene."""
+    """Study of a scene's accuracy."""
 
     rows: Rows
     parts: tuple[AccuracyPart, ...]

@@ -1,6 +1,7 @@
 """Message definitions: the fields of each `.msg` file, and the few standard types of ROS 2 Jazzy.
 
-A `.msg` file alone defines what a message holds. These phrases in the comment of an array count:
+A `.msg` file alone defines the content of a message. These phrases in the comment of an array
+count:
 
 * `row-major, A x B`, or `length A`: the fields A and B are its sides; a number is the size of a
   side, an array is as long as the side,
@@ -49,7 +50,7 @@ class Field(NamedTuple):
     type: str  # of an array that of its elements, such as float64, string or geometry_msgs/Vector3
     is_array: bool
     default: int | float | None  # of a number that may be left out
-    shape: tuple[str, ...]  # of an array: the fields that hold its sides; empty where none is stated
+    shape: tuple[str, ...]  # of an array: the fields with its sides; empty where none is stated
     may_be_empty: bool
     comment: str
 
@@ -60,12 +61,14 @@ class Field(NamedTuple):
 
     @property
     def default_value(self) -> Any:
-        """What a record has that is made without it: a number, or an array of no values."""
+        """Value of the field in a record that is made without it: a number, or an array of no
+        values.
+        """
         return numpy.empty(0, self.type) if self.may_be_empty else self.default
 
 
 class Definition(NamedTuple):
-    """What a message holds."""
+    """Content of a message."""
 
     type_name: str  # package/msg/Name
     comment: str  # above the first field
@@ -79,7 +82,7 @@ class Definition(NamedTuple):
 
     @property
     def record_fields(self) -> tuple[Field, ...]:
-        """Fields of a record: all but the header and the sizes that the shape of an array gives."""
+        """Fields of a record: all but the header and the sizes in the shape of an array."""
         return tuple(
             field for field in self.fields if field.type != HEADER and (field.is_array or field.name not in self.sides)
         )

@@ -1,4 +1,4 @@
-"""A measured figure and the goal it is held against."""
+"""A measured figure and the goal it is compared with."""
 
 from __future__ import annotations
 

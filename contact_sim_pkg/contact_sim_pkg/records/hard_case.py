@@ -12,7 +12,7 @@ __all__ = ["Finding", "HardCase", "at_most", "close_to", "exactly"]
 
 
 class Finding(NamedTuple):
-    """What a case found."""
+    """Result of a case."""
 
     value: float
     expectation: str

@@ -1,4 +1,4 @@
-"""What a rig adds to the report of a bag. Functions are named as ``module:name`` and loaded on
+"""Additions of a rig to the report of a bag. Functions are named as ``module:name`` and loaded on
 use.
 """
 

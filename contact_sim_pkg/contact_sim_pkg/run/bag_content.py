@@ -1,4 +1,4 @@
-"""What the bag of a scene holds: its topics, and the texts kept with it. The same for the offline
+"""Content of a scene's bag: its topics, and the texts kept with it. The same for the offline
 run and the logger node.
 """
 

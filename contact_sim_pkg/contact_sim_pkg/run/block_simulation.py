@@ -1,4 +1,4 @@
-"""What every rig's simulation offers to the loop that drives it, offline or in a node."""
+"""Interface of a rig's simulation to the loop that drives it, offline or in a node."""
 
 from __future__ import annotations
 
@@ -29,7 +29,7 @@ class BlockResult:
 
 
 def refuse_out_of_turn(block: int, due: int) -> None:
-    """Raise RunError where block number ``block`` came and another was due."""
+    """Raise RunError where block number ``block`` is not the one due."""
     if block != due:
         raise RunError(f"block {block} came, block {due} was due")
 
@@ -46,6 +46,6 @@ class BlockSimulation(Protocol):
     def advance(self, block: int, inputs: dict[str, InputBlock]) -> BlockResult:
         """Advance block number ``block``, in order from 0, with the blocks of every input topic.
 
-        Raises RunError where a block is out of turn, does not fit the scene, or the physics ends in
-        a named failure.
+        Raises RunError where a block is out of order, does not fit the scene, or the physics ends
+        in a named failure.
         """

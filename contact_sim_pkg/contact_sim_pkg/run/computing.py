@@ -13,7 +13,7 @@ Ended = TypeVar("Ended")
 
 
 class Computing(Generic[Ended]):
-    """Lets another thread end a run whose computation does not come back: while it lasts nothing is
+    """Lets another thread end a run whose computation does not return: while it lasts, nothing is
     written.
     """
 

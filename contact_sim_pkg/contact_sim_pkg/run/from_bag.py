@@ -48,7 +48,7 @@ class BagSource:
         return DECODERS[self._topic](self._messages[block])
 
     def describe(self) -> dict[str, Any]:
-        """What the excitation said of itself when it was recorded, and where it comes from now."""
+        """Description of the excitation as recorded, and its source now."""
         notes = [*self._description.get("notes", []), f"replayed from the bag {self._path.name}"]
         return {**self._description, "notes": notes}
 
@@ -63,9 +63,7 @@ def sources_from_bag(path: Path, scene: ResolvedScene) -> dict[str, Source]:
 
 
 def cautions(path: Path) -> list[str]:
-    """What who runs a bag again must know, a line each: what it lacks, and that other versions
-    recorded it.
-    """
+    """Lines about a bag that is run again: what it lacks, and other versions that recorded it."""
     bag = open_bag(path)
     return [*bag.notes, *filter(None, [differences_from(bag, installed_versions(kernel_fingerprint()))])]
 
@@ -84,13 +82,14 @@ def refuse_other_scene(path: Path, scene: ResolvedScene) -> None:
             f"{path}: the excitation comes from the bag, and {', '.join(changed)} {'is' if len(changed) == 1 else 'are'} not "
             "as it was recorded with; leave these keys as they are in the bag's scene, or run without --from-bag"
         )
+    # every block of the scene must be there, on the grid and sample rate of the scene
     blocks = make_timing(scene, True).blocks
     for topic in input_names(scene):
         bag.refuse_other_definition(topic)
-        first, held = next(bag.messages(topic), None), bag.count(topic)
-        if first is None or held < blocks:
-            cure = f"; ask for --duration {held * scene.block_length:g}" if held else ""
-            raise BagError(f"{path}: {topic} holds {held} blocks, the scene needs {blocks}{cure}")
+        first, count = next(bag.messages(topic), None), bag.count(topic)
+        if first is None or count < blocks:
+            cure = f"; ask for --duration {count * scene.block_length:g}" if count else ""
+            raise BagError(f"{path}: {topic} holds {count} blocks, the scene needs {blocks}{cure}")
         _refuse_misfit(path, topic, DECODERS[topic](first.data), scene)
 
 

@@ -28,7 +28,7 @@ NANOSECONDS = 1_000_000_000
 
 
 class RunProgress(NamedTuple):
-    """Where a run stands."""
+    """Progress of a run."""
 
     block: int  # blocks done
     blocks: int
@@ -47,7 +47,7 @@ class RunOutcome(NamedTuple):
     bag: BagSummary | None
     stopped: bool  # ended by the user before the last block
     failure: str  # sentence of the fault that ended it; empty where there is none
-    excitation: dict[str, dict[str, Any]]  # by topic, what was found in it and done about it
+    excitation: dict[str, dict[str, Any]]  # by topic, findings in it and their treatment
     loss: str = ""  # sentence of the write that ended the recording, and the run with it
 
 
@@ -61,7 +61,7 @@ def run_offline(
 ) -> RunOutcome:
     """Run ``scene`` and record it in ``directory``, which must not exist (None: no recording).
 
-    ``sources`` replaces the scene's own excitation (a bag's, for one). ``stop`` is asked once all
+    ``sources`` replaces the scene's own excitation (a bag's, for one). ``stop`` is called once all
     is compiled, where nothing has been created yet, and before each block. A fault of the
     physics or of the excitation ends the run, as does a write that fails: the bag is closed and the
     outcome names it. Raises what a bad scene, file or directory raises, before anything is created.
@@ -89,7 +89,7 @@ def run_offline(
             excitation=descriptions, loss=loss,
         )  # fmt: skip
 
-    compilation = ExitStack()  # closed while the blocks run; open again behind a thread that does not come back
+    compilation = ExitStack()  # closed while the blocks run; open again behind a thread that does not return
 
     def abandoned() -> RunOutcome:
         nonlocal stopped
@@ -143,6 +143,7 @@ def _one_block(
     computing: Computing[RunOutcome],
 ) -> RunProgress:
     stamp = block * round(length * NANOSECONDS)
+    # the inputs are recorded too, before the results of the block
     inputs = {topic: source.block(block) for topic, source in sources.items()}
     result = computing.call(simulation.advance, block, inputs)
     if writer is not None:

@@ -86,6 +86,8 @@ def solver_cost(stamps: BlockStamps, wall_time: float, **counted: Any) -> Solver
 
 
 def largest(outputs: Iterable[Output], part: str, column: str) -> float:
-    """Largest value of a column of all topics that end in ``part`` (``force``); 0 without any."""
+    """Largest value of a column, such as ``normal`` [N], of all topics that end in ``part``
+    (``force``); 0 without any.
+    """
     chosen = (getattr(each.record, column) for each in outputs if each.topic.endswith(f"/{part}"))
     return max((float(value.max() if hasattr(value, "max") else value) for value in chosen), default=0.0)

@@ -1,4 +1,4 @@
-"""What a run asks the rig of its scene for: the simulation, the topics, the forecast."""
+"""Simulation, topics and forecast of the rig of a scene."""
 
 from __future__ import annotations
 
@@ -26,14 +26,14 @@ def result_topics(scene: ResolvedScene) -> list[str]:
 
 
 class Forecast(NamedTuple):
-    """What is known of a run before it."""
+    """Known facts of a run before it, and a sentence about them."""
 
     facts: dict[str, Any]
     sentence: str
 
 
 def forecast_of(scene: ResolvedScene) -> Forecast | None:
-    """What the rig reports before the run; None where it reports nothing. Raises RunError where the
+    """The forecast of the rig; None where it reports nothing. Raises RunError where the
     scene cannot run.
     """
     name = rigs()[scene.rig].forecast

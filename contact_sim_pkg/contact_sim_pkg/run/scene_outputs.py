@@ -15,7 +15,9 @@ __all__ = ["outputs_of", "records_of"]
 
 
 def outputs_of(scene_name: str, duration: float, *values: str) -> list[Output]:
-    """Outputs of a shipped scene, `values` as of `--set`, without the wall times of `bench/cost`."""
+    """Outputs of a shipped scene over `duration` [s], `values` as of `--set`, without the wall
+    times of `bench/cost`.
+    """
     overrides = [set_duration(duration), *(set_value(value) for value in values)]
     scene = resolve(load_scene(scene_name, overrides))
     simulation, sources = make_simulation(scene), make_sources(scene)

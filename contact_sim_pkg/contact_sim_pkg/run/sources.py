@@ -30,13 +30,13 @@ USUAL_RATES = (1000, 2000, 2500, 4000, 5000, 10_000, 12_500, 20_000, 25_000, 40_
 
 
 class Source(Protocol):
-    """Gives the block of one input topic by its number, and says what it is."""
+    """Blocks of one input topic by number, and a description of it."""
 
     def block(self, block: int) -> RoadPatch | VibrationBlock:
         """Block number ``block``, from 0."""
 
     def describe(self) -> dict[str, Any]:
-        """What was found and done, for the report."""
+        """Findings in the excitation and their treatment, for the report."""
 
 
 def make_travel(scene: ResolvedScene) -> Travel:
@@ -167,7 +167,7 @@ def _sweep_duration(sweep: SweepSection) -> float:
 
 
 def _notes(fastest: float, rate: float, accuracy: float) -> list[str]:
-    """Where the straight lines between samples are further off than the asked accuracy: ``1 -
+    """Sentence where straight lines between the samples are less accurate than requested: ``1 -
     cos(pi f / rate)`` of a sine.
     """
     off = 1.0 - math.cos(math.pi * fastest / rate)

@@ -13,8 +13,8 @@ VIBRATION = "platform/vibration"
 
 
 def accelerations(timing: Timing, block: int, vibration: RoadPatch | VibrationBlock | None) -> tuple[Vector, Vector]:
-    """Forward and upward acceleration in [m/s^2], [segments + 1] of a block, straight between the
-    samples.
+    """Forward and upward acceleration [m/s^2], each [points], at the ends of the segments of a
+    block; linear between the samples.
 
     Raises RunError where the block is missing, another one, or of another length.
     """

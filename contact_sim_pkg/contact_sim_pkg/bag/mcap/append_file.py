@@ -1,7 +1,7 @@
 """A new file that only grows, in a new directory; every error of the operating system is one
 sentence.
 
-A write that fails is taken back, so the file always ends with a whole record. Nothing is buffered
+A write that fails is undone, so the file always ends with a whole record. Nothing is buffered
 here: what `write` returned from survives the death of the process, what `sync` returned from
 survives the death of the machine.
 """
@@ -49,7 +49,7 @@ class AppendFile:
         """Nothing to do: nothing is buffered."""
 
     def sync(self) -> None:
-        """Bring everything onto the disk; BagWriteError where the disk says no."""
+        """Force everything onto the disk; BagWriteError where that fails."""
         size = self._size
         if size == self._synced:
             return
@@ -63,12 +63,12 @@ class AppendFile:
         self._synced = size
 
     def free_bytes(self) -> int:
-        """Free bytes, for an ordinary user, of the file system that holds the file."""
+        """Free bytes, for an ordinary user, of the file system of the file."""
         state = os.fstatvfs(self._descriptor)
         return state.f_bavail * state.f_frsize
 
     def close(self) -> None:
-        """Close the file; BagWriteError where an earlier write turns out to have failed."""
+        """Close the file; BagWriteError where an earlier write has failed."""
         try:
             os.close(self._descriptor)
         except OSError as error:
@@ -117,7 +117,7 @@ def create_file(directory: Path, name: str) -> AppendFile:
 
 
 def is_being_written(path: Path) -> bool:
-    """True while another process holds the lock of a bag file; the lock dies with its process."""
+    """True while another process has the lock of a bag file; the lock ends with its process."""
     try:
         with path.open("rb") as file:
             fcntl.flock(file, fcntl.LOCK_SH | fcntl.LOCK_NB)

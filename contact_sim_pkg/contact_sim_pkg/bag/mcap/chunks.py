@@ -37,7 +37,7 @@ def _unpack(compression: str, data: bytes, size: int) -> bytes:
 
 
 def damaged(name: str, offset: int, start: int, end: int, error: Exception) -> CorruptChunkError:
-    """The error of a damaged chunk: where it stands, which time it covers, why."""
+    """The error of a damaged chunk: its place, the time that it covers, the reason."""
     reason = str(error) or type(error).__name__
     return CorruptChunkError(
         f"{name}: the chunk at byte {offset}, messages of {start / 1e9:.3f} s to {end / 1e9:.3f} s, is damaged "

@@ -1,8 +1,8 @@
-"""Where the parts of an MCAP file stand: from its summary, or, where it was cut off, from a walk
+"""Places of the parts of an MCAP file: from its summary, or, where it was cut off, from a walk
 over its records.
 
-Nothing is believed before it was checked: a record is read when its length fits into the file and
-below a limit, a chunk is taken apart when its checksum holds. The file is never changed.
+Nothing is used before it was checked: a record is read when its length fits into the file and
+below a limit, a chunk is unpacked when its checksum is right. The file is never changed.
 """
 
 import struct
@@ -36,11 +36,11 @@ class ChunkPlace(NamedTuple):
     length: int
     start: int
     end: int
-    channels: frozenset[int] | None  # what it holds messages of; None where that is not known
+    channels: frozenset[int] | None  # those of its messages; None where that is not known
 
 
 class Layout(NamedTuple):
-    """Everything about a file but its messages; `note` says what is missing, and is empty where
+    """Everything about a file but its messages; `note` names what is missing, and is empty where
     nothing is.
     """
 
@@ -109,7 +109,7 @@ def _head(file: IO[bytes], offset: int) -> tuple[int, int]:
 
 
 def _from_summary(file: IO[bytes], name: str) -> Layout | None:
-    """The layout from a summary whose checksum holds; None where there is none."""
+    """The layout from a summary whose checksum is right; None where there is none."""
     try:
         if not _summary_is_whole(file):
             return None
@@ -122,6 +122,7 @@ def _from_summary(file: IO[bytes], name: str) -> Layout | None:
             or (summary.statistics.message_count and not summary.chunk_indexes)
         ):
             return None
+        # in the order of the file, which is that of the messages
         chunks = [_place(index) for index in sorted(summary.chunk_indexes, key=lambda index: index.chunk_start_offset)]
         counts = dict(summary.statistics.channel_message_counts)
         records = [_indexed(file, index) for index in summary.metadata_indexes]
@@ -248,8 +249,8 @@ def _count(records: list[McapRecord], found: Layout) -> None:
 
 
 def _note(name: str, found: Layout, lost: str, damaged_records: int) -> str:
-    held = f"{sum(found.counts.values())} messages"
+    content = f"{sum(found.counts.values())} messages"
     if found.counts:
-        held += f" up to {max(chunk.end for chunk in found.chunks) / 1e9:.3f} s"
+        content += f" up to {max(chunk.end for chunk in found.chunks) / 1e9:.3f} s"
     bad = f"; {damaged_records} of its records are damaged" if damaged_records else ""
-    return f"{name} holds {held}: {lost}{bad}"
+    return f"{name} holds {content}: {lost}{bad}"

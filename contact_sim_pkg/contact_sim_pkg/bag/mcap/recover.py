@@ -12,9 +12,7 @@ from contact_sim_pkg.bag.writer import BagWriter
 
 
 class Recovery(NamedTuple):
-    """What was brought over; `lossless` is False where anything is missing, and `sentence` says
-    what.
-    """
+    """Outcome of a recovery; `lossless` is False where anything is missing, which `sentence` names."""
 
     path: Path
     messages: int
@@ -37,6 +35,7 @@ def recover(source: Path | str, target: Path) -> Recovery:
     if is_being_written(bag.path):
         raise BagError(f"{bag.path} is being recorded at this moment; recover it when the recording has ended")
     topics, lost_quality = _with_readable_quality(bag)
+    # notes on what is missing grow while the messages are read
     with BagWriter(target, topics, bag.metadata) as writer:
         for message in bag.messages():
             writer.write(

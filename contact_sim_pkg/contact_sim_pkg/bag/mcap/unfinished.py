@@ -22,8 +22,8 @@ def leave_metadata(directory: Path, outcome: Mapping[str, str]) -> str:
         outcome: how the run ended, as the recorder would have kept it.
 
     Returns:
-        What the bag holds and how to make a whole one of it; empty where the bag is finished, is
-        being recorded, or cannot be read at all.
+        Sentence on the content of the bag and how to make a whole one of it; empty where the bag is
+        finished, is being recorded, or cannot be read at all.
     """
     try:
         bag = open_bag(directory, skip_bad=True)
@@ -35,7 +35,7 @@ def leave_metadata(directory: Path, outcome: Mapping[str, str]) -> str:
     topics = tuple(bag.topics.values())
     counts = {topic.key: bag.count(topic.name) for topic in topics}
     extent = Extent(0 if first is None else first.log_time, bag.end)
-    with suppress(BagWriteError):  # a disk that is still full: the words say all that is needed
+    with suppress(BagWriteError):  # a disk that is still full: the sentence is enough
         write_whole(
             directory, METADATA, metadata_text(bag.path.name, topics, counts, extent, {**bag.metadata, **outcome})
         )

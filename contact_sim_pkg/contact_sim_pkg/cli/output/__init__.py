@@ -1,1 +1,1 @@
-"""What the command prints: tables, progress, outcome."""
+"""Output of the command: tables, progress, outcome."""

@@ -12,7 +12,7 @@ if TYPE_CHECKING:
 
 
 class Outcome(Protocol):
-    """What a finished run provides."""
+    """A finished run, offline or on nodes."""
 
     @property
     def blocks(self) -> int:
@@ -51,6 +51,7 @@ def describe(scene: ResolvedScene, outcome: Outcome) -> dict[str, Any]:
     """The object that `--json` prints; `bag` is None and `summary` empty where nothing was
     recorded.
     """
+    # `ended` and `failure` repeat the texts that the bag ends with
     simulated = round(outcome.blocks * scene.block_length, 9)
     return {
         "scene": scene.name,
@@ -71,8 +72,8 @@ def describe(scene: ResolvedScene, outcome: Outcome) -> dict[str, Any]:
 
 
 def state_of(scene: ResolvedScene, outcome: Outcome) -> str:
-    """`failed`, `stopped` (by the user, or by the end of the recording) or `finished`, as the bag
-    says it.
+    """`failed`, `stopped` (by the user, or by the end of the recording) or `finished`, as in the
+    bag.
     """
     if outcome.exit_status == 1:
         return "failed"
@@ -100,6 +101,7 @@ def print_outcome(facts: dict[str, Any], outcome: Outcome) -> None:
     for topic, description in facts["excitation"].items():
         for note in description.get("notes", []):
             click.echo(f"{topic}: {note}", err=True)
+    # one line for the run, one for each contact, then what the rig adds
     factor = facts["real_time_factor"]
     speed = "" if factor is None else f" in {facts['wall_s']:.3g} s: {factor:.3g}x real time"
     state = "stopped after" if outcome.stopped else "simulated"

@@ -45,28 +45,28 @@ class RunDisplay:
         """Prepare for a run or a replay of `duration` simulated seconds; nothing is shown before it
         is entered.
 
-        `begin` is shown before the first update; `item` is what does not come where nothing moves.
+        `begin` is shown before the first update; `item` is named where nothing moves.
         """
         self._duration = duration
         self._console = Console(file=sys.stderr, highlight=False)
-        self._said = self._moved = time.monotonic()
+        self._printed = self._moved = time.monotonic()
         self._completed, self._text, self._item = 0.0, begin, item
         self._over = threading.Event()
         columns = (BarColumn(24), TextColumn("{task.description}"), TimeRemainingColumn())
         self._bar = Progress(*columns, console=self._console, transient=True, disable=not self._console.is_terminal)
         self._task = self._bar.add_task("starting", total=duration)
 
-    def show(self, standing: DisplayedProgress) -> None:
+    def show(self, progress: DisplayedProgress) -> None:
         """Show the state of the run."""
-        if standing.simulated <= 0.0:
+        if progress.simulated <= 0.0:
             return
         text = (
-            f"{standing.simulated:.2f} of {self._duration:g} s, {standing.real_time_factor:.2f}x real time, "
-            f"load {standing.load:.0f} N"
+            f"{progress.simulated:.2f} of {self._duration:g} s, {progress.real_time_factor:.2f}x real time, "
+            f"load {progress.load:.0f} N"
         )
-        if standing.peak_pressure > 0.0:
-            text += f", peak {standing.peak_pressure / 1e3:.1f} kPa"
-        self.update(standing.simulated, text)
+        if progress.peak_pressure > 0.0:
+            text += f", peak {progress.peak_pressure / 1e3:.1f} kPa"
+        self.update(progress.simulated, text)
 
     def update(self, completed: float, text: str) -> None:
         """Show how much of the duration is done, [s], and a text."""
@@ -78,21 +78,21 @@ class RunDisplay:
             text = f"{self._text}; no further {self._item} for {now - self._moved:.0f} s"
         if self._console.is_terminal:
             self._bar.update(self._task, completed=completed, description=text)
-        elif time.monotonic() - self._said > PLAIN_SECONDS:
-            self._said = time.monotonic()
-            self.say(text)
+        elif time.monotonic() - self._printed > PLAIN_SECONDS:
+            self._printed = time.monotonic()
+            self.print_line(text)
 
     def _repeat(self) -> None:
-        """Report a block that takes long."""
+        """Repeat the text while a block lasts long."""
         while not self._over.wait(0.5):
             self.update(self._completed, self._text)
 
-    def say(self, line: str) -> None:
-        """One line from a node."""
+    def print_line(self, line: str) -> None:
+        """Print one line, of a node or of the progress."""
         self._console.print(line, markup=False, soft_wrap=True)
 
     def __enter__(self) -> RunDisplay:
-        """Begin to show."""
+        """Start the bar."""
         self._bar.start()
         threading.Thread(target=self._repeat, daemon=True).start()
         return self
@@ -100,6 +100,6 @@ class RunDisplay:
     def __exit__(
         self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
     ) -> None:
-        """Take the bar away."""
+        """Remove the bar."""
         self._over.set()
         self._bar.stop()

@@ -71,7 +71,7 @@ def _print(what: RenderableType) -> None:
 
 
 def _print_table(rows: Sequence[Mapping[str, Any]]) -> None:
-    """As wide as the terminal, or as it comes where there is none. Texts break at blanks; numbers
+    """As wide as the terminal, or `PIPED_WIDTH` where there is none. Texts break at blanks; numbers
     and words never do.
     """
     from rich.markup import escape
@@ -97,8 +97,8 @@ def _widths(columns: list[str], texts: list[list[str]], numbers: list[bool], wid
     least: list[int] = []
     whole: list[int] = []
     for column, cells, number in zip(columns, texts, numbers, strict=True):
-        pieces = cells if number else [word for text in cells for word in text.split()]
-        least.append(max(map(len, [*pieces, *column.split()]), default=1))
+        words = cells if number else [word for text in cells for word in text.split()]
+        least.append(max(map(len, [*words, *column.split()]), default=1))
         whole.append(max(map(len, [*cells, column]), default=1))
     spare = max(0, width - sum(least) - GAP * (len(columns) - 1))
     for place in sorted(range(len(columns)), key=lambda place: whole[place] - least[place]):

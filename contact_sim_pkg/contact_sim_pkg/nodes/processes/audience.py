@@ -1,5 +1,5 @@
-"""Who listens to a replay: the subscribers that are there when it begins are matched before the
-first message.
+"""The subscribers of a replay: those that are there when it begins are matched before the first
+message.
 """
 
 from __future__ import annotations
@@ -15,7 +15,7 @@ from rclpy.topic_endpoint_info import TopicEndpointInfo
 from contact_sim_pkg.nodes.protocol.endpoints import UNKNOWN, describe_endpoint
 
 QUIET_SECONDS = 0.5  # without news of the graph before it counts as known
-BUSY_SECONDS = 0.2  # between two looks: the machine is busy, and others may not have had their turn to answer
+BUSY_SECONDS = 0.2  # between two looks: the machine is busy, and others may not have answered yet
 NOBODY_SECONDS = 3.0  # for the first subscriber: the period at which DDS announces a process again
 LONGEST_SECONDS = 10.0  # for the subscribers that are known to be matched
 
@@ -74,8 +74,8 @@ class Audience:
 
 
 def _why_not(offered: QoSProfile, wanted: QoSProfile) -> str:
-    """Why a subscription cannot be served; empty where it can. (What the graph says of deadlines is
-    not what was asked for.)
+    """Why a subscription cannot be served; empty where it can. (The deadlines in the graph are
+    not those requested.)
     """
     if wanted.reliability == ReliabilityPolicy.RELIABLE and offered.reliability == ReliabilityPolicy.BEST_EFFORT:
         return "it asks for reliable delivery, the topic was recorded as best effort"

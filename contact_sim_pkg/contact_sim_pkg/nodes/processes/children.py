@@ -18,8 +18,8 @@ LEAST_SECONDS = 0.1  # from SIGTERM to SIGKILL where an earlier process has used
 
 
 class ErrorLines:
-    """Hands lines of the processes on; errors at the end only, and without those that the failure of
-    the run names already.
+    """Hands lines of the processes on; errors at the end only, and without those that the failure
+    of the run names already.
     """
 
     def __init__(self, on_line: Callable[[str], None]) -> None:
@@ -159,8 +159,8 @@ class Children:
         return set().union(*(child.segments for child in self._children))
 
     def end(self, grace: float = GRACE_SECONDS) -> list[str]:
-        """End the processes left, in reverse order of the start, by SIGTERM, `grace` seconds later by
-        SIGKILL.
+        """End the processes left, in reverse order of the start, by SIGTERM, `grace` seconds later
+        by SIGKILL.
 
         Returns the names of those that had to be killed. Shared memory of killed processes is
         removed.

@@ -11,7 +11,7 @@ from typing import Any
 
 
 class Keys:
-    """Takes the terminal of the standard input into single-key mode until `close`; Ctrl-C stays a
+    """Sets the terminal of the standard input into single-key mode until `close`; Ctrl-C stays a
     signal.
     """
 
@@ -36,7 +36,7 @@ class Keys:
         return self._descriptor >= 0
 
     def pressed(self) -> str:
-        """What was pressed since the last call."""
+        """Keys pressed since the last call."""
         keys = ""
         while self._descriptor >= 0 and select.select([self._descriptor], [], [], 0.0)[0]:
             more = os.read(self._descriptor, 64)
@@ -46,7 +46,7 @@ class Keys:
         return keys
 
     def close(self) -> None:
-        """Give the terminal back as it was."""
+        """Restore the terminal."""
         if self._before is not None:
             termios.tcsetattr(self._descriptor, termios.TCSADRAIN, self._before)
             self._descriptor, self._before = -1, None

@@ -54,7 +54,7 @@ def write_description(scene: str, topic: str, description: dict[str, Any]) -> No
 
 
 def read_descriptions(scene: str, resolved: ResolvedScene) -> dict[str, dict[str, Any]]:
-    """What each excitation found and did: as its node left it, or found out here where there is no
+    """Description of each excitation: as its node wrote it, or determined here where there is no
     supervisor.
     """
     if scene.endswith(RESOLVED):
@@ -65,7 +65,7 @@ def read_descriptions(scene: str, resolved: ResolvedScene) -> dict[str, dict[str
 
 
 def descriptions_beside(scene: Path) -> dict[str, dict[str, Any]]:
-    """What the excitation nodes have left beside a scene of the supervisor, by topic."""
+    """Descriptions of the excitation nodes beside a scene of the supervisor, by topic."""
     found: dict[str, dict[str, Any]] = {}
     for path in sorted(scene.parent.glob(f"*{DESCRIPTION}")):
         found.update(json.loads(path.read_text(encoding="utf-8")))

@@ -32,6 +32,7 @@ def remove_unused(names: Iterable[str]) -> list[str]:
     wanted = {name + ending for name in names for ending in COMPANION_ENDINGS}
     if not wanted:
         return []
+    # a segment and its lock file count as one: either in use keeps both
     others = [int(entry.name) for entry in Path("/proc").iterdir() if entry.name.isdigit()]
     used = set().union(*(mapped_segments(process) for process in others if process != os.getpid()))
     kept = {name.removesuffix("_el") for name in used}

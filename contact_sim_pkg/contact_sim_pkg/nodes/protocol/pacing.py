@@ -6,7 +6,8 @@ import math
 
 
 def parse_pace(pace: str | float) -> float:
-    """Pace as simulated seconds per second [1]: 1 for `realtime`, infinity for `max`, else the number.
+    """Pace as simulated seconds per second [1]: 1 for `realtime`, infinity for `max`, else the
+    number.
 
     Raises ValueError where it is not a number from 0.001 to 1000.
     """

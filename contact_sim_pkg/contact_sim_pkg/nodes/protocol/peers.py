@@ -56,6 +56,7 @@ class Peers:
             NodeError: (refused) a second publisher on an input or an output, a second bench, or
                 another message definition.
         """
+        # names are waited for from the first look: the compilation before it may last minutes
         if self._began < 0.0:
             self._began = self._reported = now
         absent = self._missing(unnamed=now - self._began > NAME_SECONDS)

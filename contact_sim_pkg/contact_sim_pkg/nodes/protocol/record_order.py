@@ -26,8 +26,8 @@ class RecordOrder:
     """Messages that wait until the simulator reports how many belong to the blocks done so far.
 
     Blocks 0 ... b are whole when their excitation is there and the simulator's messages stamped
-    inside them are as many as it reports to have sent up to b. Topics overtake each other on the wire,
-    so no arrival order is assumed.
+    inside them are as many as it reports to have sent up to b. Topics overtake each other on the
+    wire, so no arrival order is assumed.
     """
 
     def __init__(self, excitation: Iterable[str], block_length_ns: int) -> None:
@@ -98,8 +98,8 @@ class RecordOrder:
         return self._sent[last] - self._sent[self.last_block] - here + lacking
 
     def release_rest(self) -> list[BlockMessage]:
-        """Everything up to the last block done, whole or not, in canonical order; it is needed where
-        messages were lost.
+        """Everything up to the last block done, whole or not, in canonical order; it is needed
+        where messages were lost.
         """
         last = max(self._sent)
         messages = [

@@ -18,7 +18,8 @@ def outcome_of(
     Args:
         run: the run as the logger has followed it.
         blocks_done: whole blocks in the bag.
-        reason: why the supervisor ended the run, with the process that failed; empty where it did not.
+        reason: why the supervisor ended the run, with the process that failed; empty where it did
+            not.
         lacking: messages of the blocks done that never came.
         counts: what was left out, by its name; what is 0 is not mentioned.
     """

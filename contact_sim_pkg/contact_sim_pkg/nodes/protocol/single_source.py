@@ -15,10 +15,10 @@ SILENT_SECONDS = 3.0  # that a second publisher may stay without a message: a se
 class SingleSource:
     """Separates the messages of a run's publisher from those of another one.
 
-    A publisher numbers its own messages 1, 2, 3, …, whatever their content, and reliable delivery keeps
-    their order. So the messages of one publisher rise by one each. Those of a second one repeat
-    numbers, fall behind, or leap; a leap is also what lost messages look like, and then the graph
-    decides: it knows a publisher before its first message is delivered.
+    A publisher numbers its own messages 1, 2, 3, …, whatever their content, and reliable delivery
+    keeps their order. So the messages of one publisher rise by one each. Those of a second one
+    repeat numbers, fall behind, or leap; a leap is also what lost messages look like, and then the
+    graph decides: it knows a publisher before its first message is delivered.
     """
 
     def __init__(self) -> None:
