@@ -58,10 +58,10 @@ class Nodes:
 
     def __init__(self, scene: ResolvedScene, folder: Path, *remapped: str) -> None:
         folder.mkdir(parents=True, exist_ok=True)
-        self.said: list[str] = []
+        self.printed: list[str] = []
         self.bag = folder / "bag"
         self._scene = str(write_scene(scene, folder))
-        self._children = Children(ENVIRONMENT, self.said.append)
+        self._children = Children(ENVIRONMENT, self.printed.append)
         self._started = []
         self._remapped = [part for each in remapped for part in ("-r", each)]
 
@@ -96,7 +96,7 @@ class Nodes:
     def end(self) -> None:
         """End what still lives, and print what the nodes said: pytest shows it where the test has failed."""
         self._children.end(grace=2.0)
-        print(*self.said, sep="\n")
+        print(*self.printed, sep="\n")
 
 
 def wait_until(condition, seconds: float = LONGEST, over=lambda: "") -> None:

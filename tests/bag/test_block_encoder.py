@@ -28,7 +28,7 @@ def wrench(height):
     return wrench_of((0.0, 0.0, height), (0.0, 0.0, 0.0))
 
 
-def test_messages_come_by_stamp_then_by_rank_of_the_topic_then_as_they_are_given():
+def test_messages_are_in_order_of_stamp_then_rank_of_the_topic_then_input():
     given = [
         Output("bench/energy", 10, ledger()), Output("seat/wrench", 20, wrench(2.0)), Output("tire/wrench", 10, wrench(1.0)),
         Output("tire/wrench", 10, wrench(0.5)), Output("tire/force", 10, force()),

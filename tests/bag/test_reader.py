@@ -45,7 +45,7 @@ def test_scene_texts_and_end_come_from_the_bag(record: Record) -> None:
     assert bag.end == 490_000_000
 
 
-def test_columns_hold_the_values_that_were_written(record: Record, encoded: Encoded) -> None:
+def test_columns_are_the_values_that_were_written(record: Record, encoded: Encoded) -> None:
     bag = open_bag(record())
     forces = [decode(ContactForce, data) for topic, _, data in encoded if topic == "tire/force"]
     columns = bag.columns("tire/force")
@@ -116,7 +116,7 @@ def test_an_unfinished_bag_is_read_with_a_note_and_never_changed(record: Record,
     assert [entry.name for entry in directory.iterdir()] == ["ride_0.mcap"]
 
 
-def test_a_bag_that_is_being_recorded_says_so(record: Record, tmp_path: Path) -> None:
+def test_a_bag_that_is_being_recorded_is_named_as_such(record: Record, tmp_path: Path) -> None:
     left_behind = record(close=False)
     assert not any("at this moment" in note for note in open_bag(left_behind).notes)
     assert any("at this moment" in note for note in open_bag(tmp_path / "live" / "ride").notes)
@@ -128,7 +128,7 @@ def test_the_lone_file_is_enough(record: Record, tmp_path: Path, encoded: Encode
     assert len(list(open_bag(lone).messages())) == len(encoded)
 
 
-def test_types_come_from_the_bag_and_differences_are_told(tmp_path: Path) -> None:
+def test_types_come_from_the_bag_and_differences_are_reported(tmp_path: Path) -> None:
     """A bag of another version, with one field more, written by rosbags."""
     store = get_typestore(Stores.ROS2_JAZZY)
     name = "contact_msgs_defs/msg/EnergyLedger"
@@ -149,7 +149,7 @@ def test_types_come_from_the_bag_and_differences_are_told(tmp_path: Path) -> Non
         bag.refuse_other_definition("bench/energy")
 
 
-def test_other_versions_of_the_software_are_told(record: Record) -> None:
+def test_other_versions_of_the_software_are_reported(record: Record) -> None:
     own = versions_of(open_bag(record()))
     assert version_differences(own, {"numpy": "2.2.6", "kernel_fingerprint": "0f" * 8, "python": "3.12"}) == {}
     assert version_differences(own, {"numpy": "9.9"}) == {"numpy": "2.2.6 and 9.9"}
@@ -163,7 +163,7 @@ def test_a_topic_without_messages_has_empty_columns(tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize("content", [b"", b"\x89MCAP", b"#ROSBAG V2.0\n", bytes(64)])
-def test_what_is_no_bag_is_refused_with_what_was_found(tmp_path: Path, content: bytes) -> None:
+def test_a_file_that_is_no_bag_is_refused_with_its_content(tmp_path: Path, content: bytes) -> None:
     file = tmp_path / "x.mcap"
     file.write_bytes(content)
     with pytest.raises(BagError, match=r"x.mcap is no MCAP file: it begins with"):

@@ -43,7 +43,7 @@ def test_of_what_is_recorded_only_the_cost_reports_wall_time() -> None:
 
 
 @pytest.mark.parametrize("name", TOPICS)
-def test_quality_of_service_is_read_by_rosbags_as_the_table_says(name: str) -> None:
+def test_quality_of_service_is_read_by_rosbags_as_in_the_table(name: str) -> None:
     (profile,) = parse_qos(offered_qos(TOPICS[name]))
     assert profile.history == QosHistory.KEEP_LAST
     assert profile.depth == TOPICS[name].depth

@@ -77,7 +77,7 @@ def test_rosbags_reads_the_metadata_file(record: Record) -> None:
     assert connections["/tire/patch"].msgcount == 50
 
 
-def test_the_file_alone_says_profile_quality_of_service_hash_and_scene(record: Record) -> None:
+def test_the_file_alone_has_profile_quality_of_service_hash_and_scene(record: Record) -> None:
     with (record() / "ride_0.mcap").open("rb") as file:
         reader = make_reader(file)
         assert reader.get_header().profile == "ros2"
@@ -93,20 +93,20 @@ def test_the_file_alone_says_profile_quality_of_service_hash_and_scene(record: R
     assert information["message_count"] == 201
 
 
-def test_a_namespace_stands_in_front_of_recorded_names(record: Record) -> None:
+def test_a_namespace_is_in_front_of_recorded_names(record: Record) -> None:
     with Reader(record(shown=lambda name: full_name(name, "rig2"))) as reader:
         assert "/rig2/tire/force" in reader.topics
 
 
 @pytest.mark.fault("G6")
-def test_a_bag_says_nothing_of_the_machine(record: Record) -> None:
+def test_a_bag_has_nothing_about_the_machine(record: Record) -> None:
     bag = record()
     content = b"".join(file.read_bytes() for file in bag.iterdir())
     for secret in (str(bag.parent), str(Path.home()), os.environ.get("HOSTNAME", "\0no such text")):
         assert secret == "/" or secret.encode() not in content
 
 
-def test_two_recordings_of_the_same_messages_hold_the_same(record: Record) -> None:
+def test_two_recordings_of_the_same_messages_are_equal(record: Record) -> None:
     contents = []
     for name in ("first", "second"):
         bag = record(name)

@@ -49,14 +49,14 @@ def test_a_picture_that_cannot_be_written_is_refused_before_the_work(monkeypatch
     assert told in capsys.readouterr().err
 
 
-def test_the_table_is_there_whatever_becomes_of_the_picture(one_study, monkeypatch, tmp_path):
+def test_the_table_is_printed_even_if_the_picture_fails(one_study, monkeypatch, tmp_path):
     monkeypatch.setattr(work_precision_plot, "write_plot", lambda rows, path, **_: 1 / 0)
     shown = CliRunner().invoke(command, ["tire", "--plot", str(tmp_path / "x.png")])
     assert isinstance(shown.exception, ZeroDivisionError)
     assert "ms a call" in shown.stdout
 
 
-def test_a_name_that_is_no_rig_is_taken_for_a_scene():
+def test_a_name_that_is_no_rig_is_read_as_a_scene():
     with pytest.raises(SceneError, match="tyre"):
         CliRunner().invoke(command, ["tyre"], catch_exceptions=False)
 

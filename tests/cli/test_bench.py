@@ -26,12 +26,12 @@ def refused(capsys, *arguments):
 
 
 @pytest.mark.parametrize("command", COMMANDS)
-def test_every_command_says_what_it_does(capsys, command):
+def test_every_command_has_a_help_text(capsys, command):
     assert bench_main([command, "--help"]) == 0
     assert "Usage: bench" in capsys.readouterr().out
 
 
-def test_list_gives_the_scenes_smallest_first(capsys):
+def test_list_shows_the_scenes_smallest_first(capsys):
     assert bench_main(["list", "--json"]) == 0
     rows = json.loads(capsys.readouterr().out)["rows"]
     scenes = [row["scene"] for row in rows]
@@ -48,7 +48,7 @@ def test_show_prints_a_scene_that_runs_again(capsys, tmp_path):
     assert capsys.readouterr().out == text
 
 
-def test_a_run_with_json_prints_one_object_with_what_scripts_ask_for(capsys, tmp_path):
+def test_a_run_with_json_prints_one_object_for_scripts(capsys, tmp_path):
     out = tmp_path / "bag"
     assert bench_main(["run", "seat_ride", *OFFLINE, "--out", str(out), "--json"]) == 0
     facts = json.loads(capsys.readouterr().out)
@@ -62,7 +62,7 @@ def test_a_run_with_json_prints_one_object_with_what_scripts_ask_for(capsys, tmp
     assert sum(facts["summary"]["messages"].values()) == open_bag(out).count()
 
 
-def test_a_write_that_fails_during_a_run_ends_it_with_status_3_and_says_so(capsys, tmp_path, monkeypatch):
+def test_a_write_that_fails_during_a_run_ends_it_with_status_3_and_a_sentence(capsys, tmp_path, monkeypatch):
     written = BagWriter.write
 
     def write(self, topic, *arguments, **named):
@@ -78,7 +78,7 @@ def test_a_write_that_fails_during_a_run_ends_it_with_status_3_and_says_so(capsy
     assert "no space left on device" in said
 
 
-def test_a_run_that_fails_says_so_in_its_json(capsys, tmp_path, monkeypatch):
+def test_a_run_that_fails_has_its_failure_in_its_json(capsys, tmp_path, monkeypatch):
     advanced = Simulation.advance
 
     def advance(self, block, inputs):
@@ -122,7 +122,7 @@ def clipped_recording(tmp_path):
 
 
 @pytest.mark.parametrize("record", [True, False])
-def test_a_run_says_what_was_found_in_its_recording(capsys, tmp_path, clipped_recording, record):
+def test_a_run_reports_the_findings_in_its_recording(capsys, tmp_path, clipped_recording, record):
     kept = ["--out", str(tmp_path / "bag")] if record else ["--no-record"]
     arguments = ["run", "seat_ride", "--vibration", str(clipped_recording), "--rate", "476", *OFFLINE, *kept]
     assert bench_main(arguments) == 0
@@ -161,7 +161,7 @@ def test_the_scene_of_a_bag_runs_again_with_a_value_changed(capsys, tmp_path):
 
 
 @pytest.mark.parametrize("assignment", ["seed=7", "vibration.sample_rate=500", "block_length=0.02"])
-def test_what_made_the_excitation_of_a_bag_cannot_be_changed(capsys, tmp_path, assignment):
+def test_the_keys_of_a_recorded_excitation_cannot_be_changed(capsys, tmp_path, assignment):
     first, again = tmp_path / "first", tmp_path / "again"
     bench_main(["run", "seat_ride", *OFFLINE, "--out", str(first)])
     capsys.readouterr()
@@ -287,7 +287,7 @@ def test_a_replay_that_would_begin_after_the_end_of_its_bag_is_refused(tmp_path)
     assert "begin before its end" in ended.stderr + ended.stdout
 
 
-def test_a_run_on_nodes_says_where_ros_is_missing(tmp_path):
+def test_a_run_on_nodes_names_missing_ros(tmp_path):
     blocker = tmp_path / "rclpy.py"
     blocker.write_text("raise ModuleNotFoundError(\"No module named 'rclpy'\", name='rclpy')\n")
     ended = bench("run", "seat_ride", cwd=tmp_path)  # -m puts the current folder first on the path

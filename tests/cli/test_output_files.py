@@ -55,7 +55,7 @@ def test_a_file_of_somebody_else_stays_as_it_is(bag, tmp_path, capsys, output):
 
 
 @pytest.mark.parametrize("name", ["impacts.csv", "impacts_groups.csv"])
-def test_impacts_are_never_written_over_even_when_asked_to(bag, tmp_path, capsys, name):
+def test_impacts_are_never_overwritten_even_on_request(bag, tmp_path, capsys, name):
     given = tmp_path / name
     given.write_text(IMPACTS)
     arguments = ["material", str(given), "--csv", str(tmp_path / "impacts.csv"), "--overwrite"]
@@ -64,7 +64,7 @@ def test_impacts_are_never_written_over_even_when_asked_to(bag, tmp_path, capsys
     assert given.read_text() == IMPACTS
 
 
-def test_tables_and_pictures_are_written_over_where_that_is_asked_for(bag, tmp_path, capsys):
+def test_tables_and_pictures_are_overwritten_on_request(bag, tmp_path, capsys):
     for output, name in ((("material", "table"), "a.csv"), (("material", "plot"), "a.png")):
         file = tmp_path / name
         file.write_text("old")

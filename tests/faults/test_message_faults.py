@@ -111,7 +111,7 @@ def test_bad_blocks_are_dropped_and_named_and_leave_the_bits_alone(scene, nodes,
     stand_in.wait_ready(2)
     send(stand_in, source, range(BLOCKS), before=bad)
     assert nodes.wait() == {"bag_logger": 0, "contact_simulator": 0}
-    assert any("NaN or infinite" in line and "dropped" in line for line in nodes.said)
+    assert any("NaN or infinite" in line and "dropped" in line for line in nodes.printed)
     bad_blocks = sum(4 if number else 3 for number in range(0, BLOCKS, 5))
     assert open_bag(nodes.bag).metadata["dropped platform/vibration"] == str(bad_blocks)
     run_offline(scene, tmp_path / "offline")
@@ -137,7 +137,7 @@ def test_a_second_publisher_of_an_input_is_refused_before_ready(nodes, stand_in)
     nodes.start("vibration")
     nodes.start("contact_simulator")
     assert nodes.wait("contact_simulator") == {"contact_simulator": 2}
-    refusal = next(line for line in nodes.said if "publishers" in line)
+    refusal = next(line for line in nodes.printed if "publishers" in line)
     assert "platform/vibration has 2 publishers (/vibration, /vibration)" in refusal
     assert "ROS_DOMAIN_ID" in refusal
     assert not nodes.bag.exists()
@@ -205,7 +205,7 @@ def test_a_second_publisher_of_a_result_is_refused_before_ready(nodes, stand_in)
     with StandIn("intruder", "seat/force"):
         nodes.start("contact_simulator", record=False)
         assert nodes.wait("contact_simulator") == {"contact_simulator": 2}
-    assert any("seat/force has 2 publishers" in line and "intruder" in line for line in nodes.said)
+    assert any("seat/force has 2 publishers" in line and "intruder" in line for line in nodes.printed)
 
 
 @pytest.mark.fault("B9")
@@ -219,4 +219,4 @@ def test_an_input_of_another_message_definition_is_refused(nodes):
         other.entry = other.node.create_publisher(message, "platform/vibration", 10)
         nodes.start("contact_simulator")
         assert nodes.wait("contact_simulator") == {"contact_simulator": 2}
-    assert any("another definition" in line for line in nodes.said)
+    assert any("another definition" in line for line in nodes.printed)

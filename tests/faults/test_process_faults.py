@@ -163,13 +163,13 @@ def test_a_stopped_logger_is_named_and_loses_nothing_when_it_goes_on(tmp_path):
         nodes.start("vibration")
         nodes.wait_until(lambda: recorded_bytes(nodes.bag) > 30_000)
         logger.process.send_signal(signal.SIGSTOP)
-        wait_until(lambda: any("the logger has not answered for block" in line for line in nodes.said))
+        wait_until(lambda: any("the logger has not answered for block" in line for line in nodes.printed))
         time.sleep(1.0)
         logger.process.send_signal(signal.SIGCONT)
         assert nodes.wait() == {"bag_logger": 0, "contact_simulator": 1, "vibration": 0}
     finally:
         nodes.end()
-    assert not [line for line in nodes.said if "is missing" in line]
+    assert not [line for line in nodes.printed if "is missing" in line]
     bag = open_bag(nodes.bag)
     assert bag.complete
     assert "the logger has not answered" in bag.metadata["failure"]
@@ -241,7 +241,7 @@ def test_nodes_without_a_supervisor_close_the_bag_when_all_are_interrupted(tmp_p
     finally:
         nodes.end()
     assert open_bag(nodes.bag).complete
-    assert not [line for line in nodes.said if "Traceback" in line]
+    assert not [line for line in nodes.printed if "Traceback" in line]
 
 
 @pytest.mark.fault("G1")

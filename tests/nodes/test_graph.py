@@ -56,9 +56,9 @@ def test_two_benches_in_two_namespaces_have_one_clock_and_diagnostics_of_their_o
     stamps = [tick.clock.sec * 10**9 + tick.clock.nanosec for tick in ticks]
     assert len(stamps) > 50
     assert stamps == sorted(set(stamps))
-    said = [line for nodes in rigs for line in nodes.said if "this run publishes none" in line]
-    assert len(said) == 1
-    assert "/clock comes from /rig" in said[0]
+    printed = [line for nodes in rigs for line in nodes.printed if "this run publishes none" in line]
+    assert len(printed) == 1
+    assert "/clock comes from /rig" in printed[0]
     found = {(report.status[0].name, report.status[0].message): report.status[0] for report in reports}
     for name in ("rig1", "rig2"):
         running, done = (found[f"{name}/contact_simulator: run", state] for state in ("running", "finished"))
@@ -83,10 +83,10 @@ def test_a_clock_of_another_node_is_left_alone(listen, tmp_path):
         finally:
             nodes.end()
     assert ticks == []
-    assert sum("/clock comes from /gazebo; this run publishes none" in line for line in nodes.said) == 1
+    assert sum("/clock comes from /gazebo; this run publishes none" in line for line in nodes.printed) == 1
 
 
-def test_diagnostics_come_once_a_second_and_at_each_change_and_remember_a_warning_for_five_seconds(monkeypatch):
+def test_diagnostics_are_sent_once_a_second_and_at_each_change_and_show_a_warning_for_five_seconds(monkeypatch):
     from builtin_interfaces.msg import Time
 
     from contact_sim_pkg.nodes import diagnostics

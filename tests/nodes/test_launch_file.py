@@ -119,7 +119,7 @@ def process_of(parent: int, node: str) -> int | None:
 
 @needs_ros
 @needs_launch
-def test_launch_says_where_the_run_stands_and_ends_with_0_and_then_refuses_the_bag(tmp_path):
+def test_launch_logs_the_progress_and_ends_with_0_and_then_refuses_the_bag(tmp_path):
     ended = [start_launch(tmp_path, duration=0.3, pace="max").communicate(timeout=LONGEST)[0] for _ in range(2)]
     for sentence in ("compiling", "ready", f"bag: {tmp_path / 'bag'}", "finished after 0.3 s"):
         assert sum(sentence in line for line in ended[0].splitlines()) == 1, ended[0]
@@ -131,16 +131,16 @@ def test_launch_says_where_the_run_stands_and_ends_with_0_and_then_refuses_the_b
 @needs_ros
 @needs_launch
 @pytest.mark.parametrize(("node", "number", "status"), [("bag_logger", 9, 1), ("contact_simulator", 9, 1), ("", 2, 0)])
-def test_the_status_of_launch_tells_a_killed_node_from_an_interrupt(tmp_path, node, number, status):
+def test_the_status_of_launch_distinguishes_a_killed_node_from_an_interrupt(tmp_path, node, number, status):
     process = start_launch(tmp_path, duration=60)
     try:
         file = tmp_path / "bag" / "bag_0.mcap"
         wait_until(lambda: process.poll() is not None or (file.exists() and file.stat().st_size > 30_000))
         os.kill(process_of(process.pid, node) if node else process.pid, signal.Signals(number))
-        said, _ = process.communicate(timeout=LONGEST)
+        printed, _ = process.communicate(timeout=LONGEST)
     finally:
         if process.poll() is None:
             os.killpg(process.pid, signal.SIGKILL)
-    assert process.returncode == status, said
-    assert (f"{node}-" in said and "ended with status -9; the run has failed" in said) == bool(node)
+    assert process.returncode == status, printed
+    assert (f"{node}-" in printed and "ended with status -9; the run has failed" in printed) == bool(node)
     assert open_bag(tmp_path / "bag").count("seat/force") > 0

@@ -71,8 +71,8 @@ def test_a_subscriber_that_is_there_gets_every_byte_from_the_first_on(bag, repla
     assert nodes.wait() == {"bag_replay": 0}
     assert (forces, scene) == (recorded(bag, "seat/force"), recorded(bag, "bench/scene"))
     count = open_bag(bag).count()
-    assert f"{count} of {count} messages went out" in nodes.said[-1]
-    assert any("2 subscriptions on 2 of 7 topics" in line for line in nodes.said)
+    assert f"{count} of {count} messages went out" in nodes.printed[-1]
+    assert any("2 subscriptions on 2 of 7 topics" in line for line in nodes.printed)
 
 
 def test_a_subscriber_that_cannot_be_served_is_named_and_not_waited_for(bag, replay, listener):
@@ -92,13 +92,13 @@ def test_a_subscriber_that_cannot_be_served_is_named_and_not_waited_for(bag, rep
     listener.spin_until(nodes.ended)
     assert len(kept) == 2
     assert time.monotonic() - began < 9.0
-    assert [line.split(": ", 1)[1] for line in nodes.said if "gets nothing" in line] == [
+    assert [line.split(": ", 1)[1] for line in nodes.printed if "gets nothing" in line] == [
         "/listener gets nothing of /seat/force: it asks for a transient-local topic, the topic was recorded as volatile"
     ]
-    assert any("1 subscriptions on 1 of 7 topics" in line for line in nodes.said)
+    assert any("1 subscriptions on 1 of 7 topics" in line for line in nodes.printed)
 
 
-def test_a_service_pauses_and_goes_on_where_it_stood(bag, replay, listener):
+def test_a_service_pauses_and_resumes_at_the_same_message(bag, replay, listener):
     from std_srvs.srv import SetBool
 
     forces = listener.hear("seat/force")
@@ -140,16 +140,16 @@ def test_the_command_remaps_begins_at_a_message_shows_progress_and_pauses_by_the
         os.write(first, b" ")
         listener.spin_until(lambda: len(forces) > 45)  # 40 a pass
         process.send_signal(signal.SIGINT)
-        _, said = process.communicate(timeout=LONGEST)
+        _, printed = process.communicate(timeout=LONGEST)
     finally:
         process.kill()
         os.close(first)
         os.close(second)
-    assert process.returncode == 0, said
+    assert process.returncode == 0, printed
     expected = recorded(bag, "seat/force")[10:]
     assert forces == (expected * 2)[: len(forces)]
-    assert "space: pause" in said
-    assert "of 40 messages went out in pass 2" in said
+    assert "space: pause" in printed
+    assert "of 40 messages went out in pass 2" in printed
 
 
 def take_terminal() -> None:

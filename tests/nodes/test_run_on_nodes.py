@@ -44,7 +44,7 @@ def test_nodes_started_in_any_order_record_the_same_bits_as_offline(seat, offlin
     finally:
         nodes.end()
     assert messages(nodes.bag) == offline_seat
-    assert [line for line in nodes.said if "Traceback" in line or "ERROR" in line] == []
+    assert [line for line in nodes.printed if "Traceback" in line or "ERROR" in line] == []
 
 
 def test_the_full_bench_on_five_processes_under_load_records_the_same_bits_as_offline(tmp_path):

@@ -34,7 +34,7 @@ def test_two_runs_write_the_same_messages_in_the_same_order(bag, tmp_path):
     assert recorded(bag) == recorded(tmp_path / "second")
 
 
-def test_the_bag_is_in_order_of_stamps_and_holds_its_scene(bag):
+def test_the_bag_is_in_order_of_stamps_and_has_its_scene(bag):
     opened = open_bag(bag)
     times = [message.log_time for message in opened.messages()]
     assert times == sorted(times)
@@ -72,7 +72,7 @@ def test_a_run_that_is_stopped_while_it_is_set_up_creates_nothing(tmp_path):
     assert not (tmp_path / "bag").exists()
 
 
-def test_a_fault_of_the_program_itself_is_told_by_the_bag_that_it_leaves(tmp_path):
+def test_a_fault_of_the_program_itself_is_named_in_the_bag_that_it_leaves(tmp_path):
     """A source that raises what no source should, at its fourth block."""
 
     class Faulty:

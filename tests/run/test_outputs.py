@@ -32,17 +32,17 @@ def test_a_wrench_is_the_resultant_of_its_sample_impulses_included():
     assert rows[-1].stamp == STAMPS.at(9)
 
 
-def test_the_residual_is_what_was_supplied_and_is_nowhere():
+def test_the_residual_is_supplied_energy_that_is_nowhere():
     ledger = energy_ledger(3, kinetic=1.0, potential=2.0, stored=4.0, dissipated=8.0, supplied=16.0)
     assert ledger.residual == 1.0
 
 
-def test_columns_of_cost_that_are_not_given_are_zero():
+def test_missing_columns_of_cost_are_zero():
     cost = solver_cost(STAMPS, 0.005, steps=7)
     assert (cost.real_time_factor, cost.steps, cost.stretches, cost.field_residual) == (2.0, 7, 0, 0.0)
 
 
-def test_the_largest_of_a_column_is_taken_over_all_topics_of_its_kind():
+def test_the_largest_of_a_column_is_over_all_topics_of_its_kind():
     outputs = [Output("tire/force", 0, force()), Output("seat/force", 0, force(normal=numpy.full(12, 50.0)))]
     assert largest(outputs, "force", "normal") == 50.0
     assert largest(outputs, "patch", "peak") == 0.0

@@ -18,7 +18,7 @@ def test_a_sine_that_its_samples_follow_to_the_accuracy_has_no_note():
 
 
 @pytest.mark.parametrize(("values", "rate"), [(["accuracy=1e-6"], 12_500), (["vibration.frequency=40"], 4000)])
-def test_the_largest_gap_between_a_sine_and_its_straight_lines_is_told_with_the_cure(values, rate):
+def test_the_largest_gap_between_a_sine_and_its_straight_lines_is_reported_with_the_cure(values, rate):
     (note,) = notes(*values)
     frequency = 40.0 if rate == 4000 else 5.25
     time = numpy.linspace(0.0, 1e-3, 2001) - 0.5e-3  # about a crest

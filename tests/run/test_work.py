@@ -61,7 +61,7 @@ def test_the_time_that_a_run_lasts_anyway_is_no_reason_to_refuse_it():
     assert refuse_long(resolved("seat_ride", "duration=3600"), allowed=False) != ""
 
 
-def test_the_estimate_counts_the_steps_that_a_stiff_contact_takes():
+def test_the_estimate_counts_the_steps_of_a_stiff_contact():
     scene = resolved("seat_ride", "duration=0.1", "effects.seat.normal_elastic.coefficient=1e12")
     expected = {part.what: part.number for part in estimated_work(scene)}
     simulation, source = make_simulation(scene), make_sources(scene)["platform/vibration"]

@@ -43,7 +43,7 @@ def serialize(message: Any, type_name: str) -> bytes:
 
 
 def deserialize(type_name: str, data: bytes) -> Any:
-    """The decoded message; its arrays are views of the bytes. MessageError where they are not one."""
+    """The decoded message; its arrays are views of the bytes. MessageError for other bytes."""
     try:
         return installed_types().deserialize_cdr(data, type_name)
     except (SerdeError, struct.error, ValueError, IndexError, AssertionError) as error:

@@ -89,7 +89,7 @@ class Bag:
         return ", ".join(parts)
 
     def _take_texts(self) -> None:
-        """Set `metadata` and `scene`; BagError, or a note with `skip_bad`, where they do not hold."""
+        """Set `metadata` and `scene`; BagError, or a note with `skip_bad`, for damaged ones."""
         ours = [record for record in self._layout.records if record.name in (RECORD, OUTCOME)]
         for record, texts in zip(ours, unsealed([record.metadata for record in ours]), strict=True):
             if texts is None:

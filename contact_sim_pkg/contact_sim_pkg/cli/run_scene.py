@@ -144,7 +144,7 @@ def _report_work(scene: ResolvedScene, allow_long: bool) -> None:
 
 
 def _forecast(scene: ResolvedScene) -> dict[str, Any]:
-    """Forecast of the rig before the run: one line on standard error, and the numbers of `--json`."""
+    """Forecast of the rig before the run: a line on standard error, and the numbers of `--json`."""
     from contact_sim_pkg.run.rigs import forecast_of
 
     found = forecast_of(scene)

@@ -1,4 +1,4 @@
-"""The node of the recording: writes the messages of whole blocks in canonical order, and answers."""
+"""The node of the recording: writes the messages of whole blocks in canonical order."""
 
 from __future__ import annotations
 

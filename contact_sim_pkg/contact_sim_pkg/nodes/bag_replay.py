@@ -1,4 +1,4 @@
-"""The node of the replay: publishes a bag with its recorded spacing, bytes and quality of service."""
+"""The node of the replay: publishes a bag with recorded spacing, bytes and quality of service."""
 
 from __future__ import annotations
 
@@ -31,7 +31,7 @@ DELAY_TEXT = "Least time before the first message, in s; matched subscribers are
 
 
 class BagReplayNode(LifecycleBenchNode):
-    """Publishes the topics of a bag; their names count from the node's namespace. Offers `~/pause`."""
+    """Publishes the topics of a bag below the node's namespace. Offers `~/pause`."""
 
     def __init__(self, show: Callable[[ReplayProgress], None] | None = None) -> None:
         """Declare the parameters; `show` is called with the progress, in place of the log."""

@@ -1,4 +1,4 @@
-"""The simulator's `/clock`: one source in the graph, since of several a subscriber gets jumps back."""
+"""The simulator's `/clock`: one source in the graph, since several give jumps back in time."""
 
 from __future__ import annotations
 

@@ -23,7 +23,7 @@ from contact_sim_pkg.run.rigs import make_simulation
 
 CLOCK_TEXT = "Publish the simulated time on /clock after each block."
 PEERS_SECONDS = 0.01  # between two looks at the graph before ready
-CLOSE_SECONDS = 1.0  # for the logger to close its bag, where a block that is computed does not come back
+CLOSE_SECONDS = 1.0  # for the logger to close its bag, where the computation of a block does not return
 
 
 class ContactSimulatorNode(LifecycleBenchNode):
@@ -118,11 +118,11 @@ class ContactSimulatorNode(LifecycleBenchNode):
             self.exit_status = status
 
     def stop(self) -> None:
-        """End the run after the block that is done; a second signal does not wait for the logger."""
+        """End the run after the block done last; a second signal does not wait for the logger."""
         self.exit_status = DONE if self._run is None else self._run.stop(time.monotonic())
 
     def fault(self, sentence: str, exit_status: int) -> None:
-        """End the run as FAILED, so that the logger closes its bag; before ready, end the process."""
+        """End the run as FAILED: the logger closes its bag; before ready, end the process."""
         self.get_logger().error(sentence)
         if self._run is None or not self._run.end(RunState.FAILED, sentence, time.monotonic(), exit_status):
             self.exit_status = exit_status
@@ -132,7 +132,7 @@ class ContactSimulatorNode(LifecycleBenchNode):
         return bool(self._computing.abandon())
 
     def _leave_computation(self) -> bool:
-        """End the run at the user's request, where the block that is computed does not come back."""
+        """End the run at the user's request, where the computation of a block does not return."""
         if self._run is not None and self._run.stop(time.monotonic()) is None:
             self._run.report.settle()
             limit = time.monotonic() + CLOSE_SECONDS  # the middleware acknowledges for a process that is there

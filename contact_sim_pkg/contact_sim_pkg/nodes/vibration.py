@@ -1,4 +1,4 @@
-"""The node of the vibration: sends the acceleration samples of each block on `platform/vibration`."""
+"""The node of the vibration: sends the accelerations of each block on `platform/vibration`."""
 
 from __future__ import annotations
 

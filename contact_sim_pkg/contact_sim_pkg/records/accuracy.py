@@ -51,9 +51,7 @@ INTEGRATOR = AccuracyPart("integrator", "time integration, point contacts: error
 
 
 def field_parts(contact: str) -> tuple[AccuracyPart, ...]:
-    """Parts of the pressure field of a contact: solver, grid, and the check against another
-    code.
-    """
+    """Parts of the pressure field of a contact: solver, grid, check against another code."""
     panel = f"{contact} field"
     return (
         AccuracyPart("field solver", f"{panel}, error of the solver", panel, contact=contact),

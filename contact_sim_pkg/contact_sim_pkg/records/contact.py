@@ -49,9 +49,7 @@ class Contact:
         return next(effect.name for effect in self.effects if effect.carries)
 
     def published(self, scene: Mapping[str, Any]) -> list[str]:
-        """Topics of the contact that the plain data of a resolved scene calls for, by whole
-        name.
-        """
+        """Whole names of the topics that the plain data of a resolved scene calls for."""
         keys, named = scene.get(self.name) or {}, scene["effects"].get(self.name) or {}
         return [f"{self.name}/{topic.name}" for topic in self.topics if self._calls_for(topic, keys, named)]
 

@@ -49,7 +49,7 @@ def test_a_bag_that_was_closed_is_left_as_it_is(tmp_path):
     assert (tmp_path / "bag" / "metadata.yaml").read_bytes() == before
 
 
-def test_what_is_no_bag_gets_no_metadata(tmp_path):
+def test_a_file_that_is_no_bag_gets_no_metadata(tmp_path):
     assert leave_metadata(tmp_path, OUTCOME) == ""
     assert list(tmp_path.iterdir()) == []
 

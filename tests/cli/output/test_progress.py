@@ -14,7 +14,7 @@ def test_a_pressure_is_shown_where_there_is_one(capsys, monkeypatch, peak, shown
     assert capsys.readouterr().err == f"0.50 of 2 s, 1.25x real time, {shown}\n"
 
 
-def test_a_replay_that_is_held_shows_the_text_of_now_and_calls_its_items_messages(capsys, monkeypatch):
+def test_a_paused_replay_shows_its_current_text_and_calls_its_items_messages(capsys, monkeypatch):
     monkeypatch.setattr(progress, "PLAIN_SECONDS", 0.0)
     with progress.RunDisplay(2.0, "waiting for the subscribers", "message") as display:
         display.update(0.5, "9 of 20 messages")

@@ -20,13 +20,13 @@ IGNORES = "import signal, sys, time\nsignal.signal(15, signal.SIG_IGN)\nprint('u
 
 
 @pytest.fixture
-def said():
+def printed():
     return []
 
 
 @pytest.fixture
-def children(said):
-    started = Children(os.environ, said.append)
+def children(printed):
+    started = Children(os.environ, printed.append)
     yield started
     started.end(grace=0.0)
 
@@ -59,18 +59,18 @@ def test_a_process_that_ends_well_has_not_fallen(children):
     assert children.first_failed() is None
 
 
-def test_processes_are_ended_in_reverse_order(children, said):
+def test_processes_are_ended_in_reverse_order(children, printed):
     for name in ("first", "second", "third"):
         children.start(name, [sys.executable, "-c", CATCHES, name])
-    until(lambda: said.count("up") == 3)
+    until(lambda: printed.count("up") == 3)
     assert children.end() == []
-    until(lambda: len(said) == 6)  # the last words come through a pipe
-    assert said[3:] == ["third", "second", "first"]
+    until(lambda: len(printed) == 6)  # the last words come through a pipe
+    assert printed[3:] == ["third", "second", "first"]
 
 
-def test_a_process_that_does_not_end_is_killed_and_named(children, said):
+def test_a_process_that_does_not_end_is_killed_and_named(children, printed):
     children.start("deaf", [sys.executable, "-c", IGNORES])
-    until(lambda: said == ["up"])
+    until(lambda: printed == ["up"])
     assert children.end(grace=0.1) == ["deaf"]
     assert children.all_ended()
 
@@ -111,10 +111,10 @@ def test_only_the_segments_that_nobody_uses_are_removed(monkeypatch):
         ("another", ["INFO a: begun", "ERROR a: no block 3", "[FATAL] [1.0] [b]: lost"]),
     ],
 )
-def test_an_error_that_is_the_failure_of_the_run_is_not_said_twice(failure, expected):
-    said: list[str] = []
-    lines = ErrorLines(said.append)
+def test_an_error_that_is_the_failure_of_the_run_is_not_printed_twice(failure, expected):
+    printed: list[str] = []
+    lines = ErrorLines(printed.append)
     for line in ("ERROR a: no block 3", "INFO a: begun", "[FATAL] [1.0] [b]: lost"):
         lines.add(line)
     lines.release(failure)
-    assert said == expected
+    assert printed == expected

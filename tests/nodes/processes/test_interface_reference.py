@@ -45,7 +45,7 @@ def test_a_document_without_marks_is_refused():
         with_tables("# Interfaces\n", TEXT)
 
 
-def test_every_topic_and_every_message_stands_in_the_tables():
+def test_every_topic_and_every_message_is_in_the_tables():
     assert list(rows()) == list(TOPICS)
     shipped = {path.name[:-4] for path in (files("contact_sim_pkg") / "msg").iterdir() if path.name.endswith(".msg")}
     assert {name.rpartition("/")[2] for name in own_types()} == shipped
@@ -62,7 +62,7 @@ def test_the_keys_of_a_rate_are_keys_of_a_scene():
 
 
 @pytest.mark.parametrize("name", shipped_names())
-def test_the_topics_of_a_scene_appear_where_the_table_says(name):
+def test_the_topics_of_a_scene_appear_as_in_the_table(name):
     scene = resolved(name)
     effects = {effect for each in scene.data["effects"].values() for effect in each}
     for topic in recorded_names(scene):
@@ -74,7 +74,7 @@ def test_the_topics_of_a_scene_appear_where_the_table_says(name):
         assert not needed or needed & effects
 
 
-def test_a_bag_holds_as_many_messages_as_the_rates_say(tmp_path):
+def test_the_counts_of_messages_in_a_bag_follow_from_the_rates(tmp_path):
     values = ("duration=0.05", "outputs.display_rate=200", "outputs.field_rate=500", "effects.seat.pressure_mat={}")
     run_offline(resolved("seat_ride", *values), tmp_path / "bag")
     bag, counted = open_bag(tmp_path / "bag"), 0

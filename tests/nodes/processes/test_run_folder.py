@@ -117,7 +117,7 @@ def test_processes_of_a_killed_supervisor_that_end_together_leave_nothing(root, 
     assert left(root) == {"fastrtps_other"}
 
 
-def test_a_segment_whose_owner_holds_its_lock_is_left_alone(root):
+def test_a_segment_whose_owner_has_its_lock_is_left_alone(root):
     with (root / "shm" / "fastrtps_ours_el").open("r+b") as held:
         fcntl.flock(held, fcntl.LOCK_EX)
         assert shared_memory.remove_unused({"fastrtps_ours"}) == []

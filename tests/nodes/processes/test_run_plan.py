@@ -29,7 +29,7 @@ def test_a_car_has_both_and_no_logger_where_nothing_is_recorded():
     assert names("car_full_bench", None) == ["road_profile", "vibration", "contact_simulator"]
 
 
-def test_the_excitation_of_a_bag_is_asked_of_the_excitation_nodes_alone():
+def test_the_excitation_of_a_bag_is_a_parameter_of_the_excitation_nodes_alone():
     nodes = planned_nodes(resolved("car_full_bench"), SCENE, Path("bag"), Path("/bags/first"))
     asked = {node.name for node in nodes if node.parameters.get("from_bag") == "/bags/first"}
     assert asked == {"road_profile", "vibration"}
@@ -52,7 +52,7 @@ def test_a_node_reads_the_scene_that_was_resolved_to_the_bit(tmp_path):
     assert count_blocks(again) == 37
 
 
-def test_queues_hold_eight_blocks_of_the_fastest_single_messages():
+def test_queues_are_eight_blocks_of_the_fastest_single_messages_deep():
     assert queue_depth(resolved("car_full_bench", "outputs.field_rate=200")) == 16
 
 

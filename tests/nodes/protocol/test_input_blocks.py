@@ -16,7 +16,7 @@ def inputs():
     return InputBlocks([ROAD, VIBRATION], LENGTH, 1000)
 
 
-def test_blocks_are_taken_when_every_input_has_the_next_one(inputs):
+def test_blocks_are_released_when_every_input_has_the_next_one(inputs):
     assert inputs.offer(VIBRATION, vibration(0)) == ""
     assert inputs.next_blocks() is None
     assert inputs.offer(ROAD, road(0)) == ""
@@ -35,7 +35,7 @@ def test_a_missing_block_is_named_with_its_input_and_the_last_good_one(inputs):
 
 
 @pytest.mark.parametrize("value", [float("nan"), float("inf"), -float("inf")])
-def test_a_block_with_a_value_that_is_not_finite_is_dropped_and_a_good_one_taken_later(inputs, value):
+def test_a_block_with_a_value_that_is_not_finite_is_dropped_and_a_good_one_accepted_later(inputs, value):
     reason = inputs.offer(VIBRATION, vibration(0, value=value))
     assert "platform/vibration" in reason
     assert "NaN or infinite" in reason
@@ -65,7 +65,7 @@ def test_number_and_stamp_must_agree(inputs):
     assert "stamped 0 ns instead of 30000000 ns" in inputs.offer(VIBRATION, vibration(3, stamp=0))
 
 
-def test_bytes_that_hold_no_block_are_dropped(inputs):
+def test_bytes_that_are_no_block_are_dropped(inputs):
     assert inputs.offer(VIBRATION, b"\0\1\0\0 no block") != ""
     assert inputs.offer(VIBRATION, b"") != ""
     assert inputs.dropped[VIBRATION] == 2
@@ -103,7 +103,7 @@ def test_a_block_beyond_the_scene_is_refused():
 
 
 @pytest.mark.fault("B4")
-def test_shuffled_and_repeated_blocks_are_taken_in_order_once():
+def test_shuffled_and_repeated_blocks_are_released_in_order_once():
     inputs = InputBlocks([VIBRATION], LENGTH, 60)
     numbers = [*range(60), *range(60)]
     random.Random(1).shuffle(numbers)

@@ -33,9 +33,9 @@ class Run:
 
 
 def test_a_logger_that_does_not_answer_is_named_and_the_source_that_waits_for_it_is_not():
-    said = Run(done=12, recorded=8).who()
-    assert said.startswith("the logger has not answered for block 9")
-    assert VIBRATION not in said
+    printed = Run(done=12, recorded=8).who()
+    assert printed.startswith("the logger has not answered for block 9")
+    assert VIBRATION not in printed
 
 
 @pytest.mark.fault("B5")

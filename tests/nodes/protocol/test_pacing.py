@@ -13,7 +13,7 @@ def test_a_pace_is_a_word_or_a_factor(text, factor):
 
 
 @pytest.mark.parametrize("text", ["fast", "0", "-1", "nan", "inf", "1001"])
-def test_another_pace_is_refused_with_what_is_allowed(text):
+def test_another_pace_is_refused_with_the_allowed_ones(text):
     with pytest.raises(ValueError, match=r"allowed: realtime, max, or a factor from 0.001 to 1000"):
         parse_pace(text)
 
@@ -52,12 +52,14 @@ def lateness():
 
 
 @pytest.mark.fault("C3")
-def test_blocks_done_late_are_counted_and_said_after_a_hundred_in_a_row(lateness):
-    said = [lateness.block_done(block, 100.0 + 0.016 * (block + 1), 0.625) for block in range(140)]
+def test_blocks_done_late_are_counted_and_reported_after_a_hundred_in_a_row(lateness):
+    printed = [lateness.block_done(block, 100.0 + 0.016 * (block + 1), 0.625) for block in range(140)]
     late = [block for block in range(140) if 0.016 * (block + 1) > 0.01 * (block + 2)]
     assert lateness.late == len(late)
-    assert [block for block, text in enumerate(said) if text] == late[99:]
-    assert said[-1] == f"slower than its pace: 0.62x real time, 0.83 s behind after block 139 ({len(late)} blocks late)"
+    assert [block for block, text in enumerate(printed) if text] == late[99:]
+    assert (
+        printed[-1] == f"slower than its pace: 0.62x real time, 0.83 s behind after block 139 ({len(late)} blocks late)"
+    )
 
 
 @pytest.mark.fault("C3")

@@ -59,7 +59,7 @@ def test_each_message_comes_when_it_is_due_and_the_count_is_whole(rate):
     assert (player.progress(3.0).sent, player.messages) == (18, 18)
 
 
-def test_a_begin_passes_over_all_but_what_is_latched():
+def test_a_begin_skips_all_but_latched_messages():
     player = Player(Recorded(), ALL, ["/text"], start=0.05)
     player.resume(0.0)
     came = [message for _, message in play(player, 0.1)]
@@ -77,7 +77,7 @@ def test_a_begin_at_a_message_counts_among_those_replayed(number):
     assert came[0][0] == 7.0
 
 
-def test_a_pause_holds_the_recorded_time():
+def test_a_pause_stops_the_recorded_time():
     player = Player(Recorded(), ("/a",), [])
     player.resume(0.0)
     assert len(play(player, 0.042)) == 5
@@ -89,7 +89,7 @@ def test_a_pause_holds_the_recorded_time():
     assert [now for now, _ in play(player, 0.1, begin=10.0)] == pytest.approx([10.005 + 0.01 * n for n in range(6)])
 
 
-def test_a_loop_begins_again_with_what_is_latched():
+def test_a_loop_begins_again_with_the_latched_messages():
     player = Player(Recorded(), ALL, ["/text"], loop=True)
     player.resume(0.0)
     came = [message for _, message in play(player, 0.3499)]

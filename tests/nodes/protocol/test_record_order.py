@@ -60,7 +60,7 @@ def test_any_order_of_arrival_gives_the_canonical_order():
         assert order.missing() == 0
 
 
-def test_a_block_is_held_back_until_its_excitation_and_its_last_message_are_there():
+def test_a_block_waits_for_its_excitation_and_its_last_message():
     order = RecordOrder([VIBRATION], LENGTH)
     order.on_progress(0, 4)
     for topic, data in results(0):
@@ -88,13 +88,13 @@ def test_excitation_that_was_not_simulated_stays_out_of_the_bag():
     assert order.release_rest() == []
 
 
-def test_a_block_of_excitation_that_comes_twice_is_held_once():
+def test_a_repeated_block_of_excitation_is_kept_once():
     order = RecordOrder([VIBRATION], LENGTH)
     assert order.add(VIBRATION, vibration(0))
     assert not order.add(VIBRATION, vibration(0))
 
 
-def test_what_is_left_after_a_loss_is_given_out_and_the_loss_counted():
+def test_the_rest_after_a_loss_is_released_and_the_loss_counted():
     order = RecordOrder([VIBRATION], LENGTH)
     for topic, data in everything(3)[:-1]:
         order.add(topic, data)
@@ -106,7 +106,7 @@ def test_what_is_left_after_a_loss_is_given_out_and_the_loss_counted():
 
 
 @pytest.mark.fault("B6")
-def test_the_logger_holds_no_more_blocks_to_come_than_the_simulator():
+def test_the_logger_keeps_no_more_blocks_ahead_than_the_simulator():
     order = RecordOrder([VIBRATION], LENGTH)
     kept = [order.add(VIBRATION, vibration(block)) for block in range(1000)]
     assert kept.count(True) == FARTHEST_AHEAD

@@ -29,7 +29,7 @@ def test_a_run_that_finished_has_no_failure():
     assert outcome == {"ended": "finished", "blocks_done": "100", "failure": ""}
 
 
-def test_the_death_of_a_node_is_the_failure_whatever_the_simulator_was_told():
+def test_the_end_of_a_node_is_the_failure_whatever_the_simulator_reported():
     reason = "vibration was ended by SIGKILL; it said nothing"
     outcome = outcome_of(followed(RunState.READY, RunState.STOPPED, message="stopped by the user"), 7, reason=reason)
     assert outcome == {"ended": "failed", "blocks_done": "7", "failure": reason}
@@ -40,12 +40,12 @@ def test_a_fault_that_the_simulator_names_is_the_failure():
     assert (outcome["ended"], outcome["failure"]) == ("failed", "block 3 is missing")
 
 
-def test_a_recording_whose_simulator_fell_silent_says_so():
+def test_a_recording_names_a_simulator_that_fell_silent():
     outcome = outcome_of(followed(RunState.READY, RunState.RUNNING), 1)
     assert (outcome["ended"], outcome["failure"]) == ("stopped", UNREPORTED)
 
 
-def test_what_never_came_and_what_was_left_out_is_counted():
+def test_missing_messages_and_those_left_out_are_counted():
     outcome = outcome_of(followed(RunState.READY, RunState.FINISHED), 97, lacking=3, counts={"foreign road/patch": 12})
     assert outcome["lacking"] == "3 messages of the blocks done never came"
     assert outcome["foreign road/patch"] == "12"

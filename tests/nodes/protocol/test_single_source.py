@@ -21,14 +21,14 @@ def test_messages_that_one_publisher_lost_by_overrunning_a_queue_leave_it_the_so
 
 
 @pytest.mark.parametrize("numbers", [[1], [3], [4], [90], [1, 2, 3]])
-def test_a_second_publisher_is_told_from_the_first_whatever_it_has_sent_before(numbers):
+def test_a_second_publisher_is_distinguished_whatever_it_has_sent_before(numbers):
     source = SingleSource()
     assert all(heard(source, [1, 2, 3, 4]))
     assert not any(heard(source, numbers, publishers=2))
     assert all(heard(source, [5, 6], publishers=2))
 
 
-def test_a_second_publisher_that_has_left_is_told_by_its_numbers_alone():
+def test_a_second_publisher_that_has_left_is_recognised_by_its_numbers_alone():
     source = SingleSource()
     assert all(heard(source, range(1, 40)))
     assert not any(heard(source, [1, 2, 3]))
@@ -59,7 +59,7 @@ def graph():
 
 
 @pytest.mark.fault("B8")
-def test_what_a_second_publisher_sends_ends_the_run_by_its_name(graph):
+def test_a_message_of_a_second_publisher_ends_the_run_by_its_name(graph):
     assert graph.watch.accept(TOPIC, 1, 0.0)
     graph.shown[b"other"] = "/rig2/intruder"
     assert not graph.watch.accept(TOPIC, 1, 0.1)
@@ -87,7 +87,7 @@ def test_a_second_publisher_that_sent_and_left_is_named_as_well(graph):
         graph.watch.alone(0.2)
 
 
-def test_a_second_publisher_that_sends_nothing_holds_the_run_and_ends_it_if_it_stays(graph):
+def test_a_second_publisher_without_messages_delays_the_run_and_ends_it_if_it_stays(graph):
     graph.shown[b"other"] = "/intruder"
     assert not graph.watch.alone(0.0)
     del graph.shown[b"other"]

@@ -16,7 +16,7 @@ def test_blocks_up_to_four_ahead_are_sent_before_any_answer():
     assert sent(BlockWindow(100, logged=True)) == [0, 1, 2, 3]
 
 
-def test_the_slower_of_simulator_and_logger_holds_the_window():
+def test_the_slower_of_simulator_and_logger_limits_the_window():
     window = BlockWindow(100, logged=True)
     sent(window)
     window.on_done(9)

@@ -12,7 +12,7 @@ from contact_sim_pkg.bag.writer import BagWriter
 
 
 class Recovery(NamedTuple):
-    """Outcome of a recovery; `lossless` is False where anything is missing, which `sentence` names."""
+    """Outcome of a recovery; `sentence` names what is missing, and `lossless` is then False."""
 
     path: Path
     messages: int

@@ -16,7 +16,7 @@ COMPANION_ENDINGS = ("", "_el")  # segment, and the lock that its owner holds
 
 
 def mapped_segments(process: int) -> set[str]:
-    """Names of the middleware's segments that a process has mapped or open; empty where it is gone."""
+    """Names of the middleware's segments that a process has mapped or open; empty if it is gone."""
     names = {line.rsplit("/", 1)[-1] for line in _lines(Path(f"/proc/{process}/maps")) if str(FOLDER) in line}
     names |= {Path(target).name for target in _open_files(process) if target.startswith(str(FOLDER))}
     return {name for name in names if name.startswith(PREFIXES)}

@@ -56,7 +56,7 @@ class Supervisor:
         self._stops.add()
 
     def run(self, on_report: Callable[[Report], None], on_line: Callable[[str], None]) -> SupervisedRun:
-        """Run to the end; `on_report` gets the state of the run, `on_line` the lines of the nodes."""
+        """Run to the end; `on_report` gets the state, `on_line` the lines of the nodes."""
         began = time.monotonic()
         set_default_environment()
         on_line(

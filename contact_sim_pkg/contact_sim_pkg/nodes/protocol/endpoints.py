@@ -103,7 +103,7 @@ def _call(node: Node, callback: Callable[..., None], *given: Any) -> None:
 
 
 def raise_kept(node: Node) -> None:
-    """Raise the first exception of the node's subscriptions since the last call, if there is one."""
+    """Raise the first exception of the node's subscriptions since the last call, if any."""
     error = getattr(node, KEPT, None)
     if error is not None:
         setattr(node, KEPT, None)

@@ -43,7 +43,7 @@ class Pacer:
         self._start: float | None = None
 
     def start(self, now: float) -> None:
-        """Begin to count at this instant of the steady clock, [s]; a second call changes nothing."""
+        """Begin to count at `now` of the steady clock, [s]; a second call changes nothing."""
         self._start = now if self._start is None else self._start
 
     @property

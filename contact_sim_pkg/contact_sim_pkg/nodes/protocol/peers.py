@@ -69,7 +69,7 @@ class Peers:
         return not absent
 
     def _missing(self, *, unnamed: bool) -> list[str]:
-        """Sentences about what is not matched yet; `unnamed`: refuse strangers without a name too."""
+        """Phrases for what is not matched yet; `unnamed`: refuse strangers without a name too."""
         checked = [
             *self._inputs,
             *self._outputs,

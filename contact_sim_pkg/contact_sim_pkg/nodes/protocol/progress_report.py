@@ -54,7 +54,7 @@ class ProgressReport:
         self.publisher.publish(encode(self.last, simulated_ns))
 
     def block_done(self, block: int, result: BlockResult) -> None:
-        """Report a block, whose messages were sent before; FINISHED with the last one of the scene."""
+        """Report a block after its messages; FINISHED with the last one of the scene."""
         self._block, self._sent = block, self._sent + len(result.messages)
         self._load, self._peak = result.load, result.peak_pressure
         self.send(RunState.FINISHED if block == self._blocks - 1 else RunState.RUNNING)

@@ -56,7 +56,7 @@ class SimulatedRun:
         self.report.send(RunState.READY)
 
     def wait(self, now: float) -> float:
-        """Time until the next block may begin by pace alone, [s]; infinity where a message decides."""
+        """Time until pace alone allows the next block, [s]; infinity where a message decides."""
         if self.simulation.inputs or not self.window.open:
             return math.inf
         return self._pacer.wait(self.window.next_block, now)
